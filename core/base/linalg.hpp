@@ -1,0 +1,61 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cmath>
+
+namespace drift {
+
+template <class S>
+using Vec3T = Eigen::Matrix<S, 3, 1>;
+template <class S>
+using Mat3T = Eigen::Matrix<S, 3, 3>;
+using Vec3 = Vec3T<double>;
+using Mat3 = Mat3T<double>;
+using VecX = Eigen::VectorXd;
+using MatX = Eigen::MatrixXd;
+
+/// Three consecutive numbers as a vector.
+template <class S>
+Vec3T<S> vec3(const S* p) {
+  return {p[0], p[1], p[2]};
+}
+
+/// [v x], the matrix with skew(v) w = v x w.
+template <class S>
+Mat3T<S> skew(const Vec3T<S>& v) {
+  Mat3T<S> m;
+  m << S(0), -v[2], v[1], v[2], S(0), -v[0], -v[1], v[0], S(0);
+  return m;
+}
+
+/// Rotation matrix of the rotation vector v [rad]: exp([v x]), Rodrigues' formula, by series below
+/// 1e-2 rad (remainder v^10/10! relative to the coefficient, below 1e-20).
+template <class S>
+Mat3T<S> rotation(const Vec3T<S>& v) {
+  using std::cos;
+  using std::sin;
+  using std::sqrt;
+  const S t2 = v.squaredNorm();
+  S a, b;  // sin(t)/t, (1 - cos t)/t^2
+  if (t2 < 1e-4) {
+    a = S(1) - t2 / 6.0 * (S(1) - t2 / 20.0 * (S(1) - t2 / 42.0));
+    b = S(0.5) * (S(1) - t2 / 12.0 * (S(1) - t2 / 30.0 * (S(1) - t2 / 56.0)));
+  } else {
+    const S t = sqrt(t2);
+    a = sin(t) / t;
+    b = (S(1) - cos(t)) / t2;
+  }
+  const Mat3T<S> k = skew(v);
+  return Mat3T<S>::Identity() + a * k + b * (k * k).eval();
+}
+
+/// Rotation vector of a rotation matrix [rad], length in [0, pi].
+inline Vec3 rotation_vector(const Mat3& r) {
+  const Eigen::Quaterniond q(r);
+  const double n = q.vec().norm();
+  if (n < 1e-12) return 2.0 * q.vec() / (q.w() < 0 ? -1.0 : 1.0);
+  return 2.0 * std::atan2(q.w() < 0 ? -n : n, std::abs(q.w())) / n * q.vec();
+}
+
+}  // namespace drift

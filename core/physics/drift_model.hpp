@@ -1,0 +1,82 @@
+#pragma once
+
+#include <Eigen/LU>
+
+#include "core/physics/term_library.hpp"
+
+namespace drift {
+
+/// How the platform servo answers the gyros. None of these is "the right one": it depends on the
+/// hardware (physics.md 1.6).
+enum class Coupling {
+  eq5,          ///< w_cp = -C w_ic - u (Fu, Shao, Deng 2002)
+  eq6,          ///< w_cp = -w_ic - C^-1 u (Hellings 1973)
+  lambda,       ///< the family that holds both
+  compensated,  ///< gyros on the case, the loop removes an estimate C-hat
+  servo,        ///< the null-seeking loop itself, integrated (servo.hpp)
+};
+
+/// Which equation, which terms, which axes: everything but the numbers.
+struct DriftModel {
+  Coupling coupling = Coupling::eq5;
+  TermMask terms;
+  Mounting mounting;
+};
+
+/// The slots of all active terms at one instant. The torquer obeys the command: w_md = -w_cmd + terms.
+template <class S>
+RateAssembly<S> assemble(const DriftModel& model, const Inputs<S>& in, const S* theta) {
+  RateAssembly<S> out;
+  for (int i = 0; i < 3; ++i) out.omega_torque_g[i] = S(-in.omega_cmd_p[i]);
+  TermLibrary::rates(model.terms, in, theta, out);
+  return out;
+}
+
+/// The part K of the misalignment that the servo loop closes over, w_cp = -(I + K)^-1 (C w_ic + u):
+/// nothing for eq. (5), E for eq. (6), lambda E between, the loop's own estimate when compensated.
+template <class S>
+Mat3T<S> closed_over(Coupling coupling, const RateAssembly<S>& a, const Mat3& E_loop) {
+  switch (coupling) {
+    case Coupling::eq6: return a.E_gp;
+    case Coupling::lambda: return a.E_gp * a.lambda;
+    case Coupling::compensated: return E_loop.template cast<S>();
+    case Coupling::eq5:
+    case Coupling::servo: break;
+  }
+  return Mat3T<S>::Zero();
+}
+
+/// Inertial rate of the platform, platform axes [rad/s], shape 3, of the algebraic couplings:
+///
+///   w_ip = w_ic - (I + K)^-1 (C w_ic + u) = -(I + K)^-1 ((E - K) w_ic + u),   u = w_l + w_md,
+///
+/// eq. (5) for K = 0, eq. (6) for K = E. The second form has no cancellation of Earth rate.
+/// theta: every parameter of TermLibrary in SI. E_loop: the loop's estimate of E [rad], used by
+/// coupling "compensated" alone.
+/// Source: Fu, Shao, Deng, Control and Decision 17(3), 2002, eqs. (5), (6); physics.md 1.2, 1.3, 1.6.
+template <class S>
+Vec3T<S> platform_rate(const DriftModel& model, const Inputs<S>& in, const S* theta,
+                       const Mat3& E_loop) {
+  const RateAssembly<S> a = assemble(model, in, theta);
+  const Mat3T<S> K = closed_over(model.coupling, a, E_loop);
+  const Vec3T<S> u = a.omega_drift_g + a.omega_torque_g;
+  const Vec3T<S> s = (a.E_gp - K) * in.omega_ic_p + u;
+  if (model.coupling == Coupling::eq5) return -s;
+  const Mat3T<S> M = Mat3T<S>::Identity() + K;
+  // Adjugate over determinant: exact, differentiable, and M is near the identity.
+  const Vec3T<S> r0 = M.row(0), r1 = M.row(1), r2 = M.row(2);
+  const Vec3T<S> c12 = r1.cross(r2), c20 = r2.cross(r0), c01 = r0.cross(r1);
+  const S det = r0.dot(c12);
+  const Vec3T<S> adj_s = c12 * s[0] + c20 * s[1] + c01 * s[2];
+  return -adj_s / det;
+}
+
+/// What the three accelerometers say [g], without noise.
+template <class S>
+Vec3T<S> accelerometer_output(const DriftModel& model, const Inputs<S>& in, const S* theta) {
+  ReadoutAssembly<S> out{in.f_p};
+  TermLibrary::readout(model.terms, in, theta, out);
+  return out.acc;
+}
+
+}  // namespace drift

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "core/base/units.hpp"
+
+namespace drift {
+
+/// What is measured, and how well: 1 sigma of one sample, white.
+struct Readout {
+  bool accelerometers = true;
+  bool gimbals = true;
+  double accelerometer_noise = 5e-6;                  ///< of the mean over the sample interval [g]
+  double gimbal_noise = 5.0 * detail::deg / 3600.0;   ///< per resolver [rad]
+};
+
+}  // namespace drift

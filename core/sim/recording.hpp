@@ -1,0 +1,48 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/base/units.hpp"
+
+namespace drift {
+
+/// One column of a recording.
+struct Channel {
+  std::string name;
+  Unit unit;                    ///< as written in the file
+  std::vector<double> values;   ///< in internal units (rad, s, g, ...); NaN: not measured
+};
+
+/// What was measured, simulated or real: columns of equal length, and facts ("# key = value").
+struct Recording {
+  std::string source;  ///< the file it came from, for messages; empty if simulated
+  std::vector<std::pair<std::string, std::string>> facts;
+  std::vector<Channel> channels;
+  std::vector<std::size_t> lines;  ///< line (CSV) or 1-based row of each sample, for messages
+
+  std::size_t rows() const { return channels.empty() ? 0 : channels.front().values.size(); }
+  const Channel* find(std::string_view name) const {
+    for (const auto& c : channels)
+      if (c.name == name) return &c;
+    return nullptr;
+  }
+};
+
+/// A recording of a gimballed platform (interfaces.md 3) or of sensors fixed to a case (7).
+enum class RecordingKind { platform, strapdown };
+
+/// Reads .csv, .h5/.hdf5 or .mat by extension, converts to internal units, checks everything that
+/// can be checked without a plan. InputError (recording) lists every problem found, with
+/// file:row:column, what was expected and what to do; InputError (io) if it cannot be opened.
+/// Strapdown accelerations in m/s^2 become g through `gravity` [m/s^2].
+Recording read_recording(const std::string& path, RecordingKind kind, double gravity);
+
+/// Writes by extension, through a temporary file that is renamed when complete.
+/// InputError (io) if that fails; the target is then as it was.
+void write_recording(const Recording& recording, const std::string& path);
+
+}  // namespace drift

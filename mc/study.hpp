@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/physics/earth.hpp"
+#include "core/physics/model_spec.hpp"
+#include "core/sim/readout.hpp"
+#include "core/sim/recording.hpp"
+#include "core/sim/test_plan.hpp"
+
+namespace drift {
+
+/// [monte_carlo] of a study file.
+struct MonteCarlo {
+  std::uint64_t runs = 100;
+  std::uint64_t seed = 1;
+  std::uint64_t allowed_failures = 0;
+};
+
+/// One line of [sweep]: a dotted key of the study file and the values it takes, as TOML text.
+struct SweepAxis {
+  std::string key;
+  std::vector<std::string> values;
+};
+
+/// A value of the resolved study, for `check`: where it stands, what it is, where it came from.
+struct Resolved {
+  std::string key;     ///< "truth.parameters.eta_x"
+  std::string value;   ///< "normal(112, 20) arcsec"
+  std::string origin;  ///< "study.toml:12", "--set", "default", "default prior"
+};
+
+/// A study file, read, checked and converted to internal units.
+struct Study {
+  std::string path;
+  std::string title;
+  Site site;
+  RecordingKind kind = RecordingKind::platform;
+  TestPlan plan;              ///< of a platform test
+  double static_min = 2.0;    ///< strapdown: shortest dwell that counts [s]
+  Readout readout;
+  TruthSpec truth;
+  std::vector<FilterSpec> filters;
+  MonteCarlo monte_carlo;
+  std::vector<SweepAxis> sweep;
+  std::vector<Resolved> resolved;
+};
+
+/// `--set key=value` of the command line.
+using Overrides = std::vector<std::pair<std::string, std::string>>;
+
+/// Reads a study file. InputError (config) lists every mistake in it, each with file:line:col, what
+/// is wrong, what was expected, and the nearest valid key where one was meant.
+Study read_study(const std::string& path, const Overrides& overrides = {});
+
+}  // namespace drift
