@@ -4,13 +4,12 @@
 #include <vector>
 
 #include "core/base/dual.hpp"
+#include "core/estimate/covariance.hpp"
 #include "core/estimate/layout.hpp"
 #include "core/sim/readout.hpp"
 #include "core/sim/trajectory.hpp"
 
 namespace drift {
-
-using Mat3X = Eigen::Matrix<double, 3, Eigen::Dynamic>;
 
 /// Derivatives at one node, with respect to the attitude error psi_i (R_ip = exp([psi_i x]) R_ip,
 /// axes of the chain's inertial frame i) and to the scaled states of a layout.

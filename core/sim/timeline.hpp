@@ -21,7 +21,7 @@ struct Interval {
   MisalignmentAngles loop = MisalignmentAngles::Zero();  ///< what the loop of coupling
                                  ///< "compensated" believes: eta x y z, xi x y z [rad]
   std::size_t first_node = 0;    ///< nodes first_node .. first_node + 2 substeps
-  int substeps = 1;              ///< steps of two nodes each, at most 0.1 rad of attitude long
+  int substeps = 1;              ///< steps of two nodes each, at most 0.05 rad of attitude long
 
   double length() const { return t1 - t0; }
   double heading_rate() const { return (heading1 - heading0) / length(); }

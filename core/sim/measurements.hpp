@@ -1,10 +1,15 @@
 #pragma once
 
-#include "core/estimate/linearize.hpp"
-#include "core/physics/gimbals.hpp"
+#include <cmath>
+#include <numbers>
+
+#include "core/sim/readout.hpp"
 #include "core/sim/recording.hpp"
+#include "core/sim/timeline.hpp"
 
 namespace drift {
+
+using Mat3X = Eigen::Matrix<double, 3, Eigen::Dynamic>;
 
 /// What was measured in each interval of a timeline; NaN where not measured. Shape (3, intervals).
 struct Measurements {
@@ -15,14 +20,10 @@ struct Measurements {
 /// The channels acc_* and gimbal_* of a recording; absent or unread channels are all NaN.
 Measurements measurements_of(const Recording& recording, const Readout& readout);
 
-/// Difference of two angles, in (-pi, pi] [rad].
-inline double angle_difference(double a, double b) { return std::remainder(a - b, 2.0 * std::numbers::pi); }
+/// A recording of what was measured along a timeline, in the units of interfaces.md 3.
+Recording make_recording(const Timeline& timeline, const Measurements& measured, const Readout& readout);
 
-/// Gimbal angles predicted at a node, and d angles / d psi_i, shape (3, 3).
-struct GimbalPrediction {
-  Vec3 angles;
-  Mat3 H;
-};
-GimbalPrediction predict_gimbals(const Node& node, double heading, const Vec3& phi);
+/// Difference of two angles, in [-pi, pi] [rad].
+inline double angle_difference(double a, double b) { return std::remainder(a - b, 2.0 * std::numbers::pi); }
 
 }  // namespace drift
