@@ -55,6 +55,7 @@ struct Study {
   double static_min = 2.0;    ///< strapdown: shortest dwell that counts [s]
   Readout readout;
   TruthSpec truth;
+  bool has_truth = false;     ///< [truth] is in the file; without it there is nothing to simulate
   std::vector<FilterSpec> filters;
   MonteCarlo monte_carlo;
   std::vector<SweepAxis> sweep;
