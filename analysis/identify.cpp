@@ -171,7 +171,7 @@ Theta initial_estimate(const FilterSpec& filter, std::uint64_t seed, std::size_t
 
 Identification identify_simulated(const Study& study, std::uint64_t run, int threads,
                                   const Progress& progress) {
-  if (!study.truth.active.any())
+  if (!study.has_truth)
     throw InputError(ExitCode::config,
                      fmt::format("{}: no [truth] to simulate from. Give a recording on the command line, "
                                  "or add a section [truth]", study.path));

@@ -21,7 +21,7 @@ ExitCode simulate(const StudyArguments& arguments, const std::string& output, st
   if (study.kind == RecordingKind::strapdown)
     throw InputError(ExitCode::config, fmt::format("{}: simulate makes recordings of platforms; [plan] has kind "
                                                    "= \"strapdown\". Give a platform plan", study.path));
-  if (!study.truth.active.any())
+  if (!study.has_truth)
     throw InputError(ExitCode::config, fmt::format("{}: no [truth] to simulate from. Add a section [truth]", study.path));
   if (study.truth.coupling == Coupling::compensated && study.truth.loop == LoopEstimate::feedback)
     throw InputError(ExitCode::config,
