@@ -16,6 +16,14 @@
 
 #include "core/base/check.hpp"
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define DRIFT_SANITIZED
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define DRIFT_SANITIZED
+#endif
+#endif
+
 namespace drift {
 namespace {
 
@@ -109,7 +117,7 @@ void limit_child(std::uint64_t file_size) {
   const rlim_t seconds = 30 + file_size / 1'000'000;
   const rlimit cpu{seconds, seconds};
   ::setrlimit(RLIMIT_CPU, &cpu);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#ifndef DRIFT_SANITIZED  // a sanitizer reserves more address space than any limit allows
   unsigned long pages = 0;  // what the parent holds is counted too
   if (std::FILE* f = std::fopen("/proc/self/statm", "r")) {
     if (std::fscanf(f, "%lu", &pages) != 1) pages = 0;
