@@ -133,11 +133,12 @@ Node parse_document(std::string_view text, const std::string& name) {
   try {
     table = toml::parse(text);
   } catch (const toml::parse_error& error) {
-    refuse(
-        name, place(error.source()),
-        fmt::format("not valid TOML: {} (expected lines such as key = \"60 min\" under [section] "
-                    "headers). Correct the line",
-                    error.description()));
+    const bool again = error.description().find("redefine") != std::string_view::npos;
+    refuse(name, place(error.source()),
+           fmt::format("not valid TOML: {} (expected {}). {}", error.description(),
+                       again ? "every key and section once"
+                             : "lines such as key = \"60 min\" under [section] headers",
+                       again ? "Remove one of the two" : "Correct the line"));
   }
   return Converter(name).convert(table, 0);
 }

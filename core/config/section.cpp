@@ -22,6 +22,9 @@ std::string given_text(const Node& node) {
   return node.is(Node::Kind::string) ? node.text : to_toml(node);
 }
 
+/// Stands for a section that is no table, so that its keys are not reported as missing on top.
+const Node no_table{};
+
 }  // namespace
 
 Section::Section(Report& report, const Node* table, Place at, std::string path)
@@ -30,8 +33,7 @@ Section::Section(Report& report, const Node* table, Place at, std::string path)
     report.error(table_->at, fmt::format("'{}' is {} (expected a section [{}] or a table). Write a "
                                          "table of keys and values",
                                          path_, describe(*table_), path_));
-    static const Node empty{};  // so that nothing is reported as missing on top
-    table_ = &empty;
+    table_ = &no_table;
   }
 }
 
@@ -223,7 +225,7 @@ std::optional<std::size_t> Section::choose(const Option& option,
 }
 
 bool Section::require(std::string_view key, std::string_view example) {
-  if (has(key)) return true;
+  if (has(key) || table_ == &no_table) return true;
   report_->error(at_, fmt::format("'{}' is missing (expected {}). Add it{}", full(key), example,
                                   path_.empty() ? "" : fmt::format(" to [{}]", path_)));
   return false;
