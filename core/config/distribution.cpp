@@ -1,0 +1,81 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/config/nearest.hpp"
+#include "core/config/quantity.hpp"
+
+namespace drift::config {
+namespace {
+
+constexpr std::array<std::string_view, 2> kinds = {"normal", "uniform"};
+
+std::string expected_prior(const Unit& unit) {
+  const std::string_view symbol = unit.symbol.view() == "1" ? "" : unit.symbol.view();
+  const auto value = [&](int n) {
+    return symbol.empty() ? fmt::format("{}", n) : fmt::format("\"{} {}\"", n, symbol);
+  };
+  return fmt::format("{}, {{ normal = [{}, {}] }} or {{ uniform = [{}, {}] }}", value(1), value(0),
+                     value(1), value(-1), value(1));
+}
+
+}  // namespace
+
+std::optional<Prior> read_prior(Report& report, const Node& node, std::string_view key,
+                                const Option& option) {
+  if (!node.is(Node::Kind::table)) {
+    const auto value = read_quantity(report, node, key, option);
+    if (!value) return std::nullopt;
+    return fixed(value->in(option.unit));
+  }
+  const auto wrong = [&](const Place& at, const std::string& what, const std::string& fix) {
+    report.error(
+        at, fmt::format("'{}' {} (expected {}). {}", key, what, expected_prior(option.unit), fix));
+    return std::nullopt;
+  };
+  if (node.members.size() != 1)
+    return wrong(node.at,
+                 fmt::format("has {} entries where one distribution is meant", node.members.size()),
+                 "Name one distribution");
+  const Member& kind = node.members.front();
+  if (std::find(kinds.begin(), kinds.end(), kind.key) == kinds.end())
+    return wrong(kind.at, fmt::format("has the unknown distribution '{}'", kind.key),
+                 suggestion(kind.key, kinds));
+  const bool is_normal = kind.key == kinds[0];
+  if (!kind.value.is(Node::Kind::array) || kind.value.items.size() != 2)
+    return wrong(kind.value.at, fmt::format("has a {} that is {}", kind.key, describe(kind.value)),
+                 is_normal ? "Give mean and 1 sigma" : "Give the lower and the upper bound");
+  const auto a = read_quantity(report, kind.value.items[0], key, option);
+  const auto b = read_quantity(report, kind.value.items[1], key, option);
+  if (!a || !b) return std::nullopt;
+  if (is_normal && !(b->value > 0.0))
+    return wrong(
+        kind.value.items[1].at,
+        fmt::format("has the 1 sigma {}, which is not positive", to_toml(kind.value.items[1])),
+        "Write the plain value if it is exactly known");
+  const double low = a->in(option.unit), high = b->in(option.unit);
+  if (!is_normal && !(low < high))
+    return wrong(kind.value.items[1].at,
+                 fmt::format("has the upper bound {}, which is not above the lower bound {}",
+                             to_toml(kind.value.items[1]), to_toml(kind.value.items[0])),
+                 "Give the lower bound first");
+  return is_normal ? normal(low, high) : uniform(low, high);
+}
+
+std::string prior_text(const Prior& prior, const Unit& unit) {
+  const std::string symbol =
+      unit.symbol.view() == "1" ? "" : fmt::format(" {}", unit.symbol.view());
+  switch (prior.kind) {
+    case Prior::Kind::normal:
+      return fmt::format("normal({:.12g}, {:.12g}){}", prior.a, prior.b, symbol);
+    case Prior::Kind::uniform:
+      return fmt::format("uniform({:.12g}, {:.12g}){}", prior.a, prior.b, symbol);
+    case Prior::Kind::fixed:
+      break;
+  }
+  return quantity_text(prior.a, unit);
+}
+
+}  // namespace drift::config

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace drift::config {
+
+/// Where a value or key was written: line and column of the file, or the key of a `--set`.
+struct Place {
+  int line = 1;
+  int column = 1;
+  std::string set_key;  ///< not empty: it came from --set of this key
+};
+
+struct Member;
+
+/// A value of a configuration file, independent of the library that parsed it. Tables keep the
+/// order of the file.
+struct Node {
+  enum class Kind { table, array, string, integer, real, boolean, date };
+  Kind kind = Kind::table;
+  Place at;
+  std::string text;  ///< of a string; of a date as written
+  std::int64_t integer = 0;
+  double real = 0.0;
+  bool boolean = false;
+  std::vector<Member> members;  ///< of a table
+  std::vector<Node> items;      ///< of an array
+
+  bool is(Kind k) const { return kind == k; }
+  const Node* find(std::string_view key) const;
+  Node* find(std::string_view key);
+};
+
+/// One key of a table and its value.
+struct Member {
+  std::string key;
+  Place at;
+  Node value;
+};
+
+inline const Node* Node::find(std::string_view key) const {
+  for (const auto& member : members)
+    if (member.key == key) return &member.value;
+  return nullptr;
+}
+inline Node* Node::find(std::string_view key) {
+  for (auto& member : members)
+    if (member.key == key) return &member.value;
+  return nullptr;
+}
+
+/// The value as TOML, on one line: `"112 arcsec"`, `{ normal = ["1 deg", "2 deg"] }`.
+std::string to_toml(const Node& value);
+
+/// A whole table as a TOML document, sections after values; it reads back to the same tree.
+std::string to_document(const Node& root);
+
+/// What a value is, for messages: `the string "abc"`, `the number 3`, `a section`.
+std::string describe(const Node& value);
+
+}  // namespace drift::config

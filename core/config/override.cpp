@@ -1,0 +1,102 @@
+#include "core/config/override.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <optional>
+#include <vector>
+
+#include "core/base/check.hpp"
+#include "core/config/load.hpp"
+#include "core/config/nearest.hpp"
+
+namespace drift::config {
+namespace {
+
+[[noreturn]] void refuse(const std::string& key, const std::string& text) {
+  throw InputError(ExitCode::config, fmt::format("--set {}: {}", key, text));
+}
+
+std::vector<std::string> split(const std::string& key) {
+  constexpr std::size_t most_parts = 16;
+  std::vector<std::string> parts(1);
+  char quote = '\0';
+  bool was_quoted = false;
+  for (const char c : key) {
+    if (quote != '\0') {
+      if (c == quote)
+        quote = '\0';
+      else
+        parts.back() += c;
+    } else if ((c == '"' || c == '\'') && parts.back().empty()) {
+      quote = c;
+      was_quoted = true;
+    } else if (c == '.') {
+      if (parts.back().empty() && !was_quoted) break;
+      parts.emplace_back();
+      was_quoted = false;
+    } else {
+      parts.back() += c;
+    }
+  }
+  if (quote != '\0') refuse(key, "a quote is left open (expected a dotted key). Close it");
+  if (parts.back().empty() && !was_quoted)
+    refuse(key,
+           "a part of the key is empty (expected a dotted key such as plan.dwell). Write "
+           "--set section.key=value");
+  if (parts.size() > most_parts)
+    refuse(key,
+           "the key has too many parts (expected a dotted key such as plan.dwell). Check the key");
+  return parts;
+}
+
+Node& element(Node& list, const std::string& part, const std::string& key) {
+  std::vector<std::string_view> names;
+  for (auto& item : list.items)
+    if (const Node* name = item.find("name"); name != nullptr && name->is(Node::Kind::string)) {
+      if (name->text == part) return item;
+      names.push_back(name->text);
+    }
+  std::size_t index = 0;
+  const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), index);
+  if (error != std::errc() || end != part.data() + part.size())
+    refuse(key,
+           fmt::format("there is no element named '{}' (expected a name, or a number from 0 to "
+                       "{}). {}",
+                       part, list.items.size() - 1, suggestion(part, names, "Count from 0")));
+  if (index >= list.items.size())
+    refuse(key, fmt::format("there is no element {} (expected 0 to {}). Count from 0", part,
+                            list.items.size() - 1));
+  return list.items[index];
+}
+
+}  // namespace
+
+void apply_override(Node& root, const std::string& key, std::string_view value) {
+  const auto parts = split(key);
+  Node* at = &root;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (at->is(Node::Kind::array) && !at->items.empty()) {
+      at = &element(*at, parts[i], key);
+      continue;
+    }
+    if (!at->is(Node::Kind::table))
+      refuse(key,
+             fmt::format("'{}' is {}, which has no '{}' (expected the key of a section). Check "
+                         "the key",
+                         parts[i - 1], describe(*at), parts[i]));
+    Node* next = at->find(parts[i]);
+    if (next == nullptr) {
+      Place place;
+      place.set_key = key;
+      Node table;
+      table.at = place;
+      at->members.push_back({parts[i], place, table});
+      next = &at->members.back().value;
+    }
+    at = next;
+  }
+  *at = parse_value(value, key);
+}
+
+}  // namespace drift::config

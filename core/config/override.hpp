@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "core/config/node.hpp"
+
+namespace drift::config {
+
+/// Replaces or adds one value of the tree, as `--set key=value` asks. `key` is dotted, with quotes
+/// around parts that hold dots; an element of a list is addressed by its number from 0 or, for
+/// [[filter]] and [[plan.position]], by its `name`: filter.corrected.coupling. Missing tables on
+/// the way are created; whether the key means anything is for the strict reader to say. InputError
+/// (config), naming `--set key`, if the way leads nowhere or the value is broken.
+void apply_override(Node& root, const std::string& key, std::string_view value);
+
+}  // namespace drift::config

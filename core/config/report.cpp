@@ -1,0 +1,51 @@
+#include "core/config/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <tuple>
+
+#include "core/base/check.hpp"
+
+namespace drift::config {
+
+Report::Report(std::string path)
+    : path_(std::move(path)), file_name_(path_.substr(path_.find_last_of('/') + 1)) {}
+
+void Report::error(const Place& at, const std::string& text) {
+  errors_.push_back({at, at.set_key.empty()
+                             ? fmt::format("{}:{}:{}: {}", path_, at.line, at.column, text)
+                             : fmt::format("--set {}: {}", at.set_key, text)});
+}
+
+void Report::given(const std::string& key, const std::string& text, const Place& at) {
+  resolved_.push_back(
+      {key, text, at.set_key.empty() ? fmt::format("{}:{}", file_name_, at.line) : "--set"});
+}
+
+void Report::assumed(const std::string& key, const std::string& text, const std::string& origin) {
+  resolved_.push_back({key, text, origin});
+}
+
+void Report::throw_if_wrong() const {
+  if (errors_.empty()) return;
+  constexpr std::size_t most = 1000;  // a file of another kind has no end of them
+  std::vector<Error> sorted = errors_;
+  std::stable_sort(sorted.begin(), sorted.end(), [](const Error& a, const Error& b) {
+    return std::make_tuple(!a.at.set_key.empty(), a.at.line, a.at.column) <
+           std::make_tuple(!b.at.set_key.empty(), b.at.line, b.at.column);
+  });
+  std::vector<std::string> messages;
+  for (const auto& error : sorted) {
+    if (messages.size() == most) break;
+    messages.push_back(error.message);
+  }
+  if (sorted.size() > most)
+    messages.push_back(
+        fmt::format("{}:1:1: {} more errors (expected a study file). Check that this "
+                    "is one",
+                    path_, sorted.size() - most));
+  throw InputError(ExitCode::config, messages);
+}
+
+}  // namespace drift::config

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/config/node.hpp"
+
+namespace drift::config {
+
+/// A value of the resolved configuration: where it stands, what it is, where it came from.
+struct ResolvedValue {
+  std::string key;
+  std::string text;
+  std::string origin;  ///< "study.toml:12", "--set", "default", "default prior"
+};
+
+/// Collects what reading a file brings to light: every mistake, and every value that holds.
+class Report {
+ public:
+  explicit Report(std::string path);
+
+  /// `text` in the grammar "what is wrong (what is expected). What to do".
+  void error(const Place& at, const std::string& text);
+  void given(const std::string& key, const std::string& text, const Place& at);
+  void assumed(const std::string& key, const std::string& text,
+               const std::string& origin = "default");
+
+  std::size_t errors() const { return errors_.size(); }
+  /// InputError (config) with all mistakes in the order of the file, if there is any.
+  void throw_if_wrong() const;
+
+  const std::vector<ResolvedValue>& resolved() const { return resolved_; }
+
+ private:
+  struct Error {
+    Place at;
+    std::string message;
+  };
+  std::string path_;
+  std::string file_name_;
+  std::vector<Error> errors_;
+  std::vector<ResolvedValue> resolved_;
+};
+
+}  // namespace drift::config

@@ -1,0 +1,242 @@
+#include "core/physics/parameters_config.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/config/nearest.hpp"
+
+namespace drift {
+namespace {
+
+using config::Node;
+using config::Option;
+constexpr auto& specs = TermLibrary::specs;
+
+/// The axis letter of "D_I_z"; '\0' for a parameter without one.
+char axis_of(const ParamSpec& spec) {
+  const auto key = spec.key.view();
+  return key == spec.group.view() ? '\0' : key.back();
+}
+
+/// Far outside the default prior a value is a slip of the unit; misalignments are small angles.
+Option plausible(const ParamSpec& spec) {
+  constexpr double sigmas = 1e4;
+  constexpr double small_angle = 10.0 * detail::deg;
+  double limit = sigmas * std::max(std::abs(spec.prior.a), std::abs(spec.prior.b));
+  if (spec.unit.same_dimension(unit::rad)) limit = std::min(limit, small_angle / spec.unit.to_si);
+  return {spec.key.view(), spec.unit, -limit, limit, spec.enters};
+}
+
+std::size_t first_of(const ParamMask& mask) {
+  std::size_t i = 0;
+  while (!mask[i]) ++i;
+  return i;
+}
+
+const TermInfo& term_of(std::size_t param) {
+  std::size_t t = 0;
+  while (param >= TermLibrary::terms[t].first + TermLibrary::terms[t].count) ++t;
+  return TermLibrary::terms[t];
+}
+
+ParamMask term_mask(const TermInfo& term, char axis) {
+  ParamMask mask;
+  for (std::size_t i = term.first; i < term.first + term.count; ++i)
+    if (axis == '\0' || axis_of(specs[i]) == axis) mask.set(i);
+  return mask;
+}
+
+ParamMask parameters_in(std::string_view key) {  // one, or a group
+  ParamMask mask;
+  for (std::size_t i = 0; i < specs.size(); ++i)
+    if (specs[i].key.view() == key || specs[i].group.view() == key) mask.set(i);
+  return mask;
+}
+
+void read_entry(config::Section& section, const Node& entry, ParamMask& mask) {
+  const auto wrong = [&](const std::string& what, const std::string& fix) {
+    section.report().error(
+        entry.at,
+        fmt::format("'{}' {} (expected terms such as \"g_drift\", \"g_drift.x\", \"D_I\" or "
+                    "\"D_I_z\"). {}",
+                    section.full("terms"), what, fix));
+  };
+  if (!entry.is(Node::Kind::string))
+    return wrong("contains " + describe(entry), "Put the key of a term in quotes");
+  const ParamMask named = params_named(entry.text);
+  if (named.none()) {
+    auto keys = term_keys();
+    for (const auto key : parameter_keys()) keys.push_back(key);
+    const auto dot = entry.text.find('.');
+    return wrong(
+        fmt::format("contains the unknown term '{}'", entry.text),
+        config::suggestion(entry.text.substr(0, dot), keys, "`driftscope terms` lists them"));
+  }
+  if ((named & ~mask).none())
+    return wrong(fmt::format("names '{}', which the entries before it hold already", entry.text),
+                 "Remove one of them");
+  mask |= named;
+}
+
+void read_value(config::Section& table, std::string_view key, const Node& node,
+                const ParamMask& which, ModelSpec& spec, ParamMask& done) {
+  for (std::size_t i = 0; i < specs.size(); ++i) {
+    if (!which[i] || done[i]) continue;
+    const auto prior = read_prior(table.report(), node, table.full(key), plausible(specs[i]));
+    if (!prior) return;  // a group has one mistake, not three
+    spec.priors[i] = prior->scaled(specs[i].unit.to_si);
+    done.set(i);
+    table.report().given(table.full(specs[i].key.view()), config::prior_text(*prior, specs[i].unit),
+                         node.at);
+  }
+}
+
+}  // namespace
+
+ParamMask params_named(std::string_view key) {
+  ParamMask mask = parameters_in(key);
+  const auto dot = key.find('.');
+  const auto term = TermLibrary::find_term(key.substr(0, dot));
+  if (!term) return mask;
+  if (dot == std::string_view::npos) return mask | term_mask(TermLibrary::terms[*term], '\0');
+  const auto axis = key.substr(dot + 1);
+  if (axis == "x" || axis == "y" || axis == "z")
+    mask |= term_mask(TermLibrary::terms[*term], axis[0]);
+  return mask;
+}
+
+std::vector<std::string_view> term_keys() {
+  std::vector<std::string_view> keys;
+  for (const auto& term : TermLibrary::terms) keys.push_back(term.key);
+  return keys;
+}
+
+std::vector<std::string_view> parameter_keys() {
+  std::vector<std::string_view> keys;
+  for (const auto& spec : specs) keys.push_back(spec.key.view());
+  for (const auto& spec : specs)
+    if (std::find(keys.begin(), keys.end(), spec.group.view()) == keys.end())
+      keys.push_back(spec.group.view());
+  return keys;
+}
+
+ParamMask base_parameters() {
+  ParamMask mask;
+  for (const auto* key : {"fixed_drift", "g_drift", "g2_drift", "gyro_misalignment",
+                          "torquer_scale", "accelerometer"})
+    mask |= params_named(key);
+  return mask;
+}
+
+std::vector<std::string> terms_text(const ParamMask& mask) {
+  std::vector<std::string> entries;
+  ParamMask left = mask;
+  const auto use = [&](const std::string& key) {
+    const ParamMask named = params_named(key);
+    if (named.none() || (named & ~left).any()) return;
+    entries.push_back(key);
+    left &= ~named;
+  };
+  for (const auto key : term_keys()) use(std::string(key));
+  for (const auto key : term_keys())
+    for (const char axis : {'x', 'y', 'z'}) use(fmt::format("{}.{}", key, axis));
+  for (const auto& spec : specs) use(std::string(spec.group.view()));
+  for (const auto& spec : specs) use(std::string(spec.key.view()));
+  return entries;
+}
+
+ParamMask read_terms(config::Section& section, Coupling coupling) {
+  constexpr std::size_t closure = TermLibrary::index("lambda");
+  const std::string key = section.full("terms");
+  const std::size_t errors = section.report().errors();
+  const Node* node = section.take("terms");
+  ParamMask mask;
+  if (node == nullptr) {
+    mask = base_parameters();
+  } else if (!node->is(Node::Kind::array)) {
+    section.report().error(
+        node->at, fmt::format("'{}' is {} (expected a list of terms). Write [\"fixed_drift\", "
+                              "\"g_drift\"]",
+                              key, describe(*node)));
+  } else {
+    for (const auto& entry : node->items) read_entry(section, entry, mask);
+    if (mask[closure] && coupling != Coupling::lambda)
+      section.report().error(
+          node->at,
+          fmt::format("'{}' holds frame_closure, the weight between eq. (5) and eq. (6), but "
+                      "the coupling fixes the equation (expected coupling = \"lambda\"). Set "
+                      "coupling = \"lambda\", or remove the term",
+                      key));
+  }
+  if (coupling == Coupling::lambda) mask.set(closure);
+  const std::string text = fmt::format("{}", fmt::join(terms_text(mask), ", "));
+  if (node == nullptr)
+    section.report().assumed(key, text);
+  else
+    section.report().given(key, text, node->at);
+  // A misspelt term shall not make its parameters mistakes too.
+  return section.report().errors() == errors ? mask : ParamMask().set();
+}
+
+void read_parameters(config::Section& section, ModelSpec& spec) {
+  for (std::size_t i = 0; i < specs.size(); ++i) spec.priors[i] = specs[i].prior_si();
+  const Node* node = section.take("parameters");
+  config::Section table(section.report(), node, node == nullptr ? section.at() : node->at,
+                        section.full("parameters"));
+  ParamMask done;
+  std::vector<std::pair<std::string_view, ParamMask>> named;
+  const auto members = node != nullptr ? node->members : std::vector<config::Member>{};
+  for (const auto& member : members) {
+    const ParamMask all = parameters_in(member.key);
+    if (all.none()) {
+      section.report().error(
+          member.at,
+          fmt::format(
+              "unknown parameter '{}' (expected a key such as eta_x, or a group such "
+              "as eta for all axes). {}",
+              table.full(member.key),
+              config::suggestion(member.key, parameter_keys(), "`driftscope terms` lists them")));
+      continue;
+    }
+    if ((all & spec.active).none()) {
+      const auto& term = term_of(first_of(all));
+      const bool closure = term.key == "frame_closure";
+      section.report().error(
+          member.at,
+          fmt::format(
+              "'{}' belongs to term '{}', which is not part of this model (expected parameters "
+              "of {}). {}",
+              table.full(member.key), term.key, fmt::join(terms_text(spec.active), ", "),
+              closure ? std::string("Set coupling = \"lambda\", or remove the parameter")
+                      : fmt::format("Add \"{}\" to terms, or remove the parameter", term.key)));
+      continue;
+    }
+    named.emplace_back(member.key, all & spec.active);
+  }
+  // A parameter's own key goes before its group's.
+  std::stable_partition(named.begin(), named.end(),
+                        [](const auto& n) { return TermLibrary::find(n.first).has_value(); });
+  for (const auto& [key, which] : named)
+    read_value(table, key, *node->find(key), which, spec, done);
+  for (std::size_t i = 0; i < specs.size(); ++i)
+    if (spec.active[i] && !done[i])
+      section.report().assumed(table.full(specs[i].key.view()),
+                               config::prior_text(specs[i].prior, specs[i].unit), "default prior");
+}
+
+std::optional<double> read_parameter(config::Section& table, std::string_view key,
+                                     std::size_t index) {
+  const Node* node = table.take(key);
+  if (node == nullptr) return std::nullopt;
+  const auto q = read_quantity(table.report(), *node, table.full(key), plausible(specs[index]));
+  if (!q) return std::nullopt;
+  table.report().given(table.full(specs[index].key.view()),
+                       config::quantity_text(q->in(specs[index].unit), specs[index].unit),
+                       node->at);
+  return q->si();
+}
+
+}  // namespace drift

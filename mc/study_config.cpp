@@ -1,0 +1,176 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/base/check.hpp"
+#include "core/config/load.hpp"
+#include "core/config/nearest.hpp"
+#include "core/config/override.hpp"
+#include "core/physics/model_config.hpp"
+#include "core/physics/mounting_config.hpp"
+#include "core/sim/plan_config.hpp"
+#include "mc/study.hpp"
+#include "mc/study_text.hpp"
+
+namespace drift {
+namespace {
+
+using config::Node;
+using config::Option;
+using config::Report;
+using config::Section;
+
+template <class Field>
+void visit_fields(MonteCarlo& o, Field&& field) {
+  constexpr double unbounded = 0x1p64;
+  field(Option{"runs", unit::one, 1.0, 1e9, "number of runs"}, o.runs);
+  field(Option{"seed", unit::one, 0.0, unbounded, "of all random numbers"}, o.seed);
+  field(Option{"allowed_failures", unit::one, 0.0, 1e9, "runs that may fail"}, o.allowed_failures);
+}
+
+void read_schema(Section& root) {
+  constexpr std::uint64_t schema = 1;
+  if (!root.require("schema", "schema = 1")) {
+    root.take("schema");
+    return;
+  }
+  std::uint64_t given = schema;
+  if (root.read(Option{"schema", unit::one, 0.0, 1e9, "of the file"}, given) && given != schema)
+    root.report().error(
+        root.take("schema")->at,
+        fmt::format("'schema' = {} is not known to this program (expected {}). Use a newer "
+                    "program, or write the file in schema {}",
+                    given, schema, schema));
+}
+
+MonteCarlo read_monte_carlo(Section section) {
+  MonteCarlo monte_carlo;
+  visit_fields(monte_carlo,
+               [&](const Option& option, auto& value) { section.read(option, value); });
+  section.finish();
+  return monte_carlo;
+}
+
+std::vector<SweepAxis> read_sweep(Report& report, const Node* sweep) {
+  constexpr std::size_t most_values = 10000;
+  constexpr double most_points = 1e6;
+  std::vector<SweepAxis> axes;
+  if (sweep == nullptr) return axes;
+  double points = 1.0;
+  Section section(report, sweep, sweep->at, "sweep");
+  for (const auto& member : sweep->members) {
+    const Node& values = member.value;
+    if (!values.is(Node::Kind::array) || values.items.empty() ||
+        values.items.size() > most_values) {
+      report.error(
+          values.at,
+          fmt::format("'sweep.\"{}\"' is {} (expected a list of 1 to {} values). Write \"{}\" = "
+                      "[a, b, c], the dotted key in quotes",
+                      member.key, describe(values), most_values, member.key));
+      continue;
+    }
+    SweepAxis axis{member.key, {}};
+    for (const auto& value : values.items) axis.values.push_back(to_toml(value));
+    points *= static_cast<double>(axis.values.size());
+    report.given(fmt::format("sweep.{}", member.key), to_toml(values), member.at);
+    axes.push_back(std::move(axis));
+  }
+  if (points > most_points)
+    report.error(sweep->at,
+                 fmt::format("[sweep] makes {:.0f} study points (expected at most {:.0f}). "
+                             "Shorten a list",
+                             points, most_points));
+  return axes;
+}
+
+/// Everything but the trial of the sweep.
+Study read_tree(const Node& root, const std::string& path) {
+  Report report(path);
+  Study study;
+  study.path = path;
+  Section top(report, &root, config::Place{}, "");
+  read_schema(top);
+  top.read(Option{.key = "title", .doc = "of the study"}, study.title);
+  const Mounting mounting = read_mounting(top.section("mounting"));
+  const PlanConfig plan = read_plan(top.section("plan"));
+  study.kind = plan.kind;
+  study.plan = plan.plan;
+  study.static_min = plan.static_min;
+  study.site = read_site(top.section("site"), plan.kind);
+  study.readout = read_readout(top.section("readout"));
+  const Node* sweep = top.take("sweep");
+  const bool swept = sweep != nullptr && sweep->find("truth.coupling") != nullptr;
+  Section truth = top.section("truth");
+  study.has_truth = truth.present();
+  study.truth = read_truth(truth, mounting, swept ? UnusedTables::allowed : UnusedTables::refused);
+  study.filters = read_filters(top, mounting);
+  study.monte_carlo = read_monte_carlo(top.section("monte_carlo"));
+  study.sweep = read_sweep(report, sweep);
+  top.finish();
+  report.throw_if_wrong();
+  for (const auto& value : report.resolved())
+    study.resolved.push_back({value.key, value.text, value.origin});
+  return study;
+}
+
+/// Every value of the sweep is tried in its place, so that no point of a study fails for its file.
+void try_sweep(const Node& root, const Study& study) {
+  constexpr std::size_t most_messages = 20;
+  std::vector<std::string> messages;
+  const Node& sweep = study.sweep.empty() ? root : *root.find("sweep");
+  for (const auto& axis : study.sweep) {
+    const Node& values = *sweep.find(axis.key);
+    for (std::size_t i = 0; i < axis.values.size() && messages.size() < most_messages; ++i) {
+      const auto& at = values.items[i].at;
+      const std::string where = at.set_key.empty()
+                                    ? fmt::format("{}:{}:{}", study.path, at.line, at.column)
+                                    : fmt::format("--set {}", at.set_key);
+      try {
+        if (axis.key.starts_with("sweep") || axis.key.starts_with("schema"))
+          throw InputError(ExitCode::config,
+                           fmt::format("'{}' cannot be swept (expected a key of the "
+                                       "study). Remove the line",
+                                       axis.key));
+        Node point = root;
+        apply_override(point, axis.key, axis.values[i]);
+        read_tree(point, study.path);
+      } catch (const InputError& error) {
+        const std::string own = fmt::format("--set {}: ", axis.key);
+        for (const auto& message : error.messages())
+          messages.push_back(
+              fmt::format("{}: with this value of the sweep: {}", where,
+                          message.starts_with(own) ? message.substr(own.size()) : message));
+      }
+    }
+  }
+  if (!messages.empty()) throw InputError(ExitCode::config, messages);
+}
+
+Node load_tree(const std::string& path, const Overrides& overrides) {
+  Node root = config::parse_document(config::load_text(path), path);
+  std::vector<std::string> messages;
+  for (const auto& [key, value] : overrides) {
+    try {
+      apply_override(root, key, value);
+    } catch (const InputError& error) {
+      messages.insert(messages.end(), error.messages().begin(), error.messages().end());
+    }
+  }
+  if (!messages.empty()) throw InputError(ExitCode::config, messages);
+  return root;
+}
+
+}  // namespace
+
+Study read_study(const std::string& path, const Overrides& overrides) {
+  const Node root = load_tree(path, overrides);
+  Study study = read_tree(root, path);
+  try_sweep(root, study);
+  return study;
+}
+
+std::string study_text(const std::string& path, const Overrides& overrides) {
+  return config::to_document(load_tree(path, overrides));
+}
+
+}  // namespace drift
