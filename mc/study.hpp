@@ -27,6 +27,17 @@ struct SweepAxis {
   std::vector<std::string> values;
 };
 
+/// Results from elsewhere, printed beside ours: [[published]] of a study file.
+struct Published {
+  struct Value {
+    std::size_t param = 0;
+    std::vector<double> values, sigmas;  ///< SI; sigmas may be empty
+  };
+  std::string name;    ///< "Table 1 of the paper"
+  std::string filter;  ///< the filter they are compared with; empty: with all (an independent test)
+  std::vector<Value> values;
+};
+
 /// A value of the resolved study, for `check`: where it stands, what it is, where it came from.
 struct Resolved {
   std::string key;     ///< "truth.parameters.eta_x"
@@ -48,6 +59,7 @@ struct Study {
   std::vector<FilterSpec> filters;
   MonteCarlo monte_carlo;
   std::vector<SweepAxis> sweep;
+  std::vector<Published> published;
   std::vector<Resolved> resolved;
 };
 

@@ -23,6 +23,18 @@ struct DriftModel {
   Mounting mounting;
 };
 
+/// eta x y z, xi x y z [rad].
+using MisalignmentAngles = Eigen::Matrix<double, 6, 1>;
+
+/// E = C_gp - I for given angles [rad].
+inline Mat3 misalignment_matrix(const Mounting& mounting, const MisalignmentAngles& angles) {
+  Inputs<double> in;
+  in.mounting = &mounting;
+  RateAssembly<double> out;
+  terms::GyroMisalignment::rates(in, angles.data(), out);
+  return out.E_gp;
+}
+
 /// The slots of all active terms at one instant. The torquer obeys the command: w_md = -w_cmd + terms.
 template <class S>
 RateAssembly<S> assemble(const DriftModel& model, const Inputs<S>& in, const S* theta) {

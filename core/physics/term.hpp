@@ -23,11 +23,22 @@ concept Term = requires {
   { T::params.size() } -> std::convertible_to<std::size_t>;
 };
 
+template <class T, class S>
+concept ActsOnRates = requires(const Inputs<S>& in, const S* p, RateAssembly<S>& out) {
+  T::rates(in, p, out);
+};
+template <class T, class S>
+concept ActsOnReadout = requires(const Inputs<S>& in, const S* p, ReadoutAssembly<S>& out) {
+  T::readout(in, p, out);
+};
+
 /// What the `terms` command and error messages need to know of a term.
 struct TermInfo {
   std::string_view key, title, equation, source;
   std::size_t first = 0;  ///< index of its first parameter
   std::size_t count = 0;  ///< number of its parameters
+  bool in_rates = false;    ///< acts on the platform's rate
+  bool in_readout = false;  ///< acts on what the instruments say
 };
 
 /// A compile-time list of terms: numbering of parameters, lookup by name, application by mask.
@@ -43,7 +54,8 @@ struct TermList {
   static constexpr auto terms = [] {
     std::array<TermInfo, num_terms> infos{};
     std::size_t next = 0, first = 0;
-    ((infos[next++] = {Ts::key, Ts::title, Ts::equation, Ts::source, first, Ts::params.size()},
+    ((infos[next++] = {Ts::key, Ts::title, Ts::equation, Ts::source, first, Ts::params.size(),
+                       ActsOnRates<Ts, double>, ActsOnReadout<Ts, double>},
       first += Ts::params.size()),
      ...);
     return infos;
@@ -53,6 +65,12 @@ struct TermList {
     for (std::size_t i = 0; i < num_params; ++i)
       if (specs[i].key.view() == key) return i;
     return std::nullopt;
+  }
+  /// The term that owns parameter i.
+  static constexpr const TermInfo& owner(std::size_t i) {
+    std::size_t t = 0;
+    while (i >= terms[t].first + terms[t].count) ++t;
+    return terms[t];
   }
   /// Index of a parameter named in the code; a typo does not compile.
   static consteval std::size_t index(std::string_view key) { return find(key).value(); }
@@ -83,14 +101,14 @@ struct TermList {
   template <class S>
   static void rates(const Mask& mask, const Inputs<S>& in, const S* theta, RateAssembly<S>& out) {
     for_each([&]<class T>(std::size_t t) {
-      if constexpr (requires { T::rates(in, theta, out); })
+      if constexpr (ActsOnRates<T, S>)
         if (mask[t]) T::rates(in, theta + terms[t].first, out);
     });
   }
   template <class S>
   static void readout(const Mask& mask, const Inputs<S>& in, const S* theta, ReadoutAssembly<S>& out) {
     for_each([&]<class T>(std::size_t t) {
-      if constexpr (requires { T::readout(in, theta, out); })
+      if constexpr (ActsOnReadout<T, S>)
         if (mask[t]) T::readout(in, theta + terms[t].first, out);
     });
   }

@@ -1,0 +1,65 @@
+#include <spdlog/spdlog.h>
+
+#include "analysis/cli/commands.hpp"
+#include "core/sim/quality_card.hpp"
+#include "core/sim/simulate.hpp"
+
+namespace drift::cli {
+namespace {
+
+/// What a reader of the recording must know to repeat it.
+void add_facts(Recording& recording, const Study& study, std::uint64_t run) {
+  recording.facts = {{"driftscope recording", study.title},
+                     {"study", study.path},
+                     {"seed", std::to_string(study.monte_carlo.seed)},
+                     {"run", std::to_string(run)},
+                     {"random_numbers", Stream::scheme}};
+}
+
+ExitCode simulate(const StudyArguments& arguments, const std::string& output, std::uint64_t run) {
+  const Study study = arguments.read();
+  if (study.kind == RecordingKind::strapdown)
+    throw InputError(ExitCode::config, fmt::format("{}: simulate makes recordings of platforms; [plan] has kind "
+                                                   "= \"strapdown\". Give a platform plan", study.path));
+  if (!study.has_truth)
+    throw InputError(ExitCode::config, fmt::format("{}: no [truth] to simulate from. Add a section [truth]", study.path));
+  if (study.truth.coupling == Coupling::compensated && study.truth.loop == LoopEstimate::feedback)
+    throw InputError(ExitCode::config,
+                     fmt::format("{}: the loop of [truth] is fed back from a filter, so there is no recording "
+                                 "without one. Use `driftscope identify`, or truth.loop.estimate = \"given\"", study.path));
+  Timeline timeline = lay_out(study.plan, study.site);
+  set_loop(timeline, study.truth);
+  Simulator simulator(study.truth, study.readout);
+  const Simulation sim = simulator.run(timeline, study.monte_carlo.seed, run);
+  if (!sim.ode.ok())
+    throw InputError(ExitCode::self_check, fmt::format("run {} failed at t = {:.6g} s: {} ({})", run, sim.ode.t,
+                                                       name(sim.ode.status), sim.ode.cause));
+  Recording recording = make_recording(timeline, sim.measured, study.readout);
+  add_facts(recording, study, run);
+  write_recording(recording, output);
+  spdlog::info("{} steps, {} evaluations of the equations of motion", sim.cost.steps, sim.cost.rhs_calls);
+  recording.source = output;
+  fmt::print("{}", to_text(quality_card(recording, RecordingKind::platform)));
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& app, Action& chosen) {
+  struct Options {
+    StudyArguments arguments;
+    std::string output;
+    std::uint64_t run = 0;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("simulate", "one recording from the truth of a study file");
+  options->arguments.add_to(*command);
+  command->add_option("-o,--output", options->output, "recording to write (.csv, .h5 or .mat)")->required();
+  command->add_option("--run", options->run, "run number");
+  command->footer("Example: driftscope simulate configs/table1.toml -o recording.csv --run 3");
+  command->callback([&chosen, options] {
+    chosen = [options] { return simulate(options->arguments, options->output, options->run); };
+  });
+}
+
+}  // namespace drift::cli

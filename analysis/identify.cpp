@@ -1,0 +1,219 @@
+#include "analysis/identify.hpp"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <cmath>
+
+#include "core/base/check.hpp"
+#include "core/estimate/start_consistency.hpp"
+#include "mc/campaign.hpp"
+
+namespace drift {
+namespace {
+
+struct Job {
+  std::size_t filter, start;
+};
+
+std::vector<Job> jobs_of(const Study& study) {
+  if (study.filters.empty())
+    throw InputError(ExitCode::config, fmt::format("{}: no [[filter]]: nothing to estimate with. Add a "
+                                                   "section [[filter]] with name and coupling", study.path));
+  std::vector<Job> jobs;
+  for (std::size_t f = 0; f < study.filters.size(); ++f)
+    for (std::size_t s = 0; s < start_count(study.filters[f]); ++s) jobs.push_back({f, s});
+  return jobs;
+}
+
+FilterRun estimate(const Study& study, const Job& job, const Timeline& timeline, const Measurements& measured) {
+  const FilterSpec& filter = study.filters[job.filter];
+  const Theta start = initial_estimate(filter, study.monte_carlo.seed, job.start);
+  FilterRun run;
+  run.filter = job.filter;
+  run.start = job.start;
+  run.ekf = run_ekf(filter, timeline, study.readout, measured, start, &run.history);
+  run.batch = fit_batch(filter, timeline, study.readout, measured, start);
+  return run;
+}
+
+void require_ok(const OdeResult& ode, std::uint64_t run) {
+  if (!ode.ok())
+    throw InputError(ExitCode::self_check,
+                     fmt::format("simulation of run {} failed at t = {:.6g} s: {} ({}). The truth may be "
+                                 "unphysical: see `driftscope check`", run, ode.t, name(ode.status), ode.cause));
+}
+
+/// One filter and start, in the loop: the test is simulated position by position, and at the start
+/// of each the loop is given the filter's running estimate of the misalignments.
+FilterRun estimate_in_the_loop(const Study& study, const Job& job, Timeline timeline,
+                               const TruthDraw& draw, std::uint64_t run_number) {
+  constexpr auto eta = TermLibrary::index("eta_x");
+  const FilterSpec& filter = study.filters[job.filter];
+  const Theta start = initial_estimate(filter, study.monte_carlo.seed, job.start);
+  Simulator simulator(study.truth, study.readout);
+  Simulation sim;
+  simulator.begin(timeline, draw, study.monte_carlo.seed, run_number, sim);
+  Ekf ekf(filter, timeline, study.readout, start);
+  for (std::size_t first = 0; first < timeline.intervals.size();) {
+    std::size_t end = first;
+    while (end < timeline.intervals.size() &&
+           timeline.intervals[end].position == timeline.intervals[first].position)
+      timeline.intervals[end++].loop = ekf.theta().segment<6>(eta);
+    simulator.extend(timeline, first, end, sim);
+    require_ok(sim.ode, run_number);
+    for (std::size_t i = first; i < end; ++i)
+      ekf.process(i, sim.measured.acc.col(i), sim.measured.gimbal.col(i));
+    first = end;
+  }
+  FilterRun run;
+  run.filter = job.filter;
+  run.start = job.start;
+  run.ekf = ekf.result();
+  run.history = ekf.history();
+  run.batch = fit_batch(filter, timeline, study.readout, sim.measured, start);
+  return run;
+}
+
+std::vector<FilterSummary> summarise(const Study& study, const Identification& id) {
+  std::vector<FilterSummary> all;
+  for (std::size_t f = 0; f < study.filters.size(); ++f) {
+    FilterSummary s;
+    s.filter = f;
+    s.layout = make_layout(study.filters[f]);
+    const auto runs = id.runs_of(f);
+    for (std::size_t k = 0; k < s.layout.size(); ++k) {
+      std::vector<double> ekf, ekf_sigma, batch, batch_sigma;
+      for (const FilterRun* r : runs) {
+        ekf.push_back(r->ekf.parameters[k].value);
+        ekf_sigma.push_back(r->ekf.parameters[k].sigma);
+        batch.push_back(r->batch.estimate.parameters[k].value);
+        batch_sigma.push_back(r->batch.estimate.parameters[k].sigma);
+      }
+      s.spread.push_back({s.layout.params[k], start_consistency(ekf, ekf_sigma),
+                          start_consistency(batch, batch_sigma)});
+    }
+    s.degeneracies = weak_directions(runs.front()->batch.information_root, 1e-6);
+    s.weak = weak_directions(runs.front()->batch.information_root, 1.0).size();
+    all.push_back(std::move(s));
+  }
+  return all;
+}
+
+template <class Task>
+void run_jobs(const Study& study, Identification& id, int threads, const Progress& progress, Task&& task) {
+  const std::vector<Job> jobs = jobs_of(study);
+  std::atomic<std::size_t> done{0};
+  id.runs = mc::run_campaign(
+      jobs.size(),
+      [&](std::size_t k) {
+        FilterRun run = task(jobs[k]);
+        const std::size_t count = ++done;
+        if (progress) progress(count, jobs.size());
+        return run;
+      },
+      threads);
+  id.summaries = summarise(study, id);
+}
+
+/// Several tests one after the other, as one timeline.
+Timeline joined(std::vector<Timeline> timelines) {
+  Timeline all = std::move(timelines.front());
+  for (std::size_t k = 1; k < timelines.size(); ++k) {
+    Timeline& next = timelines[k];
+    const double shift = all.intervals.back().t1 - next.intervals.front().t0;
+    for (Interval& i : next.intervals) {
+      i.t0 += shift;
+      i.t1 += shift;
+      i.chain += all.chains;
+      i.first_node += all.nodes.size();
+      all.intervals.push_back(i);
+    }
+    for (Node& n : next.nodes) n.t += shift;
+    all.nodes.insert(all.nodes.end(), next.nodes.begin(), next.nodes.end());
+    all.chains += next.chains;
+  }
+  return all;
+}
+
+Measurements joined(const std::vector<Measurements>& parts) {
+  Eigen::Index n = 0;
+  for (const auto& p : parts) n += p.acc.cols();
+  Measurements all{Mat3X(3, n), Mat3X(3, n)};
+  Eigen::Index at = 0;
+  for (const auto& p : parts) {
+    all.acc.middleCols(at, p.acc.cols()) = p.acc;
+    all.gimbal.middleCols(at, p.acc.cols()) = p.gimbal;
+    at += p.acc.cols();
+  }
+  return all;
+}
+
+}  // namespace
+
+std::vector<const FilterRun*> Identification::runs_of(std::size_t filter) const {
+  std::vector<const FilterRun*> found;
+  for (const FilterRun& r : runs)
+    if (r.filter == filter) found.push_back(&r);
+  return found;
+}
+
+std::size_t start_count(const FilterSpec& filter) {
+  return filter.starts.empty() ? static_cast<std::size_t>(filter.drawn_starts) : filter.starts.size();
+}
+
+Theta initial_estimate(const FilterSpec& filter, std::uint64_t seed, std::size_t start) {
+  if (filter.starts.empty()) return draw_parameters(filter, seed, start, Purpose::filter_start);
+  Theta theta = make_layout(filter).theta;
+  for (const auto& [param, value] : filter.starts[start]) theta[param] = value;
+  return theta;
+}
+
+Identification identify_simulated(const Study& study, std::uint64_t run, int threads,
+                                  const Progress& progress) {
+  if (!study.has_truth)
+    throw InputError(ExitCode::config,
+                     fmt::format("{}: no [truth] to simulate from. Give a recording on the command line, "
+                                 "or add a section [truth]", study.path));
+  Identification id;
+  id.simulated = true;
+  Timeline timeline = lay_out(study.plan, study.site);
+  set_loop(timeline, study.truth);
+  const std::uint64_t seed = study.monte_carlo.seed;
+  id.truth = draw_truth(study.truth, timeline.chains, seed, run);
+  if (study.truth.coupling == Coupling::compensated && study.truth.loop == LoopEstimate::feedback) {
+    run_jobs(study, id, threads, progress,
+             [&](const Job& job) { return estimate_in_the_loop(study, job, timeline, *id.truth, run); });
+    return id;
+  }
+  const Simulation sim = Simulator(study.truth, study.readout).run(timeline, *id.truth, seed, run);
+  require_ok(sim.ode, run);
+  id.recording = make_recording(timeline, sim.measured, study.readout);
+  run_jobs(study, id, threads, progress,
+           [&](const Job& job) { return estimate(study, job, timeline, sim.measured); });
+  return id;
+}
+
+Identification identify_recordings(const Study& study, const std::vector<Recording>& recordings,
+                                   int threads, const Progress& progress) {
+  Identification id;
+  std::vector<Timeline> timelines;
+  std::vector<Measurements> parts;
+  for (const Recording& r : recordings) {
+    timelines.push_back(lay_out(r, study.plan, study.site));
+    parts.push_back(measurements_of(r, study.readout));
+    id.sources.push_back(r.source);
+  }
+  id.recording = recordings.front();
+  const Timeline timeline = joined(std::move(timelines));
+  const Measurements measured = joined(parts);
+  if (!measured.acc.array().isFinite().any() && !measured.gimbal.array().isFinite().any())
+    throw InputError(ExitCode::recording,
+                     fmt::format("{}: nothing measured: every accelerometer and gimbal channel that "
+                                 "[readout] asks for is absent or empty", recordings.front().source));
+  run_jobs(study, id, threads, progress,
+           [&](const Job& job) { return estimate(study, job, timeline, measured); });
+  return id;
+}
+
+}  // namespace drift

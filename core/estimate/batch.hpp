@@ -1,0 +1,61 @@
+#pragma once
+
+#include "core/estimate/estimate_result.hpp"
+#include "core/estimate/gimbal_prediction.hpp"
+#include "core/estimate/linearize.hpp"
+#include "core/sim/measurements.hpp"
+
+namespace drift {
+
+/// The whitened, linearised test of one chain: rows [J_psi, J_x, r], where r = (measured - predicted)
+/// / sigma and J = d predicted / sigma; psi in units of its prior sigma, x of theirs.
+struct ChainEquations {
+  MatX rows;  ///< shape (measured scalars, 3 + parameters + 1)
+};
+
+/// Linearises all measurements of a timeline about a trajectory. Channels that are NaN are left out.
+std::vector<ChainEquations> measurement_equations(const Timeline& timeline, const DriftModel& model,
+                                                  const Layout& layout, const Readout& readout,
+                                                  const Measurements& measured, const Theta& theta,
+                                                  const Trajectory& phi, double sigma_attitude);
+
+/// Upper triangular square root of the information on the parameters, prior-scaled, from the data
+/// alone (no parameter prior), the attitude of each chain eliminated with its prior:
+/// R^T R = J^T W J. Shape (parameters, parameters).
+MatX information_root(const std::vector<ChainEquations>& chains, std::size_t parameters);
+
+/// A direction in parameter space of which the data say (almost) nothing.
+struct WeakDirection {
+  double information = 0.0;  ///< eigenvalue of the prior-scaled data information; 1 = as good as the prior
+  VecX direction;            ///< unit vector over the prior-scaled parameters, layout order
+};
+
+/// Directions with an eigenvalue below `limit`, weakest first. With limit 1e-6 these are the exact
+/// degeneracies of the test (physics.md 2.4); below 1 the prior says more than the data.
+std::vector<WeakDirection> weak_directions(const MatX& information_root, double limit);
+
+/// How a batch fit is run.
+struct BatchOptions {
+  int max_iterations = 40;
+  double tolerance = 1e-4;  ///< largest step that counts as converged, in posterior sigmas
+};
+
+/// Outcome of a batch fit.
+struct BatchResult {
+  EstimateResult estimate;
+  std::vector<Vec3> psi0_l;  ///< initial attitude error of each chain, local axes [rad]
+  MatX information_root;     ///< of the data alone, prior-scaled, see above
+  double data_chi2 = 0.0;    ///< sum of squared whitened residuals
+  Mat3X acc_residual;        ///< whitened, measured minus predicted, NaN where not measured
+  Mat3X gimbal_residual;
+};
+
+/// Maximum a posteriori fit by Levenberg-Marquardt on whitened residuals, solved by QR, everything
+/// scaled by the prior; the attitude at each caging is a nuisance with its own prior. The reference
+/// for the EKF: it relinearises until it stands still. Process noise is not modelled.
+/// start: library values of the initial estimate.
+BatchResult fit_batch(const FilterSpec& filter, const Timeline& timeline, const Readout& readout,
+                      const Measurements& measured, const Theta& start,
+                      const BatchOptions& options = {});
+
+}  // namespace drift

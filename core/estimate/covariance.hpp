@@ -1,0 +1,56 @@
+#pragma once
+
+#include "core/base/linalg.hpp"
+
+namespace drift {
+
+using Mat3X = Eigen::Matrix<double, 3, Eigen::Dynamic>;
+using MatX3 = Eigen::Matrix<double, Eigen::Dynamic, 3>;
+
+/// Covariance of 3 attitude errors and n static parameters, of which the first `num_rate` act on the
+/// attitude's rate. Because the parameters stand still, a step costs about 3 n^2 multiplications
+/// where a dense filter spends 2 (n+3)^3 (physics.md 6.6, 1512.03077). Allocates only when built.
+///
+/// Every operation is symmetric term by term, so P_pp stays symmetric to the last bit.
+class Covariance {
+ public:
+  /// Attitude of sigma_attitude [rad] per axis; parameters of unit variance (scaled by their prior).
+  Covariance(std::size_t parameters, std::size_t num_rate, double sigma_attitude);
+
+  /// A new attitude, unknown within sigma [rad]; the parameters keep what is known of them.
+  void recage(double sigma_attitude);
+
+  /// psi <- Phi psi + G x(rate), plus white noise Q on the attitude and q on diagonal entries.
+  /// G has shape (3, num_rate).
+  void propagate(const Mat3& Phi, const Eigen::Ref<const Mat3X>& G, const Mat3& Q);
+
+  /// Adds variance to one parameter (drift random walk).
+  void add_variance(std::size_t parameter, double variance) { P_pp_(parameter, parameter) += variance; }
+
+  /// The outcome of an update with m <= 3 scalars.
+  struct Update {
+    Vec3 attitude = Vec3::Zero();  ///< correction psi_i [rad]
+    double nis = 0.0;              ///< normalised innovation squared
+    int scalars = 0;
+    bool ok = true;                ///< false: innovation covariance not positive definite
+  };
+
+  /// Measurement of m scalars: innovation nu, H = [H_psi, H_par on parameters from `first`],
+  /// independent noise of standard deviation sigma. NaN innovations are left out. The parameter
+  /// correction is added to x. H_par may be empty.
+  Update update(const Vec3& nu, const Mat3& H_psi, const Eigen::Ref<const Mat3X>& H_par,
+                std::size_t first, double sigma, VecX& x);
+
+  const Mat3& attitude() const { return P_aa_; }
+  const MatX& parameters() const { return P_pp_; }
+  const MatX3& cross() const { return P_pa_; }  ///< shape (parameters, 3)
+
+ private:
+  std::size_t num_rate_;
+  Mat3 P_aa_;
+  MatX3 P_pa_;
+  MatX P_pp_;
+  MatX3 work_, gain_;
+};
+
+}  // namespace drift

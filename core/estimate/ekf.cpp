@@ -1,0 +1,158 @@
+#include "core/estimate/ekf.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numeric>
+
+namespace drift {
+namespace {
+
+const auto fixed_drift_key = TermLibrary::index("D_F_x");
+
+std::size_t most_nodes(const Timeline& timeline) {
+  std::size_t most = 0;
+  for (const Interval& i : timeline.intervals) most = std::max(most, i.node_count());
+  return most;
+}
+
+}  // namespace
+
+Ekf::Ekf(const FilterSpec& filter, const Timeline& timeline, const Readout& readout, const Theta& start)
+    : filter_(filter),
+      timeline_(timeline),
+      readout_(readout),
+      model_(filter.model()),
+      layout_(make_layout(filter)),
+      linearizer_(model_, layout_, readout),
+      P_(layout_.size(), layout_.num_rate, filter.initial_attitude),
+      x_(layout_.scaled(start)),
+      start_(x_),
+      theta_(layout_.theta_at(x_)),
+      rest_G_(Mat3X::Zero(3, layout_.num_rate)),
+      nodes_(most_nodes(timeline)) {
+  const auto n = timeline.intervals.size();
+  history_.estimate = MatX::Zero(layout_.size(), n);
+  history_.sigma = MatX::Zero(layout_.size(), n);
+  history_.nis.assign(n, 0.0);
+  history_.scalars.assign(n, 0);
+  history_.t.assign(n, 0.0);
+}
+
+void Ekf::correct_attitude(const Node& node, const Vec3& psi_i, Vec3& phi) const {
+  const Vec3 psi_r = node.R_lr.transpose() * (node.R_il.transpose() * psi_i);
+  phi = rotation_vector(rotation(psi_r) * rotation(phi));
+}
+
+void Ekf::take(const Covariance::Update& update, std::size_t i) {
+  history_.nis[i] += update.nis;
+  history_.scalars[i] += update.scalars;
+  const bool finite = std::isfinite(update.nis) && x_.allFinite();
+  if (status_ == EstimateStatus::ok && (!update.ok || !finite || x_.cwiseAbs().maxCoeff() > 1e6)) {
+    status_ = EstimateStatus::diverged;
+    cause_ = fmt::format("filter diverged at t = {:.6g} s ({})", timeline_.intervals[i].t1,
+                         !update.ok ? "innovation covariance not positive definite"
+                                    : "estimate beyond 1e6 prior sigma");
+  }
+}
+
+void Ekf::process(std::size_t i, const Vec3& acc, const Vec3& gimbal) {
+  const Interval& interval = timeline_.intervals[i];
+  if (interval.cage) {
+    phi_.setZero();
+    P_.recage(filter_.initial_attitude);
+  }
+  history_.t[i] = interval.t1;
+  if (status_ != EstimateStatus::ok) return;
+
+  const Mat3 E_loop = misalignment_matrix(model_.mounting, interval.loop);
+  linearizer_.set_theta(theta_);
+  nodes_[0] = phi_;
+  Drive drive = drive_of(interval, timeline_, model_, theta_);
+  step_through(interval, timeline_, drive, nodes_.data());
+  linearize_interval(interval, timeline_, E_loop, nodes_.data(), linearizer_, sensitivity_);
+
+  const std::size_t last = interval.node_count() - 1;
+  const std::size_t middle = static_cast<std::size_t>(interval.substeps);
+  const double arw = filter_.noise.angle_random_walk;
+  const Mat3 Q_half = 0.5 * arw * arw * interval.length() * Mat3::Identity();
+  const Mat3& Phi_m = sensitivity_.Phi[middle];
+  P_.propagate(Phi_m, sensitivity_.G[middle], Q_half);
+
+  if (readout_.accelerometers && acc.array().isFinite().any()) {
+    // Mean over the interval, and its derivative with respect to the attitude in the middle.
+    Vec3 mean = Vec3::Zero();
+    Mat3 H = Mat3::Zero();
+    const Mat3 Phi_m_inv = Phi_m.inverse();
+    Mat3X& H_par = sensitivity_.jacobian[0].H_par;  // the mean is gathered in the first node's
+    for (std::size_t k = 0; k <= last; ++k) {
+      const double w = Timeline::simpson_weight(interval.substeps, k);
+      const NodeJacobian& j = sensitivity_.jacobian[k];
+      mean += w * j.acc;
+      H += w * j.H * sensitivity_.Phi[k] * Phi_m_inv;
+      if (k == 0)
+        H_par *= w;
+      else
+        H_par += w * j.H_par;
+    }
+    const Covariance::Update update =
+        P_.update(acc - mean, H, H_par, layout_.num_rate, readout_.accelerometer_noise, x_);
+    take(update, i);
+    if (status_ != EstimateStatus::ok) return;
+    correct_attitude(timeline_.nodes[interval.first_node + middle], update.attitude, nodes_[middle]);
+    theta_ = layout_.theta_at(x_);
+    drive = drive_of(interval, timeline_, model_, theta_);
+    step_through(interval, timeline_, drive, nodes_.data(), middle);
+  }
+
+  const Mat3 Phi_rest = sensitivity_.Phi[last] * Phi_m.inverse();
+  rest_G_ = sensitivity_.G[last];
+  rest_G_.noalias() -= Phi_rest * sensitivity_.G[middle];
+  P_.propagate(Phi_rest, rest_G_, Q_half);
+  phi_ = nodes_[last];
+
+  if (readout_.gimbals && gimbal.array().isFinite().any()) {
+    const Node& node = timeline_.nodes[interval.last_node()];
+    const GimbalPrediction predicted = predict_gimbals(node, interval.heading1, phi_);
+    Vec3 nu;
+    for (int k = 0; k < 3; ++k) nu[k] = angle_difference(gimbal[k], predicted.angles[k]);
+    const Covariance::Update update =
+        P_.update(nu, predicted.H, Mat3X(3, 0), 0, readout_.gimbal_noise, x_);
+    take(update, i);
+    if (status_ != EstimateStatus::ok) return;
+    correct_attitude(node, update.attitude, phi_);
+    theta_ = layout_.theta_at(x_);
+  }
+  if (filter_.noise.drift_random_walk > 0.0) {
+    const double q = filter_.noise.drift_random_walk;
+    for (std::size_t k = 0; k < layout_.size(); ++k)
+      if (layout_.params[k] >= fixed_drift_key && layout_.params[k] < fixed_drift_key + 3)
+        P_.add_variance(k, q * q * interval.length() / (layout_.sigma[k] * layout_.sigma[k]));
+  }
+  for (std::size_t k = 0; k < layout_.size(); ++k) {
+    history_.estimate(k, i) = theta_[layout_.params[k]];
+    history_.sigma(k, i) = layout_.sigma[k] * std::sqrt(P_.parameters()(k, k));
+  }
+}
+
+EstimateResult Ekf::result() const {
+  EstimateResult r;
+  r.status = status_;
+  r.cause = cause_;
+  r.parameters = parameter_estimates(layout_, start_, x_, P_.parameters());
+  r.covariance = P_.parameters();
+  r.statistic = std::accumulate(history_.nis.begin(), history_.nis.end(), 0.0);
+  for (const int m : history_.scalars) r.measured += static_cast<std::size_t>(m);
+  return r;
+}
+
+EstimateResult run_ekf(const FilterSpec& filter, const Timeline& timeline, const Readout& readout,
+                       const Measurements& measured, const Theta& start, EkfHistory* history) {
+  Ekf ekf(filter, timeline, readout, start);
+  for (std::size_t i = 0; i < timeline.intervals.size(); ++i)
+    ekf.process(i, measured.acc.col(i), measured.gimbal.col(i));
+  if (history) *history = ekf.history();
+  return ekf.result();
+}
+
+}  // namespace drift

@@ -1,0 +1,123 @@
+#include "core/estimate/linearize.hpp"
+
+namespace drift {
+
+Linearizer::Linearizer(const DriftModel& model, const Layout& layout, Readout readout)
+    : model_(model), layout_(layout), readout_(readout) {
+  set_theta(layout_.theta);
+}
+
+void Linearizer::set_theta(const Theta& theta) {
+  for (std::size_t i = 0; i < theta_.size(); ++i) theta_[i] = D(theta[i]);
+}
+
+NodeJacobian Linearizer::make() const {
+  NodeJacobian j;
+  j.A.setZero();
+  j.B = Mat3X::Zero(3, layout_.num_rate);
+  j.acc.setZero();
+  j.H.setZero();
+  j.H_par = Mat3X::Zero(3, layout_.size() - layout_.num_rate);
+  return j;
+}
+
+/// Runs over the variables (psi_l x, y, z, then `count` states from first_state) in chunks. Calls
+/// sink(in, theta, first, n): the inputs as duals and which variables the n derivatives are.
+template <class Sink>
+void Linearizer::sweep(std::size_t first_state, std::size_t count, const Node& node,
+                       const Interval& interval, const Mat3& R_lp, Sink&& sink) {
+  const std::size_t variables = 3 + count;
+  for (std::size_t first = 0; first < variables; first += chunk) {
+    const std::size_t n = std::min<std::size_t>(chunk, variables - first);
+    Vec3T<D> psi_l(D(0.0), D(0.0), D(0.0));
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::size_t v = first + k;
+      if (v < 3) {
+        psi_l[v].d[k] = 1.0;
+      } else {
+        const std::size_t state = first_state + v - 3;
+        theta_[layout_.params[state]].d[k] = layout_.sigma[state];
+      }
+    }
+    // exp([psi x]) R at psi = 0, to first order.
+    Mat3T<D> R = R_lp.cast<D>();
+    if (first < 3) R += skew(psi_l) * R_lp.cast<D>();
+    const Inputs<D> in =
+        inputs_at<D>(node.omega_ic_l, interval.omega_cmd_p, model_.mounting, R);
+    sink(in, first, n);
+    for (std::size_t k = 0; k < n; ++k)
+      if (first + k >= 3) theta_[layout_.params[first_state + first + k - 3]].d[k] = 0.0;
+  }
+}
+
+void Linearizer::evaluate(const Node& node, const Interval& interval, const Mat3& E_loop,
+                          const Vec3& phi, NodeJacobian& out) {
+  const Mat3 R_lp = node.R_lr * rotation(phi);
+  const Mat3 R_ip = node.R_il * R_lp;
+  Mat3 A_l;
+  sweep(0, layout_.num_rate, node, interval, R_lp,
+        [&](const Inputs<D>& in, std::size_t first, std::size_t n) {
+          const Vec3T<D> omega_ip_p = platform_rate(model_, in, theta_.data(), E_loop);
+          for (std::size_t k = 0; k < n; ++k) {
+            const Vec3 d(omega_ip_p[0].d[k], omega_ip_p[1].d[k], omega_ip_p[2].d[k]);
+            if (first + k < 3)
+              A_l.col(first + k) = d;
+            else
+              out.B.col(first + k - 3).noalias() = R_ip * d;
+          }
+        });
+  out.A = R_ip * A_l * node.R_il.transpose();
+  if (!readout_.accelerometers) return;
+  Mat3 H_l;
+  sweep(layout_.num_rate, layout_.size() - layout_.num_rate, node, interval, R_lp,
+        [&](const Inputs<D>& in, std::size_t first, std::size_t n) {
+          const Vec3T<D> acc = accelerometer_output(model_, in, theta_.data());
+          out.acc = Vec3(acc[0].v, acc[1].v, acc[2].v);
+          for (std::size_t k = 0; k < n; ++k) {
+            const Vec3 d(acc[0].d[k], acc[1].d[k], acc[2].d[k]);
+            if (first + k < 3)
+              H_l.col(first + k) = d;
+            else
+              out.H_par.col(first + k - 3) = d;
+          }
+        });
+  out.H = H_l * node.R_il.transpose();
+}
+
+void linearize_interval(const Interval& interval, const Timeline& timeline, const Mat3& E_loop,
+                        const Vec3* phi, Linearizer& linearizer, IntervalSensitivity& out) {
+  const std::size_t nodes = interval.node_count();
+  while (out.jacobian.size() < nodes) {
+    out.jacobian.push_back(linearizer.make());
+    out.Phi.emplace_back();
+    out.G.push_back(out.jacobian.back().B);
+  }
+  for (std::size_t k = 0; k < nodes; ++k)
+    linearizer.evaluate(timeline.nodes[interval.first_node + k], interval, E_loop, phi[k],
+                        out.jacobian[k]);
+  const double h = interval.length() / (2.0 * interval.substeps);
+  const Mat3 I = Mat3::Identity();
+  const auto exponential = [&](const Mat3& a) -> Mat3 { return I + a + 0.5 * a * a; };
+  out.Phi[0] = I;
+  out.G[0].setZero();
+  for (std::size_t k = 0; k + 2 < nodes; k += 2) {
+    const NodeJacobian &j0 = out.jacobian[k], &j1 = out.jacobian[k + 1], &j2 = out.jacobian[k + 2];
+    // Integrals of the parabola through the three nodes, to the middle and to the end.
+    const Mat3 a1 = h / 12.0 * (5.0 * j0.A + 8.0 * j1.A - j2.A);
+    const Mat3 a2 = h / 3.0 * (j0.A + 4.0 * j1.A + j2.A);
+    const Mat3 Phi1 = exponential(a1), Phi2 = exponential(a2);
+    const Mat3 from_end = exponential(a1 - a2), from_middle = exponential(a2 - a1);
+    out.Phi[k + 1] = Phi1 * out.Phi[k];
+    out.Phi[k + 2] = Phi2 * out.Phi[k];
+    out.G[k + 1].noalias() = Phi1 * out.G[k];
+    out.G[k + 1].noalias() += (h * 5.0 / 12.0 * Phi1) * j0.B;
+    out.G[k + 1].noalias() += h * 8.0 / 12.0 * j1.B;
+    out.G[k + 1].noalias() -= (h / 12.0 * from_end) * j2.B;
+    out.G[k + 2].noalias() = Phi2 * out.G[k];
+    out.G[k + 2].noalias() += (h / 3.0 * Phi2) * j0.B;
+    out.G[k + 2].noalias() += (h * 4.0 / 3.0 * from_middle) * j1.B;
+    out.G[k + 2].noalias() += h / 3.0 * j2.B;
+  }
+}
+
+}  // namespace drift

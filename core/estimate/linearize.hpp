@@ -1,0 +1,66 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/base/dual.hpp"
+#include "core/estimate/covariance.hpp"
+#include "core/estimate/layout.hpp"
+#include "core/sim/readout.hpp"
+#include "core/sim/trajectory.hpp"
+
+namespace drift {
+
+/// Derivatives at one node, with respect to the attitude error psi_i (R_ip = exp([psi_i x]) R_ip,
+/// axes of the chain's inertial frame i) and to the scaled states of a layout.
+struct NodeJacobian {
+  Mat3 A;    ///< d psi_i' / d psi_i [1/s]
+  Mat3X B;   ///< d psi_i' / d rate states, shape (3, num_rate) [rad/s]
+  Vec3 acc;  ///< accelerometer outputs [g]
+  Mat3 H;    ///< d acc / d psi_i [g/rad]
+  Mat3X H_par;  ///< d acc / d readout states, shape (3, size - num_rate) [g]
+};
+
+/// Evaluates NodeJacobian by forward differentiation in chunks; holds the workspace, so that an
+/// evaluation allocates nothing.
+class Linearizer {
+ public:
+  Linearizer(const DriftModel& model, const Layout& layout, Readout readout);
+
+  void set_theta(const Theta& theta);
+  /// Rate part (A, B) and, if accelerometers are read, readout part (acc, H, H_par).
+  void evaluate(const Node& node, const Interval& interval, const Mat3& E_loop, const Vec3& phi,
+                NodeJacobian& out);
+  NodeJacobian make() const;
+
+ private:
+  static constexpr int chunk = 8;
+  using D = Dual<chunk>;
+
+  template <class Sink>
+  void sweep(std::size_t first_state, std::size_t count, const Node& node, const Interval& interval,
+             const Mat3& R_lp, Sink&& sink);
+
+  DriftModel model_;
+  Layout layout_;
+  Readout readout_;
+  std::array<D, TermLibrary::num_params> theta_;
+};
+
+/// Sensitivities within one interval, from its start to each of its nodes:
+/// psi(node k) = Phi[k] psi(start) + G[k] x(rate states).
+struct IntervalSensitivity {
+  std::vector<NodeJacobian> jacobian;  ///< at each node
+  std::vector<Mat3> Phi;
+  std::vector<Mat3X> G;
+};
+
+/// Fills `out` along the nodes of an interval, phi given at each.
+///
+/// Variation of constants: G(t) = Phi(t) Int Phi^-1 B dt with fourth-order quadrature over pairs of
+/// steps; Phi is the exponential of the integral of A to second order (A t is below 1e-3 within an
+/// interval: physics.md 6.5 ii).
+void linearize_interval(const Interval& interval, const Timeline& timeline, const Mat3& E_loop,
+                        const Vec3* phi, Linearizer& linearizer, IntervalSensitivity& out);
+
+}  // namespace drift

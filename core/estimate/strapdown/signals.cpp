@@ -1,0 +1,78 @@
+#include "core/estimate/strapdown/signals.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "core/base/check.hpp"
+
+namespace drift::strapdown {
+namespace {
+
+constexpr std::array<const char*, 7> names{"time",  "gyro_x", "gyro_y", "gyro_z",
+                                           "acc_x", "acc_y",  "acc_z"};
+
+bool fits(std::size_t column, const Unit& unit) {
+  if (column == 0) return unit.same_dimension(unit::s);
+  if (column <= 3) return unit.same_dimension(unit::deg_per_s);
+  // The reader turns m/s^2 into g and may keep the unit of the file beside the values.
+  return unit.same_dimension(unit::g) || unit.same_dimension("m/s^2"_unit);
+}
+
+std::array<const Channel*, 7> find_channels(const Recording& recording) {
+  constexpr std::array<const char*, 3> expected{"s", "rad/s", "g"};
+  std::array<const Channel*, 7> found{};
+  std::vector<std::string> problems;
+  for (std::size_t c = 0; c < names.size(); ++c) {
+    const char* unit = expected[c == 0 ? 0 : (c <= 3 ? 1 : 2)];
+    found[c] = recording.find(names[c]);
+    if (found[c] == nullptr)
+      problems.push_back(fmt::format(
+          "{}: no channel '{}' (a strapdown recording has '{} [{}]'). Add the column", recording.source,
+          names[c], names[c], unit));
+    else if (!fits(c, found[c]->unit))
+      problems.push_back(fmt::format("{}: channel '{}' is in '{}' (a unit like '{}' is expected). "
+                                     "Correct the header",
+                                     recording.source, names[c], found[c]->unit.symbol.view(), unit));
+  }
+  if (!problems.empty()) throw InputError(ExitCode::recording, std::move(problems));
+  return found;
+}
+
+void check_time(const Recording& recording, const std::vector<double>& time) {
+  if (time.size() < 2)
+    throw InputError(ExitCode::recording, fmt::format("{}: {} samples (two or more are expected). "
+                                                      "Give a longer recording",
+                                                      recording.source, time.size()));
+  for (std::size_t k = 1; k < time.size(); ++k)
+    if (!(time[k] > time[k - 1])) {
+      const std::size_t line = k < recording.lines.size() ? recording.lines[k] : k + 1;
+      throw InputError(ExitCode::recording,
+                       fmt::format("{}:{}:1: time {} s after {} s (it must increase). Remove or sort "
+                                   "the sample",
+                                   recording.source, line, time[k], time[k - 1]));
+    }
+}
+
+}  // namespace
+
+Signals signals_of(const Recording& recording) {
+  const auto column = find_channels(recording);
+  Signals signals;
+  signals.time = column[0]->values;
+  check_time(recording, signals.time);
+  const std::size_t n = signals.time.size();
+  signals.gyro.reserve(n);
+  signals.acc.reserve(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    signals.gyro.emplace_back(column[1]->values[k], column[2]->values[k], column[3]->values[k]);
+    signals.acc.emplace_back(column[4]->values[k], column[5]->values[k], column[6]->values[k]);
+  }
+  std::vector<double> steps(n - 1);
+  for (std::size_t k = 1; k < n; ++k) steps[k - 1] = signals.time[k] - signals.time[k - 1];
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  signals.interval = *middle;
+  return signals;
+}
+
+}  // namespace drift::strapdown

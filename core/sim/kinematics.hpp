@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cmath>
+
+#include "core/physics/drift_model.hpp"
+#include "core/sim/timeline.hpp"
+
+namespace drift {
+
+/// What the terms see for a platform attitude R_lp (v_l = R_lp v_p).
+template <class S>
+Inputs<S> inputs_at(const Vec3& omega_ic_l, const Vec3& omega_cmd_p, const Mounting& mounting,
+                    const Mat3T<S>& R_lp) {
+  Inputs<S> in;
+  in.mounting = &mounting;
+  in.f_p = R_lp.row(2);  // R_lp^T up
+  in.omega_ic_p = R_lp.transpose() * omega_ic_l.cast<S>();
+  in.omega_cmd_p = omega_cmd_p;
+  return in;
+}
+
+/// Rate of the rotation vector phi of the platform against its reference, R_rp = exp([phi x]):
+///
+///   phi' = w_e + phi x w_e / 2 + k phi x (phi x w_e),   w_e = w_ip - R_pr w_ir,
+///   k = 1/th^2 - (1 + cos th)/(2 th sin th) -> 1/12.
+///
+/// w_ir is the command, since the reference does what it is told. physics.md 6.1. [rad/s]
+template <class S>
+Vec3T<S> rotation_vector_rate(const Vec3T<S>& phi, const Vec3T<S>& omega_ip_p, const Vec3& omega_ir_r) {
+  using std::cos;
+  using std::sin;
+  using std::sqrt;
+  const Mat3T<S> R_rp = rotation(phi);
+  const Vec3T<S> w = omega_ip_p - R_rp.transpose() * omega_ir_r.template cast<S>();
+  const S t2 = phi.squaredNorm();
+  S k;
+  if (t2 < 1e-3) {
+    k = 1.0 / 12.0 + t2 * (1.0 / 720.0 + t2 / 30240.0);
+  } else {
+    const S t = sqrt(t2);
+    k = 1.0 / t2 - (1.0 + cos(t)) / (2.0 * t * sin(t));
+  }
+  const Vec3T<S> c = phi.cross(w);
+  return w + 0.5 * c + k * phi.cross(c);
+}
+
+/// All that the rate equation needs besides attitude: one model, one set of numbers, one interval.
+struct Drive {
+  const DriftModel* model = nullptr;
+  const double* theta = nullptr;        ///< every parameter of TermLibrary, SI
+  Vec3 omega_ic_l = Vec3::Zero();       ///< [rad/s]
+  Vec3 omega_cmd_p = Vec3::Zero();      ///< [rad/s]
+  Mat3 E_loop = Mat3::Zero();           ///< coupling "compensated" alone [rad]
+  Vec3 omega_noise_p = Vec3::Zero();    ///< process noise of the platform rate [rad/s]
+};
+
+/// phi' of the algebraic couplings, for the reference attitude R_lr [rad/s].
+inline Vec3 attitude_rate(const Drive& drive, const Mat3& R_lr, const Vec3& phi) {
+  const Inputs<double> in = inputs_at<double>(drive.omega_ic_l, drive.omega_cmd_p,
+                                              drive.model->mounting, R_lr * rotation(phi));
+  const Vec3 omega_ip_p =
+      platform_rate(*drive.model, in, drive.theta, drive.E_loop) + drive.omega_noise_p;
+  return rotation_vector_rate(phi, omega_ip_p, drive.omega_cmd_p);
+}
+
+}  // namespace drift

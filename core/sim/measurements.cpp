@@ -1,0 +1,62 @@
+#include "core/sim/measurements.hpp"
+
+#include <array>
+#include <limits>
+#include <string>
+
+namespace drift {
+namespace {
+
+constexpr std::array<const char*, 3> acc_names{"acc_x", "acc_y", "acc_z"};
+constexpr std::array<const char*, 3> gimbal_names{"gimbal_outer", "gimbal_middle", "gimbal_inner"};
+constexpr std::array<const char*, 3> cmd_names{"cmd_x", "cmd_y", "cmd_z"};
+constexpr std::array<const char*, 6> loop_names{"loop_eta_x", "loop_eta_y", "loop_eta_z",
+                                                "loop_xi_x",  "loop_xi_y",  "loop_xi_z"};
+
+}  // namespace
+
+Measurements measurements_of(const Recording& recording, const Readout& readout) {
+  const auto rows = static_cast<Eigen::Index>(recording.rows());
+  const double missing = std::numeric_limits<double>::quiet_NaN();
+  Measurements m{Mat3X::Constant(3, rows, missing), Mat3X::Constant(3, rows, missing)};
+  const auto fill = [&](Mat3X& into, int axis, const char* name) {
+    if (const Channel* c = recording.find(name))
+      into.row(axis) = Eigen::Map<const Eigen::RowVectorXd>(c->values.data(), rows);
+  };
+  for (int axis = 0; axis < 3; ++axis) {
+    if (readout.accelerometers) fill(m.acc, axis, acc_names[axis]);
+    if (readout.gimbals) fill(m.gimbal, axis, gimbal_names[axis]);
+  }
+  return m;
+}
+
+Recording make_recording(const Timeline& timeline, const Measurements& measured, const Readout& readout) {
+  Recording rec;
+  const std::size_t n = timeline.intervals.size();
+  const auto add = [&](const char* name, const Unit& unit, auto&& value) {
+    Channel c{name, unit, std::vector<double>(n)};
+    for (std::size_t i = 0; i < n; ++i) c.values[i] = value(i);
+    rec.channels.push_back(std::move(c));
+  };
+  const auto interval = [&](std::size_t i) -> const Interval& { return timeline.intervals[i]; };
+  add("time", unit::s, [&](std::size_t i) { return interval(i).t1; });
+  add("position", unit::one, [&](std::size_t i) { return interval(i).position + 1.0; });
+  add("phase", unit::one, [&](std::size_t i) { return interval(i).slew ? 1.0 : 0.0; });
+  for (int a = 0; a < 3; ++a)
+    if (readout.accelerometers)
+      add(acc_names[a], unit::g, [&](std::size_t i) { return measured.acc(a, i); });
+  for (int a = 0; a < 3; ++a)
+    if (readout.gimbals)
+      add(gimbal_names[a], unit::deg, [&](std::size_t i) { return measured.gimbal(a, i); });
+  for (int a = 0; a < 3; ++a)
+    add(cmd_names[a], unit::deg_per_h, [&](std::size_t i) { return interval(i).omega_cmd_p[a]; });
+  add("case_heading", unit::deg, [&](std::size_t i) { return interval(i).heading1; });
+  bool looped = false;
+  for (const Interval& i : timeline.intervals) looped = looped || !i.loop.isZero(0.0);
+  for (int a = 0; looped && a < 6; ++a)
+    add(loop_names[a], unit::arcsec, [&](std::size_t i) { return interval(i).loop[a]; });
+  for (std::size_t i = 0; i < n; ++i) rec.lines.push_back(i + 1);
+  return rec;
+}
+
+}  // namespace drift

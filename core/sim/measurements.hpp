@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+#include "core/sim/readout.hpp"
+#include "core/sim/recording.hpp"
+#include "core/sim/timeline.hpp"
+
+namespace drift {
+
+using Mat3X = Eigen::Matrix<double, 3, Eigen::Dynamic>;
+
+/// What was measured in each interval of a timeline; NaN where not measured. Shape (3, intervals).
+struct Measurements {
+  Mat3X acc;     ///< mean specific force [g]
+  Mat3X gimbal;  ///< outer, middle, inner at the end of the interval [rad]
+};
+
+/// The channels acc_* and gimbal_* of a recording; absent or unread channels are all NaN.
+Measurements measurements_of(const Recording& recording, const Readout& readout);
+
+/// A recording of what was measured along a timeline, in the units of interfaces.md 3.
+Recording make_recording(const Timeline& timeline, const Measurements& measured, const Readout& readout);
+
+/// Difference of two angles, in [-pi, pi] [rad].
+inline double angle_difference(double a, double b) { return std::remainder(a - b, 2.0 * std::numbers::pi); }
+
+}  // namespace drift

@@ -1,0 +1,140 @@
+#include "core/sim/platform_ode.hpp"
+
+#include <numbers>
+#include <vector>
+
+#include "core/base/dual.hpp"
+#include "core/sim/case_heading.hpp"
+
+namespace drift {
+namespace {
+
+/// Absolute tolerances of the loop's states relative to the attitude's (physics.md 6.2).
+std::vector<double> servo_tolerances(const OdeOptions& options) {
+  std::vector<double> tol(PlatformOde::servo_states);
+  const auto fill = [&](int first, double scale) {
+    for (int i = 0; i < 3; ++i) tol[first + i] = options.rel_tol * scale;
+  };
+  fill(ServoState::theta, 1e-5);
+  fill(ServoState::theta_dot, 1e-5);
+  fill(ServoState::compensator, 1e-4);
+  fill(ServoState::omega_ip, 1e-6);
+  fill(ServoState::size, 1e-3);
+  return tol;
+}
+
+Cvode make_integrator(Coupling coupling, const OdeOptions& options) {
+  if (coupling == Coupling::servo)
+    return Cvode(Cvode::Method::bdf, options, servo_tolerances(options));
+  return Cvode(Cvode::Method::adams, 3, options);
+}
+
+}  // namespace
+
+PlatformOde::PlatformOde(const DriftModel& model, const ServoOptions& servo, const OdeOptions& options)
+    : problem_(new Problem{model, servo, {}, {}}),
+      rhs_(new Rhs{problem_.get()}),
+      jacobian_(new Jacobian{problem_.get()}),
+      ode_(make_integrator(model.coupling, options)) {
+  problem_->drive.model = &problem_->model;
+  if (model.coupling == Coupling::servo)
+    ode_.system(*rhs_, *jacobian_);
+  else
+    ode_.system(*rhs_);
+}
+
+Mat3 PlatformOde::Problem::reference(double t) const {
+  return reference_attitude(site, R_lr0, drive.omega_cmd_p, t - t0);
+}
+
+Vec3 PlatformOde::Problem::base_motion_l(double t) const {
+  if (servo.base_amplitude == 0.0) return Vec3::Zero();
+  const double w = 2.0 * std::numbers::pi * servo.base_frequency;
+  const Vec3 rate_c = Vec3::Constant(servo.base_amplitude * w * std::cos(w * t));
+  return case_attitude(heading0 + heading_rate * (t - t0)) * rate_c;
+}
+
+bool PlatformOde::Problem::reduced(double t, const double* y, double* y_dot) const {
+  Eigen::Map<Vec3>(y_dot, 3) = attitude_rate(drive, reference(t), vec3(y));
+  return true;
+}
+
+/// The 15 equations of the loop and the attitude.
+template <class S>
+void PlatformOde::Problem::loop(double t, const S* y, S* y_dot) const {
+  const Vec3T<S> phi = vec3(y + ServoState::size);
+  const Mat3T<S> R_lp = reference(t).template cast<S>() * rotation(phi);
+  const Inputs<S> in = inputs_at<S>(drive.omega_ic_l + base_motion_l(t), drive.omega_cmd_p,
+                                    model.mounting, R_lp);
+  std::array<S, TermLibrary::num_params> theta;
+  for (std::size_t i = 0; i < theta.size(); ++i) theta[i] = S(drive.theta[i]);
+  servo_derivative(servo, model, in, theta.data(), y, y_dot);
+  const Vec3T<S> omega_ip_p =
+      vec3(y + ServoState::omega_ip) + drive.omega_noise_p.template cast<S>();
+  const Vec3T<S> phi_dot = rotation_vector_rate(phi, omega_ip_p, drive.omega_cmd_p);
+  for (int i = 0; i < 3; ++i) y_dot[ServoState::size + i] = phi_dot[i];
+}
+
+bool PlatformOde::Rhs::operator()(double t, const double* y, double* y_dot) const {
+  if (problem->model.coupling != Coupling::servo) return problem->reduced(t, y, y_dot);
+  problem->loop(t, y, y_dot);
+  return true;
+}
+
+bool PlatformOde::Jacobian::operator()(double t, const double* y, double* J) const {
+  using D = Dual<servo_states>;
+  std::array<D, servo_states> x, x_dot;
+  for (int i = 0; i < servo_states; ++i) x[i] = D::variable(y[i], i);
+  problem->loop(t, x.data(), x_dot.data());
+  for (int k = 0; k < servo_states; ++k)
+    for (int i = 0; i < servo_states; ++i) J[k * servo_states + i] = x_dot[i].d[k];
+  return true;
+}
+
+OdeResult PlatformOde::segment(const Timeline& timeline, std::size_t first, std::size_t end,
+                               const Theta& theta, const Vec3& omega_noise_p, const Vec3* psi0_l,
+                               Trajectory& phi) {
+  const Interval& start = timeline.intervals[first];
+  const Node& node = timeline.nodes[start.first_node];
+  Problem& p = *problem_;
+  p.site = timeline.site;
+  p.R_lr0 = node.R_lr;
+  p.t0 = start.t0;
+  p.heading0 = start.heading0;
+  p.heading_rate = start.heading_rate();
+  p.drive = drive_of(start, timeline, p.model, theta);
+  p.drive.omega_noise_p = omega_noise_p;
+
+  const bool servo = p.model.coupling == Coupling::servo;
+  const int at_phi = servo ? ServoState::size : 0;
+  if (psi0_l) {
+    const Vec3 phi0 = caged_phi(node.R_lr, *psi0_l);
+    Eigen::Map<Vec3>(y_.data() + at_phi, 3) = phi0;
+    if (servo) {
+      const auto in = inputs_at<double>(node.omega_ic_l + p.base_motion_l(start.t0), start.omega_cmd_p,
+                                        p.model.mounting, node.R_lr * rotation(phi0));
+      Eigen::Map<Eigen::Matrix<double, ServoState::size, 1>>(y_.data()) =
+          servo_at_rest(p.servo, p.model, in, theta.data());
+    }
+  }
+  ode_.start(start.t0, y_.data(), timeline.intervals[end - 1].t1);
+  for (std::size_t i = first; i < end; ++i) {
+    const Interval& interval = timeline.intervals[i];
+    for (std::size_t k = interval.first_node; k <= interval.last_node(); ++k) {
+      if (k == interval.first_node && i > first) {
+        phi[k] = phi[k - 1];  // the last node of the interval before
+        continue;
+      }
+      if (k > start.first_node) {
+        const OdeResult r = ode_.advance(k == interval.last_node() ? interval.t1 : timeline.nodes[k].t);
+        if (!r.ok()) return r;
+      }
+      phi[k] = vec3(k == start.first_node ? y_.data() + at_phi : ode_.state().data() + at_phi);
+    }
+  }
+  const auto state = ode_.state();
+  std::copy(state.begin(), state.end(), y_.begin());
+  return {};
+}
+
+}  // namespace drift

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <array>
+#include <memory>
+
+#include "core/ode/ode_options.hpp"
+#include "core/ode/ode_result.hpp"
+#include "core/sim/measurements.hpp"
+#include "core/sim/trajectory.hpp"
+#include "core/sim/truth.hpp"
+
+namespace drift {
+
+/// One simulated test.
+struct Simulation {
+  OdeResult ode;       ///< not ok: the run failed, the rest is not to be used
+  OdeStats cost;
+  TruthDraw draw;
+  Trajectory phi;      ///< at every node [rad]
+  Measurements measured;
+};
+
+/// The truth: integrates the platform under any coupling with CVODE and reads its instruments.
+///
+/// Algebraic couplings: 3 states, Adams. Servo: 15 states (loop and attitude), BDF with a Jacobian by
+/// forward differentiation. A stretch of constant command is one segment, ended by a stop time; the
+/// integrator is started again for the next and never steps across. With process noise every
+/// interval is a segment, the noise constant in it.
+///
+/// One per thread, used for many runs; a run is a pure function of (truth, timeline, seed, run).
+class Simulator {
+ public:
+  Simulator(const TruthSpec& truth, const Readout& readout);
+  Simulator(const TruthSpec& truth, const Readout& readout, const OdeOptions& options);
+  ~Simulator();
+  Simulator(Simulator&&) noexcept;
+
+  /// A whole run.
+  Simulation run(const Timeline& timeline, std::uint64_t seed, std::uint64_t run);
+  /// The same with given numbers instead of drawn ones.
+  Simulation run(const Timeline& timeline, const TruthDraw& draw, std::uint64_t seed, std::uint64_t run);
+
+  /// In pieces, for loops that are fed back from a filter: begin, then extend over the intervals in
+  /// order. What `timeline` says of an interval may change until it is extended over.
+  void begin(const Timeline& timeline, const TruthDraw& draw, std::uint64_t seed, std::uint64_t run,
+             Simulation& out);
+  void extend(const Timeline& timeline, std::size_t first, std::size_t end, Simulation& out);
+
+  /// Integration tolerances that hold 0.004 arcsec and better (physics.md 6.2).
+  static OdeOptions default_options(Coupling coupling);
+
+ private:
+  struct Engine;
+  void integrate(const Timeline& timeline, std::size_t first, std::size_t end, Simulation& out);
+  void measure(const Timeline& timeline, std::size_t i, Simulation& out);
+
+  TruthSpec truth_;
+  Readout readout_;
+  DriftModel model_;
+  std::unique_ptr<Engine> engine_;
+  std::array<std::unique_ptr<Stream>, 6> sensor_noise_, process_noise_;
+  Theta theta_;  ///< with the drift's random walk
+};
+
+/// Gives every interval the loop estimate of a truth with coupling "compensated" and `given` estimate.
+void set_loop(Timeline& timeline, const TruthSpec& truth);
+
+}  // namespace drift

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "core/physics/model_spec.hpp"
+
+namespace drift {
+
+/// The numbers behind one run: a pure function of (truth, seed, run).
+struct TruthDraw {
+  Theta theta = Theta::Zero();  ///< SI; zero where inactive
+  std::vector<Vec3> psi0_l;     ///< attitude error of each chain at its caging, local axes [rad]
+};
+
+/// Streams are named by parameter key, so that a new parameter leaves the draws of all others alone.
+constexpr std::uint32_t stream_index(std::string_view key) {
+  std::uint32_t h = 2166136261u;  // FNV-1a, folded to 24 bits
+  for (const char c : key) h = (h ^ static_cast<unsigned char>(c)) * 16777619u;
+  return (h >> 24) ^ (h & 0xffffffu);
+}
+
+/// Draws every active parameter from its distribution.
+inline Theta draw_parameters(const ModelSpec& spec, std::uint64_t seed, std::uint64_t run, Purpose purpose) {
+  Theta theta = Theta::Zero();
+  for (std::size_t i = 0; i < TermLibrary::num_params; ++i) {
+    if (!spec.active[i]) continue;
+    Stream stream(seed, run, purpose, stream_index(TermLibrary::specs[i].key));
+    theta[i] = spec.priors[i].draw(stream);
+  }
+  return theta;
+}
+
+/// Parameters and initial attitudes of run number `run`.
+inline TruthDraw draw_truth(const TruthSpec& truth, int chains, std::uint64_t seed, std::uint64_t run) {
+  TruthDraw draw{draw_parameters(truth, seed, run, Purpose::parameters), {}};
+  Stream stream(seed, run, Purpose::initial_attitude);
+  for (int c = 0; c < chains; ++c) {
+    Vec3 psi;
+    for (int a = 0; a < 3; ++a) psi[a] = truth.initial_attitude * stream.normal();
+    draw.psi0_l.push_back(psi);
+  }
+  return draw;
+}
+
+}  // namespace drift

@@ -1,0 +1,89 @@
+#include "core/estimate/strapdown/dwells.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "core/base/check.hpp"
+#include "tests/support/strapdown_recording.hpp"
+
+namespace drift::strapdown {
+namespace {
+
+using test::StrapdownScript;
+using test::strapdown_recording;
+
+TEST(StrapdownDwells, AreFoundWhereTheCaseRests) {
+  const StrapdownScript script{.dwells = 12, .rest = 6.0, .turn = 2.0};
+  const Signals signals = signals_of(strapdown_recording(script, Theta::Zero()));
+  const DwellSearch search = find_dwells(signals, {});
+  ASSERT_EQ(search.dwells.size(), 12u);
+  for (std::size_t d = 0; d < 12; ++d) {
+    const double start = 8.0 * static_cast<double>(d);
+    // Never beyond the rest; at most two half windows (0.5 s) and the slow onset of motion shorter.
+    EXPECT_GE(search.dwells[d].start, start) << d;
+    EXPECT_LE(search.dwells[d].start, start + 0.6) << d;
+    EXPECT_LE(search.dwells[d].end, start + 6.0 + 0.02) << d;
+    EXPECT_GE(search.dwells[d].end, start + 6.0 - 0.6) << d;
+  }
+}
+
+TEST(StrapdownDwells, ShorterThanStaticMinDoNotCount) {
+  const StrapdownScript script{.dwells = 12, .rest = 3.0, .turn = 2.0};
+  const Signals signals = signals_of(strapdown_recording(script, Theta::Zero()));
+  EXPECT_EQ(find_dwells(signals, {.static_min = 2.0}).dwells.size(), 12u);
+  EXPECT_EQ(find_dwells(signals, {.static_min = 4.0}).dwells.size(), 0u);
+}
+
+TEST(StrapdownDwells, ARecordingAtRestIsOneDwell) {
+  const StrapdownScript script{.dwells = 1, .rest = 60.0};
+  const Signals signals = signals_of(strapdown_recording(script, Theta::Zero()));
+  const DwellSearch search = find_dwells(signals, {});
+  ASSERT_EQ(search.dwells.size(), 1u);
+  EXPECT_GT(search.dwells[0].duration(), 59.0);
+}
+
+TEST(StrapdownDwells, ASteadyTurnAboutTheVerticalIsNoRest) {
+  // Both sensors are as quiet as at rest; only the mean rate tells.
+  Recording recording = strapdown_recording({.dwells = 12}, Theta::Zero());
+  const double start = 22.5 + 0.5, end = 22.5 + 4.5;  // inside the fourth dwell
+  for (std::size_t k = 0; k < recording.rows(); ++k)
+    if (const double t = recording.channels[0].values[k]; t > start && t < end)
+      recording.channels[3].values[k] += 0.2;  // [rad/s]
+  const DwellSearch search = find_dwells(signals_of(recording), {});
+  EXPECT_EQ(search.dwells.size(), 11u);
+  for (const Dwell& d : search.dwells) EXPECT_FALSE(d.start > start && d.end < end);
+}
+
+TEST(StrapdownDwells, ASampleNotMeasuredEndsADwell) {
+  Recording recording = strapdown_recording({.dwells = 1, .rest = 20.0}, Theta::Zero());
+  recording.channels[2].values[1000] = std::numeric_limits<double>::quiet_NaN();
+  const DwellSearch search = find_dwells(signals_of(recording), {});
+  ASSERT_EQ(search.dwells.size(), 2u);
+  EXPECT_LT(search.dwells[0].end, 10.0);
+  EXPECT_GT(search.dwells[1].start, 10.0);
+}
+
+TEST(StrapdownSignals, EveryMissingChannelIsNamed) {
+  Recording recording = strapdown_recording({.dwells = 1}, Theta::Zero());
+  recording.channels[1].unit = unit::deg;
+  recording.channels.pop_back();
+  try {
+    signals_of(recording);
+    FAIL() << "accepted";
+  } catch (const InputError& e) {
+    EXPECT_EQ(e.code(), ExitCode::recording);
+    ASSERT_EQ(e.messages().size(), 2u);
+    EXPECT_NE(e.messages()[0].find("gyro_x"), std::string::npos);
+    EXPECT_NE(e.messages()[1].find("acc_z"), std::string::npos);
+  }
+}
+
+TEST(StrapdownSignals, TimeThatStandsStillIsRefused) {
+  Recording recording = strapdown_recording({.dwells = 1}, Theta::Zero());
+  recording.channels[0].values[7] = recording.channels[0].values[6];
+  EXPECT_THROW(signals_of(recording), InputError);
+}
+
+}  // namespace
+}  // namespace drift::strapdown

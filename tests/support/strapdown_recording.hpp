@@ -1,0 +1,103 @@
+#pragma once
+
+#include <cmath>
+#include <numbers>
+#include <string_view>
+
+#include "core/base/rng.hpp"
+#include "core/physics/term_library.hpp"
+#include "core/sim/recording.hpp"
+
+namespace drift::test {
+
+/// A strapdown test whose motion is known in closed form: the case rests, turns about an axis fixed
+/// in it at a rate that rises and falls as 1 - cos, rests again. Written apart from the estimator:
+/// the sensor equations of interfaces.md 4 and 7 are spelt out here.
+struct StrapdownScript {
+  std::size_t dwells = 30;
+  double rest = 5.0;               ///< length of a dwell [s]
+  double turn = 2.5;               ///< length of a turn [s]
+  double interval = 0.01;          ///< [s]
+  double gyro_noise = 0.01;        ///< of one sample, 1 sigma [rad/s]
+  double acc_noise = 0.0015;       ///< of one sample, 1 sigma [g]
+  std::uint64_t seed = 1;
+};
+
+inline double param(const Theta& theta, std::string_view group, int axis) {
+  std::string key(group);
+  key += "_";
+  key += "xyz"[axis];
+  return theta[static_cast<Eigen::Index>(*TermLibrary::find(key))];
+}
+
+/// Gyro outputs [rad/s]: w_g,i = (1 + s_i)(w_i + xi_i w_O + eta_i w_S) + drift.
+inline Vec3 gyro_output(const Theta& t, const Vec3& w, const Vec3& f) {
+  Vec3 out;
+  for (int i = 0; i < 3; ++i) {
+    const int o = (i + 1) % 3, s = (i + 2) % 3;
+    out[i] = (1.0 + param(t, "s", i)) * (w[i] + param(t, "xi", i) * w[o] + param(t, "eta", i) * w[s]) +
+             param(t, "D_F", i) + param(t, "D_I", i) * f[i] + param(t, "D_O", i) * f[o] +
+             param(t, "D_S", i) * f[s] + param(t, "D_IS", i) * f[i] * f[s];
+  }
+  return out;
+}
+
+/// Accelerometer outputs [g].
+inline Vec3 accelerometer_output(const Theta& t, const Vec3& f) {
+  Vec3 out;
+  for (int i = 0; i < 3; ++i) {
+    const int p = (i + 1) % 3, o = (i + 2) % 3;
+    out[i] = param(t, "K0", i) + (1.0 + param(t, "K1", i)) *
+                 (f[i] + param(t, "dP", i) * f[p] + param(t, "dO", i) * f[o]) +
+             param(t, "K2", i) * f[i] * f[i];
+  }
+  return out;
+}
+
+/// The recording of a script with sensors of parameters theta (SI).
+inline Recording strapdown_recording(const StrapdownScript& script, const Theta& theta) {
+  Recording r;
+  r.source = "simulated";
+  r.channels = {{"time", unit::s, {}}};
+  for (const char* name : {"gyro_x", "gyro_y", "gyro_z"})
+    r.channels.push_back({name, *parse_unit("rad/s"), {}});
+  for (const char* name : {"acc_x", "acc_y", "acc_z"}) r.channels.push_back({name, unit::g, {}});
+  Stream path(script.seed, 0, Purpose::test, 0), noise(script.seed, 0, Purpose::test, 1);
+  double t = 0.0;
+  Mat3 R_lc = Mat3::Identity();  // at the start of the dwell or turn
+  const auto sample = [&](const Mat3& attitude, const Vec3& w) {
+    t += script.interval;
+    const Vec3 f = attitude.transpose() * Vec3::UnitZ();
+    const Vec3 gyro = gyro_output(theta, w, f), acc = accelerometer_output(theta, f);
+    r.channels[0].values.push_back(t);
+    for (int i = 0; i < 3; ++i) {
+      r.channels[1 + i].values.push_back(gyro[i] + script.gyro_noise * noise.normal());
+      r.channels[4 + i].values.push_back(acc[i] + script.acc_noise * noise.normal());
+    }
+  };
+  for (std::size_t d = 0; d < script.dwells; ++d) {
+    const auto resting = static_cast<int>(std::lround(script.rest / script.interval));
+    for (int k = 0; k < resting; ++k) sample(R_lc, Vec3::Zero());
+    if (d + 1 == script.dwells) break;
+    const Vec3 axis = Vec3(path.normal(), path.normal(), path.normal()).normalized();
+    const double angle = (path.uniform() < 0.5 ? -1.0 : 1.0) * (0.7 + 1.8 * path.uniform());  // [rad]
+    const auto steps = static_cast<int>(std::lround(script.turn / script.interval));
+    for (int k = 1; k <= steps; ++k) {
+      const double phase = 2.0 * std::numbers::pi * k / steps;
+      const double turned = angle * (phase - std::sin(phase)) / (2.0 * std::numbers::pi);
+      const double rate = angle / script.turn * (1.0 - std::cos(phase));
+      sample(R_lc * rotation(Vec3(turned * axis)), rate * axis);
+    }
+    R_lc = R_lc * rotation(Vec3(angle * axis));
+  }
+  for (std::size_t k = 0; k < r.rows(); ++k) r.lines.push_back(k + 2);
+  return r;
+}
+
+/// Sets one parameter, in the unit of the library.
+inline void set(Theta& theta, std::string_view key, double value) {
+  const auto index = *TermLibrary::find(key);
+  theta[static_cast<Eigen::Index>(index)] = value * TermLibrary::specs[index].unit.to_si;
+}
+
+}  // namespace drift::test
