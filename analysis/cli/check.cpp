@@ -1,27 +1,33 @@
+#include <algorithm>
+
 #include "analysis/cli/commands.hpp"
 
 namespace drift::cli {
 
-void add_check(CLI::App& app, Action& chosen) {
-  auto arguments = std::make_shared<StudyArguments>();
-  CLI::App* command = app.add_subcommand("check", "read a study file, print all values and where each "
-                                                  "came from, run nothing");
-  arguments->add_to(*command);
-  command->footer("Example: driftscope check configs/table1.toml --set plan.dwell=\"20 min\"");
-  command->callback([&chosen, arguments] {
-    chosen = [arguments] {
-      const Study study = arguments->read();
-      std::size_t key_width = 0, value_width = 0;
-      for (const Resolved& r : study.resolved) {
-        key_width = std::max(key_width, r.key.size());
-        value_width = std::max(value_width, r.value.size());
-      }
-      value_width = std::min<std::size_t>(value_width, 60);
-      for (const Resolved& r : study.resolved)
-        fmt::print("{:<{}}  {:<{}}  {}\n", r.key, key_width, r.value, value_width, r.origin);
-      return ExitCode::ok;
-    };
-  });
+Study StudyArguments::read() const {
+  Overrides overrides;
+  for (const std::string& text : sets) {
+    const auto equals = text.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw InputError(ExitCode::usage, fmt::format("--set {}: expected key=value, for example "
+                                                    "--set plan.dwell=\"20 min\"", text));
+    overrides.emplace_back(text.substr(0, equals), text.substr(equals + 1));
+  }
+  if (seed) overrides.emplace_back("monte_carlo.seed", *seed);
+  return read_study(config, overrides);
+}
+
+ExitCode check(const StudyArguments& arguments) {
+  const Study study = arguments.read();
+  std::size_t key_width = 0, value_width = 0;
+  for (const Resolved& r : study.resolved) {
+    key_width = std::max(key_width, r.key.size());
+    value_width = std::max(value_width, r.value.size());
+  }
+  value_width = std::min<std::size_t>(value_width, 60);
+  for (const Resolved& r : study.resolved)
+    fmt::print("{:<{}}  {:<{}}  {}\n", r.key, key_width, r.value, value_width, r.origin);
+  return ExitCode::ok;
 }
 
 }  // namespace drift::cli

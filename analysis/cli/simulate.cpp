@@ -1,5 +1,3 @@
-#include <spdlog/spdlog.h>
-
 #include "analysis/cli/commands.hpp"
 #include "core/sim/quality_card.hpp"
 #include "core/sim/simulate.hpp"
@@ -15,6 +13,8 @@ void add_facts(Recording& recording, const Study& study, std::uint64_t run) {
                      {"run", std::to_string(run)},
                      {"random_numbers", Stream::scheme}};
 }
+
+}  // namespace
 
 ExitCode simulate(const StudyArguments& arguments, const std::string& output, std::uint64_t run) {
   const Study study = arguments.read();
@@ -37,29 +37,9 @@ ExitCode simulate(const StudyArguments& arguments, const std::string& output, st
   Recording recording = make_recording(timeline, sim.measured, study.readout);
   add_facts(recording, study, run);
   write_recording(recording, output);
-  spdlog::info("{} steps, {} evaluations of the equations of motion", sim.cost.steps, sim.cost.rhs_calls);
   recording.source = output;
   fmt::print("{}", to_text(quality_card(recording, RecordingKind::platform)));
   return ExitCode::ok;
-}
-
-}  // namespace
-
-void add_simulate(CLI::App& app, Action& chosen) {
-  struct Options {
-    StudyArguments arguments;
-    std::string output;
-    std::uint64_t run = 0;
-  };
-  auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("simulate", "one recording from the truth of a study file");
-  options->arguments.add_to(*command);
-  command->add_option("-o,--output", options->output, "recording to write (.csv, .h5 or .mat)")->required();
-  command->add_option("--run", options->run, "run number");
-  command->footer("Example: driftscope simulate configs/table1.toml -o recording.csv --run 3");
-  command->callback([&chosen, options] {
-    chosen = [options] { return simulate(options->arguments, options->output, options->run); };
-  });
 }
 
 }  // namespace drift::cli

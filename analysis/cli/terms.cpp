@@ -24,7 +24,9 @@ void explain(const TermInfo& term) {
   }
 }
 
-ExitCode list(const std::string& key) {
+}  // namespace
+
+ExitCode terms(const std::string& key) {
   if (key.empty()) {
     fmt::print("{:<20} {:>3}  {}\n", "term", "par", "equation");
     for (const TermInfo& term : TermLibrary::terms)
@@ -46,16 +48,6 @@ ExitCode list(const std::string& key) {
   for (const ParamSpec& spec : TermLibrary::specs) known.push_back(spec.key.view());
   throw InputError(ExitCode::usage, fmt::format("terms: no term or parameter '{}'. {}`driftscope terms` "
                                                 "lists all", key, config::suggestion(key, known, "")));
-}
-
-}  // namespace
-
-void add_terms(CLI::App& app, Action& chosen) {
-  auto key = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("terms", "list the physics terms, or explain one");
-  command->add_option("key", *key, "a term or a parameter");
-  command->footer("Example: driftscope terms gyro_misalignment");
-  command->callback([&chosen, key] { chosen = [key] { return list(*key); }; });
 }
 
 }  // namespace drift::cli

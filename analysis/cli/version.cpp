@@ -33,25 +33,19 @@ nlohmann::ordered_json facts() {
 
 }  // namespace
 
-void add_version(CLI::App& app, Action& chosen) {
-  auto json = std::make_shared<bool>(false);
-  CLI::App* command = app.add_subcommand("version", "program, libraries, compiler, instruction set");
-  command->add_flag("--json", *json, "as JSON");
-  command->callback([&chosen, json] {
-    chosen = [json] {
-      const auto j = facts();
-      if (*json) {
-        fmt::print("{}\n", j.dump(2));
-        return ExitCode::ok;
-      }
-      for (const auto& [key, value] : j.items()) {
-        if (value.is_string()) fmt::print("{:<16} {}\n", key, value.get<std::string>());
-      }
-      for (const auto& [key, value] : j["libraries"].items())
-        fmt::print("{:<16} {}\n", key, value.get<std::string>());
-      return ExitCode::ok;
-    };
-  });
+ExitCode version(bool json) {
+  const auto j = facts();
+  if (json) {
+    fmt::print("{}\n", j.dump(2));
+    return ExitCode::ok;
+  }
+  const auto print = [](const nlohmann::ordered_json& table) {
+    for (const auto& [key, value] : table.items())
+      if (value.is_string()) fmt::print("{:<16} {}\n", key, value.get<std::string>());
+  };
+  print(j);
+  print(j["libraries"]);
+  return ExitCode::ok;
 }
 
 }  // namespace drift::cli

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <iterator>
 #include <numbers>
 #include <optional>
 #include <string_view>
@@ -113,15 +114,16 @@ constexpr std::optional<Unit> parse_unit(std::string_view text) {
       power = factor[caret + 1] - '0';
       factor = factor.substr(0, caret);
     }
-    const detail::BaseUnit* base = nullptr;
-    for (const auto& candidate : detail::base_units)
-      if (candidate.symbol == factor) base = &candidate;
-    if (base == nullptr) return std::nullopt;
-    const double size = root ? detail::square_root(base->to_si) : base->to_si;
+    const std::size_t known = std::size(detail::base_units);
+    std::size_t which = 0;
+    while (which < known && detail::base_units[which].symbol != factor) ++which;
+    if (which == known) return std::nullopt;
+    const detail::BaseUnit& base = detail::base_units[which];
+    const double size = root ? detail::square_root(base.to_si) : base.to_si;
     unit.to_si *= detail::int_power(size, sign * power);
     for (int d = 0; d < Dimension::count; ++d)
       unit.dim.twice[d] = static_cast<std::int8_t>(
-          unit.dim.twice[d] + sign * power * base->dim.twice[d] / (root ? 2 : 1));
+          unit.dim.twice[d] + sign * power * base.dim.twice[d] / (root ? 2 : 1));
     if (end == std::string_view::npos) return unit;
     sign = rest[end] == '/' ? -1 : 1;
     rest = rest.substr(end + 1);

@@ -1,0 +1,60 @@
+#include "analysis/identify.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "analysis/cli/commands.hpp"
+#include "analysis/cli/progress.hpp"
+#include "analysis/report/identification_text.hpp"
+#include "analysis/report/results_folder.hpp"
+#include "analysis/strapdown/report.hpp"
+#include "core/sim/quality_card.hpp"
+
+namespace drift::cli {
+namespace {
+
+std::vector<Recording> read_all(const Study& study, const std::vector<std::string>& paths) {
+  std::vector<Recording> recordings;
+  for (const std::string& path : paths) {
+    recordings.push_back(read_recording(path, study.kind, study.site.gravity));
+    fmt::print("{}\n", to_text(quality_card(recordings.back(), study.kind)));
+  }
+  return recordings;
+}
+
+ExitCode identify_case(const Study& study, const std::vector<std::string>& paths, const std::string& folder) {
+  if (paths.size() != 1)
+    throw InputError(ExitCode::usage, fmt::format("identify: a strapdown study takes one recording, {} are "
+                                                  "given. Name one on the command line", paths.size()));
+  StrapdownOptions options;
+  options.static_min = study.static_min;
+  options.gravity = study.site.gravity;
+  options.seed = study.monte_carlo.seed;
+  options.equations.clear();
+  for (const FilterSpec& f : study.filters) options.equations.push_back(f.coupling);
+  if (options.equations.empty()) options.equations = {Coupling::eq5, Coupling::eq6};
+  const auto recordings = read_all(study, paths);
+  const StrapdownResult result = identify_strapdown(recordings.front(), options);
+  fmt::print("{}", to_text(result));
+  if (!folder.empty()) write_results(study, result, folder);
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+ExitCode identify(const StudyArguments& arguments, const std::vector<std::string>& paths,
+                  const std::string& folder, std::uint64_t run) {
+  const Study study = arguments.read();
+  if (study.kind == RecordingKind::strapdown) return identify_case(study, paths, folder);
+  const auto progress = progress_reporter(arguments.progress, "estimates");
+  const Identification id =
+      paths.empty() ? identify_simulated(study, run, arguments.threads, progress)
+                    : identify_recordings(study, read_all(study, paths), arguments.threads, progress);
+  fmt::print("{}", to_text(study, id));
+  if (!folder.empty()) {
+    const auto files = write_results(study, id, folder);
+    fmt::print("\nWritten to {}: {}\n", folder, fmt::join(files, " "));
+  }
+  return ExitCode::ok;
+}
+
+}  // namespace drift::cli

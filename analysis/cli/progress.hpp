@@ -1,0 +1,14 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace drift::cli {
+
+/// Reports progress on stderr: a line that is redrawn on a terminal, plain lines elsewhere, JSON
+/// lines, or nothing. Done, total and the time left, judged by what is completed. Thread-safe.
+std::function<void(std::size_t, std::size_t)> progress_reporter(const std::string& style,
+                                                                const std::string& what);
+
+}  // namespace drift::cli
