@@ -42,7 +42,8 @@ void append(std::vector<StrapdownParameter>& all, const Estimate& estimate, cons
     const auto row = static_cast<Eigen::Index>(i);
     const double variance = estimate.covariance(row, row);
     if (!std::isfinite(variance)) continue;  // said under unobservable
-    all.push_back({std::string(spec.key.view()), estimate.theta[estimate.params[i]] / spec.unit.to_si,
+    all.push_back({std::string(spec.key.view()),
+                   estimate.theta[estimate.params[i]] / spec.unit.to_si,
                    std::sqrt(std::max(variance, 0.0)) / spec.unit.to_si,
                    std::string(spec.unit.symbol.view()), note_of(spec.group.view(), model)});
   }
@@ -61,7 +62,8 @@ std::vector<StrapdownParameter> parameters_of(const Final& accepted) {
 std::vector<Unobservable> unobservable_of(const Final& accepted) {
   std::vector<Unobservable> all{
       {"isotropic g-sensitivity (common part of D_I_x, D_I_y, D_I_z)",
-       "it turns the computed platform about the vertical, which moves no gravity in the rotations, "
+       "it turns the computed platform about the vertical, which moves no gravity in the "
+       "rotations, "
        "and in dwells it is one with the vertical part of Earth rate"},
       {"Earth rate",
        "its horizontal part has an unknown azimuth in every dwell and its vertical part looks like "
@@ -72,13 +74,13 @@ std::vector<Unobservable> unobservable_of(const Final& accepted) {
       {"lambda (weight of eq. (6))",
        "case motion shows (1 - lambda) E, and E is not known from elsewhere"},
       {"dP_x, dO_x, dP_y",
-       "a common turn of all accelerometer axes leaves |f| = 1 g: these three define the case axes"}};
+       "a common turn of all accelerometer axes leaves |f| = 1 g: these three define the case "
+       "axes"}};
   if (accepted.model.drift == DriftOrder::g2_sensitive)
     all.push_back({"D_SS", "a_I^2 + a_O^2 + a_S^2 = 1 at rest: it is one with D_F, D_II, D_OO"});
   const bool claims_tilt =
-      std::any_of(accepted.model.turning.begin(), accepted.model.turning.end(), [](std::size_t p) {
-        return TermLibrary::specs[p].group.view() == "eta";
-      });
+      std::any_of(accepted.model.turning.begin(), accepted.model.turning.end(),
+                  [](std::size_t p) { return TermLibrary::specs[p].group.view() == "eta"; });
   if (accepted.model.equation == Coupling::eq6)
     all.push_back({"eta, xi", "eq. (6) gives misalignment no part in case motion"});
   else if (!claims_tilt)

@@ -13,7 +13,7 @@ struct StrapdownParameter {
   double value = 0.0;  ///< in `unit`
   double sigma = 0.0;  ///< 1 standard deviation, in `unit`
   std::string unit;
-  std::string note;    ///< what the number is relative to; empty: nothing
+  std::string note;  ///< what the number is relative to; empty: nothing
 };
 
 /// What the recording cannot show, and why. Never comes with a number.

@@ -62,7 +62,8 @@ Errors squares(const Model& model, const Evidence& evidence, const Fitted& fitte
     const Rotation& turn = evidence.rotations[k];
     if (tested(turn.before))
       errors.rotation[k] = std::pow(prediction_error(calibrated(turn, evidence.dwells, force),
-                                                     model.equation, fitted.turning.theta), 2);
+                                                     model.equation, fitted.turning.theta),
+                                    2);
   }
   return errors;
 }

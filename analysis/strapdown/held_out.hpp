@@ -22,10 +22,9 @@ struct Evidence {
   std::vector<Rotation> rotations;
 };
 
-/// A model fitted to some dwells and rotations.
+/// A model fitted to some dwells and rotations. `turning.theta` holds the drift as well.
 struct Fitted {
   Estimate accelerometer, drift, turning;
-  Theta theta() const { return accelerometer.theta + turning.theta; }  ///< turning holds the drift
 };
 
 /// Errors of a model, one per dwell or rotation.
@@ -52,8 +51,8 @@ Fitted fit(const Model& model, const Evidence& evidence, Asked asked);
 /// Errors on the data the model was fitted to.
 Errors in_sample_errors(const Model& model, const Evidence& evidence, Asked asked);
 
-/// Errors on dwells and rotations held out of the fit, accelerometer calibration included: root mean
-/// square over the repeats for each dwell or rotation.
+/// Errors on dwells and rotations held out of the fit, accelerometer calibration included: root
+/// mean square over the repeats for each dwell or rotation.
 Errors held_out_errors(const Model& model, const Evidence& evidence, Asked asked,
                        const Division& division);
 

@@ -12,11 +12,13 @@ constexpr std::size_t least_dwells = 6, least_rotations = 4;
 void check(const StrapdownOptions& options) {
   DRIFT_EXPECTS(options.folds >= 2 && options.repeats >= 1 && options.static_min > 0.0);
   std::vector<std::string> problems;
-  if (options.equations.empty()) problems.emplace_back("no [[filter]] (a coupling eq5 or eq6 is expected)");
+  if (options.equations.empty())
+    problems.emplace_back("no [[filter]] (a coupling eq5 or eq6 is expected)");
   for (const Coupling c : options.equations)
     if (c != Coupling::eq5 && c != Coupling::eq6)
       problems.emplace_back(
-          "[[filter]] coupling of a strapdown plan (eq5 or eq6 is expected: gyros on the case have no "
+          "[[filter]] coupling of a strapdown plan (eq5 or eq6 is expected: gyros on the case have "
+          "no "
           "servo loop). Choose one of the two");
   if (!problems.empty()) throw InputError(ExitCode::config, std::move(problems));
 }

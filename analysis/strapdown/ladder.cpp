@@ -6,8 +6,8 @@
 namespace drift::strapdown {
 namespace {
 
-constexpr double surely = 2.0;    // standard errors by which a model must be better
-constexpr double tolerated = 1.0; // and may seem worse on the other kind of data
+constexpr double surely = 2.0;     // standard errors by which a model must be better
+constexpr double tolerated = 1.0;  // and may seem worse on the other kind of data
 
 std::vector<std::size_t> joined(std::vector<std::size_t> a, const std::vector<std::size_t>& b) {
   a.insert(a.end(), b.begin(), b.end());
@@ -40,7 +40,10 @@ class GyroLadder {
  public:
   GyroLadder(Coupling equation, AccelerometerModel accelerometer, const Evidence& evidence,
              const Scoring& scoring, std::vector<Trial>& trials)
-      : equation_(equation), accelerometer_(accelerometer), evidence_(evidence), scoring_(scoring),
+      : equation_(equation),
+        accelerometer_(accelerometer),
+        evidence_(evidence),
+        scoring_(scoring),
         trials_(trials) {
     best_ = {parts_, tried(parts_)};
     record(best_.trial);
@@ -130,7 +133,8 @@ class GyroLadder {
     }
     const Errors inside = in_sample_errors(model, evidence_, Asked::all);
     const Errors outside = held_out_errors(model, evidence_, Asked::all, scoring_.division);
-    trial.dwell = score_of(inside.dwell, outside.dwell, unit::deg_per_s.to_si, scoring_.division.seed);
+    trial.dwell =
+        score_of(inside.dwell, outside.dwell, unit::deg_per_s.to_si, scoring_.division.seed);
     trial.rotation =
         score_of(inside.rotation, outside.rotation, unit::deg.to_si, scoring_.division.seed);
     return trial;
@@ -156,7 +160,8 @@ class GyroLadder {
     } else {
       trial.reason = "no sure gain on held-out data";
     }
-    if (trial.equation == "eq6") trial.reason += "; eq. (6) gives misalignment no part in case motion";
+    if (trial.equation == "eq6")
+      trial.reason += "; eq. (6) gives misalignment no part in case motion";
   }
 
   void record(const Trial& trial) {
@@ -180,10 +185,14 @@ class GyroLadder {
 
 std::string_view name_of(Verdict verdict) {
   switch (verdict) {
-    case Verdict::reference: return "reference";
-    case Verdict::accepted: return "accepted";
-    case Verdict::rejected: return "rejected";
-    case Verdict::skipped: break;
+    case Verdict::reference:
+      return "reference";
+    case Verdict::accepted:
+      return "accepted";
+    case Verdict::rejected:
+      return "rejected";
+    case Verdict::skipped:
+      break;
   }
   return "skipped";
 }
@@ -210,15 +219,16 @@ AccelerometerModel climb_accelerometers(const Evidence& evidence, const Scoring&
       continue;
     }
     const Model model{Coupling::eq5, which, DriftOrder::fixed, {}};
-    trial.gravity = score_of(
-        in_sample_errors(model, evidence, Asked::gravity).gravity,
-        held_out_errors(model, evidence, Asked::gravity, scoring.division).gravity,
-        1.0 / scoring.gravity, scoring.division.seed);
+    trial.gravity =
+        score_of(in_sample_errors(model, evidence, Asked::gravity).gravity,
+                 held_out_errors(model, evidence, Asked::gravity, scoring.division).gravity,
+                 1.0 / scoring.gravity, scoring.division.seed);
     if (best_trial.gravity) {
       trial.z_dwell = paired_gain(best_trial.gravity->errors, trial.gravity->errors);
       const bool better = trial.z_dwell > surely;
       trial.verdict = better ? Verdict::accepted : Verdict::rejected;
-      trial.reason = better ? "held-out dwells are closer to 1 g" : "no sure gain on held-out dwells";
+      trial.reason =
+          better ? "held-out dwells are closer to 1 g" : "no sure gain on held-out dwells";
     }
     trials.push_back(trial);
     if (trial.verdict == Verdict::rejected) continue;

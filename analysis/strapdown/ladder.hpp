@@ -57,9 +57,9 @@ AccelerometerModel climb_accelerometers(const Evidence& evidence, const Scoring&
 /// axes; + all drift of first order; + drift of second order; then what was accepted without each
 /// of its parts.
 ///
-/// Accepted is what is better than the last accepted model by two standard errors on held-out dwells
-/// or rotations, and not worse by one standard error on the other kind. A part that is left out
-/// without such a loss is not kept.
+/// Accepted is what is better than the last accepted model by two standard errors on held-out
+/// dwells or rotations, and not worse by one standard error on the other kind. A part that is left
+/// out without such a loss is not kept.
 Final climb_gyros(Coupling equation, AccelerometerModel accelerometer, const Evidence& evidence,
                   const Scoring& scoring, std::vector<Trial>& trials);
 

@@ -23,9 +23,12 @@ json to_json(const std::optional<Score>& score, const char* unit, double z) {
 json to_json(const std::vector<Trial>& trials) {
   json list = json::array();
   for (const Trial& t : trials) {
-    json one{{"model", t.name},       {"equation", t.equation},
-             {"against", t.against},  {"parameters", t.parameters},
-             {"verdict", std::string(name_of(t.verdict))}, {"reason", t.reason}};
+    json one{{"model", t.name},
+             {"equation", t.equation},
+             {"against", t.against},
+             {"parameters", t.parameters},
+             {"verdict", std::string(name_of(t.verdict))},
+             {"reason", t.reason}};
     if (t.gravity) one["gravity"] = to_json(t.gravity, "m/s^2", t.z_dwell);
     if (t.dwell) one["dwells"] = to_json(t.dwell, "deg/s", t.z_dwell);
     if (t.rotation) one["rotations"] = to_json(t.rotation, "deg", t.z_rotation);
@@ -36,7 +39,11 @@ json to_json(const std::vector<Trial>& trials) {
 
 json dwells_json(const StrapdownResult& r) {
   json list = json::array();
-  for (const auto& d : r.search.dwells) list.push_back({{"start_s", d.start}, {"end_s", d.end}});
+  for (const auto& d : r.search.dwells)
+    list.push_back({{"start_s", d.start},
+                    {"end_s", d.end},
+                    {"gyro_noise_deg_per_s", d.gyro_noise.norm() / unit::deg_per_s.to_si},
+                    {"acc_noise_g", d.acc_noise.norm()}});
   return {{"count", r.search.dwells.size()},
           {"static_min_s", r.options.static_min},
           {"gyro_floor_deg_per_s", r.search.gyro_floor / unit::deg_per_s.to_si},
@@ -51,7 +58,10 @@ json dwells_json(const StrapdownResult& r) {
 json to_json(const StrapdownResult& r) {
   json parameters = json::array(), unobservable = json::array(), accepted = json::array();
   for (const auto& p : r.parameters)
-    parameters.push_back({{"key", p.key}, {"value", p.value}, {"sigma", p.sigma}, {"unit", p.unit},
+    parameters.push_back({{"key", p.key},
+                          {"value", p.value},
+                          {"sigma", p.sigma},
+                          {"unit", p.unit},
                           {"note", p.note}});
   for (const auto& u : r.unobservable)
     unobservable.push_back({{"what", u.what}, {"reason", u.reason}});
@@ -61,7 +71,8 @@ json to_json(const StrapdownResult& r) {
                         {"rotation_held_out_deg", f.rotation.held_out}});
   json contest = nullptr;
   for (const auto& c : r.contest)
-    contest = {{"eq5_held_out_deg", c.eq5.held_out}, {"eq6_held_out_deg", c.eq6.held_out}, {"z", c.z}};
+    contest = {
+        {"eq5_held_out_deg", c.eq5.held_out}, {"eq6_held_out_deg", c.eq6.held_out}, {"z", c.z}};
   return {{"schema", 1},
           {"kind", "strapdown"},
           {"recording", r.source},

@@ -10,11 +10,15 @@ namespace {
 using strapdown::Score;
 using strapdown::Trial;
 
-std::string line(std::size_t width) { return std::string(width, '-') + "\n"; }
+std::string line(std::size_t width) {
+  return std::string(width, '-') + "\n";
+}
 
 constexpr std::size_t score_width = 34;
 
-std::string score_head() { return fmt::format("{:>10}{:>9} {:<14}", "in", "held out", "95 %"); }
+std::string score_head() {
+  return fmt::format("{:>10}{:>9} {:<14}", "in", "held out", "95 %");
+}
 
 std::string held(const std::optional<Score>& score) {
   if (!score) return std::string(score_width, ' ');
@@ -48,13 +52,13 @@ std::string dwells_text(const StrapdownResult& r) {
       dwells.size(), r.options.static_min, dwells.front().duration(), lengths[lengths.size() / 2],
       r.rotations);
   if (r.rotations_omitted > 0) text += fmt::format(", {} left out for gaps", r.rotations_omitted);
-  return text + fmt::format(
-                    "\nquiet: gyro spread below {:.3g} deg/s (at rest {:.3g}), accelerometer spread "
-                    "below {:.3g} m/s^2 (at rest {:.3g})\n\n",
-                    r.search.gyro_threshold / unit::deg_per_s.to_si,
-                    r.search.gyro_floor / unit::deg_per_s.to_si,
-                    r.search.acc_threshold * r.options.gravity,
-                    r.search.acc_floor * r.options.gravity);
+  return text +
+         fmt::format(
+             "\nquiet: gyro spread below {:.3g} deg/s (at rest {:.3g}), accelerometer spread "
+             "below {:.3g} m/s^2 (at rest {:.3g})\n\n",
+             r.search.gyro_threshold / unit::deg_per_s.to_si,
+             r.search.gyro_floor / unit::deg_per_s.to_si,
+             r.search.acc_threshold * r.options.gravity, r.search.acc_floor * r.options.gravity);
 }
 
 std::string accelerometers_text(const StrapdownResult& r) {
@@ -91,7 +95,8 @@ std::string parameters_text(const StrapdownResult& r) {
                                  r.accepted.front().name, "key", "value", "sigma", "unit", "");
   text += line(46);
   for (const auto& p : r.parameters)
-    text += fmt::format("{:<8}{:>14.6g}{:>12.3g}  {:<12}{}\n", p.key, p.value, p.sigma, p.unit, p.note);
+    text +=
+        fmt::format("{:<8}{:>14.6g}{:>12.3g}  {:<12}{}\n", p.key, p.value, p.sigma, p.unit, p.note);
   return text + "\n";
 }
 

@@ -22,8 +22,8 @@ double root_mean_square(const std::vector<double>& errors) {
   return errors.empty() ? none : std::sqrt(sum / static_cast<double>(errors.size()));
 }
 
-Score score_of(const std::vector<double>& in_sample, const std::vector<double>& held_out, double unit,
-               std::uint64_t seed) {
+Score score_of(const std::vector<double>& in_sample, const std::vector<double>& held_out,
+               double unit, std::uint64_t seed) {
   Score score{.count = held_out.size(),
               .in_sample = root_mean_square(in_sample) / unit,
               .held_out = root_mean_square(held_out) / unit,
@@ -39,7 +39,8 @@ Score score_of(const std::vector<double>& in_sample, const std::vector<double>& 
   for (double& mean : means) {
     double sum = 0.0;
     for (std::size_t k = 0; k < score.count; ++k) {
-      const auto pick = static_cast<std::size_t>(stream.uniform() * static_cast<double>(score.count));
+      const auto pick =
+          static_cast<std::size_t>(stream.uniform() * static_cast<double>(score.count));
       sum += score.errors[pick] * score.errors[pick];
     }
     mean = sum / static_cast<double>(score.count);

@@ -1,10 +1,9 @@
-#include "analysis/strapdown/identify.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "analysis/strapdown/identify.hpp"
 #include "analysis/strapdown/report.hpp"
 #include "core/base/check.hpp"
 #include "tests/support/strapdown_recording.hpp"
@@ -20,27 +19,46 @@ using test::strapdown_recording;
 /// The seed of a MEMS unit with drift and scale errors, without misalignment.
 Theta straight() {
   Theta theta = Theta::Zero();
-  for (const auto& [key, value] : std::initializer_list<std::pair<const char*, double>>{
-           {"D_F_x", 900}, {"D_F_y", -2500}, {"D_F_z", 1400}, {"s_x", 8000}, {"s_y", -5000},
-           {"s_z", 6000}, {"K0_x", 9000}, {"K0_y", -14000}, {"K1_x", 12000}, {"K1_y", -7000}})
+  for (const auto& [key, value] :
+       std::initializer_list<std::pair<const char*, double>>{{"D_F_x", 900},
+                                                             {"D_F_y", -2500},
+                                                             {"D_F_z", 1400},
+                                                             {"s_x", 8000},
+                                                             {"s_y", -5000},
+                                                             {"s_z", 6000},
+                                                             {"K0_x", 9000},
+                                                             {"K0_y", -14000},
+                                                             {"K1_x", 12000},
+                                                             {"K1_y", -7000}})
     set(theta, key, value);
   return theta;
 }
 
 Theta tilted() {
   Theta theta = straight();
-  for (const auto& [key, value] : std::initializer_list<std::pair<const char*, double>>{
-           {"eta_x", 2500}, {"eta_y", -1800}, {"eta_z", 900}, {"xi_x", -1200}, {"xi_y", 3000},
-           {"xi_z", -2200}})
+  for (const auto& [key, value] :
+       std::initializer_list<std::pair<const char*, double>>{{"eta_x", 2500},
+                                                             {"eta_y", -1800},
+                                                             {"eta_z", 900},
+                                                             {"xi_x", -1200},
+                                                             {"xi_y", 3000},
+                                                             {"xi_z", -2200}})
     set(theta, key, value);
   return theta;
 }
 
 Theta tilted_with_g_drift() {
   Theta theta = tilted();
-  for (const auto& [key, value] : std::initializer_list<std::pair<const char*, double>>{
-           {"D_I_x", 160}, {"D_I_y", -20}, {"D_I_z", 40}, {"D_O_x", 300}, {"D_O_y", -250},
-           {"D_O_z", 180}, {"D_S_x", -220}, {"D_S_y", 350}, {"D_S_z", 120}})
+  for (const auto& [key, value] :
+       std::initializer_list<std::pair<const char*, double>>{{"D_I_x", 160},
+                                                             {"D_I_y", -20},
+                                                             {"D_I_z", 40},
+                                                             {"D_O_x", 300},
+                                                             {"D_O_y", -250},
+                                                             {"D_O_z", 180},
+                                                             {"D_S_x", -220},
+                                                             {"D_S_y", 350},
+                                                             {"D_S_z", 120}})
     set(theta, key, value);
   return theta;
 }
@@ -64,8 +82,9 @@ TEST(StrapdownIdentify, NamesWhatIsThereAndNothingElse) {
     if (TermLibrary::specs[index].group.view() == "D_I") expected -= 60.0;  // mean of 160, -20, 40
     EXPECT_LT(std::abs(p.value - expected), 3.6 * p.sigma) << p.key;
   }
-  EXPECT_NEAR(find(result, "D_I_x")->value + find(result, "D_I_y")->value + find(result, "D_I_z")->value,
-              0.0, 1e-9);
+  EXPECT_NEAR(
+      find(result, "D_I_x")->value + find(result, "D_I_y")->value + find(result, "D_I_z")->value,
+      0.0, 1e-9);
 }
 
 TEST(StrapdownIdentify, EquationSixFailsOnATiltedSensor) {
@@ -74,13 +93,16 @@ TEST(StrapdownIdentify, EquationSixFailsOnATiltedSensor) {
   EXPECT_GT(result.contest[0].z, 5.0);
   EXPECT_GT(result.contest[0].eq6.held_out, 3.0 * result.contest[0].eq5.held_out);
   for (const Trial& t : result.gyro_trials) {
-    if (t.equation == "eq6") EXPECT_EQ(t.verdict, Verdict::rejected) << t.name;
+    if (t.equation == "eq6") {
+      EXPECT_EQ(t.verdict, Verdict::rejected) << t.name;
+    }
   }
 }
 
 TEST(StrapdownIdentify, MisalignmentThatIsNotThereIsNotClaimed) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    const auto recording = strapdown_recording({.dwells = 20, .rest = 3.5, .seed = seed}, straight());
+    const auto recording =
+        strapdown_recording({.dwells = 20, .rest = 3.5, .seed = seed}, straight());
     const auto result = identify_strapdown(recording, {.repeats = 2, .equations = {Coupling::eq5}});
     EXPECT_EQ(result.accepted[0].name, "bias + scale") << seed;
     EXPECT_EQ(find(result, "eta_x"), nullptr);
@@ -91,8 +113,8 @@ TEST(StrapdownIdentify, MisalignmentThatIsNotThereIsNotClaimed) {
 }
 
 TEST(StrapdownIdentify, SaysWhatItCannotSeeWithoutANumber) {
-  const auto result = identify_strapdown(
-      strapdown_recording({.dwells = 16, .rest = 3.0}, tilted()), {.repeats = 1});
+  const auto result = identify_strapdown(strapdown_recording({.dwells = 16, .rest = 3.0}, tilted()),
+                                         {.repeats = 1});
   std::string all;
   for (const auto& u : result.unobservable) all += u.what + "\n";
   for (const char* what : {"isotropic", "Earth rate", "azimuth", "temperature", "lambda"})
@@ -105,7 +127,8 @@ TEST(StrapdownIdentify, SaysWhatItCannotSeeWithoutANumber) {
 TEST(StrapdownIdentify, IsTheSameForTheSameSeed) {
   const auto recording = strapdown_recording({.dwells = 16, .rest = 3.0}, tilted());
   const StrapdownOptions options{.repeats = 2, .seed = 9};
-  const auto one = identify_strapdown(recording, options), two = identify_strapdown(recording, options);
+  const auto one = identify_strapdown(recording, options),
+             two = identify_strapdown(recording, options);
   EXPECT_EQ(to_json(one).dump(), to_json(two).dump());
   EXPECT_EQ(to_text(one), to_text(two));
   auto other = options;

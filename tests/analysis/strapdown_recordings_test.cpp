@@ -35,8 +35,8 @@ const Trial& trial(const std::vector<Trial>& trials, std::string_view name,
   return *at;
 }
 
-#define NEEDS(name)                                                       \
-  if (!std::filesystem::exists(path_of(name)))                            \
+#define NEEDS(name)                            \
+  if (!std::filesystem::exists(path_of(name))) \
   GTEST_SKIP() << "the recording " << name << " is not beside the sources"
 
 constexpr double share = 0.15;  // by which dwell bounds, folds and seeds may move a number
@@ -89,7 +89,8 @@ TEST(StrapdownRecordings, XsensRotations) {
   EXPECT_NEAR(trial(trials, base + " + g-drift", "eq5").rotation->held_out, 0.142, share * 0.142);
   EXPECT_EQ(result.accepted[0].name, base + " + g-drift");
   // Eq. (6) does no better with misalignment than without.
-  EXPECT_EQ(trial(trials, base, "eq6").rotation->errors, trial(trials, "bias + scale").rotation->errors);
+  EXPECT_EQ(trial(trials, base, "eq6").rotation->errors,
+            trial(trials, "bias + scale").rotation->errors);
   EXPECT_GT(result.contest[0].z, 5.0);
 }
 
@@ -97,7 +98,8 @@ TEST(StrapdownRecordings, XsensMisalignmentTheOtherWayRoundIsTwiceAsWrong) {
   NEEDS("xsens_mti.csv");
   using namespace strapdown;
   const auto& result = identified("xsens_mti.csv");
-  const auto recording = read_recording(path_of("xsens_mti.csv"), RecordingKind::strapdown, 9.80665);
+  const auto recording =
+      read_recording(path_of("xsens_mti.csv"), RecordingKind::strapdown, 9.80665);
   const auto& fitted = result.accepted[0].fitted;
   Theta inverse = fitted.turning.theta;
   for (const auto& g : {group<"eta">(), group<"xi">()})

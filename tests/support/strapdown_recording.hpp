@@ -15,11 +15,11 @@ namespace drift::test {
 /// the sensor equations of interfaces.md 4 and 7 are spelt out here.
 struct StrapdownScript {
   std::size_t dwells = 30;
-  double rest = 5.0;               ///< length of a dwell [s]
-  double turn = 2.5;               ///< length of a turn [s]
-  double interval = 0.01;          ///< [s]
-  double gyro_noise = 0.01;        ///< of one sample, 1 sigma [rad/s]
-  double acc_noise = 0.0015;       ///< of one sample, 1 sigma [g]
+  double rest = 5.0;          ///< length of a dwell [s]
+  double turn = 2.5;          ///< length of a turn [s]
+  double interval = 0.01;     ///< [s]
+  double gyro_noise = 0.01;   ///< of one sample, 1 sigma [rad/s]
+  double acc_noise = 0.0015;  ///< of one sample, 1 sigma [g]
   std::uint64_t seed = 1;
 };
 
@@ -35,9 +35,10 @@ inline Vec3 gyro_output(const Theta& t, const Vec3& w, const Vec3& f) {
   Vec3 out;
   for (int i = 0; i < 3; ++i) {
     const int o = (i + 1) % 3, s = (i + 2) % 3;
-    out[i] = (1.0 + param(t, "s", i)) * (w[i] + param(t, "xi", i) * w[o] + param(t, "eta", i) * w[s]) +
-             param(t, "D_F", i) + param(t, "D_I", i) * f[i] + param(t, "D_O", i) * f[o] +
-             param(t, "D_S", i) * f[s] + param(t, "D_IS", i) * f[i] * f[s];
+    out[i] =
+        (1.0 + param(t, "s", i)) * (w[i] + param(t, "xi", i) * w[o] + param(t, "eta", i) * w[s]) +
+        param(t, "D_F", i) + param(t, "D_I", i) * f[i] + param(t, "D_O", i) * f[o] +
+        param(t, "D_S", i) * f[s] + param(t, "D_IS", i) * f[i] * f[s];
   }
   return out;
 }
@@ -47,9 +48,10 @@ inline Vec3 accelerometer_output(const Theta& t, const Vec3& f) {
   Vec3 out;
   for (int i = 0; i < 3; ++i) {
     const int p = (i + 1) % 3, o = (i + 2) % 3;
-    out[i] = param(t, "K0", i) + (1.0 + param(t, "K1", i)) *
-                 (f[i] + param(t, "dP", i) * f[p] + param(t, "dO", i) * f[o]) +
-             param(t, "K2", i) * f[i] * f[i];
+    out[i] =
+        param(t, "K0", i) +
+        (1.0 + param(t, "K1", i)) * (f[i] + param(t, "dP", i) * f[p] + param(t, "dO", i) * f[o]) +
+        param(t, "K2", i) * f[i] * f[i];
   }
   return out;
 }
@@ -80,7 +82,8 @@ inline Recording strapdown_recording(const StrapdownScript& script, const Theta&
     for (int k = 0; k < resting; ++k) sample(R_lc, Vec3::Zero());
     if (d + 1 == script.dwells) break;
     const Vec3 axis = Vec3(path.normal(), path.normal(), path.normal()).normalized();
-    const double angle = (path.uniform() < 0.5 ? -1.0 : 1.0) * (0.7 + 1.8 * path.uniform());  // [rad]
+    const double angle =
+        (path.uniform() < 0.5 ? -1.0 : 1.0) * (0.7 + 1.8 * path.uniform());  // [rad]
     const auto steps = static_cast<int>(std::lround(script.turn / script.interval));
     for (int k = 1; k <= steps; ++k) {
       const double phase = 2.0 * std::numbers::pi * k / steps;

@@ -34,8 +34,8 @@ std::vector<std::size_t> parameters_of(AccelerometerModel model) {
 SpecificForce::SpecificForce(const Theta& theta) : theta_(theta) {
   Theta linear = theta;
   linear_ = true;
-  for (const std::size_t first : {TermLibrary::index("K2_x"), TermLibrary::index("K3_x"),
-                                  TermLibrary::index("K_ip_x")})
+  for (const std::size_t first :
+       {TermLibrary::index("K2_x"), TermLibrary::index("K3_x"), TermLibrary::index("K_ip_x")})
     for (std::size_t i = first; i < first + 3; ++i) {
       linear_ = linear_ && theta[i] == 0.0;
       linear[i] = 0.0;

@@ -17,10 +17,12 @@ enum class AccelerometerModel {
 
 /// The parameters a model estimates, as indices of TermLibrary. |a| = 1 g does not change when all
 /// three axes turn together, so three of the six angles define the case axes: x is the input axis
-/// of accelerometer x, and y lies in the plane of the input axes of x and y. Left are dO_y, dP_z, dO_z.
+/// of accelerometer x, and y lies in the plane of the input axes of x and y. Left are dO_y, dP_z,
+/// dO_z.
 std::vector<std::size_t> parameters_of(AccelerometerModel model);
 
-/// Specific force from accelerometer outputs: the accelerometer equation (interfaces.md 4) solved for a.
+/// Specific force from accelerometer outputs: the accelerometer equation (interfaces.md 4) solved
+/// for a.
 class SpecificForce {
  public:
   explicit SpecificForce(const Theta& theta);

@@ -14,10 +14,10 @@ struct Rest {
 
 /// Which drift the gyros are given, each containing the one before.
 enum class DriftOrder {
-  fixed,          ///< D_F
-  input_axis,     ///< and D_I
-  g_sensitive,    ///< and D_O, D_S
-  g2_sensitive,   ///< and D_II, D_OO, D_IO, D_IS, D_OS
+  fixed,         ///< D_F
+  input_axis,    ///< and D_I
+  g_sensitive,   ///< and D_O, D_S
+  g2_sensitive,  ///< and D_II, D_OO, D_IO, D_IS, D_OS
 };
 
 /// The parameters an order estimates. D_SS is left out of the last: a_I^2 + a_O^2 + a_S^2 = 1 at
@@ -28,8 +28,8 @@ std::vector<std::size_t> parameters_of(DriftOrder order);
 /// fixed_drift, g_drift and g2_drift.
 Vec3 drift_rate(const Theta& theta, const Vec3& f_c);
 
-/// Estimates the drift from dwells, where w_g = w_l (Earth rate is below what is claimed), by linear
-/// least squares.
+/// Estimates the drift from dwells, where w_g = w_l (Earth rate is below what is claimed), by
+/// linear least squares.
 Estimate fit_drift(DriftOrder order, std::span<const Rest> rests);
 
 }  // namespace drift::strapdown

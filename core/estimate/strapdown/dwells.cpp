@@ -9,7 +9,7 @@ namespace drift::strapdown {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
-constexpr double outlying = 3.0;  // times the usual spread is not rest
+constexpr double outlying = 3.0;              // times the usual spread is not rest
 constexpr double slowest_turn = detail::deg;  // [rad/s]; drift of any gyro worth a test is below
 
 struct Spread {
@@ -72,7 +72,8 @@ Split split(const std::vector<double>& spread) {
   for (std::size_t k = 1; k < logs.size(); ++k) {
     below += logs[k - 1];
     const double share = static_cast<double>(k) / n;
-    const double gap = below / static_cast<double>(k) - (total - below) / (n - static_cast<double>(k));
+    const double gap =
+        below / static_cast<double>(k) - (total - below) / (n - static_cast<double>(k));
     const double between = share * (1.0 - share) * gap * gap;
     if (between > best) {
       best = between;
@@ -148,8 +149,8 @@ void drop_steady_turns(std::vector<Dwell>& dwells, double slow) {
 }  // namespace
 
 DwellSearch find_dwells(const Signals& signals, const DwellOptions& options) {
-  const auto half = static_cast<std::size_t>(
-      std::max(1.0, std::round(0.5 * options.window / signals.interval)));
+  const auto half =
+      static_cast<std::size_t>(std::max(1.0, std::round(0.5 * options.window / signals.interval)));
   const Spread spread = spreads(signals, half);
   const Split gyro = split(spread.gyro), acc = split(spread.acc);
   DwellSearch found{{}, gyro.floor, acc.floor, gyro.threshold, acc.threshold};

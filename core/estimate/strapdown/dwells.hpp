@@ -9,12 +9,12 @@ namespace drift::strapdown {
 
 /// A stretch of time in which the case stands still.
 struct Dwell {
-  std::size_t first = 0, last = 0;    ///< samples first..last, both included
-  double start = 0.0, end = 0.0;      ///< [s]
-  Vec3 gyro = Vec3::Zero();           ///< mean gyro output [rad/s]
-  Vec3 acc = Vec3::Zero();            ///< mean accelerometer output [g]
-  Vec3 gyro_noise = Vec3::Zero();     ///< standard deviation of one sample [rad/s]
-  Vec3 acc_noise = Vec3::Zero();      ///< standard deviation of one sample [g]
+  std::size_t first = 0, last = 0;  ///< samples first..last, both included
+  double start = 0.0, end = 0.0;    ///< [s]
+  Vec3 gyro = Vec3::Zero();         ///< mean gyro output [rad/s]
+  Vec3 acc = Vec3::Zero();          ///< mean accelerometer output [g]
+  Vec3 gyro_noise = Vec3::Zero();   ///< standard deviation of one sample [rad/s]
+  Vec3 acc_noise = Vec3::Zero();    ///< standard deviation of one sample [g]
 
   double duration() const { return end - start; }
 };
@@ -41,9 +41,9 @@ struct DwellSearch {
 /// quiet if the window around it is quiet in both sensors; a window with a sample that is not
 /// measured, or with a gap in time, is not. Of each quiet stretch the longest part within three
 /// times its own median spread is kept, so that a slip of the case does not enter the mean of a
-/// dwell, and half a window is cut from both ends, where the onset of motion hides. A stretch whose mean rate
-/// is away from the median of all by more than the gyro threshold, and 1 deg/s, turns steadily and is
-/// no dwell.
+/// dwell, and half a window is cut from both ends, where the onset of motion hides. A stretch whose
+/// mean rate is away from the median of all by more than the gyro threshold, and 1 deg/s, turns
+/// steadily and is no dwell.
 DwellSearch find_dwells(const Signals& signals, const DwellOptions& options);
 
 }  // namespace drift::strapdown

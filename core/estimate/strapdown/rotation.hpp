@@ -10,13 +10,14 @@
 
 namespace drift::strapdown {
 
-/// A turn of the case from one dwell to the next: what the gyros said, and gravity before and after.
+/// A turn of the case from one dwell to the next: what the gyros said, and gravity before and
+/// after.
 struct Rotation {
-  std::size_t before = 0, after = 0;   ///< numbers of the two dwells
-  std::vector<double> dt;              ///< steps [s]
-  std::vector<Vec3> theta_g;           ///< gyro output integrated over each step, coning included [rad]
-  std::vector<Vec3> f_c;               ///< mean specific force over each step, case axes [g]
-  Vec3 up_before, up_after;            ///< unit vectors up at rest, case axes
+  std::size_t before = 0, after = 0;  ///< numbers of the two dwells
+  std::vector<double> dt;             ///< steps [s]
+  std::vector<Vec3> theta_g;  ///< gyro output integrated over each step, coning included [rad]
+  std::vector<Vec3> f_c;      ///< mean specific force over each step, case axes [g]
+  Vec3 up_before, up_after;   ///< unit vectors up at rest, case axes
 };
 
 /// The turns between dwells that follow each other. A turn with a sample not measured or a gap in
@@ -26,11 +27,15 @@ struct Rotations {
   std::size_t omitted = 0;
 };
 
-/// With accelerometer outputs for specific force, as they are. Each step joins two samples: the trapezoid and the coning term w_a x w_b dt^2 / 12.
+/// With accelerometer outputs for specific force, as they are. Each step joins two samples: the
+/// trapezoid and the coning term w_a x w_b dt^2 / 12.
 Rotations find_rotations(const Signals& signals, std::span<const Dwell> dwells);
 
 /// The turn with calibrated specific force in place of accelerometer outputs.
 Rotation calibrated(const Rotation& raw, std::span<const Dwell> dwells, const SpecificForce& force);
+
+/// The turn with the drift of theta taken out of the gyro outputs.
+Rotation without_drift(Rotation rotation, const Theta& theta);
 
 /// Where up points in the case after a turn, from the gyros alone.
 struct Prediction {

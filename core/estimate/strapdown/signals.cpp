@@ -26,13 +26,14 @@ std::array<const Channel*, 7> find_channels(const Recording& recording) {
     const char* unit = expected[c == 0 ? 0 : (c <= 3 ? 1 : 2)];
     found[c] = recording.find(names[c]);
     if (found[c] == nullptr)
-      problems.push_back(fmt::format(
-          "{}: no channel '{}' (a strapdown recording has '{} [{}]'). Add the column", recording.source,
-          names[c], names[c], unit));
+      problems.push_back(
+          fmt::format("{}: no channel '{}' (a strapdown recording has '{} [{}]'). Add the column",
+                      recording.source, names[c], names[c], unit));
     else if (!fits(c, found[c]->unit))
-      problems.push_back(fmt::format("{}: channel '{}' is in '{}' (a unit like '{}' is expected). "
-                                     "Correct the header",
-                                     recording.source, names[c], found[c]->unit.symbol.view(), unit));
+      problems.push_back(
+          fmt::format("{}: channel '{}' is in '{}' (a unit like '{}' is expected). "
+                      "Correct the header",
+                      recording.source, names[c], found[c]->unit.symbol.view(), unit));
   }
   if (!problems.empty()) throw InputError(ExitCode::recording, std::move(problems));
   return found;
@@ -46,10 +47,11 @@ void check_time(const Recording& recording, const std::vector<double>& time) {
   for (std::size_t k = 1; k < time.size(); ++k)
     if (!(time[k] > time[k - 1])) {
       const std::size_t line = k < recording.lines.size() ? recording.lines[k] : k + 1;
-      throw InputError(ExitCode::recording,
-                       fmt::format("{}:{}:1: time {} s after {} s (it must increase). Remove or sort "
-                                   "the sample",
-                                   recording.source, line, time[k], time[k - 1]));
+      throw InputError(
+          ExitCode::recording,
+          fmt::format("{}:{}:1: time {} s after {} s (it must increase). Remove or sort "
+                      "the sample",
+                      recording.source, line, time[k], time[k - 1]));
     }
 }
 

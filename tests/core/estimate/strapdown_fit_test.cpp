@@ -13,12 +13,12 @@ using test::strapdown_recording;
 Theta sensors() {
   Theta theta = Theta::Zero();
   for (const auto& [key, value] : std::initializer_list<std::pair<const char*, double>>{
-           {"D_F_x", 900}, {"D_F_y", -2500}, {"D_F_z", 1400}, {"D_I_x", 60}, {"D_I_y", -20},
-           {"D_I_z", -40}, {"D_O_x", 300}, {"D_O_y", -250}, {"D_O_z", 180}, {"D_S_x", -220},
-           {"D_S_y", 350}, {"D_S_z", 120}, {"s_x", 8000}, {"s_y", -5000}, {"s_z", 3000},
-           {"eta_x", 2500}, {"eta_y", -1800}, {"eta_z", 900}, {"xi_x", -1200}, {"xi_y", 3000},
-           {"xi_z", -2200}, {"K0_x", 9000}, {"K0_y", -14000}, {"K0_z", 4000}, {"K1_x", 12000},
-           {"K1_y", -7000}, {"K1_z", 3000}, {"dO_y", 1500}, {"dP_z", -2000}, {"dO_z", 800}})
+           {"D_F_x", 900},  {"D_F_y", -2500}, {"D_F_z", 1400},  {"D_I_x", 60},   {"D_I_y", -20},
+           {"D_I_z", -40},  {"D_O_x", 300},   {"D_O_y", -250},  {"D_O_z", 180},  {"D_S_x", -220},
+           {"D_S_y", 350},  {"D_S_z", 120},   {"s_x", 8000},    {"s_y", -5000},  {"s_z", 3000},
+           {"eta_x", 2500}, {"eta_y", -1800}, {"eta_z", 900},   {"xi_x", -1200}, {"xi_y", 3000},
+           {"xi_z", -2200}, {"K0_x", 9000},   {"K0_y", -14000}, {"K0_z", 4000},  {"K1_x", 12000},
+           {"K1_y", -7000}, {"K1_z", 3000},   {"dO_y", 1500},   {"dP_z", -2000}, {"dO_z", 800}})
     set(theta, key, value);
   return theta;
 }
@@ -115,8 +115,9 @@ TEST(StrapdownFit, JacobianIsTheDerivative) {
       Theta up = truth, down = truth;
       up[p] += h;
       down[p] -= h;
-      const Vec3 slope = (predict(turn, Coupling::eq5, up, {}).up -
-                          predict(turn, Coupling::eq5, down, {}).up) / (2.0 * h);
+      const Vec3 slope =
+          (predict(turn, Coupling::eq5, up, {}).up - predict(turn, Coupling::eq5, down, {}).up) /
+          (2.0 * h);
       // Differences are good to h^2; the sum over steps takes the middle of each, good to 1e-3.
       EXPECT_LT((J.col(static_cast<Eigen::Index>(p)) - slope).norm(), 1e-3 * (slope.norm() + 0.1))
           << TermLibrary::specs[p].key.view();
@@ -141,7 +142,8 @@ TEST(StrapdownFit, EquationSixDoesNotKnowMisalignment) {
   const Estimate six = fit_rotations(b.calibrated_turns, Coupling::eq6, b.drift, turning());
   for (std::size_t i = 3; i < 9; ++i) {
     EXPECT_EQ(six.theta[six.params[i]], 0.0);
-    EXPECT_TRUE(std::isinf(six.covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i))));
+    EXPECT_TRUE(
+        std::isinf(six.covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i))));
   }
 }
 
