@@ -9,6 +9,7 @@
 #include "core/physics/model_config.hpp"
 #include "core/physics/mounting_config.hpp"
 #include "core/sim/plan_config.hpp"
+#include "mc/published_config.hpp"
 #include "mc/study.hpp"
 #include "mc/study_text.hpp"
 
@@ -106,6 +107,7 @@ Study read_tree(const Node& root, const std::string& path) {
   study.filters = read_filters(top, mounting);
   study.monte_carlo = read_monte_carlo(top.section("monte_carlo"));
   study.sweep = read_sweep(report, sweep);
+  study.published = read_published(top);
   top.finish();
   report.throw_if_wrong();
   for (const auto& value : report.resolved())

@@ -89,7 +89,7 @@ Recording read_recording(const std::string& path, RecordingKind kind, double gra
 }
 
 void write_recording(const Recording& recording, const std::string& path) {
-  for (const auto& c : recording.channels) {
+  for ([[maybe_unused]] const auto& c : recording.channels) {
     DRIFT_EXPECTS(c.values.size() == recording.rows());
     DRIFT_EXPECTS(valid_channel_name(c.name));
   }

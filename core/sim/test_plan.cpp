@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <span>
 
 namespace drift {
 namespace {
@@ -65,11 +66,10 @@ Position make_position(const NamedPosition& from, const PlanDefaults& defaults, 
   return p;
 }
 
-template <std::size_t N>
-void add(TestPlan& plan, const NamedPosition (&table)[N], std::size_t count,
-         const PlanDefaults& defaults, Entry entry) {
-  for (std::size_t i = 0; i < count; ++i)
-    plan.positions.push_back(make_position(table[i], defaults, defaults.entry.value_or(entry)));
+void add(TestPlan& plan, std::span<const NamedPosition> table, const PlanDefaults& defaults,
+         Entry entry) {
+  for (const NamedPosition& position : table)
+    plan.positions.push_back(make_position(position, defaults, defaults.entry.value_or(entry)));
 }
 
 /// The 12 attitudes in which two axes share the vertical at 45 deg.
@@ -131,18 +131,18 @@ std::optional<TestPlan> preset_plan(std::string_view name, const PlanDefaults& d
   TestPlan plan;
   plan.preset = name;
   if (name == "six") {
-    add(plan, cardinal, 6, defaults, Entry::caged);
+    add(plan, std::span(cardinal).first(6), defaults, Entry::caged);
   } else if (name == "twelve") {
-    add(plan, cardinal, 12, defaults, Entry::caged);
+    add(plan, std::span(cardinal).first(12), defaults, Entry::caged);
   } else if (name == "twentyfour") {
-    add(plan, cardinal, 24, defaults, Entry::caged);
+    add(plan, cardinal, defaults, Entry::caged);
   } else if (name == "apollo10") {
-    add(plan, apollo, 10, defaults, Entry::caged);
+    add(plan, apollo, defaults, Entry::caged);
   } else if (name == "eighteen") {
-    add(plan, cardinal, 6, defaults, Entry::caged);
+    add(plan, std::span(cardinal).first(6), defaults, Entry::caged);
     add_edges(plan, defaults);
   } else if (name == "slew12") {
-    add(plan, slew_sequence, 12, defaults, Entry::torqued);
+    add(plan, slew_sequence, defaults, Entry::torqued);
   } else if (name == "casespin") {
     add_case_spins(plan, defaults);
   } else {
