@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+
+namespace drift {
+
+/// A file that comes into being complete or not at all: it is written under a temporary name in
+/// the same folder and renamed at the end. Without commit() the temporary file is removed.
+class AtomicFile {
+ public:
+  /// InputError (io) if the folder cannot be written to.
+  explicit AtomicFile(std::string path);
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  const std::string& temporary() const { return temporary_; }  ///< an empty file, to be written
+
+  /// Brings the file to the disk under its name. InputError (io) if that fails.
+  void commit();
+
+ private:
+  std::string path_, temporary_;
+};
+
+/// InputError (io) "path: cannot be written: reason. What to do".
+[[noreturn]] void throw_cannot_write(const std::string& path, const std::string& reason);
+
+}  // namespace drift

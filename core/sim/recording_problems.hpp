@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace drift {
+
+/// What is wrong with one file, message by message; the first `cap` are kept, the rest counted.
+class Problems {
+ public:
+  static constexpr std::size_t cap = 50;
+
+  explicit Problems(std::string file) : file_(std::move(file)) {}
+
+  /// "file:where: wrong (expected ...). Fix". `where` is "line:column", "line", "column" or empty.
+  void add(std::string_view where, std::string_view wrong, std::string_view expected,
+           std::string_view fix);
+  /// A complete message, as another Problems made it.
+  void add(std::string message);
+  /// Problems found elsewhere beyond their own cap.
+  void add_uncounted(std::size_t more) { more_ += more; }
+
+  const std::string& file() const { return file_; }
+  std::size_t count() const { return messages_.size() + more_; }
+  std::size_t more() const { return more_; }
+  bool full() const { return messages_.size() >= cap; }
+  const std::vector<std::string>& messages() const { return messages_; }
+
+  /// InputError (recording) with every message kept and the number of those that are not.
+  void throw_if_any() const;
+
+ private:
+  std::string file_;
+  std::vector<std::string> messages_;
+  std::size_t more_ = 0;
+};
+
+/// Text of a file made fit for a message: in quotes, shortened, control characters and bytes that
+/// are not UTF-8 as \xNN.
+std::string in_quotes(std::string_view text);
+
+/// Whether the bytes are UTF-8 (no surrogates, no overlong forms).
+bool valid_utf8(std::string_view text);
+
+/// Without spaces, tabs and line ends at both ends.
+std::string_view trimmed(std::string_view text);
+
+}  // namespace drift
