@@ -48,6 +48,7 @@ struct Resolved {
 /// A study file, read, checked and converted to internal units.
 struct Study {
   std::string path;
+  std::string text;           ///< the file as TOML with the overrides of the command line in it
   std::string title;
   Site site;
   RecordingKind kind = RecordingKind::platform;

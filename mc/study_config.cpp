@@ -168,6 +168,7 @@ Study read_study(const std::string& path, const Overrides& overrides) {
   const Node root = load_tree(path, overrides);
   Study study = read_tree(root, path);
   try_sweep(root, study);
+  study.text = config::to_document(root);
   return study;
 }
 

@@ -6,6 +6,7 @@
 #include "analysis/cli/progress.hpp"
 #include "analysis/report/identification_text.hpp"
 #include "analysis/report/results_folder.hpp"
+#include "analysis/report/strapdown_results.hpp"
 #include "analysis/strapdown/report.hpp"
 #include "core/sim/quality_card.hpp"
 
@@ -35,7 +36,8 @@ ExitCode identify_case(const Study& study, const std::vector<std::string>& paths
   const auto recordings = read_all(study, paths);
   const StrapdownResult result = identify_strapdown(recordings.front(), options);
   fmt::print("{}", to_text(result));
-  if (!folder.empty()) write_results(study, result, folder);
+  if (!folder.empty())
+    fmt::print("\nWritten to {}: {}\n", folder, fmt::join(write_results(study, result, folder), " "));
   return ExitCode::ok;
 }
 

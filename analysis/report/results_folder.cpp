@@ -4,8 +4,6 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <memory>
 
 #include "analysis/report/identification_figures.hpp"
@@ -15,20 +13,6 @@
 #include "core/sim/atomic_file.hpp"
 
 namespace drift {
-namespace {
-
-std::string text_of_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (!file.is_open() || file.bad())
-    throw InputError(ExitCode::io,
-                     fmt::format("{}: cannot be read again for its copy in the results ({}). Leave the "
-                                 "study file where it is while the program runs",
-                                 path, std::strerror(errno)));
-  return text;
-}
-
-}  // namespace
 
 void write_text_atomically(const std::string& path, std::string_view text) {
   AtomicFile target(path);
@@ -44,12 +28,20 @@ std::vector<std::string> write_results(const Study& study, const Identification&
                                        const std::string& folder) {
   // Everything is made before anything is written: what fails then is the disk alone.
   const std::vector<Figure> figures = identification_figures(study, id);
-  std::vector<std::pair<std::string, std::string>> files;
+  std::vector<TextFile> files;
   files.emplace_back("identification.json", to_json(study, id));
   for (const Figure& f : figures) files.emplace_back(f.file, f.svg);
   files.emplace_back("report.html", to_html(identification_html(study, id, figures)));
-  if (!study.path.empty()) files.emplace_back("study.toml", text_of_file(study.path));
+  if (!study.text.empty()) files.emplace_back("study.toml", study.text);
+  std::vector<std::string> names = write_files(files, folder);
+  if (id.recording.rows() > 0) {
+    write_recording(id.recording, (std::filesystem::path(folder) / "recording.csv").string());
+    names.emplace_back("recording.csv");
+  }
+  return names;
+}
 
+std::vector<std::string> write_files(const std::vector<TextFile>& files, const std::string& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw_cannot_write(folder, error.message());
@@ -58,10 +50,6 @@ std::vector<std::string> write_results(const Study& study, const Identification&
   for (const auto& [name, text] : files) {
     write_text_atomically((root / name).string(), text);
     names.push_back(name);
-  }
-  if (id.recording.rows() > 0) {
-    write_recording(id.recording, (root / "recording.csv").string());
-    names.emplace_back("recording.csv");
   }
   return names;
 }

@@ -2,6 +2,7 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "analysis/identify.hpp"
@@ -12,8 +13,15 @@ namespace drift {
 /// included; the target is then as it was.
 void write_text_atomically(const std::string& path, std::string_view text);
 
+/// Name and content of a text file.
+using TextFile = std::pair<std::string, std::string>;
+
+/// Writes text files into a folder, made if need be, each complete or not at all. Returns their
+/// names. InputError (io) if one cannot be written.
+std::vector<std::string> write_files(const std::vector<TextFile>& files, const std::string& folder);
+
 /// Writes the results into a folder, made if need be: identification.json, the pictures, report.html,
-/// recording.csv (unless the recording is empty) and study.toml, the study file as it was read from.
+/// recording.csv (unless the recording is empty) and study.toml, the study with the overrides of the command line.
 /// Returns the names of the files. InputError (io) if one cannot be written.
 std::vector<std::string> write_results(const Study& study, const Identification& id,
                                        const std::string& folder);
