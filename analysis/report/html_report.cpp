@@ -52,10 +52,13 @@ std::string list_of(const std::vector<std::string>& items, std::string_view css_
 struct BlockWriter {
   std::string operator()(const Paragraph& p) const { return "<p>" + escaped(p.text) + "</p>\n"; }
   std::string operator()(const Sentences& s) const { return list_of(s.items, "sentences"); }
-  std::string operator()(const Preformatted& p) const { return "<pre>" + escaped(p.text) + "</pre>\n"; }
+  std::string operator()(const Preformatted& p) const {
+    return "<pre>" + escaped(p.text) + "</pre>\n";
+  }
   std::string operator()(const Table& t) const { return html_of(t); }
   std::string operator()(const Picture& p) const {
-    return "<figure>\n" + inlined(p.svg) + "<figcaption>" + escaped(p.caption) + "</figcaption>\n</figure>\n";
+    return "<figure>\n" + inlined(p.svg) + "<figcaption>" + escaped(p.caption) +
+           "</figcaption>\n</figure>\n";
   }
 };
 
@@ -64,7 +67,8 @@ struct BlockWriter {
 std::string to_html(const HtmlReport& report) {
   std::string out = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; "
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src "
+      "'unsafe-inline'; "
       "base-uri 'none'; form-action 'none'\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<title>{0}</title>\n<style>{1}</style>\n</head>\n<body>\n<header><h1>{0}</h1>\n"
@@ -74,11 +78,13 @@ std::string to_html(const HtmlReport& report) {
   if (report.sections.size() > 2) {
     out += "<nav><ul>\n";
     for (std::size_t k = 0; k < report.sections.size(); ++k)
-      out += fmt::format("<li><a href=\"#s{}\">{}</a></li>\n", k + 1, escaped(report.sections[k].heading));
+      out += fmt::format("<li><a href=\"#s{}\">{}</a></li>\n", k + 1,
+                         escaped(report.sections[k].heading));
     out += "</ul></nav>\n";
   }
   for (std::size_t k = 0; k < report.sections.size(); ++k) {
-    out += fmt::format("<section id=\"s{}\">\n<h2>{}</h2>\n", k + 1, escaped(report.sections[k].heading));
+    out += fmt::format("<section id=\"s{}\">\n<h2>{}</h2>\n", k + 1,
+                       escaped(report.sections[k].heading));
     for (const Block& block : report.sections[k].blocks) out += std::visit(BlockWriter{}, block);
     out += "</section>\n";
   }

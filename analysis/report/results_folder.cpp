@@ -21,10 +21,11 @@ std::string text_of_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   if (!file.is_open() || file.bad())
-    throw InputError(ExitCode::io,
-                     fmt::format("{}: cannot be read again for its copy in the results ({}). Leave the "
-                                 "study file where it is while the program runs",
-                                 path, std::strerror(errno)));
+    throw InputError(
+        ExitCode::io,
+        fmt::format("{}: cannot be read again for its copy in the results ({}). Leave the "
+                    "study file where it is while the program runs",
+                    path, std::strerror(errno)));
   return text;
 }
 
