@@ -12,7 +12,8 @@ constexpr std::string_view style = R"css(
 body { font: 15px/1.5 Helvetica, Arial, sans-serif; color: #222; background: #fff;
        margin: 0 auto; padding: 1.5rem; max-width: 1180px; }
 h1 { font-size: 1.6rem; margin: 0; overflow-wrap: anywhere; }
-h2 { font-size: 1.2rem; margin: 2.2rem 0 .6rem; border-bottom: 1px solid #ccc; overflow-wrap: anywhere; }
+h2 { font-size: 1.2rem; margin: 2.2rem 0 .6rem; border-bottom: 1px solid #ccc;
+     overflow-wrap: anywhere; }
 .subtitle, .note, figcaption, footer { color: #555; font-size: .9rem; }
 .headlines { background: #f3f6fa; border-left: 4px solid #0072B2; padding: .6rem 1rem .6rem 2rem; }
 nav ul { columns: 2; padding-left: 1.2rem; }
@@ -23,7 +24,8 @@ caption { text-align: left; font-weight: bold; padding-bottom: .3rem; }
 th, td { padding: .16rem .65rem; white-space: nowrap; }
 thead th { border-bottom: 2px solid #888; }
 tbody tr:nth-child(even) { background: #f7f7f7; }
-tbody th { font-weight: normal; font-style: italic; color: #444; background: #e9eef4; white-space: normal; }
+tbody th { font-weight: normal; font-style: italic; color: #444; background: #e9eef4;
+           white-space: normal; }
 .left { text-align: left; } .right { text-align: right; } td.left { white-space: normal; }
 .good { color: #00664d; } .doubtful { color: #8a5a00; } .bad { color: #b03000; font-weight: bold; }
 figure { margin: 1rem 0; } figure svg { max-width: 100%; height: auto; }
