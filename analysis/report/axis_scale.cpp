@@ -54,7 +54,8 @@ AxisScale make_scale(const Range& data, int count, double margin) {
   if (power > -4 && power < 5) power = 0;
   if (power != 0) scale.factor = fmt::format("×10^{}", power);
   const double unit = std::pow(10.0, power);
-  const int decimals = std::clamp(static_cast<int>(-std::floor(std::log10(step / unit) + 1e-9)), 0, 9);
+  const int decimals =
+      std::clamp(static_cast<int>(-std::floor(std::log10(step / unit) + 1e-9)), 0, 9);
   for (const double t : scale.ticks)
     scale.labels.push_back(fmt::format("{:.{}f}", t == 0.0 ? 0.0 : t / unit, decimals));
   return scale;

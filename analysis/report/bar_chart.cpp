@@ -52,7 +52,8 @@ std::string svg_of(const BarChart& chart) {
     double end = x_of(0.0);  // text stands right of bar and interval
     if (const double at = x_of(b.value); std::isfinite(at)) {
       const double zero = x_of(0.0);
-      canvas.rectangle(std::min(at, zero), y + 4.0, std::abs(at - zero), row - 8.0, palette(b.colour), 0.85);
+      canvas.rectangle(std::min(at, zero), y + 4.0, std::abs(at - zero), row - 8.0,
+                       palette(b.colour), 0.85);
       end = std::max(end, at);
     }
     if (std::isfinite(b.low) && std::isfinite(b.high)) {
@@ -67,7 +68,8 @@ std::string svg_of(const BarChart& chart) {
   if (chart.limit) {
     const double x = x_of(chart.limit->y);
     canvas.line(x, y0 - 4.0, x, y0 + h, "#222222", 1.2, chart.limit->stroke);
-    canvas.text(x, y0 - 8.0, chart.limit->label, {.size = 10.5, .anchor = "middle", .colour = "#222222"});
+    canvas.text(x, y0 - 8.0, chart.limit->label,
+                {.size = 10.5, .anchor = "middle", .colour = "#222222"});
   }
   return std::move(canvas).finish();
 }

@@ -91,9 +91,9 @@ std::vector<NamedDirection> name_degeneracies(const Layout& layout, const Mounti
     if (direction.parts.size() == 1) direction.reason = no_signal_reason(direction.parts[0].param);
     all.push_back(std::move(direction));
   }
-  std::sort(all.begin() + static_cast<std::ptrdiff_t>(known), all.end(), [](const auto& a, const auto& b) {
-    return a.parts.front().param < b.parts.front().param;
-  });
+  std::sort(
+      all.begin() + static_cast<std::ptrdiff_t>(known), all.end(),
+      [](const auto& a, const auto& b) { return a.parts.front().param < b.parts.front().param; });
   return all;
 }
 

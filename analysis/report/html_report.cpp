@@ -12,7 +12,8 @@ constexpr std::string_view style = R"css(
 body { font: 15px/1.5 Helvetica, Arial, sans-serif; color: #222; background: #fff;
        margin: 0 auto; padding: 1.5rem; max-width: 1180px; }
 h1 { font-size: 1.6rem; margin: 0; overflow-wrap: anywhere; }
-h2 { font-size: 1.2rem; margin: 2.2rem 0 .6rem; border-bottom: 1px solid #ccc; overflow-wrap: anywhere; }
+h2 { font-size: 1.2rem; margin: 2.2rem 0 .6rem; border-bottom: 1px solid #ccc;
+     overflow-wrap: anywhere; }
 .subtitle, .note, figcaption, footer { color: #555; font-size: .9rem; }
 .headlines { background: #f3f6fa; border-left: 4px solid #0072B2; padding: .6rem 1rem .6rem 2rem; }
 nav ul { columns: 2; padding-left: 1.2rem; }
@@ -23,7 +24,8 @@ caption { text-align: left; font-weight: bold; padding-bottom: .3rem; }
 th, td { padding: .16rem .65rem; white-space: nowrap; }
 thead th { border-bottom: 2px solid #888; }
 tbody tr:nth-child(even) { background: #f7f7f7; }
-tbody th { font-weight: normal; font-style: italic; color: #444; background: #e9eef4; white-space: normal; }
+tbody th { font-weight: normal; font-style: italic; color: #444; background: #e9eef4;
+           white-space: normal; }
 .left { text-align: left; } .right { text-align: right; } td.left { white-space: normal; }
 .good { color: #00664d; } .doubtful { color: #8a5a00; } .bad { color: #b03000; font-weight: bold; }
 figure { margin: 1rem 0; } figure svg { max-width: 100%; height: auto; }
@@ -52,10 +54,13 @@ std::string list_of(const std::vector<std::string>& items, std::string_view css_
 struct BlockWriter {
   std::string operator()(const Paragraph& p) const { return "<p>" + escaped(p.text) + "</p>\n"; }
   std::string operator()(const Sentences& s) const { return list_of(s.items, "sentences"); }
-  std::string operator()(const Preformatted& p) const { return "<pre>" + escaped(p.text) + "</pre>\n"; }
+  std::string operator()(const Preformatted& p) const {
+    return "<pre>" + escaped(p.text) + "</pre>\n";
+  }
   std::string operator()(const Table& t) const { return html_of(t); }
   std::string operator()(const Picture& p) const {
-    return "<figure>\n" + inlined(p.svg) + "<figcaption>" + escaped(p.caption) + "</figcaption>\n</figure>\n";
+    return "<figure>\n" + inlined(p.svg) + "<figcaption>" + escaped(p.caption) +
+           "</figcaption>\n</figure>\n";
   }
 };
 
@@ -64,7 +69,8 @@ struct BlockWriter {
 std::string to_html(const HtmlReport& report) {
   std::string out = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; "
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src "
+      "'unsafe-inline'; "
       "base-uri 'none'; form-action 'none'\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<title>{0}</title>\n<style>{1}</style>\n</head>\n<body>\n<header><h1>{0}</h1>\n"
@@ -74,11 +80,13 @@ std::string to_html(const HtmlReport& report) {
   if (report.sections.size() > 2) {
     out += "<nav><ul>\n";
     for (std::size_t k = 0; k < report.sections.size(); ++k)
-      out += fmt::format("<li><a href=\"#s{}\">{}</a></li>\n", k + 1, escaped(report.sections[k].heading));
+      out += fmt::format("<li><a href=\"#s{}\">{}</a></li>\n", k + 1,
+                         escaped(report.sections[k].heading));
     out += "</ul></nav>\n";
   }
   for (std::size_t k = 0; k < report.sections.size(); ++k) {
-    out += fmt::format("<section id=\"s{}\">\n<h2>{}</h2>\n", k + 1, escaped(report.sections[k].heading));
+    out += fmt::format("<section id=\"s{}\">\n<h2>{}</h2>\n", k + 1,
+                       escaped(report.sections[k].heading));
     for (const Block& block : report.sections[k].blocks) out += std::visit(BlockWriter{}, block);
     out += "</section>\n";
   }

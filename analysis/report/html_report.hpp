@@ -46,7 +46,8 @@ struct HtmlReport {
   std::string footer;
 };
 
-/// One HTML page that needs nothing else: no script, no address, fit for print. All text is escaped.
+/// One HTML page that needs nothing else: no script, no address, fit for print. All text is
+/// escaped.
 std::string to_html(const HtmlReport& report);
 
 }  // namespace drift

@@ -44,7 +44,8 @@ Series estimate_series(const FilterRun& run, std::size_t k, double unit) {
 }
 
 /// Truth and independent tests; equal values share a line.
-std::vector<ReferenceLine> references(const Study& study, const Identification& id, std::size_t param) {
+std::vector<ReferenceLine> references(const Study& study, const Identification& id,
+                                      std::size_t param) {
   const double unit = TermLibrary::specs[param].unit.to_si;
   std::vector<ReferenceLine> lines;
   const auto add = [&](double value, const std::string& label) {
@@ -58,7 +59,8 @@ std::vector<ReferenceLine> references(const Study& study, const Identification& 
   if (id.truth) add(id.truth->theta[param] / unit, "truth");
   for (const Published& p : study.published)
     for (const auto& v : p.values)
-      if (p.filter.empty() && v.param == param && !v.values.empty()) add(v.values.front() / unit, p.name);
+      if (p.filter.empty() && v.param == param && !v.values.empty())
+        add(v.values.front() / unit, p.name);
   return lines;
 }
 
@@ -122,7 +124,8 @@ Panel nis_panel(const Study& study, const Identification& id, const FilterSummar
         nis += h.nis[i];
         scalars += h.scalars[i];
       }
-      const Band expected = scalars > 0.0 ? chi_square_band(scalars) : Band{std::nan(""), std::nan("")};
+      const Band expected =
+          scalars > 0.0 ? chi_square_band(scalars) : Band{std::nan(""), std::nan("")};
       s.x.push_back(0.5 * (h.t[begin] + h.t[end - 1]) / hour);
       s.y.push_back(scalars > 0.0 ? nis / scalars : std::nan(""));
       band.x.push_back(s.x.back());
@@ -148,12 +151,14 @@ std::vector<std::size_t> highlighted_parameters(const Study& study, const Identi
   for (const Resolved& r : study.resolved) {
     if (!id.simulated || !r.key.starts_with(prefix) || r.origin.starts_with("default")) continue;
     const auto param = TermLibrary::find(std::string_view(r.key).substr(prefix.size()));
-    if (param && estimated(id, *param) && params.size() < most_highlighted) add_once(params, *param);
+    if (param && estimated(id, *param) && params.size() < most_highlighted)
+      add_once(params, *param);
   }
   if (!params.empty()) return params;
 
   std::vector<StartSpread> spread;
-  for (const FilterSummary& s : id.summaries) spread.insert(spread.end(), s.spread.begin(), s.spread.end());
+  for (const FilterSummary& s : id.summaries)
+    spread.insert(spread.end(), s.spread.begin(), s.spread.end());
   const auto size = [](const StartSpread& s) { return std::isfinite(s.ekf) ? s.ekf : -1.0; };
   std::ranges::stable_sort(spread, std::greater{}, size);
   for (const StartSpread& s : spread)
@@ -166,30 +171,39 @@ std::vector<Figure> identification_figures(const Study& study, const Identificat
   std::vector<Figure> figures;
   if (params.empty()) return figures;
   Chart combined{study.title, {}, params.size()};
-  Chart nis{"Normalised innovations squared", {}, std::min<std::size_t>(id.summaries.size(), 2), 540.0, 260.0};
+  Chart nis{"Normalised innovations squared",
+            {},
+            std::min<std::size_t>(id.summaries.size(), 2),
+            540.0,
+            260.0};
   std::vector<Figure> alone;
   std::vector<std::string> taken;
   for (const FilterSummary& s : id.summaries) {
     const std::string& name = study.filters[s.filter].name;
-    Chart chart{fmt::format("Estimates of filter {}", name), {}, std::min<std::size_t>(params.size(), 3)};
+    Chart chart{
+        fmt::format("Estimates of filter {}", name), {}, std::min<std::size_t>(params.size(), 3)};
     for (const std::size_t p : params) chart.panels.push_back(estimate_panel(study, id, s, p));
     combined.panels.insert(combined.panels.end(), chart.panels.begin(), chart.panels.end());
     nis.panels.push_back(nis_panel(study, id, s));
     std::string part = file_name_part(name);
     if (std::ranges::find(taken, part) != taken.end()) part += fmt::format("_{}", s.filter + 1);
     taken.push_back(part);
-    alone.push_back({fmt::format("figure_{}.svg", part),
-                     fmt::format("Estimates of filter {} against time, each start with its 1 sigma band.", name),
-                     svg_of(chart)});
+    alone.push_back(
+        {fmt::format("figure_{}.svg", part),
+         fmt::format("Estimates of filter {} against time, each start with its 1 sigma band.",
+                     name),
+         svg_of(chart)});
   }
-  figures.push_back({"estimates.svg",
-                     "Estimates against time, each start with its 1 sigma band. The first swing may be cut off.",
-                     svg_of(combined)});
+  figures.push_back(
+      {"estimates.svg",
+       "Estimates against time, each start with its 1 sigma band. The first swing may be cut off.",
+       svg_of(combined)});
   figures.insert(figures.end(), alone.begin(), alone.end());
-  figures.push_back({"nis.svg",
-                     "Normalised innovations squared per measured scalar, averaged over short stretches: 1 on "
-                     "average, and mostly within the grey band, if model and noise are right.",
-                     svg_of(nis)});
+  figures.push_back(
+      {"nis.svg",
+       "Normalised innovations squared per measured scalar, averaged over short stretches: 1 on "
+       "average, and mostly within the grey band, if model and noise are right.",
+       svg_of(nis)});
   return figures;
 }
 

@@ -23,7 +23,8 @@ Section study_section(const Study& study) {
   Table table;
   table.columns = {{"key", Align::left}, {"value", Align::left}, {"from", Align::left}};
   for (const Resolved& r : study.resolved) table.add({r.key, r.value, r.origin});
-  return {"Study", {Paragraph{"Every value the study resolves to, and where it comes from."}, table}};
+  return {"Study",
+          {Paragraph{"Every value the study resolves to, and where it comes from."}, table}};
 }
 
 }  // namespace
@@ -43,7 +44,8 @@ HtmlReport identification_html(const Study& study, const Identification& id,
     for (Table& t : tables) section.blocks.emplace_back(std::move(t));
     report.sections.push_back(std::move(section));
   }
-  for (const FilterSummary& s : id.summaries) report.sections.push_back(filter_section(study, id, s.filter));
+  for (const FilterSummary& s : id.summaries)
+    report.sections.push_back(filter_section(study, id, s.filter));
   if (!study.resolved.empty()) report.sections.push_back(study_section(study));
   report.footer = "Written by driftscope identify. Values stand with their units; ± is 1 sigma.";
   return report;

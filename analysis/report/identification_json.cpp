@@ -25,23 +25,31 @@ std::string text(std::string_view view) { return std::string(view); }
 
 const char* status_key(EstimateStatus status) {
   switch (status) {
-    case EstimateStatus::ok: return "ok";
-    case EstimateStatus::not_converged: return "not_converged";
-    case EstimateStatus::diverged: return "diverged";
+    case EstimateStatus::ok:
+      return "ok";
+    case EstimateStatus::not_converged:
+      return "not_converged";
+    case EstimateStatus::diverged:
+      return "diverged";
   }
   return "";
 }
 
 const char* verdict_key(double ratio) {
   switch (start_verdict(ratio)) {
-    case StartVerdict::consistent: return "consistent";
-    case StartVerdict::doubtful: return "doubtful";
-    case StartVerdict::depends_on_start: return "depends_on_start";
+    case StartVerdict::consistent:
+      return "consistent";
+    case StartVerdict::doubtful:
+      return "doubtful";
+    case StartVerdict::depends_on_start:
+      return "depends_on_start";
   }
   return "";
 }
 
-Json verdict(double ratio) { return std::isfinite(ratio) ? Json(verdict_key(ratio)) : Json(nullptr); }
+Json verdict(double ratio) {
+  return std::isfinite(ratio) ? Json(verdict_key(ratio)) : Json(nullptr);
+}
 
 Json estimator(const EstimateResult& result) {
   Json out;
@@ -97,9 +105,11 @@ Json parameters_json(const FilterSummary& summary, const Identification& id) {
 
 Json degeneracies_json(const FilterSpec& filter, const FilterSummary& summary) {
   Json all = Json::array();
-  for (const NamedDirection& d : name_degeneracies(summary.layout, filter.mounting, summary.degeneracies)) {
+  for (const NamedDirection& d :
+       name_degeneracies(summary.layout, filter.mounting, summary.degeneracies)) {
     Json parts = Json::object();
-    for (const auto& part : d.parts) parts[text(TermLibrary::specs[part.param].key)] = number(part.coefficient);
+    for (const auto& part : d.parts)
+      parts[text(TermLibrary::specs[part.param].key)] = number(part.coefficient);
     all.push_back({{"combination", d.combination},
                    {"coefficients", parts},
                    {"reason", d.reason.empty() ? Json(nullptr) : Json(d.reason)}});

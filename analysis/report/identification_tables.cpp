@@ -17,11 +17,16 @@
 namespace drift {
 namespace {
 
+constexpr double nothing_learned = 0.95;  // posterior over prior sigma
+
 std::string status_text(EstimateStatus status) {
   switch (status) {
-    case EstimateStatus::ok: return "ok";
-    case EstimateStatus::not_converged: return "not converged";
-    case EstimateStatus::diverged: return "diverged";
+    case EstimateStatus::ok:
+      return "ok";
+    case EstimateStatus::not_converged:
+      return "not converged";
+    case EstimateStatus::diverged:
+      return "diverged";
   }
   return "";
 }
@@ -57,7 +62,8 @@ std::string prior_text(const Layout& layout, const std::string_view group) {
   std::vector<std::string> sigmas;
   for (const std::size_t k : library_order(layout)) {
     const auto& spec = TermLibrary::specs[layout.params[k]];
-    if (spec.group.view() == group) sigmas.push_back(number_text(layout.sigma[k] / spec.unit.to_si));
+    if (spec.group.view() == group)
+      sigmas.push_back(number_text(layout.sigma[k] / spec.unit.to_si));
   }
   std::string text = "prior sigma " + sigmas.front();
   if (std::ranges::count(sigmas, sigmas.front()) != static_cast<std::ptrdiff_t>(sigmas.size()))
@@ -83,9 +89,8 @@ std::vector<std::string> filter_lines(const FilterSpec& filter) {
 Table fit_table(const Study& study, const Identification& id, std::size_t filter) {
   Table table;
   table.title = fmt::format("Fit of filter {}", study.filters[filter].name);
-  table.columns = {{"start", Align::left}, {"EKF", Align::left},   {"NIS/m"},
-                   {"95 % band"},          {"batch", Align::left}, {"cost/m"},
-                   {"95 % band"},          {"iterations"}};
+  table.columns = {{"start", Align::left}, {"EKF", Align::left}, {"NIS/m"},     {"95 % band"},
+                   {"batch", Align::left}, {"cost/m"},           {"95 % band"}, {"iterations"}};
   for (const FilterRun* run : id.runs_of(filter)) {
     const EstimateResult& batch = run->batch.estimate;
     table.add({fmt::format("{}", run->start + 1), status_cell(run->ekf), statistic_cell(run->ekf),
@@ -95,8 +100,10 @@ Table fit_table(const Study& study, const Identification& id, std::size_t filter
       if (!result->cause.empty())
         table.add_heading(fmt::format("start {}: {}", run->start + 1, result->cause));
   }
-  table.note = "NIS/m and cost/m: chi-square over its m degrees of freedom, 1 if model, noise and priors are "
-               "right; 95 % band by Wilson-Hilferty.";
+  table.note =
+      "NIS/m and cost/m: chi-square over its m degrees of freedom, 1 if model, noise and priors "
+      "are "
+      "right; 95 % band by Wilson-Hilferty.";
   return table;
 }
 
@@ -108,7 +115,8 @@ Table estimate_table(const Study& study, const Identification& id, std::size_t f
   Table table;
   table.title = fmt::format("Estimates of filter {}", study.filters[filter].name);
   table.columns = {{"", Align::left}};
-  if (how.unit_columns) table.columns.insert(table.columns.end(), {{"unit", Align::left}, {"prior sigma"}});
+  if (how.unit_columns)
+    table.columns.insert(table.columns.end(), {{"unit", Align::left}, {"prior sigma"}});
   if (id.truth) table.columns.push_back({"truth"});
   for (std::size_t s = 0; s < starts; ++s) table.columns.push_back({fmt::format("EKF {}", s + 1)});
   for (const char* name : {"batch", "left", "ratio"}) table.columns.push_back({name});
@@ -123,7 +131,8 @@ Table estimate_table(const Study& study, const Identification& id, std::size_t f
     if (how.unit_columns && owner.key != term)
       table.add_heading(fmt::format("{}: {}", owner.key, owner.equation));
     if (!how.unit_columns && spec.group.view() != group)
-      table.add_heading(fmt::format("{}{} [{}], {}", owner.key != term ? fmt::format("{}: ", owner.key) : "",
+      table.add_heading(fmt::format("{}{} [{}], {}",
+                                    owner.key != term ? fmt::format("{}: ", owner.key) : "",
                                     spec.group.view(), spec.unit.symbol.view(),
                                     prior_text(summary.layout, spec.group.view())));
     term = owner.key;
@@ -144,13 +153,19 @@ Table estimate_table(const Study& study, const Identification& id, std::size_t f
     const double left = batch.learning_ratio();
     cells.emplace_back(left < 0.0005 ? "<.001" : decimal_text(left, 3));
     cells.emplace_back(decimal_text(summary.spread[k].ekf, 2));
-    cells.push_back(verdict_cell(summary.spread[k].ekf));
+    const Cell verdict = verdict_cell(summary.spread[k].ekf);
+    cells.push_back(left > nothing_learned && verdict.tone == Tone::good ? Cell("prior only")
+                                                                         : verdict);
     table.add(std::move(cells));
   }
   table.note = fmt::format(
-      "Values ± 1 sigma{}; batch: from start 1. left: posterior / prior sigma of the batch fit, 1 = nothing "
-      "learned. ratio: standard deviation between the EKF's {} starts / RMS of their sigmas.",
-      starts < runs.size() ? fmt::format(", {} of {} starts shown", starts, runs.size()) : "", runs.size());
+      "Values ± 1 sigma{}; batch: from start 1. left: posterior / prior sigma of the batch fit, 1 "
+      "= nothing "
+      "learned (prior only: agreeing starts mean nothing there). ratio: standard deviation between "
+      "the EKF's "
+      "{} starts / RMS of their sigmas.",
+      starts < runs.size() ? fmt::format(", {} of {} starts shown", starts, runs.size()) : "",
+      runs.size());
   return table;
 }
 
@@ -159,11 +174,13 @@ Table degeneracy_table(const Study& study, const Identification& id, std::size_t
   const FilterSpec& spec = study.filters[filter];
   Table table;
   table.title = fmt::format(
-      "Exact degeneracies of filter {}: {} of {} directions change nothing that is measured; in {}, "
+      "Exact degeneracies of filter {}: {} of {} directions change nothing that is measured; in "
+      "{}, "
       "these included, the prior says more than the data",
       spec.name, summary.degeneracies.size(), summary.layout.size(), summary.weak);
   table.columns = {{"direction, each parameter in its unit", Align::left}, {"why", Align::left}};
-  for (const NamedDirection& d : name_degeneracies(summary.layout, spec.mounting, summary.degeneracies))
+  for (const NamedDirection& d :
+       name_degeneracies(summary.layout, spec.mounting, summary.degeneracies))
     table.add({d.combination, d.reason});
   return table;
 }
@@ -177,32 +194,38 @@ std::vector<std::string> headlines(const Study& study, const Identification& id)
     std::size_t failed = 0, outside = 0;
     Range nis;
     for (const FilterRun* run : runs) {
-      failed += run->ekf.status != EstimateStatus::ok || run->batch.estimate.status != EstimateStatus::ok;
+      failed +=
+          run->ekf.status != EstimateStatus::ok || run->batch.estimate.status != EstimateStatus::ok;
       if (run->ekf.measured == 0) continue;
       nis.include(run->ekf.statistic_per_dof());
-      outside += !chi_square_band(static_cast<double>(run->ekf.measured)).holds(run->ekf.statistic_per_dof());
+      outside += !chi_square_band(static_cast<double>(run->ekf.measured))
+                      .holds(run->ekf.statistic_per_dof());
     }
     std::vector<std::string> dependent;
     for (const StartSpread& p : s.spread)
       if (start_verdict(p.ekf) == StartVerdict::depends_on_start)
         dependent.emplace_back(TermLibrary::specs[p.param].key.view());
     if (failed > 0)
-      all.push_back(fmt::format("{}: {} of {} starts failed or did not converge.", name, failed, runs.size()));
+      all.push_back(fmt::format("{}: {} of {} starts failed or did not converge.", name, failed,
+                                runs.size()));
     if (runs.size() > 1)
-      all.push_back(dependent.empty()
-                        ? fmt::format("{}: no parameter depends on the start.", name)
-                        : fmt::format("{}: {} of {} parameters depend on the start, their sigmas say nothing "
-                                      "of their errors: {}.",
-                                      name, dependent.size(), s.spread.size(), joined(dependent)));
+      all.push_back(
+          dependent.empty()
+              ? fmt::format("{}: no parameter depends on the start.", name)
+              : fmt::format("{}: {} of {} parameters depend on the start, their sigmas say nothing "
+                            "of their errors: {}.",
+                            name, dependent.size(), s.spread.size(), joined(dependent)));
     if (!nis.empty())
-      all.push_back(fmt::format("{}: EKF NIS/m {:.3f} to {:.3f}, {}.", name, nis.low, nis.high,
-                                outside == 0 ? "inside the 95 % band of a right model"
-                                             : fmt::format("outside the 95 % band of a right model from {} of {} "
-                                                           "starts",
-                                                           outside, runs.size())));
+      all.push_back(fmt::format(
+          "{}: EKF NIS/m {:.3f} to {:.3f}, {}.", name, nis.low, nis.high,
+          outside == 0 ? "inside the 95 % band of a right model"
+                       : fmt::format("outside the 95 % band of a right model from {} of {} "
+                                     "starts",
+                                     outside, runs.size())));
     if (!s.degeneracies.empty())
-      all.push_back(fmt::format("{}: {} combinations of its {} parameters cannot be seen in this test at all.",
-                                name, s.degeneracies.size(), s.layout.size()));
+      all.push_back(fmt::format(
+          "{}: {} combinations of its {} parameters cannot be seen in this test at all.", name,
+          s.degeneracies.size(), s.layout.size()));
   }
   return all;
 }

@@ -17,8 +17,8 @@ Table fit_table(const Study& study, const Identification& id, std::size_t filter
 
 /// How the estimates are laid out.
 struct EstimateLayout {
-  std::size_t starts = 3;      ///< EKF columns at most
-  bool unit_columns = false;   ///< unit and prior sigma in columns of their own, not in headings
+  std::size_t starts = 3;     ///< EKF columns at most
+  bool unit_columns = false;  ///< unit and prior sigma in columns of their own, not in headings
 };
 
 /// Truth, prior, EKF and batch estimates, learning ratio and start consistency of every parameter,

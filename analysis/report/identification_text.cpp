@@ -11,7 +11,8 @@ constexpr std::size_t page = 100;  // columns
 /// With as many starts as fit.
 Table fitting_estimates(const Study& study, const Identification& id, std::size_t filter) {
   for (std::size_t starts = 3; starts > 1; --starts)
-    if (Table t = estimate_table(study, id, filter, {.starts = starts}); text_width(t) <= page) return t;
+    if (Table t = estimate_table(study, id, filter, {.starts = starts}); text_width(t) <= page)
+      return t;
   return estimate_table(study, id, filter, {.starts = 1});
 }
 
@@ -33,7 +34,8 @@ std::string to_text(const Study& study, const Identification& id) {
   std::string out = wrapped(study.title, page) + wrapped(source_line(study, id), page);
   for (const FilterSummary& s : id.summaries) {
     out += '\n';
-    for (const std::string& line : filter_lines(study.filters[s.filter])) out += wrapped(line, page, 10);
+    for (const std::string& line : filter_lines(study.filters[s.filter]))
+      out += wrapped(line, page, 10);
     out += '\n' + text_of(fit_table(study, id, s.filter), page);
     out += '\n' + text_of(fitting_estimates(study, id, s.filter), page);
     out += '\n' + degeneracies(degeneracy_table(study, id, s.filter));

@@ -44,20 +44,22 @@ std::vector<KnownDegeneracy> known_degeneracies(const Layout& layout, const Moun
     trace.add("D_F", i, 1.0);
     for (const char* g2 : {"D_II", "D_OO", "D_SS"}) trace.add(g2, i, -1.0);  // per g^2
     if (trace.complete())
-      all.push_back({trace.scaled(),
-                     "fixed drift with the trace of the g^2 terms: a_I^2 + a_O^2 + a_S^2 = 1 g^2 in any "
-                     "laboratory, so only their sum is seen",
-                     exact});
+      all.push_back(
+          {trace.scaled(),
+           "fixed drift with the trace of the g^2 terms: a_I^2 + a_O^2 + a_S^2 = 1 g^2 in any "
+           "laboratory, so only their sum is seen",
+           exact});
   }
   for (int i = 0; i < 3; ++i) {
     Direction cubic(layout);
     cubic.add("K1", i, 1.0);
     cubic.add("K3", i, -1.0);  // per g^3
     if (cubic.complete())
-      all.push_back({cubic.scaled(),
-                     "accelerometer scale with the cubic term: equal where every a_I is -1, 0 or +1 g; "
-                     "positions at 45 deg tell them apart",
-                     exact});
+      all.push_back(
+          {cubic.scaled(),
+           "accelerometer scale with the cubic term: equal where every a_I is -1, 0 or +1 g; "
+           "positions at 45 deg tell them apart",
+           exact});
   }
   for (int axis = 0; axis < 3; ++axis) {
     // A rotation rho of both triads: the axis e_i of an instrument becomes e_i + rho x e_i.
@@ -71,10 +73,11 @@ std::vector<KnownDegeneracy> known_degeneracies(const Layout& layout, const Moun
     }
     // The drift coefficients turn along by drift times angle, which is small but not nothing.
     if (gauge.complete())
-      all.push_back({gauge.scaled(),
-                     "gauge: a common small rotation of gyro triad, accelerometer triad and initial "
-                     "attitude; only gimbal readings or a convention fix the platform axes",
-                     0.05});
+      all.push_back(
+          {gauge.scaled(),
+           "gauge: a common small rotation of gyro triad, accelerometer triad and initial "
+           "attitude; only gimbal readings or a convention fix the platform axes",
+           0.05});
   }
   return all;
 }

@@ -10,9 +10,9 @@ namespace drift {
 
 /// A combination of parameters that some tests cannot see, by physics.md 2.4.
 struct KnownDegeneracy {
-  VecX direction;     ///< over the prior-scaled parameters, layout order
+  VecX direction;  ///< over the prior-scaled parameters, layout order
   std::string reason;
-  double tolerance;   ///< length of the unit direction's part that may lie outside the space
+  double tolerance;  ///< length of the unit direction's part that may lie outside the space
 };
 
 /// All whose parameters are in the layout. Whether a test has them is for its information to say.

@@ -35,8 +35,9 @@ void add_row(Table& table, std::size_t starts, const Unit& unit, const Runs& run
   const bool with_sigmas = runs.sigmas.size() == runs.values.size() && !runs.sigmas.empty();
   for (std::size_t k = 0; k < starts; ++k)
     cells.emplace_back(k >= runs.values.size() ? ""
-                       : with_sigmas ? text(runs.values[k] / unit.to_si, runs.sigmas[k] / unit.to_si)
-                                     : number_text(runs.values[k] / unit.to_si, 5));
+                       : with_sigmas
+                           ? text(runs.values[k] / unit.to_si, runs.sigmas[k] / unit.to_si)
+                           : number_text(runs.values[k] / unit.to_si, 5));
   const bool several = with_sigmas && runs.values.size() > 1;
   const double ratio = several ? start_consistency(runs.values, runs.sigmas) : std::nan("");
   cells.emplace_back(several ? decimal_text(ratio, 2) : "");
@@ -65,7 +66,8 @@ Table compare(const Study& study, const Identification& id, const Published& pub
   table.title = fmt::format("{} beside this run, filter {}", published.name,
                             filter ? study.filters[*filter].name : published.filter);
   table.columns = {{"source", Align::left}};
-  for (std::size_t k = 0; k < starts; ++k) table.columns.push_back({fmt::format("start {}", k + 1)});
+  for (std::size_t k = 0; k < starts; ++k)
+    table.columns.push_back({fmt::format("start {}", k + 1)});
   table.columns.push_back({"ratio"});
   table.columns.push_back({"verdict", Align::left});
   for (const Published::Value& v : published.values) {
@@ -86,7 +88,8 @@ Table compare(const Study& study, const Identification& id, const Published& pub
           if (other.param == v.param) add({short_name(test), other.values, other.sigmas});
   }
   table.note =
-      "ratio: standard deviation between all starts / RMS of their sigmas; up to 2 consistent, above 5 "
+      "ratio: standard deviation between all starts / RMS of their sigmas; up to 2 consistent, "
+      "above 5 "
       "the answer depends on the start and its sigma says nothing of its error.";
   return table;
 }
@@ -96,9 +99,12 @@ Table compare(const Study& study, const Identification& id, const Published& pub
 Cell verdict_cell(double ratio) {
   if (!std::isfinite(ratio)) return {"-"};
   switch (start_verdict(ratio)) {
-    case StartVerdict::consistent: return {"consistent", Tone::good};
-    case StartVerdict::doubtful: return {"doubtful", Tone::doubtful};
-    case StartVerdict::depends_on_start: break;
+    case StartVerdict::consistent:
+      return {"consistent", Tone::good};
+    case StartVerdict::doubtful:
+      return {"doubtful", Tone::doubtful};
+    case StartVerdict::depends_on_start:
+      break;
   }
   return {"depends on start", Tone::bad};
 }

@@ -11,9 +11,10 @@ namespace drift {
 /// "-" where there is no ratio.
 Cell verdict_cell(double ratio);
 
-/// Results of [[published]] beside ours, for every parameter: the published runs, our runs by EKF and
-/// batch, the truth, and independent tests (published without a filter). One table for each set of
-/// published filter runs, and for each other filter and independent test. Empty if nothing is published.
+/// Results of [[published]] beside ours, for every parameter: the published runs, our runs by EKF
+/// and batch, the truth, and independent tests (published without a filter). One table for each set
+/// of published filter runs, and for each other filter and independent test. Empty if nothing is
+/// published.
 std::vector<Table> published_comparison(const Study& study, const Identification& id);
 
 }  // namespace drift

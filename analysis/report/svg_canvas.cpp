@@ -13,9 +13,12 @@ namespace {
 
 std::string_view dashes(Stroke stroke) {
   switch (stroke) {
-    case Stroke::dashed: return " stroke-dasharray=\"6 3\"";
-    case Stroke::dotted: return " stroke-dasharray=\"1.5 3\"";
-    case Stroke::solid: break;
+    case Stroke::dashed:
+      return " stroke-dasharray=\"6 3\"";
+    case Stroke::dotted:
+      return " stroke-dasharray=\"1.5 3\"";
+    case Stroke::solid:
+      break;
   }
   return "";
 }
@@ -34,11 +37,12 @@ std::string_view palette(std::size_t index) {
 }
 
 SvgCanvas::SvgCanvas(double width, double height, std::string_view title) {
-  append(out_,
-         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" "
-         "height=\"{1:.0f}\" role=\"img\" font-family=\"Helvetica, Arial, sans-serif\">\n"
-         "<title>{2}</title>\n",
-         width, height, escaped(title));
+  append(
+      out_,
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" "
+      "height=\"{1:.0f}\" role=\"img\" font-family=\"Helvetica, Arial, sans-serif\">\n"
+      "<title>{2}</title>\n",
+      width, height, escaped(title));
   rectangle(0.0, 0.0, width, height, "#ffffff");
 }
 
@@ -50,8 +54,8 @@ void SvgCanvas::rectangle(double x, double y, double width, double height, std::
          x, y, std::max(width, 0.0), std::max(height, 0.0), fill, opacity);
 }
 
-void SvgCanvas::line(double x1, double y1, double x2, double y2, std::string_view colour, double width,
-                     Stroke stroke) {
+void SvgCanvas::line(double x1, double y1, double x2, double y2, std::string_view colour,
+                     double width, Stroke stroke) {
   append(out_,
          "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\" "
          "stroke-width=\"{:.2g}\"{}/>\n",
@@ -76,10 +80,11 @@ void SvgCanvas::curve(std::span<const double> x, std::span<const double> y, std:
   }
   end_run();
   if (path.empty()) return;
-  append(out_,
-         "<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{:.2g}\" stroke-linecap=\"round\" "
-         "stroke-linejoin=\"round\"{}/>\n",
-         path, colour, width, dashes(stroke));
+  append(
+      out_,
+      "<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{:.2g}\" stroke-linecap=\"round\" "
+      "stroke-linejoin=\"round\"{}/>\n",
+      path, colour, width, dashes(stroke));
 }
 
 void SvgCanvas::area(std::span<const double> x, std::span<const double> low,
@@ -104,20 +109,23 @@ void SvgCanvas::area(std::span<const double> x, std::span<const double> low,
 }
 
 void SvgCanvas::text(double x, double y, std::string_view text, const TextStyle& style) {
-  append(out_, "<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{:.3g}\" text-anchor=\"{}\" fill=\"{}\"", x, y,
-         style.size, style.anchor, style.colour);
+  append(out_,
+         "<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{:.3g}\" text-anchor=\"{}\" fill=\"{}\"", x,
+         y, style.size, style.anchor, style.colour);
   if (style.bold) out_ += " font-weight=\"bold\"";
   if (style.halo)
-    out_ += " stroke=\"#ffffff\" stroke-width=\"3\" stroke-linejoin=\"round\" paint-order=\"stroke\"";
-  if (style.turned != 0.0) append(out_, " transform=\"rotate({:.3g} {:.1f} {:.1f})\"", style.turned, x, y);
+    out_ +=
+        " stroke=\"#ffffff\" stroke-width=\"3\" stroke-linejoin=\"round\" paint-order=\"stroke\"";
+  if (style.turned != 0.0)
+    append(out_, " transform=\"rotate({:.3g} {:.1f} {:.1f})\"", style.turned, x, y);
   out_ += '>' + escaped(text) + "</text>\n";
 }
 
 void SvgCanvas::push_window(double x, double y, double width, double height) {
   // A nested <svg> clips without an id, which could clash where a page holds several pictures.
   append(out_,
-         "<svg x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" overflow=\"hidden\">\n", x, y,
-         width, height);
+         "<svg x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" overflow=\"hidden\">\n",
+         x, y, width, height);
 }
 
 void SvgCanvas::pop_window() { out_ += "</svg>\n"; }

@@ -17,8 +17,8 @@ struct TextStyle {
   std::string_view anchor = "start";  ///< start, middle, end
   std::string_view colour = "#333333";
   bool bold = false;
-  bool halo = false;       ///< white outline, to be read on top of curves
-  double turned = 0.0;     ///< [deg]
+  bool halo = false;    ///< white outline, to be read on top of curves
+  double turned = 0.0;  ///< [deg]
 };
 
 /// Elements of an SVG picture, in pixels from the upper left corner. All text is escaped.

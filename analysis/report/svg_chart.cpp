@@ -12,20 +12,18 @@ namespace {
 // Around the axes of a panel [px].
 constexpr double left = 66.0, right = 14.0, top = 32.0, bottom = 48.0;
 constexpr double legend_line = 20.0, edge = 14.0;
-constexpr std::string_view expected_fill = "#7F7F7F";
+constexpr std::string_view expected_fill = "#7F7F7F", reference_colour = "#222222";
 
-template <class T>
-std::vector<T> picked(const std::vector<T>& all, const std::vector<std::size_t>& indices) {
-  std::vector<T> some;
-  for (const std::size_t i : indices) some.push_back(all[i]);
-  return some;
-}
-
-/// A curve laid out in the pixels of a panel.
+/// Draws one panel; its outer rectangle is given [px].
 class PanelPainter {
  public:
-  PanelPainter(SvgCanvas& canvas, const Panel& panel, double x, double y, double width, double height)
-      : canvas_(canvas), panel_(panel), x0_(x + left), y0_(y + top), w_(width - left - right),
+  PanelPainter(SvgCanvas& canvas, const Panel& panel, double x, double y, double width,
+               double height)
+      : canvas_(canvas),
+        panel_(panel),
+        x0_(x + left),
+        y0_(y + top),
+        w_(width - left - right),
         h_(height - top - bottom) {
     Range xs, ys;
     for (const auto& b : panel.expected) {
@@ -40,7 +38,8 @@ class PanelPainter {
     }
     if (!ys.empty())
       for (const auto& r : panel.references) ys.include(r.y);
-    x_scale_ = make_scale(xs, static_cast<int>(w_ / 55.0), 0.0);
+    if (xs.low > 0.0 && xs.low < 0.05 * xs.high) xs.include(0.0);  // time starts at zero
+    x_scale_ = make_scale(xs, static_cast<int>(w_ / 45.0), 0.0);
     y_scale_ = make_scale(panel.y_range.value_or(ys), static_cast<int>(h_ / 32.0), 0.06);
   }
 
@@ -52,12 +51,12 @@ class PanelPainter {
       for (const auto& b : panel_.expected) area(b.x, b.low, b.high, expected_fill, 0.16);
       for (const auto& s : panel_.series) sigma_band(s);
       for (const auto& r : panel_.references)
-        canvas_.line(0.0, y_of(r.y), w_, y_of(r.y), "#222222", 1.2, r.stroke);
+        canvas_.line(0.0, y_of(r.y), w_, y_of(r.y), reference_colour, 1.2, r.stroke);
       for (const auto& s : panel_.series) curve(s);
-      reference_labels();
     }
     if (!panel_.note.empty())
-      canvas_.text(0.5 * w_, 0.5 * h_, panel_.note, {.anchor = "middle", .colour = "#666666", .halo = true});
+      canvas_.text(0.5 * w_, 0.5 * h_, panel_.note,
+                   {.anchor = "middle", .colour = "#666666", .halo = true});
     canvas_.pop_window();
   }
 
@@ -66,7 +65,8 @@ class PanelPainter {
   double y_of(double y) const { return h_ - y_scale_.at(y, h_); }
 
   void axes() {
-    canvas_.text(x0_ + 0.5 * w_, y0_ - 12.0, panel_.title, {.size = 12.0, .anchor = "middle", .bold = true});
+    canvas_.text(x0_ + 0.5 * w_, y0_ - 12.0, panel_.title,
+                 {.size = 12.0, .anchor = "middle", .bold = true});
     for (std::size_t i = 0; i < y_scale_.ticks.size(); ++i) {
       const double y = y0_ + y_of(y_scale_.ticks[i]);
       canvas_.line(x0_, y, x0_ + w_, y, "#e4e4e4", 1.0);
@@ -83,13 +83,14 @@ class PanelPainter {
     const auto labelled = [](const std::string& label, const AxisScale& scale) {
       return scale.factor.empty() ? label : label + "  " + scale.factor;
     };
-    canvas_.text(x0_ + 0.5 * w_, y0_ + h_ + 34.0, labelled(panel_.x_label, x_scale_), {.anchor = "middle"});
+    canvas_.text(x0_ + 0.5 * w_, y0_ + h_ + 34.0, labelled(panel_.x_label, x_scale_),
+                 {.anchor = "middle"});
     canvas_.text(x0_ - left + 14.0, y0_ + 0.5 * h_, labelled(panel_.y_label, y_scale_),
                  {.anchor = "middle", .turned = -90.0});
   }
 
-  void area(const std::vector<double>& x, const std::vector<double>& low, const std::vector<double>& high,
-            std::string_view colour, double opacity) {
+  void area(const std::vector<double>& x, const std::vector<double>& low,
+            const std::vector<double>& high, std::string_view colour, double opacity) {
     // Thinned on either edge, so that neither loses its extremes.
     std::vector<std::size_t> kept = decimated(low, 1000), more = decimated(high, 1000);
     kept.insert(kept.end(), more.begin(), more.end());
@@ -111,7 +112,7 @@ class PanelPainter {
       low[i] -= s.sigma[i];
       high[i] += s.sigma[i];
     }
-    area(s.x, low, high, palette(s.colour), 0.16);
+    area(s.x, low, high, palette(s.colour), 0.13);
   }
 
   void curve(const Series& s) {
@@ -121,21 +122,6 @@ class PanelPainter {
       py.push_back(y_of(s.y[i]));
     }
     canvas_.curve(px, py, palette(s.colour), 1.5, s.stroke);
-  }
-
-  /// Names above their lines at the right end; below where the next line up is near or the edge is.
-  void reference_labels() {
-    std::vector<const ReferenceLine*> lines;
-    for (const auto& r : panel_.references)
-      if (y_of(r.y) >= 0.0 && y_of(r.y) <= h_) lines.push_back(&r);
-    std::sort(lines.begin(), lines.end(), [](auto* a, auto* b) { return a->y > b->y; });
-    double taken = 0.0;  // down to here [px]
-    for (const ReferenceLine* r : lines) {
-      const double above = y_of(r->y) - 4.0;
-      const double y = above - 9.0 >= taken ? above : y_of(r->y) + 12.0;
-      canvas_.text(w_ - 4.0, y, r->label, {.size = 10.5, .anchor = "end", .colour = "#222222", .halo = true});
-      taken = y + 2.0;
-    }
   }
 
   SvgCanvas& canvas_;
@@ -161,12 +147,15 @@ std::vector<LegendEntry> legend_of(const Chart& chart) {
   for (const auto& p : chart.panels)
     for (const auto& s : p.series) add({s.label, palette(s.colour), s.stroke, false});
   for (const auto& p : chart.panels)
+    for (const auto& r : p.references) add({r.label, reference_colour, r.stroke, false});
+  for (const auto& p : chart.panels)
     for (const auto& b : p.expected) add({b.label, expected_fill, Stroke::solid, true});
   return entries;
 }
 
 /// Draws the entries in lines of `width`, or measures if there is no canvas; returns the height.
-double paint_legend(SvgCanvas* canvas, const std::vector<LegendEntry>& entries, double y, double width) {
+double paint_legend(SvgCanvas* canvas, const std::vector<LegendEntry>& entries, double y,
+                    double width) {
   double x = left, line = y;
   for (const auto& e : entries) {
     const double needed = 30.0 + text_pixels(e.label, 11.0) + 18.0;

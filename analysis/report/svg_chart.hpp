@@ -11,10 +11,10 @@ namespace drift {
 
 /// A curve, with an optional band of +-1 sigma around it.
 struct Series {
-  std::string label;           ///< in the legend; series of equal label share one entry
+  std::string label;  ///< in the legend; series of equal label share one entry
   std::vector<double> x, y;
-  std::vector<double> sigma;   ///< empty: no band
-  std::size_t colour = 0;      ///< index in the palette
+  std::vector<double> sigma;  ///< empty: no band
+  std::size_t colour = 0;     ///< index in the palette
   Stroke stroke = Stroke::solid;
 };
 
@@ -24,7 +24,7 @@ struct ExpectedBand {
   std::vector<double> x, low, high;
 };
 
-/// A horizontal line with its name on it.
+/// A horizontal line, named in the legend: at the line, curves that end there would cross its name.
 struct ReferenceLine {
   double y = 0.0;
   std::string label;

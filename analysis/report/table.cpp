@@ -34,10 +34,14 @@ void append_line(std::string& out, std::string line) {
 
 std::string_view tone_class(Tone tone) {
   switch (tone) {
-    case Tone::good: return " good";
-    case Tone::doubtful: return " doubtful";
-    case Tone::bad: return " bad";
-    case Tone::plain: break;
+    case Tone::good:
+      return " good";
+    case Tone::doubtful:
+      return " doubtful";
+    case Tone::bad:
+      return " bad";
+    case Tone::plain:
+      break;
   }
   return "";
 }

@@ -26,7 +26,8 @@ VecX scaled(const Layout& l, const Combination& combination) {
 
 /// The space spanned by combinations, in an orthonormal basis turned at random, as an eigenvalue
 /// decomposition gives it.
-std::vector<WeakDirection> turned_space(const Layout& l, const std::vector<Combination>& combinations) {
+std::vector<WeakDirection> turned_space(const Layout& l,
+                                        const std::vector<Combination>& combinations) {
   MatX A(static_cast<Eigen::Index>(l.size()), static_cast<Eigen::Index>(combinations.size()));
   for (std::size_t c = 0; c < combinations.size(); ++c) A.col(c) = scaled(l, combinations[c]);
   const MatX Q = MatX(A.householderQr().householderQ()).leftCols(A.cols());
@@ -57,8 +58,9 @@ TEST(NameDegeneracies, FindsReadableDirectionsInATurnedBasis) {
                        {{"K_ip_z", 1.0}},
                        {{"D_I_y", 2.0}, {"K0_x", 200.0}}}));
   EXPECT_EQ(combinations_of(named),
-            (std::vector<std::string>{"D_F_x - D_II_x - D_OO_x - D_SS_x", "D_F_z - D_II_z - D_OO_z - D_SS_z",
-                                      "D_IO_x", "D_I_y + 100 K0_x", "K1_y - K3_y", "K_ip_z"}));
+            (std::vector<std::string>{"D_F_x - D_II_x - D_OO_x - D_SS_x",
+                                      "D_F_z - D_II_z - D_OO_z - D_SS_z", "D_IO_x",
+                                      "D_I_y + 100 K0_x", "K1_y - K3_y", "K_ip_z"}));
   std::map<std::string, std::string> reason;
   for (const auto& d : named) reason[d.combination] = d.reason;
   EXPECT_NE(reason["D_F_x - D_II_x - D_OO_x - D_SS_x"].find("trace"), std::string::npos);
@@ -68,9 +70,9 @@ TEST(NameDegeneracies, FindsReadableDirectionsInATurnedBasis) {
 }
 
 TEST(NameDegeneracies, KnowsTheGaugeOfTheTriads) {
-  // Rotation about x of (x,y,z) triads: y tilts to z, z to -y. For gyro Y (I,O,S) = (y,z,x), z is its
-  // output axis: xi_y = 1; for Z (z,x,y), y is its spin axis: eta_z = -1. Accelerometers (I,P,O)
-  // alike: dP_y = 1, dO_z = -1.
+  // Rotation about x of (x,y,z) triads: y tilts to z, z to -y. For gyro Y (I,O,S) = (y,z,x), z is
+  // its output axis: xi_y = 1; for Z (z,x,y), y is its spin axis: eta_z = -1. Accelerometers
+  // (I,P,O) alike: dP_y = 1, dO_z = -1.
   const Layout l = layout();
   const auto named = name_degeneracies(
       l, {}, turned_space(l, {{{"xi_y", 1.0}, {"eta_z", -1.0}, {"dP_y", 1.0}, {"dO_z", -1.0}}}));
@@ -81,8 +83,10 @@ TEST(NameDegeneracies, KnowsTheGaugeOfTheTriads) {
 
 TEST(NameDegeneracies, ClaimsNothingThatIsNotInTheSpace) {
   const Layout l = layout();
-  const auto named = name_degeneracies(
-      l, {}, turned_space(l, {{{"D_F_x", 1.0}, {"D_II_x", -1.0}, {"D_OO_x", -1.0}}, {{"K1_x", 1.0}, {"K3_x", 1.0}}}));
+  const auto named =
+      name_degeneracies(l, {},
+                        turned_space(l, {{{"D_F_x", 1.0}, {"D_II_x", -1.0}, {"D_OO_x", -1.0}},
+                                         {{"K1_x", 1.0}, {"K3_x", 1.0}}}));
   ASSERT_EQ(named.size(), 2u);
   for (const auto& d : named) EXPECT_EQ(d.reason, "") << d.combination;
 }

@@ -13,7 +13,8 @@ struct PaperValue {
   std::vector<double> values, sigmas;  // in the parameter's unit
 };
 
-inline Published published(std::string name, std::string filter, const std::vector<PaperValue>& rows) {
+inline Published published(std::string name, std::string filter,
+                           const std::vector<PaperValue>& rows) {
   Published p{std::move(name), std::move(filter), {}};
   for (const PaperValue& row : rows) {
     Published::Value v;
@@ -36,7 +37,8 @@ inline std::vector<Published> table_1() {
                     {{"D_I_z", {-1.79, -1.20, -1.35}, {0.04, 0.03, 0.03}},
                      {"D_S_x", {-0.06, 2.89, 2.21}, {0.15, 0.16, 0.12}},
                      {"eta_x", {268.15, -157.02, -8.07}, {14.98, 16.40, 27.15}}}),
-          published("component test", "", {{"D_I_z", {1.45}, {}}, {"D_S_x", {0.33}, {}}, {"eta_x", {112.0}, {}}})};
+          published("component test", "",
+                    {{"D_I_z", {1.45}, {}}, {"D_S_x", {0.33}, {}}, {"eta_x", {112.0}, {}}})};
 }
 
 /// A study with two filters over the base terms.
@@ -48,12 +50,14 @@ inline Study study() {
     FilterSpec f;
     f.name = name;
     f.coupling = s.filters.empty() ? Coupling::eq5 : Coupling::eq6;
-    for (const char* term : {"fixed_drift", "g_drift", "g2_drift", "gyro_misalignment", "accelerometer"}) {
+    for (const char* term :
+         {"fixed_drift", "g_drift", "g2_drift", "gyro_misalignment", "accelerometer"}) {
       TermMask mask;
       mask.set(TermLibrary::find_term(term).value());
       f.active |= TermLibrary::params_of(mask);
     }
-    for (std::size_t i = 0; i < TermLibrary::num_params; ++i) f.priors[i] = TermLibrary::specs[i].prior_si();
+    for (std::size_t i = 0; i < TermLibrary::num_params; ++i)
+      f.priors[i] = TermLibrary::specs[i].prior_si();
     f.drawn_starts = 3;
     s.filters.push_back(f);
   }
@@ -65,7 +69,8 @@ inline EstimateResult result(const Layout& layout, const Theta& truth, double of
   EstimateResult r;
   for (std::size_t k = 0; k < layout.size(); ++k) {
     const double s = layout.sigma[k];
-    r.parameters.push_back({layout.params[k], 0.0, truth[layout.params[k]] + off * s, 0.1 * s, layout.mean[k], s});
+    r.parameters.push_back(
+        {layout.params[k], 0.0, truth[layout.params[k]] + off * s, 0.1 * s, layout.mean[k], s});
   }
   r.statistic = 1010.0;
   r.measured = 1000;
@@ -99,7 +104,8 @@ inline Identification identification(const Study& s) {
         const double left = std::exp(-0.02 * static_cast<double>(i));
         for (Eigen::Index j = 0; j < n; ++j) {
           const ParameterEstimate& p = run.ekf.parameters[static_cast<std::size_t>(j)];
-          run.history.estimate(j, i) = p.value + left * p.prior_sigma * std::sin(0.1 * static_cast<double>(i));
+          run.history.estimate(j, i) =
+              p.value + left * p.prior_sigma * std::sin(0.1 * static_cast<double>(i));
           run.history.sigma(j, i) = p.sigma + left * p.prior_sigma;
         }
         run.history.t.push_back(60.0 * static_cast<double>(i + 1));

@@ -36,9 +36,10 @@ TEST(IdentificationText, FitsOnAPageAndSaysWhatMatters) {
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) EXPECT_LE(display_width(line), 100u) << line;
   for (const char* part :
-       {"Filter corrected (eq5)", "w_cp = -w_ic - C^-1 (w_l + w_md)", "g_drift: D_I [deg/h/g], prior sigma 2",
-        "eta_x", "1.010", "0.914 to 1.090", "Wilson-Hilferty", "diverged", "filter diverged at t = 60 s", "EKF 3",
-        "depends on start", "Table 1 beside this run, filter legacy", "no signal",
+       {"Filter corrected (eq5)", "w_cp = -w_ic - C^-1 (w_l + w_md)",
+        "g_drift: D_I [deg/h/g], prior sigma 2", "eta_x", "1.010", "0.914 to 1.090",
+        "Wilson-Hilferty", "diverged", "filter diverged at t = 60 s", "EKF 3", "depends on start",
+        "Table 1 beside this run, filter legacy", "no signal",
         "Filter corrected (eq5): no parameter depends on the start."})
     EXPECT_NE(text.find(part), std::string::npos) << part;
 }
@@ -64,12 +65,14 @@ TEST(IdentificationJson, HoldsEveryResultInItsUnitAndNoNan) {
   EXPECT_TRUE(ekf["parameters"]["D_F_x"]["sigma"].is_null());
   EXPECT_TRUE(ekf["parameters"]["D_F_y"]["estimate"].is_null());
   EXPECT_EQ(ekf["parameters"]["eta_x"]["unit"], "arcsec");
-  EXPECT_NEAR(ekf["parameters"]["eta_x"]["estimate"].get<double>(), 0.5 * 200.0 - 0.02 * 200.0, 1e-9);
+  EXPECT_NEAR(ekf["parameters"]["eta_x"]["estimate"].get<double>(), 0.5 * 200.0 - 0.02 * 200.0,
+              1e-9);
   EXPECT_NEAR(ekf["parameters"]["eta_x"]["learning_ratio"].get<double>(), 0.1, 1e-12);
   EXPECT_NEAR(ekf["chi2_per_dof"].get<double>(), 1.01, 1e-12);
   EXPECT_TRUE(filter["starts"][1]["ekf"]["chi2_per_dof"].is_null());
   EXPECT_TRUE(filter["parameters"]["D_F_x"]["start_consistency"]["ekf"].is_null());
-  EXPECT_EQ(json["filters"][1]["parameters"]["eta_x"]["start_consistency"]["verdict"], "depends_on_start");
+  EXPECT_EQ(json["filters"][1]["parameters"]["eta_x"]["start_consistency"]["verdict"],
+            "depends_on_start");
   EXPECT_EQ(json["published"][1]["parameters"]["eta_x"]["verdict"], "depends_on_start");
   EXPECT_EQ(text.find("nan"), std::string::npos);
 }
@@ -84,9 +87,10 @@ TEST(IdentificationFigures, ShowThePublishedParametersOfEveryFilter) {
     files.push_back(f.file);
     EXPECT_EQ(testing::xml_problem(f.svg).value_or(""), "") << f.file;
   }
-  EXPECT_EQ(files, (std::vector<std::string>{"estimates.svg", "figure_corrected.svg", "figure_legacy.svg",
-                                             "nis.svg"}));
-  for (const char* text : {"corrected (eq5): D_I_z", "legacy (eq6): eta_x", "truth", "component test"})
+  EXPECT_EQ(files, (std::vector<std::string>{"estimates.svg", "figure_corrected.svg",
+                                             "figure_legacy.svg", "nis.svg"}));
+  for (const char* text :
+       {"corrected (eq5): D_I_z", "legacy (eq6): eta_x", "truth", "component test"})
     EXPECT_NE(figures[0].svg.find(text), std::string::npos) << text;
 }
 
@@ -99,9 +103,11 @@ TEST(IdentificationFigures, HighlightWhatIsPublishedElseGivenElseDoubtful) {
   study.resolved = {{"truth.parameters.eta_y", "1 arcsec", "default prior"},
                     {"truth.parameters.eta_x", "112 arcsec", "study.toml:12"},
                     {"truth.parameters.s_x", "1 ppm", "--set"}};  // no state of either filter
-  EXPECT_EQ(highlighted_parameters(study, id), (std::vector<std::size_t>{TermLibrary::index("eta_x")}));
+  EXPECT_EQ(highlighted_parameters(study, id),
+            (std::vector<std::size_t>{TermLibrary::index("eta_x")}));
   study.published = {testing::published("p", "", {{"D_I_z", {1.0}, {}}})};
-  EXPECT_EQ(highlighted_parameters(study, id), (std::vector<std::size_t>{TermLibrary::index("D_I_z")}));
+  EXPECT_EQ(highlighted_parameters(study, id),
+            (std::vector<std::size_t>{TermLibrary::index("D_I_z")}));
 }
 
 TEST(IdentificationFigures, StopWhereTheFilterStopped) {
@@ -167,15 +173,17 @@ TEST_F(ResultsFolder, HoldsEveryFileAndNothingElse) {
   for (const auto& entry : std::filesystem::directory_iterator(folder_ / "a/b"))
     found.insert(entry.path().filename().string());
   EXPECT_EQ(found, std::set<std::string>(names.begin(), names.end()));
-  EXPECT_EQ(found, (std::set<std::string>{"identification.json", "estimates.svg", "figure__._up_and_out.svg",
-                                          "figure_legacy.svg", "nis.svg", "report.html", "recording.csv",
-                                          "study.toml"}));
+  EXPECT_EQ(found,
+            (std::set<std::string>{"identification.json", "estimates.svg",
+                                   "figure__._up_and_out.svg", "figure_legacy.svg", "nis.svg",
+                                   "report.html", "recording.csv", "study.toml"}));
   EXPECT_EQ(read(folder_ / "a/b/study.toml"), "schema = 1\n# text\n");
   EXPECT_EQ(nlohmann::json::parse(read(folder_ / "a/b/identification.json"))["schema"], 1);
   EXPECT_NE(read(folder_ / "a/b/recording.csv").find("acc_x [g]"), std::string::npos);
 }
 
-void expect_io_error(const std::function<void()>& action, const std::string& path, const std::string& reason) {
+void expect_io_error(const std::function<void()>& action, const std::string& path,
+                     const std::string& reason) {
   try {
     action();
     FAIL() << "no error for " << path;
@@ -190,8 +198,10 @@ TEST_F(ResultsFolder, SaysWhyItCannotBeWritten) {
   const Study study = testing::study();
   const Identification id = testing::identification(study);
   std::ofstream(folder_) << "a file where the folder should be";
-  expect_io_error([&] { write_results(study, id, folder_.string()); }, folder_.string(), "cannot be written");
-  expect_io_error([&] { write_text_atomically("/proc/none/x", "text"); }, "/proc/none/x", "No such file");
+  expect_io_error([&] { write_results(study, id, folder_.string()); }, folder_.string(),
+                  "cannot be written");
+  expect_io_error([&] { write_text_atomically("/proc/none/x", "text"); }, "/proc/none/x",
+                  "No such file");
 }
 
 TEST_F(ResultsFolder, AWrittenTextReplacesTheOldOneWhole) {

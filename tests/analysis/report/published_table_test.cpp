@@ -39,7 +39,8 @@ TEST(PublishedComparison, StandsBesideOurRunsTheTruthAndTheIndependentTest) {
   Study study = testing::study();
   study.published = testing::table_1();
   const auto tables = published_comparison(study, testing::identification(study));
-  for (const char* source : {"this run, EKF", "this run, batch", "truth of this run", "component test"})
+  for (const char* source :
+       {"this run, EKF", "this run, batch", "truth of this run", "component test"})
     EXPECT_EQ(rows_of(tables[1], source).size(), 3u) << source;
   EXPECT_EQ(rows_of(tables[1], "component test")[2][1].text, "112");
   EXPECT_EQ(rows_of(tables[1], "this run, EKF")[0].back().text, "depends on start");
@@ -57,7 +58,8 @@ TEST(PublishedComparison, IndependentTestAloneStandsBesideEveryFilter) {
 
 TEST(PublishedComparison, MissingSigmasGiveNoVerdict) {
   Study study = testing::study();
-  study.published = {testing::published("other paper", "corrected", {{"eta_x", {1.0, 2.0, 3.0}, {}}})};
+  study.published = {
+      testing::published("other paper", "corrected", {{"eta_x", {1.0, 2.0, 3.0}, {}}})};
   const auto tables = published_comparison(study, testing::identification(study));
   const auto rows = rows_of(tables.at(0), "other paper");
   ASSERT_EQ(rows.size(), 1u);

@@ -19,8 +19,14 @@ const double inf = std::numeric_limits<double>::infinity();
 Chart chart_of(std::vector<double> y) {
   Series s{.label = "start 1", .x = {}, .y = std::move(y), .sigma = {}};
   for (std::size_t i = 0; i < s.y.size(); ++i) s.x.push_back(static_cast<double>(i));
-  Panel panel{.title = "a", .x_label = "time [h]", .y_label = "eta_x [arcsec]", .expected = {}, .series = {s},
-              .references = {}, .y_range = {}, .note = {}};
+  Panel panel{.title = "a",
+              .x_label = "time [h]",
+              .y_label = "eta_x [arcsec]",
+              .expected = {},
+              .series = {s},
+              .references = {},
+              .y_range = {},
+              .note = {}};
   return {"title", {panel}};
 }
 
@@ -42,12 +48,19 @@ TEST(SvgChart, IsWellFormedWithEveryKindOfContent) {
   chart.panels[0].series[0].sigma = {0.5, 0.4, 0.3};
   chart.panels[0].expected.push_back({"95 % band", {0.0, 2.0}, {0.5, 0.6}, {1.5, 1.4}});
   chart.panels[0].references = {{2.0, "truth"}, {2.01, "component test", Stroke::dotted}};
-  chart.panels.push_back({.title = "empty", .x_label = "", .y_label = "", .expected = {}, .series = {},
-                          .references = {}, .y_range = {}, .note = "not estimated"});
+  chart.panels.push_back({.title = "empty",
+                          .x_label = "",
+                          .y_label = "",
+                          .expected = {},
+                          .series = {},
+                          .references = {},
+                          .y_range = {},
+                          .note = "not estimated"});
   chart.columns = 2;
   const std::string svg = svg_of(chart);
   EXPECT_EQ(testing::xml_problem(svg).value_or(""), "");
-  for (const char* text : {"truth", "component test", "not estimated", "95 % band", "start 1", "time [h]"})
+  for (const char* text :
+       {"truth", "component test", "not estimated", "95 % band", "start 1", "time [h]"})
     EXPECT_NE(svg.find(text), std::string::npos) << text;
 }
 
@@ -70,14 +83,19 @@ TEST(SvgChart, LeavesGapsWhereThereIsNoNumber) {
   EXPECT_EQ(svg.find("nan"), std::string::npos);
   EXPECT_EQ(svg.find("inf"), std::string::npos);
   const std::string path = first_path(svg);
-  EXPECT_EQ(count(path, "M"), 3u);  // {1, 2}, {3}, {4, 5}
+  EXPECT_EQ(count(path, "M"), 3u);      // {1, 2}, {3}, {4, 5}
   EXPECT_EQ(count(path, "h0.01"), 1u);  // the lonely 3
 }
 
 TEST(SvgChart, DrawsConstantsEmptySeriesAndHugeNumbers) {
-  for (const auto& y : std::vector<std::vector<double>>{
-           {}, {7.0}, {0.0, 0.0}, {1e6, 1e6 + 1e-9}, {nan_value, nan_value}, {-1e308, 1e308}, {1e-300, 2e-300},
-           {1e99, -1e99}}) {
+  for (const auto& y : std::vector<std::vector<double>>{{},
+                                                        {7.0},
+                                                        {0.0, 0.0},
+                                                        {1e6, 1e6 + 1e-9},
+                                                        {nan_value, nan_value},
+                                                        {-1e308, 1e308},
+                                                        {1e-300, 2e-300},
+                                                        {1e99, -1e99}}) {
     const std::string svg = svg_of(chart_of(y));
     EXPECT_EQ(testing::xml_problem(svg).value_or(""), "");
     EXPECT_EQ(svg.find("nan"), std::string::npos);
@@ -125,11 +143,13 @@ TEST(AxisScale, TicksAreRoundAndInRange) {
 }
 
 TEST(AxisScale, ConstantStandsInTheMiddle) {
-  for (const double c : {0.0, 5.0, -3e8}) EXPECT_NEAR(make_scale({c, c}, 5, 0.05).at(c, 100.0), 50.0, 1e-6);
+  for (const double c : {0.0, 5.0, -3e8})
+    EXPECT_NEAR(make_scale({c, c}, 5, 0.05).at(c, 100.0), 50.0, 1e-6);
 }
 
 TEST(BarChart, HasABarAndWhiskersForEachNumber) {
-  BarChart chart{.title = "learned <most>", .x_label = "posterior / prior", .bars = {}, .limit = {}};
+  BarChart chart{
+      .title = "learned <most>", .x_label = "posterior / prior", .bars = {}, .limit = {}};
   chart.bars = {{.label = "D_I_z", .value = 0.2, .low = 0.1, .high = 0.3},
                 {.label = "eta_x", .value = -0.4},
                 {.label = "K0 & co", .value = nan_value}};

@@ -34,9 +34,11 @@ TEST(NumberText, SigmaHasOneOrTwoDigitsAndTheValueAsManyDecimals) {
 TEST(Escaped, KeepsTextAndNeutralisesTheRest) {
   EXPECT_EQ(escaped("a<b>&\"'"), "a&lt;b&gt;&amp;&quot;&#39;");
   EXPECT_EQ(escaped("±°é漢😀"), "±°é漢😀");
-  EXPECT_EQ(escaped("\xC0\xAF"), "\xEF\xBF\xBD\xEF\xBF\xBD");      // overlong '/'
-  EXPECT_EQ(escaped(std::string_view("a\0b", 3)), "a\xEF\xBF\xBD" "b");
-  EXPECT_EQ(escaped("\xE2\x82"), "\xEF\xBF\xBD\xEF\xBF\xBD");      // cut short
+  EXPECT_EQ(escaped("\xC0\xAF"), "\xEF\xBF\xBD\xEF\xBF\xBD");  // overlong '/'
+  EXPECT_EQ(escaped(std::string_view("a\0b", 3)),
+            "a\xEF\xBF\xBD"
+            "b");
+  EXPECT_EQ(escaped("\xE2\x82"), "\xEF\xBF\xBD\xEF\xBF\xBD");  // cut short
 }
 
 TEST(FileNamePart, StaysInItsFolder) {
@@ -58,7 +60,10 @@ TEST(ChiSquareBand, AgreesWithTables) {
 }
 
 Table sample() {
-  Table t{.title = "A <table>", .columns = {{"name", Align::left}, {"value"}}, .rows = {}, .note = "a note"};
+  Table t{.title = "A <table>",
+          .columns = {{"name", Align::left}, {"value"}},
+          .rows = {},
+          .note = "a note"};
   t.add_heading("group & co");
   t.add({"x", Cell("1.0±0.1", Tone::good)});
   t.add({"longer", Cell("10", Tone::bad)});
@@ -85,18 +90,23 @@ TEST(Table, HtmlIsWellFormedAndEscaped) {
 }
 
 TEST(Wrapped, LinesStayWithinTheWidth) {
-  std::istringstream lines(wrapped(std::string("aaa bbb ") + std::string(30, 'x') + " cc dd", 10, 2));
+  std::istringstream lines(
+      wrapped(std::string("aaa bbb ") + std::string(30, 'x') + " cc dd", 10, 2));
   std::vector<std::string> all;
   for (std::string line; std::getline(lines, line);) all.push_back(line);
   EXPECT_EQ(all, (std::vector<std::string>{"aaa bbb", "  " + std::string(30, 'x'), "  cc dd"}));
 }
 
 TEST(HtmlReport, IsOnePageWithoutScriptsAndAddresses) {
-  HtmlReport report{.title = "<script>alert(1)</script>", .subtitle = "\"quoted\" & 'single'",
-                    .headlines = {"</ul><img src=x onerror=alert(1)>"}, .sections = {}, .footer = "<b>"};
-  report.sections.push_back({"one <i>", {Paragraph{"<script>"}, Sentences{{"a", "<b"}}, Preformatted{"x < y"},
-                                         sample(), Picture{"<svg xmlns=\"http://www.w3.org/2000/svg\"></svg>",
-                                                           "cap <tion>"}}});
+  HtmlReport report{.title = "<script>alert(1)</script>",
+                    .subtitle = "\"quoted\" & 'single'",
+                    .headlines = {"</ul><img src=x onerror=alert(1)>"},
+                    .sections = {},
+                    .footer = "<b>"};
+  report.sections.push_back(
+      {"one <i>",
+       {Paragraph{"<script>"}, Sentences{{"a", "<b"}}, Preformatted{"x < y"}, sample(),
+        Picture{"<svg xmlns=\"http://www.w3.org/2000/svg\"></svg>", "cap <tion>"}}});
   const std::string html = to_html(report);
   EXPECT_EQ(testing::xml_problem(html, void_tags).value_or(""), "");
   EXPECT_EQ(html.find("<script"), std::string::npos);
@@ -108,7 +118,8 @@ TEST(HtmlReport, IsOnePageWithoutScriptsAndAddresses) {
 }
 
 TEST(XmlCheck, FindsWhatIsBroken) {
-  for (const char* bad : {"<a><b></a></b>", "<a>", "<a b=\"1\" b=\"2\"></a>", "<a>&</a>", "<a b=c></a>", "x"})
+  for (const char* bad :
+       {"<a><b></a></b>", "<a>", "<a b=\"1\" b=\"2\"></a>", "<a>&</a>", "<a b=c></a>", "x"})
     EXPECT_TRUE(testing::xml_problem(bad).has_value()) << bad;
   EXPECT_FALSE(testing::xml_problem("<a b=\"1\"><c/>t &amp; u</a>").has_value());
 }

@@ -9,10 +9,11 @@
 
 namespace drift::testing {
 
-/// What keeps a text from being well-formed XML: tags that do not balance, attributes without quotes
-/// or twice, '<' in a value, '&' that starts no entity. Empty if nothing. Comments and doctypes are
-/// for `void_tags` pages (HTML) only.
-inline std::optional<std::string> xml_problem(std::string_view text, const std::set<std::string>& void_tags = {}) {
+/// What keeps a text from being well-formed XML: tags that do not balance, attributes without
+/// quotes or twice, '<' in a value, '&' that starts no entity. Empty if nothing. Comments and
+/// doctypes are for `void_tags` pages (HTML) only.
+inline std::optional<std::string> xml_problem(std::string_view text,
+                                              const std::set<std::string>& void_tags = {}) {
   std::vector<std::string> open;
   bool rooted = false;
   const auto entity_ok = [&](std::size_t at) {
@@ -26,7 +27,8 @@ inline std::optional<std::string> xml_problem(std::string_view text, const std::
     if (c == '&' && !entity_ok(i)) return "bare & at " + std::to_string(i);
     if (c == '>') return "bare > at " + std::to_string(i);
     if (c != '<') {
-      if (open.empty() && !std::isspace(static_cast<unsigned char>(c))) return "text outside the root";
+      if (open.empty() && !std::isspace(static_cast<unsigned char>(c)))
+        return "text outside the root";
       ++i;
       continue;
     }
@@ -53,12 +55,14 @@ inline std::optional<std::string> xml_problem(std::string_view text, const std::
         const auto equals = text.find("=\"", i);
         if (equals == std::string_view::npos) return "attribute without value in <" + name;
         const std::string attribute(text.substr(i, equals - i));
-        if (attribute.find_first_of(" <>'\"") != std::string::npos) return "attribute '" + attribute + "'";
+        if (attribute.find_first_of(" <>'\"") != std::string::npos)
+          return "attribute '" + attribute + "'";
         if (!attributes.insert(attribute).second) return "attribute twice: " + attribute;
         const auto close = text.find('"', equals + 2);
         if (close == std::string_view::npos) return "open quote in <" + name;
         for (std::size_t k = equals + 2; k < close; ++k)
-          if (text[k] == '<' || (text[k] == '&' && !entity_ok(k))) return "bad value of " + attribute;
+          if (text[k] == '<' || (text[k] == '&' && !entity_ok(k)))
+            return "bad value of " + attribute;
         i = close + 1;
       }
     }
