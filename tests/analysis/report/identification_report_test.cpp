@@ -162,8 +162,7 @@ TEST_F(ResultsFolder, HoldsEveryFileAndNothingElse) {
   Study study = testing::study();
   study.filters[0].name = "../up/and out";
   study.path = (folder_ / "in.toml").string();
-  std::filesystem::create_directories(folder_);
-  std::ofstream(study.path) << "schema = 1\n# text\n";
+  study.text = "schema = 1\n# text\n";
   Identification id = testing::identification(study);
   id.recording.channels = {{"time", unit::s, {60.0, 120.0}},
                            {"position", unit::one, {1.0, 1.0}},

@@ -1,7 +1,9 @@
 // The two estimators on simulated tests: sensitivities, agreement, degeneracies, consistency.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <cstdio>
 
 #include "core/estimate/batch.hpp"
 #include "core/estimate/ekf.hpp"
@@ -14,11 +16,11 @@ namespace {
 
 using namespace drift::test;
 
-struct Test {
+struct SimulatedTest {
   Timeline timeline;
   Readout readout;
   Simulation sim;
-  Test(const char* preset, CommandLaw mode, const TruthSpec& truth, std::uint64_t run = 1,
+  SimulatedTest(const char* preset, CommandLaw mode, const TruthSpec& truth, std::uint64_t run = 1,
        double dwell = 3600.0)
       : timeline(preset_timeline(preset, mode, dwell)), sim(Simulator(truth, readout).run(timeline, 1, run)) {}
 };
@@ -73,55 +75,301 @@ TEST(Sensitivity, EquationsOfMotionAgreeWithDifferences) {
         const VecX difference = (predicted(theta, up) - predicted(theta, down)) / (2.0 * h);
         const VecX column = J.col(a);
         for (Eigen::Index r = 0; r < column.size(); ++r)
-          if (std::abs(difference[r]) < 1e6) EXPECT_NEAR(difference[r], column[r], 3e-3 * column.norm());
+          if (std::abs(difference[r]) < 1e6) {
+            EXPECT_NEAR(difference[r], column[r], 3e-3 * column.norm());
+          }
       }
     }
 }
 
 TEST(Sensitivity, VariationOfConstantsAgreesWithCvodesForwardSensitivities) {
-  // d phi / d D_F_x, D_I_z, eta_x, D_S_y over an hour of free drift, by CVODES' staggered method.
-  const Timeline timeline = preset_timeline("six", CommandLaw::free);
+  // Attitude at the end of an hour of free drift, with respect to every rate parameter: CVODES'
+  // staggered method on phi against the quadrature of linearize_interval on psi.
+  TestPlan plan = preset_plan("six", PlanDefaults{}).value();
+  plan.positions.resize(1);
+  const Timeline timeline = lay_out(plan, harbin);
   const ModelSpec spec = base_spec(Coupling::eq5);
   const DriftModel model = spec.model();
   const Layout layout = make_layout(spec);
   const Theta theta = random_theta(5);
-  const Interval& first = timeline.intervals.front();
-  const std::array<std::size_t, 4> wanted{param("D_F_x"), param("D_I_z"), param("eta_x"), param("D_S_y")};
-  using D = Dual<3>;
-  const auto rate = [&]<class S>(double t, const Vec3T<S>& phi, const Theta& numbers) -> Vec3T<S> {
-    const Vec3 w = harbin.omega_ie_l();
-    const Mat3 R_lr = rotation<double>(-w * t) * timeline.nodes[0].R_lr;
-    std::array<S, TermLibrary::num_params> p;
-    for (std::size_t i = 0; i < p.size(); ++i) p[i] = S(numbers[i]);
-    const Inputs<S> in = inputs_at<S>(w, Vec3::Zero(), model.mounting, R_lr.cast<S>() * rotation(phi));
-    return rotation_vector_rate<S>(phi, platform_rate(model, in, p.data(), Mat3::Zero()), Vec3::Zero());
+  const Vec3 omega_ie_l = harbin.omega_ie_l();
+  using D = Dual<4>;  // phi, and one parameter at a time
+
+  const auto rate = [&](double t, const double* phi, std::size_t parameter, double scale) {
+    const Mat3 R_lr = rotation<double>(-omega_ie_l * t) * timeline.nodes[0].R_lr;
+    std::array<D, TermLibrary::num_params> p;
+    for (std::size_t i = 0; i < p.size(); ++i) p[i] = D(theta[i]);
+    p[parameter].d[3] = scale;
+    Vec3T<D> v;
+    for (int i = 0; i < 3; ++i) v[i] = D::variable(phi[i], i);
+    const Inputs<D> in = inputs_at<D>(omega_ie_l, Vec3::Zero(), model.mounting, R_lr.cast<D>() * rotation(v));
+    return rotation_vector_rate<D>(v, platform_rate(model, in, p.data(), Mat3::Zero()), Vec3::Zero());
   };
   const auto rhs = [&](double t, const double* y, double* f) {
-    Eigen::Map<Vec3>(f, 3) = rate(t, vec3(y), theta);
+    const Vec3T<D> r = rate(t, y, 0, 0.0);
+    for (int i = 0; i < 3; ++i) f[i] = r[i].v;
     return true;
   };
   const auto sensitivity_rhs = [&](double t, const double* y, const double*, const double* S, double* S_dot) {
-    Vec3T<D> phi;
-    for (int i = 0; i < 3; ++i) phi[i] = D::variable(y[i], i);
-    const Vec3T<D> f = rate(t, phi, theta);
-    Mat3 A;
-    for (int i = 0; i < 3; ++i)
-      for (int k = 0; k < 3; ++k) A(i, k) = f[i].d[k];
-    for (std::size_t c = 0; c < wanted.size(); ++c) {
-      const double h = 1e-3 * TermLibrary::specs[wanted[c]].prior_si().sigma();
-      Theta up = theta, down = theta;
-      up[wanted[c]] += h;
-      down[wanted[c]] -= h;
-      const Vec3 b = (rate(t, vec3(y), up) - rate(t, vec3(y), down)) / (2.0 * h);
-      Eigen::Map<Vec3>(S_dot + 3 * c, 3) = A * vec3(S + 3 * c) + b;
+    for (std::size_t c = 0; c < layout.num_rate; ++c) {
+      const Vec3T<D> r = rate(t, y, layout.params[c], layout.sigma[c]);
+      for (int i = 0; i < 3; ++i) {
+        S_dot[3 * c + i] = r[i].d[3];
+        for (int k = 0; k < 3; ++k) S_dot[3 * c + i] += r[i].d[k] * S[3 * c + k];
+      }
     }
     return true;
   };
-  (void)rhs;
-  (void)sensitivity_rhs;
-  (void)first;
-  (void)layout;
-  SUCCEED();
+  OdeOptions options;
+  const auto nr = static_cast<Eigen::Index>(layout.num_rate);
+  const std::vector<double> scale(layout.num_rate, 1.0);
+  const double hour = timeline.intervals.back().t1;
+  const SensitivityResult oracle = integrate_with_sensitivities(
+      rhs, sensitivity_rhs, options, 0.0, VecX::Zero(3), MatX::Zero(3, nr), scale, hour);
+  ASSERT_TRUE(oracle.result.ok()) << oracle.result.cause;
+
+  const Trajectory phi = integrate_fixed(timeline, model, theta, {Vec3::Zero()});
+  EXPECT_LT((phi.back() - oracle.y).norm(), 1e-11);
+  Linearizer linearizer(model, layout, Readout{});
+  linearizer.set_theta(theta);
+  IntervalSensitivity inner;
+  Mat3X G = Mat3X::Zero(3, nr);
+  for (const Interval& i : timeline.intervals) {
+    linearize_interval(i, timeline, Mat3::Zero(), &phi[i.first_node], linearizer, inner);
+    G = (inner.Phi.back() * G + inner.G.back()).eval();
+  }
+  // psi (inertial axes) of a small change of phi: psi = R_ir J_l(phi) dphi, J_l the left Jacobian.
+  const Node& end = timeline.nodes.back();
+  const Vec3 v = phi.back();
+  const double t = v.norm();
+  const Mat3 k = skew<double>(v);
+  const Mat3 J_l = Mat3::Identity() + (1.0 - std::cos(t)) / (t * t) * k + (t - std::sin(t)) / (t * t * t) * k * k;
+  const Mat3X expected = end.R_il * end.R_lr * J_l * oracle.S;
+  for (Eigen::Index c = 0; c < nr; ++c)
+    EXPECT_LT((G.col(c) - expected.col(c)).norm(), 1e-8 * expected.norm())
+        << TermLibrary::specs[layout.params[c]].key.view();
+}
+
+TEST(Estimators, EkfAndBatchAgreeWhereTheTestSeesTheParameter) {
+  for (const auto& [preset, mode] : {std::pair{"six", CommandLaw::free}, {"eighteen", CommandLaw::level}}) {
+    const TruthSpec truth = base_truth(Coupling::eq5);
+    const FilterSpec filter = base_filter(Coupling::eq5);
+    const SimulatedTest t(preset, mode, truth);
+    const Theta start = make_layout(filter).theta;
+    const EstimateResult ekf = run_ekf(filter, t.timeline, t.readout, t.sim.measured, start);
+    const BatchResult batch = fit_batch(filter, t.timeline, t.readout, t.sim.measured, start);
+    ASSERT_EQ(ekf.status, EstimateStatus::ok);
+    ASSERT_EQ(batch.estimate.status, EstimateStatus::ok);
+    for (std::size_t k = 0; k < ekf.parameters.size(); ++k) {
+      const ParameterEstimate &e = ekf.parameters[k], &b = batch.estimate.parameters[k];
+      if (b.learning_ratio() > 0.5) continue;  // not observable in this test
+      const auto key = TermLibrary::specs[e.param].key.view();
+      EXPECT_LT(std::abs(e.value - b.value), 0.1 * b.sigma) << key << " " << preset;
+      EXPECT_NEAR(e.sigma / b.sigma, 1.0, 0.02) << key << " " << preset;
+    }
+  }
+}
+
+TEST(Estimators, BatchDoesNotDependOnItsStart) {
+  const TruthSpec truth = base_truth(Coupling::eq6);
+  const FilterSpec filter = base_filter(Coupling::eq6);
+  const SimulatedTest t("twelve", CommandLaw::free, truth);
+  std::vector<BatchResult> fits;
+  for (std::uint64_t start = 0; start < 2; ++start)
+    fits.push_back(fit_batch(filter, t.timeline, t.readout, t.sim.measured,
+                             draw_parameters(filter, 3, start, Purpose::filter_start)));
+  for (std::size_t k = 0; k < fits[0].estimate.parameters.size(); ++k) {
+    const auto &a = fits[0].estimate.parameters[k], &b = fits[1].estimate.parameters[k];
+    EXPECT_LT(std::abs(a.value - b.value), 1e-3 * a.sigma) << TermLibrary::specs[a.param].key.view();
+  }
+}
+
+/// Dimension of the null space of the data, and the share of a direction that lies in it.
+struct NullSpace {
+  Layout layout;
+  std::vector<WeakDirection> directions;
+  /// Linearised at the nominal attitudes, for given parameters.
+  NullSpace(const char* preset, CommandLaw mode, Coupling coupling, const Theta& theta) {
+    const ModelSpec spec = base_spec(coupling);
+    const Timeline timeline = preset_timeline(preset, mode);
+    const auto n = static_cast<Eigen::Index>(timeline.intervals.size());
+    const Measurements zero{Mat3X::Zero(3, n), Mat3X::Zero(3, n)};
+    layout = make_layout(spec);
+    const std::vector<Vec3> psi(timeline.chains, Vec3::Zero());
+    directions = weak_directions(
+        information_root(measurement_equations(timeline, spec.model(), layout, Readout{}, zero, theta,
+                                               integrate_fixed(timeline, spec.model(), theta, psi),
+                                               spec.initial_attitude),
+                         layout.size()),
+        1e-6);
+  }
+  double share(std::initializer_list<std::pair<const char*, double>> direction) const {
+    VecX v = VecX::Zero(static_cast<Eigen::Index>(layout.size()));
+    for (const auto& [key, si] : direction)
+      for (std::size_t k = 0; k < layout.size(); ++k)
+        if (layout.params[k] == param(key)) v[k] = si / layout.sigma[k];
+    v.normalize();
+    double inside = 0.0;
+    for (const auto& d : directions) inside += std::pow(d.direction.dot(v), 2);
+    return inside;
+  }
+};
+
+TEST(Degeneracies, FixedDriftHidesInTheTraceOfTheQuadratics) {
+  // a_I^2 + a_O^2 + a_S^2 = 1: three null directions in any 1 g test (physics.md 2.4).
+  for (const auto& [preset, mode] : {std::pair{"eighteen", CommandLaw::level}, {"slew12", CommandLaw::free}}) {
+    const NullSpace null(preset, mode, Coupling::eq5, random_theta(2));
+    EXPECT_EQ(null.directions.size(), 3u) << preset;
+    const double one = TermLibrary::specs[param("D_F_x")].unit.to_si;
+    EXPECT_GT(null.share({{"D_F_x", one}, {"D_II_x", -one}, {"D_OO_x", -one}, {"D_SS_x", -one}}), 0.999999);
+    EXPECT_GT(null.share({{"D_F_z", one}, {"D_II_z", -one}, {"D_OO_z", -one}, {"D_SS_z", -one}}), 0.999999);
+    EXPECT_LT(null.share({{"D_F_x", one}}), 0.9);
+  }
+}
+
+TEST(Degeneracies, CardinalLevelPositionsHideCubicScaleAndCrossTerms) {
+  const NullSpace null("twentyfour", CommandLaw::level, Coupling::eq5, Theta::Zero());
+  EXPECT_GT(null.share({{"K1_x", 1e-6}, {"K3_x", -1e-6}}), 0.99);
+  EXPECT_GT(null.share({{"K_ip_y", 1.0}}), 0.99);
+  EXPECT_GT(null.share({{"D_IS_z", 1.0}}), 0.99);
+}
+
+TEST(Degeneracies, UnderEquation6AFreePlatformDoesNotSeeMisalignment) {
+  // Seen only through E w_l, which the quadratics of the other gyros span (physics.md 1.8).
+  const NullSpace six("six", CommandLaw::free, Coupling::eq6, random_theta(2)),
+      five("six", CommandLaw::free, Coupling::eq5, random_theta(2));
+  EXPECT_EQ(six.directions.size(), five.directions.size() + 6);
+}
+
+/// Two-sided band that holds chi-square of m degrees over m with probability 1 - 2 tail, z of the
+/// tail (Wilson-Hilferty, relative error below 1e-3 for m > 30).
+std::pair<double, double> band(double m, double z) {
+  const auto edge = [&](double s) { return std::pow(1.0 - 2.0 / (9.0 * m) + s * z * std::sqrt(2.0 / (9.0 * m)), 3); };
+  return {edge(-1.0), edge(1.0)};
+}
+
+TEST(MatchedFilter, IsConsistentOver200Runs) {
+  // Truth and filter share equation, terms and priors. NEES over all parameters and NIS over all
+  // scalars inside their 95 % bands; coverage of 1 and 2 sigma inside its 95 % interval.
+  constexpr std::size_t runs = 200;
+  TruthSpec truth = base_truth(Coupling::eq5);
+  FilterSpec filter = base_filter(Coupling::eq5);
+  truth.active = filter.active = only({"D_F", "D_I", "D_O", "D_S", "eta", "xi", "K0", "K1", "dP", "dO"});
+  const Timeline timeline = preset_timeline("twelve", CommandLaw::free, 1800.0);
+  const Readout readout;
+  const Layout layout = make_layout(filter);
+  struct Outcome {
+    double nees = 0.0, nis = 0.0;
+    std::size_t measured = 0, within1 = 0, within2 = 0;
+  };
+  const auto outcomes = mc::run_campaign(runs, [&](std::size_t run) {
+    const Simulation sim = Simulator(truth, readout).run(timeline, 11, run);
+    const EstimateResult r = run_ekf(filter, timeline, readout, sim.measured, layout.theta);
+    Outcome o;
+    VecX e(static_cast<Eigen::Index>(layout.size()));
+    for (std::size_t k = 0; k < layout.size(); ++k) {
+      const double error = r.parameters[k].value - sim.draw.theta[layout.params[k]];
+      e[k] = error / layout.sigma[k];
+      const double z = std::abs(error) / r.parameters[k].sigma;
+      o.within1 += z < 1.0;
+      o.within2 += z < 2.0;
+    }
+    o.nees = e.dot(r.covariance.ldlt().solve(e));
+    o.nis = r.statistic;
+    o.measured = r.measured;
+    return o;
+  });
+  double nees = 0.0, nis = 0.0, within1 = 0.0, within2 = 0.0, measured = 0.0;
+  for (const Outcome& o : outcomes) {
+    nees += o.nees;
+    nis += o.nis;
+    measured += static_cast<double>(o.measured);
+    within1 += static_cast<double>(o.within1);
+    within2 += static_cast<double>(o.within2);
+  }
+  const double n = static_cast<double>(layout.size());
+  const auto nees_band = band(n * runs, 1.96), nis_band = band(measured, 1.96);
+  std::printf("NEES/n %.4f in [%.4f, %.4f]; NIS/m %.5f in [%.5f, %.5f]; coverage %.4f, %.4f of %.0f\n",
+              nees / (n * runs), nees_band.first, nees_band.second, nis / measured, nis_band.first,
+              nis_band.second, within1 / (n * runs), within2 / (n * runs), n * runs);
+  EXPECT_GT(nees / (n * runs), nees_band.first);
+  EXPECT_LT(nees / (n * runs), nees_band.second);
+  EXPECT_GT(nis / measured, nis_band.first);
+  EXPECT_LT(nis / measured, nis_band.second);
+  // Parameters of one run are correlated; the interval counts runs, not run x parameter, for safety
+  // against false alarms, and is still narrow enough to catch a sigma that is 10 % off.
+  const double half1 = 1.96 * std::sqrt(0.6827 * 0.3173 / (runs * 6.0));
+  const double half2 = 1.96 * std::sqrt(0.9545 * 0.0455 / (runs * 6.0));
+  EXPECT_NEAR(within1 / (n * runs), 0.6827, half1);
+  EXPECT_NEAR(within2 / (n * runs), 0.9545, half2);
+}
+
+TEST(CrossedFilter, Equation6OnDataOfEquation5IsBiasedAndSureOfIt) {
+  // Torqued slews: eta is seen through lambda E, so the wrong equation answers with a wrong eta
+  // (physics.md 1.8: "slew12 level, truth 5, filter 6: eta 143 sigma wrong").
+  const TruthSpec truth = base_truth(Coupling::eq5);
+  const SimulatedTest t("slew12", CommandLaw::level, truth);
+  const FilterSpec wrong = base_filter(Coupling::eq6);
+  const BatchResult fit = fit_batch(wrong, t.timeline, t.readout, t.sim.measured, make_layout(wrong).theta);
+  double largest = 0.0;
+  for (const char* key : {"eta_x", "eta_y", "eta_z"}) {
+    const ParameterEstimate& e = *fit.estimate.find(param(key));
+    largest = std::max(largest, std::abs(e.value - t.sim.draw.theta[e.param]) / e.sigma);
+  }
+  EXPECT_GT(largest, 20.0);
+  EXPECT_GT(fit.estimate.statistic_per_dof(), 1.1);
+}
+
+TEST(CrossedFilter, LevelCagedTestsCannotTellTheEquationsApart) {
+  // E enters identically to first order when Earth rate is torqued (physics.md 1.4).
+  const TruthSpec truth = base_truth(Coupling::eq5);
+  const SimulatedTest t("twentyfour", CommandLaw::level, truth, 1, 1800.0);
+  double cost[2];
+  for (const Coupling c : {Coupling::eq5, Coupling::eq6}) {
+    const FilterSpec filter = base_filter(c);
+    cost[c == Coupling::eq6] =
+        fit_batch(filter, t.timeline, t.readout, t.sim.measured, make_layout(filter).theta).estimate.statistic;
+  }
+  EXPECT_LT(std::abs(cost[0] - cost[1]), 25.0);  // second-order differences: below 5 sigma
+}
+
+TEST(LambdaFilter, FindsTheEquationThatMadeTheData) {
+  for (const double lambda : {0.0, 1.0}) {
+    const TruthSpec truth = base_truth(lambda == 0.0 ? Coupling::eq5 : Coupling::eq6);
+    const SimulatedTest t("slew12", CommandLaw::free, truth);
+    FilterSpec filter = base_filter(Coupling::lambda);
+    filter.active.set(param("lambda"));
+    const BatchResult fit = fit_batch(filter, t.timeline, t.readout, t.sim.measured, make_layout(filter).theta);
+    const ParameterEstimate& e = *fit.estimate.find(param("lambda"));
+    EXPECT_NEAR(e.value, lambda, 4.0 * e.sigma);
+    EXPECT_LT(e.sigma, 0.1);
+  }
+}
+
+TEST(Ekf, ReportsDivergenceAsAValue) {
+  const TruthSpec truth = base_truth(Coupling::eq5);
+  const FilterSpec filter = base_filter(Coupling::eq5);
+  SimulatedTest t("six", CommandLaw::free, truth, 1, 600.0);
+  t.sim.measured.acc.setConstant(1e9);
+  const EstimateResult r = run_ekf(filter, t.timeline, t.readout, t.sim.measured, make_layout(filter).theta);
+  EXPECT_EQ(r.status, EstimateStatus::diverged);
+  EXPECT_FALSE(r.cause.empty());
+}
+
+TEST(Ekf, LeavesOutWhatWasNotMeasured) {
+  const TruthSpec truth = base_truth(Coupling::eq5);
+  const FilterSpec filter = base_filter(Coupling::eq5);
+  SimulatedTest t("six", CommandLaw::free, truth, 1, 600.0);
+  const auto n = static_cast<std::size_t>(t.timeline.intervals.size());
+  const Theta start = make_layout(filter).theta;
+  const auto count = [&] { return run_ekf(filter, t.timeline, t.readout, t.sim.measured, start).measured; };
+  EXPECT_EQ(count(), 6 * n);
+  t.sim.measured.acc(1, 3) = std::nan("");
+  t.sim.measured.gimbal.col(5).setConstant(std::nan(""));
+  EXPECT_EQ(count(), 6 * n - 4);
+  const BatchResult batch = fit_batch(filter, t.timeline, t.readout, t.sim.measured, start);
+  EXPECT_EQ(batch.estimate.measured, 6 * n - 4);
+  EXPECT_EQ(batch.estimate.status, EstimateStatus::ok);
 }
 
 }  // namespace

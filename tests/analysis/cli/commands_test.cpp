@@ -1,0 +1,201 @@
+// The program as a user runs it: commands, files, exit codes.
+#include <nlohmann/json.hpp>
+
+#include "core/base/check.hpp"
+#include "tests/support/program.hpp"
+
+namespace drift {
+namespace {
+
+using namespace drift::test;
+
+constexpr int config_error = static_cast<int>(ExitCode::config);
+constexpr int recording_error = static_cast<int>(ExitCode::recording);
+constexpr int io_error = static_cast<int>(ExitCode::io);
+constexpr int usage_error = static_cast<int>(ExitCode::usage);
+
+/// A short six-position study: seconds of computing, all features of a long one.
+constexpr const char* short_study = R"(schema = 1
+title  = "short"
+[site]
+latitude = "45.75 deg"
+[plan]
+preset = "six"
+dwell  = "10 min"
+sample = "60 s"
+mode   = "free"
+[readout]
+accelerometer_noise = "5 ug"
+gimbal_noise        = "5 arcsec"
+[truth]
+coupling = "eq5"
+[[filter]]
+name     = "corrected"
+coupling = "eq5"
+starts   = 2
+[[filter]]
+name     = "legacy"
+coupling = "eq6"
+[monte_carlo]
+seed = 3
+)";
+
+TEST(Program, EveryConfigurationThatIsShippedIsValid) {
+  for (const auto& entry : std::filesystem::directory_iterator(std::string(DRIFT_SOURCE_DIR) + "/configs")) {
+    const Answer a = driftscope("check '" + entry.path().string() + "'");
+    EXPECT_EQ(a.code, 0) << entry.path() << "\n" << a.err;
+    EXPECT_NE(a.out.find("filter"), std::string::npos);
+  }
+}
+
+TEST(Program, CheckPrintsEveryValueAndWhereItCameFrom) {
+  const ScratchFolder folder;
+  const Answer a = driftscope("check " + folder.write("s.toml", short_study) + " --set plan.dwell='20 min'");
+  ASSERT_EQ(a.code, 0) << a.err;
+  EXPECT_NE(a.out.find("20 min"), std::string::npos);
+  EXPECT_NE(a.out.find("--set"), std::string::npos);
+  EXPECT_NE(a.out.find("s.toml:4"), std::string::npos);
+  EXPECT_NE(a.out.find("default prior"), std::string::npos);
+}
+
+TEST(Program, MistakesInAStudyAreLocatedAndExitWith3) {
+  const ScratchFolder folder;
+  const Answer a = driftscope("identify " + folder.write("s.toml", std::string(short_study) + "\n[readuot]\n"));
+  EXPECT_EQ(a.code, config_error);
+  EXPECT_NE(a.err.find("s.toml:"), std::string::npos) << a.err;
+  EXPECT_NE(a.err.find("readout"), std::string::npos) << a.err;
+  EXPECT_TRUE(a.out.empty());
+  EXPECT_EQ(driftscope("check " + folder.file("absent.toml")).code, config_error);
+}
+
+TEST(Program, AWrongCommandLineExitsWith2) {
+  for (const char* line : {"", "bogus", "check", "simulate x.toml", "identify --threads 0 x.toml", "terms no_such_term",
+                           "check x.toml --set nonsense"})
+    EXPECT_EQ(driftscope(line).code, usage_error) << line;
+  EXPECT_EQ(driftscope("--help").code, 0);
+  EXPECT_EQ(driftscope("identify --help").code, 0);
+}
+
+TEST(Program, ARecordingGivesTheSameAnswerAsTheSimulationItCameFrom) {
+  const ScratchFolder folder;
+  const std::string study = folder.write("s.toml", short_study);
+  ASSERT_EQ(driftscope("identify " + study + " --run 2 -o " + folder.file("direct")).code, 0);
+  const auto read = [&](const std::string& name) {
+    return nlohmann::json::parse(text_of(folder.file(name) + "/identification.json"));
+  };
+  const auto direct = read("direct");
+  for (const char* format : {"csv", "h5", "mat"}) {
+    const std::string recording = folder.file(std::string("rec.") + format);
+    const Answer s = driftscope("simulate " + study + " --run 2 -o " + recording);
+    ASSERT_EQ(s.code, 0) << s.err;
+    EXPECT_NE(s.out.find("60"), std::string::npos);  // the quality card counts 60 rows
+    const std::string out = std::string("from_") + format;
+    const Answer a = driftscope("identify " + study + " " + recording + " -o " + folder.file(out));
+    ASSERT_EQ(a.code, 0) << a.err;
+    const auto again = read(out);
+    for (const auto& [key, value] : direct["filters"][0]["starts"][0]["ekf"]["parameters"].items()) {
+      const double expected = value["estimate"], sigma = value["sigma"];
+      const double got = again["filters"][0]["starts"][0]["ekf"]["parameters"][key]["estimate"];
+      EXPECT_NEAR(got, expected, 1e-6 * sigma) << key << " " << format;
+    }
+  }
+}
+
+TEST(Program, IdentifyLeavesTablesPicturesAndAPage) {
+  const ScratchFolder folder;
+  const Answer a = driftscope("identify " + folder.write("s.toml", short_study) + " -o " + folder.file("out"));
+  ASSERT_EQ(a.code, 0) << a.err;
+  for (const char* name : {"identification.json", "estimates.svg", "figure_corrected.svg", "figure_legacy.svg",
+                           "nis.svg", "report.html", "study.toml", "recording.csv"})
+    EXPECT_GT(std::filesystem::file_size(folder.file("out") + "/" + name), 100u) << name;
+  const std::string page = text_of(folder.file("out") + "/report.html");
+  EXPECT_EQ(page.find("http://"), page.find("http://www.w3.org"));  // nothing but the SVG namespace
+  EXPECT_EQ(page.find("<script"), std::string::npos);
+  const Answer again = driftscope("check " + folder.file("out") + "/study.toml");
+  EXPECT_EQ(again.code, 0) << again.err;
+}
+
+TEST(Program, ResultsDoNotDependOnTheNumberOfThreads) {
+  const ScratchFolder folder;
+  const std::string study = folder.write("s.toml", short_study);
+  for (const char* n : {"1", "2", "3"})
+    ASSERT_EQ(driftscope("identify " + study + " --threads " + n + " -o " + folder.file(n)).code, 0);
+  EXPECT_EQ(text_of(folder.file("1") + "/identification.json"), text_of(folder.file("2") + "/identification.json"));
+  EXPECT_EQ(text_of(folder.file("1") + "/identification.json"), text_of(folder.file("3") + "/identification.json"));
+}
+
+TEST(Program, ARecordingOfAnotherPlanIsRefused) {
+  const ScratchFolder folder;
+  const std::string study = folder.write("s.toml", short_study), recording = folder.file("r.csv");
+  ASSERT_EQ(driftscope("simulate " + study + " -o " + recording).code, 0);
+  const Answer other = driftscope("identify " + study + " " + recording + " --set plan.preset='apollo10'");
+  EXPECT_EQ(other.code, recording_error);
+  EXPECT_NE(other.err.find("attitude in the plan"), std::string::npos) << other.err;
+  EXPECT_NE(other.err.find("r.csv:"), std::string::npos) << other.err;
+  const Answer sample = driftscope("identify " + study + " " + recording + " --set plan.sample='120 s'");
+  EXPECT_EQ(sample.code, recording_error) << sample.err;
+}
+
+TEST(Program, AGapInATorquedSequenceIsRefused) {
+  const ScratchFolder folder;
+  const std::string study = folder.write("s.toml", short_study), recording = folder.file("r.csv");
+  ASSERT_EQ(driftscope("simulate " + study + " --set plan.entry=torqued -o " + recording).code, 0);
+  std::string text = text_of(recording), kept;
+  std::size_t data_line = 0, at = 0;
+  while (at < text.size()) {  // without data rows 20 to 23
+    const auto end = text.find('\n', at) + 1;
+    const bool data = std::isdigit(static_cast<unsigned char>(text[at])) != 0;
+    data_line += data;
+    if (!(data && data_line >= 20 && data_line < 24)) kept += text.substr(at, end - at);
+    at = end;
+  }
+  const Answer a = driftscope("identify " + study + " --set plan.entry=torqued " + folder.write("gap.csv", kept));
+  EXPECT_EQ(a.code, recording_error);
+  EXPECT_NE(a.err.find("gap of"), std::string::npos) << a.err;
+}
+
+TEST(Program, WhatCannotBeWrittenExitsWith6) {
+  const ScratchFolder folder;
+  const std::string study = folder.write("s.toml", short_study);
+  EXPECT_EQ(driftscope("simulate " + study + " -o " + folder.file("no/such/folder/r.csv")).code, io_error);
+  folder.write("file", "in the way");
+  const Answer a = driftscope("identify " + study + " -o " + folder.file("file"));
+  EXPECT_EQ(a.code, io_error) << a.err;
+  EXPECT_EQ(driftscope("identify " + study + " " + folder.file("absent.csv")).code, io_error);
+}
+
+TEST(Program, ALoopThatIsFedBackHasNoRecordingOfItsOwn) {
+  const Answer a = driftscope("simulate " + config("compensated.toml") + " -o /tmp/never.csv");
+  EXPECT_EQ(a.code, config_error);
+  EXPECT_NE(a.err.find("given"), std::string::npos) << a.err;
+}
+
+TEST(Program, ASureLoopWithTheTruthIsEquation6) {
+  // The loop is given the true misalignments: filter eq6 is then matched, filter eq5 is not.
+  const ScratchFolder folder;
+  std::string text = short_study;
+  const std::string truth = "[truth]\ncoupling = \"compensated\"\nterms = [\"fixed_drift\", \"g_drift\", \"gyro_misalignment\"]\n"
+                            "[truth.parameters]\neta_x = \"300 arcsec\"\neta_y = \"0 arcsec\"\neta_z = \"0 arcsec\"\nxi = \"0 arcsec\"\n"
+                            "[truth.loop]\nestimate = \"given\"\neta_x = \"300 arcsec\"\n";
+  text.replace(text.find("[truth]\ncoupling = \"eq5\"\n"), std::string("[truth]\ncoupling = \"eq5\"\n").size(), truth);
+  text.replace(text.find("preset = \"six\""), 14, "preset = \"casespin\"");
+  const Answer a = driftscope("identify " + folder.write("s.toml", text) + " -o " + folder.file("out"));
+  ASSERT_EQ(a.code, 0) << a.err;
+  const auto j = nlohmann::json::parse(text_of(folder.file("out") + "/identification.json"));
+  const auto cost = [&](int filter) -> double { return j["filters"][filter]["starts"][0]["batch"]["chi2_per_dof"]; };
+  EXPECT_GT(cost(0), 3.0);
+  EXPECT_LT(cost(1), 1.2);
+}
+
+TEST(Program, TermsAndVersionAnswer) {
+  const Answer all = driftscope("terms");
+  EXPECT_EQ(all.code, 0);
+  for (const char* key : {"fixed_drift", "g_drift", "g2_drift", "gyro_misalignment", "torquer_scale", "accelerometer", "frame_closure"})
+    EXPECT_NE(all.out.find(key), std::string::npos) << key;
+  EXPECT_NE(driftscope("terms eta_x").out.find("toward the spin axis"), std::string::npos);
+  const auto j = nlohmann::json::parse(driftscope("version --json").out);
+  EXPECT_TRUE(j.contains("driftscope") && j.contains("compiler") && j["libraries"].contains("SUNDIALS"));
+}
+
+}  // namespace
+}  // namespace drift

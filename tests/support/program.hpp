@@ -1,0 +1,73 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace drift::test {
+
+/// What a run of the program answered.
+struct Answer {
+  int code = -1;
+  std::string out, err;
+};
+
+/// A folder that is gone after the test.
+class ScratchFolder {
+ public:
+  ScratchFolder()
+      : path_(std::filesystem::temp_directory_path() /
+              ("driftscope_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->test_suite_name()) +
+               "_" + testing::UnitTest::GetInstance()->current_test_info()->name() + "_" + std::to_string(getpid()))) {
+    std::filesystem::create_directories(path_);
+  }
+  ~ScratchFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+  std::string file(const std::string& name) const { return (path_ / name).string(); }
+  std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(file(name), std::ios::binary) << text;
+    return file(name);
+  }
+  std::string path() const { return path_.string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+inline std::string text_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// Runs `driftscope arguments` and keeps what it prints.
+inline Answer driftscope(const std::string& arguments) {
+  const ScratchFolder scratch;
+  const std::string err = scratch.file("stderr");
+  const std::string line = std::string("'") + DRIFT_PROGRAM + "' " + arguments + " 2>'" + err + "'";
+  Answer answer;
+  std::FILE* pipe = popen(line.c_str(), "r");
+  std::array<char, 4096> buffer{};
+  while (const auto n = std::fread(buffer.data(), 1, buffer.size(), pipe)) answer.out.append(buffer.data(), n);
+  const int status = pclose(pipe);
+  answer.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  answer.err = text_of(err);
+  return answer;
+}
+
+inline std::string config(const std::string& name) {
+  return std::string("'") + DRIFT_SOURCE_DIR + "/configs/" + name + "'";
+}
+
+}  // namespace drift::test
