@@ -37,7 +37,7 @@ READOUTS = {
     "accelerometers 5 ug": ("5 ug", None),
     "both, 250 ug, 45 arcsec": ("250 ug", "45 arcsec"),
 }
-FILTERS = {"15 states": ["D_F", "D_I", "D_S", "eta"], "18 states": ["fixed_drift", "g_drift", "gyro_misalignment"]}
+FILTERS = {"15 states": ["D_F", "D_I", "D_S", "eta"], "21 states": ["fixed_drift", "g_drift", "gyro_misalignment"]}
 TRUTHS = {
     "nothing left out": None,
     "D_O, g^2, xi left out": ["fixed_drift", "g_drift", "g2_drift", "gyro_misalignment"],
