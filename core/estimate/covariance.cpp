@@ -81,11 +81,12 @@ void downdate(MatX& P, const U&... us) {
   const double* v[rank];
   for (int k = 0; k < rank; ++k) v[k] = all[k / 3]->col(k % 3).data();
   const auto block = [&]<int count>(std::size_t row) {
-    Lanes u[rank][count];
+    Lanes u[rank][count];  // minus U, so that the broadcast below comes straight from memory
 #pragma GCC unroll 6
     for (int k = 0; k < rank; ++k)
 #pragma GCC unroll 8
-      for (int b = 0; b < count; ++b) u[k][b] = load(v[k] + row + b * lane_width);
+      for (int b = 0; b < count; ++b)
+        u[k][b] = mul_add(load(v[k] + row + b * lane_width), broadcast(-1.0), broadcast(0.0));
     double* p = P.data() + row;
     for (Eigen::Index j = 0; j < columns; ++j, p += stride) {
       Lanes sum[count];
@@ -93,7 +94,7 @@ void downdate(MatX& P, const U&... us) {
       for (int b = 0; b < count; ++b) sum[b] = load(p + b * lane_width);
 #pragma GCC unroll 6
       for (int k = 0; k < rank; ++k) {
-        const Lanes vk = broadcast(-v[k][j]);
+        const Lanes vk = broadcast(v[k][j]);
 #pragma GCC unroll 8
         for (int b = 0; b < count; ++b) sum[b] = mul_add(u[k][b], vk, sum[b]);
       }
