@@ -1,61 +1,156 @@
 #include "core/estimate/covariance.hpp"
 
-#include <Eigen/Cholesky>
-#include <array>
 #include <cmath>
+
+#include "core/base/check.hpp"
+#include "core/estimate/lanes.hpp"
 
 namespace drift {
 namespace {
 
-/// a + b c, fused where the machine has it: the same bits for a given instruction set.
-inline double mul_add(double b, double c, double a) {
-#ifdef __FMA__
-  return __builtin_fma(b, c, a);
-#else
-  return a + b * c;
-#endif
-}
+using Ref3X = Eigen::Ref<const Mat3X>;
 
-/// out[i] (+)= sum_j P(i, j) G(:, j) over the given columns, three sums at a time.
-void accumulate(const MatX& P, const Eigen::Ref<const Mat3X>& G, std::size_t first_column, MatX3& out) {
-  const Eigen::Index n = P.rows();
-  double* __restrict o0 = out.col(0).data();
-  double* __restrict o1 = out.col(1).data();
-  double* __restrict o2 = out.col(2).data();
-  for (Eigen::Index j = 0; j < G.cols(); ++j) {
-    const double g0 = G(0, j), g1 = G(1, j), g2 = G(2, j);
-    const double* __restrict p = P.data() + (first_column + j) * n;
-    if (g0 == 0.0 && g1 == 0.0 && g2 == 0.0) continue;
-    for (Eigen::Index i = 0; i < n; ++i) {
-      o0[i] = mul_add(p[i], g0, o0[i]);
-      o1[i] = mul_add(p[i], g1, o1[i]);
-      o2[i] = mul_add(p[i], g2, o2[i]);
+/// out = in M^T, plus `plus` if given. out may be in or plus.
+void times_transposed(const MatX3& in, const Mat3& M, MatX3& out, const MatX3* plus = nullptr) {
+  const std::size_t rows = in.rows();
+  for (std::size_t row = 0; row < rows; row += lane_width) {
+    const Lanes a = load(&in(row, 0)), b = load(&in(row, 1)), c = load(&in(row, 2));
+    for (int k = 0; k < 3; ++k) {
+      Lanes sum = plus ? load(&(*plus)(row, k)) : broadcast(0.0);
+      sum = mul_add(a, broadcast(M(k, 0)), sum);
+      sum = mul_add(b, broadcast(M(k, 1)), sum);
+      sum = mul_add(c, broadcast(M(k, 2)), sum);
+      store(&out(row, k), sum);
     }
   }
 }
 
-/// P -= U U^T for the columns of U in use. The products commute, so P stays symmetric bit by bit.
-void downdate(MatX& P, const MatX3& U) {
-  const Eigen::Index n = P.rows();
-  const double* __restrict u0 = U.col(0).data();
-  const double* __restrict u1 = U.col(1).data();
-  const double* __restrict u2 = U.col(2).data();
-  for (Eigen::Index j = 0; j < n; ++j) {
-    double* __restrict p = P.data() + j * n;
-    const double a = -u0[j], b = -u1[j], c = -u2[j];
-    for (Eigen::Index i = 0; i < n; ++i)
-      p[i] = mul_add(u2[i], c, mul_add(u1[i], b, mul_add(u0[i], a, p[i])));
+/// out += P G^T over the leading columns of P; G dense, shape (3, columns).
+void add_product(const MatX& P, const Ref3X& G, MatX3& out) {
+  const Eigen::Index columns = G.cols(), stride = P.rows();
+  for_lanes(P.rows(), [&]<int count>(std::size_t row) {
+    Lanes sum[3][count];
+#pragma GCC unroll 3
+    for (int k = 0; k < 3; ++k)
+#pragma GCC unroll 8
+      for (int b = 0; b < count; ++b) sum[k][b] = load(&out(row + b * lane_width, k));
+    const double* p = P.data() + row;
+    const double* g = G.data();
+    for (Eigen::Index j = 0; j < columns; ++j, p += stride, g += G.outerStride()) {
+      const Lanes g0 = broadcast(g[0]), g1 = broadcast(g[1]), g2 = broadcast(g[2]);
+#pragma GCC unroll 8
+      for (int b = 0; b < count; ++b) {
+        const Lanes pj = load(p + b * lane_width);
+        sum[0][b] = mul_add(pj, g0, sum[0][b]);
+        sum[1][b] = mul_add(pj, g1, sum[1][b]);
+        sum[2][b] = mul_add(pj, g2, sum[2][b]);
+      }
+    }
+#pragma GCC unroll 3
+    for (int k = 0; k < 3; ++k)
+#pragma GCC unroll 8
+      for (int b = 0; b < count; ++b) store(&out(row + b * lane_width, k), sum[k][b]);
+  });
+}
+
+/// out += sum of P(:, column) value over the entries: a scalar of the readout depends on few
+/// parameters.
+template <class Entry>
+void add_sparse_product(const MatX& P, const Entry* entries, std::size_t n, double* out) {
+  for_lanes(P.rows(), [&]<int count>(std::size_t row) {
+    Lanes sum[count];
+#pragma GCC unroll 8
+    for (int b = 0; b < count; ++b) sum[b] = load(out + row + b * lane_width);
+    for (std::size_t k = 0; k < n; ++k) {
+      const double* p = P.col(entries[k].column).data() + row;
+      const Lanes h = broadcast(entries[k].value);
+#pragma GCC unroll 8
+      for (int b = 0; b < count; ++b) sum[b] = mul_add(load(p + b * lane_width), h, sum[b]);
+    }
+#pragma GCC unroll 8
+    for (int b = 0; b < count; ++b) store(out + row + b * lane_width, sum[b]);
+  });
+}
+
+/// P -= U U^T, for one U or two at once. The products commute, so P stays symmetric bit by bit.
+template <class... U>
+void downdate(MatX& P, const U&... us) {
+  constexpr int rank = 3 * sizeof...(U);
+  const MatX3* all[] = {&us...};
+  const Eigen::Index columns = P.cols(), stride = P.rows();
+  const double* v[rank];
+  for (int k = 0; k < rank; ++k) v[k] = all[k / 3]->col(k % 3).data();
+  const auto block = [&]<int count>(std::size_t row) {
+    Lanes u[rank][count];  // minus U, so that the broadcast below comes straight from memory
+#pragma GCC unroll 6
+    for (int k = 0; k < rank; ++k)
+#pragma GCC unroll 8
+      for (int b = 0; b < count; ++b)
+        u[k][b] = mul_add(load(v[k] + row + b * lane_width), broadcast(-1.0), broadcast(0.0));
+    double* p = P.data() + row;
+    for (Eigen::Index j = 0; j < columns; ++j, p += stride) {
+      Lanes sum[count];
+#pragma GCC unroll 8
+      for (int b = 0; b < count; ++b) sum[b] = load(p + b * lane_width);
+#pragma GCC unroll 6
+      for (int k = 0; k < rank; ++k) {
+        const Lanes vk = broadcast(v[k][j]);
+#pragma GCC unroll 8
+        for (int b = 0; b < count; ++b) sum[b] = mul_add(u[k][b], vk, sum[b]);
+      }
+#pragma GCC unroll 8
+      for (int b = 0; b < count; ++b) store(p + b * lane_width, sum[b]);
+    }
+  };
+  for_lanes<lanes_at_once / 2>(P.rows(), block);
+}
+
+/// G A for a tall A, shape (3, 3). Columns of G are read four numbers at a time where one follows.
+Mat3 small_product(const Ref3X& G, const MatX3& A) {
+  Eigen::Vector4d z0 = Eigen::Vector4d::Zero(), z1 = z0, z2 = z0;
+  const Eigen::Index last = G.cols() - 1;
+  const double* a0 = A.col(0).data();
+  const double* a1 = A.col(1).data();
+  const double* a2 = A.col(2).data();
+  const double* p = G.data();
+  for (Eigen::Index j = 0; j < last; ++j, p += G.outerStride()) {
+    const Eigen::Vector4d g = Eigen::Map<const Eigen::Vector4d>(p);
+    z0 += g * a0[j];
+    z1 += g * a1[j];
+    z2 += g * a2[j];
   }
+  Mat3 Z;
+  Z << z0.head<3>(), z1.head<3>(), z2.head<3>();
+  if (last >= 0) Z += G.col(last) * A.row(last);
+  return Z;
+}
+
+/// L^-1 of S = L L^T. False unless S is positive definite (a NaN is not).
+bool inverse_cholesky(const Mat3& S, Mat3& L_inv) {
+  const double d0 = S(0, 0);
+  if (!(d0 > 0.0)) return false;
+  const double i0 = 1.0 / std::sqrt(d0), l10 = S(1, 0) * i0, l20 = S(2, 0) * i0;
+  const double d1 = S(1, 1) - l10 * l10;
+  if (!(d1 > 0.0)) return false;
+  const double i1 = 1.0 / std::sqrt(d1), l21 = (S(2, 1) - l20 * l10) * i1;
+  const double d2 = S(2, 2) - l20 * l20 - l21 * l21;
+  if (!(d2 > 0.0)) return false;
+  const double i2 = 1.0 / std::sqrt(d2);
+  const double m10 = -i1 * l10 * i0, m21 = -i2 * l21 * i1;
+  L_inv << i0, 0.0, 0.0, m10, i1, 0.0, -i2 * (l20 * i0 + l21 * m10), m21, i2;
+  return std::isfinite(i0 + i1 + i2);
 }
 
 }  // namespace
 
 Covariance::Covariance(std::size_t parameters, std::size_t num_rate, double sigma_attitude)
     : num_rate_(num_rate),
-      P_pa_(MatX3::Zero(parameters, 3)),
-      P_pp_(MatX::Identity(parameters, parameters)),
-      work_(MatX3::Zero(parameters, 3)),
-      gain_(MatX3::Zero(parameters, 3)) {
+      P_pa_(MatX3::Zero(whole_lanes(parameters), 3)),
+      P_pp_(MatX::Identity(whole_lanes(parameters), parameters)),
+      work_(MatX3::Zero(whole_lanes(parameters), 3)),
+      gain_(MatX3::Zero(whole_lanes(parameters), 3)),
+      later_gain_(gain_) {
+  entries_.reserve(3 * parameters);
   recage(sigma_attitude);
 }
 
@@ -65,15 +160,21 @@ void Covariance::recage(double sigma_attitude) {
 }
 
 void Covariance::propagate(const Mat3& Phi, const Eigen::Ref<const Mat3X>& G, const Mat3& Q) {
-  const auto nr = static_cast<Eigen::Index>(num_rate_);
-  const Mat3 cross = G * P_pa_.topRows(nr);  // G P_pa
-  work_.setZero();
-  accumulate(P_pp_, G, 0, work_);            // P_pp G^T
-  const Mat3 second = Phi * cross.transpose();
-  const Mat3 P = Phi * P_aa_ * Phi.transpose() + second + second.transpose() + G * work_.topRows(nr) + Q;
+  DRIFT_EXPECTS(static_cast<std::size_t>(G.cols()) == num_rate_);
+  // With W = P_pa Phi^T and V = W + P_pp G^T, the new P_pa, the symmetric part of G (W + V) is
+  // G W + (G W)^T + G P_pp G^T.
+  times_transposed(P_pa_, Phi, work_);
+  P_pa_ = work_;
+  add_product(P_pp_, G, P_pa_);
+  work_ += P_pa_;
+  Mat3 Z = small_product(G, work_);
+  if (owed_) {
+    const Mat3 GU = small_product(G, gain_);
+    Z -= GU * GU.transpose();
+    times_transposed(gain_, -GU, P_pa_, &P_pa_);
+  }
+  const Mat3 P = Phi * P_aa_ * Phi.transpose() + Z + Q;
   P_aa_ = 0.5 * (P + P.transpose());
-  gain_.noalias() = P_pa_ * Phi.transpose();
-  P_pa_ = gain_ + work_;
 }
 
 Covariance::Update Covariance::update(const Vec3& nu, const Mat3& H_psi,
@@ -84,61 +185,76 @@ Covariance::Update Covariance::update(const Vec3& nu, const Mat3& H_psi,
   Mat3 H = H_psi;
   Vec3 innovation = nu;
   Vec3 variance = Vec3::Constant(sigma * sigma);
-  std::array<bool, 3> used{true, true, true};
+  bool used[3];
   for (int i = 0; i < 3; ++i) {
-    if (std::isfinite(nu[i])) {
+    used[i] = std::isfinite(nu[i]);
+    if (used[i]) {
       ++out.scalars;
       continue;
     }
-    used[i] = false;
     H.row(i).setZero();
     innovation[i] = 0.0;
     variance[i] = 1.0;
   }
   if (out.scalars == 0) return out;
 
-  const Eigen::Index m = H_par.cols(), at = static_cast<Eigen::Index>(first);
-  Mat3 V_a = P_aa_ * H.transpose();
-  work_.noalias() = P_pa_ * H.transpose();
-  if (m > 0) {
-    Mat3 keep = Mat3::Zero();
-    for (int i = 0; i < 3; ++i) keep(i, i) = used[i] ? 1.0 : 0.0;
-    V_a.noalias() += P_pa_.middleRows(at, m).transpose() * H_par.transpose() * keep;
-    if (out.scalars == 3) {
-      accumulate(P_pp_, H_par, first, work_);
-    } else {
-      gain_.setZero();
-      accumulate(P_pp_, H_par, first, gain_);
-      work_.noalias() += gain_ * keep;
-    }
+  if (owed_ && H_par.cols() > 0) {
+    downdate(P_pp_, gain_);
+    owed_ = false;
+  }
+  MatX3& U = owed_ ? later_gain_ : gain_;
+  const auto at = static_cast<Eigen::Index>(first);
+  entries_.clear();
+  std::size_t end[4] = {0, 0, 0, 0};  // entries of row i run from end[i] to end[i + 1]
+  for (int i = 0; i < 3; ++i) {
+    for (Eigen::Index j = 0; used[i] && j < H_par.cols(); ++j)
+      if (const double h = H_par(i, j); h != 0.0) entries_.push_back({at + j, h});
+    end[i + 1] = entries_.size();
+  }
+  // H_par(i, :) A over the rows of A that it meets.
+  const auto row_product = [&](int i, const MatX3& A) {
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t k = end[i]; k < end[i + 1]; ++k)
+      sum += entries_[k].value * A.row(entries_[k].column).transpose();
+    return sum;
+  };
+  Mat3 V_a = P_aa_ * H.transpose();  // V = P H^T
+  times_transposed(P_pa_, H, work_);
+  for (int i = 0; i < 3; ++i) {
+    if (end[i] == end[i + 1]) continue;
+    V_a.col(i) += row_product(i, P_pa_);
+    add_sparse_product(P_pp_, &entries_[end[i]], end[i + 1] - end[i], work_.col(i).data());
   }
   Mat3 S = H * V_a;
-  if (m > 0) {
-    for (int i = 0; i < 3; ++i)
-      if (used[i]) S.row(i).noalias() += H_par.row(i) * work_.middleRows(at, m);
-  }
+  for (int i = 0; i < 3; ++i)
+    if (end[i] < end[i + 1]) S.row(i) += row_product(i, work_).transpose();
   S = 0.5 * (S + S.transpose()).eval();
   S.diagonal() += variance;
-  const Eigen::LLT<Mat3> llt(S);
-  if (llt.info() != Eigen::Success || !(S.diagonal().minCoeff() > 0.0)) {
+  Mat3 L_inv;
+  if (!inverse_cholesky(S, L_inv)) {
     out.ok = false;
     return out;
   }
   // U = V L^-T, so that P <- P - U U^T and the correction is U L^-1 nu.
-  const Mat3 L = llt.matrixL();
-  Mat3 L_inv = Mat3::Identity();
-  L.triangularView<Eigen::Lower>().solveInPlace(L_inv);
   const Vec3 e = L_inv * innovation;
   out.nis = e.squaredNorm();
-  gain_.noalias() = work_ * L_inv.transpose();
+  times_transposed(work_, L_inv, U);
   const Mat3 U_a = V_a * L_inv.transpose();
   out.attitude = U_a * e;
-  x.noalias() += gain_ * e;
+  const Eigen::Index n = x.size();
+  x += U.col(0).head(n) * e[0] + U.col(1).head(n) * e[1] + U.col(2).head(n) * e[2];
   const Mat3 P = P_aa_ - U_a * U_a.transpose();
   P_aa_ = 0.5 * (P + P.transpose());
-  P_pa_.noalias() -= gain_ * U_a.transpose();
-  downdate(P_pp_, gain_);
+  times_transposed(U, -U_a, P_pa_, &P_pa_);
+  if (owed_) downdate(P_pp_, gain_, later_gain_);
+  owed_ = !owed_;
   return out;
+}
+
+MatX Covariance::parameters() const {
+  MatX P = P_pp_;
+  if (owed_) downdate(P, gain_);
+  return P.topRows(P.cols());
 }
 
 }  // namespace drift

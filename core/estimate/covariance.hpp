@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "core/base/linalg.hpp"
 
 namespace drift {
@@ -42,15 +44,29 @@ class Covariance {
                 std::size_t first, double sigma, VecX& x);
 
   const Mat3& attitude() const { return P_aa_; }
-  const MatX& parameters() const { return P_pp_; }
-  const MatX3& cross() const { return P_pa_; }  ///< shape (parameters, 3)
+  MatX parameters() const;
+  double variance(std::size_t parameter) const {
+    const double owed = owed_ ? gain_.row(parameter).squaredNorm() : 0.0;
+    return P_pp_(parameter, parameter) - owed;
+  }
+  auto cross() const { return P_pa_.topRows(P_pp_.cols()); }  ///< shape (parameters, 3)
 
  private:
   std::size_t num_rate_;
+  // Rows are filled up with zeros to whole lanes.
   Mat3 P_aa_;
   MatX3 P_pa_;
   MatX P_pp_;
-  MatX3 work_, gain_;
+  MatX3 work_, gain_, later_gain_;
+  /// An element of H_par that is not zero.
+  struct Entry {
+    Eigen::Index column;  ///< counts parameters
+    double value;
+  };
+  std::vector<Entry> entries_;
+  // The matrix hardly fits the first cache, so it is written as seldom as possible: an update may
+  // leave P_pp too large by gain gain^T, which the next one takes off along with its own.
+  bool owed_ = false;
 };
 
 }  // namespace drift

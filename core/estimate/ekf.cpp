@@ -131,7 +131,7 @@ void Ekf::process(std::size_t i, const Vec3& acc, const Vec3& gimbal) {
   }
   for (std::size_t k = 0; k < layout_.size(); ++k) {
     history_.estimate(k, i) = theta_[layout_.params[k]];
-    history_.sigma(k, i) = layout_.sigma[k] * std::sqrt(P_.parameters()(k, k));
+    history_.sigma(k, i) = layout_.sigma[k] * std::sqrt(P_.variance(k));
   }
 }
 

@@ -22,29 +22,21 @@ NodeJacobian Linearizer::make() const {
 }
 
 /// Runs over the variables (psi_l x, y, z, then `count` states from first_state) in chunks. Calls
-/// sink(in, theta, first, n): the inputs as duals and which variables the n derivatives are.
+/// sink(in, first, n): the inputs as duals and which variables the n derivatives are. at_psi holds
+/// the derivatives with respect to psi_l, `still` none.
 template <class Sink>
-void Linearizer::sweep(std::size_t first_state, std::size_t count, const Node& node,
-                       const Interval& interval, const Mat3& R_lp, Sink&& sink) {
+void Linearizer::sweep(std::size_t first_state, std::size_t count, const Inputs<D>& at_psi,
+                       const Inputs<D>& still, Sink&& sink) {
   const std::size_t variables = 3 + count;
   for (std::size_t first = 0; first < variables; first += chunk) {
     const std::size_t n = std::min<std::size_t>(chunk, variables - first);
-    Vec3T<D> psi_l(D(0.0), D(0.0), D(0.0));
     for (std::size_t k = 0; k < n; ++k) {
       const std::size_t v = first + k;
-      if (v < 3) {
-        psi_l[v].d[k] = 1.0;
-      } else {
-        const std::size_t state = first_state + v - 3;
-        theta_[layout_.params[state]].d[k] = layout_.sigma[state];
-      }
+      if (v < 3) continue;
+      const std::size_t state = first_state + v - 3;
+      theta_[layout_.params[state]].d[k] = layout_.sigma[state];
     }
-    // exp([psi x]) R at psi = 0, to first order.
-    Mat3T<D> R = R_lp.cast<D>();
-    if (first < 3) R += skew(psi_l) * R_lp.cast<D>();
-    const Inputs<D> in =
-        inputs_at<D>(node.omega_ic_l, interval.omega_cmd_p, model_.mounting, R);
-    sink(in, first, n);
+    sink(first < 3 ? at_psi : still, first, n);
     for (std::size_t k = 0; k < n; ++k)
       if (first + k >= 3) theta_[layout_.params[first_state + first + k - 3]].d[k] = 0.0;
   }
@@ -54,8 +46,26 @@ void Linearizer::evaluate(const Node& node, const Interval& interval, const Mat3
                           const Vec3& phi, NodeJacobian& out) {
   const Mat3 R_lp = node.R_lr * rotation(phi);
   const Mat3 R_ip = node.R_il * R_lp;
+  // What the terms see is linear in R_lp, so its derivative is what they would see of dR_lp.
+  const auto seen = [&](const Mat3& R) {
+    return inputs_at<double>(node.omega_ic_l, interval.omega_cmd_p, model_.mounting, R);
+  };
+  const Inputs<double> value = seen(R_lp);
+  Inputs<D> still;
+  still.mounting = value.mounting;
+  still.f_p = value.f_p.cast<D>();
+  still.omega_ic_p = value.omega_ic_p.cast<D>();
+  still.omega_cmd_p = value.omega_cmd_p;
+  Inputs<D> at_psi = still;
+  for (int k = 0; k < 3; ++k) {  // exp([psi x]) R at psi = 0, to first order
+    const Inputs<double> d = seen(skew<double>(Vec3::Unit(k)) * R_lp);
+    for (int i = 0; i < 3; ++i) {
+      at_psi.f_p[i].d[k] = d.f_p[i];
+      at_psi.omega_ic_p[i].d[k] = d.omega_ic_p[i];
+    }
+  }
   Mat3 A_l;
-  sweep(0, layout_.num_rate, node, interval, R_lp,
+  sweep(0, layout_.num_rate, at_psi, still,
         [&](const Inputs<D>& in, std::size_t first, std::size_t n) {
           const Vec3T<D> omega_ip_p = platform_rate(model_, in, theta_.data(), E_loop);
           for (std::size_t k = 0; k < n; ++k) {
@@ -69,7 +79,7 @@ void Linearizer::evaluate(const Node& node, const Interval& interval, const Mat3
   out.A = R_ip * A_l * node.R_il.transpose();
   if (!readout_.accelerometers) return;
   Mat3 H_l;
-  sweep(layout_.num_rate, layout_.size() - layout_.num_rate, node, interval, R_lp,
+  sweep(layout_.num_rate, layout_.size() - layout_.num_rate, at_psi, still,
         [&](const Inputs<D>& in, std::size_t first, std::size_t n) {
           const Vec3T<D> acc = accelerometer_output(model_, in, theta_.data());
           out.acc = Vec3(acc[0].v, acc[1].v, acc[2].v);

@@ -38,8 +38,8 @@ class Linearizer {
   using D = Dual<chunk>;
 
   template <class Sink>
-  void sweep(std::size_t first_state, std::size_t count, const Node& node, const Interval& interval,
-             const Mat3& R_lp, Sink&& sink);
+  void sweep(std::size_t first_state, std::size_t count, const Inputs<D>& at_psi,
+             const Inputs<D>& still, Sink&& sink);
 
   DriftModel model_;
   Layout layout_;

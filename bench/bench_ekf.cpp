@@ -1,0 +1,257 @@
+// Speed of the filter: the structured covariance step against a textbook filter over dense matrices,
+// on the same transition and measurement matrices; and of a whole EKF step with its linearisation.
+// Exit code 8 if the covariances differ, 9 if a step allocates memory.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+#include <ctime>
+
+#include "bench/dense_ekf.hpp"
+#include "core/estimate/ekf.hpp"
+#include "core/sim/simulate.hpp"
+
+namespace {
+std::atomic<long> allocations{0};
+}
+
+// glibc's own entry points carry the work; these only count.
+extern "C" void* __libc_malloc(std::size_t) noexcept;
+extern "C" void* malloc(std::size_t n) noexcept {
+  allocations.fetch_add(1, std::memory_order_relaxed);
+  return __libc_malloc(n);
+}
+
+namespace drift::bench {
+namespace {
+
+constexpr int repetitions = 5;
+constexpr double aimed_ratio = 40.0;
+constexpr double allowed_difference = 1e-10;  // of the final covariances, norm over norm
+constexpr double arw = 1e-3 * detail::deg / 60.0;  // [rad/sqrt(s)]
+
+FilterSpec all_terms() {
+  FilterSpec filter;
+  filter.name = "bench";
+  filter.active.set();
+  filter.active.reset(TermLibrary::index("lambda"));
+  for (std::size_t i = 0; i < TermLibrary::num_params; ++i)
+    filter.priors[i] = TermLibrary::specs[i].prior_si();
+  filter.noise.angle_random_walk = arw;
+  return filter;
+}
+
+Timeline six_free() {
+  PlanDefaults defaults;
+  defaults.mode = CommandLaw::free;
+  defaults.dwell = 3600.0;
+  defaults.sample = 10.0;
+  return lay_out(preset_plan("six", defaults).value(), Site{45.75 * detail::deg});
+}
+
+/// A few columns without a detour over the heap: a step is one piece of memory, read in one go.
+using InPlace = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, 40>;
+
+/// What one step of a filter needs: to the middle, accelerometers, to the end, gimbals.
+struct Step {
+  bool cage = false;
+  Mat3 Phi_half, Phi_rest;
+  InPlace G_half, G_rest, H_par;
+  Mat3 H_acc, H_gimbal, Q;
+  Vec3 nu_acc, nu_gimbal;
+};
+
+struct Problem {
+  Readout readout;
+  FilterSpec filter = all_terms();
+  Timeline timeline = six_free();
+  Layout layout = make_layout(filter);
+  std::vector<Step> steps;
+
+  Eigen::Index states() const { return 3 + static_cast<Eigen::Index>(layout.size()); }
+  Eigen::Index rate_states() const { return static_cast<Eigen::Index>(layout.num_rate); }
+};
+
+/// The matrices of every step, along the platform's motion with parameters drawn from the prior.
+Problem make_problem() {
+  Problem p;
+  const DriftModel model = p.filter.model();
+  const Theta theta = draw_parameters(p.filter, 1, 0, Purpose::test);
+  const Trajectory phi = integrate_fixed(p.timeline, model, theta,
+                                         std::vector<Vec3>(p.timeline.chains, Vec3::Zero()));
+  Linearizer linearizer(model, p.layout, p.readout);
+  linearizer.set_theta(theta);
+  IntervalSensitivity s;
+  for (std::size_t i = 0; i < p.timeline.intervals.size(); ++i) {
+    const Interval& interval = p.timeline.intervals[i];
+    linearize_interval(interval, p.timeline, Mat3::Zero(), &phi[interval.first_node], linearizer, s);
+    const auto m = static_cast<std::size_t>(interval.substeps);
+    const std::size_t last = interval.node_count() - 1;
+    Step step;
+    step.cage = interval.cage;
+    step.Phi_half = s.Phi[m];
+    step.G_half = s.G[m];
+    step.Phi_rest = s.Phi[last] * s.Phi[m].inverse();
+    step.G_rest = s.G[last] - step.Phi_rest * s.G[m];
+    step.H_acc = s.jacobian[m].H;
+    step.H_par = s.jacobian[m].H_par;
+    step.H_gimbal =
+        predict_gimbals(p.timeline.nodes[interval.last_node()], interval.heading1,
+                        phi[interval.last_node()]).H;
+    step.Q = 0.5 * arw * arw * interval.length() * Mat3::Identity();
+    const double a = static_cast<double>(i);
+    step.nu_acc = p.readout.accelerometer_noise * Vec3(std::sin(a), std::cos(a), std::sin(2.0 * a));
+    step.nu_gimbal = p.readout.gimbal_noise * Vec3(std::cos(3.0 * a), std::sin(a), std::cos(a));
+    p.steps.push_back(std::move(step));
+  }
+  return p;
+}
+
+/// CPU time of this process [s].
+double cpu_time() {
+  timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+struct Timed {
+  double seconds = 0.0;
+  long allocated = 0;
+  MatX P;  ///< final covariance, attitude first
+};
+
+Timed run_structured(const Problem& p) {
+  Covariance P(p.layout.size(), p.layout.num_rate, p.filter.initial_attitude);
+  VecX x = VecX::Zero(p.layout.size());
+  const Mat3X none(3, 0);
+  const long before = allocations;
+  const double start = cpu_time();
+  for (const Step& s : p.steps) {
+    if (s.cage) P.recage(p.filter.initial_attitude);
+    P.propagate(s.Phi_half, s.G_half, s.Q);
+    P.update(s.nu_acc, s.H_acc, s.H_par, p.layout.num_rate, p.readout.accelerometer_noise, x);
+    P.propagate(s.Phi_rest, s.G_rest, s.Q);
+    P.update(s.nu_gimbal, s.H_gimbal, none, 0, p.readout.gimbal_noise, x);
+  }
+  Timed out{cpu_time() - start, allocations - before, MatX(p.states(), p.states())};
+  out.P.topLeftCorner<3, 3>() = P.attitude();
+  out.P.bottomLeftCorner(p.states() - 3, 3) = P.cross();
+  out.P.topRightCorner(3, p.states() - 3) = P.cross().transpose();
+  out.P.bottomRightCorner(p.states() - 3, p.states() - 3) = P.parameters();
+  return out;
+}
+
+Timed run_dense(const Problem& p, DenseForm form) {
+  const Eigen::Index n = p.states(), nr = p.rate_states();
+  DenseCovariance filter(n, form);
+  MatX F = MatX::Identity(n, n), Q = MatX::Zero(n, n);
+  Mat3X H_acc = Mat3X::Zero(3, n), H_gimbal = Mat3X::Zero(3, n);
+  const double sa = p.readout.accelerometer_noise, sg = p.readout.gimbal_noise;
+  const long before = allocations;
+  const double start = cpu_time();
+  for (const Step& s : p.steps) {
+    if (s.cage) {
+      filter.P.topRows<3>().setZero();
+      filter.P.leftCols<3>().setZero();
+      filter.P.diagonal().head<3>().setConstant(p.filter.initial_attitude * p.filter.initial_attitude);
+    }
+    Q.topLeftCorner<3, 3>() = s.Q;
+    F.topLeftCorner<3, 3>() = s.Phi_half;
+    F.block(0, 3, 3, nr) = s.G_half;
+    filter.propagate(F, Q);
+    H_acc.leftCols<3>() = s.H_acc;
+    H_acc.rightCols(n - 3 - nr) = s.H_par;
+    filter.update(s.nu_acc, H_acc, sa * sa);
+    F.topLeftCorner<3, 3>() = s.Phi_rest;
+    F.block(0, 3, 3, nr) = s.G_rest;
+    filter.propagate(F, Q);
+    H_gimbal.leftCols<3>() = s.H_gimbal;
+    filter.update(s.nu_gimbal, H_gimbal, sg * sg);
+  }
+  return {cpu_time() - start, allocations - before, filter.P};
+}
+
+/// The whole filter, on measurements simulated once.
+Timed run_filter(const Problem& p, const Measurements& measured) {
+  Ekf ekf(p.filter, p.timeline, p.readout, p.layout.theta);
+  ekf.process(0, measured.acc.col(0), measured.gimbal.col(0));  // fills the work space
+  const long before = allocations;
+  const double start = cpu_time();
+  for (std::size_t i = 1; i < p.steps.size(); ++i)
+    ekf.process(i, measured.acc.col(i), measured.gimbal.col(i));
+  return {cpu_time() - start, allocations - before, ekf.covariance().parameters()};
+}
+
+/// Difference of two covariances of prior-scaled states, norm over norm.
+double difference(const MatX& A, const MatX& B) { return (A - B).norm() / B.norm(); }
+
+/// Largest difference of an element, over the largest element.
+double difference_by_element(const MatX& A, const MatX& B) {
+  return (A - B).cwiseAbs().maxCoeff() / B.cwiseAbs().maxCoeff();
+}
+
+/// The same, each element over the posterior sigmas it belongs to: amplified by how much was learnt.
+double difference_by_sigma(const MatX& A, const MatX& B) {
+  const VecX sigma = B.diagonal().cwiseSqrt();
+  return ((A - B).array() / (sigma * sigma.transpose()).array()).abs().maxCoeff();
+}
+
+/// Attitude over its prior too.
+void scale_attitude(const Problem& p, Timed& t) {
+  t.P.topRows<3>() /= p.filter.initial_attitude;
+  t.P.leftCols<3>() /= p.filter.initial_attitude;
+}
+
+void keep_best(Timed& best, const Timed& now) {
+  if (best.seconds == 0.0 || now.seconds < best.seconds) best = now;
+}
+
+void print_row(const char* name, const Timed& t, std::size_t steps, double reference) {
+  fmt::print("{:<34}{:>12.0f}{:>12.3f}{:>12.2f}{:>12}\n", name, static_cast<double>(steps) / t.seconds,
+             1e6 * t.seconds / static_cast<double>(steps), reference / t.seconds, t.allocated);
+}
+
+int run() {
+  const Problem p = make_problem();
+  TruthSpec truth;
+  static_cast<ModelSpec&>(truth) = p.filter;
+  const Measurements measured = Simulator(truth, p.readout).run(p.timeline, 1, 0).measured;
+  Timed structured, textbook, joseph, filter;
+  for (int k = 0; k < repetitions; ++k) {
+    keep_best(structured, run_structured(p));
+    keep_best(textbook, run_dense(p, DenseForm::textbook));
+    keep_best(joseph, run_dense(p, DenseForm::joseph));
+    keep_best(filter, run_filter(p, measured));
+  }
+  const std::size_t n = p.steps.size();
+  fmt::print("{} states, {} steps of 2 propagations and 2 updates of 3 scalars; best of {}, CPU time\n\n",
+             p.states(), n, repetitions);
+  fmt::print("{:<34}{:>12}{:>12}{:>12}{:>12}\n", "", "steps/s", "us/step", "speed", "mallocs");
+  print_row("dense, textbook (I - K H) P", textbook, n, textbook.seconds);
+  print_row("dense, Joseph form", joseph, n, textbook.seconds);
+  print_row("structured", structured, n, textbook.seconds);
+  print_row("whole EKF step, structured", filter, n - 1, textbook.seconds);
+  const double ratio = textbook.seconds / structured.seconds;
+  fmt::print("\nstructured against textbook: {:.1f} times as fast (aim {:.0f}){}\n", ratio, aimed_ratio,
+             ratio < aimed_ratio ? ", MISSED" : "");
+  for (Timed* t : {&structured, &textbook, &joseph}) scale_attitude(p, *t);
+  const auto compare = [](const char* names, const Timed& a, const Timed& b) {
+    fmt::print("  {:<24}{:>12.1e}{:>12.1e}{:>12.1e}\n", names, difference(a.P, b.P),
+               difference_by_element(a.P, b.P), difference_by_sigma(a.P, b.P));
+  };
+  fmt::print("\ndifference of final covariances{:>6}{:>12}{:>12}\n", "norm", "element", "by sigma");
+  compare("structured, textbook", structured, textbook);
+  compare("structured, Joseph", structured, joseph);
+  compare("textbook, Joseph", textbook, joseph);
+  const double gap = std::max(difference(structured.P, textbook.P), difference(structured.P, joseph.P));
+  if (!(gap <= allowed_difference)) return 8;
+  return structured.allocated + filter.allocated == 0 ? 0 : 9;
+}
+
+}  // namespace
+}  // namespace drift::bench
+
+int main() { return drift::bench::run(); }

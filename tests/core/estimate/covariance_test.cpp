@@ -1,0 +1,79 @@
+#include "core/estimate/covariance.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <cstdlib>
+#include <limits>
+
+namespace drift {
+namespace {
+
+/// A dense filter beside the structured one: x = [attitude, parameters].
+struct Dense {
+  MatX P;
+  VecX x;
+  void propagate(const MatX& F, const MatX& Q) { P = (F * P * F.transpose() + Q).eval(); }
+  void update(const VecX& nu, const MatX& H, double sigma) {
+    const MatX S = H * P * H.transpose() + sigma * sigma * MatX::Identity(nu.size(), nu.size());
+    const MatX K = P * H.transpose() * S.inverse();
+    x += K * nu;
+    P = (P - K * S * K.transpose()).eval();
+  }
+};
+
+/// Sizes with and without whole blocks of lanes; scalars that are missing; updates in any order.
+TEST(Covariance, AgreesWithADenseFilter) {
+  std::srand(7);
+  for (const Eigen::Index n : {1, 5, 13, 60, 61, 97}) {
+    const Eigen::Index nr = (2 * n + 2) / 3, m = n - nr;
+    Covariance P(n, nr, 0.5);
+    VecX x = VecX::Zero(n);
+    Dense dense{MatX::Identity(3 + n, 3 + n), VecX::Zero(3 + n)};
+    dense.P.topLeftCorner<3, 3>() *= 0.25;
+    for (int step = 0; step < 12; ++step) {
+      const Mat3 Phi = Mat3::Identity() + 0.1 * Mat3::Random();
+      const Mat3X G = Mat3X::Random(3, nr);
+      MatX F = MatX::Identity(3 + n, 3 + n), Q = MatX::Zero(3 + n, 3 + n);
+      F.topLeftCorner<3, 3>() = Phi;
+      F.block(0, 3, 3, nr) = G;
+      Q.topLeftCorner<3, 3>() = 0.01 * Mat3::Identity();
+      P.propagate(Phi, G, 0.01 * Mat3::Identity());
+      dense.propagate(F, Q);
+
+      const bool readout = step % 3 != 1;  // then an update of the attitude alone
+      Vec3 nu = Vec3::Random();
+      const Mat3 H_psi = Mat3::Random();
+      Mat3X H_par = readout ? Mat3X::Random(3, m) : Mat3X(3, 0);
+      if (H_par.cols() > 1) H_par(1, 1) = 0.0;
+      MatX H = MatX::Zero(3, 3 + n);
+      H.leftCols<3>() = H_psi;
+      H.rightCols(H_par.cols()) = H_par;
+      const int missing = step % 4;  // 3: none
+      if (missing < 3) nu[missing] = std::numeric_limits<double>::quiet_NaN();
+      VecX nu_dense(missing < 3 ? 2 : 3);
+      MatX H_dense(nu_dense.size(), 3 + n);
+      for (int i = 0, k = 0; i < 3; ++i)
+        if (i != missing) {
+          nu_dense[k] = nu[i];
+          H_dense.row(k++) = H.row(i);
+        }
+      dense.x.head<3>().setZero();
+      const auto update = P.update(nu, H_psi, H_par, readout ? nr : 0, 0.1, x);
+      dense.update(nu_dense, H_dense, 0.1);
+      EXPECT_TRUE(update.ok);
+      EXPECT_EQ(update.scalars, nu_dense.size());
+      const MatX pp = P.parameters();
+      EXPECT_TRUE(pp == pp.transpose());
+      EXPECT_LT((pp - dense.P.bottomRightCorner(n, n)).cwiseAbs().maxCoeff(), 1e-11) << n;
+      EXPECT_LT((P.cross() - dense.P.bottomLeftCorner(n, 3)).cwiseAbs().maxCoeff(), 1e-11) << n;
+      EXPECT_LT((P.attitude() - dense.P.topLeftCorner<3, 3>()).cwiseAbs().maxCoeff(), 1e-11) << n;
+      EXPECT_LT((update.attitude - dense.x.head<3>()).cwiseAbs().maxCoeff(), 1e-11) << n;
+      EXPECT_LT((x - dense.x.tail(n)).cwiseAbs().maxCoeff(), 1e-10) << n;
+      for (Eigen::Index k = 0; k < n; ++k) EXPECT_NEAR(P.variance(k), pp(k, k), 1e-15);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace drift
