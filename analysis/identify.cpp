@@ -116,6 +116,19 @@ void run_jobs(const Study& study, Identification& id, int threads, const Progres
   id.summaries = summarise(study, id);
 }
 
+/// The lambda of a truth whose coupling is no member of the family by name: the integrating servo
+/// closes like eq. (6) (physics.md 1.5); a compensated loop has none.
+void set_lambda(const TruthSpec& truth, Theta& theta) {
+  constexpr auto lambda = TermLibrary::index("lambda");
+  switch (truth.coupling) {
+    case Coupling::eq5: theta[lambda] = 0.0; break;
+    case Coupling::eq6: theta[lambda] = 1.0; break;
+    case Coupling::servo: theta[lambda] = truth.servo.float_restraint == 0.0 ? 1.0 : std::nan(""); break;
+    case Coupling::compensated: theta[lambda] = std::nan(""); break;
+    case Coupling::lambda: break;
+  }
+}
+
 /// Several tests one after the other, as one timeline.
 Timeline joined(std::vector<Timeline> timelines) {
   Timeline all = std::move(timelines.front());
@@ -181,6 +194,7 @@ Identification identify_simulated(const Study& study, std::uint64_t run, int thr
   set_loop(timeline, study.truth);
   const std::uint64_t seed = study.monte_carlo.seed;
   id.truth = draw_truth(study.truth, timeline.chains, seed, run);
+  set_lambda(study.truth, id.truth->theta);
   if (study.truth.coupling == Coupling::compensated && study.truth.loop == LoopEstimate::feedback) {
     run_jobs(study, id, threads, progress,
              [&](const Job& job) { return estimate_in_the_loop(study, job, timeline, *id.truth, run); });
@@ -188,6 +202,8 @@ Identification identify_simulated(const Study& study, std::uint64_t run, int thr
   }
   const Simulation sim = Simulator(study.truth, study.readout).run(timeline, *id.truth, seed, run);
   require_ok(sim.ode, run);
+  id.truth->theta = sim.theta_end;  // what an estimate at the end is to be compared with
+  set_lambda(study.truth, id.truth->theta);
   id.recording = make_recording(timeline, sim.measured, study.readout);
   run_jobs(study, id, threads, progress,
            [&](const Job& job) { return estimate(study, job, timeline, sim.measured); });

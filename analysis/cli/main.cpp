@@ -1,9 +1,11 @@
 #include <CLI/CLI.hpp>
 
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <exception>
 #include <functional>
+#include <system_error>
 
 #include "analysis/cli/commands.hpp"
 
@@ -56,7 +58,13 @@ class Program {
       return app_.exit(e) == 0 ? 0 : static_cast<int>(ExitCode::usage);
     }
     try {
-      return static_cast<int>(chosen_());
+      const ExitCode code = chosen_();
+      if (std::fflush(stdout) != 0) throw std::system_error(errno, std::generic_category());
+      return static_cast<int>(code);
+    } catch (const std::system_error& e) {
+      if (e.code() == std::errc::broken_pipe) return 128 + SIGPIPE;  // the reader has seen enough
+      fmt::print(stderr, "error: standard output: {}. Results are incomplete; make room and run again\n", e.what());
+      return static_cast<int>(ExitCode::io);
     } catch (const InputError& e) {
       std::fflush(stdout);
       for (const auto& message : e.messages()) fmt::print(stderr, "error: {}\n", message);

@@ -46,8 +46,8 @@ ExitCode terms(const std::string& key) {
   std::vector<std::string_view> known;
   for (const TermInfo& term : TermLibrary::terms) known.push_back(term.key);
   for (const ParamSpec& spec : TermLibrary::specs) known.push_back(spec.key.view());
-  throw InputError(ExitCode::usage, fmt::format("terms: no term or parameter '{}'. {}`driftscope terms` "
-                                                "lists all", key, config::suggestion(key, known, "")));
+  throw InputError(ExitCode::usage, fmt::format("terms: no term or parameter '{}'. {} `driftscope terms` "
+                                                "lists all", key, config::suggestion(key, known, "See the list:")));
 }
 
 }  // namespace drift::cli

@@ -32,8 +32,11 @@ std::string status_text(EstimateStatus status) {
 }
 
 Cell status_cell(const EstimateResult& result) {
-  const bool ok = result.status == EstimateStatus::ok;
-  return {status_text(result.status), ok ? Tone::plain : Tone::bad};
+  if (result.status != EstimateStatus::ok) return {status_text(result.status), Tone::bad};
+  // Five sigma of chi-square over m, whose variance is 2/m: no right model does that.
+  const double m = static_cast<double>(result.measured);
+  const bool misfit = result.measured > 0 && std::abs(result.statistic_per_dof() - 1.0) > 5.0 * std::sqrt(2.0 / m);
+  return misfit ? Cell{"misfit", Tone::bad} : Cell{"ok"};
 }
 
 Cell statistic_cell(const EstimateResult& result) {
@@ -174,9 +177,8 @@ Table degeneracy_table(const Study& study, const Identification& id, std::size_t
   const FilterSpec& spec = study.filters[filter];
   Table table;
   table.title = fmt::format(
-      "Exact degeneracies of filter {}: {} of {} directions change nothing that is measured; in "
-      "{}, "
-      "these included, the prior says more than the data",
+      "Exact degeneracies of filter {}: {} of {} directions in parameter space change nothing that is "
+      "measured. {} directions (with these) are known better from the prior than from the data",
       spec.name, summary.degeneracies.size(), summary.layout.size(), summary.weak);
   table.columns = {{"direction, each parameter in its unit", Align::left}, {"why", Align::left}};
   for (const NamedDirection& d :
@@ -205,6 +207,9 @@ std::vector<std::string> headlines(const Study& study, const Identification& id)
     for (const StartSpread& p : s.spread)
       if (start_verdict(p.ekf) == StartVerdict::depends_on_start)
         dependent.emplace_back(TermLibrary::specs[p.param].key.view());
+    if (study.filters[s.filter].noise.any())
+      all.push_back(fmt::format("{}: declares process noise, which the batch fit does not model: its sigmas and "
+                                "`left` are too small; use the EKF's.", name));
     if (failed > 0)
       all.push_back(fmt::format("{}: {} of {} starts failed or did not converge.", name, failed,
                                 runs.size()));

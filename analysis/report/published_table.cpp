@@ -100,7 +100,7 @@ Cell verdict_cell(double ratio) {
   if (!std::isfinite(ratio)) return {"-"};
   switch (start_verdict(ratio)) {
     case StartVerdict::consistent:
-      return {"consistent", Tone::good};
+      return {"starts agree", Tone::plain};
     case StartVerdict::doubtful:
       return {"doubtful", Tone::doubtful};
     case StartVerdict::depends_on_start:

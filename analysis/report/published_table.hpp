@@ -7,7 +7,7 @@
 
 namespace drift {
 
-/// Verdict on a start-consistency ratio as a cell: "consistent", "doubtful", "depends on start".
+/// Verdict on a start-consistency ratio as a cell: "starts agree", "doubtful", "depends on start".
 /// "-" where there is no ratio.
 Cell verdict_cell(double ratio);
 

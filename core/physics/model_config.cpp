@@ -185,7 +185,17 @@ std::vector<FilterSpec> read_filters(Section& root, const Mounting& mounting) {
   std::vector<Section> sections = root.sections("filter");
   for (auto& section : sections) {
     filters.push_back(read_filter(section, filters.size() + 1, mounting));
-    const auto& name = filters.back().name;
+    const FilterSpec& filter = filters.back();
+    bool estimates = false;
+    for (std::size_t i = 0; i < TermLibrary::num_params; ++i)
+      estimates = estimates || (filter.active[i] && filter.priors[i].sigma() > 0.0);
+    if (!estimates)
+      root.report().error(section.at(),
+                          fmt::format("the filter '{}' estimates nothing (expected at least one parameter "
+                                      "that is not a known constant). Add terms, or leave `terms` out for "
+                                      "the six base terms",
+                                      filter.name));
+    const auto& name = filter.name;
     const bool again = std::any_of(filters.begin(), filters.end() - 1,
                                    [&](const FilterSpec& f) { return f.name == name; });
     if (name.empty() || again)

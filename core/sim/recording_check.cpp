@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <limits>
+
 #include <algorithm>
 #include <cmath>
 
@@ -151,12 +153,18 @@ void check_values(const Recording& r, RecordingKind kind, Problems& problems) {
   bool measured = false;
   for (const auto& c : r.channels) {
     const bool command = c.name.starts_with("cmd_") && kind == RecordingKind::platform;
+    const auto quantity = known_quantity(c.name);
+    const double most = quantity ? quantity->most : std::numeric_limits<double>::max();
     const bool sensor = c.name.starts_with("acc_") || c.name.starts_with("gimbal_");
     for (std::size_t i = 0; i < c.values.size(); ++i) {
       const double x = c.values[i];
       if (std::isinf(x))
         problems.add(at(r, i, c.name), "the value is infinite", "a finite number",
                      "Leave the cell empty (nan) if it was not measured");
+      else if (std::abs(x) > most)
+        problems.add(at(r, i, c.name), fmt::format("the value {:g} is beyond reason", x / c.unit.to_si),
+                     fmt::format("at most {:g} {} in size", most / c.unit.to_si, c.unit.symbol.view()),
+                     "Check the unit and the export; leave the cell empty if it was not measured");
       if (std::isnan(x) && command)
         problems.add(at(r, i, c.name), "the command is missing", "the commanded rate in every row",
                      "Give the command, 0 if there was none");

@@ -76,7 +76,7 @@ void Simulator::begin(const Timeline& timeline, const TruthDraw& draw, std::uint
   out.draw = draw;
   out.phi.assign(timeline.nodes.size(), Vec3::Zero());
   out.measured = {Mat3X::Constant(3, n, missing), Mat3X::Constant(3, n, missing)};
-  theta_ = draw.theta;
+  theta_ = out.theta_end = draw.theta;
 }
 
 void Simulator::extend(const Timeline& timeline, std::size_t first, std::size_t end, Simulation& out) {
@@ -108,6 +108,7 @@ void Simulator::integrate(const Timeline& timeline, std::size_t first, std::size
     out.cost.jacobian_calls += stats.jacobian_calls;
     first = last;
   }
+  out.theta_end = theta_;
 }
 
 void Simulator::measure(const Timeline& timeline, std::size_t i, Simulation& out) {

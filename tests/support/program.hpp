@@ -25,7 +25,8 @@ class ScratchFolder {
   ScratchFolder()
       : path_(std::filesystem::temp_directory_path() /
               ("driftscope_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->test_suite_name()) +
-               "_" + testing::UnitTest::GetInstance()->current_test_info()->name() + "_" + std::to_string(getpid()))) {
+               "_" + testing::UnitTest::GetInstance()->current_test_info()->name() + "_" + std::to_string(getpid()) + "_" +
+               std::to_string(made()++))) {
     std::filesystem::create_directories(path_);
   }
   ~ScratchFolder() {
@@ -43,6 +44,10 @@ class ScratchFolder {
   std::string path() const { return path_.string(); }
 
  private:
+  static int& made() {
+    static int count = 0;
+    return count;
+  }
   std::filesystem::path path_;
 };
 

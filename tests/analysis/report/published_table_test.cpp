@@ -44,7 +44,7 @@ TEST(PublishedComparison, StandsBesideOurRunsTheTruthAndTheIndependentTest) {
     EXPECT_EQ(rows_of(tables[1], source).size(), 3u) << source;
   EXPECT_EQ(rows_of(tables[1], "component test")[2][1].text, "112");
   EXPECT_EQ(rows_of(tables[1], "this run, EKF")[0].back().text, "depends on start");
-  EXPECT_EQ(rows_of(tables[0], "this run, EKF")[0].back().text, "consistent");
+  EXPECT_EQ(rows_of(tables[0], "this run, EKF")[0].back().text, "starts agree");
   EXPECT_LE(text_width(tables[1]), 100u);
 }
 
