@@ -60,7 +60,7 @@ bool Section::read(const Option& option, double& value) {
   std::optional<double> given;
   const Node* node = take(option.key);
   if (node == nullptr) {
-    report_->assumed(full(option.key), quantity_text(value / option.unit.to_si, option.unit));
+    report_->assumed(full(option.key), quantity_text(value / option.unit.to_si, option.unit), origin_);
     return false;
   }
   const auto q = read_quantity(*report_, *node, full(option.key), option);
@@ -84,7 +84,7 @@ bool Section::read(const Option& option, std::optional<double>& value) {
 bool Section::read(const Option& option, Vec3& value) {
   const Node* node = take(option.key);
   if (node == nullptr) {
-    report_->assumed(full(option.key), list_text({value.data(), 3}, option.unit));
+    report_->assumed(full(option.key), list_text({value.data(), 3}, option.unit), origin_);
     return false;
   }
   if (!node->is(Node::Kind::array) || node->items.size() != 3) {
@@ -108,7 +108,7 @@ bool Section::read(const Option& option, Mat3& value) {
   const Node* node = take(option.key);
   if (node == nullptr) {
     const Mat3 rows = value.transpose();
-    report_->assumed(full(option.key), list_text({rows.data(), 9}, option.unit));
+    report_->assumed(full(option.key), list_text({rows.data(), 9}, option.unit), origin_);
     return false;
   }
   const auto is_row = [](const Node& row) {
@@ -137,7 +137,7 @@ bool Section::read(const Option& option, Mat3& value) {
 bool Section::read(const Option& option, bool& value) {
   const Node* node = take(option.key);
   if (node == nullptr) {
-    report_->assumed(full(option.key), value ? "true" : "false");
+    report_->assumed(full(option.key), value ? "true" : "false", origin_);
     return false;
   }
   if (!node->is(Node::Kind::boolean)) {
@@ -153,7 +153,7 @@ bool Section::read(const Option& option, std::string& value) {
   constexpr std::size_t longest = 200;
   const Node* node = take(option.key);
   if (node == nullptr) {
-    report_->assumed(full(option.key), value);
+    report_->assumed(full(option.key), value, origin_);
     return false;
   }
   const auto control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
@@ -171,7 +171,7 @@ bool Section::read(const Option& option, std::string& value) {
 bool Section::read_whole(const Option& option, std::uint64_t& value) {
   const Node* node = take(option.key);
   if (node == nullptr) {
-    report_->assumed(full(option.key), fmt::format("{}", value));
+    report_->assumed(full(option.key), fmt::format("{}", value), origin_);
     return false;
   }
   std::uint64_t given = 0;

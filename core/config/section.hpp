@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/base/linalg.hpp"
@@ -24,6 +25,8 @@ class Section {
 
   bool present() const { return table_ != nullptr; }
   const Place& at() const { return at_; }
+  /// What the resolved list says of values that are not given here: "default" unless said otherwise.
+  void defaults_come_from(std::string origin) { origin_ = std::move(origin); }
   Report& report() const { return *report_; }
   std::string full(std::string_view key) const;
 
@@ -71,6 +74,7 @@ class Section {
   Place at_;
   std::string path_;
   std::vector<std::string> known_;
+  std::string origin_ = "default";
 };
 
 template <class E, std::size_t N>
@@ -83,7 +87,7 @@ bool Section::read(const Option& option, E& value, const Choice<E> (&choices)[N]
   }
   if (!has(option.key))
     for (const auto& choice : choices)
-      if (choice.value == value) report_->assumed(full(option.key), std::string(choice.name));
+      if (choice.value == value) report_->assumed(full(option.key), std::string(choice.name), origin_);
   return false;
 }
 

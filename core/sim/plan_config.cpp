@@ -53,6 +53,7 @@ void read_dwell(Section& section, double& dwell, double& sample) {
 
 Position read_position(Section section, std::size_t number, const PlanDefaults& defaults) {
   Position p;
+  section.defaults_come_from("as [plan]");
   p.name = fmt::format("position {}", number);
   p.dwell = defaults.dwell;
   p.sample = defaults.sample;
