@@ -47,7 +47,8 @@ std::string write_hdf5(const Recording& recording, const Facts& facts, const std
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   const Hdf5Handle plan(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
   constexpr unsigned order = H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED;
-  if (!plan || H5Pset_link_creation_order(plan.get(), order) < 0 ||
+  if (!plan || H5Pset_obj_track_times(plan.get(), false) < 0 ||  // of the root group
+      H5Pset_link_creation_order(plan.get(), order) < 0 ||
       H5Pset_attr_creation_order(plan.get(), order) < 0)
     return "HDF5 does not start";
   Hdf5Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, plan.get(), H5P_DEFAULT), H5Fclose);
