@@ -11,7 +11,6 @@
 #include "core/sim/plan_config.hpp"
 #include "mc/published_config.hpp"
 #include "mc/study.hpp"
-#include "mc/study_text.hpp"
 
 namespace drift {
 namespace {
@@ -170,10 +169,6 @@ Study read_study(const std::string& path, const Overrides& overrides) {
   try_sweep(root, study);
   study.text = config::to_document(root);
   return study;
-}
-
-std::string study_text(const std::string& path, const Overrides& overrides) {
-  return config::to_document(load_tree(path, overrides));
 }
 
 }  // namespace drift

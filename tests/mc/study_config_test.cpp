@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <numbers>
 
-#include "mc/study_text.hpp"
 #include "tests/core/config/typos.hpp"
 #include "tests/mc/study_file.hpp"
 
@@ -149,7 +148,7 @@ TEST(StudyConfig, TheTextOfAStudyReadsBackToTheSameStudy) {
   const test::StudyFile file(test::full_study);
   const Overrides overrides = {{"filter.corrected.terms", "[\"g_drift\", \"accelerometer\"]"},
                                {"filter.corrected.starts", "2"}};
-  const std::string text = study_text(file.path(), overrides);
+  const std::string text = read_study(file.path(), overrides).text;
   const Study direct = read_study(file.path(), overrides), written = test::read_text(text);
   ASSERT_EQ(direct.resolved.size(), written.resolved.size());
   for (std::size_t i = 0; i < direct.resolved.size(); ++i) {
@@ -158,7 +157,7 @@ TEST(StudyConfig, TheTextOfAStudyReadsBackToTheSameStudy) {
   }
   EXPECT_EQ(direct.truth.priors, written.truth.priors);
   EXPECT_EQ(direct.filters[0].active, written.filters[0].active);
-  EXPECT_EQ(study_text(test::StudyFile(text).path(), {}), text);
+  EXPECT_EQ(read_study(test::StudyFile(text).path()).text, text);
 }
 
 /// Keys of full_study that stand alone on their line, with every slip in each of them.
