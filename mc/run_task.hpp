@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/base/units.hpp"
+
+namespace drift::mc {
+
+/// One number of the row that every run yields.
+struct Column {
+  std::string name;  ///< "eq5/0/sigma/D_I_z"
+  Unit unit;         ///< in which people read it; rows themselves are SI
+};
+
+/// How a run ended. The numbers are stored: never renumber.
+enum class RunStatus : std::uint8_t {
+  ok = 0,
+  integrator_failed = 1,
+  filter_diverged = 2,
+  nonfinite = 3,
+  timeout = 4,
+  error = 5,
+};
+
+/// What a run says of itself besides its row. Times of the clock are not part of the result.
+struct RunOutcome {
+  RunStatus status = RunStatus::ok;
+  std::string cause;         ///< in words, empty if ok
+  double t_failed = 0.0;     ///< time in the test at which it failed [s]
+  double integration_s = 0.0, filter_s = 0.0, total_s = 0.0;  ///< CPU seconds spent
+};
+
+/// Executes runs one after another; one per thread, keeps its workspace between runs.
+class RunWorker {
+ public:
+  virtual ~RunWorker() = default;
+  /// Executes run number `run` and fills `row` (shape: columns of the task), which comes full of
+  /// NaN. A pure function of (task, run): what ran before leaves no trace. Failures are outcomes.
+  virtual RunOutcome execute(std::uint64_t run, std::span<double> row) = 0;
+};
+
+/// What is done in every run of one study point.
+class RunTask {
+ public:
+  virtual ~RunTask() = default;
+  virtual const std::vector<Column>& columns() const = 0;
+  virtual std::unique_ptr<RunWorker> worker() const = 0;
+};
+
+/// One point of a study: a task and what tells it from the others.
+struct TaskPoint {
+  std::string label;  ///< "truth.coupling = eq5, plan.preset = six"; empty without a sweep
+  std::unique_ptr<RunTask> task;
+};
+
+/// A run of consecutive results as they are stored: runs first .. first + status.size() - 1.
+struct Block {
+  std::size_t point = 0;          ///< index of the study point
+  std::uint64_t first = 0;        ///< number of the first run
+  std::vector<RunStatus> status;  ///< one per run
+  std::vector<double> rows;       ///< row-major, shape (runs, columns), SI
+};
+
+/// Decides from results whether enough runs are done; fed block after block in order.
+class StopRule {
+ public:
+  virtual ~StopRule() = default;
+  /// Takes in the next block of a point; true if the point needs no more runs.
+  virtual bool enough(const Block& block) = 0;
+};
+
+}  // namespace drift::mc
