@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <string_view>
 #include <vector>
 
@@ -41,6 +42,19 @@ inline TruthDraw draw_truth(const TruthSpec& truth, int chains, std::uint64_t se
     draw.psi0_l.push_back(psi);
   }
   return draw;
+}
+
+/// The lambda of a truth whose coupling is no member of the family by name: the integrating servo
+/// closes like eq. (6) (physics.md 1.5); a compensated loop has none.
+inline void set_lambda(const TruthSpec& truth, Theta& theta) {
+  constexpr auto lambda = TermLibrary::index("lambda");
+  switch (truth.coupling) {
+    case Coupling::eq5: theta[lambda] = 0.0; break;
+    case Coupling::eq6: theta[lambda] = 1.0; break;
+    case Coupling::servo: theta[lambda] = truth.servo.float_restraint == 0.0 ? 1.0 : std::nan(""); break;
+    case Coupling::compensated: theta[lambda] = std::nan(""); break;
+    case Coupling::lambda: break;
+  }
 }
 
 }  // namespace drift
