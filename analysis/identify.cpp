@@ -7,6 +7,7 @@
 
 #include "core/base/check.hpp"
 #include "core/estimate/start_consistency.hpp"
+#include "core/estimate/starts.hpp"
 #include "mc/campaign.hpp"
 
 namespace drift {
@@ -116,19 +117,6 @@ void run_jobs(const Study& study, Identification& id, int threads, const Progres
   id.summaries = summarise(study, id);
 }
 
-/// The lambda of a truth whose coupling is no member of the family by name: the integrating servo
-/// closes like eq. (6) (physics.md 1.5); a compensated loop has none.
-void set_lambda(const TruthSpec& truth, Theta& theta) {
-  constexpr auto lambda = TermLibrary::index("lambda");
-  switch (truth.coupling) {
-    case Coupling::eq5: theta[lambda] = 0.0; break;
-    case Coupling::eq6: theta[lambda] = 1.0; break;
-    case Coupling::servo: theta[lambda] = truth.servo.float_restraint == 0.0 ? 1.0 : std::nan(""); break;
-    case Coupling::compensated: theta[lambda] = std::nan(""); break;
-    case Coupling::lambda: break;
-  }
-}
-
 /// Several tests one after the other, as one timeline.
 Timeline joined(std::vector<Timeline> timelines) {
   Timeline all = std::move(timelines.front());
@@ -169,17 +157,6 @@ std::vector<const FilterRun*> Identification::runs_of(std::size_t filter) const 
   for (const FilterRun& r : runs)
     if (r.filter == filter) found.push_back(&r);
   return found;
-}
-
-std::size_t start_count(const FilterSpec& filter) {
-  return filter.starts.empty() ? static_cast<std::size_t>(filter.drawn_starts) : filter.starts.size();
-}
-
-Theta initial_estimate(const FilterSpec& filter, std::uint64_t seed, std::size_t start) {
-  if (filter.starts.empty()) return draw_parameters(filter, seed, start, Purpose::filter_start);
-  Theta theta = make_layout(filter).theta;
-  for (const auto& [param, value] : filter.starts[start]) theta[param] = value;
-  return theta;
 }
 
 Identification identify_simulated(const Study& study, std::uint64_t run, int threads,

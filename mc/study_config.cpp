@@ -20,14 +20,6 @@ using config::Option;
 using config::Report;
 using config::Section;
 
-template <class Field>
-void visit_fields(MonteCarlo& o, Field&& field) {
-  constexpr double unbounded = 0x1p64;
-  field(Option{"runs", unit::one, 1.0, 1e9, "number of runs"}, o.runs);
-  field(Option{"seed", unit::one, 0.0, unbounded, "of all random numbers"}, o.seed);
-  field(Option{"allowed_failures", unit::one, 0.0, 1e9, "runs that may fail"}, o.allowed_failures);
-}
-
 void read_schema(Section& root) {
   constexpr std::uint64_t schema = 1;
   if (!root.require("schema", "schema = 1")) {
@@ -41,14 +33,6 @@ void read_schema(Section& root) {
         fmt::format("'schema' = {} is not known to this program (expected {}). Use a newer "
                     "program, or write the file in schema {}",
                     given, schema, schema));
-}
-
-MonteCarlo read_monte_carlo(Section section) {
-  MonteCarlo monte_carlo;
-  visit_fields(monte_carlo,
-               [&](const Option& option, auto& value) { section.read(option, value); });
-  section.finish();
-  return monte_carlo;
 }
 
 std::vector<SweepAxis> read_sweep(Report& report, const Node* sweep) {
@@ -83,8 +67,63 @@ std::vector<SweepAxis> read_sweep(Report& report, const Node* sweep) {
   return axes;
 }
 
-/// Everything but the trial of the sweep.
-Study read_tree(const Node& root, const std::string& path) {
+/// The number of runs, the seed and the like are the study's: points share their runs.
+bool can_be_swept(std::string_view key) {
+  constexpr std::string_view designs[] = {"monte_carlo.design", "monte_carlo.estimator"};
+  if (key.starts_with("monte_carlo")) return std::ranges::find(designs, key) != std::end(designs);
+  return !key.starts_with("sweep") && !key.starts_with("schema");
+}
+
+/// Every value of the sweep is tried in its place, so that no point of a study fails for its file.
+void try_sweep(const Node& root, const Study& study) {
+  constexpr std::size_t most_messages = 20;
+  std::vector<std::string> messages;
+  const Node& sweep = study.sweep.empty() ? root : *root.find("sweep");
+  for (const auto& axis : study.sweep) {
+    const Node& values = *sweep.find(axis.key);
+    for (std::size_t i = 0; i < axis.values.size() && messages.size() < most_messages; ++i) {
+      const auto& at = values.items[i].at;
+      const std::string where = at.set_key.empty()
+                                    ? fmt::format("{}:{}:{}", study.path, at.line, at.column)
+                                    : fmt::format("--set {}", at.set_key);
+      try {
+        if (!can_be_swept(axis.key))
+          throw InputError(ExitCode::config,
+                           fmt::format("'{}' cannot be swept (expected a key of the "
+                                       "study). Remove the line",
+                                       axis.key));
+        Node point = root;
+        apply_sweep_value(point, axis.key, axis.values[i]);
+        read_study_tree(point, study.path);
+      } catch (const InputError& error) {
+        const std::string own = fmt::format("--set {}: ", axis.key);
+        for (const auto& message : error.messages())
+          messages.push_back(
+              fmt::format("{}: with this value of the sweep: {}", where,
+                          message.starts_with(own) ? message.substr(own.size()) : message));
+      }
+    }
+  }
+  if (!messages.empty()) throw InputError(ExitCode::config, messages);
+}
+
+Node load_tree(const std::string& path, const Overrides& overrides) {
+  Node root = config::parse_document(config::load_text(path), path);
+  std::vector<std::string> messages;
+  for (const auto& [key, value] : overrides) {
+    try {
+      apply_override(root, key, value);
+    } catch (const InputError& error) {
+      messages.insert(messages.end(), error.messages().begin(), error.messages().end());
+    }
+  }
+  if (!messages.empty()) throw InputError(ExitCode::config, messages);
+  return root;
+}
+
+}  // namespace
+
+Study read_study_tree(const Node& root, const std::string& path) {
   Report report(path);
   Study study;
   study.path = path;
@@ -114,58 +153,23 @@ Study read_tree(const Node& root, const std::string& path) {
   return study;
 }
 
-/// Every value of the sweep is tried in its place, so that no point of a study fails for its file.
-void try_sweep(const Node& root, const Study& study) {
-  constexpr std::size_t most_messages = 20;
-  std::vector<std::string> messages;
-  const Node& sweep = study.sweep.empty() ? root : *root.find("sweep");
-  for (const auto& axis : study.sweep) {
-    const Node& values = *sweep.find(axis.key);
-    for (std::size_t i = 0; i < axis.values.size() && messages.size() < most_messages; ++i) {
-      const auto& at = values.items[i].at;
-      const std::string where = at.set_key.empty()
-                                    ? fmt::format("{}:{}:{}", study.path, at.line, at.column)
-                                    : fmt::format("--set {}", at.set_key);
-      try {
-        if (axis.key.starts_with("sweep") || axis.key.starts_with("schema"))
-          throw InputError(ExitCode::config,
-                           fmt::format("'{}' cannot be swept (expected a key of the "
-                                       "study). Remove the line",
-                                       axis.key));
-        Node point = root;
-        apply_override(point, axis.key, axis.values[i]);
-        read_tree(point, study.path);
-      } catch (const InputError& error) {
-        const std::string own = fmt::format("--set {}: ", axis.key);
-        for (const auto& message : error.messages())
-          messages.push_back(
-              fmt::format("{}: with this value of the sweep: {}", where,
-                          message.starts_with(own) ? message.substr(own.size()) : message));
-      }
-    }
-  }
-  if (!messages.empty()) throw InputError(ExitCode::config, messages);
+void apply_sweep_value(Node& root, const std::string& key, const std::string& value) {
+  apply_override(root, key, value);
+  if (key != "truth.coupling") return;
+  Node& truth = *root.find("truth");
+  const std::string coupling = truth.find("coupling")->text;
+  const auto drop = [](Node& table, std::string_view name) {
+    std::erase_if(table.members, [&](const config::Member& m) { return m.key == name; });
+  };
+  if (coupling != "servo") drop(truth, "servo");
+  if (coupling != "compensated") drop(truth, "loop");
+  if (Node* parameters = truth.find("parameters"); parameters && coupling != "lambda")
+    drop(*parameters, "lambda");
 }
-
-Node load_tree(const std::string& path, const Overrides& overrides) {
-  Node root = config::parse_document(config::load_text(path), path);
-  std::vector<std::string> messages;
-  for (const auto& [key, value] : overrides) {
-    try {
-      apply_override(root, key, value);
-    } catch (const InputError& error) {
-      messages.insert(messages.end(), error.messages().begin(), error.messages().end());
-    }
-  }
-  if (!messages.empty()) throw InputError(ExitCode::config, messages);
-  return root;
-}
-
-}  // namespace
 
 Study read_study(const std::string& path, const Overrides& overrides) {
   const Node root = load_tree(path, overrides);
-  Study study = read_tree(root, path);
+  Study study = read_study_tree(root, path);
   try_sweep(root, study);
   study.text = config::to_document(root);
   return study;

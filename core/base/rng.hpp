@@ -18,6 +18,7 @@ enum class Purpose : std::uint32_t {
   process_noise = 3,
   filter_start = 4,
   design = 5,
+  bootstrap = 20,
   test = 100,
 };
 

@@ -1,28 +1,14 @@
 #include "core/estimate/batch.hpp"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <fmt/format.h>
 #include <cmath>
 #include <limits>
 
+#include "core/estimate/triangle.hpp"
+
 namespace drift {
 namespace {
-
-/// The upper triangle that a QR decomposition leaves of `rows`; at most as many rows as columns.
-MatX triangle(const MatX& rows) {
-  const Eigen::HouseholderQR<MatX> qr(rows);
-  const Eigen::Index k = std::min(rows.rows(), rows.cols());
-  MatX R = MatX::Zero(rows.cols(), rows.cols());
-  R.topRows(k) = qr.matrixQR().topRows(k).triangularView<Eigen::Upper>();
-  return R;
-}
-
-MatX stacked(const MatX& a, const MatX& b) {
-  MatX all(a.rows() + b.rows(), a.cols());
-  all << a, b;
-  return all;
-}
 
 /// One chain reduced to triangles: [psi | x | r] with the attitude prior (and damping) on top.
 struct ReducedChain {

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace drift {
 namespace {
@@ -18,7 +18,8 @@ std::size_t most_nodes(const Timeline& timeline) {
 
 }  // namespace
 
-Ekf::Ekf(const FilterSpec& filter, const Timeline& timeline, const Readout& readout, const Theta& start)
+Ekf::Ekf(const FilterSpec& filter, const Timeline& timeline, const Readout& readout, const Theta& start,
+         KeepHistory keep)
     : filter_(filter),
       timeline_(timeline),
       readout_(readout),
@@ -28,15 +29,35 @@ Ekf::Ekf(const FilterSpec& filter, const Timeline& timeline, const Readout& read
       P_(layout_.size(), layout_.num_rate, filter.initial_attitude),
       x_(layout_.scaled(start)),
       start_(x_),
-      theta_(layout_.theta_at(x_)),
       rest_G_(Mat3X::Zero(3, layout_.num_rate)),
-      nodes_(most_nodes(timeline)) {
-  const auto n = timeline.intervals.size();
-  history_.estimate = MatX::Zero(layout_.size(), n);
-  history_.sigma = MatX::Zero(layout_.size(), n);
-  history_.nis.assign(n, 0.0);
-  history_.scalars.assign(n, 0);
-  history_.t.assign(n, 0.0);
+      nodes_(most_nodes(timeline)),
+      keep_(keep) {
+  const std::size_t n = keep == KeepHistory::yes ? timeline.intervals.size() : 0;
+  history_.estimate.resize(layout_.size(), n);
+  history_.sigma.resize(layout_.size(), n);
+  history_.nis.resize(n);
+  history_.scalars.resize(n);
+  history_.t.resize(n);
+  reset(start);
+}
+
+void Ekf::reset(const Theta& start) {
+  for (std::size_t k = 0; k < layout_.size(); ++k)
+    x_[k] = (start[layout_.params[k]] - layout_.mean[k]) / layout_.sigma[k];
+  start_ = x_;
+  theta_ = layout_.theta_at(x_);
+  P_.reset(filter_.initial_attitude);
+  phi_.setZero();
+  history_.estimate.setZero();
+  history_.sigma.setZero();
+  std::fill(history_.nis.begin(), history_.nis.end(), 0.0);
+  std::fill(history_.scalars.begin(), history_.scalars.end(), 0);
+  std::fill(history_.t.begin(), history_.t.end(), 0.0);
+  sums_ = {};
+  for (Vec3& white : white_before_) white.setZero();
+  status_ = EstimateStatus::ok;
+  cause_.clear();
+  t_diverged_ = 0.0;
 }
 
 void Ekf::correct_attitude(const Node& node, const Vec3& psi_i, Vec3& phi) const {
@@ -44,13 +65,25 @@ void Ekf::correct_attitude(const Node& node, const Vec3& psi_i, Vec3& phi) const
   phi = rotation_vector(rotation(psi_r) * rotation(phi));
 }
 
-void Ekf::take(const Covariance::Update& update, std::size_t i) {
-  history_.nis[i] += update.nis;
-  history_.scalars[i] += update.scalars;
+void Ekf::take(const Covariance::Update& update, std::size_t i, Channel channel) {
+  if (keep_ == KeepHistory::yes) {
+    history_.nis[i] += update.nis;
+    history_.scalars[i] += update.scalars;
+  }
+  sums_.nis += update.nis;
+  sums_.scalars += static_cast<std::size_t>(update.scalars);
+  Vec3& before = white_before_[channel];
+  for (int a = 0; a < 3; ++a)
+    if (before[a] != 0.0 && update.white[a] != 0.0) {
+      sums_.lagged += before[a] * update.white[a];
+      ++sums_.pairs;
+    }
+  before = update.white;
   const bool finite = std::isfinite(update.nis) && x_.allFinite();
   if (status_ == EstimateStatus::ok && (!update.ok || !finite || x_.cwiseAbs().maxCoeff() > 1e6)) {
     status_ = EstimateStatus::diverged;
-    cause_ = fmt::format("filter diverged at t = {:.6g} s ({})", timeline_.intervals[i].t1,
+    t_diverged_ = timeline_.intervals[i].t1;
+    cause_ = fmt::format("filter diverged at t = {:.6g} s ({})", t_diverged_,
                          !update.ok ? "innovation covariance not positive definite"
                                     : "estimate beyond 1e6 prior sigma");
   }
@@ -62,7 +95,7 @@ void Ekf::process(std::size_t i, const Vec3& acc, const Vec3& gimbal) {
     phi_.setZero();
     P_.recage(filter_.initial_attitude);
   }
-  history_.t[i] = interval.t1;
+  if (keep_ == KeepHistory::yes) history_.t[i] = interval.t1;
   if (status_ != EstimateStatus::ok) return;
 
   const Mat3 E_loop = misalignment_matrix(model_.mounting, interval.loop);
@@ -97,7 +130,7 @@ void Ekf::process(std::size_t i, const Vec3& acc, const Vec3& gimbal) {
     }
     const Covariance::Update update =
         P_.update(acc - mean, H, H_par, layout_.num_rate, readout_.accelerometer_noise, x_);
-    take(update, i);
+    take(update, i, acc_channel);
     if (status_ != EstimateStatus::ok) return;
     correct_attitude(timeline_.nodes[interval.first_node + middle], update.attitude, nodes_[middle]);
     theta_ = layout_.theta_at(x_);
@@ -118,7 +151,7 @@ void Ekf::process(std::size_t i, const Vec3& acc, const Vec3& gimbal) {
     for (int k = 0; k < 3; ++k) nu[k] = angle_difference(gimbal[k], predicted.angles[k]);
     const Covariance::Update update =
         P_.update(nu, predicted.H, Mat3X(3, 0), 0, readout_.gimbal_noise, x_);
-    take(update, i);
+    take(update, i, gimbal_channel);
     if (status_ != EstimateStatus::ok) return;
     correct_attitude(node, update.attitude, phi_);
     theta_ = layout_.theta_at(x_);
@@ -129,9 +162,10 @@ void Ekf::process(std::size_t i, const Vec3& acc, const Vec3& gimbal) {
       if (layout_.params[k] >= fixed_drift_key && layout_.params[k] < fixed_drift_key + 3)
         P_.add_variance(k, q * q * interval.length() / (layout_.sigma[k] * layout_.sigma[k]));
   }
+  if (keep_ == KeepHistory::no) return;
   for (std::size_t k = 0; k < layout_.size(); ++k) {
     history_.estimate(k, i) = theta_[layout_.params[k]];
-    history_.sigma(k, i) = layout_.sigma[k] * std::sqrt(P_.variance(k));
+    history_.sigma(k, i) = sigma(k);
   }
 }
 
@@ -141,14 +175,14 @@ EstimateResult Ekf::result() const {
   r.cause = cause_;
   r.parameters = parameter_estimates(layout_, start_, x_, P_.parameters());
   r.covariance = P_.parameters();
-  r.statistic = std::accumulate(history_.nis.begin(), history_.nis.end(), 0.0);
-  for (const int m : history_.scalars) r.measured += static_cast<std::size_t>(m);
+  r.statistic = sums_.nis;
+  r.measured = sums_.scalars;
   return r;
 }
 
 EstimateResult run_ekf(const FilterSpec& filter, const Timeline& timeline, const Readout& readout,
                        const Measurements& measured, const Theta& start, EkfHistory* history) {
-  Ekf ekf(filter, timeline, readout, start);
+  Ekf ekf(filter, timeline, readout, start, history ? KeepHistory::yes : KeepHistory::no);
   for (std::size_t i = 0; i < timeline.intervals.size(); ++i)
     ekf.process(i, measured.acc.col(i), measured.gimbal.col(i));
   if (history) *history = ekf.history();

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "core/estimate/covariance.hpp"
 #include "core/estimate/estimate_result.hpp"
 #include "core/estimate/gimbal_prediction.hpp"
@@ -17,6 +19,24 @@ struct EkfHistory {
   std::vector<int> scalars;  ///< measured scalars it sums over
 };
 
+/// Whether an EKF writes down how it went.
+enum class KeepHistory { yes, no };
+
+/// What the innovations of an EKF add up to.
+struct InnovationSums {
+  double nis = 0.0;          ///< sum of the normalised innovations squared
+  std::size_t scalars = 0;   ///< measured scalars it sums over
+  double lagged = 0.0;       ///< sum of products of whitened innovations of one channel, one sample apart
+  std::size_t pairs = 0;     ///< products in `lagged`
+  /// Correlation of innovations one sample apart: 0 on average for a right model, with standard
+  /// deviation 1 / sqrt(pairs) (physics.md 5.6).
+  double lag1() const {
+    return pairs > 0 && nis > 0.0
+               ? lagged / nis * static_cast<double>(scalars) / static_cast<double>(pairs)
+               : 0.0;
+  }
+};
+
 /// Continuous-discrete extended Kalman filter over 3 attitude errors and the layout's parameters.
 ///
 /// Between samples the platform equation is integrated at the running estimate; the mean specific
@@ -25,22 +45,38 @@ struct EkfHistory {
 class Ekf {
  public:
   /// The timeline must outlive the filter. start: library values of the initial estimate.
-  Ekf(const FilterSpec& filter, const Timeline& timeline, const Readout& readout, const Theta& start);
+  Ekf(const FilterSpec& filter, const Timeline& timeline, const Readout& readout, const Theta& start,
+      KeepHistory keep = KeepHistory::yes);
+
+  /// As if built anew from this start; allocates nothing.
+  void reset(const Theta& start);
 
   /// Takes in the measurements of interval i; intervals come in order.
   void process(std::size_t i, const Vec3& acc, const Vec3& gimbal);
 
   EstimateResult result() const;
-  const EkfHistory& history() const { return history_; }
+  const EkfHistory& history() const { return history_; }  ///< empty unless kept
+  const InnovationSums& innovations() const { return sums_; }
+  EstimateStatus status() const { return status_; }
+  const std::string& cause() const { return cause_; }
+  double t_diverged() const { return t_diverged_; }  ///< [s]
+  double sigma(std::size_t k) const { return layout_.sigma[k] * std::sqrt(P_.variance(k)); }  ///< of state k, SI
+  const VecX& x() const { return x_; }  ///< deviations from the prior means, in prior sigmas
   const Layout& layout() const { return layout_; }
   const Covariance& covariance() const { return P_; }
+  /// Covariance of the states in prior sigmas, shape (size, size), without a copy. At the end of a run.
+  auto settled_covariance() {
+    P_.settle();
+    return P_.settled();
+  }
   const Theta& theta() const { return theta_; }
   /// Estimated rotation vector of the platform against the reference, at the last sample [rad].
   const Vec3& phi() const { return phi_; }
 
  private:
   void correct_attitude(const Node& node, const Vec3& psi_i, Vec3& phi) const;
-  void take(const Covariance::Update& update, std::size_t i);
+  enum Channel { acc_channel = 0, gimbal_channel = 1 };
+  void take(const Covariance::Update& update, std::size_t i, Channel channel);
 
   FilterSpec filter_;
   const Timeline& timeline_;
@@ -56,8 +92,12 @@ class Ekf {
   Mat3X rest_G_;  ///< work
   std::vector<Vec3> nodes_;
   EkfHistory history_;
+  KeepHistory keep_;
+  InnovationSums sums_;
+  Vec3 white_before_[2];  ///< whitened innovations of the sample before, by channel
   EstimateStatus status_ = EstimateStatus::ok;
   std::string cause_;
+  double t_diverged_ = 0.0;
 };
 
 /// Runs the filter over a whole recording.

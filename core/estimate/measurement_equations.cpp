@@ -7,7 +7,8 @@ namespace drift {
 std::vector<ChainEquations> measurement_equations(const Timeline& timeline, const DriftModel& model,
                                                   const Layout& layout, const Readout& readout,
                                                   const Measurements& measured, const Theta& theta,
-                                                  const Trajectory& phi, double sigma_attitude) {
+                                                  const Trajectory& phi, double sigma_attitude,
+                                                  ChainSensitivity* carried) {
   const auto n = static_cast<Eigen::Index>(layout.size());
   const auto nr = static_cast<Eigen::Index>(layout.num_rate);
   std::vector<Eigen::Index> count(timeline.chains, 0), next(timeline.chains, 0);
@@ -22,6 +23,10 @@ std::vector<ChainEquations> measurement_equations(const Timeline& timeline, cons
   IntervalSensitivity inner;
   Mat3 Phi = Mat3::Identity();             // from the caging to the start of the interval
   Mat3X G = Mat3X::Zero(3, nr), Y(3, n);
+  if (carried && carried->G.cols() == nr) {
+    Phi = carried->Phi;
+    G = carried->G;
+  }
   for (std::size_t i = 0; i < timeline.intervals.size(); ++i) {
     const Interval& interval = timeline.intervals[i];
     if (interval.cage) {
@@ -72,6 +77,7 @@ std::vector<ChainEquations> measurement_equations(const Timeline& timeline, cons
                   readout.gimbal_noise);
     }
   }
+  if (carried) *carried = {Phi, G};
   return chains;
 }
 

@@ -58,16 +58,21 @@ Simulation Simulator::run(const Timeline& timeline, std::uint64_t seed, std::uin
 Simulation Simulator::run(const Timeline& timeline, const TruthDraw& draw, std::uint64_t seed,
                           std::uint64_t run_number) {
   Simulation out;
+  run(timeline, draw, seed, run_number, out);
+  return out;
+}
+
+void Simulator::run(const Timeline& timeline, const TruthDraw& draw, std::uint64_t seed,
+                    std::uint64_t run_number, Simulation& out) {
   begin(timeline, draw, seed, run_number, out);
   extend(timeline, 0, timeline.intervals.size(), out);
-  return out;
 }
 
 void Simulator::begin(const Timeline& timeline, const TruthDraw& draw, std::uint64_t seed,
                       std::uint64_t run_number, Simulation& out) {
   for (std::uint32_t c = 0; c < 6; ++c) {
-    sensor_noise_[c] = std::make_unique<Stream>(seed, run_number, Purpose::sensor_noise, c);
-    process_noise_[c] = std::make_unique<Stream>(seed, run_number, Purpose::process_noise, c);
+    sensor_noise_[c].emplace(seed, run_number, Purpose::sensor_noise, c);
+    process_noise_[c].emplace(seed, run_number, Purpose::process_noise, c);
   }
   const auto n = static_cast<Eigen::Index>(timeline.intervals.size());
   const double missing = std::numeric_limits<double>::quiet_NaN();
@@ -75,7 +80,8 @@ void Simulator::begin(const Timeline& timeline, const TruthDraw& draw, std::uint
   out.cost = {};
   out.draw = draw;
   out.phi.assign(timeline.nodes.size(), Vec3::Zero());
-  out.measured = {Mat3X::Constant(3, n, missing), Mat3X::Constant(3, n, missing)};
+  out.measured.acc.setConstant(3, n, missing);
+  out.measured.gimbal.setConstant(3, n, missing);
   theta_ = out.theta_end = draw.theta;
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 
 #include "core/ode/ode_options.hpp"
 #include "core/ode/ode_result.hpp"
@@ -41,6 +42,10 @@ class Simulator {
   /// The same with given numbers instead of drawn ones.
   Simulation run(const Timeline& timeline, const TruthDraw& draw, std::uint64_t seed, std::uint64_t run);
 
+  /// The same into `out`, whose memory is used again.
+  void run(const Timeline& timeline, const TruthDraw& draw, std::uint64_t seed, std::uint64_t run,
+           Simulation& out);
+
   /// In pieces, for loops that are fed back from a filter: begin, then extend over the intervals in
   /// order. What `timeline` says of an interval may change until it is extended over.
   void begin(const Timeline& timeline, const TruthDraw& draw, std::uint64_t seed, std::uint64_t run,
@@ -59,7 +64,7 @@ class Simulator {
   Readout readout_;
   DriftModel model_;
   std::unique_ptr<Engine> engine_;
-  std::array<std::unique_ptr<Stream>, 6> sensor_noise_, process_noise_;
+  std::array<std::optional<Stream>, 6> sensor_noise_, process_noise_;
   Theta theta_;  ///< with the drift's random walk
 };
 
