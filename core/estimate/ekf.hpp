@@ -41,6 +41,8 @@ class Ekf {
  private:
   void correct_attitude(const Node& node, const Vec3& psi_i, Vec3& phi) const;
   void take(const Covariance::Update& update, std::size_t i);
+  void learn();
+  Vec3 gated(const Vec3& nu, const Mat3& H_psi, const Mat3X& H_par, double sigma) const;
 
   FilterSpec filter_;
   const Timeline& timeline_;
@@ -49,6 +51,7 @@ class Ekf {
   Layout layout_;
   Linearizer linearizer_;
   IntervalSensitivity sensitivity_;
+  MemoryPath memory_;
   Covariance P_;
   VecX x_, start_;
   Theta theta_;
