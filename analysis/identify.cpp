@@ -126,6 +126,8 @@ Timeline joined(std::vector<Timeline> timelines) {
     for (Interval& i : next.intervals) {
       i.t0 += shift;
       i.t1 += shift;
+      i.t_begin += shift;
+      i.t_dwell += shift;
       i.chain += all.chains;
       i.first_node += all.nodes.size();
       all.intervals.push_back(i);
@@ -133,6 +135,8 @@ Timeline joined(std::vector<Timeline> timelines) {
     for (Node& n : next.nodes) n.t += shift;
     all.nodes.insert(all.nodes.end(), next.nodes.begin(), next.nodes.end());
     all.chains += next.chains;
+    all.has_temperature = all.has_temperature && next.has_temperature;
+    all.has_field = all.has_field && next.has_field;
   }
   return all;
 }
@@ -170,6 +174,7 @@ Identification identify_simulated(const Study& study, std::uint64_t run, int thr
   Timeline timeline = lay_out(study.plan, study.site);
   set_loop(timeline, study.truth);
   const std::uint64_t seed = study.monte_carlo.seed;
+  set_environment(timeline, study.environment, seed, run);
   id.truth = draw_truth(study.truth, timeline.chains, seed, run);
   set_lambda(study.truth, id.truth->theta);
   if (study.truth.coupling == Coupling::compensated && study.truth.loop == LoopEstimate::feedback) {
@@ -194,6 +199,7 @@ Identification identify_recordings(const Study& study, const std::vector<Recordi
   std::vector<Measurements> parts;
   for (const Recording& r : recordings) {
     timelines.push_back(lay_out(r, study.plan, study.site));
+    set_known_field(timelines.back(), study.environment);
     parts.push_back(measurements_of(r, study.readout));
     id.sources.push_back(r.source);
   }

@@ -8,6 +8,7 @@
 
 #include "core/physics/earth.hpp"
 #include "core/physics/model_spec.hpp"
+#include "core/sim/environment.hpp"
 #include "core/sim/readout.hpp"
 #include "core/sim/recording.hpp"
 #include "core/sim/test_plan.hpp"
@@ -49,6 +50,7 @@ struct Study {
   TestPlan plan;              ///< of a platform test
   double static_min = 2.0;    ///< strapdown: shortest dwell that counts [s]
   Readout readout;
+  Environment environment;
   TruthSpec truth;
   bool has_truth = false;     ///< [truth] is in the file; without it there is nothing to simulate
   std::vector<FilterSpec> filters;

@@ -8,6 +8,7 @@
 #include "core/config/override.hpp"
 #include "core/physics/model_config.hpp"
 #include "core/physics/mounting_config.hpp"
+#include "core/sim/environment_config.hpp"
 #include "core/sim/plan_config.hpp"
 #include "mc/published_config.hpp"
 #include "mc/study.hpp"
@@ -137,6 +138,7 @@ Study read_study_tree(const Node& root, const std::string& path) {
   study.static_min = plan.static_min;
   study.site = read_site(top.section("site"), plan.kind);
   study.readout = read_readout(top.section("readout"));
+  study.environment = read_environment(top.section("environment"));
   const Node* sweep = top.take("sweep");
   const bool swept = sweep != nullptr && sweep->find("truth.coupling") != nullptr;
   Section truth = top.section("truth");

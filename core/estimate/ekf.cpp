@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "core/physics/stochastic.hpp"
 
 namespace drift {
 namespace {
@@ -26,6 +29,7 @@ Ekf::Ekf(const FilterSpec& filter, const Timeline& timeline, const Readout& read
       model_(filter.model()),
       layout_(make_layout(filter)),
       linearizer_(model_, layout_, readout),
+      memory_(timeline, model_),
       P_(layout_.size(), layout_.num_rate, filter.initial_attitude),
       x_(layout_.scaled(start)),
       start_(x_),
@@ -33,6 +37,7 @@ Ekf::Ekf(const FilterSpec& filter, const Timeline& timeline, const Readout& read
       nodes_(most_nodes(timeline)),
       keep_(keep) {
   const std::size_t n = keep == KeepHistory::yes ? timeline.intervals.size() : 0;
+  require_covariates(model_, timeline);
   history_.estimate.resize(layout_.size(), n);
   history_.sigma.resize(layout_.size(), n);
   history_.nis.resize(n);
@@ -48,6 +53,7 @@ void Ekf::reset(const Theta& start) {
   theta_ = layout_.theta_at(x_);
   P_.reset(filter_.initial_attitude);
   phi_.setZero();
+  memory_.reset();
   history_.estimate.setZero();
   history_.sigma.setZero();
   std::fill(history_.nis.begin(), history_.nis.end(), 0.0);
@@ -89,6 +95,33 @@ void Ekf::take(const Covariance::Update& update, std::size_t i, Channel channel)
   }
 }
 
+/// The corrected estimate, and what the past has left according to it.
+void Ekf::learn() {
+  if (!memory_.active()) {
+    theta_ = layout_.theta_at(x_);
+    return;
+  }
+  const Theta before = theta_;
+  theta_ = layout_.theta_at(x_);
+  memory_.shift(before.data(), theta_.data());
+}
+
+/// Innovations without those that lie outside the gate of the term `outliers`: NaN is left out.
+Vec3 Ekf::gated(const Vec3& nu, const Mat3& H_psi, const Mat3X& H_par, double sigma) const {
+  if (!has_outliers(model_.terms)) return nu;
+  const auto n = static_cast<Eigen::Index>(layout_.size());
+  Mat3X H = Mat3X::Zero(3, n);
+  if (H_par.cols() > 0) H.rightCols(H_par.cols()) = H_par;
+  const Mat3 cross = H * P_.cross().topRows(n) * H_psi.transpose();
+  const Mat3 S = H_psi * P_.attitude() * H_psi.transpose() + cross + cross.transpose() +
+                 H * P_.parameters() * H.transpose() + sigma * sigma * Mat3::Identity();
+  const double gate = outlier_gate(theta_);
+  Vec3 inside = nu;
+  for (int k = 0; k < 3; ++k)
+    if (std::abs(nu[k]) > gate * std::sqrt(S(k, k))) inside[k] = std::numeric_limits<double>::quiet_NaN();
+  return inside;
+}
+
 void Ekf::process(std::size_t i, const Vec3& acc, const Vec3& gimbal) {
   const Interval& interval = timeline_.intervals[i];
   if (interval.cage) {
@@ -100,10 +133,11 @@ void Ekf::process(std::size_t i, const Vec3& acc, const Vec3& gimbal) {
 
   const Mat3 E_loop = misalignment_matrix(model_.mounting, interval.loop);
   linearizer_.set_theta(theta_);
+  memory_.advance(i, theta_.data());
   nodes_[0] = phi_;
   Drive drive = drive_of(interval, timeline_, model_, theta_);
-  step_through(interval, timeline_, drive, nodes_.data());
-  linearize_interval(interval, timeline_, E_loop, nodes_.data(), linearizer_, sensitivity_);
+  step_through(interval, timeline_, drive, nodes_.data(), 0, &memory_);
+  linearize_interval(interval, timeline_, E_loop, nodes_.data(), linearizer_, sensitivity_, &memory_);
 
   const std::size_t last = interval.node_count() - 1;
   const std::size_t middle = static_cast<std::size_t>(interval.substeps);
@@ -129,13 +163,14 @@ void Ekf::process(std::size_t i, const Vec3& acc, const Vec3& gimbal) {
         H_par += w * j.H_par;
     }
     const Covariance::Update update =
-        P_.update(acc - mean, H, H_par, layout_.num_rate, readout_.accelerometer_noise, x_);
+        P_.update(gated(acc - mean, H, H_par, readout_.accelerometer_noise), H, H_par,
+                  layout_.num_rate, readout_.accelerometer_noise, x_);
     take(update, i, acc_channel);
     if (status_ != EstimateStatus::ok) return;
     correct_attitude(timeline_.nodes[interval.first_node + middle], update.attitude, nodes_[middle]);
-    theta_ = layout_.theta_at(x_);
+    learn();
     drive = drive_of(interval, timeline_, model_, theta_);
-    step_through(interval, timeline_, drive, nodes_.data(), middle);
+    step_through(interval, timeline_, drive, nodes_.data(), middle, &memory_);
   }
 
   const Mat3 Phi_rest = sensitivity_.Phi[last] * Phi_m.inverse();
@@ -146,21 +181,28 @@ void Ekf::process(std::size_t i, const Vec3& acc, const Vec3& gimbal) {
 
   if (readout_.gimbals && gimbal.array().isFinite().any()) {
     const Node& node = timeline_.nodes[interval.last_node()];
-    const GimbalPrediction predicted = predict_gimbals(node, interval.heading1, phi_);
+    if (TermLibrary::act_on_gimbals(model_.terms)) linearizer_.set_theta(theta_);
+    const GimbalPrediction predicted =
+        linearizer_.gimbals(timeline_, interval, phi_, memory_.active() ? &memory_.at(2 * last) : nullptr);
     Vec3 nu;
     for (int k = 0; k < 3; ++k) nu[k] = angle_difference(gimbal[k], predicted.angles[k]);
     const Covariance::Update update =
-        P_.update(nu, predicted.H, Mat3X(3, 0), 0, readout_.gimbal_noise, x_);
+        P_.update(gated(nu, predicted.H, predicted.H_par, readout_.gimbal_noise), predicted.H,
+                  predicted.H_par, predicted.H_par.cols() > 0 ? layout_.num_rate : 0,
+                  readout_.gimbal_noise, x_);
     take(update, i, gimbal_channel);
     if (status_ != EstimateStatus::ok) return;
     correct_attitude(node, update.attitude, phi_);
-    theta_ = layout_.theta_at(x_);
+    learn();
   }
-  if (filter_.noise.drift_random_walk > 0.0) {
-    const double q = filter_.noise.drift_random_walk;
-    for (std::size_t k = 0; k < layout_.size(); ++k)
-      if (layout_.params[k] >= fixed_drift_key && layout_.params[k] < fixed_drift_key + 3)
-        P_.add_variance(k, q * q * interval.length() / (layout_.sigma[k] * layout_.sigma[k]));
+  if (drift_varies(filter_.noise, model_.terms)) {
+    for (std::size_t k = 0; k < layout_.size(); ++k) {
+      if (layout_.params[k] < fixed_drift_key || layout_.params[k] >= fixed_drift_key + 3) continue;
+      const auto axis = static_cast<int>(layout_.params[k] - fixed_drift_key);
+      const double variance =
+          drift_variance(filter_.noise, model_.terms, theta_, axis, interval.length());
+      P_.add_variance(k, variance / (layout_.sigma[k] * layout_.sigma[k]));
+    }
   }
   if (keep_ == KeepHistory::no) return;
   for (std::size_t k = 0; k < layout_.size(); ++k) {

@@ -77,6 +77,8 @@ class Ekf {
   void correct_attitude(const Node& node, const Vec3& psi_i, Vec3& phi) const;
   enum Channel { acc_channel = 0, gimbal_channel = 1 };
   void take(const Covariance::Update& update, std::size_t i, Channel channel);
+  void learn();
+  Vec3 gated(const Vec3& nu, const Mat3& H_psi, const Mat3X& H_par, double sigma) const;
 
   FilterSpec filter_;
   const Timeline& timeline_;
@@ -85,6 +87,7 @@ class Ekf {
   Layout layout_;
   Linearizer linearizer_;
   IntervalSensitivity sensitivity_;
+  MemoryPath memory_;
   Covariance P_;
   VecX x_, start_;
   Theta theta_;

@@ -7,6 +7,7 @@
 #include "core/ode/ode_options.hpp"
 #include "core/ode/ode_result.hpp"
 #include "core/sim/measurements.hpp"
+#include "core/sim/memory_path.hpp"
 #include "core/sim/trajectory.hpp"
 #include "core/sim/truth.hpp"
 
@@ -58,13 +59,18 @@ class Simulator {
  private:
   struct Engine;
   void integrate(const Timeline& timeline, std::size_t first, std::size_t end, Simulation& out);
+  Theta drift_of(const Timeline& timeline, std::size_t i);
   void measure(const Timeline& timeline, std::size_t i, Simulation& out);
+  double wrong_by(std::size_t channel, const Theta& theta);
 
   TruthSpec truth_;
   Readout readout_;
   DriftModel model_;
   std::unique_ptr<Engine> engine_;
-  std::array<std::optional<Stream>, 6> sensor_noise_, process_noise_;
+  std::array<std::optional<Stream>, 6> sensor_noise_, process_noise_, wrong_samples_;
+  std::array<std::optional<Stream>, 3> drift_level_;
+  std::array<double, 3> level_{};  ///< of a bistable drift, +-1
+  MemoryRecord memory_;
   Theta theta_;  ///< with the drift's random walk
 };
 
