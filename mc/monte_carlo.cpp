@@ -17,6 +17,7 @@ constexpr Choice<DesignKind> designs[] = {{"random", DesignKind::random},
                                           {"latin_hypercube", DesignKind::latin_hypercube},
                                           {"sobol", DesignKind::sobol}};
 constexpr Choice<EstimatorKind> estimators[] = {{"ekf", EstimatorKind::ekf},
+                                                {"iterated", EstimatorKind::iterated},
                                                 {"batch", EstimatorKind::batch}};
 
 template <class Field>

@@ -16,7 +16,11 @@ enum class DesignKind {
 };
 
 /// What makes an estimate of a recording in a study.
-enum class EstimatorKind { ekf, batch };
+enum class EstimatorKind {
+  ekf,
+  iterated,  ///< the EKF, then once more about what it found
+  batch,     ///< Levenberg-Marquardt until it stands still
+};
 
 /// When a study point has enough runs: [monte_carlo] stop.
 struct StopSpec {

@@ -41,13 +41,16 @@ StudyWorker::StudyWorker(const StudyTask& task)
     const FilterSpec& spec = study.filters[f];
     const StudyColumns::Filter& columns = task.layout().filters[f];
     const auto n = static_cast<Eigen::Index>(columns.layout.size());
-    Bench bench{spec, columns, {}, nullptr, Eigen::SelfAdjointEigenSolver<MatX>(n), VecX(n), VecX(n)};
+    Bench bench{spec, columns, {}, nullptr, nullptr, Eigen::SelfAdjointEigenSolver<MatX>(n), VecX(n), VecX(n)};
     const std::size_t fixed = spec.starts.empty() ? 1 : columns.starts;
     for (std::size_t s = 0; s < fixed; ++s)
       bench.fixed_starts.push_back(initial_estimate(spec, study.monte_carlo.seed, 0, s));
     if (study.monte_carlo.estimator == EstimatorKind::ekf)
       bench.ekf = std::make_unique<Ekf>(spec, task.timeline(), study.readout, bench.fixed_starts[0],
                                         KeepHistory::no);
+    if (study.monte_carlo.estimator == EstimatorKind::iterated)
+      bench.iterated =
+          std::make_unique<IteratedEkf>(spec, task.timeline(), study.readout, bench.fixed_starts[0]);
     benches_.push_back(std::move(bench));
   }
 }
@@ -96,35 +99,40 @@ void StudyWorker::estimate(Bench& bench, std::uint64_t run, std::size_t start, s
   const Theta from = start < bench.fixed_starts.size()
                          ? bench.fixed_starts[start]
                          : initial_estimate(bench.spec, task_.study().monte_carlo.seed, run, start);
-  if (bench.ekf)
-    by_ekf(bench, from, start, row, out);
-  else
+  if (bench.ekf) {
+    Ekf& ekf = *bench.ekf;
+    ekf.reset(from);
+    const auto intervals = static_cast<Eigen::Index>(task_.timeline().intervals.size());
+    for (Eigen::Index i = 0; i < intervals && ekf.status() == EstimateStatus::ok; ++i)
+      ekf.process(static_cast<std::size_t>(i), sim_.measured.acc.col(i), sim_.measured.gimbal.col(i));
+    write(bench, ekf, start, row, out);
+  } else if (bench.iterated) {
+    bench.iterated->run(sim_.measured, from);
+    write(bench, *bench.iterated, start, row, out);
+  } else {
     by_batch(bench, from, start, row, out);
+  }
 }
 
-void StudyWorker::by_ekf(Bench& bench, const Theta& from, std::size_t start, std::span<double> row,
-                         RunOutcome& out) {
+template <class Filter>
+void StudyWorker::write(Bench& bench, Filter& filter, std::size_t start, std::span<double> row,
+                        RunOutcome& out) {
   using C = StudyColumns;
-  Ekf& ekf = *bench.ekf;
-  ekf.reset(from);
-  const auto intervals = static_cast<Eigen::Index>(task_.timeline().intervals.size());
-  for (Eigen::Index i = 0; i < intervals && ekf.status() == EstimateStatus::ok; ++i)
-    ekf.process(static_cast<std::size_t>(i), sim_.measured.acc.col(i), sim_.measured.gimbal.col(i));
   const C::Filter& at = bench.columns;
-  row[at.at(start, C::status)] = static_cast<double>(ekf.status());
-  if (ekf.status() != EstimateStatus::ok) {
-    blame(out, RunStatus::filter_diverged, at.name + ": " + ekf.cause(), ekf.t_diverged());
+  row[at.at(start, C::status)] = static_cast<double>(filter.status());
+  if (filter.status() != EstimateStatus::ok) {
+    blame(out, RunStatus::filter_diverged, at.name + ": " + filter.cause(), filter.t_diverged());
     return;
   }
-  const InnovationSums& sums = ekf.innovations();
+  const InnovationSums& sums = filter.innovations();
   row[at.at(start, C::nis)] = sums.nis;
   row[at.at(start, C::nis_dof)] = static_cast<double>(sums.scalars);
   row[at.at(start, C::lag1)] = sums.lag1();
   for (std::size_t k = 0; k < at.layout.size(); ++k) {
-    row[at.estimate(start, k)] = ekf.theta()[static_cast<Eigen::Index>(at.layout.params[k])];
-    row[at.sigma(start, k)] = ekf.sigma(k);
+    row[at.estimate(start, k)] = filter.theta()[static_cast<Eigen::Index>(at.layout.params[k])];
+    row[at.sigma(start, k)] = filter.sigma(k);
   }
-  judge(bench, start, ekf.x(), ekf.settled_covariance(), row);
+  judge(bench, start, filter.x(), filter.settled_covariance(), row);
 }
 
 void StudyWorker::by_batch(Bench& bench, const Theta& from, std::size_t start, std::span<double> row,

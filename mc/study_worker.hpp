@@ -6,6 +6,7 @@
 
 #include "core/estimate/batch.hpp"
 #include "core/estimate/ekf.hpp"
+#include "core/estimate/iterated_ekf.hpp"
 #include "core/sim/simulate.hpp"
 #include "mc/design.hpp"
 #include "mc/study_task.hpp"
@@ -24,14 +25,16 @@ class StudyWorker final : public RunWorker {
     const FilterSpec& spec;
     const StudyColumns::Filter& columns;
     std::vector<Theta> fixed_starts;  ///< starts that are the same in every run: the first ones
-    std::unique_ptr<Ekf> ekf;         ///< empty for batch
+    std::unique_ptr<Ekf> ekf;         ///< of that estimator alone
+    std::unique_ptr<IteratedEkf> iterated;
     Eigen::SelfAdjointEigenSolver<MatX> eigen;
     VecX error, along;                ///< in prior sigmas; along the eigenvectors
   };
 
   void simulate(std::uint64_t run, std::span<double> row, RunOutcome& out);
   void estimate(Bench& bench, std::uint64_t run, std::size_t start, std::span<double> row, RunOutcome& out);
-  void by_ekf(Bench& bench, const Theta& from, std::size_t start, std::span<double> row, RunOutcome& out);
+  template <class Filter>
+  void write(Bench& bench, Filter& filter, std::size_t start, std::span<double> row, RunOutcome& out);
   void by_batch(Bench& bench, const Theta& from, std::size_t start, std::span<double> row, RunOutcome& out);
   /// Writes NEES of estimate x with covariance P, both in prior sigmas.
   template <class Vector, class Matrix>

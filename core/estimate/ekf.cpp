@@ -60,7 +60,6 @@ void Ekf::reset(const Theta& start) {
   std::fill(history_.scalars.begin(), history_.scalars.end(), 0);
   std::fill(history_.t.begin(), history_.t.end(), 0.0);
   sums_ = {};
-  for (Vec3& white : white_before_) white.setZero();
   status_ = EstimateStatus::ok;
   cause_.clear();
   t_diverged_ = 0.0;
@@ -71,20 +70,12 @@ void Ekf::correct_attitude(const Node& node, const Vec3& psi_i, Vec3& phi) const
   phi = rotation_vector(rotation(psi_r) * rotation(phi));
 }
 
-void Ekf::take(const Covariance::Update& update, std::size_t i, Channel channel) {
+void Ekf::take(const Covariance::Update& update, std::size_t i, InnovationSums::Channel channel) {
   if (keep_ == KeepHistory::yes) {
     history_.nis[i] += update.nis;
     history_.scalars[i] += update.scalars;
   }
-  sums_.nis += update.nis;
-  sums_.scalars += static_cast<std::size_t>(update.scalars);
-  Vec3& before = white_before_[channel];
-  for (int a = 0; a < 3; ++a)
-    if (before[a] != 0.0 && update.white[a] != 0.0) {
-      sums_.lagged += before[a] * update.white[a];
-      ++sums_.pairs;
-    }
-  before = update.white;
+  sums_.add(update, channel);
   const bool finite = std::isfinite(update.nis) && x_.allFinite();
   if (status_ == EstimateStatus::ok && (!update.ok || !finite || x_.cwiseAbs().maxCoeff() > 1e6)) {
     status_ = EstimateStatus::diverged;
@@ -147,25 +138,11 @@ void Ekf::process(std::size_t i, const Vec3& acc, const Vec3& gimbal) {
   P_.propagate(Phi_m, sensitivity_.G[middle], Q_half);
 
   if (readout_.accelerometers && acc.array().isFinite().any()) {
-    // Mean over the interval, and its derivative with respect to the attitude in the middle.
-    Vec3 mean = Vec3::Zero();
-    Mat3 H = Mat3::Zero();
-    const Mat3 Phi_m_inv = Phi_m.inverse();
-    Mat3X& H_par = sensitivity_.jacobian[0].H_par;  // the mean is gathered in the first node's
-    for (std::size_t k = 0; k <= last; ++k) {
-      const double w = Timeline::simpson_weight(interval.substeps, k);
-      const NodeJacobian& j = sensitivity_.jacobian[k];
-      mean += w * j.acc;
-      H += w * j.H * sensitivity_.Phi[k] * Phi_m_inv;
-      if (k == 0)
-        H_par *= w;
-      else
-        H_par += w * j.H_par;
-    }
+    const MeanOutput mean = mean_output(interval, sensitivity_);
     const Covariance::Update update =
-        P_.update(gated(acc - mean, H, H_par, readout_.accelerometer_noise), H, H_par,
-                  layout_.num_rate, readout_.accelerometer_noise, x_);
-    take(update, i, acc_channel);
+        P_.update(gated(acc - mean.acc, mean.H, sensitivity_.jacobian[0].H_par, readout_.accelerometer_noise),
+                  mean.H, sensitivity_.jacobian[0].H_par, layout_.num_rate, readout_.accelerometer_noise, x_);
+    take(update, i, InnovationSums::accelerometers);
     if (status_ != EstimateStatus::ok) return;
     correct_attitude(timeline_.nodes[interval.first_node + middle], update.attitude, nodes_[middle]);
     learn();
@@ -190,7 +167,7 @@ void Ekf::process(std::size_t i, const Vec3& acc, const Vec3& gimbal) {
         P_.update(gated(nu, predicted.H, predicted.H_par, readout_.gimbal_noise), predicted.H,
                   predicted.H_par, predicted.H_par.cols() > 0 ? layout_.num_rate : 0,
                   readout_.gimbal_noise, x_);
-    take(update, i, gimbal_channel);
+    take(update, i, InnovationSums::gimbals);
     if (status_ != EstimateStatus::ok) return;
     correct_attitude(node, update.attitude, phi_);
     learn();

@@ -5,6 +5,7 @@
 #include "core/estimate/covariance.hpp"
 #include "core/estimate/estimate_result.hpp"
 #include "core/estimate/gimbal_prediction.hpp"
+#include "core/estimate/innovation_sums.hpp"
 #include "core/estimate/linearize.hpp"
 #include "core/sim/measurements.hpp"
 
@@ -21,21 +22,6 @@ struct EkfHistory {
 
 /// Whether an EKF writes down how it went.
 enum class KeepHistory { yes, no };
-
-/// What the innovations of an EKF add up to.
-struct InnovationSums {
-  double nis = 0.0;          ///< sum of the normalised innovations squared
-  std::size_t scalars = 0;   ///< measured scalars it sums over
-  double lagged = 0.0;       ///< sum of products of whitened innovations of one channel, one sample apart
-  std::size_t pairs = 0;     ///< products in `lagged`
-  /// Correlation of innovations one sample apart: 0 on average for a right model, with standard
-  /// deviation 1 / sqrt(pairs) (physics.md 5.6).
-  double lag1() const {
-    return pairs > 0 && nis > 0.0
-               ? lagged / nis * static_cast<double>(scalars) / static_cast<double>(pairs)
-               : 0.0;
-  }
-};
 
 /// Continuous-discrete extended Kalman filter over 3 attitude errors and the layout's parameters.
 ///
@@ -75,8 +61,7 @@ class Ekf {
 
  private:
   void correct_attitude(const Node& node, const Vec3& psi_i, Vec3& phi) const;
-  enum Channel { acc_channel = 0, gimbal_channel = 1 };
-  void take(const Covariance::Update& update, std::size_t i, Channel channel);
+  void take(const Covariance::Update& update, std::size_t i, InnovationSums::Channel channel);
   void learn();
   Vec3 gated(const Vec3& nu, const Mat3& H_psi, const Mat3X& H_par, double sigma) const;
 
@@ -97,7 +82,6 @@ class Ekf {
   EkfHistory history_;
   KeepHistory keep_;
   InnovationSums sums_;
-  Vec3 white_before_[2];  ///< whitened innovations of the sample before, by channel
   EstimateStatus status_ = EstimateStatus::ok;
   std::string cause_;
   double t_diverged_ = 0.0;

@@ -1,5 +1,7 @@
 #include "core/estimate/linearize.hpp"
 
+#include <Eigen/LU>
+
 #include "core/base/check.hpp"
 
 namespace drift {
@@ -164,6 +166,23 @@ GimbalPrediction Linearizer::gimbals(const Timeline& timeline, const Interval& i
         });
   out.H = H_l * node.R_il.transpose();
   return out;
+}
+
+MeanOutput mean_output(const Interval& interval, IntervalSensitivity& sensitivity) {
+  MeanOutput mean;
+  const Mat3 Phi_m_inv = sensitivity.Phi[static_cast<std::size_t>(interval.substeps)].inverse();
+  Mat3X& H_par = sensitivity.jacobian[0].H_par;
+  for (std::size_t k = 0; k < interval.node_count(); ++k) {
+    const double w = Timeline::simpson_weight(interval.substeps, k);
+    const NodeJacobian& j = sensitivity.jacobian[k];
+    mean.acc += w * j.acc;
+    mean.H += w * j.H * sensitivity.Phi[k] * Phi_m_inv;
+    if (k == 0)
+      H_par *= w;
+    else
+      H_par += w * j.H_par;
+  }
+  return mean;
 }
 
 void linearize_interval(const Interval& interval, const Timeline& timeline, const Mat3& E_loop,

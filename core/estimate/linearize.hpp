@@ -79,6 +79,16 @@ struct IntervalSensitivity {
   std::vector<Mat3X> G;
 };
 
+/// Mean of the accelerometer outputs over an interval, and its derivative with respect to the
+/// attitude in the middle.
+struct MeanOutput {
+  Vec3 acc = Vec3::Zero();  ///< [g]
+  Mat3 H = Mat3::Zero();    ///< [g/rad]
+};
+
+/// Also gathers the mean of H_par, in sensitivity.jacobian[0].H_par (it allocates nothing).
+MeanOutput mean_output(const Interval& interval, IntervalSensitivity& sensitivity);
+
 /// Fills `out` along the nodes of an interval, phi given at each.
 ///
 /// Variation of constants: G(t) = Phi(t) Int Phi^-1 B dt with fourth-order quadrature over pairs of

@@ -50,6 +50,15 @@ inline void step_through(const Interval& interval, const Timeline& timeline, con
         step_attitude(drive, &timeline.nodes[interval.first_node + k], step, out[k], k, memory);
 }
 
+/// The same backwards: phi at `node` from phi at the node after it.
+inline Vec3 step_attitude_back(const Drive& drive, const Node* node, double step, const Vec3& phi) {
+  const Vec3 k1 = attitude_rate(drive, node[1].R_lr, phi);
+  const Vec3 k2 = attitude_rate(drive, node->R_lr_half, phi - 0.5 * step * k1);
+  const Vec3 k3 = attitude_rate(drive, node->R_lr_half, phi - 0.5 * step * k2);
+  const Vec3 k4 = attitude_rate(drive, node->R_lr, phi - step * k3);
+  return phi - step / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
+}
+
 /// Initial rotation vector of a chain whose attitude error is psi in local axes:
 /// R_lp = exp([psi x]) R_lr = R_lr exp([phi x]).
 inline Vec3 caged_phi(const Mat3& R_lr, const Vec3& psi_l) { return R_lr.transpose() * psi_l; }
