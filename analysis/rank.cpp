@@ -70,7 +70,7 @@ void rank_model(const Study& study, const RankOptions& options, ModelRanking& m,
   m.ranking = rank_parameters(plan);
   m.course = information_course(plan);
   m.pwcs = pwcs_rank(study.plan, study.site, m.model.spec, study.readout);
-  m.methods = compare_methods(m.ranking, m.pwcs, study.plan);
+  m.methods = compare_methods(m.ranking, m.pwcs, plan, m.course, study.plan);
   duration = plan.duration;
   m.bins = std::move(plan.bins);
   for (TimeBin& bin : m.bins) bin.rows.resize(0, 0);

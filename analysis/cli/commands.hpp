@@ -21,12 +21,21 @@ struct StudyArguments {
   Study read() const;
 };
 
+/// What `rank` takes besides.
+struct RankArguments {
+  std::size_t improve = 0;       ///< positions to propose
+  std::string criterion = "A";   ///< A, D or a parameter
+  std::string folder;            ///< empty: nothing is written
+  bool json = false;             ///< rank.json on stdout instead of tables
+};
+
 // The commands. Results go to stdout, everything else to stderr. Errors are thrown; main() alone
 // turns them into exit codes.
 ExitCode check(const StudyArguments& arguments);
 ExitCode simulate(const StudyArguments& arguments, const std::string& output, std::uint64_t run);
 ExitCode identify(const StudyArguments& arguments, const std::vector<std::string>& recordings,
                   const std::string& folder, std::uint64_t run);
+ExitCode rank(const StudyArguments& arguments, const RankArguments& options);
 ExitCode terms(const std::string& key);
 ExitCode version(bool json);
 

@@ -42,6 +42,8 @@ class Program {
     identify->add_option("--progress", study_.progress, "auto, plain, json or none")
         ->check(CLI::IsMember({"auto", "plain", "json", "none"}));
 
+    add_rank();
+
     CLI::App* terms = command("terms", "list the physics terms, or explain one",
                               "driftscope terms gyro_misalignment", [this] { return cli::terms(key_); });
     terms->add_option("key", key_, "a term or a parameter");
@@ -80,6 +82,22 @@ class Program {
     return c;
   }
 
+  void add_rank() {
+    CLI::App* rank = command("rank", "how observable each parameter is on a plan, and which positions to add",
+                             "driftscope rank configs/table1.toml --improve 3 --criterion eta_x -o out/rank",
+                             [this] { return cli::rank(study_, rank_); });
+    add_study(*rank);
+    CLI::Option* improve = rank->add_option("--improve", rank_.improve, "propose so many further positions")
+                               ->check(CLI::Range(1, 1000));
+    rank->add_option("--criterion", rank_.criterion,
+                     "what they make small: A (trace), D (determinant) or a parameter such as eta_x")
+        ->needs(improve);
+    rank->add_option("-o,--output", rank_.folder, "folder for rank.json, pictures and report");
+    rank->add_flag("--json", rank_.json, "rank.json on stdout instead of tables");
+    rank->add_option("--progress", study_.progress, "auto, plain, json or none")
+        ->check(CLI::IsMember({"auto", "plain", "json", "none"}));
+  }
+
   void add_study(CLI::App& c) {
     c.add_option("config", study_.config, "study file (TOML)")->required();
     c.add_option("--set", study_.sets, "override a value of the study file, e.g. plan.dwell=\"20 min\"")
@@ -92,6 +110,7 @@ class Program {
   CLI::App app_{"driftscope: Monte Carlo observability engine for gimballed inertial platforms"};
   std::function<ExitCode()> chosen_;
   cli::StudyArguments study_;
+  cli::RankArguments rank_;
   std::string output_, key_;
   std::vector<std::string> recordings_;
   std::uint64_t run_ = 0;

@@ -27,33 +27,54 @@ std::string conditional_reason(const Ranking& r, std::size_t state, bool higher_
                      key_of_state(r, p.partner), p.correlation, p.collinearity());
 }
 
-std::string svd_reason(const Ranking& r, std::size_t state, bool higher_here, const TestPlan& plan) {
-  const auto& spec = TermLibrary::specs[r.layout.params[state]];
-  const bool free = std::ranges::any_of(
-      plan.positions, [](const Position& p) { return p.mode == CommandLaw::free; });
-  const bool rates = TermLibrary::owner(r.layout.params[state]).in_rates;
+/// What the stripped observability matrix leaves out of a plan.
+struct LeftOut {
+  VecX on_the_way;    ///< share of each parameter's bits that slews and turns of the case give
+  double turned = 0.0;  ///< by the Earth in the longest dwell of free drift [deg]
+};
+
+LeftOut left_out(const LinearisedPlan& plan, const InformationCourse& course, const TestPlan& positions) {
+  LeftOut out{VecX::Zero(course.gain.rows()), 0.0};
+  for (std::size_t b = 0; b < plan.bins.size(); ++b)
+    if (plan.bins[b].slew) out.on_the_way += course.gain.col(static_cast<Eigen::Index>(b));
+  out.on_the_way = out.on_the_way.cwiseQuotient(course.gain.rowwise().sum().cwiseMax(1e-12));
+  for (const Position& p : positions.positions)
+    if (p.mode == CommandLaw::free)
+      out.turned = std::max(out.turned, detail::earth_rate * p.dwell / detail::deg);
+  return out;
+}
+
+std::string svd_reason(const Ranking& r, std::size_t state, bool higher_here, const LeftOut& left_out) {
+  constexpr double confused = 3.0;  // collinearity that explains a fall in rank by itself
+  constexpr double much = 0.3;       // of the bits
+  constexpr double tumbled = 5.0;    // [deg] that move the g components by a tenth and more
   const ParameterRank& p = r.parameters[state];
-  constexpr double confused = 10.0;  // collinearity that explains a fall in rank by itself
   if (higher_here && p.collinearity() > confused)
     return fmt::format("given the singular value of one vector it takes part in; yet confused with {} "
                        "(correlation {:.4f}, collinearity {:.3g})",
                        key_of_state(r, p.partner), p.correlation, p.collinearity());
-  if (spec.group == Name("s") && higher_here && free)
+  if (higher_here && TermLibrary::specs[p.param].group == Name("s") && left_out.turned > 0.0)
     return "the SOM takes every position as held level, torquing all the time; the plan drifts free";
-  if (free && !higher_here)
-    return "the SOM takes every position as held level; in free drift the Earth turns the platform "
-           "through other attitudes";
   if (higher_here)
     return fmt::format("the SOM knows no noise and no dwell; they leave {:.2g} of the prior sigma",
-                       r.learning_ratio(state));
-  return rates ? "the SOM has no time in it: a drift of small weight there adds up over the dwells"
-               : "the SOM has no averaging in it: a signal of small weight there is read in every sample";
+                       p.learning_ratio());
+  const double share = left_out.on_the_way[static_cast<Eigen::Index>(state)];
+  if (share > much)
+    return fmt::format("the SOM knows no slews and no turns of the case, which give {:.0f} % of its bits",
+                       100.0 * share);
+  if (left_out.turned > tumbled)
+    return fmt::format("the SOM takes every position as held level; in free drift the Earth turns the "
+                       "platform by {:.0f} deg through other attitudes", left_out.turned);
+  return TermLibrary::owner(p.param).in_rates
+             ? "the SOM has no time in it: a drift of small weight there adds up over the dwells"
+             : "the SOM has no averaging in it: a signal of small weight there is read in every sample";
 }
 
-std::string ham_brown_reason(const Ranking& r, std::size_t state) {
+std::string ham_brown_reason(const Ranking& r, std::size_t state, bool higher_here) {
   const EigenDirection& d = home_of(r, state);
-  return fmt::format("judged by one direction that holds {:.0f} % of it: {}", 100.0 * d.participation(state),
-                     name_of(d, r.layout));
+  return fmt::format("judged by one direction that holds {:.1f} % of it: {}{}", 100.0 * d.participation(state),
+                     name_of(d, r.layout),
+                     higher_here ? "; the rest lies in directions seen much worse" : "");
 }
 
 }  // namespace
@@ -101,7 +122,9 @@ VecX ham_brown(const Ranking& ranking) {
 }
 
 std::vector<MethodRanking> compare_methods(const Ranking& ranking, const PwcsRank& pwcs,
-                                           const TestPlan& plan) {
+                                           const LinearisedPlan& plan, const InformationCourse& course,
+                                           const TestPlan& positions) {
+  const LeftOut missing = left_out(plan, course, positions);
   const auto n = static_cast<Eigen::Index>(ranking.layout.size());
   VecX learned(n), conditional(n);
   for (Eigen::Index k = 0; k < n; ++k) {
@@ -125,8 +148,8 @@ std::vector<MethodRanking> compare_methods(const Ranking& ranking, const PwcsRan
       if (m.disagreements.size() == 3 || std::abs(here[k] - primary[k]) < 0.25 * static_cast<double>(n)) break;
       const bool higher_here = here[k] < primary[k];
       const std::string reason = m.key == "conditional" ? conditional_reason(ranking, k, higher_here)
-                                 : m.key == "svd"       ? svd_reason(ranking, k, higher_here, plan)
-                                                        : ham_brown_reason(ranking, k);
+                                 : m.key == "svd"       ? svd_reason(ranking, k, higher_here, missing)
+                                                        : ham_brown_reason(ranking, k, higher_here);
       m.disagreements.push_back({k, here[k], primary[k], reason});
     }
   }

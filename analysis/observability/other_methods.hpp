@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/observability/information_by_position.hpp"
 #include "analysis/observability/pwcs.hpp"
 #include "analysis/observability/ranking.hpp"
 
@@ -41,8 +42,10 @@ VecX svd_degrees(const PwcsRank& pwcs);
 /// direction it takes most part in, with a minus sign: large is well observed.
 VecX ham_brown(const Ranking& ranking);
 
-/// The learning ratio beside the other methods, with where they disagree and why.
+/// The learning ratio beside the other methods, with where they disagree and why. The bins of `plan`
+/// and the course through them say where the information came from.
 std::vector<MethodRanking> compare_methods(const Ranking& ranking, const PwcsRank& pwcs,
-                                           const TestPlan& plan);
+                                           const LinearisedPlan& plan, const InformationCourse& course,
+                                           const TestPlan& positions);
 
 }  // namespace drift
