@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "analysis/report/coupling_text.hpp"
 #include "core/base/check.hpp"
@@ -13,6 +14,8 @@ namespace drift::discovery {
 namespace {
 
 using config::Node;
+
+constexpr double far = 3.0;  // sigmas of the library's prior beyond which it does not hold
 
 Node text_node(std::string text) {
   Node node;
@@ -58,7 +61,11 @@ FilterSpec patched_filter(const FilterSpec& nominal, const std::vector<Cause>& c
     for (const CauseParameter& p : cause.parameters) {
       patched.active.set(p.param);
       const ParamSpec& spec = TermLibrary::specs[p.param];
-      patched.priors[p.param] = p.profiled ? fixed(p.value * spec.unit.to_si) : spec.prior_si();
+      const double value = p.value * spec.unit.to_si;
+      Prior prior = spec.prior_si();
+      if (prior.kind == Prior::Kind::normal && std::abs(value - prior.a) > far * prior.b)
+        prior.b = std::abs(value - prior.a);
+      patched.priors[p.param] = p.profiled ? fixed(value) : prior;
       if (p.param == lambda) patched.coupling = Coupling::lambda;
     }
   return patched;

@@ -10,7 +10,7 @@ namespace drift::discovery {
 
 /// The nominal filter with the parameters of some causes in it. What a cause found by profiling
 /// (time constants, onsets, phases) becomes a known constant, everything else is estimated with the
-/// library's prior. A cause with lambda makes the coupling "lambda".
+/// library's prior, widened to the size found where that is beyond three of its sigmas. A cause with lambda makes the coupling "lambda".
 FilterSpec patched_filter(const FilterSpec& nominal, const std::vector<Cause>& causes);
 
 /// The study file (study.text) with its first filter changed to `patched`, everything else kept:

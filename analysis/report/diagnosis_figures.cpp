@@ -50,7 +50,13 @@ std::optional<Figure> heat_figure(const Where& where) {
                 svg_of(map)};
 }
 
-/// Curves are not joined from one position to the next.
+/// Whether most positions hold several samples: then curves are not joined from one to the next.
+bool has_stretches(const std::vector<int>& position) {
+  std::size_t changes = 0;
+  for (std::size_t i = 1; i < position.size(); ++i) changes += position[i] != position[i - 1] ? 1 : 0;
+  return 2 * changes < position.size();
+}
+
 void append(Series& series, bool new_position, double x, double y, double sigma) {
   if (new_position && !series.x.empty()) {
     series.x.push_back(x);
@@ -71,8 +77,9 @@ Panel signal_panel(const RecoveredSignal& s, const std::vector<ScanHit>& windows
   Series found{.label = "recovered, with 1 sigma", .x = {}, .y = {}, .sigma = {}, .colour = 0};
   Series explained{.label = "signature of the cause", .x = {}, .y = {}, .sigma = {}, .colour = 1};
   Range range;
+  const bool apart = has_stretches(s.position);
   for (std::size_t i = 0; i < s.value.size(); ++i) {
-    const bool next = i > 0 && i < s.position.size() && s.position[i] != s.position[i - 1];
+    const bool next = apart && i > 0 && i < s.position.size() && s.position[i] != s.position[i - 1];
     const double sigma = i < s.sigma.size() ? s.sigma[i] : 0.0, t = s.t[i] / axis.unit;
     append(found, next, t, s.value[i], sigma);
     range.include(s.value[i] - sigma);

@@ -19,6 +19,16 @@ double spaced(double value, Spacing spacing) {
   return value > 0.0 ? std::log10(value) : std::nan("");
 }
 
+/// On a logarithmic axis the powers of ten alone, if there are two or more.
+std::vector<std::size_t> shown_ticks(const AxisScale& scale, Spacing spacing) {
+  std::vector<std::size_t> all, powers;
+  for (std::size_t i = 0; i < scale.ticks.size(); ++i) {
+    all.push_back(i);
+    if (std::abs(scale.ticks[i] - std::round(scale.ticks[i])) < 1e-9) powers.push_back(i);
+  }
+  return spacing == Spacing::logarithmic && powers.size() >= 2 ? powers : all;
+}
+
 void mark(SvgCanvas& canvas, double x, double y, std::string_view colour) {
   if (std::isfinite(x)) canvas.rectangle(x - 4.0, y - 4.0, 8.0, 8.0, colour);
 }
@@ -50,12 +60,12 @@ std::string svg_of(const DumbbellChart& chart) {
   const double second = x0 + 34.0 + text_pixels(chart.before_label, 11.0);
   mark(canvas, second, key - 4.0, after_colour);
   canvas.text(second + 10.0, key, chart.after_label);
-  for (std::size_t i = 0; i < scale.ticks.size(); ++i) {
+  for (const std::size_t i : shown_ticks(scale, chart.spacing)) {
     const double x = x0 + scale.at(scale.ticks[i], w);
     canvas.line(x, y0, x, y0 + h + 4.0, "#e4e4e4", 1.0);
     const std::string label = chart.spacing == Spacing::linear
                                   ? scale.labels[i]
-                                  : number_text(std::pow(10.0, scale.ticks[i]), 2);
+                                  : fmt::format("{:.6g}", std::stod(number_text(std::pow(10.0, scale.ticks[i]), 2)));
     canvas.text(x, y0 + h + 17.0, label, {.size = 10.5, .anchor = "middle"});
   }
   const bool factor = chart.spacing == Spacing::linear && !scale.factor.empty();
