@@ -106,7 +106,7 @@ bool Candidate::contains(const Candidate& other) const {
          });
 }
 
-CandidateSet library_candidates(const FilterSpec& nominal, const Theta& theta) {
+CandidateSet library_candidates(const FilterSpec& nominal, const Theta& theta, const Timeline&) {
   CandidateSet out;
   for (const TermInfo& term : TermLibrary::terms) {
     std::vector<std::size_t> missing;

@@ -31,7 +31,8 @@ struct CandidateSet {
 
 /// Every parameter that the nominal filter does not estimate, singly, per axis, per group of axes and
 /// per term, on the grids of their nonlinear parameters, evaluated at theta. Prior sigmas are the
-/// library's defaults. Nonlinear and noise parameters are no candidates of their own.
-CandidateSet library_candidates(const FilterSpec& nominal, const Theta& theta);
+/// library's defaults. Nonlinear and noise parameters are no candidates of their own; nor are terms that need
+/// a covariate which the recording does not have.
+CandidateSet library_candidates(const FilterSpec& nominal, const Theta& theta, const Timeline& timeline);
 
 }  // namespace drift::discovery

@@ -55,6 +55,7 @@ struct NoiseModel {
   double markov_tau = 1800.0;        ///< [s]
   double acc_markov = 0.0;           ///< stationary sigma of correlated accelerometer noise [g]
   double acc_tau = 300.0;            ///< [s]
+  Vec3 gyros = Vec3::Ones();         ///< weight of each gyro's share in what drives the platform
 
   bool driven() const {
     return angle_random_walk > 0.0 || drift_random_walk > 0.0 || markov_drift > 0.0 || acc_markov > 0.0;

@@ -51,21 +51,15 @@ MaxNull::MaxNull(const MatX& C, const std::vector<Contrast>& contrasts, int draw
   std::sort(used.begin(), used.end());
   used.erase(std::unique(used.begin(), used.end()), used.end());
   if (used.empty()) return;
-  const auto n = static_cast<Eigen::Index>(used.size());
-  const Eigen::SelfAdjointEigenSolver<MatX> eigen(columns_of(C, used));
-  const MatX root = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
-  MatX z(n, draws);
-  Stream random(null_seed, stream, Purpose::design);
-  for (Eigen::Index k = 0; k < z.size(); ++k) z.data()[k] = random.normal();
-  const MatX g = root * z;
+  const MatX g = draw(columns_of(C, used), draws, stream);
 
   std::map<int, VecX> largest;  // by degrees of freedom
   for (const Contrast& c : contrasts) {
     if (c.dof == 0) continue;
-    MatX part(c.columns.size(), draws);
+    MatX part(draws, c.columns.size());
     for (std::size_t k = 0; k < c.columns.size(); ++k)
-      part.row(k) = g.row(std::lower_bound(used.begin(), used.end(), c.columns[k]) - used.begin());
-    const VecX T = (c.W.transpose() * part).colwise().squaredNorm();
+      part.col(k) = g.col(std::lower_bound(used.begin(), used.end(), c.columns[k]) - used.begin());
+    const VecX T = (part * c.W).rowwise().squaredNorm();
     auto [place, fresh] = largest.try_emplace(c.dof, T);
     if (!fresh) place->second = place->second.cwiseMax(T);
   }
@@ -74,6 +68,23 @@ MaxNull::MaxNull(const MatX& C, const std::vector<Contrast>& contrasts, int draw
     for (int k = 0; k < draws; ++k) maxima_[k] = std::max(maxima_[k], strength(T[k], dof));
   std::sort(maxima_.begin(), maxima_.end());
   calibrate();
+}
+
+MatX MaxNull::draw(const MatX& C, int draws, std::uint64_t stream) {
+  const Eigen::SelfAdjointEigenSolver<MatX> eigen(C);
+  const MatX root = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  MatX z(draws, C.cols());
+  Stream random(null_seed, stream, Purpose::design);
+  for (Eigen::Index k = 0; k < z.size(); ++k) z.data()[k] = random.normal();
+  return z * root.transpose();
+}
+
+MaxNull MaxNull::of(const VecX& maxima) {
+  MaxNull n;
+  n.maxima_.assign(maxima.begin(), maxima.end());
+  std::sort(n.maxima_.begin(), n.maxima_.end());
+  n.calibrate();
+  return n;
 }
 
 MaxNull MaxNull::joined(const std::vector<MaxNull>& families) {

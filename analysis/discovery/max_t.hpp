@@ -30,6 +30,10 @@ class MaxNull {
   MaxNull(const MatX& C, const std::vector<Contrast>& contrasts, int draws, std::uint64_t stream);
   /// A family of nothing: its maximum is zero.
   MaxNull() = default;
+  /// From maxima that were drawn elsewhere.
+  static MaxNull of(const VecX& maxima);
+  /// Draws of N(0, C), one per row, shape (draws, columns of C).
+  static MatX draw(const MatX& C, int draws, std::uint64_t stream);
   /// Families joined as if independent: P(all quiet) >= product of each, for Gaussian scores
   /// (correlation inequality, Royen 2014), so the joint p-value is never too small.
   static MaxNull joined(const std::vector<MaxNull>& families);

@@ -29,7 +29,7 @@ struct Step {
 /// Drift in units that make the state of order one: its own sigma.
 Step step_of(const States& s, const NoiseModel& n, const IntervalDrive& d, double dt, double gap) {
   Step step{MatX::Identity(s.count, s.count), MatX::Zero(s.count, s.count)};
-  const Mat3 part = d.per_rate * (dt / d.length);
+  const Mat3 part = d.per_rate * n.gyros.asDiagonal() * (dt / d.length);
   // White rate noise of each gyro: attitude variance (d psi / d rate)^2 q^2 / dt.
   step.Q.topLeftCorner<3, 3>() =
       part * part.transpose() * (n.angle_random_walk * n.angle_random_walk / dt);
