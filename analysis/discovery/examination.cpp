@@ -26,6 +26,12 @@ Examination examine(const FilterSpec& filter, const Test& test, const BatchResul
   e.set = library_candidates(filter, theta_of(filter, e.fit), test.timeline);
   e.problem = linear_problem(filter, test, e.fit, e.set.signatures);
   const NoiseModel declared = declared_noise(filter);
+  const VecX residual = residual_of(e.problem, e.fit);
+  const NoiseEstimate differences = noise_of_differences(e.problem, residual);
+  if (!given && grossly_wrong(e.problem, residual, differences)) {
+    set_noise(e, test.timeline, differences);
+    return e;
+  }
   const Projector first(e.problem, given ? given->model : declared);
   robust_weights(e.problem, first.clean_residual());
   set_noise(e, test.timeline, given ? *given : estimate_noise(e.problem, declared));

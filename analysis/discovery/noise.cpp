@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -248,13 +249,56 @@ NoiseEstimate estimate_noise(const LinearProblem& problem, const NoiseModel& dec
   return out;
 }
 
+NoiseEstimate noise_of_differences(const LinearProblem& problem, const VecX& residual) {
+  // Second differences of a channel within a position: variance 6 sigma^2, blind to slopes. Their
+  // median is blind to outliers too.
+  std::array<std::vector<double>, 2> squares;
+  std::array<std::vector<double>, num_channels> last;
+  std::array<int, num_channels> position{};
+  for (std::size_t k = 0; k < problem.tags.size(); ++k) {
+    const RowTag& t = problem.tags[k];
+    auto& seen = last[t.channel];
+    if (position[t.channel] != t.position) seen.clear();
+    position[t.channel] = t.position;
+    seen.push_back(residual[k]);
+    if (const std::size_t n = seen.size(); n >= 3) {
+      const double d = seen[n - 1] - 2.0 * seen[n - 2] + seen[n - 3];
+      squares[t.accelerometer() ? 0 : 1].push_back(d * d / 6.0);
+    }
+  }
+  constexpr double median_of_square = 0.4549;  // of a standard normal
+  NoiseEstimate out;
+  for (const int kind : {0, 1}) {
+    auto& s = squares[kind];
+    if (s.size() < 10) continue;
+    std::nth_element(s.begin(), s.begin() + s.size() / 2, s.end());
+    const double factor = std::sqrt(std::max(s[s.size() / 2] / median_of_square, 1e-6));
+    (kind == 0 ? out.model.acc_factor : out.model.gimbal_factor) = factor;
+    // The median has 37 % efficiency, differences about half of the rows' information.
+    out.findings.push_back(white_finding(kind == 0 ? acc_white : gimbal_white, 1.0, factor,
+                                         1.0 / std::sqrt(2.0 * 0.37 * 0.5 * static_cast<double>(s.size())), s.size()));
+  }
+  return out;
+}
+
+bool grossly_wrong(const LinearProblem& problem, const VecX& residual, const NoiseEstimate& differences) {
+  double chi2 = 0.0;
+  for (Eigen::Index k = 0; k < residual.size(); ++k) {
+    const double factor =
+        problem.tags[k].accelerometer() ? differences.model.acc_factor : differences.model.gimbal_factor;
+    chi2 += residual[k] * residual[k] / (factor * factor);
+  }
+  return chi2 > 3.0 * static_cast<double>(residual.size());
+}
+
 std::size_t robust_weights(LinearProblem& problem, const VecX& residual) {
   constexpr double corner = 2.5;
   const double n = static_cast<double>(residual.size());
   std::size_t far = 0;
   for (const double r : residual) far += std::abs(r) > 3.5;
   const double expected = 4.65e-4 * n;  // Gaussian
-  if (static_cast<double>(far) < expected + 4.0 * std::sqrt(expected) + 3.0) return 0;
+  if (static_cast<double>(far) < expected + 4.0 * std::sqrt(expected) + 3.0 || static_cast<double>(far) > 0.02 * n)
+    return 0;
   std::size_t lowered = 0;
   for (Eigen::Index k = 0; k < residual.size(); ++k)
     if (std::abs(residual[k]) > corner) {

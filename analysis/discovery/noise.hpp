@@ -23,8 +23,17 @@ struct NoiseEstimate {
 NoiseEstimate estimate_noise(const LinearProblem& problem, const NoiseModel& declared,
                              const std::vector<int>& with = {});
 
+/// White noise alone, from differences of neighbouring residuals: what is left of a residual that a
+/// grossly wrong model bends. residual: in declared sigmas, not whitened. shape rows.
+NoiseEstimate noise_of_differences(const LinearProblem& problem, const VecX& residual);
+
+/// Whether the misfit is so gross that it would be taken for noise: chi-square per row three times
+/// what the differences of neighbouring residuals allow.
+bool grossly_wrong(const LinearProblem& problem, const VecX& residual, const NoiseEstimate& differences);
+
 /// Lowers the weight of rows with residuals that Gaussian noise does not have (Huber's function with
-/// corner 2.5) if there are significantly more of them than it allows. Returns the number lowered.
+/// corner 2.5) if there are significantly more of them than it allows, but not so
+/// many (2 %) that the model must be wrong. Returns the number lowered.
 /// residual: whitened, about unit variance.
 std::size_t robust_weights(LinearProblem& problem, const VecX& residual);
 

@@ -81,12 +81,14 @@ std::vector<PositionScan> scan_windows(const LinearProblem& problem, const Timel
     PositionScan scan;
     for (const auto& [a, b] : spans(problem.tags[first].interval, problem.tags[end - 1].interval + 1))
       for (const Equation e : {Equation::rate, Equation::attitude, Equation::accelerometer, Equation::gimbal})
-        for (int axis = 0; axis < 3; ++axis) scan.windows.push_back({e, axis, position, a, b});
+        for (int axis = 0; axis < 3; ++axis) scan.windows.push_back({e, axis, position, a, b, timeline.intervals[a].t0, timeline.intervals[b - 1].t1, 1.0});
     MatX columns(end - first, scan.windows.size());
     for (std::size_t k = 0; k < scan.windows.size(); ++k) {
       columns.col(k) = window_signature(problem, timeline, scan.windows[k], first, end - first);
       const double norm = columns.col(k).norm();
-      if (norm > 0.0) columns.col(k) /= norm;
+      if (norm <= 0.0) continue;
+      columns.col(k) /= norm;
+      scan.windows[k].unit = 1.0 / norm;
     }
     scan.scan = projector.scan(columns, first);
     scan.T = VecX::Zero(columns.cols());

@@ -12,6 +12,8 @@ struct Window {
   int axis = 0;
   int position = 0;                ///< from 0
   std::size_t first = 0, end = 0;  ///< intervals
+  double start_s = 0.0, end_s = 0.0;
+  double unit = 1.0;               ///< amplitude that a scan column stands for, SI
 };
 
 std::string equation_name(Window::Equation equation, int axis);

@@ -71,6 +71,17 @@ Theta theta_of(const FilterSpec& filter, const BatchResult& fit) {
   return theta;
 }
 
+VecX residual_of(const LinearProblem& problem, const BatchResult& fit) {
+  VecX r(problem.rows());
+  for (Eigen::Index k = 0; k < r.size(); ++k) {
+    const RowTag& t = problem.tags[k];
+    const double value =
+        t.accelerometer() ? fit.acc_residual(t.channel, t.interval) : fit.gimbal_residual(t.channel - 3, t.interval);
+    r[k] = std::isfinite(value) ? value : 0.0;  // a fit may have left a sample out
+  }
+  return r;
+}
+
 LinearProblem linear_problem(const FilterSpec& nominal, const Test& test, const BatchResult& fit,
                              const std::vector<SignatureSpec>& specs) {
   LinearProblem out;

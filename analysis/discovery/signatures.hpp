@@ -29,6 +29,9 @@ struct SignatureSpec {
 LinearProblem linear_problem(const FilterSpec& nominal, const Test& test, const BatchResult& fit,
                              const std::vector<SignatureSpec>& specs);
 
+/// Residuals of a fit in declared sigmas, in the order of a problem's rows.
+VecX residual_of(const LinearProblem& problem, const BatchResult& fit);
+
 /// Theta of a fit: layout values where estimated, prior means elsewhere.
 Theta theta_of(const FilterSpec& filter, const BatchResult& fit);
 
