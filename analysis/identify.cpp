@@ -129,7 +129,15 @@ void set_lambda(const TruthSpec& truth, Theta& theta) {
   }
 }
 
-/// Several tests one after the other, as one timeline.
+}  // namespace
+
+std::vector<const FilterRun*> Identification::runs_of(std::size_t filter) const {
+  std::vector<const FilterRun*> found;
+  for (const FilterRun& r : runs)
+    if (r.filter == filter) found.push_back(&r);
+  return found;
+}
+
 Timeline joined(std::vector<Timeline> timelines) {
   Timeline all = std::move(timelines.front());
   for (std::size_t k = 1; k < timelines.size(); ++k) {
@@ -160,15 +168,6 @@ Measurements joined(const std::vector<Measurements>& parts) {
     at += p.acc.cols();
   }
   return all;
-}
-
-}  // namespace
-
-std::vector<const FilterRun*> Identification::runs_of(std::size_t filter) const {
-  std::vector<const FilterRun*> found;
-  for (const FilterRun& r : runs)
-    if (r.filter == filter) found.push_back(&r);
-  return found;
 }
 
 std::size_t start_count(const FilterSpec& filter) {

@@ -61,6 +61,10 @@ Identification identify_simulated(const Study& study, std::uint64_t run, int thr
 Identification identify_recordings(const Study& study, const std::vector<Recording>& recordings,
                                    int threads, const Progress& progress = {});
 
+/// Several tests one after the other, as one timeline with its measurements.
+Timeline joined(std::vector<Timeline> timelines);
+Measurements joined(const std::vector<Measurements>& parts);
+
 /// Initial estimates of a filter: explicit ones, or drawn from its prior (pure function of seed, start).
 Theta initial_estimate(const FilterSpec& filter, std::uint64_t seed, std::size_t start);
 std::size_t start_count(const FilterSpec& filter);
