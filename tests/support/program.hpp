@@ -24,8 +24,8 @@ class ScratchFolder {
  public:
   ScratchFolder()
       : path_(std::filesystem::temp_directory_path() /
-              ("driftscope_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->test_suite_name()) +
-               "_" + testing::UnitTest::GetInstance()->current_test_info()->name() + "_" + std::to_string(getpid()) + "_" +
+              ("driftscope_" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->test_suite_name()) +
+               "_" + ::testing::UnitTest::GetInstance()->current_test_info()->name() + "_" + std::to_string(getpid()) + "_" +
                std::to_string(made()++))) {
     std::filesystem::create_directories(path_);
   }
