@@ -21,13 +21,21 @@ char axis_of(const ParamSpec& spec) {
   return key == spec.group.view() ? '\0' : key.back();
 }
 
-/// Far outside the default prior a value is a slip of the unit; misalignments are small angles.
+/// Far outside the default prior a value is a slip of the unit; misalignments are small angles; time
+/// constants and sizes of random things are positive.
 Option plausible(const ParamSpec& spec) {
   constexpr double sigmas = 1e4;
   constexpr double small_angle = 10.0 * detail::deg;
   double limit = sigmas * std::max(std::abs(spec.prior.a), std::abs(spec.prior.b));
   if (spec.unit.same_dimension(unit::rad)) limit = std::min(limit, small_angle / spec.unit.to_si);
-  return {spec.key.view(), spec.unit, -limit, limit, spec.enters};
+  double least = -limit;
+  if (spec.kind == ParamKind::noise) least = 0.0;
+  if (spec.kind == ParamKind::nonlinear) least = 1e-3 * *std::min_element(spec.grid.begin(), spec.grid.end());
+  if (spec.kind == ParamKind::discrete) {
+    least = 1.0;
+    limit = 1e4;
+  }
+  return {spec.key.view(), spec.unit, least, limit, spec.enters};
 }
 
 std::size_t first_of(const ParamMask& mask) {
