@@ -4,15 +4,13 @@
 #include <signal.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <chrono>
-#include <limits>
 #include <mutex>
-#include <numeric>
 
 #include "core/base/rng.hpp"
 #include "mc/block_board.hpp"
+#include "mc/guarded_run.hpp"
 #include "mc/rule_follower.hpp"
 #include "mc/stop_signals.hpp"
 #include "mc/store.hpp"
@@ -23,31 +21,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 using Counter = Ranks::Counter;
-
-/// Executes one run; whatever goes wrong becomes its outcome.
-RunOutcome execute(RunWorker& worker, std::uint64_t run, std::span<double> row) {
-  RunOutcome outcome;
-  try {
-    return worker.execute(run, row);
-  } catch (const std::exception& error) {
-    outcome.cause = error.what();
-  } catch (...) {
-    outcome.cause = "an exception that is no std::exception";
-  }
-  outcome.status = RunStatus::error;
-  std::fill(row.begin(), row.end(), std::numeric_limits<double>::quiet_NaN());
-  return outcome;
-}
-
-ExitCode code_of(const std::exception_ptr& error) {
-  try {
-    std::rethrow_exception(error);
-  } catch (const InputError& e) {
-    return e.code();
-  } catch (...) {
-    return ExitCode::internal;
-  }
-}
 
 /// One session of one worker.
 class Engine {
@@ -141,7 +114,7 @@ class Engine {
         const auto ticket = board.take();
         if (!ticket) break;
         if (!worker || point != ticket->point()) worker = work_.points[point = ticket->point()].task->worker();
-        const RunOutcome outcome = execute(*worker, ticket->run(), ticket->row());
+        const RunOutcome outcome = guarded_run(*worker, ticket->run(), ticket->row());
         if (outcome.status != RunStatus::ok) {
           ++own_failed_;
           int expected = none;
@@ -227,12 +200,8 @@ class Engine {
 
   /// All ranks come here, whatever happened; the gravest answer is everyone's.
   ExitCode agree(ExitCode own) {
-    constexpr std::array order{ExitCode::ok, ExitCode::failed_runs, ExitCode::wall_time, ExitCode::interrupted,
-                               ExitCode::terminated, ExitCode::usage, ExitCode::config, ExitCode::recording,
-                               ExitCode::store, ExitCode::self_check, ExitCode::io, ExitCode::internal};
     if (stop_ != none && stop_ != elsewhere) ranks_.add(Counter::stop, 1);
-    const auto at = std::find(order.begin(), order.end(), own) - order.begin();
-    return order[static_cast<std::size_t>(ranks_.largest(static_cast<int>(at)))];
+    return of_gravity(ranks_.largest(gravity(own)));
   }
 
   StudyOutcome finish() {

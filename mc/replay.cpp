@@ -4,29 +4,14 @@
 
 #include <cstring>
 #include <limits>
-#include <map>
 
 #include "core/base/check.hpp"
 #include "core/base/rng.hpp"
 #include "mc/campaign.hpp"
+#include "mc/guarded_run.hpp"
 
 namespace drift::mc {
 namespace {
-
-RunOutcome execute(RunWorker& worker, std::uint64_t run, std::vector<double>& row, TraceSink* trace) {
-  RunOutcome outcome;
-  try {
-    return trace != nullptr ? worker.trace(run, row, *trace) : worker.execute(run, row);
-  } catch (const InputError&) {
-    if (trace != nullptr) throw;  // the trace could not be written
-    outcome.cause = "input error";
-  } catch (const std::exception& error) {
-    outcome.cause = error.what();
-  }
-  outcome.status = RunStatus::error;
-  row.assign(row.size(), std::numeric_limits<double>::quiet_NaN());
-  return outcome;
-}
 
 bool same_bits(std::span<const double> a, std::span<const double> b) {
   return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size_bytes()) == 0);
@@ -58,7 +43,7 @@ Replay replay(const RunTask& task, StudyReader& reader, std::size_t point, std::
   const std::uint64_t first = run - run % reader.manifest().identity.block_size;
   Replay r;
   r.row = nan_row(columns);
-  r.outcome = execute(*task.worker(), run, r.row, trace);
+  r.outcome = guarded_run(*task.worker(), run, r.row, trace);
   const auto block = reader.read(point, first);
   if (!block || run - first >= block->block.status.size()) return r;
   r.stored = true;
@@ -83,7 +68,7 @@ Verification verify(const StudyWork& work, StudyReader& reader, double sample, i
     }
     const auto same = run_campaign(chosen.size(), [&](std::size_t i) -> char {
       std::vector<double> row = nan_row(columns);
-      const RunOutcome outcome = execute(workers.mine(block.point), block.first + chosen[i], row, nullptr);
+      const RunOutcome outcome = guarded_run(workers.mine(block.point), block.first + chosen[i], row);
       return outcome.status == block.status[chosen[i]] &&
              same_bits(row, std::span(block.rows).subspan(chosen[i] * columns, columns));
     }, used);
