@@ -27,11 +27,11 @@ class StudyWorker final : public RunWorker {
     std::vector<Theta> fixed_starts;  ///< starts that are the same in every run: the first ones
     std::unique_ptr<Ekf> ekf;         ///< of that estimator alone
     std::unique_ptr<IteratedEkf> iterated;
-    // Eigenvectors of a covariance are Q V, kept apart because their product would need memory.
+    // Eigenvectors of a covariance are Q V, kept apart: Q as reflections, because Eigen allocates to
+    // form it.
     Eigen::Tridiagonalization<MatX> tridiagonal;
     Eigen::SelfAdjointEigenSolver<MatX> eigen;
-    MatX Q;
-    VecX diagonal, beside, work;      ///< of the tridiagonal matrix
+    VecX diagonal, beside;            ///< of the tridiagonal matrix
     VecX error, turned, along;        ///< error in prior sigmas; Q^T error; along the eigenvectors
   };
 
