@@ -65,8 +65,4 @@ Identification identify_recordings(const Study& study, const std::vector<Recordi
 Timeline joined(std::vector<Timeline> timelines);
 Measurements joined(const std::vector<Measurements>& parts);
 
-/// Initial estimates of a filter: explicit ones, or drawn from its prior (pure function of seed, start).
-Theta initial_estimate(const FilterSpec& filter, std::uint64_t seed, std::size_t start);
-std::size_t start_count(const FilterSpec& filter);
-
 }  // namespace drift

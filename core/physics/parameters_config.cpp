@@ -21,13 +21,21 @@ char axis_of(const ParamSpec& spec) {
   return key == spec.group.view() ? '\0' : key.back();
 }
 
-/// Far outside the default prior a value is a slip of the unit; misalignments are small angles.
+/// Far outside the default prior a value is a slip of the unit; misalignments are small angles; time
+/// constants and sizes of random things are positive.
 Option plausible(const ParamSpec& spec) {
   constexpr double sigmas = 1e4;
   constexpr double small_angle = 10.0 * detail::deg;
   double limit = sigmas * std::max(std::abs(spec.prior.a), std::abs(spec.prior.b));
   if (spec.unit.same_dimension(unit::rad)) limit = std::min(limit, small_angle / spec.unit.to_si);
-  return {spec.key.view(), spec.unit, -limit, limit, spec.enters};
+  double least = -limit;
+  if (spec.kind == ParamKind::noise) least = 0.0;
+  if (spec.kind == ParamKind::nonlinear) least = 1e-3 * *std::min_element(spec.grid.begin(), spec.grid.end());
+  if (spec.kind == ParamKind::discrete) {
+    least = 1.0;
+    limit = 1e4;
+  }
+  return {spec.key.view(), spec.unit, least, limit, spec.enters};
 }
 
 std::size_t first_of(const ParamMask& mask) {
@@ -46,7 +54,7 @@ ParamMask term_mask(const TermInfo& term, char axis) {
   ParamMask mask;
   for (std::size_t i = term.first; i < term.first + term.count; ++i)
     if (axis == '\0' || axis_of(specs[i]) == axis) mask.set(i);
-  return mask;
+  return TermLibrary::completed(mask);
 }
 
 ParamMask parameters_in(std::string_view key) {  // one, or a group
@@ -78,7 +86,7 @@ void read_entry(config::Section& section, const Node& entry, ParamMask& mask) {
   if ((named & ~mask).none())
     return wrong(fmt::format("names '{}', which the entries before it hold already", entry.text),
                  "Remove one of them");
-  mask |= named;
+  mask |= TermLibrary::completed(named);
 }
 
 void read_value(config::Section& table, std::string_view key, const Node& node,
@@ -136,7 +144,9 @@ std::vector<std::string> terms_text(const ParamMask& mask) {
   ParamMask left = mask;
   const auto use = [&](const std::string& key) {
     const ParamMask named = params_named(key);
-    if (named.none() || (named & ~left).any()) return;
+    // What belongs to no axis may have been named by an axis before.
+    if ((named & left).none() || (named & ~mask).any() || (TermLibrary::completed(left) & named) != named)
+      return;
     entries.push_back(key);
     left &= ~named;
   };

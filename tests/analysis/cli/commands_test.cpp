@@ -226,11 +226,49 @@ TEST(Program, TheTruthOfLambdaIsTheEquationThatMadeTheData) {
   }
 }
 
+TEST(Program, IdentifiesWithTermsThatNeedCovariates) {
+  const ScratchFolder folder;
+  std::string text = short_study;
+  const std::string terms =
+      "\nterms = [\"fixed_drift\", \"magnetic_drift\", \"temperature_drift\", \"encoder_harmonics\"]";
+  for (std::size_t at = text.find("coupling"); at != std::string::npos; at = text.find("coupling", at + 1))
+    text.insert(text.find('\n', at), terms);
+  const std::string bare = folder.write("bare.toml", text);
+  const std::string study = folder.write("s.toml", text + R"(
+[environment]
+temperature = "20 degC"
+temperature_amplitude = "0.5 degC"
+temperature_period = "2 h"
+field_n = "0.26 gauss"
+field_w = "0 gauss"
+field_u = "-0.48 gauss"
+)");
+  const std::string recording = folder.file("r.csv");
+  ASSERT_EQ(driftscope("simulate " + study + " -o " + recording).code, 0);
+  for (const char* column : {"temperature [degC]", "field_n [gauss]", "field_u [gauss]"})
+    EXPECT_NE(text_of(recording).find(column), std::string::npos) << column;
+  // Simulated within, or read from the file: the same test.
+  ASSERT_EQ(driftscope("identify " + study + " -o " + folder.file("a")).code, 0);
+  ASSERT_EQ(driftscope("identify " + bare + " " + recording + " -o " + folder.file("b")).code, 0);
+  const auto a = nlohmann::json::parse(text_of(folder.file("a") + "/identification.json"));
+  const auto b = nlohmann::json::parse(text_of(folder.file("b") + "/identification.json"));
+  EXPECT_NE(a.dump().find("\"M_y\""), std::string::npos);
+  EXPECT_NE(b.dump().find("\"enc_s2_inner\""), std::string::npos);
+  // Without them the user is told what is missing.
+  const Answer missing = driftscope("identify " + bare);
+  EXPECT_NE(missing.code, 0);
+  EXPECT_NE(missing.err.find("temperature [degC]"), std::string::npos) << missing.err;
+}
+
 TEST(Program, TermsAndVersionAnswer) {
   const Answer all = driftscope("terms");
   EXPECT_EQ(all.code, 0);
   for (const char* key : {"fixed_drift", "g_drift", "g2_drift", "gyro_misalignment", "torquer_scale", "accelerometer", "frame_closure"})
     EXPECT_NE(all.out.find(key), std::string::npos) << key;
+  const std::string heat = driftscope("terms torquer_heating").out;  // memory, and a profiled time constant
+  for (const char* text : {"heat_i h_i", "3 states", "heat_tau", "profiled over 8, 12, 20, 30", "physics.md 4, no. 21"})
+    EXPECT_NE(heat.find(text), std::string::npos) << text;
+  EXPECT_NE(driftscope("terms M_y").out.find("field_n, field_w, field_u [gauss]"), std::string::npos);
   EXPECT_NE(driftscope("terms eta_x").out.find("toward the spin axis"), std::string::npos);
   const auto j = nlohmann::json::parse(driftscope("version --json").out);
   EXPECT_TRUE(j.contains("driftscope") && j.contains("compiler") && j["libraries"].contains("SUNDIALS"));

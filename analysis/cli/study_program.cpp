@@ -1,0 +1,62 @@
+#include "analysis/cli/study_program.hpp"
+
+#include <memory>
+
+#include "analysis/report/study_html.hpp"
+#include "analysis/report/study_information.hpp"
+#include "mc/provenance.hpp"
+#include "mc/stop_rule.hpp"
+#include "mc/study_task.hpp"
+
+namespace drift::cli {
+namespace {
+
+mc::StudyWork work_of(const Study& study) {
+  const auto points = std::make_shared<const std::vector<mc::StudyPoint>>(mc::study_points(study));
+  mc::StudyWork work{mc::study_tasks(*points), {}};
+  if (mc::stop_rule(*points)) work.stop_rules = [points](std::size_t) { return mc::stop_rule(*points); };
+  return work;
+}
+
+/// Where the time of all sessions went.
+void add_speed(mc::StudyReader& reader, mc::Facts& facts) {
+  double integration = 0.0, filter = 0.0, total = 0.0;
+  std::uint64_t runs = 0;
+  for (const mc::BlockKey& key : reader.keys())
+    if (const auto block = reader.read(key.point, key.first)) {
+      integration += block->times.integration_s;
+      filter += block->times.filter_s;
+      total += block->times.total_s;
+      runs += block->block.status.size();
+    }
+  if (total > 0.0)
+    facts.emplace_back("speed", fmt::format("{:.1f} runs/s per core; filters {:.1f} %, integration {:.1f} %, rest {:.1f} %",
+                                            static_cast<double>(runs) / total, 100.0 * filter / total,
+                                            100.0 * integration / total,
+                                            100.0 * (total - filter - integration) / total));
+}
+
+void present(const Study& study, const mc::StudyWork& work, mc::StudyReader& reader, const std::string& folder) {
+  StudyResults results;
+  results.study = study;
+  results.points = mc::study_points(study);
+  for (const mc::StudyPoint& p : results.points) results.statistics.emplace_back(p.study);
+  reader.each_result(work.stop_rules, [&](const mc::StoredBlock& b) { results.statistics[b.block.point].add(b.block); });
+  for (const auto& [point, run] : runs_to_trace(results))
+    results.traces.push_back({point, run, mc::trace_run(results.points[point].study, run)});
+  results.further = information_sections(results, 0);
+  results.provenance = mc::provenance();
+  results.provenance.emplace_back("study hash", reader.manifest().hash);
+  results.provenance.emplace_back("results", mc::results_digest(reader, work.stop_rules));
+  add_speed(reader, results.provenance);
+  fmt::print("\n{}", study_text(results));
+  if (!results.provenance.empty() && results.provenance.back().first == "speed")
+    fmt::print("\nspeed: {}\n", results.provenance.back().second);
+  fmt::print("\nWritten to {}: {}\n", folder, fmt::join(write_study_report(results, folder), " "));
+}
+
+}  // namespace
+
+StudyProgram study_program() { return {work_of, present}; }
+
+}  // namespace drift::cli
