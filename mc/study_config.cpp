@@ -9,6 +9,7 @@
 #include "core/physics/model_config.hpp"
 #include "core/physics/mounting_config.hpp"
 #include "core/sim/plan_config.hpp"
+#include "mc/blind_config.hpp"
 #include "mc/published_config.hpp"
 #include "mc/study.hpp"
 
@@ -99,7 +100,8 @@ Study read_tree(const Node& root, const std::string& path) {
   study.site = read_site(top.section("site"), plan.kind);
   study.readout = read_readout(top.section("readout"));
   const Node* sweep = top.take("sweep");
-  const bool swept = sweep != nullptr && sweep->find("truth.coupling") != nullptr;
+  // A blind study has truths of several couplings too.
+  const bool swept = (sweep != nullptr && sweep->find("truth.coupling") != nullptr) || top.has("blind");
   Section truth = top.section("truth");
   study.has_truth = truth.present();
   study.truth = read_truth(truth, mounting, swept ? UnusedTables::allowed : UnusedTables::refused);
@@ -107,6 +109,10 @@ Study read_tree(const Node& root, const std::string& path) {
   study.monte_carlo = read_monte_carlo(top.section("monte_carlo"));
   study.sweep = read_sweep(report, sweep);
   study.published = read_published(top);
+  if (Section blind = top.section("blind"); blind.present()) {
+    study.blind = read_blind(blind);
+    study.has_blind = true;
+  }
   top.finish();
   report.throw_if_wrong();
   for (const auto& value : report.resolved())

@@ -89,7 +89,7 @@ void Simulator::integrate(const Timeline& timeline, std::size_t first, std::size
   const ProcessNoise& noise = truth_.noise;
   PlatformOde& ode = engine_->ode;
   while (first < end && out.ode.ok()) {
-    const std::size_t last = segment_end(timeline, first, end, noise.any());
+    const std::size_t last = segment_end(timeline, first, end, noise.any() || disturbance_.cols() > 0);
     const Interval& interval = timeline.intervals[first];
     Vec3 omega_noise_p = Vec3::Zero();
     if (noise.any()) {
@@ -100,6 +100,7 @@ void Simulator::integrate(const Timeline& timeline, std::size_t first, std::size
         theta_[fixed_drift + a] += noise.drift_random_walk * std::sqrt(T) * process_noise_[3 + a]->normal();
       }
     }
+    if (disturbance_.cols() > 0) omega_noise_p += disturbance_.col(static_cast<Eigen::Index>(first));
     out.ode = ode.segment(timeline, first, last, theta_, omega_noise_p,
                           interval.cage ? &out.draw.psi0_l[interval.chain] : nullptr, out.phi);
     const OdeStats stats = ode.stats();

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <memory>
+#include <utility>
 
 #include "core/ode/ode_options.hpp"
 #include "core/ode/ode_result.hpp"
@@ -41,6 +42,10 @@ class Simulator {
   /// The same with given numbers instead of drawn ones.
   Simulation run(const Timeline& timeline, const TruthDraw& draw, std::uint64_t seed, std::uint64_t run);
 
+  /// A further rate of the platform [rad/s], platform axes, for every interval of the timelines that
+  /// follow and constant in it: what no term of the library makes. Empty: none. shape (3, intervals).
+  void disturb(Mat3X omega_p) { disturbance_ = std::move(omega_p); }
+
   /// In pieces, for loops that are fed back from a filter: begin, then extend over the intervals in
   /// order. What `timeline` says of an interval may change until it is extended over.
   void begin(const Timeline& timeline, const TruthDraw& draw, std::uint64_t seed, std::uint64_t run,
@@ -60,6 +65,7 @@ class Simulator {
   DriftModel model_;
   std::unique_ptr<Engine> engine_;
   std::array<std::unique_ptr<Stream>, 6> sensor_noise_, process_noise_;
+  Mat3X disturbance_;
   Theta theta_;  ///< with the drift's random walk
 };
 
