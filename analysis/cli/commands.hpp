@@ -27,6 +27,7 @@ ExitCode check(const StudyArguments& arguments);
 ExitCode simulate(const StudyArguments& arguments, const std::string& output, std::uint64_t run);
 ExitCode identify(const StudyArguments& arguments, const std::vector<std::string>& recordings,
                   const std::string& folder, std::uint64_t run);
+ExitCode blind(const StudyArguments& arguments, const std::string& folder, const std::optional<std::string>& trials);
 ExitCode terms(const std::string& key);
 ExitCode version(bool json);
 

@@ -42,6 +42,15 @@ class Program {
     identify->add_option("--progress", study_.progress, "auto, plain, json or none")
         ->check(CLI::IsMember({"auto", "plain", "json", "none"}));
 
+    CLI::App* blind = command("blind", "make recordings with concealed effects, diagnose each without the key, then score",
+                              "driftscope blind configs/blind_small.toml -o out/blind",
+                              [this] { return cli::blind(study_, output_, trials_); });
+    add_study(*blind);
+    blind->add_option("-o,--output", output_, "folder for trials, key, answers and report; the same one resumes")->required();
+    blind->add_option("--trials", trials_, "override blind.trials");
+    blind->add_option("--progress", study_.progress, "auto, plain, json or none")
+        ->check(CLI::IsMember({"auto", "plain", "json", "none"}));
+
     CLI::App* terms = command("terms", "list the physics terms, or explain one",
                               "driftscope terms gyro_misalignment", [this] { return cli::terms(key_); });
     terms->add_option("key", key_, "a term or a parameter");
@@ -95,6 +104,7 @@ class Program {
   std::string output_, key_;
   std::vector<std::string> recordings_;
   std::uint64_t run_ = 0;
+  std::optional<std::string> trials_;
   bool json_ = false;
 };
 
