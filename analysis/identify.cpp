@@ -7,6 +7,7 @@
 
 #include "core/base/check.hpp"
 #include "core/estimate/start_consistency.hpp"
+#include "core/estimate/starts.hpp"
 #include "mc/campaign.hpp"
 
 namespace drift {
@@ -116,19 +117,6 @@ void run_jobs(const Study& study, Identification& id, int threads, const Progres
   id.summaries = summarise(study, id);
 }
 
-/// The lambda of a truth whose coupling is no member of the family by name: the integrating servo
-/// closes like eq. (6) (physics.md 1.5); a compensated loop has none.
-void set_lambda(const TruthSpec& truth, Theta& theta) {
-  constexpr auto lambda = TermLibrary::index("lambda");
-  switch (truth.coupling) {
-    case Coupling::eq5: theta[lambda] = 0.0; break;
-    case Coupling::eq6: theta[lambda] = 1.0; break;
-    case Coupling::servo: theta[lambda] = truth.servo.float_restraint == 0.0 ? 1.0 : std::nan(""); break;
-    case Coupling::compensated: theta[lambda] = std::nan(""); break;
-    case Coupling::lambda: break;
-  }
-}
-
 /// Several tests one after the other, as one timeline.
 Timeline joined(std::vector<Timeline> timelines) {
   Timeline all = std::move(timelines.front());
@@ -138,6 +126,8 @@ Timeline joined(std::vector<Timeline> timelines) {
     for (Interval& i : next.intervals) {
       i.t0 += shift;
       i.t1 += shift;
+      i.t_begin += shift;
+      i.t_dwell += shift;
       i.chain += all.chains;
       i.first_node += all.nodes.size();
       all.intervals.push_back(i);
@@ -145,6 +135,8 @@ Timeline joined(std::vector<Timeline> timelines) {
     for (Node& n : next.nodes) n.t += shift;
     all.nodes.insert(all.nodes.end(), next.nodes.begin(), next.nodes.end());
     all.chains += next.chains;
+    all.has_temperature = all.has_temperature && next.has_temperature;
+    all.has_field = all.has_field && next.has_field;
   }
   return all;
 }
@@ -171,17 +163,6 @@ std::vector<const FilterRun*> Identification::runs_of(std::size_t filter) const 
   return found;
 }
 
-std::size_t start_count(const FilterSpec& filter) {
-  return filter.starts.empty() ? static_cast<std::size_t>(filter.drawn_starts) : filter.starts.size();
-}
-
-Theta initial_estimate(const FilterSpec& filter, std::uint64_t seed, std::size_t start) {
-  if (filter.starts.empty()) return draw_parameters(filter, seed, start, Purpose::filter_start);
-  Theta theta = make_layout(filter).theta;
-  for (const auto& [param, value] : filter.starts[start]) theta[param] = value;
-  return theta;
-}
-
 Identification identify_simulated(const Study& study, std::uint64_t run, int threads,
                                   const Progress& progress) {
   if (!study.has_truth)
@@ -193,6 +174,7 @@ Identification identify_simulated(const Study& study, std::uint64_t run, int thr
   Timeline timeline = lay_out(study.plan, study.site);
   set_loop(timeline, study.truth);
   const std::uint64_t seed = study.monte_carlo.seed;
+  set_environment(timeline, study.environment, seed, run);
   id.truth = draw_truth(study.truth, timeline.chains, seed, run);
   set_lambda(study.truth, id.truth->theta);
   if (study.truth.coupling == Coupling::compensated && study.truth.loop == LoopEstimate::feedback) {
@@ -217,6 +199,7 @@ Identification identify_recordings(const Study& study, const std::vector<Recordi
   std::vector<Measurements> parts;
   for (const Recording& r : recordings) {
     timelines.push_back(lay_out(r, study.plan, study.site));
+    set_known_field(timelines.back(), study.environment);
     parts.push_back(measurements_of(r, study.readout));
     id.sources.push_back(r.source);
   }

@@ -61,8 +61,4 @@ Identification identify_simulated(const Study& study, std::uint64_t run, int thr
 Identification identify_recordings(const Study& study, const std::vector<Recording>& recordings,
                                    int threads, const Progress& progress = {});
 
-/// Initial estimates of a filter: explicit ones, or drawn from its prior (pure function of seed, start).
-Theta initial_estimate(const FilterSpec& filter, std::uint64_t seed, std::size_t start);
-std::size_t start_count(const FilterSpec& filter);
-
 }  // namespace drift

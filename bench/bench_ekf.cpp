@@ -12,6 +12,7 @@
 
 #include "bench/dense_ekf.hpp"
 #include "core/estimate/ekf.hpp"
+#include "core/physics/parameters_config.hpp"
 #include "core/sim/simulate.hpp"
 
 namespace {
@@ -36,8 +37,7 @@ constexpr double arw = 1e-3 * detail::deg / 60.0;  // [rad/sqrt(s)]
 FilterSpec all_terms() {
   FilterSpec filter;
   filter.name = "bench";
-  filter.active.set();
-  filter.active.reset(TermLibrary::index("lambda"));
+  filter.active = base_parameters();
   for (std::size_t i = 0; i < TermLibrary::num_params; ++i)
     filter.priors[i] = TermLibrary::specs[i].prior_si();
   filter.noise.angle_random_walk = arw;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -34,6 +35,14 @@ struct RunOutcome {
   double integration_s = 0.0, filter_s = 0.0, total_s = 0.0;  ///< CPU seconds spent
 };
 
+/// Takes the course of one run, sample by sample, for people to look at.
+class TraceSink {
+ public:
+  virtual ~TraceSink() = default;
+  virtual void columns(const std::vector<Column>& columns) = 0;  ///< first, once
+  virtual void row(std::span<const double> values) = 0;          ///< SI, shape: columns
+};
+
 /// Executes runs one after another; one per thread, keeps its workspace between runs.
 class RunWorker {
  public:
@@ -41,6 +50,9 @@ class RunWorker {
   /// Executes run number `run` and fills `row` (shape: columns of the task), which comes full of
   /// NaN. A pure function of (task, run): what ran before leaves no trace. Failures are outcomes.
   virtual RunOutcome execute(std::uint64_t run, std::span<double> row) = 0;
+  /// The same, bit for bit, with the course of the run besides. A task without a trace leaves the
+  /// sink untouched.
+  virtual RunOutcome trace(std::uint64_t run, std::span<double> row, TraceSink& /*sink*/) { return execute(run, row); }
 };
 
 /// What is done in every run of one study point.
@@ -71,6 +83,15 @@ class StopRule {
   virtual ~StopRule() = default;
   /// Takes in the next block of a point; true if the point needs no more runs.
   virtual bool enough(const Block& block) = 0;
+};
+
+/// Makes the stop rule of a study point; none: all runs are done.
+using StopRules = std::function<std::unique_ptr<StopRule>(std::size_t point)>;
+
+/// What a study file asks for, ready to be executed.
+struct StudyWork {
+  std::vector<TaskPoint> points;
+  StopRules stop_rules;  ///< may be empty
 };
 
 }  // namespace drift::mc

@@ -8,19 +8,14 @@
 
 #include "core/physics/earth.hpp"
 #include "core/physics/model_spec.hpp"
+#include "core/sim/environment.hpp"
 #include "core/sim/readout.hpp"
 #include "core/sim/recording.hpp"
 #include "core/sim/test_plan.hpp"
 #include "mc/blind_spec.hpp"
+#include "mc/monte_carlo.hpp"
 
 namespace drift {
-
-/// [monte_carlo] of a study file.
-struct MonteCarlo {
-  std::uint64_t runs = 100;
-  std::uint64_t seed = 1;
-  std::uint64_t allowed_failures = 0;
-};
 
 /// One line of [sweep]: a dotted key of the study file and the values it takes, as TOML text.
 struct SweepAxis {
@@ -56,6 +51,7 @@ struct Study {
   TestPlan plan;              ///< of a platform test
   double static_min = 2.0;    ///< strapdown: shortest dwell that counts [s]
   Readout readout;
+  Environment environment;
   TruthSpec truth;
   bool has_truth = false;     ///< [truth] is in the file; without it there is nothing to simulate
   std::vector<FilterSpec> filters;
@@ -73,5 +69,12 @@ using Overrides = std::vector<std::pair<std::string, std::string>>;
 /// Reads a study file. InputError (config) lists every mistake in it, each with file:line:col, what
 /// is wrong, what was expected, and the nearest valid key where one was meant.
 Study read_study(const std::string& path, const Overrides& overrides = {});
+
+/// Reads a study from a tree without trying its sweep; `text` is left empty. The same errors.
+Study read_study_tree(const config::Node& root, const std::string& path);
+
+/// Puts one value of a sweep in its place. With "truth.coupling", what only other couplings use goes:
+/// [truth.servo], [truth.loop] and truth.parameters.lambda. InputError (config) as apply_override.
+void apply_sweep_value(config::Node& root, const std::string& key, const std::string& value);
 
 }  // namespace drift

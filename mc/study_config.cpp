@@ -8,6 +8,7 @@
 #include "core/config/override.hpp"
 #include "core/physics/model_config.hpp"
 #include "core/physics/mounting_config.hpp"
+#include "core/sim/environment_config.hpp"
 #include "core/sim/plan_config.hpp"
 #include "mc/blind_config.hpp"
 #include "mc/published_config.hpp"
@@ -20,14 +21,6 @@ using config::Node;
 using config::Option;
 using config::Report;
 using config::Section;
-
-template <class Field>
-void visit_fields(MonteCarlo& o, Field&& field) {
-  constexpr double unbounded = 0x1p64;
-  field(Option{"runs", unit::one, 1.0, 1e9, "number of runs"}, o.runs);
-  field(Option{"seed", unit::one, 0.0, unbounded, "of all random numbers"}, o.seed);
-  field(Option{"allowed_failures", unit::one, 0.0, 1e9, "runs that may fail"}, o.allowed_failures);
-}
 
 void read_schema(Section& root) {
   constexpr std::uint64_t schema = 1;
@@ -42,14 +35,6 @@ void read_schema(Section& root) {
         fmt::format("'schema' = {} is not known to this program (expected {}). Use a newer "
                     "program, or write the file in schema {}",
                     given, schema, schema));
-}
-
-MonteCarlo read_monte_carlo(Section section) {
-  MonteCarlo monte_carlo;
-  visit_fields(monte_carlo,
-               [&](const Option& option, auto& value) { section.read(option, value); });
-  section.finish();
-  return monte_carlo;
 }
 
 std::vector<SweepAxis> read_sweep(Report& report, const Node* sweep) {
@@ -84,40 +69,11 @@ std::vector<SweepAxis> read_sweep(Report& report, const Node* sweep) {
   return axes;
 }
 
-/// Everything but the trial of the sweep.
-Study read_tree(const Node& root, const std::string& path) {
-  Report report(path);
-  Study study;
-  study.path = path;
-  Section top(report, &root, config::Place{}, "");
-  read_schema(top);
-  top.read(Option{.key = "title", .doc = "of the study"}, study.title);
-  const Mounting mounting = read_mounting(top.section("mounting"));
-  const PlanConfig plan = read_plan(top.section("plan"));
-  study.kind = plan.kind;
-  study.plan = plan.plan;
-  study.static_min = plan.static_min;
-  study.site = read_site(top.section("site"), plan.kind);
-  study.readout = read_readout(top.section("readout"));
-  const Node* sweep = top.take("sweep");
-  // A blind study has truths of several couplings too.
-  const bool swept = (sweep != nullptr && sweep->find("truth.coupling") != nullptr) || top.has("blind");
-  Section truth = top.section("truth");
-  study.has_truth = truth.present();
-  study.truth = read_truth(truth, mounting, swept ? UnusedTables::allowed : UnusedTables::refused);
-  study.filters = read_filters(top, mounting);
-  study.monte_carlo = read_monte_carlo(top.section("monte_carlo"));
-  study.sweep = read_sweep(report, sweep);
-  study.published = read_published(top);
-  if (Section blind = top.section("blind"); blind.present()) {
-    study.blind = read_blind(blind);
-    study.has_blind = true;
-  }
-  top.finish();
-  report.throw_if_wrong();
-  for (const auto& value : report.resolved())
-    study.resolved.push_back({value.key, value.text, value.origin});
-  return study;
+/// The number of runs, the seed and the like are the study's: points share their runs.
+bool can_be_swept(std::string_view key) {
+  constexpr std::string_view designs[] = {"monte_carlo.design", "monte_carlo.estimator"};
+  if (key.starts_with("monte_carlo")) return std::ranges::find(designs, key) != std::end(designs);
+  return !key.starts_with("sweep") && !key.starts_with("schema");
 }
 
 /// Every value of the sweep is tried in its place, so that no point of a study fails for its file.
@@ -133,14 +89,14 @@ void try_sweep(const Node& root, const Study& study) {
                                     ? fmt::format("{}:{}:{}", study.path, at.line, at.column)
                                     : fmt::format("--set {}", at.set_key);
       try {
-        if (axis.key.starts_with("sweep") || axis.key.starts_with("schema"))
+        if (!can_be_swept(axis.key))
           throw InputError(ExitCode::config,
                            fmt::format("'{}' cannot be swept (expected a key of the "
                                        "study). Remove the line",
                                        axis.key));
         Node point = root;
-        apply_override(point, axis.key, axis.values[i]);
-        read_tree(point, study.path);
+        apply_sweep_value(point, axis.key, axis.values[i]);
+        read_study_tree(point, study.path);
       } catch (const InputError& error) {
         const std::string own = fmt::format("--set {}: ", axis.key);
         for (const auto& message : error.messages())
@@ -169,9 +125,59 @@ Node load_tree(const std::string& path, const Overrides& overrides) {
 
 }  // namespace
 
+Study read_study_tree(const Node& root, const std::string& path) {
+  Report report(path);
+  Study study;
+  study.path = path;
+  Section top(report, &root, config::Place{}, "");
+  read_schema(top);
+  top.read(Option{.key = "title", .doc = "of the study"}, study.title);
+  const Mounting mounting = read_mounting(top.section("mounting"));
+  const PlanConfig plan = read_plan(top.section("plan"));
+  study.kind = plan.kind;
+  study.plan = plan.plan;
+  study.static_min = plan.static_min;
+  study.site = read_site(top.section("site"), plan.kind);
+  study.readout = read_readout(top.section("readout"));
+  study.environment = read_environment(top.section("environment"));
+  const Node* sweep = top.take("sweep");
+  // A blind study has truths of several couplings too.
+  const bool swept = (sweep != nullptr && sweep->find("truth.coupling") != nullptr) || top.has("blind");
+  Section truth = top.section("truth");
+  study.has_truth = truth.present();
+  study.truth = read_truth(truth, mounting, swept ? UnusedTables::allowed : UnusedTables::refused);
+  study.filters = read_filters(top, mounting);
+  study.monte_carlo = read_monte_carlo(top.section("monte_carlo"));
+  study.sweep = read_sweep(report, sweep);
+  study.published = read_published(top);
+  if (Section blind = top.section("blind"); blind.present()) {
+    study.blind = read_blind(blind);
+    study.has_blind = true;
+  }
+  top.finish();
+  report.throw_if_wrong();
+  for (const auto& value : report.resolved())
+    study.resolved.push_back({value.key, value.text, value.origin});
+  return study;
+}
+
+void apply_sweep_value(Node& root, const std::string& key, const std::string& value) {
+  apply_override(root, key, value);
+  if (key != "truth.coupling") return;
+  Node& truth = *root.find("truth");
+  const std::string coupling = truth.find("coupling")->text;
+  const auto drop = [](Node& table, std::string_view name) {
+    std::erase_if(table.members, [&](const config::Member& m) { return m.key == name; });
+  };
+  if (coupling != "servo") drop(truth, "servo");
+  if (coupling != "compensated") drop(truth, "loop");
+  if (Node* parameters = truth.find("parameters"); parameters && coupling != "lambda")
+    drop(*parameters, "lambda");
+}
+
 Study read_study(const std::string& path, const Overrides& overrides) {
   const Node root = load_tree(path, overrides);
-  Study study = read_tree(root, path);
+  Study study = read_study_tree(root, path);
   try_sweep(root, study);
   study.text = config::to_document(root);
   return study;

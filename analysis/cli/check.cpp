@@ -4,7 +4,7 @@
 
 namespace drift::cli {
 
-Study StudyArguments::read() const {
+Overrides StudyArguments::overrides() const {
   Overrides overrides;
   for (const std::string& text : sets) {
     const auto equals = text.find('=');
@@ -14,8 +14,10 @@ Study StudyArguments::read() const {
     overrides.emplace_back(text.substr(0, equals), text.substr(equals + 1));
   }
   if (seed) overrides.emplace_back("monte_carlo.seed", *seed);
-  return read_study(config, overrides);
+  return overrides;
 }
+
+Study StudyArguments::read() const { return read_study(config, overrides()); }
 
 ExitCode check(const StudyArguments& arguments) {
   const Study study = arguments.read();

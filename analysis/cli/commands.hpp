@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/cli/study_program.hpp"
 #include "core/base/check.hpp"
 #include "mc/study.hpp"
 
@@ -19,6 +20,31 @@ struct StudyArguments {
 
   /// Reads the study with the overrides of the command line.
   Study read() const;
+  Overrides overrides() const;
+};
+
+/// What `run` takes besides.
+struct RunArguments {
+  std::string folder;                ///< empty: results/<name of the study file>
+  std::optional<std::uint64_t> runs;
+  std::string worker;                ///< "i/n"
+  std::string max_wall;              ///< "55m"
+  bool dry_run = false;
+  bool fail_fast = false;
+};
+
+/// Which run of which study point.
+struct RunChoice {
+  std::uint64_t run = 0;
+  std::size_t point = 0;
+};
+
+/// What `rank` takes besides.
+struct RankArguments {
+  std::size_t improve = 0;       ///< positions to propose
+  std::string criterion = "A";   ///< A, D or a parameter
+  std::string folder;            ///< empty: nothing is written
+  bool json = false;             ///< rank.json on stdout instead of tables
 };
 
 // The commands. Results go to stdout, everything else to stderr. Errors are thrown; main() alone
@@ -28,6 +54,13 @@ ExitCode simulate(const StudyArguments& arguments, const std::string& output, st
 ExitCode identify(const StudyArguments& arguments, const std::vector<std::string>& recordings,
                   const std::string& folder, std::uint64_t run);
 ExitCode blind(const StudyArguments& arguments, const std::string& folder, const std::optional<std::string>& trials);
+ExitCode rank(const StudyArguments& arguments, const RankArguments& options);
+ExitCode run(const StudyArguments& arguments, const RunArguments& options, const StudyProgram& program);
+ExitCode status(const std::string& folder, const StudyProgram& program);
+ExitCode verify(const std::string& folder, const std::string& sample, int threads, const StudyProgram& program);
+ExitCode replay(const std::string& folder, const RunChoice& choice, const std::string& trace, const StudyProgram& program);
+ExitCode export_results(const std::string& folder, const std::string& format, const std::string& output,
+                        const StudyProgram& program);
 ExitCode terms(const std::string& key);
 ExitCode version(bool json);
 

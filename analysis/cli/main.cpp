@@ -39,8 +39,12 @@ class Program {
     identify->add_option("recordings", recordings_, "recordings (.csv, .h5, .mat); none: simulated from [truth]");
     identify->add_option("-o,--output", output_, "folder for tables, pictures and report");
     identify->add_option("--run", run_, "run number of the simulated recording");
-    identify->add_option("--progress", study_.progress, "auto, plain, json or none")
-        ->check(CLI::IsMember({"auto", "plain", "json", "none"}));
+    add_progress(*identify);
+
+    add_run();
+    add_looks();
+
+    add_rank();
 
     CLI::App* blind = command("blind", "make recordings with concealed effects, diagnose each without the key, then score",
                               "driftscope blind configs/blind_small.toml -o out/blind",
@@ -89,6 +93,68 @@ class Program {
     return c;
   }
 
+  void add_rank() {
+    CLI::App* rank = command("rank", "how observable each parameter is on a plan, and which positions to add",
+                             "driftscope rank configs/table1.toml --improve 3 --criterion eta_x -o out/rank",
+                             [this] { return cli::rank(study_, rank_); });
+    add_study(*rank);
+    CLI::Option* improve = rank->add_option("--improve", rank_.improve, "propose so many further positions")
+                               ->check(CLI::Range(1, 1000));
+    rank->add_option("--criterion", rank_.criterion,
+                     "what they make small: A (trace), D (determinant) or a parameter such as eta_x")
+        ->needs(improve);
+    rank->add_option("-o,--output", rank_.folder, "folder for rank.json, pictures and report");
+    rank->add_flag("--json", rank_.json, "rank.json on stdout instead of tables");
+    add_progress(*rank);
+  }
+
+  void add_progress(CLI::App& c) {
+    c.add_option("--progress", study_.progress, "auto, plain, json or none")
+        ->check(CLI::IsMember({"auto", "plain", "json", "none"}));
+  }
+
+  void add_run() {
+    CLI::App* c = command("run", "the Monte Carlo study of a file; the same command again resumes",
+                          "driftscope run configs/study.toml -o out/study --max-wall 55m",
+                          [this] { return cli::run(study_, run_options_, cli::study_program()); });
+    add_study(*c);
+    add_progress(*c);
+    c->add_option("-o,--output", run_options_.folder, "results folder; results/<name of the study file> by default");
+    c->add_option("--runs", run_options_.runs, "override monte_carlo.runs; more than before extends a study")
+        ->check(CLI::PositiveNumber);
+    c->add_option("--worker", run_options_.worker, "do part i of n of the study, i = 0 .. n - 1")->type_name("I/N");
+    c->add_option("--max-wall", run_options_.max_wall, "stop after this time, resumable: 55m, 1h30m")->type_name("TIME");
+    c->add_flag("--dry-run", run_options_.dry_run, "say what would be done and how long it takes, write nothing");
+    c->add_flag("--fail-fast", run_options_.fail_fast, "stop at the first run that fails");
+  }
+
+  CLI::App* look(const char* name, const char* what, const char* example, std::function<ExitCode()> action) {
+    CLI::App* c = command(name, what, example, std::move(action));
+    c->add_option("folder", folder_, "results folder of `run`")->required();
+    return c;
+  }
+
+  void add_looks() {
+    look("status", "how far a study is: runs, failures, sessions, disk", "driftscope status results/study",
+         [this] { return cli::status(folder_, cli::study_program()); });
+
+    CLI::App* verify = look("verify", "check every checksum and execute some runs again", "driftscope verify results/study --sample 5%",
+                            [this] { return cli::verify(folder_, sample_, study_.threads, cli::study_program()); });
+    verify->add_option("--sample", sample_, "share of the runs to execute again, 1% by default")->type_name("SHARE");
+    verify->add_option("--threads", study_.threads, "number of threads; all by default")->check(CLI::Range(1, 4096));
+
+    CLI::App* replay = look("replay", "execute one run again, bit for bit", "driftscope replay results/study --run 17 --trace run17.csv",
+                            [this] { return cli::replay(folder_, choice_, output_, cli::study_program()); });
+    replay->add_option("--run", choice_.run, "run number")->required();
+    replay->add_option("--point", choice_.point, "study point of a sweep, from 0");
+    replay->add_option("--trace", output_, "write the course of the run as CSV");
+
+    CLI::App* exporter = look("export", "convert the results", "driftscope export results/study --format hdf5 -o study.h5",
+                              [this] { return cli::export_results(folder_, format_, output_, cli::study_program()); });
+    exporter->add_option("--format", format_, "hdf5, csv or json")->required()->check(CLI::IsMember({"hdf5", "csv", "json"}));
+    exporter->add_option("-o,--output", output_, "file to write")->required();
+  }
+
   void add_study(CLI::App& c) {
     c.add_option("config", study_.config, "study file (TOML)")->required();
     c.add_option("--set", study_.sets, "override a value of the study file, e.g. plan.dwell=\"20 min\"")
@@ -101,7 +167,10 @@ class Program {
   CLI::App app_{"driftscope: Monte Carlo observability engine for gimballed inertial platforms"};
   std::function<ExitCode()> chosen_;
   cli::StudyArguments study_;
-  std::string output_, key_;
+  cli::RankArguments rank_;
+  cli::RunArguments run_options_;
+  cli::RunChoice choice_;
+  std::string output_, key_, folder_, format_, sample_ = "1%";
   std::vector<std::string> recordings_;
   std::uint64_t run_ = 0;
   std::optional<std::string> trials_;

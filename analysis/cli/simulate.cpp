@@ -29,6 +29,7 @@ ExitCode simulate(const StudyArguments& arguments, const std::string& output, st
                                  "without one. Use `driftscope identify`, or truth.loop.estimate = \"given\"", study.path));
   Timeline timeline = lay_out(study.plan, study.site);
   set_loop(timeline, study.truth);
+  set_environment(timeline, study.environment, study.monte_carlo.seed, run);
   Simulator simulator(study.truth, study.readout);
   const Simulation sim = simulator.run(timeline, study.monte_carlo.seed, run);
   if (!sim.ode.ok())

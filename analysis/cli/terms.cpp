@@ -11,16 +11,45 @@ std::string prior_text(const ParamSpec& spec) {
     case Prior::Kind::uniform: return fmt::format("uniform({:g}, {:g})", spec.prior.a, spec.prior.b);
     case Prior::Kind::fixed: break;
   }
-  return fmt::format("{:g}", spec.prior.a);
+  return fmt::format("known, {:g}", spec.prior.a);
+}
+
+/// Which equations a term acts on.
+std::string acts_on(const TermInfo& term) {
+  std::string where;
+  const auto add = [&](bool acts, std::string_view what) {
+    if (acts) where += (where.empty() ? "" : ", ") + std::string(what);
+  };
+  add(term.in_rates, "the platform's rate");
+  add(term.in_readout, "the accelerometers");
+  add(term.in_gimbals, "the gimbal readout");
+  add(term.in_offset, "the attitude, as an offset");
+  return where.empty() ? "random numbers: the truth draws them, a filter allows for their variance" : where;
+}
+
+/// What a term must be given, beyond attitude and command.
+std::string asks_for(const TermInfo& term) {
+  std::string what;
+  if (term.needs.temperature) what += "temperature [degC] of the recording";
+  if (term.needs.field) what += "field_n, field_w, field_u [gauss] of the recording or of [environment]";
+  return what.empty() ? "nothing beyond attitude, command and time" : what;
+}
+
+std::string grid_text(const ParamSpec& spec) {
+  std::string text;
+  for (const double v : spec.grid) text += fmt::format("{}{:g}", text.empty() ? "; profiled over " : ", ", v);
+  return text;
 }
 
 void explain(const TermInfo& term) {
-  fmt::print("{}: {}\n  equation  {}\n  source    {}\n  {:<10} {:<12} {:<18} {}\n", term.key, term.title,
-             term.equation, term.source, "parameter", "unit", "default prior", "enters");
+  fmt::print("{}: {}\n  equation  {}\n  source    {}\n  acts on   {}\n  needs     {}\n", term.key, term.title,
+             term.equation, term.source, acts_on(term), asks_for(term));
+  if (term.memory > 0) fmt::print("  memory    {} states, carried along the nominal path\n", term.memory);
+  fmt::print("  {:<14} {:<14} {:<18} {}\n", "parameter", "unit", "default prior", "enters");
   for (std::size_t i = term.first; i < term.first + term.count; ++i) {
     const ParamSpec& spec = TermLibrary::specs[i];
-    fmt::print("  {:<10} {:<12} {:<18} {}\n", spec.key.view(), spec.unit.symbol.view(), prior_text(spec),
-               spec.enters);
+    fmt::print("  {:<14} {:<14} {:<18} {}{}\n", spec.key.view(), spec.unit.symbol.view(), prior_text(spec),
+               spec.enters, grid_text(spec));
   }
 }
 
@@ -28,9 +57,9 @@ void explain(const TermInfo& term) {
 
 ExitCode terms(const std::string& key) {
   if (key.empty()) {
-    fmt::print("{:<20} {:>3}  {}\n", "term", "par", "equation");
+    fmt::print("{:<26} {:>3}  {}\n", "term", "par", "equation");
     for (const TermInfo& term : TermLibrary::terms)
-      fmt::print("{:<20} {:>3}  {}\n", term.key, term.count, term.equation);
+      fmt::print("{:<26} {:>3}  {}\n", term.key, term.count, term.equation);
     fmt::print("{} terms, {} parameters. `driftscope terms KEY` explains a term or a parameter.\n",
                TermLibrary::num_terms, TermLibrary::num_params);
     return ExitCode::ok;

@@ -1,33 +1,24 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/cli/commands.hpp"
+#include "core/base/build_info.hpp"
 #include "core/base/rng.hpp"
 
 namespace drift::cli {
 namespace {
 
-/// The widest instruction set this program was compiled for.
-const char* instruction_set() {
-#if defined(__AVX512F__)
-  return "x86-64 with AVX-512";
-#elif defined(__AVX2__) && defined(__FMA__)
-  return "x86-64 with AVX2 and FMA";
-#elif defined(__x86_64__)
-  return "x86-64";
-#else
-  return "generic";
-#endif
-}
-
 nlohmann::ordered_json facts() {
+  const BuildInfo& info = build_info();
   nlohmann::ordered_json j;
-  j["driftscope"] = DRIFT_VERSION;
-  j["commit"] = DRIFT_COMMIT;
-  j["build"] = DRIFT_BUILD_TYPE;
-  j["compiler"] = fmt::format("{} {}", DRIFT_COMPILER, __VERSION__);
-  j["instruction_set"] = instruction_set();
+  j["driftscope"] = info.version;
+  j["commit"] = info.commit;
+  j["build"] = info.build_type;
+  j["compiler"] = info.compiler;
+  j["flags"] = info.flags;
+  j["instruction_set"] = info.instruction_set;
+  j["arithmetic"] = arithmetic_fingerprint();
   j["random_numbers"] = Stream::scheme;
-  j["libraries"] = nlohmann::ordered_json::parse(DRIFT_LIBRARIES);
+  for (const auto& [name, number] : info.libraries) j["libraries"][name] = number;
   return j;
 }
 

@@ -104,6 +104,7 @@ PwcsRank pwcs_rank(const TestPlan& plan, const Site& site, const ModelSpec& spec
   out.rank = all.rank;
   out.states = static_cast<int>(n);
   out.singular_values = all.values;
+  out.V = all.V;
   out.null_space = all.V.rightCols(n - all.rank);
   const double beyond = all.rank < n ? all.values[all.rank] : 0.0;
   out.gap = beyond > 0.0 ? all.values[all.rank - 1] / beyond : std::numeric_limits<double>::infinity();

@@ -27,6 +27,7 @@ struct PwcsRank {
   int rank = 0;
   int states = 0;
   VecX singular_values;  ///< of the stripped observability matrix, falling, shape states
+  MatX V;                ///< right singular vectors, shape (states, states)
   MatX null_space;       ///< orthonormal, prior-scaled, shape (states, states - rank)
   double gap = 0.0;      ///< last counted singular value over the first not counted; infinite if none
   double leak = 0.0;     ///< largest |F_j null(Q_j)| / |F_j|: zero if the theorem applies

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/report/chi_square_band.hpp"
+#include "core/base/chi_square_band.hpp"
 #include "analysis/report/coupling_text.hpp"
 #include "analysis/report/escape.hpp"
 #include "analysis/report/svg_chart.hpp"

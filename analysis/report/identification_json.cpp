@@ -3,7 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "analysis/report/chi_square_band.hpp"
+#include "core/base/chi_square_band.hpp"
 #include "analysis/report/coupling_text.hpp"
 #include "analysis/report/degeneracies.hpp"
 #include "core/estimate/start_consistency.hpp"

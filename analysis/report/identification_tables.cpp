@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "analysis/report/axis_scale.hpp"
-#include "analysis/report/chi_square_band.hpp"
+#include "core/base/chi_square_band.hpp"
 #include "analysis/report/coupling_text.hpp"
 #include "analysis/report/degeneracies.hpp"
 #include "analysis/report/number_text.hpp"

@@ -23,6 +23,7 @@ enum class ExitCode : int {
   self_check = 8,
   wall_time = 75,
   interrupted = 130,
+  terminated = 143,
 };
 
 /// The user's data is wrong. Every problem found is kept, one message each, in the grammar

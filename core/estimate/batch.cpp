@@ -1,28 +1,16 @@
 #include "core/estimate/batch.hpp"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <fmt/format.h>
 #include <cmath>
 #include <limits>
 
+#include "core/estimate/triangle.hpp"
+#include "core/physics/stochastic.hpp"
+#include "core/sim/predict.hpp"
+
 namespace drift {
 namespace {
-
-/// The upper triangle that a QR decomposition leaves of `rows`; at most as many rows as columns.
-MatX triangle(const MatX& rows) {
-  const Eigen::HouseholderQR<MatX> qr(rows);
-  const Eigen::Index k = std::min(rows.rows(), rows.cols());
-  MatX R = MatX::Zero(rows.cols(), rows.cols());
-  R.topRows(k) = qr.matrixQR().topRows(k).triangularView<Eigen::Upper>();
-  return R;
-}
-
-MatX stacked(const MatX& a, const MatX& b) {
-  MatX all(a.rows() + b.rows(), a.cols());
-  all << a, b;
-  return all;
-}
 
 /// One chain reduced to triangles: [psi | x | r] with the attitude prior (and damping) on top.
 struct ReducedChain {
@@ -108,8 +96,10 @@ std::vector<WeakDirection> weak_directions(const MatX& information_root, double 
   return weak;
 }
 
-BatchResult fit_batch(const FilterSpec& filter, const Timeline& timeline, const Readout& readout,
-                      const Measurements& measured, const Theta& start, const BatchOptions& options) {
+namespace {
+
+BatchResult fit_all(const FilterSpec& filter, const Timeline& timeline, const Readout& readout,
+                    const Measurements& measured, const Theta& start, const BatchOptions& options) {
   const DriftModel model = filter.model();
   const Layout layout = make_layout(filter);
   const auto n = static_cast<Eigen::Index>(layout.size());
@@ -201,6 +191,51 @@ BatchResult fit_batch(const FilterSpec& filter, const Timeline& timeline, const 
     out.estimate.status = EstimateStatus::not_converged;
     out.estimate.cause = fmt::format("no convergence in {} iterations", iteration);
   }
+  return out;
+}
+
+/// Samples of `measured` whose residual lies within the gate; the others become NaN.
+Mat3X within(const Mat3X& measured, const Mat3X& predicted, double noise, double gate, bool angles) {
+  Mat3X kept = measured;
+  for (Eigen::Index i = 0; i < kept.cols(); ++i)
+    for (int a = 0; a < 3; ++a) {
+      const double r = angles ? angle_difference(measured(a, i), predicted(a, i))
+                              : measured(a, i) - predicted(a, i);
+      if (std::abs(r) > gate * noise) kept(a, i) = std::numeric_limits<double>::quiet_NaN();
+    }
+  return kept;
+}
+
+bool same_samples(const Mat3X& a, const Mat3X& b) {
+  return (a.array().isFinite() == b.array().isFinite()).all();
+}
+
+}  // namespace
+
+BatchResult fit_batch(const FilterSpec& filter, const Timeline& timeline, const Readout& readout,
+                      const Measurements& measured, const Theta& start, const BatchOptions& options) {
+  BatchResult out = fit_all(filter, timeline, readout, measured, start, options);
+  const DriftModel model = filter.model();
+  if (!has_outliers(model.terms)) return out;
+  // Term `outliers`: what lies outside the gate is left out, and may come back, until nothing changes.
+  // The gate is narrowed step by step: a fit that outliers have pulled aside has large residuals.
+  constexpr int most_rounds = 12;
+  Measurements kept = measured;
+  double gate = std::max(outlier_gate(make_layout(filter).theta), 1.0);
+  double wide = gate * std::max(1.0, std::sqrt(out.data_chi2 / static_cast<double>(out.estimate.measured)));
+  for (int round = 0; round < most_rounds; ++round) {
+    Theta theta = make_layout(filter).theta;
+    for (const ParameterEstimate& p : out.estimate.parameters) theta[p.param] = p.value;
+    const Measurements predicted = predict(timeline, model, theta, out.psi0_l, readout);
+    const Measurements now{within(measured.acc, predicted.acc, readout.accelerometer_noise, wide, false),
+                           within(measured.gimbal, predicted.gimbal, readout.gimbal_noise, wide, true)};
+    const bool done = wide == gate && same_samples(now.acc, kept.acc) && same_samples(now.gimbal, kept.gimbal);
+    if (done) break;
+    kept = now;
+    out = fit_all(filter, timeline, readout, kept, theta, options);
+    wide = std::max(gate, 0.5 * wide);
+  }
+  for (ParameterEstimate& p : out.estimate.parameters) p.start = start[p.param];
   return out;
 }
 

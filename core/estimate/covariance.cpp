@@ -154,6 +154,12 @@ Covariance::Covariance(std::size_t parameters, std::size_t num_rate, double sigm
   recage(sigma_attitude);
 }
 
+void Covariance::reset(double sigma_attitude) {
+  P_pp_.setIdentity();
+  owed_ = false;
+  recage(sigma_attitude);
+}
+
 void Covariance::recage(double sigma_attitude) {
   P_aa_ = sigma_attitude * sigma_attitude * Mat3::Identity();
   P_pa_.setZero();
@@ -238,6 +244,7 @@ Covariance::Update Covariance::update(const Vec3& nu, const Mat3& H_psi,
   // U = V L^-T, so that P <- P - U U^T and the correction is U L^-1 nu.
   const Vec3 e = L_inv * innovation;
   out.nis = e.squaredNorm();
+  out.white = e;
   times_transposed(work_, L_inv, U);
   const Mat3 U_a = V_a * L_inv.transpose();
   out.attitude = U_a * e;
@@ -255,6 +262,11 @@ MatX Covariance::parameters() const {
   MatX P = P_pp_;
   if (owed_) downdate(P, gain_);
   return P.topRows(P.cols());
+}
+
+void Covariance::settle() {
+  if (owed_) downdate(P_pp_, gain_);
+  owed_ = false;
 }
 
 }  // namespace drift

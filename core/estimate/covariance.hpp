@@ -19,6 +19,9 @@ class Covariance {
   /// Attitude of sigma_attitude [rad] per axis; parameters of unit variance (scaled by their prior).
   Covariance(std::size_t parameters, std::size_t num_rate, double sigma_attitude);
 
+  /// As it was when built.
+  void reset(double sigma_attitude);
+
   /// A new attitude, unknown within sigma [rad]; the parameters keep what is known of them.
   void recage(double sigma_attitude);
 
@@ -33,6 +36,7 @@ class Covariance {
   struct Update {
     Vec3 attitude = Vec3::Zero();  ///< correction psi_i [rad]
     double nis = 0.0;              ///< normalised innovation squared
+    Vec3 white = Vec3::Zero();     ///< innovation whitened: L^-1 nu; zero where not measured
     int scalars = 0;
     bool ok = true;                ///< false: innovation covariance not positive definite
   };
@@ -45,6 +49,9 @@ class Covariance {
 
   const Mat3& attitude() const { return P_aa_; }
   MatX parameters() const;
+  /// Brings P_pp up to date, so that settled() may be read; rounding of later updates may differ.
+  void settle();
+  auto settled() const { return P_pp_.topRows(P_pp_.cols()); }  ///< shape (parameters, parameters)
   double variance(std::size_t parameter) const {
     const double owed = owed_ ? gain_.row(parameter).squaredNorm() : 0.0;
     return P_pp_(parameter, parameter) - owed;

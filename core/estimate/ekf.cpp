@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <limits>
+
+#include "core/physics/stochastic.hpp"
 
 namespace drift {
 namespace {
@@ -18,25 +21,48 @@ std::size_t most_nodes(const Timeline& timeline) {
 
 }  // namespace
 
-Ekf::Ekf(const FilterSpec& filter, const Timeline& timeline, const Readout& readout, const Theta& start)
+Ekf::Ekf(const FilterSpec& filter, const Timeline& timeline, const Readout& readout, const Theta& start,
+         KeepHistory keep)
     : filter_(filter),
       timeline_(timeline),
       readout_(readout),
       model_(filter.model()),
       layout_(make_layout(filter)),
       linearizer_(model_, layout_, readout),
+      memory_(timeline, model_),
       P_(layout_.size(), layout_.num_rate, filter.initial_attitude),
       x_(layout_.scaled(start)),
       start_(x_),
-      theta_(layout_.theta_at(x_)),
       rest_G_(Mat3X::Zero(3, layout_.num_rate)),
-      nodes_(most_nodes(timeline)) {
-  const auto n = timeline.intervals.size();
-  history_.estimate = MatX::Zero(layout_.size(), n);
-  history_.sigma = MatX::Zero(layout_.size(), n);
-  history_.nis.assign(n, 0.0);
-  history_.scalars.assign(n, 0);
-  history_.t.assign(n, 0.0);
+      nodes_(most_nodes(timeline)),
+      keep_(keep) {
+  const std::size_t n = keep == KeepHistory::yes ? timeline.intervals.size() : 0;
+  require_covariates(model_, timeline);
+  history_.estimate.resize(layout_.size(), n);
+  history_.sigma.resize(layout_.size(), n);
+  history_.nis.resize(n);
+  history_.scalars.resize(n);
+  history_.t.resize(n);
+  reset(start);
+}
+
+void Ekf::reset(const Theta& start) {
+  for (std::size_t k = 0; k < layout_.size(); ++k)
+    x_[k] = (start[layout_.params[k]] - layout_.mean[k]) / layout_.sigma[k];
+  start_ = x_;
+  theta_ = layout_.theta_at(x_);
+  P_.reset(filter_.initial_attitude);
+  phi_.setZero();
+  memory_.reset();
+  history_.estimate.setZero();
+  history_.sigma.setZero();
+  std::fill(history_.nis.begin(), history_.nis.end(), 0.0);
+  std::fill(history_.scalars.begin(), history_.scalars.end(), 0);
+  std::fill(history_.t.begin(), history_.t.end(), 0.0);
+  sums_ = {};
+  status_ = EstimateStatus::ok;
+  cause_.clear();
+  t_diverged_ = 0.0;
 }
 
 void Ekf::correct_attitude(const Node& node, const Vec3& psi_i, Vec3& phi) const {
@@ -44,16 +70,47 @@ void Ekf::correct_attitude(const Node& node, const Vec3& psi_i, Vec3& phi) const
   phi = rotation_vector(rotation(psi_r) * rotation(phi));
 }
 
-void Ekf::take(const Covariance::Update& update, std::size_t i) {
-  history_.nis[i] += update.nis;
-  history_.scalars[i] += update.scalars;
+void Ekf::take(const Covariance::Update& update, std::size_t i, InnovationSums::Channel channel) {
+  if (keep_ == KeepHistory::yes) {
+    history_.nis[i] += update.nis;
+    history_.scalars[i] += update.scalars;
+  }
+  sums_.add(update, channel);
   const bool finite = std::isfinite(update.nis) && x_.allFinite();
   if (status_ == EstimateStatus::ok && (!update.ok || !finite || x_.cwiseAbs().maxCoeff() > 1e6)) {
     status_ = EstimateStatus::diverged;
-    cause_ = fmt::format("filter diverged at t = {:.6g} s ({})", timeline_.intervals[i].t1,
+    t_diverged_ = timeline_.intervals[i].t1;
+    cause_ = fmt::format("filter diverged at t = {:.6g} s ({})", t_diverged_,
                          !update.ok ? "innovation covariance not positive definite"
                                     : "estimate beyond 1e6 prior sigma");
   }
+}
+
+/// The corrected estimate, and what the past has left according to it.
+void Ekf::learn() {
+  if (!memory_.active()) {
+    theta_ = layout_.theta_at(x_);
+    return;
+  }
+  const Theta before = theta_;
+  theta_ = layout_.theta_at(x_);
+  memory_.shift(before.data(), theta_.data());
+}
+
+/// Innovations without those that lie outside the gate of the term `outliers`: NaN is left out.
+Vec3 Ekf::gated(const Vec3& nu, const Mat3& H_psi, const Mat3X& H_par, double sigma) const {
+  if (!has_outliers(model_.terms)) return nu;
+  const auto n = static_cast<Eigen::Index>(layout_.size());
+  Mat3X H = Mat3X::Zero(3, n);
+  if (H_par.cols() > 0) H.rightCols(H_par.cols()) = H_par;
+  const Mat3 cross = H * P_.cross().topRows(n) * H_psi.transpose();
+  const Mat3 S = H_psi * P_.attitude() * H_psi.transpose() + cross + cross.transpose() +
+                 H * P_.parameters() * H.transpose() + sigma * sigma * Mat3::Identity();
+  const double gate = outlier_gate(theta_);
+  Vec3 inside = nu;
+  for (int k = 0; k < 3; ++k)
+    if (std::abs(nu[k]) > gate * std::sqrt(S(k, k))) inside[k] = std::numeric_limits<double>::quiet_NaN();
+  return inside;
 }
 
 void Ekf::process(std::size_t i, const Vec3& acc, const Vec3& gimbal) {
@@ -62,15 +119,16 @@ void Ekf::process(std::size_t i, const Vec3& acc, const Vec3& gimbal) {
     phi_.setZero();
     P_.recage(filter_.initial_attitude);
   }
-  history_.t[i] = interval.t1;
+  if (keep_ == KeepHistory::yes) history_.t[i] = interval.t1;
   if (status_ != EstimateStatus::ok) return;
 
   const Mat3 E_loop = misalignment_matrix(model_.mounting, interval.loop);
   linearizer_.set_theta(theta_);
+  memory_.advance(i, theta_.data());
   nodes_[0] = phi_;
   Drive drive = drive_of(interval, timeline_, model_, theta_);
-  step_through(interval, timeline_, drive, nodes_.data());
-  linearize_interval(interval, timeline_, E_loop, nodes_.data(), linearizer_, sensitivity_);
+  step_through(interval, timeline_, drive, nodes_.data(), 0, &memory_);
+  linearize_interval(interval, timeline_, E_loop, nodes_.data(), linearizer_, sensitivity_, &memory_);
 
   const std::size_t last = interval.node_count() - 1;
   const std::size_t middle = static_cast<std::size_t>(interval.substeps);
@@ -80,29 +138,16 @@ void Ekf::process(std::size_t i, const Vec3& acc, const Vec3& gimbal) {
   P_.propagate(Phi_m, sensitivity_.G[middle], Q_half);
 
   if (readout_.accelerometers && acc.array().isFinite().any()) {
-    // Mean over the interval, and its derivative with respect to the attitude in the middle.
-    Vec3 mean = Vec3::Zero();
-    Mat3 H = Mat3::Zero();
-    const Mat3 Phi_m_inv = Phi_m.inverse();
-    Mat3X& H_par = sensitivity_.jacobian[0].H_par;  // the mean is gathered in the first node's
-    for (std::size_t k = 0; k <= last; ++k) {
-      const double w = Timeline::simpson_weight(interval.substeps, k);
-      const NodeJacobian& j = sensitivity_.jacobian[k];
-      mean += w * j.acc;
-      H += w * j.H * sensitivity_.Phi[k] * Phi_m_inv;
-      if (k == 0)
-        H_par *= w;
-      else
-        H_par += w * j.H_par;
-    }
+    const MeanOutput mean = mean_output(interval, sensitivity_);
     const Covariance::Update update =
-        P_.update(acc - mean, H, H_par, layout_.num_rate, readout_.accelerometer_noise, x_);
-    take(update, i);
+        P_.update(gated(acc - mean.acc, mean.H, sensitivity_.jacobian[0].H_par, readout_.accelerometer_noise),
+                  mean.H, sensitivity_.jacobian[0].H_par, layout_.num_rate, readout_.accelerometer_noise, x_);
+    take(update, i, InnovationSums::accelerometers);
     if (status_ != EstimateStatus::ok) return;
     correct_attitude(timeline_.nodes[interval.first_node + middle], update.attitude, nodes_[middle]);
-    theta_ = layout_.theta_at(x_);
+    learn();
     drive = drive_of(interval, timeline_, model_, theta_);
-    step_through(interval, timeline_, drive, nodes_.data(), middle);
+    step_through(interval, timeline_, drive, nodes_.data(), middle, &memory_);
   }
 
   const Mat3 Phi_rest = sensitivity_.Phi[last] * Phi_m.inverse();
@@ -113,25 +158,33 @@ void Ekf::process(std::size_t i, const Vec3& acc, const Vec3& gimbal) {
 
   if (readout_.gimbals && gimbal.array().isFinite().any()) {
     const Node& node = timeline_.nodes[interval.last_node()];
-    const GimbalPrediction predicted = predict_gimbals(node, interval.heading1, phi_);
+    if (TermLibrary::act_on_gimbals(model_.terms)) linearizer_.set_theta(theta_);
+    const GimbalPrediction predicted =
+        linearizer_.gimbals(timeline_, interval, phi_, memory_.active() ? &memory_.at(2 * last) : nullptr);
     Vec3 nu;
     for (int k = 0; k < 3; ++k) nu[k] = angle_difference(gimbal[k], predicted.angles[k]);
     const Covariance::Update update =
-        P_.update(nu, predicted.H, Mat3X(3, 0), 0, readout_.gimbal_noise, x_);
-    take(update, i);
+        P_.update(gated(nu, predicted.H, predicted.H_par, readout_.gimbal_noise), predicted.H,
+                  predicted.H_par, predicted.H_par.cols() > 0 ? layout_.num_rate : 0,
+                  readout_.gimbal_noise, x_);
+    take(update, i, InnovationSums::gimbals);
     if (status_ != EstimateStatus::ok) return;
     correct_attitude(node, update.attitude, phi_);
-    theta_ = layout_.theta_at(x_);
+    learn();
   }
-  if (filter_.noise.drift_random_walk > 0.0) {
-    const double q = filter_.noise.drift_random_walk;
-    for (std::size_t k = 0; k < layout_.size(); ++k)
-      if (layout_.params[k] >= fixed_drift_key && layout_.params[k] < fixed_drift_key + 3)
-        P_.add_variance(k, q * q * interval.length() / (layout_.sigma[k] * layout_.sigma[k]));
+  if (drift_varies(filter_.noise, model_.terms)) {
+    for (std::size_t k = 0; k < layout_.size(); ++k) {
+      if (layout_.params[k] < fixed_drift_key || layout_.params[k] >= fixed_drift_key + 3) continue;
+      const auto axis = static_cast<int>(layout_.params[k] - fixed_drift_key);
+      const double variance =
+          drift_variance(filter_.noise, model_.terms, theta_, axis, interval.length());
+      P_.add_variance(k, variance / (layout_.sigma[k] * layout_.sigma[k]));
+    }
   }
+  if (keep_ == KeepHistory::no) return;
   for (std::size_t k = 0; k < layout_.size(); ++k) {
     history_.estimate(k, i) = theta_[layout_.params[k]];
-    history_.sigma(k, i) = layout_.sigma[k] * std::sqrt(P_.variance(k));
+    history_.sigma(k, i) = sigma(k);
   }
 }
 
@@ -141,14 +194,14 @@ EstimateResult Ekf::result() const {
   r.cause = cause_;
   r.parameters = parameter_estimates(layout_, start_, x_, P_.parameters());
   r.covariance = P_.parameters();
-  r.statistic = std::accumulate(history_.nis.begin(), history_.nis.end(), 0.0);
-  for (const int m : history_.scalars) r.measured += static_cast<std::size_t>(m);
+  r.statistic = sums_.nis;
+  r.measured = sums_.scalars;
   return r;
 }
 
 EstimateResult run_ekf(const FilterSpec& filter, const Timeline& timeline, const Readout& readout,
                        const Measurements& measured, const Theta& start, EkfHistory* history) {
-  Ekf ekf(filter, timeline, readout, start);
+  Ekf ekf(filter, timeline, readout, start, history ? KeepHistory::yes : KeepHistory::no);
   for (std::size_t i = 0; i < timeline.intervals.size(); ++i)
     ekf.process(i, measured.acc.col(i), measured.gimbal.col(i));
   if (history) *history = ekf.history();

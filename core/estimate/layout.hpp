@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "core/physics/model_spec.hpp"
@@ -33,6 +34,12 @@ struct Layout {
   }
 };
 
+/// Whether a filter may have a parameter as a state. Of a discrete one it knows the value; of the size
+/// of something random, the root mean square.
+inline bool can_be_state(const ParamSpec& spec) {
+  return spec.kind == ParamKind::linear || spec.kind == ParamKind::nonlinear;
+}
+
 /// The layout of a model with priors: every active parameter whose prior is not fixed is a state.
 inline Layout make_layout(const ModelSpec& spec) {
   Layout layout;
@@ -41,7 +48,9 @@ inline Layout make_layout(const ModelSpec& spec) {
     for (std::size_t i = 0; i < TermLibrary::num_params; ++i) {
       if (!spec.active[i]) continue;
       layout.theta[i] = spec.priors[i].mean();
-      const bool is_state = spec.priors[i].sigma() > 0.0;
+      if (TermLibrary::specs[i].kind == ParamKind::noise)
+        layout.theta[i] = std::hypot(spec.priors[i].mean(), spec.priors[i].sigma());
+      const bool is_state = spec.priors[i].sigma() > 0.0 && can_be_state(TermLibrary::specs[i]);
       if (is_state && TermLibrary::owner(i).in_rates == rate) layout.params.push_back(i);
     }
     if (rate) layout.num_rate = layout.params.size();

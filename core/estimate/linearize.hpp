@@ -5,6 +5,7 @@
 
 #include "core/base/dual.hpp"
 #include "core/estimate/covariance.hpp"
+#include "core/estimate/gimbal_prediction.hpp"
 #include "core/estimate/layout.hpp"
 #include "core/sim/readout.hpp"
 #include "core/sim/trajectory.hpp"
@@ -29,22 +30,45 @@ class Linearizer {
 
   void set_theta(const Theta& theta);
   /// Rate part (A, B) and, if accelerometers are read, readout part (acc, H, H_par).
+  /// timeline and memory: needed where a term of the model asks for more than attitude and command.
   void evaluate(const Node& node, const Interval& interval, const Mat3& E_loop, const Vec3& phi,
-                NodeJacobian& out);
+                NodeJacobian& out, const Timeline* timeline = nullptr,
+                const MemoryPoint* memory = nullptr);
+  /// Gimbal angles at the end of an interval and their derivatives with respect to psi_i and to the
+  /// readout states.
+  GimbalPrediction gimbals(const Timeline& timeline, const Interval& interval, const Vec3& phi,
+                           const MemoryPoint* memory);
   NodeJacobian make() const;
 
  private:
   static constexpr int chunk = 8;
   using D = Dual<chunk>;
 
+  /// What the terms see, as constants and with the derivatives with respect to psi_l.
+  struct Seen {
+    Inputs<D> still, at_psi;
+    Surroundings<D> still_around, around_at_psi;  ///< filled if needed
+  };
+
+  void look(const Node& node, const Interval& interval, const Mat3& R_lp, const Timeline* timeline,
+            const MemoryPoint* memory);
   template <class Sink>
-  void sweep(std::size_t first_state, std::size_t count, const Inputs<D>& at_psi,
-             const Inputs<D>& still, Sink&& sink);
+  void sweep(std::size_t first_state, std::size_t count, Sink&& sink);
+  void seed(std::size_t state, std::size_t k, double derivative);
 
   DriftModel model_;
   Layout layout_;
   Readout readout_;
+  Needs needs_;
+  Seen seen_;
   std::array<D, TermLibrary::num_params> theta_;
+  std::array<D, num_memory> memory_;
+  /// Of each state: the memory that depends on it, if any.
+  struct Remembered {
+    int first = 0, count = 0;
+  };
+  std::vector<Remembered> remembered_;
+  std::array<double, num_memory> memory_derivative_{};
 };
 
 /// Sensitivities within one interval, from its start to each of its nodes:
@@ -55,12 +79,24 @@ struct IntervalSensitivity {
   std::vector<Mat3X> G;
 };
 
+/// Mean of the accelerometer outputs over an interval, and its derivative with respect to the
+/// attitude in the middle.
+struct MeanOutput {
+  Vec3 acc = Vec3::Zero();  ///< [g]
+  Mat3 H = Mat3::Zero();    ///< [g/rad]
+};
+
+/// Also gathers the mean of H_par, in sensitivity.jacobian[0].H_par (it allocates nothing).
+MeanOutput mean_output(const Interval& interval, IntervalSensitivity& sensitivity);
+
 /// Fills `out` along the nodes of an interval, phi given at each.
 ///
 /// Variation of constants: G(t) = Phi(t) Int Phi^-1 B dt with fourth-order quadrature over pairs of
 /// steps; Phi is the exponential of the integral of A to second order (A t is below 1e-3 within an
 /// interval: physics.md 6.5 ii).
+/// memory: of this interval, if the model has terms with memory.
 void linearize_interval(const Interval& interval, const Timeline& timeline, const Mat3& E_loop,
-                        const Vec3* phi, Linearizer& linearizer, IntervalSensitivity& out);
+                        const Vec3* phi, Linearizer& linearizer, IntervalSensitivity& out,
+                        const MemoryPath* memory = nullptr);
 
 }  // namespace drift

@@ -5,6 +5,43 @@
 
 namespace drift {
 
+/// What a term wants to see beyond specific force, case rate and command. It is worked out only
+/// where an active term asks for it.
+struct Needs {
+  bool clock = false;        ///< time, slew flag, heading of the case, Earth rate
+  bool attitude = false;     ///< R_lp
+  bool gimbals = false;      ///< gimbal angles
+  bool temperature = false;  ///< the covariate
+  bool field = false;        ///< the covariate, and R_lp
+  bool memory = false;       ///< states that the past has left; set for terms that declare `memory`
+
+  constexpr bool any() const { return clock || attitude || gimbals || temperature || field || memory; }
+  constexpr Needs operator|(const Needs& o) const {
+    return {clock || o.clock, attitude || o.attitude, gimbals || o.gimbals,
+            temperature || o.temperature, field || o.field, memory || o.memory};
+  }
+};
+
+/// An instant of the test: all that does not depend on the platform's attitude.
+struct Moment {
+  double t;            ///< since the start of the test [s]
+  double t_p;          ///< since the start of the dwell; 0 on the way to it [s]
+  bool slew;           ///< on the way to a position
+  double heading;      ///< of the case [rad]
+  Vec3 omega_ie_l;     ///< rate of the Earth, as the site has it [rad/s]
+  double temperature;  ///< deviation from the mean of the recording [K]
+  Vec3 field_l;        ///< local magnetic field [T]
+};
+
+/// What `Needs` names, for one attitude. Only what is asked for is filled.
+template <class S>
+struct Surroundings {
+  Moment now;
+  Mat3T<S> R_lp;              ///< attitude, v_l = R_lp v_p
+  Vec3T<S> gimbal;            ///< outer, middle, inner [rad]
+  const S* memory = nullptr;  ///< of all terms of the library
+};
+
 /// What a term may see: the platform at one instant. Platform axes throughout.
 template <class S>
 struct Inputs {
@@ -12,9 +49,19 @@ struct Inputs {
   Vec3T<S> f_p;          ///< specific force [g]
   Vec3T<S> omega_ic_p;   ///< inertial rate of the case [rad/s]
   Vec3 omega_cmd_p;      ///< commanded inertial rate of the platform [rad/s]
+  const Surroundings<S>* around = nullptr;  ///< not null where an active term needs it
 
   Vec3T<S> f_output() const { return mounting->gyro.along_second(f_p); }  ///< along gyro output axes
   Vec3T<S> f_spin() const { return mounting->gyro.along_third(f_p); }     ///< along gyro spin axes
+  const Moment& now() const { return around->now; }
+  /// Nominal rate of the platform against the case: it does what it is told [rad/s].
+  Vec3T<S> omega_cp_p() const {
+    Vec3T<S> w;
+    for (int i = 0; i < 3; ++i) w[i] = omega_cmd_p[i] - omega_ic_p[i];
+    return w;
+  }
+  /// A vector given in local axes, in platform axes.
+  Vec3T<S> to_platform(const Vec3T<S>& v_l) const { return around->R_lp.transpose() * v_l; }
 };
 
 /// The slots of eqs. (1) to (6) that a term may add to.
@@ -24,12 +71,32 @@ struct RateAssembly {
   Vec3T<S> omega_drift_g = Vec3T<S>::Zero();  ///< w_l, internal drift of each gyro [rad/s]
   Vec3T<S> omega_torque_g = Vec3T<S>::Zero(); ///< w_md, torquer-equivalent rate [rad/s]
   S lambda = S(0.0);                          ///< weight of eq. (6) in the lambda family
+  /// Rate of the platform that no gyro takes part in: a leak of base motion, or the apparent rate of
+  /// the local axes where they turn otherwise than the site says [rad/s].
+  Vec3T<S> omega_ip_p = Vec3T<S>::Zero();
 };
 
 /// The slots of the readout.
 template <class S>
 struct ReadoutAssembly {
   Vec3T<S> acc;  ///< accelerometer outputs [g]; starts as the specific force
+};
+
+/// The slots of the gimbal readout.
+template <class S>
+struct GimbalAssembly {
+  Vec3T<S> error = Vec3T<S>::Zero();        ///< added to outer, middle, inner [rad]
+  Vec3T<S> case_tilt_l = Vec3T<S>::Zero();  ///< rotation of the case against the local axes [rad]
+};
+
+/// A short stretch of the nominal path: what drives the memory of terms. The platform's small
+/// deviation from the path is left out (at most 0.03 rad: 3 % of an effect that is itself small).
+struct PathStep {
+  double dt = 0.0;                  ///< [s]; 0 where the platform is caged and only the gimbals move
+  Vec3 f0_p = Vec3::Zero();         ///< specific force at its ends, linear between [g]
+  Vec3 f1_p = Vec3::Zero();
+  Vec3 omega_cmd_p = Vec3::Zero();  ///< [rad/s]
+  Vec3 turned = Vec3::Zero();       ///< change of the gimbal angles, outer, middle, inner [rad]
 };
 
 }  // namespace drift

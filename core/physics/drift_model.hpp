@@ -2,6 +2,8 @@
 
 #include <Eigen/LU>
 
+#include "core/physics/earth.hpp"
+#include "core/physics/gimbals.hpp"
 #include "core/physics/term_library.hpp"
 
 namespace drift {
@@ -73,22 +75,46 @@ Vec3T<S> platform_rate(const DriftModel& model, const Inputs<S>& in, const S* th
   const Mat3T<S> K = closed_over(model.coupling, a, E_loop);
   const Vec3T<S> u = a.omega_drift_g + a.omega_torque_g;
   const Vec3T<S> s = (a.E_gp - K) * in.omega_ic_p + u;
-  if (model.coupling == Coupling::eq5) return -s;
+  if (model.coupling == Coupling::eq5) return a.omega_ip_p - s;
   const Mat3T<S> M = Mat3T<S>::Identity() + K;
   // Adjugate over determinant: exact, differentiable, and M is near the identity.
   const Vec3T<S> r0 = M.row(0), r1 = M.row(1), r2 = M.row(2);
   const Vec3T<S> c12 = r1.cross(r2), c20 = r2.cross(r0), c01 = r0.cross(r1);
   const S det = r0.dot(c12);
   const Vec3T<S> adj_s = c12 * s[0] + c20 * s[1] + c01 * s[2];
-  return -adj_s / det;
+  return a.omega_ip_p - adj_s / det;
 }
 
 /// What the three accelerometers say [g], without noise.
 template <class S>
 Vec3T<S> accelerometer_output(const DriftModel& model, const Inputs<S>& in, const S* theta) {
-  ReadoutAssembly<S> out{in.f_p};
-  TermLibrary::readout(model.terms, in, theta, out);
+  if (!TermLibrary::offset_attitude(model.terms)) {
+    ReadoutAssembly<S> out{in.f_p};
+    TermLibrary::readout(model.terms, in, theta, out);
+    return out.acc;
+  }
+  Inputs<S> offset = in;
+  const Vec3T<S> delta_p = TermLibrary::attitude_offset(model.terms, in, theta);
+  offset.f_p = rotation(delta_p).transpose() * in.f_p;
+  ReadoutAssembly<S> out{offset.f_p};
+  TermLibrary::readout(model.terms, offset, theta, out);
   return out.acc;
+}
+
+/// What the resolvers say [rad]: outer, middle, inner, without noise, for the attitude R_lp of the
+/// platform and the heading of the case. The case may be tilted, the platform hang off:
+/// R_cp = R_lc^T exp(-[tilt_l x]) R_lp exp([delta_p x]).
+template <class S>
+Vec3T<S> gimbal_output(const DriftModel& model, const Inputs<S>& in, const Mat3T<S>& R_lp,
+                       double heading, const S* theta) {
+  const Mat3 R_lc = case_attitude(heading);
+  if (!TermLibrary::act_on_gimbals(model.terms))
+    return gimbal_angles<S>(R_lc.transpose().cast<S>() * R_lp);
+  const Vec3T<S> delta_p = TermLibrary::attitude_offset(model.terms, in, theta);
+  GimbalAssembly<S> out;
+  TermLibrary::gimbals(model.terms, in, theta, out);
+  const Mat3T<S> R_tp = rotation(out.case_tilt_l).transpose() * R_lp * rotation(delta_p);
+  return gimbal_angles<S>(R_lc.transpose().cast<S>() * R_tp) + out.error;
 }
 
 }  // namespace drift

@@ -4,6 +4,7 @@
 
 #include "core/base/dual.hpp"
 #include "core/base/linalg.hpp"
+#include "core/base/units.hpp"
 
 namespace drift {
 
@@ -14,6 +15,43 @@ Vec3T<S> gimbal_angles(const Mat3T<S>& R_cp) {
   using std::asin;
   using std::atan2;
   return {atan2(-R_cp(1, 2), R_cp(2, 2)), asin(R_cp(0, 2)), atan2(-R_cp(0, 1), R_cp(0, 0))};
+}
+
+/// Directions of the gimbal axes outer, middle, inner (columns), platform axes, shape (3, 3).
+template <class S>
+Mat3T<S> gimbal_axes(const Vec3T<S>& angles) {
+  using std::cos;
+  using std::sin;
+  const S cm = cos(angles[1]), sm = sin(angles[1]), ci = cos(angles[2]), si = sin(angles[2]);
+  Mat3T<S> axes;
+  axes << cm * ci, si, S(0.0),  //
+      -cm * si, ci, S(0.0),     //
+      sm, S(0.0), S(1.0);
+  return axes;
+}
+
+/// Rates of the gimbal angles [rad/s] while the platform turns at omega_cp_p against its case.
+template <class S>
+Vec3T<S> gimbal_rates(const Vec3T<S>& angles, const Vec3T<S>& omega_cp_p) {
+  using std::cos;
+  using std::sin;
+  const S ci = cos(angles[2]), si = sin(angles[2]);
+  const S outer = (ci * omega_cp_p[0] - si * omega_cp_p[1]) / cos(angles[1]);
+  return {outer, si * omega_cp_p[0] + ci * omega_cp_p[1], omega_cp_p[2] - outer * sin(angles[1])};
+}
+
+/// Index of the gimbal that a discrete parameter 1, 2, 3 names.
+template <class S>
+int gimbal_number(const S& parameter) {
+  const double number = value(parameter);
+  return number < 1.5 ? 0 : number < 2.5 ? 1 : 2;
+}
+
+/// The turn over which friction builds up, which a filter's step cannot make zero or negative [rad].
+template <class S>
+S friction_turn(const S& x_d) {
+  constexpr double least = 0.1 * detail::deg / 3600.0;  // [rad]
+  return value(x_d) > least ? x_d : S(least);
 }
 
 /// The chain's rotation for given angles; inverse of gimbal_angles.

@@ -46,7 +46,7 @@ ParamMask term_mask(const TermInfo& term, char axis) {
   ParamMask mask;
   for (std::size_t i = term.first; i < term.first + term.count; ++i)
     if (axis == '\0' || axis_of(specs[i]) == axis) mask.set(i);
-  return mask;
+  return TermLibrary::completed(mask);
 }
 
 ParamMask parameters_in(std::string_view key) {  // one, or a group
@@ -78,7 +78,7 @@ void read_entry(config::Section& section, const Node& entry, ParamMask& mask) {
   if ((named & ~mask).none())
     return wrong(fmt::format("names '{}', which the entries before it hold already", entry.text),
                  "Remove one of them");
-  mask |= named;
+  mask |= TermLibrary::completed(named);
 }
 
 void read_value(config::Section& table, std::string_view key, const Node& node,
@@ -136,7 +136,9 @@ std::vector<std::string> terms_text(const ParamMask& mask) {
   ParamMask left = mask;
   const auto use = [&](const std::string& key) {
     const ParamMask named = params_named(key);
-    if (named.none() || (named & ~left).any()) return;
+    // What belongs to no axis may have been named by an axis before.
+    if ((named & left).none() || (named & ~mask).any() || (TermLibrary::completed(left) & named) != named)
+      return;
     entries.push_back(key);
     left &= ~named;
   };

@@ -34,7 +34,8 @@ Vec3T<S> gimbal_torque(const ServoOptions& servo, const Vec3T<S>& omega_cp_p) {
   return torque;
 }
 
-/// Writes d/dt of the 12 states of the null-seeking loop:
+/// Writes d/dt of the 12 states of the null-seeking loop, and returns what moves the platform apart from
+/// it, the slot omega_ip_p of RateAssembly [rad/s]:
 ///
 ///   J_f theta'' + c theta' + k_f theta = H (C w_ip + w_l + w_md) [- J_f w_ip' . O + H theta w_ip . S]
 ///   T2 z' = theta - z,     T = -D K (theta + T1 z' - T2 z') = -D K G(s) theta
@@ -46,8 +47,8 @@ Vec3T<S> gimbal_torque(const ServoOptions& servo, const Vec3T<S>& omega_cp_p) {
 /// closes by itself. x, x_dot: shape ServoState::size. Stiff: the fastest mode is c/J_f.
 /// Source: physics.md 1.5.
 template <class S>
-void servo_derivative(const ServoOptions& servo, const DriftModel& model, const Inputs<S>& in,
-                      const S* theta_params, const S* x, S* x_dot) {
+Vec3T<S> servo_derivative(const ServoOptions& servo, const DriftModel& model, const Inputs<S>& in,
+                          const S* theta_params, const S* x, S* x_dot) {
   const Vec3T<S> theta = vec3(x + ServoState::theta), theta_dot = vec3(x + ServoState::theta_dot);
   const Vec3T<S> lagged = vec3(x + ServoState::compensator), omega_ip_p = vec3(x + ServoState::omega_ip);
 
@@ -70,6 +71,7 @@ void servo_derivative(const ServoOptions& servo, const DriftModel& model, const 
     x_dot[ServoState::compensator + i] = (theta[i] - lagged[i]) / servo.lag;
     x_dot[ServoState::omega_ip + i] = omega_ip_dot[i];
   }
+  return a.omega_ip_p;
 }
 
 /// The states at which the loop rests under constant inputs, shape ServoState::size; a start from

@@ -12,8 +12,21 @@
 
 namespace drift {
 
-/// A physical effect. It declares its parameters once and adds to the slots it acts on, through
-/// `rates` (the platform's rate equation), `readout` (what the instruments say), or both.
+/// A physical effect. It declares its parameters once and adds to the slots it acts on, through one
+/// or more of
+///   rates            the platform's rate equation
+///   readout          what the accelerometers say
+///   gimbals          what the resolvers say, and the tilt of the case
+///   attitude_offset  a small rotation of the platform that both see, but that no gyro integrates
+/// or through none, if it is random (parameters of ParamKind::noise). A term acts on the rates or on
+/// the readout, not on both.
+///
+/// A term may declare `needs`, what it wants to see beyond the usual (Needs), and memory: a number
+/// `memory` of states with
+///   start(PathStep, p, m)    what they are when a test begins; the step has no length
+///   advance(PathStep, p, m)  their exact change over a step of the nominal path
+/// that are handed to the hooks after the parameters. Memory depends on at most one parameter of the
+/// term, number `memory_parameter`.
 template <class T>
 concept Term = requires {
   { T::key } -> std::convertible_to<std::string_view>;
@@ -23,22 +36,53 @@ concept Term = requires {
   { T::params.size() } -> std::convertible_to<std::size_t>;
 };
 
+template <class T>
+constexpr int memory_of() {
+  if constexpr (requires { T::memory; })
+    return T::memory;
+  else
+    return 0;
+}
+template <class T>
+constexpr Needs needs_of() {
+  Needs needs;
+  if constexpr (requires { T::needs; }) needs = T::needs;
+  needs.memory = memory_of<T>() > 0;
+  return needs;
+}
+
+/// A hook is hook(in, p, out) or, for a term with memory, hook(in, p, m, out).
 template <class T, class S>
-concept ActsOnRates = requires(const Inputs<S>& in, const S* p, RateAssembly<S>& out) {
-  T::rates(in, p, out);
-};
+concept ActsOnRates =
+    requires(const Inputs<S>& in, const S* p, RateAssembly<S>& out) { T::rates(in, p, out); } ||
+    requires(const Inputs<S>& in, const S* p, RateAssembly<S>& out) { T::rates(in, p, p, out); };
 template <class T, class S>
 concept ActsOnReadout = requires(const Inputs<S>& in, const S* p, ReadoutAssembly<S>& out) {
   T::readout(in, p, out);
 };
+template <class T, class S>
+concept ActsOnGimbals = requires(const Inputs<S>& in, const S* p, GimbalAssembly<S>& out) {
+  T::gimbals(in, p, out);
+};
+template <class T, class S>
+concept OffsetsAttitude =
+    requires(const Inputs<S>& in, const S* p, Vec3T<S>& out) { T::attitude_offset(in, p, out); } ||
+    requires(const Inputs<S>& in, const S* p, Vec3T<S>& out) { T::attitude_offset(in, p, p, out); };
 
-/// What the `terms` command and error messages need to know of a term.
+/// What the `terms` command, error messages and the diagnosis need to know of a term.
 struct TermInfo {
   std::string_view key, title, equation, source;
   std::size_t first = 0;  ///< index of its first parameter
   std::size_t count = 0;  ///< number of its parameters
   bool in_rates = false;    ///< acts on the platform's rate
-  bool in_readout = false;  ///< acts on what the instruments say
+  bool in_readout = false;  ///< acts on what the accelerometers say
+  bool in_gimbals = false;  ///< acts on what the resolvers say
+  bool in_offset = false;   ///< an attitude offset, seen by both
+  Needs needs;
+  int first_memory = 0;     ///< its states among those of the library
+  int memory = 0;
+  /// Acts through random numbers alone.
+  constexpr bool stochastic() const { return !in_rates && !in_readout && !in_gimbals && !in_offset; }
 };
 
 /// A compile-time list of terms: numbering of parameters, lookup by name, application by mask.
@@ -51,12 +95,17 @@ struct TermList {
 
   static constexpr auto specs = join(Ts::params...);
 
+  static constexpr int num_memory = (memory_of<Ts>() + ... + 0);
+
   static constexpr auto terms = [] {
     std::array<TermInfo, num_terms> infos{};
     std::size_t next = 0, first = 0;
+    int memory = 0;
     ((infos[next++] = {Ts::key, Ts::title, Ts::equation, Ts::source, first, Ts::params.size(),
-                       ActsOnRates<Ts, double>, ActsOnReadout<Ts, double>},
-      first += Ts::params.size()),
+                       ActsOnRates<Ts, double>, ActsOnReadout<Ts, double>,
+                       ActsOnGimbals<Ts, double>, OffsetsAttitude<Ts, double>, needs_of<Ts>(), memory,
+                       memory_of<Ts>()},
+      first += Ts::params.size(), memory += memory_of<Ts>()),
      ...);
     return infos;
   }();
@@ -89,6 +138,15 @@ struct TermList {
         for (std::size_t i = 0; i < terms[t].count; ++i) params.set(terms[t].first + i);
     return params;
   }
+  /// The mask with what its terms cannot do without: their time constants, harmonic numbers and the like,
+  /// which belong to no axis. "warmup_drift.x" needs the time constant of all three.
+  static ParamMask completed(ParamMask params) {
+    const Mask owners = terms_of(params);
+    for (std::size_t t = 0; t < num_terms; ++t)
+      for (std::size_t i = terms[t].first; owners[t] && i < terms[t].first + terms[t].count; ++i)
+        if (specs[i].kind != ParamKind::linear && specs[i].key == specs[i].group) params.set(i);
+    return params;
+  }
   /// The terms that own at least one parameter of `params`.
   static Mask terms_of(const ParamMask& params) {
     Mask mask;
@@ -98,11 +156,42 @@ struct TermList {
     return mask;
   }
 
+  /// What the terms of a mask need together.
+  static Needs needs(const Mask& mask) {
+    constexpr Mask needy = selected([](const TermInfo& t) { return t.needs.any(); });
+    Needs all;
+    if ((mask & needy).none()) return all;
+    for (std::size_t t = 0; t < num_terms; ++t)
+      if (mask[t]) all = all | terms[t].needs;
+    return all;
+  }
+  static bool offset_attitude(const Mask& mask) {
+    constexpr Mask which = selected([](const TermInfo& t) { return t.in_offset; });
+    return (mask & which).any();
+  }
+  static bool act_on_gimbals(const Mask& mask) {
+    constexpr Mask which = selected([](const TermInfo& t) { return t.in_gimbals || t.in_offset; });
+    return (mask & which).any();
+  }
+  static bool remember(const Mask& mask) { return num_memory > 0 && needs(mask).memory; }
+
   template <class S>
   static void rates(const Mask& mask, const Inputs<S>& in, const S* theta, RateAssembly<S>& out) {
     for_each([&]<class T>(std::size_t t) {
       if constexpr (ActsOnRates<T, S>)
-        if (mask[t]) T::rates(in, theta + terms[t].first, out);
+        if (t < num_inline && mask[t]) call_rates<T>(t, in, theta, out);
+    });
+    constexpr Mask rest = selected(
+        [](const TermInfo& t) { return t.in_rates && t.first >= terms[num_inline].first; });
+    if ((mask & rest).any()) further_rates(mask, in, theta, out);
+  }
+  /// The rates of all but the first terms, which every model has. Kept out of the way of those.
+  template <class S>
+  [[gnu::noinline]] static void further_rates(const Mask& mask, const Inputs<S>& in, const S* theta,
+                                              RateAssembly<S>& out) {
+    for_each([&]<class T>(std::size_t t) {
+      if constexpr (ActsOnRates<T, S>)
+        if (t >= num_inline && mask[t]) call_rates<T>(t, in, theta, out);
     });
   }
   template <class S>
@@ -112,8 +201,57 @@ struct TermList {
         if (mask[t]) T::readout(in, theta + terms[t].first, out);
     });
   }
+  template <class S>
+  static void gimbals(const Mask& mask, const Inputs<S>& in, const S* theta, GimbalAssembly<S>& out) {
+    for_each([&]<class T>(std::size_t t) {
+      if constexpr (ActsOnGimbals<T, S>)
+        if (mask[t]) T::gimbals(in, theta + terms[t].first, out);
+    });
+  }
+  /// Sum of the attitude offsets, platform axes [rad].
+  template <class S>
+  static Vec3T<S> attitude_offset(const Mask& mask, const Inputs<S>& in, const S* theta) {
+    Vec3T<S> delta_p = Vec3T<S>::Zero();
+    for_each([&]<class T>(std::size_t t) {
+      if constexpr (OffsetsAttitude<T, S>) {
+        if (!mask[t]) return;
+        if constexpr (memory_of<T>() > 0)
+          T::attitude_offset(in, theta + terms[t].first, in.around->memory + terms[t].first_memory, delta_p);
+        else
+          T::attitude_offset(in, theta + terms[t].first, delta_p);
+      }
+    });
+    return delta_p;
+  }
+
+  /// Calls visit.template operator()<T>(info) for every term of the mask that has memory.
+  static void for_each_memory(const Mask& mask, auto&& visit) {
+    for_each([&]<class T>(std::size_t t) {
+      if constexpr (memory_of<T>() > 0)
+        if (mask[t]) visit.template operator()<T>(terms[t]);
+    });
+  }
+  /// The terms for which a condition on TermInfo holds.
+  static constexpr Mask selected(auto&& condition) {
+    static_assert(num_terms <= 64, "a mask is made of one word");
+    unsigned long long bits = 0;
+    for (std::size_t t = 0; t < num_terms; ++t)
+      if (condition(terms[t])) bits |= 1ull << t;
+    return Mask(bits);
+  }
 
  private:
+  /// The base terms and frame_closure come first, and are tested one by one without a call.
+  static constexpr std::size_t num_inline = num_terms > 7 ? 7 : num_terms - 1;
+
+  template <class T, class S>
+  static void call_rates(std::size_t t, const Inputs<S>& in, const S* theta, RateAssembly<S>& out) {
+    if constexpr (memory_of<T>() > 0)
+      T::rates(in, theta + terms[t].first, in.around->memory + terms[t].first_memory, out);
+    else
+      T::rates(in, theta + terms[t].first, out);
+  }
+
   static constexpr void for_each(auto&& visit) {
     [&]<std::size_t... I>(std::index_sequence<I...>) {
       (visit.template operator()<Ts>(I), ...);
@@ -127,6 +265,10 @@ struct TermList {
     return true;
   }
   static_assert(unique_keys(), "two parameters have the same key");
+  static_assert(((!ActsOnRates<Ts, double> ||
+                  !(ActsOnReadout<Ts, double> || ActsOnGimbals<Ts, double> ||
+                    OffsetsAttitude<Ts, double>)) && ...),
+                "a term acts on the rates or on the readout, not on both");
 };
 
 }  // namespace drift

@@ -18,8 +18,14 @@ class AtomicFile {
 
   /// Brings the file to the disk under its name. InputError (io) if that fails.
   void commit();
+  /// The same, but only if there is no file of that name; false, with nothing changed, if there is.
+  /// Of several that try at once exactly one succeeds, on network file systems too.
+  bool commit_new();
 
  private:
+  void sync_temporary();
+  void sync_folder();
+
   std::string path_, temporary_;
 };
 

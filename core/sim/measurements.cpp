@@ -55,6 +55,13 @@ Recording make_recording(const Timeline& timeline, const Measurements& measured,
   for (const Interval& i : timeline.intervals) looped = looped || !i.loop.isZero(0.0);
   for (int a = 0; looped && a < 6; ++a)
     add(loop_names[a], unit::arcsec, [&](std::size_t i) { return interval(i).loop[a]; });
+  if (timeline.has_temperature)
+    add("temperature", "degC"_unit, [&](std::size_t i) {
+      return timeline.mean_temperature + interval(i).around1.temperature;
+    });
+  constexpr std::array<const char*, 3> field_names{"field_n", "field_w", "field_u"};
+  for (int a = 0; timeline.has_field && a < 3; ++a)
+    add(field_names[a], "gauss"_unit, [&](std::size_t i) { return interval(i).around1.field_l[a]; });
   for (std::size_t i = 0; i < n; ++i) rec.lines.push_back(i + 1);
   return rec;
 }

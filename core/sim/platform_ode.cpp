@@ -1,6 +1,8 @@
 #include "core/sim/platform_ode.hpp"
 
+#include <algorithm>
 #include <numbers>
+#include <type_traits>
 #include <vector>
 
 #include "core/base/dual.hpp"
@@ -36,7 +38,7 @@ Cvode make_integrator(Coupling coupling, OdeOptions options) {
 }  // namespace
 
 PlatformOde::PlatformOde(const DriftModel& model, const ServoOptions& servo, const OdeOptions& options)
-    : problem_(new Problem{model, servo, {}, {}}),
+    : problem_(new Problem{model, servo, {}, {}, Mat3::Identity()}),
       rhs_(new Rhs{problem_.get()}),
       jacobian_(new Jacobian{problem_.get()}),
       ode_(make_integrator(model.coupling, options)) {
@@ -58,8 +60,35 @@ Vec3 PlatformOde::Problem::base_motion_l(double t) const {
   return case_attitude(heading0 + heading_rate * (t - t0)) * rate_c;
 }
 
+/// The interval that an instant of the segment belongs to.
+const Interval& PlatformOde::Problem::interval_at(double t) const {
+  const auto begin = drive.timeline->intervals.begin();
+  const auto after = std::upper_bound(begin + static_cast<long>(first), begin + static_cast<long>(end), t,
+                                      [](double time, const Interval& i) { return time < i.t1; });
+  return after == begin + static_cast<long>(end) ? *(after - 1) : *after;
+}
+
+template <class S>
+void PlatformOde::Problem::look_around(double t, const Mat3T<S>& R_lp, std::array<S, num_memory>& memory_now,
+                                       Surroundings<S>& around) const {
+  const Interval& interval = interval_at(t);
+  if (drive.needs.memory) {
+    const MemoryPoint m = memory->at_time(*drive.timeline, interval, t);
+    for (std::size_t k = 0; k < num_memory; ++k) memory_now[k] = S(m.value[k]);
+  }
+  fill_surroundings(drive.needs, moment_at(*drive.timeline, interval, t), R_lp, memory_now.data(), around);
+}
+
 bool PlatformOde::Problem::reduced(double t, const double* y, double* y_dot) const {
-  Eigen::Map<Vec3>(y_dot, 3) = attitude_rate(drive, reference(t), vec3(y));
+  if (!drive.needs.any()) {
+    Eigen::Map<Vec3>(y_dot, 3) = attitude_rate(drive, reference(t), vec3(y));
+    return true;
+  }
+  std::array<double, num_memory> memory_now;
+  Drive here = drive;
+  here.interval = &interval_at(t);
+  if (drive.needs.memory) memory_now = memory->at_time(*drive.timeline, *here.interval, t).value;
+  Eigen::Map<Vec3>(y_dot, 3) = attitude_rate(here, reference(t), vec3(y), t, memory_now.data());
   return true;
 }
 
@@ -68,13 +97,22 @@ template <class S>
 void PlatformOde::Problem::loop(double t, const S* y, S* y_dot) const {
   const Vec3T<S> phi = vec3(y + ServoState::size);
   const Mat3T<S> R_lp = reference(t).template cast<S>() * rotation(phi);
-  const Inputs<S> in = inputs_at<S>(drive.omega_ic_l + base_motion_l(t), drive.omega_cmd_p,
-                                    model.mounting, R_lp);
-  std::array<S, TermLibrary::num_params> theta;
-  for (std::size_t i = 0; i < theta.size(); ++i) theta[i] = S(drive.theta[i]);
-  servo_derivative(servo, model, in, theta.data(), y, y_dot);
+  Inputs<S> in = inputs_at<S>(drive.omega_ic_l + base_motion_l(t), drive.omega_cmd_p,
+                              model.mounting, R_lp);
+  Surroundings<S> around;
+  std::array<S, num_memory> memory_now;
+  if (drive.needs.any()) {
+    look_around(t, R_lp, memory_now, around);
+    in.around = &around;
+  }
+  const S* theta;
+  if constexpr (std::is_same_v<S, double>)
+    theta = drive.theta;
+  else
+    theta = theta_dual.data();
+  const Vec3T<S> unfelt_p = servo_derivative(servo, model, in, theta, y, y_dot);
   const Vec3T<S> omega_ip_p =
-      vec3(y + ServoState::omega_ip) + drive.omega_noise_p.template cast<S>();
+      vec3(y + ServoState::omega_ip) + unfelt_p + drive.omega_noise_p.template cast<S>();
   const Vec3T<S> phi_dot = rotation_vector_rate(phi, omega_ip_p, drive.omega_cmd_p);
   for (int i = 0; i < 3; ++i) y_dot[ServoState::size + i] = phi_dot[i];
 }
@@ -97,7 +135,7 @@ bool PlatformOde::Jacobian::operator()(double t, const double* y, double* J) con
 
 OdeResult PlatformOde::segment(const Timeline& timeline, std::size_t first, std::size_t end,
                                const Theta& theta, const Vec3& omega_noise_p, const Vec3* psi0_l,
-                               Trajectory& phi) {
+                               Trajectory& phi, const MemoryRecord* memory) {
   const Interval& start = timeline.intervals[first];
   const Node& node = timeline.nodes[start.first_node];
   Problem& p = *problem_;
@@ -108,6 +146,11 @@ OdeResult PlatformOde::segment(const Timeline& timeline, std::size_t first, std:
   p.heading_rate = start.heading_rate();
   p.drive = drive_of(start, timeline, p.model, theta);
   p.drive.omega_noise_p = omega_noise_p;
+  p.memory = memory;
+  p.first = first;
+  p.end = end;
+  if (p.model.coupling == Coupling::servo)
+    for (std::size_t i = 0; i < TermLibrary::num_params; ++i) p.theta_dual[i].v = theta[i];
 
   const bool servo = p.model.coupling == Coupling::servo;
   const int at_phi = servo ? ServoState::size : 0;
@@ -115,8 +158,15 @@ OdeResult PlatformOde::segment(const Timeline& timeline, std::size_t first, std:
     const Vec3 phi0 = caged_phi(node.R_lr, *psi0_l);
     Eigen::Map<Vec3>(y_.data() + at_phi, 3) = phi0;
     if (servo) {
-      const auto in = inputs_at<double>(node.omega_ic_l + p.base_motion_l(start.t0), start.omega_cmd_p,
-                                        p.model.mounting, node.R_lr * rotation(phi0));
+      const Mat3 R_lp = node.R_lr * rotation(phi0);
+      auto in = inputs_at<double>(node.omega_ic_l + p.base_motion_l(start.t0), start.omega_cmd_p,
+                                  p.model.mounting, R_lp);
+      Surroundings<double> around;
+      std::array<double, num_memory> memory_now;
+      if (p.drive.needs.any()) {
+        p.look_around(start.t0, R_lp, memory_now, around);
+        in.around = &around;
+      }
       Eigen::Map<Eigen::Matrix<double, ServoState::size, 1>>(y_.data()) =
           servo_at_rest(p.servo, p.model, in, theta.data());
     }

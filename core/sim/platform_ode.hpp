@@ -3,6 +3,7 @@
 #include <array>
 #include <memory>
 
+#include "core/base/dual.hpp"
 #include "core/ode/cvode.hpp"
 #include "core/physics/servo.hpp"
 #include "core/sim/trajectory.hpp"
@@ -17,10 +18,11 @@ class PlatformOde {
   PlatformOde(const DriftModel& model, const ServoOptions& servo, const OdeOptions& options);
 
   /// Integrates intervals first..end-1, which have one command, turntable rate and loop estimate, and
-  /// writes phi at their nodes. psi0_l: attitude error at the caging that starts the segment [rad];
+  /// writes phi at their nodes. memory: of the whole timeline, if a term has any. psi0_l: attitude error at the caging that starts the segment [rad];
   /// null: the platform goes on from where the last segment ended.
   OdeResult segment(const Timeline& timeline, std::size_t first, std::size_t end, const Theta& theta,
-                    const Vec3& omega_noise_p, const Vec3* psi0_l, Trajectory& phi);
+                    const Vec3& omega_noise_p, const Vec3* psi0_l, Trajectory& phi,
+                    const MemoryRecord* memory = nullptr);
   OdeStats stats() const { return ode_.stats(); }
 
   static constexpr int servo_states = ServoState::size + 3;  ///< loop, then phi
@@ -34,8 +36,16 @@ class PlatformOde {
     Site site;
     Mat3 R_lr0 = Mat3::Identity();  ///< reference attitude at the start of the segment
     double t0 = 0.0, heading0 = 0.0, heading_rate = 0.0;
+    const MemoryRecord* memory = nullptr;
+    std::size_t first = 0, end = 0;  ///< intervals of the segment
+    /// All parameters as constants of the differentiation.
+    std::array<Dual<servo_states>, TermLibrary::num_params> theta_dual;
 
     Mat3 reference(double t) const;
+    const Interval& interval_at(double t) const;
+    template <class S>
+    void look_around(double t, const Mat3T<S>& R_lp, std::array<S, num_memory>& memory_now,
+                     Surroundings<S>& around) const;
     Vec3 base_motion_l(double t) const;  ///< [rad/s]
     bool reduced(double t, const double* y, double* y_dot) const;
     template <class S>

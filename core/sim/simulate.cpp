@@ -3,7 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "core/physics/gimbals.hpp"
+#include "core/physics/stochastic.hpp"
+#include "core/sim/instruments.hpp"
 #include "core/sim/platform_ode.hpp"
 
 namespace drift {
@@ -46,7 +47,7 @@ Simulator::Simulator(const TruthSpec& truth, const Readout& readout, const OdeOp
     : truth_(truth),
       readout_(readout),
       model_(truth.model()),
-      engine_(new Engine{PlatformOde(model_, truth.servo, options)}) {}
+      engine_(new Engine{PlatformOde(with_random_drift(model_), truth.servo, options)}) {}
 
 Simulator::~Simulator() = default;
 Simulator::Simulator(Simulator&&) noexcept = default;
@@ -58,24 +59,38 @@ Simulation Simulator::run(const Timeline& timeline, std::uint64_t seed, std::uin
 Simulation Simulator::run(const Timeline& timeline, const TruthDraw& draw, std::uint64_t seed,
                           std::uint64_t run_number) {
   Simulation out;
+  run(timeline, draw, seed, run_number, out);
+  return out;
+}
+
+void Simulator::run(const Timeline& timeline, const TruthDraw& draw, std::uint64_t seed,
+                    std::uint64_t run_number, Simulation& out) {
   begin(timeline, draw, seed, run_number, out);
   extend(timeline, 0, timeline.intervals.size(), out);
-  return out;
 }
 
 void Simulator::begin(const Timeline& timeline, const TruthDraw& draw, std::uint64_t seed,
                       std::uint64_t run_number, Simulation& out) {
   for (std::uint32_t c = 0; c < 6; ++c) {
-    sensor_noise_[c] = std::make_unique<Stream>(seed, run_number, Purpose::sensor_noise, c);
-    process_noise_[c] = std::make_unique<Stream>(seed, run_number, Purpose::process_noise, c);
+    sensor_noise_[c].emplace(seed, run_number, Purpose::sensor_noise, c);
+    process_noise_[c].emplace(seed, run_number, Purpose::process_noise, c);
   }
+  for (std::uint32_t c = 0; c < 3; ++c) {
+    drift_level_[c].emplace(seed, run_number, Purpose::drift_level, c);
+    level_[c] = drift_level_[c]->uniform() < 0.5 ? -1.0 : 1.0;
+  }
+  for (std::uint32_t c = 0; c < 6; ++c)
+    wrong_samples_[c].emplace(seed, run_number, Purpose::wrong_samples, c);
+  require_covariates(model_, timeline);
+  memory_ = MemoryRecord(timeline, model_, draw.theta.data());
   const auto n = static_cast<Eigen::Index>(timeline.intervals.size());
   const double missing = std::numeric_limits<double>::quiet_NaN();
   out.ode = {};
   out.cost = {};
   out.draw = draw;
   out.phi.assign(timeline.nodes.size(), Vec3::Zero());
-  out.measured = {Mat3X::Constant(3, n, missing), Mat3X::Constant(3, n, missing)};
+  out.measured.acc.setConstant(3, n, missing);
+  out.measured.gimbal.setConstant(3, n, missing);
   theta_ = out.theta_end = draw.theta;
 }
 
@@ -85,24 +100,41 @@ void Simulator::extend(const Timeline& timeline, std::size_t first, std::size_t 
   for (std::size_t i = first; i < end; ++i) measure(timeline, i, out);
 }
 
+/// All parameters as they are in interval i: the drift's random walk goes on, its level may flip.
+Theta Simulator::drift_of(const Timeline& timeline, std::size_t i) {
+  const double T = timeline.intervals[i].length();
+  for (int a = 0; a < 3; ++a)
+    theta_[fixed_drift + a] += drift_walk(truth_.noise, model_.terms, theta_, a) * std::sqrt(T) *
+                               process_noise_[3 + a]->normal();
+  Theta now = theta_;
+  if (!is_bistable(model_.terms)) return now;
+  for (int a = 0; a < 3; ++a) {
+    if (drift_level_[a]->uniform() < flip_probability(theta_, T)) level_[a] = -level_[a];
+    now[fixed_drift + a] += level_[a] * bistable_size(theta_, a);
+  }
+  return now;
+}
+
 void Simulator::integrate(const Timeline& timeline, std::size_t first, std::size_t end, Simulation& out) {
   const ProcessNoise& noise = truth_.noise;
+  const bool noisy = noise.any() || is_bistable(model_.terms) || walks(model_.terms) ||
+                     disturbance_.cols() > 0;
   PlatformOde& ode = engine_->ode;
   while (first < end && out.ode.ok()) {
-    const std::size_t last = segment_end(timeline, first, end, noise.any() || disturbance_.cols() > 0);
+    const std::size_t last = segment_end(timeline, first, end, noisy);
     const Interval& interval = timeline.intervals[first];
     Vec3 omega_noise_p = Vec3::Zero();
-    if (noise.any()) {
-      const double T = interval.length();
-      for (int a = 0; a < 3; ++a) {
-        // White rate noise of density q^2 has variance q^2/T as a mean over T.
-        omega_noise_p[a] = noise.angle_random_walk / std::sqrt(T) * process_noise_[a]->normal();
-        theta_[fixed_drift + a] += noise.drift_random_walk * std::sqrt(T) * process_noise_[3 + a]->normal();
-      }
+    Theta theta = theta_;
+    if (noisy) {
+      // White rate noise of density q^2 has variance q^2/T as a mean over T.
+      for (int a = 0; a < 3; ++a)
+        omega_noise_p[a] =
+            noise.angle_random_walk / std::sqrt(interval.length()) * process_noise_[a]->normal();
+      theta = drift_of(timeline, first);
     }
     if (disturbance_.cols() > 0) omega_noise_p += disturbance_.col(static_cast<Eigen::Index>(first));
-    out.ode = ode.segment(timeline, first, last, theta_, omega_noise_p,
-                          interval.cage ? &out.draw.psi0_l[interval.chain] : nullptr, out.phi);
+    out.ode = ode.segment(timeline, first, last, theta, omega_noise_p,
+                          interval.cage ? &out.draw.psi0_l[interval.chain] : nullptr, out.phi, &memory_);
     const OdeStats stats = ode.stats();
     out.cost.steps += stats.steps;
     out.cost.rhs_calls += stats.rhs_calls;
@@ -112,28 +144,35 @@ void Simulator::integrate(const Timeline& timeline, std::size_t first, std::size
   out.theta_end = theta_;
 }
 
+/// What makes a sample wrong, in units of its noise; nearly always nothing.
+double Simulator::wrong_by(std::size_t channel, const Theta& theta) {
+  if (!has_outliers(model_.terms)) return 0.0;
+  Stream& stream = *wrong_samples_[channel];
+  const bool wrong = stream.uniform() < outlier_rate(theta);
+  const double size = stream.normal();
+  return wrong ? outlier_size(theta) * size : 0.0;
+}
+
 void Simulator::measure(const Timeline& timeline, std::size_t i, Simulation& out) {
   const Interval& interval = timeline.intervals[i];
+  const Instruments instruments{&timeline, &model_, out.draw.theta.data()};
+  const auto memory = [&](std::size_t k) {
+    return memory_.empty() ? nullptr : memory_.at_node(interval.first_node + k).value.data();
+  };
+  const Vec3* phi = &out.phi[interval.first_node];
   if (readout_.accelerometers) {
-    Vec3 mean = Vec3::Zero();
-    for (std::size_t k = 0; k < interval.node_count(); ++k) {
-      const Node& node = timeline.nodes[interval.first_node + k];
-      const Mat3 R_lp = node.R_lr * rotation(out.phi[interval.first_node + k]);
-      const auto in = inputs_at<double>(node.omega_ic_l, interval.omega_cmd_p, model_.mounting, R_lp);
-      mean += Timeline::simpson_weight(interval.substeps, k) *
-              accelerometer_output(model_, in, out.draw.theta.data());
-    }
+    const Vec3 mean = instruments.accelerometers(interval, phi, memory);
     for (int a = 0; a < 3; ++a)
-      out.measured.acc(a, i) = mean[a] + readout_.accelerometer_noise * sensor_noise_[a]->normal();
+      out.measured.acc(a, i) = mean[a] + readout_.accelerometer_noise *
+                                             (sensor_noise_[a]->normal() + wrong_by(a, out.draw.theta));
   }
   if (readout_.gimbals) {
-    const Node& node = timeline.nodes[interval.last_node()];
-    const Mat3 R_lp = node.R_lr * rotation(out.phi[interval.last_node()]);
-    const Vec3 angles =
-        gimbal_angles<double>(case_attitude(interval.heading1).transpose() * R_lp);
+    const Vec3 angles = instruments.gimbals(interval, phi, memory);
     for (int a = 0; a < 3; ++a)
       out.measured.gimbal(a, i) = angle_difference(
-          angles[a] + readout_.gimbal_noise * sensor_noise_[3 + a]->normal(), 0.0);
+          angles[a] + readout_.gimbal_noise *
+                          (sensor_noise_[3 + a]->normal() + wrong_by(3 + a, out.draw.theta)),
+          0.0);
   }
 }
 

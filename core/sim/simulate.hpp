@@ -2,11 +2,13 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "core/ode/ode_options.hpp"
 #include "core/ode/ode_result.hpp"
 #include "core/sim/measurements.hpp"
+#include "core/sim/memory_path.hpp"
 #include "core/sim/trajectory.hpp"
 #include "core/sim/truth.hpp"
 
@@ -46,6 +48,10 @@ class Simulator {
   /// follow and constant in it: what no term of the library makes. Empty: none. shape (3, intervals).
   void disturb(Mat3X omega_p) { disturbance_ = std::move(omega_p); }
 
+  /// The same into `out`, whose memory is used again.
+  void run(const Timeline& timeline, const TruthDraw& draw, std::uint64_t seed, std::uint64_t run,
+           Simulation& out);
+
   /// In pieces, for loops that are fed back from a filter: begin, then extend over the intervals in
   /// order. What `timeline` says of an interval may change until it is extended over.
   void begin(const Timeline& timeline, const TruthDraw& draw, std::uint64_t seed, std::uint64_t run,
@@ -58,14 +64,19 @@ class Simulator {
  private:
   struct Engine;
   void integrate(const Timeline& timeline, std::size_t first, std::size_t end, Simulation& out);
+  Theta drift_of(const Timeline& timeline, std::size_t i);
   void measure(const Timeline& timeline, std::size_t i, Simulation& out);
+  double wrong_by(std::size_t channel, const Theta& theta);
 
   TruthSpec truth_;
   Readout readout_;
   DriftModel model_;
   std::unique_ptr<Engine> engine_;
-  std::array<std::unique_ptr<Stream>, 6> sensor_noise_, process_noise_;
   Mat3X disturbance_;
+  std::array<std::optional<Stream>, 6> sensor_noise_, process_noise_, wrong_samples_;
+  std::array<std::optional<Stream>, 3> drift_level_;
+  std::array<double, 3> level_{};  ///< of a bistable drift, +-1
+  MemoryRecord memory_;
   Theta theta_;  ///< with the drift's random walk
 };
 

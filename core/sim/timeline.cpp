@@ -39,6 +39,17 @@ void add_stretch(Timeline& timeline, const Stretch& stretch, const Position& pos
   }
 }
 
+/// When the test and each dwell began.
+void set_clocks(std::vector<Interval>& intervals) {
+  for (std::size_t k = 0; k < intervals.size(); ++k) {
+    Interval& i = intervals[k];
+    const Interval* before = k > 0 ? &intervals[k - 1] : nullptr;
+    i.t_begin = intervals.front().t0;
+    const bool goes_on = before && before->position == i.position && !before->slew && !i.cage;
+    i.t_dwell = goes_on ? before->t_dwell : i.t0;
+  }
+}
+
 }  // namespace
 
 double Timeline::simpson_weight(int substeps, std::size_t k) {
@@ -74,6 +85,7 @@ void place_nodes(Timeline& timeline, const std::vector<Mat3>& R_lp) {
   Mat3 R_lr = Mat3::Identity();
   double t_cage = 0.0;
   timeline.nodes.clear();
+  set_clocks(timeline.intervals);
   for (Interval& i : timeline.intervals) {
     if (i.cage) {
       R_lr = R_lp[i.chain];

@@ -9,6 +9,12 @@
 
 namespace drift {
 
+/// Surroundings at an instant that a recording may carry and terms may use.
+struct Covariates {
+  double temperature = 0.0;        ///< deviation from the mean of the recording [K]
+  Vec3 field_l = Vec3::Zero();     ///< magnetic field, local axes [T]
+};
+
 /// One sample interval: the command and the turntable rate are constant in it.
 struct Interval {
   double t0 = 0.0, t1 = 0.0;     ///< [s]
@@ -20,6 +26,9 @@ struct Interval {
   double heading0 = 0.0, heading1 = 0.0;  ///< of the case at t0 and t1 [rad]
   MisalignmentAngles loop = MisalignmentAngles::Zero();  ///< what the loop of coupling
                                  ///< "compensated" believes: eta x y z, xi x y z [rad]
+  double t_begin = 0.0;          ///< when the test began (several may follow each other) [s]
+  double t_dwell = 0.0;          ///< when the dwell of the position begins [s]
+  Covariates around0, around1;   ///< at t0 and t1, linear in between; zero where not known
   std::size_t first_node = 0;    ///< nodes first_node .. first_node + 2 substeps
   int substeps = 1;              ///< steps of two nodes each, at most 0.05 rad of attitude long
 
@@ -47,6 +56,9 @@ struct Timeline {
   std::vector<Node> nodes;
   int chains = 0;
   int positions = 0;
+  bool has_temperature = false;  ///< the intervals carry it
+  bool has_field = false;
+  double mean_temperature = 0.0; ///< what `temperature` deviates from [degC]
 
   /// Interval weights of composite Simpson, for the mean over interval i; they sum to 1.
   static double simpson_weight(int substeps, std::size_t k);

@@ -2,7 +2,9 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "core/base/check.hpp"
 #include "core/physics/gimbals.hpp"
@@ -33,6 +35,7 @@ class Reader {
     for (std::size_t row = 0; row < rec_.rows(); ++row) add(row);
     if (!errors_.empty()) throw InputError(ExitCode::recording, errors_);
     place_nodes(timeline_, chain_start_);
+    take_covariates();
     check_attitudes();
     if (!errors_.empty()) throw InputError(ExitCode::recording, errors_);
     return std::move(timeline_);
@@ -110,6 +113,52 @@ class Reader {
     const double rate = (turn.heading1 - turn.heading0) / turn.duration;
     const double next = heading_now_ + rate * i.length();
     return rate >= 0.0 ? std::min(next, turn.heading1) : std::max(next, turn.heading1);
+  }
+
+  /// A covariate at the end of every row, gaps closed by straight lines; empty if there is none.
+  std::vector<double> covariate(const char* name) const {
+    const Channel* c = rec_.find(name);
+    if (!c) return {};
+    std::vector<double> values = c->values;
+    std::optional<std::size_t> known;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      if (!std::isfinite(values[k])) continue;
+      const std::size_t from = known ? *known + 1 : 0;
+      for (std::size_t m = from; m < k; ++m) {
+        const double part = known ? (time(m) - time(*known)) / (time(k) - time(*known)) : 1.0;
+        values[m] = known ? values[*known] + part * (values[k] - values[*known]) : values[k];
+      }
+      known = k;
+    }
+    if (!known) return {};
+    for (std::size_t m = *known + 1; m < values.size(); ++m) values[m] = values[*known];
+    return values;
+  }
+  double time(std::size_t row) const { return rec_.find("time")->values[row]; }
+
+  void take_covariates() {
+    const std::size_t n = timeline_.intervals.size();
+    const auto before = [&](std::size_t k) {  // the row whose end is the start of interval k
+      return k > 0 && timeline_.intervals[k].t0 == timeline_.intervals[k - 1].t1 ? k - 1 : k;
+    };
+    if (const auto T = covariate("temperature"); !T.empty()) {
+      timeline_.has_temperature = true;
+      double sum = 0.0;
+      for (const double v : T) sum += v;
+      timeline_.mean_temperature = sum / static_cast<double>(n);
+      for (std::size_t k = 0; k < n; ++k) {
+        timeline_.intervals[k].around0.temperature = T[before(k)] - timeline_.mean_temperature;
+        timeline_.intervals[k].around1.temperature = T[k] - timeline_.mean_temperature;
+      }
+    }
+    const std::array<std::vector<double>, 3> field{covariate("field_n"), covariate("field_w"), covariate("field_u")};
+    if (field[0].empty() || field[1].empty() || field[2].empty()) return;
+    timeline_.has_field = true;
+    for (std::size_t k = 0; k < n; ++k)
+      for (int a = 0; a < 3; ++a) {
+        timeline_.intervals[k].around0.field_l[a] = field[a][before(k)];
+        timeline_.intervals[k].around1.field_l[a] = field[a][k];
+      }
   }
 
   /// The instruments must show the attitude that the plan says; 10 deg off is another plan.

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/sim/kinematics.hpp"
+#include "core/sim/memory_path.hpp"
 
 namespace drift {
 
@@ -18,24 +19,44 @@ inline Drive drive_of(const Interval& interval, const Timeline& timeline, const 
   d.omega_ic_l = timeline.nodes[interval.first_node].omega_ic_l;
   d.omega_cmd_p = interval.omega_cmd_p;
   d.E_loop = misalignment_matrix(model.mounting, interval.loop);
+  d.needs = TermLibrary::needs(model.terms);
+  d.timeline = &timeline;
+  d.interval = &interval;
   return d;
 }
 
-/// One classical Runge-Kutta step from node k to the next, `step` later.
-inline Vec3 step_attitude(const Drive& drive, const Node* node, double step, const Vec3& phi) {
-  const Vec3 k1 = attitude_rate(drive, node->R_lr, phi);
-  const Vec3 k2 = attitude_rate(drive, node->R_lr_half, phi + 0.5 * step * k1);
-  const Vec3 k3 = attitude_rate(drive, node->R_lr_half, phi + 0.5 * step * k2);
-  const Vec3 k4 = attitude_rate(drive, node[1].R_lr, phi + step * k3);
+/// One classical Runge-Kutta step from node k of an interval to the next, `step` later. memory: of
+/// that interval, if the model has any.
+inline Vec3 step_attitude(const Drive& drive, const Node* node, double step, const Vec3& phi,
+                          std::size_t k = 0, const MemoryPath* memory = nullptr) {
+  const bool remembers = memory && memory->active();
+  const auto recall = [&](std::size_t point) {
+    return remembers ? memory->at(2 * k + point).value.data() : nullptr;
+  };
+  const double t = node->t;
+  const Vec3 k1 = attitude_rate(drive, node->R_lr, phi, t, recall(0));
+  const Vec3 k2 = attitude_rate(drive, node->R_lr_half, phi + 0.5 * step * k1, t + 0.5 * step, recall(1));
+  const Vec3 k3 = attitude_rate(drive, node->R_lr_half, phi + 0.5 * step * k2, t + 0.5 * step, recall(1));
+  const Vec3 k4 = attitude_rate(drive, node[1].R_lr, phi + step * k3, t + step, recall(2));
   return phi + step / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
 }
 
 /// phi at the nodes of one interval after the first, whose phi is given in out[0].
 inline void step_through(const Interval& interval, const Timeline& timeline, const Drive& drive,
-                         Vec3* out, std::size_t from = 0) {
+                         Vec3* out, std::size_t from = 0, const MemoryPath* memory = nullptr) {
   const double step = interval.length() / (2.0 * interval.substeps);
   for (std::size_t k = from; k + 1 < interval.node_count(); ++k)
-    out[k + 1] = step_attitude(drive, &timeline.nodes[interval.first_node + k], step, out[k]);
+    out[k + 1] =
+        step_attitude(drive, &timeline.nodes[interval.first_node + k], step, out[k], k, memory);
+}
+
+/// The same backwards: phi at `node` from phi at the node after it.
+inline Vec3 step_attitude_back(const Drive& drive, const Node* node, double step, const Vec3& phi) {
+  const Vec3 k1 = attitude_rate(drive, node[1].R_lr, phi);
+  const Vec3 k2 = attitude_rate(drive, node->R_lr_half, phi - 0.5 * step * k1);
+  const Vec3 k3 = attitude_rate(drive, node->R_lr_half, phi - 0.5 * step * k2);
+  const Vec3 k4 = attitude_rate(drive, node->R_lr, phi - step * k3);
+  return phi - step / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
 }
 
 /// Initial rotation vector of a chain whose attitude error is psi in local axes:

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <string_view>
 #include <vector>
 
@@ -31,16 +32,33 @@ inline Theta draw_parameters(const ModelSpec& spec, std::uint64_t seed, std::uin
   return theta;
 }
 
+/// Initial attitude errors of run number `run`, one for each chain, local axes [rad].
+inline void draw_attitudes(const ModelSpec& spec, int chains, std::uint64_t seed, std::uint64_t run,
+                           std::vector<Vec3>& psi0_l) {
+  Stream stream(seed, run, Purpose::initial_attitude);
+  psi0_l.resize(static_cast<std::size_t>(chains));
+  for (Vec3& psi : psi0_l)
+    for (int a = 0; a < 3; ++a) psi[a] = spec.initial_attitude * stream.normal();
+}
+
 /// Parameters and initial attitudes of run number `run`.
 inline TruthDraw draw_truth(const TruthSpec& truth, int chains, std::uint64_t seed, std::uint64_t run) {
   TruthDraw draw{draw_parameters(truth, seed, run, Purpose::parameters), {}};
-  Stream stream(seed, run, Purpose::initial_attitude);
-  for (int c = 0; c < chains; ++c) {
-    Vec3 psi;
-    for (int a = 0; a < 3; ++a) psi[a] = truth.initial_attitude * stream.normal();
-    draw.psi0_l.push_back(psi);
-  }
+  draw_attitudes(truth, chains, seed, run, draw.psi0_l);
   return draw;
+}
+
+/// The lambda of a truth whose coupling is no member of the family by name: the integrating servo
+/// closes like eq. (6) (physics.md 1.5); a compensated loop has none.
+inline void set_lambda(const TruthSpec& truth, Theta& theta) {
+  constexpr auto lambda = TermLibrary::index("lambda");
+  switch (truth.coupling) {
+    case Coupling::eq5: theta[lambda] = 0.0; break;
+    case Coupling::eq6: theta[lambda] = 1.0; break;
+    case Coupling::servo: theta[lambda] = truth.servo.float_restraint == 0.0 ? 1.0 : std::nan(""); break;
+    case Coupling::compensated: theta[lambda] = std::nan(""); break;
+    case Coupling::lambda: break;
+  }
 }
 
 }  // namespace drift

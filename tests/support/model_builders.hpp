@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "core/physics/earth.hpp"
+#include "core/physics/parameters_config.hpp"
 #include "core/sim/simulate.hpp"
 
 namespace drift::test {
@@ -17,8 +18,7 @@ constexpr std::size_t param(std::string_view key) { return TermLibrary::find(key
 inline ModelSpec base_spec(Coupling coupling) {
   ModelSpec spec;
   spec.coupling = coupling;
-  spec.active.set();
-  spec.active.reset(param("lambda"));
+  spec.active = base_parameters();
   for (std::size_t i = 0; i < TermLibrary::num_params; ++i)
     spec.priors[i] = TermLibrary::specs[i].prior_si();
   return spec;

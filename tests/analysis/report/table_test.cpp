@@ -5,7 +5,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "analysis/report/chi_square_band.hpp"
+#include "core/base/chi_square_band.hpp"
 #include "analysis/report/escape.hpp"
 #include "analysis/report/html_report.hpp"
 #include "analysis/report/number_text.hpp"

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "mc/run_task.hpp"
+#include "mc/study.hpp"
+#include "mc/study_reader.hpp"
+
+namespace drift::cli {
+
+/// What the commands that execute or read a study do not know themselves.
+struct StudyProgram {
+  /// The points of a study and when each has enough runs. InputError (config) if it has nothing to run.
+  std::function<mc::StudyWork(const Study&)> work;
+  /// Prints the results of a complete study and writes what belongs into its folder.
+  std::function<void(const Study&, const mc::StudyWork&, mc::StudyReader&, const std::string& folder)> present;
+};
+
+/// The one of this program.
+StudyProgram study_program();
+
+}  // namespace drift::cli

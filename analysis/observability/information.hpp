@@ -1,0 +1,96 @@
+#pragma once
+
+#include <vector>
+
+#include "core/estimate/batch.hpp"
+#include "core/sim/simulate.hpp"
+
+namespace drift {
+
+/// What a test is judged by before it is done: a model with priors, the numbers it is linearised at,
+/// and what is measured where.
+struct RankedModel {
+  ModelSpec spec;
+  Theta nominal = Theta::Zero();  ///< SI
+  MisalignmentAngles loop = MisalignmentAngles::Zero();  ///< coupling "compensated" alone [rad]
+  Site site;
+  Readout readout;
+};
+
+/// The model of a filter, linearised at the means of the truth where the filter has the parameter
+/// too, at its own prior means elsewhere (without a truth, everywhere). A lambda that is a state is
+/// taken from the truth's coupling: 0 for eq. (5), 1 for eq. (6) and the servo.
+RankedModel ranked_model(const ModelSpec& spec, const TruthSpec* truth, const Site& site,
+                         const Readout& readout);
+
+/// Everything measured in a stretch of time, compressed to a triangle.
+struct TimeBin {
+  int position = 0;       ///< from 0
+  int chain = 0;          ///< cagings before it, from 0
+  bool slew = false;      ///< on the way to the position
+  double t0 = 0.0, t1 = 0.0;  ///< [s]
+  MatX rows;  ///< [psi | x], prior-scaled and whitened, shape (3 + n, 3 + n), upper triangular
+};
+
+/// A plan under a model: what every stretch of time says of the parameters and of the attitude at
+/// the caging of its chain.
+struct LinearisedPlan {
+  Layout layout;
+  int chains = 0, positions = 0;
+  double duration = 0.0;      ///< [s]
+  std::vector<TimeBin> bins;  ///< in order of time
+
+  Eigen::Index size() const { return static_cast<Eigen::Index>(layout.size()); }
+};
+
+/// Linearises a plan by variational sensitivities along the trajectory that CVODE gives for the
+/// nominal parameters. Each dwell is cut into `bins_per_dwell` stretches of (nearly) equally many
+/// samples; slews and turns of the case on the way to a position are one stretch of their own.
+/// Process noise is not modelled. InputError (self_check) if the integration fails.
+LinearisedPlan linearise(const TestPlan& plan, const RankedModel& model, int bins_per_dwell = 1);
+
+/// Adds up information in order of time as a square root over the parameters; the attitude of each
+/// chain is a nuisance with a prior of its own.
+class InformationSum {
+ public:
+  /// attitude_weight: 1 for the prior sigma of the spec, 1e-4 for a sigma 10^4 times wider.
+  explicit InformationSum(Eigen::Index parameters, double attitude_weight = 1.0);
+
+  /// Takes in a triangle [psi | x] of a chain; chains come one after the other.
+  void add(int chain, const MatX& rows);
+  /// R with R^T R = information on the prior-scaled parameters so far, shape (n, n), upper
+  /// triangular; the parameter prior is not in it.
+  MatX root() const;
+  /// The present chain alone, its attitude prior included: triangle [psi | x].
+  const MatX& chain_triangle() const { return chain_; }
+  /// All chains before the present one, attitudes eliminated.
+  const MatX& finished() const { return finished_; }
+
+ private:
+  Eigen::Index n_;
+  double weight_;
+  int present_ = -1;
+  MatX finished_, chain_;
+};
+
+/// All bins of a plan, or those that `keep(bin)` says.
+template <class Keep>
+MatX information_root(const LinearisedPlan& plan, Keep&& keep, double attitude_weight = 1.0) {
+  InformationSum sum(plan.size(), attitude_weight);
+  for (const TimeBin& bin : plan.bins)
+    if (keep(bin)) sum.add(bin.chain, bin.rows);
+  return sum.root();
+}
+
+/// Belief after data, with the prior (unit covariance, prior-scaled): I = R^T R + 1.
+struct Posterior {
+  MatX S;         ///< square root of the covariance, P = S S^T, upper triangular
+  VecX sigma;     ///< marginal standard deviations: the learning ratios
+  VecX conditional;  ///< standard deviations if all other parameters were known
+  double bits = 0.0;  ///< information gained, log2 det(I) / 2
+
+  MatX covariance() const { return S * S.transpose(); }
+};
+Posterior posterior_of(const MatX& information_root);
+
+}  // namespace drift

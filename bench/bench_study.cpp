@@ -1,0 +1,138 @@
+// Speed of a study: runs per second and core of the default study, alone and on all threads, against
+// a run as it is written without driftscope (practice_run.hpp), on the same recordings.
+// Exit code 8 if the estimates of the two differ by more than their tolerances allow.
+
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+
+#include "bench/practice_run.hpp"
+#include "core/estimate/ekf.hpp"
+#include "core/estimate/starts.hpp"
+#include "mc/campaign.hpp"
+#include "mc/study_task.hpp"
+
+namespace drift::bench {
+namespace {
+
+constexpr int rounds = 3;
+constexpr std::uint64_t practice_runs = 2;    // per point and round: the slow side
+constexpr std::uint64_t runs = 24;            // per point and round
+constexpr double allowed_attitude = 0.02;     // [arcsec]: both integrators hold 0.004 and better
+constexpr double allowed_estimate = 0.02;     // of a parameter, in posterior sigmas
+
+double cpu_time() {
+  timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+double wall_time() { return omp_get_wtime(); }
+
+struct Point {
+  const mc::StudyPoint* point;
+  const mc::StudyTask* task;
+};
+
+/// Wall seconds for `runs` runs of every point on `threads` threads.
+double ours(const std::vector<Point>& points, int threads) {
+  const double start = wall_time();
+  for (const Point& p : points)
+    mc::run_campaign(static_cast<std::size_t>(threads), [&](std::size_t thread) {
+      const auto worker = p.task->worker();
+      std::vector<double> row(p.task->columns().size());
+      for (std::uint64_t k = thread; k < runs; k += static_cast<std::size_t>(threads)) {
+        std::fill(row.begin(), row.end(), std::nan(""));
+        worker->execute(k, row);
+      }
+      return 0;
+    }, threads);
+  return wall_time() - start;
+}
+
+struct Practice {
+  double seconds = 0.0, integration = 0.0;
+  double attitude = 0.0;  ///< largest difference of attitude from ours [arcsec]
+  double estimate = 0.0;  ///< largest difference of an estimate from ours, in posterior sigmas
+};
+
+/// The same runs as in common practice: CPU seconds, and how far the answers are from ours.
+Practice practice(const std::vector<Point>& points) {
+  Practice out;
+  for (const Point& p : points) {
+    const Study& study = p.point->study;
+    const Timeline& timeline = p.task->timeline();
+    Simulator simulator(study.truth, study.readout);
+    for (std::uint64_t k = 0; k < practice_runs; ++k) {
+      const Simulation truth = simulator.run(timeline, study.monte_carlo.seed, k);
+      const double start = cpu_time();
+      const Trajectory phi = practice_trajectory(timeline, study.truth, truth.draw,
+                                                 Simulator::default_options(study.truth.coupling));
+      out.integration += cpu_time() - start;
+      for (std::size_t n = 0; n < phi.size(); ++n)
+        out.attitude = std::max(out.attitude, (phi[n] - truth.phi[n]).norm() / unit::arcsec.to_si);
+      for (const FilterSpec& f : study.filters)
+        for (std::size_t s = 0; s < start_count(f); ++s) {
+          const Theta start_estimate = initial_estimate(f, study.monte_carlo.seed, s);
+          const EstimateResult theirs =
+              practice_ekf(f, timeline, study.readout, truth.measured, start_estimate);
+          const double before = cpu_time();
+          const EstimateResult own = run_ekf(f, timeline, study.readout, truth.measured, start_estimate);
+          out.seconds -= cpu_time() - before;
+          if (own.status != EstimateStatus::ok) continue;
+          for (std::size_t i = 0; i < own.parameters.size(); ++i)
+            out.estimate = std::max(out.estimate, std::abs(own.parameters[i].value - theirs.parameters[i].value) /
+                                                      own.parameters[i].sigma);
+        }
+      out.seconds += cpu_time() - start;
+    }
+  }
+  return out;
+}
+
+int run(const char* file) {
+  const Study study = read_study(file);
+  const auto points = mc::study_points(study);
+  const auto tasks = mc::study_tasks(points);
+  std::vector<Point> all;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    all.push_back({&points[i], dynamic_cast<const mc::StudyTask*>(tasks[i].task.get())});
+  const int threads = omp_get_num_procs();
+  double one = 1e9, many = 1e9;
+  Practice other;
+  other.seconds = 1e9;
+  for (int k = 0; k < rounds; ++k) {
+    one = std::min(one, ours(all, 1));
+    many = std::min(many, ours(all, threads));
+    Practice now = practice(all);
+    now.attitude = std::max(now.attitude, other.attitude);
+    now.estimate = std::max(now.estimate, other.estimate);
+    if (now.seconds > other.seconds) {
+      now.seconds = other.seconds;
+      now.integration = other.integration;
+    }
+    other = now;
+  }
+  const auto total = static_cast<double>(runs * all.size());
+  const auto practised = static_cast<double>(practice_runs * all.size());
+  fmt::print("{}: {} points, {} filters; a run is one simulated test, every filter, every start; best of {}\n\n",
+             file, all.size(), study.filters.size(), rounds);
+  fmt::print("{:<44}{:>12}{:>12}\n", "", "runs/s", "ratio");
+  const double base = practised / other.seconds;
+  fmt::print("{:<44}{:>12.3f}{:>12.1f}\n", "packaged CVODE and dense EKF, one core", base, 1.0);
+  fmt::print("{:<44}{:>12.3f}{:>12.1f}\n", "driftscope, 1 thread", total / one, total / one / base);
+  fmt::print("{:<44}{:>12.3f}{:>12.1f}\n", fmt::format("driftscope, {} threads", threads), total / many,
+             total / many / base);
+  fmt::print("\n{} threads against one: {:.2f}; per core {:.2f}\n", threads, one / many, one / many / threads);
+  fmt::print("share of integration in the practice run: {:.1f} %\n", 100.0 * other.integration / other.seconds);
+  fmt::print("largest differences: attitude {:.1e} arcsec, estimate {:.1e} posterior sigma\n", other.attitude,
+             other.estimate);
+  return other.attitude < allowed_attitude && other.estimate < allowed_estimate ? 0 : 8;
+}
+
+}  // namespace
+}  // namespace drift::bench
+
+int main(int argc, char** argv) { return drift::bench::run(argc > 1 ? argv[1] : "configs/study.toml"); }

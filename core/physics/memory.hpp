@@ -1,0 +1,37 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/dual.hpp"
+#include "core/physics/assembly.hpp"
+
+namespace drift {
+
+/// A time constant that a filter's step cannot make zero or negative [s].
+template <class S>
+S time_constant(const S& tau) {
+  constexpr double shortest = 1.0;  // [s]
+  return value(tau) > shortest ? tau : S(shortest);
+}
+
+/// Solution of tau m' = u(t) - m over a step dt with u linear from u0 to u1: exact.
+template <class S>
+S lagged(const S& m, double u0, double u1, double dt, const S& tau) {
+  using std::exp;
+  if (dt <= 0.0) return m;
+  const S slope_tau = (u1 - u0) / dt * tau;
+  return u1 - slope_tau + (m - u0 + slope_tau) * exp(-dt / tau);
+}
+
+/// Dahl friction of exponent 1, in units of its Coulomb torque: dT/dx = (sgn x' - T)/x_d. The
+/// solution over a turn x of one sign is exact.
+template <class S>
+S dahl(const S& torque, double turned, const S& x_d) {
+  using std::exp;
+  if (turned == 0.0) return torque;
+  const double sign = turned > 0.0 ? 1.0 : -1.0;
+  return sign + (torque - sign) * exp(-std::abs(turned) / x_d);
+}
+
+}  // namespace drift

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cmath>
+
+#include "core/physics/model_spec.hpp"
+
+namespace drift {
+
+/// What the terms that are random do, in the truth (one realisation) and in a filter (their variance).
+/// They act through D_F of each gyro or on single samples, so no other hook is needed.
+
+inline bool walks(const TermMask& terms) {
+  constexpr std::size_t term = TermLibrary::find_term("drift_random_walk").value();
+  return terms[term];
+}
+inline bool is_bistable(const TermMask& terms) {
+  constexpr std::size_t term = TermLibrary::find_term("bistable_drift").value();
+  return terms[term];
+}
+inline bool has_outliers(const TermMask& terms) {
+  constexpr std::size_t term = TermLibrary::find_term("outliers").value();
+  return terms[term];
+}
+
+/// Random walk of D_F of gyro `axis` [rad/s/sqrt(s)]: the study's `drift_random_walk` and the term's q.
+inline double drift_walk(const ProcessNoise& noise, const TermMask& terms, const Theta& theta, int axis) {
+  constexpr std::size_t q = TermLibrary::index("q_x");
+  return walks(terms) ? std::hypot(noise.drift_random_walk, theta[q + axis]) : noise.drift_random_walk;
+}
+
+/// Half the distance of the two levels of gyro `axis` [rad/s].
+inline double bistable_size(const Theta& theta, int axis) {
+  constexpr std::size_t B = TermLibrary::index("B_x");
+  return theta[B + axis];
+}
+/// Probability that the level is the other one a time T [s] later: telegraph noise whose levels last
+/// for B_dwell on average.
+inline double flip_probability(const Theta& theta, double T) {
+  constexpr std::size_t dwell = TermLibrary::index("B_dwell");
+  return 0.5 * (1.0 - std::exp(-2.0 * T / theta[dwell]));
+}
+
+/// Variance that D_F of gyro `axis` gains over T [s], for a filter [(rad/s)^2]. Telegraph noise +-B
+/// changes by 2 B with probability p(T), so its increments have the variance 4 B^2 p(T); taken as
+/// independent of each other they make the filter follow jumps, and forget more than it needs to.
+inline double drift_variance(const ProcessNoise& noise, const TermMask& terms, const Theta& theta,
+                             int axis, double T) {
+  const double q = drift_walk(noise, terms, theta, axis);
+  double variance = q * q * T;
+  if (is_bistable(terms)) {
+    const double B = bistable_size(theta, axis);
+    variance += 4.0 * B * B * flip_probability(theta, T);
+  }
+  return variance;
+}
+inline bool drift_varies(const ProcessNoise& noise, const TermMask& terms) {
+  return noise.drift_random_walk > 0.0 || walks(terms) || is_bistable(terms);
+}
+
+/// The model with D_F in it where something random acts through D_F.
+inline DriftModel with_random_drift(DriftModel model) {
+  constexpr std::size_t fixed = TermLibrary::find_term("fixed_drift").value();
+  if (walks(model.terms) || is_bistable(model.terms)) model.terms.set(fixed);
+  return model;
+}
+
+inline double outlier_rate(const Theta& theta) { return theta[TermLibrary::index("outlier_rate")]; }
+inline double outlier_size(const Theta& theta) { return theta[TermLibrary::index("outlier_size")]; }
+inline double outlier_gate(const Theta& theta) { return theta[TermLibrary::index("outlier_gate")]; }
+
+}  // namespace drift

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "core/sim/kinematics.hpp"
+
+namespace drift {
+
+/// Reads the instruments of a platform, without noise: one model, one set of numbers.
+struct Instruments {
+  const Timeline* timeline = nullptr;
+  const DriftModel* model = nullptr;
+  const double* theta = nullptr;  ///< every parameter of TermLibrary, SI
+
+  /// Mean output of the accelerometers over an interval [g]. phi: at its nodes; memory(k): states of
+  /// the terms at node k, null if the model has none.
+  template <class Memory>
+  Vec3 accelerometers(const Interval& interval, const Vec3* phi, const Memory& memory) const {
+    const Needs needs = TermLibrary::needs(model->terms);
+    Vec3 mean = Vec3::Zero();
+    for (std::size_t k = 0; k < interval.node_count(); ++k) {
+      const Node& node = timeline->nodes[interval.first_node + k];
+      const Mat3 R_lp = node.R_lr * rotation(phi[k]);
+      auto in = inputs_at<double>(node.omega_ic_l, interval.omega_cmd_p, model->mounting, R_lp);
+      Surroundings<double> around;
+      if (needs.any()) {
+        fill_surroundings(needs, moment_at(*timeline, interval, node.t), R_lp, memory(k), around);
+        in.around = &around;
+      }
+      mean += Timeline::simpson_weight(interval.substeps, k) * accelerometer_output(*model, in, theta);
+    }
+    return mean;
+  }
+
+  /// Gimbal angles at the end of an interval [rad].
+  template <class Memory>
+  Vec3 gimbals(const Interval& interval, const Vec3* phi, const Memory& memory) const {
+    const Needs needs = TermLibrary::needs(model->terms);
+    const std::size_t last = interval.node_count() - 1;
+    const Node& node = timeline->nodes[interval.last_node()];
+    const Mat3 R_lp = node.R_lr * rotation(phi[last]);
+    auto in = inputs_at<double>(node.omega_ic_l, interval.omega_cmd_p, model->mounting, R_lp);
+    Surroundings<double> around;
+    if (needs.any()) {
+      fill_surroundings(needs, moment_at(*timeline, interval, node.t), R_lp, memory(last), around);
+      in.around = &around;
+    }
+    return gimbal_output<double>(*model, in, R_lp, interval.heading1, theta);
+  }
+};
+
+}  // namespace drift

@@ -1,0 +1,136 @@
+#include "core/sim/memory_path.hpp"
+
+#include "core/base/dual.hpp"
+#include "core/sim/case_heading.hpp"
+#include "core/sim/measurements.hpp"
+
+namespace drift {
+namespace {
+
+/// The nominal path at one instant.
+struct PathPoint {
+  Vec3 f_p;
+  Vec3 gimbal = Vec3::Zero();  ///< where a term with memory sees the gimbals
+};
+
+PathPoint path_point(const Mat3& R_lr, double heading, bool gimbals) {
+  PathPoint p;
+  p.f_p = R_lr.row(2);
+  if (gimbals) p.gimbal = gimbal_angles<double>(case_attitude(heading).transpose() * R_lr);
+  return p;
+}
+
+double heading_at(const Interval& interval, double t) {
+  return interval.heading0 + (t - interval.t0) * interval.heading_rate();
+}
+
+PathStep between(const PathPoint& a, const PathPoint& b, double dt, const Vec3& omega_cmd_p) {
+  PathStep step{dt, a.f_p, b.f_p, omega_cmd_p, Vec3::Zero()};
+  for (int k = 0; k < 3; ++k) step.turned[k] = angle_difference(b.gimbal[k], a.gimbal[k]);
+  return step;
+}
+
+enum class Change { start, advance };
+
+/// Starts or advances the memory of all terms, each with the derivative to its own parameter.
+void change_memory(Change change, const TermMask& terms, const PathStep& along, const double* theta,
+                   MemoryPoint& point) {
+  using D = Dual<1>;
+  TermLibrary::for_each_memory(terms, [&]<class T>(const TermInfo& info) {
+    std::array<D, T::params.size()> p;
+    for (std::size_t k = 0; k < p.size(); ++k) p[k] = D(theta[info.first + k]);
+    p[T::memory_parameter].d[0] = 1.0;
+    std::array<D, T::memory> m;
+    const auto first = static_cast<std::size_t>(info.first_memory);
+    for (std::size_t k = 0; k < m.size(); ++k) {
+      m[k].v = point.value[first + k];
+      m[k].d[0] = point.derivative[first + k];
+    }
+    if (change == Change::start)
+      T::start(along, p.data(), m.data());
+    else
+      T::advance(along, p.data(), m.data());
+    for (std::size_t k = 0; k < m.size(); ++k) {
+      point.value[first + k] = m[k].v;
+      point.derivative[first + k] = m[k].d[0];
+    }
+  });
+}
+
+}  // namespace
+
+MemoryPath::MemoryPath(const Timeline& timeline, const DriftModel& model)
+    : timeline_(&timeline), terms_(model.terms), active_(TermLibrary::remember(model.terms)) {}
+
+void MemoryPath::advance(std::size_t i, const double* theta) {
+  if (!active_) return;
+  const Interval& interval = timeline_->intervals[i];
+  const bool gimbals = TermLibrary::needs(terms_).gimbals;
+  const std::size_t nodes = interval.node_count();
+  const double half = 0.25 * interval.length() / interval.substeps;
+  MemoryPoint m = started_ ? points_.back() : MemoryPoint{};
+  PathPoint here = path_point(timeline_->nodes[interval.first_node].R_lr, interval.heading0, gimbals);
+  if (!started_) {
+    change_memory(Change::start, terms_, between(here, here, 0.0, interval.omega_cmd_p), theta, m);
+    started_ = true;
+  } else if (interval.cage) {
+    // On the way to a caged position nobody knows more than that the gimbals turned; the heat of the
+    // new attitude acts for as long as it took.
+    const PathPoint before{here.f_p, gimbal_};
+    change_memory(Change::advance, terms_, between(before, here, interval.t0 - t_, Vec3::Zero()), theta, m);
+  }
+  points_.assign(2 * nodes - 1, m);
+  for (std::size_t k = 1; k < points_.size(); ++k) {
+    const Node& node = timeline_->nodes[interval.first_node + k / 2];
+    const PathPoint next = path_point(k % 2 ? node.R_lr_half : node.R_lr,
+                                      heading_at(interval, interval.t0 + half * static_cast<double>(k)), gimbals);
+    change_memory(Change::advance, terms_, between(here, next, half, interval.omega_cmd_p), theta, m);
+    points_[k] = m;
+    here = next;
+  }
+  gimbal_ = here.gimbal;
+  t_ = interval.t1;
+}
+
+void MemoryPath::shift(const double* theta_old, const double* theta_new) {
+  if (!active_) return;
+  TermLibrary::for_each_memory(terms_, [&]<class T>(const TermInfo& info) {
+    const std::size_t p = info.first + T::memory_parameter;
+    const double change = theta_new[p] - theta_old[p];
+    if (change == 0.0) return;
+    for (MemoryPoint& m : points_)
+      for (int k = info.first_memory; k < info.first_memory + info.memory; ++k)
+        m.value[static_cast<std::size_t>(k)] += change * m.derivative[static_cast<std::size_t>(k)];
+  });
+}
+
+MemoryRecord::MemoryRecord(const Timeline& timeline, const DriftModel& model, const double* theta)
+    : terms_(model.terms), theta_(Eigen::Map<const Theta>(theta)) {
+  MemoryPath path(timeline, model);
+  if (!path.active()) return;
+  points_.resize(2 * timeline.nodes.size());
+  for (std::size_t i = 0; i < timeline.intervals.size(); ++i) {
+    const Interval& interval = timeline.intervals[i];
+    path.advance(i, theta);
+    for (std::size_t k = 0; k < 2 * interval.node_count() - 1; ++k)
+      points_[2 * interval.first_node + k] = path.at(k);
+  }
+}
+
+MemoryPoint MemoryRecord::at_time(const Timeline& timeline, const Interval& interval, double t) const {
+  const double step = interval.length() / (2.0 * interval.substeps);
+  const double k = std::floor((t - interval.t0) / step);
+  const auto from = interval.first_node +
+                    static_cast<std::size_t>(std::clamp(k, 0.0, static_cast<double>(interval.node_count() - 1)));
+  const Node& node = timeline.nodes[from];
+  const bool gimbals = TermLibrary::needs(terms_).gimbals;
+  const Mat3 R_lr = reference_attitude(timeline.site, node.R_lr, interval.omega_cmd_p, t - node.t);
+  MemoryPoint m = points_[2 * from];
+  change_memory(Change::advance, terms_,
+                between(path_point(node.R_lr, heading_at(interval, node.t), gimbals),
+                        path_point(R_lr, heading_at(interval, t), gimbals), t - node.t, interval.omega_cmd_p),
+                theta_.data(), m);
+  return m;
+}
+
+}  // namespace drift

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <algorithm>
+
+#include "core/physics/drift_model.hpp"
+#include "core/sim/timeline.hpp"
+
+namespace drift {
+
+/// What an instant t [s] within an interval looks like, whatever the platform's attitude.
+inline Moment moment_at(const Timeline& timeline, const Interval& interval, double t) {
+  const double part = (t - interval.t0) / interval.length();
+  const Covariates &a = interval.around0, &b = interval.around1;
+  Moment m;
+  m.t = t - interval.t_begin;
+  m.t_p = interval.slew ? 0.0 : t - interval.t_dwell;
+  m.slew = interval.slew;
+  m.heading = interval.heading0 + part * (interval.heading1 - interval.heading0);
+  m.omega_ie_l = timeline.site.omega_ie_l();
+  m.temperature = a.temperature + part * (b.temperature - a.temperature);
+  m.field_l = a.field_l + part * (b.field_l - a.field_l);
+  return m;
+}
+
+/// Fills what `needs` asks for, for one attitude.
+template <class S>
+void fill_surroundings(const Needs& needs, const Moment& now, const Mat3T<S>& R_lp, const S* memory,
+                       Surroundings<S>& out) {
+  out.now = now;
+  out.R_lp = R_lp;
+  if (needs.gimbals)
+    out.gimbal = gimbal_angles<S>(case_attitude(now.heading).transpose().template cast<S>() * R_lp);
+  out.memory = memory;
+}
+
+/// InputError (recording) if a term of the model needs a covariate that the timeline does not carry.
+void require_covariates(const DriftModel& model, const Timeline& timeline);
+
+}  // namespace drift

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+
+struct sqlite3;
+struct sqlite3_stmt;
+
+namespace drift::mc {
+
+/// One SQL statement, made once, executed many times.
+class Statement {
+ public:
+  Statement(sqlite3* db, std::string path, std::string_view sql);
+
+  Statement& bind(int position, std::int64_t value);
+  Statement& bind(int position, double value);            ///< NaN becomes NULL
+  Statement& bind_text(int position, std::string_view value);
+  Statement& bind_blob(int position, std::string_view value);
+  /// True while there are rows; afterwards the statement can be bound and executed again.
+  bool step();
+  void run() {
+    while (step()) {
+    }
+  }
+
+  std::int64_t integer(int column) const;
+  double real(int column) const;         ///< NULL becomes NaN
+  std::string bytes(int column) const;   ///< of a text or a blob
+
+ private:
+  struct Finalize {
+    void operator()(sqlite3_stmt* s) const;
+  };
+  sqlite3* db_;
+  std::string path_;
+  std::unique_ptr<sqlite3_stmt, Finalize> statement_;
+};
+
+/// A SQLite file. Errors are InputError: io if the disk or the folder is to blame (resumable), store
+/// if the file itself is damaged.
+class Database {
+ public:
+  enum class Use { write, read, salvage };
+  /// `write` makes the file if need be. `read` finishes, where it may, what a killed writer had begun;
+  /// `salvage` reads of a damaged file what it can.
+  Database(std::string path, Use use);
+
+  void execute(const char* sql);
+  Statement prepare(std::string_view sql) { return {db_.get(), path_, sql}; }
+  const std::string& path() const { return path_; }
+  /// The structure of the file is sound.
+  bool sound();
+
+ private:
+  struct Close {
+    void operator()(sqlite3* db) const;
+  };
+  std::string path_;
+  std::unique_ptr<sqlite3, Close> db_;
+};
+
+/// A change of the file that happens as a whole or not at all; undone unless committed.
+class Transaction {
+ public:
+  explicit Transaction(Database& db) : db_(db) { db_.execute("BEGIN IMMEDIATE"); }
+  ~Transaction();
+  Transaction(const Transaction&) = delete;
+  Transaction& operator=(const Transaction&) = delete;
+  void commit();
+
+ private:
+  Database& db_;
+  bool open_ = true;
+};
+
+}  // namespace drift::mc

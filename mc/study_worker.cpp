@@ -1,0 +1,189 @@
+#include "mc/study_worker.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <limits>
+
+#include "core/estimate/starts.hpp"
+
+namespace drift::mc {
+namespace {
+
+/// CPU time of this thread [s].
+double cpu_seconds() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+RunStatus status_of(const OdeResult& ode) {
+  return ode.status == OdeStatus::wall_time ? RunStatus::timeout : RunStatus::integrator_failed;
+}
+
+/// The first thing that goes wrong names the run.
+void blame(RunOutcome& out, RunStatus status, std::string cause, double t) {
+  if (out.status != RunStatus::ok) return;
+  out.status = status;
+  out.cause = std::move(cause);
+  out.t_failed = t;
+}
+
+}  // namespace
+
+StudyWorker::StudyWorker(const StudyTask& task)
+    : task_(task),
+      design_(task.study().truth, task.study().monte_carlo.design, task.study().monte_carlo.runs,
+              task.study().monte_carlo.seed),
+      simulator_(task.study().truth, task.study().readout) {
+  const Study& study = task.study();
+  for (std::size_t f = 0; f < study.filters.size(); ++f) {
+    const FilterSpec& spec = study.filters[f];
+    const StudyColumns::Filter& columns = task.layout().filters[f];
+    const auto n = static_cast<Eigen::Index>(columns.layout.size());
+    Bench bench{spec, columns, {}, nullptr, nullptr, Eigen::SelfAdjointEigenSolver<MatX>(n), VecX(n), VecX(n)};
+    const std::size_t fixed = spec.starts.empty() ? 1 : columns.starts;
+    for (std::size_t s = 0; s < fixed; ++s)
+      bench.fixed_starts.push_back(initial_estimate(spec, study.monte_carlo.seed, 0, s));
+    if (study.monte_carlo.estimator == EstimatorKind::ekf)
+      bench.ekf = std::make_unique<Ekf>(spec, task.timeline(), study.readout, bench.fixed_starts[0],
+                                        KeepHistory::no);
+    if (study.monte_carlo.estimator == EstimatorKind::iterated)
+      bench.iterated =
+          std::make_unique<IteratedEkf>(spec, task.timeline(), study.readout, bench.fixed_starts[0]);
+    benches_.push_back(std::move(bench));
+  }
+}
+
+RunOutcome StudyWorker::execute(std::uint64_t run, std::span<double> row) {
+  RunOutcome out;
+  const double begin = cpu_seconds();
+  double simulated = begin;
+  try {
+    simulate(run, row, out);
+    simulated = cpu_seconds();
+    const bool usable = out.status == RunStatus::ok;
+    for (Bench& bench : benches_)
+      for (std::size_t s = 0; usable && s < bench.columns.starts; ++s) estimate(bench, run, s, row, out);
+  } catch (const std::exception& e) {
+    std::ranges::fill(row, std::numeric_limits<double>::quiet_NaN());
+    out.status = RunStatus::error;
+    out.cause = e.what();
+  }
+  const double end = cpu_seconds();
+  out.integration_s = simulated - begin;
+  out.filter_s = end - simulated;
+  out.total_s = end - begin;
+  return out;
+}
+
+void StudyWorker::simulate(std::uint64_t run, std::span<double> row, RunOutcome& out) {
+  const Study& study = task_.study();
+  const Timeline& timeline = task_.timeline();
+  design_.draw(run, timeline.chains, draw_);
+  simulator_.run(timeline, draw_, study.monte_carlo.seed, run, sim_);
+  set_lambda(study.truth, sim_.theta_end);  // what an estimate at the end is to be compared with
+  const auto& truth = task_.layout().truth;
+  for (std::size_t c = 0; c < truth.size(); ++c) row[c] = sim_.theta_end[static_cast<Eigen::Index>(truth[c])];
+  if (!sim_.ode.ok()) {
+    blame(out, status_of(sim_.ode), sim_.ode.cause, sim_.ode.t);
+    return;
+  }
+  const auto infinite = [](const Mat3X& m) { return m.array().isInf().any(); };
+  if (infinite(sim_.measured.acc) || infinite(sim_.measured.gimbal))
+    blame(out, RunStatus::nonfinite, "a simulated measurement is infinite", 0.0);
+}
+
+void StudyWorker::estimate(Bench& bench, std::uint64_t run, std::size_t start, std::span<double> row,
+                           RunOutcome& out) {
+  const Theta from = start < bench.fixed_starts.size()
+                         ? bench.fixed_starts[start]
+                         : initial_estimate(bench.spec, task_.study().monte_carlo.seed, run, start);
+  if (bench.ekf) {
+    Ekf& ekf = *bench.ekf;
+    ekf.reset(from);
+    const auto intervals = static_cast<Eigen::Index>(task_.timeline().intervals.size());
+    for (Eigen::Index i = 0; i < intervals && ekf.status() == EstimateStatus::ok; ++i)
+      ekf.process(static_cast<std::size_t>(i), sim_.measured.acc.col(i), sim_.measured.gimbal.col(i));
+    write(bench, ekf, start, row, out);
+  } else if (bench.iterated) {
+    bench.iterated->run(sim_.measured, from);
+    write(bench, *bench.iterated, start, row, out);
+  } else {
+    by_batch(bench, from, start, row, out);
+  }
+}
+
+template <class Filter>
+void StudyWorker::write(Bench& bench, Filter& filter, std::size_t start, std::span<double> row,
+                        RunOutcome& out) {
+  using C = StudyColumns;
+  const C::Filter& at = bench.columns;
+  row[at.at(start, C::status)] = static_cast<double>(filter.status());
+  if (filter.status() != EstimateStatus::ok) {
+    blame(out, RunStatus::filter_diverged, at.name + ": " + filter.cause(), filter.t_diverged());
+    return;
+  }
+  const InnovationSums& sums = filter.innovations();
+  row[at.at(start, C::nis)] = sums.nis;
+  row[at.at(start, C::nis_dof)] = static_cast<double>(sums.scalars);
+  row[at.at(start, C::lag1)] = sums.lag1();
+  for (std::size_t k = 0; k < at.layout.size(); ++k) {
+    row[at.estimate(start, k)] = filter.theta()[static_cast<Eigen::Index>(at.layout.params[k])];
+    row[at.sigma(start, k)] = filter.sigma(k);
+  }
+  judge(bench, start, filter.x(), filter.settled_covariance(), row);
+}
+
+void StudyWorker::by_batch(Bench& bench, const Theta& from, std::size_t start, std::span<double> row,
+                           RunOutcome& out) {
+  using C = StudyColumns;
+  const BatchResult fit =
+      fit_batch(bench.spec, task_.timeline(), task_.study().readout, sim_.measured, from);
+  const EstimateResult& e = fit.estimate;
+  const C::Filter& at = bench.columns;
+  row[at.at(start, C::status)] = static_cast<double>(e.status);
+  if (e.status != EstimateStatus::ok) {
+    blame(out, RunStatus::filter_diverged, at.name + ": " + e.cause, 0.0);
+    return;
+  }
+  row[at.at(start, C::nis)] = e.statistic;
+  row[at.at(start, C::nis_dof)] = static_cast<double>(e.measured);
+  VecX x(static_cast<Eigen::Index>(at.layout.size()));
+  for (std::size_t k = 0; k < at.layout.size(); ++k) {
+    const ParameterEstimate& p = e.parameters[k];
+    row[at.estimate(start, k)] = p.value;
+    row[at.sigma(start, k)] = p.sigma;
+    x[static_cast<Eigen::Index>(k)] = (p.value - p.prior_mean) / p.prior_sigma;
+  }
+  judge(bench, start, x, e.covariance, row);
+}
+
+template <class Vector, class Matrix>
+void StudyWorker::judge(Bench& bench, std::size_t start, const Vector& x, const Matrix& P,
+                        std::span<double> row) {
+  using C = StudyColumns;
+  const C::Filter& at = bench.columns;
+  for (std::size_t k = 0; k < at.layout.size(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    bench.error[i] = x[i] - (row[at.truth[k]] - at.layout.mean[i]) / at.layout.sigma[i];
+  }
+  bench.eigen.compute(P);
+  bench.along.noalias() = bench.eigen.eigenvectors().transpose() * bench.error;
+  const double observed = std::pow(task_.study().monte_carlo.healthy_sigma, 2);
+  double nees = 0.0, all = 0.0;
+  int dof = 0;
+  for (Eigen::Index j = 0; j < bench.along.size(); ++j) {
+    const double variance = bench.eigen.eigenvalues()[j];
+    const double share = bench.along[j] * bench.along[j] / variance;
+    all += share;
+    if (variance >= observed) continue;
+    nees += share;
+    ++dof;
+  }
+  row[at.at(start, C::nees)] = nees;
+  row[at.at(start, C::nees_dof)] = dof;
+  row[at.at(start, C::nees_all)] = all;
+}
+
+}  // namespace drift::mc

@@ -1,0 +1,149 @@
+// `driftscope rank` as a user runs it.
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+#include "core/base/check.hpp"
+#include "tests/support/program.hpp"
+// After it: this one opens drift::testing, where program.hpp means ::testing.
+#include "tests/analysis/report/xml_check.hpp"
+
+namespace drift {
+namespace {
+
+using namespace drift::test;
+using Json = nlohmann::json;
+
+constexpr const char* head = R"(schema = 1
+title  = "rank <me>"
+[site]
+latitude = "45.75 deg"
+)";
+constexpr const char* plan = R"([plan]
+preset = "six"
+dwell  = "10 min"
+sample = "60 s"
+mode   = "level"
+)";
+constexpr const char* tail = R"([truth]
+coupling = "eq5"
+[truth.parameters]
+D_I_z = "1.45 deg/h/g"
+[[filter]]
+name     = "corrected"
+coupling = "eq5"
+[[filter]]
+name     = "legacy"
+coupling = "eq6"
+)";
+
+std::string study(const std::string& positions = plan) { return head + positions + tail; }
+
+Json parsed(const Answer& a) {
+  EXPECT_EQ(a.code, 0) << a.err;
+  return Json::parse(a.out);
+}
+
+TEST(RankCommand, RanksBothEquationsSideBySide) {
+  const ScratchFolder folder;
+  const std::string file = folder.write("s.toml", study());
+  const Answer text = driftscope("rank '" + file + "'");
+  ASSERT_EQ(text.code, 0) << text.err;
+  for (const char* part : {"Ranking for corrected, legacy", "eq5", "eq6", "D_F_x - D_II_x - D_OO_x - D_SS_x", "PWCS: rank 36 of 63"})
+    EXPECT_NE(text.out.find(part), std::string::npos) << part << "\n" << text.out;
+  const Json json = parsed(driftscope("rank '" + file + "' --json"));
+  ASSERT_EQ(json["filters"].size(), 1u);  // same terms and priors: one group
+  ASSERT_EQ(json["filters"][0]["models"].size(), 2u);
+  for (const Json& model : json["filters"][0]["models"]) {
+    EXPECT_TRUE(model["of_the_file"].get<bool>());
+    ASSERT_EQ(model["parameters"].size(), 60u);
+    double last = 0.0, bits = 0.0;
+    for (const Json& p : model["parameters"]) {
+      EXPECT_GE(p["learning_ratio"].get<double>(), last);
+      last = p["learning_ratio"].get<double>();
+      EXPECT_NEAR(p["posterior_sigma"].get<double>(), last * p["prior_sigma"].get<double>(), 1e-9 * p["prior_sigma"].get<double>());
+      if (p["key"] == "D_I_z") EXPECT_DOUBLE_EQ(p["nominal"].get<double>(), 1.45);
+    }
+    EXPECT_LE(last, 1.0 + 1e-12);
+    for (const Json& p : model["information"]["positions"]) bits += p["bits"].get<double>();
+    EXPECT_NEAR(bits, model["bits"].get<double>(), 1e-6);
+  }
+}
+
+/// Ranks, proposes, pastes what is proposed, ranks again: sigmas are as promised.
+void paste_and_rank(const std::string& before_paste, bool preset, const std::string& criterion) {
+  const ScratchFolder folder;
+  const std::string first = folder.write("a.toml", study(before_paste));
+  const Json promise = parsed(driftscope("rank '" + first + "' --json --progress none --improve 2 --criterion " + criterion))["improvement"];
+  ASSERT_EQ(promise["steps"].size(), 2u);
+  const std::string proposed = promise["toml"].get<std::string>();
+  const std::string second = folder.write("b.toml", study((preset ? "[plan]\n" : before_paste) + proposed));
+  const Json ranked = parsed(driftscope("rank '" + second + "' --json"));
+  EXPECT_NEAR(ranked["plan"]["hours"].get<double>(),
+              parsed(driftscope("rank '" + first + "' --json"))["plan"]["hours"].get<double>() + promise["hours_added"].get<double>(), 1e-9);
+  int better = 0;
+  for (const Json& p : ranked["filters"][0]["models"][0]["parameters"]) {
+    const Json& sigma = promise["sigma"][p["key"].get<std::string>()];
+    EXPECT_NEAR(p["posterior_sigma"].get<double>() / sigma["after"].get<double>(), 1.0, 0.01) << p["key"];
+    EXPECT_LE(sigma["after"].get<double>(), sigma["before"].get<double>() * (1.0 + 1e-9));
+    better += sigma["after"].get<double>() < 0.9 * sigma["before"].get<double>();
+  }
+  EXPECT_GT(better, 5);
+}
+
+TEST(RankCommand, ProposedPositionsKeepTheirPromiseWhenPastedForAPreset) { paste_and_rank(plan, true, "A"); }
+
+TEST(RankCommand, ProposedPositionsKeepTheirPromiseWhenPastedBehindSlews) {
+  paste_and_rank(R"([plan]
+dwell  = "10 min"
+sample = "60 s"
+entry  = "torqued"
+[[plan.position]]
+name = "added 1: \"mine\""
+axes = "x=N y=W z=U"
+[[plan.position]]
+axes = "x=N y=U z=E"
+mode = "level"
+)", false, "eta_z");
+}
+
+TEST(RankCommand, WritesAFolderThatStandsAlone) {
+  const ScratchFolder folder;
+  const std::string file = folder.write("s.toml", study());
+  const Answer a = driftscope("rank '" + file + "' --improve 1 --progress none -o '" + folder.file("out") + "'");
+  ASSERT_EQ(a.code, 0) << a.err;
+  const std::string page = text_of(folder.file("out/report.html"));
+  EXPECT_NE(page.find("rank &lt;me&gt;"), std::string::npos);
+  EXPECT_EQ(page.find("rank <me>"), std::string::npos);
+  EXPECT_EQ(page.find("<script"), std::string::npos);
+  for (const char* name : {"learning.svg", "spectrum.svg", "positions.svg", "improvement.svg"})
+    EXPECT_EQ(drift::testing::xml_problem(text_of(folder.file(std::string("out/") + name))), std::nullopt) << name;
+  EXPECT_EQ(Json::parse(text_of(folder.file("out/rank.json")))["improvement"]["criterion"], "A");
+  EXPECT_NE(text_of(folder.file("out/proposed_positions.toml")).find("[[plan.position]]"), std::string::npos);
+}
+
+TEST(RankCommand, DoesNotDependOnThreads) {
+  const ScratchFolder folder;
+  const std::string file = folder.write("s.toml", study());
+  const std::string line = "rank '" + file + "' --json --progress none --improve 1 --set plan.entry=torqued --threads ";
+  EXPECT_EQ(driftscope(line + "1").out, driftscope(line + "3").out);
+}
+
+TEST(RankCommand, SaysWhatIsWrongWithWhatItIsAsked) {
+  const ScratchFolder folder;
+  const std::string file = folder.write("s.toml", study());
+  const int usage = static_cast<int>(ExitCode::usage), config = static_cast<int>(ExitCode::config);
+  const Answer unknown = driftscope("rank '" + file + "' --improve 1 --criterion eta_w");
+  EXPECT_EQ(unknown.code, usage);
+  EXPECT_NE(unknown.err.find("eta_w"), std::string::npos);
+  EXPECT_EQ(driftscope("rank '" + file + "' --criterion A").code, usage);  // of what?
+  EXPECT_EQ(driftscope("rank '" + file + "' --improve 0").code, usage);
+  EXPECT_EQ(driftscope("rank '" + folder.file("none.toml") + "'").code, config);
+  EXPECT_EQ(driftscope("rank " + test::config("strapdown_xsens.toml")).code, config);
+  const std::string unfiltered = study().substr(0, study().find("[[filter]]"));
+  EXPECT_EQ(driftscope("rank '" + folder.write("f.toml", unfiltered) + "'").code, config);
+  EXPECT_EQ(driftscope("rank '" + file + "' -o /dev/null/out").code, static_cast<int>(ExitCode::io));
+}
+
+}  // namespace
+}  // namespace drift

@@ -1,0 +1,20 @@
+#include "core/base/sha256.hpp"
+
+#include <gtest/gtest.h>
+
+namespace drift {
+namespace {
+
+TEST(Sha256, GivesTheDigestsOfFips180) {
+  EXPECT_EQ(sha256_hex(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  EXPECT_EQ(sha256_hex("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+}
+
+TEST(Sha256, DoesNotDependOnThePieces) {
+  Sha256 pieces;
+  for (int i = 0; i < 1000; ++i) pieces.update(std::string(1000, 'a'));
+  EXPECT_EQ(to_hex(pieces.finish()), "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
+}
+
+}  // namespace
+}  // namespace drift

@@ -1,0 +1,65 @@
+#pragma once
+
+#include "core/sim/environment.hpp"
+#include "core/sim/predict.hpp"
+#include "tests/support/model_builders.hpp"
+
+namespace drift::test {
+
+inline Environment harbin_day() {
+  Environment e;
+  e.temperature = 20.0;
+  e.temperature_amplitude = 0.5;
+  e.temperature_period = 7200.0;
+  e.temperature_ramp = 0.2 / 3600.0;
+  e.field_n = 0.26e-4;
+  e.field_w = 0.02e-4;
+  e.field_u = -0.48e-4;
+  return e;
+}
+
+/// A test in which every effect shows: with slews and commands, or at 45 deg; temperature and field known.
+inline Timeline scene(std::string_view preset, CommandLaw mode, double dwell = 600.0, double sample = 60.0) {
+  Timeline timeline = preset_timeline(preset, mode, dwell, sample);
+  set_environment(timeline, harbin_day(), 1, 0);
+  return timeline;
+}
+
+inline ParamMask term_params(std::size_t term) {
+  TermMask mask;
+  mask.set(term);
+  return TermLibrary::params_of(mask);
+}
+
+/// Amplitudes of the parameters of a term, alternately 0.8 and -1.2 of their prior sigma; what is nonlinear
+/// at its default, a step early enough to be seen.
+inline void set_term(Theta& theta, std::size_t term, double factor = 1.0) {
+  const TermInfo& info = TermLibrary::terms[term];
+  for (std::size_t i = info.first; i < info.first + info.count; ++i) {
+    const Prior prior = TermLibrary::specs[i].prior_si();
+    theta[i] = prior.mean();
+    if (TermLibrary::specs[i].kind == ParamKind::linear && info.key != "frame_closure")
+      theta[i] += factor * (i % 2 ? 0.8 : -1.2) * prior.sigma();
+  }
+  if (info.key == "mass_unbalance_step") theta[param("dD_t0")] = 3000.0;
+  if (info.key == "frame_closure") theta[info.first] = 0.4 * factor;
+}
+
+/// Every term that a recording shows: no random ones.
+inline std::vector<std::size_t> visible_terms() {
+  std::vector<std::size_t> terms;
+  for (std::size_t t = 0; t < TermLibrary::num_terms; ++t)
+    if (!TermLibrary::terms[t].stochastic()) terms.push_back(t);
+  return terms;
+}
+
+/// Largest difference of two sets of measurements: [g], and [rad] over turns.
+inline double difference(const Measurements& a, const Measurements& b) {
+  double worst = (a.acc - b.acc).cwiseAbs().maxCoeff();
+  for (Eigen::Index i = 0; i < a.gimbal.cols(); ++i)
+    for (int k = 0; k < 3; ++k)
+      worst = std::max(worst, std::abs(angle_difference(a.gimbal(k, i), b.gimbal(k, i))));
+  return worst;
+}
+
+}  // namespace drift::test
