@@ -117,7 +117,15 @@ void run_jobs(const Study& study, Identification& id, int threads, const Progres
   id.summaries = summarise(study, id);
 }
 
-/// Several tests one after the other, as one timeline.
+}  // namespace
+
+std::vector<const FilterRun*> Identification::runs_of(std::size_t filter) const {
+  std::vector<const FilterRun*> found;
+  for (const FilterRun& r : runs)
+    if (r.filter == filter) found.push_back(&r);
+  return found;
+}
+
 Timeline joined(std::vector<Timeline> timelines) {
   Timeline all = std::move(timelines.front());
   for (std::size_t k = 1; k < timelines.size(); ++k) {
@@ -152,15 +160,6 @@ Measurements joined(const std::vector<Measurements>& parts) {
     at += p.acc.cols();
   }
   return all;
-}
-
-}  // namespace
-
-std::vector<const FilterRun*> Identification::runs_of(std::size_t filter) const {
-  std::vector<const FilterRun*> found;
-  for (const FilterRun& r : runs)
-    if (r.filter == filter) found.push_back(&r);
-  return found;
 }
 
 Identification identify_simulated(const Study& study, std::uint64_t run, int threads,

@@ -54,9 +54,12 @@ struct Design::Sobol {
   explicit Sobol(std::size_t dimensions) : engine(dimensions), point(dimensions) {}
 
   void move_to(std::uint64_t run) {
-    engine.seed();
-    engine.discard(run * point.size());
-    for (std::size_t d = 0; d < point.size(); ++d) point[d] = engine() ^ shift[d];
+    // Boost leaves out the first point of the sequence, zero; without it, equal intervals are missed.
+    if (run > 0) {
+      engine.seed();
+      engine.discard((run - 1) * point.size());
+    }
+    for (std::size_t d = 0; d < point.size(); ++d) point[d] = (run > 0 ? engine() : 0) ^ shift[d];
   }
 };
 

@@ -41,7 +41,8 @@ StudyWorker::StudyWorker(const StudyTask& task)
     const FilterSpec& spec = study.filters[f];
     const StudyColumns::Filter& columns = task.layout().filters[f];
     const auto n = static_cast<Eigen::Index>(columns.layout.size());
-    Bench bench{spec, columns, {}, nullptr, nullptr, Eigen::SelfAdjointEigenSolver<MatX>(n), VecX(n), VecX(n)};
+    Bench bench{spec, columns, {}, nullptr, nullptr, Eigen::Tridiagonalization<MatX>(n),
+                Eigen::SelfAdjointEigenSolver<MatX>(n), MatX(n, n), VecX(n), VecX(n - 1), VecX(n), VecX(n), VecX(n), VecX(n)};
     const std::size_t fixed = spec.starts.empty() ? 1 : columns.starts;
     for (std::size_t s = 0; s < fixed; ++s)
       bench.fixed_starts.push_back(initial_estimate(spec, study.monte_carlo.seed, 0, s));
@@ -168,8 +169,13 @@ void StudyWorker::judge(Bench& bench, std::size_t start, const Vector& x, const 
     const auto i = static_cast<Eigen::Index>(k);
     bench.error[i] = x[i] - (row[at.truth[k]] - at.layout.mean[i]) / at.layout.sigma[i];
   }
-  bench.eigen.compute(P);
-  bench.along.noalias() = bench.eigen.eigenvectors().transpose() * bench.error;
+  bench.tridiagonal.compute(P);
+  bench.tridiagonal.matrixQ().evalTo(bench.Q, bench.work);
+  bench.diagonal = bench.tridiagonal.diagonal();
+  bench.beside = bench.tridiagonal.subDiagonal();
+  bench.eigen.computeFromTridiagonal(bench.diagonal, bench.beside);
+  bench.turned.noalias() = bench.Q.transpose() * bench.error;
+  bench.along.noalias() = bench.eigen.eigenvectors().transpose() * bench.turned;
   const double observed = std::pow(task_.study().monte_carlo.healthy_sigma, 2);
   double nees = 0.0, all = 0.0;
   int dof = 0;

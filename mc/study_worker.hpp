@@ -27,8 +27,12 @@ class StudyWorker final : public RunWorker {
     std::vector<Theta> fixed_starts;  ///< starts that are the same in every run: the first ones
     std::unique_ptr<Ekf> ekf;         ///< of that estimator alone
     std::unique_ptr<IteratedEkf> iterated;
+    // Eigenvectors of a covariance are Q V, kept apart because their product would need memory.
+    Eigen::Tridiagonalization<MatX> tridiagonal;
     Eigen::SelfAdjointEigenSolver<MatX> eigen;
-    VecX error, along;                ///< in prior sigmas; along the eigenvectors
+    MatX Q;
+    VecX diagonal, beside, work;      ///< of the tridiagonal matrix
+    VecX error, turned, along;        ///< error in prior sigmas; Q^T error; along the eigenvectors
   };
 
   void simulate(std::uint64_t run, std::span<double> row, RunOutcome& out);

@@ -52,7 +52,15 @@ class Program {
     add_study(*blind);
     blind->add_option("-o,--output", output_, "folder for trials, key, answers and report; the same one resumes")->required();
     blind->add_option("--trials", trials_, "override blind.trials");
-    blind->add_option("--progress", study_.progress, "auto, plain, json or none")
+    add_progress(*blind);
+
+    CLI::App* diagnose = command("diagnose", "locate a mismatch, name the physics left out, model it, show the fit improve",
+                                 "driftscope diagnose configs/diagnose_xsens.toml recording.csv -o out/diagnosis",
+                                 [this] { return cli::diagnose(study_, recordings_, output_); });
+    add_study(*diagnose);
+    diagnose->add_option("recordings", recordings_, "recordings of the study's plan (.csv, .h5, .mat)")->required();
+    diagnose->add_option("-o,--output", output_, "folder for diagnosis.json, report, pictures and patched.toml");
+    diagnose->add_option("--progress", study_.progress, "auto, plain, json or none")
         ->check(CLI::IsMember({"auto", "plain", "json", "none"}));
 
     CLI::App* terms = command("terms", "list the physics terms, or explain one",

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "analysis/discovery/advice.hpp"
 #include "core/base/linalg.hpp"
 #include "core/physics/model_spec.hpp"
 
@@ -165,7 +166,9 @@ struct FitComparison {
   std::vector<ShiftedParameter> shifted;   ///< largest first
   HeldOut held_out;
   // Residuals in declared sigmas, one per interval, NaN where not measured.
+  // Rows as Where::channel_names.
   Eigen::Matrix<double, 6, Eigen::Dynamic> residual_before, residual_after;
+  std::vector<double> residual_t;  ///< [s], one per column; empty: as the first recovered signal
 };
 
 /// The missing input as a time series with its band: a platform rate or a channel error.
@@ -200,6 +203,7 @@ struct Diagnosis {
   FitComparison fit;
   std::vector<RecoveredSignal> signals;    ///< strongest first; at least one unless consistent
   CosineMatrix cosines;
+  std::vector<Advice> advice;              ///< most useful first
   std::vector<std::string> inseparable;    ///< groups this plan can never tell apart, in words
   std::vector<std::string> remarks;        ///< what a reader must know (left-out channels, priors hit, ...)
   FilterSpec nominal;                      ///< as fitted

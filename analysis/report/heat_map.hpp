@@ -7,17 +7,20 @@
 
 namespace drift {
 
-/// Values over rows and columns as shades of one colour, white at zero and below.
+/// Numbers in a grid as colours: blue above zero, orange below, white at zero, hatched grey where
+/// there is no number.
 struct HeatMap {
   std::string title;
-  std::string scale_label;           ///< what a shade means, with its unit
-  std::vector<std::string> rows;     ///< labels, from top to bottom
-  std::vector<std::string> columns;  ///< labels, from left to right
-  MatX values;                       ///< shape (rows, columns); NaN is hatched grey
-  double cell_width = 0.0;           ///< [px]; 0: as fits in a page
+  std::string x_label, y_label;
+  std::string value_label;  ///< what the colours mean, with unit
+  std::vector<std::string> rows, columns;
+  MatX value;               ///< shape (rows, columns); NaN: nothing known
+  double most = 0.0;        ///< at which colours end; 0: the largest magnitude in `value`
+  double width = 860.0;     ///< [px], more if the cells need it
+  double row_height = 24.0; ///< [px]
 };
 
-/// The map as an SVG document, a scale beside it. Values are written into the cells where they fit.
+/// The map as an SVG document, the numbers in the cells where there is room for them.
 std::string svg_of(const HeatMap& map);
 
 }  // namespace drift

@@ -22,12 +22,13 @@ std::string_view key_of_state(const Layout& layout, std::size_t state) {
 /// One row for each parameter, best known first.
 HeatMap map_of(const Ranking& r, const MatX& values) {
   HeatMap map;
-  map.values.resize(values.rows(), values.cols());
+  map.value.resize(values.rows(), values.cols());
   for (std::size_t i = 0; i < r.order.size(); ++i) {
     map.rows.emplace_back(key_of_state(r.layout, r.order[i]));
-    map.values.row(static_cast<Eigen::Index>(i)) = values.row(static_cast<Eigen::Index>(r.order[i]));
+    map.value.row(static_cast<Eigen::Index>(i)) = values.row(static_cast<Eigen::Index>(r.order[i]));
   }
-  map.scale_label = "bit";
+  map.value_label = "bit";
+  map.row_height = 16.0;
   return map;
 }
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <string_view>
+#include <sstream>
 
 #include "core/base/sha256.hpp"
 
@@ -23,14 +23,13 @@ const char* instruction_set() {
 }
 
 /// "name=version|name=version" as the build passes it; what has no version is absent.
-std::vector<std::pair<std::string, std::string>> parse_list(std::string_view text) {
+std::vector<std::pair<std::string, std::string>> parse_list(const char* text) {
   std::vector<std::pair<std::string, std::string>> list;
-  while (!text.empty()) {
-    const auto end = std::min(text.find('|'), text.size());
-    const auto item = text.substr(0, end);
-    const auto equals = std::min(item.find('='), item.size());
-    if (equals + 1 < item.size()) list.emplace_back(item.substr(0, equals), item.substr(equals + 1));
-    text.remove_prefix(std::min(end + 1, text.size()));
+  std::istringstream items(text);
+  for (std::string item; std::getline(items, item, '|');) {
+    const auto equals = item.find('=');
+    if (equals != std::string::npos && equals + 1 < item.size())
+      list.emplace_back(item.substr(0, equals), item.substr(equals + 1));
   }
   return list;
 }

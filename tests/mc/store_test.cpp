@@ -122,7 +122,8 @@ TEST(Store, ADamagedBlockIsReportedAndComputedAnew) {
 
 TEST(Store, AFileThatIsNoDatabaseIsSetAsideAndABrokenOneGivesBackItsWholeBlocks) {
   const ScratchFolder folder;
-  const SyntheticStudy study = small_study();
+  SyntheticStudy study = small_study();
+  study.task.columns = 100;  // a block fills more than a page of 4 kB
   const auto before = study.run(folder.path());
   const std::string path = folder.file("worker-0000.sqlite");
   write_all(path, std::string(5000, 'x'));

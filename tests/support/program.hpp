@@ -24,8 +24,8 @@ class ScratchFolder {
  public:
   ScratchFolder()
       : path_(std::filesystem::temp_directory_path() /
-              ("driftscope_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->test_suite_name()) +
-               "_" + testing::UnitTest::GetInstance()->current_test_info()->name() + "_" + std::to_string(getpid()) + "_" +
+              ("driftscope_" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->test_suite_name()) +
+               "_" + ::testing::UnitTest::GetInstance()->current_test_info()->name() + "_" + std::to_string(getpid()) + "_" +
                std::to_string(made()++))) {
     std::filesystem::create_directories(path_);
   }
@@ -56,11 +56,11 @@ inline std::string text_of(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// Runs `driftscope arguments` and keeps what it prints.
-inline Answer driftscope(const std::string& arguments) {
+/// Runs `program arguments` and keeps what it prints.
+inline Answer run_program(const std::string& program, const std::string& arguments) {
   const ScratchFolder scratch;
   const std::string err = scratch.file("stderr");
-  const std::string line = std::string("'") + DRIFT_PROGRAM + "' " + arguments + " 2>'" + err + "'";
+  const std::string line = "'" + program + "' " + arguments + " 2>'" + err + "'";
   Answer answer;
   std::FILE* pipe = popen(line.c_str(), "r");
   std::array<char, 4096> buffer{};
@@ -70,6 +70,8 @@ inline Answer driftscope(const std::string& arguments) {
   answer.err = text_of(err);
   return answer;
 }
+
+inline Answer driftscope(const std::string& arguments) { return run_program(DRIFT_PROGRAM, arguments); }
 
 inline std::string config(const std::string& name) {
   return std::string("'") + DRIFT_SOURCE_DIR + "/configs/" + name + "'";

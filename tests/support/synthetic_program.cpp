@@ -1,6 +1,7 @@
 // The whole program with cheap runs in place of simulations: driftscope_synthetic. What a run does
 // comes from the study's title, "synthetic key=value ...": columns, fail_every, throw_at, ms, points,
-// half_width.
+// half_width. DRIFT_SYNTHETIC_SCALE=x in the environment makes it a program with other results.
+#include <cstdlib>
 #include <sstream>
 
 #include "analysis/cli/study_program.hpp"
@@ -29,7 +30,8 @@ StudyProgram study_program() {
     }
     mc::StudyWork w;
     for (std::size_t p = 0; p < points; ++p) {
-      o.scale = 1.0 + static_cast<double>(p);
+      const char* scale = std::getenv("DRIFT_SYNTHETIC_SCALE");
+      o.scale = (scale != nullptr ? std::stod(scale) : 1.0) + static_cast<double>(p);
       w.points.push_back({points > 1 ? "scale = " + std::to_string(p + 1) : "", std::make_unique<test::SyntheticTask>(o)});
     }
     if (half_width > 0.0)

@@ -1,0 +1,66 @@
+#include <fmt/ranges.h>
+
+#include <nlohmann/json.hpp>
+
+#include "analysis/cli/commands.hpp"
+#include "analysis/cli/progress.hpp"
+#include "analysis/report/diagnosis_folder.hpp"
+#include "analysis/report/diagnosis_text.hpp"
+#include "analysis/report/results_folder.hpp"
+#include "analysis/strapdown/diagnose.hpp"
+#include "analysis/strapdown/report.hpp"
+#include "core/sim/quality_card.hpp"
+
+namespace drift::cli {
+namespace {
+
+std::vector<Recording> read_all(const Study& study, const std::vector<std::string>& paths) {
+  std::vector<Recording> recordings;
+  for (const std::string& path : paths) {
+    recordings.push_back(read_recording(path, study.kind, study.site.gravity));
+    fmt::print("{}\n", to_text(quality_card(recordings.back(), study.kind)));
+  }
+  return recordings;
+}
+
+void require_nominal(const Study& study) {
+  if (study.filters.empty())
+    throw InputError(ExitCode::config, fmt::format("{}: no [[filter]]: its first is the nominal model (expected one). Add a "
+                                                   "section [[filter]] with name, coupling and terms", study.path));
+}
+
+void finish(const Study& study, const discovery::Diagnosis& diagnosis, const DiagnosisSource& source,
+            const std::string& folder, std::vector<std::string> more = {}) {
+  fmt::print("{}", to_text(diagnosis));
+  if (folder.empty()) return;
+  auto files = write_results(study, diagnosis, source, folder);
+  files.insert(files.end(), more.begin(), more.end());
+  fmt::print("\nWritten to {}: {}\n", folder, fmt::join(files, " "));
+}
+
+ExitCode diagnose_case(const Study& study, const std::vector<std::string>& paths, const std::string& folder) {
+  if (paths.size() != 1)
+    throw InputError(ExitCode::usage, fmt::format("diagnose: a strapdown study takes one recording, {} are given. Name one "
+                                                  "on the command line", paths.size()));
+  StrapdownOptions options;
+  options.static_min = study.static_min;
+  options.gravity = study.site.gravity;
+  options.seed = study.monte_carlo.seed;
+  const auto recordings = read_all(study, paths);
+  const StrapdownDiagnosis found = diagnose_strapdown(study, recordings.front(), options);
+  std::vector<std::string> more;
+  if (!folder.empty())
+    more = write_files({{"identification.json", to_json(found.result).dump(2) + "\n"}}, folder);
+  finish(study, found.diagnosis, {paths, to_text(found.result)}, folder, more);
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+ExitCode diagnose(const StudyArguments& arguments, const std::vector<std::string>& paths, const std::string& folder) {
+  const Study study = arguments.read();
+  require_nominal(study);
+  return diagnose_case(study, paths, folder);
+}
+
+}  // namespace drift::cli

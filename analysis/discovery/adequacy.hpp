@@ -1,0 +1,55 @@
+#pragma once
+
+#include "analysis/discovery/candidate.hpp"
+#include "analysis/discovery/scan.hpp"
+
+namespace drift::discovery {
+
+/// Everything that competes to explain a misfit, at one linearisation and noise model.
+struct Field {
+  const CandidateSet* set = nullptr;
+  const Projected* projected = nullptr;
+  const std::vector<PositionScan>* scans = nullptr;
+  std::vector<std::vector<Contrast>> contrasts;  ///< of each candidate and variant
+
+  Field(const CandidateSet& candidates, const Projected& p, const std::vector<PositionScan>& windows);
+  /// All contrasts, for the null of the maximum.
+  std::vector<Contrast> all_contrasts() const;
+};
+
+/// A candidate's score against the nominal model.
+struct Score {
+  std::size_t variant = 0;  ///< the strongest
+  double T = 0.0, strength = 0.0;
+  int dof = 0;              ///< 0: unobservable
+  double log_bayes = 0.0;   ///< log evidence against the nominal model, averaged over variants
+};
+Score score(const Field& field, std::size_t candidate);
+
+/// What is left when some causes are in the model, their amplitudes free.
+struct Remainder {
+  double library = 0.0;   ///< largest strength among the other candidates
+  double scan = 0.0;      ///< largest strength among the windows
+  std::size_t strongest = 0;  ///< the candidate that has `library`
+};
+
+/// A cause as it is put into the model: a candidate at one variant. The neighbouring variant on the
+/// grid goes in with it, so that a time constant between two of them is allowed for.
+struct Choice {
+  std::size_t candidate = 0, variant = 0;
+};
+
+std::vector<int> columns_of(const Field& field, const std::vector<Choice>& choices, bool with_neighbours);
+
+/// Conditional scores T_(c|d) (discovery.md 2.5). Members of a chosen candidate's own family (same
+/// term, parameters among its own) do not count as others. stop: give up (and return what was found)
+/// as soon as a candidate's strength exceeds it.
+Remainder remainder(const Field& field, const std::vector<Choice>& choices, double stop);
+
+/// Log evidence of simultaneous causes against the nominal model, amplitudes with unit priors.
+double log_bayes(const Projected& p, const std::vector<int>& columns);
+
+/// Cosine of what is left of two candidates' signatures; of several dimensions the largest canonical one.
+double cosine(const Projected& p, const std::vector<int>& a, const std::vector<int>& b);
+
+}  // namespace drift::discovery

@@ -1,0 +1,232 @@
+#include "analysis/discovery/diagnose.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "analysis/discovery/answer.hpp"
+#include "analysis/discovery/compare.hpp"
+#include "analysis/discovery/locate.hpp"
+#include "analysis/identify.hpp"
+#include "core/base/check.hpp"
+
+namespace drift::discovery {
+namespace {
+
+/// Wall time of the stages of a diagnosis.
+class Stopwatch {
+ public:
+  explicit Stopwatch(std::vector<std::pair<std::string, double>>& into) : into_(into), last_(Clock::now()) {}
+  void lap(std::string name) {
+    const auto now = Clock::now();
+    into_.emplace_back(std::move(name), std::chrono::duration<double>(now - last_).count());
+    last_ = now;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::vector<std::pair<std::string, double>>& into_;
+  Clock::time_point last_;
+};
+
+/// Isolated samples far from their neighbours, taken out of the measurements: a sample is compared
+/// with the median of the five around it in its channel and position.
+std::size_t remove_spikes(Measurements& measured, const Timeline& timeline, const Readout& readout, const BatchResult& fit) {
+  constexpr double gate = 8.0;  // sigmas of the difference, noise up to 1.5 times as declared included
+  constexpr int reach = 2;
+  std::size_t removed = 0;
+  const auto clean = [&](Mat3X& values, const Mat3X& residual) {
+    const auto n = static_cast<int>(values.cols());
+    for (int a = 0; a < 3; ++a)
+      for (int i = 0; i < n; ++i) {
+        if (!std::isfinite(residual(a, i))) continue;
+        std::vector<double> around;
+        for (int k = std::max(0, i - reach); k <= std::min(n - 1, i + reach); ++k)
+          if (k != i && std::isfinite(residual(a, k)) &&
+              timeline.intervals[k].position == timeline.intervals[i].position &&
+              timeline.intervals[k].slew == timeline.intervals[i].slew)
+            around.push_back(residual(a, k));
+        if (around.size() < 3) continue;
+        std::sort(around.begin(), around.end());
+        const double median = 0.5 * (around[around.size() / 2] + around[(around.size() - 1) / 2]);
+        const double spread = around.back() - around.front();
+        if (std::abs(residual(a, i) - median) > gate + 2.0 * spread) {
+          values(a, i) = std::nan("");
+          ++removed;
+        }
+      }
+  };
+  if (readout.accelerometers) clean(measured.acc, fit.acc_residual);
+  if (readout.gimbals) clean(measured.gimbal, fit.gimbal_residual);
+  return removed;
+}
+
+const std::vector<std::string> platform_channels{
+    "time",  "position",     "phase",         "acc_x",        "acc_y", "acc_z", "gimbal_outer",
+    "gimbal_middle", "gimbal_inner", "cmd_x", "cmd_y", "cmd_z", "case_heading", "loop_eta_x",
+    "loop_eta_y", "loop_eta_z", "loop_xi_x", "loop_xi_y", "loop_xi_z"};
+
+std::vector<Covariate> covariates_of(const std::vector<Recording>& recordings) {
+  std::vector<Covariate> all;
+  for (const Channel& c : recordings.front().channels) {
+    if (std::find(platform_channels.begin(), platform_channels.end(), c.name) != platform_channels.end()) continue;
+    Covariate v{c.name, {}};
+    for (const Recording& r : recordings) {
+      const Channel* other = r.find(c.name);
+      if (other) v.value.insert(v.value.end(), other->values.begin(), other->values.end());
+      else v.value.insert(v.value.end(), r.rows(), std::nan(""));
+    }
+    all.push_back(std::move(v));
+  }
+  return all;
+}
+
+}  // namespace
+
+Diagnosis diagnose(const FilterSpec& nominal_filter, const Test& given, std::span<const Theta> starts,
+                   const std::vector<Covariate>& covariates, const DiagnoseOptions& options) {
+  Diagnosis d;
+  Stopwatch watch(d.seconds);
+  d.nominal = nominal_filter;
+  d.patched = nominal_filter;
+
+  // The nominal fit, from every start; the best is kept. Gross samples are taken out of it.
+  Measurements measured = given.measured;
+  const Test test{given.timeline, given.readout, measured};
+  const auto fit_from = [&](const Theta& start) {
+    return fit_batch(nominal_filter, test.timeline, test.readout, measured, start);
+  };
+  BatchResult fit = fit_from(make_layout(nominal_filter).theta);
+  std::size_t spikes = 0;
+  for (int round = 0; round < 4; ++round) {
+    const std::size_t more = remove_spikes(measured, test.timeline, test.readout, fit);
+    if (more == 0) break;
+    spikes += more;
+    fit = fit_from(theta_of(nominal_filter, fit));
+  }
+  std::vector<Theta> all_starts{make_layout(nominal_filter).theta};
+  for (const Theta& s : starts) {
+    all_starts.push_back(s);
+    BatchResult other = fit_from(s);
+    if (other.estimate.statistic < fit.estimate.statistic - 1e-6) fit = std::move(other);
+  }
+  watch.lap("fit");
+
+  Examination nominal = examine(nominal_filter, test, fit);
+  watch.lap("examine");
+  const Search found = search(nominal, test, options.search);
+  watch.lap("search");
+
+  fill_candidates(nominal, found, d);
+  fill_noise(nominal, spikes, d);
+  d.p_value = found.p_value;
+  const Refit* best = found.sets.empty() ? nullptr : &found.sets.front();
+  const Refit* partial = best || found.rejected.empty() ? best : &found.rejected.front();
+  d.fit = compare(nominal, best);
+  if (best) {
+    std::vector<std::size_t> named;
+    for (const Choice& c : best->choices) named.push_back(c.candidate);
+    d.fit.held_out = held_out(nominal, best->after, test, named, found.nulls.library_threshold, options.folds);
+    d.patched = best->filter;
+    d.has_patch = true;
+  }
+  watch.lap("held out");
+
+  d.verdict = Verdict::consistent;
+  if (found.significant) {
+    const bool one = found.sets.size() == 1;
+    const bool judged = !options.named_needs_held_out || d.fit.held_out.folds.empty() || d.fit.held_out.improves;
+    d.verdict = !best ? Verdict::unexplained : one && judged ? Verdict::named : Verdict::ambiguous;
+    if (one && !judged)
+      d.remarks.push_back("The cause fits, but held-out positions are not predicted better with it. An effect that "
+                          "lives in one position cannot be confirmed by the others: repeat that position.");
+  } else if (noise_of_one_axis(nominal, d)) {
+    d.verdict = Verdict::unexplained;
+  }
+  if (d.verdict != Verdict::consistent) fill_causes(nominal, found, d);
+  std::vector<InputEstimate> inputs;
+  if (options.signals && d.verdict != Verdict::consistent) {
+    // Noise that was needed only because of the effect would take the signal away.
+    NoiseModel white = nominal.noise.model;
+    if (!found.significant) {
+      white = declared_noise(nominal_filter);
+      white.acc_factor = nominal.noise.model.acc_factor;
+      white.gimbal_factor = nominal.noise.model.gimbal_factor;
+    }
+    inputs = estimate_inputs(nominal.problem, test.timeline, Projector(nominal.problem, white), 6);
+  }
+
+  // Where it is: by the best explanation there is, else by the strongest window.
+  std::vector<std::pair<int, double>> cause;
+  if (partial && found.significant) {
+    std::vector<int> columns;
+    for (const Choice& c : partial->choices) {
+      const auto& more = nominal.set.candidates[c.candidate].variants[c.variant].columns;
+      columns.insert(columns.end(), more.begin(), more.end());
+    }
+    const VecX amplitude = expected_amplitudes(nominal.projector->candidates(), columns);
+    for (std::size_t k = 0; k < columns.size(); ++k) cause.emplace_back(columns[k], amplitude[k]);
+  }
+  const Window* window = strongest_window(nominal);
+  VecX signature = VecX::Zero(nominal.problem.rows());
+  if (best)
+    signature = signature_of(*nominal.projector, cause);
+  else if (window)
+    signature = signature_of(nominal.problem, test.timeline, *nominal.projector, *window);
+  const std::string driven_equation = d.where.equation;
+  d.where = locate(nominal, found.nulls, signature, 8);
+  d.where.equation = driven_equation;
+  if (d.verdict != Verdict::consistent && driven_equation.empty()) {
+    if (!inputs.empty() && inputs.front().gain > 0.0)
+      d.where.equation = equation_name(inputs.front().equation, inputs.front().axis);
+    else if (window)
+      d.where.equation = equation_name(window->equation, window->axis);
+  }
+  for (std::size_t k = 0; k < std::min<std::size_t>(2, inputs.size()) && d.verdict != Verdict::consistent; ++k)
+    d.signals.push_back(recovered_signal(inputs[k], test.timeline, covariates, best ? cause : std::vector<std::pair<int, double>>{}));
+  watch.lap("locate");
+
+  d.fit.start_spread_before = start_spread(nominal_filter, test, all_starts);
+  d.fit.start_spread_after = d.fit.start_spread_before;
+  if (best && all_starts.size() > 1) {
+    // The same starts; the new parameters start at their prior mean.
+    const Theta mean = make_layout(best->filter).theta;
+    for (Theta& s : all_starts)
+      for (std::size_t i = 0; i < TermLibrary::num_params; ++i)
+        if (!nominal_filter.active[i]) s[i] = mean[i];
+    d.fit.start_spread_after = start_spread(best->filter, test, all_starts);
+  }
+  watch.lap("starts");
+  d.sentence = sentence(d);
+  return d;
+}
+
+Diagnosis diagnose(const Study& study, const std::vector<Recording>& recordings, const DiagnoseOptions& options) {
+  if (study.filters.empty())
+    throw InputError(ExitCode::config, fmt::format("{}: no [[filter]]: nothing to compare the recording with. Add a "
+                                                   "section [[filter]] with name and coupling", study.path));
+  const FilterSpec& filter = study.filters.front();
+  std::vector<Timeline> timelines;
+  std::vector<Measurements> parts;
+  for (const Recording& r : recordings) {
+    timelines.push_back(lay_out(r, study.plan, study.site));
+    parts.push_back(measurements_of(r, study.readout));
+  }
+  const Timeline timeline = joined(std::move(timelines));
+  const Measurements measured = joined(parts);
+  if (!measured.acc.array().isFinite().any() && !measured.gimbal.array().isFinite().any())
+    throw InputError(ExitCode::recording,
+                     fmt::format("{}: nothing measured: every accelerometer and gimbal channel that [readout] asks "
+                                 "for is absent or empty", recordings.front().source));
+  std::vector<Theta> starts;
+  for (int k = 0; k + 1 < options.starts; ++k) {
+    FilterSpec drawn = filter;
+    drawn.starts.clear();
+    starts.push_back(initial_estimate(drawn, study.monte_carlo.seed, static_cast<std::size_t>(k)));
+  }
+  return diagnose(filter, {timeline, study.readout, measured}, starts, covariates_of(recordings), options);
+}
+
+}  // namespace drift::discovery

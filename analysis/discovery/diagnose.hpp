@@ -1,0 +1,33 @@
+#pragma once
+
+#include <span>
+
+#include "analysis/discovery/diagnosis.hpp"
+#include "analysis/discovery/held_out.hpp"
+#include "analysis/discovery/recovered.hpp"
+#include "analysis/discovery/search.hpp"
+#include "mc/study.hpp"
+
+namespace drift::discovery {
+
+/// How much a diagnosis does.
+struct DiagnoseOptions {
+  SearchOptions search;
+  FoldMethod folds = FoldMethod::linear;
+  int starts = 3;            ///< fits from drawn starts, for the start spread; below 2: none
+  bool signals = true;       ///< recover the missing input as a time series
+  bool named_needs_held_out = true;  ///< a cause is named only if held-out positions are predicted better
+};
+
+/// Compares recordings with the study's first filter (the nominal model): is there missing physics,
+/// where, what, how large, and does putting it in predict positions it has not seen? Several
+/// recordings are taken as one test. A pure function of study and recordings.
+/// InputError (config) without a filter; InputError (recording) if nothing was measured.
+Diagnosis diagnose(const Study& study, const std::vector<Recording>& recordings, const DiagnoseOptions& options = {});
+
+/// The same on a test that is laid out already. starts: initial estimates of the nominal filter
+/// beside its prior means.
+Diagnosis diagnose(const FilterSpec& nominal, const Test& test, std::span<const Theta> starts,
+                   const std::vector<Covariate>& covariates, const DiagnoseOptions& options = {});
+
+}  // namespace drift::discovery

@@ -1,0 +1,53 @@
+#include "analysis/discovery/examination.hpp"
+
+namespace drift::discovery {
+
+NoiseModel declared_noise(const FilterSpec& filter) {
+  NoiseModel m;
+  m.angle_random_walk = filter.noise.angle_random_walk;
+  m.drift_random_walk = filter.noise.drift_random_walk;
+  return m;
+}
+
+void set_noise(Examination& e, const Timeline& timeline, const NoiseEstimate& noise) {
+  e.noise = noise;
+  e.projector = std::make_unique<Projector>(e.problem, noise.model);
+  e.scans = scan_windows(e.problem, timeline, *e.projector);
+  e.field = std::make_unique<Field>(e.set, e.projector->candidates(), e.scans);
+  e.scores.clear();
+  for (std::size_t k = 0; k < e.set.candidates.size(); ++k) e.scores.push_back(score(*e.field, k));
+}
+
+Examination examine(const FilterSpec& filter, const Test& test, const BatchResult& fit,
+                    const NoiseEstimate* given) {
+  Examination e;
+  e.filter = filter;
+  e.fit = fit;
+  e.set = library_candidates(filter, theta_of(filter, e.fit), test.timeline);
+  e.problem = linear_problem(filter, test, e.fit, e.set.signatures);
+  const NoiseModel declared = declared_noise(filter);
+  const VecX residual = residual_of(e.problem, e.fit);
+  const NoiseEstimate differences = noise_of_differences(e.problem, residual);
+  if (!given && grossly_wrong(e.problem, residual, differences)) {
+    set_noise(e, test.timeline, differences);
+    return e;
+  }
+  const Projector first(e.problem, given ? given->model : declared);
+  robust_weights(e.problem, first.clean_residual());
+  set_noise(e, test.timeline, given ? *given : estimate_noise(e.problem, declared));
+  return e;
+}
+
+Examination examine(const FilterSpec& filter, const Test& test, const Theta& start, const NoiseEstimate* given) {
+  return examine(filter, test, fit_batch(filter, test.timeline, test.readout, test.measured, start), given);
+}
+
+Nulls make_nulls(const Examination& e, double alpha, int draws) {
+  Nulls n{MaxNull(e.projector->candidates().C, e.field->all_contrasts(), draws, 1),
+          scan_null(e.scans, std::max(200, draws / 4))};
+  n.library_threshold = n.library.threshold(alpha * library_share);
+  n.scan_threshold = n.scan.threshold(alpha * scan_share);
+  return n;
+}
+
+}  // namespace drift::discovery

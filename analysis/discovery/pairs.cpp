@@ -1,0 +1,151 @@
+#include "analysis/discovery/pairs.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/rng.hpp"
+
+namespace drift::discovery {
+namespace {
+
+constexpr double one_direction = 0.9999;
+
+/// A single observable column that a candidate has.
+struct Unit {
+  Choice choice;
+  int column = 0;
+};
+
+std::vector<Unit> single_columns(const Field& field) {
+  std::vector<Unit> units;
+  for (std::size_t c = 0; c < field.set->candidates.size(); ++c)
+    for (std::size_t v = 0; v < field.set->candidates[c].variants.size(); ++v)
+      if (field.contrasts[c][v].columns.size() == 1 && field.contrasts[c][v].dof == 1)
+        units.push_back({{c, v}, field.contrasts[c][v].columns[0]});
+  return units;
+}
+
+/// Correlations of the units' scores, and the scores with unit variance.
+MatX correlations(const Field& field, const std::vector<Unit>& units, VecX& z) {
+  const MatX& C = field.projected->C;
+  const auto n = static_cast<Eigen::Index>(units.size());
+  MatX rho(n, n);
+  z.resize(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double s = std::sqrt(C(units[i].column, units[i].column));
+    z[i] = field.projected->g[units[i].column] / s;
+    for (Eigen::Index k = 0; k < n; ++k)
+      rho(i, k) = C(units[i].column, units[k].column) / (s * std::sqrt(C(units[k].column, units[k].column)));
+  }
+  return rho;
+}
+
+double joint(double za, double zb, double rho) { return (za * za + zb * zb - 2.0 * rho * za * zb) / (1.0 - rho * rho); }
+
+bool same_candidate(const Unit& a, const Unit& b) { return a.choice.candidate == b.choice.candidate; }
+
+}  // namespace
+
+std::vector<Pair> strongest_pairs(const Field& field, std::size_t most) {
+  const auto units = single_columns(field);
+  VecX z;
+  const MatX rho = correlations(field, units, z);
+  std::vector<Pair> pairs;
+  for (std::size_t i = 0; i < units.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k) {
+      if (same_candidate(units[i], units[k]) || std::abs(rho(i, k)) > one_direction) continue;
+      const double T = joint(z[i], z[k], rho(i, k));
+      if (pairs.size() == most && T <= pairs.back().T) continue;
+      if (pairs.size() == most) pairs.pop_back();
+      Pair p{units[k].choice, units[i].choice, T, 2, 0.5 * T, 0.0};
+      pairs.insert(std::upper_bound(pairs.begin(), pairs.end(), p, [](const Pair& a, const Pair& b) { return a.T > b.T; }), p);
+    }
+  for (Pair& p : pairs) p.log_bayes = log_bayes(*field.projected, columns_of(field, {p.a, p.b}, false));
+  return pairs;
+}
+
+MaxNull pair_null(const Field& field, int draws) {
+  const auto units = single_columns(field);
+  VecX z;
+  const MatX rho = correlations(field, units, z);
+  const MatX g = MaxNull::draw(rho, draws, 2);
+  VecX largest = VecX::Zero(draws);
+  for (std::size_t i = 0; i < units.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k) {
+      const double r = rho(i, k);
+      if (same_candidate(units[i], units[k]) || std::abs(r) > one_direction) continue;
+      const double w = 1.0 / (1.0 - r * r);
+      for (int d = 0; d < draws; ++d) {
+        const double a = g(d, i), b = g(d, k);
+        largest[d] = std::max(largest[d], (a * a + b * b - 2.0 * r * a * b) * w);
+      }
+    }
+  return MaxNull::of(0.5 * largest);
+}
+
+std::vector<Pair> adequate_pairs(const Field& field, const std::vector<Score>& scores, double library_threshold,
+                                 double scan_threshold, std::size_t most) {
+  // Which candidates at which variant: all single parameters, and the strongest of the others.
+  std::vector<Choice> choices;
+  std::vector<std::size_t> order(scores.size());
+  for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return scores[a].strength > scores[b].strength; });
+  std::size_t several = 0;
+  for (const std::size_t k : order) {
+    if (scores[k].dof == 0) continue;
+    const Candidate& c = field.set->candidates[k];
+    if (c.params.size() > 1 && (several >= 12 || c.params.size() > 3)) continue;
+    several += c.params.size() > 1;
+    choices.push_back({k, scores[k].variant});
+    // Alone it may look best at another time constant than with a partner.
+    if (c.params.size() == 1 && c.variants.size() > 2)
+      for (const std::size_t v : {c.variants.size() / 4, 3 * c.variants.size() / 4})
+        if (v != scores[k].variant) choices.push_back({k, v});
+  }
+  std::vector<Pair> found;
+  for (std::size_t i = 0; i < choices.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k) {
+      const Candidate& a = field.set->candidates[choices[i].candidate];
+      const Candidate& b = field.set->candidates[choices[k].candidate];
+      if (choices[i].candidate == choices[k].candidate || a.contains(b) || b.contains(a)) continue;
+      const std::vector<Choice> pair{choices[k], choices[i]};
+      const Remainder r = remainder(field, pair, library_threshold);
+      if (r.library > library_threshold || r.scan > scan_threshold) continue;
+      const auto columns = columns_of(field, pair, false);
+      const Contrast both = make_contrast(field.projected->C, field.projected->raw, columns);
+      const double T = both.T(field.projected->g);
+      found.push_back({pair[0], pair[1], T, both.dof, strength(T, both.dof), log_bayes(*field.projected, columns)});
+    }
+  std::stable_sort(found.begin(), found.end(), [](const Pair& a, const Pair& b) { return a.log_bayes > b.log_bayes; });
+  if (found.size() > most) found.resize(most);
+  return found;
+}
+
+std::vector<Choice> greedy(const Field& field, const std::vector<Score>& scores, double library_threshold,
+                           double scan_threshold, std::size_t most) {
+  std::vector<Choice> in;
+  std::size_t next = 0;
+  for (std::size_t k = 1; k < scores.size(); ++k)
+    if (scores[k].strength > scores[next].strength) next = k;
+  const auto quiet = [&](const Remainder& r) { return r.library <= library_threshold && r.scan <= scan_threshold; };
+  Remainder r;
+  do {
+    in.push_back({next, scores[next].variant});
+    r = remainder(field, in, 1e300);
+    next = r.strongest;
+  } while (!quiet(r) && in.size() < most && r.library > library_threshold);
+  if (!quiet(r)) return {};
+  for (std::size_t k = 0; k < in.size() && in.size() > 1;) {
+    std::vector<Choice> fewer = in;
+    fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(k));
+    if (quiet(remainder(field, fewer, 1e300))) {
+      in = fewer;
+      k = 0;
+    } else {
+      ++k;
+    }
+  }
+  return in;
+}
+
+}  // namespace drift::discovery

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "analysis/discovery/diagnosis.hpp"
+#include "mc/study.hpp"
+
+namespace drift::discovery {
+
+/// The nominal filter with the parameters of some causes in it. What a cause found by profiling
+/// (time constants, onsets, phases) becomes a known constant, everything else is estimated with the
+/// library's prior, widened to the size found where that is beyond three of its sigmas. A cause with lambda makes the coupling "lambda".
+FilterSpec patched_filter(const FilterSpec& nominal, const std::vector<Cause>& causes);
+
+/// The study file (study.text) with its first filter changed to `patched`, everything else kept:
+/// terms, coupling, and the priors that differ from those of the file. Complete TOML, readable by
+/// read_study(). Order and values are kept, comments are not.
+std::string patched_study(const Study& study, const FilterSpec& patched);
+
+/// The study file with positions added behind its plan; a preset is written out position by
+/// position. InputError (config) if the plan has no positions (strapdown).
+std::string extended_study(const Study& study, const std::vector<Position>& positions);
+
+}  // namespace drift::discovery

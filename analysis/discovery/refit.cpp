@@ -1,0 +1,134 @@
+#include "analysis/discovery/refit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace drift::discovery {
+namespace {
+
+constexpr auto lambda = TermLibrary::index("lambda");
+
+/// Half the distance to the neighbours on a parameter's grid, SI: what the grid leaves open.
+double grid_spacing(const Candidate& c, std::size_t param, double value) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Variant& v : c.variants)
+    for (const auto& [p, other] : v.settings)
+      if (p == param && other != value) nearest = std::min(nearest, std::abs(other - value));
+  return std::isfinite(nearest) ? nearest : 0.0;
+}
+
+template <class Spec>
+bool may_be_refined(const Spec& spec) {
+  if constexpr (requires { spec.kind; }) return spec.kind == decltype(spec.kind)::nonlinear;
+  return false;
+}
+
+}  // namespace
+
+VecX expected_amplitudes(const Projected& p, const std::vector<int>& columns) {
+  const auto n = static_cast<Eigen::Index>(columns.size());
+  MatX C(n, n);
+  VecX g(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    g[i] = p.g[columns[i]];
+    for (Eigen::Index k = 0; k < n; ++k) C(i, k) = p.C(columns[i], columns[k]);
+  }
+  return (C + MatX::Identity(n, n)).ldlt().solve(g);  // with the unit prior, so that nothing runs away
+}
+
+FilterSpec with_causes(const FilterSpec& nominal, const CandidateSet& set, const std::vector<Choice>& choices) {
+  FilterSpec filter = nominal;
+  for (const Choice& choice : choices) {
+    const Candidate& c = set.candidates[choice.candidate];
+    for (const std::size_t i : c.params) {
+      filter.active.set(i);
+      filter.priors[i] = TermLibrary::specs[i].prior_si();
+      if (i == lambda && (filter.coupling == Coupling::eq5 || filter.coupling == Coupling::eq6))
+        filter.coupling = Coupling::lambda;
+    }
+    for (const auto& [i, value] : c.variants[choice.variant].settings) {
+      filter.active.set(i);
+      const double spacing = may_be_refined(TermLibrary::specs[i]) ? grid_spacing(c, i, value) : 0.0;
+      filter.priors[i] = spacing > 0.0 ? normal(value, spacing) : fixed(value);
+    }
+    // The rest of the term at the library's defaults: a term may need all its parameters.
+    const TermInfo& term = TermLibrary::terms[*TermLibrary::find_term(c.term)];
+    for (std::size_t i = term.first; i < term.first + term.count; ++i)
+      if (!filter.active[i] && TermLibrary::specs[i].prior.sigma() <= 0.0) {
+        filter.active.set(i);
+        filter.priors[i] = TermLibrary::specs[i].prior_si();
+      }
+  }
+  return filter;
+}
+
+Refit refit(const Examination& nominal, const Test& test, const std::vector<Choice>& choices, const Nulls& nulls) {
+  Refit out;
+  out.choices = choices;
+  out.filter = with_causes(nominal.filter, nominal.set, choices);
+  const Theta theta = theta_of(nominal.filter, nominal.fit);
+
+  Theta start = theta;
+  std::vector<std::pair<std::size_t, double>> expected;
+  bool family = false;
+  std::vector<int> columns;
+  for (const Choice& choice : choices) {
+    const Variant& v = nominal.set.candidates[choice.candidate].variants[choice.variant];
+    columns.insert(columns.end(), v.columns.begin(), v.columns.end());
+    for (const auto& [param, value] : v.settings) start[param] = value;
+  }
+  const VecX amplitudes = expected_amplitudes(nominal.projector->candidates(), columns);
+  std::size_t next = 0;
+  for (const Choice& choice : choices)
+    for (const std::size_t i : nominal.set.candidates[choice.candidate].params) {
+      const double base = i == lambda && nominal.filter.coupling == Coupling::eq6 ? 1.0 : 0.0;
+      start[i] = base + amplitudes[next++] * TermLibrary::specs[i].prior_si().sigma();
+      expected.emplace_back(i, start[i] - base);
+      if (i == lambda) {
+        family = true;
+        start[i] = std::clamp(start[i], 0.0, 1.0);
+      }
+    }
+
+  const auto fit_from = [&](const Theta& from) {
+    return fit_batch(out.filter, test.timeline, test.readout, test.measured, from);
+  };
+  BatchResult best = fit_from(start);
+  if (family)  // lambda and the misalignments are bilinear: from both ends, misalignments at zero too
+    for (const double end : {0.0, 1.0})
+      for (const bool straight : {false, true}) {
+        Theta from = straight ? make_layout(nominal.filter).theta : theta;
+        from[lambda] = end;
+        BatchResult other = fit_from(from);
+        if (other.estimate.statistic < best.estimate.statistic) best = std::move(other);
+      }
+  out.after = examine(out.filter, test, best);
+  for (const auto& [param, value] : expected)
+    if (const ParameterEstimate* p = best.estimate.find(param))
+      if (std::abs(value) > 2.0 * p->sigma && (p->value - (param == lambda && nominal.filter.coupling == Coupling::eq6)) * value < 0.0)
+        out.sign_agrees = false;
+
+  // What is left, without the members of the chosen families.
+  for (std::size_t k = 0; k < out.after.scores.size(); ++k) {
+    const Candidate& c = out.after.set.candidates[k];
+    const bool own = std::any_of(choices.begin(), choices.end(), [&](const Choice& choice) {
+      const Candidate& chosen = nominal.set.candidates[choice.candidate];
+      return chosen.term == c.term && (chosen.params == c.params || chosen.contains(c));
+    });
+    if (own || out.after.scores[k].strength <= out.remainder.library) continue;
+    out.remainder.library = out.after.scores[k].strength;
+    out.remainder.strongest = k;
+  }
+  for (const PositionScan& s : out.after.scans)
+    for (const double T : s.T) out.remainder.scan = std::max(out.remainder.scan, strength(T, 1));
+  out.adequate = out.remainder.library <= nulls.library_threshold && out.remainder.scan <= nulls.scan_threshold;
+
+  // Each variant of a grid was one try; the refit took the best of them.
+  double tries = 0.0;
+  for (const Choice& choice : choices)
+    tries += std::log(static_cast<double>(nominal.set.candidates[choice.candidate].variants.size()));
+  out.log_bayes = 0.5 * (out.after.log_likelihood2() - nominal.log_likelihood2()) - tries;
+  return out;
+}
+
+}  // namespace drift::discovery

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "analysis/discovery/examination.hpp"
+
+namespace drift::discovery {
+
+/// A model with causes put in, fitted again through the full dynamics.
+struct Refit {
+  std::vector<Choice> choices;      ///< into the nominal examination's candidates
+  FilterSpec filter;
+  Examination after;                ///< scored again, noise estimated again
+  Remainder remainder;              ///< largest strengths that are left
+  bool adequate = false;            ///< nothing is significant any more
+  double log_bayes = 0.0;           ///< log evidence against the nominal model, both with their own noise
+  bool sign_agrees = true;          ///< amplitudes came out with the sign the score predicted
+};
+
+/// The nominal filter with the parameters of some candidates active: amplitudes with the library's
+/// priors, nonlinear parameters free around the grid's value (discrete ones fixed there). frame_closure
+/// turns coupling eq5 and eq6 into the family that holds both.
+FilterSpec with_causes(const FilterSpec& nominal, const CandidateSet& set, const std::vector<Choice>& choices);
+
+/// Fits it from the amplitudes that the score expects and, where that may be far (frame_closure), from
+/// the other ends too; the best is kept. Then everything is scored again.
+Refit refit(const Examination& nominal, const Test& test, const std::vector<Choice>& choices, const Nulls& nulls);
+
+/// Amplitudes, in prior sigmas, that the linear score expects of some columns: C_dd^-1 g_d.
+VecX expected_amplitudes(const Projected& p, const std::vector<int>& columns);
+
+}  // namespace drift::discovery

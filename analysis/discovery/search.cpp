@@ -1,0 +1,206 @@
+#include "analysis/discovery/search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+
+namespace drift::discovery {
+namespace {
+
+constexpr double negligible = 14.0;  // log evidence behind the best: less than one in a million
+
+std::vector<std::size_t> by_evidence(const Examination& e) {
+  std::vector<std::size_t> order(e.scores.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return e.scores[a].log_bayes > e.scores[b].log_bayes;
+  });
+  std::erase_if(order, [&](std::size_t k) { return e.scores[k].dof == 0; });
+  return order;
+}
+
+/// Where noise that drives the platform seemed necessary, an effect may have been taken for it: the
+/// noise is estimated again with the best candidates in the mean, and kept if that explains the test
+/// significantly better than noise alone does.
+void settle_noise(Examination& e, const Test& test, const SearchOptions& options) {
+  std::vector<int> in_mean;
+  double reference = e.noise.log_likelihood2;
+  for (int round = 0; round < 3 && e.noise.driven; ++round) {
+    // As seen now, and as seen with no more than the declared noise.
+    std::vector<std::pair<std::size_t, std::size_t>> tries;  // candidate, variant
+    const auto add_best = [&] {
+      std::size_t count = 0;
+      for (const std::size_t k : by_evidence(e)) {
+        const std::pair<std::size_t, std::size_t> t{k, e.scores[k].variant};
+        if (std::find(tries.begin(), tries.end(), t) == tries.end()) tries.push_back(t);
+        if (++count == 3) break;
+      }
+    };
+    const NoiseEstimate noise_alone = e.noise;
+    add_best();
+    NoiseEstimate declared;
+    declared.model = declared_noise(e.filter);
+    set_noise(e, test.timeline, declared);
+    add_best();
+    set_noise(e, test.timeline, noise_alone);
+
+    NoiseEstimate best = noise_alone;
+    double best_gain = -std::numeric_limits<double>::infinity();
+    std::vector<int> best_mean;
+    for (const auto& [k, v] : tries) {
+      std::vector<int> mean = in_mean;
+      const auto& columns = e.set.candidates[k].variants[v].columns;
+      mean.insert(mean.end(), columns.begin(), columns.end());
+      const NoiseEstimate with = estimate_noise(e.problem, declared_noise(e.filter), mean);
+      if (with.log_likelihood2 - reference > best_gain) {
+        best_gain = with.log_likelihood2 - reference;
+        best = with;
+        best_mean = mean;
+      }
+    }
+    // The gain already pays for the size of the amplitude (Occam factor): evidence, not the maximum.
+    const double tests = static_cast<double>(e.set.signatures.size());
+    if (best_gain < 2.0 * std::log(tests / options.alpha)) break;
+    set_noise(e, test.timeline, best);
+    reference = best.log_likelihood2;
+    in_mean = best_mean;
+  }
+}
+
+/// Candidates that leave nothing significant by the linearised test; larger ones only where no part
+/// of them does as well.
+std::vector<std::size_t> adequate_singles(const Examination& e, const Search& s) {
+  constexpr double slack = 1.25;  // the refit decides
+  std::vector<std::size_t> adequate;
+  for (const std::size_t k : by_evidence(e))
+    if (s.linear[k].library <= slack * s.nulls.library_threshold && s.linear[k].scan <= slack * s.nulls.scan_threshold)
+      adequate.push_back(k);
+  std::vector<std::size_t> kept;
+  for (const std::size_t k : adequate) {
+    const Candidate& c = e.set.candidates[k];
+    const bool part_will_do = std::any_of(adequate.begin(), adequate.end(), [&](std::size_t other) {
+      return c.contains(e.set.candidates[other]) && e.scores[other].log_bayes > e.scores[k].log_bayes - 3.0;
+    });
+    if (!part_will_do && (kept.empty() || e.scores[kept.front()].log_bayes - e.scores[k].log_bayes < negligible))
+      kept.push_back(k);
+  }
+  return kept;
+}
+
+/// Log prior of an explanation: every term alike, shared by the candidates it offers; a second cause
+/// is one in twenty.
+double log_prior(const Examination& e, const std::vector<Choice>& choices) {
+  std::map<std::string, double> offers;
+  for (const Candidate& c : e.set.candidates) offers[c.term] += 1.0;
+  double sum = 0.0;
+  for (const Choice& c : choices) sum -= std::log(offers[e.set.candidates[c.candidate].term]);
+  return sum - std::log(20.0) * static_cast<double>(choices.size() - 1);
+}
+
+/// Keeps the adequate ones up to the credible probability.
+void weigh(const Examination& e, std::vector<Refit> refits, double credible, Search& out) {
+  std::vector<Refit> good;
+  for (Refit& r : refits) (r.adequate ? good : out.rejected).push_back(std::move(r));
+  if (good.empty()) return;
+  std::vector<double> weight;
+  for (const Refit& r : good) weight.push_back(r.log_bayes + log_prior(e, r.choices));
+  const double top = *std::max_element(weight.begin(), weight.end());
+  double sum = 0.0;
+  for (double& w : weight) sum += w = std::exp(w - top);
+  std::vector<std::size_t> order(good.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return weight[a] > weight[b]; });
+  double held = 0.0;
+  for (const std::size_t k : order) {
+    out.probability.push_back(weight[k] / sum);
+    out.sets.push_back(std::move(good[k]));
+    held += weight[k] / sum;
+    if (held >= credible) break;
+  }
+}
+
+}  // namespace
+
+double other_equation_gain(const Examination& nominal, const Test& test) {
+  FilterSpec other = nominal.filter;
+  if (other.coupling == Coupling::eq5)
+    other.coupling = Coupling::eq6;
+  else if (other.coupling == Coupling::eq6)
+    other.coupling = Coupling::eq5;
+  else
+    return -std::numeric_limits<double>::infinity();
+  double best = -std::numeric_limits<double>::infinity();
+  const auto here = theta_of(nominal.filter, nominal.fit);
+  for (const Theta& start : {here, make_layout(other).theta}) {
+    const BatchResult fit = fit_batch(other, test.timeline, test.readout, test.measured, start);
+    LinearProblem problem = linear_problem(other, test, fit, {});
+    problem.weight = nominal.problem.weight;
+    best = std::max(best, Projector(problem, nominal.noise.model).candidates().log_likelihood2());
+  }
+  return best - nominal.log_likelihood2();
+}
+
+Search search(Examination& nominal, const Test& test, const SearchOptions& options) {
+  Search out;
+  settle_noise(nominal, test, options);
+  out.nulls = make_nulls(nominal, options.alpha, options.draws);
+  out.pairs = pair_null(*nominal.field, std::max(200, options.draws / 8));
+
+  double library = 0.0, scan = 0.0;
+  for (const Score& s : nominal.scores) library = std::max(library, s.strength);
+  for (const PositionScan& s : nominal.scans)
+    for (const double T : s.T) scan = std::max(scan, strength(T, 1));
+  // The other equation is a jump, not a small amplitude: by the likelihood ratio of two points,
+  // P(2 log LR > T) <= exp(-T/2).
+  const double other = other_equation_gain(nominal, test);
+  const auto pairs = strongest_pairs(*nominal.field, 1);
+  out.p_library = out.nulls.library.p_value(std::max(library, 0.5 * other));
+  out.p_scan = out.nulls.scan.p_value(scan);
+  out.p_pairs = pairs.empty() ? 1.0 : out.pairs.p_value(pairs.front().strength);
+  out.p_value = std::min({1.0, out.p_library / library_share, out.p_scan / scan_share, out.p_pairs / pair_share});
+  out.significant = out.p_value < options.alpha;
+
+  for (std::size_t k = 0; k < nominal.scores.size(); ++k)
+    out.linear.push_back(nominal.scores[k].dof == 0 ? Remainder{1e300, 1e300, 0}
+                                                    : remainder(*nominal.field, {{k, nominal.scores[k].variant}}, 1e300));
+  if (!out.significant) return out;
+
+  const auto choice = [&](std::size_t k) { return Choice{k, nominal.scores[k].variant}; };
+  std::vector<std::size_t> singles = adequate_singles(nominal, out);
+  if (singles.size() > options.most_refits) singles.resize(options.most_refits);
+  const auto order = by_evidence(nominal);
+  const auto add = [&](std::size_t k) {
+    if (std::find(singles.begin(), singles.end(), k) == singles.end()) singles.push_back(k);
+  };
+  // The score is blind to a change of equation that only rescales the misalignments.
+  for (std::size_t k = 0; k < nominal.set.candidates.size(); ++k)
+    if (nominal.set.candidates[k].term == "frame_closure" &&
+        (0.5 * other > out.nulls.library_threshold || nominal.scores[k].strength > out.nulls.library_threshold))
+      add(k);
+  // A large effect may be beyond the linearised test.
+  if (singles.empty())
+    for (std::size_t k = 0; k < std::min<std::size_t>(2, order.size()); ++k) add(order[k]);
+  std::vector<Refit> refits;
+  for (const std::size_t k : singles) refits.push_back(refit(nominal, test, {choice(k)}, out.nulls));
+  weigh(nominal, std::move(refits), options.credible, out);
+  if (!out.sets.empty()) return out;
+
+  refits.clear();
+  for (const Pair& p : adequate_pairs(*nominal.field, nominal.scores, 1.1 * out.nulls.library_threshold,
+                                      1.1 * out.nulls.scan_threshold, options.most_refits))
+    refits.push_back(refit(nominal, test, {p.a, p.b}, out.nulls));
+  weigh(nominal, std::move(refits), options.credible, out);
+  if (!out.sets.empty()) return out;
+
+  const auto several = greedy(*nominal.field, nominal.scores, out.nulls.library_threshold, out.nulls.scan_threshold, 4);
+  if (several.size() > 2) {
+    refits.clear();
+    refits.push_back(refit(nominal, test, several, out.nulls));
+    weigh(nominal, std::move(refits), options.credible, out);
+  }
+  return out;
+}
+
+}  // namespace drift::discovery

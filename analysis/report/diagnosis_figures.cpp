@@ -1,0 +1,265 @@
+#include "analysis/report/diagnosis_figures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/report/bar_chart.hpp"
+#include "analysis/report/diagnosis_words.hpp"
+#include "analysis/report/dumbbell_chart.hpp"
+#include "analysis/report/heat_map.hpp"
+#include "analysis/report/number_text.hpp"
+#include "analysis/report/svg_chart.hpp"
+
+namespace drift {
+namespace {
+
+using namespace discovery;
+
+constexpr double hour = 3600.0, none = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t most_signals = 3, most_windows = 6, most_bars = 20, most_moved = 24;
+
+/// Short recordings are shown in seconds, long ones in hours.
+struct TimeAxis {
+  double unit = hour;
+  const char* label = "time [h]";
+};
+TimeAxis time_axis(const std::vector<double>& t) {
+  if (t.empty() || t.back() - t.front() > 2.0 * hour) return {};
+  return {1.0, "time [s]"};
+}
+
+std::optional<Figure> heat_figure(const Where& where) {
+  if (where.heat.empty() || where.channel_names.empty()) return std::nullopt;
+  int positions = 0;
+  for (const HeatCell& c : where.heat) positions = std::max(positions, c.position);
+  HeatMap map;
+  map.title = "Where the misfit is";
+  map.x_label = "position";
+  map.value_label = "share of the located misfit";
+  map.rows = where.channel_names;
+  for (int p = 1; p <= positions; ++p) map.columns.push_back(fmt::format("{}", p));
+  map.value = MatX::Constant(static_cast<Eigen::Index>(map.rows.size()), positions, none);
+  for (const HeatCell& c : where.heat)
+    if (c.channel >= 0 && c.channel < map.value.rows() && c.position >= 1)
+      map.value(c.channel, c.position - 1) = c.share;
+  return Figure{"where.svg",
+                "Share of each channel and position in the misfit that the nominal model leaves. "
+                "Negative shares speak against the located effect.",
+                svg_of(map)};
+}
+
+/// Whether most positions hold several samples: then curves are not joined from one to the next.
+bool has_stretches(const std::vector<int>& position) {
+  std::size_t changes = 0;
+  for (std::size_t i = 1; i < position.size(); ++i) changes += position[i] != position[i - 1] ? 1 : 0;
+  return 2 * changes < position.size();
+}
+
+void append(Series& series, bool new_position, double x, double y, double sigma) {
+  if (new_position && !series.x.empty()) {
+    series.x.push_back(x);
+    series.y.push_back(none);
+    series.sigma.push_back(none);
+  }
+  series.x.push_back(x);
+  series.y.push_back(y);
+  series.sigma.push_back(sigma);
+}
+
+Panel signal_panel(const RecoveredSignal& s, const std::vector<ScanHit>& windows) {
+  const TimeAxis axis = time_axis(s.t);
+  Panel panel;
+  panel.title = s.equation;
+  panel.x_label = axis.label;
+  panel.y_label = fmt::format("missing input [{}]", s.unit);
+  Series found{.label = "recovered, with 1 sigma", .x = {}, .y = {}, .sigma = {}, .colour = 0};
+  Series explained{.label = "signature of the cause", .x = {}, .y = {}, .sigma = {}, .colour = 1};
+  Range range;
+  const bool apart = has_stretches(s.position);
+  for (std::size_t i = 0; i < s.value.size(); ++i) {
+    const bool next = apart && i > 0 && i < s.position.size() && s.position[i] != s.position[i - 1];
+    const double sigma = i < s.sigma.size() ? s.sigma[i] : 0.0, t = s.t[i] / axis.unit;
+    append(found, next, t, s.value[i], sigma);
+    range.include(s.value[i] - sigma);
+    range.include(s.value[i] + sigma);
+    if (i < s.explained.size()) {
+      append(explained, next, t, s.explained[i], 0.0);
+      range.include(s.explained[i]);
+    }
+  }
+  explained.sigma.clear();
+  if (range.empty()) {
+    panel.note = "nothing recovered";
+    return panel;
+  }
+  panel.y_range = range;
+  const double room = range.width();
+  std::size_t shown = 0;
+  for (const ScanHit& w : windows) {
+    if (w.equation != s.equation || ++shown > most_windows) continue;
+    panel.expected.push_back({"located window",
+                              {w.start_s / axis.unit, w.end_s / axis.unit},
+                              {range.low - room, range.low - room},
+                              {range.high + room, range.high + room}});
+  }
+  panel.series.push_back(std::move(found));
+  if (!explained.x.empty()) panel.series.push_back(std::move(explained));
+  panel.references.push_back({0.0, "", Stroke::dotted});
+  return panel;
+}
+
+Panel residual_panel(const FitComparison& fit, const std::vector<double>& t, Eigen::Index channel,
+                     const std::string& name, bool after, double most) {
+  const auto& r = after ? fit.residual_after : fit.residual_before;
+  const TimeAxis axis = time_axis(t);
+  const bool timed = static_cast<Eigen::Index>(t.size()) == r.cols();
+  Panel panel;
+  panel.title = fmt::format("{}, {}", name, after ? "after" : "before");
+  panel.x_label = timed ? axis.label : "sample";
+  panel.y_label = "residual [sigma]";
+  Series s{.label = after ? "with the cause" : "nominal model", .x = {}, .y = {}, .sigma = {}, .colour = after ? 0u : 1u};
+  for (Eigen::Index i = 0; i < r.cols(); ++i) {
+    s.x.push_back(timed ? t[static_cast<std::size_t>(i)] / axis.unit : static_cast<double>(i + 1));
+    s.y.push_back(r(channel, i));
+  }
+  if (!s.x.empty())
+    panel.expected.push_back({"2 sigma", {s.x.front(), s.x.back()}, {-2.0, -2.0}, {2.0, 2.0}});
+  panel.y_range = Range{-most, most};
+  panel.series.push_back(std::move(s));
+  return panel;
+}
+
+std::optional<Figure> residual_figure(const Diagnosis& d) {
+  const FitComparison& fit = d.fit;
+  if (fit.residual_before.cols() == 0) return std::nullopt;
+  const std::vector<double>& t =
+      fit.residual_t.empty() && !d.signals.empty() ? d.signals.front().t : fit.residual_t;
+  Chart chart;
+  chart.title = "Residuals before and after";
+  chart.columns = 2;
+  chart.panel_width = 520.0;
+  chart.panel_height = 190.0;
+  const auto names = d.where.channel_names;
+  for (Eigen::Index c = 0; c < std::min<Eigen::Index>(6, static_cast<Eigen::Index>(names.size())); ++c) {
+    double most = 3.0;
+    for (const auto* r : {&fit.residual_before, &fit.residual_after})
+      for (const double v : r->row(c))
+        if (std::isfinite(v)) most = std::max(most, 1.05 * std::abs(v));
+    if (!fit.residual_before.row(c).array().isFinite().any()) continue;
+    chart.panels.push_back(residual_panel(fit, t, c, names[static_cast<std::size_t>(c)], false, most));
+    if (fit.residual_after.cols() == fit.residual_before.cols())
+      chart.panels.push_back(residual_panel(fit, t, c, names[static_cast<std::size_t>(c)], true, most));
+  }
+  if (fit.residual_after.cols() != fit.residual_before.cols()) chart.columns = 1;
+  if (chart.panels.empty()) return std::nullopt;
+  return Figure{"residuals.svg",
+                "Residuals of every channel in sigmas. A concealed effect need not be seen here: the "
+                "fitted parameters take most of it up.",
+                svg_of(chart)};
+}
+
+std::optional<Figure> held_out_figure(const HeldOut& held) {
+  DumbbellChart chart;
+  chart.title = "Prediction of data held out of the fit";
+  chart.x_label = "chi-square per degree of freedom (logarithmic)";
+  chart.before_label = "nominal model";
+  chart.after_label = "with the cause";
+  chart.spacing = Spacing::logarithmic;
+  chart.limit = ReferenceLine{1.0, "noise alone", Stroke::dashed};
+  for (const Fold& f : held.folds) {
+    if (f.dof == 0) continue;
+    const double n = static_cast<double>(f.dof), gain = f.log_score_after - f.log_score_before;
+    chart.lines.push_back({.label = f.name, .before = f.chi2_before / n, .after = f.chi2_after / n,
+                           .text = std::isfinite(gain) ? fmt::format("{:+.1f}", gain) : ""});
+  }
+  if (chart.lines.empty()) return std::nullopt;
+  return Figure{"held_out.svg",
+                "Each line was predicted by a fit to all the others. At the right: gain of the log "
+                "predictive density.",
+                svg_of(chart)};
+}
+
+std::optional<Figure> moved_figure(const std::vector<ShiftedParameter>& shifted) {
+  DumbbellChart chart;
+  chart.title = "Parameters that the missing physics had moved";
+  chart.x_label = "shift in sigmas that the nominal fit claimed";
+  for (const ShiftedParameter& p : shifted) {
+    if (chart.lines.size() == most_moved) break;
+    if (!std::isfinite(p.shift_sigma) || !(p.sigma_before > 0.0)) continue;
+    const double half = p.sigma_after / p.sigma_before;
+    chart.lines.push_back({.label = p.key, .before = 0.0, .after = p.shift_sigma,
+                           .low = p.shift_sigma - half, .high = p.shift_sigma + half,
+                           .text = fmt::format("{} → {} {}", to_match(p.before, p.sigma_before),
+                                               with_sigma(p.after, p.sigma_after), p.unit)});
+  }
+  if (chart.lines.empty()) return std::nullopt;
+  return Figure{"moved.svg",
+                "How far each estimate moves once the cause is in the model; the bar is 1 sigma of the "
+                "new estimate.",
+                svg_of(chart)};
+}
+
+void add(std::vector<Figure>& figures, std::optional<Figure> figure) {
+  if (figure) figures.push_back(std::move(*figure));
+}
+
+}  // namespace
+
+std::vector<Figure> where_figures(const Diagnosis& d) {
+  std::vector<Figure> figures;
+  add(figures, heat_figure(d.where));
+  Chart chart;
+  chart.title = "What the nominal model does not explain";
+  chart.panel_width = 900.0;
+  chart.panel_height = 270.0;
+  for (std::size_t k = 0; k < std::min(most_signals, d.signals.size()); ++k)
+    chart.panels.push_back(signal_panel(d.signals[k], d.where.windows));
+  if (!chart.panels.empty())
+    figures.push_back({"signal.svg",
+                       "The input that would explain the misfit, as a time series; grey: the located "
+                       "window. The signature of the cause is what the fitted parameters cannot absorb.",
+                       svg_of(chart)});
+  return figures;
+}
+
+std::vector<Figure> name_figures(const Diagnosis& d) {
+  std::vector<Figure> figures;
+  BarChart bars;
+  bars.title = "Candidates";
+  bars.x_label = "projected score, chi-square";
+  bars.width = 860.0;
+  for (const CandidateScore& c : d.candidates) {
+    if (bars.bars.size() == most_bars) break;
+    if (!std::isfinite(c.score)) continue;
+    bars.bars.push_back({.label = label_of(c), .value = c.score, .colour = c.adequate ? 2u : 6u,
+                         .text = fmt::format("{}, p {}", number_text(c.score), number_text(c.p_value, 2))});
+  }
+  if (!bars.bars.empty())
+    figures.push_back({"candidates.svg",
+                       "Strength of every candidate, after what the fitted parameters absorb. Green: "
+                       "nothing else is significant once it is in the model.",
+                       svg_of(bars)});
+  const CosineMatrix& m = d.cosines;
+  if (m.cosine.rows() > 1 && m.cosine.rows() == static_cast<Eigen::Index>(m.labels.size())) {
+    HeatMap map;
+    map.title = "Likeness of the causes on this plan";
+    map.value_label = "cosine of the projected signatures: ±1 cannot be told apart";
+    map.rows = map.columns = m.labels;
+    map.value = m.cosine;
+    map.most = 1.0;
+    figures.push_back({"cosines.svg", "Cosines between what is left of the signatures.", svg_of(map)});
+  }
+  return figures;
+}
+
+std::vector<Figure> fit_figures(const Diagnosis& d) {
+  std::vector<Figure> figures;
+  add(figures, held_out_figure(d.fit.held_out));
+  add(figures, moved_figure(d.fit.shifted));
+  add(figures, residual_figure(d));
+  return figures;
+}
+
+}  // namespace drift

@@ -1,0 +1,154 @@
+#include "analysis/report/diagnosis_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/report/diagnosis_words.hpp"
+#include "analysis/report/number_text.hpp"
+
+namespace drift {
+namespace {
+
+using namespace discovery;
+
+std::string percent(double share) {
+  return std::isfinite(share) ? fmt::format("{:.{}f} %", 100.0 * share, share > 0.999 || share < 0.1 ? 1 : 0) : "-";
+}
+
+void say_left_out(Table& table, std::size_t all, std::size_t most) {
+  if (all > most) table.note += fmt::format("{}{} weaker ones are in diagnosis.json.", table.note.empty() ? "" : " ", all - most);
+}
+
+std::string confusable_text(const Cause& c) {
+  std::string out;
+  for (std::size_t k = 0; k < std::min<std::size_t>(3, c.confusable_with.size()); ++k) {
+    const Confusable& o = c.confusable_with[k];
+    out += fmt::format("{}{}{}{} ({:.2f})", k > 0 ? ", " : "", o.term, o.axis.empty() ? "" : ".", o.axis, o.cosine);
+  }
+  return out;
+}
+
+}  // namespace
+
+Table cause_table(const Diagnosis& d) {
+  Table table;
+  table.title = d.verdict == Verdict::ambiguous ? "Causes that remain possible" : "Causes";
+  table.columns = {{"term", Align::left}, {"parameter", Align::left}, {"value"}, {"unit", Align::left},
+                   {"p"}, {"probability"}, {"size [prior sigmas]"}, {"like (cosine)", Align::left}};
+  int sets = 0;
+  for (const Cause& c : d.causes) sets = std::max(sets, c.set);
+  int set = -1;
+  for (const Cause& c : d.causes) {
+    if (d.verdict == Verdict::ambiguous && sets > 0 && c.set != set) table.add_heading(fmt::format("alternative {}", c.set + 1));
+    set = c.set;
+    const std::string probability = std::isfinite(c.probability) ? fmt::format("{:.2f}", c.probability) : "-";
+    const auto head = [&](std::string key, std::string value, std::string unit) {
+      table.add({label_of(c), std::move(key), std::move(value), std::move(unit), p_text(c.p_value), probability,
+                 number_text(c.size_sigma, 2), confusable_text(c)});
+    };
+    if (c.parameters.empty()) head("", "", "");
+    for (std::size_t k = 0; k < c.parameters.size(); ++k) {
+      const CauseParameter& p = c.parameters[k];
+      if (k == 0)
+        head(p.key, with_sigma(p.value, p.sigma), p.unit);
+      else
+        table.add({"", p.key, with_sigma(p.value, p.sigma), p.unit, "", "", "", ""});
+    }
+  }
+  return table;
+}
+
+Table candidate_table(const Diagnosis& d, std::size_t most) {
+  Table table;
+  table.title = "Candidates, strongest first";
+  table.columns = {{"candidate", Align::left}, {"score"}, {"dof"}, {"p"}, {"absorbed"}, {"amplitude"},
+                   {"detectable"}, {"unit", Align::left}, {"prob."}, {"", Align::left}};
+  for (std::size_t k = 0; k < std::min(most, d.candidates.size()); ++k) {
+    const CandidateScore& c = d.candidates[k];
+    const Tone tone = c.adequate ? Tone::good : Tone::plain;
+    table.add({{label_of(c), tone}, number_text(c.score), fmt::format("{}", c.dof), p_text(c.p_value), percent(c.absorbed),
+               c.sigma > 0.0 ? with_sigma(c.amplitude, c.sigma) : "", number_text(c.smallest_detectable, 2), c.unit,
+               number_text(c.probability, 2),
+               !c.observable ? "not observable on this plan" : c.adequate ? "explains all" : ""});
+  }
+  table.note = "p: family-wise, over all that was tried. absorbed: part of the raw signature that fitted parameters take "
+               "up. detectable: size found with 80 % probability.";
+  say_left_out(table, d.candidates.size(), most);
+  return table;
+}
+
+Table fit_table(const Diagnosis& d) {
+  const FitComparison& f = d.fit;
+  Table table;
+  table.title = "Before and after";
+  table.columns = {{"", Align::left}, {"nominal"}, {"with the cause"}, {"expected", Align::left}};
+  const auto line = [&](const char* what, double before, double after, std::string expected) {
+    if (std::isfinite(before) || std::isfinite(after))
+      table.add({what, number_text(before, 4), number_text(after, 4), std::move(expected)});
+  };
+  line("chi-square per degree of freedom", f.chi2_per_dof_before, f.chi2_per_dof_after,
+       f.band_high > 0.0 ? fmt::format("{:.3f} to {:.3f} (95 %)", f.band_low, f.band_high) : "1");
+  line("NIS per degree of freedom", f.whiteness.nis_per_dof_before, f.whiteness.nis_per_dof_after, "1");
+  line("whiteness (Ljung-Box), p", f.whiteness.ljung_box_p_before, f.whiteness.ljung_box_p_after, "above 0.05");
+  line("held-out chi-square per degree of freedom", f.held_out.chi2_per_dof_before, f.held_out.chi2_per_dof_after, "1");
+  line("start spread, largest ratio", f.start_spread_before, f.start_spread_after, "below 2");
+  if (std::isfinite(f.log_likelihood_ratio) && f.log_likelihood_ratio != 0.0)
+    table.note = fmt::format("Twice the gain of the log likelihood: {}; the linear score foretold {}{}.",
+                             number_text(f.log_likelihood_ratio), number_text(f.linear_T),
+                             f.sign_agrees ? "" : ", with the other sign");
+  return table;
+}
+
+Table moved_table(const Diagnosis& d, std::size_t most) {
+  Table table;
+  table.title = "Parameters that moved";
+  table.columns = {{"parameter", Align::left}, {"before"}, {"after"}, {"unit", Align::left}, {"shift [sigma]"}};
+  for (std::size_t k = 0; k < std::min(most, d.fit.shifted.size()); ++k) {
+    const ShiftedParameter& p = d.fit.shifted[k];
+    const double size = std::abs(p.shift_sigma);
+    table.add({p.key, with_sigma(p.before, p.sigma_before), with_sigma(p.after, p.sigma_after), p.unit,
+               {decimal_text(p.shift_sigma, 1), size > 5.0 ? Tone::bad : size > 2.0 ? Tone::doubtful : Tone::plain}});
+  }
+  say_left_out(table, d.fit.shifted.size(), most);
+  return table;
+}
+
+Table noise_table(const Diagnosis& d) {
+  Table table;
+  table.title = "Noise against what is declared";
+  table.columns = {{"component", Align::left}, {"factor"}, {"value"}, {"unit", Align::left}, {"tau [s]"}, {"p"}, {"", Align::left}};
+  for (const NoiseFinding& n : d.noise)
+    table.add({n.component, with_sigma(n.factor, n.factor_sigma), number_text(n.value), n.unit,
+               n.tau_s > 0.0 ? number_text(n.tau_s) : "", p_text(n.p_value),
+               {n.significant ? (n.count > 0 ? fmt::format("{} samples left out", n.count) : "not as declared") : "as declared",
+                n.significant ? Tone::doubtful : Tone::plain}});
+  return table;
+}
+
+Table window_table(const Diagnosis& d, std::size_t most) {
+  Table table;
+  table.title = "Located windows";
+  table.columns = {{"equation", Align::left}, {"position"}, {"from [s]"}, {"to [s]"}, {"score"}, {"p"}};
+  for (std::size_t k = 0; k < std::min(most, d.where.windows.size()); ++k) {
+    const ScanHit& w = d.where.windows[k];
+    table.add({w.equation, w.position > 0 ? fmt::format("{}", w.position) : "", decimal_text(w.start_s, 0),
+               decimal_text(w.end_s, 0), number_text(w.T), p_text(w.p_value)});
+  }
+  say_left_out(table, d.where.windows.size(), most);
+  return table;
+}
+
+Table advice_table(const Advice& advice) {
+  Table table;
+  table.title = "Positions to add";
+  table.columns = {{"name", Align::left}, {"axes", Align::left}, {"dwell"}, {"mode", Align::left}, {"entry", Align::left}, {"case heading"}};
+  for (const Position& p : advice.plan)
+    table.add({p.name, p.axes, fmt::format("{:.0f} min", p.dwell / 60.0), p.mode == CommandLaw::level ? "level" : "free",
+               p.entry == Entry::torqued ? "torqued" : "caged",
+               p.case_heading ? fmt::format("{:.0f} deg", *p.case_heading / unit::deg.to_si) : "chosen"});
+  return table;
+}
+
+}  // namespace drift

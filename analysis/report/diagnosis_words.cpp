@@ -1,0 +1,92 @@
+#include "analysis/report/diagnosis_words.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/report/number_text.hpp"
+
+namespace drift {
+namespace {
+
+using namespace discovery;
+
+std::string keyed(const std::string& term, const std::string& axis) {
+  return axis.empty() ? term : term + "." + axis;
+}
+
+/// "a", "a and b", "a, b and c".
+std::string listed(const std::vector<std::string>& items, std::string_view last) {
+  if (items.size() < 2) return items.empty() ? "" : items.front();
+  return fmt::format("{} {} {}", fmt::join(items.begin(), items.end() - 1, ", "), last, items.back());
+}
+
+}  // namespace
+
+std::string label_of(const Cause& c) { return keyed(c.term, c.axis); }
+
+std::string label_of(const CandidateScore& c) {
+  return c.label.empty() ? keyed(c.term, c.axis) : c.label;
+}
+
+std::string p_text(double p) {
+  if (!std::isfinite(p)) return "-";
+  if (p < 1e-300) return "below 1e-300";
+  return number_text(p, p < 1e-3 ? 1 : 2);
+}
+
+std::string verdict_sentence(const Diagnosis& d) {
+  if (!d.sentence.empty()) return d.sentence;
+  std::vector<std::string> names;
+  for (const Cause& c : d.causes) {
+    std::vector<std::string> sizes;
+    for (const CauseParameter& p : c.parameters)
+      if (sizes.size() < 3) sizes.push_back(fmt::format("{} = {} {}", p.key, with_sigma(p.value, p.sigma), p.unit));
+    names.push_back(sizes.empty() ? label_of(c) : fmt::format("{} ({})", label_of(c), fmt::join(sizes, ", ")));
+  }
+  switch (d.verdict) {
+    case Verdict::consistent:
+      return fmt::format("The recording is consistent with the nominal model (p = {} over everything tried).",
+                         p_text(d.p_value));
+    case Verdict::named:
+      return fmt::format("The nominal model leaves out {} (p = {}).", listed(names, "and"), p_text(d.p_value));
+    case Verdict::ambiguous:
+      return fmt::format("Something is missing (p = {}), and this plan cannot tell which of {}.",
+                         p_text(d.p_value), listed(names, "or"));
+    case Verdict::unexplained:
+      break;
+  }
+  return fmt::format("Something is missing (p = {}) that no known effect explains{}.", p_text(d.p_value),
+                     d.signals.empty() || d.signals.front().shape.empty() ? "" : ": " + d.signals.front().shape);
+}
+
+std::string where_sentence(const Where& where) {
+  if (where.equation.empty() && where.channels.empty()) return "";
+  std::string out = where.equation.empty() ? "The misfit is" : fmt::format("The misfit is in the {}", where.equation);
+  std::vector<std::string> parts;
+  for (const Share& s : where.channels)
+    if (parts.size() < 2 && s.share > 0.1) parts.push_back(fmt::format("{} ({:.0f} %)", s.name, 100.0 * s.share));
+  if (!parts.empty()) out += fmt::format(", seen by {}", listed(parts, "and"));
+  parts.clear();
+  for (const Share& s : where.positions)
+    if (parts.size() < 3 && s.share > 0.1) parts.push_back(fmt::format("{} ({:.0f} %)", s.position, 100.0 * s.share));
+  if (!parts.empty()) out += fmt::format(", most of it at position{} {}", parts.size() > 1 ? "s" : "", listed(parts, "and"));
+  if (!where.windows.empty()) {
+    const ScanHit& w = where.windows.front();
+    out += fmt::format("; the strongest window is {:.0f} s to {:.0f} s (p = {})", w.start_s, w.end_s, p_text(w.p_value));
+  }
+  return out + ".";
+}
+
+std::string held_out_sentence(const HeldOut& held) {
+  if (held.folds.empty()) return "";
+  const std::string gain =
+      std::isfinite(held.log_score_gain) ? fmt::format(", log score {:+.3g}", held.log_score_gain) : "";
+  return fmt::format("Data held out of the fit are predicted {}: chi-square per degree of freedom {} → {} in {} folds{}.",
+                     held.improves ? "better" : "no better", number_text(held.chi2_per_dof_before),
+                     number_text(held.chi2_per_dof_after), held.folds.size(), gain);
+}
+
+}  // namespace drift

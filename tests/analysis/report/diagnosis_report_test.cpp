@@ -1,0 +1,143 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "analysis/report/diagnosis_folder.hpp"
+#include "analysis/report/diagnosis_json.hpp"
+#include "analysis/report/diagnosis_text.hpp"
+#include "analysis/report/residual_signal.hpp"
+#include "tests/analysis/report/diagnosis_fixture.hpp"
+#include "tests/analysis/report/xml_check.hpp"
+
+namespace drift {
+namespace {
+
+using namespace discovery;
+using nlohmann::json;
+using testing::nominal_study;
+
+const std::set<std::string> void_tags{"meta", "br", "img", "link", "hr"};
+
+FilterSpec nominal() {
+  const test::ScratchFolder folder;
+  return testing::read_text(folder, "s.toml", nominal_study).filters.front();
+}
+
+TEST(DiagnosisJson, HasEveryKeyOfTheInterfaceWithTheTypeThatStandsThere) {
+  const json j = json::parse(to_json(testing::diagnosis(nominal())));
+  EXPECT_EQ(j["schema"], 1);
+  EXPECT_EQ(j["verdict"], "named");
+  EXPECT_EQ(j["p_value"], 1e-30);
+  EXPECT_EQ(j["where"]["channels"][0], (json{{"name", "acc_y"}, {"share", 0.7}, {"sigma", 0.1}, {"chi2_per_dof", 1.0}}));
+  EXPECT_EQ(j["where"]["positions"][0]["position"], 3);
+  EXPECT_EQ(j["where"]["windows"][0]["start_s"], 1200.0);
+  EXPECT_EQ(j["where"]["windows"][0]["end_s"], 1800.0);
+  EXPECT_EQ(j["where"]["equation"], "platform rate y");
+  const json& cause = j["causes"][0];
+  EXPECT_EQ(cause["term"], "g_drift");
+  EXPECT_EQ(cause["axis"], "y");
+  EXPECT_EQ(cause["probability"], 0.97);
+  EXPECT_EQ(cause["parameters"][0]["key"], "D_S_y");
+  EXPECT_EQ(cause["parameters"][0]["value"], 0.25);
+  EXPECT_EQ(cause["parameters"][0]["sigma"], 0.01);
+  EXPECT_EQ(cause["parameters"][0]["unit"], "deg/h/g");
+  EXPECT_EQ(cause["confusable_with"][0]["cosine"], 0.85);
+  for (const char* key : {"term", "score", "p_value", "absorbed"}) EXPECT_TRUE(j["candidates"][0].contains(key)) << key;
+  EXPECT_EQ(j["fit"]["in_sample"]["chi2_per_dof_before"], 1.02);
+  EXPECT_EQ(j["fit"]["in_sample"]["chi2_per_dof_after"], 1.0);
+  EXPECT_EQ(j["fit"]["held_out"]["log_score_gain"], 812.0);
+  EXPECT_EQ(j["fit"]["held_out"]["folds"], 6);
+  EXPECT_EQ(j["fit"]["start_spread_before"], 10.6);
+  EXPECT_EQ(j["fit"]["shifted_parameters"][0]["before"], 268.0);
+  EXPECT_EQ(j["fit"]["shifted_parameters"][0]["sigma_after"], 5.0);
+  EXPECT_EQ(j["advice"][0]["plan"]["position"][0]["axes"], "x=U y=N z=W");
+  EXPECT_EQ(j["advice"][0]["separates"], (json{"g_drift.y", "g_drift.z"}));
+  EXPECT_EQ(j["advice"][0]["expected_sigma"], 6.2);
+  EXPECT_EQ(j["noise"][0]["component"], "gimbal_white");
+  EXPECT_EQ(j["noise"][0]["factor"], 1.3);
+  EXPECT_EQ(j["model"], "patched.toml");
+}
+
+TEST(DiagnosisJson, WhatIsNoNumberIsNull) {
+  const json j = json::parse(to_json(testing::diagnosis(nominal())));
+  EXPECT_TRUE(j["candidates"][1]["score"].is_null());
+  EXPECT_TRUE(j["causes"][0]["size_sigma"].is_null());
+  EXPECT_TRUE(j["fit"]["start_spread_after"].is_null());
+  EXPECT_TRUE(j["advice"][0]["verified_sigma"].is_null());
+  const json empty = json::parse(to_json(Diagnosis{}));
+  EXPECT_EQ(empty["verdict"], "consistent");
+  EXPECT_TRUE(empty["model"].is_null());
+  EXPECT_TRUE(empty["causes"].is_array() && empty["causes"].empty());
+}
+
+TEST(DiagnosisPage, IsWellFormedOfflineAndEscaped) {
+  const test::ScratchFolder folder;
+  const Study study = testing::read_text(folder, "s.toml", nominal_study);
+  const Diagnosis d = testing::diagnosis(study.filters.front());
+  const std::string page = to_html(diagnosis_html(study, d, {{"rec <1>.csv"}, "details <&>"}));
+  EXPECT_EQ(testing::xml_problem(page, void_tags), std::nullopt);
+  EXPECT_EQ(page.find("://"), std::string::npos);
+  EXPECT_EQ(page.find("<script"), std::string::npos);
+  for (const char* text : {"six &amp; &lt;positions&gt;", "rec &lt;1&gt;.csv", "a &lt;remark&gt; &amp; more",
+                           "g_drift D_S_y &lt;&amp;&gt;", "[[plan.position]]"})
+    EXPECT_NE(page.find(text), std::string::npos) << text;
+  const auto figures = diagnosis_figures(d);
+  EXPECT_EQ(figures.size(), 7u);
+  for (const Figure& f : figures) EXPECT_EQ(testing::xml_problem(f.svg), std::nullopt) << f.file;
+}
+
+TEST(DiagnosisPage, HoldsOfAnyVerdictAndOfNothing) {
+  const test::ScratchFolder folder;
+  const Study study = testing::read_text(folder, "s.toml", nominal_study);
+  for (const Verdict v : {Verdict::consistent, Verdict::named, Verdict::ambiguous, Verdict::unexplained})
+    for (Diagnosis d : {Diagnosis{}, testing::diagnosis(study.filters.front())}) {
+      d.verdict = v;
+      const std::string page = to_html(diagnosis_html(study, d, {}));
+      EXPECT_EQ(testing::xml_problem(page, void_tags), std::nullopt) << text(v);
+      EXPECT_FALSE(to_text(d).empty());
+    }
+}
+
+TEST(DiagnosisFigures, TheLocatedWindowAndTheGapOfTheRecoveredSignalAreSeen) {
+  const auto figures = diagnosis_figures(testing::diagnosis(nominal()));
+  const auto signal = std::find_if(figures.begin(), figures.end(), [](const Figure& f) { return f.file == "signal.svg"; });
+  ASSERT_NE(signal, figures.end());
+  EXPECT_NE(signal->svg.find("located window"), std::string::npos);
+  EXPECT_NE(signal->svg.find("signature of the cause"), std::string::npos);
+}
+
+TEST(DiagnosisText, SaysTheVerdictFirstAndStaysWithinTheTerminal) {
+  const std::string out = to_text(testing::diagnosis(nominal()));
+  EXPECT_TRUE(out.starts_with("Verdict named: The nominal model leaves out g_drift.y (D_S_y = 0.250±0.010 deg/h/g)")) << out;
+  for (const char* text : {"platform rate y", "eta_x", "Advice: Add x up", "gimbal_white", "9.1 → 1.03"})
+    EXPECT_NE(out.find(text), std::string::npos) << text;
+  EXPECT_LT(std::count(out.begin(), out.end(), '\n'), 60);
+}
+
+TEST(ResidualSignal, IsATableWithEmptyCellsForWhatIsNotKnown) {
+  const Diagnosis d = testing::diagnosis(nominal());
+  const std::string csv = residual_signal_csv(d.signals);
+  EXPECT_NE(csv.find("equation,time [s],position,value,sigma,explained,unit\n"), std::string::npos);
+  EXPECT_NE(csv.find("platform rate y,60,1,0,0.1,0,deg/h\n"), std::string::npos);
+  EXPECT_NE(csv.find("platform rate y,480,1,,0.1,0.644217687,deg/h\n"), std::string::npos);  // sin(0.7)
+  EXPECT_NE(csv.find("# platform rate y = a step of 0.25 deg/h  from 1200 s on"), std::string::npos);
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 63);
+}
+
+TEST(DiagnosisFolder, HoldsEverythingAndLeavesNoPatchOfAnEarlierDiagnosis) {
+  const test::ScratchFolder folder;
+  const Study study = testing::read_text(folder, "s.toml", nominal_study);
+  const std::string out = folder.file("out");
+  write_results(study, testing::diagnosis(study.filters.front()), {}, out);
+  for (const char* name : {"diagnosis.json", "residual_signal.csv", "report.html", "study.toml", "patched.toml", "advised.toml",
+                           "where.svg", "signal.svg", "candidates.svg", "cosines.svg", "held_out.svg", "moved.svg",
+                           "residuals.svg"})
+    EXPECT_TRUE(std::filesystem::exists(out + "/" + name)) << name;
+  const auto files = write_results(study, Diagnosis{}, {}, out);
+  EXPECT_EQ(files.size(), 4u);
+  EXPECT_FALSE(std::filesystem::exists(out + "/patched.toml"));
+  EXPECT_FALSE(std::filesystem::exists(out + "/advised.toml"));
+}
+
+}  // namespace
+}  // namespace drift

@@ -1,0 +1,117 @@
+#include "core/estimate/iterated_ekf.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/estimate/batch.hpp"
+#include "tests/support/model_builders.hpp"
+
+namespace drift {
+namespace {
+
+using namespace drift::test;
+
+struct Fits {
+  Layout layout;
+  EstimateResult ekf;
+  BatchResult batch;
+  IteratedEkf iterated;
+  Fits(const char* preset, const Timeline& timeline, Coupling coupling)
+      : layout(make_layout(base_filter(coupling))),
+        iterated(base_filter(coupling), timeline, Readout{}, layout.theta) {
+    const Simulation sim = Simulator(base_truth(coupling), Readout{}).run(timeline, 4, 2);
+    EXPECT_TRUE(sim.ode.ok()) << preset;
+    ekf = run_ekf(base_filter(coupling), timeline, Readout{}, sim.measured, layout.theta);
+    batch = fit_batch(base_filter(coupling), timeline, Readout{}, sim.measured, layout.theta);
+    iterated.run(sim.measured, layout.theta);
+  }
+};
+
+TEST(IteratedEkf, IsTheBatchFitWhereAnEkfIsNot) {
+  // Torqued slews under eq. (6): misalignment times command and torquer scale times command. One
+  // Gauss-Newton step from the EKF leaves an error of second order in the EKF's own: several times less.
+  const Timeline timeline = preset_timeline("slew12", CommandLaw::free, 3600.0, 300.0);
+  Fits fits("slew12", timeline, Coupling::eq6);
+  ASSERT_EQ(fits.iterated.status(), EstimateStatus::ok);
+  ASSERT_EQ(fits.batch.estimate.status, EstimateStatus::ok);
+  double ekf_off = 0.0, off = 0.0;
+  for (std::size_t k = 0; k < fits.layout.size(); ++k) {
+    const ParameterEstimate& b = fits.batch.estimate.parameters[k];
+    const auto i = static_cast<Eigen::Index>(fits.layout.params[k]);
+    off = std::max(off, std::abs(fits.iterated.theta()[i] - b.value) / b.sigma);
+    EXPECT_NEAR(fits.iterated.sigma(k) / b.sigma, 1.0, 0.05) << TermLibrary::specs[b.param].key.view();
+    ekf_off = std::max(ekf_off, std::abs(fits.ekf.parameters[k].value - b.value) / b.sigma);
+  }
+  std::printf("largest distance from the batch fit: EKF %.2f sigma, iterated %.2f sigma\n", ekf_off, off);
+  EXPECT_LT(off, 0.5);
+  EXPECT_LT(off, 0.25 * ekf_off);
+  // Sum of NIS = minimum of data and prior cost, up to the attitude prior at caging.
+  EXPECT_NEAR(fits.iterated.innovations().nis, fits.batch.estimate.statistic, 0.5);
+}
+
+TEST(IteratedEkf, IsTheBatchFitOverCagings) {
+  const Timeline timeline = preset_timeline("six", CommandLaw::free, 3600.0, 300.0);
+  Fits fits("six", timeline, Coupling::eq5);
+  for (std::size_t k = 0; k < fits.layout.size(); ++k) {
+    const ParameterEstimate& b = fits.batch.estimate.parameters[k];
+    if (b.learning_ratio() > 0.5) continue;
+    const auto i = static_cast<Eigen::Index>(fits.layout.params[k]);
+    EXPECT_LT(std::abs(fits.iterated.theta()[i] - b.value), 0.1 * b.sigma) << TermLibrary::specs[b.param].key.view();
+    EXPECT_NEAR(fits.iterated.sigma(k) / b.sigma, 1.0, 0.01);
+  }
+  EXPECT_NEAR(fits.iterated.innovations().nis, fits.batch.estimate.statistic, 0.5);
+}
+
+TEST(IteratedEkf, StartsAnewWithoutATrace) {
+  const Timeline timeline = preset_timeline("six", CommandLaw::free, 1200.0, 120.0);
+  const FilterSpec filter = base_filter(Coupling::eq5);
+  const Simulation a = Simulator(base_truth(Coupling::eq5), Readout{}).run(timeline, 4, 2);
+  const Simulation b = Simulator(base_truth(Coupling::eq5), Readout{}).run(timeline, 4, 3);
+  const Theta start = make_layout(filter).theta;
+  IteratedEkf one(filter, timeline, Readout{}, start), other(filter, timeline, Readout{}, start);
+  one.run(a.measured, start);
+  other.run(b.measured, draw_parameters(filter, 1, 1, Purpose::test));
+  other.run(a.measured, start);
+  EXPECT_EQ(one.x(), other.x());
+  EXPECT_EQ(one.innovations().nis, other.innovations().nis);
+  EXPECT_EQ(one.innovations().lag1(), other.innovations().lag1());
+}
+
+TEST(IteratedEkf, ReportsDivergenceAsAValueAndRecovers) {
+  const Timeline timeline = preset_timeline("six", CommandLaw::free, 1200.0, 120.0);
+  const FilterSpec filter = base_filter(Coupling::eq5);
+  const Simulation sim = Simulator(base_truth(Coupling::eq5), Readout{}).run(timeline, 4, 2);
+  const Theta start = make_layout(filter).theta;
+  Measurements absurd = sim.measured;
+  absurd.acc.setConstant(1e9);
+  IteratedEkf ekf(filter, timeline, Readout{}, start);
+  ekf.run(absurd, start);
+  EXPECT_EQ(ekf.status(), EstimateStatus::diverged);
+  EXPECT_FALSE(ekf.cause().empty());
+  ekf.run(sim.measured, start);
+  EXPECT_EQ(ekf.status(), EstimateStatus::ok);
+}
+
+TEST(Ekf, ResetIsAsBuiltAnew) {
+  const Timeline timeline = preset_timeline("six", CommandLaw::free, 1200.0, 120.0);
+  const FilterSpec filter = base_filter(Coupling::eq6);
+  const Simulation sim = Simulator(base_truth(Coupling::eq6), Readout{}).run(timeline, 4, 2);
+  const Theta start = draw_parameters(filter, 1, 1, Purpose::test);
+  const EstimateResult fresh = run_ekf(filter, timeline, Readout{}, sim.measured, start);
+  Ekf ekf(filter, timeline, Readout{}, make_layout(filter).theta, KeepHistory::no);
+  for (int round = 0; round < 2; ++round) {
+    ekf.reset(start);
+    for (std::size_t i = 0; i < timeline.intervals.size(); ++i) {
+      const auto column = static_cast<Eigen::Index>(i);
+      ekf.process(i, sim.measured.acc.col(column), sim.measured.gimbal.col(column));
+    }
+    const EstimateResult again = ekf.result();
+    EXPECT_EQ(again.covariance, fresh.covariance);
+    EXPECT_EQ(again.statistic, fresh.statistic);
+    for (std::size_t k = 0; k < fresh.parameters.size(); ++k)
+      EXPECT_EQ(again.parameters[k].value, fresh.parameters[k].value);
+  }
+  EXPECT_TRUE(ekf.history().t.empty());
+}
+
+}  // namespace
+}  // namespace drift

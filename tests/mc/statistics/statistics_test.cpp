@@ -1,0 +1,231 @@
+// Statistics of synthetic blocks, whose numbers are known in closed form.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/base/rng.hpp"
+#include "mc/statistics/point_statistics.hpp"
+#include "mc/stop_rule.hpp"
+#include "tests/mc/small_study.hpp"
+
+namespace drift {
+namespace {
+
+using namespace drift::test;
+using C = mc::StudyColumns;
+
+TEST(Rate, HasTheWilsonInterval) {
+  // Wilson (1927) as in Newcombe (1998), table I: 81 of 263 is 0.2553 to 0.3662; 0 of 20 is 0 to 0.1611.
+  const mc::Rate a{81, 263}, none{0, 20}, all{20, 20};
+  EXPECT_NEAR(a.low(), 0.2553, 5e-5);
+  EXPECT_NEAR(a.high(), 0.3662, 5e-5);
+  EXPECT_EQ(none.low(), 0.0);
+  EXPECT_NEAR(none.high(), 0.1611, 5e-5);
+  EXPECT_NEAR(all.low(), 1.0 - 0.1611, 5e-5);
+  EXPECT_EQ(all.high(), 1.0);
+  EXPECT_TRUE(std::isnan(mc::Rate{}.value()));
+}
+
+TEST(ErrorStatistics, HasClosedForms) {
+  // Errors 1, -3 with sigmas 1, 2 in units of a prior of 10.
+  mc::ErrorStatistics e(10.0, 0);
+  e.add(1.0, 1.0, {});
+  e.add(-3.0, 2.0, {});
+  EXPECT_DOUBLE_EQ(e.bias().value, -1.0);
+  EXPECT_NEAR(e.bias(1.0).half_width(), std::sqrt(8.0) / std::sqrt(2.0), 1e-12);  // SD of {1, -3} is sqrt(8)
+  EXPECT_DOUBLE_EQ(e.rmse().value, std::sqrt(5.0));
+  EXPECT_DOUBLE_EQ(e.mean_sigma(), std::sqrt(2.5));
+  EXPECT_DOUBLE_EQ(e.deception().value, std::sqrt(2.0));
+  EXPECT_EQ(e.coverage()[0].hits, 0u);  // 1 is not below 1 sigma
+  EXPECT_EQ(e.coverage()[1].hits, 2u);
+  EXPECT_DOUBLE_EQ(e.learning(), std::sqrt(2.5) / 10.0);
+}
+
+TEST(ErrorStatistics, BootstrapAgreesWithTheNormalInterval) {
+  // 2000 normal errors: both intervals of the RMSE are 1 +- 1.96 / sqrt(2 n) = +- 0.031. A bootstrap of
+  // 200 replicates knows its 2.5 % point within 0.11 sigma (order statistics), both together 10 %.
+  mc::BootstrapWeights weights(1, 200);
+  mc::ErrorStatistics e(1.0, 200);
+  Stream stream(1, 0, Purpose::test);
+  for (std::uint64_t run = 0; run < 2000; ++run) e.add(stream.normal(), 1.0, weights.of(run));
+  const mc::Estimated b = e.rmse(), n = e.rmse_normal(1.959963984540054);
+  EXPECT_NEAR(n.half_width(), 1.96 / std::sqrt(4000.0), 0.1 * 0.031);
+  EXPECT_NEAR(b.half_width(), n.half_width(), 0.2 * n.half_width());
+  EXPECT_LT(b.low, b.value);
+  EXPECT_GT(b.high, b.value);
+}
+
+TEST(BootstrapWeights, ArePoissonNumbersOfTheRunAlone) {
+  mc::BootstrapWeights a(9, 1000), b(9, 1000);
+  const auto w = a.of(5);
+  const std::vector<double> first(w.begin(), w.end());
+  b.of(4);
+  const auto again = b.of(5);
+  EXPECT_TRUE(std::ranges::equal(first, again));
+  double mean = 0.0, square = 0.0;
+  for (std::uint64_t run = 0; run < 100; ++run)
+    for (const double k : a.of(run)) {
+      mean += k / 1e5;
+      square += k * k / 1e5;
+    }
+  EXPECT_NEAR(mean, 1.0, 4.0 / std::sqrt(1e5));       // variance 1
+  EXPECT_NEAR(square, 2.0, 4.0 * std::sqrt(11.0 / 1e5));  // E k^4 - 4 = 15 - 4
+}
+
+/// A block of a study point, filled by hand: every run a perfect estimate at first.
+struct Synthetic {
+  Study study = read_text(small_study);
+  C columns{study};
+  mc::Block block;
+
+  explicit Synthetic(std::size_t runs) {
+    block.status.assign(runs, mc::RunStatus::ok);
+    block.rows.assign(runs * columns.count, 0.0);
+    for (std::size_t r = 0; r < runs; ++r)
+      for (const auto& f : columns.filters)
+        for (std::size_t s = 0; s < f.starts; ++s) {
+          at(r, f.at(s, C::nis)) = 1000.0;
+          at(r, f.at(s, C::nis_dof)) = 1000.0;
+          at(r, f.at(s, C::nees)) = at(r, f.at(s, C::nees_dof)) = 8.0;
+          at(r, f.at(s, C::nees_all)) = static_cast<double>(f.layout.size());
+          for (std::size_t k = 0; k < f.layout.size(); ++k)
+            at(r, f.sigma(s, k)) = 0.1 * f.layout.sigma[static_cast<Eigen::Index>(k)];
+        }
+  }
+  double& at(std::size_t run, std::size_t column) { return block.rows[run * columns.count + column]; }
+  /// An error of `sigmas` in parameter k of the first filter, first start.
+  void put_off(std::size_t run, std::size_t k, double sigmas) {
+    const auto& f = columns.filters[0];
+    at(run, f.estimate(0, k)) = at(run, f.truth[k]) + sigmas * at(run, f.sigma(0, k));
+  }
+};
+
+TEST(SilentFailure, IsARunThatIsWrongWhereItClaimsToKnowAndLooksHealthy) {
+  Synthetic s(10);
+  const auto& f = s.columns.filters[0];
+  s.put_off(0, 2, 6.0);                          // silent
+  s.put_off(1, 2, -6.0);                         // silent, the other way
+  s.put_off(2, 2, 4.9);                          // not far enough off
+  s.put_off(3, 2, 6.0);
+  s.at(3, f.at(0, C::nis)) = 1200.0;             // wrong, but NIS shows it (band of 1000: 0.914 to 1.090)
+  s.at(4, f.sigma(0, 2)) = 0.6 * f.layout.sigma[2];
+  s.put_off(4, 2, 6.0);                          // does not claim to know
+  s.at(5, f.at(0, C::nis)) = 800.0;              // unhealthy, but right: NIS too good counts too
+  s.put_off(6, 2, 6.0);
+  s.put_off(6, 3, 6.0);                          // one run, two parameters
+  s.at(7, f.at(0, C::status)) = 2.0;             // diverged: wrong, and not silent
+  mc::PointStatistics statistics(s.study, 0);
+  statistics.add(s.block);
+  const auto& filter = statistics.filters()[0];
+  const auto& start = filter.starts()[0];
+  EXPECT_EQ(start.silent.hits, 3u);
+  EXPECT_EQ(start.silent.of, 10u);
+  EXPECT_EQ(start.wrong.hits, 5u);
+  EXPECT_EQ(start.healthy.hits, 7u);
+  EXPECT_EQ(start.diverged.hits, 1u);
+  EXPECT_EQ(filter.health()[2].silent.hits, 3u);
+  EXPECT_EQ(filter.health()[3].silent.hits, 1u);
+  EXPECT_EQ(filter.health()[2].claims.hits, 8u);
+  EXPECT_EQ(filter.starts()[1].silent.hits, 0u);
+  EXPECT_EQ(statistics.filters()[1].starts()[0].silent.hits, 0u);
+  EXPECT_EQ(filter.errors()[2].runs(), 9u);
+}
+
+TEST(StartConsistency, IsTheSpreadOfStartsOverTheirSigma) {
+  Synthetic s(4);
+  const auto& f = s.columns.filters[0];
+  const double sigma = s.at(0, f.sigma(0, 1));
+  for (std::size_t r = 0; r < 4; ++r) {
+    s.at(r, f.estimate(0, 1)) = -3.0 * sigma;
+    s.at(r, f.estimate(1, 1)) = 3.0 * sigma;  // SD of two values 6 sigma apart: 6 / sqrt(2)
+  }
+  mc::PointStatistics statistics(s.study, 0);
+  statistics.add(s.block);
+  EXPECT_NEAR(statistics.filters()[0].health()[1].start_ratio(), 6.0 / std::sqrt(2.0), 1e-12);
+  EXPECT_EQ(statistics.filters()[0].health()[1].start_depends.hits, 0u);
+  EXPECT_TRUE(std::isnan(statistics.filters()[1].health()[1].start_ratio()));
+}
+
+TEST(Failures, AreTiedToTheParameterThatCausesThem) {
+  Synthetic s(1000);
+  // Failing where the first truth parameter is in its highest tenth; its prior is normal(0, sigma).
+  const std::size_t column = 0, other = 1;
+  const auto prior = [&](std::size_t c) { return s.study.truth.priors[s.columns.truth[c]].b; };
+  Stream stream(1, 0, Purpose::test);
+  for (std::size_t r = 0; r < 1000; ++r) {
+    const double z = stream.normal();
+    s.at(r, column) = z * prior(column);
+    s.at(r, other) = stream.normal() * prior(other);
+    if (z > 1.2815515655446004) s.block.status[r] = mc::RunStatus::integrator_failed;
+  }
+  mc::PointStatistics statistics(s.study, 0);
+  statistics.add(s.block);
+  const auto& failures = statistics.failures();
+  const auto deciles = failures.deciles();
+  EXPECT_EQ(deciles[0].rate[9].value(), 1.0);
+  EXPECT_EQ(deciles[0].rate[0].value(), 0.0);
+  EXPECT_NEAR(deciles[0].chi2, 1000.0, 120.0);  // all variance explained: n, but for the drawn count
+  EXPECT_LT(deciles[1].chi2, 27.9);             // 99.9 % of chi-square with 9 degrees
+  EXPECT_TRUE(failures.too_many());
+  EXPECT_EQ(failures.first_failed().size(), 20u);
+  EXPECT_EQ(statistics.filters()[0].starts()[0].nis.in_band.of, 1000 - failures.lost().hits);
+}
+
+TEST(PointStatistics, DoNotDependOnHowRunsAreCutIntoBlocks) {
+  const mc::StudyTask task(read_text(small_study));
+  const auto worker = task.worker();
+  mc::PointStatistics whole(task.study()), parts(task.study());
+  whole.add(run_block(task, *worker, 0, 30));
+  for (const std::uint64_t first : {0u, 10u, 20u}) parts.add(run_block(task, *worker, first, 10));
+  for (std::size_t k = 0; k < whole.filters()[0].errors().size(); ++k) {
+    const auto &a = whole.filters()[0].errors()[k], &b = parts.filters()[0].errors()[k];
+    EXPECT_EQ(a.rmse().value, b.rmse().value);
+    EXPECT_EQ(a.rmse().low, b.rmse().low);
+    EXPECT_EQ(a.deception().high, b.deception().high);
+  }
+  EXPECT_EQ(whole.filters()[0].starts()[0].nis.sum, parts.filters()[0].starts()[0].nis.sum);
+}
+
+TEST(StopRule, StopsWhenTheIntervalIsNarrowEnough) {
+  const Study study = read_text(small_study + "stop = { quantity = \"silent_failure_rate\", half_width = 0.01 }\n");
+  const auto points = mc::study_points(study);
+  mc::HalfWidthRule rule(points, *study.monte_carlo.stop);
+  Synthetic s(64);
+  std::uint64_t runs = 0;
+  bool enough = false;
+  while (!enough && runs < 1000) {
+    s.block.first = runs;
+    enough = rule.enough(s.block);
+    runs += 64;
+  }
+  // No failures: the Wilson half width z^2 / (2 (n + z^2)) is 0.01 at n = 188.2.
+  EXPECT_EQ(runs, 192u);
+  EXPECT_NEAR(rule.half_width(0), 3.841459 / (2.0 * (192.0 + 3.841459)), 1e-9);
+  EXPECT_EQ(mc::stop_rule(mc::study_points(read_text(small_study))), nullptr);
+}
+
+TEST(StopRule, WaitsForAnRmse) {
+  const Study study = read_text(small_study + "stop = { quantity = \"rmse.eta_x\", half_width = 0.005, confidence = 0.9 }\n");
+  const auto points = mc::study_points(study);
+  const auto rule = mc::stop_rule(points);
+  const auto index = [&](const Synthetic& s) {
+    const auto& params = s.columns.filters[0].layout.params;
+    return static_cast<std::size_t>(std::ranges::find(params, TermLibrary::index("eta_x")) - params.begin());
+  };
+  Stream stream(2, 0, Purpose::test);
+  std::uint64_t runs = 0;
+  bool enough = false;
+  while (!enough && runs < 4000) {
+    Synthetic s(64);
+    for (std::size_t r = 0; r < 64; ++r) s.put_off(r, index(s), stream.normal());
+    s.block.first = runs;
+    enough = rule->enough(s.block);
+    runs += 64;
+  }
+  // Errors of 0.1 prior sigma: half width 1.645 * 0.1 / sqrt(2 n) is 0.005 at n = 541; the estimate of the
+  // spread is good to 10 % there, n to 20 %.
+  EXPECT_NEAR(static_cast<double>(runs), 541.0, 140.0);
+}
+
+}  // namespace
+}  // namespace drift
