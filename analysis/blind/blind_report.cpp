@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
-#include "analysis/blind/confusion_map.hpp"
 #include "analysis/blind/tables.hpp"
+#include "analysis/report/heat_map.hpp"
 #include "analysis/report/html_report.hpp"
 #include "analysis/report/number_text.hpp"
 #include "analysis/report/results_folder.hpp"
@@ -74,6 +75,24 @@ std::string power_svg(const Summary& s) {
   return drift::svg_of(chart_of("Detection and naming of single effects", 320.0, panel));
 }
 
+/// Shares of each row of the confusion table.
+std::string confusion_svg(const Confusion& c) {
+  HeatMap map;
+  map.title = "What was hidden (rows) and what it was called (columns)";
+  map.value_label = "share of the row";
+  map.columns = c.columns;
+  map.most = 1.0;
+  map.value = MatX::Zero(static_cast<Eigen::Index>(c.rows.size()), static_cast<Eigen::Index>(c.columns.size()));
+  for (std::size_t r = 0; r < c.rows.size(); ++r) {
+    const auto& called = c.rows[r].called;
+    map.rows.push_back(c.rows[r].hidden);
+    const auto total = static_cast<double>(std::accumulate(called.begin(), called.end(), std::size_t{0}));
+    for (std::size_t k = 0; k < called.size(); ++k)
+      map.value(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(k)) = static_cast<double>(called[k]) / total;
+  }
+  return drift::svg_of(map);
+}
+
 /// Sorted values against the share of them that is smaller.
 Series distribution(std::string label, std::vector<double> values) {
   std::erase_if(values, [](double v) { return !std::isfinite(v); });
@@ -124,7 +143,7 @@ std::string to_text(const Summary& summary, const std::vector<TrialScore>& score
 std::vector<std::string> write_report(const std::string& title, const Summary& summary,
                                       const std::vector<TrialScore>& scores, const Hashes& hashes,
                                       const std::string& folder) {
-  const std::string power = power_svg(summary), confusion = svg_of(summary.confusion), pulls = pulls_svg(summary),
+  const std::string power = power_svg(summary), confusion = confusion_svg(summary.confusion), pulls = pulls_svg(summary),
                     time = time_svg(scores);
   const std::vector<Table> tables = tables_of(summary);
   HtmlReport page{.title = title.empty() ? "Blind study" : title,
@@ -136,7 +155,7 @@ std::vector<std::string> write_report(const std::string& title, const Summary& s
                    {"Further scores", {tables[3], Paragraph{times_text(summary)},
                                        Picture{pulls, "Distribution of the recovered parameters where the cause was named exactly."},
                                        Picture{time, "Distribution of the time of a diagnosis."}}},
-                   {"Confusion", {Picture{confusion, "Counts of trials; green: the right name."}, tables[4]}},
+                   {"Confusion", {Picture{confusion, "Of all trials with this thing hidden, the share that got this answer."}, tables[4]}},
                    {"Trials that were answered wrong", {misses_table(scores)}}};
   return write_files({{"blind.json", to_json(summary, scores, hashes)}, {"power.svg", power},
                       {"confusion.svg", confusion}, {"pulls.svg", pulls}, {"time.svg", time},
