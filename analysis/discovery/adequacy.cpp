@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 #include <algorithm>
+#include <array>
 
 namespace drift::discovery {
 namespace {
@@ -134,43 +135,50 @@ Remainder remainder(const Field& field, const std::vector<Choice>& choices, doub
     }
     return false;
   };
+  // Tails are dear: the largest T of each number of degrees is kept, and its tail taken when it grows.
+  std::array<double, 16> largest{};
+  const auto take = [&](std::size_t candidate, double T, int dof) {
+    if (dof <= 0 || !(T > largest[dof])) return false;
+    largest[dof] = T;
+    const double s = strength(T, dof);
+    if (s <= out.library) return false;
+    out.library = s;
+    out.strongest = candidate;
+    return s > stop;
+  };
   // Single columns first: they are quick, and most wrong causes fail on one of them.
-  for (const bool several : {false, true})
-    for (std::size_t k = 0; k < field.set->candidates.size(); ++k) {
-      const Candidate& c = field.set->candidates[k];
-      if ((c.params.size() > 1) != several || own(c)) continue;
-      for (std::size_t v = 0; v < c.variants.size(); ++v) {
-        const Contrast& whole = field.contrasts[k][v];
-        if (whole.dof == 0) continue;
-        double s = 0.0;
-        if (!several) {
-          const int j = c.variants[v].columns[0];
-          if (left[j] > least_left * p.C(j, j) && left[j] > 0.1 * least_information)
-            s = strength(g[j] * g[j] / left[j], 1);
-        } else {
-          MatX cross_c(d.y.size(), whole.columns.size());
-          for (std::size_t j = 0; j < whole.columns.size(); ++j) cross_c.col(j) = cross.col(whole.columns[j]);
-          // In coordinates where the candidate had unit information.
-          const MatX rest = MatX::Identity(whole.dof, whole.dof) -
-                            (cross_c * whole.W).transpose() * (cross_c * whole.W);
-          const Eigen::SelfAdjointEigenSolver<MatX> eigen(rest);
-          const VecX y = eigen.eigenvectors().transpose() * (whole.W.transpose() * elements(g, whole.columns));
-          double T = 0.0;
-          int dof = 0;
-          for (Eigen::Index j = 0; j < y.size(); ++j)
-            if (eigen.eigenvalues()[j] > 1e-5) {
-              T += y[j] * y[j] / eigen.eigenvalues()[j];
-              ++dof;
-            }
-          s = strength(T, dof);
-        }
-        if (s > out.library) {
-          out.library = s;
-          out.strongest = k;
-          if (s > stop) return out;
-        }
-      }
+  for (std::size_t k = 0; k < field.set->candidates.size(); ++k) {
+    const Candidate& c = field.set->candidates[k];
+    if (c.params.size() > 1 || own(c)) continue;
+    for (std::size_t v = 0; v < c.variants.size(); ++v) {
+      const int j = c.variants[v].columns[0];
+      if (field.contrasts[k][v].dof > 0 && left[j] > least_left * p.C(j, j) && left[j] > 0.1 * least_information &&
+          take(k, g[j] * g[j] / left[j], 1))
+        return out;
     }
+  }
+  for (std::size_t k = 0; k < field.set->candidates.size(); ++k) {
+    const Candidate& c = field.set->candidates[k];
+    if (c.params.size() < 2 || own(c)) continue;
+    for (const Contrast& whole : field.contrasts[k]) {
+      if (whole.dof == 0) continue;
+      MatX cross_c(d.y.size(), whole.columns.size());
+      for (std::size_t j = 0; j < whole.columns.size(); ++j) cross_c.col(j) = cross.col(whole.columns[j]);
+      // In coordinates where the candidate had unit information.
+      const MatX lost = cross_c * whole.W;
+      const MatX rest = MatX::Identity(whole.dof, whole.dof) - lost.transpose() * lost;
+      const Eigen::SelfAdjointEigenSolver<MatX> eigen(rest);
+      const VecX y = eigen.eigenvectors().transpose() * (whole.W.transpose() * elements(g, whole.columns));
+      double T = 0.0;
+      int dof = 0;
+      for (Eigen::Index j = 0; j < y.size(); ++j)
+        if (eigen.eigenvalues()[j] > 1e-5) {
+          T += y[j] * y[j] / eigen.eigenvalues()[j];
+          ++dof;
+        }
+      if (take(k, T, dof)) return out;
+    }
+  }
   for (const PositionScan& scan : *field.scans) {
     MatX C_D_scan(d.columns.size(), scan.T.size());
     for (std::size_t k = 0; k < d.columns.size(); ++k)
