@@ -10,7 +10,7 @@
 #include "analysis/blind/noise_faults.hpp"
 #include "analysis/blind/outside_effects.hpp"
 #include "analysis/blind/sizing.hpp"
-#include "analysis/report/chi_square_band.hpp"
+#include "core/base/chi_square_band.hpp"
 #include "core/base/check.hpp"
 #include "core/config/load.hpp"
 #include "core/config/override.hpp"
