@@ -4,6 +4,7 @@
 
 #include "analysis/cli/commands.hpp"
 #include "analysis/cli/progress.hpp"
+#include "analysis/discovery/advise.hpp"
 #include "analysis/discovery/diagnose.hpp"
 #include "analysis/discovery/prepare.hpp"
 #include "analysis/report/diagnosis_folder.hpp"
@@ -60,6 +61,7 @@ ExitCode diagnose_case(const Study& study, const std::vector<std::string>& paths
 ExitCode diagnose_platform(const Study& study, const std::vector<std::string>& paths, const std::string& folder) {
   discovery::Prepared prepared = discovery::prepare(study, read_all(study, paths));
   discovery::Diagnosis found = discovery::diagnose(prepared.study, prepared.recordings);
+  found.advice = discovery::advise(prepared.study, prepared.recordings, found, {.seed = study.monte_carlo.seed});
   found.remarks.insert(found.remarks.begin(), prepared.remarks.begin(), prepared.remarks.end());
   finish(study, found, {paths, ""}, folder);
   return ExitCode::ok;
