@@ -50,7 +50,10 @@ std::vector<Alternative> alternatives_of(const Diagnosis& d) {
   for (const Cause& c : d.causes) {
     const auto k = static_cast<std::size_t>(c.set);
     if (k >= all.size()) all.resize(k + 1);
-    all[k].label += fmt::format("{}{}{}{}", all[k].label.empty() ? "" : " + ", c.term, c.axis.empty() ? "" : ".", c.axis);
+    // One parameter tells more than its term: several of a term may be alternatives.
+    const std::string own = c.parameters.size() == 1 && !c.parameters[0].key.starts_with(c.term)
+                                ? fmt::format(" ({})", c.parameters[0].key) : "";
+    all[k].label += fmt::format("{}{}{}{}{}", all[k].label.empty() ? "" : " + ", c.term, c.axis.empty() ? "" : ".", c.axis, own);
     all[k].causes.push_back(c);
   }
   std::erase_if(all, [](const Alternative& a) { return a.causes.empty(); });
