@@ -92,7 +92,7 @@ TEST(DiagnoseCommand, TheWrongPlanIsSaidAndOddInputIsRemarked) {
   const Answer wrong = driftscope("diagnose " + study + " " + recording + " --set plan.preset=twelve --set plan.sample='30 s'");
   EXPECT_EQ(wrong.code, recording_error);
   EXPECT_NE(wrong.err.find("samples are 60 s apart"), std::string::npos) << wrong.err;
-  const Answer other = driftscope("diagnose " + study + " " + recording + " --set plan.preset=eighteen");
+  const Answer other = driftscope("diagnose " + study + " " + recording + " --set plan.preset=apollo10");
   EXPECT_EQ(other.code, recording_error);
   EXPECT_NE(other.err.find("Is this the plan"), std::string::npos) << other.err;
   // A channel that stands still is left out, and said; nothing is blamed for it.
