@@ -4,6 +4,9 @@
 
 #include "analysis/cli/commands.hpp"
 #include "analysis/cli/progress.hpp"
+#include "analysis/discovery/advise.hpp"
+#include "analysis/discovery/diagnose.hpp"
+#include "analysis/discovery/prepare.hpp"
 #include "analysis/report/diagnosis_folder.hpp"
 #include "analysis/report/diagnosis_text.hpp"
 #include "analysis/report/results_folder.hpp"
@@ -55,12 +58,22 @@ ExitCode diagnose_case(const Study& study, const std::vector<std::string>& paths
   return ExitCode::ok;
 }
 
+ExitCode diagnose_platform(const Study& study, const std::vector<std::string>& paths, const std::string& folder) {
+  discovery::Prepared prepared = discovery::prepare(study, read_all(study, paths));
+  discovery::Diagnosis found = discovery::diagnose(prepared.study, prepared.recordings);
+  found.advice = discovery::advise(prepared.study, prepared.recordings, found, {.seed = study.monte_carlo.seed});
+  found.remarks.insert(found.remarks.begin(), prepared.remarks.begin(), prepared.remarks.end());
+  finish(study, found, {paths, ""}, folder);
+  return ExitCode::ok;
+}
+
 }  // namespace
 
 ExitCode diagnose(const StudyArguments& arguments, const std::vector<std::string>& paths, const std::string& folder) {
   const Study study = arguments.read();
   require_nominal(study);
-  return diagnose_case(study, paths, folder);
+  return study.kind == RecordingKind::strapdown ? diagnose_case(study, paths, folder)
+                                                : diagnose_platform(study, paths, folder);
 }
 
 }  // namespace drift::cli

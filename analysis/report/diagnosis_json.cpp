@@ -114,9 +114,10 @@ Json fit_json(const FitComparison& fit) {
                     {"dof", f.dof},
                     {"log_score_gain", number(f.log_score_after - f.log_score_before)},
                     {"same_choice", f.same_choice}});
-  out["held_out"] = {{"chi2_per_dof_before", number(held.chi2_per_dof_before)},
-                     {"chi2_per_dof_after", number(held.chi2_per_dof_after)},
-                     {"log_score_gain", number(held.log_score_gain)},
+  const auto of_folds = [&](double value) { return held.folds.empty() ? Json(nullptr) : number(value); };
+  out["held_out"] = {{"chi2_per_dof_before", of_folds(held.chi2_per_dof_before)},
+                     {"chi2_per_dof_after", of_folds(held.chi2_per_dof_after)},
+                     {"log_score_gain", of_folds(held.log_score_gain)},
                      {"folds", held.folds.size()},
                      {"log_score_gain_sigma", number(held.log_score_gain_sigma)},
                      {"nested_gain", number(held.nested_gain)},

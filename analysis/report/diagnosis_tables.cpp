@@ -67,11 +67,11 @@ Table candidate_table(const Diagnosis& d, std::size_t most) {
                    {"detectable"}, {"unit", Align::left}, {"prob."}, {"", Align::left}};
   for (std::size_t k = 0; k < std::min(most, d.candidates.size()); ++k) {
     const CandidateScore& c = d.candidates[k];
-    const Tone tone = c.adequate ? Tone::good : Tone::plain;
+    const Tone tone = c.adequate && d.verdict != Verdict::consistent ? Tone::good : Tone::plain;
     table.add({{label_of(c), tone}, number_text(c.score), fmt::format("{}", c.dof), p_text(c.p_value), percent(c.absorbed),
-               c.sigma > 0.0 ? with_sigma(c.amplitude, c.sigma) : "", number_text(c.smallest_detectable, 2), c.unit,
-               number_text(c.probability, 2),
-               !c.observable ? "not observable on this plan" : c.adequate ? "explains all" : ""});
+               c.sigma > 0.0 ? with_sigma(c.amplitude, c.sigma) : "", c.sigma > 0.0 ? number_text(c.smallest_detectable, 2) : "", c.unit,
+               c.probability < 5e-4 ? "0" : number_text(c.probability, 2),
+               !c.observable ? "not observable on this plan" : c.adequate && d.verdict != Verdict::consistent ? "explains all" : ""});
   }
   table.note = "p: family-wise, over all that was tried. absorbed: part of the raw signature that fitted parameters take "
                "up. detectable: size found with 80 % probability.";
@@ -92,7 +92,8 @@ Table fit_table(const Diagnosis& d) {
        f.band_high > 0.0 ? fmt::format("{:.3f} to {:.3f} (95 %)", f.band_low, f.band_high) : "1");
   line("NIS per degree of freedom", f.whiteness.nis_per_dof_before, f.whiteness.nis_per_dof_after, "1");
   line("whiteness (Ljung-Box), p", f.whiteness.ljung_box_p_before, f.whiteness.ljung_box_p_after, "above 0.05");
-  line("held-out chi-square per degree of freedom", f.held_out.chi2_per_dof_before, f.held_out.chi2_per_dof_after, "1");
+  if (!f.held_out.folds.empty())
+    line("held-out chi-square per degree of freedom", f.held_out.chi2_per_dof_before, f.held_out.chi2_per_dof_after, "1");
   line("start spread, largest ratio", f.start_spread_before, f.start_spread_after, "below 2");
   if (std::isfinite(f.log_likelihood_ratio) && f.log_likelihood_ratio != 0.0)
     table.note = fmt::format("Twice the gain of the log likelihood: {}; the linear score foretold {}{}.",

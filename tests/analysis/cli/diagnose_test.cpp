@@ -42,6 +42,70 @@ TEST(DiagnoseCommand, NamesWhatACaseLacksAndLeavesAReport) {
   EXPECT_NE(again.out.find("Verdict consistent"), std::string::npos) << again.out;
 }
 
+/// Six positions; g2_drift is left out of the nominal filter and zero in the truth but for D_SS_x.
+std::string platform_study(const std::string& size) {
+  return R"(schema = 1
+title  = "six"
+[site]
+latitude = "45.75 deg"
+[plan]
+preset = "six"
+dwell  = "30 min"
+sample = "60 s"
+[truth]
+coupling = "eq5"
+terms    = ["fixed_drift", "g_drift", "gyro_misalignment", "accelerometer", "D_SS_x"]
+[truth.parameters]
+D_SS_x = ")" + size + R"("
+[[filter]]
+name     = "nominal"
+coupling = "eq5"
+terms    = ["fixed_drift", "g_drift", "gyro_misalignment", "accelerometer"]
+[monte_carlo]
+seed = 3
+)";
+}
+
+TEST(DiagnoseCommand, NamesWhatAPlatformLacksAndItsPatchedStudyIsConsistent) {
+  const ScratchFolder folder;
+  const std::string study = folder.write("s.toml", platform_study("0.2 deg/h/g^2")), recording = folder.file("r.csv");
+  ASSERT_EQ(driftscope("simulate " + study + " -o " + recording).code, 0);
+  const Answer a = driftscope("diagnose " + study + " " + recording + " -o " + folder.file("out"));
+  ASSERT_EQ(a.code, 0) << a.err;
+  const auto json = nlohmann::json::parse(text_of(folder.file("out") + "/diagnosis.json"));
+  EXPECT_EQ(json["verdict"], "named") << a.out;
+  ASSERT_EQ(json["causes"].size(), 1u);
+  EXPECT_EQ(json["causes"][0]["term"], "g2_drift");
+  const auto& found = json["causes"][0]["parameters"][0];
+  EXPECT_EQ(found["key"], "D_SS_x");
+  EXPECT_NEAR(found["value"].get<double>(), 0.2, 4.0 * found["sigma"].get<double>());
+  EXPECT_GT(json["fit"]["held_out"]["log_score_gain"].get<double>(), 0.0);
+  const Answer again = driftscope("diagnose " + folder.file("out") + "/patched.toml " + recording);
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_NE(again.out.find("Verdict consistent"), std::string::npos) << again.out;
+}
+
+TEST(DiagnoseCommand, TheWrongPlanIsSaidAndOddInputIsRemarked) {
+  const ScratchFolder folder;
+  const std::string study = folder.write("s.toml", platform_study("0 deg/h/g^2")), recording = folder.file("r.csv");
+  ASSERT_EQ(driftscope("simulate " + study + " -o " + recording).code, 0);
+  const Answer wrong = driftscope("diagnose " + study + " " + recording + " --set plan.preset=twelve --set plan.sample='30 s'");
+  EXPECT_EQ(wrong.code, recording_error);
+  EXPECT_NE(wrong.err.find("samples are 60 s apart"), std::string::npos) << wrong.err;
+  const Answer other = driftscope("diagnose " + study + " " + recording + " --set plan.preset=apollo10");
+  EXPECT_EQ(other.code, recording_error);
+  EXPECT_NE(other.err.find("Is this the plan"), std::string::npos) << other.err;
+  // A channel that stands still is left out, and said; nothing is blamed for it.
+  Recording r = read_recording(recording, RecordingKind::platform, 9.80665);
+  for (Channel& c : r.channels)
+    if (c.name == "gimbal_inner") c.values.assign(c.values.size(), 0.1);
+  write_recording(r, folder.file("stuck.csv"));
+  const Answer stuck = driftscope("diagnose " + study + " " + folder.file("stuck.csv"));
+  EXPECT_EQ(stuck.code, 0) << stuck.err;
+  EXPECT_NE(stuck.out.find("gimbal_inner stands still for 180 samples"), std::string::npos) << stuck.out;
+  EXPECT_NE(stuck.out.find("Verdict consistent"), std::string::npos) << stuck.out;
+}
+
 TEST(DiagnoseCommand, RefusesWhatItCannotDiagnose) {
   const ScratchFolder folder;
   EXPECT_EQ(driftscope("diagnose " + config("diagnose_xsens.toml")).code, static_cast<int>(ExitCode::usage));

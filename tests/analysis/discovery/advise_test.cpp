@@ -1,0 +1,119 @@
+#include "analysis/discovery/advise.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "analysis/discovery/position_pool.hpp"
+#include "core/base/check.hpp"
+#include "core/sim/measurements.hpp"
+#include "core/sim/simulate.hpp"
+#include "tests/support/model_builders.hpp"
+
+namespace drift::discovery {
+namespace {
+
+using test::param;
+
+/// Six caged positions with the Earth rate torqued: blind to lambda (physics.md 1.7).
+Study level_study() {
+  Study s;
+  s.path = "study.toml";
+  s.site = test::harbin;
+  PlanDefaults defaults;
+  defaults.mode = CommandLaw::level;
+  defaults.dwell = 600.0;
+  s.plan = preset_plan("six", defaults).value();
+  s.truth = test::base_truth(Coupling::eq5);
+  s.filters = {test::base_filter(Coupling::eq5)};
+  return s;
+}
+
+Recording simulated(const Study& s) {
+  const Timeline timeline = lay_out(s.plan, s.site);
+  const TruthDraw draw = draw_truth(s.truth, timeline.chains, 1, 0);
+  return make_recording(timeline, Simulator(s.truth, s.readout).run(timeline, draw, 1, 0).measured, s.readout);
+}
+
+Cause cause(std::string_view term, std::string_view key, double value, int set) {
+  const auto index = param(key);
+  Cause c;
+  c.term = term;
+  c.set = set;
+  c.parameters = {{std::string(key), index, value, 0.01, std::string(TermLibrary::specs[index].unit.symbol.view()), false}};
+  return c;
+}
+
+TEST(PositionPool, HoldsPossiblePositionsOfEveryKind) {
+  const auto pool = position_pool(600.0, 60.0, test::harbin);
+  std::set<std::string> names;
+  std::size_t slews = 0, level = 0, turned = 0;
+  for (const Addition& a : pool) {
+    EXPECT_TRUE(names.insert(a.back().name).second) << a.back().name;
+    EXPECT_NEAR((a.back().R_lp * a.back().R_lp.transpose() - Mat3::Identity()).norm(), 0.0, 1e-12);
+    EXPECT_EQ(a.front().entry, Entry::caged);
+    slews += a.size() == 2 ? 1 : 0;
+    level += a.back().mode == CommandLaw::level ? 1 : 0;
+    turned += a.back().axes.size() > 11 ? 1 : 0;
+  }
+  EXPECT_GT(slews, 20u);
+  EXPECT_GT(turned, 40u);
+  EXPECT_GT(level, pool.size() / 3);
+  EXPECT_GT(pool.size(), 100u);
+}
+
+TEST(Advise, SaysNothingWhereNothingIsToBeSeparated) {
+  const Study s = level_study();
+  Diagnosis d;
+  d.nominal = s.filters.front();
+  d.verdict = Verdict::named;
+  d.causes = {cause("g2_drift", "D_II_x", 0.1, 0)};
+  EXPECT_TRUE(advise(s, {simulated(s)}, d).empty());
+  d.verdict = Verdict::consistent;
+  CandidateScore seen;
+  seen.term = "frame_closure";
+  seen.smallest_detectable = 0.2;
+  d.candidates = {seen};
+  EXPECT_TRUE(advise(s, {simulated(s)}, d).empty());
+}
+
+TEST(Advise, ATestBlindToTheEquationIsGivenPositionsThatTellAndASimulationAgrees) {
+  const Study s = level_study();
+  Diagnosis d;
+  d.nominal = s.filters.front();
+  CandidateScore blind;
+  blind.term = "frame_closure";
+  blind.observable = false;
+  d.candidates = {blind};
+  const auto advice = advise(s, {simulated(s)}, d);
+  ASSERT_EQ(advice.size(), 1u);
+  const Advice& a = advice.front();
+  EXPECT_LT(a.now_sigma, 5.0) << a.text;
+  EXPECT_GT(a.expected_sigma, 5.0) << a.text;
+  EXPECT_FALSE(a.plan.empty());
+  // Twice the gain of the log likelihood is non-central chi-square: its root is expected_sigma +- 1, and
+  // what is not linear in lambda and eta takes its part of a large one.
+  EXPECT_NEAR(a.verified_sigma, a.expected_sigma, 4.0 + 0.1 * a.expected_sigma) << a.text;
+  EXPECT_NE(a.text.find("eq. (5)"), std::string::npos);
+}
+
+TEST(Advise, SeparatesAlternativesThatLookAlike) {
+  Study s = level_study();
+  FilterSpec& nominal = s.filters.front();
+  nominal.active &= ~test::only({"D_II", "D_SS", "D_OO", "D_IO", "D_IS", "D_OS"});
+  s.truth.active = nominal.active;
+  Diagnosis d;
+  d.nominal = nominal;
+  d.verdict = Verdict::ambiguous;
+  d.causes = {cause("g2_drift", "D_IS_x", 0.3, 0), cause("g2_drift", "D_IO_y", 0.3, 1)};
+  const auto advice = advise(s, {simulated(s)}, d);
+  ASSERT_EQ(advice.size(), 1u);
+  const Advice& a = advice.front();
+  EXPECT_EQ(a.separates, (std::vector<std::string>{"g2_drift (D_IS_x)", "g2_drift (D_IO_y)"}));
+  EXPECT_GT(a.expected_sigma, a.now_sigma);
+  EXPECT_GT(a.expected_sigma, 5.0) << a.text;
+  EXPECT_NEAR(a.verified_sigma, a.expected_sigma, 4.0 + 0.1 * a.expected_sigma) << a.text;
+}
+
+}  // namespace
+}  // namespace drift::discovery
