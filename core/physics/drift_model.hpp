@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 
+#include "core/base/dual.hpp"
 #include "core/physics/earth.hpp"
 #include "core/physics/gimbals.hpp"
 #include "core/physics/term_library.hpp"
@@ -85,20 +86,38 @@ Vec3T<S> platform_rate(const DriftModel& model, const Inputs<S>& in, const S* th
   return a.omega_ip_p - adj_s / det;
 }
 
-/// What the three accelerometers say [g], without noise.
+/// The same as accelerometer_output, for models with terms beyond the first ones.
 template <class S>
-Vec3T<S> accelerometer_output(const DriftModel& model, const Inputs<S>& in, const S* theta) {
-  if (!TermLibrary::offset_attitude(model.terms)) {
-    ReadoutAssembly<S> out{in.f_p};
-    TermLibrary::readout(model.terms, in, theta, out);
-    return out.acc;
-  }
+[[gnu::noinline]] Vec3T<S> offset_accelerometer_output(const DriftModel& model, const Inputs<S>& in,
+                                                       const S* theta) {
   Inputs<S> offset = in;
-  const Vec3T<S> delta_p = TermLibrary::attitude_offset(model.terms, in, theta);
-  offset.f_p = rotation(delta_p).transpose() * in.f_p;
+  if (TermLibrary::offset_attitude(model.terms)) {
+    const Vec3T<S> delta_p = TermLibrary::attitude_offset(model.terms, in, theta);
+    offset.f_p = rotation(delta_p).transpose() * in.f_p;
+  }
   ReadoutAssembly<S> out{offset.f_p};
   TermLibrary::readout(model.terms, offset, theta, out);
   return out.acc;
+}
+
+/// What the three accelerometers say [g], without noise.
+template <class S>
+Vec3T<S> accelerometer_output(const DriftModel& model, const Inputs<S>& in, const S* theta) {
+  if (!TermLibrary::plain_readout(model.terms)) return offset_accelerometer_output(model, in, theta);
+  ReadoutAssembly<S> out{in.f_p};
+  TermLibrary::first_readout(model.terms, in, theta, out);
+  return out.acc;
+}
+
+/// The same as gimbal_output, for models with terms that act on what the gimbals show.
+template <class S>
+[[gnu::noinline]] Vec3T<S> offset_gimbal_output(const DriftModel& model, const Inputs<S>& in,
+                                                const Mat3T<S>& R_lp, double heading, const S* theta) {
+  const Vec3T<S> delta_p = TermLibrary::attitude_offset(model.terms, in, theta);
+  GimbalAssembly<S> out;
+  TermLibrary::gimbals(model.terms, in, theta, out);
+  const Mat3T<S> R_tp = rotation(out.case_tilt_l).transpose() * R_lp * rotation(delta_p);
+  return gimbal_angles<S>(case_attitude(heading).transpose().template cast<S>() * R_tp) + out.error;
 }
 
 /// What the resolvers say [rad]: outer, middle, inner, without noise, for the attitude R_lp of the
@@ -107,14 +126,21 @@ Vec3T<S> accelerometer_output(const DriftModel& model, const Inputs<S>& in, cons
 template <class S>
 Vec3T<S> gimbal_output(const DriftModel& model, const Inputs<S>& in, const Mat3T<S>& R_lp,
                        double heading, const S* theta) {
-  const Mat3 R_lc = case_attitude(heading);
-  if (!TermLibrary::act_on_gimbals(model.terms))
-    return gimbal_angles<S>(R_lc.transpose().cast<S>() * R_lp);
-  const Vec3T<S> delta_p = TermLibrary::attitude_offset(model.terms, in, theta);
-  GimbalAssembly<S> out;
-  TermLibrary::gimbals(model.terms, in, theta, out);
-  const Mat3T<S> R_tp = rotation(out.case_tilt_l).transpose() * R_lp * rotation(delta_p);
-  return gimbal_angles<S>(R_lc.transpose().cast<S>() * R_tp) + out.error;
+  if (TermLibrary::act_on_gimbals(model.terms))
+    return offset_gimbal_output(model, in, R_lp, heading, theta);
+  return gimbal_angles<S>(case_attitude(heading).transpose().template cast<S>() * R_lp);
 }
+
+// The many terms that a model seldom has are compiled once (drift_model.cpp), so that they take neither
+// time to compile nor room in the compiler's inlining where every model runs.
+#define DRIFT_SELDOM(S, prefix)                                                                          \
+  prefix template void TermLibrary::further_rates<S>(const TermMask&, const Inputs<S>&, const S*,        \
+                                                     RateAssembly<S>&);                                  \
+  prefix template Vec3T<S> offset_accelerometer_output<S>(const DriftModel&, const Inputs<S>&, const S*); \
+  prefix template Vec3T<S> offset_gimbal_output<S>(const DriftModel&, const Inputs<S>&, const Mat3T<S>&,  \
+                                                   double, const S*)
+DRIFT_SELDOM(double, extern);
+DRIFT_SELDOM(Dual<8>, extern);   // the estimators' chunks
+DRIFT_SELDOM(Dual<15>, extern);  // the servo's states
 
 }  // namespace drift

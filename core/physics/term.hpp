@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include "core/params/param_spec.hpp"
@@ -177,9 +178,9 @@ struct TermList {
 
   template <class S>
   static void rates(const Mask& mask, const Inputs<S>& in, const S* theta, RateAssembly<S>& out) {
-    for_each([&]<class T>(std::size_t t) {
+    for_first([&]<class T>(std::size_t t) {
       if constexpr (ActsOnRates<T, S>)
-        if (t < num_inline && mask[t]) call_rates<T>(t, in, theta, out);
+        if (mask[t]) call_rates<T>(t, in, theta, out);
     });
     constexpr Mask rest = selected(
         [](const TermInfo& t) { return t.in_rates && t.first >= terms[num_inline].first; });
@@ -192,6 +193,20 @@ struct TermList {
     for_each([&]<class T>(std::size_t t) {
       if constexpr (ActsOnRates<T, S>)
         if (t >= num_inline && mask[t]) call_rates<T>(t, in, theta, out);
+    });
+  }
+  /// Whether the accelerometers are read by the first terms alone.
+  static bool plain_readout(const Mask& mask) {
+    constexpr Mask rest = selected([](const TermInfo& t) {
+      return t.in_offset || (t.in_readout && t.first >= terms[num_inline].first);
+    });
+    return (mask & rest).none();
+  }
+  template <class S>
+  static void first_readout(const Mask& mask, const Inputs<S>& in, const S* theta, ReadoutAssembly<S>& out) {
+    for_first([&]<class T>(std::size_t t) {
+      if constexpr (ActsOnReadout<T, S>)
+        if (mask[t]) T::readout(in, theta + terms[t].first, out);
     });
   }
   template <class S>
@@ -252,6 +267,12 @@ struct TermList {
       T::rates(in, theta + terms[t].first, out);
   }
 
+  /// The first terms alone: nothing is made of the others where this is called.
+  static constexpr void for_first(auto&& visit) {
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+      (visit.template operator()<std::tuple_element_t<I, std::tuple<Ts...>>>(I), ...);
+    }(std::make_index_sequence<num_inline>{});
+  }
   static constexpr void for_each(auto&& visit) {
     [&]<std::size_t... I>(std::index_sequence<I...>) {
       (visit.template operator()<Ts>(I), ...);

@@ -1,3 +1,4 @@
+#include "core/base/check.hpp"
 #include "analysis/blind/blind_study.hpp"
 
 #include <gtest/gtest.h>
