@@ -17,11 +17,7 @@ double grid_spacing(const Candidate& c, std::size_t param, double value) {
   return std::isfinite(nearest) ? nearest : 0.0;
 }
 
-template <class Spec>
-bool may_be_refined(const Spec& spec) {
-  if constexpr (requires { spec.kind; }) return spec.kind == decltype(spec.kind)::nonlinear;
-  return false;
-}
+bool may_be_refined(const ParamSpec& spec) { return spec.kind == ParamKind::nonlinear; }
 
 }  // namespace
 
