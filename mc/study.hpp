@@ -12,6 +12,7 @@
 #include "core/sim/readout.hpp"
 #include "core/sim/recording.hpp"
 #include "core/sim/test_plan.hpp"
+#include "mc/blind_spec.hpp"
 #include "mc/monte_carlo.hpp"
 
 namespace drift {
@@ -57,6 +58,8 @@ struct Study {
   MonteCarlo monte_carlo;
   std::vector<SweepAxis> sweep;
   std::vector<Published> published;
+  BlindSpec blind;
+  bool has_blind = false;     ///< [blind] is in the file
   std::vector<Resolved> resolved;
 };
 

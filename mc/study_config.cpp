@@ -10,6 +10,7 @@
 #include "core/physics/mounting_config.hpp"
 #include "core/sim/environment_config.hpp"
 #include "core/sim/plan_config.hpp"
+#include "mc/blind_config.hpp"
 #include "mc/published_config.hpp"
 #include "mc/study.hpp"
 
@@ -140,7 +141,8 @@ Study read_study_tree(const Node& root, const std::string& path) {
   study.readout = read_readout(top.section("readout"));
   study.environment = read_environment(top.section("environment"));
   const Node* sweep = top.take("sweep");
-  const bool swept = sweep != nullptr && sweep->find("truth.coupling") != nullptr;
+  // A blind study has truths of several couplings too.
+  const bool swept = (sweep != nullptr && sweep->find("truth.coupling") != nullptr) || top.has("blind");
   Section truth = top.section("truth");
   study.has_truth = truth.present();
   study.truth = read_truth(truth, mounting, swept ? UnusedTables::allowed : UnusedTables::refused);
@@ -148,6 +150,10 @@ Study read_study_tree(const Node& root, const std::string& path) {
   study.monte_carlo = read_monte_carlo(top.section("monte_carlo"));
   study.sweep = read_sweep(report, sweep);
   study.published = read_published(top);
+  if (Section blind = top.section("blind"); blind.present()) {
+    study.blind = read_blind(blind);
+    study.has_blind = true;
+  }
   top.finish();
   report.throw_if_wrong();
   for (const auto& value : report.resolved())

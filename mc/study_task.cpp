@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/base/check.hpp"
+#include "core/sim/environment.hpp"
 #include "mc/study_worker.hpp"
 
 namespace drift::mc {
@@ -32,6 +33,7 @@ StudyTask::StudyTask(Study study)
       layout_(study_),
       named_(layout_.named()) {
   set_loop(timeline_, study_.truth);
+  set_environment(timeline_, study_.environment, study_.monte_carlo.seed, 0);
 }
 
 std::unique_ptr<RunWorker> StudyTask::worker() const { return std::make_unique<StudyWorker>(*this); }

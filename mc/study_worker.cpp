@@ -6,6 +6,8 @@
 #include <limits>
 
 #include "core/estimate/starts.hpp"
+#include "core/sim/environment.hpp"
+#include "mc/trace.hpp"
 
 namespace drift::mc {
 namespace {
@@ -48,6 +50,7 @@ void blame(RunOutcome& out, RunStatus status, std::string cause, double t) {
 
 StudyWorker::StudyWorker(const StudyTask& task)
     : task_(task),
+      timeline_(task.timeline()),
       design_(task.study().truth, task.study().monte_carlo.design, task.study().monte_carlo.runs,
               task.study().monte_carlo.seed),
       simulator_(task.study().truth, task.study().readout) {
@@ -62,11 +65,11 @@ StudyWorker::StudyWorker(const StudyTask& task)
     for (std::size_t s = 0; s < fixed; ++s)
       bench.fixed_starts.push_back(initial_estimate(spec, study.monte_carlo.seed, 0, s));
     if (study.monte_carlo.estimator == EstimatorKind::ekf)
-      bench.ekf = std::make_unique<Ekf>(spec, task.timeline(), study.readout, bench.fixed_starts[0],
+      bench.ekf = std::make_unique<Ekf>(spec, timeline_, study.readout, bench.fixed_starts[0],
                                         KeepHistory::no);
     if (study.monte_carlo.estimator == EstimatorKind::iterated)
       bench.iterated =
-          std::make_unique<IteratedEkf>(spec, task.timeline(), study.readout, bench.fixed_starts[0]);
+          std::make_unique<IteratedEkf>(spec, timeline_, study.readout, bench.fixed_starts[0]);
     benches_.push_back(std::move(bench));
   }
 }
@@ -95,9 +98,10 @@ RunOutcome StudyWorker::execute(std::uint64_t run, std::span<double> row) {
 
 void StudyWorker::simulate(std::uint64_t run, std::span<double> row, RunOutcome& out) {
   const Study& study = task_.study();
-  const Timeline& timeline = task_.timeline();
-  design_.draw(run, timeline.chains, draw_);
-  simulator_.run(timeline, draw_, study.monte_carlo.seed, run, sim_);
+  if (study.environment.temperature_fluctuation > 0.0)
+    set_environment(timeline_, study.environment, study.monte_carlo.seed, run);
+  design_.draw(run, timeline_.chains, draw_);
+  simulator_.run(timeline_, draw_, study.monte_carlo.seed, run, sim_);
   set_lambda(study.truth, sim_.theta_end);  // what an estimate at the end is to be compared with
   const auto& truth = task_.layout().truth;
   for (std::size_t c = 0; c < truth.size(); ++c) row[c] = sim_.theta_end[static_cast<Eigen::Index>(truth[c])];
@@ -118,7 +122,7 @@ void StudyWorker::estimate(Bench& bench, std::uint64_t run, std::size_t start, s
   if (bench.ekf) {
     Ekf& ekf = *bench.ekf;
     ekf.reset(from);
-    const auto intervals = static_cast<Eigen::Index>(task_.timeline().intervals.size());
+    const auto intervals = static_cast<Eigen::Index>(timeline_.intervals.size());
     for (Eigen::Index i = 0; i < intervals && ekf.status() == EstimateStatus::ok; ++i)
       ekf.process(static_cast<std::size_t>(i), sim_.measured.acc.col(i), sim_.measured.gimbal.col(i));
     write(bench, ekf, start, row, out);
@@ -155,7 +159,7 @@ void StudyWorker::by_batch(Bench& bench, const Theta& from, std::size_t start, s
                            RunOutcome& out) {
   using C = StudyColumns;
   const BatchResult fit =
-      fit_batch(bench.spec, task_.timeline(), task_.study().readout, sim_.measured, from);
+      fit_batch(bench.spec, timeline_, task_.study().readout, sim_.measured, from);
   const EstimateResult& e = fit.estimate;
   const C::Filter& at = bench.columns;
   row[at.at(start, C::status)] = static_cast<double>(e.status);
@@ -205,6 +209,11 @@ void StudyWorker::judge(Bench& bench, std::size_t start, const Vector& x, const 
   row[at.at(start, C::nees)] = nees;
   row[at.at(start, C::nees_dof)] = dof;
   row[at.at(start, C::nees_all)] = all;
+}
+
+RunOutcome StudyWorker::trace(std::uint64_t run, std::span<double> row, TraceSink& sink) {
+  send_trace(trace_run(task_.study(), run), sink);
+  return execute(run, row);
 }
 
 }  // namespace drift::mc

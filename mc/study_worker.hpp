@@ -18,6 +18,7 @@ class StudyWorker final : public RunWorker {
  public:
   explicit StudyWorker(const StudyTask& task);
   RunOutcome execute(std::uint64_t run, std::span<double> row) override;
+  RunOutcome trace(std::uint64_t run, std::span<double> row, TraceSink& sink) override;
 
  private:
   /// One filter and its workspace.
@@ -45,6 +46,7 @@ class StudyWorker final : public RunWorker {
   void judge(Bench& bench, std::size_t start, const Vector& x, const Matrix& P, std::span<double> row);
 
   const StudyTask& task_;
+  Timeline timeline_;  ///< with the surroundings of the run
   Design design_;
   Simulator simulator_;
   TruthDraw draw_;

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "core/estimate/starts.hpp"
+#include "core/sim/environment.hpp"
 #include "mc/design.hpp"
 #include "mc/study_task.hpp"
 
@@ -14,7 +16,8 @@ namespace drift::mc {
 RunTrace trace_run(const Study& point, std::uint64_t run) {
   const StudyTask task(point);
   const MonteCarlo& mc = point.monte_carlo;
-  const Timeline& timeline = task.timeline();
+  Timeline timeline = task.timeline();
+  set_environment(timeline, point.environment, mc.seed, run);
   Design design(point.truth, mc.design, mc.runs, mc.seed);
   const Simulation sim =
       Simulator(point.truth, point.readout).run(timeline, design.draw(run, timeline.chains), mc.seed, run);
@@ -71,6 +74,37 @@ std::string trace_csv(const Study& point, const RunTrace& trace) {
       out += '\n';
     }
   return out;
+}
+
+void send_trace(const RunTrace& trace, TraceSink& sink) {
+  ParamMask shown;
+  for (const auto& f : trace.filters)
+    for (const std::size_t p : f.layout.params) shown.set(p);
+  const auto& specs = TermLibrary::specs;
+  std::vector<Column> columns{{"filter", unit::one}, {"start", unit::one}, {"time", unit::s}, {"nis", unit::one},
+                              {"scalars", unit::one}};
+  for (std::size_t p = 0; p < shown.size(); ++p) {
+    if (!shown[p]) continue;
+    const std::string key(specs[p].key.view());
+    columns.push_back({key, specs[p].unit});
+    columns.push_back({"sigma_" + key, specs[p].unit});
+  }
+  sink.columns(columns);
+  for (const auto& f : trace.filters)
+    for (std::size_t i = 0; i < f.history.t.size(); ++i) {
+      std::vector<double> row{static_cast<double>(f.filter), static_cast<double>(f.start), f.history.t[i],
+                              f.history.nis[i], static_cast<double>(f.history.scalars[i])};
+      for (std::size_t p = 0; p < shown.size(); ++p) {
+        if (!shown[p]) continue;
+        const auto at = std::ranges::find(f.layout.params, p);
+        const auto k = at - f.layout.params.begin();
+        const auto column = static_cast<Eigen::Index>(i);
+        const bool known = at != f.layout.params.end() && f.history.sigma(k, column) > 0.0;
+        row.push_back(known ? f.history.estimate(k, column) : std::nan(""));
+        row.push_back(known ? f.history.sigma(k, column) : std::nan(""));
+      }
+      sink.row(row);
+    }
 }
 
 }  // namespace drift::mc

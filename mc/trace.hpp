@@ -5,6 +5,7 @@
 
 #include "core/estimate/ekf.hpp"
 #include "core/sim/simulate.hpp"
+#include "mc/run_task.hpp"
 #include "mc/study.hpp"
 
 namespace drift::mc {
@@ -28,5 +29,8 @@ RunTrace trace_run(const Study& point, std::uint64_t run);
 /// As CSV: one row per filter, start and sample; for each parameter of any filter its estimate and
 /// sigma, empty where a filter has no such parameter. The truth stands in comment lines.
 std::string trace_csv(const Study& point, const RunTrace& trace);
+
+/// The same to a sink of numbers: filters by their number, NaN where there is no such parameter.
+void send_trace(const RunTrace& trace, TraceSink& sink);
 
 }  // namespace drift::mc

@@ -53,6 +53,7 @@ ExitCode check(const StudyArguments& arguments);
 ExitCode simulate(const StudyArguments& arguments, const std::string& output, std::uint64_t run);
 ExitCode identify(const StudyArguments& arguments, const std::vector<std::string>& recordings,
                   const std::string& folder, std::uint64_t run);
+ExitCode blind(const StudyArguments& arguments, const std::string& folder, const std::optional<std::string>& trials);
 ExitCode rank(const StudyArguments& arguments, const RankArguments& options);
 ExitCode run(const StudyArguments& arguments, const RunArguments& options, const StudyProgram& program);
 ExitCode status(const std::string& folder, const StudyProgram& program);

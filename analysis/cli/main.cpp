@@ -46,6 +46,14 @@ class Program {
 
     add_rank();
 
+    CLI::App* blind = command("blind", "make recordings with concealed effects, diagnose each without the key, then score",
+                              "driftscope blind configs/blind_small.toml -o out/blind",
+                              [this] { return cli::blind(study_, output_, trials_); });
+    add_study(*blind);
+    blind->add_option("-o,--output", output_, "folder for trials, key, answers and report; the same one resumes")->required();
+    blind->add_option("--trials", trials_, "override blind.trials");
+    add_progress(*blind);
+
     CLI::App* diagnose = command("diagnose", "locate a mismatch, name the physics left out, model it, show the fit improve",
                                  "driftscope diagnose configs/diagnose_xsens.toml recording.csv -o out/diagnosis",
                                  [this] { return cli::diagnose(study_, recordings_, output_); });
@@ -173,6 +181,7 @@ class Program {
   std::string output_, key_, folder_, format_, sample_ = "1%";
   std::vector<std::string> recordings_;
   std::uint64_t run_ = 0;
+  std::optional<std::string> trials_;
   bool json_ = false;
 };
 

@@ -1,5 +1,8 @@
 #include "analysis/cli/study_program.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <memory>
 
 #include "analysis/report/study_html.hpp"

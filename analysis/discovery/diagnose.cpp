@@ -10,6 +10,7 @@
 #include "analysis/discovery/compare.hpp"
 #include "analysis/discovery/locate.hpp"
 #include "analysis/identify.hpp"
+#include "core/estimate/starts.hpp"
 #include "core/base/check.hpp"
 
 namespace drift::discovery {

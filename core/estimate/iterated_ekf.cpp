@@ -43,14 +43,24 @@ void IteratedEkf::run(const Measurements& measured, const Theta& start) {
   sums_ = {};
   first_pass(measured, start);
   if (status_ != EstimateStatus::ok) return;
-  x_reference_ = ekf_.x();
-  theta_ = ekf_.theta();
-  place_reference();
-  P_.reset(filter_.initial_attitude);
   for (std::size_t k = 0; k < layout_.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
     x_start_[i] = (start[static_cast<Eigen::Index>(layout_.params[k])] - layout_.mean[i]) / layout_.sigma[i];
   }
+  x_ = ekf_.x();
+  constexpr int most_passes = 4;
+  for (int pass = 0; pass < most_passes && status_ == EstimateStatus::ok; ++pass) {
+    linear_pass(measured);
+    if (largest_step() < 1.0) break;  // what is left is of second order in less than a sigma
+  }
+}
+
+void IteratedEkf::linear_pass(const Measurements& measured) {
+  sums_ = {};
+  x_reference_ = x_;
+  theta_ = layout_.theta_at(x_);
+  place_reference();
+  P_.reset(filter_.initial_attitude);
   dx_ = x_start_ - x_reference_;
   linearizer_.set_theta(theta_);
   for (std::size_t i = 0; i < timeline_.intervals.size() && status_ == EstimateStatus::ok; ++i) {
@@ -62,6 +72,15 @@ void IteratedEkf::run(const Measurements& measured, const Theta& start) {
   if (!x_.allFinite() || x_.cwiseAbs().maxCoeff() > 1e6)
     diverge("second pass of the filter diverged (estimate beyond 1e6 prior sigma)",
             timeline_.intervals.back().t1);
+}
+
+double IteratedEkf::largest_step() const {
+  double largest = 0.0;
+  for (std::size_t k = 0; k < layout_.size(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    largest = std::max(largest, std::abs(x_[i] - x_reference_[i]) / std::sqrt(P_.variance(k)));
+  }
+  return largest;
 }
 
 void IteratedEkf::first_pass(const Measurements& measured, const Theta& start) {
@@ -137,6 +156,10 @@ void IteratedEkf::process(std::size_t i, const Vec3& acc, const Vec3& gimbal) {
     nu -= predicted.H * psi_;
     take(P_.update(nu, predicted.H, Mat3X(3, 0), 0, readout_.gimbal_noise, dx_), InnovationSums::gimbals);
   }
+  const Node& end = timeline_.nodes[interval.last_node()];
+  const Vec3 psi_r = end.R_lr.transpose() * (end.R_il.transpose() * psi_);
+  phi_end_[static_cast<std::size_t>(interval.chain)] =
+      rotation_vector(rotation(psi_r) * rotation(phi_[interval.last_node()]));
   if (filter_.noise.drift_random_walk > 0.0) {
     const double q = filter_.noise.drift_random_walk;
     for (std::size_t k = 0; k < layout_.size(); ++k)

@@ -4,14 +4,15 @@
 
 namespace drift {
 
-/// An EKF, then the same measurements once more, linearised about what the EKF found.
+/// An EKF, then the same measurements once more, linearised about what was found.
 ///
 /// An EKF takes Jacobians at estimates that are still poor, and where parameters enter as products
 /// (misalignment times drift or command) it ends surer than it should be (physics.md 5.9). The
 /// second pass is a Kalman filter, linear in the deviations from a reference: the EKF's final
 /// parameters, and the attitude integrated back with them from its estimate at the end of each chain.
-/// Its result is that of one Gauss-Newton step on all data at once, and the sum of its NIS the
-/// minimum of the linearised cost, so it costs as much as the EKF, not as a batch fit.
+/// Its result is that of a Gauss-Newton step on all data at once, and the sum of its NIS the minimum
+/// of the linearised cost. While a pass moves some parameter by more than a posterior sigma there is
+/// another, four at most; mostly there is one, at the cost of the EKF itself.
 class IteratedEkf {
  public:
   /// The timeline must outlive the filter. start: library values of the initial estimate.
@@ -35,7 +36,9 @@ class IteratedEkf {
 
  private:
   void first_pass(const Measurements& measured, const Theta& start);
+  void linear_pass(const Measurements& measured);
   void place_reference();
+  double largest_step() const;  ///< of the last pass, in posterior sigmas
   void process(std::size_t i, const Vec3& acc, const Vec3& gimbal);
   void diverge(std::string cause, double t);
 

@@ -117,7 +117,8 @@ Theta Simulator::drift_of(const Timeline& timeline, std::size_t i) {
 
 void Simulator::integrate(const Timeline& timeline, std::size_t first, std::size_t end, Simulation& out) {
   const ProcessNoise& noise = truth_.noise;
-  const bool noisy = noise.any() || is_bistable(model_.terms) || walks(model_.terms);
+  const bool noisy = noise.any() || is_bistable(model_.terms) || walks(model_.terms) ||
+                     disturbance_.cols() > 0;
   PlatformOde& ode = engine_->ode;
   while (first < end && out.ode.ok()) {
     const std::size_t last = segment_end(timeline, first, end, noisy);
@@ -131,6 +132,7 @@ void Simulator::integrate(const Timeline& timeline, std::size_t first, std::size
             noise.angle_random_walk / std::sqrt(interval.length()) * process_noise_[a]->normal();
       theta = drift_of(timeline, first);
     }
+    if (disturbance_.cols() > 0) omega_noise_p += disturbance_.col(static_cast<Eigen::Index>(first));
     out.ode = ode.segment(timeline, first, last, theta, omega_noise_p,
                           interval.cage ? &out.draw.psi0_l[interval.chain] : nullptr, out.phi, &memory_);
     const OdeStats stats = ode.stats();

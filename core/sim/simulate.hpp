@@ -3,6 +3,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "core/ode/ode_options.hpp"
 #include "core/ode/ode_result.hpp"
@@ -43,6 +44,10 @@ class Simulator {
   /// The same with given numbers instead of drawn ones.
   Simulation run(const Timeline& timeline, const TruthDraw& draw, std::uint64_t seed, std::uint64_t run);
 
+  /// A further rate of the platform [rad/s], platform axes, for every interval of the timelines that
+  /// follow and constant in it: what no term of the library makes. Empty: none. shape (3, intervals).
+  void disturb(Mat3X omega_p) { disturbance_ = std::move(omega_p); }
+
   /// The same into `out`, whose memory is used again.
   void run(const Timeline& timeline, const TruthDraw& draw, std::uint64_t seed, std::uint64_t run,
            Simulation& out);
@@ -67,6 +72,7 @@ class Simulator {
   Readout readout_;
   DriftModel model_;
   std::unique_ptr<Engine> engine_;
+  Mat3X disturbance_;
   std::array<std::optional<Stream>, 6> sensor_noise_, process_noise_, wrong_samples_;
   std::array<std::optional<Stream>, 3> drift_level_;
   std::array<double, 3> level_{};  ///< of a bistable drift, +-1

@@ -1,0 +1,144 @@
+#include "analysis/blind/answer.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "core/base/check.hpp"
+
+namespace drift::blind {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using discovery::Verdict;
+
+Json number(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
+double number(const Json& j) { return j.is_null() ? std::nan("") : j.get<double>(); }
+
+Json of(const AnswerCause& c) {
+  Json params = Json::array();
+  for (const auto& p : c.parameters)
+    params.push_back({{"key", p.key}, {"value", number(p.value)}, {"sigma", number(p.sigma)}, {"unit", p.unit},
+                      {"profiled", p.profiled}});
+  return {{"term", c.term}, {"axis", c.axis}, {"set", c.set}, {"probability", number(c.probability)},
+          {"parameters", params}};
+}
+
+AnswerCause cause_of(const Json& j) {
+  AnswerCause c{j.at("term"), j.at("axis"), j.at("set"), number(j.at("probability")), {}};
+  for (const Json& p : j.at("parameters")) {
+    discovery::CauseParameter q;
+    q.key = p.at("key");
+    q.value = number(p.at("value"));
+    q.sigma = number(p.at("sigma"));
+    q.unit = p.at("unit");
+    q.profiled = p.at("profiled");
+    c.parameters.push_back(std::move(q));
+  }
+  return c;
+}
+
+Json of(const Answer& a) {
+  Json causes = Json::array();
+  for (const AnswerCause& c : a.causes) causes.push_back(of(c));
+  return {{"trial", a.number}, {"failed", a.failed}, {"failure", a.failure},
+          {"verdict", std::string(discovery::text(a.verdict))}, {"p_value", number(a.p_value)}, {"causes", causes},
+          {"equation", a.equation}, {"position", a.position}, {"start_s", number(a.start_s)},
+          {"end_s", number(a.end_s)}, {"noise", a.noise}, {"chi2_per_dof_before", number(a.chi2_before)},
+          {"chi2_per_dof_after", number(a.chi2_after)}, {"held_out", a.held_out},
+          {"held_out_gain", number(a.held_out_gain)}, {"seconds", number(a.seconds)}, {"sentence", a.sentence}};
+}
+
+Verdict verdict_of(const std::string& name) {
+  for (const Verdict v : {Verdict::consistent, Verdict::named, Verdict::ambiguous})
+    if (discovery::text(v) == name) return v;
+  return Verdict::unexplained;
+}
+
+Answer from(const Json& j) {
+  Answer a;
+  a.number = j.at("trial");
+  a.failed = j.at("failed");
+  a.failure = j.at("failure");
+  a.verdict = verdict_of(j.at("verdict"));
+  a.p_value = number(j.at("p_value"));
+  for (const Json& c : j.at("causes")) a.causes.push_back(cause_of(c));
+  a.equation = j.at("equation");
+  a.position = j.at("position");
+  a.start_s = number(j.at("start_s"));
+  a.end_s = number(j.at("end_s"));
+  a.noise = j.at("noise").get<std::vector<std::string>>();
+  a.chi2_before = number(j.at("chi2_per_dof_before"));
+  a.chi2_after = number(j.at("chi2_per_dof_after"));
+  a.held_out = j.at("held_out");
+  a.held_out_gain = number(j.at("held_out_gain"));
+  a.seconds = number(j.at("seconds"));
+  a.sentence = j.at("sentence");
+  return a;
+}
+
+template <class Read>
+auto parsed(const std::string& json, Read&& read) {
+  try {
+    return read(Json::parse(json));
+  } catch (const Json::exception& e) {
+    throw InputError(ExitCode::self_check,
+                     fmt::format("an answer cannot be read ({}). Remove it and run again", e.what()));
+  }
+}
+
+}  // namespace
+
+std::vector<std::vector<const AnswerCause*>> Answer::alternatives() const {
+  std::map<int, std::vector<const AnswerCause*>> sets;
+  for (const AnswerCause& c : causes) sets[c.set].push_back(&c);
+  std::vector<std::vector<const AnswerCause*>> all;
+  for (auto& [which, members] : sets) all.push_back(std::move(members));
+  return all;
+}
+
+Answer answer_of(const discovery::Diagnosis& d) {
+  Answer a;
+  a.verdict = d.verdict;
+  a.p_value = d.p_value;
+  for (const auto& c : d.causes) a.causes.push_back({c.term, c.axis, c.set, c.probability, c.parameters});
+  a.equation = d.where.equation;
+  if (!d.where.windows.empty()) {
+    const auto& w = d.where.windows.front();
+    a.position = w.position;
+    a.start_s = w.start_s;
+    a.end_s = w.end_s;
+  }
+  for (const auto& n : d.noise)
+    if (n.significant) a.noise.push_back(n.component);
+  a.chi2_before = d.fit.chi2_per_dof_before;
+  a.chi2_after = d.fit.chi2_per_dof_after;
+  a.held_out = !d.fit.held_out.folds.empty();
+  a.held_out_gain = d.fit.held_out.log_score_gain;
+  a.sentence = d.sentence;
+  return a;
+}
+
+std::string to_json(const Answer& answer) { return of(answer).dump(1) + "\n"; }
+
+std::string to_json(const std::vector<Answer>& answers) {
+  Json all = Json::array();
+  for (const Answer& a : answers) all.push_back(of(a));
+  return Json{{"schema", 1}, {"answers", all}}.dump(1) + "\n";
+}
+
+std::vector<Answer> answers_of(const std::string& json) {
+  return parsed(json, [](const Json& j) {
+    std::vector<Answer> all;
+    for (const Json& a : j.at("answers")) all.push_back(from(a));
+    return all;
+  });
+}
+
+Answer answer_of_json(const std::string& json) {
+  return parsed(json, [](const Json& j) { return from(j); });
+}
+
+}  // namespace drift::blind

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "analysis/blind/blind_study.hpp"
+
+namespace drift::blind {
+
+/// The diagnosis of `driftscope diagnose`, without what is not scored (start spread, recovered signal).
+Solver diagnosing_solver();
+
+}  // namespace drift::blind

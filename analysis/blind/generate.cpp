@@ -1,0 +1,197 @@
+#include "analysis/blind/generate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "analysis/blind/library_effects.hpp"
+#include "analysis/blind/noise_faults.hpp"
+#include "analysis/blind/outside_effects.hpp"
+#include "analysis/blind/sizing.hpp"
+#include "core/base/chi_square_band.hpp"
+#include "core/base/check.hpp"
+#include "core/config/load.hpp"
+#include "core/config/override.hpp"
+
+namespace drift::blind {
+namespace {
+
+using Sized = SizingBench::Sized;
+
+constexpr std::uint32_t choice_stream = 64;  // the design uses the first few
+
+/// The nominal filter has the truth's coupling; for the servo eq. (6), which it closes like.
+Coupling nominal_coupling(Coupling truth) { return truth == Coupling::eq5 ? Coupling::eq5 : Coupling::eq6; }
+
+World make_world(const Study& study, const Study& nominal, const TrialPlan& plan) {
+  World w;
+  w.truth = study.truth;
+  w.truth.coupling = plan.coupling;
+  w.timeline = lay_out(nominal.plan, nominal.site);
+  set_environment(w.timeline, nominal.environment, study.monte_carlo.seed, plan.number);
+  w.readout = nominal.readout;
+  w.draw = draw_truth(w.truth, w.timeline.chains, study.monte_carlo.seed, plan.number);
+  return w;
+}
+
+/// The terms in the order in which trial `index` of a stratum tries them: each term is first for equally
+/// many trials.
+std::vector<std::size_t> term_order(const FilterSpec& nominal, std::uint64_t seed, std::size_t index) {
+  std::vector<std::size_t> terms = hideable_terms(nominal);
+  Stream mix(seed, 0, Purpose::design, choice_stream);
+  for (std::size_t k = terms.size(); k > 1; --k)
+    std::swap(terms[k - 1], terms[static_cast<std::size_t>(mix.uniform() * static_cast<double>(k))]);
+  if (!terms.empty()) std::rotate(terms.begin(), terms.begin() + static_cast<long>(index % terms.size()), terms.end());
+  return terms;
+}
+
+/// The first effects of the library, at most `count`, that can have this size here.
+std::vector<Sized> library_effects(const SizingBench& bench, const FilterSpec& nominal,
+                                   const std::vector<std::size_t>& terms, double size, double most,
+                                   std::size_t count, Stream& stream) {
+  std::vector<Sized> found;
+  for (const std::size_t t : terms) {
+    if (found.size() == count) break;
+    const auto source = library_source(t, bench.world(), nominal, most, stream);
+    if (!source) continue;
+    if (auto sized = bench.fit_strength(*source, size)) found.push_back(std::move(*sized));
+  }
+  return found;
+}
+
+[[noreturn]] void nothing_to_hide(const Study& study, const TrialPlan& plan) {
+  throw InputError(ExitCode::config,
+                   fmt::format("{}: nothing can be hidden in trial {} as asked: {} of {:.3g} sigma on preset {} "
+                               "(expected effects of at most {:.3g} prior sigmas). Ask for smaller sizes, longer "
+                               "dwells, or a larger blind.most_prior_sigmas", study.path, plan.number,
+                               name_in(stratum_names, plan.stratum), plan.size, plan.plan,
+                               study.blind.most_prior_sigmas));
+}
+
+/// Two effects whose signatures are not too much alike. Every third trial looks for two that cancel
+/// each other as far as that allows.
+std::vector<Sized> pair_effects(const Study& study, const SizingBench& bench, const FilterSpec& nominal,
+                                const TrialPlan& plan, Stream& stream) {
+  auto terms = term_order(nominal, study.monte_carlo.seed, plan.index);
+  const double most = study.blind.most_prior_sigmas;
+  auto first = library_effects(bench, nominal, terms, plan.size, most, 1, stream);
+  if (first.empty()) nothing_to_hide(study, plan);
+  std::erase_if(terms, [&](std::size_t t) { return TermLibrary::terms[t].key == first[0].source.effect.term; });
+  for (std::size_t k = terms.size(); k > 1; --k)
+    std::swap(terms[k - 1], terms[static_cast<std::size_t>(stream.uniform() * static_cast<double>(k))]);
+  const std::size_t tries = plan.index % 3 == 0 ? 6 : 1;
+  std::optional<Sized> best;
+  double best_cosine = 0.0;
+  std::size_t seen = 0;
+  for (const std::size_t t : terms) {
+    if (seen == tries) break;
+    auto second = library_effects(bench, nominal, {t}, plan.size, most, 1, stream);
+    if (second.empty()) continue;
+    const double cosine = bench.absorption().cosine(first[0].signal, second[0].signal);
+    if (std::abs(cosine) > study.blind.pair_cosine) continue;
+    ++seen;
+    if (best && cosine >= best_cosine) continue;
+    best = std::move(second[0]);
+    best_cosine = cosine;
+  }
+  if (!best) nothing_to_hide(study, plan);
+  first.push_back(std::move(*best));
+  return first;
+}
+
+/// What is hidden, and put into `world`.
+void hide(const Study& study, const FilterSpec& nominal, const TrialPlan& plan, World& world, KeyEntry& key) {
+  const std::uint64_t seed = study.monte_carlo.seed;
+  Stream stream(seed, plan.number, Purpose::design, choice_stream);
+  if (plan.stratum == Stratum::null) return;
+  if (plan.stratum == Stratum::wrong_noise) {
+    key.effects = {spoil_noise(plan.index, world, stream)};
+    return;
+  }
+  const SizingBench bench(world, nominal, seed, plan.number);
+  std::vector<Sized> sized;
+  switch (plan.stratum) {
+    case Stratum::single:
+      sized = library_effects(bench, nominal, term_order(nominal, seed, plan.index), plan.size,
+                              study.blind.most_prior_sigmas, 1, stream);
+      break;
+    case Stratum::pair:
+      sized = pair_effects(study, bench, nominal, plan, stream);
+      key.cosine = bench.absorption().cosine(sized[0].signal, sized[1].signal);
+      break;
+    default: {
+      // A place or pattern that leaves nothing is drawn again.
+      for (std::size_t k = 0; k < 2 * num_outside && sized.empty(); ++k) {
+        const Source source = plan.stratum == Stratum::local ? local_source(world, stream)
+                                                             : outside_source(plan.index + k, world, stream);
+        if (auto s = bench.fit_strength(source, plan.size)) sized.push_back(std::move(*s));
+      }
+    }
+  }
+  if (sized.empty()) nothing_to_hide(study, plan);
+  VecX total = VecX::Zero(sized[0].signal.size());
+  for (const Sized& s : sized) {
+    s.source.put(world, s.strength);
+    key.effects.push_back(s.effect());
+    total += s.signal;
+  }
+  key.total_size = bench.absorption().size_of(total).left;
+}
+
+Certificate certify(const FilterSpec& nominal, const World& world, const Measurements& measured) {
+  const Layout layout = make_layout(nominal);
+  const BatchResult fit = fit_batch(nominal, world.timeline, world.readout, measured, layout.theta);
+  Certificate c;
+  const auto dof = static_cast<double>(fit.estimate.measured);
+  const Band band = chi_square_band(dof);
+  c.chi2_per_dof = fit.estimate.statistic / dof;
+  c.band_low = band.low;
+  c.band_high = band.high;
+  c.concealed = band.holds(c.chi2_per_dof);
+  for (const ParameterEstimate& p : fit.estimate.parameters) {
+    const double bias = std::abs(p.value - world.draw.theta[p.param]) / p.sigma;
+    if (bias <= c.largest_bias) continue;
+    c.largest_bias = bias;
+    c.biased = std::string(TermLibrary::specs[p.param].key.view());
+  }
+  return c;
+}
+
+}  // namespace
+
+std::string nominal_text(const Study& study, const TrialPlan& plan) {
+  config::Node root = config::parse_document(study.text, study.path);
+  std::erase_if(root.members, [](const config::Member& m) {
+    return m.key == "truth" || m.key == "blind" || m.key == "monte_carlo" || m.key == "sweep" || m.key == "published";
+  });
+  apply_override(root, "title", fmt::format("Blind trial {}", plan.number));
+  apply_override(root, "plan.preset", plan.plan);
+  apply_override(root, "plan.mode", name_in(mode_names, plan.mode));
+  config::Node* filters = root.find("filter");
+  if (filters == nullptr || filters->items.empty())
+    throw InputError(ExitCode::config, fmt::format("{}: no [[filter]]: a blind study needs a nominal one. Add a "
+                                                   "section [[filter]] with name and coupling", study.path));
+  filters->items.resize(1);
+  apply_override(root, "filter.0.coupling", name_in(coupling_names, nominal_coupling(plan.coupling)));
+  return config::to_document(root);
+}
+
+MadeTrial make_trial(const Study& study, const Study& nominal, const TrialPlan& plan) {
+  const auto started = std::chrono::steady_clock::now();
+  const FilterSpec& filter = nominal.filters.front();
+  MadeTrial made;
+  made.key.plan = plan;
+  made.key.nominal = name_in(coupling_names, filter.coupling);
+  World world = make_world(study, nominal, plan);
+  hide(study, filter, plan, world, made.key);
+  const Simulation sim = simulate_recorded(world, study.monte_carlo.seed, plan.number);
+  made.recording = make_recording(world.timeline, sim.measured, world.readout);
+  made.recording.facts = {{"driftscope recording", fmt::format("blind trial {}", plan.number)}};
+  made.key.certificate = certify(filter, world, sim.measured);
+  made.key.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  return made;
+}
+
+}  // namespace drift::blind

@@ -1,0 +1,142 @@
+#include "analysis/blind/library_effects.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace drift::blind {
+namespace {
+
+constexpr auto lambda = TermLibrary::index("lambda");
+
+bool is_amplitude(const ParamSpec& spec) { return spec.kind == ParamKind::linear && spec.prior.sigma() > 0.0; }
+
+std::vector<std::size_t> missing_parameters(const TermInfo& term, const FilterSpec& nominal) {
+  std::vector<std::size_t> missing;
+  for (std::size_t i = term.first; i < term.first + term.count; ++i)
+    if (!nominal.active[i] && is_amplitude(TermLibrary::specs[i])) missing.push_back(i);
+  return missing;
+}
+
+/// What stands behind the last bar of a key: an axis, a gimbal or nothing.
+std::string axis_of(std::size_t param) {
+  const std::string_view key = TermLibrary::specs[param].key.view();
+  const auto bar = key.rfind('_');
+  const std::string_view suffix = bar == key.npos ? "" : key.substr(bar + 1);
+  for (const std::string_view axis : {"x", "y", "z", "outer", "middle", "inner"})
+    if (suffix == axis) return std::string(axis);
+  return {};
+}
+
+template <class T>
+const T& one_of(const std::vector<T>& list, Stream& stream) {
+  return list[static_cast<std::size_t>(stream.uniform() * static_cast<double>(list.size()))];
+}
+
+/// A value of a nonlinear parameter [SI]: between the ends of its grid, not on it.
+double draw_setting(const ParamSpec& spec, double duration, Stream& stream) {
+  const Grid& grid = spec.grid;
+  if (grid.size == 0) return spec.prior_si().mean();
+  if (spec.kind == ParamKind::discrete)
+    return grid.values[static_cast<std::size_t>(stream.uniform() * static_cast<double>(grid.size))] * spec.unit.to_si;
+  double low = *std::min_element(grid.begin(), grid.end()) * spec.unit.to_si;
+  double high = *std::max_element(grid.begin(), grid.end()) * spec.unit.to_si;
+  if (spec.unit.same_dimension(unit::s)) high = std::max(low, std::min(high, 0.9 * duration));
+  return low > 0.0 && high > 4.0 * low ? low * std::pow(high / low, stream.uniform())
+                                       : low + (high - low) * stream.uniform();
+}
+
+HiddenParameter numbers_of(std::size_t param, double si) {
+  const ParamSpec& spec = TermLibrary::specs[param];
+  return {std::string(spec.key.view()), si / spec.unit.to_si, std::string(spec.unit.symbol.view())};
+}
+
+/// The model form itself: lambda moved away from where the nominal filter has it. A servo closes like
+/// eq. (6) whatever is asked.
+std::optional<Source> frame_closure(const World& world, const FilterSpec& nominal) {
+  if (world.truth.coupling == Coupling::servo || nominal.active[lambda] ||
+      (nominal.coupling != Coupling::eq5 && nominal.coupling != Coupling::eq6))
+    return std::nullopt;
+  const double from = nominal.coupling == Coupling::eq6 ? 1.0 : 0.0;
+  const auto value = [from](double strength) { return from + (from > 0.0 ? -strength : strength); };
+  Source s;
+  s.effect.term = "frame_closure";
+  s.effect.words = "the loop closes between eq. (5) and eq. (6)";
+  s.first = 0.2;
+  s.most = 1.0;
+  s.put = [value](World& w, double strength) {
+    w.truth.coupling = Coupling::lambda;
+    w.truth.active.set(lambda);
+    w.draw.theta[lambda] = value(strength);
+  };
+  s.parameters = [value](double strength) { return std::vector<HiddenParameter>{numbers_of(lambda, value(strength))}; };
+  return s;
+}
+
+}  // namespace
+
+std::vector<std::size_t> hideable_terms(const FilterSpec& nominal) {
+  std::vector<std::size_t> terms;
+  for (std::size_t t = 0; t < TermLibrary::num_terms; ++t)
+    if (!missing_parameters(TermLibrary::terms[t], nominal).empty()) terms.push_back(t);
+  return terms;
+}
+
+std::optional<Source> library_source(std::size_t t, const World& world, const FilterSpec& nominal, double most,
+                                     Stream& stream) {
+  const TermInfo& term = TermLibrary::terms[t];
+  if (term.key == "frame_closure") return frame_closure(world, nominal);
+  if ((term.needs.temperature && !world.timeline.has_temperature) || (term.needs.field && !world.timeline.has_field))
+    return std::nullopt;
+  const auto missing = missing_parameters(term, nominal);
+  std::vector<std::string> axes;
+  for (const std::size_t i : missing)
+    if (std::find(axes.begin(), axes.end(), axis_of(i)) == axes.end()) axes.push_back(axis_of(i));
+  const std::string axis = one_of(axes, stream);
+  std::vector<std::size_t> params;
+  for (const std::size_t i : missing)
+    if (axis_of(i) == axis) params.push_back(i);
+  constexpr double share_of_one = 0.6;
+  if (stream.uniform() < share_of_one) params = {one_of(params, stream)};
+
+  Theta direction = Theta::Zero(), settings = Theta::Zero();
+  ParamMask active;
+  double norm = 0.0;
+  for (const std::size_t i : params) {
+    const double share = stream.normal();
+    direction[i] = share * TermLibrary::specs[i].prior_si().sigma();
+    norm += share * share;
+    active.set(i);
+  }
+  direction /= std::sqrt(norm);
+  const double duration = world.timeline.intervals.back().t1 - world.timeline.intervals.front().t0;
+  std::vector<std::size_t> profiled;
+  for (std::size_t i = term.first; i < term.first + term.count; ++i) {
+    const ParamSpec& spec = TermLibrary::specs[i];
+    if (spec.kind == ParamKind::linear || nominal.active[i]) continue;
+    settings[i] = draw_setting(spec, duration, stream);
+    active.set(i);
+    profiled.push_back(i);
+  }
+  Source s;
+  s.effect.term = std::string(term.key);
+  s.effect.axis = axis;
+  s.effect.words = std::string(term.title);
+  s.first = 0.3;
+  s.most = most;
+  s.put = [=](World& w, double strength) {
+    w.truth.active |= active;
+    w.draw.theta += strength * direction + settings;
+  };
+  s.parameters = [=](double strength) {
+    std::vector<HiddenParameter> all;
+    for (const std::size_t i : params) all.push_back(numbers_of(i, strength * direction[i]));
+    for (const std::size_t i : profiled) all.push_back(numbers_of(i, settings[i]));
+    return all;
+  };
+  return s;
+}
+
+}  // namespace drift::blind

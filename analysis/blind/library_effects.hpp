@@ -1,0 +1,21 @@
+#pragma once
+
+#include <optional>
+
+#include "analysis/blind/world.hpp"
+#include "core/base/rng.hpp"
+
+namespace drift::blind {
+
+/// Terms of the library that a nominal filter leaves out and that act in a definite way, by number.
+/// Terms that are random alone belong to the noise, not here.
+std::vector<std::size_t> hideable_terms(const FilterSpec& nominal);
+
+/// One way in which a term may be missing: an axis of it, or one parameter of that axis; the shares of
+/// several parameters drawn from their priors, nonlinear ones between the ends of their grids, times not
+/// beyond the test. Strength 1 is one prior sigma; more than `most` prior sigmas are implausible.
+/// Empty if the term cannot act in this world (frame_closure of a servo).
+std::optional<Source> library_source(std::size_t term, const World& world, const FilterSpec& nominal,
+                                     double most, Stream& stream);
+
+}  // namespace drift::blind

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "analysis/blind/world.hpp"
+#include "core/base/rng.hpp"
+
+namespace drift::blind {
+
+inline constexpr std::size_t num_noise_faults = 6;
+
+/// Makes the noise of a world other than declared, without any further physics, and says how:
+///
+///   noise_scale          all sensors 0.75 to 1.6 times as noisy as declared
+///   angle_random_walk    3e-4 to 3e-3 deg/sqrt(h)
+///   drift_random_walk    1e-3 to 5e-3 deg/h/sqrt(h)
+///   markov_drift         2e-3 to 1e-2 deg/h, correlated over 10 to 60 min
+///   coloured_accelerometer   0.5 to 1.5 declared sigmas, correlated over 3 to 15 min
+///   outliers             0.1 to 1 % of the samples wrong by 10 sigma
+///
+/// Sizes: physics.md 4, entries 8, 9, 11, 50, and 3.4.
+HiddenEffect spoil_noise(std::size_t kind, World& world, Stream& stream);
+
+}  // namespace drift::blind

@@ -1,0 +1,56 @@
+#include "analysis/blind/seal.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "analysis/report/results_folder.hpp"
+#include "core/base/check.hpp"
+#include "core/base/sha256.hpp"
+
+namespace drift::blind {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string contents(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+fs::path hash_path(const std::string& folder, const std::string& name) {
+  return (fs::path(folder) / name).replace_extension(".sha256");
+}
+
+}  // namespace
+
+std::string write_sealed(const std::string& folder, const std::string& name, const std::string& text) {
+  const std::string hash = sha256_hex(text);
+  write_text_atomically((fs::path(folder) / name).string(), text);
+  write_text_atomically(hash_path(folder, name).string(), fmt::format("{}  {}\n", hash, name));
+  return hash;
+}
+
+std::string published_hash(const std::string& folder, const std::string& name) {
+  const std::string line = contents(hash_path(folder, name));
+  return line.substr(0, line.find_first_of(" \n"));
+}
+
+std::string open_sealed(const std::string& folder, const std::string& name) {
+  const std::string path = (fs::path(folder) / name).string();
+  const std::string published = published_hash(folder, name);
+  if (published.empty())
+    throw InputError(ExitCode::self_check,
+                     fmt::format("{}: no hash was published for it (expected {}). Run the study again in an empty "
+                                 "folder", path, hash_path(folder, name).string()));
+  const std::string text = contents(path), hash = sha256_hex(text);
+  if (hash != published)
+    throw InputError(ExitCode::self_check,
+                     fmt::format("{}: was changed after it was sealed: SHA-256 is {} (published: {}). Nothing is "
+                                 "scored; run the study again in an empty folder", path, hash, published));
+  return text;
+}
+
+}  // namespace drift::blind

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "analysis/blind/intervals.hpp"
+#include "analysis/blind/score.hpp"
+
+namespace drift::blind {
+
+/// A target of the blind study and what was measured.
+struct Target {
+  std::string name;
+  Proportion measured;
+  double low = 0.0, high = 1.0;  ///< the share should lie between
+  bool met() const { return measured.n > 0 && measured.share() >= low && measured.share() <= high; }
+  /// Missed, but the interval reaches it.
+  bool within_interval() const { return measured.low <= high && measured.high >= low; }
+};
+
+/// Detection at one size or range of sizes.
+struct PowerPoint {
+  double low = 0.0, high = 0.0, mean = 0.0;  ///< [sigma]
+  Proportion detected, exact, in_set, subsystem, wrong;
+  double theory = 0.0;  ///< detection of one known signature among `family` of them at 5 %
+};
+
+/// How a group of trials went: one plan, one coupling, one stratum, one term.
+struct GroupScore {
+  std::string name;
+  Proportion false_alarms;  ///< on nulls of both kinds
+  Proportion detected, exact, in_set, subsystem, wrong;  ///< of single effects of 8 sigma and more
+};
+
+/// A row of the confusion table: what single effects of one term were called.
+struct ConfusionRow {
+  std::string hidden;
+  std::vector<std::size_t> called;  ///< counts, by column
+};
+
+struct Confusion {
+  std::vector<std::string> columns;
+  std::vector<ConfusionRow> rows;
+};
+
+struct Summary {
+  std::size_t trials = 0, failed = 0;
+  std::vector<Target> targets;
+  std::vector<PowerPoint> power;
+  std::vector<GroupScore> plans, couplings, modes;
+  Proportion concealed;                       ///< effect trials with chi-square inside its band
+  std::vector<std::pair<std::string, Proportion>> further;  ///< scores without a target
+  std::vector<std::pair<std::string, Proportion>> wrong_noise, outside;  ///< by kind: false alarms, unexplained
+  std::vector<double> pulls;                  ///< of all recovered parameters
+  double pull_rms = 0.0;                      ///< robust against the few: 1.4826 median |pull|
+  Confusion confusion;
+  double mean_seconds = 0.0, longest_seconds = 0.0;  ///< per diagnosis
+  double largest_bias_median = 0.0;           ///< of the nominal fits of effect trials [sigma]
+};
+
+/// Smallest size that "at 8 sigma and above" takes in: sizes are hit within 1 %.
+inline constexpr double eight_sigma = 7.9;
+
+Summary summarise(const std::vector<TrialScore>& scores);
+
+}  // namespace drift::blind

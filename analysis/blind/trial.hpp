@@ -1,0 +1,93 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/physics/drift_model.hpp"
+#include "core/sim/test_plan.hpp"
+
+namespace drift::blind {
+
+/// What kind of thing a trial hides (discovery.md 3).
+enum class Stratum { null, wrong_noise, single, pair, outside, local };
+inline constexpr std::pair<Stratum, std::string_view> stratum_names[] = {
+    {Stratum::null, "null"},   {Stratum::wrong_noise, "wrong_noise"}, {Stratum::single, "single"},
+    {Stratum::pair, "pair"},   {Stratum::outside, "outside"},         {Stratum::local, "local"}};
+inline constexpr std::size_t num_strata = 6;
+
+inline constexpr std::pair<Coupling, std::string_view> coupling_names[] = {
+    {Coupling::eq5, "eq5"}, {Coupling::eq6, "eq6"}, {Coupling::servo, "servo"}};
+
+inline constexpr std::pair<CommandLaw, std::string_view> mode_names[] = {
+    {CommandLaw::free, "free"}, {CommandLaw::level, "level"}};
+
+/// The name of an enum value in one of the tables above, and back; `first` is returned for a name
+/// that is not in it.
+template <class E, std::size_t N>
+std::string name_in(const std::pair<E, std::string_view> (&table)[N], E value) {
+  for (const auto& [v, name] : table)
+    if (v == value) return std::string(name);
+  return {};
+}
+template <class E, std::size_t N>
+E value_in(const std::pair<E, std::string_view> (&table)[N], std::string_view name) {
+  for (const auto& [v, n] : table)
+    if (n == name) return v;
+  return table[0].first;
+}
+
+/// What is asked of one trial, before anything is drawn.
+struct TrialPlan {
+  std::size_t number = 0;
+  Stratum stratum = Stratum::null;
+  std::size_t index = 0;   ///< number among the trials of its stratum
+  std::string plan;        ///< preset
+  CommandLaw mode = CommandLaw::free;
+  Coupling coupling = Coupling::eq5;  ///< of the truth
+  double size = 0.0;       ///< wanted, what a nominal fit cannot absorb [sigma]
+};
+
+/// A number of a hidden effect, in `unit`.
+struct HiddenParameter {
+  std::string key;
+  double value = 0.0;
+  std::string unit;
+};
+
+/// One thing that was hidden.
+struct HiddenEffect {
+  std::string term;   ///< key of the term; for what is outside the library, a name of its own
+  std::string axis;   ///< empty if it has none
+  std::string words;  ///< what it is
+  std::vector<HiddenParameter> parameters;
+  double size = 0.0;      ///< of this effect alone, what the nominal fit cannot absorb [sigma]
+  double absorbed = 0.0;  ///< part of the raw signature that it can, 0..1
+  int position = 0;       ///< 1-based, of a local effect; 0: everywhere
+  double start_s = 0.0, end_s = 0.0;  ///< of a local effect
+  std::string equation;   ///< of a local effect, as a diagnosis says it: "platform rate y"
+};
+
+/// Whether an ordinary fit shows that something is missing: the nominal filter on the recording.
+struct Certificate {
+  double chi2_per_dof = 1.0;  ///< data and prior, per measured scalar
+  double band_low = 0.0, band_high = 0.0;  ///< 95 %, right model and noise
+  bool concealed = true;      ///< inside the band
+  double largest_bias = 0.0;  ///< |estimate - truth| in reported sigmas, over all parameters
+  std::string biased;         ///< the parameter it belongs to
+};
+
+/// What the key says of one trial.
+struct KeyEntry {
+  TrialPlan plan;
+  std::string nominal;  ///< coupling of the nominal filter
+  std::vector<HiddenEffect> effects;
+  double total_size = 0.0;  ///< of all effects together [sigma]
+  double cosine = 0.0;      ///< of the projected signatures of a pair
+  Certificate certificate;
+  double seconds = 0.0;     ///< spent on making it; not written to the key
+};
+
+}  // namespace drift::blind

@@ -1,0 +1,141 @@
+#include "analysis/blind/score.hpp"
+
+#include <gtest/gtest.h>
+
+#include "analysis/blind/summary.hpp"
+
+namespace drift::blind {
+namespace {
+
+using discovery::Verdict;
+
+KeyEntry hiding(Stratum stratum, std::vector<std::pair<std::string, std::string>> terms, double size = 8.0) {
+  KeyEntry k;
+  k.plan.number = 1;
+  k.plan.stratum = stratum;
+  for (const auto& [term, axis] : terms) {
+    HiddenEffect e;
+    e.term = term;
+    e.axis = axis;
+    e.size = size;
+    k.effects.push_back(e);
+  }
+  return k;
+}
+
+/// An answer whose causes are (term, axis, set).
+Answer answer(Verdict verdict, std::vector<std::tuple<std::string, std::string, int>> causes) {
+  Answer a;
+  a.number = 1;
+  a.verdict = verdict;
+  for (const auto& [term, axis, set] : causes) a.causes.push_back({term, axis, set, 1.0, {}});
+  return a;
+}
+
+const KeyEntry magnetic = hiding(Stratum::single, {{"magnetic_drift", "y"}});
+
+TEST(BlindScore, ARightNameIsExactAndInTheSet) {
+  const TrialScore s = score_trial(magnetic, answer(Verdict::named, {{"magnetic_drift", "y", 0}}));
+  EXPECT_TRUE(s.detected && s.exact && s.in_set && s.subsystem);
+  EXPECT_FALSE(s.confidently_wrong || s.extra || s.unexplained);
+  EXPECT_EQ(s.called, "magnetic_drift");
+}
+
+TEST(BlindScore, TheRightTermOnTheWrongAxisIsConfidentlyWrong) {
+  const TrialScore s = score_trial(magnetic, answer(Verdict::named, {{"magnetic_drift", "x", 0}}));
+  EXPECT_TRUE(s.confidently_wrong && s.subsystem);
+  EXPECT_FALSE(s.exact || s.in_set);
+}
+
+TEST(BlindScore, ASetOfThreeHoldsItAndASetOfFourIsTooLarge) {
+  Answer a = answer(Verdict::ambiguous, {{"latitude_error", "", 0}, {"magnetic_drift", "y", 1}, {"g2_drift", "y", 2}});
+  EXPECT_TRUE(score_trial(magnetic, a).in_set);
+  EXPECT_FALSE(score_trial(magnetic, a).exact);
+  EXPECT_FALSE(score_trial(magnetic, a).confidently_wrong);
+  a.causes.push_back({"sag", "", 3, 0.1, {}});
+  EXPECT_FALSE(score_trial(magnetic, a).in_set);
+}
+
+TEST(BlindScore, ARightCauseAmongOthersIsNeitherExactNorWrong) {
+  const TrialScore s =
+      score_trial(magnetic, answer(Verdict::named, {{"magnetic_drift", "y", 0}, {"drift_ramp", "x", 0}}));
+  EXPECT_TRUE(s.extra && s.in_set);
+  EXPECT_FALSE(s.exact || s.confidently_wrong);
+}
+
+TEST(BlindScore, APairNeedsBothInOneAlternative) {
+  const KeyEntry pair = hiding(Stratum::pair, {{"magnetic_drift", "y"}, {"sag", "x"}});
+  EXPECT_TRUE(score_trial(pair, answer(Verdict::named, {{"sag", "x", 0}, {"magnetic_drift", "y", 0}})).exact);
+  EXPECT_TRUE(score_trial(pair, answer(Verdict::ambiguous, {{"sag", "x", 0}, {"drift_ramp", "y", 0},
+                                                            {"sag", "x", 1}, {"magnetic_drift", "y", 1}})).in_set);
+  const TrialScore apart = score_trial(pair, answer(Verdict::ambiguous, {{"sag", "x", 0}, {"magnetic_drift", "y", 1}}));
+  EXPECT_FALSE(apart.in_set || apart.exact);
+  const TrialScore one = score_trial(pair, answer(Verdict::named, {{"sag", "x", 0}}));
+  EXPECT_FALSE(one.exact || one.confidently_wrong);
+}
+
+TEST(BlindScore, OnANullEverythingButConsistentIsAFalseAlarm) {
+  const KeyEntry null = hiding(Stratum::null, {});
+  EXPECT_FALSE(score_trial(null, answer(Verdict::consistent, {})).false_alarm);
+  EXPECT_TRUE(score_trial(null, answer(Verdict::unexplained, {})).false_alarm);
+  EXPECT_TRUE(score_trial(null, answer(Verdict::named, {{"sag", "x", 0}})).false_alarm);
+}
+
+TEST(BlindScore, ARandomWalkMayBeNamedWhereThereIsOneAndNowhereElse) {
+  const Answer walk = answer(Verdict::named, {{"drift_random_walk", "x", 0}});
+  EXPECT_FALSE(score_trial(hiding(Stratum::wrong_noise, {{"drift_random_walk", ""}}), walk).false_alarm);
+  EXPECT_TRUE(score_trial(hiding(Stratum::wrong_noise, {{"outliers", ""}}), walk).false_alarm);
+  EXPECT_TRUE(score_trial(hiding(Stratum::null, {}), walk).false_alarm);
+}
+
+TEST(BlindScore, OutsideTheLibraryEveryNameIsWrong) {
+  const KeyEntry outside = hiding(Stratum::outside, {{"chirp", "x"}}, 15.0);
+  EXPECT_TRUE(score_trial(outside, answer(Verdict::unexplained, {})).unexplained);
+  EXPECT_TRUE(score_trial(outside, answer(Verdict::named, {{"drift_ramp", "x", 0}})).confidently_wrong);
+}
+
+TEST(BlindScore, PullsAreInTheUnitOfTheKey) {
+  KeyEntry key = magnetic;
+  key.effects[0].parameters = {{"M_y", 0.010, "deg/h/gauss"}};
+  Answer a = answer(Verdict::named, {{"magnetic_drift", "y", 0}});
+  discovery::CauseParameter p;
+  p.key = "M_y";
+  p.value = 120.0;  // deg/h/T is 1e4 times smaller than deg/h/gauss
+  p.sigma = 10.0;
+  p.unit = "deg/h/T";
+  a.causes[0].parameters = {p};
+  const TrialScore s = score_trial(key, a);
+  ASSERT_EQ(s.pulls.size(), 1u);
+  EXPECT_NEAR(s.pulls[0].pull(), (0.012 - 0.010) / 0.001, 1e-9);
+}
+
+TEST(BlindScore, AFailedOrMissingAnswerCountsAgainstEveryShare) {
+  const auto scores = score_trials({magnetic}, {});
+  ASSERT_EQ(scores.size(), 1u);
+  EXPECT_TRUE(scores[0].answer.failed);
+  const Summary s = summarise(scores);
+  EXPECT_EQ(s.failed, 1u);
+  for (const Target& t : s.targets)
+    if (t.name == "power at 8 sigma") {
+      EXPECT_EQ(t.measured.n, 1u);
+      EXPECT_EQ(t.measured.k, 0u);
+    }
+}
+
+TEST(BlindScore, SharesOfASummaryAreThoseOfItsTrials) {
+  std::vector<TrialScore> scores;
+  for (int i = 0; i < 10; ++i)
+    scores.push_back(score_trial(magnetic, i < 7 ? answer(Verdict::named, {{"magnetic_drift", "y", 0}})
+                                                 : answer(Verdict::consistent, {})));
+  const Summary s = summarise(scores);
+  ASSERT_EQ(s.power.size(), 1u);
+  EXPECT_EQ(s.power[0].detected.k, 7u);
+  EXPECT_EQ(s.power[0].exact.k, 7u);
+  EXPECT_NEAR(s.power[0].theory, 0.99999775, 1e-6);  // Phi(8 - sqrt(11.6)) = Phi(4.594)
+  ASSERT_EQ(s.confusion.rows.size(), 1u);
+  EXPECT_EQ(s.confusion.columns, (std::vector<std::string>{"consistent", "magnetic_drift"}));
+  EXPECT_EQ(s.confusion.rows[0].called, (std::vector<std::size_t>{3, 7}));
+}
+
+}  // namespace
+}  // namespace drift::blind
