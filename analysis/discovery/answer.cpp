@@ -9,6 +9,8 @@
 namespace drift::discovery {
 namespace {
 
+constexpr double one_axis_gain = 10.0;  // of twice the log likelihood
+
 /// Score that is exceeded with 80 % probability: the threshold on |z| plus 0.84.
 double detectable_z(double strength_threshold) {
   return std::sqrt(quantile_of_strength(strength_threshold, 1)) + 0.84;
@@ -193,7 +195,7 @@ bool noise_of_one_axis(const Examination& nominal, Diagnosis& d) {
   double best = 0.0;
   int axis = -1;
   for (int a = 0; a < 3; ++a)
-    for (const double factor : {1.0, 1.6, 2.5}) {
+    for (const double factor : {0.7, 1.0, 1.6, 2.5}) {
       NoiseModel one = all;
       one.gyros = factor * Vec3::Unit(a);
       const double gain = value(one) - together;
@@ -202,8 +204,8 @@ bool noise_of_one_axis(const Examination& nominal, Diagnosis& d) {
         axis = a;
       }
     }
-  if (best < 15.0) return false;
-  d.p_value = std::min(d.p_value, 9.0 * std::exp(-0.5 * best));
+  if (best < one_axis_gain) return false;
+  d.p_value = std::min(d.p_value, 12.0 * std::exp(-0.5 * best));
   d.where.equation = equation_name(Window::Equation::rate, axis);
   d.remarks.push_back(fmt::format("What drives the platform acts on gyro {} alone: it is no noise that the gyros share "
                                   "(twice the log likelihood better by {:.1f}).", "xyz"[axis], best));

@@ -19,21 +19,11 @@ std::string axis_of(const ParamSpec& spec) {
   return {};
 }
 
-/// A parameter is an amplitude unless its declaration says otherwise.
-template <class Spec>
-bool is_amplitude(const Spec& spec) {
-  if (spec.prior.sigma() <= 0.0) return false;
-  if constexpr (requires { spec.kind; }) return spec.kind == decltype(spec.kind)::linear;
-  return true;
-}
+bool is_amplitude(const ParamSpec& spec) { return spec.kind == ParamKind::linear && spec.prior.sigma() > 0.0; }
 
-/// Values to try, SI; empty: the parameter is not profiled.
-template <class Spec>
-std::vector<double> grid_of(const Spec& spec) {
-  std::vector<double> values;
-  if constexpr (requires { spec.grid; })
-    for (const double v : spec.grid) values.push_back(v * spec.unit.to_si);
-  return values;
+/// Whether the test carries what a term wants to see.
+bool can_be_seen(const TermInfo& term, const Timeline& timeline) {
+  return (!term.needs.temperature || timeline.has_temperature) && (!term.needs.field || timeline.has_field);
 }
 
 using Settings = std::vector<std::pair<std::size_t, double>>;
@@ -42,17 +32,24 @@ using Settings = std::vector<std::pair<std::size_t, double>>;
 std::vector<Settings> settings_of(const TermInfo& term, const FilterSpec& nominal) {
   std::vector<Settings> all{{}};
   for (std::size_t i = term.first; i < term.first + term.count; ++i) {
-    const std::vector<double> grid = grid_of(TermLibrary::specs[i]);
-    if (grid.empty() || (nominal.active[i] && nominal.priors[i].sigma() > 0.0)) continue;
+    const ParamSpec& spec = TermLibrary::specs[i];
+    if (spec.grid.size == 0 || (nominal.active[i] && nominal.priors[i].sigma() > 0.0)) continue;
     std::vector<Settings> next;
     for (const Settings& s : all)
-      for (const double v : grid) {
+      for (const double v : spec.grid) {
         next.push_back(s);
-        next.back().emplace_back(i, v);
+        next.back().emplace_back(i, v * spec.unit.to_si);
       }
     all = std::move(next);
   }
   return all;
+}
+
+/// The other parameters of a term that is not in the nominal model are at their defaults.
+Theta with_defaults(const TermInfo& term, const FilterSpec& nominal, Theta theta) {
+  for (std::size_t i = term.first; i < term.first + term.count; ++i)
+    if (!nominal.active[i] && !is_amplitude(TermLibrary::specs[i])) theta[i] = TermLibrary::specs[i].prior_si().mean();
+  return theta;
 }
 
 /// Sets of parameters that may be missing together.
@@ -106,9 +103,10 @@ bool Candidate::contains(const Candidate& other) const {
          });
 }
 
-CandidateSet library_candidates(const FilterSpec& nominal, const Theta& theta, const Timeline&) {
+CandidateSet library_candidates(const FilterSpec& nominal, const Theta& theta, const Timeline& timeline) {
   CandidateSet out;
   for (const TermInfo& term : TermLibrary::terms) {
+    if (!can_be_seen(term, timeline)) continue;
     std::vector<std::size_t> missing;
     for (std::size_t i = term.first; i < term.first + term.count; ++i)
       if (!(nominal.active[i] && nominal.priors[i].sigma() > 0.0) && is_amplitude(TermLibrary::specs[i]))
@@ -122,7 +120,7 @@ CandidateSet library_candidates(const FilterSpec& nominal, const Theta& theta, c
     const auto first = static_cast<int>(out.signatures.size());
     for (const Settings& s : settings)
       for (const std::size_t i : missing) {
-        SignatureSpec spec{i, theta, TermLibrary::specs[i].prior_si().sigma()};
+        SignatureSpec spec{i, with_defaults(term, nominal, theta), TermLibrary::specs[i].prior_si().sigma()};
         for (const auto& [param, value] : s) spec.theta[param] = value;
         out.signatures.push_back(spec);
       }

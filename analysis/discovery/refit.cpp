@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "analysis/discovery/settle_noise.hpp"
 
 namespace drift::discovery {
 namespace {
@@ -17,11 +20,7 @@ double grid_spacing(const Candidate& c, std::size_t param, double value) {
   return std::isfinite(nearest) ? nearest : 0.0;
 }
 
-template <class Spec>
-bool may_be_refined(const Spec& spec) {
-  if constexpr (requires { spec.kind; }) return spec.kind == decltype(spec.kind)::nonlinear;
-  return false;
-}
+bool may_be_refined(const ParamSpec& spec) { return spec.kind == ParamKind::nonlinear; }
 
 }  // namespace
 
@@ -103,6 +102,7 @@ Refit refit(const Examination& nominal, const Test& test, const std::vector<Choi
         if (other.estimate.statistic < best.estimate.statistic) best = std::move(other);
       }
   out.after = examine(out.filter, test, best);
+  settle_noise(out.after, test, nulls.library_threshold);  // a second effect may hide in the noise
   for (const auto& [param, value] : expected)
     if (const ParameterEstimate* p = best.estimate.find(param))
       if (std::abs(value) > 2.0 * p->sigma && (p->value - (param == lambda && nominal.filter.coupling == Coupling::eq6)) * value < 0.0)

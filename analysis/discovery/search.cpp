@@ -6,68 +6,12 @@
 #include <map>
 #include <numeric>
 
+#include "analysis/discovery/settle_noise.hpp"
+
 namespace drift::discovery {
 namespace {
 
 constexpr double negligible = 14.0;  // log evidence behind the best: less than one in a million
-
-std::vector<std::size_t> by_evidence(const Examination& e) {
-  std::vector<std::size_t> order(e.scores.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return e.scores[a].log_bayes > e.scores[b].log_bayes;
-  });
-  std::erase_if(order, [&](std::size_t k) { return e.scores[k].dof == 0; });
-  return order;
-}
-
-/// Where noise that drives the platform seemed necessary, an effect may have been taken for it: the
-/// noise is estimated again with the best candidates in the mean, and kept if that explains the test
-/// significantly better than noise alone does.
-void settle_noise(Examination& e, const Test& test, const SearchOptions& options) {
-  std::vector<int> in_mean;
-  double reference = e.noise.log_likelihood2;
-  for (int round = 0; round < 3 && e.noise.driven; ++round) {
-    // As seen now, and as seen with no more than the declared noise.
-    std::vector<std::pair<std::size_t, std::size_t>> tries;  // candidate, variant
-    const auto add_best = [&] {
-      std::size_t count = 0;
-      for (const std::size_t k : by_evidence(e)) {
-        const std::pair<std::size_t, std::size_t> t{k, e.scores[k].variant};
-        if (std::find(tries.begin(), tries.end(), t) == tries.end()) tries.push_back(t);
-        if (++count == 3) break;
-      }
-    };
-    const NoiseEstimate noise_alone = e.noise;
-    add_best();
-    NoiseEstimate declared;
-    declared.model = declared_noise(e.filter);
-    set_noise(e, test.timeline, declared);
-    add_best();
-    set_noise(e, test.timeline, noise_alone);
-
-    NoiseEstimate best = noise_alone;
-    double best_gain = -std::numeric_limits<double>::infinity();
-    std::vector<int> best_mean;
-    for (const auto& [k, v] : tries) {
-      std::vector<int> mean = in_mean;
-      const auto& columns = e.set.candidates[k].variants[v].columns;
-      mean.insert(mean.end(), columns.begin(), columns.end());
-      const NoiseEstimate with = estimate_noise(e.problem, declared_noise(e.filter), mean);
-      if (with.log_likelihood2 - reference > best_gain) {
-        best_gain = with.log_likelihood2 - reference;
-        best = with;
-        best_mean = mean;
-      }
-    }
-    // The gain already pays for the size of the amplitude (Occam factor): evidence, not the maximum.
-    const double tests = static_cast<double>(e.set.signatures.size());
-    if (best_gain < 2.0 * std::log(tests / options.alpha)) break;
-    set_noise(e, test.timeline, best);
-    reference = best.log_likelihood2;
-    in_mean = best_mean;
-  }
-}
 
 /// Candidates that leave nothing significant by the linearised test; larger ones only where no part
 /// of them does as well.
@@ -144,8 +88,9 @@ double other_equation_gain(const Examination& nominal, const Test& test) {
 
 Search search(Examination& nominal, const Test& test, const SearchOptions& options) {
   Search out;
-  settle_noise(nominal, test, options);
   out.nulls = make_nulls(nominal, options.alpha, options.draws);
+  if (settle_noise(nominal, test, out.nulls.library_threshold))
+    out.nulls = make_nulls(nominal, options.alpha, options.draws);
   out.pairs = pair_null(*nominal.field, std::max(200, options.draws / 8));
 
   double library = 0.0, scan = 0.0;

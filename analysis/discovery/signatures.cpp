@@ -125,16 +125,23 @@ LinearProblem linear_problem(const FilterSpec& nominal, const Test& test, const 
   std::vector<bool> done(specs.size(), false);
   for (std::size_t first = 0; first < specs.size(); ++first) {
     if (done[first]) continue;
-    // Each parameter once: a layout cannot hold it twice.
+    // Each parameter once: a layout cannot hold it twice; each term at one setting of its parameters.
     std::vector<const SignatureSpec*> group;
     ParamMask added;
-    for (std::size_t k = first; k < specs.size(); ++k)
-      if (!done[k] && !added[specs[k].param] && specs[k].theta == specs[first].theta) {
-        group.push_back(&specs[k]);
-        added.set(specs[k].param);
-        done[k] = true;
-      }
-    Theta at = specs[first].theta;
+    TermMask terms;
+    Theta at = theta;
+    for (std::size_t k = first; k < specs.size(); ++k) {
+      if (done[k] || added[specs[k].param]) continue;
+      const TermInfo& owner = TermLibrary::owner(specs[k].param);
+      const auto number = *TermLibrary::find_term(owner.key);
+      const auto own = [&](const Theta& t) { return t.segment(owner.first, owner.count); };
+      if (terms[number] && own(specs[k].theta) != own(at)) continue;
+      terms.set(number);
+      at.segment(owner.first, owner.count) = own(specs[k].theta);
+      group.push_back(&specs[k]);
+      added.set(specs[k].param);
+      done[k] = true;
+    }
     if (added[lambda] && nominal.coupling == Coupling::eq6) at[lambda] = 1.0;
     const Layout small = layout_of(group, at);
     const auto parts = equations(extended(nominal, added), small, at);

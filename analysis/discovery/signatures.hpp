@@ -24,8 +24,7 @@ struct SignatureSpec {
 
 /// What a fit left, linearised: residual, nominal columns and candidate columns, rows in time order.
 /// fit: of the nominal filter; its theta and psi0_l are where everything is linearised. Columns of
-/// candidates whose terms the Linearizer knows come by dual numbers, all at once; `specs` whose theta
-/// differs from the fit in nonlinear parameters come in groups of equal theta.
+/// candidates come by dual numbers, many at once: of a spec's theta, the parameters of its own term count.
 LinearProblem linear_problem(const FilterSpec& nominal, const Test& test, const BatchResult& fit,
                              const std::vector<SignatureSpec>& specs);
 
