@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/support/model_builders.hpp"
 
 namespace drift::discovery {
@@ -68,11 +70,12 @@ TEST(Diagnose, AConcealedDriftIsNamedWithItsSizeAndPredictsHeldOutPositions) {
   EXPECT_EQ(d.signals[0].value.size(), d.signals[0].sigma.size());
 }
 
-TEST(Diagnose, TorquerScaleIsNamedWhereTheTestSlews) {
+TEST(Diagnose, TorquerScaleIsFoundWhereTheTestSlewsBesideTheNonlinearityOneRateCannotTellFromIt) {
   const Diagnosis d = run(make_case("slew12", "s_y", 30.0, Coupling::eq5, 1800.0));
-  ASSERT_EQ(d.verdict, Verdict::named) << d.sentence;
-  EXPECT_EQ(d.causes[0].term, "torquer_scale");
-  EXPECT_EQ(d.causes[0].axis, "y");
+  ASSERT_TRUE(d.verdict == Verdict::named || d.verdict == Verdict::ambiguous) << d.sentence;
+  EXPECT_LE(d.causes.size(), 2u);
+  EXPECT_TRUE(std::ranges::any_of(d.causes, [](const Cause& c) { return c.term == "torquer_scale" && c.axis == "y"; }))
+      << d.sentence;
 }
 
 TEST(Diagnose, TheOtherDriftEquationIsNamedFromWhatItDoesInSlews) {
