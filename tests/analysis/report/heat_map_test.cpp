@@ -30,7 +30,7 @@ TEST(HeatMap, ShowsValuesWithTheLargestDarkest) {
   EXPECT_NE(svg.find("#80B9D9"), std::string::npos);  // 2 of 4: half way to white
   EXPECT_NE(svg.find("#FFFFFF"), std::string::npos);  // nothing
   EXPECT_NE(svg.find("#F5D7BF"), std::string::npos);  // -1: a quarter of the way to orange
-  EXPECT_NE(svg.find(">4.0</text>"), std::string::npos);
+  EXPECT_NE(svg.find(">4</text>"), std::string::npos);
 }
 
 TEST(HeatMap, StandsEmptyHugeHostileAndMissingContent) {
