@@ -68,11 +68,17 @@ TEST(Diagnose, AConcealedDriftIsNamedWithItsSizeAndPredictsHeldOutPositions) {
   EXPECT_EQ(d.signals[0].value.size(), d.signals[0].sigma.size());
 }
 
-TEST(Diagnose, TorquerScaleIsNamedWhereTheTestSlews) {
+TEST(Diagnose, TorquerScaleIsNotToldFromNonlinearityWhereAllSlewsHaveOneRate) {
+  // s w and s_2 w |w| differ only in how they grow with the rate, and slew12 has a single one.
   const Diagnosis d = run(make_case("slew12", "s_y", 30.0, Coupling::eq5, 1800.0));
-  ASSERT_EQ(d.verdict, Verdict::named) << d.sentence;
-  EXPECT_EQ(d.causes[0].term, "torquer_scale");
-  EXPECT_EQ(d.causes[0].axis, "y");
+  ASSERT_EQ(d.verdict, Verdict::ambiguous) << d.sentence;
+  EXPECT_LE(d.causes.size(), 3u);
+  bool holds_truth = false;
+  for (const Cause& c : d.causes) {
+    EXPECT_EQ(c.axis, "y");
+    holds_truth = holds_truth || c.term == "torquer_scale";
+  }
+  EXPECT_TRUE(holds_truth);
 }
 
 TEST(Diagnose, TheOtherDriftEquationIsNamedFromWhatItDoesInSlews) {
