@@ -68,6 +68,11 @@ FilterSpec patched_filter(const FilterSpec& nominal, const std::vector<Cause>& c
       patched.priors[p.param] = p.profiled ? fixed(value) : prior;
       if (p.param == lambda) patched.coupling = Coupling::lambda;
     }
+  // A term comes with its time constant and the like, known until the study says otherwise.
+  const ParamMask whole = TermLibrary::completed(patched.active);
+  for (std::size_t i = 0; i < TermLibrary::num_params; ++i)
+    if (whole[i] && !patched.active[i]) patched.priors[i] = TermLibrary::specs[i].prior_si();
+  patched.active = whole;
   return patched;
 }
 

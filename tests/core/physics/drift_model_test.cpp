@@ -2,12 +2,20 @@
 
 #include <gtest/gtest.h>
 
+#include "core/physics/parameters_config.hpp"
 #include "tests/support/model_builders.hpp"
 
 namespace drift {
 namespace {
 
 using namespace drift::test;
+
+/// The terms of eqs. (5) and (6) and of the family between them: those that see no more than a Scene.
+TermMask equation_terms() {
+  ParamMask params = base_parameters();
+  params.set(param("lambda"));
+  return TermLibrary::terms_of(params);
+}
 
 /// A platform at some attitude, in some motion, with random parameters.
 struct Scene {
@@ -24,13 +32,13 @@ struct Scene {
   }
   Vec3 omega_cp(Coupling coupling, double lambda = 0.0) {
     DriftModel model{coupling, {}, mounting};
-    model.terms.set();
+    model.terms = equation_terms();
     theta[param("lambda")] = lambda;
     return platform_rate(model, in, theta.data(), Mat3::Zero()) - in.omega_ic_p;
   }
   RateAssembly<double> parts() {
     DriftModel model{Coupling::eq5, {}, mounting};
-    model.terms.set();
+    model.terms = equation_terms();
     return assemble(model, in, theta.data());
   }
 };
@@ -81,7 +89,7 @@ TEST(DriftModel, ACompensatedLoopWithPerfectKnowledgeIsFreeOfCaseMotion) {
   // w_cp = -C-hat^-1 (C w_ic + u) with C-hat = C is eq. (6); with C-hat = I it is eq. (5).
   Scene s(5);
   DriftModel model{Coupling::compensated, {}, s.mounting};
-  model.terms.set();
+  model.terms = equation_terms();
   const Mat3 E = s.parts().E_gp;
   const auto rate = [&](const Mat3& E_loop) -> Vec3 {
     return platform_rate(model, s.in, s.theta.data(), E_loop) - s.in.omega_ic_p;
@@ -125,7 +133,7 @@ TEST(DriftModel, TriadsPlaceTheAnglesAsInTheNotation) {
 TEST(Accelerometer, FollowsTheModelEquation) {
   Scene s(2);
   DriftModel model{Coupling::eq5, {}, s.mounting};
-  model.terms.set();
+  model.terms = equation_terms();
   const Vec3 out = accelerometer_output(model, s.in, s.theta.data());
   for (int i = 0; i < 3; ++i) {
     const double a_i = s.in.f_p[i], a_p = s.in.f_p[(i + 1) % 3], a_o = s.in.f_p[(i + 2) % 3];
