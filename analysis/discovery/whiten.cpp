@@ -9,9 +9,10 @@ namespace {
 
 /// Where each kind of state stands; -1: not there.
 struct States {
-  int walk = -1, markov = -1, acc = -1, count = 3;
+  int white = -1, walk = -1, markov = -1, acc = -1, count = 3;
 
   explicit States(const NoiseModel& n) {
+    if (n.angle_random_walk > 0.0) white = std::exchange(count, count + 3);
     if (n.drift_random_walk > 0.0) walk = std::exchange(count, count + 3);
     if (n.markov_drift > 0.0) markov = std::exchange(count, count + 3);
     if (n.acc_markov > 0.0) acc = std::exchange(count, count + 3);
@@ -20,19 +21,29 @@ struct States {
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Transition and noise from the end of the interval before to the middle (first = true) or from
-/// the middle to the end of an interval.
+/// Transition and noise over one half of an interval.
 struct Step {
   MatX F, Q;
 };
 
-/// Drift in units that make the state of order one: its own sigma.
-Step step_of(const States& s, const NoiseModel& n, const IntervalDrive& d, double dt, double gap) {
+/// States are in units of their own sigma. White rate noise is constant within an interval, as the
+/// simulator has it: the accelerometers' mean sees half of what the gimbals see at the end.
+Step step_of(const States& s, const NoiseModel& n, const IntervalDrive& d, bool first_half) {
+  const double dt = 0.5 * d.length, gap = first_half ? d.gap : 0.0;
   Step step{MatX::Identity(s.count, s.count), MatX::Zero(s.count, s.count)};
-  const Mat3 part = d.per_rate * n.gyros.asDiagonal() * (dt / d.length);
-  // White rate noise of each gyro: attitude variance (d psi / d rate)^2 q^2 / dt.
-  step.Q.topLeftCorner<3, 3>() =
-      part * part.transpose() * (n.angle_random_walk * n.angle_random_walk / dt);
+  const Mat3 part = 0.5 * d.per_rate * n.gyros.asDiagonal();
+  if (s.white >= 0) {
+    const Mat3 kick = part * (n.angle_random_walk / std::sqrt(d.length));
+    if (first_half) {  // a new value, which acts at once
+      step.F.block<3, 3>(s.white, s.white).setZero();
+      step.Q.block<3, 3>(s.white, s.white).setIdentity();
+      step.Q.block<3, 3>(0, s.white) = kick;
+      step.Q.block<3, 3>(s.white, 0) = kick.transpose();
+      step.Q.topLeftCorner<3, 3>() = kick * kick.transpose();
+    } else {
+      step.F.block<3, 3>(0, s.white) = kick;
+    }
+  }
   if (s.walk >= 0) {
     step.F.block<3, 3>(0, s.walk) = part * n.drift_random_walk;
     step.Q.block<3, 3>(s.walk, s.walk) = (dt + gap) * Mat3::Identity();
@@ -61,7 +72,7 @@ void walk(const LinearProblem& p, const NoiseModel& n, const States& s, Cage&& c
     if (d.cage) cage(i);
     // Half of the interval's noise before its accelerometer rows, half before its gimbal rows.
     for (const bool accelerometer : {true, false}) {
-      if (n.driven()) move(step_of(s, n, d, 0.5 * d.length, accelerometer ? d.gap : 0.0));
+      if (n.driven()) move(step_of(s, n, d, accelerometer));
       for (; k < p.rows() && p.tags[k].interval == i && p.tags[k].accelerometer() == accelerometer; ++k) {
         h.setZero();
         h.head<3>() = p.psi.row(k);

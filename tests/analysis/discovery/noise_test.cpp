@@ -48,9 +48,9 @@ TEST(Noise, AngleRandomWalkIsFoundWithItsSize) {
     EXPECT_TRUE(e.driven);
     ratio += e.model.angle_random_walk / truth.noise.angle_random_walk / runs;
   }
-  // 540 increments, of which white noise of the gimbals and accelerometers lets some hundred be seen:
-  // 1 / sqrt(2 * 100 * 3) each; three of them.
-  EXPECT_NEAR(ratio, 1.0, 0.13);
+  // 540 increments of each run, of which the white noise of the instruments leaves about half:
+  // 1 / sqrt(2 * 270 * 3) of one sigma; four of them, for what other components take.
+  EXPECT_NEAR(ratio, 1.0, 0.10);
 }
 
 TEST(Noise, AnEffectInTheMeanIsNotTakenForNoise) {
