@@ -148,7 +148,7 @@ std::vector<std::string> terms_text(const ParamMask& mask) {
     if ((named & left).none() || (named & ~mask).any() || (TermLibrary::completed(left) & named) != named)
       return;
     entries.push_back(key);
-    left &= ~named;
+    left &= ~TermLibrary::completed(named);
   };
   for (const auto key : term_keys()) use(std::string(key));
   for (const auto key : term_keys())
