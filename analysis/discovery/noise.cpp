@@ -13,6 +13,7 @@ namespace drift::discovery {
 namespace {
 
 constexpr double needed_gain = 2.7;       // of twice the log likelihood: a component comes in
+constexpr double gross = 30.0;             // chi-square per row that no plausible noise gives
 constexpr double significant_gain = 12.0; // eight alternatives, one in a thousand
 constexpr double deg_per_h = detail::deg / 3600.0;  // [rad/s]
 
@@ -288,7 +289,7 @@ bool grossly_wrong(const LinearProblem& problem, const VecX& residual, const Noi
         problem.tags[k].accelerometer() ? differences.model.acc_factor : differences.model.gimbal_factor;
     chi2 += residual[k] * residual[k] / (factor * factor);
   }
-  return chi2 > 3.0 * static_cast<double>(residual.size());
+  return chi2 > gross * static_cast<double>(residual.size());
 }
 
 std::size_t robust_weights(LinearProblem& problem, const VecX& residual) {

@@ -27,8 +27,9 @@ NoiseEstimate estimate_noise(const LinearProblem& problem, const NoiseModel& dec
 /// grossly wrong model bends. residual: in declared sigmas, not whitened. shape rows.
 NoiseEstimate noise_of_differences(const LinearProblem& problem, const VecX& residual);
 
-/// Whether the misfit is so gross that it would be taken for noise: chi-square per row three times
-/// what the differences of neighbouring residuals allow.
+/// Whether the misfit is so gross that it would be taken for noise: chi-square per row thirty times
+/// what the differences of neighbouring residuals allow. (Random walks of ten times the usual size
+/// give three to ten.)
 bool grossly_wrong(const LinearProblem& problem, const VecX& residual, const NoiseEstimate& differences);
 
 /// Lowers the weight of rows with residuals that Gaussian noise does not have (Huber's function with

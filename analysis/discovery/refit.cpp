@@ -102,7 +102,7 @@ Refit refit(const Examination& nominal, const Test& test, const std::vector<Choi
         if (other.estimate.statistic < best.estimate.statistic) best = std::move(other);
       }
   out.after = examine(out.filter, test, best);
-  settle_noise(out.after, test, nulls.library_threshold);  // a second effect may hide in the noise
+  settle_noise(out.after, test, nulls.library_threshold, 2, 1);  // a second effect may hide in the noise
   for (const auto& [param, value] : expected)
     if (const ParameterEstimate* p = best.estimate.find(param))
       if (std::abs(value) > 2.0 * p->sigma && (p->value - (param == lambda && nominal.filter.coupling == Coupling::eq6)) * value < 0.0)

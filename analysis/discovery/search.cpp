@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <string>
 
 #include "analysis/discovery/settle_noise.hpp"
 
@@ -43,7 +44,22 @@ double log_prior(const Examination& e, const std::vector<Choice>& choices) {
   return sum - std::log(20.0) * static_cast<double>(choices.size() - 1);
 }
 
-/// Keeps the adequate ones up to the credible probability.
+/// What an explanation is called: its terms and axes, in order; of a base term the parameters too.
+std::string name_of(const Examination& e, const Refit& r) {
+  std::vector<std::string> names;
+  for (const Choice& choice : r.choices) {
+    const Candidate& c = e.set.candidates[choice.candidate];
+    const bool base = *TermLibrary::find_term(c.term) < *TermLibrary::find_term("frame_closure");
+    names.push_back(base ? c.label : c.term + "." + c.axis);
+  }
+  std::sort(names.begin(), names.end());
+  std::string all;
+  for (const std::string& n : names) all += n + " ";
+  return all;
+}
+
+/// Keeps the adequate ones up to the credible probability; of several with one name the best stands
+/// for all.
 void weigh(const Examination& e, std::vector<Refit> refits, double credible, Search& out) {
   std::vector<Refit> good;
   for (Refit& r : refits) (r.adequate ? good : out.rejected).push_back(std::move(r));
@@ -56,11 +72,16 @@ void weigh(const Examination& e, std::vector<Refit> refits, double credible, Sea
   std::vector<std::size_t> order(good.size());
   std::iota(order.begin(), order.end(), 0u);
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return weight[a] > weight[b]; });
+  std::map<std::string, double> together;
+  for (std::size_t k = 0; k < good.size(); ++k) together[name_of(e, good[k])] += weight[k] / sum;
   double held = 0.0;
   for (const std::size_t k : order) {
-    out.probability.push_back(weight[k] / sum);
+    const auto place = together.find(name_of(e, good[k]));
+    if (place == together.end()) continue;  // a better one of this name is in
+    held += place->second;
+    out.probability.push_back(place->second);
     out.sets.push_back(std::move(good[k]));
-    held += weight[k] / sum;
+    together.erase(place);
     if (held >= credible) break;
   }
 }

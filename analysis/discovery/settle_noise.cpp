@@ -7,8 +7,6 @@
 namespace drift::discovery {
 namespace {
 
-constexpr std::size_t most_tries = 4;  // under each of two views of the noise
-
 /// log det (1 + C) of some columns under a noise: what a unit prior on their amplitudes costs twice the
 /// log of the marginal likelihood against its maximum.
 double price(const LinearProblem& problem, const NoiseModel& noise, const std::vector<int>& columns) {
@@ -31,10 +29,10 @@ std::vector<std::size_t> by_evidence(const Examination& e) {
   return order;
 }
 
-bool settle_noise(Examination& e, const Test& test, double threshold) {
+bool settle_noise(Examination& e, const Test& test, double threshold, std::size_t most_tries, int rounds) {
   std::vector<int> in_mean;
   bool replaced = false;
-  for (int round = 0; round < 3 && e.noise.driven; ++round) {
+  for (int round = 0; round < rounds && e.noise.driven; ++round) {
     // As seen now, and as seen with no more than the declared noise.
     std::vector<std::pair<std::size_t, std::size_t>> tries;  // candidate, variant
     const auto add_best = [&] {
