@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <utility>
 
 #include "core/base/check.hpp"
+#include "core/sim/truth.hpp"
 #include "mc/campaign.hpp"
 
 namespace drift {
@@ -65,11 +67,29 @@ std::vector<RankingGroup> groups_of(const Study& study) {
   return groups;
 }
 
+/// Where parameters multiply (misalignment times drift), the mean of the prior may be a special point:
+/// the information at truths drawn from it says so.
+std::vector<Elsewhere> ranges_elsewhere(const Study& study, const RankedModel& model) {
+  constexpr std::uint64_t draws = 4;
+  std::vector<Elsewhere> ranges(make_layout(model.spec).size(), {std::numeric_limits<double>::infinity(), 0.0});
+  for (std::uint64_t k = 0; k < draws; ++k) {
+    RankedModel drawn = model;
+    drawn.nominal = draw_parameters(model.spec, study.monte_carlo.seed, k, Purpose::parameters);
+    const Ranking r = rank_parameters(linearise(study.plan, drawn));
+    for (std::size_t i = 0; i < ranges.size(); ++i) {
+      ranges[i].low = std::min(ranges[i].low, r.learning_ratio(i));
+      ranges[i].high = std::max(ranges[i].high, r.learning_ratio(i));
+    }
+  }
+  return ranges;
+}
+
 void rank_model(const Study& study, const RankOptions& options, ModelRanking& m, double& duration) {
   LinearisedPlan plan = linearise(study.plan, m.model, options.bins_per_dwell);
   m.ranking = rank_parameters(plan);
   m.course = information_course(plan);
   m.pwcs = pwcs_rank(study.plan, study.site, m.model.spec, study.readout);
+  m.elsewhere = ranges_elsewhere(study, m.model);
   m.methods = compare_methods(m.ranking, m.pwcs, plan, m.course, study.plan);
   duration = plan.duration;
   m.bins = std::move(plan.bins);

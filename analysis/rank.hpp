@@ -11,6 +11,11 @@
 
 namespace drift {
 
+/// Learning ratios of a parameter at other points than the one the plan is linearised at.
+struct Elsewhere {
+  double low = 0.0, high = 0.0;
+};
+
 /// The ranking of a plan under one model, by every method.
 struct ModelRanking {
   RankedModel model;
@@ -20,6 +25,7 @@ struct ModelRanking {
   InformationCourse course;
   PwcsRank pwcs;
   std::vector<MethodRanking> methods;
+  std::vector<Elsewhere> elsewhere;  ///< of each state, at four truths drawn from the priors
 };
 
 /// Models of the same terms and priors, side by side: eqs. (5) and (6) for a filter of either.

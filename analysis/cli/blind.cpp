@@ -4,6 +4,7 @@
 #include "analysis/blind/seal.hpp"
 #include "analysis/cli/commands.hpp"
 #include "analysis/cli/progress.hpp"
+#include "analysis/report/results_folder.hpp"
 
 namespace drift::cli {
 
@@ -11,6 +12,7 @@ ExitCode blind(const StudyArguments& arguments, const std::string& folder, const
   StudyArguments all = arguments;
   if (trials) all.sets.push_back("blind.trials=" + *trials);
   const Study study = all.read();
+  require_own_folder(folder, "blind");
   drift::blind::Hashes hashes;
   hashes.key = drift::blind::make_trials(study, folder, arguments.threads, progress_reporter(arguments.progress, "recordings"));
   fmt::print("Key sealed in {}: SHA-256 {}\n", folder, hashes.key);

@@ -61,6 +61,7 @@ ExitCode verify(const std::string& folder, const std::string& sample, int thread
 ExitCode replay(const std::string& folder, const RunChoice& choice, const std::string& trace, const StudyProgram& program);
 ExitCode export_results(const std::string& folder, const std::string& format, const std::string& output,
                         const StudyProgram& program);
+ExitCode report(const std::string& folder, const StudyProgram& program);
 ExitCode diagnose(const StudyArguments& arguments, const std::vector<std::string>& recordings,
                   const std::string& folder);
 ExitCode terms(const std::string& key);

@@ -72,6 +72,7 @@ ExitCode diagnose_platform(const Study& study, const std::vector<std::string>& p
 ExitCode diagnose(const StudyArguments& arguments, const std::vector<std::string>& paths, const std::string& folder) {
   const Study study = arguments.read();
   require_nominal(study);
+  require_own_folder(folder, "diagnose");
   return study.kind == RecordingKind::strapdown ? diagnose_case(study, paths, folder)
                                                 : diagnose_platform(study, paths, folder);
 }

@@ -46,6 +46,7 @@ ExitCode identify_case(const Study& study, const std::vector<std::string>& paths
 ExitCode identify(const StudyArguments& arguments, const std::vector<std::string>& paths,
                   const std::string& folder, std::uint64_t run) {
   const Study study = arguments.read();
+  require_own_folder(folder, "identify");
   if (study.kind == RecordingKind::strapdown) return identify_case(study, paths, folder);
   const auto progress = progress_reporter(arguments.progress, "estimates");
   const Identification id =

@@ -157,6 +157,9 @@ class Program {
     replay->add_option("--point", choice_.point, "study point of a sweep, from 0");
     replay->add_option("--trace", output_, "write the course of the run as CSV");
 
+    look("report", "the HTML report of a results folder; of a study made anew, finished or not", "driftscope report results/study",
+         [this] { return cli::report(folder_, cli::study_program()); });
+
     CLI::App* exporter = look("export", "convert the results", "driftscope export results/study --format hdf5 -o study.h5",
                               [this] { return cli::export_results(folder_, format_, output_, cli::study_program()); });
     exporter->add_option("--format", format_, "hdf5, csv or json")->required()->check(CLI::IsMember({"hdf5", "csv", "json"}));

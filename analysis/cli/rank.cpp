@@ -3,11 +3,16 @@
 #include "analysis/cli/commands.hpp"
 #include "analysis/cli/progress.hpp"
 #include "analysis/report/rank_report.hpp"
+#include "analysis/report/results_folder.hpp"
 
 namespace drift::cli {
 
 ExitCode rank(const StudyArguments& arguments, const RankArguments& options) {
   const Study study = arguments.read();
+  require_own_folder(options.folder, "rank");
+  if (!study.sweep.empty())
+    fmt::print(stderr, "note: the values of {} in [sweep] are not ranked, those above it are. Rank them one by one with --set\n",
+               study.sweep.front().key);
   RankOptions what;
   what.improve = options.improve;
   what.criterion = options.criterion;

@@ -8,6 +8,7 @@
 #include "analysis/cli/frozen_study.hpp"
 #include "analysis/cli/run_options.hpp"
 #include "analysis/cli/run_progress.hpp"
+#include "analysis/report/results_folder.hpp"
 #include "mc/engine.hpp"
 #include "mc/export_text.hpp"
 
@@ -95,6 +96,7 @@ ExitCode run(const StudyArguments& arguments, const RunArguments& given, const S
   mc::Ranks ranks;
   if (ranks.size() > 1 && !given.worker.empty())
     throw InputError(ExitCode::usage, "--worker: mpirun shares out the work already (expected one or the other). Leave out --worker");
+  require_own_folder(folder, "run");
   mc::claim_folder(folder, manifest);
   if (ranks.leader()) fmt::print(stderr, "results go to {}\n", folder);
   const mc::StudyOutcome outcome = mc::run_study(work, options, folder, manifest, ranks, run_progress(arguments.progress));

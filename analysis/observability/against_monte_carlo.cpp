@@ -16,7 +16,8 @@ constexpr double tolerance = 0.1;  // of the promise: what linearisation may cos
 /// unlearned: beyond that the prior explains nothing.
 constexpr double prior_excess = std::numbers::sqrt2 * (1.0 + tolerance);
 
-void judge(ErrorComparison& c, TruthIs truth) {
+/// sigma_ratio: the sigma that the filter reports over the prior's.
+void judge(ErrorComparison& c, TruthIs truth, double sigma_ratio) {
   const double promise = c.learning_ratio;
   const bool holds = c.low <= promise * (1.0 + tolerance) && c.high >= promise * (1.0 - tolerance);
   const bool prior_rules = promise * promise >= 0.5;
@@ -26,10 +27,14 @@ void judge(ErrorComparison& c, TruthIs truth) {
                            "were drawn", 100.0 * promise);
   } else if (holds) {
     c.verdict = ErrorVerdict::agree;
-  } else if (truth == TruthIs::another_model && c.rmse_ratio > promise) {
+  } else if (c.low <= sigma_ratio * (1.0 + tolerance) && c.high >= sigma_ratio * (1.0 - tolerance)) {
+    c.verdict = ErrorVerdict::nonlinear;
+    c.reason = fmt::format("{:.3g} times the promised sigma, as the filter itself says: its levers depend on where "
+                           "the truth lies", c.rmse_ratio / promise);
+  } else if (truth == TruthIs::another_model && c.rmse_ratio > sigma_ratio) {
     c.verdict = ErrorVerdict::wrong_model;
-    c.reason = fmt::format("{:.3g} times the promised sigma: the data come from another model",
-                           c.rmse_ratio / promise);
+    c.reason = fmt::format("{:.3g} times the sigma that the filter reports: the data come from another model",
+                           c.rmse_ratio / sigma_ratio);
   } else {
     c.verdict = ErrorVerdict::nonlinear;
     c.reason = fmt::format("{:.3g} times the promised sigma: levers depend on where the truth lies, or the "
@@ -67,7 +72,7 @@ MonteCarloComparison compare_with_monte_carlo(const Ranking& ranking,
     c.rmse_ratio = error->rmse / p.prior_sigma;
     c.low = std::isfinite(error->low) ? error->low / p.prior_sigma : c.rmse_ratio;
     c.high = std::isfinite(error->high) ? error->high / p.prior_sigma : c.rmse_ratio;
-    judge(c, truth);
+    judge(c, truth, error->sigma / p.prior_sigma);
     out.parameters.push_back(std::move(c));
   }
   const auto n = static_cast<Eigen::Index>(out.parameters.size());

@@ -9,10 +9,11 @@
 namespace drift {
 
 /// What a Monte Carlo study found of one parameter: root mean square error of the estimates, with a
-/// (bootstrap) interval, SI.
+/// (bootstrap) interval, and the sigma that the filter reported (root mean square), SI.
 struct MonteCarloError {
   std::size_t param = 0;  ///< index in TermLibrary
   double rmse = 0.0, low = 0.0, high = 0.0;
+  double sigma = 0.0;
 };
 
 /// Whether the data of the study came from the model that is ranked.
@@ -21,8 +22,9 @@ enum class TruthIs { the_model, another_model };
 /// How an error of the study stands to what the information promises.
 enum class ErrorVerdict {
   agree,            ///< the interval holds the promise (within 10 %)
-  nonlinear,        ///< same model, another error: nonlinearity, or an estimator that is not efficient
-  wrong_model,      ///< another model made the data, and the error is beyond the promise
+  nonlinear,        ///< another error, which the filter knows of, or of the same model: levers depend
+                    ///< on where the truth lies, or the estimator is not efficient
+  wrong_model,      ///< another model made the data, and the error is beyond what the filter claims
   prior_dominated,  ///< the prior says at least as much as the data: the error shows how truth and
                     ///< starts were drawn
 };

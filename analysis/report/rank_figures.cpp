@@ -61,7 +61,7 @@ std::string spectrum_figure(const RankingGroup& group) {
   chart.panel_width = 720.0;
   chart.panel_height = 320.0;
   Panel panel;
-  panel.x_label = "direction, best seen first";
+  panel.x_label = "direction, best seen first; those not seen at all left out";
   panel.y_label = "log10(information / prior)";
   panel.references.push_back({0.0, "as good as the prior", Stroke::dashed});
   for (std::size_t m = 0; m < group.models.size(); ++m) {
@@ -69,8 +69,10 @@ std::string spectrum_figure(const RankingGroup& group) {
     s.stroke = m == 0 ? Stroke::solid : Stroke::dashed;
     double index = 1.0;
     for (const EigenDirection& d : group.models[m].ranking.spectrum) {
-      s.x.push_back(index++);
-      s.y.push_back(d.information > 0.0 ? std::max(least_shown, std::log10(d.information)) : least_shown);
+      const double x = index++, y = std::log10(std::max(d.information, 0.0));
+      if (y < least_shown) continue;  // not seen at all
+      s.x.push_back(x);
+      s.y.push_back(y);
     }
     panel.series.push_back(std::move(s));
   }

@@ -12,6 +12,7 @@ Section group_section(const Study& study, const RankingGroup& group) {
   s.blocks.emplace_back(Picture{learning_figure(group), "Longer is better known. Each bar is one equation."});
   s.blocks.emplace_back(ranking_table(group));
   if (group.models.size() > 1) s.blocks.emplace_back(coupling_table(group));
+  for (const ModelRanking& m : group.models) s.blocks.emplace_back(elsewhere_table(m));
   s.blocks.emplace_back(Picture{
       spectrum_figure(group),
       "Prior-scaled eigenvalues of the information. Below 0 the prior says more than the data; -12 stands for anything less."});

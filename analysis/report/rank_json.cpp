@@ -24,7 +24,9 @@ Json numbers(const auto& values) {
   return all;
 }
 
-Json parameters_json(const Ranking& r, const RankedModel& model) {
+Json parameters_json(const ModelRanking& m) {
+  const Ranking& r = m.ranking;
+  const RankedModel& model = m.model;
   Json all = Json::array();
   for (std::size_t i = 0; i < r.order.size(); ++i) {
     const ParameterRank& p = r.parameters[r.order[i]];
@@ -37,6 +39,8 @@ Json parameters_json(const Ranking& r, const RankedModel& model) {
                    {"prior_sigma", number(p.prior_sigma / unit)},
                    {"posterior_sigma", number(p.posterior_sigma / unit)},
                    {"learning_ratio", number(p.learning_ratio())},
+                   {"learning_ratio_at_drawn_truths",
+                    {number(m.elsewhere[r.order[i]].low), number(m.elsewhere[r.order[i]].high)}},
                    {"conditional_sigma", number(p.conditional_sigma / unit)},
                    {"collinearity", number(p.collinearity())},
                    {"bits", number(p.bits())},
@@ -118,7 +122,7 @@ Json model_json(const Study& study, const ModelRanking& m) {
   out["of_the_file"] = m.of_the_file;
   out["terms"] = term_keys(m.model.spec.model().terms);
   out["bits"] = number(m.ranking.bits);
-  out["parameters"] = parameters_json(m.ranking, m.model);
+  out["parameters"] = parameters_json(m);
   out["spectrum"] = spectrum_json(m.ranking);
   out["null_directions"] = directions_json(exact_degeneracies(m));
   out["held_by_attitude_prior"] = directions_json(held_by_attitude(m));

@@ -116,6 +116,22 @@ Table ranking_table(const RankingGroup& group) {
   return t;
 }
 
+Table elsewhere_table(const ModelRanking& m) {
+  constexpr double factor = 1.5;
+  Table t;
+  t.title = fmt::format("Where the promise depends on the truth, {}", coupling_key(m));
+  t.columns = {{"parameter", Align::left}, {"left, as ranked"}, {"left, at four drawn truths", Align::left}};
+  for (const std::size_t k : m.ranking.order) {
+    const double here = m.ranking.learning_ratio(k);
+    const Elsewhere& e = m.elsewhere[k];
+    if (e.high < factor * here && e.low > here / factor) continue;
+    t.add({key_and_unit(m.ranking.layout, k), number_text(here), fmt::format("{} to {}", number_text(e.low), number_text(e.high))});
+  }
+  t.note = t.rows.empty() ? fmt::format("No sigma changes by more than a factor {} at truths drawn from the priors.", factor)
+                          : "Parameters enter as products here: the sigma at the point of the ranking is not the one elsewhere.";
+  return t;
+}
+
 Table coupling_table(const RankingGroup& group) {
   Table t;
   t.title = "Where eqs. (5) and (6) promise different sigmas";

@@ -24,6 +24,9 @@ Table ranking_table(const RankingGroup& group);
 /// Parameters of which eqs. (5) and (6) promise sigmas more than a factor 1.5 apart.
 Table coupling_table(const RankingGroup& group);
 
+/// Parameters whose sigma depends on where the truth lies.
+Table elsewhere_table(const ModelRanking& model);
+
 /// What each position tells, and what is lost without it.
 Table position_table(const Study& study, const ModelRanking& model);
 

@@ -41,6 +41,7 @@ std::string to_text(const Study& study, const PlanRanking& rank) {
     const ModelRanking& first = g.models.front();
     add(out, ranking_table(g));
     if (g.models.size() > 1) add(out, coupling_table(g));
+    for (const ModelRanking& m : g.models) add(out, elsewhere_table(m));
     add_null_tables(out, g);
     add(out, direction_table(first));
     add(out, position_table(study, first));

@@ -1,5 +1,7 @@
 #include "analysis/report/results_folder.hpp"
 
+#include <fmt/format.h>
+
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -22,6 +24,26 @@ void write_text_atomically(const std::string& path, std::string_view text) {
   if (!file || std::fwrite(text.data(), 1, text.size(), file.get()) != text.size()) failed();
   if (std::fclose(file.release()) != 0) failed();  // a full disk may show only here
   target.commit();
+}
+
+std::string results_of(const std::string& folder) {
+  // A strapdown diagnosis has an identification beside it, so the order matters.
+  constexpr std::pair<std::string_view, std::string_view> marks[] = {{"manifest.json", "run"},
+                                                                     {"key.json", "blind"},
+                                                                     {"diagnosis.json", "diagnose"},
+                                                                     {"rank.json", "rank"},
+                                                                     {"identification.json", "identify"}};
+  for (const auto& [file, command] : marks)
+    if (std::filesystem::exists(std::filesystem::path(folder) / file)) return std::string(command);
+  return {};
+}
+
+void require_own_folder(const std::string& folder, std::string_view command) {
+  if (folder.empty()) return;
+  const std::string holder = results_of(folder);
+  if (!holder.empty() && holder != command)
+    throw InputError(ExitCode::store, fmt::format("{}: holds the results of `{}` (expected an empty folder, or one of `{}`). "
+                                                  "Give another folder with -o", folder, holder, command));
 }
 
 std::vector<std::string> write_results(const Study& study, const Identification& id,

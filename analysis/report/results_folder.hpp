@@ -13,6 +13,13 @@ namespace drift {
 /// included; the target is then as it was.
 void write_text_atomically(const std::string& path, std::string_view text);
 
+/// The command whose results a folder holds: "run", "blind", "diagnose", "rank", "identify"; or empty.
+std::string results_of(const std::string& folder);
+
+/// InputError (store) if a folder holds the results of another command: they would be overwritten, or
+/// their study changed. An empty folder name, or a folder that does not exist yet, is nobody's.
+void require_own_folder(const std::string& folder, std::string_view command);
+
 /// Name and content of a text file.
 using TextFile = std::pair<std::string, std::string>;
 

@@ -14,18 +14,17 @@
 namespace drift {
 namespace {
 
-constexpr std::size_t most_points = 4;   ///< of which there are pictures
-constexpr std::size_t most_pairs = 24;   ///< of which there is a table of parameters
+constexpr std::size_t most_pairs = 24;  ///< of which there is a table of parameters
 
 std::string name_of(const mc::StudyPoint& point) {
   const std::string condition = condition_of(point);
   return fmt::format("truth {}{}{}", key_of(point.study.truth.coupling), condition.empty() ? "" : ", ", condition);
 }
 
-/// The pair with the right filter of each of the first points; the first filter where none is right.
+/// The pair with the right filter of each pictured point; the first filter where none is right.
 std::vector<Pair> ranked_pairs(const StudyResults& results) {
   std::vector<Pair> pairs;
-  for (std::size_t p = 0; p < results.statistics.size() && pairs.size() < most_points; ++p) {
+  for (const std::size_t p : pictured_points(results)) {
     Pair best{p, 0};
     for (std::size_t f = results.statistics[p].filters().size(); f-- > 0;)
       if (matched(results, {p, f})) best.filter = f;
@@ -60,11 +59,15 @@ HtmlReport study_html(const StudyResults& results) {
     report.sections.push_back(std::move(section));
   }
   Section ranking{"Ranking by Monte Carlo", {}};
+  if (const auto pictured = pictured_points(results); pictured.size() < results.points.size())
+    ranking.blocks.emplace_back(Paragraph{fmt::format("From here on there are pictures of {} of the {} study points, from the "
+                                                      "first to the last. Numbers of all are in summary.json.",
+                                                      pictured.size(), results.points.size())});
   for (const Pair& pair : ranked_pairs(results)) ranking.blocks.emplace_back(ranking_picture(results, pair));
   report.sections.push_back(std::move(ranking));
   report.sections.insert(report.sections.end(), results.further.begin(), results.further.end());
   Section scatter{"Error against sigma", {}}, convergence{"Convergence of sample runs", {}};
-  for (std::size_t p = 0; p < results.points.size() && p < most_points; ++p) {
+  for (const std::size_t p : pictured_points(results)) {
     scatter.blocks.emplace_back(Paragraph{name_of(results.points[p])});
     scatter.blocks.emplace_back(scatter_picture(results, p));
   }
@@ -86,7 +89,10 @@ HtmlReport study_html(const StudyResults& results) {
   report.sections.push_back({"Failures", {failures.rows.empty() ? Block(Paragraph{"Every run yielded data, and no filter diverged."})
                                                                 : Block(std::move(failures))}});
   report.sections.push_back(provenance_section(results));
-  report.footer = "Written by driftscope run. Intervals hold with 95 %.";
+  report.footer = "Written by driftscope run. Intervals hold with 95 %";
+  report.footer += results.study.monte_carlo.design == DesignKind::random
+                       ? "."
+                       : " for random designs; with this one they are conservative for means and rates.";
   return report;
 }
 
@@ -101,7 +107,7 @@ std::string study_text(const StudyResults& results) {
 
 std::vector<std::pair<std::size_t, std::uint64_t>> runs_to_trace(const StudyResults& results) {
   std::vector<std::pair<std::size_t, std::uint64_t>> runs;
-  for (std::size_t p = 0; p < results.points.size() && p < most_points; ++p)
+  for (const std::size_t p : pictured_points(results))
     for (std::uint64_t run = 0; run < std::min<std::uint64_t>(3, results.statistics[p].runs()); ++run)
       runs.emplace_back(p, run);
   return runs;

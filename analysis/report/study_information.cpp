@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "analysis/observability/against_monte_carlo.hpp"
 #include "analysis/rank.hpp"
@@ -12,8 +13,6 @@
 
 namespace drift {
 namespace {
-
-constexpr std::size_t most_points = 4;
 
 /// The ranking of a filter's own model in a group of its plan.
 const ModelRanking* ranking_of(const PlanRanking& plan, const FilterSpec& filter) {
@@ -63,7 +62,8 @@ std::vector<Section> information_sections(const StudyResults& results, int threa
       "Found: root mean square error of the runs over the prior sigma, with its bootstrap interval."});
   RankOptions options;
   options.threads = threads;
-  for (std::size_t p = 0; p < results.points.size() && p < most_points; ++p) {
+  std::set<std::string> shown;  // points that differ in the truth alone have one plan
+  for (const std::size_t p : pictured_points(results)) {
     const Study& study = results.points[p].study;
     const PlanRanking plan = rank_plan(study, options);
     for (std::size_t f = 0; f < study.filters.size(); ++f) {
@@ -73,7 +73,7 @@ std::vector<Section> information_sections(const StudyResults& results, int threa
       std::vector<MonteCarloError> errors;
       for (std::size_t k = 0; k < found.errors().size(); ++k) {
         const mc::Estimated rmse = found.errors()[k].rmse();
-        errors.push_back({found.columns().layout.params[k], rmse.value, rmse.low, rmse.high});
+        errors.push_back({found.columns().layout.params[k], rmse.value, rmse.low, rmse.high, found.errors()[k].mean_sigma()});
       }
       const MonteCarloComparison comparison = compare_with_monte_carlo(
           model->ranking, errors, matched(results, {p, f}) ? TruthIs::the_model : TruthIs::another_model);
@@ -85,9 +85,9 @@ std::vector<Section> information_sections(const StudyResults& results, int threa
       if (Sentences why = reasons(comparison); !why.items.empty()) section.blocks.emplace_back(std::move(why));
     }
     for (const RankingGroup& group : plan.groups) {
-      const bool same_as_before = p > 0 && condition_of(results.points[p]) == condition_of(results.points[p - 1]);
-      if (same_as_before) continue;
-      section.blocks.emplace_back(Picture{learning_figure(group), "Learning ratios of the plan " + condition_of(results.points[p])});
+      std::string learning = learning_figure(group);
+      if (!shown.insert(learning).second) continue;
+      section.blocks.emplace_back(Picture{std::move(learning), "Learning ratios of the plan " + condition_of(results.points[p])});
       section.blocks.emplace_back(Picture{spectrum_figure(group), "Eigenvalues of the prior-scaled information"});
     }
   }

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "analysis/report/swept_value.hpp"
+
 namespace drift {
 
 std::vector<Pair> pairs_of(const StudyResults& results) {
@@ -25,8 +29,16 @@ bool matched(const StudyResults& results, const Pair& pair) {
 std::string condition_of(const mc::StudyPoint& point) {
   std::string text;
   for (const auto& [key, value] : point.values)
-    if (key != "truth.coupling") text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", key, value);
+    if (key != "truth.coupling") text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", key, short_value(value));
   return text;
+}
+
+std::vector<std::size_t> pictured_points(const StudyResults& results) {
+  constexpr std::size_t most = 4;
+  const std::size_t n = results.statistics.size();
+  std::vector<std::size_t> points;
+  for (std::size_t k = 0; k < std::min(n, most); ++k) points.push_back(n <= most ? k : k * (n - 1) / (most - 1));
+  return points;
 }
 
 std::string percent_text(const mc::Rate& rate) {

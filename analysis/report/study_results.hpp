@@ -42,6 +42,9 @@ bool matched(const StudyResults& results, const Pair& pair);
 /// What tells a point from the others besides the truth's coupling: "plan.preset = six"; or empty.
 std::string condition_of(const mc::StudyPoint& point);
 
+/// The study points that pictures are drawn of: all, or four from the first to the last.
+std::vector<std::size_t> pictured_points(const StudyResults& results);
+
 /// "91.5 % (86.8 to 94.6)"; "-" without runs.
 std::string percent_text(const mc::Rate& rate);
 

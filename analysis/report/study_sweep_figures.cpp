@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <functional>
 #include <map>
 
 #include "analysis/report/coupling_text.hpp"
 #include "analysis/report/svg_chart.hpp"
+#include "analysis/report/swept_value.hpp"
 
 namespace drift {
 namespace {
@@ -41,7 +41,7 @@ std::string curve_label(const StudyResults& results, const Pair& pair, std::size
   const mc::StudyPoint& point = results.points[pair.point];
   std::string label = fmt::format("{} > {}", key_of(point.study.truth.coupling), statistics_of(results, pair).columns().name);
   for (std::size_t a = 0; a < point.values.size(); ++a)
-    if (a != axis && point.values[a].first != "truth.coupling") label += ", " + point.values[a].second;
+    if (a != axis && point.values[a].first != "truth.coupling") label += ", " + short_value(point.values[a].second);
   return label;
 }
 
@@ -57,7 +57,9 @@ Panel panel_of(const StudyResults& results, const Statistic& statistic, std::siz
         {at[pair.point].si / at.front().unit.to_si, statistic.value(statistics_of(results, pair))});
   Panel panel;
   panel.title = statistic.title;
-  panel.x_label = fmt::format("{} [{}]", results.points.front().values[axis].first, at.front().unit.symbol.view());
+  const auto& [key, value] = results.points.front().values[axis];
+  const std::string member = last_member(value);
+  panel.x_label = fmt::format("{}{}{} [{}]", key, member.empty() ? "" : ": ", member, at.front().unit.symbol.view());
   panel.y_label = statistic.y_label;
   for (auto& [label, samples] : curves) {
     std::ranges::stable_sort(samples, {}, &Sample::x);
@@ -66,8 +68,8 @@ Panel panel_of(const StudyResults& results, const Statistic& statistic, std::siz
     for (const Sample& sample : samples) {
       s.x.push_back(sample.x);
       s.y.push_back(sample.y.value);
-      // Bands are symmetric: the wider side of the interval, as one sigma of it.
-      s.sigma.push_back(std::max(sample.y.high - sample.y.value, sample.y.value - sample.y.low));
+      s.low.push_back(sample.y.low);
+      s.high.push_back(sample.y.high);
     }
     panel.series.push_back(std::move(s));
   }
@@ -75,28 +77,6 @@ Panel panel_of(const StudyResults& results, const Statistic& statistic, std::siz
 }
 
 }  // namespace
-
-std::optional<SweptNumber> swept_number(const std::string& value) {
-  std::optional<SweptNumber> last;
-  const char* const end = value.data() + value.size();
-  for (const char* p = value.data(); p < end;) {
-    const bool word_before = p > value.data() && (std::isalnum(static_cast<unsigned char>(p[-1])) || p[-1] == '_' || p[-1] == '^');
-    double number = 0.0;
-    const auto [after, error] = std::from_chars(p, end, number);
-    if (word_before || error != std::errc() || !std::isfinite(number) || std::isalpha(static_cast<unsigned char>(*p))) {
-      ++p;
-      continue;
-    }
-    const char* from = after;
-    while (from < end && *from == ' ') ++from;
-    const char* to = from;
-    while (to < end && (std::isalnum(static_cast<unsigned char>(*to)) || std::string_view("/^*%()").find(*to) != std::string_view::npos)) ++to;
-    const auto unit = parse_unit(std::string_view(from, static_cast<std::size_t>(to - from)));
-    last = SweptNumber{number * (unit ? unit->to_si : 1.0), unit.value_or(unit::one)};
-    p = after;
-  }
-  return last;
-}
 
 std::vector<Picture> sweep_pictures(const StudyResults& results) {
   std::vector<Picture> pictures;
@@ -112,8 +92,8 @@ std::vector<Picture> sweep_pictures(const StudyResults& results) {
     Chart chart{fmt::format("Against {}", results.points.front().values[a].first), {}, 2, 480.0, 270.0};
     for (const Statistic& s : statistics(results.study.monte_carlo.healthy_sigma))
       chart.panels.push_back(panel_of(results, s, a, at));
-    pictures.push_back({svg_of(chart), fmt::format("Statistics against {}, truth > filter, with 95 % intervals (the "
-                                                   "wider side).", results.points.front().values[a].first)});
+    pictures.push_back({svg_of(chart), fmt::format("Statistics against {}, truth > filter, with 95 % intervals.",
+                                                   results.points.front().values[a].first)});
   }
   return pictures;
 }

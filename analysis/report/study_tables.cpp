@@ -64,6 +64,10 @@ std::string headline_of(const StudyResults& results, const Pair& pair) {
   if (k < filter.errors().size())
     text += fmt::format("; worst {}: its error is {} times its sigma", key_at(filter, k),
                         number_text(filter.errors()[k].deception().value));
+  // What no single parameter shows: combinations that the filter claims to know.
+  if (const double nees = s.nees.mean(); nees > 4.0)
+    text += fmt::format("; combinations of parameters are off by {} times their sigma (root of NEES/dof)",
+                        number_text(std::sqrt(nees), 2));
   return text + ".";
 }
 
@@ -121,9 +125,9 @@ Table crossed_table(const StudyResults& results) {
                worst_text(f, claims_of(results))});
   }
   table.note = fmt::format(
-      "Start 1. NIS, NEES per degree of freedom: 1 for an honest filter; NEES over the directions it learned "
+      "Filters started at the prior mean (start 1); other starts: report. NIS, NEES per degree of freedom: 1 for an honest filter; NEES over the directions it learned "
       "(sigma below {} of the prior's). Healthy: NIS inside its 95 % band. Wrong: some parameter whose sigma is "
-      "below {} of its prior is more than 5 sigma off. Silent: wrong and healthy, 95 % interval (Wilson). "
+      "below {} of its prior is more than 5 sigma off, or the filter diverged. Silent: wrong and healthy, 95 % interval (Wilson). "
       "RMSE/sigma and coverage: of parameters with such sigmas.",
       claims_of(results), claims_of(results));
   return table;

@@ -35,6 +35,8 @@ class PanelPainter {
       DRIFT_EXPECTS(s.x.size() == s.y.size() && (s.sigma.empty() || s.sigma.size() == s.y.size()));
       xs.include(s.x);
       ys.include(s.y);
+      ys.include(s.low);
+      ys.include(s.high);
     }
     if (!ys.empty())
       for (const auto& r : panel.references) ys.include(r.y);
@@ -106,6 +108,7 @@ class PanelPainter {
   }
 
   void sigma_band(const Series& s) {
+    if (!s.low.empty()) area(s.x, s.low, s.high, palette(s.colour), 0.13);
     if (s.sigma.empty()) return;
     std::vector<double> low(s.y), high(s.y);
     for (std::size_t i = 0; i < s.y.size(); ++i) {

@@ -91,6 +91,26 @@ void paste_and_rank(const std::string& before_paste, bool preset, const std::str
   EXPECT_GT(better, 5);
 }
 
+TEST(RankCommand, SaysWherePromisesDependOnTheTruth) {
+  // Level, eq. (5): nearly linear. Free drift under eq. (6): misalignment times drift.
+  const ScratchFolder scratch;
+  const std::string free = R"([plan]
+preset = "six"
+dwell  = "60 min"
+sample = "10 min"
+mode   = "free"
+)";
+  const Json rank = Json::parse(run_program(DRIFT_PROGRAM, "rank --json " + scratch.write("free.toml", study(free))).out);
+  const auto factor = [&](const Json& model, const std::string& key) {
+    for (const Json& p : model["parameters"])
+      if (p["key"] == key) return p["learning_ratio_at_drawn_truths"][1].get<double>() / p["learning_ratio"].get<double>();
+    return 0.0;
+  };
+  const Json& models = rank["filters"][0]["models"];
+  EXPECT_NEAR(factor(models[0], "D_O_x"), 1.0, 0.2);
+  EXPECT_GT(factor(models[1], "D_O_x"), 3.0);
+}
+
 TEST(RankCommand, ProposedPositionsKeepTheirPromiseWhenPastedForAPreset) { paste_and_rank(plan, true, "A"); }
 
 TEST(RankCommand, ProposedPositionsKeepTheirPromiseWhenPastedBehindSlews) {

@@ -72,6 +72,29 @@ TEST(StudyCommands, AnotherStudyInTheFolderIsRefused) {
   EXPECT_EQ(program("verify " + out).code, 7) << "study.toml in the folder was changed";
 }
 
+TEST(StudyCommands, TheReportIsMadeAnewAndAFolderOfAnotherCommandIsRefused) {
+  const ScratchFolder scratch;
+  const std::string config = study_file(scratch, ""), out = scratch.file("out");
+  ASSERT_EQ(program("run " + config + " -o " + out).code, 0);
+  EXPECT_EQ(program("report " + out).code, 0);
+  const std::string before = test::text_of(out + "/study.toml");
+  for (const char* command : {"rank ", "identify "}) {
+    const Answer other = program(command + config + " -o " + out);
+    EXPECT_EQ(other.code, 7) << command;
+    EXPECT_NE(other.err.find("holds the results of `run`"), std::string::npos) << other.err;
+  }
+  EXPECT_EQ(test::text_of(out + "/study.toml"), before);
+  EXPECT_EQ(program("verify " + out).code, 0);
+  const std::string ranked = scratch.file("ranked");
+  std::filesystem::create_directories(ranked);
+  scratch.write("ranked/rank.json", "{}");
+  EXPECT_EQ(program("run " + config + " -o " + ranked).code, 7);
+  const Answer lost = program("report " + ranked);
+  EXPECT_EQ(lost.code, 7);
+  EXPECT_NE(lost.err.find("driftscope rank"), std::string::npos) << lost.err;
+  EXPECT_EQ(program("report " + scratch.file("")).code, 7);
+}
+
 TEST(StudyCommands, FailedRunsAreCountedListedAndDecideTheExitCode) {
   const ScratchFolder scratch;
   const std::string config = study_file(scratch, "fail_every=50 throw_at=3"), out = scratch.file("out");

@@ -86,7 +86,8 @@ TEST(Methods, WhereRankingsDisagreeIsSaidWithTheReason) {
 TEST(AgainstMonteCarlo, VerdictsSayWhatTheErrorMeans) {
   // Learning ratios 0.1, 0.1, 0.1 and 1, prior 2.
   const Ranking r = ranking_of({99.0, 99.0, 99.0, 0.0});
-  const std::vector<MonteCarloError> errors{{0, 0.21, 0.19, 0.23}, {1, 0.6, 0.5, 0.7}, {2, 0.1, 0.08, 0.12}, {3, 2.8, 2.6, 3.0}};
+  const std::vector<MonteCarloError> errors{
+      {0, 0.21, 0.19, 0.23, 0.2}, {1, 0.6, 0.5, 0.7, 0.2}, {2, 0.1, 0.08, 0.12, 0.2}, {3, 2.8, 2.6, 3.0, 2.0}};
   const auto verdicts = [&](TruthIs truth) {
     std::vector<ErrorVerdict> all;
     for (const auto& c : compare_with_monte_carlo(r, errors, truth).parameters) all.push_back(c.verdict);
@@ -101,10 +102,13 @@ TEST(AgainstMonteCarlo, VerdictsSayWhatTheErrorMeans) {
   EXPECT_EQ(c.count(agree), 1u);
   EXPECT_TRUE(c.parameters[0].reason.empty());
   EXPECT_NE(c.parameters[1].reason.find("3 times"), std::string::npos) << c.parameters[1].reason;
+  // An error three times the promise of which the filter knows is no sign of another model.
+  const std::vector<MonteCarloError> known{{1, 0.6, 0.5, 0.7, 0.6}};
+  EXPECT_EQ(compare_with_monte_carlo(r, known, TruthIs::another_model).parameters.front().verdict, nonlinear);
 }
 
 TEST(AgainstMonteCarlo, AnErrorBeyondWhatThePriorCanExplainIsNotDominatedByIt) {
-  const auto c = compare_with_monte_carlo(ranking_of({0.0}), std::vector<MonteCarloError>{{0, 20.0, 18.0, 22.0}}, TruthIs::another_model);
+  const auto c = compare_with_monte_carlo(ranking_of({0.0}), std::vector<MonteCarloError>{{0, 20.0, 18.0, 22.0, 2.0}}, TruthIs::another_model);
   EXPECT_EQ(c.parameters.front().verdict, ErrorVerdict::wrong_model);
 }
 

@@ -257,7 +257,7 @@ TEST(Ranking, PromisedSigmasAreTheErrorsOfBatchFits) {
     const double rmse = std::sqrt(square[k] / runs), ratio = rmse / r.parameters[k].posterior_sigma;
     EXPECT_NEAR(ratio, 1.0, 4.0 * 0.091) << TermLibrary::specs[r.parameters[k].param].key.view();
     mean += ratio * ratio / static_cast<double>(r.parameters.size());
-    errors.push_back({r.parameters[k].param, rmse, rmse * (1.0 - 2.0 * 0.091), rmse * (1.0 + 2.0 * 0.091)});
+    errors.push_back({r.parameters[k].param, rmse, rmse * (1.0 - 2.0 * 0.091), rmse * (1.0 + 2.0 * 0.091), r.parameters[k].posterior_sigma});
   }
   EXPECT_NEAR(mean, 1.0, 3.0 * std::sqrt(2.0 / runs / 5.0));
   const auto comparison = compare_with_monte_carlo(r, errors, TruthIs::the_model);

@@ -8,6 +8,7 @@
 #include "analysis/report/study_html.hpp"
 #include "analysis/report/study_json.hpp"
 #include "analysis/report/study_sweep_figures.hpp"
+#include "analysis/report/swept_value.hpp"
 #include "analysis/report/study_tables.hpp"
 #include "tests/analysis/report/xml_check.hpp"
 #include "tests/mc/small_study.hpp"
@@ -113,6 +114,14 @@ TEST(StudyReport, WritesItsFiles) {
   EXPECT_EQ(names, (std::vector<std::string>{"report.html", "summary.json"}));
   for (const auto& name : names) EXPECT_GT(std::filesystem::file_size(folder / name), 1000u);
   std::filesystem::remove_all(folder);
+}
+
+TEST(SweptValue, OfATableIsShortAsALabel) {
+  EXPECT_EQ(short_value("{ eta = { normal = [\"0 arcsec\", \"5 arcsec\"] }, xi = { normal = [\"0 arcsec\", \"7 arcsec\"] } }"),
+            "eta 5 arcsec, xi 7 arcsec");
+  EXPECT_EQ(last_member("{ accelerometer_noise = \"1 ug\", gimbal_noise = \"2 arcsec\" }"), "gimbal_noise");
+  EXPECT_EQ(short_value("20 arcsec"), "20 arcsec");
+  EXPECT_EQ(last_member("20 arcsec"), "");
 }
 
 TEST(SweptNumber, IsFoundInQuantitiesAndDistributions) {
