@@ -12,6 +12,7 @@
 #include "analysis/discovery/signatures.hpp"
 #include "analysis/identify.hpp"
 #include "core/sim/simulate.hpp"
+#include "mc/campaign.hpp"
 
 namespace drift::discovery {
 namespace {
@@ -36,8 +37,7 @@ Alternative nothing() { return {"the nominal model", {}, {}, VecX()}; }
 std::vector<Alternative> equations(const Diagnosis& d) {
   const bool six = d.nominal.coupling == Coupling::eq6;
   if (d.verdict != Verdict::consistent || (d.nominal.coupling != Coupling::eq5 && !six)) return {};
-  const auto closure = std::ranges::find(d.candidates, std::string("frame_closure"), &CandidateScore::term);
-  if (closure == d.candidates.end() || (closure->observable && closure->smallest_detectable < 1.0)) return {};
+  if (!(d.other_equation_gain > -equation_told)) return {};  // told, or not asked
   Cause cause;
   cause.term = "frame_closure";
   cause.parameters = {{"lambda", lambda, six ? 0.0 : 1.0, 0.0, "1", false}};
@@ -162,8 +162,7 @@ class Adviser {
     for (const Alternative& a : all_) advice.separates.push_back(a.label);
     const Position& first = study_.plan.positions.front();
     std::vector<Addition> pool = position_pool(first.dwell, first.sample, study_.site);
-    std::vector<Information> gains;
-    for (const Addition& a : pool) gains.push_back(gain_of(a));
+    const auto gains = mc::run_campaign(pool.size(), [&](std::size_t k) { return gain_of(pool[k]); });
     for (std::size_t step = 0; step < options_.most && reached.sigma < options_.wanted; ++step) {
       std::size_t best = pool.size();
       Separation best_reached = reached;

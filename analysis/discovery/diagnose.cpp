@@ -3,34 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "analysis/discovery/answer.hpp"
 #include "analysis/discovery/compare.hpp"
+#include "analysis/discovery/conclude.hpp"
 #include "analysis/discovery/locate.hpp"
 #include "analysis/identify.hpp"
-#include "core/estimate/starts.hpp"
 #include "core/base/check.hpp"
+#include "core/estimate/starts.hpp"
+#include "mc/campaign.hpp"
 
 namespace drift::discovery {
 namespace {
-
-/// Wall time of the stages of a diagnosis.
-class Stopwatch {
- public:
-  explicit Stopwatch(std::vector<std::pair<std::string, double>>& into) : into_(into), last_(Clock::now()) {}
-  void lap(std::string name) {
-    const auto now = Clock::now();
-    into_.emplace_back(std::move(name), std::chrono::duration<double>(now - last_).count());
-    last_ = now;
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  std::vector<std::pair<std::string, double>>& into_;
-  Clock::time_point last_;
-};
 
 /// Isolated samples far from their neighbours, taken out of the measurements: a sample is compared
 /// with the median of the five around it in its channel and position.
@@ -87,9 +72,13 @@ std::vector<Covariate> covariates_of(const std::vector<Recording>& recordings) {
 }  // namespace
 
 Diagnosis diagnose(const FilterSpec& nominal_filter, const Test& given, std::span<const Theta> starts,
-                   const std::vector<Covariate>& covariates, const DiagnoseOptions& options) {
+                   const std::vector<Covariate>& covariates, const DiagnoseOptions& options,
+                   const std::vector<std::size_t>& recording_ends) {
+  const mc::ThreadCount threads(options.threads);
   Diagnosis d;
-  Stopwatch watch(d.seconds);
+  // Shares of the whole as they usually are; a diagnosis that finds nothing ends early.
+  Stages stages(d.seconds, options.progress);
+  stages.begin("fit", 0.04);
   d.nominal = nominal_filter;
   d.patched = nominal_filter;
 
@@ -107,33 +96,55 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const Test& given, std::spa
     spikes += more;
     fit = fit_from(theta_of(nominal_filter, fit));
   }
-  std::vector<Theta> all_starts{make_layout(nominal_filter).theta};
-  for (const Theta& s : starts) {
-    all_starts.push_back(s);
-    BatchResult other = fit_from(s);
+  // Starts are of the nominal parameters; those of a cause are held at their values until the others
+  // have been fitted (with them they may make a narrow bent valley), then all are free.
+  const auto from_starts = [&](const FilterSpec& filter, const Theta& found) {
+    return mc::run_campaign(starts.size(), [&](std::size_t k) {
+      FilterSpec held = filter;
+      Theta start = starts[k];
+      for (std::size_t i = 0; i < TermLibrary::num_params; ++i)
+        if (!nominal_filter.active[i]) {
+          start[i] = found[i];
+          if (filter.active[i]) held.priors[i] = fixed(found[i]);
+        }
+      const BatchResult first = fit_batch(held, test.timeline, test.readout, measured, start);
+      return filter.active == nominal_filter.active
+                 ? first
+                 : fit_batch(filter, test.timeline, test.readout, measured, theta_of(held, first));
+    });
+  };
+  std::vector<BatchResult> fits = from_starts(nominal_filter, make_layout(nominal_filter).theta);
+  fits.push_back(fit);
+  d.fit.start_spread_before = start_spread(fits);
+  for (BatchResult& other : fits)
     if (other.estimate.statistic < fit.estimate.statistic - 1e-6) fit = std::move(other);
-  }
-  watch.lap("fit");
 
+  stages.begin("examine", 0.08);
   Examination nominal = examine(nominal_filter, test, fit);
-  watch.lap("examine");
+  stages.begin("search", 0.5);
   const Search found = search(nominal, test, options.search);
-  watch.lap("search");
+  stages.begin("held out", 0.25);
 
   fill_candidates(nominal, found, d);
-  fill_noise(nominal, spikes, d);
   d.p_value = found.p_value;
+  if (std::isfinite(found.other_equation)) d.other_equation_gain = found.other_equation;
   const Refit* best = found.sets.empty() ? nullptr : &found.sets.front();
   const Refit* partial = best || found.rejected.empty() ? best : &found.rejected.front();
-  d.fit = compare(nominal, best);
+  // With the cause in the mean, what had been taken for noise because of it is none any more.
+  fill_noise(best && found.significant ? best->after : nominal, spikes, d);
+  const double spread = d.fit.start_spread_before;
+  d.fit = compare(nominal, best, options.whiteness_draws);
+  d.fit.start_spread_before = d.fit.start_spread_after = spread;
   if (best) {
     std::vector<std::size_t> named;
     for (const Choice& c : best->choices) named.push_back(c.candidate);
-    d.fit.held_out = held_out(nominal, best->after, test, named, found.nulls.library_threshold, options.folds);
+    d.fit.held_out = held_out(nominal, best->after, test, named, found.nulls.library_threshold,
+                              {options.folds, recording_ends,
+                               [&](std::size_t done, std::size_t total) { stages.step(done, total); }});
     d.patched = best->filter;
     d.has_patch = true;
   }
-  watch.lap("held out");
+  stages.begin("locate", 0.06);
 
   d.verdict = Verdict::consistent;
   if (found.significant) {
@@ -147,6 +158,7 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const Test& given, std::spa
     d.verdict = Verdict::unexplained;
   }
   if (d.verdict != Verdict::consistent) fill_causes(nominal, found, d);
+  weigh_candidates(nominal, found, d);
   std::vector<InputEstimate> inputs;
   if (options.signals && d.verdict != Verdict::consistent) {
     // Noise that was needed only because of the effect would take the signal away.
@@ -187,20 +199,17 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const Test& given, std::spa
   }
   for (std::size_t k = 0; k < std::min<std::size_t>(2, inputs.size()) && d.verdict != Verdict::consistent; ++k)
     d.signals.push_back(recovered_signal(inputs[k], test.timeline, covariates, best ? cause : std::vector<std::pair<int, double>>{}));
-  watch.lap("locate");
-
-  d.fit.start_spread_before = start_spread(nominal_filter, test, all_starts);
-  d.fit.start_spread_after = d.fit.start_spread_before;
-  if (best && all_starts.size() > 1) {
-    // The same starts; the new parameters start at their prior mean.
-    const Theta mean = make_layout(best->filter).theta;
-    for (Theta& s : all_starts)
-      for (std::size_t i = 0; i < TermLibrary::num_params; ++i)
-        if (!nominal_filter.active[i]) s[i] = mean[i];
-    d.fit.start_spread_after = start_spread(best->filter, test, all_starts);
+  stages.begin("starts", 0.07);
+  if (best && !starts.empty()) {
+    // The same starts; what is new starts where the fit has it.
+    fits = from_starts(best->filter, theta_of(best->filter, best->after.fit));
+    fits.push_back(best->after.fit);
+    d.fit.start_spread_after = start_spread(fits);
   }
-  watch.lap("starts");
+  stages.end();
   d.sentence = sentence(d);
+  say_partial(nominal, found, d);
+  say_equation(d);
   return d;
 }
 
@@ -211,8 +220,11 @@ Diagnosis diagnose(const Study& study, const std::vector<Recording>& recordings,
   const FilterSpec& filter = study.filters.front();
   std::vector<Timeline> timelines;
   std::vector<Measurements> parts;
+  std::vector<std::size_t> ends;
   for (const Recording& r : recordings) {
     timelines.push_back(lay_out(r, study.plan, study.site));
+    set_known_field(timelines.back(), study.environment);
+    ends.push_back((ends.empty() ? 0 : ends.back()) + timelines.back().intervals.size());
     parts.push_back(measurements_of(r, study.readout));
   }
   const Timeline timeline = joined(std::move(timelines));
@@ -227,7 +239,7 @@ Diagnosis diagnose(const Study& study, const std::vector<Recording>& recordings,
     drawn.starts.clear();
     starts.push_back(initial_estimate(drawn, study.monte_carlo.seed, static_cast<std::size_t>(k)));
   }
-  return diagnose(filter, {timeline, study.readout, measured}, starts, covariates_of(recordings), options);
+  return diagnose(filter, {timeline, study.readout, measured}, starts, covariates_of(recordings), options, ends);
 }
 
 }  // namespace drift::discovery

@@ -168,12 +168,13 @@ std::optional<Figure> held_out_figure(const HeldOut& held) {
   chart.after_label = "with the cause";
   chart.spacing = Spacing::logarithmic;
   chart.limit = ReferenceLine{1.0, "noise alone", Stroke::dashed};
-  for (const Fold& f : held.folds) {
-    if (f.dof == 0) continue;
-    const double n = static_cast<double>(f.dof), gain = f.log_score_after - f.log_score_before;
-    chart.lines.push_back({.label = f.name, .before = f.chi2_before / n, .after = f.chi2_after / n,
-                           .text = std::isfinite(gain) ? fmt::format("{:+.1f}", gain) : ""});
-  }
+  for (const auto* folds : {&held.folds, &held.recordings})
+    for (const Fold& f : *folds) {
+      if (f.dof == 0) continue;
+      const double n = static_cast<double>(f.dof), gain = f.log_score_after - f.log_score_before;
+      chart.lines.push_back({.label = f.name, .before = f.chi2_before / n, .after = f.chi2_after / n,
+                             .text = std::isfinite(gain) ? fmt::format("{:+.1f}", gain) : ""});
+    }
   if (chart.lines.empty()) return std::nullopt;
   return Figure{"held_out.svg",
                 "Each line was predicted by a fit to all the others. At the right: gain of the log "
