@@ -15,6 +15,9 @@ void weigh_candidates(const Examination& nominal, const Search& found, Diagnosis
     line.p_marginal = std::exp(-0.5 * found.other_equation);  // two points: P(2 log LR > T) <= exp(-T/2)
     line.p_value = std::min(1.0, found.nulls.library.p_value(0.5 * found.other_equation));
     line.log_bayes = 0.5 * found.other_equation;
+    line.dof = 1;
+    line.observable = true;
+    line.amplitude = line.sigma = line.smallest_detectable = std::nan("");  // no small change
   }
   if (!found.sets.empty()) {
     double held = 0.0, linear = 0.0;
