@@ -30,10 +30,11 @@ std::vector<int> columns_of(const Examination& e, const std::vector<Choice>& cho
 std::string cause_text(const Cause& c) {
   std::string text = c.term;
   if (!c.axis.empty()) text += "." + c.axis;
-  if (c.parameters.size() != 1) return text;
+  if (c.parameters.empty() || c.parameters.size() > 2) return text;
+  for (const CauseParameter& p : c.parameters)
+    text += fmt::format("{}{} = {}{}", &p == &c.parameters.front() ? " (" : ", ", p.key, with_sigma(p.value, p.sigma),
+                        p.unit == "1" ? "" : " " + p.unit);
   const CauseParameter& p = c.parameters.front();
-  const std::string unit = p.unit == "1" ? "" : " " + p.unit;
-  text += fmt::format(" ({} = {}{}", p.key, with_sigma(p.value, p.sigma), unit);
   if (c.term == "frame_closure")  // between two equations the interval is the answer
     text += fmt::format(", 95 % interval {:.3g} to {:.3g}: eq. (5) is 0, eq. (6) is 1", p.value - 1.96 * p.sigma, p.value + 1.96 * p.sigma);
   return text + ")";

@@ -129,7 +129,6 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const Test& given, std::spa
   d.p_value = found.p_value;
   if (std::isfinite(found.other_equation)) d.other_equation_gain = found.other_equation;
   const Refit* best = found.sets.empty() ? nullptr : &found.sets.front();
-  const Refit* partial = best || found.rejected.empty() ? best : &found.rejected.front();
   // With the cause in the mean, what had been taken for noise because of it is none any more.
   fill_noise(best && found.significant ? best->after : nominal, spikes, d);
   const double spread = d.fit.start_spread_before;
@@ -159,6 +158,14 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const Test& given, std::spa
   }
   if (d.verdict != Verdict::consistent) fill_causes(nominal, found, d);
   weigh_candidates(nominal, found, d);
+  // What the cause explains, by the refit: what it takes out of the residuals.
+  LinearProblem shown = nominal.problem;
+  shown.extra.resize(shown.rows(), best ? 1 : 0);
+  std::vector<std::pair<int, double>> cause;
+  if (best) {
+    shown.extra.col(0) = residual_of(nominal.problem, nominal.fit) - residual_of(best->after.problem, best->after.fit);
+    cause.emplace_back(0, 1.0);
+  }
   std::vector<InputEstimate> inputs;
   if (options.signals && d.verdict != Verdict::consistent) {
     // Noise that was needed only because of the effect would take the signal away.
@@ -168,24 +175,14 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const Test& given, std::spa
       white.acc_factor = nominal.noise.model.acc_factor;
       white.gimbal_factor = nominal.noise.model.gimbal_factor;
     }
-    inputs = estimate_inputs(nominal.problem, test.timeline, Projector(nominal.problem, white), 6);
+    inputs = estimate_inputs(shown, test.timeline, Projector(shown, white), 6);
   }
 
   // Where it is: by the best explanation there is, else by the strongest window.
-  std::vector<std::pair<int, double>> cause;
-  if (partial && found.significant) {
-    std::vector<int> columns;
-    for (const Choice& c : partial->choices) {
-      const auto& more = nominal.set.candidates[c.candidate].variants[c.variant].columns;
-      columns.insert(columns.end(), more.begin(), more.end());
-    }
-    const VecX amplitude = expected_amplitudes(nominal.projector->candidates(), columns);
-    for (std::size_t k = 0; k < columns.size(); ++k) cause.emplace_back(columns[k], amplitude[k]);
-  }
   const Window* window = strongest_window(nominal);
   VecX signature = VecX::Zero(nominal.problem.rows());
   if (best)
-    signature = signature_of(*nominal.projector, cause);
+    signature = signature_of(Projector(shown, nominal.noise.model), cause);
   else if (window)
     signature = signature_of(nominal.problem, test.timeline, *nominal.projector, *window);
   const std::string driven_equation = d.where.equation;
@@ -198,7 +195,7 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const Test& given, std::spa
       d.where.equation = equation_name(window->equation, window->axis);
   }
   for (std::size_t k = 0; k < std::min<std::size_t>(2, inputs.size()) && d.verdict != Verdict::consistent; ++k)
-    d.signals.push_back(recovered_signal(inputs[k], test.timeline, covariates, best ? cause : std::vector<std::pair<int, double>>{}));
+    d.signals.push_back(recovered_signal(inputs[k], test.timeline, covariates, cause));
   stages.begin("starts", 0.07);
   if (best && !starts.empty()) {
     // The same starts; what is new starts where the fit has it.
