@@ -152,9 +152,10 @@ Search search(Examination& nominal, const Test& test, const SearchOptions& optio
   const auto add = [&](std::size_t k) {
     if (std::find(singles.begin(), singles.end(), k) == singles.end()) singles.push_back(k);
   };
-  // A large effect may be beyond the linearised test.
+  // A large effect may be beyond the linearised test; one that the other equation leaves far behind is not.
   if (singles.empty())
-    for (std::size_t k = 0; k < std::min<std::size_t>(2, order.size()); ++k) add(order[k]);
+    for (std::size_t k = 0; k < std::min<std::size_t>(2, order.size()); ++k)
+      if (0.5 * other - nominal.scores[order[k]].log_bayes < 10.0 * negligible) add(order[k]);
   // The score is blind to a change of equation that only rescales the misalignments.
   for (std::size_t k = 0; k < nominal.set.candidates.size(); ++k)
     if (nominal.set.candidates[k].term == "frame_closure" &&
