@@ -84,6 +84,10 @@ std::vector<SignatureSpec> number_signatures(std::vector<Alternative>& all, cons
   return specs;
 }
 
+bool holds_lambda(const Alternative& a) {
+  return std::ranges::any_of(a.causes, [](const Cause& c) { return c.term == "frame_closure"; });
+}
+
 /// Information of a test on nominal parameters (t) and signatures (e), in prior sigmas.
 struct Information {
   MatX tt, te, ee;
@@ -150,6 +154,7 @@ class Adviser {
     timeline_ = joined(std::move(timelines));
     measured_ = joined(parts);
     fit_ = fit_batch(d.nominal, timeline_, study.readout, measured_, make_layout(d.nominal).theta);
+    if (std::ranges::any_of(all_, holds_lambda)) widen_misalignments();
     specs_ = number_signatures(all_, d.nominal, theta_of(d.nominal, fit_));
   }
 
@@ -189,6 +194,15 @@ class Adviser {
   }
 
  private:
+  /// What lambda does goes with the misalignments: where the test has not seen them they stand near zero,
+  /// yet may be as large as their sigma. Their root mean square size is what is to be expected.
+  void widen_misalignments() {
+    for (ParameterEstimate& p : fit_.estimate.parameters) {
+      const auto group = TermLibrary::specs[p.param].group.view();
+      if (group == "eta" || group == "xi") p.value = std::copysign(std::hypot(p.value, p.sigma), p.value);
+    }
+  }
+
   Information gain_of(const Addition& addition) const {
     TestPlan plan = study_.plan;
     plan.preset.clear();
