@@ -40,7 +40,10 @@ void weigh_candidates(const Examination& nominal, const Search& found, Diagnosis
       line.probability = p >= 0.0 ? p : linear > 0.0 ? line.probability * std::max(0.0, 1.0 - held) / linear : 0.0;
     }
   }
-  std::ranges::stable_sort(d.candidates, [](const CandidateScore& a, const CandidateScore& b) {
+  // What the refits confirmed comes first.
+  const auto confirmed = [&](const CandidateScore& c) { return !found.sets.empty() && c.adequate ? c.probability : -1.0; };
+  std::ranges::stable_sort(d.candidates, [&](const CandidateScore& a, const CandidateScore& b) {
+    if (confirmed(a) != confirmed(b)) return confirmed(a) > confirmed(b);
     return a.p_marginal != b.p_marginal ? a.p_marginal < b.p_marginal : a.score > b.score;
   });
 }
