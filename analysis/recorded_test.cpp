@@ -52,12 +52,14 @@ Measurements joined(const std::vector<Measurements>& parts) {
 RecordedTest recorded_test(const Study& study, const std::vector<Recording>& recordings) {
   std::vector<Timeline> timelines;
   std::vector<Measurements> parts;
+  std::vector<std::size_t> ends;
   for (const Recording& r : recordings) {
     timelines.push_back(lay_out(r, study.plan, study.site));
     set_known_field(timelines.back(), study.environment);
+    ends.push_back((ends.empty() ? 0 : ends.back()) + timelines.back().intervals.size());
     parts.push_back(measurements_of(r, study.readout));
   }
-  RecordedTest test{joined(std::move(timelines)), joined(parts)};
+  RecordedTest test{joined(std::move(timelines)), joined(parts), std::move(ends)};
   if (!test.measured.acc.array().isFinite().any() && !test.measured.gimbal.array().isFinite().any())
     throw InputError(ExitCode::recording,
                      fmt::format("{}: nothing measured: every accelerometer and gimbal channel that [readout] asks "

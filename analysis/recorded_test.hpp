@@ -12,6 +12,7 @@ namespace drift {
 struct RecordedTest {
   Timeline timeline;
   Measurements measured;
+  std::vector<std::size_t> ends;  ///< of each recording, the interval after its last
 };
 
 /// Lays recordings out by the study's plan, in the surroundings that they carry or, of a field that is

@@ -10,6 +10,20 @@
 
 namespace drift::mc {
 
+/// Threads that campaigns begun on this thread use while it lives, unless they are told; 0: as before.
+class ThreadCount {
+ public:
+  explicit ThreadCount(int threads) : before_(omp_get_max_threads()) {
+    if (threads > 0) omp_set_num_threads(threads);
+  }
+  ~ThreadCount() { omp_set_num_threads(before_); }
+  ThreadCount(const ThreadCount&) = delete;
+  ThreadCount& operator=(const ThreadCount&) = delete;
+
+ private:
+  int before_;
+};
+
 /// Calls task(i) for i = 0..n-1 on all OpenMP threads and returns the results in order. The result
 /// does not depend on the number of threads as long as task(i) depends on i alone. No exception
 /// leaves a thread: the one of the lowest index is rethrown when all are done.

@@ -11,6 +11,8 @@ Solver diagnosing_solver() {
     discovery::DiagnoseOptions options;
     options.starts = 0;
     options.signals = false;
+    options.whiteness_draws = 0;
+    options.folds = discovery::FoldMethod::linear;
     return answer_of(discovery::diagnose(study, {recording}, options));
   };
 }

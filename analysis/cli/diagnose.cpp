@@ -1,5 +1,7 @@
 #include <fmt/ranges.h>
 
+#include <chrono>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "analysis/cli/commands.hpp"
@@ -13,6 +15,7 @@
 #include "analysis/strapdown/diagnose.hpp"
 #include "analysis/strapdown/report.hpp"
 #include "core/sim/quality_card.hpp"
+#include "mc/campaign.hpp"
 
 namespace drift::cli {
 namespace {
@@ -58,10 +61,19 @@ ExitCode diagnose_case(const Study& study, const std::vector<std::string>& paths
   return ExitCode::ok;
 }
 
-ExitCode diagnose_platform(const Study& study, const std::vector<std::string>& paths, const std::string& folder) {
+ExitCode diagnose_platform(const StudyArguments& arguments, const Study& study, const std::vector<std::string>& paths,
+                           const std::string& folder) {
   discovery::Prepared prepared = discovery::prepare(study, read_all(study, paths));
-  discovery::Diagnosis found = discovery::diagnose(prepared.study, prepared.recordings);
-  found.advice = discovery::advise(prepared.study, prepared.recordings, found, {.seed = study.monte_carlo.seed});
+  std::fflush(stdout);
+  discovery::DiagnoseOptions options;
+  const mc::ThreadCount threads(arguments.threads);
+  const auto report = stage_reporter(arguments.progress, "diagnose");
+  options.progress = report;
+  discovery::Diagnosis found = discovery::diagnose(prepared.study, prepared.recordings, options);
+  const auto began = std::chrono::steady_clock::now();
+  found.advice = discovery::advise(prepared.study, prepared.recordings, found,
+                                   {.seed = study.monte_carlo.seed});
+  found.seconds.emplace_back("advice", std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count());
   found.remarks.insert(found.remarks.begin(), prepared.remarks.begin(), prepared.remarks.end());
   finish(study, found, {paths, ""}, folder);
   return ExitCode::ok;
@@ -74,7 +86,7 @@ ExitCode diagnose(const StudyArguments& arguments, const std::vector<std::string
   require_nominal(study);
   require_own_folder(folder, "diagnose");
   return study.kind == RecordingKind::strapdown ? diagnose_case(study, paths, folder)
-                                                : diagnose_platform(study, paths, folder);
+                                                : diagnose_platform(arguments, study, paths, folder);
 }
 
 }  // namespace drift::cli

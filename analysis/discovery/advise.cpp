@@ -12,6 +12,7 @@
 #include "analysis/discovery/signatures.hpp"
 #include "analysis/recorded_test.hpp"
 #include "core/sim/simulate.hpp"
+#include "mc/campaign.hpp"
 
 namespace drift::discovery {
 namespace {
@@ -36,8 +37,7 @@ Alternative nothing() { return {"the nominal model", {}, {}, VecX()}; }
 std::vector<Alternative> equations(const Diagnosis& d) {
   const bool six = d.nominal.coupling == Coupling::eq6;
   if (d.verdict != Verdict::consistent || (d.nominal.coupling != Coupling::eq5 && !six)) return {};
-  const auto closure = std::ranges::find(d.candidates, std::string("frame_closure"), &CandidateScore::term);
-  if (closure == d.candidates.end() || (closure->observable && closure->smallest_detectable < 1.0)) return {};
+  if (!(d.other_equation_gain > -equation_told)) return {};  // told, or not asked
   Cause cause;
   cause.term = "frame_closure";
   cause.parameters = {{"lambda", lambda, six ? 0.0 : 1.0, 0.0, "1", false}};
@@ -82,6 +82,10 @@ std::vector<SignatureSpec> number_signatures(std::vector<Alternative>& all, cons
     a.amplitude = Eigen::Map<const VecX>(amplitude.data(), static_cast<Eigen::Index>(amplitude.size()));
   }
   return specs;
+}
+
+bool holds_lambda(const Alternative& a) {
+  return std::ranges::any_of(a.causes, [](const Cause& c) { return c.term == "frame_closure"; });
 }
 
 /// Information of a test on nominal parameters (t) and signatures (e), in prior sigmas.
@@ -143,6 +147,7 @@ class Adviser {
     if (all_.empty()) return;
     test_ = recorded_test(study, recordings);
     fit_ = fit_batch(d.nominal, test_.timeline, study.readout, test_.measured, make_layout(d.nominal).theta);
+    if (std::ranges::any_of(all_, holds_lambda)) widen_misalignments();
     specs_ = number_signatures(all_, d.nominal, theta_of(d.nominal, fit_));
   }
 
@@ -155,8 +160,7 @@ class Adviser {
     for (const Alternative& a : all_) advice.separates.push_back(a.label);
     const Position& first = study_.plan.positions.front();
     std::vector<Addition> pool = position_pool(first.dwell, first.sample, study_.site);
-    std::vector<Information> gains;
-    for (const Addition& a : pool) gains.push_back(gain_of(a));
+    const auto gains = mc::run_campaign(pool.size(), [&](std::size_t k) { return gain_of(pool[k]); });
     for (std::size_t step = 0; step < options_.most && reached.sigma < options_.wanted; ++step) {
       std::size_t best = pool.size();
       Separation best_reached = reached;
@@ -183,6 +187,15 @@ class Adviser {
   }
 
  private:
+  /// What lambda does goes with the misalignments: where the test has not seen them they stand near zero,
+  /// yet may be as large as their sigma. Their root mean square size is what is to be expected.
+  void widen_misalignments() {
+    for (ParameterEstimate& p : fit_.estimate.parameters) {
+      const auto group = TermLibrary::specs[p.param].group.view();
+      if (group == "eta" || group == "xi") p.value = std::copysign(std::hypot(p.value, p.sigma), p.value);
+    }
+  }
+
   Information gain_of(const Addition& addition) const {
     TestPlan plan = study_.plan;
     plan.preset.clear();

@@ -23,7 +23,8 @@ struct AdviseOptions {
 /// of a cube, those turned by 45 deg, two case headings, both command laws, caged or slewed there, the
 /// addition is taken that makes the closest pair farthest apart, again and again until it is `wanted`.
 /// Information of added positions is summed: a drift that walks from one caging to the next is taken
-/// as known in each alone.
+/// as known in each alone. Between the two equations, misalignments are taken as large as the test
+/// allows (root mean square): lambda shows in proportion to them.
 ///
 /// Verified: the extended test is simulated with the most probable alternative as truth and fitted with
 /// it and with the alternative closest to it; verified_sigma is the root of the difference of their

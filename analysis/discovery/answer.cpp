@@ -6,6 +6,8 @@
 #include <cmath>
 #include <map>
 
+#include "analysis/report/number_text.hpp"
+
 namespace drift::discovery {
 namespace {
 
@@ -28,10 +30,14 @@ std::vector<int> columns_of(const Examination& e, const std::vector<Choice>& cho
 std::string cause_text(const Cause& c) {
   std::string text = c.term;
   if (!c.axis.empty()) text += "." + c.axis;
-  if (c.parameters.size() == 1)
-    text += fmt::format(" ({} = {:.4g} +- {:.2g} {})", c.parameters[0].key, c.parameters[0].value,
-                        c.parameters[0].sigma, c.parameters[0].unit);
-  return text;
+  if (c.parameters.empty() || c.parameters.size() > 2) return text;
+  for (const CauseParameter& p : c.parameters)
+    text += fmt::format("{}{} = {}{}", &p == &c.parameters.front() ? " (" : ", ", p.key, with_sigma(p.value, p.sigma),
+                        p.unit == "1" ? "" : " " + p.unit);
+  const CauseParameter& p = c.parameters.front();
+  if (c.term == "frame_closure")  // between two equations the interval is the answer
+    text += fmt::format(", 95 % interval {:.3g} to {:.3g}: eq. (5) is 0, eq. (6) is 1", p.value - 1.96 * p.sigma, p.value + 1.96 * p.sigma);
+  return text + ")";
 }
 
 std::string p_text(double p) { return p < 1e-300 ? "p < 1e-300" : fmt::format("p = {:.1e}", p); }

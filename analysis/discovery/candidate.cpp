@@ -52,8 +52,8 @@ Theta with_defaults(const TermInfo& term, const FilterSpec& nominal, Theta theta
   return theta;
 }
 
-/// Sets of parameters that may be missing together.
-std::vector<std::vector<std::size_t>> subsets_of(const std::vector<std::size_t>& missing) {
+/// Sets of parameters that may be missing together. whole: all of them, however many.
+std::vector<std::vector<std::size_t>> subsets_of(const std::vector<std::size_t>& missing, bool whole) {
   constexpr std::size_t most = 9;  // parameters of one candidate
   std::vector<std::vector<std::size_t>> sets;
   const auto add = [&](const std::vector<std::size_t>& set) {
@@ -70,6 +70,7 @@ std::vector<std::vector<std::size_t>> subsets_of(const std::vector<std::size_t>&
   if (groups.size() > 1)
     for (const auto& [key, set] : axes) add(set);
   add(missing);
+  if (whole && missing.size() > most) sets.push_back(missing);
   return sets;
 }
 
@@ -124,7 +125,9 @@ CandidateSet library_candidates(const FilterSpec& nominal, const Theta& theta, c
         for (const auto& [param, value] : s) spec.theta[param] = value;
         out.signatures.push_back(spec);
       }
-    for (const auto& set : subsets_of(missing)) {
+    // A base term is left out by whoever does not know that it is needed: then all of it is missing.
+    const bool base = *TermLibrary::find_term(term.key) < *TermLibrary::find_term("frame_closure");
+    for (const auto& set : subsets_of(missing, base)) {
       Candidate c{std::string(term.key), common_axis(set), label_of(term, set, missing.size()), set, {}};
       for (std::size_t v = 0; v < settings.size(); ++v) {
         Variant variant{{}, settings[v]};

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <numeric>
 
-#include "analysis/discovery/chi_square.hpp"
+#include "analysis/discovery/whiteness.hpp"
 #include "core/estimate/start_consistency.hpp"
 
 namespace drift::discovery {
@@ -41,37 +41,8 @@ std::vector<ShiftedParameter> shifts(const BatchResult& before, const BatchResul
 
 }  // namespace
 
-double ljung_box_p(const LinearProblem& problem, const VecX& whitened, int lags) {
-  std::map<std::pair<int, int>, std::vector<double>> series;  // channel, chain
-  for (Eigen::Index k = 0; k < whitened.size(); ++k) {
-    const RowTag& t = problem.tags[k];
-    series[{t.channel, problem.drives[t.interval].chain}].push_back(whitened[k]);
-  }
-  double smallest = 1.0, count = 0.0;
-  for (const auto& [key, s] : series) {
-    const auto n = static_cast<double>(s.size());
-    if (s.size() < static_cast<std::size_t>(4 * lags)) continue;
-    double mean = 0.0, c0 = 0.0;
-    for (const double v : s) mean += v / n;
-    for (const double v : s) c0 += (v - mean) * (v - mean);
-    double Q = 0.0;
-    for (int lag = 1; lag <= lags; ++lag) {
-      double c = 0.0;
-      for (std::size_t k = static_cast<std::size_t>(lag); k < s.size(); ++k)
-        c += (s[k] - mean) * (s[k - static_cast<std::size_t>(lag)] - mean);
-      Q += c * c / (c0 * c0) / (n - lag);
-    }
-    Q *= n * (n + 2.0);
-    smallest = std::min(smallest, std::exp(log_tail(Q, lags)));
-    count += 1.0;
-  }
-  return std::min(1.0, smallest * std::max(count, 1.0));
-}
-
-double start_spread(const FilterSpec& filter, const Test& test, const std::vector<Theta>& starts) {
-  if (starts.size() < 2) return std::nan("");
-  std::vector<BatchResult> fits;
-  for (const Theta& s : starts) fits.push_back(fit_batch(filter, test.timeline, test.readout, test.measured, s));
+double start_spread(const std::vector<BatchResult>& fits) {
+  if (fits.size() < 2) return std::nan("");
   double largest = 0.0;
   for (std::size_t k = 0; k < fits.front().estimate.parameters.size(); ++k) {
     std::vector<double> values, sigmas;
@@ -84,7 +55,7 @@ double start_spread(const FilterSpec& filter, const Test& test, const std::vecto
   return largest;
 }
 
-FitComparison compare(const Examination& nominal, const Refit* patched) {
+FitComparison compare(const Examination& nominal, const Refit* patched, int whiteness_draws) {
   const Examination& after = patched ? patched->after : nominal;
   FitComparison c;
   c.dof = nominal.fit.estimate.measured;
@@ -97,24 +68,35 @@ FitComparison compare(const Examination& nominal, const Refit* patched) {
   const double h = 2.0 / (9.0 * n);  // Wilson-Hilferty
   c.band_low = std::pow(1.0 - h - 1.96 * std::sqrt(h), 3.0);
   c.band_high = std::pow(1.0 - h + 1.96 * std::sqrt(h), 3.0);
-  c.whiteness.ljung_box_p_before = ljung_box_p(nominal.problem, nominal.projector->clean_residual(), 10);
-  c.whiteness.ljung_box_p_after = ljung_box_p(after.problem, after.projector->clean_residual(), 10);
-  const auto per_row = [](const Examination& e) {
-    return e.projector->candidates().chi2 / static_cast<double>(std::max<Eigen::Index>(1, e.projector->candidates().rows));
+  // One noise for both, the candidates' columns left out but those of the cause.
+  std::vector<int> columns;
+  if (patched)
+    for (const Choice& choice : patched->choices) {
+      const auto& more = nominal.set.candidates[choice.candidate].variants[choice.variant].columns;
+      columns.insert(columns.end(), more.begin(), more.end());
+    }
+  LinearProblem problem = nominal.problem;
+  problem.extra = nominal.problem.extra(Eigen::all, columns);
+  const Projector before(problem, after.noise.model);
+  const auto per_row = [](const Projector& p) {
+    return p.candidates().chi2 / static_cast<double>(std::max<Eigen::Index>(1, p.candidates().rows));
   };
-  c.whiteness.nis_per_dof_before = per_row(nominal);
-  c.whiteness.nis_per_dof_after = per_row(after);
+  c.whiteness.nis_per_dof_before = per_row(before);
+  c.whiteness.nis_per_dof_after = per_row(*after.projector);
+  c.whiteness.ljung_box_p_before = c.whiteness.ljung_box_p_after = std::nan("");
+  if (whiteness_draws > 0) {
+    c.whiteness.ljung_box_p_before = whiteness_p(problem, before, 10, whiteness_draws);
+    c.whiteness.ljung_box_p_after = patched ? whiteness_p(after.problem, *after.projector, 10, whiteness_draws)
+                                            : c.whiteness.ljung_box_p_before;
+  }
   c.residual_before = residuals(nominal.fit);
   c.residual_after = residuals(after.fit);
   if (!patched) return c;
-  c.log_likelihood_ratio = c.chi2_before - c.chi2_after;
-  std::vector<int> columns;
-  for (const Choice& choice : patched->choices) {
-    const auto& more = nominal.set.candidates[choice.candidate].variants[choice.variant].columns;
-    columns.insert(columns.end(), more.begin(), more.end());
-  }
-  const Projected& p = nominal.projector->candidates();
-  c.linear_T = make_contrast(p.C, p.raw, columns).T(p.g);
+  const Projected& p = before.candidates();
+  c.log_likelihood_ratio = p.chi2 - after.projector->candidates().chi2;
+  std::vector<int> own(columns.size());
+  std::iota(own.begin(), own.end(), 0);
+  c.linear_T = make_contrast(p.C, p.raw, own).T(p.g);
   c.sign_agrees = patched->sign_agrees;
   c.shifted = shifts(nominal.fit, after.fit);
   return c;

@@ -6,15 +6,12 @@
 namespace drift::discovery {
 
 /// In-sample comparison of two models on one test; without `patched` the fields "after" repeat "before".
-/// Held-out prediction and start spread are filled in elsewhere.
-FitComparison compare(const Examination& nominal, const Refit* patched);
+/// Innovations of both are judged under one noise, the second's, which has no misfit in it; so is what
+/// the score foretold. Held-out prediction and start spread are filled in elsewhere.
+FitComparison compare(const Examination& nominal, const Refit* patched, int whiteness_draws);
 
-/// Largest start-consistency ratio over the parameters, fitted from each start (at least two).
-double start_spread(const FilterSpec& filter, const Test& test, const std::vector<Theta>& starts);
-
-/// p-value of the Ljung-Box test of whitened residuals, `lags` lags, per channel and chain, the
-/// smallest times their number. Only as good as the chi-square it is compared with: short records make
-/// it optimistic (discovery.md 4.7).
-double ljung_box_p(const LinearProblem& problem, const VecX& whitened, int lags);
+/// Largest start-consistency ratio over the parameters of fits of one model from several starts (at
+/// least two; NaN with less).
+double start_spread(const std::vector<BatchResult>& fits);
 
 }  // namespace drift::discovery

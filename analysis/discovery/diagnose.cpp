@@ -3,34 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "analysis/discovery/answer.hpp"
 #include "analysis/discovery/compare.hpp"
+#include "analysis/discovery/conclude.hpp"
 #include "analysis/discovery/locate.hpp"
 #include "analysis/recorded_test.hpp"
-#include "core/estimate/starts.hpp"
 #include "core/base/check.hpp"
+#include "core/estimate/starts.hpp"
+#include "mc/campaign.hpp"
 
 namespace drift::discovery {
 namespace {
-
-/// Wall time of the stages of a diagnosis.
-class Stopwatch {
- public:
-  explicit Stopwatch(std::vector<std::pair<std::string, double>>& into) : into_(into), last_(Clock::now()) {}
-  void lap(std::string name) {
-    const auto now = Clock::now();
-    into_.emplace_back(std::move(name), std::chrono::duration<double>(now - last_).count());
-    last_ = now;
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  std::vector<std::pair<std::string, double>>& into_;
-  Clock::time_point last_;
-};
 
 /// Isolated samples far from their neighbours, taken out of the measurements: a sample is compared
 /// with the median of the five around it in its channel and position.
@@ -64,6 +49,25 @@ std::size_t remove_spikes(Measurements& measured, const Timeline& timeline, cons
   return removed;
 }
 
+/// White noise as neighbouring samples differ, where the other of eq. (5) and (6) takes most of an
+/// evident misfit away: what looks like noise that drives the platform is the equation then, and the
+/// noise is estimated with that in the model. Empty otherwise.
+std::optional<NoiseEstimate> noise_beside_equation(const FilterSpec& nominal, const Test& test, const BatchResult& fit) {
+  constexpr double evident = 1.5, most = 0.8;  // chi-square per degree; part of its excess
+  FilterSpec other = nominal;
+  if (nominal.coupling == Coupling::eq5) other.coupling = Coupling::eq6;
+  else if (nominal.coupling == Coupling::eq6) other.coupling = Coupling::eq5;
+  else return std::nullopt;
+  const auto per_dof = [](const BatchResult& f) {
+    return f.estimate.statistic / static_cast<double>(std::max<std::size_t>(1, f.estimate.measured));
+  };
+  if (per_dof(fit) < evident) return std::nullopt;
+  const BatchResult with_other = fit_batch(other, test.timeline, test.readout, test.measured, theta_of(nominal, fit));
+  if (per_dof(fit) - per_dof(with_other) < most * (per_dof(fit) - 1.0)) return std::nullopt;
+  const LinearProblem problem = linear_problem(nominal, test, fit, {});
+  return noise_of_differences(problem, residual_of(problem, fit));
+}
+
 const std::vector<std::string> platform_channels{
     "time",  "position",     "phase",         "acc_x",        "acc_y", "acc_z", "gimbal_outer",
     "gimbal_middle", "gimbal_inner", "cmd_x", "cmd_y", "cmd_z", "case_heading", "loop_eta_x",
@@ -87,9 +91,13 @@ std::vector<Covariate> covariates_of(const std::vector<Recording>& recordings) {
 }  // namespace
 
 Diagnosis diagnose(const FilterSpec& nominal_filter, const Test& given, std::span<const Theta> starts,
-                   const std::vector<Covariate>& covariates, const DiagnoseOptions& options) {
+                   const std::vector<Covariate>& covariates, const DiagnoseOptions& options,
+                   const std::vector<std::size_t>& recording_ends) {
+  const mc::ThreadCount threads(options.threads);
   Diagnosis d;
-  Stopwatch watch(d.seconds);
+  // Shares of the whole as they usually are; a diagnosis that finds nothing ends early.
+  Stages stages(d.seconds, options.progress);
+  stages.begin("fit", 0.04);
   d.nominal = nominal_filter;
   d.patched = nominal_filter;
 
@@ -107,33 +115,55 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const Test& given, std::spa
     spikes += more;
     fit = fit_from(theta_of(nominal_filter, fit));
   }
-  std::vector<Theta> all_starts{make_layout(nominal_filter).theta};
-  for (const Theta& s : starts) {
-    all_starts.push_back(s);
-    BatchResult other = fit_from(s);
+  // Starts are of the nominal parameters; those of a cause are held at their values until the others
+  // have been fitted (with them they may make a narrow bent valley), then all are free.
+  const auto from_starts = [&](const FilterSpec& filter, const Theta& found) {
+    return mc::run_campaign(starts.size(), [&](std::size_t k) {
+      FilterSpec held = filter;
+      Theta start = starts[k];
+      for (std::size_t i = 0; i < TermLibrary::num_params; ++i)
+        if (!nominal_filter.active[i]) {
+          start[i] = found[i];
+          if (filter.active[i]) held.priors[i] = fixed(found[i]);
+        }
+      const BatchResult first = fit_batch(held, test.timeline, test.readout, measured, start);
+      return filter.active == nominal_filter.active
+                 ? first
+                 : fit_batch(filter, test.timeline, test.readout, measured, theta_of(held, first));
+    });
+  };
+  std::vector<BatchResult> fits = from_starts(nominal_filter, make_layout(nominal_filter).theta);
+  fits.push_back(fit);
+  d.fit.start_spread_before = start_spread(fits);
+  for (BatchResult& other : fits)
     if (other.estimate.statistic < fit.estimate.statistic - 1e-6) fit = std::move(other);
-  }
-  watch.lap("fit");
 
-  Examination nominal = examine(nominal_filter, test, fit);
-  watch.lap("examine");
+  stages.begin("examine", 0.08);
+  const auto plain = noise_beside_equation(nominal_filter, test, fit);
+  Examination nominal = examine(nominal_filter, test, fit, plain ? &*plain : nullptr);
+  stages.begin("search", 0.5);
   const Search found = search(nominal, test, options.search);
-  watch.lap("search");
+  stages.begin("held out", 0.25);
 
   fill_candidates(nominal, found, d);
-  fill_noise(nominal, spikes, d);
   d.p_value = found.p_value;
+  if (std::isfinite(found.other_equation)) d.other_equation_gain = found.other_equation;
   const Refit* best = found.sets.empty() ? nullptr : &found.sets.front();
-  const Refit* partial = best || found.rejected.empty() ? best : &found.rejected.front();
-  d.fit = compare(nominal, best);
+  // With the cause in the mean, what had been taken for noise because of it is none any more.
+  fill_noise(best && found.significant ? best->after : nominal, spikes, d);
+  const double spread = d.fit.start_spread_before;
+  d.fit = compare(nominal, best, options.whiteness_draws);
+  d.fit.start_spread_before = d.fit.start_spread_after = spread;
   if (best) {
     std::vector<std::size_t> named;
     for (const Choice& c : best->choices) named.push_back(c.candidate);
-    d.fit.held_out = held_out(nominal, best->after, test, named, found.nulls.library_threshold, options.folds);
+    d.fit.held_out = held_out(nominal, best->after, test, named, found.nulls.library_threshold,
+                              {options.folds, recording_ends,
+                               [&](std::size_t done, std::size_t total) { stages.step(done, total); }});
     d.patched = best->filter;
     d.has_patch = true;
   }
-  watch.lap("held out");
+  stages.begin("locate", 0.06);
 
   d.verdict = Verdict::consistent;
   if (found.significant) {
@@ -147,6 +177,15 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const Test& given, std::spa
     d.verdict = Verdict::unexplained;
   }
   if (d.verdict != Verdict::consistent) fill_causes(nominal, found, d);
+  weigh_candidates(nominal, found, d);
+  // What the cause explains, by the refit: what it takes out of the residuals.
+  LinearProblem shown = nominal.problem;
+  shown.extra.resize(shown.rows(), best ? 1 : 0);
+  std::vector<std::pair<int, double>> cause;
+  if (best) {
+    shown.extra.col(0) = residual_of(nominal.problem, nominal.fit) - residual_of(best->after.problem, best->after.fit);
+    cause.emplace_back(0, 1.0);
+  }
   std::vector<InputEstimate> inputs;
   if (options.signals && d.verdict != Verdict::consistent) {
     // Noise that was needed only because of the effect would take the signal away.
@@ -156,24 +195,14 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const Test& given, std::spa
       white.acc_factor = nominal.noise.model.acc_factor;
       white.gimbal_factor = nominal.noise.model.gimbal_factor;
     }
-    inputs = estimate_inputs(nominal.problem, test.timeline, Projector(nominal.problem, white), 6);
+    inputs = estimate_inputs(shown, test.timeline, Projector(shown, white), 6);
   }
 
   // Where it is: by the best explanation there is, else by the strongest window.
-  std::vector<std::pair<int, double>> cause;
-  if (partial && found.significant) {
-    std::vector<int> columns;
-    for (const Choice& c : partial->choices) {
-      const auto& more = nominal.set.candidates[c.candidate].variants[c.variant].columns;
-      columns.insert(columns.end(), more.begin(), more.end());
-    }
-    const VecX amplitude = expected_amplitudes(nominal.projector->candidates(), columns);
-    for (std::size_t k = 0; k < columns.size(); ++k) cause.emplace_back(columns[k], amplitude[k]);
-  }
   const Window* window = strongest_window(nominal);
   VecX signature = VecX::Zero(nominal.problem.rows());
   if (best)
-    signature = signature_of(*nominal.projector, cause);
+    signature = signature_of(Projector(shown, nominal.noise.model), cause);
   else if (window)
     signature = signature_of(nominal.problem, test.timeline, *nominal.projector, *window);
   const std::string driven_equation = d.where.equation;
@@ -186,21 +215,18 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const Test& given, std::spa
       d.where.equation = equation_name(window->equation, window->axis);
   }
   for (std::size_t k = 0; k < std::min<std::size_t>(2, inputs.size()) && d.verdict != Verdict::consistent; ++k)
-    d.signals.push_back(recovered_signal(inputs[k], test.timeline, covariates, best ? cause : std::vector<std::pair<int, double>>{}));
-  watch.lap("locate");
-
-  d.fit.start_spread_before = start_spread(nominal_filter, test, all_starts);
-  d.fit.start_spread_after = d.fit.start_spread_before;
-  if (best && all_starts.size() > 1) {
-    // The same starts; the new parameters start at their prior mean.
-    const Theta mean = make_layout(best->filter).theta;
-    for (Theta& s : all_starts)
-      for (std::size_t i = 0; i < TermLibrary::num_params; ++i)
-        if (!nominal_filter.active[i]) s[i] = mean[i];
-    d.fit.start_spread_after = start_spread(best->filter, test, all_starts);
+    d.signals.push_back(recovered_signal(inputs[k], test.timeline, covariates, cause));
+  stages.begin("starts", 0.07);
+  if (best && !starts.empty()) {
+    // The same starts; what is new starts where the fit has it.
+    fits = from_starts(best->filter, theta_of(best->filter, best->after.fit));
+    fits.push_back(best->after.fit);
+    d.fit.start_spread_after = start_spread(fits);
   }
-  watch.lap("starts");
+  stages.end();
   d.sentence = sentence(d);
+  say_partial(nominal, found, d);
+  say_equation(d);
   return d;
 }
 
@@ -216,7 +242,7 @@ Diagnosis diagnose(const Study& study, const std::vector<Recording>& recordings,
     drawn.starts.clear();
     starts.push_back(initial_estimate(drawn, study.monte_carlo.seed, static_cast<std::size_t>(k)));
   }
-  return diagnose(filter, {test.timeline, study.readout, test.measured}, starts, covariates_of(recordings), options);
+  return diagnose(filter, {test.timeline, study.readout, test.measured}, starts, covariates_of(recordings), options, test.ends);
 }
 
 }  // namespace drift::discovery

@@ -6,6 +6,7 @@
 #include "analysis/discovery/held_out.hpp"
 #include "analysis/discovery/recovered.hpp"
 #include "analysis/discovery/search.hpp"
+#include "analysis/discovery/stages.hpp"
 #include "mc/study.hpp"
 
 namespace drift::discovery {
@@ -13,9 +14,12 @@ namespace drift::discovery {
 /// How much a diagnosis does.
 struct DiagnoseOptions {
   SearchOptions search;
-  FoldMethod folds = FoldMethod::linear;
-  int starts = 3;            ///< fits from drawn starts, for the start spread; below 2: none
+  FoldMethod folds = FoldMethod::refitted;
+  int starts = 3;            ///< fits for the start spread, prior mean and drawn; below 2: none
   bool signals = true;       ///< recover the missing input as a time series
+  int whiteness_draws = 399; ///< of the null distribution of the whiteness test; 0: not tested
+  int threads = 0;           ///< 0: all; what is found does not depend on it
+  StageReport progress;
   bool named_needs_held_out = true;  ///< a cause is named only if held-out positions are predicted better
 };
 
@@ -26,8 +30,9 @@ struct DiagnoseOptions {
 Diagnosis diagnose(const Study& study, const std::vector<Recording>& recordings, const DiagnoseOptions& options = {});
 
 /// The same on a test that is laid out already. starts: initial estimates of the nominal filter
-/// beside its prior means.
+/// beside its prior means. recording_ends: interval behind the last of each recording, if several.
 Diagnosis diagnose(const FilterSpec& nominal, const Test& test, std::span<const Theta> starts,
-                   const std::vector<Covariate>& covariates, const DiagnoseOptions& options = {});
+                   const std::vector<Covariate>& covariates, const DiagnoseOptions& options = {},
+                   const std::vector<std::size_t>& recording_ends = {});
 
 }  // namespace drift::discovery

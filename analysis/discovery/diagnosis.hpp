@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -145,10 +146,14 @@ struct HeldOut {
   double nested_gain = 0.0;   ///< with the cause chosen anew in every fold
   bool improves = false;      ///< the condition for keeping a term
   std::string method;         ///< "refitted" or "linear"
+  /// Where several recordings are given: each predicted from a fit to the others.
+  std::vector<Fold> recordings;
+  double recording_chi2_per_dof_before = 0.0, recording_chi2_per_dof_after = 0.0;
+  double recording_gain = 0.0;
 };
 
 struct Whiteness {
-  double ljung_box_p_before = 1.0, ljung_box_p_after = 1.0;  ///< smallest over channels, Bonferroni
+  double ljung_box_p_before = 1.0, ljung_box_p_after = 1.0;  ///< calibrated by simulation (whiteness.hpp)
   double nis_per_dof_before = 1.0, nis_per_dof_after = 1.0;
 };
 
@@ -158,8 +163,8 @@ struct FitComparison {
   double chi2_per_dof_before = 1.0, chi2_per_dof_after = 1.0;
   double band_low = 0.0, band_high = 0.0;  ///< 95 % of chi2 per dof
   std::size_t dof = 0;
-  double log_likelihood_ratio = 0.0;  ///< 2 d log L of the nonlinear refit
-  double linear_T = 0.0;              ///< what the score predicted for it
+  double log_likelihood_ratio = 0.0;  ///< 2 d log L of the nonlinear refit, under the noise of the second model
+  double linear_T = 0.0;              ///< what the score predicted, under the same noise
   bool sign_agrees = true;            ///< of the predicted and the refitted amplitude
   Whiteness whiteness;
   double start_spread_before = 0.0, start_spread_after = 0.0;  ///< largest start-consistency ratio
@@ -191,6 +196,9 @@ struct CosineMatrix {
   MatX cosine;
 };
 
+/// Odds of e^4.5 either way: below, neither of eq. (5) and (6) is ruled out.
+inline constexpr double equation_told = 9.0;
+
 /// All that a diagnosis found: plain data, for the report, the JSON and the scorer.
 struct Diagnosis {
   Verdict verdict = Verdict::consistent;
@@ -200,6 +208,9 @@ struct Diagnosis {
   std::vector<Cause> causes;
   std::vector<CandidateScore> candidates;  ///< strongest first
   std::vector<NoiseFinding> noise;
+  /// Twice the log evidence that eq. (5) instead of a nominal eq. (6), or the reverse, gains; NaN where
+  /// the nominal coupling is neither.
+  double other_equation_gain = std::numeric_limits<double>::quiet_NaN();
   FitComparison fit;
   std::vector<RecoveredSignal> signals;    ///< strongest first; at least one unless consistent
   CosineMatrix cosines;

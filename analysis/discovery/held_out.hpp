@@ -1,5 +1,8 @@
 #pragma once
 
+#include <functional>
+
+#include "analysis/discovery/diagnosis.hpp"
 #include "analysis/discovery/examination.hpp"
 
 namespace drift::discovery {
@@ -10,18 +13,27 @@ enum class FoldMethod {
   refitted,  ///< both models fitted again without the position, through the full dynamics
 };
 
-/// Predicts every position from all the others, with the nominal and with the patched model.
+/// How folds are made.
+struct FoldOptions {
+  FoldMethod method = FoldMethod::linear;
+  std::vector<std::size_t> recording_ends;  ///< interval behind the last of each recording; one or none: not told apart
+  std::function<void(std::size_t, std::size_t)> progress;  ///< folds done, of how many; from any thread
+};
+
+/// Predicts every position from all the others, with the nominal and with the patched model; where
+/// there are several recordings, every recording from the others too, its initial attitudes alone
+/// unknown beyond their posterior (discovery.md 2.6).
 ///
 /// log p(y_p | y_rest) = log p(y) - log p(y_rest), parameters and attitudes marginalised; chi-square
-/// likewise. Nested: the cause is chosen anew from the other positions alone (discovery.md 0.9), the
+/// likewise. Nested: the cause is chosen anew from the rest alone (discovery.md 0.9), the
 /// nominal model where nothing there is significant.
 HeldOut held_out(const Examination& nominal, const Examination& patched, const Test& test,
-                 const std::vector<std::size_t>& named, double library_threshold, FoldMethod method);
+                 const std::vector<std::size_t>& named, double library_threshold, const FoldOptions& options);
 
-/// A linear problem without the rows of some positions (from 0).
-LinearProblem without_positions(const LinearProblem& problem, const std::vector<int>& positions);
+/// A linear problem without the rows of the intervals that are marked.
+LinearProblem without_intervals(const LinearProblem& problem, const std::vector<bool>& left_out);
 
-/// Measurements with those of some positions taken out.
-Measurements without_positions(const Measurements& measured, const Timeline& timeline, const std::vector<int>& positions);
+/// Measurements with those of the marked intervals taken out.
+Measurements without_intervals(const Measurements& measured, const std::vector<bool>& left_out);
 
 }  // namespace drift::discovery

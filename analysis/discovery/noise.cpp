@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "analysis/discovery/chi_square.hpp"
+#include "mc/campaign.hpp"
 
 namespace drift::discovery {
 namespace {
@@ -77,13 +78,12 @@ Ascent ascend(const Likelihood& likelihood, const NoiseModel& base,
   const auto f = [&](const VecX& p) { return 0.5 * likelihood(at(base, active, p)); };
   double value = f(x);
   const auto gradient = [&](const VecX& p, double here) {
-    VecX g(n);
-    for (Eigen::Index k = 0; k < n; ++k) {
+    const auto slopes = mc::run_campaign(active.size(), [&](std::size_t k) {
       VecX q = p;
-      q[k] += 1e-3;
-      g[k] = (f(q) - here) / 1e-3;
-    }
-    return g;
+      q[static_cast<Eigen::Index>(k)] += 1e-3;
+      return (f(q) - here) / 1e-3;
+    });
+    return VecX(Eigen::Map<const VecX>(slopes.data(), n));
   };
   MatX H = curvature.cwiseInverse().asDiagonal();  // inverse of minus the Hessian
   VecX g = gradient(x, value);
@@ -143,16 +143,18 @@ Trial try_out(const Likelihood& likelihood, const NoiseModel& base, double value
 
 std::vector<Trial> all_trials(const Likelihood& likelihood, const NoiseModel& base, double value,
                               const LinearProblem& problem) {
-  std::vector<Trial> trials;
+  std::vector<std::pair<const Component*, double>> jobs;  // with the time constant
   const bool gimbals = std::any_of(problem.tags.begin(), problem.tags.end(), [](auto& t) { return !t.accelerometer(); });
   const bool accs = std::any_of(problem.tags.begin(), problem.tags.end(), [](auto& t) { return t.accelerometer(); });
-  if (base.angle_random_walk == 0.0) trials.push_back(try_out(likelihood, base, value, angle_walk, 0.0));
-  if (base.drift_random_walk == 0.0) trials.push_back(try_out(likelihood, base, value, drift_walk, 0.0));
+  if (base.angle_random_walk == 0.0) jobs.emplace_back(&angle_walk, 0.0);
+  if (base.drift_random_walk == 0.0) jobs.emplace_back(&drift_walk, 0.0);
   if (base.markov_drift == 0.0)
-    for (const double tau : {600.0, 2400.0}) trials.push_back(try_out(likelihood, base, value, markov, tau));
+    for (const double tau : {600.0, 2400.0}) jobs.emplace_back(&markov, tau);
   if (base.acc_markov == 0.0 && accs && gimbals)
-    for (const double tau : {150.0, 900.0}) trials.push_back(try_out(likelihood, base, value, acc_markov, tau));
-  return trials;
+    for (const double tau : {150.0, 900.0}) jobs.emplace_back(&acc_markov, tau);
+  return mc::run_campaign(jobs.size(), [&](std::size_t k) {
+    return try_out(likelihood, base, value, *jobs[k].first, jobs[k].second);
+  });
 }
 
 NoiseFinding white_finding(const Component& c, double declared, double sigma, double log_sigma_error, std::size_t rows) {

@@ -8,6 +8,7 @@
 #include <limits>
 #include <set>
 
+#include "analysis/discovery/fill_gaps.hpp"
 #include "core/base/check.hpp"
 #include "core/sim/measurements.hpp"
 #include "core/sim/reduce.hpp"
@@ -131,6 +132,7 @@ Prepared prepare(const Study& study, const std::vector<Recording>& recordings, s
   std::vector<std::string> wrong;
   std::set<int> positions;
   for (Recording& r : p.recordings) {
+    fill_gaps(r, sample_intervals(r).typical, p.remarks);
     leave_out_stuck(r, p.remarks);
     remark_missing(r, study.readout, p.remarks);
     positions.merge(positions_of(r));

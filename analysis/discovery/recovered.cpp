@@ -12,6 +12,8 @@ namespace {
 
 using Equation = Window::Equation;
 
+constexpr double worth_saying = 0.3;  // correlation of a shape below which it says nothing
+
 /// Bins of equal length within every position (its slew included).
 std::vector<std::pair<std::size_t, std::size_t>> make_bins(const Timeline& timeline, int per_position) {
   std::vector<std::pair<std::size_t, std::size_t>> bins;
@@ -226,7 +228,10 @@ RecoveredSignal recovered_signal(const InputEstimate& input, const Timeline& tim
       out.correlation = y.norm() > 0.0 && input.value.norm() > 0.0 ? y.dot(input.value) / (y.norm() * input.value.norm()) : 0.0;
     }
   }
-  if (winner) {
+  if (winner && std::abs(out.correlation) < worth_saying) {
+    out.shape = fmt::format("{}: of no simple shape: several effects, or many parameters, may be missing at once", out.equation);
+    out.correlation = 0.0;
+  } else if (winner) {
     out.shape = fmt::format("{}: {} (correlation {:.2f})", out.equation, winner->text, out.correlation);
     out.onset_s = winner->onset;
     out.period_s = winner->period;

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/discovery/closure_profile.hpp"
 #include "analysis/discovery/settle_noise.hpp"
+#include "mc/campaign.hpp"
 
 namespace drift::discovery {
 namespace {
@@ -93,20 +95,30 @@ Refit refit(const Examination& nominal, const Test& test, const std::vector<Choi
     return fit_batch(out.filter, test.timeline, test.readout, test.measured, from);
   };
   BatchResult best = fit_from(start);
-  if (family)  // lambda and the misalignments are bilinear: from both ends, misalignments at zero too
-    for (const double end : {0.0, 1.0})
-      for (const bool straight : {false, true}) {
-        Theta from = straight ? make_layout(nominal.filter).theta : theta;
-        from[lambda] = end;
-        BatchResult other = fit_from(from);
-        if (other.estimate.statistic < best.estimate.statistic) best = std::move(other);
-      }
+  if (family) {
+    // lambda and the misalignments are bilinear, a narrow bent valley: from both equations, fitted first.
+    const auto from_end = [&](std::size_t end) {
+      FilterSpec held = out.filter;
+      held.priors[lambda] = fixed(static_cast<double>(end));
+      Theta from = theta;
+      from[lambda] = static_cast<double>(end);
+      return fit_from(theta_of(held, fit_batch(held, test.timeline, test.readout, test.measured, from)));
+    };
+    for (BatchResult& other : mc::run_campaign(2, from_end))
+      if (other.estimate.statistic < best.estimate.statistic) best = std::move(other);
+  }
+  double narrowed = 0.0;  // log of how much narrower the prior of lambda has become
+  if (family)
+    if (const auto profile = profile_closure(out.filter, test, best, nominal.problem.weight, nominal.noise.model)) {
+      narrowed = std::log(out.filter.priors[lambda].sigma() / profile->sigma);
+      out.filter.priors[lambda] = normal(profile->value, profile->sigma);
+      best = fit_from(theta_of(out.filter, profile->fit));
+    }
   out.after = examine(out.filter, test, best);
   settle_noise(out.after, test, nulls.library_threshold, 2, 1);  // a second effect may hide in the noise
-  for (const auto& [param, value] : expected)
-    if (const ParameterEstimate* p = best.estimate.find(param))
-      if (std::abs(value) > 2.0 * p->sigma && (p->value - (param == lambda && nominal.filter.coupling == Coupling::eq6)) * value < 0.0)
-        out.sign_agrees = false;
+  for (const auto& [param, value] : expected)  // lambda is a jump: its slope at the nominal fit says nothing
+    if (const ParameterEstimate* p = best.estimate.find(param); p != nullptr && param != lambda)
+      if (std::abs(value) > 2.0 * p->sigma && p->value * value < 0.0) out.sign_agrees = false;
 
   // What is left, without the members of the chosen families.
   for (std::size_t k = 0; k < out.after.scores.size(); ++k) {
@@ -127,7 +139,7 @@ Refit refit(const Examination& nominal, const Test& test, const std::vector<Choi
   double tries = 0.0;
   for (const Choice& choice : choices)
     tries += std::log(static_cast<double>(nominal.set.candidates[choice.candidate].variants.size()));
-  out.log_bayes = 0.5 * (out.after.log_likelihood2() - nominal.log_likelihood2()) - tries;
+  out.log_bayes = 0.5 * (out.after.log_likelihood2() - nominal.log_likelihood2()) - tries - std::max(0.0, narrowed);
   return out;
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "analysis/discovery/settle_noise.hpp"
+#include "mc/campaign.hpp"
 
 namespace drift::discovery {
 namespace {
@@ -86,6 +87,17 @@ void weigh(const Examination& e, std::vector<Refit> refits, double credible, Sea
   }
 }
 
+/// Each explanation fitted, spread over threads.
+std::vector<Refit> refit_all(const Examination& nominal, const Test& test, const std::vector<std::vector<Choice>>& all,
+                             const Nulls& nulls) {
+  std::vector<Refit> refits;
+  if (all.size() == 1) {  // its own fits are spread over the threads then
+    refits.push_back(refit(nominal, test, all.front(), nulls));
+    return refits;
+  }
+  return mc::run_campaign(all.size(), [&](std::size_t k) { return refit(nominal, test, all[k], nulls); });
+}
+
 }  // namespace
 
 double other_equation_gain(const Examination& nominal, const Test& test) {
@@ -120,7 +132,7 @@ Search search(Examination& nominal, const Test& test, const SearchOptions& optio
     for (const double T : s.T) scan = std::max(scan, strength(T, 1));
   // The other equation is a jump, not a small amplitude: by the likelihood ratio of two points,
   // P(2 log LR > T) <= exp(-T/2).
-  const double other = other_equation_gain(nominal, test);
+  const double other = out.other_equation = other_equation_gain(nominal, test);
   const auto pairs = strongest_pairs(*nominal.field, 1);
   out.p_library = out.nulls.library.p_value(std::max(library, 0.5 * other));
   out.p_scan = out.nulls.scan.p_value(scan);
@@ -140,31 +152,30 @@ Search search(Examination& nominal, const Test& test, const SearchOptions& optio
   const auto add = [&](std::size_t k) {
     if (std::find(singles.begin(), singles.end(), k) == singles.end()) singles.push_back(k);
   };
+  // A large effect may be beyond the linearised test; one that the other equation leaves far behind is not.
+  if (singles.empty())
+    for (std::size_t k = 0; k < std::min<std::size_t>(2, order.size()); ++k)
+      if (0.5 * other - nominal.scores[order[k]].log_bayes < 10.0 * negligible) add(order[k]);
   // The score is blind to a change of equation that only rescales the misalignments.
   for (std::size_t k = 0; k < nominal.set.candidates.size(); ++k)
     if (nominal.set.candidates[k].term == "frame_closure" &&
         (0.5 * other > out.nulls.library_threshold || nominal.scores[k].strength > out.nulls.library_threshold))
       add(k);
-  // A large effect may be beyond the linearised test.
-  if (singles.empty())
-    for (std::size_t k = 0; k < std::min<std::size_t>(2, order.size()); ++k) add(order[k]);
-  std::vector<Refit> refits;
-  for (const std::size_t k : singles) refits.push_back(refit(nominal, test, {choice(k)}, out.nulls));
-  weigh(nominal, std::move(refits), options.credible, out);
+  std::vector<std::vector<Choice>> tried;
+  for (const std::size_t k : singles) tried.push_back({choice(k)});
+  weigh(nominal, refit_all(nominal, test, tried, out.nulls), options.credible, out);
   if (!out.sets.empty()) return out;
 
-  refits.clear();
+  tried.clear();
   for (const Pair& p : adequate_pairs(*nominal.field, nominal.scores, 1.1 * out.nulls.library_threshold,
                                       1.1 * out.nulls.scan_threshold, options.most_refits))
-    refits.push_back(refit(nominal, test, {p.a, p.b}, out.nulls));
-  weigh(nominal, std::move(refits), options.credible, out);
+    tried.push_back({p.a, p.b});
+  weigh(nominal, refit_all(nominal, test, tried, out.nulls), options.credible, out);
   if (!out.sets.empty()) return out;
 
   const auto several = greedy(*nominal.field, nominal.scores, out.nulls.library_threshold, out.nulls.scan_threshold, 4);
   if (several.size() > 2) {
-    refits.clear();
-    refits.push_back(refit(nominal, test, several, out.nulls));
-    weigh(nominal, std::move(refits), options.credible, out);
+    weigh(nominal, refit_all(nominal, test, {several}, out.nulls), options.credible, out);
   }
   return out;
 }

@@ -19,6 +19,7 @@ struct Search {
   Nulls nulls;
   MaxNull pairs;
   double p_library = 1.0, p_scan = 1.0, p_pairs = 1.0;
+  double other_equation = 0.0; ///< other_equation_gain()
   double p_value = 1.0;        ///< of the strongest family, for all families together
   bool significant = false;
   std::vector<Refit> sets;     ///< adequate explanations in the credible set, most probable first; each

@@ -30,23 +30,25 @@ TimeAxis time_axis(const std::vector<double>& t) {
   return {1.0, "time [s]"};
 }
 
-std::optional<Figure> heat_figure(const Where& where) {
+std::optional<Figure> heat_figure(const Where& where, bool consistent) {
   if (where.heat.empty() || where.channel_names.empty()) return std::nullopt;
   int positions = 0;
   for (const HeatCell& c : where.heat) positions = std::max(positions, c.position);
   HeatMap map;
-  map.title = "Where the misfit is";
+  map.title = consistent ? "What the nominal model leaves" : "Where the misfit is";
   map.x_label = "position";
-  map.value_label = "share of the located misfit";
+  map.value_label = consistent ? "chi-square per degree of freedom above or below 1" : "share of the located misfit [%]";
   map.rows = where.channel_names;
   for (int p = 1; p <= positions; ++p) map.columns.push_back(fmt::format("{}", p));
   map.value = MatX::Constant(static_cast<Eigen::Index>(map.rows.size()), positions, none);
   for (const HeatCell& c : where.heat)
     if (c.channel >= 0 && c.channel < map.value.rows() && c.position >= 1)
-      map.value(c.channel, c.position - 1) = c.share;
+      map.value(c.channel, c.position - 1) = consistent ? 0.01 * std::round(100.0 * (c.chi2_per_dof - 1.0)) : std::round(100.0 * c.share);
+  if (consistent) map.most = 1.0;
   return Figure{"where.svg",
-                "Share of each channel and position in the misfit that the nominal model leaves. "
-                "Negative shares speak against the located effect.",
+                consistent ? "Residuals of each channel and position: nothing stands out."
+                           : "Share of each channel and position in the misfit that the nominal model leaves. "
+                             "Negative shares speak against the located effect.",
                 svg_of(map)};
 }
 
@@ -148,6 +150,8 @@ std::optional<Figure> residual_figure(const Diagnosis& d) {
       for (const double v : r->row(c))
         if (std::isfinite(v)) most = std::max(most, 1.05 * std::abs(v));
     if (!fit.residual_before.row(c).array().isFinite().any()) continue;
+    const double power = std::pow(10.0, std::floor(std::log10(most)));  // round, so that the axis has ticks
+    most = power * (most <= 2.0 * power ? 2.0 : most <= 5.0 * power ? 5.0 : 10.0);
     chart.panels.push_back(residual_panel(fit, t, c, names[static_cast<std::size_t>(c)], false, most));
     if (fit.residual_after.cols() == fit.residual_before.cols())
       chart.panels.push_back(residual_panel(fit, t, c, names[static_cast<std::size_t>(c)], true, most));
@@ -168,12 +172,13 @@ std::optional<Figure> held_out_figure(const HeldOut& held) {
   chart.after_label = "with the cause";
   chart.spacing = Spacing::logarithmic;
   chart.limit = ReferenceLine{1.0, "noise alone", Stroke::dashed};
-  for (const Fold& f : held.folds) {
-    if (f.dof == 0) continue;
-    const double n = static_cast<double>(f.dof), gain = f.log_score_after - f.log_score_before;
-    chart.lines.push_back({.label = f.name, .before = f.chi2_before / n, .after = f.chi2_after / n,
-                           .text = std::isfinite(gain) ? fmt::format("{:+.1f}", gain) : ""});
-  }
+  for (const auto* folds : {&held.folds, &held.recordings})
+    for (const Fold& f : *folds) {
+      if (f.dof == 0) continue;
+      const double n = static_cast<double>(f.dof), gain = f.log_score_after - f.log_score_before;
+      chart.lines.push_back({.label = f.name, .before = f.chi2_before / n, .after = f.chi2_after / n,
+                             .text = std::isfinite(gain) ? fmt::format("{:+.1f}", gain) : ""});
+    }
   if (chart.lines.empty()) return std::nullopt;
   return Figure{"held_out.svg",
                 "Each line was predicted by a fit to all the others. At the right: gain of the log "
@@ -209,7 +214,7 @@ void add(std::vector<Figure>& figures, std::optional<Figure> figure) {
 
 std::vector<Figure> where_figures(const Diagnosis& d) {
   std::vector<Figure> figures;
-  add(figures, heat_figure(d.where));
+  add(figures, heat_figure(d.where, d.verdict == Verdict::consistent));
   Chart chart;
   chart.title = "What the nominal model does not explain";
   chart.panel_width = 900.0;
@@ -234,7 +239,7 @@ std::vector<Figure> name_figures(const Diagnosis& d) {
     if (bars.bars.size() == most_bars) break;
     if (!std::isfinite(c.score)) continue;
     bars.bars.push_back({.label = label_of(c), .value = c.score, .colour = c.adequate ? 2u : 6u,
-                         .text = fmt::format("{}, p {}", number_text(c.score), number_text(c.p_value, 2))});
+                         .text = fmt::format("{}, p {}", number_text(c.score), p_text(c.p_value))});
   }
   if (!bars.bars.empty())
     figures.push_back({"candidates.svg",

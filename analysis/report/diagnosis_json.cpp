@@ -49,6 +49,7 @@ Json causes_json(const std::vector<Cause>& causes) {
                             {"value", number(p.value)},
                             {"sigma", number(p.sigma)},
                             {"unit", p.unit},
+                            {"interval_95", {number(p.value - 1.96 * p.sigma), number(p.value + 1.96 * p.sigma)}},
                             {"profiled", p.profiled}});
     for (const Confusable& other : c.confusable_with)
       confusable.push_back({{"term", other.term},
@@ -91,6 +92,19 @@ Json candidates_json(const std::vector<CandidateScore>& candidates) {
   return all;
 }
 
+Json folds_json(const std::vector<Fold>& folds) {
+  Json list = Json::array();
+  for (const Fold& f : folds)
+    list.push_back({{"name", f.name},
+                    {"positions", f.positions},
+                    {"chi2_before", number(f.chi2_before)},
+                    {"chi2_after", number(f.chi2_after)},
+                    {"dof", f.dof},
+                    {"log_score_gain", number(f.log_score_after - f.log_score_before)},
+                    {"same_choice", f.same_choice}});
+  return list;
+}
+
 Json fit_json(const FitComparison& fit) {
   Json out;
   out["in_sample"] = {{"chi2_per_dof_before", number(fit.chi2_per_dof_before)},
@@ -105,15 +119,6 @@ Json fit_json(const FitComparison& fit) {
                       {"nis_per_dof_before", number(fit.whiteness.nis_per_dof_before)},
                       {"nis_per_dof_after", number(fit.whiteness.nis_per_dof_after)}};
   const HeldOut& held = fit.held_out;
-  Json list = Json::array();
-  for (const Fold& f : held.folds)
-    list.push_back({{"name", f.name},
-                    {"positions", f.positions},
-                    {"chi2_before", number(f.chi2_before)},
-                    {"chi2_after", number(f.chi2_after)},
-                    {"dof", f.dof},
-                    {"log_score_gain", number(f.log_score_after - f.log_score_before)},
-                    {"same_choice", f.same_choice}});
   const auto of_folds = [&](double value) { return held.folds.empty() ? Json(nullptr) : number(value); };
   out["held_out"] = {{"chi2_per_dof_before", of_folds(held.chi2_per_dof_before)},
                      {"chi2_per_dof_after", of_folds(held.chi2_per_dof_after)},
@@ -123,7 +128,13 @@ Json fit_json(const FitComparison& fit) {
                      {"nested_gain", number(held.nested_gain)},
                      {"improves", held.improves},
                      {"method", text_or_null(held.method)},
-                     {"each", std::move(list)}};
+                     {"each", folds_json(held.folds)}};
+  if (!held.recordings.empty())
+    out["held_out"]["by_recording"] = {{"chi2_per_dof_before", number(held.recording_chi2_per_dof_before)},
+                                       {"chi2_per_dof_after", number(held.recording_chi2_per_dof_after)},
+                                       {"log_score_gain", number(held.recording_gain)},
+                                       {"folds", held.recordings.size()},
+                                       {"each", folds_json(held.recordings)}};
   out["start_spread_before"] = number(fit.start_spread_before);
   out["start_spread_after"] = number(fit.start_spread_after);
   Json& shifted = out["shifted_parameters"] = Json::array();
@@ -208,6 +219,7 @@ std::string to_json(const Diagnosis& d) {
   out["verdict"] = std::string(text(d.verdict));
   out["p_value"] = number(d.p_value);
   out["sentence"] = d.sentence;
+  out["other_equation_gain"] = number(d.other_equation_gain);
   out["where"] = where_json(d.where);
   out["causes"] = causes_json(d.causes);
   out["candidates"] = candidates_json(d.candidates);

@@ -91,9 +91,12 @@ Table fit_table(const Diagnosis& d) {
   line("chi-square per degree of freedom", f.chi2_per_dof_before, f.chi2_per_dof_after,
        f.band_high > 0.0 ? fmt::format("{:.3f} to {:.3f} (95 %)", f.band_low, f.band_high) : "1");
   line("NIS per degree of freedom", f.whiteness.nis_per_dof_before, f.whiteness.nis_per_dof_after, "1");
-  line("whiteness (Ljung-Box), p", f.whiteness.ljung_box_p_before, f.whiteness.ljung_box_p_after, "above 0.05");
+  line("whiteness of innovations, p (calibrated)", f.whiteness.ljung_box_p_before, f.whiteness.ljung_box_p_after, "above 0.05");
   if (!f.held_out.folds.empty())
     line("held-out chi-square per degree of freedom", f.held_out.chi2_per_dof_before, f.held_out.chi2_per_dof_after, "1");
+  if (!f.held_out.recordings.empty())
+    line("recordings held out, chi-square per degree of freedom", f.held_out.recording_chi2_per_dof_before,
+         f.held_out.recording_chi2_per_dof_after, "1");
   line("start spread, largest ratio", f.start_spread_before, f.start_spread_after, "below 2");
   if (std::isfinite(f.log_likelihood_ratio) && f.log_likelihood_ratio != 0.0)
     table.note = fmt::format("Twice the gain of the log likelihood: {}; the linear score foretold {}{}.",

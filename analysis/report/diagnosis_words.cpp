@@ -81,12 +81,17 @@ std::string where_sentence(const Where& where) {
 }
 
 std::string held_out_sentence(const HeldOut& held) {
-  if (held.folds.empty()) return "";
-  const std::string gain =
-      std::isfinite(held.log_score_gain) ? fmt::format(", log score {:+.3g}", held.log_score_gain) : "";
-  return fmt::format("Data held out of the fit are predicted {}: chi-square per degree of freedom {} → {} in {} folds{}.",
-                     held.improves ? "better" : "no better", number_text(held.chi2_per_dof_before),
-                     number_text(held.chi2_per_dof_after), held.folds.size(), gain);
+  const auto said = [](double gain) { return std::isfinite(gain) ? fmt::format(", log score {:+.3g}", gain) : std::string(); };
+  std::string out;
+  if (!held.folds.empty())
+    out = fmt::format("Data held out of the fit are predicted {}: chi-square per degree of freedom {} → {} in {} folds{}.",
+                      held.log_score_gain > 0.0 ? "better" : "no better", number_text(held.chi2_per_dof_before),
+                      number_text(held.chi2_per_dof_after), held.folds.size(), said(held.log_score_gain));
+  if (!held.recordings.empty())
+    out += fmt::format("{}Whole recordings, each from a fit to the others, are predicted {}: {} → {}{}.", out.empty() ? "" : " ",
+                       held.recording_gain > 0.0 ? "better" : "no better", number_text(held.recording_chi2_per_dof_before),
+                       number_text(held.recording_chi2_per_dof_after), said(held.recording_gain));
+  return out;
 }
 
 }  // namespace drift

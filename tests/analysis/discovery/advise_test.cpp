@@ -70,10 +70,7 @@ TEST(Advise, SaysNothingWhereNothingIsToBeSeparated) {
   d.causes = {cause("g2_drift", "D_II_x", 0.1, 0)};
   EXPECT_TRUE(advise(s, {simulated(s)}, d).empty());
   d.verdict = Verdict::consistent;
-  CandidateScore seen;
-  seen.term = "frame_closure";
-  seen.smallest_detectable = 0.2;
-  d.candidates = {seen};
+  d.other_equation_gain = -40.0;
   EXPECT_TRUE(advise(s, {simulated(s)}, d).empty());
 }
 
@@ -81,10 +78,7 @@ TEST(Advise, ATestBlindToTheEquationIsGivenPositionsThatTellAndASimulationAgrees
   const Study s = level_study();
   Diagnosis d;
   d.nominal = s.filters.front();
-  CandidateScore blind;
-  blind.term = "frame_closure";
-  blind.observable = false;
-  d.candidates = {blind};
+  d.other_equation_gain = -0.3;
   const auto advice = advise(s, {simulated(s)}, d);
   ASSERT_EQ(advice.size(), 1u);
   const Advice& a = advice.front();

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "analysis/discovery/diagnosis.hpp"
+#include "analysis/discovery/search.hpp"
+
+namespace drift::discovery {
+
+/// The table of candidates after the refits: frame_closure scored by the jump to the other equation,
+/// which its linear score at the nominal fit need not see, and the probabilities of the refits in place
+/// of those of the linear scores.
+void weigh_candidates(const Examination& nominal, const Search& found, Diagnosis& d);
+
+/// For `unexplained`: how far the best explanation goes that was not good enough.
+void say_partial(const Examination& nominal, const Search& found, Diagnosis& d);
+
+/// Whether the drift equation is (5) or (6) is part of the nominal model: where the test does not tell,
+/// its agreement says nothing of it (physics.md 1.7), and the verdict says so.
+void say_equation(Diagnosis& d);
+
+}  // namespace drift::discovery
