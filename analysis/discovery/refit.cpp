@@ -10,6 +10,7 @@ namespace drift::discovery {
 namespace {
 
 constexpr auto lambda = TermLibrary::index("lambda");
+constexpr double quiet_p_value = 0.01;  // of a free-form input beside the cause: nothing is left
 
 /// Half the distance to the neighbours on a parameter's grid, SI: what the grid leaves open.
 double grid_spacing(const Candidate& c, std::size_t param, double value) {
@@ -122,6 +123,11 @@ Refit refit(const Examination& nominal, const Test& test, const std::vector<Choi
   for (const PositionScan& s : out.after.scans)
     for (const double T : s.T) out.remainder.scan = std::max(out.remainder.scan, strength(T, 1));
   out.adequate = out.remainder.library <= nulls.library_threshold && out.remainder.scan <= nulls.scan_threshold;
+  if (out.adequate) {
+    // Many small traces in one equation that no window and no candidate has alone.
+    out.after.lone = strongest_lone_input(out.after.problem, out.after.noise.model);
+    out.adequate = out.after.lone.p_value > quiet_p_value;
+  }
 
   // Each variant of a grid was one try; the refit took the best of them.
   double tries = 0.0;
