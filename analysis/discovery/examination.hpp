@@ -37,9 +37,9 @@ inline constexpr double library_share = 0.5, scan_share = 0.15, pair_share = 0.1
 /// Fits (from `start`), linearises and lists candidates; noise is estimated unless `given` says it.
 Examination examine(const FilterSpec& filter, const Test& test, const Theta& start,
                     const NoiseEstimate* given = nullptr);
-/// The same about a fit that there is already.
+/// The same about a fit that there is already. driven: noise that drives the platform may be found.
 Examination examine(const FilterSpec& filter, const Test& test, const BatchResult& fit,
-                    const NoiseEstimate* given = nullptr);
+                    const NoiseEstimate* given = nullptr, bool driven = true);
 
 /// Scores again under another noise.
 void set_noise(Examination& e, const Timeline& timeline, const NoiseEstimate& noise);

@@ -102,7 +102,7 @@ Refit refit(const Examination& nominal, const Test& test, const std::vector<Choi
         BatchResult other = fit_from(from);
         if (other.estimate.statistic < best.estimate.statistic) best = std::move(other);
       }
-  out.after = examine(out.filter, test, best);
+  out.after = examine(out.filter, test, best, nullptr, nominal.noise.driven);
   settle_noise(out.after, test, nulls.library_threshold, 2, 1);  // a second effect may hide in the noise
   for (const auto& [param, value] : expected)
     if (const ParameterEstimate* p = best.estimate.find(param))

@@ -122,7 +122,7 @@ void weigh(const Examination& e, std::vector<Refit> refits, const SearchOptions&
     out.probability.push_back(place->second);
     out.sets.push_back(std::move(good[k]));
     together.erase(place);
-    if (held >= (out.sets.size() == 1 ? options.sure : options.credible)) break;
+    if (held >= options.credible) break;
   }
 }
 
@@ -192,7 +192,18 @@ Search search(Examination& nominal, const Test& test, const SearchOptions& optio
   if (singles.empty())
     for (std::size_t k = 0; k < std::min<std::size_t>(2, order.size()); ++k) add(order[k]);
   std::vector<Refit> refits;
-  for (const std::size_t k : singles) refits.push_back(refit(nominal, test, {choice(k)}, out.nulls));
+  // Where a part of a term will not do because more of the same term is asked for, the term is tried.
+  for (std::size_t next = 0; next < singles.size(); ++next) {
+    refits.push_back(refit(nominal, test, {choice(singles[next])}, out.nulls));
+    if (refits.back().adequate) continue;
+    const Candidate& part = nominal.set.candidates[singles[next]];
+    const Candidate& asked = refits.back().after.set.candidates[refits.back().remainder.strongest];
+    if (asked.term != part.term) continue;
+    for (std::size_t k = 0; k < nominal.set.candidates.size(); ++k) {
+      const Candidate& whole = nominal.set.candidates[k];
+      if (nominal.scores[k].dof > 0 && whole.contains(part) && (whole.params == asked.params || whole.contains(asked))) add(k);
+    }
+  }
   weigh(nominal, std::move(refits), options, out);
   if (!out.sets.empty()) return out;
 

@@ -10,7 +10,6 @@ namespace drift::discovery {
 struct SearchOptions {
   double alpha = 0.02;        ///< chance of a false alarm over everything that is tried
   double credible = 0.95;     ///< probability that the listed causes must hold together
-  double sure = 0.98;         ///< probability that a cause must have to be listed alone
   int draws = 4000;           ///< of the null distribution
   std::size_t most_refits = 6;
 };

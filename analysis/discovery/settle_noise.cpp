@@ -11,9 +11,8 @@
 namespace drift::discovery {
 namespace {
 
-/// Chance below which noise of all instruments is not believed; the lone input was chosen among several
-/// kinds, so a little less there.
-constexpr double no_noise = 0.01, no_noise_lone = 0.005;
+/// Chance below which noise of all instruments is not believed: together (they overlap) one in twenty.
+constexpr double no_noise = 0.04, no_noise_lone = 0.02;
 
 /// log det (1 + C) of some columns under a noise: what a unit prior on their amplitudes costs twice the
 /// log of the marginal likelihood against its maximum.
