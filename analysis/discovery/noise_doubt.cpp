@@ -1,6 +1,9 @@
 #include "analysis/discovery/noise_doubt.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "analysis/discovery/whiten.hpp"
 #include "core/base/rng.hpp"
@@ -67,6 +70,37 @@ double p_of(const VecX& value) {
   return (1.0 + static_cast<double>(above)) / (1.0 + draws);
 }
 
+double normal_cdf(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
+
+/// Chance that such noise, if there is any, is so small: log-normal about the sizes that gyros have
+/// (physics.md 4, effects 8, 9 and 11: the ranges are one sigma to either side), and about half the white
+/// noise of an accelerometer. Of several components the one most like noise counts.
+double p_of_size(const LinearProblem& problem, const NoiseModel& white, const NoiseModel& driven) {
+  struct Usual {
+    double NoiseModel::* sigma;
+    double low, high;  // SI
+  };
+  constexpr double deg_per_h = detail::deg / 3600.0;
+  const Usual usual[] = {{&NoiseModel::angle_random_walk, 3e-4 * detail::deg / 60.0, 3e-3 * detail::deg / 60.0},
+                         {&NoiseModel::drift_random_walk, 1e-3 * deg_per_h / 60.0, 5e-3 * deg_per_h / 60.0},
+                         {&NoiseModel::markov_drift, 2e-3 * deg_per_h, 1e-2 * deg_per_h},
+                         {&NoiseModel::acc_markov, 0.2 * problem.acc_sigma, 1.2 * problem.acc_sigma}};
+  double p = 0.0;
+  for (const Usual& u : usual) {
+    const double found = driven.*(u.sigma);
+    if (found <= white.*(u.sigma)) continue;  // declared, or not there
+    const double middle = 0.5 * std::log(u.low * u.high), spread = 0.5 * std::log(u.high / u.low);
+    p = std::max(p, normal_cdf((std::log(found) - middle) / spread));
+  }
+  return p;
+}
+
+/// Chance that the product of two independent p-values is as small as this (Fisher).
+double joint(double p, double q) {
+  const double product = p * q;
+  return product > 0.0 ? product * (1.0 - std::log(product)) : 0.0;
+}
+
 }  // namespace
 
 NoiseDoubt doubt(const LinearProblem& problem, const CandidateSet& set, const NoiseModel& white,
@@ -98,7 +132,8 @@ NoiseDoubt doubt(const LinearProblem& problem, const CandidateSet& set, const No
     }
   }
   NoiseDoubt out;
-  out.p_candidate = p_of(best + plain.log_likelihood2(w, h) - as_noise);
+  const double size = p_of_size(problem, white, driven);
+  out.p_candidate = joint(p_of(best + plain.log_likelihood2(w, h) - as_noise), size);
   if (lone.gain <= 0.0) return out;
   VecX alone = VecX::Constant(draws + 1, -1e300);
   for (int axis = 0; axis < 3; ++axis) {
@@ -107,7 +142,7 @@ NoiseDoubt doubt(const LinearProblem& problem, const CandidateSet& set, const No
     m.lone.axis = axis;
     alone = alone.cwiseMax(View(problem, theta, m).log_likelihood2(drawn));
   }
-  out.p_lone = p_of(alone - as_noise);
+  out.p_lone = joint(p_of(alone - as_noise), size);
   return out;
 }
 
