@@ -84,7 +84,14 @@ std::vector<SweepAxis> read_sweep(Report& report, const Node* sweep) {
       continue;
     }
     SweepAxis axis{member.key, {}};
-    for (const auto& value : values.items) axis.values.push_back(to_toml(value));
+    for (const auto& value : values.items) {
+      std::string text = to_toml(value);
+      if (std::ranges::find(axis.values, text) != axis.values.end())
+        report.error(value.at, fmt::format("'sweep.\"{}\"' has {} twice (expected every value once: both would be one study "
+                                           "point). Remove one", member.key, text));
+      else
+        axis.values.push_back(std::move(text));
+    }
     points *= static_cast<double>(axis.values.size());
     report.given(fmt::format("sweep.{}", member.key), to_toml(values), member.at);
     axes.push_back(std::move(axis));
@@ -111,6 +118,7 @@ void try_sweep(const Node& root, const Study& study) {
   const Node& sweep = study.sweep.empty() ? root : *root.find("sweep");
   for (const auto& axis : study.sweep) {
     const Node& values = *sweep.find(axis.key);
+    std::vector<std::string> told;  // what is wrong with the key is wrong with each of its values
     for (std::size_t i = 0; i < axis.values.size() && messages.size() < most_messages; ++i) {
       const auto& at = values.items[i].at;
       const std::string where = at.set_key.empty()
@@ -127,10 +135,12 @@ void try_sweep(const Node& root, const Study& study) {
         read_study_tree(point, study.path);
       } catch (const InputError& error) {
         const std::string own = fmt::format("--set {}: ", axis.key);
-        for (const auto& message : error.messages())
-          messages.push_back(
-              fmt::format("{}: with this value of the sweep: {}", where,
-                          message.starts_with(own) ? message.substr(own.size()) : message));
+        for (const auto& message : error.messages()) {
+          const std::string what = message.starts_with(own) ? message.substr(own.size()) : message;
+          if (std::ranges::find(told, what) != told.end()) continue;
+          told.push_back(what);
+          messages.push_back(fmt::format("{}: with this value of the sweep: {}", where, what));
+        }
       }
     }
   }

@@ -75,6 +75,16 @@ TEST(Sweep, RefusesValuesAndKeysThatMakeNoStudy) {
   EXPECT_FALSE(found("\"monte_carlo.seed\" = [1, 2]\n").empty());
   EXPECT_TRUE(found("\"monte_carlo.design\" = [\"random\", \"sobol\"]\n").empty());
   EXPECT_FALSE(found("\"plan.dwell\" = [\"60 furlong\"]\n").empty());
+  // What is wrong with the key is said once, not for each of its values.
+  EXPECT_EQ(found("\"monte_carlo.runs\" = [10, 20, 30]\n").size(), 1u);
+  EXPECT_EQ(found("\"truth.parameters.eta_q\" = [\"1 arcsec\", \"2 arcsec\", \"3 arcsec\"]\n").size(), 1u);
+  EXPECT_EQ(found("\"plan.dwell\" = [\"60 furlong\", \"61 furlong\"]\n").size(), 2u);
+}
+
+TEST(Sweep, RefusesAValueThatComesTwice) {
+  const auto found = mistakes(small_study + "[sweep]\n\"truth.parameters.eta\" = [\"20 arcsec\", \"30 arcsec\", \"20 arcsec\"]\n");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NE(found[0].find("study.toml:26:53: 'sweep.\"truth.parameters.eta\"' has \"20 arcsec\" twice"), std::string::npos) << found[0];
 }
 
 TEST(Sweep, NamesThePointOfValuesThatDoNotGoTogether) {
