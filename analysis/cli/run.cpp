@@ -49,8 +49,10 @@ void dry_run(const mc::StudyWork& work, const mc::Manifest& manifest, const mc::
     if (!work.points[p].label.empty()) fmt::print("point {:<4} {}\n", p, work.points[p].label);
 }
 
+std::string blocks_text(std::size_t n) { return n == 1 ? "1 block of runs" : fmt::format("{} blocks of runs", n); }
+
 /// What happened, for people; on stderr, where results are not.
-void tell(const mc::StudyOutcome& o, const std::string& folder) {
+void tell(const mc::StudyOutcome& o, const mc::EngineOptions& asked, const std::string& folder) {
   for (const std::string& note : o.notes) fmt::print(stderr, "note: {}\n", note);
   const double rate = o.seconds > 0.0 ? static_cast<double>(o.done) / o.seconds : 0.0;
   fmt::print(stderr, "{}: {} runs stored before, {} executed in {} ({:.1f} runs/s), {} failed\n", folder, o.done_before,
@@ -86,7 +88,8 @@ ExitCode run(const StudyArguments& arguments, const RunArguments& given, const S
   if (!given.max_wall.empty()) options.max_wall = parse_duration("--max-wall", given.max_wall);
   options.fail_fast = given.fail_fast;
   const mc::StudyWork work = program.work(study);
-  const mc::Manifest manifest = mc::make_manifest(identity_of(study), study.text, work.points);
+  mc::Manifest manifest = mc::make_manifest(identity_of(study), study.text, work.points);
+  manifest.runs = options.runs;
   const std::string folder = given.folder.empty() ? default_folder(arguments.config) : given.folder;
   if (given.dry_run) {
     dry_run(work, manifest, options, folder);
