@@ -27,7 +27,7 @@ class Engine {
  public:
   Engine(const StudyWork& work, const EngineOptions& options, const std::string& folder, const Manifest& manifest,
           Ranks& ranks, const ProgressSink& sink)
-      : work_(work), options_(options), ranks_(ranks), sink_(sink),
+      : work_(work), options_(options), folder_(folder), ranks_(ranks), sink_(sink),
         store_(folder, ranks.size() > 1 ? ranks.rank() : options.share.index, manifest),
         reader_(folder), rules_(work.stop_rules, options.runs, reader_) {}
 
@@ -50,12 +50,14 @@ class Engine {
     return list;
   }
 
+  WorkerShare own_share() const { return ranks_.size() > 1 ? WorkerShare{} : options_.share; }
+
   /// What is missing, of this worker's share; for several ranks what the leader found to be missing.
   void plan() {
     reader_.refresh();
     rules_.advance();
     all_ = all_blocks(reader_.manifest(), options_.runs);
-    const auto share = ranks_.size() > 1 ? WorkerShare{} : options_.share;
+    const WorkerShare share = own_share();
     std::vector<std::uint64_t> missing;
     if (ranks_.leader())
       for (std::uint64_t i = 0; i < all_.size(); ++i) {
@@ -69,6 +71,7 @@ class Engine {
         }
       }
     ranks_.broadcast(missing);
+    found_cut_short_ = cut_short_;
     if (options_.shuffle != 0) {
       Stream stream(options_.shuffle, 0, Purpose::test);
       for (std::size_t i = missing.size(); i > 1; --i)
@@ -79,7 +82,10 @@ class Engine {
 
   std::optional<StoredBlock> stored(const BlockKey& key) {
     auto block = reader_.read(key.point, key.first);
-    if (block && block->block.status.size() < key.count) block.reset();  // of a study with fewer runs
+    if (block && block->block.status.size() < key.count) {  // of a study with fewer runs
+      cut_short_ += block->block.status.size();
+      block.reset();
+    }
     return block;
   }
 
@@ -214,16 +220,18 @@ class Engine {
     }
     if (sink_ && outcome.leader) sink_(progress());
     outcome.done_before = before_;
+    outcome.cut_short = found_cut_short_;
+    outcome.stored_runs = reader_.runs();
     outcome.done = ranks_.add(Counter::done, 0);
     outcome.failed = ranks_.add(Counter::failed, 0);
     outcome.seconds = seconds();
     if (outcome.leader) look_back(outcome);
     std::vector<std::uint64_t> told{static_cast<std::uint64_t>(outcome.code), outcome.complete, outcome.failed,
-                                    outcome.results, outcome.missing};
+                                    outcome.results, outcome.missing, outcome.missing_own};
     ranks_.broadcast(told);
     outcome.code = static_cast<ExitCode>(told[0]);
     outcome.complete = told[1] != 0;
-    outcome.failed = told[2], outcome.results = told[3], outcome.missing = told[4];
+    outcome.failed = told[2], outcome.results = told[3], outcome.missing = told[4], outcome.missing_own = told[5];
     end_session(outcome.code);
     for (const auto* notes : {&store_.notes(), &reader_.notes()})
       outcome.notes.insert(outcome.notes.end(), notes->begin(), notes->end());
@@ -241,8 +249,12 @@ class Engine {
   void look_back(StudyOutcome& outcome) {
     reader_.refresh();
     rules_.advance();
-    for (const BlockKey& key : all_)
-      if (!rules_.enough(key.point) && !stored(key)) ++outcome.missing;
+    const WorkerShare share = own_share();
+    for (std::size_t i = 0; i < all_.size(); ++i)
+      if (!rules_.enough(all_[i].point) && !stored(all_[i])) {
+        ++outcome.missing;
+        if (i % share.count == share.index) ++outcome.missing_own;
+      }
     outcome.complete = outcome.missing == 0;
     if (!outcome.complete) return;
     outcome.failed = outcome.results = 0;
@@ -251,12 +263,18 @@ class Engine {
       outcome.failed += b.failures.size();
     });
     outcome.digest = results_digest(reader_, work_.stop_rules);
+    try {
+      note_finished(folder_, options_.runs);
+    } catch (const InputError&) {
+      // The results are stored; that they are complete can be told anew.
+    }
     if (outcome.code == ExitCode::wall_time) outcome.code = ExitCode::ok;  // it came when all was done
     if (outcome.code == ExitCode::ok && outcome.failed > options_.allowed_failures) outcome.code = ExitCode::failed_runs;
   }
 
   const StudyWork& work_;
   const EngineOptions& options_;
+  const std::string& folder_;
   Ranks& ranks_;
   const ProgressSink& sink_;
   StopSignals signals_;
@@ -267,6 +285,7 @@ class Engine {
   std::vector<BlockKey> all_;
   std::vector<std::uint64_t> todo_;  ///< into all_
   std::uint64_t before_ = 0, failed_before_ = 0;
+  std::uint64_t cut_short_ = 0, found_cut_short_ = 0;  ///< runs in blocks that are too short; those found at first
   std::atomic<std::uint64_t> total_skipped_ = 0, own_done_ = 0, own_failed_ = 0;
   std::atomic<int> stop_ = none;
   std::mutex queue_guard_, progress_guard_;

@@ -45,11 +45,14 @@ struct StudyOutcome {
   ExitCode code = ExitCode::ok;   ///< ok, failed_runs, io, wall_time, interrupted, terminated
   bool complete = false;          ///< every block of the study is stored
   bool leader = true;             ///< this process speaks for the study
-  std::uint64_t done_before = 0;  ///< runs found in the folder
+  std::uint64_t done_before = 0;  ///< runs found in the folder, of those asked for
+  std::uint64_t cut_short = 0;    ///< runs found in blocks that the shorter study before ended within: done anew
+  std::uint64_t stored_runs = 0;  ///< per point, the most asked for so far; more than `runs`: results have them too
   std::uint64_t done = 0;         ///< runs executed in this session, all ranks
   std::uint64_t failed = 0;       ///< failed runs: of all results if complete, else of this session
   std::uint64_t results = 0;      ///< runs that count (complete studies)
   std::size_t missing = 0;        ///< blocks still to be done
+  std::size_t missing_own = 0;    ///< of them, those of this worker's share
   double seconds = 0.0;           ///< of the clock, this session
   std::string digest;             ///< results_digest() (complete studies)
   std::vector<std::string> notes; ///< damage found and mended

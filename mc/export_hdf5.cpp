@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <set>
 
 #include "core/base/check.hpp"
 #include "core/sim/atomic_file.hpp"
 #include "core/sim/hdf5_handle.hpp"
+#include "mc/export_table.hpp"
 #include "mc/export_text.hpp"
 
 namespace drift::mc {
@@ -73,6 +75,22 @@ void write_part(hid_t dataset, hid_t type, hsize_t from, const std::vector<T>& v
   const Hdf5Handle space = checked({H5Dget_space(dataset), H5Sclose});
   check(H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, &from, nullptr, &n, nullptr) >= 0 &&
         H5Dwrite(dataset, type, memory.get(), space.get(), H5P_DEFAULT, values.data()) >= 0);
+}
+
+/// A group of the table's name with a dataset per column over one dimension.
+void write_table(hid_t file, const ExportTable& table) {
+  const Hdf5Handle group =
+      checked({H5Gcreate2(file, table.name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose});
+  for (const auto& [key, text] : table.facts) set_text(group.get(), key, text);
+  const Hdf5Handle scale = make_scale(group.get(), table.row.c_str(), table.rows());
+  for (const ExportColumn& c : table.columns) {
+    const Hdf5Handle set = make_dataset(group.get(), c.name, c.meanings.empty() ? H5T_IEEE_F64LE : H5T_STD_I32LE, {table.rows()});
+    write_part(set.get(), H5T_NATIVE_DOUBLE, 0, c.values);  // HDF5 converts
+    set_text(set.get(), "units", c.units);
+    set_text(set.get(), "long_name", c.about);
+    if (!c.meanings.empty()) set_flags(set.get(), c.meanings);
+    check(H5DSattach_scale(set.get(), scale.get(), 0) >= 0);
+  }
 }
 
 /// Names as datasets can have them, each once.
@@ -195,7 +213,11 @@ bool same_columns(const std::vector<Column>& a, const std::vector<Column>& b) {
   });
 }
 
-void write(StudyReader& reader, const StopRules& rules, const std::string& path) {
+std::vector<std::string> write(StudyReader& reader, const StopRules& rules, const std::string& path,
+                               const std::vector<StudyPoint>& study_points) {
+  // A file that a full disk cannot take stays open within HDF5, whose handler at exit writes it once
+  // more and crashes. All that matters is flushed and closed below, and checked.
+  H5dont_atexit();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   const auto& points = reader.manifest().points;
   std::vector<std::vector<std::size_t>> sets;  // points by their columns
@@ -220,27 +242,64 @@ void write(StudyReader& reader, const StopRules& rules, const std::string& path)
   check(H5Pset_libver_bounds(access.get(), H5F_LIBVER_V18, H5F_LIBVER_LATEST) >= 0);
   Hdf5Handle file = checked({H5Fcreate(path.c_str(), H5F_ACC_TRUNC, create.get(), access.get()), H5Fclose});
   for (const auto& [key, value] : provenance_of(reader)) set_text(file.get(), key, value);
+  std::vector<std::string> names;
+  StatisticsTables statistics(study_points);
+  FailuresTable failures;
   {
     std::vector<RunsGroup> groups;
-    for (std::size_t s = 0; s < sets.size(); ++s)
-      groups.emplace_back(file.get(), sets.size() == 1 ? "" : fmt::format("_{}", s + 1), points[sets[s].front()].columns,
-                          rows[s], sets[s], labels);
-    reader.each_result(rules, [&](const StoredBlock& b) { groups[set_of[b.block.point]].add(b.block); });
+    for (std::size_t s = 0; s < sets.size(); ++s) {
+      const std::string suffix = sets.size() == 1 ? "" : fmt::format("_{}", s + 1);
+      groups.emplace_back(file.get(), suffix, points[sets[s].front()].columns, rows[s], sets[s], labels);
+      names.insert(names.end(), {"runs" + suffix, "summary" + suffix});
+    }
+    reader.each_result(rules, [&](const StoredBlock& b) {
+      groups[set_of[b.block.point]].add(b.block);
+      failures.add(b);
+      if (!study_points.empty()) statistics.add(b.block);
+    });
     for (RunsGroup& group : groups) group.finish();
   }
+  std::vector<ExportTable> tables{failures.finish()};
+  if (tables.front().rows() == 0) tables.clear();
+  if (!study_points.empty()) std::ranges::move(statistics.finish(), std::back_inserter(tables));
+  for (const ExportTable& table : tables) {
+    write_table(file.get(), table);
+    names.push_back(table.name);
+  }
   check(H5Fflush(file.get(), H5F_SCOPE_GLOBAL) >= 0 && file.close());
+  return names;
 }
 
 }  // namespace
 
-void export_hdf5(StudyReader& reader, const StopRules& rules, const std::string& path) {
+std::vector<std::string> export_hdf5(StudyReader& reader, const StopRules& rules, const std::string& path,
+                                     const std::vector<StudyPoint>& points) {
   AtomicFile target(path);
+  std::vector<std::string> groups;
   try {
-    write(reader, rules, target.temporary());
+    groups = write(reader, rules, target.temporary(), points);
   } catch (const Refused&) {
     throw_cannot_write(path, "HDF5 cannot complete the file");
   }
   target.commit();
+  return groups;
+}
+
+std::string study_hash_of_hdf5(const std::string& path) {
+  H5dont_atexit();
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  if (H5Fis_hdf5(path.c_str()) <= 0) return {};
+  const Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  if (!file || H5Aexists(file.get(), "study_hash") <= 0) return {};
+  const Hdf5Handle attribute(H5Aopen(file.get(), "study_hash", H5P_DEFAULT), H5Aclose);
+  if (!attribute) return {};
+  const Hdf5Handle type(H5Aget_type(attribute.get()), H5Tclose);
+  constexpr std::size_t longest = 200;
+  if (!type || H5Tget_class(type.get()) != H5T_STRING || H5Tis_variable_str(type.get()) != 0 || H5Tget_size(type.get()) > longest)
+    return {};
+  std::string text(H5Tget_size(type.get()), '\0');
+  if (H5Aread(attribute.get(), type.get(), text.data()) < 0) return {};
+  return text.c_str();
 }
 
 }  // namespace drift::mc

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -45,7 +46,7 @@ class TextOut {
 /// A field of CSV; what a spreadsheet would take for a formula is made plain text.
 std::string csv_field(std::string text) {
   if (!text.empty() && std::string_view("=+-@").find(text.front()) != std::string_view::npos) text.insert(0, "'");
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  if (text.find_first_of(",\"\n\r#") == std::string::npos) return text;
   std::string out = "\"";
   for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
   return out + "\"";
@@ -115,10 +116,11 @@ void export_csv(StudyReader& reader, const StopRules& rules, const std::string& 
   for (std::size_t p = 0; p < points.size(); ++p) out.put(fmt::format("# point {}: {}\n", p, one_line(points[p].label)));
   std::string line = "point,run,status";
   for (const Column& c : all) line += "," + csv_field(fmt::format("{} [{}]", c.name, c.unit.symbol.view()));
-  out.put(line + "\n");
+  out.put(line + ",t_failed [s],cause\n");
   std::vector<std::string> cells(all.size());
   reader.each_result(rules, [&](const StoredBlock& b) {
     const auto& columns = points[b.block.point].columns;
+    auto failure = b.failures.begin();  // in order of runs
     for (std::size_t r = 0; r < b.block.status.size(); ++r) {
       std::fill(cells.begin(), cells.end(), "");
       for (std::size_t c = 0; c < columns.size(); ++c) {
@@ -127,6 +129,12 @@ void export_csv(StudyReader& reader, const StopRules& rules, const std::string& 
       }
       line = fmt::format("{},{},{}", b.block.point, b.block.first + r, name(b.block.status[r]));
       for (const std::string& cell : cells) line += "," + cell;
+      if (failure != b.failures.end() && failure->run == b.block.first + r) {
+        line += fmt::format(",{},{}", failure->t, csv_field(one_line(failure->cause)));
+        ++failure;
+      } else {
+        line += ",nan,";
+      }
       out.put(line + "\n");
     }
   });
@@ -146,6 +154,7 @@ void export_json(StudyReader& reader, const StopRules& rules, const std::string&
     out.put(fmt::format("{}\n{{\"label\": {}, \"columns\": {},\n\"runs\": [", p == 0 ? "" : ",",
                         nlohmann::json(points[p].label).dump(), list.dump()));
     bool first = true;
+    nlohmann::ordered_json failures = nlohmann::ordered_json::array();
     reader.each_result(rules, p, [&](const StoredBlock& b) {
       for (std::size_t r = 0; r < b.block.status.size(); ++r) {
         std::string line = fmt::format("{}\n[{}, \"{}\"", first ? "" : ",", b.block.first + r, name(b.block.status[r]));
@@ -156,11 +165,26 @@ void export_json(StudyReader& reader, const StopRules& rules, const std::string&
         }
         out.put(line + "]");
       }
+      for (const Failure& f : b.failures)
+        failures.push_back({{"run", f.run}, {"status", name(f.status)}, {"t_s", f.t}, {"cause", f.cause}});
     });
-    out.put("]}");
+    // A cause may quote a user's file: what is not UTF-8 is replaced, never thrown at.
+    out.put("],\n\"failures\": " + failures.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "}");
   }
   out.put("]}\n");
   out.commit();
+}
+
+std::string study_hash_of_text(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string head(4096, '\0');
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(file.gcount()));
+  for (const std::string_view mark : {"# study_hash: ", "{\"provenance\": {\n \"study_hash\": \""}) {
+    if (!head.starts_with(mark)) continue;
+    return head.substr(mark.size(), head.find_first_of("\"\n", mark.size()) - mark.size());
+  }
+  return {};
 }
 
 }  // namespace drift::mc

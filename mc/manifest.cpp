@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -34,6 +35,8 @@ std::string to_text(const Manifest& m) {
   Json j;
   j["format"] = Manifest::format;
   j["study_hash"] = m.hash;
+  j["runs_per_point"] = m.runs;
+  j["runs_finished"] = m.finished;
   j["seed"] = m.identity.seed;
   j["block_size"] = m.identity.block_size;
   j["random_numbers"] = Stream::scheme;
@@ -65,6 +68,8 @@ Manifest from_text(const std::string& text) {
   m.identity = {j.at("identity"), j.at("seed"), j.at("block_size")};
   m.hash = j.at("study_hash");
   m.study = j.at("study");
+  m.runs = j.value("runs_per_point", std::uint64_t{0});
+  m.finished = j.value("runs_finished", std::uint64_t{0});
   m.program = j.at("program");
   m.instruction_set = j.at("instruction_set");
   m.arithmetic = j.at("arithmetic");
@@ -118,6 +123,18 @@ void write_file(const std::string& path, std::string_view text) {
     throw_cannot_write(path, std::strerror(written ? errno : reason));
 }
 
+/// Raises numbers of the manifest. Two workers that do so at the same time may undo each other's; the
+/// worker files know as well, and the next call mends it.
+void raise(const std::string& folder, std::uint64_t runs, std::uint64_t finished) {
+  Manifest m = read_manifest(folder);
+  if (m.runs >= runs && m.finished >= finished) return;
+  m.runs = std::max(m.runs, runs);
+  m.finished = std::max(m.finished, finished);
+  AtomicFile file(folder + "/manifest.json");
+  write_file(file.temporary(), to_text(m));
+  file.commit();
+}
+
 }  // namespace
 
 std::string StudyIdentity::hash() const {
@@ -150,12 +167,15 @@ void claim_folder(const std::string& folder, const Manifest& manifest) {
     if (!file.commit_new()) return claim_folder(folder, manifest);  // another worker was faster
   }
   check_same(folder, manifest);
+  raise(folder, manifest.runs, 0);
   if (!fs::exists(study)) {
     AtomicFile file(study);
     write_file(file.temporary(), read_manifest(folder).study);
     file.commit();
   }
 }
+
+void note_finished(const std::string& folder, std::uint64_t runs) { raise(folder, runs, runs); }
 
 Manifest read_manifest(const std::string& folder) {
   const std::string path = folder + "/manifest.json";

@@ -27,7 +27,8 @@ struct PointInfo {
   std::vector<Column> columns;
 };
 
-/// manifest.json: what study a results folder holds. Written once, never changed.
+/// manifest.json: what study a results folder holds. Made once; afterwards only `runs` and `finished`
+/// change, so that results that were lost with their worker files are missed.
 struct Manifest {
   static constexpr int format = 1;
 
@@ -39,6 +40,8 @@ struct Manifest {
   std::string arithmetic;       ///< arithmetic_fingerprint()
   std::vector<PointInfo> points;
   Facts provenance;             ///< of the session that made the folder
+  std::uint64_t runs = 0;       ///< per study point, the most asked for; 0: not known (older folders)
+  std::uint64_t finished = 0;   ///< per study point, the most that was complete; 0: none yet
 };
 
 /// The manifest that a study begun by this program here and now has.
@@ -46,8 +49,12 @@ Manifest make_manifest(StudyIdentity identity, std::string study, std::span<cons
 
 /// Makes the folder, its study.toml and manifest.json, or checks that those in it are of the same
 /// study, program version, columns and arithmetic. InputError (store) shows what differs; (io) if the
-/// folder cannot be written to. Any number of workers may call it at the same time.
+/// folder cannot be written to. More runs than before are noted in the manifest. Any number of workers
+/// may call it at the same time.
 void claim_folder(const std::string& folder, const Manifest& manifest);
+
+/// Notes in the manifest that `runs` runs of every study point are complete.
+void note_finished(const std::string& folder, std::uint64_t runs);
 
 /// InputError (store) if the folder holds no study or its manifest is damaged.
 Manifest read_manifest(const std::string& folder);

@@ -62,7 +62,7 @@ MonteCarlo read_monte_carlo(Section section) {
   if (stop.present()) {
     StopSpec spec;
     if (stop.require("quantity", "quantity = \"silent_failure_rate\"") &&
-        stop.read(Option{.key = "quantity", .doc = "whose interval decides"}, spec.quantity))
+        stop.read(Option{.key = "quantity", .doc = "whose interval decides; of an estimated parameter, with design = \"random\""}, spec.quantity))
       check_quantity(stop, spec.quantity);
     stop.read(Option{"half_width", unit::one, 1e-6, 1.0, "of the interval"}, spec.half_width);
     stop.read(Option{"confidence", unit::one, 0.5, 0.9999, "of the interval"}, spec.confidence);

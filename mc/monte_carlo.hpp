@@ -22,7 +22,8 @@ enum class EstimatorKind {
   batch,     ///< Levenberg-Marquardt until it stands still
 };
 
-/// When a study point has enough runs: [monte_carlo] stop.
+/// When a study point has enough runs: [monte_carlo] stop. With design random alone: the interval
+/// supposes independent runs, and the first runs of a Latin hypercube are not stratified.
 struct StopSpec {
   std::string quantity;       ///< "silent_failure_rate" or "rmse.KEY"
   double half_width = 0.01;   ///< of a rate, or of an RMSE in prior sigmas

@@ -36,6 +36,49 @@ class Workers {
   std::vector<std::pair<std::size_t, std::unique_ptr<RunWorker>>> threads_;
 };
 
+/// The stop rule of one point after another, fed as StudyReader::each_result feeds it.
+class Following {
+ public:
+  explicit Following(const StopRules& make) : make_(make) {}
+  void follow(const BlockKey& key, const std::optional<StoredBlock>& block) {
+    if (!make_) return;
+    if (!rule_ || key.point != point_) rule_ = make_(point_ = key.point), gap_ = enough_ = false;
+    gap_ = gap_ || !block;
+    if (!gap_ && !enough_) enough_ = rule_->enough(block->block);
+  }
+  bool enough(std::size_t point) const { return rule_ && point == point_ && enough_; }
+
+ private:
+  const StopRules& make_;
+  std::unique_ptr<StopRule> rule_;
+  std::size_t point_ = 0;
+  bool gap_ = false, enough_ = false;
+};
+
+/// Blocks that are missing of a study that was complete, as ranges of runs.
+class Gone {
+ public:
+  Gone(std::uint64_t finished, std::vector<std::string>& lines) : finished_(finished), lines_(lines) {}
+  void add(const BlockKey& key) {
+    if (key.first >= finished_) return;
+    if (open_ && (key.point != point_ || key.first != end_)) tell();
+    if (!open_) point_ = key.point, begin_ = key.first, open_ = true;
+    end_ = key.first + key.count;
+  }
+  void tell() {
+    if (open_)
+      lines_.push_back(fmt::format("point {}, runs {} to {}: not there, though the study was complete", point_, begin_, end_ - 1));
+    open_ = false;
+  }
+
+ private:
+  std::uint64_t finished_;
+  std::vector<std::string>& lines_;
+  bool open_ = false;
+  std::size_t point_ = 0;
+  std::uint64_t begin_ = 0, end_ = 0;
+};
+
 }  // namespace
 
 Replay replay(const RunTask& task, StudyReader& reader, std::size_t point, std::uint64_t run, TraceSink* trace) {
@@ -79,6 +122,8 @@ Verification verify(const StudyWork& work, StudyReader& reader, double sample, i
   };
   v.damage = reader.unsound();
   for (std::string& path : v.damage) path += ": the structure of the file is damaged";
+  Gone gone(reader.manifest().finished, v.damage);
+  Following rule(work.stop_rules);
   for (const BlockKey& wanted : all_blocks(reader.manifest(), reader.runs())) {
     std::optional<StoredBlock> best;
     std::size_t copies = 0;
@@ -90,16 +135,19 @@ Verification verify(const StudyWork& work, StudyReader& reader, double sample, i
       if (!best) best = block;
     });
     v.copies += copies;
+    rule.follow(wanted, best);
     if (best) {
       ++v.blocks;
       v.runs += best->block.status.size();
       if (sample > 0.0) recompute(best->block);
     } else if (copies > 0) {
       v.damage.push_back(fmt::format("point {}, first run {}: damaged, and no other copy", wanted.point, wanted.first));
-    } else {
+    } else if (!rule.enough(wanted.point)) {
       ++v.missing;
+      gone.add(wanted);
     }
   }
+  gone.tell();
   v.notes = reader.notes();
   if (v.mismatch.empty()) v.digest = results_digest(reader, work.stop_rules);
   return v;

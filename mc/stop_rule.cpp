@@ -20,7 +20,7 @@ double width_of(const FilterStatistics& filter, const StopSpec& spec, double z) 
     const double width = e.rmse_normal(z).half_width() / e.prior_sigma();
     return width >= 0.0 ? width : infinite;
   }
-  return 0.0;  // a filter that does not estimate it waits for nothing
+  return -1.0;  // a filter that does not estimate it waits for nothing
 }
 
 }  // namespace
@@ -31,10 +31,10 @@ HalfWidthRule::HalfWidthRule(const std::vector<StudyPoint>& points, const StopSp
 }
 
 double HalfWidthRule::half_width(std::size_t point) const {
-  double widest = 0.0;
+  double widest = -1.0;
   for (const FilterStatistics& f : points_[point].statistics.filters())
     widest = std::max(widest, width_of(f, spec_, z_));
-  return widest;
+  return widest >= 0.0 ? widest : infinite;  // nobody estimates it: no number of runs is enough
 }
 
 bool HalfWidthRule::enough(const Block& block) {

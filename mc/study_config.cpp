@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -6,6 +7,7 @@
 #include "core/config/load.hpp"
 #include "core/config/nearest.hpp"
 #include "core/config/override.hpp"
+#include "core/estimate/layout.hpp"
 #include "core/physics/model_config.hpp"
 #include "core/physics/mounting_config.hpp"
 #include "core/sim/environment_config.hpp"
@@ -37,6 +39,32 @@ void read_schema(Section& root) {
                     given, schema, schema));
 }
 
+/// A stop rule must be able to end: what it waits for is estimated, and its interval means something.
+void check_stop(Report& report, const Node& root, const Study& study) {
+  if (!study.monte_carlo.stop) return;
+  const Node& section = *root.find("monte_carlo");
+  const auto& stop = *section.find("stop");
+  if (study.monte_carlo.design != DesignKind::random)
+    report.error(section.find("design")->at,
+                 "'monte_carlo.design' does not go with [monte_carlo.stop] (expected \"random\": the interval that a stop rule "
+                 "waits for supposes independent runs, and the first runs of a spread-out design are not spread out). Remove one "
+                 "of the two");
+  constexpr std::string_view rmse = "rmse.";
+  const std::string& quantity = study.monte_carlo.stop->quantity;
+  const Node* given = stop.find("quantity");
+  if (given == nullptr || !quantity.starts_with(rmse) || !TermLibrary::find(quantity.substr(rmse.size()))) return;
+  std::vector<std::string_view> estimated;
+  for (const FilterSpec& filter : study.filters)
+    for (const std::size_t i : make_layout(filter).params)
+      if (const auto key = TermLibrary::specs[i].key.view(); std::ranges::find(estimated, key) == estimated.end())
+        estimated.push_back(key);
+  if (std::ranges::find(estimated, std::string_view(quantity).substr(rmse.size())) == estimated.end())
+    report.error(given->at, fmt::format("'monte_carlo.stop.quantity' = \"{}\" waits for a parameter that no filter estimates "
+                                        "(expected \"rmse.\" and one of {}). {}", quantity, fmt::join(estimated, ", "),
+                                        config::suggestion(std::string_view(quantity).substr(rmse.size()), estimated,
+                                                           "Choose one of them, or add its term to a filter")));
+}
+
 std::vector<SweepAxis> read_sweep(Report& report, const Node* sweep) {
   constexpr std::size_t most_values = 10000;
   constexpr double most_points = 1e6;
@@ -56,7 +84,14 @@ std::vector<SweepAxis> read_sweep(Report& report, const Node* sweep) {
       continue;
     }
     SweepAxis axis{member.key, {}};
-    for (const auto& value : values.items) axis.values.push_back(to_toml(value));
+    for (const auto& value : values.items) {
+      std::string text = to_toml(value);
+      if (std::ranges::find(axis.values, text) != axis.values.end())
+        report.error(value.at, fmt::format("'sweep.\"{}\"' has {} twice (expected every value once: both would be one study "
+                                           "point). Remove one", member.key, text));
+      else
+        axis.values.push_back(std::move(text));
+    }
     points *= static_cast<double>(axis.values.size());
     report.given(fmt::format("sweep.{}", member.key), to_toml(values), member.at);
     axes.push_back(std::move(axis));
@@ -83,6 +118,7 @@ void try_sweep(const Node& root, const Study& study) {
   const Node& sweep = study.sweep.empty() ? root : *root.find("sweep");
   for (const auto& axis : study.sweep) {
     const Node& values = *sweep.find(axis.key);
+    std::vector<std::string> told;  // what is wrong with the key is wrong with each of its values
     for (std::size_t i = 0; i < axis.values.size() && messages.size() < most_messages; ++i) {
       const auto& at = values.items[i].at;
       const std::string where = at.set_key.empty()
@@ -99,10 +135,12 @@ void try_sweep(const Node& root, const Study& study) {
         read_study_tree(point, study.path);
       } catch (const InputError& error) {
         const std::string own = fmt::format("--set {}: ", axis.key);
-        for (const auto& message : error.messages())
-          messages.push_back(
-              fmt::format("{}: with this value of the sweep: {}", where,
-                          message.starts_with(own) ? message.substr(own.size()) : message));
+        for (const auto& message : error.messages()) {
+          const std::string what = message.starts_with(own) ? message.substr(own.size()) : message;
+          if (std::ranges::find(told, what) != told.end()) continue;
+          told.push_back(what);
+          messages.push_back(fmt::format("{}: with this value of the sweep: {}", where, what));
+        }
       }
     }
   }
@@ -155,6 +193,7 @@ Study read_study_tree(const Node& root, const std::string& path) {
     study.has_blind = true;
   }
   top.finish();
+  if (report.errors() == 0) check_stop(report, root, study);
   report.throw_if_wrong();
   for (const auto& value : report.resolved())
     study.resolved.push_back({value.key, value.text, value.origin});

@@ -8,7 +8,7 @@
 namespace drift::mc {
 
 StudyReader::StudyReader(const std::string& folder)
-    : folder_(folder), manifest_(std::make_shared<Manifest>(read_manifest(folder))) {
+    : folder_(folder), manifest_(std::make_shared<Manifest>(read_manifest(folder))), asked_(manifest_->runs) {
   refresh();
 }
 
@@ -89,20 +89,21 @@ void StudyReader::each_result(const StopRules& rules, const Visitor& visit) {
   for (std::size_t p = 0; p < manifest_->points.size(); ++p) each_result(rules, p, visit);
 }
 
-void StudyReader::each_result(const StopRules& rules, std::size_t point, const Visitor& visit) {
+bool StudyReader::each_result(const StopRules& rules, std::size_t point, const Visitor& visit) {
   const std::unique_ptr<StopRule> rule = rules ? rules(point) : nullptr;
   bool gap = false;
   std::uint64_t next = 0;
   for (auto at = index_.lower_bound({point, 0}); at != index_.end() && at->first.first == point; ++at) {
     const std::uint64_t first = at->first.second;
-    if (asked_ > 0 && first >= asked_) return;
+    if (asked_ > 0 && first >= asked_) return false;
     const auto block = read(point, first);
     if (!block || first != next) gap = true;  // a rule sees only what is without a gap from run 0
     next = first + manifest_->identity.block_size;
     if (!block) continue;
     visit(*block);
-    if (rule && !gap && rule->enough(block->block)) return;
+    if (rule && !gap && rule->enough(block->block)) return true;
   }
+  return false;
 }
 
 std::vector<std::string> StudyReader::unsound() {

@@ -22,7 +22,8 @@ class StudyReader {
   explicit StudyReader(const std::string& folder);
 
   const Manifest& manifest() const { return *manifest_; }
-  /// Runs per study point: the most that any session was asked for.
+  /// Runs per study point: the most that any session was asked for, by its worker file or the manifest,
+  /// which outlives the worker files.
   std::uint64_t runs() const { return asked_; }
   std::vector<Session> sessions();
   /// Looks for blocks stored since, by this or any other worker.
@@ -41,7 +42,8 @@ class StudyReader {
   /// The results of all points in order: of every point the blocks up to the one with which the stop
   /// rule had enough, or all. Blocks beyond are surplus that parallel workers may have computed.
   void each_result(const StopRules& rules, const Visitor& visit);
-  void each_result(const StopRules& rules, std::size_t point, const Visitor& visit);
+  /// The same of one point; true if the stop rule had enough.
+  bool each_result(const StopRules& rules, std::size_t point, const Visitor& visit);
 
   /// Damage met so far, a line each.
   const std::vector<std::string>& notes() const { return notes_; }

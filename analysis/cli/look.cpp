@@ -1,3 +1,5 @@
+#include <fmt/ranges.h>
+
 #include <filesystem>
 
 #include "analysis/cli/commands.hpp"
@@ -7,6 +9,7 @@
 #include "mc/export_hdf5.hpp"
 #include "mc/export_text.hpp"
 #include "mc/replay.hpp"
+#include "mc/study_state.hpp"
 
 namespace drift::cli {
 namespace {
@@ -25,10 +28,28 @@ std::string ending(const mc::Session& s) {
   return s.ended_utc.empty() ? "at work, or killed" : fmt::format("ended {} with exit code {}", s.ended_utc, s.exit_code);
 }
 
+std::string was_complete(const mc::StudyReader& reader, const mc::StudyState& state) {
+  return fmt::format("the study was complete with {} runs per point; of {} of {} points results are not there any more",
+                     reader.manifest().finished, state.lost, state.points.size());
+}
+
 std::string fact(const mc::Session& s, std::string_view key) {
   for (const auto& [k, value] : s.facts)
     if (k == key) return value;
   return "?";
+}
+
+/// An export replaces an earlier one of the same study, nothing else.
+void refuse_another(const std::string& target, const std::string& hash) {
+  namespace fs = std::filesystem;
+  std::error_code none;
+  if (!fs::is_regular_file(target, none) || fs::file_size(target, none) == 0) return;
+  std::string known = mc::study_hash_of_text(target);
+  if (known.empty()) known = mc::study_hash_of_hdf5(target);
+  if (known != hash)
+    throw InputError(ExitCode::store, fmt::format("{}: is there already, and is {} (expected a free name, or an earlier export of this "
+                                                  "study). Choose another name with -o, or remove the file", target,
+                                                  known.empty() ? "no export" : "the export of another study"));
 }
 
 }  // namespace
@@ -36,37 +57,28 @@ std::string fact(const mc::Session& s, std::string_view key) {
 ExitCode status(const std::string& folder, const StudyProgram& program) {
   mc::StudyReader reader(folder);
   const mc::StudyWork work = program.work(frozen_study(folder, reader));
-  const auto& points = reader.manifest().points;
-  std::uint64_t done = 0, failed = 0;
+  const mc::StudyState state = mc::state_of(reader, work.stop_rules);
+  const std::uint64_t total = state.asked * state.points.size();
+  fmt::print("{}: {} of {} runs, {} failed, {} of {} points complete\n", folder, state.runs, total, state.failed, state.complete,
+             state.points.size());
+  if (state.by_rule > 0) fmt::print("{}\n", state.ended_by_rule());
+  fmt::print("point       runs              failed            label\n");
+  std::uint64_t left = 0;
   double cpu = 0.0;
-  std::size_t complete = 0;
-  std::string table;
-  for (std::size_t p = 0; p < points.size(); ++p) {
-    std::uint64_t here = 0, bad = 0;
-    bool enough = false;
-    // The rule is asked once more by us: the reader does not say why it stopped.
-    const auto rule = work.stop_rules ? work.stop_rules(p) : nullptr;
-    reader.each_result(work.stop_rules, p, [&](const mc::StoredBlock& b) {
-      enough = rule && b.block.first == here && rule->enough(b.block);
-      here += b.block.status.size();
-      bad += b.failures.size();
-      cpu += b.times.total_s;
-    });
-    enough = enough || here >= reader.runs();
-    if (enough) ++complete;
-    table += fmt::format("{:>5}  {:>9} / {:<9} {:>7}  {:<9} {}\n", p, here, reader.runs(), bad, enough ? "complete" : "", points[p].label);
-    done += here;
-    failed += bad;
+  for (std::size_t p = 0; p < state.points.size(); ++p) {
+    const mc::PointState& s = state.points[p];
+    fmt::print("{:>5}  {:>9} / {:<9} {:>7}  {:<9} {}\n", p, s.runs, state.asked, s.failed,
+               s.complete ? s.by_rule && s.runs < state.asked ? "stop rule" : "complete" : "", reader.manifest().points[p].label);
+    if (!s.complete) left += state.asked - s.runs;
+    cpu += s.cpu_s;
   }
-  const std::uint64_t total = reader.runs() * points.size();
-  fmt::print("{}: {} of {} runs, {} failed, {} of {} points complete\n", folder, done, total, failed, complete, points.size());
-  fmt::print("point       runs              failed            label\n{}", table);
-  if (complete < points.size() && done > 0)
-    fmt::print("about {} of CPU time to go\n", duration_text(cpu / static_cast<double>(done) * static_cast<double>(total - done)));
+  if (left > 0 && state.runs > 0)
+    fmt::print("at most {} of CPU time to go\n", duration_text(cpu / static_cast<double>(state.runs) * static_cast<double>(left)));
   fmt::print("disk {:.3g} MB in {} worker files\n", megabytes(reader.files()), reader.files().size());
   for (const mc::Session& s : reader.sessions())
     fmt::print("session {} on {}, {}: {}\n", s.started_utc, fact(s, "host"), std::filesystem::path(fact(s, "file")).filename().string(), ending(s));
   for (const std::string& note : reader.notes()) fmt::print("damage: {}\n", note);
+  if (state.lost > 0) fmt::print("lost: {}\n", was_complete(reader, state));
   return ExitCode::ok;
 }
 
@@ -80,26 +92,44 @@ ExitCode verify(const std::string& folder, const std::string& sample, int thread
   for (const std::string& line : v.notes) fmt::print("damage: {}\n", line);
   for (const std::string& line : v.damage) fmt::print("lost: {}\n", line);
   for (const std::string& line : v.mismatch) fmt::print("mismatch: {}\n", line);
-  if (!v.digest.empty()) fmt::print("results {}\n", v.digest);
+  if (!v.digest.empty() && v.damage.empty()) fmt::print("results {}\n", v.digest);
   if (!v.mismatch.empty())
     throw InputError(ExitCode::self_check, fmt::format("{}: {} results do not come out again (expected equal bits). Look closer with "
                                                        "`driftscope replay`", folder, v.mismatch.size()));
   if (!v.damage.empty())
-    throw InputError(ExitCode::store, fmt::format("{}: {} of its parts are damaged (expected none). Run the study again with the "
-                                                  "same command: what is lost is computed anew", folder, v.damage.size()));
+    throw InputError(ExitCode::store, fmt::format("{}: {} damaged or lost (expected none). Run the study again with the same "
+                                                  "command: what is lost is computed anew", folder,
+                                                  v.damage.size() == 1 ? std::string("1 part is") : fmt::format("{} parts are", v.damage.size())));
+  if (v.blocks == 0 && v.missing == 0)
+    throw InputError(ExitCode::store, fmt::format("{}: holds no results, and does not say how many were asked for (expected blocks of "
+                                                  "runs). Run the study again with the same command", folder));
   fmt::print("{}\n", v.missing > 0 ? "sound, not complete" : "sound and complete");
   return ExitCode::ok;
 }
 
 ExitCode export_results(const std::string& folder, const std::string& format, const std::string& output,
                         const StudyProgram& program) {
+  const std::string target = output.empty() ? fmt::format("{}/export.{}", folder, format == "hdf5" ? "h5" : format) : output;
   mc::StudyReader reader(folder);
-  const mc::StudyWork work = program.work(frozen_study(folder, reader));
-  if (format == "hdf5") mc::export_hdf5(reader, work.stop_rules, output);
-  if (format == "csv") mc::export_csv(reader, work.stop_rules, output);
-  if (format == "json") mc::export_json(reader, work.stop_rules, output);
+  const Study study = frozen_study(folder, reader);
+  const mc::StudyWork work = program.work(study);
+  refuse_another(target, reader.manifest().hash);
+  const mc::StudyState state = mc::state_of(reader, work.stop_rules);
   for (const std::string& note : reader.notes()) fmt::print(stderr, "damage: {}\n", note);
-  fmt::print("{}: {:.3g} MB\n", output, megabytes({output}));
+  if (state.lost > 0 || (!state.all() && !reader.notes().empty()))
+    throw InputError(ExitCode::store, fmt::format("{}: {} (expected whole results). Run the study again with the same command: what "
+                                                  "is lost is computed anew. Nothing was exported", folder,
+                                                  state.lost > 0 ? was_complete(reader, state) : "parts of the results are damaged"));
+  if (!state.all())
+    fmt::print(stderr, "note: the study is not finished: {} of {} runs, {} of {} points complete\n", state.runs,
+               state.asked * state.points.size(), state.complete, state.points.size());
+  std::vector<std::string> groups;
+  if (format == "hdf5")
+    groups = mc::export_hdf5(reader, work.stop_rules, target, program.points ? program.points(study) : std::vector<mc::StudyPoint>{});
+  if (format == "csv") mc::export_csv(reader, work.stop_rules, target);
+  if (format == "json") mc::export_json(reader, work.stop_rules, target);
+  fmt::print("{}: {} runs, {:.3g} MB\n", target, state.runs, megabytes({target}));
+  if (!groups.empty()) fmt::print("groups: {}\n", fmt::join(groups, " "));
   return ExitCode::ok;
 }
 

@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -7,6 +8,7 @@
 #include <functional>
 #include <system_error>
 
+#include "analysis/cli/argument_checks.hpp"
 #include "analysis/cli/commands.hpp"
 
 namespace {
@@ -29,16 +31,16 @@ class Program {
                                  "driftscope simulate configs/table1.toml -o recording.csv --run 3",
                                  [this] { return cli::simulate(study_, output_, run_); });
     add_study(*simulate);
-    simulate->add_option("-o,--output", output_, "recording to write (.csv, .h5 or .mat)")->required();
-    simulate->add_option("--run", run_, "run number");
+    simulate->add_option("-o,--output", output_, "recording to write (.csv, .h5 or .mat)")->required()->check(cli::check_path);
+    simulate->add_option("--run", run_, "run number")->check(whole(0, last_run));
 
     CLI::App* identify = command("identify", "estimate the parameters of a recording, or of a simulated one",
                                  "driftscope identify configs/table1.toml -o out/table1",
                                  [this] { return cli::identify(study_, recordings_, output_, run_); });
     add_study(*identify);
     identify->add_option("recordings", recordings_, "recordings (.csv, .h5, .mat); none: simulated from [truth]");
-    identify->add_option("-o,--output", output_, "folder for tables, pictures and report");
-    identify->add_option("--run", run_, "run number of the simulated recording");
+    identify->add_option("-o,--output", output_, "folder for tables, pictures and report")->check(cli::check_path);
+    identify->add_option("--run", run_, "run number of the simulated recording")->check(whole(0, last_run));
     add_progress(*identify);
 
     add_run();
@@ -50,7 +52,9 @@ class Program {
                               "driftscope blind configs/blind_small.toml -o out/blind",
                               [this] { return cli::blind(study_, output_, trials_); });
     add_study(*blind);
-    blind->add_option("-o,--output", output_, "folder for trials, key, answers and report; the same one resumes")->required();
+    blind->add_option("-o,--output", output_, "folder for trials, key, answers and report; the same one resumes")
+        ->required()
+        ->check(cli::check_path);
     blind->add_option("--trials", trials_, "override blind.trials");
     add_progress(*blind);
 
@@ -59,7 +63,8 @@ class Program {
                                  [this] { return cli::diagnose(study_, recordings_, output_); });
     add_study(*diagnose);
     diagnose->add_option("recordings", recordings_, "recordings of the study's plan (.csv, .h5, .mat)")->required();
-    diagnose->add_option("-o,--output", output_, "folder for diagnosis.json, report, pictures and patched.toml");
+    diagnose->add_option("-o,--output", output_, "folder for diagnosis.json, report, pictures and patched.toml")
+        ->check(cli::check_path);
     diagnose->add_option("--progress", study_.progress, "auto, plain, json or none")
         ->check(CLI::IsMember({"auto", "plain", "json", "none"}));
 
@@ -76,6 +81,10 @@ class Program {
     try {
       app_.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
+      if (const std::string wrong = e.get_exit_code() == 0 ? "" : not_known(argc, argv); !wrong.empty()) {
+        fmt::print(stderr, "error: {}\n", wrong);
+        return static_cast<int>(ExitCode::usage);
+      }
       return app_.exit(e) == 0 ? 0 : static_cast<int>(ExitCode::usage);
     }
     try {
@@ -94,6 +103,34 @@ class Program {
   }
 
  private:
+  static std::function<std::string(std::string)> whole(std::uint64_t least, std::uint64_t most) {
+    return [=](const std::string& text) { return cli::check_whole(text, least, most); };
+  }
+
+  /// The first command or option of the line that does not exist, with what may be meant; empty if all do.
+  std::string not_known(int argc, char** argv) const {
+    const CLI::App* chosen = nullptr;
+    for (int i = 1; i < argc; ++i) {
+      const std::string word = argv[i];
+      if (chosen == nullptr && !word.starts_with('-')) {
+        std::vector<std::string> names;
+        for (const CLI::App* c : app_.get_subcommands(nullptr)) {
+          names.push_back(c->get_name());
+          if (c->get_name() == word) chosen = c;
+        }
+        if (chosen == nullptr) return cli::unknown("command", word, std::vector<std::string_view>(names.begin(), names.end()));
+      } else if (word.starts_with("--") && word.size() > 2) {
+        const std::string given = word.substr(0, word.find('='));
+        std::vector<std::string> names;
+        for (const CLI::Option* o : (chosen != nullptr ? *chosen : app_).get_options(nullptr))
+          for (const std::string& name : o->get_lnames()) names.push_back("--" + name);
+        if (std::find(names.begin(), names.end(), given) == names.end())
+          return cli::unknown("option", given, std::vector<std::string_view>(names.begin(), names.end()));
+      }
+    }
+    return {};
+  }
+
   CLI::App* command(const char* name, const char* what, const char* example, std::function<ExitCode()> action) {
     CLI::App* c = app_.add_subcommand(name, what);
     c->footer(std::string("Example: ") + example);
@@ -111,7 +148,7 @@ class Program {
     rank->add_option("--criterion", rank_.criterion,
                      "what they make small: A (trace), D (determinant) or a parameter such as eta_x")
         ->needs(improve);
-    rank->add_option("-o,--output", rank_.folder, "folder for rank.json, pictures and report");
+    rank->add_option("-o,--output", rank_.folder, "folder for rank.json, pictures and report")->check(cli::check_path);
     rank->add_flag("--json", rank_.json, "rank.json on stdout instead of tables");
     add_progress(*rank);
   }
@@ -127,9 +164,10 @@ class Program {
                           [this] { return cli::run(study_, run_options_, cli::study_program()); });
     add_study(*c);
     add_progress(*c);
-    c->add_option("-o,--output", run_options_.folder, "results folder; results/<name of the study file> by default");
+    c->add_option("-o,--output", run_options_.folder, "results folder; results/<name of the study file> by default")
+        ->check(cli::check_path);
     c->add_option("--runs", run_options_.runs, "override monte_carlo.runs; more than before extends a study")
-        ->check(CLI::PositiveNumber);
+        ->check(whole(1, 1000000000));
     c->add_option("--worker", run_options_.worker, "do part i of n of the study, i = 0 .. n - 1")->type_name("I/N");
     c->add_option("--max-wall", run_options_.max_wall, "stop after this time, resumable: 55m, 1h30m")->type_name("TIME");
     c->add_flag("--dry-run", run_options_.dry_run, "say what would be done and how long it takes, write nothing");
@@ -153,17 +191,17 @@ class Program {
 
     CLI::App* replay = look("replay", "execute one run again, bit for bit", "driftscope replay results/study --run 17 --trace run17.csv",
                             [this] { return cli::replay(folder_, choice_, output_, cli::study_program()); });
-    replay->add_option("--run", choice_.run, "run number")->required();
-    replay->add_option("--point", choice_.point, "study point of a sweep, from 0");
-    replay->add_option("--trace", output_, "write the course of the run as CSV");
+    replay->add_option("--run", choice_.run, "run number")->required()->check(whole(0, last_run));
+    replay->add_option("--point", choice_.point, "study point of a sweep, from 0")->check(whole(0, last_run));
+    replay->add_option("--trace", output_, "write the course of the run as CSV")->check(cli::check_path);
 
     look("report", "the HTML report of a results folder; of a study made anew, finished or not", "driftscope report results/study",
          [this] { return cli::report(folder_, cli::study_program()); });
 
-    CLI::App* exporter = look("export", "convert the results", "driftscope export results/study --format hdf5 -o study.h5",
+    CLI::App* exporter = look("export", "convert the results", "driftscope export results/study --format hdf5",
                               [this] { return cli::export_results(folder_, format_, output_, cli::study_program()); });
     exporter->add_option("--format", format_, "hdf5, csv or json")->required()->check(CLI::IsMember({"hdf5", "csv", "json"}));
-    exporter->add_option("-o,--output", output_, "file to write")->required();
+    exporter->add_option("-o,--output", output_, "file to write; FOLDER/export.h5, .csv or .json by default")->check(cli::check_path);
   }
 
   void add_study(CLI::App& c) {
@@ -171,9 +209,11 @@ class Program {
     c.add_option("--set", study_.sets, "override a value of the study file, e.g. plan.dwell=\"20 min\"")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
-    c.add_option("--seed", study_.seed, "override monte_carlo.seed");
+    c.add_option("--seed", study_.seed, "override monte_carlo.seed")->check(cli::check_seed);
     c.add_option("--threads", study_.threads, "number of threads; all by default")->check(CLI::Range(1, 4096));
   }
+
+  static constexpr std::uint64_t last_run = 999999999;  // monte_carlo.runs is at most 1e9
 
   CLI::App app_{"driftscope: Monte Carlo observability engine for gimballed inertial platforms"};
   std::function<ExitCode()> chosen_;

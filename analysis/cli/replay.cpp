@@ -76,6 +76,9 @@ ExitCode replay(const std::string& folder, const RunChoice& choice, const std::s
   if (choice.point >= work.points.size())
     throw InputError(ExitCode::usage, fmt::format("--point {}: the study has points 0 to {}. Choose one of them", choice.point,
                                                   work.points.size() - 1));
+  if (reader.runs() > 0 && choice.run >= reader.runs())
+    throw InputError(ExitCode::usage, fmt::format("--run {}: the study has runs 0 to {} (expected one of them). Choose one, or extend "
+                                                  "the study with --runs", choice.run, reader.runs() - 1));
   const mc::RunTask& task = *work.points[choice.point].task;
   std::optional<CsvTrace> sink;
   if (!trace.empty()) sink.emplace(trace);
@@ -92,7 +95,7 @@ ExitCode replay(const std::string& folder, const RunChoice& choice, const std::s
     fmt::print(stderr, "note: runs of this study have no trace; {} is not written\n", trace);
   }
   if (!r.stored) {
-    fmt::print("{}: the run is not stored; nothing to compare with\n", folder);
+    fmt::print("{}: the run is not stored yet; executed anew, nothing to compare with\n", folder);
   } else if (r.same) {
     fmt::print("{}: equal to the stored result, bit for bit\n", folder);
   } else {

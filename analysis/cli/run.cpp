@@ -11,6 +11,7 @@
 #include "analysis/report/results_folder.hpp"
 #include "mc/engine.hpp"
 #include "mc/export_text.hpp"
+#include "mc/study_state.hpp"
 
 namespace drift::cli {
 namespace {
@@ -50,14 +51,26 @@ void dry_run(const mc::StudyWork& work, const mc::Manifest& manifest, const mc::
     if (!work.points[p].label.empty()) fmt::print("point {:<4} {}\n", p, work.points[p].label);
 }
 
+std::string blocks_text(std::size_t n) { return n == 1 ? "1 block of runs" : fmt::format("{} blocks of runs", n); }
+
 /// What happened, for people; on stderr, where results are not.
-void tell(const mc::StudyOutcome& o, const std::string& folder) {
+void tell(const mc::StudyOutcome& o, const mc::EngineOptions& asked, const std::string& folder) {
   for (const std::string& note : o.notes) fmt::print(stderr, "note: {}\n", note);
   const double rate = o.seconds > 0.0 ? static_cast<double>(o.done) / o.seconds : 0.0;
   fmt::print(stderr, "{}: {} runs stored before, {} executed in {} ({:.1f} runs/s), {} failed\n", folder, o.done_before,
              o.done, duration_text(o.seconds), rate, o.failed);
-  if (!o.complete)
-    fmt::print(stderr, "{}: {} blocks are missing. The same command goes on with them\n", folder, o.missing);
+  if (o.cut_short > 0)
+    fmt::print(stderr, "{}: {} runs more were stored in blocks that the shorter study before ended within; they were executed again "
+                       "with the rest of their blocks\n", folder, o.cut_short);
+  if (o.stored_runs > asked.runs)
+    fmt::print(stderr, "{}: note: {} runs per point were asked for before, {} now; the results are those of all that is stored. "
+                       "Choose another folder for a shorter study\n", folder, o.stored_runs, asked.runs);
+  if (!o.complete && o.missing_own > 0)
+    fmt::print(stderr, "{}: missing: {}{}. The same command goes on with them\n", folder, blocks_text(o.missing_own),
+               asked.share.count > 1 ? fmt::format(" of this worker's part {}/{}", asked.share.index, asked.share.count) : "");
+  if (!o.complete && o.missing > o.missing_own)
+    fmt::print(stderr, "{}: missing: {} of the other workers' parts. They, or `run` without --worker, go on with them\n", folder,
+               blocks_text(o.missing - o.missing_own));
 }
 
 void list_failures(mc::StudyReader& reader, const mc::StopRules& rules, const std::string& folder) {
@@ -87,7 +100,8 @@ ExitCode run(const StudyArguments& arguments, const RunArguments& given, const S
   if (!given.max_wall.empty()) options.max_wall = parse_duration("--max-wall", given.max_wall);
   options.fail_fast = given.fail_fast;
   const mc::StudyWork work = program.work(study);
-  const mc::Manifest manifest = mc::make_manifest(identity_of(study), study.text, work.points);
+  mc::Manifest manifest = mc::make_manifest(identity_of(study), study.text, work.points);
+  manifest.runs = options.runs;
   const std::string folder = given.folder.empty() ? default_folder(arguments.config) : given.folder;
   if (given.dry_run) {
     dry_run(work, manifest, options, folder);
@@ -101,11 +115,13 @@ ExitCode run(const StudyArguments& arguments, const RunArguments& given, const S
   if (ranks.leader()) fmt::print(stderr, "results go to {}\n", folder);
   const mc::StudyOutcome outcome = mc::run_study(work, options, folder, manifest, ranks, run_progress(arguments.progress));
   if (!outcome.leader) return outcome.code;
-  tell(outcome, folder);
+  tell(outcome, options, folder);
   mc::StudyReader reader(folder);
   if (outcome.failed > 0) list_failures(reader, work.stop_rules, folder);
   if (!outcome.complete) return outcome.code;
   fmt::print("runs {}, failed {} (allowed {})\nresults {}\n", outcome.results, outcome.failed, options.allowed_failures, outcome.digest);
+  if (work.stop_rules)
+    if (const std::string ended = mc::state_of(reader, work.stop_rules).ended_by_rule(); !ended.empty()) fmt::print("{}\n", ended);
   if (outcome.code == ExitCode::ok || outcome.code == ExitCode::failed_runs)
     program.present(study, work, reader, folder);
   return outcome.code;

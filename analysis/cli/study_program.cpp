@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "analysis/report/study_html.hpp"
@@ -36,7 +37,7 @@ void add_speed(mc::StudyReader& reader, mc::Facts& facts) {
     facts.emplace_back("speed", fmt::format("{:.1f} runs/s per core; filters {:.1f} %, integration {:.1f} %, rest {:.1f} %",
                                             static_cast<double>(runs) / total, 100.0 * filter / total,
                                             100.0 * integration / total,
-                                            100.0 * (total - filter - integration) / total));
+                                            100.0 * std::max(0.0, total - filter - integration) / total));
 }
 
 void present(const Study& study, const mc::StudyWork& work, mc::StudyReader& reader, const std::string& folder) {
@@ -60,6 +61,6 @@ void present(const Study& study, const mc::StudyWork& work, mc::StudyReader& rea
 
 }  // namespace
 
-StudyProgram study_program() { return {work_of, present}; }
+StudyProgram study_program() { return {work_of, present, mc::study_points}; }
 
 }  // namespace drift::cli

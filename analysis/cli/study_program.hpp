@@ -6,6 +6,7 @@
 #include "mc/run_task.hpp"
 #include "mc/study.hpp"
 #include "mc/study_reader.hpp"
+#include "mc/sweep.hpp"
 
 namespace drift::cli {
 
@@ -15,6 +16,8 @@ struct StudyProgram {
   std::function<mc::StudyWork(const Study&)> work;
   /// Prints the results of a complete study and writes what belongs into its folder.
   std::function<void(const Study&, const mc::StudyWork&, mc::StudyReader&, const std::string& folder)> present;
+  /// The study points whose rows are StudyColumns, for statistics of them; may be empty.
+  std::function<std::vector<mc::StudyPoint>(const Study&)> points = {};
 };
 
 /// The one of this program.

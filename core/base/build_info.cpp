@@ -1,5 +1,6 @@
 #include "core/base/build_info.hpp"
 
+#include <build_commit.hpp>  // made by the build
 #include <fmt/format.h>
 
 #include <cmath>

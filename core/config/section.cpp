@@ -22,6 +22,15 @@ std::string given_text(const Node& node) {
   return node.is(Node::Kind::string) ? node.text : to_toml(node);
 }
 
+/// Among which keys the meant one is looked for: those still free, unless one that stands in the file
+/// already is closer by a whole slip (--set of a misspelt key).
+const std::vector<std::string_view>& likelier(std::string_view typed, const std::vector<std::string_view>& free,
+                                              const std::vector<std::string_view>& all) {
+  const auto best_free = nearest(typed, free), best = nearest(typed, all);
+  if (best_free.empty()) return all;
+  return typing_distance(typed, best.front()) + 0.95 < typing_distance(typed, best_free.front()) ? all : free;
+}
+
 /// Stands for a section that is no table, so that its keys are not reported as missing on top.
 const Node no_table{};
 
@@ -191,7 +200,9 @@ bool Section::read_whole(const Option& option, std::uint64_t& value) {
           option.max >= largest
               ? std::string("a whole number from 0 to 2^64-1, beyond 2^63-1 as \"0x...\"")
               : fmt::format("a whole number from {:.0f} to {:.0f}", option.min, option.max),
-          "Write a whole number without quotes");
+          node->is(Node::Kind::integer) ? "Choose one in that range"
+          : node->is(Node::Kind::real)  ? "Write it without point and exponent"
+                                        : "Write a whole number without quotes");
     return false;
   }
   value = given;
@@ -263,7 +274,7 @@ void Section::finish() {
   const std::vector<std::string_view> all(known_.begin(), known_.end());
   for (const auto& member : table_->members) {
     if (std::find(known_.begin(), known_.end(), member.key) != known_.end()) continue;
-    const auto& candidates = nearest(member.key, free).empty() ? all : free;
+    const auto& candidates = likelier(member.key, free, all);
     report_->error(member.at,
                    fmt::format("unknown key '{}' (expected one of {}). {}", full(member.key),
                                fmt::join(all, ", "),

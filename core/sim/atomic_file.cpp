@@ -21,9 +21,36 @@ void throw_cannot_write(const std::string& path, const std::string& reason) {
                                path, reason));
 }
 
-AtomicFile::AtomicFile(std::string path) : path_(std::move(path)), temporary_(path_ + ".XXXXXX") {
-  if (std::error_code none; std::filesystem::is_directory(path_, none))
-    throw_cannot_write(path_, "it is a directory");
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What is at a path and must stay there: all but regular files. Empty if the path is free.
+std::string in_the_way(const std::string& path) {
+  std::error_code none;
+  switch (fs::symlink_status(path, none).type()) {
+    case fs::file_type::directory: return "it is a directory";
+    case fs::file_type::block:
+    case fs::file_type::character: return "it is a device";
+    case fs::file_type::fifo: return "it is a pipe";
+    case fs::file_type::socket: return "it is a socket";
+    case fs::file_type::symlink: return "it is a symbolic link to no regular file";
+    default: return {};
+  }
+}
+
+/// A symbolic link to a regular file stands for that file: the link stays.
+std::string followed(std::string path) {
+  std::error_code none;
+  if (!fs::is_symlink(path, none) || !fs::is_regular_file(path, none)) return path;
+  const fs::path target = fs::canonical(path, none);
+  return none ? path : target.string();
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(std::string path) : path_(followed(std::move(path))), temporary_(path_ + ".XXXXXX") {
+  refuse_what_is_no_file();
   const int fd = ::mkostemp(temporary_.data(), O_CLOEXEC);
   if (fd < 0) throw_cannot_write(path_, std::strerror(errno));
   const mode_t mask = ::umask(0);  // the mode an ordinary new file gets
@@ -34,6 +61,10 @@ AtomicFile::AtomicFile(std::string path) : path_(std::move(path)), temporary_(pa
 
 AtomicFile::~AtomicFile() {
   if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+void AtomicFile::refuse_what_is_no_file() const {
+  if (const std::string what = in_the_way(path_); !what.empty()) throw_cannot_write(path_, what);
 }
 
 void AtomicFile::sync_temporary() {
@@ -48,6 +79,7 @@ void AtomicFile::sync_temporary() {
 
 void AtomicFile::commit() {
   sync_temporary();
+  refuse_what_is_no_file();  // rename() would replace it
   if (::rename(temporary_.c_str(), path_.c_str()) != 0)
     throw_cannot_write(path_, std::strerror(errno));
   temporary_.clear();

@@ -6,9 +6,11 @@ namespace drift {
 
 /// A file that comes into being complete or not at all: it is written under a temporary name in
 /// the same folder and renamed at the end. Without commit() the temporary file is removed.
+/// Only a regular file is replaced; a symbolic link to one stays, and its target is replaced.
 class AtomicFile {
  public:
-  /// InputError (io) if the folder cannot be written to.
+  /// InputError (io) if the folder cannot be written to, or a directory, device, pipe, socket or other
+  /// link has that name.
   explicit AtomicFile(std::string path);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
@@ -23,6 +25,7 @@ class AtomicFile {
   bool commit_new();
 
  private:
+  void refuse_what_is_no_file() const;
   void sync_temporary();
   void sync_folder();
 

@@ -43,6 +43,27 @@ TEST(Manifest, ReadsBackAsWritten) {
   EXPECT_EQ(test::text_of(folder.file("study.toml")), study.text);
 }
 
+TEST(Manifest, RemembersTheMostThatWasAskedForAndTheMostThatWasComplete) {
+  const ScratchFolder folder;
+  SyntheticStudy study{.options = {.runs = 100}};
+  study.run(folder.path());
+  EXPECT_EQ(mc::read_manifest(folder.path()).finished, 100u);
+  const auto written = std::filesystem::last_write_time(folder.file("manifest.json"));
+  study.run(folder.path());
+  EXPECT_EQ(std::filesystem::last_write_time(folder.file("manifest.json")), written) << "nothing new, nothing written";
+  study.options.runs = 300;
+  study.options.share = {0, 2};
+  study.run(folder.path());
+  study.options.runs = 20;
+  study.options.share = {};
+  study.run(folder.path());
+  const mc::Manifest m = mc::read_manifest(folder.path());
+  EXPECT_EQ(m.runs, 300u);
+  EXPECT_EQ(m.finished, 100u) << "the other worker's part of 300 is not there";
+  std::filesystem::remove(folder.file("worker-0000.sqlite"));
+  EXPECT_EQ(mc::StudyReader(folder.path()).runs(), 300u);
+}
+
 TEST(Manifest, AnotherStudyIsRefusedWithWhatDiffersAndNothingIsChanged) {
   const ScratchFolder folder;
   SyntheticStudy study{.text = "a = 1\nb = 2\nc = 3\n"};

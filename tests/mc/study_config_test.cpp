@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstring>
 #include <numbers>
 
 #include "tests/core/config/typos.hpp"
+#include "tests/mc/small_study.hpp"
 #include "tests/mc/study_file.hpp"
 
 namespace drift {
@@ -158,6 +160,16 @@ TEST(StudyConfig, TheTextOfAStudyReadsBackToTheSameStudy) {
   EXPECT_EQ(direct.truth.priors, written.truth.priors);
   EXPECT_EQ(direct.filters[0].active, written.filters[0].active);
   EXPECT_EQ(read_study(test::StudyFile(text).path()).text, text);
+}
+
+TEST(StudyConfig, AMisspeltOverrideOfAKeyOfTheFileIsRecognised) {
+  const std::string text = test::small_study + "[readout]\naccelerometer_noise = \"5 ug\"\ngimbal_noise = \"5 arcsec\"\n";
+  for (const char* key : {"accelerometer_noise", "gimbal_noise"}) {
+    const std::string typo = std::string(key).substr(0, std::strlen(key) - 1);
+    const auto found = test::mistakes(text, {{"readout." + typo, "\"5 ug\""}});
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_NE(found[0].find(std::string("Did you mean '") + key + "'?"), std::string::npos) << found[0];
+  }
 }
 
 /// Keys of full_study that stand alone on their line, with every slip in each of them.

@@ -75,6 +75,16 @@ TEST(Sweep, RefusesValuesAndKeysThatMakeNoStudy) {
   EXPECT_FALSE(found("\"monte_carlo.seed\" = [1, 2]\n").empty());
   EXPECT_TRUE(found("\"monte_carlo.design\" = [\"random\", \"sobol\"]\n").empty());
   EXPECT_FALSE(found("\"plan.dwell\" = [\"60 furlong\"]\n").empty());
+  // What is wrong with the key is said once, not for each of its values.
+  EXPECT_EQ(found("\"monte_carlo.runs\" = [10, 20, 30]\n").size(), 1u);
+  EXPECT_EQ(found("\"truth.parameters.eta_q\" = [\"1 arcsec\", \"2 arcsec\", \"3 arcsec\"]\n").size(), 1u);
+  EXPECT_EQ(found("\"plan.dwell\" = [\"60 furlong\", \"61 furlong\"]\n").size(), 2u);
+}
+
+TEST(Sweep, RefusesAValueThatComesTwice) {
+  const auto found = mistakes(small_study + "[sweep]\n\"truth.parameters.eta\" = [\"20 arcsec\", \"30 arcsec\", \"20 arcsec\"]\n");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NE(found[0].find("study.toml:26:53: 'sweep.\"truth.parameters.eta\"' has \"20 arcsec\" twice"), std::string::npos) << found[0];
 }
 
 TEST(Sweep, NamesThePointOfValuesThatDoNotGoTogether) {
@@ -91,9 +101,10 @@ TEST(Sweep, NamesThePointOfValuesThatDoNotGoTogether) {
 }
 
 TEST(MonteCarloSection, ReadsDesignEstimatorAndStop) {
-  std::string text = small_study + "design = \"latin_hypercube\"\nhealthy_sigma = 0.3\nstop = { quantity = \"rmse.eta_x\", half_width = 0.02, confidence = 0.9 }\n";
+  EXPECT_EQ(read_text(small_study + "design = \"latin_hypercube\"\n").monte_carlo.design, DesignKind::latin_hypercube);
+  std::string text = small_study + "healthy_sigma = 0.3\nstop = { quantity = \"rmse.eta_x\", half_width = 0.02, confidence = 0.9 }\n";
   const MonteCarlo mc = read_text(text).monte_carlo;
-  EXPECT_EQ(mc.design, DesignKind::latin_hypercube);
+  EXPECT_EQ(mc.design, DesignKind::random);
   EXPECT_EQ(mc.estimator, EstimatorKind::iterated);
   EXPECT_EQ(mc.healthy_sigma, 0.3);
   ASSERT_TRUE(mc.stop);
@@ -103,6 +114,28 @@ TEST(MonteCarloSection, ReadsDesignEstimatorAndStop) {
   for (const char* bad : {"stop = { quantity = \"rmse.eta_q\" }\n", "stop = { quantity = \"luck\" }\n", "stop = { half_width = 0.1 }\n",
                           "stop = { quantity = \"silent_failure_rate\", half_width = 0.0 }\n", "design = \"grid\"\n"})
     EXPECT_EQ(mistakes(small_study + bad).size(), 1u) << bad;
+}
+
+TEST(MonteCarloSection, AStopRuleMustBeAbleToEnd) {
+  const auto found = [](const std::string& lines) { return mistakes(small_study + lines); };
+  const auto unknown = found("stop = { quantity = \"rmse.K1_x\" }\n");  // no filter has the term
+  ASSERT_EQ(unknown.size(), 1u);
+  EXPECT_NE(unknown[0].find("study.toml:25:21: 'monte_carlo.stop.quantity' = \"rmse.K1_x\" waits for a parameter that no filter"),
+            std::string::npos) << unknown[0];
+  EXPECT_NE(unknown[0].find("one of D_F_x, D_F_y, D_F_z, D_I_x"), std::string::npos) << unknown[0];
+  EXPECT_TRUE(found("stop = { quantity = \"rmse.K0_x\" }\n").empty());
+  for (const char* design : {"latin_hypercube", "sobol"}) {
+    const auto refused = found(fmt::format("design = \"{}\"\nstop = {{ quantity = \"silent_failure_rate\" }}\n", design));
+    ASSERT_EQ(refused.size(), 1u);
+    EXPECT_NE(refused[0].find("study.toml:25:10: 'monte_carlo.design' does not go with [monte_carlo.stop]"), std::string::npos)
+        << refused[0];
+  }
+}
+
+TEST(MonteCarloSection, WholeNumbersOutOfRangeAreNotToldToLoseTheirQuotes) {
+  const auto found = mistakes(small_study + "[sweep]\n\"filter.right.starts\" = [0]\n");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NE(found[0].find("(expected a whole number from 1 to 1000). Choose one in that range"), std::string::npos) << found[0];
 }
 
 }  // namespace

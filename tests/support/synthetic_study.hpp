@@ -29,7 +29,9 @@ struct SyntheticStudy {
   }
   mc::Manifest manifest() const {
     const mc::StudyWork w = work();
-    return mc::make_manifest({text, task.seed, block_size}, text, w.points);
+    mc::Manifest m = mc::make_manifest({text, task.seed, block_size}, text, w.points);
+    m.runs = options.runs;
+    return m;
   }
   mc::StudyOutcome run(const std::string& folder) const {
     const mc::StudyWork w = work();

@@ -1,0 +1,41 @@
+#include "analysis/cli/argument_checks.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <charconv>
+#include <limits>
+
+#include "core/config/nearest.hpp"
+
+namespace drift::cli {
+
+std::string check_whole(const std::string& text, std::uint64_t least, std::uint64_t most) {
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool whole = error == std::errc() && end == text.data() + text.size();
+  if (whole && value >= least && value <= most) return {};
+  return fmt::format("'{}' is no such number (expected a whole number from {} to {}). Choose one in that range", text, least, most);
+}
+
+std::string check_seed(const std::string& text) {
+  const bool hexadecimal = text.starts_with("0x");
+  const char* begin = text.data() + (hexadecimal ? 2 : 0);
+  const char* all = text.data() + text.size();
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(begin, all, value, hexadecimal ? 16 : 10);
+  constexpr std::uint64_t most = std::numeric_limits<std::int64_t>::max();  // of TOML
+  if (error == std::errc() && end == all && (hexadecimal || value <= most)) return {};
+  return fmt::format("'{}' is no seed (expected a whole number from 0 to 2^63-1, or \"0x...\" up to 2^64-1). Choose another", text);
+}
+
+std::string check_path(const std::string& text) {
+  return text.empty() ? "the name is empty (expected a file or folder). Give one, or leave the option out" : "";
+}
+
+std::string unknown(std::string_view what, std::string_view given, std::span<const std::string_view> known) {
+  return fmt::format("unknown {} '{}' (expected one of {}). {}", what, given, fmt::join(known, ", "),
+                     config::suggestion(given, known, "`driftscope --help` explains them"));
+}
+
+}  // namespace drift::cli
