@@ -66,9 +66,7 @@ ExitCode diagnose_platform(const StudyArguments& arguments, const Study& study, 
   discovery::Prepared prepared = discovery::prepare(study, read_all(study, paths));
   std::fflush(stdout);
   discovery::DiagnoseOptions options;
-  const mc::ThreadCount threads(arguments.threads);
-  const auto report = stage_reporter(arguments.progress, "diagnose");
-  options.progress = report;
+  options.progress = stage_reporter(arguments.progress, "diagnose");
   discovery::Diagnosis found = discovery::diagnose(prepared.study, prepared.recordings, options);
   const auto began = std::chrono::steady_clock::now();
   found.advice = discovery::advise(prepared.study, prepared.recordings, found,
@@ -84,6 +82,7 @@ ExitCode diagnose_platform(const StudyArguments& arguments, const Study& study, 
 ExitCode diagnose(const StudyArguments& arguments, const std::vector<std::string>& paths, const std::string& folder) {
   const Study study = arguments.read();
   require_nominal(study);
+  const mc::ThreadCount threads(arguments.threads);
   return study.kind == RecordingKind::strapdown ? diagnose_case(study, paths, folder)
                                                 : diagnose_platform(arguments, study, paths, folder);
 }
