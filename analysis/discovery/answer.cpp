@@ -30,9 +30,11 @@ std::vector<int> columns_of(const Examination& e, const std::vector<Choice>& cho
 std::string cause_text(const Cause& c) {
   std::string text = c.term;
   if (!c.axis.empty()) text += "." + c.axis;
-  if (c.parameters.empty() || c.parameters.size() > 2) return text;
+  const auto term = TermLibrary::find_term(c.term);
+  text += fmt::format(" ({}", term ? TermLibrary::terms[*term].title : "");
+  if (c.parameters.empty() || c.parameters.size() > 2) return text + ")";
   for (const CauseParameter& p : c.parameters)
-    text += fmt::format("{}{} = {}{}", &p == &c.parameters.front() ? " (" : ", ", p.key, with_sigma(p.value, p.sigma),
+    text += fmt::format("{}{} = {}{}", &p == &c.parameters.front() ? ": " : ", ", p.key, with_sigma(p.value, p.sigma),
                         p.unit == "1" ? "" : " " + p.unit);
   const CauseParameter& p = c.parameters.front();
   if (c.term == "frame_closure")  // between two equations the interval is the answer
