@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "analysis/recorded_test.hpp"
 #include "core/base/check.hpp"
 #include "core/estimate/start_consistency.hpp"
 #include "core/estimate/starts.hpp"
@@ -126,42 +127,6 @@ std::vector<const FilterRun*> Identification::runs_of(std::size_t filter) const 
   return found;
 }
 
-Timeline joined(std::vector<Timeline> timelines) {
-  Timeline all = std::move(timelines.front());
-  for (std::size_t k = 1; k < timelines.size(); ++k) {
-    Timeline& next = timelines[k];
-    const double shift = all.intervals.back().t1 - next.intervals.front().t0;
-    for (Interval& i : next.intervals) {
-      i.t0 += shift;
-      i.t1 += shift;
-      i.t_begin += shift;
-      i.t_dwell += shift;
-      i.chain += all.chains;
-      i.first_node += all.nodes.size();
-      all.intervals.push_back(i);
-    }
-    for (Node& n : next.nodes) n.t += shift;
-    all.nodes.insert(all.nodes.end(), next.nodes.begin(), next.nodes.end());
-    all.chains += next.chains;
-    all.has_temperature = all.has_temperature && next.has_temperature;
-    all.has_field = all.has_field && next.has_field;
-  }
-  return all;
-}
-
-Measurements joined(const std::vector<Measurements>& parts) {
-  Eigen::Index n = 0;
-  for (const auto& p : parts) n += p.acc.cols();
-  Measurements all{Mat3X(3, n), Mat3X(3, n)};
-  Eigen::Index at = 0;
-  for (const auto& p : parts) {
-    all.acc.middleCols(at, p.acc.cols()) = p.acc;
-    all.gimbal.middleCols(at, p.acc.cols()) = p.gimbal;
-    at += p.acc.cols();
-  }
-  return all;
-}
-
 Identification identify_simulated(const Study& study, std::uint64_t run, int threads,
                                   const Progress& progress) {
   if (!study.has_truth)
@@ -194,23 +159,11 @@ Identification identify_simulated(const Study& study, std::uint64_t run, int thr
 Identification identify_recordings(const Study& study, const std::vector<Recording>& recordings,
                                    int threads, const Progress& progress) {
   Identification id;
-  std::vector<Timeline> timelines;
-  std::vector<Measurements> parts;
-  for (const Recording& r : recordings) {
-    timelines.push_back(lay_out(r, study.plan, study.site));
-    set_known_field(timelines.back(), study.environment);
-    parts.push_back(measurements_of(r, study.readout));
-    id.sources.push_back(r.source);
-  }
+  for (const Recording& r : recordings) id.sources.push_back(r.source);
   id.recording = recordings.front();
-  const Timeline timeline = joined(std::move(timelines));
-  const Measurements measured = joined(parts);
-  if (!measured.acc.array().isFinite().any() && !measured.gimbal.array().isFinite().any())
-    throw InputError(ExitCode::recording,
-                     fmt::format("{}: nothing measured: every accelerometer and gimbal channel that "
-                                 "[readout] asks for is absent or empty", recordings.front().source));
+  const RecordedTest test = recorded_test(study, recordings);
   run_jobs(study, id, threads, progress,
-           [&](const Job& job) { return estimate(study, job, timeline, measured); });
+           [&](const Job& job) { return estimate(study, job, test.timeline, test.measured); });
   return id;
 }
 

@@ -61,8 +61,4 @@ Identification identify_simulated(const Study& study, std::uint64_t run, int thr
 Identification identify_recordings(const Study& study, const std::vector<Recording>& recordings,
                                    int threads, const Progress& progress = {});
 
-/// Several tests one after the other, as one timeline with its measurements.
-Timeline joined(std::vector<Timeline> timelines);
-Measurements joined(const std::vector<Measurements>& parts);
-
 }  // namespace drift

@@ -10,7 +10,7 @@
 #include "analysis/discovery/position_pool.hpp"
 #include "analysis/discovery/score.hpp"
 #include "analysis/discovery/signatures.hpp"
-#include "analysis/identify.hpp"
+#include "analysis/recorded_test.hpp"
 #include "core/sim/simulate.hpp"
 #include "mc/campaign.hpp"
 
@@ -145,22 +145,15 @@ class Adviser {
   Adviser(const Study& study, const std::vector<Recording>& recordings, const Diagnosis& d, const AdviseOptions& options)
       : study_(study), d_(d), options_(options), noise_(noise_of(d)), all_(alternatives_of(d)) {
     if (all_.empty()) return;
-    std::vector<Timeline> timelines;
-    std::vector<Measurements> parts;
-    for (const Recording& r : recordings) {
-      timelines.push_back(lay_out(r, study.plan, study.site));
-      parts.push_back(measurements_of(r, study.readout));
-    }
-    timeline_ = joined(std::move(timelines));
-    measured_ = joined(parts);
-    fit_ = fit_batch(d.nominal, timeline_, study.readout, measured_, make_layout(d.nominal).theta);
+    test_ = recorded_test(study, recordings);
+    fit_ = fit_batch(d.nominal, test_.timeline, study.readout, test_.measured, make_layout(d.nominal).theta);
     if (std::ranges::any_of(all_, holds_lambda)) widen_misalignments();
     specs_ = number_signatures(all_, d.nominal, theta_of(d.nominal, fit_));
   }
 
   std::vector<Advice> run() {
     if (all_.empty()) return {};
-    Information now = information_of(linear_problem(d_.nominal, {timeline_, study_.readout, measured_}, fit_, specs_), noise_);
+    Information now = information_of(linear_problem(d_.nominal, {test_.timeline, study_.readout, test_.measured}, fit_, specs_), noise_);
     Advice advice;
     Separation reached = separation(now, all_);
     advice.now_sigma = reached.sigma;
@@ -208,7 +201,7 @@ class Adviser {
     TestPlan plan = study_.plan;
     plan.preset.clear();
     plan.positions = addition;
-    const Timeline timeline = lay_out(plan, study_.site);
+    const Timeline timeline = planned_test(study_, plan);
     const auto n = static_cast<Eigen::Index>(timeline.intervals.size());
     const Measurements anything{Mat3X::Zero(3, n), Mat3X::Zero(3, n)};  // information does not ask for values
     BatchResult fit = fit_;
@@ -221,7 +214,7 @@ class Adviser {
     TestPlan plan = study_.plan;
     plan.preset.clear();
     plan.positions.insert(plan.positions.end(), added.begin(), added.end());
-    const Timeline timeline = lay_out(plan, study_.site);
+    const Timeline timeline = planned_test(study_, plan);
     const FilterSpec right = patched_filter(d_.nominal, all_[closest.a].causes);
     const FilterSpec wrong = patched_filter(d_.nominal, all_[closest.b].causes);
     Theta theta = theta_of(d_.nominal, fit_);
@@ -257,8 +250,7 @@ class Adviser {
   AdviseOptions options_;
   NoiseModel noise_;
   std::vector<Alternative> all_;
-  Timeline timeline_;
-  Measurements measured_;
+  RecordedTest test_;
   BatchResult fit_;
   std::vector<SignatureSpec> specs_;
 };

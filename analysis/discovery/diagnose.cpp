@@ -9,7 +9,7 @@
 #include "analysis/discovery/compare.hpp"
 #include "analysis/discovery/conclude.hpp"
 #include "analysis/discovery/locate.hpp"
-#include "analysis/identify.hpp"
+#include "analysis/recorded_test.hpp"
 #include "core/base/check.hpp"
 #include "core/estimate/starts.hpp"
 #include "mc/campaign.hpp"
@@ -235,28 +235,16 @@ Diagnosis diagnose(const Study& study, const std::vector<Recording>& recordings,
     throw InputError(ExitCode::config, fmt::format("{}: no [[filter]]: nothing to compare the recording with. Add a "
                                                    "section [[filter]] with name and coupling", study.path));
   const FilterSpec& filter = study.filters.front();
-  std::vector<Timeline> timelines;
-  std::vector<Measurements> parts;
+  const RecordedTest test = recorded_test(study, recordings);
   std::vector<std::size_t> ends;
-  for (const Recording& r : recordings) {
-    timelines.push_back(lay_out(r, study.plan, study.site));
-    set_known_field(timelines.back(), study.environment);
-    ends.push_back((ends.empty() ? 0 : ends.back()) + timelines.back().intervals.size());
-    parts.push_back(measurements_of(r, study.readout));
-  }
-  const Timeline timeline = joined(std::move(timelines));
-  const Measurements measured = joined(parts);
-  if (!measured.acc.array().isFinite().any() && !measured.gimbal.array().isFinite().any())
-    throw InputError(ExitCode::recording,
-                     fmt::format("{}: nothing measured: every accelerometer and gimbal channel that [readout] asks "
-                                 "for is absent or empty", recordings.front().source));
+  for (const Recording& r : recordings) ends.push_back((ends.empty() ? 0 : ends.back()) + r.rows());
   std::vector<Theta> starts;
   for (int k = 0; k + 1 < options.starts; ++k) {
     FilterSpec drawn = filter;
     drawn.starts.clear();
     starts.push_back(initial_estimate(drawn, study.monte_carlo.seed, static_cast<std::size_t>(k)));
   }
-  return diagnose(filter, {timeline, study.readout, measured}, starts, covariates_of(recordings), options, ends);
+  return diagnose(filter, {test.timeline, study.readout, test.measured}, starts, covariates_of(recordings), options, ends);
 }
 
 }  // namespace drift::discovery
