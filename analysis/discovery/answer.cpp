@@ -187,6 +187,9 @@ void fill_causes(const Examination& nominal, const Search& found, Diagnosis& d) 
         d.inseparable.push_back(fmt::format("{}{}{} and {}{}{} leave the same trace on this plan", d.causes[i].term,
                                             d.causes[i].axis.empty() ? "" : ".", d.causes[i].axis, c.term,
                                             c.axis.empty() ? "" : ".", c.axis));
+  if (found.sets.empty() && nominal.lone.p_value < 0.01)
+    d.remarks.push_back(fmt::format("An unknown input of free form in {} alone would explain it (twice the log "
+                                    "likelihood better by {:.1f}).", nominal.lone.equation, nominal.lone.gain));
   for (const Cause& c : d.causes)
     if (c.term == "frame_closure")
       d.remarks.push_back("frame_closure: cross-talk between the torquing channels (taken as zero) moves lambda as much "

@@ -19,7 +19,7 @@ void set_noise(Examination& e, const Timeline& timeline, const NoiseEstimate& no
 }
 
 Examination examine(const FilterSpec& filter, const Test& test, const BatchResult& fit,
-                    const NoiseEstimate* given) {
+                    const NoiseEstimate* given, bool driven) {
   Examination e;
   e.filter = filter;
   e.fit = fit;
@@ -34,7 +34,7 @@ Examination examine(const FilterSpec& filter, const Test& test, const BatchResul
   }
   const Projector first(e.problem, given ? given->model : declared);
   robust_weights(e.problem, first.clean_residual());
-  set_noise(e, test.timeline, given ? *given : estimate_noise(e.problem, declared));
+  set_noise(e, test.timeline, given ? *given : estimate_noise(e.problem, declared, {}, driven ? 4 : 0));
   return e;
 }
 

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "analysis/discovery/adequacy.hpp"
+#include "analysis/discovery/lone_input.hpp"
 #include "analysis/discovery/noise.hpp"
 
 namespace drift::discovery {
@@ -18,6 +19,7 @@ struct Examination {
   std::vector<PositionScan> scans;
   std::unique_ptr<Field> field;
   std::vector<Score> scores;   ///< of every candidate
+  LoneEffect lone;             ///< beside everything that is in the model; where it was asked for
 
   double log_likelihood2() const { return projector->candidates().log_likelihood2(); }
 };
@@ -30,14 +32,14 @@ struct Nulls {
 };
 
 /// How the chance of a false alarm is shared between the families.
-inline constexpr double library_share = 0.6, scan_share = 0.2, pair_share = 0.2;
+inline constexpr double library_share = 0.5, scan_share = 0.15, pair_share = 0.15, lone_share = 0.2;
 
 /// Fits (from `start`), linearises and lists candidates; noise is estimated unless `given` says it.
 Examination examine(const FilterSpec& filter, const Test& test, const Theta& start,
                     const NoiseEstimate* given = nullptr);
-/// The same about a fit that there is already.
+/// The same about a fit that there is already. driven: noise that drives the platform may be found.
 Examination examine(const FilterSpec& filter, const Test& test, const BatchResult& fit,
-                    const NoiseEstimate* given = nullptr);
+                    const NoiseEstimate* given = nullptr, bool driven = true);
 
 /// Scores again under another noise.
 void set_noise(Examination& e, const Timeline& timeline, const NoiseEstimate& noise);

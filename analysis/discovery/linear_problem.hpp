@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,16 @@ struct LinearProblem {
   Eigen::Index rows() const { return r0.size(); }
 };
 
+/// Something unknown, of free form, in one equation alone: a first-order Markov process; with infinite
+/// tau a random walk from zero.
+struct LoneInput {
+  enum class Equation { rate, accelerometer, gimbal };  ///< gyro drift, error of an accelerometer, of a resolver
+  Equation equation = Equation::rate;
+  int axis = 0;
+  double sigma = 0.0;  ///< stationary [rad/s, g, rad]; of a random walk per sqrt(s). 0: there is none
+  double tau = std::numeric_limits<double>::infinity();  ///< [s]
+};
+
 /// Standard deviations of all noise: white of the instruments, and what drives the platform.
 struct NoiseModel {
   double acc_factor = 1.0, gimbal_factor = 1.0;  ///< white, over declared
@@ -56,9 +67,11 @@ struct NoiseModel {
   double acc_markov = 0.0;           ///< stationary sigma of correlated accelerometer noise [g]
   double acc_tau = 300.0;            ///< [s]
   Vec3 gyros = Vec3::Ones();         ///< weight of each gyro's share in what drives the platform
+  LoneInput lone;                    ///< beside what the instruments share
 
   bool driven() const {
-    return angle_random_walk > 0.0 || drift_random_walk > 0.0 || markov_drift > 0.0 || acc_markov > 0.0;
+    return angle_random_walk > 0.0 || drift_random_walk > 0.0 || markov_drift > 0.0 || acc_markov > 0.0 ||
+           lone.sigma > 0.0;
   }
 };
 

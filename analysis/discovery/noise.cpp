@@ -174,7 +174,8 @@ NoiseFinding white_finding(const Component& c, double declared, double sigma, do
 
 }  // namespace
 
-NoiseEstimate estimate_noise(const LinearProblem& problem, const NoiseModel& declared, const std::vector<int>& with) {
+NoiseEstimate estimate_noise(const LinearProblem& problem, const NoiseModel& declared, const std::vector<int>& with,
+                             int most_added) {
   const Likelihood likelihood(problem, with);
   std::size_t acc_rows = 0;
   for (const RowTag& t : problem.tags) acc_rows += t.accelerometer();
@@ -198,7 +199,7 @@ NoiseEstimate estimate_noise(const LinearProblem& problem, const NoiseModel& dec
   Ascent best = ascend(likelihood, out.model, active, curvature());
   out.model = at(out.model, active, best.log_sigma);
   std::vector<std::pair<const Component*, double>> gains;
-  for (int added = 0; added < 4; ++added) {
+  for (int added = 0; added < most_added; ++added) {
     const auto trials = all_trials(likelihood, out.model, best.value, problem);
     const auto top = std::max_element(trials.begin(), trials.end(),
                                       [](const Trial& a, const Trial& b) { return a.gain < b.gain; });

@@ -20,8 +20,9 @@ struct NoiseEstimate {
 /// boundary). Logs of the sigmas are found by a quasi-Newton ascent. `with`: candidate columns that
 /// are in the mean (unit priors), so that a real effect is not taken for noise.
 /// Source: Patterson and Thompson 1971; discovery.md 2.1, 4.6.
+/// most_added: components beside white noise and what is declared.
 NoiseEstimate estimate_noise(const LinearProblem& problem, const NoiseModel& declared,
-                             const std::vector<int>& with = {});
+                             const std::vector<int>& with = {}, int most_added = 4);
 
 /// White noise alone, from differences of neighbouring residuals: what is left of a residual that a
 /// grossly wrong model bends. residual: in declared sigmas, not whitened. shape rows.

@@ -12,6 +12,7 @@ namespace drift::discovery {
 namespace {
 
 constexpr auto lambda = TermLibrary::index("lambda");
+constexpr double quiet_p_value = 0.01;  // of a free-form input beside the cause: nothing is left
 
 /// Half the distance to the neighbours on a parameter's grid, SI: what the grid leaves open.
 double grid_spacing(const Candidate& c, std::size_t param, double value) {
@@ -116,7 +117,7 @@ Refit refit(const Examination& nominal, const Test& test, const std::vector<Choi
       out.filter.priors[lambda] = normal(profile->value, profile->sigma);
       best = fit_from(theta_of(out.filter, profile->fit));
     }
-  out.after = examine(out.filter, test, best);
+  out.after = examine(out.filter, test, best, nullptr, nominal.noise.driven);
   settle_noise(out.after, test, nulls.library_threshold, 2, 1);  // a second effect may hide in the noise
   for (const auto& [param, value] : expected)  // lambda is a jump: its slope at the nominal fit says nothing
     if (const ParameterEstimate* p = best.estimate.find(param); p != nullptr && param != lambda)
@@ -136,6 +137,11 @@ Refit refit(const Examination& nominal, const Test& test, const std::vector<Choi
   for (const PositionScan& s : out.after.scans)
     for (const double T : s.T) out.remainder.scan = std::max(out.remainder.scan, strength(T, 1));
   out.adequate = out.remainder.library <= nulls.library_threshold && out.remainder.scan <= nulls.scan_threshold;
+  if (out.adequate) {
+    // Many small traces in one equation that no window and no candidate has alone.
+    out.after.lone = strongest_lone_input(out.after.problem, out.after.noise.model);
+    out.adequate = out.after.lone.p_value > quiet_p_value;
+  }
 
   // Each variant of a grid was one try; the refit took the best of them.
   double tries = 0.0;

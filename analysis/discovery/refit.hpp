@@ -21,7 +21,8 @@ struct Refit {
 FilterSpec with_causes(const FilterSpec& nominal, const CandidateSet& set, const std::vector<Choice>& choices);
 
 /// Fits it from the amplitudes that the score expects and, where that may be far (frame_closure), from
-/// the other ends too; the best is kept. Then everything is scored again.
+/// the other ends too; the best is kept. Then everything is scored again. Noise that drives the platform is
+/// allowed for if the nominal model needed it: what one cause leaves is not noise because it is slow.
 Refit refit(const Examination& nominal, const Test& test, const std::vector<Choice>& choices, const Nulls& nulls);
 
 /// Amplitudes, in prior sigmas, that the linear score expects of some columns: C_dd^-1 g_d.

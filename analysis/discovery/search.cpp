@@ -59,31 +59,71 @@ std::string name_of(const Examination& e, const Refit& r) {
   return all;
 }
 
-/// Keeps the adequate ones up to the credible probability; of several with one name the best stands
-/// for all.
-void weigh(const Examination& e, std::vector<Refit> refits, double credible, Search& out) {
+/// Whether an explanation says all that another says and more: each of the other's causes is one of its
+/// own or part of one.
+bool covers(const Examination& e, const Refit& wide, const Refit& narrow) {
+  const auto held = [&](const Choice& n) {
+    const Candidate& part = e.set.candidates[n.candidate];
+    return std::any_of(wide.choices.begin(), wide.choices.end(), [&](const Choice& w) {
+      const Candidate& whole = e.set.candidates[w.candidate];
+      return w.candidate == n.candidate || (whole.term == part.term && whole.params == part.params) || whole.contains(part);
+    });
+  };
+  return wide.choices.size() >= narrow.choices.size() && std::all_of(narrow.choices.begin(), narrow.choices.end(), held);
+}
+
+/// Log evidence, against the nominal model, of something unknown in one equation; every equation and form
+/// alike.
+double log_unknown(const Examination& e) {
+  constexpr double forms = 21.0;
+  return 0.5 * e.lone.gain - std::log(forms);
+}
+
+/// Keeps the adequate ones up to the credible probability; of several with one name the best stands for
+/// all, and what says more is left out where less will do. None, if something unknown in one equation
+/// explains the test far better than the best of them.
+void weigh(const Examination& e, std::vector<Refit> refits, const SearchOptions& options, Search& out) {
+  constexpr double worth = 3.0;        // log evidence that more parameters must bring
+  constexpr double far_better = 5.0;   // one in a hundred and fifty
   std::vector<Refit> good;
   for (Refit& r : refits) (r.adequate ? good : out.rejected).push_back(std::move(r));
   if (good.empty()) return;
   std::vector<double> weight;
   for (const Refit& r : good) weight.push_back(r.log_bayes + log_prior(e, r.choices));
   const double top = *std::max_element(weight.begin(), weight.end());
+  if (log_unknown(e) > top + far_better) {
+    for (Refit& r : good) out.rejected.push_back(std::move(r));
+    return;
+  }
   double sum = 0.0;
   for (double& w : weight) sum += w = std::exp(w - top);
   std::vector<std::size_t> order(good.size());
   std::iota(order.begin(), order.end(), 0u);
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return weight[a] > weight[b]; });
+  // By name; an explanation that covers a simpler one nearly as good counts for that.
   std::map<std::string, double> together;
-  for (std::size_t k = 0; k < good.size(); ++k) together[name_of(e, good[k])] += weight[k] / sum;
+  for (std::size_t k = 0; k < good.size(); ++k) {
+    const Refit* stands_for = &good[k];
+    for (const std::size_t other : order)
+      if (other != k && covers(e, good[k], good[other]) && !covers(e, good[other], good[k]) &&
+          good[other].log_bayes > good[k].log_bayes - worth) {
+        stands_for = &good[other];
+        break;
+      }
+    together[name_of(e, *stands_for)] += weight[k] / sum;
+  }
   double held = 0.0;
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return together[name_of(e, good[a])] > together[name_of(e, good[b])];
+  });
   for (const std::size_t k : order) {
     const auto place = together.find(name_of(e, good[k]));
-    if (place == together.end()) continue;  // a better one of this name is in
+    if (place == together.end() || place->second <= 0.0) continue;  // a better one of this name is in
     held += place->second;
     out.probability.push_back(place->second);
     out.sets.push_back(std::move(good[k]));
     together.erase(place);
-    if (held >= credible) break;
+    if (held >= options.credible) break;
   }
 }
 
@@ -137,7 +177,10 @@ Search search(Examination& nominal, const Test& test, const SearchOptions& optio
   out.p_library = out.nulls.library.p_value(std::max(library, 0.5 * other));
   out.p_scan = out.nulls.scan.p_value(scan);
   out.p_pairs = pairs.empty() ? 1.0 : out.pairs.p_value(pairs.front().strength);
-  out.p_value = std::min({1.0, out.p_library / library_share, out.p_scan / scan_share, out.p_pairs / pair_share});
+  nominal.lone = strongest_lone_input(nominal.problem, nominal.noise.model);
+  out.p_lone = nominal.lone.p_value;
+  out.p_value = std::min({1.0, out.p_library / library_share, out.p_scan / scan_share, out.p_pairs / pair_share,
+                          out.p_lone / lone_share});
   out.significant = out.p_value < options.alpha;
 
   for (std::size_t k = 0; k < nominal.scores.size(); ++k)
@@ -161,21 +204,37 @@ Search search(Examination& nominal, const Test& test, const SearchOptions& optio
     if (nominal.set.candidates[k].term == "frame_closure" &&
         (0.5 * other > out.nulls.library_threshold || nominal.scores[k].strength > out.nulls.library_threshold))
       add(k);
-  std::vector<std::vector<Choice>> tried;
-  for (const std::size_t k : singles) tried.push_back({choice(k)});
-  weigh(nominal, refit_all(nominal, test, tried, out.nulls), options.credible, out);
+  std::vector<Refit> refits;
+  while (refits.size() < singles.size()) {
+    const std::size_t first = refits.size();
+    std::vector<std::vector<Choice>> tried;
+    for (std::size_t next = first; next < singles.size(); ++next) tried.push_back({choice(singles[next])});
+    for (Refit& r : refit_all(nominal, test, tried, out.nulls)) refits.push_back(std::move(r));
+    // Where a part of a term will not do because more of the same term is asked for, the term is tried.
+    for (std::size_t next = first; next < refits.size(); ++next) {
+      if (refits[next].adequate) continue;
+      const Candidate& part = nominal.set.candidates[singles[next]];
+      const Candidate& asked = refits[next].after.set.candidates[refits[next].remainder.strongest];
+      if (asked.term != part.term) continue;
+      for (std::size_t k = 0; k < nominal.set.candidates.size(); ++k) {
+        const Candidate& whole = nominal.set.candidates[k];
+        if (nominal.scores[k].dof > 0 && whole.contains(part) && (whole.params == asked.params || whole.contains(asked))) add(k);
+      }
+    }
+  }
+  weigh(nominal, std::move(refits), options, out);
   if (!out.sets.empty()) return out;
 
-  tried.clear();
+  std::vector<std::vector<Choice>> tried;
   for (const Pair& p : adequate_pairs(*nominal.field, nominal.scores, 1.1 * out.nulls.library_threshold,
                                       1.1 * out.nulls.scan_threshold, options.most_refits))
     tried.push_back({p.a, p.b});
-  weigh(nominal, refit_all(nominal, test, tried, out.nulls), options.credible, out);
+  weigh(nominal, refit_all(nominal, test, tried, out.nulls), options, out);
   if (!out.sets.empty()) return out;
 
   const auto several = greedy(*nominal.field, nominal.scores, out.nulls.library_threshold, out.nulls.scan_threshold, 4);
   if (several.size() > 2) {
-    weigh(nominal, refit_all(nominal, test, {several}, out.nulls), options.credible, out);
+    weigh(nominal, refit_all(nominal, test, {several}, out.nulls), options, out);
   }
   return out;
 }

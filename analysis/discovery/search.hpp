@@ -9,7 +9,7 @@ namespace drift::discovery {
 /// How sure a diagnosis must be.
 struct SearchOptions {
   double alpha = 0.02;        ///< chance of a false alarm over everything that is tried
-  double credible = 0.98;     ///< probability that the listed causes must hold together
+  double credible = 0.95;     ///< probability that the listed causes must hold together
   int draws = 4000;           ///< of the null distribution
   std::size_t most_refits = 6;
 };
@@ -18,7 +18,7 @@ struct SearchOptions {
 struct Search {
   Nulls nulls;
   MaxNull pairs;
-  double p_library = 1.0, p_scan = 1.0, p_pairs = 1.0;
+  double p_library = 1.0, p_scan = 1.0, p_pairs = 1.0, p_lone = 1.0;
   double other_equation = 0.0; ///< other_equation_gain()
   double p_value = 1.0;        ///< of the strongest family, for all families together
   bool significant = false;

@@ -9,13 +9,14 @@ namespace {
 
 /// Where each kind of state stands; -1: not there.
 struct States {
-  int white = -1, walk = -1, markov = -1, acc = -1, count = 3;
+  int white = -1, walk = -1, markov = -1, acc = -1, lone = -1, count = 3;
 
   explicit States(const NoiseModel& n) {
     if (n.angle_random_walk > 0.0) white = std::exchange(count, count + 3);
     if (n.drift_random_walk > 0.0) walk = std::exchange(count, count + 3);
     if (n.markov_drift > 0.0) markov = std::exchange(count, count + 3);
     if (n.acc_markov > 0.0) acc = std::exchange(count, count + 3);
+    if (n.lone.sigma > 0.0) lone = std::exchange(count, count + 1);
   }
 };
 
@@ -59,7 +60,22 @@ Step step_of(const States& s, const NoiseModel& n, const IntervalDrive& d, bool 
     step.F.block<3, 3>(s.acc, s.acc) = phi * Mat3::Identity();
     step.Q.block<3, 3>(s.acc, s.acc) = (1.0 - phi * phi) * Mat3::Identity();
   }
+  if (s.lone >= 0) {
+    const bool walks = std::isinf(n.lone.tau);
+    const double phi = walks ? 1.0 : std::exp(-(dt + gap) / n.lone.tau);
+    step.F(s.lone, s.lone) = phi;
+    step.Q(s.lone, s.lone) = walks ? dt + gap : 1.0 - phi * phi;
+    if (n.lone.equation == LoneInput::Equation::rate)
+      step.F.block<3, 1>(0, s.lone) = 0.5 * n.lone.sigma * d.per_rate.col(n.lone.axis);
+  }
   return step;
+}
+
+/// Weight of the lone input on a row of its channel.
+double lone_weight(const LinearProblem& p, const LoneInput& lone, int channel) {
+  if (lone.equation == LoneInput::Equation::accelerometer && channel == lone.axis) return lone.sigma / p.acc_sigma;
+  if (lone.equation == LoneInput::Equation::gimbal && channel == 3 + lone.axis) return lone.sigma / p.gimbal_sigma;
+  return 0.0;
 }
 
 /// Walks along intervals and rows; calls cage(), move(step) and row(index, h, white sigma).
@@ -77,6 +93,7 @@ void walk(const LinearProblem& p, const NoiseModel& n, const States& s, Cage&& c
         h.setZero();
         h.head<3>() = p.psi.row(k);
         if (accelerometer && s.acc >= 0) h[s.acc + p.tags[k].channel] = n.acc_markov / p.acc_sigma;
+        if (s.lone >= 0) h[s.lone] = lone_weight(p, n.lone, p.tags[k].channel);
         row(k, h, (accelerometer ? n.acc_factor : n.gimbal_factor) / p.weight[k]);
       }
     }
@@ -84,9 +101,10 @@ void walk(const LinearProblem& p, const NoiseModel& n, const States& s, Cage&& c
 }
 
 /// Before anything is measured: attitude at its prior, a random walk at zero, the others stationary.
-MatX initial_covariance(const States& s) {
+MatX initial_covariance(const States& s, const NoiseModel& n) {
   MatX P = MatX::Identity(s.count, s.count);
   if (s.walk >= 0) P.block<3, 3>(s.walk, s.walk).setZero();
+  if (s.lone >= 0 && std::isinf(n.lone.tau)) P(s.lone, s.lone) = 0.0;
   return P;
 }
 
@@ -98,7 +116,7 @@ Whitener::Whitener(const LinearProblem& problem, const NoiseModel& noise)
   states_ = s.count;
   H_.resize(s.count, problem.rows());
   gain_.resize(s.count, problem.rows());
-  MatX P = initial_covariance(s);
+  MatX P = initial_covariance(s, noise);
   Eigen::Index next = 0;
   walk(
       problem, noise, s,
@@ -147,6 +165,28 @@ MatX Whitener::apply(const MatX& columns, Eigen::Index first) const {
   return white;
 }
 
+MatX Whitener::colour(const MatX& white) const {
+  RowMajor rows = white;
+  RowMajor x = RowMajor::Zero(states_, white.cols());
+  std::size_t event = 0;
+  for (Eigen::Index k = 0; k < rows.rows(); ++k) {
+    for (; event < events_.size() && events_[event].row == k; ++event) {
+      if (events_[event].cage)
+        x.topRows<3>().setZero();
+      else
+        x = (events_[event].F * x).eval();
+    }
+    auto y = rows.row(k);
+    y *= root_[k];  // the innovation
+    const Eigen::RowVectorXd innovation = y;
+    for (int m = 0; m < states_; ++m)
+      if (H_(m, k) != 0.0) y += H_(m, k) * x.row(m);
+    for (int m = 0; m < states_; ++m)
+      if (gain_(m, k) != 0.0) x.row(m) += gain_(m, k) * innovation;
+  }
+  return rows;
+}
+
 MatX dense_covariance(const LinearProblem& problem, const NoiseModel& noise) {
   // By definition: each row's weights on independent unit variables (prior, each step's noise).
   const States s(noise);
@@ -159,7 +199,7 @@ MatX dense_covariance(const LinearProblem& problem, const NoiseModel& noise) {
     wider << state, L;
     state = wider;
   };
-  MatX prior = initial_covariance(s);
+  MatX prior = initial_covariance(s, noise);
   prior.topLeftCorner<3, 3>().setZero();
   add(prior);
   std::vector<VecX> weights(problem.rows());

@@ -17,6 +17,8 @@ class Whitener {
 
   /// Whitens columns that stand for rows first, first + 1, ...; before `first` they are zero.
   MatX apply(const MatX& columns, Eigen::Index first = 0) const;
+  /// The way back: unit white columns become noise with this covariance, attitude at its prior included.
+  MatX colour(const MatX& white) const;
   /// log det of the covariance of all rows, attitude marginalised.
   double log_det() const { return log_det_; }
 

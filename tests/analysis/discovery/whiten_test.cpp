@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <limits>
 
 #include "analysis/discovery/signatures.hpp"
 #include "tests/support/model_builders.hpp"
@@ -51,6 +52,32 @@ TEST(Whitener, EqualsDenseCholeskyForEveryKindOfNoiseAtOnce) {
   noise.acc_markov = 4e-6;
   noise.acc_tau = 200.0;
   expect_equals_cholesky(noise);
+}
+
+TEST(Whitener, EqualsDenseCholeskyForAnInputInOneEquation) {
+  using Equation = LoneInput::Equation;
+  const double infinite = std::numeric_limits<double>::infinity();
+  for (const LoneInput& lone : {LoneInput{Equation::rate, 1, 0.01 * deg_per_h / 60.0, infinite},
+                                LoneInput{Equation::rate, 2, 0.01 * deg_per_h, 900.0},
+                                LoneInput{Equation::accelerometer, 0, 3e-6, 300.0},
+                                LoneInput{Equation::gimbal, 2, 2e-5, 300.0}}) {
+    NoiseModel noise;
+    noise.drift_random_walk = 0.005 * deg_per_h / 60.0;
+    noise.lone = lone;
+    expect_equals_cholesky(noise);
+  }
+}
+
+TEST(Whitener, ColoursWhatItWhitens) {
+  NoiseModel noise;
+  noise.angle_random_walk = 1e-3 * detail::deg / 60.0;
+  noise.markov_drift = 0.02 * deg_per_h;
+  noise.lone = {LoneInput::Equation::accelerometer, 1, 3e-6, 300.0};
+  const LinearProblem problem = short_problem();
+  const Whitener whitener(problem, noise);
+  const MatX back = whitener.colour(whitener.apply(problem.theta));
+  // Forth and back through one filter: rounding alone, times the number of rows.
+  EXPECT_LT((back - problem.theta).cwiseAbs().maxCoeff(), 1e-10 * problem.theta.cwiseAbs().maxCoeff());
 }
 
 TEST(Whitener, WithoutProcessNoiseAChainDoesNotSeeAnother) {
