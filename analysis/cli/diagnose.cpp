@@ -44,7 +44,8 @@ void finish(const Study& study, const discovery::Diagnosis& diagnosis, const Dia
   fmt::print("\nWritten to {}: {}\n", folder, fmt::join(files, " "));
 }
 
-ExitCode diagnose_case(const Study& study, const std::vector<std::string>& paths, const std::string& folder) {
+ExitCode diagnose_case(const StudyArguments& arguments, const Study& study, const std::vector<std::string>& paths,
+                       const std::string& folder) {
   if (paths.size() != 1)
     throw InputError(ExitCode::usage, fmt::format("diagnose: a strapdown study takes one recording, {} are given. Name one "
                                                   "on the command line", paths.size()));
@@ -53,7 +54,11 @@ ExitCode diagnose_case(const Study& study, const std::vector<std::string>& paths
   options.gravity = study.site.gravity;
   options.seed = study.monte_carlo.seed;
   const auto recordings = read_all(study, paths);
+  std::fflush(stdout);
+  const auto report = stage_reporter(arguments.progress, "diagnose");
+  if (report) report("dwells, turns and what each step gains", 0.0);
   const StrapdownDiagnosis found = diagnose_strapdown(study, recordings.front(), options);
+  if (report) report("done", 1.0);
   std::vector<std::string> more;
   if (!folder.empty())
     more = write_files({{"identification.json", to_json(found.result).dump(2) + "\n"}}, folder);
@@ -66,9 +71,7 @@ ExitCode diagnose_platform(const StudyArguments& arguments, const Study& study, 
   discovery::Prepared prepared = discovery::prepare(study, read_all(study, paths));
   std::fflush(stdout);
   discovery::DiagnoseOptions options;
-  const mc::ThreadCount threads(arguments.threads);
-  const auto report = stage_reporter(arguments.progress, "diagnose");
-  options.progress = report;
+  options.progress = stage_reporter(arguments.progress, "diagnose");
   discovery::Diagnosis found = discovery::diagnose(prepared.study, prepared.recordings, options);
   const auto began = std::chrono::steady_clock::now();
   found.advice = discovery::advise(prepared.study, prepared.recordings, found,
@@ -85,7 +88,8 @@ ExitCode diagnose(const StudyArguments& arguments, const std::vector<std::string
   const Study study = arguments.read();
   require_nominal(study);
   require_own_folder(folder, "diagnose");
-  return study.kind == RecordingKind::strapdown ? diagnose_case(study, paths, folder)
+  const mc::ThreadCount threads(arguments.threads);
+  return study.kind == RecordingKind::strapdown ? diagnose_case(arguments, study, paths, folder)
                                                 : diagnose_platform(arguments, study, paths, folder);
 }
 

@@ -4,7 +4,6 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 #include <algorithm>
-#include <array>
 
 namespace drift::discovery {
 namespace {
@@ -136,10 +135,12 @@ Remainder remainder(const Field& field, const std::vector<Choice>& choices, doub
     return false;
   };
   // Tails are dear: the largest T of each number of degrees is kept, and its tail taken when it grows.
-  std::array<double, 16> largest{};
+  std::size_t most = 1;
+  for (const Candidate& c : field.set->candidates) most = std::max(most, c.params.size());
+  std::vector<double> largest(most + 1, 0.0);
   const auto take = [&](std::size_t candidate, double T, int dof) {
-    if (dof <= 0 || !(T > largest[dof])) return false;
-    largest[dof] = T;
+    if (dof <= 0 || !(T > largest[static_cast<std::size_t>(dof)])) return false;
+    largest[static_cast<std::size_t>(dof)] = T;
     const double s = strength(T, dof);
     if (s <= out.library) return false;
     out.library = s;

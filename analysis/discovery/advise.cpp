@@ -180,6 +180,7 @@ class Adviser {
         advice.plan.push_back(std::move(p));
       }
     }
+    if (advice.plan.empty() && reached.sigma >= options_.wanted) return {};  // told apart as it is
     advice.expected_sigma = reached.sigma;
     advice.verified_sigma = advice.plan.empty() ? std::nan("") : verify(advice.plan, reached);
     advice.text = text_of(advice, reached);

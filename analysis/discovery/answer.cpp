@@ -30,9 +30,11 @@ std::vector<int> columns_of(const Examination& e, const std::vector<Choice>& cho
 std::string cause_text(const Cause& c) {
   std::string text = c.term;
   if (!c.axis.empty()) text += "." + c.axis;
-  if (c.parameters.empty() || c.parameters.size() > 2) return text;
+  const auto term = TermLibrary::find_term(c.term);
+  text += fmt::format(" ({}", term ? TermLibrary::terms[*term].title : "");
+  if (c.parameters.empty() || c.parameters.size() > 2) return text + ")";
   for (const CauseParameter& p : c.parameters)
-    text += fmt::format("{}{} = {}{}", &p == &c.parameters.front() ? " (" : ", ", p.key, with_sigma(p.value, p.sigma),
+    text += fmt::format("{}{} = {}{}", &p == &c.parameters.front() ? ": " : ", ", p.key, with_sigma(p.value, p.sigma),
                         p.unit == "1" ? "" : " " + p.unit);
   const CauseParameter& p = c.parameters.front();
   if (c.term == "frame_closure")  // between two equations the interval is the answer
@@ -185,6 +187,9 @@ void fill_causes(const Examination& nominal, const Search& found, Diagnosis& d) 
         d.inseparable.push_back(fmt::format("{}{}{} and {}{}{} leave the same trace on this plan", d.causes[i].term,
                                             d.causes[i].axis.empty() ? "" : ".", d.causes[i].axis, c.term,
                                             c.axis.empty() ? "" : ".", c.axis));
+  if (found.sets.empty() && nominal.lone.p_value < 0.01)
+    d.remarks.push_back(fmt::format("An unknown input of free form in {} alone would explain it (twice the log "
+                                    "likelihood better by {:.1f}).", nominal.lone.equation, nominal.lone.gain));
   for (const Cause& c : d.causes)
     if (c.term == "frame_closure")
       d.remarks.push_back("frame_closure: cross-talk between the torquing channels (taken as zero) moves lambda as much "

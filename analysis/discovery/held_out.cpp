@@ -112,7 +112,9 @@ class Folder {
     fold.positions = part.positions;
     const bool linear = options_.method == FoldMethod::linear;
     const Prediction conditioned = prediction(all_before_, marginal(without_intervals(before_, part.intervals), noise_));
-    const Prediction p = linear ? conditioned : refitted(nominal_, part);
+    Prediction p = linear ? conditioned : refitted(nominal_, part);
+    // A model that is grossly wrong may run away without the part: then as the whole fit has it.
+    if (!std::isfinite(p.log_score)) p = conditioned;
     const Prediction q = linear ? prediction(all_after_, marginal(without_intervals(after_, part.intervals), noise_))
                                 : refitted(patched_, part);
     fold.dof = p.rows;
@@ -230,6 +232,7 @@ HeldOut held_out(const Examination& nominal, const Examination& patched, const T
 
   double chi2_before = 0.0, chi2_after = 0.0, square = 0.0, rows = 0.0;
   double whole_before = 0.0, whole_after = 0.0, whole_rows = 0.0;
+  std::size_t beyond = 0;
   for (std::size_t k = 0; k < outcomes.size(); ++k) {
     Fold& fold = outcomes[k].fold;
     const double gain = fold.log_score_after - fold.log_score_before;
@@ -239,6 +242,11 @@ HeldOut held_out(const Examination& nominal, const Examination& patched, const T
       whole_rows += static_cast<double>(fold.dof);
       out.recording_gain += gain;
       out.recordings.push_back(std::move(fold));
+      continue;
+    }
+    if (!std::isfinite(gain) && std::isfinite(fold.log_score_after)) {
+      ++beyond;  // the nominal model predicts nothing at all
+      out.folds.push_back(std::move(fold));
       continue;
     }
     chi2_before += fold.chi2_before;
@@ -259,7 +267,7 @@ HeldOut held_out(const Examination& nominal, const Examination& patched, const T
     out.recording_chi2_per_dof_before = whole_before / whole_rows;
     out.recording_chi2_per_dof_after = whole_after / whole_rows;
   }
-  out.improves = !(out.folds.empty() && out.recordings.empty()) && (out.folds.empty() || out.log_score_gain > 0.0) && (out.recordings.empty() || out.recording_gain > 0.0);
+  out.improves = !(out.folds.empty() && out.recordings.empty()) && (out.folds.empty() || out.log_score_gain > 0.0 || (beyond > 0 && out.log_score_gain >= 0.0)) && (out.recordings.empty() || out.recording_gain > 0.0);
   return out;
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
 
 #include "core/base/rng.hpp"
 
@@ -41,6 +43,30 @@ MatX correlations(const Field& field, const std::vector<Unit>& units, VecX& z) {
 }
 
 double joint(double za, double zb, double rho) { return (za * za + zb * zb - 2.0 * rho * za * zb) / (1.0 - rho * rho); }
+
+/// What a pair would be called: terms and axes.
+std::string name_of(const Field& field, const Pair& p) {
+  const auto name = [&](const Choice& c) {
+    const Candidate& candidate = field.set->candidates[c.candidate];
+    return candidate.term + "." + candidate.axis;
+  };
+  const std::string a = name(p.a), b = name(p.b);
+  return a < b ? a + " " + b : b + " " + a;
+}
+
+/// The best of each two candidates, and of those with one name the best two: room for different ones.
+std::vector<Pair> diverse(const Field& field, const std::vector<Pair>& sorted, std::size_t most) {
+  std::vector<Pair> kept;
+  std::map<std::string, int> named;
+  for (const Pair& p : sorted) {
+    if (kept.size() == most) break;
+    const bool seen = std::any_of(kept.begin(), kept.end(), [&](const Pair& k) {
+      return k.a.candidate == p.a.candidate && k.b.candidate == p.b.candidate;
+    });
+    if (!seen && ++named[name_of(field, p)] <= 2) kept.push_back(p);
+  }
+  return kept;
+}
 
 bool same_candidate(const Unit& a, const Unit& b) { return a.choice.candidate == b.choice.candidate; }
 
@@ -117,8 +143,7 @@ std::vector<Pair> adequate_pairs(const Field& field, const std::vector<Score>& s
       found.push_back({pair[0], pair[1], T, both.dof, strength(T, both.dof), log_bayes(*field.projected, columns)});
     }
   std::stable_sort(found.begin(), found.end(), [](const Pair& a, const Pair& b) { return a.log_bayes > b.log_bayes; });
-  if (found.size() > most) found.resize(most);
-  return found;
+  return diverse(field, found, most);
 }
 
 std::vector<Choice> greedy(const Field& field, const std::vector<Score>& scores, double library_threshold,

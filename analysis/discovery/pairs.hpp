@@ -21,8 +21,8 @@ std::vector<Pair> strongest_pairs(const Field& field, std::size_t most);
 /// Largest pair strength under the null: threshold and p-values for strongest_pairs.
 MaxNull pair_null(const Field& field, int draws);
 
-/// Pairs that leave nothing significant, by evidence, best first (at most `most`). Candidates of
-/// several parameters take part where their own score is among the strongest.
+/// Pairs that leave nothing significant, by evidence, best first (at most `most`, of the same terms and axes
+/// at most two). Candidates of several parameters take part where their own score is among the strongest.
 std::vector<Pair> adequate_pairs(const Field& field, const std::vector<Score>& scores, double library_threshold,
                                  double scan_threshold, std::size_t most);
 

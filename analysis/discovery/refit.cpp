@@ -97,15 +97,17 @@ Refit refit(const Examination& nominal, const Test& test, const std::vector<Choi
   };
   BatchResult best = fit_from(start);
   if (family) {
-    // lambda and the misalignments are bilinear, a narrow bent valley: from both equations, fitted first.
-    const auto from_end = [&](std::size_t end) {
+    // lambda and the misalignments are bilinear, a narrow bent valley: from both equations, fitted first,
+    // from the nominal fit and, as that may be far off, from the prior.
+    const auto from_end = [&](std::size_t k) {
+      const double end = static_cast<double>(k % 2);
       FilterSpec held = out.filter;
-      held.priors[lambda] = fixed(static_cast<double>(end));
-      Theta from = theta;
-      from[lambda] = static_cast<double>(end);
+      held.priors[lambda] = fixed(end);
+      Theta from = k < 2 ? theta : make_layout(nominal.filter).theta;
+      from[lambda] = end;
       return fit_from(theta_of(held, fit_batch(held, test.timeline, test.readout, test.measured, from)));
     };
-    for (BatchResult& other : mc::run_campaign(2, from_end))
+    for (BatchResult& other : mc::run_campaign(4, from_end))
       if (other.estimate.statistic < best.estimate.statistic) best = std::move(other);
   }
   double narrowed = 0.0;  // log of how much narrower the prior of lambda has become

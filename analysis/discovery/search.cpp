@@ -204,33 +204,33 @@ Search search(Examination& nominal, const Test& test, const SearchOptions& optio
     if (nominal.set.candidates[k].term == "frame_closure" &&
         (0.5 * other > out.nulls.library_threshold || nominal.scores[k].strength > out.nulls.library_threshold))
       add(k);
-  // Where a part of a term will not do because more of the same term is asked for, the term is tried.
   std::vector<Refit> refits;
-  for (std::size_t from = 0; from < singles.size();) {
-    const std::size_t to = singles.size();
+  while (refits.size() < singles.size()) {
+    const std::size_t first = refits.size();
     std::vector<std::vector<Choice>> tried;
-    for (std::size_t k = from; k < to; ++k) tried.push_back({choice(singles[k])});
-    for (Refit& r : refit_all(nominal, test, tried, out.nulls)) {
-      const Candidate& part = nominal.set.candidates[r.choices.front().candidate];
-      const Candidate& asked = r.after.set.candidates[r.remainder.strongest];
-      if (!r.adequate && asked.term == part.term)
-        for (std::size_t k = 0; k < nominal.set.candidates.size(); ++k) {
-          const Candidate& whole = nominal.set.candidates[k];
-          if (nominal.scores[k].dof > 0 && whole.contains(part) && (whole.params == asked.params || whole.contains(asked)))
-            add(k);
-        }
-      refits.push_back(std::move(r));
+    for (std::size_t next = first; next < singles.size(); ++next) tried.push_back({choice(singles[next])});
+    for (Refit& r : refit_all(nominal, test, tried, out.nulls)) refits.push_back(std::move(r));
+    // Where a part of a term will not do because more of the same term is asked for, the term is tried.
+    for (std::size_t next = first; next < refits.size(); ++next) {
+      if (refits[next].adequate) continue;
+      const Candidate& part = nominal.set.candidates[singles[next]];
+      const Candidate& asked = refits[next].after.set.candidates[refits[next].remainder.strongest];
+      if (asked.term != part.term) continue;
+      for (std::size_t k = 0; k < nominal.set.candidates.size(); ++k) {
+        const Candidate& whole = nominal.set.candidates[k];
+        if (nominal.scores[k].dof > 0 && whole.contains(part) && (whole.params == asked.params || whole.contains(asked))) add(k);
+      }
     }
     from = to;
   }
   weigh(nominal, std::move(refits), options, out);
   if (!out.sets.empty()) return out;
 
-  std::vector<std::vector<Choice>> pairs_tried;
+  std::vector<std::vector<Choice>> tried;
   for (const Pair& p : adequate_pairs(*nominal.field, nominal.scores, 1.1 * out.nulls.library_threshold,
                                       1.1 * out.nulls.scan_threshold, options.most_refits))
-    pairs_tried.push_back({p.a, p.b});
-  weigh(nominal, refit_all(nominal, test, pairs_tried, out.nulls), options, out);
+    tried.push_back({p.a, p.b});
+  weigh(nominal, refit_all(nominal, test, tried, out.nulls), options, out);
   if (!out.sets.empty()) return out;
 
   const auto several = greedy(*nominal.field, nominal.scores, out.nulls.library_threshold, out.nulls.scan_threshold, 4);

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "analysis/report/coupling_text.hpp"
 #include "analysis/report/diagnosis_figures.hpp"
 #include "analysis/report/diagnosis_tables.hpp"
@@ -39,7 +41,8 @@ Section where_section(const Diagnosis& d) {
   if (const auto sentence = where_sentence(d.where); !sentence.empty()) section.blocks.emplace_back(Paragraph{sentence});
   add_pictures(section, where_figures(d));
   for (const RecoveredSignal& s : d.signals)
-    if (!s.shape.empty()) section.blocks.emplace_back(Paragraph{fmt::format("{}: {}", s.equation, s.shape)});
+    if (!s.shape.empty())
+      section.blocks.emplace_back(Paragraph{s.shape.starts_with(s.equation) ? s.shape : fmt::format("{}: {}", s.equation, s.shape)});
   if (!d.where.windows.empty()) section.blocks.emplace_back(window_table(d, most_windows));
   return section;
 }
@@ -47,6 +50,14 @@ Section where_section(const Diagnosis& d) {
 Section name_section(const Diagnosis& d) {
   Section section{"What", {}};
   if (!d.causes.empty()) section.blocks.emplace_back(cause_table(d));
+  std::vector<std::string> explained;
+  for (const Cause& c : d.causes)
+    if (const auto term = TermLibrary::find_term(c.term)) {
+      const TermInfo& info = TermLibrary::terms[*term];
+      auto line = fmt::format("{}, {}: {}", info.key, info.title, info.equation);
+      if (std::ranges::find(explained, line) == explained.end()) explained.push_back(std::move(line));
+    }
+  if (!explained.empty()) section.blocks.emplace_back(Sentences{explained});
   const auto figures = name_figures(d);
   add_pictures(section, figures);
   if (!d.candidates.empty()) section.blocks.emplace_back(candidate_table(d, most_candidates));

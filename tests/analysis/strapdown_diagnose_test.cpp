@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "analysis/discovery/patched_study.hpp"
@@ -32,12 +31,13 @@ bool absent(const std::string& name) { return !std::filesystem::exists(path_of(n
 
 Study nominal() { return read_study(std::string(DRIFT_SOURCE_DIR) + "/configs/diagnose_xsens.toml"); }
 
-const StrapdownDiagnosis& diagnosed(const std::string& name) {
-  static std::map<std::string, StrapdownDiagnosis> all;
-  const auto known = all.find(name);
-  if (known != all.end()) return known->second;
-  const auto recording = read_recording(path_of(name), RecordingKind::strapdown, 9.80665);
-  return all.emplace(name, diagnose_strapdown(nominal(), recording, {})).first->second;
+Recording recorded(const std::string& name) { return read_recording(path_of(name), RecordingKind::strapdown, 9.80665); }
+
+/// Where the verdict is asked for and no number: one division into parts is enough.
+StrapdownOptions quick() {
+  StrapdownOptions options;
+  options.repeats = 1;
+  return options;
 }
 
 const Cause* cause(const Diagnosis& d, std::string_view term) {
@@ -58,9 +58,11 @@ bool says(const Diagnosis& d, std::string_view text) {
   return std::ranges::any_of(d.remarks, [&](const auto& r) { return r.find(text) != std::string::npos; });
 }
 
-TEST(StrapdownDiagnosis, XsensLacksMisalignmentAndCrossAxisSensitivity) {
+// One test for one diagnosis: every test is a process of its own.
+TEST(StrapdownDiagnosis, XsensLacksMisalignmentAndCrossAxisSensitivityAndClaimsNothingThatItCannotShow) {
   if (absent("xsens_mti.csv")) GTEST_SKIP() << "the recording is not beside the sources";
-  const auto& found = diagnosed("xsens_mti.csv");
+  const Recording recording = recorded("xsens_mti.csv");
+  const auto found = diagnose_strapdown(nominal(), recording, {});
   const Diagnosis& d = found.diagnosis;
   EXPECT_EQ(d.verdict, discovery::Verdict::named);
   EXPECT_EQ(d.causes.size(), 3u);
@@ -81,11 +83,7 @@ TEST(StrapdownDiagnosis, XsensLacksMisalignmentAndCrossAxisSensitivity) {
   EXPECT_NEAR(found.kinds[2].after, 0.0016, share * 0.0016);
   EXPECT_TRUE(d.fit.held_out.improves);
   EXPECT_EQ(d.fit.held_out.folds.size(), 38u);
-}
 
-TEST(StrapdownDiagnosis, XsensClaimsNothingThatItCannotShow) {
-  if (absent("xsens_mti.csv")) GTEST_SKIP() << "the recording is not beside the sources";
-  const Diagnosis& d = diagnosed("xsens_mti.csv").diagnosis;
   for (const char* term : {"g2_drift", "temperature_drift", "accelerometer_temperature", "frame_closure", "drift_ramp"})
     EXPECT_EQ(cause(d, term), nullptr) << term;
   for (const char* text : {"accelerometer quadratic rejected", "g2_drift rejected", "g_drift, input axis alone rejected",
@@ -94,26 +92,23 @@ TEST(StrapdownDiagnosis, XsensClaimsNothingThatItCannotShow) {
   for (const char* group : {"D_II", "D_OO", "D_SS", "D_IO", "D_IS", "D_OS", "K2", "K3", "lambda"})
     for (const Cause& c : d.causes)
       for (const auto& p : c.parameters) EXPECT_FALSE(p.key.starts_with(group)) << p.key;
+
+  // A nominal model that holds all this is consistent with the recording.
+  Study patched = nominal();
+  patched.filters.front() = d.patched;
+  const Diagnosis again = diagnose_strapdown(patched, recording, quick()).diagnosis;
+  EXPECT_EQ(again.verdict, discovery::Verdict::consistent) << again.sentence;
+  EXPECT_FALSE(again.has_patch);
+  EXPECT_GT(again.p_value, 0.05);
 }
 
 TEST(StrapdownDiagnosis, MpuHasMisalignmentAndNoGSensitivity) {
   if (absent("mpu9150_1.csv")) GTEST_SKIP() << "the recording is not beside the sources";
-  const Diagnosis& d = diagnosed("mpu9150_1.csv").diagnosis;
+  const Diagnosis d = diagnose_strapdown(nominal(), recorded("mpu9150_1.csv"), {}).diagnosis;
   EXPECT_EQ(d.verdict, discovery::Verdict::named);
   EXPECT_NE(cause(d, "gyro_misalignment"), nullptr);
   EXPECT_EQ(cause(d, "g_drift"), nullptr);
   EXPECT_EQ(cause(d, "g2_drift"), nullptr);
-}
-
-TEST(StrapdownDiagnosis, ANominalModelThatHoldsEverythingIsConsistent) {
-  if (absent("xsens_mti.csv")) GTEST_SKIP() << "the recording is not beside the sources";
-  Study study = nominal();
-  study.filters.front() = diagnosed("xsens_mti.csv").diagnosis.patched;
-  const auto recording = read_recording(path_of("xsens_mti.csv"), RecordingKind::strapdown, 9.80665);
-  const Diagnosis d = diagnose_strapdown(study, recording, {}).diagnosis;
-  EXPECT_EQ(d.verdict, discovery::Verdict::consistent) << d.sentence;
-  EXPECT_FALSE(d.has_patch);
-  EXPECT_GT(d.p_value, 0.05);
 }
 
 /// A case with fixed drift and scale, and misalignment of some size [arcsec].
@@ -124,16 +119,11 @@ Recording made(double size, std::uint64_t seed) {
   test::set(theta, "eta_x", size);
   test::set(theta, "xi_y", -size);
   test::set(theta, "eta_z", 0.7 * size);
-  return test::strapdown_recording({.dwells = 30, .seed = seed}, theta);
+  return test::strapdown_recording({.dwells = 20, .rest = 4.0, .seed = seed}, theta);
 }
 
-const StrapdownDiagnosis& tilted() {
-  static const StrapdownDiagnosis found = diagnose_strapdown(nominal(), made(3000.0, 5), {});
-  return found;
-}
-
-TEST(StrapdownDiagnosis, RecoversTheMisalignmentThatTheRecordingWasMadeWith) {
-  const StrapdownDiagnosis& found = tilted();
+TEST(StrapdownDiagnosis, RecoversTheMisalignmentThatTheRecordingWasMadeWithAndWritesItDown) {
+  const StrapdownDiagnosis found = diagnose_strapdown(nominal(), made(3000.0, 5), quick());
   const Cause* c = cause(found.diagnosis, "gyro_misalignment");
   ASSERT_NE(c, nullptr) << found.diagnosis.sentence;
   EXPECT_EQ(found.diagnosis.causes.size(), 1u) << found.diagnosis.sentence;
@@ -145,23 +135,9 @@ TEST(StrapdownDiagnosis, RecoversTheMisalignmentThatTheRecordingWasMadeWith) {
   double total = 0.0;
   for (const auto& s : found.diagnosis.where.channels) total += s.share;
   EXPECT_NEAR(total, 1.0, 1e-12);
-}
 
-TEST(StrapdownDiagnosis, NothingMissingIsConsistentAndANominalEq6IsFoundOut) {
-  EXPECT_EQ(diagnose_strapdown(nominal(), made(0.0, 6), {}).diagnosis.verdict, discovery::Verdict::consistent);
-  Study six = nominal();
-  six.filters.front().coupling = Coupling::eq6;
-  const Diagnosis d = diagnose_strapdown(six, made(3000.0, 5), {}).diagnosis;
-  ASSERT_NE(cause(d, "frame_closure"), nullptr);
-  EXPECT_NE(cause(d, "gyro_misalignment"), nullptr);
-  EXPECT_EQ(d.patched.coupling, Coupling::eq5);
-}
-
-TEST(StrapdownDiagnosis, WritesAPatchedStudyThatTheProgramReads) {
   const test::ScratchFolder folder;
-  const Study study = nominal();
-  const StrapdownDiagnosis& found = tilted();
-  write_results(study, found.diagnosis, {{"made"}, ""}, folder.file("out"));
+  write_results(nominal(), found.diagnosis, {{"made"}, ""}, folder.file("out"));
   const Study again = read_study(folder.file("out") + "/patched.toml");
   EXPECT_EQ(again.filters.front().active, found.diagnosis.patched.active);
   EXPECT_TRUE(again.filters.front().active[TermLibrary::find("eta_x").value()]);
@@ -170,6 +146,16 @@ TEST(StrapdownDiagnosis, WritesAPatchedStudyThatTheProgramReads) {
   EXPECT_EQ(json["causes"][0]["term"], "gyro_misalignment");
   EXPECT_TRUE(json["fit"]["start_spread_before"].is_null());
   EXPECT_EQ(testing::xml_problem(test::text_of(folder.file("out") + "/report.html"), {"meta"}), std::nullopt);
+}
+
+TEST(StrapdownDiagnosis, NothingMissingIsConsistentAndANominalEq6IsFoundOut) {
+  EXPECT_EQ(diagnose_strapdown(nominal(), made(0.0, 6), quick()).diagnosis.verdict, discovery::Verdict::consistent);
+  Study six = nominal();
+  six.filters.front().coupling = Coupling::eq6;
+  const Diagnosis d = diagnose_strapdown(six, made(3000.0, 5), quick()).diagnosis;
+  ASSERT_NE(cause(d, "frame_closure"), nullptr);
+  EXPECT_NE(cause(d, "gyro_misalignment"), nullptr);
+  EXPECT_EQ(d.patched.coupling, Coupling::eq5);
 }
 
 TEST(StrapdownDiagnosis, WithoutAFilterThereIsNoNominalModel) {
