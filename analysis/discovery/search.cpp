@@ -221,7 +221,6 @@ Search search(Examination& nominal, const Test& test, const SearchOptions& optio
         if (nominal.scores[k].dof > 0 && whole.contains(part) && (whole.params == asked.params || whole.contains(asked))) add(k);
       }
     }
-    from = to;
   }
   weigh(nominal, std::move(refits), options, out);
   if (!out.sets.empty()) return out;
