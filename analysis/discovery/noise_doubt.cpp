@@ -74,8 +74,8 @@ double normal_cdf(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); 
 
 /// Chance that such noise, if there is any, is so small: log-normal about the sizes that gyros have
 /// (physics.md 4, effects 8, 9 and 11: the ranges are one sigma to either side), and about half the white
-/// noise of an accelerometer. Of several components the one most like noise counts. Never below one in
-/// twenty: better instruments than the usual ones exist.
+/// noise of an accelerometer. Of several components the one most like noise counts. Never less than two
+/// sigma say: better instruments than the usual ones exist.
 double p_of_size(const LinearProblem& problem, const NoiseModel& white, const NoiseModel& driven) {
   struct Usual {
     double NoiseModel::* sigma;
@@ -86,7 +86,7 @@ double p_of_size(const LinearProblem& problem, const NoiseModel& white, const No
                          {&NoiseModel::drift_random_walk, 1e-3 * deg_per_h / 60.0, 5e-3 * deg_per_h / 60.0},
                          {&NoiseModel::markov_drift, 2e-3 * deg_per_h, 1e-2 * deg_per_h},
                          {&NoiseModel::acc_markov, 0.2 * problem.acc_sigma, 1.2 * problem.acc_sigma}};
-  double p = 0.05;
+  double p = normal_cdf(-2.0);
   for (const Usual& u : usual) {
     const double found = driven.*(u.sigma);
     if (found <= white.*(u.sigma)) continue;  // declared, or not there

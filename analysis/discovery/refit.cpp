@@ -23,6 +23,19 @@ double grid_spacing(const Candidate& c, std::size_t param, double value) {
   return std::isfinite(nearest) ? nearest : 0.0;
 }
 
+/// Whether each of simultaneous causes has an amplitude that is clearly not zero. A change of equation is
+/// judged by the fit alone: where its weight ends is seldom known well.
+bool all_needed(const CandidateSet& set, const Refit& r) {
+  constexpr double clearly = 3.0;  // sigma
+  return std::all_of(r.choices.begin(), r.choices.end(), [&](const Choice& choice) {
+    const auto& params = set.candidates[choice.candidate].params;
+    return std::any_of(params.begin(), params.end(), [&](std::size_t i) {
+      const ParameterEstimate* p = r.after.fit.estimate.find(i);
+      return i == lambda || !p || std::abs(p->value - TermLibrary::specs[i].prior_si().mean()) >= clearly * p->sigma;
+    });
+  });
+}
+
 bool may_be_refined(const ParamSpec& spec) { return spec.kind == ParamKind::nonlinear; }
 
 }  // namespace
@@ -137,6 +150,7 @@ Refit refit(const Examination& nominal, const Test& test, const std::vector<Choi
   for (const PositionScan& s : out.after.scans)
     for (const double T : s.T) out.remainder.scan = std::max(out.remainder.scan, strength(T, 1));
   out.adequate = out.remainder.library <= nulls.library_threshold && out.remainder.scan <= nulls.scan_threshold;
+  out.adequate = out.adequate && (choices.size() == 1 || all_needed(nominal.set, out));
   if (out.adequate) {
     // Many small traces in one equation that no window and no candidate has alone.
     out.after.lone = strongest_lone_input(out.after.problem, out.after.noise.model);

@@ -138,6 +138,33 @@ std::vector<Refit> refit_all(const Examination& nominal, const Test& test, const
   return mc::run_campaign(all.size(), [&](std::size_t k) { return refit(nominal, test, all[k], nulls); });
 }
 
+/// The same candidate in another examination's list; as many as there are if it has none.
+std::size_t same_candidate(const CandidateSet& in, const Candidate& c) {
+  const auto place = std::find_if(in.candidates.begin(), in.candidates.end(), [&](const Candidate& other) {
+    return other.term == c.term && other.params == c.params && other.variants.size() == c.variants.size();
+  });
+  return static_cast<std::size_t>(place - in.candidates.begin());
+}
+
+/// What else is in the test once a cause is fitted that the linear score cannot judge (a change of equation
+/// moves the misalignments far): the candidates that leave nothing beside it, by evidence.
+std::vector<std::vector<Choice>> beside(const Refit& r, const CandidateSet& nominal, const Nulls& nulls) {
+  constexpr std::size_t asked = 12, most = 3;
+  constexpr double slack = 1.25;
+  std::vector<std::vector<Choice>> pairs;
+  const Field field(r.after.set, r.after.projector->candidates(), r.after.scans);  // it has moved since it was examined
+  const auto order = by_evidence(r.after);
+  for (std::size_t i = 0; i < std::min(asked, order.size()) && pairs.size() < most; ++i) {
+    const std::size_t variant = r.after.scores[order[i]].variant;
+    const Remainder left = remainder(field, {{order[i], variant}}, slack * nulls.library_threshold);
+    const std::size_t k = same_candidate(nominal, r.after.set.candidates[order[i]]);
+    if (left.library <= slack * nulls.library_threshold && left.scan <= slack * nulls.scan_threshold &&
+        k < nominal.candidates.size())
+      pairs.push_back({r.choices.front(), {k, variant}});
+  }
+  return pairs;
+}
+
 }  // namespace
 
 double other_equation_gain(const Examination& nominal, const Test& test) {
@@ -226,6 +253,9 @@ Search search(Examination& nominal, const Test& test, const SearchOptions& optio
   if (!out.sets.empty()) return out;
 
   std::vector<std::vector<Choice>> tried;
+  for (const Refit& r : out.rejected)
+    if (nominal.set.candidates[r.choices.front().candidate].term == "frame_closure" && r.log_bayes > 0.0)
+      for (auto& pair : beside(r, nominal.set, out.nulls)) tried.push_back(std::move(pair));
   for (const Pair& p : adequate_pairs(*nominal.field, nominal.scores, 1.1 * out.nulls.library_threshold,
                                       1.1 * out.nulls.scan_threshold, options.most_refits))
     tried.push_back({p.a, p.b});
