@@ -120,7 +120,7 @@ std::vector<Pair> adequate_pairs(const Field& field, const std::vector<Score>& s
   for (const std::size_t k : order) {
     if (scores[k].dof == 0) continue;
     const Candidate& c = field.set->candidates[k];
-    if (c.params.size() > 1 && (several >= 12 || c.params.size() > 3)) continue;
+    if (c.params.size() > 1 && (several >= 12 || c.params.size() > 6)) continue;
     several += c.params.size() > 1;
     choices.push_back({k, scores[k].variant});
     // Alone it may look best at another time constant than with a partner.

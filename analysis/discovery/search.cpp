@@ -84,14 +84,15 @@ double log_unknown(const Examination& e) {
 /// explains the test far better than the best of them.
 void weigh(const Examination& e, std::vector<Refit> refits, const SearchOptions& options, Search& out) {
   constexpr double worth = 3.0;        // log evidence that more parameters must bring
-  constexpr double far_better = 5.0;   // one in a hundred and fifty
+  constexpr double far_better = 5.0;   // one in a hundred and fifty,
+  constexpr double not_linear = 0.05;  // and what the linearised evidence of a large effect may be wrong by
   std::vector<Refit> good;
   for (Refit& r : refits) (r.adequate ? good : out.rejected).push_back(std::move(r));
   if (good.empty()) return;
   std::vector<double> weight;
   for (const Refit& r : good) weight.push_back(r.log_bayes + log_prior(e, r.choices));
   const double top = *std::max_element(weight.begin(), weight.end());
-  if (log_unknown(e) > top + far_better) {
+  if (log_unknown(e) > top + far_better + not_linear * std::max(top, 0.0)) {
     for (Refit& r : good) out.rejected.push_back(std::move(r));
     return;
   }
