@@ -6,6 +6,7 @@
 
 #include "analysis/cli/commands.hpp"
 #include "analysis/cli/progress.hpp"
+#include "analysis/cli/read_recordings.hpp"
 #include "analysis/discovery/advise.hpp"
 #include "analysis/discovery/diagnose.hpp"
 #include "analysis/discovery/prepare.hpp"
@@ -14,20 +15,10 @@
 #include "analysis/report/results_folder.hpp"
 #include "analysis/strapdown/diagnose.hpp"
 #include "analysis/strapdown/report.hpp"
-#include "core/sim/quality_card.hpp"
 #include "mc/campaign.hpp"
 
 namespace drift::cli {
 namespace {
-
-std::vector<Recording> read_all(const Study& study, const std::vector<std::string>& paths) {
-  std::vector<Recording> recordings;
-  for (const std::string& path : paths) {
-    recordings.push_back(read_recording(path, study.kind, study.site.gravity));
-    fmt::print("{}\n", to_text(quality_card(recordings.back(), study.kind)));
-  }
-  return recordings;
-}
 
 void require_nominal(const Study& study) {
   if (study.filters.empty())
@@ -53,7 +44,7 @@ ExitCode diagnose_case(const StudyArguments& arguments, const Study& study, cons
   options.static_min = study.static_min;
   options.gravity = study.site.gravity;
   options.seed = study.monte_carlo.seed;
-  const auto recordings = read_all(study, paths);
+  const auto recordings = read_recordings(study, paths);
   std::fflush(stdout);
   const auto report = stage_reporter(arguments.progress, "diagnose");
   if (report) report("dwells, turns and what each step gains", 0.0);
@@ -68,7 +59,7 @@ ExitCode diagnose_case(const StudyArguments& arguments, const Study& study, cons
 
 ExitCode diagnose_platform(const StudyArguments& arguments, const Study& study, const std::vector<std::string>& paths,
                            const std::string& folder) {
-  discovery::Prepared prepared = discovery::prepare(study, read_all(study, paths));
+  discovery::Prepared prepared = discovery::prepare(study, read_recordings(study, paths));
   std::fflush(stdout);
   discovery::DiagnoseOptions options;
   options.progress = stage_reporter(arguments.progress, "diagnose");

@@ -4,23 +4,14 @@
 
 #include "analysis/cli/commands.hpp"
 #include "analysis/cli/progress.hpp"
+#include "analysis/cli/read_recordings.hpp"
 #include "analysis/report/identification_text.hpp"
 #include "analysis/report/results_folder.hpp"
 #include "analysis/report/strapdown_results.hpp"
 #include "analysis/strapdown/report.hpp"
-#include "core/sim/quality_card.hpp"
 
 namespace drift::cli {
 namespace {
-
-std::vector<Recording> read_all(const Study& study, const std::vector<std::string>& paths) {
-  std::vector<Recording> recordings;
-  for (const std::string& path : paths) {
-    recordings.push_back(read_recording(path, study.kind, study.site.gravity));
-    fmt::print("{}\n", to_text(quality_card(recordings.back(), study.kind)));
-  }
-  return recordings;
-}
 
 ExitCode identify_case(const Study& study, const std::vector<std::string>& paths, const std::string& folder) {
   if (paths.size() != 1)
@@ -33,7 +24,7 @@ ExitCode identify_case(const Study& study, const std::vector<std::string>& paths
   options.equations.clear();
   for (const FilterSpec& f : study.filters) options.equations.push_back(f.coupling);
   if (options.equations.empty()) options.equations = {Coupling::eq5, Coupling::eq6};
-  const auto recordings = read_all(study, paths);
+  const auto recordings = read_recordings(study, paths);
   const StrapdownResult result = identify_strapdown(recordings.front(), options);
   fmt::print("{}", to_text(result));
   if (!folder.empty())
@@ -51,7 +42,7 @@ ExitCode identify(const StudyArguments& arguments, const std::vector<std::string
   const auto progress = progress_reporter(arguments.progress, "estimates");
   const Identification id =
       paths.empty() ? identify_simulated(study, run, arguments.threads, progress)
-                    : identify_recordings(study, read_all(study, paths), arguments.threads, progress);
+                    : identify_recordings(study, read_recordings(study, paths), arguments.threads, progress);
   fmt::print("{}", to_text(study, id));
   if (!folder.empty()) {
     const auto files = write_results(study, id, folder);

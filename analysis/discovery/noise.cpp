@@ -14,7 +14,6 @@ namespace drift::discovery {
 namespace {
 
 constexpr double needed_gain = 2.7;       // of twice the log likelihood: a component comes in
-constexpr double gross = 30.0;             // chi-square per row that no plausible noise gives
 constexpr double significant_gain = 12.0; // eight alternatives, one in a thousand
 constexpr double deg_per_h = detail::deg / 3600.0;  // [rad/s]
 
@@ -283,33 +282,6 @@ NoiseEstimate noise_of_differences(const LinearProblem& problem, const VecX& res
                                          1.0 / std::sqrt(2.0 * 0.37 * 0.5 * static_cast<double>(s.size())), s.size()));
   }
   return out;
-}
-
-bool grossly_wrong(const LinearProblem& problem, const VecX& residual, const NoiseEstimate& differences) {
-  double chi2 = 0.0;
-  for (Eigen::Index k = 0; k < residual.size(); ++k) {
-    const double factor =
-        problem.tags[k].accelerometer() ? differences.model.acc_factor : differences.model.gimbal_factor;
-    chi2 += residual[k] * residual[k] / (factor * factor);
-  }
-  return chi2 > gross * static_cast<double>(residual.size());
-}
-
-std::size_t robust_weights(LinearProblem& problem, const VecX& residual) {
-  constexpr double corner = 2.5;
-  const double n = static_cast<double>(residual.size());
-  std::size_t far = 0;
-  for (const double r : residual) far += std::abs(r) > 3.5;
-  const double expected = 4.65e-4 * n;  // Gaussian
-  if (static_cast<double>(far) < expected + 4.0 * std::sqrt(expected) + 3.0 || static_cast<double>(far) > 0.02 * n)
-    return 0;
-  std::size_t lowered = 0;
-  for (Eigen::Index k = 0; k < residual.size(); ++k)
-    if (std::abs(residual[k]) > corner) {
-      problem.weight[k] = std::sqrt(corner / std::abs(residual[k]));
-      ++lowered;
-    }
-  return lowered;
 }
 
 }  // namespace drift::discovery

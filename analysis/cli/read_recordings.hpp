@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/sim/recording.hpp"
+#include "mc/study.hpp"
+
+namespace drift::cli {
+
+/// Reads the recordings of a command line and prints the quality card of each. InputError (recording).
+std::vector<Recording> read_recordings(const Study& study, const std::vector<std::string>& paths);
+
+}  // namespace drift::cli
