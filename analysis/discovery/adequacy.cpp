@@ -72,14 +72,15 @@ Score score(const Field& field, std::size_t candidate) {
   std::vector<double> evidence;
   for (std::size_t v = 0; v < c.variants.size(); ++v) {
     const Contrast& contrast = field.contrasts[candidate][v];
-    const double T = contrast.T(field.projected->g), s = strength(T, contrast.dof);
+    const double T = std::max(0.0, contrast.T(field.projected->g) - field.discount_of(candidate));
+    const double s = strength(T, contrast.dof);
     if (contrast.dof > 0 && s > best.strength) {
       best.variant = v;
       best.T = T;
       best.strength = s;
       best.dof = contrast.dof;
     }
-    evidence.push_back(log_bayes(*field.projected, c.variants[v].columns));
+    evidence.push_back(log_bayes(*field.projected, c.variants[v].columns) - 0.5 * field.discount_of(candidate));
   }
   best.strength = std::max(best.strength, 0.0);
   const double top = *std::max_element(evidence.begin(), evidence.end());
@@ -154,7 +155,7 @@ Remainder remainder(const Field& field, const std::vector<Choice>& choices, doub
     for (std::size_t v = 0; v < c.variants.size(); ++v) {
       const int j = c.variants[v].columns[0];
       if (field.contrasts[k][v].dof > 0 && left[j] > least_left * p.C(j, j) && left[j] > 0.1 * least_information &&
-          take(k, g[j] * g[j] / left[j], 1))
+          take(k, g[j] * g[j] / left[j] - field.discount_of(k), 1))
         return out;
     }
   }
@@ -177,7 +178,7 @@ Remainder remainder(const Field& field, const std::vector<Choice>& choices, doub
           T += y[j] * y[j] / eigen.eigenvalues()[j];
           ++dof;
         }
-      if (take(k, T, dof)) return out;
+      if (take(k, T - field.discount_of(k), dof)) return out;
     }
   }
   for (const PositionScan& scan : *field.scans) {

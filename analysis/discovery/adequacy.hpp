@@ -11,6 +11,10 @@ struct Field {
   const Projected* projected = nullptr;
   const std::vector<PositionScan>* scans = nullptr;
   std::vector<std::vector<Contrast>> contrasts;  ///< of each candidate and variant
+  /// What a candidate's score owes to priors alone, taken off it (empty: nothing). lambda rescales the
+  /// misalignments; their prior cost is all that it can gain where the data do not tell.
+  std::vector<double> discount;
+  double discount_of(std::size_t candidate) const { return discount.empty() ? 0.0 : discount[candidate]; }
 
   Field(const CandidateSet& candidates, const Projected& p, const std::vector<PositionScan>& windows);
   /// All contrasts, for the null of the maximum.

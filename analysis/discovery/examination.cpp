@@ -1,5 +1,7 @@
 #include "analysis/discovery/examination.hpp"
 
+#include <cmath>
+
 namespace drift::discovery {
 
 NoiseModel declared_noise(const FilterSpec& filter) {
@@ -9,11 +11,29 @@ NoiseModel declared_noise(const FilterSpec& filter) {
   return m;
 }
 
+namespace {
+
+/// Prior cost of the fitted misalignments, which lambda could save by rescaling them.
+double cost_of_misalignments(const FilterSpec& filter, const BatchResult& fit) {
+  double cost = 0.0;
+  for (const ParameterEstimate& p : fit.estimate.parameters) {
+    const auto group = TermLibrary::specs[p.param].group.view();
+    if (group != "eta" && group != "xi") continue;
+    const auto& prior = filter.priors[p.param];
+    if (prior.sigma() > 0.0) cost += std::pow((p.value - prior.mean()) / prior.sigma(), 2);
+  }
+  return cost;
+}
+
+}  // namespace
+
 void set_noise(Examination& e, const Timeline& timeline, const NoiseEstimate& noise) {
   e.noise = noise;
   e.projector = std::make_unique<Projector>(e.problem, noise.model);
   e.scans = scan_windows(e.problem, timeline, *e.projector);
   e.field = std::make_unique<Field>(e.set, e.projector->candidates(), e.scans);
+  const double cost = cost_of_misalignments(e.filter, e.fit);
+  for (const Candidate& c : e.set.candidates) e.field->discount.push_back(c.term == "frame_closure" ? cost : 0.0);
   e.scores.clear();
   for (std::size_t k = 0; k < e.set.candidates.size(); ++k) e.scores.push_back(score(*e.field, k));
 }

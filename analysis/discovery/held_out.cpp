@@ -147,7 +147,8 @@ class Folder {
   void choose_again(const Part& part, const Prediction& nominal, Outcome& out) const {
     const Projector projector(without_intervals(nominal_.problem, part.intervals), noise_);
     const std::vector<PositionScan> no_scans;
-    const Field field(nominal_.set, projector.candidates(), no_scans);
+    Field field(nominal_.set, projector.candidates(), no_scans);
+    field.discount = nominal_.field->discount;
     std::size_t best = 0;
     double best_evidence = -1.0;
     bool significant = false;
@@ -267,7 +268,8 @@ HeldOut held_out(const Examination& nominal, const Examination& patched, const T
     out.recording_chi2_per_dof_before = whole_before / whole_rows;
     out.recording_chi2_per_dof_after = whole_after / whole_rows;
   }
-  out.improves = !(out.folds.empty() && out.recordings.empty()) && (out.folds.empty() || out.log_score_gain > 0.0 || (beyond > 0 && out.log_score_gain >= 0.0)) && (out.recordings.empty() || out.recording_gain > 0.0);
+  constexpr double least_gain = 1.0;  // of the log score: less is no prediction
+  out.improves = !(out.folds.empty() && out.recordings.empty()) && (out.folds.empty() || out.log_score_gain > least_gain || (beyond > 0 && out.log_score_gain >= 0.0)) && (out.recordings.empty() || out.recording_gain > 0.0);
   return out;
 }
 

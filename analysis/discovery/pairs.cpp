@@ -22,7 +22,7 @@ std::vector<Unit> single_columns(const Field& field) {
   std::vector<Unit> units;
   for (std::size_t c = 0; c < field.set->candidates.size(); ++c)
     for (std::size_t v = 0; v < field.set->candidates[c].variants.size(); ++v)
-      if (field.contrasts[c][v].columns.size() == 1 && field.contrasts[c][v].dof == 1)
+      if (field.contrasts[c][v].columns.size() == 1 && field.contrasts[c][v].dof == 1 && field.discount_of(c) == 0.0)
         units.push_back({{c, v}, field.contrasts[c][v].columns[0]});
   return units;
 }

@@ -150,6 +150,11 @@ Refit refit(const Examination& nominal, const Test& test, const std::vector<Choi
   for (const PositionScan& s : out.after.scans)
     for (const double T : s.T) out.remainder.scan = std::max(out.remainder.scan, strength(T, 1));
   out.adequate = out.remainder.library <= nulls.library_threshold && out.remainder.scan <= nulls.scan_threshold;
+  if (family)  // another equation must be another one: an interval that holds the nominal weight names nothing
+    if (const ParameterEstimate* p = best.estimate.find(lambda)) {
+      const double base = nominal.filter.coupling == Coupling::eq6 ? 1.0 : 0.0;
+      out.adequate = out.adequate && std::abs(p->value - base) > 3.0 * p->sigma;
+    }
   out.adequate = out.adequate && (choices.size() == 1 || all_needed(nominal.set, out));
   if (out.adequate) {
     // Many small traces in one equation that no window and no candidate has alone.

@@ -153,7 +153,8 @@ std::vector<std::vector<Choice>> beside(const Refit& r, const CandidateSet& nomi
   constexpr std::size_t asked = 12, most = 3;
   constexpr double slack = 1.25;
   std::vector<std::vector<Choice>> pairs;
-  const Field field(r.after.set, r.after.projector->candidates(), r.after.scans);  // it has moved since it was examined
+  Field field(r.after.set, r.after.projector->candidates(), r.after.scans);  // it has moved since it was examined
+  field.discount = r.after.field->discount;
   const auto order = by_evidence(r.after);
   for (std::size_t i = 0; i < std::min(asked, order.size()) && pairs.size() < most; ++i) {
     const std::size_t variant = r.after.scores[order[i]].variant;

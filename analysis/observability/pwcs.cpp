@@ -53,7 +53,11 @@ std::vector<PwcsPosition> pwcs_positions(const TestPlan& plan, const Site& site,
   }
   const std::vector<Passage> passages = plan_passages(level, site);
   const Layout layout = make_layout(spec);
-  Linearizer linearizer(spec.model(), layout, channels);
+  // Terms that ask for time, memory or surroundings have no part in a problem that is constant.
+  DriftModel model = spec.model();
+  for (std::size_t t = 0; t < TermLibrary::terms.size(); ++t)
+    if (TermLibrary::terms[t].needs.any()) model.terms.reset(t);
+  Linearizer linearizer(model, layout, channels);
   linearizer.set_theta(Theta::Zero());
   NodeJacobian j = linearizer.make();
 

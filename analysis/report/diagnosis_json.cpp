@@ -71,7 +71,8 @@ Json causes_json(const std::vector<Cause>& causes) {
 
 Json candidates_json(const std::vector<CandidateScore>& candidates) {
   Json all = Json::array();
-  for (const CandidateScore& c : candidates)
+  for (const CandidateScore& c : candidates) {
+    const bool one = c.sigma > 0.0;  // of several parameters there is no single amplitude
     all.push_back({{"term", c.term},
                    {"score", number(c.score)},
                    {"p_value", number(c.p_value)},
@@ -80,15 +81,16 @@ Json candidates_json(const std::vector<CandidateScore>& candidates) {
                    {"label", c.label},
                    {"dof", c.dof},
                    {"p_value_alone", number(c.p_marginal)},
-                   {"amplitude", number(c.amplitude)},
-                   {"sigma", number(c.sigma)},
-                   {"smallest_detectable", number(c.smallest_detectable)},
+                   {"amplitude", one ? number(c.amplitude) : Json(nullptr)},
+                   {"sigma", one ? number(c.sigma) : Json(nullptr)},
+                   {"smallest_detectable", one ? number(c.smallest_detectable) : Json(nullptr)},
                    {"unit", text_or_null(c.unit)},
                    {"size_sigma", number(c.size_sigma)},
                    {"log_bayes", number(c.log_bayes)},
                    {"probability", number(c.probability)},
                    {"adequate", c.adequate},
                    {"observable", c.observable}});
+  }
   return all;
 }
 

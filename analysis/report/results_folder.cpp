@@ -40,6 +40,8 @@ std::string results_of(const std::string& folder) {
 
 void require_own_folder(const std::string& folder, std::string_view command) {
   if (folder.empty()) return;
+  if (std::filesystem::exists(folder) && !std::filesystem::is_directory(folder))
+    throw_cannot_write(folder, "it is a file, expected a folder");
   const std::string holder = results_of(folder);
   if (!holder.empty() && holder != command)
     throw InputError(ExitCode::store, fmt::format("{}: holds the results of `{}` (expected an empty folder, or one of `{}`). "
