@@ -71,6 +71,17 @@ TEST(Equation, TheOtherOneIsNamedFromSlewsAndTheParametersItHadMovedComeBack) {
   EXPECT_GT(std::abs(d.fit.shifted.front().shift_sigma), 20.0);
 }
 
+TEST(Equation, MisalignmentsBeyondTheirPriorAreNoOtherEquation) {
+  // In caged free drift lambda only rescales the misalignments: what it could gain is their prior's cost, 24
+  // here, which is no evidence.
+  Overrides sets{{"plan.preset", "twelve"}, {"plan.dwell", "30 min"}, {"plan.sample", "120 s"}, {"filter.nominal.coupling", "eq5"}};
+  for (const char* key : {"eta_x", "eta_y", "eta_z", "xi_x", "xi_y", "xi_z"})
+    sets.emplace_back(std::string("truth.parameters.") + key, "400 arcsec");
+  const Study s = short_study("diagnose_equation.toml", sets);
+  const Diagnosis d = diagnose(s, {simulated(s).recording});
+  EXPECT_EQ(d.verdict, Verdict::consistent) << d.sentence;
+}
+
 TEST(Equation, TheOtherOneIsNamedFromFreeDrift) {
   const Study s = short_study("diagnose_equation.toml", {{"plan.dwell", "20 min"}, {"plan.sample", "120 s"}});
   const Diagnosis d = diagnose(s, {simulated(s).recording});

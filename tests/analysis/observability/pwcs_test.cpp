@@ -131,5 +131,18 @@ TEST(Pwcs, OneMoreKnownParameterIsOneStateLess) {
   EXPECT_EQ(r.null_space.cols(), 0);
 }
 
+TEST(Pwcs, TermsWithTimeOrMemoryHaveNoPartInAConstantProblem) {
+  const FilterSpec plain = test::base_filter(Coupling::eq5);
+  for (const char* key : {"ramp_x", "W_x", "dD_I_y", "R_z", "tilt_s_n", "F_outer", "enc_s1_outer"}) {
+    FilterSpec more = plain;
+    const std::size_t i = test::param(key);
+    more.active.set(i);
+    more.priors[i] = TermLibrary::specs[i].prior_si();
+    const PwcsRank rank = pwcs_rank(plan_of("six"), harbin, more, channels(true));
+    EXPECT_EQ(rank.rank, 36) << key;
+    EXPECT_EQ(rank.states, 64) << key;
+  }
+}
+
 }  // namespace
 }  // namespace drift
