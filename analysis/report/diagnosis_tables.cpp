@@ -126,7 +126,7 @@ Table noise_table(const Diagnosis& d) {
   for (const NoiseFinding& n : d.noise)
     table.add({n.component, with_sigma(n.factor, n.factor_sigma), number_text(n.value), n.unit,
                n.tau_s > 0.0 ? number_text(n.tau_s) : "", p_text(n.p_value),
-               {n.significant ? (n.count > 0 ? fmt::format("{} samples left out", n.count) : "not as declared") : "as declared",
+               {n.significant ? (n.component == "outliers" ? fmt::format("{} samples left out", n.count) : "not as declared") : "as declared",
                 n.significant ? Tone::doubtful : Tone::plain}});
   return table;
 }

@@ -38,6 +38,14 @@ TEST(Noise, WhiteNoiseLargerThanDeclaredIsFoundInItsInstrumentAlone) {
   EXPECT_FALSE(gimbal->significant);
 }
 
+TEST(Noise, NoiseLargerThanDeclaredMakesNoOutliers) {
+  LinearProblem problem = problem_of(base_truth(Coupling::eq5), 0, 1.5);
+  VecX residual = Projector(problem, NoiseModel{}).clean_residual();
+  EXPECT_EQ(robust_weights(problem, residual), 0u);
+  for (Eigen::Index k = 0; k < 12; ++k) residual[50 * k] = 12.0;
+  EXPECT_GE(robust_weights(problem, residual), 12u);
+}
+
 TEST(Noise, AngleRandomWalkIsFoundWithItsSize) {
   TruthSpec truth = base_truth(Coupling::eq5);
   truth.noise.angle_random_walk = 5e-3 * detail::deg / 60.0;
