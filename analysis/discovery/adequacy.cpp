@@ -1,9 +1,11 @@
 #include "analysis/discovery/adequacy.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 #include <algorithm>
+#include <numeric>
+
+#include "analysis/discovery/size_prior.hpp"
 
 namespace drift::discovery {
 namespace {
@@ -57,19 +59,14 @@ std::vector<Contrast> Field::all_contrasts() const {
 }
 
 double log_bayes(const Projected& p, const std::vector<int>& columns) {
-  const auto n = static_cast<Eigen::Index>(columns.size());
-  const MatX A = MatX::Identity(n, n) + rows_and_columns(p.C, columns, columns);
-  const VecX g = elements(p.g, columns);
-  const Eigen::LLT<MatX> llt(A);
-  const MatX L = llt.matrixL();
-  return 0.5 * g.dot(llt.solve(g)) - L.diagonal().array().log().sum();
+  return log_evidence_of_sizes(rows_and_columns(p.C, columns, columns), elements(p.g, columns));
 }
 
 Score score(const Field& field, std::size_t candidate) {
   Score best;
   best.strength = -1.0;
   const Candidate& c = field.set->candidates[candidate];
-  std::vector<double> evidence;
+  std::vector<double> evidence, share;
   for (std::size_t v = 0; v < c.variants.size(); ++v) {
     const Contrast& contrast = field.contrasts[candidate][v];
     const double T = std::max(0.0, contrast.T(field.projected->g) - field.discount_of(candidate));
@@ -80,14 +77,35 @@ Score score(const Field& field, std::size_t candidate) {
       best.strength = s;
       best.dof = contrast.dof;
     }
+    if (contrast.dof == 0) continue;  // an onset after the end of the test is no effect
     evidence.push_back(log_bayes(*field.projected, c.variants[v].columns) - 0.5 * field.discount_of(candidate));
+    share.push_back(c.variants[v].share);
   }
   best.strength = std::max(best.strength, 0.0);
+  if (evidence.empty()) return best;
   const double top = *std::max_element(evidence.begin(), evidence.end());
+  const double whole = std::accumulate(share.begin(), share.end(), 0.0);
   double sum = 0.0;
-  for (const double e : evidence) sum += std::exp(e - top) / static_cast<double>(evidence.size());
+  for (std::size_t k = 0; k < evidence.size(); ++k) sum += std::exp(evidence[k] - top) * share[k] / whole;
   best.log_bayes = top + std::log(sum);
   return best;
+}
+
+std::vector<std::size_t> best_settings(const Field& field, std::size_t candidate, double nearly, std::size_t most) {
+  const auto& variants = field.set->candidates[candidate].variants;
+  std::vector<double> evidence;
+  for (std::size_t v = 0; v < variants.size(); ++v)
+    evidence.push_back(field.contrasts[candidate][v].dof == 0 ? -1e300 : log_bayes(*field.projected, variants[v].columns));
+  const double top = *std::max_element(evidence.begin(), evidence.end());
+  std::vector<std::size_t> found;
+  for (std::size_t v = 0; v < variants.size(); ++v) {
+    const bool below_next = v + 1 < variants.size() && evidence[v + 1] > evidence[v];
+    const bool below_last = v > 0 && evidence[v - 1] >= evidence[v];
+    if (!below_next && !below_last && evidence[v] >= top - nearly) found.push_back(v);
+  }
+  std::stable_sort(found.begin(), found.end(), [&](std::size_t a, std::size_t b) { return evidence[a] > evidence[b]; });
+  if (found.size() > most) found.resize(most);
+  return found;
 }
 
 std::vector<int> columns_of(const Field& field, const std::vector<Choice>& choices, bool with_neighbours) {

@@ -30,6 +30,10 @@ struct Score {
 };
 Score score(const Field& field, std::size_t candidate);
 
+/// Settings of a candidate at which its evidence is no less than beside them and within `nearly` of the best,
+/// best first, at most `most`.
+std::vector<std::size_t> best_settings(const Field& field, std::size_t candidate, double nearly, std::size_t most);
+
 /// What is left when some causes are in the model, their amplitudes free.
 struct Remainder {
   double library = 0.0;   ///< largest strength among the other candidates
@@ -50,7 +54,7 @@ std::vector<int> columns_of(const Field& field, const std::vector<Choice>& choic
 /// as soon as a candidate's strength exceeds it.
 Remainder remainder(const Field& field, const std::vector<Choice>& choices, double stop);
 
-/// Log evidence of simultaneous causes against the nominal model, amplitudes with unit priors.
+/// Log evidence of simultaneous causes against the nominal model, amplitudes of unknown size (size_prior.hpp).
 double log_bayes(const Projected& p, const std::vector<int>& columns);
 
 /// Cosine of what is left of two candidates' signatures; of several dimensions the largest canonical one.

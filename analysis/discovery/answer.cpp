@@ -132,10 +132,16 @@ void fill_causes(const Examination& nominal, const Search& found, Diagnosis& d) 
       cause.probability = found.probability[set];
       const auto own = columns_of(nominal, {choice});
       const Contrast contrast = make_contrast(p.C, p.raw, own);
-      cause.T = contrast.T(p.g);
       cause.dof = contrast.dof;
-      if (r.choices.size() > 1 || c.term == "frame_closure") {
-        // Alone it may cancel against the other, or be far from linear: what counts is the fit.
+      // Each of several with the others in the model: alone it may cancel against them.
+      std::vector<Choice> others;
+      for (const Choice& o : r.choices)
+        if (o.candidate != choice.candidate) others.push_back(o);
+      const auto T_of = [&](const std::vector<Choice>& some) {
+        return make_contrast(p.C, p.raw, columns_of(nominal, some)).T(p.g);
+      };
+      cause.T = std::max(0.0, T_of(r.choices) - (others.empty() ? 0.0 : T_of(others)));
+      if (c.term == "frame_closure") {  // far from linear: what counts is the fit
         cause.T = std::max(cause.T, 2.0 * r.log_bayes);
         cause.dof = std::max(cause.dof, 1);
       }

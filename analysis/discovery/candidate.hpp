@@ -11,6 +11,8 @@ namespace drift::discovery {
 struct Variant {
   std::vector<int> columns;  ///< of LinearProblem::extra
   std::vector<std::pair<std::size_t, double>> settings;  ///< nonlinear parameters: (param, SI value)
+  double share = 1.0;      ///< prior chance of this setting, over that of one point of the library's grid
+  bool between = false;    ///< put between the points of the library's grid (refine_grids())
 };
 
 /// Physics that may be missing: a term, or an axis or group of it.

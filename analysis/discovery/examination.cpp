@@ -66,7 +66,8 @@ Nulls make_nulls(const Examination& e, double alpha, int draws) {
   Nulls n{MaxNull(e.projector->candidates().C, e.field->all_contrasts(), draws, 1),
           scan_null(e.scans, std::max(200, draws / 4))};
   n.library_threshold = n.library.threshold(alpha * library_share);
-  n.scan_threshold = n.scan.threshold(alpha * scan_share);
+  // A window by chance must not rule out a cause: thousands are looked at.
+  n.scan_threshold = n.scan.threshold(alpha * scan_share / 3.0);
   return n;
 }
 

@@ -1,5 +1,6 @@
 #include "analysis/discovery/pairs.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -11,6 +12,7 @@ namespace drift::discovery {
 namespace {
 
 constexpr double one_direction = 0.9999;
+constexpr double too_little = 22.0;  // log evidence behind the best pair: a million, and what the sizes are worth
 
 /// A single observable column that a candidate has.
 struct Unit {
@@ -68,6 +70,21 @@ std::vector<Pair> diverse(const Field& field, const std::vector<Pair>& sorted, s
   return kept;
 }
 
+/// Log evidence of a few columns with unit priors: what the choice among thousands of pairs needs.
+double quick_log_bayes(const Projected& p, const std::vector<int>& columns) {
+  const auto n = static_cast<Eigen::Index>(columns.size());
+  MatX A(n, n);
+  VecX g(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    g[i] = p.g[columns[static_cast<std::size_t>(i)]];
+    for (Eigen::Index k = 0; k < n; ++k)
+      A(i, k) = p.C(columns[static_cast<std::size_t>(i)], columns[static_cast<std::size_t>(k)]) + (i == k ? 1.0 : 0.0);
+  }
+  const Eigen::LLT<MatX> llt(A);
+  const MatX L = llt.matrixL();
+  return 0.5 * g.dot(llt.solve(g)) - L.diagonal().array().log().sum();
+}
+
 bool same_candidate(const Unit& a, const Unit& b) { return a.choice.candidate == b.choice.candidate; }
 
 }  // namespace
@@ -111,7 +128,8 @@ MaxNull pair_null(const Field& field, int draws) {
 
 std::vector<Pair> adequate_pairs(const Field& field, const std::vector<Score>& scores, double library_threshold,
                                  double scan_threshold, std::size_t most) {
-  // Which candidates at which variant: all single parameters, and the strongest of the others.
+  // Which candidates at which variants: all single parameters, and the strongest of the others. Alone a
+  // candidate may look best at another time constant than with a partner.
   std::vector<Choice> choices;
   std::vector<std::size_t> order(scores.size());
   for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
@@ -123,25 +141,37 @@ std::vector<Pair> adequate_pairs(const Field& field, const std::vector<Score>& s
     if (c.params.size() > 1 && (several >= 12 || c.params.size() > 6)) continue;
     several += c.params.size() > 1;
     choices.push_back({k, scores[k].variant});
-    // Alone it may look best at another time constant than with a partner.
-    if (c.params.size() == 1 && c.variants.size() > 2)
-      for (const std::size_t v : {c.variants.size() / 4, 3 * c.variants.size() / 4})
-        if (v != scores[k].variant) choices.push_back({k, v});
+    for (std::size_t v = 0; c.params.size() == 1 && v < c.variants.size(); ++v)
+      if (v != scores[k].variant && !c.variants[v].between && field.contrasts[k][v].dof > 0) choices.push_back({k, v});
   }
-  std::vector<Pair> found;
+  // Dear is what a pair leaves; first, and quickly, what it explains.
+  struct Try {
+    Choice a, b;
+    double log_bayes;
+  };
+  std::vector<Try> tries;
+  double top = 0.0;
   for (std::size_t i = 0; i < choices.size(); ++i)
     for (std::size_t k = 0; k < i; ++k) {
       const Candidate& a = field.set->candidates[choices[i].candidate];
       const Candidate& b = field.set->candidates[choices[k].candidate];
       if (choices[i].candidate == choices[k].candidate || a.contains(b) || b.contains(a)) continue;
-      const std::vector<Choice> pair{choices[k], choices[i]};
-      const Remainder r = remainder(field, pair, library_threshold);
-      if (r.library > library_threshold || r.scan > scan_threshold) continue;
-      const auto columns = columns_of(field, pair, false);
-      const Contrast both = make_contrast(field.projected->C, field.projected->raw, columns);
-      const double T = both.T(field.projected->g);
-      found.push_back({pair[0], pair[1], T, both.dof, strength(T, both.dof), log_bayes(*field.projected, columns)});
+      const double evidence = quick_log_bayes(*field.projected, columns_of(field, {choices[k], choices[i]}, false));
+      if (evidence < top - too_little) continue;
+      top = std::max(top, evidence);
+      tries.push_back({choices[k], choices[i], evidence});
     }
+  std::erase_if(tries, [&](const Try& t) { return t.log_bayes < top - too_little; });
+  std::vector<Pair> found;
+  for (const Try& t : tries) {
+    const std::vector<Choice> pair{t.a, t.b};
+    const Remainder r = remainder(field, pair, library_threshold);
+    if (r.library > library_threshold || r.scan > scan_threshold) continue;
+    const auto columns = columns_of(field, pair, false);
+    const Contrast both = make_contrast(field.projected->C, field.projected->raw, columns);
+    const double T = both.T(field.projected->g);
+    found.push_back({t.a, t.b, T, both.dof, strength(T, both.dof), log_bayes(*field.projected, columns)});
+  }
   std::stable_sort(found.begin(), found.end(), [](const Pair& a, const Pair& b) { return a.log_bayes > b.log_bayes; });
   return diverse(field, found, most);
 }

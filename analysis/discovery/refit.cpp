@@ -6,6 +6,7 @@
 
 #include "analysis/discovery/closure_profile.hpp"
 #include "analysis/discovery/settle_noise.hpp"
+#include "analysis/discovery/size_prior.hpp"
 #include "mc/campaign.hpp"
 
 namespace drift::discovery {
@@ -14,13 +15,49 @@ namespace {
 constexpr auto lambda = TermLibrary::index("lambda");
 constexpr double quiet_p_value = 0.01;  // of a free-form input beside the cause: nothing is left
 
-/// Half the distance to the neighbours on a parameter's grid, SI: what the grid leaves open.
+/// Distance of the points of the library's grid about a value, SI: what the grid leaves open.
 double grid_spacing(const Candidate& c, std::size_t param, double value) {
-  double nearest = std::numeric_limits<double>::infinity();
+  constexpr double none = std::numeric_limits<double>::infinity();
+  double below = none, above = none;
+  bool on_grid = false;
   for (const Variant& v : c.variants)
-    for (const auto& [p, other] : v.settings)
-      if (p == param && other != value) nearest = std::min(nearest, std::abs(other - value));
-  return std::isfinite(nearest) ? nearest : 0.0;
+    for (const auto& [p, other] : v.settings) {
+      if (p != param || v.between) continue;
+      on_grid = on_grid || other == value;
+      if (other < value) below = std::min(below, value - other);
+      if (other > value) above = std::min(above, other - value);
+    }
+  const double spacing = on_grid || below == none || above == none ? std::min(below, above) : below + above;
+  return std::isfinite(spacing) ? spacing : 0.0;
+}
+
+/// Points of the library's grid at which a candidate can be seen at all.
+double grid_points(const Examination& e, std::size_t candidate) {
+  const auto& variants = e.set.candidates[candidate].variants;
+  std::size_t n = 0;
+  for (std::size_t v = 0; v < variants.size(); ++v) n += !variants[v].between && e.field->contrasts[candidate][v].dof > 0;
+  return static_cast<double>(std::max<std::size_t>(1, n));
+}
+
+/// Change of the log evidence if the amplitudes of the causes are of unknown size (size_prior.hpp). lambda is
+/// no amplitude: it lies between 0 and 1.
+double gain_of_sizes(const CandidateSet& set, const Refit& r) {
+  const Projector::Fit fit = r.after.projector->fit({});
+  const Layout layout = make_layout(r.filter);
+  std::vector<Eigen::Index> rows;
+  std::vector<int> cause;
+  int causes = 0;
+  for (const Choice& choice : r.choices) {
+    const std::size_t before = rows.size();
+    for (const std::size_t i : set.candidates[choice.candidate].params) {
+      const auto at = std::find(layout.params.begin(), layout.params.end(), i);
+      if (i == lambda || at == layout.params.end()) continue;
+      rows.push_back(at - layout.params.begin());
+      cause.push_back(causes);
+    }
+    causes += rows.size() > before;
+  }
+  return log_gain_of_sizes(fit.x(rows), fit.covariance(rows, rows), cause);
 }
 
 /// Whether each of simultaneous causes has an amplitude that is clearly not zero. A change of equation is
@@ -165,8 +202,9 @@ Refit refit(const Examination& nominal, const Test& test, const std::vector<Choi
   // Each variant of a grid was one try; the refit took the best of them.
   double tries = 0.0;
   for (const Choice& choice : choices)
-    tries += std::log(static_cast<double>(nominal.set.candidates[choice.candidate].variants.size()));
-  out.log_bayes = 0.5 * (out.after.log_likelihood2() - nominal.log_likelihood2()) - tries - std::max(0.0, narrowed);
+    tries += std::log(grid_points(nominal, choice.candidate));
+  out.log_bayes = 0.5 * (out.after.log_likelihood2() - nominal.log_likelihood2()) - tries - std::max(0.0, narrowed) +
+                  gain_of_sizes(nominal.set, out);
   return out;
 }
 

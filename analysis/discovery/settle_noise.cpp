@@ -11,8 +11,8 @@
 namespace drift::discovery {
 namespace {
 
-/// Chance below which noise of all instruments is not believed: together (they overlap) one in twenty.
-constexpr double no_noise = 0.04, no_noise_lone = 0.02;
+/// Chance below which noise of all instruments is not believed: together (they overlap) one in sixteen.
+constexpr double no_noise = 0.05, no_noise_lone = 0.025;
 
 /// log det (1 + C) of some columns under a noise: what a unit prior on their amplitudes costs twice the
 /// log of the marginal likelihood against its maximum.

@@ -82,46 +82,12 @@ VecX residual_of(const LinearProblem& problem, const BatchResult& fit) {
   return r;
 }
 
-LinearProblem linear_problem(const FilterSpec& nominal, const Test& test, const BatchResult& fit,
-                             const std::vector<SignatureSpec>& specs) {
-  LinearProblem out;
-  out.tags = row_tags(test);
-  out.drives = drives(test.timeline, nominal.initial_attitude);
-  out.acc_sigma = test.readout.accelerometer_noise;
-  out.gimbal_sigma = test.readout.gimbal_noise;
-  out.attitude_sigma = nominal.initial_attitude;
-  const auto rows = static_cast<Eigen::Index>(out.tags.size());
-  out.weight = VecX::Ones(rows);
-
-  const DriftModel model = nominal.model();
-  const Layout layout = make_layout(nominal);
-  const auto n = static_cast<Eigen::Index>(layout.size());
+MatX signature_columns(const FilterSpec& nominal, const Test& test, const BatchResult& fit,
+                       std::span<const SignatureSpec> specs, const std::vector<RowTag>& tags) {
+  MatX out = MatX::Zero(static_cast<Eigen::Index>(tags.size()), static_cast<Eigen::Index>(specs.size()));
+  if (specs.empty()) return out;
   const Theta theta = theta_of(nominal, fit);
-  const Trajectory phi = integrate_fixed(test.timeline, model, theta, fit.psi0_l);
-  const auto equations = [&](const DriftModel& m, const Layout& l, const Theta& at) {
-    return measurement_equations(test.timeline, m, l, test.readout, test.measured, at, phi,
-                                 nominal.initial_attitude);
-  };
-
-  out.psi.resize(rows, 3);
-  out.theta.resize(rows, n);
-  out.r0.resize(rows);
-  const VecX x = layout.scaled(theta);
-  Eigen::Index next = 0;
-  const auto chains = equations(model, layout, theta);
-  for (std::size_t c = 0; c < chains.size(); ++c) {
-    const MatX& e = chains[c].rows;
-    // Channels that are not read leave zero rows at the end.
-    Eigen::Index count = 0;
-    for (const RowTag& t : out.tags) count += test.timeline.intervals[t.interval].chain == static_cast<int>(c);
-    out.psi.middleRows(next, count) = e.topLeftCorner(count, 3);
-    out.theta.middleRows(next, count) = e.block(0, 3, count, n);
-    out.r0.segment(next, count) = e.col(3 + n).head(count) + e.block(0, 3, count, n) * x +
-                                  e.topLeftCorner(count, 3) * (fit.psi0_l[c] / nominal.initial_attitude);
-    next += count;
-  }
-
-  out.extra = MatX::Zero(rows, specs.size());
+  const Trajectory phi = integrate_fixed(test.timeline, nominal.model(), theta, fit.psi0_l);
   std::vector<bool> done(specs.size(), false);
   for (std::size_t first = 0; first < specs.size(); ++first) {
     if (done[first]) continue;
@@ -144,18 +110,59 @@ LinearProblem linear_problem(const FilterSpec& nominal, const Test& test, const 
     }
     if (added[lambda] && nominal.coupling == Coupling::eq6) at[lambda] = 1.0;
     const Layout small = layout_of(group, at);
-    const auto parts = equations(extended(nominal, added), small, at);
-    next = 0;
+    const auto parts = measurement_equations(test.timeline, extended(nominal, added), small, test.readout, test.measured,
+                                             at, phi, nominal.initial_attitude);
+    Eigen::Index next = 0;
     for (std::size_t c = 0; c < parts.size(); ++c) {
       Eigen::Index count = 0;
-      for (const RowTag& t : out.tags) count += test.timeline.intervals[t.interval].chain == static_cast<int>(c);
+      for (const RowTag& t : tags) count += test.timeline.intervals[t.interval].chain == static_cast<int>(c);
       for (const SignatureSpec* s : group) {
         const auto place = std::find(small.params.begin(), small.params.end(), s->param) - small.params.begin();
-        out.extra.col(s - specs.data()).segment(next, count) = parts[c].rows.col(3 + place).head(count);
+        out.col(s - specs.data()).segment(next, count) = parts[c].rows.col(3 + place).head(count);
       }
       next += count;
     }
   }
+  return out;
+}
+
+LinearProblem linear_problem(const FilterSpec& nominal, const Test& test, const BatchResult& fit,
+                             const std::vector<SignatureSpec>& specs) {
+  LinearProblem out;
+  out.tags = row_tags(test);
+  out.drives = drives(test.timeline, nominal.initial_attitude);
+  out.acc_sigma = test.readout.accelerometer_noise;
+  out.gimbal_sigma = test.readout.gimbal_noise;
+  out.attitude_sigma = nominal.initial_attitude;
+  const auto rows = static_cast<Eigen::Index>(out.tags.size());
+  out.weight = VecX::Ones(rows);
+
+  const DriftModel model = nominal.model();
+  const Layout layout = make_layout(nominal);
+  const auto n = static_cast<Eigen::Index>(layout.size());
+  const Theta theta = theta_of(nominal, fit);
+  const Trajectory phi = integrate_fixed(test.timeline, model, theta, fit.psi0_l);
+
+  out.psi.resize(rows, 3);
+  out.theta.resize(rows, n);
+  out.r0.resize(rows);
+  const VecX x = layout.scaled(theta);
+  Eigen::Index next = 0;
+  const auto chains = measurement_equations(test.timeline, model, layout, test.readout, test.measured, theta, phi,
+                                            nominal.initial_attitude);
+  for (std::size_t c = 0; c < chains.size(); ++c) {
+    const MatX& e = chains[c].rows;
+    // Channels that are not read leave zero rows at the end.
+    Eigen::Index count = 0;
+    for (const RowTag& t : out.tags) count += test.timeline.intervals[t.interval].chain == static_cast<int>(c);
+    out.psi.middleRows(next, count) = e.topLeftCorner(count, 3);
+    out.theta.middleRows(next, count) = e.block(0, 3, count, n);
+    out.r0.segment(next, count) = e.col(3 + n).head(count) + e.block(0, 3, count, n) * x +
+                                  e.topLeftCorner(count, 3) * (fit.psi0_l[c] / nominal.initial_attitude);
+    next += count;
+  }
+
+  out.extra = signature_columns(nominal, test, fit, specs, out.tags);
   return out;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <functional>
+#include <span>
 
 #include "analysis/discovery/linear_problem.hpp"
 #include "core/estimate/batch.hpp"
@@ -27,6 +27,10 @@ struct SignatureSpec {
 /// candidates come by dual numbers, many at once: of a spec's theta, the parameters of its own term count.
 LinearProblem linear_problem(const FilterSpec& nominal, const Test& test, const BatchResult& fit,
                              const std::vector<SignatureSpec>& specs);
+
+/// The candidate columns alone, for the rows of `tags`; shape (tags, specs).
+MatX signature_columns(const FilterSpec& nominal, const Test& test, const BatchResult& fit,
+                       std::span<const SignatureSpec> specs, const std::vector<RowTag>& tags);
 
 /// Residuals of a fit in declared sigmas, in the order of a problem's rows.
 VecX residual_of(const LinearProblem& problem, const BatchResult& fit);
