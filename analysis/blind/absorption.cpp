@@ -57,6 +57,11 @@ double Absorption::left_product(const VecX& a, const VecX& b) const {
   return a.dot(b) - ta.dot(tb);
 }
 
+MatX Absorption::left_products(const MatX& signals) const {
+  const MatX taken = L_.triangularView<Eigen::Lower>().solve(J_.transpose() * signals);
+  return signals.transpose() * signals - taken.transpose() * taken;
+}
+
 Absorption::Size Absorption::size_of(const VecX& signal) const {
   const double raw = signal.squaredNorm(), left = std::max(0.0, left_product(signal, signal));
   return {std::sqrt(left), raw > 0.0 ? 1.0 - left / raw : 1.0};

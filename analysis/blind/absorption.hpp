@@ -23,6 +23,8 @@ class Absorption {
     double absorbed = 0.0;  ///< part of the signal's square that the fit takes, 0..1
   };
   Size size_of(const VecX& signal) const;
+  /// Products of what is left of signals; columns: signals. Shape (signals, signals).
+  MatX left_products(const MatX& signals) const;
   /// Cosine of what is left of two signals.
   double cosine(const VecX& a, const VecX& b) const;
 

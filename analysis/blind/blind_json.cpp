@@ -46,8 +46,13 @@ Json power_of(const Summary& s) {
 
 Json of(const TrialScore& t) {
   Json hidden = Json::array(), pulls = Json::array();
-  for (const HiddenEffect& e : t.key.effects)
+  for (const HiddenEffect& e : t.key.effects) {
     hidden.push_back({{"term", e.term}, {"axis", e.axis}, {"size", number(e.size)}, {"absorbed", number(e.absorbed)}});
+    if (!e.nearest.empty()) {
+      hidden.back()["nearest"] = e.nearest;
+      hidden.back()["nearest_cosine"] = number(e.nearest_cosine);
+    }
+  }
   for (const Pull& p : t.pulls) pulls.push_back({{"key", p.key}, {"pull", number(p.pull())}});
   return {{"trial", t.key.plan.number}, {"stratum", name_in(stratum_names, t.key.plan.stratum)},
           {"plan", t.key.plan.plan}, {"mode", name_in(mode_names, t.key.plan.mode)},

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "analysis/blind/library_effects.hpp"
+#include "analysis/blind/nearest.hpp"
 #include "analysis/blind/noise_faults.hpp"
 #include "analysis/blind/outside_effects.hpp"
 #include "analysis/blind/sizing.hpp"
@@ -136,6 +137,11 @@ void hide(const Study& study, const FilterSpec& nominal, const TrialPlan& plan, 
     s.source.put(world, s.strength);
     key.effects.push_back(s.effect());
     total += s.signal;
+  }
+  if (plan.stratum == Stratum::outside) {
+    const Nearest nearest = nearest_in_library(bench, nominal, sized[0].signal);
+    key.effects[0].nearest = nearest.term + (nearest.axis.empty() ? "" : "." + nearest.axis);
+    key.effects[0].nearest_cosine = nearest.cosine;
   }
   key.total_size = bench.absorption().size_of(total).left;
 }

@@ -23,7 +23,8 @@ Json of(const HiddenEffect& e) {
     params.push_back({{"key", p.key}, {"value", number(p.value)}, {"unit", p.unit}});
   return {{"term", e.term}, {"axis", e.axis}, {"words", e.words}, {"parameters", params},
           {"size", number(e.size)}, {"absorbed", number(e.absorbed)}, {"position", e.position},
-          {"start_s", e.start_s}, {"end_s", e.end_s}, {"equation", e.equation}};
+          {"start_s", e.start_s}, {"end_s", e.end_s}, {"equation", e.equation},
+          {"nearest", e.nearest}, {"nearest_cosine", number(e.nearest_cosine)}};
 }
 
 HiddenEffect effect_of(const Json& j) {
@@ -39,6 +40,8 @@ HiddenEffect effect_of(const Json& j) {
   e.start_s = j.at("start_s");
   e.end_s = j.at("end_s");
   e.equation = j.at("equation");
+  e.nearest = j.value("nearest", "");  // keys of before 2026-11-21 do not say
+  if (j.contains("nearest_cosine")) e.nearest_cosine = number(j.at("nearest_cosine"));
   return e;
 }
 

@@ -13,23 +13,6 @@ constexpr auto lambda = TermLibrary::index("lambda");
 
 bool is_amplitude(const ParamSpec& spec) { return spec.kind == ParamKind::linear && spec.prior.sigma() > 0.0; }
 
-std::vector<std::size_t> missing_parameters(const TermInfo& term, const FilterSpec& nominal) {
-  std::vector<std::size_t> missing;
-  for (std::size_t i = term.first; i < term.first + term.count; ++i)
-    if (!nominal.active[i] && is_amplitude(TermLibrary::specs[i])) missing.push_back(i);
-  return missing;
-}
-
-/// What stands behind the last bar of a key: an axis, a gimbal or nothing.
-std::string axis_of(std::size_t param) {
-  const std::string_view key = TermLibrary::specs[param].key.view();
-  const auto bar = key.rfind('_');
-  const std::string_view suffix = bar == key.npos ? "" : key.substr(bar + 1);
-  for (const std::string_view axis : {"x", "y", "z", "outer", "middle", "inner"})
-    if (suffix == axis) return std::string(axis);
-  return {};
-}
-
 template <class T>
 const T& one_of(const std::vector<T>& list, Stream& stream) {
   return list[static_cast<std::size_t>(stream.uniform() * static_cast<double>(list.size()))];
@@ -76,6 +59,22 @@ std::optional<Source> frame_closure(const World& world, const FilterSpec& nomina
 }
 
 }  // namespace
+
+std::vector<std::size_t> missing_parameters(const TermInfo& term, const FilterSpec& nominal) {
+  std::vector<std::size_t> missing;
+  for (std::size_t i = term.first; i < term.first + term.count; ++i)
+    if (!nominal.active[i] && is_amplitude(TermLibrary::specs[i])) missing.push_back(i);
+  return missing;
+}
+
+std::string axis_of(std::size_t param) {
+  const std::string_view key = TermLibrary::specs[param].key.view();
+  const auto bar = key.rfind('_');
+  const std::string_view suffix = bar == key.npos ? "" : key.substr(bar + 1);
+  for (const std::string_view axis : {"x", "y", "z", "outer", "middle", "inner"})
+    if (suffix == axis) return std::string(axis);
+  return {};
+}
 
 std::vector<std::size_t> hideable_terms(const FilterSpec& nominal) {
   std::vector<std::size_t> terms;

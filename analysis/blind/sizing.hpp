@@ -25,11 +25,13 @@ class SizingBench {
   /// would have to be implausibly strong, or does nothing here.
   std::optional<Sized> fit_strength(const Source& source, double size) const;
 
+  /// What a source adds to the measurements at a strength, in declared sigmas.
+  VecX signal(const Source& source, double strength) const;
+
   const World& world() const { return world_; }
   const Absorption& absorption() const { return absorption_; }
 
  private:
-  VecX signal(const Source& source, double strength) const;
   World world_;
   std::uint64_t seed_, run_;
   Simulation clean_;

@@ -156,6 +156,12 @@ void add_further(const Scores& scores, Summary& s) {
         return t.key.plan.stratum == Stratum::pair && t.key.cosine < -0.3; }, in_set));
   add("outside the library: detected", share(scores, in(Stratum::outside), detected));
   add("outside the library: named as something else", share(scores, in(Stratum::outside), wrong));
+  // What a library effect looks like to within a cosine of 0.9 may be taken for it (discovery.md 3).
+  const auto unlike = [](const TrialScore& t) {
+    return t.key.plan.stratum == Stratum::outside && t.key.effects.front().nearest_cosine < 0.9;
+  };
+  add("outside the library and unlike it (cosine < 0.9): unexplained", share(scores, unlike, unexplained));
+  add("outside the library and unlike it: named as something else", share(scores, unlike, wrong));
   add("local: detected", share(scores, in(Stratum::local), detected));
   add("local: right position", share(scores, in(Stratum::local), [](auto& t) { return t.position_right; }));
   add("local: right equation", share(scores, in(Stratum::local), [](auto& t) { return t.equation_right; }));

@@ -88,7 +88,10 @@ bool missed(const TrialScore& s) {
 
 std::string hidden_text(const TrialScore& s) {
   std::vector<std::string> parts;
-  for (const HiddenEffect& e : s.key.effects) parts.push_back(e.axis.empty() ? e.term : e.term + "." + e.axis);
+  for (const HiddenEffect& e : s.key.effects) {
+    parts.push_back(e.axis.empty() ? e.term : e.term + "." + e.axis);
+    if (!e.nearest.empty()) parts.back() += fmt::format(" (cosine {:.2f} to {})", e.nearest_cosine, e.nearest);
+  }
   return parts.empty() ? "nothing" : fmt::format("{}", fmt::join(parts, " + "));
 }
 

@@ -68,6 +68,8 @@ struct HiddenEffect {
   int position = 0;       ///< 1-based, of a local effect; 0: everywhere
   double start_s = 0.0, end_s = 0.0;  ///< of a local effect
   std::string equation;   ///< of a local effect, as a diagnosis says it: "platform rate y"
+  std::string nearest;    ///< of an effect outside the library: what in the library looks most like it
+  double nearest_cosine = 0.0;
 };
 
 /// Whether an ordinary fit shows that something is missing: the nominal filter on the recording.

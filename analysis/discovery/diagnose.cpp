@@ -8,6 +8,7 @@
 #include "analysis/discovery/answer.hpp"
 #include "analysis/discovery/compare.hpp"
 #include "analysis/discovery/conclude.hpp"
+#include "analysis/discovery/judge_members.hpp"
 #include "analysis/discovery/locate.hpp"
 #include "analysis/recorded_test.hpp"
 #include "core/base/check.hpp"
@@ -163,20 +164,26 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const Test& given, std::spa
     d.patched = best->filter;
     d.has_patch = true;
   }
+  const auto member_gains = best && found.significant ? judge_members(nominal, test, *best, found.nulls) : std::vector<double>{};
   stages.begin("locate", 0.06);
 
   d.verdict = Verdict::consistent;
   if (found.significant) {
     const bool one = found.sets.size() == 1;
-    const bool judged = !options.named_needs_held_out || d.fit.held_out.folds.empty() || d.fit.held_out.improves;
+    const bool members = std::ranges::all_of(member_gains, [](double gain) { return gain >= least_held_out_gain; });
+    const bool judged = !options.named_needs_held_out || d.fit.held_out.folds.empty() || (d.fit.held_out.improves && members);
     d.verdict = !best ? Verdict::unexplained : one && judged ? Verdict::named : Verdict::ambiguous;
-    if (one && !judged)
+    if (one && !judged && !members)
+      d.remarks.push_back("The causes fit together, but without one of them held-out positions are predicted no worse: it is "
+                          "not confirmed (held_out_gain of each cause in diagnosis.json).");
+    else if (one && !judged)
       d.remarks.push_back("The cause fits, but held-out positions are not predicted better with it. An effect that "
                           "lives in one position cannot be confirmed by the others: repeat that position.");
   } else if (noise_of_one_axis(nominal, d)) {
     d.verdict = Verdict::unexplained;
   }
   if (d.verdict != Verdict::consistent) fill_causes(nominal, found, d);
+  for (std::size_t k = 0; k < member_gains.size() && k < d.causes.size(); ++k) d.causes[k].held_out_gain = member_gains[k];
   weigh_candidates(nominal, found, d);
   // What the cause explains, by the refit: what it takes out of the residuals.
   LinearProblem shown = nominal.problem;

@@ -82,7 +82,8 @@ struct Cause {
   std::vector<CauseParameter> parameters;
   double T = 0.0;         ///< projected score of `dof` degrees
   int dof = 1;
-  double p_value = 1.0;   ///< family-wise
+  double p_value = 1.0;   ///< family-wise; of several simultaneous causes each with the others in the model
+  double held_out_gain = std::numeric_limits<double>::quiet_NaN();  ///< log score that its absence costs; of simultaneous causes
   double probability = 0.0;
   double size_sigma = 0.0;  ///< size needed, in prior sigmas
   int set = 0;            ///< simultaneous causes share a number; alternatives have different ones

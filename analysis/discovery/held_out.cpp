@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 
 #include "mc/campaign.hpp"
 
@@ -186,6 +187,18 @@ class Folder {
 
 }  // namespace
 
+double held_out_gain(const Examination& before, const Examination& after) {
+  const LinearProblem with = bare(after.problem), without = bare(before.problem);
+  const NoiseModel& noise = after.noise.model;
+  const Projected all_with = marginal(with, noise), all_without = marginal(without, noise);
+  const std::vector<Part> parts = positions_of(without);
+  const auto gains = mc::run_campaign(parts.size(), [&](std::size_t k) {
+    return prediction(all_with, marginal(without_intervals(with, parts[k].intervals), noise)).log_score -
+           prediction(all_without, marginal(without_intervals(without, parts[k].intervals), noise)).log_score;
+  });
+  return std::accumulate(gains.begin(), gains.end(), 0.0);
+}
+
 LinearProblem without_intervals(const LinearProblem& problem, const std::vector<bool>& left_out) {
   std::vector<Eigen::Index> keep;
   for (Eigen::Index k = 0; k < problem.rows(); ++k)
@@ -268,8 +281,7 @@ HeldOut held_out(const Examination& nominal, const Examination& patched, const T
     out.recording_chi2_per_dof_before = whole_before / whole_rows;
     out.recording_chi2_per_dof_after = whole_after / whole_rows;
   }
-  constexpr double least_gain = 1.0;  // of the log score: less is no prediction
-  out.improves = !(out.folds.empty() && out.recordings.empty()) && (out.folds.empty() || out.log_score_gain > least_gain || (beyond > 0 && out.log_score_gain >= 0.0)) && (out.recordings.empty() || out.recording_gain > 0.0);
+  out.improves = !(out.folds.empty() && out.recordings.empty()) && (out.folds.empty() || out.log_score_gain > least_held_out_gain || (beyond > 0 && out.log_score_gain >= 0.0)) && (out.recordings.empty() || out.recording_gain > 0.0);
   return out;
 }
 

@@ -30,6 +30,13 @@ struct FoldOptions {
 HeldOut held_out(const Examination& nominal, const Examination& patched, const Test& test,
                  const std::vector<std::size_t>& named, double library_threshold, const FoldOptions& options);
 
+/// What the log score must gain for a cause to be kept: less is no prediction.
+inline constexpr double least_held_out_gain = 1.0;
+
+/// Gain of the log score over all positions, each predicted from the others, of one fitted model over
+/// another of the same test; by conditioning the linearised tests, under the noise of the second.
+double held_out_gain(const Examination& before, const Examination& after);
+
 /// A linear problem without the rows of the intervals that are marked.
 LinearProblem without_intervals(const LinearProblem& problem, const std::vector<bool>& left_out);
 

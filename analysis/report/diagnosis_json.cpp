@@ -58,6 +58,7 @@ Json causes_json(const std::vector<Cause>& causes) {
     all.push_back({{"term", c.term},
                    {"axis", text_or_null(c.axis)},
                    {"p_value", number(c.p_value)},
+                   {"held_out_gain", number(c.held_out_gain)},
                    {"probability", number(c.probability)},
                    {"parameters", std::move(parameters)},
                    {"confusable_with", std::move(confusable)},

@@ -61,5 +61,36 @@ TEST(Search, ARampOfOneGyroIsNamedAndNotTakenForNoise) {
   EXPECT_NEAR(p->value, draw.theta[param("ramp_z")], 4.0 * p->sigma);
 }
 
+TEST(Search, AStepBetweenTheHoursOfTheGridIsNamedAloneWithItsTime) {
+  Bench b("twelve", 1800.0);
+  TruthSpec truth = base_truth(Coupling::eq5);
+  truth.active.set(param("dD_I_y")).set(param("dD_t0"));
+  TruthDraw draw = draw_truth(truth, b.timeline.chains, 12, 2);
+  draw.theta[param("dD_I_y")] = 0.03 * TermLibrary::specs[param("dD_I_y")].unit.to_si;
+  draw.theta[param("dD_t0")] = 2.6 * 3600.0;  // the grid has 2 and 3 h
+  b.measured = Simulator(truth, b.readout).run(b.timeline, draw, 12, 2).measured;
+  Examination e = b.nominal();
+  const Search s = b.found(e);
+  ASSERT_TRUE(s.significant);
+  ASSERT_EQ(s.sets.size(), 1u);
+  ASSERT_EQ(s.sets.front().choices.size(), 1u);
+  const Choice choice = s.sets.front().choices.front();
+  const Candidate& c = e.set.candidates[choice.candidate];
+  EXPECT_EQ(c.label, "mass_unbalance_step.y");
+  EXPECT_TRUE(c.variants[choice.variant].between);
+  for (const char* key : {"dD_I_y", "dD_t0"}) {
+    const ParameterEstimate* p = s.sets.front().after.fit.estimate.find(param(key));
+    ASSERT_NE(p, nullptr);
+    EXPECT_NEAR(p->value, draw.theta[param(key)], 4.0 * p->sigma) << key;
+  }
+  // Settings between the points share the chances of the points: as many as there are on the grid.
+  double share = 0.0, points = 0.0;
+  for (const Variant& v : c.variants) {
+    share += v.share;
+    points += v.between ? 0.0 : 1.0;
+  }
+  EXPECT_NEAR(share, points, 1e-12);
+}
+
 }  // namespace
 }  // namespace drift::discovery

@@ -1,0 +1,88 @@
+#include "analysis/blind/nearest.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "analysis/blind/library_effects.hpp"
+
+namespace drift::blind {
+namespace {
+
+using Settings = std::vector<std::pair<std::size_t, double>>;
+
+/// Every combination of grid points of a term's nonlinear parameters.
+std::vector<Settings> settings_of(const TermInfo& term, const FilterSpec& nominal) {
+  std::vector<Settings> all{{}};
+  for (std::size_t i = term.first; i < term.first + term.count; ++i) {
+    const ParamSpec& spec = TermLibrary::specs[i];
+    if (spec.kind == ParamKind::linear || nominal.active[i]) continue;
+    std::vector<Settings> next;
+    for (const Settings& s : all)
+      for (const double v : spec.grid) {
+        next.push_back(s);
+        next.back().emplace_back(i, v * spec.unit.to_si);
+      }
+    if (spec.grid.size > 0) all = std::move(next);
+  }
+  return all;
+}
+
+/// One parameter of a term at one prior sigma, times the strength.
+Source one_parameter(std::size_t param, const Settings& settings) {
+  Source s;
+  s.put = [=](World& w, double strength) {
+    w.truth.active.set(param);
+    w.draw.theta[param] += strength * TermLibrary::specs[param].prior_si().sigma();
+    for (const auto& [i, value] : settings) {
+      w.truth.active.set(i);
+      w.draw.theta[i] = value;
+    }
+  };
+  return s;
+}
+
+/// Cosine between the last column's signal and the best mixture of the others.
+double mixture_cosine(const MatX& products) {
+  const Eigen::Index n = products.rows() - 1;
+  const double whole = products(n, n);
+  // Signals that leave next to nothing are no likeness.
+  std::vector<Eigen::Index> seen;
+  for (Eigen::Index k = 0; k < n; ++k)
+    if (products(k, k) > 1e-9 * products.diagonal().maxCoeff()) seen.push_back(k);
+  if (seen.empty() || whole <= 0.0) return 0.0;
+  const VecX scale = products.diagonal()(seen).cwiseSqrt().cwiseInverse();
+  const MatX G = scale.asDiagonal() * MatX(products(seen, seen)) * scale.asDiagonal();
+  const VecX b = scale.cwiseProduct(VecX(products(seen, n)));
+  const MatX regular = G + 1e-9 * MatX::Identity(G.rows(), G.cols());
+  return std::sqrt(std::clamp(b.dot(regular.ldlt().solve(b)) / whole, 0.0, 1.0));
+}
+
+}  // namespace
+
+Nearest nearest_in_library(const SizingBench& bench, const FilterSpec& nominal, const VecX& signal) {
+  constexpr double strength = 0.3;  // prior sigmas: nearly linear
+  Nearest best;
+  for (const std::size_t t : hideable_terms(nominal)) {
+    const TermInfo& term = TermLibrary::terms[t];
+    const Timeline& timeline = bench.world().timeline;
+    if (term.key == "frame_closure" || (term.needs.temperature && !timeline.has_temperature) ||
+        (term.needs.field && !timeline.has_field))
+      continue;
+    std::map<std::string, std::vector<std::size_t>> axes;
+    for (const std::size_t i : missing_parameters(term, nominal)) axes[axis_of(i)].push_back(i);
+    for (const Settings& settings : settings_of(term, nominal))
+      for (const auto& [axis, params] : axes) {
+        MatX signals(signal.size(), static_cast<Eigen::Index>(params.size()) + 1);
+        for (std::size_t k = 0; k < params.size(); ++k)
+          signals.col(static_cast<Eigen::Index>(k)) = bench.signal(one_parameter(params[k], settings), strength);
+        signals.rightCols<1>() = signal;
+        const double cosine = mixture_cosine(bench.absorption().left_products(signals));
+        if (cosine > best.cosine) best = {std::string(term.key), axis, cosine};
+      }
+  }
+  return best;
+}
+
+}  // namespace drift::blind
