@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/discovery/sentence.hpp"
 #include "analysis/report/number_text.hpp"
 
 namespace drift {
@@ -31,36 +32,7 @@ std::string label_of(const CandidateScore& c) {
   return c.label.empty() ? keyed(c.term, c.axis) : c.label;
 }
 
-std::string p_text(double p) {
-  if (!std::isfinite(p)) return "-";
-  if (p < 1e-300) return "below 1e-300";
-  return number_text(p, p < 1e-3 ? 1 : 2);
-}
-
-std::string verdict_sentence(const Diagnosis& d) {
-  if (!d.sentence.empty()) return d.sentence;
-  std::vector<std::string> names;
-  for (const Cause& c : d.causes) {
-    std::vector<std::string> sizes;
-    for (const CauseParameter& p : c.parameters)
-      if (sizes.size() < 3) sizes.push_back(fmt::format("{} = {} {}", p.key, with_sigma(p.value, p.sigma), p.unit));
-    names.push_back(sizes.empty() ? label_of(c) : fmt::format("{} ({})", label_of(c), fmt::join(sizes, ", ")));
-  }
-  switch (d.verdict) {
-    case Verdict::consistent:
-      return fmt::format("The recording is consistent with the nominal model (p = {} over everything tried).",
-                         p_text(d.p_value));
-    case Verdict::named:
-      return fmt::format("The nominal model leaves out {} (p = {}).", listed(names, "and"), p_text(d.p_value));
-    case Verdict::ambiguous:
-      return fmt::format("Something is missing (p = {}), and this plan cannot tell which of {}.",
-                         p_text(d.p_value), listed(names, "or"));
-    case Verdict::unexplained:
-      break;
-  }
-  return fmt::format("Something is missing (p = {}) that no known effect explains{}.", p_text(d.p_value),
-                     d.signals.empty() || d.signals.front().shape.empty() ? "" : ": " + d.signals.front().shape);
-}
+std::string verdict_sentence(const Diagnosis& d) { return d.sentence.empty() ? sentence(d) : d.sentence; }
 
 std::string where_sentence(const Where& where) {
   if (where.equation.empty() && where.channels.empty()) return "";
@@ -75,7 +47,7 @@ std::string where_sentence(const Where& where) {
   if (!parts.empty()) out += fmt::format(", most of it at position{} {}", parts.size() > 1 ? "s" : "", listed(parts, "and"));
   if (!where.windows.empty()) {
     const ScanHit& w = where.windows.front();
-    out += fmt::format("; the strongest window is {:.0f} s to {:.0f} s (p = {})", w.start_s, w.end_s, p_text(w.p_value));
+    out += fmt::format("; the strongest window is {:.0f} s to {:.0f} s (chance of a false alarm: {})", w.start_s, w.end_s, p_text(w.p_value));
   }
   return out + ".";
 }
