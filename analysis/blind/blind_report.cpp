@@ -16,10 +16,17 @@
 namespace drift::blind {
 namespace {
 
+std::string standing_text(const std::vector<Target>& targets) {
+  const auto count = [&](Standing standing) {
+    return std::count_if(targets.begin(), targets.end(), [=](const Target& t) { return t.standing() == standing; });
+  };
+  return fmt::format("Of {} targets {} are met and {} missed with their whole intervals, {} met and {} missed within their "
+                     "intervals, {} not decided.", targets.size(), count(Standing::met), count(Standing::missed),
+                     count(Standing::met_within), count(Standing::missed_within), count(Standing::not_decided));
+}
+
 std::vector<std::string> headlines(const Summary& s, const Hashes& hashes) {
-  const auto met = std::count_if(s.targets.begin(), s.targets.end(), [](const Target& t) { return t.met(); });
-  return {fmt::format("{} trials, {} of them without an answer; {} of {} targets met.", s.trials, s.failed, met,
-                      s.targets.size()),
+  return {fmt::format("{} trials, {} of them without an answer. {}", s.trials, s.failed, standing_text(s.targets)),
           fmt::format("The nominal fit looks healthy (chi-square inside its 95 % band) in {} effect trials, and its "
                       "worst parameter is off by {} of its sigmas (median).", text_of(s.concealed),
                       number_text(s.largest_bias_median, 3)),
