@@ -70,6 +70,38 @@ TEST(DiagnosisJson, WhatIsNoNumberIsNull) {
   EXPECT_TRUE(empty["causes"].is_array() && empty["causes"].empty());
 }
 
+TEST(DiagnosisJson, WhatWasNotComputedIsNullAndNotZero) {
+  Diagnosis d = testing::diagnosis(nominal());
+  d.fit.band_low = 0.9;
+  d.fit.band_high = 1.1;
+  d.fit.log_likelihood_ratio = 140.0;
+  d.fit.linear_T = 144.0;
+  d.where.scan_p_value = 1e-9;
+  d.where.windows_tried = 300;
+  json j = json::parse(to_json(d));
+  EXPECT_EQ(j["fit"]["in_sample"]["chi2_per_dof_95"], (json{0.9, 1.1}));
+  EXPECT_EQ(j["fit"]["in_sample"]["log_likelihood_ratio"], 140.0);
+  EXPECT_EQ(j["fit"]["in_sample"]["predicted_by_score"], 144.0);
+  EXPECT_EQ(j["fit"]["in_sample"]["sign_agrees"], true);
+  EXPECT_EQ(j["where"]["p_value"], 1e-9);
+  EXPECT_EQ(j["where"]["windows_tried"], 300);
+  // No cause in the model, nothing held out: no second fit, no gain.
+  d.has_patch = false;
+  d.fit.held_out = {};
+  j = json::parse(to_json(d));
+  for (const char* key : {"log_likelihood_ratio", "predicted_by_score", "sign_agrees"})
+    EXPECT_TRUE(j["fit"]["in_sample"].at(key).is_null()) << key;
+  for (const char* key : {"log_score_gain", "log_score_gain_sigma", "nested_gain", "chi2_per_dof_before"})
+    EXPECT_TRUE(j["fit"]["held_out"].at(key).is_null()) << key;
+  // A recording on a case: no declared noise, no scan.
+  d.has_patch = true;
+  d.fit.band_low = d.fit.band_high = d.fit.log_likelihood_ratio = d.where.scan_p_value = std::nan("");
+  j = json::parse(to_json(d));
+  for (const char* key : {"chi2_per_dof_95", "log_likelihood_ratio", "sign_agrees"})
+    EXPECT_TRUE(j["fit"]["in_sample"].at(key).is_null()) << key;
+  for (const char* key : {"p_value", "windows_tried"}) EXPECT_TRUE(j["where"].at(key).is_null()) << key;
+}
+
 TEST(DiagnosisPage, IsWellFormedOfflineAndEscaped) {
   const test::ScratchFolder folder;
   const Study study = testing::read_text(folder, "s.toml", nominal_study);
