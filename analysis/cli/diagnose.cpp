@@ -79,6 +79,7 @@ ExitCode diagnose(const StudyArguments& arguments, const std::vector<std::string
   const Study study = arguments.read();
   require_nominal(study);
   require_own_folder(folder, "diagnose");
+  require_writable_folder(folder);
   const mc::ThreadCount threads(arguments.threads);
   return study.kind == RecordingKind::strapdown ? diagnose_case(arguments, study, paths, folder)
                                                 : diagnose_platform(arguments, study, paths, folder);
