@@ -61,6 +61,13 @@ std::string numbers_of(const Cause& c) {
   return text;
 }
 
+/// Words with something in brackets behind; brackets at their end take it in.
+std::string with_brackets(std::string words, const std::string& inside) {
+  if (!words.ends_with(')')) return fmt::format("{} ({})", words, inside);
+  words.pop_back();
+  return fmt::format("{}; {})", words, inside);
+}
+
 /// Causes that act together are one alternative.
 using Alternative = std::vector<std::size_t>;  // indices into Diagnosis::causes
 
@@ -161,7 +168,7 @@ std::string in_words(std::string_view term, std::string_view axis) {
   return axis.empty() ? std::string(info.title) : fmt::format("{}, {}", info.title, part_of(info, axis));
 }
 
-std::string in_words(const Cause& c) { return fmt::format("{} ({})", in_words(c.term, c.axis), numbers_of(c)); }
+std::string in_words(const Cause& c) { return with_brackets(in_words(c.term, c.axis), numbers_of(c)); }
 
 std::string lacking(const std::vector<Cause>& causes) {
   std::vector<std::string> effects;

@@ -14,7 +14,8 @@ std::string in_words(std::string_view term, std::string_view axis);
 
 /// A cause in words, its key and numbers in brackets behind: "magnetic sensitivity, gyro y
 /// (magnetic_drift.y: M_y = 0.0110±0.0004 deg/h/gauss)". Of more than three numbers the one that is
-/// largest in sigmas of its prior.
+/// largest in sigmas of its prior. A title that ends in brackets takes them in: "g-sensitive drift (mass
+/// unbalance; g_drift: ...)".
 std::string in_words(const Cause& cause);
 
 /// What a model lacks: "The nominal model lacks ... and ..."; with frame_closure among the causes "The

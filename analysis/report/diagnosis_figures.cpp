@@ -235,16 +235,18 @@ std::vector<Figure> name_figures(const Diagnosis& d) {
   bars.title = "Candidates";
   bars.x_label = "projected score, chi-square";
   bars.width = 860.0;
-  for (const CandidateScore& c : d.candidates) {
-    if (bars.bars.size() == most_bars) break;
-    if (!std::isfinite(c.score)) continue;
-    bars.bars.push_back({.label = label_of(c), .value = c.score, .colour = c.adequate ? 2u : 6u,
-                         .text = fmt::format("{}, p {}", number_text(c.score), p_text(c.p_value))});
+  const bool named = d.verdict == Verdict::named;
+  for (const auto& [c, alternative] : shown_candidates(d, most_bars)) {
+    if (!std::isfinite(c->score)) continue;
+    const std::string what = alternative == 0 ? "" : named ? ", named" : fmt::format(", alternative {}", alternative);
+    bars.bars.push_back({.label = label_of(*c), .value = c->score, .colour = alternative > 0 ? 1u : 6u,
+                         .text = fmt::format("{}, p {}{}", number_text(c->score), p_text(c->p_value), what)});
   }
   if (!bars.bars.empty())
     figures.push_back({"candidates.svg",
-                       "Strength of every candidate, after what the fitted parameters absorb. Green: "
-                       "nothing else is significant once it is in the model.",
+                       d.causes.empty() ? "Strength of the strongest candidates, each alone, after what the fitted parameters absorb."
+                                        : "Strength of the strongest candidates, each alone, after what the fitted parameters "
+                                          "absorb. Orange: the causes of the verdict, always shown.",
                        svg_of(bars)});
   const CosineMatrix& m = d.cosines;
   if (m.cosine.rows() > 1 && m.cosine.rows() == static_cast<Eigen::Index>(m.labels.size())) {

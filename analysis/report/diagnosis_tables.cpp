@@ -21,6 +21,12 @@ void say_left_out(Table& table, std::size_t all, std::size_t most) {
   if (all > most) table.note += fmt::format("{}{} weaker ones are in diagnosis.json.", table.note.empty() ? "" : " ", all - most);
 }
 
+std::string remark_of(const Diagnosis& d, const CandidateScore& c, int alternative) {
+  if (alternative > 0 && d.verdict == Verdict::named) return "named";
+  if (alternative > 0 && d.verdict == Verdict::ambiguous) return fmt::format("alternative {}", alternative);
+  return c.observable ? "" : "not observable on this plan";
+}
+
 std::string confusable_text(const Cause& c) {
   std::string out;
   for (std::size_t k = 0; k < std::min<std::size_t>(3, c.confusable_with.size()); ++k) {
@@ -65,17 +71,18 @@ Table candidate_table(const Diagnosis& d, std::size_t most) {
   table.title = "Candidates, strongest first";
   table.columns = {{"candidate", Align::left}, {"score"}, {"dof"}, {"p"}, {"absorbed"}, {"amplitude"},
                    {"detectable"}, {"unit", Align::left}, {"prob."}, {"", Align::left}};
-  for (std::size_t k = 0; k < std::min(most, d.candidates.size()); ++k) {
-    const CandidateScore& c = d.candidates[k];
-    const Tone tone = c.adequate && d.verdict != Verdict::consistent ? Tone::good : Tone::plain;
+  const auto shown = shown_candidates(d, most);
+  for (const auto& [score, alternative] : shown) {
+    const CandidateScore& c = *score;
+    const Tone tone = alternative > 0 ? Tone::good : Tone::plain;
     table.add({{label_of(c), tone}, number_text(c.score), fmt::format("{}", c.dof), p_text(c.p_value), percent(c.absorbed),
                c.sigma > 0.0 ? with_sigma(c.amplitude, c.sigma) : "", c.sigma > 0.0 ? number_text(c.smallest_detectable, 2) : "", c.unit,
                c.probability < 5e-4 ? "0" : number_text(c.probability, 2),
-               !c.observable ? "not observable on this plan" : c.adequate && d.verdict != Verdict::consistent ? "explains all" : ""});
+               remark_of(d, c, alternative)});
   }
   table.note = "p: family-wise, over all that was tried. absorbed: part of the raw signature that fitted parameters take "
                "up. detectable: size found with 80 % probability.";
-  say_left_out(table, d.candidates.size(), most);
+  say_left_out(table, d.candidates.size(), shown.size());
   return table;
 }
 
@@ -99,8 +106,8 @@ Table fit_table(const Diagnosis& d) {
          f.held_out.recording_chi2_per_dof_after, "1");
   line("start spread, largest ratio", f.start_spread_before, f.start_spread_after, "below 2");
   if (std::isfinite(f.log_likelihood_ratio) && f.log_likelihood_ratio != 0.0)
-    table.note = fmt::format("Twice the gain of the log likelihood: {}; the linear score foretold {}{}.",
-                             number_text(f.log_likelihood_ratio), number_text(f.linear_T),
+    table.note = fmt::format("The refit with the cause gains {} in twice the log likelihood; what the nominal model left over had "
+                             "let expect {}{}.", number_text(f.log_likelihood_ratio), number_text(f.linear_T),
                              f.sign_agrees ? "" : ", with the other sign");
   return table;
 }

@@ -32,6 +32,38 @@ std::string label_of(const CandidateScore& c) {
   return c.label.empty() ? keyed(c.term, c.axis) : c.label;
 }
 
+std::vector<ShownCandidate> shown_candidates(const Diagnosis& d, std::size_t most) {
+  const bool labelled = d.cosines.labels.size() == d.causes.size();  // says which parameters are meant
+  const auto is = [&](const CandidateScore& c, std::size_t k) {
+    if (labelled && std::ranges::any_of(d.candidates, [&](const CandidateScore& o) { return label_of(o) == d.cosines.labels[k]; }))
+      return label_of(c) == d.cosines.labels[k];
+    return c.term == d.causes[k].term && c.axis == d.causes[k].axis;
+  };
+  std::vector<ShownCandidate> shown;
+  std::vector<bool> had(d.causes.size(), false);
+  for (std::size_t i = 0; i < d.candidates.size(); ++i) {
+    ShownCandidate s{&d.candidates[i], 0};
+    for (std::size_t k = 0; k < d.causes.size(); ++k)
+      if (!had[k] && is(*s.score, k)) {
+        had[k] = true;
+        if (s.alternative == 0) s.alternative = d.causes[k].set + 1;
+      }
+    if (i < most || s.alternative > 0) shown.push_back(s);
+  }
+  return shown;
+}
+
+std::string channel_in_words(const std::string& name) {
+  if (name == "acc") return "gravity in the dwells";
+  if (name == "turn") return "the turns";
+  const auto bar = name.find('_');
+  const std::string kind = name.substr(0, bar), axis = bar == std::string::npos ? "" : name.substr(bar + 1);
+  if (kind == "acc") return fmt::format("accelerometer {}", axis);
+  if (kind == "gimbal") return fmt::format("{} gimbal", axis);
+  if (kind == "gyro") return fmt::format("gyro {}", axis);
+  return name;
+}
+
 std::string verdict_sentence(const Diagnosis& d) { return d.sentence.empty() ? sentence(d) : d.sentence; }
 
 std::string where_sentence(const Where& where) {
@@ -39,7 +71,7 @@ std::string where_sentence(const Where& where) {
   std::string out = where.equation.empty() ? "The misfit is" : fmt::format("The misfit is in the {}", where.equation);
   std::vector<std::string> parts;
   for (const Share& s : where.channels)
-    if (parts.size() < 2 && s.share > 0.1) parts.push_back(fmt::format("{} ({:.0f} %)", s.name, 100.0 * s.share));
+    if (parts.size() < 2 && s.share > 0.1) parts.push_back(fmt::format("{} ({:.0f} %)", channel_in_words(s.name), 100.0 * s.share));
   if (!parts.empty()) out += fmt::format(", seen by {}", listed(parts, "and"));
   parts.clear();
   for (const Share& s : where.positions)

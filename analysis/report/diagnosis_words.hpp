@@ -11,6 +11,20 @@ namespace drift {
 std::string label_of(const discovery::Cause& cause);
 std::string label_of(const discovery::CandidateScore& candidate);
 
+/// A candidate of the table or the figure, and the alternative that it belongs to: 1 for the first set of
+/// causes, 0 for what is no cause.
+struct ShownCandidate {
+  const discovery::CandidateScore* score = nullptr;
+  int alternative = 0;
+};
+
+/// The strongest candidates, and every cause of the verdict however weak its own score is (of two that
+/// cancel each looks weak alone). In the order of the diagnosis; more than `most` only for causes.
+std::vector<ShownCandidate> shown_candidates(const discovery::Diagnosis& diagnosis, std::size_t most);
+
+/// A channel in words: "accelerometer y" of "acc_y", "outer gimbal" of "gimbal_outer".
+std::string channel_in_words(const std::string& name);
+
 /// The verdict in one sentence: the diagnosis' own, or the one of discovery::sentence().
 std::string verdict_sentence(const discovery::Diagnosis& diagnosis);
 

@@ -68,7 +68,7 @@ TEST(Sentence, OfManyNumbersSaysTheLargestInSigmasOfItsPrior) {
   Cause c = cause("g_drift", "", "D_I_x", 4.0, 0.1, "deg/h/g");  // 2 prior sigmas
   for (const char* key : {"D_O_x", "D_O_y", "D_S_x"})            // 0.3, 0.3 and 2 deg/h/g
     c.parameters.push_back({key, TermLibrary::find(key).value(), 1.5, 0.1, "deg/h/g", false});
-  EXPECT_EQ(in_words(c), "g-sensitive drift (mass unbalance) (g_drift: D_O_x = 1.50±0.10 deg/h/g and 3 more)");
+  EXPECT_EQ(in_words(c), "g-sensitive drift (mass unbalance; g_drift: D_O_x = 1.50±0.10 deg/h/g and 3 more)");
 }
 
 TEST(Sentence, NumbersAlternativesAndKeepsTogetherWhatBelongsTogether) {

@@ -2,9 +2,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include "analysis/report/diagnosis_figures.hpp"
 #include "analysis/report/diagnosis_folder.hpp"
 #include "analysis/report/diagnosis_json.hpp"
 #include "analysis/report/diagnosis_text.hpp"
+#include "analysis/report/diagnosis_words.hpp"
 #include "analysis/report/residual_signal.hpp"
 #include "tests/analysis/report/diagnosis_fixture.hpp"
 #include "tests/analysis/report/xml_check.hpp"
@@ -136,6 +138,63 @@ TEST(DiagnosisFigures, TheLocatedWindowAndTheGapOfTheRecoveredSignalAreSeen) {
   ASSERT_NE(signal, figures.end());
   EXPECT_NE(signal->svg.find("located window"), std::string::npos);
   EXPECT_NE(signal->svg.find("signature of the cause"), std::string::npos);
+}
+
+/// Two that cancel were found as a pair, beside a single alternative: each of the pair looks weak alone.
+Diagnosis cancelling_pair() {
+  Diagnosis d = testing::diagnosis(nominal());
+  d.verdict = Verdict::ambiguous;
+  const auto line = [](const char* term, const char* axis, double score) {
+    CandidateScore s;
+    s.term = term;
+    s.axis = axis;
+    s.label = fmt::format("{}.{}", term, axis);
+    s.score = score;
+    return s;
+  };
+  d.candidates.clear();
+  for (int k = 0; k < 60; ++k) d.candidates.push_back(line("g2_drift", "x", 100.0 - k));
+  for (std::size_t k = 0; k < 60; ++k) d.candidates[k].label += fmt::format(" {}", k);
+  d.candidates.push_back(line("sag", "x", 1.5));
+  d.candidates.push_back(line("magnetic_drift", "y", 0.5));
+  d.causes.assign(3, Cause{});
+  d.causes[0].term = "sag";
+  d.causes[1].term = "magnetic_drift";
+  d.causes[2].term = "g2_drift";
+  d.causes[0].axis = d.causes[2].axis = "x";
+  d.causes[1].axis = "y";
+  d.causes[2].set = 1;
+  d.cosines.labels = {"sag.x", "magnetic_drift.y", "g2_drift.x 3"};
+  d.cosines.cosine = MatX::Identity(3, 3);
+  return d;
+}
+
+TEST(DiagnosisCandidates, TheCausesAreShownHoweverWeakEachIsAlone) {
+  const Diagnosis d = cancelling_pair();
+  const auto shown = shown_candidates(d, 20);
+  ASSERT_EQ(shown.size(), 22u);
+  EXPECT_EQ(shown[3].alternative, 2);
+  EXPECT_EQ(shown[0].alternative, 0) << "the same term and axis, but other parameters";
+  EXPECT_EQ(shown[20].score->term, "sag");
+  EXPECT_EQ(shown[20].alternative, 1);
+  EXPECT_EQ(shown[21].score->term, "magnetic_drift");
+  const auto figures = name_figures(d);
+  ASSERT_EQ(figures.front().file, "candidates.svg");
+  for (const char* text : {"magnetic_drift.y", "alternative 1", "alternative 2"})
+    EXPECT_NE(figures.front().svg.find(text), std::string::npos) << text;
+  EXPECT_EQ(figures.front().svg.find("g2_drift.x 40"), std::string::npos);
+  const std::string out = to_text(d);
+  EXPECT_NE(out.find("magnetic_drift.y"), std::string::npos) << out;
+  EXPECT_NE(out.find("54 weaker ones are in diagnosis.json"), std::string::npos) << out;
+}
+
+TEST(DiagnosisText, HasNoWordsOfTheMethodInTheNoteOnTheGain) {
+  Diagnosis d = testing::diagnosis(nominal());
+  d.fit.log_likelihood_ratio = 140.0;
+  d.fit.linear_T = 144.0;
+  const std::string out = to_text(d);
+  EXPECT_EQ(out.find("linear score"), std::string::npos) << out;
+  EXPECT_NE(out.find("gains 140 in twice the log likelihood"), std::string::npos) << out;
 }
 
 TEST(DiagnosisText, SaysTheVerdictFirstAndStaysWithinTheTerminal) {
