@@ -63,7 +63,7 @@ std::string power_svg(const Summary& s) {
   panel.y_label = "share of trials";
   panel.y_range = Range{0.0, 1.02};
   Series power = curve("detected", 0), theory = curve("theory", 6, Stroke::dashed);
-  Series exact = curve("named exactly", 2), set = curve("in a set of at most 3", 1);
+  Series exact = curve("named exactly", 2), set = curve("in a set of at most 3", 1, Stroke::dashed);
   ExpectedBand band;
   band.label = "95 % interval of detection";
   for (const PowerPoint& p : s.power) {
@@ -129,7 +129,7 @@ std::string pulls_svg(const Summary& s) {
 
 std::string time_svg(const std::vector<TrialScore>& scores) {
   Panel panel;
-  panel.x_label = "[s]";
+  panel.x_label = "time [s]";
   panel.y_label = "share below";
   std::vector<double> seconds;
   for (const TrialScore& t : scores) seconds.push_back(t.answer.seconds);

@@ -36,7 +36,8 @@ bool is_twin(const Answer& answer, const HiddenEffect& hidden, const AnswerCause
   if (agrees(hidden, cause)) return true;
   const auto lists = [](const AnswerCause& c, const std::string& term, const std::string& axis) {
     return std::any_of(c.confusable_with.begin(), c.confusable_with.end(), [&](const discovery::Confusable& o) {
-      return std::abs(o.cosine) >= one_trace && same(o.term, o.axis, term, axis);
+      // A candidate of all axes can be like anything of one of them: that is no twin.
+      return std::abs(o.cosine) >= one_trace && o.term == term && o.axis == axis;
     });
   };
   return lists(cause, hidden.term, hidden.axis) ||

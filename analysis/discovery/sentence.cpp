@@ -111,13 +111,17 @@ std::string twins_text(const Diagnosis& d, const std::vector<Alternative>& all) 
   return text;
 }
 
-/// What leaves the same trace as a cause and is not among the causes.
+/// What leaves the same trace as a cause and is no part of the verdict. A candidate of all axes of a term is
+/// passed over for the one axis of it that does.
 std::string outside_twins_text(const Diagnosis& d) {
   std::string text;
   for (const Cause& c : d.causes)
     for (const Confusable& o : c.confusable_with) {
-      const bool among = std::ranges::any_of(d.causes, [&](const Cause& k) { return k.term == o.term && k.axis == o.axis; });
-      if (o.cosine * o.cosine <= one_direction || among) continue;
+      const bool among = std::ranges::any_of(d.causes, [&](const Cause& k) { return k.term == o.term; });
+      const bool narrower = o.axis.empty() && std::ranges::any_of(c.confusable_with, [&](const Confusable& k) {
+        return k.term == o.term && !k.axis.empty() && k.cosine * k.cosine > one_direction;
+      });
+      if (o.cosine * o.cosine <= one_direction || among || narrower) continue;
       const auto line = fmt::format(" On this plan {} ({}) and {} ({}) leave the same trace.", in_words(c.term, c.axis),
                                     keyed(c.term, c.axis), in_words(o.term, o.axis), keyed(o.term, o.axis));
       if (text.find(line) == std::string::npos) text += line;
@@ -170,6 +174,11 @@ std::string in_words(std::string_view term, std::string_view axis) {
 
 std::string in_words(const Cause& c) { return with_brackets(in_words(c.term, c.axis), numbers_of(c)); }
 
+std::string equation_in_words(const std::string& equation) {
+  constexpr std::string_view gimbal = "gimbal ";
+  return equation.starts_with(gimbal) ? equation.substr(gimbal.size()) + " gimbal" : equation;
+}
+
 std::string lacking(const std::vector<Cause>& causes) {
   std::vector<std::string> effects;
   std::string equation;
@@ -207,7 +216,7 @@ std::string sentence(const Diagnosis& d) {
     case Verdict::unexplained: break;
   }
   return fmt::format("Something is missing from the nominal model ({}) and no known effect explains it; it sits in the {}{}.{}",
-                     false_alarm, d.where.equation.empty() ? "test as a whole" : d.where.equation,
+                     false_alarm, d.where.equation.empty() ? "test as a whole" : equation_in_words(d.where.equation),
                      d.signals.empty() || d.signals.front().shape.empty() ? "" : ". " + d.signals.front().shape, noise);
 }
 

@@ -18,6 +18,9 @@ std::string in_words(std::string_view term, std::string_view axis);
 /// unbalance; g_drift: ...)".
 std::string in_words(const Cause& cause);
 
+/// An equation (Where::equation) as a reader says it: "middle gimbal" of "gimbal middle".
+std::string equation_in_words(const std::string& equation);
+
 /// What a model lacks: "The nominal model lacks ... and ..."; with frame_closure among the causes "The
 /// nominal model has the wrong drift equation (...) and lacks ...".
 std::string lacking(const std::vector<Cause>& causes);

@@ -170,6 +170,7 @@ std::optional<Figure> held_out_figure(const HeldOut& held) {
   chart.x_label = "chi-square per degree of freedom (logarithmic)";
   chart.before_label = "nominal model";
   chart.after_label = "with the cause";
+  chart.text_label = "gain of log density";
   chart.spacing = Spacing::logarithmic;
   chart.limit = ReferenceLine{1.0, "noise alone", Stroke::dashed};
   for (const auto* folds : {&held.folds, &held.recordings})
@@ -181,8 +182,8 @@ std::optional<Figure> held_out_figure(const HeldOut& held) {
     }
   if (chart.lines.empty()) return std::nullopt;
   return Figure{"held_out.svg",
-                "Each line was predicted by a fit to all the others. At the right: gain of the log "
-                "predictive density.",
+                "Each line was predicted by a fit to all the others. At the right: what the cause gains in the log of the "
+                "predicted density of these data; positive is better.",
                 svg_of(chart)};
 }
 
@@ -190,6 +191,7 @@ std::optional<Figure> moved_figure(const std::vector<ShiftedParameter>& shifted)
   DumbbellChart chart;
   chart.title = "Parameters that the missing physics had moved";
   chart.x_label = "shift in sigmas that the nominal fit claimed";
+  chart.text_label = "nominal → with the cause";
   for (const ShiftedParameter& p : shifted) {
     if (chart.lines.size() == most_moved) break;
     if (!std::isfinite(p.shift_sigma) || !(p.sigma_before > 0.0)) continue;

@@ -68,7 +68,7 @@ std::string verdict_sentence(const Diagnosis& d) { return d.sentence.empty() ? s
 
 std::string where_sentence(const Where& where) {
   if (where.equation.empty() && where.channels.empty()) return "";
-  std::string out = where.equation.empty() ? "The misfit is" : fmt::format("The misfit is in the {}", where.equation);
+  std::string out = where.equation.empty() ? "The misfit is" : fmt::format("The misfit is in the {}", equation_in_words(where.equation));
   std::vector<std::string> parts;
   for (const Share& s : where.channels)
     if (parts.size() < 2 && s.share > 0.1) parts.push_back(fmt::format("{} ({:.0f} %)", channel_in_words(s.name), 100.0 * s.share));
@@ -85,16 +85,17 @@ std::string where_sentence(const Where& where) {
 }
 
 std::string held_out_sentence(const HeldOut& held) {
+  const auto chi2 = [](double value) { return std::abs(value) < 10.0 ? decimal_text(value, 2) : number_text(value); };
   const auto said = [](double gain) { return std::isfinite(gain) ? fmt::format(", log score {:+.3g}", gain) : std::string(); };
   std::string out;
   if (!held.folds.empty())
     out = fmt::format("Data held out of the fit are predicted {}: chi-square per degree of freedom {} → {} in {} folds{}.",
-                      held.log_score_gain > 0.0 ? "better" : "no better", number_text(held.chi2_per_dof_before),
-                      number_text(held.chi2_per_dof_after), held.folds.size(), said(held.log_score_gain));
+                      held.log_score_gain > 0.0 ? "better" : "no better", chi2(held.chi2_per_dof_before),
+                      chi2(held.chi2_per_dof_after), held.folds.size(), said(held.log_score_gain));
   if (!held.recordings.empty())
     out += fmt::format("{}Whole recordings, each from a fit to the others, are predicted {}: {} → {}{}.", out.empty() ? "" : " ",
-                       held.recording_gain > 0.0 ? "better" : "no better", number_text(held.recording_chi2_per_dof_before),
-                       number_text(held.recording_chi2_per_dof_after), said(held.recording_gain));
+                       held.recording_gain > 0.0 ? "better" : "no better", chi2(held.recording_chi2_per_dof_before),
+                       chi2(held.recording_chi2_per_dof_after), said(held.recording_gain));
   return out;
 }
 

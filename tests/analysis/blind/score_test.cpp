@@ -150,6 +150,9 @@ TEST(BlindScore, ATwinCountsAsTheSameCauseInAScoreOfItsOwn) {
   EXPECT_TRUE(score_trial(sag, twins(-1.0)).exact_or_twin);
   EXPECT_FALSE(score_trial(sag, twins(-1.0)).exact);
   EXPECT_FALSE(score_trial(sag, twins(0.99)).exact_or_twin) << "alike is not the same trace";
+  Answer wide = twins(-1.0);
+  wide.causes[0].confusable_with[0].axis = "";
+  EXPECT_FALSE(score_trial(sag, wide).exact_or_twin) << "like some mixture of all axes";
   // Whichever of the two says so, and whichever was hidden.
   EXPECT_TRUE(score_trial(cross, twins(-1.0)).exact_or_twin);
   // A third that is no twin, another axis, or one twin beside a cause that is not hidden: no.

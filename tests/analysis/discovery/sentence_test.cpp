@@ -101,6 +101,11 @@ TEST(Sentence, OfANamedCauseSaysWhatElseLeavesItsTrace) {
   EXPECT_TRUE(says(sentence(d), "On this plan compliance of the accelerometer block, accelerometer x (sag.x) and further cross terms "
                                 "of the accelerometers, accelerometer y (accelerometer_cross.y) leave the same trace.")) << sentence(d);
   EXPECT_FALSE(says(sentence(d), "drift_ramp"));
+  // Said once: not again of all axes of that term, nor of what the verdict names anyway.
+  d.causes[0].confusable_with.push_back({"accelerometer_cross", "", 1.0});
+  d.causes[0].confusable_with.push_back({"sag", "", 1.0});
+  const std::string text = sentence(d);
+  EXPECT_EQ(text.find("leave the same trace"), text.rfind("leave the same trace")) << text;
 }
 
 TEST(Sentence, OfOneCauseThatHeldOutDataDoNotSupportIsNotEitherOr) {

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "analysis/discovery/sentence.hpp"
 #include "analysis/report/diagnosis_figures.hpp"
 #include "analysis/report/diagnosis_folder.hpp"
 #include "analysis/report/diagnosis_json.hpp"
@@ -188,19 +189,36 @@ TEST(DiagnosisCandidates, TheCausesAreShownHoweverWeakEachIsAlone) {
   EXPECT_NE(out.find("54 weaker ones are in diagnosis.json"), std::string::npos) << out;
 }
 
+TEST(DiagnosisFigures, TheNumbersAtTheRightHaveAHead) {
+  for (const Figure& f : fit_figures(testing::diagnosis(nominal()))) {
+    if (f.file == "held_out.svg") { EXPECT_NE(f.svg.find(">gain of log density<"), std::string::npos); }
+    if (f.file == "moved.svg") { EXPECT_NE(f.svg.find(">nominal → with the cause<"), std::string::npos); }
+  }
+}
+
+TEST(DiagnosisWords, NameChannelsAndEquations) {
+  EXPECT_EQ(channel_in_words("acc_y"), "accelerometer y");
+  EXPECT_EQ(channel_in_words("gimbal_outer"), "outer gimbal");
+  EXPECT_EQ(channel_in_words("turn"), "the turns");
+  EXPECT_EQ(equation_in_words("gimbal middle"), "middle gimbal");
+  EXPECT_EQ(equation_in_words("platform rate y"), "platform rate y");
+}
+
 TEST(DiagnosisText, HasNoWordsOfTheMethodInTheNoteOnTheGain) {
   Diagnosis d = testing::diagnosis(nominal());
   d.fit.log_likelihood_ratio = 140.0;
   d.fit.linear_T = 144.0;
   const std::string out = to_text(d);
   EXPECT_EQ(out.find("linear score"), std::string::npos) << out;
-  EXPECT_NE(out.find("gains 140 in twice the log likelihood"), std::string::npos) << out;
+  EXPECT_NE(out.find("gains 140 in twice the log likelihood; what"), std::string::npos) << out;
+  d.causes[0].term = "frame_closure";  // another equation is no small change
+  EXPECT_NE(to_text(d).find("gains 140 in twice the log likelihood."), std::string::npos) << to_text(d);
 }
 
 TEST(DiagnosisText, SaysTheVerdictFirstAndStaysWithinTheTerminal) {
   const std::string out = to_text(testing::diagnosis(nominal()));
   EXPECT_TRUE(out.starts_with("Verdict named: The nominal model lacks g-sensitive drift (mass unbalance), gyro y")) << out;
-  for (const char* text : {"platform rate y", "eta_x", "Advice: Add x up", "gimbal_white", "9.1 → 1.03"})
+  for (const char* text : {"platform rate y", "eta_x", "Advice: Add x up", "gimbal_white", "9.10 →"})
     EXPECT_NE(out.find(text), std::string::npos) << text;
   EXPECT_LT(std::count(out.begin(), out.end(), '\n'), 60);
 }
