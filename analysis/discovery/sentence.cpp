@@ -203,6 +203,18 @@ std::string noise_in_words(const std::string& component) {
   return component;
 }
 
+std::string patch_text(const Diagnosis& d) {
+  const auto all = alternatives_of(d);
+  if (d.verdict != Verdict::ambiguous || !d.has_patch || all.empty()) return "";
+  const std::string words = together(d, all.front());
+  if (all.size() == 1)
+    return fmt::format("The patched model (patched.toml) holds the only cause that was found, {}: held-out data do not support it.", words);
+  const double probability = d.causes.front().probability;
+  const std::string odds = std::isfinite(probability) ? fmt::format(", probability {}", decimal_text(probability, 2)) : "";
+  return fmt::format("The patched model (patched.toml) holds alternative (1) alone, the most probable of {}{}: {}. The data do not single it out: "
+                     "its parameters are right only if this is the cause.", all.size(), odds, words);
+}
+
 std::string sentence(const Diagnosis& d) {
   const std::string noise = noise_text(d), false_alarm = fmt::format("chance of a false alarm: {}", p_text(d.p_value));
   switch (d.verdict) {

@@ -28,6 +28,10 @@ std::string lacking(const std::vector<Cause>& causes);
 /// A component of the noise (NoiseFinding) in words: "white noise of the gimbal readout".
 std::string noise_in_words(const std::string& component);
 
+/// Which alternative the patched model holds, where the verdict leaves several open (or one that held-out
+/// data do not support); empty of any other verdict.
+std::string patch_text(const Diagnosis& d);
+
 /// The verdict for a test engineer: words first, keys and numbers in brackets. Alternatives of an
 /// ambiguous verdict are numbered as in the table of causes; those whose signatures are one direction
 /// on this plan are said to leave the same trace.

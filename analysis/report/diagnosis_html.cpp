@@ -128,7 +128,7 @@ HtmlReport diagnosis_html(const Study& study, const Diagnosis& d, const Diagnosi
       if (!sentence.empty()) report.headlines.push_back(sentence);
   }
   if (!d.advice.empty()) report.headlines.push_back(d.advice.front().text);
-  if (!d.remarks.empty()) add_section(report, {"To be kept in mind", {Sentences{d.remarks}}});
+  if (auto remarks = remarks_of(d); !remarks.empty()) add_section(report, {"To be kept in mind", {Sentences{std::move(remarks)}}});
   add_section(report, where_section(d));
   add_section(report, name_section(d));
   add_section(report, fit_section(d));

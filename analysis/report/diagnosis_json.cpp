@@ -3,6 +3,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "analysis/report/diagnosis_words.hpp"
+
 namespace drift {
 namespace {
 
@@ -236,7 +238,7 @@ std::string to_json(const Diagnosis& d) {
   out["equations"] = equations_json(d.signals);
   out["cosines"] = cosines_json(d.cosines);
   out["inseparable"] = d.inseparable;
-  out["remarks"] = d.remarks;
+  out["remarks"] = remarks_of(d);
   Json& seconds = out["seconds"] = Json::object();
   for (const auto& [stage, time] : d.seconds) seconds[stage] = number(time);
   // Names are free text; bytes that are not UTF-8 become U+FFFD instead of an exception.

@@ -40,8 +40,9 @@ std::string to_text(const Diagnosis& d) {
   if (std::ranges::any_of(d.noise, &NoiseFinding::significant)) out += "\n" + text_of(noise_table(d), page);
   if (!d.advice.empty()) out += "\n";
   for (const Advice& a : d.advice) out += headed("Advice", a.text);
-  if (!d.remarks.empty()) out += "\n";
-  for (const auto& remark : d.remarks) out += wrapped("! " + remark, page, 2);
+  const auto remarks = remarks_of(d);
+  if (!remarks.empty()) out += "\n";
+  for (const auto& remark : remarks) out += wrapped("! " + remark, page, 2);
   return out;
 }
 

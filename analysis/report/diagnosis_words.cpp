@@ -53,6 +53,12 @@ std::vector<ShownCandidate> shown_candidates(const Diagnosis& d, std::size_t mos
   return shown;
 }
 
+std::vector<std::string> remarks_of(const Diagnosis& d) {
+  std::vector<std::string> all = d.remarks;
+  if (std::string patch = patch_text(d); !patch.empty()) all.push_back(std::move(patch));
+  return all;
+}
+
 std::string channel_in_words(const std::string& name) {
   if (name == "acc") return "gravity in the dwells";
   if (name == "turn") return "the turns";

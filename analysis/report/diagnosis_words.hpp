@@ -22,6 +22,10 @@ struct ShownCandidate {
 /// cancel each looks weak alone). In the order of the diagnosis; more than `most` only for causes.
 std::vector<ShownCandidate> shown_candidates(const discovery::Diagnosis& diagnosis, std::size_t most);
 
+/// What a reader must know: the diagnosis' own remarks, and what patched.toml holds where several causes
+/// remain possible.
+std::vector<std::string> remarks_of(const discovery::Diagnosis& diagnosis);
+
 /// A channel in words: "accelerometer y" of "acc_y", "outer gimbal" of "gimbal_outer".
 std::string channel_in_words(const std::string& name);
 

@@ -233,6 +233,28 @@ TEST(ResidualSignal, IsATableWithEmptyCellsForWhatIsNotKnown) {
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 63);
 }
 
+TEST(DiagnosisFolder, ThePatchOfAnAmbiguousVerdictSaysWhichAlternativeItHolds) {
+  const test::ScratchFolder folder;
+  const Study study = testing::read_text(folder, "s.toml", nominal_study);
+  Diagnosis d = testing::diagnosis(study.filters.front());
+  const std::string out = folder.file("out");
+  write_results(study, d, {}, out);
+  EXPECT_EQ(test::text_of(out + "/patched.toml").find('#'), std::string::npos) << "a named cause is no alternative";
+  d.verdict = Verdict::ambiguous;
+  d.causes.push_back(d.causes.front());
+  d.causes.back().axis = "z";
+  d.causes.back().set = 1;
+  write_results(study, d, {}, out);
+  const std::string patched = test::text_of(out + "/patched.toml");
+  EXPECT_TRUE(patched.starts_with("# The patched model (patched.toml) holds alternative (1) alone, the most probable of 2"))
+      << patched;
+  EXPECT_TRUE(read_study(out + "/patched.toml").filters.front().active[TermLibrary::find("D_S_y").value()]);
+  for (const std::string& text : {to_text(d), to_json(d), test::text_of(out + "/report.html")})
+    EXPECT_NE(text.find("(patched.toml) holds alternative (1)"), std::string::npos) << text;
+  d.causes.pop_back();
+  EXPECT_NE(patch_text(d).find("held-out data do not support it"), std::string::npos) << patch_text(d);
+}
+
 TEST(DiagnosisFolder, HoldsEverythingAndLeavesNoPatchOfAnEarlierDiagnosis) {
   const test::ScratchFolder folder;
   const Study study = testing::read_text(folder, "s.toml", nominal_study);
