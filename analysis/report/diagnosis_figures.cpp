@@ -23,11 +23,11 @@ constexpr std::size_t most_signals = 3, most_windows = 6, most_bars = 20, most_m
 /// Short recordings are shown in seconds, long ones in hours.
 struct TimeAxis {
   double unit = hour;
-  const char* label = "time [h]";
+  std::string label = "time [h]";
 };
-TimeAxis time_axis(const std::vector<double>& t) {
-  if (t.empty() || t.back() - t.front() > 2.0 * hour) return {};
-  return {1.0, "time [s]"};
+TimeAxis time_axis(const std::vector<double>& t, const Where& where) {
+  const bool in_hours = t.empty() || t.back() - t.front() > 2.0 * hour;
+  return {in_hours ? hour : 1.0, fmt::format("time{} [{}]", where.recordings.empty() ? "" : " through all recordings", in_hours ? "h" : "s")};
 }
 
 std::optional<Figure> heat_figure(const Where& where, bool consistent) {
@@ -70,8 +70,8 @@ void append(Series& series, bool new_position, double x, double y, double sigma)
   series.sigma.push_back(sigma);
 }
 
-Panel signal_panel(const RecoveredSignal& s, const std::vector<ScanHit>& windows) {
-  const TimeAxis axis = time_axis(s.t);
+Panel signal_panel(const RecoveredSignal& s, const Where& where) {
+  const TimeAxis axis = time_axis(s.t, where);
   Panel panel;
   panel.title = s.equation;
   panel.x_label = axis.label;
@@ -99,7 +99,7 @@ Panel signal_panel(const RecoveredSignal& s, const std::vector<ScanHit>& windows
   panel.y_range = range;
   const double room = range.width();
   std::size_t shown = 0;
-  for (const ScanHit& w : windows) {
+  for (const ScanHit& w : where.windows) {
     if (w.equation != s.equation || ++shown > most_windows) continue;
     panel.expected.push_back({"located window",
                               {w.start_s / axis.unit, w.end_s / axis.unit},
@@ -112,10 +112,11 @@ Panel signal_panel(const RecoveredSignal& s, const std::vector<ScanHit>& windows
   return panel;
 }
 
-Panel residual_panel(const FitComparison& fit, const std::vector<double>& t, Eigen::Index channel,
-                     const std::string& name, bool after, double most) {
+Panel residual_panel(const Diagnosis& d, const std::vector<double>& t, Eigen::Index channel, const std::string& name,
+                     bool after, double most) {
+  const FitComparison& fit = d.fit;
   const auto& r = after ? fit.residual_after : fit.residual_before;
-  const TimeAxis axis = time_axis(t);
+  const TimeAxis axis = time_axis(t, d.where);
   const bool timed = static_cast<Eigen::Index>(t.size()) == r.cols();
   Panel panel;
   panel.title = fmt::format("{}, {}", name, after ? "after" : "before");
@@ -152,9 +153,9 @@ std::optional<Figure> residual_figure(const Diagnosis& d) {
     if (!fit.residual_before.row(c).array().isFinite().any()) continue;
     const double power = std::pow(10.0, std::floor(std::log10(most)));  // round, so that the axis has ticks
     most = power * (most <= 2.0 * power ? 2.0 : most <= 5.0 * power ? 5.0 : 10.0);
-    chart.panels.push_back(residual_panel(fit, t, c, names[static_cast<std::size_t>(c)], false, most));
+    chart.panels.push_back(residual_panel(d, t, c, names[static_cast<std::size_t>(c)], false, most));
     if (fit.residual_after.cols() == fit.residual_before.cols())
-      chart.panels.push_back(residual_panel(fit, t, c, names[static_cast<std::size_t>(c)], true, most));
+      chart.panels.push_back(residual_panel(d, t, c, names[static_cast<std::size_t>(c)], true, most));
   }
   if (fit.residual_after.cols() != fit.residual_before.cols()) chart.columns = 1;
   if (chart.panels.empty()) return std::nullopt;
@@ -222,7 +223,7 @@ std::vector<Figure> where_figures(const Diagnosis& d) {
   chart.panel_width = 900.0;
   chart.panel_height = 270.0;
   for (std::size_t k = 0; k < std::min(most_signals, d.signals.size()); ++k)
-    chart.panels.push_back(signal_panel(d.signals[k], d.where.windows));
+    chart.panels.push_back(signal_panel(d.signals[k], d.where));
   if (!chart.panels.empty())
     figures.push_back({"signal.svg",
                        "The input that would explain the misfit, as a time series; grey: the located "

@@ -29,13 +29,21 @@ Json where_json(const Where& where) {
                          {"sigma", number(s.sigma)},
                          {"chi2_per_dof", number(s.chi2_per_dof)}});
   Json& windows = out["windows"] = Json::array();
-  for (const ScanHit& w : where.windows)
+  for (const ScanHit& w : where.windows) {
     windows.push_back({{"start_s", number(w.start_s)},
                        {"end_s", number(w.end_s)},
                        {"equation", w.equation},
                        {"position", w.position},
                        {"score", number(w.T)},
                        {"p_value", number(w.p_value)}});
+    if (const RecordingSpan* r = recording_at(where.recordings, 0.5 * (w.start_s + w.end_s)))
+      windows.back().update(Json{{"recording", r->name},
+                                 {"start_in_recording_s", number(w.start_s - r->offset_s)},
+                                 {"end_in_recording_s", number(w.end_s - r->offset_s)}});
+  }
+  for (const RecordingSpan& r : where.recordings)
+    out["recordings"].push_back({{"name", r.name}, {"start_s", number(r.start_s)}, {"end_s", number(r.end_s)},
+                                 {"offset_s", number(r.offset_s)}});
   out["equation"] = text_or_null(where.equation);
   const bool scanned = std::isfinite(where.scan_p_value);
   out["p_value"] = number(where.scan_p_value);

@@ -149,10 +149,15 @@ Table window_table(const Diagnosis& d, std::size_t most) {
   Table table;
   table.title = "Located windows";
   table.columns = {{"equation", Align::left}, {"position"}, {"from [s]"}, {"to [s]"}, {"score"}, {"p"}};
+  const auto& recordings = d.where.recordings;
+  if (!recordings.empty()) table.columns.insert(table.columns.end(), {{"recording", Align::left}, {"there [s]", Align::left}});
   for (std::size_t k = 0; k < std::min(most, d.where.windows.size()); ++k) {
     const ScanHit& w = d.where.windows[k];
-    table.add({w.equation, w.position > 0 ? fmt::format("{}", w.position) : "", decimal_text(w.start_s, 0),
-               decimal_text(w.end_s, 0), number_text(w.T), p_text(w.p_value)});
+    std::vector<Cell> cells{w.equation, w.position > 0 ? fmt::format("{}", w.position) : "", decimal_text(w.start_s, 0),
+                            decimal_text(w.end_s, 0), number_text(w.T), p_text(w.p_value)};
+    if (const RecordingSpan* r = recording_at(recordings, 0.5 * (w.start_s + w.end_s)))
+      cells.insert(cells.end(), {r->name, fmt::format("{:.0f} to {:.0f}", w.start_s - r->offset_s, w.end_s - r->offset_s)});
+    table.add(std::move(cells));
   }
   say_left_out(table, d.where.windows.size(), most);
   return table;

@@ -55,8 +55,21 @@ std::vector<ShownCandidate> shown_candidates(const Diagnosis& d, std::size_t mos
 
 std::vector<std::string> remarks_of(const Diagnosis& d) {
   std::vector<std::string> all = d.remarks;
+  if (const auto& recordings = d.where.recordings; !recordings.empty()) {
+    std::vector<std::string> begins;
+    for (const RecordingSpan& r : recordings)
+      begins.push_back(fmt::format("{} begins at {:.0f} s ({:.0f} s of its own time)", r.name, r.start_s, r.start_s - r.offset_s));
+    all.push_back(fmt::format("Times in tables and figures run through all recordings, one after another: {}. A number of a "
+                              "position is that of the plan, whatever the recording.", listed(begins, "and")));
+  }
   if (std::string patch = patch_text(d); !patch.empty()) all.push_back(std::move(patch));
   return all;
+}
+
+const RecordingSpan* recording_at(const std::vector<RecordingSpan>& recordings, double t) {
+  if (recordings.empty()) return nullptr;
+  const auto at = std::ranges::find_if(recordings, [&](const RecordingSpan& r) { return t <= r.end_s; });
+  return at == recordings.end() ? &recordings.back() : &*at;
 }
 
 std::string channel_in_words(const std::string& name) {
@@ -85,7 +98,10 @@ std::string where_sentence(const Where& where) {
   if (!parts.empty()) out += fmt::format(", most of it at position{} {}", parts.size() > 1 ? "s" : "", listed(parts, "and"));
   if (!where.windows.empty()) {
     const ScanHit& w = where.windows.front();
-    out += fmt::format("; the strongest window is {:.0f} s to {:.0f} s (chance of a false alarm: {})", w.start_s, w.end_s, p_text(w.p_value));
+    const RecordingSpan* r = recording_at(where.recordings, 0.5 * (w.start_s + w.end_s));
+    const double offset = r ? r->offset_s : 0.0;
+    out += fmt::format("; the strongest window is {:.0f} s to {:.0f} s{} (chance of a false alarm: {})", w.start_s - offset,
+                       w.end_s - offset, r ? " of " + r->name : "", p_text(w.p_value));
   }
   return out + ".";
 }

@@ -26,6 +26,9 @@ std::vector<ShownCandidate> shown_candidates(const discovery::Diagnosis& diagnos
 /// remain possible.
 std::vector<std::string> remarks_of(const discovery::Diagnosis& diagnosis);
 
+/// The recording that a time of the timeline falls into; null where there is one recording only.
+const discovery::RecordingSpan* recording_at(const std::vector<discovery::RecordingSpan>& recordings, double t_s);
+
 /// A channel in words: "accelerometer y" of "acc_y", "outer gimbal" of "gimbal_outer".
 std::string channel_in_words(const std::string& name);
 

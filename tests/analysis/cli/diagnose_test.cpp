@@ -92,6 +92,35 @@ TEST(DiagnoseCommand, NamesWhatAPlatformLacksAndItsPatchedStudyIsConsistent) {
   EXPECT_NE(again.out.find("Verdict consistent"), std::string::npos) << again.out;
 }
 
+TEST(DiagnoseCommand, OfSeveralRecordingsSaysWhichOneATimeBelongsTo) {
+  const ScratchFolder folder;
+  std::string text = platform_study("0.3 deg/h/g^2");  // every run is of one and the same platform
+  text.insert(text.find("[[filter]]"), "D_F = \"0.2 deg/h\"\nD_I = \"1 deg/h/g\"\nD_O = \"0.1 deg/h/g\"\nD_S = \"-1 deg/h/g\"\n"
+                                       "eta = \"100 arcsec\"\nxi = \"-80 arcsec\"\n");
+  const std::string study = folder.write("s.toml", text);
+  std::string recordings;
+  for (const char* run : {"0", "1"}) {
+    const std::string path = folder.file("r" + std::string(run) + ".csv");
+    ASSERT_EQ(driftscope("simulate " + study + " -o " + path + " --run " + run).code, 0);
+    recordings += " " + path;
+  }
+  const Answer a = driftscope("diagnose " + study + recordings + " --progress none -o " + folder.file("out"));
+  ASSERT_EQ(a.code, 0) << a.err;
+  EXPECT_NE(a.out.find("r1.csv begins at 7200 s (0 s of its own time)"), std::string::npos) << a.out;
+  const auto json = nlohmann::json::parse(text_of(folder.file("out") + "/diagnosis.json"));
+  const auto& spans = json["where"]["recordings"];
+  ASSERT_EQ(spans.size(), 2u);
+  EXPECT_EQ(spans[0]["end_s"], 7200.0);
+  EXPECT_EQ(spans[1]["offset_s"], 7200.0);
+  ASSERT_EQ(json["verdict"], "named") << a.out;
+  EXPECT_EQ(json["fit"]["held_out"]["by_recording"]["each"][1]["name"], "recording 2, r1.csv");
+  ASSERT_FALSE(json["where"]["windows"].empty());
+  for (const auto& w : json["where"]["windows"]) EXPECT_EQ(w["recording"], w["start_s"] < 7200.0 ? "r0.csv" : "r1.csv");
+  const std::string csv = text_of(folder.file("out") + "/residual_signal.csv");
+  EXPECT_NE(csv.find(",unit,recording\n"), std::string::npos);
+  for (const char* name : {",r0.csv\n", ",r1.csv\n"}) EXPECT_NE(csv.find(name), std::string::npos) << name;
+}
+
 TEST(DiagnoseCommand, TheWrongPlanIsSaidAndOddInputIsRemarked) {
   const ScratchFolder folder;
   const std::string study = folder.write("s.toml", platform_study("0 deg/h/g^2")), recording = folder.file("r.csv");

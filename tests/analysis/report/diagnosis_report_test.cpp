@@ -233,6 +233,33 @@ TEST(ResidualSignal, IsATableWithEmptyCellsForWhatIsNotKnown) {
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 63);
 }
 
+TEST(SeveralRecordings, AreNamedWhereverATimeStands) {
+  const test::ScratchFolder folder;
+  const Study study = testing::read_text(folder, "s.toml", nominal_study);
+  Diagnosis d = testing::diagnosis(study.filters.front());  // a window at 1200 to 1800 s, a signal up to 3600 s
+  EXPECT_EQ(to_text(d).find("through all recordings"), std::string::npos);
+  EXPECT_FALSE(json::parse(to_json(d))["where"].contains("recordings"));
+  d.where.recordings = {{"a.csv", 0.0, 900.0, 0.0}, {"b,2.csv", 900.0, 3600.0, 800.0}};  // b starts at 100 s of its own time
+  const auto sentence = where_sentence(d.where);
+  EXPECT_NE(sentence.find("the strongest window is 400 s to 1000 s of b,2.csv"), std::string::npos) << sentence;
+  const json where = json::parse(to_json(d))["where"];
+  EXPECT_EQ(where["windows"][0]["start_s"], 1200.0);
+  EXPECT_EQ(where["windows"][0]["recording"], "b,2.csv");
+  EXPECT_EQ(where["windows"][0]["start_in_recording_s"], 400.0);
+  EXPECT_EQ(where["recordings"][1]["offset_s"], 800.0);
+  const std::string page = to_html(diagnosis_html(study, d, {}));
+  EXPECT_NE(page.find("b,2.csv begins at 900 s (100 s of its own time)"), std::string::npos);
+  EXPECT_NE(page.find("400 to 1000"), std::string::npos);
+  EXPECT_NE(page.find("time through all recordings [s]"), std::string::npos);
+  const std::string csv = residual_signal_csv(d.signals, d.where.recordings);
+  EXPECT_NE(csv.find("equation,time [s],position,value,sigma,explained,unit,recording\n"), std::string::npos) << csv;
+  EXPECT_NE(csv.find("platform rate y,900,2,"), std::string::npos);
+  const auto end_of = [&](const char* row) { return csv.substr(csv.find(row), csv.find('\n', csv.find(row)) - csv.find(row)); };
+  EXPECT_TRUE(end_of("platform rate y,900,").ends_with(",deg/h,a.csv")) << "a sample belongs where its interval ends";
+  EXPECT_TRUE(end_of("platform rate y,960,").ends_with(",deg/h,b 2.csv"));
+  EXPECT_NE(csv.find("# b 2.csv = its own time is time [s] less 800\n"), std::string::npos);
+}
+
 TEST(DiagnosisFolder, ThePatchOfAnAmbiguousVerdictSaysWhichAlternativeItHolds) {
   const test::ScratchFolder folder;
   const Study study = testing::read_text(folder, "s.toml", nominal_study);
