@@ -13,8 +13,10 @@ namespace {
 
 using namespace discovery;
 
+/// Near all and near nothing with decimals: 99.7 % absorbed is not 100 %.
 std::string percent(double share) {
-  return std::isfinite(share) ? fmt::format("{:.{}f} %", 100.0 * share, share > 0.999 || share < 0.1 ? 1 : 0) : "-";
+  const int decimals = share > 0.999 ? 2 : share > 0.99 || share < 0.1 ? 1 : 0;
+  return std::isfinite(share) ? fmt::format("{:.{}f} %", 100.0 * share, decimals) : "-";
 }
 
 void say_left_out(Table& table, std::size_t all, std::size_t most) {

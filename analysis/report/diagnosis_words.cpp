@@ -100,8 +100,9 @@ std::string where_sentence(const Where& where) {
     const ScanHit& w = where.windows.front();
     const RecordingSpan* r = recording_at(where.recordings, 0.5 * (w.start_s + w.end_s));
     const double offset = r ? r->offset_s : 0.0;
-    out += fmt::format("; the strongest window is {:.0f} s to {:.0f} s{} (chance of a false alarm: {})", w.start_s - offset,
-                       w.end_s - offset, r ? " of " + r->name : "", p_text(w.p_value));
+    out += fmt::format("; the strongest window is {:.0f} s to {:.0f} s{}{} (chance of a false alarm: {})", w.start_s - offset,
+                       w.end_s - offset, r ? " of " + r->name : "",
+                       w.equation == where.equation ? "" : fmt::format(", as the {}", equation_in_words(w.equation)), p_text(w.p_value));
   }
   return out + ".";
 }

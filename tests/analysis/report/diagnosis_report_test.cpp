@@ -196,6 +196,21 @@ TEST(DiagnosisFigures, TheNumbersAtTheRightHaveAHead) {
   }
 }
 
+TEST(DiagnosisWords, OfTheStrongestWindowSayTheEquationOnlyIfItIsAnother) {
+  Diagnosis d = testing::diagnosis(nominal());
+  EXPECT_NE(where_sentence(d.where).find("1200 s to 1800 s (chance of a false alarm: 1e-9)"), std::string::npos) << where_sentence(d.where);
+  d.where.equation = "gimbal inner";
+  EXPECT_NE(where_sentence(d.where).find("1200 s to 1800 s, as the platform rate y (chance"), std::string::npos) << where_sentence(d.where);
+}
+
+TEST(DiagnosisTables, NearlyAllAbsorbedIsNotAll) {
+  Diagnosis d = testing::diagnosis(nominal());
+  for (const auto& [share, text] : {std::pair{0.93, "93 %"}, {0.9966, "99.7 %"}, {0.99962, "99.96 %"}, {0.004, "0.4 %"}}) {
+    d.candidates[0].absorbed = share;
+    EXPECT_NE(to_text(d).find(text), std::string::npos) << text;
+  }
+}
+
 TEST(DiagnosisWords, NameChannelsAndEquations) {
   EXPECT_EQ(channel_in_words("acc_y"), "accelerometer y");
   EXPECT_EQ(channel_in_words("gimbal_outer"), "outer gimbal");
