@@ -43,6 +43,16 @@ std::string number_of(const CauseParameter& p) {
   return fmt::format("{} = {}{}{}", p.key, with_sigma(p.value, p.sigma), p.unit == "1" ? "" : " ", p.unit == "1" ? "" : p.unit);
 }
 
+/// The shape of the strongest recovered signal, its equation said where it is not the one located.
+std::string shape_text(const Diagnosis& d) {
+  if (d.signals.empty() || d.signals.front().shape.empty()) return "";
+  const RecoveredSignal& s = d.signals.front();
+  const std::string head = s.equation + ": ";
+  const std::string shape = s.shape.starts_with(head) ? s.shape.substr(head.size()) : s.shape;
+  if (s.equation == d.where.equation) return ": " + shape;
+  return fmt::format(". As an input to the {}: {}", equation_in_words(s.equation), shape);
+}
+
 /// What stands in the brackets behind a cause.
 std::string numbers_of(const Cause& c) {
   std::string text = keyed(c.term, c.axis);
@@ -228,8 +238,7 @@ std::string sentence(const Diagnosis& d) {
     case Verdict::unexplained: break;
   }
   return fmt::format("Something is missing from the nominal model ({}) and no known effect explains it; it sits in the {}{}.{}",
-                     false_alarm, d.where.equation.empty() ? "test as a whole" : equation_in_words(d.where.equation),
-                     d.signals.empty() || d.signals.front().shape.empty() ? "" : ". " + d.signals.front().shape, noise);
+                     false_alarm, d.where.equation.empty() ? "test as a whole" : equation_in_words(d.where.equation), shape_text(d), noise);
 }
 
 }  // namespace drift::discovery

@@ -119,7 +119,7 @@ Panel residual_panel(const Diagnosis& d, const std::vector<double>& t, Eigen::In
   const TimeAxis axis = time_axis(t, d.where);
   const bool timed = static_cast<Eigen::Index>(t.size()) == r.cols();
   Panel panel;
-  panel.title = fmt::format("{}, {}", name, after ? "after" : "before");
+  panel.title = after ? name + ", after" : d.has_patch ? name + ", before" : name;
   panel.x_label = timed ? axis.label : "sample";
   panel.y_label = "residual [sigma]";
   Series s{.label = after ? "with the cause" : "nominal model", .x = {}, .y = {}, .sigma = {}, .colour = after ? 0u : 1u};
@@ -140,7 +140,8 @@ std::optional<Figure> residual_figure(const Diagnosis& d) {
   const std::vector<double>& t =
       fit.residual_t.empty() && !d.signals.empty() ? d.signals.front().t : fit.residual_t;
   Chart chart;
-  chart.title = "Residuals before and after";
+  const bool compared = d.has_patch && fit.residual_after.cols() == fit.residual_before.cols();
+  chart.title = compared ? "Residuals before and after" : "Residuals of the nominal model";
   chart.columns = 2;
   chart.panel_width = 520.0;
   chart.panel_height = 190.0;
@@ -154,10 +155,9 @@ std::optional<Figure> residual_figure(const Diagnosis& d) {
     const double power = std::pow(10.0, std::floor(std::log10(most)));  // round, so that the axis has ticks
     most = power * (most <= 2.0 * power ? 2.0 : most <= 5.0 * power ? 5.0 : 10.0);
     chart.panels.push_back(residual_panel(d, t, c, names[static_cast<std::size_t>(c)], false, most));
-    if (fit.residual_after.cols() == fit.residual_before.cols())
+    if (compared)
       chart.panels.push_back(residual_panel(d, t, c, names[static_cast<std::size_t>(c)], true, most));
   }
-  if (fit.residual_after.cols() != fit.residual_before.cols()) chart.columns = 1;
   if (chart.panels.empty()) return std::nullopt;
   return Figure{"residuals.svg",
                 "Residuals of every channel in sigmas. A concealed effect need not be seen here: the "

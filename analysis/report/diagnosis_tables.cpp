@@ -93,11 +93,17 @@ Table candidate_table(const Diagnosis& d, std::size_t most) {
 Table fit_table(const Diagnosis& d) {
   const FitComparison& f = d.fit;
   Table table;
-  table.title = "Before and after";
-  table.columns = {{"", Align::left}, {"nominal"}, {"with the cause"}, {"expected", Align::left}};
+  // Without a cause in the model there is nothing to compare with.
+  table.title = d.has_patch ? "Before and after" : "The nominal fit";
+  table.columns = {{"", Align::left}, {"nominal"}};
+  if (d.has_patch) table.columns.push_back({"with the cause"});
+  table.columns.push_back({"expected", Align::left});
   const auto line = [&](const char* what, double before, double after, std::string expected) {
-    if (std::isfinite(before) || std::isfinite(after))
-      table.add({what, number_text(before, 4), number_text(after, 4), std::move(expected)});
+    if (!std::isfinite(before) && !std::isfinite(after)) return;
+    std::vector<Cell> cells{what, number_text(before, 4)};
+    if (d.has_patch) cells.emplace_back(number_text(after, 4));
+    cells.emplace_back(std::move(expected));
+    table.add(std::move(cells));
   };
   line("chi-square per degree of freedom", f.chi2_per_dof_before, f.chi2_per_dof_after,
        f.band_high > 0.0 ? fmt::format("{:.3f} to {:.3f} (95 %)", f.band_low, f.band_high) : "1");

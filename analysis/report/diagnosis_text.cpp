@@ -25,8 +25,6 @@ std::string to_text(const Diagnosis& d) {
   const bool found = d.verdict != Verdict::consistent;
   if (found) {
     out += headed("Where", where_sentence(d.where));
-    if (d.verdict == Verdict::unexplained && !d.signals.empty())
-      out += headed("Shape", d.signals.front().shape);
     out += headed("Held out", held_out_sentence(d.fit.held_out));
   }
   if (!d.causes.empty()) out += "\n" + text_of(cause_table(d), page);

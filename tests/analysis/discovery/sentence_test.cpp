@@ -117,6 +117,20 @@ TEST(Sentence, OfOneCauseThatHeldOutDataDoNotSupportIsNotEitherOr) {
   EXPECT_TRUE(says(sentence(d), "but nothing was held out of the fit to judge it.")) << sentence(d);
 }
 
+TEST(Sentence, OfTheUnexplainedHasTheShapeAndSaysTheEquationOnce) {
+  auto d = with(Verdict::unexplained, {});
+  d.where.equation = "gimbal middle";
+  EXPECT_EQ(sentence(d), "Something is missing from the nominal model (chance of a false alarm: 1e-20) and no known effect explains "
+                         "it; it sits in the middle gimbal.");
+  d.signals.resize(1);
+  d.signals[0].equation = "gimbal middle";
+  d.signals[0].shape = "gimbal middle: swings with a period of about 0.6 h";
+  EXPECT_TRUE(sentence(d).ends_with("it sits in the middle gimbal: swings with a period of about 0.6 h.")) << sentence(d);
+  d.where.equation = "platform rate x";
+  EXPECT_TRUE(sentence(d).ends_with("it sits in the platform rate x. As an input to the middle gimbal: swings with a period of about "
+                                    "0.6 h.")) << sentence(d);
+}
+
 TEST(Sentence, SaysTheNoiseInWords) {
   Diagnosis d;
   d.p_value = 0.34;

@@ -189,6 +189,23 @@ TEST(DiagnosisCandidates, TheCausesAreShownHoweverWeakEachIsAlone) {
   EXPECT_NE(out.find("54 weaker ones are in diagnosis.json"), std::string::npos) << out;
 }
 
+TEST(DiagnosisPage, ComparesNothingWhereNoCauseIsInTheModel) {
+  const test::ScratchFolder folder;
+  const Study study = testing::read_text(folder, "s.toml", nominal_study);
+  Diagnosis d = testing::diagnosis(study.filters.front());
+  d.fit.shifted.clear();
+  d.fit.held_out = {};
+  for (auto& s : d.signals) s.explained.clear();
+  EXPECT_NE(to_html(diagnosis_html(study, d, {})).find("with the cause"), std::string::npos);
+  d.verdict = Verdict::unexplained;
+  d.has_patch = false;
+  d.causes.clear();
+  const std::string page = to_html(diagnosis_html(study, d, {}));
+  for (const char* text : {"with the cause", "acc_x, after", "Before and after"}) EXPECT_EQ(page.find(text), std::string::npos) << text;
+  EXPECT_NE(page.find("No cause is in the model."), std::string::npos);
+  EXPECT_EQ(to_text(d).find("with the cause"), std::string::npos);
+}
+
 TEST(DiagnosisFigures, TheNumbersAtTheRightHaveAHead) {
   for (const Figure& f : fit_figures(testing::diagnosis(nominal()))) {
     if (f.file == "held_out.svg") { EXPECT_NE(f.svg.find(">gain of log density<"), std::string::npos); }
