@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/discovery/sentence.hpp"
 #include "analysis/report/bar_chart.hpp"
 #include "analysis/report/diagnosis_words.hpp"
 #include "analysis/report/dumbbell_chart.hpp"
@@ -46,7 +47,8 @@ std::optional<Figure> heat_figure(const Where& where, bool consistent) {
       map.value(c.channel, c.position - 1) = consistent ? 0.01 * std::round(100.0 * (c.chi2_per_dof - 1.0)) : std::round(100.0 * c.share);
   if (consistent) map.most = 1.0;
   return Figure{"where.svg",
-                consistent ? "Residuals of each channel and position: nothing stands out."
+                consistent ? "Residuals of each channel and position against their noise. Cells of few samples scatter; "
+                             "together they show nothing significant."
                            : "Share of each channel and position in the misfit that the nominal model leaves. "
                              "Negative shares speak against the located effect.",
                 svg_of(map)};
@@ -73,7 +75,7 @@ void append(Series& series, bool new_position, double x, double y, double sigma)
 Panel signal_panel(const RecoveredSignal& s, const Where& where) {
   const TimeAxis axis = time_axis(s.t, where);
   Panel panel;
-  panel.title = s.equation;
+  panel.title = equation_in_words(s.equation);
   panel.x_label = axis.label;
   panel.y_label = fmt::format("missing input [{}]", s.unit);
   Series found{.label = "recovered, with 1 sigma", .x = {}, .y = {}, .sigma = {}, .colour = 0};
