@@ -1,6 +1,7 @@
 #include "analysis/report/diagnosis_tables.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -31,13 +32,17 @@ std::string remark_of(const Diagnosis& d, const CandidateScore& c, int alternati
   return c.observable ? "" : "not observable on this plan";
 }
 
+/// The likest, at most three. All axes of a term are passed over where one axis alone is as like.
 std::string confusable_text(const Cause& c) {
-  std::string out;
-  for (std::size_t k = 0; k < std::min<std::size_t>(3, c.confusable_with.size()); ++k) {
-    const Confusable& o = c.confusable_with[k];
-    out += fmt::format("{}{}{}{} ({:.2f})", k > 0 ? ", " : "", o.term, o.axis.empty() ? "" : ".", o.axis, o.cosine);
+  std::vector<std::string> parts;
+  for (const Confusable& o : c.confusable_with) {
+    const bool one_axis_does = o.axis.empty() && std::ranges::any_of(c.confusable_with, [&](const Confusable& k) {
+      return k.term == o.term && !k.axis.empty() && std::abs(std::abs(k.cosine) - std::abs(o.cosine)) < 0.005;
+    });
+    if (one_axis_does || parts.size() == 3) continue;
+    parts.push_back(fmt::format("{}{}{} ({:.2f})", o.term, o.axis.empty() ? "" : ".", o.axis, o.cosine));
   }
-  return out;
+  return fmt::format("{}", fmt::join(parts, ", "));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "analysis/report/diagnosis_figures.hpp"
 #include "analysis/report/diagnosis_folder.hpp"
 #include "analysis/report/diagnosis_json.hpp"
+#include "analysis/report/diagnosis_tables.hpp"
 #include "analysis/report/diagnosis_text.hpp"
 #include "analysis/report/diagnosis_words.hpp"
 #include "analysis/report/residual_signal.hpp"
@@ -218,6 +219,15 @@ TEST(DiagnosisWords, OfTheStrongestWindowSayTheEquationOnlyIfItIsAnother) {
   EXPECT_NE(where_sentence(d.where).find("1200 s to 1800 s (chance of a false alarm: 1e-9)"), std::string::npos) << where_sentence(d.where);
   d.where.equation = "gimbal inner";
   EXPECT_NE(where_sentence(d.where).find("1200 s to 1800 s, as the platform rate y (chance"), std::string::npos) << where_sentence(d.where);
+}
+
+TEST(DiagnosisTables, SayALikenessOnceByItsAxis) {
+  Diagnosis d = testing::diagnosis(nominal());
+  d.causes[0].confusable_with = {{"sag", "", 0.99992}, {"sag", "x", -0.99991}, {"pier_tilt", "", 0.7}};
+  const std::string out = text_of(cause_table(d), 200);
+  EXPECT_NE(out.find("  sag.x (-1.00), pier_tilt (0.70)"), std::string::npos) << out;
+  d.causes[0].confusable_with[1].cosine = -0.9;  // all axes together are liker than one
+  EXPECT_NE(text_of(cause_table(d), 200).find("sag (1.00), sag.x (-0.90)"), std::string::npos);
 }
 
 TEST(DiagnosisTables, NearlyAllAbsorbedIsNotAll) {
