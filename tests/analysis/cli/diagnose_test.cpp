@@ -42,6 +42,21 @@ TEST(DiagnoseCommand, NamesWhatACaseLacksAndLeavesAReport) {
   EXPECT_NE(again.out.find("Verdict consistent"), std::string::npos) << again.out;
 }
 
+TEST(DiagnoseCommand, AFolderThatCannotBeWrittenIsSaidBeforeAnythingIsComputed) {
+  const ScratchFolder folder;
+  const std::string file = folder.write("file", "no folder"), recording = tilted_case(folder);
+  for (const std::string& out : {file + "/out", std::string("/proc/no/folder"), std::string("/proc/self")}) {
+    const Answer a = driftscope("diagnose " + config("diagnose_xsens.toml") + " " + recording + " -o " + out);
+    EXPECT_EQ(a.code, static_cast<int>(ExitCode::io)) << out;
+    EXPECT_NE(a.err.find(out + ": cannot be written"), std::string::npos) << a.err;
+    EXPECT_EQ(a.out, "") << "the recording is not even read";
+  }
+  // A folder that can be written is not made for a recording that cannot be read.
+  const Answer a = driftscope("diagnose " + config("diagnose_xsens.toml") + " " + folder.file("absent.csv") + " -o " + folder.file("a/b/c"));
+  EXPECT_NE(a.code, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder.file("a")));
+}
+
 /// Six positions; g2_drift is left out of the nominal filter and zero in the truth but for D_SS_x.
 std::string platform_study(const std::string& size) {
   return R"(schema = 1
@@ -140,21 +155,6 @@ TEST(DiagnoseCommand, TheWrongPlanIsSaidAndOddInputIsRemarked) {
   EXPECT_EQ(stuck.code, 0) << stuck.err;
   EXPECT_NE(stuck.out.find("gimbal_inner stands still for 120 samples"), std::string::npos) << stuck.out;
   EXPECT_NE(stuck.out.find("Verdict consistent"), std::string::npos) << stuck.out;
-}
-
-TEST(DiagnoseCommand, AFolderThatCannotBeWrittenIsSaidBeforeAnythingIsComputed) {
-  const ScratchFolder folder;
-  const std::string file = folder.write("file", "no folder"), recording = tilted_case(folder);
-  for (const std::string& out : {file + "/out", std::string("/proc/no/folder"), std::string("/proc/self")}) {
-    const Answer a = driftscope("diagnose " + config("diagnose_xsens.toml") + " " + recording + " -o " + out);
-    EXPECT_EQ(a.code, static_cast<int>(ExitCode::io)) << out;
-    EXPECT_NE(a.err.find(out + ": cannot be written"), std::string::npos) << a.err;
-    EXPECT_EQ(a.out, "") << "the recording is not even read";
-  }
-  // A folder that can be written is not made for a recording that cannot be read.
-  const Answer a = driftscope("diagnose " + config("diagnose_xsens.toml") + " " + folder.file("absent.csv") + " -o " + folder.file("a/b/c"));
-  EXPECT_NE(a.code, 0);
-  EXPECT_FALSE(std::filesystem::exists(folder.file("a")));
 }
 
 TEST(DiagnoseCommand, RefusesWhatItCannotDiagnose) {
