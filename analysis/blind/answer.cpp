@@ -22,12 +22,14 @@ Json of(const AnswerCause& c) {
   for (const auto& p : c.parameters)
     params.push_back({{"key", p.key}, {"value", number(p.value)}, {"sigma", number(p.sigma)}, {"unit", p.unit},
                       {"profiled", p.profiled}});
+  Json confusable = Json::array();
+  for (const auto& o : c.confusable_with) confusable.push_back({{"term", o.term}, {"axis", o.axis}, {"cosine", number(o.cosine)}});
   return {{"term", c.term}, {"axis", c.axis}, {"set", c.set}, {"probability", number(c.probability)},
-          {"parameters", params}};
+          {"parameters", params}, {"confusable_with", confusable}};
 }
 
 AnswerCause cause_of(const Json& j) {
-  AnswerCause c{j.at("term"), j.at("axis"), j.at("set"), number(j.at("probability")), {}};
+  AnswerCause c{j.at("term"), j.at("axis"), j.at("set"), number(j.at("probability")), {}, {}};
   for (const Json& p : j.at("parameters")) {
     discovery::CauseParameter q;
     q.key = p.at("key");
@@ -37,6 +39,8 @@ AnswerCause cause_of(const Json& j) {
     q.profiled = p.at("profiled");
     c.parameters.push_back(std::move(q));
   }
+  for (const Json& o : j.value("confusable_with", Json::array()))  // answers of earlier builds have none
+    c.confusable_with.push_back({o.at("term"), o.at("axis"), number(o.at("cosine"))});
   return c;
 }
 
@@ -103,7 +107,7 @@ Answer answer_of(const discovery::Diagnosis& d) {
   Answer a;
   a.verdict = d.verdict;
   a.p_value = d.p_value;
-  for (const auto& c : d.causes) a.causes.push_back({c.term, c.axis, c.set, c.probability, c.parameters});
+  for (const auto& c : d.causes) a.causes.push_back({c.term, c.axis, c.set, c.probability, c.parameters, c.confusable_with});
   a.equation = d.where.equation;
   if (!d.where.windows.empty()) {
     const auto& w = d.where.windows.front();

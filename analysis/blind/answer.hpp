@@ -13,6 +13,7 @@ struct AnswerCause {
   int set = 0;  ///< simultaneous causes share a number; alternatives have different ones
   double probability = 0.0;
   std::vector<discovery::CauseParameter> parameters;
+  std::vector<discovery::Confusable> confusable_with{};  ///< likest first; |cosine| 1: the same trace on this plan
 };
 
 struct Answer {

@@ -32,7 +32,8 @@ Json of(const std::vector<GroupScore>& groups) {
 Json targets_of(const Summary& s) {
   Json out = Json::array();
   for (const Target& t : s.targets)
-    out.push_back({{"name", t.name}, {"from", t.low}, {"to", t.high}, {"measured", of(t.measured)}, {"met", t.met()}});
+    out.push_back({{"name", t.name}, {"from", t.low}, {"to", t.high}, {"measured", of(t.measured)}, {"met", t.met()},
+                   {"standing", std::string(text(t.standing()))}});
   return out;
 }
 
@@ -60,7 +61,7 @@ Json of(const TrialScore& t) {
           {"concealed", t.key.certificate.concealed}, {"largest_bias_sigma", number(t.key.certificate.largest_bias)},
           {"verdict", t.answer.failed ? "failed" : std::string(discovery::text(t.answer.verdict))},
           {"called", t.called}, {"p_value", number(t.answer.p_value)}, {"detected", t.detected},
-          {"false_alarm", t.false_alarm}, {"exact", t.exact}, {"in_set", t.in_set}, {"subsystem", t.subsystem},
+          {"false_alarm", t.false_alarm}, {"exact", t.exact}, {"exact_or_twin", t.exact_or_twin}, {"in_set", t.in_set}, {"subsystem", t.subsystem},
           {"confidently_wrong", t.confidently_wrong}, {"pulls", pulls}, {"noise", t.answer.noise},
           {"held_out_gain", number(t.answer.held_out_gain)}, {"seconds", number(t.answer.seconds)},
           {"failure", t.answer.failure}};

@@ -16,10 +16,17 @@
 namespace drift::blind {
 namespace {
 
+std::string standing_text(const std::vector<Target>& targets) {
+  const auto count = [&](Standing standing) {
+    return std::count_if(targets.begin(), targets.end(), [=](const Target& t) { return t.standing() == standing; });
+  };
+  return fmt::format("Of {} targets {} are met and {} missed with their whole intervals, {} met and {} missed within their "
+                     "intervals, {} not decided.", targets.size(), count(Standing::met), count(Standing::missed),
+                     count(Standing::met_within), count(Standing::missed_within), count(Standing::not_decided));
+}
+
 std::vector<std::string> headlines(const Summary& s, const Hashes& hashes) {
-  const auto met = std::count_if(s.targets.begin(), s.targets.end(), [](const Target& t) { return t.met(); });
-  return {fmt::format("{} trials, {} of them without an answer; {} of {} targets met.", s.trials, s.failed, met,
-                      s.targets.size()),
+  return {fmt::format("{} trials, {} of them without an answer. {}", s.trials, s.failed, standing_text(s.targets)),
           fmt::format("The nominal fit looks healthy (chi-square inside its 95 % band) in {} effect trials, and its "
                       "worst parameter is off by {} of its sigmas (median).", text_of(s.concealed),
                       number_text(s.largest_bias_median, 3)),
@@ -56,7 +63,7 @@ std::string power_svg(const Summary& s) {
   panel.y_label = "share of trials";
   panel.y_range = Range{0.0, 1.02};
   Series power = curve("detected", 0), theory = curve("theory", 6, Stroke::dashed);
-  Series exact = curve("named exactly", 2), set = curve("in a set of at most 3", 1);
+  Series exact = curve("named exactly", 2), set = curve("in a set of at most 3", 1, Stroke::dashed);
   ExpectedBand band;
   band.label = "95 % interval of detection";
   for (const PowerPoint& p : s.power) {
@@ -122,7 +129,7 @@ std::string pulls_svg(const Summary& s) {
 
 std::string time_svg(const std::vector<TrialScore>& scores) {
   Panel panel;
-  panel.x_label = "[s]";
+  panel.x_label = "time [s]";
   panel.y_label = "share below";
   std::vector<double> seconds;
   for (const TrialScore& t : scores) seconds.push_back(t.answer.seconds);

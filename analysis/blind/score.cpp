@@ -14,8 +14,12 @@ using discovery::Verdict;
 using Alternative = std::vector<const AnswerCause*>;
 
 /// The same term, and the same axis where both name one.
+bool same(const std::string& term, const std::string& axis, const std::string& other_term, const std::string& other_axis) {
+  return term == other_term && (axis.empty() || other_axis.empty() || axis == other_axis);
+}
+
 bool agrees(const HiddenEffect& hidden, const AnswerCause& cause) {
-  return hidden.term == cause.term && (hidden.axis.empty() || cause.axis.empty() || hidden.axis == cause.axis);
+  return same(hidden.term, hidden.axis, cause.term, cause.axis);
 }
 
 bool holds(const Alternative& alternative, const HiddenEffect& hidden) {
@@ -23,6 +27,33 @@ bool holds(const Alternative& alternative, const HiddenEffect& hidden) {
 }
 bool holds_all(const Alternative& alternative, const std::vector<HiddenEffect>& effects) {
   return std::all_of(effects.begin(), effects.end(), [&](const HiddenEffect& e) { return holds(alternative, e); });
+}
+
+constexpr double one_trace = 0.999;  // |cosine| of exact twins
+
+/// Whether a cause is the hidden effect or leaves the same trace on the plan, as the answer says of either.
+bool is_twin(const Answer& answer, const HiddenEffect& hidden, const AnswerCause& cause) {
+  if (agrees(hidden, cause)) return true;
+  const auto lists = [](const AnswerCause& c, const std::string& term, const std::string& axis) {
+    return std::any_of(c.confusable_with.begin(), c.confusable_with.end(), [&](const discovery::Confusable& o) {
+      // A candidate of all axes can be like anything of one of them: that is no twin.
+      return std::abs(o.cosine) >= one_trace && o.term == term && o.axis == axis;
+    });
+  };
+  return lists(cause, hidden.term, hidden.axis) ||
+         std::any_of(answer.causes.begin(), answer.causes.end(), [&](const AnswerCause& c) {
+           return agrees(hidden, c) && lists(c, cause.term, cause.axis);
+         });
+}
+
+/// Whether each cause is a hidden effect or its twin, and each hidden effect has one.
+bool is_twin(const Answer& answer, const std::vector<HiddenEffect>& effects, const Alternative& causes) {
+  const auto twins = [&](const HiddenEffect& e, const AnswerCause* c) { return is_twin(answer, e, *c); };
+  return std::all_of(effects.begin(), effects.end(), [&](const HiddenEffect& e) {
+           return std::any_of(causes.begin(), causes.end(), [&](const AnswerCause* c) { return twins(e, c); });
+         }) && std::all_of(causes.begin(), causes.end(), [&](const AnswerCause* c) {
+           return std::any_of(effects.begin(), effects.end(), [&](const HiddenEffect& e) { return twins(e, c); });
+         });
 }
 
 bool is_drift_noise(const KeyEntry& key) {
@@ -100,6 +131,10 @@ TrialScore score_trial(const KeyEntry& key, const Answer& answer) {
     s.extra = !s.exact;
     if (s.exact) s.pulls = pulls_of(key, a);
   }
+  const bool all_twins = !alternatives.empty() && std::all_of(alternatives.begin(), alternatives.end(), [&](const Alternative& a) {
+    return is_twin(answer, key.effects, a);
+  });
+  s.exact_or_twin = s.exact || (answer.verdict == Verdict::ambiguous && all_twins);
   const auto right = [&](const AnswerCause& c) {
     return std::any_of(key.effects.begin(), key.effects.end(), [&](const HiddenEffect& e) { return agrees(e, c); });
   };

@@ -34,6 +34,7 @@ bool large_single(const TrialScore& s) { return s.key.plan.stratum == Stratum::s
 
 bool detected(const TrialScore& s) { return s.detected; }
 bool exact(const TrialScore& s) { return s.exact; }
+bool exact_or_twin(const TrialScore& s) { return s.exact_or_twin; }
 bool in_set(const TrialScore& s) { return s.in_set; }
 bool subsystem(const TrialScore& s) { return s.subsystem; }
 bool wrong(const TrialScore& s) { return s.confidently_wrong; }
@@ -147,6 +148,7 @@ void add_targets(const Scores& scores, Summary& s) {
 void add_further(const Scores& scores, Summary& s) {
   const auto add = [&](std::string name, Proportion p) { s.further.emplace_back(std::move(name), p); };
   add("recovered parameter within 3 sigma", pulls_within(s.pulls, 3.0));
+  add("8 sigma and above: exact, where an identical twin counts as the same cause", share(scores, large_single, exact_or_twin));
   add("8 sigma and above: right subsystem", share(scores, large_single, subsystem));
   add("8 sigma and above: right causes among others", share(scores, large_single, [](auto& t) { return t.extra; }));
   add("8 sigma and above: unexplained", share(scores, large_single, unexplained));

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "analysis/blind/intervals.hpp"
@@ -9,14 +10,36 @@
 
 namespace drift::blind {
 
+/// How a target stands: decided where the whole interval lies on one side of its bounds.
+enum class Standing { met, met_within, missed_within, missed, not_decided };
+
+constexpr std::string_view text(Standing s) {
+  switch (s) {
+    case Standing::met: return "met";
+    case Standing::met_within: return "met, within its interval";
+    case Standing::missed_within: return "missed, within its interval";
+    case Standing::missed: return "missed";
+    case Standing::not_decided: break;
+  }
+  return "not decided";
+}
+
+/// Fewest trials of which a target is said to be met or missed.
+inline constexpr std::size_t fewest_trials = 5;
+
 /// A target of the blind study and what was measured.
 struct Target {
   std::string name;
   Proportion measured;
   double low = 0.0, high = 1.0;  ///< the share should lie between
+  /// By the share alone.
   bool met() const { return measured.n > 0 && measured.share() >= low && measured.share() <= high; }
-  /// Missed, but the interval reaches it.
-  bool within_interval() const { return measured.low <= high && measured.high >= low; }
+  /// With the interval of the share; not decided of fewer than `fewest_trials`.
+  Standing standing() const {
+    if (measured.n < fewest_trials) return Standing::not_decided;
+    if (met()) return measured.low >= low && measured.high <= high ? Standing::met : Standing::met_within;
+    return measured.low <= high && measured.high >= low ? Standing::missed_within : Standing::missed;
+  }
 };
 
 /// Detection at one size or range of sizes.

@@ -19,14 +19,20 @@ std::string wanted(const Target& t) {
 }
 
 Cell judged(const Target& t) {
-  if (t.measured.n == 0) return {"no trials", Tone::doubtful};
-  if (t.met()) return {"met", Tone::good};
-  return t.within_interval() ? Cell{"missed, within the interval", Tone::doubtful} : Cell{"missed", Tone::bad};
+  switch (t.standing()) {
+    case Standing::met: return {std::string(text(Standing::met)), Tone::good};
+    case Standing::missed: return {std::string(text(Standing::missed)), Tone::bad};
+    case Standing::met_within: return {std::string(text(Standing::met_within)), Tone::plain};
+    case Standing::missed_within: return {std::string(text(Standing::missed_within)), Tone::doubtful};
+    case Standing::not_decided: break;
+  }
+  return {std::string(text(Standing::not_decided)), Tone::plain};
 }
 
 Table targets_table(const Summary& s) {
   Table t{"Targets", {{"score", Align::left}, {"target"}, {"measured"}, {"95 % interval"}, {"trials"}, {"", Align::left}},
-          {}, "Intervals: Clopper and Pearson."};
+          {}, fmt::format("Intervals: Clopper and Pearson. Met or missed within its interval: the share is on this side of "
+                          "the target, the interval reaches across it. Not decided: fewer than {} trials.", fewest_trials)};
   for (const Target& x : s.targets)
     t.add({x.name, wanted(x), share_text(x.measured), interval_text(x.measured), std::to_string(x.measured.n), judged(x)});
   return t;

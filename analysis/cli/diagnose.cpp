@@ -9,6 +9,7 @@
 #include "analysis/cli/read_recordings.hpp"
 #include "analysis/discovery/advise.hpp"
 #include "analysis/discovery/diagnose.hpp"
+#include "analysis/discovery/name_recordings.hpp"
 #include "analysis/discovery/prepare.hpp"
 #include "analysis/report/diagnosis_folder.hpp"
 #include "analysis/report/diagnosis_text.hpp"
@@ -69,6 +70,7 @@ ExitCode diagnose_platform(const StudyArguments& arguments, const Study& study, 
                                    {.seed = study.monte_carlo.seed});
   found.seconds.emplace_back("advice", std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count());
   found.remarks.insert(found.remarks.begin(), prepared.remarks.begin(), prepared.remarks.end());
+  discovery::name_recordings(prepared.study, prepared.recordings, found);
   finish(study, found, {paths, ""}, folder);
   return ExitCode::ok;
 }
@@ -79,6 +81,7 @@ ExitCode diagnose(const StudyArguments& arguments, const std::vector<std::string
   const Study study = arguments.read();
   require_nominal(study);
   require_own_folder(folder, "diagnose");
+  require_writable_folder(folder);
   const mc::ThreadCount threads(arguments.threads);
   return study.kind == RecordingKind::strapdown ? diagnose_case(arguments, study, paths, folder)
                                                 : diagnose_platform(arguments, study, paths, folder);

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <map>
 
-#include "analysis/report/number_text.hpp"
-
 namespace drift::discovery {
 namespace {
 
@@ -26,23 +24,6 @@ std::vector<int> columns_of(const Examination& e, const std::vector<Choice>& cho
   }
   return columns;
 }
-
-std::string cause_text(const Cause& c) {
-  std::string text = c.term;
-  if (!c.axis.empty()) text += "." + c.axis;
-  const auto term = TermLibrary::find_term(c.term);
-  text += fmt::format(" ({}", term ? TermLibrary::terms[*term].title : "");
-  if (c.parameters.empty() || c.parameters.size() > 2) return text + ")";
-  for (const CauseParameter& p : c.parameters)
-    text += fmt::format("{}{} = {}{}", &p == &c.parameters.front() ? ": " : ", ", p.key, with_sigma(p.value, p.sigma),
-                        p.unit == "1" ? "" : " " + p.unit);
-  const CauseParameter& p = c.parameters.front();
-  if (c.term == "frame_closure")  // between two equations the interval is the answer
-    text += fmt::format(", 95 % interval {:.3g} to {:.3g}: eq. (5) is 0, eq. (6) is 1", p.value - 1.96 * p.sigma, p.value + 1.96 * p.sigma);
-  return text + ")";
-}
-
-std::string p_text(double p) { return p < 1e-300 ? "p < 1e-300" : fmt::format("p = {:.1e}", p); }
 
 }  // namespace
 
@@ -227,41 +208,6 @@ bool noise_of_one_axis(const Examination& nominal, Diagnosis& d) {
   d.remarks.push_back(fmt::format("What drives the platform acts on gyro {} alone: it is no noise that the gyros share "
                                   "(twice the log likelihood better by {:.1f}).", "xyz"[axis], best));
   return true;
-}
-
-std::string sentence(const Diagnosis& d) {
-  std::string noise;
-  for (const NoiseFinding& f : d.noise)
-    if (f.significant && f.component != "outliers")
-      noise += fmt::format("{}{} ({})", noise.empty() ? "" : ", ", f.component,
-                           std::isfinite(f.factor) ? fmt::format("{:.2f} times as declared", f.factor)
-                                                   : fmt::format("{:.2g} {}", f.value, f.unit));
-  const std::string but_noise = noise.empty() ? "" : fmt::format(" The noise is not as declared: {}.", noise);
-  switch (d.verdict) {
-    case Verdict::consistent:
-      return fmt::format("The recording agrees with the nominal model ({}); no missing physics is found.{}", p_text(d.p_value), but_noise);
-    case Verdict::named: {
-      std::string names;
-      for (const Cause& c : d.causes) names += (names.empty() ? "" : " and ") + cause_text(c);
-      return fmt::format("The nominal model lacks {} ({}); with it, held-out positions are predicted {}.{}", names,
-                         p_text(d.p_value), d.fit.held_out.improves ? "better" : "no better", but_noise);
-    }
-    case Verdict::ambiguous: {
-      std::string names;
-      int set = 0;
-      for (const Cause& c : d.causes) {
-        if (!names.empty()) names += c.set == set ? " with " : ", or ";
-        set = c.set;
-        names += cause_text(c);
-      }
-      return fmt::format("Something is missing from the nominal model ({}), and this plan cannot tell which: {}.{}",
-                         p_text(d.p_value), names, but_noise);
-    }
-    case Verdict::unexplained: break;
-  }
-  return fmt::format("Something is missing from the nominal model ({}) and no known effect explains it; it sits in the {}{}.{}",
-                     p_text(d.p_value), d.where.equation.empty() ? "test as a whole" : d.where.equation,
-                     d.signals.empty() ? "" : ". " + d.signals.front().shape, but_noise);
 }
 
 }  // namespace drift::discovery

@@ -2,6 +2,7 @@
 
 #include "analysis/discovery/diagnosis.hpp"
 #include "analysis/discovery/search.hpp"
+#include "analysis/discovery/sentence.hpp"
 
 namespace drift::discovery {
 
@@ -18,8 +19,5 @@ void fill_causes(const Examination& nominal, const Search& found, Diagnosis& d);
 /// better (twice the log likelihood by 10), it is something that happens to this axis: true, and the
 /// equation and a p-value are put into `d`.
 bool noise_of_one_axis(const Examination& nominal, Diagnosis& d);
-
-/// The verdict for a test engineer.
-std::string sentence(const Diagnosis& d);
 
 }  // namespace drift::discovery

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/discovery/sentence.hpp"
+
 namespace drift::discovery {
 
 void weigh_candidates(const Examination& nominal, const Search& found, Diagnosis& d) {
@@ -54,13 +56,17 @@ void say_partial(const Examination& nominal, const Search& found, Diagnosis& d) 
     return e.fit.estimate.statistic / static_cast<double>(std::max<std::size_t>(1, e.fit.estimate.measured));
   };
   const auto best = std::ranges::min_element(found.rejected, {}, [&](const Refit& r) { return chi2(r.after); });
-  std::vector<std::string> labels;
-  for (const Choice& c : best->choices) labels.push_back(nominal.set.candidates[c.candidate].label);
+  std::vector<std::string> labels, words;
+  for (const Choice& choice : best->choices) {
+    const Candidate& c = nominal.set.candidates[choice.candidate];
+    labels.push_back(c.label);
+    words.push_back(fmt::format("{} ({})", in_words(c.term, c.axis), c.label));
+  }
   const double before = chi2(nominal), after = chi2(best->after);
   const double excess = before > 1.0 ? (before - std::max(1.0, after)) / (before - 1.0) : 0.0;
   if (excess < 0.05) return;
-  d.sentence += fmt::format(" Nearest is {}, which takes chi-square per degree of freedom from {:.3g} to {:.3g} and leaves "
-                            "something significant.", fmt::join(labels, " with "), before, after);
+  d.sentence += fmt::format(" The nearest known is {}: chi-square per degree of freedom goes from {:.3g} to {:.3g}, and "
+                            "something significant is left.", fmt::join(words, " together with "), before, after);
   const std::size_t k = best->remainder.strongest;
   if (k < best->after.set.candidates.size() && best->remainder.library > found.nulls.library_threshold)
     d.remarks.push_back(fmt::format("With {} in the model the strongest of what is left is {}: put the first into the nominal "

@@ -51,6 +51,13 @@ struct ScanHit {
   double amplitude = 0.0, sigma = 0.0;  ///< of the box [rad/s, rad, g, rad by equation]
 };
 
+/// Where one of several recordings lies in the timeline that they make one after another.
+struct RecordingSpan {
+  std::string name;
+  double start_s = 0.0, end_s = 0.0;
+  double offset_s = 0.0;  ///< time of the timeline less the recording's own
+};
+
 struct Where {
   std::vector<std::string> channel_names;  ///< acc_x y z, gimbal_outer middle inner
   std::vector<Share> channels, positions;  ///< largest share first
@@ -59,6 +66,7 @@ struct Where {
   std::string equation;                    ///< of the strongest, empty if nothing is significant
   double scan_p_value = 1.0;               ///< family-wise over all windows
   std::size_t windows_tried = 0;
+  std::vector<RecordingSpan> recordings;   ///< in order, of several; empty of one
 };
 
 /// A number of a cause, in `unit`.

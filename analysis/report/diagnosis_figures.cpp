@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/discovery/sentence.hpp"
 #include "analysis/report/bar_chart.hpp"
 #include "analysis/report/diagnosis_words.hpp"
 #include "analysis/report/dumbbell_chart.hpp"
@@ -23,11 +24,11 @@ constexpr std::size_t most_signals = 3, most_windows = 6, most_bars = 20, most_m
 /// Short recordings are shown in seconds, long ones in hours.
 struct TimeAxis {
   double unit = hour;
-  const char* label = "time [h]";
+  std::string label = "time [h]";
 };
-TimeAxis time_axis(const std::vector<double>& t) {
-  if (t.empty() || t.back() - t.front() > 2.0 * hour) return {};
-  return {1.0, "time [s]"};
+TimeAxis time_axis(const std::vector<double>& t, const Where& where) {
+  const bool in_hours = t.empty() || t.back() - t.front() > 2.0 * hour;
+  return {in_hours ? hour : 1.0, fmt::format("time{} [{}]", where.recordings.empty() ? "" : " through all recordings", in_hours ? "h" : "s")};
 }
 
 std::optional<Figure> heat_figure(const Where& where, bool consistent) {
@@ -46,7 +47,8 @@ std::optional<Figure> heat_figure(const Where& where, bool consistent) {
       map.value(c.channel, c.position - 1) = consistent ? 0.01 * std::round(100.0 * (c.chi2_per_dof - 1.0)) : std::round(100.0 * c.share);
   if (consistent) map.most = 1.0;
   return Figure{"where.svg",
-                consistent ? "Residuals of each channel and position: nothing stands out."
+                consistent ? "Residuals of each channel and position against their noise. Cells of few samples scatter; "
+                             "together they show nothing significant."
                            : "Share of each channel and position in the misfit that the nominal model leaves. "
                              "Negative shares speak against the located effect.",
                 svg_of(map)};
@@ -70,10 +72,10 @@ void append(Series& series, bool new_position, double x, double y, double sigma)
   series.sigma.push_back(sigma);
 }
 
-Panel signal_panel(const RecoveredSignal& s, const std::vector<ScanHit>& windows) {
-  const TimeAxis axis = time_axis(s.t);
+Panel signal_panel(const RecoveredSignal& s, const Where& where) {
+  const TimeAxis axis = time_axis(s.t, where);
   Panel panel;
-  panel.title = s.equation;
+  panel.title = equation_in_words(s.equation);
   panel.x_label = axis.label;
   panel.y_label = fmt::format("missing input [{}]", s.unit);
   Series found{.label = "recovered, with 1 sigma", .x = {}, .y = {}, .sigma = {}, .colour = 0};
@@ -99,7 +101,7 @@ Panel signal_panel(const RecoveredSignal& s, const std::vector<ScanHit>& windows
   panel.y_range = range;
   const double room = range.width();
   std::size_t shown = 0;
-  for (const ScanHit& w : windows) {
+  for (const ScanHit& w : where.windows) {
     if (w.equation != s.equation || ++shown > most_windows) continue;
     panel.expected.push_back({"located window",
                               {w.start_s / axis.unit, w.end_s / axis.unit},
@@ -112,13 +114,14 @@ Panel signal_panel(const RecoveredSignal& s, const std::vector<ScanHit>& windows
   return panel;
 }
 
-Panel residual_panel(const FitComparison& fit, const std::vector<double>& t, Eigen::Index channel,
-                     const std::string& name, bool after, double most) {
+Panel residual_panel(const Diagnosis& d, const std::vector<double>& t, Eigen::Index channel, const std::string& name,
+                     bool after, double most) {
+  const FitComparison& fit = d.fit;
   const auto& r = after ? fit.residual_after : fit.residual_before;
-  const TimeAxis axis = time_axis(t);
+  const TimeAxis axis = time_axis(t, d.where);
   const bool timed = static_cast<Eigen::Index>(t.size()) == r.cols();
   Panel panel;
-  panel.title = fmt::format("{}, {}", name, after ? "after" : "before");
+  panel.title = after ? name + ", after" : d.has_patch ? name + ", before" : name;
   panel.x_label = timed ? axis.label : "sample";
   panel.y_label = "residual [sigma]";
   Series s{.label = after ? "with the cause" : "nominal model", .x = {}, .y = {}, .sigma = {}, .colour = after ? 0u : 1u};
@@ -139,7 +142,8 @@ std::optional<Figure> residual_figure(const Diagnosis& d) {
   const std::vector<double>& t =
       fit.residual_t.empty() && !d.signals.empty() ? d.signals.front().t : fit.residual_t;
   Chart chart;
-  chart.title = "Residuals before and after";
+  const bool compared = d.has_patch && fit.residual_after.cols() == fit.residual_before.cols();
+  chart.title = compared ? "Residuals before and after" : "Residuals of the nominal model";
   chart.columns = 2;
   chart.panel_width = 520.0;
   chart.panel_height = 190.0;
@@ -152,11 +156,10 @@ std::optional<Figure> residual_figure(const Diagnosis& d) {
     if (!fit.residual_before.row(c).array().isFinite().any()) continue;
     const double power = std::pow(10.0, std::floor(std::log10(most)));  // round, so that the axis has ticks
     most = power * (most <= 2.0 * power ? 2.0 : most <= 5.0 * power ? 5.0 : 10.0);
-    chart.panels.push_back(residual_panel(fit, t, c, names[static_cast<std::size_t>(c)], false, most));
-    if (fit.residual_after.cols() == fit.residual_before.cols())
-      chart.panels.push_back(residual_panel(fit, t, c, names[static_cast<std::size_t>(c)], true, most));
+    chart.panels.push_back(residual_panel(d, t, c, names[static_cast<std::size_t>(c)], false, most));
+    if (compared)
+      chart.panels.push_back(residual_panel(d, t, c, names[static_cast<std::size_t>(c)], true, most));
   }
-  if (fit.residual_after.cols() != fit.residual_before.cols()) chart.columns = 1;
   if (chart.panels.empty()) return std::nullopt;
   return Figure{"residuals.svg",
                 "Residuals of every channel in sigmas. A concealed effect need not be seen here: the "
@@ -170,6 +173,7 @@ std::optional<Figure> held_out_figure(const HeldOut& held) {
   chart.x_label = "chi-square per degree of freedom (logarithmic)";
   chart.before_label = "nominal model";
   chart.after_label = "with the cause";
+  chart.text_label = "gain of log density";
   chart.spacing = Spacing::logarithmic;
   chart.limit = ReferenceLine{1.0, "noise alone", Stroke::dashed};
   for (const auto* folds : {&held.folds, &held.recordings})
@@ -181,8 +185,8 @@ std::optional<Figure> held_out_figure(const HeldOut& held) {
     }
   if (chart.lines.empty()) return std::nullopt;
   return Figure{"held_out.svg",
-                "Each line was predicted by a fit to all the others. At the right: gain of the log "
-                "predictive density.",
+                "Each line was predicted by a fit to all the others. At the right: what the cause gains in the log of the "
+                "predicted density of these data; positive is better.",
                 svg_of(chart)};
 }
 
@@ -190,6 +194,7 @@ std::optional<Figure> moved_figure(const std::vector<ShiftedParameter>& shifted)
   DumbbellChart chart;
   chart.title = "Parameters that the missing physics had moved";
   chart.x_label = "shift in sigmas that the nominal fit claimed";
+  chart.text_label = "nominal → with the cause";
   for (const ShiftedParameter& p : shifted) {
     if (chart.lines.size() == most_moved) break;
     if (!std::isfinite(p.shift_sigma) || !(p.sigma_before > 0.0)) continue;
@@ -220,7 +225,7 @@ std::vector<Figure> where_figures(const Diagnosis& d) {
   chart.panel_width = 900.0;
   chart.panel_height = 270.0;
   for (std::size_t k = 0; k < std::min(most_signals, d.signals.size()); ++k)
-    chart.panels.push_back(signal_panel(d.signals[k], d.where.windows));
+    chart.panels.push_back(signal_panel(d.signals[k], d.where));
   if (!chart.panels.empty())
     figures.push_back({"signal.svg",
                        "The input that would explain the misfit, as a time series; grey: the located "
@@ -235,16 +240,18 @@ std::vector<Figure> name_figures(const Diagnosis& d) {
   bars.title = "Candidates";
   bars.x_label = "projected score, chi-square";
   bars.width = 860.0;
-  for (const CandidateScore& c : d.candidates) {
-    if (bars.bars.size() == most_bars) break;
-    if (!std::isfinite(c.score)) continue;
-    bars.bars.push_back({.label = label_of(c), .value = c.score, .colour = c.adequate ? 2u : 6u,
-                         .text = fmt::format("{}, p {}", number_text(c.score), p_text(c.p_value))});
+  const bool named = d.verdict == Verdict::named;
+  for (const auto& [c, alternative] : shown_candidates(d, most_bars)) {
+    if (!std::isfinite(c->score)) continue;
+    const std::string what = alternative == 0 ? "" : named ? ", named" : fmt::format(", alternative {}", alternative);
+    bars.bars.push_back({.label = label_of(*c), .value = c->score, .colour = alternative > 0 ? 1u : 6u,
+                         .text = fmt::format("{}, p {}{}", number_text(c->score), p_text(c->p_value), what)});
   }
   if (!bars.bars.empty())
     figures.push_back({"candidates.svg",
-                       "Strength of every candidate, after what the fitted parameters absorb. Green: "
-                       "nothing else is significant once it is in the model.",
+                       d.causes.empty() ? "Strength of the strongest candidates, each alone, after what the fitted parameters absorb."
+                                        : "Strength of the strongest candidates, each alone, after what the fitted parameters "
+                                          "absorb. Orange: the causes of the verdict, always shown.",
                        svg_of(bars)});
   const CosineMatrix& m = d.cosines;
   if (m.cosine.rows() > 1 && m.cosine.rows() == static_cast<Eigen::Index>(m.labels.size())) {

@@ -69,12 +69,11 @@ Section name_section(const Diagnosis& d) {
 }
 
 Section fit_section(const Diagnosis& d) {
-  Section section{"Before and after", {}};
+  Section section{d.has_patch ? "Before and after" : "The nominal fit", {}};
   section.blocks.emplace_back(fit_table(d));
   if (const auto sentence = held_out_sentence(d.fit.held_out); !sentence.empty())
     section.blocks.emplace_back(Paragraph{sentence});
-  if (d.verdict == Verdict::consistent && d.causes.empty())
-    section.blocks.emplace_back(Paragraph{"No cause is in the model; the second column repeats the nominal fit or is empty."});
+  if (!d.has_patch) section.blocks.emplace_back(Paragraph{"No cause is in the model."});
   add_pictures(section, fit_figures(d));
   if (!d.fit.shifted.empty()) section.blocks.emplace_back(moved_table(d, most_moved));
   return section;
@@ -128,7 +127,7 @@ HtmlReport diagnosis_html(const Study& study, const Diagnosis& d, const Diagnosi
       if (!sentence.empty()) report.headlines.push_back(sentence);
   }
   if (!d.advice.empty()) report.headlines.push_back(d.advice.front().text);
-  if (!d.remarks.empty()) add_section(report, {"To be kept in mind", {Sentences{d.remarks}}});
+  if (auto remarks = remarks_of(d); !remarks.empty()) add_section(report, {"To be kept in mind", {Sentences{std::move(remarks)}}});
   add_section(report, where_section(d));
   add_section(report, name_section(d));
   add_section(report, fit_section(d));

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "analysis/report/diagnosis_words.hpp"
+
 namespace drift {
 namespace {
 
@@ -27,16 +29,25 @@ Json where_json(const Where& where) {
                          {"sigma", number(s.sigma)},
                          {"chi2_per_dof", number(s.chi2_per_dof)}});
   Json& windows = out["windows"] = Json::array();
-  for (const ScanHit& w : where.windows)
+  for (const ScanHit& w : where.windows) {
     windows.push_back({{"start_s", number(w.start_s)},
                        {"end_s", number(w.end_s)},
                        {"equation", w.equation},
                        {"position", w.position},
                        {"score", number(w.T)},
                        {"p_value", number(w.p_value)}});
+    if (const RecordingSpan* r = recording_at(where.recordings, 0.5 * (w.start_s + w.end_s)))
+      windows.back().update(Json{{"recording", r->name},
+                                 {"start_in_recording_s", number(w.start_s - r->offset_s)},
+                                 {"end_in_recording_s", number(w.end_s - r->offset_s)}});
+  }
+  for (const RecordingSpan& r : where.recordings)
+    out["recordings"].push_back({{"name", r.name}, {"start_s", number(r.start_s)}, {"end_s", number(r.end_s)},
+                                 {"offset_s", number(r.offset_s)}});
   out["equation"] = text_or_null(where.equation);
+  const bool scanned = std::isfinite(where.scan_p_value);
   out["p_value"] = number(where.scan_p_value);
-  out["windows_tried"] = where.windows_tried;
+  out["windows_tried"] = scanned ? Json(where.windows_tried) : Json(nullptr);
   return out;
 }
 
@@ -108,15 +119,18 @@ Json folds_json(const std::vector<Fold>& folds) {
   return list;
 }
 
-Json fit_json(const FitComparison& fit) {
+Json fit_json(const FitComparison& fit, bool has_cause) {
   Json out;
+  // Without a cause there is no second fit; a recording on a case has no likelihood.
+  const bool refitted = has_cause && std::isfinite(fit.log_likelihood_ratio);
+  const auto of_refit = [&](double value) { return refitted ? number(value) : Json(nullptr); };
   out["in_sample"] = {{"chi2_per_dof_before", number(fit.chi2_per_dof_before)},
                       {"chi2_per_dof_after", number(fit.chi2_per_dof_after)},
-                      {"chi2_per_dof_95", {number(fit.band_low), number(fit.band_high)}},
+                      {"chi2_per_dof_95", fit.band_high > 0.0 ? Json{number(fit.band_low), number(fit.band_high)} : Json(nullptr)},
                       {"dof", fit.dof},
-                      {"log_likelihood_ratio", number(fit.log_likelihood_ratio)},
-                      {"predicted_by_score", number(fit.linear_T)},
-                      {"sign_agrees", fit.sign_agrees},
+                      {"log_likelihood_ratio", of_refit(fit.log_likelihood_ratio)},
+                      {"predicted_by_score", of_refit(fit.linear_T)},
+                      {"sign_agrees", refitted ? Json(fit.sign_agrees) : Json(nullptr)},
                       {"ljung_box_p_before", number(fit.whiteness.ljung_box_p_before)},
                       {"ljung_box_p_after", number(fit.whiteness.ljung_box_p_after)},
                       {"nis_per_dof_before", number(fit.whiteness.nis_per_dof_before)},
@@ -127,8 +141,8 @@ Json fit_json(const FitComparison& fit) {
                      {"chi2_per_dof_after", of_folds(held.chi2_per_dof_after)},
                      {"log_score_gain", of_folds(held.log_score_gain)},
                      {"folds", held.folds.size()},
-                     {"log_score_gain_sigma", number(held.log_score_gain_sigma)},
-                     {"nested_gain", number(held.nested_gain)},
+                     {"log_score_gain_sigma", of_folds(held.log_score_gain_sigma)},
+                     {"nested_gain", of_folds(held.nested_gain)},
                      {"improves", held.improves},
                      {"method", text_or_null(held.method)},
                      {"each", folds_json(held.folds)}};
@@ -226,14 +240,14 @@ std::string to_json(const Diagnosis& d) {
   out["where"] = where_json(d.where);
   out["causes"] = causes_json(d.causes);
   out["candidates"] = candidates_json(d.candidates);
-  out["fit"] = fit_json(d.fit);
+  out["fit"] = fit_json(d.fit, d.has_patch);
   out["advice"] = advice_json(d.advice);
   out["model"] = d.has_patch ? Json("patched.toml") : Json(nullptr);
   out["noise"] = noise_json(d.noise);
   out["equations"] = equations_json(d.signals);
   out["cosines"] = cosines_json(d.cosines);
   out["inseparable"] = d.inseparable;
-  out["remarks"] = d.remarks;
+  out["remarks"] = remarks_of(d);
   Json& seconds = out["seconds"] = Json::object();
   for (const auto& [stage, time] : d.seconds) seconds[stage] = number(time);
   // Names are free text; bytes that are not UTF-8 become U+FFFD instead of an exception.

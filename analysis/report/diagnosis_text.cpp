@@ -25,8 +25,6 @@ std::string to_text(const Diagnosis& d) {
   const bool found = d.verdict != Verdict::consistent;
   if (found) {
     out += headed("Where", where_sentence(d.where));
-    if (d.verdict == Verdict::unexplained && !d.signals.empty())
-      out += headed("Shape", d.signals.front().shape);
     out += headed("Held out", held_out_sentence(d.fit.held_out));
   }
   if (!d.causes.empty()) out += "\n" + text_of(cause_table(d), page);
@@ -40,8 +38,9 @@ std::string to_text(const Diagnosis& d) {
   if (std::ranges::any_of(d.noise, &NoiseFinding::significant)) out += "\n" + text_of(noise_table(d), page);
   if (!d.advice.empty()) out += "\n";
   for (const Advice& a : d.advice) out += headed("Advice", a.text);
-  if (!d.remarks.empty()) out += "\n";
-  for (const auto& remark : d.remarks) out += wrapped("! " + remark, page, 2);
+  const auto remarks = remarks_of(d);
+  if (!remarks.empty()) out += "\n";
+  for (const auto& remark : remarks) out += wrapped("! " + remark, page, 2);
   return out;
 }
 

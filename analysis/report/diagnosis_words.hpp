@@ -11,7 +11,28 @@ namespace drift {
 std::string label_of(const discovery::Cause& cause);
 std::string label_of(const discovery::CandidateScore& candidate);
 
-/// The verdict in one sentence: the diagnosis' own, or one made of verdict and causes.
+/// A candidate of the table or the figure, and the alternative that it belongs to: 1 for the first set of
+/// causes, 0 for what is no cause.
+struct ShownCandidate {
+  const discovery::CandidateScore* score = nullptr;
+  int alternative = 0;
+};
+
+/// The strongest candidates, and every cause of the verdict however weak its own score is (of two that
+/// cancel each looks weak alone). In the order of the diagnosis; more than `most` only for causes.
+std::vector<ShownCandidate> shown_candidates(const discovery::Diagnosis& diagnosis, std::size_t most);
+
+/// What a reader must know: the diagnosis' own remarks, and what patched.toml holds where several causes
+/// remain possible.
+std::vector<std::string> remarks_of(const discovery::Diagnosis& diagnosis);
+
+/// The recording that a time of the timeline falls into; null where there is one recording only.
+const discovery::RecordingSpan* recording_at(const std::vector<discovery::RecordingSpan>& recordings, double t_s);
+
+/// A channel in words: "accelerometer y" of "acc_y", "outer gimbal" of "gimbal_outer".
+std::string channel_in_words(const std::string& name);
+
+/// The verdict in one sentence: the diagnosis' own, or the one of discovery::sentence().
 std::string verdict_sentence(const discovery::Diagnosis& diagnosis);
 
 /// Where the misfit is, in one sentence; empty if nothing is located.
@@ -19,8 +40,5 @@ std::string where_sentence(const discovery::Where& where);
 
 /// Whether the cause made held-out prediction better; empty without held-out data.
 std::string held_out_sentence(const discovery::HeldOut& held_out);
-
-/// A probability that is no more exact than it is known: "0.012", "1e-20", "below 1e-300".
-std::string p_text(double p_value);
 
 }  // namespace drift

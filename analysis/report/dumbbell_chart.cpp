@@ -36,7 +36,7 @@ void mark(SvgCanvas& canvas, double x, double y, std::string_view colour) {
 }  // namespace
 
 std::string svg_of(const DumbbellChart& chart) {
-  double label_width = 40.0, text_width = 0.0;
+  double label_width = 40.0, text_width = text_pixels(chart.text_label, 10.5);
   Range range;
   for (const Dumbbell& d : chart.lines) {
     label_width = std::max(label_width, text_pixels(d.label, 11.0));
@@ -60,6 +60,7 @@ std::string svg_of(const DumbbellChart& chart) {
   const double second = x0 + 34.0 + text_pixels(chart.before_label, 11.0);
   mark(canvas, second, key - 4.0, after_colour);
   canvas.text(second + 10.0, key, chart.after_label);
+  canvas.text(chart.width - edge, y0 - 8.0, chart.text_label, {.size = 10.5, .anchor = "end"});
   for (const std::size_t i : shown_ticks(scale, chart.spacing)) {
     const double x = x0 + scale.at(scale.ticks[i], w);
     canvas.line(x, y0, x, y0 + h + 4.0, "#e4e4e4", 1.0);

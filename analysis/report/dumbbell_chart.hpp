@@ -24,6 +24,7 @@ struct DumbbellChart {
   std::string title;
   std::string x_label;  ///< with its unit
   std::string before_label = "before", after_label = "after";
+  std::string text_label = {};  ///< heads the texts at the right edge
   std::vector<Dumbbell> lines;
   Spacing spacing = Spacing::linear;   ///< logarithmic: values that are not positive are not shown
   std::optional<ReferenceLine> limit;  ///< a vertical line at a value (its member y)

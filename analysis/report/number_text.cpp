@@ -56,4 +56,13 @@ std::string as_given(double value, double sigma) {
   return decimal_text(value, decimals) + "±" + decimal_text(sigma, decimals);
 }
 
+std::string p_text(double p) {
+  if (!std::isfinite(p)) return "-";
+  if (p < 1e-300) return "below 1e-300";
+  if (p >= 1e-3) return number_text(p, 2);
+  std::string text = fmt::format("{:.0e}", p);
+  if (const auto zero = text.find("e-0"); zero != std::string::npos) text.erase(zero + 2, 1);
+  return text;
+}
+
 }  // namespace drift

@@ -20,4 +20,8 @@ std::string to_match(double value, double sigma);
 /// "101.04±5.47", "-1.20±0.03": both as somebody else gave them, with equally many decimals.
 std::string as_given(double value, double sigma);
 
+/// A probability that is no more exact than it is known: "0.076", "4e-4" (scientific only below
+/// 0.001), "below 1e-300"; "-" if it is not finite.
+std::string p_text(double p_value);
+
 }  // namespace drift

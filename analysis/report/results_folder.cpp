@@ -1,6 +1,8 @@
 #include "analysis/report/results_folder.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
@@ -46,6 +48,32 @@ void require_own_folder(const std::string& folder, std::string_view command) {
   if (!holder.empty() && holder != command)
     throw InputError(ExitCode::store, fmt::format("{}: holds the results of `{}` (expected an empty folder, or one of `{}`). "
                                                   "Give another folder with -o", folder, holder, command));
+}
+
+void require_writable_folder(const std::string& folder) {
+  namespace fs = std::filesystem;
+  if (folder.empty()) return;
+  std::vector<fs::path> missing;  // innermost first
+  std::error_code unknown;
+  for (fs::path at = fs::absolute(folder); !at.empty() && !fs::exists(at, unknown); at = at.parent_path()) {
+    missing.push_back(at);
+    if (unknown || at == at.parent_path()) break;
+  }
+  std::error_code error;
+  fs::create_directories(folder, error);
+  std::string reason = error ? error.message() : "";
+  if (reason.empty()) {
+    std::string probe = (fs::path(folder) / ".driftscope.XXXXXX").string();
+    const int file = ::mkostemp(probe.data(), O_CLOEXEC);
+    if (file < 0) {
+      reason = std::strerror(errno);
+    } else {
+      ::close(file);
+      ::unlink(probe.c_str());
+    }
+  }
+  for (const fs::path& made : missing) fs::remove(made, unknown);  // takes away empty folders only
+  if (!reason.empty()) throw_cannot_write(folder, reason);
 }
 
 std::vector<std::string> write_results(const Study& study, const Identification& id,

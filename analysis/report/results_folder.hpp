@@ -20,6 +20,10 @@ std::string results_of(const std::string& folder);
 /// their study changed. An empty folder name, or a folder that does not exist yet, is nobody's.
 void require_own_folder(const std::string& folder, std::string_view command);
 
+/// InputError (io) if no file can be written into a folder, or if it cannot be made: said before hours of
+/// computing and not after them. Leaves no trace. An empty folder name is no folder.
+void require_writable_folder(const std::string& folder);
+
 /// Name and content of a text file.
 using TextFile = std::pair<std::string, std::string>;
 

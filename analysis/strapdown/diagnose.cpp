@@ -8,6 +8,8 @@
 #include <cmath>
 
 #include "analysis/discovery/patched_study.hpp"
+#include "analysis/discovery/sentence.hpp"
+#include "analysis/report/number_text.hpp"
 #include "analysis/strapdown/nominal.hpp"
 #include "analysis/strapdown/residuals.hpp"
 #include "analysis/strapdown/where.hpp"
@@ -256,24 +258,14 @@ class Diagnoser {
   }
 
   void say() {
-    std::vector<std::string> causes, numbers;
-    for (const Cause& c : d_.causes) {
-      double most = 0.0;
-      const CauseParameter* largest = nullptr;
-      for (const CauseParameter& p : c.parameters)
-        if (std::abs(p.value) > most) {
-          most = std::abs(p.value);
-          largest = &p;
-        }
-      causes.push_back(largest ? fmt::format("{} ({} = {:.3g} {})", c.term, largest->key, largest->value, largest->unit)
-                               : c.term);
-    }
+    std::vector<std::string> numbers;
     for (const StrapdownKind& k : out_.kinds)
       numbers.push_back(fmt::format("{} {:.3g} → {:.3g} {}", k.what, k.before, k.after, k.unit));
-    d_.sentence = causes.empty()
-                      ? fmt::format("Nothing that predicts held-out dwells and turns better is missing (p = {:.2g}).", d_.p_value)
-                      : fmt::format("The nominal model leaves out {}; error on held-out data: {}.",
-                                    fmt::join(causes, " and "), fmt::join(numbers, ", "));
+    d_.sentence = d_.causes.empty()
+                      ? fmt::format("Nothing is missing that predicts held-out dwells and turns better (noise alone shows as "
+                                    "much with a chance of {}).", p_text(d_.p_value))
+                      : fmt::format("{} (chance of a false alarm: {}); error on held-out data: {}.", lacking(d_.causes),
+                                    p_text(d_.p_value), fmt::join(numbers, ", "));
     d_.remarks.push_back("a recording on a case declares no noise: residuals and chi-square are in units of the scatter "
                          "that the accepted model leaves");
     if (final_->model.drift >= strapdown::DriftOrder::g_sensitive)

@@ -121,6 +121,8 @@ void fill_where(const Residuals& before, const Residuals& after, const Eigen::Ve
   fit.chi2_after = rest.unaryExpr(&square_or_zero).sum();
   fit.chi2_per_dof_before = fit.chi2_before / static_cast<double>(fit.dof);
   fit.chi2_per_dof_after = fit.chi2_after / static_cast<double>(fit.dof);
+  // No likelihood without declared noise, no scan of windows.
+  where.scan_p_value = fit.band_low = fit.band_high = fit.log_likelihood_ratio = fit.linear_T = std::nan("");
   fit.whiteness = {std::nan(""), std::nan(""), std::nan(""), std::nan("")};
   fit.start_spread_before = fit.start_spread_after = std::nan("");
 

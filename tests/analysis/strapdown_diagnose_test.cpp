@@ -145,6 +145,10 @@ TEST(StrapdownDiagnosis, RecoversTheMisalignmentThatTheRecordingWasMadeWithAndWr
   const auto json = nlohmann::json::parse(to_json(found.diagnosis));
   EXPECT_EQ(json["causes"][0]["term"], "gyro_misalignment");
   EXPECT_TRUE(json["fit"]["start_spread_before"].is_null());
+  for (const char* key : {"chi2_per_dof_95", "log_likelihood_ratio", "predicted_by_score"})
+    EXPECT_TRUE(json["fit"]["in_sample"].at(key).is_null()) << key;
+  EXPECT_TRUE(json["fit"]["in_sample"]["chi2_per_dof_before"].is_number());
+  EXPECT_TRUE(json["where"].at("p_value").is_null());
   EXPECT_EQ(testing::xml_problem(test::text_of(folder.file("out") + "/report.html"), {"meta"}), std::nullopt);
 }
 

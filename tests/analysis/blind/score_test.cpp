@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "analysis/blind/blind_report.hpp"
 #include "analysis/blind/summary.hpp"
 
 namespace drift::blind {
@@ -135,6 +136,76 @@ TEST(BlindScore, SharesOfASummaryAreThoseOfItsTrials) {
   ASSERT_EQ(s.confusion.rows.size(), 1u);
   EXPECT_EQ(s.confusion.columns, (std::vector<std::string>{"consistent", "magnetic_drift"}));
   EXPECT_EQ(s.confusion.rows[0].called, (std::vector<std::size_t>{3, 7}));
+}
+
+/// sag.x and accelerometer_cross.y, as an answer that knows them for twins.
+Answer twins(double cosine) {
+  Answer a = answer(Verdict::ambiguous, {{"sag", "x", 0}, {"accelerometer_cross", "y", 1}});
+  a.causes[0].confusable_with = {{"accelerometer_cross", "y", cosine}, {"drift_ramp", "z", 0.8}};
+  return a;
+}
+
+TEST(BlindScore, ATwinCountsAsTheSameCauseInAScoreOfItsOwn) {
+  const KeyEntry sag = hiding(Stratum::single, {{"sag", "x"}}), cross = hiding(Stratum::single, {{"accelerometer_cross", "y"}});
+  EXPECT_TRUE(score_trial(sag, twins(-1.0)).exact_or_twin);
+  EXPECT_FALSE(score_trial(sag, twins(-1.0)).exact);
+  EXPECT_FALSE(score_trial(sag, twins(0.99)).exact_or_twin) << "alike is not the same trace";
+  Answer wide = twins(-1.0);
+  wide.causes[0].confusable_with[0].axis = "";
+  EXPECT_FALSE(score_trial(sag, wide).exact_or_twin) << "like some mixture of all axes";
+  // Whichever of the two says so, and whichever was hidden.
+  EXPECT_TRUE(score_trial(cross, twins(-1.0)).exact_or_twin);
+  // A third that is no twin, another axis, or one twin beside a cause that is not hidden: no.
+  Answer more = twins(1.0);
+  more.causes.push_back({"drift_ramp", "z", 2, 0.1, {}});
+  EXPECT_FALSE(score_trial(sag, more).exact_or_twin);
+  more.causes.back().set = 1;
+  EXPECT_FALSE(score_trial(sag, more).exact_or_twin);
+  EXPECT_FALSE(score_trial(hiding(Stratum::single, {{"sag", "z"}}), twins(1.0)).exact_or_twin);
+  // What is exact is so here too; the one twin alone, named, is not what was hidden.
+  EXPECT_TRUE(score_trial(sag, answer(Verdict::named, {{"sag", "x", 0}})).exact_or_twin);
+  EXPECT_FALSE(score_trial(sag, answer(Verdict::ambiguous, {})).exact_or_twin);
+  EXPECT_FALSE(score_trial(sag, answer(Verdict::named, {{"accelerometer_cross", "y", 0}})).exact_or_twin);
+}
+
+TEST(BlindScore, AnswersKeepWhatACauseIsLikeAndAreReadWithoutIt) {
+  const Answer back = answer_of_json(to_json(twins(-1.0)));
+  ASSERT_EQ(back.causes[0].confusable_with.size(), 2u);
+  EXPECT_EQ(back.causes[0].confusable_with[0].axis, "y");
+  EXPECT_EQ(back.causes[0].confusable_with[0].cosine, -1.0);
+  std::string old = to_json(answer(Verdict::named, {{"sag", "x", 0}}));
+  const auto at = old.find("\"confusable_with\"");
+  ASSERT_NE(at, std::string::npos);
+  old.replace(at, 17, "\"unknown\"");
+  EXPECT_TRUE(answer_of_json(old).causes[0].confusable_with.empty());
+}
+
+TEST(BlindTargets, AreDecidedOnlyByTheWholeInterval) {
+  const auto standing = [](std::size_t k, std::size_t n, double low, double high) {
+    return std::string(text(Target{"", proportion(k, n), low, high}.standing()));
+  };
+  // Clopper and Pearson at 95 %: 20 of 20 [0.832, 1], 18 of 20 [0.683, 0.988], 2 of 20 [0.012, 0.317].
+  EXPECT_EQ(standing(20, 20, 0.80, 1.0), "met");
+  EXPECT_EQ(standing(20, 20, 0.98, 1.0), "met, within its interval");
+  EXPECT_EQ(standing(18, 20, 0.98, 1.0), "missed, within its interval");
+  EXPECT_EQ(standing(18, 20, 0.99, 1.0), "missed");
+  EXPECT_EQ(standing(0, 20, 0.0, 0.05), "met, within its interval");
+  EXPECT_EQ(standing(2, 20, 0.0, 0.01), "missed");
+  EXPECT_EQ(standing(19, 20, 0.91, 0.99), "met, within its interval");
+  for (std::size_t n = 0; n < 5; ++n) EXPECT_EQ(standing(0, n, 0.98, 1.0), "not decided") << n;
+  EXPECT_EQ(standing(0, 5, 0.98, 1.0), "missed");
+}
+
+TEST(BlindTargets, AreReportedWithTheirStanding) {
+  const Summary s = summarise({score_trial(magnetic, answer(Verdict::named, {{"magnetic_drift", "y", 0}}))});
+  const std::string report = to_text(s, {}, {});
+  EXPECT_NE(report.find("Of 10 targets 0 are met and 0 missed"), std::string::npos) << report;
+  EXPECT_NE(report.find("10 not decided."), std::string::npos) << report;
+  EXPECT_NE(report.find("1 not decided\n"), std::string::npos) << report;
+  EXPECT_NE(report.find("exact, where an identical twin counts as the same cause"), std::string::npos) << report;
+  const std::string json = to_json(s, {}, {});
+  EXPECT_NE(json.find("\"standing\": \"not decided\""), std::string::npos);
+  EXPECT_NE(json.find("\"met\": true"), std::string::npos) << "by the share alone, as ever";
 }
 
 }  // namespace

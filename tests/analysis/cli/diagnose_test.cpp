@@ -28,7 +28,7 @@ TEST(DiagnoseCommand, NamesWhatACaseLacksAndLeavesAReport) {
   const ScratchFolder folder;
   const Answer a = driftscope("diagnose " + config("diagnose_xsens.toml") + " " + tilted_case(folder) + " -o " + folder.file("out"));
   ASSERT_EQ(a.code, 0) << a.err;
-  EXPECT_NE(a.out.find("Verdict named: The nominal model leaves out gyro_misalignment"), std::string::npos) << a.out;
+  EXPECT_NE(a.out.find("Verdict named: The nominal model lacks misalignment of the gyro input axes (gyro_misalignment"), std::string::npos) << a.out;
   const auto json = nlohmann::json::parse(text_of(folder.file("out") + "/diagnosis.json"));
   EXPECT_EQ(json["verdict"], "named");
   EXPECT_EQ(json["causes"][0]["term"], "gyro_misalignment");
@@ -40,6 +40,21 @@ TEST(DiagnoseCommand, NamesWhatACaseLacksAndLeavesAReport) {
   const Answer again = driftscope("diagnose " + folder.file("out") + "/patched.toml " + folder.file("case.csv"));
   EXPECT_EQ(again.code, 0) << again.err;
   EXPECT_NE(again.out.find("Verdict consistent"), std::string::npos) << again.out;
+}
+
+TEST(DiagnoseCommand, AFolderThatCannotBeWrittenIsSaidBeforeAnythingIsComputed) {
+  const ScratchFolder folder;
+  const std::string file = folder.write("file", "no folder"), recording = tilted_case(folder);
+  for (const std::string& out : {file + "/out", std::string("/proc/no/folder"), std::string("/proc/self")}) {
+    const Answer a = driftscope("diagnose " + config("diagnose_xsens.toml") + " " + recording + " -o " + out);
+    EXPECT_EQ(a.code, static_cast<int>(ExitCode::io)) << out;
+    EXPECT_NE(a.err.find(out + ": cannot be written"), std::string::npos) << a.err;
+    EXPECT_EQ(a.out, "") << "the recording is not even read";
+  }
+  // A folder that can be written is not made for a recording that cannot be read.
+  const Answer a = driftscope("diagnose " + config("diagnose_xsens.toml") + " " + folder.file("absent.csv") + " -o " + folder.file("a/b/c"));
+  EXPECT_NE(a.code, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder.file("a")));
 }
 
 /// Six positions; g2_drift is left out of the nominal filter and zero in the truth but for D_SS_x.
@@ -90,6 +105,35 @@ TEST(DiagnoseCommand, NamesWhatAPlatformLacksAndItsPatchedStudyIsConsistent) {
   const Answer again = driftscope("diagnose " + folder.file("out") + "/patched.toml " + recording);
   EXPECT_EQ(again.code, 0) << again.err;
   EXPECT_NE(again.out.find("Verdict consistent"), std::string::npos) << again.out;
+}
+
+TEST(DiagnoseCommand, OfSeveralRecordingsSaysWhichOneATimeBelongsTo) {
+  const ScratchFolder folder;
+  std::string text = platform_study("0.3 deg/h/g^2");  // every run is of one and the same platform
+  text.insert(text.find("[[filter]]"), "D_F = \"0.2 deg/h\"\nD_I = \"1 deg/h/g\"\nD_O = \"0.1 deg/h/g\"\nD_S = \"-1 deg/h/g\"\n"
+                                       "eta = \"100 arcsec\"\nxi = \"-80 arcsec\"\n");
+  const std::string study = folder.write("s.toml", text);
+  std::string recordings;
+  for (const char* run : {"0", "1"}) {
+    const std::string path = folder.file("r" + std::string(run) + ".csv");
+    ASSERT_EQ(driftscope("simulate " + study + " -o " + path + " --run " + run).code, 0);
+    recordings += " " + path;
+  }
+  const Answer a = driftscope("diagnose " + study + recordings + " --progress none -o " + folder.file("out"));
+  ASSERT_EQ(a.code, 0) << a.err;
+  EXPECT_NE(a.out.find("r1.csv begins at 7200 s (0 s of its own time)"), std::string::npos) << a.out;
+  const auto json = nlohmann::json::parse(text_of(folder.file("out") + "/diagnosis.json"));
+  const auto& spans = json["where"]["recordings"];
+  ASSERT_EQ(spans.size(), 2u);
+  EXPECT_EQ(spans[0]["end_s"], 7200.0);
+  EXPECT_EQ(spans[1]["offset_s"], 7200.0);
+  ASSERT_EQ(json["verdict"], "named") << a.out;
+  EXPECT_EQ(json["fit"]["held_out"]["by_recording"]["each"][1]["name"], "recording 2, r1.csv");
+  ASSERT_FALSE(json["where"]["windows"].empty());
+  for (const auto& w : json["where"]["windows"]) EXPECT_EQ(w["recording"], w["start_s"] < 7200.0 ? "r0.csv" : "r1.csv");
+  const std::string csv = text_of(folder.file("out") + "/residual_signal.csv");
+  EXPECT_NE(csv.find(",unit,recording\n"), std::string::npos);
+  for (const char* name : {",r0.csv\n", ",r1.csv\n"}) EXPECT_NE(csv.find(name), std::string::npos) << name;
 }
 
 TEST(DiagnoseCommand, TheWrongPlanIsSaidAndOddInputIsRemarked) {
