@@ -8,6 +8,7 @@
 #include "analysis/discovery/answer.hpp"
 #include "analysis/discovery/compare.hpp"
 #include "analysis/discovery/conclude.hpp"
+#include "analysis/discovery/explained.hpp"
 #include "analysis/discovery/judge_members.hpp"
 #include "analysis/discovery/locate.hpp"
 #include "analysis/recorded_test.hpp"
@@ -190,7 +191,7 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const Test& given, std::spa
   shown.extra.resize(shown.rows(), best ? 1 : 0);
   std::vector<std::pair<int, double>> cause;
   if (best) {
-    shown.extra.col(0) = residual_of(nominal.problem, nominal.fit) - residual_of(best->after.problem, best->after.fit);
+    shown.extra.col(0) = taken_out(nominal.problem, nominal_filter, nominal.fit, best->filter, best->after.fit);
     cause.emplace_back(0, 1.0);
   }
   std::vector<InputEstimate> inputs;

@@ -87,6 +87,22 @@ TEST(Diagnose, HeldOutByRefitAgreesWithHeldOutByConditioning) {
               0.05 * std::abs(linear.fit.held_out.log_score_gain) + 2.0);
 }
 
+TEST(Diagnose, TheSignatureOfTheCauseIsTheRecoveredSignalEvenWhereParametersHadTakenItUpAgainstTheirPriors) {
+  // On six positions D_SS_x looks like drifts and misalignments far outside their priors.
+  const Diagnosis d = run(make_case("six", "D_SS_x", 0.3, Coupling::eq5, 1200.0));
+  ASSERT_EQ(d.verdict, Verdict::named) << d.sentence;
+  ASSERT_FALSE(d.signals.empty());
+  const RecoveredSignal& s = d.signals.front();
+  double both = 0.0, found = 0.0, explained = 0.0;
+  for (std::size_t k = 0; k < s.value.size(); ++k) {
+    both += s.value[k] * s.explained[k];
+    found += s.value[k] * s.value[k];
+    explained += s.explained[k] * s.explained[k];
+  }
+  EXPECT_GT(both / std::sqrt(found * explained), 0.9);
+  EXPECT_NEAR(std::sqrt(explained / found), 1.0, 0.3);
+}
+
 TEST(Diagnose, IsRepeatable) {
   const Case c = make_case("six", "D_IS_x", 0.2, Coupling::eq5, 1800.0);
   const Diagnosis a = run(c), b = run(c);
