@@ -167,19 +167,18 @@ void fill_causes(const Examination& nominal, const Search& found, Diagnosis& d) 
       if (list.size() < 5 && std::none_of(list.begin(), list.end(), same)) list.push_back(c);
     }
   }
-  // Candidates that are one direction on this plan, whatever the data.
-  for (std::size_t i = 0; i < d.causes.size(); ++i)
-    for (const Confusable& c : d.causes[i].confusable_with)
-      if (c.cosine * c.cosine > 0.999)
-        d.inseparable.push_back(fmt::format("{}{}{} and {}{}{} leave the same trace on this plan", d.causes[i].term,
-                                            d.causes[i].axis.empty() ? "" : ".", d.causes[i].axis, c.term,
-                                            c.axis.empty() ? "" : ".", c.axis));
+  // Candidates that are one direction on this plan, whatever the data; a wider one holds the cause anyway.
+  for (const Cause& cause : d.causes)
+    for (const Confusable& c : cause.confusable_with)
+      if (c.cosine * c.cosine > 0.999 && (cause.axis.empty() || !c.axis.empty()))
+        d.inseparable.push_back(fmt::format("{} and {} leave the same trace on this plan", in_words(cause.term, cause.axis),
+                                            in_words(c.term, c.axis)));
   if (found.sets.empty() && nominal.lone.p_value < 0.01)
     d.remarks.push_back(fmt::format("An unknown input of free form in {} alone would explain it (twice the log "
                                     "likelihood better by {:.1f}).", nominal.lone.equation, nominal.lone.gain));
   for (const Cause& c : d.causes)
     if (c.term == "frame_closure")
-      d.remarks.push_back("frame_closure: cross-talk between the torquing channels (taken as zero) moves lambda as much "
+      d.remarks.push_back("Cross-talk between the torquing channels (taken as zero) moves lambda (frame_closure) as much "
                           "as misalignment does in slews; only Earth rate and turns of the case tell them apart.");
 }
 
