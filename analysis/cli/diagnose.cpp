@@ -58,7 +58,7 @@ ExitCode diagnose_case(const StudyArguments& arguments, const Study& study, cons
 }
 
 ExitCode diagnose_platform(const StudyArguments& arguments, const Study& study, const std::vector<std::string>& paths,
-                           const std::string& folder) {
+                           const std::string& folder, const std::optional<std::vector<std::string>>& advise) {
   discovery::Prepared prepared = discovery::prepare(study, read_recordings(study, paths));
   std::fflush(stdout);
   discovery::DiagnoseOptions options;
@@ -66,7 +66,7 @@ ExitCode diagnose_platform(const StudyArguments& arguments, const Study& study, 
   discovery::Diagnosis found = discovery::diagnose(prepared.study, prepared.recordings, options);
   const auto began = std::chrono::steady_clock::now();
   found.advice = discovery::advise(prepared.study, prepared.recordings, found,
-                                   {.seed = study.monte_carlo.seed});
+                                   {.seed = study.monte_carlo.seed, .asked = advise});
   found.seconds.emplace_back("advice", std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count());
   found.remarks.insert(found.remarks.begin(), prepared.remarks.begin(), prepared.remarks.end());
   finish(study, found, {paths, ""}, folder);
@@ -75,13 +75,17 @@ ExitCode diagnose_platform(const StudyArguments& arguments, const Study& study, 
 
 }  // namespace
 
-ExitCode diagnose(const StudyArguments& arguments, const std::vector<std::string>& paths, const std::string& folder) {
+ExitCode diagnose(const StudyArguments& arguments, const std::vector<std::string>& paths, const std::string& folder,
+                  const std::optional<std::vector<std::string>>& advise) {
   const Study study = arguments.read();
   require_nominal(study);
+  if (advise && study.kind == RecordingKind::strapdown)
+    throw InputError(ExitCode::usage, "--advise: a strapdown study has no positions to add (expected a platform study). Leave it out; "
+                                      "more turns about more axes are what helps");
   require_own_folder(folder, "diagnose");
   const mc::ThreadCount threads(arguments.threads);
   return study.kind == RecordingKind::strapdown ? diagnose_case(arguments, study, paths, folder)
-                                                : diagnose_platform(arguments, study, paths, folder);
+                                                : diagnose_platform(arguments, study, paths, folder, advise);
 }
 
 }  // namespace drift::cli

@@ -113,6 +113,31 @@ TEST(DiagnoseCommand, TheWrongPlanIsSaidAndOddInputIsRemarked) {
   EXPECT_NE(stuck.out.find("Verdict consistent"), std::string::npos) << stuck.out;
 }
 
+TEST(DiagnoseCommand, AdvisesOnRequest) {
+  const ScratchFolder folder;
+  const std::string study = folder.write("s.toml", platform_study("0 deg/h/g^2")), recording = folder.file("r.csv");
+  ASSERT_EQ(driftscope("simulate " + study + " -o " + recording).code, 0);
+  const std::string diagnose = "diagnose " + study + " " + recording;
+  EXPECT_EQ(driftscope(diagnose).out.find("one prior sigma"), std::string::npos);
+  const Answer a = driftscope(diagnose + " --advise torquer_heating.x,sag -o " + folder.file("out"));
+  ASSERT_EQ(a.code, 0) << a.err;
+  const auto json = nlohmann::json::parse(text_of(folder.file("out") + "/diagnosis.json"));
+  EXPECT_EQ(json["verdict"], "consistent");
+  ASSERT_FALSE(json["advice"].empty());
+  EXPECT_FALSE(json["advice"][0]["plan"].empty());
+  EXPECT_EQ(driftscope("check " + folder.file("out") + "/advised.toml").code, 0);
+  // Without terms: whatever the plan hides. The option does not swallow the files behind it.
+  const Answer all = driftscope("diagnose --advise " + study + " " + recording);
+  ASSERT_EQ(all.code, 0) << all.err;
+  EXPECT_NE(all.out.find("effects at one prior sigma"), std::string::npos) << all.out;
+  const Answer wrong = driftscope(diagnose + " --advise=sagg,D_F_x");
+  EXPECT_EQ(wrong.code, static_cast<int>(ExitCode::usage));
+  EXPECT_NE(wrong.err.find("Did you mean 'sag'"), std::string::npos) << wrong.err;
+  EXPECT_NE(wrong.err.find("D_F_x"), std::string::npos) << wrong.err;
+  EXPECT_EQ(driftscope("diagnose " + config("diagnose_xsens.toml") + " " + tilted_case(folder) + " --advise").code,
+            static_cast<int>(ExitCode::usage));
+}
+
 TEST(DiagnoseCommand, RefusesWhatItCannotDiagnose) {
   const ScratchFolder folder;
   EXPECT_EQ(driftscope("diagnose " + config("diagnose_xsens.toml")).code, static_cast<int>(ExitCode::usage));
