@@ -9,6 +9,7 @@
 #include "analysis/discovery/compare.hpp"
 #include "analysis/discovery/conclude.hpp"
 #include "analysis/discovery/locate.hpp"
+#include "analysis/discovery/patched_study.hpp"
 #include "analysis/recorded_test.hpp"
 #include "core/base/check.hpp"
 #include "core/estimate/starts.hpp"
@@ -177,6 +178,7 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const Test& given, std::spa
     d.verdict = Verdict::unexplained;
   }
   if (d.verdict != Verdict::consistent) fill_causes(nominal, found, d);
+  if (d.has_patch) d.patched = started_where_found(d.patched, d.causes);
   weigh_candidates(nominal, found, d);
   // What the cause explains, by the refit: what it takes out of the residuals.
   LinearProblem shown = nominal.problem;

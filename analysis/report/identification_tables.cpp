@@ -74,6 +74,19 @@ std::string prior_text(const Layout& layout, const std::string_view group) {
   return text;
 }
 
+/// Parameters that the two estimators, given the same, see differently: further apart than five of the
+/// smaller sigma. Empty if one failed.
+std::vector<std::string> disputed(const FilterRun& run) {
+  constexpr double apart = 5.0;
+  std::vector<std::string> keys;
+  if (run.ekf.status != EstimateStatus::ok || run.batch.estimate.status != EstimateStatus::ok) return keys;
+  for (std::size_t k = 0; k < run.ekf.parameters.size(); ++k) {
+    const ParameterEstimate &e = run.ekf.parameters[k], &b = run.batch.estimate.parameters[k];
+    if (std::abs(e.value - b.value) > apart * std::min(e.sigma, b.sigma)) keys.emplace_back(TermLibrary::specs[e.param].key.view());
+  }
+  return keys;
+}
+
 std::string joined(const std::vector<std::string>& texts) {
   std::string all;
   for (const auto& t : texts) all += (all.empty() ? "" : ", ") + t;
@@ -227,6 +240,16 @@ std::vector<std::string> headlines(const Study& study, const Identification& id)
                        : fmt::format("outside the 95 % band of a right model from {} of {} "
                                      "starts",
                                      outside, runs.size())));
+    // With process noise the two answer different questions.
+    if (auto keys = disputed(*runs.front()); !keys.empty() && !study.filters[s.filter].noise.any()) {
+      constexpr std::size_t most = 8;
+      const std::size_t count = keys.size();
+      if (count > most) keys.resize(most);
+      all.push_back(fmt::format("{}: from start 1, EKF and batch fit are more than five sigma apart in {} of {} parameters: {}{}. The "
+                                "EKF linearises once, where it is then; what is not linear over its prior leads it astray with a "
+                                "small sigma. Use the batch column.",
+                                name, count, s.spread.size(), joined(keys), count > most ? ", ..." : ""));
+    }
     if (!s.degeneracies.empty())
       all.push_back(fmt::format(
           "{}: {} combinations of its {} parameters cannot be seen in this test at all.", name,
