@@ -10,6 +10,7 @@
 #include "analysis/discovery/advise.hpp"
 #include "analysis/discovery/diagnose.hpp"
 #include "analysis/discovery/prepare.hpp"
+#include "analysis/discovery/site_doubt.hpp"
 #include "analysis/report/diagnosis_folder.hpp"
 #include "analysis/report/diagnosis_text.hpp"
 #include "analysis/report/results_folder.hpp"
@@ -64,6 +65,7 @@ ExitCode diagnose_platform(const StudyArguments& arguments, const Study& study, 
   discovery::DiagnoseOptions options;
   options.progress = stage_reporter(arguments.progress, "diagnose");
   discovery::Diagnosis found = discovery::diagnose(prepared.study, prepared.recordings, options);
+  if (const auto doubt = discovery::site_doubt(prepared.study, prepared.recordings, found)) found.sentence += " " + doubt->sentence;
   const auto began = std::chrono::steady_clock::now();
   found.advice = discovery::advise(prepared.study, prepared.recordings, found,
                                    {.seed = study.monte_carlo.seed, .asked = advise});

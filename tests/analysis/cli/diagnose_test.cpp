@@ -1,6 +1,8 @@
 // `driftscope diagnose` as a user runs it.
 #include <nlohmann/json.hpp>
 
+#include <cmath>
+
 #include "core/base/check.hpp"
 #include "core/sim/recording.hpp"
 #include "tests/support/program.hpp"
@@ -111,6 +113,27 @@ TEST(DiagnoseCommand, TheWrongPlanIsSaidAndOddInputIsRemarked) {
   EXPECT_EQ(stuck.code, 0) << stuck.err;
   EXPECT_NE(stuck.out.find("gimbal_inner stands still for 120 samples"), std::string::npos) << stuck.out;
   EXPECT_NE(stuck.out.find("Verdict consistent"), std::string::npos) << stuck.out;
+}
+
+TEST(DiagnoseCommand, AnAbsentChannelIsAnEmptyOne) {
+  const ScratchFolder folder;
+  const std::string study = folder.write("s.toml", platform_study("0.3 deg/h/g^2")), recording = folder.file("r.csv");
+  ASSERT_EQ(driftscope("simulate " + study + " -o " + recording).code, 0);
+  Recording r = read_recording(recording, RecordingKind::platform, 9.80665);
+  for (Channel& c : r.channels)
+    if (c.name == "acc_z") c.values.assign(c.values.size(), std::nan(""));
+  write_recording(r, folder.file("empty.csv"));
+  std::erase_if(r.channels, [](const Channel& c) { return c.name == "acc_z"; });
+  write_recording(r, folder.file("absent.csv"));
+  const Answer empty = driftscope("diagnose " + study + " " + folder.file("empty.csv"));
+  const Answer absent = driftscope("diagnose " + study + " " + folder.file("absent.csv"));
+  ASSERT_EQ(absent.code, 0) << absent.err;
+  EXPECT_NE(absent.out.find("no acc_z: taken as not measured"), std::string::npos) << absent.out;
+  EXPECT_NE(absent.out.find("would show is not seen"), std::string::npos) << absent.out;
+  const auto answer = [](const std::string& out) { return out.substr(out.find("\nVerdict"), out.find("\n!", out.find("\nVerdict")) - out.find("\nVerdict")); };
+  EXPECT_EQ(answer(absent.out), answer(empty.out));
+  EXPECT_NE(absent.out.find("D_SS_x"), std::string::npos) << absent.out;
+  EXPECT_EQ(driftscope("identify " + study + " " + folder.file("absent.csv")).code, 0);
 }
 
 TEST(DiagnoseCommand, AdvisesOnRequest) {
