@@ -88,6 +88,11 @@ std::optional<SiteDoubt> site_doubt(const Study& study, const std::vector<Record
   };
   // Near the truth the cost grows with the square of the error: its parabola leads there, the better the smaller
   // the step. Far from it the cost may be concave: then several distances are tried at once.
+  const double small = 0.2 * detail::deg;
+  const std::vector<Point> beside = latitudes.at({best.latitude - small, best.latitude + small});
+  const double bend = beside[0].cost + beside[1].cost - 2.0 * best.cost;
+  const double promise = std::pow(beside[1].cost - beside[0].cost, 2) / (8.0 * bend);  // of the parabola's foot
+  if (bend > 0.0 && best.latitude == declared && promise < 0.5 * (best.cost - best.dof)) return std::nullopt;  // nothing to be had
   const auto follow = [&](std::initializer_list<double> steps_deg) {
     for (const double step_deg : steps_deg) {
       const double step = step_deg * detail::deg;
