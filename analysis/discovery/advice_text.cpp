@@ -55,26 +55,28 @@ std::string helped_text(const Advice& a, const Question& q, const std::vector<He
   for (const Position& p : a.plan) names.push_back(p.name.substr(p.name.find(": ") + 2));
   const std::string verified = std::isfinite(a.verified_sigma) ? fmt::format(" (in a simulation: {:.1f})", a.verified_sigma) : "";
   const std::string enough = a.expected_sigma < wanted ? ", which is not enough" : "";
-  std::set<std::pair<std::size_t, std::size_t>> ways;
-  for (const Helped& h : helped) ways.insert(std::minmax(h.pair.truth, h.pair.rival));
+  std::vector<Helped> ways;  // either may be true: the way round that ends closest
+  for (const Helped& h : helped)
+    if (std::ranges::none_of(ways, [&](const Helped& w) { return w.pair.truth == h.pair.rival && w.pair.rival == h.pair.truth; }))
+      ways.push_back(h);
   if (ways.size() == 1) {
-    const Helped& h = helped.front();
+    const Helped& h = ways.front();
     return fmt::format("{} and {}{} are {:.1f} sigma apart on this plan. Add {}: then {:.1f} sigma{}{}.", q.alternatives[h.pair.truth].label,
                        q.alternatives[h.pair.rival].label, sized(q), a.now_sigma, fmt::join(names, "; "), a.expected_sigma, verified,
                        enough);
   }
   std::vector<std::string> shown;
-  std::vector<Helped> hardest = helped;
+  std::vector<Helped> hardest = ways;
   std::ranges::stable_sort(hardest, {}, &Helped::now);
   for (const Helped& h : hardest)
     if (shown.size() < most_shown) shown.push_back(fmt::format("{} {:.1f} to {:.1f}", pair_text(q, h.pair), h.now, h.after));
-  const auto reached = std::ranges::count_if(helped, [&](const Helped& h) { return h.after >= wanted; });
-  const std::string state = q.size.empty() ? fmt::format("Of {} pairs, {} are less than {:g} sigma apart on this plan", asked, helped.size(), wanted)
+  const auto reached = std::ranges::count_if(ways, [&](const Helped& h) { return h.after >= wanted; });
+  const std::string state = q.size.empty() ? fmt::format("Of {} pairs, {} are less than {:g} sigma apart on this plan", asked, ways.size(), wanted)
                                            : fmt::format("Of {} effects {}, {} show with less than {:g} sigma on this plan and with more on another",
-                                                         asked, q.size, helped.size(), wanted);
+                                                         asked, q.size, ways.size(), wanted);
   return fmt::format("{}. Add {}: then {} of them come above {:g} sigma and {} stay between 2 and {:g}. Hardest now, in sigma before and "
                      "after: {}. The last comes to {:.1f}: {}{}.",
-                     state, fmt::join(names, "; "), reached, wanted, static_cast<std::ptrdiff_t>(helped.size()) - reached, wanted,
+                     state, fmt::join(names, "; "), reached, wanted, static_cast<std::ptrdiff_t>(ways.size()) - reached, wanted,
                      fmt::join(shown, ", "), a.expected_sigma, pair_text(q, helped.front().pair), verified);
 }
 

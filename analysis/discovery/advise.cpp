@@ -92,7 +92,9 @@ class Adviser {
     std::vector<Separation> before = separations(as_recorded(), q.alternatives, q.pairs);
     if (std::ranges::none_of(before, [&](const Separation& s) { return s.sigma < options_.wanted; }))
       return always ? std::vector<Advice>{nothing_to_add(q, before)} : std::vector<Advice>{};
-    const std::size_t asked = q.pairs.size();
+    const auto asked = static_cast<std::size_t>(std::ranges::count_if(q.pairs, [&](const Pair& p) {
+      return p.truth < p.rival || std::ranges::find(q.pairs, Pair{p.rival, p.truth}) == q.pairs.end();  // either way round once
+    }));
     std::vector<Pair> near;
     for (std::size_t k = 0; k < before.size(); ++k)
       if (before[k].sigma < options_.wanted) near.push_back(q.pairs[k]);
