@@ -19,13 +19,20 @@ namespace drift::discovery {
 namespace {
 
 /// Isolated samples far from their neighbours, taken out of the measurements: a sample is compared
-/// with the median of the five around it in its channel and position.
+/// with the median of the four around it in its channel and position. Where the instrument is noisier than
+/// declared (by more than the gate allows for), its own noise is the measure.
 std::size_t remove_spikes(Measurements& measured, const Timeline& timeline, const Readout& readout, const BatchResult& fit) {
   constexpr double gate = 8.0;  // sigmas of the difference, noise up to 1.5 times as declared included
+  constexpr double allowed = 1.5;
   constexpr int reach = 2;
   std::size_t removed = 0;
+  struct Difference {
+    int axis, sample;
+    double size, spread;  ///< from the median around it; of those around it
+  };
   const auto clean = [&](Mat3X& values, const Mat3X& residual) {
     const auto n = static_cast<int>(values.cols());
+    std::vector<Difference> all;
     for (int a = 0; a < 3; ++a)
       for (int i = 0; i < n; ++i) {
         if (!std::isfinite(residual(a, i))) continue;
@@ -38,11 +45,18 @@ std::size_t remove_spikes(Measurements& measured, const Timeline& timeline, cons
         if (around.size() < 3) continue;
         std::sort(around.begin(), around.end());
         const double median = 0.5 * (around[around.size() / 2] + around[(around.size() - 1) / 2]);
-        const double spread = around.back() - around.front();
-        if (std::abs(residual(a, i) - median) > gate + 2.0 * spread) {
-          values(a, i) = std::nan("");
-          ++removed;
-        }
+        all.push_back({a, i, std::abs(residual(a, i) - median), around.back() - around.front()});
+      }
+    if (all.empty()) return;
+    const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+    std::nth_element(all.begin(), middle, all.end(), [](const Difference& x, const Difference& y) { return x.size < y.size; });
+    constexpr double median_of_size = 0.6745 * 1.14;  // a normal against the median of four others
+    const double noise = middle->size / median_of_size;
+    const double limit = gate * (noise > allowed ? noise : 1.0);
+    for (const Difference& d : all)
+      if (d.size > limit + 2.0 * d.spread) {
+        values(d.axis, d.sample) = std::nan("");
+        ++removed;
       }
   };
   if (readout.accelerometers) clean(measured.acc, fit.acc_residual);
