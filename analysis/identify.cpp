@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "analysis/fit_either_equation.hpp"
 #include "analysis/recorded_test.hpp"
 #include "core/base/check.hpp"
 #include "core/estimate/start_consistency.hpp"
@@ -35,7 +36,7 @@ FilterRun estimate(const Study& study, const Job& job, const Timeline& timeline,
   run.filter = job.filter;
   run.start = job.start;
   run.ekf = run_ekf(filter, timeline, study.readout, measured, start, &run.history);
-  run.batch = fit_batch(filter, timeline, study.readout, measured, start);
+  run.batch = fit_either_equation(filter, timeline, study.readout, measured, start);
   return run;
 }
 
@@ -73,7 +74,7 @@ FilterRun estimate_in_the_loop(const Study& study, const Job& job, Timeline time
   run.start = job.start;
   run.ekf = ekf.result();
   run.history = ekf.history();
-  run.batch = fit_batch(filter, timeline, study.readout, sim.measured, start);
+  run.batch = fit_either_equation(filter, timeline, study.readout, sim.measured, start);
   return run;
 }
 

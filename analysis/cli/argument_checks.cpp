@@ -33,6 +33,23 @@ std::string check_path(const std::string& text) {
   return text.empty() ? "the name is empty (expected a file or folder). Give one, or leave the option out" : "";
 }
 
+std::string check_no_file(const std::string& text) {
+  for (const char* end : {".toml", ".csv", ".h5", ".hdf5", ".mat"})
+    if (text.ends_with(end) || text.find('/') != text.npos)
+      return fmt::format("'{}' is no term (expected terms, separated by commas, or nothing). Write the option behind the files", text);
+  return "";
+}
+
+std::vector<std::string> list_of(const std::string& text) {
+  std::vector<std::string> items;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    if (end > begin) items.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return items;
+}
+
 std::string unknown(std::string_view what, std::string_view given, std::span<const std::string_view> known) {
   return fmt::format("unknown {} '{}' (expected one of {}). {}", what, given, fmt::join(known, ", "),
                      config::suggestion(given, known, "`driftscope --help` explains them"));

@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace drift::cli {
 
@@ -18,6 +19,12 @@ std::string check_seed(const std::string& text);
 
 /// The name of a file or folder.
 std::string check_path(const std::string& text);
+
+/// Something that is no file: an option whose value may be left out must not swallow the file behind it.
+std::string check_no_file(const std::string& text);
+
+/// The items of "a,b,c"; empty ones are dropped.
+std::vector<std::string> list_of(const std::string& text);
 
 /// "unknown command 'runn' (expected one of ...). Did you mean 'run'?"
 std::string unknown(std::string_view what, std::string_view given, std::span<const std::string_view> known);

@@ -62,8 +62,10 @@ ExitCode replay(const std::string& folder, const RunChoice& choice, const std::s
 ExitCode export_results(const std::string& folder, const std::string& format, const std::string& output,
                         const StudyProgram& program);
 ExitCode report(const std::string& folder, const StudyProgram& program);
-ExitCode diagnose(const StudyArguments& arguments, const std::vector<std::string>& recordings,
-                  const std::string& folder);
+/// advise: terms to be told apart by further positions; empty: what the verdict suggests; not given: only
+/// where the verdict needs it.
+ExitCode diagnose(const StudyArguments& arguments, const std::vector<std::string>& recordings, const std::string& folder,
+                  const std::optional<std::vector<std::string>>& advise);
 ExitCode terms(const std::string& key);
 ExitCode version(bool json);
 

@@ -11,6 +11,7 @@
 #include "analysis/discovery/diagnose.hpp"
 #include "analysis/discovery/name_recordings.hpp"
 #include "analysis/discovery/prepare.hpp"
+#include "analysis/discovery/site_doubt.hpp"
 #include "analysis/report/diagnosis_folder.hpp"
 #include "analysis/report/diagnosis_text.hpp"
 #include "analysis/report/results_folder.hpp"
@@ -59,15 +60,16 @@ ExitCode diagnose_case(const StudyArguments& arguments, const Study& study, cons
 }
 
 ExitCode diagnose_platform(const StudyArguments& arguments, const Study& study, const std::vector<std::string>& paths,
-                           const std::string& folder) {
+                           const std::string& folder, const std::optional<std::vector<std::string>>& advise) {
   discovery::Prepared prepared = discovery::prepare(study, read_recordings(study, paths));
   std::fflush(stdout);
   discovery::DiagnoseOptions options;
   options.progress = stage_reporter(arguments.progress, "diagnose");
   discovery::Diagnosis found = discovery::diagnose(prepared.study, prepared.recordings, options);
+  if (const auto doubt = discovery::site_doubt(prepared.study, prepared.recordings, found)) found.sentence += " " + doubt->sentence;
   const auto began = std::chrono::steady_clock::now();
   found.advice = discovery::advise(prepared.study, prepared.recordings, found,
-                                   {.seed = study.monte_carlo.seed});
+                                   {.seed = study.monte_carlo.seed, .asked = advise});
   found.seconds.emplace_back("advice", std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count());
   found.remarks.insert(found.remarks.begin(), prepared.remarks.begin(), prepared.remarks.end());
   discovery::name_recordings(prepared.study, prepared.recordings, found);
@@ -77,14 +79,18 @@ ExitCode diagnose_platform(const StudyArguments& arguments, const Study& study, 
 
 }  // namespace
 
-ExitCode diagnose(const StudyArguments& arguments, const std::vector<std::string>& paths, const std::string& folder) {
+ExitCode diagnose(const StudyArguments& arguments, const std::vector<std::string>& paths, const std::string& folder,
+                  const std::optional<std::vector<std::string>>& advise) {
   const Study study = arguments.read();
   require_nominal(study);
+  if (advise && study.kind == RecordingKind::strapdown)
+    throw InputError(ExitCode::usage, "--advise: a strapdown study has no positions to add (expected a platform study). Leave it out; "
+                                      "more turns about more axes are what helps");
   require_own_folder(folder, "diagnose");
   require_writable_folder(folder);
   const mc::ThreadCount threads(arguments.threads);
   return study.kind == RecordingKind::strapdown ? diagnose_case(arguments, study, paths, folder)
-                                                : diagnose_platform(arguments, study, paths, folder);
+                                                : diagnose_platform(arguments, study, paths, folder, advise);
 }
 
 }  // namespace drift::cli

@@ -60,13 +60,17 @@ class Program {
 
     CLI::App* diagnose = command("diagnose", "locate a mismatch, name the physics left out, model it, show the fit improve",
                                  "driftscope diagnose configs/diagnose_xsens.toml recording.csv -o out/diagnosis",
-                                 [this] { return cli::diagnose(study_, recordings_, output_); });
+                                 [this] { return cli::diagnose(study_, recordings_, output_, advise()); });
     add_study(*diagnose);
     diagnose->add_option("recordings", recordings_, "recordings of the study's plan (.csv, .h5, .mat)")->required();
     diagnose->add_option("-o,--output", output_, "folder for diagnosis.json, report, pictures and patched.toml")
         ->check(cli::check_path);
-    diagnose->add_option("--progress", study_.progress, "auto, plain, json or none")
-        ->check(CLI::IsMember({"auto", "plain", "json", "none"}));
+    advise_option_ = diagnose->add_option("--advise", advise_, "which further positions would tell these terms apart and from the "
+                                          "nominal model; without terms: what the verdict suggests")
+                         ->type_name("[TERM,...]")
+                         ->expected(0, 1)
+                         ->check(cli::check_no_file);
+    add_progress(*diagnose);
 
     CLI::App* terms = command("terms", "list the physics terms, or explain one",
                               "driftscope terms gyro_misalignment", [this] { return cli::terms(key_); });
@@ -103,6 +107,11 @@ class Program {
   }
 
  private:
+  std::optional<std::vector<std::string>> advise() const {
+    if (advise_option_->count() == 0) return std::nullopt;
+    return cli::list_of(advise_);
+  }
+
   static std::function<std::string(std::string)> whole(std::uint64_t least, std::uint64_t most) {
     return [=](const std::string& text) { return cli::check_whole(text, least, most); };
   }
@@ -221,6 +230,8 @@ class Program {
   cli::RankArguments rank_;
   cli::RunArguments run_options_;
   cli::RunChoice choice_;
+  CLI::Option* advise_option_ = nullptr;
+  std::string advise_;
   std::string output_, key_, folder_, format_, sample_ = "1%";
   std::vector<std::string> recordings_;
   std::uint64_t run_ = 0;

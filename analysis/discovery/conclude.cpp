@@ -73,6 +73,26 @@ void say_partial(const Examination& nominal, const Search& found, Diagnosis& d) 
                                     "filter and diagnose again", fmt::join(labels, " and "), best->after.set.candidates[k].label));
 }
 
+void say_beyond_prior(const BatchResult& nominal, Diagnosis& d) {
+  if (d.verdict == Verdict::named || d.verdict == Verdict::ambiguous) return;  // the cause has moved them
+  constexpr double unphysical = 5.0;  // prior sigmas
+  constexpr std::size_t most = 6;
+  std::vector<std::string> far;
+  double farthest = 0.0;
+  for (const ParameterEstimate& p : nominal.estimate.parameters) {
+    const double off = p.prior_sigma > 0.0 ? std::abs(p.value - p.prior_mean) / p.prior_sigma : 0.0;
+    if (off <= unphysical) continue;
+    far.emplace_back(TermLibrary::specs[p.param].key.view());
+    farthest = std::max(farthest, off);
+  }
+  if (far.empty()) return;
+  const std::string more = far.size() > most ? fmt::format(" and {} more", far.size() - most) : "";
+  far.resize(std::min(most, far.size()));
+  d.remarks.push_back(fmt::format("The nominal fit takes {}{} up to {:.0f} sigmas from where their priors have them. If that is not this "
+                                  "platform, the study is not of this recording: check [site] latitude, axes and commands of the plan, "
+                                  "and the priors", fmt::join(far, ", "), more, farthest));
+}
+
 void say_equation(Diagnosis& d) {
   const bool closure_is_a_cause = std::ranges::any_of(d.causes, [](const Cause& c) { return c.term == "frame_closure"; });
   if (!std::isfinite(d.other_equation_gain) || closure_is_a_cause || d.other_equation_gain < -equation_told) return;

@@ -13,6 +13,11 @@ void weigh_candidates(const Examination& nominal, const Search& found, Diagnosis
 /// For `unexplained`: how far the best explanation goes that was not good enough.
 void say_partial(const Examination& nominal, const Search& found, Diagnosis& d);
 
+/// Nominal parameters that the recording moves more than five sigmas of their prior: the fit is good, what
+/// it says is not to be believed (isotropic D_I, for one, is Earth rate about Up). Where a cause is named it
+/// is what has moved them.
+void say_beyond_prior(const BatchResult& nominal, Diagnosis& d);
+
 /// Whether the drift equation is (5) or (6) is part of the nominal model: where the test does not tell,
 /// its agreement says nothing of it (physics.md 1.7), and the verdict says so.
 void say_equation(Diagnosis& d);

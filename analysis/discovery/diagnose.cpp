@@ -11,6 +11,7 @@
 #include "analysis/discovery/explained.hpp"
 #include "analysis/discovery/judge_members.hpp"
 #include "analysis/discovery/locate.hpp"
+#include "analysis/discovery/patched_study.hpp"
 #include "analysis/recorded_test.hpp"
 #include "core/base/check.hpp"
 #include "core/estimate/starts.hpp"
@@ -20,13 +21,20 @@ namespace drift::discovery {
 namespace {
 
 /// Isolated samples far from their neighbours, taken out of the measurements: a sample is compared
-/// with the median of the five around it in its channel and position.
+/// with the median of the four around it in its channel and position. Where the instrument is noisier than
+/// declared (by more than the gate allows for), its own noise is the measure.
 std::size_t remove_spikes(Measurements& measured, const Timeline& timeline, const Readout& readout, const BatchResult& fit) {
   constexpr double gate = 8.0;  // sigmas of the difference, noise up to 1.5 times as declared included
+  constexpr double allowed = 1.5;
   constexpr int reach = 2;
   std::size_t removed = 0;
+  struct Difference {
+    int axis, sample;
+    double size, spread;  ///< from the median around it; of those around it
+  };
   const auto clean = [&](Mat3X& values, const Mat3X& residual) {
     const auto n = static_cast<int>(values.cols());
+    std::vector<Difference> all;
     for (int a = 0; a < 3; ++a)
       for (int i = 0; i < n; ++i) {
         if (!std::isfinite(residual(a, i))) continue;
@@ -39,11 +47,18 @@ std::size_t remove_spikes(Measurements& measured, const Timeline& timeline, cons
         if (around.size() < 3) continue;
         std::sort(around.begin(), around.end());
         const double median = 0.5 * (around[around.size() / 2] + around[(around.size() - 1) / 2]);
-        const double spread = around.back() - around.front();
-        if (std::abs(residual(a, i) - median) > gate + 2.0 * spread) {
-          values(a, i) = std::nan("");
-          ++removed;
-        }
+        all.push_back({a, i, std::abs(residual(a, i) - median), around.back() - around.front()});
+      }
+    if (all.empty()) return;
+    const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+    std::nth_element(all.begin(), middle, all.end(), [](const Difference& x, const Difference& y) { return x.size < y.size; });
+    constexpr double median_of_size = 0.6745 * 1.14;  // a normal against the median of four others
+    const double noise = middle->size / median_of_size;
+    const double limit = gate * (noise > allowed ? noise : 1.0);
+    for (const Difference& d : all)
+      if (d.size > limit + 2.0 * d.spread) {
+        values(d.axis, d.sample) = std::nan("");
+        ++removed;
       }
   };
   if (readout.accelerometers) clean(measured.acc, fit.acc_residual);
@@ -185,6 +200,7 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const Test& given, std::spa
   }
   if (d.verdict != Verdict::consistent) fill_causes(nominal, found, d);
   for (std::size_t k = 0; k < member_gains.size() && k < d.causes.size(); ++k) d.causes[k].held_out_gain = member_gains[k];
+  if (d.has_patch) d.patched = started_where_found(d.patched, d.causes);
   weigh_candidates(nominal, found, d);
   // What the cause explains, by the refit: what it takes out of the residuals.
   LinearProblem shown = nominal.problem;
@@ -234,6 +250,7 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const Test& given, std::spa
   stages.end();
   d.sentence = sentence(d);
   say_partial(nominal, found, d);
+  say_beyond_prior(nominal.fit, d);
   say_equation(d);
   return d;
 }

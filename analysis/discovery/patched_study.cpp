@@ -76,6 +76,28 @@ FilterSpec patched_filter(const FilterSpec& nominal, const std::vector<Cause>& c
   return patched;
 }
 
+FilterSpec started_where_found(FilterSpec patched, const std::vector<Cause>& causes) {
+  constexpr auto lambda = TermLibrary::index("lambda");
+  std::vector<const CauseParameter*> far_from_linear, found;
+  for (const Cause& cause : causes) {
+    if (cause.set != 0) continue;
+    for (const CauseParameter& p : cause.parameters) {
+      if (!patched.active[p.param] || patched.priors[p.param].sigma() <= 0.0) continue;
+      found.push_back(&p);
+      if (p.param == lambda || TermLibrary::specs[p.param].kind == ParamKind::nonlinear) far_from_linear.push_back(&p);
+    }
+  }
+  if (far_from_linear.empty()) return patched;
+  if (patched.starts.empty()) patched.starts.emplace_back();
+  for (Start& start : patched.starts)
+    for (const CauseParameter* p : found) {
+      std::erase_if(start, [&](const auto& given) { return given.first == p->param; });
+      start.emplace_back(p->param, p->value * TermLibrary::specs[p->param].unit.to_si);
+    }
+  patched.drawn_starts = static_cast<int>(patched.starts.size());
+  return patched;
+}
+
 std::string patched_study(const Study& study, const FilterSpec& patched) {
   Node root = parsed(study);
   Node* filters = root.find("filter");
@@ -100,6 +122,18 @@ std::string patched_study(const Study& study, const FilterSpec& patched) {
     at(parameters, std::string(spec.key.view())) = prior_node(patched.priors[i], spec.unit);
   }
   if (!parameters.members.empty()) at(filter, "parameters") = std::move(parameters);
+
+  if (patched.starts != nominal.starts) {
+    Node& starts = at(filter, "starts");
+    starts = Node{};
+    starts.kind = Node::Kind::array;
+    for (const Start& start : patched.starts) {
+      Node one;
+      for (const auto& [i, value] : start)
+        at(one, std::string(TermLibrary::specs[i].key.view())) = quantity_node(value, TermLibrary::specs[i].unit);
+      starts.items.push_back(std::move(one));
+    }
+  }
 
   const auto noise = [&](const char* key, double now, double before, const Unit& unit) {
     if (now != before) at(filter, key) = quantity_node(now, unit);

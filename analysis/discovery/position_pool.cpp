@@ -11,6 +11,8 @@
 namespace drift::discovery {
 namespace {
 
+constexpr double longer = 3.0;  // long dwells over usual ones
+
 /// Letters of a local direction and its opposite.
 struct Direction {
   int axis;   ///< 0 North, 1 West, 2 Up
@@ -69,10 +71,10 @@ bool possible(const Addition& addition, const Site& site) {
 
 }  // namespace
 
-std::vector<Addition> position_pool(double dwell, double sample, const Site& site) {
+std::vector<Addition> position_pool(double usual_dwell, double sample, const Site& site) {
   std::vector<Addition> pool;
   std::string why;
-  const auto position = [&](const std::string& axes, CommandLaw mode, Entry entry, std::optional<double> heading) {
+  const auto position = [&](const std::string& axes, CommandLaw mode, Entry entry, std::optional<double> heading, double dwell) {
     Position p;
     p.axes = axes;
     p.R_lp = parse_axes(axes, why).value_or(Mat3::Identity());
@@ -81,9 +83,10 @@ std::vector<Addition> position_pool(double dwell, double sample, const Site& sit
     p.mode = mode;
     p.entry = entry;
     p.case_heading = heading;
-    p.name = fmt::format("{}, {}{}{}", axes, mode == CommandLaw::level ? "level" : "free",
+    p.name = fmt::format("{}, {}{}{}{}", axes, mode == CommandLaw::level ? "level" : "free",
                          entry == Entry::torqued ? ", slewed" : "",
-                         heading ? fmt::format(", case at {:.0f} deg", *heading / unit::deg.to_si) : "");
+                         heading ? fmt::format(", case at {:.0f} deg", *heading / unit::deg.to_si) : "",
+                         dwell == usual_dwell ? "" : fmt::format(", for {:.3g} min", dwell / unit::minute.to_si));
     return p;
   };
   const auto add = [&](Addition addition) {
@@ -94,11 +97,12 @@ std::vector<Addition> position_pool(double dwell, double sample, const Site& sit
       for (const std::string& axes : orientations(turned)) {
         if (!parse_axes(axes, why)) continue;
         for (const double heading : {0.0, 90.0 * unit::deg.to_si})
-          add({position(axes, mode, Entry::caged, heading)});
+          add({position(axes, mode, Entry::caged, heading, usual_dwell)});
+        if (!turned) add({position(axes, mode, Entry::caged, 0.0, longer * usual_dwell)});
       }
     for (const std::string& axes : orientations(false))
       if (axes != "x=N y=W z=U")
-        add({position("x=N y=W z=U", mode, Entry::caged, {}), position(axes, mode, Entry::torqued, {})});
+        add({position("x=N y=W z=U", mode, Entry::caged, {}, usual_dwell), position(axes, mode, Entry::torqued, {}, usual_dwell)});
   }
   return pool;
 }

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "analysis/discovery/fill_gaps.hpp"
+#include "analysis/discovery/plan_check.hpp"
 #include "core/base/check.hpp"
 #include "core/sim/measurements.hpp"
 #include "core/sim/reduce.hpp"
@@ -157,7 +158,7 @@ Prepared prepare(const Study& study, const std::vector<Recording>& recordings, s
   }
   for (const Recording& r : p.recordings) {
     try {
-      lay_out(r, p.study.plan, p.study.site);
+      check_plan(p.study, r, p.remarks, wrong);
     } catch (const InputError& error) {
       wrong.insert(wrong.end(), error.messages().begin(), error.messages().end());
     }

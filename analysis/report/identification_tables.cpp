@@ -31,12 +31,15 @@ std::string status_text(EstimateStatus status) {
   return "";
 }
 
+/// Five sigma of chi-square over m, whose variance is 2/m: no right model does that.
+bool misfit(const EstimateResult& result) {
+  const double m = static_cast<double>(result.measured);
+  return result.measured > 0 && std::abs(result.statistic_per_dof() - 1.0) > 5.0 * std::sqrt(2.0 / m);
+}
+
 Cell status_cell(const EstimateResult& result) {
   if (result.status != EstimateStatus::ok) return {status_text(result.status), Tone::bad};
-  // Five sigma of chi-square over m, whose variance is 2/m: no right model does that.
-  const double m = static_cast<double>(result.measured);
-  const bool misfit = result.measured > 0 && std::abs(result.statistic_per_dof() - 1.0) > 5.0 * std::sqrt(2.0 / m);
-  return misfit ? Cell{"misfit", Tone::bad} : Cell{"ok"};
+  return misfit(result) ? Cell{"misfit", Tone::bad} : Cell{"ok"};
 }
 
 Cell statistic_cell(const EstimateResult& result) {
@@ -72,6 +75,22 @@ std::string prior_text(const Layout& layout, const std::string_view group) {
   if (std::ranges::count(sigmas, sigmas.front()) != static_cast<std::ptrdiff_t>(sigmas.size()))
     for (std::size_t i = 1; i < sigmas.size(); ++i) text += ", " + sigmas[i];
   return text;
+}
+
+/// Parameters that the two estimators, given the same, see differently: further apart than five of the
+/// smaller sigma, or with sigmas that differ threefold. Empty if one failed, or
+/// if the model is wrong for both.
+std::vector<std::string> disputed(const FilterRun& run) {
+  constexpr double apart = 5.0, unlike = 3.0;
+  std::vector<std::string> keys;
+  if (run.ekf.status != EstimateStatus::ok || run.batch.estimate.status != EstimateStatus::ok || misfit(run.batch.estimate))
+    return keys;
+  for (std::size_t k = 0; k < run.ekf.parameters.size(); ++k) {
+    const ParameterEstimate &e = run.ekf.parameters[k], &b = run.batch.estimate.parameters[k];
+    const auto [less, more] = std::minmax(e.sigma, b.sigma);
+    if (std::abs(e.value - b.value) > apart * less || more > unlike * less) keys.emplace_back(TermLibrary::specs[e.param].key.view());
+  }
+  return keys;
 }
 
 std::string joined(const std::vector<std::string>& texts) {
@@ -227,6 +246,16 @@ std::vector<std::string> headlines(const Study& study, const Identification& id)
                        : fmt::format("outside the 95 % band of a right model from {} of {} "
                                      "starts",
                                      outside, runs.size())));
+    // With process noise the two answer different questions.
+    if (auto keys = disputed(*runs.front()); !keys.empty() && !study.filters[s.filter].noise.any()) {
+      constexpr std::size_t most = 8;
+      const std::size_t count = keys.size();
+      if (count > most) keys.resize(most);
+      all.push_back(fmt::format("{}: from start 1, EKF and batch fit are more than five sigma apart, or claim sigmas that differ "
+                                "threefold, in {} of {} parameters: {}{}. The EKF linearises once, where it is then; what is not linear over its prior leads it astray with a "
+                                "small sigma. Use the batch column.",
+                                name, count, s.spread.size(), joined(keys), count > most ? " and others" : ""));
+    }
     if (!s.degeneracies.empty())
       all.push_back(fmt::format(
           "{}: {} combinations of its {} parameters cannot be seen in this test at all.", name,

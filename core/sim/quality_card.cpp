@@ -113,10 +113,18 @@ bool is_sensor(const ChannelQuality& q) {
 void remark(const Recording& r, RecordingKind kind, QualityCard& card) {
   if (kind == RecordingKind::platform) {
     if (!r.find("cmd_x"))
-      card.remarks.push_back("no commands (cmd_*): the platform is taken as not commanded");
+      card.remarks.push_back("no commands (cmd_*): those of the plan are taken");
     if (!r.find("phase")) card.remarks.push_back("no phase: every row is taken as dwell");
-    if (!r.find("acc_x")) card.remarks.push_back("no accelerometers");
-    if (!r.find("gimbal_outer")) card.remarks.push_back("no gimbal angles");
+    for (const auto& triple : {channel_triples[0], channel_triples[1]}) {
+      std::vector<std::string_view> absent;
+      for (const auto name : triple.names)
+        if (!r.find(name)) absent.push_back(name);
+      if (absent.size() == triple.names.size())
+        card.remarks.push_back(fmt::format("no {}", triple.what));
+      else
+        for (const auto name : absent)
+          card.remarks.push_back(fmt::format("no {}: taken as not measured", name));
+    }
   }
   if (!card.between.empty())
     card.remarks.push_back(fmt::format(

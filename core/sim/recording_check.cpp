@@ -87,8 +87,10 @@ void check_columns(const Recording& r, RecordingKind kind, Problems& problems) {
     const auto has = [&](std::string_view name) { return r.find(name) != nullptr; };
     const auto count = std::ranges::count_if(triple.names, has);
     const bool required = strapdown && (triple.what == "gyros" || triple.what == "accelerometers");
+    // A sensor of a platform that was not recorded is one that was not measured: said by the quality card.
+    const bool sensors = triple.what == "accelerometers" || triple.what == "gimbal angles";
     for (const auto name : triple.names) {
-      if (has(name)) continue;
+      if (has(name) || (sensors && !strapdown)) continue;
       if (count > 0)
         problems.add(name,
                      fmt::format("the column is missing while other {} are there", triple.what),
@@ -97,7 +99,11 @@ void check_columns(const Recording& r, RecordingKind kind, Problems& problems) {
         need(name);
     }
   }
-  if (!strapdown && !r.find("acc_x") && !r.find("gimbal_outer"))
+  const bool measured = std::ranges::any_of(r.channels, [](const Channel& c) {
+    const auto is_one = [&](const ChannelTriple& t) { return std::ranges::find(t.names, c.name) != t.names.end(); };
+    return is_one(channel_triples[0]) || is_one(channel_triples[1]);
+  });
+  if (!strapdown && !measured)
     problems.add("acc_x", "there are neither accelerometers nor gimbal angles",
                  "acc_x, acc_y, acc_z or gimbal_outer, gimbal_middle, gimbal_inner, or both", hint);
 }

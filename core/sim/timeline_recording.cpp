@@ -1,5 +1,7 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -32,6 +34,8 @@ class Reader {
   Timeline read() {
     timeline_.site = site_;
     timeline_.positions = static_cast<int>(plan_.positions.size());
+    check_positions();
+    if (!errors_.empty()) throw InputError(ExitCode::recording, errors_);
     for (std::size_t row = 0; row < rec_.rows(); ++row) add(row);
     if (!errors_.empty()) throw InputError(ExitCode::recording, errors_);
     place_nodes(timeline_, chain_start_);
@@ -48,15 +52,30 @@ class Reader {
                                     row < rec_.lines.size() ? rec_.lines[row] : row + 1, what));
   }
 
+  /// Positions that the plan does not have, all in one message.
+  void check_positions() {
+    const auto& numbers = rec_.find("position")->values;
+    const auto planned = static_cast<double>(plan_.positions.size());
+    std::vector<double> others;
+    std::size_t first = 0, rows = 0;
+    for (std::size_t row = 0; row < numbers.size(); ++row) {
+      if (numbers[row] >= 1.0 && numbers[row] <= planned) continue;
+      if (rows++ == 0) first = row;
+      if (std::ranges::find(others, numbers[row]) == others.end()) others.push_back(numbers[row]);
+    }
+    if (rows == 0) return;
+    constexpr std::size_t most = 8;
+    const std::string more = others.size() > most ? fmt::format(" and {} more", others.size() - most) : "";
+    const bool several = others.size() > 1;
+    others.resize(std::min(most, others.size()));
+    complain(first, fmt::format("position{} {}{} {} not in the plan, in {} rows from here on (expected positions 1 to {}). Use the plan "
+                                "the recording was made with, or correct the column", several ? "s" : "", fmt::join(others, ", "), more,
+                                several ? "are" : "is", rows, plan_.positions.size()));
+  }
+
   void add(std::size_t row) {
     const double t = rec_.find("time")->values[row];
     const double number = rec_.find("position")->values[row];
-    if (!(number >= 1.0 && number <= static_cast<double>(plan_.positions.size()))) {
-      complain(row, fmt::format("position {} is not in the plan (positions 1 to {}). Use the plan the "
-                                "recording was made with, or correct the column", number,
-                                plan_.positions.size()));
-      return;
-    }
     Interval i;
     i.position = static_cast<int>(std::lround(number)) - 1;
     const Position& position = plan_.positions[i.position];

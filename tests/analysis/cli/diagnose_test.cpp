@@ -1,6 +1,8 @@
 // `driftscope diagnose` as a user runs it.
 #include <nlohmann/json.hpp>
 
+#include <cmath>
+
 #include "core/base/check.hpp"
 #include "core/sim/recording.hpp"
 #include "tests/support/program.hpp"
@@ -155,6 +157,52 @@ TEST(DiagnoseCommand, TheWrongPlanIsSaidAndOddInputIsRemarked) {
   EXPECT_EQ(stuck.code, 0) << stuck.err;
   EXPECT_NE(stuck.out.find("gimbal_inner stands still for 120 samples"), std::string::npos) << stuck.out;
   EXPECT_NE(stuck.out.find("Verdict consistent"), std::string::npos) << stuck.out;
+}
+
+TEST(DiagnoseCommand, AnAbsentChannelIsAnEmptyOne) {
+  const ScratchFolder folder;
+  const std::string study = folder.write("s.toml", platform_study("0.3 deg/h/g^2")), recording = folder.file("r.csv");
+  ASSERT_EQ(driftscope("simulate " + study + " -o " + recording).code, 0);
+  Recording r = read_recording(recording, RecordingKind::platform, 9.80665);
+  for (Channel& c : r.channels)
+    if (c.name == "acc_z") c.values.assign(c.values.size(), std::nan(""));
+  write_recording(r, folder.file("empty.csv"));
+  std::erase_if(r.channels, [](const Channel& c) { return c.name == "acc_z"; });
+  write_recording(r, folder.file("absent.csv"));
+  const Answer empty = driftscope("diagnose " + study + " " + folder.file("empty.csv"));
+  const Answer absent = driftscope("diagnose " + study + " " + folder.file("absent.csv"));
+  ASSERT_EQ(absent.code, 0) << absent.err;
+  EXPECT_NE(absent.out.find("no acc_z: taken as not measured"), std::string::npos) << absent.out;
+  EXPECT_NE(absent.out.find("would show is not seen"), std::string::npos) << absent.out;
+  const auto answer = [](const std::string& out) { return out.substr(out.find("\nVerdict"), out.find("\n!", out.find("\nVerdict")) - out.find("\nVerdict")); };
+  EXPECT_EQ(answer(absent.out), answer(empty.out));
+  EXPECT_NE(absent.out.find("D_SS_x"), std::string::npos) << absent.out;
+  EXPECT_EQ(driftscope("identify " + study + " " + folder.file("absent.csv")).code, 0);
+}
+
+TEST(DiagnoseCommand, AdvisesOnRequest) {
+  const ScratchFolder folder;
+  const std::string study = folder.write("s.toml", platform_study("0 deg/h/g^2")), recording = folder.file("r.csv");
+  ASSERT_EQ(driftscope("simulate " + study + " -o " + recording).code, 0);
+  const std::string diagnose = "diagnose " + study + " " + recording;
+  EXPECT_EQ(driftscope(diagnose).out.find("one prior sigma"), std::string::npos);
+  const Answer a = driftscope(diagnose + " --advise torquer_heating.x,sag -o " + folder.file("out"));
+  ASSERT_EQ(a.code, 0) << a.err;
+  const auto json = nlohmann::json::parse(text_of(folder.file("out") + "/diagnosis.json"));
+  EXPECT_EQ(json["verdict"], "consistent");
+  ASSERT_FALSE(json["advice"].empty());
+  EXPECT_FALSE(json["advice"][0]["plan"].empty());
+  EXPECT_EQ(driftscope("check " + folder.file("out") + "/advised.toml").code, 0);
+  // Without terms: whatever the plan hides. The option does not swallow the files behind it.
+  const Answer all = driftscope("diagnose --advise " + study + " " + recording);
+  ASSERT_EQ(all.code, 0) << all.err;
+  EXPECT_NE(all.out.find("effects at one prior sigma"), std::string::npos) << all.out;
+  const Answer wrong = driftscope(diagnose + " --advise=sagg,D_F_x");
+  EXPECT_EQ(wrong.code, static_cast<int>(ExitCode::usage));
+  EXPECT_NE(wrong.err.find("Did you mean 'sag'"), std::string::npos) << wrong.err;
+  EXPECT_NE(wrong.err.find("D_F_x"), std::string::npos) << wrong.err;
+  EXPECT_EQ(driftscope("diagnose " + config("diagnose_xsens.toml") + " " + tilted_case(folder) + " --advise").code,
+            static_cast<int>(ExitCode::usage));
 }
 
 TEST(DiagnoseCommand, RefusesWhatItCannotDiagnose) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "analysis/discovery/position_pool.hpp"
@@ -107,6 +108,117 @@ TEST(Advise, SeparatesAlternativesThatLookAlike) {
   EXPECT_GT(a.expected_sigma, a.now_sigma);
   EXPECT_GT(a.expected_sigma, 5.0) << a.text;
   EXPECT_NEAR(a.verified_sigma, a.expected_sigma, 4.0 + 0.1 * a.expected_sigma) << a.text;
+}
+
+AdviseOptions asking(std::vector<std::string> terms = {}) { return {.asked = std::move(terms)}; }
+
+TEST(Advise, OnRequestAnEffectThatThePlanHidesGetsAPositionAndASimulationAgrees) {
+  const Study s = level_study();
+  Diagnosis d;
+  d.nominal = s.filters.front();
+  // Heating of a torquer follows the command; on level positions it is a constant that D_F takes.
+  const auto advice = advise(s, {simulated(s)}, d, asking({"torquer_heating.x"}));
+  ASSERT_FALSE(advice.empty());
+  const Advice& a = advice.front();
+  EXPECT_LT(a.now_sigma, 1.0) << a.text;
+  ASSERT_FALSE(a.plan.empty()) << a.text;
+  EXPECT_GT(a.expected_sigma, 8.0) << a.text;
+  EXPECT_NEAR(a.verified_sigma, a.expected_sigma, 4.0 + 0.1 * a.expected_sigma) << a.text;
+  EXPECT_NE(a.text.find("torquer_heating.x"), std::string::npos) << a.text;
+  EXPECT_NE(a.text.find("at one prior sigma"), std::string::npos) << a.text;
+}
+
+TEST(Advise, OnRequestAConsistentRecordingIsToldWhatItsPlanHides) {
+  const Study s = level_study();
+  Diagnosis d;
+  d.nominal = s.filters.front();
+  d.other_equation_gain = -0.3;
+  const auto advice = advise(s, {simulated(s)}, d, asking());
+  ASSERT_GE(advice.size(), 2u);
+  const auto& seen = advice.front().separates;
+  EXPECT_FALSE(advice.front().plan.empty());
+  EXPECT_TRUE(std::any_of(seen.begin(), seen.end(), [](const std::string& l) { return l.starts_with("torquer_heating.x"); }));
+  EXPECT_NE(std::find(seen.begin(), seen.end(), "eq. (6)"), seen.end());
+  // What no position shows is said apart, without a plan.
+  EXPECT_TRUE(advice.back().plan.empty());
+  EXPECT_NE(advice.back().text.find("possible additions show"), std::string::npos) << advice.back().text;
+  for (const std::string& label : advice.back().separates)
+    if (label != "the nominal model") EXPECT_EQ(std::find(seen.begin(), seen.end(), label), seen.end()) << label;
+}
+
+TEST(Advise, TwinsAreGivenNoFutilePosition) {
+  const Study s = level_study();
+  Diagnosis d;
+  d.nominal = s.filters.front();
+  d.verdict = Verdict::named;
+  // C_sag_z a_x^2 on accelerometer y is K_oo_y, its other part K_ip_x, which the nominal model fits.
+  d.causes = {cause("accelerometer_cross", "K_oo_y", 60.0, 0)};
+  d.causes.front().confusable_with = {{"sag", "z", 1.0}};
+  const auto advice = advise(s, {simulated(s)}, d, asking());
+  ASSERT_EQ(advice.size(), 1u);
+  EXPECT_TRUE(advice.front().plan.empty());
+  EXPECT_NE(advice.front().text.find("No position of the pool separates accelerometer_cross (K_oo_y) and sag.z (C_sag_z)"),
+            std::string::npos) << advice.front().text;
+  // K_po has no twin: it is not called one.
+  d.causes = {cause("accelerometer_cross", "K_po_y", 60.0, 0)};
+  d.causes.front().confusable_with = {{"sag", "z", 0.6}};
+  for (const Advice& a : advise(s, {simulated(s)}, d, asking()))
+    EXPECT_EQ(a.text.find("No position of the pool separates"), std::string::npos) << a.text;
+}
+
+TEST(Advise, TwinsOfAnAmbiguousVerdictAreSaidToBeTwins) {
+  const Study s = level_study();
+  Diagnosis d;
+  d.nominal = s.filters.front();
+  d.verdict = Verdict::ambiguous;
+  d.causes = {cause("accelerometer_cross", "K_oo_y", 60.0, 0), cause("sag", "C_sag_z", 12.0, 1)};
+  const auto advice = advise(s, {simulated(s)}, d);
+  ASSERT_EQ(advice.size(), 1u);
+  EXPECT_TRUE(advice.front().plan.empty());
+  EXPECT_NE(advice.front().text.find("Another measurement is needed"), std::string::npos) << advice.front().text;
+}
+
+TEST(Advise, WhatGrowsWithTimeIsAskedAtTheTimeTheAdditionWouldHave) {
+  // The simulation runs recorded and added positions in turn; added at time zero a ramp would show less.
+  const Study s = level_study();
+  Diagnosis d;
+  d.nominal = s.filters.front();
+  const auto advice = advise(s, {simulated(s)}, d, {.most = 1, .wanted = 50.0, .asked = std::vector<std::string>{"drift_ramp.x"}});
+  ASSERT_FALSE(advice.empty());
+  const Advice& a = advice.front();
+  ASSERT_FALSE(a.plan.empty()) << a.text;
+  EXPECT_NEAR(a.verified_sigma, a.expected_sigma, 2.0) << a.text;  // two of its sigmas
+}
+
+TEST(Advise, TermsThatCannotBeAskedForAreSaidAllAtOnce) {
+  const Study s = level_study();
+  Diagnosis d;
+  d.nominal = s.filters.front();
+  try {
+    advise(s, {simulated(s)}, d, asking({"sagg", "eta_x", "magnetic_drift", "temperature_drift", "sag"}));
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.code(), ExitCode::usage);
+    ASSERT_EQ(error.messages().size(), 4u);
+    EXPECT_NE(error.messages()[0].find("Did you mean 'sag'"), std::string::npos);
+    EXPECT_NE(error.messages()[1].find("eta_x"), std::string::npos);
+    EXPECT_NE(error.messages()[2].find("field_n"), std::string::npos);
+    EXPECT_NE(error.messages()[3].find("temperature"), std::string::npos);
+  }
+}
+
+TEST(Advise, OnRequestAnUnexplainedMisfitIsToldWhichPositionToRepeat) {
+  const Study s = level_study();
+  Diagnosis d;
+  d.nominal = s.filters.front();
+  d.verdict = Verdict::unexplained;
+  EXPECT_TRUE(advise(s, {simulated(s)}, d).empty());
+  Share share;
+  share.position = 3;
+  d.where.positions = {share};
+  const auto advice = advise(s, {simulated(s)}, d, asking());
+  ASSERT_EQ(advice.size(), 1u);
+  EXPECT_NE(advice.front().text.find("Repeat position 3"), std::string::npos);
 }
 
 }  // namespace

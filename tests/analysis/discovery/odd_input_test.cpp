@@ -89,6 +89,29 @@ TEST(OddInput, ThreadsDoNotChangeWhatIsFound) {
   EXPECT_EQ(to_json(one), to_json(three));
 }
 
+TEST(OddInput, NoiseTenTimesAsDeclaredIsSaidAndMakesNoOutliersButASpikeIsStillOne) {
+  Study s = study();
+  s.readout.gimbal_noise /= 10.0;
+  s.readout.accelerometer_noise /= 10.0;
+  DiagnoseOptions options;
+  options.starts = 1;
+  options.whiteness_draws = 0;
+  const auto outliers = [&](const Recording& r) {
+    const Diagnosis d = diagnose(s, {r}, options);
+    EXPECT_EQ(d.verdict, Verdict::consistent) << d.sentence;
+    EXPECT_NE(d.sentence.find("times as declared"), std::string::npos) << d.sentence;
+    std::size_t count = 0;
+    for (const NoiseFinding& f : d.noise)
+      if (f.component == "outliers") count += f.count;
+    return count;
+  };
+  Recording r = made(0.0, 0);
+  EXPECT_EQ(outliers(r), 0u);
+  for (Channel& c : r.channels)
+    if (c.name == "gimbal_outer") c.values[20] += 20.0 * study().readout.gimbal_noise;  // of the true noise
+  EXPECT_EQ(outliers(r), 1u);
+}
+
 TEST(OddInput, ASecondRecordingIsPredictedFromTheFirst) {
   const Diagnosis d = diagnosed({made(hidden, 0), made(hidden, 1)});
   expect_found(d);

@@ -57,6 +57,35 @@ TEST(PatchedStudy, ReadsBackAsTheNominalFilterWithTheCauses) {
   EXPECT_EQ(again.monte_carlo.seed, 3u);
 }
 
+TEST(PatchedStudy, WhatIsFarFromLinearStartsWhereItWasFound) {
+  const test::ScratchFolder folder;
+  const Study study = read_text(folder, "s.toml", nominal_study);
+  Cause step, other;
+  step.term = "mass_unbalance_step";
+  step.parameters = {parameter("dD_I_y", 0.15), parameter("dD_t0", 7.3, true)};
+  other.term = "g_drift";
+  other.set = 1;  // an alternative: not in the model
+  other.parameters = {parameter("D_S_y", 0.25)};
+  FilterSpec patched = patched_filter(study.filters.front(), {step});
+  EXPECT_EQ(started_where_found(patched, {step, other}).starts, patched.starts);  // the onset is held: nothing to start
+  const auto t0 = TermLibrary::find("dD_t0").value();
+  patched.priors[t0] = normal(8.0 * 3600.0, 2.0 * 3600.0);
+  patched = started_where_found(patched, {step, other});
+  ASSERT_EQ(patched.starts.size(), 1u);
+  const Study again = read_text(folder, "patched.toml", patched_study(study, patched));
+  expect_same_model(again.filters[0], patched);
+  ASSERT_EQ(again.filters[0].starts.size(), 1u);
+  const Start& start = again.filters[0].starts[0];
+  ASSERT_EQ(start.size(), 2u);
+  EXPECT_EQ(start[1].first, t0);
+  EXPECT_NEAR(start[1].second, 7.3 * 3600.0, 1e-6);
+  // What is linear starts as the study says.
+  Cause drift;
+  drift.term = "g_drift";
+  drift.parameters = {parameter("D_S_y", 0.25)};
+  EXPECT_TRUE(started_where_found(patched_filter(study.filters.front(), {drift}), {drift}).starts.empty());
+}
+
 TEST(PatchedStudy, LambdaMakesTheCouplingLambda) {
   const test::ScratchFolder folder;
   const Study study = read_text(folder, "s.toml", nominal_study);

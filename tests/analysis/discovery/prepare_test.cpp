@@ -74,9 +74,76 @@ TEST(Prepare, AnotherPlanIsSaid) {
   EXPECT_NE(message(other, simulated(s)).find("Is this the plan"), std::string::npos);
   Study few = s;
   few.plan.positions.resize(3);
-  EXPECT_NE(message(few, simulated(s)).find("not in the plan"), std::string::npos);
+  EXPECT_NE(message(few, simulated(s)).find("are not in the plan"), std::string::npos);
   EXPECT_NE(message(study(1200.0, 40.0), simulated(s)).find("samples are 60 s apart"), std::string::npos);
   EXPECT_NE(message(study(1200.0, 80.0), simulated(s)).find("samples are 60 s apart"), std::string::npos);
+}
+
+/// The same recording without the columns whose names begin so.
+Recording without(Recording r, std::string_view prefix) {
+  std::erase_if(r.channels, [&](const Channel& c) { return c.name.starts_with(prefix); });
+  return r;
+}
+
+Study with_law(Study s, CommandLaw law) {
+  for (Position& p : s.plan.positions) p.mode = law;
+  return s;
+}
+
+TEST(Prepare, PositionsThatThePlanDoesNotHaveAreOneMessage) {
+  const Study s = study();
+  Study few = s;
+  few.plan.positions.resize(3);
+  const std::string said = message(few, simulated(s));
+  EXPECT_NE(said.find("positions 4, 5, 6 are not in the plan, in 60 rows from here on (expected positions 1 to 3)"), std::string::npos) << said;
+  EXPECT_EQ(said.find('\n'), std::string::npos) << said;
+}
+
+TEST(Prepare, DwellsOfAnotherLengthAreRemarkedAndUsed) {
+  const Study s = study();
+  Recording r = simulated(s);
+  const Prepared all = prepare(study(600.0), {r});
+  EXPECT_TRUE(says(all, "positions 1 to 6 for 20 min (in the plan 10 min)"));
+  EXPECT_EQ(all.recordings[0].rows(), r.rows());
+  // Position 2 cut short: the last 15 of its 20 rows are gone.
+  for (Channel& c : r.channels) c.values.erase(c.values.begin() + 25, c.values.begin() + 40);
+  r.lines.erase(r.lines.begin() + 25, r.lines.begin() + 40);
+  EXPECT_TRUE(says(prepare(s, {r}), "position 2 for 5 min (in the plan 20 min)"));
+}
+
+TEST(Prepare, RecordedCommandsOfAnotherLawAreRemarked) {
+  const Study free = study(), level = with_law(study(), CommandLaw::level);
+  EXPECT_TRUE(says(prepare(level, {simulated(free)}), "the commands in positions 1 to 6 are those of a free dwell, the plan says mode = \"level\""));
+  EXPECT_TRUE(says(prepare(free, {simulated(level)}), "the commands in positions 1 to 6 are those of a level dwell, the plan says mode = \"free\""));
+  EXPECT_TRUE(prepare(level, {simulated(level)}).remarks.empty());
+  // Earth rate of another latitude: the recording knows better than the study.
+  Study elsewhere = level;
+  elsewhere.site.latitude = 50.0 * unit::deg.to_si;
+  EXPECT_TRUE(says(prepare(elsewhere, {simulated(level)}), "Earth rate at latitude 45.750 deg, [site] says 50.000 deg"));
+  Recording odd = simulated(free);
+  for (double& x : channel(odd, "cmd_y")) x = 5.0 * unit::deg_per_h.to_si;
+  EXPECT_TRUE(says(prepare(free, {odd}), "up to 5 deg/h from those of the plan, and of neither law"));
+}
+
+TEST(Prepare, WithoutCommandsThePlatformShowsTheLawAndTheWrongOneIsRefused) {
+  const Study free = study(), level = with_law(study(), CommandLaw::level);
+  for (const char* instruments : {"none", "gimbal_", "acc_"}) {
+    const Recording drifting = without(without(simulated(free), "cmd_"), instruments);
+    const Recording kept = without(without(simulated(level), "cmd_"), instruments);
+    EXPECT_NE(message(level, drifting).find("turns at Earth rate against the local axes"), std::string::npos) << instruments;
+    EXPECT_NE(message(level, drifting).find("Set plan.mode = \"free\""), std::string::npos) << instruments;
+    EXPECT_NE(message(free, kept).find("keeps its attitude to the local axes"), std::string::npos) << instruments;
+    EXPECT_EQ(message(free, drifting), "") << instruments;
+    EXPECT_EQ(message(level, kept), "") << instruments;
+  }
+}
+
+TEST(Prepare, ALargeDriftIsNoOtherLaw) {
+  // Three prior sigmas of everything that drifts: the mean over the positions still tells.
+  Study s = study();
+  for (const char* key : {"D_F_x", "D_F_y", "D_F_z"}) s.truth.priors[test::param(key)] = fixed(3.0 * unit::deg_per_h.to_si);
+  for (const char* key : {"D_I_x", "D_S_y", "D_I_z"}) s.truth.priors[test::param(key)] = fixed(-6.0 * unit::deg_per_h_per_g.to_si);
+  EXPECT_EQ(message(s, without(simulated(s), "cmd_")), "");
 }
 
 TEST(Prepare, AStuckChannelIsLeftOutAndACoarseOneIsNot) {

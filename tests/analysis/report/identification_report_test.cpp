@@ -12,6 +12,7 @@
 #include "analysis/report/identification_figures.hpp"
 #include "analysis/report/identification_html.hpp"
 #include "analysis/report/identification_json.hpp"
+#include "analysis/report/identification_tables.hpp"
 #include "analysis/report/identification_text.hpp"
 #include "analysis/report/results_folder.hpp"
 #include "core/base/check.hpp"
@@ -42,6 +43,22 @@ TEST(IdentificationText, FitsOnAPageAndSaysWhatMatters) {
         "Table 1 beside this run, filter legacy", "no signal",
         "Filter corrected (eq5): no parameter depends on the start."})
     EXPECT_NE(text.find(part), std::string::npos) << part;
+}
+
+TEST(IdentificationText, SaysWhereTheEstimatorsDisagree) {
+  const Study study = testing::study();
+  Identification id = testing::identification(study);
+  const auto said = [&] {
+    std::string all;
+    for (const std::string& line : headlines(study, id)) all += line + "\n";
+    return all;
+  };
+  // Start 1 of filter 1 is 3 prior sigmas, 30 of its own, off; that of filter 0 a fifth of its sigma.
+  const std::string text = said();
+  EXPECT_NE(text.find("Filter legacy (eq6): from start 1, EKF and batch fit are more than five sigma apart"), std::string::npos) << text;
+  EXPECT_EQ(text.find("Filter corrected (eq5): from start 1, EKF"), std::string::npos) << text;
+  for (FilterRun& run : id.runs) run.ekf.status = EstimateStatus::diverged;  // said elsewhere
+  EXPECT_EQ(said().find("more than five sigma apart"), std::string::npos);
 }
 
 TEST(IdentificationJson, HoldsEveryResultInItsUnitAndNoNan) {
