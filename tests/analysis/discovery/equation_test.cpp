@@ -48,7 +48,7 @@ void expect_lambda(const Diagnosis& d, double truth) {
   // The candidates agree with the verdict, and cross-talk is named as the confounder.
   EXPECT_EQ(d.candidates.front().term, "frame_closure");
   EXPECT_GT(d.candidates.front().probability, 0.9);
-  EXPECT_TRUE(std::ranges::any_of(d.remarks, [](const auto& r) { return r.find("cross-talk") != std::string::npos; }));
+  EXPECT_TRUE(std::ranges::any_of(d.remarks, [](const auto& r) { return r.find("Cross-talk") != std::string::npos; }));
 }
 
 TEST(Equation, TheOtherOneIsNamedFromSlewsAndTheParametersItHadMovedComeBack) {
