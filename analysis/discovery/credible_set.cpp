@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <string>
@@ -65,20 +66,23 @@ bool one_cause(const Examination& e, const Refit& a, const Refit& b) {
 
 }  // namespace
 
-void weigh(const Examination& e, std::vector<Refit> refits, const SearchOptions& options, Search& out) {
+bool weigh(const Examination& e, std::vector<Refit>& refits, bool chance_alone, const SearchOptions& options, Search& out) {
   constexpr double worth = 3.0;        // log evidence that more parameters must bring
   constexpr double far_better = 5.0;   // one in a hundred and fifty,
   constexpr double not_linear = 0.05;  // and what the linearised evidence of a large effect may be wrong by
+  const auto is_good = [](const Refit& r) { return r.tolerable(); };
+  const bool enough = chance_alone ? std::ranges::any_of(refits, is_good) : std::ranges::any_of(refits, &Refit::adequate);
+  if (!enough) return false;
+  const auto weight_of = [&](const Refit& r) { return r.log_bayes + log_prior(e, r.choices) - std::max(0.0, r.excess); };
+  double top = -std::numeric_limits<double>::infinity();
+  for (const Refit& r : refits)
+    if (is_good(r)) top = std::max(top, weight_of(r));
+  if (log_unknown(e) > top + far_better + not_linear * std::max(top, 0.0)) return false;
   std::vector<Refit> good;
-  for (Refit& r : refits) (r.adequate ? good : out.rejected).push_back(std::move(r));
-  if (good.empty()) return;
+  for (Refit& r : refits) (is_good(r) ? good : out.rejected).push_back(std::move(r));
+  refits.clear();
   std::vector<double> weight;
-  for (const Refit& r : good) weight.push_back(r.log_bayes + log_prior(e, r.choices));
-  const double top = *std::max_element(weight.begin(), weight.end());
-  if (log_unknown(e) > top + far_better + not_linear * std::max(top, 0.0)) {
-    for (Refit& r : good) out.rejected.push_back(std::move(r));
-    return;
-  }
+  for (const Refit& r : good) weight.push_back(weight_of(r));
   double sum = 0.0;
   for (double& w : weight) sum += w = std::exp(w - top);
   std::vector<std::size_t> order(good.size());
@@ -120,6 +124,7 @@ void weigh(const Examination& e, std::vector<Refit> refits, const SearchOptions&
     out.sets.push_back(std::move(good[k]));
     if (held >= options.credible) break;
   }
+  return true;
 }
 
 }  // namespace drift::discovery

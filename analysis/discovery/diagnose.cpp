@@ -188,7 +188,14 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const Test& given, std::spa
     const bool one = found.sets.size() == 1;
     const bool members = std::ranges::all_of(member_gains, [](double gain) { return gain >= least_held_out_gain; });
     const bool judged = !options.named_needs_held_out || d.fit.held_out.folds.empty() || (d.fit.held_out.improves && members);
-    d.verdict = !best ? Verdict::unexplained : one && judged ? Verdict::named : Verdict::ambiguous;
+    const bool nameable = !best || (best->nameable && !found.just_not);
+    d.verdict = !best ? Verdict::unexplained : one && judged && nameable ? Verdict::named : Verdict::ambiguous;
+    if (found.just_not)
+      d.remarks.push_back("With it in the model something is left that is just significant: chance, or not the whole story. It "
+                          "is listed, not named.");
+    else if (one && !nameable)
+      d.remarks.push_back("Another drift equation explains it, but its weight lambda may still be the nominal one (3 sigma): it "
+                          "is listed, not named.");
     if (one && !judged && !members)
       d.remarks.push_back("The causes fit together, but without one of them held-out positions are predicted no worse: it is "
                           "not confirmed (held_out_gain of each cause in diagnosis.json).");

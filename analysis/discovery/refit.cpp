@@ -186,17 +186,17 @@ Refit refit(const Examination& nominal, const Test& test, const std::vector<Choi
   }
   for (const PositionScan& s : out.after.scans)
     for (const double T : s.T) out.remainder.scan = std::max(out.remainder.scan, strength(T, 1));
-  out.adequate = out.remainder.library <= nulls.library_threshold && out.remainder.scan <= nulls.scan_threshold;
+  out.excess = std::max(out.remainder.library - nulls.library_threshold, out.remainder.scan - nulls.scan_threshold);
   if (family)  // another equation must be another one: an interval that holds the nominal weight names nothing
     if (const ParameterEstimate* p = best.estimate.find(lambda)) {
       const double base = nominal.filter.coupling == Coupling::eq6 ? 1.0 : 0.0;
-      out.adequate = out.adequate && std::abs(p->value - base) > 3.0 * p->sigma;
+      out.nameable = std::abs(p->value - base) > 3.0 * p->sigma;
     }
-  out.adequate = out.adequate && (choices.size() == 1 || all_needed(nominal.set, out));
-  if (out.adequate) {
+  if (choices.size() > 1 && !all_needed(nominal.set, out)) out.excess = std::numeric_limits<double>::infinity();
+  if (out.tolerable()) {
     // Many small traces in one equation that no window and no candidate has alone.
     out.after.lone = strongest_lone_input(out.after.problem, out.after.noise.model);
-    out.adequate = out.after.lone.p_value > quiet_p_value;
+    out.excess = std::max(out.excess, std::log(quiet_p_value / out.after.lone.p_value));
   }
 
   // Each variant of a grid was one try; the refit took the best of them.

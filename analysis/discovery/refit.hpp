@@ -10,7 +10,11 @@ struct Refit {
   FilterSpec filter;
   Examination after;                ///< scored again, noise estimated again
   Remainder remainder;              ///< largest strengths that are left
-  bool adequate = false;            ///< nothing is significant any more
+  double excess = 0.0;              ///< by how much (log of a chance) what is left exceeds what is allowed; <= 0: nothing is left
+  bool nameable = true;             ///< false: lambda that is not clearly another equation's
+  bool adequate() const { return excess <= 0.0 && nameable; }
+  /// What is left may be chance: one in twenty of those that the threshold lets through.
+  bool tolerable() const { return excess <= 3.0; }
   double log_bayes = 0.0;           ///< log evidence against the nominal model, both with their own noise
   bool sign_agrees = true;          ///< amplitudes came out with the sign the score predicted
 };

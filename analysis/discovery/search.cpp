@@ -182,7 +182,7 @@ Search search(Examination& nominal, const Test& test, const SearchOptions& optio
     // Where a part of a term will not do, more of the term is tried: what the linearised test finds adequate,
     // and what the refit asks for.
     for (std::size_t next = first; next < refits.size(); ++next) {
-      if (refits[next].adequate) continue;
+      if (refits[next].adequate()) continue;
       const Candidate& part = nominal.set.candidates[refits[next].choices.front().candidate];
       const Candidate& asked = refits[next].after.set.candidates[refits[next].remainder.strongest];
       for (std::size_t k = 0; k < nominal.set.candidates.size(); ++k) {
@@ -193,23 +193,26 @@ Search search(Examination& nominal, const Test& test, const SearchOptions& optio
       }
     }
   }
-  weigh(nominal, std::move(refits), options, out);
-  if (!out.sets.empty()) return out;
+  if (weigh(nominal, refits, false, options, out)) return out;
 
+  const auto try_more = [&](const std::vector<std::vector<Choice>>& tried) {
+    for (Refit& r : refit_all(nominal, test, tried, out.nulls)) refits.push_back(std::move(r));
+  };
   std::vector<std::vector<Choice>> tried;
-  for (const Refit& r : out.rejected)
+  for (const Refit& r : refits)
     if (nominal.set.candidates[r.choices.front().candidate].term == "frame_closure" && r.log_bayes > 0.0)
       for (auto& pair : beside(r, nominal.set, out.nulls)) tried.push_back(std::move(pair));
   for (const Pair& p : adequate_pairs(*nominal.field, nominal.scores, 1.1 * out.nulls.library_threshold,
                                       1.1 * out.nulls.scan_threshold, options.most_refits))
     tried.push_back({p.a, p.b});
-  weigh(nominal, refit_all(nominal, test, tried, out.nulls), options, out);
-  if (!out.sets.empty()) return out;
+  try_more(tried);
+  if (weigh(nominal, refits, false, options, out)) return out;
 
   const auto several = greedy(*nominal.field, nominal.scores, out.nulls.library_threshold, out.nulls.scan_threshold, 4);
-  if (several.size() > 2) {
-    weigh(nominal, refit_all(nominal, test, {several}, out.nulls), options, out);
-  }
+  if (several.size() > 2) try_more({several});
+  if (weigh(nominal, refits, false, options, out)) return out;
+  out.just_not = weigh(nominal, refits, true, options, out);
+  for (Refit& r : refits) out.rejected.push_back(std::move(r));
   return out;
 }
 

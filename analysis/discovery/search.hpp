@@ -25,6 +25,7 @@ struct Search {
   std::vector<Refit> sets;     ///< adequate explanations in the credible set, most probable first; each
                                ///< may hold several simultaneous causes
   std::vector<double> probability;  ///< of each
+  bool just_not = false;       ///< none of the sets is adequate; what they leave may be chance
   std::vector<Refit> rejected; ///< the most probable ones that leave something significant
   std::vector<Remainder> linear;    ///< of every single candidate, from the linearised test
 };

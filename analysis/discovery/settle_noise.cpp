@@ -11,8 +11,9 @@
 namespace drift::discovery {
 namespace {
 
-/// Chance below which noise of all instruments is not believed: together (they overlap) one in sixteen.
-constexpr double no_noise = 0.05, no_noise_lone = 0.025;
+/// Chance below which noise of all instruments is not believed: together (they overlap) one in ten, where the
+/// chances themselves are drawn with room (noise_doubt.hpp): of 51 blind nulls with such noise one was doubted at half.
+constexpr double no_noise = 0.08, no_noise_lone = 0.045;
 
 /// log det (1 + C) of some columns under a noise: what a unit prior on their amplitudes costs twice the
 /// log of the marginal likelihood against its maximum.
