@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "analysis/cli/commands.hpp"
@@ -68,8 +69,13 @@ ExitCode diagnose_platform(const StudyArguments& arguments, const Study& study, 
   discovery::Diagnosis found = discovery::diagnose(prepared.study, prepared.recordings, options);
   if (const auto doubt = discovery::site_doubt(prepared.study, prepared.recordings, found)) found.sentence += " " + doubt->sentence;
   const auto began = std::chrono::steady_clock::now();
-  found.advice = discovery::advise(prepared.study, prepared.recordings, found,
-                                   {.seed = study.monte_carlo.seed, .asked = advise});
+  try {
+    found.advice = discovery::advise(prepared.study, prepared.recordings, found,
+                                     {.seed = study.monte_carlo.seed, .asked = advise});
+  } catch (const InputError& e) {
+    if (e.code() == ExitCode::usage) throw;  // what was asked for is wrong
+    found.remarks.push_back(fmt::format("No advice could be made: {}", e.what()));  // never at the cost of the diagnosis
+  }
   found.seconds.emplace_back("advice", std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count());
   found.remarks.insert(found.remarks.begin(), prepared.remarks.begin(), prepared.remarks.end());
   discovery::name_recordings(prepared.study, prepared.recordings, found);
@@ -87,6 +93,10 @@ ExitCode diagnose(const StudyArguments& arguments, const std::vector<std::string
     throw InputError(ExitCode::usage, "--advise: a strapdown study has no positions to add (expected a platform study). Leave it out; "
                                       "more turns about more axes are what helps");
   require_own_folder(folder, "diagnose");
+  std::error_code absent;
+  if (!folder.empty() && std::filesystem::equivalent(std::filesystem::path(folder) / "study.toml", study.path, absent))
+    throw InputError(ExitCode::usage, fmt::format("-o {}: its study.toml is the study itself and would be replaced (expected another "
+                                                  "folder). Name a folder for results", folder));
   require_writable_folder(folder);
   const mc::ThreadCount threads(arguments.threads);
   return study.kind == RecordingKind::strapdown ? diagnose_case(arguments, study, paths, folder)

@@ -75,6 +75,10 @@ struct Wish {
 /// Positions are planned at one temperature: what follows it stays unseen in any of them.
 bool needs_temperature(const std::string& term) { return TermLibrary::terms[*TermLibrary::find_term(term)].needs.temperature; }
 
+bool follows_temperature(const std::vector<Cause>& causes) {
+  return std::ranges::any_of(causes, [](const Cause& c) { return needs_temperature(c.term); });
+}
+
 bool meant(const Candidate& c, const std::string& text) {
   return c.term == text || c.term + "." + c.axis == text || TermLibrary::specs[c.params.front()].key.view() == text;
 }
@@ -126,7 +130,8 @@ Question open_question(const Diagnosis& d) {
   }
   std::vector<Alternative> all;
   for (auto& set : sets)
-    if (!set.empty()) all.push_back(alternative(std::move(set)));
+    if (!set.empty() && !follows_temperature(set)) all.push_back(alternative(std::move(set)));
+  if (all.empty()) return q;
   if (all.size() == 1) all.push_back(nothing());
   return all_against_all(std::move(all));
 }
@@ -146,10 +151,12 @@ Question hidden_question(const Diagnosis& d, const CandidateSet& set) {
 
 Question named_question(const Diagnosis& d, const CandidateSet& set, const std::vector<Rival>& rivals) {
   Question q;
+  if (follows_temperature(d.causes)) return q;
   q.alternatives.push_back(alternative(d.causes));
   for (const Rival& r : rivals) {
     std::vector<Cause> causes = d.causes;
     const Candidate& c = set.candidates[r.candidate];
+    if (needs_temperature(c.term)) continue;
     causes[r.cause] = cause_of(c, c.variants[r.variant], d.nominal);
     q.pairs.push_back({0, q.alternatives.size()});
     q.alternatives.push_back(alternative(std::move(causes)));

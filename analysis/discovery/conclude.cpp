@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/discovery/evidence.hpp"
 #include "analysis/discovery/sentence.hpp"
 
 namespace drift::discovery {
@@ -103,6 +104,26 @@ void say_equation(Diagnosis& d) {
                                   "What tells lambda from the misalignments: slews about each platform axis, free drift beside "
                                   "level positions, or turns of the case. In slews, cross-talk between the torquing channels "
                                   "(torquer_crosstalk) looks like lambda", both, d.other_equation_gain));
+}
+
+void say_noise_or_effect(const Examination& nominal, Diagnosis& d) {
+  constexpr double evident = 25.0, per_degree = 3.0;  // of twice the log likelihood
+  if (d.verdict != Verdict::consistent || !nominal.noise.driven) return;
+  const NoiseModel declared = declared_noise(nominal.filter);
+  NoiseModel plain = nominal.noise.model;
+  plain.angle_random_walk = declared.angle_random_walk;
+  plain.drift_random_walk = declared.drift_random_walk;
+  plain.markov_drift = plain.acc_markov = 0.0;
+  const Evidence seen = evidence_under(nominal.problem, nominal.set, plain, {});
+  const auto worth = [&](std::size_t k) { return seen.gains[k].ratio - per_degree * (seen.gains[k].dof - 1); };
+  std::size_t best = 0;
+  for (std::size_t k = 1; k < seen.gains.size(); ++k)
+    if (worth(k) > worth(best)) best = k;
+  if (seen.gains.empty() || worth(best) < evident) return;
+  const Candidate& c = nominal.set.candidates[best];
+  d.remarks.push_back(fmt::format("Without the noise that was found to drive the platform, {} would explain the test ({:.1f} sigma): a slow "
+                                  "effect and such noise look alike here. More positions or longer dwells tell them apart",
+                                  in_words(c.term, c.axis), std::sqrt(seen.gains[best].ratio)));
 }
 
 }  // namespace drift::discovery

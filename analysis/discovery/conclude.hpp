@@ -22,4 +22,7 @@ void say_beyond_prior(const BatchResult& nominal, Diagnosis& d);
 /// its agreement says nothing of it (physics.md 1.7), and the verdict says so.
 void say_equation(Diagnosis& d);
 
+/// Where noise that drives the platform leaves nothing significant: what would be, were it no noise.
+void say_noise_or_effect(const Examination& nominal, Diagnosis& d);
+
 }  // namespace drift::discovery

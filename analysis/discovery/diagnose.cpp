@@ -257,6 +257,7 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const Test& given, std::spa
   stages.end();
   d.sentence = sentence(d);
   say_partial(nominal, found, d);
+  say_noise_or_effect(nominal, d);
   say_beyond_prior(nominal.fit, d);
   say_equation(d);
   return d;

@@ -218,7 +218,7 @@ std::string patch_text(const Diagnosis& d) {
   if (d.verdict != Verdict::ambiguous || !d.has_patch || all.empty()) return "";
   const std::string words = together(d, all.front());
   if (all.size() == 1)
-    return fmt::format("The patched model (patched.toml) holds the only cause that was found, {}: held-out data do not support it.", words);
+    return fmt::format("The patched model (patched.toml) holds the only cause that was found, {}: it is not confirmed.", words);
   const double probability = d.causes.front().probability;
   const std::string odds = std::isfinite(probability) ? fmt::format(", probability {}", decimal_text(probability, 2)) : "";
   return fmt::format("The patched model (patched.toml) holds alternative (1) alone, the most probable of {}{}: {}. The data do not single it out: "

@@ -61,7 +61,7 @@ TEST(Search, ARampOfOneGyroIsNamedAndNotTakenForNoise) {
   EXPECT_NEAR(p->value, draw.theta[param("ramp_z")], 4.0 * p->sigma);
 }
 
-TEST(Search, AStepBetweenTheHoursOfTheGridIsNamedAloneWithItsTime) {
+TEST(Search, AStepBetweenTheHoursOfTheGridIsNamedAlone) {
   Bench b("twelve", 1800.0);
   TruthSpec truth = base_truth(Coupling::eq5);
   truth.active.set(param("dD_I_y")).set(param("dD_t0"));
@@ -78,11 +78,10 @@ TEST(Search, AStepBetweenTheHoursOfTheGridIsNamedAloneWithItsTime) {
   const Candidate& c = e.set.candidates[choice.candidate];
   EXPECT_EQ(c.label, "mass_unbalance_step.y");
   EXPECT_TRUE(c.variants[choice.variant].between);
-  for (const char* key : {"dD_I_y", "dD_t0"}) {
-    const ParameterEstimate* p = s.sets.front().after.fit.estimate.find(param(key));
-    ASSERT_NE(p, nullptr);
-    EXPECT_NEAR(p->value, draw.theta[param(key)], 4.0 * p->sigma) << key;
-  }
+  // Its time may come out on either side of positions in which the axis bears no gravity; its size not.
+  const ParameterEstimate* p = s.sets.front().after.fit.estimate.find(param("dD_I_y"));
+  ASSERT_NE(p, nullptr);
+  EXPECT_NEAR(p->value, draw.theta[param("dD_I_y")], 4.0 * p->sigma);
   // Settings between the points share the chances of the points: as many as there are on the grid.
   double share = 0.0, points = 0.0;
   for (const Variant& v : c.variants) {
