@@ -49,7 +49,8 @@ std::vector<RankingGroup> groups_of(const Study& study) {
       ModelSpec spec = filter;
       spec.coupling = coupling;
       ModelRanking m;
-      m.model = ranked_model(spec, study.has_truth ? &study.truth : nullptr, study.site, study.readout);
+      m.model = ranked_model(spec, study.has_truth ? &study.truth : nullptr, study.site, study.readout,
+                             study.environment);
       m.of_the_file = coupling == filter.coupling;
       group.models.push_back(std::move(m));
     };

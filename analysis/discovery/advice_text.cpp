@@ -13,20 +13,20 @@ namespace {
 constexpr std::size_t most_shown = 8;
 
 /// The rival is the nominal model as it is: what is asked is whether the effect is seen.
-bool against_nominal(const Question& q, const Pair& pair) {
+bool against_nominal(const Question& q, const Contest& pair) {
   return q.alternatives[pair.rival].causes.empty() && !q.alternatives[pair.rival].label.starts_with("eq.");
 }
 
-std::string pair_text(const Question& q, const Pair& pair, std::string_view between = " from ") {
+std::string pair_text(const Question& q, const Contest& pair, std::string_view between = " from ") {
   const std::string& truth = q.alternatives[pair.truth].label;
   return against_nominal(q, pair) ? truth : fmt::format("{}{}{}", truth, between, q.alternatives[pair.rival].label);
 }
 
 /// "a, b, c and 4 more"; each once, whichever way round.
-std::string listed(const Question& q, const std::vector<Pair>& pairs, std::string_view between) {
+std::string listed(const Question& q, const std::vector<Contest>& pairs, std::string_view between) {
   std::vector<std::string> texts;
   std::set<std::pair<std::string, std::string>> said;
-  for (const Pair& p : pairs) {
+  for (const Contest& p : pairs) {
     const std::string &a = q.alternatives[p.truth].label, &b = q.alternatives[p.rival].label;
     if (said.insert(std::minmax(a, b)).second) texts.push_back(pair_text(q, p, between));
   }
@@ -40,10 +40,10 @@ std::string sized(const Question& q) { return q.size.empty() ? "" : ", " + q.siz
 
 }  // namespace
 
-std::vector<std::string> labels_of(const Question& q, const std::vector<Pair>& pairs) {
+std::vector<std::string> labels_of(const Question& q, const std::vector<Contest>& pairs) {
   std::vector<std::string> labels;
   for (std::size_t k = 0; k < q.alternatives.size(); ++k) {
-    const auto holds = [&](const Pair& p) { return p.truth == k || p.rival == k; };
+    const auto holds = [&](const Contest& p) { return p.truth == k || p.rival == k; };
     if (!std::ranges::any_of(pairs, holds)) continue;
     if (std::ranges::find(labels, q.alternatives[k].label) == labels.end()) labels.push_back(q.alternatives[k].label);
   }
@@ -80,15 +80,15 @@ std::string helped_text(const Advice& a, const Question& q, const std::vector<He
                      fmt::join(shown, ", "), a.expected_sigma, pair_text(q, helped.front().pair), verified);
 }
 
-std::string twins_text(const Question& q, const std::vector<Pair>& pairs) {
+std::string twins_text(const Question& q, const std::vector<Contest>& pairs) {
   return fmt::format("No position of the pool separates {}: they leave the same trace in all of them. Another measurement is needed, "
                      "of one of them by itself (a bench test of the instrument, say); more positions are futile.",
                      listed(q, pairs, " and "));
 }
 
-std::string hidden_text(const Question& q, const std::vector<Pair>& pairs, std::size_t most, std::size_t pool) {
-  std::vector<Pair> unseen, near;
-  for (const Pair& p : pairs) (against_nominal(q, p) ? unseen : near).push_back(p);
+std::string hidden_text(const Question& q, const std::vector<Contest>& pairs, std::size_t most, std::size_t pool) {
+  std::vector<Contest> unseen, near;
+  for (const Contest& p : pairs) (against_nominal(q, p) ? unseen : near).push_back(p);
   std::string text;
   if (!unseen.empty())
     text = fmt::format("No {} of {} possible additions show {}{}{} with 2 sigma: what the nominal model fits takes the trace, or it "
@@ -99,7 +99,7 @@ std::string hidden_text(const Question& q, const std::vector<Pair>& pairs, std::
   return text;
 }
 
-std::string told_text(const Question& q, const Pair& closest, double sigma) {
+std::string told_text(const Question& q, const Contest& closest, double sigma) {
   return fmt::format("Nothing needs to be added: {} this plan tells {} by {:.1f} sigma, and that is the closest.",
                      q.size.empty() ? "at the sizes found" : q.size, pair_text(q, closest), sigma);
 }

@@ -92,10 +92,10 @@ class Adviser {
     std::vector<Separation> before = separations(as_recorded(), q.alternatives, q.pairs);
     if (std::ranges::none_of(before, [&](const Separation& s) { return s.sigma < options_.wanted; }))
       return always ? std::vector<Advice>{nothing_to_add(q, before)} : std::vector<Advice>{};
-    const auto asked = static_cast<std::size_t>(std::ranges::count_if(q.pairs, [&](const Pair& p) {
-      return p.truth < p.rival || std::ranges::find(q.pairs, Pair{p.rival, p.truth}) == q.pairs.end();  // either way round once
+    const auto asked = static_cast<std::size_t>(std::ranges::count_if(q.pairs, [&](const Contest& p) {
+      return p.truth < p.rival || std::ranges::find(q.pairs, Contest{p.rival, p.truth}) == q.pairs.end();  // either way round once
     }));
-    std::vector<Pair> near;
+    std::vector<Contest> near;
     for (std::size_t k = 0; k < before.size(); ++k)
       if (before[k].sigma < options_.wanted) near.push_back(q.pairs[k]);
     q.pairs = near;
@@ -110,7 +110,7 @@ class Adviser {
     for (const Information& g : gains) whole += g;
     const auto most = separations(whole, q.alternatives, q.pairs);
     Sorted sorted;
-    std::vector<Pair> open;
+    std::vector<Contest> open;
     for (std::size_t k = 0; k < q.pairs.size(); ++k) {
       const bool nominal = q.alternatives[q.pairs[k].rival].causes.empty();
       const double by_shape = nominal ? most[k].sigma : std::sqrt(most[k].unlike) * most[k].alone;
@@ -144,7 +144,7 @@ class Adviser {
         p.name = fmt::format("advised {}: {}", a.plan.size() + 1, p.name);
         a.plan.push_back(std::move(p));
       }
-      std::vector<Pair> pairs;
+      std::vector<Contest> pairs;
       for (const Helped& h : sorted.helped) pairs.push_back(h.pair);
       a.separates = labels_of(q, pairs);
       const Helped& closest = sorted.helped.front();
@@ -172,7 +172,7 @@ class Adviser {
  private:
   struct Sorted {
     std::vector<Helped> helped;
-    std::vector<Pair> twins, hidden;
+    std::vector<Contest> twins, hidden;
   };
 
   LinearProblem problem(const Timeline& timeline, const Measurements& measured, const BatchResult& fit,
@@ -222,7 +222,7 @@ class Adviser {
   }
 
   /// Simulates the extended test with the truth of a pair and fits truth and rival.
-  double verify(const std::vector<Position>& added, const Question& q, const Pair& pair, const Theta& fitted) const {
+  double verify(const std::vector<Position>& added, const Question& q, const Contest& pair, const Theta& fitted) const {
     std::vector<Position> positions = study_.plan.positions;
     positions.insert(positions.end(), added.begin(), added.end());
     const Timeline timeline = planned(positions);

@@ -250,7 +250,7 @@ void prune(Question& q) {
     }
     k = place[k];
   };
-  for (Pair& pair : q.pairs) {
+  for (Contest& pair : q.pairs) {
     keep(pair.truth);
     keep(pair.rival);
   }

@@ -17,15 +17,15 @@ struct Alternative {
 };
 
 /// Two alternatives to be told apart, by index: one is true, the other is taken for it.
-struct Pair {
+struct Contest {
   std::size_t truth = 0, rival = 0;
-  bool operator==(const Pair&) const = default;
+  bool operator==(const Contest&) const = default;
 };
 
 /// What is to be told from what.
 struct Question {
   std::vector<Alternative> alternatives;
-  std::vector<Pair> pairs;
+  std::vector<Contest> pairs;
   std::string size;  ///< of the effects, in words: "at one prior sigma"; empty: as found
 
   bool empty() const { return pairs.empty(); }

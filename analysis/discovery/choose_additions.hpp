@@ -8,7 +8,7 @@ namespace drift::discovery {
 /// Pairs that are to be told apart.
 struct Told {
   const std::vector<Alternative>& alternatives;
-  const std::vector<Pair>& pairs;
+  const std::vector<Contest>& pairs;
 };
 
 struct ChooseOptions {

@@ -19,11 +19,11 @@ Information information_of(const LinearProblem& problem, const NoiseModel& noise
   return {p.theta().transpose() * p.theta(), p.theta().transpose() * p.extra(), p.extra().transpose() * p.extra()};
 }
 
-std::vector<Separation> separations(const Information& info, const std::vector<Alternative>& all, std::span<const Pair> pairs) {
+std::vector<Separation> separations(const Information& info, const std::vector<Alternative>& all, std::span<const Contest> pairs) {
   const MatX A = info.tt + MatX::Identity(info.tt.rows(), info.tt.cols());
   const MatX C = info.ee - info.te.transpose() * A.llt().solve(info.te);
   std::vector<Separation> out;
-  for (const Pair& pair : pairs) {
+  for (const Contest& pair : pairs) {
     const Alternative &c = all[pair.truth], &d = all[pair.rival];
     const MatX cc = C(c.columns, c.columns);
     const auto size = [&](const MatX& m) { return std::max(0.0, c.amplitude.dot(m * c.amplitude)); };

@@ -29,6 +29,6 @@ struct Separation {
 /// C the information on the signatures that is left by the nominal parameters, in prior sigmas. Against
 /// the nominal model sigma^2 = a_c' C_cc a_c, and unlike is its part of the information before the nominal
 /// parameters took theirs.
-std::vector<Separation> separations(const Information& info, const std::vector<Alternative>& all, std::span<const Pair> pairs);
+std::vector<Separation> separations(const Information& info, const std::vector<Alternative>& all, std::span<const Contest> pairs);
 
 }  // namespace drift::discovery

@@ -53,6 +53,7 @@ MatX rows_from(const Timeline& timeline, std::size_t first, const RankedModel& m
 
 Timeline chain_timeline(const TestPlan& chain, const RankedModel& model) {
   Timeline timeline = lay_out(chain, model.site);
+  set_environment(timeline, model.environment, 0, 0);
   for (Interval& i : timeline.intervals) i.loop = model.loop;
   return timeline;
 }

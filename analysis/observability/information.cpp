@@ -31,10 +31,10 @@ std::vector<int> stretches(const Timeline& timeline, int bins_per_dwell) {
 }  // namespace
 
 RankedModel ranked_model(const ModelSpec& spec, const TruthSpec* truth, const Site& site,
-                         const Readout& readout) {
+                         const Readout& readout, const Environment& environment) {
   constexpr auto lambda = TermLibrary::index("lambda");
   constexpr auto eta = TermLibrary::index("eta_x");
-  RankedModel model{spec, make_layout(spec).theta, MisalignmentAngles::Zero(), site, readout};
+  RankedModel model{spec, make_layout(spec).theta, MisalignmentAngles::Zero(), site, readout, environment};
   model.spec.noise = {};
   if (!truth) return model;
   for (std::size_t i = 0; i < TermLibrary::num_params; ++i)
@@ -53,6 +53,7 @@ RankedModel ranked_model(const ModelSpec& spec, const TruthSpec* truth, const Si
 
 LinearisedPlan linearise(const TestPlan& plan, const RankedModel& model, int bins_per_dwell) {
   Timeline timeline = lay_out(plan, model.site);
+  set_environment(timeline, model.environment, 0, 0);
   for (Interval& i : timeline.intervals) i.loop = model.loop;
   const ModelSpec& spec = model.spec;
   TruthSpec truth;

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/estimate/batch.hpp"
+#include "core/sim/environment.hpp"
 #include "core/sim/simulate.hpp"
 
 namespace drift {
@@ -15,13 +16,14 @@ struct RankedModel {
   MisalignmentAngles loop = MisalignmentAngles::Zero();  ///< coupling "compensated" alone [rad]
   Site site;
   Readout readout;
+  Environment environment;  ///< what terms of temperature and field see; empty: neither is known
 };
 
 /// The model of a filter, linearised at the means of the truth where the filter has the parameter
 /// too, at its own prior means elsewhere (without a truth, everywhere). A lambda that is a state is
 /// taken from the truth's coupling: 0 for eq. (5), 1 for eq. (6) and the servo.
 RankedModel ranked_model(const ModelSpec& spec, const TruthSpec* truth, const Site& site,
-                         const Readout& readout);
+                         const Readout& readout, const Environment& environment = {});
 
 /// Everything measured in a stretch of time, compressed to a triangle.
 struct TimeBin {

@@ -1,4 +1,5 @@
 #include "analysis/discovery/advise.hpp"
+#include "analysis/discovery/alternatives.hpp"
 
 #include <gtest/gtest.h>
 
@@ -219,6 +220,25 @@ TEST(Advise, OnRequestAnUnexplainedMisfitIsToldWhichPositionToRepeat) {
   const auto advice = advise(s, {simulated(s)}, d, asking());
   ASSERT_EQ(advice.size(), 1u);
   EXPECT_NE(advice.front().text.find("Repeat position 3"), std::string::npos);
+}
+
+TEST(Advise, WhatFollowsTheTemperatureIsNotAskedOfPositions) {
+  // Positions are planned at one temperature; an alternative that follows it must not cost the advice on others.
+  Diagnosis d;
+  d.verdict = Verdict::ambiguous;
+  for (const char* term : {"temperature_drift", "drift_ramp", "magnetic_drift"}) {
+    Cause c;
+    c.term = term;
+    c.axis = "z";
+    c.set = static_cast<int>(d.causes.size());
+    d.causes.push_back(c);
+  }
+  const Question q = open_question(d);
+  EXPECT_EQ(q.alternatives.size(), 2u);
+  for (const Alternative& a : q.alternatives)
+    for (const Cause& c : a.causes) EXPECT_NE(c.term, "temperature_drift");
+  d.causes.resize(1);
+  EXPECT_TRUE(open_question(d).empty());
 }
 
 }  // namespace

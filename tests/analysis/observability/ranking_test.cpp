@@ -13,6 +13,7 @@
 #include "analysis/observability/other_methods.hpp"
 #include "analysis/report/degeneracies.hpp"
 #include "core/estimate/triangle.hpp"
+#include "core/base/check.hpp"
 #include "tests/support/model_builders.hpp"
 
 namespace drift {
@@ -265,6 +266,23 @@ TEST(Ranking, PromisedSigmasAreTheErrorsOfBatchFits) {
   EXPECT_EQ(comparison.count(ErrorVerdict::wrong_model), 0u);
   EXPECT_LE(comparison.count(ErrorVerdict::nonlinear), 1u);
   EXPECT_GT(comparison.spearman, 0.8);
+}
+
+TEST(Ranking, AModelThatSeesTheFieldIsRankedInTheFieldOfTheStudy) {
+  ModelSpec spec = base_spec(Coupling::eq5);
+  for (const char* key : {"M_x", "M_y", "M_z"}) {
+    const std::size_t i = *TermLibrary::find(key);
+    spec.active.set(i);
+    spec.priors[i] = TermLibrary::specs[i].prior_si();
+  }
+  const TestPlan plan = plan_of("six", CommandLaw::free, 600.0);
+  EXPECT_THROW(linearise(plan, ranked_model(spec, nullptr, harbin, Readout{})), InputError);
+  Environment field;
+  field.field_n = 0.25e-4;
+  field.field_w = 0.0;
+  field.field_u = -0.47e-4;
+  const Ranking r = rank_parameters(linearise(plan, ranked_model(spec, nullptr, harbin, Readout{}, field)));
+  EXPECT_FALSE(r.parameters.empty());
 }
 
 }  // namespace
