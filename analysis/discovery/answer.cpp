@@ -6,6 +6,8 @@
 #include <cmath>
 #include <map>
 
+#include "analysis/discovery/setting_spread.hpp"
+
 namespace drift::discovery {
 namespace {
 
@@ -104,7 +106,8 @@ void fill_causes(const Examination& nominal, const Search& found, Diagnosis& d) 
   std::vector<std::vector<int>> columns;
   for (std::size_t set = 0; set < found.sets.size(); ++set) {
     const Refit& r = found.sets[set];
-    for (const Choice& choice : r.choices) {
+    for (std::size_t which = 0; which < r.choices.size(); ++which) {
+      const Choice& choice = r.choices[which];
       const Candidate& c = nominal.set.candidates[choice.candidate];
       Cause cause;
       cause.term = c.term;
@@ -132,7 +135,9 @@ void fill_causes(const Examination& nominal, const Search& found, Diagnosis& d) 
         CauseParameter out{std::string(spec.key.view()), param, 0.0, 0.0, std::string(spec.unit.symbol.view()), profiled};
         if (const ParameterEstimate* e = r.after.fit.estimate.find(param)) {
           out.value = e->value / spec.unit.to_si;
-          out.sigma = e->sigma / spec.unit.to_si;
+          const double spread = profiled && spec.kind == ParamKind::nonlinear
+                                    ? setting_spread(nominal, r.choices, which, param, e->value) : 0.0;
+          out.sigma = std::max(e->sigma, spread) / spec.unit.to_si;
           if (!profiled) cause.size_sigma = std::max(cause.size_sigma, std::abs(e->value - spec.prior_si().mean()) / spec.prior_si().sigma());
         } else {
           out.value = r.filter.priors[param].mean() / spec.unit.to_si;
