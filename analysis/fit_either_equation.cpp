@@ -6,7 +6,8 @@ namespace drift {
 namespace {
 
 constexpr auto lambda = TermLibrary::index("lambda");
-constexpr BatchOptions patient{.max_iterations = 200};  // along a valley each step is a small part of it
+constexpr BatchOptions patient{.max_iterations =
+                                   200};  // along a valley each step is a small part of it
 
 Theta theta_of(const FilterSpec& filter, const BatchResult& fit) {
   Theta theta = make_layout(filter).theta;
@@ -16,9 +17,11 @@ Theta theta_of(const FilterSpec& filter, const BatchResult& fit) {
 
 }  // namespace
 
-BatchResult fit_either_equation(const FilterSpec& filter, const Timeline& timeline, const Readout& readout,
-                                const Measurements& measured, const Theta& start) {
-  if (filter.coupling != Coupling::lambda || !filter.active[lambda] || filter.priors[lambda].sigma() <= 0.0)
+BatchResult fit_either_equation(const FilterSpec& filter, const Timeline& timeline,
+                                const Readout& readout, const Measurements& measured,
+                                const Theta& start) {
+  if (filter.coupling != Coupling::lambda || !filter.active[lambda] ||
+      filter.priors[lambda].sigma() <= 0.0)
     return fit_batch(filter, timeline, readout, measured, start);
   BatchResult best = fit_batch(filter, timeline, readout, measured, start, patient);
   for (const double end : {0.0, 1.0}) {

@@ -21,15 +21,18 @@ struct Job {
 
 std::vector<Job> jobs_of(const Study& study) {
   if (study.filters.empty())
-    throw InputError(ExitCode::config, fmt::format("{}: no [[filter]]: nothing to estimate with. Add a "
-                                                   "section [[filter]] with name and coupling", study.path));
+    throw InputError(ExitCode::config,
+                     fmt::format("{}: no [[filter]]: nothing to estimate with. Add a "
+                                 "section [[filter]] with name and coupling",
+                                 study.path));
   std::vector<Job> jobs;
   for (std::size_t f = 0; f < study.filters.size(); ++f)
     for (std::size_t s = 0; s < start_count(study.filters[f]); ++s) jobs.push_back({f, s});
   return jobs;
 }
 
-FilterRun estimate(const Study& study, const Job& job, const Timeline& timeline, const Measurements& measured) {
+FilterRun estimate(const Study& study, const Job& job, const Timeline& timeline,
+                   const Measurements& measured) {
   const FilterSpec& filter = study.filters[job.filter];
   const Theta start = initial_estimate(filter, study.monte_carlo.seed, job.start);
   FilterRun run;
@@ -42,9 +45,11 @@ FilterRun estimate(const Study& study, const Job& job, const Timeline& timeline,
 
 void require_ok(const OdeResult& ode, std::uint64_t run) {
   if (!ode.ok())
-    throw InputError(ExitCode::self_check,
-                     fmt::format("simulation of run {} failed at t = {:.6g} s: {} ({}). The truth may be "
-                                 "unphysical: see `driftscope check`", run, ode.t, name(ode.status), ode.cause));
+    throw InputError(
+        ExitCode::self_check,
+        fmt::format("simulation of run {} failed at t = {:.6g} s: {} ({}). The truth may be "
+                    "unphysical: see `driftscope check`",
+                    run, ode.t, name(ode.status), ode.cause));
 }
 
 /// One filter and start, in the loop: the test is simulated position by position, and at the start
@@ -104,7 +109,8 @@ std::vector<FilterSummary> summarise(const Study& study, const Identification& i
 }
 
 template <class Task>
-void run_jobs(const Study& study, Identification& id, int threads, const Progress& progress, Task&& task) {
+void run_jobs(const Study& study, Identification& id, int threads, const Progress& progress,
+              Task&& task) {
   const std::vector<Job> jobs = jobs_of(study);
   std::atomic<std::size_t> done{0};
   id.runs = mc::run_campaign(
@@ -131,9 +137,11 @@ std::vector<const FilterRun*> Identification::runs_of(std::size_t filter) const 
 Identification identify_simulated(const Study& study, std::uint64_t run, int threads,
                                   const Progress& progress) {
   if (!study.has_truth)
-    throw InputError(ExitCode::config,
-                     fmt::format("{}: no [truth] to simulate from. Give a recording on the command line, "
-                                 "or add a section [truth]", study.path));
+    throw InputError(
+        ExitCode::config,
+        fmt::format("{}: no [truth] to simulate from. Give a recording on the command line, "
+                    "or add a section [truth]",
+                    study.path));
   Identification id;
   id.simulated = true;
   Timeline timeline = lay_out(study.plan, study.site);
@@ -143,8 +151,9 @@ Identification identify_simulated(const Study& study, std::uint64_t run, int thr
   id.truth = draw_truth(study.truth, timeline.chains, seed, run);
   set_lambda(study.truth, id.truth->theta);
   if (study.truth.coupling == Coupling::compensated && study.truth.loop == LoopEstimate::feedback) {
-    run_jobs(study, id, threads, progress,
-             [&](const Job& job) { return estimate_in_the_loop(study, job, timeline, *id.truth, run); });
+    run_jobs(study, id, threads, progress, [&](const Job& job) {
+      return estimate_in_the_loop(study, job, timeline, *id.truth, run);
+    });
     return id;
   }
   const Simulation sim = Simulator(study.truth, study.readout).run(timeline, *id.truth, seed, run);

@@ -14,7 +14,7 @@ namespace drift {
 
 /// One filter from one start, by both estimators.
 struct FilterRun {
-  std::size_t filter = 0;   ///< index in the study
+  std::size_t filter = 0;  ///< index in the study
   std::size_t start = 0;
   EstimateResult ekf;
   EkfHistory history;
@@ -31,9 +31,9 @@ struct StartSpread {
 struct FilterSummary {
   std::size_t filter = 0;
   Layout layout;
-  std::vector<StartSpread> spread;         ///< layout order; NaN ratios with one start
-  std::vector<WeakDirection> degeneracies; ///< exact: the data say nothing of these directions
-  std::size_t weak = 0;                    ///< directions of which the prior says more than the data
+  std::vector<StartSpread> spread;          ///< layout order; NaN ratios with one start
+  std::vector<WeakDirection> degeneracies;  ///< exact: the data say nothing of these directions
+  std::size_t weak = 0;  ///< directions of which the prior says more than the data
 };
 
 /// Parameters of a platform, estimated from one test by every filter and start of a study.
@@ -42,7 +42,7 @@ struct Identification {
   std::optional<TruthDraw> truth;  ///< of a simulated recording
   Recording recording;             ///< the (first) recording; empty with a loop fed back by filters
   std::vector<std::string> sources;
-  std::vector<FilterRun> runs;     ///< by filter, then start
+  std::vector<FilterRun> runs;  ///< by filter, then start
   std::vector<FilterSummary> summaries;
 
   std::vector<const FilterRun*> runs_of(std::size_t filter) const;
@@ -53,7 +53,8 @@ using Progress = std::function<void(std::size_t, std::size_t)>;
 
 /// Simulates one recording from [truth] (run number `run`) and estimates. With a compensated loop
 /// that is fed back, every filter and start watches a test of its own, driven by its estimates.
-/// InputError (config) if the study has no filter or no truth. Failed integration: InputError (self_check).
+/// InputError (config) if the study has no filter or no truth. Failed integration: InputError
+/// (self_check).
 Identification identify_simulated(const Study& study, std::uint64_t run, int threads,
                                   const Progress& progress = {});
 

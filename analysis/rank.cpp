@@ -16,11 +16,16 @@ namespace {
 
 constexpr std::array both{Coupling::eq5, Coupling::eq6};
 
-bool of_either_equation(const ModelSpec& spec) { return std::ranges::find(both, spec.coupling) != both.end(); }
+bool of_either_equation(const ModelSpec& spec) {
+  return std::ranges::find(both, spec.coupling) != both.end();
+}
 
 bool equal_axes(const Triads& a, const Triads& b) {
-  const auto equal = [](const SignedAxis& x, const SignedAxis& y) { return x.index == y.index && x.sign == y.sign; };
-  return std::ranges::equal(a.second, b.second, equal) && std::ranges::equal(a.third, b.third, equal);
+  const auto equal = [](const SignedAxis& x, const SignedAxis& y) {
+    return x.index == y.index && x.sign == y.sign;
+  };
+  return std::ranges::equal(a.second, b.second, equal) &&
+         std::ranges::equal(a.third, b.third, equal);
 }
 
 /// Whether two filters are ranked alike, but for eq. (5) or (6).
@@ -41,7 +46,8 @@ std::vector<RankingGroup> groups_of(const Study& study) {
         groups, [&](const RankingGroup& g) { return alike(g.models.front().model.spec, filter); });
     if (known != groups.end()) {
       known->filters += ", " + filter.name;
-      for (ModelRanking& m : known->models) m.of_the_file |= m.model.spec.coupling == filter.coupling;
+      for (ModelRanking& m : known->models)
+        m.of_the_file |= m.model.spec.coupling == filter.coupling;
       continue;
     }
     RankingGroup group{filter.name, {}};
@@ -49,16 +55,19 @@ std::vector<RankingGroup> groups_of(const Study& study) {
       ModelSpec spec = filter;
       spec.coupling = coupling;
       ModelRanking m;
-      m.model = ranked_model(spec, study.has_truth ? &study.truth : nullptr, study.site, study.readout,
-                             study.environment);
+      m.model = ranked_model(spec, study.has_truth ? &study.truth : nullptr, study.site,
+                             study.readout, study.environment);
       m.of_the_file = coupling == filter.coupling;
       group.models.push_back(std::move(m));
     };
     add(filter.coupling);
     if (of_either_equation(filter)) add(filter.coupling == both[0] ? both[1] : both[0]);
     if (make_layout(filter).size() == 0)
-      throw InputError(ExitCode::config, fmt::format("{}: filter '{}' estimates no parameter (expected at least one that "
-                                                     "is not fixed). Give it terms", study.path, filter.name));
+      throw InputError(
+          ExitCode::config,
+          fmt::format("{}: filter '{}' estimates no parameter (expected at least one that "
+                      "is not fixed). Give it terms",
+                      study.path, filter.name));
     groups.push_back(std::move(group));
   }
   for (RankingGroup& g : groups)  // of two filters, eq. (5) first
@@ -68,11 +77,12 @@ std::vector<RankingGroup> groups_of(const Study& study) {
   return groups;
 }
 
-/// Where parameters multiply (misalignment times drift), the mean of the prior may be a special point:
-/// the information at truths drawn from it says so.
+/// Where parameters multiply (misalignment times drift), the mean of the prior may be a special
+/// point: the information at truths drawn from it says so.
 std::vector<Elsewhere> ranges_elsewhere(const Study& study, const RankedModel& model) {
   constexpr std::uint64_t draws = 4;
-  std::vector<Elsewhere> ranges(make_layout(model.spec).size(), {std::numeric_limits<double>::infinity(), 0.0});
+  std::vector<Elsewhere> ranges(make_layout(model.spec).size(),
+                                {std::numeric_limits<double>::infinity(), 0.0});
   for (std::uint64_t k = 0; k < draws; ++k) {
     RankedModel drawn = model;
     drawn.nominal = draw_parameters(model.spec, study.monte_carlo.seed, k, Purpose::parameters);
@@ -99,13 +109,18 @@ void rank_model(const Study& study, const RankOptions& options, ModelRanking& m,
 
 }  // namespace
 
-PlanRanking rank_plan(const Study& study, const RankOptions& options, const ImproveProgress& progress) {
+PlanRanking rank_plan(const Study& study, const RankOptions& options,
+                      const ImproveProgress& progress) {
   if (study.kind != RecordingKind::platform)
-    throw InputError(ExitCode::config, fmt::format("{}: a strapdown recording has no plan to rank (expected kind = "
-                                                   "\"platform\"). Give [plan] a preset or positions", study.path));
+    throw InputError(ExitCode::config,
+                     fmt::format("{}: a strapdown recording has no plan to rank (expected kind = "
+                                 "\"platform\"). Give [plan] a preset or positions",
+                                 study.path));
   if (study.filters.empty())
-    throw InputError(ExitCode::config, fmt::format("{}: no [[filter]]: nothing to rank. Add a section [[filter]] "
-                                                   "with name and coupling", study.path));
+    throw InputError(ExitCode::config,
+                     fmt::format("{}: no [[filter]]: nothing to rank. Add a section [[filter]] "
+                                 "with name and coupling",
+                                 study.path));
   PlanRanking out;
   out.at_truth = study.has_truth;
   out.groups = groups_of(study);
@@ -116,7 +131,8 @@ PlanRanking rank_plan(const Study& study, const RankOptions& options, const Impr
 
   ModelRanking& first = *models.front();
   Criterion criterion;
-  if (options.improve > 0) criterion = parse_criterion(options.criterion, make_layout(first.model.spec));
+  if (options.improve > 0)
+    criterion = parse_criterion(options.criterion, make_layout(first.model.spec));
   const auto durations = mc::run_campaign(
       models.size(),
       [&](std::size_t k) {
@@ -128,8 +144,8 @@ PlanRanking rank_plan(const Study& study, const RankOptions& options, const Impr
   out.duration = durations.front();
   if (options.improve > 0) {
     PlanImprovement better;
-    better.improvement =
-        improve_plan(study.plan, first.model, criterion, options.improve, options.threads, progress);
+    better.improvement = improve_plan(study.plan, first.model, criterion, options.improve,
+                                      options.threads, progress);
     better.after = rank_parameters(linearise(better.improvement.plan, first.model));
     out.better = std::move(better);
   }

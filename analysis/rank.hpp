@@ -30,7 +30,7 @@ struct ModelRanking {
 
 /// Models of the same terms and priors, side by side: eqs. (5) and (6) for a filter of either.
 struct RankingGroup {
-  std::string filters;  ///< names in the file, "corrected, legacy"
+  std::string filters;               ///< names in the file, "corrected, legacy"
   std::vector<ModelRanking> models;  ///< the filter's own (of several: eq. (5)) first
 
   const Layout& layout() const { return models.front().ranking.layout; }
@@ -44,8 +44,8 @@ struct PlanImprovement {
 
 /// Everything `driftscope rank` says.
 struct PlanRanking {
-  double duration = 0.0;     ///< of the plan, slews included [s]
-  bool at_truth = false;     ///< linearised at the means of [truth], else at prior means
+  double duration = 0.0;       ///< of the plan, slews included [s]
+  bool at_truth = false;       ///< linearised at the means of [truth], else at prior means
   bool process_noise = false;  ///< a filter has it; the information does not
   std::vector<RankingGroup> groups;
   std::optional<PlanImprovement> better;
@@ -53,14 +53,14 @@ struct PlanRanking {
 
 /// What to look for beside the ranking.
 struct RankOptions {
-  std::size_t improve = 0;       ///< positions to add
-  std::string criterion = "A";   ///< A, D or a parameter
-  int threads = 0;               ///< 0: all
+  std::size_t improve = 0;      ///< positions to add
+  std::string criterion = "A";  ///< A, D or a parameter
+  int threads = 0;              ///< 0: all
   int bins_per_dwell = 6;
 };
 
-/// Ranks every filter of a study on its plan; no sampling. InputError (config) for a strapdown study
-/// or one without filter, (usage) for an unknown criterion.
+/// Ranks every filter of a study on its plan; no sampling. InputError (config) for a strapdown
+/// study or one without filter, (usage) for an unknown criterion.
 PlanRanking rank_plan(const Study& study, const RankOptions& options,
                       const ImproveProgress& progress = {});
 

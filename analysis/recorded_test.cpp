@@ -61,9 +61,12 @@ RecordedTest recorded_test(const Study& study, const std::vector<Recording>& rec
   }
   RecordedTest test{joined(std::move(timelines)), joined(parts), std::move(ends)};
   if (!test.measured.acc.array().isFinite().any() && !test.measured.gimbal.array().isFinite().any())
-    throw InputError(ExitCode::recording,
-                     fmt::format("{}: nothing measured: every accelerometer and gimbal channel that [readout] asks "
-                                 "for is absent or empty", recordings.front().source));
+    throw InputError(
+        ExitCode::recording,
+        fmt::format(
+            "{}: nothing measured: every accelerometer and gimbal channel that [readout] asks "
+            "for is absent or empty",
+            recordings.front().source));
   return test;
 }
 

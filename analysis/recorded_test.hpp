@@ -15,9 +15,9 @@ struct RecordedTest {
   std::vector<std::size_t> ends;  ///< of each recording, the interval after its last
 };
 
-/// Lays recordings out by the study's plan, in the surroundings that they carry or, of a field that is
-/// known, that [environment] declares. InputError (recording) where one does not fit the plan, or where
-/// nothing is measured.
+/// Lays recordings out by the study's plan, in the surroundings that they carry or, of a field that
+/// is known, that [environment] declares. InputError (recording) where one does not fit the plan,
+/// or where nothing is measured.
 RecordedTest recorded_test(const Study& study, const std::vector<Recording>& recordings);
 
 /// A test that is planned, in the same surroundings.

@@ -1,6 +1,6 @@
-// Speed of the filter: the structured covariance step against a textbook filter over dense matrices,
-// on the same transition and measurement matrices; and of a whole EKF step with its linearisation.
-// Exit code 8 if the covariances differ, 9 if a step allocates memory.
+// Speed of the filter: the structured covariance step against a textbook filter over dense
+// matrices, on the same transition and measurement matrices; and of a whole EKF step with its
+// linearisation. Exit code 8 if the covariances differ, 9 if a step allocates memory.
 
 #include <fmt/format.h>
 
@@ -31,7 +31,7 @@ namespace {
 
 constexpr int repetitions = 5;
 constexpr double aimed_ratio = 40.0;
-constexpr double allowed_difference = 1e-10;  // of the final covariances, norm over norm
+constexpr double allowed_difference = 1e-10;       // of the final covariances, norm over norm
 constexpr double arw = 1e-3 * detail::deg / 60.0;  // [rad/sqrt(s)]
 
 FilterSpec all_terms() {
@@ -80,14 +80,15 @@ Problem make_problem() {
   Problem p;
   const DriftModel model = p.filter.model();
   const Theta theta = draw_parameters(p.filter, 1, 0, Purpose::test);
-  const Trajectory phi = integrate_fixed(p.timeline, model, theta,
-                                         std::vector<Vec3>(p.timeline.chains, Vec3::Zero()));
+  const Trajectory phi =
+      integrate_fixed(p.timeline, model, theta, std::vector<Vec3>(p.timeline.chains, Vec3::Zero()));
   Linearizer linearizer(model, p.layout, p.readout);
   linearizer.set_theta(theta);
   IntervalSensitivity s;
   for (std::size_t i = 0; i < p.timeline.intervals.size(); ++i) {
     const Interval& interval = p.timeline.intervals[i];
-    linearize_interval(interval, p.timeline, Mat3::Zero(), &phi[interval.first_node], linearizer, s);
+    linearize_interval(interval, p.timeline, Mat3::Zero(), &phi[interval.first_node], linearizer,
+                       s);
     const auto m = static_cast<std::size_t>(interval.substeps);
     const std::size_t last = interval.node_count() - 1;
     Step step;
@@ -98,9 +99,9 @@ Problem make_problem() {
     step.G_rest = s.G[last] - step.Phi_rest * s.G[m];
     step.H_acc = s.jacobian[m].H;
     step.H_par = s.jacobian[m].H_par;
-    step.H_gimbal =
-        predict_gimbals(p.timeline.nodes[interval.last_node()], interval.heading1,
-                        phi[interval.last_node()]).H;
+    step.H_gimbal = predict_gimbals(p.timeline.nodes[interval.last_node()], interval.heading1,
+                                    phi[interval.last_node()])
+                        .H;
     step.Q = 0.5 * arw * arw * interval.length() * Mat3::Identity();
     const double a = static_cast<double>(i);
     step.nu_acc = p.readout.accelerometer_noise * Vec3(std::sin(a), std::cos(a), std::sin(2.0 * a));
@@ -156,7 +157,8 @@ Timed run_dense(const Problem& p, DenseForm form) {
     if (s.cage) {
       filter.P.topRows<3>().setZero();
       filter.P.leftCols<3>().setZero();
-      filter.P.diagonal().head<3>().setConstant(p.filter.initial_attitude * p.filter.initial_attitude);
+      filter.P.diagonal().head<3>().setConstant(p.filter.initial_attitude *
+                                                p.filter.initial_attitude);
     }
     Q.topLeftCorner<3, 3>() = s.Q;
     F.topLeftCorner<3, 3>() = s.Phi_half;
@@ -186,14 +188,17 @@ Timed run_filter(const Problem& p, const Measurements& measured) {
 }
 
 /// Difference of two covariances of prior-scaled states, norm over norm.
-double difference(const MatX& A, const MatX& B) { return (A - B).norm() / B.norm(); }
+double difference(const MatX& A, const MatX& B) {
+  return (A - B).norm() / B.norm();
+}
 
 /// Largest difference of an element, over the largest element.
 double difference_by_element(const MatX& A, const MatX& B) {
   return (A - B).cwiseAbs().maxCoeff() / B.cwiseAbs().maxCoeff();
 }
 
-/// The same, each element over the posterior sigmas it belongs to: amplified by how much was learnt.
+/// The same, each element over the posterior sigmas it belongs to: amplified by how much was
+/// learnt.
 double difference_by_sigma(const MatX& A, const MatX& B) {
   const VecX sigma = B.diagonal().cwiseSqrt();
   return ((A - B).array() / (sigma * sigma.transpose()).array()).abs().maxCoeff();
@@ -210,8 +215,9 @@ void keep_best(Timed& best, const Timed& now) {
 }
 
 void print_row(const char* name, const Timed& t, std::size_t steps, double reference) {
-  fmt::print("{:<34}{:>12.0f}{:>12.3f}{:>12.2f}{:>12}\n", name, static_cast<double>(steps) / t.seconds,
-             1e6 * t.seconds / static_cast<double>(steps), reference / t.seconds, t.allocated);
+  fmt::print("{:<34}{:>12.0f}{:>12.3f}{:>12.2f}{:>12}\n", name,
+             static_cast<double>(steps) / t.seconds, 1e6 * t.seconds / static_cast<double>(steps),
+             reference / t.seconds, t.allocated);
 }
 
 int run() {
@@ -227,16 +233,17 @@ int run() {
     keep_best(filter, run_filter(p, measured));
   }
   const std::size_t n = p.steps.size();
-  fmt::print("{} states, {} steps of 2 propagations and 2 updates of 3 scalars; best of {}, CPU time\n\n",
-             p.states(), n, repetitions);
+  fmt::print(
+      "{} states, {} steps of 2 propagations and 2 updates of 3 scalars; best of {}, CPU time\n\n",
+      p.states(), n, repetitions);
   fmt::print("{:<34}{:>12}{:>12}{:>12}{:>12}\n", "", "steps/s", "us/step", "speed", "mallocs");
   print_row("dense, textbook (I - K H) P", textbook, n, textbook.seconds);
   print_row("dense, Joseph form", joseph, n, textbook.seconds);
   print_row("structured", structured, n, textbook.seconds);
   print_row("whole EKF step, structured", filter, n - 1, textbook.seconds);
   const double ratio = textbook.seconds / structured.seconds;
-  fmt::print("\nstructured against textbook: {:.1f} times as fast (aim {:.0f}){}\n", ratio, aimed_ratio,
-             ratio < aimed_ratio ? ", MISSED" : "");
+  fmt::print("\nstructured against textbook: {:.1f} times as fast (aim {:.0f}){}\n", ratio,
+             aimed_ratio, ratio < aimed_ratio ? ", MISSED" : "");
   for (Timed* t : {&structured, &textbook, &joseph}) scale_attitude(p, *t);
   const auto compare = [](const char* names, const Timed& a, const Timed& b) {
     fmt::print("  {:<24}{:>12.1e}{:>12.1e}{:>12.1e}\n", names, difference(a.P, b.P),
@@ -246,7 +253,8 @@ int run() {
   compare("structured, textbook", structured, textbook);
   compare("structured, Joseph", structured, joseph);
   compare("textbook, Joseph", textbook, joseph);
-  const double gap = std::max(difference(structured.P, textbook.P), difference(structured.P, joseph.P));
+  const double gap =
+      std::max(difference(structured.P, textbook.P), difference(structured.P, joseph.P));
   if (!(gap <= allowed_difference)) return 8;
   return structured.allocated + filter.allocated == 0 ? 0 : 9;
 }
@@ -254,4 +262,6 @@ int run() {
 }  // namespace
 }  // namespace drift::bench
 
-int main() { return drift::bench::run(); }
+int main() {
+  return drift::bench::run();
+}

@@ -1,7 +1,8 @@
-// Speed of a study: runs per second and core of the default study, alone and on all threads, against
-// a run as it is written without driftscope (practice_run.hpp), on the same recordings. Both estimate
-// with one pass of an EKF; what the study's own estimator costs beyond that is printed below.
-// Exit code 8 if the estimates of the two differ by more than their tolerances allow.
+// Speed of a study: runs per second and core of the default study, alone and on all threads,
+// against a run as it is written without driftscope (practice_run.hpp), on the same recordings.
+// Both estimate with one pass of an EKF; what the study's own estimator costs beyond that is
+// printed below. Exit code 8 if the estimates of the two differ by more than their tolerances
+// allow.
 
 #include <fmt/format.h>
 #include <omp.h>
@@ -21,17 +22,19 @@ namespace drift::bench {
 namespace {
 
 constexpr int rounds = 3;
-constexpr std::uint64_t practice_runs = 2;    // per point and round: the slow side
-constexpr std::uint64_t runs = 24;            // per point and round
-constexpr double allowed_attitude = 0.02;     // [arcsec]: both integrators hold 0.004 and better
-constexpr double allowed_estimate = 0.02;     // of a parameter, in posterior sigmas
+constexpr std::uint64_t practice_runs = 2;  // per point and round: the slow side
+constexpr std::uint64_t runs = 24;          // per point and round
+constexpr double allowed_attitude = 0.02;   // [arcsec]: both integrators hold 0.004 and better
+constexpr double allowed_estimate = 0.02;   // of a parameter, in posterior sigmas
 
 double cpu_time() {
   timespec t{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
-double wall_time() { return omp_get_wtime(); }
+double wall_time() {
+  return omp_get_wtime();
+}
 
 struct Point {
   const mc::StudyPoint* point;
@@ -42,15 +45,18 @@ struct Point {
 double ours(const std::vector<Point>& points, int threads) {
   const double start = wall_time();
   for (const Point& p : points)
-    mc::run_campaign(static_cast<std::size_t>(threads), [&](std::size_t thread) {
-      const auto worker = p.task->worker();
-      std::vector<double> row(p.task->columns().size());
-      for (std::uint64_t k = thread; k < runs; k += static_cast<std::size_t>(threads)) {
-        std::fill(row.begin(), row.end(), std::nan(""));
-        worker->execute(k, row);
-      }
-      return 0;
-    }, threads);
+    mc::run_campaign(
+        static_cast<std::size_t>(threads),
+        [&](std::size_t thread) {
+          const auto worker = p.task->worker();
+          std::vector<double> row(p.task->columns().size());
+          for (std::uint64_t k = thread; k < runs; k += static_cast<std::size_t>(threads)) {
+            std::fill(row.begin(), row.end(), std::nan(""));
+            worker->execute(k, row);
+          }
+          return 0;
+        },
+        threads);
   return wall_time() - start;
 }
 
@@ -81,12 +87,14 @@ Practice practice(const std::vector<Point>& points) {
           const EstimateResult theirs =
               practice_ekf(f, timeline, study.readout, truth.measured, start_estimate);
           const double before = cpu_time();
-          const EstimateResult own = run_ekf(f, timeline, study.readout, truth.measured, start_estimate);
+          const EstimateResult own =
+              run_ekf(f, timeline, study.readout, truth.measured, start_estimate);
           out.seconds -= cpu_time() - before;
           if (own.status != EstimateStatus::ok) continue;
           for (std::size_t i = 0; i < own.parameters.size(); ++i)
-            out.estimate = std::max(out.estimate, std::abs(own.parameters[i].value - theirs.parameters[i].value) /
-                                                      own.parameters[i].sigma);
+            out.estimate = std::max(out.estimate,
+                                    std::abs(own.parameters[i].value - theirs.parameters[i].value) /
+                                        own.parameters[i].sigma);
         }
       out.seconds += cpu_time() - start;
     }
@@ -96,7 +104,8 @@ Practice practice(const std::vector<Point>& points) {
 
 /// The points of a study and what executes their runs.
 struct Points {
-  Points(const Study& study, std::optional<EstimatorKind> estimator) : points(mc::study_points(study)) {
+  Points(const Study& study, std::optional<EstimatorKind> estimator)
+      : points(mc::study_points(study)) {
     if (estimator)
       for (mc::StudyPoint& p : points) p.study.monte_carlo.estimator = *estimator;
     tasks = mc::study_tasks(points);
@@ -131,23 +140,30 @@ int run(const char* file) {
   }
   const auto total = static_cast<double>(runs * all.size());
   const auto practised = static_cast<double>(practice_runs * all.size());
-  fmt::print("{}: {} points, {} filters; a run is one simulated test, every filter, every start; best of {}\n\n",
-             file, all.size(), study.filters.size(), rounds);
+  fmt::print(
+      "{}: {} points, {} filters; a run is one simulated test, every filter, every start; best of "
+      "{}\n\n",
+      file, all.size(), study.filters.size(), rounds);
   fmt::print("{:<44}{:>12}{:>12}\n", "", "runs/s", "ratio");
   const double base = practised / other.seconds;
   fmt::print("{:<44}{:>12.3f}{:>12.1f}\n", "packaged CVODE and dense EKF, one core", base, 1.0);
   fmt::print("{:<44}{:>12.3f}{:>12.1f}\n", "driftscope, 1 thread", total / one, total / one / base);
-  fmt::print("{:<44}{:>12.3f}{:>12.1f}\n", fmt::format("driftscope, {} threads", threads), total / many,
-             total / many / base);
-  fmt::print("{:<44}{:>12.3f}\n", fmt::format("  with the study's estimator, {} threads", threads), total / own);
-  fmt::print("\n{} threads against one: {:.2f}; per core {:.2f}\n", threads, one / many, one / many / threads);
-  fmt::print("share of integration in the practice run: {:.1f} %\n", 100.0 * other.integration / other.seconds);
-  fmt::print("largest differences: attitude {:.1e} arcsec, estimate {:.1e} posterior sigma\n", other.attitude,
-             other.estimate);
+  fmt::print("{:<44}{:>12.3f}{:>12.1f}\n", fmt::format("driftscope, {} threads", threads),
+             total / many, total / many / base);
+  fmt::print("{:<44}{:>12.3f}\n", fmt::format("  with the study's estimator, {} threads", threads),
+             total / own);
+  fmt::print("\n{} threads against one: {:.2f}; per core {:.2f}\n", threads, one / many,
+             one / many / threads);
+  fmt::print("share of integration in the practice run: {:.1f} %\n",
+             100.0 * other.integration / other.seconds);
+  fmt::print("largest differences: attitude {:.1e} arcsec, estimate {:.1e} posterior sigma\n",
+             other.attitude, other.estimate);
   return other.attitude < allowed_attitude && other.estimate < allowed_estimate ? 0 : 8;
 }
 
 }  // namespace
 }  // namespace drift::bench
 
-int main(int argc, char** argv) { return drift::bench::run(argc > 1 ? argv[1] : "configs/study.toml"); }
+int main(int argc, char** argv) {
+  return drift::bench::run(argc > 1 ? argv[1] : "configs/study.toml");
+}

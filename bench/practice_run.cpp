@@ -37,8 +37,8 @@ void check(int flag) {
 
 }  // namespace
 
-Trajectory practice_trajectory(const Timeline& timeline, const TruthSpec& truth, const TruthDraw& draw,
-                               const OdeOptions& tolerances) {
+Trajectory practice_trajectory(const Timeline& timeline, const TruthSpec& truth,
+                               const TruthDraw& draw, const OdeOptions& tolerances) {
   SUNContext context = nullptr;
   check(SUNContext_Create(nullptr, &context));
   N_Vector y = N_VNew_Serial(3, context);
@@ -52,14 +52,15 @@ Trajectory practice_trajectory(const Timeline& timeline, const TruthSpec& truth,
   for (std::size_t i = 0; i < timeline.intervals.size(); ++i) {
     const Interval& interval = timeline.intervals[i];
     const Node& node = timeline.nodes[interval.first_node];
-    const bool same = i > 0 && !interval.cage &&
-                      interval.omega_cmd_p == timeline.intervals[i - 1].omega_cmd_p &&
-                      std::abs(interval.heading_rate() - timeline.intervals[i - 1].heading_rate()) < 1e-15;
+    const bool same =
+        i > 0 && !interval.cage && interval.omega_cmd_p == timeline.intervals[i - 1].omega_cmd_p &&
+        std::abs(interval.heading_rate() - timeline.intervals[i - 1].heading_rate()) < 1e-15;
     if (!same) {
       s.drive = drive_of(interval, timeline, model, draw.theta);
       s.R_lr0 = node.R_lr;
       s.t0 = interval.t0;
-      if (interval.cage) Eigen::Map<Vec3>(NV_DATA_S(y)) = caged_phi(node.R_lr, draw.psi0_l[interval.chain]);
+      if (interval.cage)
+        Eigen::Map<Vec3>(NV_DATA_S(y)) = caged_phi(node.R_lr, draw.psi0_l[interval.chain]);
       if (first) {
         check(CVodeInit(cvode, rate, interval.t0, y));
         check(CVodeSStolerances(cvode, 0.25 * tolerances.rel_tol, 0.25 * tolerances.abs_tol));
@@ -88,8 +89,9 @@ Trajectory practice_trajectory(const Timeline& timeline, const TruthSpec& truth,
   return phi;
 }
 
-EstimateResult practice_ekf(const FilterSpec& filter, const Timeline& timeline, const Readout& readout,
-                            const Measurements& measured, const Theta& start) {
+EstimateResult practice_ekf(const FilterSpec& filter, const Timeline& timeline,
+                            const Readout& readout, const Measurements& measured,
+                            const Theta& start) {
   const DriftModel model = filter.model();
   const Layout layout = make_layout(filter);
   const auto n = 3 + static_cast<Eigen::Index>(layout.size());
@@ -130,7 +132,8 @@ EstimateResult practice_ekf(const FilterSpec& filter, const Timeline& timeline, 
     phi[0] = now;
     step_through(interval, timeline, drive_of(interval, timeline, model, theta), phi.data());
     linearize_interval(interval, timeline, Mat3::Zero(), phi.data(), linearizer, s);
-    const std::size_t last = interval.node_count() - 1, m = static_cast<std::size_t>(interval.substeps);
+    const std::size_t last = interval.node_count() - 1,
+                      m = static_cast<std::size_t>(interval.substeps);
     Q.topLeftCorner<3, 3>() = 0.5 * arw * arw * interval.length() * Mat3::Identity();
     F.topLeftCorner<3, 3>() = s.Phi[m];
     F.block(0, 3, 3, nr) = s.G[m];

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/sim/simulate.hpp"
 #include "core/estimate/estimate_result.hpp"
+#include "core/sim/simulate.hpp"
 
 namespace drift::bench {
 
@@ -11,11 +11,12 @@ namespace drift::bench {
 
 /// phi at every node by CVODE with its own vectors and a fixed-point corrector, one call per node.
 /// draw: the numbers of the run. Algebraic couplings without process noise.
-Trajectory practice_trajectory(const Timeline& timeline, const TruthSpec& truth, const TruthDraw& draw,
-                               const OdeOptions& tolerances);
+Trajectory practice_trajectory(const Timeline& timeline, const TruthSpec& truth,
+                               const TruthDraw& draw, const OdeOptions& tolerances);
 
 /// Textbook EKF over 3 attitude errors and all parameters with P <- (I - K H) P.
-EstimateResult practice_ekf(const FilterSpec& filter, const Timeline& timeline, const Readout& readout,
-                            const Measurements& measured, const Theta& start);
+EstimateResult practice_ekf(const FilterSpec& filter, const Timeline& timeline,
+                            const Readout& readout, const Measurements& measured,
+                            const Theta& start);
 
 }  // namespace drift::bench

@@ -21,16 +21,18 @@ std::optional<std::vector<std::size_t>> read_names(Section& section, std::string
   if (node == nullptr) return std::nullopt;
   const std::string name = section.full(key);
   if (!node->is(Node::Kind::array) || node->items.empty()) {
-    section.report().error(node->at, fmt::format("'{}' is {} (expected a list of {}). Write {} = [\"{}\"]", name,
-                                                 describe(*node), fmt::join(known, ", "), key, known.front()));
+    section.report().error(
+        node->at, fmt::format("'{}' is {} (expected a list of {}). Write {} = [\"{}\"]", name,
+                              describe(*node), fmt::join(known, ", "), key, known.front()));
     return std::nullopt;
   }
   std::vector<std::size_t> chosen;
   for (const Node& item : node->items) {
-    const auto at = item.is(Node::Kind::string) ? std::find(known.begin(), known.end(), item.text) : known.end();
+    const auto at = item.is(Node::Kind::string) ? std::find(known.begin(), known.end(), item.text)
+                                                : known.end();
     if (at == known.end()) {
-      section.report().error(item.at, fmt::format("'{}' holds {} (expected {}). Use one of them", name,
-                                                  describe(item), fmt::join(known, ", ")));
+      section.report().error(item.at, fmt::format("'{}' holds {} (expected {}). Use one of them",
+                                                  name, describe(item), fmt::join(known, ", ")));
       return std::nullopt;
     }
     chosen.push_back(static_cast<std::size_t>(at - known.begin()));
@@ -41,7 +43,8 @@ std::optional<std::vector<std::size_t>> read_names(Section& section, std::string
 
 /// A number of a list.
 std::optional<double> number(Section& section, const Node& node, const std::string& name) {
-  const auto q = read_quantity(section.report(), node, name, Option{"sizes", unit::one, 0.1, 1e4, "size in sigma"});
+  const auto q = read_quantity(section.report(), node, name,
+                               Option{"sizes", unit::one, 0.1, 1e4, "size in sigma"});
   if (!q) return std::nullopt;
   return q->si();
 }
@@ -50,12 +53,15 @@ void read_sizes(Section& section, BlindSpec& spec) {
   const Node* node = section.take("sizes");
   const std::string name = section.full("sizes");
   if (node == nullptr) {
-    section.report().assumed(name, fmt::format("{{ uniform = [{}, {}] }}", spec.smallest, spec.largest));
+    section.report().assumed(name,
+                             fmt::format("{{ uniform = [{}, {}] }}", spec.smallest, spec.largest));
     return;
   }
   const auto wrong = [&] {
-    section.report().error(node->at, fmt::format("'{}' is {} (expected a list of sizes, or {{ uniform = [low, high] "
-                                                 "}}). Write sizes = [4, 6, 8, 12]", name, describe(*node)));
+    section.report().error(
+        node->at, fmt::format("'{}' is {} (expected a list of sizes, or {{ uniform = [low, high] "
+                              "}}). Write sizes = [4, 6, 8, 12]",
+                              name, describe(*node)));
   };
   const Node* range = node->is(Node::Kind::table) ? node->find("uniform") : nullptr;
   const Node* list = node->is(Node::Kind::array) ? node : range;
@@ -92,8 +98,9 @@ BlindShares read_shares(Section section) {
   BlindShares shares;
   visit_options(shares, [&](const Option& option, double& value) { section.read(option, value); });
   if (section.present() && !(shares.sum() > 0.0))
-    section.report().error(section.at(), "[blind.shares] are all 0 (expected a weight for at least one). Give "
-                                         "null = 1");
+    section.report().error(section.at(),
+                           "[blind.shares] are all 0 (expected a weight for at least one). Give "
+                           "null = 1");
   section.finish();
   return shares;
 }
@@ -120,9 +127,11 @@ BlindSpec read_blind(Section section) {
   }
   read_sizes(section, spec);
   section.read(Option{"pair_size", unit::one, 0.1, 1e4, "of each of two [sigma]"}, spec.pair_size);
-  section.read(Option{"pair_cosine", unit::one, 0.0, 1.0, "largest of two projected signatures"}, spec.pair_cosine);
+  section.read(Option{"pair_cosine", unit::one, 0.0, 1.0, "largest of two projected signatures"},
+               spec.pair_cosine);
   section.read(Option{"outside_size", unit::one, 0.1, 1e4, "[sigma]"}, spec.outside_size);
-  section.read(Option{"most_prior_sigmas", unit::one, 0.01, 1e6, "of an effect"}, spec.most_prior_sigmas);
+  section.read(Option{"most_prior_sigmas", unit::one, 0.01, 1e6, "of an effect"},
+               spec.most_prior_sigmas);
   spec.shares = read_shares(section.section("shares"));
   section.finish();
   return spec;

@@ -27,12 +27,12 @@ struct BlindSpec {
   std::vector<std::string> plans{"twelve", "twentyfour", "slew12"};
   std::vector<CommandLaw> modes{CommandLaw::free};
   std::vector<Coupling> couplings{Coupling::eq5, Coupling::eq6};  ///< of the truth
-  std::vector<double> sizes;             ///< of single and local effects [sigma]; empty: drawn
-  double smallest = 3.0, largest = 14.0; ///< drawn uniformly between [sigma]
-  double pair_size = 10.0;               ///< of each of two effects [sigma]
-  double pair_cosine = 0.7;              ///< largest |cosine| of the two projected signatures
-  double outside_size = 15.0;            ///< [sigma]
-  double most_prior_sigmas = 3.0;        ///< an effect that would need more is not hidden on this plan
+  std::vector<double> sizes;              ///< of single and local effects [sigma]; empty: drawn
+  double smallest = 3.0, largest = 14.0;  ///< drawn uniformly between [sigma]
+  double pair_size = 10.0;                ///< of each of two effects [sigma]
+  double pair_cosine = 0.7;               ///< largest |cosine| of the two projected signatures
+  double outside_size = 15.0;             ///< [sigma]
+  double most_prior_sigmas = 3.0;  ///< an effect that would need more is not hidden on this plan
   BlindShares shares;
 };
 

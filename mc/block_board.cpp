@@ -14,7 +14,8 @@ std::optional<BlockBoard::Ticket> BlockBoard::take() {
     current_->columns = columns_[key->point];
     current_->left = key->count;
     current_->stored.block = {key->point, key->first, std::vector<RunStatus>(key->count),
-                              std::vector<double>(key->count * current_->columns, std::numeric_limits<double>::quiet_NaN())};
+                              std::vector<double>(key->count * current_->columns,
+                                                  std::numeric_limits<double>::quiet_NaN())};
   }
   Ticket ticket{current_, current_->taken++};
   if (current_->taken == current_->stored.block.status.size()) current_.reset();
@@ -29,9 +30,11 @@ std::optional<StoredBlock> BlockBoard::finish(const Ticket& ticket, const RunOut
   b.stored.times.filter_s += outcome.filter_s;
   b.stored.times.total_s += outcome.total_s;
   if (outcome.status != RunStatus::ok)
-    b.stored.failures.push_back({ticket.run(), outcome.status, outcome.cause, outcome.t_failed, outcome.total_s});
+    b.stored.failures.push_back(
+        {ticket.run(), outcome.status, outcome.cause, outcome.t_failed, outcome.total_s});
   if (--b.left > 0) return std::nullopt;
-  std::sort(b.stored.failures.begin(), b.stored.failures.end(), [](const Failure& x, const Failure& y) { return x.run < y.run; });
+  std::sort(b.stored.failures.begin(), b.stored.failures.end(),
+            [](const Failure& x, const Failure& y) { return x.run < y.run; });
   return std::move(b.stored);
 }
 

@@ -11,8 +11,8 @@
 
 namespace drift::mc {
 
-/// Hands out runs to threads, one at a time and across block boundaries, and gathers their rows into
-/// blocks. Thread-safe.
+/// Hands out runs to threads, one at a time and across block boundaries, and gathers their rows
+/// into blocks. Thread-safe.
 class BlockBoard {
  public:
   struct InFlight {

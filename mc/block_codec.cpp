@@ -58,7 +58,8 @@ std::optional<Block> decode(const BlockKey& key, std::size_t columns, std::strin
 std::string checksum(std::string_view study_hash, const BlockKey& key, std::string_view payload) {
   Sha256 hash;
   hash.update(study_hash);
-  for (const std::uint64_t number : {std::uint64_t{key.point}, key.first, std::uint64_t{key.count}}) {
+  for (const std::uint64_t number :
+       {std::uint64_t{key.point}, key.first, std::uint64_t{key.count}}) {
     const auto bits = little_endian(number);
     hash.update(std::string_view(reinterpret_cast<const char*>(&bits), 8));
   }

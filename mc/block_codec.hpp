@@ -18,7 +18,9 @@ struct BlockKey {
   auto operator<=>(const BlockKey&) const = default;
 };
 
-inline BlockKey key_of(const Block& block) { return {block.point, block.first, block.status.size()}; }
+inline BlockKey key_of(const Block& block) {
+  return {block.point, block.first, block.status.size()};
+}
 
 /// The results of a block as they are stored, the same bytes on every machine: one byte of status
 /// per run, then column after column, each value as little-endian IEEE double.

@@ -1,16 +1,17 @@
 #pragma once
 
+#include <omp.h>
+
 #include <atomic>
 #include <cstddef>
 #include <exception>
 #include <mutex>
 #include <vector>
 
-#include <omp.h>
-
 namespace drift::mc {
 
-/// Threads that campaigns begun on this thread use while it lives, unless they are told; 0: as before.
+/// Threads that campaigns begun on this thread use while it lives, unless they are told; 0: as
+/// before.
 class ThreadCount {
  public:
   explicit ThreadCount(int threads) : before_(omp_get_max_threads()) {
@@ -34,7 +35,8 @@ auto run_campaign(std::size_t n, Task&& task, int threads = 0)
   std::exception_ptr first;
   std::size_t first_index = n;
   std::mutex guard;
-#pragma omp parallel for schedule(dynamic) num_threads(threads > 0 ? threads : omp_get_max_threads())
+#pragma omp parallel for schedule(dynamic) \
+    num_threads(threads > 0 ? threads : omp_get_max_threads())
   for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(n); ++i) {
     const auto k = static_cast<std::size_t>(i);
     try {

@@ -9,16 +9,23 @@
 namespace drift::mc {
 namespace {
 
-std::uint32_t index_of(std::size_t param) { return stream_index(TermLibrary::specs[param].key); }
+std::uint32_t index_of(std::size_t param) {
+  return stream_index(TermLibrary::specs[param].key);
+}
 
 /// 53 bits as a number inside (0, 1).
-double inside_unit(std::uint64_t bits) { return (static_cast<double>(bits >> 11) + 0.5) * 0x1p-53; }
+double inside_unit(std::uint64_t bits) {
+  return (static_cast<double>(bits >> 11) + 0.5) * 0x1p-53;
+}
 
 double at_quantile(const Prior& prior, double u) {
   switch (prior.kind) {
-    case Prior::Kind::normal: return prior.a + prior.b * normal_quantile(u);
-    case Prior::Kind::uniform: return prior.a + (prior.b - prior.a) * u;
-    case Prior::Kind::fixed: break;
+    case Prior::Kind::normal:
+      return prior.a + prior.b * normal_quantile(u);
+    case Prior::Kind::uniform:
+      return prior.a + (prior.b - prior.a) * u;
+    case Prior::Kind::fixed:
+      break;
   }
   return prior.a;
 }
@@ -54,7 +61,8 @@ struct Design::Sobol {
   explicit Sobol(std::size_t dimensions) : engine(dimensions), point(dimensions) {}
 
   void move_to(std::uint64_t run) {
-    // Boost leaves out the first point of the sequence, zero; without it, equal intervals are missed.
+    // Boost leaves out the first point of the sequence, zero; without it, equal intervals are
+    // missed.
     if (run > 0) {
       engine.seed();
       engine.discard((run - 1) * point.size());

@@ -19,9 +19,9 @@ std::uint64_t permuted(std::uint64_t k, std::uint64_t n, std::uint64_t seed, std
 /// random in every design. A run's numbers are a pure function of (truth, kind, runs, seed, run).
 ///
 /// latin_hypercube: in runs 0 .. runs-1, every parameter falls once into each of `runs` strata of
-/// equal probability, in an order of its own; later runs are further hypercubes. sobol: one dimension
-/// for each distributed parameter in library order, shifted digit by digit (Owen 2003). Values come
-/// from uniform numbers by the inverse distribution function.
+/// equal probability, in an order of its own; later runs are further hypercubes. sobol: one
+/// dimension for each distributed parameter in library order, shifted digit by digit (Owen 2003).
+/// Values come from uniform numbers by the inverse distribution function.
 class Design {
  public:
   Design(const TruthSpec& truth, DesignKind kind, std::uint64_t runs, std::uint64_t seed);

@@ -25,11 +25,16 @@ using Counter = Ranks::Counter;
 /// One session of one worker.
 class Engine {
  public:
-  Engine(const StudyWork& work, const EngineOptions& options, const std::string& folder, const Manifest& manifest,
-          Ranks& ranks, const ProgressSink& sink)
-      : work_(work), options_(options), folder_(folder), ranks_(ranks), sink_(sink),
+  Engine(const StudyWork& work, const EngineOptions& options, const std::string& folder,
+         const Manifest& manifest, Ranks& ranks, const ProgressSink& sink)
+      : work_(work),
+        options_(options),
+        folder_(folder),
+        ranks_(ranks),
+        sink_(sink),
         store_(folder, ranks.size() > 1 ? ranks.rank() : options.share.index, manifest),
-        reader_(folder), rules_(work.stop_rules, options.runs, reader_) {}
+        reader_(folder),
+        rules_(work.stop_rules, options.runs, reader_) {}
 
   StudyOutcome run() {
     store_.begin_session(options_.runs);
@@ -50,9 +55,12 @@ class Engine {
     return list;
   }
 
-  WorkerShare own_share() const { return ranks_.size() > 1 ? WorkerShare{} : options_.share; }
+  WorkerShare own_share() const {
+    return ranks_.size() > 1 ? WorkerShare{} : options_.share;
+  }
 
-  /// What is missing, of this worker's share; for several ranks what the leader found to be missing.
+  /// What is missing, of this worker's share; for several ranks what the leader found to be
+  /// missing.
   void plan() {
     reader_.refresh();
     rules_.advance();
@@ -75,7 +83,8 @@ class Engine {
     if (options_.shuffle != 0) {
       Stream stream(options_.shuffle, 0, Purpose::test);
       for (std::size_t i = missing.size(); i > 1; --i)
-        std::swap(missing[i - 1], missing[static_cast<std::size_t>(stream.uniform() * static_cast<double>(i))]);
+        std::swap(missing[i - 1],
+                  missing[static_cast<std::size_t>(stream.uniform() * static_cast<double>(i))]);
     }
     todo_ = std::move(missing);
   }
@@ -110,7 +119,9 @@ class Engine {
     return stop_ != none;
   }
 
-  double seconds() const { return std::chrono::duration<double>(Clock::now() - started_).count(); }
+  double seconds() const {
+    return std::chrono::duration<double>(Clock::now() - started_).count();
+  }
 
   void work_through(BlockBoard& board) {
     try {
@@ -119,7 +130,8 @@ class Engine {
       while (!must_stop()) {
         const auto ticket = board.take();
         if (!ticket) break;
-        if (!worker || point != ticket->point()) worker = work_.points[point = ticket->point()].task->worker();
+        if (!worker || point != ticket->point())
+          worker = work_.points[point = ticket->point()].task->worker();
         const RunOutcome outcome = guarded_run(*worker, ticket->run(), ticket->row());
         if (outcome.status != RunStatus::ok) {
           ++own_failed_;
@@ -137,8 +149,8 @@ class Engine {
     }
   }
 
-  /// The thread that finds nobody storing stores its block and those that others finish meanwhile, so
-  /// that no thread waits for the disk and a slow disk gets fewer, larger transactions.
+  /// The thread that finds nobody storing stores its block and those that others finish meanwhile,
+  /// so that no thread waits for the disk and a slow disk gets fewer, larger transactions.
   void store(StoredBlock block) {
     std::unique_lock lock(queue_guard_);
     queue_.push_back(std::move(block));
@@ -168,7 +180,8 @@ class Engine {
     ranks_.add(Counter::done, runs);
     if (failed > 0) ranks_.add(Counter::failed, failed);
     int expected = none;
-    if (ranks_.size() > 1 && ranks_.add(Counter::stop, 0) > 0) stop_.compare_exchange_strong(expected, elsewhere);
+    if (ranks_.size() > 1 && ranks_.add(Counter::stop, 0) > 0)
+      stop_.compare_exchange_strong(expected, elsewhere);
   }
 
   void tell() {
@@ -196,11 +209,16 @@ class Engine {
 
   ExitCode stop_code() const {
     switch (stop_) {
-      case asked: return signals_.caught() == SIGINT ? ExitCode::interrupted : ExitCode::terminated;
-      case full_time: return ExitCode::wall_time;
-      case failed_run: return ExitCode::failed_runs;
-      case broken: return code_of(error_);
-      default: return ExitCode::ok;
+      case asked:
+        return signals_.caught() == SIGINT ? ExitCode::interrupted : ExitCode::terminated;
+      case full_time:
+        return ExitCode::wall_time;
+      case failed_run:
+        return ExitCode::failed_runs;
+      case broken:
+        return code_of(error_);
+      default:
+        return ExitCode::ok;
     }
   }
 
@@ -226,12 +244,17 @@ class Engine {
     outcome.failed = ranks_.add(Counter::failed, 0);
     outcome.seconds = seconds();
     if (outcome.leader) look_back(outcome);
-    std::vector<std::uint64_t> told{static_cast<std::uint64_t>(outcome.code), outcome.complete, outcome.failed,
-                                    outcome.results, outcome.missing, outcome.missing_own};
+    std::vector<std::uint64_t> told{static_cast<std::uint64_t>(outcome.code),
+                                    outcome.complete,
+                                    outcome.failed,
+                                    outcome.results,
+                                    outcome.missing,
+                                    outcome.missing_own};
     ranks_.broadcast(told);
     outcome.code = static_cast<ExitCode>(told[0]);
     outcome.complete = told[1] != 0;
-    outcome.failed = told[2], outcome.results = told[3], outcome.missing = told[4], outcome.missing_own = told[5];
+    outcome.failed = told[2], outcome.results = told[3], outcome.missing = told[4],
+    outcome.missing_own = told[5];
     end_session(outcome.code);
     for (const auto* notes : {&store_.notes(), &reader_.notes()})
       outcome.notes.insert(outcome.notes.end(), notes->begin(), notes->end());
@@ -268,8 +291,10 @@ class Engine {
     } catch (const InputError&) {
       // The results are stored; that they are complete can be told anew.
     }
-    if (outcome.code == ExitCode::wall_time) outcome.code = ExitCode::ok;  // it came when all was done
-    if (outcome.code == ExitCode::ok && outcome.failed > options_.allowed_failures) outcome.code = ExitCode::failed_runs;
+    if (outcome.code == ExitCode::wall_time)
+      outcome.code = ExitCode::ok;  // it came when all was done
+    if (outcome.code == ExitCode::ok && outcome.failed > options_.allowed_failures)
+      outcome.code = ExitCode::failed_runs;
   }
 
   const StudyWork& work_;
@@ -285,7 +310,8 @@ class Engine {
   std::vector<BlockKey> all_;
   std::vector<std::uint64_t> todo_;  ///< into all_
   std::uint64_t before_ = 0, failed_before_ = 0;
-  std::uint64_t cut_short_ = 0, found_cut_short_ = 0;  ///< runs in blocks that are too short; those found at first
+  std::uint64_t cut_short_ = 0,
+                found_cut_short_ = 0;  ///< runs in blocks that are too short; those found at first
   std::atomic<std::uint64_t> total_skipped_ = 0, own_done_ = 0, own_failed_ = 0;
   std::atomic<int> stop_ = none;
   std::mutex queue_guard_, progress_guard_;
@@ -297,8 +323,9 @@ class Engine {
 
 }  // namespace
 
-StudyOutcome run_study(const StudyWork& work, const EngineOptions& options, const std::string& folder,
-                       const Manifest& manifest, Ranks& ranks, const ProgressSink& progress) {
+StudyOutcome run_study(const StudyWork& work, const EngineOptions& options,
+                       const std::string& folder, const Manifest& manifest, Ranks& ranks,
+                       const ProgressSink& progress) {
   return Engine(work, options, folder, manifest, ranks, progress).run();
 }
 

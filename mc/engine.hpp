@@ -46,26 +46,29 @@ struct StudyOutcome {
   bool complete = false;          ///< every block of the study is stored
   bool leader = true;             ///< this process speaks for the study
   std::uint64_t done_before = 0;  ///< runs found in the folder, of those asked for
-  std::uint64_t cut_short = 0;    ///< runs found in blocks that the shorter study before ended within: done anew
-  std::uint64_t stored_runs = 0;  ///< per point, the most asked for so far; more than `runs`: results have them too
-  std::uint64_t done = 0;         ///< runs executed in this session, all ranks
-  std::uint64_t failed = 0;       ///< failed runs: of all results if complete, else of this session
-  std::uint64_t results = 0;      ///< runs that count (complete studies)
-  std::size_t missing = 0;        ///< blocks still to be done
-  std::size_t missing_own = 0;    ///< of them, those of this worker's share
-  double seconds = 0.0;           ///< of the clock, this session
-  std::string digest;             ///< results_digest() (complete studies)
-  std::vector<std::string> notes; ///< damage found and mended
+  std::uint64_t cut_short =
+      0;  ///< runs found in blocks that the shorter study before ended within: done anew
+  std::uint64_t stored_runs =
+      0;  ///< per point, the most asked for so far; more than `runs`: results have them too
+  std::uint64_t done = 0;       ///< runs executed in this session, all ranks
+  std::uint64_t failed = 0;     ///< failed runs: of all results if complete, else of this session
+  std::uint64_t results = 0;    ///< runs that count (complete studies)
+  std::size_t missing = 0;      ///< blocks still to be done
+  std::size_t missing_own = 0;  ///< of them, those of this worker's share
+  double seconds = 0.0;         ///< of the clock, this session
+  std::string digest;           ///< results_digest() (complete studies)
+  std::vector<std::string> notes;  ///< damage found and mended
 };
 
 /// Executes what is missing of a study and stores it in a folder that claim_folder() accepted.
 ///
-/// Runs go to the threads one by one, across blocks and points; a block is stored when its last run is
-/// done. A failed run is a row and a cause. SIGINT, SIGTERM and `max_wall` let the runs at work finish
-/// and drop incomplete blocks: the study is resumed by the same call. Results do not depend on threads,
-/// workers, ranks or interruptions. InputError: io if the disk is full (resumable), self_check if two
-/// workers came to different results.
-StudyOutcome run_study(const StudyWork& work, const EngineOptions& options, const std::string& folder,
-                       const Manifest& manifest, Ranks& ranks, const ProgressSink& progress = {});
+/// Runs go to the threads one by one, across blocks and points; a block is stored when its last run
+/// is done. A failed run is a row and a cause. SIGINT, SIGTERM and `max_wall` let the runs at work
+/// finish and drop incomplete blocks: the study is resumed by the same call. Results do not depend
+/// on threads, workers, ranks or interruptions. InputError: io if the disk is full (resumable),
+/// self_check if two workers came to different results.
+StudyOutcome run_study(const StudyWork& work, const EngineOptions& options,
+                       const std::string& folder, const Manifest& manifest, Ranks& ranks,
+                       const ProgressSink& progress = {});
 
 }  // namespace drift::mc

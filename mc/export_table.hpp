@@ -10,7 +10,8 @@
 
 namespace drift::mc {
 
-/// A column of a small table for export; where `meanings` are given its values are places in that list.
+/// A column of a small table for export; where `meanings` are given its values are places in that
+/// list.
 struct ExportColumn {
   std::string name, units = "1", about;
   std::vector<std::string> meanings = {};
@@ -30,11 +31,14 @@ struct ExportTable {
 };
 
 /// Gathers what the runs of a study say of its filters, block by block in order:
-///   statistics   point, filter, parameter: RMSE, bias and sigma over the prior sigma, rank by what was
+///   statistics   point, filter, parameter: RMSE, bias and sigma over the prior sigma, rank by what
+///   was
 ///                learnt, coverage of 1, 2, 3 sigma, silent failures, dependence on the start
-///   filters      point, filter, start: NIS and NEES per degree of freedom with their 95 % bands, shares of
+///   filters      point, filter, start: NIS and NEES per degree of freedom with their 95 % bands,
+///   shares of
 ///                runs that are healthy, wrong, silently wrong, diverged
-///   convergence  the same of RMSE, coverage and silent failures after 64, 128, 256, ... runs and at the end
+///   convergence  the same of RMSE, coverage and silent failures after 64, 128, 256, ... runs and
+///   at the end
 /// Intervals are of 95 %: of an RMSE from the spread of squared errors, of a rate after Wilson.
 class StatisticsTables {
  public:
@@ -48,8 +52,8 @@ class StatisticsTables {
   std::unique_ptr<Tables> tables_;
 };
 
-/// Gathers failed runs: point, run, status, time, cause. The causes themselves are the fact "causes", a
-/// line each; the column `cause` is the number of the line.
+/// Gathers failed runs: point, run, status, time, cause. The causes themselves are the fact
+/// "causes", a line each; the column `cause` is the number of the line.
 class FailuresTable {
  public:
   void add(const StoredBlock& block);

@@ -30,10 +30,12 @@ class TextOut {
   TextOut& operator=(const TextOut&) = delete;
 
   void put(std::string_view text) {
-    if (std::fwrite(text.data(), 1, text.size(), file_) != text.size()) throw_cannot_write(path_, std::strerror(errno));
+    if (std::fwrite(text.data(), 1, text.size(), file_) != text.size())
+      throw_cannot_write(path_, std::strerror(errno));
   }
   void commit() {
-    if (std::fclose(std::exchange(file_, nullptr)) != 0) throw_cannot_write(path_, std::strerror(errno));
+    if (std::fclose(std::exchange(file_, nullptr)) != 0)
+      throw_cannot_write(path_, std::strerror(errno));
     target_.commit();
   }
 
@@ -45,7 +47,8 @@ class TextOut {
 
 /// A field of CSV; what a spreadsheet would take for a formula is made plain text.
 std::string csv_field(std::string text) {
-  if (!text.empty() && std::string_view("=+-@").find(text.front()) != std::string_view::npos) text.insert(0, "'");
+  if (!text.empty() && std::string_view("=+-@").find(text.front()) != std::string_view::npos)
+    text.insert(0, "'");
   if (text.find_first_of(",\"\n\r#") == std::string::npos) return text;
   std::string out = "\"";
   for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
@@ -53,7 +56,8 @@ std::string csv_field(std::string text) {
 }
 
 std::string one_line(std::string text) {
-  std::replace_if(text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
   return text;
 }
 
@@ -61,12 +65,18 @@ std::string one_line(std::string text) {
 
 const char* name(RunStatus status) {
   switch (status) {
-    case RunStatus::ok: return "ok";
-    case RunStatus::integrator_failed: return "integrator_failed";
-    case RunStatus::filter_diverged: return "filter_diverged";
-    case RunStatus::nonfinite: return "nonfinite";
-    case RunStatus::timeout: return "timeout";
-    case RunStatus::error: return "error";
+    case RunStatus::ok:
+      return "ok";
+    case RunStatus::integrator_failed:
+      return "integrator_failed";
+    case RunStatus::filter_diverged:
+      return "filter_diverged";
+    case RunStatus::nonfinite:
+      return "nonfinite";
+    case RunStatus::timeout:
+      return "timeout";
+    case RunStatus::error:
+      return "error";
   }
   return "unknown";
 }
@@ -74,7 +84,8 @@ const char* name(RunStatus status) {
 std::string plain_name(std::string_view text) {
   std::string out;
   for (const char c : text) {
-    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+    const bool plain =
+        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
     out += plain ? c : '_';
   }
   if (out.empty() || (out.front() >= '0' && out.front() <= '9')) out.insert(0, "c_");
@@ -103,19 +114,24 @@ void export_csv(StudyReader& reader, const StopRules& rules, const std::string& 
   std::vector<std::vector<std::size_t>> to(points.size());
   for (std::size_t p = 0; p < points.size(); ++p)
     for (const Column& c : points[p].columns) {
-      const auto [at, fresh] = place.emplace(fmt::format("{} [{}]", c.name, c.unit.symbol.view()), all.size());
+      const auto [at, fresh] =
+          place.emplace(fmt::format("{} [{}]", c.name, c.unit.symbol.view()), all.size());
       if (fresh) all.push_back(c);
       to[p].push_back(at->second);
     }
   TextOut out(path);
   for (const auto& [key, value] : provenance_of(reader)) {
-    std::string text = key == "study" ? value : one_line(value);  // the study stays readable, line by line
-    for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos;) text.replace(at, 1, "\n# " + key + ": "), at += key.size() + 5;
+    std::string text =
+        key == "study" ? value : one_line(value);  // the study stays readable, line by line
+    for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos;)
+      text.replace(at, 1, "\n# " + key + ": "), at += key.size() + 5;
     out.put(fmt::format("# {}: {}\n", key, text));
   }
-  for (std::size_t p = 0; p < points.size(); ++p) out.put(fmt::format("# point {}: {}\n", p, one_line(points[p].label)));
+  for (std::size_t p = 0; p < points.size(); ++p)
+    out.put(fmt::format("# point {}: {}\n", p, one_line(points[p].label)));
   std::string line = "point,run,status";
-  for (const Column& c : all) line += "," + csv_field(fmt::format("{} [{}]", c.name, c.unit.symbol.view()));
+  for (const Column& c : all)
+    line += "," + csv_field(fmt::format("{} [{}]", c.name, c.unit.symbol.view()));
   out.put(line + ",t_failed [s],cause\n");
   std::vector<std::string> cells(all.size());
   reader.each_result(rules, [&](const StoredBlock& b) {
@@ -150,14 +166,16 @@ void export_json(StudyReader& reader, const StopRules& rules, const std::string&
   for (std::size_t p = 0; p < points.size(); ++p) {
     const auto& columns = points[p].columns;
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
-    for (const Column& c : columns) list.push_back({{"name", c.name}, {"unit", std::string(c.unit.symbol.view())}});
+    for (const Column& c : columns)
+      list.push_back({{"name", c.name}, {"unit", std::string(c.unit.symbol.view())}});
     out.put(fmt::format("{}\n{{\"label\": {}, \"columns\": {},\n\"runs\": [", p == 0 ? "" : ",",
                         nlohmann::json(points[p].label).dump(), list.dump()));
     bool first = true;
     nlohmann::ordered_json failures = nlohmann::ordered_json::array();
     reader.each_result(rules, p, [&](const StoredBlock& b) {
       for (std::size_t r = 0; r < b.block.status.size(); ++r) {
-        std::string line = fmt::format("{}\n[{}, \"{}\"", first ? "" : ",", b.block.first + r, name(b.block.status[r]));
+        std::string line = fmt::format("{}\n[{}, \"{}\"", first ? "" : ",", b.block.first + r,
+                                       name(b.block.status[r]));
         first = false;
         for (std::size_t c = 0; c < columns.size(); ++c) {
           const double value = in_column_unit(b.block.rows[r * columns.size() + c], columns[c]);
@@ -166,10 +184,12 @@ void export_json(StudyReader& reader, const StopRules& rules, const std::string&
         out.put(line + "]");
       }
       for (const Failure& f : b.failures)
-        failures.push_back({{"run", f.run}, {"status", name(f.status)}, {"t_s", f.t}, {"cause", f.cause}});
+        failures.push_back(
+            {{"run", f.run}, {"status", name(f.status)}, {"t_s", f.t}, {"cause", f.cause}});
     });
     // A cause may quote a user's file: what is not UTF-8 is replaced, never thrown at.
-    out.put("],\n\"failures\": " + failures.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "}");
+    out.put("],\n\"failures\": " +
+            failures.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "}");
   }
   out.put("]}\n");
   out.commit();
@@ -180,7 +200,8 @@ std::string study_hash_of_text(const std::string& path) {
   std::string head(4096, '\0');
   file.read(head.data(), static_cast<std::streamsize>(head.size()));
   head.resize(static_cast<std::size_t>(file.gcount()));
-  for (const std::string_view mark : {"# study_hash: ", "{\"provenance\": {\n \"study_hash\": \""}) {
+  for (const std::string_view mark :
+       {"# study_hash: ", "{\"provenance\": {\n \"study_hash\": \""}) {
     if (!head.starts_with(mark)) continue;
     return head.substr(mark.size(), head.find_first_of("\"\n", mark.size()) - mark.size());
   }

@@ -11,17 +11,19 @@ namespace drift::mc {
 std::string plain_name(std::string_view name);
 
 /// A value in the unit in which people read it.
-inline double in_column_unit(double value, const Column& column) { return value / column.unit.to_si; }
+inline double in_column_unit(double value, const Column& column) {
+  return value / column.unit.to_si;
+}
 
-/// Writes all results as CSV: `# key: value` lines of provenance, one header row "name [unit]", one row
-/// per run with point, run and status first, and last when and why it failed. Missing is "nan". Points with different columns leave
-/// those of others empty. Shortest digits that read back as the same number. Bounded memory; the file
-/// is complete or not there. InputError (io).
+/// Writes all results as CSV: `# key: value` lines of provenance, one header row "name [unit]", one
+/// row per run with point, run and status first, and last when and why it failed. Missing is "nan".
+/// Points with different columns leave those of others empty. Shortest digits that read back as the
+/// same number. Bounded memory; the file is complete or not there. InputError (io).
 void export_csv(StudyReader& reader, const StopRules& rules, const std::string& path);
 
 /// The same as JSON: {"provenance": {...}, "points": [{"label", "columns": [{"name", "unit"}],
-/// "runs": [[run, "status", values...], ...], "failures": [{"run", "status", "t_s", "cause"}, ...]}]};
-/// missing is null.
+/// "runs": [[run, "status", values...], ...], "failures": [{"run", "status", "t_s", "cause"},
+/// ...]}]}; missing is null.
 void export_json(StudyReader& reader, const StopRules& rules, const std::string& path);
 
 /// The study_hash that a CSV or JSON export at this path carries; empty if it is none.

@@ -7,13 +7,15 @@
 namespace drift::mc {
 namespace {
 
-constexpr std::array by_gravity{ExitCode::ok,         ExitCode::failed_runs, ExitCode::wall_time,  ExitCode::interrupted,
-                                ExitCode::terminated, ExitCode::usage,       ExitCode::config,     ExitCode::recording,
-                                ExitCode::store,      ExitCode::self_check,  ExitCode::io,         ExitCode::internal};
+constexpr std::array by_gravity{ExitCode::ok,          ExitCode::failed_runs, ExitCode::wall_time,
+                                ExitCode::interrupted, ExitCode::terminated,  ExitCode::usage,
+                                ExitCode::config,      ExitCode::recording,   ExitCode::store,
+                                ExitCode::self_check,  ExitCode::io,          ExitCode::internal};
 
 }  // namespace
 
-RunOutcome guarded_run(RunWorker& worker, std::uint64_t run, std::span<double> row, TraceSink* trace) {
+RunOutcome guarded_run(RunWorker& worker, std::uint64_t run, std::span<double> row,
+                       TraceSink* trace) {
   RunOutcome outcome;
   try {
     return trace != nullptr ? worker.trace(run, row, *trace) : worker.execute(run, row);
@@ -31,10 +33,13 @@ RunOutcome guarded_run(RunWorker& worker, std::uint64_t run, std::span<double> r
 }
 
 int gravity(ExitCode code) {
-  return static_cast<int>(std::find(by_gravity.begin(), by_gravity.end(), code) - by_gravity.begin());
+  return static_cast<int>(std::find(by_gravity.begin(), by_gravity.end(), code) -
+                          by_gravity.begin());
 }
 
-ExitCode of_gravity(int gravity) { return by_gravity.at(static_cast<std::size_t>(gravity)); }
+ExitCode of_gravity(int gravity) {
+  return by_gravity.at(static_cast<std::size_t>(gravity));
+}
 
 ExitCode code_of(const std::exception_ptr& error) {
   try {

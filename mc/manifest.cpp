@@ -82,7 +82,8 @@ Manifest from_text(const std::string& text) {
       columns.push_back({c.at(0), *unit});
     }
   }
-  for (const Json& p : j.at("points")) m.points.push_back({p.at("label"), sets.at(p.at("columns").get<std::size_t>())});
+  for (const Json& p : j.at("points"))
+    m.points.push_back({p.at("label"), sets.at(p.at("columns").get<std::size_t>())});
   for (const auto& [key, value] : j.at("provenance").items()) m.provenance.emplace_back(key, value);
   if (m.hash != m.identity.hash()) throw std::runtime_error("the study does not fit its hash");
   return m;
@@ -109,22 +110,24 @@ std::vector<std::string> differences(const Manifest& is, const Manifest& wanted)
 void check_same(const std::string& folder, const Manifest& wanted) {
   const std::vector<std::string> differ = differences(read_manifest(folder), wanted);
   if (differ.empty()) return;
-  throw InputError(ExitCode::store,
-                   fmt::format("{}: the folder holds another study (expected the one that is asked for). Choose "
-                               "another folder with -o; what differs, - in the folder, + asked for:\n  {}",
-                               folder, fmt::join(differ, "\n  ")));
+  throw InputError(
+      ExitCode::store,
+      fmt::format("{}: the folder holds another study (expected the one that is asked for). Choose "
+                  "another folder with -o; what differs, - in the folder, + asked for:\n  {}",
+                  folder, fmt::join(differ, "\n  ")));
 }
 
 void write_file(const std::string& path, std::string_view text) {
   std::FILE* file = std::fopen(path.c_str(), "wb");
-  const bool written = file != nullptr && std::fwrite(text.data(), 1, text.size(), file) == text.size();
+  const bool written =
+      file != nullptr && std::fwrite(text.data(), 1, text.size(), file) == text.size();
   const int reason = errno;
   if (const bool closed = file != nullptr && std::fclose(file) == 0; !written || !closed)
     throw_cannot_write(path, std::strerror(written ? errno : reason));
 }
 
-/// Raises numbers of the manifest. Two workers that do so at the same time may undo each other's; the
-/// worker files know as well, and the next call mends it.
+/// Raises numbers of the manifest. Two workers that do so at the same time may undo each other's;
+/// the worker files know as well, and the next call mends it.
 void raise(const std::string& folder, std::uint64_t runs, std::uint64_t finished) {
   Manifest m = read_manifest(folder);
   if (m.runs >= runs && m.finished >= finished) return;
@@ -138,11 +141,12 @@ void raise(const std::string& folder, std::uint64_t runs, std::uint64_t finished
 }  // namespace
 
 std::string StudyIdentity::hash() const {
-  return sha256_hex(fmt::format("driftscope store {}\n{}\nseed {}\nblock {}\n{}", Manifest::format, Stream::scheme,
-                                seed, block_size, text));
+  return sha256_hex(fmt::format("driftscope store {}\n{}\nseed {}\nblock {}\n{}", Manifest::format,
+                                Stream::scheme, seed, block_size, text));
 }
 
-Manifest make_manifest(StudyIdentity identity, std::string study, std::span<const TaskPoint> points) {
+Manifest make_manifest(StudyIdentity identity, std::string study,
+                       std::span<const TaskPoint> points) {
   Manifest m;
   m.hash = identity.hash();
   m.identity = std::move(identity);
@@ -175,22 +179,29 @@ void claim_folder(const std::string& folder, const Manifest& manifest) {
   }
 }
 
-void note_finished(const std::string& folder, std::uint64_t runs) { raise(folder, runs, runs); }
+void note_finished(const std::string& folder, std::uint64_t runs) {
+  raise(folder, runs, runs);
+}
 
 Manifest read_manifest(const std::string& folder) {
   const std::string path = folder + "/manifest.json";
   std::ifstream file(path, std::ios::binary);
   if (!file)
-    throw InputError(ExitCode::store, fmt::format("{}: holds no results of `driftscope run` (expected manifest.json in "
-                                                  "it). Give the folder that was named with -o", folder));
+    throw InputError(
+        ExitCode::store,
+        fmt::format("{}: holds no results of `driftscope run` (expected manifest.json in "
+                    "it). Give the folder that was named with -o",
+                    folder));
   try {
     return from_text(std::string(std::istreambuf_iterator<char>(file), {}));
   } catch (const InputError&) {
     throw;
   } catch (const std::exception& error) {
-    throw InputError(ExitCode::store, fmt::format("{}: damaged or of another version: {} (expected a manifest of format "
-                                                  "{}). Restore the file from a copy, or begin in another folder",
-                                                  path, error.what(), Manifest::format));
+    throw InputError(
+        ExitCode::store,
+        fmt::format("{}: damaged or of another version: {} (expected a manifest of format "
+                    "{}). Restore the file from a copy, or begin in another folder",
+                    path, error.what(), Manifest::format));
   }
 }
 

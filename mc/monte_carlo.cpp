@@ -36,19 +36,21 @@ void check_quantity(Section& section, const std::string& quantity) {
   if (quantity == "silent_failure_rate") return;
   const auto& at = section.take("quantity")->at;
   if (!quantity.starts_with(rmse)) {
-    section.report().error(at, fmt::format("'{}' = \"{}\" is no quantity a study can wait for (expected "
-                                           "\"silent_failure_rate\" or \"rmse.\" and a parameter). Write "
-                                           "quantity = \"silent_failure_rate\"",
-                                           section.full("quantity"), quantity));
+    section.report().error(
+        at, fmt::format("'{}' = \"{}\" is no quantity a study can wait for (expected "
+                        "\"silent_failure_rate\" or \"rmse.\" and a parameter). Write "
+                        "quantity = \"silent_failure_rate\"",
+                        section.full("quantity"), quantity));
     return;
   }
   const std::string key = quantity.substr(rmse.size());
   if (!TermLibrary::find(key))
-    section.report().error(at, fmt::format("'{}' = \"{}\": '{}' is no parameter (expected \"rmse.\" and a "
-                                           "parameter). {}",
-                                           section.full("quantity"), quantity, key,
-                                           config::suggestion(key, parameter_keys(),
-                                                              "`driftscope terms` lists them")));
+    section.report().error(
+        at,
+        fmt::format("'{}' = \"{}\": '{}' is no parameter (expected \"rmse.\" and a "
+                    "parameter). {}",
+                    section.full("quantity"), quantity, key,
+                    config::suggestion(key, parameter_keys(), "`driftscope terms` lists them")));
 }
 
 }  // namespace
@@ -56,13 +58,20 @@ void check_quantity(Section& section, const std::string& quantity) {
 MonteCarlo read_monte_carlo(Section section) {
   MonteCarlo out;
   visit_fields(out, [&](const Option& option, auto& value) { section.read(option, value); });
-  section.read(Option{.key = "design", .doc = "how truth parameters are spread"}, out.design, designs);
-  section.read(Option{.key = "estimator", .doc = "what makes the estimates"}, out.estimator, estimators);
+  section.read(Option{.key = "design", .doc = "how truth parameters are spread"}, out.design,
+               designs);
+  section.read(Option{.key = "estimator", .doc = "what makes the estimates"}, out.estimator,
+               estimators);
   Section stop = section.section("stop");
   if (stop.present()) {
     StopSpec spec;
     if (stop.require("quantity", "quantity = \"silent_failure_rate\"") &&
-        stop.read(Option{.key = "quantity", .doc = "whose interval decides; of an estimated parameter, with design = \"random\""}, spec.quantity))
+        stop.read(
+            Option{
+                .key = "quantity",
+                .doc =
+                    "whose interval decides; of an estimated parameter, with design = \"random\""},
+            spec.quantity))
       check_quantity(stop, spec.quantity);
     stop.read(Option{"half_width", unit::one, 1e-6, 1.0, "of the interval"}, spec.half_width);
     stop.read(Option{"confidence", unit::one, 0.5, 0.9999, "of the interval"}, spec.confidence);

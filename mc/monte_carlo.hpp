@@ -25,8 +25,8 @@ enum class EstimatorKind {
 /// When a study point has enough runs: [monte_carlo] stop. With design random alone: the interval
 /// supposes independent runs, and the first runs of a Latin hypercube are not stratified.
 struct StopSpec {
-  std::string quantity;       ///< "silent_failure_rate" or "rmse.KEY"
-  double half_width = 0.01;   ///< of a rate, or of an RMSE in prior sigmas
+  std::string quantity;      ///< "silent_failure_rate" or "rmse.KEY"
+  double half_width = 0.01;  ///< of a rate, or of an RMSE in prior sigmas
   double confidence = 0.95;
 };
 

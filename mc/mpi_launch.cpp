@@ -38,8 +38,10 @@ struct Ranks::Job {
     int provided = 0;
     MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &provided);
     if (provided < MPI_THREAD_SERIALIZED)
-      throw InputError(ExitCode::usage, "mpirun: this MPI does not allow calls from threads (expected MPI_THREAD_SERIALIZED). "
-                                        "Use --worker i/n instead");
+      throw InputError(
+          ExitCode::usage,
+          "mpirun: this MPI does not allow calls from threads (expected MPI_THREAD_SERIALIZED). "
+          "Use --worker i/n instead");
     started = true;
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     MPI_Comm_size(MPI_COMM_WORLD, &size);
@@ -63,8 +65,10 @@ struct Ranks::Job {
 #else
   Job() {
     if (started_by_a_launcher())
-      throw InputError(ExitCode::usage, "mpirun: this program was built without MPI (expected MPI at configure time). Install "
-                                        "libopenmpi-dev and build anew, or use --worker i/n");
+      throw InputError(
+          ExitCode::usage,
+          "mpirun: this program was built without MPI (expected MPI at configure time). Install "
+          "libopenmpi-dev and build anew, or use --worker i/n");
   }
 #endif
   Job(const Job&) = delete;
@@ -73,8 +77,12 @@ struct Ranks::Job {
 
 Ranks::Ranks() : job_(std::make_unique<Job>()) {}
 Ranks::~Ranks() = default;
-std::size_t Ranks::rank() const { return static_cast<std::size_t>(job_->rank); }
-std::size_t Ranks::size() const { return static_cast<std::size_t>(job_->size); }
+std::size_t Ranks::rank() const {
+  return static_cast<std::size_t>(job_->rank);
+}
+std::size_t Ranks::size() const {
+  return static_cast<std::size_t>(job_->size);
+}
 
 std::uint64_t Ranks::add(Counter counter, std::uint64_t n) {
   const std::scoped_lock lock(job_->guard);
@@ -106,7 +114,8 @@ void Ranks::broadcast([[maybe_unused]] std::vector<std::uint64_t>& values) {
   values.resize(n);
   constexpr std::uint64_t most = 1u << 20;  // MPI counts in int
   for (std::uint64_t at = 0; at < n; at += most)
-    MPI_Bcast(values.data() + at, static_cast<int>(std::min(most, n - at)), MPI_UINT64_T, 0, MPI_COMM_WORLD);
+    MPI_Bcast(values.data() + at, static_cast<int>(std::min(most, n - at)), MPI_UINT64_T, 0,
+              MPI_COMM_WORLD);
 #endif
 }
 

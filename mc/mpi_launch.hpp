@@ -11,8 +11,8 @@ namespace drift::mc {
 /// counters and nothing else: results go to each one's own file. Calls are serialised inside.
 class Ranks {
  public:
-  /// Joins the others if the process was started by mpirun or srun. InputError (usage) if the program
-  /// was built without MPI.
+  /// Joins the others if the process was started by mpirun or srun. InputError (usage) if the
+  /// program was built without MPI.
   Ranks();
   /// Leaves them. After an exception it does not wait for them: mpirun then ends the others.
   ~Ranks();

@@ -15,7 +15,8 @@
 namespace drift::mc {
 namespace {
 
-/// The value of the first line "key<blanks><separator> value" of a system file; empty if there is none.
+/// The value of the first line "key<blanks><separator> value" of a system file; empty if there is
+/// none.
 std::string line_of(const char* file, std::string_view key, char separator) {
   std::ifstream in(file);
   for (std::string line; std::getline(in, line);) {
@@ -54,7 +55,8 @@ Facts provenance() {
   utsname system{};
   uname(&system);
   std::string libraries;
-  for (const auto& [name, version] : build.libraries) libraries += (libraries.empty() ? "" : ", ") + name + " " + version;
+  for (const auto& [name, version] : build.libraries)
+    libraries += (libraries.empty() ? "" : ", ") + name + " " + version;
   return {{"program", "driftscope " + build.version},
           {"commit", build.commit},
           {"build", build.build_type},
@@ -65,7 +67,8 @@ Facts provenance() {
           {"random_numbers", Stream::scheme},
           {"libraries", libraries},
           {"processor", line_of("/proc/cpuinfo", "model name", ':')},
-          {"operating_system", line_of("/etc/os-release", "PRETTY_NAME", '=') + ", " + system.sysname + " " + system.release},
+          {"operating_system", line_of("/etc/os-release", "PRETTY_NAME", '=') + ", " +
+                                   system.sysname + " " + system.release},
           {"host", system.nodename},
           {"process", std::to_string(getpid())},
           {"command_line", command_line()},

@@ -16,13 +16,15 @@ std::vector<double> read_list(Section& table, std::string_view key, const ParamS
   if (node == nullptr) return values;
   const std::string name = table.full(key);
   if (!node->is(Node::Kind::array)) {
-    table.report().error(node->at, fmt::format("'{}' is {} (expected a list of {}). Write {} = [\"1 {}\", ...]",
-                                               name, describe(*node), config::expected_quantity(spec.unit), key,
-                                               spec.unit.symbol.view()));
+    table.report().error(
+        node->at, fmt::format("'{}' is {} (expected a list of {}). Write {} = [\"1 {}\", ...]",
+                              name, describe(*node), config::expected_quantity(spec.unit), key,
+                              spec.unit.symbol.view()));
     return values;
   }
   for (const Node& item : node->items)
-    if (const auto q = read_quantity(table.report(), item, name, Option{.key = key, .unit = spec.unit}))
+    if (const auto q =
+            read_quantity(table.report(), item, name, Option{.key = key, .unit = spec.unit}))
       values.push_back(q->si());
   table.report().given(name, to_toml(*node), node->at);
   return values;
@@ -43,10 +45,11 @@ std::vector<Published> read_published(Section& root) {
       if (!table.present()) continue;
       Published::Value value{i, read_list(table, "values", spec), read_list(table, "sigmas", spec)};
       if (!value.sigmas.empty() && value.sigmas.size() != value.values.size())
-        root.report().error(table.at(), fmt::format("'{}' has {} values and {} sigmas (expected as many of "
-                                                    "each). Give one sigma for each value, or none",
-                                                    section.full(spec.key.view()), value.values.size(),
-                                                    value.sigmas.size()));
+        root.report().error(
+            table.at(),
+            fmt::format("'{}' has {} values and {} sigmas (expected as many of "
+                        "each). Give one sigma for each value, or none",
+                        section.full(spec.key.view()), value.values.size(), value.sigmas.size()));
       table.finish();
       p.values.push_back(std::move(value));
     }

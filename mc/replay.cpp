@@ -14,7 +14,8 @@ namespace drift::mc {
 namespace {
 
 bool same_bits(std::span<const double> a, std::span<const double> b) {
-  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size_bytes()) == 0);
+  return a.size() == b.size() &&
+         (a.empty() || std::memcmp(a.data(), b.data(), a.size_bytes()) == 0);
 }
 
 std::vector<double> nan_row(std::size_t columns) {
@@ -24,7 +25,8 @@ std::vector<double> nan_row(std::size_t columns) {
 /// One worker per thread and point, made when first needed.
 class Workers {
  public:
-  Workers(const StudyWork& work, int threads) : work_(work), threads_(static_cast<std::size_t>(threads)) {}
+  Workers(const StudyWork& work, int threads)
+      : work_(work), threads_(static_cast<std::size_t>(threads)) {}
   RunWorker& mine(std::size_t point) {
     auto& [held, worker] = threads_[static_cast<std::size_t>(omp_get_thread_num())];
     if (!worker || held != point) worker = work_.points[held = point].task->worker();
@@ -58,7 +60,8 @@ class Following {
 /// Blocks that are missing of a study that was complete, as ranges of runs.
 class Gone {
  public:
-  Gone(std::uint64_t finished, std::vector<std::string>& lines) : finished_(finished), lines_(lines) {}
+  Gone(std::uint64_t finished, std::vector<std::string>& lines)
+      : finished_(finished), lines_(lines) {}
   void add(const BlockKey& key) {
     if (key.first >= finished_) return;
     if (open_ && (key.point != point_ || key.first != end_)) tell();
@@ -67,7 +70,9 @@ class Gone {
   }
   void tell() {
     if (open_)
-      lines_.push_back(fmt::format("point {}, runs {} to {}: not there, though the study was complete", point_, begin_, end_ - 1));
+      lines_.push_back(
+          fmt::format("point {}, runs {} to {}: not there, though the study was complete", point_,
+                      begin_, end_ - 1));
     open_ = false;
   }
 
@@ -81,7 +86,8 @@ class Gone {
 
 }  // namespace
 
-Replay replay(const RunTask& task, StudyReader& reader, std::size_t point, std::uint64_t run, TraceSink* trace) {
+Replay replay(const RunTask& task, StudyReader& reader, std::size_t point, std::uint64_t run,
+              TraceSink* trace) {
   const std::size_t columns = task.columns().size();
   const std::uint64_t first = run - run % reader.manifest().identity.block_size;
   Replay r;
@@ -91,7 +97,8 @@ Replay replay(const RunTask& task, StudyReader& reader, std::size_t point, std::
   if (!block || run - first >= block->block.status.size()) return r;
   r.stored = true;
   r.stored_status = block->block.status[run - first];
-  const auto from = block->block.rows.begin() + static_cast<std::ptrdiff_t>((run - first) * columns);
+  const auto from =
+      block->block.rows.begin() + static_cast<std::ptrdiff_t>((run - first) * columns);
   r.stored_row.assign(from, from + static_cast<std::ptrdiff_t>(columns));
   r.same = r.outcome.status == r.stored_status && same_bits(r.row, r.stored_row);
   return r;
@@ -106,18 +113,24 @@ Verification verify(const StudyWork& work, StudyReader& reader, double sample, i
     const std::size_t columns = reader.manifest().points[block.point].columns.size();
     std::vector<std::size_t> chosen;
     for (std::size_t r = 0; r < block.status.size(); ++r) {
-      Stream stream(0x766572696679, block.first + r, Purpose::test, static_cast<std::uint32_t>(block.point));
+      Stream stream(0x766572696679, block.first + r, Purpose::test,
+                    static_cast<std::uint32_t>(block.point));
       if (stream.uniform() < sample || (sample > 0.0 && block.first + r == 0)) chosen.push_back(r);
     }
-    const auto same = run_campaign(chosen.size(), [&](std::size_t i) -> char {
-      std::vector<double> row = nan_row(columns);
-      const RunOutcome outcome = guarded_run(workers.mine(block.point), block.first + chosen[i], row);
-      return outcome.status == block.status[chosen[i]] &&
-             same_bits(row, std::span(block.rows).subspan(chosen[i] * columns, columns));
-    }, used);
+    const auto same = run_campaign(
+        chosen.size(),
+        [&](std::size_t i) -> char {
+          std::vector<double> row = nan_row(columns);
+          const RunOutcome outcome =
+              guarded_run(workers.mine(block.point), block.first + chosen[i], row);
+          return outcome.status == block.status[chosen[i]] &&
+                 same_bits(row, std::span(block.rows).subspan(chosen[i] * columns, columns));
+        },
+        used);
     for (std::size_t i = 0; i < chosen.size(); ++i)
       if (!same[i] && v.mismatch.size() < most_lines)
-        v.mismatch.push_back(fmt::format("point {}, run {}: the results differ", block.point, block.first + chosen[i]));
+        v.mismatch.push_back(fmt::format("point {}, run {}: the results differ", block.point,
+                                         block.first + chosen[i]));
     v.recomputed += chosen.size();
   };
   v.damage = reader.unsound();
@@ -127,13 +140,16 @@ Verification verify(const StudyWork& work, StudyReader& reader, double sample, i
   for (const BlockKey& wanted : all_blocks(reader.manifest(), reader.runs())) {
     std::optional<StoredBlock> best;
     std::size_t copies = 0;
-    reader.each_copy(wanted.point, wanted.first, [&](const std::string& path, const std::optional<StoredBlock>& block) {
-      ++copies;
-      if (!block) return;
-      if (best && !agree(best->block, block->block) && v.mismatch.size() < most_lines)
-        v.mismatch.push_back(fmt::format("point {}, first run {}: {} differs from another copy", wanted.point, wanted.first, path));
-      if (!best) best = block;
-    });
+    reader.each_copy(
+        wanted.point, wanted.first,
+        [&](const std::string& path, const std::optional<StoredBlock>& block) {
+          ++copies;
+          if (!block) return;
+          if (best && !agree(best->block, block->block) && v.mismatch.size() < most_lines)
+            v.mismatch.push_back(fmt::format("point {}, first run {}: {} differs from another copy",
+                                             wanted.point, wanted.first, path));
+          if (!best) best = block;
+        });
     v.copies += copies;
     rule.follow(wanted, best);
     if (best) {
@@ -141,7 +157,8 @@ Verification verify(const StudyWork& work, StudyReader& reader, double sample, i
       v.runs += best->block.status.size();
       if (sample > 0.0) recompute(best->block);
     } else if (copies > 0) {
-      v.damage.push_back(fmt::format("point {}, first run {}: damaged, and no other copy", wanted.point, wanted.first));
+      v.damage.push_back(fmt::format("point {}, first run {}: damaged, and no other copy",
+                                     wanted.point, wanted.first));
     } else if (!rule.enough(wanted.point)) {
       ++v.missing;
       gone.add(wanted);

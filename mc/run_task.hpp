@@ -30,8 +30,8 @@ enum class RunStatus : std::uint8_t {
 /// What a run says of itself besides its row. Times of the clock are not part of the result.
 struct RunOutcome {
   RunStatus status = RunStatus::ok;
-  std::string cause;         ///< in words, empty if ok
-  double t_failed = 0.0;     ///< time in the test at which it failed [s]
+  std::string cause;      ///< in words, empty if ok
+  double t_failed = 0.0;  ///< time in the test at which it failed [s]
   double integration_s = 0.0, filter_s = 0.0, total_s = 0.0;  ///< CPU seconds spent
 };
 
@@ -52,7 +52,9 @@ class RunWorker {
   virtual RunOutcome execute(std::uint64_t run, std::span<double> row) = 0;
   /// The same, bit for bit, with the course of the run besides. A task without a trace leaves the
   /// sink untouched.
-  virtual RunOutcome trace(std::uint64_t run, std::span<double> row, TraceSink& /*sink*/) { return execute(run, row); }
+  virtual RunOutcome trace(std::uint64_t run, std::span<double> row, TraceSink& /*sink*/) {
+    return execute(run, row);
+  }
 };
 
 /// What is done in every run of one study point.

@@ -11,9 +11,9 @@ namespace drift::mc {
 /// [monte_carlo] stop: a point has enough runs when, for every filter, the interval of the quantity
 /// is narrower than asked for. A pure function of the blocks so far, at least two of them.
 ///
-/// A rule that looks after every block stops a little early when luck makes the interval narrow; the
-/// coverage it costs is below a percent for half widths asked for in advance (Chow and Robbins 1965:
-/// the fixed-width procedure has the nominal coverage in the limit).
+/// A rule that looks after every block stops a little early when luck makes the interval narrow;
+/// the coverage it costs is below a percent for half widths asked for in advance (Chow and Robbins
+/// 1965: the fixed-width procedure has the nominal coverage in the limit).
 class HalfWidthRule final : public StopRule {
  public:
   HalfWidthRule(const std::vector<StudyPoint>& points, const StopSpec& spec);

@@ -37,6 +37,8 @@ StopSignals::~StopSignals() {
   for (std::size_t i = 0; i < signals.size(); ++i) sigaction(signals[i], &before[i], nullptr);
 }
 
-int StopSignals::caught() const { return first_caught; }
+int StopSignals::caught() const {
+  return first_caught;
+}
 
 }  // namespace drift::mc

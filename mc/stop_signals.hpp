@@ -2,8 +2,8 @@
 
 namespace drift::mc {
 
-/// While it lives, SIGINT, SIGTERM and SIGHUP ask the engine to stop instead of ending the process; a
-/// second signal ends it at once. At most one at a time.
+/// While it lives, SIGINT, SIGTERM and SIGHUP ask the engine to stop instead of ending the process;
+/// a second signal ends it at once. At most one at a time.
 class StopSignals {
  public:
   StopSignals();

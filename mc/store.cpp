@@ -38,15 +38,19 @@ CREATE TABLE IF NOT EXISTS blocks (id INTEGER PRIMARY KEY, point INTEGER, first_
 /// however it ends, so it is never stale.
 class WorkerStore::Lock {
  public:
-  Lock(const std::string& path, double patience) : fd_(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
+  Lock(const std::string& path, double patience)
+      : fd_(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
     if (fd_ < 0) throw_cannot_write(path, std::strerror(errno));
     const auto tries = static_cast<int>(patience / 0.1);
     for (int i = 0; ::flock(fd_, LOCK_EX | LOCK_NB) != 0; ++i) {
       if (errno != EWOULDBLOCK && errno != EINTR) return;  // a file system without locks
       if (i >= tries) {
         ::close(fd_);
-        throw InputError(ExitCode::store, fmt::format("{}: another process is at work as this worker (expected one at a "
-                                                      "time). Wait for it, or share the work with --worker i/n", path));
+        throw InputError(
+            ExitCode::store,
+            fmt::format("{}: another process is at work as this worker (expected one at a "
+                        "time). Wait for it, or share the work with --worker i/n",
+                        path));
       }
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
     }
@@ -77,13 +81,18 @@ class WorkerStore::Writer : public WorkerFile {
   std::int64_t begin_session(std::uint64_t runs) {
     nlohmann::ordered_json facts;
     for (const auto& [key, value] : provenance()) facts[key] = value;
-    Statement insert = db_.prepare("INSERT INTO sessions (runs, started_utc, facts) VALUES (?1, ?2, ?3)");
-    insert.bind(1, static_cast<std::int64_t>(runs)).bind_text(2, utc_now()).bind_text(3, facts.dump()).run();
+    Statement insert =
+        db_.prepare("INSERT INTO sessions (runs, started_utc, facts) VALUES (?1, ?2, ?3)");
+    insert.bind(1, static_cast<std::int64_t>(runs))
+        .bind_text(2, utc_now())
+        .bind_text(3, facts.dump())
+        .run();
     return last_id();
   }
 
   void end_session(std::int64_t session, int exit_code) {
-    Statement update = db_.prepare("UPDATE sessions SET ended_utc = ?2, exit_code = ?3 WHERE id = ?1");
+    Statement update =
+        db_.prepare("UPDATE sessions SET ended_utc = ?2, exit_code = ?3 WHERE id = ?1");
     update.bind(1, session).bind_text(2, utc_now()).bind(3, std::int64_t{exit_code}).run();
   }
 
@@ -116,8 +125,11 @@ class WorkerStore::Writer : public WorkerFile {
     for (std::size_t p = 0; p < manifest_->points.size(); ++p) {
       const auto& columns = manifest_->points[p].columns;
       for (std::size_t c = 0; c < columns.size(); ++c)
-        column.bind(1, static_cast<std::int64_t>(p)).bind(2, static_cast<std::int64_t>(c)).bind_text(3, columns[c].name)
-            .bind_text(4, columns[c].unit.symbol.view()).run();
+        column.bind(1, static_cast<std::int64_t>(p))
+            .bind(2, static_cast<std::int64_t>(c))
+            .bind_text(3, columns[c].name)
+            .bind_text(4, columns[c].unit.symbol.view())
+            .run();
     }
   }
 
@@ -126,10 +138,12 @@ class WorkerStore::Writer : public WorkerFile {
     std::vector<std::int64_t> bad;
     for (const BlockEntry& e : entries(0, &damaged))
       if (!read(e)) bad.push_back(e.id);
-    if (damaged) throw InputError(ExitCode::store, path() + ": damaged");  // set aside by the caller
+    if (damaged)
+      throw InputError(ExitCode::store, path() + ": damaged");  // set aside by the caller
     for (const std::int64_t id : bad)
-      for (const char* sql : {"DELETE FROM blocks WHERE id = ?1", "DELETE FROM failures WHERE block = ?1",
-                              "DELETE FROM moments WHERE block = ?1"})
+      for (const char* sql :
+           {"DELETE FROM blocks WHERE id = ?1", "DELETE FROM failures WHERE block = ?1",
+            "DELETE FROM moments WHERE block = ?1"})
         db_.prepare(sql).bind(1, id).run();
     removed_ = bad.size();
   }
@@ -139,17 +153,31 @@ class WorkerStore::Writer : public WorkerFile {
     const std::size_t columns = manifest_->points.at(key.point).columns.size();
     const std::string payload = encode(b.block, columns);
     Statement block = db_.prepare(
-        "INSERT INTO blocks (point, first_run, runs, failed, integration_s, filter_s, total_s, committed_utc, checksum, "
+        "INSERT INTO blocks (point, first_run, runs, failed, integration_s, filter_s, total_s, "
+        "committed_utc, checksum, "
         "payload) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10)");
-    block.bind(1, static_cast<std::int64_t>(key.point)).bind(2, static_cast<std::int64_t>(key.first));
-    block.bind(3, static_cast<std::int64_t>(key.count)).bind(4, static_cast<std::int64_t>(b.failures.size()));
-    block.bind(5, b.times.integration_s).bind(6, b.times.filter_s).bind(7, b.times.total_s).bind_text(8, utc_now());
-    block.bind_blob(9, checksum(manifest_->hash, key, payload + encode(b.failures))).bind_blob(10, payload).run();
+    block.bind(1, static_cast<std::int64_t>(key.point))
+        .bind(2, static_cast<std::int64_t>(key.first));
+    block.bind(3, static_cast<std::int64_t>(key.count))
+        .bind(4, static_cast<std::int64_t>(b.failures.size()));
+    block.bind(5, b.times.integration_s)
+        .bind(6, b.times.filter_s)
+        .bind(7, b.times.total_s)
+        .bind_text(8, utc_now());
+    block.bind_blob(9, checksum(manifest_->hash, key, payload + encode(b.failures)))
+        .bind_blob(10, payload)
+        .run();
     const std::int64_t id = last_id();
     Statement failure = db_.prepare("INSERT INTO failures VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7)");
     for (const Failure& f : b.failures) {
-      failure.bind(1, id).bind(2, static_cast<std::int64_t>(key.point)).bind(3, static_cast<std::int64_t>(f.run));
-      failure.bind(4, static_cast<std::int64_t>(f.status)).bind_text(5, f.cause).bind(6, f.t).bind(7, f.seconds).run();
+      failure.bind(1, id)
+          .bind(2, static_cast<std::int64_t>(key.point))
+          .bind(3, static_cast<std::int64_t>(f.run));
+      failure.bind(4, static_cast<std::int64_t>(f.status))
+          .bind_text(5, f.cause)
+          .bind(6, f.t)
+          .bind(7, f.seconds)
+          .run();
     }
     insert_moments(id, b.block, columns);
   }
@@ -158,7 +186,9 @@ class WorkerStore::Writer : public WorkerFile {
     Statement insert = db_.prepare("INSERT INTO moments VALUES (?1, ?2, ?3, ?4, ?5)");
     for (std::size_t c = 0; c < columns; ++c) {
       const Moments m = moments(block, c, columns);
-      insert.bind(1, id).bind(2, static_cast<std::int64_t>(c)).bind(3, static_cast<std::int64_t>(m.n));
+      insert.bind(1, id)
+          .bind(2, static_cast<std::int64_t>(c))
+          .bind(3, static_cast<std::int64_t>(m.n));
       insert.bind(4, m.mean).bind(5, m.m2).run();
     }
   }
@@ -166,13 +196,15 @@ class WorkerStore::Writer : public WorkerFile {
   std::size_t removed_ = 0;
 };
 
-WorkerStore::WorkerStore(const std::string& folder, std::size_t worker, const Manifest& manifest, double patience)
+WorkerStore::WorkerStore(const std::string& folder, std::size_t worker, const Manifest& manifest,
+                         double patience)
     : path_(worker_path(folder, worker)), manifest_(std::make_shared<Manifest>(manifest)) {
   lock_ = std::make_unique<Lock>(path_.substr(0, path_.size() - 7) + ".lock", patience);
   try {
     writer_ = std::make_unique<Writer>(path_, manifest_);
     if (writer_->removed() > 0)
-      notes_.push_back(fmt::format("{}: {} damaged blocks removed; they are computed anew", path_, writer_->removed()));
+      notes_.push_back(fmt::format("{}: {} damaged blocks removed; they are computed anew", path_,
+                                   writer_->removed()));
   } catch (const InputError& error) {
     if (error.code() != ExitCode::store) throw;
     set_aside();
@@ -187,9 +219,11 @@ void WorkerStore::set_aside() {
   std::string aside;
   for (int i = 1; fs::exists(aside = fmt::format("{}.damaged-{}", stem, i)); ++i) {
   }
-  if (std::rename(path_.c_str(), aside.c_str()) != 0) throw_cannot_write(aside, std::strerror(errno));
+  if (std::rename(path_.c_str(), aside.c_str()) != 0)
+    throw_cannot_write(aside, std::strerror(errno));
   // Its journal belongs to it: beside the new file it would be taken for that file's.
-  if (fs::exists(path_ + "-journal")) std::rename((path_ + "-journal").c_str(), (aside + "-journal").c_str());
+  if (fs::exists(path_ + "-journal"))
+    std::rename((path_ + "-journal").c_str(), (aside + "-journal").c_str());
   writer_ = std::make_unique<Writer>(path_, manifest_);
   std::size_t saved = 0;
   try {
@@ -202,12 +236,20 @@ void WorkerStore::set_aside() {
   } catch (const InputError& error) {
     if (error.code() != ExitCode::store) throw;
   }
-  notes_.push_back(fmt::format("{}: damaged, set aside as {}; {} whole blocks taken over from it, the others are "
-                               "computed anew", path_, aside, saved));
+  notes_.push_back(fmt::format(
+      "{}: damaged, set aside as {}; {} whole blocks taken over from it, the others are "
+      "computed anew",
+      path_, aside, saved));
 }
 
-void WorkerStore::begin_session(std::uint64_t runs) { session_ = writer_->begin_session(runs); }
-void WorkerStore::end_session(int exit_code) { writer_->end_session(session_, exit_code); }
-void WorkerStore::commit(std::span<const StoredBlock> blocks) { writer_->insert(blocks); }
+void WorkerStore::begin_session(std::uint64_t runs) {
+  session_ = writer_->begin_session(runs);
+}
+void WorkerStore::end_session(int exit_code) {
+  writer_->end_session(session_, exit_code);
+}
+void WorkerStore::commit(std::span<const StoredBlock> blocks) {
+  writer_->insert(blocks);
+}
 
 }  // namespace drift::mc

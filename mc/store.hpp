@@ -20,7 +20,7 @@ std::vector<std::string> worker_files(const std::string& folder);
 
 /// One call of `run` by one worker.
 struct Session {
-  std::uint64_t runs = 0;  ///< runs per study point that were asked for
+  std::uint64_t runs = 0;              ///< runs per study point that were asked for
   std::string started_utc, ended_utc;  ///< end empty: killed, or still at work
   int exit_code = -1;
   Facts facts;
@@ -43,10 +43,11 @@ struct BlockEntry {
 class WorkerFile {
  public:
   /// For reading. InputError (store) if the file is damaged beyond opening.
-  WorkerFile(const std::string& path, std::shared_ptr<const Manifest> manifest, Database::Use use = Database::Use::read);
+  WorkerFile(const std::string& path, std::shared_ptr<const Manifest> manifest,
+             Database::Use use = Database::Use::read);
 
-  /// Blocks after the one of number `id`, as the table lists them, not yet verified. Stops where the
-  /// file is damaged and says so.
+  /// Blocks after the one of number `id`, as the table lists them, not yet verified. Stops where
+  /// the file is damaged and says so.
   std::vector<BlockEntry> entries(std::int64_t after_id, bool* damaged = nullptr);
   /// A block, or nothing if it is damaged.
   std::optional<StoredBlock> read(const BlockEntry& entry);
@@ -62,11 +63,12 @@ class WorkerFile {
 /// The file of this worker, open for writing by one process at a time.
 class WorkerStore {
  public:
-  /// Opens or makes the file. A damaged one is set aside as "worker-0003.damaged-1" and what is whole
-  /// in it is taken over; `notes` says so. InputError: io if it cannot be written, store if another
-  /// process is still at work on it after `patience` [s]: the ranks of a killed mpirun take a moment to
-  /// die.
-  WorkerStore(const std::string& folder, std::size_t worker, const Manifest& manifest, double patience = 5.0);
+  /// Opens or makes the file. A damaged one is set aside as "worker-0003.damaged-1" and what is
+  /// whole in it is taken over; `notes` says so. InputError: io if it cannot be written, store if
+  /// another process is still at work on it after `patience` [s]: the ranks of a killed mpirun take
+  /// a moment to die.
+  WorkerStore(const std::string& folder, std::size_t worker, const Manifest& manifest,
+              double patience = 5.0);
   ~WorkerStore();
   WorkerStore(const WorkerStore&) = delete;
   WorkerStore& operator=(const WorkerStore&) = delete;

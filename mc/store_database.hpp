@@ -16,7 +16,7 @@ class Statement {
   Statement(sqlite3* db, std::string path, std::string_view sql);
 
   Statement& bind(int position, std::int64_t value);
-  Statement& bind(int position, double value);            ///< NaN becomes NULL
+  Statement& bind(int position, double value);  ///< NaN becomes NULL
   Statement& bind_text(int position, std::string_view value);
   Statement& bind_blob(int position, std::string_view value);
   /// True while there are rows; afterwards the statement can be bound and executed again.
@@ -27,8 +27,8 @@ class Statement {
   }
 
   std::int64_t integer(int column) const;
-  double real(int column) const;         ///< NULL becomes NaN
-  std::string bytes(int column) const;   ///< of a text or a blob
+  double real(int column) const;        ///< NULL becomes NaN
+  std::string bytes(int column) const;  ///< of a text or a blob
 
  private:
   struct Finalize {
@@ -39,13 +39,13 @@ class Statement {
   std::unique_ptr<sqlite3_stmt, Finalize> statement_;
 };
 
-/// A SQLite file. Errors are InputError: io if the disk or the folder is to blame (resumable), store
-/// if the file itself is damaged.
+/// A SQLite file. Errors are InputError: io if the disk or the folder is to blame (resumable),
+/// store if the file itself is damaged.
 class Database {
  public:
   enum class Use { write, read, salvage };
-  /// `write` makes the file if need be. `read` finishes, where it may, what a killed writer had begun;
-  /// `salvage` reads of a damaged file what it can.
+  /// `write` makes the file if need be. `read` finishes, where it may, what a killed writer had
+  /// begun; `salvage` reads of a damaged file what it can.
   Database(std::string path, Use use);
 
   void execute(const char* sql);

@@ -11,7 +11,8 @@ std::string encode(const std::vector<Failure>& failures) {
   std::string out;
   for (const Failure& f : failures)
     out += fmt::format("{} {} {:016x} {} {}\n", f.run, static_cast<int>(f.status),
-                       std::isnan(f.t) ? 0 : std::bit_cast<std::uint64_t>(f.t), f.cause.size(), f.cause);
+                       std::isnan(f.t) ? 0 : std::bit_cast<std::uint64_t>(f.t), f.cause.size(),
+                       f.cause);
   return out;
 }
 

@@ -44,22 +44,22 @@ struct Resolved {
 /// A study file, read, checked and converted to internal units.
 struct Study {
   std::string path;
-  std::string text;           ///< the file as TOML with the overrides of the command line in it
+  std::string text;  ///< the file as TOML with the overrides of the command line in it
   std::string title;
   Site site;
   RecordingKind kind = RecordingKind::platform;
-  TestPlan plan;              ///< of a platform test
-  double static_min = 2.0;    ///< strapdown: shortest dwell that counts [s]
+  TestPlan plan;            ///< of a platform test
+  double static_min = 2.0;  ///< strapdown: shortest dwell that counts [s]
   Readout readout;
   Environment environment;
   TruthSpec truth;
-  bool has_truth = false;     ///< [truth] is in the file; without it there is nothing to simulate
+  bool has_truth = false;  ///< [truth] is in the file; without it there is nothing to simulate
   std::vector<FilterSpec> filters;
   MonteCarlo monte_carlo;
   std::vector<SweepAxis> sweep;
   std::vector<Published> published;
   BlindSpec blind;
-  bool has_blind = false;     ///< [blind] is in the file
+  bool has_blind = false;  ///< [blind] is in the file
   std::vector<Resolved> resolved;
 };
 
@@ -73,8 +73,9 @@ Study read_study(const std::string& path, const Overrides& overrides = {});
 /// Reads a study from a tree without trying its sweep; `text` is left empty. The same errors.
 Study read_study_tree(const config::Node& root, const std::string& path);
 
-/// Puts one value of a sweep in its place. With "truth.coupling", what only other couplings use goes:
-/// [truth.servo], [truth.loop] and truth.parameters.lambda. InputError (config) as apply_override.
+/// Puts one value of a sweep in its place. With "truth.coupling", what only other couplings use
+/// goes: [truth.servo], [truth.loop] and truth.parameters.lambda. InputError (config) as
+/// apply_override.
 void apply_sweep_value(config::Node& root, const std::string& key, const std::string& value);
 
 }  // namespace drift

@@ -29,8 +29,8 @@ struct StudyColumns {
     Coupling coupling = Coupling::eq5;
     Layout layout;
     std::size_t starts = 1;
-    std::size_t first = 0;                     ///< column of start 0
-    std::vector<std::size_t> truth;            ///< column of the truth of each parameter
+    std::size_t first = 0;           ///< column of start 0
+    std::vector<std::size_t> truth;  ///< column of the truth of each parameter
     std::size_t width() const { return fields + 2 * layout.size(); }
     std::size_t at(std::size_t start, Field field) const { return first + start * width() + field; }
     std::size_t estimate(std::size_t start, std::size_t k) const { return at(start, fields) + k; }
@@ -39,14 +39,15 @@ struct StudyColumns {
     }
   };
 
-  std::vector<std::size_t> truth;  ///< library index of columns 0, 1, ...: all that is active in the
-                                   ///< truth or estimated by a filter
+  std::vector<std::size_t> truth;  ///< library index of columns 0, 1, ...: all that is active in
+                                   ///< the truth or estimated by a filter
   std::vector<Filter> filters;
-  std::size_t count = 0;           ///< columns of a row
+  std::size_t count = 0;  ///< columns of a row
 
   explicit StudyColumns(const Study& study);
 
-  /// Names: "truth/eta_x", "corrected/0/nis", "corrected/0/estimate/eta_x", "corrected/0/sigma/eta_x".
+  /// Names: "truth/eta_x", "corrected/0/nis", "corrected/0/estimate/eta_x",
+  /// "corrected/0/sigma/eta_x".
   std::vector<Column> named() const;
 };
 

@@ -39,30 +39,41 @@ void read_schema(Section& root) {
                     given, schema, schema));
 }
 
-/// A stop rule must be able to end: what it waits for is estimated, and its interval means something.
+/// A stop rule must be able to end: what it waits for is estimated, and its interval means
+/// something.
 void check_stop(Report& report, const Node& root, const Study& study) {
   if (!study.monte_carlo.stop) return;
   const Node& section = *root.find("monte_carlo");
   const auto& stop = *section.find("stop");
   if (study.monte_carlo.design != DesignKind::random)
     report.error(section.find("design")->at,
-                 "'monte_carlo.design' does not go with [monte_carlo.stop] (expected \"random\": the interval that a stop rule "
-                 "waits for supposes independent runs, and the first runs of a spread-out design are not spread out). Remove one "
+                 "'monte_carlo.design' does not go with [monte_carlo.stop] (expected \"random\": "
+                 "the interval that a stop rule "
+                 "waits for supposes independent runs, and the first runs of a spread-out design "
+                 "are not spread out). Remove one "
                  "of the two");
   constexpr std::string_view rmse = "rmse.";
   const std::string& quantity = study.monte_carlo.stop->quantity;
   const Node* given = stop.find("quantity");
-  if (given == nullptr || !quantity.starts_with(rmse) || !TermLibrary::find(quantity.substr(rmse.size()))) return;
+  if (given == nullptr || !quantity.starts_with(rmse) ||
+      !TermLibrary::find(quantity.substr(rmse.size())))
+    return;
   std::vector<std::string_view> estimated;
   for (const FilterSpec& filter : study.filters)
     for (const std::size_t i : make_layout(filter).params)
-      if (const auto key = TermLibrary::specs[i].key.view(); std::ranges::find(estimated, key) == estimated.end())
+      if (const auto key = TermLibrary::specs[i].key.view();
+          std::ranges::find(estimated, key) == estimated.end())
         estimated.push_back(key);
-  if (std::ranges::find(estimated, std::string_view(quantity).substr(rmse.size())) == estimated.end())
-    report.error(given->at, fmt::format("'monte_carlo.stop.quantity' = \"{}\" waits for a parameter that no filter estimates "
-                                        "(expected \"rmse.\" and one of {}). {}", quantity, fmt::join(estimated, ", "),
-                                        config::suggestion(std::string_view(quantity).substr(rmse.size()), estimated,
-                                                           "Choose one of them, or add its term to a filter")));
+  if (std::ranges::find(estimated, std::string_view(quantity).substr(rmse.size())) ==
+      estimated.end())
+    report.error(
+        given->at,
+        fmt::format(
+            "'monte_carlo.stop.quantity' = \"{}\" waits for a parameter that no filter estimates "
+            "(expected \"rmse.\" and one of {}). {}",
+            quantity, fmt::join(estimated, ", "),
+            config::suggestion(std::string_view(quantity).substr(rmse.size()), estimated,
+                               "Choose one of them, or add its term to a filter")));
 }
 
 std::vector<SweepAxis> read_sweep(Report& report, const Node* sweep) {
@@ -87,8 +98,12 @@ std::vector<SweepAxis> read_sweep(Report& report, const Node* sweep) {
     for (const auto& value : values.items) {
       std::string text = to_toml(value);
       if (std::ranges::find(axis.values, text) != axis.values.end())
-        report.error(value.at, fmt::format("'sweep.\"{}\"' has {} twice (expected every value once: both would be one study "
-                                           "point). Remove one", member.key, text));
+        report.error(
+            value.at,
+            fmt::format(
+                "'sweep.\"{}\"' has {} twice (expected every value once: both would be one study "
+                "point). Remove one",
+                member.key, text));
       else
         axis.values.push_back(std::move(text));
     }
@@ -180,7 +195,8 @@ Study read_study_tree(const Node& root, const std::string& path) {
   study.environment = read_environment(top.section("environment"));
   const Node* sweep = top.take("sweep");
   // A blind study has truths of several couplings too.
-  const bool swept = (sweep != nullptr && sweep->find("truth.coupling") != nullptr) || top.has("blind");
+  const bool swept =
+      (sweep != nullptr && sweep->find("truth.coupling") != nullptr) || top.has("blind");
   Section truth = top.section("truth");
   study.has_truth = truth.present();
   study.truth = read_truth(truth, mounting, swept ? UnusedTables::allowed : UnusedTables::refused);

@@ -8,12 +8,15 @@
 namespace drift::mc {
 
 StudyReader::StudyReader(const std::string& folder)
-    : folder_(folder), manifest_(std::make_shared<Manifest>(read_manifest(folder))), asked_(manifest_->runs) {
+    : folder_(folder),
+      manifest_(std::make_shared<Manifest>(read_manifest(folder))),
+      asked_(manifest_->runs) {
   refresh();
 }
 
 void StudyReader::note(std::string text) {
-  if (std::find(notes_.begin(), notes_.end(), text) == notes_.end()) notes_.push_back(std::move(text));
+  if (std::find(notes_.begin(), notes_.end(), text) == notes_.end())
+    notes_.push_back(std::move(text));
 }
 
 void StudyReader::refresh() {
@@ -27,10 +30,12 @@ void StudyReader::refresh() {
         source.last_id = std::max(source.last_id, e.id);
         auto& copies = index_[{e.key.point, e.key.first}];
         copies.emplace_back(path, e);
-        std::stable_sort(copies.begin(), copies.end(),
-                         [](const auto& a, const auto& b) { return a.second.key.count > b.second.key.count; });
+        std::stable_sort(copies.begin(), copies.end(), [](const auto& a, const auto& b) {
+          return a.second.key.count > b.second.key.count;
+        });
       }
-      for (const Session& session : source.file->sessions()) asked_ = std::max(asked_, session.runs);
+      for (const Session& session : source.file->sessions())
+        asked_ = std::max(asked_, session.runs);
       if (damaged) note(fmt::format("{}: damaged; what cannot be read of it is left out", path));
     } catch (const InputError& error) {
       if (error.code() != ExitCode::store) throw;
@@ -47,7 +52,9 @@ std::vector<Session> StudyReader::sessions() {
         s.facts.emplace_back("file", path);
         all.push_back(std::move(s));
       }
-  std::stable_sort(all.begin(), all.end(), [](const Session& a, const Session& b) { return a.started_utc < b.started_utc; });
+  std::stable_sort(all.begin(), all.end(), [](const Session& a, const Session& b) {
+    return a.started_utc < b.started_utc;
+  });
   return all;
 }
 
@@ -58,14 +65,16 @@ std::vector<BlockKey> StudyReader::keys() const {
   return list;
 }
 
-void StudyReader::each_copy(std::size_t point, std::uint64_t first,
-                            const std::function<void(const std::string&, const std::optional<StoredBlock>&)>& visit) {
+void StudyReader::each_copy(
+    std::size_t point, std::uint64_t first,
+    const std::function<void(const std::string&, const std::optional<StoredBlock>&)>& visit) {
   const auto found = index_.find({point, first});
   if (found == index_.end()) return;
   for (const auto& [path, entry] : found->second) {
     const auto block = sources_.at(path).file->read(entry);
-    if (!block) note(fmt::format("{}: the block of point {}, runs {} to {} is damaged", path, point, first,
-                                 first + entry.key.count - 1));
+    if (!block)
+      note(fmt::format("{}: the block of point {}, runs {} to {} is damaged", path, point, first,
+                       first + entry.key.count - 1));
     visit(path, block);
   }
 }
@@ -76,10 +85,13 @@ std::optional<StoredBlock> StudyReader::read(std::size_t point, std::uint64_t fi
   each_copy(point, first, [&](const std::string& path, const std::optional<StoredBlock>& block) {
     if (!block) return;
     if (best && !agree(best->block, block->block))
-      throw InputError(ExitCode::self_check,
-                       fmt::format("{}: the block of point {}, first run {} differs from that in {} (expected equal "
-                                   "bits from every worker). Find the faulty machine with `driftscope verify`, remove "
-                                   "its worker file and run the same command again", path, point, first, from));
+      throw InputError(
+          ExitCode::self_check,
+          fmt::format(
+              "{}: the block of point {}, first run {} differs from that in {} (expected equal "
+              "bits from every worker). Find the faulty machine with `driftscope verify`, remove "
+              "its worker file and run the same command again",
+              path, point, first, from));
     if (!best) best = block, from = path;
   });
   return best;
@@ -93,7 +105,8 @@ bool StudyReader::each_result(const StopRules& rules, std::size_t point, const V
   const std::unique_ptr<StopRule> rule = rules ? rules(point) : nullptr;
   bool gap = false;
   std::uint64_t next = 0;
-  for (auto at = index_.lower_bound({point, 0}); at != index_.end() && at->first.first == point; ++at) {
+  for (auto at = index_.lower_bound({point, 0}); at != index_.end() && at->first.first == point;
+       ++at) {
     const std::uint64_t first = at->first.second;
     if (asked_ > 0 && first >= asked_) return false;
     const auto block = read(point, first);
@@ -110,7 +123,8 @@ std::vector<std::string> StudyReader::unsound() {
   std::vector<std::string> list;
   for (const std::string& path : paths_) {
     const auto source = sources_.find(path);
-    if (source == sources_.end() || !source->second.file || !source->second.file->sound()) list.push_back(path);
+    if (source == sources_.end() || !source->second.file || !source->second.file->sound())
+      list.push_back(path);
   }
   return list;
 }

@@ -17,13 +17,13 @@ namespace drift::mc {
 /// computed them. Keeps one block in memory at a time.
 class StudyReader {
  public:
-  /// InputError (store) if the folder holds no study. Damaged files and blocks are left out; notes()
-  /// names them.
+  /// InputError (store) if the folder holds no study. Damaged files and blocks are left out;
+  /// notes() names them.
   explicit StudyReader(const std::string& folder);
 
   const Manifest& manifest() const { return *manifest_; }
-  /// Runs per study point: the most that any session was asked for, by its worker file or the manifest,
-  /// which outlives the worker files.
+  /// Runs per study point: the most that any session was asked for, by its worker file or the
+  /// manifest, which outlives the worker files.
   std::uint64_t runs() const { return asked_; }
   std::vector<Session> sessions();
   /// Looks for blocks stored since, by this or any other worker.
@@ -35,12 +35,14 @@ class StudyReader {
   /// different results.
   std::optional<StoredBlock> read(std::size_t point, std::uint64_t first);
   /// Takes every block at this place, damaged ones as nothing.
-  void each_copy(std::size_t point, std::uint64_t first,
-                 const std::function<void(const std::string& file, const std::optional<StoredBlock>&)>& visit);
+  void each_copy(
+      std::size_t point, std::uint64_t first,
+      const std::function<void(const std::string& file, const std::optional<StoredBlock>&)>& visit);
 
   using Visitor = std::function<void(const StoredBlock&)>;
-  /// The results of all points in order: of every point the blocks up to the one with which the stop
-  /// rule had enough, or all. Blocks beyond are surplus that parallel workers may have computed.
+  /// The results of all points in order: of every point the blocks up to the one with which the
+  /// stop rule had enough, or all. Blocks beyond are surplus that parallel workers may have
+  /// computed.
   void each_result(const StopRules& rules, const Visitor& visit);
   /// The same of one point; true if the stop rule had enough.
   bool each_result(const StopRules& rules, std::size_t point, const Visitor& visit);
@@ -62,13 +64,14 @@ class StudyReader {
   std::shared_ptr<const Manifest> manifest_;
   std::vector<std::string> paths_;
   std::map<std::string, Source> sources_;
-  std::map<std::pair<std::size_t, std::uint64_t>, std::vector<std::pair<std::string, BlockEntry>>> index_;
+  std::map<std::pair<std::size_t, std::uint64_t>, std::vector<std::pair<std::string, BlockEntry>>>
+      index_;
   std::uint64_t asked_ = 0;
   std::vector<std::string> notes_;
 };
 
-/// SHA-256 over key and payload of all results in order, in hexadecimal: what is equal for any threads,
-/// workers, ranks and interruptions.
+/// SHA-256 over key and payload of all results in order, in hexadecimal: what is equal for any
+/// threads, workers, ranks and interruptions.
 std::string results_digest(StudyReader& reader, const StopRules& rules);
 
 /// What a study has to do: blocks of every point that make up `runs` runs.

@@ -32,9 +32,10 @@ std::string StudyState::ended_by_rule() const {
   std::uint64_t least = asked, most = 0;
   for (const PointState& p : points)
     if (p.by_rule && p.runs < asked) least = std::min(least, p.runs), most = std::max(most, p.runs);
-  return fmt::format("the stop rule ended {} early, after {} of at most {} runs",
-                     points.size() == 1 ? "the study" : fmt::format("{} of {} points", by_rule, points.size()),
-                     least == most ? fmt::format("{}", least) : fmt::format("{} to {}", least, most), asked);
+  return fmt::format(
+      "the stop rule ended {} early, after {} of at most {} runs",
+      points.size() == 1 ? "the study" : fmt::format("{} of {} points", by_rule, points.size()),
+      least == most ? fmt::format("{}", least) : fmt::format("{} to {}", least, most), asked);
 }
 
 }  // namespace drift::mc

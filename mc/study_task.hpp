@@ -6,12 +6,13 @@
 
 namespace drift::mc {
 
-/// A run of one study point: the truth is drawn and simulated once, then every filter estimates from
-/// every start on the same data. Columns: StudyColumns.
+/// A run of one study point: the truth is drawn and simulated once, then every filter estimates
+/// from every start on the same data. Columns: StudyColumns.
 class StudyTask final : public RunTask {
  public:
-  /// InputError (config) if there is nothing to simulate or to estimate with, if the plan is none of
-  /// a platform, or if the loop is fed back from a filter (then every filter makes its own data).
+  /// InputError (config) if there is nothing to simulate or to estimate with, if the plan is none
+  /// of a platform, or if the loop is fed back from a filter (then every filter makes its own
+  /// data).
   explicit StudyTask(Study study);
 
   const std::vector<Column>& columns() const override { return named_; }

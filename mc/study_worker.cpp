@@ -59,8 +59,18 @@ StudyWorker::StudyWorker(const StudyTask& task)
     const FilterSpec& spec = study.filters[f];
     const StudyColumns::Filter& columns = task.layout().filters[f];
     const auto n = static_cast<Eigen::Index>(columns.layout.size());
-    Bench bench{spec, columns, {}, nullptr, nullptr, Eigen::Tridiagonalization<MatX>(n),
-                Eigen::SelfAdjointEigenSolver<MatX>(n), VecX(n), VecX(n - 1), VecX(n), VecX(n), VecX(n)};
+    Bench bench{spec,
+                columns,
+                {},
+                nullptr,
+                nullptr,
+                Eigen::Tridiagonalization<MatX>(n),
+                Eigen::SelfAdjointEigenSolver<MatX>(n),
+                VecX(n),
+                VecX(n - 1),
+                VecX(n),
+                VecX(n),
+                VecX(n)};
     const std::size_t fixed = spec.starts.empty() ? 1 : columns.starts;
     for (std::size_t s = 0; s < fixed; ++s)
       bench.fixed_starts.push_back(initial_estimate(spec, study.monte_carlo.seed, 0, s));
@@ -83,7 +93,8 @@ RunOutcome StudyWorker::execute(std::uint64_t run, std::span<double> row) {
     simulated = cpu_seconds();
     const bool usable = out.status == RunStatus::ok;
     for (Bench& bench : benches_)
-      for (std::size_t s = 0; usable && s < bench.columns.starts; ++s) estimate(bench, run, s, row, out);
+      for (std::size_t s = 0; usable && s < bench.columns.starts; ++s)
+        estimate(bench, run, s, row, out);
   } catch (const std::exception& e) {
     std::ranges::fill(row, std::numeric_limits<double>::quiet_NaN());
     out.status = RunStatus::error;
@@ -104,7 +115,8 @@ void StudyWorker::simulate(std::uint64_t run, std::span<double> row, RunOutcome&
   simulator_.run(timeline_, draw_, study.monte_carlo.seed, run, sim_);
   set_lambda(study.truth, sim_.theta_end);  // what an estimate at the end is to be compared with
   const auto& truth = task_.layout().truth;
-  for (std::size_t c = 0; c < truth.size(); ++c) row[c] = sim_.theta_end[static_cast<Eigen::Index>(truth[c])];
+  for (std::size_t c = 0; c < truth.size(); ++c)
+    row[c] = sim_.theta_end[static_cast<Eigen::Index>(truth[c])];
   if (!sim_.ode.ok()) {
     blame(out, status_of(sim_.ode), sim_.ode.cause, sim_.ode.t);
     return;
@@ -114,8 +126,8 @@ void StudyWorker::simulate(std::uint64_t run, std::span<double> row, RunOutcome&
     blame(out, RunStatus::nonfinite, "a simulated measurement is infinite", 0.0);
 }
 
-void StudyWorker::estimate(Bench& bench, std::uint64_t run, std::size_t start, std::span<double> row,
-                           RunOutcome& out) {
+void StudyWorker::estimate(Bench& bench, std::uint64_t run, std::size_t start,
+                           std::span<double> row, RunOutcome& out) {
   const Theta from = start < bench.fixed_starts.size()
                          ? bench.fixed_starts[start]
                          : initial_estimate(bench.spec, task_.study().monte_carlo.seed, run, start);
@@ -124,7 +136,8 @@ void StudyWorker::estimate(Bench& bench, std::uint64_t run, std::size_t start, s
     ekf.reset(from);
     const auto intervals = static_cast<Eigen::Index>(timeline_.intervals.size());
     for (Eigen::Index i = 0; i < intervals && ekf.status() == EstimateStatus::ok; ++i)
-      ekf.process(static_cast<std::size_t>(i), sim_.measured.acc.col(i), sim_.measured.gimbal.col(i));
+      ekf.process(static_cast<std::size_t>(i), sim_.measured.acc.col(i),
+                  sim_.measured.gimbal.col(i));
     write(bench, ekf, start, row, out);
   } else if (bench.iterated) {
     bench.iterated->run(sim_.measured, from);
@@ -155,8 +168,8 @@ void StudyWorker::write(Bench& bench, Filter& filter, std::size_t start, std::sp
   judge(bench, start, filter.x(), filter.settled_covariance(), row);
 }
 
-void StudyWorker::by_batch(Bench& bench, const Theta& from, std::size_t start, std::span<double> row,
-                           RunOutcome& out) {
+void StudyWorker::by_batch(Bench& bench, const Theta& from, std::size_t start,
+                           std::span<double> row, RunOutcome& out) {
   using C = StudyColumns;
   const BatchResult fit =
       fit_batch(bench.spec, timeline_, task_.study().readout, sim_.measured, from);

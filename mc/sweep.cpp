@@ -22,11 +22,13 @@ std::string hash_of(std::string_view text) {
 /// A value as people say it: a plain string without its quotes.
 std::string plain(std::string text) {
   const bool quoted = text.size() >= 2 && text.front() == '"' && text.back() == '"';
-  if (quoted && text.find_first_of("\"\\", 1) == text.size() - 1) return text.substr(1, text.size() - 2);
+  if (quoted && text.find_first_of("\"\\", 1) == text.size() - 1)
+    return text.substr(1, text.size() - 2);
   return text;
 }
 
-StudyPoint make_point(const Node& base, const Study& study, const std::vector<std::size_t>& choice) {
+StudyPoint make_point(const Node& base, const Study& study,
+                      const std::vector<std::size_t>& choice) {
   StudyPoint point;
   Node root = base;
   for (std::size_t a = 0; a < study.sweep.size(); ++a) {
@@ -34,14 +36,16 @@ StudyPoint make_point(const Node& base, const Study& study, const std::vector<st
     const std::string& value = axis.values[choice[a]];
     apply_sweep_value(root, axis.key, value);
     point.values.emplace_back(axis.key, plain(value));
-    point.label += fmt::format("{}{} = {}", a == 0 ? "" : ", ", axis.key, point.values.back().second);
+    point.label +=
+        fmt::format("{}{} = {}", a == 0 ? "" : ", ", axis.key, point.values.back().second);
   }
   try {
     point.study = read_study_tree(root, study.path);
   } catch (const InputError& error) {
     std::vector<std::string> messages;
     for (const auto& message : error.messages())
-      messages.push_back(fmt::format("{}: at the study point {}: {}", study.path, point.label, message));
+      messages.push_back(
+          fmt::format("{}: at the study point {}: {}", study.path, point.label, message));
     throw InputError(ExitCode::config, messages);
   }
   point.study.text = config::to_document(root);

@@ -13,7 +13,7 @@ struct StudyPoint {
   std::string id;     ///< 16 hexadecimal digits: hash of the point's resolved text
   std::string label;  ///< "truth.coupling = eq5, plan.preset = six"; empty without a sweep
   std::vector<std::pair<std::string, std::string>> values;  ///< key and value of each axis, plain
-  Study study;        ///< without sweep; its text is that of the point
+  Study study;  ///< without sweep; its text is that of the point
 };
 
 /// Every combination of the values of [sweep], the last axis fastest; one point without a sweep.

@@ -32,10 +32,13 @@ std::vector<std::string> difference(std::string_view a, std::string_view b, std:
   y.resize(std::min(y.size(), longest));
   const std::size_t m = x.size(), n = y.size();
   std::vector<std::uint16_t> common((m + 1) * (n + 1), 0);
-  const auto at = [&](std::size_t i, std::size_t j) -> std::uint16_t& { return common[i * (n + 1) + j]; };
+  const auto at = [&](std::size_t i, std::size_t j) -> std::uint16_t& {
+    return common[i * (n + 1) + j];
+  };
   for (std::size_t i = m; i-- > 0;)
     for (std::size_t j = n; j-- > 0;)
-      at(i, j) = x[i] == y[j] ? static_cast<std::uint16_t>(at(i + 1, j + 1) + 1) : std::max(at(i + 1, j), at(i, j + 1));
+      at(i, j) = x[i] == y[j] ? static_cast<std::uint16_t>(at(i + 1, j + 1) + 1)
+                              : std::max(at(i + 1, j), at(i, j + 1));
   std::vector<std::string> out;
   for (std::size_t i = 0, j = 0; i < m || j < n;) {
     if (i < m && j < n && x[i] == y[j]) {

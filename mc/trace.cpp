@@ -19,8 +19,8 @@ RunTrace trace_run(const Study& point, std::uint64_t run) {
   Timeline timeline = task.timeline();
   set_environment(timeline, point.environment, mc.seed, run);
   Design design(point.truth, mc.design, mc.runs, mc.seed);
-  const Simulation sim =
-      Simulator(point.truth, point.readout).run(timeline, design.draw(run, timeline.chains), mc.seed, run);
+  const Simulation sim = Simulator(point.truth, point.readout)
+                             .run(timeline, design.draw(run, timeline.chains), mc.seed, run);
   RunTrace trace;
   trace.ode = sim.ode;
   trace.truth = sim.theta_end;
@@ -49,7 +49,8 @@ std::string trace_csv(const Study& point, const RunTrace& trace) {
   for (std::size_t p = 0; p < shown.size(); ++p)
     if (shown[p])
       add("# truth.{} = {:.17g} {}\n", specs[p].key.view(),
-          trace.truth[static_cast<Eigen::Index>(p)] / specs[p].unit.to_si, specs[p].unit.symbol.view());
+          trace.truth[static_cast<Eigen::Index>(p)] / specs[p].unit.to_si,
+          specs[p].unit.symbol.view());
   add("filter,start,time [s],nis,scalars");
   for (std::size_t p = 0; p < shown.size(); ++p)
     if (shown[p])
@@ -58,8 +59,10 @@ std::string trace_csv(const Study& point, const RunTrace& trace) {
   for (const auto& f : trace.filters)
     for (std::size_t i = 0; i < f.history.t.size(); ++i) {
       std::string name = point.filters[f.filter].name;
-      std::ranges::replace_if(name, [](char c) { return c == ',' || c == '"' || c == '\n'; }, '_');
-      add("{},{},{:.17g},{:.17g},{}", name, f.start, f.history.t[i], f.history.nis[i], f.history.scalars[i]);
+      std::ranges::replace_if(
+          name, [](char c) { return c == ',' || c == '"' || c == '\n'; }, '_');
+      add("{},{},{:.17g},{:.17g},{}", name, f.start, f.history.t[i], f.history.nis[i],
+          f.history.scalars[i]);
       for (std::size_t p = 0; p < shown.size(); ++p) {
         if (!shown[p]) continue;
         const auto at = std::ranges::find(f.layout.params, p);
@@ -81,7 +84,10 @@ void send_trace(const RunTrace& trace, TraceSink& sink) {
   for (const auto& f : trace.filters)
     for (const std::size_t p : f.layout.params) shown.set(p);
   const auto& specs = TermLibrary::specs;
-  std::vector<Column> columns{{"filter", unit::one}, {"start", unit::one}, {"time", unit::s}, {"nis", unit::one},
+  std::vector<Column> columns{{"filter", unit::one},
+                              {"start", unit::one},
+                              {"time", unit::s},
+                              {"nis", unit::one},
                               {"scalars", unit::one}};
   for (std::size_t p = 0; p < shown.size(); ++p) {
     if (!shown[p]) continue;
@@ -92,8 +98,9 @@ void send_trace(const RunTrace& trace, TraceSink& sink) {
   sink.columns(columns);
   for (const auto& f : trace.filters)
     for (std::size_t i = 0; i < f.history.t.size(); ++i) {
-      std::vector<double> row{static_cast<double>(f.filter), static_cast<double>(f.start), f.history.t[i],
-                              f.history.nis[i], static_cast<double>(f.history.scalars[i])};
+      std::vector<double> row{static_cast<double>(f.filter), static_cast<double>(f.start),
+                              f.history.t[i], f.history.nis[i],
+                              static_cast<double>(f.history.scalars[i])};
       for (std::size_t p = 0; p < shown.size(); ++p) {
         if (!shown[p]) continue;
         const auto at = std::ranges::find(f.layout.params, p);

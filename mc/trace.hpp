@@ -17,8 +17,8 @@ struct RunTrace {
     Layout layout;
     EkfHistory history;
   };
-  OdeResult ode;        ///< not ok: the simulation failed, there are no filters
-  Theta truth;          ///< at the end of the run, SI
+  OdeResult ode;  ///< not ok: the simulation failed, there are no filters
+  Theta truth;    ///< at the end of the run, SI
   std::vector<Filter> filters;
 };
 

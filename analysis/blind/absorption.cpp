@@ -6,14 +6,15 @@
 namespace drift::blind {
 
 Absorption::Absorption(const FilterSpec& nominal, const Timeline& timeline, const Readout& readout,
-                       const Measurements& clean, const Theta& theta, const std::vector<Vec3>& psi0_l)
+                       const Measurements& clean, const Theta& theta,
+                       const std::vector<Vec3>& psi0_l)
     : timeline_(&timeline), readout_(readout) {
   const DriftModel model = nominal.model();
   const Layout layout = make_layout(nominal);
   const auto n = static_cast<Eigen::Index>(layout.size());
   const Trajectory phi = integrate_fixed(timeline, model, theta, psi0_l);
-  const auto chains =
-      measurement_equations(timeline, model, layout, readout, clean, theta, phi, nominal.initial_attitude);
+  const auto chains = measurement_equations(timeline, model, layout, readout, clean, theta, phi,
+                                            nominal.initial_attitude);
   const auto rows_of_interval = [&](std::size_t i) {
     return clean.acc.col(static_cast<Eigen::Index>(i)).array().isFinite().count() +
            clean.gimbal.col(static_cast<Eigen::Index>(i)).array().isFinite().count();
@@ -46,7 +47,8 @@ VecX Absorption::signal(const Measurements& with, const Measurements& without) c
         s[row++] = (with.acc(a, i) - without.acc(a, i)) / readout_.accelerometer_noise;
     for (int a = 0; a < 3; ++a)
       if (std::isfinite(without.gimbal(a, i)))
-        s[row++] = angle_difference(with.gimbal(a, i), without.gimbal(a, i)) / readout_.gimbal_noise;
+        s[row++] =
+            angle_difference(with.gimbal(a, i), without.gimbal(a, i)) / readout_.gimbal_noise;
   }
   return s;
 }

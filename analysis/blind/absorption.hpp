@@ -4,7 +4,8 @@
 
 namespace drift::blind {
 
-/// Which part of a signal the nominal fit of a test takes for its own parameters, and which it leaves:
+/// Which part of a signal the nominal fit of a test takes for its own parameters, and which it
+/// leaves:
 ///
 ///   left^2 = s' (1 + J J')^-1 s = s's - |L^-1 J's|^2,   L L' = 1 + J'J,
 ///

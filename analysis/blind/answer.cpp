@@ -14,17 +14,26 @@ namespace {
 using Json = nlohmann::ordered_json;
 using discovery::Verdict;
 
-Json number(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
-double number(const Json& j) { return j.is_null() ? std::nan("") : j.get<double>(); }
+Json number(double v) {
+  return std::isfinite(v) ? Json(v) : Json(nullptr);
+}
+double number(const Json& j) {
+  return j.is_null() ? std::nan("") : j.get<double>();
+}
 
 Json of(const AnswerCause& c) {
   Json params = Json::array();
   for (const auto& p : c.parameters)
-    params.push_back({{"key", p.key}, {"value", number(p.value)}, {"sigma", number(p.sigma)}, {"unit", p.unit},
+    params.push_back({{"key", p.key},
+                      {"value", number(p.value)},
+                      {"sigma", number(p.sigma)},
+                      {"unit", p.unit},
                       {"profiled", p.profiled}});
   Json confusable = Json::array();
-  for (const auto& o : c.confusable_with) confusable.push_back({{"term", o.term}, {"axis", o.axis}, {"cosine", number(o.cosine)}});
-  return {{"term", c.term}, {"axis", c.axis}, {"set", c.set}, {"probability", number(c.probability)},
+  for (const auto& o : c.confusable_with)
+    confusable.push_back({{"term", o.term}, {"axis", o.axis}, {"cosine", number(o.cosine)}});
+  return {{"term", c.term},       {"axis", c.axis},
+          {"set", c.set},         {"probability", number(c.probability)},
           {"parameters", params}, {"confusable_with", confusable}};
 }
 
@@ -39,7 +48,8 @@ AnswerCause cause_of(const Json& j) {
     q.profiled = p.at("profiled");
     c.parameters.push_back(std::move(q));
   }
-  for (const Json& o : j.value("confusable_with", Json::array()))  // answers of earlier builds have none
+  for (const Json& o :
+       j.value("confusable_with", Json::array()))  // answers of earlier builds have none
     c.confusable_with.push_back({o.at("term"), o.at("axis"), number(o.at("cosine"))});
   return c;
 }
@@ -47,12 +57,23 @@ AnswerCause cause_of(const Json& j) {
 Json of(const Answer& a) {
   Json causes = Json::array();
   for (const AnswerCause& c : a.causes) causes.push_back(of(c));
-  return {{"trial", a.number}, {"failed", a.failed}, {"failure", a.failure},
-          {"verdict", std::string(discovery::text(a.verdict))}, {"p_value", number(a.p_value)}, {"causes", causes},
-          {"equation", a.equation}, {"position", a.position}, {"start_s", number(a.start_s)},
-          {"end_s", number(a.end_s)}, {"noise", a.noise}, {"chi2_per_dof_before", number(a.chi2_before)},
-          {"chi2_per_dof_after", number(a.chi2_after)}, {"held_out", a.held_out},
-          {"held_out_gain", number(a.held_out_gain)}, {"seconds", number(a.seconds)}, {"sentence", a.sentence}};
+  return {{"trial", a.number},
+          {"failed", a.failed},
+          {"failure", a.failure},
+          {"verdict", std::string(discovery::text(a.verdict))},
+          {"p_value", number(a.p_value)},
+          {"causes", causes},
+          {"equation", a.equation},
+          {"position", a.position},
+          {"start_s", number(a.start_s)},
+          {"end_s", number(a.end_s)},
+          {"noise", a.noise},
+          {"chi2_per_dof_before", number(a.chi2_before)},
+          {"chi2_per_dof_after", number(a.chi2_after)},
+          {"held_out", a.held_out},
+          {"held_out_gain", number(a.held_out_gain)},
+          {"seconds", number(a.seconds)},
+          {"sentence", a.sentence}};
 }
 
 Verdict verdict_of(const std::string& name) {
@@ -88,8 +109,9 @@ auto parsed(const std::string& json, Read&& read) {
   try {
     return read(Json::parse(json));
   } catch (const Json::exception& e) {
-    throw InputError(ExitCode::self_check,
-                     fmt::format("an answer cannot be read ({}). Remove it and run again", e.what()));
+    throw InputError(
+        ExitCode::self_check,
+        fmt::format("an answer cannot be read ({}). Remove it and run again", e.what()));
   }
 }
 
@@ -107,7 +129,8 @@ Answer answer_of(const discovery::Diagnosis& d) {
   Answer a;
   a.verdict = d.verdict;
   a.p_value = d.p_value;
-  for (const auto& c : d.causes) a.causes.push_back({c.term, c.axis, c.set, c.probability, c.parameters, c.confusable_with});
+  for (const auto& c : d.causes)
+    a.causes.push_back({c.term, c.axis, c.set, c.probability, c.parameters, c.confusable_with});
   a.equation = d.where.equation;
   if (!d.where.windows.empty()) {
     const auto& w = d.where.windows.front();
@@ -125,7 +148,9 @@ Answer answer_of(const discovery::Diagnosis& d) {
   return a;
 }
 
-std::string to_json(const Answer& answer) { return of(answer).dump(1) + "\n"; }
+std::string to_json(const Answer& answer) {
+  return of(answer).dump(1) + "\n";
+}
 
 std::string to_json(const std::vector<Answer>& answers) {
   Json all = Json::array();

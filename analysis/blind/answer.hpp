@@ -13,23 +13,24 @@ struct AnswerCause {
   int set = 0;  ///< simultaneous causes share a number; alternatives have different ones
   double probability = 0.0;
   std::vector<discovery::CauseParameter> parameters;
-  std::vector<discovery::Confusable> confusable_with{};  ///< likest first; |cosine| 1: the same trace on this plan
+  std::vector<discovery::Confusable>
+      confusable_with{};  ///< likest first; |cosine| 1: the same trace on this plan
 };
 
 struct Answer {
   std::size_t number = 0;
   bool failed = false;
-  std::string failure;          ///< why there is no diagnosis
+  std::string failure;  ///< why there is no diagnosis
   discovery::Verdict verdict = discovery::Verdict::consistent;
   double p_value = 1.0;
   std::vector<AnswerCause> causes;
-  std::string equation;         ///< of the strongest location, empty if nothing was located
-  int position = 0;             ///< 1-based, of the strongest window; 0: none
+  std::string equation;  ///< of the strongest location, empty if nothing was located
+  int position = 0;      ///< 1-based, of the strongest window; 0: none
   double start_s = 0.0, end_s = 0.0;
-  std::vector<std::string> noise;  ///< components that are not as declared
+  std::vector<std::string> noise;              ///< components that are not as declared
   double chi2_before = 1.0, chi2_after = 1.0;  ///< per degree of freedom, in sample
-  bool held_out = false;        ///< positions were held out
-  double held_out_gain = 0.0;   ///< log score
+  bool held_out = false;                       ///< positions were held out
+  double held_out_gain = 0.0;                  ///< log score
   double seconds = 0.0;
   std::string sentence;
 

@@ -18,26 +18,36 @@ namespace {
 
 std::string standing_text(const std::vector<Target>& targets) {
   const auto count = [&](Standing standing) {
-    return std::count_if(targets.begin(), targets.end(), [=](const Target& t) { return t.standing() == standing; });
+    return std::count_if(targets.begin(), targets.end(),
+                         [=](const Target& t) { return t.standing() == standing; });
   };
-  return fmt::format("Of {} targets {} are met and {} missed with their whole intervals, {} met and {} missed within their "
-                     "intervals, {} not decided.", targets.size(), count(Standing::met), count(Standing::missed),
-                     count(Standing::met_within), count(Standing::missed_within), count(Standing::not_decided));
+  return fmt::format(
+      "Of {} targets {} are met and {} missed with their whole intervals, {} met and {} missed "
+      "within their "
+      "intervals, {} not decided.",
+      targets.size(), count(Standing::met), count(Standing::missed), count(Standing::met_within),
+      count(Standing::missed_within), count(Standing::not_decided));
 }
 
 std::vector<std::string> headlines(const Summary& s, const Hashes& hashes) {
-  return {fmt::format("{} trials, {} of them without an answer. {}", s.trials, s.failed, standing_text(s.targets)),
-          fmt::format("The nominal fit looks healthy (chi-square inside its 95 % band) in {} effect trials, and its "
-                      "worst parameter is off by {} of its sigmas (median).", text_of(s.concealed),
-                      number_text(s.largest_bias_median, 3)),
-          fmt::format("Key sealed before any diagnosis: SHA-256 {}; answers before the key was opened: {}.", hashes.key,
-                      hashes.answers)};
+  return {fmt::format("{} trials, {} of them without an answer. {}", s.trials, s.failed,
+                      standing_text(s.targets)),
+          fmt::format("The nominal fit looks healthy (chi-square inside its 95 % band) in {} "
+                      "effect trials, and its "
+                      "worst parameter is off by {} of its sigmas (median).",
+                      text_of(s.concealed), number_text(s.largest_bias_median, 3)),
+          fmt::format(
+              "Key sealed before any diagnosis: SHA-256 {}; answers before the key was opened: {}.",
+              hashes.key, hashes.answers)};
 }
 
 std::string times_text(const Summary& s) {
-  return fmt::format("A diagnosis took {} s on average, the longest {} s. Pulls of the recovered parameters have a "
-                     "robust rms of {} (1 if their sigmas are right).", number_text(s.mean_seconds, 3),
-                     number_text(s.longest_seconds, 3), number_text(s.pull_rms, 3));
+  return fmt::format(
+      "A diagnosis took {} s on average, the longest {} s. Pulls of the recovered parameters have "
+      "a "
+      "robust rms of {} (1 if their sigmas are right).",
+      number_text(s.mean_seconds, 3), number_text(s.longest_seconds, 3),
+      number_text(s.pull_rms, 3));
 }
 
 Series curve(std::string label, std::size_t colour, Stroke stroke = Stroke::solid) {
@@ -89,13 +99,16 @@ std::string confusion_svg(const Confusion& c) {
   map.value_label = "share of the row";
   map.columns = c.columns;
   map.most = 1.0;
-  map.value = MatX::Zero(static_cast<Eigen::Index>(c.rows.size()), static_cast<Eigen::Index>(c.columns.size()));
+  map.value = MatX::Zero(static_cast<Eigen::Index>(c.rows.size()),
+                         static_cast<Eigen::Index>(c.columns.size()));
   for (std::size_t r = 0; r < c.rows.size(); ++r) {
     const auto& called = c.rows[r].called;
     map.rows.push_back(c.rows[r].hidden);
-    const auto total = static_cast<double>(std::accumulate(called.begin(), called.end(), std::size_t{0}));
+    const auto total =
+        static_cast<double>(std::accumulate(called.begin(), called.end(), std::size_t{0}));
     for (std::size_t k = 0; k < called.size(); ++k)
-      map.value(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(k)) = static_cast<double>(called[k]) / total;
+      map.value(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(k)) =
+          static_cast<double>(called[k]) / total;
   }
   return drift::svg_of(map);
 }
@@ -139,10 +152,12 @@ std::string time_svg(const std::vector<TrialScore>& scores) {
 
 }  // namespace
 
-std::string to_text(const Summary& summary, const std::vector<TrialScore>& scores, const Hashes& hashes) {
+std::string to_text(const Summary& summary, const std::vector<TrialScore>& scores,
+                    const Hashes& hashes) {
   std::string out;
   for (const Table& t : tables_of(summary)) out += drift::text_of(t) + "\n";
-  out += drift::text_of(misses_table(scores), 160) + "\n" + wrapped(times_text(summary), 100) + "\n";
+  out +=
+      drift::text_of(misses_table(scores), 160) + "\n" + wrapped(times_text(summary), 100) + "\n";
   for (const std::string& line : headlines(summary, hashes)) out += wrapped(line, 100) + "\n";
   return out;
 }
@@ -150,23 +165,34 @@ std::string to_text(const Summary& summary, const std::vector<TrialScore>& score
 std::vector<std::string> write_report(const std::string& title, const Summary& summary,
                                       const std::vector<TrialScore>& scores, const Hashes& hashes,
                                       const std::string& folder) {
-  const std::string power = power_svg(summary), confusion = confusion_svg(summary.confusion), pulls = pulls_svg(summary),
-                    time = time_svg(scores);
+  const std::string power = power_svg(summary), confusion = confusion_svg(summary.confusion),
+                    pulls = pulls_svg(summary), time = time_svg(scores);
   const std::vector<Table> tables = tables_of(summary);
   HtmlReport page{.title = title.empty() ? "Blind study" : title,
                   .subtitle = "Recordings with concealed effects, diagnosed without the key",
-                  .headlines = headlines(summary, hashes), .sections = {}, .footer = "driftscope blind"};
-  page.sections = {{"Targets", {tables[0]}},
-                   {"Power and naming", {Picture{power, "Shares of single effects by size."}, tables[1]}},
-                   {"Groups", {tables[2]}},
-                   {"Further scores", {tables[3], Paragraph{times_text(summary)},
-                                       Picture{pulls, "Distribution of the recovered parameters where the cause was named exactly."},
-                                       Picture{time, "Distribution of the time of a diagnosis."}}},
-                   {"Confusion", {Picture{confusion, "Of all trials with this thing hidden, the share that got this answer."}, tables[4]}},
-                   {"Trials that were answered wrong", {misses_table(scores)}}};
-  return write_files({{"blind.json", to_json(summary, scores, hashes)}, {"power.svg", power},
-                      {"confusion.svg", confusion}, {"pulls.svg", pulls}, {"time.svg", time},
-                      {"report.html", to_html(page)}}, folder);
+                  .headlines = headlines(summary, hashes),
+                  .sections = {},
+                  .footer = "driftscope blind"};
+  page.sections = {
+      {"Targets", {tables[0]}},
+      {"Power and naming", {Picture{power, "Shares of single effects by size."}, tables[1]}},
+      {"Groups", {tables[2]}},
+      {"Further scores",
+       {tables[3], Paragraph{times_text(summary)},
+        Picture{pulls,
+                "Distribution of the recovered parameters where the cause was named exactly."},
+        Picture{time, "Distribution of the time of a diagnosis."}}},
+      {"Confusion",
+       {Picture{confusion, "Of all trials with this thing hidden, the share that got this answer."},
+        tables[4]}},
+      {"Trials that were answered wrong", {misses_table(scores)}}};
+  return write_files({{"blind.json", to_json(summary, scores, hashes)},
+                      {"power.svg", power},
+                      {"confusion.svg", confusion},
+                      {"pulls.svg", pulls},
+                      {"time.svg", time},
+                      {"report.html", to_html(page)}},
+                     folder);
 }
 
 }  // namespace drift::blind

@@ -13,11 +13,14 @@ struct Hashes {
 };
 
 /// For a terminal.
-std::string to_text(const Summary& summary, const std::vector<TrialScore>& scores, const Hashes& hashes);
+std::string to_text(const Summary& summary, const std::vector<TrialScore>& scores,
+                    const Hashes& hashes);
 /// blind.json: hashes, targets, all scores, every trial.
-std::string to_json(const Summary& summary, const std::vector<TrialScore>& scores, const Hashes& hashes);
+std::string to_json(const Summary& summary, const std::vector<TrialScore>& scores,
+                    const Hashes& hashes);
 
-/// Writes blind.json, report.html, power.svg, confusion.svg, pulls.svg, time.svg. Returns their names.
+/// Writes blind.json, report.html, power.svg, confusion.svg, pulls.svg, time.svg. Returns their
+/// names.
 std::vector<std::string> write_report(const std::string& title, const Summary& summary,
                                       const std::vector<TrialScore>& scores, const Hashes& hashes,
                                       const std::string& folder);

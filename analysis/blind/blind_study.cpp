@@ -36,9 +36,12 @@ void require_blind(const Study& study) {
   };
   if (!study.has_blind) refuse("no [blind] (expected which trials to make). Add a section [blind]");
   if (!study.has_truth) refuse("no [truth] to make recordings from. Add a section [truth]");
-  if (study.filters.empty()) refuse("no [[filter]]: a blind study needs a nominal one. Add a section [[filter]]");
+  if (study.filters.empty())
+    refuse("no [[filter]]: a blind study needs a nominal one. Add a section [[filter]]");
   if (study.kind != RecordingKind::platform || study.plan.preset.empty())
-    refuse("[plan] has no preset (expected one, to be replaced by those of blind.plans). Write preset = \"twelve\"");
+    refuse(
+        "[plan] has no preset (expected one, to be replaced by those of blind.plans). Write preset "
+        "= \"twelve\"");
 }
 
 /// Tells progress, from any thread.
@@ -60,12 +63,17 @@ class Counter {
 bool already_made(const Study& study, const fs::path& folder) {
   if (!fs::exists(folder / "study.toml")) {
     if (fs::exists(folder / "key.json"))
-      throw InputError(ExitCode::store, fmt::format("{}: holds a key but no study. Give an empty folder", folder.string()));
+      throw InputError(
+          ExitCode::store,
+          fmt::format("{}: holds a key but no study. Give an empty folder", folder.string()));
     return false;
   }
   if (contents(folder / "study.toml") != study.text)
-    throw InputError(ExitCode::store, fmt::format("{}: holds the trials of another study (expected {} as it is now). "
-                                                  "Give another folder, or remove it", folder.string(), study.path));
+    throw InputError(
+        ExitCode::store,
+        fmt::format("{}: holds the trials of another study (expected {} as it is now). "
+                    "Give another folder, or remove it",
+                    folder.string(), study.path));
   if (published_hash(folder.string(), "key.json").empty()) return false;
   open_sealed(folder.string(), "key.json");
   return true;
@@ -84,7 +92,8 @@ KeyEntry make_one(const Study& study, const TrialPlan& plan, const fs::path& fol
 int begin_attempt(const fs::path& here) {
   const std::string before = contents(here / "attempts");
   const int attempt = static_cast<int>(before.size()) + 1;
-  write_text_atomically((here / "attempts").string(), std::string(static_cast<std::size_t>(attempt), '|'));
+  write_text_atomically((here / "attempts").string(),
+                        std::string(static_cast<std::size_t>(attempt), '|'));
   return attempt;
 }
 
@@ -107,7 +116,8 @@ Answer answer_one(const Solver& solver, std::size_t number, const fs::path& here
     }
   }
   answer.number = number;
-  answer.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  answer.seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   write_text_atomically(kept.string(), to_json(answer));
   fs::remove(here / "attempts");
   return answer;
@@ -115,33 +125,43 @@ Answer answer_one(const Solver& solver, std::size_t number, const fs::path& here
 
 }  // namespace
 
-std::string make_trials(const Study& study, const std::string& folder, int threads, const Progress& progress) {
+std::string make_trials(const Study& study, const std::string& folder, int threads,
+                        const Progress& progress) {
   require_blind(study);
   if (already_made(study, folder)) return published_hash(folder, "key.json");
   write_files({{"study.toml", study.text}}, folder);
   const std::vector<TrialPlan> plans = design_trials(study.blind, study.monte_carlo.seed);
   Counter counter(plans.size(), progress);
   Key key{salt_of(study.monte_carlo.seed), {}};
-  key.entries = mc::run_campaign(plans.size(), [&](std::size_t k) {
-    KeyEntry entry = make_one(study, plans[k], folder);
-    counter.step();
-    return entry;
-  }, threads);
+  key.entries = mc::run_campaign(
+      plans.size(),
+      [&](std::size_t k) {
+        KeyEntry entry = make_one(study, plans[k], folder);
+        counter.step();
+        return entry;
+      },
+      threads);
   return write_sealed(folder, "key.json", to_json(key));
 }
 
-std::string answer_trials(const std::string& folder, const Solver& solver, int threads, const Progress& progress) {
+std::string answer_trials(const std::string& folder, const Solver& solver, int threads,
+                          const Progress& progress) {
   if (published_hash(folder, "key.json").empty())
-    throw InputError(ExitCode::self_check, fmt::format("{}: the key is not sealed (expected key.sha256). Make the trials "
-                                                       "first", folder));
+    throw InputError(ExitCode::self_check,
+                     fmt::format("{}: the key is not sealed (expected key.sha256). Make the trials "
+                                 "first",
+                                 folder));
   std::size_t trials = 0;
   while (fs::exists(trial_folder(folder, trials + 1) / "recording.csv")) ++trials;
   Counter counter(trials, progress);
-  const auto answers = mc::run_campaign(trials, [&](std::size_t k) {
-    Answer answer = answer_one(solver, k + 1, trial_folder(folder, k + 1));
-    counter.step();
-    return answer;
-  }, threads);
+  const auto answers = mc::run_campaign(
+      trials,
+      [&](std::size_t k) {
+        Answer answer = answer_one(solver, k + 1, trial_folder(folder, k + 1));
+        counter.step();
+        return answer;
+      },
+      threads);
   return write_sealed(folder, "answers.json", to_json(answers));
 }
 

@@ -12,7 +12,8 @@ namespace {
 template <class T>
 void shuffle(std::vector<T>& list, Stream& stream) {
   for (std::size_t k = list.size(); k > 1; --k)
-    std::swap(list[k - 1], list[static_cast<std::size_t>(stream.uniform() * static_cast<double>(k))]);
+    std::swap(list[k - 1],
+              list[static_cast<std::size_t>(stream.uniform() * static_cast<double>(k))]);
 }
 
 /// Numbers 0..levels-1, each equally often (but for one), n of them in random order.
@@ -44,14 +45,17 @@ std::vector<std::size_t> counts_of(const BlindShares& shares, std::size_t trials
 
 double size_of(const BlindSpec& spec, Stratum stratum, std::size_t level, Stream& stream) {
   switch (stratum) {
-    case Stratum::pair: return spec.pair_size;
-    case Stratum::outside: return spec.outside_size;
+    case Stratum::pair:
+      return spec.pair_size;
+    case Stratum::outside:
+      return spec.outside_size;
     case Stratum::single:
     case Stratum::local:
       return spec.sizes.empty() ? spec.smallest + (spec.largest - spec.smallest) * stream.uniform()
                                 : spec.sizes[level];
     case Stratum::null:
-    case Stratum::wrong_noise: break;
+    case Stratum::wrong_noise:
+      break;
   }
   return 0.0;
 }

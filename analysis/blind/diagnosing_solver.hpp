@@ -4,7 +4,8 @@
 
 namespace drift::blind {
 
-/// The diagnosis of `driftscope diagnose`, without what is not scored (start spread, recovered signal).
+/// The diagnosis of `driftscope diagnose`, without what is not scored (start spread, recovered
+/// signal).
 Solver diagnosing_solver();
 
 }  // namespace drift::blind

@@ -11,8 +11,8 @@
 #include "analysis/blind/noise_faults.hpp"
 #include "analysis/blind/outside_effects.hpp"
 #include "analysis/blind/sizing.hpp"
-#include "core/base/chi_square_band.hpp"
 #include "core/base/check.hpp"
+#include "core/base/chi_square_band.hpp"
 #include "core/config/load.hpp"
 #include "core/config/override.hpp"
 
@@ -24,7 +24,9 @@ using Sized = SizingBench::Sized;
 constexpr std::uint32_t choice_stream = 64;  // the design uses the first few
 
 /// The nominal filter has the truth's coupling; for the servo eq. (6), which it closes like.
-Coupling nominal_coupling(Coupling truth) { return truth == Coupling::eq5 ? Coupling::eq5 : Coupling::eq6; }
+Coupling nominal_coupling(Coupling truth) {
+  return truth == Coupling::eq5 ? Coupling::eq5 : Coupling::eq6;
+}
 
 World make_world(const Study& study, const Study& nominal, const TrialPlan& plan) {
   World w;
@@ -37,14 +39,18 @@ World make_world(const Study& study, const Study& nominal, const TrialPlan& plan
   return w;
 }
 
-/// The terms in the order in which trial `index` of a stratum tries them: each term is first for equally
-/// many trials.
-std::vector<std::size_t> term_order(const FilterSpec& nominal, std::uint64_t seed, std::size_t index) {
+/// The terms in the order in which trial `index` of a stratum tries them: each term is first for
+/// equally many trials.
+std::vector<std::size_t> term_order(const FilterSpec& nominal, std::uint64_t seed,
+                                    std::size_t index) {
   std::vector<std::size_t> terms = hideable_terms(nominal);
   Stream mix(seed, 0, Purpose::design, choice_stream);
   for (std::size_t k = terms.size(); k > 1; --k)
-    std::swap(terms[k - 1], terms[static_cast<std::size_t>(mix.uniform() * static_cast<double>(k))]);
-  if (!terms.empty()) std::rotate(terms.begin(), terms.begin() + static_cast<long>(index % terms.size()), terms.end());
+    std::swap(terms[k - 1],
+              terms[static_cast<std::size_t>(mix.uniform() * static_cast<double>(k))]);
+  if (!terms.empty())
+    std::rotate(terms.begin(), terms.begin() + static_cast<long>(index % terms.size()),
+                terms.end());
   return terms;
 }
 
@@ -63,25 +69,30 @@ std::vector<Sized> library_effects(const SizingBench& bench, const FilterSpec& n
 }
 
 [[noreturn]] void nothing_to_hide(const Study& study, const TrialPlan& plan) {
-  throw InputError(ExitCode::config,
-                   fmt::format("{}: nothing can be hidden in trial {} as asked: {} of {:.3g} sigma on preset {} "
-                               "(expected effects of at most {:.3g} prior sigmas). Ask for smaller sizes, longer "
-                               "dwells, or a larger blind.most_prior_sigmas", study.path, plan.number,
-                               name_in(stratum_names, plan.stratum), plan.size, plan.plan,
-                               study.blind.most_prior_sigmas));
+  throw InputError(
+      ExitCode::config,
+      fmt::format(
+          "{}: nothing can be hidden in trial {} as asked: {} of {:.3g} sigma on preset {} "
+          "(expected effects of at most {:.3g} prior sigmas). Ask for smaller sizes, longer "
+          "dwells, or a larger blind.most_prior_sigmas",
+          study.path, plan.number, name_in(stratum_names, plan.stratum), plan.size, plan.plan,
+          study.blind.most_prior_sigmas));
 }
 
 /// Two effects whose signatures are not too much alike. Every third trial looks for two that cancel
 /// each other as far as that allows.
-std::vector<Sized> pair_effects(const Study& study, const SizingBench& bench, const FilterSpec& nominal,
-                                const TrialPlan& plan, Stream& stream) {
+std::vector<Sized> pair_effects(const Study& study, const SizingBench& bench,
+                                const FilterSpec& nominal, const TrialPlan& plan, Stream& stream) {
   auto terms = term_order(nominal, study.monte_carlo.seed, plan.index);
   const double most = study.blind.most_prior_sigmas;
   auto first = library_effects(bench, nominal, terms, plan.size, most, 1, stream);
   if (first.empty()) nothing_to_hide(study, plan);
-  std::erase_if(terms, [&](std::size_t t) { return TermLibrary::terms[t].key == first[0].source.effect.term; });
+  std::erase_if(terms, [&](std::size_t t) {
+    return TermLibrary::terms[t].key == first[0].source.effect.term;
+  });
   for (std::size_t k = terms.size(); k > 1; --k)
-    std::swap(terms[k - 1], terms[static_cast<std::size_t>(stream.uniform() * static_cast<double>(k))]);
+    std::swap(terms[k - 1],
+              terms[static_cast<std::size_t>(stream.uniform() * static_cast<double>(k))]);
   const std::size_t tries = plan.index % 3 == 0 ? 6 : 1;
   std::optional<Sized> best;
   double best_cosine = 0.0;
@@ -103,7 +114,8 @@ std::vector<Sized> pair_effects(const Study& study, const SizingBench& bench, co
 }
 
 /// What is hidden, and put into `world`.
-void hide(const Study& study, const FilterSpec& nominal, const TrialPlan& plan, World& world, KeyEntry& key) {
+void hide(const Study& study, const FilterSpec& nominal, const TrialPlan& plan, World& world,
+          KeyEntry& key) {
   const std::uint64_t seed = study.monte_carlo.seed;
   Stream stream(seed, plan.number, Purpose::design, choice_stream);
   if (plan.stratum == Stratum::null) return;
@@ -125,8 +137,9 @@ void hide(const Study& study, const FilterSpec& nominal, const TrialPlan& plan, 
     default: {
       // A place or pattern that leaves nothing is drawn again.
       for (std::size_t k = 0; k < 2 * num_outside && sized.empty(); ++k) {
-        const Source source = plan.stratum == Stratum::local ? local_source(world, stream)
-                                                             : outside_source(plan.index + k, world, stream);
+        const Source source = plan.stratum == Stratum::local
+                                  ? local_source(world, stream)
+                                  : outside_source(plan.index + k, world, stream);
         if (auto s = bench.fit_strength(source, plan.size)) sized.push_back(std::move(*s));
       }
     }
@@ -170,17 +183,21 @@ Certificate certify(const FilterSpec& nominal, const World& world, const Measure
 std::string nominal_text(const Study& study, const TrialPlan& plan) {
   config::Node root = config::parse_document(study.text, study.path);
   std::erase_if(root.members, [](const config::Member& m) {
-    return m.key == "truth" || m.key == "blind" || m.key == "monte_carlo" || m.key == "sweep" || m.key == "published";
+    return m.key == "truth" || m.key == "blind" || m.key == "monte_carlo" || m.key == "sweep" ||
+           m.key == "published";
   });
   apply_override(root, "title", fmt::format("Blind trial {}", plan.number));
   apply_override(root, "plan.preset", plan.plan);
   apply_override(root, "plan.mode", name_in(mode_names, plan.mode));
   config::Node* filters = root.find("filter");
   if (filters == nullptr || filters->items.empty())
-    throw InputError(ExitCode::config, fmt::format("{}: no [[filter]]: a blind study needs a nominal one. Add a "
-                                                   "section [[filter]] with name and coupling", study.path));
+    throw InputError(ExitCode::config,
+                     fmt::format("{}: no [[filter]]: a blind study needs a nominal one. Add a "
+                                 "section [[filter]] with name and coupling",
+                                 study.path));
   filters->items.resize(1);
-  apply_override(root, "filter.0.coupling", name_in(coupling_names, nominal_coupling(plan.coupling)));
+  apply_override(root, "filter.0.coupling",
+                 name_in(coupling_names, nominal_coupling(plan.coupling)));
   return config::to_document(root);
 }
 
@@ -196,7 +213,8 @@ MadeTrial make_trial(const Study& study, const Study& nominal, const TrialPlan& 
   made.recording = make_recording(world.timeline, sim.measured, world.readout);
   made.recording.facts = {{"driftscope recording", fmt::format("blind trial {}", plan.number)}};
   made.key.certificate = certify(filter, world, sim.measured);
-  made.key.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  made.key.seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   return made;
 }
 

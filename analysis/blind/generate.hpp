@@ -6,8 +6,8 @@
 
 namespace drift::blind {
 
-/// What the solver gets of a study: no truth, no [blind], no seed; the preset, mode and coupling of the
-/// trial. TOML text that read_study() takes.
+/// What the solver gets of a study: no truth, no [blind], no seed; the preset, mode and coupling of
+/// the trial. TOML text that read_study() takes.
 std::string nominal_text(const Study& study, const TrialPlan& plan);
 
 /// A recording and what it hides.
@@ -16,10 +16,11 @@ struct MadeTrial {
   KeyEntry key;
 };
 
-/// Makes a trial. nominal: the study that the solver gets, read back. The truth is integrated by CVODE
-/// (with the servo's 12 states where asked for); parameters and attitudes are drawn from [truth]; the
-/// effect is as strong as its wanted size asks, and another one is taken where that would be implausible.
-/// A pure function of (study, plan). InputError (config) if nothing can be hidden as asked.
+/// Makes a trial. nominal: the study that the solver gets, read back. The truth is integrated by
+/// CVODE (with the servo's 12 states where asked for); parameters and attitudes are drawn from
+/// [truth]; the effect is as strong as its wanted size asks, and another one is taken where that
+/// would be implausible. A pure function of (study, plan). InputError (config) if nothing can be
+/// hidden as asked.
 MadeTrial make_trial(const Study& study, const Study& nominal, const TrialPlan& plan);
 
 }  // namespace drift::blind

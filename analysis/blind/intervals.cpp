@@ -42,20 +42,22 @@ double beta_quantile(double p, double a, double b) {
 }  // namespace
 
 double Proportion::share() const {
-  return n > 0 ? static_cast<double>(k) / static_cast<double>(n) : std::numeric_limits<double>::quiet_NaN();
+  return n > 0 ? static_cast<double>(k) / static_cast<double>(n)
+               : std::numeric_limits<double>::quiet_NaN();
 }
 
 double incomplete_beta(double a, double b, double x) {
   if (x <= 0.0) return 0.0;
   if (x >= 1.0) return 1.0;
-  const double front =
-      std::exp(std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b) + a * std::log(x) + b * std::log1p(-x));
+  const double front = std::exp(std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b) +
+                                a * std::log(x) + b * std::log1p(-x));
   return x < (a + 1.0) / (a + b + 2.0) ? front * beta_fraction(a, b, x) / a
                                        : 1.0 - front * beta_fraction(b, a, 1.0 - x) / b;
 }
 
 Proportion proportion(std::size_t k, std::size_t n, double confidence) {
-  const double tail = 0.5 * (1.0 - confidence), kd = static_cast<double>(k), nd = static_cast<double>(n);
+  const double tail = 0.5 * (1.0 - confidence), kd = static_cast<double>(k),
+               nd = static_cast<double>(n);
   Proportion p{k, n};
   if (n == 0) return p;
   if (k > 0) p.low = beta_quantile(tail, kd, nd - kd + 1.0);

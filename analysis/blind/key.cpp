@@ -14,17 +14,23 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Not a number becomes null, and back.
-Json number(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
-double number(const Json& j) { return j.is_null() ? std::nan("") : j.get<double>(); }
+Json number(double v) {
+  return std::isfinite(v) ? Json(v) : Json(nullptr);
+}
+double number(const Json& j) {
+  return j.is_null() ? std::nan("") : j.get<double>();
+}
 
 Json of(const HiddenEffect& e) {
   Json params = Json::array();
   for (const HiddenParameter& p : e.parameters)
     params.push_back({{"key", p.key}, {"value", number(p.value)}, {"unit", p.unit}});
-  return {{"term", e.term}, {"axis", e.axis}, {"words", e.words}, {"parameters", params},
-          {"size", number(e.size)}, {"absorbed", number(e.absorbed)}, {"position", e.position},
-          {"start_s", e.start_s}, {"end_s", e.end_s}, {"equation", e.equation},
-          {"nearest", e.nearest}, {"nearest_cosine", number(e.nearest_cosine)}};
+  return {{"term", e.term},         {"axis", e.axis},
+          {"words", e.words},       {"parameters", params},
+          {"size", number(e.size)}, {"absorbed", number(e.absorbed)},
+          {"position", e.position}, {"start_s", e.start_s},
+          {"end_s", e.end_s},       {"equation", e.equation},
+          {"nearest", e.nearest},   {"nearest_cosine", number(e.nearest_cosine)}};
 }
 
 HiddenEffect effect_of(const Json& j) {
@@ -46,8 +52,11 @@ HiddenEffect effect_of(const Json& j) {
 }
 
 Json of(const Certificate& c) {
-  return {{"chi2_per_dof", number(c.chi2_per_dof)}, {"band", {c.band_low, c.band_high}},
-          {"concealed", c.concealed}, {"largest_bias_sigma", number(c.largest_bias)}, {"biased", c.biased}};
+  return {{"chi2_per_dof", number(c.chi2_per_dof)},
+          {"band", {c.band_low, c.band_high}},
+          {"concealed", c.concealed},
+          {"largest_bias_sigma", number(c.largest_bias)},
+          {"biased", c.biased}};
 }
 
 Certificate certificate_of(const Json& j) {
@@ -64,11 +73,18 @@ Certificate certificate_of(const Json& j) {
 Json of(const KeyEntry& k) {
   Json effects = Json::array();
   for (const HiddenEffect& e : k.effects) effects.push_back(of(e));
-  return {{"trial", k.plan.number}, {"stratum", name_in(stratum_names, k.plan.stratum)},
-          {"index", k.plan.index}, {"plan", k.plan.plan}, {"mode", name_in(mode_names, k.plan.mode)},
-          {"truth_coupling", name_in(coupling_names, k.plan.coupling)}, {"nominal_coupling", k.nominal},
-          {"wanted_size", k.plan.size}, {"total_size", number(k.total_size)}, {"cosine", number(k.cosine)},
-          {"effects", effects}, {"certificate", of(k.certificate)}};
+  return {{"trial", k.plan.number},
+          {"stratum", name_in(stratum_names, k.plan.stratum)},
+          {"index", k.plan.index},
+          {"plan", k.plan.plan},
+          {"mode", name_in(mode_names, k.plan.mode)},
+          {"truth_coupling", name_in(coupling_names, k.plan.coupling)},
+          {"nominal_coupling", k.nominal},
+          {"wanted_size", k.plan.size},
+          {"total_size", number(k.total_size)},
+          {"cosine", number(k.cosine)},
+          {"effects", effects},
+          {"certificate", of(k.certificate)}};
 }
 
 KeyEntry entry_of(const Json& j) {
@@ -90,7 +106,9 @@ KeyEntry entry_of(const Json& j) {
 
 }  // namespace
 
-std::string salt_of(std::uint64_t seed) { return sha256_hex(fmt::format("driftscope blind key, seed {}", seed)); }
+std::string salt_of(std::uint64_t seed) {
+  return sha256_hex(fmt::format("driftscope blind key, seed {}", seed));
+}
 
 std::string to_json(const Key& key) {
   Json entries = Json::array();
@@ -105,8 +123,10 @@ Key key_of(const std::string& json) {
     for (const Json& e : j.at("trials")) key.entries.push_back(entry_of(e));
     return key;
   } catch (const Json::exception& e) {
-    throw InputError(ExitCode::self_check, fmt::format("key.json: is no key ({}). Make the trials again in an "
-                                                       "empty folder", e.what()));
+    throw InputError(ExitCode::self_check,
+                     fmt::format("key.json: is no key ({}). Make the trials again in an "
+                                 "empty folder",
+                                 e.what()));
   }
 }
 

@@ -11,7 +11,9 @@ namespace {
 
 constexpr auto lambda = TermLibrary::index("lambda");
 
-bool is_amplitude(const ParamSpec& spec) { return spec.kind == ParamKind::linear && spec.prior.sigma() > 0.0; }
+bool is_amplitude(const ParamSpec& spec) {
+  return spec.kind == ParamKind::linear && spec.prior.sigma() > 0.0;
+}
 
 template <class T>
 const T& one_of(const std::vector<T>& list, Stream& stream) {
@@ -23,7 +25,9 @@ double draw_setting(const ParamSpec& spec, double duration, Stream& stream) {
   const Grid& grid = spec.grid;
   if (grid.size == 0) return spec.prior_si().mean();
   if (spec.kind == ParamKind::discrete)
-    return grid.values[static_cast<std::size_t>(stream.uniform() * static_cast<double>(grid.size))] * spec.unit.to_si;
+    return grid.values[static_cast<std::size_t>(stream.uniform() *
+                                                static_cast<double>(grid.size))] *
+           spec.unit.to_si;
   double low = *std::min_element(grid.begin(), grid.end()) * spec.unit.to_si;
   double high = *std::max_element(grid.begin(), grid.end()) * spec.unit.to_si;
   if (spec.unit.same_dimension(unit::s)) high = std::max(low, std::min(high, 0.9 * duration));
@@ -36,8 +40,8 @@ HiddenParameter numbers_of(std::size_t param, double si) {
   return {std::string(spec.key.view()), si / spec.unit.to_si, std::string(spec.unit.symbol.view())};
 }
 
-/// The model form itself: lambda moved away from where the nominal filter has it. A servo closes like
-/// eq. (6) whatever is asked.
+/// The model form itself: lambda moved away from where the nominal filter has it. A servo closes
+/// like eq. (6) whatever is asked.
 std::optional<Source> frame_closure(const World& world, const FilterSpec& nominal) {
   if (world.truth.coupling == Coupling::servo || nominal.active[lambda] ||
       (nominal.coupling != Coupling::eq5 && nominal.coupling != Coupling::eq6))
@@ -54,7 +58,9 @@ std::optional<Source> frame_closure(const World& world, const FilterSpec& nomina
     w.truth.active.set(lambda);
     w.draw.theta[lambda] = value(strength);
   };
-  s.parameters = [value](double strength) { return std::vector<HiddenParameter>{numbers_of(lambda, value(strength))}; };
+  s.parameters = [value](double strength) {
+    return std::vector<HiddenParameter>{numbers_of(lambda, value(strength))};
+  };
   return s;
 }
 
@@ -83,11 +89,12 @@ std::vector<std::size_t> hideable_terms(const FilterSpec& nominal) {
   return terms;
 }
 
-std::optional<Source> library_source(std::size_t t, const World& world, const FilterSpec& nominal, double most,
-                                     Stream& stream) {
+std::optional<Source> library_source(std::size_t t, const World& world, const FilterSpec& nominal,
+                                     double most, Stream& stream) {
   const TermInfo& term = TermLibrary::terms[t];
   if (term.key == "frame_closure") return frame_closure(world, nominal);
-  if ((term.needs.temperature && !world.timeline.has_temperature) || (term.needs.field && !world.timeline.has_field))
+  if ((term.needs.temperature && !world.timeline.has_temperature) ||
+      (term.needs.field && !world.timeline.has_field))
     return std::nullopt;
   const auto missing = missing_parameters(term, nominal);
   std::vector<std::string> axes;

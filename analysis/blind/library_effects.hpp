@@ -16,11 +16,11 @@ std::vector<std::size_t> missing_parameters(const TermInfo& term, const FilterSp
 /// What stands behind the last bar of a parameter's key: an axis, a gimbal or nothing.
 std::string axis_of(std::size_t param);
 
-/// One way in which a term may be missing: an axis of it, or one parameter of that axis; the shares of
-/// several parameters drawn from their priors, nonlinear ones between the ends of their grids, times not
-/// beyond the test. Strength 1 is one prior sigma; more than `most` prior sigmas are implausible.
-/// Empty if the term cannot act in this world (frame_closure of a servo).
-std::optional<Source> library_source(std::size_t term, const World& world, const FilterSpec& nominal,
-                                     double most, Stream& stream);
+/// One way in which a term may be missing: an axis of it, or one parameter of that axis; the shares
+/// of several parameters drawn from their priors, nonlinear ones between the ends of their grids,
+/// times not beyond the test. Strength 1 is one prior sigma; more than `most` prior sigmas are
+/// implausible. Empty if the term cannot act in this world (frame_closure of a servo).
+std::optional<Source> library_source(std::size_t term, const World& world,
+                                     const FilterSpec& nominal, double most, Stream& stream);
 
 }  // namespace drift::blind

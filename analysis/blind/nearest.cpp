@@ -61,7 +61,8 @@ double mixture_cosine(const MatX& products) {
 
 }  // namespace
 
-Nearest nearest_in_library(const SizingBench& bench, const FilterSpec& nominal, const VecX& signal) {
+Nearest nearest_in_library(const SizingBench& bench, const FilterSpec& nominal,
+                           const VecX& signal) {
   constexpr double strength = 0.3;  // prior sigmas: nearly linear
   Nearest best;
   for (const std::size_t t : hideable_terms(nominal)) {
@@ -76,7 +77,8 @@ Nearest nearest_in_library(const SizingBench& bench, const FilterSpec& nominal, 
       for (const auto& [axis, params] : axes) {
         MatX signals(signal.size(), static_cast<Eigen::Index>(params.size()) + 1);
         for (std::size_t k = 0; k < params.size(); ++k)
-          signals.col(static_cast<Eigen::Index>(k)) = bench.signal(one_parameter(params[k], settings), strength);
+          signals.col(static_cast<Eigen::Index>(k)) =
+              bench.signal(one_parameter(params[k], settings), strength);
         signals.rightCols<1>() = signal;
         const double cosine = mixture_cosine(bench.absorption().left_products(signals));
         if (cosine > best.cosine) best = {std::string(term.key), axis, cosine};

@@ -8,9 +8,12 @@ namespace {
 constexpr double deg_per_h = detail::deg / 3600.0;
 
 /// Between two ends, evenly in the logarithm.
-double between(double low, double high, Stream& stream) { return low * std::pow(high / low, stream.uniform()); }
+double between(double low, double high, Stream& stream) {
+  return low * std::pow(high / low, stream.uniform());
+}
 
-/// Exponentially correlated noise of unit variance at the intervals, three of it: exact for any spacing.
+/// Exponentially correlated noise of unit variance at the intervals, three of it: exact for any
+/// spacing.
 Mat3X correlated(const World& world, double tau, Stream& stream) {
   Mat3X out(3, world.intervals());
   Vec3 x;
@@ -34,7 +37,9 @@ HiddenEffect fault(std::string term, std::string words, std::vector<HiddenParame
   return e;
 }
 
-HiddenParameter minutes(std::string key, double seconds) { return {std::move(key), seconds / 60.0, "min"}; }
+HiddenParameter minutes(std::string key, double seconds) {
+  return {std::move(key), seconds / 60.0, "min"};
+}
 
 }  // namespace
 
@@ -62,13 +67,16 @@ HiddenEffect spoil_noise(std::size_t kind, World& world, Stream& stream) {
     case 3: {
       const double sigma = between(2e-3, 1e-2, stream), tau = between(600.0, 3600.0, stream);
       World::add(world.disturbance, correlated(world, tau, stream), sigma * deg_per_h);
-      e = fault("markov_drift", "correlated noise of the drift", {{"sigma", sigma, "deg/h"}, minutes("tau", tau)});
+      e = fault("markov_drift", "correlated noise of the drift",
+                {{"sigma", sigma, "deg/h"}, minutes("tau", tau)});
       break;
     }
     case 4: {
       const double factor = between(0.5, 1.5, stream), tau = between(180.0, 900.0, stream);
-      World::add(world.acc_error, correlated(world, tau, stream), factor * world.readout.accelerometer_noise);
-      e = fault("coloured_accelerometer", "correlated noise of the accelerometers", {{"factor", factor, "1"}, minutes("tau", tau)});
+      World::add(world.acc_error, correlated(world, tau, stream),
+                 factor * world.readout.accelerometer_noise);
+      e = fault("coloured_accelerometer", "correlated noise of the accelerometers",
+                {{"factor", factor, "1"}, minutes("tau", tau)});
       break;
     }
     default: {

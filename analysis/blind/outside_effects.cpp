@@ -16,7 +16,7 @@ constexpr double two_pi = 2.0 * std::numbers::pi;
 /// The nominal platform in the middle of an interval.
 struct Instant {
   const Interval* interval;
-  double t = 0.0;      ///< since the start of the test [s]
+  double t = 0.0;         ///< since the start of the test [s]
   double in_dwell = 0.0;  ///< since the first interval of the position [s]
   Vec3 f_p, gimbal;
 };
@@ -34,7 +34,8 @@ Mat3X pattern(const World& world, int axis, const std::function<double(const Ins
       start = interval.t0;
     }
     const Node& node = line.nodes[interval.middle_node()];
-    Instant now{&interval, node.t - line.intervals.front().t0, node.t - start, Vec3(node.R_lr.row(2)), Vec3::Zero()};
+    Instant now{&interval, node.t - line.intervals.front().t0, node.t - start,
+                Vec3(node.R_lr.row(2)), Vec3::Zero()};
     const double heading = 0.5 * (interval.heading0 + interval.heading1);
     now.gimbal = gimbal_angles<double>(case_attitude(heading).transpose() * node.R_lr);
     out(axis, static_cast<Eigen::Index>(i)) = value(now);
@@ -42,7 +43,9 @@ Mat3X pattern(const World& world, int axis, const std::function<double(const Ins
   return out;
 }
 
-int pick(int n, Stream& stream) { return static_cast<int>(stream.uniform() * n); }
+int pick(int n, Stream& stream) {
+  return static_cast<int>(stream.uniform() * n);
+}
 
 enum class Slot { rate, accelerometer, gimbal };
 
@@ -57,11 +60,15 @@ Source source(std::string name, std::string words, Slot slot, int axis, Mat3X sh
   s.first = 1.0;
   s.most = 1e6;
   s.put = [slot, shape, unit](World& w, double strength) {
-    Mat3X& to = slot == Slot::rate ? w.disturbance : slot == Slot::accelerometer ? w.acc_error : w.gimbal_error;
+    Mat3X& to = slot == Slot::rate            ? w.disturbance
+                : slot == Slot::accelerometer ? w.acc_error
+                                              : w.gimbal_error;
     World::add(to, shape, strength * unit);
   };
   s.parameters = [slot](double strength) {
-    const char* unit_name = slot == Slot::rate ? "deg/h" : slot == Slot::accelerometer ? "ug" : "arcsec";
+    const char* unit_name = slot == Slot::rate            ? "deg/h"
+                            : slot == Slot::accelerometer ? "ug"
+                                                          : "arcsec";
     return std::vector<HiddenParameter>{{"amplitude", strength, unit_name}};
   };
   return s;
@@ -83,56 +90,75 @@ Source outside_source(std::size_t kind, const World& world, Stream& stream) {
   switch (kind % num_outside) {
     case 0:
       return source("product_drift", "drift a_I^2 a_S", Slot::rate, axis,
-                    pattern(world, axis, [&](const Instant& n) {
-                      const double a = along(n.f_p, false);
-                      return -a * a * along(n.f_p, true);
-                    }), deg_per_h);
+                    pattern(world, axis,
+                            [&](const Instant& n) {
+                              const double a = along(n.f_p, false);
+                              return -a * a * along(n.f_p, true);
+                            }),
+                    deg_per_h);
     case 1: {
       const int gimbal = pick(3, stream), force = pick(3, stream);
-      return source("gimbal_force", "drift sin(3 gimbal angle) times specific force", Slot::rate, axis,
-                    pattern(world, axis, [=](const Instant& n) { return -std::sin(3.0 * n.gimbal[gimbal]) * n.f_p[force]; }),
-                    deg_per_h);
+      return source(
+          "gimbal_force", "drift sin(3 gimbal angle) times specific force", Slot::rate, axis,
+          pattern(
+              world, axis,
+              [=](const Instant& n) { return -std::sin(3.0 * n.gimbal[gimbal]) * n.f_p[force]; }),
+          deg_per_h);
     }
     case 2: {
       std::vector<int> chosen;
-      while (chosen.size() < std::min<std::size_t>(3, static_cast<std::size_t>(world.timeline.positions))) {
+      while (chosen.size() <
+             std::min<std::size_t>(3, static_cast<std::size_t>(world.timeline.positions))) {
         const int p = pick(world.timeline.positions, stream);
         if (std::find(chosen.begin(), chosen.end(), p) == chosen.end()) chosen.push_back(p);
       }
       std::vector<double> half(static_cast<std::size_t>(world.timeline.positions), 0.0);
       for (const Interval& i : world.timeline.intervals) half[i.position] += 0.5 * i.length();
       return source("intermittent", "drift that is on late in three positions", Slot::rate, axis,
-                    pattern(world, axis, [&](const Instant& n) {
-                      const bool on = std::find(chosen.begin(), chosen.end(), n.interval->position) != chosen.end();
-                      return on && n.in_dwell > half[n.interval->position] ? -1.0 : 0.0;
-                    }), deg_per_h);
+                    pattern(world, axis,
+                            [&](const Instant& n) {
+                              const bool on = std::find(chosen.begin(), chosen.end(),
+                                                        n.interval->position) != chosen.end();
+                              return on && n.in_dwell > half[n.interval->position] ? -1.0 : 0.0;
+                            }),
+                    deg_per_h);
     }
     case 3: {
       const double T0 = (100.0 + 60.0 * stream.uniform()) * 60.0, phase = two_pi * stream.uniform();
       return source("chirp", "drift whose period shrinks through the test", Slot::rate, axis,
-                    pattern(world, axis, [=](const Instant& n) { return std::sin(two_pi * (n.t / T0) * (n.t / T0) + phase); }),
+                    pattern(world, axis,
+                            [=](const Instant& n) {
+                              return std::sin(two_pi * (n.t / T0) * (n.t / T0) + phase);
+                            }),
                     deg_per_h);
     }
     case 4: {
       const double phase = two_pi * stream.uniform();
-      return source("acc_pickup", "accelerometer error with a period of 47 min", Slot::accelerometer, axis,
-                    pattern(world, axis, [=](const Instant& n) {
-                      return std::sin(two_pi * n.t / 2820.0 + phase) * (0.3 + std::abs(n.f_p[axis]));
-                    }), ug);
+      return source(
+          "acc_pickup", "accelerometer error with a period of 47 min", Slot::accelerometer, axis,
+          pattern(world, axis,
+                  [=](const Instant& n) {
+                    return std::sin(two_pi * n.t / 2820.0 + phase) * (0.3 + std::abs(n.f_p[axis]));
+                  }),
+          ug);
     }
     default: {
       const double period = (20.0 + 10.0 * stream.uniform()) * 60.0;
-      return source("resolver_sawtooth", "resolver error that builds up and falls back", Slot::gimbal, axis,
-                    pattern(world, axis, [=](const Instant& n) { return n.t / period - std::floor(n.t / period) - 0.5; }),
-                    arcsec);
+      return source(
+          "resolver_sawtooth", "resolver error that builds up and falls back", Slot::gimbal, axis,
+          pattern(world, axis,
+                  [=](const Instant& n) { return n.t / period - std::floor(n.t / period) - 0.5; }),
+          arcsec);
     }
   }
 }
 
 Source local_source(const World& world, Stream& stream) {
   static constexpr Slot slots[] = {Slot::rate, Slot::rate, Slot::accelerometer, Slot::gimbal};
-  static constexpr const char* equations[] = {"platform rate", "platform rate", "accelerometer", "gimbal"};
-  const int axis = pick(3, stream), which = pick(4, stream), position = pick(world.timeline.positions, stream);
+  static constexpr const char* equations[] = {"platform rate", "platform rate", "accelerometer",
+                                              "gimbal"};
+  const int axis = pick(3, stream), which = pick(4, stream),
+            position = pick(world.timeline.positions, stream);
   double start = 0.0, end = 0.0;
   bool found = false;
   for (const Interval& i : world.timeline.intervals)
@@ -148,8 +174,11 @@ Source local_source(const World& world, Stream& stream) {
     return middle > from && middle < to ? 1.0 : 0.0;
   };
   const Slot slot = slots[which];
-  Source s = source("local", "a constant disturbance in one window", slot, axis, pattern(world, axis, inside),
-                    slot == Slot::rate ? deg_per_h : slot == Slot::accelerometer ? ug : arcsec);
+  Source s = source("local", "a constant disturbance in one window", slot, axis,
+                    pattern(world, axis, inside),
+                    slot == Slot::rate            ? deg_per_h
+                    : slot == Slot::accelerometer ? ug
+                                                  : arcsec);
   s.effect.position = position + 1;
   s.effect.start_s = from;
   s.effect.end_s = to;

@@ -19,19 +19,22 @@ struct Pull {
 struct TrialScore {
   KeyEntry key;
   Answer answer;
-  bool detected = false;      ///< anything but `consistent`
-  bool false_alarm = false;   ///< without physics: detected, unless it names the drift's random walk that there is
-  bool exact = false;         ///< named, and exactly what was hidden
-  bool exact_or_twin = false; ///< exact, or ambiguous between what is hidden and its exact twins (|cosine| 0.999 and more) alone
-  bool in_set = false;        ///< named or ambiguous with at most three alternatives, one of them right
-  bool extra = false;         ///< named, right causes among others
-  bool subsystem = false;     ///< the first cause is of a right subsystem
+  bool detected = false;  ///< anything but `consistent`
+  bool false_alarm =
+      false;  ///< without physics: detected, unless it names the drift's random walk that there is
+  bool exact = false;          ///< named, and exactly what was hidden
+  bool exact_or_twin = false;  ///< exact, or ambiguous between what is hidden and its exact twins
+                               ///< (|cosine| 0.999 and more) alone
+  bool in_set = false;  ///< named or ambiguous with at most three alternatives, one of them right
+  bool extra = false;   ///< named, right causes among others
+  bool subsystem = false;          ///< the first cause is of a right subsystem
   bool confidently_wrong = false;  ///< named, and no cause is right
   bool unexplained = false;
   bool position_right = false, equation_right = false;  ///< of a local effect
-  double overlap = 0.0;       ///< of the windows, intersection over union
-  std::vector<Pull> pulls;    ///< of linear parameters, where exact
-  std::string called;         ///< for the confusion table: term, "several", "unexplained", "consistent", "failed"
+  double overlap = 0.0;                                 ///< of the windows, intersection over union
+  std::vector<Pull> pulls;                              ///< of linear parameters, where exact
+  std::string
+      called;  ///< for the confusion table: term, "several", "unexplained", "consistent", "failed"
 
   /// The hidden term or the stratum, for the confusion table.
   std::string hidden() const;
@@ -41,6 +44,7 @@ struct TrialScore {
 TrialScore score_trial(const KeyEntry& key, const Answer& answer);
 
 /// Scores of all trials; an answer that is missing is a failed one. Answers are matched by number.
-std::vector<TrialScore> score_trials(const std::vector<KeyEntry>& keys, const std::vector<Answer>& answers);
+std::vector<TrialScore> score_trials(const std::vector<KeyEntry>& keys,
+                                     const std::vector<Answer>& answers);
 
 }  // namespace drift::blind

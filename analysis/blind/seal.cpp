@@ -26,7 +26,8 @@ fs::path hash_path(const std::string& folder, const std::string& name) {
 
 }  // namespace
 
-std::string write_sealed(const std::string& folder, const std::string& name, const std::string& text) {
+std::string write_sealed(const std::string& folder, const std::string& name,
+                         const std::string& text) {
   const std::string hash = sha256_hex(text);
   write_text_atomically((fs::path(folder) / name).string(), text);
   write_text_atomically(hash_path(folder, name).string(), fmt::format("{}  {}\n", hash, name));
@@ -42,14 +43,20 @@ std::string open_sealed(const std::string& folder, const std::string& name) {
   const std::string path = (fs::path(folder) / name).string();
   const std::string published = published_hash(folder, name);
   if (published.empty())
-    throw InputError(ExitCode::self_check,
-                     fmt::format("{}: no hash was published for it (expected {}). Run the study again in an empty "
-                                 "folder", path, hash_path(folder, name).string()));
+    throw InputError(
+        ExitCode::self_check,
+        fmt::format(
+            "{}: no hash was published for it (expected {}). Run the study again in an empty "
+            "folder",
+            path, hash_path(folder, name).string()));
   const std::string text = contents(path), hash = sha256_hex(text);
   if (hash != published)
-    throw InputError(ExitCode::self_check,
-                     fmt::format("{}: was changed after it was sealed: SHA-256 is {} (published: {}). Nothing is "
-                                 "scored; run the study again in an empty folder", path, hash, published));
+    throw InputError(
+        ExitCode::self_check,
+        fmt::format(
+            "{}: was changed after it was sealed: SHA-256 is {} (published: {}). Nothing is "
+            "scored; run the study again in an empty folder",
+            path, hash, published));
   return text;
 }
 

@@ -4,9 +4,10 @@
 
 namespace drift::blind {
 
-/// Writes `text` to folder/name and its SHA-256 to folder/stem.sha256 ("<hash>  <name>", as sha256sum
-/// writes it). Returns the hash. InputError (io) if that fails.
-std::string write_sealed(const std::string& folder, const std::string& name, const std::string& text);
+/// Writes `text` to folder/name and its SHA-256 to folder/stem.sha256 ("<hash>  <name>", as
+/// sha256sum writes it). Returns the hash. InputError (io) if that fails.
+std::string write_sealed(const std::string& folder, const std::string& name,
+                         const std::string& text);
 
 /// The hash that was published for folder/name; empty if none was.
 std::string published_hash(const std::string& folder, const std::string& name);

@@ -4,7 +4,8 @@
 
 namespace drift::blind {
 
-SizingBench::SizingBench(World world, const FilterSpec& nominal, std::uint64_t seed, std::uint64_t run)
+SizingBench::SizingBench(World world, const FilterSpec& nominal, std::uint64_t seed,
+                         std::uint64_t run)
     : world_(std::move(world)),
       seed_(seed),
       run_(run),
@@ -26,7 +27,8 @@ VecX SizingBench::signal(const Source& source, double strength) const {
   return absorption_.signal(simulate_clean(with, seed_, run_).measured, clean_.measured);
 }
 
-std::optional<SizingBench::Sized> SizingBench::fit_strength(const Source& source, double size) const {
+std::optional<SizingBench::Sized> SizingBench::fit_strength(const Source& source,
+                                                            double size) const {
   constexpr int most_steps = 6;
   constexpr double close_enough = 0.01;
   Sized s{source, source.first, {}, {}};

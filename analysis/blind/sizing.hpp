@@ -21,8 +21,8 @@ class SizingBench {
     /// The key's words about it.
     HiddenEffect effect() const;
   };
-  /// Strength by secant steps on the full dynamics until the size is within 1 %. Empty if the source
-  /// would have to be implausibly strong, or does nothing here.
+  /// Strength by secant steps on the full dynamics until the size is within 1 %. Empty if the
+  /// source would have to be implausibly strong, or does nothing here.
   std::optional<Sized> fit_strength(const Source& source, double size) const;
 
   /// What a source adds to the measurements at a strength, in declared sigmas.

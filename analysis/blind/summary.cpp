@@ -30,21 +30,41 @@ Condition in(Stratum stratum) {
 bool is_effect(const TrialScore& s) {
   return s.key.plan.stratum != Stratum::null && s.key.plan.stratum != Stratum::wrong_noise;
 }
-bool large_single(const TrialScore& s) { return s.key.plan.stratum == Stratum::single && s.size() >= eight_sigma; }
+bool large_single(const TrialScore& s) {
+  return s.key.plan.stratum == Stratum::single && s.size() >= eight_sigma;
+}
 
-bool detected(const TrialScore& s) { return s.detected; }
-bool exact(const TrialScore& s) { return s.exact; }
-bool exact_or_twin(const TrialScore& s) { return s.exact_or_twin; }
-bool in_set(const TrialScore& s) { return s.in_set; }
-bool subsystem(const TrialScore& s) { return s.subsystem; }
-bool wrong(const TrialScore& s) { return s.confidently_wrong; }
-bool false_alarm(const TrialScore& s) { return s.false_alarm; }
-bool unexplained(const TrialScore& s) { return s.unexplained; }
+bool detected(const TrialScore& s) {
+  return s.detected;
+}
+bool exact(const TrialScore& s) {
+  return s.exact;
+}
+bool exact_or_twin(const TrialScore& s) {
+  return s.exact_or_twin;
+}
+bool in_set(const TrialScore& s) {
+  return s.in_set;
+}
+bool subsystem(const TrialScore& s) {
+  return s.subsystem;
+}
+bool wrong(const TrialScore& s) {
+  return s.confidently_wrong;
+}
+bool false_alarm(const TrialScore& s) {
+  return s.false_alarm;
+}
+bool unexplained(const TrialScore& s) {
+  return s.unexplained;
+}
 
-double normal_cdf(double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); }
+double normal_cdf(double x) {
+  return 0.5 * std::erfc(-x / std::sqrt(2.0));
+}
 
-/// Chance that one score of mean A beats the 5 % threshold of the largest of about 100 (11.6, discovery.md
-/// 2.3); either sign.
+/// Chance that one score of mean A beats the 5 % threshold of the largest of about 100 (11.6,
+/// discovery.md 2.3); either sign.
 double theory(double A) {
   const double k = std::sqrt(11.6);
   return normal_cdf(A - k) + normal_cdf(-A - k);
@@ -59,8 +79,15 @@ std::vector<PowerPoint> power_curve(const Scores& scores) {
     const Condition group = [low, high](const TrialScore& s) {
       return s.key.plan.stratum == Stratum::single && s.size() >= low && s.size() < high;
     };
-    PowerPoint p{low, high, 0.0, share(scores, group, detected), share(scores, group, exact),
-                 share(scores, group, in_set), share(scores, group, subsystem), share(scores, group, wrong), 0.0};
+    PowerPoint p{low,
+                 high,
+                 0.0,
+                 share(scores, group, detected),
+                 share(scores, group, exact),
+                 share(scores, group, in_set),
+                 share(scores, group, subsystem),
+                 share(scores, group, wrong),
+                 0.0};
     if (p.detected.n == 0) continue;
     for (const TrialScore& s : scores)
       if (group(s)) {
@@ -72,29 +99,39 @@ std::vector<PowerPoint> power_curve(const Scores& scores) {
   return points;
 }
 
-std::vector<GroupScore> groups(const Scores& scores, const std::function<std::string(const TrialScore&)>& name_of) {
+std::vector<GroupScore> groups(const Scores& scores,
+                               const std::function<std::string(const TrialScore&)>& name_of) {
   std::set<std::string> names;
   for (const TrialScore& s : scores) names.insert(name_of(s));
   std::vector<GroupScore> all;
   for (const std::string& name : names) {
     const Condition null = [&](const TrialScore& s) { return !is_effect(s) && name_of(s) == name; };
-    const Condition large = [&](const TrialScore& s) { return large_single(s) && name_of(s) == name; };
-    all.push_back({name, share(scores, null, false_alarm), share(scores, large, detected), share(scores, large, exact),
-                   share(scores, large, in_set), share(scores, large, subsystem), share(scores, large, wrong)});
+    const Condition large = [&](const TrialScore& s) {
+      return large_single(s) && name_of(s) == name;
+    };
+    all.push_back({name, share(scores, null, false_alarm), share(scores, large, detected),
+                   share(scores, large, exact), share(scores, large, in_set),
+                   share(scores, large, subsystem), share(scores, large, wrong)});
   }
   return all;
 }
 
 /// Shares of a stratum by the kind of thing that was hidden.
-std::vector<std::pair<std::string, Proportion>> by_kind(const Scores& scores, Stratum stratum, const Condition& success) {
+std::vector<std::pair<std::string, Proportion>> by_kind(const Scores& scores, Stratum stratum,
+                                                        const Condition& success) {
   std::set<std::string> kinds;
   for (const TrialScore& s : scores)
-    if (s.key.plan.stratum == stratum && !s.key.effects.empty()) kinds.insert(s.key.effects.front().term);
+    if (s.key.plan.stratum == stratum && !s.key.effects.empty())
+      kinds.insert(s.key.effects.front().term);
   std::vector<std::pair<std::string, Proportion>> all;
   for (const std::string& kind : kinds)
-    all.emplace_back(kind, share(scores, [&](const TrialScore& s) {
-      return s.key.plan.stratum == stratum && !s.key.effects.empty() && s.key.effects.front().term == kind;
-    }, success));
+    all.emplace_back(kind, share(
+                               scores,
+                               [&](const TrialScore& s) {
+                                 return s.key.plan.stratum == stratum && !s.key.effects.empty() &&
+                                        s.key.effects.front().term == kind;
+                               },
+                               success));
   return all;
 }
 
@@ -110,7 +147,8 @@ Confusion confusion_of(const Scores& scores) {
   for (const auto& [hidden, row] : count) {
     ConfusionRow r{hidden, std::vector<std::size_t>(c.columns.size(), 0)};
     for (std::size_t k = 0; k < c.columns.size(); ++k)
-      if (const auto found = row.find(c.columns[k]); found != row.end()) r.called[k] = found->second;
+      if (const auto found = row.find(c.columns[k]); found != row.end())
+        r.called[k] = found->second;
     c.rows.push_back(std::move(r));
   }
   return c;
@@ -123,7 +161,8 @@ double median(std::vector<double> v) {
 }
 
 Proportion pulls_within(const std::vector<double>& pulls, double limit) {
-  const auto k = std::count_if(pulls.begin(), pulls.end(), [&](double p) { return std::abs(p) <= limit; });
+  const auto k =
+      std::count_if(pulls.begin(), pulls.end(), [&](double p) { return std::abs(p) <= limit; });
   return proportion(static_cast<std::size_t>(k), pulls.size());
 }
 
@@ -135,41 +174,58 @@ void add_targets(const Scores& scores, Summary& s) {
   s.targets = {
       {"nominal fit looks healthy on effect trials", s.concealed, 0.8, all},
       {"false alarms on nulls", share(scores, in(Stratum::null), false_alarm), none, 0.05},
-      {"false alarms on wrong-noise nulls", share(scores, in(Stratum::wrong_noise), false_alarm), none, 0.05},
+      {"false alarms on wrong-noise nulls", share(scores, in(Stratum::wrong_noise), false_alarm),
+       none, 0.05},
       {"power at 8 sigma", share(scores, at_eight, detected), 0.98, all},
-      {"8 sigma and above: named exactly or in a set of at most 3", share(scores, large_single, in_set), 0.95, all},
+      {"8 sigma and above: named exactly or in a set of at most 3",
+       share(scores, large_single, in_set), 0.95, all},
       {"8 sigma and above: exact single name", share(scores, large_single, exact), 0.75, all},
       {"8 sigma and above: confidently wrong", share(scores, large_single, wrong), none, 0.01},
       {"pairs found as pair or set", share(scores, in(Stratum::pair), in_set), 0.9, all},
-      {"outside the library: unexplained", share(scores, in(Stratum::outside), unexplained), 0.8, all},
+      {"outside the library: unexplained", share(scores, in(Stratum::outside), unexplained), 0.8,
+       all},
       {"recovered parameter within 2 sigma", pulls_within(s.pulls, 2.0), 0.91, 0.99}};
 }
 
 void add_further(const Scores& scores, Summary& s) {
-  const auto add = [&](std::string name, Proportion p) { s.further.emplace_back(std::move(name), p); };
+  const auto add = [&](std::string name, Proportion p) {
+    s.further.emplace_back(std::move(name), p);
+  };
   add("recovered parameter within 3 sigma", pulls_within(s.pulls, 3.0));
-  add("8 sigma and above: exact, where an identical twin counts as the same cause", share(scores, large_single, exact_or_twin));
+  add("8 sigma and above: exact, where an identical twin counts as the same cause",
+      share(scores, large_single, exact_or_twin));
   add("8 sigma and above: right subsystem", share(scores, large_single, subsystem));
-  add("8 sigma and above: right causes among others", share(scores, large_single, [](auto& t) { return t.extra; }));
+  add("8 sigma and above: right causes among others",
+      share(scores, large_single, [](auto& t) { return t.extra; }));
   add("8 sigma and above: unexplained", share(scores, large_single, unexplained));
   add("pairs: detected", share(scores, in(Stratum::pair), detected));
   add("pairs: named exactly", share(scores, in(Stratum::pair), exact));
-  add("pairs that cancel (cosine < -0.3): pair or set", share(scores, [](auto& t) {
-        return t.key.plan.stratum == Stratum::pair && t.key.cosine < -0.3; }, in_set));
+  add("pairs that cancel (cosine < -0.3): pair or set",
+      share(
+          scores,
+          [](auto& t) { return t.key.plan.stratum == Stratum::pair && t.key.cosine < -0.3; },
+          in_set));
   add("outside the library: detected", share(scores, in(Stratum::outside), detected));
   add("outside the library: named as something else", share(scores, in(Stratum::outside), wrong));
-  // What a library effect looks like to within a cosine of 0.9 may be taken for it (discovery.md 3).
+  // What a library effect looks like to within a cosine of 0.9 may be taken for it (discovery.md
+  // 3).
   const auto unlike = [](const TrialScore& t) {
     return t.key.plan.stratum == Stratum::outside && t.key.effects.front().nearest_cosine < 0.9;
   };
-  add("outside the library and unlike it (cosine < 0.9): unexplained", share(scores, unlike, unexplained));
+  add("outside the library and unlike it (cosine < 0.9): unexplained",
+      share(scores, unlike, unexplained));
   add("outside the library and unlike it: named as something else", share(scores, unlike, wrong));
   add("local: detected", share(scores, in(Stratum::local), detected));
-  add("local: right position", share(scores, in(Stratum::local), [](auto& t) { return t.position_right; }));
-  add("local: right equation", share(scores, in(Stratum::local), [](auto& t) { return t.equation_right; }));
-  add("local: window overlaps by 0.6", share(scores, in(Stratum::local), [](auto& t) { return t.overlap >= 0.6; }));
-  add("held-out prediction gains where named exactly", share(scores, [](auto& t) { return t.exact && t.answer.held_out; },
-                                                             [](auto& t) { return t.answer.held_out_gain > 0.0; }));
+  add("local: right position",
+      share(scores, in(Stratum::local), [](auto& t) { return t.position_right; }));
+  add("local: right equation",
+      share(scores, in(Stratum::local), [](auto& t) { return t.equation_right; }));
+  add("local: window overlaps by 0.6",
+      share(scores, in(Stratum::local), [](auto& t) { return t.overlap >= 0.6; }));
+  add("held-out prediction gains where named exactly",
+      share(
+          scores, [](auto& t) { return t.exact && t.answer.held_out; },
+          [](auto& t) { return t.answer.held_out_gain > 0.0; }));
 }
 
 }  // namespace
@@ -189,11 +245,14 @@ Summary summarise(const Scores& scores) {
   for (const double p : s.pulls) sizes.push_back(std::abs(p));
   s.pull_rms = 1.4826 * median(sizes);
   s.largest_bias_median = median(biases);
-  s.concealed = share(scores, is_effect, [](const TrialScore& t) { return t.key.certificate.concealed; });
+  s.concealed =
+      share(scores, is_effect, [](const TrialScore& t) { return t.key.certificate.concealed; });
   s.power = power_curve(scores);
   s.plans = groups(scores, [](const TrialScore& t) { return t.key.plan.plan; });
-  s.couplings = groups(scores, [](const TrialScore& t) { return name_in(coupling_names, t.key.plan.coupling); });
-  s.modes = groups(scores, [](const TrialScore& t) { return name_in(mode_names, t.key.plan.mode); });
+  s.couplings = groups(
+      scores, [](const TrialScore& t) { return name_in(coupling_names, t.key.plan.coupling); });
+  s.modes =
+      groups(scores, [](const TrialScore& t) { return name_in(mode_names, t.key.plan.mode); });
   s.wrong_noise = by_kind(scores, Stratum::wrong_noise, false_alarm);
   s.outside = by_kind(scores, Stratum::outside, unexplained);
   s.confusion = confusion_of(scores);

@@ -15,11 +15,16 @@ enum class Standing { met, met_within, missed_within, missed, not_decided };
 
 constexpr std::string_view text(Standing s) {
   switch (s) {
-    case Standing::met: return "met";
-    case Standing::met_within: return "met, within its interval";
-    case Standing::missed_within: return "missed, within its interval";
-    case Standing::missed: return "missed";
-    case Standing::not_decided: break;
+    case Standing::met:
+      return "met";
+    case Standing::met_within:
+      return "met, within its interval";
+    case Standing::missed_within:
+      return "missed, within its interval";
+    case Standing::missed:
+      return "missed";
+    case Standing::not_decided:
+      break;
   }
   return "not decided";
 }
@@ -37,8 +42,10 @@ struct Target {
   /// With the interval of the share; not decided of fewer than `fewest_trials`.
   Standing standing() const {
     if (measured.n < fewest_trials) return Standing::not_decided;
-    if (met()) return measured.low >= low && measured.high <= high ? Standing::met : Standing::met_within;
-    return measured.low <= high && measured.high >= low ? Standing::missed_within : Standing::missed;
+    if (met())
+      return measured.low >= low && measured.high <= high ? Standing::met : Standing::met_within;
+    return measured.low <= high && measured.high >= low ? Standing::missed_within
+                                                        : Standing::missed;
   }
 };
 
@@ -52,7 +59,7 @@ struct PowerPoint {
 /// How a group of trials went: one plan, one coupling, one stratum, one term.
 struct GroupScore {
   std::string name;
-  Proportion false_alarms;  ///< on nulls of both kinds
+  Proportion false_alarms;                               ///< on nulls of both kinds
   Proportion detected, exact, in_set, subsystem, wrong;  ///< of single effects of 8 sigma and more
 };
 
@@ -72,14 +79,15 @@ struct Summary {
   std::vector<Target> targets;
   std::vector<PowerPoint> power;
   std::vector<GroupScore> plans, couplings, modes;
-  Proportion concealed;                       ///< effect trials with chi-square inside its band
+  Proportion concealed;  ///< effect trials with chi-square inside its band
   std::vector<std::pair<std::string, Proportion>> further;  ///< scores without a target
-  std::vector<std::pair<std::string, Proportion>> wrong_noise, outside;  ///< by kind: false alarms, unexplained
-  std::vector<double> pulls;                  ///< of all recovered parameters
-  double pull_rms = 0.0;                      ///< robust against the few: 1.4826 median |pull|
+  std::vector<std::pair<std::string, Proportion>> wrong_noise,
+      outside;                ///< by kind: false alarms, unexplained
+  std::vector<double> pulls;  ///< of all recovered parameters
+  double pull_rms = 0.0;      ///< robust against the few: 1.4826 median |pull|
   Confusion confusion;
   double mean_seconds = 0.0, longest_seconds = 0.0;  ///< per diagnosis
-  double largest_bias_median = 0.0;           ///< of the nominal fits of effect trials [sigma]
+  double largest_bias_median = 0.0;  ///< of the nominal fits of effect trials [sigma]
 };
 
 /// Smallest size that "at 8 sigma and above" takes in: sizes are hit within 1 %.

@@ -14,8 +14,8 @@ namespace drift::blind {
 /// What kind of thing a trial hides (discovery.md 3).
 enum class Stratum { null, wrong_noise, single, pair, outside, local };
 inline constexpr std::pair<Stratum, std::string_view> stratum_names[] = {
-    {Stratum::null, "null"},   {Stratum::wrong_noise, "wrong_noise"}, {Stratum::single, "single"},
-    {Stratum::pair, "pair"},   {Stratum::outside, "outside"},         {Stratum::local, "local"}};
+    {Stratum::null, "null"}, {Stratum::wrong_noise, "wrong_noise"}, {Stratum::single, "single"},
+    {Stratum::pair, "pair"}, {Stratum::outside, "outside"},         {Stratum::local, "local"}};
 inline constexpr std::size_t num_strata = 6;
 
 inline constexpr std::pair<Coupling, std::string_view> coupling_names[] = {
@@ -43,11 +43,11 @@ E value_in(const std::pair<E, std::string_view> (&table)[N], std::string_view na
 struct TrialPlan {
   std::size_t number = 0;
   Stratum stratum = Stratum::null;
-  std::size_t index = 0;   ///< number among the trials of its stratum
-  std::string plan;        ///< preset
+  std::size_t index = 0;  ///< number among the trials of its stratum
+  std::string plan;       ///< preset
   CommandLaw mode = CommandLaw::free;
   Coupling coupling = Coupling::eq5;  ///< of the truth
-  double size = 0.0;       ///< wanted, what a nominal fit cannot absorb [sigma]
+  double size = 0.0;                  ///< wanted, what a nominal fit cannot absorb [sigma]
 };
 
 /// A number of a hidden effect, in `unit`.
@@ -67,16 +67,17 @@ struct HiddenEffect {
   double absorbed = 0.0;  ///< part of the raw signature that it can, 0..1
   int position = 0;       ///< 1-based, of a local effect; 0: everywhere
   double start_s = 0.0, end_s = 0.0;  ///< of a local effect
-  std::string equation;   ///< of a local effect, as a diagnosis says it: "platform rate y"
-  std::string nearest;    ///< of an effect outside the library: what in the library looks most like it
+  std::string equation;  ///< of a local effect, as a diagnosis says it: "platform rate y"
+  std::string
+      nearest;  ///< of an effect outside the library: what in the library looks most like it
   double nearest_cosine = 0.0;
 };
 
 /// Whether an ordinary fit shows that something is missing: the nominal filter on the recording.
 struct Certificate {
-  double chi2_per_dof = 1.0;  ///< data and prior, per measured scalar
+  double chi2_per_dof = 1.0;               ///< data and prior, per measured scalar
   double band_low = 0.0, band_high = 0.0;  ///< 95 %, right model and noise
-  bool concealed = true;      ///< inside the band
+  bool concealed = true;                   ///< inside the band
   double largest_bias = 0.0;  ///< |estimate - truth| in reported sigmas, over all parameters
   std::string biased;         ///< the parameter it belongs to
 };
@@ -89,7 +90,7 @@ struct KeyEntry {
   double total_size = 0.0;  ///< of all effects together [sigma]
   double cosine = 0.0;      ///< of the projected signatures of a pair
   Certificate certificate;
-  double seconds = 0.0;     ///< spent on making it; not written to the key
+  double seconds = 0.0;  ///< spent on making it; not written to the key
 };
 
 }  // namespace drift::blind

@@ -12,19 +12,21 @@ void add_errors(const World& world, Measurements& measured) {
   if (world.gimbal_error.cols() == 0) return;
   for (Eigen::Index i = 0; i < measured.gimbal.cols(); ++i)
     for (int a = 0; a < 3; ++a)
-      measured.gimbal(a, i) = angle_difference(measured.gimbal(a, i) + world.gimbal_error(a, i), 0.0);
+      measured.gimbal(a, i) =
+          angle_difference(measured.gimbal(a, i) + world.gimbal_error(a, i), 0.0);
 }
 
-Simulation simulate(const World& world, const TruthSpec& truth, const Readout& readout, std::uint64_t seed,
-                    std::uint64_t run) {
+Simulation simulate(const World& world, const TruthSpec& truth, const Readout& readout,
+                    std::uint64_t seed, std::uint64_t run) {
   Simulator simulator(truth, readout);
   simulator.disturb(world.disturbance);
   Simulation sim = simulator.run(world.timeline, world.draw, seed, run);
   if (!sim.ode.ok())
-    throw InputError(ExitCode::self_check,
-                     fmt::format("simulation of trial {} failed at t = {:.6g} s: {} ({}). The truth may be "
-                                 "unphysical: see `driftscope check`", run, sim.ode.t, name(sim.ode.status),
-                                 sim.ode.cause));
+    throw InputError(
+        ExitCode::self_check,
+        fmt::format("simulation of trial {} failed at t = {:.6g} s: {} ({}). The truth may be "
+                    "unphysical: see `driftscope check`",
+                    run, sim.ode.t, name(sim.ode.status), sim.ode.cause));
   add_errors(world, sim.measured);
   return sim;
 }

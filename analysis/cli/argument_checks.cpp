@@ -15,7 +15,9 @@ std::string check_whole(const std::string& text, std::uint64_t least, std::uint6
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   const bool whole = error == std::errc() && end == text.data() + text.size();
   if (whole && value >= least && value <= most) return {};
-  return fmt::format("'{}' is no such number (expected a whole number from {} to {}). Choose one in that range", text, least, most);
+  return fmt::format(
+      "'{}' is no such number (expected a whole number from {} to {}). Choose one in that range",
+      text, least, most);
 }
 
 std::string check_seed(const std::string& text) {
@@ -26,17 +28,25 @@ std::string check_seed(const std::string& text) {
   const auto [end, error] = std::from_chars(begin, all, value, hexadecimal ? 16 : 10);
   constexpr std::uint64_t most = std::numeric_limits<std::int64_t>::max();  // of TOML
   if (error == std::errc() && end == all && (hexadecimal || value <= most)) return {};
-  return fmt::format("'{}' is no seed (expected a whole number from 0 to 2^63-1, or \"0x...\" up to 2^64-1). Choose another", text);
+  return fmt::format(
+      "'{}' is no seed (expected a whole number from 0 to 2^63-1, or \"0x...\" up to 2^64-1). "
+      "Choose another",
+      text);
 }
 
 std::string check_path(const std::string& text) {
-  return text.empty() ? "the name is empty (expected a file or folder). Give one, or leave the option out" : "";
+  return text.empty()
+             ? "the name is empty (expected a file or folder). Give one, or leave the option out"
+             : "";
 }
 
 std::string check_no_file(const std::string& text) {
   for (const char* end : {".toml", ".csv", ".h5", ".hdf5", ".mat"})
     if (text.ends_with(end) || text.find('/') != text.npos)
-      return fmt::format("'{}' is no term (expected terms, separated by commas, or nothing). Write the option behind the files", text);
+      return fmt::format(
+          "'{}' is no term (expected terms, separated by commas, or nothing). Write the option "
+          "behind the files",
+          text);
   return "";
 }
 
@@ -50,8 +60,10 @@ std::vector<std::string> list_of(const std::string& text) {
   return items;
 }
 
-std::string unknown(std::string_view what, std::string_view given, std::span<const std::string_view> known) {
-  return fmt::format("unknown {} '{}' (expected one of {}). {}", what, given, fmt::join(known, ", "),
+std::string unknown(std::string_view what, std::string_view given,
+                    std::span<const std::string_view> known) {
+  return fmt::format("unknown {} '{}' (expected one of {}). {}", what, given,
+                     fmt::join(known, ", "),
                      config::suggestion(given, known, "`driftscope --help` explains them"));
 }
 

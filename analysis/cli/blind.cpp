@@ -8,17 +8,20 @@
 
 namespace drift::cli {
 
-ExitCode blind(const StudyArguments& arguments, const std::string& folder, const std::optional<std::string>& trials) {
+ExitCode blind(const StudyArguments& arguments, const std::string& folder,
+               const std::optional<std::string>& trials) {
   StudyArguments all = arguments;
   if (trials) all.sets.push_back("blind.trials=" + *trials);
   const Study study = all.read();
   require_own_folder(folder, "blind");
   drift::blind::Hashes hashes;
-  hashes.key = drift::blind::make_trials(study, folder, arguments.threads, progress_reporter(arguments.progress, "recordings"));
+  hashes.key = drift::blind::make_trials(study, folder, arguments.threads,
+                                         progress_reporter(arguments.progress, "recordings"));
   fmt::print("Key sealed in {}: SHA-256 {}\n", folder, hashes.key);
   std::fflush(stdout);
-  hashes.answers = drift::blind::answer_trials(folder, drift::blind::diagnosing_solver(), arguments.threads,
-                                               progress_reporter(arguments.progress, "diagnoses"));
+  hashes.answers =
+      drift::blind::answer_trials(folder, drift::blind::diagnosing_solver(), arguments.threads,
+                                  progress_reporter(arguments.progress, "diagnoses"));
   fmt::print("Answers sealed: SHA-256 {}\n\n", hashes.answers);
   const auto scores = drift::blind::score_folder(folder);
   const auto summary = drift::blind::summarise(scores);

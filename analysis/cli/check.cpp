@@ -10,14 +10,17 @@ Overrides StudyArguments::overrides() const {
     const auto equals = text.find('=');
     if (equals == std::string::npos || equals == 0)
       throw InputError(ExitCode::usage, fmt::format("--set {}: expected key=value, for example "
-                                                    "--set plan.dwell=\"20 min\"", text));
+                                                    "--set plan.dwell=\"20 min\"",
+                                                    text));
     overrides.emplace_back(text.substr(0, equals), text.substr(equals + 1));
   }
   if (seed) overrides.emplace_back("monte_carlo.seed", *seed);
   return overrides;
 }
 
-Study StudyArguments::read() const { return read_study(config, overrides()); }
+Study StudyArguments::read() const {
+  return read_study(config, overrides());
+}
 
 ExitCode check(const StudyArguments& arguments) {
   const Study study = arguments.read();

@@ -1,3 +1,5 @@
+#include "analysis/discovery/diagnose.hpp"
+
 #include <fmt/ranges.h>
 
 #include <chrono>
@@ -9,7 +11,6 @@
 #include "analysis/cli/progress.hpp"
 #include "analysis/cli/read_recordings.hpp"
 #include "analysis/discovery/advise.hpp"
-#include "analysis/discovery/diagnose.hpp"
 #include "analysis/discovery/name_recordings.hpp"
 #include "analysis/discovery/prepare.hpp"
 #include "analysis/discovery/site_doubt.hpp"
@@ -25,12 +26,16 @@ namespace {
 
 void require_nominal(const Study& study) {
   if (study.filters.empty())
-    throw InputError(ExitCode::config, fmt::format("{}: no [[filter]]: its first is the nominal model (expected one). Add a "
-                                                   "section [[filter]] with name, coupling and terms", study.path));
+    throw InputError(
+        ExitCode::config,
+        fmt::format("{}: no [[filter]]: its first is the nominal model (expected one). Add a "
+                    "section [[filter]] with name, coupling and terms",
+                    study.path));
 }
 
-void finish(const Study& study, const discovery::Diagnosis& diagnosis, const DiagnosisSource& source,
-            const std::string& folder, std::vector<std::string> more = {}) {
+void finish(const Study& study, const discovery::Diagnosis& diagnosis,
+            const DiagnosisSource& source, const std::string& folder,
+            std::vector<std::string> more = {}) {
   fmt::print("{}", to_text(diagnosis));
   if (folder.empty()) return;
   auto files = write_results(study, diagnosis, source, folder);
@@ -38,11 +43,14 @@ void finish(const Study& study, const discovery::Diagnosis& diagnosis, const Dia
   fmt::print("\nWritten to {}: {}\n", folder, fmt::join(files, " "));
 }
 
-ExitCode diagnose_case(const StudyArguments& arguments, const Study& study, const std::vector<std::string>& paths,
-                       const std::string& folder) {
+ExitCode diagnose_case(const StudyArguments& arguments, const Study& study,
+                       const std::vector<std::string>& paths, const std::string& folder) {
   if (paths.size() != 1)
-    throw InputError(ExitCode::usage, fmt::format("diagnose: a strapdown study takes one recording, {} are given. Name one "
-                                                  "on the command line", paths.size()));
+    throw InputError(
+        ExitCode::usage,
+        fmt::format("diagnose: a strapdown study takes one recording, {} are given. Name one "
+                    "on the command line",
+                    paths.size()));
   StrapdownOptions options;
   options.static_min = study.static_min;
   options.gravity = study.site.gravity;
@@ -60,23 +68,27 @@ ExitCode diagnose_case(const StudyArguments& arguments, const Study& study, cons
   return ExitCode::ok;
 }
 
-ExitCode diagnose_platform(const StudyArguments& arguments, const Study& study, const std::vector<std::string>& paths,
-                           const std::string& folder, const std::optional<std::vector<std::string>>& advise) {
+ExitCode diagnose_platform(const StudyArguments& arguments, const Study& study,
+                           const std::vector<std::string>& paths, const std::string& folder,
+                           const std::optional<std::vector<std::string>>& advise) {
   discovery::Prepared prepared = discovery::prepare(study, read_recordings(study, paths));
   std::fflush(stdout);
   discovery::DiagnoseOptions options;
   options.progress = stage_reporter(arguments.progress, "diagnose");
   discovery::Diagnosis found = discovery::diagnose(prepared.study, prepared.recordings, options);
-  if (const auto doubt = discovery::site_doubt(prepared.study, prepared.recordings, found)) found.sentence += " " + doubt->sentence;
+  if (const auto doubt = discovery::site_doubt(prepared.study, prepared.recordings, found))
+    found.sentence += " " + doubt->sentence;
   const auto began = std::chrono::steady_clock::now();
   try {
     found.advice = discovery::advise(prepared.study, prepared.recordings, found,
                                      {.seed = study.monte_carlo.seed, .asked = advise});
   } catch (const InputError& e) {
     if (e.code() == ExitCode::usage) throw;  // what was asked for is wrong
-    found.remarks.push_back(fmt::format("No advice could be made: {}", e.what()));  // never at the cost of the diagnosis
+    found.remarks.push_back(fmt::format("No advice could be made: {}",
+                                        e.what()));  // never at the cost of the diagnosis
   }
-  found.seconds.emplace_back("advice", std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count());
+  found.seconds.emplace_back(
+      "advice", std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count());
   found.remarks.insert(found.remarks.begin(), prepared.remarks.begin(), prepared.remarks.end());
   discovery::name_recordings(prepared.study, prepared.recordings, found);
   finish(study, found, {paths, ""}, folder);
@@ -85,22 +97,31 @@ ExitCode diagnose_platform(const StudyArguments& arguments, const Study& study, 
 
 }  // namespace
 
-ExitCode diagnose(const StudyArguments& arguments, const std::vector<std::string>& paths, const std::string& folder,
+ExitCode diagnose(const StudyArguments& arguments, const std::vector<std::string>& paths,
+                  const std::string& folder,
                   const std::optional<std::vector<std::string>>& advise) {
   const Study study = arguments.read();
   require_nominal(study);
   if (advise && study.kind == RecordingKind::strapdown)
-    throw InputError(ExitCode::usage, "--advise: a strapdown study has no positions to add (expected a platform study). Leave it out; "
-                                      "more turns about more axes are what helps");
+    throw InputError(ExitCode::usage,
+                     "--advise: a strapdown study has no positions to add (expected a platform "
+                     "study). Leave it out; "
+                     "more turns about more axes are what helps");
   require_own_folder(folder, "diagnose");
   std::error_code absent;
-  if (!folder.empty() && std::filesystem::equivalent(std::filesystem::path(folder) / "study.toml", study.path, absent))
-    throw InputError(ExitCode::usage, fmt::format("-o {}: its study.toml is the study itself and would be replaced (expected another "
-                                                  "folder). Name a folder for results", folder));
+  if (!folder.empty() &&
+      std::filesystem::equivalent(std::filesystem::path(folder) / "study.toml", study.path, absent))
+    throw InputError(
+        ExitCode::usage,
+        fmt::format(
+            "-o {}: its study.toml is the study itself and would be replaced (expected another "
+            "folder). Name a folder for results",
+            folder));
   require_writable_folder(folder);
   const mc::ThreadCount threads(arguments.threads);
-  return study.kind == RecordingKind::strapdown ? diagnose_case(arguments, study, paths, folder)
-                                                : diagnose_platform(arguments, study, paths, folder, advise);
+  return study.kind == RecordingKind::strapdown
+             ? diagnose_case(arguments, study, paths, folder)
+             : diagnose_platform(arguments, study, paths, folder, advise);
 }
 
 }  // namespace drift::cli

@@ -10,7 +10,8 @@
 namespace drift::cli {
 namespace {
 
-/// Brings keys into one order wherever their order means nothing. That of [sweep] numbers the points.
+/// Brings keys into one order wherever their order means nothing. That of [sweep] numbers the
+/// points.
 void sort_keys(config::Node& table) {
   std::sort(table.members.begin(), table.members.end(),
             [](const config::Member& a, const config::Member& b) { return a.key < b.key; });
@@ -29,9 +30,11 @@ mc::StudyIdentity identity_of(const Study& study) {
   // The strata of a Latin hypercube are as many as its runs: it cannot be extended.
   const config::Node* monte_carlo = root.find("monte_carlo");
   const config::Node* design = monte_carlo != nullptr ? monte_carlo->find("design") : nullptr;
-  if (design == nullptr || design->text != "latin_hypercube") config::apply_override(root, "monte_carlo.runs", "1");
+  if (design == nullptr || design->text != "latin_hypercube")
+    config::apply_override(root, "monte_carlo.runs", "1");
   config::apply_override(root, "monte_carlo.allowed_failures", "0");
-  config::apply_override(root, "monte_carlo.seed", std::to_string(study.monte_carlo.seed));  // where it is the default too
+  config::apply_override(root, "monte_carlo.seed",
+                         std::to_string(study.monte_carlo.seed));  // where it is the default too
   sort_keys(root);
   return {config::to_document(root), study.monte_carlo.seed, mc::StudyIdentity{}.block_size};
 }
@@ -39,8 +42,11 @@ mc::StudyIdentity identity_of(const Study& study) {
 Study frozen_study(const std::string& folder, const mc::StudyReader& reader) {
   const std::string path = folder + "/study.toml";
   const auto mismatch = [&](const std::string& why) {
-    return InputError(ExitCode::store, fmt::format("{}: {} (expected the study that the folder was made with). Restore it: "
-                                                   "the value of \"study\" in manifest.json", path, why));
+    return InputError(
+        ExitCode::store,
+        fmt::format("{}: {} (expected the study that the folder was made with). Restore it: "
+                    "the value of \"study\" in manifest.json",
+                    path, why));
   };
   const std::uint64_t runs = std::max<std::uint64_t>(reader.runs(), 1);
   try {

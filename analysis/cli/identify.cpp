@@ -13,10 +13,13 @@
 namespace drift::cli {
 namespace {
 
-ExitCode identify_case(const Study& study, const std::vector<std::string>& paths, const std::string& folder) {
+ExitCode identify_case(const Study& study, const std::vector<std::string>& paths,
+                       const std::string& folder) {
   if (paths.size() != 1)
-    throw InputError(ExitCode::usage, fmt::format("identify: a strapdown study takes one recording, {} are "
-                                                  "given. Name one on the command line", paths.size()));
+    throw InputError(ExitCode::usage,
+                     fmt::format("identify: a strapdown study takes one recording, {} are "
+                                 "given. Name one on the command line",
+                                 paths.size()));
   StrapdownOptions options;
   options.static_min = study.static_min;
   options.gravity = study.site.gravity;
@@ -28,7 +31,8 @@ ExitCode identify_case(const Study& study, const std::vector<std::string>& paths
   const StrapdownResult result = identify_strapdown(recordings.front(), options);
   fmt::print("{}", to_text(result));
   if (!folder.empty())
-    fmt::print("\nWritten to {}: {}\n", folder, fmt::join(write_results(study, result, folder), " "));
+    fmt::print("\nWritten to {}: {}\n", folder,
+               fmt::join(write_results(study, result, folder), " "));
   return ExitCode::ok;
 }
 
@@ -41,8 +45,9 @@ ExitCode identify(const StudyArguments& arguments, const std::vector<std::string
   if (study.kind == RecordingKind::strapdown) return identify_case(study, paths, folder);
   const auto progress = progress_reporter(arguments.progress, "estimates");
   const Identification id =
-      paths.empty() ? identify_simulated(study, run, arguments.threads, progress)
-                    : identify_recordings(study, read_recordings(study, paths), arguments.threads, progress);
+      paths.empty()
+          ? identify_simulated(study, run, arguments.threads, progress)
+          : identify_recordings(study, read_recordings(study, paths), arguments.threads, progress);
   fmt::print("{}", to_text(study, id));
   if (!folder.empty()) {
     const auto files = write_results(study, id, folder);

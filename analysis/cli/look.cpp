@@ -25,12 +25,15 @@ double megabytes(const std::vector<std::string>& files) {
 }
 
 std::string ending(const mc::Session& s) {
-  return s.ended_utc.empty() ? "at work, or killed" : fmt::format("ended {} with exit code {}", s.ended_utc, s.exit_code);
+  return s.ended_utc.empty() ? "at work, or killed"
+                             : fmt::format("ended {} with exit code {}", s.ended_utc, s.exit_code);
 }
 
 std::string was_complete(const mc::StudyReader& reader, const mc::StudyState& state) {
-  return fmt::format("the study was complete with {} runs per point; of {} of {} points results are not there any more",
-                     reader.manifest().finished, state.lost, state.points.size());
+  return fmt::format(
+      "the study was complete with {} runs per point; of {} of {} points results are not there any "
+      "more",
+      reader.manifest().finished, state.lost, state.points.size());
 }
 
 std::string fact(const mc::Session& s, std::string_view key) {
@@ -47,9 +50,12 @@ void refuse_another(const std::string& target, const std::string& hash) {
   std::string known = mc::study_hash_of_text(target);
   if (known.empty()) known = mc::study_hash_of_hdf5(target);
   if (known != hash)
-    throw InputError(ExitCode::store, fmt::format("{}: is there already, and is {} (expected a free name, or an earlier export of this "
-                                                  "study). Choose another name with -o, or remove the file", target,
-                                                  known.empty() ? "no export" : "the export of another study"));
+    throw InputError(
+        ExitCode::store,
+        fmt::format(
+            "{}: is there already, and is {} (expected a free name, or an earlier export of this "
+            "study). Choose another name with -o, or remove the file",
+            target, known.empty() ? "no export" : "the export of another study"));
 }
 
 }  // namespace
@@ -59,8 +65,8 @@ ExitCode status(const std::string& folder, const StudyProgram& program) {
   const mc::StudyWork work = program.work(frozen_study(folder, reader));
   const mc::StudyState state = mc::state_of(reader, work.stop_rules);
   const std::uint64_t total = state.asked * state.points.size();
-  fmt::print("{}: {} of {} runs, {} failed, {} of {} points complete\n", folder, state.runs, total, state.failed, state.complete,
-             state.points.size());
+  fmt::print("{}: {} of {} runs, {} failed, {} of {} points complete\n", folder, state.runs, total,
+             state.failed, state.complete, state.points.size());
   if (state.by_rule > 0) fmt::print("{}\n", state.ended_by_rule());
   fmt::print("point       runs              failed            label\n");
   std::uint64_t left = 0;
@@ -68,48 +74,67 @@ ExitCode status(const std::string& folder, const StudyProgram& program) {
   for (std::size_t p = 0; p < state.points.size(); ++p) {
     const mc::PointState& s = state.points[p];
     fmt::print("{:>5}  {:>9} / {:<9} {:>7}  {:<9} {}\n", p, s.runs, state.asked, s.failed,
-               s.complete ? s.by_rule && s.runs < state.asked ? "stop rule" : "complete" : "", reader.manifest().points[p].label);
+               s.complete ? s.by_rule && s.runs < state.asked ? "stop rule" : "complete" : "",
+               reader.manifest().points[p].label);
     if (!s.complete) left += state.asked - s.runs;
     cpu += s.cpu_s;
   }
   if (left > 0 && state.runs > 0)
-    fmt::print("at most {} of CPU time to go\n", duration_text(cpu / static_cast<double>(state.runs) * static_cast<double>(left)));
-  fmt::print("disk {:.3g} MB in {} worker files\n", megabytes(reader.files()), reader.files().size());
+    fmt::print("at most {} of CPU time to go\n",
+               duration_text(cpu / static_cast<double>(state.runs) * static_cast<double>(left)));
+  fmt::print("disk {:.3g} MB in {} worker files\n", megabytes(reader.files()),
+             reader.files().size());
   for (const mc::Session& s : reader.sessions())
-    fmt::print("session {} on {}, {}: {}\n", s.started_utc, fact(s, "host"), std::filesystem::path(fact(s, "file")).filename().string(), ending(s));
+    fmt::print("session {} on {}, {}: {}\n", s.started_utc, fact(s, "host"),
+               std::filesystem::path(fact(s, "file")).filename().string(), ending(s));
   for (const std::string& note : reader.notes()) fmt::print("damage: {}\n", note);
   if (state.lost > 0) fmt::print("lost: {}\n", was_complete(reader, state));
   return ExitCode::ok;
 }
 
-ExitCode verify(const std::string& folder, const std::string& sample, int threads, const StudyProgram& program) {
+ExitCode verify(const std::string& folder, const std::string& sample, int threads,
+                const StudyProgram& program) {
   const double share = parse_fraction("--sample", sample);
   mc::StudyReader reader(folder);
   const mc::StudyWork work = program.work(frozen_study(folder, reader));
   const mc::Verification v = mc::verify(work, reader, share, threads);
-  fmt::print("{}: {} blocks with {} runs, {} missing; {} checksums verified, {} runs executed again\n", folder, v.blocks, v.runs,
-             v.missing, v.copies, v.recomputed);
+  fmt::print(
+      "{}: {} blocks with {} runs, {} missing; {} checksums verified, {} runs executed again\n",
+      folder, v.blocks, v.runs, v.missing, v.copies, v.recomputed);
   for (const std::string& line : v.notes) fmt::print("damage: {}\n", line);
   for (const std::string& line : v.damage) fmt::print("lost: {}\n", line);
   for (const std::string& line : v.mismatch) fmt::print("mismatch: {}\n", line);
   if (!v.digest.empty() && v.damage.empty()) fmt::print("results {}\n", v.digest);
   if (!v.mismatch.empty())
-    throw InputError(ExitCode::self_check, fmt::format("{}: {} results do not come out again (expected equal bits). Look closer with "
-                                                       "`driftscope replay`", folder, v.mismatch.size()));
+    throw InputError(
+        ExitCode::self_check,
+        fmt::format("{}: {} results do not come out again (expected equal bits). Look closer with "
+                    "`driftscope replay`",
+                    folder, v.mismatch.size()));
   if (!v.damage.empty())
-    throw InputError(ExitCode::store, fmt::format("{}: {} damaged or lost (expected none). Run the study again with the same "
-                                                  "command: what is lost is computed anew", folder,
-                                                  v.damage.size() == 1 ? std::string("1 part is") : fmt::format("{} parts are", v.damage.size())));
+    throw InputError(
+        ExitCode::store,
+        fmt::format("{}: {} damaged or lost (expected none). Run the study again with the same "
+                    "command: what is lost is computed anew",
+                    folder,
+                    v.damage.size() == 1 ? std::string("1 part is")
+                                         : fmt::format("{} parts are", v.damage.size())));
   if (v.blocks == 0 && v.missing == 0)
-    throw InputError(ExitCode::store, fmt::format("{}: holds no results, and does not say how many were asked for (expected blocks of "
-                                                  "runs). Run the study again with the same command", folder));
+    throw InputError(
+        ExitCode::store,
+        fmt::format(
+            "{}: holds no results, and does not say how many were asked for (expected blocks of "
+            "runs). Run the study again with the same command",
+            folder));
   fmt::print("{}\n", v.missing > 0 ? "sound, not complete" : "sound and complete");
   return ExitCode::ok;
 }
 
-ExitCode export_results(const std::string& folder, const std::string& format, const std::string& output,
-                        const StudyProgram& program) {
-  const std::string target = output.empty() ? fmt::format("{}/export.{}", folder, format == "hdf5" ? "h5" : format) : output;
+ExitCode export_results(const std::string& folder, const std::string& format,
+                        const std::string& output, const StudyProgram& program) {
+  const std::string target =
+      output.empty() ? fmt::format("{}/export.{}", folder, format == "hdf5" ? "h5" : format)
+                     : output;
   mc::StudyReader reader(folder);
   const Study study = frozen_study(folder, reader);
   const mc::StudyWork work = program.work(study);
@@ -117,15 +142,21 @@ ExitCode export_results(const std::string& folder, const std::string& format, co
   const mc::StudyState state = mc::state_of(reader, work.stop_rules);
   for (const std::string& note : reader.notes()) fmt::print(stderr, "damage: {}\n", note);
   if (state.lost > 0 || (!state.all() && !reader.notes().empty()))
-    throw InputError(ExitCode::store, fmt::format("{}: {} (expected whole results). Run the study again with the same command: what "
-                                                  "is lost is computed anew. Nothing was exported", folder,
-                                                  state.lost > 0 ? was_complete(reader, state) : "parts of the results are damaged"));
+    throw InputError(
+        ExitCode::store,
+        fmt::format(
+            "{}: {} (expected whole results). Run the study again with the same command: what "
+            "is lost is computed anew. Nothing was exported",
+            folder,
+            state.lost > 0 ? was_complete(reader, state) : "parts of the results are damaged"));
   if (!state.all())
-    fmt::print(stderr, "note: the study is not finished: {} of {} runs, {} of {} points complete\n", state.runs,
-               state.asked * state.points.size(), state.complete, state.points.size());
+    fmt::print(stderr, "note: the study is not finished: {} of {} runs, {} of {} points complete\n",
+               state.runs, state.asked * state.points.size(), state.complete, state.points.size());
   std::vector<std::string> groups;
   if (format == "hdf5")
-    groups = mc::export_hdf5(reader, work.stop_rules, target, program.points ? program.points(study) : std::vector<mc::StudyPoint>{});
+    groups =
+        mc::export_hdf5(reader, work.stop_rules, target,
+                        program.points ? program.points(study) : std::vector<mc::StudyPoint>{});
   if (format == "csv") mc::export_csv(reader, work.stop_rules, target);
   if (format == "json") mc::export_json(reader, work.stop_rules, target);
   fmt::print("{}: {} runs, {:.3g} MB\n", target, state.runs, megabytes({target}));

@@ -1,5 +1,4 @@
 #include <CLI/CLI.hpp>
-
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
@@ -22,25 +21,32 @@ class Program {
     app_.require_subcommand(1);
     app_.get_formatter()->column_width(34);
 
-    CLI::App* check = command("check", "read a study file, print all values and where each came from, run nothing",
-                              "driftscope check configs/table1.toml --set plan.dwell=\"20 min\"",
-                              [this] { return cli::check(study_); });
+    CLI::App* check = command(
+        "check", "read a study file, print all values and where each came from, run nothing",
+        "driftscope check configs/table1.toml --set plan.dwell=\"20 min\"",
+        [this] { return cli::check(study_); });
     add_study(*check);
 
     CLI::App* simulate = command("simulate", "one recording from the truth of a study file",
                                  "driftscope simulate configs/table1.toml -o recording.csv --run 3",
                                  [this] { return cli::simulate(study_, output_, run_); });
     add_study(*simulate);
-    simulate->add_option("-o,--output", output_, "recording to write (.csv, .h5 or .mat)")->required()->check(cli::check_path);
+    simulate->add_option("-o,--output", output_, "recording to write (.csv, .h5 or .mat)")
+        ->required()
+        ->check(cli::check_path);
     simulate->add_option("--run", run_, "run number")->check(whole(0, last_run));
 
-    CLI::App* identify = command("identify", "estimate the parameters of a recording, or of a simulated one",
-                                 "driftscope identify configs/table1.toml -o out/table1",
-                                 [this] { return cli::identify(study_, recordings_, output_, run_); });
+    CLI::App* identify =
+        command("identify", "estimate the parameters of a recording, or of a simulated one",
+                "driftscope identify configs/table1.toml -o out/table1",
+                [this] { return cli::identify(study_, recordings_, output_, run_); });
     add_study(*identify);
-    identify->add_option("recordings", recordings_, "recordings (.csv, .h5, .mat); none: simulated from [truth]");
-    identify->add_option("-o,--output", output_, "folder for tables, pictures and report")->check(cli::check_path);
-    identify->add_option("--run", run_, "run number of the simulated recording")->check(whole(0, last_run));
+    identify->add_option("recordings", recordings_,
+                         "recordings (.csv, .h5, .mat); none: simulated from [truth]");
+    identify->add_option("-o,--output", output_, "folder for tables, pictures and report")
+        ->check(cli::check_path);
+    identify->add_option("--run", run_, "run number of the simulated recording")
+        ->check(whole(0, last_run));
     add_progress(*identify);
 
     add_run();
@@ -48,36 +54,50 @@ class Program {
 
     add_rank();
 
-    CLI::App* blind = command("blind", "make recordings with concealed effects, diagnose each without the key, then score",
-                              "driftscope blind configs/blind_small.toml -o out/blind",
-                              [this] { return cli::blind(study_, output_, trials_); });
+    CLI::App* blind =
+        command("blind",
+                "make recordings with concealed effects, diagnose each without the key, then score",
+                "driftscope blind configs/blind_small.toml -o out/blind",
+                [this] { return cli::blind(study_, output_, trials_); });
     add_study(*blind);
-    blind->add_option("-o,--output", output_, "folder for trials, key, answers and report; the same one resumes")
+    blind
+        ->add_option("-o,--output", output_,
+                     "folder for trials, key, answers and report; the same one resumes")
         ->required()
         ->check(cli::check_path);
     blind->add_option("--trials", trials_, "override blind.trials");
     add_progress(*blind);
 
-    CLI::App* diagnose = command("diagnose", "locate a mismatch, name the physics left out, model it, show the fit improve",
-                                 "driftscope diagnose configs/diagnose_xsens.toml recording.csv -o out/diagnosis",
-                                 [this] { return cli::diagnose(study_, recordings_, output_, advise()); });
+    CLI::App* diagnose = command(
+        "diagnose", "locate a mismatch, name the physics left out, model it, show the fit improve",
+        "driftscope diagnose configs/diagnose_xsens.toml recording.csv -o out/diagnosis",
+        [this] { return cli::diagnose(study_, recordings_, output_, advise()); });
     add_study(*diagnose);
-    diagnose->add_option("recordings", recordings_, "recordings of the study's plan (.csv, .h5, .mat)")->required();
-    diagnose->add_option("-o,--output", output_, "folder for diagnosis.json, report, pictures and patched.toml")
+    diagnose
+        ->add_option("recordings", recordings_, "recordings of the study's plan (.csv, .h5, .mat)")
+        ->required();
+    diagnose
+        ->add_option("-o,--output", output_,
+                     "folder for diagnosis.json, report, pictures and patched.toml")
         ->check(cli::check_path);
-    advise_option_ = diagnose->add_option("--advise", advise_, "which further positions would tell these terms apart and from the "
-                                          "nominal model; without terms: what the verdict suggests")
-                         ->type_name("[TERM,...]")
-                         ->expected(0, 1)
-                         ->check(cli::check_no_file);
+    advise_option_ =
+        diagnose
+            ->add_option("--advise", advise_,
+                         "which further positions would tell these terms apart and from the "
+                         "nominal model; without terms: what the verdict suggests")
+            ->type_name("[TERM,...]")
+            ->expected(0, 1)
+            ->check(cli::check_no_file);
     add_progress(*diagnose);
 
-    CLI::App* terms = command("terms", "list the physics terms, or explain one",
-                              "driftscope terms gyro_misalignment", [this] { return cli::terms(key_); });
+    CLI::App* terms =
+        command("terms", "list the physics terms, or explain one",
+                "driftscope terms gyro_misalignment", [this] { return cli::terms(key_); });
     terms->add_option("key", key_, "a term or a parameter");
 
-    CLI::App* version = command("version", "program, libraries, compiler, instruction set",
-                                "driftscope version --json", [this] { return cli::version(json_); });
+    CLI::App* version =
+        command("version", "program, libraries, compiler, instruction set",
+                "driftscope version --json", [this] { return cli::version(json_); });
     version->add_flag("--json", json_, "as JSON");
   }
 
@@ -85,7 +105,8 @@ class Program {
     try {
       app_.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
-      if (const std::string wrong = e.get_exit_code() == 0 ? "" : not_known(argc, argv); !wrong.empty()) {
+      if (const std::string wrong = e.get_exit_code() == 0 ? "" : not_known(argc, argv);
+          !wrong.empty()) {
         fmt::print(stderr, "error: {}\n", wrong);
         return static_cast<int>(ExitCode::usage);
       }
@@ -97,7 +118,9 @@ class Program {
       return static_cast<int>(code);
     } catch (const std::system_error& e) {
       if (e.code() == std::errc::broken_pipe) return 128 + SIGPIPE;  // the reader has seen enough
-      fmt::print(stderr, "error: standard output: {}. Results are incomplete; make room and run again\n", e.what());
+      fmt::print(stderr,
+                 "error: standard output: {}. Results are incomplete; make room and run again\n",
+                 e.what());
       return static_cast<int>(ExitCode::io);
     } catch (const InputError& e) {
       std::fflush(stdout);
@@ -116,7 +139,8 @@ class Program {
     return [=](const std::string& text) { return cli::check_whole(text, least, most); };
   }
 
-  /// The first command or option of the line that does not exist, with what may be meant; empty if all do.
+  /// The first command or option of the line that does not exist, with what may be meant; empty if
+  /// all do.
   std::string not_known(int argc, char** argv) const {
     const CLI::App* chosen = nullptr;
     for (int i = 1; i < argc; ++i) {
@@ -127,20 +151,24 @@ class Program {
           names.push_back(c->get_name());
           if (c->get_name() == word) chosen = c;
         }
-        if (chosen == nullptr) return cli::unknown("command", word, std::vector<std::string_view>(names.begin(), names.end()));
+        if (chosen == nullptr)
+          return cli::unknown("command", word,
+                              std::vector<std::string_view>(names.begin(), names.end()));
       } else if (word.starts_with("--") && word.size() > 2) {
         const std::string given = word.substr(0, word.find('='));
         std::vector<std::string> names;
         for (const CLI::Option* o : (chosen != nullptr ? *chosen : app_).get_options(nullptr))
           for (const std::string& name : o->get_lnames()) names.push_back("--" + name);
         if (std::find(names.begin(), names.end(), given) == names.end())
-          return cli::unknown("option", given, std::vector<std::string_view>(names.begin(), names.end()));
+          return cli::unknown("option", given,
+                              std::vector<std::string_view>(names.begin(), names.end()));
       }
     }
     return {};
   }
 
-  CLI::App* command(const char* name, const char* what, const char* example, std::function<ExitCode()> action) {
+  CLI::App* command(const char* name, const char* what, const char* example,
+                    std::function<ExitCode()> action) {
     CLI::App* c = app_.add_subcommand(name, what);
     c->footer(std::string("Example: ") + example);
     c->callback([this, action = std::move(action)] { chosen_ = action; });
@@ -148,16 +176,20 @@ class Program {
   }
 
   void add_rank() {
-    CLI::App* rank = command("rank", "how observable each parameter is on a plan, and which positions to add",
-                             "driftscope rank configs/table1.toml --improve 3 --criterion eta_x -o out/rank",
-                             [this] { return cli::rank(study_, rank_); });
+    CLI::App* rank =
+        command("rank", "how observable each parameter is on a plan, and which positions to add",
+                "driftscope rank configs/table1.toml --improve 3 --criterion eta_x -o out/rank",
+                [this] { return cli::rank(study_, rank_); });
     add_study(*rank);
-    CLI::Option* improve = rank->add_option("--improve", rank_.improve, "propose so many further positions")
-                               ->check(CLI::Range(1, 1000));
-    rank->add_option("--criterion", rank_.criterion,
-                     "what they make small: A (trace), D (determinant) or a parameter such as eta_x")
+    CLI::Option* improve =
+        rank->add_option("--improve", rank_.improve, "propose so many further positions")
+            ->check(CLI::Range(1, 1000));
+    rank->add_option(
+            "--criterion", rank_.criterion,
+            "what they make small: A (trace), D (determinant) or a parameter such as eta_x")
         ->needs(improve);
-    rank->add_option("-o,--output", rank_.folder, "folder for rank.json, pictures and report")->check(cli::check_path);
+    rank->add_option("-o,--output", rank_.folder, "folder for rank.json, pictures and report")
+        ->check(cli::check_path);
     rank->add_flag("--json", rank_.json, "rank.json on stdout instead of tables");
     add_progress(*rank);
   }
@@ -173,53 +205,78 @@ class Program {
                           [this] { return cli::run(study_, run_options_, cli::study_program()); });
     add_study(*c);
     add_progress(*c);
-    c->add_option("-o,--output", run_options_.folder, "results folder; results/<name of the study file> by default")
+    c->add_option("-o,--output", run_options_.folder,
+                  "results folder; results/<name of the study file> by default")
         ->check(cli::check_path);
-    c->add_option("--runs", run_options_.runs, "override monte_carlo.runs; more than before extends a study")
+    c->add_option("--runs", run_options_.runs,
+                  "override monte_carlo.runs; more than before extends a study")
         ->check(whole(1, 1000000000));
-    c->add_option("--worker", run_options_.worker, "do part i of n of the study, i = 0 .. n - 1")->type_name("I/N");
-    c->add_option("--max-wall", run_options_.max_wall, "stop after this time, resumable: 55m, 1h30m")->type_name("TIME");
-    c->add_flag("--dry-run", run_options_.dry_run, "say what would be done and how long it takes, write nothing");
+    c->add_option("--worker", run_options_.worker, "do part i of n of the study, i = 0 .. n - 1")
+        ->type_name("I/N");
+    c->add_option("--max-wall", run_options_.max_wall,
+                  "stop after this time, resumable: 55m, 1h30m")
+        ->type_name("TIME");
+    c->add_flag("--dry-run", run_options_.dry_run,
+                "say what would be done and how long it takes, write nothing");
     c->add_flag("--fail-fast", run_options_.fail_fast, "stop at the first run that fails");
   }
 
-  CLI::App* look(const char* name, const char* what, const char* example, std::function<ExitCode()> action) {
+  CLI::App* look(const char* name, const char* what, const char* example,
+                 std::function<ExitCode()> action) {
     CLI::App* c = command(name, what, example, std::move(action));
     c->add_option("folder", folder_, "results folder of `run`")->required();
     return c;
   }
 
   void add_looks() {
-    look("status", "how far a study is: runs, failures, sessions, disk", "driftscope status results/study",
+    look("status", "how far a study is: runs, failures, sessions, disk",
+         "driftscope status results/study",
          [this] { return cli::status(folder_, cli::study_program()); });
 
-    CLI::App* verify = look("verify", "check every checksum and execute some runs again", "driftscope verify results/study --sample 5%",
-                            [this] { return cli::verify(folder_, sample_, study_.threads, cli::study_program()); });
-    verify->add_option("--sample", sample_, "share of the runs to execute again, 1% by default")->type_name("SHARE");
-    verify->add_option("--threads", study_.threads, "number of threads; all by default")->check(CLI::Range(1, 4096));
+    CLI::App* verify = look(
+        "verify", "check every checksum and execute some runs again",
+        "driftscope verify results/study --sample 5%",
+        [this] { return cli::verify(folder_, sample_, study_.threads, cli::study_program()); });
+    verify->add_option("--sample", sample_, "share of the runs to execute again, 1% by default")
+        ->type_name("SHARE");
+    verify->add_option("--threads", study_.threads, "number of threads; all by default")
+        ->check(CLI::Range(1, 4096));
 
-    CLI::App* replay = look("replay", "execute one run again, bit for bit", "driftscope replay results/study --run 17 --trace run17.csv",
-                            [this] { return cli::replay(folder_, choice_, output_, cli::study_program()); });
+    CLI::App* replay = look("replay", "execute one run again, bit for bit",
+                            "driftscope replay results/study --run 17 --trace run17.csv", [this] {
+                              return cli::replay(folder_, choice_, output_, cli::study_program());
+                            });
     replay->add_option("--run", choice_.run, "run number")->required()->check(whole(0, last_run));
-    replay->add_option("--point", choice_.point, "study point of a sweep, from 0")->check(whole(0, last_run));
-    replay->add_option("--trace", output_, "write the course of the run as CSV")->check(cli::check_path);
+    replay->add_option("--point", choice_.point, "study point of a sweep, from 0")
+        ->check(whole(0, last_run));
+    replay->add_option("--trace", output_, "write the course of the run as CSV")
+        ->check(cli::check_path);
 
-    look("report", "the HTML report of a results folder; of a study made anew, finished or not", "driftscope report results/study",
+    look("report", "the HTML report of a results folder; of a study made anew, finished or not",
+         "driftscope report results/study",
          [this] { return cli::report(folder_, cli::study_program()); });
 
-    CLI::App* exporter = look("export", "convert the results", "driftscope export results/study --format hdf5",
-                              [this] { return cli::export_results(folder_, format_, output_, cli::study_program()); });
-    exporter->add_option("--format", format_, "hdf5, csv or json")->required()->check(CLI::IsMember({"hdf5", "csv", "json"}));
-    exporter->add_option("-o,--output", output_, "file to write; FOLDER/export.h5, .csv or .json by default")->check(cli::check_path);
+    CLI::App* exporter = look(
+        "export", "convert the results", "driftscope export results/study --format hdf5",
+        [this] { return cli::export_results(folder_, format_, output_, cli::study_program()); });
+    exporter->add_option("--format", format_, "hdf5, csv or json")
+        ->required()
+        ->check(CLI::IsMember({"hdf5", "csv", "json"}));
+    exporter
+        ->add_option("-o,--output", output_,
+                     "file to write; FOLDER/export.h5, .csv or .json by default")
+        ->check(cli::check_path);
   }
 
   void add_study(CLI::App& c) {
     c.add_option("config", study_.config, "study file (TOML)")->required();
-    c.add_option("--set", study_.sets, "override a value of the study file, e.g. plan.dwell=\"20 min\"")
+    c.add_option("--set", study_.sets,
+                 "override a value of the study file, e.g. plan.dwell=\"20 min\"")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
     c.add_option("--seed", study_.seed, "override monte_carlo.seed")->check(cli::check_seed);
-    c.add_option("--threads", study_.threads, "number of threads; all by default")->check(CLI::Range(1, 4096));
+    c.add_option("--threads", study_.threads, "number of threads; all by default")
+        ->check(CLI::Range(1, 4096));
   }
 
   static constexpr std::uint64_t last_run = 999999999;  // monte_carlo.runs is at most 1e9
@@ -247,7 +304,8 @@ int main(int argc, char** argv) {
   try {
     return Program().run(argc, argv);
   } catch (const std::exception& e) {
-    std::fprintf(stderr, "internal error: %s\nThis is a bug in driftscope; please report it.\n", e.what());
+    std::fprintf(stderr, "internal error: %s\nThis is a bug in driftscope; please report it.\n",
+                 e.what());
     return static_cast<int>(drift::ExitCode::internal);
   }
 }

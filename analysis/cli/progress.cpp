@@ -38,10 +38,13 @@ std::function<void(std::size_t, std::size_t)> progress_reporter(const std::strin
     const double since = std::chrono::duration<double>(now - state->last).count();
     const double left = elapsed * static_cast<double>(total - done) / static_cast<double>(done);
     if (json) {
-      fmt::print(stderr, "{{\"what\":\"{}\",\"done\":{},\"total\":{},\"elapsed_s\":{:.1f},\"eta_s\":{:.1f}}}\n",
-                 what, done, total, elapsed, left);
+      fmt::print(
+          stderr,
+          "{{\"what\":\"{}\",\"done\":{},\"total\":{},\"elapsed_s\":{:.1f},\"eta_s\":{:.1f}}}\n",
+          what, done, total, elapsed, left);
     } else if (redraw) {
-      fmt::print(stderr, "\r{}: {}/{}, {:.0f} s left {}", what, done, total, left, done == total ? "\n" : "");
+      fmt::print(stderr, "\r{}: {}/{}, {:.0f} s left {}", what, done, total, left,
+                 done == total ? "\n" : "");
     } else if (done == total || since > plain_interval) {
       fmt::print(stderr, "{}: {}/{} in {:.1f} s\n", what, done, total, elapsed);
       state->last = now;
@@ -49,7 +52,8 @@ std::function<void(std::size_t, std::size_t)> progress_reporter(const std::strin
   };
 }
 
-std::function<void(const std::string&, double)> stage_reporter(const std::string& style, const std::string& what) {
+std::function<void(const std::string&, double)> stage_reporter(const std::string& style,
+                                                               const std::string& what) {
   if (style == "none") return {};
   const bool redraw = style == "auto" && isatty(STDERR_FILENO);
   const bool json = style == "json";
@@ -68,8 +72,10 @@ std::function<void(const std::string&, double)> stage_reporter(const std::string
     const bool known = done > 0.02, over = percent >= 100;
     const double left = known ? elapsed * (1.0 - done) / done : 0.0;
     if (json) {
-      fmt::print(stderr, "{{\"what\":\"{}\",\"stage\":\"{}\",\"done\":{:.3f},\"elapsed_s\":{:.1f},\"eta_s\":{}}}\n", what, name,
-                 done, elapsed, known ? fmt::format("{:.1f}", left) : "null");
+      fmt::print(stderr,
+                 "{{\"what\":\"{}\",\"stage\":\"{}\",\"done\":{:.3f},\"elapsed_s\":{:.1f},\"eta_"
+                 "s\":{}}}\n",
+                 what, name, done, elapsed, known ? fmt::format("{:.1f}", left) : "null");
     } else if (redraw) {
       fmt::print(stderr, "\r{}: {}, {} %, {:.0f} s, {}          {}", what, name, percent, elapsed,
                  known ? fmt::format("{:.0f} s left", left) : "", over ? "\n" : "");

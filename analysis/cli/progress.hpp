@@ -11,8 +11,9 @@ namespace drift::cli {
 std::function<void(std::size_t, std::size_t)> progress_reporter(const std::string& style,
                                                                 const std::string& what);
 
-/// The same for a job of unlike stages: the stage and the part of the whole that is done (0 .. 1). Plain
-/// lines come with every stage.
-std::function<void(const std::string&, double)> stage_reporter(const std::string& style, const std::string& what);
+/// The same for a job of unlike stages: the stage and the part of the whole that is done (0 .. 1).
+/// Plain lines come with every stage.
+std::function<void(const std::string&, double)> stage_reporter(const std::string& style,
+                                                               const std::string& what);
 
 }  // namespace drift::cli

@@ -11,7 +11,9 @@ ExitCode rank(const StudyArguments& arguments, const RankArguments& options) {
   const Study study = arguments.read();
   require_own_folder(options.folder, "rank");
   if (!study.sweep.empty())
-    fmt::print(stderr, "note: the values of {} in [sweep] are not ranked, those above it are. Rank them one by one with --set\n",
+    fmt::print(stderr,
+               "note: the values of {} in [sweep] are not ranked, those above it are. Rank them "
+               "one by one with --set\n",
                study.sweep.front().key);
   RankOptions what;
   what.improve = options.improve;
@@ -24,7 +26,8 @@ ExitCode rank(const StudyArguments& arguments, const RankArguments& options) {
   if (!options.folder.empty()) files = write_results(study, ranking, options.folder);
   fmt::print("{}", options.json ? to_json(study, ranking) : to_text(study, ranking));
   if (!files.empty())
-    fmt::print(options.json ? stderr : stdout, "\nWritten to {}: {}\n", options.folder, fmt::join(files, " "));
+    fmt::print(options.json ? stderr : stdout, "\nWritten to {}: {}\n", options.folder,
+               fmt::join(files, " "));
   return ExitCode::ok;
 }
 

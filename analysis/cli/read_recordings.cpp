@@ -13,8 +13,11 @@ std::vector<Recording> read_recordings(const Study& study, const std::vector<std
   for (std::size_t k = 0; k < paths.size(); ++k)
     for (std::size_t before = 0; before < k; ++before)
       if (std::error_code unknown; std::filesystem::equivalent(paths[k], paths[before], unknown))
-        throw InputError(ExitCode::usage, fmt::format("{}: given twice (expected recordings of different tests: one and the same "
-                                                      "is no further evidence). Name it once", paths[k]));
+        throw InputError(
+            ExitCode::usage,
+            fmt::format("{}: given twice (expected recordings of different tests: one and the same "
+                        "is no further evidence). Name it once",
+                        paths[k]));
   std::vector<Recording> recordings;
   for (const std::string& path : paths) {
     recordings.push_back(read_recording(path, study.kind, study.site.gravity));

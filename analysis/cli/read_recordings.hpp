@@ -8,7 +8,8 @@
 
 namespace drift::cli {
 
-/// Reads the recordings of a command line and prints the quality card of each. InputError (recording).
+/// Reads the recordings of a command line and prints the quality card of each. InputError
+/// (recording).
 std::vector<Recording> read_recordings(const Study& study, const std::vector<std::string>& paths);
 
 }  // namespace drift::cli

@@ -15,7 +15,8 @@ namespace {
 /// The course of a run as CSV in the units of its columns.
 class CsvTrace : public mc::TraceSink {
  public:
-  explicit CsvTrace(const std::string& path) : path_(path), target_(path), file_(std::fopen(target_.temporary().c_str(), "wb")) {
+  explicit CsvTrace(const std::string& path)
+      : path_(path), target_(path), file_(std::fopen(target_.temporary().c_str(), "wb")) {
     if (file_ == nullptr) throw_cannot_write(path_, std::strerror(errno));
   }
   ~CsvTrace() override {
@@ -27,7 +28,8 @@ class CsvTrace : public mc::TraceSink {
   void columns(const std::vector<mc::Column>& columns) override {
     columns_ = columns;
     std::string line;
-    for (const mc::Column& c : columns) line += fmt::format("{}{} [{}]", line.empty() ? "" : ",", c.name, c.unit.symbol.view());
+    for (const mc::Column& c : columns)
+      line += fmt::format("{}{} [{}]", line.empty() ? "" : ",", c.name, c.unit.symbol.view());
     put(line + "\n");
   }
   void row(std::span<const double> values) override {
@@ -40,13 +42,15 @@ class CsvTrace : public mc::TraceSink {
   std::size_t rows() const { return rows_; }
   bool begun() const { return !columns_.empty(); }
   void commit() {
-    if (std::fclose(std::exchange(file_, nullptr)) != 0) throw_cannot_write(path_, std::strerror(errno));
+    if (std::fclose(std::exchange(file_, nullptr)) != 0)
+      throw_cannot_write(path_, std::strerror(errno));
     target_.commit();
   }
 
  private:
   void put(const std::string& text) {
-    if (std::fwrite(text.data(), 1, text.size(), file_) != text.size()) throw_cannot_write(path_, std::strerror(errno));
+    if (std::fwrite(text.data(), 1, text.size(), file_) != text.size())
+      throw_cannot_write(path_, std::strerror(errno));
   }
 
   std::string path_;
@@ -61,7 +65,8 @@ void print_row(const std::vector<mc::Column>& columns, const mc::Replay& r) {
   for (const mc::Column& c : columns) width = std::max(width, c.name.size());
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const double value = mc::in_column_unit(r.row[i], columns[i]);
-    fmt::print("{:<{}}  {:>24} {}", columns[i].name, width, fmt::format("{}", value), columns[i].unit.symbol.view());
+    fmt::print("{:<{}}  {:>24} {}", columns[i].name, width, fmt::format("{}", value),
+               columns[i].unit.symbol.view());
     if (r.stored && !r.same && std::memcmp(&r.row[i], &r.stored_row[i], sizeof(double)) != 0)
       fmt::print("   stored: {}", mc::in_column_unit(r.stored_row[i], columns[i]));
     fmt::print("\n");
@@ -70,24 +75,31 @@ void print_row(const std::vector<mc::Column>& columns, const mc::Replay& r) {
 
 }  // namespace
 
-ExitCode replay(const std::string& folder, const RunChoice& choice, const std::string& trace, const StudyProgram& program) {
+ExitCode replay(const std::string& folder, const RunChoice& choice, const std::string& trace,
+                const StudyProgram& program) {
   mc::StudyReader reader(folder);
   const mc::StudyWork work = program.work(frozen_study(folder, reader));
   if (choice.point >= work.points.size())
-    throw InputError(ExitCode::usage, fmt::format("--point {}: the study has points 0 to {}. Choose one of them", choice.point,
-                                                  work.points.size() - 1));
+    throw InputError(ExitCode::usage,
+                     fmt::format("--point {}: the study has points 0 to {}. Choose one of them",
+                                 choice.point, work.points.size() - 1));
   if (reader.runs() > 0 && choice.run >= reader.runs())
-    throw InputError(ExitCode::usage, fmt::format("--run {}: the study has runs 0 to {} (expected one of them). Choose one, or extend "
-                                                  "the study with --runs", choice.run, reader.runs() - 1));
+    throw InputError(
+        ExitCode::usage,
+        fmt::format(
+            "--run {}: the study has runs 0 to {} (expected one of them). Choose one, or extend "
+            "the study with --runs",
+            choice.run, reader.runs() - 1));
   const mc::RunTask& task = *work.points[choice.point].task;
   std::optional<CsvTrace> sink;
   if (!trace.empty()) sink.emplace(trace);
   const mc::Replay r = mc::replay(task, reader, choice.point, choice.run, sink ? &*sink : nullptr);
   print_row(task.columns(), r);
   fmt::print("run {}: {}", choice.run, mc::name(r.outcome.status));
-  if (r.outcome.status != mc::RunStatus::ok) fmt::print(" at t = {:.6g} s: {}", r.outcome.t_failed, r.outcome.cause);
-  fmt::print("; CPU time {:.3g} s, of it integration {:.3g} s, filters {:.3g} s\n", r.outcome.total_s, r.outcome.integration_s,
-             r.outcome.filter_s);
+  if (r.outcome.status != mc::RunStatus::ok)
+    fmt::print(" at t = {:.6g} s: {}", r.outcome.t_failed, r.outcome.cause);
+  fmt::print("; CPU time {:.3g} s, of it integration {:.3g} s, filters {:.3g} s\n",
+             r.outcome.total_s, r.outcome.integration_s, r.outcome.filter_s);
   if (sink && sink->begun()) {
     sink->commit();
     fmt::print("trace: {} samples in {}\n", sink->rows(), trace);
@@ -99,8 +111,11 @@ ExitCode replay(const std::string& folder, const RunChoice& choice, const std::s
   } else if (r.same) {
     fmt::print("{}: equal to the stored result, bit for bit\n", folder);
   } else {
-    throw InputError(ExitCode::self_check, fmt::format("{}: run {} came out other than stored ({}; expected equal bits). Was another "
-                                                       "program or processor at work?", folder, choice.run, mc::name(r.stored_status)));
+    throw InputError(
+        ExitCode::self_check,
+        fmt::format("{}: run {} came out other than stored ({}; expected equal bits). Was another "
+                    "program or processor at work?",
+                    folder, choice.run, mc::name(r.stored_status)));
   }
   return ExitCode::ok;
 }

@@ -9,8 +9,11 @@ namespace drift::cli {
 ExitCode report(const std::string& folder, const StudyProgram& program) {
   const std::string command = results_of(folder);
   if (command.empty())
-    throw InputError(ExitCode::store, fmt::format("{}: holds no results (expected a folder that run, identify, diagnose, rank or "
-                                                  "blind wrote). Give the folder named with -o", folder));
+    throw InputError(
+        ExitCode::store,
+        fmt::format("{}: holds no results (expected a folder that run, identify, diagnose, rank or "
+                    "blind wrote). Give the folder named with -o",
+                    folder));
   if (command == "run") {  // made anew, of as many runs as there are
     mc::StudyReader reader(folder);
     const Study study = frozen_study(folder, reader);
@@ -19,8 +22,11 @@ ExitCode report(const std::string& folder, const StudyProgram& program) {
   }
   const std::string file = (std::filesystem::path(folder) / "report.html").string();
   if (!std::filesystem::exists(file))
-    throw InputError(ExitCode::store, fmt::format("{}: report.html is gone (expected beside the results of `{}`). The same "
-                                                  "`driftscope {}` command writes it again", folder, command, command));
+    throw InputError(
+        ExitCode::store,
+        fmt::format("{}: report.html is gone (expected beside the results of `{}`). The same "
+                    "`driftscope {}` command writes it again",
+                    folder, command, command));
   fmt::print("{}\n", file);
   return ExitCode::ok;
 }

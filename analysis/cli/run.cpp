@@ -21,56 +21,73 @@ std::string default_folder(const std::string& config) {
 }
 
 /// Says what a run would take, from some runs tried in memory.
-void dry_run(const mc::StudyWork& work, const mc::Manifest& manifest, const mc::EngineOptions& options,
-             const std::string& folder) {
+void dry_run(const mc::StudyWork& work, const mc::Manifest& manifest,
+             const mc::EngineOptions& options, const std::string& folder) {
   constexpr std::size_t most_probes = 32;
   constexpr double most_seconds = 5.0;
   const auto blocks = mc::all_blocks(manifest, options.runs).size();
   double bytes = 0.0;
   for (const mc::PointInfo& p : manifest.points)
-    bytes += static_cast<double>(options.runs) * (1.0 + 8.0 * static_cast<double>(p.columns.size()));
+    bytes +=
+        static_cast<double>(options.runs) * (1.0 + 8.0 * static_cast<double>(p.columns.size()));
   const auto started = std::chrono::steady_clock::now();
   double seconds = 0.0;
   std::size_t probes = 0;
   for (; probes < most_probes && seconds < most_seconds; ++probes) {
     const std::size_t p = probes % work.points.size();
-    std::vector<double> row(manifest.points[p].columns.size(), std::numeric_limits<double>::quiet_NaN());
+    std::vector<double> row(manifest.points[p].columns.size(),
+                            std::numeric_limits<double>::quiet_NaN());
     work.points[p].task->worker()->execute(probes / work.points.size(), row);
     seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   }
   const int threads = options.threads > 0 ? options.threads : omp_get_max_threads();
   const double runs = static_cast<double>(options.runs) * static_cast<double>(work.points.size());
   const double each = seconds / static_cast<double>(probes);
-  fmt::print("folder           {}\nstudy points     {}\nruns             {} ({} per point, in {} blocks of {})\n"
-             "numbers per run  {}\nestimated time   {} with {} threads ({:.3g} s per run, {} runs tried)\n"
-             "disk             {:.3g} MB\nNothing was written.\n",
-             folder, work.points.size(), static_cast<std::uint64_t>(runs), options.runs, blocks, manifest.identity.block_size,
-             manifest.points.front().columns.size(), duration_text(runs * each / threads), threads, each, probes,
-             1.1 * bytes / 1e6);
+  fmt::print(
+      "folder           {}\nstudy points     {}\nruns             {} ({} per point, in {} blocks "
+      "of {})\n"
+      "numbers per run  {}\nestimated time   {} with {} threads ({:.3g} s per run, {} runs tried)\n"
+      "disk             {:.3g} MB\nNothing was written.\n",
+      folder, work.points.size(), static_cast<std::uint64_t>(runs), options.runs, blocks,
+      manifest.identity.block_size, manifest.points.front().columns.size(),
+      duration_text(runs * each / threads), threads, each, probes, 1.1 * bytes / 1e6);
   for (std::size_t p = 0; p < work.points.size(); ++p)
     if (!work.points[p].label.empty()) fmt::print("point {:<4} {}\n", p, work.points[p].label);
 }
 
-std::string blocks_text(std::size_t n) { return n == 1 ? "1 block of runs" : fmt::format("{} blocks of runs", n); }
+std::string blocks_text(std::size_t n) {
+  return n == 1 ? "1 block of runs" : fmt::format("{} blocks of runs", n);
+}
 
 /// What happened, for people; on stderr, where results are not.
 void tell(const mc::StudyOutcome& o, const mc::EngineOptions& asked, const std::string& folder) {
   for (const std::string& note : o.notes) fmt::print(stderr, "note: {}\n", note);
   const double rate = o.seconds > 0.0 ? static_cast<double>(o.done) / o.seconds : 0.0;
-  fmt::print(stderr, "{}: {} runs stored before, {} executed in {} ({:.1f} runs/s), {} failed\n", folder, o.done_before,
-             o.done, duration_text(o.seconds), rate, o.failed);
+  fmt::print(stderr, "{}: {} runs stored before, {} executed in {} ({:.1f} runs/s), {} failed\n",
+             folder, o.done_before, o.done, duration_text(o.seconds), rate, o.failed);
   if (o.cut_short > 0)
-    fmt::print(stderr, "{}: {} runs more were stored in blocks that the shorter study before ended within; they were executed again "
-                       "with the rest of their blocks\n", folder, o.cut_short);
+    fmt::print(stderr,
+               "{}: {} runs more were stored in blocks that the shorter study before ended within; "
+               "they were executed again "
+               "with the rest of their blocks\n",
+               folder, o.cut_short);
   if (o.stored_runs > asked.runs)
-    fmt::print(stderr, "{}: note: {} runs per point were asked for before, {} now; the results are those of all that is stored. "
-                       "Choose another folder for a shorter study\n", folder, o.stored_runs, asked.runs);
+    fmt::print(stderr,
+               "{}: note: {} runs per point were asked for before, {} now; the results are those "
+               "of all that is stored. "
+               "Choose another folder for a shorter study\n",
+               folder, o.stored_runs, asked.runs);
   if (!o.complete && o.missing_own > 0)
-    fmt::print(stderr, "{}: missing: {}{}. The same command goes on with them\n", folder, blocks_text(o.missing_own),
-               asked.share.count > 1 ? fmt::format(" of this worker's part {}/{}", asked.share.index, asked.share.count) : "");
+    fmt::print(stderr, "{}: missing: {}{}. The same command goes on with them\n", folder,
+               blocks_text(o.missing_own),
+               asked.share.count > 1 ? fmt::format(" of this worker's part {}/{}",
+                                                   asked.share.index, asked.share.count)
+                                     : "");
   if (!o.complete && o.missing > o.missing_own)
-    fmt::print(stderr, "{}: missing: {} of the other workers' parts. They, or `run` without --worker, go on with them\n", folder,
-               blocks_text(o.missing - o.missing_own));
+    fmt::print(stderr,
+               "{}: missing: {} of the other workers' parts. They, or `run` without --worker, go "
+               "on with them\n",
+               folder, blocks_text(o.missing - o.missing_own));
 }
 
 void list_failures(mc::StudyReader& reader, const mc::StopRules& rules, const std::string& folder) {
@@ -79,16 +96,23 @@ void list_failures(mc::StudyReader& reader, const mc::StopRules& rules, const st
   reader.each_result(rules, [&](const mc::StoredBlock& b) {
     for (const mc::Failure& f : b.failures)
       if (++count <= most)
-        fmt::print(stderr, "failed: point {}, run {}: {} at t = {:.6g} s: {}. Look closer: driftscope replay {} --run {}{}\n",
+        fmt::print(stderr,
+                   "failed: point {}, run {}: {} at t = {:.6g} s: {}. Look closer: driftscope "
+                   "replay {} --run {}{}\n",
                    b.block.point, f.run, mc::name(f.status), f.t, f.cause, folder, f.run,
                    b.block.point > 0 ? fmt::format(" --point {}", b.block.point) : "");
   });
-  if (count > most) fmt::print(stderr, "failed: ... and {} more; `sqlite3 {}/worker-*.sqlite 'SELECT * FROM failures'` lists all\n", count - most, folder);
+  if (count > most)
+    fmt::print(stderr,
+               "failed: ... and {} more; `sqlite3 {}/worker-*.sqlite 'SELECT * FROM failures'` "
+               "lists all\n",
+               count - most, folder);
 }
 
 }  // namespace
 
-ExitCode run(const StudyArguments& arguments, const RunArguments& given, const StudyProgram& program) {
+ExitCode run(const StudyArguments& arguments, const RunArguments& given,
+             const StudyProgram& program) {
   Overrides overrides = arguments.overrides();
   if (given.runs) overrides.emplace_back("monte_carlo.runs", std::to_string(*given.runs));
   const Study study = read_study(arguments.config, overrides);
@@ -109,19 +133,25 @@ ExitCode run(const StudyArguments& arguments, const RunArguments& given, const S
   }
   mc::Ranks ranks;
   if (ranks.size() > 1 && !given.worker.empty())
-    throw InputError(ExitCode::usage, "--worker: mpirun shares out the work already (expected one or the other). Leave out --worker");
+    throw InputError(ExitCode::usage,
+                     "--worker: mpirun shares out the work already (expected one or the other). "
+                     "Leave out --worker");
   require_own_folder(folder, "run");
   mc::claim_folder(folder, manifest);
   if (ranks.leader()) fmt::print(stderr, "results go to {}\n", folder);
-  const mc::StudyOutcome outcome = mc::run_study(work, options, folder, manifest, ranks, run_progress(arguments.progress));
+  const mc::StudyOutcome outcome =
+      mc::run_study(work, options, folder, manifest, ranks, run_progress(arguments.progress));
   if (!outcome.leader) return outcome.code;
   tell(outcome, options, folder);
   mc::StudyReader reader(folder);
   if (outcome.failed > 0) list_failures(reader, work.stop_rules, folder);
   if (!outcome.complete) return outcome.code;
-  fmt::print("runs {}, failed {} (allowed {})\nresults {}\n", outcome.results, outcome.failed, options.allowed_failures, outcome.digest);
+  fmt::print("runs {}, failed {} (allowed {})\nresults {}\n", outcome.results, outcome.failed,
+             options.allowed_failures, outcome.digest);
   if (work.stop_rules)
-    if (const std::string ended = mc::state_of(reader, work.stop_rules).ended_by_rule(); !ended.empty()) fmt::print("{}\n", ended);
+    if (const std::string ended = mc::state_of(reader, work.stop_rules).ended_by_rule();
+        !ended.empty())
+      fmt::print("{}\n", ended);
   if (outcome.code == ExitCode::ok || outcome.code == ExitCode::failed_runs)
     program.present(study, work, reader, folder);
   return outcome.code;

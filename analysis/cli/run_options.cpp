@@ -24,7 +24,8 @@ void skip_blanks(std::string_view& text) {
 
 double unit_seconds(std::string_view& text) {
   using namespace std::literals;
-  for (const auto& [name, seconds] : {std::pair{"min"sv, 60.0}, {"h"sv, 3600.0}, {"m"sv, 60.0}, {"s"sv, 1.0}, {"d"sv, 86400.0}})
+  for (const auto& [name, seconds] :
+       {std::pair{"min"sv, 60.0}, {"h"sv, 3600.0}, {"m"sv, 60.0}, {"s"sv, 1.0}, {"d"sv, 86400.0}})
     if (text.starts_with(name)) {
       text.remove_prefix(name.size());
       return seconds;
@@ -41,8 +42,11 @@ mc::WorkerShare parse_share(const std::string& text) {
   if (slash) rest.remove_prefix(1);
   const auto count = take_number<std::size_t>(rest);
   if (!index || !slash || !count || !rest.empty() || *count == 0 || *index >= *count)
-    throw InputError(ExitCode::usage, fmt::format("--worker {}: expected i/n with i from 0 to n - 1. For a Slurm array 0-15: "
-                                                  "--worker $SLURM_ARRAY_TASK_ID/16", text));
+    throw InputError(
+        ExitCode::usage,
+        fmt::format("--worker {}: expected i/n with i from 0 to n - 1. For a Slurm array 0-15: "
+                    "--worker $SLURM_ARRAY_TASK_ID/16",
+                    text));
   return {*index, *count};
 }
 
@@ -60,7 +64,9 @@ double parse_duration(const std::string& option, const std::string& text) {
     skip_blanks(rest);
   }
   if (!good || !(total > 0.0))
-    throw InputError(ExitCode::usage, fmt::format("{} {}: expected a time such as 55m, 1h30m or 90s. Give one", option, text));
+    throw InputError(
+        ExitCode::usage,
+        fmt::format("{} {}: expected a time such as 55m, 1h30m or 90s. Give one", option, text));
   return total;
 }
 
@@ -70,7 +76,9 @@ double parse_fraction(const std::string& option, const std::string& text) {
   const bool percent = rest == "%";
   const double fraction = value ? *value * (percent ? 0.01 : 1.0) : -1.0;
   if ((!rest.empty() && !percent) || !(fraction >= 0.0 && fraction <= 1.0))
-    throw InputError(ExitCode::usage, fmt::format("{} {}: expected a share from 0% to 100%. Write 1% or 0.01", option, text));
+    throw InputError(
+        ExitCode::usage,
+        fmt::format("{} {}: expected a share from 0% to 100%. Write 1% or 0.01", option, text));
   return fraction;
 }
 

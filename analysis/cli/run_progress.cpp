@@ -30,7 +30,8 @@ mc::ProgressSink run_progress(const std::string& style) {
   const bool json = style == "json";
   const double interval = redraw ? 0.0 : json ? json_interval : plain_interval;
   // The first line comes after one interval: a study of a moment needs none.
-  return [=, last = std::make_shared<double>(0.0), said_all = std::make_shared<bool>(false)](const mc::Progress& p) {
+  return [=, last = std::make_shared<double>(0.0),
+          said_all = std::make_shared<bool>(false)](const mc::Progress& p) {
     const bool complete = p.done >= p.total;
     if (*said_all || (!complete && p.elapsed - *last < interval)) return;
     *last = p.elapsed;
@@ -39,12 +40,15 @@ mc::ProgressSink run_progress(const std::string& style) {
     const double left = complete ? 0.0 : static_cast<double>(p.total - p.done) / rate;
     if (json) {
       const std::string eta = std::isfinite(left) ? fmt::format("{:.1f}", left) : "null";
-      fmt::print(stderr, "{{\"done\":{},\"total\":{},\"failed\":{},\"runs_per_s\":{:.2f},\"elapsed_s\":{:.1f},\"eta_s\":{}}}\n",
+      fmt::print(stderr,
+                 "{{\"done\":{},\"total\":{},\"failed\":{},\"runs_per_s\":{:.2f},\"elapsed_s\":{:."
+                 "1f},\"eta_s\":{}}}\n",
                  p.done, p.total, p.failed, rate, p.elapsed, eta);
       return;
     }
-    const std::string line = fmt::format("{}/{} runs, {} failed, {:.1f} runs/s, {}", p.done, p.total, p.failed, rate,
-                                         complete ? "took " + duration_text(p.elapsed) : duration_text(left) + " left");
+    const std::string line =
+        fmt::format("{}/{} runs, {} failed, {:.1f} runs/s, {}", p.done, p.total, p.failed, rate,
+                    complete ? "took " + duration_text(p.elapsed) : duration_text(left) + " left");
     if (redraw) {
       fmt::print(stderr, "\r{:<76}{}", line, complete ? "\n" : "");
     } else {

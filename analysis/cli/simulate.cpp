@@ -1,6 +1,7 @@
+#include "core/sim/simulate.hpp"
+
 #include "analysis/cli/commands.hpp"
 #include "core/sim/quality_card.hpp"
-#include "core/sim/simulate.hpp"
 
 namespace drift::cli {
 namespace {
@@ -19,22 +20,29 @@ void add_facts(Recording& recording, const Study& study, std::uint64_t run) {
 ExitCode simulate(const StudyArguments& arguments, const std::string& output, std::uint64_t run) {
   const Study study = arguments.read();
   if (study.kind == RecordingKind::strapdown)
-    throw InputError(ExitCode::config, fmt::format("{}: simulate makes recordings of platforms; [plan] has kind "
-                                                   "= \"strapdown\". Give a platform plan", study.path));
-  if (!study.has_truth)
-    throw InputError(ExitCode::config, fmt::format("{}: no [truth] to simulate from. Add a section [truth]", study.path));
-  if (study.truth.coupling == Coupling::compensated && study.truth.loop == LoopEstimate::feedback)
     throw InputError(ExitCode::config,
-                     fmt::format("{}: the loop of [truth] is fed back from a filter, so there is no recording "
-                                 "without one. Use `driftscope identify`, or truth.loop.estimate = \"given\"", study.path));
+                     fmt::format("{}: simulate makes recordings of platforms; [plan] has kind "
+                                 "= \"strapdown\". Give a platform plan",
+                                 study.path));
+  if (!study.has_truth)
+    throw InputError(
+        ExitCode::config,
+        fmt::format("{}: no [truth] to simulate from. Add a section [truth]", study.path));
+  if (study.truth.coupling == Coupling::compensated && study.truth.loop == LoopEstimate::feedback)
+    throw InputError(
+        ExitCode::config,
+        fmt::format("{}: the loop of [truth] is fed back from a filter, so there is no recording "
+                    "without one. Use `driftscope identify`, or truth.loop.estimate = \"given\"",
+                    study.path));
   Timeline timeline = lay_out(study.plan, study.site);
   set_loop(timeline, study.truth);
   set_environment(timeline, study.environment, study.monte_carlo.seed, run);
   Simulator simulator(study.truth, study.readout);
   const Simulation sim = simulator.run(timeline, study.monte_carlo.seed, run);
   if (!sim.ode.ok())
-    throw InputError(ExitCode::self_check, fmt::format("run {} failed at t = {:.6g} s: {} ({})", run, sim.ode.t,
-                                                       name(sim.ode.status), sim.ode.cause));
+    throw InputError(ExitCode::self_check,
+                     fmt::format("run {} failed at t = {:.6g} s: {} ({})", run, sim.ode.t,
+                                 name(sim.ode.status), sim.ode.cause));
   Recording recording = make_recording(timeline, sim.measured, study.readout);
   add_facts(recording, study, run);
   write_recording(recording, output);

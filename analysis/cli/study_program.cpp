@@ -18,7 +18,8 @@ namespace {
 mc::StudyWork work_of(const Study& study) {
   const auto points = std::make_shared<const std::vector<mc::StudyPoint>>(mc::study_points(study));
   mc::StudyWork work{mc::study_tasks(*points), {}};
-  if (mc::stop_rule(*points)) work.stop_rules = [points](std::size_t) { return mc::stop_rule(*points); };
+  if (mc::stop_rule(*points))
+    work.stop_rules = [points](std::size_t) { return mc::stop_rule(*points); };
   return work;
 }
 
@@ -34,18 +35,23 @@ void add_speed(mc::StudyReader& reader, mc::Facts& facts) {
       runs += block->block.status.size();
     }
   if (total > 0.0)
-    facts.emplace_back("speed", fmt::format("{:.1f} runs/s per core; filters {:.1f} %, integration {:.1f} %, rest {:.1f} %",
-                                            static_cast<double>(runs) / total, 100.0 * filter / total,
-                                            100.0 * integration / total,
-                                            100.0 * std::max(0.0, total - filter - integration) / total));
+    facts.emplace_back(
+        "speed",
+        fmt::format("{:.1f} runs/s per core; filters {:.1f} %, integration {:.1f} %, rest {:.1f} %",
+                    static_cast<double>(runs) / total, 100.0 * filter / total,
+                    100.0 * integration / total,
+                    100.0 * std::max(0.0, total - filter - integration) / total));
 }
 
-void present(const Study& study, const mc::StudyWork& work, mc::StudyReader& reader, const std::string& folder) {
+void present(const Study& study, const mc::StudyWork& work, mc::StudyReader& reader,
+             const std::string& folder) {
   StudyResults results;
   results.study = study;
   results.points = mc::study_points(study);
   for (const mc::StudyPoint& p : results.points) results.statistics.emplace_back(p.study);
-  reader.each_result(work.stop_rules, [&](const mc::StoredBlock& b) { results.statistics[b.block.point].add(b.block); });
+  reader.each_result(work.stop_rules, [&](const mc::StoredBlock& b) {
+    results.statistics[b.block.point].add(b.block);
+  });
   for (const auto& [point, run] : runs_to_trace(results))
     results.traces.push_back({point, run, mc::trace_run(results.points[point].study, run)});
   results.further = information_sections(results, 0);
@@ -61,6 +67,8 @@ void present(const Study& study, const mc::StudyWork& work, mc::StudyReader& rea
 
 }  // namespace
 
-StudyProgram study_program() { return {work_of, present, mc::study_points}; }
+StudyProgram study_program() {
+  return {work_of, present, mc::study_points};
+}
 
 }  // namespace drift::cli

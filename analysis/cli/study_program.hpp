@@ -12,10 +12,13 @@ namespace drift::cli {
 
 /// What the commands that execute or read a study do not know themselves.
 struct StudyProgram {
-  /// The points of a study and when each has enough runs. InputError (config) if it has nothing to run.
+  /// The points of a study and when each has enough runs. InputError (config) if it has nothing to
+  /// run.
   std::function<mc::StudyWork(const Study&)> work;
   /// Prints the results of a complete study and writes what belongs into its folder.
-  std::function<void(const Study&, const mc::StudyWork&, mc::StudyReader&, const std::string& folder)> present;
+  std::function<void(const Study&, const mc::StudyWork&, mc::StudyReader&,
+                     const std::string& folder)>
+      present;
   /// The study points whose rows are StudyColumns, for statistics of them; may be empty.
   std::function<std::vector<mc::StudyPoint>(const Study&)> points = {};
 };

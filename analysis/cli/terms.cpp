@@ -7,9 +7,12 @@ namespace {
 
 std::string prior_text(const ParamSpec& spec) {
   switch (spec.prior.kind) {
-    case Prior::Kind::normal: return fmt::format("normal({:g}, {:g})", spec.prior.a, spec.prior.b);
-    case Prior::Kind::uniform: return fmt::format("uniform({:g}, {:g})", spec.prior.a, spec.prior.b);
-    case Prior::Kind::fixed: break;
+    case Prior::Kind::normal:
+      return fmt::format("normal({:g}, {:g})", spec.prior.a, spec.prior.b);
+    case Prior::Kind::uniform:
+      return fmt::format("uniform({:g}, {:g})", spec.prior.a, spec.prior.b);
+    case Prior::Kind::fixed:
+      break;
   }
   return fmt::format("known, {:g}", spec.prior.a);
 }
@@ -24,32 +27,36 @@ std::string acts_on(const TermInfo& term) {
   add(term.in_readout, "the accelerometers");
   add(term.in_gimbals, "the gimbal readout");
   add(term.in_offset, "the attitude, as an offset");
-  return where.empty() ? "random numbers: the truth draws them, a filter allows for their variance" : where;
+  return where.empty() ? "random numbers: the truth draws them, a filter allows for their variance"
+                       : where;
 }
 
 /// What a term must be given, beyond attitude and command.
 std::string asks_for(const TermInfo& term) {
   std::string what;
   if (term.needs.temperature) what += "temperature [degC] of the recording";
-  if (term.needs.field) what += "field_n, field_w, field_u [gauss] of the recording or of [environment]";
+  if (term.needs.field)
+    what += "field_n, field_w, field_u [gauss] of the recording or of [environment]";
   return what.empty() ? "nothing beyond attitude, command and time" : what;
 }
 
 std::string grid_text(const ParamSpec& spec) {
   std::string text;
-  for (const double v : spec.grid) text += fmt::format("{}{:g}", text.empty() ? "; profiled over " : ", ", v);
+  for (const double v : spec.grid)
+    text += fmt::format("{}{:g}", text.empty() ? "; profiled over " : ", ", v);
   return text;
 }
 
 void explain(const TermInfo& term) {
-  fmt::print("{}: {}\n  equation  {}\n  source    {}\n  acts on   {}\n  needs     {}\n", term.key, term.title,
-             term.equation, term.source, acts_on(term), asks_for(term));
-  if (term.memory > 0) fmt::print("  memory    {} states, carried along the nominal path\n", term.memory);
+  fmt::print("{}: {}\n  equation  {}\n  source    {}\n  acts on   {}\n  needs     {}\n", term.key,
+             term.title, term.equation, term.source, acts_on(term), asks_for(term));
+  if (term.memory > 0)
+    fmt::print("  memory    {} states, carried along the nominal path\n", term.memory);
   fmt::print("  {:<14} {:<14} {:<18} {}\n", "parameter", "unit", "default prior", "enters");
   for (std::size_t i = term.first; i < term.first + term.count; ++i) {
     const ParamSpec& spec = TermLibrary::specs[i];
-    fmt::print("  {:<14} {:<14} {:<18} {}{}\n", spec.key.view(), spec.unit.symbol.view(), prior_text(spec),
-               spec.enters, grid_text(spec));
+    fmt::print("  {:<14} {:<14} {:<18} {}{}\n", spec.key.view(), spec.unit.symbol.view(),
+               prior_text(spec), spec.enters, grid_text(spec));
   }
 }
 
@@ -75,8 +82,10 @@ ExitCode terms(const std::string& key) {
   std::vector<std::string_view> known;
   for (const TermInfo& term : TermLibrary::terms) known.push_back(term.key);
   for (const ParamSpec& spec : TermLibrary::specs) known.push_back(spec.key.view());
-  throw InputError(ExitCode::usage, fmt::format("terms: no term or parameter '{}'. {} `driftscope terms` "
-                                                "lists all", key, config::suggestion(key, known, "See the list:")));
+  throw InputError(ExitCode::usage,
+                   fmt::format("terms: no term or parameter '{}'. {} `driftscope terms` "
+                               "lists all",
+                               key, config::suggestion(key, known, "See the list:")));
 }
 
 }  // namespace drift::cli

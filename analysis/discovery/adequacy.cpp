@@ -26,8 +26,8 @@ VecX elements(const VecX& g, const std::vector<int>& a) {
 /// Takes some columns out of C and g: their amplitudes are fitted freely.
 struct Conditioner {
   std::vector<int> columns;
-  MatX W;   ///< shape (columns, dof), C_DD^-1/2 on its observable part
-  VecX y;   ///< W' g_D
+  MatX W;  ///< shape (columns, dof), C_DD^-1/2 on its observable part
+  VecX y;  ///< W' g_D
 
   Conditioner(const MatX& C, const VecX& raw, const VecX& g, std::vector<int> taken)
       : columns(std::move(taken)) {
@@ -44,11 +44,13 @@ constexpr double least_left = 1e-6;
 
 }  // namespace
 
-Field::Field(const CandidateSet& candidates, const Projected& p, const std::vector<PositionScan>& windows)
+Field::Field(const CandidateSet& candidates, const Projected& p,
+             const std::vector<PositionScan>& windows)
     : set(&candidates), projected(&p), scans(&windows) {
   for (const Candidate& c : candidates.candidates) {
     contrasts.emplace_back();
-    for (const Variant& v : c.variants) contrasts.back().push_back(make_contrast(p.C, p.raw, v.columns));
+    for (const Variant& v : c.variants)
+      contrasts.back().push_back(make_contrast(p.C, p.raw, v.columns));
   }
 }
 
@@ -78,7 +80,8 @@ Score score(const Field& field, std::size_t candidate) {
       best.dof = contrast.dof;
     }
     if (contrast.dof == 0) continue;  // an onset after the end of the test is no effect
-    evidence.push_back(log_bayes(*field.projected, c.variants[v].columns) - 0.5 * field.discount_of(candidate));
+    evidence.push_back(log_bayes(*field.projected, c.variants[v].columns) -
+                       0.5 * field.discount_of(candidate));
     share.push_back(c.variants[v].share);
   }
   best.strength = std::max(best.strength, 0.0);
@@ -86,16 +89,20 @@ Score score(const Field& field, std::size_t candidate) {
   const double top = *std::max_element(evidence.begin(), evidence.end());
   const double whole = std::accumulate(share.begin(), share.end(), 0.0);
   double sum = 0.0;
-  for (std::size_t k = 0; k < evidence.size(); ++k) sum += std::exp(evidence[k] - top) * share[k] / whole;
+  for (std::size_t k = 0; k < evidence.size(); ++k)
+    sum += std::exp(evidence[k] - top) * share[k] / whole;
   best.log_bayes = top + std::log(sum);
   return best;
 }
 
-std::vector<std::size_t> best_settings(const Field& field, std::size_t candidate, double nearly, std::size_t most) {
+std::vector<std::size_t> best_settings(const Field& field, std::size_t candidate, double nearly,
+                                       std::size_t most) {
   const auto& variants = field.set->candidates[candidate].variants;
   std::vector<double> evidence;
   for (std::size_t v = 0; v < variants.size(); ++v)
-    evidence.push_back(field.contrasts[candidate][v].dof == 0 ? -1e300 : log_bayes(*field.projected, variants[v].columns));
+    evidence.push_back(field.contrasts[candidate][v].dof == 0
+                           ? -1e300
+                           : log_bayes(*field.projected, variants[v].columns));
   const double top = *std::max_element(evidence.begin(), evidence.end());
   std::vector<std::size_t> found;
   for (std::size_t v = 0; v < variants.size(); ++v) {
@@ -103,12 +110,14 @@ std::vector<std::size_t> best_settings(const Field& field, std::size_t candidate
     const bool below_last = v > 0 && evidence[v - 1] >= evidence[v];
     if (!below_next && !below_last && evidence[v] >= top - nearly) found.push_back(v);
   }
-  std::stable_sort(found.begin(), found.end(), [&](std::size_t a, std::size_t b) { return evidence[a] > evidence[b]; });
+  std::stable_sort(found.begin(), found.end(),
+                   [&](std::size_t a, std::size_t b) { return evidence[a] > evidence[b]; });
   if (found.size() > most) found.resize(most);
   return found;
 }
 
-std::vector<int> columns_of(const Field& field, const std::vector<Choice>& choices, bool with_neighbours) {
+std::vector<int> columns_of(const Field& field, const std::vector<Choice>& choices,
+                            bool with_neighbours) {
   std::vector<int> columns;
   for (const Choice& choice : choices) {
     const Candidate& c = field.set->candidates[choice.candidate];
@@ -153,7 +162,8 @@ Remainder remainder(const Field& field, const std::vector<Choice>& choices, doub
     }
     return false;
   };
-  // Tails are dear: the largest T of each number of degrees is kept, and its tail taken when it grows.
+  // Tails are dear: the largest T of each number of degrees is kept, and its tail taken when it
+  // grows.
   std::size_t most = 1;
   for (const Candidate& c : field.set->candidates) most = std::max(most, c.params.size());
   std::vector<double> largest(most + 1, 0.0);
@@ -172,7 +182,8 @@ Remainder remainder(const Field& field, const std::vector<Choice>& choices, doub
     if (c.params.size() > 1 || own(c)) continue;
     for (std::size_t v = 0; v < c.variants.size(); ++v) {
       const int j = c.variants[v].columns[0];
-      if (field.contrasts[k][v].dof > 0 && left[j] > least_left * p.C(j, j) && left[j] > 0.1 * least_information &&
+      if (field.contrasts[k][v].dof > 0 && left[j] > least_left * p.C(j, j) &&
+          left[j] > 0.1 * least_information &&
           take(k, g[j] * g[j] / left[j] - field.discount_of(k), 1))
         return out;
     }
@@ -183,12 +194,14 @@ Remainder remainder(const Field& field, const std::vector<Choice>& choices, doub
     for (const Contrast& whole : field.contrasts[k]) {
       if (whole.dof == 0) continue;
       MatX cross_c(d.y.size(), whole.columns.size());
-      for (std::size_t j = 0; j < whole.columns.size(); ++j) cross_c.col(j) = cross.col(whole.columns[j]);
+      for (std::size_t j = 0; j < whole.columns.size(); ++j)
+        cross_c.col(j) = cross.col(whole.columns[j]);
       // In coordinates where the candidate had unit information.
       const MatX lost = cross_c * whole.W;
       const MatX rest = MatX::Identity(whole.dof, whole.dof) - lost.transpose() * lost;
       const Eigen::SelfAdjointEigenSolver<MatX> eigen(rest);
-      const VecX y = eigen.eigenvectors().transpose() * (whole.W.transpose() * elements(g, whole.columns));
+      const VecX y =
+          eigen.eigenvectors().transpose() * (whole.W.transpose() * elements(g, whole.columns));
       double T = 0.0;
       int dof = 0;
       for (Eigen::Index j = 0; j < y.size(); ++j)

@@ -19,9 +19,12 @@ double base_of(std::size_t param, const FilterSpec& nominal) {
 
 /// "magnetic_drift.y", "g2_drift (D_IS_x)": one parameter tells more than its term.
 std::string label_of(const Cause& c) {
-  const auto linear = std::ranges::count_if(c.parameters, [](const CauseParameter& p) { return !p.profiled; });
-  const std::string own = linear == 1 && !c.parameters.empty() && !c.parameters[0].key.starts_with(c.term)
-                              ? fmt::format(" ({})", c.parameters[0].key) : "";
+  const auto linear =
+      std::ranges::count_if(c.parameters, [](const CauseParameter& p) { return !p.profiled; });
+  const std::string own =
+      linear == 1 && !c.parameters.empty() && !c.parameters[0].key.starts_with(c.term)
+          ? fmt::format(" ({})", c.parameters[0].key)
+          : "";
   return fmt::format("{}{}{}{}", c.term, c.axis.empty() ? "" : ".", c.axis, own);
 }
 
@@ -32,9 +35,12 @@ Alternative alternative(std::vector<Cause> causes) {
   return a;
 }
 
-Alternative nothing() { return {"the nominal model", {}, {}, VecX()}; }
+Alternative nothing() {
+  return {"the nominal model", {}, {}, VecX()};
+}
 
-/// A cause that nobody has measured: each linear parameter one prior sigma from where it is nominally.
+/// A cause that nobody has measured: each linear parameter one prior sigma from where it is
+/// nominally.
 Cause cause_of(const Candidate& c, const Variant& variant, const FilterSpec& nominal) {
   Cause cause;
   cause.term = c.term;
@@ -45,13 +51,19 @@ Cause cause_of(const Candidate& c, const Variant& variant, const FilterSpec& nom
                                 std::string(spec.unit.symbol.view()), profiled});
   };
   for (const std::size_t i : c.params)
-    add(i, i == lambda ? 1.0 - base_of(i, nominal) : TermLibrary::specs[i].prior_si().mean() + TermLibrary::specs[i].prior_si().sigma(), false);
+    add(i,
+        i == lambda
+            ? 1.0 - base_of(i, nominal)
+            : TermLibrary::specs[i].prior_si().mean() + TermLibrary::specs[i].prior_si().sigma(),
+        false);
   for (const auto& [i, si] : variant.settings) add(i, si, true);
   return cause;
 }
 
 /// Time constants and the like of an effect that nobody has seen: from the middle of what is tried.
-const Variant& usual(const Candidate& c) { return c.variants[c.variants.size() / 2]; }
+const Variant& usual(const Candidate& c) {
+  return c.variants[c.variants.size() / 2];
+}
 
 /// Adds the two equations where the test is blind to lambda.
 void add_equations(const Diagnosis& d, Question& q) {
@@ -73,14 +85,17 @@ struct Wish {
 };
 
 /// Positions are planned at one temperature: what follows it stays unseen in any of them.
-bool needs_temperature(const std::string& term) { return TermLibrary::terms[*TermLibrary::find_term(term)].needs.temperature; }
+bool needs_temperature(const std::string& term) {
+  return TermLibrary::terms[*TermLibrary::find_term(term)].needs.temperature;
+}
 
 bool follows_temperature(const std::vector<Cause>& causes) {
   return std::ranges::any_of(causes, [](const Cause& c) { return needs_temperature(c.term); });
 }
 
 bool meant(const Candidate& c, const std::string& text) {
-  return c.term == text || c.term + "." + c.axis == text || TermLibrary::specs[c.params.front()].key.view() == text;
+  return c.term == text || c.term + "." + c.axis == text ||
+         TermLibrary::specs[c.params.front()].key.view() == text;
 }
 
 /// Why a wish cannot be granted.
@@ -89,20 +104,33 @@ std::string refusal(const std::string& text) {
   for (const TermInfo& t : TermLibrary::terms) known.push_back(t.key);
   const std::string term = text.substr(0, text.find('.'));
   const auto param = TermLibrary::find(text);
-  const auto number = param ? TermLibrary::find_term(TermLibrary::owner(*param).key) : TermLibrary::find_term(term);
+  const auto number =
+      param ? TermLibrary::find_term(TermLibrary::owner(*param).key) : TermLibrary::find_term(term);
   if (!number)
-    return fmt::format("advise: no term or parameter '{}' (expected a term such as magnetic_drift, an axis of it such as "
-                       "magnetic_drift.y, or a parameter such as M_y). {}", text,
-                       config::suggestion(term, known, "`driftscope terms` lists all"));
+    return fmt::format(
+        "advise: no term or parameter '{}' (expected a term such as magnetic_drift, an axis of it "
+        "such as "
+        "magnetic_drift.y, or a parameter such as M_y). {}",
+        text, config::suggestion(term, known, "`driftscope terms` lists all"));
   const TermInfo& t = TermLibrary::terms[*number];
   if (t.needs.temperature)
-    return fmt::format("advise: {} follows the temperature, and positions are planned at one temperature (expected a term that "
-                       "attitude, command or time shows). Let the temperature vary within the dwells and record it", text);
+    return fmt::format(
+        "advise: {} follows the temperature, and positions are planned at one temperature "
+        "(expected a term that "
+        "attitude, command or time shows). Let the temperature vary within the dwells and record "
+        "it",
+        text);
   if (t.needs.field)
-    return fmt::format("advise: {} needs the magnetic field, and neither the recording nor [environment] gives it (expected columns "
-                       "field_n, field_w, field_u). Record it: no position helps before", text);
-  return fmt::format("advise: nothing of {} can be asked for (expected a term that the nominal filter leaves out and that has an "
-                     "amplitude). `driftscope terms {}` explains it", text, t.key);
+    return fmt::format(
+        "advise: {} needs the magnetic field, and neither the recording nor [environment] gives it "
+        "(expected columns "
+        "field_n, field_w, field_u). Record it: no position helps before",
+        text);
+  return fmt::format(
+      "advise: nothing of {} can be asked for (expected a term that the nominal filter leaves out "
+      "and that has an "
+      "amplitude). `driftscope terms {}` explains it",
+      text, t.key);
 }
 
 Question all_against_all(std::vector<Alternative> all) {
@@ -149,7 +177,8 @@ Question hidden_question(const Diagnosis& d, const CandidateSet& set) {
   return q;
 }
 
-Question named_question(const Diagnosis& d, const CandidateSet& set, const std::vector<Rival>& rivals) {
+Question named_question(const Diagnosis& d, const CandidateSet& set,
+                        const std::vector<Rival>& rivals) {
   Question q;
   if (follows_temperature(d.causes)) return q;
   q.alternatives.push_back(alternative(d.causes));
@@ -164,13 +193,15 @@ Question named_question(const Diagnosis& d, const CandidateSet& set, const std::
   return q;
 }
 
-Question asked_question(const Diagnosis& d, const CandidateSet& set, const std::vector<std::string>& terms) {
+Question asked_question(const Diagnosis& d, const CandidateSet& set,
+                        const std::vector<std::string>& terms) {
   std::vector<Wish> wishes;
   std::vector<std::string> wrong;
   for (const std::string& text : terms) {
     Wish wish{text, {}};
     for (const Candidate& c : set.candidates)
-      if (c.params.size() == 1 && meant(c, text) && !needs_temperature(c.term)) wish.single.push_back(&c);
+      if (c.params.size() == 1 && meant(c, text) && !needs_temperature(c.term))
+        wish.single.push_back(&c);
     if (wish.single.empty()) wrong.push_back(refusal(text));
     wishes.push_back(std::move(wish));
   }
@@ -186,7 +217,8 @@ Question asked_question(const Diagnosis& d, const CandidateSet& set, const std::
       const Cause one = cause_of(*c, usual(*c), d.nominal);
       cause.term = one.term;
       for (const CauseParameter& p : one.parameters)
-        if (std::ranges::find(cause.parameters, p.param, &CauseParameter::param) == cause.parameters.end())
+        if (std::ranges::find(cause.parameters, p.param, &CauseParameter::param) ==
+            cause.parameters.end())
           cause.parameters.push_back(p);
     }
     whole.push_back(q.alternatives.size());
@@ -216,7 +248,8 @@ Question asked_question(const Diagnosis& d, const CandidateSet& set, const std::
   return q;
 }
 
-std::vector<SignatureSpec> number_signatures(std::vector<Alternative>& all, const FilterSpec& nominal, const Theta& theta) {
+std::vector<SignatureSpec> number_signatures(std::vector<Alternative>& all,
+                                             const FilterSpec& nominal, const Theta& theta) {
   std::vector<SignatureSpec> specs;
   for (Alternative& a : all) {
     std::vector<double> amplitude;
@@ -229,12 +262,14 @@ std::vector<SignatureSpec> number_signatures(std::vector<Alternative>& all, cons
         const ParamSpec& spec = TermLibrary::specs[p.param];
         const double sigma = spec.prior_si().sigma();
         amplitude.push_back((p.value * spec.unit.to_si - base_of(p.param, nominal)) / sigma);
-        const auto same = std::ranges::find_if(specs, [&](const SignatureSpec& s) { return s.param == p.param && s.theta == at; });
+        const auto same = std::ranges::find_if(
+            specs, [&](const SignatureSpec& s) { return s.param == p.param && s.theta == at; });
         a.columns.push_back(static_cast<int>(same - specs.begin()));
         if (same == specs.end()) specs.push_back({p.param, at, sigma});
       }
     }
-    a.amplitude = Eigen::Map<const VecX>(amplitude.data(), static_cast<Eigen::Index>(amplitude.size()));
+    a.amplitude =
+        Eigen::Map<const VecX>(amplitude.data(), static_cast<Eigen::Index>(amplitude.size()));
   }
   return specs;
 }

@@ -97,8 +97,10 @@ void fill_noise(const Examination& nominal, std::size_t spikes, Diagnosis& d) {
   f.significant = spikes > 0 || lowered > 0;
   f.p_value = f.significant ? 1e-4 : 1.0;  // beyond four sigma of what Gaussian noise gives
   d.noise.push_back(f);
-  d.remarks.push_back(fmt::format("{} isolated samples were left out and {} given less weight: their residuals are "
-                                  "larger than Gaussian noise gives.", spikes, lowered));
+  d.remarks.push_back(
+      fmt::format("{} isolated samples were left out and {} given less weight: their residuals are "
+                  "larger than Gaussian noise gives.",
+                  spikes, lowered));
 }
 
 void fill_causes(const Examination& nominal, const Search& found, Diagnosis& d) {
@@ -129,16 +131,22 @@ void fill_causes(const Examination& nominal, const Search& found, Diagnosis& d) 
         cause.T = std::max(cause.T, 2.0 * r.log_bayes);
         cause.dof = std::max(cause.dof, 1);
       }
-      cause.p_value = std::min(1.0, found.nulls.library.p_value(strength(cause.T, cause.dof)) / library_share);
+      cause.p_value =
+          std::min(1.0, found.nulls.library.p_value(strength(cause.T, cause.dof)) / library_share);
       const auto add = [&](std::size_t param, bool profiled) {
         const ParamSpec& spec = TermLibrary::specs[param];
-        CauseParameter out{std::string(spec.key.view()), param, 0.0, 0.0, std::string(spec.unit.symbol.view()), profiled};
+        CauseParameter out{std::string(spec.key.view()),         param,   0.0, 0.0,
+                           std::string(spec.unit.symbol.view()), profiled};
         if (const ParameterEstimate* e = r.after.fit.estimate.find(param)) {
           out.value = e->value / spec.unit.to_si;
           const double spread = profiled && spec.kind == ParamKind::nonlinear
-                                    ? setting_spread(nominal, r.choices, which, param, e->value) : 0.0;
+                                    ? setting_spread(nominal, r.choices, which, param, e->value)
+                                    : 0.0;
           out.sigma = std::max(e->sigma, spread) / spec.unit.to_si;
-          if (!profiled) cause.size_sigma = std::max(cause.size_sigma, std::abs(e->value - spec.prior_si().mean()) / spec.prior_si().sigma());
+          if (!profiled)
+            cause.size_sigma =
+                std::max(cause.size_sigma,
+                         std::abs(e->value - spec.prior_si().mean()) / spec.prior_si().sigma());
         } else {
           out.value = r.filter.priors[param].mean() / spec.unit.to_si;
         }
@@ -161,38 +169,52 @@ void fill_causes(const Examination& nominal, const Search& found, Diagnosis& d) 
     std::vector<Confusable> near;
     for (std::size_t k = 0; k < nominal.set.candidates.size(); ++k) {
       const Candidate& c = nominal.set.candidates[k];
-      if (nominal.scores[k].dof == 0 || (c.term == d.causes[i].term && (c.axis == d.causes[i].axis || c.axis.empty()))) continue;
+      if (nominal.scores[k].dof == 0 ||
+          (c.term == d.causes[i].term && (c.axis == d.causes[i].axis || c.axis.empty())))
+        continue;
       const double rho = cosine(p, columns[i], c.variants[nominal.scores[k].variant].columns);
       if (std::abs(rho) > 0.5) near.push_back({c.term, c.axis, rho});
     }
-    std::stable_sort(near.begin(), near.end(), [](const auto& a, const auto& b) { return std::abs(a.cosine) > std::abs(b.cosine); });
+    std::stable_sort(near.begin(), near.end(), [](const auto& a, const auto& b) {
+      return std::abs(a.cosine) > std::abs(b.cosine);
+    });
     for (const Confusable& c : near) {
       const auto same = [&](const Confusable& o) { return o.term == c.term && o.axis == c.axis; };
       auto& list = d.causes[i].confusable_with;
       if (list.size() < 5 && std::none_of(list.begin(), list.end(), same)) list.push_back(c);
     }
   }
-  // Candidates that are one direction on this plan, whatever the data; a wider one holds the cause anyway.
+  // Candidates that are one direction on this plan, whatever the data; a wider one holds the cause
+  // anyway.
   for (const Cause& cause : d.causes)
     for (const Confusable& c : cause.confusable_with)
       if (c.cosine * c.cosine > 0.999 && (cause.axis.empty() || !c.axis.empty()))
-        d.inseparable.push_back(fmt::format("{} and {} leave the same trace on this plan", in_words(cause.term, cause.axis),
+        d.inseparable.push_back(fmt::format("{} and {} leave the same trace on this plan",
+                                            in_words(cause.term, cause.axis),
                                             in_words(c.term, c.axis)));
   if (found.sets.empty() && nominal.lone.p_value < 0.01)
-    d.remarks.push_back(fmt::format("An unknown input of free form in {} alone would explain it (twice the log "
-                                    "likelihood better by {:.1f}).", nominal.lone.equation, nominal.lone.gain));
+    d.remarks.push_back(
+        fmt::format("An unknown input of free form in {} alone would explain it (twice the log "
+                    "likelihood better by {:.1f}).",
+                    nominal.lone.equation, nominal.lone.gain));
   for (const Cause& c : d.causes)
     if (c.term == "frame_closure")
-      d.remarks.push_back("Cross-talk between the torquing channels (taken as zero) moves lambda (frame_closure) as much "
-                          "as misalignment does in slews; only Earth rate and turns of the case tell them apart.");
+      d.remarks.push_back(
+          "Cross-talk between the torquing channels (taken as zero) moves lambda (frame_closure) "
+          "as much "
+          "as misalignment does in slews; only Earth rate and turns of the case tell them apart.");
 }
 
 bool noise_of_one_axis(const Examination& nominal, Diagnosis& d) {
   const NoiseModel& all = nominal.noise.model;
-  if (!nominal.noise.driven || all.angle_random_walk + all.drift_random_walk + all.markov_drift == 0.0) return false;
+  if (!nominal.noise.driven ||
+      all.angle_random_walk + all.drift_random_walk + all.markov_drift == 0.0)
+    return false;
   LinearProblem bare = nominal.problem;
   bare.extra.resize(bare.rows(), 0);
-  const auto value = [&](const NoiseModel& m) { return Projector(bare, m).candidates().log_likelihood2(); };
+  const auto value = [&](const NoiseModel& m) {
+    return Projector(bare, m).candidates().log_likelihood2();
+  };
   const double together = value(all);
   double best = 0.0;
   int axis = -1;
@@ -209,8 +231,10 @@ bool noise_of_one_axis(const Examination& nominal, Diagnosis& d) {
   if (best < one_axis_gain) return false;
   d.p_value = std::min(d.p_value, 12.0 * std::exp(-0.5 * best));
   d.where.equation = equation_name(Window::Equation::rate, axis);
-  d.remarks.push_back(fmt::format("What drives the platform acts on gyro {} alone: it is no noise that the gyros share "
-                                  "(twice the log likelihood better by {:.1f}).", "xyz"[axis], best));
+  d.remarks.push_back(fmt::format(
+      "What drives the platform acts on gyro {} alone: it is no noise that the gyros share "
+      "(twice the log likelihood better by {:.1f}).",
+      "xyz"[axis], best));
   return true;
 }
 

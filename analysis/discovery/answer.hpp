@@ -16,8 +16,8 @@ void fill_noise(const Examination& nominal, std::size_t spikes, Diagnosis& d);
 void fill_causes(const Examination& nominal, const Search& found, Diagnosis& d);
 
 /// Noise that drives all gyros alike is noise. Where one gyro alone explains the test decisively
-/// better (twice the log likelihood by 10), it is something that happens to this axis: true, and the
-/// equation and a p-value are put into `d`.
+/// better (twice the log likelihood by 10), it is something that happens to this axis: true, and
+/// the equation and a p-value are put into `d`.
 bool noise_of_one_axis(const Examination& nominal, Diagnosis& d);
 
 }  // namespace drift::discovery

@@ -19,11 +19,14 @@ std::string axis_of(const ParamSpec& spec) {
   return {};
 }
 
-bool is_amplitude(const ParamSpec& spec) { return spec.kind == ParamKind::linear && spec.prior.sigma() > 0.0; }
+bool is_amplitude(const ParamSpec& spec) {
+  return spec.kind == ParamKind::linear && spec.prior.sigma() > 0.0;
+}
 
 /// Whether the test carries what a term wants to see.
 bool can_be_seen(const TermInfo& term, const Timeline& timeline) {
-  return (!term.needs.temperature || timeline.has_temperature) && (!term.needs.field || timeline.has_field);
+  return (!term.needs.temperature || timeline.has_temperature) &&
+         (!term.needs.field || timeline.has_field);
 }
 
 using Settings = std::vector<std::pair<std::size_t, double>>;
@@ -48,16 +51,19 @@ std::vector<Settings> settings_of(const TermInfo& term, const FilterSpec& nomina
 /// The other parameters of a term that is not in the nominal model are at their defaults.
 Theta with_defaults(const TermInfo& term, const FilterSpec& nominal, Theta theta) {
   for (std::size_t i = term.first; i < term.first + term.count; ++i)
-    if (!nominal.active[i] && !is_amplitude(TermLibrary::specs[i])) theta[i] = TermLibrary::specs[i].prior_si().mean();
+    if (!nominal.active[i] && !is_amplitude(TermLibrary::specs[i]))
+      theta[i] = TermLibrary::specs[i].prior_si().mean();
   return theta;
 }
 
 /// Sets of parameters that may be missing together. whole: all of them, however many.
-std::vector<std::vector<std::size_t>> subsets_of(const std::vector<std::size_t>& missing, bool whole) {
+std::vector<std::vector<std::size_t>> subsets_of(const std::vector<std::size_t>& missing,
+                                                 bool whole) {
   constexpr std::size_t most = 9;  // parameters of one candidate
   std::vector<std::vector<std::size_t>> sets;
   const auto add = [&](const std::vector<std::size_t>& set) {
-    if (!set.empty() && set.size() <= most && std::find(sets.begin(), sets.end(), set) == sets.end())
+    if (!set.empty() && set.size() <= most &&
+        std::find(sets.begin(), sets.end(), set) == sets.end())
       sets.push_back(set);
   };
   std::map<std::string, std::vector<std::size_t>> axes, groups;
@@ -81,7 +87,8 @@ std::string common_axis(const std::vector<std::size_t>& params) {
   return first;
 }
 
-std::string label_of(const TermInfo& term, const std::vector<std::size_t>& set, std::size_t in_term) {
+std::string label_of(const TermInfo& term, const std::vector<std::size_t>& set,
+                     std::size_t in_term) {
   const std::string axis = common_axis(set);
   std::string label(term.key);
   if (!axis.empty()) label += "." + axis;
@@ -89,8 +96,11 @@ std::string label_of(const TermInfo& term, const std::vector<std::size_t>& set, 
   if (in_term > 3 && set.size() < in_term) {
     std::string_view group = TermLibrary::specs[set.front()].group.view();
     bool one_group = true;
-    for (const std::size_t i : set) one_group = one_group && TermLibrary::specs[i].group.view() == group;
-    if (one_group) label += fmt::format(" {}", set.size() == 1 ? TermLibrary::specs[set.front()].key.view() : group);
+    for (const std::size_t i : set)
+      one_group = one_group && TermLibrary::specs[i].group.view() == group;
+    if (one_group)
+      label +=
+          fmt::format(" {}", set.size() == 1 ? TermLibrary::specs[set.front()].key.view() : group);
   }
   return label;
 }
@@ -104,31 +114,36 @@ bool Candidate::contains(const Candidate& other) const {
          });
 }
 
-CandidateSet library_candidates(const FilterSpec& nominal, const Theta& theta, const Timeline& timeline) {
+CandidateSet library_candidates(const FilterSpec& nominal, const Theta& theta,
+                                const Timeline& timeline) {
   CandidateSet out;
   for (const TermInfo& term : TermLibrary::terms) {
     if (!can_be_seen(term, timeline)) continue;
     std::vector<std::size_t> missing;
     for (std::size_t i = term.first; i < term.first + term.count; ++i)
-      if (!(nominal.active[i] && nominal.priors[i].sigma() > 0.0) && is_amplitude(TermLibrary::specs[i]))
+      if (!(nominal.active[i] && nominal.priors[i].sigma() > 0.0) &&
+          is_amplitude(TermLibrary::specs[i]))
         missing.push_back(i);
     if (missing.empty()) continue;
     // The couplings that are no member of the lambda family have no lambda to add.
-    if (term.key == "frame_closure" && nominal.coupling != Coupling::eq5 && nominal.coupling != Coupling::eq6 &&
-        nominal.coupling != Coupling::lambda)
+    if (term.key == "frame_closure" && nominal.coupling != Coupling::eq5 &&
+        nominal.coupling != Coupling::eq6 && nominal.coupling != Coupling::lambda)
       continue;
     const auto settings = settings_of(term, nominal);
     const auto first = static_cast<int>(out.signatures.size());
     for (const Settings& s : settings)
       for (const std::size_t i : missing) {
-        SignatureSpec spec{i, with_defaults(term, nominal, theta), TermLibrary::specs[i].prior_si().sigma()};
+        SignatureSpec spec{i, with_defaults(term, nominal, theta),
+                           TermLibrary::specs[i].prior_si().sigma()};
         for (const auto& [param, value] : s) spec.theta[param] = value;
         out.signatures.push_back(spec);
       }
-    // A base term is left out by whoever does not know that it is needed: then all of it is missing.
+    // A base term is left out by whoever does not know that it is needed: then all of it is
+    // missing.
     const bool base = *TermLibrary::find_term(term.key) < *TermLibrary::find_term("frame_closure");
     for (const auto& set : subsets_of(missing, base)) {
-      Candidate c{std::string(term.key), common_axis(set), label_of(term, set, missing.size()), set, {}};
+      Candidate c{
+          std::string(term.key), common_axis(set), label_of(term, set, missing.size()), set, {}};
       for (std::size_t v = 0; v < settings.size(); ++v) {
         Variant variant{{}, settings[v]};
         for (const std::size_t i : set) {

@@ -34,7 +34,9 @@ inline double log_tail(double T, double dof) {
 }
 
 /// T of `dof` degrees as evidence on one scale: minus the log of its tail probability.
-inline double strength(double T, int dof) { return dof > 0 ? -log_tail(T, dof) : 0.0; }
+inline double strength(double T, int dof) {
+  return dof > 0 ? -log_tail(T, dof) : 0.0;
+}
 
 /// The T of `dof` degrees that has this strength; by bisection.
 inline double quantile_of_strength(double s, int dof) {

@@ -31,8 +31,10 @@ struct Selection {
 
 }  // namespace
 
-std::vector<std::size_t> choose_additions(const Information& start, const std::vector<Addition>& pool,
-                                          const std::vector<Information>& gains, const Told& told, const ChooseOptions& options) {
+std::vector<std::size_t> choose_additions(const Information& start,
+                                          const std::vector<Addition>& pool,
+                                          const std::vector<Information>& gains, const Told& told,
+                                          const ChooseOptions& options) {
   if (told.pairs.empty()) return {};
   const auto reached = [&](const Information& info) {
     Reached r{0.0, HUGE_VAL};
@@ -53,8 +55,10 @@ std::vector<std::size_t> choose_additions(const Information& start, const std::v
       std::size_t best = pool.size();
       double most = 0.0;
       for (std::size_t k = 0; k < pool.size(); ++k) {
-        const double gain = (values[k].part - made.reached.part) / std::pow(duration_of(pool[k]), thrift);
-        // Of those that bring as much (all that is wanted, often), the one that sets the closest farthest apart.
+        const double gain =
+            (values[k].part - made.reached.part) / std::pow(duration_of(pool[k]), thrift);
+        // Of those that bring as much (all that is wanted, often), the one that sets the closest
+        // farthest apart.
         const bool tie = best < pool.size() && std::abs(gain - most) <= 1e-9 * most;
         if (tie ? values[k].closest > values[best].closest : gain > most) {
           best = k;
@@ -71,8 +75,10 @@ std::vector<std::size_t> choose_additions(const Information& start, const std::v
   };
   const Selection thrifty = greedy(1.0), lavish = greedy(0.0);
   const auto there = [&](const Selection& s) { return s.reached.part >= all_there; };
-  // A margin that is cheap is taken: the diagnosis that follows knows the noise less well than this does.
-  const bool margin = lavish.reached.closest > 2.0 * thrifty.reached.closest && lavish.duration <= 2.0 * thrifty.duration;
+  // A margin that is cheap is taken: the diagnosis that follows knows the noise less well than this
+  // does.
+  const bool margin = lavish.reached.closest > 2.0 * thrifty.reached.closest &&
+                      lavish.duration <= 2.0 * thrifty.duration;
   const bool prefer = there(thrifty) && there(lavish) ? margin || lavish.duration < thrifty.duration
                                                       : lavish.reached.part > thrifty.reached.part;
   return prefer ? lavish.additions : thrifty.additions;

@@ -11,7 +11,8 @@ namespace {
 
 constexpr auto lambda = TermLibrary::index("lambda");
 
-/// The model with lambda held, fitted, and twice the log of its evidence (prior of lambda included).
+/// The model with lambda held, fitted, and twice the log of its evidence (prior of lambda
+/// included).
 struct Point {
   double lambda = 0.0;
   double log2 = 0.0;
@@ -22,7 +23,11 @@ class Profiler {
  public:
   Profiler(const FilterSpec& filter, const Test& test, const BatchResult& joint, const VecX& weight,
            const NoiseModel& noise)
-      : filter_(filter), test_(test), start_(theta_of(filter, joint)), weight_(weight), noise_(noise),
+      : filter_(filter),
+        test_(test),
+        start_(theta_of(filter, joint)),
+        weight_(weight),
+        noise_(noise),
         prior_(filter.priors[lambda]) {}
 
   std::vector<Point> at(const std::vector<double>& values) const {
@@ -54,8 +59,9 @@ class Profiler {
 
 }  // namespace
 
-std::optional<ClosureProfile> profile_closure(const FilterSpec& filter, const Test& test, const BatchResult& joint,
-                                              const VecX& weight, const NoiseModel& noise, double decisive) {
+std::optional<ClosureProfile> profile_closure(const FilterSpec& filter, const Test& test,
+                                              const BatchResult& joint, const VecX& weight,
+                                              const NoiseModel& noise, double decisive) {
   const ParameterEstimate* found = joint.estimate.find(lambda);
   if (found == nullptr) return std::nullopt;
   const Profiler profiler(filter, test, joint, weight, noise);
@@ -78,7 +84,9 @@ std::optional<ClosureProfile> profile_closure(const FilterSpec& filter, const Te
     const double width = points[k + 1].lambda - points[k].lambda;
     for (int i = 0; i < fine; ++i) {
       const double part = (i + 0.5) / fine, x = points[k].lambda + part * width;
-      const double p = std::exp(0.5 * ((1.0 - part) * points[k].log2 + part * points[k + 1].log2 - most)) * width / fine;
+      const double p =
+          std::exp(0.5 * ((1.0 - part) * points[k].log2 + part * points[k + 1].log2 - most)) *
+          width / fine;
       mass += p;
       first += p * x;
       second += p * x * x;

@@ -79,15 +79,17 @@ FitComparison compare(const Examination& nominal, const Refit* patched, int whit
   problem.extra = nominal.problem.extra(Eigen::all, columns);
   const Projector before(problem, after.noise.model);
   const auto per_row = [](const Projector& p) {
-    return p.candidates().chi2 / static_cast<double>(std::max<Eigen::Index>(1, p.candidates().rows));
+    return p.candidates().chi2 /
+           static_cast<double>(std::max<Eigen::Index>(1, p.candidates().rows));
   };
   c.whiteness.nis_per_dof_before = per_row(before);
   c.whiteness.nis_per_dof_after = per_row(*after.projector);
   c.whiteness.ljung_box_p_before = c.whiteness.ljung_box_p_after = std::nan("");
   if (whiteness_draws > 0) {
     c.whiteness.ljung_box_p_before = whiteness_p(problem, before, 10, whiteness_draws);
-    c.whiteness.ljung_box_p_after = patched ? whiteness_p(after.problem, *after.projector, 10, whiteness_draws)
-                                            : c.whiteness.ljung_box_p_before;
+    c.whiteness.ljung_box_p_after =
+        patched ? whiteness_p(after.problem, *after.projector, 10, whiteness_draws)
+                : c.whiteness.ljung_box_p_before;
   }
   c.residual_before = residuals(nominal.fit);
   c.residual_after = residuals(after.fit);

@@ -21,10 +21,12 @@ namespace drift::discovery {
 namespace {
 
 /// Isolated samples far from their neighbours, taken out of the measurements: a sample is compared
-/// with the median of the four around it in its channel and position. Where the instrument is noisier than
-/// declared (by more than the gate allows for), its own noise is the measure.
-std::size_t remove_spikes(Measurements& measured, const Timeline& timeline, const Readout& readout, const BatchResult& fit) {
-  constexpr double gate = 8.0;  // sigmas of the difference, noise up to 1.5 times as declared included
+/// with the median of the four around it in its channel and position. Where the instrument is
+/// noisier than declared (by more than the gate allows for), its own noise is the measure.
+std::size_t remove_spikes(Measurements& measured, const Timeline& timeline, const Readout& readout,
+                          const BatchResult& fit) {
+  constexpr double gate =
+      8.0;  // sigmas of the difference, noise up to 1.5 times as declared included
   constexpr double allowed = 1.5;
   constexpr int reach = 2;
   std::size_t removed = 0;
@@ -51,7 +53,8 @@ std::size_t remove_spikes(Measurements& measured, const Timeline& timeline, cons
       }
     if (all.empty()) return;
     const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
-    std::nth_element(all.begin(), middle, all.end(), [](const Difference& x, const Difference& y) { return x.size < y.size; });
+    std::nth_element(all.begin(), middle, all.end(),
+                     [](const Difference& x, const Difference& y) { return x.size < y.size; });
     constexpr double median_of_size = 0.6745 * 1.14;  // a normal against the median of four others
     const double noise = middle->size / median_of_size;
     const double limit = gate * (noise > allowed ? noise : 1.0);
@@ -67,38 +70,49 @@ std::size_t remove_spikes(Measurements& measured, const Timeline& timeline, cons
 }
 
 /// White noise as neighbouring samples differ, where the other of eq. (5) and (6) takes most of an
-/// evident misfit away: what looks like noise that drives the platform is the equation then, and the
-/// noise is estimated with that in the model. Empty otherwise.
-std::optional<NoiseEstimate> noise_beside_equation(const FilterSpec& nominal, const Test& test, const BatchResult& fit) {
+/// evident misfit away: what looks like noise that drives the platform is the equation then, and
+/// the noise is estimated with that in the model. Empty otherwise.
+std::optional<NoiseEstimate> noise_beside_equation(const FilterSpec& nominal, const Test& test,
+                                                   const BatchResult& fit) {
   constexpr double evident = 1.5, most = 0.8;  // chi-square per degree; part of its excess
   FilterSpec other = nominal;
-  if (nominal.coupling == Coupling::eq5) other.coupling = Coupling::eq6;
-  else if (nominal.coupling == Coupling::eq6) other.coupling = Coupling::eq5;
-  else return std::nullopt;
+  if (nominal.coupling == Coupling::eq5)
+    other.coupling = Coupling::eq6;
+  else if (nominal.coupling == Coupling::eq6)
+    other.coupling = Coupling::eq5;
+  else
+    return std::nullopt;
   const auto per_dof = [](const BatchResult& f) {
-    return f.estimate.statistic / static_cast<double>(std::max<std::size_t>(1, f.estimate.measured));
+    return f.estimate.statistic /
+           static_cast<double>(std::max<std::size_t>(1, f.estimate.measured));
   };
   if (per_dof(fit) < evident) return std::nullopt;
-  const BatchResult with_other = fit_batch(other, test.timeline, test.readout, test.measured, theta_of(nominal, fit));
+  const BatchResult with_other =
+      fit_batch(other, test.timeline, test.readout, test.measured, theta_of(nominal, fit));
   if (per_dof(fit) - per_dof(with_other) < most * (per_dof(fit) - 1.0)) return std::nullopt;
   const LinearProblem problem = linear_problem(nominal, test, fit, {});
   return noise_of_differences(problem, residual_of(problem, fit));
 }
 
 const std::vector<std::string> platform_channels{
-    "time",  "position",     "phase",         "acc_x",        "acc_y", "acc_z", "gimbal_outer",
-    "gimbal_middle", "gimbal_inner", "cmd_x", "cmd_y", "cmd_z", "case_heading", "loop_eta_x",
-    "loop_eta_y", "loop_eta_z", "loop_xi_x", "loop_xi_y", "loop_xi_z"};
+    "time",       "position",     "phase",         "acc_x",        "acc_y",
+    "acc_z",      "gimbal_outer", "gimbal_middle", "gimbal_inner", "cmd_x",
+    "cmd_y",      "cmd_z",        "case_heading",  "loop_eta_x",   "loop_eta_y",
+    "loop_eta_z", "loop_xi_x",    "loop_xi_y",     "loop_xi_z"};
 
 std::vector<Covariate> covariates_of(const std::vector<Recording>& recordings) {
   std::vector<Covariate> all;
   for (const Channel& c : recordings.front().channels) {
-    if (std::find(platform_channels.begin(), platform_channels.end(), c.name) != platform_channels.end()) continue;
+    if (std::find(platform_channels.begin(), platform_channels.end(), c.name) !=
+        platform_channels.end())
+      continue;
     Covariate v{c.name, {}};
     for (const Recording& r : recordings) {
       const Channel* other = r.find(c.name);
-      if (other) v.value.insert(v.value.end(), other->values.begin(), other->values.end());
-      else v.value.insert(v.value.end(), r.rows(), std::nan(""));
+      if (other)
+        v.value.insert(v.value.end(), other->values.begin(), other->values.end());
+      else
+        v.value.insert(v.value.end(), r.rows(), std::nan(""));
     }
     all.push_back(std::move(v));
   }
@@ -107,9 +121,9 @@ std::vector<Covariate> covariates_of(const std::vector<Recording>& recordings) {
 
 }  // namespace
 
-Diagnosis diagnose(const FilterSpec& nominal_filter, const Test& given, std::span<const Theta> starts,
-                   const std::vector<Covariate>& covariates, const DiagnoseOptions& options,
-                   const std::vector<std::size_t>& recording_ends) {
+Diagnosis diagnose(const FilterSpec& nominal_filter, const Test& given,
+                   std::span<const Theta> starts, const std::vector<Covariate>& covariates,
+                   const DiagnoseOptions& options, const std::vector<std::size_t>& recording_ends) {
   const mc::ThreadCount threads(options.threads);
   Diagnosis d;
   // Shares of the whole as they usually are; a diagnosis that finds nothing ends early.
@@ -132,8 +146,8 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const Test& given, std::spa
     spikes += more;
     fit = fit_from(theta_of(nominal_filter, fit));
   }
-  // Starts are of the nominal parameters; those of a cause are held at their values until the others
-  // have been fitted (with them they may make a narrow bent valley), then all are free.
+  // Starts are of the nominal parameters; those of a cause are held at their values until the
+  // others have been fitted (with them they may make a narrow bent valley), then all are free.
   const auto from_starts = [&](const FilterSpec& filter, const Theta& found) {
     return mc::run_campaign(starts.size(), [&](std::size_t k) {
       FilterSpec held = filter;
@@ -174,39 +188,54 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const Test& given, std::spa
   if (best) {
     std::vector<std::size_t> named;
     for (const Choice& c : best->choices) named.push_back(c.candidate);
-    d.fit.held_out = held_out(nominal, best->after, test, named, found.nulls.library_threshold,
-                              {options.folds, recording_ends,
-                               [&](std::size_t done, std::size_t total) { stages.step(done, total); }});
+    d.fit.held_out =
+        held_out(nominal, best->after, test, named, found.nulls.library_threshold,
+                 {options.folds, recording_ends,
+                  [&](std::size_t done, std::size_t total) { stages.step(done, total); }});
     d.patched = best->filter;
     d.has_patch = true;
   }
-  const auto member_gains = best && found.significant ? judge_members(nominal, test, *best, found.nulls) : std::vector<double>{};
+  const auto member_gains = best && found.significant
+                                ? judge_members(nominal, test, *best, found.nulls)
+                                : std::vector<double>{};
   stages.begin("locate", 0.06);
 
   d.verdict = Verdict::consistent;
   if (found.significant) {
     const bool one = found.sets.size() == 1;
-    const bool members = std::ranges::all_of(member_gains, [](double gain) { return gain >= least_held_out_gain; });
-    const bool judged = !options.named_needs_held_out || d.fit.held_out.folds.empty() || (d.fit.held_out.improves && members);
+    const bool members =
+        std::ranges::all_of(member_gains, [](double gain) { return gain >= least_held_out_gain; });
+    const bool judged = !options.named_needs_held_out || d.fit.held_out.folds.empty() ||
+                        (d.fit.held_out.improves && members);
     const bool nameable = !best || (best->nameable && !found.just_not);
-    d.verdict = !best ? Verdict::unexplained : one && judged && nameable ? Verdict::named : Verdict::ambiguous;
+    d.verdict = !best                       ? Verdict::unexplained
+                : one && judged && nameable ? Verdict::named
+                                            : Verdict::ambiguous;
     if (found.just_not)
-      d.remarks.push_back("With it in the model something is left that is just significant: chance, or not the whole story. It "
-                          "is listed, not named.");
+      d.remarks.push_back(
+          "With it in the model something is left that is just significant: chance, or not the "
+          "whole story. It "
+          "is listed, not named.");
     else if (one && !nameable)
-      d.remarks.push_back("Another drift equation explains it, but its weight lambda may still be the nominal one (3 sigma): it "
-                          "is listed, not named.");
+      d.remarks.push_back(
+          "Another drift equation explains it, but its weight lambda may still be the nominal one "
+          "(3 sigma): it "
+          "is listed, not named.");
     if (one && !judged && !members)
-      d.remarks.push_back("The causes fit together, but without one of them held-out positions are predicted no worse: it is "
-                          "not confirmed (held_out_gain of each cause in diagnosis.json).");
+      d.remarks.push_back(
+          "The causes fit together, but without one of them held-out positions are predicted no "
+          "worse: it is "
+          "not confirmed (held_out_gain of each cause in diagnosis.json).");
     else if (one && !judged)
-      d.remarks.push_back("The cause fits, but held-out positions are not predicted better with it. An effect that "
-                          "lives in one position cannot be confirmed by the others: repeat that position.");
+      d.remarks.push_back(
+          "The cause fits, but held-out positions are not predicted better with it. An effect that "
+          "lives in one position cannot be confirmed by the others: repeat that position.");
   } else if (noise_of_one_axis(nominal, d)) {
     d.verdict = Verdict::unexplained;
   }
   if (d.verdict != Verdict::consistent) fill_causes(nominal, found, d);
-  for (std::size_t k = 0; k < member_gains.size() && k < d.causes.size(); ++k) d.causes[k].held_out_gain = member_gains[k];
+  for (std::size_t k = 0; k < member_gains.size() && k < d.causes.size(); ++k)
+    d.causes[k].held_out_gain = member_gains[k];
   if (d.has_patch) d.patched = started_where_found(d.patched, d.causes);
   weigh_candidates(nominal, found, d);
   // What the cause explains, by the refit: what it takes out of the residuals.
@@ -214,7 +243,8 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const Test& given, std::spa
   shown.extra.resize(shown.rows(), best ? 1 : 0);
   std::vector<std::pair<int, double>> cause;
   if (best) {
-    shown.extra.col(0) = taken_out(nominal.problem, nominal_filter, nominal.fit, best->filter, best->after.fit);
+    shown.extra.col(0) =
+        taken_out(nominal.problem, nominal_filter, nominal.fit, best->filter, best->after.fit);
     cause.emplace_back(0, 1.0);
   }
   std::vector<InputEstimate> inputs;
@@ -245,7 +275,8 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const Test& given, std::spa
     else if (window)
       d.where.equation = equation_name(window->equation, window->axis);
   }
-  for (std::size_t k = 0; k < std::min<std::size_t>(2, inputs.size()) && d.verdict != Verdict::consistent; ++k)
+  for (std::size_t k = 0;
+       k < std::min<std::size_t>(2, inputs.size()) && d.verdict != Verdict::consistent; ++k)
     d.signals.push_back(recovered_signal(inputs[k], test.timeline, covariates, cause));
   stages.begin("starts", 0.07);
   if (best && !starts.empty()) {
@@ -263,10 +294,13 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const Test& given, std::spa
   return d;
 }
 
-Diagnosis diagnose(const Study& study, const std::vector<Recording>& recordings, const DiagnoseOptions& options) {
+Diagnosis diagnose(const Study& study, const std::vector<Recording>& recordings,
+                   const DiagnoseOptions& options) {
   if (study.filters.empty())
-    throw InputError(ExitCode::config, fmt::format("{}: no [[filter]]: nothing to compare the recording with. Add a "
-                                                   "section [[filter]] with name and coupling", study.path));
+    throw InputError(ExitCode::config,
+                     fmt::format("{}: no [[filter]]: nothing to compare the recording with. Add a "
+                                 "section [[filter]] with name and coupling",
+                                 study.path));
   const FilterSpec& filter = study.filters.front();
   const RecordedTest test = recorded_test(study, recordings);
   std::vector<Theta> starts;
@@ -275,7 +309,8 @@ Diagnosis diagnose(const Study& study, const std::vector<Recording>& recordings,
     drawn.starts.clear();
     starts.push_back(initial_estimate(drawn, study.monte_carlo.seed, static_cast<std::size_t>(k)));
   }
-  return diagnose(filter, {test.timeline, study.readout, test.measured}, starts, covariates_of(recordings), options, test.ends);
+  return diagnose(filter, {test.timeline, study.readout, test.measured}, starts,
+                  covariates_of(recordings), options, test.ends);
 }
 
 }  // namespace drift::discovery

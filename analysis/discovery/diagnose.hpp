@@ -15,19 +15,21 @@ namespace drift::discovery {
 struct DiagnoseOptions {
   SearchOptions search;
   FoldMethod folds = FoldMethod::refitted;
-  int starts = 3;            ///< fits for the start spread, prior mean and drawn; below 2: none
-  bool signals = true;       ///< recover the missing input as a time series
-  int whiteness_draws = 399; ///< of the null distribution of the whiteness test; 0: not tested
-  int threads = 0;           ///< 0: all; what is found does not depend on it
+  int starts = 3;             ///< fits for the start spread, prior mean and drawn; below 2: none
+  bool signals = true;        ///< recover the missing input as a time series
+  int whiteness_draws = 399;  ///< of the null distribution of the whiteness test; 0: not tested
+  int threads = 0;            ///< 0: all; what is found does not depend on it
   StageReport progress;
-  bool named_needs_held_out = true;  ///< a cause is named only if held-out positions are predicted better
+  bool named_needs_held_out =
+      true;  ///< a cause is named only if held-out positions are predicted better
 };
 
 /// Compares recordings with the study's first filter (the nominal model): is there missing physics,
 /// where, what, how large, and does putting it in predict positions it has not seen? Several
 /// recordings are taken as one test. A pure function of study and recordings.
 /// InputError (config) without a filter; InputError (recording) if nothing was measured.
-Diagnosis diagnose(const Study& study, const std::vector<Recording>& recordings, const DiagnoseOptions& options = {});
+Diagnosis diagnose(const Study& study, const std::vector<Recording>& recordings,
+                   const DiagnoseOptions& options = {});
 
 /// The same on a test that is laid out already. starts: initial estimates of the nominal filter
 /// beside its prior means. recording_ends: interval behind the last of each recording, if several.

@@ -6,9 +6,10 @@
 
 namespace drift::discovery {
 
-Evidence evidence_under(const LinearProblem& problem, const CandidateSet& set, const NoiseModel& noise,
-                        const std::vector<int>& with) {
-  const Eigen::Index m = problem.theta.cols(), n = m + static_cast<Eigen::Index>(with.size()), K = problem.extra.cols();
+Evidence evidence_under(const LinearProblem& problem, const CandidateSet& set,
+                        const NoiseModel& noise, const std::vector<int>& with) {
+  const Eigen::Index m = problem.theta.cols(), n = m + static_cast<Eigen::Index>(with.size()),
+                     K = problem.extra.cols();
   MatX all(problem.rows(), n + K + 1);
   all << problem.theta, problem.extra(Eigen::all, with), problem.extra, problem.r0;
   const Whitener whitener(problem, noise);

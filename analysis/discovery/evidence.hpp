@@ -10,7 +10,7 @@ namespace drift::discovery {
 /// A candidate in the mean under one noise: the variant that does best.
 struct Gain {
   std::size_t variant = 0;
-  double ratio = 0.0;   ///< twice the log likelihood gained by its amplitudes, g' (1 + C)^-1 g
+  double ratio = 0.0;  ///< twice the log likelihood gained by its amplitudes, g' (1 + C)^-1 g
   int dof = 1;
 };
 
@@ -21,7 +21,7 @@ struct Evidence {
   std::vector<Gain> gains;       ///< of every candidate
 };
 
-Evidence evidence_under(const LinearProblem& problem, const CandidateSet& set, const NoiseModel& noise,
-                        const std::vector<int>& with);
+Evidence evidence_under(const LinearProblem& problem, const CandidateSet& set,
+                        const NoiseModel& noise, const std::vector<int>& with);
 
 }  // namespace drift::discovery

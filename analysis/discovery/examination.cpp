@@ -33,7 +33,8 @@ void set_noise(Examination& e, const Timeline& timeline, const NoiseEstimate& no
   e.scans = scan_windows(e.problem, timeline, *e.projector);
   e.field = std::make_unique<Field>(e.set, e.projector->candidates(), e.scans);
   const double cost = cost_of_misalignments(e.filter, e.fit);
-  for (const Candidate& c : e.set.candidates) e.field->discount.push_back(c.term == "frame_closure" ? cost : 0.0);
+  for (const Candidate& c : e.set.candidates)
+    e.field->discount.push_back(c.term == "frame_closure" ? cost : 0.0);
   e.scores.clear();
   for (std::size_t k = 0; k < e.set.candidates.size(); ++k) e.scores.push_back(score(*e.field, k));
 }
@@ -54,12 +55,15 @@ Examination examine(const FilterSpec& filter, const Test& test, const BatchResul
   }
   const Projector first(e.problem, given ? given->model : declared);
   robust_weights(e.problem, first.clean_residual());
-  set_noise(e, test.timeline, given ? *given : estimate_noise(e.problem, declared, {}, driven ? 4 : 0));
+  set_noise(e, test.timeline,
+            given ? *given : estimate_noise(e.problem, declared, {}, driven ? 4 : 0));
   return e;
 }
 
-Examination examine(const FilterSpec& filter, const Test& test, const Theta& start, const NoiseEstimate* given) {
-  return examine(filter, test, fit_batch(filter, test.timeline, test.readout, test.measured, start), given);
+Examination examine(const FilterSpec& filter, const Test& test, const Theta& start,
+                    const NoiseEstimate* given) {
+  return examine(filter, test, fit_batch(filter, test.timeline, test.readout, test.measured, start),
+                 given);
 }
 
 Nulls make_nulls(const Examination& e, double alpha, int draws) {

@@ -18,8 +18,8 @@ struct Examination {
   std::unique_ptr<Projector> projector;
   std::vector<PositionScan> scans;
   std::unique_ptr<Field> field;
-  std::vector<Score> scores;   ///< of every candidate
-  LoneEffect lone;             ///< beside everything that is in the model; where it was asked for
+  std::vector<Score> scores;  ///< of every candidate
+  LoneEffect lone;            ///< beside everything that is in the model; where it was asked for
 
   double log_likelihood2() const { return projector->candidates().log_likelihood2(); }
 };

@@ -8,14 +8,17 @@
 namespace drift::discovery {
 namespace {
 
-constexpr double same_command = 1e-9;  // [rad/s]
+constexpr double same_command = 1e-9;      // [rad/s]
 constexpr std::size_t most_rows = 100000;  // that one gap may be filled with
 
-bool measured(const Channel& c) { return c.name.starts_with("acc_") || c.name.starts_with("gimbal_"); }
+bool measured(const Channel& c) {
+  return c.name.starts_with("acc_") || c.name.starts_with("gimbal_");
+}
 
 class Gaps {
  public:
-  Gaps(const Recording& r, double interval) : r_(r), time_(r.find("time")->values), interval_(interval) {}
+  Gaps(const Recording& r, double interval)
+      : r_(r), time_(r.find("time")->values), interval_(interval) {}
 
   /// Rows that are missing before `row` and can be put there.
   std::size_t before(std::size_t row) const {
@@ -51,15 +54,19 @@ void fill_gaps(Recording& recording, double interval, std::vector<std::string>& 
   }
   if (filled == 0) return;
   const std::size_t line = first < recording.lines.size() ? recording.lines[first] : first + 1;
-  remarks.push_back(fmt::format("{}: {} rows are missing within positions, in {} gap{}, the first before line {}: taken as not "
-                                "measured, the command as held", recording.source.empty() ? "recording" : recording.source, filled,
-                                count, count == 1 ? "" : "s", line));
+  remarks.push_back(
+      fmt::format("{}: {} rows are missing within positions, in {} gap{}, the first before line "
+                  "{}: taken as not "
+                  "measured, the command as held",
+                  recording.source.empty() ? "recording" : recording.source, filled, count,
+                  count == 1 ? "" : "s", line));
   const auto fill = [&](const auto& values, const auto& between) {
     std::decay_t<decltype(values)> out;
     out.reserve(values.size() + filled);
     for (std::size_t row = 0; row < values.size(); ++row) {
       for (std::size_t k = 1; k <= missing[row]; ++k)
-        out.push_back(between(values[row - 1], values[row], static_cast<double>(k) / static_cast<double>(missing[row] + 1)));
+        out.push_back(between(values[row - 1], values[row],
+                              static_cast<double>(k) / static_cast<double>(missing[row] + 1)));
       out.push_back(values[row]);
     }
     return out;

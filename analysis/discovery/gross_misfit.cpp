@@ -6,12 +6,13 @@
 
 namespace drift::discovery {
 
-bool grossly_wrong(const LinearProblem& problem, const VecX& residual, const NoiseEstimate& differences) {
+bool grossly_wrong(const LinearProblem& problem, const VecX& residual,
+                   const NoiseEstimate& differences) {
   constexpr double gross = 30.0;  // chi-square per row that no plausible noise gives
   double chi2 = 0.0;
   for (Eigen::Index k = 0; k < residual.size(); ++k) {
-    const double factor =
-        problem.tags[k].accelerometer() ? differences.model.acc_factor : differences.model.gimbal_factor;
+    const double factor = problem.tags[k].accelerometer() ? differences.model.acc_factor
+                                                          : differences.model.gimbal_factor;
     chi2 += residual[k] * residual[k] / (factor * factor);
   }
   return chi2 > gross * static_cast<double>(residual.size());
@@ -19,13 +20,15 @@ bool grossly_wrong(const LinearProblem& problem, const VecX& residual, const Noi
 
 namespace {
 
-/// Robust standard deviation of the residuals of one kind of instrument, at least 1: noise that is merely
-/// larger than declared makes no outliers. (Between 1 and 1.1 it is the scatter of the estimate.)
+/// Robust standard deviation of the residuals of one kind of instrument, at least 1: noise that is
+/// merely larger than declared makes no outliers. (Between 1 and 1.1 it is the scatter of the
+/// estimate.)
 double spread(const LinearProblem& problem, const VecX& residual, bool accelerometers) {
   constexpr double median_of_size = 0.6745;  // of a standard normal
   std::vector<double> sizes;
   for (Eigen::Index k = 0; k < residual.size(); ++k)
-    if (problem.tags[static_cast<std::size_t>(k)].accelerometer() == accelerometers) sizes.push_back(std::abs(residual[k]));
+    if (problem.tags[static_cast<std::size_t>(k)].accelerometer() == accelerometers)
+      sizes.push_back(std::abs(residual[k]));
   if (sizes.empty()) return 1.0;
   const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
   std::nth_element(sizes.begin(), middle, sizes.end());
@@ -45,7 +48,8 @@ std::size_t robust_weights(LinearProblem& problem, const VecX& whitened) {
   std::size_t far = 0;
   for (const double r : residual) far += std::abs(r) > 3.5;
   const double expected = 4.65e-4 * n;  // Gaussian
-  if (static_cast<double>(far) < expected + 4.0 * std::sqrt(expected) + 3.0 || static_cast<double>(far) > 0.02 * n)
+  if (static_cast<double>(far) < expected + 4.0 * std::sqrt(expected) + 3.0 ||
+      static_cast<double>(far) > 0.02 * n)
     return 0;
   std::size_t lowered = 0;
   for (Eigen::Index k = 0; k < residual.size(); ++k)

@@ -43,12 +43,15 @@ LinearProblem with_columns(const LinearProblem& problem, const std::vector<int>&
   const Eigen::Index n = problem.theta.cols();
   out.theta.resize(problem.rows(), n + static_cast<Eigen::Index>(columns.size()));
   out.theta.leftCols(n) = problem.theta;
-  for (std::size_t k = 0; k < columns.size(); ++k) out.theta.col(n + static_cast<Eigen::Index>(k)) = problem.extra.col(columns[k]);
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    out.theta.col(n + static_cast<Eigen::Index>(k)) = problem.extra.col(columns[k]);
   out.extra.resize(problem.rows(), 0);
   return out;
 }
 
-LinearProblem bare(const LinearProblem& problem) { return with_columns(problem, {}); }
+LinearProblem bare(const LinearProblem& problem) {
+  return with_columns(problem, {});
+}
 
 Projected marginal(const LinearProblem& problem, const NoiseModel& noise) {
   return Projector(problem, noise).candidates();
@@ -69,7 +72,9 @@ std::vector<Part> positions_of(const LinearProblem& problem) {
   std::vector<Part> parts;
   if (positions.size() < 2) return parts;
   for (const int p : positions) {
-    Part part{fmt::format("position {}", p + 1), {p + 1}, std::vector<bool>(problem.drives.size(), false)};
+    Part part{fmt::format("position {}", p + 1),
+              {p + 1},
+              std::vector<bool>(problem.drives.size(), false)};
     for (const RowTag& t : problem.tags)
       if (t.position == p) part.intervals[t.interval] = true;
     parts.push_back(std::move(part));
@@ -77,16 +82,19 @@ std::vector<Part> positions_of(const LinearProblem& problem) {
   return parts;
 }
 
-std::vector<Part> recordings_of(const LinearProblem& problem, const std::vector<std::size_t>& ends) {
+std::vector<Part> recordings_of(const LinearProblem& problem,
+                                const std::vector<std::size_t>& ends) {
   std::vector<Part> parts;
   if (ends.size() < 2) return parts;
   for (std::size_t r = 0; r < ends.size(); ++r) {
-    Part part{fmt::format("recording {}", r + 1), {}, std::vector<bool>(problem.drives.size(), false)};
+    Part part{
+        fmt::format("recording {}", r + 1), {}, std::vector<bool>(problem.drives.size(), false)};
     for (std::size_t i = r == 0 ? 0 : ends[r - 1]; i < ends[r]; ++i) part.intervals[i] = true;
     for (const RowTag& t : problem.tags)
       if (part.intervals[t.interval]) part.positions.push_back(t.position + 1);
     std::sort(part.positions.begin(), part.positions.end());
-    part.positions.erase(std::unique(part.positions.begin(), part.positions.end()), part.positions.end());
+    part.positions.erase(std::unique(part.positions.begin(), part.positions.end()),
+                         part.positions.end());
     if (!part.positions.empty()) parts.push_back(std::move(part));
   }
   return parts.size() < 2 ? std::vector<Part>{} : parts;
@@ -101,10 +109,19 @@ struct Outcome {
 class Folder {
  public:
   Folder(const Examination& nominal, const Examination& patched, const Test& test,
-         const std::vector<std::size_t>& named, double library_threshold, const FoldOptions& options)
-      : nominal_(nominal), patched_(patched), test_(test), named_(named), threshold_(library_threshold),
-        options_(options), noise_(patched.noise.model), before_(bare(nominal.problem)), after_(bare(patched.problem)),
-        all_before_(marginal(before_, noise_)), all_after_(marginal(after_, noise_)) {}
+         const std::vector<std::size_t>& named, double library_threshold,
+         const FoldOptions& options)
+      : nominal_(nominal),
+        patched_(patched),
+        test_(test),
+        named_(named),
+        threshold_(library_threshold),
+        options_(options),
+        noise_(patched.noise.model),
+        before_(bare(nominal.problem)),
+        after_(bare(patched.problem)),
+        all_before_(marginal(before_, noise_)),
+        all_after_(marginal(after_, noise_)) {}
 
   Outcome run(const Part& part) const {
     Outcome out;
@@ -112,12 +129,14 @@ class Folder {
     fold.name = part.name;
     fold.positions = part.positions;
     const bool linear = options_.method == FoldMethod::linear;
-    const Prediction conditioned = prediction(all_before_, marginal(without_intervals(before_, part.intervals), noise_));
+    const Prediction conditioned =
+        prediction(all_before_, marginal(without_intervals(before_, part.intervals), noise_));
     Prediction p = linear ? conditioned : refitted(nominal_, part);
     // A model that is grossly wrong may run away without the part: then as the whole fit has it.
     if (!std::isfinite(p.log_score)) p = conditioned;
-    const Prediction q = linear ? prediction(all_after_, marginal(without_intervals(after_, part.intervals), noise_))
-                                : refitted(patched_, part);
+    const Prediction q =
+        linear ? prediction(all_after_, marginal(without_intervals(after_, part.intervals), noise_))
+               : refitted(patched_, part);
     fold.dof = p.rows;
     fold.chi2_before = p.chi2;
     fold.chi2_after = q.chi2;
@@ -132,16 +151,20 @@ class Folder {
   Prediction refitted(const Examination& e, const Part& part) const {
     const Measurements rest = without_intervals(test_.measured, part.intervals);
     // Near the whole fit: a step of a hundredth of a sigma is as good as none.
-    BatchResult fit = fit_batch(e.filter, test_.timeline, test_.readout, rest, theta_of(e.filter, e.fit), {.tolerance = 1e-2});
-    // Attitudes of which the fit has seen nothing: linearised where they are, their prior unchanged.
+    BatchResult fit = fit_batch(e.filter, test_.timeline, test_.readout, rest,
+                                theta_of(e.filter, e.fit), {.tolerance = 1e-2});
+    // Attitudes of which the fit has seen nothing: linearised where they are, their prior
+    // unchanged.
     std::vector<bool> seen(fit.psi0_l.size(), false);
     for (const RowTag& t : e.problem.tags)
-      if (!part.intervals[t.interval]) seen[static_cast<std::size_t>(e.problem.drives[t.interval].chain)] = true;
+      if (!part.intervals[t.interval])
+        seen[static_cast<std::size_t>(e.problem.drives[t.interval].chain)] = true;
     for (std::size_t c = 0; c < seen.size(); ++c)
       if (!seen[c]) fit.psi0_l[c] = e.fit.psi0_l[c];
     LinearProblem problem = linear_problem(e.filter, test_, fit, {});
     problem.weight = e.problem.weight;
-    return prediction(marginal(problem, noise_), marginal(without_intervals(problem, part.intervals), noise_));
+    return prediction(marginal(problem, noise_),
+                      marginal(without_intervals(problem, part.intervals), noise_));
   }
 
   /// The choice again, without having seen this part, and what it gains.
@@ -162,14 +185,18 @@ class Folder {
       best = k;
       choice = {k, s.variant};
     }
-    out.fold.same_choice = significant && std::any_of(named_.begin(), named_.end(), [&](std::size_t k) {
-      const Candidate &a = nominal_.set.candidates[k], &b = nominal_.set.candidates[best];
-      return a.term == b.term && (a.params == b.params || a.contains(b) || b.contains(a));
-    });
+    out.fold.same_choice =
+        significant && std::any_of(named_.begin(), named_.end(), [&](std::size_t k) {
+          const Candidate &a = nominal_.set.candidates[k], &b = nominal_.set.candidates[best];
+          return a.term == b.term && (a.params == b.params || a.contains(b) || b.contains(a));
+        });
     if (!significant) return;
-    const auto& columns = nominal_.set.candidates[choice.candidate].variants[choice.variant].columns;
+    const auto& columns =
+        nominal_.set.candidates[choice.candidate].variants[choice.variant].columns;
     const LinearProblem chosen = with_columns(nominal_.problem, columns);
-    out.nested_gain = prediction(marginal(chosen, noise_), marginal(without_intervals(chosen, part.intervals), noise_)).log_score -
+    out.nested_gain = prediction(marginal(chosen, noise_),
+                                 marginal(without_intervals(chosen, part.intervals), noise_))
+                          .log_score -
                       nominal.log_score;
   }
 
@@ -178,8 +205,8 @@ class Folder {
   const std::vector<std::size_t>& named_;
   double threshold_;
   const FoldOptions& options_;
-  // One noise for both, else the one that doubts its instruments more would be favoured: the patched
-  // model's, which has no misfit in it.
+  // One noise for both, else the one that doubts its instruments more would be favoured: the
+  // patched model's, which has no misfit in it.
   const NoiseModel& noise_;
   LinearProblem before_, after_;
   Projected all_before_, all_after_;
@@ -193,8 +220,10 @@ double held_out_gain(const Examination& before, const Examination& after) {
   const Projected all_with = marginal(with, noise), all_without = marginal(without, noise);
   const std::vector<Part> parts = positions_of(without);
   const auto gains = mc::run_campaign(parts.size(), [&](std::size_t k) {
-    return prediction(all_with, marginal(without_intervals(with, parts[k].intervals), noise)).log_score -
-           prediction(all_without, marginal(without_intervals(without, parts[k].intervals), noise)).log_score;
+    return prediction(all_with, marginal(without_intervals(with, parts[k].intervals), noise))
+               .log_score -
+           prediction(all_without, marginal(without_intervals(without, parts[k].intervals), noise))
+               .log_score;
   });
   return std::accumulate(gains.begin(), gains.end(), 0.0);
 }
@@ -221,19 +250,23 @@ Measurements without_intervals(const Measurements& measured, const std::vector<b
   Measurements out = measured;
   for (std::size_t i = 0; i < left_out.size(); ++i)
     if (left_out[i]) {
-      out.acc.col(static_cast<Eigen::Index>(i)).setConstant(std::numeric_limits<double>::quiet_NaN());
-      out.gimbal.col(static_cast<Eigen::Index>(i)).setConstant(std::numeric_limits<double>::quiet_NaN());
+      out.acc.col(static_cast<Eigen::Index>(i))
+          .setConstant(std::numeric_limits<double>::quiet_NaN());
+      out.gimbal.col(static_cast<Eigen::Index>(i))
+          .setConstant(std::numeric_limits<double>::quiet_NaN());
     }
   return out;
 }
 
 HeldOut held_out(const Examination& nominal, const Examination& patched, const Test& test,
-                 const std::vector<std::size_t>& named, double library_threshold, const FoldOptions& options) {
+                 const std::vector<std::size_t>& named, double library_threshold,
+                 const FoldOptions& options) {
   HeldOut out;
   out.method = options.method == FoldMethod::linear ? "linear" : "refitted";
   std::vector<Part> parts = positions_of(nominal.problem);
   const std::size_t positions = parts.size();
-  for (Part& p : recordings_of(nominal.problem, options.recording_ends)) parts.push_back(std::move(p));
+  for (Part& p : recordings_of(nominal.problem, options.recording_ends))
+    parts.push_back(std::move(p));
   if (parts.empty()) return out;
   const Folder folder(nominal, patched, test, named, library_threshold, options);
   std::atomic<std::size_t> done{0};
@@ -275,13 +308,18 @@ HeldOut held_out(const Examination& nominal, const Examination& patched, const T
     out.chi2_per_dof_before = chi2_before / rows;
     out.chi2_per_dof_after = chi2_after / rows;
     const double n = static_cast<double>(out.folds.size()), mean = out.log_score_gain / n;
-    if (n > 1.0) out.log_score_gain_sigma = std::sqrt(std::max(0.0, (square / n - mean * mean) * n * n / (n - 1.0)));
+    if (n > 1.0)
+      out.log_score_gain_sigma =
+          std::sqrt(std::max(0.0, (square / n - mean * mean) * n * n / (n - 1.0)));
   }
   if (whole_rows > 0.0) {
     out.recording_chi2_per_dof_before = whole_before / whole_rows;
     out.recording_chi2_per_dof_after = whole_after / whole_rows;
   }
-  out.improves = !(out.folds.empty() && out.recordings.empty()) && (out.folds.empty() || out.log_score_gain > least_held_out_gain || (beyond > 0 && out.log_score_gain >= 0.0)) && (out.recordings.empty() || out.recording_gain > 0.0);
+  out.improves = !(out.folds.empty() && out.recordings.empty()) &&
+                 (out.folds.empty() || out.log_score_gain > least_held_out_gain ||
+                  (beyond > 0 && out.log_score_gain >= 0.0)) &&
+                 (out.recordings.empty() || out.recording_gain > 0.0);
   return out;
 }
 

@@ -4,7 +4,8 @@
 
 namespace drift::discovery {
 
-std::vector<double> judge_members(const Examination& nominal, const Test& test, const Refit& best, const Nulls& nulls) {
+std::vector<double> judge_members(const Examination& nominal, const Test& test, const Refit& best,
+                                  const Nulls& nulls) {
   std::vector<double> gains;
   if (best.choices.size() < 2) return gains;
   for (std::size_t k = 0; k < best.choices.size(); ++k) {

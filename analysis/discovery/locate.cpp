@@ -7,8 +7,8 @@
 namespace drift::discovery {
 namespace {
 
-constexpr const char* channel_names[num_channels] = {"acc_x",        "acc_y",         "acc_z",
-                                                     "gimbal_outer", "gimbal_middle", "gimbal_inner"};
+constexpr const char* channel_names[num_channels] = {
+    "acc_x", "acc_y", "acc_z", "gimbal_outer", "gimbal_middle", "gimbal_inner"};
 
 /// Sums over the rows of one channel, position or cell.
 struct Sum {
@@ -40,7 +40,8 @@ double positive_total(const auto& sums) {
 }
 
 void sort_by_share(std::vector<Share>& shares) {
-  std::stable_sort(shares.begin(), shares.end(), [](const Share& a, const Share& b) { return a.share > b.share; });
+  std::stable_sort(shares.begin(), shares.end(),
+                   [](const Share& a, const Share& b) { return a.share > b.share; });
 }
 
 }  // namespace
@@ -67,7 +68,8 @@ VecX signature_of(const Projector& projector, const std::vector<std::pair<int, d
   return projector.clean_extra(columns) * amplitude;
 }
 
-VecX signature_of(const LinearProblem& problem, const Timeline& timeline, const Projector& projector, const Window& window) {
+VecX signature_of(const LinearProblem& problem, const Timeline& timeline,
+                  const Projector& projector, const Window& window) {
   LinearProblem one = problem;
   one.extra.resize(problem.rows(), 1);
   one.extra.col(0) = window_signature(problem, timeline, window, 0, problem.rows());
@@ -80,10 +82,12 @@ VecX signature_of(const LinearProblem& problem, const Timeline& timeline, const 
   const Whitener* w = projector.whitener();
   const Projector with(projector.theta(), w ? w->apply(one.extra) : one.extra, projector.r0(), 0.0);
   const Projected& p = with.candidates();
-  return p.C(0, 0) > 0.0 ? VecX(with.clean_extra({0}) * (p.g[0] / p.C(0, 0))) : VecX::Zero(problem.rows());
+  return p.C(0, 0) > 0.0 ? VecX(with.clean_extra({0}) * (p.g[0] / p.C(0, 0)))
+                         : VecX::Zero(problem.rows());
 }
 
-Where locate(const Examination& e, const Nulls& nulls, const VecX& signature, std::size_t most_windows) {
+Where locate(const Examination& e, const Nulls& nulls, const VecX& signature,
+             std::size_t most_windows) {
   Where out;
   out.channel_names.assign(std::begin(channel_names), std::end(channel_names));
   const VecX residual = e.projector->clean_residual();
@@ -107,7 +111,8 @@ Where locate(const Examination& e, const Nulls& nulls, const VecX& signature, st
   }
   total = positive_total(cells);
   for (const auto& [cell, s] : cells)
-    out.heat.push_back({cell.first + 1, cell.second, total > 0.0 ? s.product / total : 0.0, s.chi2_per_dof()});
+    out.heat.push_back(
+        {cell.first + 1, cell.second, total > 0.0 ? s.product / total : 0.0, s.chi2_per_dof()});
   sort_by_share(out.channels);
   sort_by_share(out.positions);
 
@@ -130,11 +135,13 @@ Where locate(const Examination& e, const Nulls& nulls, const VecX& signature, st
       hit.p_value = nulls.scan.p_value(s);
       hits.push_back(hit);
     }
-  std::stable_sort(hits.begin(), hits.end(), [](const ScanHit& a, const ScanHit& b) { return a.T > b.T; });
+  std::stable_sort(hits.begin(), hits.end(),
+                   [](const ScanHit& a, const ScanHit& b) { return a.T > b.T; });
   for (const ScanHit& h : hits) {
-    const bool overlaps = std::any_of(out.windows.begin(), out.windows.end(), [&](const ScanHit& o) {
-      return o.position == h.position && o.start_s < h.end_s && h.start_s < o.end_s;
-    });
+    const bool overlaps =
+        std::any_of(out.windows.begin(), out.windows.end(), [&](const ScanHit& o) {
+          return o.position == h.position && o.start_s < h.end_s && h.start_s < o.end_s;
+        });
     if (!overlaps && out.windows.size() < most_windows) out.windows.push_back(h);
   }
   double strongest = 0.0;

@@ -27,7 +27,8 @@ std::vector<Kind> kinds_of(const LinearProblem& problem) {
                         {Equation::rate, 900.0, 1e-3 * deg_per_h},
                         {Equation::rate, 3600.0, 1e-3 * deg_per_h}};
   const auto read = [&](bool accelerometer) {
-    return std::any_of(problem.tags.begin(), problem.tags.end(), [&](auto& t) { return t.accelerometer() == accelerometer; });
+    return std::any_of(problem.tags.begin(), problem.tags.end(),
+                       [&](auto& t) { return t.accelerometer() == accelerometer; });
   };
   for (const double tau : {300.0, 1800.0}) {
     if (read(true)) all.push_back({Equation::accelerometer, tau, 0.05 * problem.acc_sigma});
@@ -44,7 +45,8 @@ Window::Equation of_window(Equation e) {
 
 }  // namespace
 
-LoneEffect strongest_lone_input(const LinearProblem& problem, const NoiseModel& noise, const std::vector<int>& with) {
+LoneEffect strongest_lone_input(const LinearProblem& problem, const NoiseModel& noise,
+                                const std::vector<int>& with) {
   LinearProblem bare = problem;
   const Eigen::Index n = problem.theta.cols();
   bare.extra.resize(problem.rows(), 0);
@@ -80,7 +82,8 @@ LoneEffect strongest_lone_input(const LinearProblem& problem, const NoiseModel& 
     input.sigma *= factor;
     if (const double gain = value(input) - base; gain > best.gain) best = {input, gain, 1.0, {}};
   }
-  best.p_value = std::min(1.0, 0.5 * static_cast<double>(tries) * std::exp(log_tail(best.gain, 1.0)));
+  best.p_value =
+      std::min(1.0, 0.5 * static_cast<double>(tries) * std::exp(log_tail(best.gain, 1.0)));
   best.equation = equation_name(of_window(best.input.equation), best.input.axis);
   return best;
 }

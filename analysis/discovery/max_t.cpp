@@ -9,7 +9,8 @@
 namespace drift::discovery {
 namespace {
 
-constexpr std::uint64_t null_seed = 20230517;  // any number: fixed, so that a diagnosis is repeatable
+constexpr std::uint64_t null_seed =
+    20230517;  // any number: fixed, so that a diagnosis is repeatable
 
 MatX columns_of(const MatX& C, const std::vector<int>& columns) {
   MatX part(columns.size(), columns.size());
@@ -43,7 +44,8 @@ Contrast make_contrast(const MatX& C, const VecX& raw, const std::vector<int>& c
   return out;
 }
 
-MaxNull::MaxNull(const MatX& C, const std::vector<Contrast>& contrasts, int draws, std::uint64_t stream) {
+MaxNull::MaxNull(const MatX& C, const std::vector<Contrast>& contrasts, int draws,
+                 std::uint64_t stream) {
   // Only columns that some contrast uses.
   std::vector<int> used;
   for (const Contrast& c : contrasts)
@@ -72,7 +74,8 @@ MaxNull::MaxNull(const MatX& C, const std::vector<Contrast>& contrasts, int draw
 
 MatX MaxNull::draw(const MatX& C, int draws, std::uint64_t stream) {
   const Eigen::SelfAdjointEigenSolver<MatX> eigen(C);
-  const MatX root = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  const MatX root =
+      eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
   MatX z(draws, C.cols());
   Stream random(null_seed, stream, Purpose::design);
   for (Eigen::Index k = 0; k < z.size(); ++k) z.data()[k] = random.normal();
@@ -136,7 +139,9 @@ double MaxNull::log_p(double s) const {
   return std::min(tail, std::log(-std::expm1(-std::exp(std::min(tail, 3.0)))));
 }
 
-double MaxNull::p_value(double s) const { return std::exp(log_p(s)); }
+double MaxNull::p_value(double s) const {
+  return std::exp(log_p(s));
+}
 
 double MaxNull::threshold(double alpha) const {
   if (maxima_.empty() && parts_.empty()) return 0.0;

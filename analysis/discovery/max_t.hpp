@@ -10,7 +10,7 @@ namespace drift::discovery {
 /// What a test statistic needs of a set of columns: T = |W' g|^2 of `dof` degrees.
 struct Contrast {
   std::vector<int> columns;
-  MatX W;       ///< shape (columns, dof): C^-1/2 on what is observable of them
+  MatX W;  ///< shape (columns, dof): C^-1/2 on what is observable of them
   int dof = 0;
   double T(const VecX& g) const;
 };
@@ -19,7 +19,8 @@ struct Contrast {
 /// would have to be some forty prior sigmas large to be found.
 inline constexpr double least_information = 1e-2;
 
-/// Directions of `columns` whose information is above least_information and above `raw` by rounding.
+/// Directions of `columns` whose information is above least_information and above `raw` by
+/// rounding.
 Contrast make_contrast(const MatX& C, const VecX& raw, const std::vector<int>& columns);
 
 /// Distribution of the largest strength of many contrasts under the null, g ~ N(0, C)
@@ -46,9 +47,9 @@ class MaxNull {
   double log_p(double strength) const;
 
  private:
-  std::vector<double> maxima_;            ///< ascending; of a single family
+  std::vector<double> maxima_;              ///< ascending; of a single family
   std::vector<std::vector<double>> parts_;  ///< of joined families
-  double log_tests_ = -1e300;             ///< log of the effective number of tests
+  double log_tests_ = -1e300;               ///< log of the effective number of tests
   double single_p(const std::vector<double>& maxima, double strength) const;
   void calibrate();
 };

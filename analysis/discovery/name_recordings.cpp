@@ -28,13 +28,15 @@ void name_recordings(const Study& study, const std::vector<Recording>& recording
   const auto names = names_of(recordings);
   std::size_t first = 0;
   for (std::size_t k = 0; k < recordings.size(); ++k) {
-    const Interval &begin = test.timeline.intervals[first], &end = test.timeline.intervals[test.ends[k] - 1];
+    const Interval &begin = test.timeline.intervals[first],
+                   &end = test.timeline.intervals[test.ends[k] - 1];
     const Channel* time = recordings[k].find("time");
     const double own = time && !time->values.empty() ? time->values.front() : begin.t1;
     d.where.recordings.push_back({names[k], begin.t0, end.t1, begin.t1 - own});
     first = test.ends[k];
     for (Fold& fold : d.fit.held_out.recordings)
-      if (fold.name == fmt::format("recording {}", k + 1)) fold.name = fmt::format("recording {}, {}", k + 1, names[k]);
+      if (fold.name == fmt::format("recording {}", k + 1))
+        fold.name = fmt::format("recording {}, {}", k + 1, names[k]);
   }
 }
 

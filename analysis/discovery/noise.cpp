@@ -13,30 +13,41 @@
 namespace drift::discovery {
 namespace {
 
-constexpr double needed_gain = 2.7;       // of twice the log likelihood: a component comes in
-constexpr double significant_gain = 12.0; // eight alternatives, one in a thousand
+constexpr double needed_gain = 2.7;        // of twice the log likelihood: a component comes in
+constexpr double significant_gain = 12.0;  // eight alternatives, one in a thousand
 constexpr double deg_per_h = detail::deg / 3600.0;  // [rad/s]
 
 /// One standard deviation of the noise model.
 struct Component {
   const char* name;
-  double NoiseModel::* sigma;
-  double NoiseModel::* tau;    ///< null if it has none
-  double reference;            ///< a size at which it may begin to matter, SI
+  double NoiseModel::*sigma;
+  double NoiseModel::*tau;  ///< null if it has none
+  double reference;         ///< a size at which it may begin to matter, SI
   const char* unit;
-  double to_unit;              ///< SI per unit
+  double to_unit;  ///< SI per unit
 };
 
-constexpr Component acc_white{"accelerometer_white", &NoiseModel::acc_factor, nullptr, 1.0, "1", 1.0};
-constexpr Component gimbal_white{"gimbal_white", &NoiseModel::gimbal_factor, nullptr, 1.0, "1", 1.0};
-const Component angle_walk{"angle_random_walk", &NoiseModel::angle_random_walk, nullptr,
-                           1e-3 * detail::deg / 60.0, "deg/sqrt(h)", detail::deg / 60.0};
-const Component drift_walk{"drift_random_walk", &NoiseModel::drift_random_walk, nullptr,
-                           3e-3 * deg_per_h / 60.0, "deg/h/sqrt(h)", deg_per_h / 60.0};
-const Component markov{"markov_drift", &NoiseModel::markov_drift, &NoiseModel::markov_tau,
-                       3e-3 * deg_per_h, "deg/h", deg_per_h};
-const Component acc_markov{"accelerometer_markov", &NoiseModel::acc_markov, &NoiseModel::acc_tau,
-                           2e-6, "ug", 1e-6};
+constexpr Component acc_white{
+    "accelerometer_white", &NoiseModel::acc_factor, nullptr, 1.0, "1", 1.0};
+constexpr Component gimbal_white{
+    "gimbal_white", &NoiseModel::gimbal_factor, nullptr, 1.0, "1", 1.0};
+const Component angle_walk{"angle_random_walk",
+                           &NoiseModel::angle_random_walk,
+                           nullptr,
+                           1e-3 * detail::deg / 60.0,
+                           "deg/sqrt(h)",
+                           detail::deg / 60.0};
+const Component drift_walk{"drift_random_walk",
+                           &NoiseModel::drift_random_walk,
+                           nullptr,
+                           3e-3 * deg_per_h / 60.0,
+                           "deg/h/sqrt(h)",
+                           deg_per_h / 60.0};
+const Component markov{
+    "markov_drift", &NoiseModel::markov_drift, &NoiseModel::markov_tau, 3e-3 * deg_per_h, "deg/h",
+    deg_per_h};
+const Component acc_markov{
+    "accelerometer_markov", &NoiseModel::acc_markov, &NoiseModel::acc_tau, 2e-6, "ug", 1e-6};
 
 /// Restricted likelihood as a function of the noise.
 class Likelihood {
@@ -45,7 +56,8 @@ class Likelihood {
     const Eigen::Index n = problem.theta.cols();
     problem_.extra.resize(problem.rows(), 0);
     problem_.theta.conservativeResize(Eigen::NoChange, n + with.size());
-    for (std::size_t k = 0; k < with.size(); ++k) problem_.theta.col(n + k) = problem.extra.col(with[k]);
+    for (std::size_t k = 0; k < with.size(); ++k)
+      problem_.theta.col(n + k) = problem.extra.col(with[k]);
   }
   double operator()(const NoiseModel& m) const {
     const double v = Projector(problem_, m).candidates().log_likelihood2();
@@ -56,7 +68,8 @@ class Likelihood {
   LinearProblem problem_;
 };
 
-NoiseModel at(const NoiseModel& base, const std::vector<const Component*>& active, const VecX& log_sigma) {
+NoiseModel at(const NoiseModel& base, const std::vector<const Component*>& active,
+              const VecX& log_sigma) {
   NoiseModel m = base;
   for (std::size_t k = 0; k < active.size(); ++k) m.*(active[k]->sigma) = std::exp(log_sigma[k]);
   return m;
@@ -105,7 +118,8 @@ Ascent ascend(const Likelihood& likelihood, const NoiseModel& base,
     const double sy = step.dot(y);
     if (sy > 1e-12) {
       const MatX I = MatX::Identity(n, n);
-      H = (I - step * y.transpose() / sy) * H * (I - y * step.transpose() / sy) + step * step.transpose() / sy;
+      H = (I - step * y.transpose() / sy) * H * (I - y * step.transpose() / sy) +
+          step * step.transpose() / sy;
     }
     g = g_next;
   }
@@ -118,7 +132,8 @@ struct Trial {
   double sigma = 0.0, tau = 0.0, gain = 0.0;
 };
 
-Trial try_out(const Likelihood& likelihood, const NoiseModel& base, double value, const Component& c, double tau) {
+Trial try_out(const Likelihood& likelihood, const NoiseModel& base, double value,
+              const Component& c, double tau) {
   Trial best{&c, 0.0, tau, 0.0};
   NoiseModel m = base;
   if (c.tau) m.*(c.tau) = tau;
@@ -143,8 +158,10 @@ Trial try_out(const Likelihood& likelihood, const NoiseModel& base, double value
 std::vector<Trial> all_trials(const Likelihood& likelihood, const NoiseModel& base, double value,
                               const LinearProblem& problem) {
   std::vector<std::pair<const Component*, double>> jobs;  // with the time constant
-  const bool gimbals = std::any_of(problem.tags.begin(), problem.tags.end(), [](auto& t) { return !t.accelerometer(); });
-  const bool accs = std::any_of(problem.tags.begin(), problem.tags.end(), [](auto& t) { return t.accelerometer(); });
+  const bool gimbals = std::any_of(problem.tags.begin(), problem.tags.end(),
+                                   [](auto& t) { return !t.accelerometer(); });
+  const bool accs = std::any_of(problem.tags.begin(), problem.tags.end(),
+                                [](auto& t) { return t.accelerometer(); });
   if (base.angle_random_walk == 0.0) jobs.emplace_back(&angle_walk, 0.0);
   if (base.drift_random_walk == 0.0) jobs.emplace_back(&drift_walk, 0.0);
   if (base.markov_drift == 0.0)
@@ -156,7 +173,8 @@ std::vector<Trial> all_trials(const Likelihood& likelihood, const NoiseModel& ba
   });
 }
 
-NoiseFinding white_finding(const Component& c, double declared, double sigma, double log_sigma_error, std::size_t rows) {
+NoiseFinding white_finding(const Component& c, double declared, double sigma,
+                           double log_sigma_error, std::size_t rows) {
   NoiseFinding f;
   f.component = c.name;
   f.factor = sigma / declared;
@@ -173,8 +191,8 @@ NoiseFinding white_finding(const Component& c, double declared, double sigma, do
 
 }  // namespace
 
-NoiseEstimate estimate_noise(const LinearProblem& problem, const NoiseModel& declared, const std::vector<int>& with,
-                             int most_added) {
+NoiseEstimate estimate_noise(const LinearProblem& problem, const NoiseModel& declared,
+                             const std::vector<int>& with, int most_added) {
   const Likelihood likelihood(problem, with);
   std::size_t acc_rows = 0;
   for (const RowTag& t : problem.tags) acc_rows += t.accelerometer();
@@ -200,8 +218,9 @@ NoiseEstimate estimate_noise(const LinearProblem& problem, const NoiseModel& dec
   std::vector<std::pair<const Component*, double>> gains;
   for (int added = 0; added < most_added; ++added) {
     const auto trials = all_trials(likelihood, out.model, best.value, problem);
-    const auto top = std::max_element(trials.begin(), trials.end(),
-                                      [](const Trial& a, const Trial& b) { return a.gain < b.gain; });
+    const auto top =
+        std::max_element(trials.begin(), trials.end(),
+                         [](const Trial& a, const Trial& b) { return a.gain < b.gain; });
     // On the ladder's rungs: what is close to enough is worth the ascent.
     if (top == trials.end() || top->gain < 0.5 * needed_gain) break;
     NoiseModel more = out.model;
@@ -225,7 +244,8 @@ NoiseEstimate estimate_noise(const LinearProblem& problem, const NoiseModel& dec
     const double sigma = std::exp(best.log_sigma[k]);
     if (&c == &acc_white || &c == &gimbal_white) {
       const std::size_t rows = &c == &acc_white ? acc_rows : gimbal_rows;
-      out.findings.push_back(white_finding(c, declared.*(c.sigma), sigma, 1.0 / std::sqrt(2.0 * static_cast<double>(rows)), rows));
+      out.findings.push_back(white_finding(c, declared.*(c.sigma), sigma,
+                                           1.0 / std::sqrt(2.0 * static_cast<double>(rows)), rows));
       continue;
     }
     NoiseFinding f;
@@ -278,8 +298,9 @@ NoiseEstimate noise_of_differences(const LinearProblem& problem, const VecX& res
     const double factor = std::sqrt(std::max(s[s.size() / 2] / median_of_square, 1e-6));
     (kind == 0 ? out.model.acc_factor : out.model.gimbal_factor) = factor;
     // The median has 37 % efficiency, differences about half of the rows' information.
-    out.findings.push_back(white_finding(kind == 0 ? acc_white : gimbal_white, 1.0, factor,
-                                         1.0 / std::sqrt(2.0 * 0.37 * 0.5 * static_cast<double>(s.size())), s.size()));
+    out.findings.push_back(
+        white_finding(kind == 0 ? acc_white : gimbal_white, 1.0, factor,
+                      1.0 / std::sqrt(2.0 * 0.37 * 0.5 * static_cast<double>(s.size())), s.size()));
   }
   return out;
 }

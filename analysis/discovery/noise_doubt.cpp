@@ -12,14 +12,17 @@ namespace drift::discovery {
 namespace {
 
 constexpr int draws = 250;
-constexpr std::uint64_t doubt_seed = 19610411;  // any number: fixed, so that a diagnosis is repeatable
-constexpr double per_degree = 3.0;   // of twice the log likelihood: what another amplitude must bring
+constexpr std::uint64_t doubt_seed =
+    19610411;  // any number: fixed, so that a diagnosis is repeatable
+constexpr double per_degree =
+    3.0;  // of twice the log likelihood: what another amplitude must bring
 constexpr std::size_t most_params = 3;
 
 /// Parameters, attitude and noise taken out of columns: what the restricted likelihood needs.
 class View {
  public:
-  View(const LinearProblem& problem, const MatX& theta, const NoiseModel& noise) : whitener_(problem, noise) {
+  View(const LinearProblem& problem, const MatX& theta, const NoiseModel& noise)
+      : whitener_(problem, noise) {
     theta_ = whitener_.apply(theta);
     MatX A = MatX::Identity(theta.cols(), theta.cols());
     A.selfadjointView<Eigen::Lower>().rankUpdate(theta_.transpose());
@@ -35,7 +38,10 @@ class View {
   }
   /// Twice the restricted log likelihood of every column, without constants.
   VecX log_likelihood2(const MatX& white_columns, const MatX& absorbed_part) const {
-    return (absorbed_part.colwise().squaredNorm() - white_columns.colwise().squaredNorm()).transpose().array() - log_det_;
+    return (absorbed_part.colwise().squaredNorm() - white_columns.colwise().squaredNorm())
+               .transpose()
+               .array() -
+           log_det_;
   }
   VecX log_likelihood2(const MatX& columns) const {
     const MatX w = white(columns);
@@ -70,22 +76,25 @@ double p_of(const VecX& value) {
   return (1.0 + static_cast<double>(above)) / (1.0 + draws);
 }
 
-double normal_cdf(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
+double normal_cdf(double z) {
+  return 0.5 * std::erfc(-z / std::numbers::sqrt2);
+}
 
 /// Chance that such noise, if there is any, is so small: log-normal about the sizes that gyros have
-/// (physics.md 4, effects 8, 9 and 11: the ranges are one sigma to either side), and about half the white
-/// noise of an accelerometer. Of several components the one most like noise counts. Never less than two
-/// sigma say: better instruments than the usual ones exist.
+/// (physics.md 4, effects 8, 9 and 11: the ranges are one sigma to either side), and about half the
+/// white noise of an accelerometer. Of several components the one most like noise counts. Never
+/// less than two sigma say: better instruments than the usual ones exist.
 double p_of_size(const LinearProblem& problem, const NoiseModel& white, const NoiseModel& driven) {
   struct Usual {
-    double NoiseModel::* sigma;
+    double NoiseModel::*sigma;
     double low, high;  // SI
   };
   constexpr double deg_per_h = detail::deg / 3600.0;
-  const Usual usual[] = {{&NoiseModel::angle_random_walk, 3e-4 * detail::deg / 60.0, 3e-3 * detail::deg / 60.0},
-                         {&NoiseModel::drift_random_walk, 1e-3 * deg_per_h / 60.0, 5e-3 * deg_per_h / 60.0},
-                         {&NoiseModel::markov_drift, 2e-3 * deg_per_h, 1e-2 * deg_per_h},
-                         {&NoiseModel::acc_markov, 0.2 * problem.acc_sigma, 1.2 * problem.acc_sigma}};
+  const Usual usual[] = {
+      {&NoiseModel::angle_random_walk, 3e-4 * detail::deg / 60.0, 3e-3 * detail::deg / 60.0},
+      {&NoiseModel::drift_random_walk, 1e-3 * deg_per_h / 60.0, 5e-3 * deg_per_h / 60.0},
+      {&NoiseModel::markov_drift, 2e-3 * deg_per_h, 1e-2 * deg_per_h},
+      {&NoiseModel::acc_markov, 0.2 * problem.acc_sigma, 1.2 * problem.acc_sigma}};
   double p = normal_cdf(-2.0);
   for (const Usual& u : usual) {
     const double found = driven.*(u.sigma);
@@ -129,7 +138,8 @@ NoiseDoubt doubt(const LinearProblem& problem, const CandidateSet& set, const No
       }
       const Eigen::LLT<MatX> llt(C);
       llt.matrixL().solveInPlace(part);
-      best = best.cwiseMax(part.colwise().squaredNorm().transpose() - VecX::Constant(g.cols(), per_degree * static_cast<double>(n - 1)));
+      best = best.cwiseMax(part.colwise().squaredNorm().transpose() -
+                           VecX::Constant(g.cols(), per_degree * static_cast<double>(n - 1)));
     }
   }
   NoiseDoubt out;

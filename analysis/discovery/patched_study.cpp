@@ -50,7 +50,9 @@ Node prior_node(const Prior& prior, const Unit& unit) {
   return node;
 }
 
-Node parsed(const Study& study) { return config::parse_document(study.text, study.path); }
+Node parsed(const Study& study) {
+  return config::parse_document(study.text, study.path);
+}
 
 }  // namespace
 
@@ -84,7 +86,8 @@ FilterSpec started_where_found(FilterSpec patched, const std::vector<Cause>& cau
     for (const CauseParameter& p : cause.parameters) {
       if (!patched.active[p.param] || patched.priors[p.param].sigma() <= 0.0) continue;
       found.push_back(&p);
-      if (p.param == lambda || TermLibrary::specs[p.param].kind == ParamKind::nonlinear) far_from_linear.push_back(&p);
+      if (p.param == lambda || TermLibrary::specs[p.param].kind == ParamKind::nonlinear)
+        far_from_linear.push_back(&p);
     }
   }
   if (far_from_linear.empty()) return patched;
@@ -102,9 +105,11 @@ std::string patched_study(const Study& study, const FilterSpec& patched) {
   Node root = parsed(study);
   Node* filters = root.find("filter");
   if (filters == nullptr || filters->items.empty() || study.filters.empty())
-    throw InputError(ExitCode::config,
-                     fmt::format("{}: no [[filter]] to be patched (expected the nominal model). Add "
-                                 "a section [[filter]]", study.path));
+    throw InputError(
+        ExitCode::config,
+        fmt::format("{}: no [[filter]] to be patched (expected the nominal model). Add "
+                    "a section [[filter]]",
+                    study.path));
   Node& filter = filters->items.front();
   const FilterSpec& nominal = study.filters.front();
 
@@ -117,7 +122,8 @@ std::string patched_study(const Study& study, const FilterSpec& patched) {
 
   Node parameters = filter.find("parameters") ? *filter.find("parameters") : Node{};
   for (std::size_t i = 0; i < TermLibrary::num_params; ++i) {
-    if (!patched.active[i] || (nominal.active[i] && patched.priors[i] == nominal.priors[i])) continue;
+    if (!patched.active[i] || (nominal.active[i] && patched.priors[i] == nominal.priors[i]))
+      continue;
     const ParamSpec& spec = TermLibrary::specs[i];
     at(parameters, std::string(spec.key.view())) = prior_node(patched.priors[i], spec.unit);
   }
@@ -130,7 +136,8 @@ std::string patched_study(const Study& study, const FilterSpec& patched) {
     for (const Start& start : patched.starts) {
       Node one;
       for (const auto& [i, value] : start)
-        at(one, std::string(TermLibrary::specs[i].key.view())) = quantity_node(value, TermLibrary::specs[i].unit);
+        at(one, std::string(TermLibrary::specs[i].key.view())) =
+            quantity_node(value, TermLibrary::specs[i].unit);
       starts.items.push_back(std::move(one));
     }
   }
@@ -147,9 +154,10 @@ std::string patched_study(const Study& study, const FilterSpec& patched) {
 
 std::string extended_study(const Study& study, const std::vector<Position>& positions) {
   if (study.kind != RecordingKind::platform)
-    throw InputError(ExitCode::config, fmt::format("{}: a strapdown plan has no positions to add to "
-                                                   "(expected a platform plan). Record more turns",
-                                                   study.path));
+    throw InputError(ExitCode::config,
+                     fmt::format("{}: a strapdown plan has no positions to add to "
+                                 "(expected a platform plan). Record more turns",
+                                 study.path));
   Node root = parsed(study);
   Node& plan = at(root, "plan");
   std::erase_if(plan.members, [](const config::Member& m) {

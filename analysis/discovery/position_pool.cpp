@@ -15,13 +15,15 @@ constexpr double longer = 3.0;  // long dwells over usual ones
 
 /// Letters of a local direction and its opposite.
 struct Direction {
-  int axis;   ///< 0 North, 1 West, 2 Up
+  int axis;  ///< 0 North, 1 West, 2 Up
   int sign;
   char letter() const { return sign > 0 ? "NWU"[axis] : "SED"[axis]; }
   Direction reversed() const { return {axis, -sign}; }
 };
 
-std::string axes_text(const std::array<std::string, 3>& d) { return fmt::format("x={} y={} z={}", d[0], d[1], d[2]); }
+std::string axes_text(const std::array<std::string, 3>& d) {
+  return fmt::format("x={} y={} z={}", d[0], d[1], d[2]);
+}
 
 /// Every "x=.. y=.. z=.." whose directions are along the local axes; left-handed ones are dropped.
 std::vector<std::array<Direction, 3>> cube() {
@@ -30,9 +32,12 @@ std::vector<std::array<Direction, 3>> cube() {
     for (int y = 0; y < 3; ++y)
       for (int signs = 0; signs < 8; ++signs) {
         if (x == y) continue;
-        const std::array<Direction, 3> d{{{x, signs & 1 ? -1 : 1}, {y, signs & 2 ? -1 : 1}, {3 - x - y, signs & 4 ? -1 : 1}}};
+        const std::array<Direction, 3> d{
+            {{x, signs & 1 ? -1 : 1}, {y, signs & 2 ? -1 : 1}, {3 - x - y, signs & 4 ? -1 : 1}}};
         std::string why;
-        if (parse_axes(axes_text({std::string(1, d[0].letter()), std::string(1, d[1].letter()), std::string(1, d[2].letter())}), why))
+        if (parse_axes(axes_text({std::string(1, d[0].letter()), std::string(1, d[1].letter()),
+                                  std::string(1, d[2].letter())}),
+                       why))
           all.push_back(d);
       }
   return all;
@@ -41,13 +46,16 @@ std::vector<std::array<Direction, 3>> cube() {
 std::vector<std::string> orientations(bool turned) {
   std::vector<std::string> all;
   for (const auto& d : cube()) {
-    const auto letter = [&](int k) { return std::string(1, d[static_cast<std::size_t>(k)].letter()); };
+    const auto letter = [&](int k) {
+      return std::string(1, d[static_cast<std::size_t>(k)].letter());
+    };
     if (!turned) {
       all.push_back(axes_text({letter(0), letter(1), letter(2)}));
       continue;
     }
     for (int still = 0; still < 3; ++still) {
-      const auto a = static_cast<std::size_t>((still + 1) % 3), b = static_cast<std::size_t>((still + 2) % 3);
+      const auto a = static_cast<std::size_t>((still + 1) % 3),
+                 b = static_cast<std::size_t>((still + 2) % 3);
       std::array<std::string, 3> names;
       names[static_cast<std::size_t>(still)] = letter(still);
       names[a] = {d[a].letter(), d[b].letter()};
@@ -74,7 +82,8 @@ bool possible(const Addition& addition, const Site& site) {
 std::vector<Addition> position_pool(double usual_dwell, double sample, const Site& site) {
   std::vector<Addition> pool;
   std::string why;
-  const auto position = [&](const std::string& axes, CommandLaw mode, Entry entry, std::optional<double> heading, double dwell) {
+  const auto position = [&](const std::string& axes, CommandLaw mode, Entry entry,
+                            std::optional<double> heading, double dwell) {
     Position p;
     p.axes = axes;
     p.R_lp = parse_axes(axes, why).value_or(Mat3::Identity());
@@ -83,10 +92,11 @@ std::vector<Addition> position_pool(double usual_dwell, double sample, const Sit
     p.mode = mode;
     p.entry = entry;
     p.case_heading = heading;
-    p.name = fmt::format("{}, {}{}{}{}", axes, mode == CommandLaw::level ? "level" : "free",
-                         entry == Entry::torqued ? ", slewed" : "",
-                         heading ? fmt::format(", case at {:.0f} deg", *heading / unit::deg.to_si) : "",
-                         dwell == usual_dwell ? "" : fmt::format(", for {:.3g} min", dwell / unit::minute.to_si));
+    p.name = fmt::format(
+        "{}, {}{}{}{}", axes, mode == CommandLaw::level ? "level" : "free",
+        entry == Entry::torqued ? ", slewed" : "",
+        heading ? fmt::format(", case at {:.0f} deg", *heading / unit::deg.to_si) : "",
+        dwell == usual_dwell ? "" : fmt::format(", for {:.3g} min", dwell / unit::minute.to_si));
     return p;
   };
   const auto add = [&](Addition addition) {
@@ -102,7 +112,8 @@ std::vector<Addition> position_pool(double usual_dwell, double sample, const Sit
       }
     for (const std::string& axes : orientations(false))
       if (axes != "x=N y=W z=U")
-        add({position("x=N y=W z=U", mode, Entry::caged, {}, usual_dwell), position(axes, mode, Entry::torqued, {}, usual_dwell)});
+        add({position("x=N y=W z=U", mode, Entry::caged, {}, usual_dwell),
+             position(axes, mode, Entry::torqued, {}, usual_dwell)});
   }
   return pool;
 }

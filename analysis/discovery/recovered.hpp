@@ -18,12 +18,12 @@ struct InputEstimate {
   Window::Equation equation = Window::Equation::rate;
   int axis = 0;
   std::vector<std::pair<std::size_t, std::size_t>> bins;  ///< intervals of each
-  VecX value, sigma;     ///< of each bin, SI
-  double gain = 0.0;     ///< twice the log likelihood gained over no input
-  MatX C;                ///< information on the bins, parameters projected out
-  MatX smoother;         ///< value = smoother g
+  VecX value, sigma;                                      ///< of each bin, SI
+  double gain = 0.0;  ///< twice the log likelihood gained over no input
+  MatX C;             ///< information on the bins, parameters projected out
+  MatX smoother;      ///< value = smoother g
   VecX g;
-  MatX cross;            ///< shape (bins, candidates): candidates seen through the bins
+  MatX cross;  ///< shape (bins, candidates): candidates seen through the bins
 };
 
 /// The same for each of the twelve equations, best first. per_position: bins of each position.

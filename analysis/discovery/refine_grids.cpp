@@ -9,10 +9,11 @@
 namespace drift::discovery {
 namespace {
 
-constexpr int between = 3;  // settings put between each two points
+constexpr int between = 3;      // settings put between each two points
 constexpr double nearly = 6.0;  // log evidence: a second onset that may come to be the best
 
-/// The one setting of a candidate that may lie between grid points; none if there is no such or several.
+/// The one setting of a candidate that may lie between grid points; none if there is no such or
+/// several.
 std::optional<std::size_t> continuous_setting(const Candidate& c) {
   std::optional<std::size_t> found;
   const auto& settings = c.variants.front().settings;
@@ -47,7 +48,9 @@ class Columns {
     }
     return columns;
   }
-  std::span<const SignatureSpec> added() const { return std::span(e_.set.signatures).subspan(first_); }
+  std::span<const SignatureSpec> added() const {
+    return std::span(e_.set.signatures).subspan(first_);
+  }
 
  private:
   using Key = std::tuple<std::size_t, std::vector<double>, double>;
@@ -68,7 +71,8 @@ bool same_but(const Variant& a, const Variant& b, std::size_t place) {
   return true;
 }
 
-/// Puts settings between variants `v` and `v + 1`; each of them hands over the nearer part of its chance.
+/// Puts settings between variants `v` and `v + 1`; each of them hands over the nearer part of its
+/// chance.
 void fill(Candidate& c, std::size_t v, std::size_t place, Columns& columns) {
   const Variant low = c.variants[v], high = c.variants[v + 1];
   constexpr double kept = 0.5 + 0.5 / (between + 1);  // half lies on the other side
@@ -77,14 +81,15 @@ void fill(Candidate& c, std::size_t v, std::size_t place, Columns& columns) {
   std::vector<Variant> more;
   for (int k = 1; k <= between; ++k) {
     Variant one = low;
-    one.settings[place].second =
-        part_of_the_way(low.settings[place].second, high.settings[place].second, k / (between + 1.0));
+    one.settings[place].second = part_of_the_way(low.settings[place].second,
+                                                 high.settings[place].second, k / (between + 1.0));
     one.columns = columns.of(c, low, place, one.settings[place].second);
     one.share = (1.0 - kept) * (low.share + high.share) / between;
     one.between = true;
     more.push_back(std::move(one));
   }
-  c.variants.insert(c.variants.begin() + static_cast<std::ptrdiff_t>(v) + 1, more.begin(), more.end());
+  c.variants.insert(c.variants.begin() + static_cast<std::ptrdiff_t>(v) + 1, more.begin(),
+                    more.end());
 }
 
 }  // namespace

@@ -27,7 +27,8 @@ double grid_spacing(const Candidate& c, std::size_t param, double value) {
       if (other < value) below = std::min(below, value - other);
       if (other > value) above = std::min(above, other - value);
     }
-  const double spacing = on_grid || below == none || above == none ? std::min(below, above) : below + above;
+  const double spacing =
+      on_grid || below == none || above == none ? std::min(below, above) : below + above;
   return std::isfinite(spacing) ? spacing : 0.0;
 }
 
@@ -35,12 +36,13 @@ double grid_spacing(const Candidate& c, std::size_t param, double value) {
 double grid_points(const Examination& e, std::size_t candidate) {
   const auto& variants = e.set.candidates[candidate].variants;
   std::size_t n = 0;
-  for (std::size_t v = 0; v < variants.size(); ++v) n += !variants[v].between && e.field->contrasts[candidate][v].dof > 0;
+  for (std::size_t v = 0; v < variants.size(); ++v)
+    n += !variants[v].between && e.field->contrasts[candidate][v].dof > 0;
   return static_cast<double>(std::max<std::size_t>(1, n));
 }
 
-/// Change of the log evidence if the amplitudes of the causes are of unknown size (size_prior.hpp). lambda is
-/// no amplitude: it lies between 0 and 1.
+/// Change of the log evidence if the amplitudes of the causes are of unknown size (size_prior.hpp).
+/// lambda is no amplitude: it lies between 0 and 1.
 double gain_of_sizes(const CandidateSet& set, const Refit& r) {
   const Projector::Fit fit = r.after.projector->fit({});
   const Layout layout = make_layout(r.filter);
@@ -60,20 +62,23 @@ double gain_of_sizes(const CandidateSet& set, const Refit& r) {
   return log_gain_of_sizes(fit.x(rows), fit.covariance(rows, rows), cause);
 }
 
-/// Whether each of simultaneous causes has an amplitude that is clearly not zero. A change of equation is
-/// judged by the fit alone: where its weight ends is seldom known well.
+/// Whether each of simultaneous causes has an amplitude that is clearly not zero. A change of
+/// equation is judged by the fit alone: where its weight ends is seldom known well.
 bool all_needed(const CandidateSet& set, const Refit& r) {
   constexpr double clearly = 3.0;  // sigma
   return std::all_of(r.choices.begin(), r.choices.end(), [&](const Choice& choice) {
     const auto& params = set.candidates[choice.candidate].params;
     return std::any_of(params.begin(), params.end(), [&](std::size_t i) {
       const ParameterEstimate* p = r.after.fit.estimate.find(i);
-      return i == lambda || !p || std::abs(p->value - TermLibrary::specs[i].prior_si().mean()) >= clearly * p->sigma;
+      return i == lambda || !p ||
+             std::abs(p->value - TermLibrary::specs[i].prior_si().mean()) >= clearly * p->sigma;
     });
   });
 }
 
-bool may_be_refined(const ParamSpec& spec) { return spec.kind == ParamKind::nonlinear; }
+bool may_be_refined(const ParamSpec& spec) {
+  return spec.kind == ParamKind::nonlinear;
+}
 
 }  // namespace
 
@@ -85,10 +90,13 @@ VecX expected_amplitudes(const Projected& p, const std::vector<int>& columns) {
     g[i] = p.g[columns[i]];
     for (Eigen::Index k = 0; k < n; ++k) C(i, k) = p.C(columns[i], columns[k]);
   }
-  return (C + MatX::Identity(n, n)).ldlt().solve(g);  // with the unit prior, so that nothing runs away
+  return (C + MatX::Identity(n, n))
+      .ldlt()
+      .solve(g);  // with the unit prior, so that nothing runs away
 }
 
-FilterSpec with_causes(const FilterSpec& nominal, const CandidateSet& set, const std::vector<Choice>& choices) {
+FilterSpec with_causes(const FilterSpec& nominal, const CandidateSet& set,
+                       const std::vector<Choice>& choices) {
   FilterSpec filter = nominal;
   for (const Choice& choice : choices) {
     const Candidate& c = set.candidates[choice.candidate];
@@ -100,7 +108,8 @@ FilterSpec with_causes(const FilterSpec& nominal, const CandidateSet& set, const
     }
     for (const auto& [i, value] : c.variants[choice.variant].settings) {
       filter.active.set(i);
-      const double spacing = may_be_refined(TermLibrary::specs[i]) ? grid_spacing(c, i, value) : 0.0;
+      const double spacing =
+          may_be_refined(TermLibrary::specs[i]) ? grid_spacing(c, i, value) : 0.0;
       filter.priors[i] = spacing > 0.0 ? normal(value, spacing) : fixed(value);
     }
     // The rest of the term at the library's defaults: a term may need all its parameters.
@@ -114,7 +123,8 @@ FilterSpec with_causes(const FilterSpec& nominal, const CandidateSet& set, const
   return filter;
 }
 
-Refit refit(const Examination& nominal, const Test& test, const std::vector<Choice>& choices, const Nulls& nulls) {
+Refit refit(const Examination& nominal, const Test& test, const std::vector<Choice>& choices,
+            const Nulls& nulls) {
   Refit out;
   out.choices = choices;
   out.filter = with_causes(nominal.filter, nominal.set, choices);
@@ -147,29 +157,33 @@ Refit refit(const Examination& nominal, const Test& test, const std::vector<Choi
   };
   BatchResult best = fit_from(start);
   if (family) {
-    // lambda and the misalignments are bilinear, a narrow bent valley: from both equations, fitted first,
-    // from the nominal fit and, as that may be far off, from the prior.
+    // lambda and the misalignments are bilinear, a narrow bent valley: from both equations, fitted
+    // first, from the nominal fit and, as that may be far off, from the prior.
     const auto from_end = [&](std::size_t k) {
       const double end = static_cast<double>(k % 2);
       FilterSpec held = out.filter;
       held.priors[lambda] = fixed(end);
       Theta from = k < 2 ? theta : make_layout(nominal.filter).theta;
       from[lambda] = end;
-      return fit_from(theta_of(held, fit_batch(held, test.timeline, test.readout, test.measured, from)));
+      return fit_from(
+          theta_of(held, fit_batch(held, test.timeline, test.readout, test.measured, from)));
     };
     for (BatchResult& other : mc::run_campaign(4, from_end))
       if (other.estimate.statistic < best.estimate.statistic) best = std::move(other);
   }
   double narrowed = 0.0;  // log of how much narrower the prior of lambda has become
   if (family)
-    if (const auto profile = profile_closure(out.filter, test, best, nominal.problem.weight, nominal.noise.model)) {
+    if (const auto profile =
+            profile_closure(out.filter, test, best, nominal.problem.weight, nominal.noise.model)) {
       narrowed = std::log(out.filter.priors[lambda].sigma() / profile->sigma);
       out.filter.priors[lambda] = normal(profile->value, profile->sigma);
       best = fit_from(theta_of(out.filter, profile->fit));
     }
   out.after = examine(out.filter, test, best, nullptr, nominal.noise.driven);
-  settle_noise(out.after, test, nulls.library_threshold, 2, 1);  // a second effect may hide in the noise
-  for (const auto& [param, value] : expected)  // lambda is a jump: its slope at the nominal fit says nothing
+  settle_noise(out.after, test, nulls.library_threshold, 2,
+               1);  // a second effect may hide in the noise
+  for (const auto& [param, value] :
+       expected)  // lambda is a jump: its slope at the nominal fit says nothing
     if (const ParameterEstimate* p = best.estimate.find(param); p != nullptr && param != lambda)
       if (std::abs(value) > 2.0 * p->sigma && p->value * value < 0.0) out.sign_agrees = false;
 
@@ -186,13 +200,16 @@ Refit refit(const Examination& nominal, const Test& test, const std::vector<Choi
   }
   for (const PositionScan& s : out.after.scans)
     for (const double T : s.T) out.remainder.scan = std::max(out.remainder.scan, strength(T, 1));
-  out.excess = std::max(out.remainder.library - nulls.library_threshold, out.remainder.scan - nulls.scan_threshold);
-  if (family)  // another equation must be another one: an interval that holds the nominal weight names nothing
+  out.excess = std::max(out.remainder.library - nulls.library_threshold,
+                        out.remainder.scan - nulls.scan_threshold);
+  if (family)  // another equation must be another one: an interval that holds the nominal weight
+               // names nothing
     if (const ParameterEstimate* p = best.estimate.find(lambda)) {
       const double base = nominal.filter.coupling == Coupling::eq6 ? 1.0 : 0.0;
       out.nameable = std::abs(p->value - base) > 3.0 * p->sigma;
     }
-  if (choices.size() > 1 && !all_needed(nominal.set, out)) out.excess = std::numeric_limits<double>::infinity();
+  if (choices.size() > 1 && !all_needed(nominal.set, out))
+    out.excess = std::numeric_limits<double>::infinity();
   if (out.tolerable()) {
     // Many small traces in one equation that no window and no candidate has alone.
     out.after.lone = strongest_lone_input(out.after.problem, out.after.noise.model);
@@ -201,10 +218,9 @@ Refit refit(const Examination& nominal, const Test& test, const std::vector<Choi
 
   // Each variant of a grid was one try; the refit took the best of them.
   double tries = 0.0;
-  for (const Choice& choice : choices)
-    tries += std::log(grid_points(nominal, choice.candidate));
-  out.log_bayes = 0.5 * (out.after.log_likelihood2() - nominal.log_likelihood2()) - tries - std::max(0.0, narrowed) +
-                  gain_of_sizes(nominal.set, out);
+  for (const Choice& choice : choices) tries += std::log(grid_points(nominal, choice.candidate));
+  out.log_bayes = 0.5 * (out.after.log_likelihood2() - nominal.log_likelihood2()) - tries -
+                  std::max(0.0, narrowed) + gain_of_sizes(nominal.set, out);
   return out;
 }
 

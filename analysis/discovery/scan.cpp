@@ -26,10 +26,14 @@ std::vector<std::pair<std::size_t, std::size_t>> spans(std::size_t first, std::s
 std::string equation_name(Equation equation, int axis) {
   static constexpr const char* gimbals[] = {"outer", "middle", "inner"};
   switch (equation) {
-    case Equation::rate: return fmt::format("platform rate {}", "xyz"[axis]);
-    case Equation::attitude: return fmt::format("attitude offset {}", "xyz"[axis]);
-    case Equation::accelerometer: return fmt::format("accelerometer {}", "xyz"[axis]);
-    case Equation::gimbal: break;
+    case Equation::rate:
+      return fmt::format("platform rate {}", "xyz"[axis]);
+    case Equation::attitude:
+      return fmt::format("attitude offset {}", "xyz"[axis]);
+    case Equation::accelerometer:
+      return fmt::format("accelerometer {}", "xyz"[axis]);
+    case Equation::gimbal:
+      break;
   }
   return fmt::format("gimbal {}", gimbals[axis]);
 }
@@ -53,12 +57,14 @@ VecX window_signature(const LinearProblem& problem, const Timeline& timeline, co
       case Equation::attitude:
         if (inside) {
           const Node& node = timeline.nodes[timeline.intervals[i].middle_node()];
-          s[r] = problem.psi.row(first + r).dot((node.R_il * node.R_lr).col(w.axis)) / problem.attitude_sigma;
+          s[r] = problem.psi.row(first + r).dot((node.R_il * node.R_lr).col(w.axis)) /
+                 problem.attitude_sigma;
         }
         break;
       case Equation::rate:
         // per_rate is per gyro drift, which turns the platform the other way.
-        for (; done < std::min(i, w.end); ++done) turned -= problem.drives[done].per_rate.col(w.axis);
+        for (; done < std::min(i, w.end); ++done)
+          turned -= problem.drives[done].per_rate.col(w.axis);
         s[r] = problem.psi.row(first + r).dot(turned);
         if (inside)
           s[r] -= (tag.accelerometer() ? 0.5 : 1.0) *
@@ -74,14 +80,22 @@ std::vector<PositionScan> scan_windows(const LinearProblem& problem, const Timel
   std::vector<PositionScan> all;
   for (Eigen::Index first = 0; first < problem.rows();) {
     // A run of rows of one position within one chain.
-    const auto chain = [&](Eigen::Index k) { return timeline.intervals[problem.tags[k].interval].chain; };
+    const auto chain = [&](Eigen::Index k) {
+      return timeline.intervals[problem.tags[k].interval].chain;
+    };
     const int position = problem.tags[first].position;
     Eigen::Index end = first;
-    while (end < problem.rows() && problem.tags[end].position == position && chain(end) == chain(first)) ++end;
+    while (end < problem.rows() && problem.tags[end].position == position &&
+           chain(end) == chain(first))
+      ++end;
     PositionScan scan;
-    for (const auto& [a, b] : spans(problem.tags[first].interval, problem.tags[end - 1].interval + 1))
-      for (const Equation e : {Equation::rate, Equation::attitude, Equation::accelerometer, Equation::gimbal})
-        for (int axis = 0; axis < 3; ++axis) scan.windows.push_back({e, axis, position, a, b, timeline.intervals[a].t0, timeline.intervals[b - 1].t1, 1.0});
+    for (const auto& [a, b] :
+         spans(problem.tags[first].interval, problem.tags[end - 1].interval + 1))
+      for (const Equation e :
+           {Equation::rate, Equation::attitude, Equation::accelerometer, Equation::gimbal})
+        for (int axis = 0; axis < 3; ++axis)
+          scan.windows.push_back({e, axis, position, a, b, timeline.intervals[a].t0,
+                                  timeline.intervals[b - 1].t1, 1.0});
     MatX columns(end - first, scan.windows.size());
     for (std::size_t k = 0; k < scan.windows.size(); ++k) {
       columns.col(k) = window_signature(problem, timeline, scan.windows[k], first, end - first);
@@ -111,7 +125,8 @@ MaxNull scan_null(const std::vector<PositionScan>& scans, int draws) {
     std::vector<Contrast> contrasts;
     for (Eigen::Index k = 0; k < s.C.cols(); ++k)
       if (s.C(k, k) > 1e-6 * s.raw[k] && s.C(k, k) > 0.0)
-        contrasts.push_back(make_contrast(correlation, VecX::Ones(s.C.cols()), {static_cast<int>(k)}));
+        contrasts.push_back(
+            make_contrast(correlation, VecX::Ones(s.C.cols()), {static_cast<int>(k)}));
     families.emplace_back(correlation, contrasts, draws, 1000 + p);
   }
   return MaxNull::joined(families);

@@ -13,7 +13,7 @@ struct Window {
   int position = 0;                ///< from 0
   std::size_t first = 0, end = 0;  ///< intervals
   double start_s = 0.0, end_s = 0.0;
-  double unit = 1.0;               ///< amplitude that a scan column stands for, SI
+  double unit = 1.0;  ///< amplitude that a scan column stands for, SI
 };
 
 std::string equation_name(Window::Equation equation, int axis);
@@ -26,8 +26,9 @@ struct PositionScan {
 };
 
 /// Boxes in 3 rate equations, 3 attitude offsets, 3 accelerometers and 3 gimbals of every position:
-/// full, halves and quarters, the latter two with half overlap. A box in the rate is felt to the end
-/// of its chain; what it does after its position is left out of the test direction (which stays exact).
+/// full, halves and quarters, the latter two with half overlap. A box in the rate is felt to the
+/// end of its chain; what it does after its position is left out of the test direction (which stays
+/// exact).
 std::vector<PositionScan> scan_windows(const LinearProblem& problem, const Timeline& timeline,
                                        const Projector& projector);
 

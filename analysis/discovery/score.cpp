@@ -55,7 +55,8 @@ Projector::Scan Projector::scan(const MatX& columns, Eigen::Index first) const {
   out.raw = M.diagonal();
   M.selfadjointView<Eigen::Lower>().rankUpdate(h.transpose(), -1.0);
   out.C = M.selfadjointView<Eigen::Lower>();
-  out.cross = white.transpose() * extra_.middleRows(first, count) - h.transpose() * half_.leftCols(K);
+  out.cross =
+      white.transpose() * extra_.middleRows(first, count) - h.transpose() * half_.leftCols(K);
   out.g = white.transpose() * r0_.segment(first, count) - h.transpose() * half_.col(K);
   return out;
 }
@@ -67,8 +68,9 @@ VecX Projector::clean_residual() const {
 MatX Projector::clean_extra(const std::vector<int>& columns) const {
   MatX out(theta_.rows(), columns.size());
   for (std::size_t k = 0; k < columns.size(); ++k)
-    out.col(k) = extra_.col(columns[k]) -
-                 theta_ * L_.transpose().triangularView<Eigen::Upper>().solve(half_.col(columns[k]));
+    out.col(k) =
+        extra_.col(columns[k]) -
+        theta_ * L_.transpose().triangularView<Eigen::Upper>().solve(half_.col(columns[k]));
   return out;
 }
 

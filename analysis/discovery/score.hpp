@@ -7,13 +7,14 @@
 namespace drift::discovery {
 
 /// Everything the data say of candidates once the nominal parameters are fitted (discovery.md 2.2):
-/// g ~ N(C a, C) for candidate amplitudes a in prior sigmas, the parameters marginalised with their prior.
+/// g ~ N(C a, C) for candidate amplitudes a in prior sigmas, the parameters marginalised with their
+/// prior.
 struct Projected {
-  MatX C;      ///< shape (K, K): information on the candidates that is left
-  VecX g;      ///< shape K
-  VecX raw;    ///< shape K: information before the parameters took their part
-  double chi2 = 0.0;      ///< r0' P r0, of `rows` degrees under the nominal model
-  double log_det = 0.0;   ///< of the marginal covariance of the rows: noise, attitude, parameters
+  MatX C;                ///< shape (K, K): information on the candidates that is left
+  VecX g;                ///< shape K
+  VecX raw;              ///< shape K: information before the parameters took their part
+  double chi2 = 0.0;     ///< r0' P r0, of `rows` degrees under the nominal model
+  double log_det = 0.0;  ///< of the marginal covariance of the rows: noise, attitude, parameters
   Eigen::Index rows = 0;
 
   double absorbed(Eigen::Index k) const { return raw[k] > 0.0 ? 1.0 - C(k, k) / raw[k] : 1.0; }
@@ -32,21 +33,21 @@ class Projector {
   /// Candidates of the problem against all rows.
   const Projected& candidates() const { return projected_; }
 
-  /// Further columns (a scan), whitened from row `first` on: their own C, g and cross information with
-  /// the candidates, parameters projected out.
+  /// Further columns (a scan), whitened from row `first` on: their own C, g and cross information
+  /// with the candidates, parameters projected out.
   struct Scan {
-    MatX C;      ///< shape (L, L)
-    MatX cross;  ///< shape (L, K)
-    VecX g, raw; ///< shape L
+    MatX C;       ///< shape (L, L)
+    MatX cross;   ///< shape (L, K)
+    VecX g, raw;  ///< shape L
   };
   Scan scan(const MatX& columns, Eigen::Index first) const;
 
-  /// The residual with the parameters taken out at their best, whitened; and candidate columns alike:
-  /// (1 - T A^-1 T') column. Shape (rows).
+  /// The residual with the parameters taken out at their best, whitened; and candidate columns
+  /// alike: (1 - T A^-1 T') column. Shape (rows).
   VecX clean_residual() const;
   MatX clean_extra(const std::vector<int>& columns) const;
-  /// Scaled parameters (best fit) with candidate columns `with` free (prior of unit variance on them
-  /// left out), and their covariance; the candidates come last.
+  /// Scaled parameters (best fit) with candidate columns `with` free (prior of unit variance on
+  /// them left out), and their covariance; the candidates come last.
   struct Fit {
     VecX x;
     MatX covariance;

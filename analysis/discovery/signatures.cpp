@@ -75,8 +75,8 @@ VecX residual_of(const LinearProblem& problem, const BatchResult& fit) {
   VecX r(problem.rows());
   for (Eigen::Index k = 0; k < r.size(); ++k) {
     const RowTag& t = problem.tags[k];
-    const double value =
-        t.accelerometer() ? fit.acc_residual(t.channel, t.interval) : fit.gimbal_residual(t.channel - 3, t.interval);
+    const double value = t.accelerometer() ? fit.acc_residual(t.channel, t.interval)
+                                           : fit.gimbal_residual(t.channel - 3, t.interval);
     r[k] = std::isfinite(value) ? value : 0.0;  // a fit may have left a sample out
   }
   return r;
@@ -84,14 +84,16 @@ VecX residual_of(const LinearProblem& problem, const BatchResult& fit) {
 
 MatX signature_columns(const FilterSpec& nominal, const Test& test, const BatchResult& fit,
                        std::span<const SignatureSpec> specs, const std::vector<RowTag>& tags) {
-  MatX out = MatX::Zero(static_cast<Eigen::Index>(tags.size()), static_cast<Eigen::Index>(specs.size()));
+  MatX out =
+      MatX::Zero(static_cast<Eigen::Index>(tags.size()), static_cast<Eigen::Index>(specs.size()));
   if (specs.empty()) return out;
   const Theta theta = theta_of(nominal, fit);
   const Trajectory phi = integrate_fixed(test.timeline, nominal.model(), theta, fit.psi0_l);
   std::vector<bool> done(specs.size(), false);
   for (std::size_t first = 0; first < specs.size(); ++first) {
     if (done[first]) continue;
-    // Each parameter once: a layout cannot hold it twice; each term at one setting of its parameters.
+    // Each parameter once: a layout cannot hold it twice; each term at one setting of its
+    // parameters.
     std::vector<const SignatureSpec*> group;
     ParamMask added;
     TermMask terms;
@@ -110,14 +112,17 @@ MatX signature_columns(const FilterSpec& nominal, const Test& test, const BatchR
     }
     if (added[lambda] && nominal.coupling == Coupling::eq6) at[lambda] = 1.0;
     const Layout small = layout_of(group, at);
-    const auto parts = measurement_equations(test.timeline, extended(nominal, added), small, test.readout, test.measured,
-                                             at, phi, nominal.initial_attitude);
+    const auto parts =
+        measurement_equations(test.timeline, extended(nominal, added), small, test.readout,
+                              test.measured, at, phi, nominal.initial_attitude);
     Eigen::Index next = 0;
     for (std::size_t c = 0; c < parts.size(); ++c) {
       Eigen::Index count = 0;
-      for (const RowTag& t : tags) count += test.timeline.intervals[t.interval].chain == static_cast<int>(c);
+      for (const RowTag& t : tags)
+        count += test.timeline.intervals[t.interval].chain == static_cast<int>(c);
       for (const SignatureSpec* s : group) {
-        const auto place = std::find(small.params.begin(), small.params.end(), s->param) - small.params.begin();
+        const auto place =
+            std::find(small.params.begin(), small.params.end(), s->param) - small.params.begin();
         out.col(s - specs.data()).segment(next, count) = parts[c].rows.col(3 + place).head(count);
       }
       next += count;
@@ -148,17 +153,19 @@ LinearProblem linear_problem(const FilterSpec& nominal, const Test& test, const 
   out.r0.resize(rows);
   const VecX x = layout.scaled(theta);
   Eigen::Index next = 0;
-  const auto chains = measurement_equations(test.timeline, model, layout, test.readout, test.measured, theta, phi,
-                                            nominal.initial_attitude);
+  const auto chains = measurement_equations(test.timeline, model, layout, test.readout,
+                                            test.measured, theta, phi, nominal.initial_attitude);
   for (std::size_t c = 0; c < chains.size(); ++c) {
     const MatX& e = chains[c].rows;
     // Channels that are not read leave zero rows at the end.
     Eigen::Index count = 0;
-    for (const RowTag& t : out.tags) count += test.timeline.intervals[t.interval].chain == static_cast<int>(c);
+    for (const RowTag& t : out.tags)
+      count += test.timeline.intervals[t.interval].chain == static_cast<int>(c);
     out.psi.middleRows(next, count) = e.topLeftCorner(count, 3);
     out.theta.middleRows(next, count) = e.block(0, 3, count, n);
-    out.r0.segment(next, count) = e.col(3 + n).head(count) + e.block(0, 3, count, n) * x +
-                                  e.topLeftCorner(count, 3) * (fit.psi0_l[c] / nominal.initial_attitude);
+    out.r0.segment(next, count) =
+        e.col(3 + n).head(count) + e.block(0, 3, count, n) * x +
+        e.topLeftCorner(count, 3) * (fit.psi0_l[c] / nominal.initial_attitude);
     next += count;
   }
 

@@ -16,15 +16,16 @@ struct Test {
 
 /// A candidate's signature: a parameter that the nominal model leaves out, per prior sigma.
 struct SignatureSpec {
-  std::size_t param = 0;     ///< index in TermLibrary
-  Theta theta = Theta::Zero();  ///< where it is evaluated: the fit, with the nonlinear parameters of its
-                                ///< term at the values to be tried
-  double unit = 1.0;         ///< SI size of one prior sigma
+  std::size_t param = 0;        ///< index in TermLibrary
+  Theta theta = Theta::Zero();  ///< where it is evaluated: the fit, with the nonlinear parameters
+                                ///< of its term at the values to be tried
+  double unit = 1.0;  ///< SI size of one prior sigma
 };
 
-/// What a fit left, linearised: residual, nominal columns and candidate columns, rows in time order.
-/// fit: of the nominal filter; its theta and psi0_l are where everything is linearised. Columns of
-/// candidates come by dual numbers, many at once: of a spec's theta, the parameters of its own term count.
+/// What a fit left, linearised: residual, nominal columns and candidate columns, rows in time
+/// order. fit: of the nominal filter; its theta and psi0_l are where everything is linearised.
+/// Columns of candidates come by dual numbers, many at once: of a spec's theta, the parameters of
+/// its own term count.
 LinearProblem linear_problem(const FilterSpec& nominal, const Test& test, const BatchResult& fit,
                              const std::vector<SignatureSpec>& specs);
 

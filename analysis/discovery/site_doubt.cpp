@@ -44,7 +44,8 @@ class Latitudes {
     study.site.latitude = latitude;
     try {
       const RecordedTest test = recorded_test(study, recordings_);
-      const BatchResult fit = fit_batch(nominal_, test.timeline, study.readout, test.measured, make_layout(nominal_).theta);
+      const BatchResult fit = fit_batch(nominal_, test.timeline, study.readout, test.measured,
+                                        make_layout(nominal_).theta);
       p.cost = fit.estimate.statistic;
       p.dof = static_cast<double>(std::max<std::size_t>(1, fit.estimate.measured));
     } catch (const InputError&) {
@@ -75,7 +76,8 @@ bool worth_asking(const Diagnosis& d) {
 
 }  // namespace
 
-std::optional<SiteDoubt> site_doubt(const Study& study, const std::vector<Recording>& recordings, const Diagnosis& d) {
+std::optional<SiteDoubt> site_doubt(const Study& study, const std::vector<Recording>& recordings,
+                                    const Diagnosis& d) {
   if (!worth_asking(d)) return std::nullopt;
   const Latitudes latitudes(study, recordings, d.nominal);
   const double declared = study.site.latitude;
@@ -86,13 +88,16 @@ std::optional<SiteDoubt> site_doubt(const Study& study, const std::vector<Record
     for (const Point& p : points)
       if (p.cost < best.cost) best = p;
   };
-  // Near the truth the cost grows with the square of the error: its parabola leads there, the better the smaller
-  // the step. Far from it the cost may be concave: then several distances are tried at once.
+  // Near the truth the cost grows with the square of the error: its parabola leads there, the
+  // better the smaller the step. Far from it the cost may be concave: then several distances are
+  // tried at once.
   const double small = 0.2 * detail::deg;
   const std::vector<Point> beside = latitudes.at({best.latitude - small, best.latitude + small});
   const double bend = beside[0].cost + beside[1].cost - 2.0 * best.cost;
-  const double promise = std::pow(beside[1].cost - beside[0].cost, 2) / (8.0 * bend);  // of the parabola's foot
-  if (bend > 0.0 && best.latitude == declared && promise < 0.5 * (best.cost - best.dof)) return std::nullopt;  // nothing to be had
+  const double promise =
+      std::pow(beside[1].cost - beside[0].cost, 2) / (8.0 * bend);  // of the parabola's foot
+  if (bend > 0.0 && best.latitude == declared && promise < 0.5 * (best.cost - best.dof))
+    return std::nullopt;  // nothing to be had
   const auto follow = [&](std::initializer_list<double> steps_deg) {
     for (const double step_deg : steps_deg) {
       const double step = step_deg * detail::deg;
@@ -101,11 +106,13 @@ std::optional<SiteDoubt> site_doubt(const Study& study, const std::vector<Record
       const double curvature = sides[0].cost + sides[1].cost - 2.0 * here.cost;
       if (!std::isfinite(curvature)) return;
       if (curvature > 0.0) {
-        take(latitudes.at({here.latitude + 0.5 * step * (sides[0].cost - sides[1].cost) / curvature}));
+        take(latitudes.at(
+            {here.latitude + 0.5 * step * (sides[0].cost - sides[1].cost) / curvature}));
       } else {
         std::vector<double> around;
         for (const double far : {4.0, 8.0, 16.0, 32.0, 64.0})
-          for (const double sign : {-1.0, 1.0}) around.push_back(here.latitude + sign * far * detail::deg);
+          for (const double sign : {-1.0, 1.0})
+            around.push_back(here.latitude + sign * far * detail::deg);
         take(latitudes.at(around));
       }
       take(sides);
@@ -115,14 +122,22 @@ std::optional<SiteDoubt> site_doubt(const Study& study, const std::vector<Record
   take(latitudes.at({-best.latitude}));  // the mirrored valley is nearly as deep
   follow({0.2, 0.02, 0.005});
   const double prior = TermLibrary::specs[d_lat].prior_si().sigma();
-  SiteDoubt doubt{best.latitude, std::abs(best.latitude - declared) / prior, ends[0].per_dof(), best.per_dof(), {}};
+  SiteDoubt doubt{best.latitude,
+                  std::abs(best.latitude - declared) / prior,
+                  ends[0].per_dof(),
+                  best.per_dof(),
+                  {}};
   const double excess = doubt.chi2_per_dof_before - 1.0;
   if (doubt.prior_sigmas <= beyond_survey || excess <= 0.0) return std::nullopt;
-  if (doubt.chi2_per_dof_before - doubt.chi2_per_dof_after < most_of_it * excess) return std::nullopt;
+  if (doubt.chi2_per_dof_before - doubt.chi2_per_dof_after < most_of_it * excess)
+    return std::nullopt;
   doubt.sentence = fmt::format(
-      "Check [site] latitude: at {:.3f} deg instead of {:.3f} deg the nominal model fits with chi-square per degree of freedom {:.3g} "
-      "instead of {:.3g}. As a cause that is no survey error any more: latitude_error would need {:.3g} prior sigmas.",
-      best.latitude / detail::deg, declared / detail::deg, doubt.chi2_per_dof_after, doubt.chi2_per_dof_before, doubt.prior_sigmas);
+      "Check [site] latitude: at {:.3f} deg instead of {:.3f} deg the nominal model fits with "
+      "chi-square per degree of freedom {:.3g} "
+      "instead of {:.3g}. As a cause that is no survey error any more: latitude_error would need "
+      "{:.3g} prior sigmas.",
+      best.latitude / detail::deg, declared / detail::deg, doubt.chi2_per_dof_after,
+      doubt.chi2_per_dof_before, doubt.prior_sigmas);
   return doubt;
 }
 

@@ -59,7 +59,8 @@ double log_gain_of_sizes(const VecX& x, const MatX& covariance, const std::vecto
       shrunk -= std::log(s);
     }
     // Of a Gaussian with information `information` about x, times the ratio of the priors.
-    logs.push_back(shrunk + 0.5 * (unit - log_det(A)) + 0.5 * (pull.dot(A.llt().solve(pull)) - x.dot(pull)));
+    logs.push_back(shrunk + 0.5 * (unit - log_det(A)) +
+                   0.5 * (pull.dot(A.llt().solve(pull)) - x.dot(pull)));
     std::size_t next = 0;
     while (next < chosen.size() && ++chosen[next] == scales.size()) chosen[next++] = 0;
     if (next == chosen.size()) return log_mean_exp(logs);

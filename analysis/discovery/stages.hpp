@@ -10,8 +10,8 @@
 
 namespace drift::discovery {
 
-/// Told how far a diagnosis is: the stage, and the part of the whole that is done (0 .. 1). From any
-/// thread.
+/// Told how far a diagnosis is: the stage, and the part of the whole that is done (0 .. 1). From
+/// any thread.
 using StageReport = std::function<void(const std::string& stage, double done)>;
 
 /// The stages of a diagnosis: how long each took, and how far the whole is by the shares that they

@@ -73,14 +73,17 @@ Step step_of(const States& s, const NoiseModel& n, const IntervalDrive& d, bool 
 
 /// Weight of the lone input on a row of its channel.
 double lone_weight(const LinearProblem& p, const LoneInput& lone, int channel) {
-  if (lone.equation == LoneInput::Equation::accelerometer && channel == lone.axis) return lone.sigma / p.acc_sigma;
-  if (lone.equation == LoneInput::Equation::gimbal && channel == 3 + lone.axis) return lone.sigma / p.gimbal_sigma;
+  if (lone.equation == LoneInput::Equation::accelerometer && channel == lone.axis)
+    return lone.sigma / p.acc_sigma;
+  if (lone.equation == LoneInput::Equation::gimbal && channel == 3 + lone.axis)
+    return lone.sigma / p.gimbal_sigma;
   return 0.0;
 }
 
 /// Walks along intervals and rows; calls cage(), move(step) and row(index, h, white sigma).
 template <class Cage, class Move, class Row>
-void walk(const LinearProblem& p, const NoiseModel& n, const States& s, Cage&& cage, Move&& move, Row&& row) {
+void walk(const LinearProblem& p, const NoiseModel& n, const States& s, Cage&& cage, Move&& move,
+          Row&& row) {
   Eigen::Index k = 0;
   VecX h(s.count);
   for (std::size_t i = 0; i < p.drives.size(); ++i) {
@@ -89,7 +92,8 @@ void walk(const LinearProblem& p, const NoiseModel& n, const States& s, Cage&& c
     // Half of the interval's noise before its accelerometer rows, half before its gimbal rows.
     for (const bool accelerometer : {true, false}) {
       if (n.driven()) move(step_of(s, n, d, accelerometer));
-      for (; k < p.rows() && p.tags[k].interval == i && p.tags[k].accelerometer() == accelerometer; ++k) {
+      for (; k < p.rows() && p.tags[k].interval == i && p.tags[k].accelerometer() == accelerometer;
+           ++k) {
         h.setZero();
         h.head<3>() = p.psi.row(k);
         if (accelerometer && s.acc >= 0) h[s.acc + p.tags[k].channel] = n.acc_markov / p.acc_sigma;
@@ -100,7 +104,8 @@ void walk(const LinearProblem& p, const NoiseModel& n, const States& s, Cage&& c
   }
 }
 
-/// Before anything is measured: attitude at its prior, a random walk at zero, the others stationary.
+/// Before anything is measured: attitude at its prior, a random walk at zero, the others
+/// stationary.
 MatX initial_covariance(const States& s, const NoiseModel& n) {
   MatX P = MatX::Identity(s.count, s.count);
   if (s.walk >= 0) P.block<3, 3>(s.walk, s.walk).setZero();
@@ -110,8 +115,7 @@ MatX initial_covariance(const States& s, const NoiseModel& n) {
 
 }  // namespace
 
-Whitener::Whitener(const LinearProblem& problem, const NoiseModel& noise)
-    : root_(problem.rows()) {
+Whitener::Whitener(const LinearProblem& problem, const NoiseModel& noise) : root_(problem.rows()) {
   const States s(noise);
   states_ = s.count;
   H_.resize(s.count, problem.rows());
@@ -194,7 +198,8 @@ MatX dense_covariance(const LinearProblem& problem, const NoiseModel& noise) {
   const auto add = [&](const MatX& Q) {
     const Eigen::LDLT<MatX> ldlt(Q);
     MatX L = ldlt.matrixL();
-    L = ldlt.transpositionsP().transpose() * L * ldlt.vectorD().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+    L = ldlt.transpositionsP().transpose() * L *
+        ldlt.vectorD().cwiseMax(0.0).cwiseSqrt().asDiagonal();
     MatX wider(s.count, state.cols() + s.count);
     wider << state, L;
     state = wider;

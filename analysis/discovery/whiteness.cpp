@@ -43,7 +43,8 @@ VecX largest_Q(const std::vector<ChannelRows>& channels, const MatX& z, int lags
         for (const auto& rows : channel.chains) {
           if (rows.size() <= static_cast<std::size_t>(lag)) continue;
           const std::size_t n = rows.size() - static_cast<std::size_t>(lag);
-          for (std::size_t t = 0; t < n; ++t) sum += v[rows[t]] * v[rows[t + static_cast<std::size_t>(lag)]];
+          for (std::size_t t = 0; t < n; ++t)
+            sum += v[rows[t]] * v[rows[t + static_cast<std::size_t>(lag)]];
           pairs += static_cast<double>(n);
         }
         if (pairs == 0.0) break;
@@ -59,7 +60,8 @@ VecX largest_Q(const std::vector<ChannelRows>& channels, const MatX& z, int lags
 
 }  // namespace
 
-double whiteness_p(const LinearProblem& problem, const Projector& projector, int lags, int draws, std::uint64_t seed) {
+double whiteness_p(const LinearProblem& problem, const Projector& projector, int lags, int draws,
+                   std::uint64_t seed) {
   if (problem.rows() == 0 || draws <= 0) return 1.0;
   const auto channels = rows_by_channel(problem);
   const double observed = largest_Q(channels, projector.clean_residual(), lags)[0];

@@ -23,22 +23,30 @@ void judge(ErrorComparison& c, TruthIs truth, double sigma_ratio) {
   const bool prior_rules = promise * promise >= 0.5;
   if (prior_rules && c.low <= prior_excess) {
     c.verdict = ErrorVerdict::prior_dominated;
-    c.reason = fmt::format("the data leave {:.0f} % of the prior sigma: the error shows how truth and starts "
-                           "were drawn", 100.0 * promise);
+    c.reason = fmt::format(
+        "the data leave {:.0f} % of the prior sigma: the error shows how truth and starts "
+        "were drawn",
+        100.0 * promise);
   } else if (holds) {
     c.verdict = ErrorVerdict::agree;
-  } else if (c.low <= sigma_ratio * (1.0 + tolerance) && c.high >= sigma_ratio * (1.0 - tolerance)) {
+  } else if (c.low <= sigma_ratio * (1.0 + tolerance) &&
+             c.high >= sigma_ratio * (1.0 - tolerance)) {
     c.verdict = ErrorVerdict::nonlinear;
-    c.reason = fmt::format("{:.3g} times the promised sigma, as the filter itself says: its levers depend on where "
-                           "the truth lies", c.rmse_ratio / promise);
+    c.reason = fmt::format(
+        "{:.3g} times the promised sigma, as the filter itself says: its levers depend on where "
+        "the truth lies",
+        c.rmse_ratio / promise);
   } else if (truth == TruthIs::another_model && c.rmse_ratio > sigma_ratio) {
     c.verdict = ErrorVerdict::wrong_model;
-    c.reason = fmt::format("{:.3g} times the sigma that the filter reports: the data come from another model",
-                           c.rmse_ratio / sigma_ratio);
+    c.reason = fmt::format(
+        "{:.3g} times the sigma that the filter reports: the data come from another model",
+        c.rmse_ratio / sigma_ratio);
   } else {
     c.verdict = ErrorVerdict::nonlinear;
-    c.reason = fmt::format("{:.3g} times the promised sigma: levers depend on where the truth lies, or the "
-                           "estimator is linearised elsewhere", c.rmse_ratio / promise);
+    c.reason = fmt::format(
+        "{:.3g} times the promised sigma: levers depend on where the truth lies, or the "
+        "estimator is linearised elsewhere",
+        c.rmse_ratio / promise);
   }
 }
 
@@ -46,10 +54,14 @@ void judge(ErrorComparison& c, TruthIs truth, double sigma_ratio) {
 
 std::string_view text_of(ErrorVerdict verdict) {
   switch (verdict) {
-    case ErrorVerdict::agree: return "agree";
-    case ErrorVerdict::nonlinear: return "nonlinear";
-    case ErrorVerdict::wrong_model: return "wrong model";
-    case ErrorVerdict::prior_dominated: return "prior dominated";
+    case ErrorVerdict::agree:
+      return "agree";
+    case ErrorVerdict::nonlinear:
+      return "nonlinear";
+    case ErrorVerdict::wrong_model:
+      return "wrong model";
+    case ErrorVerdict::prior_dominated:
+      return "prior dominated";
   }
   return "";
 }
@@ -60,7 +72,8 @@ std::size_t MonteCarloComparison::count(ErrorVerdict verdict) const {
 }
 
 MonteCarloComparison compare_with_monte_carlo(const Ranking& ranking,
-                                              std::span<const MonteCarloError> errors, TruthIs truth) {
+                                              std::span<const MonteCarloError> errors,
+                                              TruthIs truth) {
   MonteCarloComparison out;
   for (const std::size_t state : ranking.order) {
     const ParameterRank& p = ranking.parameters[state];

@@ -18,7 +18,8 @@ std::string letters(const Vec3& direction_l) {
 }
 
 std::string axes_of(const Mat3& R_lp) {
-  return fmt::format("x={} y={} z={}", letters(R_lp.col(0)), letters(R_lp.col(1)), letters(R_lp.col(2)));
+  return fmt::format("x={} y={} z={}", letters(R_lp.col(0)), letters(R_lp.col(1)),
+                     letters(R_lp.col(2)));
 }
 
 Position candidate(const TestPlan& plan, const std::string& axes, CommandLaw mode, Entry entry) {
@@ -83,11 +84,13 @@ std::vector<Position> torqued_candidates(const TestPlan& plan, double heading) {
 
 std::string position_toml(const Position& p) {
   std::string text = fmt::format(
-      "[[plan.position]]\nname   = {}\naxes   = {}\ndwell  = \"{:.12g} s\"\nsample = \"{:.12g} s\"\n"
+      "[[plan.position]]\nname   = {}\naxes   = {}\ndwell  = \"{:.12g} s\"\nsample = \"{:.12g} "
+      "s\"\n"
       "mode   = \"{}\"\nentry  = \"{}\"\n",
-      quoted(p.name), quoted(p.axes), p.dwell, p.sample, p.mode == CommandLaw::free ? "free" : "level",
-      p.entry == Entry::caged ? "caged" : "torqued");
-  if (p.case_heading) text += fmt::format("case_heading = \"{:.12g} deg\"\n", *p.case_heading / detail::deg);
+      quoted(p.name), quoted(p.axes), p.dwell, p.sample,
+      p.mode == CommandLaw::free ? "free" : "level", p.entry == Entry::caged ? "caged" : "torqued");
+  if (p.case_heading)
+    text += fmt::format("case_heading = \"{:.12g} deg\"\n", *p.case_heading / detail::deg);
   return text;
 }
 

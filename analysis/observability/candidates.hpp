@@ -15,9 +15,9 @@ std::vector<std::string> candidate_axes();
 /// interval are those of the last position of the plan.
 std::vector<Position> caged_candidates(const TestPlan& plan);
 
-/// The same slewed to by gyro commands, each with the case left where the gimbals allow it, and with
-/// the case turned half round from `heading` [rad] on the way. Empty unless a position of the plan is
-/// entered so.
+/// The same slewed to by gyro commands, each with the case left where the gimbals allow it, and
+/// with the case turned half round from `heading` [rad] on the way. Empty unless a position of the
+/// plan is entered so.
 std::vector<Position> torqued_candidates(const TestPlan& plan, double heading);
 
 /// A position as a table [[plan.position]] of a study file, every value written out.

@@ -27,14 +27,15 @@ TestPlan last_chain(const TestPlan& plan) {
   TestPlan chain = plan;
   std::size_t first = plan.positions.size() - 1;
   while (first > 0 && plan.positions[first].entry != Entry::caged) --first;
-  chain.positions.erase(chain.positions.begin(), chain.positions.begin() + static_cast<std::ptrdiff_t>(first));
+  chain.positions.erase(chain.positions.begin(),
+                        chain.positions.begin() + static_cast<std::ptrdiff_t>(first));
   return chain;
 }
 
 /// Integrates a chain and linearises its intervals from `first` on. carried: at the start of
 /// `first`; becomes that of the end.
-MatX rows_from(const Timeline& timeline, std::size_t first, const RankedModel& model, const Layout& layout,
-               ChainSensitivity& carried) {
+MatX rows_from(const Timeline& timeline, std::size_t first, const RankedModel& model,
+               const Layout& layout, ChainSensitivity& carried) {
   const ModelSpec& spec = model.spec;
   TruthSpec truth;
   static_cast<ModelSpec&>(truth) = spec;
@@ -43,11 +44,13 @@ MatX rows_from(const Timeline& timeline, std::size_t first, const RankedModel& m
   if (!sim.ode.ok())
     throw InputError(ExitCode::self_check, fmt::format("integration failed: {}", sim.ode.cause));
   Timeline part = timeline;
-  part.intervals.erase(part.intervals.begin(), part.intervals.begin() + static_cast<std::ptrdiff_t>(first));
+  part.intervals.erase(part.intervals.begin(),
+                       part.intervals.begin() + static_cast<std::ptrdiff_t>(first));
   const auto n = static_cast<Eigen::Index>(part.intervals.size());
   const Measurements measured{sim.measured.acc.rightCols(n), sim.measured.gimbal.rightCols(n)};
-  const auto equations = measurement_equations(part, spec.model(), layout, model.readout, measured,
-                                               model.nominal, sim.phi, spec.initial_attitude, &carried);
+  const auto equations =
+      measurement_equations(part, spec.model(), layout, model.readout, measured, model.nominal,
+                            sim.phi, spec.initial_attitude, &carried);
   return equations.front().rows.leftCols(3 + static_cast<Eigen::Index>(layout.size()));
 }
 
@@ -121,9 +124,12 @@ std::string free_name(const TestPlan& plan, const Position& position) {
 
 double value_of(const Criterion& criterion, const VecX& sigma, double half_log2_det) {
   switch (criterion.kind) {
-    case Criterion::Kind::A: return sigma.squaredNorm();
-    case Criterion::Kind::D: return half_log2_det;
-    case Criterion::Kind::parameter: break;
+    case Criterion::Kind::A:
+      return sigma.squaredNorm();
+    case Criterion::Kind::D:
+      return half_log2_det;
+    case Criterion::Kind::parameter:
+      break;
   }
   return sigma[static_cast<Eigen::Index>(criterion.state)];
 }
@@ -144,11 +150,15 @@ Criterion parse_criterion(const std::string& text, const Layout& layout) {
     keys.push_back(TermLibrary::specs[layout.params[k]].key.view());
     if (keys.back() == text) return {Criterion::Kind::parameter, k, text};
   }
-  throw InputError(ExitCode::usage, fmt::format("--criterion {}: unknown (expected A, D or a parameter that the "
-                                                "filter estimates). {}", text, config::suggestion(text, keys)));
+  throw InputError(ExitCode::usage,
+                   fmt::format("--criterion {}: unknown (expected A, D or a parameter that the "
+                               "filter estimates). {}",
+                               text, config::suggestion(text, keys)));
 }
 
-double UpdatedBelief::value(const Criterion& criterion) const { return value_of(criterion, sigma, half_log2_det); }
+double UpdatedBelief::value(const Criterion& criterion) const {
+  return value_of(criterion, sigma, half_log2_det);
+}
 
 JointPosterior joint_posterior(const InformationSum& sum) {
   const MatX& chain = sum.chain_triangle();
@@ -167,7 +177,8 @@ MatX compressed(const MatX& rows) {
   MatX R = qr.matrixQR().triangularView<Eigen::Upper>();
   Eigen::Index r = R.rows();
   double left_out = 0.0;
-  while (r > 0 && left_out + R.row(r - 1).squaredNorm() < negligible) left_out += R.row(--r).squaredNorm();
+  while (r > 0 && left_out + R.row(r - 1).squaredNorm() < negligible)
+    left_out += R.row(--r).squaredNorm();
   return R.topRows(r) * qr.colsPermutation().transpose();
 }
 
@@ -185,7 +196,8 @@ UpdatedBelief updated_belief(const JointPosterior& posterior, const MatX& J) {
     const MatX T = triangle(stacked(MatX::Identity(r, r), L));  // T^T T = 1 + L^T L
     const MatX SQ = S_x * Q;
     const MatX SQT = T.transpose().triangularView<Eigen::Lower>().solve(SQ.transpose());
-    variance = (S_x - SQ * Q.transpose()).rowwise().squaredNorm() + SQT.colwise().squaredNorm().transpose();
+    variance = (S_x - SQ * Q.transpose()).rowwise().squaredNorm() +
+               SQT.colwise().squaredNorm().transpose();
     half_log2_det -= T.diagonal().cwiseAbs().array().log2().sum();
     psi_information += J.leftCols<3>().transpose() * J.leftCols<3>();
   }
@@ -228,7 +240,8 @@ Improvement improve_plan(const TestPlan& plan, const RankedModel& model, const C
         caged.size() + torqued.size(),
         [&](std::size_t k) {
           Outcome o;
-          if (k >= caged.size()) o.torqued = torqued_addition(chain, torqued[k - caged.size()], model, linear.layout);
+          if (k >= caged.size())
+            o.torqued = torqued_addition(chain, torqued[k - caged.size()], model, linear.layout);
           const Addition& a = k < caged.size() ? caged_additions[k] : o.torqued;
           if (a.feasible) o.value = updated_belief(posterior, a.J).value(criterion);
           return o;

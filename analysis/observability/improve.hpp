@@ -27,10 +27,10 @@ Criterion parse_criterion(const std::string& text, const Layout& layout);
 /// One position added.
 struct ImprovementStep {
   Position position;
-  double duration = 0.0;          ///< slew and dwell [s]
+  double duration = 0.0;             ///< slew and dwell [s]
   double before = 0.0, after = 0.0;  ///< criterion
-  std::size_t feasible = 0;       ///< candidates that gimbals allowed
-  VecX learning_ratios;           ///< after this step, layout order
+  std::size_t feasible = 0;          ///< candidates that gimbals allowed
+  VecX learning_ratios;              ///< after this step, layout order
 };
 
 /// A plan with positions added.
@@ -49,23 +49,23 @@ using ImproveProgress = std::function<void(std::size_t, std::size_t)>;
 /// Adds `count` positions, greedily: each time the candidate that makes the criterion smallest
 /// (candidates.hpp; the first of equals).
 ///
-/// The information of a caged position does not depend on what came before and is computed once; the
-/// posterior under each candidate is a low-rank update of its square root. A position slewed to
-/// carries the attitude error of its chain: the chain is integrated on to it, its rows are appended,
-/// and the same update acts on parameters and chain attitude together.
-/// Does not depend on the number of threads.
+/// The information of a caged position does not depend on what came before and is computed once;
+/// the posterior under each candidate is a low-rank update of its square root. A position slewed to
+/// carries the attitude error of its chain: the chain is integrated on to it, its rows are
+/// appended, and the same update acts on parameters and chain attitude together. Does not depend on
+/// the number of threads.
 Improvement improve_plan(const TestPlan& plan, const RankedModel& model, const Criterion& criterion,
                          std::size_t count, int threads = 0, const ImproveProgress& progress = {});
 
 /// Square root S of a covariance P = S S^T of [psi of the present chain | x], 3 + n states.
 struct JointPosterior {
-  MatX S;             ///< shape (3 + n, 3 + n)
+  MatX S;                ///< shape (3 + n, 3 + n)
   Mat3 psi_information;  ///< on psi for known x
 };
 
 /// What an update makes of the parameters' covariance.
 struct UpdatedBelief {
-  VecX sigma;           ///< learning ratios, shape n
+  VecX sigma;                  ///< learning ratios, shape n
   double half_log2_det = 0.0;  ///< of the parameters' covariance
   double value(const Criterion& criterion) const;
 };

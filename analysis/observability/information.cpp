@@ -17,7 +17,8 @@ std::vector<int> stretches(const Timeline& timeline, int bins_per_dwell) {
   for (std::size_t first = 0; first < all.size();) {
     std::size_t end = first;
     const auto same = [&](const Interval& i) {
-      return i.position == timeline.intervals[first].position && i.slew == timeline.intervals[first].slew;
+      return i.position == timeline.intervals[first].position &&
+             i.slew == timeline.intervals[first].slew;
     };
     while (end < all.size() && same(timeline.intervals[end])) ++end;
     const std::size_t count = end - first;
@@ -34,7 +35,8 @@ RankedModel ranked_model(const ModelSpec& spec, const TruthSpec* truth, const Si
                          const Readout& readout, const Environment& environment) {
   constexpr auto lambda = TermLibrary::index("lambda");
   constexpr auto eta = TermLibrary::index("eta_x");
-  RankedModel model{spec, make_layout(spec).theta, MisalignmentAngles::Zero(), site, readout, environment};
+  RankedModel model{spec,       make_layout(spec).theta, MisalignmentAngles::Zero(), site, readout,
+                    environment};
   model.spec.noise = {};
   if (!truth) return model;
   for (std::size_t i = 0; i < TermLibrary::num_params; ++i)
@@ -61,18 +63,20 @@ LinearisedPlan linearise(const TestPlan& plan, const RankedModel& model, int bin
   const TruthDraw draw{model.nominal, std::vector<Vec3>(timeline.chains, Vec3::Zero())};
   const Simulation sim = Simulator(truth, model.readout).run(timeline, draw, 0, 0);
   if (!sim.ode.ok())
-    throw InputError(ExitCode::self_check,
-                     fmt::format("integration of the nominal test failed at t = {:.6g} s: {} ({}). The "
-                                 "nominal parameters may be unphysical: see `driftscope check`",
-                                 sim.ode.t, name(sim.ode.status), sim.ode.cause));
+    throw InputError(
+        ExitCode::self_check,
+        fmt::format("integration of the nominal test failed at t = {:.6g} s: {} ({}). The "
+                    "nominal parameters may be unphysical: see `driftscope check`",
+                    sim.ode.t, name(sim.ode.status), sim.ode.cause));
 
   LinearisedPlan out;
   out.layout = make_layout(spec);
   out.chains = timeline.chains;
   out.positions = timeline.positions;
   out.duration = timeline.intervals.back().t1 - timeline.intervals.front().t0;
-  const auto chains = measurement_equations(timeline, spec.model(), out.layout, model.readout,
-                                            sim.measured, model.nominal, sim.phi, spec.initial_attitude);
+  const auto chains =
+      measurement_equations(timeline, spec.model(), out.layout, model.readout, sim.measured,
+                            model.nominal, sim.phi, spec.initial_attitude);
   const Eigen::Index width = 3 + out.size();
   const Eigen::Index per_interval =
       (model.readout.accelerometers ? 3 : 0) + (model.readout.gimbals ? 3 : 0);
@@ -81,12 +85,13 @@ LinearisedPlan linearise(const TestPlan& plan, const RankedModel& model, int bin
   for (std::size_t first = 0; first < timeline.intervals.size();) {
     const Interval& start = timeline.intervals[first];
     std::size_t end = first;
-    while (end < timeline.intervals.size() &&
-           timeline.intervals[end].position == start.position && stretch[end] == stretch[first])
+    while (end < timeline.intervals.size() && timeline.intervals[end].position == start.position &&
+           stretch[end] == stretch[first])
       ++end;
     const Eigen::Index rows = per_interval * static_cast<Eigen::Index>(end - first);
     Eigen::Index& at = next[start.chain];
-    out.bins.push_back({start.position, start.chain, start.slew, start.t0, timeline.intervals[end - 1].t1,
+    out.bins.push_back({start.position, start.chain, start.slew, start.t0,
+                        timeline.intervals[end - 1].t1,
                         triangle(chains[start.chain].rows.block(at, 0, rows, width))});
     at += rows;
     first = end;

@@ -8,11 +8,11 @@
 
 namespace drift {
 
-/// What a test is judged by before it is done: a model with priors, the numbers it is linearised at,
-/// and what is measured where.
+/// What a test is judged by before it is done: a model with priors, the numbers it is linearised
+/// at, and what is measured where.
 struct RankedModel {
   ModelSpec spec;
-  Theta nominal = Theta::Zero();  ///< SI
+  Theta nominal = Theta::Zero();                         ///< SI
   MisalignmentAngles loop = MisalignmentAngles::Zero();  ///< coupling "compensated" alone [rad]
   Site site;
   Readout readout;
@@ -27,9 +27,9 @@ RankedModel ranked_model(const ModelSpec& spec, const TruthSpec* truth, const Si
 
 /// Everything measured in a stretch of time, compressed to a triangle.
 struct TimeBin {
-  int position = 0;       ///< from 0
-  int chain = 0;          ///< cagings before it, from 0
-  bool slew = false;      ///< on the way to the position
+  int position = 0;           ///< from 0
+  int chain = 0;              ///< cagings before it, from 0
+  bool slew = false;          ///< on the way to the position
   double t0 = 0.0, t1 = 0.0;  ///< [s]
   MatX rows;  ///< [psi | x], prior-scaled and whitened, shape (3 + n, 3 + n), upper triangular
 };
@@ -86,9 +86,9 @@ MatX information_root(const LinearisedPlan& plan, Keep&& keep, double attitude_w
 
 /// Belief after data, with the prior (unit covariance, prior-scaled): I = R^T R + 1.
 struct Posterior {
-  MatX S;         ///< square root of the covariance, P = S S^T, upper triangular
-  VecX sigma;     ///< marginal standard deviations: the learning ratios
-  VecX conditional;  ///< standard deviations if all other parameters were known
+  MatX S;             ///< square root of the covariance, P = S S^T, upper triangular
+  VecX sigma;         ///< marginal standard deviations: the learning ratios
+  VecX conditional;   ///< standard deviations if all other parameters were known
   double bits = 0.0;  ///< information gained, log2 det(I) / 2
 
   MatX covariance() const { return S * S.transpose(); }

@@ -5,7 +5,9 @@
 namespace drift {
 namespace {
 
-VecX log2_sigma(const MatX& root) { return posterior_of(root).sigma.array().log2(); }
+VecX log2_sigma(const MatX& root) {
+  return posterior_of(root).sigma.array().log2();
+}
 
 }  // namespace
 
@@ -38,14 +40,16 @@ InformationCourse information_course(const LinearisedPlan& plan) {
   for (int c = 0; c < plan.chains; ++c)
     roots.push_back(information_root(plan, [&](const TimeBin& bin) { return bin.chain == c; }));
   std::vector<MatX> behind(roots.size() + 1, MatX::Zero(n, n));  // chains from c on
-  for (std::size_t c = roots.size(); c-- > 0;) behind[c] = triangle(stacked(roots[c], behind[c + 1]));
+  for (std::size_t c = roots.size(); c-- > 0;)
+    behind[c] = triangle(stacked(roots[c], behind[c + 1]));
   MatX ahead = MatX::Zero(n, n);  // chains before c
   std::size_t chain = 0;
   for (int p = 0; p < plan.positions; ++p) {
     int c = -1;
     for (const TimeBin& bin : plan.bins)
       if (bin.position == p) c = bin.chain;
-    for (; chain < static_cast<std::size_t>(c); ++chain) ahead = triangle(stacked(ahead, roots[chain]));
+    for (; chain < static_cast<std::size_t>(c); ++chain)
+      ahead = triangle(stacked(ahead, roots[chain]));
     const MatX rest = information_root(
         plan, [&](const TimeBin& bin) { return bin.chain == c && bin.position != p; });
     const MatX without = stacked(stacked(ahead, behind[chain + 1]), rest);

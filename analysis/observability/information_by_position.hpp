@@ -10,7 +10,8 @@ struct InformationCourse {
   MatX gain;           ///< by bin in order of time, shape (n, bins)
   MatX position_gain;  ///< the same by position, shape (n, positions)
   VecX bits;           ///< gained by all parameters together, log2 det / 2, by position [bit]
-  MatX loss;  ///< log2(sigma without what was measured at the position / sigma), shape (n, positions)
+  MatX loss;           ///< log2(sigma without what was measured at the position / sigma), shape (n,
+                       ///< positions)
 };
 
 /// Follows the posterior through a plan in order of time, and leaves out each position in turn.

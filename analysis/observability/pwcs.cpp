@@ -23,7 +23,8 @@ Spectrum spectrum(const MatX& matrix) {
   const Eigen::Index n = matrix.cols();
   MatX square = MatX::Zero(n, n);
   if (matrix.rows() > n)
-    square = Eigen::HouseholderQR<MatX>(matrix).matrixQR().topRows(n).triangularView<Eigen::Upper>();
+    square =
+        Eigen::HouseholderQR<MatX>(matrix).matrixQR().topRows(n).triangularView<Eigen::Upper>();
   else
     square.topRows(matrix.rows()) = matrix;
   const Eigen::JacobiSVD<MatX> svd(square, Eigen::ComputeFullV);
@@ -111,7 +112,8 @@ PwcsRank pwcs_rank(const TestPlan& plan, const Site& site, const ModelSpec& spec
   out.V = all.V;
   out.null_space = all.V.rightCols(n - all.rank);
   const double beyond = all.rank < n ? all.values[all.rank] : 0.0;
-  out.gap = beyond > 0.0 ? all.values[all.rank - 1] / beyond : std::numeric_limits<double>::infinity();
+  out.gap =
+      beyond > 0.0 ? all.values[all.rank - 1] / beyond : std::numeric_limits<double>::infinity();
   return out;
 }
 

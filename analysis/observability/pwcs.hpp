@@ -29,10 +29,11 @@ struct PwcsRank {
   VecX singular_values;  ///< of the stripped observability matrix, falling, shape states
   MatX V;                ///< right singular vectors, shape (states, states)
   MatX null_space;       ///< orthonormal, prior-scaled, shape (states, states - rank)
-  double gap = 0.0;      ///< last counted singular value over the first not counted; infinite if none
-  double leak = 0.0;     ///< largest |F_j null(Q_j)| / |F_j|: zero if the theorem applies
+  double gap = 0.0;   ///< last counted singular value over the first not counted; infinite if none
+  double leak = 0.0;  ///< largest |F_j null(Q_j)| / |F_j|: zero if the theorem applies
 
-  /// Whether the rank is beyond doubt: nothing near the tolerance, and the theorem's condition holds.
+  /// Whether the rank is beyond doubt: nothing near the tolerance, and the theorem's condition
+  /// holds.
   bool clear() const { return gap > 1e3 && leak < 1e-9; }
 };
 
@@ -45,9 +46,9 @@ struct PwcsRank {
 std::vector<PwcsPosition> pwcs_positions(const TestPlan& plan, const Site& site,
                                          const ModelSpec& spec, const Readout& channels);
 
-/// Rank of the stripped observability matrix [Q_1; Q_2; ...] of those positions, by SVD. The attitude
-/// error psi_l is carried from each position to the next, as by slews that are known exactly.
-/// Source: Goshen-Meskin and Bar-Itzhack, IEEE Trans. AES 28(4), 1992; physics.md 5.2.
+/// Rank of the stripped observability matrix [Q_1; Q_2; ...] of those positions, by SVD. The
+/// attitude error psi_l is carried from each position to the next, as by slews that are known
+/// exactly. Source: Goshen-Meskin and Bar-Itzhack, IEEE Trans. AES 28(4), 1992; physics.md 5.2.
 PwcsRank pwcs_rank(const TestPlan& plan, const Site& site, const ModelSpec& spec,
                    const Readout& channels);
 

@@ -21,7 +21,9 @@ std::vector<WeakDirection> unseen(const std::vector<EigenDirection>& spectrum) {
 
 }  // namespace
 
-double ParameterRank::bits() const { return -std::log2(learning_ratio()); }
+double ParameterRank::bits() const {
+  return -std::log2(learning_ratio());
+}
 
 std::vector<EigenDirection> spectrum_of(const MatX& information_root) {
   const Eigen::JacobiSVD<MatX> svd(information_root, Eigen::ComputeFullV);
@@ -30,7 +32,8 @@ std::vector<EigenDirection> spectrum_of(const MatX& information_root) {
     EigenDirection d{std::pow(svd.singularValues()[i], 2), svd.matrixV().col(i), {}};
     std::vector<std::size_t> states(static_cast<std::size_t>(d.direction.size()));
     std::iota(states.begin(), states.end(), std::size_t{0});
-    std::ranges::stable_sort(states, std::greater{}, [&](std::size_t k) { return d.participation(k); });
+    std::ranges::stable_sort(states, std::greater{},
+                             [&](std::size_t k) { return d.participation(k); });
     double part = 0.0;
     for (const std::size_t k : states) {
       if (part >= 0.8 || d.dominant.size() == 4) break;
@@ -78,9 +81,9 @@ Ranking rank_parameters(const LinearisedPlan& plan) {
 std::string name_of(const EigenDirection& direction, const Layout& layout) {
   std::string text;
   for (const std::size_t k : direction.dominant)
-    text += fmt::format("{}{}{} ({:.0f} %)", text.empty() ? "" : ", ", direction.direction[k] < 0.0 ? "-" : "+",
-                        TermLibrary::specs[layout.params[k]].key.view(),
-                        100.0 * direction.participation(k));
+    text += fmt::format(
+        "{}{}{} ({:.0f} %)", text.empty() ? "" : ", ", direction.direction[k] < 0.0 ? "-" : "+",
+        TermLibrary::specs[layout.params[k]].key.view(), 100.0 * direction.participation(k));
   return text;
 }
 

@@ -9,12 +9,12 @@ namespace drift {
 
 /// What a test will say of one parameter.
 struct ParameterRank {
-  std::size_t param = 0;     ///< index in TermLibrary
-  double prior_sigma = 0.0;      ///< SI
-  double posterior_sigma = 0.0;  ///< SI
+  std::size_t param = 0;           ///< index in TermLibrary
+  double prior_sigma = 0.0;        ///< SI
+  double posterior_sigma = 0.0;    ///< SI
   double conditional_sigma = 0.0;  ///< if all other parameters were known (attitudes not), SI
-  std::size_t partner = 0;    ///< state it is most correlated with after the test; itself if none
-  double correlation = 0.0;   ///< with that state
+  std::size_t partner = 0;   ///< state it is most correlated with after the test; itself if none
+  double correlation = 0.0;  ///< with that state
   double learning_ratio() const { return posterior_sigma / prior_sigma; }
   /// How much the ignorance of the others costs: marginal over conditional sigma, >= 1.
   double collinearity() const { return posterior_sigma / conditional_sigma; }
@@ -23,8 +23,8 @@ struct ParameterRank {
 
 /// A direction in parameter space along which information stands alone.
 struct EigenDirection {
-  double information = 0.0;  ///< prior-scaled eigenvalue: 1 = as good as the prior
-  VecX direction;            ///< unit vector over the prior-scaled parameters
+  double information = 0.0;           ///< prior-scaled eigenvalue: 1 = as good as the prior
+  VecX direction;                     ///< unit vector over the prior-scaled parameters
   std::vector<std::size_t> dominant;  ///< states by falling participation, at most four, that
                                       ///< together hold 80 % of it if four can
   double participation(std::size_t state) const { return direction[state] * direction[state]; }
@@ -40,7 +40,7 @@ struct Ranking {
   std::vector<WeakDirection> exact;       ///< information below 1e-6: the data say nothing
   std::vector<WeakDirection> held_by_attitude;  ///< the same if the attitude at each caging is
                                                 ///< unknown; includes `exact`
-  MatX covariance;                        ///< posterior, prior-scaled
+  MatX covariance;                              ///< posterior, prior-scaled
 
   double learning_ratio(std::size_t state) const { return parameters[state].learning_ratio(); }
 };

@@ -28,7 +28,9 @@ struct TimeAxis {
 };
 TimeAxis time_axis(const std::vector<double>& t, const Where& where) {
   const bool in_hours = t.empty() || t.back() - t.front() > 2.0 * hour;
-  return {in_hours ? hour : 1.0, fmt::format("time{} [{}]", where.recordings.empty() ? "" : " through all recordings", in_hours ? "h" : "s")};
+  return {in_hours ? hour : 1.0,
+          fmt::format("time{} [{}]", where.recordings.empty() ? "" : " through all recordings",
+                      in_hours ? "h" : "s")};
 }
 
 std::optional<Figure> heat_figure(const Where& where, bool consistent) {
@@ -38,26 +40,33 @@ std::optional<Figure> heat_figure(const Where& where, bool consistent) {
   HeatMap map;
   map.title = consistent ? "What the nominal model leaves" : "Where the misfit is";
   map.x_label = "position";
-  map.value_label = consistent ? "chi-square per degree of freedom above or below 1" : "share of the located misfit [%]";
+  map.value_label = consistent ? "chi-square per degree of freedom above or below 1"
+                               : "share of the located misfit [%]";
   map.rows = where.channel_names;
   for (int p = 1; p <= positions; ++p) map.columns.push_back(fmt::format("{}", p));
   map.value = MatX::Constant(static_cast<Eigen::Index>(map.rows.size()), positions, none);
   for (const HeatCell& c : where.heat)
     if (c.channel >= 0 && c.channel < map.value.rows() && c.position >= 1)
-      map.value(c.channel, c.position - 1) = consistent ? 0.01 * std::round(100.0 * (c.chi2_per_dof - 1.0)) : std::round(100.0 * c.share);
+      map.value(c.channel, c.position - 1) = consistent
+                                                 ? 0.01 * std::round(100.0 * (c.chi2_per_dof - 1.0))
+                                                 : std::round(100.0 * c.share);
   if (consistent) map.most = 1.0;
-  return Figure{"where.svg",
-                consistent ? "Residuals of each channel and position against their noise. Cells of few samples scatter; "
-                             "together they show nothing significant."
-                           : "Share of each channel and position in the misfit that the nominal model leaves. "
-                             "Negative shares speak against the located effect.",
-                svg_of(map)};
+  return Figure{
+      "where.svg",
+      consistent
+          ? "Residuals of each channel and position against their noise. Cells of few samples "
+            "scatter; "
+            "together they show nothing significant."
+          : "Share of each channel and position in the misfit that the nominal model leaves. "
+            "Negative shares speak against the located effect.",
+      svg_of(map)};
 }
 
 /// Whether most positions hold several samples: then curves are not joined from one to the next.
 bool has_stretches(const std::vector<int>& position) {
   std::size_t changes = 0;
-  for (std::size_t i = 1; i < position.size(); ++i) changes += position[i] != position[i - 1] ? 1 : 0;
+  for (std::size_t i = 1; i < position.size(); ++i)
+    changes += position[i] != position[i - 1] ? 1 : 0;
   return 2 * changes < position.size();
 }
 
@@ -114,8 +123,8 @@ Panel signal_panel(const RecoveredSignal& s, const Where& where) {
   return panel;
 }
 
-Panel residual_panel(const Diagnosis& d, const std::vector<double>& t, Eigen::Index channel, const std::string& name,
-                     bool after, double most) {
+Panel residual_panel(const Diagnosis& d, const std::vector<double>& t, Eigen::Index channel,
+                     const std::string& name, bool after, double most) {
   const FitComparison& fit = d.fit;
   const auto& r = after ? fit.residual_after : fit.residual_before;
   const TimeAxis axis = time_axis(t, d.where);
@@ -124,7 +133,11 @@ Panel residual_panel(const Diagnosis& d, const std::vector<double>& t, Eigen::In
   panel.title = after ? name + ", after" : d.has_patch ? name + ", before" : name;
   panel.x_label = timed ? axis.label : "sample";
   panel.y_label = "residual [sigma]";
-  Series s{.label = after ? "with the cause" : "nominal model", .x = {}, .y = {}, .sigma = {}, .colour = after ? 0u : 1u};
+  Series s{.label = after ? "with the cause" : "nominal model",
+           .x = {},
+           .y = {},
+           .sigma = {},
+           .colour = after ? 0u : 1u};
   for (Eigen::Index i = 0; i < r.cols(); ++i) {
     s.x.push_back(timed ? t[static_cast<std::size_t>(i)] / axis.unit : static_cast<double>(i + 1));
     s.y.push_back(r(channel, i));
@@ -148,23 +161,28 @@ std::optional<Figure> residual_figure(const Diagnosis& d) {
   chart.panel_width = 520.0;
   chart.panel_height = 190.0;
   const auto names = d.where.channel_names;
-  for (Eigen::Index c = 0; c < std::min<Eigen::Index>(6, static_cast<Eigen::Index>(names.size())); ++c) {
+  for (Eigen::Index c = 0; c < std::min<Eigen::Index>(6, static_cast<Eigen::Index>(names.size()));
+       ++c) {
     double most = 3.0;
     for (const auto* r : {&fit.residual_before, &fit.residual_after})
       for (const double v : r->row(c))
         if (std::isfinite(v)) most = std::max(most, 1.05 * std::abs(v));
     if (!fit.residual_before.row(c).array().isFinite().any()) continue;
-    const double power = std::pow(10.0, std::floor(std::log10(most)));  // round, so that the axis has ticks
+    const double power =
+        std::pow(10.0, std::floor(std::log10(most)));  // round, so that the axis has ticks
     most = power * (most <= 2.0 * power ? 2.0 : most <= 5.0 * power ? 5.0 : 10.0);
-    chart.panels.push_back(residual_panel(d, t, c, names[static_cast<std::size_t>(c)], false, most));
+    chart.panels.push_back(
+        residual_panel(d, t, c, names[static_cast<std::size_t>(c)], false, most));
     if (compared)
-      chart.panels.push_back(residual_panel(d, t, c, names[static_cast<std::size_t>(c)], true, most));
+      chart.panels.push_back(
+          residual_panel(d, t, c, names[static_cast<std::size_t>(c)], true, most));
   }
   if (chart.panels.empty()) return std::nullopt;
-  return Figure{"residuals.svg",
-                "Residuals of every channel in sigmas. A concealed effect need not be seen here: the "
-                "fitted parameters take most of it up.",
-                svg_of(chart)};
+  return Figure{
+      "residuals.svg",
+      "Residuals of every channel in sigmas. A concealed effect need not be seen here: the "
+      "fitted parameters take most of it up.",
+      svg_of(chart)};
 }
 
 std::optional<Figure> held_out_figure(const HeldOut& held) {
@@ -180,12 +198,15 @@ std::optional<Figure> held_out_figure(const HeldOut& held) {
     for (const Fold& f : *folds) {
       if (f.dof == 0) continue;
       const double n = static_cast<double>(f.dof), gain = f.log_score_after - f.log_score_before;
-      chart.lines.push_back({.label = f.name, .before = f.chi2_before / n, .after = f.chi2_after / n,
+      chart.lines.push_back({.label = f.name,
+                             .before = f.chi2_before / n,
+                             .after = f.chi2_after / n,
                              .text = std::isfinite(gain) ? fmt::format("{:+.1f}", gain) : ""});
     }
   if (chart.lines.empty()) return std::nullopt;
   return Figure{"held_out.svg",
-                "Each line was predicted by a fit to all the others. At the right: what the cause gains in the log of the "
+                "Each line was predicted by a fit to all the others. At the right: what the cause "
+                "gains in the log of the "
                 "predicted density of these data; positive is better.",
                 svg_of(chart)};
 }
@@ -199,16 +220,20 @@ std::optional<Figure> moved_figure(const std::vector<ShiftedParameter>& shifted)
     if (chart.lines.size() == most_moved) break;
     if (!std::isfinite(p.shift_sigma) || !(p.sigma_before > 0.0)) continue;
     const double half = p.sigma_after / p.sigma_before;
-    chart.lines.push_back({.label = p.key, .before = 0.0, .after = p.shift_sigma,
-                           .low = p.shift_sigma - half, .high = p.shift_sigma + half,
+    chart.lines.push_back({.label = p.key,
+                           .before = 0.0,
+                           .after = p.shift_sigma,
+                           .low = p.shift_sigma - half,
+                           .high = p.shift_sigma + half,
                            .text = fmt::format("{} → {} {}", to_match(p.before, p.sigma_before),
                                                with_sigma(p.after, p.sigma_after), p.unit)});
   }
   if (chart.lines.empty()) return std::nullopt;
-  return Figure{"moved.svg",
-                "How far each estimate moves once the cause is in the model; the bar is 1 sigma of the "
-                "new estimate.",
-                svg_of(chart)};
+  return Figure{
+      "moved.svg",
+      "How far each estimate moves once the cause is in the model; the bar is 1 sigma of the "
+      "new estimate.",
+      svg_of(chart)};
 }
 
 void add(std::vector<Figure>& figures, std::optional<Figure> figure) {
@@ -227,10 +252,11 @@ std::vector<Figure> where_figures(const Diagnosis& d) {
   for (std::size_t k = 0; k < std::min(most_signals, d.signals.size()); ++k)
     chart.panels.push_back(signal_panel(d.signals[k], d.where));
   if (!chart.panels.empty())
-    figures.push_back({"signal.svg",
-                       "The input that would explain the misfit, as a time series; grey: the located "
-                       "window. The signature of the cause is what the fitted parameters cannot absorb.",
-                       svg_of(chart)});
+    figures.push_back(
+        {"signal.svg",
+         "The input that would explain the misfit, as a time series; grey: the located "
+         "window. The signature of the cause is what the fitted parameters cannot absorb.",
+         svg_of(chart)});
   return figures;
 }
 
@@ -243,16 +269,24 @@ std::vector<Figure> name_figures(const Diagnosis& d) {
   const bool named = d.verdict == Verdict::named;
   for (const auto& [c, alternative] : shown_candidates(d, most_bars)) {
     if (!std::isfinite(c->score)) continue;
-    const std::string what = alternative == 0 ? "" : named ? ", named" : fmt::format(", alternative {}", alternative);
-    bars.bars.push_back({.label = label_of(*c), .value = c->score, .colour = alternative > 0 ? 1u : 6u,
-                         .text = fmt::format("{}, p {}{}", number_text(c->score), p_text(c->p_value), what)});
+    const std::string what = alternative == 0 ? ""
+                             : named          ? ", named"
+                                              : fmt::format(", alternative {}", alternative);
+    bars.bars.push_back(
+        {.label = label_of(*c),
+         .value = c->score,
+         .colour = alternative > 0 ? 1u : 6u,
+         .text = fmt::format("{}, p {}{}", number_text(c->score), p_text(c->p_value), what)});
   }
   if (!bars.bars.empty())
-    figures.push_back({"candidates.svg",
-                       d.causes.empty() ? "Strength of the strongest candidates, each alone, after what the fitted parameters absorb."
-                                        : "Strength of the strongest candidates, each alone, after what the fitted parameters "
-                                          "absorb. Orange: the causes of the verdict, always shown.",
-                       svg_of(bars)});
+    figures.push_back(
+        {"candidates.svg",
+         d.causes.empty()
+             ? "Strength of the strongest candidates, each alone, after what the fitted parameters "
+               "absorb."
+             : "Strength of the strongest candidates, each alone, after what the fitted parameters "
+               "absorb. Orange: the causes of the verdict, always shown.",
+         svg_of(bars)});
   const CosineMatrix& m = d.cosines;
   if (m.cosine.rows() > 1 && m.cosine.rows() == static_cast<Eigen::Index>(m.labels.size())) {
     HeatMap map;
@@ -261,7 +295,8 @@ std::vector<Figure> name_figures(const Diagnosis& d) {
     map.rows = map.columns = m.labels;
     map.value = m.cosine;
     map.most = 1.0;
-    figures.push_back({"cosines.svg", "Cosines between what is left of the signatures.", svg_of(map)});
+    figures.push_back(
+        {"cosines.svg", "Cosines between what is left of the signatures.", svg_of(map)});
   }
   return figures;
 }

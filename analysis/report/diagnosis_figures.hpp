@@ -7,8 +7,8 @@
 
 namespace drift {
 
-/// Where the misfit is: heat map of channels and positions (where.svg), and the recovered signals with
-/// band, located windows and the winner's signature (signal.svg).
+/// Where the misfit is: heat map of channels and positions (where.svg), and the recovered signals
+/// with band, located windows and the winner's signature (signal.svg).
 std::vector<Figure> where_figures(const discovery::Diagnosis& diagnosis);
 
 /// Scores of the strongest candidates (candidates.svg) and cosines between causes (cosines.svg).

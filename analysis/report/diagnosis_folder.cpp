@@ -33,10 +33,11 @@ std::string patched_file(const Study& study, const discovery::Diagnosis& d) {
 std::vector<std::string> write_results(const Study& study, const discovery::Diagnosis& d,
                                        const DiagnosisSource& source, const std::string& folder) {
   // Everything is made before anything is written: what fails then is the disk alone.
-  std::vector<TextFile> files{{"diagnosis.json", to_json(d)},
-                              {"residual_signal.csv", residual_signal_csv(d.signals, d.where.recordings)},
-                              {"report.html", to_html(diagnosis_html(study, d, source))},
-                              {"study.toml", study.text}};
+  std::vector<TextFile> files{
+      {"diagnosis.json", to_json(d)},
+      {"residual_signal.csv", residual_signal_csv(d.signals, d.where.recordings)},
+      {"report.html", to_html(diagnosis_html(study, d, source))},
+      {"study.toml", study.text}};
   for (Figure& f : diagnosis_figures(d)) files.emplace_back(f.file, std::move(f.svg));
   if (d.has_patch) files.emplace_back("patched.toml", patched_file(study, d));
   if (!d.advice.empty() && !d.advice.front().plan.empty() && study.kind == RecordingKind::platform)

@@ -20,10 +20,14 @@ constexpr std::size_t most_candidates = 40, most_moved = 40, most_windows = 12;
 
 std::string verdict_word(Verdict v) {
   switch (v) {
-    case Verdict::consistent: return "Consistent: nothing significant is missing.";
-    case Verdict::named: return "Named: the data single out what is missing.";
-    case Verdict::ambiguous: return "Ambiguous: something is missing, and several causes remain possible.";
-    case Verdict::unexplained: break;
+    case Verdict::consistent:
+      return "Consistent: nothing significant is missing.";
+    case Verdict::named:
+      return "Named: the data single out what is missing.";
+    case Verdict::ambiguous:
+      return "Ambiguous: something is missing, and several causes remain possible.";
+    case Verdict::unexplained:
+      break;
   }
   return "Unexplained: something is missing that no candidate fits.";
 }
@@ -38,11 +42,13 @@ void add_section(HtmlReport& report, Section section) {
 
 Section where_section(const Diagnosis& d) {
   Section section{"Where", {}};
-  if (const auto sentence = where_sentence(d.where); !sentence.empty()) section.blocks.emplace_back(Paragraph{sentence});
+  if (const auto sentence = where_sentence(d.where); !sentence.empty())
+    section.blocks.emplace_back(Paragraph{sentence});
   add_pictures(section, where_figures(d));
   for (const RecoveredSignal& s : d.signals)
     if (!s.shape.empty())
-      section.blocks.emplace_back(Paragraph{s.shape.starts_with(s.equation) ? s.shape : fmt::format("{}: {}", s.equation, s.shape)});
+      section.blocks.emplace_back(Paragraph{
+          s.shape.starts_with(s.equation) ? s.shape : fmt::format("{}: {}", s.equation, s.shape)});
   if (!d.where.windows.empty()) section.blocks.emplace_back(window_table(d, most_windows));
   return section;
 }
@@ -55,7 +61,8 @@ Section name_section(const Diagnosis& d) {
     if (const auto term = TermLibrary::find_term(c.term)) {
       const TermInfo& info = TermLibrary::terms[*term];
       auto line = fmt::format("{}, {}: {}", info.key, info.title, info.equation);
-      if (std::ranges::find(explained, line) == explained.end()) explained.push_back(std::move(line));
+      if (std::ranges::find(explained, line) == explained.end())
+        explained.push_back(std::move(line));
     }
   if (!explained.empty()) section.blocks.emplace_back(Sentences{explained});
   const auto figures = name_figures(d);
@@ -103,7 +110,8 @@ Section source_section(const Study& study, const Diagnosis& d, const DiagnosisSo
   table.add({"nominal model", model_text(d.nominal)});
   if (d.has_patch) table.add({"patched model (patched.toml)", model_text(d.patched)});
   table.add({"seed", fmt::format("{}", study.monte_carlo.seed)});
-  for (const auto& [stage, seconds] : d.seconds) table.add({stage, fmt::format("{:.2f} s", seconds)});
+  for (const auto& [stage, seconds] : d.seconds)
+    table.add({stage, fmt::format("{:.2f} s", seconds)});
   section.blocks.emplace_back(std::move(table));
   if (!source.details.empty()) section.blocks.emplace_back(Preformatted{source.details});
   return section;
@@ -113,21 +121,24 @@ Section source_section(const Study& study, const Diagnosis& d, const DiagnosisSo
 
 std::vector<Figure> diagnosis_figures(const Diagnosis& d) {
   std::vector<Figure> all = where_figures(d);
-  for (auto&& figures : {name_figures(d), fit_figures(d)}) all.insert(all.end(), figures.begin(), figures.end());
+  for (auto&& figures : {name_figures(d), fit_figures(d)})
+    all.insert(all.end(), figures.begin(), figures.end());
   return all;
 }
 
 HtmlReport diagnosis_html(const Study& study, const Diagnosis& d, const DiagnosisSource& source) {
   HtmlReport report;
   report.title = study.title.empty() ? "Diagnosis" : study.title;
-  report.subtitle = fmt::format("{} {}", verdict_word(d.verdict), fmt::join(source.recordings, ", "));
+  report.subtitle =
+      fmt::format("{} {}", verdict_word(d.verdict), fmt::join(source.recordings, ", "));
   report.headlines.push_back(verdict_sentence(d));
   if (d.verdict != Verdict::consistent) {
     for (const auto& sentence : {where_sentence(d.where), held_out_sentence(d.fit.held_out)})
       if (!sentence.empty()) report.headlines.push_back(sentence);
   }
   if (!d.advice.empty()) report.headlines.push_back(d.advice.front().text);
-  if (auto remarks = remarks_of(d); !remarks.empty()) add_section(report, {"To be kept in mind", {Sentences{std::move(remarks)}}});
+  if (auto remarks = remarks_of(d); !remarks.empty())
+    add_section(report, {"To be kept in mind", {Sentences{std::move(remarks)}}});
   add_section(report, where_section(d));
   add_section(report, name_section(d));
   add_section(report, fit_section(d));

@@ -12,12 +12,12 @@ namespace drift {
 
 /// What the report says beside the diagnosis: where it came from.
 struct DiagnosisSource {
-  std::vector<std::string> recordings;   ///< files
-  std::string details;                   ///< kept as written, fixed width; may be empty
+  std::vector<std::string> recordings;  ///< files
+  std::string details;                  ///< kept as written, fixed width; may be empty
 };
 
-/// Everything there is to say of a diagnosis, with its pictures: verdict, where, candidates, fit before
-/// and after, what moved, noise, likeness, advice, provenance.
+/// Everything there is to say of a diagnosis, with its pictures: verdict, where, candidates, fit
+/// before and after, what moved, noise, likeness, advice, provenance.
 HtmlReport diagnosis_html(const Study& study, const discovery::Diagnosis& diagnosis,
                           const DiagnosisSource& source);
 

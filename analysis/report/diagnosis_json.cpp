@@ -11,8 +11,12 @@ namespace {
 using namespace discovery;
 using Json = nlohmann::ordered_json;
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+Json text_or_null(const std::string& text) {
+  return text.empty() ? Json(nullptr) : Json(text);
+}
 
 Json where_json(const Where& where) {
   Json out;
@@ -42,7 +46,9 @@ Json where_json(const Where& where) {
                                  {"end_in_recording_s", number(w.end_s - r->offset_s)}});
   }
   for (const RecordingSpan& r : where.recordings)
-    out["recordings"].push_back({{"name", r.name}, {"start_s", number(r.start_s)}, {"end_s", number(r.end_s)},
+    out["recordings"].push_back({{"name", r.name},
+                                 {"start_s", number(r.start_s)},
+                                 {"end_s", number(r.end_s)},
                                  {"offset_s", number(r.offset_s)}});
   out["equation"] = text_or_null(where.equation);
   const bool scanned = std::isfinite(where.scan_p_value);
@@ -56,12 +62,13 @@ Json causes_json(const std::vector<Cause>& causes) {
   for (const Cause& c : causes) {
     Json parameters = Json::array(), confusable = Json::array();
     for (const CauseParameter& p : c.parameters)
-      parameters.push_back({{"key", p.key},
-                            {"value", number(p.value)},
-                            {"sigma", number(p.sigma)},
-                            {"unit", p.unit},
-                            {"interval_95", {number(p.value - 1.96 * p.sigma), number(p.value + 1.96 * p.sigma)}},
-                            {"profiled", p.profiled}});
+      parameters.push_back(
+          {{"key", p.key},
+           {"value", number(p.value)},
+           {"sigma", number(p.sigma)},
+           {"unit", p.unit},
+           {"interval_95", {number(p.value - 1.96 * p.sigma), number(p.value + 1.96 * p.sigma)}},
+           {"profiled", p.profiled}});
     for (const Confusable& other : c.confusable_with)
       confusable.push_back({{"term", other.term},
                             {"axis", text_or_null(other.axis)},
@@ -124,19 +131,23 @@ Json fit_json(const FitComparison& fit, bool has_cause) {
   // Without a cause there is no second fit; a recording on a case has no likelihood.
   const bool refitted = has_cause && std::isfinite(fit.log_likelihood_ratio);
   const auto of_refit = [&](double value) { return refitted ? number(value) : Json(nullptr); };
-  out["in_sample"] = {{"chi2_per_dof_before", number(fit.chi2_per_dof_before)},
-                      {"chi2_per_dof_after", number(fit.chi2_per_dof_after)},
-                      {"chi2_per_dof_95", fit.band_high > 0.0 ? Json{number(fit.band_low), number(fit.band_high)} : Json(nullptr)},
-                      {"dof", fit.dof},
-                      {"log_likelihood_ratio", of_refit(fit.log_likelihood_ratio)},
-                      {"predicted_by_score", of_refit(fit.linear_T)},
-                      {"sign_agrees", refitted ? Json(fit.sign_agrees) : Json(nullptr)},
-                      {"ljung_box_p_before", number(fit.whiteness.ljung_box_p_before)},
-                      {"ljung_box_p_after", number(fit.whiteness.ljung_box_p_after)},
-                      {"nis_per_dof_before", number(fit.whiteness.nis_per_dof_before)},
-                      {"nis_per_dof_after", number(fit.whiteness.nis_per_dof_after)}};
+  out["in_sample"] = {
+      {"chi2_per_dof_before", number(fit.chi2_per_dof_before)},
+      {"chi2_per_dof_after", number(fit.chi2_per_dof_after)},
+      {"chi2_per_dof_95",
+       fit.band_high > 0.0 ? Json{number(fit.band_low), number(fit.band_high)} : Json(nullptr)},
+      {"dof", fit.dof},
+      {"log_likelihood_ratio", of_refit(fit.log_likelihood_ratio)},
+      {"predicted_by_score", of_refit(fit.linear_T)},
+      {"sign_agrees", refitted ? Json(fit.sign_agrees) : Json(nullptr)},
+      {"ljung_box_p_before", number(fit.whiteness.ljung_box_p_before)},
+      {"ljung_box_p_after", number(fit.whiteness.ljung_box_p_after)},
+      {"nis_per_dof_before", number(fit.whiteness.nis_per_dof_before)},
+      {"nis_per_dof_after", number(fit.whiteness.nis_per_dof_after)}};
   const HeldOut& held = fit.held_out;
-  const auto of_folds = [&](double value) { return held.folds.empty() ? Json(nullptr) : number(value); };
+  const auto of_folds = [&](double value) {
+    return held.folds.empty() ? Json(nullptr) : number(value);
+  };
   out["held_out"] = {{"chi2_per_dof_before", of_folds(held.chi2_per_dof_before)},
                      {"chi2_per_dof_after", of_folds(held.chi2_per_dof_after)},
                      {"log_score_gain", of_folds(held.log_score_gain)},
@@ -147,11 +158,12 @@ Json fit_json(const FitComparison& fit, bool has_cause) {
                      {"method", text_or_null(held.method)},
                      {"each", folds_json(held.folds)}};
   if (!held.recordings.empty())
-    out["held_out"]["by_recording"] = {{"chi2_per_dof_before", number(held.recording_chi2_per_dof_before)},
-                                       {"chi2_per_dof_after", number(held.recording_chi2_per_dof_after)},
-                                       {"log_score_gain", number(held.recording_gain)},
-                                       {"folds", held.recordings.size()},
-                                       {"each", folds_json(held.recordings)}};
+    out["held_out"]["by_recording"] = {
+        {"chi2_per_dof_before", number(held.recording_chi2_per_dof_before)},
+        {"chi2_per_dof_after", number(held.recording_chi2_per_dof_after)},
+        {"log_score_gain", number(held.recording_gain)},
+        {"folds", held.recordings.size()},
+        {"each", folds_json(held.recordings)}};
   out["start_spread_before"] = number(fit.start_spread_before);
   out["start_spread_after"] = number(fit.start_spread_after);
   Json& shifted = out["shifted_parameters"] = Json::array();
@@ -208,13 +220,14 @@ Json noise_json(const std::vector<NoiseFinding>& noise) {
 Json equations_json(const std::vector<RecoveredSignal>& signals) {
   Json all = Json::array();
   for (const RecoveredSignal& s : signals)
-    all.push_back({{"equation", s.equation},
-                   {"unit", s.unit},
-                   {"shape", s.shape},
-                   {"onset_s", s.onset_s >= 0.0 ? number(s.onset_s) : Json(nullptr)},
-                   {"period_s", s.period_s > 0.0 ? number(s.period_s) : Json(nullptr)},
-                   {"covariate", text_or_null(s.best_covariate)},
-                   {"correlation", s.best_covariate.empty() ? Json(nullptr) : number(s.correlation)}});
+    all.push_back(
+        {{"equation", s.equation},
+         {"unit", s.unit},
+         {"shape", s.shape},
+         {"onset_s", s.onset_s >= 0.0 ? number(s.onset_s) : Json(nullptr)},
+         {"period_s", s.period_s > 0.0 ? number(s.period_s) : Json(nullptr)},
+         {"covariate", text_or_null(s.best_covariate)},
+         {"correlation", s.best_covariate.empty() ? Json(nullptr) : number(s.correlation)}});
   return all;
 }
 
@@ -222,7 +235,8 @@ Json cosines_json(const CosineMatrix& cosines) {
   Json rows = Json::array();
   for (Eigen::Index i = 0; i < cosines.cosine.rows(); ++i) {
     Json row = Json::array();
-    for (Eigen::Index j = 0; j < cosines.cosine.cols(); ++j) row.push_back(number(cosines.cosine(i, j)));
+    for (Eigen::Index j = 0; j < cosines.cosine.cols(); ++j)
+      row.push_back(number(cosines.cosine(i, j)));
     rows.push_back(std::move(row));
   }
   return {{"labels", cosines.labels}, {"cosine", std::move(rows)}};

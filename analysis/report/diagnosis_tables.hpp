@@ -7,8 +7,8 @@
 
 namespace drift {
 
-// The tables of a diagnosis, for the terminal and for the page. `most` limits the rows; what is left
-// out is said below the table.
+// The tables of a diagnosis, for the terminal and for the page. `most` limits the rows; what is
+// left out is said below the table.
 Table cause_table(const discovery::Diagnosis& diagnosis);
 Table candidate_table(const discovery::Diagnosis& diagnosis, std::size_t most);
 Table fit_table(const discovery::Diagnosis& diagnosis);

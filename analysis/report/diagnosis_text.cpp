@@ -35,7 +35,8 @@ std::string to_text(const Diagnosis& d) {
   }
   if (found) out += "\n" + text_of(fit_table(d), page);
   if (found && !d.fit.shifted.empty()) out += "\n" + text_of(moved_table(d, most_moved), page);
-  if (std::ranges::any_of(d.noise, &NoiseFinding::significant)) out += "\n" + text_of(noise_table(d), page);
+  if (std::ranges::any_of(d.noise, &NoiseFinding::significant))
+    out += "\n" + text_of(noise_table(d), page);
   if (!d.advice.empty()) out += "\n";
   for (const Advice& a : d.advice) out += headed("Advice", a.text);
   const auto remarks = remarks_of(d);

@@ -11,23 +11,26 @@ namespace drift {
 std::string label_of(const discovery::Cause& cause);
 std::string label_of(const discovery::CandidateScore& candidate);
 
-/// A candidate of the table or the figure, and the alternative that it belongs to: 1 for the first set of
-/// causes, 0 for what is no cause.
+/// A candidate of the table or the figure, and the alternative that it belongs to: 1 for the first
+/// set of causes, 0 for what is no cause.
 struct ShownCandidate {
   const discovery::CandidateScore* score = nullptr;
   int alternative = 0;
 };
 
-/// The strongest candidates, and every cause of the verdict however weak its own score is (of two that
-/// cancel each looks weak alone). In the order of the diagnosis; more than `most` only for causes.
-std::vector<ShownCandidate> shown_candidates(const discovery::Diagnosis& diagnosis, std::size_t most);
+/// The strongest candidates, and every cause of the verdict however weak its own score is (of two
+/// that cancel each looks weak alone). In the order of the diagnosis; more than `most` only for
+/// causes.
+std::vector<ShownCandidate> shown_candidates(const discovery::Diagnosis& diagnosis,
+                                             std::size_t most);
 
-/// What a reader must know: the diagnosis' own remarks, and what patched.toml holds where several causes
-/// remain possible.
+/// What a reader must know: the diagnosis' own remarks, and what patched.toml holds where several
+/// causes remain possible.
 std::vector<std::string> remarks_of(const discovery::Diagnosis& diagnosis);
 
 /// The recording that a time of the timeline falls into; null where there is one recording only.
-const discovery::RecordingSpan* recording_at(const std::vector<discovery::RecordingSpan>& recordings, double t_s);
+const discovery::RecordingSpan* recording_at(
+    const std::vector<discovery::RecordingSpan>& recordings, double t_s);
 
 /// A channel in words: "accelerometer y" of "acc_y", "outer gimbal" of "gimbal_outer".
 std::string channel_in_words(const std::string& name);

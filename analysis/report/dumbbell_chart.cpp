@@ -41,7 +41,8 @@ std::string svg_of(const DumbbellChart& chart) {
   for (const Dumbbell& d : chart.lines) {
     label_width = std::max(label_width, text_pixels(d.label, 11.0));
     text_width = std::max(text_width, text_pixels(d.text, 10.5));
-    for (const double v : {d.before, d.after, d.low, d.high}) range.include(spaced(v, chart.spacing));
+    for (const double v : {d.before, d.after, d.low, d.high})
+      range.include(spaced(v, chart.spacing));
   }
   if (chart.limit) range.include(spaced(chart.limit->y, chart.spacing));
   label_width = std::min(label_width, 0.4 * chart.width);
@@ -64,14 +65,15 @@ std::string svg_of(const DumbbellChart& chart) {
   for (const std::size_t i : shown_ticks(scale, chart.spacing)) {
     const double x = x0 + scale.at(scale.ticks[i], w);
     canvas.line(x, y0, x, y0 + h + 4.0, "#e4e4e4", 1.0);
-    const std::string label = chart.spacing == Spacing::linear
-                                  ? scale.labels[i]
-                                  : fmt::format("{:.6g}", std::stod(number_text(std::pow(10.0, scale.ticks[i]), 2)));
+    const std::string label =
+        chart.spacing == Spacing::linear
+            ? scale.labels[i]
+            : fmt::format("{:.6g}", std::stod(number_text(std::pow(10.0, scale.ticks[i]), 2)));
     canvas.text(x, y0 + h + 17.0, label, {.size = 10.5, .anchor = "middle"});
   }
   const bool factor = chart.spacing == Spacing::linear && !scale.factor.empty();
-  canvas.text(x0 + 0.5 * w, y0 + h + 36.0, factor ? chart.x_label + "  " + scale.factor : chart.x_label,
-              {.anchor = "middle"});
+  canvas.text(x0 + 0.5 * w, y0 + h + 36.0,
+              factor ? chart.x_label + "  " + scale.factor : chart.x_label, {.anchor = "middle"});
   for (std::size_t k = 0; k < chart.lines.size(); ++k) {
     const Dumbbell& d = chart.lines[k];
     const double y = y0 + row * (static_cast<double>(k) + 0.5);
@@ -87,7 +89,8 @@ std::string svg_of(const DumbbellChart& chart) {
   if (chart.limit)
     if (const double x = x_of(chart.limit->y); std::isfinite(x)) {
       canvas.line(x, y0 - 4.0, x, y0 + h, "#222222", 1.2, chart.limit->stroke);
-      canvas.text(x, y0 - 8.0, chart.limit->label, {.size = 10.5, .anchor = "middle", .colour = "#222222"});
+      canvas.text(x, y0 - 8.0, chart.limit->label,
+                  {.size = 10.5, .anchor = "middle", .colour = "#222222"});
     }
   return std::move(canvas).finish();
 }

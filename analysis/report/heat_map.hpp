@@ -14,10 +14,10 @@ struct HeatMap {
   std::string x_label, y_label;
   std::string value_label;  ///< what the colours mean, with unit
   std::vector<std::string> rows, columns;
-  MatX value;               ///< shape (rows, columns); NaN: nothing known
-  double most = 0.0;        ///< at which colours end; 0: the largest magnitude in `value`
-  double width = 860.0;     ///< [px], more if the cells need it
-  double row_height = 24.0; ///< [px]
+  MatX value;                ///< shape (rows, columns); NaN: nothing known
+  double most = 0.0;         ///< at which colours end; 0: the largest magnitude in `value`
+  double width = 860.0;      ///< [px], more if the cells need it
+  double row_height = 24.0;  ///< [px]
 };
 
 /// The map as an SVG document, the numbers in the cells where there is room for them.

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/chi_square_band.hpp"
 #include "analysis/report/coupling_text.hpp"
 #include "analysis/report/escape.hpp"
 #include "analysis/report/svg_chart.hpp"
+#include "core/base/chi_square_band.hpp"
 
 namespace drift {
 namespace {
@@ -27,7 +27,9 @@ bool estimated(const Identification& id, std::size_t param) {
   });
 }
 
-std::string start_label(std::size_t start) { return fmt::format("start {}", start + 1); }
+std::string start_label(std::size_t start) {
+  return fmt::format("start {}", start + 1);
+}
 
 /// One parameter from one start. Where the filter has stopped, its history is empty: a gap.
 Series estimate_series(const FilterRun& run, std::size_t k, double unit) {

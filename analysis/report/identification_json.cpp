@@ -3,9 +3,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "core/base/chi_square_band.hpp"
 #include "analysis/report/coupling_text.hpp"
 #include "analysis/report/degeneracies.hpp"
+#include "core/base/chi_square_band.hpp"
 #include "core/estimate/start_consistency.hpp"
 
 namespace drift {
@@ -13,7 +13,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
 
 Json numbers(const std::vector<double>& values, double unit) {
   Json all = Json::array();
@@ -21,7 +23,9 @@ Json numbers(const std::vector<double>& values, double unit) {
   return all;
 }
 
-std::string text(std::string_view view) { return std::string(view); }
+std::string text(std::string_view view) {
+  return std::string(view);
+}
 
 const char* status_key(EstimateStatus status) {
   switch (status) {

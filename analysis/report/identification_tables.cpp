@@ -7,11 +7,11 @@
 #include <numeric>
 
 #include "analysis/report/axis_scale.hpp"
-#include "core/base/chi_square_band.hpp"
 #include "analysis/report/coupling_text.hpp"
 #include "analysis/report/degeneracies.hpp"
 #include "analysis/report/number_text.hpp"
 #include "analysis/report/published_table.hpp"
+#include "core/base/chi_square_band.hpp"
 #include "core/estimate/start_consistency.hpp"
 
 namespace drift {
@@ -34,7 +34,8 @@ std::string status_text(EstimateStatus status) {
 /// Five sigma of chi-square over m, whose variance is 2/m: no right model does that.
 bool misfit(const EstimateResult& result) {
   const double m = static_cast<double>(result.measured);
-  return result.measured > 0 && std::abs(result.statistic_per_dof() - 1.0) > 5.0 * std::sqrt(2.0 / m);
+  return result.measured > 0 &&
+         std::abs(result.statistic_per_dof() - 1.0) > 5.0 * std::sqrt(2.0 / m);
 }
 
 Cell status_cell(const EstimateResult& result) {
@@ -77,18 +78,20 @@ std::string prior_text(const Layout& layout, const std::string_view group) {
   return text;
 }
 
-/// Parameters that the two estimators, given the same, see differently: further apart than five of the
-/// smaller sigma, or with sigmas that differ threefold. Empty if one failed, or
-/// if the model is wrong for both.
+/// Parameters that the two estimators, given the same, see differently: further apart than five of
+/// the smaller sigma, or with sigmas that differ threefold. Empty if one failed, or if the model is
+/// wrong for both.
 std::vector<std::string> disputed(const FilterRun& run) {
   constexpr double apart = 5.0, unlike = 3.0;
   std::vector<std::string> keys;
-  if (run.ekf.status != EstimateStatus::ok || run.batch.estimate.status != EstimateStatus::ok || misfit(run.batch.estimate))
+  if (run.ekf.status != EstimateStatus::ok || run.batch.estimate.status != EstimateStatus::ok ||
+      misfit(run.batch.estimate))
     return keys;
   for (std::size_t k = 0; k < run.ekf.parameters.size(); ++k) {
     const ParameterEstimate &e = run.ekf.parameters[k], &b = run.batch.estimate.parameters[k];
     const auto [less, more] = std::minmax(e.sigma, b.sigma);
-    if (std::abs(e.value - b.value) > apart * less || more > unlike * less) keys.emplace_back(TermLibrary::specs[e.param].key.view());
+    if (std::abs(e.value - b.value) > apart * less || more > unlike * less)
+      keys.emplace_back(TermLibrary::specs[e.param].key.view());
   }
   return keys;
 }
@@ -196,7 +199,8 @@ Table degeneracy_table(const Study& study, const Identification& id, std::size_t
   const FilterSpec& spec = study.filters[filter];
   Table table;
   table.title = fmt::format(
-      "Exact degeneracies of filter {}: {} of {} directions in parameter space change nothing that is "
+      "Exact degeneracies of filter {}: {} of {} directions in parameter space change nothing that "
+      "is "
       "measured. {} directions (with these) are known better from the prior than from the data",
       spec.name, summary.degeneracies.size(), summary.layout.size(), summary.weak);
   table.columns = {{"direction, each parameter in its unit", Align::left}, {"why", Align::left}};
@@ -227,8 +231,10 @@ std::vector<std::string> headlines(const Study& study, const Identification& id)
       if (start_verdict(p.ekf) == StartVerdict::depends_on_start)
         dependent.emplace_back(TermLibrary::specs[p.param].key.view());
     if (study.filters[s.filter].noise.any())
-      all.push_back(fmt::format("{}: declares process noise, which the batch fit does not model: its sigmas and "
-                                "`left` are too small; use the EKF's.", name));
+      all.push_back(fmt::format(
+          "{}: declares process noise, which the batch fit does not model: its sigmas and "
+          "`left` are too small; use the EKF's.",
+          name));
     if (failed > 0)
       all.push_back(fmt::format("{}: {} of {} starts failed or did not converge.", name, failed,
                                 runs.size()));
@@ -247,14 +253,18 @@ std::vector<std::string> headlines(const Study& study, const Identification& id)
                                      "starts",
                                      outside, runs.size())));
     // With process noise the two answer different questions.
-    if (auto keys = disputed(*runs.front()); !keys.empty() && !study.filters[s.filter].noise.any()) {
+    if (auto keys = disputed(*runs.front());
+        !keys.empty() && !study.filters[s.filter].noise.any()) {
       constexpr std::size_t most = 8;
       const std::size_t count = keys.size();
       if (count > most) keys.resize(most);
-      all.push_back(fmt::format("{}: from start 1, EKF and batch fit are more than five sigma apart, or claim sigmas that differ "
-                                "threefold, in {} of {} parameters: {}{}. The EKF linearises once, where it is then; what is not linear over its prior leads it astray with a "
-                                "small sigma. Use the batch column.",
-                                name, count, s.spread.size(), joined(keys), count > most ? " and others" : ""));
+      all.push_back(fmt::format(
+          "{}: from start 1, EKF and batch fit are more than five sigma apart, or claim sigmas "
+          "that differ "
+          "threefold, in {} of {} parameters: {}{}. The EKF linearises once, where it is then; "
+          "what is not linear over its prior leads it astray with a "
+          "small sigma. Use the batch column.",
+          name, count, s.spread.size(), joined(keys), count > most ? " and others" : ""));
     }
     if (!s.degeneracies.empty())
       all.push_back(fmt::format(

@@ -32,7 +32,9 @@ class Direction {
   bool complete_ = true;
 };
 
-double along(const SignedAxis& axis, const Vec3& v) { return axis.sign * v[axis.index]; }
+double along(const SignedAxis& axis, const Vec3& v) {
+  return axis.sign * v[axis.index];
+}
 
 }  // namespace
 

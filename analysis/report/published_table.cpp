@@ -52,8 +52,12 @@ std::string short_name(const Published& published) {
                                      : "published";
 }
 
-const EstimateResult& ekf_of(const FilterRun& run) { return run.ekf; }
-const EstimateResult& batch_of(const FilterRun& run) { return run.batch.estimate; }
+const EstimateResult& ekf_of(const FilterRun& run) {
+  return run.ekf;
+}
+const EstimateResult& batch_of(const FilterRun& run) {
+  return run.batch.estimate;
+}
 
 /// A published set beside the runs of a filter; no filter: beside nothing of ours.
 Table compare(const Study& study, const Identification& id, const Published& published,

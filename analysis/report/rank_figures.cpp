@@ -37,7 +37,9 @@ HeatMap map_of(const Ranking& r, const MatX& values) {
 std::string learning_figure(const RankingGroup& group) {
   BarChart chart;
   chart.title = fmt::format("What the test teaches, {}", group.filters);
-  chart.x_label = "log2(prior sigma / sigma after the test) [bit]; beside the bar: what is left of the prior sigma";
+  chart.x_label =
+      "log2(prior sigma / sigma after the test) [bit]; beside the bar: what is left of the prior "
+      "sigma";
   chart.width = 860.0;
   const Ranking& first = group.models.front().ranking;
   for (const std::size_t k : first.order)
@@ -45,7 +47,8 @@ std::string learning_figure(const RankingGroup& group) {
       const ParameterRank& p = group.models[m].ranking.parameters[k];
       const std::string coupling(key_of(group.models[m].model.spec.coupling));
       Bar bar;
-      bar.label = m == 0 ? fmt::format("{}  {}", key_of_state(first.layout, k), coupling) : coupling;
+      bar.label =
+          m == 0 ? fmt::format("{}  {}", key_of_state(first.layout, k), coupling) : coupling;
       bar.value = p.bits();
       bar.colour = m;
       bar.text = number_text(p.learning_ratio());
@@ -65,7 +68,11 @@ std::string spectrum_figure(const RankingGroup& group) {
   panel.y_label = "log10(information / prior)";
   panel.references.push_back({0.0, "as good as the prior", Stroke::dashed});
   for (std::size_t m = 0; m < group.models.size(); ++m) {
-    Series s{.label = std::string(key_of(group.models[m].model.spec.coupling)), .x = {}, .y = {}, .sigma = {}, .colour = m};
+    Series s{.label = std::string(key_of(group.models[m].model.spec.coupling)),
+             .x = {},
+             .y = {},
+             .sigma = {},
+             .colour = m};
     s.stroke = m == 0 ? Stroke::solid : Stroke::dashed;
     double index = 1.0;
     for (const EigenDirection& d : group.models[m].ranking.spectrum) {
@@ -82,7 +89,8 @@ std::string spectrum_figure(const RankingGroup& group) {
 
 std::string position_figure(const Study& study, const ModelRanking& m) {
   HeatMap map = map_of(m.ranking, m.course.position_gain);
-  map.title = fmt::format("Which position informs which parameter, {} [bit]", key_of(m.model.spec.coupling));
+  map.title = fmt::format("Which position informs which parameter, {} [bit]",
+                          key_of(m.model.spec.coupling));
   for (std::size_t p = 0; p < study.plan.positions.size(); ++p)
     map.columns.push_back(fmt::format("{} {}", p + 1, study.plan.positions[p].name));
   return svg_of(map);
@@ -90,9 +98,11 @@ std::string position_figure(const Study& study, const ModelRanking& m) {
 
 std::string time_figure(const ModelRanking& m) {
   HeatMap map = map_of(m.ranking, m.course.gain);
-  map.title = fmt::format("Which minutes inform which parameter, {} [bit]", key_of(m.model.spec.coupling));
+  map.title =
+      fmt::format("Which minutes inform which parameter, {} [bit]", key_of(m.model.spec.coupling));
   for (const TimeBin& bin : m.bins)
-    map.columns.push_back(fmt::format("{}: {:.0f} min{}", bin.position + 1, bin.t1 / 60.0, bin.slew ? ", slew" : ""));
+    map.columns.push_back(
+        fmt::format("{}: {:.0f} min{}", bin.position + 1, bin.t1 / 60.0, bin.slew ? ", slew" : ""));
   return svg_of(map);
 }
 
@@ -101,17 +111,22 @@ std::string improvement_figure(const PlanRanking& rank) {
   const Ranking& after = rank.better->after;
   BarChart chart;
   chart.title = "What the proposed positions add";
-  chart.x_label = "log2(sigma before / sigma after) [bit]; beside the bar: left of the prior sigma before and after";
+  chart.x_label =
+      "log2(sigma before / sigma after) [bit]; beside the bar: left of the prior sigma before and "
+      "after";
   chart.width = 860.0;
   std::vector<std::size_t> states = before.order;
-  const auto gain = [&](std::size_t k) { return after.parameters[k].bits() - before.parameters[k].bits(); };
+  const auto gain = [&](std::size_t k) {
+    return after.parameters[k].bits() - before.parameters[k].bits();
+  };
   std::ranges::stable_sort(states, std::greater{}, gain);
   for (const std::size_t k : states) {
     Bar bar;
     bar.label = key_of_state(before.layout, k);
     bar.value = gain(k);
     bar.colour = 2;
-    bar.text = fmt::format("{} to {}", number_text(before.learning_ratio(k)), number_text(after.learning_ratio(k)));
+    bar.text = fmt::format("{} to {}", number_text(before.learning_ratio(k)),
+                           number_text(after.learning_ratio(k)));
     chart.bars.push_back(std::move(bar));
   }
   return svg_of(chart);

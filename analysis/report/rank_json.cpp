@@ -10,9 +10,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
 
-std::string text(std::string_view view) { return std::string(view); }
+std::string text(std::string_view view) {
+  return std::string(view);
+}
 
 std::string key_of_state(const Ranking& r, std::size_t state) {
   return text(TermLibrary::specs[r.layout.params[state]].key.view());
@@ -44,7 +48,8 @@ Json parameters_json(const ModelRanking& m) {
                    {"conditional_sigma", number(p.conditional_sigma / unit)},
                    {"collinearity", number(p.collinearity())},
                    {"bits", number(p.bits())},
-                   {"most_correlated_with", p.partner == r.order[i] ? Json(nullptr) : Json(key_of_state(r, p.partner))},
+                   {"most_correlated_with",
+                    p.partner == r.order[i] ? Json(nullptr) : Json(key_of_state(r, p.partner))},
                    {"correlation", number(p.correlation)}});
   }
   return all;
@@ -67,7 +72,8 @@ Json directions_json(const std::vector<NamedDirection>& directions) {
   Json all = Json::array();
   for (const NamedDirection& d : directions) {
     Json parts = Json::object();
-    for (const auto& part : d.parts) parts[text(TermLibrary::specs[part.param].key.view())] = number(part.coefficient);
+    for (const auto& part : d.parts)
+      parts[text(TermLibrary::specs[part.param].key.view())] = number(part.coefficient);
     all.push_back({{"combination", d.combination},
                    {"coefficients", parts},
                    {"reason", d.reason.empty() ? Json(nullptr) : Json(d.reason)}});
@@ -79,7 +85,8 @@ Json methods_json(const ModelRanking& m) {
   Json all = Json::array();
   for (const MethodRanking& method : m.methods) {
     Json scores = Json::object();
-    for (std::size_t k = 0; k < m.ranking.layout.size(); ++k) scores[key_of_state(m.ranking, k)] = number(method.score[k]);
+    for (std::size_t k = 0; k < m.ranking.layout.size(); ++k)
+      scores[key_of_state(m.ranking, k)] = number(method.score[k]);
     Json off = Json::array();
     for (const auto& d : method.disagreements)
       off.push_back({{"key", key_of_state(m.ranking, d.state)},
@@ -106,9 +113,14 @@ Json by_parameter(const Ranking& r, const MatX& values) {
 Json course_json(const Study& study, const ModelRanking& m) {
   Json positions = Json::array(), bins = Json::array();
   for (std::size_t p = 0; p < study.plan.positions.size(); ++p)
-    positions.push_back({{"position", p + 1}, {"name", study.plan.positions[p].name}, {"bits", number(m.course.bits[p])}});
+    positions.push_back({{"position", p + 1},
+                         {"name", study.plan.positions[p].name},
+                         {"bits", number(m.course.bits[p])}});
   for (const TimeBin& b : m.bins)
-    bins.push_back({{"position", b.position + 1}, {"slew", b.slew}, {"start_s", number(b.t0)}, {"end_s", number(b.t1)}});
+    bins.push_back({{"position", b.position + 1},
+                    {"slew", b.slew},
+                    {"start_s", number(b.t0)},
+                    {"end_s", number(b.t1)}});
   return {{"positions", positions},
           {"gain_bits", by_parameter(m.ranking, m.course.position_gain)},
           {"loss_bits_without", by_parameter(m.ranking, m.course.loss)},
@@ -140,21 +152,24 @@ Json improvement_json(const Study& study, const PlanRanking& rank) {
   const Ranking& before = rank.groups.front().models.front().ranking;
   Json steps = Json::array(), sigmas = Json::object();
   for (const ImprovementStep& s : better.steps)
-    steps.push_back({{"name", s.position.name},
-                     {"axes", s.position.axes},
-                     {"mode", s.position.mode == CommandLaw::free ? "free" : "level"},
-                     {"entry", s.position.entry == Entry::caged ? "caged" : "torqued"},
-                     {"case_heading_deg", s.position.case_heading ? number(*s.position.case_heading / detail::deg) : Json(nullptr)},
-                     {"hours", number(s.duration / 3600.0)},
-                     {"candidates", s.feasible},
-                     {"criterion_before", number(s.before)},
-                     {"criterion_after", number(s.after)}});
+    steps.push_back(
+        {{"name", s.position.name},
+         {"axes", s.position.axes},
+         {"mode", s.position.mode == CommandLaw::free ? "free" : "level"},
+         {"entry", s.position.entry == Entry::caged ? "caged" : "torqued"},
+         {"case_heading_deg",
+          s.position.case_heading ? number(*s.position.case_heading / detail::deg) : Json(nullptr)},
+         {"hours", number(s.duration / 3600.0)},
+         {"candidates", s.feasible},
+         {"criterion_before", number(s.before)},
+         {"criterion_after", number(s.after)}});
   for (std::size_t k = 0; k < before.layout.size(); ++k) {
     const auto& spec = TermLibrary::specs[before.layout.params[k]];
     const double unit = spec.unit.to_si;
-    sigmas[text(spec.key.view())] = {{"unit", text(spec.unit.symbol.view())},
-                                     {"before", number(before.parameters[k].posterior_sigma / unit)},
-                                     {"after", number(rank.better->after.parameters[k].posterior_sigma / unit)}};
+    sigmas[text(spec.key.view())] = {
+        {"unit", text(spec.unit.symbol.view())},
+        {"before", number(before.parameters[k].posterior_sigma / unit)},
+        {"after", number(rank.better->after.parameters[k].posterior_sigma / unit)}};
   }
   return {{"criterion", better.criterion.text},
           {"hours_added", number(better.added() / 3600.0)},

@@ -42,7 +42,8 @@ Table null_table(const ModelRanking& m) {
   t.title = fmt::format("Directions this test does not see, {}", key_of(m.model.spec.coupling));
   t.columns = {{"combination", Align::left}, {"why", Align::left}};
   const auto add = [&](const std::vector<NamedDirection>& all) {
-    for (const NamedDirection& d : all) t.add({d.combination, d.reason.empty() ? "not a known one" : d.reason});
+    for (const NamedDirection& d : all)
+      t.add({d.combination, d.reason.empty() ? "not a known one" : d.reason});
   };
   add(exact_degeneracies(m));
   if (const auto held = held_by_attitude(m); !held.empty()) {

@@ -8,7 +8,9 @@ namespace {
 
 constexpr std::size_t width = 100;
 
-void add(std::string& out, const Table& table) { out += text_of(table, width) + "\n"; }
+void add(std::string& out, const Table& table) {
+  out += text_of(table, width) + "\n";
+}
 
 /// Both equations often fail to see the same: said once then.
 void add_null_tables(std::string& out, const RankingGroup& group) {

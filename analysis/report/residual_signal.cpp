@@ -9,7 +9,9 @@
 namespace drift {
 namespace {
 
-std::string cell(double value) { return std::isfinite(value) ? fmt::format("{:.9g}", value) : ""; }
+std::string cell(double value) {
+  return std::isfinite(value) ? fmt::format("{:.9g}", value) : "";
+}
 
 /// A text without what would break a line of CSV.
 std::string plain(std::string text) {
@@ -22,11 +24,15 @@ std::string plain(std::string text) {
 
 std::string residual_signal_csv(const std::vector<discovery::RecoveredSignal>& signals,
                                 const std::vector<discovery::RecordingSpan>& recordings) {
-  std::string out = "# what the nominal model does not explain, as the input that would explain it; sigma: 1 standard deviation\n";
+  std::string out =
+      "# what the nominal model does not explain, as the input that would explain it; sigma: 1 "
+      "standard deviation\n";
   for (const auto& s : signals)
     if (!s.shape.empty()) out += fmt::format("# {} = {}\n", plain(s.equation), plain(s.shape));
-  for (const auto& r : recordings) out += fmt::format("# {} = its own time is time [s] less {:.9g}\n", plain(r.name), r.offset_s);
-  out += fmt::format("equation,time [s],position,value,sigma,explained,unit{}\n", recordings.empty() ? "" : ",recording");
+  for (const auto& r : recordings)
+    out += fmt::format("# {} = its own time is time [s] less {:.9g}\n", plain(r.name), r.offset_s);
+  out += fmt::format("equation,time [s],position,value,sigma,explained,unit{}\n",
+                     recordings.empty() ? "" : ",recording");
   for (const auto& s : signals)
     for (std::size_t i = 0; i < s.value.size(); ++i) {
       const auto* recording = recording_at(recordings, s.t[i]);

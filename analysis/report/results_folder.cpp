@@ -30,11 +30,12 @@ void write_text_atomically(const std::string& path, std::string_view text) {
 
 std::string results_of(const std::string& folder) {
   // A strapdown diagnosis has an identification beside it, so the order matters.
-  constexpr std::pair<std::string_view, std::string_view> marks[] = {{"manifest.json", "run"},
-                                                                     {"key.json", "blind"},
-                                                                     {"diagnosis.json", "diagnose"},
-                                                                     {"rank.json", "rank"},
-                                                                     {"identification.json", "identify"}};
+  constexpr std::pair<std::string_view, std::string_view> marks[] = {
+      {"manifest.json", "run"},
+      {"key.json", "blind"},
+      {"diagnosis.json", "diagnose"},
+      {"rank.json", "rank"},
+      {"identification.json", "identify"}};
   for (const auto& [file, command] : marks)
     if (std::filesystem::exists(std::filesystem::path(folder) / file)) return std::string(command);
   return {};
@@ -46,8 +47,11 @@ void require_own_folder(const std::string& folder, std::string_view command) {
     throw_cannot_write(folder, "it is a file, expected a folder");
   const std::string holder = results_of(folder);
   if (!holder.empty() && holder != command)
-    throw InputError(ExitCode::store, fmt::format("{}: holds the results of `{}` (expected an empty folder, or one of `{}`). "
-                                                  "Give another folder with -o", folder, holder, command));
+    throw InputError(
+        ExitCode::store,
+        fmt::format("{}: holds the results of `{}` (expected an empty folder, or one of `{}`). "
+                    "Give another folder with -o",
+                    folder, holder, command));
 }
 
 void require_writable_folder(const std::string& folder) {
@@ -55,7 +59,8 @@ void require_writable_folder(const std::string& folder) {
   if (folder.empty()) return;
   std::vector<fs::path> missing;  // innermost first
   std::error_code unknown;
-  for (fs::path at = fs::absolute(folder); !at.empty() && !fs::exists(at, unknown); at = at.parent_path()) {
+  for (fs::path at = fs::absolute(folder); !at.empty() && !fs::exists(at, unknown);
+       at = at.parent_path()) {
     missing.push_back(at);
     if (unknown || at == at.parent_path()) break;
   }
@@ -93,7 +98,8 @@ std::vector<std::string> write_results(const Study& study, const Identification&
   return names;
 }
 
-std::vector<std::string> write_files(const std::vector<TextFile>& files, const std::string& folder) {
+std::vector<std::string> write_files(const std::vector<TextFile>& files,
+                                     const std::string& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw_cannot_write(folder, error.message());

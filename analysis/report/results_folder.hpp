@@ -13,15 +13,16 @@ namespace drift {
 /// included; the target is then as it was.
 void write_text_atomically(const std::string& path, std::string_view text);
 
-/// The command whose results a folder holds: "run", "blind", "diagnose", "rank", "identify"; or empty.
+/// The command whose results a folder holds: "run", "blind", "diagnose", "rank", "identify"; or
+/// empty.
 std::string results_of(const std::string& folder);
 
-/// InputError (store) if a folder holds the results of another command: they would be overwritten, or
-/// their study changed. An empty folder name, or a folder that does not exist yet, is nobody's.
+/// InputError (store) if a folder holds the results of another command: they would be overwritten,
+/// or their study changed. An empty folder name, or a folder that does not exist yet, is nobody's.
 void require_own_folder(const std::string& folder, std::string_view command);
 
-/// InputError (io) if no file can be written into a folder, or if it cannot be made: said before hours of
-/// computing and not after them. Leaves no trace. An empty folder name is no folder.
+/// InputError (io) if no file can be written into a folder, or if it cannot be made: said before
+/// hours of computing and not after them. Leaves no trace. An empty folder name is no folder.
 void require_writable_folder(const std::string& folder);
 
 /// Name and content of a text file.
@@ -31,9 +32,10 @@ using TextFile = std::pair<std::string, std::string>;
 /// names. InputError (io) if one cannot be written.
 std::vector<std::string> write_files(const std::vector<TextFile>& files, const std::string& folder);
 
-/// Writes the results into a folder, made if need be: identification.json, the pictures, report.html,
-/// recording.csv (unless the recording is empty) and study.toml, the study with the overrides of the command line.
-/// Returns the names of the files. InputError (io) if one cannot be written.
+/// Writes the results into a folder, made if need be: identification.json, the pictures,
+/// report.html, recording.csv (unless the recording is empty) and study.toml, the study with the
+/// overrides of the command line. Returns the names of the files. InputError (io) if one cannot be
+/// written.
 std::vector<std::string> write_results(const Study& study, const Identification& id,
                                        const std::string& folder);
 

@@ -18,7 +18,8 @@ std::string rotations_picture(const StrapdownResult& result) {
     if (trial.rotation) {
       const auto& score = *trial.rotation;
       const std::size_t colour = trial.equation == "eq6" ? 1 : (trial.equation == "eq5" ? 0 : 2);
-      chart.bars.push_back({trial.name + " (" + trial.equation + ")", score.held_out, score.low, score.high, colour});
+      chart.bars.push_back({trial.name + " (" + trial.equation + ")", score.held_out, score.low,
+                            score.high, colour});
     }
   return svg_of(chart);
 }
@@ -32,10 +33,12 @@ std::vector<std::string> write_results(const Study& study, const StrapdownResult
   report.title = study.title.empty() ? "Strapdown recording" : study.title;
   report.subtitle = result.source;
   for (const auto& contest : result.contest)
-    report.headlines.push_back(fmt::format(
-        "Held-out rotations: eq. (5) {:.3f} deg, eq. (6) {:.3f} deg, difference {:.1f} standard errors.",
-        contest.eq5.held_out, contest.eq6.held_out, contest.z));
-  report.sections.push_back({"Models tried", {Picture{picture, "Lower is better; held out of the fit."}}});
+    report.headlines.push_back(
+        fmt::format("Held-out rotations: eq. (5) {:.3f} deg, eq. (6) {:.3f} deg, difference {:.1f} "
+                    "standard errors.",
+                    contest.eq5.held_out, contest.eq6.held_out, contest.z));
+  report.sections.push_back(
+      {"Models tried", {Picture{picture, "Lower is better; held out of the fit."}}});
   report.sections.push_back({"All results", {Preformatted{to_text(result)}}});
   return write_files({{"identification.json", to_json(result).dump(2) + "\n"},
                       {"rotations.svg", picture},

@@ -8,8 +8,9 @@
 
 namespace drift {
 
-/// Writes the results of a strapdown recording into a folder: identification.json, rotations.svg (the
-/// held-out error of every model tried), report.html and study.toml. Returns the names of the files.
+/// Writes the results of a strapdown recording into a folder: identification.json, rotations.svg
+/// (the held-out error of every model tried), report.html and study.toml. Returns the names of the
+/// files.
 std::vector<std::string> write_results(const Study& study, const StrapdownResult& result,
                                        const std::string& folder);
 

@@ -7,8 +7,8 @@ namespace drift {
 /// Silent failure rate of every truth and filter, with intervals.
 Picture silent_failure_picture(const StudyResults& results);
 
-/// Monte Carlo ranking of a pair: RMSE over prior sigma of every parameter with bootstrap intervals,
-/// best known first.
+/// Monte Carlo ranking of a pair: RMSE over prior sigma of every parameter with bootstrap
+/// intervals, best known first.
 Picture ranking_picture(const StudyResults& results, const Pair& pair);
 
 /// Error against reported sigma of the first runs, for the parameters a truth and its filters are

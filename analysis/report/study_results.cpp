@@ -11,7 +11,8 @@ namespace drift {
 std::vector<Pair> pairs_of(const StudyResults& results) {
   std::vector<Pair> pairs;
   for (std::size_t p = 0; p < results.statistics.size(); ++p)
-    for (std::size_t f = 0; f < results.statistics[p].filters().size(); ++f) pairs.push_back({p, f});
+    for (std::size_t f = 0; f < results.statistics[p].filters().size(); ++f)
+      pairs.push_back({p, f});
   return pairs;
 }
 
@@ -22,14 +23,16 @@ const mc::FilterStatistics& statistics_of(const StudyResults& results, const Pai
 bool matched(const StudyResults& results, const Pair& pair) {
   const TruthSpec& truth = results.points[pair.point].study.truth;
   const Coupling filter = statistics_of(results, pair).columns().coupling;
-  if (truth.coupling == Coupling::servo) return filter == Coupling::eq6 && truth.servo.float_restraint == 0.0;
+  if (truth.coupling == Coupling::servo)
+    return filter == Coupling::eq6 && truth.servo.float_restraint == 0.0;
   return filter == truth.coupling || filter == Coupling::lambda;
 }
 
 std::string condition_of(const mc::StudyPoint& point) {
   std::string text;
   for (const auto& [key, value] : point.values)
-    if (key != "truth.coupling") text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", key, short_value(value));
+    if (key != "truth.coupling")
+      text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", key, short_value(value));
   return text;
 }
 
@@ -37,13 +40,15 @@ std::vector<std::size_t> pictured_points(const StudyResults& results) {
   constexpr std::size_t most = 4;
   const std::size_t n = results.statistics.size();
   std::vector<std::size_t> points;
-  for (std::size_t k = 0; k < std::min(n, most); ++k) points.push_back(n <= most ? k : k * (n - 1) / (most - 1));
+  for (std::size_t k = 0; k < std::min(n, most); ++k)
+    points.push_back(n <= most ? k : k * (n - 1) / (most - 1));
   return points;
 }
 
 std::string percent_text(const mc::Rate& rate) {
   if (rate.of == 0) return "-";
-  return fmt::format("{:.1f} % ({:.1f} to {:.1f})", 100.0 * rate.value(), 100.0 * rate.low(), 100.0 * rate.high());
+  return fmt::format("{:.1f} % ({:.1f} to {:.1f})", 100.0 * rate.value(), 100.0 * rate.low(),
+                     100.0 * rate.high());
 }
 
 std::size_t worst_parameter(const mc::FilterStatistics& filter, double claims) {

@@ -20,12 +20,12 @@ struct TracedRun {
 
 /// Everything a study report is made of.
 struct StudyResults {
-  Study study;                                 ///< as given, with its sweep
+  Study study;  ///< as given, with its sweep
   std::vector<mc::StudyPoint> points;
-  std::vector<mc::PointStatistics> statistics; ///< one per point
+  std::vector<mc::PointStatistics> statistics;  ///< one per point
   std::vector<TracedRun> traces;
   std::vector<std::pair<std::string, std::string>> provenance;  ///< shown as they are
-  std::vector<Section> further;                ///< sections of others: ranking by information ...
+  std::vector<Section> further;  ///< sections of others: ranking by information ...
 };
 
 /// One filter at one study point.

@@ -17,7 +17,8 @@ Table parameter_table(const StudyResults& results, const Pair& pair);
 /// Starts of every pair beside each other.
 Table start_table(const StudyResults& results);
 
-/// Lost and diverged runs, and whether they have to do with a parameter; without rows if all went well.
+/// Lost and diverged runs, and whether they have to do with a parameter; without rows if all went
+/// well.
 Table failure_table(const StudyResults& results);
 
 }  // namespace drift

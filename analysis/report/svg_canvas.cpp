@@ -128,9 +128,13 @@ void SvgCanvas::push_window(double x, double y, double width, double height) {
          x, y, width, height);
 }
 
-void SvgCanvas::pop_window() { out_ += "</svg>\n"; }
+void SvgCanvas::pop_window() {
+  out_ += "</svg>\n";
+}
 
-std::string SvgCanvas::finish() && { return std::move(out_) + "</svg>\n"; }
+std::string SvgCanvas::finish() && {
+  return std::move(out_) + "</svg>\n";
+}
 
 double text_pixels(std::string_view text, double size) {
   return 0.56 * size * static_cast<double>(display_width(text));

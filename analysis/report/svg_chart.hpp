@@ -13,9 +13,9 @@ namespace drift {
 struct Series {
   std::string label;  ///< in the legend; series of equal label share one entry
   std::vector<double> x, y;
-  std::vector<double> sigma;  ///< empty: no band
+  std::vector<double> sigma;                ///< empty: no band
   std::vector<double> low = {}, high = {};  ///< instead of sigma: a band with edges of its own
-  std::size_t colour = 0;     ///< index in the palette
+  std::size_t colour = 0;                   ///< index in the palette
   Stroke stroke = Stroke::solid;
 };
 

@@ -11,7 +11,9 @@
 namespace drift {
 namespace {
 
-bool is_key(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '.' || c == '-'; }
+bool is_key(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '.' || c == '-';
+}
 
 /// Name and text of each member of an inline table; empty for anything else.
 std::vector<std::pair<std::string, std::string>> members_of(const std::string& value) {
@@ -47,17 +49,21 @@ std::optional<SweptNumber> swept_number(const std::string& value) {
   std::optional<SweptNumber> last;
   const char* const end = value.data() + value.size();
   for (const char* p = value.data(); p < end;) {
-    const bool word_before = p > value.data() && (std::isalnum(static_cast<unsigned char>(p[-1])) || p[-1] == '_' || p[-1] == '^');
+    const bool word_before = p > value.data() && (std::isalnum(static_cast<unsigned char>(p[-1])) ||
+                                                  p[-1] == '_' || p[-1] == '^');
     double number = 0.0;
     const auto [after, error] = std::from_chars(p, end, number);
-    if (word_before || error != std::errc() || !std::isfinite(number) || std::isalpha(static_cast<unsigned char>(*p))) {
+    if (word_before || error != std::errc() || !std::isfinite(number) ||
+        std::isalpha(static_cast<unsigned char>(*p))) {
       ++p;
       continue;
     }
     const char* from = after;
     while (from < end && *from == ' ') ++from;
     const char* to = from;
-    while (to < end && (std::isalnum(static_cast<unsigned char>(*to)) || std::string_view("/^*%()").find(*to) != std::string_view::npos)) ++to;
+    while (to < end && (std::isalnum(static_cast<unsigned char>(*to)) ||
+                        std::string_view("/^*%()").find(*to) != std::string_view::npos))
+      ++to;
     const auto unit = parse_unit(std::string_view(from, static_cast<std::size_t>(to - from)));
     last = SweptNumber{number * (unit ? unit->to_si : 1.0), unit.value_or(unit::one)};
     p = after;
@@ -75,7 +81,8 @@ std::string short_value(const std::string& value) {
   for (const auto& [name, member] : members_of(value)) {
     const auto number = swept_number(member);
     text += text.empty() ? "" : ", ";
-    text += number ? fmt::format("{} {:.6g} {}", name, number->si / number->unit.to_si, number->unit.symbol.view())
+    text += number ? fmt::format("{} {:.6g} {}", name, number->si / number->unit.to_si,
+                                 number->unit.symbol.view())
                    : name + member;
   }
   return text.empty() ? value : text;

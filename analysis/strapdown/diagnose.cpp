@@ -39,7 +39,8 @@ std::size_t pairs_of(const Trial& t) {
   return t.z_rotation > t.z_dwell && t.rotation ? t.rotation->count : t.dwell ? t.dwell->count : 0;
 }
 
-const Trial* named(const std::vector<Trial>& trials, std::string_view name, std::string_view equation) {
+const Trial* named(const std::vector<Trial>& trials, std::string_view name,
+                   std::string_view equation) {
   for (const Trial& t : trials)
     if (t.name == name && (t.equation == equation || t.equation == "any")) return &t;
   return nullptr;
@@ -50,12 +51,14 @@ const Trial* named(const std::vector<Trial>& trials, std::string_view name, std:
 double log_gain(const Trial& trial, const Trial* against, const Trial* final_trial) {
   if (against == nullptr || final_trial == nullptr) return none;
   double gain = 0.0;
-  const auto add = [&](const std::optional<strapdown::Score>& before, const std::optional<strapdown::Score>& after,
+  const auto add = [&](const std::optional<strapdown::Score>& before,
+                       const std::optional<strapdown::Score>& after,
                        const std::optional<strapdown::Score>& scale, double dof) {
     if (!before || !after || !scale) return;
     const double unit = std::max(scale->in_sample, 1e-12);
     for (std::size_t k = 0; k < after->errors.size(); ++k)
-      gain += 0.5 * dof * (std::pow(before->errors[k] / unit, 2) - std::pow(after->errors[k] / unit, 2));
+      gain += 0.5 * dof *
+              (std::pow(before->errors[k] / unit, 2) - std::pow(after->errors[k] / unit, 2));
   };
   add(against->gravity, trial.gravity, final_trial->gravity, 1.0);
   add(against->dwell, trial.dwell, final_trial->dwell, 3.0);
@@ -103,14 +106,17 @@ class Diagnoser {
     closure.probability = 1.0;
     closure.size_sigma = none;
     d_.causes.push_back(closure);
-    d_.remarks.push_back(fmt::format(
-        "eq. (5) predicts held-out turns to {:.3g} deg, eq. (6) to {:.3g} deg ({:.1f} standard errors): lambda is 0 "
-        "and not 1. Between the two this recording gives it no number: case motion shows (1 - lambda) E alone",
-        contest.eq5.held_out, contest.eq6.held_out, contest.z));
+    d_.remarks.push_back(
+        fmt::format("eq. (5) predicts held-out turns to {:.3g} deg, eq. (6) to {:.3g} deg ({:.1f} "
+                    "standard errors): lambda is 0 "
+                    "and not 1. Between the two this recording gives it no number: case motion "
+                    "shows (1 - lambda) E alone",
+                    contest.eq5.held_out, contest.eq6.held_out, contest.z));
   }
 
   double family_wise(double p) const {
-    return std::min(1.0, p * static_cast<double>(r_.accelerometer_trials.size() + r_.gyro_trials.size()));
+    return std::min(
+        1.0, p * static_cast<double>(r_.accelerometer_trials.size() + r_.gyro_trials.size()));
   }
 
   const Trial* trial_of(const PartOfModel& part) const {
@@ -129,7 +135,8 @@ class Diagnoser {
       CandidateScore c;
       c.term = part.term;
       c.label = part.label;
-      const Trial* against = named(part.accelerometer ? r_.accelerometer_trials : r_.gyro_trials, t->against, equation_);
+      const Trial* against = named(part.accelerometer ? r_.accelerometer_trials : r_.gyro_trials,
+                                   t->against, equation_);
       c.dof = static_cast<int>(t->parameters - (against ? against->parameters : 0));
       c.absorbed = c.amplitude = c.smallest_detectable = c.size_sigma = none;
       c.observable = t->verdict != strapdown::Verdict::skipped;
@@ -140,9 +147,10 @@ class Diagnoser {
       c.log_bayes = log_gain(*t, against, last);
       c.probability = std::isfinite(c.log_bayes) ? 1.0 / (1.0 + std::exp(-c.log_bayes)) : none;
       c.adequate = t->verdict == strapdown::Verdict::accepted && holds(final_->model, part);
-      d_.remarks.push_back(fmt::format("{} {}: {} (gain on dwells {:.1f}{} standard errors)", part.label,
-                                       name_of(t->verdict), t->reason, t->z_dwell,
-                                       part.accelerometer ? "" : fmt::format(", on turns {:.1f}", t->z_rotation)));
+      d_.remarks.push_back(
+          fmt::format("{} {}: {} (gain on dwells {:.1f}{} standard errors)", part.label,
+                      name_of(t->verdict), t->reason, t->z_dwell,
+                      part.accelerometer ? "" : fmt::format(", on turns {:.1f}", t->z_rotation)));
       d_.candidates.push_back(c);
     }
     std::ranges::stable_sort(d_.candidates, std::greater{}, &CandidateScore::score);
@@ -161,7 +169,8 @@ class Diagnoser {
     for (const PartOfModel& part : strapdown::parts_of_model()) {
       if (!holds(final_->model, part) || holds(nominal_.model, part)) continue;
       // All of g_drift goes by its O and S parts: the common part of D_I is not observable.
-      if (part.groups.front() == "D_I" && final_->model.drift >= strapdown::DriftOrder::g_sensitive) continue;
+      if (part.groups.front() == "D_I" && final_->model.drift >= strapdown::DriftOrder::g_sensitive)
+        continue;
       Cause cause;
       cause.term = part.term;
       for (const auto& p : parameters) {
@@ -169,7 +178,8 @@ class Diagnoser {
         const ParamSpec& spec = TermLibrary::specs[index];
         if (std::ranges::find(part.groups, spec.group.view()) == part.groups.end()) continue;
         cause.parameters.push_back({p.key, index, p.value, p.sigma, p.unit, false});
-        cause.size_sigma = std::max(cause.size_sigma, std::abs(p.value) * spec.unit.to_si / spec.prior_si().sigma());
+        cause.size_sigma = std::max(cause.size_sigma,
+                                    std::abs(p.value) * spec.unit.to_si / spec.prior_si().sigma());
       }
       cause.dof = static_cast<int>(cause.parameters.size());
       for (const CandidateScore& c : d_.candidates)
@@ -198,13 +208,16 @@ class Diagnoser {
     const auto before = residuals_of(nominal_.model, nominal_.fitted, evidence_);
     const auto after = residuals_of(final_->model, final_->fitted, evidence_);
     const auto scatter = strapdown::scatter_of(after);
-    strapdown::fill_where(before, after, scatter, evidence_, nominal_.fitted.accelerometer.theta, d_);
+    strapdown::fill_where(before, after, scatter, evidence_, nominal_.fitted.accelerometer.theta,
+                          d_);
 
-    const strapdown::Division division{std::min(r_.options.folds, static_cast<int>(evidence_.dwells.size())),
-                                       r_.options.repeats, r_.options.seed};
+    const strapdown::Division division{
+        std::min(r_.options.folds, static_cast<int>(evidence_.dwells.size())), r_.options.repeats,
+        r_.options.seed};
     const auto out_before = held_out_errors(nominal_.model, evidence_, Asked::all, division);
     const auto out_after = held_out_errors(final_->model, evidence_, Asked::all, division);
-    const auto was = scores_of(out_before, evidence_, scatter), is = scores_of(out_after, evidence_, scatter);
+    const auto was = scores_of(out_before, evidence_, scatter),
+               is = scores_of(out_after, evidence_, scatter);
     HeldOut& held = d_.fit.held_out;
     double chi2_before = 0.0, chi2_after = 0.0, dof = 0.0, squares = 0.0;
     for (std::size_t k = 0; k < was.size(); ++k) {
@@ -237,22 +250,25 @@ class Diagnoser {
   void kinds(const strapdown::Errors& before, const strapdown::Errors& after) {
     using strapdown::root_mean_square;
     const double g = r_.options.gravity;
-    out_.kinds = {{"gyro rate in dwells", "deg/s", root_mean_square(before.dwell) / unit::deg_per_s.to_si,
-                   root_mean_square(after.dwell) / unit::deg_per_s.to_si},
-                  {"up after a turn", "deg", root_mean_square(before.rotation) / unit::deg.to_si,
-                   root_mean_square(after.rotation) / unit::deg.to_si},
-                  {"gravity in dwells", "m/s^2", root_mean_square(before.gravity) * g,
-                   root_mean_square(after.gravity) * g}};
+    out_.kinds = {
+        {"gyro rate in dwells", "deg/s", root_mean_square(before.dwell) / unit::deg_per_s.to_si,
+         root_mean_square(after.dwell) / unit::deg_per_s.to_si},
+        {"up after a turn", "deg", root_mean_square(before.rotation) / unit::deg.to_si,
+         root_mean_square(after.rotation) / unit::deg.to_si},
+        {"gravity in dwells", "m/s^2", root_mean_square(before.gravity) * g,
+         root_mean_square(after.gravity) * g}};
   }
 
   void moved() {
     if (!d_.has_patch) return;
-    const auto before = strapdown::parameters_of(nominal_), after = strapdown::parameters_of(*final_);
+    const auto before = strapdown::parameters_of(nominal_),
+               after = strapdown::parameters_of(*final_);
     for (const auto& was : before)
       for (const auto& is : after)
         if (was.key == is.key)
-          d_.fit.shifted.push_back({was.key, was.unit, *TermLibrary::find(was.key), was.value, was.sigma, is.value,
-                                    is.sigma, (is.value - was.value) / was.sigma});
+          d_.fit.shifted.push_back({was.key, was.unit, *TermLibrary::find(was.key), was.value,
+                                    was.sigma, is.value, is.sigma,
+                                    (is.value - was.value) / was.sigma});
     std::ranges::stable_sort(d_.fit.shifted, std::greater{},
                              [](const ShiftedParameter& p) { return std::abs(p.shift_sigma); });
   }
@@ -261,16 +277,23 @@ class Diagnoser {
     std::vector<std::string> numbers;
     for (const StrapdownKind& k : out_.kinds)
       numbers.push_back(fmt::format("{} {:.3g} → {:.3g} {}", k.what, k.before, k.after, k.unit));
-    d_.sentence = d_.causes.empty()
-                      ? fmt::format("Nothing is missing that predicts held-out dwells and turns better (noise alone shows as "
-                                    "much with a chance of {}).", p_text(d_.p_value))
-                      : fmt::format("{} (chance of a false alarm: {}); error on held-out data: {}.", lacking(d_.causes),
-                                    p_text(d_.p_value), fmt::join(numbers, ", "));
-    d_.remarks.push_back("a recording on a case declares no noise: residuals and chi-square are in units of the scatter "
-                         "that the accepted model leaves");
+    d_.sentence =
+        d_.causes.empty()
+            ? fmt::format(
+                  "Nothing is missing that predicts held-out dwells and turns better (noise alone "
+                  "shows as "
+                  "much with a chance of {}).",
+                  p_text(d_.p_value))
+            : fmt::format("{} (chance of a false alarm: {}); error on held-out data: {}.",
+                          lacking(d_.causes), p_text(d_.p_value), fmt::join(numbers, ", "));
+    d_.remarks.push_back(
+        "a recording on a case declares no noise: residuals and chi-square are in units of the "
+        "scatter "
+        "that the accepted model leaves");
     if (final_->model.drift >= strapdown::DriftOrder::g_sensitive)
-      d_.remarks.push_back("D_I is fitted with D_O and D_S and is left out of the causes: its common part is not "
-                           "observable, and alone it improved nothing");
+      d_.remarks.push_back(
+          "D_I is fitted with D_O and D_S and is left out of the causes: its common part is not "
+          "observable, and alone it improved nothing");
     for (const Unobservable& u : strapdown::unobservable_of(*final_))
       d_.remarks.push_back(fmt::format("not observable: {}: {}", u.what, u.reason));
   }
@@ -287,10 +310,13 @@ class Diagnoser {
 
 }  // namespace
 
-StrapdownDiagnosis diagnose_strapdown(const Study& study, const Recording& recording, StrapdownOptions options) {
+StrapdownDiagnosis diagnose_strapdown(const Study& study, const Recording& recording,
+                                      StrapdownOptions options) {
   if (study.filters.empty())
-    throw InputError(ExitCode::config, fmt::format("{}: no [[filter]]: its first is the nominal model. Add a section "
-                                                   "[[filter]] with name, coupling and terms", study.path));
+    throw InputError(ExitCode::config,
+                     fmt::format("{}: no [[filter]]: its first is the nominal model. Add a section "
+                                 "[[filter]] with name, coupling and terms",
+                                 study.path));
   const auto began = std::chrono::steady_clock::now();
   StrapdownDiagnosis out;
   options.equations = {Coupling::eq5, Coupling::eq6};

@@ -23,8 +23,16 @@ bool turns_with(const Model& model, std::string_view group) {
 const std::vector<PartOfModel>& parts_of_model() {
   static const std::vector<PartOfModel> parts{
       {"accelerometer", "accelerometer bias, scale", "bias + scale", {"K0", "K1"}, true},
-      {"accelerometer", "accelerometer misalignment", "bias + scale + misalignment", {"dP", "dO"}, true},
-      {"accelerometer", "accelerometer quadratic", "bias + scale + misalignment + quadratic", {"K2"}, true},
+      {"accelerometer",
+       "accelerometer misalignment",
+       "bias + scale + misalignment",
+       {"dP", "dO"},
+       true},
+      {"accelerometer",
+       "accelerometer quadratic",
+       "bias + scale + misalignment + quadratic",
+       {"K2"},
+       true},
       {"torquer_scale", "gyro scale", " + scale", {"s"}, false},
       {"gyro_misalignment", "gyro misalignment", " + misalignment", {"eta", "xi"}, false},
       {"g_drift", "g_drift, input axis alone", " + input-axis g-drift", {"D_I"}, false},

@@ -12,9 +12,9 @@ namespace drift::strapdown {
 
 /// A part of a strapdown model that a nominal model may lack.
 struct PartOfModel {
-  std::string_view term;     ///< key of interfaces.md 5
-  std::string_view label;    ///< for tables
-  std::string_view ending;   ///< of the name of the trial that adds it
+  std::string_view term;                 ///< key of interfaces.md 5
+  std::string_view label;                ///< for tables
+  std::string_view ending;               ///< of the name of the trial that adds it
   std::vector<std::string_view> groups;  ///< its parameters
   bool accelerometer = false;
 };

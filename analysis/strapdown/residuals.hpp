@@ -7,8 +7,9 @@
 
 namespace drift::strapdown {
 
-/// Residuals of a fitted model dwell by dwell, in sample. Shape (5, dwells): gyro x y z [rad/s], angle
-/// of up after the turn that starts from the dwell [rad], |f| - 1 [g]. NaN where there is no turn.
+/// Residuals of a fitted model dwell by dwell, in sample. Shape (5, dwells): gyro x y z [rad/s],
+/// angle of up after the turn that starts from the dwell [rad], |f| - 1 [g]. NaN where there is no
+/// turn.
 using Residuals = Eigen::Matrix<double, 5, Eigen::Dynamic>;
 inline const std::vector<std::string> residual_names{"gyro_x", "gyro_y", "gyro_z", "turn", "acc"};
 

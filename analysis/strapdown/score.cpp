@@ -18,7 +18,8 @@ double incomplete_beta(double a, double b, double x) {
   constexpr double tiny = 1e-300;
   if (x <= 0.0) return 0.0;
   const double front = std::exp(std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b) +
-                                a * std::log(x) + b * std::log1p(-x)) / a;
+                                a * std::log(x) + b * std::log1p(-x)) /
+                       a;
   double c = 1.0, d = 1.0 - (a + b) * x / (a + 1.0);
   d = 1.0 / (std::abs(d) < tiny ? tiny : d);
   double fraction = d;
@@ -33,7 +34,9 @@ double incomplete_beta(double a, double b, double x) {
   for (int k = 1; k < 500; ++k) {
     const double m = k;
     step(m * (b - m) * x / ((a + 2.0 * m - 1.0) * (a + 2.0 * m)));
-    if (std::abs(step(-(a + m) * (a + b + m) * x / ((a + 2.0 * m) * (a + 2.0 * m + 1.0))) - 1.0) < 1e-14) break;
+    if (std::abs(step(-(a + m) * (a + b + m) * x / ((a + 2.0 * m) * (a + 2.0 * m + 1.0))) - 1.0) <
+        1e-14)
+      break;
   }
   return front * fraction;
 }

@@ -14,7 +14,9 @@ using discovery::Diagnosis;
 using discovery::RecoveredSignal;
 using discovery::Share;
 
-double square_or_zero(double v) { return std::isfinite(v) ? v * v : 0.0; }
+double square_or_zero(double v) {
+  return std::isfinite(v) ? v * v : 0.0;
+}
 
 /// Part of the sum of squares that falls on some cells; its sigma as if the cells were drawn anew.
 Share share_of(std::span<const double> squares, double total) {
@@ -49,7 +51,8 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b) {
 }
 
 RecoveredSignal signal_of(int gyro, const Residuals& before, const Residuals& after, double scatter,
-                          const Evidence& evidence, const std::array<std::vector<double>, 3>& force) {
+                          const Evidence& evidence,
+                          const std::array<std::vector<double>, 3>& force) {
   RecoveredSignal s;
   s.equation = fmt::format("gyro rate {}", "xyz"[gyro]);
   s.unit = "deg/s";
@@ -73,17 +76,20 @@ RecoveredSignal signal_of(int gyro, const Residuals& before, const Residuals& af
   }
   // Of n independent pairs |r| exceeds 2 / sqrt(n) in one case of twenty; four are tried.
   const bool follows = std::abs(s.correlation) > 3.0 / std::sqrt(static_cast<double>(s.t.size()));
-  s.shape = follows ? fmt::format("follows {} (correlation {:+.2f})", s.best_covariate, s.correlation)
-                    : "follows neither specific force nor time";
+  s.shape = follows
+                ? fmt::format("follows {} (correlation {:+.2f})", s.best_covariate, s.correlation)
+                : "follows neither specific force nor time";
   return s;
 }
 
 }  // namespace
 
-void fill_where(const Residuals& before, const Residuals& after, const Eigen::Vector<double, 5>& scatter,
-                const Evidence& evidence, const Theta& theta, Diagnosis& d) {
+void fill_where(const Residuals& before, const Residuals& after,
+                const Eigen::Vector<double, 5>& scatter, const Evidence& evidence,
+                const Theta& theta, Diagnosis& d) {
   const Eigen::Index n = before.cols();
-  const Eigen::Matrix<double, 5, Eigen::Dynamic> scaled = scatter.cwiseInverse().asDiagonal() * before;
+  const Eigen::Matrix<double, 5, Eigen::Dynamic> scaled =
+      scatter.cwiseInverse().asDiagonal() * before;
   const Eigen::Matrix<double, 5, Eigen::Dynamic> rest = scatter.cwiseInverse().asDiagonal() * after;
   const MatX squares = scaled.unaryExpr(&square_or_zero);
   const double total = squares.sum();
@@ -101,13 +107,14 @@ void fill_where(const Residuals& before, const Residuals& after, const Eigen::Ve
     s.position = static_cast<int>(k) + 1;
     where.positions.push_back(s);
     for (int c = 0; c < 5; ++c)
-      where.heat.push_back({s.position, c, total > 0.0 ? squares(c, k) / total : 0.0, squares(c, k)});
+      where.heat.push_back(
+          {s.position, c, total > 0.0 ? squares(c, k) / total : 0.0, squares(c, k)});
   }
   for (auto* list : {&where.channels, &where.positions})
     std::ranges::stable_sort(*list, std::greater{}, &Share::share);
   const std::string& first = where.channels.front().name;
   if (d.has_patch)
-    where.equation = first == "turn" ? "case rate while turning"
+    where.equation = first == "turn"  ? "case rate while turning"
                      : first == "acc" ? "accelerometers"
                                       : fmt::format("gyro rate {} in dwells", first.back());
 
@@ -122,7 +129,8 @@ void fill_where(const Residuals& before, const Residuals& after, const Eigen::Ve
   fit.chi2_per_dof_before = fit.chi2_before / static_cast<double>(fit.dof);
   fit.chi2_per_dof_after = fit.chi2_after / static_cast<double>(fit.dof);
   // No likelihood without declared noise, no scan of windows.
-  where.scan_p_value = fit.band_low = fit.band_high = fit.log_likelihood_ratio = fit.linear_T = std::nan("");
+  where.scan_p_value = fit.band_low = fit.band_high = fit.log_likelihood_ratio = fit.linear_T =
+      std::nan("");
   fit.whiteness = {std::nan(""), std::nan(""), std::nan(""), std::nan("")};
   fit.start_spread_before = fit.start_spread_after = std::nan("");
 

@@ -1,8 +1,8 @@
 #include "core/base/build_info.hpp"
 
-#include <build_commit.hpp>  // made by the build
 #include <fmt/format.h>
 
+#include <build_commit.hpp>  // made by the build
 #include <cmath>
 #include <sstream>
 
@@ -42,8 +42,8 @@ std::string compute_fingerprint() {
   for (int i = 1; i <= samples; ++i) {
     const volatile double x = 0.0137 * i;  // volatile: computed when the program runs
     const volatile double y = 0.71 + 1e-3 * i;
-    values.insert(values.end(),
-                  {std::exp(x), std::log(x), std::sin(x), std::cos(x), std::atan2(x, y), std::pow(y, x)});
+    values.insert(values.end(), {std::exp(x), std::log(x), std::sin(x), std::cos(x),
+                                 std::atan2(x, y), std::pow(y, x)});
   }
   Sha256 hash;
   hash.update(std::span<const double>(values));

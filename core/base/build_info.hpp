@@ -16,9 +16,9 @@ struct BuildInfo {
 
 const BuildInfo& build_info();
 
-/// Twelve hexadecimal digits that differ where exp, log, sin, cos, atan2 or pow of this machine give
-/// other bits: the C library chooses them by the CPU when the program starts, so that one program
-/// may compute differently on two machines.
+/// Twelve hexadecimal digits that differ where exp, log, sin, cos, atan2 or pow of this machine
+/// give other bits: the C library chooses them by the CPU when the program starts, so that one
+/// program may compute differently on two machines.
 const std::string& arithmetic_fingerprint();
 
 }  // namespace drift

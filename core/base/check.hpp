@@ -56,7 +56,8 @@ class ContractError : public std::logic_error {
 
 [[noreturn]] inline void contract_broken(
     const char* condition, std::source_location at = std::source_location::current()) {
-  throw ContractError(fmt::format("{}:{}: contract broken: {}", at.file_name(), at.line(), condition));
+  throw ContractError(
+      fmt::format("{}:{}: contract broken: {}", at.file_name(), at.line(), condition));
 }
 
 }  // namespace drift

@@ -18,10 +18,10 @@ enum class Purpose : std::uint32_t {
   process_noise = 3,
   filter_start = 4,
   design = 5,
-  drift_level = 20,   ///< which of two levels a bistable drift is on
-  wrong_samples = 21, ///< outliers
-  environment = 22,   ///< fluctuations of temperature
-  bootstrap = 23,    ///< resampling of results
+  drift_level = 20,    ///< which of two levels a bistable drift is on
+  wrong_samples = 21,  ///< outliers
+  environment = 22,    ///< fluctuations of temperature
+  bootstrap = 23,      ///< resampling of results
   test = 100,
 };
 
@@ -60,7 +60,8 @@ class Stream {
  private:
   void refill() {
     const auto block = r123::Philox4x32()(counter_, key_);
-    words_ = {(std::uint64_t{block[1]} << 32) | block[0], (std::uint64_t{block[3]} << 32) | block[2]};
+    words_ = {(std::uint64_t{block[1]} << 32) | block[0],
+              (std::uint64_t{block[3]} << 32) | block[2]};
     left_ = 2;
     ++counter_[0];
   }

@@ -43,9 +43,9 @@ constexpr Dimension dim_of(Dimension::Base base, int exponent = 1) {
   return d;
 }
 
-inline constexpr double deg = std::numbers::pi / 180.0;       // [rad]
-inline constexpr double earth_rate = 7.292115e-5;             // [rad/s]
-inline constexpr Dimension newton{{0, -4, 0, 2, 0, 0, 2}};    // kg m/s^2
+inline constexpr double deg = std::numbers::pi / 180.0;     // [rad]
+inline constexpr double earth_rate = 7.292115e-5;           // [rad/s]
+inline constexpr Dimension newton{{0, -4, 0, 2, 0, 0, 2}};  // kg m/s^2
 inline constexpr BaseUnit base_units[] = {
     {"1", 1.0, {}},
     {"ppm", 1e-6, {}},

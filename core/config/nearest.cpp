@@ -10,7 +10,9 @@
 namespace drift::config {
 namespace {
 
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+char lower(char c) {
+  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
 
 /// Are two keys next to each other on a QWERTY keyboard?
 bool neighbours(char a, char b) {

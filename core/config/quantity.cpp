@@ -22,7 +22,9 @@ std::string shown(std::string_view symbol) {
 }
 
 /// A number that has the user's digits: 45.750 is shown as 45.75.
-std::string number(double value) { return fmt::format("{:.12g}", value); }
+std::string number(double value) {
+  return fmt::format("{:.12g}", value);
+}
 
 /// The first factor of a compound unit that is none, and what it may have meant.
 std::string unit_suggestion(std::string_view text, const Unit& wanted) {

@@ -22,13 +22,16 @@ std::string given_text(const Node& node) {
   return node.is(Node::Kind::string) ? node.text : to_toml(node);
 }
 
-/// Among which keys the meant one is looked for: those still free, unless one that stands in the file
-/// already is closer by a whole slip (--set of a misspelt key).
-const std::vector<std::string_view>& likelier(std::string_view typed, const std::vector<std::string_view>& free,
+/// Among which keys the meant one is looked for: those still free, unless one that stands in the
+/// file already is closer by a whole slip (--set of a misspelt key).
+const std::vector<std::string_view>& likelier(std::string_view typed,
+                                              const std::vector<std::string_view>& free,
                                               const std::vector<std::string_view>& all) {
   const auto best_free = nearest(typed, free), best = nearest(typed, all);
   if (best_free.empty()) return all;
-  return typing_distance(typed, best.front()) + 0.95 < typing_distance(typed, best_free.front()) ? all : free;
+  return typing_distance(typed, best.front()) + 0.95 < typing_distance(typed, best_free.front())
+             ? all
+             : free;
 }
 
 /// Stands for a section that is no table, so that its keys are not reported as missing on top.
@@ -69,7 +72,8 @@ bool Section::read(const Option& option, double& value) {
   std::optional<double> given;
   const Node* node = take(option.key);
   if (node == nullptr) {
-    report_->assumed(full(option.key), quantity_text(value / option.unit.to_si, option.unit), origin_);
+    report_->assumed(full(option.key), quantity_text(value / option.unit.to_si, option.unit),
+                     origin_);
     return false;
   }
   const auto q = read_quantity(*report_, *node, full(option.key), option);
@@ -210,7 +214,9 @@ bool Section::read_whole(const Option& option, std::uint64_t& value) {
   return true;
 }
 
-bool Section::read(const Option& option, std::uint64_t& value) { return read_whole(option, value); }
+bool Section::read(const Option& option, std::uint64_t& value) {
+  return read_whole(option, value);
+}
 
 bool Section::read(const Option& option, int& value) {
   auto wide = static_cast<std::uint64_t>(value);

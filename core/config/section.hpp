@@ -25,7 +25,8 @@ class Section {
 
   bool present() const { return table_ != nullptr; }
   const Place& at() const { return at_; }
-  /// What the resolved list says of values that are not given here: "default" unless said otherwise.
+  /// What the resolved list says of values that are not given here: "default" unless said
+  /// otherwise.
   void defaults_come_from(std::string origin) { origin_ = std::move(origin); }
   Report& report() const { return *report_; }
   std::string full(std::string_view key) const;
@@ -87,7 +88,8 @@ bool Section::read(const Option& option, E& value, const Choice<E> (&choices)[N]
   }
   if (!has(option.key))
     for (const auto& choice : choices)
-      if (choice.value == value) report_->assumed(full(option.key), std::string(choice.name), origin_);
+      if (choice.value == value)
+        report_->assumed(full(option.key), std::string(choice.name), origin_);
   return false;
 }
 

@@ -38,7 +38,9 @@ std::string real_text(double value) {
   return text;
 }
 
-bool is_section(const Node& value) { return value.is(Node::Kind::table); }
+bool is_section(const Node& value) {
+  return value.is(Node::Kind::table);
+}
 
 /// [[name]] needs an array of tables that is not empty.
 bool is_section_list(const Node& value) {

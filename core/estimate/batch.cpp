@@ -1,7 +1,8 @@
 #include "core/estimate/batch.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 
@@ -31,7 +32,8 @@ struct Equations {
 
   /// Minimises |J d - r|^2 + |p + d|^2 + mu |d|^2.
   Step solve(double mu) const;
-  /// Triangle over [x | r] with every attitude eliminated. prior: 1 keeps the parameter prior, 0 not.
+  /// Triangle over [x | r] with every attitude eliminated. prior: 1 keeps the parameter prior, 0
+  /// not.
   MatX reduced(double mu, std::vector<MatX>* per_chain) const;
 };
 
@@ -172,7 +174,8 @@ BatchResult fit_all(const FilterSpec& filter, const Timeline& timeline, const Re
   out.estimate.statistic = now.cost;
   out.data_chi2 = data_cost(rows_now);
   for (const Vec3& p : now.psi) out.psi0_l.push_back(sigma_psi * p);
-  out.acc_residual = Mat3X::Constant(3, measured.acc.cols(), std::numeric_limits<double>::quiet_NaN());
+  out.acc_residual =
+      Mat3X::Constant(3, measured.acc.cols(), std::numeric_limits<double>::quiet_NaN());
   out.gimbal_residual = out.acc_residual;
   std::vector<Eigen::Index> at(timeline.chains, 0);
   for (std::size_t i = 0; i < timeline.intervals.size(); ++i) {
@@ -195,7 +198,8 @@ BatchResult fit_all(const FilterSpec& filter, const Timeline& timeline, const Re
 }
 
 /// Samples of `measured` whose residual lies within the gate; the others become NaN.
-Mat3X within(const Mat3X& measured, const Mat3X& predicted, double noise, double gate, bool angles) {
+Mat3X within(const Mat3X& measured, const Mat3X& predicted, double noise, double gate,
+             bool angles) {
   Mat3X kept = measured;
   for (Eigen::Index i = 0; i < kept.cols(); ++i)
     for (int a = 0; a < 3; ++a) {
@@ -213,23 +217,28 @@ bool same_samples(const Mat3X& a, const Mat3X& b) {
 }  // namespace
 
 BatchResult fit_batch(const FilterSpec& filter, const Timeline& timeline, const Readout& readout,
-                      const Measurements& measured, const Theta& start, const BatchOptions& options) {
+                      const Measurements& measured, const Theta& start,
+                      const BatchOptions& options) {
   BatchResult out = fit_all(filter, timeline, readout, measured, start, options);
   const DriftModel model = filter.model();
   if (!has_outliers(model.terms)) return out;
-  // Term `outliers`: what lies outside the gate is left out, and may come back, until nothing changes.
-  // The gate is narrowed step by step: a fit that outliers have pulled aside has large residuals.
+  // Term `outliers`: what lies outside the gate is left out, and may come back, until nothing
+  // changes. The gate is narrowed step by step: a fit that outliers have pulled aside has large
+  // residuals.
   constexpr int most_rounds = 12;
   Measurements kept = measured;
   double gate = std::max(outlier_gate(make_layout(filter).theta), 1.0);
-  double wide = gate * std::max(1.0, std::sqrt(out.data_chi2 / static_cast<double>(out.estimate.measured)));
+  double wide =
+      gate * std::max(1.0, std::sqrt(out.data_chi2 / static_cast<double>(out.estimate.measured)));
   for (int round = 0; round < most_rounds; ++round) {
     Theta theta = make_layout(filter).theta;
     for (const ParameterEstimate& p : out.estimate.parameters) theta[p.param] = p.value;
     const Measurements predicted = predict(timeline, model, theta, out.psi0_l, readout);
-    const Measurements now{within(measured.acc, predicted.acc, readout.accelerometer_noise, wide, false),
-                           within(measured.gimbal, predicted.gimbal, readout.gimbal_noise, wide, true)};
-    const bool done = wide == gate && same_samples(now.acc, kept.acc) && same_samples(now.gimbal, kept.gimbal);
+    const Measurements now{
+        within(measured.acc, predicted.acc, readout.accelerometer_noise, wide, false),
+        within(measured.gimbal, predicted.gimbal, readout.gimbal_noise, wide, true)};
+    const bool done =
+        wide == gate && same_samples(now.acc, kept.acc) && same_samples(now.gimbal, kept.gimbal);
     if (done) break;
     kept = now;
     out = fit_all(filter, timeline, readout, kept, theta, options);

@@ -7,8 +7,8 @@
 
 namespace drift {
 
-/// The whitened, linearised test of one chain: rows [J_psi, J_x, r], where r = (measured - predicted)
-/// / sigma and J = d predicted / sigma; psi in units of its prior sigma, x of theirs.
+/// The whitened, linearised test of one chain: rows [J_psi, J_x, r], where r = (measured -
+/// predicted) / sigma and J = d predicted / sigma; psi in units of its prior sigma, x of theirs.
 struct ChainEquations {
   MatX rows;  ///< shape (measured scalars, 3 + parameters + 1)
 };
@@ -20,9 +20,9 @@ struct ChainSensitivity {
   Mat3X G;  ///< shape (3, rate states); empty: zero
 };
 
-/// Linearises all measurements of a timeline about a trajectory. Channels that are NaN are left out.
-/// carried: of the first interval's start, for a timeline that goes on within a chain; becomes that
-/// of the last interval's end.
+/// Linearises all measurements of a timeline about a trajectory. Channels that are NaN are left
+/// out. carried: of the first interval's start, for a timeline that goes on within a chain; becomes
+/// that of the last interval's end.
 std::vector<ChainEquations> measurement_equations(const Timeline& timeline, const DriftModel& model,
                                                   const Layout& layout, const Readout& readout,
                                                   const Measurements& measured, const Theta& theta,
@@ -36,8 +36,9 @@ MatX information_root(const std::vector<ChainEquations>& chains, std::size_t par
 
 /// A direction in parameter space of which the data say (almost) nothing.
 struct WeakDirection {
-  double information = 0.0;  ///< eigenvalue of the prior-scaled data information; 1 = as good as the prior
-  VecX direction;            ///< unit vector over the prior-scaled parameters, layout order
+  double information =
+      0.0;         ///< eigenvalue of the prior-scaled data information; 1 = as good as the prior
+  VecX direction;  ///< unit vector over the prior-scaled parameters, layout order
 };
 
 /// Directions with an eigenvalue below `limit`, weakest first. With limit 1e-6 these are the exact

@@ -9,14 +9,16 @@ namespace drift {
 using Mat3X = Eigen::Matrix<double, 3, Eigen::Dynamic>;
 using MatX3 = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
-/// Covariance of 3 attitude errors and n static parameters, of which the first `num_rate` act on the
-/// attitude's rate. Because the parameters stand still, a step costs about 3 n^2 multiplications
-/// where a dense filter spends 2 (n+3)^3 (physics.md 6.6, 1512.03077). Allocates only when built.
+/// Covariance of 3 attitude errors and n static parameters, of which the first `num_rate` act on
+/// the attitude's rate. Because the parameters stand still, a step costs about 3 n^2
+/// multiplications where a dense filter spends 2 (n+3)^3 (physics.md 6.6, 1512.03077). Allocates
+/// only when built.
 ///
 /// Every operation is symmetric term by term, so P_pp stays symmetric to the last bit.
 class Covariance {
  public:
-  /// Attitude of sigma_attitude [rad] per axis; parameters of unit variance (scaled by their prior).
+  /// Attitude of sigma_attitude [rad] per axis; parameters of unit variance (scaled by their
+  /// prior).
   Covariance(std::size_t parameters, std::size_t num_rate, double sigma_attitude);
 
   /// As it was when built.
@@ -30,7 +32,9 @@ class Covariance {
   void propagate(const Mat3& Phi, const Eigen::Ref<const Mat3X>& G, const Mat3& Q);
 
   /// Adds variance to one parameter (drift random walk).
-  void add_variance(std::size_t parameter, double variance) { P_pp_(parameter, parameter) += variance; }
+  void add_variance(std::size_t parameter, double variance) {
+    P_pp_(parameter, parameter) += variance;
+  }
 
   /// The outcome of an update with m <= 3 scalars.
   struct Update {
@@ -38,7 +42,7 @@ class Covariance {
     double nis = 0.0;              ///< normalised innovation squared
     Vec3 white = Vec3::Zero();     ///< innovation whitened: L^-1 nu; zero where not measured
     int scalars = 0;
-    bool ok = true;                ///< false: innovation covariance not positive definite
+    bool ok = true;  ///< false: innovation covariance not positive definite
   };
 
   /// Measurement of m scalars: innovation nu, H = [H_psi, H_par on parameters from `first`],

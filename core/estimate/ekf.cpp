@@ -21,8 +21,8 @@ std::size_t most_nodes(const Timeline& timeline) {
 
 }  // namespace
 
-Ekf::Ekf(const FilterSpec& filter, const Timeline& timeline, const Readout& readout, const Theta& start,
-         KeepHistory keep)
+Ekf::Ekf(const FilterSpec& filter, const Timeline& timeline, const Readout& readout,
+         const Theta& start, KeepHistory keep)
     : filter_(filter),
       timeline_(timeline),
       readout_(readout),
@@ -109,7 +109,8 @@ Vec3 Ekf::gated(const Vec3& nu, const Mat3& H_psi, const Mat3X& H_par, double si
   const double gate = outlier_gate(theta_);
   Vec3 inside = nu;
   for (int k = 0; k < 3; ++k)
-    if (std::abs(nu[k]) > gate * std::sqrt(S(k, k))) inside[k] = std::numeric_limits<double>::quiet_NaN();
+    if (std::abs(nu[k]) > gate * std::sqrt(S(k, k)))
+      inside[k] = std::numeric_limits<double>::quiet_NaN();
   return inside;
 }
 
@@ -128,7 +129,8 @@ void Ekf::process(std::size_t i, const Vec3& acc, const Vec3& gimbal) {
   nodes_[0] = phi_;
   Drive drive = drive_of(interval, timeline_, model_, theta_);
   step_through(interval, timeline_, drive, nodes_.data(), 0, &memory_);
-  linearize_interval(interval, timeline_, E_loop, nodes_.data(), linearizer_, sensitivity_, &memory_);
+  linearize_interval(interval, timeline_, E_loop, nodes_.data(), linearizer_, sensitivity_,
+                     &memory_);
 
   const std::size_t last = interval.node_count() - 1;
   const std::size_t middle = static_cast<std::size_t>(interval.substeps);
@@ -139,12 +141,13 @@ void Ekf::process(std::size_t i, const Vec3& acc, const Vec3& gimbal) {
 
   if (readout_.accelerometers && acc.array().isFinite().any()) {
     const MeanOutput mean = mean_output(interval, sensitivity_);
-    const Covariance::Update update =
-        P_.update(gated(acc - mean.acc, mean.H, sensitivity_.jacobian[0].H_par, readout_.accelerometer_noise),
-                  mean.H, sensitivity_.jacobian[0].H_par, layout_.num_rate, readout_.accelerometer_noise, x_);
+    const Covariance::Update update = P_.update(
+        gated(acc - mean.acc, mean.H, sensitivity_.jacobian[0].H_par, readout_.accelerometer_noise),
+        mean.H, sensitivity_.jacobian[0].H_par, layout_.num_rate, readout_.accelerometer_noise, x_);
     take(update, i, InnovationSums::accelerometers);
     if (status_ != EstimateStatus::ok) return;
-    correct_attitude(timeline_.nodes[interval.first_node + middle], update.attitude, nodes_[middle]);
+    correct_attitude(timeline_.nodes[interval.first_node + middle], update.attitude,
+                     nodes_[middle]);
     learn();
     drive = drive_of(interval, timeline_, model_, theta_);
     step_through(interval, timeline_, drive, nodes_.data(), middle, &memory_);
@@ -159,8 +162,8 @@ void Ekf::process(std::size_t i, const Vec3& acc, const Vec3& gimbal) {
   if (readout_.gimbals && gimbal.array().isFinite().any()) {
     const Node& node = timeline_.nodes[interval.last_node()];
     if (TermLibrary::act_on_gimbals(model_.terms)) linearizer_.set_theta(theta_);
-    const GimbalPrediction predicted =
-        linearizer_.gimbals(timeline_, interval, phi_, memory_.active() ? &memory_.at(2 * last) : nullptr);
+    const GimbalPrediction predicted = linearizer_.gimbals(
+        timeline_, interval, phi_, memory_.active() ? &memory_.at(2 * last) : nullptr);
     Vec3 nu;
     for (int k = 0; k < 3; ++k) nu[k] = angle_difference(gimbal[k], predicted.angles[k]);
     const Covariance::Update update =

@@ -13,10 +13,10 @@ namespace drift {
 
 /// How an EKF run went, one entry per interval.
 struct EkfHistory {
-  std::vector<double> t;   ///< [s]
-  MatX estimate;           ///< parameters in layout order, SI, shape (size, intervals)
-  MatX sigma;              ///< shape (size, intervals)
-  std::vector<double> nis; ///< normalised innovation squared of the interval
+  std::vector<double> t;     ///< [s]
+  MatX estimate;             ///< parameters in layout order, SI, shape (size, intervals)
+  MatX sigma;                ///< shape (size, intervals)
+  std::vector<double> nis;   ///< normalised innovation squared of the interval
   std::vector<int> scalars;  ///< measured scalars it sums over
 };
 
@@ -27,12 +27,13 @@ enum class KeepHistory { yes, no };
 ///
 /// Between samples the platform equation is integrated at the running estimate; the mean specific
 /// force is taken in at the middle of its interval (exact to second order in the attitude change),
-/// the gimbal angles at its end. Caging brings a new attitude within the prior (physics.md 3.5, 6.6).
+/// the gimbal angles at its end. Caging brings a new attitude within the prior
+/// (physics.md 3.5, 6.6).
 class Ekf {
  public:
   /// The timeline must outlive the filter. start: library values of the initial estimate.
-  Ekf(const FilterSpec& filter, const Timeline& timeline, const Readout& readout, const Theta& start,
-      KeepHistory keep = KeepHistory::yes);
+  Ekf(const FilterSpec& filter, const Timeline& timeline, const Readout& readout,
+      const Theta& start, KeepHistory keep = KeepHistory::yes);
 
   /// As if built anew from this start; allocates nothing.
   void reset(const Theta& start);
@@ -46,11 +47,14 @@ class Ekf {
   EstimateStatus status() const { return status_; }
   const std::string& cause() const { return cause_; }
   double t_diverged() const { return t_diverged_; }  ///< [s]
-  double sigma(std::size_t k) const { return layout_.sigma[k] * std::sqrt(P_.variance(k)); }  ///< of state k, SI
+  double sigma(std::size_t k) const {
+    return layout_.sigma[k] * std::sqrt(P_.variance(k));
+  }                                     ///< of state k, SI
   const VecX& x() const { return x_; }  ///< deviations from the prior means, in prior sigmas
   const Layout& layout() const { return layout_; }
   const Covariance& covariance() const { return P_; }
-  /// Covariance of the states in prior sigmas, shape (size, size), without a copy. At the end of a run.
+  /// Covariance of the states in prior sigmas, shape (size, size), without a copy. At the end of a
+  /// run.
   auto settled_covariance() {
     P_.settle();
     return P_.settled();
@@ -89,6 +93,7 @@ class Ekf {
 
 /// Runs the filter over a whole recording.
 EstimateResult run_ekf(const FilterSpec& filter, const Timeline& timeline, const Readout& readout,
-                       const Measurements& measured, const Theta& start, EkfHistory* history = nullptr);
+                       const Measurements& measured, const Theta& start,
+                       EkfHistory* history = nullptr);
 
 }  // namespace drift

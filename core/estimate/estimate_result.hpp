@@ -27,7 +27,7 @@ struct EstimateResult {
   EstimateStatus status = EstimateStatus::ok;
   std::string cause;                          ///< empty if ok
   std::vector<ParameterEstimate> parameters;  ///< in the order of the layout
-  MatX covariance;     ///< of the parameters divided by their prior sigma, layout order
+  MatX covariance;           ///< of the parameters divided by their prior sigma, layout order
   double statistic = 0.0;    ///< EKF: sum of NIS; batch: minimum of data + prior cost
   std::size_t measured = 0;  ///< scalars used; `statistic` is chi-square of as many degrees when
                              ///< model, noise and priors are right

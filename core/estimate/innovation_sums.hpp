@@ -9,8 +9,8 @@ class InnovationSums {
  public:
   enum Channel { accelerometers = 0, gimbals = 1 };
 
-  double nis = 0.0;          ///< sum of the normalised innovations squared
-  std::size_t scalars = 0;   ///< measured scalars it sums over
+  double nis = 0.0;         ///< sum of the normalised innovations squared
+  std::size_t scalars = 0;  ///< measured scalars it sums over
 
   void add(const Covariance::Update& update, Channel channel) {
     nis += update.nis;

@@ -45,7 +45,8 @@ void IteratedEkf::run(const Measurements& measured, const Theta& start) {
   if (status_ != EstimateStatus::ok) return;
   for (std::size_t k = 0; k < layout_.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
-    x_start_[i] = (start[static_cast<Eigen::Index>(layout_.params[k])] - layout_.mean[i]) / layout_.sigma[i];
+    x_start_[i] =
+        (start[static_cast<Eigen::Index>(layout_.params[k])] - layout_.mean[i]) / layout_.sigma[i];
   }
   x_ = ekf_.x();
   constexpr int most_passes = 4;
@@ -101,7 +102,8 @@ void IteratedEkf::place_reference() {
   Vec3 phi = Vec3::Zero();
   for (std::size_t i = intervals.size(); i-- > 0;) {
     const Interval& interval = intervals[i];
-    if (i + 1 == intervals.size() || intervals[i + 1].cage) phi = phi_end_[static_cast<std::size_t>(interval.chain)];
+    if (i + 1 == intervals.size() || intervals[i + 1].cage)
+      phi = phi_end_[static_cast<std::size_t>(interval.chain)];
     const Drive drive = drive_of(interval, timeline_, model_, theta_);
     const double step = interval.length() / (2.0 * interval.substeps);
     phi_[interval.last_node()] = phi;
@@ -129,8 +131,11 @@ void IteratedEkf::process(std::size_t i, const Vec3& acc, const Vec3& gimbal) {
     psi_ += update.attitude;
     sums_.add(update, channel);
     if (!update.ok || !std::isfinite(update.nis))
-      diverge(fmt::format("second pass of the filter diverged at t = {:.6g} s (innovation covariance not "
-                          "positive definite)", interval.t1), interval.t1);
+      diverge(fmt::format(
+                  "second pass of the filter diverged at t = {:.6g} s (innovation covariance not "
+                  "positive definite)",
+                  interval.t1),
+              interval.t1);
   };
 
   const Mat3& Phi_m = sensitivity_.Phi[middle];
@@ -149,12 +154,13 @@ void IteratedEkf::process(std::size_t i, const Vec3& acc, const Vec3& gimbal) {
   psi_ = (Phi_rest * psi_ + rest_G_ * dx_.head(rates)).eval();
   P_.propagate(Phi_rest, rest_G_, Q_half);
   if (readout_.gimbals && gimbal.array().isFinite().any()) {
-    const GimbalPrediction predicted = predict_gimbals(timeline_.nodes[interval.last_node()],
-                                                       interval.heading1, phi_[interval.last_node()]);
+    const GimbalPrediction predicted = predict_gimbals(
+        timeline_.nodes[interval.last_node()], interval.heading1, phi_[interval.last_node()]);
     Vec3 nu;
     for (int k = 0; k < 3; ++k) nu[k] = angle_difference(gimbal[k], predicted.angles[k]);
     nu -= predicted.H * psi_;
-    take(P_.update(nu, predicted.H, Mat3X(3, 0), 0, readout_.gimbal_noise, dx_), InnovationSums::gimbals);
+    take(P_.update(nu, predicted.H, Mat3X(3, 0), 0, readout_.gimbal_noise, dx_),
+         InnovationSums::gimbals);
   }
   const Node& end = timeline_.nodes[interval.last_node()];
   const Vec3 psi_r = end.R_lr.transpose() * (end.R_il.transpose() * psi_);
@@ -164,7 +170,8 @@ void IteratedEkf::process(std::size_t i, const Vec3& acc, const Vec3& gimbal) {
     const double q = filter_.noise.drift_random_walk;
     for (std::size_t k = 0; k < layout_.size(); ++k)
       if (layout_.params[k] >= fixed_drift_key && layout_.params[k] < fixed_drift_key + 3)
-        P_.add_variance(k, q * q * interval.length() / std::pow(layout_.sigma[static_cast<Eigen::Index>(k)], 2));
+        P_.add_variance(k, q * q * interval.length() /
+                               std::pow(layout_.sigma[static_cast<Eigen::Index>(k)], 2));
   }
 }
 

@@ -34,8 +34,8 @@ struct Layout {
   }
 };
 
-/// Whether a filter may have a parameter as a state. Of a discrete one it knows the value; of the size
-/// of something random, the root mean square.
+/// Whether a filter may have a parameter as a state. Of a discrete one it knows the value; of the
+/// size of something random, the root mean square.
 inline bool can_be_state(const ParamSpec& spec) {
   return spec.kind == ParamKind::linear || spec.kind == ParamKind::nonlinear;
 }

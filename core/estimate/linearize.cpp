@@ -138,7 +138,8 @@ void Linearizer::evaluate(const Node& node, const Interval& interval, const Mat3
 GimbalPrediction Linearizer::gimbals(const Timeline& timeline, const Interval& interval,
                                      const Vec3& phi, const MemoryPoint* memory) {
   const Node& node = timeline.nodes[interval.last_node()];
-  if (!TermLibrary::act_on_gimbals(model_.terms)) return predict_gimbals(node, interval.heading1, phi);
+  if (!TermLibrary::act_on_gimbals(model_.terms))
+    return predict_gimbals(node, interval.heading1, phi);
   const Mat3 R_lp = node.R_lr * rotation(phi);
   look(node, interval, R_lp, &timeline, memory);
   Mat3T<D> R_at_psi = R_lp.cast<D>();

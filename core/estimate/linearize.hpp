@@ -15,10 +15,10 @@ namespace drift {
 /// Derivatives at one node, with respect to the attitude error psi_i (R_ip = exp([psi_i x]) R_ip,
 /// axes of the chain's inertial frame i) and to the scaled states of a layout.
 struct NodeJacobian {
-  Mat3 A;    ///< d psi_i' / d psi_i [1/s]
-  Mat3X B;   ///< d psi_i' / d rate states, shape (3, num_rate) [rad/s]
-  Vec3 acc;  ///< accelerometer outputs [g]
-  Mat3 H;    ///< d acc / d psi_i [g/rad]
+  Mat3 A;       ///< d psi_i' / d psi_i [1/s]
+  Mat3X B;      ///< d psi_i' / d rate states, shape (3, num_rate) [rad/s]
+  Vec3 acc;     ///< accelerometer outputs [g]
+  Mat3 H;       ///< d acc / d psi_i [g/rad]
   Mat3X H_par;  ///< d acc / d readout states, shape (3, size - num_rate) [g]
 };
 

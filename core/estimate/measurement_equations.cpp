@@ -13,15 +13,15 @@ std::vector<ChainEquations> measurement_equations(const Timeline& timeline, cons
   const auto nr = static_cast<Eigen::Index>(layout.num_rate);
   std::vector<Eigen::Index> count(timeline.chains, 0), next(timeline.chains, 0);
   for (std::size_t i = 0; i < timeline.intervals.size(); ++i)
-    count[timeline.intervals[i].chain] +=
-        measured.acc.col(i).array().isFinite().count() + measured.gimbal.col(i).array().isFinite().count();
+    count[timeline.intervals[i].chain] += measured.acc.col(i).array().isFinite().count() +
+                                          measured.gimbal.col(i).array().isFinite().count();
   std::vector<ChainEquations> chains(timeline.chains);
   for (int c = 0; c < timeline.chains; ++c) chains[c].rows = MatX::Zero(count[c], 3 + n + 1);
 
   Linearizer linearizer(model, layout, readout);
   linearizer.set_theta(theta);
   IntervalSensitivity inner;
-  Mat3 Phi = Mat3::Identity();             // from the caging to the start of the interval
+  Mat3 Phi = Mat3::Identity();  // from the caging to the start of the interval
   Mat3X G = Mat3X::Zero(3, nr), Y(3, n);
   if (carried && carried->G.cols() == nr) {
     Phi = carried->Phi;
@@ -36,9 +36,11 @@ std::vector<ChainEquations> measurement_equations(const Timeline& timeline, cons
     }
     const Mat3 E_loop = misalignment_matrix(model.mounting, interval.loop);
     memory.advance(i, theta.data());
-    linearize_interval(interval, timeline, E_loop, &phi[interval.first_node], linearizer, inner, &memory);
+    linearize_interval(interval, timeline, E_loop, &phi[interval.first_node], linearizer, inner,
+                       &memory);
     MatX& rows = chains[interval.chain].rows;
-    const auto add_row = [&](double residual, const Eigen::RowVector3d& d_psi, const auto& d_x, double sigma) {
+    const auto add_row = [&](double residual, const Eigen::RowVector3d& d_psi, const auto& d_x,
+                             double sigma) {
       auto row = rows.row(next[interval.chain]++);
       row.head<3>() = d_psi * (sigma_attitude / sigma);
       row.segment(3, n) = d_x / sigma;
@@ -61,15 +63,17 @@ std::vector<ChainEquations> measurement_equations(const Timeline& timeline, cons
       Y_psi = (Y_psi * Phi).eval();
       for (int a = 0; a < 3; ++a)
         if (std::isfinite(measured.acc(a, i)))
-          add_row(measured.acc(a, i) - mean[a], Y_psi.row(a), Y.row(a), readout.accelerometer_noise);
+          add_row(measured.acc(a, i) - mean[a], Y_psi.row(a), Y.row(a),
+                  readout.accelerometer_noise);
     }
     // On to the end of the interval.
     const std::size_t last = interval.node_count() - 1;
     G = (inner.Phi[last] * G + inner.G[last]).eval();
     Phi = (inner.Phi[last] * Phi).eval();
     if (readout.gimbals && measured.gimbal.col(i).array().isFinite().any()) {
-      const GimbalPrediction p = linearizer.gimbals(timeline, interval, phi[interval.last_node()],
-                                                    memory.active() ? &memory.at(2 * last) : nullptr);
+      const GimbalPrediction p =
+          linearizer.gimbals(timeline, interval, phi[interval.last_node()],
+                             memory.active() ? &memory.at(2 * last) : nullptr);
       Y.setZero();
       Y.leftCols(nr).noalias() = p.H * G;
       if (p.H_par.cols() > 0) Y.rightCols(n - nr) = p.H_par;

@@ -8,8 +8,8 @@ namespace drift {
 /// Do answers from several starts agree as well as their sigmas say they should?
 ///
 /// ratio = standard deviation between starts / RMS of the reported sigmas. A linear filter with
-/// static parameters moves by sigma_post (sigma_post / sigma_prior) per prior sigma of the start, so
-/// the ratio of a sound filter is far below 1 (physics.md 3.5). NaN for fewer than two starts.
+/// static parameters moves by sigma_post (sigma_post / sigma_prior) per prior sigma of the start,
+/// so the ratio of a sound filter is far below 1 (physics.md 3.5). NaN for fewer than two starts.
 inline double start_consistency(std::span<const double> values, std::span<const double> sigmas) {
   double mean = 0.0, mean_square = 0.0, spread = 0.0;
   const auto n = static_cast<double>(values.size());

@@ -7,7 +7,8 @@ namespace drift {
 
 /// Initial estimates that a filter is run from.
 inline std::size_t start_count(const FilterSpec& filter) {
-  return filter.starts.empty() ? static_cast<std::size_t>(filter.drawn_starts) : filter.starts.size();
+  return filter.starts.empty() ? static_cast<std::size_t>(filter.drawn_starts)
+                               : filter.starts.size();
 }
 
 /// The explicit start, or the prior means where it says nothing.

@@ -28,7 +28,9 @@ struct Cvode::Impl {
   OdeResult advance(double t_out);
   OdeResult fail(int flag);
   OdeResult fail(OdeStatus status, std::string cause);
-  double time(double tau) const { return std::min(t0 + tau, t_stop); }  // rounding must not pass t_stop
+  double time(double tau) const {
+    return std::min(t0 + tau, t_stop);
+  }  // rounding must not pass t_stop
   long steps() const;
   OdeStats current() const;
 
@@ -57,7 +59,8 @@ struct Cvode::Impl {
 
   detail::Guard guard;
   OdeResult failure;
-  char message[256] = "";  ///< CVODE's last words; a buffer, because warnings come on good paths too
+  char message[256] =
+      "";  ///< CVODE's last words; a buffer, because warnings come on good paths too
   double t0 = 0.0, t_stop = 0.0, t = 0.0;
   bool at_stop = true;
   OdeStats before;  ///< of the segments since `start` that are finished
@@ -77,14 +80,15 @@ Cvode::Impl::Impl(Method method_, int size, const OdeOptions& options_, std::vec
   check_setup(CVodeSetMaxStep(cvode.get(), options.max_step), "CVodeSetMaxStep");
   check_setup(CVodeSetMaxHnilWarns(cvode.get(), -1), "CVodeSetMaxHnilWarns");
   if (method == Method::adams) {
-    fixed_point.reset(check_setup(SUNNonlinSol_FixedPoint(y.get(), 0, context.get()),
-                                  "SUNNonlinSol_FixedPoint"));
+    fixed_point.reset(
+        check_setup(SUNNonlinSol_FixedPoint(y.get(), 0, context.get()), "SUNNonlinSol_FixedPoint"));
     check_setup(CVodeSetNonlinearSolver(cvode.get(), fixed_point.get()), "CVodeSetNonlinearSolver");
   } else {
     J.resize(static_cast<std::size_t>(n) * static_cast<std::size_t>(n));
     matrix.reset(check_setup(SUNDenseMatrix(n, n, context.get()), "SUNDenseMatrix"));
     linear = detail::make_dense_solver(n, context.get());
-    check_setup(CVodeSetLinearSolver(cvode.get(), linear.get(), matrix.get()), "CVodeSetLinearSolver");
+    check_setup(CVodeSetLinearSolver(cvode.get(), linear.get(), matrix.get()),
+                "CVodeSetLinearSolver");
     check_setup(CVodeSetLinSysFn(cvode.get(), matrix_call), "CVodeSetLinSysFn");
   }
 }
@@ -103,7 +107,8 @@ int Cvode::Impl::matrix_call(double tau, N_Vector y, N_Vector, SUNMatrix A, bool
   if (!reuse) {
     ++me.jacobian_calls;
     std::fill(me.J.begin(), me.J.end(), 0.0);
-    if (me.guard.jacobian(me.jacobian, me.time(tau), NV_DATA_S(y), me.J.data(), me.n) != 0) return -1;
+    if (me.guard.jacobian(me.jacobian, me.time(tau), NV_DATA_S(y), me.J.data(), me.n) != 0)
+      return -1;
   }
   double* a = SM_DATA_D(A);
   for (std::size_t i = 0; i < me.J.size(); ++i) a[i] = -gamma * me.J[i];
@@ -116,7 +121,8 @@ int Cvode::Impl::weights_call(N_Vector y, N_Vector weights, void* self) noexcept
   const double* value = NV_DATA_S(y);
   double* w = NV_DATA_S(weights);
   for (int i = 0; i < me.n; ++i) {
-    const double allowed = me.options.rel_tol * std::abs(value[i]) + me.abs_tol[static_cast<std::size_t>(i)];
+    const double allowed =
+        me.options.rel_tol * std::abs(value[i]) + me.abs_tol[static_cast<std::size_t>(i)];
     if (!(allowed > 0.0)) return -1;
     w[i] = 1.0 / allowed;
   }
@@ -159,7 +165,8 @@ void Cvode::Impl::begin(double from, const double* y0, double stop, double first
   if (options.max_step > 0.0) least = std::min(least, options.max_step);
   check_setup(CVodeSetMinStep(cvode.get(), least), "CVodeSetMinStep");
   if (const int bad = detail::first_nonfinite(y0, n); bad >= 0)
-    fail(OdeStatus::rhs_nonfinite, fmt::format("initial state {} is not finite at t = {:.9g} s", bad, t0));
+    fail(OdeStatus::rhs_nonfinite,
+         fmt::format("initial state {} is not finite at t = {:.9g} s", bad, t0));
 }
 
 OdeResult Cvode::Impl::advance(double t_out) {
@@ -197,15 +204,17 @@ OdeResult Cvode::Impl::fail(int flag) {
       return fail(OdeStatus::too_many_steps,
                   fmt::format("{} steps are used up at t = {:.9g} s", options.max_steps, t));
     case CV_TOO_MUCH_ACC:
-      return fail(OdeStatus::tolerance_too_tight,
-                  fmt::format("the tolerances ask for more than double precision at t = {:.9g} s", t));
+      return fail(
+          OdeStatus::tolerance_too_tight,
+          fmt::format("the tolerances ask for more than double precision at t = {:.9g} s", t));
     case CV_ERR_FAILURE:
     case CV_CONV_FAILURE:
       return fail(OdeStatus::step_too_small,
                   fmt::format("{} fails however short the step at t = {:.9g} s",
                               flag == CV_ERR_FAILURE ? "the error test" : "the corrector", t));
     default:
-      return fail(OdeStatus::solver_failed, fmt::format("CVODE flag {} at t = {:.9g} s: {}", flag, t, message));
+      return fail(OdeStatus::solver_failed,
+                  fmt::format("CVODE flag {} at t = {:.9g} s: {}", flag, t, message));
   }
 }
 
@@ -234,7 +243,9 @@ void Cvode::next_segment(double t0, const double* y0, double t_stop, double firs
   impl_->begin(t0, y0, t_stop, first_step);
 }
 
-OdeResult Cvode::advance(double t_out) { return impl_->advance(t_out); }
+OdeResult Cvode::advance(double t_out) {
+  return impl_->advance(t_out);
+}
 std::span<const double> Cvode::state() const {
   return {NV_DATA_S(impl_->y.get()), static_cast<std::size_t>(impl_->n)};
 }
@@ -243,6 +254,8 @@ OdeStats Cvode::stats() const {
   return {a.steps + b.steps, a.rhs_calls + b.rhs_calls, a.jacobian_calls + b.jacobian_calls,
           a.error_test_failures + b.error_test_failures};
 }
-int Cvode::size() const { return impl_->n; }
+int Cvode::size() const {
+  return impl_->n;
+}
 
 }  // namespace drift

@@ -9,11 +9,12 @@
 
 namespace drift {
 
-/// Variable-step, variable-order integrator of y' = f(t, y): SUNDIALS' CVODE(S) behind a narrow door.
+/// Variable-step, variable-order integrator of y' = f(t, y): SUNDIALS' CVODE(S) behind a narrow
+/// door.
 ///
-/// Made once per thread and used for many runs; `start` makes it forget everything that came before,
-/// also after a failure, so that a run gives the same bits wherever it is executed. Nothing is
-/// allocated between the constructor and the first failure. Not to be shared between threads.
+/// Made once per thread and used for many runs; `start` makes it forget everything that came
+/// before, also after a failure, so that a run gives the same bits wherever it is executed. Nothing
+/// is allocated between the constructor and the first failure. Not to be shared between threads.
 ///
 ///   Cvode ode(Cvode::Method::adams, 3, options);
 ///   ode.system(rhs);
@@ -44,8 +45,9 @@ class Cvode {
   /// as long as they are integrated (temporaries do not compile).
   void system(OdeRhs rhs, OdeJacobian jacobian = {});
 
-  /// Begins at (t0, y0) with a fresh budget of steps and wall time; t_stop >= t0. Inside, time counts
-  /// from t0, so that short first steps survive at large t. first_step [s]: 0 lets CVODE choose.
+  /// Begins at (t0, y0) with a fresh budget of steps and wall time; t_stop >= t0. Inside, time
+  /// counts from t0, so that short first steps survive at large t. first_step [s]: 0 lets CVODE
+  /// choose.
   void start(double t0, const double* y0, double t_stop, double first_step = 0.0);
   /// The same, but the budget of the last `start` goes on: further segments of one run.
   void next_segment(double t0, const double* y0, double t_stop, double first_step = 0.0);

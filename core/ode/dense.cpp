@@ -16,10 +16,16 @@ struct Content {
   sunindextype last_flag = 0;
 };
 
-Content& content(SUNLinearSolver solver) { return *static_cast<Content*>(solver->content); }
+Content& content(SUNLinearSolver solver) {
+  return *static_cast<Content*>(solver->content);
+}
 
-SUNLinearSolver_Type type(SUNLinearSolver) { return SUNLINEARSOLVER_DIRECT; }
-SUNLinearSolver_ID id(SUNLinearSolver) { return SUNLINEARSOLVER_CUSTOM; }
+SUNLinearSolver_Type type(SUNLinearSolver) {
+  return SUNLINEARSOLVER_DIRECT;
+}
+SUNLinearSolver_ID id(SUNLinearSolver) {
+  return SUNLINEARSOLVER_CUSTOM;
+}
 
 /// A = P L U in place, column by column. Returns the number of the first zero pivot (from 1) or 0;
 /// CVODE answers a positive value with a shorter step.
@@ -67,7 +73,9 @@ int solve(SUNLinearSolver solver, SUNMatrix matrix, N_Vector x_vector, N_Vector 
   return 0;
 }
 
-sunindextype last_flag(SUNLinearSolver solver) { return content(solver).last_flag; }
+sunindextype last_flag(SUNLinearSolver solver) {
+  return content(solver).last_flag;
+}
 int release(SUNLinearSolver solver) {
   if (!solver) return 0;
   delete static_cast<Content*>(solver->content);

@@ -50,7 +50,8 @@ SensitivityResult integrate_with_sensitivities(OdeRhs rhs, SensitivityRhs sensit
                                                const MatX& S0, std::span<const double> p_scale,
                                                double t1) {
   const int n = static_cast<int>(y0.size()), count = static_cast<int>(S0.cols());
-  DRIFT_EXPECTS(S0.rows() == n && static_cast<int>(p_scale.size()) == count && count > 0 && t1 > t0);
+  DRIFT_EXPECTS(S0.rows() == n && static_cast<int>(p_scale.size()) == count && count > 0 &&
+                t1 > t0);
   Callbacks callbacks{rhs, sensitivity_rhs, {}, S0, MatX::Zero(n, count)};
   callbacks.guard.start_clock(options.wall_limit);
 
@@ -63,11 +64,13 @@ SensitivityResult integrate_with_sensitivities(OdeRhs rhs, SensitivityRhs sensit
     S.push_back(columns.emplace_back(detail::make_vector(n, context.get())).get());
     std::copy_n(S0.col(j).data(), n, NV_DATA_S(S.back()));
   }
-  const detail::NonlinearSolverPtr corrector(check_setup(
-      SUNNonlinSol_FixedPoint(y.get(), 0, context.get()), "SUNNonlinSol_FixedPoint"));
-  const detail::NonlinearSolverPtr sensitivity_corrector(check_setup(
-      SUNNonlinSol_FixedPointSens(count, y.get(), 0, context.get()), "SUNNonlinSol_FixedPointSens"));
-  const detail::IntegratorPtr cvodes(check_setup(CVodeCreate(CV_ADAMS, context.get()), "CVodeCreate"));
+  const detail::NonlinearSolverPtr corrector(
+      check_setup(SUNNonlinSol_FixedPoint(y.get(), 0, context.get()), "SUNNonlinSol_FixedPoint"));
+  const detail::NonlinearSolverPtr sensitivity_corrector(
+      check_setup(SUNNonlinSol_FixedPointSens(count, y.get(), 0, context.get()),
+                  "SUNNonlinSol_FixedPointSens"));
+  const detail::IntegratorPtr cvodes(
+      check_setup(CVodeCreate(CV_ADAMS, context.get()), "CVodeCreate"));
   void* const memory = cvodes.get();
 
   std::vector<double> scale(p_scale.begin(), p_scale.end());
@@ -79,7 +82,8 @@ SensitivityResult integrate_with_sensitivities(OdeRhs rhs, SensitivityRhs sensit
   check_setup(CVodeSetMaxStep(memory, options.max_step), "CVodeSetMaxStep");
   check_setup(CVodeSetMaxNumSteps(memory, options.max_steps), "CVodeSetMaxNumSteps");
   check_setup(CVodeSetStopTime(memory, t1), "CVodeSetStopTime");
-  check_setup(CVodeSensInit(memory, count, CV_STAGGERED, sensitivity_call, S.data()), "CVodeSensInit");
+  check_setup(CVodeSensInit(memory, count, CV_STAGGERED, sensitivity_call, S.data()),
+              "CVodeSensInit");
   check_setup(CVodeSetSensParams(memory, nullptr, scale.data(), nullptr), "CVodeSetSensParams");
   check_setup(CVodeSensEEtolerances(memory), "CVodeSensEEtolerances");
   check_setup(CVodeSetSensErrCon(memory, SUNTRUE), "CVodeSetSensErrCon");
@@ -93,15 +97,18 @@ SensitivityResult integrate_with_sensitivities(OdeRhs rhs, SensitivityRhs sensit
   if (callbacks.guard.failed())
     out.result = callbacks.guard.failure();
   else if (flag == CV_TOO_MUCH_WORK)
-    out.result = {OdeStatus::too_many_steps, t, fmt::format("{} steps are used up", options.max_steps)};
+    out.result = {OdeStatus::too_many_steps, t,
+                  fmt::format("{} steps are used up", options.max_steps)};
   else if (flag < 0)
-    out.result = {OdeStatus::solver_failed, t, fmt::format("CVODES flag {} at t = {:.9g} s", flag, t)};
+    out.result = {OdeStatus::solver_failed, t,
+                  fmt::format("CVODES flag {} at t = {:.9g} s", flag, t)};
   double t_sensitivity = t;
   if (flag >= 0) check_setup(CVodeGetSens(memory, &t_sensitivity, S.data()), "CVodeGetSens");
 
   out.y = Eigen::Map<const VecX>(NV_DATA_S(y.get()), n);
   out.S.resize(n, count);
-  for (int j = 0; j < count; ++j) std::copy_n(NV_DATA_S(S[static_cast<std::size_t>(j)]), n, out.S.col(j).data());
+  for (int j = 0; j < count; ++j)
+    std::copy_n(NV_DATA_S(S[static_cast<std::size_t>(j)]), n, out.S.col(j).data());
   CVodeGetNumSteps(memory, &out.stats.steps);
   CVodeGetNumRhsEvals(memory, &out.stats.rhs_calls);
   CVodeGetNumErrTestFails(memory, &out.stats.error_test_failures);

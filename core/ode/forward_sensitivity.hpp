@@ -10,8 +10,8 @@
 namespace drift {
 
 /// All sensitivities at once: S_dot = J(t, y) S + df/dp, with S, S_dot column-major n x n_p.
-using SensitivityRhs =
-    FunctionRef<bool(double t, const double* y, const double* y_dot, const double* S, double* S_dot)>;
+using SensitivityRhs = FunctionRef<bool(double t, const double* y, const double* y_dot,
+                                        const double* S, double* S_dot)>;
 
 /// y and S = dy/dp at one time.
 struct SensitivityResult {
@@ -22,8 +22,9 @@ struct SensitivityResult {
 };
 
 /// Integrates y' = f(t, y) with its sensitivities from (t0, y0, S0) to t1 by CVODES' staggered
-/// forward method (Adams, fixed point); the sensitivities are part of the error test. An independent
-/// oracle for tests and benches: correct and slow, it allocates all it needs at each call.
+/// forward method (Adams, fixed point); the sensitivities are part of the error test. An
+/// independent oracle for tests and benches: correct and slow, it allocates all it needs at each
+/// call.
 ///
 /// p_scale: size of each parameter, shape n_p, > 0; S_j is held to abs_tol / p_scale_j.
 /// options.wall_limit and max_steps apply; a failure is a value.

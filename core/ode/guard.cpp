@@ -90,7 +90,8 @@ OdeResult Guard::failure() const {
       result.cause = fmt::format("derivative {} is not finite at t = {:.9g} s", component_, t_);
       break;
     case OdeStatus::jacobian_failed:
-      result.cause = fmt::format("the Jacobian is not computable or not finite at t = {:.9g} s", t_);
+      result.cause =
+          fmt::format("the Jacobian is not computable or not finite at t = {:.9g} s", t_);
       break;
     case OdeStatus::wall_time:
       result.cause = fmt::format("the wall time of {:g} s is used up at t = {:.9g} s", limit_, t_);

@@ -13,8 +13,8 @@ namespace drift::detail {
 /// is not finite passes (CVODE would creep along a NaN for a hundred thousand calls), and the wall
 /// clock is looked at now and then. Its calls return what CVODE expects: 0, or -1 to stop at once.
 ///
-/// A failure is final until clear(): with the fixed-point corrector CVODES 6.4.1 answers -1 with ten
-/// shorter steps, and would creep up to the obstacle again and again if one of them succeeded.
+/// A failure is final until clear(): with the fixed-point corrector CVODES 6.4.1 answers -1 with
+/// ten shorter steps, and would creep up to the obstacle again and again if one of them succeeded.
 class Guard {
  public:
   /// Forgets the last failure.

@@ -11,8 +11,12 @@ namespace {
 
 using Index = sunindextype;
 
-Index size(N_Vector v) { return NV_LENGTH_S(v); }
-double* data(N_Vector v) { return NV_DATA_S(v); }
+Index size(N_Vector v) {
+  return NV_LENGTH_S(v);
+}
+double* data(N_Vector v) {
+  return NV_DATA_S(v);
+}
 
 /// Sum of term(0..n-1) in four interleaved partial sums: fast, and in a fixed order.
 template <class Term>
@@ -94,9 +98,12 @@ double weighted_square_sum(N_Vector x, N_Vector w) {
 }
 double weighted_square_sum_mask(N_Vector x, N_Vector w, N_Vector id) {
   const double *xd = data(x), *wd = data(w), *on = data(id);
-  return sum(size(x), [=](Index i) { return on[i] > 0.0 ? (xd[i] * wd[i]) * (xd[i] * wd[i]) : 0.0; });
+  return sum(size(x),
+             [=](Index i) { return on[i] > 0.0 ? (xd[i] * wd[i]) * (xd[i] * wd[i]) : 0.0; });
 }
-double wl2_norm(N_Vector x, N_Vector w) { return std::sqrt(weighted_square_sum(x, w)); }
+double wl2_norm(N_Vector x, N_Vector w) {
+  return std::sqrt(weighted_square_sum(x, w));
+}
 double wrms_norm(N_Vector x, N_Vector w) {
   return std::sqrt(weighted_square_sum(x, w) / static_cast<double>(size(x)));
 }
@@ -142,7 +149,8 @@ int wrms_norm_array(int m, N_Vector* x, N_Vector* w, double* norms) {
   return 0;
 }
 /// Z[j][k] = a_j x[k] + Y[j][k] for k < vectors, j < sums.
-int scale_add_multi_array(int vectors, int sums, double* a, N_Vector* x, N_Vector** Y, N_Vector** Z) {
+int scale_add_multi_array(int vectors, int sums, double* a, N_Vector* x, N_Vector** Y,
+                          N_Vector** Z) {
   for (int j = 0; j < sums; ++j)
     for (int k = 0; k < vectors; ++k) linear_sum(a[j], x[k], 1.0, Y[j][k], Z[j][k]);
   return 0;

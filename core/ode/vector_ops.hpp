@@ -4,7 +4,8 @@
 
 namespace drift::detail {
 
-/// A serial SUNDIALS vector of length n, zero-filled, whose operations are compiled with this program.
+/// A serial SUNDIALS vector of length n, zero-filled, whose operations are compiled with this
+/// program.
 ///
 /// Debian builds SUNDIALS 6.4.1 without optimisation; with these operations an integration takes
 /// about half the time. Sums are taken in an order that depends on n alone, never on the address,

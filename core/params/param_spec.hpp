@@ -13,7 +13,8 @@ namespace drift {
 /// How a parameter enters, and so how it can be found.
 enum class ParamKind {
   linear,     ///< an amplitude: the measurements depend on it (almost) linearly
-  nonlinear,  ///< a time constant, an onset: known unless a study gives it a prior, or profiled on its grid
+  nonlinear,  ///< a time constant, an onset: known unless a study gives it a prior, or profiled on
+              ///< its grid
   discrete,   ///< a number that is one of a few: never a state of a filter, profiled on its grid
   noise,      ///< the size of something random: drives the truth; a filter takes it as known
 };
@@ -40,7 +41,7 @@ struct ParamSpec {
   Prior prior;              ///< default prior, in `unit`
   std::string_view enters;  ///< where it enters the equations
   ParamKind kind = ParamKind::linear;
-  Grid grid = {};           ///< of a nonlinear or discrete parameter
+  Grid grid = {};  ///< of a nonlinear or discrete parameter
 
   constexpr Prior prior_si() const { return prior.scaled(unit.to_si); }
 };
@@ -48,8 +49,9 @@ struct ParamSpec {
 namespace detail {
 
 /// One parameter for each of three things, named group_suffix.
-consteval std::array<ParamSpec, 3> three(std::string_view group, std::array<std::string_view, 3> suffixes,
-                                         Unit unit, Prior prior, std::string_view enters, ParamKind kind) {
+consteval std::array<ParamSpec, 3> three(std::string_view group,
+                                         std::array<std::string_view, 3> suffixes, Unit unit,
+                                         Prior prior, std::string_view enters, ParamKind kind) {
   std::array<ParamSpec, 3> specs{};
   for (std::size_t i = 0; i < 3; ++i) {
     Name key(group);
@@ -72,7 +74,8 @@ consteval std::array<ParamSpec, 3> per_axis(Unit unit, Prior prior, std::string_
 /// One parameter for each of the three gimbals, outermost first.
 template <FixedString Group>
 consteval std::array<ParamSpec, 3> per_gimbal(Unit unit, Prior prior, std::string_view enters) {
-  return detail::three(Group.view(), {"outer", "middle", "inner"}, unit, prior, enters, ParamKind::linear);
+  return detail::three(Group.view(), {"outer", "middle", "inner"}, unit, prior, enters,
+                       ParamKind::linear);
 }
 
 /// A parameter that belongs to no axis.

@@ -15,10 +15,13 @@ struct Needs {
   bool field = false;        ///< the covariate, and R_lp
   bool memory = false;       ///< states that the past has left; set for terms that declare `memory`
 
-  constexpr bool any() const { return clock || attitude || gimbals || temperature || field || memory; }
+  constexpr bool any() const {
+    return clock || attitude || gimbals || temperature || field || memory;
+  }
   constexpr Needs operator|(const Needs& o) const {
-    return {clock || o.clock, attitude || o.attitude, gimbals || o.gimbals,
-            temperature || o.temperature, field || o.field, memory || o.memory};
+    return {clock || o.clock,     attitude || o.attitude,
+            gimbals || o.gimbals, temperature || o.temperature,
+            field || o.field,     memory || o.memory};
   }
 };
 
@@ -46,13 +49,15 @@ struct Surroundings {
 template <class S>
 struct Inputs {
   const Mounting* mounting = nullptr;
-  Vec3T<S> f_p;          ///< specific force [g]
-  Vec3T<S> omega_ic_p;   ///< inertial rate of the case [rad/s]
-  Vec3 omega_cmd_p;      ///< commanded inertial rate of the platform [rad/s]
+  Vec3T<S> f_p;                             ///< specific force [g]
+  Vec3T<S> omega_ic_p;                      ///< inertial rate of the case [rad/s]
+  Vec3 omega_cmd_p;                         ///< commanded inertial rate of the platform [rad/s]
   const Surroundings<S>* around = nullptr;  ///< not null where an active term needs it
 
-  Vec3T<S> f_output() const { return mounting->gyro.along_second(f_p); }  ///< along gyro output axes
-  Vec3T<S> f_spin() const { return mounting->gyro.along_third(f_p); }     ///< along gyro spin axes
+  Vec3T<S> f_output() const {
+    return mounting->gyro.along_second(f_p);
+  }                                                                    ///< along gyro output axes
+  Vec3T<S> f_spin() const { return mounting->gyro.along_third(f_p); }  ///< along gyro spin axes
   const Moment& now() const { return around->now; }
   /// Nominal rate of the platform against the case: it does what it is told [rad/s].
   Vec3T<S> omega_cp_p() const {
@@ -67,12 +72,12 @@ struct Inputs {
 /// The slots of eqs. (1) to (6) that a term may add to.
 template <class S>
 struct RateAssembly {
-  Mat3T<S> E_gp = Mat3T<S>::Zero();           ///< C_gp - I: misalignment of the input axes [rad]
-  Vec3T<S> omega_drift_g = Vec3T<S>::Zero();  ///< w_l, internal drift of each gyro [rad/s]
-  Vec3T<S> omega_torque_g = Vec3T<S>::Zero(); ///< w_md, torquer-equivalent rate [rad/s]
-  S lambda = S(0.0);                          ///< weight of eq. (6) in the lambda family
-  /// Rate of the platform that no gyro takes part in: a leak of base motion, or the apparent rate of
-  /// the local axes where they turn otherwise than the site says [rad/s].
+  Mat3T<S> E_gp = Mat3T<S>::Zero();            ///< C_gp - I: misalignment of the input axes [rad]
+  Vec3T<S> omega_drift_g = Vec3T<S>::Zero();   ///< w_l, internal drift of each gyro [rad/s]
+  Vec3T<S> omega_torque_g = Vec3T<S>::Zero();  ///< w_md, torquer-equivalent rate [rad/s]
+  S lambda = S(0.0);                           ///< weight of eq. (6) in the lambda family
+  /// Rate of the platform that no gyro takes part in: a leak of base motion, or the apparent rate
+  /// of the local axes where they turn otherwise than the site says [rad/s].
   Vec3T<S> omega_ip_p = Vec3T<S>::Zero();
 };
 
@@ -92,8 +97,8 @@ struct GimbalAssembly {
 /// A short stretch of the nominal path: what drives the memory of terms. The platform's small
 /// deviation from the path is left out (at most 0.03 rad: 3 % of an effect that is itself small).
 struct PathStep {
-  double dt = 0.0;                  ///< [s]; 0 where the platform is caged and only the gimbals move
-  Vec3 f0_p = Vec3::Zero();         ///< specific force at its ends, linear between [g]
+  double dt = 0.0;           ///< [s]; 0 where the platform is caged and only the gimbals move
+  Vec3 f0_p = Vec3::Zero();  ///< specific force at its ends, linear between [g]
   Vec3 f1_p = Vec3::Zero();
   Vec3 omega_cmd_p = Vec3::Zero();  ///< [rad/s]
   Vec3 turned = Vec3::Zero();       ///< change of the gimbal angles, outer, middle, inner [rad]

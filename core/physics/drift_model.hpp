@@ -38,7 +38,8 @@ inline Mat3 misalignment_matrix(const Mounting& mounting, const MisalignmentAngl
   return out.E_gp;
 }
 
-/// The slots of all active terms at one instant. The torquer obeys the command: w_md = -w_cmd + terms.
+/// The slots of all active terms at one instant. The torquer obeys the command: w_md = -w_cmd +
+/// terms.
 template <class S>
 RateAssembly<S> assemble(const DriftModel& model, const Inputs<S>& in, const S* theta) {
   RateAssembly<S> out;
@@ -52,11 +53,15 @@ RateAssembly<S> assemble(const DriftModel& model, const Inputs<S>& in, const S* 
 template <class S>
 Mat3T<S> closed_over(Coupling coupling, const RateAssembly<S>& a, const Mat3& E_loop) {
   switch (coupling) {
-    case Coupling::eq6: return a.E_gp;
-    case Coupling::lambda: return a.E_gp * a.lambda;
-    case Coupling::compensated: return E_loop.template cast<S>();
+    case Coupling::eq6:
+      return a.E_gp;
+    case Coupling::lambda:
+      return a.E_gp * a.lambda;
+    case Coupling::compensated:
+      return E_loop.template cast<S>();
     case Coupling::eq5:
-    case Coupling::servo: break;
+    case Coupling::servo:
+      break;
   }
   return Mat3T<S>::Zero();
 }
@@ -68,7 +73,8 @@ Mat3T<S> closed_over(Coupling coupling, const RateAssembly<S>& a, const Mat3& E_
 /// eq. (5) for K = 0, eq. (6) for K = E. The second form has no cancellation of Earth rate.
 /// theta: every parameter of TermLibrary in SI. E_loop: the loop's estimate of E [rad], used by
 /// coupling "compensated" alone.
-/// Source: Fu, Shao, Deng, Control and Decision 17(3), 2002, eqs. (5), (6); physics.md 1.2, 1.3, 1.6.
+/// Source: Fu, Shao, Deng, Control and Decision 17(3), 2002, eqs. (5), (6);
+/// physics.md 1.2, 1.3, 1.6.
 template <class S>
 Vec3T<S> platform_rate(const DriftModel& model, const Inputs<S>& in, const S* theta,
                        const Mat3& E_loop) {
@@ -103,7 +109,8 @@ template <class S>
 /// What the three accelerometers say [g], without noise.
 template <class S>
 Vec3T<S> accelerometer_output(const DriftModel& model, const Inputs<S>& in, const S* theta) {
-  if (!TermLibrary::plain_readout(model.terms)) return offset_accelerometer_output(model, in, theta);
+  if (!TermLibrary::plain_readout(model.terms))
+    return offset_accelerometer_output(model, in, theta);
   ReadoutAssembly<S> out{in.f_p};
   TermLibrary::first_readout(model.terms, in, theta, out);
   return out.acc;
@@ -112,7 +119,8 @@ Vec3T<S> accelerometer_output(const DriftModel& model, const Inputs<S>& in, cons
 /// The same as gimbal_output, for models with terms that act on what the gimbals show.
 template <class S>
 [[gnu::noinline]] Vec3T<S> offset_gimbal_output(const DriftModel& model, const Inputs<S>& in,
-                                                const Mat3T<S>& R_lp, double heading, const S* theta) {
+                                                const Mat3T<S>& R_lp, double heading,
+                                                const S* theta) {
   const Vec3T<S> delta_p = TermLibrary::attitude_offset(model.terms, in, theta);
   GimbalAssembly<S> out;
   TermLibrary::gimbals(model.terms, in, theta, out);
@@ -131,14 +139,15 @@ Vec3T<S> gimbal_output(const DriftModel& model, const Inputs<S>& in, const Mat3T
   return gimbal_angles<S>(case_attitude(heading).transpose().template cast<S>() * R_lp);
 }
 
-// The many terms that a model seldom has are compiled once (drift_model.cpp), so that they take neither
-// time to compile nor room in the compiler's inlining where every model runs.
-#define DRIFT_SELDOM(S, prefix)                                                                          \
-  prefix template void TermLibrary::further_rates<S>(const TermMask&, const Inputs<S>&, const S*,        \
-                                                     RateAssembly<S>&);                                  \
-  prefix template Vec3T<S> offset_accelerometer_output<S>(const DriftModel&, const Inputs<S>&, const S*); \
-  prefix template Vec3T<S> offset_gimbal_output<S>(const DriftModel&, const Inputs<S>&, const Mat3T<S>&,  \
-                                                   double, const S*)
+// The many terms that a model seldom has are compiled once (drift_model.cpp), so that they take
+// neither time to compile nor room in the compiler's inlining where every model runs.
+#define DRIFT_SELDOM(S, prefix)                                                                   \
+  prefix template void TermLibrary::further_rates<S>(const TermMask&, const Inputs<S>&, const S*, \
+                                                     RateAssembly<S>&);                           \
+  prefix template Vec3T<S> offset_accelerometer_output<S>(const DriftModel&, const Inputs<S>&,    \
+                                                          const S*);                              \
+  prefix template Vec3T<S> offset_gimbal_output<S>(const DriftModel&, const Inputs<S>&,           \
+                                                   const Mat3T<S>&, double, const S*)
 DRIFT_SELDOM(double, extern);
 DRIFT_SELDOM(Dual<8>, extern);   // the estimators' chunks
 DRIFT_SELDOM(Dual<15>, extern);  // the servo's states

@@ -9,8 +9,8 @@ namespace drift {
 
 /// Where the test stands. Local axes are North, West, Up.
 struct Site {
-  double latitude = 0.0;        ///< [rad]
-  double gravity = 9.80665;     ///< local g [m/s^2], for recordings in m/s^2
+  double latitude = 0.0;     ///< [rad]
+  double gravity = 9.80665;  ///< local g [m/s^2], for recordings in m/s^2
 
   /// Rate of the Earth, local axes [rad/s].
   Vec3 omega_ie_l() const {
@@ -21,6 +21,8 @@ struct Site {
 inline const Vec3 up_l = Vec3::UnitZ();  ///< specific force at rest, local axes [g]
 
 /// Rotation of the case against the local axes by its heading about Up: v_l = R_lc v_c.
-inline Mat3 case_attitude(double heading) { return rotation(Vec3(0.0, 0.0, heading)); }
+inline Mat3 case_attitude(double heading) {
+  return rotation(Vec3(0.0, 0.0, heading));
+}
 
 }  // namespace drift

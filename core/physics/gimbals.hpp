@@ -8,8 +8,8 @@
 
 namespace drift {
 
-/// Resolver angles (outer, middle, inner) [rad] of the chain v_c = Rx(outer) Ry(middle) Rz(inner) v_p.
-/// Singular at middle = +-90 deg: only the readout uses it, never the dynamics.
+/// Resolver angles (outer, middle, inner) [rad] of the chain v_c = Rx(outer) Ry(middle) Rz(inner)
+/// v_p. Singular at middle = +-90 deg: only the readout uses it, never the dynamics.
 template <class S>
 Vec3T<S> gimbal_angles(const Mat3T<S>& R_cp) {
   using std::asin;
@@ -47,7 +47,8 @@ int gimbal_number(const S& parameter) {
   return number < 1.5 ? 0 : number < 2.5 ? 1 : 2;
 }
 
-/// The turn over which friction builds up, which a filter's step cannot make zero or negative [rad].
+/// The turn over which friction builds up, which a filter's step cannot make zero or negative
+/// [rad].
 template <class S>
 S friction_turn(const S& x_d) {
   constexpr double least = 0.1 * detail::deg / 3600.0;  // [rad]

@@ -190,11 +190,12 @@ std::vector<FilterSpec> read_filters(Section& root, const Mounting& mounting) {
     for (std::size_t i = 0; i < TermLibrary::num_params; ++i)
       estimates = estimates || (filter.active[i] && filter.priors[i].sigma() > 0.0);
     if (!estimates)
-      root.report().error(section.at(),
-                          fmt::format("the filter '{}' estimates nothing (expected at least one parameter "
-                                      "that is not a known constant). Add terms, or leave `terms` out for "
-                                      "the six base terms",
-                                      filter.name));
+      root.report().error(
+          section.at(),
+          fmt::format("the filter '{}' estimates nothing (expected at least one parameter "
+                      "that is not a known constant). Add terms, or leave `terms` out for "
+                      "the six base terms",
+                      filter.name));
     const auto& name = filter.name;
     const bool again = std::any_of(filters.begin(), filters.end() - 1,
                                    [&](const FilterSpec& f) { return f.name == name; });

@@ -20,9 +20,10 @@ struct ProcessNoise {
 /// A drift model together with what is believed of its parameters.
 struct ModelSpec {
   Coupling coupling = Coupling::eq5;
-  ParamMask active;  ///< parameters in play; the others are zero
+  ParamMask active;                                     ///< parameters in play; the others are zero
   std::array<Prior, TermLibrary::num_params> priors{};  ///< SI; used where active
-  double initial_attitude = 200.0 * detail::deg / 3600.0;  ///< 1 sigma per axis at each caging [rad]
+  double initial_attitude =
+      200.0 * detail::deg / 3600.0;  ///< 1 sigma per axis at each caging [rad]
   ProcessNoise noise;
   Mounting mounting;
 
@@ -48,8 +49,8 @@ using Start = std::vector<std::pair<std::size_t, double>>;
 /// One estimator. Parameters whose prior is `fixed` are known constants, not states.
 struct FilterSpec : ModelSpec {
   std::string name;
-  int drawn_starts = 1;        ///< starts drawn from the prior, unless explicit
-  std::vector<Start> starts;   ///< explicit starts; empty: drawn
+  int drawn_starts = 1;       ///< starts drawn from the prior, unless explicit
+  std::vector<Start> starts;  ///< explicit starts; empty: drawn
 };
 
 }  // namespace drift

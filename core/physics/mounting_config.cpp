@@ -41,7 +41,9 @@ std::string triad_text(int axis, const Triads& triads) {
                      letter(triads.third[axis]));
 }
 
-Vec3 direction(const SignedAxis& a) { return a.sign * Vec3::Unit(a.index); }
+Vec3 direction(const SignedAxis& a) {
+  return a.sign * Vec3::Unit(a.index);
+}
 
 /// Why a triad is no mounting of instrument `axis`; empty if it is one.
 std::string objection(const std::optional<std::array<SignedAxis, 3>>& triad, int axis) {

@@ -21,8 +21,8 @@ char axis_of(const ParamSpec& spec) {
   return key == spec.group.view() ? '\0' : key.back();
 }
 
-/// Far outside the default prior a value is a slip of the unit; misalignments are small angles; time
-/// constants and sizes of random things are positive.
+/// Far outside the default prior a value is a slip of the unit; misalignments are small angles;
+/// time constants and sizes of random things are positive.
 Option plausible(const ParamSpec& spec) {
   constexpr double sigmas = 1e4;
   constexpr double small_angle = 10.0 * detail::deg;
@@ -30,7 +30,8 @@ Option plausible(const ParamSpec& spec) {
   if (spec.unit.same_dimension(unit::rad)) limit = std::min(limit, small_angle / spec.unit.to_si);
   double least = -limit;
   if (spec.kind == ParamKind::noise) least = 0.0;
-  if (spec.kind == ParamKind::nonlinear) least = 1e-3 * *std::min_element(spec.grid.begin(), spec.grid.end());
+  if (spec.kind == ParamKind::nonlinear)
+    least = 1e-3 * *std::min_element(spec.grid.begin(), spec.grid.end());
   if (spec.kind == ParamKind::discrete) {
     least = 1.0;
     limit = 1e4;
@@ -145,7 +146,8 @@ std::vector<std::string> terms_text(const ParamMask& mask) {
   const auto use = [&](const std::string& key) {
     const ParamMask named = params_named(key);
     // What belongs to no axis may have been named by an axis before.
-    if ((named & left).none() || (named & ~mask).any() || (TermLibrary::completed(left) & named) != named)
+    if ((named & left).none() || (named & ~mask).any() ||
+        (TermLibrary::completed(left) & named) != named)
       return;
     entries.push_back(key);
     left &= ~TermLibrary::completed(named);

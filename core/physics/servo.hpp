@@ -16,7 +16,8 @@ struct ServoState {
   static constexpr int size = 12;
 };
 
-/// Torque of the motors about the platform axes [N m], shape 3: T = -D K (1 + T1 s)/(1 + T2 s) theta.
+/// Torque of the motors about the platform axes [N m], shape 3: T = -D K (1 + T1 s)/(1 + T2 s)
+/// theta.
 template <class S>
 Vec3T<S> motor_torque(const ServoOptions& servo, const S* x) {
   const Vec3T<S> theta = vec3(x + ServoState::theta), lagged = vec3(x + ServoState::compensator);
@@ -30,19 +31,20 @@ Vec3T<S> gimbal_torque(const ServoOptions& servo, const Vec3T<S>& omega_cp_p) {
   using std::tanh;
   Vec3T<S> torque = servo.constant_torque - servo.viscous * omega_cp_p;
   if (servo.coulomb != 0.0)
-    for (int i = 0; i < 3; ++i) torque[i] -= servo.coulomb * tanh(omega_cp_p[i] / servo.coulomb_rate);
+    for (int i = 0; i < 3; ++i)
+      torque[i] -= servo.coulomb * tanh(omega_cp_p[i] / servo.coulomb_rate);
   return torque;
 }
 
-/// Writes d/dt of the 12 states of the null-seeking loop, and returns what moves the platform apart from
-/// it, the slot omega_ip_p of RateAssembly [rad/s]:
+/// Writes d/dt of the 12 states of the null-seeking loop, and returns what moves the platform apart
+/// from it, the slot omega_ip_p of RateAssembly [rad/s]:
 ///
-///   J_f theta'' + c theta' + k_f theta = H (C w_ip + w_l + w_md) [- J_f w_ip' . O + H theta w_ip . S]
-///   T2 z' = theta - z,     T = -D K (theta + T1 z' - T2 z') = -D K G(s) theta
-///   J_p w_ip' = T - b (w_ip - w_ic) - T_c tanh((w_ip - w_ic) / w_s) + T_0
+///   J_f theta'' + c theta' + k_f theta = H (C w_ip + w_l + w_md) [- J_f w_ip' . O + H theta w_ip .
+///   S] T2 z' = theta - z,     T = -D K (theta + T1 z' - T2 z') = -D K G(s) theta J_p w_ip' = T - b
+///   (w_ip - w_ic) - T_c tanh((w_ip - w_ic) / w_s) + T_0
 ///
-/// the bracket with FloatDynamics::coupled. The attitude is the caller's: it enters through in.f_p and
-/// in.omega_ic_p (rate of the case, base motion included) and follows x + ServoState::omega_ip.
+/// the bracket with FloatDynamics::coupled. The attitude is the caller's: it enters through in.f_p
+/// and in.omega_ic_p (rate of the case, base motion included) and follows x + ServoState::omega_ip.
 /// theta_params: every parameter of TermLibrary in SI; the model's coupling is not used, the loop
 /// closes by itself. x, x_dot: shape ServoState::size. Stiff: the fastest mode is c/J_f.
 /// Source: physics.md 1.5.
@@ -50,7 +52,8 @@ template <class S>
 Vec3T<S> servo_derivative(const ServoOptions& servo, const DriftModel& model, const Inputs<S>& in,
                           const S* theta_params, const S* x, S* x_dot) {
   const Vec3T<S> theta = vec3(x + ServoState::theta), theta_dot = vec3(x + ServoState::theta_dot);
-  const Vec3T<S> lagged = vec3(x + ServoState::compensator), omega_ip_p = vec3(x + ServoState::omega_ip);
+  const Vec3T<S> lagged = vec3(x + ServoState::compensator),
+                 omega_ip_p = vec3(x + ServoState::omega_ip);
 
   const Vec3T<S> omega_cp_p = omega_ip_p - in.omega_ic_p;
   const Vec3T<S> omega_ip_dot =
@@ -94,8 +97,8 @@ inline Eigen::Matrix<double, ServoState::size, 1> servo_at_rest(const ServoOptio
 
   Vec3 torque = servo.constant_torque, omega_ip_p = in.omega_ic_p;
   for (int pass = 0; pass < 3; ++pass) {
-    omega_ip_p = closed.inverse() *
-                 (leak * (D_inverse * (torque + servo.viscous * in.omega_ic_p)) - u);
+    omega_ip_p =
+        closed.inverse() * (leak * (D_inverse * (torque + servo.viscous * in.omega_ic_p)) - u);
     const Vec3 omega_cp_p = omega_ip_p - in.omega_ic_p;
     torque = gimbal_torque(servo, omega_cp_p) + servo.viscous * omega_cp_p;
   }

@@ -6,8 +6,8 @@
 
 namespace drift {
 
-/// What the terms that are random do, in the truth (one realisation) and in a filter (their variance).
-/// They act through D_F of each gyro or on single samples, so no other hook is needed.
+/// What the terms that are random do, in the truth (one realisation) and in a filter (their
+/// variance). They act through D_F of each gyro or on single samples, so no other hook is needed.
 
 inline bool walks(const TermMask& terms) {
   constexpr std::size_t term = TermLibrary::find_term("drift_random_walk").value();
@@ -22,10 +22,13 @@ inline bool has_outliers(const TermMask& terms) {
   return terms[term];
 }
 
-/// Random walk of D_F of gyro `axis` [rad/s/sqrt(s)]: the study's `drift_random_walk` and the term's q.
-inline double drift_walk(const ProcessNoise& noise, const TermMask& terms, const Theta& theta, int axis) {
+/// Random walk of D_F of gyro `axis` [rad/s/sqrt(s)]: the study's `drift_random_walk` and the
+/// term's q.
+inline double drift_walk(const ProcessNoise& noise, const TermMask& terms, const Theta& theta,
+                         int axis) {
   constexpr std::size_t q = TermLibrary::index("q_x");
-  return walks(terms) ? std::hypot(noise.drift_random_walk, theta[q + axis]) : noise.drift_random_walk;
+  return walks(terms) ? std::hypot(noise.drift_random_walk, theta[q + axis])
+                      : noise.drift_random_walk;
 }
 
 /// Half the distance of the two levels of gyro `axis` [rad/s].
@@ -33,8 +36,8 @@ inline double bistable_size(const Theta& theta, int axis) {
   constexpr std::size_t B = TermLibrary::index("B_x");
   return theta[B + axis];
 }
-/// Probability that the level is the other one a time T [s] later: telegraph noise whose levels last
-/// for B_dwell on average.
+/// Probability that the level is the other one a time T [s] later: telegraph noise whose levels
+/// last for B_dwell on average.
 inline double flip_probability(const Theta& theta, double T) {
   constexpr std::size_t dwell = TermLibrary::index("B_dwell");
   return 0.5 * (1.0 - std::exp(-2.0 * T / theta[dwell]));
@@ -64,8 +67,14 @@ inline DriftModel with_random_drift(DriftModel model) {
   return model;
 }
 
-inline double outlier_rate(const Theta& theta) { return theta[TermLibrary::index("outlier_rate")]; }
-inline double outlier_size(const Theta& theta) { return theta[TermLibrary::index("outlier_size")]; }
-inline double outlier_gate(const Theta& theta) { return theta[TermLibrary::index("outlier_gate")]; }
+inline double outlier_rate(const Theta& theta) {
+  return theta[TermLibrary::index("outlier_rate")];
+}
+inline double outlier_size(const Theta& theta) {
+  return theta[TermLibrary::index("outlier_size")];
+}
+inline double outlier_gate(const Theta& theta) {
+  return theta[TermLibrary::index("outlier_gate")];
+}
 
 }  // namespace drift

@@ -19,15 +19,15 @@ namespace drift {
 ///   readout          what the accelerometers say
 ///   gimbals          what the resolvers say, and the tilt of the case
 ///   attitude_offset  a small rotation of the platform that both see, but that no gyro integrates
-/// or through none, if it is random (parameters of ParamKind::noise). A term acts on the rates or on
-/// the readout, not on both.
+/// or through none, if it is random (parameters of ParamKind::noise). A term acts on the rates or
+/// on the readout, not on both.
 ///
 /// A term may declare `needs`, what it wants to see beyond the usual (Needs), and memory: a number
 /// `memory` of states with
 ///   start(PathStep, p, m)    what they are when a test begins; the step has no length
 ///   advance(PathStep, p, m)  their exact change over a step of the nominal path
-/// that are handed to the hooks after the parameters. Memory depends on at most one parameter of the
-/// term, number `memory_parameter`.
+/// that are handed to the hooks after the parameters. Memory depends on at most one parameter of
+/// the term, number `memory_parameter`.
 template <class T>
 concept Term = requires {
   { T::key } -> std::convertible_to<std::string_view>;
@@ -54,9 +54,12 @@ constexpr Needs needs_of() {
 
 /// A hook is hook(in, p, out) or, for a term with memory, hook(in, p, m, out).
 template <class T, class S>
-concept ActsOnRates =
-    requires(const Inputs<S>& in, const S* p, RateAssembly<S>& out) { T::rates(in, p, out); } ||
-    requires(const Inputs<S>& in, const S* p, RateAssembly<S>& out) { T::rates(in, p, p, out); };
+concept ActsOnRates = requires(const Inputs<S>& in, const S* p, RateAssembly<S>& out) {
+  T::rates(in, p, out);
+}
+|| requires(const Inputs<S>& in, const S* p, RateAssembly<S>& out) {
+  T::rates(in, p, p, out);
+};
 template <class T, class S>
 concept ActsOnReadout = requires(const Inputs<S>& in, const S* p, ReadoutAssembly<S>& out) {
   T::readout(in, p, out);
@@ -66,24 +69,29 @@ concept ActsOnGimbals = requires(const Inputs<S>& in, const S* p, GimbalAssembly
   T::gimbals(in, p, out);
 };
 template <class T, class S>
-concept OffsetsAttitude =
-    requires(const Inputs<S>& in, const S* p, Vec3T<S>& out) { T::attitude_offset(in, p, out); } ||
-    requires(const Inputs<S>& in, const S* p, Vec3T<S>& out) { T::attitude_offset(in, p, p, out); };
+concept OffsetsAttitude = requires(const Inputs<S>& in, const S* p, Vec3T<S>& out) {
+  T::attitude_offset(in, p, out);
+}
+|| requires(const Inputs<S>& in, const S* p, Vec3T<S>& out) {
+  T::attitude_offset(in, p, p, out);
+};
 
 /// What the `terms` command, error messages and the diagnosis need to know of a term.
 struct TermInfo {
   std::string_view key, title, equation, source;
-  std::size_t first = 0;  ///< index of its first parameter
-  std::size_t count = 0;  ///< number of its parameters
+  std::size_t first = 0;    ///< index of its first parameter
+  std::size_t count = 0;    ///< number of its parameters
   bool in_rates = false;    ///< acts on the platform's rate
   bool in_readout = false;  ///< acts on what the accelerometers say
   bool in_gimbals = false;  ///< acts on what the resolvers say
   bool in_offset = false;   ///< an attitude offset, seen by both
   Needs needs;
-  int first_memory = 0;     ///< its states among those of the library
+  int first_memory = 0;  ///< its states among those of the library
   int memory = 0;
   /// Acts through random numbers alone.
-  constexpr bool stochastic() const { return !in_rates && !in_readout && !in_gimbals && !in_offset; }
+  constexpr bool stochastic() const {
+    return !in_rates && !in_readout && !in_gimbals && !in_offset;
+  }
 };
 
 /// A compile-time list of terms: numbering of parameters, lookup by name, application by mask.
@@ -104,8 +112,8 @@ struct TermList {
     int memory = 0;
     ((infos[next++] = {Ts::key, Ts::title, Ts::equation, Ts::source, first, Ts::params.size(),
                        ActsOnRates<Ts, double>, ActsOnReadout<Ts, double>,
-                       ActsOnGimbals<Ts, double>, OffsetsAttitude<Ts, double>, needs_of<Ts>(), memory,
-                       memory_of<Ts>()},
+                       ActsOnGimbals<Ts, double>, OffsetsAttitude<Ts, double>, needs_of<Ts>(),
+                       memory, memory_of<Ts>()},
       first += Ts::params.size(), memory += memory_of<Ts>()),
      ...);
     return infos;
@@ -139,8 +147,8 @@ struct TermList {
         for (std::size_t i = 0; i < terms[t].count; ++i) params.set(terms[t].first + i);
     return params;
   }
-  /// The mask with what its terms cannot do without: their time constants, harmonic numbers and the like,
-  /// which belong to no axis. "warmup_drift.x" needs the time constant of all three.
+  /// The mask with what its terms cannot do without: their time constants, harmonic numbers and the
+  /// like, which belong to no axis. "warmup_drift.x" needs the time constant of all three.
   static ParamMask completed(ParamMask params) {
     const Mask owners = terms_of(params);
     for (std::size_t t = 0; t < num_terms; ++t)
@@ -203,21 +211,24 @@ struct TermList {
     return (mask & rest).none();
   }
   template <class S>
-  static void first_readout(const Mask& mask, const Inputs<S>& in, const S* theta, ReadoutAssembly<S>& out) {
+  static void first_readout(const Mask& mask, const Inputs<S>& in, const S* theta,
+                            ReadoutAssembly<S>& out) {
     for_first([&]<class T>(std::size_t t) {
       if constexpr (ActsOnReadout<T, S>)
         if (mask[t]) T::readout(in, theta + terms[t].first, out);
     });
   }
   template <class S>
-  static void readout(const Mask& mask, const Inputs<S>& in, const S* theta, ReadoutAssembly<S>& out) {
+  static void readout(const Mask& mask, const Inputs<S>& in, const S* theta,
+                      ReadoutAssembly<S>& out) {
     for_each([&]<class T>(std::size_t t) {
       if constexpr (ActsOnReadout<T, S>)
         if (mask[t]) T::readout(in, theta + terms[t].first, out);
     });
   }
   template <class S>
-  static void gimbals(const Mask& mask, const Inputs<S>& in, const S* theta, GimbalAssembly<S>& out) {
+  static void gimbals(const Mask& mask, const Inputs<S>& in, const S* theta,
+                      GimbalAssembly<S>& out) {
     for_each([&]<class T>(std::size_t t) {
       if constexpr (ActsOnGimbals<T, S>)
         if (mask[t]) T::gimbals(in, theta + terms[t].first, out);
@@ -231,7 +242,8 @@ struct TermList {
       if constexpr (OffsetsAttitude<T, S>) {
         if (!mask[t]) return;
         if constexpr (memory_of<T>() > 0)
-          T::attitude_offset(in, theta + terms[t].first, in.around->memory + terms[t].first_memory, delta_p);
+          T::attitude_offset(in, theta + terms[t].first, in.around->memory + terms[t].first_memory,
+                             delta_p);
         else
           T::attitude_offset(in, theta + terms[t].first, delta_p);
       }
@@ -271,12 +283,14 @@ struct TermList {
   static constexpr void for_first(auto&& visit) {
     [&]<std::size_t... I>(std::index_sequence<I...>) {
       (visit.template operator()<std::tuple_element_t<I, std::tuple<Ts...>>>(I), ...);
-    }(std::make_index_sequence<num_inline>{});
+    }
+    (std::make_index_sequence<num_inline>{});
   }
   static constexpr void for_each(auto&& visit) {
     [&]<std::size_t... I>(std::index_sequence<I...>) {
       (visit.template operator()<Ts>(I), ...);
-    }(std::index_sequence_for<Ts...>{});
+    }
+    (std::index_sequence_for<Ts...>{});
   }
 
   static consteval bool unique_keys() {
@@ -288,7 +302,8 @@ struct TermList {
   static_assert(unique_keys(), "two parameters have the same key");
   static_assert(((!ActsOnRates<Ts, double> ||
                   !(ActsOnReadout<Ts, double> || ActsOnGimbals<Ts, double> ||
-                    OffsetsAttitude<Ts, double>)) && ...),
+                    OffsetsAttitude<Ts, double>)) &&
+                 ...),
                 "a term acts on the rates or on the readout, not on both");
 };
 

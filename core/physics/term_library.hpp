@@ -46,48 +46,22 @@
 
 namespace drift {
 
-/// Every effect the program knows, numbered as in physics.md section 4 after the base terms. A new one
-/// is its file, its include and its line here. The first seven are tested for one by one in the
+/// Every effect the program knows, numbered as in physics.md section 4 after the base terms. A new
+/// one is its file, its include and its line here. The first seven are tested for one by one in the
 /// innermost loop (TermList); they stay first.
 using TermLibrary = TermList<
     terms::FixedDrift, terms::GDrift, terms::G2Drift, terms::GyroMisalignment, terms::TorquerScale,
     terms::Accelerometer, terms::FrameClosure,  //
-    terms::DriftRamp,
-    terms::WarmupDrift,
-    terms::RepositionTransient,
-    terms::TemperatureDrift,
-    terms::TemperatureGDrift,
-    terms::MassUnbalanceStep,
-    terms::BistableDrift,
-    terms::DriftRandomWalk,
-    terms::CubicGDrift,
-    terms::Sag,
-    terms::GimbalAngleDrift,
-    terms::MagneticDrift,
-    terms::TorquerAsymmetry,
-    terms::TorquerNonlinearity,
-    terms::TorquerHeating,
-    terms::TorquerCrosstalk,
-    terms::HangOff,
-    terms::Stiction,
-    terms::ServoLag,
-    terms::FloatRestraint,
-    terms::OutputAxisAcceleration,
-    terms::BaseMotionLeak,
-    terms::MisalignmentCreep,
-    terms::LatitudeError,
-    terms::AzimuthError,
-    terms::PierTilt,
-    terms::PierAzimuth,
-    terms::EncoderHarmonics,
-    terms::GimbalNonorthogonality,
-    terms::TimingSkew,
-    terms::AccelerometerTemperature,
-    terms::AccelerometerAsymmetry,
-    terms::AccelerometerCross,
-    terms::AccelerometerDeadZone,
-    terms::AccelerometerRamp,
-    terms::Outliers>;
+    terms::DriftRamp, terms::WarmupDrift, terms::RepositionTransient, terms::TemperatureDrift,
+    terms::TemperatureGDrift, terms::MassUnbalanceStep, terms::BistableDrift,
+    terms::DriftRandomWalk, terms::CubicGDrift, terms::Sag, terms::GimbalAngleDrift,
+    terms::MagneticDrift, terms::TorquerAsymmetry, terms::TorquerNonlinearity,
+    terms::TorquerHeating, terms::TorquerCrosstalk, terms::HangOff, terms::Stiction,
+    terms::ServoLag, terms::FloatRestraint, terms::OutputAxisAcceleration, terms::BaseMotionLeak,
+    terms::MisalignmentCreep, terms::LatitudeError, terms::AzimuthError, terms::PierTilt,
+    terms::PierAzimuth, terms::EncoderHarmonics, terms::GimbalNonorthogonality, terms::TimingSkew,
+    terms::AccelerometerTemperature, terms::AccelerometerAsymmetry, terms::AccelerometerCross,
+    terms::AccelerometerDeadZone, terms::AccelerometerRamp, terms::Outliers>;
 
 using TermMask = TermLibrary::Mask;
 using ParamMask = TermLibrary::ParamMask;

@@ -13,8 +13,8 @@ struct SignedAxis {
 };
 
 /// How the three instruments of a kind sit on the platform: for each, its second and third axis.
-/// Gyros: (input, output, spin), right-handed, I x O = S. Accelerometers: (input, pendulous, output).
-/// Default (physics.md 1.1): X (x,y,z), Y (y,z,x), Z (z,x,y).
+/// Gyros: (input, output, spin), right-handed, I x O = S. Accelerometers: (input, pendulous,
+/// output). Default (physics.md 1.1): X (x,y,z), Y (y,z,x), Z (z,x,y).
 struct Triads {
   std::array<SignedAxis, 3> second{{{1, 1.0}, {2, 1.0}, {0, 1.0}}};
   std::array<SignedAxis, 3> third{{{2, 1.0}, {0, 1.0}, {1, 1.0}}};

@@ -29,13 +29,19 @@ namespace fs = std::filesystem;
 std::string in_the_way(const std::string& path) {
   std::error_code none;
   switch (fs::symlink_status(path, none).type()) {
-    case fs::file_type::directory: return "it is a directory";
+    case fs::file_type::directory:
+      return "it is a directory";
     case fs::file_type::block:
-    case fs::file_type::character: return "it is a device";
-    case fs::file_type::fifo: return "it is a pipe";
-    case fs::file_type::socket: return "it is a socket";
-    case fs::file_type::symlink: return "it is a symbolic link to no regular file";
-    default: return {};
+    case fs::file_type::character:
+      return "it is a device";
+    case fs::file_type::fifo:
+      return "it is a pipe";
+    case fs::file_type::socket:
+      return "it is a socket";
+    case fs::file_type::symlink:
+      return "it is a symbolic link to no regular file";
+    default:
+      return {};
   }
 }
 
@@ -49,7 +55,8 @@ std::string followed(std::string path) {
 
 }  // namespace
 
-AtomicFile::AtomicFile(std::string path) : path_(followed(std::move(path))), temporary_(path_ + ".XXXXXX") {
+AtomicFile::AtomicFile(std::string path)
+    : path_(followed(std::move(path))), temporary_(path_ + ".XXXXXX") {
   refuse_what_is_no_file();
   const int fd = ::mkostemp(temporary_.data(), O_CLOEXEC);
   if (fd < 0) throw_cannot_write(path_, std::strerror(errno));
@@ -91,7 +98,8 @@ bool AtomicFile::commit_new() {
   // A hard link is the one way to claim a name that network file systems know as well.
   if (::link(temporary_.c_str(), path_.c_str()) != 0) {
     if (errno == EEXIST) return false;
-    if (errno != EPERM && errno != ENOTSUP && errno != ENOSYS) throw_cannot_write(path_, std::strerror(errno));
+    if (errno != EPERM && errno != ENOTSUP && errno != ENOSYS)
+      throw_cannot_write(path_, std::strerror(errno));
     // A file system without hard links is a local one.
     if (::renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, path_.c_str(), RENAME_NOREPLACE) != 0) {
       if (errno == EEXIST) return false;

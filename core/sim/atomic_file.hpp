@@ -9,8 +9,8 @@ namespace drift {
 /// Only a regular file is replaced; a symbolic link to one stays, and its target is replaced.
 class AtomicFile {
  public:
-  /// InputError (io) if the folder cannot be written to, or a directory, device, pipe, socket or other
-  /// link has that name.
+  /// InputError (io) if the folder cannot be written to, or a directory, device, pipe, socket or
+  /// other link has that name.
   explicit AtomicFile(std::string path);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;

@@ -47,7 +47,8 @@ Passage passage_to(const TestPlan& plan, const Site& site, std::size_t p, const 
     if (new_heading != heading) {
       Stretch turn;
       turn.slew = true;
-      turn.duration = whole_samples(std::abs(new_heading - heading) / plan.case_rate, position.sample);
+      turn.duration =
+          whole_samples(std::abs(new_heading - heading) / plan.case_rate, position.sample);
       turn.omega_cmd_p = law_command(plan.positions[p - 1], R, site);
       turn.heading0 = heading;
       turn.heading1 = new_heading;
@@ -60,9 +61,10 @@ Passage passage_to(const TestPlan& plan, const Site& site, std::size_t p, const 
       slew.slew = true;
       slew.duration = whole_samples(angle / plan.slew_rate, position.sample);
       // R_lr(T) = exp(-w_ie T) R exp(w_cmd T) shall be the nominal attitude.
-      slew.omega_cmd_p = rotation_vector(R.transpose() *
-                                         rotation<double>(site.omega_ie_l() * slew.duration) *
-                                         position.R_lp) / slew.duration;
+      slew.omega_cmd_p =
+          rotation_vector(R.transpose() * rotation<double>(site.omega_ie_l() * slew.duration) *
+                          position.R_lp) /
+          slew.duration;
       slew.heading0 = slew.heading1 = new_heading;
       passage.approach.push_back(slew);
     }
@@ -86,8 +88,7 @@ double largest_middle(const Site& site, Mat3 R_lp, const Mat3& R_position, const
 std::vector<double> candidate_headings(double heading) {
   std::vector<double> all{heading};
   for (int k = 1; k <= 12; ++k)
-    for (const double sign : {1.0, -1.0})
-      all.push_back(heading + sign * k * 15.0 * detail::deg);
+    for (const double sign : {1.0, -1.0}) all.push_back(heading + sign * k * 15.0 * detail::deg);
   return all;
 }
 
@@ -118,12 +119,13 @@ std::vector<Passage> plan_passages(const TestPlan& plan, const Site& site) {
       break;
     }
     if (!found)
-      throw InputError(ExitCode::config,
-                       fmt::format("plan: position {} ('{}'): the middle gimbal would reach {:.0f} deg "
-                                   "on the way or in the dwell (at most {:.0f} deg is usable). Choose "
-                                   "another case_heading, an intermediate position, or entry = \"caged\"",
-                                   p + 1, position.name, best / detail::deg,
-                                   position.case_heading ? 85.0 : 60.0));
+      throw InputError(
+          ExitCode::config,
+          fmt::format("plan: position {} ('{}'): the middle gimbal would reach {:.0f} deg "
+                      "on the way or in the dwell (at most {:.0f} deg is usable). Choose "
+                      "another case_heading, an intermediate position, or entry = \"caged\"",
+                      p + 1, position.name, best / detail::deg,
+                      position.case_heading ? 85.0 : 60.0));
     const Stretch& dwell = passages.back().dwell;
     R_lp = reference_attitude(site, position.R_lp, dwell.omega_cmd_p, dwell.duration);
   }

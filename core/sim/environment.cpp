@@ -18,7 +18,8 @@ void set_field(Timeline& timeline, const Environment& e) {
 
 }  // namespace
 
-void set_environment(Timeline& timeline, const Environment& e, std::uint64_t seed, std::uint64_t run) {
+void set_environment(Timeline& timeline, const Environment& e, std::uint64_t seed,
+                     std::uint64_t run) {
   if (timeline.intervals.empty()) return;
   if (e.has_field()) set_field(timeline, e);
   if (!e.temperature) return;
@@ -26,7 +27,8 @@ void set_environment(Timeline& timeline, const Environment& e, std::uint64_t see
   const double fluctuation = e.temperature_fluctuation;
   const auto temperature = [&](double t) {
     const double w = 2.0 * std::numbers::pi / e.temperature_period;
-    const double smooth = e.temperature_amplitude * std::sin(w * t + e.temperature_phase) + e.temperature_ramp * t;
+    const double smooth =
+        e.temperature_amplitude * std::sin(w * t + e.temperature_phase) + e.temperature_ramp * t;
     return smooth + (fluctuation > 0.0 ? fluctuation * stream.normal() : 0.0);
   };
   double last = temperature(0.0), sum = 0.0;

@@ -10,8 +10,8 @@ struct Instruments {
   const DriftModel* model = nullptr;
   const double* theta = nullptr;  ///< every parameter of TermLibrary, SI
 
-  /// Mean output of the accelerometers over an interval [g]. phi: at its nodes; memory(k): states of
-  /// the terms at node k, null if the model has none.
+  /// Mean output of the accelerometers over an interval [g]. phi: at its nodes; memory(k): states
+  /// of the terms at node k, null if the model has none.
   template <class Memory>
   Vec3 accelerometers(const Interval& interval, const Vec3* phi, const Memory& memory) const {
     const Needs needs = TermLibrary::needs(model->terms);
@@ -25,7 +25,8 @@ struct Instruments {
         fill_surroundings(needs, moment_at(*timeline, interval, node.t), R_lp, memory(k), around);
         in.around = &around;
       }
-      mean += Timeline::simpson_weight(interval.substeps, k) * accelerometer_output(*model, in, theta);
+      mean +=
+          Timeline::simpson_weight(interval.substeps, k) * accelerometer_output(*model, in, theta);
     }
     return mean;
   }

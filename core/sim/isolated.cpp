@@ -117,7 +117,7 @@ void limit_child(std::uint64_t file_size) {
   const rlim_t seconds = 30 + file_size / 1'000'000;
   const rlimit cpu{seconds, seconds};
   ::setrlimit(RLIMIT_CPU, &cpu);
-#ifndef DRIFT_SANITIZED  // a sanitizer reserves more address space than any limit allows
+#ifndef DRIFT_SANITIZED     // a sanitizer reserves more address space than any limit allows
   unsigned long pages = 0;  // what the parent holds is counted too
   if (std::FILE* f = std::fopen("/proc/self/statm", "r")) {
     if (std::fscanf(f, "%lu", &pages) != 1) pages = 0;

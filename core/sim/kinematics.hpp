@@ -26,7 +26,8 @@ Inputs<S> inputs_at(const Vec3& omega_ic_l, const Vec3& omega_cmd_p, const Mount
 ///
 /// w_ir is the command, since the reference does what it is told. physics.md 6.1. [rad/s]
 template <class S>
-Vec3T<S> rotation_vector_rate(const Vec3T<S>& phi, const Vec3T<S>& omega_ip_p, const Vec3& omega_ir_r) {
+Vec3T<S> rotation_vector_rate(const Vec3T<S>& phi, const Vec3T<S>& omega_ip_p,
+                              const Vec3& omega_ir_r) {
   using std::cos;
   using std::sin;
   using std::sqrt;
@@ -47,19 +48,19 @@ Vec3T<S> rotation_vector_rate(const Vec3T<S>& phi, const Vec3T<S>& omega_ip_p, c
 /// All that the rate equation needs besides attitude: one model, one set of numbers, one interval.
 struct Drive {
   const DriftModel* model = nullptr;
-  const double* theta = nullptr;        ///< every parameter of TermLibrary, SI
-  Vec3 omega_ic_l = Vec3::Zero();       ///< [rad/s]
-  Vec3 omega_cmd_p = Vec3::Zero();      ///< [rad/s]
-  Mat3 E_loop = Mat3::Zero();           ///< coupling "compensated" alone [rad]
-  Vec3 omega_noise_p = Vec3::Zero();    ///< process noise of the platform rate [rad/s]
+  const double* theta = nullptr;      ///< every parameter of TermLibrary, SI
+  Vec3 omega_ic_l = Vec3::Zero();     ///< [rad/s]
+  Vec3 omega_cmd_p = Vec3::Zero();    ///< [rad/s]
+  Mat3 E_loop = Mat3::Zero();         ///< coupling "compensated" alone [rad]
+  Vec3 omega_noise_p = Vec3::Zero();  ///< process noise of the platform rate [rad/s]
   // Where a term needs more than that:
   Needs needs;
   const Timeline* timeline = nullptr;
   const Interval* interval = nullptr;
 };
 
-/// phi' of the algebraic couplings, for the reference attitude R_lr [rad/s]. t [s] and the memory are
-/// looked at if drive.needs says so.
+/// phi' of the algebraic couplings, for the reference attitude R_lr [rad/s]. t [s] and the memory
+/// are looked at if drive.needs says so.
 inline Vec3 attitude_rate(const Drive& drive, const Mat3& R_lr, const Vec3& phi, double t = 0.0,
                           const double* memory = nullptr) {
   const Mat3 R_lp = R_lr * rotation(phi);
@@ -67,7 +68,8 @@ inline Vec3 attitude_rate(const Drive& drive, const Mat3& R_lr, const Vec3& phi,
       inputs_at<double>(drive.omega_ic_l, drive.omega_cmd_p, drive.model->mounting, R_lp);
   Surroundings<double> around;
   if (drive.needs.any()) {
-    fill_surroundings(drive.needs, moment_at(*drive.timeline, *drive.interval, t), R_lp, memory, around);
+    fill_surroundings(drive.needs, moment_at(*drive.timeline, *drive.interval, t), R_lp, memory,
+                      around);
     in.around = &around;
   }
   const Vec3 omega_ip_p =

@@ -22,7 +22,9 @@ LineReader::LineReader(const std::string& path) : path_(path), buffer_(4 * longe
     file_size_ = static_cast<std::size_t>(info.st_size);
 }
 
-LineReader::~LineReader() { ::close(fd_); }
+LineReader::~LineReader() {
+  ::close(fd_);
+}
 
 bool LineReader::refill() {
   if (begin_ > 0) {

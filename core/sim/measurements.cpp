@@ -30,7 +30,8 @@ Measurements measurements_of(const Recording& recording, const Readout& readout)
   return m;
 }
 
-Recording make_recording(const Timeline& timeline, const Measurements& measured, const Readout& readout) {
+Recording make_recording(const Timeline& timeline, const Measurements& measured,
+                         const Readout& readout) {
   Recording rec;
   const std::size_t n = timeline.intervals.size();
   const auto add = [&](const char* name, const Unit& unit, auto&& value) {
@@ -56,12 +57,12 @@ Recording make_recording(const Timeline& timeline, const Measurements& measured,
   for (int a = 0; looped && a < 6; ++a)
     add(loop_names[a], unit::arcsec, [&](std::size_t i) { return interval(i).loop[a]; });
   if (timeline.has_temperature)
-    add("temperature", "degC"_unit, [&](std::size_t i) {
-      return timeline.mean_temperature + interval(i).around1.temperature;
-    });
+    add("temperature", "degC"_unit,
+        [&](std::size_t i) { return timeline.mean_temperature + interval(i).around1.temperature; });
   constexpr std::array<const char*, 3> field_names{"field_n", "field_w", "field_u"};
   for (int a = 0; timeline.has_field && a < 3; ++a)
-    add(field_names[a], "gauss"_unit, [&](std::size_t i) { return interval(i).around1.field_l[a]; });
+    add(field_names[a], "gauss"_unit,
+        [&](std::size_t i) { return interval(i).around1.field_l[a]; });
   for (std::size_t i = 0; i < n; ++i) rec.lines.push_back(i + 1);
   return rec;
 }

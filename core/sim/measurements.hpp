@@ -21,9 +21,12 @@ struct Measurements {
 Measurements measurements_of(const Recording& recording, const Readout& readout);
 
 /// A recording of what was measured along a timeline, in the units of interfaces.md 3.
-Recording make_recording(const Timeline& timeline, const Measurements& measured, const Readout& readout);
+Recording make_recording(const Timeline& timeline, const Measurements& measured,
+                         const Readout& readout);
 
 /// Difference of two angles, in [-pi, pi] [rad].
-inline double angle_difference(double a, double b) { return std::remainder(a - b, 2.0 * std::numbers::pi); }
+inline double angle_difference(double a, double b) {
+  return std::remainder(a - b, 2.0 * std::numbers::pi);
+}
 
 }  // namespace drift

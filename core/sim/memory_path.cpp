@@ -69,22 +69,26 @@ void MemoryPath::advance(std::size_t i, const double* theta) {
   const std::size_t nodes = interval.node_count();
   const double half = 0.25 * interval.length() / interval.substeps;
   MemoryPoint m = started_ ? points_.back() : MemoryPoint{};
-  PathPoint here = path_point(timeline_->nodes[interval.first_node].R_lr, interval.heading0, gimbals);
+  PathPoint here =
+      path_point(timeline_->nodes[interval.first_node].R_lr, interval.heading0, gimbals);
   if (!started_) {
     change_memory(Change::start, terms_, between(here, here, 0.0, interval.omega_cmd_p), theta, m);
     started_ = true;
   } else if (interval.cage) {
-    // On the way to a caged position nobody knows more than that the gimbals turned; the heat of the
-    // new attitude acts for as long as it took.
+    // On the way to a caged position nobody knows more than that the gimbals turned; the heat of
+    // the new attitude acts for as long as it took.
     const PathPoint before{here.f_p, gimbal_};
-    change_memory(Change::advance, terms_, between(before, here, interval.t0 - t_, Vec3::Zero()), theta, m);
+    change_memory(Change::advance, terms_, between(before, here, interval.t0 - t_, Vec3::Zero()),
+                  theta, m);
   }
   points_.assign(2 * nodes - 1, m);
   for (std::size_t k = 1; k < points_.size(); ++k) {
     const Node& node = timeline_->nodes[interval.first_node + k / 2];
-    const PathPoint next = path_point(k % 2 ? node.R_lr_half : node.R_lr,
-                                      heading_at(interval, interval.t0 + half * static_cast<double>(k)), gimbals);
-    change_memory(Change::advance, terms_, between(here, next, half, interval.omega_cmd_p), theta, m);
+    const PathPoint next =
+        path_point(k % 2 ? node.R_lr_half : node.R_lr,
+                   heading_at(interval, interval.t0 + half * static_cast<double>(k)), gimbals);
+    change_memory(Change::advance, terms_, between(here, next, half, interval.omega_cmd_p), theta,
+                  m);
     points_[k] = m;
     here = next;
   }
@@ -117,19 +121,22 @@ MemoryRecord::MemoryRecord(const Timeline& timeline, const DriftModel& model, co
   }
 }
 
-MemoryPoint MemoryRecord::at_time(const Timeline& timeline, const Interval& interval, double t) const {
+MemoryPoint MemoryRecord::at_time(const Timeline& timeline, const Interval& interval,
+                                  double t) const {
   const double step = interval.length() / (2.0 * interval.substeps);
   const double k = std::floor((t - interval.t0) / step);
-  const auto from = interval.first_node +
-                    static_cast<std::size_t>(std::clamp(k, 0.0, static_cast<double>(interval.node_count() - 1)));
+  const auto from =
+      interval.first_node +
+      static_cast<std::size_t>(std::clamp(k, 0.0, static_cast<double>(interval.node_count() - 1)));
   const Node& node = timeline.nodes[from];
   const bool gimbals = TermLibrary::needs(terms_).gimbals;
   const Mat3 R_lr = reference_attitude(timeline.site, node.R_lr, interval.omega_cmd_p, t - node.t);
   MemoryPoint m = points_[2 * from];
-  change_memory(Change::advance, terms_,
-                between(path_point(node.R_lr, heading_at(interval, node.t), gimbals),
-                        path_point(R_lr, heading_at(interval, t), gimbals), t - node.t, interval.omega_cmd_p),
-                theta_.data(), m);
+  change_memory(
+      Change::advance, terms_,
+      between(path_point(node.R_lr, heading_at(interval, node.t), gimbals),
+              path_point(R_lr, heading_at(interval, t), gimbals), t - node.t, interval.omega_cmd_p),
+      theta_.data(), m);
   return m;
 }
 

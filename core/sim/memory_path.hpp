@@ -17,9 +17,9 @@ struct MemoryPoint {
   std::array<double, num_memory> derivative{};
 };
 
-/// Carries the memory of a model's terms along the nominal path of a timeline, interval by interval.
-/// It depends on the path and on a few parameters alone, so nobody integrates it: every step is the
-/// exact change.
+/// Carries the memory of a model's terms along the nominal path of a timeline, interval by
+/// interval. It depends on the path and on a few parameters alone, so nobody integrates it: every
+/// step is the exact change.
 class MemoryPath {
  public:
   MemoryPath(const Timeline& timeline, const DriftModel& model);
@@ -27,8 +27,8 @@ class MemoryPath {
   bool active() const { return active_; }
   /// Back to before the first interval.
   void reset() { started_ = false; }
-  /// Moves on over interval i (in order) with these parameters. Then at(2 k) is the memory at node k
-  /// of the interval and at(2 k + 1) half way to the next.
+  /// Moves on over interval i (in order) with these parameters. Then at(2 k) is the memory at node
+  /// k of the interval and at(2 k + 1) half way to the next.
   void advance(std::size_t i, const double* theta);
   const MemoryPoint& at(std::size_t point) const { return points_[point]; }
   /// As if the parameters had differed by theta_new - theta_old all along, to first order.

@@ -37,7 +37,8 @@ Cvode make_integrator(Coupling coupling, OdeOptions options) {
 
 }  // namespace
 
-PlatformOde::PlatformOde(const DriftModel& model, const ServoOptions& servo, const OdeOptions& options)
+PlatformOde::PlatformOde(const DriftModel& model, const ServoOptions& servo,
+                         const OdeOptions& options)
     : problem_(new Problem{model, servo, {}, {}, Mat3::Identity()}),
       rhs_(new Rhs{problem_.get()}),
       jacobian_(new Jacobian{problem_.get()}),
@@ -63,20 +64,23 @@ Vec3 PlatformOde::Problem::base_motion_l(double t) const {
 /// The interval that an instant of the segment belongs to.
 const Interval& PlatformOde::Problem::interval_at(double t) const {
   const auto begin = drive.timeline->intervals.begin();
-  const auto after = std::upper_bound(begin + static_cast<long>(first), begin + static_cast<long>(end), t,
-                                      [](double time, const Interval& i) { return time < i.t1; });
+  const auto after =
+      std::upper_bound(begin + static_cast<long>(first), begin + static_cast<long>(end), t,
+                       [](double time, const Interval& i) { return time < i.t1; });
   return after == begin + static_cast<long>(end) ? *(after - 1) : *after;
 }
 
 template <class S>
-void PlatformOde::Problem::look_around(double t, const Mat3T<S>& R_lp, std::array<S, num_memory>& memory_now,
+void PlatformOde::Problem::look_around(double t, const Mat3T<S>& R_lp,
+                                       std::array<S, num_memory>& memory_now,
                                        Surroundings<S>& around) const {
   const Interval& interval = interval_at(t);
   if (drive.needs.memory) {
     const MemoryPoint m = memory->at_time(*drive.timeline, interval, t);
     for (std::size_t k = 0; k < num_memory; ++k) memory_now[k] = S(m.value[k]);
   }
-  fill_surroundings(drive.needs, moment_at(*drive.timeline, interval, t), R_lp, memory_now.data(), around);
+  fill_surroundings(drive.needs, moment_at(*drive.timeline, interval, t), R_lp, memory_now.data(),
+                    around);
 }
 
 bool PlatformOde::Problem::reduced(double t, const double* y, double* y_dot) const {
@@ -97,8 +101,8 @@ template <class S>
 void PlatformOde::Problem::loop(double t, const S* y, S* y_dot) const {
   const Vec3T<S> phi = vec3(y + ServoState::size);
   const Mat3T<S> R_lp = reference(t).template cast<S>() * rotation(phi);
-  Inputs<S> in = inputs_at<S>(drive.omega_ic_l + base_motion_l(t), drive.omega_cmd_p,
-                              model.mounting, R_lp);
+  Inputs<S> in =
+      inputs_at<S>(drive.omega_ic_l + base_motion_l(t), drive.omega_cmd_p, model.mounting, R_lp);
   Surroundings<S> around;
   std::array<S, num_memory> memory_now;
   if (drive.needs.any()) {
@@ -180,7 +184,8 @@ OdeResult PlatformOde::segment(const Timeline& timeline, std::size_t first, std:
         continue;
       }
       if (k > start.first_node) {
-        const OdeResult r = ode_.advance(k == interval.last_node() ? interval.t1 : timeline.nodes[k].t);
+        const OdeResult r =
+            ode_.advance(k == interval.last_node() ? interval.t1 : timeline.nodes[k].t);
         if (!r.ok()) return r;
       }
       phi[k] = vec3(k == start.first_node ? y_.data() + at_phi : ode_.state().data() + at_phi);

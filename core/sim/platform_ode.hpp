@@ -17,12 +17,13 @@ class PlatformOde {
  public:
   PlatformOde(const DriftModel& model, const ServoOptions& servo, const OdeOptions& options);
 
-  /// Integrates intervals first..end-1, which have one command, turntable rate and loop estimate, and
-  /// writes phi at their nodes. memory: of the whole timeline, if a term has any. psi0_l: attitude error at the caging that starts the segment [rad];
-  /// null: the platform goes on from where the last segment ended.
-  OdeResult segment(const Timeline& timeline, std::size_t first, std::size_t end, const Theta& theta,
-                    const Vec3& omega_noise_p, const Vec3* psi0_l, Trajectory& phi,
-                    const MemoryRecord* memory = nullptr);
+  /// Integrates intervals first..end-1, which have one command, turntable rate and loop estimate,
+  /// and writes phi at their nodes. memory: of the whole timeline, if a term has any. psi0_l:
+  /// attitude error at the caging that starts the segment [rad]; null: the platform goes on from
+  /// where the last segment ended.
+  OdeResult segment(const Timeline& timeline, std::size_t first, std::size_t end,
+                    const Theta& theta, const Vec3& omega_noise_p, const Vec3* psi0_l,
+                    Trajectory& phi, const MemoryRecord* memory = nullptr);
   OdeStats stats() const { return ode_.stats(); }
 
   static constexpr int servo_states = ServoState::size + 3;  ///< loop, then phi

@@ -25,16 +25,20 @@ Measurements predict(const Timeline& timeline, const DriftModel& model, const Th
   for (std::size_t i = 0; i < timeline.intervals.size(); ++i) {
     const Interval& interval = timeline.intervals[i];
     path.advance(i, theta.data());
-    if (interval.cage) last = caged_phi(timeline.nodes[interval.first_node].R_lr, psi0_l[interval.chain]);
+    if (interval.cage)
+      last = caged_phi(timeline.nodes[interval.first_node].R_lr, psi0_l[interval.chain]);
     nodes.resize(interval.node_count());
     nodes[0] = last;
-    step_through(interval, timeline, drive_of(interval, timeline, model, theta), nodes.data(), 0, &path);
+    step_through(interval, timeline, drive_of(interval, timeline, model, theta), nodes.data(), 0,
+                 &path);
     last = nodes.back();
     const auto column = static_cast<Eigen::Index>(i);
     if (readout.accelerometers)
       out.acc.col(column) = instruments.accelerometers(interval, nodes.data(), memory);
-    if (readout.gimbals) out.gimbal.col(column) = instruments.gimbals(interval, nodes.data(), memory);
-    if (phi) std::copy(nodes.begin(), nodes.end(), phi->begin() + static_cast<long>(interval.first_node));
+    if (readout.gimbals)
+      out.gimbal.col(column) = instruments.gimbals(interval, nodes.data(), memory);
+    if (phi)
+      std::copy(nodes.begin(), nodes.end(), phi->begin() + static_cast<long>(interval.first_node));
   }
   return out;
 }

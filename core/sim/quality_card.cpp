@@ -143,7 +143,9 @@ void remark(const Recording& r, RecordingKind kind, QualityCard& card) {
 }
 
 /// At most five significant digits, "-" for none.
-std::string digits(double x) { return std::isnan(x) ? "-" : fmt::format("{:.5g}", x); }
+std::string digits(double x) {
+  return std::isnan(x) ? "-" : fmt::format("{:.5g}", x);
+}
 
 std::string gap_text(const std::vector<Gap>& gaps) {
   if (gaps.empty()) return "none";

@@ -8,8 +8,8 @@ namespace drift {
 struct Readout {
   bool accelerometers = true;
   bool gimbals = true;
-  double accelerometer_noise = 5e-6;                  ///< of the mean over the sample interval [g]
-  double gimbal_noise = 5.0 * detail::deg / 3600.0;   ///< per resolver [rad]
+  double accelerometer_noise = 5e-6;                 ///< of the mean over the sample interval [g]
+  double gimbal_noise = 5.0 * detail::deg / 3600.0;  ///< per resolver [rad]
 };
 
 }  // namespace drift

@@ -13,8 +13,8 @@ namespace drift {
 /// One column of a recording.
 struct Channel {
   std::string name;
-  Unit unit;                    ///< as written in the file
-  std::vector<double> values;   ///< in internal units (rad, s, g, ...); NaN: not measured
+  Unit unit;                   ///< as written in the file
+  std::vector<double> values;  ///< in internal units (rad, s, g, ...); NaN: not measured
 };
 
 /// What was measured, simulated or real: columns of equal length, and facts ("# key = value").

@@ -14,7 +14,8 @@ struct ChannelQuantity {
   Dimension dim;
   std::string_view words;  ///< "a specific force, for example [g], [mg] or [ug]"
   bool needs_unit = true;
-  double most = 1e300;  ///< largest plausible magnitude [internal unit]; beyond it something is wrong
+  double most =
+      1e300;  ///< largest plausible magnitude [internal unit]; beyond it something is wrong
 };
 
 /// The quantity of a channel the program knows by name; empty for a covariate of any dimension.

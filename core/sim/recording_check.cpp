@@ -2,10 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <limits>
-
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/base/check.hpp"
 #include "core/sim/recording_channels.hpp"
@@ -87,7 +86,8 @@ void check_columns(const Recording& r, RecordingKind kind, Problems& problems) {
     const auto has = [&](std::string_view name) { return r.find(name) != nullptr; };
     const auto count = std::ranges::count_if(triple.names, has);
     const bool required = strapdown && (triple.what == "gyros" || triple.what == "accelerometers");
-    // A sensor of a platform that was not recorded is one that was not measured: said by the quality card.
+    // A sensor of a platform that was not recorded is one that was not measured: said by the
+    // quality card.
     const bool sensors = triple.what == "accelerometers" || triple.what == "gimbal angles";
     for (const auto name : triple.names) {
       if (has(name) || (sensors && !strapdown)) continue;
@@ -100,7 +100,9 @@ void check_columns(const Recording& r, RecordingKind kind, Problems& problems) {
     }
   }
   const bool measured = std::ranges::any_of(r.channels, [](const Channel& c) {
-    const auto is_one = [&](const ChannelTriple& t) { return std::ranges::find(t.names, c.name) != t.names.end(); };
+    const auto is_one = [&](const ChannelTriple& t) {
+      return std::ranges::find(t.names, c.name) != t.names.end();
+    };
     return is_one(channel_triples[0]) || is_one(channel_triples[1]);
   });
   if (!strapdown && !measured)
@@ -168,9 +170,10 @@ void check_values(const Recording& r, RecordingKind kind, Problems& problems) {
         problems.add(at(r, i, c.name), "the value is infinite", "a finite number",
                      "Leave the cell empty (nan) if it was not measured");
       else if (std::abs(x) > most)
-        problems.add(at(r, i, c.name), fmt::format("the value {:g} is beyond reason", x / c.unit.to_si),
-                     fmt::format("at most {:g} {} in size", most / c.unit.to_si, c.unit.symbol.view()),
-                     "Check the unit and the export; leave the cell empty if it was not measured");
+        problems.add(
+            at(r, i, c.name), fmt::format("the value {:g} is beyond reason", x / c.unit.to_si),
+            fmt::format("at most {:g} {} in size", most / c.unit.to_si, c.unit.symbol.view()),
+            "Check the unit and the export; leave the cell empty if it was not measured");
       if (std::isnan(x) && command)
         problems.add(at(r, i, c.name), "the command is missing", "the commanded rate in every row",
                      "Give the command, 0 if there was none");

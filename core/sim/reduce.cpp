@@ -12,14 +12,15 @@ namespace drift {
 namespace {
 
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
-constexpr double same_command = 1e-9;                    // [rad/s]
-constexpr double same_heading = detail::deg / 3600.0;    // [rad]
+constexpr double same_command = 1e-9;                  // [rad/s]
+constexpr double same_heading = detail::deg / 3600.0;  // [rad]
 
 /// How a channel is carried over.
 enum class Rule { last, mean };
 Rule rule_of(const Channel& c) {
   const auto is = [&](std::string_view start) { return c.name.starts_with(start); };
-  return c.name == "time" || c.name == "position" || c.name == "phase" || is("gimbal_") || is("case_heading") || is("loop_")
+  return c.name == "time" || c.name == "position" || c.name == "phase" || is("gimbal_") ||
+                 is("case_heading") || is("loop_")
              ? Rule::last
              : Rule::mean;
 }
@@ -32,7 +33,10 @@ struct Stretch {
 class Cutter {
  public:
   Cutter(const Recording& r, double interval, std::size_t factor)
-      : r_(r), time_(r.find("time")->values), interval_(interval), length_(interval * static_cast<double>(factor)) {
+      : r_(r),
+        time_(r.find("time")->values),
+        interval_(interval),
+        length_(interval * static_cast<double>(factor)) {
     position_ = r.find("position");
     phase_ = r.find("phase");
     heading_ = r.find("case_heading");
@@ -44,7 +48,8 @@ class Cutter {
     std::vector<Stretch> all;
     double origin = 0.0;
     for (std::size_t row = 0; row < time_.size(); ++row) {
-      const bool position_changed = row == 0 || (position_ && position_->values[row] != position_->values[row - 1]);
+      const bool position_changed =
+          row == 0 || (position_ && position_->values[row] != position_->values[row - 1]);
       if (position_changed || cut_before(row, all.back())) {
         origin = position_changed ? time_[row] - interval_ : time_[row - 1];
         all.push_back({row, row + 1});
@@ -68,8 +73,10 @@ class Cutter {
       if (std::abs(c->values[row] - c->values[open.first]) > same_command) return true;
     if (!heading_ || row < open.first + 2) return false;
     const auto& h = heading_->values;
-    const double slope = (h[open.first + 1] - h[open.first]) / (time_[open.first + 1] - time_[open.first]);
-    return std::abs(h[row] - h[open.first] - slope * (time_[row] - time_[open.first])) > same_heading;
+    const double slope =
+        (h[open.first + 1] - h[open.first]) / (time_[open.first + 1] - time_[open.first]);
+    return std::abs(h[row] - h[open.first] - slope * (time_[row] - time_[open.first])) >
+           same_heading;
   }
 
   const Recording& r_;
@@ -81,8 +88,8 @@ class Cutter {
   double interval_, length_;
 };
 
-/// Mean over a stretch of `expected` samples, from those that are there: the value of the straight line
-/// through them at its centre.
+/// Mean over a stretch of `expected` samples, from those that are there: the value of the straight
+/// line through them at its centre.
 double bridged_mean(const std::vector<double>& t, const std::vector<double>& x, const Stretch& s,
                     double interval, double expected) {
   const double centre = 0.5 * (t[s.first] + t[s.end - 1]);
@@ -144,8 +151,9 @@ Recording reduced(const Recording& recording, double interval, std::size_t facto
     for (const Stretch& s : stretches) {
       // The rows the stretch spans, gaps in time counted; rows cut off by a command are no gap.
       const double expected = std::round((t[s.end - 1] - t[s.first]) / interval) + 1.0;
-      reduced_channel.values.push_back(rule == Rule::last ? c.values[s.end - 1]
-                                                          : bridged_mean(t, c.values, s, interval, expected));
+      reduced_channel.values.push_back(rule == Rule::last
+                                           ? c.values[s.end - 1]
+                                           : bridged_mean(t, c.values, s, interval, expected));
     }
     out.channels.push_back(std::move(reduced_channel));
   }

@@ -94,7 +94,8 @@ void Simulator::begin(const Timeline& timeline, const TruthDraw& draw, std::uint
   theta_ = out.theta_end = draw.theta;
 }
 
-void Simulator::extend(const Timeline& timeline, std::size_t first, std::size_t end, Simulation& out) {
+void Simulator::extend(const Timeline& timeline, std::size_t first, std::size_t end,
+                       Simulation& out) {
   integrate(timeline, first, end, out);
   if (!out.ode.ok()) return;
   for (std::size_t i = first; i < end; ++i) measure(timeline, i, out);
@@ -115,10 +116,11 @@ Theta Simulator::drift_of(const Timeline& timeline, std::size_t i) {
   return now;
 }
 
-void Simulator::integrate(const Timeline& timeline, std::size_t first, std::size_t end, Simulation& out) {
+void Simulator::integrate(const Timeline& timeline, std::size_t first, std::size_t end,
+                          Simulation& out) {
   const ProcessNoise& noise = truth_.noise;
-  const bool noisy = noise.any() || is_bistable(model_.terms) || walks(model_.terms) ||
-                     disturbance_.cols() > 0;
+  const bool noisy =
+      noise.any() || is_bistable(model_.terms) || walks(model_.terms) || disturbance_.cols() > 0;
   PlatformOde& ode = engine_->ode;
   while (first < end && out.ode.ok()) {
     const std::size_t last = segment_end(timeline, first, end, noisy);
@@ -132,9 +134,11 @@ void Simulator::integrate(const Timeline& timeline, std::size_t first, std::size
             noise.angle_random_walk / std::sqrt(interval.length()) * process_noise_[a]->normal();
       theta = drift_of(timeline, first);
     }
-    if (disturbance_.cols() > 0) omega_noise_p += disturbance_.col(static_cast<Eigen::Index>(first));
-    out.ode = ode.segment(timeline, first, last, theta, omega_noise_p,
-                          interval.cage ? &out.draw.psi0_l[interval.chain] : nullptr, out.phi, &memory_);
+    if (disturbance_.cols() > 0)
+      omega_noise_p += disturbance_.col(static_cast<Eigen::Index>(first));
+    out.ode =
+        ode.segment(timeline, first, last, theta, omega_noise_p,
+                    interval.cage ? &out.draw.psi0_l[interval.chain] : nullptr, out.phi, &memory_);
     const OdeStats stats = ode.stats();
     out.cost.steps += stats.steps;
     out.cost.rhs_calls += stats.rhs_calls;
@@ -163,16 +167,17 @@ void Simulator::measure(const Timeline& timeline, std::size_t i, Simulation& out
   if (readout_.accelerometers) {
     const Vec3 mean = instruments.accelerometers(interval, phi, memory);
     for (int a = 0; a < 3; ++a)
-      out.measured.acc(a, i) = mean[a] + readout_.accelerometer_noise *
-                                             (sensor_noise_[a]->normal() + wrong_by(a, out.draw.theta));
+      out.measured.acc(a, i) =
+          mean[a] +
+          readout_.accelerometer_noise * (sensor_noise_[a]->normal() + wrong_by(a, out.draw.theta));
   }
   if (readout_.gimbals) {
     const Vec3 angles = instruments.gimbals(interval, phi, memory);
     for (int a = 0; a < 3; ++a)
-      out.measured.gimbal(a, i) = angle_difference(
-          angles[a] + readout_.gimbal_noise *
-                          (sensor_noise_[3 + a]->normal() + wrong_by(3 + a, out.draw.theta)),
-          0.0);
+      out.measured.gimbal(a, i) =
+          angle_difference(angles[a] + readout_.gimbal_noise * (sensor_noise_[3 + a]->normal() +
+                                                                wrong_by(3 + a, out.draw.theta)),
+                           0.0);
   }
 }
 

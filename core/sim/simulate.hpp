@@ -16,19 +16,19 @@ namespace drift {
 
 /// One simulated test.
 struct Simulation {
-  OdeResult ode;       ///< not ok: the run failed, the rest is not to be used
+  OdeResult ode;  ///< not ok: the run failed, the rest is not to be used
   OdeStats cost;
   TruthDraw draw;
   Theta theta_end = Theta::Zero();  ///< as draw.theta, but D_F where its random walk has led
-  Trajectory phi;      ///< at every node [rad]
+  Trajectory phi;                   ///< at every node [rad]
   Measurements measured;
 };
 
 /// The truth: integrates the platform under any coupling with CVODE and reads its instruments.
 ///
-/// Algebraic couplings: 3 states, Adams. Servo: 15 states (loop and attitude), BDF with a Jacobian by
-/// forward differentiation. A stretch of constant command is one segment, ended by a stop time; the
-/// integrator is started again for the next and never steps across. With process noise every
+/// Algebraic couplings: 3 states, Adams. Servo: 15 states (loop and attitude), BDF with a Jacobian
+/// by forward differentiation. A stretch of constant command is one segment, ended by a stop time;
+/// the integrator is started again for the next and never steps across. With process noise every
 /// interval is a segment, the noise constant in it.
 ///
 /// One per thread, used for many runs; a run is a pure function of (truth, timeline, seed, run).
@@ -42,10 +42,12 @@ class Simulator {
   /// A whole run.
   Simulation run(const Timeline& timeline, std::uint64_t seed, std::uint64_t run);
   /// The same with given numbers instead of drawn ones.
-  Simulation run(const Timeline& timeline, const TruthDraw& draw, std::uint64_t seed, std::uint64_t run);
+  Simulation run(const Timeline& timeline, const TruthDraw& draw, std::uint64_t seed,
+                 std::uint64_t run);
 
-  /// A further rate of the platform [rad/s], platform axes, for every interval of the timelines that
-  /// follow and constant in it: what no term of the library makes. Empty: none. shape (3, intervals).
+  /// A further rate of the platform [rad/s], platform axes, for every interval of the timelines
+  /// that follow and constant in it: what no term of the library makes. Empty: none. shape (3,
+  /// intervals).
   void disturb(Mat3X omega_p) { disturbance_ = std::move(omega_p); }
 
   /// The same into `out`, whose memory is used again.
@@ -80,7 +82,8 @@ class Simulator {
   Theta theta_;  ///< with the drift's random walk
 };
 
-/// Gives every interval the loop estimate of a truth with coupling "compensated" and `given` estimate.
+/// Gives every interval the loop estimate of a truth with coupling "compensated" and `given`
+/// estimate.
 void set_loop(Timeline& timeline, const TruthSpec& truth);
 
 }  // namespace drift

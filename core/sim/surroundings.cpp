@@ -8,21 +8,27 @@ namespace drift {
 
 void require_covariates(const DriftModel& model, const Timeline& timeline) {
   const Needs needs = TermLibrary::needs(model.terms);
-  if (!(needs.temperature && !timeline.has_temperature) && !(needs.field && !timeline.has_field)) return;
+  if (!(needs.temperature && !timeline.has_temperature) && !(needs.field && !timeline.has_field))
+    return;
   std::vector<std::string> messages;
   for (std::size_t t = 0; t < TermLibrary::num_terms; ++t) {
     const TermInfo& term = TermLibrary::terms[t];
     if (!model.terms[t]) continue;
     if (term.needs.temperature && !timeline.has_temperature)
       messages.push_back(fmt::format(
-          "term '{}' needs the temperature, which is not known (expected a column temperature [degC] "
+          "term '{}' needs the temperature, which is not known (expected a column temperature "
+          "[degC] "
           "with numbers in the recording; for a simulated one, temperature = \"20 degC\" in "
-          "[environment]). Add it, or remove the term", term.key));
+          "[environment]). Add it, or remove the term",
+          term.key));
     if (term.needs.field && !timeline.has_field)
-      messages.push_back(fmt::format(
-          "term '{}' needs the magnetic field, which is not known (expected columns field_n, field_w, "
-          "field_u [gauss] in the recording, or the same keys in [environment] of the study). Add it, "
-          "or remove the term", term.key));
+      messages.push_back(
+          fmt::format("term '{}' needs the magnetic field, which is not known (expected columns "
+                      "field_n, field_w, "
+                      "field_u [gauss] in the recording, or the same keys in [environment] of the "
+                      "study). Add it, "
+                      "or remove the term",
+                      term.key));
   }
   throw InputError(ExitCode::recording, messages);
 }

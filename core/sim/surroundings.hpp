@@ -33,7 +33,8 @@ void fill_surroundings(const Needs& needs, const Moment& now, const Mat3T<S>& R_
   out.memory = memory;
 }
 
-/// InputError (recording) if a term of the model needs a covariate that the timeline does not carry.
+/// InputError (recording) if a term of the model needs a covariate that the timeline does not
+/// carry.
 void require_covariates(const DriftModel& model, const Timeline& timeline);
 
 }  // namespace drift

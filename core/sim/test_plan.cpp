@@ -16,32 +16,32 @@ struct NamedPosition {
 
 /// Two headings per up-axis; the first six lines are preset six.
 constexpr NamedPosition cardinal[] = {
-    {"x up, y north", "x=U y=N z=W"},   {"x down, y north", "x=D y=N z=E"},
-    {"y up, z north", "x=W y=U z=N"},   {"y down, z north", "x=E y=D z=N"},
-    {"z up, x north", "x=N y=W z=U"},   {"z down, x north", "x=N y=E z=D"},
-    {"x up, y west", "x=U y=W z=S"},    {"x down, y west", "x=D y=W z=N"},
-    {"y up, z west", "x=S y=U z=W"},    {"y down, z west", "x=N y=D z=W"},
-    {"z up, x west", "x=W y=S z=U"},    {"z down, x west", "x=W y=N z=D"},
-    {"x up, y south", "x=U y=S z=E"},   {"x down, y south", "x=D y=S z=W"},
-    {"y up, z south", "x=E y=U z=S"},   {"y down, z south", "x=W y=D z=S"},
-    {"z up, x south", "x=S y=E z=U"},   {"z down, x south", "x=S y=W z=D"},
-    {"x up, y east", "x=U y=E z=N"},    {"x down, y east", "x=D y=E z=S"},
-    {"y up, z east", "x=N y=U z=E"},    {"y down, z east", "x=S y=D z=E"},
-    {"z up, x east", "x=E y=N z=U"},    {"z down, x east", "x=E y=S z=D"},
+    {"x up, y north", "x=U y=N z=W"}, {"x down, y north", "x=D y=N z=E"},
+    {"y up, z north", "x=W y=U z=N"}, {"y down, z north", "x=E y=D z=N"},
+    {"z up, x north", "x=N y=W z=U"}, {"z down, x north", "x=N y=E z=D"},
+    {"x up, y west", "x=U y=W z=S"},  {"x down, y west", "x=D y=W z=N"},
+    {"y up, z west", "x=S y=U z=W"},  {"y down, z west", "x=N y=D z=W"},
+    {"z up, x west", "x=W y=S z=U"},  {"z down, x west", "x=W y=N z=D"},
+    {"x up, y south", "x=U y=S z=E"}, {"x down, y south", "x=D y=S z=W"},
+    {"y up, z south", "x=E y=U z=S"}, {"y down, z south", "x=W y=D z=S"},
+    {"z up, x south", "x=S y=E z=U"}, {"z down, x south", "x=S y=W z=D"},
+    {"x up, y east", "x=U y=E z=N"},  {"x down, y east", "x=D y=E z=S"},
+    {"y up, z east", "x=N y=U z=E"},  {"y down, z east", "x=S y=D z=E"},
+    {"z up, x east", "x=E y=N z=U"},  {"z down, x east", "x=E y=S z=D"},
 };
 
 /// Positions 1 to 10 of the Apollo guidance computer's IMU performance test (physics.md 3.2).
 constexpr NamedPosition apollo[] = {
-    {"1", "x=U y=S z=E"},  {"2", "x=D y=W z=N"},   {"3", "x=N y=W z=U"},   {"4", "x=E y=S z=D"},
-    {"5", "x=W y=U z=N"},  {"6", "x=S y=D z=E"},   {"7", "x=N y=UW z=UE"}, {"8", "x=E y=UN z=US"},
+    {"1", "x=U y=S z=E"},   {"2", "x=D y=W z=N"},    {"3", "x=N y=W z=U"},   {"4", "x=E y=S z=D"},
+    {"5", "x=W y=U z=N"},   {"6", "x=S y=D z=E"},    {"7", "x=N y=UW z=UE"}, {"8", "x=E y=UN z=US"},
     {"9", "x=UE y=UW z=S"}, {"10", "x=UN y=US z=E"},
 };
 
 /// 12 positions joined by 11 slews of 90 deg about all axes in both senses. The z axis stays in the
 /// West-Up plane, so that a three-gimbal chain in a case that heads North never leaves middle = 0.
 constexpr NamedPosition slew_sequence[] = {
-    {"1", "x=N y=W z=U"}, {"2", "x=N y=U z=E"}, {"3", "x=U y=S z=E"},  {"4", "x=W y=S z=U"},
-    {"5", "x=D y=S z=W"}, {"6", "x=S y=U z=W"}, {"7", "x=U y=N z=W"},  {"8", "x=N y=D z=W"},
+    {"1", "x=N y=W z=U"}, {"2", "x=N y=U z=E"},  {"3", "x=U y=S z=E"},  {"4", "x=W y=S z=U"},
+    {"5", "x=D y=S z=W"}, {"6", "x=S y=U z=W"},  {"7", "x=U y=N z=W"},  {"8", "x=N y=D z=W"},
     {"9", "x=N y=E z=D"}, {"10", "x=W y=N z=D"}, {"11", "x=D y=N z=E"}, {"12", "x=S y=D z=E"},
 };
 
@@ -108,13 +108,26 @@ std::optional<Vec3> parse_direction(std::string_view letters) {
   Vec3 v = Vec3::Zero();
   for (const char c : letters) {
     switch (c) {
-      case 'N': v += Vec3::UnitX(); break;
-      case 'S': v -= Vec3::UnitX(); break;
-      case 'W': v += Vec3::UnitY(); break;
-      case 'E': v -= Vec3::UnitY(); break;
-      case 'U': v += Vec3::UnitZ(); break;
-      case 'D': v -= Vec3::UnitZ(); break;
-      default: return std::nullopt;
+      case 'N':
+        v += Vec3::UnitX();
+        break;
+      case 'S':
+        v -= Vec3::UnitX();
+        break;
+      case 'W':
+        v += Vec3::UnitY();
+        break;
+      case 'E':
+        v -= Vec3::UnitY();
+        break;
+      case 'U':
+        v += Vec3::UnitZ();
+        break;
+      case 'D':
+        v -= Vec3::UnitZ();
+        break;
+      default:
+        return std::nullopt;
     }
   }
   const double n = std::sqrt(static_cast<double>(letters.size()));
@@ -169,8 +182,10 @@ std::optional<Mat3> parse_axes(std::string_view text, std::string& why) {
     const int axis = word[0] - 'x';
     const auto direction = parse_direction(word.substr(2));
     if (!direction) {
-      why = fmt::format("'{}' is no direction (N S E W U D, or letters joined such as UN for the "
-                        "direction half way between Up and North)", word.substr(2));
+      why = fmt::format(
+          "'{}' is no direction (N S E W U D, or letters joined such as UN for the "
+          "direction half way between Up and North)",
+          word.substr(2));
       return std::nullopt;
     }
     if (given[axis]) {

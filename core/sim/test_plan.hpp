@@ -25,19 +25,19 @@ enum class Entry {
 /// One position of a test: an attitude at the start of a dwell, and the dwell.
 struct Position {
   std::string name;
-  std::string axes;                    ///< "x=N y=W z=U", as given
-  Mat3 R_lp = Mat3::Identity();        ///< nominal attitude at the start of the dwell, v_l = R_lp v_p
-  double dwell = 3600.0;               ///< [s]
-  double sample = 60.0;                ///< sample interval of dwell and slew [s]
+  std::string axes;              ///< "x=N y=W z=U", as given
+  Mat3 R_lp = Mat3::Identity();  ///< nominal attitude at the start of the dwell, v_l = R_lp v_p
+  double dwell = 3600.0;         ///< [s]
+  double sample = 60.0;          ///< sample interval of dwell and slew [s]
   CommandLaw mode = CommandLaw::free;
   Entry entry = Entry::caged;
-  std::optional<double> case_heading;  ///< of the case during the dwell [rad]; empty: chosen so that
-                                       ///< the middle gimbal stays below 60 deg
+  std::optional<double> case_heading;  ///< of the case during the dwell [rad]; empty: chosen so
+                                       ///< that the middle gimbal stays below 60 deg
 };
 
 /// A platform test.
 struct TestPlan {
-  std::string preset;                    ///< empty if the positions are given one by one
+  std::string preset;  ///< empty if the positions are given one by one
   std::vector<Position> positions;
   double slew_rate = 0.5 * detail::deg;  ///< of a torqued entry [rad/s]
   double case_rate = 1.0 * detail::deg;  ///< of the turntable between two headings [rad/s]
@@ -45,8 +45,8 @@ struct TestPlan {
 
 /// What a preset leaves open.
 struct PlanDefaults {
-  double dwell = 3600.0;  ///< [s]
-  double sample = 60.0;   ///< [s]
+  double dwell = 3600.0;           ///< [s]
+  double sample = 60.0;            ///< [s]
   std::optional<CommandLaw> mode;  ///< empty: the preset's own (free)
   std::optional<Entry> entry;      ///< empty: the preset's own
 };
@@ -59,7 +59,8 @@ extern const std::vector<std::string_view> preset_names;
 std::optional<TestPlan> preset_plan(std::string_view name, const PlanDefaults& defaults);
 
 /// Reads "x=N y=W z=U": the local direction (N S E W U D, or two letters for the 45-deg direction
-/// between them) of each platform axis. Empty, with the reason in `why`, if it is no right-handed frame.
+/// between them) of each platform axis. Empty, with the reason in `why`, if it is no right-handed
+/// frame.
 std::optional<Mat3> parse_axes(std::string_view text, std::string& why);
 
 }  // namespace drift

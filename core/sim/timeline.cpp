@@ -11,7 +11,7 @@
 namespace drift {
 namespace {
 
-constexpr double longest_step = 0.05; // [rad] attitude change between Simpson's end points
+constexpr double longest_step = 0.05;  // [rad] attitude change between Simpson's end points
 
 /// Adds a stretch of constant command, cut into whole samples.
 void add_stretch(Timeline& timeline, const Stretch& stretch, const Position& position, int index,

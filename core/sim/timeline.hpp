@@ -11,26 +11,27 @@ namespace drift {
 
 /// Surroundings at an instant that a recording may carry and terms may use.
 struct Covariates {
-  double temperature = 0.0;        ///< deviation from the mean of the recording [K]
-  Vec3 field_l = Vec3::Zero();     ///< magnetic field, local axes [T]
+  double temperature = 0.0;     ///< deviation from the mean of the recording [K]
+  Vec3 field_l = Vec3::Zero();  ///< magnetic field, local axes [T]
 };
 
 /// One sample interval: the command and the turntable rate are constant in it.
 struct Interval {
-  double t0 = 0.0, t1 = 0.0;     ///< [s]
-  int position = 0;              ///< index into the plan, from 0
-  int chain = 0;                 ///< counts cagings: attitude is carried along within a chain
-  bool slew = false;             ///< on the way to the position
-  bool cage = false;             ///< the platform is caged at t0
+  double t0 = 0.0, t1 = 0.0;        ///< [s]
+  int position = 0;                 ///< index into the plan, from 0
+  int chain = 0;                    ///< counts cagings: attitude is carried along within a chain
+  bool slew = false;                ///< on the way to the position
+  bool cage = false;                ///< the platform is caged at t0
   Vec3 omega_cmd_p = Vec3::Zero();  ///< commanded inertial rate [rad/s]
   double heading0 = 0.0, heading1 = 0.0;  ///< of the case at t0 and t1 [rad]
-  MisalignmentAngles loop = MisalignmentAngles::Zero();  ///< what the loop of coupling
-                                 ///< "compensated" believes: eta x y z, xi x y z [rad]
-  double t_begin = 0.0;          ///< when the test began (several may follow each other) [s]
-  double t_dwell = 0.0;          ///< when the dwell of the position begins [s]
-  Covariates around0, around1;   ///< at t0 and t1, linear in between; zero where not known
-  std::size_t first_node = 0;    ///< nodes first_node .. first_node + 2 substeps
-  int substeps = 1;              ///< steps of two nodes each, at most 0.05 rad of attitude long
+  MisalignmentAngles loop =
+      MisalignmentAngles::Zero();  ///< what the loop of coupling
+                                   ///< "compensated" believes: eta x y z, xi x y z [rad]
+  double t_begin = 0.0;            ///< when the test began (several may follow each other) [s]
+  double t_dwell = 0.0;            ///< when the dwell of the position begins [s]
+  Covariates around0, around1;     ///< at t0 and t1, linear in between; zero where not known
+  std::size_t first_node = 0;      ///< nodes first_node .. first_node + 2 substeps
+  int substeps = 1;                ///< steps of two nodes each, at most 0.05 rad of attitude long
 
   double length() const { return t1 - t0; }
   double heading_rate() const { return (heading1 - heading0) / length(); }
@@ -58,7 +59,7 @@ struct Timeline {
   int positions = 0;
   bool has_temperature = false;  ///< the intervals carry it
   bool has_field = false;
-  double mean_temperature = 0.0; ///< what `temperature` deviates from [degC]
+  double mean_temperature = 0.0;  ///< what `temperature` deviates from [degC]
 
   /// Interval weights of composite Simpson, for the mean over interval i; they sum to 1.
   static double simpson_weight(int substeps, std::size_t k);

@@ -65,11 +65,14 @@ class Reader {
     }
     if (rows == 0) return;
     constexpr std::size_t most = 8;
-    const std::string more = others.size() > most ? fmt::format(" and {} more", others.size() - most) : "";
+    const std::string more =
+        others.size() > most ? fmt::format(" and {} more", others.size() - most) : "";
     const bool several = others.size() > 1;
     others.resize(std::min(most, others.size()));
-    complain(first, fmt::format("position{} {}{} {} not in the plan, in {} rows from here on (expected positions 1 to {}). Use the plan "
-                                "the recording was made with, or correct the column", several ? "s" : "", fmt::join(others, ", "), more,
+    complain(first, fmt::format("position{} {}{} {} not in the plan, in {} rows from here on "
+                                "(expected positions 1 to {}). Use the plan "
+                                "the recording was made with, or correct the column",
+                                several ? "s" : "", fmt::join(others, ", "), more,
                                 several ? "are" : "is", rows, plan_.positions.size()));
   }
 
@@ -87,13 +90,16 @@ class Reader {
     i.cage = !before || (first_row && passage.caged);
     i.t0 = i.cage ? t - position.sample : before->t1;
     if (!i.cage && t - i.t0 > 1.5 * position.sample)
-      complain(row, fmt::format("gap of {:.6g} s before this row, but the attitude is carried along "
-                                "here (samples {:.6g} s apart expected). Give the missing rows, or mark "
-                                "the position as caged", t - i.t0, position.sample));
+      complain(row,
+               fmt::format("gap of {:.6g} s before this row, but the attitude is carried along "
+                           "here (samples {:.6g} s apart expected). Give the missing rows, or mark "
+                           "the position as caged",
+                           t - i.t0, position.sample));
     if (i.cage && before && i.t0 < before->t1 - 0.01 * position.sample)
-      complain(row, fmt::format("the first row of a caged position comes {:.6g} s after the row before; "
-                                "its interval is one nominal sample, {:.6g} s. Check `sample` in the plan",
-                                t - before->t1, position.sample));
+      complain(row, fmt::format(
+                        "the first row of a caged position comes {:.6g} s after the row before; "
+                        "its interval is one nominal sample, {:.6g} s. Check `sample` in the plan",
+                        t - before->t1, position.sample));
     if (i.cage) {
       ++timeline_.chains;
       // A recording may begin on the way to a torqued position: then its attitude is the plan's.
@@ -105,7 +111,8 @@ class Reader {
     i.heading0 = heading_now_;
     i.heading1 = heading_ ? heading_->values[row] : planned_heading(passage, i);
     if (i.cage && heading_) i.heading0 = i.heading1;
-    if (!std::isfinite(i.heading1)) complain(row, "case_heading is missing. Give it in every row, or leave the column out");
+    if (!std::isfinite(i.heading1))
+      complain(row, "case_heading is missing. Give it in every row, or leave the column out");
     heading_now_ = i.heading1;
     for (int a = 0; a < 6; ++a)
       if (loop_[a] && std::isfinite(loop_[a]->values[row])) i.loop[a] = loop_[a]->values[row];
@@ -116,8 +123,9 @@ class Reader {
     if (cmd_[0]) {
       for (int a = 0; a < 3; ++a) i.omega_cmd_p[a] = cmd_[a]->values[row];
       if (!i.omega_cmd_p.allFinite())
-        complain(row, "cmd_x, cmd_y, cmd_z must be numbers in every row: the platform obeys them. "
-                      "Write 0 where nothing was commanded");
+        complain(row,
+                 "cmd_x, cmd_y, cmd_z must be numbers in every row: the platform obeys them. "
+                 "Write 0 where nothing was commanded");
     } else if (i.slew) {
       complain(row, "a slew (phase 1) without columns cmd_x, cmd_y, cmd_z. Record the commands");
     } else if (position.mode == CommandLaw::level) {
@@ -170,7 +178,8 @@ class Reader {
         timeline_.intervals[k].around1.temperature = T[k] - timeline_.mean_temperature;
       }
     }
-    const std::array<std::vector<double>, 3> field{covariate("field_n"), covariate("field_w"), covariate("field_u")};
+    const std::array<std::vector<double>, 3> field{covariate("field_n"), covariate("field_w"),
+                                                   covariate("field_u")};
     if (field[0].empty() || field[1].empty() || field[2].empty()) return;
     timeline_.has_field = true;
     for (std::size_t k = 0; k < n; ++k)
@@ -196,9 +205,11 @@ class Reader {
         return v;
       };
       const auto hint = [&](const char* what, double angle) {
-        complain(k, fmt::format("position {} ('{}'): the {} {:.0f} deg from the attitude in the plan. Is "
-                                "this the plan, and the order of positions, the recording was made with?",
-                                i.position + 1, plan_.positions[i.position].name, what, angle / detail::deg));
+        complain(k,
+                 fmt::format(
+                     "position {} ('{}'): the {} {:.0f} deg from the attitude in the plan. Is "
+                     "this the plan, and the order of positions, the recording was made with?",
+                     i.position + 1, plan_.positions[i.position].name, what, angle / detail::deg));
       };
       if (const auto acc = channels({"acc_x", "acc_y", "acc_z"})) {
         const Vec3 expected = node.R_lr.row(2);

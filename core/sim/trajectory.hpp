@@ -7,7 +7,8 @@
 
 namespace drift {
 
-/// The platform's motion: rotation vector phi against the reference at every node of a timeline [rad].
+/// The platform's motion: rotation vector phi against the reference at every node of a timeline
+/// [rad].
 using Trajectory = std::vector<Vec3>;
 
 /// Drive of an interval without process noise.
@@ -35,8 +36,10 @@ inline Vec3 step_attitude(const Drive& drive, const Node* node, double step, con
   };
   const double t = node->t;
   const Vec3 k1 = attitude_rate(drive, node->R_lr, phi, t, recall(0));
-  const Vec3 k2 = attitude_rate(drive, node->R_lr_half, phi + 0.5 * step * k1, t + 0.5 * step, recall(1));
-  const Vec3 k3 = attitude_rate(drive, node->R_lr_half, phi + 0.5 * step * k2, t + 0.5 * step, recall(1));
+  const Vec3 k2 =
+      attitude_rate(drive, node->R_lr_half, phi + 0.5 * step * k1, t + 0.5 * step, recall(1));
+  const Vec3 k3 =
+      attitude_rate(drive, node->R_lr_half, phi + 0.5 * step * k2, t + 0.5 * step, recall(1));
   const Vec3 k4 = attitude_rate(drive, node[1].R_lr, phi + step * k3, t + step, recall(2));
   return phi + step / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
 }
@@ -61,7 +64,9 @@ inline Vec3 step_attitude_back(const Drive& drive, const Node* node, double step
 
 /// Initial rotation vector of a chain whose attitude error is psi in local axes:
 /// R_lp = exp([psi x]) R_lr = R_lr exp([phi x]).
-inline Vec3 caged_phi(const Mat3& R_lr, const Vec3& psi_l) { return R_lr.transpose() * psi_l; }
+inline Vec3 caged_phi(const Mat3& R_lr, const Vec3& psi_l) {
+  return R_lr.transpose() * psi_l;
+}
 
 /// Fixed-step integration of the algebraic couplings over a whole timeline, fourth order, two steps
 /// per substep. psi0_l: initial attitude error of each chain, local axes [rad].

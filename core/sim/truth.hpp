@@ -14,7 +14,8 @@ struct TruthDraw {
   std::vector<Vec3> psi0_l;     ///< attitude error of each chain at its caging, local axes [rad]
 };
 
-/// Streams are named by parameter key, so that a new parameter leaves the draws of all others alone.
+/// Streams are named by parameter key, so that a new parameter leaves the draws of all others
+/// alone.
 constexpr std::uint32_t stream_index(std::string_view key) {
   std::uint32_t h = 2166136261u;  // FNV-1a, folded to 24 bits
   for (const char c : key) h = (h ^ static_cast<unsigned char>(c)) * 16777619u;
@@ -22,7 +23,8 @@ constexpr std::uint32_t stream_index(std::string_view key) {
 }
 
 /// Draws every active parameter from its distribution.
-inline Theta draw_parameters(const ModelSpec& spec, std::uint64_t seed, std::uint64_t run, Purpose purpose) {
+inline Theta draw_parameters(const ModelSpec& spec, std::uint64_t seed, std::uint64_t run,
+                             Purpose purpose) {
   Theta theta = Theta::Zero();
   for (std::size_t i = 0; i < TermLibrary::num_params; ++i) {
     if (!spec.active[i]) continue;
@@ -42,7 +44,8 @@ inline void draw_attitudes(const ModelSpec& spec, int chains, std::uint64_t seed
 }
 
 /// Parameters and initial attitudes of run number `run`.
-inline TruthDraw draw_truth(const TruthSpec& truth, int chains, std::uint64_t seed, std::uint64_t run) {
+inline TruthDraw draw_truth(const TruthSpec& truth, int chains, std::uint64_t seed,
+                            std::uint64_t run) {
   TruthDraw draw{draw_parameters(truth, seed, run, Purpose::parameters), {}};
   draw_attitudes(truth, chains, seed, run, draw.psi0_l);
   return draw;
@@ -53,11 +56,20 @@ inline TruthDraw draw_truth(const TruthSpec& truth, int chains, std::uint64_t se
 inline void set_lambda(const TruthSpec& truth, Theta& theta) {
   constexpr auto lambda = TermLibrary::index("lambda");
   switch (truth.coupling) {
-    case Coupling::eq5: theta[lambda] = 0.0; break;
-    case Coupling::eq6: theta[lambda] = 1.0; break;
-    case Coupling::servo: theta[lambda] = truth.servo.float_restraint == 0.0 ? 1.0 : std::nan(""); break;
-    case Coupling::compensated: theta[lambda] = std::nan(""); break;
-    case Coupling::lambda: break;
+    case Coupling::eq5:
+      theta[lambda] = 0.0;
+      break;
+    case Coupling::eq6:
+      theta[lambda] = 1.0;
+      break;
+    case Coupling::servo:
+      theta[lambda] = truth.servo.float_restraint == 0.0 ? 1.0 : std::nan("");
+      break;
+    case Coupling::compensated:
+      theta[lambda] = std::nan("");
+      break;
+    case Coupling::lambda:
+      break;
   }
 }
 

@@ -83,7 +83,8 @@ Estimated ErrorStatistics::rmse() const {
 
 Estimated ErrorStatistics::rmse_normal(double z) const {
   const double n = static_cast<double>(n_);
-  if (n_ < 2) return {nan, -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  if (n_ < 2)
+    return {nan, -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   const double mean = square_ / n, value = std::sqrt(mean);
   const double spread = std::sqrt(std::max(0.0, fourth_ / n - mean * mean) / (n - 1.0));
   const double half = value > 0.0 ? prior_sigma_ * z * spread / (2.0 * value) : 0.0;

@@ -15,14 +15,16 @@ struct Estimated {
   double half_width() const { return 0.5 * (high - low); }
 };
 
-/// Weights of a run in the replicates of a Poisson bootstrap: how often each replicate drew the run.
+/// Weights of a run in the replicates of a Poisson bootstrap: how often each replicate drew the
+/// run.
 ///
-/// Poisson(1) numbers keyed by the run number, so replicates need neither the number of runs nor the
-/// runs before: one pass, bounded memory, the same result in any order of computation (Chamandy et
-/// al. 2012, Google, "Estimating uncertainty for massive data streams").
+/// Poisson(1) numbers keyed by the run number, so replicates need neither the number of runs nor
+/// the runs before: one pass, bounded memory, the same result in any order of computation (Chamandy
+/// et al. 2012, Google, "Estimating uncertainty for massive data streams").
 class BootstrapWeights {
  public:
-  explicit BootstrapWeights(std::uint64_t seed, std::size_t replicates) : seed_(seed), weights_(replicates) {}
+  explicit BootstrapWeights(std::uint64_t seed, std::size_t replicates)
+      : seed_(seed), weights_(replicates) {}
   /// The weights of a run, one per replicate.
   std::span<const double> of(std::uint64_t run);
   std::size_t replicates() const { return weights_.size(); }

@@ -10,8 +10,9 @@ namespace {
 
 /// Decile of a value in the distribution it was drawn from.
 std::size_t decile(const Prior& prior, double value) {
-  const double u = prior.kind == Prior::Kind::normal ? normal_distribution((value - prior.a) / prior.b)
-                                                     : (value - prior.a) / (prior.b - prior.a);
+  const double u = prior.kind == Prior::Kind::normal
+                       ? normal_distribution((value - prior.a) / prior.b)
+                       : (value - prior.a) / (prior.b - prior.a);
   return static_cast<std::size_t>(std::clamp(10.0 * u, 0.0, 9.0));
 }
 

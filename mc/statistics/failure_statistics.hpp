@@ -11,8 +11,8 @@
 
 namespace drift::mc {
 
-/// Which runs failed, and whether failing has to do with the parameters: failures that do bias every
-/// mean over the runs that are left.
+/// Which runs failed, and whether failing has to do with the parameters: failures that do bias
+/// every mean over the runs that are left.
 class FailureStatistics {
  public:
   FailureStatistics(const StudyColumns& columns, const Study& study);

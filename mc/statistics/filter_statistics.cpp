@@ -15,11 +15,16 @@ void ChiSquareSum::add(double value, double degrees) {
   in_band.count(chi_square_band(degrees).holds(value / degrees));
 }
 
-double ChiSquareSum::low() const { return chi_square_band(dof).low; }
-double ChiSquareSum::high() const { return chi_square_band(dof).high; }
+double ChiSquareSum::low() const {
+  return chi_square_band(dof).low;
+}
+double ChiSquareSum::high() const {
+  return chi_square_band(dof).high;
+}
 
 double ParameterHealth::start_ratio() const {
-  return start_depends.of > 0 ? std::sqrt(start_square / static_cast<double>(start_depends.of)) : std::nan("");
+  return start_depends.of > 0 ? std::sqrt(start_square / static_cast<double>(start_depends.of))
+                              : std::nan("");
 }
 
 FilterStatistics::FilterStatistics(const StudyColumns::Filter& columns, const HealthRules& rules,
@@ -71,7 +76,8 @@ void FilterStatistics::add_start(std::span<const double> row, std::size_t start)
   s.nis.add(of(C::nis), of(C::nis_dof));
   s.nees.add(of(C::nees), of(C::nees_dof));
   s.nees_all.add(of(C::nees_all), static_cast<double>(columns_.layout.size()));
-  if (std::isfinite(of(C::lag1))) s.white.count(std::abs(of(C::lag1)) < 1.96 / std::sqrt(of(C::nis_dof)));
+  if (std::isfinite(of(C::lag1)))
+    s.white.count(std::abs(of(C::lag1)) < 1.96 / std::sqrt(of(C::nis_dof)));
   const bool healthy = chi_square_band(of(C::nis_dof)).holds(of(C::nis) / of(C::nis_dof));
   bool some_wrong = false;
   for (std::size_t k = 0; k < health_.size(); ++k) {

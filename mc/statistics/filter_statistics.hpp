@@ -10,8 +10,9 @@ namespace drift::mc {
 
 /// When the statistics of an estimate call it healthy, or wrong.
 struct HealthRules {
-  double claims = 0.5;   ///< a sigma below this share of the prior's claims to know the parameter
-  double far_off = 5.0;  ///< an error beyond this many sigmas of such a parameter makes the run wrong
+  double claims = 0.5;  ///< a sigma below this share of the prior's claims to know the parameter
+  double far_off =
+      5.0;  ///< an error beyond this many sigmas of such a parameter makes the run wrong
 };
 
 /// A sum of chi-squares and of their degrees of freedom over runs.
@@ -29,20 +30,20 @@ struct ChiSquareSum {
 /// What the runs say of one filter started in one way.
 struct StartStatistics {
   ChiSquareSum nis, nees, nees_all;
-  Rate white;    ///< lag-1 correlation inside its 95 % band
-  Rate healthy;  ///< NIS of the run inside its 95 % band
-  Rate wrong;    ///< some parameter that the filter claims to know is more than 5 sigma off
-  Rate silent;   ///< wrong and healthy: the silent failure rate
-  Rate diverged; ///< no estimate at all
+  Rate white;     ///< lag-1 correlation inside its 95 % band
+  Rate healthy;   ///< NIS of the run inside its 95 % band
+  Rate wrong;     ///< some parameter that the filter claims to know is more than 5 sigma off
+  Rate silent;    ///< wrong and healthy: the silent failure rate
+  Rate diverged;  ///< no estimate at all
 };
 
 /// Silent failure and dependence on the start of one parameter.
 struct ParameterHealth {
-  Rate claims;  ///< runs that claim to know it
-  Rate wrong;   ///< runs that claim to know it and are more than 5 sigma off
-  Rate silent;  ///< the same with healthy statistics
-  double start_square = 0.0;  ///< sum of squared start-consistency ratios
-  Rate start_depends;         ///< ratio beyond 5: the answer depends on the start
+  Rate claims;                 ///< runs that claim to know it
+  Rate wrong;                  ///< runs that claim to know it and are more than 5 sigma off
+  Rate silent;                 ///< the same with healthy statistics
+  double start_square = 0.0;   ///< sum of squared start-consistency ratios
+  Rate start_depends;          ///< ratio beyond 5: the answer depends on the start
   double start_ratio() const;  ///< root mean square over runs; NaN with one start
 };
 
@@ -55,16 +56,19 @@ struct Sample {
 /// ParameterHealth are those of start 0; the starts share their data.
 class FilterStatistics {
  public:
-  FilterStatistics(const StudyColumns::Filter& columns, const HealthRules& rules, std::size_t replicates);
+  FilterStatistics(const StudyColumns::Filter& columns, const HealthRules& rules,
+                   std::size_t replicates);
 
   /// row: of a run whose simulation succeeded. weights: of the bootstrap.
   void add(std::span<const double> row, std::span<const double> weights);
 
   const StudyColumns::Filter& columns() const { return columns_; }
-  const std::vector<ErrorStatistics>& errors() const { return errors_; }       ///< layout order
-  const std::vector<ParameterHealth>& health() const { return health_; }       ///< layout order
+  const std::vector<ErrorStatistics>& errors() const { return errors_; }  ///< layout order
+  const std::vector<ParameterHealth>& health() const { return health_; }  ///< layout order
   const std::vector<StartStatistics>& starts() const { return starts_; }
-  const std::vector<std::vector<Sample>>& samples() const { return samples_; } ///< of the first runs
+  const std::vector<std::vector<Sample>>& samples() const {
+    return samples_;
+  }  ///< of the first runs
 
   static constexpr std::size_t most_samples = 300;
 

@@ -21,8 +21,12 @@ struct Rate {
   }
   /// Bounds for a two-sided interval of z standard deviations; 0..1 without runs.
   /// Exactly 0 where nothing hit and 1 where everything did.
-  double low(double z = 1.959963984540054) const { return hits > 0 ? centre(z) - half_width(z) : 0.0; }
-  double high(double z = 1.959963984540054) const { return hits < of ? centre(z) + half_width(z) : 1.0; }
+  double low(double z = 1.959963984540054) const {
+    return hits > 0 ? centre(z) - half_width(z) : 0.0;
+  }
+  double high(double z = 1.959963984540054) const {
+    return hits < of ? centre(z) + half_width(z) : 1.0;
+  }
   double half_width(double z = 1.959963984540054) const {
     if (of == 0) return 0.5;
     const double n = static_cast<double>(of), p = value();

@@ -1,7 +1,6 @@
 // What a recording on a case lacks in a model of bias and scale. The real recordings of
-// ../shared/recordings, where that folder is there; expected are the numbers of the README beside them.
-#include "analysis/strapdown/diagnose.hpp"
-
+// ../shared/recordings, where that folder is there; expected are the numbers of the README beside
+// them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,6 +10,7 @@
 #include "analysis/discovery/patched_study.hpp"
 #include "analysis/report/diagnosis_folder.hpp"
 #include "analysis/report/diagnosis_json.hpp"
+#include "analysis/strapdown/diagnose.hpp"
 #include "core/base/check.hpp"
 #include "tests/analysis/report/xml_check.hpp"
 #include "tests/support/program.hpp"
@@ -27,11 +27,17 @@ constexpr double share = 0.15;  // by which dwell bounds, folds and seeds may mo
 std::string path_of(const std::string& name) {
   return std::string(DRIFT_SOURCE_DIR) + "/../shared/recordings/" + name;
 }
-bool absent(const std::string& name) { return !std::filesystem::exists(path_of(name)); }
+bool absent(const std::string& name) {
+  return !std::filesystem::exists(path_of(name));
+}
 
-Study nominal() { return read_study(std::string(DRIFT_SOURCE_DIR) + "/configs/diagnose_xsens.toml"); }
+Study nominal() {
+  return read_study(std::string(DRIFT_SOURCE_DIR) + "/configs/diagnose_xsens.toml");
+}
 
-Recording recorded(const std::string& name) { return read_recording(path_of(name), RecordingKind::strapdown, 9.80665); }
+Recording recorded(const std::string& name) {
+  return read_recording(path_of(name), RecordingKind::strapdown, 9.80665);
+}
 
 /// Where the verdict is asked for and no number: one division into parts is enough.
 StrapdownOptions quick() {
@@ -55,11 +61,13 @@ std::vector<std::string> groups_of(const Cause& c) {
 }
 
 bool says(const Diagnosis& d, std::string_view text) {
-  return std::ranges::any_of(d.remarks, [&](const auto& r) { return r.find(text) != std::string::npos; });
+  return std::ranges::any_of(d.remarks,
+                             [&](const auto& r) { return r.find(text) != std::string::npos; });
 }
 
 // One test for one diagnosis: every test is a process of its own.
-TEST(StrapdownDiagnosis, XsensLacksMisalignmentAndCrossAxisSensitivityAndClaimsNothingThatItCannotShow) {
+TEST(StrapdownDiagnosis,
+     XsensLacksMisalignmentAndCrossAxisSensitivityAndClaimsNothingThatItCannotShow) {
   if (absent("xsens_mti.csv")) GTEST_SKIP() << "the recording is not beside the sources";
   const Recording recording = recorded("xsens_mti.csv");
   const auto found = diagnose_strapdown(nominal(), recording, {});
@@ -77,17 +85,19 @@ TEST(StrapdownDiagnosis, XsensLacksMisalignmentAndCrossAxisSensitivityAndClaimsN
   ASSERT_EQ(found.kinds.size(), 3u);
   EXPECT_NEAR(found.kinds[0].before, 0.0724, share * 0.0724);  // deg/s in dwells
   EXPECT_NEAR(found.kinds[0].after, 0.0173, share * 0.0173);
-  EXPECT_NEAR(found.kinds[1].before, 3.46, share * 3.46);      // deg after a turn
+  EXPECT_NEAR(found.kinds[1].before, 3.46, share * 3.46);  // deg after a turn
   EXPECT_NEAR(found.kinds[1].after, 0.142, share * 0.142);
   EXPECT_NEAR(found.kinds[2].before, 0.0382, share * 0.0382);  // m/s^2
   EXPECT_NEAR(found.kinds[2].after, 0.0016, share * 0.0016);
   EXPECT_TRUE(d.fit.held_out.improves);
   EXPECT_EQ(d.fit.held_out.folds.size(), 38u);
 
-  for (const char* term : {"g2_drift", "temperature_drift", "accelerometer_temperature", "frame_closure", "drift_ramp"})
+  for (const char* term : {"g2_drift", "temperature_drift", "accelerometer_temperature",
+                           "frame_closure", "drift_ramp"})
     EXPECT_EQ(cause(d, term), nullptr) << term;
-  for (const char* text : {"accelerometer quadratic rejected", "g2_drift rejected", "g_drift, input axis alone rejected",
-                           "isotropic g-sensitivity", "Earth rate", "temperature", "azimuth"})
+  for (const char* text : {"accelerometer quadratic rejected", "g2_drift rejected",
+                           "g_drift, input axis alone rejected", "isotropic g-sensitivity",
+                           "Earth rate", "temperature", "azimuth"})
     EXPECT_TRUE(says(d, text)) << text;
   for (const char* group : {"D_II", "D_OO", "D_SS", "D_IO", "D_IS", "D_OS", "K2", "K3", "lambda"})
     for (const Cause& c : d.causes)
@@ -128,7 +138,10 @@ TEST(StrapdownDiagnosis, RecoversTheMisalignmentThatTheRecordingWasMadeWithAndWr
   ASSERT_NE(c, nullptr) << found.diagnosis.sentence;
   EXPECT_EQ(found.diagnosis.causes.size(), 1u) << found.diagnosis.sentence;
   for (const auto& p : c->parameters) {
-    const double truth = p.key == "eta_x" ? 3000.0 : p.key == "xi_y" ? -3000.0 : p.key == "eta_z" ? 2100.0 : 0.0;
+    const double truth = p.key == "eta_x"   ? 3000.0
+                         : p.key == "xi_y"  ? -3000.0
+                         : p.key == "eta_z" ? 2100.0
+                                            : 0.0;
     EXPECT_NEAR(p.value, truth, 4.0 * p.sigma) << p.key;
   }
   EXPECT_TRUE(found.diagnosis.candidates.front().adequate);
@@ -149,11 +162,13 @@ TEST(StrapdownDiagnosis, RecoversTheMisalignmentThatTheRecordingWasMadeWithAndWr
     EXPECT_TRUE(json["fit"]["in_sample"].at(key).is_null()) << key;
   EXPECT_TRUE(json["fit"]["in_sample"]["chi2_per_dof_before"].is_number());
   EXPECT_TRUE(json["where"].at("p_value").is_null());
-  EXPECT_EQ(testing::xml_problem(test::text_of(folder.file("out") + "/report.html"), {"meta"}), std::nullopt);
+  EXPECT_EQ(testing::xml_problem(test::text_of(folder.file("out") + "/report.html"), {"meta"}),
+            std::nullopt);
 }
 
 TEST(StrapdownDiagnosis, NothingMissingIsConsistentAndANominalEq6IsFoundOut) {
-  EXPECT_EQ(diagnose_strapdown(nominal(), made(0.0, 6), quick()).diagnosis.verdict, discovery::Verdict::consistent);
+  EXPECT_EQ(diagnose_strapdown(nominal(), made(0.0, 6), quick()).diagnosis.verdict,
+            discovery::Verdict::consistent);
   Study six = nominal();
   six.filters.front().coupling = Coupling::eq6;
   const Diagnosis d = diagnose_strapdown(six, made(3000.0, 5), quick()).diagnosis;

@@ -45,11 +45,16 @@ TEST(Allocations, AreCounted) {
 
 TEST(Allocations, ARunOfAStudyMakesNoneInItsFilters) {
   // More filters on the same data allocate nothing more; what is left is the simulation.
-  const std::string all = "[\"fixed_drift\", \"g_drift\", \"g2_drift\", \"gyro_misalignment\", \"torquer_scale\", \"accelerometer\"]";
+  const std::string all =
+      "[\"fixed_drift\", \"g_drift\", \"g2_drift\", \"gyro_misalignment\", \"torquer_scale\", "
+      "\"accelerometer\"]";
   for (const std::string& terms : {std::string("[\"fixed_drift\"]"), all})
     for (const char* estimator : {"ekf", "iterated"}) {
       const auto count = [&](const char* starts) {
-        return allocations_of({{"monte_carlo.estimator", estimator}, {"filter.right.terms", terms}, {"filter.right.starts", starts}}, 5);
+        return allocations_of({{"monte_carlo.estimator", estimator},
+                               {"filter.right.terms", terms},
+                               {"filter.right.starts", starts}},
+                              5);
       };
       const long few = count("1"), many = count("6");
       EXPECT_EQ(many, few) << estimator << terms;

@@ -15,15 +15,21 @@ namespace {
 using namespace drift::test;
 
 TEST(NormalQuantile, IsTheInverseOfTheDistributionFunction) {
-  // Against values to 16 digits (Wichura 1988 gives the first two in his tests of AS 241; the tails are
-  // standard): relative 1e-14.
-  const double known[][2] = {{0.25, -0.6744897501960817}, {0.001, -3.090232306167814}, {1e-20, -9.262340089798408},
-                             {0.975, 1.959963984540054},  {0.5, 0.0},                  {0.8413447460685429, 1.0}};
-  for (const auto& [p, z] : known) EXPECT_NEAR(mc::normal_quantile(p), z, 1e-14 * std::max(1.0, std::abs(z))) << p;
+  // Against values to 16 digits (Wichura 1988 gives the first two in his tests of AS 241; the tails
+  // are standard): relative 1e-14.
+  const double known[][2] = {{0.25, -0.6744897501960817},
+                             {0.001, -3.090232306167814},
+                             {1e-20, -9.262340089798408},
+                             {0.975, 1.959963984540054},
+                             {0.5, 0.0},
+                             {0.8413447460685429, 1.0}};
+  for (const auto& [p, z] : known)
+    EXPECT_NEAR(mc::normal_quantile(p), z, 1e-14 * std::max(1.0, std::abs(z))) << p;
   // The inverse loses what rounding of p near 1 costs: half an ulp of p over the density.
   for (double z = -8.0; z <= 5.0; z += 0.37) {
     const double density = std::exp(-0.5 * z * z) / std::sqrt(2.0 * std::numbers::pi);
-    const double tolerance = 1e-14 * std::max(1.0, std::abs(z)) + 2.3e-16 * mc::normal_distribution(z) / density;
+    const double tolerance =
+        1e-14 * std::max(1.0, std::abs(z)) + 2.3e-16 * mc::normal_distribution(z) / density;
     EXPECT_NEAR(mc::normal_quantile(mc::normal_distribution(z)), z, tolerance) << z;
   }
   EXPECT_NEAR(mc::normal_half_width(0.95), 1.959963984540054, 1e-14);
@@ -40,7 +46,8 @@ TEST(Permutation, HitsEveryNumberOnceAndDependsOnItsKey) {
     EXPECT_EQ(seen.size(), n);
   }
   int equal = 0;
-  for (std::uint64_t k = 0; k < 1000; ++k) equal += mc::permuted(k, 1000, 3, 9) == mc::permuted(k, 1000, 3, 10);
+  for (std::uint64_t k = 0; k < 1000; ++k)
+    equal += mc::permuted(k, 1000, 3, 9) == mc::permuted(k, 1000, 3, 10);
   EXPECT_LT(equal, 10);  // Poisson of mean 1
 }
 
@@ -98,14 +105,17 @@ TEST(Sobol, FillsThePlaneMoreEvenlyThanChance) {
     std::vector<std::pair<double, double>> points;
     for (std::uint64_t run = 0; run < 512; ++run) {
       const Theta theta = design.draw(run, 1).theta;
-      points.emplace_back(mc::normal_distribution((theta[param("D_F_x")] - 1.0) / 2.0), (theta[param("eta_y")] + 3.0) / 8.0);
+      points.emplace_back(mc::normal_distribution((theta[param("D_F_x")] - 1.0) / 2.0),
+                          (theta[param("eta_y")] + 3.0) / 8.0);
     }
     found[kind == DesignKind::sobol] = discrepancy(points);
     if (kind == DesignKind::random) continue;
-    // A digitally shifted (0, 2)-sequence: each of 512 equal intervals, of either axis, holds one point.
+    // A digitally shifted (0, 2)-sequence: each of 512 equal intervals, of either axis, holds one
+    // point.
     for (const bool second : {false, true}) {
       std::set<int> intervals;
-      for (const auto& [x, y] : points) intervals.insert(static_cast<int>(512.0 * (second ? y : x)));
+      for (const auto& [x, y] : points)
+        intervals.insert(static_cast<int>(512.0 * (second ? y : x)));
       EXPECT_EQ(intervals.size(), 512u);
     }
   }

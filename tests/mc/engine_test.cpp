@@ -87,7 +87,8 @@ TEST(Engine, AFailedRunIsARowWithACauseAndHarmsNoOther) {
       const bool thrown = first + r == 70;
       EXPECT_EQ(y->block.status[r], thrown ? mc::RunStatus::error : mc::RunStatus::ok);
       for (std::size_t c = 0; c < 5; ++c)
-        EXPECT_TRUE(thrown ? std::isnan(y->block.rows[5 * r + c]) : x->block.rows[5 * r + c] == y->block.rows[5 * r + c]);
+        EXPECT_TRUE(thrown ? std::isnan(y->block.rows[5 * r + c])
+                           : x->block.rows[5 * r + c] == y->block.rows[5 * r + c]);
     }
     if (first != 64) continue;
     ASSERT_EQ(y->failures.size(), 1u);
@@ -110,8 +111,8 @@ TEST(Engine, FailFastStopsAndTheStudyGoesOnLater) {
 }
 
 TEST(Engine, AStopRuleTakesTheSmallestPrefixOfBlocksWhoeverComputedThem) {
-  // The standard error of a standard normal mean falls below 0.09 at about 123 runs, of blocks of 16
-  // at 112 to 144: far fewer than asked for, and not the whole first batch of the threads.
+  // The standard error of a standard normal mean falls below 0.09 at about 123 runs, of blocks of
+  // 16 at 112 to 144: far fewer than asked for, and not the whole first batch of the threads.
   std::set<std::string> digests;
   std::set<std::uint64_t> results;
   const auto rule = [](std::size_t) { return std::make_unique<test::MeanRule>(5, 0.09); };
@@ -124,7 +125,8 @@ TEST(Engine, AStopRuleTakesTheSmallestPrefixOfBlocksWhoeverComputedThem) {
     EXPECT_TRUE(outcome.complete);
     digests.insert(outcome.digest);
     results.insert(outcome.results);
-    EXPECT_LE(outcome.done, outcome.results + 32 + (threads > 1 ? 4000 : 0)) << "one block of surplus per point at most";
+    EXPECT_LE(outcome.done, outcome.results + 32 + (threads > 1 ? 4000 : 0))
+        << "one block of surplus per point at most";
   }
   EXPECT_EQ(digests.size(), 1u);
   // The first point has unit scale, the second scale 2 needs four times the runs.
@@ -142,7 +144,8 @@ TEST(Engine, WallTimeAndSignalsLeaveAResumableStudy) {
   EXPECT_EQ(stopped.code, ExitCode::wall_time);
   EXPECT_FALSE(stopped.complete);
   study.options.max_wall.reset();
-  for (const auto& [signal, code] : {std::pair{SIGTERM, ExitCode::terminated}, {SIGINT, ExitCode::interrupted}}) {
+  for (const auto& [signal, code] :
+       {std::pair{SIGTERM, ExitCode::terminated}, {SIGINT, ExitCode::interrupted}}) {
     std::jthread killer([signal = signal] {
       std::this_thread::sleep_for(std::chrono::milliseconds(30));
       kill(getpid(), signal);

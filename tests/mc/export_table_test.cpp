@@ -38,12 +38,16 @@ TEST(ExportTable, HoldsTheStatisticsOfTheRuns) {
   EXPECT_EQ(column(statistics, "filter").meanings, (std::vector<std::string>{"right", "wrong"}));
   const mc::ExportColumn& parameter = column(statistics, "parameter");
   EXPECT_EQ(parameter.meanings[static_cast<std::size_t>(parameter.values[1])], "D_F_y");
-  EXPECT_EQ(column(statistics, "coverage_2").values[n + 3], wrong.errors()[3].coverage()[1].value());
-  EXPECT_EQ(column(statistics, "silent_failure_rate").values[n + 3], wrong.health()[3].silent.value());
-  EXPECT_DOUBLE_EQ(column(statistics, "rmse").values[2] * column(statistics, "prior_sigma_si").values[2],
-                   right.errors()[2].rmse().value);
+  EXPECT_EQ(column(statistics, "coverage_2").values[n + 3],
+            wrong.errors()[3].coverage()[1].value());
+  EXPECT_EQ(column(statistics, "silent_failure_rate").values[n + 3],
+            wrong.health()[3].silent.value());
+  EXPECT_DOUBLE_EQ(
+      column(statistics, "rmse").values[2] * column(statistics, "prior_sigma_si").values[2],
+      right.errors()[2].rmse().value);
   const auto& rank = column(statistics, "rank").values;
-  const auto best = static_cast<std::size_t>(std::find(rank.begin(), rank.begin() + static_cast<std::ptrdiff_t>(n), 1.0) - rank.begin());
+  const auto best = static_cast<std::size_t>(
+      std::find(rank.begin(), rank.begin() + static_cast<std::ptrdiff_t>(n), 1.0) - rank.begin());
   ASSERT_LT(best, n);
   for (const auto& e : right.errors()) EXPECT_GE(e.learning(), right.errors()[best].learning());
   ASSERT_EQ(filters.rows(), 3u) << "two starts and one";

@@ -50,7 +50,8 @@ TEST(Manifest, RemembersTheMostThatWasAskedForAndTheMostThatWasComplete) {
   EXPECT_EQ(mc::read_manifest(folder.path()).finished, 100u);
   const auto written = std::filesystem::last_write_time(folder.file("manifest.json"));
   study.run(folder.path());
-  EXPECT_EQ(std::filesystem::last_write_time(folder.file("manifest.json")), written) << "nothing new, nothing written";
+  EXPECT_EQ(std::filesystem::last_write_time(folder.file("manifest.json")), written)
+      << "nothing new, nothing written";
   study.options.runs = 300;
   study.options.share = {0, 2};
   study.run(folder.path());
@@ -77,10 +78,12 @@ TEST(Manifest, AnotherStudyIsRefusedWithWhatDiffersAndNothingIsChanged) {
   EXPECT_EQ(why.find("c = 3"), std::string::npos) << why;
   other = study;
   other.task.seed = 2;
-  EXPECT_NE(refusal(folder.path(), other).find("seed: 1 in the folder, 2 asked for"), std::string::npos);
+  EXPECT_NE(refusal(folder.path(), other).find("seed: 1 in the folder, 2 asked for"),
+            std::string::npos);
   other = study;
   other.block_size = 32;
-  EXPECT_NE(refusal(folder.path(), other).find("block size: 64 in the folder, 32 asked for"), std::string::npos);
+  EXPECT_NE(refusal(folder.path(), other).find("block size: 64 in the folder, 32 asked for"),
+            std::string::npos);
   other = study;
   other.task.columns = 6;
   EXPECT_NE(refusal(folder.path(), other).find("other columns"), std::string::npos);
@@ -113,7 +116,8 @@ TEST(Manifest, OfManyThatClaimAFolderAtOnceOneMakesItAndTheOthersJoin) {
   claims.clear();
   EXPECT_EQ(refused, 0);
   std::size_t files = 0;
-  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder.file("new"))) ++files;
+  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder.file("new")))
+    ++files;
   EXPECT_EQ(files, 2u) << "no temporary files are left";
 }
 
@@ -122,7 +126,8 @@ TEST(Manifest, DamageIsNoticed) {
   EXPECT_THROW(mc::read_manifest(folder.path()), InputError);
   mc::claim_folder(folder.path(), SyntheticStudy{}.manifest());
   const std::string path = folder.file("manifest.json"), text = test::text_of(path);
-  for (std::string damaged : {std::string(), text.substr(0, text.size() / 2), std::string("[1]"), std::string("\xff")}) {
+  for (std::string damaged :
+       {std::string(), text.substr(0, text.size() / 2), std::string("[1]"), std::string("\xff")}) {
     std::ofstream(path, std::ios::binary | std::ios::trunc) << damaged;
     EXPECT_THROW(mc::read_manifest(folder.path()), InputError) << damaged.substr(0, 20);
   }
@@ -135,7 +140,8 @@ TEST(Manifest, DamageIsNoticed) {
 TEST(TextDifference, ShowsChangedLinesOnly) {
   EXPECT_TRUE(mc::difference("a\nb\n", "a\nb\n").empty());
   EXPECT_EQ(mc::difference("a\nb\nc\n", "a\nc\nd\n"), (std::vector<std::string>{"- b", "+ d"}));
-  EXPECT_EQ(mc::difference("", "1\n2\n3\n", 2), (std::vector<std::string>{"+ 1", "+ 2", "... and 1 more"}));
+  EXPECT_EQ(mc::difference("", "1\n2\n3\n", 2),
+            (std::vector<std::string>{"+ 1", "+ 2", "... and 1 more"}));
 }
 
 }  // namespace

@@ -14,7 +14,8 @@ const std::string head =
 TEST(Published, ValuesAndSigmasAreReadInInternalUnits) {
   const Study study = read_text(head +
                                 "name = \"paper\"\nfilter = \"eq6\"\n"
-                                "eta_x = { values = [\"268.15 arcsec\", \"-157 arcsec\"], sigmas = [\"15 arcsec\", \"16 arcsec\"] }\n"
+                                "eta_x = { values = [\"268.15 arcsec\", \"-157 arcsec\"], sigmas = "
+                                "[\"15 arcsec\", \"16 arcsec\"] }\n"
                                 "D_I_z = { values = [\"1.45 deg/h/g\"] }\n");
   ASSERT_EQ(study.published.size(), 1u);
   const Published& p = study.published.front();
@@ -43,11 +44,19 @@ TEST(Published, MistakesAreLocated) {
     return "accepted";
   };
   EXPECT_NE(message("D_I_z = { values = [\"1 deg/h/g\"] }\n").find("name"), std::string::npos);
-  EXPECT_NE(message("name = \"a\"\nD_I_z = { values = [\"1 arcsec\"] }\n").find("study.toml:8"), std::string::npos);
-  EXPECT_NE(message("name = \"a\"\nD_I_z = { values = \"1 deg/h/g\" }\n").find("list"), std::string::npos);
-  EXPECT_NE(message("name = \"a\"\nD_I_zz = { values = [\"1 deg/h/g\"] }\n").find("D_I_z"), std::string::npos);
-  EXPECT_NE(message("name = \"a\"\nD_I_z = { values = [\"1 deg/h/g\"], sigmas = [] , sigma = [] }\n").find("sigma"), std::string::npos);
-  EXPECT_NE(message("name = \"a\"\nD_I_z = { values = [\"1 deg/h/g\", \"2 deg/h/g\"], sigmas = [\"1 deg/h/g\"] }\n").find("as many"),
+  EXPECT_NE(message("name = \"a\"\nD_I_z = { values = [\"1 arcsec\"] }\n").find("study.toml:8"),
+            std::string::npos);
+  EXPECT_NE(message("name = \"a\"\nD_I_z = { values = \"1 deg/h/g\" }\n").find("list"),
+            std::string::npos);
+  EXPECT_NE(message("name = \"a\"\nD_I_zz = { values = [\"1 deg/h/g\"] }\n").find("D_I_z"),
+            std::string::npos);
+  EXPECT_NE(
+      message("name = \"a\"\nD_I_z = { values = [\"1 deg/h/g\"], sigmas = [] , sigma = [] }\n")
+          .find("sigma"),
+      std::string::npos);
+  EXPECT_NE(message("name = \"a\"\nD_I_z = { values = [\"1 deg/h/g\", \"2 deg/h/g\"], sigmas = "
+                    "[\"1 deg/h/g\"] }\n")
+                .find("as many"),
             std::string::npos);
 }
 

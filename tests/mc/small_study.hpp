@@ -36,13 +36,15 @@ estimator = "iterated"
 )toml";
 
 /// Runs first .. first + n - 1 of a task, as the engine would store them.
-inline mc::Block run_block(const mc::StudyTask& task, mc::RunWorker& worker, std::uint64_t first, std::size_t n) {
+inline mc::Block run_block(const mc::StudyTask& task, mc::RunWorker& worker, std::uint64_t first,
+                           std::size_t n) {
   const std::size_t width = task.columns().size();
   mc::Block block;
   block.first = first;
   block.rows.assign(n * width, std::nan(""));
   for (std::size_t k = 0; k < n; ++k)
-    block.status.push_back(worker.execute(first + k, std::span(block.rows).subspan(k * width, width)).status);
+    block.status.push_back(
+        worker.execute(first + k, std::span(block.rows).subspan(k * width, width)).status);
   return block;
 }
 

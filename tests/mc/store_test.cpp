@@ -17,7 +17,8 @@ using test::SyntheticStudy;
 
 /// A small study: blocks of 8 runs, so that a file has several and stays small.
 SyntheticStudy small_study() {
-  SyntheticStudy study{.task = {.fail_every = 11}, .options = {.runs = 40, .allowed_failures = 40}, .block_size = 8};
+  SyntheticStudy study{
+      .task = {.fail_every = 11}, .options = {.runs = 40, .allowed_failures = 40}, .block_size = 8};
   study.options.threads = 1;
   return study;
 }
@@ -52,8 +53,11 @@ TEST(Store, GivesBackEveryBitWithFailuresAndTimes) {
   const auto manifest = study.manifest();
   mc::claim_folder(folder.path(), manifest);
   mc::StoredBlock block;
-  block.block = {0, 64, {mc::RunStatus::ok, mc::RunStatus::timeout},
-                 {1.0, -0.0, 5e-324, INFINITY, -1e308, NAN, NAN, std::bit_cast<double>(0x7ff8dead00000001u), 3.0, 4.0}};
+  block.block = {0,
+                 64,
+                 {mc::RunStatus::ok, mc::RunStatus::timeout},
+                 {1.0, -0.0, 5e-324, INFINITY, -1e308, NAN, NAN,
+                  std::bit_cast<double>(0x7ff8dead00000001u), 3.0, 4.0}};
   block.times = {0.5, 0.25, 1.0};
   block.failures = {{65, mc::RunStatus::timeout, "too long; \"quoted\"\n", 12.5, 0.75}};
   mc::WorkerStore(folder.path(), 3, manifest).commit(std::span(&block, 1));
@@ -98,7 +102,8 @@ TEST(Store, EveryTruncationIsDetectedOrHarmlessAndMendedByTheSameCall) {
     if (size % 4 != 0) continue;
     EXPECT_EQ(study.run(folder.path()).digest, digest) << "truncated to " << size;
     for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
-      if (entry.path().string().find("damaged") != std::string::npos) std::filesystem::remove(entry.path());
+      if (entry.path().string().find("damaged") != std::string::npos)
+        std::filesystem::remove(entry.path());
   }
 }
 
@@ -112,7 +117,8 @@ TEST(Store, ADamagedBlockIsReportedAndComputedAnew) {
   mc::StudyReader reader(folder.path());
   EXPECT_FALSE(reader.read(0, 16));
   ASSERT_EQ(reader.notes().size(), 1u);
-  EXPECT_NE(reader.notes()[0].find("runs 16 to 23 is damaged"), std::string::npos) << reader.notes()[0];
+  EXPECT_NE(reader.notes()[0].find("runs 16 to 23 is damaged"), std::string::npos)
+      << reader.notes()[0];
   const auto after = study.run(folder.path());
   EXPECT_EQ(after.done, 8u);
   EXPECT_EQ(after.digest, before.digest);
@@ -131,7 +137,8 @@ TEST(Store, AFileThatIsNoDatabaseIsSetAsideAndABrokenOneGivesBackItsWholeBlocks)
   EXPECT_EQ(after.digest, before.digest);
   EXPECT_TRUE(std::filesystem::exists(folder.file("worker-0000.damaged-1")));
   std::string bytes = test::text_of(path);
-  bytes.resize(bytes.size() - 4096);  // the last page is gone: the structure is broken, most blocks are whole
+  bytes.resize(bytes.size() -
+               4096);  // the last page is gone: the structure is broken, most blocks are whole
   write_all(path, bytes);
   const auto again = study.run(folder.path());
   EXPECT_EQ(again.digest, before.digest);

@@ -163,12 +163,15 @@ TEST(StudyConfig, TheTextOfAStudyReadsBackToTheSameStudy) {
 }
 
 TEST(StudyConfig, AMisspeltOverrideOfAKeyOfTheFileIsRecognised) {
-  const std::string text = test::small_study + "[readout]\naccelerometer_noise = \"5 ug\"\ngimbal_noise = \"5 arcsec\"\n";
+  const std::string text =
+      test::small_study +
+      "[readout]\naccelerometer_noise = \"5 ug\"\ngimbal_noise = \"5 arcsec\"\n";
   for (const char* key : {"accelerometer_noise", "gimbal_noise"}) {
     const std::string typo = std::string(key).substr(0, std::strlen(key) - 1);
     const auto found = test::mistakes(text, {{"readout." + typo, "\"5 ug\""}});
     ASSERT_EQ(found.size(), 1u);
-    EXPECT_NE(found[0].find(std::string("Did you mean '") + key + "'?"), std::string::npos) << found[0];
+    EXPECT_NE(found[0].find(std::string("Did you mean '") + key + "'?"), std::string::npos)
+        << found[0];
   }
 }
 

@@ -20,7 +20,9 @@ namespace {
 using namespace drift::test;
 using C = mc::StudyColumns;
 
-mc::StudyTask small_task(const Overrides& overrides = {}) { return mc::StudyTask(read_text(small_study, overrides)); }
+mc::StudyTask small_task(const Overrides& overrides = {}) {
+  return mc::StudyTask(read_text(small_study, overrides));
+}
 
 bool same_bits(std::span<const double> a, std::span<const double> b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size_bytes()) == 0;
@@ -28,13 +30,15 @@ bool same_bits(std::span<const double> a, std::span<const double> b) {
 
 TEST(StudyTask, RunsDoNotDependOnWhatRanBefore) {
   for (const char* estimator : {"ekf", "iterated", "batch"}) {
-    const mc::StudyTask task = small_task({{"monte_carlo.estimator", estimator}, {"monte_carlo.design", "sobol"}});
+    const mc::StudyTask task =
+        small_task({{"monte_carlo.estimator", estimator}, {"monte_carlo.design", "sobol"}});
     const auto one = task.worker(), other = task.worker();
     const mc::Block forward = run_block(task, *one, 0, 4);
     const std::size_t width = task.columns().size();
     for (std::uint64_t run = 4; run-- > 0;) {
       const mc::Block alone = run_block(task, *other, run, 1);
-      EXPECT_TRUE(same_bits(alone.rows, std::span(forward.rows).subspan(run * width, width))) << estimator << run;
+      EXPECT_TRUE(same_bits(alone.rows, std::span(forward.rows).subspan(run * width, width)))
+          << estimator << run;
     }
   }
 }
@@ -46,22 +50,28 @@ TEST(StudyTask, NamesItsColumns) {
   const auto& right = task.layout().filters[0];
   EXPECT_EQ(names[0].name, "truth/D_F_x");
   EXPECT_EQ(names[right.at(1, C::nis)].name, "right/1/nis");
-  const auto eta = static_cast<std::size_t>(std::ranges::find(right.layout.params, param("eta_x")) - right.layout.params.begin());
+  const auto eta = static_cast<std::size_t>(std::ranges::find(right.layout.params, param("eta_x")) -
+                                            right.layout.params.begin());
   EXPECT_EQ(names[right.sigma(1, eta)].name, "right/1/sigma/eta_x");
   EXPECT_EQ(names[right.estimate(0, eta)].unit.symbol.view(), "arcsec");
   EXPECT_EQ(names[right.truth[eta]].name, "truth/eta_x");
 }
 
-/// Every distributed parameter is echoed as drawn and changes the recording: none is silently unused.
+/// Every distributed parameter is echoed as drawn and changes the recording: none is silently
+/// unused.
 TEST(StudyTask, EveryDistributedParameterReachesTheRecording) {
-  Study study = read_text(small_study, {{"plan.preset", "slew12"}, {"truth.terms", "[\"fixed_drift\", \"g_drift\", \"g2_drift\", "
-                                        "\"gyro_misalignment\", \"torquer_scale\", \"accelerometer\"]"}});
+  Study study =
+      read_text(small_study, {{"plan.preset", "slew12"},
+                              {"truth.terms",
+                               "[\"fixed_drift\", \"g_drift\", \"g2_drift\", "
+                               "\"gyro_misalignment\", \"torquer_scale\", \"accelerometer\"]"}});
   const mc::StudyTask task(study);
   const auto worker = task.worker();
   std::vector<double> row(task.columns().size());
   worker->execute(3, row);
   Simulator simulator(study.truth, study.readout);
-  const TruthDraw draw = mc::Design(study.truth, DesignKind::random, 300, 5).draw(3, task.timeline().chains);
+  const TruthDraw draw =
+      mc::Design(study.truth, DesignKind::random, 300, 5).draw(3, task.timeline().chains);
   const Measurements before = simulator.run(task.timeline(), draw, 5, 3).measured;
   int distributed = 0;
   for (std::size_t c = 0; c < task.layout().truth.size(); ++c) {
@@ -72,7 +82,8 @@ TEST(StudyTask, EveryDistributedParameterReachesTheRecording) {
     TruthDraw perturbed = draw;
     perturbed.theta[i] += study.truth.priors[p].sigma();
     const Measurements after = simulator.run(task.timeline(), perturbed, 5, 3).measured;
-    // The same noise in both: beyond 1e-9 g or rad, 5000 times finer than the noise, it is the parameter.
+    // The same noise in both: beyond 1e-9 g or rad, 5000 times finer than the noise, it is the
+    // parameter.
     const double change = std::max((after.acc - before.acc).cwiseAbs().maxCoeff(),
                                    (after.gimbal - before.gimbal).cwiseAbs().maxCoeff());
     EXPECT_GT(change, 1e-9) << TermLibrary::specs[p].key.view();
@@ -112,7 +123,8 @@ TEST(StudyTask, MakesAFailedIntegrationAnOutcome) {
   const auto worker = task.worker();
   std::vector<double> row(task.columns().size(), std::nan(""));
   const mc::RunOutcome out = worker->execute(0, row);
-  EXPECT_TRUE(out.status == mc::RunStatus::integrator_failed || out.status == mc::RunStatus::timeout);
+  EXPECT_TRUE(out.status == mc::RunStatus::integrator_failed ||
+              out.status == mc::RunStatus::timeout);
   EXPECT_FALSE(out.cause.empty());
   EXPECT_TRUE(std::isfinite(row[0]));  // the truth that failed is there
   EXPECT_TRUE(std::isnan(row[task.layout().filters[0].at(0, C::nis)]));
@@ -120,15 +132,18 @@ TEST(StudyTask, MakesAFailedIntegrationAnOutcome) {
 }
 
 TEST(StudyTask, RefusesWhatCannotBeStudied) {
-  EXPECT_THROW(mc::StudyTask(read_text("schema = 1\n[plan]\npreset = \"six\"\n[truth]\ncoupling = \"eq5\"\n")), InputError);
-  EXPECT_THROW(small_task({{"truth.coupling", "compensated"}, {"truth.loop.estimate", "feedback"}}), InputError);
+  EXPECT_THROW(mc::StudyTask(read_text(
+                   "schema = 1\n[plan]\npreset = \"six\"\n[truth]\ncoupling = \"eq5\"\n")),
+               InputError);
+  EXPECT_THROW(small_task({{"truth.coupling", "compensated"}, {"truth.loop.estimate", "feedback"}}),
+               InputError);
 }
 
 /// Truth and filter alike: what the filter says of itself must hold.
 ///
-/// 300 runs. Mean NIS and NEES lie in their chi-square bands with 95 % probability each; a fixed seed
-/// makes the outcome repeatable, and the bands are widened to 3 standard deviations (0.3 %). Coverage of
-/// one parameter is binomial: 0.9545 +- 3.5 sqrt(0.9545 0.0455 / 300) = +- 0.042.
+/// 300 runs. Mean NIS and NEES lie in their chi-square bands with 95 % probability each; a fixed
+/// seed makes the outcome repeatable, and the bands are widened to 3 standard deviations (0.3 %).
+/// Coverage of one parameter is binomial: 0.9545 +- 3.5 sqrt(0.9545 0.0455 / 300) = +- 0.042.
 TEST(MatchedPair, IsConsistent) {
   const mc::StudyTask task = small_task();
   const auto worker = task.worker();
@@ -149,8 +164,8 @@ TEST(MatchedPair, IsConsistent) {
     EXPECT_NEAR(e.deception().value, 1.0, 3.5 / std::sqrt(2.0 * 300.0));
   }
   EXPECT_GE(observable, 9);
-  // The drawn start is a prior sigma off where the test says nothing: twice the variance, as derived
-  // in starts.hpp, so NEES over all directions is above 1 and at most 2.
+  // The drawn start is a prior sigma off where the test says nothing: twice the variance, as
+  // derived in starts.hpp, so NEES over all directions is above 1 and at most 2.
   EXPECT_GT(right.starts()[1].nees_all.mean(), s.nees_all.mean());
   EXPECT_LT(right.starts()[1].nees_all.mean(), 2.1);
   // The wrong equation on the same data is inconsistent.
@@ -158,7 +173,8 @@ TEST(MatchedPair, IsConsistent) {
 }
 
 TEST(Trace, IsThatOfTheRunItself) {
-  const Study study = read_text(small_study, {{"monte_carlo.estimator", "ekf"}, {"monte_carlo.design", "latin_hypercube"}});
+  const Study study = read_text(
+      small_study, {{"monte_carlo.estimator", "ekf"}, {"monte_carlo.design", "latin_hypercube"}});
   const mc::StudyTask task(study);
   const auto worker = task.worker();
   const mc::Block block = run_block(task, *worker, 7, 1);
@@ -168,15 +184,19 @@ TEST(Trace, IsThatOfTheRunItself) {
     const auto& columns = task.layout().filters[f.filter];
     const auto end = f.history.estimate.cols() - 1;
     for (std::size_t k = 0; k < columns.layout.size(); ++k) {
-      EXPECT_EQ(f.history.estimate(static_cast<Eigen::Index>(k), end), block.rows[columns.estimate(f.start, k)]);
-      EXPECT_EQ(f.history.sigma(static_cast<Eigen::Index>(k), end), block.rows[columns.sigma(f.start, k)]);
+      EXPECT_EQ(f.history.estimate(static_cast<Eigen::Index>(k), end),
+                block.rows[columns.estimate(f.start, k)]);
+      EXPECT_EQ(f.history.sigma(static_cast<Eigen::Index>(k), end),
+                block.rows[columns.sigma(f.start, k)]);
     }
   }
   const std::string csv = mc::trace_csv(study, trace);
   EXPECT_NE(csv.find("# truth.eta_x = "), std::string::npos);
-  EXPECT_NE(csv.find("filter,start,time [s],nis,scalars,D_F_x [deg/h],sigma_D_F_x [deg/h]"), std::string::npos);
+  EXPECT_NE(csv.find("filter,start,time [s],nis,scalars,D_F_x [deg/h],sigma_D_F_x [deg/h]"),
+            std::string::npos);
   const auto lines = std::ranges::count(csv, '\n');
-  EXPECT_EQ(lines, static_cast<std::ptrdiff_t>(task.layout().truth.size() + 1 + 3 * task.timeline().intervals.size()));
+  EXPECT_EQ(lines, static_cast<std::ptrdiff_t>(task.layout().truth.size() + 1 +
+                                               3 * task.timeline().intervals.size()));
 }
 
 }  // namespace

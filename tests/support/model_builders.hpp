@@ -8,11 +8,13 @@
 
 namespace drift::test {
 
-inline constexpr double arcsec = detail::deg / 3600.0;  // [rad]
+inline constexpr double arcsec = detail::deg / 3600.0;     // [rad]
 inline constexpr double deg_per_h = detail::deg / 3600.0;  // [rad/s]
 inline const Site harbin{45.75 * detail::deg};
 
-constexpr std::size_t param(std::string_view key) { return TermLibrary::find(key).value(); }
+constexpr std::size_t param(std::string_view key) {
+  return TermLibrary::find(key).value();
+}
 
 /// The six base terms (all parameters but lambda), default priors.
 inline ModelSpec base_spec(Coupling coupling) {
@@ -42,7 +44,8 @@ inline ParamMask only(std::initializer_list<std::string_view> keys) {
   ParamMask mask;
   for (const auto key : keys)
     for (std::size_t i = 0; i < TermLibrary::num_params; ++i)
-      if (TermLibrary::specs[i].key.view() == key || TermLibrary::specs[i].group.view() == key) mask.set(i);
+      if (TermLibrary::specs[i].key.view() == key || TermLibrary::specs[i].group.view() == key)
+        mask.set(i);
   return mask;
 }
 

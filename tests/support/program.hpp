@@ -1,7 +1,6 @@
 #pragma once
 
 #include <gtest/gtest.h>
-
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -24,9 +23,11 @@ class ScratchFolder {
  public:
   ScratchFolder()
       : path_(std::filesystem::temp_directory_path() /
-              ("driftscope_" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->test_suite_name()) +
-               "_" + ::testing::UnitTest::GetInstance()->current_test_info()->name() + "_" + std::to_string(getpid()) + "_" +
-               std::to_string(made()++))) {
+              ("driftscope_" +
+               std::string(
+                   ::testing::UnitTest::GetInstance()->current_test_info()->test_suite_name()) +
+               "_" + ::testing::UnitTest::GetInstance()->current_test_info()->name() + "_" +
+               std::to_string(getpid()) + "_" + std::to_string(made()++))) {
     std::filesystem::create_directories(path_);
   }
   ~ScratchFolder() {
@@ -64,14 +65,17 @@ inline Answer run_program(const std::string& program, const std::string& argumen
   Answer answer;
   std::FILE* pipe = popen(line.c_str(), "r");
   std::array<char, 4096> buffer{};
-  while (const auto n = std::fread(buffer.data(), 1, buffer.size(), pipe)) answer.out.append(buffer.data(), n);
+  while (const auto n = std::fread(buffer.data(), 1, buffer.size(), pipe))
+    answer.out.append(buffer.data(), n);
   const int status = pclose(pipe);
   answer.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   answer.err = text_of(err);
   return answer;
 }
 
-inline Answer driftscope(const std::string& arguments) { return run_program(DRIFT_PROGRAM, arguments); }
+inline Answer driftscope(const std::string& arguments) {
+  return run_program(DRIFT_PROGRAM, arguments);
+}
 
 inline std::string config(const std::string& name) {
   return std::string("'") + DRIFT_SOURCE_DIR + "/configs/" + name + "'";

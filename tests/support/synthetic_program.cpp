@@ -1,6 +1,7 @@
 // The whole program with cheap runs in place of simulations: driftscope_synthetic. What a run does
-// comes from the study's title, "synthetic key=value ...": columns, fail_every, throw_at, ms, points,
-// half_width. DRIFT_SYNTHETIC_SCALE=x in the environment makes it a program with other results.
+// comes from the study's title, "synthetic key=value ...": columns, fail_every, throw_at, ms,
+// points, half_width. DRIFT_SYNTHETIC_SCALE=x in the environment makes it a program with other
+// results.
 #include <cstdlib>
 #include <sstream>
 
@@ -32,10 +33,13 @@ StudyProgram study_program() {
     for (std::size_t p = 0; p < points; ++p) {
       const char* scale = std::getenv("DRIFT_SYNTHETIC_SCALE");
       o.scale = (scale != nullptr ? std::stod(scale) : 1.0) + static_cast<double>(p);
-      w.points.push_back({points > 1 ? "scale = " + std::to_string(p + 1) : "", std::make_unique<test::SyntheticTask>(o)});
+      w.points.push_back({points > 1 ? "scale = " + std::to_string(p + 1) : "",
+                          std::make_unique<test::SyntheticTask>(o)});
     }
     if (half_width > 0.0)
-      w.stop_rules = [=](std::size_t) { return std::make_unique<test::MeanRule>(o.columns, half_width); };
+      w.stop_rules = [=](std::size_t) {
+        return std::make_unique<test::MeanRule>(o.columns, half_width);
+      };
     return w;
   };
   return {work, [](const Study&, const mc::StudyWork&, mc::StudyReader&, const std::string&) {}};

@@ -13,18 +13,19 @@ namespace drift::test {
 struct SyntheticOptions {
   std::size_t columns = 5;
   std::uint64_t seed = 1;
-  std::uint64_t fail_every = 0;   ///< runs k with k % fail_every == fail_every - 1 fail; 0: none
-  std::uint64_t throw_at = ~0ull; ///< this run throws
-  double milliseconds = 0.0;      ///< spent busy in every run
-  double scale = 1.0;             ///< tells points apart
+  std::uint64_t fail_every = 0;    ///< runs k with k % fail_every == fail_every - 1 fail; 0: none
+  std::uint64_t throw_at = ~0ull;  ///< this run throws
+  double milliseconds = 0.0;       ///< spent busy in every run
+  double scale = 1.0;              ///< tells points apart
 };
 
-/// A cheap task with everything the engine must cope with: results that are a pure function of (seed,
-/// run), failures, exceptions, a trace.
+/// A cheap task with everything the engine must cope with: results that are a pure function of
+/// (seed, run), failures, exceptions, a trace.
 class SyntheticTask : public mc::RunTask {
  public:
   explicit SyntheticTask(SyntheticOptions o) : o_(o) {
-    for (std::size_t c = 0; c < o.columns; ++c) columns_.push_back({"made/" + std::to_string(c), c % 2 ? unit::arcsec : unit::one});
+    for (std::size_t c = 0; c < o.columns; ++c)
+      columns_.push_back({"made/" + std::to_string(c), c % 2 ? unit::arcsec : unit::one});
   }
   const std::vector<mc::Column>& columns() const override { return columns_; }
   std::unique_ptr<mc::RunWorker> worker() const override { return std::make_unique<Worker>(o_); }
@@ -35,7 +36,8 @@ class SyntheticTask : public mc::RunTask {
     explicit Worker(const SyntheticOptions& o) : o_(o) {}
     mc::RunOutcome execute(std::uint64_t run, std::span<double> row) override {
       mc::RunOutcome outcome;
-      const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double, std::milli>(o_.milliseconds);
+      const auto until = std::chrono::steady_clock::now() +
+                         std::chrono::duration<double, std::milli>(o_.milliseconds);
       if (run == o_.throw_at) throw std::runtime_error("thrown by run " + std::to_string(run));
       Stream stream(o_.seed, run, Purpose::test);
       for (double& v : row) v = o_.scale * stream.normal();
@@ -71,7 +73,8 @@ class MeanRule : public mc::StopRule {
   MeanRule(std::size_t columns, double half_width) : columns_(columns), half_width_(half_width) {}
   bool enough(const mc::Block& block) override {
     for (std::size_t r = 0; r < block.status.size(); ++r)
-      if (const double v = block.rows[r * columns_]; std::isfinite(v)) ++n_, sum_ += v, squares_ += v * v;
+      if (const double v = block.rows[r * columns_]; std::isfinite(v))
+        ++n_, sum_ += v, squares_ += v * v;
     const double mean = sum_ / n_;
     return std::sqrt((squares_ / n_ - mean * mean) / n_) < half_width_;
   }

@@ -18,8 +18,10 @@ inline Environment harbin_day() {
   return e;
 }
 
-/// A test in which every effect shows: with slews and commands, or at 45 deg; temperature and field known.
-inline Timeline scene(std::string_view preset, CommandLaw mode, double dwell = 600.0, double sample = 60.0) {
+/// A test in which every effect shows: with slews and commands, or at 45 deg; temperature and field
+/// known.
+inline Timeline scene(std::string_view preset, CommandLaw mode, double dwell = 600.0,
+                      double sample = 60.0) {
   Timeline timeline = preset_timeline(preset, mode, dwell, sample);
   set_environment(timeline, harbin_day(), 1, 0);
   return timeline;
@@ -31,8 +33,8 @@ inline ParamMask term_params(std::size_t term) {
   return TermLibrary::params_of(mask);
 }
 
-/// Amplitudes of the parameters of a term, alternately 0.8 and -1.2 of their prior sigma; what is nonlinear
-/// at its default, a step early enough to be seen.
+/// Amplitudes of the parameters of a term, alternately 0.8 and -1.2 of their prior sigma; what is
+/// nonlinear at its default, a step early enough to be seen.
 inline void set_term(Theta& theta, std::size_t term, double factor = 1.0) {
   const TermInfo& info = TermLibrary::terms[term];
   for (std::size_t i = info.first; i < info.first + info.count; ++i) {

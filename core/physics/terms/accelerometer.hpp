@@ -11,14 +11,14 @@ struct Accelerometer {
   static constexpr std::string_view equation =
       "f_i = K0 + (1 + K1)(a_I + dP a_P + dO a_O) + K2 a_I^2 + K3 a_I^3 + K_ip a_I a_P";
   static constexpr std::string_view source = "IEEE 1293 accelerometer model; interfaces.md 4";
-  static constexpr auto params =
-      join(per_axis<"K0">(unit::ug, normal(0.0, 500.0), "accelerometer output, bias"),
-           per_axis<"K1">(unit::ppm, normal(0.0, 500.0), "accelerometer output, times a_I"),
-           per_axis<"K2">(unit::ug_per_g2, normal(0.0, 50.0), "accelerometer output, times a_I^2"),
-           per_axis<"K3">(unit::ug_per_g3, normal(0.0, 20.0), "accelerometer output, times a_I^3"),
-           per_axis<"K_ip">(unit::ug_per_g2, normal(0.0, 50.0), "accelerometer output, times a_I a_P"),
-           per_axis<"dP">(unit::arcsec, normal(0.0, 100.0), "accelerometer output, times a_P"),
-           per_axis<"dO">(unit::arcsec, normal(0.0, 100.0), "accelerometer output, times a_O"));
+  static constexpr auto params = join(
+      per_axis<"K0">(unit::ug, normal(0.0, 500.0), "accelerometer output, bias"),
+      per_axis<"K1">(unit::ppm, normal(0.0, 500.0), "accelerometer output, times a_I"),
+      per_axis<"K2">(unit::ug_per_g2, normal(0.0, 50.0), "accelerometer output, times a_I^2"),
+      per_axis<"K3">(unit::ug_per_g3, normal(0.0, 20.0), "accelerometer output, times a_I^3"),
+      per_axis<"K_ip">(unit::ug_per_g2, normal(0.0, 50.0), "accelerometer output, times a_I a_P"),
+      per_axis<"dP">(unit::arcsec, normal(0.0, 100.0), "accelerometer output, times a_P"),
+      per_axis<"dO">(unit::arcsec, normal(0.0, 100.0), "accelerometer output, times a_O"));
 
   template <class S>
   static void readout(const Inputs<S>& in, const S* p, ReadoutAssembly<S>& out) {

@@ -5,8 +5,8 @@
 
 namespace drift::terms {
 
-/// An accelerometer says too little by Z wherever its input is not near zero: a dead zone, smooth over
-/// Z_width.
+/// An accelerometer says too little by Z wherever its input is not near zero: a dead zone, smooth
+/// over Z_width.
 struct AccelerometerDeadZone {
   static constexpr std::string_view key = "accelerometer_dead_zone";
   static constexpr std::string_view title = "dead zone of the accelerometers";

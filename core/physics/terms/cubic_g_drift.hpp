@@ -15,8 +15,7 @@ struct CubicGDrift {
 
   template <class S>
   static void rates(const Inputs<S>& in, const S* D, RateAssembly<S>& out) {
-    out.omega_drift_g +=
-        vec3(D).cwiseProduct(in.f_p).cwiseProduct(in.f_p).cwiseProduct(in.f_p);
+    out.omega_drift_g += vec3(D).cwiseProduct(in.f_p).cwiseProduct(in.f_p).cwiseProduct(in.f_p);
   }
 };
 

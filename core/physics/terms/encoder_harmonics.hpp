@@ -5,8 +5,8 @@
 
 namespace drift::terms {
 
-/// Errors of the resolvers that repeat with the angle: eccentricity (once and twice per turn) and the
-/// electrical cycle (enc_n times per turn).
+/// Errors of the resolvers that repeat with the angle: eccentricity (once and twice per turn) and
+/// the electrical cycle (enc_n times per turn).
 struct EncoderHarmonics {
   static constexpr std::string_view key = "encoder_harmonics";
   static constexpr std::string_view title = "harmonic errors of the resolvers";

@@ -4,12 +4,14 @@
 
 namespace drift::terms {
 
-/// Drift that follows the angle of one gimbal: heat flow, slip-ring leads, stray fields of the gimbal.
+/// Drift that follows the angle of one gimbal: heat flow, slip-ring leads, stray fields of the
+/// gimbal.
 struct GimbalAngleDrift {
   static constexpr std::string_view key = "gimbal_angle_drift";
   static constexpr std::string_view title = "drift that depends on a gimbal angle";
   static constexpr std::string_view equation =
-      "w_l,i += G_c_i cos(theta_k) + G_s_i sin(theta_k),  k = G_gimbal (1 outer, 2 middle, 3 inner)";
+      "w_l,i += G_c_i cos(theta_k) + G_s_i sin(theta_k),  k = G_gimbal (1 outer, 2 middle, 3 "
+      "inner)";
   static constexpr std::string_view source = "physics.md 4, no. 17: 0.002 to 0.02 deg/h";
   static constexpr Prior prior = normal(0.0, 0.01);
   static constexpr auto params =

@@ -11,11 +11,12 @@ struct GimbalNonorthogonality {
   static constexpr std::string_view key = "gimbal_nonorthogonality";
   static constexpr std::string_view title = "gimbal axes not at right angles";
   static constexpr std::string_view equation =
-      "outer += (nonorth_1 sin m - nonorth_2) / cos m,  inner += (nonorth_2 sin m - nonorth_1) / cos m";
+      "outer += (nonorth_1 sin m - nonorth_2) / cos m,  inner += (nonorth_2 sin m - nonorth_1) / "
+      "cos m";
   static constexpr std::string_view source = "physics.md 4, no. 42: 5 to 30 arcsec";
-  static constexpr auto params =
-      join(single<"nonorth_1">(unit::arcsec, normal(0.0, 15.0), "gimbal angles, outer to middle axis"),
-           single<"nonorth_2">(unit::arcsec, normal(0.0, 15.0), "gimbal angles, middle to inner axis"));
+  static constexpr auto params = join(
+      single<"nonorth_1">(unit::arcsec, normal(0.0, 15.0), "gimbal angles, outer to middle axis"),
+      single<"nonorth_2">(unit::arcsec, normal(0.0, 15.0), "gimbal angles, middle to inner axis"));
   static constexpr Needs needs{.gimbals = true};
 
   template <class S>

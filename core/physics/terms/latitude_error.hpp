@@ -4,8 +4,9 @@
 
 namespace drift::terms {
 
-/// The site's latitude is wrong: the local axes turn otherwise than thought, which looks like a rate
-/// of the platform. (The part that eq. (5) senses, E times it, is below 1e-6 deg/h and left out.)
+/// The site's latitude is wrong: the local axes turn otherwise than thought, which looks like a
+/// rate of the platform. (The part that eq. (5) senses, E times it, is below 1e-6 deg/h and left
+/// out.)
 struct LatitudeError {
   static constexpr std::string_view key = "latitude_error";
   static constexpr std::string_view title = "error of the latitude";

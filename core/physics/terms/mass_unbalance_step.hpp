@@ -4,8 +4,8 @@
 
 namespace drift::terms {
 
-/// The mass unbalance of a gyro shifts at one moment (bearing, lubricant, shock). The step is smooth
-/// over four minutes, so that integrators of fixed step see all of it.
+/// The mass unbalance of a gyro shifts at one moment (bearing, lubricant, shock). The step is
+/// smooth over four minutes, so that integrators of fixed step see all of it.
 struct MassUnbalanceStep {
   static constexpr std::string_view key = "mass_unbalance_step";
   static constexpr std::string_view title = "step of the mass unbalance";
@@ -13,11 +13,11 @@ struct MassUnbalanceStep {
       "w_l,i += dD_I_i a_I (1 + tanh((t - dD_t0) / 120 s)) / 2";
   static constexpr std::string_view source =
       "physics.md 4, no. 6: 0.01 to 0.4 deg/h/g; Miller & Feldman, J. Spacecraft 1968";
-  static constexpr auto params =
-      join(per_axis<"dD_I">(unit::deg_per_h_per_g, normal(0.0, 0.2), "w_l, times a_I after the step"),
-           profiled<"dD_t0">(ParamKind::nonlinear, unit::hour, 6.0,
-                             {1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0, 15.0, 18.0, 21.0},
-                             "time of the step since the start of the test"));
+  static constexpr auto params = join(
+      per_axis<"dD_I">(unit::deg_per_h_per_g, normal(0.0, 0.2), "w_l, times a_I after the step"),
+      profiled<"dD_t0">(ParamKind::nonlinear, unit::hour, 6.0,
+                        {1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0, 15.0, 18.0, 21.0},
+                        "time of the step since the start of the test"));
   static constexpr Needs needs{.clock = true};
   static constexpr double width = 120.0;  // [s]
 

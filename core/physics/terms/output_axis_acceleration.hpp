@@ -9,7 +9,8 @@ namespace drift::terms {
 /// when it stops: an attitude offset.
 struct OutputAxisAcceleration {
   static constexpr std::string_view key = "output_axis_acceleration";
-  static constexpr std::string_view title = "sensitivity to angular acceleration about the output axis";
+  static constexpr std::string_view title =
+      "sensitivity to angular acceleration about the output axis";
   static constexpr std::string_view equation = "delta_p,i = -J_i w_ip,O  (J = J_O/H)";
   static constexpr std::string_view source =
       "physics.md 2.1 and 4, no. 29: J_O/H 1e-4 to 1e-3 s; IEEE 292";

@@ -18,7 +18,8 @@ struct PierAzimuth {
   static constexpr auto params =
       join(single<"turn_c">(unit::arcsec, prior, "case turn about Up, cosine"),
            single<"turn_s">(unit::arcsec, prior, "case turn about Up, sine"),
-           profiled<"turn_T">(ParamKind::nonlinear, unit::hour, 24.0, {12.0, 24.0}, "period of the turn"));
+           profiled<"turn_T">(ParamKind::nonlinear, unit::hour, 24.0, {12.0, 24.0},
+                              "period of the turn"));
   static constexpr Needs needs{.clock = true};
 
   template <class S>

@@ -7,8 +7,8 @@
 
 namespace drift::terms {
 
-/// The pier tilts with the sun, and the case with it; the platform does not follow, so the resolvers
-/// see it.
+/// The pier tilts with the sun, and the case with it; the platform does not follow, so the
+/// resolvers see it.
 struct PierTilt {
   static constexpr std::string_view key = "pier_tilt";
   static constexpr std::string_view title = "daily tilt of the pier";
@@ -22,7 +22,8 @@ struct PierTilt {
            single<"tilt_s_n">(unit::arcsec, prior, "case tilt about North, sine"),
            single<"tilt_c_w">(unit::arcsec, prior, "case tilt about West, cosine"),
            single<"tilt_s_w">(unit::arcsec, prior, "case tilt about West, sine"),
-           profiled<"tilt_T">(ParamKind::nonlinear, unit::hour, 24.0, {12.0, 24.0}, "period of the tilt"));
+           profiled<"tilt_T">(ParamKind::nonlinear, unit::hour, 24.0, {12.0, 24.0},
+                              "period of the tilt"));
   static constexpr Needs needs{.clock = true};
 
   template <class S>

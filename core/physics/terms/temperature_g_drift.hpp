@@ -18,7 +18,8 @@ struct TemperatureGDrift {
 
   template <class S>
   static void rates(const Inputs<S>& in, const S* k, RateAssembly<S>& out) {
-    const Vec3T<S> per_degree = vec3(k).cwiseProduct(in.f_p) + vec3(k + 3).cwiseProduct(in.f_spin());
+    const Vec3T<S> per_degree =
+        vec3(k).cwiseProduct(in.f_p) + vec3(k + 3).cwiseProduct(in.f_spin());
     out.omega_drift_g += per_degree * in.now().temperature;
   }
 };

@@ -5,8 +5,8 @@
 
 namespace drift::terms {
 
-/// The resolvers are sampled a little after the time that the recording says, at the nominal rates of
-/// the gimbals.
+/// The resolvers are sampled a little after the time that the recording says, at the nominal rates
+/// of the gimbals.
 struct TimingSkew {
   static constexpr std::string_view key = "timing_skew";
   static constexpr std::string_view title = "timing skew of the resolvers";

@@ -11,13 +11,14 @@ struct TorquerHeating {
   static constexpr std::string_view key = "torquer_heating";
   static constexpr std::string_view title = "drift from the torquers' self-heating";
   static constexpr std::string_view equation =
-      "w_l,i += heat_i h_i,  h_i' = (w_cmd,i / 0.5 deg/s)^2 / 180 s - h_i / heat_tau;  h = 0 at the start";
+      "w_l,i += heat_i h_i,  h_i' = (w_cmd,i / 0.5 deg/s)^2 / 180 s - h_i / heat_tau;  h = 0 at "
+      "the start";
   static constexpr std::string_view source =
       "physics.md 4, no. 21: 0.01 to 0.1 deg/h after a slew, tau 10 to 30 min";
   static constexpr auto params =
       join(per_axis<"heat">(unit::deg_per_h, normal(0.0, 0.05), "w_l, after a slew of 90 deg"),
            profiled<"heat_tau">(ParamKind::nonlinear, unit::minute, 15.0, {8.0, 12.0, 20.0, 30.0},
-                             "w_l, time constant of the heat"));
+                                "w_l, time constant of the heat"));
   static constexpr int memory = 3;
   static constexpr std::size_t memory_parameter = 3;
   static constexpr double slew_rate = 0.5 * detail::deg, slew_time = 180.0;  // [rad/s], [s]

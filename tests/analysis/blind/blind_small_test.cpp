@@ -13,15 +13,17 @@ using Json = nlohmann::json;
 
 /// The twenty trials of configs/blind_small.toml through the program, as a user runs them.
 ///
-/// What holds by design is asserted exactly. The statistical bounds are loose: of 7 nulls, each with a
-/// false alarm of at most 5 %, three or more alarm with probability sum_{k>=3} C(7,k) .05^k .95^(7-k) =
-/// 0.0038; a diagnosis that does not see the effects but alarms at its 5 % finds five or more of 13 with
-/// probability sum_{k>=5} C(13,k) .05^k .95^(13-k) = 3e-4. The short dwells leave mostly slow effects to
-/// hide, which look like a random walk of the drift: the power is that of configs/blind.toml, not of this.
+/// What holds by design is asserted exactly. The statistical bounds are loose: of 7 nulls, each
+/// with a false alarm of at most 5 %, three or more alarm with probability sum_{k>=3} C(7,k) .05^k
+/// .95^(7-k) = 0.0038; a diagnosis that does not see the effects but alarms at its 5 % finds five
+/// or more of 13 with probability sum_{k>=5} C(13,k) .05^k .95^(13-k) = 3e-4. The short dwells
+/// leave mostly slow effects to hide, which look like a random walk of the drift: the power is that
+/// of configs/blind.toml, not of this.
 TEST(BlindSmall, TwentyTrialsAreSealedAnsweredScoredAndKept) {
   const test::ScratchFolder scratch;
   const std::string folder = scratch.file("out");
-  const std::string command = "blind " + test::config("blind_small.toml") + " -o '" + folder + "' --progress none";
+  const std::string command =
+      "blind " + test::config("blind_small.toml") + " -o '" + folder + "' --progress none";
   const test::Answer first = test::driftscope(command);
   ASSERT_EQ(first.code, 0) << first.err;
 
@@ -57,7 +59,8 @@ TEST(BlindSmall, TwentyTrialsAreSealedAnsweredScoredAndKept) {
   // Finished answers are kept: the same command again opens the same key on the same answers.
   const test::Answer again = test::driftscope(command);
   EXPECT_EQ(again.code, 0) << again.err;
-  EXPECT_EQ(Json::parse(text_of(folder + "/blind.json")).at("answers_sha256"), blind.at("answers_sha256"));
+  EXPECT_EQ(Json::parse(text_of(folder + "/blind.json")).at("answers_sha256"),
+            blind.at("answers_sha256"));
 
   // A key that was changed after it was sealed is not scored.
   scratch.write("out/key.json", text_of(folder + "/key.json") + " ");

@@ -1,4 +1,3 @@
-#include "core/base/check.hpp"
 #include "analysis/blind/blind_study.hpp"
 
 #include <gtest/gtest.h>
@@ -10,6 +9,7 @@
 #include "analysis/blind/key.hpp"
 #include "analysis/blind/seal.hpp"
 #include "analysis/blind/summary.hpp"
+#include "core/base/check.hpp"
 #include "core/base/sha256.hpp"
 #include "tests/support/program.hpp"
 
@@ -64,7 +64,9 @@ Study study_in(const ScratchFolder& scratch, const std::string& text = tiny) {
   return read_study(scratch.write("blind.toml", text));
 }
 
-Answer consistent(const std::string&, const std::string&) { return {}; }
+Answer consistent(const std::string&, const std::string&) {
+  return {};
+}
 
 TEST(BlindStudy, TheSolverGetsNeitherTruthNorSeedNorKey) {
   const ScratchFolder scratch;
@@ -88,9 +90,15 @@ TEST(BlindStudy, WhatIsHiddenHasTheSizeThatWasAskedFor) {
   make_trials(study_in(scratch), folder, 1);
   for (const KeyEntry& k : key_of(text_of(folder + "/key.json")).entries) {
     switch (k.plan.stratum) {
-      case Stratum::null: EXPECT_TRUE(k.effects.empty()); break;
-      case Stratum::wrong_noise: EXPECT_EQ(k.effects.size(), 1u); break;
-      case Stratum::pair: EXPECT_EQ(k.effects.size(), 2u); [[fallthrough]];
+      case Stratum::null:
+        EXPECT_TRUE(k.effects.empty());
+        break;
+      case Stratum::wrong_noise:
+        EXPECT_EQ(k.effects.size(), 1u);
+        break;
+      case Stratum::pair:
+        EXPECT_EQ(k.effects.size(), 2u);
+        [[fallthrough]];
       default:
         for (const HiddenEffect& e : k.effects) {
           EXPECT_NEAR(e.size, k.plan.size, 0.0101 * k.plan.size);  // the strength is sought to 1 %
@@ -108,10 +116,13 @@ TEST(BlindStudy, AFailingSolverIsRecordedAndStopsNoOther) {
   const ScratchFolder scratch;
   const std::string folder = scratch.file("out");
   make_trials(study_in(scratch), folder, 1);
-  answer_trials(folder, [](const std::string& path, const std::string&) -> Answer {
-    if (path.find("0003") != std::string::npos) throw std::runtime_error("no convergence");
-    return {};
-  }, 2);
+  answer_trials(
+      folder,
+      [](const std::string& path, const std::string&) -> Answer {
+        if (path.find("0003") != std::string::npos) throw std::runtime_error("no convergence");
+        return {};
+      },
+      2);
   const auto scores = score_folder(folder);
   ASSERT_EQ(scores.size(), 6u);
   for (const TrialScore& s : scores) EXPECT_EQ(s.answer.failed, s.key.plan.number == 3);
@@ -185,7 +196,8 @@ TEST(BlindStudy, AFolderOfAnotherStudyIsRefused) {
 TEST(BlindStudy, TrialsDependOnTheSeedAloneAndNotOnThreads) {
   const ScratchFolder scratch;
   const Study study = study_in(scratch);
-  const std::string one = make_trials(study, scratch.file("one"), 1), two = make_trials(study, scratch.file("two"), 2);
+  const std::string one = make_trials(study, scratch.file("one"), 1),
+                    two = make_trials(study, scratch.file("two"), 2);
   EXPECT_EQ(one, two);
   for (int n = 1; n <= 6; ++n) {
     const std::string name = "/trials/000" + std::to_string(n) + "/recording.csv";

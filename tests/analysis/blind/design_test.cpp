@@ -51,7 +51,8 @@ TEST(BlindDesign, PlansCouplingsAndSizesAreSpreadEvenlyInEveryStratum) {
 }
 
 TEST(BlindDesign, TheNumberOfATrialSaysNothingAndTheSeedEverything) {
-  const auto a = design_trials(spec(), 1), b = design_trials(spec(), 1), c = design_trials(spec(), 2);
+  const auto a = design_trials(spec(), 1), b = design_trials(spec(), 1),
+             c = design_trials(spec(), 2);
   std::size_t runs = 1, differ = 0;
   for (std::size_t k = 0; k < a.size(); ++k) {
     EXPECT_EQ(a[k].number, k + 1);
@@ -60,7 +61,8 @@ TEST(BlindDesign, TheNumberOfATrialSaysNothingAndTheSeedEverything) {
     differ += a[k].stratum != c[k].stratum;
     runs += k > 0 && a[k].stratum != a[k - 1].stratum;
   }
-  // In random order neighbours differ with probability 1 - sum of squared shares = 0.75: 239 +- 8 of 319.
+  // In random order neighbours differ with probability 1 - sum of squared shares = 0.75: 239 +- 8
+  // of 319.
   EXPECT_NEAR(static_cast<double>(runs), 239.0, 5 * 8.0);
   EXPECT_GT(differ, 150u);
 }

@@ -30,7 +30,8 @@ double at_most(std::size_t k, std::size_t n, double p) {
   double sum = 0.0;
   for (std::size_t i = 0; i <= k; ++i)
     sum += std::exp(std::lgamma(n + 1.0) - std::lgamma(i + 1.0) - std::lgamma(n - i + 1.0) +
-                    static_cast<double>(i) * std::log(p) + static_cast<double>(n - i) * std::log1p(-p));
+                    static_cast<double>(i) * std::log(p) +
+                    static_cast<double>(n - i) * std::log1p(-p));
   return sum;
 }
 

@@ -10,7 +10,8 @@ namespace {
 
 using discovery::Verdict;
 
-KeyEntry hiding(Stratum stratum, std::vector<std::pair<std::string, std::string>> terms, double size = 8.0) {
+KeyEntry hiding(Stratum stratum, std::vector<std::pair<std::string, std::string>> terms,
+                double size = 8.0) {
   KeyEntry k;
   k.plan.number = 1;
   k.plan.stratum = stratum;
@@ -49,7 +50,8 @@ TEST(BlindScore, TheRightTermOnTheWrongAxisIsConfidentlyWrong) {
 }
 
 TEST(BlindScore, ASetOfThreeHoldsItAndASetOfFourIsTooLarge) {
-  Answer a = answer(Verdict::ambiguous, {{"latitude_error", "", 0}, {"magnetic_drift", "y", 1}, {"g2_drift", "y", 2}});
+  Answer a = answer(Verdict::ambiguous,
+                    {{"latitude_error", "", 0}, {"magnetic_drift", "y", 1}, {"g2_drift", "y", 2}});
   EXPECT_TRUE(score_trial(magnetic, a).in_set);
   EXPECT_FALSE(score_trial(magnetic, a).exact);
   EXPECT_FALSE(score_trial(magnetic, a).confidently_wrong);
@@ -58,18 +60,24 @@ TEST(BlindScore, ASetOfThreeHoldsItAndASetOfFourIsTooLarge) {
 }
 
 TEST(BlindScore, ARightCauseAmongOthersIsNeitherExactNorWrong) {
-  const TrialScore s =
-      score_trial(magnetic, answer(Verdict::named, {{"magnetic_drift", "y", 0}, {"drift_ramp", "x", 0}}));
+  const TrialScore s = score_trial(
+      magnetic, answer(Verdict::named, {{"magnetic_drift", "y", 0}, {"drift_ramp", "x", 0}}));
   EXPECT_TRUE(s.extra && s.in_set);
   EXPECT_FALSE(s.exact || s.confidently_wrong);
 }
 
 TEST(BlindScore, APairNeedsBothInOneAlternative) {
   const KeyEntry pair = hiding(Stratum::pair, {{"magnetic_drift", "y"}, {"sag", "x"}});
-  EXPECT_TRUE(score_trial(pair, answer(Verdict::named, {{"sag", "x", 0}, {"magnetic_drift", "y", 0}})).exact);
-  EXPECT_TRUE(score_trial(pair, answer(Verdict::ambiguous, {{"sag", "x", 0}, {"drift_ramp", "y", 0},
-                                                            {"sag", "x", 1}, {"magnetic_drift", "y", 1}})).in_set);
-  const TrialScore apart = score_trial(pair, answer(Verdict::ambiguous, {{"sag", "x", 0}, {"magnetic_drift", "y", 1}}));
+  EXPECT_TRUE(
+      score_trial(pair, answer(Verdict::named, {{"sag", "x", 0}, {"magnetic_drift", "y", 0}}))
+          .exact);
+  EXPECT_TRUE(score_trial(pair, answer(Verdict::ambiguous, {{"sag", "x", 0},
+                                                            {"drift_ramp", "y", 0},
+                                                            {"sag", "x", 1},
+                                                            {"magnetic_drift", "y", 1}}))
+                  .in_set);
+  const TrialScore apart =
+      score_trial(pair, answer(Verdict::ambiguous, {{"sag", "x", 0}, {"magnetic_drift", "y", 1}}));
   EXPECT_FALSE(apart.in_set || apart.exact);
   const TrialScore one = score_trial(pair, answer(Verdict::named, {{"sag", "x", 0}}));
   EXPECT_FALSE(one.exact || one.confidently_wrong);
@@ -84,7 +92,8 @@ TEST(BlindScore, OnANullEverythingButConsistentIsAFalseAlarm) {
 
 TEST(BlindScore, ARandomWalkMayBeNamedWhereThereIsOneAndNowhereElse) {
   const Answer walk = answer(Verdict::named, {{"drift_random_walk", "x", 0}});
-  EXPECT_FALSE(score_trial(hiding(Stratum::wrong_noise, {{"drift_random_walk", ""}}), walk).false_alarm);
+  EXPECT_FALSE(
+      score_trial(hiding(Stratum::wrong_noise, {{"drift_random_walk", ""}}), walk).false_alarm);
   EXPECT_TRUE(score_trial(hiding(Stratum::wrong_noise, {{"outliers", ""}}), walk).false_alarm);
   EXPECT_TRUE(score_trial(hiding(Stratum::null, {}), walk).false_alarm);
 }
@@ -92,7 +101,8 @@ TEST(BlindScore, ARandomWalkMayBeNamedWhereThereIsOneAndNowhereElse) {
 TEST(BlindScore, OutsideTheLibraryEveryNameIsWrong) {
   const KeyEntry outside = hiding(Stratum::outside, {{"chirp", "x"}}, 15.0);
   EXPECT_TRUE(score_trial(outside, answer(Verdict::unexplained, {})).unexplained);
-  EXPECT_TRUE(score_trial(outside, answer(Verdict::named, {{"drift_ramp", "x", 0}})).confidently_wrong);
+  EXPECT_TRUE(
+      score_trial(outside, answer(Verdict::named, {{"drift_ramp", "x", 0}})).confidently_wrong);
 }
 
 TEST(BlindScore, PullsAreInTheUnitOfTheKey) {
@@ -126,8 +136,9 @@ TEST(BlindScore, AFailedOrMissingAnswerCountsAgainstEveryShare) {
 TEST(BlindScore, SharesOfASummaryAreThoseOfItsTrials) {
   std::vector<TrialScore> scores;
   for (int i = 0; i < 10; ++i)
-    scores.push_back(score_trial(magnetic, i < 7 ? answer(Verdict::named, {{"magnetic_drift", "y", 0}})
-                                                 : answer(Verdict::consistent, {})));
+    scores.push_back(
+        score_trial(magnetic, i < 7 ? answer(Verdict::named, {{"magnetic_drift", "y", 0}})
+                                    : answer(Verdict::consistent, {})));
   const Summary s = summarise(scores);
   ASSERT_EQ(s.power.size(), 1u);
   EXPECT_EQ(s.power[0].detected.k, 7u);
@@ -146,7 +157,8 @@ Answer twins(double cosine) {
 }
 
 TEST(BlindScore, ATwinCountsAsTheSameCauseInAScoreOfItsOwn) {
-  const KeyEntry sag = hiding(Stratum::single, {{"sag", "x"}}), cross = hiding(Stratum::single, {{"accelerometer_cross", "y"}});
+  const KeyEntry sag = hiding(Stratum::single, {{"sag", "x"}}),
+                 cross = hiding(Stratum::single, {{"accelerometer_cross", "y"}});
   EXPECT_TRUE(score_trial(sag, twins(-1.0)).exact_or_twin);
   EXPECT_FALSE(score_trial(sag, twins(-1.0)).exact);
   EXPECT_FALSE(score_trial(sag, twins(0.99)).exact_or_twin) << "alike is not the same trace";
@@ -165,7 +177,8 @@ TEST(BlindScore, ATwinCountsAsTheSameCauseInAScoreOfItsOwn) {
   // What is exact is so here too; the one twin alone, named, is not what was hidden.
   EXPECT_TRUE(score_trial(sag, answer(Verdict::named, {{"sag", "x", 0}})).exact_or_twin);
   EXPECT_FALSE(score_trial(sag, answer(Verdict::ambiguous, {})).exact_or_twin);
-  EXPECT_FALSE(score_trial(sag, answer(Verdict::named, {{"accelerometer_cross", "y", 0}})).exact_or_twin);
+  EXPECT_FALSE(
+      score_trial(sag, answer(Verdict::named, {{"accelerometer_cross", "y", 0}})).exact_or_twin);
 }
 
 TEST(BlindScore, AnswersKeepWhatACauseIsLikeAndAreReadWithoutIt) {
@@ -184,7 +197,8 @@ TEST(BlindTargets, AreDecidedOnlyByTheWholeInterval) {
   const auto standing = [](std::size_t k, std::size_t n, double low, double high) {
     return std::string(text(Target{"", proportion(k, n), low, high}.standing()));
   };
-  // Clopper and Pearson at 95 %: 20 of 20 [0.832, 1], 18 of 20 [0.683, 0.988], 2 of 20 [0.012, 0.317].
+  // Clopper and Pearson at 95 %: 20 of 20 [0.832, 1], 18 of 20 [0.683, 0.988], 2 of 20 [0.012,
+  // 0.317].
   EXPECT_EQ(standing(20, 20, 0.80, 1.0), "met");
   EXPECT_EQ(standing(20, 20, 0.98, 1.0), "met, within its interval");
   EXPECT_EQ(standing(18, 20, 0.98, 1.0), "missed, within its interval");
@@ -197,12 +211,15 @@ TEST(BlindTargets, AreDecidedOnlyByTheWholeInterval) {
 }
 
 TEST(BlindTargets, AreReportedWithTheirStanding) {
-  const Summary s = summarise({score_trial(magnetic, answer(Verdict::named, {{"magnetic_drift", "y", 0}}))});
+  const Summary s =
+      summarise({score_trial(magnetic, answer(Verdict::named, {{"magnetic_drift", "y", 0}}))});
   const std::string report = to_text(s, {}, {});
   EXPECT_NE(report.find("Of 10 targets 0 are met and 0 missed"), std::string::npos) << report;
   EXPECT_NE(report.find("10 not decided."), std::string::npos) << report;
   EXPECT_NE(report.find("1 not decided\n"), std::string::npos) << report;
-  EXPECT_NE(report.find("exact, where an identical twin counts as the same cause"), std::string::npos) << report;
+  EXPECT_NE(report.find("exact, where an identical twin counts as the same cause"),
+            std::string::npos)
+      << report;
   const std::string json = to_json(s, {}, {});
   EXPECT_NE(json.find("\"standing\": \"not decided\""), std::string::npos);
   EXPECT_NE(json.find("\"met\": true"), std::string::npos) << "by the share alone, as ever";

@@ -20,29 +20,36 @@ void expect_says(const std::string& text, const std::string& part) {
 
 TEST(Arguments, NumbersOutOfRangeNameTheRange) {
   for (const char* runs : {"0", "-1", "1e3", "99999999999999999999999", "many"})
-    expect_says(refusal("run x.toml --runs " + std::string(runs)), "(expected a whole number from 1 to 1000000000)");
+    expect_says(refusal("run x.toml --runs " + std::string(runs)),
+                "(expected a whole number from 1 to 1000000000)");
   for (const char* seed : {"-1", "0x", "18446744073709551616", "1.5"})
-    expect_says(refusal("run x.toml --seed " + std::string(seed)), "(expected a whole number from 0 to 2^63-1, or \"0x...\" up to 2^64-1)");
-  expect_says(refusal("simulate x.toml -o x.csv --run -1"), "(expected a whole number from 0 to 999999999)");
+    expect_says(refusal("run x.toml --seed " + std::string(seed)),
+                "(expected a whole number from 0 to 2^63-1, or \"0x...\" up to 2^64-1)");
+  expect_says(refusal("simulate x.toml -o x.csv --run -1"),
+              "(expected a whole number from 0 to 999999999)");
 }
 
 TEST(Arguments, UnknownCommandsAndOptionsGetTheNearestOne) {
   expect_says(refusal("runn x.toml"), "unknown command 'runn' (expected one of check, simulate, ");
   expect_says(refusal("runn x.toml"), "Did you mean 'run'?");
-  expect_says(refusal("run x.toml --frobnicate"), "unknown option '--frobnicate' (expected one of ");
+  expect_says(refusal("run x.toml --frobnicate"),
+              "unknown option '--frobnicate' (expected one of ");
   expect_says(refusal("run x.toml --thread=2"), "unknown option '--thread' (expected one of ");
   expect_says(refusal("run x.toml --thread=2"), "Did you mean '--threads'?");
   expect_says(refusal("--versoin"), "unknown option '--versoin'");
 }
 
 TEST(Arguments, AnEmptyNameIsNoPlaceForResults) {
-  for (const char* command : {"run x.toml -o ''", "simulate x.toml -o ''", "export x --format csv -o ''", "replay x --run 1 --trace ''",
-                              "identify x.toml -o ''", "rank x.toml -o ''", "blind x.toml -o ''", "diagnose x.toml r.csv -o ''"})
+  for (const char* command :
+       {"run x.toml -o ''", "simulate x.toml -o ''", "export x --format csv -o ''",
+        "replay x --run 1 --trace ''", "identify x.toml -o ''", "rank x.toml -o ''",
+        "blind x.toml -o ''", "diagnose x.toml r.csv -o ''"})
     expect_says(refusal(command), "the name is empty (expected a file or folder)");
 }
 
 TEST(Arguments, HelpIsNoMistake) {
-  for (const char* words : {"--help", "run --help"}) EXPECT_EQ(test::run_program(DRIFT_SYNTHETIC, words).code, 0) << words;
+  for (const char* words : {"--help", "run --help"})
+    EXPECT_EQ(test::run_program(DRIFT_SYNTHETIC, words).code, 0) << words;
 }
 
 }  // namespace

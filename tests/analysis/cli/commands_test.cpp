@@ -41,7 +41,8 @@ seed = 3
 )";
 
 TEST(Program, EveryConfigurationThatIsShippedIsValid) {
-  for (const auto& entry : std::filesystem::directory_iterator(std::string(DRIFT_SOURCE_DIR) + "/configs")) {
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::string(DRIFT_SOURCE_DIR) + "/configs")) {
     const Answer a = driftscope("check '" + entry.path().string() + "'");
     EXPECT_EQ(a.code, 0) << entry.path() << "\n" << a.err;
     EXPECT_NE(a.out.find("filter"), std::string::npos);
@@ -50,7 +51,8 @@ TEST(Program, EveryConfigurationThatIsShippedIsValid) {
 
 TEST(Program, CheckPrintsEveryValueAndWhereItCameFrom) {
   const ScratchFolder folder;
-  const Answer a = driftscope("check " + folder.write("s.toml", short_study) + " --set plan.dwell='20 min'");
+  const Answer a =
+      driftscope("check " + folder.write("s.toml", short_study) + " --set plan.dwell='20 min'");
   ASSERT_EQ(a.code, 0) << a.err;
   EXPECT_NE(a.out.find("20 min"), std::string::npos);
   EXPECT_NE(a.out.find("--set"), std::string::npos);
@@ -60,7 +62,8 @@ TEST(Program, CheckPrintsEveryValueAndWhereItCameFrom) {
 
 TEST(Program, MistakesInAStudyAreLocatedAndExitWith3) {
   const ScratchFolder folder;
-  const Answer a = driftscope("identify " + folder.write("s.toml", std::string(short_study) + "\n[readuot]\n"));
+  const Answer a =
+      driftscope("identify " + folder.write("s.toml", std::string(short_study) + "\n[readuot]\n"));
   EXPECT_EQ(a.code, config_error);
   EXPECT_NE(a.err.find("s.toml:"), std::string::npos) << a.err;
   EXPECT_NE(a.err.find("readout"), std::string::npos) << a.err;
@@ -69,8 +72,8 @@ TEST(Program, MistakesInAStudyAreLocatedAndExitWith3) {
 }
 
 TEST(Program, AWrongCommandLineExitsWith2) {
-  for (const char* line : {"", "bogus", "check", "simulate x.toml", "identify --threads 0 x.toml", "terms no_such_term",
-                           "check x.toml --set nonsense"})
+  for (const char* line : {"", "bogus", "check", "simulate x.toml", "identify --threads 0 x.toml",
+                           "terms no_such_term", "check x.toml --set nonsense"})
     EXPECT_EQ(driftscope(line).code, usage_error) << line;
   EXPECT_EQ(driftscope("--help").code, 0);
   EXPECT_EQ(driftscope("identify --help").code, 0);
@@ -93,7 +96,8 @@ TEST(Program, ARecordingGivesTheSameAnswerAsTheSimulationItCameFrom) {
     const Answer a = driftscope("identify " + study + " " + recording + " -o " + folder.file(out));
     ASSERT_EQ(a.code, 0) << a.err;
     const auto again = read(out);
-    for (const auto& [key, value] : direct["filters"][0]["starts"][0]["ekf"]["parameters"].items()) {
+    for (const auto& [key, value] :
+         direct["filters"][0]["starts"][0]["ekf"]["parameters"].items()) {
       const double expected = value["estimate"], sigma = value["sigma"];
       const double got = again["filters"][0]["starts"][0]["ekf"]["parameters"][key]["estimate"];
       EXPECT_NEAR(got, expected, 1e-6 * sigma) << key << " " << format;
@@ -103,10 +107,12 @@ TEST(Program, ARecordingGivesTheSameAnswerAsTheSimulationItCameFrom) {
 
 TEST(Program, IdentifyLeavesTablesPicturesAndAPage) {
   const ScratchFolder folder;
-  const Answer a = driftscope("identify " + folder.write("s.toml", short_study) + " -o " + folder.file("out"));
+  const Answer a =
+      driftscope("identify " + folder.write("s.toml", short_study) + " -o " + folder.file("out"));
   ASSERT_EQ(a.code, 0) << a.err;
-  for (const char* name : {"identification.json", "estimates.svg", "figure_corrected.svg", "figure_legacy.svg",
-                           "nis.svg", "report.html", "study.toml", "recording.csv"})
+  for (const char* name :
+       {"identification.json", "estimates.svg", "figure_corrected.svg", "figure_legacy.svg",
+        "nis.svg", "report.html", "study.toml", "recording.csv"})
     EXPECT_GT(std::filesystem::file_size(folder.file("out") + "/" + name), 100u) << name;
   const std::string page = text_of(folder.file("out") + "/report.html");
   EXPECT_EQ(page.find("http://"), page.find("http://www.w3.org"));  // nothing but the SVG namespace
@@ -119,20 +125,25 @@ TEST(Program, ResultsDoNotDependOnTheNumberOfThreads) {
   const ScratchFolder folder;
   const std::string study = folder.write("s.toml", short_study);
   for (const char* n : {"1", "2", "3"})
-    ASSERT_EQ(driftscope("identify " + study + " --threads " + n + " -o " + folder.file(n)).code, 0);
-  EXPECT_EQ(text_of(folder.file("1") + "/identification.json"), text_of(folder.file("2") + "/identification.json"));
-  EXPECT_EQ(text_of(folder.file("1") + "/identification.json"), text_of(folder.file("3") + "/identification.json"));
+    ASSERT_EQ(driftscope("identify " + study + " --threads " + n + " -o " + folder.file(n)).code,
+              0);
+  EXPECT_EQ(text_of(folder.file("1") + "/identification.json"),
+            text_of(folder.file("2") + "/identification.json"));
+  EXPECT_EQ(text_of(folder.file("1") + "/identification.json"),
+            text_of(folder.file("3") + "/identification.json"));
 }
 
 TEST(Program, ARecordingOfAnotherPlanIsRefused) {
   const ScratchFolder folder;
   const std::string study = folder.write("s.toml", short_study), recording = folder.file("r.csv");
   ASSERT_EQ(driftscope("simulate " + study + " -o " + recording).code, 0);
-  const Answer other = driftscope("identify " + study + " " + recording + " --set plan.preset='apollo10'");
+  const Answer other =
+      driftscope("identify " + study + " " + recording + " --set plan.preset='apollo10'");
   EXPECT_EQ(other.code, recording_error);
   EXPECT_NE(other.err.find("attitude in the plan"), std::string::npos) << other.err;
   EXPECT_NE(other.err.find("r.csv:"), std::string::npos) << other.err;
-  const Answer sample = driftscope("identify " + study + " " + recording + " --set plan.sample='120 s'");
+  const Answer sample =
+      driftscope("identify " + study + " " + recording + " --set plan.sample='120 s'");
   EXPECT_EQ(sample.code, recording_error) << sample.err;
 }
 
@@ -149,7 +160,8 @@ TEST(Program, AGapInATorquedSequenceIsRefused) {
     if (!(data && data_line >= 20 && data_line < 24)) kept += text.substr(at, end - at);
     at = end;
   }
-  const Answer a = driftscope("identify " + study + " --set plan.entry=torqued " + folder.write("gap.csv", kept));
+  const Answer a = driftscope("identify " + study + " --set plan.entry=torqued " +
+                              folder.write("gap.csv", kept));
   EXPECT_EQ(a.code, recording_error);
   EXPECT_NE(a.err.find("gap of"), std::string::npos) << a.err;
 }
@@ -157,7 +169,8 @@ TEST(Program, AGapInATorquedSequenceIsRefused) {
 TEST(Program, WhatCannotBeWrittenExitsWith6) {
   const ScratchFolder folder;
   const std::string study = folder.write("s.toml", short_study);
-  EXPECT_EQ(driftscope("simulate " + study + " -o " + folder.file("no/such/folder/r.csv")).code, io_error);
+  EXPECT_EQ(driftscope("simulate " + study + " -o " + folder.file("no/such/folder/r.csv")).code,
+            io_error);
   folder.write("file", "in the way");
   const Answer a = driftscope("identify " + study + " -o " + folder.file("file"));
   EXPECT_EQ(a.code, io_error) << a.err;
@@ -174,16 +187,24 @@ TEST(Program, ASureLoopWithTheTruthIsEquation6) {
   // The loop is given the true misalignments: filter eq6 is then matched, filter eq5 is not.
   const ScratchFolder folder;
   std::string text = short_study;
-  const std::string truth = "[truth]\ncoupling = \"compensated\"\nterms = [\"fixed_drift\", \"g_drift\", \"gyro_misalignment\"]\n"
-                            "[truth.parameters]\neta_x = \"300 arcsec\"\neta_y = \"0 arcsec\"\neta_z = \"0 arcsec\"\nxi = \"0 arcsec\"\n"
-                            "[truth.loop]\nestimate = \"given\"\neta_x = \"300 arcsec\"\n";
-  text.replace(text.find("[truth]\ncoupling = \"eq5\"\n"), std::string("[truth]\ncoupling = \"eq5\"\n").size(), truth);
+  const std::string truth =
+      "[truth]\ncoupling = \"compensated\"\nterms = [\"fixed_drift\", \"g_drift\", "
+      "\"gyro_misalignment\"]\n"
+      "[truth.parameters]\neta_x = \"300 arcsec\"\neta_y = \"0 arcsec\"\neta_z = \"0 arcsec\"\nxi "
+      "= \"0 arcsec\"\n"
+      "[truth.loop]\nestimate = \"given\"\neta_x = \"300 arcsec\"\n";
+  text.replace(text.find("[truth]\ncoupling = \"eq5\"\n"),
+               std::string("[truth]\ncoupling = \"eq5\"\n").size(), truth);
   text.replace(text.find("preset = \"six\""), 14, "preset = \"casespin\"");
-  const Answer a = driftscope("identify " + folder.write("s.toml", text) + " -o " + folder.file("out"));
+  const Answer a =
+      driftscope("identify " + folder.write("s.toml", text) + " -o " + folder.file("out"));
   ASSERT_EQ(a.code, 0) << a.err;
   const auto j = nlohmann::json::parse(text_of(folder.file("out") + "/identification.json"));
-  const auto cost = [&](int filter) -> double { return j["filters"][filter]["starts"][0]["batch"]["chi2_per_dof"]; };
-  // Five sigma of chi-square over its m degrees of freedom, m = 6 x 114 scalars: 5 sqrt(2/684) = 0.27.
+  const auto cost = [&](int filter) -> double {
+    return j["filters"][filter]["starts"][0]["batch"]["chi2_per_dof"];
+  };
+  // Five sigma of chi-square over its m degrees of freedom, m = 6 x 114 scalars: 5 sqrt(2/684) =
+  // 0.27.
   EXPECT_GT(cost(0), 1.27);
   EXPECT_NEAR(cost(1), 1.0, 0.27);
 }
@@ -193,9 +214,12 @@ TEST(Program, StandardOutputThatIsFullOrGoneIsNoBug) {
   const std::string study = folder.write("s.toml", short_study);
   const std::string program = std::string("'") + DRIFT_PROGRAM + "' ";
   const auto code = [&](const std::string& line) { return WEXITSTATUS(std::system(line.c_str())); };
-  EXPECT_EQ(code(program + "check " + study + " >/dev/full 2>'" + folder.file("err") + "'"), io_error);
+  EXPECT_EQ(code(program + "check " + study + " >/dev/full 2>'" + folder.file("err") + "'"),
+            io_error);
   EXPECT_EQ(text_of(folder.file("err")).find("bug"), std::string::npos);
-  EXPECT_EQ(code("(" + program + "identify " + study + " --progress none 2>'" + folder.file("err") + "') | head -n 1 >/dev/null"), 0);
+  EXPECT_EQ(code("(" + program + "identify " + study + " --progress none 2>'" + folder.file("err") +
+                 "') | head -n 1 >/dev/null"),
+            0);
   EXPECT_EQ(text_of(folder.file("err")), "");
 }
 
@@ -207,7 +231,8 @@ TEST(Program, MeasurementsBeyondReasonAreRefused) {
   const auto row = text.find("\n1200,");  // the row at 1200 s; its third comma ends `phase`
   auto comma = row;
   for (int k = 0; k < 3; ++k) comma = text.find(',', comma + 1);
-  const std::string spoiled = text.substr(0, comma + 1) + "1e300" + text.substr(text.find(',', comma + 1));
+  const std::string spoiled =
+      text.substr(0, comma + 1) + "1e300" + text.substr(text.find(',', comma + 1));
   const Answer a = driftscope("identify " + study + " " + folder.write("bad.csv", spoiled));
   EXPECT_EQ(a.code, recording_error);
   EXPECT_NE(a.err.find("acc_x"), std::string::npos) << a.err;
@@ -220,7 +245,10 @@ TEST(Program, TheTruthOfLambdaIsTheEquationThatMadeTheData) {
   text.replace(text.find("coupling = \"eq6\""), 16, "coupling = \"lambda\"");
   const std::string study = folder.write("s.toml", text);
   for (const auto& [coupling, lambda] : {std::pair{"eq5", 0.0}, {"eq6", 1.0}, {"servo", 1.0}}) {
-    ASSERT_EQ(driftscope("identify " + study + " --set truth.coupling=" + coupling + " -o " + folder.file(coupling)).code, 0);
+    ASSERT_EQ(driftscope("identify " + study + " --set truth.coupling=" + coupling + " -o " +
+                         folder.file(coupling))
+                  .code,
+              0);
     const auto j = nlohmann::json::parse(text_of(folder.file(coupling) + "/identification.json"));
     EXPECT_EQ(j["filters"][1]["parameters"]["lambda"]["truth"].get<double>(), lambda) << coupling;
   }
@@ -230,8 +258,10 @@ TEST(Program, IdentifiesWithTermsThatNeedCovariates) {
   const ScratchFolder folder;
   std::string text = short_study;
   const std::string terms =
-      "\nterms = [\"fixed_drift\", \"magnetic_drift\", \"temperature_drift\", \"encoder_harmonics\"]";
-  for (std::size_t at = text.find("coupling"); at != std::string::npos; at = text.find("coupling", at + 1))
+      "\nterms = [\"fixed_drift\", \"magnetic_drift\", \"temperature_drift\", "
+      "\"encoder_harmonics\"]";
+  for (std::size_t at = text.find("coupling"); at != std::string::npos;
+       at = text.find("coupling", at + 1))
     text.insert(text.find('\n', at), terms);
   const std::string bare = folder.write("bare.toml", text);
   const std::string study = folder.write("s.toml", text + R"(
@@ -263,15 +293,20 @@ field_u = "-0.48 gauss"
 TEST(Program, TermsAndVersionAnswer) {
   const Answer all = driftscope("terms");
   EXPECT_EQ(all.code, 0);
-  for (const char* key : {"fixed_drift", "g_drift", "g2_drift", "gyro_misalignment", "torquer_scale", "accelerometer", "frame_closure"})
+  for (const char* key : {"fixed_drift", "g_drift", "g2_drift", "gyro_misalignment",
+                          "torquer_scale", "accelerometer", "frame_closure"})
     EXPECT_NE(all.out.find(key), std::string::npos) << key;
-  const std::string heat = driftscope("terms torquer_heating").out;  // memory, and a profiled time constant
-  for (const char* text : {"heat_i h_i", "3 states", "heat_tau", "profiled over 8, 12, 20, 30", "physics.md 4, no. 21"})
+  const std::string heat =
+      driftscope("terms torquer_heating").out;  // memory, and a profiled time constant
+  for (const char* text : {"heat_i h_i", "3 states", "heat_tau", "profiled over 8, 12, 20, 30",
+                           "physics.md 4, no. 21"})
     EXPECT_NE(heat.find(text), std::string::npos) << text;
-  EXPECT_NE(driftscope("terms M_y").out.find("field_n, field_w, field_u [gauss]"), std::string::npos);
+  EXPECT_NE(driftscope("terms M_y").out.find("field_n, field_w, field_u [gauss]"),
+            std::string::npos);
   EXPECT_NE(driftscope("terms eta_x").out.find("toward the spin axis"), std::string::npos);
   const auto j = nlohmann::json::parse(driftscope("version --json").out);
-  EXPECT_TRUE(j.contains("driftscope") && j.contains("compiler") && j["libraries"].contains("SUNDIALS"));
+  EXPECT_TRUE(j.contains("driftscope") && j.contains("compiler") &&
+              j["libraries"].contains("SUNDIALS"));
 }
 
 }  // namespace

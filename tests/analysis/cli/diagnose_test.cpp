@@ -1,7 +1,6 @@
 // `driftscope diagnose` as a user runs it.
-#include <nlohmann/json.hpp>
-
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "core/base/check.hpp"
 #include "core/sim/recording.hpp"
@@ -28,18 +27,24 @@ std::string tilted_case(const ScratchFolder& folder) {
 
 TEST(DiagnoseCommand, NamesWhatACaseLacksAndLeavesAReport) {
   const ScratchFolder folder;
-  const Answer a = driftscope("diagnose " + config("diagnose_xsens.toml") + " " + tilted_case(folder) + " -o " + folder.file("out"));
+  const Answer a = driftscope("diagnose " + config("diagnose_xsens.toml") + " " +
+                              tilted_case(folder) + " -o " + folder.file("out"));
   ASSERT_EQ(a.code, 0) << a.err;
-  EXPECT_NE(a.out.find("Verdict named: The nominal model lacks misalignment of the gyro input axes (gyro_misalignment"), std::string::npos) << a.out;
+  EXPECT_NE(a.out.find("Verdict named: The nominal model lacks misalignment of the gyro input axes "
+                       "(gyro_misalignment"),
+            std::string::npos)
+      << a.out;
   const auto json = nlohmann::json::parse(text_of(folder.file("out") + "/diagnosis.json"));
   EXPECT_EQ(json["verdict"], "named");
   EXPECT_EQ(json["causes"][0]["term"], "gyro_misalignment");
   EXPECT_EQ(json["model"], "patched.toml");
-  for (const char* name : {"report.html", "residual_signal.csv", "identification.json", "study.toml", "where.svg"})
+  for (const char* name :
+       {"report.html", "residual_signal.csv", "identification.json", "study.toml", "where.svg"})
     EXPECT_GT(std::filesystem::file_size(folder.file("out") + "/" + name), 100u) << name;
   const Answer check = driftscope("check " + folder.file("out") + "/patched.toml");
   EXPECT_EQ(check.code, 0) << check.err;
-  const Answer again = driftscope("diagnose " + folder.file("out") + "/patched.toml " + folder.file("case.csv"));
+  const Answer again =
+      driftscope("diagnose " + folder.file("out") + "/patched.toml " + folder.file("case.csv"));
   EXPECT_EQ(again.code, 0) << again.err;
   EXPECT_NE(again.out.find("Verdict consistent"), std::string::npos) << again.out;
 }
@@ -47,14 +52,17 @@ TEST(DiagnoseCommand, NamesWhatACaseLacksAndLeavesAReport) {
 TEST(DiagnoseCommand, AFolderThatCannotBeWrittenIsSaidBeforeAnythingIsComputed) {
   const ScratchFolder folder;
   const std::string file = folder.write("file", "no folder"), recording = tilted_case(folder);
-  for (const std::string& out : {file + "/out", std::string("/proc/no/folder"), std::string("/proc/self")}) {
-    const Answer a = driftscope("diagnose " + config("diagnose_xsens.toml") + " " + recording + " -o " + out);
+  for (const std::string& out :
+       {file + "/out", std::string("/proc/no/folder"), std::string("/proc/self")}) {
+    const Answer a =
+        driftscope("diagnose " + config("diagnose_xsens.toml") + " " + recording + " -o " + out);
     EXPECT_EQ(a.code, static_cast<int>(ExitCode::io)) << out;
     EXPECT_NE(a.err.find(out + ": cannot be written"), std::string::npos) << a.err;
     EXPECT_EQ(a.out, "") << "the recording is not even read";
   }
   // A folder that can be written is not made for a recording that cannot be read.
-  const Answer a = driftscope("diagnose " + config("diagnose_xsens.toml") + " " + folder.file("absent.csv") + " -o " + folder.file("a/b/c"));
+  const Answer a = driftscope("diagnose " + config("diagnose_xsens.toml") + " " +
+                              folder.file("absent.csv") + " -o " + folder.file("a/b/c"));
   EXPECT_NE(a.code, 0);
   EXPECT_FALSE(std::filesystem::exists(folder.file("a")));
 }
@@ -73,7 +81,8 @@ sample = "60 s"
 coupling = "eq5"
 terms    = ["fixed_drift", "g_drift", "gyro_misalignment", "D_SS_x"]
 [truth.parameters]
-D_SS_x = ")" + size + R"("
+D_SS_x = ")" +
+         size + R"("
 [[filter]]
 name     = "nominal"
 coupling = "eq5"
@@ -85,9 +94,11 @@ seed = 3
 
 TEST(DiagnoseCommand, NamesWhatAPlatformLacksAndItsPatchedStudyIsConsistent) {
   const ScratchFolder folder;
-  const std::string study = folder.write("s.toml", platform_study("0.3 deg/h/g^2")), recording = folder.file("r.csv");
+  const std::string study = folder.write("s.toml", platform_study("0.3 deg/h/g^2")),
+                    recording = folder.file("r.csv");
   ASSERT_EQ(driftscope("simulate " + study + " -o " + recording).code, 0);
-  const Answer a = driftscope("diagnose " + study + " " + recording + " --threads 2 --progress json -o " + folder.file("out"));
+  const Answer a = driftscope("diagnose " + study + " " + recording +
+                              " --threads 2 --progress json -o " + folder.file("out"));
   ASSERT_EQ(a.code, 0) << a.err;
   // Every stage is told on stderr, with the time that is left.
   for (const char* stage : {"fit", "examine", "search", "held out", "locate", "starts"})
@@ -112,8 +123,10 @@ TEST(DiagnoseCommand, NamesWhatAPlatformLacksAndItsPatchedStudyIsConsistent) {
 TEST(DiagnoseCommand, OfSeveralRecordingsSaysWhichOneATimeBelongsTo) {
   const ScratchFolder folder;
   std::string text = platform_study("0.3 deg/h/g^2");  // every run is of one and the same platform
-  text.insert(text.find("[[filter]]"), "D_F = \"0.2 deg/h\"\nD_I = \"1 deg/h/g\"\nD_O = \"0.1 deg/h/g\"\nD_S = \"-1 deg/h/g\"\n"
-                                       "eta = \"100 arcsec\"\nxi = \"-80 arcsec\"\n");
+  text.insert(
+      text.find("[[filter]]"),
+      "D_F = \"0.2 deg/h\"\nD_I = \"1 deg/h/g\"\nD_O = \"0.1 deg/h/g\"\nD_S = \"-1 deg/h/g\"\n"
+      "eta = \"100 arcsec\"\nxi = \"-80 arcsec\"\n");
   const std::string study = folder.write("s.toml", text);
   std::string recordings;
   for (const char* run : {"0", "1"}) {
@@ -121,9 +134,11 @@ TEST(DiagnoseCommand, OfSeveralRecordingsSaysWhichOneATimeBelongsTo) {
     ASSERT_EQ(driftscope("simulate " + study + " -o " + path + " --run " + run).code, 0);
     recordings += " " + path;
   }
-  const Answer a = driftscope("diagnose " + study + recordings + " --progress none -o " + folder.file("out"));
+  const Answer a =
+      driftscope("diagnose " + study + recordings + " --progress none -o " + folder.file("out"));
   ASSERT_EQ(a.code, 0) << a.err;
-  EXPECT_NE(a.out.find("r1.csv begins at 7200 s (0 s of its own time)"), std::string::npos) << a.out;
+  EXPECT_NE(a.out.find("r1.csv begins at 7200 s (0 s of its own time)"), std::string::npos)
+      << a.out;
   const auto json = nlohmann::json::parse(text_of(folder.file("out") + "/diagnosis.json"));
   const auto& spans = json["where"]["recordings"];
   ASSERT_EQ(spans.size(), 2u);
@@ -132,20 +147,25 @@ TEST(DiagnoseCommand, OfSeveralRecordingsSaysWhichOneATimeBelongsTo) {
   ASSERT_EQ(json["verdict"], "named") << a.out;
   EXPECT_EQ(json["fit"]["held_out"]["by_recording"]["each"][1]["name"], "recording 2, r1.csv");
   ASSERT_FALSE(json["where"]["windows"].empty());
-  for (const auto& w : json["where"]["windows"]) EXPECT_EQ(w["recording"], w["start_s"] < 7200.0 ? "r0.csv" : "r1.csv");
+  for (const auto& w : json["where"]["windows"])
+    EXPECT_EQ(w["recording"], w["start_s"] < 7200.0 ? "r0.csv" : "r1.csv");
   const std::string csv = text_of(folder.file("out") + "/residual_signal.csv");
   EXPECT_NE(csv.find(",unit,recording\n"), std::string::npos);
-  for (const char* name : {",r0.csv\n", ",r1.csv\n"}) EXPECT_NE(csv.find(name), std::string::npos) << name;
+  for (const char* name : {",r0.csv\n", ",r1.csv\n"})
+    EXPECT_NE(csv.find(name), std::string::npos) << name;
 }
 
 TEST(DiagnoseCommand, TheWrongPlanIsSaidAndOddInputIsRemarked) {
   const ScratchFolder folder;
-  const std::string study = folder.write("s.toml", platform_study("0 deg/h/g^2")), recording = folder.file("r.csv");
+  const std::string study = folder.write("s.toml", platform_study("0 deg/h/g^2")),
+                    recording = folder.file("r.csv");
   ASSERT_EQ(driftscope("simulate " + study + " -o " + recording).code, 0);
-  const Answer wrong = driftscope("diagnose " + study + " " + recording + " --set plan.preset=twelve --set plan.sample='30 s'");
+  const Answer wrong = driftscope("diagnose " + study + " " + recording +
+                                  " --set plan.preset=twelve --set plan.sample='30 s'");
   EXPECT_EQ(wrong.code, recording_error);
   EXPECT_NE(wrong.err.find("samples are 60 s apart"), std::string::npos) << wrong.err;
-  const Answer other = driftscope("diagnose " + study + " " + recording + " --set plan.preset=apollo10");
+  const Answer other =
+      driftscope("diagnose " + study + " " + recording + " --set plan.preset=apollo10");
   EXPECT_EQ(other.code, recording_error);
   EXPECT_NE(other.err.find("Is this the plan"), std::string::npos) << other.err;
   // A channel that stands still is left out, and said; nothing is blamed for it.
@@ -155,13 +175,15 @@ TEST(DiagnoseCommand, TheWrongPlanIsSaidAndOddInputIsRemarked) {
   write_recording(r, folder.file("stuck.csv"));
   const Answer stuck = driftscope("diagnose " + study + " " + folder.file("stuck.csv"));
   EXPECT_EQ(stuck.code, 0) << stuck.err;
-  EXPECT_NE(stuck.out.find("gimbal_inner stands still for 120 samples"), std::string::npos) << stuck.out;
+  EXPECT_NE(stuck.out.find("gimbal_inner stands still for 120 samples"), std::string::npos)
+      << stuck.out;
   EXPECT_NE(stuck.out.find("Verdict consistent"), std::string::npos) << stuck.out;
 }
 
 TEST(DiagnoseCommand, AnAbsentChannelIsAnEmptyOne) {
   const ScratchFolder folder;
-  const std::string study = folder.write("s.toml", platform_study("0.3 deg/h/g^2")), recording = folder.file("r.csv");
+  const std::string study = folder.write("s.toml", platform_study("0.3 deg/h/g^2")),
+                    recording = folder.file("r.csv");
   ASSERT_EQ(driftscope("simulate " + study + " -o " + recording).code, 0);
   Recording r = read_recording(recording, RecordingKind::platform, 9.80665);
   for (Channel& c : r.channels)
@@ -174,7 +196,10 @@ TEST(DiagnoseCommand, AnAbsentChannelIsAnEmptyOne) {
   ASSERT_EQ(absent.code, 0) << absent.err;
   EXPECT_NE(absent.out.find("no acc_z: taken as not measured"), std::string::npos) << absent.out;
   EXPECT_NE(absent.out.find("would show is not seen"), std::string::npos) << absent.out;
-  const auto answer = [](const std::string& out) { return out.substr(out.find("\nVerdict"), out.find("\n!", out.find("\nVerdict")) - out.find("\nVerdict")); };
+  const auto answer = [](const std::string& out) {
+    return out.substr(out.find("\nVerdict"),
+                      out.find("\n!", out.find("\nVerdict")) - out.find("\nVerdict"));
+  };
   EXPECT_EQ(answer(absent.out), answer(empty.out));
   EXPECT_NE(absent.out.find("D_SS_x"), std::string::npos) << absent.out;
   EXPECT_EQ(driftscope("identify " + study + " " + folder.file("absent.csv")).code, 0);
@@ -182,11 +207,13 @@ TEST(DiagnoseCommand, AnAbsentChannelIsAnEmptyOne) {
 
 TEST(DiagnoseCommand, AdvisesOnRequest) {
   const ScratchFolder folder;
-  const std::string study = folder.write("s.toml", platform_study("0 deg/h/g^2")), recording = folder.file("r.csv");
+  const std::string study = folder.write("s.toml", platform_study("0 deg/h/g^2")),
+                    recording = folder.file("r.csv");
   ASSERT_EQ(driftscope("simulate " + study + " -o " + recording).code, 0);
   const std::string diagnose = "diagnose " + study + " " + recording;
   EXPECT_EQ(driftscope(diagnose).out.find("one prior sigma"), std::string::npos);
-  const Answer a = driftscope(diagnose + " --advise torquer_heating.x,sag -o " + folder.file("out"));
+  const Answer a =
+      driftscope(diagnose + " --advise torquer_heating.x,sag -o " + folder.file("out"));
   ASSERT_EQ(a.code, 0) << a.err;
   const auto json = nlohmann::json::parse(text_of(folder.file("out") + "/diagnosis.json"));
   EXPECT_EQ(json["verdict"], "consistent");
@@ -201,16 +228,22 @@ TEST(DiagnoseCommand, AdvisesOnRequest) {
   EXPECT_EQ(wrong.code, static_cast<int>(ExitCode::usage));
   EXPECT_NE(wrong.err.find("Did you mean 'sag'"), std::string::npos) << wrong.err;
   EXPECT_NE(wrong.err.find("D_F_x"), std::string::npos) << wrong.err;
-  EXPECT_EQ(driftscope("diagnose " + config("diagnose_xsens.toml") + " " + tilted_case(folder) + " --advise").code,
+  EXPECT_EQ(driftscope("diagnose " + config("diagnose_xsens.toml") + " " + tilted_case(folder) +
+                       " --advise")
+                .code,
             static_cast<int>(ExitCode::usage));
 }
 
 TEST(DiagnoseCommand, RefusesWhatItCannotDiagnose) {
   const ScratchFolder folder;
-  EXPECT_EQ(driftscope("diagnose " + config("diagnose_xsens.toml")).code, static_cast<int>(ExitCode::usage));
-  EXPECT_EQ(driftscope("diagnose " + config("diagnose_xsens.toml") + " " + folder.file("absent.csv")).code,
-            static_cast<int>(ExitCode::io));
-  const std::string no_gyros = folder.write("r.csv", "time [s],acc_x [g],acc_y [g],acc_z [g]\n1,0,0,1\n2,0,0,1\n");
+  EXPECT_EQ(driftscope("diagnose " + config("diagnose_xsens.toml")).code,
+            static_cast<int>(ExitCode::usage));
+  EXPECT_EQ(
+      driftscope("diagnose " + config("diagnose_xsens.toml") + " " + folder.file("absent.csv"))
+          .code,
+      static_cast<int>(ExitCode::io));
+  const std::string no_gyros =
+      folder.write("r.csv", "time [s],acc_x [g],acc_y [g],acc_z [g]\n1,0,0,1\n2,0,0,1\n");
   const Answer a = driftscope("diagnose " + config("diagnose_xsens.toml") + " " + no_gyros);
   EXPECT_EQ(a.code, recording_error);
   EXPECT_NE(a.err.find("gyro_x"), std::string::npos) << a.err;

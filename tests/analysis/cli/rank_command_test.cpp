@@ -1,7 +1,6 @@
 // `driftscope rank` as a user runs it.
-#include <nlohmann/json.hpp>
-
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "core/base/check.hpp"
 #include "tests/support/program.hpp"
@@ -37,7 +36,9 @@ name     = "legacy"
 coupling = "eq6"
 )";
 
-std::string study(const std::string& positions = plan) { return head + positions + tail; }
+std::string study(const std::string& positions = plan) {
+  return head + positions + tail;
+}
 
 Json parsed(const Answer& a) {
   EXPECT_EQ(a.code, 0) << a.err;
@@ -49,7 +50,8 @@ TEST(RankCommand, RanksBothEquationsSideBySide) {
   const std::string file = folder.write("s.toml", study());
   const Answer text = driftscope("rank '" + file + "'");
   ASSERT_EQ(text.code, 0) << text.err;
-  for (const char* part : {"Ranking for corrected, legacy", "eq5", "eq6", "D_F_x - D_II_x - D_OO_x - D_SS_x", "PWCS: rank 36 of 63"})
+  for (const char* part : {"Ranking for corrected, legacy", "eq5", "eq6",
+                           "D_F_x - D_II_x - D_OO_x - D_SS_x", "PWCS: rank 36 of 63"})
     EXPECT_NE(text.out.find(part), std::string::npos) << part << "\n" << text.out;
   const Json json = parsed(driftscope("rank '" + file + "' --json"));
   ASSERT_EQ(json["filters"].size(), 1u);  // same terms and priors: one group
@@ -61,7 +63,8 @@ TEST(RankCommand, RanksBothEquationsSideBySide) {
     for (const Json& p : model["parameters"]) {
       EXPECT_GE(p["learning_ratio"].get<double>(), last);
       last = p["learning_ratio"].get<double>();
-      EXPECT_NEAR(p["posterior_sigma"].get<double>(), last * p["prior_sigma"].get<double>(), 1e-9 * p["prior_sigma"].get<double>());
+      EXPECT_NEAR(p["posterior_sigma"].get<double>(), last * p["prior_sigma"].get<double>(),
+                  1e-9 * p["prior_sigma"].get<double>());
       if (p["key"] == "D_I_z") EXPECT_DOUBLE_EQ(p["nominal"].get<double>(), 1.45);
     }
     EXPECT_LE(last, 1.0 + 1e-12);
@@ -74,17 +77,23 @@ TEST(RankCommand, RanksBothEquationsSideBySide) {
 void paste_and_rank(const std::string& before_paste, bool preset, const std::string& criterion) {
   const ScratchFolder folder;
   const std::string first = folder.write("a.toml", study(before_paste));
-  const Json promise = parsed(driftscope("rank '" + first + "' --json --progress none --improve 2 --criterion " + criterion))["improvement"];
+  const Json promise =
+      parsed(driftscope("rank '" + first + "' --json --progress none --improve 2 --criterion " +
+                        criterion))["improvement"];
   ASSERT_EQ(promise["steps"].size(), 2u);
   const std::string proposed = promise["toml"].get<std::string>();
-  const std::string second = folder.write("b.toml", study((preset ? "[plan]\n" : before_paste) + proposed));
+  const std::string second =
+      folder.write("b.toml", study((preset ? "[plan]\n" : before_paste) + proposed));
   const Json ranked = parsed(driftscope("rank '" + second + "' --json"));
   EXPECT_NEAR(ranked["plan"]["hours"].get<double>(),
-              parsed(driftscope("rank '" + first + "' --json"))["plan"]["hours"].get<double>() + promise["hours_added"].get<double>(), 1e-9);
+              parsed(driftscope("rank '" + first + "' --json"))["plan"]["hours"].get<double>() +
+                  promise["hours_added"].get<double>(),
+              1e-9);
   int better = 0;
   for (const Json& p : ranked["filters"][0]["models"][0]["parameters"]) {
     const Json& sigma = promise["sigma"][p["key"].get<std::string>()];
-    EXPECT_NEAR(p["posterior_sigma"].get<double>() / sigma["after"].get<double>(), 1.0, 0.01) << p["key"];
+    EXPECT_NEAR(p["posterior_sigma"].get<double>() / sigma["after"].get<double>(), 1.0, 0.01)
+        << p["key"];
     EXPECT_LE(sigma["after"].get<double>(), sigma["before"].get<double>() * (1.0 + 1e-9));
     better += sigma["after"].get<double>() < 0.9 * sigma["before"].get<double>();
   }
@@ -100,10 +109,13 @@ dwell  = "60 min"
 sample = "10 min"
 mode   = "free"
 )";
-  const Json rank = Json::parse(run_program(DRIFT_PROGRAM, "rank --json " + scratch.write("free.toml", study(free))).out);
+  const Json rank = Json::parse(
+      run_program(DRIFT_PROGRAM, "rank --json " + scratch.write("free.toml", study(free))).out);
   const auto factor = [&](const Json& model, const std::string& key) {
     for (const Json& p : model["parameters"])
-      if (p["key"] == key) return p["learning_ratio_at_drawn_truths"][1].get<double>() / p["learning_ratio"].get<double>();
+      if (p["key"] == key)
+        return p["learning_ratio_at_drawn_truths"][1].get<double>() /
+               p["learning_ratio"].get<double>();
     return 0.0;
   };
   const Json& models = rank["filters"][0]["models"];
@@ -111,7 +123,9 @@ mode   = "free"
   EXPECT_GT(factor(models[1], "D_O_x"), 3.0);
 }
 
-TEST(RankCommand, ProposedPositionsKeepTheirPromiseWhenPastedForAPreset) { paste_and_rank(plan, true, "A"); }
+TEST(RankCommand, ProposedPositionsKeepTheirPromiseWhenPastedForAPreset) {
+  paste_and_rank(plan, true, "A");
+}
 
 TEST(RankCommand, ProposedPositionsKeepTheirPromiseWhenPastedBehindSlews) {
   paste_and_rank(R"([plan]
@@ -124,28 +138,34 @@ axes = "x=N y=W z=U"
 [[plan.position]]
 axes = "x=N y=U z=E"
 mode = "level"
-)", false, "eta_z");
+)",
+                 false, "eta_z");
 }
 
 TEST(RankCommand, WritesAFolderThatStandsAlone) {
   const ScratchFolder folder;
   const std::string file = folder.write("s.toml", study());
-  const Answer a = driftscope("rank '" + file + "' --improve 1 --progress none -o '" + folder.file("out") + "'");
+  const Answer a =
+      driftscope("rank '" + file + "' --improve 1 --progress none -o '" + folder.file("out") + "'");
   ASSERT_EQ(a.code, 0) << a.err;
   const std::string page = text_of(folder.file("out/report.html"));
   EXPECT_NE(page.find("rank &lt;me&gt;"), std::string::npos);
   EXPECT_EQ(page.find("rank <me>"), std::string::npos);
   EXPECT_EQ(page.find("<script"), std::string::npos);
   for (const char* name : {"learning.svg", "spectrum.svg", "positions.svg", "improvement.svg"})
-    EXPECT_EQ(drift::testing::xml_problem(text_of(folder.file(std::string("out/") + name))), std::nullopt) << name;
+    EXPECT_EQ(drift::testing::xml_problem(text_of(folder.file(std::string("out/") + name))),
+              std::nullopt)
+        << name;
   EXPECT_EQ(Json::parse(text_of(folder.file("out/rank.json")))["improvement"]["criterion"], "A");
-  EXPECT_NE(text_of(folder.file("out/proposed_positions.toml")).find("[[plan.position]]"), std::string::npos);
+  EXPECT_NE(text_of(folder.file("out/proposed_positions.toml")).find("[[plan.position]]"),
+            std::string::npos);
 }
 
 TEST(RankCommand, DoesNotDependOnThreads) {
   const ScratchFolder folder;
   const std::string file = folder.write("s.toml", study());
-  const std::string line = "rank '" + file + "' --json --progress none --improve 1 --set plan.entry=torqued --threads ";
+  const std::string line =
+      "rank '" + file + "' --json --progress none --improve 1 --set plan.entry=torqued --threads ";
   EXPECT_EQ(driftscope(line + "1").out, driftscope(line + "3").out);
 }
 
@@ -162,7 +182,8 @@ TEST(RankCommand, SaysWhatIsWrongWithWhatItIsAsked) {
   EXPECT_EQ(driftscope("rank " + test::config("strapdown_xsens.toml")).code, config);
   const std::string unfiltered = study().substr(0, study().find("[[filter]]"));
   EXPECT_EQ(driftscope("rank '" + folder.write("f.toml", unfiltered) + "'").code, config);
-  EXPECT_EQ(driftscope("rank '" + file + "' -o /dev/null/out").code, static_cast<int>(ExitCode::io));
+  EXPECT_EQ(driftscope("rank '" + file + "' -o /dev/null/out").code,
+            static_cast<int>(ExitCode::io));
 }
 
 }  // namespace

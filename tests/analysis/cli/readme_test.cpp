@@ -26,10 +26,11 @@ TEST(Readme, EveryCommandWorks) {
       }
       arguments.replace(shared, 9, (source / "../shared").string());
     }
-    if (arguments.starts_with("run ") && arguments.find("--runs") == std::string::npos) arguments += " --runs 4";
+    if (arguments.starts_with("run ") && arguments.find("--runs") == std::string::npos)
+      arguments += " --runs 4";
     if (arguments.starts_with("blind configs/blind.toml")) arguments += " --trials 8";
-    const std::string command =
-        "export SLURM_ARRAY_TASK_ID=0; cd '" + folder.path() + "' && '" + DRIFT_PROGRAM + "' " + arguments + " >out.txt 2>err.txt";
+    const std::string command = "export SLURM_ARRAY_TASK_ID=0; cd '" + folder.path() + "' && '" +
+                                DRIFT_PROGRAM + "' " + arguments + " >out.txt 2>err.txt";
     EXPECT_EQ(std::system(command.c_str()), 0) << line << "\n" << text_of(folder.file("err.txt"));
     ++run;
   }

@@ -1,4 +1,5 @@
-// What the commands that look into a results folder say of lost, damaged, unfinished and extended results.
+// What the commands that look into a results folder say of lost, damaged, unfinished and extended
+// results.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -14,12 +15,19 @@ using test::Answer;
 using test::ScratchFolder;
 namespace fs = std::filesystem;
 
-Answer program(const std::string& arguments) { return test::run_program(DRIFT_SYNTHETIC, arguments); }
+Answer program(const std::string& arguments) {
+  return test::run_program(DRIFT_SYNTHETIC, arguments);
+}
 
-std::string study_file(const ScratchFolder& scratch, const std::string& words, const std::string& runs = "200") {
-  return scratch.write("study.toml", "schema = 1\ntitle = \"synthetic " + words + "\"\n[site]\nlatitude = \"45.75 deg\"\n"
-                                     "[plan]\npreset = \"six\"\n[truth]\ncoupling = \"eq5\"\n[[filter]]\nname = \"eq5\"\n"
-                                     "coupling = \"eq5\"\n[monte_carlo]\nruns = " + runs + "\nseed = 7\nallowed_failures = 99\n");
+std::string study_file(const ScratchFolder& scratch, const std::string& words,
+                       const std::string& runs = "200") {
+  return scratch.write(
+      "study.toml",
+      "schema = 1\ntitle = \"synthetic " + words +
+          "\"\n[site]\nlatitude = \"45.75 deg\"\n"
+          "[plan]\npreset = \"six\"\n[truth]\ncoupling = \"eq5\"\n[[filter]]\nname = \"eq5\"\n"
+          "coupling = \"eq5\"\n[monte_carlo]\nruns = " +
+          runs + "\nseed = 7\nallowed_failures = 99\n");
 }
 
 void expect_says(const std::string& text, const std::string& part) {
@@ -29,7 +37,8 @@ void expect_says(const std::string& text, const std::string& part) {
 TEST(StoreCommands, ResultsThatWereThereAreMissed) {
   for (const bool removed : {true, false}) {
     const ScratchFolder scratch;
-    const std::string config = study_file(scratch, "points=2"), out = scratch.file("out"), file = out + "/worker-0000.sqlite";
+    const std::string config = study_file(scratch, "points=2"), out = scratch.file("out"),
+                      file = out + "/worker-0000.sqlite";
     const Answer run = program("run " + config + " -o " + out);
     ASSERT_EQ(run.code, 0) << run.err;
     if (removed) {
@@ -40,10 +49,13 @@ TEST(StoreCommands, ResultsThatWereThereAreMissed) {
     const Answer verify = program("verify " + out);
     EXPECT_EQ(verify.code, 7) << verify.out;
     expect_says(verify.out, "0 blocks with 0 runs, 8 missing");
-    expect_says(verify.out, "lost: point 1, runs 0 to 199: not there, though the study was complete");
+    expect_says(verify.out,
+                "lost: point 1, runs 0 to 199: not there, though the study was complete");
     const Answer status = program("status " + out);
     expect_says(status.out, "0 of 400 runs, 0 failed, 0 of 2 points complete");
-    expect_says(status.out, "lost: the study was complete with 200 runs per point; of 2 of 2 points results are not there");
+    expect_says(status.out,
+                "lost: the study was complete with 200 runs per point; of 2 of 2 points results "
+                "are not there");
     const Answer exported = program("export " + out + " --format csv");
     EXPECT_EQ(exported.code, 7);
     EXPECT_FALSE(fs::exists(out + "/export.csv"));
@@ -58,7 +70,8 @@ TEST(StoreCommands, AStudyThatWasExtendedIsMissedToItsNewEnd) {
   ASSERT_EQ(program("run " + config + " -o " + out).code, 0);
   const Answer longer = program("run " + config + " --runs 300 -o " + out);
   expect_says(longer.err, "192 runs stored before, 108 executed");
-  expect_says(longer.err, "8 runs more were stored in blocks that the shorter study before ended within");
+  expect_says(longer.err,
+              "8 runs more were stored in blocks that the shorter study before ended within");
   const Answer shorter = program("run " + config + " --runs 20 -o " + out);
   EXPECT_EQ(shorter.out, longer.out);
   expect_says(shorter.err, "300 runs per point were asked for before, 20 now");
@@ -83,7 +96,8 @@ TEST(StoreCommands, AnUnfinishedStudyIsExportedWithAWord) {
 
 TEST(StoreCommands, ADamagedFolderIsNotExported) {
   const ScratchFolder scratch;
-  const std::string config = study_file(scratch, ""), out = scratch.file("out"), file = out + "/worker-0000.sqlite";
+  const std::string config = study_file(scratch, ""), out = scratch.file("out"),
+                    file = out + "/worker-0000.sqlite";
   ASSERT_EQ(program("run " + config + " -o " + out).code, 0);
   std::string bytes = test::text_of(file);
   bytes[bytes.size() - 2000] = static_cast<char>(bytes[bytes.size() - 2000] ^ 1);  // in a payload
@@ -95,7 +109,8 @@ TEST(StoreCommands, ADamagedFolderIsNotExported) {
 
 TEST(StoreCommands, AnExportReplacesAnEarlierOneAndNothingElse) {
   const ScratchFolder scratch;
-  const std::string config = study_file(scratch, ""), out = scratch.file("out"), other = scratch.file("other");
+  const std::string config = study_file(scratch, ""), out = scratch.file("out"),
+                    other = scratch.file("other");
   ASSERT_EQ(program("run " + config + " -o " + out).code, 0);
   ASSERT_EQ(program("run " + config + " --seed 8 -o " + other).code, 0);
   for (const std::string format : {"csv", "json", "hdf5"}) {
@@ -109,7 +124,8 @@ TEST(StoreCommands, AnExportReplacesAnEarlierOneAndNothingElse) {
     expect_says(refused.err, "is the export of another study");
     EXPECT_EQ(test::text_of(file), before);
     scratch.write("notes", "mine");
-    EXPECT_EQ(program("export " + out + " --format " + format + " -o " + scratch.file("notes")).code, 7);
+    EXPECT_EQ(
+        program("export " + out + " --format " + format + " -o " + scratch.file("notes")).code, 7);
     EXPECT_EQ(test::text_of(scratch.file("notes")), "mine");
   }
   ASSERT_EQ(mkfifo(scratch.file("pipe").c_str(), 0600), 0);
@@ -123,7 +139,9 @@ TEST(StoreCommands, ADiskThatIsFullEndsEveryExportWithExitCode6) {
   const std::string config = study_file(scratch, "columns=40", "2000"), out = scratch.file("out");
   ASSERT_EQ(program("run " + config + " -o " + out).code, 0);
   for (const std::string format : {"csv", "json", "hdf5"}) {
-    const Answer full = test::run_program("/bin/bash", "-c \"ulimit -f 200; '" DRIFT_SYNTHETIC "' export " + out + " --format " + format + "\"");
+    const Answer full =
+        test::run_program("/bin/bash", "-c \"ulimit -f 200; '" DRIFT_SYNTHETIC "' export " + out +
+                                           " --format " + format + "\"");
     EXPECT_EQ(full.code, 6) << format << full.err;
     for (const auto& entry : fs::directory_iterator(out))
       EXPECT_EQ(entry.path().filename().string().find("export"), std::string::npos) << entry.path();
@@ -132,16 +150,22 @@ TEST(StoreCommands, ADiskThatIsFullEndsEveryExportWithExitCode6) {
 
 TEST(StoreCommands, WhenAndWhyARunFailedIsInEveryExport) {
   const ScratchFolder scratch;
-  const std::string config = study_file(scratch, "fail_every=50 throw_at=3"), out = scratch.file("out");
+  const std::string config = study_file(scratch, "fail_every=50 throw_at=3"),
+                    out = scratch.file("out");
   ASSERT_EQ(program("run " + config + " -o " + out).code, 0);
-  for (const char* format : {"csv", "json"}) ASSERT_EQ(program("export " + out + " --format " + format).code, 0);
+  for (const char* format : {"csv", "json"})
+    ASSERT_EQ(program("export " + out + " --format " + format).code, 0);
   const std::string csv = test::text_of(out + "/export.csv");
   expect_says(csv, ",t_failed [s],cause\n");
   expect_says(csv, "0,49,filter_diverged,nan,nan,nan,nan,nan,490,made to fail\n");
   expect_says(csv, "0,3,error,nan,nan,nan,nan,nan,0,thrown by run 3\n");
-  const auto failures = nlohmann::json::parse(test::text_of(out + "/export.json"))["points"][0]["failures"];
+  const auto failures =
+      nlohmann::json::parse(test::text_of(out + "/export.json"))["points"][0]["failures"];
   ASSERT_EQ(failures.size(), 5u);
-  EXPECT_EQ(failures[1], nlohmann::json::parse(R"({"run": 49, "status": "filter_diverged", "t_s": 490.0, "cause": "made to fail"})"));
+  EXPECT_EQ(
+      failures[1],
+      nlohmann::json::parse(
+          R"({"run": 49, "status": "filter_diverged", "t_s": 490.0, "cause": "made to fail"})"));
   const Answer hdf5 = program("export " + out + " --format hdf5");
   expect_says(hdf5.out, "groups: runs summary failures\n");
 }
@@ -153,7 +177,9 @@ TEST(StoreCommands, OnlyRunsOfTheStudyAreReplayed) {
   for (const char* run : {"-1", "200", "1e3", "18446744073709551615"}) {
     const Answer answer = program("replay " + out + " --run " + std::string(run));
     EXPECT_EQ(answer.code, 2) << run;
-    EXPECT_TRUE(answer.err.find("from 0 to") != std::string::npos || answer.err.find("runs 0 to 199") != std::string::npos) << answer.err;
+    EXPECT_TRUE(answer.err.find("from 0 to") != std::string::npos ||
+                answer.err.find("runs 0 to 199") != std::string::npos)
+        << answer.err;
   }
   EXPECT_EQ(program("replay " + out + " --run 1 --point -1").code, 2);
   const Answer later = program("replay " + out + " --run 100");
@@ -163,10 +189,12 @@ TEST(StoreCommands, OnlyRunsOfTheStudyAreReplayed) {
 
 TEST(StoreCommands, AStudyThatItsStopRuleEndedSaysSo) {
   const ScratchFolder scratch;
-  const std::string config = study_file(scratch, "half_width=0.09 points=2", "5000"), out = scratch.file("out");
+  const std::string config = study_file(scratch, "half_width=0.09 points=2", "5000"),
+                    out = scratch.file("out");
   const Answer run = program("run " + config + " -o " + out);
   ASSERT_EQ(run.code, 0) << run.err;
-  expect_says(run.out, "the stop rule ended 2 of 2 points early, after 192 to 512 of at most 5000 runs");
+  expect_says(run.out,
+              "the stop rule ended 2 of 2 points early, after 192 to 512 of at most 5000 runs");
   const Answer status = program("status " + out);
   expect_says(status.out, "2 of 2 points complete");
   expect_says(status.out, "the stop rule ended 2 of 2 points early");

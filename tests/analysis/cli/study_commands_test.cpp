@@ -1,4 +1,5 @@
-// run, status, verify, replay and export through the program, with cheap runs (synthetic_program.cpp).
+// run, status, verify, replay and export through the program, with cheap runs
+// (synthetic_program.cpp).
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -13,13 +14,20 @@ using test::Answer;
 using test::ScratchFolder;
 
 /// A study file whose runs do as `words` say.
-std::string study_file(const ScratchFolder& scratch, const std::string& words, const std::string& runs = "200") {
-  return scratch.write("study.toml", "schema = 1\ntitle = \"synthetic " + words + "\"\n[site]\nlatitude = \"45.75 deg\"\n"
-                                     "[plan]\npreset = \"six\"\n[truth]\ncoupling = \"eq5\"\n[[filter]]\nname = \"eq5\"\n"
-                                     "coupling = \"eq5\"\n[monte_carlo]\nruns = " + runs + "\nseed = 7\n");
+std::string study_file(const ScratchFolder& scratch, const std::string& words,
+                       const std::string& runs = "200") {
+  return scratch.write(
+      "study.toml",
+      "schema = 1\ntitle = \"synthetic " + words +
+          "\"\n[site]\nlatitude = \"45.75 deg\"\n"
+          "[plan]\npreset = \"six\"\n[truth]\ncoupling = \"eq5\"\n[[filter]]\nname = \"eq5\"\n"
+          "coupling = \"eq5\"\n[monte_carlo]\nruns = " +
+          runs + "\nseed = 7\n");
 }
 
-Answer program(const std::string& arguments) { return test::run_program(DRIFT_SYNTHETIC, arguments); }
+Answer program(const std::string& arguments) {
+  return test::run_program(DRIFT_SYNTHETIC, arguments);
+}
 
 std::string line_with(const std::string& text, const std::string& start) {
   const auto at = text.find(start);
@@ -35,7 +43,8 @@ TEST(StudyCommands, ARunIsStoredShownVerifiedReplayedAndExported) {
   EXPECT_EQ(program("run " + config + " --threads 1 -o " + out).out, run.out);
   const Answer status = program("status " + out);
   EXPECT_EQ(status.code, 0) << status.err;
-  EXPECT_NE(status.out.find("400 of 400 runs, 0 failed, 2 of 2 points complete"), std::string::npos) << status.out;
+  EXPECT_NE(status.out.find("400 of 400 runs, 0 failed, 2 of 2 points complete"), std::string::npos)
+      << status.out;
   const Answer verify = program("verify " + out + " --sample 10%");
   EXPECT_EQ(verify.code, 0) << verify.err;
   EXPECT_EQ(line_with(verify.out, "results "), results);
@@ -62,10 +71,12 @@ TEST(StudyCommands, AnotherStudyInTheFolderIsRefused) {
   const Answer other = program("run " + config + " --seed 8 -o " + out);
   EXPECT_EQ(other.code, 7);
   EXPECT_NE(other.err.find("- seed = 7\n  + seed = 8"), std::string::npos) << other.err;
-  EXPECT_EQ(program("run " + config + " --seed 7 --runs 300 -o " + out).code, 0) << "the same study, extended";
+  EXPECT_EQ(program("run " + config + " --seed 7 --runs 300 -o " + out).code, 0)
+      << "the same study, extended";
   // The order of keys, comments and the number of runs do not make another study.
   const std::string text = test::text_of(config);
-  scratch.write("study.toml", "# a comment\ntitle = \"synthetic \"\n" + text.substr(0, text.find("title")) +
+  scratch.write("study.toml", "# a comment\ntitle = \"synthetic \"\n" +
+                                  text.substr(0, text.find("title")) +
                                   text.substr(text.find("[site]")) + "allowed_failures = 3\n");
   EXPECT_EQ(program("run " + config + " -o " + out).code, 0);
   scratch.write("out/study.toml", text + "[[filter]]\nname = \"b\"\ncoupling = \"eq6\"\n");
@@ -97,13 +108,18 @@ TEST(StudyCommands, TheReportIsMadeAnewAndAFolderOfAnotherCommandIsRefused) {
 
 TEST(StudyCommands, FailedRunsAreCountedListedAndDecideTheExitCode) {
   const ScratchFolder scratch;
-  const std::string config = study_file(scratch, "fail_every=50 throw_at=3"), out = scratch.file("out");
+  const std::string config = study_file(scratch, "fail_every=50 throw_at=3"),
+                    out = scratch.file("out");
   const Answer run = program("run " + config + " -o " + out);
   EXPECT_EQ(run.code, 5);
-  EXPECT_NE(run.err.find("failed: point 0, run 3: error at t = 0 s: thrown by run 3. Look closer: driftscope replay " + out +
-                         " --run 3"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("failed: point 0, run 3: error at t = 0 s: thrown by run 3. Look closer: "
+                         "driftscope replay " +
+                         out + " --run 3"),
+            std::string::npos)
+      << run.err;
   EXPECT_EQ(program("run " + config + " --set monte_carlo.allowed_failures=5 -o " + out).code, 0);
-  EXPECT_EQ(program("replay " + out + " --run 49").code, 0) << "a failed run comes out again as it was";
+  EXPECT_EQ(program("replay " + out + " --run 49").code, 0)
+      << "a failed run comes out again as it was";
   EXPECT_EQ(program("run " + config + " --fail-fast -o " + scratch.file("fast")).code, 5);
 }
 
@@ -121,19 +137,22 @@ TEST(StudyCommands, ADiskThatIsFullIsExitCode6AndNothingIsLost) {
   const Answer whole = program("run " + config + " -o " + scratch.file("whole"));
   ASSERT_EQ(whole.code, 0) << whole.err;
   // 100 kB per file: some blocks of 21 kB fit, not all ten.
-  const Answer full = test::run_program("/bin/bash", "-c \"ulimit -f 100; '" DRIFT_SYNTHETIC "' run " + config + " -o " + out + "\"");
+  const Answer full = test::run_program(
+      "/bin/bash", "-c \"ulimit -f 100; '" DRIFT_SYNTHETIC "' run " + config + " -o " + out + "\"");
   EXPECT_EQ(full.code, 6) << full.err;
   EXPECT_NE(full.err.find("worker-0000.sqlite: cannot be written"), std::string::npos) << full.err;
   EXPECT_NE(full.err.find("run the same command again"), std::string::npos) << full.err;
   EXPECT_EQ(program("verify " + out).code, 0);
   const Answer resumed = program("run " + config + " -o " + out);
   EXPECT_EQ(resumed.out, whole.out);
-  EXPECT_EQ(line_with(resumed.err, out + ": 0 runs stored before"), "no line " + out + ": 0 runs stored before");
+  EXPECT_EQ(line_with(resumed.err, out + ": 0 runs stored before"),
+            "no line " + out + ": 0 runs stored before");
 }
 
 TEST(StudyCommands, DamageIsExitCode7AndOtherResultsAreExitCode8) {
   const ScratchFolder scratch;
-  const std::string config = study_file(scratch, ""), out = scratch.file("out"), file = out + "/worker-0000.sqlite";
+  const std::string config = study_file(scratch, ""), out = scratch.file("out"),
+                    file = out + "/worker-0000.sqlite";
   const Answer run = program("run " + config + " -o " + out);
   std::string bytes = test::text_of(file);
   bytes[bytes.size() - 2000] = static_cast<char>(bytes[bytes.size() - 2000] ^ 1);  // in a payload
@@ -143,9 +162,15 @@ TEST(StudyCommands, DamageIsExitCode7AndOtherResultsAreExitCode8) {
   EXPECT_EQ(program("run " + config + " -o " + out).out, run.out);
   EXPECT_EQ(program("verify " + out).code, 0);
   // A program that computes something else: the same study, other runs.
-  const Answer other = test::run_program("/usr/bin/env", "DRIFT_SYNTHETIC_SCALE=1.0000001 '" DRIFT_SYNTHETIC "' verify " + out + " --sample 5%");
+  const Answer other = test::run_program(
+      "/usr/bin/env",
+      "DRIFT_SYNTHETIC_SCALE=1.0000001 '" DRIFT_SYNTHETIC "' verify " + out + " --sample 5%");
   EXPECT_EQ(other.code, 8) << other.out << other.err;
-  EXPECT_EQ(test::run_program("/usr/bin/env", "DRIFT_SYNTHETIC_SCALE=1.0000001 '" DRIFT_SYNTHETIC "' replay " + out + " --run 1").code, 8);
+  EXPECT_EQ(test::run_program("/usr/bin/env", "DRIFT_SYNTHETIC_SCALE=1.0000001 '" DRIFT_SYNTHETIC
+                                              "' replay " +
+                                                  out + " --run 1")
+                .code,
+            8);
 }
 
 TEST(StudyCommands, ADryRunWritesNothing) {
@@ -153,15 +178,18 @@ TEST(StudyCommands, ADryRunWritesNothing) {
   const std::string config = study_file(scratch, "points=3"), out = scratch.file("out");
   const Answer dry = program("run " + config + " --dry-run -o " + out);
   EXPECT_EQ(dry.code, 0) << dry.err;
-  EXPECT_NE(dry.out.find("runs             600 (200 per point, in 12 blocks of 64)"), std::string::npos) << dry.out;
+  EXPECT_NE(dry.out.find("runs             600 (200 per point, in 12 blocks of 64)"),
+            std::string::npos)
+      << dry.out;
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 
 TEST(StudyCommands, MistakesOfTheCommandLineAreExitCode2) {
   const ScratchFolder scratch;
   const std::string config = study_file(scratch, ""), out = scratch.file("out");
-  for (const char* bad : {"--worker 4/4", "--worker 1", "--worker a/b", "--max-wall soon", "--max-wall 0", "--max-wall -5m",
-                          "--runs 0", "--runs x", "--progress loud", "--threads 0"}) {
+  for (const char* bad :
+       {"--worker 4/4", "--worker 1", "--worker a/b", "--max-wall soon", "--max-wall 0",
+        "--max-wall -5m", "--runs 0", "--runs x", "--progress loud", "--threads 0"}) {
     const Answer answer = program("run " + config + " -o " + out + " " + bad);
     EXPECT_EQ(answer.code, 2) << bad << ": " << answer.err;
   }
@@ -171,7 +199,8 @@ TEST(StudyCommands, MistakesOfTheCommandLineAreExitCode2) {
   EXPECT_EQ(program("replay " + out + " --run 1 --point 1").code, 2);
   EXPECT_EQ(program("verify " + out + " --sample 101%").code, 2);
   EXPECT_EQ(program("export " + out + " --format xml -o x").code, 2);
-  EXPECT_EQ(program("export " + out + " --format csv -o " + scratch.file("no/such/folder.csv")).code, 6);
+  EXPECT_EQ(
+      program("export " + out + " --format csv -o " + scratch.file("no/such/folder.csv")).code, 6);
 }
 
 TEST(StudyCommands, ProgressComesAsJsonLines) {

@@ -37,7 +37,8 @@ Study heated_study() {
 Diagnosis diagnosed(const Study& s, Recording* recording = nullptr) {
   const Timeline timeline = lay_out(s.plan, s.site);
   const TruthDraw draw = draw_truth(s.truth, timeline.chains, 1, 0);
-  const Recording r = make_recording(timeline, Simulator(s.truth, s.readout).run(timeline, draw, 1, 0).measured, s.readout);
+  const Recording r = make_recording(
+      timeline, Simulator(s.truth, s.readout).run(timeline, draw, 1, 0).measured, s.readout);
   if (recording) *recording = r;
   DiagnoseOptions options;
   options.starts = 1;
@@ -50,14 +51,16 @@ TEST(AdviceFollowed, AnEffectThatThePlanConcealsIsNamedWithTheAdvisedPositions) 
   Recording recording;
   const Diagnosis concealed = diagnosed(s, &recording);
   ASSERT_EQ(concealed.verdict, Verdict::consistent) << concealed.sentence;
-  const auto advice = advise(s, {recording}, concealed, {.asked = std::vector<std::string>{"torquer_heating"}});
+  const auto advice =
+      advise(s, {recording}, concealed, {.asked = std::vector<std::string>{"torquer_heating"}});
   ASSERT_FALSE(advice.empty());
   ASSERT_FALSE(advice.front().plan.empty());
   EXPECT_LT(advice.front().now_sigma, 1.0);
   EXPECT_GT(advice.front().expected_sigma, 8.0);
 
   s.plan.preset.clear();
-  s.plan.positions.insert(s.plan.positions.end(), advice.front().plan.begin(), advice.front().plan.end());
+  s.plan.positions.insert(s.plan.positions.end(), advice.front().plan.begin(),
+                          advice.front().plan.end());
   const Diagnosis seen = diagnosed(s);
   ASSERT_EQ(seen.verdict, Verdict::named) << seen.sentence;
   ASSERT_EQ(seen.causes.size(), 1u) << seen.sentence;

@@ -1,11 +1,11 @@
 #include "analysis/discovery/advise.hpp"
-#include "analysis/discovery/alternatives.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <set>
 
+#include "analysis/discovery/alternatives.hpp"
 #include "analysis/discovery/position_pool.hpp"
 #include "core/base/check.hpp"
 #include "core/sim/measurements.hpp"
@@ -34,7 +34,8 @@ Study level_study() {
 Recording simulated(const Study& s) {
   const Timeline timeline = lay_out(s.plan, s.site);
   const TruthDraw draw = draw_truth(s.truth, timeline.chains, 1, 0);
-  return make_recording(timeline, Simulator(s.truth, s.readout).run(timeline, draw, 1, 0).measured, s.readout);
+  return make_recording(timeline, Simulator(s.truth, s.readout).run(timeline, draw, 1, 0).measured,
+                        s.readout);
 }
 
 Cause cause(std::string_view term, std::string_view key, double value, int set) {
@@ -42,7 +43,8 @@ Cause cause(std::string_view term, std::string_view key, double value, int set) 
   Cause c;
   c.term = term;
   c.set = set;
-  c.parameters = {{std::string(key), index, value, 0.01, std::string(TermLibrary::specs[index].unit.symbol.view()), false}};
+  c.parameters = {{std::string(key), index, value, 0.01,
+                   std::string(TermLibrary::specs[index].unit.symbol.view()), false}};
   return c;
 }
 
@@ -87,8 +89,8 @@ TEST(Advise, ATestBlindToTheEquationIsGivenPositionsThatTellAndASimulationAgrees
   EXPECT_LT(a.now_sigma, 5.0) << a.text;
   EXPECT_GT(a.expected_sigma, 5.0) << a.text;
   EXPECT_FALSE(a.plan.empty());
-  // Twice the gain of the log likelihood is non-central chi-square: its root is expected_sigma +- 1, and
-  // what is not linear in lambda and eta takes its part of a large one.
+  // Twice the gain of the log likelihood is non-central chi-square: its root is expected_sigma +-
+  // 1, and what is not linear in lambda and eta takes its part of a large one.
   EXPECT_NEAR(a.verified_sigma, a.expected_sigma, 4.0 + 0.1 * a.expected_sigma) << a.text;
   EXPECT_NE(a.text.find("eq. (5)"), std::string::npos);
 }
@@ -111,7 +113,9 @@ TEST(Advise, SeparatesAlternativesThatLookAlike) {
   EXPECT_NEAR(a.verified_sigma, a.expected_sigma, 4.0 + 0.1 * a.expected_sigma) << a.text;
 }
 
-AdviseOptions asking(std::vector<std::string> terms = {}) { return {.asked = std::move(terms)}; }
+AdviseOptions asking(std::vector<std::string> terms = {}) {
+  return {.asked = std::move(terms)};
+}
 
 TEST(Advise, OnRequestAnEffectThatThePlanHidesGetsAPositionAndASimulationAgrees) {
   const Study s = level_study();
@@ -138,13 +142,16 @@ TEST(Advise, OnRequestAConsistentRecordingIsToldWhatItsPlanHides) {
   ASSERT_GE(advice.size(), 2u);
   const auto& seen = advice.front().separates;
   EXPECT_FALSE(advice.front().plan.empty());
-  EXPECT_TRUE(std::any_of(seen.begin(), seen.end(), [](const std::string& l) { return l.starts_with("torquer_heating.x"); }));
+  EXPECT_TRUE(std::any_of(seen.begin(), seen.end(),
+                          [](const std::string& l) { return l.starts_with("torquer_heating.x"); }));
   EXPECT_NE(std::find(seen.begin(), seen.end(), "eq. (6)"), seen.end());
   // What no position shows is said apart, without a plan.
   EXPECT_TRUE(advice.back().plan.empty());
-  EXPECT_NE(advice.back().text.find("possible additions show"), std::string::npos) << advice.back().text;
+  EXPECT_NE(advice.back().text.find("possible additions show"), std::string::npos)
+      << advice.back().text;
   for (const std::string& label : advice.back().separates)
-    if (label != "the nominal model") EXPECT_EQ(std::find(seen.begin(), seen.end(), label), seen.end()) << label;
+    if (label != "the nominal model")
+      EXPECT_EQ(std::find(seen.begin(), seen.end(), label), seen.end()) << label;
 }
 
 TEST(Advise, TwinsAreGivenNoFutilePosition) {
@@ -152,14 +159,18 @@ TEST(Advise, TwinsAreGivenNoFutilePosition) {
   Diagnosis d;
   d.nominal = s.filters.front();
   d.verdict = Verdict::named;
-  // C_sag_z a_x^2 on accelerometer y is K_oo_y, its other part K_ip_x, which the nominal model fits.
+  // C_sag_z a_x^2 on accelerometer y is K_oo_y, its other part K_ip_x, which the nominal model
+  // fits.
   d.causes = {cause("accelerometer_cross", "K_oo_y", 60.0, 0)};
   d.causes.front().confusable_with = {{"sag", "z", 1.0}};
   const auto advice = advise(s, {simulated(s)}, d, asking());
   ASSERT_EQ(advice.size(), 1u);
   EXPECT_TRUE(advice.front().plan.empty());
-  EXPECT_NE(advice.front().text.find("No position of the pool separates accelerometer_cross (K_oo_y) and sag.z (C_sag_z)"),
-            std::string::npos) << advice.front().text;
+  EXPECT_NE(
+      advice.front().text.find(
+          "No position of the pool separates accelerometer_cross (K_oo_y) and sag.z (C_sag_z)"),
+      std::string::npos)
+      << advice.front().text;
   // K_po has no twin: it is not called one.
   d.causes = {cause("accelerometer_cross", "K_po_y", 60.0, 0)};
   d.causes.front().confusable_with = {{"sag", "z", 0.6}};
@@ -176,15 +187,19 @@ TEST(Advise, TwinsOfAnAmbiguousVerdictAreSaidToBeTwins) {
   const auto advice = advise(s, {simulated(s)}, d);
   ASSERT_EQ(advice.size(), 1u);
   EXPECT_TRUE(advice.front().plan.empty());
-  EXPECT_NE(advice.front().text.find("Another measurement is needed"), std::string::npos) << advice.front().text;
+  EXPECT_NE(advice.front().text.find("Another measurement is needed"), std::string::npos)
+      << advice.front().text;
 }
 
 TEST(Advise, WhatGrowsWithTimeIsAskedAtTheTimeTheAdditionWouldHave) {
-  // The simulation runs recorded and added positions in turn; added at time zero a ramp would show less.
+  // The simulation runs recorded and added positions in turn; added at time zero a ramp would show
+  // less.
   const Study s = level_study();
   Diagnosis d;
   d.nominal = s.filters.front();
-  const auto advice = advise(s, {simulated(s)}, d, {.most = 1, .wanted = 50.0, .asked = std::vector<std::string>{"drift_ramp.x"}});
+  const auto advice =
+      advise(s, {simulated(s)}, d,
+             {.most = 1, .wanted = 50.0, .asked = std::vector<std::string>{"drift_ramp.x"}});
   ASSERT_FALSE(advice.empty());
   const Advice& a = advice.front();
   ASSERT_FALSE(a.plan.empty()) << a.text;
@@ -196,7 +211,8 @@ TEST(Advise, TermsThatCannotBeAskedForAreSaidAllAtOnce) {
   Diagnosis d;
   d.nominal = s.filters.front();
   try {
-    advise(s, {simulated(s)}, d, asking({"sagg", "eta_x", "magnetic_drift", "temperature_drift", "sag"}));
+    advise(s, {simulated(s)}, d,
+           asking({"sagg", "eta_x", "magnetic_drift", "temperature_drift", "sag"}));
     FAIL();
   } catch (const InputError& error) {
     EXPECT_EQ(error.code(), ExitCode::usage);
@@ -223,7 +239,8 @@ TEST(Advise, OnRequestAnUnexplainedMisfitIsToldWhichPositionToRepeat) {
 }
 
 TEST(Advise, WhatFollowsTheTemperatureIsNotAskedOfPositions) {
-  // Positions are planned at one temperature; an alternative that follows it must not cost the advice on others.
+  // Positions are planned at one temperature; an alternative that follows it must not cost the
+  // advice on others.
   Diagnosis d;
   d.verdict = Verdict::ambiguous;
   for (const char* term : {"temperature_drift", "drift_ramp", "magnetic_drift"}) {

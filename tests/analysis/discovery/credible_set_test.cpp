@@ -28,15 +28,17 @@ struct Case {
     r.excess = excess;
     refits.push_back(std::move(r));
   }
-  bool weigh(bool chance_alone = false) { return discovery::weigh(e, refits, chance_alone, {}, out); }
+  bool weigh(bool chance_alone = false) {
+    return discovery::weigh(e, refits, chance_alone, {}, out);
+  }
 };
 
 TEST(CredibleSet, AFarBetterExplanationDoesNotLoseToAPoorOneForATrifle) {
   Case c;
   const auto magnetic = c.candidate("magnetic_drift", "x", {param("M_x")});
   const auto gimbal = c.candidate("gimbal_angle_drift", "y", {param("G_c_y")});
-  c.explanation(magnetic, 37.5, 0.4);   // beside it something unrelated is just significant
-  c.explanation(gimbal, 31.0, -0.1);    // happens to cover that too
+  c.explanation(magnetic, 37.5, 0.4);  // beside it something unrelated is just significant
+  c.explanation(gimbal, 31.0, -0.1);   // happens to cover that too
   ASSERT_TRUE(c.weigh());
   ASSERT_EQ(c.out.sets.size(), 1u);
   EXPECT_EQ(c.out.sets[0].choices[0].candidate, magnetic);
@@ -88,7 +90,8 @@ TEST(CredibleSet, SomethingUnknownThatIsFarBetterLeavesNone) {
 
 TEST(CredibleSet, PartsOfOneTermAreOneCause) {
   Case c;
-  const auto group = c.candidate("misalignment_creep", "", {param("eta_t_x"), param("eta_t_y"), param("eta_t_z")});
+  const auto group =
+      c.candidate("misalignment_creep", "", {param("eta_t_x"), param("eta_t_y"), param("eta_t_z")});
   const auto axis = c.candidate("misalignment_creep", "z", {param("eta_t_z"), param("xi_t_z")});
   c.explanation(group, 27.4, -1.0);
   c.explanation(axis, 27.0, -1.0);

@@ -12,7 +12,9 @@ namespace {
 
 using namespace drift::test;
 
-ParamMask left_out() { return only({"D_II", "D_OO", "D_SS", "D_IO", "D_IS", "D_OS", "s"}); }
+ParamMask left_out() {
+  return only({"D_II", "D_OO", "D_SS", "D_IO", "D_IS", "D_OS", "s"});
+}
 
 struct Case {
   Timeline timeline;
@@ -20,8 +22,10 @@ struct Case {
   FilterSpec nominal;
 };
 
-/// Truth: base terms without g2_drift and torquer_scale, but for one parameter. Nominal: without both.
-Case make_case(std::string_view preset, std::string_view key, double value, Coupling truth_coupling, double dwell, double sample = 60.0) {
+/// Truth: base terms without g2_drift and torquer_scale, but for one parameter. Nominal: without
+/// both.
+Case make_case(std::string_view preset, std::string_view key, double value, Coupling truth_coupling,
+               double dwell, double sample = 60.0) {
   Case c{preset_timeline(preset, CommandLaw::free, dwell, sample), {}, base_filter(Coupling::eq5)};
   c.nominal.active &= ~left_out();
   const TruthSpec truth = base_truth(truth_coupling);
@@ -74,8 +78,9 @@ TEST(Diagnose, TorquerScaleIsFoundWhereTheTestSlewsBesideTheNonlinearityOneRateC
   const Diagnosis d = run(make_case("slew12", "s_y", 30.0, Coupling::eq5, 900.0, 90.0));
   ASSERT_TRUE(d.verdict == Verdict::named || d.verdict == Verdict::ambiguous) << d.sentence;
   EXPECT_LE(d.causes.size(), 2u);
-  EXPECT_TRUE(std::ranges::any_of(d.causes, [](const Cause& c) { return c.term == "torquer_scale" && c.axis == "y"; }))
-      << d.sentence;
+  EXPECT_TRUE(std::ranges::any_of(d.causes, [](const Cause& c) {
+    return c.term == "torquer_scale" && c.axis == "y";
+  })) << d.sentence;
 }
 
 TEST(Diagnose, HeldOutByRefitAgreesWithHeldOutByConditioning) {
@@ -87,7 +92,8 @@ TEST(Diagnose, HeldOutByRefitAgreesWithHeldOutByConditioning) {
               0.05 * std::abs(linear.fit.held_out.log_score_gain) + 2.0);
 }
 
-TEST(Diagnose, TheSignatureOfTheCauseIsTheRecoveredSignalEvenWhereParametersHadTakenItUpAgainstTheirPriors) {
+TEST(Diagnose,
+     TheSignatureOfTheCauseIsTheRecoveredSignalEvenWhereParametersHadTakenItUpAgainstTheirPriors) {
   // On six positions D_SS_x looks like drifts and misalignments far outside their priors.
   const Diagnosis d = run(make_case("six", "D_SS_x", 0.3, Coupling::eq5, 1200.0));
   ASSERT_EQ(d.verdict, Verdict::named) << d.sentence;

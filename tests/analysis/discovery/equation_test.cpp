@@ -31,7 +31,10 @@ struct Simulated {
 Simulated simulated(const Study& s) {
   const Timeline timeline = lay_out(s.plan, s.site);
   const TruthDraw draw = draw_truth(s.truth, timeline.chains, s.monte_carlo.seed, 0);
-  return {make_recording(timeline, Simulator(s.truth, s.readout).run(timeline, draw, s.monte_carlo.seed, 0).measured, s.readout),
+  return {make_recording(
+              timeline,
+              Simulator(s.truth, s.readout).run(timeline, draw, s.monte_carlo.seed, 0).measured,
+              s.readout),
           draw.theta};
 }
 
@@ -48,11 +51,14 @@ void expect_lambda(const Diagnosis& d, double truth) {
   // The candidates agree with the verdict, and cross-talk is named as the confounder.
   EXPECT_EQ(d.candidates.front().term, "frame_closure");
   EXPECT_GT(d.candidates.front().probability, 0.9);
-  EXPECT_TRUE(std::ranges::any_of(d.remarks, [](const auto& r) { return r.find("Cross-talk") != std::string::npos; }));
+  EXPECT_TRUE(std::ranges::any_of(
+      d.remarks, [](const auto& r) { return r.find("Cross-talk") != std::string::npos; }));
 }
 
 TEST(Equation, TheOtherOneIsNamedFromSlewsAndTheParametersItHadMovedComeBack) {
-  const Study s = short_study("diagnose_equation.toml", {{"plan.preset", "slew12"}, {"plan.dwell", "6 min"}, {"truth.coupling", "eq6"},
+  const Study s = short_study("diagnose_equation.toml", {{"plan.preset", "slew12"},
+                                                         {"plan.dwell", "6 min"},
+                                                         {"truth.coupling", "eq6"},
                                                          {"filter.nominal.coupling", "eq5"}});
   const Simulated made = simulated(s);
   const Diagnosis d = diagnose(s, {made.recording});
@@ -72,9 +78,12 @@ TEST(Equation, TheOtherOneIsNamedFromSlewsAndTheParametersItHadMovedComeBack) {
 }
 
 TEST(Equation, MisalignmentsBeyondTheirPriorAreNoOtherEquation) {
-  // In caged free drift lambda only rescales the misalignments: what it could gain is their prior's cost, 24
-  // here, which is no evidence.
-  Overrides sets{{"plan.preset", "twelve"}, {"plan.dwell", "30 min"}, {"plan.sample", "120 s"}, {"filter.nominal.coupling", "eq5"}};
+  // In caged free drift lambda only rescales the misalignments: what it could gain is their prior's
+  // cost, 24 here, which is no evidence.
+  Overrides sets{{"plan.preset", "twelve"},
+                 {"plan.dwell", "30 min"},
+                 {"plan.sample", "120 s"},
+                 {"filter.nominal.coupling", "eq5"}};
   for (const char* key : {"eta_x", "eta_y", "eta_z", "xi_x", "xi_y", "xi_z"})
     sets.emplace_back(std::string("truth.parameters.") + key, "400 arcsec");
   const Study s = short_study("diagnose_equation.toml", sets);
@@ -83,7 +92,8 @@ TEST(Equation, MisalignmentsBeyondTheirPriorAreNoOtherEquation) {
 }
 
 TEST(Equation, TheOtherOneIsNamedFromFreeDrift) {
-  const Study s = short_study("diagnose_equation.toml", {{"plan.dwell", "20 min"}, {"plan.sample", "120 s"}});
+  const Study s =
+      short_study("diagnose_equation.toml", {{"plan.dwell", "20 min"}, {"plan.sample", "120 s"}});
   const Diagnosis d = diagnose(s, {simulated(s).recording});
   expect_lambda(d, 0.0);
   EXPECT_GT(d.fit.held_out.log_score_gain, 10.0);
@@ -94,7 +104,8 @@ TEST(Equation, LevelPositionsCannotTellAndTheAdviceWorksWhenFollowed) {
   const Recording recording = simulated(s).recording;
   Diagnosis d = diagnose(s, {recording});
   EXPECT_EQ(d.verdict, Verdict::consistent) << d.sentence;
-  EXPECT_NE(d.sentence.find("cannot tell the nominal eq. (6) from eq. (5)"), std::string::npos) << d.sentence;
+  EXPECT_NE(d.sentence.find("cannot tell the nominal eq. (6) from eq. (5)"), std::string::npos)
+      << d.sentence;
   EXPECT_LT(std::abs(d.other_equation_gain), equation_told);
 
   const auto advice = advise(s, {recording}, d);
@@ -103,7 +114,8 @@ TEST(Equation, LevelPositionsCannotTellAndTheAdviceWorksWhenFollowed) {
   EXPECT_LT(advice[0].now_sigma, 3.0);
   EXPECT_GT(advice[0].expected_sigma, 5.0);
   // What is not linear in lambda and the misalignments takes its part of a large separation.
-  EXPECT_NEAR(advice[0].verified_sigma, advice[0].expected_sigma, 4.0 + 0.1 * advice[0].expected_sigma);
+  EXPECT_NEAR(advice[0].verified_sigma, advice[0].expected_sigma,
+              4.0 + 0.1 * advice[0].expected_sigma);
 
   // Followed: the positions appended, the test made under the true equation.
   s.plan.preset.clear();
@@ -116,7 +128,9 @@ TEST(Equation, LevelPositionsCannotTellAndTheAdviceWorksWhenFollowed) {
 TEST(Equation, LambdaComesFromItsProfileWhereTheNominalEquationLetsTheMisalignmentsVanish) {
   // Free drift under eq. (6) shows no misalignment; a nominal eq. (5) finds them at zero, where any
   // lambda fits as well. That all six happen to be zero is what is improbable.
-  const Study s = short_study("diagnose_equation.toml", {{"plan.dwell", "20 min"}, {"plan.sample", "120 s"}, {"truth.coupling", "eq6"},
+  const Study s = short_study("diagnose_equation.toml", {{"plan.dwell", "20 min"},
+                                                         {"plan.sample", "120 s"},
+                                                         {"truth.coupling", "eq6"},
                                                          {"filter.nominal.coupling", "eq5"}});
   DiagnoseOptions options;
   options.folds = FoldMethod::linear;

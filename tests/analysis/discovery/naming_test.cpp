@@ -1,5 +1,5 @@
-// Statistics of detection and naming on synthetic linear tests with Gaussian noise, where theory says
-// what must come out. Every tolerance is three standard errors of the count or mean it bounds.
+// Statistics of detection and naming on synthetic linear tests with Gaussian noise, where theory
+// says what must come out. Every tolerance is three standard errors of the count or mean it bounds.
 #include <gtest/gtest.h>
 
 #include "analysis/discovery/pairs.hpp"
@@ -10,7 +10,9 @@ namespace {
 
 constexpr Eigen::Index rows = 120, parameters = 8, candidates = 12;
 
-double three_errors(double p, int n) { return 3.0 * std::sqrt(p * (1.0 - p) / n); }
+double three_errors(double p, int n) {
+  return 3.0 * std::sqrt(p * (1.0 - p) / n);
+}
 
 /// Columns with common parts, so that parameters absorb and candidates resemble each other.
 struct Synthetic {
@@ -25,10 +27,12 @@ struct Synthetic {
       return m;
     };
     theta = fill(parameters);
-    extra = fill(candidates) + 2.0 * theta * fill(rows).topLeftCorner(parameters, candidates) / std::sqrt(parameters);
+    extra = fill(candidates) +
+            2.0 * theta * fill(rows).topLeftCorner(parameters, candidates) / std::sqrt(parameters);
     extra.col(1) = 0.8 * extra.col(0) + 0.6 * extra.col(1);
     for (int k = 0; k < candidates; ++k)
-      set.candidates.push_back({"term" + std::to_string(k), "", "", {static_cast<std::size_t>(k)}, {{{k}, {}}}});
+      set.candidates.push_back(
+          {"term" + std::to_string(k), "", "", {static_cast<std::size_t>(k)}, {{{k}, {}}}});
   }
   /// Scores of data with parameters from their prior and candidate amplitudes a.
   Projector test(std::uint64_t run, const VecX& a) const {
@@ -62,7 +66,8 @@ MaxNull the_null() {
 
 double largest(const Field& field) {
   double top = 0.0;
-  for (std::size_t k = 0; k < field.contrasts.size(); ++k) top = std::max(top, score(field, k).strength);
+  for (std::size_t k = 0; k < field.contrasts.size(); ++k)
+    top = std::max(top, score(field, k).strength);
   return top;
 }
 
@@ -76,7 +81,8 @@ TEST(Naming, FamilyWiseFalseAlarmsAreAsManyAsAllowed) {
     alarms += largest({synthetic().set, p.candidates(), no_scans}) > k;
   }
   // The threshold itself is estimated from 4000 draws: its error adds to that of the count.
-  EXPECT_NEAR(alarms / static_cast<double>(n), alpha, std::hypot(three_errors(alpha, n), three_errors(alpha, 4000)));
+  EXPECT_NEAR(alarms / static_cast<double>(n), alpha,
+              std::hypot(three_errors(alpha, n), three_errors(alpha, 4000)));
 }
 
 TEST(Naming, PowerIsThatOfANormalScore) {
@@ -90,7 +96,8 @@ TEST(Naming, PowerIsThatOfANormalScore) {
     const Field field(synthetic().set, p.candidates(), no_scans);
     found += score(field, 3).strength > k;
   }
-  const double power = 0.5 * std::erfc((z - size) / std::sqrt(2.0)) + 0.5 * std::erfc((z + size) / std::sqrt(2.0));
+  const double power =
+      0.5 * std::erfc((z - size) / std::sqrt(2.0)) + 0.5 * std::erfc((z + size) / std::sqrt(2.0));
   EXPECT_NEAR(found / static_cast<double>(n), power, three_errors(power, n));
 }
 
@@ -144,7 +151,8 @@ TEST(Naming, ACancellingPairIsFoundThoughNoSingleScoreShowsIt) {
     const auto both = make_contrast(p.candidates().C, p.candidates().raw, {0, 1});
     mean += both.T(p.candidates().g) / n;
   }
-  EXPECT_NEAR(mean, expected + 2.0, 3.0 * std::sqrt((4.0 * expected + 4.0) / n));  // non-central chi-square
+  EXPECT_NEAR(mean, expected + 2.0,
+              3.0 * std::sqrt((4.0 * expected + 4.0) / n));  // non-central chi-square
   EXPECT_GT(pair_first, n * 9 / 10);
 }
 

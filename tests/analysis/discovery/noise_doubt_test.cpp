@@ -10,8 +10,8 @@ namespace {
 
 using namespace drift::test;
 
-/// A test in six positions with a candidate per axis: a drift that grows with the square of time, signs
-/// by position, in units of `size` projected sigmas.
+/// A test in six positions with a candidate per axis: a drift that grows with the square of time,
+/// signs by position, in units of `size` projected sigmas.
 struct Bench {
   LinearProblem problem;
   CandidateSet set;
@@ -20,18 +20,22 @@ struct Bench {
     static const Timeline timeline = preset_timeline("six", CommandLaw::free, 1800.0, 60.0);
     const Readout readout;
     const FilterSpec filter = base_filter(Coupling::eq5);
-    const Measurements measured = Simulator(base_truth(Coupling::eq5), readout).run(timeline, 8, 0).measured;
-    const BatchResult fit = fit_batch(filter, timeline, readout, measured, make_layout(filter).theta);
+    const Measurements measured =
+        Simulator(base_truth(Coupling::eq5), readout).run(timeline, 8, 0).measured;
+    const BatchResult fit =
+        fit_batch(filter, timeline, readout, measured, make_layout(filter).theta);
     problem = linear_problem(filter, {timeline, readout, measured}, fit, {});
     problem.extra = MatX::Zero(problem.rows(), 3);
     for (Eigen::Index k = 0; k < problem.rows(); ++k) {
       const double t = static_cast<double>(problem.tags[k].interval) / 180.0;
-      problem.extra.row(k) = problem.psi.row(k) * t * t * (problem.tags[k].position % 2 ? 1.0 : -1.0);
+      problem.extra.row(k) =
+          problem.psi.row(k) * t * t * (problem.tags[k].position % 2 ? 1.0 : -1.0);
     }
     for (int a = 0; a < 3; ++a) {
       const VecX information = Projector(problem, {}).candidates().C.diagonal();
       problem.extra.col(a) *= size / std::sqrt(information[a]);
-      set.candidates.push_back({"term" + std::to_string(a), "", "", {static_cast<std::size_t>(a)}, {{{a}, {}}}});
+      set.candidates.push_back(
+          {"term" + std::to_string(a), "", "", {static_cast<std::size_t>(a)}, {{{a}, {}}}});
     }
   }
 };
@@ -43,7 +47,8 @@ struct Outcome {
 };
 
 Outcome judged(const Bench& b) {
-  const NoiseEstimate driven = estimate_noise(b.problem, {}), white = estimate_noise(b.problem, {}, {}, 0);
+  const NoiseEstimate driven = estimate_noise(b.problem, {}),
+                      white = estimate_noise(b.problem, {}, {}, 0);
   const LoneEffect lone = strongest_lone_input(b.problem, white.model);
   return {doubt(b.problem, b.set, white.model, driven.model, lone, {}), lone, driven.driven};
 }
@@ -57,8 +62,8 @@ TEST(NoiseDoubt, AnEffectOfOneAxisIsNotBelievedToBeNoise) {
 }
 
 TEST(NoiseDoubt, NoiseOfAllThreeGyrosIsBelieved) {
-  // p is uniform or larger under such noise: below 0.004 (one draw in 250) in one of a hundred of these
-  // tests, the seed is fixed.
+  // p is uniform or larger under such noise: below 0.004 (one draw in 250) in one of a hundred of
+  // these tests, the seed is fixed.
   Bench b(8.0);
   NoiseModel noise;
   noise.drift_random_walk = 0.03 * deg_per_h / 60.0;
@@ -75,9 +80,10 @@ TEST(NoiseDoubt, NoiseOfAllThreeGyrosIsBelieved) {
 TEST(LoneInput, IsFoundInItsEquation) {
   const Bench b(8.0);
   EXPECT_GT(strongest_lone_input(b.problem, {}).p_value, 0.01);  // nothing there
-  for (const LoneInput& input : {LoneInput{LoneInput::Equation::accelerometer, 2, 2.0 * b.problem.acc_sigma, 300.0},
-                                 LoneInput{LoneInput::Equation::gimbal, 0, b.problem.gimbal_sigma, 300.0},
-                                 LoneInput{LoneInput::Equation::rate, 1, 0.1 * deg_per_h, 3600.0}}) {
+  for (const LoneInput& input :
+       {LoneInput{LoneInput::Equation::accelerometer, 2, 2.0 * b.problem.acc_sigma, 300.0},
+        LoneInput{LoneInput::Equation::gimbal, 0, b.problem.gimbal_sigma, 300.0},
+        LoneInput{LoneInput::Equation::rate, 1, 0.1 * deg_per_h, 3600.0}}) {
     LinearProblem problem = b.problem;
     NoiseModel noise;
     noise.lone = input;

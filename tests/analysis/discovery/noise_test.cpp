@@ -17,7 +17,8 @@ LinearProblem problem_of(const TruthSpec& truth, std::uint64_t run, double noise
   real.accelerometer_noise *= noise_factor;
   const FilterSpec filter = base_filter(Coupling::eq5);
   const Measurements measured = Simulator(truth, real).run(timeline, 6, run).measured;
-  const BatchResult fit = fit_batch(filter, timeline, declared, measured, make_layout(filter).theta);
+  const BatchResult fit =
+      fit_batch(filter, timeline, declared, measured, make_layout(filter).theta);
   return linear_problem(filter, {timeline, declared, measured}, fit, {});
 }
 
@@ -62,8 +63,8 @@ TEST(Noise, AngleRandomWalkIsFoundWithItsSize) {
 }
 
 TEST(Noise, AnEffectInTheMeanIsNotTakenForNoise) {
-  // A missing column of forty sigmas, smooth in time, looks like noise that drives the platform until
-  // it is in the mean.
+  // A missing column of forty sigmas, smooth in time, looks like noise that drives the platform
+  // until it is in the mean.
   LinearProblem problem = problem_of(base_truth(Coupling::eq5), 3, 1.0);
   MatX ramp = MatX::Zero(problem.rows(), 1);
   for (Eigen::Index k = 0; k < problem.rows(); ++k) {

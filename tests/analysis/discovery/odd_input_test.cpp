@@ -1,4 +1,5 @@
-// Recordings as they come: several, with gaps, with columns that mean nothing; and any number of threads.
+// Recordings as they come: several, with gaps, with columns that mean nothing; and any number of
+// threads.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +20,8 @@ namespace {
 
 using test::param;
 
-/// Six positions of 15 min; nominal: fixed and g-sensitive drift. size: of D_SS_x in the truth [deg/h/g^2].
+/// Six positions of 15 min; nominal: fixed and g-sensitive drift. size: of D_SS_x in the truth
+/// [deg/h/g^2].
 Study study() {
   Study s;
   s.path = "study.toml";
@@ -43,7 +45,8 @@ Recording made(double size, std::uint64_t run) {
   const Theta platform = draw_truth(truth, timeline.chains, 4, 0).theta;
   draw.theta = platform;
   draw.theta[param("D_SS_x")] = size * test::deg_per_h;
-  return make_recording(timeline, Simulator(truth, s.readout).run(timeline, draw, 4, run).measured, s.readout);
+  return make_recording(timeline, Simulator(truth, s.readout).run(timeline, draw, 4, run).measured,
+                        s.readout);
 }
 
 constexpr double hidden = 0.3;
@@ -69,13 +72,15 @@ void expect_found(const Diagnosis& d) {
 }
 
 bool says(const Diagnosis& d, std::string_view text) {
-  return std::ranges::any_of(d.remarks, [&](const auto& r) { return r.find(text) != std::string::npos; });
+  return std::ranges::any_of(d.remarks,
+                             [&](const auto& r) { return r.find(text) != std::string::npos; });
 }
 
 /// A recording without rows [first, end).
 Recording without_rows(Recording r, std::size_t first, std::size_t end) {
   const auto cut = [&](auto& v) {
-    v.erase(v.begin() + static_cast<std::ptrdiff_t>(first), v.begin() + static_cast<std::ptrdiff_t>(end));
+    v.erase(v.begin() + static_cast<std::ptrdiff_t>(first),
+            v.begin() + static_cast<std::ptrdiff_t>(end));
   };
   for (Channel& c : r.channels) cut(c.values);
   if (!r.lines.empty()) cut(r.lines);
@@ -108,7 +113,8 @@ TEST(OddInput, NoiseTenTimesAsDeclaredIsSaidAndMakesNoOutliersButASpikeIsStillOn
   Recording r = made(0.0, 0);
   EXPECT_EQ(outliers(r), 0u);
   for (Channel& c : r.channels)
-    if (c.name == "gimbal_outer") c.values[20] += 20.0 * study().readout.gimbal_noise;  // of the true noise
+    if (c.name == "gimbal_outer")
+      c.values[20] += 20.0 * study().readout.gimbal_noise;  // of the true noise
   EXPECT_EQ(outliers(r), 1u);
 }
 
@@ -170,7 +176,8 @@ TEST(OddInput, ACovariateThatExplainsNothingIsNotBlamed) {
   r.channels.push_back(humidity);
   const Diagnosis d = diagnosed({r});
   expect_found(d);
-  EXPECT_TRUE(std::ranges::any_of(d.candidates, [](const auto& c) { return c.term == "temperature_drift"; }));  // it was asked
+  EXPECT_TRUE(std::ranges::any_of(
+      d.candidates, [](const auto& c) { return c.term == "temperature_drift"; }));  // it was asked
   for (const RecoveredSignal& s : d.signals) EXPECT_TRUE(s.best_covariate.empty()) << s.shape;
 }
 

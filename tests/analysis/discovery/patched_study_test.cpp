@@ -13,7 +13,12 @@ using testing::read_text;
 
 CauseParameter parameter(std::string_view key, double value, bool profiled = false) {
   const auto index = TermLibrary::find(key).value();
-  return {std::string(key), index, value, 0.01, std::string(TermLibrary::specs[index].unit.symbol.view()), profiled};
+  return {std::string(key),
+          index,
+          value,
+          0.01,
+          std::string(TermLibrary::specs[index].unit.symbol.view()),
+          profiled};
 }
 
 /// What a patched filter says must be what its file says.
@@ -38,7 +43,8 @@ TEST(PatchedStudy, ReadsBackAsTheNominalFilterWithTheCauses) {
   const Study study = read_text(folder, "s.toml", nominal_study);
   Cause drift, scale;
   drift.term = "g_drift";
-  drift.parameters = {parameter("D_S_y", 0.25), parameter("D_I_y", 55.0)};  // 55: far outside its prior
+  drift.parameters = {parameter("D_S_y", 0.25),
+                      parameter("D_I_y", 55.0)};  // 55: far outside its prior
   scale.term = "torquer_scale";
   scale.parameters = {parameter("s_x", 800.0), parameter("s_z", -1200.5, true)};
   FilterSpec patched = patched_filter(study.filters.front(), {drift, scale});
@@ -67,7 +73,8 @@ TEST(PatchedStudy, WhatIsFarFromLinearStartsWhereItWasFound) {
   other.set = 1;  // an alternative: not in the model
   other.parameters = {parameter("D_S_y", 0.25)};
   FilterSpec patched = patched_filter(study.filters.front(), {step});
-  EXPECT_EQ(started_where_found(patched, {step, other}).starts, patched.starts);  // the onset is held: nothing to start
+  EXPECT_EQ(started_where_found(patched, {step, other}).starts,
+            patched.starts);  // the onset is held: nothing to start
   const auto t0 = TermLibrary::find("dD_t0").value();
   patched.priors[t0] = normal(8.0 * 3600.0, 2.0 * 3600.0);
   patched = started_where_found(patched, {step, other});
@@ -83,7 +90,8 @@ TEST(PatchedStudy, WhatIsFarFromLinearStartsWhereItWasFound) {
   Cause drift;
   drift.term = "g_drift";
   drift.parameters = {parameter("D_S_y", 0.25)};
-  EXPECT_TRUE(started_where_found(patched_filter(study.filters.front(), {drift}), {drift}).starts.empty());
+  EXPECT_TRUE(
+      started_where_found(patched_filter(study.filters.front(), {drift}), {drift}).starts.empty());
 }
 
 TEST(PatchedStudy, LambdaMakesTheCouplingLambda) {
@@ -106,9 +114,13 @@ TEST(PatchedStudy, EveryParameterOfTheLibraryCanBeAdded) {
     if (study.filters.front().active[i]) continue;
     for (const bool profiled : {false, true}) {
       Cause cause;
-      cause.parameters = {parameter(spec.key.view(), 0.7 * (spec.prior.sigma() > 0.0 ? spec.prior.sigma() : 1.0) + spec.prior.mean(), profiled)};
+      cause.parameters = {
+          parameter(spec.key.view(),
+                    0.7 * (spec.prior.sigma() > 0.0 ? spec.prior.sigma() : 1.0) + spec.prior.mean(),
+                    profiled)};
       const FilterSpec patched = patched_filter(study.filters.front(), {cause});
-      expect_same_model(read_text(folder, "patched.toml", patched_study(study, patched)).filters[0], patched);
+      expect_same_model(read_text(folder, "patched.toml", patched_study(study, patched)).filters[0],
+                        patched);
     }
   }
 }

@@ -75,8 +75,10 @@ TEST(Prepare, AnotherPlanIsSaid) {
   Study few = s;
   few.plan.positions.resize(3);
   EXPECT_NE(message(few, simulated(s)).find("are not in the plan"), std::string::npos);
-  EXPECT_NE(message(study(1200.0, 40.0), simulated(s)).find("samples are 60 s apart"), std::string::npos);
-  EXPECT_NE(message(study(1200.0, 80.0), simulated(s)).find("samples are 60 s apart"), std::string::npos);
+  EXPECT_NE(message(study(1200.0, 40.0), simulated(s)).find("samples are 60 s apart"),
+            std::string::npos);
+  EXPECT_NE(message(study(1200.0, 80.0), simulated(s)).find("samples are 60 s apart"),
+            std::string::npos);
 }
 
 /// The same recording without the columns whose names begin so.
@@ -95,7 +97,10 @@ TEST(Prepare, PositionsThatThePlanDoesNotHaveAreOneMessage) {
   Study few = s;
   few.plan.positions.resize(3);
   const std::string said = message(few, simulated(s));
-  EXPECT_NE(said.find("positions 4, 5, 6 are not in the plan, in 60 rows from here on (expected positions 1 to 3)"), std::string::npos) << said;
+  EXPECT_NE(said.find("positions 4, 5, 6 are not in the plan, in 60 rows from here on (expected "
+                      "positions 1 to 3)"),
+            std::string::npos)
+      << said;
   EXPECT_EQ(said.find('\n'), std::string::npos) << said;
 }
 
@@ -113,16 +118,22 @@ TEST(Prepare, DwellsOfAnotherLengthAreRemarkedAndUsed) {
 
 TEST(Prepare, RecordedCommandsOfAnotherLawAreRemarked) {
   const Study free = study(), level = with_law(study(), CommandLaw::level);
-  EXPECT_TRUE(says(prepare(level, {simulated(free)}), "the commands in positions 1 to 6 are those of a free dwell, the plan says mode = \"level\""));
-  EXPECT_TRUE(says(prepare(free, {simulated(level)}), "the commands in positions 1 to 6 are those of a level dwell, the plan says mode = \"free\""));
+  EXPECT_TRUE(says(prepare(level, {simulated(free)}),
+                   "the commands in positions 1 to 6 are those of a free dwell, the plan says mode "
+                   "= \"level\""));
+  EXPECT_TRUE(says(prepare(free, {simulated(level)}),
+                   "the commands in positions 1 to 6 are those of a level dwell, the plan says "
+                   "mode = \"free\""));
   EXPECT_TRUE(prepare(level, {simulated(level)}).remarks.empty());
   // Earth rate of another latitude: the recording knows better than the study.
   Study elsewhere = level;
   elsewhere.site.latitude = 50.0 * unit::deg.to_si;
-  EXPECT_TRUE(says(prepare(elsewhere, {simulated(level)}), "Earth rate at latitude 45.750 deg, [site] says 50.000 deg"));
+  EXPECT_TRUE(says(prepare(elsewhere, {simulated(level)}),
+                   "Earth rate at latitude 45.750 deg, [site] says 50.000 deg"));
   Recording odd = simulated(free);
   for (double& x : channel(odd, "cmd_y")) x = 5.0 * unit::deg_per_h.to_si;
-  EXPECT_TRUE(says(prepare(free, {odd}), "up to 5 deg/h from those of the plan, and of neither law"));
+  EXPECT_TRUE(
+      says(prepare(free, {odd}), "up to 5 deg/h from those of the plan, and of neither law"));
 }
 
 TEST(Prepare, WithoutCommandsThePlatformShowsTheLawAndTheWrongOneIsRefused) {
@@ -130,9 +141,13 @@ TEST(Prepare, WithoutCommandsThePlatformShowsTheLawAndTheWrongOneIsRefused) {
   for (const char* instruments : {"none", "gimbal_", "acc_"}) {
     const Recording drifting = without(without(simulated(free), "cmd_"), instruments);
     const Recording kept = without(without(simulated(level), "cmd_"), instruments);
-    EXPECT_NE(message(level, drifting).find("turns at Earth rate against the local axes"), std::string::npos) << instruments;
-    EXPECT_NE(message(level, drifting).find("Set plan.mode = \"free\""), std::string::npos) << instruments;
-    EXPECT_NE(message(free, kept).find("keeps its attitude to the local axes"), std::string::npos) << instruments;
+    EXPECT_NE(message(level, drifting).find("turns at Earth rate against the local axes"),
+              std::string::npos)
+        << instruments;
+    EXPECT_NE(message(level, drifting).find("Set plan.mode = \"free\""), std::string::npos)
+        << instruments;
+    EXPECT_NE(message(free, kept).find("keeps its attitude to the local axes"), std::string::npos)
+        << instruments;
     EXPECT_EQ(message(free, drifting), "") << instruments;
     EXPECT_EQ(message(level, kept), "") << instruments;
   }
@@ -141,8 +156,10 @@ TEST(Prepare, WithoutCommandsThePlatformShowsTheLawAndTheWrongOneIsRefused) {
 TEST(Prepare, ALargeDriftIsNoOtherLaw) {
   // Three prior sigmas of everything that drifts: the mean over the positions still tells.
   Study s = study();
-  for (const char* key : {"D_F_x", "D_F_y", "D_F_z"}) s.truth.priors[test::param(key)] = fixed(3.0 * unit::deg_per_h.to_si);
-  for (const char* key : {"D_I_x", "D_S_y", "D_I_z"}) s.truth.priors[test::param(key)] = fixed(-6.0 * unit::deg_per_h_per_g.to_si);
+  for (const char* key : {"D_F_x", "D_F_y", "D_F_z"})
+    s.truth.priors[test::param(key)] = fixed(3.0 * unit::deg_per_h.to_si);
+  for (const char* key : {"D_I_x", "D_S_y", "D_I_z"})
+    s.truth.priors[test::param(key)] = fixed(-6.0 * unit::deg_per_h_per_g.to_si);
   EXPECT_EQ(message(s, without(simulated(s), "cmd_")), "");
 }
 
@@ -201,9 +218,11 @@ TEST(Prepare, FineSamplesAreAveragedToThePlanAndKeepWhatTheySay) {
   ASSERT_EQ(p.recordings[0].rows(), direct.rows());
   EXPECT_TRUE(says(p, "3600 rows 1 s apart are taken as 60 of 60 s"));
   EXPECT_DOUBLE_EQ(p.study.readout.accelerometer_noise, 1e-12);
-  for (const char* name : {"time", "acc_x", "acc_y", "acc_z", "gimbal_outer", "gimbal_middle", "gimbal_inner"})
+  for (const char* name :
+       {"time", "acc_x", "acc_y", "acc_z", "gimbal_outer", "gimbal_middle", "gimbal_inner"})
     for (std::size_t k = 0; k < direct.rows(); ++k)
-      EXPECT_NEAR(p.recordings[0].find(name)->values[k], direct.find(name)->values[k], 2e-10) << name << " " << k;
+      EXPECT_NEAR(p.recordings[0].find(name)->values[k], direct.find(name)->values[k], 2e-10)
+          << name << " " << k;
 }
 
 TEST(Prepare, AMillionRowsBecomeFewInBoundedTime) {
@@ -213,10 +232,12 @@ TEST(Prepare, AMillionRowsBecomeFewInBoundedTime) {
   constexpr std::size_t split = 16000;  // 60 rows become 960,000 of 3.75 ms
   for (std::size_t k = 0; k < r.rows(); ++k)
     for (std::size_t i = 1; i <= split; ++i) {
-      for (std::size_t c = 0; c < r.channels.size(); ++c) long_one.channels[c].values.push_back(r.channels[c].values[k]);
+      for (std::size_t c = 0; c < r.channels.size(); ++c)
+        long_one.channels[c].values.push_back(r.channels[c].values[k]);
       long_one.channels[0].values.back() = 0.0;
       long_one.channels[0].values[k * split + i - 1] =
-          r.channels[0].values[k] - 60.0 * (1.0 - static_cast<double>(i) / static_cast<double>(split));
+          r.channels[0].values[k] -
+          60.0 * (1.0 - static_cast<double>(i) / static_cast<double>(split));
       for (const std::size_t c : {3u, 4u, 5u, 6u, 7u, 8u})  // no two samples alike
         long_one.channels[c].values[k * split + i - 1] += 1e-9 * static_cast<double>(i % 7);
       long_one.lines.push_back(k * split + i + 1);
@@ -228,7 +249,8 @@ TEST(Prepare, AMillionRowsBecomeFewInBoundedTime) {
   EXPECT_LE(p.recordings[0].rows(), 20000u + 6u);  // a rest in each position
   EXPECT_GE(p.recordings[0].rows(), 15000u);
   const double length = p.study.plan.positions[0].sample;
-  EXPECT_NEAR(p.study.readout.accelerometer_noise, 5e-4 * std::sqrt(60.0 / static_cast<double>(split) / length), 1e-12);
+  EXPECT_NEAR(p.study.readout.accelerometer_noise,
+              5e-4 * std::sqrt(60.0 / static_cast<double>(split) / length), 1e-12);
   EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count(), 20.0);
 }
 

@@ -20,7 +20,8 @@ struct Bench {
   FilterSpec filter = base_filter(Coupling::eq5);
   Measurements measured;
 
-  Bench(std::string_view preset, double dwell) : timeline(preset_timeline(preset, CommandLaw::free, dwell, 60.0)) {}
+  Bench(std::string_view preset, double dwell)
+      : timeline(preset_timeline(preset, CommandLaw::free, dwell, 60.0)) {}
   Examination nominal() const {
     const Test test{timeline, readout, measured};
     return examine(filter, test, make_layout(filter).theta);
@@ -32,9 +33,11 @@ TEST(Search, AnErrorThatNoCandidateHoldsIsLeftUnexplained) {
   Bench b("six", 1800.0);
   b.measured = Simulator(base_truth(Coupling::eq5), b.readout).run(b.timeline, 12, 0).measured;
   for (std::size_t i = 0; i < b.timeline.intervals.size(); ++i) {
-    // A resolver error that builds up in 25 min and falls back: 1.7 sigma rms in 180 samples, 23 sigma.
+    // A resolver error that builds up in 25 min and falls back: 1.7 sigma rms in 180 samples, 23
+    // sigma.
     const double turn = b.timeline.intervals[i].t1 / 1500.0;
-    b.measured.gimbal(1, static_cast<Eigen::Index>(i)) += 30.0 * detail::deg / 3600.0 * (turn - std::floor(turn) - 0.5);
+    b.measured.gimbal(1, static_cast<Eigen::Index>(i)) +=
+        30.0 * detail::deg / 3600.0 * (turn - std::floor(turn) - 0.5);
   }
   Examination e = b.nominal();
   const Search s = b.found(e);
@@ -80,14 +83,17 @@ TEST(Search, AStepBetweenTheHoursOfTheGridIsNamedAloneWithItsTime) {
   const Candidate& c = e.set.candidates[choice.candidate];
   EXPECT_EQ(c.label, "mass_unbalance_step.y");
   EXPECT_TRUE(c.variants[choice.variant].between);
-  // The axis bears no gravity from 2 to 4 h: the sigma of the time must say that it may be any in between.
+  // The axis bears no gravity from 2 to 4 h: the sigma of the time must say that it may be any in
+  // between.
   Diagnosis d;
   fill_causes(e, s, d);
   ASSERT_EQ(d.causes.size(), 1u);
   for (const char* key : {"dD_I_y", "dD_t0"}) {
     const auto p = std::ranges::find(d.causes[0].parameters, key, &CauseParameter::key);
     ASSERT_NE(p, d.causes[0].parameters.end());
-    EXPECT_NEAR(p->value, draw.theta[param(key)] / TermLibrary::specs[param(key)].unit.to_si, 4.0 * p->sigma) << key;
+    EXPECT_NEAR(p->value, draw.theta[param(key)] / TermLibrary::specs[param(key)].unit.to_si,
+                4.0 * p->sigma)
+        << key;
   }
   // Settings between the points share the chances of the points: as many as there are on the grid.
   double share = 0.0, points = 0.0;

@@ -18,7 +18,8 @@ LinearProblem short_problem() {
   static const Timeline timeline = preset_timeline("six", CommandLaw::free, 600.0, 60.0);
   const Readout readout;
   const FilterSpec filter = base_filter(Coupling::eq5);
-  Measurements measured = Simulator(base_truth(Coupling::eq5), readout).run(timeline, 5, 0).measured;
+  Measurements measured =
+      Simulator(base_truth(Coupling::eq5), readout).run(timeline, 5, 0).measured;
   measured.acc(1, 3) = std::nan("");  // a sample that was not measured
   measured.gimbal(2, 7) = std::nan("");
   const BatchResult fit = fit_batch(filter, timeline, readout, measured, make_layout(filter).theta);
@@ -35,11 +36,15 @@ void expect_equals_cholesky(const NoiseModel& noise) {
   const MatX L = llt.matrixL();
   const MatX expected = L.triangularView<Eigen::Lower>().solve(problem.theta);
   // Two ways of solving with V, condition number up to (200 arcsec / 5 arcsec)^2 x rows, about 1e6.
-  EXPECT_LT((whitener.apply(problem.theta) - expected).cwiseAbs().maxCoeff(), 1e-8 * expected.cwiseAbs().maxCoeff());
-  EXPECT_NEAR(whitener.log_det(), 2.0 * L.diagonal().array().log().sum(), 1e-7 * static_cast<double>(problem.rows()));
+  EXPECT_LT((whitener.apply(problem.theta) - expected).cwiseAbs().maxCoeff(),
+            1e-8 * expected.cwiseAbs().maxCoeff());
+  EXPECT_NEAR(whitener.log_det(), 2.0 * L.diagonal().array().log().sum(),
+              1e-7 * static_cast<double>(problem.rows()));
 }
 
-TEST(Whitener, EqualsDenseCholeskyForWhiteNoise) { expect_equals_cholesky({}); }
+TEST(Whitener, EqualsDenseCholeskyForWhiteNoise) {
+  expect_equals_cholesky({});
+}
 
 TEST(Whitener, EqualsDenseCholeskyForEveryKindOfNoiseAtOnce) {
   NoiseModel noise;
@@ -77,7 +82,8 @@ TEST(Whitener, ColoursWhatItWhitens) {
   const Whitener whitener(problem, noise);
   const MatX back = whitener.colour(whitener.apply(problem.theta));
   // Forth and back through one filter: rounding alone, times the number of rows.
-  EXPECT_LT((back - problem.theta).cwiseAbs().maxCoeff(), 1e-10 * problem.theta.cwiseAbs().maxCoeff());
+  EXPECT_LT((back - problem.theta).cwiseAbs().maxCoeff(),
+            1e-10 * problem.theta.cwiseAbs().maxCoeff());
 }
 
 TEST(Whitener, WithoutProcessNoiseAChainDoesNotSeeAnother) {
@@ -97,7 +103,8 @@ TEST(Whitener, ColumnsFromALaterRowOnAreTheSameAsZerosBefore) {
   const LinearProblem problem = short_problem();
   const Eigen::Index first = 40;
   MatX whole = MatX::Zero(problem.rows(), 2);
-  whole.bottomRows(problem.rows() - first) = problem.theta.bottomRows(problem.rows() - first).leftCols(2);
+  whole.bottomRows(problem.rows() - first) =
+      problem.theta.bottomRows(problem.rows() - first).leftCols(2);
   const Whitener whitener(problem, noise);
   EXPECT_EQ(whitener.apply(whole).bottomRows(problem.rows() - first),
             whitener.apply(whole.bottomRows(problem.rows() - first), first));

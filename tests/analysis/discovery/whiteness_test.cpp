@@ -13,7 +13,8 @@ constexpr int channels = 3, chains = 4, samples = 12;  // short dwells
 constexpr Eigen::Index rows = channels * chains * samples;
 constexpr Eigen::Index parameters = 20;
 
-/// A test of many parameters and short dwells; innovations with correlation `phi` from one to the next.
+/// A test of many parameters and short dwells; innovations with correlation `phi` from one to the
+/// next.
 struct Scene {
   LinearProblem problem;
   MatX theta = MatX(rows, parameters);
@@ -27,7 +28,8 @@ Scene scene(double phi, std::uint64_t seed) {
     for (int t = 0; t < samples; ++t) {
       IntervalDrive drive;
       drive.chain = chain;
-      for (int c = 0; c < channels; ++c) s.problem.tags.push_back({s.problem.drives.size(), c, chain});
+      for (int c = 0; c < channels; ++c)
+        s.problem.tags.push_back({s.problem.drives.size(), c, chain});
       s.problem.drives.push_back(drive);
     }
   Stream columns(1, 0, Purpose::test), noise(seed, 1, Purpose::test);
@@ -64,7 +66,8 @@ TEST(Whiteness, PValuesOfWhiteInnovationsAreUniformThoughDwellsAreShortAndParame
 TEST(Whiteness, CorrelatedInnovationsAreFound) {
   // Per channel 44 pairs at lag 1 with r = 0.7: Q gains some 20, several times its mean of 5.
   int found = 0;
-  for (int k = 0; k < 10; ++k) found += p_of(scene(0.7, static_cast<std::uint64_t>(500 + k))) <= 0.02;
+  for (int k = 0; k < 10; ++k)
+    found += p_of(scene(0.7, static_cast<std::uint64_t>(500 + k))) <= 0.02;
   EXPECT_GE(found, 9);
 }
 

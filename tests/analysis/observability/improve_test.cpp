@@ -34,7 +34,8 @@ RankedModel model_of(Coupling coupling, std::initializer_list<std::string_view> 
 VecX learning_ratios(const TestPlan& plan, const RankedModel& model) {
   const Ranking r = rank_parameters(linearise(plan, model));
   VecX all(static_cast<Eigen::Index>(r.parameters.size()));
-  for (std::size_t k = 0; k < r.parameters.size(); ++k) all[static_cast<Eigen::Index>(k)] = r.learning_ratio(k);
+  for (std::size_t k = 0; k < r.parameters.size(); ++k)
+    all[static_cast<Eigen::Index>(k)] = r.learning_ratio(k);
   return all;
 }
 
@@ -49,7 +50,8 @@ TEST(Improve, CandidatesAre96FramesAsTheirTextSays) {
     for (const Mat3& other : frames) EXPECT_GT((*R_lp - other).norm(), 0.1) << axes;
     frames.push_back(*R_lp);
   }
-  const TestPlan caged = plan_of("six", CommandLaw::level), torqued = plan_of("slew12", CommandLaw::level);
+  const TestPlan caged = plan_of("six", CommandLaw::level),
+                 torqued = plan_of("slew12", CommandLaw::level);
   EXPECT_EQ(caged_candidates(caged).size(), 2u * 96u);
   EXPECT_TRUE(torqued_candidates(caged, 0.0).empty());
   EXPECT_EQ(torqued_candidates(torqued, 0.0).size(), 4u * 96u);
@@ -71,7 +73,8 @@ TEST(Improve, LowRankUpdateIsTheRecomputation) {
     const UpdatedBelief updated = updated_belief(joint_posterior(sum), J);
     sum.add(1, rows);
     const Posterior again = posterior_of(sum.root());
-    EXPECT_LT((updated.sigma.cwiseQuotient(again.sigma).array() - 1.0).abs().maxCoeff(), 1e-9) << size;
+    EXPECT_LT((updated.sigma.cwiseQuotient(again.sigma).array() - 1.0).abs().maxCoeff(), 1e-9)
+        << size;
     EXPECT_NEAR(updated.half_log2_det, -again.bits, 1e-9 * again.bits) << size;
   }
 }
@@ -92,7 +95,8 @@ TEST(Improve, EveryPromiseHoldsWhenThePlanIsRankedAnew) {
     const char *preset, *criterion;
   };
   for (const Case& c : {Case{"six", "A"}, {"six", "eta_y"}, {"slew12", "D"}}) {
-    const RankedModel model = model_of(Coupling::eq5, {"D_F", "D_I", "D_S", "eta", "xi", "s", "K0"});
+    const RankedModel model =
+        model_of(Coupling::eq5, {"D_F", "D_I", "D_S", "eta", "xi", "s", "K0"});
     TestPlan plan = plan_of(c.preset, CommandLaw::free);
     plan.positions.resize(3);
     const double duration = linearise(plan, model).duration;
@@ -103,7 +107,8 @@ TEST(Improve, EveryPromiseHoldsWhenThePlanIsRankedAnew) {
     for (const ImprovementStep& s : better.steps) {
       plan.positions.push_back(s.position);
       const VecX now = learning_ratios(plan, model);
-      EXPECT_LT((s.learning_ratios.cwiseQuotient(now).array() - 1.0).abs().maxCoeff(), 1e-9) << c.preset;
+      EXPECT_LT((s.learning_ratios.cwiseQuotient(now).array() - 1.0).abs().maxCoeff(), 1e-9)
+          << c.preset;
       EXPECT_LT(s.after, s.before);
       EXPECT_GT(s.feasible, 90u);
     }
@@ -120,14 +125,16 @@ TEST(Improve, TheChoiceIsTheBestOfAllCandidatesRankedInFull) {
   const Improvement better = improve_plan(plan, model, criterion, 1, 2);
   const Timeline timeline = lay_out(plan, harbin);
   std::vector<Position> candidates = caged_candidates(plan);
-  for (const Position& p : torqued_candidates(plan, timeline.intervals.back().heading1)) candidates.push_back(p);
+  for (const Position& p : torqued_candidates(plan, timeline.intervals.back().heading1))
+    candidates.push_back(p);
   double best = 1.0;
   std::size_t feasible = 0;
   for (const Position& p : candidates) {
     TestPlan longer = plan;
     longer.positions.push_back(p);
     try {
-      best = std::min(best, learning_ratios(longer, model)[static_cast<Eigen::Index>(criterion.state)]);
+      best = std::min(best,
+                      learning_ratios(longer, model)[static_cast<Eigen::Index>(criterion.state)]);
       ++feasible;
     } catch (const InputError&) {  // beyond the gimbals
     }
@@ -141,7 +148,8 @@ TEST(Improve, DoesNotDependOnThreads) {
   TestPlan plan = plan_of("slew12", CommandLaw::free);
   plan.positions.resize(2);
   const Criterion criterion = parse_criterion("A", make_layout(model.spec));
-  const Improvement one = improve_plan(plan, model, criterion, 1, 1), three = improve_plan(plan, model, criterion, 1, 3);
+  const Improvement one = improve_plan(plan, model, criterion, 1, 1),
+                    three = improve_plan(plan, model, criterion, 1, 3);
   EXPECT_EQ(one.steps.front().position.axes, three.steps.front().position.axes);
   EXPECT_EQ(one.steps.front().learning_ratios, three.steps.front().learning_ratios);
 }

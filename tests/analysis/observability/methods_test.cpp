@@ -24,7 +24,8 @@ TEST(Methods, RanksShareTiesAndSpearmanIsOneForTheSameOrder) {
   EXPECT_DOUBLE_EQ(spearman(vec({1.0, 2.0, 3.0, 9.0}), vec({-3.0, 0.0, 1e6, 1e7})), 1.0);
   EXPECT_DOUBLE_EQ(spearman(vec({1.0, 2.0, 3.0}), vec({3.0, 2.0, 1.0})), -1.0);
   // Textbook: 1 - 6 sum d^2 / (n (n^2 - 1)) without ties; d = 1, 1, 1, 1.
-  EXPECT_DOUBLE_EQ(spearman(vec({1.0, 2.0, 3.0, 4.0}), vec({2.0, 1.0, 4.0, 3.0})), 1.0 - 6.0 * 4.0 / (4.0 * 15.0));
+  EXPECT_DOUBLE_EQ(spearman(vec({1.0, 2.0, 3.0, 4.0}), vec({2.0, 1.0, 4.0, 3.0})),
+                   1.0 - 6.0 * 4.0 / (4.0 * 15.0));
   EXPECT_TRUE(std::isnan(spearman(vec({1.0}), vec({1.0}))));
 }
 
@@ -45,7 +46,8 @@ Ranking ranking_of(std::initializer_list<double> information) {
     const double P = 1.0 / (1.0 + i);
     r.covariance(k, k) = P;
     r.layout.params.push_back(static_cast<std::size_t>(k));
-    r.parameters.push_back({static_cast<std::size_t>(k), 2.0, 2.0 * std::sqrt(P), 2.0 * std::sqrt(P), static_cast<std::size_t>(k), 0.0});
+    r.parameters.push_back({static_cast<std::size_t>(k), 2.0, 2.0 * std::sqrt(P),
+                            2.0 * std::sqrt(P), static_cast<std::size_t>(k), 0.0});
     r.order.push_back(static_cast<std::size_t>(k));
     r.spectrum.push_back({i, VecX::Unit(n, k), {static_cast<std::size_t>(k)}});
     ++k;
@@ -64,12 +66,13 @@ TEST(Methods, HamBrownEigenvaluesSumToTheNumberOfStates) {
 }
 
 TEST(Methods, WhereRankingsDisagreeIsSaidWithTheReason) {
-  const TestPlan plan = preset_plan("twentyfour", PlanDefaults{3600.0, 300.0, CommandLaw::level, {}}).value();
+  const TestPlan plan =
+      preset_plan("twentyfour", PlanDefaults{3600.0, 300.0, CommandLaw::level, {}}).value();
   const RankedModel model = ranked_model(base_spec(Coupling::eq5), nullptr, harbin, Readout{});
   const LinearisedPlan linear = linearise(plan, model);
   const Ranking r = rank_parameters(linear);
-  const auto methods = compare_methods(r, pwcs_rank(plan, harbin, model.spec, model.readout), linear,
-                                       information_course(linear), plan);
+  const auto methods = compare_methods(r, pwcs_rank(plan, harbin, model.spec, model.readout),
+                                       linear, information_course(linear), plan);
   ASSERT_EQ(methods.size(), 3u);
   for (const MethodRanking& m : methods) {
     EXPECT_EQ(m.score.size(), 60);
@@ -77,7 +80,8 @@ TEST(Methods, WhereRankingsDisagreeIsSaidWithTheReason) {
     EXPECT_LT(m.spearman, 1.0) << m.key;
     // What a conditional sigma cannot know: D_F is one sum with the trace of the g^2 terms.
     ASSERT_FALSE(m.disagreements.empty()) << m.key;
-    EXPECT_EQ(TermLibrary::specs[r.layout.params[m.disagreements.front().state]].group, Name("D_F")) << m.key;
+    EXPECT_EQ(TermLibrary::specs[r.layout.params[m.disagreements.front().state]].group, Name("D_F"))
+        << m.key;
     EXPECT_LT(m.disagreements.front().rank_here, m.disagreements.front().rank_learning);
   }
   EXPECT_NE(methods[0].disagreements.front().reason.find("confused with D_"), std::string::npos);
@@ -86,16 +90,21 @@ TEST(Methods, WhereRankingsDisagreeIsSaidWithTheReason) {
 TEST(AgainstMonteCarlo, VerdictsSayWhatTheErrorMeans) {
   // Learning ratios 0.1, 0.1, 0.1 and 1, prior 2.
   const Ranking r = ranking_of({99.0, 99.0, 99.0, 0.0});
-  const std::vector<MonteCarloError> errors{
-      {0, 0.21, 0.19, 0.23, 0.2}, {1, 0.6, 0.5, 0.7, 0.2}, {2, 0.1, 0.08, 0.12, 0.2}, {3, 2.8, 2.6, 3.0, 2.0}};
+  const std::vector<MonteCarloError> errors{{0, 0.21, 0.19, 0.23, 0.2},
+                                            {1, 0.6, 0.5, 0.7, 0.2},
+                                            {2, 0.1, 0.08, 0.12, 0.2},
+                                            {3, 2.8, 2.6, 3.0, 2.0}};
   const auto verdicts = [&](TruthIs truth) {
     std::vector<ErrorVerdict> all;
-    for (const auto& c : compare_with_monte_carlo(r, errors, truth).parameters) all.push_back(c.verdict);
+    for (const auto& c : compare_with_monte_carlo(r, errors, truth).parameters)
+      all.push_back(c.verdict);
     return all;
   };
   using enum ErrorVerdict;
-  EXPECT_EQ(verdicts(TruthIs::the_model), (std::vector{agree, nonlinear, nonlinear, prior_dominated}));
-  EXPECT_EQ(verdicts(TruthIs::another_model), (std::vector{agree, wrong_model, nonlinear, prior_dominated}));
+  EXPECT_EQ(verdicts(TruthIs::the_model),
+            (std::vector{agree, nonlinear, nonlinear, prior_dominated}));
+  EXPECT_EQ(verdicts(TruthIs::another_model),
+            (std::vector{agree, wrong_model, nonlinear, prior_dominated}));
   const auto c = compare_with_monte_carlo(r, errors, TruthIs::another_model);
   EXPECT_NEAR(c.parameters[1].rmse_ratio, 0.3, 1e-15);
   EXPECT_NEAR(c.parameters[1].learning_ratio, 0.1, 1e-15);
@@ -104,17 +113,21 @@ TEST(AgainstMonteCarlo, VerdictsSayWhatTheErrorMeans) {
   EXPECT_NE(c.parameters[1].reason.find("3 times"), std::string::npos) << c.parameters[1].reason;
   // An error three times the promise of which the filter knows is no sign of another model.
   const std::vector<MonteCarloError> known{{1, 0.6, 0.5, 0.7, 0.6}};
-  EXPECT_EQ(compare_with_monte_carlo(r, known, TruthIs::another_model).parameters.front().verdict, nonlinear);
+  EXPECT_EQ(compare_with_monte_carlo(r, known, TruthIs::another_model).parameters.front().verdict,
+            nonlinear);
 }
 
 TEST(AgainstMonteCarlo, AnErrorBeyondWhatThePriorCanExplainIsNotDominatedByIt) {
-  const auto c = compare_with_monte_carlo(ranking_of({0.0}), std::vector<MonteCarloError>{{0, 20.0, 18.0, 22.0, 2.0}}, TruthIs::another_model);
+  const auto c = compare_with_monte_carlo(ranking_of({0.0}),
+                                          std::vector<MonteCarloError>{{0, 20.0, 18.0, 22.0, 2.0}},
+                                          TruthIs::another_model);
   EXPECT_EQ(c.parameters.front().verdict, ErrorVerdict::wrong_model);
 }
 
 TEST(AgainstMonteCarlo, WhatIsMissingOnEitherSideIsLeftOut) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const std::vector<MonteCarloError> errors{{0, nan, nan, nan}, {1, 1.0, nan, nan}, {40, 1.0, 0.9, 1.1}};
+  const std::vector<MonteCarloError> errors{
+      {0, nan, nan, nan}, {1, 1.0, nan, nan}, {40, 1.0, 0.9, 1.1}};
   const auto c = compare_with_monte_carlo(ranking_of({3.0, 3.0}), errors, TruthIs::the_model);
   ASSERT_EQ(c.parameters.size(), 1u);
   EXPECT_EQ(c.parameters.front().param, 1u);

@@ -77,15 +77,16 @@ TEST(Pwcs, RanksOfTheTable) {
         const PwcsRank r = pwcs_rank(c.plan, harbin, test::base_spec(coupling), channels(gimbals));
         EXPECT_EQ(r.states, 63);
         EXPECT_EQ(r.rank, gimbals ? c.acc_enc : c.acc) << c.name << ", gimbals " << gimbals;
-        EXPECT_TRUE(r.clear()) << c.name << ", gimbals " << gimbals << ": gap " << r.gap << ", leak "
-                               << r.leak << ", least " << r.singular_values.transpose();
+        EXPECT_TRUE(r.clear()) << c.name << ", gimbals " << gimbals << ": gap " << r.gap
+                               << ", leak " << r.leak << ", least "
+                               << r.singular_values.transpose();
       }
 }
 
 TEST(Pwcs, NullSpaceOfACardinalPositionStandsStill) {
   for (const bool gimbals : {false, true})
-    for (const PwcsPosition& p : pwcs_positions(plan_of("twentyfour"), harbin,
-                                                test::base_spec(Coupling::eq5), channels(gimbals))) {
+    for (const PwcsPosition& p : pwcs_positions(
+             plan_of("twentyfour"), harbin, test::base_spec(Coupling::eq5), channels(gimbals))) {
       // The null space of Q by another route than pwcs_rank takes: complement of the range of Q^T.
       Eigen::ColPivHouseholderQR<MatX> qr(p.Q.transpose());
       qr.setThreshold(1e-9);
@@ -133,7 +134,8 @@ TEST(Pwcs, OneMoreKnownParameterIsOneStateLess) {
 
 TEST(Pwcs, TermsWithTimeOrMemoryHaveNoPartInAConstantProblem) {
   const FilterSpec plain = test::base_filter(Coupling::eq5);
-  for (const char* key : {"ramp_x", "W_x", "dD_I_y", "R_z", "tilt_s_n", "F_outer", "enc_s1_outer"}) {
+  for (const char* key :
+       {"ramp_x", "W_x", "dD_I_y", "R_z", "tilt_s_n", "F_outer", "enc_s1_outer"}) {
     FilterSpec more = plain;
     const std::size_t i = test::param(key);
     more.active.set(i);

@@ -12,8 +12,8 @@
 #include "analysis/observability/information_by_position.hpp"
 #include "analysis/observability/other_methods.hpp"
 #include "analysis/report/degeneracies.hpp"
-#include "core/estimate/triangle.hpp"
 #include "core/base/check.hpp"
+#include "core/estimate/triangle.hpp"
 #include "tests/support/model_builders.hpp"
 
 namespace drift {
@@ -23,7 +23,8 @@ using namespace drift::test;
 
 constexpr auto everything = [](const TimeBin&) { return true; };
 
-TestPlan plan_of(std::string_view preset, CommandLaw mode, double dwell = 3600.0, double sample = 60.0) {
+TestPlan plan_of(std::string_view preset, CommandLaw mode, double dwell = 3600.0,
+                 double sample = 60.0) {
   PlanDefaults defaults;
   defaults.mode = mode;
   defaults.dwell = dwell;
@@ -87,7 +88,8 @@ TEST(Ranking, SmallProblemInClosedForm) {
   for (const EigenDirection& d : r.spectrum) product += 0.5 * std::log2(1.0 + d.information);
   EXPECT_NEAR(r.bits, product, 1e-12);
   EXPECT_TRUE(std::ranges::is_sorted(r.spectrum, std::greater{}, &EigenDirection::information));
-  EXPECT_TRUE(std::ranges::is_sorted(r.order, {}, [&](std::size_t k) { return r.learning_ratio(k); }));
+  EXPECT_TRUE(
+      std::ranges::is_sorted(r.order, {}, [&](std::size_t k) { return r.learning_ratio(k); }));
 }
 
 TEST(Ranking, GainsAddUpAndLossesAreThoseOfAPlanWithoutThePosition) {
@@ -99,7 +101,9 @@ TEST(Ranking, GainsAddUpAndLossesAreThoseOfAPlanWithoutThePosition) {
     EXPECT_NEAR(course.gain.row(k).sum(), r.parameters[k].bits(), 1e-12);
     EXPECT_NEAR(course.position_gain.row(k).sum(), r.parameters[k].bits(), 1e-12);
     for (int p = 0; p < 3; ++p)
-      EXPECT_NEAR(course.loss(k, p), 0.5 * std::log2(textbook_covariance(plan, p)(k, k)) + r.parameters[k].bits(), 1e-12);
+      EXPECT_NEAR(course.loss(k, p),
+                  0.5 * std::log2(textbook_covariance(plan, p)(k, k)) + r.parameters[k].bits(),
+                  1e-12);
   }
 }
 
@@ -123,7 +127,8 @@ TEST(Ranking, TimeBinsHoldTheInformationOfTheWhole) {
   const LinearisedPlan coarse = linearise(plan, model, 1), fine = linearise(plan, model, 5);
   ASSERT_EQ(coarse.bins.size(), 12u + 11u);  // dwells and slews
   ASSERT_EQ(fine.bins.size(), 5u * 12u + 11u);
-  for (std::size_t b = 1; b < fine.bins.size(); ++b) EXPECT_EQ(fine.bins[b].t0, fine.bins[b - 1].t1);
+  for (std::size_t b = 1; b < fine.bins.size(); ++b)
+    EXPECT_EQ(fine.bins[b].t0, fine.bins[b - 1].t1);
   const MatX a = information_root(coarse, everything), b = information_root(fine, everything);
   EXPECT_LT((a.transpose() * a - b.transpose() * b).norm(), 1e-12 * (a.transpose() * a).norm());
 }
@@ -132,7 +137,8 @@ struct TableRow {
   const char* preset;
   int acc, acc_enc;  ///< rank of 63, physics.md 2.5 (twelve: see pwcs_test.cpp)
 };
-constexpr TableRow table[] = {{"six", 34, 36}, {"apollo10", 51, 52}, {"twelve", 45, 45}, {"twentyfour", 45, 45}};
+constexpr TableRow table[] = {
+    {"six", 34, 36}, {"apollo10", 51, 52}, {"twelve", 45, 45}, {"twentyfour", 45, 45}};
 
 TEST(Ranking, RanksOfTheTableFromTheInformation) {
   // The table knows the rotations between positions: one attitude error for all, in local axes. So
@@ -141,7 +147,8 @@ TEST(Ranking, RanksOfTheTableFromTheInformation) {
     for (const bool gimbals : {false, true}) {
       RankedModel model = model_of(Coupling::eq5);
       model.readout.gimbals = gimbals;
-      const LinearisedPlan plan = linearise(plan_of(row.preset, CommandLaw::level, 3600.0, 300.0), model);
+      const LinearisedPlan plan =
+          linearise(plan_of(row.preset, CommandLaw::level, 3600.0, 300.0), model);
       MatX R = MatX::Zero(63, 63);
       for (const TimeBin& bin : plan.bins) R = triangle(stacked(R, bin.rows));
       const auto spectrum = spectrum_of(R);
@@ -153,8 +160,8 @@ TEST(Ranking, RanksOfTheTableFromTheInformation) {
 }
 
 TEST(Ranking, WithGimbalsACagingCostsNoRank) {
-  // Gimbals have no parameters of their own: they tell the attitude after every caging. What is left
-  // of the table's rank is that of the parameters, 3 less.
+  // Gimbals have no parameters of their own: they tell the attitude after every caging. What is
+  // left of the table's rank is that of the parameters, 3 less.
   for (const Coupling coupling : {Coupling::eq5, Coupling::eq6})
     for (const TableRow& row : table) {
       const TestPlan plan = plan_of(row.preset, CommandLaw::level, 3600.0, 300.0);
@@ -164,14 +171,17 @@ TEST(Ranking, WithGimbalsACagingCostsNoRank) {
     }
 }
 
-std::vector<std::string> combinations(const Ranking& r, const std::vector<WeakDirection>& directions) {
+std::vector<std::string> combinations(const Ranking& r,
+                                      const std::vector<WeakDirection>& directions) {
   std::vector<std::string> all;
-  for (const auto& d : name_degeneracies(r.layout, Mounting{}, directions)) all.push_back(d.combination);
+  for (const auto& d : name_degeneracies(r.layout, Mounting{}, directions))
+    all.push_back(d.combination);
   return all;
 }
 
 TEST(Ranking, ExactDegeneraciesAreFoundByName) {
-  const Ranking r = rank_parameters(linearise(plan_of("twentyfour", CommandLaw::level, 3600.0, 300.0), model_of(Coupling::eq5)));
+  const Ranking r = rank_parameters(
+      linearise(plan_of("twentyfour", CommandLaw::level, 3600.0, 300.0), model_of(Coupling::eq5)));
   const auto names = combinations(r, r.exact);
   ASSERT_EQ(names.size(), 18u);  // physics.md 2.4
   for (const char axis : {'x', 'y', 'z'}) {
@@ -183,10 +193,12 @@ TEST(Ranking, ExactDegeneraciesAreFoundByName) {
     EXPECT_TRUE(has("K1_# - K3_#"));
     for (const char* alone : {"D_IO_#", "D_IS_#", "D_OS_#", "K_ip_#"}) EXPECT_TRUE(has(alone));
   }
-  // Floor of D_F by the priors of the three it cannot be told from: 0.1/sqrt(3) against a prior of 1.
+  // Floor of D_F by the priors of the three it cannot be told from: 0.1/sqrt(3) against a prior
+  // of 1.
   const double floor = 0.1 / std::sqrt(3.0), left = floor / std::sqrt(1.0 + floor * floor);
   for (const auto& p : r.parameters)
-    if (TermLibrary::specs[p.param].group == Name("D_F")) EXPECT_NEAR(p.learning_ratio(), left, 1e-5);
+    if (TermLibrary::specs[p.param].group == Name("D_F"))
+      EXPECT_NEAR(p.learning_ratio(), left, 1e-5);
 }
 
 TEST(Ranking, GaugeIsHeldByTheAttitudePriorAloneWithoutGimbals) {
@@ -202,7 +214,8 @@ TEST(Ranking, GaugeIsHeldByTheAttitudePriorAloneWithoutGimbals) {
   // The limit by priors: 1/sqrt(2/200^2 + 2/100^2 + 1/200^2) = 60.3 arcsec; data cannot beat it.
   const double limit = 1.0 / std::sqrt(3.0 / (200.0 * 200.0) + 2.0 / (100.0 * 100.0)) * arcsec;
   for (const auto& p : r.parameters)
-    if (TermLibrary::specs[p.param].group == Name("eta")) EXPECT_NEAR(p.posterior_sigma / limit, 1.0, 0.01);
+    if (TermLibrary::specs[p.param].group == Name("eta"))
+      EXPECT_NEAR(p.posterior_sigma / limit, 1.0, 0.01);
 }
 
 TEST(Ranking, LearningRatioIsThatOfABatchFitAtTheTruth) {
@@ -216,7 +229,8 @@ TEST(Ranking, LearningRatioIsThatOfABatchFitAtTheTruth) {
   const RankedModel model = ranked_model(filter, &truth, harbin, Readout{});
   const Ranking r = rank_parameters(linearise(plan, model));
 
-  // Data without noise or attitude error, a fit held at the truth: one solution of the same problem.
+  // Data without noise or attitude error, a fit held at the truth: one solution of the same
+  // problem.
   const Timeline timeline = lay_out(plan, harbin);
   Readout silent;
   silent.accelerometer_noise = silent.gimbal_noise = 0.0;
@@ -238,16 +252,19 @@ TEST(Ranking, PromisedSigmasAreTheErrorsOfBatchFits) {
   TruthSpec truth;
   static_cast<ModelSpec&>(truth) = filter;
   const Timeline timeline = lay_out(plan, harbin);
-  const Ranking r = rank_parameters(linearise(plan, ranked_model(filter, nullptr, harbin, Readout{})));
+  const Ranking r =
+      rank_parameters(linearise(plan, ranked_model(filter, nullptr, harbin, Readout{})));
   constexpr int runs = 60;
   VecX square = VecX::Zero(static_cast<Eigen::Index>(r.parameters.size()));
   Simulator simulator(truth, Readout{});
   for (int run = 0; run < runs; ++run) {
     const Simulation sim = simulator.run(timeline, 5, run);
     ASSERT_TRUE(sim.ode.ok());
-    const BatchResult fit = fit_batch(filter, timeline, Readout{}, sim.measured, make_layout(filter).theta);
+    const BatchResult fit =
+        fit_batch(filter, timeline, Readout{}, sim.measured, make_layout(filter).theta);
     for (std::size_t k = 0; k < r.parameters.size(); ++k)
-      square[k] += std::pow(fit.estimate.parameters[k].value - sim.draw.theta[r.parameters[k].param], 2);
+      square[k] +=
+          std::pow(fit.estimate.parameters[k].value - sim.draw.theta[r.parameters[k].param], 2);
   }
   // (RMSE/sigma)^2 is chi-square of 60 over 60: deviation of the ratio 1/sqrt(120) = 0.091 per
   // parameter; 4 sigma for the worst of 15 (chance 1e-3). Mean of the 15: two of them may be one
@@ -258,7 +275,8 @@ TEST(Ranking, PromisedSigmasAreTheErrorsOfBatchFits) {
     const double rmse = std::sqrt(square[k] / runs), ratio = rmse / r.parameters[k].posterior_sigma;
     EXPECT_NEAR(ratio, 1.0, 4.0 * 0.091) << TermLibrary::specs[r.parameters[k].param].key.view();
     mean += ratio * ratio / static_cast<double>(r.parameters.size());
-    errors.push_back({r.parameters[k].param, rmse, rmse * (1.0 - 2.0 * 0.091), rmse * (1.0 + 2.0 * 0.091), r.parameters[k].posterior_sigma});
+    errors.push_back({r.parameters[k].param, rmse, rmse * (1.0 - 2.0 * 0.091),
+                      rmse * (1.0 + 2.0 * 0.091), r.parameters[k].posterior_sigma});
   }
   EXPECT_NEAR(mean, 1.0, 3.0 * std::sqrt(2.0 / runs / 5.0));
   const auto comparison = compare_with_monte_carlo(r, errors, TruthIs::the_model);
@@ -281,7 +299,8 @@ TEST(Ranking, AModelThatSeesTheFieldIsRankedInTheFieldOfTheStudy) {
   field.field_n = 0.25e-4;
   field.field_w = 0.0;
   field.field_u = -0.47e-4;
-  const Ranking r = rank_parameters(linearise(plan, ranked_model(spec, nullptr, harbin, Readout{}, field)));
+  const Ranking r =
+      rank_parameters(linearise(plan, ranked_model(spec, nullptr, harbin, Readout{}, field)));
   EXPECT_FALSE(r.parameters.empty());
 }
 

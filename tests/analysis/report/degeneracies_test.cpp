@@ -12,7 +12,9 @@ namespace {
 
 using Combination = std::map<std::string_view, double>;  // in each parameter's unit
 
-Layout layout() { return make_layout(testing::study().filters[0]); }
+Layout layout() {
+  return make_layout(testing::study().filters[0]);
+}
 
 VecX scaled(const Layout& l, const Combination& combination) {
   VecX v = VecX::Zero(static_cast<Eigen::Index>(l.size()));

@@ -37,20 +37,23 @@ coupling = "eq6"
 seed = 3
 )";
 
-inline Study read_text(const test::ScratchFolder& folder, const std::string& name, const std::string& text) {
+inline Study read_text(const test::ScratchFolder& folder, const std::string& name,
+                       const std::string& text) {
   return read_study(folder.write(name, text));
 }
 
-/// A diagnosis made by hand: D_S_y was left out, found beside a confusable D_I_z; every list filled, a
-/// text that must be escaped, and a number that is none.
+/// A diagnosis made by hand: D_S_y was left out, found beside a confusable D_I_z; every list
+/// filled, a text that must be escaped, and a number that is none.
 inline discovery::Diagnosis diagnosis(const FilterSpec& nominal) {
   using namespace discovery;
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   Diagnosis d;
   d.verdict = Verdict::named;
   d.p_value = 1e-30;
-  d.where.channel_names = {"acc_x", "acc_y", "acc_z", "gimbal_outer", "gimbal_middle", "gimbal_inner"};
-  d.where.channels = {{.name = "acc_y", .share = 0.7, .sigma = 0.1}, {.name = "gimbal_outer", .share = 0.3}};
+  d.where.channel_names = {"acc_x",        "acc_y",         "acc_z",
+                           "gimbal_outer", "gimbal_middle", "gimbal_inner"};
+  d.where.channels = {{.name = "acc_y", .share = 0.7, .sigma = 0.1},
+                      {.name = "gimbal_outer", .share = 0.3}};
   d.where.positions = {{.position = 3, .share = 0.6}, {.position = 1, .share = 0.4}};
   for (int p = 1; p <= 6; ++p)
     for (int c = 0; c < 6; ++c) d.where.heat.push_back({p, c, c == 1 ? 0.1 * p : -0.01, 1.0});
@@ -82,7 +85,12 @@ inline discovery::Diagnosis diagnosis(const FilterSpec& nominal) {
   d.candidates[1].label = "other";
   d.candidates[1].p_value = 0.2;
   d.candidates[1].score = none;
-  d.noise = {{.component = "gimbal_white", .factor = 1.3, .factor_sigma = 0.02, .value = 6.5, .unit = "arcsec", .significant = true}};
+  d.noise = {{.component = "gimbal_white",
+              .factor = 1.3,
+              .factor_sigma = 0.02,
+              .value = 6.5,
+              .unit = "arcsec",
+              .significant = true}};
   d.fit.chi2_per_dof_before = 1.02;
   d.fit.held_out.chi2_per_dof_before = 9.1;
   d.fit.held_out.chi2_per_dof_after = 1.03;
@@ -99,7 +107,8 @@ inline discovery::Diagnosis diagnosis(const FilterSpec& nominal) {
   }
   d.fit.start_spread_before = 10.6;
   d.fit.start_spread_after = none;
-  d.fit.shifted = {{"eta_x", "arcsec", TermLibrary::find("eta_x").value(), 268.0, 15.0, 101.0, 5.0, -11.1}};
+  d.fit.shifted = {
+      {"eta_x", "arcsec", TermLibrary::find("eta_x").value(), 268.0, 15.0, 101.0, 5.0, -11.1}};
   d.fit.residual_before.setRandom(6, 60);
   d.fit.residual_after.setRandom(6, 60);
   RecoveredSignal signal;

@@ -32,7 +32,8 @@ TEST(DiagnosisJson, HasEveryKeyOfTheInterfaceWithTheTypeThatStandsThere) {
   EXPECT_EQ(j["schema"], 1);
   EXPECT_EQ(j["verdict"], "named");
   EXPECT_EQ(j["p_value"], 1e-30);
-  EXPECT_EQ(j["where"]["channels"][0], (json{{"name", "acc_y"}, {"share", 0.7}, {"sigma", 0.1}, {"chi2_per_dof", 1.0}}));
+  EXPECT_EQ(j["where"]["channels"][0],
+            (json{{"name", "acc_y"}, {"share", 0.7}, {"sigma", 0.1}, {"chi2_per_dof", 1.0}}));
   EXPECT_EQ(j["where"]["positions"][0]["position"], 3);
   EXPECT_EQ(j["where"]["windows"][0]["start_s"], 1200.0);
   EXPECT_EQ(j["where"]["windows"][0]["end_s"], 1800.0);
@@ -46,7 +47,8 @@ TEST(DiagnosisJson, HasEveryKeyOfTheInterfaceWithTheTypeThatStandsThere) {
   EXPECT_EQ(cause["parameters"][0]["sigma"], 0.01);
   EXPECT_EQ(cause["parameters"][0]["unit"], "deg/h/g");
   EXPECT_EQ(cause["confusable_with"][0]["cosine"], 0.85);
-  for (const char* key : {"term", "score", "p_value", "absorbed"}) EXPECT_TRUE(j["candidates"][0].contains(key)) << key;
+  for (const char* key : {"term", "score", "p_value", "absorbed"})
+    EXPECT_TRUE(j["candidates"][0].contains(key)) << key;
   EXPECT_EQ(j["fit"]["in_sample"]["chi2_per_dof_before"], 1.02);
   EXPECT_EQ(j["fit"]["in_sample"]["chi2_per_dof_after"], 1.0);
   EXPECT_EQ(j["fit"]["held_out"]["log_score_gain"], 812.0);
@@ -95,15 +97,18 @@ TEST(DiagnosisJson, WhatWasNotComputedIsNullAndNotZero) {
   j = json::parse(to_json(d));
   for (const char* key : {"log_likelihood_ratio", "predicted_by_score", "sign_agrees"})
     EXPECT_TRUE(j["fit"]["in_sample"].at(key).is_null()) << key;
-  for (const char* key : {"log_score_gain", "log_score_gain_sigma", "nested_gain", "chi2_per_dof_before"})
+  for (const char* key :
+       {"log_score_gain", "log_score_gain_sigma", "nested_gain", "chi2_per_dof_before"})
     EXPECT_TRUE(j["fit"]["held_out"].at(key).is_null()) << key;
   // A recording on a case: no declared noise, no scan.
   d.has_patch = true;
-  d.fit.band_low = d.fit.band_high = d.fit.log_likelihood_ratio = d.where.scan_p_value = std::nan("");
+  d.fit.band_low = d.fit.band_high = d.fit.log_likelihood_ratio = d.where.scan_p_value =
+      std::nan("");
   j = json::parse(to_json(d));
   for (const char* key : {"chi2_per_dof_95", "log_likelihood_ratio", "sign_agrees"})
     EXPECT_TRUE(j["fit"]["in_sample"].at(key).is_null()) << key;
-  for (const char* key : {"p_value", "windows_tried"}) EXPECT_TRUE(j["where"].at(key).is_null()) << key;
+  for (const char* key : {"p_value", "windows_tried"})
+    EXPECT_TRUE(j["where"].at(key).is_null()) << key;
 }
 
 TEST(DiagnosisPage, IsWellFormedOfflineAndEscaped) {
@@ -114,8 +119,9 @@ TEST(DiagnosisPage, IsWellFormedOfflineAndEscaped) {
   EXPECT_EQ(testing::xml_problem(page, void_tags), std::nullopt);
   EXPECT_EQ(page.find("://"), std::string::npos);
   EXPECT_EQ(page.find("<script"), std::string::npos);
-  for (const char* text : {"six &amp; &lt;positions&gt;", "rec &lt;1&gt;.csv", "a &lt;remark&gt; &amp; more",
-                           "g_drift D_S_y &lt;&amp;&gt;", "[[plan.position]]"})
+  for (const char* text :
+       {"six &amp; &lt;positions&gt;", "rec &lt;1&gt;.csv", "a &lt;remark&gt; &amp; more",
+        "g_drift D_S_y &lt;&amp;&gt;", "[[plan.position]]"})
     EXPECT_NE(page.find(text), std::string::npos) << text;
   const auto figures = diagnosis_figures(d);
   EXPECT_EQ(figures.size(), 7u);
@@ -125,7 +131,8 @@ TEST(DiagnosisPage, IsWellFormedOfflineAndEscaped) {
 TEST(DiagnosisPage, HoldsOfAnyVerdictAndOfNothing) {
   const test::ScratchFolder folder;
   const Study study = testing::read_text(folder, "s.toml", nominal_study);
-  for (const Verdict v : {Verdict::consistent, Verdict::named, Verdict::ambiguous, Verdict::unexplained})
+  for (const Verdict v :
+       {Verdict::consistent, Verdict::named, Verdict::ambiguous, Verdict::unexplained})
     for (Diagnosis d : {Diagnosis{}, testing::diagnosis(study.filters.front())}) {
       d.verdict = v;
       const std::string page = to_html(diagnosis_html(study, d, {}));
@@ -136,13 +143,15 @@ TEST(DiagnosisPage, HoldsOfAnyVerdictAndOfNothing) {
 
 TEST(DiagnosisFigures, TheLocatedWindowAndTheGapOfTheRecoveredSignalAreSeen) {
   const auto figures = diagnosis_figures(testing::diagnosis(nominal()));
-  const auto signal = std::find_if(figures.begin(), figures.end(), [](const Figure& f) { return f.file == "signal.svg"; });
+  const auto signal = std::find_if(figures.begin(), figures.end(),
+                                   [](const Figure& f) { return f.file == "signal.svg"; });
   ASSERT_NE(signal, figures.end());
   EXPECT_NE(signal->svg.find("located window"), std::string::npos);
   EXPECT_NE(signal->svg.find("signature of the cause"), std::string::npos);
 }
 
-/// Two that cancel were found as a pair, beside a single alternative: each of the pair looks weak alone.
+/// Two that cancel were found as a pair, beside a single alternative: each of the pair looks weak
+/// alone.
 Diagnosis cancelling_pair() {
   Diagnosis d = testing::diagnosis(nominal());
   d.verdict = Verdict::ambiguous;
@@ -202,28 +211,38 @@ TEST(DiagnosisPage, ComparesNothingWhereNoCauseIsInTheModel) {
   d.has_patch = false;
   d.causes.clear();
   const std::string page = to_html(diagnosis_html(study, d, {}));
-  for (const char* text : {"with the cause", "acc_x, after", "Before and after"}) EXPECT_EQ(page.find(text), std::string::npos) << text;
+  for (const char* text : {"with the cause", "acc_x, after", "Before and after"})
+    EXPECT_EQ(page.find(text), std::string::npos) << text;
   EXPECT_NE(page.find("No cause is in the model."), std::string::npos);
   EXPECT_EQ(to_text(d).find("with the cause"), std::string::npos);
 }
 
 TEST(DiagnosisFigures, TheNumbersAtTheRightHaveAHead) {
   for (const Figure& f : fit_figures(testing::diagnosis(nominal()))) {
-    if (f.file == "held_out.svg") { EXPECT_NE(f.svg.find(">gain of log density<"), std::string::npos); }
-    if (f.file == "moved.svg") { EXPECT_NE(f.svg.find(">nominal → with the cause<"), std::string::npos); }
+    if (f.file == "held_out.svg") {
+      EXPECT_NE(f.svg.find(">gain of log density<"), std::string::npos);
+    }
+    if (f.file == "moved.svg") {
+      EXPECT_NE(f.svg.find(">nominal → with the cause<"), std::string::npos);
+    }
   }
 }
 
 TEST(DiagnosisWords, OfTheStrongestWindowSayTheEquationOnlyIfItIsAnother) {
   Diagnosis d = testing::diagnosis(nominal());
-  EXPECT_NE(where_sentence(d.where).find("1200 s to 1800 s (chance of a false alarm: 1e-9)"), std::string::npos) << where_sentence(d.where);
+  EXPECT_NE(where_sentence(d.where).find("1200 s to 1800 s (chance of a false alarm: 1e-9)"),
+            std::string::npos)
+      << where_sentence(d.where);
   d.where.equation = "gimbal inner";
-  EXPECT_NE(where_sentence(d.where).find("1200 s to 1800 s, as the platform rate y (chance"), std::string::npos) << where_sentence(d.where);
+  EXPECT_NE(where_sentence(d.where).find("1200 s to 1800 s, as the platform rate y (chance"),
+            std::string::npos)
+      << where_sentence(d.where);
 }
 
 TEST(DiagnosisTables, SayALikenessOnceByItsAxis) {
   Diagnosis d = testing::diagnosis(nominal());
-  d.causes[0].confusable_with = {{"sag", "", 0.99992}, {"sag", "x", -0.99991}, {"pier_tilt", "", 0.7}};
+  d.causes[0].confusable_with = {
+      {"sag", "", 0.99992}, {"sag", "x", -0.99991}, {"pier_tilt", "", 0.7}};
   const std::string out = text_of(cause_table(d), 200);
   EXPECT_NE(out.find("  sag.x (-1.00), pier_tilt (0.70)"), std::string::npos) << out;
   d.causes[0].confusable_with[1].cosine = -0.9;  // all axes together are liker than one
@@ -232,7 +251,8 @@ TEST(DiagnosisTables, SayALikenessOnceByItsAxis) {
 
 TEST(DiagnosisTables, NearlyAllAbsorbedIsNotAll) {
   Diagnosis d = testing::diagnosis(nominal());
-  for (const auto& [share, text] : {std::pair{0.93, "93 %"}, {0.9966, "99.7 %"}, {0.99962, "99.96 %"}, {0.004, "0.4 %"}}) {
+  for (const auto& [share, text] :
+       {std::pair{0.93, "93 %"}, {0.9966, "99.7 %"}, {0.99962, "99.96 %"}, {0.004, "0.4 %"}}) {
     d.candidates[0].absorbed = share;
     EXPECT_NE(to_text(d).find(text), std::string::npos) << text;
   }
@@ -254,13 +274,17 @@ TEST(DiagnosisText, HasNoWordsOfTheMethodInTheNoteOnTheGain) {
   EXPECT_EQ(out.find("linear score"), std::string::npos) << out;
   EXPECT_NE(out.find("gains 140 in twice the log likelihood; what"), std::string::npos) << out;
   d.causes[0].term = "frame_closure";  // another equation is no small change
-  EXPECT_NE(to_text(d).find("gains 140 in twice the log likelihood."), std::string::npos) << to_text(d);
+  EXPECT_NE(to_text(d).find("gains 140 in twice the log likelihood."), std::string::npos)
+      << to_text(d);
 }
 
 TEST(DiagnosisText, SaysTheVerdictFirstAndStaysWithinTheTerminal) {
   const std::string out = to_text(testing::diagnosis(nominal()));
-  EXPECT_TRUE(out.starts_with("Verdict named: The nominal model lacks g-sensitive drift (mass unbalance), gyro y")) << out;
-  for (const char* text : {"platform rate y", "eta_x", "Advice: Add x up", "gimbal_white", "9.10 →"})
+  EXPECT_TRUE(out.starts_with(
+      "Verdict named: The nominal model lacks g-sensitive drift (mass unbalance), gyro y"))
+      << out;
+  for (const char* text :
+       {"platform rate y", "eta_x", "Advice: Add x up", "gimbal_white", "9.10 →"})
     EXPECT_NE(out.find(text), std::string::npos) << text;
   EXPECT_LT(std::count(out.begin(), out.end(), '\n'), 60);
 }
@@ -270,20 +294,25 @@ TEST(ResidualSignal, IsATableWithEmptyCellsForWhatIsNotKnown) {
   const std::string csv = residual_signal_csv(d.signals);
   EXPECT_NE(csv.find("equation,time [s],position,value,sigma,explained,unit\n"), std::string::npos);
   EXPECT_NE(csv.find("platform rate y,60,1,0,0.1,0,deg/h\n"), std::string::npos);
-  EXPECT_NE(csv.find("platform rate y,480,1,,0.1,0.644217687,deg/h\n"), std::string::npos);  // sin(0.7)
-  EXPECT_NE(csv.find("# platform rate y = a step of 0.25 deg/h  from 1200 s on"), std::string::npos);
+  EXPECT_NE(csv.find("platform rate y,480,1,,0.1,0.644217687,deg/h\n"),
+            std::string::npos);  // sin(0.7)
+  EXPECT_NE(csv.find("# platform rate y = a step of 0.25 deg/h  from 1200 s on"),
+            std::string::npos);
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 63);
 }
 
 TEST(SeveralRecordings, AreNamedWhereverATimeStands) {
   const test::ScratchFolder folder;
   const Study study = testing::read_text(folder, "s.toml", nominal_study);
-  Diagnosis d = testing::diagnosis(study.filters.front());  // a window at 1200 to 1800 s, a signal up to 3600 s
+  Diagnosis d = testing::diagnosis(
+      study.filters.front());  // a window at 1200 to 1800 s, a signal up to 3600 s
   EXPECT_EQ(to_text(d).find("through all recordings"), std::string::npos);
   EXPECT_FALSE(json::parse(to_json(d))["where"].contains("recordings"));
-  d.where.recordings = {{"a.csv", 0.0, 900.0, 0.0}, {"b,2.csv", 900.0, 3600.0, 800.0}};  // b starts at 100 s of its own time
+  d.where.recordings = {{"a.csv", 0.0, 900.0, 0.0},
+                        {"b,2.csv", 900.0, 3600.0, 800.0}};  // b starts at 100 s of its own time
   const auto sentence = where_sentence(d.where);
-  EXPECT_NE(sentence.find("the strongest window is 400 s to 1000 s of b,2.csv"), std::string::npos) << sentence;
+  EXPECT_NE(sentence.find("the strongest window is 400 s to 1000 s of b,2.csv"), std::string::npos)
+      << sentence;
   const json where = json::parse(to_json(d))["where"];
   EXPECT_EQ(where["windows"][0]["start_s"], 1200.0);
   EXPECT_EQ(where["windows"][0]["recording"], "b,2.csv");
@@ -294,10 +323,15 @@ TEST(SeveralRecordings, AreNamedWhereverATimeStands) {
   EXPECT_NE(page.find("400 to 1000"), std::string::npos);
   EXPECT_NE(page.find("time through all recordings [s]"), std::string::npos);
   const std::string csv = residual_signal_csv(d.signals, d.where.recordings);
-  EXPECT_NE(csv.find("equation,time [s],position,value,sigma,explained,unit,recording\n"), std::string::npos) << csv;
+  EXPECT_NE(csv.find("equation,time [s],position,value,sigma,explained,unit,recording\n"),
+            std::string::npos)
+      << csv;
   EXPECT_NE(csv.find("platform rate y,900,2,"), std::string::npos);
-  const auto end_of = [&](const char* row) { return csv.substr(csv.find(row), csv.find('\n', csv.find(row)) - csv.find(row)); };
-  EXPECT_TRUE(end_of("platform rate y,900,").ends_with(",deg/h,a.csv")) << "a sample belongs where its interval ends";
+  const auto end_of = [&](const char* row) {
+    return csv.substr(csv.find(row), csv.find('\n', csv.find(row)) - csv.find(row));
+  };
+  EXPECT_TRUE(end_of("platform rate y,900,").ends_with(",deg/h,a.csv"))
+      << "a sample belongs where its interval ends";
   EXPECT_TRUE(end_of("platform rate y,960,").ends_with(",deg/h,b 2.csv"));
   EXPECT_NE(csv.find("# b 2.csv = its own time is time [s] less 800\n"), std::string::npos);
 }
@@ -308,16 +342,19 @@ TEST(DiagnosisFolder, ThePatchOfAnAmbiguousVerdictSaysWhichAlternativeItHolds) {
   Diagnosis d = testing::diagnosis(study.filters.front());
   const std::string out = folder.file("out");
   write_results(study, d, {}, out);
-  EXPECT_EQ(test::text_of(out + "/patched.toml").find('#'), std::string::npos) << "a named cause is no alternative";
+  EXPECT_EQ(test::text_of(out + "/patched.toml").find('#'), std::string::npos)
+      << "a named cause is no alternative";
   d.verdict = Verdict::ambiguous;
   d.causes.push_back(d.causes.front());
   d.causes.back().axis = "z";
   d.causes.back().set = 1;
   write_results(study, d, {}, out);
   const std::string patched = test::text_of(out + "/patched.toml");
-  EXPECT_TRUE(patched.starts_with("# The patched model (patched.toml) holds alternative (1) alone, the most probable of 2"))
+  EXPECT_TRUE(patched.starts_with(
+      "# The patched model (patched.toml) holds alternative (1) alone, the most probable of 2"))
       << patched;
-  EXPECT_TRUE(read_study(out + "/patched.toml").filters.front().active[TermLibrary::find("D_S_y").value()]);
+  EXPECT_TRUE(
+      read_study(out + "/patched.toml").filters.front().active[TermLibrary::find("D_S_y").value()]);
   for (const std::string& text : {to_text(d), to_json(d), test::text_of(out + "/report.html")})
     EXPECT_NE(text.find("(patched.toml) holds alternative (1)"), std::string::npos) << text;
   d.causes.pop_back();
@@ -329,9 +366,10 @@ TEST(DiagnosisFolder, HoldsEverythingAndLeavesNoPatchOfAnEarlierDiagnosis) {
   const Study study = testing::read_text(folder, "s.toml", nominal_study);
   const std::string out = folder.file("out");
   write_results(study, testing::diagnosis(study.filters.front()), {}, out);
-  for (const char* name : {"diagnosis.json", "residual_signal.csv", "report.html", "study.toml", "patched.toml", "advised.toml",
-                           "where.svg", "signal.svg", "candidates.svg", "cosines.svg", "held_out.svg", "moved.svg",
-                           "residuals.svg"})
+  for (const char* name :
+       {"diagnosis.json", "residual_signal.csv", "report.html", "study.toml", "patched.toml",
+        "advised.toml", "where.svg", "signal.svg", "candidates.svg", "cosines.svg", "held_out.svg",
+        "moved.svg", "residuals.svg"})
     EXPECT_TRUE(std::filesystem::exists(out + "/" + name)) << name;
   const auto files = write_results(study, Diagnosis{}, {}, out);
   EXPECT_EQ(files.size(), 4u);

@@ -16,7 +16,8 @@ HeatMap map_of(Eigen::Index rows, Eigen::Index columns) {
   map.title = "t";
   map.value_label = "bit";
   for (Eigen::Index r = 0; r < rows; ++r) map.rows.push_back("row " + std::to_string(r));
-  for (Eigen::Index c = 0; c < columns; ++c) map.columns.push_back("a long name of column " + std::to_string(c));
+  for (Eigen::Index c = 0; c < columns; ++c)
+    map.columns.push_back("a long name of column " + std::to_string(c));
   map.value = MatX::Zero(rows, columns);
   return map;
 }

@@ -53,9 +53,14 @@ TEST(IdentificationText, SaysWhereTheEstimatorsDisagree) {
     for (const std::string& line : headlines(study, id)) all += line + "\n";
     return all;
   };
-  // Start 1 of filter 1 is 3 prior sigmas, 30 of its own, off; that of filter 0 a fifth of its sigma.
+  // Start 1 of filter 1 is 3 prior sigmas, 30 of its own, off; that of filter 0 a fifth of its
+  // sigma.
   const std::string text = said();
-  EXPECT_NE(text.find("Filter legacy (eq6): from start 1, EKF and batch fit are more than five sigma apart"), std::string::npos) << text;
+  EXPECT_NE(
+      text.find(
+          "Filter legacy (eq6): from start 1, EKF and batch fit are more than five sigma apart"),
+      std::string::npos)
+      << text;
   EXPECT_EQ(text.find("Filter corrected (eq5): from start 1, EKF"), std::string::npos) << text;
   for (FilterRun& run : id.runs) run.ekf.status = EstimateStatus::diverged;  // said elsewhere
   EXPECT_EQ(said().find("more than five sigma apart"), std::string::npos);

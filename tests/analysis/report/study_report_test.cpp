@@ -8,8 +8,8 @@
 #include "analysis/report/study_html.hpp"
 #include "analysis/report/study_json.hpp"
 #include "analysis/report/study_sweep_figures.hpp"
-#include "analysis/report/swept_value.hpp"
 #include "analysis/report/study_tables.hpp"
+#include "analysis/report/swept_value.hpp"
 #include "tests/analysis/report/xml_check.hpp"
 #include "tests/mc/small_study.hpp"
 
@@ -37,8 +37,11 @@ StudyResults results_of(const std::string& text, std::size_t runs) {
 }
 
 const StudyResults& swept() {
-  static const StudyResults results = results_of(
-      small_study + "[sweep]\n\"truth.coupling\" = [\"eq5\", \"eq6\"]\n\"truth.parameters.eta\" = [\"20 arcsec\", \"200 arcsec\"]\n", 30);
+  static const StudyResults results =
+      results_of(small_study +
+                     "[sweep]\n\"truth.coupling\" = [\"eq5\", \"eq6\"]\n\"truth.parameters.eta\" = "
+                     "[\"20 arcsec\", \"200 arcsec\"]\n",
+                 30);
   return results;
 }
 
@@ -50,8 +53,9 @@ TEST(StudyReport, IsOneValidPageThatNeedsNothingElse) {
   EXPECT_EQ(html.find("https://"), std::string::npos);
   EXPECT_EQ(html.find("<script"), std::string::npos);
   EXPECT_NE(html.find("driftscope &lt;test&gt; &amp; more"), std::string::npos);
-  for (const char* heading : {"Truth against filter", "Sweep", "Ranking by Monte Carlo", "Error against sigma",
-                              "Convergence of sample runs", "Every parameter", "Failures", "Provenance"})
+  for (const char* heading :
+       {"Truth against filter", "Sweep", "Ranking by Monte Carlo", "Error against sigma",
+        "Convergence of sample runs", "Every parameter", "Failures", "Provenance"})
     EXPECT_NE(html.find(std::string("<h2>") + heading), std::string::npos) << heading;
   EXPECT_EQ(html.find(">nan"), std::string::npos);
   EXPECT_EQ(html.find("inf<"), std::string::npos);
@@ -109,7 +113,8 @@ TEST(StudyReport, JsonHoldsWhatTheTablesSay) {
 }
 
 TEST(StudyReport, WritesItsFiles) {
-  const auto folder = std::filesystem::temp_directory_path() / ("driftscope_report_" + std::to_string(::getpid()));
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("driftscope_report_" + std::to_string(::getpid()));
   const auto names = write_study_report(swept(), folder.string());
   EXPECT_EQ(names, (std::vector<std::string>{"report.html", "summary.json"}));
   for (const auto& name : names) EXPECT_GT(std::filesystem::file_size(folder / name), 1000u);
@@ -117,9 +122,11 @@ TEST(StudyReport, WritesItsFiles) {
 }
 
 TEST(SweptValue, OfATableIsShortAsALabel) {
-  EXPECT_EQ(short_value("{ eta = { normal = [\"0 arcsec\", \"5 arcsec\"] }, xi = { normal = [\"0 arcsec\", \"7 arcsec\"] } }"),
+  EXPECT_EQ(short_value("{ eta = { normal = [\"0 arcsec\", \"5 arcsec\"] }, xi = { normal = [\"0 "
+                        "arcsec\", \"7 arcsec\"] } }"),
             "eta 5 arcsec, xi 7 arcsec");
-  EXPECT_EQ(last_member("{ accelerometer_noise = \"1 ug\", gimbal_noise = \"2 arcsec\" }"), "gimbal_noise");
+  EXPECT_EQ(last_member("{ accelerometer_noise = \"1 ug\", gimbal_noise = \"2 arcsec\" }"),
+            "gimbal_noise");
   EXPECT_EQ(short_value("20 arcsec"), "20 arcsec");
   EXPECT_EQ(last_member("20 arcsec"), "");
 }
@@ -128,7 +135,8 @@ TEST(SweptNumber, IsFoundInQuantitiesAndDistributions) {
   EXPECT_DOUBLE_EQ(swept_number("20 arcsec")->si, 20.0 * "arcsec"_unit.to_si);
   EXPECT_EQ(swept_number("20 arcsec")->unit.symbol.view(), "arcsec");
   EXPECT_DOUBLE_EQ(swept_number("0.5")->si, 0.5);
-  EXPECT_DOUBLE_EQ(swept_number("{ normal = [\"0 arcsec\", \"35 arcsec\"] }")->si, 35.0 * "arcsec"_unit.to_si);
+  EXPECT_DOUBLE_EQ(swept_number("{ normal = [\"0 arcsec\", \"35 arcsec\"] }")->si,
+                   35.0 * "arcsec"_unit.to_si);
   EXPECT_DOUBLE_EQ(swept_number("-1.5e-2 deg/h/g^2")->si, -1.5e-2 * "deg/h/g^2"_unit.to_si);
   EXPECT_FALSE(swept_number("eq5"));
   EXPECT_FALSE(swept_number("slew12"));

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <sstream>
 
-#include "core/base/chi_square_band.hpp"
 #include "analysis/report/escape.hpp"
 #include "analysis/report/html_report.hpp"
 #include "analysis/report/number_text.hpp"
+#include "core/base/chi_square_band.hpp"
 #include "tests/analysis/report/xml_check.hpp"
 
 namespace drift {

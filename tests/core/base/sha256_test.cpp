@@ -13,7 +13,8 @@ TEST(Sha256, GivesTheDigestsOfFips180) {
 TEST(Sha256, DoesNotDependOnThePieces) {
   Sha256 pieces;
   for (int i = 0; i < 1000; ++i) pieces.update(std::string(1000, 'a'));
-  EXPECT_EQ(to_hex(pieces.finish()), "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
+  EXPECT_EQ(to_hex(pieces.finish()),
+            "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
 }
 
 }  // namespace

@@ -20,7 +20,8 @@ TEST(Units, OneDegreePerHourIsOneArcsecondPerSecond) {
 }
 
 TEST(Units, WhatIsNoUnitIsRefused) {
-  for (const char* text : {"", "furlong", "deg/", "/h", "deg//h", "deg/h/g^", "deg^x", "sqrt(", "deg h"})
+  for (const char* text :
+       {"", "furlong", "deg/", "/h", "deg//h", "deg/h/g^", "deg^x", "sqrt(", "deg h"})
     EXPECT_FALSE(parse_unit(text)) << text;
 }
 

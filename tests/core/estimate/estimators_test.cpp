@@ -19,12 +19,14 @@ struct SimulatedTest {
   Readout readout;
   Simulation sim;
   SimulatedTest(const char* preset, CommandLaw mode, const TruthSpec& truth, std::uint64_t run = 1,
-       double dwell = 3600.0)
-      : timeline(preset_timeline(preset, mode, dwell)), sim(Simulator(truth, readout).run(timeline, 1, run)) {}
+                double dwell = 3600.0)
+      : timeline(preset_timeline(preset, mode, dwell)),
+        sim(Simulator(truth, readout).run(timeline, 1, run)) {}
 };
 
 TEST(Estimators, EkfAndBatchAgreeWhereTheTestSeesTheParameter) {
-  for (const auto& [preset, mode] : {std::pair{"six", CommandLaw::free}, {"eighteen", CommandLaw::level}}) {
+  for (const auto& [preset, mode] :
+       {std::pair{"six", CommandLaw::free}, {"eighteen", CommandLaw::level}}) {
     const TruthSpec truth = base_truth(Coupling::eq5);
     const FilterSpec filter = base_filter(Coupling::eq5);
     const SimulatedTest t(preset, mode, truth);
@@ -53,7 +55,8 @@ TEST(Estimators, BatchDoesNotDependOnItsStart) {
                              draw_parameters(filter, 3, start, Purpose::filter_start)));
   for (std::size_t k = 0; k < fits[0].estimate.parameters.size(); ++k) {
     const auto &a = fits[0].estimate.parameters[k], &b = fits[1].estimate.parameters[k];
-    EXPECT_LT(std::abs(a.value - b.value), 1e-3 * a.sigma) << TermLibrary::specs[a.param].key.view();
+    EXPECT_LT(std::abs(a.value - b.value), 1e-3 * a.sigma)
+        << TermLibrary::specs[a.param].key.view();
   }
 }
 
@@ -70,10 +73,11 @@ struct NullSpace {
     layout = make_layout(spec);
     const std::vector<Vec3> psi(timeline.chains, Vec3::Zero());
     directions = weak_directions(
-        information_root(measurement_equations(timeline, spec.model(), layout, Readout{}, zero, theta,
-                                               integrate_fixed(timeline, spec.model(), theta, psi),
-                                               spec.initial_attitude),
-                         layout.size()),
+        information_root(
+            measurement_equations(timeline, spec.model(), layout, Readout{}, zero, theta,
+                                  integrate_fixed(timeline, spec.model(), theta, psi),
+                                  spec.initial_attitude),
+            layout.size()),
         1e-6);
   }
   double share(std::initializer_list<std::pair<const char*, double>> direction) const {
@@ -90,12 +94,15 @@ struct NullSpace {
 
 TEST(Degeneracies, FixedDriftHidesInTheTraceOfTheQuadratics) {
   // a_I^2 + a_O^2 + a_S^2 = 1: three null directions in any 1 g test (physics.md 2.4).
-  for (const auto& [preset, mode] : {std::pair{"eighteen", CommandLaw::level}, {"slew12", CommandLaw::free}}) {
+  for (const auto& [preset, mode] :
+       {std::pair{"eighteen", CommandLaw::level}, {"slew12", CommandLaw::free}}) {
     const NullSpace null(preset, mode, Coupling::eq5, random_theta(2));
     EXPECT_EQ(null.directions.size(), 3u) << preset;
     const double one = TermLibrary::specs[param("D_F_x")].unit.to_si;
-    EXPECT_GT(null.share({{"D_F_x", one}, {"D_II_x", -one}, {"D_OO_x", -one}, {"D_SS_x", -one}}), 0.999999);
-    EXPECT_GT(null.share({{"D_F_z", one}, {"D_II_z", -one}, {"D_OO_z", -one}, {"D_SS_z", -one}}), 0.999999);
+    EXPECT_GT(null.share({{"D_F_x", one}, {"D_II_x", -one}, {"D_OO_x", -one}, {"D_SS_x", -one}}),
+              0.999999);
+    EXPECT_GT(null.share({{"D_F_z", one}, {"D_II_z", -one}, {"D_OO_z", -one}, {"D_SS_z", -one}}),
+              0.999999);
     EXPECT_LT(null.share({{"D_F_x", one}}), 0.9);
   }
 }
@@ -117,7 +124,9 @@ TEST(Degeneracies, UnderEquation6AFreePlatformDoesNotSeeMisalignment) {
 /// Two-sided band that holds chi-square of m degrees over m with probability 1 - 2 tail, z of the
 /// tail (Wilson-Hilferty, relative error below 1e-3 for m > 30).
 std::pair<double, double> band(double m, double z) {
-  const auto edge = [&](double s) { return std::pow(1.0 - 2.0 / (9.0 * m) + s * z * std::sqrt(2.0 / (9.0 * m)), 3); };
+  const auto edge = [&](double s) {
+    return std::pow(1.0 - 2.0 / (9.0 * m) + s * z * std::sqrt(2.0 / (9.0 * m)), 3);
+  };
   return {edge(-1.0), edge(1.0)};
 }
 
@@ -127,7 +136,8 @@ TEST(MatchedFilter, IsConsistentOver200Runs) {
   constexpr std::size_t runs = 200;
   TruthSpec truth = base_truth(Coupling::eq5);
   FilterSpec filter = base_filter(Coupling::eq5);
-  truth.active = filter.active = only({"D_F", "D_I", "D_O", "D_S", "eta", "xi", "K0", "K1", "dP", "dO"});
+  truth.active = filter.active =
+      only({"D_F", "D_I", "D_O", "D_S", "eta", "xi", "K0", "K1", "dP", "dO"});
   const Timeline timeline = preset_timeline("twelve", CommandLaw::free, 1800.0);
   const Readout readout;
   const Layout layout = make_layout(filter);
@@ -162,9 +172,10 @@ TEST(MatchedFilter, IsConsistentOver200Runs) {
   }
   const double n = static_cast<double>(layout.size());
   const auto nees_band = band(n * runs, 1.96), nis_band = band(measured, 1.96);
-  std::printf("NEES/n %.4f in [%.4f, %.4f]; NIS/m %.5f in [%.5f, %.5f]; coverage %.4f, %.4f of %.0f\n",
-              nees / (n * runs), nees_band.first, nees_band.second, nis / measured, nis_band.first,
-              nis_band.second, within1 / (n * runs), within2 / (n * runs), n * runs);
+  std::printf(
+      "NEES/n %.4f in [%.4f, %.4f]; NIS/m %.5f in [%.5f, %.5f]; coverage %.4f, %.4f of %.0f\n",
+      nees / (n * runs), nees_band.first, nees_band.second, nis / measured, nis_band.first,
+      nis_band.second, within1 / (n * runs), within2 / (n * runs), n * runs);
   EXPECT_GT(nees / (n * runs), nees_band.first);
   EXPECT_LT(nees / (n * runs), nees_band.second);
   EXPECT_GT(nis / measured, nis_band.first);
@@ -183,7 +194,8 @@ TEST(CrossedFilter, Equation6OnDataOfEquation5IsBiasedAndSureOfIt) {
   const TruthSpec truth = base_truth(Coupling::eq5);
   const SimulatedTest t("slew12", CommandLaw::level, truth);
   const FilterSpec wrong = base_filter(Coupling::eq6);
-  const BatchResult fit = fit_batch(wrong, t.timeline, t.readout, t.sim.measured, make_layout(wrong).theta);
+  const BatchResult fit =
+      fit_batch(wrong, t.timeline, t.readout, t.sim.measured, make_layout(wrong).theta);
   double largest = 0.0;
   for (const char* key : {"eta_x", "eta_y", "eta_z"}) {
     const ParameterEstimate& e = *fit.estimate.find(param(key));
@@ -201,7 +213,8 @@ TEST(CrossedFilter, LevelCagedTestsCannotTellTheEquationsApart) {
   for (const Coupling c : {Coupling::eq5, Coupling::eq6}) {
     const FilterSpec filter = base_filter(c);
     cost[c == Coupling::eq6] =
-        fit_batch(filter, t.timeline, t.readout, t.sim.measured, make_layout(filter).theta).estimate.statistic;
+        fit_batch(filter, t.timeline, t.readout, t.sim.measured, make_layout(filter).theta)
+            .estimate.statistic;
   }
   EXPECT_LT(std::abs(cost[0] - cost[1]), 25.0);  // second-order differences: below 5 sigma
 }
@@ -212,7 +225,8 @@ TEST(LambdaFilter, FindsTheEquationThatMadeTheData) {
     const SimulatedTest t("slew12", CommandLaw::free, truth);
     FilterSpec filter = base_filter(Coupling::lambda);
     filter.active.set(param("lambda"));
-    const BatchResult fit = fit_batch(filter, t.timeline, t.readout, t.sim.measured, make_layout(filter).theta);
+    const BatchResult fit =
+        fit_batch(filter, t.timeline, t.readout, t.sim.measured, make_layout(filter).theta);
     const ParameterEstimate& e = *fit.estimate.find(param("lambda"));
     EXPECT_NEAR(e.value, lambda, 4.0 * e.sigma);
     EXPECT_LT(e.sigma, 0.1);
@@ -224,7 +238,8 @@ TEST(Ekf, ReportsDivergenceAsAValue) {
   const FilterSpec filter = base_filter(Coupling::eq5);
   SimulatedTest t("six", CommandLaw::free, truth, 1, 600.0);
   t.sim.measured.acc.setConstant(1e9);
-  const EstimateResult r = run_ekf(filter, t.timeline, t.readout, t.sim.measured, make_layout(filter).theta);
+  const EstimateResult r =
+      run_ekf(filter, t.timeline, t.readout, t.sim.measured, make_layout(filter).theta);
   EXPECT_EQ(r.status, EstimateStatus::diverged);
   EXPECT_FALSE(r.cause.empty());
 }
@@ -235,7 +250,9 @@ TEST(Ekf, LeavesOutWhatWasNotMeasured) {
   SimulatedTest t("six", CommandLaw::free, truth, 1, 600.0);
   const auto n = static_cast<std::size_t>(t.timeline.intervals.size());
   const Theta start = make_layout(filter).theta;
-  const auto count = [&] { return run_ekf(filter, t.timeline, t.readout, t.sim.measured, start).measured; };
+  const auto count = [&] {
+    return run_ekf(filter, t.timeline, t.readout, t.sim.measured, start).measured;
+  };
   EXPECT_EQ(count(), 6 * n);
   t.sim.measured.acc(1, 3) = std::nan("");
   t.sim.measured.gimbal.col(5).setConstant(std::nan(""));

@@ -28,7 +28,8 @@ struct Fits {
 
 TEST(IteratedEkf, IsTheBatchFitWhereAnEkfIsNot) {
   // Torqued slews under eq. (6): misalignment times command and torquer scale times command. One
-  // Gauss-Newton step from the EKF leaves an error of second order in the EKF's own: several times less.
+  // Gauss-Newton step from the EKF leaves an error of second order in the EKF's own: several times
+  // less.
   const Timeline timeline = preset_timeline("slew12", CommandLaw::free, 3600.0, 300.0);
   Fits fits("slew12", timeline, Coupling::eq6);
   ASSERT_EQ(fits.iterated.status(), EstimateStatus::ok);
@@ -38,10 +39,12 @@ TEST(IteratedEkf, IsTheBatchFitWhereAnEkfIsNot) {
     const ParameterEstimate& b = fits.batch.estimate.parameters[k];
     const auto i = static_cast<Eigen::Index>(fits.layout.params[k]);
     off = std::max(off, std::abs(fits.iterated.theta()[i] - b.value) / b.sigma);
-    EXPECT_NEAR(fits.iterated.sigma(k) / b.sigma, 1.0, 0.05) << TermLibrary::specs[b.param].key.view();
+    EXPECT_NEAR(fits.iterated.sigma(k) / b.sigma, 1.0, 0.05)
+        << TermLibrary::specs[b.param].key.view();
     ekf_off = std::max(ekf_off, std::abs(fits.ekf.parameters[k].value - b.value) / b.sigma);
   }
-  std::printf("largest distance from the batch fit: EKF %.2f sigma, iterated %.2f sigma\n", ekf_off, off);
+  std::printf("largest distance from the batch fit: EKF %.2f sigma, iterated %.2f sigma\n", ekf_off,
+              off);
   EXPECT_LT(off, 0.5);
   EXPECT_LT(off, 0.25 * ekf_off);
   // Sum of NIS = minimum of data and prior cost, up to the attitude prior at caging.
@@ -55,7 +58,8 @@ TEST(IteratedEkf, IsTheBatchFitOverCagings) {
     const ParameterEstimate& b = fits.batch.estimate.parameters[k];
     if (b.learning_ratio() > 0.5) continue;
     const auto i = static_cast<Eigen::Index>(fits.layout.params[k]);
-    EXPECT_LT(std::abs(fits.iterated.theta()[i] - b.value), 0.1 * b.sigma) << TermLibrary::specs[b.param].key.view();
+    EXPECT_LT(std::abs(fits.iterated.theta()[i] - b.value), 0.1 * b.sigma)
+        << TermLibrary::specs[b.param].key.view();
     EXPECT_NEAR(fits.iterated.sigma(k) / b.sigma, 1.0, 0.01);
   }
   EXPECT_NEAR(fits.iterated.innovations().nis, fits.batch.estimate.statistic, 0.5);

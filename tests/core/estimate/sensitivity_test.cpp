@@ -14,9 +14,12 @@ namespace {
 using namespace drift::test;
 
 TEST(Sensitivity, EquationsOfMotionAgreeWithDifferences) {
-  // Rows of the whitened Jacobian against central differences of whole simulated tests. Steps of 1e-3
-  // prior sigma: truncation 1e-6 of the nonlinearity; the quadrature adds (0.05 rad)^4 in slews.
-  for (const auto& [preset, mode] : {std::pair{"eighteen", CommandLaw::free}, {"slew12", CommandLaw::level}, {"casespin", CommandLaw::level}})
+  // Rows of the whitened Jacobian against central differences of whole simulated tests. Steps of
+  // 1e-3 prior sigma: truncation 1e-6 of the nonlinearity; the quadrature adds (0.05 rad)^4 in
+  // slews.
+  for (const auto& [preset, mode] : {std::pair{"eighteen", CommandLaw::free},
+                                     {"slew12", CommandLaw::level},
+                                     {"casespin", CommandLaw::level}})
     for (const Coupling coupling : {Coupling::eq5, Coupling::eq6, Coupling::lambda}) {
       ModelSpec spec = base_spec(coupling);
       if (coupling == Coupling::lambda) spec.active.set(param("lambda"));
@@ -30,15 +33,19 @@ TEST(Sensitivity, EquationsOfMotionAgreeWithDifferences) {
       const Measurements zero{Mat3X::Zero(3, n), Mat3X::Zero(3, n)};
       const std::vector<Vec3> psi(timeline.chains, Vec3(1e-3, -5e-4, 2e-3));
       const auto predicted = [&](const Theta& t, const std::vector<Vec3>& psi0) {
-        const auto chains = measurement_equations(timeline, model, layout, readout, zero, t,
-                                                  integrate_fixed(timeline, model, t, psi0), spec.initial_attitude);
+        const auto chains =
+            measurement_equations(timeline, model, layout, readout, zero, t,
+                                  integrate_fixed(timeline, model, t, psi0), spec.initial_attitude);
         return VecX(-chains.back().rows.rightCols<1>());
       };
-      const MatX J = measurement_equations(timeline, model, layout, readout, zero, theta,
-                                           integrate_fixed(timeline, model, theta, psi), spec.initial_attitude)
-                         .back().rows;
+      const MatX J =
+          measurement_equations(timeline, model, layout, readout, zero, theta,
+                                integrate_fixed(timeline, model, theta, psi), spec.initial_attitude)
+              .back()
+              .rows;
       const double h = 1e-3;
-      const auto compare = [&](const VecX& difference, const VecX& column, const std::string& what) {
+      const auto compare = [&](const VecX& difference, const VecX& column,
+                               const std::string& what) {
         // Gimbal angles jump by a turn near +-180 deg: leave those rows out.
         double worst = 0.0, scale = 0.0;
         for (Eigen::Index r = 0; r < column.size(); ++r) {
@@ -52,7 +59,8 @@ TEST(Sensitivity, EquationsOfMotionAgreeWithDifferences) {
         Theta up = theta, down = theta;
         up[layout.params[k]] += h * layout.sigma[k];
         down[layout.params[k]] -= h * layout.sigma[k];
-        compare((predicted(up, psi) - predicted(down, psi)) / (2.0 * h), J.col(3 + static_cast<Eigen::Index>(k)),
+        compare((predicted(up, psi) - predicted(down, psi)) / (2.0 * h),
+                J.col(3 + static_cast<Eigen::Index>(k)),
                 std::string(TermLibrary::specs[layout.params[k]].key.view()));
       }
       for (int a = 0; a < 3; ++a) {
@@ -90,15 +98,18 @@ TEST(Sensitivity, VariationOfConstantsAgreesWithCvodesForwardSensitivities) {
     p[parameter].d[3] = scale;
     Vec3T<D> v;
     for (int i = 0; i < 3; ++i) v[i] = D::variable(phi[i], i);
-    const Inputs<D> in = inputs_at<D>(omega_ie_l, Vec3::Zero(), model.mounting, R_lr.cast<D>() * rotation(v));
-    return rotation_vector_rate<D>(v, platform_rate(model, in, p.data(), Mat3::Zero()), Vec3::Zero());
+    const Inputs<D> in =
+        inputs_at<D>(omega_ie_l, Vec3::Zero(), model.mounting, R_lr.cast<D>() * rotation(v));
+    return rotation_vector_rate<D>(v, platform_rate(model, in, p.data(), Mat3::Zero()),
+                                   Vec3::Zero());
   };
   const auto rhs = [&](double t, const double* y, double* f) {
     const Vec3T<D> r = rate(t, y, 0, 0.0);
     for (int i = 0; i < 3; ++i) f[i] = r[i].v;
     return true;
   };
-  const auto sensitivity_rhs = [&](double t, const double* y, const double*, const double* S, double* S_dot) {
+  const auto sensitivity_rhs = [&](double t, const double* y, const double*, const double* S,
+                                   double* S_dot) {
     for (std::size_t c = 0; c < layout.num_rate; ++c) {
       const Vec3T<D> r = rate(t, y, layout.params[c], layout.sigma[c]);
       for (int i = 0; i < 3; ++i) {
@@ -131,7 +142,8 @@ TEST(Sensitivity, VariationOfConstantsAgreesWithCvodesForwardSensitivities) {
   const Vec3 v = phi.back();
   const double t = v.norm();
   const Mat3 k = skew<double>(v);
-  const Mat3 J_l = Mat3::Identity() + (1.0 - std::cos(t)) / (t * t) * k + (t - std::sin(t)) / (t * t * t) * k * k;
+  const Mat3 J_l = Mat3::Identity() + (1.0 - std::cos(t)) / (t * t) * k +
+                   (t - std::sin(t)) / (t * t * t) * k * k;
   const Mat3X expected = end.R_il * end.R_lr * J_l * oracle.S;
   for (Eigen::Index c = 0; c < nr; ++c)
     EXPECT_LT((G.col(c) - expected.col(c)).norm(), 1e-8 * expected.norm())

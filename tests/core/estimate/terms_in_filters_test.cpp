@@ -25,8 +25,8 @@ FilterSpec filter_with(std::size_t term) {
   return filter;
 }
 
-/// How well a Jacobian is known, of its largest element. Friction that turns over within a step of the
-/// quadrature is known to a sixth of a step, 5 s in ten minutes; where it turns over, to less.
+/// How well a Jacobian is known, of its largest element. Friction that turns over within a step of
+/// the quadrature is known to a sixth of a step, 5 s in ten minutes; where it turns over, to less.
 double accuracy(std::size_t param) {
   if (TermLibrary::owner(param).key != "float_restraint") return 5e-4;
   return TermLibrary::specs[param].kind == ParamKind::linear ? 1e-2 : 6e-2;
@@ -34,8 +34,8 @@ double accuracy(std::size_t param) {
 
 TEST(EveryTermInAFilter, HasTheJacobianOfItsPrediction) {
   // Central differences of `predict` with steps of 1e-3 prior sigma. As for the base terms
-  // (Sensitivity.EquationsOfMotionAgreeWithDifferences): the quadrature adds (0.05 rad)^4 in slews. A
-  // time constant is less linear: 0.2^2 * 1e-6.
+  // (Sensitivity.EquationsOfMotionAgreeWithDifferences): the quadrature adds (0.05 rad)^4 in slews.
+  // A time constant is less linear: 0.2^2 * 1e-6.
   for (const auto mode : {CommandLaw::level, CommandLaw::free}) {
     const Timeline timeline = scene("slew12", mode);
     const auto n = static_cast<Eigen::Index>(timeline.intervals.size());
@@ -53,7 +53,8 @@ TEST(EveryTermInAFilter, HasTheJacobianOfItsPrediction) {
       const MatX rows = measurement_equations(timeline, model, layout, readout, here, theta,
                                               integrate_fixed(timeline, model, theta, psi),
                                               filter.initial_attitude)
-                            .front().rows;
+                            .front()
+                            .rows;
       EXPECT_LT(rows.rightCols<1>().cwiseAbs().maxCoeff(), 1e-6)
           << TermLibrary::terms[t].key << ": equations and prediction differ";
       const double h = 1e-3;
@@ -68,14 +69,17 @@ TEST(EveryTermInAFilter, HasTheJacobianOfItsPrediction) {
         Eigen::Index row = 0;
         for (Eigen::Index i = 0; i < n; ++i) {
           for (int c = 0; c < 3; ++c, ++row)
-            worst = std::max(worst, std::abs((a.acc(c, i) - b.acc(c, i)) / (2.0 * h) / readout.accelerometer_noise -
+            worst = std::max(worst, std::abs((a.acc(c, i) - b.acc(c, i)) / (2.0 * h) /
+                                                 readout.accelerometer_noise -
                                              column[row]));
           for (int c = 0; c < 3; ++c, ++row)
-            worst = std::max(worst, std::abs(angle_difference(a.gimbal(c, i), b.gimbal(c, i)) / (2.0 * h) /
-                                                 readout.gimbal_noise - column[row]));
+            worst = std::max(worst, std::abs(angle_difference(a.gimbal(c, i), b.gimbal(c, i)) /
+                                                 (2.0 * h) / readout.gimbal_noise -
+                                             column[row]));
         }
         EXPECT_LT(worst, accuracy(layout.params[k]) * column.cwiseAbs().maxCoeff() + 1e-6)
-            << TermLibrary::specs[layout.params[k]].key.view() << " of " << TermLibrary::terms[t].key;
+            << TermLibrary::specs[layout.params[k]].key.view() << " of "
+            << TermLibrary::terms[t].key;
       }
     }
   }
@@ -109,18 +113,22 @@ struct Recovery {
   }
 
   /// Largest error in sigma over all states, and chi-square per degree of freedom within its band:
-  /// (2/N)^0.5 is 0.015 for the 9000 scalars of these tests; 5 of them, and nonlinearity for the EKF.
+  /// (2/N)^0.5 is 0.015 for the 9000 scalars of these tests; 5 of them, and nonlinearity for the
+  /// EKF.
   void check(const EstimateResult& result, double chi2_band) const {
     EXPECT_EQ(result.status, EstimateStatus::ok) << result.cause;
     EXPECT_NEAR(result.statistic_per_dof(), 1.0, chi2_band);
     for (const ParameterEstimate& p : result.parameters)
-      EXPECT_LT(std::abs(p.value - theta[p.param]), 4.0 * p.sigma) << TermLibrary::specs[p.param].key.view();
+      EXPECT_LT(std::abs(p.value - theta[p.param]), 4.0 * p.sigma)
+          << TermLibrary::specs[p.param].key.view();
   }
 };
 
 TEST(TermWithMemory, IsRecoveredWithItsTimeConstant) {
   const Recovery r("slew12", CommandLaw::level, {"D_F", "D_I", "s", "heat"},
-                   {{"heat_x", 0.08 * deg_per_h}, {"heat_y", -0.06 * deg_per_h}, {"heat_z", 0.05 * deg_per_h},
+                   {{"heat_x", 0.08 * deg_per_h},
+                    {"heat_y", -0.06 * deg_per_h},
+                    {"heat_z", 0.05 * deg_per_h},
                     {"heat_tau", 17.0 * 60.0}},
                    {{"heat_tau", normal(14.0 * 60.0, 5.0 * 60.0)}});
   r.check(r.batch.estimate, 0.08);
@@ -132,7 +140,9 @@ TEST(TermWithMemory, IsRecoveredWithItsTimeConstant) {
 }
 
 TEST(TermInTheGimbals, IsRecovered) {
-  const Recovery r("slew12", CommandLaw::free, {"D_F", "D_I", "enc_s1", "enc_c1", "enc_s2", "enc_c2", "enc_sn", "enc_cn", "skew"}, {});
+  const Recovery r(
+      "slew12", CommandLaw::free,
+      {"D_F", "D_I", "enc_s1", "enc_c1", "enc_s2", "enc_c2", "enc_sn", "enc_cn", "skew"}, {});
   r.check(r.batch.estimate, 0.08);
   r.check(r.ekf, 0.08);
   EXPECT_LT(r.batch.estimate.find(param("enc_s2_inner"))->learning_ratio(), 0.5);
@@ -157,9 +167,11 @@ TEST(DriftRandomWalk, IsProcessNoiseOfItsGyroAlone) {
   FilterSpec filter = base_filter(Coupling::eq6);
   filter.active = truth.active;
   filter.priors = truth.priors;
-  const EstimateResult with = run_ekf(filter, timeline, {}, sim.measured, make_layout(filter).theta);
+  const EstimateResult with =
+      run_ekf(filter, timeline, {}, sim.measured, make_layout(filter).theta);
   filter.active = only({"D_F"});
-  const EstimateResult without = run_ekf(filter, timeline, {}, sim.measured, make_layout(filter).theta);
+  const EstimateResult without =
+      run_ekf(filter, timeline, {}, sim.measured, make_layout(filter).theta);
   EXPECT_GT(with.find(param("D_F_y"))->sigma, 2.0 * without.find(param("D_F_y"))->sigma);
   EXPECT_NEAR(with.statistic_per_dof(), 1.0, 0.15);
   EXPECT_GT(without.statistic_per_dof(), 1.5);
@@ -171,7 +183,8 @@ TEST(BistableDrift, JumpsBetweenTwoLevelsAndAFilterAllowsForIt) {
   truth.active = only({"D_F"}) | params_named("bistable_drift");
   const double B = 0.03 * deg_per_h;
   for (const char* key : {"B_x", "B_y", "B_z"}) truth.priors[param(key)] = fixed(B);
-  truth.priors[param("D_F_x")] = truth.priors[param("D_F_y")] = truth.priors[param("D_F_z")] = fixed(0.0);
+  truth.priors[param("D_F_x")] = truth.priors[param("D_F_y")] = truth.priors[param("D_F_z")] =
+      fixed(0.0);
   const Simulation sim = Simulator(truth, {}).run(timeline, 4, 0);
   // In a level dwell the attitude about the vertical axis moves at -+B.
   int high = 0, low = 0;
@@ -179,16 +192,19 @@ TEST(BistableDrift, JumpsBetweenTwoLevelsAndAFilterAllowsForIt) {
     const Interval& n = timeline.intervals[i];
     const double rate = (sim.phi[n.last_node()].x() - sim.phi[n.first_node].x()) / n.length();
     (rate > 0.0 ? low : high)++;
-    // Attitude errors of 200 arcsec and what drifts about the other axes pick up Earth rate: 0.01 deg/h.
+    // Attitude errors of 200 arcsec and what drifts about the other axes pick up Earth rate: 0.01
+    // deg/h.
     EXPECT_NEAR(std::abs(rate), B, 0.02 * deg_per_h);
   }
   EXPECT_GT(high * low, 0);
   FilterSpec filter = base_filter(Coupling::eq6);
   filter.active = truth.active;
   for (const char* key : {"B_x", "B_y", "B_z"}) filter.priors[param(key)] = fixed(B);
-  const EstimateResult with = run_ekf(filter, timeline, {}, sim.measured, make_layout(filter).theta);
+  const EstimateResult with =
+      run_ekf(filter, timeline, {}, sim.measured, make_layout(filter).theta);
   filter.active = only({"D_F"});
-  const EstimateResult without = run_ekf(filter, timeline, {}, sim.measured, make_layout(filter).theta);
+  const EstimateResult without =
+      run_ekf(filter, timeline, {}, sim.measured, make_layout(filter).theta);
   EXPECT_GT(without.statistic_per_dof(), 1.5 * with.statistic_per_dof());
   EXPECT_LT(with.statistic_per_dof(), 1.2);
   EXPECT_GT(with.statistic_per_dof(), 0.6);
@@ -228,7 +244,8 @@ TEST(Outliers, AreLeftOutByTheGate) {
 
 TEST(Layout, HasNoStatesForWhatIsRandomOrDiscrete) {
   FilterSpec filter = base_filter(Coupling::eq6);
-  filter.active = params_named("drift_random_walk") | params_named("encoder_harmonics") | only({"D_F"});
+  filter.active =
+      params_named("drift_random_walk") | params_named("encoder_harmonics") | only({"D_F"});
   filter.priors[param("enc_n")] = normal(16.0, 1.0);
   filter.priors[param("q_x")] = normal(3e-9, 4e-9);
   const Layout layout = make_layout(filter);

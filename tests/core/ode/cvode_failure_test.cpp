@@ -29,13 +29,24 @@ struct Breaking {
     y_dot[1] = -4.0 * y[0];
     if (t < 1.0) return true;
     switch (mode) {
-      case Mode::returns_false: return false;
-      case Mode::nan: y_dot[1] = std::numeric_limits<double>::quiet_NaN(); break;
-      case Mode::inf: y_dot[0] = -std::numeric_limits<double>::infinity(); break;
-      case Mode::throws: throw std::runtime_error("broken on purpose");
-      case Mode::stiff: y_dot[0] += 1e7 * std::sin(1e7 * t); break;  // needs ~1e8 steps
-      case Mode::blows_up: y_dot[0] += 1.0 / std::abs(1.5 - t) / std::abs(1.5 - t) * y[0]; break;
-      default: break;
+      case Mode::returns_false:
+        return false;
+      case Mode::nan:
+        y_dot[1] = std::numeric_limits<double>::quiet_NaN();
+        break;
+      case Mode::inf:
+        y_dot[0] = -std::numeric_limits<double>::infinity();
+        break;
+      case Mode::throws:
+        throw std::runtime_error("broken on purpose");
+      case Mode::stiff:
+        y_dot[0] += 1e7 * std::sin(1e7 * t);
+        break;  // needs ~1e8 steps
+      case Mode::blows_up:
+        y_dot[0] += 1.0 / std::abs(1.5 - t) / std::abs(1.5 - t) * y[0];
+        break;
+      default:
+        break;
     }
     return true;
   }
@@ -219,7 +230,8 @@ TEST(Cvode, ASlowRightHandSideIsStoppedAtTheWallTime) {
   const auto begin = std::chrono::steady_clock::now();
   ode.start(0.0, &y0, 1e6);
   const OdeResult r = ode.advance(1e6);
-  const double took = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const double took =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   EXPECT_EQ(r.status, OdeStatus::wall_time) << r.cause;
   EXPECT_GE(took, limit);
   EXPECT_LT(took, 1.2 * limit + 0.1);  // R13, with room for a busy machine

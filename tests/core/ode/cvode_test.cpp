@@ -42,7 +42,8 @@ double oscillator_error(Method method, double tolerance, double t_end) {
   const std::array y0{1.0, 0.0};
   ode.start(0.0, y0.data(), t_end);
   EXPECT_TRUE(ode.advance(t_end).ok());
-  return std::hypot(ode.state()[0] - std::cos(f.w * t_end), ode.state()[1] + f.w * std::sin(f.w * t_end));
+  return std::hypot(ode.state()[0] - std::cos(f.w * t_end),
+                    ode.state()[1] + f.w * std::sin(f.w * t_end));
 }
 
 TEST_P(CvodeBoth, TheErrorOfAnOscillatorFollowsTheTolerance) {
@@ -95,7 +96,8 @@ TEST(Cvode, BdfFollowsTheSlowSolutionOfAProtheroRobinsonProblem) {
 
 TEST_P(CvodeBoth, TheRightHandSideIsNeverCalledBeyondTheStop) {
   // 0.1 + 0.7 rounds up: local time must not pass the stop either.
-  for (const auto& [t0, t_stop] : {std::pair{0.0, 1.0}, {0.1, 0.1 + 0.7}, {1e6 / 3.0, 1e6 / 3.0 + 0.3}}) {
+  for (const auto& [t0, t_stop] :
+       {std::pair{0.0, 1.0}, {0.1, 0.1 + 0.7}, {1e6 / 3.0, 1e6 / 3.0 + 0.3}}) {
     double latest = t0;
     long beyond = 0;
     auto f = [&](double t, const double* y, double* y_dot) {

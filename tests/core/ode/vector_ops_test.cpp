@@ -35,7 +35,8 @@ class VectorOps : public ::testing::TestWithParam<int> {
     op(b.data());
     for (int k = 0; k < count; ++k)
       for (int i = 0; i < GetParam(); ++i)
-        ASSERT_NEAR(NV_Ith_S(a[k], i), NV_Ith_S(b[k], i), 40.0 * eps) << what << " " << k << " " << i;
+        ASSERT_NEAR(NV_Ith_S(a[k], i), NV_Ith_S(b[k], i), 40.0 * eps)
+            << what << " " << k << " " << i;
   }
   void expect_same_value(auto op, const char* what) {
     const double a = op(pointers(own_).data()), b = op(pointers(library_).data());
@@ -52,7 +53,8 @@ class VectorOps : public ::testing::TestWithParam<int> {
 
 TEST_P(VectorOps, ElementwiseOperationsAreThoseOfTheLibrary) {
   expect_same([](const N_Vector* v) { N_VLinearSum(1.5, v[0], -0.3, v[1], v[2]); }, "linearsum");
-  expect_same([](const N_Vector* v) { N_VLinearSum(1.0, v[0], 2.0, v[1], v[1]); }, "linearsum onto y");
+  expect_same([](const N_Vector* v) { N_VLinearSum(1.0, v[0], 2.0, v[1], v[1]); },
+              "linearsum onto y");
   expect_same([](const N_Vector* v) { N_VProd(v[0], v[1], v[3]); }, "prod");
   expect_same([](const N_Vector* v) { N_VDiv(v[0], v[5], v[3]); }, "div");
   expect_same([](const N_Vector* v) { N_VScale(-0.7, v[4], v[4]); }, "scale in place");
@@ -72,7 +74,8 @@ TEST_P(VectorOps, ReductionsAreThoseOfTheLibrary) {
   expect_same_value([](N_Vector* v) { return N_VWrmsNorm(v[0], v[1]); }, "wrmsnorm");
   expect_same_value([](N_Vector* v) { return N_VWrmsNormMask(v[0], v[1], v[2]); }, "wrmsnormmask");
   expect_same_value([](N_Vector* v) { return N_VWSqrSumLocal(v[0], v[1]); }, "wsqrsum");
-  expect_same_value([](N_Vector* v) { return N_VWSqrSumMaskLocal(v[0], v[1], v[2]); }, "wsqrsummask");
+  expect_same_value([](N_Vector* v) { return N_VWSqrSumMaskLocal(v[0], v[1], v[2]); },
+                    "wsqrsummask");
   N_Vector ones = own_[0].get();
   N_VConst(2.0, ones);
   EXPECT_EQ(N_VDotProd(ones, ones), 4.0 * n);
@@ -82,38 +85,50 @@ TEST_P(VectorOps, ReductionsAreThoseOfTheLibrary) {
 TEST_P(VectorOps, FusedOperationsAreThoseOfTheLibraryAlsoInPlace) {
   std::array<double, 3> c{0.5, -1.25, 2.0};
   for (auto& v : library_) N_VEnableFusedOps_Serial(v.get(), SUNTRUE);
-  expect_same([&](const N_Vector* v) {
-    std::array<N_Vector, 3> x{v[0], v[1], v[2]};
-    N_VLinearCombination(3, c.data(), x.data(), v[3]);
-  }, "linearcombination");
-  expect_same([&](const N_Vector* v) {
-    std::array<N_Vector, 3> x{v[0], v[1], v[2]};
-    N_VLinearCombination(3, c.data(), x.data(), v[0]);
-  }, "linearcombination in place");
-  expect_same([&](const N_Vector* v) {
-    std::array<N_Vector, 2> y{v[1], v[2]};
-    N_VScaleAddMulti(2, c.data(), v[0], y.data(), y.data());
-  }, "scaleaddmulti");
-  expect_same([&](const N_Vector* v) {
-    std::array<N_Vector, 2> x{v[0], v[1]}, y{v[2], v[3]}, z{v[4], v[5]};
-    N_VLinearSumVectorArray(2, 0.4, x.data(), -1.1, y.data(), z.data());
-    N_VScaleVectorArray(2, c.data(), y.data(), y.data());
-    N_VConstVectorArray(1, 0.75, x.data());
-  }, "vector arrays");
-  expect_same([&](const N_Vector* v) {
-    std::array<N_Vector, 2> x{v[0], v[1]}, y0{v[2], v[3]}, y1{v[4], v[5]};
-    std::array<N_Vector*, 2> Y{y0.data(), y1.data()};
-    N_VScaleAddMultiVectorArray(2, 2, c.data(), x.data(), Y.data(), Y.data());
-    N_VLinearCombinationVectorArray(2, 2, c.data(), Y.data(), x.data());
-  }, "arrays of arrays");
+  expect_same(
+      [&](const N_Vector* v) {
+        std::array<N_Vector, 3> x{v[0], v[1], v[2]};
+        N_VLinearCombination(3, c.data(), x.data(), v[3]);
+      },
+      "linearcombination");
+  expect_same(
+      [&](const N_Vector* v) {
+        std::array<N_Vector, 3> x{v[0], v[1], v[2]};
+        N_VLinearCombination(3, c.data(), x.data(), v[0]);
+      },
+      "linearcombination in place");
+  expect_same(
+      [&](const N_Vector* v) {
+        std::array<N_Vector, 2> y{v[1], v[2]};
+        N_VScaleAddMulti(2, c.data(), v[0], y.data(), y.data());
+      },
+      "scaleaddmulti");
+  expect_same(
+      [&](const N_Vector* v) {
+        std::array<N_Vector, 2> x{v[0], v[1]}, y{v[2], v[3]}, z{v[4], v[5]};
+        N_VLinearSumVectorArray(2, 0.4, x.data(), -1.1, y.data(), z.data());
+        N_VScaleVectorArray(2, c.data(), y.data(), y.data());
+        N_VConstVectorArray(1, 0.75, x.data());
+      },
+      "vector arrays");
+  expect_same(
+      [&](const N_Vector* v) {
+        std::array<N_Vector, 2> x{v[0], v[1]}, y0{v[2], v[3]}, y1{v[4], v[5]};
+        std::array<N_Vector*, 2> Y{y0.data(), y1.data()};
+        N_VScaleAddMultiVectorArray(2, 2, c.data(), x.data(), Y.data(), Y.data());
+        N_VLinearCombinationVectorArray(2, 2, c.data(), Y.data(), x.data());
+      },
+      "arrays of arrays");
   for (int j = 0; j < 2; ++j)
-    expect_same_value([j](N_Vector* v) {
-      std::array<double, 2> dots{}, norms{};
-      std::array<N_Vector, 2> y{v[1], v[2]}, w{v[3], v[4]};
-      N_VDotProdMulti(2, v[0], y.data(), dots.data());
-      N_VWrmsNormVectorArray(2, y.data(), w.data(), norms.data());
-      return dots[j] + norms[j];
-    }, "dotprodmulti, wrmsnormvectorarray");
+    expect_same_value(
+        [j](N_Vector* v) {
+          std::array<double, 2> dots{}, norms{};
+          std::array<N_Vector, 2> y{v[1], v[2]}, w{v[3], v[4]};
+          N_VDotProdMulti(2, v[0], y.data(), dots.data());
+          N_VWrmsNormVectorArray(2, y.data(), w.data(), norms.data());
+          return dots[j] + norms[j];
+        },
+        "dotprodmulti, wrmsnormvectorarray");
 }
 
 TEST_P(VectorOps, ClonesInheritTheOperations) {

@@ -10,7 +10,8 @@ namespace {
 
 using namespace drift::test;
 
-/// The terms of eqs. (5) and (6) and of the family between them: those that see no more than a Scene.
+/// The terms of eqs. (5) and (6) and of the family between them: those that see no more than a
+/// Scene.
 TermMask equation_terms() {
   ParamMask params = base_parameters();
   params.set(param("lambda"));
@@ -80,7 +81,8 @@ TEST(DriftModel, LambdaFamilySolvesItsDefinition) {
   for (const double lambda : {-0.5, 0.3, 0.7, 2.0}) {
     const Vec3 w = s.omega_cp(Coupling::lambda, lambda);
     const Vec3 rest = (Mat3::Identity() + lambda * a.E_gp) * w +
-                      (Mat3::Identity() + a.E_gp) * s.in.omega_ic_p + a.omega_drift_g + a.omega_torque_g;
+                      (Mat3::Identity() + a.E_gp) * s.in.omega_ic_p + a.omega_drift_g +
+                      a.omega_torque_g;
     EXPECT_LT(rest.norm(), 1e-14 * w.norm());
   }
 }

@@ -34,7 +34,9 @@ Read read(const std::string& text) {
   return result;
 }
 
-std::vector<std::string> active(const ModelSpec& spec) { return terms_text(spec.active); }
+std::vector<std::string> active(const ModelSpec& spec) {
+  return terms_text(spec.active);
+}
 using Keys = std::vector<std::string>;
 
 TEST(ModelConfig, EntriesOfTermsMayBeTermsAxesGroupsAndParameters) {
@@ -69,7 +71,8 @@ TEST(ModelConfig, WithoutTermsTheBaseTermsHold) {
 }
 
 TEST(ModelConfig, TheLambdaFamilyBringsItsWeight) {
-  const Read r = read("[[filter]]\ncoupling = \"lambda\"\nterms = [\"fixed_drift\"]\nparameters.lambda = 0.25\n");
+  const Read r = read(
+      "[[filter]]\ncoupling = \"lambda\"\nterms = [\"fixed_drift\"]\nparameters.lambda = 0.25\n");
   EXPECT_TRUE(r.mistakes.empty());
   EXPECT_EQ(active(r.filters.at(0)), (Keys{"fixed_drift", "frame_closure"}));
   EXPECT_EQ(r.filters[0].priors[TermLibrary::index("lambda")], fixed(0.25));
@@ -78,7 +81,10 @@ TEST(ModelConfig, TheLambdaFamilyBringsItsWeight) {
 
 TEST(ModelConfig, AFilterThatEstimatesNothingIsAMistake) {
   EXPECT_EQ(read("[[filter]]\ncoupling = \"eq5\"\nterms = []\n").mistakes.size(), 1u);
-  EXPECT_EQ(read("[[filter]]\ncoupling = \"eq5\"\nterms = [\"D_F_x\"]\nparameters.D_F_x = \"1 deg/h\"\n").mistakes.size(), 1u);
+  EXPECT_EQ(
+      read("[[filter]]\ncoupling = \"eq5\"\nterms = [\"D_F_x\"]\nparameters.D_F_x = \"1 deg/h\"\n")
+          .mistakes.size(),
+      1u);
 }
 
 TEST(ModelConfig, AGroupStandsForItsActiveAxes) {

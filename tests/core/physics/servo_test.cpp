@@ -58,7 +58,9 @@ struct Bench {
     for (int i = 0; i < n; ++i) J.row(i) = x_dot[i].d.matrix().transpose();
     return J;
   }
-  Inputs<double> inputs() const { return {&model.mounting, Vec3(0, 0, 1), omega_ic_p, omega_cmd_p}; }
+  Inputs<double> inputs() const {
+    return {&model.mounting, Vec3(0, 0, 1), omega_ic_p, omega_cmd_p};
+  }
   State at_rest() const { return servo_at_rest(servo, model, inputs(), theta.data()); }
   Vec3 rate(Coupling coupling) const {
     DriftModel algebraic = model;
@@ -80,7 +82,8 @@ struct Bench {
       return true;
     };
     State tolerance;
-    tolerance << Vec3::Constant(1e-15), Vec3::Constant(1e-15), Vec3::Constant(1e-15), Vec3::Constant(1e-16);
+    tolerance << Vec3::Constant(1e-15), Vec3::Constant(1e-15), Vec3::Constant(1e-15),
+        Vec3::Constant(1e-16);
     Cvode ode(Cvode::Method::bdf, {.rel_tol = 1e-10}, {tolerance.data(), n});
     ode.system(f, J);
     ode.start(0.0, x0.data(), duration);
@@ -91,7 +94,9 @@ struct Bench {
   }
 };
 
-Vec3 platform(const State& x) { return x.segment<3>(ServoState::omega_ip); }
+Vec3 platform(const State& x) {
+  return x.segment<3>(ServoState::omega_ip);
+}
 
 Mat3 random_coupling(unsigned seed) {
   std::mt19937_64 random(seed);
@@ -121,7 +126,8 @@ TEST(Servo, ARestrainedGyroLeaksAsTheLoopGainSays) {
   Bench b;
   b.servo.float_restraint = 0.1;
   b.servo.loop_gain = 20.0;
-  const double beta = b.servo.viscous * b.servo.float_restraint / (b.servo.loop_gain * b.servo.wheel_momentum);
+  const double beta =
+      b.servo.viscous * b.servo.float_restraint / (b.servo.loop_gain * b.servo.wheel_momentum);
   EXPECT_NEAR(1.0 / (1.0 + beta), 0.99975, 1e-6);
   const RateAssembly<double> a = assemble(b.model, b.inputs(), b.theta.data());
   const Mat3 C = Mat3::Identity() + a.E_gp;
@@ -161,7 +167,8 @@ TEST(Servo, TheLoopIsStableOverTheUsefulGains) {
       b.servo.loop_gain = gain;
       b.servo.motor_coupling = seed == 0 ? Mat3(Mat3::Identity()) : random_coupling(seed);
       b.servo.float_dynamics = seed % 2 ? FloatDynamics::coupled : FloatDynamics::single_axis;
-      EXPECT_LT(b.jacobian(b.at_rest()).eigenvalues().real().maxCoeff(), -1.0) << gain << " " << seed;
+      EXPECT_LT(b.jacobian(b.at_rest()).eigenvalues().real().maxCoeff(), -1.0)
+          << gain << " " << seed;
     }
 }
 
@@ -174,8 +181,10 @@ TEST(Servo, TheClosedLoopRespondsAsPhysics15Says) {
   drift[ServoState::theta_dot] = b.servo.wheel_momentum / b.servo.float_inertia;
   const auto response = [&](double hertz) {
     const std::complex<double> s(0.0, 2.0 * std::numbers::pi * hertz);
-    const Eigen::MatrixXcd A = s * Eigen::MatrixXcd::Identity(n, n) - J.cast<std::complex<double>>();
-    return -Eigen::VectorXcd(A.fullPivLu().solve(drift.cast<std::complex<double>>()))[ServoState::omega_ip];
+    const Eigen::MatrixXcd A =
+        s * Eigen::MatrixXcd::Identity(n, n) - J.cast<std::complex<double>>();
+    return -Eigen::VectorXcd(
+        A.fullPivLu().solve(drift.cast<std::complex<double>>()))[ServoState::omega_ip];
   };
   EXPECT_LT(std::abs(response(0.1) - 1.0), 2e-4);
   EXPECT_LT(std::abs(response(1.0) - std::complex(1.010, -0.002)), 1e-3);
@@ -198,7 +207,8 @@ TEST(Servo, TheDualJacobianIsThatOfFiniteDifferences) {
     minus[k] -= h;
     const State column = (b.derivative(plus) - b.derivative(minus)) / (2.0 * h);
     for (int i = 0; i < n; ++i)
-      EXPECT_NEAR(J(i, k), column[i], 1e-5 * (1.0 + J.row(i).cwiseAbs().maxCoeff())) << i << " " << k;
+      EXPECT_NEAR(J(i, k), column[i], 1e-5 * (1.0 + J.row(i).cwiseAbs().maxCoeff()))
+          << i << " " << k;
   }
   EXPECT_GT(std::abs(J(ServoState::theta_dot, ServoState::theta)), 0.0);
 }
@@ -233,8 +243,8 @@ TEST(Servo, CvodeSettlesAtEquation6FromAnywhere) {
 }
 
 TEST(Servo, TheFloatHoldsTheIntegralOfTheRateItFelt) {
-  // theta = H/c Integral (C w_ip + u) dt - J_f/c theta_dot: what the loop misses while it settles is
-  // an attitude offset, never a drift (physics.md 1.5).
+  // theta = H/c Integral (C w_ip + u) dt - J_f/c theta_dot: what the loop misses while it settles
+  // is an attitude offset, never a drift (physics.md 1.5).
   Bench b;
   b.servo.constant_torque = {0.0, 1e-2, 0.0};
   b.theta.setZero();
@@ -258,15 +268,16 @@ TEST(Servo, CoupledFloatsFeelOutputAxisAccelerationAndTheirSpinAxis) {
   Bench b;
   b.servo.float_dynamics = FloatDynamics::coupled;
   State x = State::Zero();
-  x[ServoState::theta] = 1e-3;                     // x float off null
+  x[ServoState::theta] = 1e-3;                       // x float off null
   x.segment<3>(ServoState::omega_ip) << 0, 0, 1e-2;  // about z, the spin axis of the x gyro
   Bench single = b;
   single.servo.float_dynamics = FloatDynamics::single_axis;
   const State difference = b.derivative(x) - single.derivative(x);
   const Vec3 omega_dot = b.derivative(x).segment<3>(ServoState::omega_ip);
   const double cross = b.servo.wheel_momentum / b.servo.float_inertia * 1e-3 * 1e-2;
-  EXPECT_NEAR(difference[ServoState::theta_dot], cross - omega_dot[1], 1e-9 * cross);      // O_x = y
-  EXPECT_NEAR(difference[ServoState::theta_dot + 2], -omega_dot[0], 1e-9 * std::abs(omega_dot[0]));  // O_z = x
+  EXPECT_NEAR(difference[ServoState::theta_dot], cross - omega_dot[1], 1e-9 * cross);  // O_x = y
+  EXPECT_NEAR(difference[ServoState::theta_dot + 2], -omega_dot[0],
+              1e-9 * std::abs(omega_dot[0]));  // O_z = x
   EXPECT_GT(std::abs(omega_dot[0]), 1.0);
 }
 

@@ -95,8 +95,10 @@ TEST(EveryTerm, DerivativesByDualNumbersAreThoseByDifferences) {
     Theta up = theta, down = theta;
     up[i] += h;
     down[i] -= h;
-    const auto difference = ((outputs<double>(scene, model, up.data()) -
-                              outputs<double>(scene, model, down.data())) / (2.0 * h)).eval();
+    const auto difference =
+        ((outputs<double>(scene, model, up.data()) - outputs<double>(scene, model, down.data())) /
+         (2.0 * h))
+            .eval();
     double largest = 0.0;
     for (int r = 0; r < 9; ++r) {
       const double scale = r < 3 ? 5e-3 / h : 2.0 / h;
@@ -145,15 +147,43 @@ TEST(TermLibrary, Holds60BaseParameters13PerGyro7PerAccelerometer) {
 
 TEST(TermLibrary, HoldsEveryCandidateOfTheInterface) {
   // interfaces.md 5, in its order.
-  for (const char* key :
-       {"drift_ramp", "warmup_drift", "reposition_transient", "temperature_drift", "temperature_g_drift",
-        "mass_unbalance_step", "bistable_drift", "drift_random_walk", "cubic_g_drift", "sag",
-        "gimbal_angle_drift", "magnetic_drift", "torquer_asymmetry", "torquer_nonlinearity",
-        "torquer_heating", "torquer_crosstalk", "hang_off", "stiction", "servo_lag", "float_restraint",
-        "output_axis_acceleration", "base_motion_leak", "misalignment_creep", "latitude_error",
-        "azimuth_error", "pier_tilt", "pier_azimuth", "encoder_harmonics", "gimbal_nonorthogonality",
-        "timing_skew", "accelerometer_temperature", "accelerometer_asymmetry", "accelerometer_cross",
-        "accelerometer_dead_zone", "accelerometer_ramp", "outliers", "frame_closure"})
+  for (const char* key : {"drift_ramp",
+                          "warmup_drift",
+                          "reposition_transient",
+                          "temperature_drift",
+                          "temperature_g_drift",
+                          "mass_unbalance_step",
+                          "bistable_drift",
+                          "drift_random_walk",
+                          "cubic_g_drift",
+                          "sag",
+                          "gimbal_angle_drift",
+                          "magnetic_drift",
+                          "torquer_asymmetry",
+                          "torquer_nonlinearity",
+                          "torquer_heating",
+                          "torquer_crosstalk",
+                          "hang_off",
+                          "stiction",
+                          "servo_lag",
+                          "float_restraint",
+                          "output_axis_acceleration",
+                          "base_motion_leak",
+                          "misalignment_creep",
+                          "latitude_error",
+                          "azimuth_error",
+                          "pier_tilt",
+                          "pier_azimuth",
+                          "encoder_harmonics",
+                          "gimbal_nonorthogonality",
+                          "timing_skew",
+                          "accelerometer_temperature",
+                          "accelerometer_asymmetry",
+                          "accelerometer_cross",
+                          "accelerometer_dead_zone",
+                          "accelerometer_ramp",
+                          "outliers",
+                          "frame_closure"})
     EXPECT_TRUE(TermLibrary::find_term(key).has_value()) << key;
 }
 

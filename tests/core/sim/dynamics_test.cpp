@@ -1,4 +1,5 @@
-// The platform in motion: geometry of physics.md 1.4, servo against the reduced models, two integrators.
+// The platform in motion: geometry of physics.md 1.4, servo against the reduced models, two
+// integrators.
 #include <gtest/gtest.h>
 
 #include "core/sim/simulate.hpp"
@@ -59,7 +60,6 @@ Vec3 slew_error(Coupling coupling, double angle) {
   const Simulation sim = perfect_run(coupling, timeline, theta);
   EXPECT_TRUE(sim.ode.ok()) << sim.ode.cause;
   return R_lp.transpose() * final_error(timeline, sim);  // Earth rate is along x (Up) at the pole
-
 }
 
 TEST(Slew, UnderEquation6TheNetErrorIsSineAndOneMinusCosine) {
@@ -110,7 +110,9 @@ TEST(CaseSpin, DragsThePlatformUnderEquation5ByTwoPiPerTurn) {
   EXPECT_NEAR(spin_error(Coupling::lambda, 0.5, 1), 315.1, 0.2);
 }
 
-TEST(CaseSpin, LeavesThePlatformAloneUnderEquation6) { EXPECT_LT(spin_error(Coupling::eq6, 1.0, 3), 1e-9); }
+TEST(CaseSpin, LeavesThePlatformAloneUnderEquation6) {
+  EXPECT_LT(spin_error(Coupling::eq6, 1.0, 3), 1e-9);
+}
 
 /// The demonstration of physics.md 1.5: 12 positions, 11 torqued slews, 12.5 h.
 struct Demonstration {
@@ -184,7 +186,8 @@ TEST(ReducedModel, HoldsItsAccuracyAtModestTolerance) {
     const Simulation b = perfect_run(coupling, d.timeline, d.theta, modest);
     ASSERT_TRUE(a.ode.ok() && b.ode.ok());
     double worst = 0.0;
-    for (std::size_t k = 0; k < a.phi.size(); ++k) worst = std::max(worst, (a.phi[k] - b.phi[k]).norm());
+    for (std::size_t k = 0; k < a.phi.size(); ++k)
+      worst = std::max(worst, (a.phi[k] - b.phi[k]).norm());
     EXPECT_LT(worst / arcsec, 0.004);  // physics.md 6.2
   }
 }
@@ -192,15 +195,16 @@ TEST(ReducedModel, HoldsItsAccuracyAtModestTolerance) {
 TEST(ReducedModel, TwoIntegratorsAgree) {
   // CVODE against fixed-step Runge-Kutta: dwells to 1e-5 arcsec, slews (steps of up to 0.025 rad,
   // fourth order) to 1e-3 arcsec; both far below any noise.
-  for (const auto& [preset, bound] : {std::pair{"six", 1e-5}, {"eighteen", 1e-5}, {"slew12", 1e-3}, {"casespin", 1e-3}}) {
+  for (const auto& [preset, bound] :
+       {std::pair{"six", 1e-5}, {"eighteen", 1e-5}, {"slew12", 1e-3}, {"casespin", 1e-3}}) {
     const Timeline timeline = preset_timeline(preset, CommandLaw::free);
     for (const Coupling coupling : {Coupling::eq5, Coupling::eq6}) {
       const Theta theta = random_theta(8);
       const Simulation cvode = perfect_run(coupling, timeline, theta);
       ASSERT_TRUE(cvode.ode.ok());
       DriftModel model = base_truth(coupling).model();
-      const Trajectory fixed_step = integrate_fixed(
-          timeline, model, theta, std::vector<Vec3>(timeline.chains, Vec3::Zero()));
+      const Trajectory fixed_step =
+          integrate_fixed(timeline, model, theta, std::vector<Vec3>(timeline.chains, Vec3::Zero()));
       double worst = 0.0;
       for (std::size_t k = 0; k < fixed_step.size(); ++k)
         worst = std::max(worst, (fixed_step[k] - cvode.phi[k]).norm());
@@ -215,7 +219,8 @@ TEST(FreePlatform, HoldsInertialSpaceWithoutErrors) {
   for (const Vec3& phi : sim.phi) EXPECT_LT(phi.norm(), 1e-15);
   // After an hour the local axes have turned by Omega t against it.
   const Interval& last_of_first = timeline.intervals[59];
-  const Mat3 turned = timeline.nodes[0].R_lr.transpose() * timeline.nodes[last_of_first.last_node()].R_lr;
+  const Mat3 turned =
+      timeline.nodes[0].R_lr.transpose() * timeline.nodes[last_of_first.last_node()].R_lr;
   EXPECT_NEAR(rotation_vector(turned).norm(), 7.292115e-5 * 3600.0, 1e-12);
 }
 
@@ -243,7 +248,8 @@ TEST(Recording, EveryParameterThatReachesTheModelReachesTheRecording) {
     Theta other = theta;
     other[i] += TermLibrary::specs[i].prior_si().sigma();
     const Coupling coupling = i == param("lambda") ? Coupling::lambda : Coupling::eq5;
-    const Simulation base = coupling == Coupling::eq5 ? nominal : perfect_run(coupling, timeline, theta);
+    const Simulation base =
+        coupling == Coupling::eq5 ? nominal : perfect_run(coupling, timeline, theta);
     const Simulation changed = perfect_run(coupling, timeline, other);
     const double difference = (changed.measured.acc - base.measured.acc).norm() +
                               (changed.measured.gimbal - base.measured.gimbal).norm();

@@ -46,10 +46,11 @@ field_u = "-48 uT"
 }
 
 TEST(Environment, ItsMistakesAreNamed) {
-  for (const auto& [text, expected] : {std::pair{"temperature_ramp = \"1 degC/h\"", "temperature = \"20 degC\""},
-                                       {"field_n = \"0.2 gauss\"", "all three"},
-                                       {"temprature = \"20 degC\"", "temperature"},
-                                       {"temperature = \"20 gauss\"", "degC"}}) {
+  for (const auto& [text, expected] :
+       {std::pair{"temperature_ramp = \"1 degC/h\"", "temperature = \"20 degC\""},
+        {"field_n = \"0.2 gauss\"", "all three"},
+        {"temprature = \"20 degC\"", "temperature"},
+        {"temperature = \"20 gauss\"", "degC"}}) {
     std::vector<std::string> mistakes;
     read(std::string("[environment]\n") + text + "\n", &mistakes);
     ASSERT_FALSE(mistakes.empty()) << text;
@@ -66,7 +67,8 @@ TEST(Environment, IsTheSameInTheTestAndInItsRecording) {
   e.temperature_fluctuation = 0.05;
   set_environment(planned, e, 3, 1);
   const auto n = static_cast<Eigen::Index>(planned.intervals.size());
-  Recording recording = make_recording(planned, {Mat3X::Constant(3, n, std::nan("")), Mat3X::Constant(3, n, std::nan(""))}, {});
+  Recording recording = make_recording(
+      planned, {Mat3X::Constant(3, n, std::nan("")), Mat3X::Constant(3, n, std::nan(""))}, {});
   const Timeline laid_out = lay_out(recording, plan, harbin);
   ASSERT_TRUE(laid_out.has_temperature && laid_out.has_field);
   EXPECT_NEAR(laid_out.mean_temperature, planned.mean_temperature, 1e-12);
@@ -98,14 +100,18 @@ TEST(Environment, GapsInACovariateAreClosedByStraightLines) {
   const TestPlan plan = preset_plan("six", PlanDefaults{600.0, 60.0, {}, {}}).value();
   const Timeline planned = lay_out(plan, harbin);
   const auto n = static_cast<Eigen::Index>(planned.intervals.size());
-  Recording recording = make_recording(planned, {Mat3X::Constant(3, n, std::nan("")), Mat3X::Constant(3, n, std::nan(""))}, {});
-  Channel temperature{"temperature", "degC"_unit, std::vector<double>(static_cast<std::size_t>(n), std::nan(""))};
+  Recording recording = make_recording(
+      planned, {Mat3X::Constant(3, n, std::nan("")), Mat3X::Constant(3, n, std::nan(""))}, {});
+  Channel temperature{"temperature", "degC"_unit,
+                      std::vector<double>(static_cast<std::size_t>(n), std::nan(""))};
   temperature.values[10] = 20.0;
   temperature.values[20] = 21.0;
   recording.channels.push_back(temperature);
   const Timeline t = lay_out(recording, plan, harbin);
   ASSERT_TRUE(t.has_temperature);
-  const auto at = [&](std::size_t k) { return t.mean_temperature + t.intervals[k].around1.temperature; };
+  const auto at = [&](std::size_t k) {
+    return t.mean_temperature + t.intervals[k].around1.temperature;
+  };
   EXPECT_NEAR(at(0), 20.0, 1e-12);
   EXPECT_NEAR(at(15), 20.5, 1e-12);
   EXPECT_NEAR(at(50), 21.0, 1e-12);

@@ -16,7 +16,8 @@ DriftModel model_of(Coupling coupling, const ParamMask& params) {
 }
 
 Measurements predicted(const Timeline& timeline, const DriftModel& model, const Theta& theta) {
-  return predict(timeline, model, theta, std::vector<Vec3>(timeline.chains, Vec3(4e-4, -3e-4, 5e-4)), {});
+  return predict(timeline, model, theta,
+                 std::vector<Vec3>(timeline.chains, Vec3(4e-4, -3e-4, 5e-4)), {});
 }
 
 Coupling coupling_for(std::size_t term) {
@@ -30,9 +31,11 @@ TEST(EveryTermInATest, ShowsNothingAtZeroAmplitude) {
     if (base_parameters()[TermLibrary::terms[t].first]) continue;
     Theta theta = base;
     set_term(theta, t, 0.0);
-    const Coupling coupling = coupling_for(t) == Coupling::lambda ? Coupling::lambda : Coupling::eq6;
+    const Coupling coupling =
+        coupling_for(t) == Coupling::lambda ? Coupling::lambda : Coupling::eq6;
     const Measurements without = predicted(timeline, model_of(coupling, base_parameters()), base);
-    const Measurements with = predicted(timeline, model_of(coupling, base_parameters() | term_params(t)), theta);
+    const Measurements with =
+        predicted(timeline, model_of(coupling, base_parameters() | term_params(t)), theta);
     // One more product of rotations in the gimbal angles: some ulp of an angle of up to pi.
     EXPECT_LT(difference(with, without), 4e-15) << TermLibrary::terms[t].key;
   }
@@ -40,7 +43,8 @@ TEST(EveryTermInATest, ShowsNothingAtZeroAmplitude) {
 
 TEST(EveryTermInATest, ShowsEachOfItsParameters) {
   // Slews and commands for some, 45-deg attitudes for others, free drift for the rest.
-  const Timeline scenes[] = {scene("slew12", CommandLaw::level, 300.0), scene("eighteen", CommandLaw::level, 120.0)};
+  const Timeline scenes[] = {scene("slew12", CommandLaw::level, 300.0),
+                             scene("eighteen", CommandLaw::level, 120.0)};
   const Theta base = random_theta(6);
   for (const std::size_t t : visible_terms()) {
     const TermInfo& info = TermLibrary::terms[t];
@@ -52,11 +56,14 @@ TEST(EveryTermInATest, ShowsEachOfItsParameters) {
       if (spec.kind == ParamKind::linear)
         other[i] += spec.prior_si().sigma();
       else
-        other[i] = (spec.grid.values[0] == spec.prior.a ? spec.grid.values[1] : spec.grid.values[0]) * spec.unit.to_si;
+        other[i] =
+            (spec.grid.values[0] == spec.prior.a ? spec.grid.values[1] : spec.grid.values[0]) *
+            spec.unit.to_si;
       double most = 0.0;
       for (const Timeline& timeline : scenes) {
         const DriftModel model = model_of(coupling_for(t), base_parameters() | term_params(t));
-        most = std::max(most, difference(predicted(timeline, model, theta), predicted(timeline, model, other)));
+        most = std::max(
+            most, difference(predicted(timeline, model, theta), predicted(timeline, model, other)));
       }
       EXPECT_GT(most, 1e-9) << spec.key.view();
     }
@@ -64,7 +71,8 @@ TEST(EveryTermInATest, ShowsEachOfItsParameters) {
 }
 
 /// Truth without noise, by CVODE.
-Simulation truth_run(Coupling coupling, const ParamMask& active, const Timeline& timeline, const Theta& theta) {
+Simulation truth_run(Coupling coupling, const ParamMask& active, const Timeline& timeline,
+                     const Theta& theta) {
   TruthSpec truth = base_truth(coupling);
   truth.active = active;
   Readout readout;
@@ -74,8 +82,9 @@ Simulation truth_run(Coupling coupling, const ParamMask& active, const Timeline&
 }
 
 TEST(EveryTermInATest, IsTheSameInTheTruthAndInTheModel) {
-  // CVODE at any instant against fixed steps: 1e-3 arcsec in attitude, as without the term. Slews are
-  // 3 min of 0.05 rad steps: what they add (1e-3 arcsec each, ReducedModel.TwoIntegratorsAgree) stays.
+  // CVODE at any instant against fixed steps: 1e-3 arcsec in attitude, as without the term. Slews
+  // are 3 min of 0.05 rad steps: what they add (1e-3 arcsec each, ReducedModel.TwoIntegratorsAgree)
+  // stays.
   const Timeline timeline = scene("slew12", CommandLaw::level);
   for (const std::size_t t : visible_terms()) {
     Theta theta = Theta::Zero();
@@ -88,11 +97,14 @@ TEST(EveryTermInATest, IsTheSameInTheTruthAndInTheModel) {
     Trajectory phi;
     predict(timeline, model_of(coupling_for(t), active), theta, sim.draw.psi0_l, {}, &phi);
     double worst = 0.0;
-    for (std::size_t k = 0; k < phi.size(); ++k) worst = std::max(worst, (phi[k] - sim.phi[k]).norm());
+    for (std::size_t k = 0; k < phi.size(); ++k)
+      worst = std::max(worst, (phi[k] - sim.phi[k]).norm());
     // A reversal of friction takes seconds: 0.036 deg/h times a sixth of half a minute.
     const double bound = TermLibrary::terms[t].key == "float_restraint" ? 0.18 : 2e-3;  // [arcsec]
     EXPECT_LT(worst / arcsec, bound) << TermLibrary::terms[t].key;
-    EXPECT_LT(difference(predicted(timeline, model_of(coupling_for(t), active), theta), sim.measured), bound * arcsec)
+    EXPECT_LT(
+        difference(predicted(timeline, model_of(coupling_for(t), active), theta), sim.measured),
+        bound * arcsec)
         << TermLibrary::terms[t].key;
   }
 }
@@ -109,13 +121,14 @@ TEST(EveryTermInATest, MayStandBesideAllOthers) {
   for (const Coupling coupling : {Coupling::eq5, Coupling::eq6, Coupling::lambda}) {
     const Simulation sim = truth_run(coupling, all, timeline, theta);
     ASSERT_TRUE(sim.ode.ok()) << sim.ode.cause;
-    EXPECT_LT(difference(predicted(timeline, model_of(coupling, all), theta), sim.measured), 5e-3 * arcsec);
+    EXPECT_LT(difference(predicted(timeline, model_of(coupling, all), theta), sim.measured),
+              5e-3 * arcsec);
   }
 }
 
 TEST(EveryTermInATest, ActsInsideTheServoLoop) {
-  // The loop closes like eq. (6), so what it makes of every rate term is what eq. (6) predicts: within
-  // 0.02 arcsec of transients at the ends of slews.
+  // The loop closes like eq. (6), so what it makes of every rate term is what eq. (6) predicts:
+  // within 0.02 arcsec of transients at the ends of slews.
   TestPlan plan = preset_plan("slew12", PlanDefaults{600.0, 60.0, CommandLaw::level, {}}).value();
   plan.positions.resize(3);
   Timeline timeline = lay_out(plan, harbin);
@@ -130,13 +143,15 @@ TEST(EveryTermInATest, ActsInsideTheServoLoop) {
   theta[param("dD_t0")] = 1000.0;
   const Simulation sim = truth_run(Coupling::servo, all, timeline, theta);
   ASSERT_TRUE(sim.ode.ok()) << sim.ode.cause;
-  EXPECT_LT(difference(predicted(timeline, model_of(Coupling::eq6, all), theta), sim.measured), 0.02 * arcsec);
+  EXPECT_LT(difference(predicted(timeline, model_of(Coupling::eq6, all), theta), sim.measured),
+            0.02 * arcsec);
 }
 
 TEST(Predict, SaysWhichCovariateIsMissing) {
   const Timeline timeline = preset_timeline("six", CommandLaw::level, 600.0);
   const std::vector<Vec3> psi(timeline.chains, Vec3::Zero());
-  for (const auto& [key, column] : {std::pair{"temperature_drift", "temperature [degC]"}, {"magnetic_drift", "field_n"}}) {
+  for (const auto& [key, column] :
+       {std::pair{"temperature_drift", "temperature [degC]"}, {"magnetic_drift", "field_n"}}) {
     try {
       predict(timeline, model_of(Coupling::eq5, params_named(key)), Theta::Zero(), psi, {});
       FAIL() << key;

@@ -98,17 +98,20 @@ TEST(QualityCard, SaysWhatIsTakenForGranted) {
       folder.write("r.csv", "time [s],position,acc_x [g],acc_y [g],acc_z [g]\n1,1,0,,0\n"),
       RecordingKind::platform, gravity);
   const std::string text = to_text(quality_card(r, RecordingKind::platform));
-  for (const char* part : {"(CSV): 1 rows", "no commands (cmd_*): those of the plan are taken", "taken as dwell", "no gimbal angles",
-                           "acc_y: nothing was measured"})
+  for (const char* part : {"(CSV): 1 rows", "no commands (cmd_*): those of the plan are taken",
+                           "taken as dwell", "no gimbal angles", "acc_y: nothing was measured"})
     EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
 }
 
 TEST(QualityCard, SaysWhichSensorOfAPlatformIsNotThere) {
   const Folder folder;
-  const auto r = read_recording(folder.write("r.csv", "time [s],position,acc_x [g],acc_z [g],gimbal_outer [deg]\n1,1,0,0,0\n"),
-                                RecordingKind::platform, gravity);
+  const auto r = read_recording(
+      folder.write("r.csv",
+                   "time [s],position,acc_x [g],acc_z [g],gimbal_outer [deg]\n1,1,0,0,0\n"),
+      RecordingKind::platform, gravity);
   const std::string text = to_text(quality_card(r, RecordingKind::platform));
-  for (const char* part : {"no acc_y: taken as not measured", "no gimbal_middle: taken as not measured", "no gimbal_inner: taken"})
+  for (const char* part : {"no acc_y: taken as not measured",
+                           "no gimbal_middle: taken as not measured", "no gimbal_inner: taken"})
     EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
   EXPECT_EQ(text.find("no accelerometers"), std::string::npos) << text;
 }

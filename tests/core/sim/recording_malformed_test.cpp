@@ -75,7 +75,8 @@ std::vector<Case> cases() {
       {"NoSensor", "time [s],position\n1,1\n", ":acc_x:", "neither accelerometers nor gimbal",
        "gimbal_outer"},
       {"StrapdownAccelerometerTriple",
-       "time [s],gyro_x [deg/s],gyro_y [deg/s],gyro_z [deg/s],acc_x [g],acc_z [g]\n1,0,0,0,0,0\n2,0,0,0,0,0\n",
+       "time [s],gyro_x [deg/s],gyro_y [deg/s],gyro_z [deg/s],acc_x [g],acc_z "
+       "[g]\n1,0,0,0,0,0\n2,0,0,0,0,0\n",
        ":acc_y:", "missing while other accelerometers", "all three or none", strapdown},
       {"CommandTriple",
        "time [s],position,acc_x [g],acc_y [g],acc_z [g],cmd_x [deg/h]\n1,1,0,0,0,0\n",

@@ -200,7 +200,8 @@ bool have(const std::string& program) {
 
 TEST(RecordingReaders, H5pyReadsTheHdf5File) {
   std::string python;
-  for (const std::string name : {"/usr/bin/python3", "python3"})  // the distribution's has the package
+  for (const std::string name :
+       {"/usr/bin/python3", "python3"})  // the distribution's has the package
     if (std::system((name + " -c 'import h5py' >/dev/null 2>&1").c_str()) == 0) python = name;
   if (python.empty()) GTEST_SKIP() << "h5py is not installed";
   const Folder folder;

@@ -13,8 +13,11 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 /// Two positions of `rows` samples each, 0.5 s apart, 1000 s between them; acc_x = f(time).
 Recording recording(std::size_t rows, auto&& f) {
   Recording r;
-  r.channels = {{"time", unit::s, {}},        {"position", unit::one, {}}, {"acc_x", unit::g, {}},
-                {"gimbal_outer", unit::deg, {}}, {"cmd_x", unit::deg_per_h, {}}};
+  r.channels = {{"time", unit::s, {}},
+                {"position", unit::one, {}},
+                {"acc_x", unit::g, {}},
+                {"gimbal_outer", unit::deg, {}},
+                {"cmd_x", unit::deg_per_h, {}}};
   for (std::size_t k = 0; k < 2 * rows; ++k) {
     const double t = 0.5 * static_cast<double>(k + 1) + (k < rows ? 0.0 : 1000.0);
     r.channels[0].values.push_back(t);
@@ -48,8 +51,8 @@ TEST(Reduce, TakesMeansOfAccelerometersAndAnglesAtTheEnd) {
 TEST(Reduce, BridgesShortHolesAlongTheTrendAndLeavesLongOnesEmpty) {
   Recording r = recording(40, [](double t) { return 3.0 - 0.1 * t; });
   auto& x = r.channels[2].values;
-  x[0] = x[1] = x[2] = none;                        // 3 of 8
-  for (std::size_t k = 8; k < 13; ++k) x[k] = none; // 5 of 8
+  x[0] = x[1] = x[2] = none;                         // 3 of 8
+  for (std::size_t k = 8; k < 13; ++k) x[k] = none;  // 5 of 8
   const Recording s = reduced(r, 0.5, 8);
   EXPECT_NEAR(s.find("acc_x")->values[0], 3.0 - 0.1 * 2.25, 1e-12);
   EXPECT_TRUE(std::isnan(s.find("acc_x")->values[1]));
@@ -58,7 +61,8 @@ TEST(Reduce, BridgesShortHolesAlongTheTrendAndLeavesLongOnesEmpty) {
 
 TEST(Reduce, CutsWhereACommandChanges) {
   Recording r = recording(40, [](double) { return 1.0; });
-  for (std::size_t k = 11; k < 40; ++k) r.channels[4].values[k] = 2e-5;  // within the second stretch
+  for (std::size_t k = 11; k < 40; ++k)
+    r.channels[4].values[k] = 2e-5;  // within the second stretch
   const Recording s = reduced(r, 0.5, 8);
   const auto& cmd = s.find("cmd_x")->values;
   const auto& t = s.find("time")->values;
@@ -71,7 +75,8 @@ TEST(Reduce, CutsWhereACommandChanges) {
 TEST(Reduce, AFactorOfOneChangesNothing) {
   const Recording r = recording(10, [](double t) { return std::sin(t); });
   const Recording s = reduced(r, 0.5, 1);
-  for (std::size_t c = 0; c < r.channels.size(); ++c) EXPECT_EQ(s.channels[c].values, r.channels[c].values);
+  for (std::size_t c = 0; c < r.channels.size(); ++c)
+    EXPECT_EQ(s.channels[c].values, r.channels[c].values);
 }
 
 }  // namespace

@@ -12,8 +12,8 @@ using namespace drift::test;
 
 const double omega = detail::earth_rate;
 
-/// One parameter, and what it does to the attitude in the first `intervals` intervals of a test under
-/// eq. (6): rotation vector at their end, platform axes [rad].
+/// One parameter, and what it does to the attitude in the first `intervals` intervals of a test
+/// under eq. (6): rotation vector at their end, platform axes [rad].
 struct Effect {
   ParamMask active;
   Theta theta = Theta::Zero();
@@ -25,7 +25,8 @@ struct Effect {
   }
   DriftModel model() const { return {Coupling::eq6, TermLibrary::terms_of(active), {}}; }
   Measurements predicted(const Timeline& timeline, Trajectory* phi = nullptr) const {
-    return predict(timeline, model(), theta, std::vector<Vec3>(timeline.chains, Vec3::Zero()), {}, phi);
+    return predict(timeline, model(), theta, std::vector<Vec3>(timeline.chains, Vec3::Zero()), {},
+                   phi);
   }
   Vec3 phi_after(const Timeline& timeline, std::size_t intervals) const {
     Trajectory phi;
@@ -34,15 +35,19 @@ struct Effect {
   }
 };
 
-/// x up: position 1 of "six" held level for ten minutes. The commanded Earth rate turns what has drifted
-/// about the vertical to the horizontal and back: (Omega cos(latitude) 600 s)^2 / 6 = 1.6e-4 of it.
+/// x up: position 1 of "six" held level for ten minutes. The commanded Earth rate turns what has
+/// drifted about the vertical to the horizontal and back: (Omega cos(latitude) 600 s)^2 / 6
+/// = 1.6e-4 of it.
 constexpr double turned_away = 3e-4;
-Timeline first_position() { return scene("six", CommandLaw::level); }
+Timeline first_position() {
+  return scene("six", CommandLaw::level);
+}
 
 TEST(MagneticDrift, IsSensitivityTimesFieldAlongTheInputAxis) {
   const Timeline timeline = first_position();
   const double M = 0.01 * deg_per_h / 1e-4;  // 0.01 deg/h/gauss
-  // x is up, B_u = -0.48 gauss: w_ip = +0.0048 deg/h about x for 600 s. In level mode nothing else turns.
+  // x is up, B_u = -0.48 gauss: w_ip = +0.0048 deg/h about x for 600 s. In level mode nothing else
+  // turns.
   const Vec3 phi = Effect("M_x", M).phi_after(timeline, 10);
   EXPECT_NEAR(phi.x(), 0.01 * 0.48 * deg_per_h * 600.0, turned_away * std::abs(phi.x()));
   EXPECT_LT(std::hypot(phi.y(), phi.z()), std::abs(phi.x()) * omega * 600.0);
@@ -56,7 +61,8 @@ TEST(WarmupDrift, IntegratesToAnExponential) {
 
 TEST(DriftRamp, IntegratesToAParabola) {
   const double r = 0.01 * deg_per_h / 3600.0;
-  EXPECT_NEAR(Effect("ramp_x", r).phi_after(first_position(), 10).x(), -0.5 * r * 600.0 * 600.0, turned_away * r * 3.6e5);
+  EXPECT_NEAR(Effect("ramp_x", r).phi_after(first_position(), 10).x(), -0.5 * r * 600.0 * 600.0,
+              turned_away * r * 3.6e5);
 }
 
 TEST(TemperatureDrift, FollowsTheRecordedTemperature) {
@@ -68,7 +74,8 @@ TEST(TemperatureDrift, FollowsTheRecordedTemperature) {
     sum += 0.5 * (n.around0.temperature + n.around1.temperature) * n.length();
   }
   EXPECT_GT(std::abs(sum), 30.0);  // degC s
-  EXPECT_NEAR(Effect("kT_x", k).phi_after(timeline, 10).x(), -k * sum, turned_away * k * std::abs(sum));
+  EXPECT_NEAR(Effect("kT_x", k).phi_after(timeline, 10).x(), -k * sum,
+              turned_away * k * std::abs(sum));
 }
 
 /// A slew by +90 deg about x and back.
@@ -115,9 +122,11 @@ TEST(TorquerHeating, IsOneAfterASlewOf90DegLessWhatLeakedAway) {
   for (std::size_t i = 0; i < 18; ++i) path.advance(i, effect.theta.data());
   const double tau = 15.0 * 60.0;
   const auto& info = TermLibrary::terms[TermLibrary::find_term("torquer_heating").value()];
-  EXPECT_NEAR(path.at(2).value[info.first_memory], tau / 180.0 * (1.0 - std::exp(-180.0 / tau)) , 0.2);
+  EXPECT_NEAR(path.at(2).value[info.first_memory], tau / 180.0 * (1.0 - std::exp(-180.0 / tau)),
+              0.2);
   const std::size_t last = 2 * (timeline.intervals[17].node_count() - 1);
-  EXPECT_NEAR(path.at(last).value[info.first_memory], tau / 180.0 * (1.0 - std::exp(-180.0 / tau)), 1e-12);
+  EXPECT_NEAR(path.at(last).value[info.first_memory], tau / 180.0 * (1.0 - std::exp(-180.0 / tau)),
+              1e-12);
 }
 
 TEST(RepositionTransient, DecaysAfterTheAttitudeChanges) {
@@ -126,7 +135,8 @@ TEST(RepositionTransient, DecaysAfterTheAttitudeChanges) {
   const double R = 0.05 * deg_per_h, tau = 600.0;
   const Effect effect("R_x", R);
   EXPECT_NEAR(effect.phi_after(timeline, 10).x(), 0.0, 1e-12);
-  EXPECT_NEAR(effect.phi_after(timeline, 20).x(), 2.0 * R * tau * (1.0 - std::exp(-1.0)), turned_away * 2.0 * R * 600.0);
+  EXPECT_NEAR(effect.phi_after(timeline, 20).x(), 2.0 * R * tau * (1.0 - std::exp(-1.0)),
+              turned_away * 2.0 * R * 600.0);
 }
 
 TEST(Friction, TakesATurnToChangeSides) {
@@ -149,7 +159,8 @@ TEST(LatitudeError, TurnsALevelPlatformAgainstTheLocalAxes) {
   const Vec3 psi_l = timeline.nodes.front().R_lr * Effect("d_lat", d).phi_after(timeline, 10);
   const double lat = harbin.latitude;
   const Vec3 expected = -omega * d * 600.0 * Vec3(-std::sin(lat), 0.0, std::cos(lat));
-  EXPECT_LT((psi_l - expected).norm(), 0.05 * expected.norm());  // Earth rate turns the error itself: Omega T = 4 %
+  EXPECT_LT((psi_l - expected).norm(),
+            0.05 * expected.norm());  // Earth rate turns the error itself: Omega T = 4 %
   EXPECT_NEAR(psi_l.norm(), omega * d * 600.0, 1e-3 * omega * d * 600.0);
 }
 
@@ -164,7 +175,8 @@ TEST(AzimuthError, GivesEarthRateAnEastPart) {
 TEST(PierTilt, IsSeenByTheGimbalsAlone) {
   const Timeline timeline = first_position();
   const Effect effect("turn_c", 3.0 * arcsec);
-  const Measurements with = effect.predicted(timeline), without = Effect("D_F_x", 0.0).predicted(timeline);
+  const Measurements with = effect.predicted(timeline),
+                     without = Effect("D_F_x", 0.0).predicted(timeline);
   EXPECT_EQ(with.acc, without.acc);
   // The case turns by +3 arcsec about Up; x is up, so the chain turns back by that about x.
   const double turned = 3.0 * arcsec * std::cos(2.0 * std::numbers::pi * 600.0 / 86400.0);
@@ -180,8 +192,10 @@ TEST(EncoderHarmonics, AreFunctionsOfTheAngle) {
   const Measurements with = effect.predicted(timeline);
   for (Eigen::Index i = 0; i < with.gimbal.cols(); ++i) {
     const Vec3 d = with.gimbal.col(i) - without.gimbal.col(i), angle = without.gimbal.col(i);
-    EXPECT_NEAR(std::remainder(d[2], 2.0 * std::numbers::pi), 5.0 * arcsec * std::sin(2.0 * angle[2]), 1e-12);
-    EXPECT_NEAR(std::remainder(d[0], 2.0 * std::numbers::pi), 2.0 * arcsec * std::cos(16.0 * angle[0]), 1e-12);
+    EXPECT_NEAR(std::remainder(d[2], 2.0 * std::numbers::pi),
+                5.0 * arcsec * std::sin(2.0 * angle[2]), 1e-12);
+    EXPECT_NEAR(std::remainder(d[0], 2.0 * std::numbers::pi),
+                2.0 * arcsec * std::cos(16.0 * angle[0]), 1e-12);
     EXPECT_NEAR(d[1], 0.0, 1e-14);
   }
 }
@@ -201,8 +215,9 @@ TEST(TimingSkew, IsTheRateOfTheAnglesTimesTheDelay) {
 TEST(GimbalNonorthogonality, IsTheChainWithTwoSmallRotationsInIt) {
   const double nu1 = 20.0 * arcsec, nu2 = -15.0 * arcsec;
   const Vec3 read(0.7, -0.5, 2.1);  // what the resolvers say
-  const Mat3 R_cp = rotation(Vec3(read[0], 0, 0)) * rotation(Vec3(0, 0, nu1)) * rotation(Vec3(0, read[1], 0)) *
-                    rotation(Vec3(nu2, 0, 0)) * rotation(Vec3(0, 0, read[2]));
+  const Mat3 R_cp = rotation(Vec3(read[0], 0, 0)) * rotation(Vec3(0, 0, nu1)) *
+                    rotation(Vec3(0, read[1], 0)) * rotation(Vec3(nu2, 0, 0)) *
+                    rotation(Vec3(0, 0, read[2]));
   Surroundings<double> around;
   around.gimbal = gimbal_angles<double>(R_cp);
   Inputs<double> in;
@@ -227,7 +242,8 @@ TEST(HangOff, IsSeenByAccelerometersAndGimbalsAlike) {
   const Measurements without = Effect("D_F_x", 0.0).predicted(timeline);
   const Measurements with = Effect("H_u_y", 5.0 * arcsec).predicted(timeline);
   // x up: u x a = u e_y x e_x = -u e_z.
-  const Mat3 turn = gimbal_chain(without.gimbal.col(3)).transpose() * gimbal_chain(with.gimbal.col(3));
+  const Mat3 turn =
+      gimbal_chain(without.gimbal.col(3)).transpose() * gimbal_chain(with.gimbal.col(3));
   EXPECT_LT((rotation_vector(turn) - Vec3(0.0, 0.0, -5.0 * arcsec)).norm(), 1e-12);
   // f = R^T up: the platform turned by -u about z sees gravity turned by +u: y gains u.
   EXPECT_NEAR(with.acc(1, 3) - without.acc(1, 3), 5.0 * arcsec, 1e-12);

@@ -20,8 +20,8 @@ TEST(Axes, DirectionsAndTheirMistakes) {
   ASSERT_TRUE(R) << why;
   EXPECT_NEAR(R->determinant(), 1.0, 1e-15);
   EXPECT_NEAR(R->col(2).dot(Vec3::UnitZ()), std::sqrt(0.5), 1e-15);
-  for (const char* text : {"", "x=N y=W", "x=N y=W z=D", "x=N y=N z=U", "x=N y=UW z=U", "x=NS y=W z=U",
-                           "x=Q y=W z=U", "a=N y=W z=U", "x=N x=N y=W z=U"}) {
+  for (const char* text : {"", "x=N y=W", "x=N y=W z=D", "x=N y=N z=U", "x=N y=UW z=U",
+                           "x=NS y=W z=U", "x=Q y=W z=U", "a=N y=W z=U", "x=N x=N y=W z=U"}) {
     why.clear();
     EXPECT_FALSE(parse_axes(text, why)) << text;
     EXPECT_FALSE(why.empty()) << text;
@@ -29,8 +29,9 @@ TEST(Axes, DirectionsAndTheirMistakes) {
 }
 
 TEST(Presets, HoldTheirPositions) {
-  const std::map<std::string, std::size_t> sizes{{"six", 6},       {"twelve", 12}, {"twentyfour", 24}, {"apollo10", 10},
-                                                 {"eighteen", 18}, {"slew12", 12}, {"casespin", 6}};
+  const std::map<std::string, std::size_t> sizes{
+      {"six", 6},       {"twelve", 12}, {"twentyfour", 24}, {"apollo10", 10},
+      {"eighteen", 18}, {"slew12", 12}, {"casespin", 6}};
   EXPECT_EQ(sizes.size(), preset_names.size());
   for (const auto& [name, size] : sizes) {
     const auto plan = preset_plan(name, {});
@@ -38,7 +39,8 @@ TEST(Presets, HoldTheirPositions) {
     EXPECT_EQ(plan->positions.size(), size) << name;
     EXPECT_EQ(plan->positions.front().entry, Entry::caged);
     for (const Position& p : plan->positions)
-      EXPECT_LT((p.R_lp.transpose() * p.R_lp - Mat3::Identity()).norm(), 1e-12) << name << " " << p.name;
+      EXPECT_LT((p.R_lp.transpose() * p.R_lp - Mat3::Identity()).norm(), 1e-12)
+          << name << " " << p.name;
   }
   EXPECT_FALSE(preset_plan("seven", {}));
 }
@@ -67,7 +69,8 @@ TEST(Presets, SlewTwelveTurnsNinetyDegreesAboutEveryAxisBothWays) {
 TEST(GimbalChain, AnglesAndRotationAreInverse) {
   for (std::uint64_t k = 0; k < 20; ++k) {
     Stream s(k, 0, Purpose::test);
-    const Vec3 angles(3.0 * (2.0 * s.uniform() - 1.0), 1.5 * (2.0 * s.uniform() - 1.0), 3.0 * (2.0 * s.uniform() - 1.0));
+    const Vec3 angles(3.0 * (2.0 * s.uniform() - 1.0), 1.5 * (2.0 * s.uniform() - 1.0),
+                      3.0 * (2.0 * s.uniform() - 1.0));
     EXPECT_LT((gimbal_angles<double>(gimbal_chain(angles)) - angles).norm(), 1e-12);
   }
 }
@@ -78,7 +81,8 @@ TEST(CaseHeading, KeepsTheMiddleGimbalBelowSixtyDegrees) {
       const Timeline timeline = preset_timeline(name, mode);
       for (const Interval& i : timeline.intervals) {
         if (i.heading_rate() != 0.0) continue;  // the case is on its way
-        const Mat3 R_cp = case_attitude(i.heading1).transpose() * timeline.nodes[i.last_node()].R_lr;
+        const Mat3 R_cp =
+            case_attitude(i.heading1).transpose() * timeline.nodes[i.last_node()].R_lr;
         EXPECT_LE(std::abs(gimbal_angles<double>(R_cp)[1]), middle_gimbal_limit + 1e-9) << name;
       }
     }
@@ -107,16 +111,19 @@ TEST(Layout, ASlewEndsAtTheNominalAttitude) {
       const Interval &before = timeline.intervals[k - 1], &now = timeline.intervals[k];
       EXPECT_DOUBLE_EQ(before.t1, now.t0);
       if (before.slew && !now.slew) {
-        EXPECT_LT((timeline.nodes[now.first_node].R_lr - plan.positions[now.position].R_lp).norm(), 1e-9);
+        EXPECT_LT((timeline.nodes[now.first_node].R_lr - plan.positions[now.position].R_lp).norm(),
+                  1e-9);
       }
     }
   }
 }
 
 TEST(Layout, ALevelDwellStandsStillAndAFreeOneTurnsWithTheSky) {
-  const Timeline level = preset_timeline("six", CommandLaw::level), free = preset_timeline("six", CommandLaw::free);
+  const Timeline level = preset_timeline("six", CommandLaw::level),
+                 free = preset_timeline("six", CommandLaw::free);
   const auto turned = [](const Timeline& t) {
-    return rotation_vector(t.nodes[0].R_lr.transpose() * t.nodes[t.intervals[59].last_node()].R_lr).norm();
+    return rotation_vector(t.nodes[0].R_lr.transpose() * t.nodes[t.intervals[59].last_node()].R_lr)
+        .norm();
   };
   EXPECT_LT(turned(level), 1e-12);
   EXPECT_NEAR(turned(free), 15.041 * detail::deg, 1e-5);
@@ -126,7 +133,8 @@ TEST(Layout, SimpsonWeightsSumToOneAndIntegrateCubics) {
   for (const int substeps : {1, 2, 5}) {
     double sum = 0.0, cubic = 0.0;
     for (std::size_t k = 0; k <= 2 * static_cast<std::size_t>(substeps); ++k) {
-      const double x = static_cast<double>(k) / (2.0 * substeps), w = Timeline::simpson_weight(substeps, k);
+      const double x = static_cast<double>(k) / (2.0 * substeps),
+                   w = Timeline::simpson_weight(substeps, k);
       sum += w;
       cubic += w * x * x * x;
     }
@@ -140,7 +148,8 @@ TEST(Layout, ARecordingIsLaidOutAsItsPlan) {
     const TestPlan plan = *preset_plan(name, {});
     const Timeline planned = lay_out(plan, harbin);
     const auto n = static_cast<Eigen::Index>(planned.intervals.size());
-    const Recording recording = make_recording(planned, {Mat3X::Constant(3, n, std::nan("")), Mat3X::Constant(3, n, std::nan(""))}, {});
+    const Recording recording = make_recording(
+        planned, {Mat3X::Constant(3, n, std::nan("")), Mat3X::Constant(3, n, std::nan(""))}, {});
     const Timeline read = lay_out(recording, plan, harbin);
     ASSERT_EQ(read.intervals.size(), planned.intervals.size()) << name;
     ASSERT_EQ(read.nodes.size(), planned.nodes.size()) << name;

@@ -15,7 +15,8 @@ using namespace drift::test;
 using C = mc::StudyColumns;
 
 TEST(Rate, HasTheWilsonInterval) {
-  // Wilson (1927) as in Newcombe (1998), table I: 81 of 263 is 0.2553 to 0.3662; 0 of 20 is 0 to 0.1611.
+  // Wilson (1927) as in Newcombe (1998), table I: 81 of 263 is 0.2553 to 0.3662; 0 of 20 is 0 to
+  // 0.1611.
   const mc::Rate a{81, 263}, none{0, 20}, all{20, 20}, many{0, 2000};
   EXPECT_NEAR(a.low(), 0.2553, 5e-5);
   EXPECT_NEAR(a.high(), 0.3662, 5e-5);
@@ -33,7 +34,8 @@ TEST(ErrorStatistics, HasClosedForms) {
   e.add(1.0, 1.0, {});
   e.add(-3.0, 2.0, {});
   EXPECT_DOUBLE_EQ(e.bias().value, -1.0);
-  EXPECT_NEAR(e.bias(1.0).half_width(), std::sqrt(8.0) / std::sqrt(2.0), 1e-12);  // SD of {1, -3} is sqrt(8)
+  EXPECT_NEAR(e.bias(1.0).half_width(), std::sqrt(8.0) / std::sqrt(2.0),
+              1e-12);  // SD of {1, -3} is sqrt(8)
   EXPECT_DOUBLE_EQ(e.rmse().value, std::sqrt(5.0));
   EXPECT_DOUBLE_EQ(e.mean_sigma(), std::sqrt(2.5));
   EXPECT_DOUBLE_EQ(e.deception().value, std::sqrt(2.0));
@@ -43,8 +45,9 @@ TEST(ErrorStatistics, HasClosedForms) {
 }
 
 TEST(ErrorStatistics, BootstrapAgreesWithTheNormalInterval) {
-  // 2000 normal errors: both intervals of the RMSE are 1 +- 1.96 / sqrt(2 n) = +- 0.031. A bootstrap of
-  // 200 replicates knows its 2.5 % point within 0.11 sigma (order statistics), both together 10 %.
+  // 2000 normal errors: both intervals of the RMSE are 1 +- 1.96 / sqrt(2 n) = +- 0.031. A
+  // bootstrap of 200 replicates knows its 2.5 % point within 0.11 sigma (order statistics), both
+  // together 10 %.
   mc::BootstrapWeights weights(1, 200);
   mc::ErrorStatistics e(1.0, 200);
   Stream stream(1, 0, Purpose::test);
@@ -69,7 +72,7 @@ TEST(BootstrapWeights, ArePoissonNumbersOfTheRunAlone) {
       mean += k / 1e5;
       square += k * k / 1e5;
     }
-  EXPECT_NEAR(mean, 1.0, 4.0 / std::sqrt(1e5));       // variance 1
+  EXPECT_NEAR(mean, 1.0, 4.0 / std::sqrt(1e5));           // variance 1
   EXPECT_NEAR(square, 2.0, 4.0 * std::sqrt(11.0 / 1e5));  // E k^4 - 4 = 15 - 4
 }
 
@@ -93,7 +96,9 @@ struct Synthetic {
             at(r, f.sigma(s, k)) = 0.1 * f.layout.sigma[static_cast<Eigen::Index>(k)];
         }
   }
-  double& at(std::size_t run, std::size_t column) { return block.rows[run * columns.count + column]; }
+  double& at(std::size_t run, std::size_t column) {
+    return block.rows[run * columns.count + column];
+  }
   /// An error of `sigmas` in parameter k of the first filter, first start.
   void put_off(std::size_t run, std::size_t k, double sigmas) {
     const auto& f = columns.filters[0];
@@ -104,17 +109,17 @@ struct Synthetic {
 TEST(SilentFailure, IsARunThatIsWrongWhereItClaimsToKnowAndLooksHealthy) {
   Synthetic s(10);
   const auto& f = s.columns.filters[0];
-  s.put_off(0, 2, 6.0);                          // silent
-  s.put_off(1, 2, -6.0);                         // silent, the other way
-  s.put_off(2, 2, 4.9);                          // not far enough off
+  s.put_off(0, 2, 6.0);   // silent
+  s.put_off(1, 2, -6.0);  // silent, the other way
+  s.put_off(2, 2, 4.9);   // not far enough off
   s.put_off(3, 2, 6.0);
-  s.at(3, f.at(0, C::nis)) = 1200.0;             // wrong, but NIS shows it (band of 1000: 0.914 to 1.090)
+  s.at(3, f.at(0, C::nis)) = 1200.0;  // wrong, but NIS shows it (band of 1000: 0.914 to 1.090)
   s.at(4, f.sigma(0, 2)) = 0.6 * f.layout.sigma[2];
-  s.put_off(4, 2, 6.0);                          // does not claim to know
-  s.at(5, f.at(0, C::nis)) = 800.0;              // unhealthy, but right: NIS too good counts too
+  s.put_off(4, 2, 6.0);              // does not claim to know
+  s.at(5, f.at(0, C::nis)) = 800.0;  // unhealthy, but right: NIS too good counts too
   s.put_off(6, 2, 6.0);
-  s.put_off(6, 3, 6.0);                          // one run, two parameters
-  s.at(7, f.at(0, C::status)) = 2.0;             // diverged: wrong, and not silent
+  s.put_off(6, 3, 6.0);               // one run, two parameters
+  s.at(7, f.at(0, C::status)) = 2.0;  // diverged: wrong, and not silent
   mc::PointStatistics statistics(s.study, 0);
   statistics.add(s.block);
   const auto& filter = statistics.filters()[0];
@@ -165,8 +170,9 @@ TEST(Failures, AreTiedToTheParameterThatCausesThem) {
   const auto deciles = failures.deciles();
   EXPECT_EQ(deciles[0].rate[9].value(), 1.0);
   EXPECT_EQ(deciles[0].rate[0].value(), 0.0);
-  EXPECT_NEAR(deciles[0].chi2, 1000.0, 120.0);  // all variance explained: n, but for the drawn count
-  EXPECT_LT(deciles[1].chi2, 27.9);             // 99.9 % of chi-square with 9 degrees
+  EXPECT_NEAR(deciles[0].chi2, 1000.0,
+              120.0);                // all variance explained: n, but for the drawn count
+  EXPECT_LT(deciles[1].chi2, 27.9);  // 99.9 % of chi-square with 9 degrees
   EXPECT_TRUE(failures.too_many());
   EXPECT_EQ(failures.first_failed().size(), 20u);
   EXPECT_EQ(statistics.filters()[0].starts()[0].nis.in_band.of, 1000 - failures.lost().hits);
@@ -188,7 +194,8 @@ TEST(PointStatistics, DoNotDependOnHowRunsAreCutIntoBlocks) {
 }
 
 TEST(StopRule, StopsWhenTheIntervalIsNarrowEnough) {
-  const Study study = read_text(small_study + "stop = { quantity = \"silent_failure_rate\", half_width = 0.01 }\n");
+  const Study study =
+      read_text(small_study + "stop = { quantity = \"silent_failure_rate\", half_width = 0.01 }\n");
   const auto points = mc::study_points(study);
   mc::HalfWidthRule rule(points, *study.monte_carlo.stop);
   Synthetic s(64);
@@ -206,12 +213,14 @@ TEST(StopRule, StopsWhenTheIntervalIsNarrowEnough) {
 }
 
 TEST(StopRule, WaitsForAnRmse) {
-  const Study study = read_text(small_study + "stop = { quantity = \"rmse.eta_x\", half_width = 0.005, confidence = 0.9 }\n");
+  const Study study = read_text(
+      small_study + "stop = { quantity = \"rmse.eta_x\", half_width = 0.005, confidence = 0.9 }\n");
   const auto points = mc::study_points(study);
   const auto rule = mc::stop_rule(points);
   const auto index = [&](const Synthetic& s) {
     const auto& params = s.columns.filters[0].layout.params;
-    return static_cast<std::size_t>(std::ranges::find(params, TermLibrary::index("eta_x")) - params.begin());
+    return static_cast<std::size_t>(std::ranges::find(params, TermLibrary::index("eta_x")) -
+                                    params.begin());
   };
   Stream stream(2, 0, Purpose::test);
   std::uint64_t runs = 0;
@@ -223,8 +232,8 @@ TEST(StopRule, WaitsForAnRmse) {
     enough = rule->enough(s.block);
     runs += 64;
   }
-  // Errors of 0.1 prior sigma: half width 1.645 * 0.1 / sqrt(2 n) is 0.005 at n = 541; the estimate of the
-  // spread is good to 10 % there, n to 20 %.
+  // Errors of 0.1 prior sigma: half width 1.645 * 0.1 / sqrt(2 n) is 0.005 at n = 541; the estimate
+  // of the spread is good to 10 % there, n to 20 %.
   EXPECT_NEAR(static_cast<double>(runs), 541.0, 140.0);
 }
 
