@@ -15,8 +15,8 @@
 #include "bench/practice_run.hpp"
 #include "core/estimate/ekf.hpp"
 #include "core/estimate/starts.hpp"
-#include "mc/campaign.hpp"
-#include "mc/study_task.hpp"
+#include "mc/task/campaign.hpp"
+#include "mc/task/study_task.hpp"
 
 namespace drift::bench {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/discovery/diagnosis.hpp"
+#include "analysis/diagnosis/diagnosis.hpp"
 
 namespace drift::blind {
 

@@ -11,10 +11,10 @@
 #include "analysis/blind/generate.hpp"
 #include "analysis/blind/key.hpp"
 #include "analysis/blind/seal.hpp"
-#include "analysis/report/results_folder.hpp"
+#include "core/base/results_folder.hpp"
 #include "core/base/check.hpp"
-#include "core/sim/recording.hpp"
-#include "mc/campaign.hpp"
+#include "core/recording/recording.hpp"
+#include "mc/task/campaign.hpp"
 
 namespace drift::blind {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "analysis/blind/answer.hpp"
 #include "analysis/blind/score.hpp"
-#include "mc/study.hpp"
+#include "mc/study/study.hpp"
 
 namespace drift::blind {
 

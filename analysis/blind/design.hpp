@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/blind/trial.hpp"
-#include "mc/blind_spec.hpp"
+#include "mc/study/blind_spec.hpp"
 
 namespace drift::blind {
 

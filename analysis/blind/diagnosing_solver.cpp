@@ -1,6 +1,6 @@
 #include "analysis/blind/diagnosing_solver.hpp"
 
-#include "analysis/discovery/diagnose.hpp"
+#include "analysis/diagnosis/diagnose.hpp"
 
 namespace drift::blind {
 

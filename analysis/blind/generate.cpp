@@ -12,9 +12,9 @@
 #include "analysis/blind/outside_effects.hpp"
 #include "analysis/blind/sizing.hpp"
 #include "core/base/check.hpp"
-#include "core/base/chi_square_band.hpp"
 #include "core/config/load.hpp"
 #include "core/config/override.hpp"
+#include "core/stats/chi_square_band.hpp"
 
 namespace drift::blind {
 namespace {

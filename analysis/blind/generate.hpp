@@ -1,8 +1,8 @@
 #pragma once
 
 #include "analysis/blind/trial.hpp"
-#include "core/sim/recording.hpp"
-#include "mc/study.hpp"
+#include "core/recording/recording.hpp"
+#include "mc/study/study.hpp"
 
 namespace drift::blind {
 

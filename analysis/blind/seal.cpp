@@ -6,7 +6,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "analysis/report/results_folder.hpp"
+#include "core/base/results_folder.hpp"
 #include "core/base/check.hpp"
 #include "core/base/sha256.hpp"
 

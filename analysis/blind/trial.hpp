@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/physics/drift_model.hpp"
-#include "core/sim/test_plan.hpp"
+#include "core/plan/test_plan.hpp"
 
 namespace drift::blind {
 

@@ -1,10 +1,10 @@
-#include "analysis/blind/blind_report.hpp"
 #include "analysis/blind/blind_study.hpp"
 #include "analysis/blind/diagnosing_solver.hpp"
 #include "analysis/blind/seal.hpp"
 #include "analysis/cli/commands.hpp"
 #include "analysis/cli/progress.hpp"
-#include "analysis/report/results_folder.hpp"
+#include "analysis/report/blind/report.hpp"
+#include "core/base/results_folder.hpp"
 
 namespace drift::cli {
 

@@ -6,7 +6,7 @@
 
 #include "analysis/cli/study_program.hpp"
 #include "core/base/check.hpp"
-#include "mc/study.hpp"
+#include "mc/study/study.hpp"
 
 namespace drift::cli {
 

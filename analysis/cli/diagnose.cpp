@@ -1,4 +1,4 @@
-#include "analysis/discovery/diagnose.hpp"
+#include "analysis/diagnosis/diagnose.hpp"
 
 #include <fmt/ranges.h>
 
@@ -10,16 +10,16 @@
 #include "analysis/cli/commands.hpp"
 #include "analysis/cli/progress.hpp"
 #include "analysis/cli/read_recordings.hpp"
-#include "analysis/discovery/advise.hpp"
-#include "analysis/discovery/name_recordings.hpp"
-#include "analysis/discovery/prepare.hpp"
-#include "analysis/discovery/site_doubt.hpp"
-#include "analysis/report/diagnosis_folder.hpp"
-#include "analysis/report/diagnosis_text.hpp"
-#include "analysis/report/results_folder.hpp"
+#include "analysis/diagnosis/advise.hpp"
+#include "analysis/diagnosis/name_recordings.hpp"
+#include "analysis/diagnosis/prepare.hpp"
+#include "analysis/diagnosis/site_doubt.hpp"
+#include "analysis/report/diagnosis/folder.hpp"
+#include "analysis/report/diagnosis/text.hpp"
+#include "core/base/results_folder.hpp"
+#include "analysis/report/strapdown/report.hpp"
 #include "analysis/strapdown/diagnose.hpp"
-#include "analysis/strapdown/report.hpp"
-#include "mc/campaign.hpp"
+#include "mc/task/campaign.hpp"
 
 namespace drift::cli {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <string>
 
-#include "mc/manifest.hpp"
-#include "mc/study.hpp"
-#include "mc/study_reader.hpp"
+#include "mc/store/manifest.hpp"
+#include "mc/store/study_reader.hpp"
+#include "mc/study/study.hpp"
 
 namespace drift::cli {
 

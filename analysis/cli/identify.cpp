@@ -1,14 +1,14 @@
-#include "analysis/identify.hpp"
+#include "analysis/identification/identify.hpp"
 
 #include <nlohmann/json.hpp>
 
 #include "analysis/cli/commands.hpp"
 #include "analysis/cli/progress.hpp"
 #include "analysis/cli/read_recordings.hpp"
-#include "analysis/report/identification_text.hpp"
-#include "analysis/report/results_folder.hpp"
-#include "analysis/report/strapdown_results.hpp"
-#include "analysis/strapdown/report.hpp"
+#include "analysis/report/identify/text.hpp"
+#include "core/base/results_folder.hpp"
+#include "analysis/report/strapdown/report.hpp"
+#include "analysis/report/strapdown/results.hpp"
 
 namespace drift::cli {
 namespace {

@@ -6,10 +6,10 @@
 #include "analysis/cli/frozen_study.hpp"
 #include "analysis/cli/run_options.hpp"
 #include "analysis/cli/run_progress.hpp"
-#include "mc/export_hdf5.hpp"
-#include "mc/export_text.hpp"
-#include "mc/replay.hpp"
-#include "mc/study_state.hpp"
+#include "mc/engine/replay.hpp"
+#include "mc/export/export_hdf5.hpp"
+#include "mc/export/export_text.hpp"
+#include "mc/store/study_state.hpp"
 
 namespace drift::cli {
 namespace {

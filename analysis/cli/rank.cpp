@@ -1,9 +1,9 @@
-#include "analysis/rank.hpp"
+#include "analysis/planning/rank.hpp"
 
 #include "analysis/cli/commands.hpp"
 #include "analysis/cli/progress.hpp"
-#include "analysis/report/rank_report.hpp"
-#include "analysis/report/results_folder.hpp"
+#include "core/base/results_folder.hpp"
+#include "analysis/report/rank/report.hpp"
 
 namespace drift::cli {
 

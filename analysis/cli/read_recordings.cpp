@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "core/base/check.hpp"
-#include "core/sim/quality_card.hpp"
+#include "core/recording/quality_card.hpp"
 
 namespace drift::cli {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "core/sim/recording.hpp"
-#include "mc/study.hpp"
+#include "core/recording/recording.hpp"
+#include "mc/study/study.hpp"
 
 namespace drift::cli {
 

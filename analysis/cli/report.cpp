@@ -2,7 +2,7 @@
 
 #include "analysis/cli/commands.hpp"
 #include "analysis/cli/frozen_study.hpp"
-#include "analysis/report/results_folder.hpp"
+#include "core/base/results_folder.hpp"
 
 namespace drift::cli {
 

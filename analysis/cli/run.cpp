@@ -8,10 +8,10 @@
 #include "analysis/cli/frozen_study.hpp"
 #include "analysis/cli/run_options.hpp"
 #include "analysis/cli/run_progress.hpp"
-#include "analysis/report/results_folder.hpp"
-#include "mc/engine.hpp"
-#include "mc/export_text.hpp"
-#include "mc/study_state.hpp"
+#include "core/base/results_folder.hpp"
+#include "mc/engine/engine.hpp"
+#include "mc/export/export_text.hpp"
+#include "mc/store/study_state.hpp"
 
 namespace drift::cli {
 namespace {

@@ -1,7 +1,7 @@
 #include "core/sim/simulate.hpp"
 
 #include "analysis/cli/commands.hpp"
-#include "core/sim/quality_card.hpp"
+#include "core/recording/quality_card.hpp"
 
 namespace drift::cli {
 namespace {

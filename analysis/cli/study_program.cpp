@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <memory>
 
-#include "analysis/report/study_html.hpp"
-#include "analysis/report/study_information.hpp"
-#include "mc/provenance.hpp"
-#include "mc/stop_rule.hpp"
-#include "mc/study_task.hpp"
+#include "analysis/report/study/html.hpp"
+#include "analysis/report/study/information.hpp"
+#include "mc/statistics/stop_rule.hpp"
+#include "mc/store/provenance.hpp"
+#include "mc/task/study_task.hpp"
 
 namespace drift::cli {
 namespace {

@@ -3,10 +3,10 @@
 #include <functional>
 #include <string>
 
-#include "mc/run_task.hpp"
-#include "mc/study.hpp"
-#include "mc/study_reader.hpp"
-#include "mc/sweep.hpp"
+#include "mc/store/study_reader.hpp"
+#include "mc/study/study.hpp"
+#include "mc/study/sweep.hpp"
+#include "mc/task/run_task.hpp"
 
 namespace drift::cli {
 

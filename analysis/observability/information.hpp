@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/estimate/batch.hpp"
-#include "core/sim/environment.hpp"
+#include "core/plan/environment.hpp"
 #include "core/sim/simulate.hpp"
 
 namespace drift {

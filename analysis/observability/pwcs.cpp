@@ -7,7 +7,7 @@
 
 #include "core/estimate/gimbal_prediction.hpp"
 #include "core/estimate/linearize.hpp"
-#include "core/sim/case_heading.hpp"
+#include "core/plan/case_heading.hpp"
 
 namespace drift {
 namespace {

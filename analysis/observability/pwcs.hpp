@@ -4,8 +4,8 @@
 
 #include "core/estimate/layout.hpp"
 #include "core/physics/earth.hpp"
-#include "core/sim/readout.hpp"
-#include "core/sim/test_plan.hpp"
+#include "core/plan/readout.hpp"
+#include "core/plan/test_plan.hpp"
 
 namespace drift {
 

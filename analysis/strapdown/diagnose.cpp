@@ -7,13 +7,13 @@
 #include <chrono>
 #include <cmath>
 
-#include "analysis/discovery/patched_study.hpp"
-#include "analysis/discovery/sentence.hpp"
-#include "analysis/report/number_text.hpp"
+#include "analysis/diagnosis/patched_study.hpp"
+#include "analysis/diagnosis/sentence.hpp"
 #include "analysis/strapdown/nominal.hpp"
 #include "analysis/strapdown/residuals.hpp"
 #include "analysis/strapdown/where.hpp"
 #include "core/base/check.hpp"
+#include "core/base/number_text.hpp"
 
 namespace drift {
 namespace {

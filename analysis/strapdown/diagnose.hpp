@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "analysis/discovery/diagnosis.hpp"
+#include "analysis/diagnosis/diagnosis.hpp"
 #include "analysis/strapdown/identify.hpp"
-#include "mc/study.hpp"
+#include "mc/study/study.hpp"
 
 namespace drift {
 

@@ -8,7 +8,7 @@
 #include "analysis/strapdown/ladder.hpp"
 #include "core/estimate/strapdown/dwells.hpp"
 #include "core/physics/drift_model.hpp"
-#include "core/sim/recording.hpp"
+#include "core/recording/recording.hpp"
 
 namespace drift {
 

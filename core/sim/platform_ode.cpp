@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/base/dual.hpp"
-#include "core/sim/case_heading.hpp"
+#include "core/plan/case_heading.hpp"
 
 namespace drift {
 namespace {

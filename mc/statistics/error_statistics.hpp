@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "mc/statistics/rate.hpp"
+#include "core/stats/rate.hpp"
 
 namespace drift::mc {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mc/statistics/normal.hpp"
+#include "core/stats/normal.hpp"
 
 namespace drift::mc {
 namespace {

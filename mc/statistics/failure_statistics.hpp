@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "mc/run_task.hpp"
-#include "mc/statistics/rate.hpp"
-#include "mc/study_columns.hpp"
+#include "core/stats/rate.hpp"
+#include "mc/task/run_task.hpp"
+#include "mc/task/study_columns.hpp"
 
 namespace drift::mc {
 

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "core/base/chi_square_band.hpp"
 #include "core/estimate/estimate_result.hpp"
 #include "core/estimate/start_consistency.hpp"
+#include "core/stats/chi_square_band.hpp"
 
 namespace drift::mc {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "mc/statistics/error_statistics.hpp"
-#include "mc/study_columns.hpp"
+#include "mc/task/study_columns.hpp"
 
 namespace drift::mc {
 

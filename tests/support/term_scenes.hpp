@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/sim/environment.hpp"
+#include "core/plan/environment.hpp"
 #include "core/sim/predict.hpp"
 #include "tests/support/model_builders.hpp"
 

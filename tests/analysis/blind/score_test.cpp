@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/blind/blind_report.hpp"
 #include "analysis/blind/summary.hpp"
+#include "analysis/report/blind/report.hpp"
 
 namespace drift::blind {
 namespace {

@@ -11,7 +11,7 @@
 #include "analysis/observability/against_monte_carlo.hpp"
 #include "analysis/observability/information_by_position.hpp"
 #include "analysis/observability/other_methods.hpp"
-#include "analysis/report/degeneracies.hpp"
+#include "analysis/report/page/degeneracies.hpp"
 #include "core/base/check.hpp"
 #include "core/estimate/triangle.hpp"
 #include "tests/support/model_builders.hpp"

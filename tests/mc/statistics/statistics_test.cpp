@@ -5,7 +5,7 @@
 
 #include "core/base/rng.hpp"
 #include "mc/statistics/point_statistics.hpp"
-#include "mc/stop_rule.hpp"
+#include "mc/statistics/stop_rule.hpp"
 #include "tests/mc/small_study.hpp"
 
 namespace drift {
