@@ -6,6 +6,7 @@
 #include "analysis/cli/progress.hpp"
 #include "analysis/cli/read_recordings.hpp"
 #include "analysis/report/identify/text.hpp"
+#include "analysis/report/identify/folder.hpp"
 #include "core/base/results_folder.hpp"
 #include "analysis/report/strapdown/report.hpp"
 #include "analysis/report/strapdown/results.hpp"

@@ -14,6 +14,7 @@
 #include "analysis/report/identify/tables.hpp"
 #include "analysis/report/identify/text.hpp"
 #include "analysis/report/page/escape.hpp"
+#include "analysis/report/identify/folder.hpp"
 #include "core/base/results_folder.hpp"
 #include "core/base/check.hpp"
 #include "tests/analysis/report/identify/identification_fixture.hpp"
