@@ -12,7 +12,7 @@ namespace drift::blind {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using discovery::Verdict;
+using diagnosis::Verdict;
 
 Json number(double v) {
   return std::isfinite(v) ? Json(v) : Json(nullptr);
@@ -40,7 +40,7 @@ Json of(const AnswerCause& c) {
 AnswerCause cause_of(const Json& j) {
   AnswerCause c{j.at("term"), j.at("axis"), j.at("set"), number(j.at("probability")), {}, {}};
   for (const Json& p : j.at("parameters")) {
-    discovery::CauseParameter q;
+    search::CauseParameter q;
     q.key = p.at("key");
     q.value = number(p.at("value"));
     q.sigma = number(p.at("sigma"));
@@ -60,7 +60,7 @@ Json of(const Answer& a) {
   return {{"trial", a.number},
           {"failed", a.failed},
           {"failure", a.failure},
-          {"verdict", std::string(discovery::text(a.verdict))},
+          {"verdict", std::string(diagnosis::text(a.verdict))},
           {"p_value", number(a.p_value)},
           {"causes", causes},
           {"equation", a.equation},
@@ -78,7 +78,7 @@ Json of(const Answer& a) {
 
 Verdict verdict_of(const std::string& name) {
   for (const Verdict v : {Verdict::consistent, Verdict::named, Verdict::ambiguous})
-    if (discovery::text(v) == name) return v;
+    if (diagnosis::text(v) == name) return v;
   return Verdict::unexplained;
 }
 
@@ -125,7 +125,7 @@ std::vector<std::vector<const AnswerCause*>> Answer::alternatives() const {
   return all;
 }
 
-Answer answer_of(const discovery::Diagnosis& d) {
+Answer answer_of(const diagnosis::Diagnosis& d) {
   Answer a;
   a.verdict = d.verdict;
   a.p_value = d.p_value;

@@ -11,8 +11,8 @@
 #include "analysis/blind/generate.hpp"
 #include "analysis/blind/key.hpp"
 #include "analysis/blind/seal.hpp"
-#include "core/base/results_folder.hpp"
 #include "core/base/check.hpp"
+#include "core/base/results_folder.hpp"
 #include "core/recording/recording.hpp"
 #include "mc/task/campaign.hpp"
 
@@ -30,7 +30,7 @@ std::string contents(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-void require_blind(const Study& study) {
+void require_blind(const mc::Study& study) {
   const auto refuse = [&](const std::string& text) {
     throw InputError(ExitCode::config, fmt::format("{}: {}", study.path, text));
   };
@@ -60,7 +60,7 @@ class Counter {
 };
 
 /// True if the folder holds this study, with its key sealed.
-bool already_made(const Study& study, const fs::path& folder) {
+bool already_made(const mc::Study& study, const fs::path& folder) {
   if (!fs::exists(folder / "study.toml")) {
     if (fs::exists(folder / "key.json"))
       throw InputError(
@@ -79,11 +79,11 @@ bool already_made(const Study& study, const fs::path& folder) {
   return true;
 }
 
-KeyEntry make_one(const Study& study, const TrialPlan& plan, const fs::path& folder) {
+KeyEntry make_one(const mc::Study& study, const TrialPlan& plan, const fs::path& folder) {
   const fs::path here = trial_folder(folder, plan.number);
   write_files({{"study.toml", nominal_text(study, plan)}}, here.string());
   for (const char* old : {"answer.json", "attempts"}) fs::remove(here / old);
-  MadeTrial made = make_trial(study, read_study((here / "study.toml").string()), plan);
+  MadeTrial made = make_trial(study, mc::read_study((here / "study.toml").string()), plan);
   write_recording(made.recording, (here / "recording.csv").string());
   return std::move(made.key);
 }
@@ -125,7 +125,7 @@ Answer answer_one(const Solver& solver, std::size_t number, const fs::path& here
 
 }  // namespace
 
-std::string make_trials(const Study& study, const std::string& folder, int threads,
+std::string make_trials(const mc::Study& study, const std::string& folder, int threads,
                         const Progress& progress) {
   require_blind(study);
   if (already_made(study, folder)) return published_hash(folder, "key.json");

@@ -28,7 +28,7 @@ Coupling nominal_coupling(Coupling truth) {
   return truth == Coupling::eq5 ? Coupling::eq5 : Coupling::eq6;
 }
 
-World make_world(const Study& study, const Study& nominal, const TrialPlan& plan) {
+World make_world(const mc::Study& study, const mc::Study& nominal, const TrialPlan& plan) {
   World w;
   w.truth = study.truth;
   w.truth.coupling = plan.coupling;
@@ -68,7 +68,7 @@ std::vector<Sized> library_effects(const SizingBench& bench, const FilterSpec& n
   return found;
 }
 
-[[noreturn]] void nothing_to_hide(const Study& study, const TrialPlan& plan) {
+[[noreturn]] void nothing_to_hide(const mc::Study& study, const TrialPlan& plan) {
   throw InputError(
       ExitCode::config,
       fmt::format(
@@ -81,7 +81,7 @@ std::vector<Sized> library_effects(const SizingBench& bench, const FilterSpec& n
 
 /// Two effects whose signatures are not too much alike. Every third trial looks for two that cancel
 /// each other as far as that allows.
-std::vector<Sized> pair_effects(const Study& study, const SizingBench& bench,
+std::vector<Sized> pair_effects(const mc::Study& study, const SizingBench& bench,
                                 const FilterSpec& nominal, const TrialPlan& plan, Stream& stream) {
   auto terms = term_order(nominal, study.monte_carlo.seed, plan.index);
   const double most = study.blind.most_prior_sigmas;
@@ -114,7 +114,7 @@ std::vector<Sized> pair_effects(const Study& study, const SizingBench& bench,
 }
 
 /// What is hidden, and put into `world`.
-void hide(const Study& study, const FilterSpec& nominal, const TrialPlan& plan, World& world,
+void hide(const mc::Study& study, const FilterSpec& nominal, const TrialPlan& plan, World& world,
           KeyEntry& key) {
   const std::uint64_t seed = study.monte_carlo.seed;
   Stream stream(seed, plan.number, Purpose::design, choice_stream);
@@ -164,7 +164,7 @@ Certificate certify(const FilterSpec& nominal, const World& world, const Measure
   const BatchResult fit = fit_batch(nominal, world.timeline, world.readout, measured, layout.theta);
   Certificate c;
   const auto dof = static_cast<double>(fit.estimate.measured);
-  const Band band = chi_square_band(dof);
+  const stats::Band band = stats::chi_square_band(dof);
   c.chi2_per_dof = fit.estimate.statistic / dof;
   c.band_low = band.low;
   c.band_high = band.high;
@@ -180,7 +180,7 @@ Certificate certify(const FilterSpec& nominal, const World& world, const Measure
 
 }  // namespace
 
-std::string nominal_text(const Study& study, const TrialPlan& plan) {
+std::string nominal_text(const mc::Study& study, const TrialPlan& plan) {
   config::Node root = config::parse_document(study.text, study.path);
   std::erase_if(root.members, [](const config::Member& m) {
     return m.key == "truth" || m.key == "blind" || m.key == "monte_carlo" || m.key == "sweep" ||
@@ -201,7 +201,7 @@ std::string nominal_text(const Study& study, const TrialPlan& plan) {
   return config::to_document(root);
 }
 
-MadeTrial make_trial(const Study& study, const Study& nominal, const TrialPlan& plan) {
+MadeTrial make_trial(const mc::Study& study, const mc::Study& nominal, const TrialPlan& plan) {
   const auto started = std::chrono::steady_clock::now();
   const FilterSpec& filter = nominal.filters.front();
   MadeTrial made;

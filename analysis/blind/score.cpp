@@ -10,7 +10,7 @@
 namespace drift::blind {
 namespace {
 
-using discovery::Verdict;
+using diagnosis::Verdict;
 using Alternative = std::vector<const AnswerCause*>;
 
 /// The same term, and the same axis where both name one.
@@ -40,7 +40,7 @@ bool is_twin(const Answer& answer, const HiddenEffect& hidden, const AnswerCause
   if (agrees(hidden, cause)) return true;
   const auto lists = [](const AnswerCause& c, const std::string& term, const std::string& axis) {
     return std::any_of(c.confusable_with.begin(), c.confusable_with.end(),
-                       [&](const discovery::Confusable& o) {
+                       [&](const search::Confusable& o) {
                          // A candidate of all axes can be like anything of one of them: that is no
                          // twin.
                          return std::abs(o.cosine) >= one_trace && o.term == term && o.axis == axis;
@@ -101,7 +101,7 @@ double overlap(double a0, double a1, double b0, double b1) {
 std::string called(const Answer& a) {
   if (a.failed) return "failed";
   if (a.verdict == Verdict::consistent || a.verdict == Verdict::unexplained || a.causes.empty())
-    return std::string(discovery::text(a.verdict));
+    return std::string(diagnosis::text(a.verdict));
   if (a.verdict == Verdict::ambiguous) return "ambiguous";
   const std::string& term = a.causes.front().term;
   const bool one = std::all_of(a.causes.begin(), a.causes.end(),

@@ -19,8 +19,8 @@ struct StudyArguments {
   std::string progress = "auto";  ///< auto, plain, json, none
 
   /// Reads the study with the overrides of the command line.
-  Study read() const;
-  Overrides overrides() const;
+  mc::Study read() const;
+  mc::Overrides overrides() const;
 };
 
 /// What `run` takes besides.

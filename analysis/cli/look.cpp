@@ -136,7 +136,7 @@ ExitCode export_results(const std::string& folder, const std::string& format,
       output.empty() ? fmt::format("{}/export.{}", folder, format == "hdf5" ? "h5" : format)
                      : output;
   mc::StudyReader reader(folder);
-  const Study study = frozen_study(folder, reader);
+  const mc::Study study = frozen_study(folder, reader);
   const mc::StudyWork work = program.work(study);
   refuse_another(target, reader.manifest().hash);
   const mc::StudyState state = mc::state_of(reader, work.stop_rules);

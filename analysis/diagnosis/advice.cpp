@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace drift::discovery {
+namespace drift::diagnosis {
 namespace {
 
 using config::Node;
@@ -51,4 +51,4 @@ std::string positions_toml(const std::vector<Position>& positions) {
   return out;
 }
 
-}  // namespace drift::discovery
+}  // namespace drift::diagnosis

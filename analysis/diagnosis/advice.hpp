@@ -6,7 +6,7 @@
 #include "core/config/node.hpp"
 #include "core/plan/test_plan.hpp"
 
-namespace drift::discovery {
+namespace drift::diagnosis {
 
 /// Extra positions that would tell causes apart that a test has left equally likely.
 struct Advice {
@@ -25,4 +25,4 @@ config::Node position_node(const Position& position);
 /// The positions as TOML, to be put behind the plan of a study that lists its positions.
 std::string positions_toml(const std::vector<Position>& positions);
 
-}  // namespace drift::discovery
+}  // namespace drift::diagnosis

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <set>
 
-namespace drift::discovery {
+namespace drift::diagnosis {
 namespace {
 
 constexpr std::size_t most_shown = 8;
@@ -162,4 +162,4 @@ Advice text_alone(std::string text) {
   return a;
 }
 
-}  // namespace drift::discovery
+}  // namespace drift::diagnosis

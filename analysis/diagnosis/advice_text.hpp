@@ -6,7 +6,7 @@
 #include "analysis/diagnosis/alternatives.hpp"
 #include "core/plan/test_plan.hpp"
 
-namespace drift::discovery {
+namespace drift::diagnosis {
 
 /// A pair that added positions set apart.
 struct Helped {
@@ -38,4 +38,4 @@ std::string unexplained_text(const Diagnosis& d, const TestPlan& plan);
 /// A sentence without a plan.
 Advice text_alone(std::string text);
 
-}  // namespace drift::discovery
+}  // namespace drift::diagnosis

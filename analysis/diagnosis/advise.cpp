@@ -18,18 +18,18 @@
 #include "core/sim/simulate.hpp"
 #include "mc/task/campaign.hpp"
 
-namespace drift::discovery {
+namespace drift::diagnosis {
 namespace {
 
 constexpr double told = 2.0;    // sigmas below which nobody would decide
 constexpr double alike = 1e-3;  // 1 - cosine^2 of traces that are taken as the same
 constexpr double same = 1e-6;   // and of those that are, whatever their size
 
-NoiseModel noise_of(const Diagnosis& d) {
-  NoiseModel m;
+inference::NoiseModel noise_of(const Diagnosis& d) {
+  inference::NoiseModel m;
   m.angle_random_walk = d.nominal.noise.angle_random_walk;
   m.drift_random_walk = d.nominal.noise.drift_random_walk;
-  for (const NoiseFinding& f : d.noise) {
+  for (const inference::NoiseFinding& f : d.noise) {
     if (!f.significant || !std::isfinite(f.factor)) continue;
     if (f.component == "gimbal_white") m.gimbal_factor = f.factor;
     if (f.component == "accelerometer_white") m.acc_factor = f.factor;
@@ -39,36 +39,37 @@ NoiseModel noise_of(const Diagnosis& d) {
 
 class Adviser {
  public:
-  Adviser(const Study& study, const std::vector<Recording>& recordings, const Diagnosis& d,
+  Adviser(const mc::Study& study, const std::vector<Recording>& recordings, const Diagnosis& d,
           const AdviseOptions& options)
       : study_(study),
         d_(d),
         options_(options),
         noise_(noise_of(d)),
-        test_(recorded_test(study, recordings)),
+        test_(identification::recorded_test(study, recordings)),
         fit_(fit_batch(d.nominal, test_.timeline, study.readout, test_.measured,
                        make_layout(d.nominal).theta)) {}
 
-  CandidateSet candidates() const {
-    return library_candidates(d_.nominal, theta_of(d_.nominal, fit_), test_.timeline);
+  inference::CandidateSet candidates() const {
+    return inference::library_candidates(d_.nominal, inference::theta_of(d_.nominal, fit_),
+                                         test_.timeline);
   }
 
   /// What looks most like a named cause, of each term and axis that it can be confused with.
-  std::vector<Rival> rivals(const CandidateSet& set) const {
+  std::vector<Rival> rivals(const inference::CandidateSet& set) const {
     std::vector<Rival> all;
     Question named = named_question(d_, set, {});
-    std::vector<SignatureSpec> specs =
-        number_signatures(named.alternatives, d_.nominal, theta_of(d_.nominal, fit_));
+    std::vector<inference::SignatureSpec> specs =
+        number_signatures(named.alternatives, d_.nominal, inference::theta_of(d_.nominal, fit_));
     const std::vector<int> own = named.alternatives.front().columns;
     for (std::size_t cause = 0; cause < d_.causes.size(); ++cause)
-      for (const Confusable& like : d_.causes[cause].confusable_with) {
-        CandidateSet few;  // of this term and axis, with their columns numbered anew
+      for (const search::Confusable& like : d_.causes[cause].confusable_with) {
+        inference::CandidateSet few;  // of this term and axis, with their columns numbered anew
         std::vector<Rival> whose;
-        std::vector<SignatureSpec> columns = specs;
+        std::vector<inference::SignatureSpec> columns = specs;
         for (std::size_t c = 0; c < set.candidates.size(); ++c) {
           if (set.candidates[c].term != like.term || set.candidates[c].axis != like.axis) continue;
           for (std::size_t v = 0; v < set.candidates[c].variants.size(); ++v) {
-            Variant variant = set.candidates[c].variants[v];
+            inference::Variant variant = set.candidates[c].variants[v];
             for (int& column : variant.columns) {
               columns.push_back(set.signatures[static_cast<std::size_t>(column)]);
               column = static_cast<int>(columns.size()) - 1;
@@ -77,12 +78,13 @@ class Adviser {
             whose.push_back({cause, c, v});
           }
         }
-        const Projector p(problem(test_.timeline, test_.measured, fit_, columns), noise_);
+        const inference::Projector p(problem(test_.timeline, test_.measured, fit_, columns),
+                                     noise_);
         double most = -1.0;
         std::optional<Rival> nearest;
         for (std::size_t k = 0; k < whose.size(); ++k)
-          if (const double c =
-                  std::abs(cosine(p.candidates(), own, few.candidates[k].variants.front().columns));
+          if (const double c = std::abs(
+                  search::cosine(p.candidates(), own, few.candidates[k].variants.front().columns));
               c > most) {
             most = c;
             nearest = whose[k];
@@ -97,8 +99,9 @@ class Adviser {
     if (q.empty()) return {};
     BatchResult at = fit_;
     if (std::ranges::any_of(q.alternatives, holds_lambda)) widen_misalignments(at);
-    const Theta theta = theta_of(d_.nominal, at);
-    std::vector<SignatureSpec> specs = number_signatures(q.alternatives, d_.nominal, theta);
+    const Theta theta = inference::theta_of(d_.nominal, at);
+    std::vector<inference::SignatureSpec> specs =
+        number_signatures(q.alternatives, d_.nominal, theta);
     const auto as_recorded = [&] {
       return information_of(problem(test_.timeline, test_.measured, at, specs), noise_);
     };
@@ -120,7 +123,8 @@ class Adviser {
     const Information recorded = as_recorded();
 
     const Position& first = study_.plan.positions.front();
-    const std::vector<Addition> pool = position_pool(first.dwell, first.sample, study_.site);
+    const std::vector<planning::Addition> pool =
+        planning::position_pool(first.dwell, first.sample, study_.site);
     const auto gains =
         mc::run_campaign(pool.size(), [&](std::size_t k) { return gain_of(pool[k], at, specs); });
     Information whole = recorded;
@@ -142,7 +146,7 @@ class Adviser {
     const std::vector<std::size_t> chosen = choose_additions(
         recorded, pool, gains, {q.alternatives, open}, {options_.most, options_.wanted});
     // In their order: what changes with time goes on from one to the next.
-    Addition in_turn;
+    planning::Addition in_turn;
     for (const std::size_t k : chosen)
       in_turn.insert(in_turn.end(), pool[k].begin(), pool[k].end());
     Information with = recorded;
@@ -195,9 +199,10 @@ class Adviser {
     std::vector<Contest> twins, hidden;
   };
 
-  LinearProblem problem(const Timeline& timeline, const Measurements& measured,
-                        const BatchResult& fit, const std::vector<SignatureSpec>& specs) const {
-    return linear_problem(d_.nominal, {timeline, study_.readout, measured}, fit, specs);
+  inference::LinearProblem problem(const Timeline& timeline, const Measurements& measured,
+                                   const BatchResult& fit,
+                                   const std::vector<inference::SignatureSpec>& specs) const {
+    return inference::linear_problem(d_.nominal, {timeline, study_.readout, measured}, fit, specs);
   }
 
   /// What lambda does goes with the misalignments: where the test has not seen them they stand near
@@ -216,7 +221,7 @@ class Adviser {
     TestPlan plan = study_.plan;
     plan.preset.clear();
     plan.positions = positions;
-    Timeline timeline = planned_test(study_, plan);
+    Timeline timeline = identification::planned_test(study_, plan);
     if (!test_.timeline.has_field || timeline.has_field) return timeline;
     Vec3 mean = Vec3::Zero();
     for (const Interval& i : test_.timeline.intervals)
@@ -228,8 +233,8 @@ class Adviser {
 
   /// What an addition behind the recorded positions tells: what changes with time has gone on until
   /// then.
-  Information gain_of(const Addition& addition, const BatchResult& at,
-                      const std::vector<SignatureSpec>& specs) const {
+  Information gain_of(const planning::Addition& addition, const BatchResult& at,
+                      const std::vector<inference::SignatureSpec>& specs) const {
     Timeline timeline = planned(addition);
     const Interval& last = test_.timeline.intervals.back();
     const double later = last.t1 - last.t_begin;
@@ -257,8 +262,8 @@ class Adviser {
     const FilterSpec right = patched_filter(d_.nominal, causes);
     const FilterSpec wrong = patched_filter(d_.nominal, q.alternatives[pair.rival].causes);
     Theta theta = fitted;
-    for (const Cause& c : causes)
-      for (const CauseParameter& p : c.parameters)
+    for (const search::Cause& c : causes)
+      for (const search::CauseParameter& p : c.parameters)
         theta[p.param] = p.value * TermLibrary::specs[p.param].unit.to_si;
     TruthSpec truth;
     static_cast<ModelSpec&>(truth) = right;
@@ -285,23 +290,23 @@ class Adviser {
     return a;
   }
 
-  const Study& study_;
+  const mc::Study& study_;
   const Diagnosis& d_;
   AdviseOptions options_;
-  NoiseModel noise_;
-  RecordedTest test_;
+  inference::NoiseModel noise_;
+  identification::RecordedTest test_;
   BatchResult fit_;
 };
 
 }  // namespace
 
-std::vector<Advice> advise(const Study& study, const std::vector<Recording>& recordings,
+std::vector<Advice> advise(const mc::Study& study, const std::vector<Recording>& recordings,
                            const Diagnosis& diagnosis, const AdviseOptions& options) {
   const Question open = open_question(diagnosis);
   if (!options.asked && open.empty()) return {};
   Adviser adviser(study, recordings, diagnosis, options);
   if (!options.asked) return adviser.answer(open, false);
-  const CandidateSet set = adviser.candidates();
+  const inference::CandidateSet set = adviser.candidates();
   std::vector<Advice> all;
   if (!options.asked->empty()) {
     all = adviser.answer(asked_question(diagnosis, set, *options.asked), true);
@@ -319,4 +324,4 @@ std::vector<Advice> advise(const Study& study, const std::vector<Recording>& rec
   return all;
 }
 
-}  // namespace drift::discovery
+}  // namespace drift::diagnosis

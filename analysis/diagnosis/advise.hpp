@@ -7,7 +7,7 @@
 #include "analysis/diagnosis/diagnosis.hpp"
 #include "mc/study/study.hpp"
 
-namespace drift::discovery {
+namespace drift::diagnosis {
 
 /// How advice is looked for.
 struct AdviseOptions {
@@ -39,7 +39,7 @@ struct AdviseOptions {
 /// pool taken together, and what three additions leave below 2 sigma. Advice with a plan comes
 /// first. Empty if nothing is to be separated (and nothing was asked). recordings: as they were
 /// diagnosed. InputError (usage) for terms that cannot be asked for.
-std::vector<Advice> advise(const Study& study, const std::vector<Recording>& recordings,
+std::vector<Advice> advise(const mc::Study& study, const std::vector<Recording>& recordings,
                            const Diagnosis& diagnosis, const AdviseOptions& options = {});
 
-}  // namespace drift::discovery
+}  // namespace drift::diagnosis

@@ -8,7 +8,7 @@
 #include "core/base/check.hpp"
 #include "core/config/nearest.hpp"
 
-namespace drift::discovery {
+namespace drift::diagnosis {
 namespace {
 
 constexpr auto lambda = TermLibrary::index("lambda");
@@ -18,9 +18,9 @@ double base_of(std::size_t param, const FilterSpec& nominal) {
 }
 
 /// "magnetic_drift.y", "g2_drift (D_IS_x)": one parameter tells more than its term.
-std::string label_of(const Cause& c) {
-  const auto linear =
-      std::ranges::count_if(c.parameters, [](const CauseParameter& p) { return !p.profiled; });
+std::string label_of(const search::Cause& c) {
+  const auto linear = std::ranges::count_if(
+      c.parameters, [](const search::CauseParameter& p) { return !p.profiled; });
   const std::string own =
       linear == 1 && !c.parameters.empty() && !c.parameters[0].key.starts_with(c.term)
           ? fmt::format(" ({})", c.parameters[0].key)
@@ -28,9 +28,9 @@ std::string label_of(const Cause& c) {
   return fmt::format("{}{}{}{}", c.term, c.axis.empty() ? "" : ".", c.axis, own);
 }
 
-Alternative alternative(std::vector<Cause> causes) {
+Alternative alternative(std::vector<search::Cause> causes) {
   Alternative a;
-  for (const Cause& c : causes) a.label += (a.label.empty() ? "" : " + ") + label_of(c);
+  for (const search::Cause& c : causes) a.label += (a.label.empty() ? "" : " + ") + label_of(c);
   a.causes = std::move(causes);
   return a;
 }
@@ -41,8 +41,9 @@ Alternative nothing() {
 
 /// A cause that nobody has measured: each linear parameter one prior sigma from where it is
 /// nominally.
-Cause cause_of(const Candidate& c, const Variant& variant, const FilterSpec& nominal) {
-  Cause cause;
+search::Cause cause_of(const inference::Candidate& c, const inference::Variant& variant,
+                       const FilterSpec& nominal) {
+  search::Cause cause;
   cause.term = c.term;
   cause.axis = c.axis;
   const auto add = [&](std::size_t i, double si, bool profiled) {
@@ -61,7 +62,7 @@ Cause cause_of(const Candidate& c, const Variant& variant, const FilterSpec& nom
 }
 
 /// Time constants and the like of an effect that nobody has seen: from the middle of what is tried.
-const Variant& usual(const Candidate& c) {
+const inference::Variant& usual(const inference::Candidate& c) {
   return c.variants[c.variants.size() / 2];
 }
 
@@ -70,7 +71,7 @@ void add_equations(const Diagnosis& d, Question& q) {
   const bool six = d.nominal.coupling == Coupling::eq6;
   if (d.verdict != Verdict::consistent || (d.nominal.coupling != Coupling::eq5 && !six)) return;
   if (!(d.other_equation_gain > -equation_told)) return;  // told, or not asked
-  Cause cause;
+  search::Cause cause;
   cause.term = "frame_closure";
   cause.parameters = {{"lambda", lambda, six ? 0.0 : 1.0, 0.0, "1", false}};
   q.pairs.push_back({q.alternatives.size(), q.alternatives.size() + 1});
@@ -81,7 +82,7 @@ void add_equations(const Diagnosis& d, Question& q) {
 /// A term, an axis of it, or a parameter, as a user writes it.
 struct Wish {
   std::string text;
-  std::vector<const Candidate*> single;  ///< its parameters, one by one
+  std::vector<const inference::Candidate*> single;  ///< its parameters, one by one
 };
 
 /// Positions are planned at one temperature: what follows it stays unseen in any of them.
@@ -89,11 +90,12 @@ bool needs_temperature(const std::string& term) {
   return TermLibrary::terms[*TermLibrary::find_term(term)].needs.temperature;
 }
 
-bool follows_temperature(const std::vector<Cause>& causes) {
-  return std::ranges::any_of(causes, [](const Cause& c) { return needs_temperature(c.term); });
+bool follows_temperature(const std::vector<search::Cause>& causes) {
+  return std::ranges::any_of(causes,
+                             [](const search::Cause& c) { return needs_temperature(c.term); });
 }
 
-bool meant(const Candidate& c, const std::string& text) {
+bool meant(const inference::Candidate& c, const std::string& text) {
   return c.term == text || c.term + "." + c.axis == text ||
          TermLibrary::specs[c.params.front()].key.view() == text;
 }
@@ -150,8 +152,8 @@ Question open_question(const Diagnosis& d) {
     add_equations(d, q);
     return q;
   }
-  std::vector<std::vector<Cause>> sets;
-  for (const Cause& c : d.causes) {
+  std::vector<std::vector<search::Cause>> sets;
+  for (const search::Cause& c : d.causes) {
     const auto k = static_cast<std::size_t>(c.set);
     if (k >= sets.size()) sets.resize(k + 1);
     sets[k].push_back(c);
@@ -164,11 +166,11 @@ Question open_question(const Diagnosis& d) {
   return all_against_all(std::move(all));
 }
 
-Question hidden_question(const Diagnosis& d, const CandidateSet& set) {
+Question hidden_question(const Diagnosis& d, const inference::CandidateSet& set) {
   Question q;
   q.size = "at one prior sigma";
   q.alternatives.push_back(nothing());
-  for (const Candidate& c : set.candidates) {
+  for (const inference::Candidate& c : set.candidates) {
     if (c.params.size() != 1 || c.params.front() == lambda || needs_temperature(c.term)) continue;
     q.pairs.push_back({q.alternatives.size(), 0});
     q.alternatives.push_back(alternative({cause_of(c, usual(c), d.nominal)}));
@@ -177,14 +179,14 @@ Question hidden_question(const Diagnosis& d, const CandidateSet& set) {
   return q;
 }
 
-Question named_question(const Diagnosis& d, const CandidateSet& set,
+Question named_question(const Diagnosis& d, const inference::CandidateSet& set,
                         const std::vector<Rival>& rivals) {
   Question q;
   if (follows_temperature(d.causes)) return q;
   q.alternatives.push_back(alternative(d.causes));
   for (const Rival& r : rivals) {
-    std::vector<Cause> causes = d.causes;
-    const Candidate& c = set.candidates[r.candidate];
+    std::vector<search::Cause> causes = d.causes;
+    const inference::Candidate& c = set.candidates[r.candidate];
     if (needs_temperature(c.term)) continue;
     causes[r.cause] = cause_of(c, c.variants[r.variant], d.nominal);
     q.pairs.push_back({0, q.alternatives.size()});
@@ -193,13 +195,13 @@ Question named_question(const Diagnosis& d, const CandidateSet& set,
   return q;
 }
 
-Question asked_question(const Diagnosis& d, const CandidateSet& set,
+Question asked_question(const Diagnosis& d, const inference::CandidateSet& set,
                         const std::vector<std::string>& terms) {
   std::vector<Wish> wishes;
   std::vector<std::string> wrong;
   for (const std::string& text : terms) {
     Wish wish{text, {}};
-    for (const Candidate& c : set.candidates)
+    for (const inference::Candidate& c : set.candidates)
       if (c.params.size() == 1 && meant(c, text) && !needs_temperature(c.term))
         wish.single.push_back(&c);
     if (wish.single.empty()) wrong.push_back(refusal(text));
@@ -212,12 +214,12 @@ Question asked_question(const Diagnosis& d, const CandidateSet& set,
   q.alternatives.push_back(nothing());
   std::vector<std::size_t> whole;  // the alternative that is a wish as a whole
   for (const Wish& wish : wishes) {
-    Cause cause;
-    for (const Candidate* c : wish.single) {
-      const Cause one = cause_of(*c, usual(*c), d.nominal);
+    search::Cause cause;
+    for (const inference::Candidate* c : wish.single) {
+      const search::Cause one = cause_of(*c, usual(*c), d.nominal);
       cause.term = one.term;
-      for (const CauseParameter& p : one.parameters)
-        if (std::ranges::find(cause.parameters, p.param, &CauseParameter::param) ==
+      for (const search::CauseParameter& p : one.parameters)
+        if (std::ranges::find(cause.parameters, p.param, &search::CauseParameter::param) ==
             cause.parameters.end())
           cause.parameters.push_back(p);
     }
@@ -226,14 +228,14 @@ Question asked_question(const Diagnosis& d, const CandidateSet& set,
     q.alternatives.back().label = wish.text;
   }
   for (std::size_t k = 0; k < wishes.size(); ++k)
-    for (const Candidate* c : wishes[k].single) {
-      Cause one = cause_of(*c, usual(*c), d.nominal);
-      for (const Cause& named : d.causes)
-        for (const CauseParameter& p : named.parameters)
+    for (const inference::Candidate* c : wishes[k].single) {
+      search::Cause one = cause_of(*c, usual(*c), d.nominal);
+      for (const search::Cause& named : d.causes)
+        for (const search::CauseParameter& p : named.parameters)
           if (named.term == one.term && p.param == c->params.front()) {
             one.parameters.front().value = p.value;
-            for (CauseParameter& own : one.parameters)
-              for (const CauseParameter& at : named.parameters)
+            for (search::CauseParameter& own : one.parameters)
+              for (const search::CauseParameter& at : named.parameters)
                 if (own.profiled && own.param == at.param) own.value = at.value;
             ++found;
           }
@@ -248,22 +250,24 @@ Question asked_question(const Diagnosis& d, const CandidateSet& set,
   return q;
 }
 
-std::vector<SignatureSpec> number_signatures(std::vector<Alternative>& all,
-                                             const FilterSpec& nominal, const Theta& theta) {
-  std::vector<SignatureSpec> specs;
+std::vector<inference::SignatureSpec> number_signatures(std::vector<Alternative>& all,
+                                                        const FilterSpec& nominal,
+                                                        const Theta& theta) {
+  std::vector<inference::SignatureSpec> specs;
   for (Alternative& a : all) {
     std::vector<double> amplitude;
-    for (const Cause& cause : a.causes) {
+    for (const search::Cause& cause : a.causes) {
       Theta at = theta;
-      for (const CauseParameter& p : cause.parameters)
+      for (const search::CauseParameter& p : cause.parameters)
         if (p.profiled) at[p.param] = p.value * TermLibrary::specs[p.param].unit.to_si;
-      for (const CauseParameter& p : cause.parameters) {
+      for (const search::CauseParameter& p : cause.parameters) {
         if (p.profiled) continue;
         const ParamSpec& spec = TermLibrary::specs[p.param];
         const double sigma = spec.prior_si().sigma();
         amplitude.push_back((p.value * spec.unit.to_si - base_of(p.param, nominal)) / sigma);
-        const auto same = std::ranges::find_if(
-            specs, [&](const SignatureSpec& s) { return s.param == p.param && s.theta == at; });
+        const auto same = std::ranges::find_if(specs, [&](const inference::SignatureSpec& s) {
+          return s.param == p.param && s.theta == at;
+        });
         a.columns.push_back(static_cast<int>(same - specs.begin()));
         if (same == specs.end()) specs.push_back({p.param, at, sigma});
       }
@@ -293,7 +297,8 @@ void prune(Question& q) {
 }
 
 bool holds_lambda(const Alternative& a) {
-  return std::ranges::any_of(a.causes, [](const Cause& c) { return c.term == "frame_closure"; });
+  return std::ranges::any_of(a.causes,
+                             [](const search::Cause& c) { return c.term == "frame_closure"; });
 }
 
-}  // namespace drift::discovery
+}  // namespace drift::diagnosis

@@ -8,19 +8,20 @@
 
 #include "analysis/search/setting_spread.hpp"
 
-namespace drift::discovery {
+namespace drift::diagnosis {
 namespace {
 
 constexpr double one_axis_gain = 10.0;  // of twice the log likelihood
 
 /// Score that is exceeded with 80 % probability: the threshold on |z| plus 0.84.
 double detectable_z(double strength_threshold) {
-  return std::sqrt(quantile_of_strength(strength_threshold, 1)) + 0.84;
+  return std::sqrt(stats::quantile_of_strength(strength_threshold, 1)) + 0.84;
 }
 
-std::vector<int> columns_of(const Examination& e, const std::vector<Choice>& choices) {
+std::vector<int> columns_of(const search::Examination& e,
+                            const std::vector<search::Choice>& choices) {
   std::vector<int> columns;
-  for (const Choice& c : choices) {
+  for (const search::Choice& c : choices) {
     const auto& more = e.set.candidates[c.candidate].variants[c.variant].columns;
     columns.insert(columns.end(), more.begin(), more.end());
   }
@@ -29,20 +30,21 @@ std::vector<int> columns_of(const Examination& e, const std::vector<Choice>& cho
 
 }  // namespace
 
-void fill_candidates(const Examination& nominal, const Search& found, Diagnosis& d) {
-  const Projected& p = nominal.projector->candidates();
+void fill_candidates(const search::Examination& nominal, const search::Search& found,
+                     Diagnosis& d) {
+  const inference::Projected& p = nominal.projector->candidates();
   std::map<std::string, double> offers;
-  for (const Candidate& c : nominal.set.candidates) offers[c.term] += 1.0;
+  for (const inference::Candidate& c : nominal.set.candidates) offers[c.term] += 1.0;
   double top = 0.0, sum = 1.0;  // the nominal model itself
-  for (const Score& s : nominal.scores) top = std::max(top, s.log_bayes);
+  for (const search::Score& s : nominal.scores) top = std::max(top, s.log_bayes);
   sum = std::exp(-top);
   for (std::size_t k = 0; k < nominal.scores.size(); ++k)
     sum += std::exp(nominal.scores[k].log_bayes - top) / offers[nominal.set.candidates[k].term];
   for (std::size_t k = 0; k < nominal.set.candidates.size(); ++k) {
-    const Candidate& c = nominal.set.candidates[k];
-    const Score& s = nominal.scores[k];
+    const inference::Candidate& c = nominal.set.candidates[k];
+    const search::Score& s = nominal.scores[k];
     const ParamSpec& spec = TermLibrary::specs[c.params.front()];
-    CandidateScore line;
+    search::CandidateScore line;
     line.term = c.term;
     line.axis = c.axis;
     line.label = c.label;
@@ -54,7 +56,7 @@ void fill_candidates(const Examination& nominal, const Search& found, Diagnosis&
     line.p_value = s.dof > 0 ? found.nulls.library.p_value(s.strength) : 1.0;
     line.log_bayes = s.log_bayes;
     line.probability = std::exp(s.log_bayes - top) / offers[c.term] / sum;
-    const Variant& v = c.variants[s.variant];
+    const inference::Variant& v = c.variants[s.variant];
     double left = 0.0, raw = 0.0;
     for (const int column : v.columns) {
       left += p.C(column, column);
@@ -66,7 +68,7 @@ void fill_candidates(const Examination& nominal, const Search& found, Diagnosis&
       line.adequate = found.linear[k].library <= found.nulls.library_threshold &&
                       found.linear[k].scan <= found.nulls.scan_threshold;
     }
-    const VecX a = expected_amplitudes(p, v.columns);
+    const VecX a = search::expected_amplitudes(p, v.columns);
     line.size_sigma = a.norm();
     if (c.params.size() == 1 && s.dof == 1) {
       const double scale = spec.prior.sigma();  // file unit per prior sigma
@@ -83,12 +85,12 @@ void fill_candidates(const Examination& nominal, const Search& found, Diagnosis&
   });
 }
 
-void fill_noise(const Examination& nominal, std::size_t spikes, Diagnosis& d) {
+void fill_noise(const search::Examination& nominal, std::size_t spikes, Diagnosis& d) {
   d.noise = nominal.noise.findings;
   std::size_t lowered = 0;
   for (const double w : nominal.problem.weight) lowered += w < 1.0;
   if (spikes + lowered == 0) return;
-  NoiseFinding f;
+  inference::NoiseFinding f;
   f.component = "outliers";
   f.factor = f.factor_sigma = std::nan("");
   f.unit = "samples";
@@ -103,28 +105,28 @@ void fill_noise(const Examination& nominal, std::size_t spikes, Diagnosis& d) {
                   spikes, lowered));
 }
 
-void fill_causes(const Examination& nominal, const Search& found, Diagnosis& d) {
-  const Projected& p = nominal.projector->candidates();
+void fill_causes(const search::Examination& nominal, const search::Search& found, Diagnosis& d) {
+  const inference::Projected& p = nominal.projector->candidates();
   std::vector<std::vector<int>> columns;
   for (std::size_t set = 0; set < found.sets.size(); ++set) {
-    const Refit& r = found.sets[set];
+    const search::Refit& r = found.sets[set];
     for (std::size_t which = 0; which < r.choices.size(); ++which) {
-      const Choice& choice = r.choices[which];
-      const Candidate& c = nominal.set.candidates[choice.candidate];
-      Cause cause;
+      const search::Choice& choice = r.choices[which];
+      const inference::Candidate& c = nominal.set.candidates[choice.candidate];
+      search::Cause cause;
       cause.term = c.term;
       cause.axis = c.axis;
       cause.set = static_cast<int>(set);
       cause.probability = found.probability[set];
       const auto own = columns_of(nominal, {choice});
-      const Contrast contrast = make_contrast(p.C, p.raw, own);
+      const inference::Contrast contrast = inference::make_contrast(p.C, p.raw, own);
       cause.dof = contrast.dof;
       // Each of several with the others in the model: alone it may cancel against them.
-      std::vector<Choice> others;
-      for (const Choice& o : r.choices)
+      std::vector<search::Choice> others;
+      for (const search::Choice& o : r.choices)
         if (o.candidate != choice.candidate) others.push_back(o);
-      const auto T_of = [&](const std::vector<Choice>& some) {
-        return make_contrast(p.C, p.raw, columns_of(nominal, some)).T(p.g);
+      const auto T_of = [&](const std::vector<search::Choice>& some) {
+        return inference::make_contrast(p.C, p.raw, columns_of(nominal, some)).T(p.g);
       };
       cause.T = std::max(0.0, T_of(r.choices) - (others.empty() ? 0.0 : T_of(others)));
       if (c.term == "frame_closure") {  // far from linear: what counts is the fit
@@ -132,16 +134,18 @@ void fill_causes(const Examination& nominal, const Search& found, Diagnosis& d) 
         cause.dof = std::max(cause.dof, 1);
       }
       cause.p_value =
-          std::min(1.0, found.nulls.library.p_value(strength(cause.T, cause.dof)) / library_share);
+          std::min(1.0, found.nulls.library.p_value(stats::strength(cause.T, cause.dof)) /
+                            search::library_share);
       const auto add = [&](std::size_t param, bool profiled) {
         const ParamSpec& spec = TermLibrary::specs[param];
-        CauseParameter out{std::string(spec.key.view()),         param,   0.0, 0.0,
-                           std::string(spec.unit.symbol.view()), profiled};
+        search::CauseParameter out{std::string(spec.key.view()),         param,   0.0, 0.0,
+                                   std::string(spec.unit.symbol.view()), profiled};
         if (const ParameterEstimate* e = r.after.fit.estimate.find(param)) {
           out.value = e->value / spec.unit.to_si;
-          const double spread = profiled && spec.kind == ParamKind::nonlinear
-                                    ? setting_spread(nominal, r.choices, which, param, e->value)
-                                    : 0.0;
+          const double spread =
+              profiled && spec.kind == ParamKind::nonlinear
+                  ? search::setting_spread(nominal, r.choices, which, param, e->value)
+                  : 0.0;
           out.sigma = std::max(e->sigma, spread) / spec.unit.to_si;
           if (!profiled)
             cause.size_sigma =
@@ -163,31 +167,34 @@ void fill_causes(const Examination& nominal, const Search& found, Diagnosis& d) 
   d.cosines.cosine = MatX::Identity(n, n);
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index k = 0; k < n; ++k)
-      if (i != k) d.cosines.cosine(i, k) = cosine(p, columns[i], columns[k]);
+      if (i != k) d.cosines.cosine(i, k) = search::cosine(p, columns[i], columns[k]);
   // What each could be taken for, among all candidates: the strongest cosines of other terms.
   for (std::size_t i = 0; i < d.causes.size(); ++i) {
-    std::vector<Confusable> near;
+    std::vector<search::Confusable> near;
     for (std::size_t k = 0; k < nominal.set.candidates.size(); ++k) {
-      const Candidate& c = nominal.set.candidates[k];
+      const inference::Candidate& c = nominal.set.candidates[k];
       if (nominal.scores[k].dof == 0 ||
           (c.term == d.causes[i].term && (c.axis == d.causes[i].axis || c.axis.empty())))
         continue;
-      const double rho = cosine(p, columns[i], c.variants[nominal.scores[k].variant].columns);
+      const double rho =
+          search::cosine(p, columns[i], c.variants[nominal.scores[k].variant].columns);
       if (std::abs(rho) > 0.5) near.push_back({c.term, c.axis, rho});
     }
     std::stable_sort(near.begin(), near.end(), [](const auto& a, const auto& b) {
       return std::abs(a.cosine) > std::abs(b.cosine);
     });
-    for (const Confusable& c : near) {
-      const auto same = [&](const Confusable& o) { return o.term == c.term && o.axis == c.axis; };
+    for (const search::Confusable& c : near) {
+      const auto same = [&](const search::Confusable& o) {
+        return o.term == c.term && o.axis == c.axis;
+      };
       auto& list = d.causes[i].confusable_with;
       if (list.size() < 5 && std::none_of(list.begin(), list.end(), same)) list.push_back(c);
     }
   }
   // Candidates that are one direction on this plan, whatever the data; a wider one holds the cause
   // anyway.
-  for (const Cause& cause : d.causes)
-    for (const Confusable& c : cause.confusable_with)
+  for (const search::Cause& cause : d.causes)
+    for (const search::Confusable& c : cause.confusable_with)
       if (c.cosine * c.cosine > 0.999 && (cause.axis.empty() || !c.axis.empty()))
         d.inseparable.push_back(fmt::format("{} and {} leave the same trace on this plan",
                                             in_words(cause.term, cause.axis),
@@ -197,7 +204,7 @@ void fill_causes(const Examination& nominal, const Search& found, Diagnosis& d) 
         fmt::format("An unknown input of free form in {} alone would explain it (twice the log "
                     "likelihood better by {:.1f}).",
                     nominal.lone.equation, nominal.lone.gain));
-  for (const Cause& c : d.causes)
+  for (const search::Cause& c : d.causes)
     if (c.term == "frame_closure")
       d.remarks.push_back(
           "Cross-talk between the torquing channels (taken as zero) moves lambda (frame_closure) "
@@ -205,22 +212,22 @@ void fill_causes(const Examination& nominal, const Search& found, Diagnosis& d) 
           "as misalignment does in slews; only Earth rate and turns of the case tell them apart.");
 }
 
-bool noise_of_one_axis(const Examination& nominal, Diagnosis& d) {
-  const NoiseModel& all = nominal.noise.model;
+bool noise_of_one_axis(const search::Examination& nominal, Diagnosis& d) {
+  const inference::NoiseModel& all = nominal.noise.model;
   if (!nominal.noise.driven ||
       all.angle_random_walk + all.drift_random_walk + all.markov_drift == 0.0)
     return false;
-  LinearProblem bare = nominal.problem;
+  inference::LinearProblem bare = nominal.problem;
   bare.extra.resize(bare.rows(), 0);
-  const auto value = [&](const NoiseModel& m) {
-    return Projector(bare, m).candidates().log_likelihood2();
+  const auto value = [&](const inference::NoiseModel& m) {
+    return inference::Projector(bare, m).candidates().log_likelihood2();
   };
   const double together = value(all);
   double best = 0.0;
   int axis = -1;
   for (int a = 0; a < 3; ++a)
     for (const double factor : {0.7, 1.0, 1.6, 2.5}) {
-      NoiseModel one = all;
+      inference::NoiseModel one = all;
       one.gyros = factor * Vec3::Unit(a);
       const double gain = value(one) - together;
       if (gain > best) {
@@ -230,7 +237,7 @@ bool noise_of_one_axis(const Examination& nominal, Diagnosis& d) {
     }
   if (best < one_axis_gain) return false;
   d.p_value = std::min(d.p_value, 12.0 * std::exp(-0.5 * best));
-  d.where.equation = equation_name(Window::Equation::rate, axis);
+  d.where.equation = inference::equation_name(inference::Window::Equation::rate, axis);
   d.remarks.push_back(fmt::format(
       "What drives the platform acts on gyro {} alone: it is no noise that the gyros share "
       "(twice the log likelihood better by {:.1f}).",
@@ -238,4 +245,4 @@ bool noise_of_one_axis(const Examination& nominal, Diagnosis& d) {
   return true;
 }
 
-}  // namespace drift::discovery
+}  // namespace drift::diagnosis

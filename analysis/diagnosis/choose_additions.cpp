@@ -6,13 +6,13 @@
 
 #include "mc/task/campaign.hpp"
 
-namespace drift::discovery {
+namespace drift::diagnosis {
 namespace {
 
 constexpr double least_gain = 1e-3;  // of the mean way to `wanted`
 constexpr double all_there = 1.0 - 1e-9;
 
-double duration_of(const Addition& addition) {
+double duration_of(const planning::Addition& addition) {
   double sum = 0.0;
   for (const Position& p : addition) sum += p.dwell;
   return sum;
@@ -32,7 +32,7 @@ struct Selection {
 }  // namespace
 
 std::vector<std::size_t> choose_additions(const Information& start,
-                                          const std::vector<Addition>& pool,
+                                          const std::vector<planning::Addition>& pool,
                                           const std::vector<Information>& gains, const Told& told,
                                           const ChooseOptions& options) {
   if (told.pairs.empty()) return {};
@@ -73,7 +73,7 @@ std::vector<std::size_t> choose_additions(const Information& start,
     }
     return made;
   };
-  const Selection thrifty = greedy(1.0), lavish = greedy(0.0);
+  const Selection thrifty = search::greedy(1.0), lavish = search::greedy(0.0);
   const auto there = [&](const Selection& s) { return s.reached.part >= all_there; };
   // A margin that is cheap is taken: the diagnosis that follows knows the noise less well than this
   // does.
@@ -84,4 +84,4 @@ std::vector<std::size_t> choose_additions(const Information& start,
   return prefer ? lavish.additions : thrifty.additions;
 }
 
-}  // namespace drift::discovery
+}  // namespace drift::diagnosis

@@ -3,7 +3,7 @@
 #include "analysis/diagnosis/separation.hpp"
 #include "analysis/planning/position_pool.hpp"
 
-namespace drift::discovery {
+namespace drift::diagnosis {
 
 /// Pairs that are to be told apart.
 struct Told {
@@ -21,8 +21,9 @@ struct ChooseOptions {
 /// brings. Of both the one that comes nearer; where both reach it the shorter, unless twice the
 /// time sets the closest pair more than twice as far apart. Indices into the pool. gains: what each
 /// adds to `now`.
-std::vector<std::size_t> choose_additions(const Information& now, const std::vector<Addition>& pool,
+std::vector<std::size_t> choose_additions(const Information& now,
+                                          const std::vector<planning::Addition>& pool,
                                           const std::vector<Information>& gains, const Told& told,
                                           const ChooseOptions& options);
 
-}  // namespace drift::discovery
+}  // namespace drift::diagnosis

@@ -7,7 +7,7 @@
 #include "analysis/inference/whiteness.hpp"
 #include "core/estimate/start_consistency.hpp"
 
-namespace drift::discovery {
+namespace drift::diagnosis {
 namespace {
 
 Eigen::Matrix<double, 6, Eigen::Dynamic> residuals(const BatchResult& fit) {
@@ -55,8 +55,9 @@ double start_spread(const std::vector<BatchResult>& fits) {
   return largest;
 }
 
-FitComparison compare(const Examination& nominal, const Refit* patched, int whiteness_draws) {
-  const Examination& after = patched ? patched->after : nominal;
+FitComparison compare(const search::Examination& nominal, const search::Refit* patched,
+                      int whiteness_draws) {
+  const search::Examination& after = patched ? patched->after : nominal;
   FitComparison c;
   c.dof = nominal.fit.estimate.measured;
   // Cost (data and prior) is chi-square of as many degrees as there are scalars.
@@ -71,14 +72,14 @@ FitComparison compare(const Examination& nominal, const Refit* patched, int whit
   // One noise for both, the candidates' columns left out but those of the cause.
   std::vector<int> columns;
   if (patched)
-    for (const Choice& choice : patched->choices) {
+    for (const search::Choice& choice : patched->choices) {
       const auto& more = nominal.set.candidates[choice.candidate].variants[choice.variant].columns;
       columns.insert(columns.end(), more.begin(), more.end());
     }
-  LinearProblem problem = nominal.problem;
+  inference::LinearProblem problem = nominal.problem;
   problem.extra = nominal.problem.extra(Eigen::all, columns);
-  const Projector before(problem, after.noise.model);
-  const auto per_row = [](const Projector& p) {
+  const inference::Projector before(problem, after.noise.model);
+  const auto per_row = [](const inference::Projector& p) {
     return p.candidates().chi2 /
            static_cast<double>(std::max<Eigen::Index>(1, p.candidates().rows));
   };
@@ -86,22 +87,22 @@ FitComparison compare(const Examination& nominal, const Refit* patched, int whit
   c.whiteness.nis_per_dof_after = per_row(*after.projector);
   c.whiteness.ljung_box_p_before = c.whiteness.ljung_box_p_after = std::nan("");
   if (whiteness_draws > 0) {
-    c.whiteness.ljung_box_p_before = whiteness_p(problem, before, 10, whiteness_draws);
+    c.whiteness.ljung_box_p_before = inference::whiteness_p(problem, before, 10, whiteness_draws);
     c.whiteness.ljung_box_p_after =
-        patched ? whiteness_p(after.problem, *after.projector, 10, whiteness_draws)
+        patched ? inference::whiteness_p(after.problem, *after.projector, 10, whiteness_draws)
                 : c.whiteness.ljung_box_p_before;
   }
   c.residual_before = residuals(nominal.fit);
   c.residual_after = residuals(after.fit);
   if (!patched) return c;
-  const Projected& p = before.candidates();
+  const inference::Projected& p = before.candidates();
   c.log_likelihood_ratio = p.chi2 - after.projector->candidates().chi2;
   std::vector<int> own(columns.size());
   std::iota(own.begin(), own.end(), 0);
-  c.linear_T = make_contrast(p.C, p.raw, own).T(p.g);
+  c.linear_T = inference::make_contrast(p.C, p.raw, own).T(p.g);
   c.sign_agrees = patched->sign_agrees;
   c.shifted = shifts(nominal.fit, after.fit);
   return c;
 }
 
-}  // namespace drift::discovery
+}  // namespace drift::diagnosis

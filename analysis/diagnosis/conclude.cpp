@@ -9,10 +9,11 @@
 #include "analysis/diagnosis/sentence.hpp"
 #include "analysis/inference/evidence.hpp"
 
-namespace drift::discovery {
+namespace drift::diagnosis {
 
-void weigh_candidates(const Examination& nominal, const Search& found, Diagnosis& d) {
-  for (CandidateScore& line : d.candidates) {
+void weigh_candidates(const search::Examination& nominal, const search::Search& found,
+                      Diagnosis& d) {
+  for (search::CandidateScore& line : d.candidates) {
     if (line.term != "frame_closure" || !(found.other_equation > line.score)) continue;
     line.score = found.other_equation;
     line.p_marginal =
@@ -32,14 +33,14 @@ void weigh_candidates(const Examination& nominal, const Search& found, Diagnosis
                           found.probability[k]);
     }
     for (const double p : found.probability) held += p;
-    const auto probability_of = [&](const CandidateScore& line) {
+    const auto probability_of = [&](const search::CandidateScore& line) {
       const auto at = std::ranges::find(judged, line.label, &std::pair<std::string, double>::first);
       return at == judged.end() ? -1.0 : at->second;
     };
-    for (const CandidateScore& line : d.candidates)
+    for (const search::CandidateScore& line : d.candidates)
       if (probability_of(line) < 0.0) linear += line.probability;
     // What the credible set leaves is shared as the linear scores would have it.
-    for (CandidateScore& line : d.candidates) {
+    for (search::CandidateScore& line : d.candidates) {
       const double p = probability_of(line);
       line.adequate = p >= 0.0;
       line.probability = p >= 0.0       ? p
@@ -48,26 +49,27 @@ void weigh_candidates(const Examination& nominal, const Search& found, Diagnosis
     }
   }
   // What the refits confirmed comes first.
-  const auto confirmed = [&](const CandidateScore& c) {
+  const auto confirmed = [&](const search::CandidateScore& c) {
     return !found.sets.empty() && c.adequate ? c.probability : -1.0;
   };
-  std::ranges::stable_sort(d.candidates, [&](const CandidateScore& a, const CandidateScore& b) {
-    if (confirmed(a) != confirmed(b)) return confirmed(a) > confirmed(b);
-    return a.p_marginal != b.p_marginal ? a.p_marginal < b.p_marginal : a.score > b.score;
-  });
+  std::ranges::stable_sort(
+      d.candidates, [&](const search::CandidateScore& a, const search::CandidateScore& b) {
+        if (confirmed(a) != confirmed(b)) return confirmed(a) > confirmed(b);
+        return a.p_marginal != b.p_marginal ? a.p_marginal < b.p_marginal : a.score > b.score;
+      });
 }
 
-void say_partial(const Examination& nominal, const Search& found, Diagnosis& d) {
+void say_partial(const search::Examination& nominal, const search::Search& found, Diagnosis& d) {
   if (d.verdict != Verdict::unexplained || found.rejected.empty()) return;
-  const auto chi2 = [](const Examination& e) {
+  const auto chi2 = [](const search::Examination& e) {
     return e.fit.estimate.statistic /
            static_cast<double>(std::max<std::size_t>(1, e.fit.estimate.measured));
   };
-  const auto best =
-      std::ranges::min_element(found.rejected, {}, [&](const Refit& r) { return chi2(r.after); });
+  const auto best = std::ranges::min_element(found.rejected, {},
+                                             [&](const search::Refit& r) { return chi2(r.after); });
   std::vector<std::string> labels, words;
-  for (const Choice& choice : best->choices) {
-    const Candidate& c = nominal.set.candidates[choice.candidate];
+  for (const search::Choice& choice : best->choices) {
+    const inference::Candidate& c = nominal.set.candidates[choice.candidate];
     labels.push_back(c.label);
     words.push_back(fmt::format("{} ({})", in_words(c.term, c.axis), c.label));
   }
@@ -113,8 +115,8 @@ void say_beyond_prior(const BatchResult& nominal, Diagnosis& d) {
 }
 
 void say_equation(Diagnosis& d) {
-  const bool closure_is_a_cause =
-      std::ranges::any_of(d.causes, [](const Cause& c) { return c.term == "frame_closure"; });
+  const bool closure_is_a_cause = std::ranges::any_of(
+      d.causes, [](const search::Cause& c) { return c.term == "frame_closure"; });
   if (!std::isfinite(d.other_equation_gain) || closure_is_a_cause ||
       d.other_equation_gain < -equation_told)
     return;
@@ -131,15 +133,16 @@ void say_equation(Diagnosis& d) {
       both, d.other_equation_gain));
 }
 
-void say_noise_or_effect(const Examination& nominal, Diagnosis& d) {
+void say_noise_or_effect(const search::Examination& nominal, Diagnosis& d) {
   constexpr double evident = 25.0, per_degree = 3.0;  // of twice the log likelihood
   if (d.verdict != Verdict::consistent || !nominal.noise.driven) return;
-  const NoiseModel declared = declared_noise(nominal.filter);
-  NoiseModel plain = nominal.noise.model;
+  const inference::NoiseModel declared = search::declared_noise(nominal.filter);
+  inference::NoiseModel plain = nominal.noise.model;
   plain.angle_random_walk = declared.angle_random_walk;
   plain.drift_random_walk = declared.drift_random_walk;
   plain.markov_drift = plain.acc_markov = 0.0;
-  const Evidence seen = evidence_under(nominal.problem, nominal.set, plain, {});
+  const inference::Evidence seen =
+      inference::evidence_under(nominal.problem, nominal.set, plain, {});
   const auto worth = [&](std::size_t k) {
     return seen.gains[k].ratio - per_degree * (seen.gains[k].dof - 1);
   };
@@ -147,7 +150,7 @@ void say_noise_or_effect(const Examination& nominal, Diagnosis& d) {
   for (std::size_t k = 1; k < seen.gains.size(); ++k)
     if (worth(k) > worth(best)) best = k;
   if (seen.gains.empty() || worth(best) < evident) return;
-  const Candidate& c = nominal.set.candidates[best];
+  const inference::Candidate& c = nominal.set.candidates[best];
   d.remarks.push_back(fmt::format(
       "Without the noise that was found to drive the platform, {} would explain the test ({:.1f} "
       "sigma): a slow "
@@ -155,4 +158,4 @@ void say_noise_or_effect(const Examination& nominal, Diagnosis& d) {
       in_words(c.term, c.axis), std::sqrt(seen.gains[best].ratio)));
 }
 
-}  // namespace drift::discovery
+}  // namespace drift::diagnosis

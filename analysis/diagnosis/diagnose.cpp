@@ -17,7 +17,7 @@
 #include "core/estimate/starts.hpp"
 #include "mc/task/campaign.hpp"
 
-namespace drift::discovery {
+namespace drift::diagnosis {
 namespace {
 
 /// Isolated samples far from their neighbours, taken out of the measurements: a sample is compared
@@ -72,8 +72,9 @@ std::size_t remove_spikes(Measurements& measured, const Timeline& timeline, cons
 /// White noise as neighbouring samples differ, where the other of eq. (5) and (6) takes most of an
 /// evident misfit away: what looks like noise that drives the platform is the equation then, and
 /// the noise is estimated with that in the model. Empty otherwise.
-std::optional<NoiseEstimate> noise_beside_equation(const FilterSpec& nominal, const Test& test,
-                                                   const BatchResult& fit) {
+std::optional<inference::NoiseEstimate> noise_beside_equation(const FilterSpec& nominal,
+                                                              const inference::Test& test,
+                                                              const BatchResult& fit) {
   constexpr double evident = 1.5, most = 0.8;  // chi-square per degree; part of its excess
   FilterSpec other = nominal;
   if (nominal.coupling == Coupling::eq5)
@@ -87,11 +88,11 @@ std::optional<NoiseEstimate> noise_beside_equation(const FilterSpec& nominal, co
            static_cast<double>(std::max<std::size_t>(1, f.estimate.measured));
   };
   if (per_dof(fit) < evident) return std::nullopt;
-  const BatchResult with_other =
-      fit_batch(other, test.timeline, test.readout, test.measured, theta_of(nominal, fit));
+  const BatchResult with_other = fit_batch(other, test.timeline, test.readout, test.measured,
+                                           inference::theta_of(nominal, fit));
   if (per_dof(fit) - per_dof(with_other) < most * (per_dof(fit) - 1.0)) return std::nullopt;
-  const LinearProblem problem = linear_problem(nominal, test, fit, {});
-  return noise_of_differences(problem, residual_of(problem, fit));
+  const inference::LinearProblem problem = inference::linear_problem(nominal, test, fit, {});
+  return inference::noise_of_differences(problem, inference::residual_of(problem, fit));
 }
 
 const std::vector<std::string> platform_channels{
@@ -121,7 +122,7 @@ std::vector<Covariate> covariates_of(const std::vector<Recording>& recordings) {
 
 }  // namespace
 
-Diagnosis diagnose(const FilterSpec& nominal_filter, const Test& given,
+Diagnosis diagnose(const FilterSpec& nominal_filter, const inference::Test& given,
                    std::span<const Theta> starts, const std::vector<Covariate>& covariates,
                    const DiagnoseOptions& options, const std::vector<std::size_t>& recording_ends) {
   const mc::ThreadCount threads(options.threads);
@@ -134,7 +135,7 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const Test& given,
 
   // The nominal fit, from every start; the best is kept. Gross samples are taken out of it.
   Measurements measured = given.measured;
-  const Test test{given.timeline, given.readout, measured};
+  const inference::Test test{given.timeline, given.readout, measured};
   const auto fit_from = [&](const Theta& start) {
     return fit_batch(nominal_filter, test.timeline, test.readout, measured, start);
   };
@@ -144,7 +145,7 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const Test& given,
     const std::size_t more = remove_spikes(measured, test.timeline, test.readout, fit);
     if (more == 0) break;
     spikes += more;
-    fit = fit_from(theta_of(nominal_filter, fit));
+    fit = fit_from(inference::theta_of(nominal_filter, fit));
   }
   // Starts are of the nominal parameters; those of a cause are held at their values until the
   // others have been fitted (with them they may make a narrow bent valley), then all are free.
@@ -160,7 +161,8 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const Test& given,
       const BatchResult first = fit_batch(held, test.timeline, test.readout, measured, start);
       return filter.active == nominal_filter.active
                  ? first
-                 : fit_batch(filter, test.timeline, test.readout, measured, theta_of(held, first));
+                 : fit_batch(filter, test.timeline, test.readout, measured,
+                             inference::theta_of(held, first));
     });
   };
   std::vector<BatchResult> fits = from_starts(nominal_filter, make_layout(nominal_filter).theta);
@@ -171,15 +173,16 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const Test& given,
 
   stages.begin("examine", 0.08);
   const auto plain = noise_beside_equation(nominal_filter, test, fit);
-  Examination nominal = examine(nominal_filter, test, fit, plain ? &*plain : nullptr);
+  search::Examination nominal =
+      search::examine(nominal_filter, test, fit, plain ? &*plain : nullptr);
   stages.begin("search", 0.5);
-  const Search found = search(nominal, test, options.search);
+  const search::Search found = search::search(nominal, test, options.search);
   stages.begin("held out", 0.25);
 
   fill_candidates(nominal, found, d);
   d.p_value = found.p_value;
   if (std::isfinite(found.other_equation)) d.other_equation_gain = found.other_equation;
-  const Refit* best = found.sets.empty() ? nullptr : &found.sets.front();
+  const search::Refit* best = found.sets.empty() ? nullptr : &found.sets.front();
   // With the cause in the mean, what had been taken for noise because of it is none any more.
   fill_noise(best && found.significant ? best->after : nominal, spikes, d);
   const double spread = d.fit.start_spread_before;
@@ -187,7 +190,7 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const Test& given,
   d.fit.start_spread_before = d.fit.start_spread_after = spread;
   if (best) {
     std::vector<std::size_t> named;
-    for (const Choice& c : best->choices) named.push_back(c.candidate);
+    for (const search::Choice& c : best->choices) named.push_back(c.candidate);
     d.fit.held_out =
         held_out(nominal, best->after, test, named, found.nulls.library_threshold,
                  {options.folds, recording_ends,
@@ -239,31 +242,31 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const Test& given,
   if (d.has_patch) d.patched = started_where_found(d.patched, d.causes);
   weigh_candidates(nominal, found, d);
   // What the cause explains, by the refit: what it takes out of the residuals.
-  LinearProblem shown = nominal.problem;
+  inference::LinearProblem shown = nominal.problem;
   shown.extra.resize(shown.rows(), best ? 1 : 0);
   std::vector<std::pair<int, double>> cause;
   if (best) {
-    shown.extra.col(0) =
-        taken_out(nominal.problem, nominal_filter, nominal.fit, best->filter, best->after.fit);
+    shown.extra.col(0) = search::taken_out(nominal.problem, nominal_filter, nominal.fit,
+                                           best->filter, best->after.fit);
     cause.emplace_back(0, 1.0);
   }
   std::vector<InputEstimate> inputs;
   if (options.signals && d.verdict != Verdict::consistent) {
     // Noise that was needed only because of the effect would take the signal away.
-    NoiseModel white = nominal.noise.model;
+    inference::NoiseModel white = nominal.noise.model;
     if (!found.significant) {
-      white = declared_noise(nominal_filter);
+      white = search::declared_noise(nominal_filter);
       white.acc_factor = nominal.noise.model.acc_factor;
       white.gimbal_factor = nominal.noise.model.gimbal_factor;
     }
-    inputs = estimate_inputs(shown, test.timeline, Projector(shown, white), 6);
+    inputs = estimate_inputs(shown, test.timeline, inference::Projector(shown, white), 6);
   }
 
   // Where it is: by the best explanation there is, else by the strongest window.
-  const Window* window = strongest_window(nominal);
+  const inference::Window* window = strongest_window(nominal);
   VecX signature = VecX::Zero(nominal.problem.rows());
   if (best)
-    signature = signature_of(Projector(shown, nominal.noise.model), cause);
+    signature = signature_of(inference::Projector(shown, nominal.noise.model), cause);
   else if (window)
     signature = signature_of(nominal.problem, test.timeline, *nominal.projector, *window);
   const std::string driven_equation = d.where.equation;
@@ -271,9 +274,9 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const Test& given,
   d.where.equation = driven_equation;
   if (d.verdict != Verdict::consistent && driven_equation.empty()) {
     if (!inputs.empty() && inputs.front().gain > 0.0)
-      d.where.equation = equation_name(inputs.front().equation, inputs.front().axis);
+      d.where.equation = inference::equation_name(inputs.front().equation, inputs.front().axis);
     else if (window)
-      d.where.equation = equation_name(window->equation, window->axis);
+      d.where.equation = inference::equation_name(window->equation, window->axis);
   }
   for (std::size_t k = 0;
        k < std::min<std::size_t>(2, inputs.size()) && d.verdict != Verdict::consistent; ++k)
@@ -281,7 +284,7 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const Test& given,
   stages.begin("starts", 0.07);
   if (best && !starts.empty()) {
     // The same starts; what is new starts where the fit has it.
-    fits = from_starts(best->filter, theta_of(best->filter, best->after.fit));
+    fits = from_starts(best->filter, inference::theta_of(best->filter, best->after.fit));
     fits.push_back(best->after.fit);
     d.fit.start_spread_after = start_spread(fits);
   }
@@ -294,7 +297,7 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const Test& given,
   return d;
 }
 
-Diagnosis diagnose(const Study& study, const std::vector<Recording>& recordings,
+Diagnosis diagnose(const mc::Study& study, const std::vector<Recording>& recordings,
                    const DiagnoseOptions& options) {
   if (study.filters.empty())
     throw InputError(ExitCode::config,
@@ -302,7 +305,7 @@ Diagnosis diagnose(const Study& study, const std::vector<Recording>& recordings,
                                  "section [[filter]] with name and coupling",
                                  study.path));
   const FilterSpec& filter = study.filters.front();
-  const RecordedTest test = recorded_test(study, recordings);
+  const identification::RecordedTest test = identification::recorded_test(study, recordings);
   std::vector<Theta> starts;
   for (int k = 0; k + 1 < options.starts; ++k) {
     FilterSpec drawn = filter;
@@ -313,4 +316,4 @@ Diagnosis diagnose(const Study& study, const std::vector<Recording>& recordings,
                   covariates_of(recordings), options, test.ends);
 }
 
-}  // namespace drift::discovery
+}  // namespace drift::diagnosis

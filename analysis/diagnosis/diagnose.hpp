@@ -9,11 +9,11 @@
 #include "analysis/search/search.hpp"
 #include "mc/study/study.hpp"
 
-namespace drift::discovery {
+namespace drift::diagnosis {
 
 /// How much a diagnosis does.
 struct DiagnoseOptions {
-  SearchOptions search;
+  search::SearchOptions search;
   FoldMethod folds = FoldMethod::refitted;
   int starts = 3;             ///< fits for the start spread, prior mean and drawn; below 2: none
   bool signals = true;        ///< recover the missing input as a time series
@@ -28,13 +28,14 @@ struct DiagnoseOptions {
 /// where, what, how large, and does putting it in predict positions it has not seen? Several
 /// recordings are taken as one test. A pure function of study and recordings.
 /// InputError (config) without a filter; InputError (recording) if nothing was measured.
-Diagnosis diagnose(const Study& study, const std::vector<Recording>& recordings,
+Diagnosis diagnose(const mc::Study& study, const std::vector<Recording>& recordings,
                    const DiagnoseOptions& options = {});
 
 /// The same on a test that is laid out already. starts: initial estimates of the nominal filter
 /// beside its prior means. recording_ends: interval behind the last of each recording, if several.
-Diagnosis diagnose(const FilterSpec& nominal, const Test& test, std::span<const Theta> starts,
-                   const std::vector<Covariate>& covariates, const DiagnoseOptions& options = {},
+Diagnosis diagnose(const FilterSpec& nominal, const inference::Test& test,
+                   std::span<const Theta> starts, const std::vector<Covariate>& covariates,
+                   const DiagnoseOptions& options = {},
                    const std::vector<std::size_t>& recording_ends = {});
 
-}  // namespace drift::discovery
+}  // namespace drift::diagnosis

@@ -13,7 +13,7 @@
 #include "core/base/linalg.hpp"
 #include "core/physics/model_spec.hpp"
 
-namespace drift::discovery {
+namespace drift::diagnosis {
 
 /// What a diagnosis ends with (interfaces.md 6).
 enum class Verdict { consistent, named, ambiguous, unexplained };
@@ -61,9 +61,9 @@ struct Diagnosis {
   double p_value = 1.0;  ///< family-wise, over everything that was tried
   std::string sentence;  ///< the verdict in one sentence for a test engineer
   Where where;
-  std::vector<Cause> causes;
-  std::vector<CandidateScore> candidates;  ///< strongest first
-  std::vector<NoiseFinding> noise;
+  std::vector<search::Cause> causes;
+  std::vector<search::CandidateScore> candidates;  ///< strongest first
+  std::vector<inference::NoiseFinding> noise;
   /// Twice the log evidence that eq. (5) instead of a nominal eq. (6), or the reverse, gains; NaN
   /// where the nominal coupling is neither.
   double other_equation_gain = std::numeric_limits<double>::quiet_NaN();
@@ -80,4 +80,4 @@ struct Diagnosis {
   std::vector<std::pair<std::string, double>> seconds;  ///< wall time of each stage
 };
 
-}  // namespace drift::discovery
+}  // namespace drift::diagnosis

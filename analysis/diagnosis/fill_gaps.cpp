@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace drift::discovery {
+namespace drift::diagnosis {
 namespace {
 
 constexpr double same_command = 1e-9;      // [rad/s]
@@ -78,4 +78,4 @@ void fill_gaps(Recording& recording, double interval, std::vector<std::string>& 
   recording.lines = fill(recording.lines, [](std::size_t, std::size_t b, double) { return b; });
 }
 
-}  // namespace drift::discovery
+}  // namespace drift::diagnosis

@@ -5,7 +5,7 @@
 
 #include "core/base/linalg.hpp"
 
-namespace drift::discovery {
+namespace drift::diagnosis {
 
 struct ShiftedParameter {
   std::string key, unit;
@@ -63,4 +63,4 @@ struct FitComparison {
   std::vector<double> residual_t;  ///< [s], one per column; empty: as the first recovered signal
 };
 
-}  // namespace drift::discovery
+}  // namespace drift::diagnosis

@@ -11,7 +11,7 @@
 
 #include "mc/task/campaign.hpp"
 
-namespace drift::discovery {
+namespace drift::diagnosis {
 namespace {
 
 /// Prediction of the rows that `all` has and `rest` has not.
@@ -20,7 +20,7 @@ struct Prediction {
   std::size_t rows = 0;
 };
 
-Prediction prediction(const Projected& all, const Projected& rest) {
+Prediction prediction(const inference::Projected& all, const inference::Projected& rest) {
   Prediction p;
   p.chi2 = all.chi2 - rest.chi2;
   p.rows = static_cast<std::size_t>(all.rows - rest.rows);
@@ -30,8 +30,9 @@ Prediction prediction(const Projected& all, const Projected& rest) {
 }
 
 /// A problem whose parameters are the nominal ones and some candidate columns.
-LinearProblem with_columns(const LinearProblem& problem, const std::vector<int>& columns) {
-  LinearProblem out;
+inference::LinearProblem with_columns(const inference::LinearProblem& problem,
+                                      const std::vector<int>& columns) {
+  inference::LinearProblem out;
   out.tags = problem.tags;
   out.drives = problem.drives;
   out.psi = problem.psi;
@@ -49,12 +50,13 @@ LinearProblem with_columns(const LinearProblem& problem, const std::vector<int>&
   return out;
 }
 
-LinearProblem bare(const LinearProblem& problem) {
+inference::LinearProblem bare(const inference::LinearProblem& problem) {
   return with_columns(problem, {});
 }
 
-Projected marginal(const LinearProblem& problem, const NoiseModel& noise) {
-  return Projector(problem, noise).candidates();
+inference::Projected marginal(const inference::LinearProblem& problem,
+                              const inference::NoiseModel& noise) {
+  return inference::Projector(problem, noise).candidates();
 }
 
 /// What is held out at once.
@@ -64,9 +66,9 @@ struct Part {
   std::vector<bool> intervals;  ///< marked: held out
 };
 
-std::vector<Part> positions_of(const LinearProblem& problem) {
+std::vector<Part> positions_of(const inference::LinearProblem& problem) {
   std::vector<int> positions;
-  for (const RowTag& t : problem.tags) positions.push_back(t.position);
+  for (const inference::RowTag& t : problem.tags) positions.push_back(t.position);
   std::sort(positions.begin(), positions.end());
   positions.erase(std::unique(positions.begin(), positions.end()), positions.end());
   std::vector<Part> parts;
@@ -75,14 +77,14 @@ std::vector<Part> positions_of(const LinearProblem& problem) {
     Part part{fmt::format("position {}", p + 1),
               {p + 1},
               std::vector<bool>(problem.drives.size(), false)};
-    for (const RowTag& t : problem.tags)
+    for (const inference::RowTag& t : problem.tags)
       if (t.position == p) part.intervals[t.interval] = true;
     parts.push_back(std::move(part));
   }
   return parts;
 }
 
-std::vector<Part> recordings_of(const LinearProblem& problem,
+std::vector<Part> recordings_of(const inference::LinearProblem& problem,
                                 const std::vector<std::size_t>& ends) {
   std::vector<Part> parts;
   if (ends.size() < 2) return parts;
@@ -90,7 +92,7 @@ std::vector<Part> recordings_of(const LinearProblem& problem,
     Part part{
         fmt::format("recording {}", r + 1), {}, std::vector<bool>(problem.drives.size(), false)};
     for (std::size_t i = r == 0 ? 0 : ends[r - 1]; i < ends[r]; ++i) part.intervals[i] = true;
-    for (const RowTag& t : problem.tags)
+    for (const inference::RowTag& t : problem.tags)
       if (part.intervals[t.interval]) part.positions.push_back(t.position + 1);
     std::sort(part.positions.begin(), part.positions.end());
     part.positions.erase(std::unique(part.positions.begin(), part.positions.end()),
@@ -108,9 +110,9 @@ struct Outcome {
 
 class Folder {
  public:
-  Folder(const Examination& nominal, const Examination& patched, const Test& test,
-         const std::vector<std::size_t>& named, double library_threshold,
-         const FoldOptions& options)
+  Folder(const search::Examination& nominal, const search::Examination& patched,
+         const inference::Test& test, const std::vector<std::size_t>& named,
+         double library_threshold, const FoldOptions& options)
       : nominal_(nominal),
         patched_(patched),
         test_(test),
@@ -148,20 +150,20 @@ class Folder {
 
  private:
   /// Fitted without the part and linearised anew at that fit; only then is the part looked at.
-  Prediction refitted(const Examination& e, const Part& part) const {
+  Prediction refitted(const search::Examination& e, const Part& part) const {
     const Measurements rest = without_intervals(test_.measured, part.intervals);
     // Near the whole fit: a step of a hundredth of a sigma is as good as none.
     BatchResult fit = fit_batch(e.filter, test_.timeline, test_.readout, rest,
-                                theta_of(e.filter, e.fit), {.tolerance = 1e-2});
+                                inference::theta_of(e.filter, e.fit), {.tolerance = 1e-2});
     // Attitudes of which the fit has seen nothing: linearised where they are, their prior
     // unchanged.
     std::vector<bool> seen(fit.psi0_l.size(), false);
-    for (const RowTag& t : e.problem.tags)
+    for (const inference::RowTag& t : e.problem.tags)
       if (!part.intervals[t.interval])
         seen[static_cast<std::size_t>(e.problem.drives[t.interval].chain)] = true;
     for (std::size_t c = 0; c < seen.size(); ++c)
       if (!seen[c]) fit.psi0_l[c] = e.fit.psi0_l[c];
-    LinearProblem problem = linear_problem(e.filter, test_, fit, {});
+    inference::LinearProblem problem = inference::linear_problem(e.filter, test_, fit, {});
     problem.weight = e.problem.weight;
     return prediction(marginal(problem, noise_),
                       marginal(without_intervals(problem, part.intervals), noise_));
@@ -169,16 +171,17 @@ class Folder {
 
   /// The choice again, without having seen this part, and what it gains.
   void choose_again(const Part& part, const Prediction& nominal, Outcome& out) const {
-    const Projector projector(without_intervals(nominal_.problem, part.intervals), noise_);
-    const std::vector<PositionScan> no_scans;
-    Field field(nominal_.set, projector.candidates(), no_scans);
+    const inference::Projector projector(without_intervals(nominal_.problem, part.intervals),
+                                         noise_);
+    const std::vector<inference::PositionScan> no_scans;
+    search::Field field(nominal_.set, projector.candidates(), no_scans);
     field.discount = nominal_.field->discount;
     std::size_t best = 0;
     double best_evidence = -1.0;
     bool significant = false;
-    Choice choice;
+    search::Choice choice;
     for (std::size_t k = 0; k < nominal_.set.candidates.size(); ++k) {
-      const Score s = score(field, k);
+      const search::Score s = search::score(field, k);
       if (s.dof == 0 || s.strength < threshold_ || s.log_bayes <= best_evidence) continue;
       significant = true;
       best_evidence = s.log_bayes;
@@ -187,37 +190,39 @@ class Folder {
     }
     out.fold.same_choice =
         significant && std::any_of(named_.begin(), named_.end(), [&](std::size_t k) {
-          const Candidate &a = nominal_.set.candidates[k], &b = nominal_.set.candidates[best];
+          const inference::Candidate &a = nominal_.set.candidates[k],
+                                     &b = nominal_.set.candidates[best];
           return a.term == b.term && (a.params == b.params || a.contains(b) || b.contains(a));
         });
     if (!significant) return;
     const auto& columns =
         nominal_.set.candidates[choice.candidate].variants[choice.variant].columns;
-    const LinearProblem chosen = with_columns(nominal_.problem, columns);
+    const inference::LinearProblem chosen = with_columns(nominal_.problem, columns);
     out.nested_gain = prediction(marginal(chosen, noise_),
                                  marginal(without_intervals(chosen, part.intervals), noise_))
                           .log_score -
                       nominal.log_score;
   }
 
-  const Examination &nominal_, &patched_;
-  const Test& test_;
+  const search::Examination &nominal_, &patched_;
+  const inference::Test& test_;
   const std::vector<std::size_t>& named_;
   double threshold_;
   const FoldOptions& options_;
   // One noise for both, else the one that doubts its instruments more would be favoured: the
   // patched model's, which has no misfit in it.
-  const NoiseModel& noise_;
-  LinearProblem before_, after_;
-  Projected all_before_, all_after_;
+  const inference::NoiseModel& noise_;
+  inference::LinearProblem before_, after_;
+  inference::Projected all_before_, all_after_;
 };
 
 }  // namespace
 
-double held_out_gain(const Examination& before, const Examination& after) {
-  const LinearProblem with = bare(after.problem), without = bare(before.problem);
-  const NoiseModel& noise = after.noise.model;
-  const Projected all_with = marginal(with, noise), all_without = marginal(without, noise);
+double held_out_gain(const search::Examination& before, const search::Examination& after) {
+  const inference::LinearProblem with = bare(after.problem), without = bare(before.problem);
+  const inference::NoiseModel& noise = after.noise.model;
+  const inference::Projected all_with = marginal(with, noise),
+                             all_without = marginal(without, noise);
   const std::vector<Part> parts = positions_of(without);
   const auto gains = mc::run_campaign(parts.size(), [&](std::size_t k) {
     return prediction(all_with, marginal(without_intervals(with, parts[k].intervals), noise))
@@ -228,11 +233,12 @@ double held_out_gain(const Examination& before, const Examination& after) {
   return std::accumulate(gains.begin(), gains.end(), 0.0);
 }
 
-LinearProblem without_intervals(const LinearProblem& problem, const std::vector<bool>& left_out) {
+inference::LinearProblem without_intervals(const inference::LinearProblem& problem,
+                                           const std::vector<bool>& left_out) {
   std::vector<Eigen::Index> keep;
   for (Eigen::Index k = 0; k < problem.rows(); ++k)
     if (!left_out[problem.tags[k].interval]) keep.push_back(k);
-  LinearProblem out;
+  inference::LinearProblem out;
   out.drives = problem.drives;
   out.acc_sigma = problem.acc_sigma;
   out.gimbal_sigma = problem.gimbal_sigma;
@@ -258,9 +264,9 @@ Measurements without_intervals(const Measurements& measured, const std::vector<b
   return out;
 }
 
-HeldOut held_out(const Examination& nominal, const Examination& patched, const Test& test,
-                 const std::vector<std::size_t>& named, double library_threshold,
-                 const FoldOptions& options) {
+HeldOut held_out(const search::Examination& nominal, const search::Examination& patched,
+                 const inference::Test& test, const std::vector<std::size_t>& named,
+                 double library_threshold, const FoldOptions& options) {
   HeldOut out;
   out.method = options.method == FoldMethod::linear ? "linear" : "refitted";
   std::vector<Part> parts = positions_of(nominal.problem);
@@ -323,4 +329,4 @@ HeldOut held_out(const Examination& nominal, const Examination& patched, const T
   return out;
 }
 
-}  // namespace drift::discovery
+}  // namespace drift::diagnosis

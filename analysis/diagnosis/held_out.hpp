@@ -5,7 +5,7 @@
 #include "analysis/diagnosis/diagnosis.hpp"
 #include "analysis/search/examination.hpp"
 
-namespace drift::discovery {
+namespace drift::diagnosis {
 
 /// How held-out positions are predicted.
 enum class FoldMethod {
@@ -29,9 +29,9 @@ struct FoldOptions {
 /// log p(y_p | y_rest) = log p(y) - log p(y_rest), parameters and attitudes marginalised;
 /// chi-square likewise. Nested: the cause is chosen anew from the rest alone (discovery.md 0.9),
 /// the nominal model where nothing there is significant.
-HeldOut held_out(const Examination& nominal, const Examination& patched, const Test& test,
-                 const std::vector<std::size_t>& named, double library_threshold,
-                 const FoldOptions& options);
+HeldOut held_out(const search::Examination& nominal, const search::Examination& patched,
+                 const inference::Test& test, const std::vector<std::size_t>& named,
+                 double library_threshold, const FoldOptions& options);
 
 /// What the log score must gain for a cause to be kept: less is no prediction.
 inline constexpr double least_held_out_gain = 1.0;
@@ -39,12 +39,13 @@ inline constexpr double least_held_out_gain = 1.0;
 /// Gain of the log score over all positions, each predicted from the others, of one fitted model
 /// over another of the same test; by conditioning the linearised tests, under the noise of the
 /// second.
-double held_out_gain(const Examination& before, const Examination& after);
+double held_out_gain(const search::Examination& before, const search::Examination& after);
 
 /// A linear problem without the rows of the intervals that are marked.
-LinearProblem without_intervals(const LinearProblem& problem, const std::vector<bool>& left_out);
+inference::LinearProblem without_intervals(const inference::LinearProblem& problem,
+                                           const std::vector<bool>& left_out);
 
 /// Measurements with those of the marked intervals taken out.
 Measurements without_intervals(const Measurements& measured, const std::vector<bool>& left_out);
 
-}  // namespace drift::discovery
+}  // namespace drift::diagnosis

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <map>
 
-namespace drift::discovery {
+namespace drift::diagnosis {
 namespace {
 
-constexpr const char* channel_names[num_channels] = {
+constexpr const char* channel_names[inference::num_channels] = {
     "acc_x", "acc_y", "acc_z", "gimbal_outer", "gimbal_middle", "gimbal_inner"};
 
 /// Sums over the rows of one channel, position or cell.
@@ -46,10 +46,10 @@ void sort_by_share(std::vector<Share>& shares) {
 
 }  // namespace
 
-const Window* strongest_window(const Examination& e) {
-  const Window* best = nullptr;
+const inference::Window* strongest_window(const search::Examination& e) {
+  const inference::Window* best = nullptr;
   double T = 0.0;
-  for (const PositionScan& s : e.scans)
+  for (const inference::PositionScan& s : e.scans)
     for (std::size_t k = 0; k < s.windows.size(); ++k)
       if (s.T[k] > T) {
         T = s.T[k];
@@ -58,7 +58,8 @@ const Window* strongest_window(const Examination& e) {
   return best;
 }
 
-VecX signature_of(const Projector& projector, const std::vector<std::pair<int, double>>& cause) {
+VecX signature_of(const inference::Projector& projector,
+                  const std::vector<std::pair<int, double>>& cause) {
   std::vector<int> columns;
   VecX amplitude(cause.size());
   for (std::size_t k = 0; k < cause.size(); ++k) {
@@ -68,25 +69,26 @@ VecX signature_of(const Projector& projector, const std::vector<std::pair<int, d
   return projector.clean_extra(columns) * amplitude;
 }
 
-VecX signature_of(const LinearProblem& problem, const Timeline& timeline,
-                  const Projector& projector, const Window& window) {
-  LinearProblem one = problem;
+VecX signature_of(const inference::LinearProblem& problem, const Timeline& timeline,
+                  const inference::Projector& projector, const inference::Window& window) {
+  inference::LinearProblem one = problem;
   one.extra.resize(problem.rows(), 1);
-  one.extra.col(0) = window_signature(problem, timeline, window, 0, problem.rows());
+  one.extra.col(0) = inference::window_signature(problem, timeline, window, 0, problem.rows());
   // What the box does after its chain has ended is nothing.
   const int chain = timeline.intervals[window.first].chain;
   for (Eigen::Index k = 0; k < problem.rows(); ++k)
     if (timeline.intervals[problem.tags[k].interval].chain != chain) one.extra(k, 0) = 0.0;
   const double norm = one.extra.norm();
   if (norm > 0.0) one.extra /= norm;
-  const Whitener* w = projector.whitener();
-  const Projector with(projector.theta(), w ? w->apply(one.extra) : one.extra, projector.r0(), 0.0);
-  const Projected& p = with.candidates();
+  const inference::Whitener* w = projector.whitener();
+  const inference::Projector with(projector.theta(), w ? w->apply(one.extra) : one.extra,
+                                  projector.r0(), 0.0);
+  const inference::Projected& p = with.candidates();
   return p.C(0, 0) > 0.0 ? VecX(with.clean_extra({0}) * (p.g[0] / p.C(0, 0)))
                          : VecX::Zero(problem.rows());
 }
 
-Where locate(const Examination& e, const Nulls& nulls, const VecX& signature,
+Where locate(const search::Examination& e, const search::Nulls& nulls, const VecX& signature,
              std::size_t most_windows) {
   Where out;
   out.channel_names.assign(std::begin(channel_names), std::end(channel_names));
@@ -94,7 +96,7 @@ Where locate(const Examination& e, const Nulls& nulls, const VecX& signature,
   std::map<int, Sum> channels, positions;
   std::map<std::pair<int, int>, Sum> cells;
   for (Eigen::Index k = 0; k < residual.size(); ++k) {
-    const RowTag& t = e.problem.tags[k];
+    const inference::RowTag& t = e.problem.tags[k];
     channels[t.channel].add(signature[k], residual[k]);
     positions[t.position].add(signature[k], residual[k]);
     cells[{t.position, t.channel}].add(signature[k], residual[k]);
@@ -117,14 +119,14 @@ Where locate(const Examination& e, const Nulls& nulls, const VecX& signature,
   sort_by_share(out.positions);
 
   std::vector<ScanHit> hits;
-  for (const PositionScan& scan : e.scans)
+  for (const inference::PositionScan& scan : e.scans)
     for (std::size_t k = 0; k < scan.windows.size(); ++k) {
       ++out.windows_tried;
-      const double s = strength(scan.T[k], 1);
+      const double s = stats::strength(scan.T[k], 1);
       if (s < nulls.scan_threshold) continue;
-      const Window& w = scan.windows[k];
+      const inference::Window& w = scan.windows[k];
       ScanHit hit;
-      hit.equation = equation_name(w.equation, w.axis);
+      hit.equation = inference::equation_name(w.equation, w.axis);
       hit.position = w.position + 1;
       hit.start_s = w.start_s;
       hit.end_s = w.end_s;
@@ -145,10 +147,10 @@ Where locate(const Examination& e, const Nulls& nulls, const VecX& signature,
     if (!overlaps && out.windows.size() < most_windows) out.windows.push_back(h);
   }
   double strongest = 0.0;
-  for (const PositionScan& s : e.scans)
-    for (const double T : s.T) strongest = std::max(strongest, strength(T, 1));
+  for (const inference::PositionScan& s : e.scans)
+    for (const double T : s.T) strongest = std::max(strongest, stats::strength(T, 1));
   out.scan_p_value = nulls.scan.p_value(strongest);
   return out;
 }
 
-}  // namespace drift::discovery
+}  // namespace drift::diagnosis

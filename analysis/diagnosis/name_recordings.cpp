@@ -7,7 +7,7 @@
 
 #include "analysis/identification/recorded_test.hpp"
 
-namespace drift::discovery {
+namespace drift::diagnosis {
 namespace {
 
 /// File names, or whole paths where two files have one name.
@@ -22,9 +22,10 @@ std::vector<std::string> names_of(const std::vector<Recording>& recordings) {
 
 }  // namespace
 
-void name_recordings(const Study& study, const std::vector<Recording>& recordings, Diagnosis& d) {
+void name_recordings(const mc::Study& study, const std::vector<Recording>& recordings,
+                     Diagnosis& d) {
   if (recordings.size() < 2) return;
-  const RecordedTest test = recorded_test(study, recordings);
+  const identification::RecordedTest test = identification::recorded_test(study, recordings);
   const auto names = names_of(recordings);
   std::size_t first = 0;
   for (std::size_t k = 0; k < recordings.size(); ++k) {
@@ -40,4 +41,4 @@ void name_recordings(const Study& study, const std::vector<Recording>& recording
   }
 }
 
-}  // namespace drift::discovery
+}  // namespace drift::diagnosis

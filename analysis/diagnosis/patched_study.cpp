@@ -10,7 +10,7 @@
 #include "core/physics/coupling_text.hpp"
 #include "core/physics/parameters_config.hpp"
 
-namespace drift::discovery {
+namespace drift::diagnosis {
 namespace {
 
 using config::Node;
@@ -50,17 +50,17 @@ Node prior_node(const Prior& prior, const Unit& unit) {
   return node;
 }
 
-Node parsed(const Study& study) {
+Node parsed(const mc::Study& study) {
   return config::parse_document(study.text, study.path);
 }
 
 }  // namespace
 
-FilterSpec patched_filter(const FilterSpec& nominal, const std::vector<Cause>& causes) {
+FilterSpec patched_filter(const FilterSpec& nominal, const std::vector<search::Cause>& causes) {
   constexpr auto lambda = TermLibrary::index("lambda");
   FilterSpec patched = nominal;
-  for (const Cause& cause : causes)
-    for (const CauseParameter& p : cause.parameters) {
+  for (const search::Cause& cause : causes)
+    for (const search::CauseParameter& p : cause.parameters) {
       patched.active.set(p.param);
       const ParamSpec& spec = TermLibrary::specs[p.param];
       const double value = p.value * spec.unit.to_si;
@@ -78,12 +78,12 @@ FilterSpec patched_filter(const FilterSpec& nominal, const std::vector<Cause>& c
   return patched;
 }
 
-FilterSpec started_where_found(FilterSpec patched, const std::vector<Cause>& causes) {
+FilterSpec started_where_found(FilterSpec patched, const std::vector<search::Cause>& causes) {
   constexpr auto lambda = TermLibrary::index("lambda");
-  std::vector<const CauseParameter*> far_from_linear, found;
-  for (const Cause& cause : causes) {
+  std::vector<const search::CauseParameter*> far_from_linear, found;
+  for (const search::Cause& cause : causes) {
     if (cause.set != 0) continue;
-    for (const CauseParameter& p : cause.parameters) {
+    for (const search::CauseParameter& p : cause.parameters) {
       if (!patched.active[p.param] || patched.priors[p.param].sigma() <= 0.0) continue;
       found.push_back(&p);
       if (p.param == lambda || TermLibrary::specs[p.param].kind == ParamKind::nonlinear)
@@ -93,7 +93,7 @@ FilterSpec started_where_found(FilterSpec patched, const std::vector<Cause>& cau
   if (far_from_linear.empty()) return patched;
   if (patched.starts.empty()) patched.starts.emplace_back();
   for (Start& start : patched.starts)
-    for (const CauseParameter* p : found) {
+    for (const search::CauseParameter* p : found) {
       std::erase_if(start, [&](const auto& given) { return given.first == p->param; });
       start.emplace_back(p->param, p->value * TermLibrary::specs[p->param].unit.to_si);
     }
@@ -101,7 +101,7 @@ FilterSpec started_where_found(FilterSpec patched, const std::vector<Cause>& cau
   return patched;
 }
 
-std::string patched_study(const Study& study, const FilterSpec& patched) {
+std::string patched_study(const mc::Study& study, const FilterSpec& patched) {
   Node root = parsed(study);
   Node* filters = root.find("filter");
   if (filters == nullptr || filters->items.empty() || study.filters.empty())
@@ -152,7 +152,7 @@ std::string patched_study(const Study& study, const FilterSpec& patched) {
   return config::to_document(root);
 }
 
-std::string extended_study(const Study& study, const std::vector<Position>& positions) {
+std::string extended_study(const mc::Study& study, const std::vector<Position>& positions) {
   if (study.kind != RecordingKind::platform)
     throw InputError(ExitCode::config,
                      fmt::format("{}: a strapdown plan has no positions to add to "
@@ -172,4 +172,4 @@ std::string extended_study(const Study& study, const std::vector<Position>& posi
   return config::to_document(root);
 }
 
-}  // namespace drift::discovery
+}  // namespace drift::diagnosis

@@ -12,7 +12,7 @@
 #include "core/plan/timeline.hpp"
 #include "core/sim/measurements.hpp"
 
-namespace drift::discovery {
+namespace drift::diagnosis {
 namespace {
 
 constexpr double deg_per_h = detail::deg / 3600.0;
@@ -57,7 +57,7 @@ std::string positions_text(const std::vector<int>& positions) {
   return fmt::format("positions {}", fmt::join(numbers, ", "));
 }
 
-void check_dwells(const Study& study, const std::string& source, const Timeline& timeline,
+void check_dwells(const mc::Study& study, const std::string& source, const Timeline& timeline,
                   const std::vector<Dwell>& dwells, std::vector<std::string>& remarks) {
   std::map<std::pair<double, double>, std::vector<int>>
       others;  // (planned, recorded) in whole samples
@@ -89,7 +89,7 @@ Vec3 command_of(CommandLaw law, const Position& p, const Site& site) {
 }
 
 /// Commands in the dwells against those of the plan's law.
-void check_commands(const Study& study, const std::string& source, const Timeline& timeline,
+void check_commands(const mc::Study& study, const std::string& source, const Timeline& timeline,
                     const std::vector<Dwell>& dwells, std::vector<std::string>& remarks) {
   std::array<std::vector<int>, 2> as_other;  // by the plan's law
   std::vector<int> elsewhere, neither;
@@ -195,7 +195,7 @@ std::optional<Turn> turn_of(const Dwell& d, const Timeline& timeline, const Meas
 }
 
 /// Without recorded commands the plan's law is believed; the platform shows whether it was so.
-void check_law(const Study& study, const std::string& source, const Timeline& timeline,
+void check_law(const mc::Study& study, const std::string& source, const Timeline& timeline,
                const Measurements& m, const std::vector<Dwell>& dwells,
                std::vector<std::string>& wrong) {
   constexpr double evident = 0.4;  // of the difference of both laws: nearer to the other than this
@@ -232,8 +232,8 @@ void check_law(const Study& study, const std::string& source, const Timeline& ti
 
 }  // namespace
 
-void check_plan(const Study& study, const Recording& recording, std::vector<std::string>& remarks,
-                std::vector<std::string>& wrong) {
+void check_plan(const mc::Study& study, const Recording& recording,
+                std::vector<std::string>& remarks, std::vector<std::string>& wrong) {
   const std::string source = recording.source.empty() ? "recording" : recording.source;
   const Timeline timeline = lay_out(recording, study.plan, study.site);
   const std::vector<Dwell> dwells = dwells_of(timeline);
@@ -244,4 +244,4 @@ void check_plan(const Study& study, const Recording& recording, std::vector<std:
     check_law(study, source, timeline, measurements_of(recording, study.readout), dwells, wrong);
 }
 
-}  // namespace drift::discovery
+}  // namespace drift::diagnosis

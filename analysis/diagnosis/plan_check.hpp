@@ -6,7 +6,7 @@
 #include "core/recording/recording.hpp"
 #include "mc/study/study.hpp"
 
-namespace drift::discovery {
+namespace drift::diagnosis {
 
 /// Whether a recording can be of the study's plan, as far as its own columns tell. It fits the plan
 /// in positions, sample interval and attitudes (lay_out() and prepare() have looked).
@@ -18,7 +18,7 @@ namespace drift::discovery {
 /// is asked of the mean over the positions of a law, where drift of a few deg/h in each averages
 /// out; it must be within 0.4 of Earth rate of the other law. Read off the gimbals, or off Up as
 /// the accelerometers see it.
-void check_plan(const Study& study, const Recording& recording, std::vector<std::string>& remarks,
-                std::vector<std::string>& wrong);
+void check_plan(const mc::Study& study, const Recording& recording,
+                std::vector<std::string>& remarks, std::vector<std::string>& wrong);
 
-}  // namespace drift::discovery
+}  // namespace drift::diagnosis

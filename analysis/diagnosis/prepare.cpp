@@ -15,7 +15,7 @@
 #include "core/recording/reduce.hpp"
 #include "core/sim/measurements.hpp"
 
-namespace drift::discovery {
+namespace drift::diagnosis {
 namespace {
 
 constexpr std::size_t least_stuck = 20;
@@ -101,7 +101,7 @@ std::set<int> positions_of(const Recording& r) {
   return all;
 }
 
-double plan_sample(const Study& study) {
+double plan_sample(const mc::Study& study) {
   double shortest = std::numeric_limits<double>::infinity();
   for (const Position& p : study.plan.positions) shortest = std::min(shortest, p.sample);
   return shortest;
@@ -141,7 +141,7 @@ std::size_t factor_for(const std::vector<Recording>& recordings, double sample,
 
 }  // namespace
 
-Prepared prepare(const Study& study, const std::vector<Recording>& recordings,
+Prepared prepare(const mc::Study& study, const std::vector<Recording>& recordings,
                  std::size_t most_rows) {
   DRIFT_EXPECTS(!recordings.empty());
   Prepared p{study, recordings, {}};
@@ -202,4 +202,4 @@ Prepared prepare(const Study& study, const std::vector<Recording>& recordings,
   return p;
 }
 
-}  // namespace drift::discovery
+}  // namespace drift::diagnosis

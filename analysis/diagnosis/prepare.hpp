@@ -6,11 +6,11 @@
 #include "core/recording/recording.hpp"
 #include "mc/study/study.hpp"
 
-namespace drift::discovery {
+namespace drift::diagnosis {
 
 /// Recordings ready for a diagnosis, and what was done to them.
 struct Prepared {
-  Study study;  ///< the plan's sample interval and the accelerometer noise fit the recordings
+  mc::Study study;  ///< the plan's sample interval and the accelerometer noise fit the recordings
   std::vector<Recording> recordings;
   std::vector<std::string>
       remarks;  ///< what was left out or changed, and what the plan cannot give
@@ -29,7 +29,7 @@ struct Prepared {
 /// samples and 20 times as long as it usually does: a stuck sensor. Its samples become NaN. Reduced
 /// (reduced(), core/sim/reduce.hpp): samples closer than the plan's, and recordings of more than
 /// `most_rows` rows.
-Prepared prepare(const Study& study, const std::vector<Recording>& recordings,
+Prepared prepare(const mc::Study& study, const std::vector<Recording>& recordings,
                  std::size_t most_rows = 20000);
 
-}  // namespace drift::discovery
+}  // namespace drift::diagnosis

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <numbers>
 
-namespace drift::discovery {
+namespace drift::diagnosis {
 namespace {
 
-using Equation = Window::Equation;
+using Equation = inference::Window::Equation;
 
 constexpr double worth_saying = 0.3;  // correlation of a shape below which it says nothing
 
@@ -168,8 +168,10 @@ std::vector<Feature> features(const InputEstimate& input, const Timeline& timeli
 
 }  // namespace
 
-std::vector<InputEstimate> estimate_inputs(const LinearProblem& problem, const Timeline& timeline,
-                                           const Projector& projector, int per_position) {
+std::vector<InputEstimate> estimate_inputs(const inference::LinearProblem& problem,
+                                           const Timeline& timeline,
+                                           const inference::Projector& projector,
+                                           int per_position) {
   std::vector<InputEstimate> all;
   const auto bins = make_bins(timeline, per_position);
   for (const Equation equation :
@@ -189,16 +191,16 @@ std::vector<InputEstimate> estimate_inputs(const LinearProblem& problem, const T
         while (first < problem.rows() && problem.tags[first].interval < bins[k].first) ++first;
         Eigen::Index end = first;
         while (end < problem.rows() && intervals[problem.tags[end].interval].chain == chain) ++end;
-        const Window w{equation, axis, intervals[bins[k].first].position, bins[k].first,
-                       bins[k].second};
+        const inference::Window w{equation, axis, intervals[bins[k].first].position, bins[k].first,
+                                  bins[k].second};
         columns.col(k).segment(first, end - first) =
-            window_signature(problem, timeline, w, first, end - first);
+            inference::window_signature(problem, timeline, w, first, end - first);
       }
       // Units in which the information is of order one.
       const double unit =
           std::max(columns.norm() / std::sqrt(static_cast<double>(bins.size())), 1e-300);
       columns /= unit;
-      const Projector::Scan s = projector.scan(columns, 0);
+      const inference::Projector::Scan s = projector.scan(columns, 0);
       input.C = s.C;
       input.g = s.g;
       input.cross = s.cross;
@@ -217,7 +219,7 @@ RecoveredSignal recovered_signal(const InputEstimate& input, const Timeline& tim
                                  const std::vector<Covariate>& covariates,
                                  const std::vector<std::pair<int, double>>& cause) {
   RecoveredSignal out;
-  out.equation = equation_name(input.equation, input.axis);
+  out.equation = inference::equation_name(input.equation, input.axis);
   const bool rate = input.equation == Equation::rate,
              acc = input.equation == Equation::accelerometer;
   out.unit = rate ? "deg/h" : acc ? "ug" : "arcsec";
@@ -246,7 +248,7 @@ RecoveredSignal recovered_signal(const InputEstimate& input, const Timeline& tim
     const VecX g = f.columns.transpose() * input.g;
     if (!(C.diagonal().minCoeff() > 0.0)) continue;
     const double T = g.dot(C.ldlt().solve(g));
-    const double worth = strength(T, static_cast<int>(g.size()));
+    const double worth = stats::strength(T, static_cast<int>(g.size()));
     if (worth > best) {
       best = worth;
       winner = &f;
@@ -274,4 +276,4 @@ RecoveredSignal recovered_signal(const InputEstimate& input, const Timeline& tim
   return out;
 }
 
-}  // namespace drift::discovery
+}  // namespace drift::diagnosis

@@ -3,7 +3,7 @@
 #include "analysis/diagnosis/diagnosis.hpp"
 #include "analysis/search/examination.hpp"
 
-namespace drift::discovery {
+namespace drift::diagnosis {
 
 /// What a test tells beside the platform's own channels, one value per interval.
 struct Covariate {
@@ -15,7 +15,7 @@ struct Covariate {
 /// (Ornstein-Uhlenbeck prior whose size and time constant maximise the likelihood), parameters and
 /// attitudes marginalised. What fitted parameters can absorb is not recovered (discovery.md 2.4 b).
 struct InputEstimate {
-  Window::Equation equation = Window::Equation::rate;
+  inference::Window::Equation equation = inference::Window::Equation::rate;
   int axis = 0;
   std::vector<std::pair<std::size_t, std::size_t>> bins;  ///< intervals of each
   VecX value, sigma;                                      ///< of each bin, SI
@@ -27,8 +27,9 @@ struct InputEstimate {
 };
 
 /// The same for each of the twelve equations, best first. per_position: bins of each position.
-std::vector<InputEstimate> estimate_inputs(const LinearProblem& problem, const Timeline& timeline,
-                                           const Projector& projector, int per_position);
+std::vector<InputEstimate> estimate_inputs(const inference::LinearProblem& problem,
+                                           const Timeline& timeline,
+                                           const inference::Projector& projector, int per_position);
 
 /// As a time series with a description of its shape. cause: candidate columns with amplitudes whose
 /// signature is drawn over it; may be empty.
@@ -36,4 +37,4 @@ RecoveredSignal recovered_signal(const InputEstimate& input, const Timeline& tim
                                  const std::vector<Covariate>& covariates,
                                  const std::vector<std::pair<int, double>>& cause);
 
-}  // namespace drift::discovery
+}  // namespace drift::diagnosis

@@ -8,7 +8,7 @@
 
 #include "core/base/number_text.hpp"
 
-namespace drift::discovery {
+namespace drift::diagnosis {
 namespace {
 
 constexpr double one_direction =
@@ -37,13 +37,13 @@ std::string part_of(const TermInfo& term, std::string_view axis) {
 
 /// Distance of a found number from its prior's mean, in sigmas of the prior; 0 of what was
 /// profiled.
-double in_prior_sigmas(const CauseParameter& p) {
+double in_prior_sigmas(const search::CauseParameter& p) {
   const ParamSpec& spec = TermLibrary::specs[p.param];
   const double sigma = spec.prior.sigma();
   return p.profiled || !(sigma > 0.0) ? 0.0 : std::abs(p.value - spec.prior.mean()) / sigma;
 }
 
-std::string number_of(const CauseParameter& p) {
+std::string number_of(const search::CauseParameter& p) {
   return fmt::format("{} = {}{}{}", p.key, with_sigma(p.value, p.sigma), p.unit == "1" ? "" : " ",
                      p.unit == "1" ? "" : p.unit);
 }
@@ -59,7 +59,7 @@ std::string shape_text(const Diagnosis& d) {
 }
 
 /// What stands in the brackets behind a cause.
-std::string numbers_of(const Cause& c) {
+std::string numbers_of(const search::Cause& c) {
   std::string text = keyed(c.term, c.axis);
   if (c.parameters.empty()) return text;
   if (c.parameters.size() > most_numbers) {
@@ -67,9 +67,9 @@ std::string numbers_of(const Cause& c) {
     return text + fmt::format(": {} and {} more", number_of(*largest), c.parameters.size() - 1);
   }
   std::vector<std::string> numbers;
-  for (const CauseParameter& p : c.parameters) numbers.push_back(number_of(p));
+  for (const search::CauseParameter& p : c.parameters) numbers.push_back(number_of(p));
   text += fmt::format(": {}", fmt::join(numbers, ", "));
-  const CauseParameter& p = c.parameters.front();
+  const search::CauseParameter& p = c.parameters.front();
   if (c.term == "frame_closure")  // between two equations the interval is the answer
     text += fmt::format(", 95 % interval {:.3g} to {:.3g}, where eq. (5) is 0 and eq. (6) is 1",
                         p.value - 1.96 * p.sigma, p.value + 1.96 * p.sigma);
@@ -99,7 +99,8 @@ bool same_trace(const Diagnosis& d, std::size_t i, std::size_t k) {
   if (d.causes[i].term == d.causes[k].term && d.causes[i].axis == d.causes[k].axis) return true;
   const auto a = static_cast<Eigen::Index>(i), b = static_cast<Eigen::Index>(k);
   const MatX& cosine = d.cosines.cosine;
-  return a < cosine.rows() && b < cosine.cols() && cosine(a, b) * cosine(a, b) > one_direction;
+  return a < cosine.rows() && b < cosine.cols() &&
+         search::cosine(a, b) * search::cosine(a, b) > one_direction;
 }
 
 bool same_trace(const Diagnosis& d, const Alternative& one, const Alternative& other) {
@@ -133,12 +134,13 @@ std::string twins_text(const Diagnosis& d, const std::vector<Alternative>& all) 
 /// a term is passed over for the one axis of it that does.
 std::string outside_twins_text(const Diagnosis& d) {
   std::string text;
-  for (const Cause& c : d.causes)
-    for (const Confusable& o : c.confusable_with) {
+  for (const search::Cause& c : d.causes)
+    for (const search::Confusable& o : c.confusable_with) {
       const bool among =
-          std::ranges::any_of(d.causes, [&](const Cause& k) { return k.term == o.term; });
+          std::ranges::any_of(d.causes, [&](const search::Cause& k) { return k.term == o.term; });
       const bool narrower =
-          o.axis.empty() && std::ranges::any_of(c.confusable_with, [&](const Confusable& k) {
+          o.axis.empty() &&
+          std::ranges::any_of(c.confusable_with, [&](const search::Confusable& k) {
             return k.term == o.term && !k.axis.empty() && k.cosine * k.cosine > one_direction;
           });
       if (o.cosine * o.cosine <= one_direction || among || narrower) continue;
@@ -158,7 +160,7 @@ std::string together(const Diagnosis& d, const Alternative& causes) {
 
 std::string noise_text(const Diagnosis& d) {
   std::vector<std::string> parts;
-  for (const NoiseFinding& f : d.noise)
+  for (const inference::NoiseFinding& f : d.noise)
     if (f.significant && f.component != "outliers")
       parts.push_back(fmt::format("{} ({}: {})", noise_in_words(f.component), f.component,
                                   std::isfinite(f.factor)
@@ -202,7 +204,7 @@ std::string in_words(std::string_view term, std::string_view axis) {
                       : fmt::format("{}, {}", info.title, part_of(info, axis));
 }
 
-std::string in_words(const Cause& c) {
+std::string in_words(const search::Cause& c) {
   return with_brackets(in_words(c.term, c.axis), numbers_of(c));
 }
 
@@ -211,10 +213,10 @@ std::string equation_in_words(const std::string& equation) {
   return equation.starts_with(gimbal) ? equation.substr(gimbal.size()) + " gimbal" : equation;
 }
 
-std::string lacking(const std::vector<Cause>& causes) {
+std::string lacking(const std::vector<search::Cause>& causes) {
   std::vector<std::string> effects;
   std::string equation;
-  for (const Cause& c : causes)
+  for (const search::Cause& c : causes)
     if (c.term == "frame_closure")
       equation = fmt::format(" has the wrong drift equation ({})", numbers_of(c));
     else
@@ -285,4 +287,4 @@ std::string sentence(const Diagnosis& d) {
       shape_text(d), noise);
 }
 
-}  // namespace drift::discovery
+}  // namespace drift::diagnosis

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace drift::discovery {
+namespace drift::diagnosis {
 
 Information& Information::operator+=(const Information& o) {
   tt += o.tt;
@@ -14,8 +14,9 @@ Information& Information::operator+=(const Information& o) {
   return *this;
 }
 
-Information information_of(const LinearProblem& problem, const NoiseModel& noise) {
-  const Projector p(problem, noise);
+Information information_of(const inference::LinearProblem& problem,
+                           const inference::NoiseModel& noise) {
+  const inference::Projector p(problem, noise);
   return {p.theta().transpose() * p.theta(), p.theta().transpose() * p.extra(),
           p.extra().transpose() * p.extra()};
 }
@@ -53,4 +54,4 @@ std::vector<Separation> separations(const Information& info, const std::vector<A
   return out;
 }
 
-}  // namespace drift::discovery
+}  // namespace drift::diagnosis

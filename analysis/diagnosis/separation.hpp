@@ -6,7 +6,7 @@
 #include "analysis/diagnosis/alternatives.hpp"
 #include "analysis/inference/projector.hpp"
 
-namespace drift::discovery {
+namespace drift::diagnosis {
 
 /// Information of a test on nominal parameters (t) and signatures (e), in prior sigmas. That of
 /// tests whose attitudes start anew adds up.
@@ -15,7 +15,8 @@ struct Information {
   Information& operator+=(const Information& o);
 };
 
-Information information_of(const LinearProblem& problem, const NoiseModel& noise);
+Information information_of(const inference::LinearProblem& problem,
+                           const inference::NoiseModel& noise);
 
 /// How far apart two alternatives are.
 struct Separation {
@@ -34,4 +35,4 @@ struct Separation {
 std::vector<Separation> separations(const Information& info, const std::vector<Alternative>& all,
                                     std::span<const Contest> pairs);
 
-}  // namespace drift::discovery
+}  // namespace drift::diagnosis

@@ -12,7 +12,7 @@
 #include "core/base/check.hpp"
 #include "mc/task/campaign.hpp"
 
-namespace drift::discovery {
+namespace drift::diagnosis {
 namespace {
 
 constexpr auto d_lat = TermLibrary::index("d_lat");
@@ -29,7 +29,8 @@ struct Point {
 
 class Latitudes {
  public:
-  Latitudes(const Study& study, const std::vector<Recording>& recordings, const FilterSpec& nominal)
+  Latitudes(const mc::Study& study, const std::vector<Recording>& recordings,
+            const FilterSpec& nominal)
       : study_(study), recordings_(recordings), nominal_(nominal) {}
 
   std::vector<Point> at(const std::vector<double>& latitudes) const {
@@ -40,10 +41,10 @@ class Latitudes {
   Point point(double latitude) const {
     Point p{latitude};
     if (!(std::abs(latitude) <= 90.0 * detail::deg)) return p;
-    Study study = study_;
+    mc::Study study = study_;
     study.site.latitude = latitude;
     try {
-      const RecordedTest test = recorded_test(study, recordings_);
+      const identification::RecordedTest test = identification::recorded_test(study, recordings_);
       const BatchResult fit = fit_batch(nominal_, test.timeline, study.readout, test.measured,
                                         make_layout(nominal_).theta);
       p.cost = fit.estimate.statistic;
@@ -54,7 +55,7 @@ class Latitudes {
     return p;
   }
 
-  const Study& study_;
+  const mc::Study& study_;
   const std::vector<Recording>& recordings_;
   const FilterSpec& nominal_;
 };
@@ -65,7 +66,7 @@ bool worth_asking(const Diagnosis& d) {
   // Parameters far outside their priors may hide it: Earth rate about Up is isotropic D_I.
   if (d.verdict == Verdict::consistent) return d.fit.chi2_per_dof_before > d.fit.band_high;
   double top = 0.0, own = 0.0, size = 0.0;
-  for (const CandidateScore& c : d.candidates) {
+  for (const search::CandidateScore& c : d.candidates) {
     top = std::max(top, c.score);
     if (c.term != "latitude_error") continue;
     own = c.score;
@@ -76,8 +77,8 @@ bool worth_asking(const Diagnosis& d) {
 
 }  // namespace
 
-std::optional<SiteDoubt> site_doubt(const Study& study, const std::vector<Recording>& recordings,
-                                    const Diagnosis& d) {
+std::optional<SiteDoubt> site_doubt(const mc::Study& study,
+                                    const std::vector<Recording>& recordings, const Diagnosis& d) {
   if (!worth_asking(d)) return std::nullopt;
   const Latitudes latitudes(study, recordings, d.nominal);
   const double declared = study.site.latitude;
@@ -141,4 +142,4 @@ std::optional<SiteDoubt> site_doubt(const Study& study, const std::vector<Record
   return doubt;
 }
 
-}  // namespace drift::discovery
+}  // namespace drift::diagnosis

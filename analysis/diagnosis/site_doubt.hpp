@@ -8,7 +8,7 @@
 #include "core/recording/recording.hpp"
 #include "mc/study/study.hpp"
 
-namespace drift::discovery {
+namespace drift::diagnosis {
 
 /// The latitude that a recording is of, if it is not that of [site].
 struct SiteDoubt {
@@ -27,7 +27,8 @@ struct SiteDoubt {
 /// candidates, or where chi-square of a `consistent` fit, priors included, is above its band; given
 /// where it is more than three prior sigmas off and takes away 90 % of what the nominal model
 /// leaves above its degrees of freedom. recordings: as they were diagnosed. Empty otherwise.
-std::optional<SiteDoubt> site_doubt(const Study& study, const std::vector<Recording>& recordings,
+std::optional<SiteDoubt> site_doubt(const mc::Study& study,
+                                    const std::vector<Recording>& recordings,
                                     const Diagnosis& diagnosis);
 
-}  // namespace drift::discovery
+}  // namespace drift::diagnosis

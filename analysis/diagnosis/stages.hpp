@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace drift::discovery {
+namespace drift::diagnosis {
 
 /// Told how far a diagnosis is: the stage, and the part of the whole that is done (0 .. 1). From
 /// any thread.
@@ -61,4 +61,4 @@ class Stages {
   double share_ = 0.0, before_ = 0.0;
 };
 
-}  // namespace drift::discovery
+}  // namespace drift::diagnosis

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace drift::discovery {
+namespace drift::diagnosis {
 
 /// A part of the misfit that the nominal model leaves: `share` of the strongest location's T falls
 /// on it; shares of all parts sum to 1. z: studentised excess of its mean square over 1.
@@ -52,4 +52,4 @@ struct Where {
   std::vector<RecordingSpan> recordings;  ///< in order, of several; empty of one
 };
 
-}  // namespace drift::discovery
+}  // namespace drift::diagnosis

@@ -6,7 +6,7 @@
 #include "analysis/inference/projector.hpp"
 #include "mc/task/campaign.hpp"
 
-namespace drift::discovery {
+namespace drift::equation {
 namespace {
 
 constexpr auto lambda = TermLibrary::index("lambda");
@@ -21,11 +21,11 @@ struct Point {
 
 class Profiler {
  public:
-  Profiler(const FilterSpec& filter, const Test& test, const BatchResult& joint, const VecX& weight,
-           const NoiseModel& noise)
+  Profiler(const FilterSpec& filter, const inference::Test& test, const BatchResult& joint,
+           const VecX& weight, const inference::NoiseModel& noise)
       : filter_(filter),
         test_(test),
-        start_(theta_of(filter, joint)),
+        start_(inference::theta_of(filter, joint)),
         weight_(weight),
         noise_(noise),
         prior_(filter.priors[lambda]) {}
@@ -41,27 +41,27 @@ class Profiler {
     Theta start = start_;
     start[lambda] = value;
     Point p{value, 0.0, fit_batch(held, test_.timeline, test_.readout, test_.measured, start)};
-    LinearProblem problem = linear_problem(held, test_, p.fit, {});
+    inference::LinearProblem problem = inference::linear_problem(held, test_, p.fit, {});
     problem.weight = weight_;
-    p.log2 = Projector(problem, noise_).candidates().log_likelihood2();
+    p.log2 = inference::Projector(problem, noise_).candidates().log_likelihood2();
     const double sigma = prior_.sigma();
     if (sigma > 0.0) p.log2 -= std::pow((value - prior_.mean()) / sigma, 2);
     return p;
   }
 
   const FilterSpec& filter_;
-  const Test& test_;
+  const inference::Test& test_;
   Theta start_;
   const VecX& weight_;
-  const NoiseModel& noise_;
+  const inference::NoiseModel& noise_;
   Prior prior_;
 };
 
 }  // namespace
 
-std::optional<ClosureProfile> profile_closure(const FilterSpec& filter, const Test& test,
+std::optional<ClosureProfile> profile_closure(const FilterSpec& filter, const inference::Test& test,
                                               const BatchResult& joint, const VecX& weight,
-                                              const NoiseModel& noise, double decisive) {
+                                              const inference::NoiseModel& noise, double decisive) {
   const ParameterEstimate* found = joint.estimate.find(lambda);
   if (found == nullptr) return std::nullopt;
   const Profiler profiler(filter, test, joint, weight, noise);
@@ -99,4 +99,4 @@ std::optional<ClosureProfile> profile_closure(const FilterSpec& filter, const Te
   return out;
 }
 
-}  // namespace drift::discovery
+}  // namespace drift::equation

@@ -4,7 +4,7 @@
 
 #include "analysis/inference/signatures.hpp"
 
-namespace drift::discovery {
+namespace drift::equation {
 
 /// lambda of the family of eq. (5) and (6), with everything else integrated out.
 struct ClosureProfile {
@@ -22,8 +22,9 @@ struct ClosureProfile {
 /// is evaluated at both ends and at the joint fit; where an end is more probable than the joint fit
 /// by `decisive` (twice the log), around that end too, and mean and sigma are taken from it.
 /// Otherwise empty: the joint fit is as good. filter: with lambda free.
-std::optional<ClosureProfile> profile_closure(const FilterSpec& filter, const Test& test,
+std::optional<ClosureProfile> profile_closure(const FilterSpec& filter, const inference::Test& test,
                                               const BatchResult& joint, const VecX& weight,
-                                              const NoiseModel& noise, double decisive = 6.0);
+                                              const inference::NoiseModel& noise,
+                                              double decisive = 6.0);
 
-}  // namespace drift::discovery
+}  // namespace drift::equation

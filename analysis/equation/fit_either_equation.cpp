@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace drift {
+namespace drift::equation {
 namespace {
 
 constexpr auto lambda = TermLibrary::index("lambda");
@@ -37,4 +37,4 @@ BatchResult fit_either_equation(const FilterSpec& filter, const Timeline& timeli
   return best;
 }
 
-}  // namespace drift
+}  // namespace drift::equation

@@ -2,7 +2,7 @@
 
 #include "core/estimate/batch.hpp"
 
-namespace drift {
+namespace drift::equation {
 
 /// fit_batch(), and where the filter estimates lambda, from both equations too: lambda held at 0
 /// and at 1 until everything else has been fitted, then free. The best of the three.
@@ -14,4 +14,4 @@ BatchResult fit_either_equation(const FilterSpec& filter, const Timeline& timeli
                                 const Readout& readout, const Measurements& measured,
                                 const Theta& start);
 
-}  // namespace drift
+}  // namespace drift::equation

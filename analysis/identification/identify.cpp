@@ -12,14 +12,14 @@
 #include "core/estimate/starts.hpp"
 #include "mc/task/campaign.hpp"
 
-namespace drift {
+namespace drift::identification {
 namespace {
 
 struct Job {
   std::size_t filter, start;
 };
 
-std::vector<Job> jobs_of(const Study& study) {
+std::vector<Job> jobs_of(const mc::Study& study) {
   if (study.filters.empty())
     throw InputError(ExitCode::config,
                      fmt::format("{}: no [[filter]]: nothing to estimate with. Add a "
@@ -31,7 +31,7 @@ std::vector<Job> jobs_of(const Study& study) {
   return jobs;
 }
 
-FilterRun estimate(const Study& study, const Job& job, const Timeline& timeline,
+FilterRun estimate(const mc::Study& study, const Job& job, const Timeline& timeline,
                    const Measurements& measured) {
   const FilterSpec& filter = study.filters[job.filter];
   const Theta start = initial_estimate(filter, study.monte_carlo.seed, job.start);
@@ -39,7 +39,7 @@ FilterRun estimate(const Study& study, const Job& job, const Timeline& timeline,
   run.filter = job.filter;
   run.start = job.start;
   run.ekf = run_ekf(filter, timeline, study.readout, measured, start, &run.history);
-  run.batch = fit_either_equation(filter, timeline, study.readout, measured, start);
+  run.batch = equation::fit_either_equation(filter, timeline, study.readout, measured, start);
   return run;
 }
 
@@ -54,7 +54,7 @@ void require_ok(const OdeResult& ode, std::uint64_t run) {
 
 /// One filter and start, in the loop: the test is simulated position by position, and at the start
 /// of each the loop is given the filter's running estimate of the misalignments.
-FilterRun estimate_in_the_loop(const Study& study, const Job& job, Timeline timeline,
+FilterRun estimate_in_the_loop(const mc::Study& study, const Job& job, Timeline timeline,
                                const TruthDraw& draw, std::uint64_t run_number) {
   constexpr auto eta = TermLibrary::index("eta_x");
   const FilterSpec& filter = study.filters[job.filter];
@@ -79,11 +79,11 @@ FilterRun estimate_in_the_loop(const Study& study, const Job& job, Timeline time
   run.start = job.start;
   run.ekf = ekf.result();
   run.history = ekf.history();
-  run.batch = fit_either_equation(filter, timeline, study.readout, sim.measured, start);
+  run.batch = equation::fit_either_equation(filter, timeline, study.readout, sim.measured, start);
   return run;
 }
 
-std::vector<FilterSummary> summarise(const Study& study, const Identification& id) {
+std::vector<FilterSummary> summarise(const mc::Study& study, const Identification& id) {
   std::vector<FilterSummary> all;
   for (std::size_t f = 0; f < study.filters.size(); ++f) {
     FilterSummary s;
@@ -109,7 +109,7 @@ std::vector<FilterSummary> summarise(const Study& study, const Identification& i
 }
 
 template <class Task>
-void run_jobs(const Study& study, Identification& id, int threads, const Progress& progress,
+void run_jobs(const mc::Study& study, Identification& id, int threads, const Progress& progress,
               Task&& task) {
   const std::vector<Job> jobs = jobs_of(study);
   std::atomic<std::size_t> done{0};
@@ -134,7 +134,7 @@ std::vector<const FilterRun*> Identification::runs_of(std::size_t filter) const 
   return found;
 }
 
-Identification identify_simulated(const Study& study, std::uint64_t run, int threads,
+Identification identify_simulated(const mc::Study& study, std::uint64_t run, int threads,
                                   const Progress& progress) {
   if (!study.has_truth)
     throw InputError(
@@ -166,7 +166,7 @@ Identification identify_simulated(const Study& study, std::uint64_t run, int thr
   return id;
 }
 
-Identification identify_recordings(const Study& study, const std::vector<Recording>& recordings,
+Identification identify_recordings(const mc::Study& study, const std::vector<Recording>& recordings,
                                    int threads, const Progress& progress) {
   Identification id;
   for (const Recording& r : recordings) id.sources.push_back(r.source);
@@ -177,4 +177,4 @@ Identification identify_recordings(const Study& study, const std::vector<Recordi
   return id;
 }
 
-}  // namespace drift
+}  // namespace drift::identification

@@ -10,7 +10,7 @@
 #include "core/sim/simulate.hpp"
 #include "mc/study/study.hpp"
 
-namespace drift {
+namespace drift::identification {
 
 /// One filter from one start, by both estimators.
 struct FilterRun {
@@ -55,11 +55,11 @@ using Progress = std::function<void(std::size_t, std::size_t)>;
 /// that is fed back, every filter and start watches a test of its own, driven by its estimates.
 /// InputError (config) if the study has no filter or no truth. Failed integration: InputError
 /// (self_check).
-Identification identify_simulated(const Study& study, std::uint64_t run, int threads,
+Identification identify_simulated(const mc::Study& study, std::uint64_t run, int threads,
                                   const Progress& progress = {});
 
 /// Estimates from recordings; several are taken as one test, each starting with a caging.
-Identification identify_recordings(const Study& study, const std::vector<Recording>& recordings,
+Identification identify_recordings(const mc::Study& study, const std::vector<Recording>& recordings,
                                    int threads, const Progress& progress = {});
 
-}  // namespace drift
+}  // namespace drift::identification

@@ -5,7 +5,7 @@
 #include "core/base/check.hpp"
 #include "core/plan/environment.hpp"
 
-namespace drift {
+namespace drift::identification {
 namespace {
 
 Timeline joined(std::vector<Timeline> timelines) {
@@ -49,7 +49,7 @@ Measurements joined(const std::vector<Measurements>& parts) {
 
 }  // namespace
 
-RecordedTest recorded_test(const Study& study, const std::vector<Recording>& recordings) {
+RecordedTest recorded_test(const mc::Study& study, const std::vector<Recording>& recordings) {
   std::vector<Timeline> timelines;
   std::vector<Measurements> parts;
   std::vector<std::size_t> ends;
@@ -70,10 +70,10 @@ RecordedTest recorded_test(const Study& study, const std::vector<Recording>& rec
   return test;
 }
 
-Timeline planned_test(const Study& study, const TestPlan& plan) {
+Timeline planned_test(const mc::Study& study, const TestPlan& plan) {
   Timeline timeline = lay_out(plan, study.site);
   set_known_field(timeline, study.environment);
   return timeline;
 }
 
-}  // namespace drift
+}  // namespace drift::identification

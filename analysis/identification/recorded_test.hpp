@@ -6,7 +6,7 @@
 #include "core/sim/measurements.hpp"
 #include "mc/study/study.hpp"
 
-namespace drift {
+namespace drift::identification {
 
 /// A test as recordings show it: their chains one after another, and what was measured.
 struct RecordedTest {
@@ -18,9 +18,9 @@ struct RecordedTest {
 /// Lays recordings out by the study's plan, in the surroundings that they carry or, of a field that
 /// is known, that [environment] declares. InputError (recording) where one does not fit the plan,
 /// or where nothing is measured.
-RecordedTest recorded_test(const Study& study, const std::vector<Recording>& recordings);
+RecordedTest recorded_test(const mc::Study& study, const std::vector<Recording>& recordings);
 
 /// A test that is planned, in the same surroundings.
-Timeline planned_test(const Study& study, const TestPlan& plan);
+Timeline planned_test(const mc::Study& study, const TestPlan& plan);
 
-}  // namespace drift
+}  // namespace drift::identification

@@ -6,7 +6,7 @@
 #include <map>
 #include <string_view>
 
-namespace drift::discovery {
+namespace drift::inference {
 namespace {
 
 /// "y" of "M_y"; empty if the key belongs to no axis.
@@ -158,4 +158,4 @@ CandidateSet library_candidates(const FilterSpec& nominal, const Theta& theta,
   return out;
 }
 
-}  // namespace drift::discovery
+}  // namespace drift::inference

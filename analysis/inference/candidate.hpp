@@ -5,7 +5,7 @@
 
 #include "analysis/inference/signatures.hpp"
 
-namespace drift::discovery {
+namespace drift::inference {
 
 /// One way a candidate may look: its columns, at one setting of the nonlinear parameters.
 struct Variant {
@@ -41,4 +41,4 @@ struct CandidateSet {
 CandidateSet library_candidates(const FilterSpec& nominal, const Theta& theta,
                                 const Timeline& timeline);
 
-}  // namespace drift::discovery
+}  // namespace drift::inference

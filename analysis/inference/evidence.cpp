@@ -4,7 +4,7 @@
 
 #include "analysis/inference/whitener.hpp"
 
-namespace drift::discovery {
+namespace drift::inference {
 
 Evidence evidence_under(const LinearProblem& problem, const CandidateSet& set,
                         const NoiseModel& noise, const std::vector<int>& with) {
@@ -52,4 +52,4 @@ Evidence evidence_under(const LinearProblem& problem, const CandidateSet& set,
   return out;
 }
 
-}  // namespace drift::discovery
+}  // namespace drift::inference

@@ -5,7 +5,7 @@
 #include "analysis/inference/candidate.hpp"
 #include "analysis/inference/linear_problem.hpp"
 
-namespace drift::discovery {
+namespace drift::inference {
 
 /// A candidate in the mean under one noise: the variant that does best.
 struct Gain {
@@ -24,4 +24,4 @@ struct Evidence {
 Evidence evidence_under(const LinearProblem& problem, const CandidateSet& set,
                         const NoiseModel& noise, const std::vector<int>& with);
 
-}  // namespace drift::discovery
+}  // namespace drift::inference

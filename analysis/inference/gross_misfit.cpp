@@ -4,7 +4,7 @@
 
 #include "analysis/inference/noise.hpp"
 
-namespace drift::discovery {
+namespace drift::inference {
 
 bool grossly_wrong(const LinearProblem& problem, const VecX& residual,
                    const NoiseEstimate& differences) {
@@ -60,4 +60,4 @@ std::size_t robust_weights(LinearProblem& problem, const VecX& whitened) {
   return lowered;
 }
 
-}  // namespace drift::discovery
+}  // namespace drift::inference

@@ -6,7 +6,7 @@
 
 #include "core/base/linalg.hpp"
 
-namespace drift::discovery {
+namespace drift::inference {
 
 inline constexpr int num_channels = 6;  ///< acc x y z, gimbal outer middle inner
 
@@ -81,4 +81,4 @@ struct NoiseModel {
   }
 };
 
-}  // namespace drift::discovery
+}  // namespace drift::inference

@@ -8,7 +8,7 @@
 #include "analysis/inference/scan.hpp"
 #include "core/stats/chi_square.hpp"
 
-namespace drift::discovery {
+namespace drift::inference {
 namespace {
 
 using Equation = LoneInput::Equation;
@@ -83,9 +83,9 @@ LoneEffect strongest_lone_input(const LinearProblem& problem, const NoiseModel& 
     if (const double gain = value(input) - base; gain > best.gain) best = {input, gain, 1.0, {}};
   }
   best.p_value =
-      std::min(1.0, 0.5 * static_cast<double>(tries) * std::exp(log_tail(best.gain, 1.0)));
+      std::min(1.0, 0.5 * static_cast<double>(tries) * std::exp(stats::log_tail(best.gain, 1.0)));
   best.equation = equation_name(of_window(best.input.equation), best.input.axis);
   return best;
 }
 
-}  // namespace drift::discovery
+}  // namespace drift::inference

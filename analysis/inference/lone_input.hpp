@@ -4,7 +4,7 @@
 
 #include "analysis/inference/linear_problem.hpp"
 
-namespace drift::discovery {
+namespace drift::inference {
 
 /// The strongest input of free form in one equation alone.
 struct LoneEffect {
@@ -21,4 +21,4 @@ struct LoneEffect {
 LoneEffect strongest_lone_input(const LinearProblem& problem, const NoiseModel& noise,
                                 const std::vector<int>& with = {});
 
-}  // namespace drift::discovery
+}  // namespace drift::inference

@@ -6,7 +6,7 @@
 
 #include "core/base/rng.hpp"
 
-namespace drift::discovery {
+namespace drift::inference {
 namespace {
 
 constexpr std::uint64_t null_seed =
@@ -67,7 +67,7 @@ MaxNull::MaxNull(const MatX& C, const std::vector<Contrast>& contrasts, int draw
   }
   maxima_.assign(draws, 0.0);
   for (const auto& [dof, T] : largest)
-    for (int k = 0; k < draws; ++k) maxima_[k] = std::max(maxima_[k], strength(T[k], dof));
+    for (int k = 0; k < draws; ++k) maxima_[k] = std::max(maxima_[k], stats::strength(T[k], dof));
   std::sort(maxima_.begin(), maxima_.end());
   calibrate();
 }
@@ -153,4 +153,4 @@ double MaxNull::threshold(double alpha) const {
   return high;
 }
 
-}  // namespace drift::discovery
+}  // namespace drift::inference

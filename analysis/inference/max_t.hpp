@@ -5,7 +5,7 @@
 #include "analysis/inference/projector.hpp"
 #include "core/stats/chi_square.hpp"
 
-namespace drift::discovery {
+namespace drift::inference {
 
 /// What a test statistic needs of a set of columns: T = |W' g|^2 of `dof` degrees.
 struct Contrast {
@@ -54,4 +54,4 @@ class MaxNull {
   void calibrate();
 };
 
-}  // namespace drift::discovery
+}  // namespace drift::inference

@@ -10,7 +10,7 @@
 #include "core/stats/chi_square.hpp"
 #include "mc/task/campaign.hpp"
 
-namespace drift::discovery {
+namespace drift::inference {
 namespace {
 
 constexpr double needed_gain = 2.7;        // of twice the log likelihood: a component comes in
@@ -182,7 +182,7 @@ NoiseFinding white_finding(const Component& c, double declared, double sigma,
   f.value = sigma / declared;
   f.unit = "of declared";
   const double z = std::log(f.factor) / log_sigma_error;
-  f.p_value = std::exp(log_tail(z * z, 1.0));
+  f.p_value = std::exp(stats::log_tail(z * z, 1.0));
   f.significant = f.p_value < 1e-3;
   f.log_likelihood_gain = 0.5 * z * z;
   f.count = rows;
@@ -259,12 +259,13 @@ NoiseEstimate estimate_noise(const LinearProblem& problem, const NoiseModel& dec
     for (const auto& [component, gain] : gains)
       if (component == &c) {
         f.log_likelihood_gain = 0.5 * gain;
-        f.p_value = std::min(1.0, 6.0 * 0.5 * std::exp(log_tail(gain, 1.0)));  // six alternatives
+        f.p_value =
+            std::min(1.0, 6.0 * 0.5 * std::exp(stats::log_tail(gain, 1.0)));  // six alternatives
         f.significant = gain > significant_gain;
       }
     if (was > 0.0) {
       const double z = std::log(f.factor) / std::sqrt(best.inverse_curvature(k, k));
-      f.p_value = std::exp(log_tail(z * z, 1.0));
+      f.p_value = std::exp(stats::log_tail(z * z, 1.0));
       f.significant = f.p_value < 1e-3;
     }
     out.findings.push_back(f);
@@ -305,4 +306,4 @@ NoiseEstimate noise_of_differences(const LinearProblem& problem, const VecX& res
   return out;
 }
 
-}  // namespace drift::discovery
+}  // namespace drift::inference

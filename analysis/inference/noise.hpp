@@ -3,7 +3,7 @@
 #include "analysis/inference/noise_finding.hpp"
 #include "analysis/inference/projector.hpp"
 
-namespace drift::discovery {
+namespace drift::inference {
 
 /// What the noise is, estimated with the model's parameters taken into account.
 struct NoiseEstimate {
@@ -40,4 +40,4 @@ bool grossly_wrong(const LinearProblem& problem, const VecX& residual,
 /// variance.
 std::size_t robust_weights(LinearProblem& problem, const VecX& residual);
 
-}  // namespace drift::discovery
+}  // namespace drift::inference

@@ -8,7 +8,7 @@
 #include "analysis/inference/whitener.hpp"
 #include "core/base/rng.hpp"
 
-namespace drift::discovery {
+namespace drift::inference {
 namespace {
 
 constexpr int draws = 250;
@@ -157,4 +157,4 @@ NoiseDoubt doubt(const LinearProblem& problem, const CandidateSet& set, const No
   return out;
 }
 
-}  // namespace drift::discovery
+}  // namespace drift::inference

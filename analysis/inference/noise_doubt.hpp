@@ -3,7 +3,7 @@
 #include "analysis/inference/evidence.hpp"
 #include "analysis/inference/lone_input.hpp"
 
-namespace drift::discovery {
+namespace drift::inference {
 
 /// Whether what was taken for noise of all three instruments looks like it.
 struct NoiseDoubt {
@@ -21,4 +21,4 @@ struct NoiseDoubt {
 NoiseDoubt doubt(const LinearProblem& problem, const CandidateSet& set, const NoiseModel& white,
                  const NoiseModel& driven, const LoneEffect& lone, const std::vector<int>& with);
 
-}  // namespace drift::discovery
+}  // namespace drift::inference

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <string>
 
-namespace drift::discovery {
+namespace drift::inference {
 
 /// Noise that is not as declared (interfaces.md 5).
 struct NoiseFinding {
@@ -20,4 +20,4 @@ struct NoiseFinding {
   std::size_t count = 0;  ///< outliers: samples left out
 };
 
-}  // namespace drift::discovery
+}  // namespace drift::inference

@@ -3,7 +3,7 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
-namespace drift::discovery {
+namespace drift::inference {
 
 Projector::Projector(const LinearProblem& problem, const NoiseModel& noise) {
   whitener_.emplace(problem, noise);
@@ -85,4 +85,4 @@ Projector::Fit Projector::fit(const std::vector<int>& with) const {
   return {ldlt.solve(T.transpose() * r0_), ldlt.solve(MatX::Identity(n + m, n + m))};
 }
 
-}  // namespace drift::discovery
+}  // namespace drift::inference

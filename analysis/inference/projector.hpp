@@ -4,7 +4,7 @@
 
 #include "analysis/inference/whitener.hpp"
 
-namespace drift::discovery {
+namespace drift::inference {
 
 /// Everything the data say of candidates once the nominal parameters are fitted (discovery.md 2.2):
 /// g ~ N(C a, C) for candidate amplitudes a in prior sigmas, the parameters marginalised with their
@@ -69,4 +69,4 @@ class Projector {
   Projected projected_;
 };
 
-}  // namespace drift::discovery
+}  // namespace drift::inference

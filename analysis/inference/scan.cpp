@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace drift::discovery {
+namespace drift::inference {
 namespace {
 
 using Equation = Window::Equation;
@@ -132,4 +132,4 @@ MaxNull scan_null(const std::vector<PositionScan>& scans, int draws) {
   return MaxNull::joined(families);
 }
 
-}  // namespace drift::discovery
+}  // namespace drift::inference

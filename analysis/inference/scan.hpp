@@ -3,7 +3,7 @@
 #include "analysis/inference/max_t.hpp"
 #include "core/plan/timeline.hpp"
 
-namespace drift::discovery {
+namespace drift::inference {
 
 /// A unit box: something constant in one equation, position and window.
 struct Window {
@@ -39,4 +39,4 @@ VecX window_signature(const LinearProblem& problem, const Timeline& timeline, co
 /// Null distribution of the largest window, positions joined.
 MaxNull scan_null(const std::vector<PositionScan>& scans, int draws);
 
-}  // namespace drift::discovery
+}  // namespace drift::inference

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace drift::discovery {
+namespace drift::inference {
 namespace {
 
 constexpr auto lambda = TermLibrary::index("lambda");
@@ -173,4 +173,4 @@ LinearProblem linear_problem(const FilterSpec& nominal, const Test& test, const 
   return out;
 }
 
-}  // namespace drift::discovery
+}  // namespace drift::inference

@@ -5,7 +5,7 @@
 #include "analysis/inference/linear_problem.hpp"
 #include "core/estimate/batch.hpp"
 
-namespace drift::discovery {
+namespace drift::inference {
 
 /// A test, ready to be examined: where and when, what was measured, how well.
 struct Test {
@@ -39,4 +39,4 @@ VecX residual_of(const LinearProblem& problem, const BatchResult& fit);
 /// Theta of a fit: layout values where estimated, prior means elsewhere.
 Theta theta_of(const FilterSpec& filter, const BatchResult& fit);
 
-}  // namespace drift::discovery
+}  // namespace drift::inference

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-namespace drift::discovery {
+namespace drift::inference {
 namespace {
 
 /// Where each kind of state stands; -1: not there.
@@ -232,4 +232,4 @@ MatX dense_covariance(const LinearProblem& problem, const NoiseModel& noise) {
   return V;
 }
 
-}  // namespace drift::discovery
+}  // namespace drift::inference

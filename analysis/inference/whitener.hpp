@@ -2,7 +2,7 @@
 
 #include "analysis/inference/linear_problem.hpp"
 
-namespace drift::discovery {
+namespace drift::inference {
 
 /// Turns columns (residual, parameters, candidates) into innovations: white and of unit variance
 /// when the noise model is right.
@@ -42,4 +42,4 @@ class Whitener {
 /// problems.
 MatX dense_covariance(const LinearProblem& problem, const NoiseModel& noise);
 
-}  // namespace drift::discovery
+}  // namespace drift::inference

@@ -6,7 +6,7 @@
 
 #include "core/base/rng.hpp"
 
-namespace drift::discovery {
+namespace drift::inference {
 namespace {
 
 /// Rows of one channel, chain after chain, in time order.
@@ -86,4 +86,4 @@ double whiteness_p(const LinearProblem& problem, const Projector& projector, int
   return (1.0 + above) / (1.0 + draws);
 }
 
-}  // namespace drift::discovery
+}  // namespace drift::inference

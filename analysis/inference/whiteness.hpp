@@ -4,7 +4,7 @@
 
 #include "analysis/inference/projector.hpp"
 
-namespace drift::discovery {
+namespace drift::inference {
 
 /// p-value of a test that the innovations a model leaves are white, calibrated on this very test.
 ///
@@ -19,4 +19,4 @@ namespace drift::discovery {
 double whiteness_p(const LinearProblem& problem, const Projector& projector, int lags = 10,
                    int draws = 399, std::uint64_t seed = 1);
 
-}  // namespace drift::discovery
+}  // namespace drift::inference

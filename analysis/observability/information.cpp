@@ -8,7 +8,7 @@
 #include "core/base/check.hpp"
 #include "core/estimate/triangle.hpp"
 
-namespace drift {
+namespace drift::observability {
 namespace {
 
 /// Which stretch each interval belongs to: 0 on the way, 1 .. bins in the dwell.
@@ -131,4 +131,4 @@ Posterior posterior_of(const MatX& information_root) {
   return out;
 }
 
-}  // namespace drift
+}  // namespace drift::observability

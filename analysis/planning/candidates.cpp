@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace drift {
+namespace drift::planning {
 namespace {
 
 /// "UN" for the direction half way between Up and North, platform axis in local axes.
@@ -94,4 +94,4 @@ std::string position_toml(const Position& p) {
   return text;
 }
 
-}  // namespace drift
+}  // namespace drift::planning

@@ -4,7 +4,7 @@
 
 #include "core/plan/test_plan.hpp"
 
-namespace drift {
+namespace drift::planning {
 
 /// Local directions of the platform axes of the 24 cardinal attitudes and of each of them turned by
 /// 45 deg about a platform axis (physics.md 3.3), as text for `axes`: 96 in all. Among them are all
@@ -23,4 +23,4 @@ std::vector<Position> torqued_candidates(const TestPlan& plan, double heading);
 /// A position as a table [[plan.position]] of a study file, every value written out.
 std::string position_toml(const Position& position);
 
-}  // namespace drift
+}  // namespace drift::planning

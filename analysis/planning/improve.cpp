@@ -12,7 +12,7 @@
 #include "core/plan/case_heading.hpp"
 #include "mc/task/campaign.hpp"
 
-namespace drift {
+namespace drift::planning {
 namespace {
 
 /// What a candidate adds.
@@ -34,7 +34,7 @@ TestPlan last_chain(const TestPlan& plan) {
 
 /// Integrates a chain and linearises its intervals from `first` on. carried: at the start of
 /// `first`; becomes that of the end.
-MatX rows_from(const Timeline& timeline, std::size_t first, const RankedModel& model,
+MatX rows_from(const Timeline& timeline, std::size_t first, const observability::RankedModel& model,
                const Layout& layout, ChainSensitivity& carried) {
   const ModelSpec& spec = model.spec;
   TruthSpec truth;
@@ -54,7 +54,7 @@ MatX rows_from(const Timeline& timeline, std::size_t first, const RankedModel& m
   return equations.front().rows.leftCols(3 + static_cast<Eigen::Index>(layout.size()));
 }
 
-Timeline chain_timeline(const TestPlan& chain, const RankedModel& model) {
+Timeline chain_timeline(const TestPlan& chain, const observability::RankedModel& model) {
   Timeline timeline = lay_out(chain, model.site);
   set_environment(timeline, model.environment, 0, 0);
   for (Interval& i : timeline.intervals) i.loop = model.loop;
@@ -62,13 +62,14 @@ Timeline chain_timeline(const TestPlan& chain, const RankedModel& model) {
 }
 
 /// A position of its own: its attitude eliminated, rows on the parameters alone.
-Addition caged_addition(const TestPlan& plan, const Position& position, const RankedModel& model) {
+Addition caged_addition(const TestPlan& plan, const Position& position,
+                        const observability::RankedModel& model) {
   TestPlan alone = plan;
   alone.positions = {position};
   Addition out;
   try {
-    const LinearisedPlan linear = linearise(alone, model);
-    const MatX root = information_root(linear, [](const TimeBin&) { return true; });
+    const observability::LinearisedPlan linear = observability::linearise(alone, model);
+    const MatX root = information_root(linear, [](const observability::TimeBin&) { return true; });
     out.J = MatX::Zero(root.rows(), 3 + root.cols());
     out.J.rightCols(root.cols()) = root;
     out.J = compressed(out.J);
@@ -87,7 +88,8 @@ struct Chain {
   double heading = 0.0;  ///< of the case at the end [rad]
 };
 
-Chain present_chain(const TestPlan& plan, const RankedModel& model, const Layout& layout) {
+Chain present_chain(const TestPlan& plan, const observability::RankedModel& model,
+                    const Layout& layout) {
   Chain chain{last_chain(plan), {}, 0, 0.0};
   const Timeline timeline = chain_timeline(chain.plan, model);
   rows_from(timeline, 0, model, layout, chain.end);
@@ -96,8 +98,8 @@ Chain present_chain(const TestPlan& plan, const RankedModel& model, const Layout
   return chain;
 }
 
-Addition torqued_addition(const Chain& chain, const Position& position, const RankedModel& model,
-                          const Layout& layout) {
+Addition torqued_addition(const Chain& chain, const Position& position,
+                          const observability::RankedModel& model, const Layout& layout) {
   TestPlan longer = chain.plan;
   longer.positions.push_back(position);
   Addition out;
@@ -160,7 +162,7 @@ double UpdatedBelief::value(const Criterion& criterion) const {
   return value_of(criterion, sigma, half_log2_det);
 }
 
-JointPosterior joint_posterior(const InformationSum& sum) {
+JointPosterior joint_posterior(const observability::InformationSum& sum) {
   const MatX& chain = sum.chain_triangle();
   const Eigen::Index n = chain.cols() - 3;
   MatX rest = MatX::Zero(2 * n, 3 + n);  // other chains, prior
@@ -207,11 +209,12 @@ UpdatedBelief updated_belief(const JointPosterior& posterior, const MatX& J) {
   return out;
 }
 
-Improvement improve_plan(const TestPlan& plan, const RankedModel& model, const Criterion& criterion,
-                         std::size_t count, int threads, const ImproveProgress& progress) {
-  const LinearisedPlan linear = linearise(plan, model);
-  InformationSum sum(linear.size());
-  for (const TimeBin& bin : linear.bins) sum.add(bin.chain, bin.rows);
+Improvement improve_plan(const TestPlan& plan, const observability::RankedModel& model,
+                         const Criterion& criterion, std::size_t count, int threads,
+                         const ImproveProgress& progress) {
+  const observability::LinearisedPlan linear = observability::linearise(plan, model);
+  observability::InformationSum sum(linear.size());
+  for (const observability::TimeBin& bin : linear.bins) sum.add(bin.chain, bin.rows);
   int chain_number = linear.chains - 1;
   const MatX none(0, 3 + linear.size());
 
@@ -265,7 +268,7 @@ Improvement improve_plan(const TestPlan& plan, const RankedModel& model, const C
     // The step itself is recomputed from rows that keep the new chain's attitude.
     TestPlan chain_plan = last_chain(out.plan);
     if (is_caged) {
-      sum.add(++chain_number, linearise(chain_plan, model).bins.front().rows);
+      sum.add(++chain_number, observability::linearise(chain_plan, model).bins.front().rows);
     } else {
       sum.add(chain_number, addition.J);
     }
@@ -279,4 +282,4 @@ Improvement improve_plan(const TestPlan& plan, const RankedModel& model, const C
   return out;
 }
 
-}  // namespace drift
+}  // namespace drift::planning

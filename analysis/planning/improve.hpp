@@ -7,7 +7,7 @@
 
 #include "analysis/observability/information.hpp"
 
-namespace drift {
+namespace drift::planning {
 
 /// What a better plan should make small.
 struct Criterion {
@@ -54,8 +54,9 @@ using ImproveProgress = std::function<void(std::size_t, std::size_t)>;
 /// carries the attitude error of its chain: the chain is integrated on to it, its rows are
 /// appended, and the same update acts on parameters and chain attitude together. Does not depend on
 /// the number of threads.
-Improvement improve_plan(const TestPlan& plan, const RankedModel& model, const Criterion& criterion,
-                         std::size_t count, int threads = 0, const ImproveProgress& progress = {});
+Improvement improve_plan(const TestPlan& plan, const observability::RankedModel& model,
+                         const Criterion& criterion, std::size_t count, int threads = 0,
+                         const ImproveProgress& progress = {});
 
 /// Square root S of a covariance P = S S^T of [psi of the present chain | x], 3 + n states.
 struct JointPosterior {
@@ -80,6 +81,6 @@ UpdatedBelief updated_belief(const JointPosterior& posterior, const MatX& J);
 MatX compressed(const MatX& rows);
 
 /// Joint posterior of a plan's last chain and parameters.
-JointPosterior joint_posterior(const InformationSum& sum);
+JointPosterior joint_posterior(const observability::InformationSum& sum);
 
-}  // namespace drift
+}  // namespace drift::planning

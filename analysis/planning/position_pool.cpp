@@ -8,7 +8,7 @@
 #include "core/base/check.hpp"
 #include "core/plan/timeline.hpp"
 
-namespace drift::discovery {
+namespace drift::planning {
 namespace {
 
 constexpr double longer = 3.0;  // long dwells over usual ones
@@ -118,4 +118,4 @@ std::vector<Addition> position_pool(double usual_dwell, double sample, const Sit
   return pool;
 }
 
-}  // namespace drift::discovery
+}  // namespace drift::planning

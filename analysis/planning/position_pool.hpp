@@ -5,7 +5,7 @@
 #include "core/physics/earth.hpp"
 #include "core/plan/test_plan.hpp"
 
-namespace drift::discovery {
+namespace drift::planning {
 
 /// Something that may be added to a plan: a caged position, or a caged position and one slewed to
 /// from there.
@@ -17,4 +17,4 @@ using Addition = std::vector<Position>;
 /// to the orientations of the cube.
 std::vector<Addition> position_pool(double usual_dwell, double sample, const Site& site);
 
-}  // namespace drift::discovery
+}  // namespace drift::planning

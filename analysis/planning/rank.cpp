@@ -11,7 +11,7 @@
 #include "core/sim/truth.hpp"
 #include "mc/task/campaign.hpp"
 
-namespace drift {
+namespace drift::planning {
 namespace {
 
 constexpr std::array both{Coupling::eq5, Coupling::eq6};
@@ -39,7 +39,7 @@ bool alike(const ModelSpec& a, const ModelSpec& b) {
 }
 
 /// Groups with models that are not ranked yet.
-std::vector<RankingGroup> groups_of(const Study& study) {
+std::vector<RankingGroup> groups_of(const mc::Study& study) {
   std::vector<RankingGroup> groups;
   for (const FilterSpec& filter : study.filters) {
     const auto known = std::ranges::find_if(
@@ -55,8 +55,8 @@ std::vector<RankingGroup> groups_of(const Study& study) {
       ModelSpec spec = filter;
       spec.coupling = coupling;
       ModelRanking m;
-      m.model = ranked_model(spec, study.has_truth ? &study.truth : nullptr, study.site,
-                             study.readout, study.environment);
+      m.model = observability::ranked_model(spec, study.has_truth ? &study.truth : nullptr,
+                                            study.site, study.readout, study.environment);
       m.of_the_file = coupling == filter.coupling;
       group.models.push_back(std::move(m));
     };
@@ -79,14 +79,16 @@ std::vector<RankingGroup> groups_of(const Study& study) {
 
 /// Where parameters multiply (misalignment times drift), the mean of the prior may be a special
 /// point: the information at truths drawn from it says so.
-std::vector<Elsewhere> ranges_elsewhere(const Study& study, const RankedModel& model) {
+std::vector<Elsewhere> ranges_elsewhere(const mc::Study& study,
+                                        const observability::RankedModel& model) {
   constexpr std::uint64_t draws = 4;
   std::vector<Elsewhere> ranges(make_layout(model.spec).size(),
                                 {std::numeric_limits<double>::infinity(), 0.0});
   for (std::uint64_t k = 0; k < draws; ++k) {
-    RankedModel drawn = model;
+    observability::RankedModel drawn = model;
     drawn.nominal = draw_parameters(model.spec, study.monte_carlo.seed, k, Purpose::parameters);
-    const Ranking r = rank_parameters(linearise(study.plan, drawn));
+    const observability::Ranking r =
+        observability::rank_parameters(observability::linearise(study.plan, drawn));
     for (std::size_t i = 0; i < ranges.size(); ++i) {
       ranges[i].low = std::min(ranges[i].low, r.learning_ratio(i));
       ranges[i].high = std::max(ranges[i].high, r.learning_ratio(i));
@@ -95,21 +97,23 @@ std::vector<Elsewhere> ranges_elsewhere(const Study& study, const RankedModel& m
   return ranges;
 }
 
-void rank_model(const Study& study, const RankOptions& options, ModelRanking& m, double& duration) {
-  LinearisedPlan plan = linearise(study.plan, m.model, options.bins_per_dwell);
-  m.ranking = rank_parameters(plan);
-  m.course = information_course(plan);
-  m.pwcs = pwcs_rank(study.plan, study.site, m.model.spec, study.readout);
+void rank_model(const mc::Study& study, const RankOptions& options, ModelRanking& m,
+                double& duration) {
+  observability::LinearisedPlan plan =
+      observability::linearise(study.plan, m.model, options.bins_per_dwell);
+  m.ranking = observability::rank_parameters(plan);
+  m.course = observability::information_course(plan);
+  m.pwcs = observability::pwcs_rank(study.plan, study.site, m.model.spec, study.readout);
   m.elsewhere = ranges_elsewhere(study, m.model);
-  m.methods = compare_methods(m.ranking, m.pwcs, plan, m.course, study.plan);
+  m.methods = observability::compare_methods(m.ranking, m.pwcs, plan, m.course, study.plan);
   duration = plan.duration;
   m.bins = std::move(plan.bins);
-  for (TimeBin& bin : m.bins) bin.rows.resize(0, 0);
+  for (observability::TimeBin& bin : m.bins) bin.rows.resize(0, 0);
 }
 
 }  // namespace
 
-PlanRanking rank_plan(const Study& study, const RankOptions& options,
+PlanRanking rank_plan(const mc::Study& study, const RankOptions& options,
                       const ImproveProgress& progress) {
   if (study.kind != RecordingKind::platform)
     throw InputError(ExitCode::config,
@@ -146,10 +150,11 @@ PlanRanking rank_plan(const Study& study, const RankOptions& options,
     PlanImprovement better;
     better.improvement = improve_plan(study.plan, first.model, criterion, options.improve,
                                       options.threads, progress);
-    better.after = rank_parameters(linearise(better.improvement.plan, first.model));
+    better.after = observability::rank_parameters(
+        observability::linearise(better.improvement.plan, first.model));
     out.better = std::move(better);
   }
   return out;
 }
 
-}  // namespace drift
+}  // namespace drift::planning

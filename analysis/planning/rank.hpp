@@ -9,7 +9,7 @@
 #include "analysis/planning/improve.hpp"
 #include "mc/study/study.hpp"
 
-namespace drift {
+namespace drift::planning {
 
 /// Learning ratios of a parameter at other points than the one the plan is linearised at.
 struct Elsewhere {
@@ -18,13 +18,13 @@ struct Elsewhere {
 
 /// The ranking of a plan under one model, by every method.
 struct ModelRanking {
-  RankedModel model;
+  observability::RankedModel model;
   bool of_the_file = true;  ///< false: the other of eqs. (5) and (6), put beside a filter
-  Ranking ranking;
-  std::vector<TimeBin> bins;  ///< without their rows
-  InformationCourse course;
-  PwcsRank pwcs;
-  std::vector<MethodRanking> methods;
+  observability::Ranking ranking;
+  std::vector<observability::TimeBin> bins;  ///< without their rows
+  observability::InformationCourse course;
+  observability::PwcsRank pwcs;
+  std::vector<observability::MethodRanking> methods;
   std::vector<Elsewhere> elsewhere;  ///< of each state, at four truths drawn from the priors
 };
 
@@ -39,7 +39,7 @@ struct RankingGroup {
 /// A better plan for the first model of the first group.
 struct PlanImprovement {
   Improvement improvement;
-  Ranking after;  ///< of the improved plan
+  observability::Ranking after;  ///< of the improved plan
 };
 
 /// Everything `driftscope rank` says.
@@ -61,7 +61,7 @@ struct RankOptions {
 
 /// Ranks every filter of a study on its plan; no sampling. InputError (config) for a strapdown
 /// study or one without filter, (usage) for an unknown criterion.
-PlanRanking rank_plan(const Study& study, const RankOptions& options,
+PlanRanking rank_plan(const mc::Study& study, const RankOptions& options,
                       const ImproveProgress& progress = {});
 
-}  // namespace drift
+}  // namespace drift::planning

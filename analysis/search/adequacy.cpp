@@ -7,7 +7,7 @@
 
 #include "analysis/search/size_prior.hpp"
 
-namespace drift::discovery {
+namespace drift::search {
 namespace {
 
 MatX rows_and_columns(const MatX& C, const std::vector<int>& a, const std::vector<int>& b) {
@@ -31,7 +31,7 @@ struct Conditioner {
 
   Conditioner(const MatX& C, const VecX& raw, const VecX& g, std::vector<int> taken)
       : columns(std::move(taken)) {
-    const Contrast c = make_contrast(C, raw, columns);
+    const inference::Contrast c = inference::make_contrast(C, raw, columns);
     W = c.W;
     y = W.transpose() * elements(g, columns);
   }
@@ -44,35 +44,35 @@ constexpr double least_left = 1e-6;
 
 }  // namespace
 
-Field::Field(const CandidateSet& candidates, const Projected& p,
-             const std::vector<PositionScan>& windows)
+Field::Field(const inference::CandidateSet& candidates, const inference::Projected& p,
+             const std::vector<inference::PositionScan>& windows)
     : set(&candidates), projected(&p), scans(&windows) {
-  for (const Candidate& c : candidates.candidates) {
+  for (const inference::Candidate& c : candidates.candidates) {
     contrasts.emplace_back();
-    for (const Variant& v : c.variants)
-      contrasts.back().push_back(make_contrast(p.C, p.raw, v.columns));
+    for (const inference::Variant& v : c.variants)
+      contrasts.back().push_back(inference::make_contrast(p.C, p.raw, v.columns));
   }
 }
 
-std::vector<Contrast> Field::all_contrasts() const {
-  std::vector<Contrast> all;
+std::vector<inference::Contrast> Field::all_contrasts() const {
+  std::vector<inference::Contrast> all;
   for (const auto& c : contrasts) all.insert(all.end(), c.begin(), c.end());
   return all;
 }
 
-double log_bayes(const Projected& p, const std::vector<int>& columns) {
+double log_bayes(const inference::Projected& p, const std::vector<int>& columns) {
   return log_evidence_of_sizes(rows_and_columns(p.C, columns, columns), elements(p.g, columns));
 }
 
 Score score(const Field& field, std::size_t candidate) {
   Score best;
   best.strength = -1.0;
-  const Candidate& c = field.set->candidates[candidate];
+  const inference::Candidate& c = field.set->candidates[candidate];
   std::vector<double> evidence, share;
   for (std::size_t v = 0; v < c.variants.size(); ++v) {
-    const Contrast& contrast = field.contrasts[candidate][v];
+    const inference::Contrast& contrast = field.contrasts[candidate][v];
     const double T = std::max(0.0, contrast.T(field.projected->g) - field.discount_of(candidate));
-    const double s = strength(T, contrast.dof);
+    const double s = stats::strength(T, contrast.dof);
     if (contrast.dof > 0 && s > best.strength) {
       best.variant = v;
       best.T = T;
@@ -120,7 +120,7 @@ std::vector<int> columns_of(const Field& field, const std::vector<Choice>& choic
                             bool with_neighbours) {
   std::vector<int> columns;
   for (const Choice& choice : choices) {
-    const Candidate& c = field.set->candidates[choice.candidate];
+    const inference::Candidate& c = field.set->candidates[choice.candidate];
     const auto add = [&](std::size_t v) {
       columns.insert(columns.end(), c.variants[v].columns.begin(), c.variants[v].columns.end());
     };
@@ -131,8 +131,8 @@ std::vector<int> columns_of(const Field& field, const std::vector<Choice>& choic
     std::size_t neighbour = choice.variant;
     for (const std::size_t v : {choice.variant - 1, choice.variant + 1}) {
       if (v >= c.variants.size()) continue;
-      const Contrast& contrast = field.contrasts[choice.candidate][v];
-      const double s = strength(contrast.T(field.projected->g), contrast.dof);
+      const inference::Contrast& contrast = field.contrasts[choice.candidate][v];
+      const double s = stats::strength(contrast.T(field.projected->g), contrast.dof);
       if (s > best) {
         best = s;
         neighbour = v;
@@ -146,7 +146,7 @@ std::vector<int> columns_of(const Field& field, const std::vector<Choice>& choic
 }
 
 Remainder remainder(const Field& field, const std::vector<Choice>& choices, double stop) {
-  const Projected& p = *field.projected;
+  const inference::Projected& p = *field.projected;
   const Conditioner d(p.C, p.raw, p.g, columns_of(field, choices, true));
   std::vector<int> everything(p.g.size());
   for (std::size_t k = 0; k < everything.size(); ++k) everything[k] = static_cast<int>(k);
@@ -155,9 +155,9 @@ Remainder remainder(const Field& field, const std::vector<Choice>& choices, doub
   const VecX left = p.C.diagonal() - cross.colwise().squaredNorm().transpose();
 
   Remainder out;
-  const auto own = [&](const Candidate& c) {
+  const auto own = [&](const inference::Candidate& c) {
     for (const Choice& choice : choices) {
-      const Candidate& chosen = field.set->candidates[choice.candidate];
+      const inference::Candidate& chosen = field.set->candidates[choice.candidate];
       if (chosen.term == c.term && (chosen.params == c.params || chosen.contains(c))) return true;
     }
     return false;
@@ -165,12 +165,13 @@ Remainder remainder(const Field& field, const std::vector<Choice>& choices, doub
   // Tails are dear: the largest T of each number of degrees is kept, and its tail taken when it
   // grows.
   std::size_t most = 1;
-  for (const Candidate& c : field.set->candidates) most = std::max(most, c.params.size());
+  for (const inference::Candidate& c : field.set->candidates)
+    most = std::max(most, c.params.size());
   std::vector<double> largest(most + 1, 0.0);
   const auto take = [&](std::size_t candidate, double T, int dof) {
     if (dof <= 0 || !(T > largest[static_cast<std::size_t>(dof)])) return false;
     largest[static_cast<std::size_t>(dof)] = T;
-    const double s = strength(T, dof);
+    const double s = stats::strength(T, dof);
     if (s <= out.library) return false;
     out.library = s;
     out.strongest = candidate;
@@ -178,20 +179,20 @@ Remainder remainder(const Field& field, const std::vector<Choice>& choices, doub
   };
   // Single columns first: they are quick, and most wrong causes fail on one of them.
   for (std::size_t k = 0; k < field.set->candidates.size(); ++k) {
-    const Candidate& c = field.set->candidates[k];
+    const inference::Candidate& c = field.set->candidates[k];
     if (c.params.size() > 1 || own(c)) continue;
     for (std::size_t v = 0; v < c.variants.size(); ++v) {
       const int j = c.variants[v].columns[0];
       if (field.contrasts[k][v].dof > 0 && left[j] > least_left * p.C(j, j) &&
-          left[j] > 0.1 * least_information &&
+          left[j] > 0.1 * inference::least_information &&
           take(k, g[j] * g[j] / left[j] - field.discount_of(k), 1))
         return out;
     }
   }
   for (std::size_t k = 0; k < field.set->candidates.size(); ++k) {
-    const Candidate& c = field.set->candidates[k];
+    const inference::Candidate& c = field.set->candidates[k];
     if (c.params.size() < 2 || own(c)) continue;
-    for (const Contrast& whole : field.contrasts[k]) {
+    for (const inference::Contrast& whole : field.contrasts[k]) {
       if (whole.dof == 0) continue;
       MatX cross_c(d.y.size(), whole.columns.size());
       for (std::size_t j = 0; j < whole.columns.size(); ++j)
@@ -212,7 +213,7 @@ Remainder remainder(const Field& field, const std::vector<Choice>& choices, doub
       if (take(k, T - field.discount_of(k), dof)) return out;
     }
   }
-  for (const PositionScan& scan : *field.scans) {
+  for (const inference::PositionScan& scan : *field.scans) {
     MatX C_D_scan(d.columns.size(), scan.T.size());
     for (std::size_t k = 0; k < d.columns.size(); ++k)
       C_D_scan.row(k) = scan.scan.cross.col(d.columns[k]).transpose();
@@ -224,16 +225,17 @@ Remainder remainder(const Field& field, const std::vector<Choice>& choices, doub
       if (c > 1e-5 * scan.scan.C(k, k)) out.scan = std::max(out.scan, g_s[k] * g_s[k] / c);
     }
   }
-  out.scan = strength(out.scan, 1);
+  out.scan = stats::strength(out.scan, 1);
   return out;
 }
 
-double cosine(const Projected& p, const std::vector<int>& a, const std::vector<int>& b) {
-  const Contrast ca = make_contrast(p.C, p.raw, a), cb = make_contrast(p.C, p.raw, b);
+double cosine(const inference::Projected& p, const std::vector<int>& a, const std::vector<int>& b) {
+  const inference::Contrast ca = inference::make_contrast(p.C, p.raw, a),
+                            cb = inference::make_contrast(p.C, p.raw, b);
   if (ca.dof == 0 || cb.dof == 0) return 0.0;
   const MatX m = ca.W.transpose() * rows_and_columns(p.C, a, b) * cb.W;
   if (ca.dof == 1 && cb.dof == 1) return m(0, 0);
   return Eigen::JacobiSVD<MatX>(m).singularValues()[0];
 }
 
-}  // namespace drift::discovery
+}  // namespace drift::search

@@ -3,14 +3,14 @@
 #include "analysis/inference/candidate.hpp"
 #include "analysis/inference/scan.hpp"
 
-namespace drift::discovery {
+namespace drift::search {
 
 /// Everything that competes to explain a misfit, at one linearisation and noise model.
 struct Field {
-  const CandidateSet* set = nullptr;
-  const Projected* projected = nullptr;
-  const std::vector<PositionScan>* scans = nullptr;
-  std::vector<std::vector<Contrast>> contrasts;  ///< of each candidate and variant
+  const inference::CandidateSet* set = nullptr;
+  const inference::Projected* projected = nullptr;
+  const std::vector<inference::PositionScan>* scans = nullptr;
+  std::vector<std::vector<inference::Contrast>> contrasts;  ///< of each candidate and variant
   /// What a candidate's score owes to priors alone, taken off it (empty: nothing). lambda rescales
   /// the misalignments; their prior cost is all that it can gain where the data do not tell.
   std::vector<double> discount;
@@ -18,10 +18,10 @@ struct Field {
     return discount.empty() ? 0.0 : discount[candidate];
   }
 
-  Field(const CandidateSet& candidates, const Projected& p,
-        const std::vector<PositionScan>& windows);
+  Field(const inference::CandidateSet& candidates, const inference::Projected& p,
+        const std::vector<inference::PositionScan>& windows);
   /// All contrasts, for the null of the maximum.
-  std::vector<Contrast> all_contrasts() const;
+  std::vector<inference::Contrast> all_contrasts() const;
 };
 
 /// A candidate's score against the nominal model.
@@ -61,10 +61,10 @@ Remainder remainder(const Field& field, const std::vector<Choice>& choices, doub
 
 /// Log evidence of simultaneous causes against the nominal model, amplitudes of unknown size
 /// (size_prior.hpp).
-double log_bayes(const Projected& p, const std::vector<int>& columns);
+double log_bayes(const inference::Projected& p, const std::vector<int>& columns);
 
 /// Cosine of what is left of two candidates' signatures; of several dimensions the largest
 /// canonical one.
-double cosine(const Projected& p, const std::vector<int>& a, const std::vector<int>& b);
+double cosine(const inference::Projected& p, const std::vector<int>& a, const std::vector<int>& b);
 
-}  // namespace drift::discovery
+}  // namespace drift::search

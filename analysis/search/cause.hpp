@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace drift::discovery {
+namespace drift::search {
 
 /// A number of a cause, in `unit`.
 struct CauseParameter {
@@ -59,4 +59,4 @@ struct CandidateScore {
   std::string unit;
 };
 
-}  // namespace drift::discovery
+}  // namespace drift::search

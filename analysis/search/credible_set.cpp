@@ -7,14 +7,14 @@
 #include <numeric>
 #include <string>
 
-namespace drift::discovery {
+namespace drift::search {
 namespace {
 
 /// Log prior of an explanation: every term alike, shared by the candidates it offers; a second
 /// cause is one in twenty.
 double log_prior(const Examination& e, const std::vector<Choice>& choices) {
   std::map<std::string, double> offers;
-  for (const Candidate& c : e.set.candidates) offers[c.term] += 1.0;
+  for (const inference::Candidate& c : e.set.candidates) offers[c.term] += 1.0;
   double sum = 0.0;
   for (const Choice& c : choices) sum -= std::log(offers[e.set.candidates[c.candidate].term]);
   return sum - std::log(20.0) * static_cast<double>(choices.size() - 1);
@@ -24,7 +24,7 @@ double log_prior(const Examination& e, const std::vector<Choice>& choices) {
 std::string name_of(const Examination& e, const Refit& r) {
   std::vector<std::string> names;
   for (const Choice& choice : r.choices) {
-    const Candidate& c = e.set.candidates[choice.candidate];
+    const inference::Candidate& c = e.set.candidates[choice.candidate];
     const bool base = *TermLibrary::find_term(c.term) < *TermLibrary::find_term("frame_closure");
     names.push_back(base ? c.label : c.term + "." + c.axis);
   }
@@ -38,9 +38,9 @@ std::string name_of(const Examination& e, const Refit& r) {
 /// its own or part of one.
 bool covers(const Examination& e, const Refit& wide, const Refit& narrow) {
   const auto held = [&](const Choice& n) {
-    const Candidate& part = e.set.candidates[n.candidate];
+    const inference::Candidate& part = e.set.candidates[n.candidate];
     return std::any_of(wide.choices.begin(), wide.choices.end(), [&](const Choice& w) {
-      const Candidate& whole = e.set.candidates[w.candidate];
+      const inference::Candidate& whole = e.set.candidates[w.candidate];
       return w.candidate == n.candidate ||
              (whole.term == part.term && whole.params == part.params) || whole.contains(part);
     });
@@ -60,8 +60,8 @@ double log_unknown(const Examination& e) {
 /// one of them speaks of no axis.
 bool one_cause(const Examination& e, const Refit& a, const Refit& b) {
   if (a.choices.size() != 1 || b.choices.size() != 1) return false;
-  const Candidate& p = e.set.candidates[a.choices.front().candidate];
-  const Candidate& q = e.set.candidates[b.choices.front().candidate];
+  const inference::Candidate& p = e.set.candidates[a.choices.front().candidate];
+  const inference::Candidate& q = e.set.candidates[b.choices.front().candidate];
   const bool base = *TermLibrary::find_term(p.term) < *TermLibrary::find_term("frame_closure");
   return !base && p.term == q.term && (p.axis.empty() || q.axis.empty());
 }
@@ -137,4 +137,4 @@ bool weigh(const Examination& e, std::vector<Refit>& refits, bool chance_alone,
   return true;
 }
 
-}  // namespace drift::discovery
+}  // namespace drift::search

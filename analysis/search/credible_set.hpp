@@ -2,7 +2,7 @@
 
 #include "analysis/search/search.hpp"
 
-namespace drift::discovery {
+namespace drift::search {
 
 /// Weighs explanations against each other by evidence and prior and moves those up to the credible
 /// probability into out.sets, the others into out.rejected. Of several with one name the best
@@ -16,4 +16,4 @@ namespace drift::discovery {
 bool weigh(const Examination& e, std::vector<Refit>& refits, bool chance_alone,
            const SearchOptions& options, Search& out);
 
-}  // namespace drift::discovery
+}  // namespace drift::search

@@ -6,27 +6,27 @@
 #include "analysis/inference/noise.hpp"
 #include "analysis/search/adequacy.hpp"
 
-namespace drift::discovery {
+namespace drift::search {
 
 /// A model fitted to a test and everything that can be said about what it leaves.
 struct Examination {
   FilterSpec filter;
   BatchResult fit;
-  CandidateSet set;
-  LinearProblem problem;
-  NoiseEstimate noise;
-  std::unique_ptr<Projector> projector;
-  std::vector<PositionScan> scans;
+  inference::CandidateSet set;
+  inference::LinearProblem problem;
+  inference::NoiseEstimate noise;
+  std::unique_ptr<inference::Projector> projector;
+  std::vector<inference::PositionScan> scans;
   std::unique_ptr<Field> field;
-  std::vector<Score> scores;  ///< of every candidate
-  LoneEffect lone;            ///< beside everything that is in the model; where it was asked for
+  std::vector<Score> scores;   ///< of every candidate
+  inference::LoneEffect lone;  ///< beside everything that is in the model; where it was asked for
 
   double log_likelihood2() const { return projector->candidates().log_likelihood2(); }
 };
 
 /// Thresholds of a family of tests on one plan; they depend on the signatures, not on the data.
 struct Nulls {
-  MaxNull library, scan;
+  inference::MaxNull library, scan;
   /// Strengths that are exceeded with probability alpha under the null, in each family.
   double library_threshold = 0.0, scan_threshold = 0.0;
 };
@@ -35,18 +35,18 @@ struct Nulls {
 inline constexpr double library_share = 0.5, scan_share = 0.15, pair_share = 0.15, lone_share = 0.2;
 
 /// Fits (from `start`), linearises and lists candidates; noise is estimated unless `given` says it.
-Examination examine(const FilterSpec& filter, const Test& test, const Theta& start,
-                    const NoiseEstimate* given = nullptr);
+Examination examine(const FilterSpec& filter, const inference::Test& test, const Theta& start,
+                    const inference::NoiseEstimate* given = nullptr);
 /// The same about a fit that there is already. driven: noise that drives the platform may be found.
-Examination examine(const FilterSpec& filter, const Test& test, const BatchResult& fit,
-                    const NoiseEstimate* given = nullptr, bool driven = true);
+Examination examine(const FilterSpec& filter, const inference::Test& test, const BatchResult& fit,
+                    const inference::NoiseEstimate* given = nullptr, bool driven = true);
 
 /// Scores again under another noise.
-void set_noise(Examination& e, const Timeline& timeline, const NoiseEstimate& noise);
+void set_noise(Examination& e, const Timeline& timeline, const inference::NoiseEstimate& noise);
 
 Nulls make_nulls(const Examination& e, double alpha, int draws);
 
 /// What the filter says its noise is.
-NoiseModel declared_noise(const FilterSpec& filter);
+inference::NoiseModel declared_noise(const FilterSpec& filter);
 
-}  // namespace drift::discovery
+}  // namespace drift::search

@@ -8,7 +8,7 @@
 
 #include "core/base/rng.hpp"
 
-namespace drift::discovery {
+namespace drift::search {
 namespace {
 
 constexpr double one_direction = 0.9999;
@@ -54,7 +54,7 @@ double joint(double za, double zb, double rho) {
 /// What a pair would be called: terms and axes.
 std::string name_of(const Field& field, const Pair& p) {
   const auto name = [&](const Choice& c) {
-    const Candidate& candidate = field.set->candidates[c.candidate];
+    const inference::Candidate& candidate = field.set->candidates[c.candidate];
     return candidate.term + "." + candidate.axis;
   };
   const std::string a = name(p.a), b = name(p.b);
@@ -77,7 +77,7 @@ std::vector<Pair> diverse(const Field& field, const std::vector<Pair>& sorted, s
 }
 
 /// Log evidence of a few columns with unit priors: what the choice among thousands of pairs needs.
-double quick_log_bayes(const Projected& p, const std::vector<int>& columns) {
+double quick_log_bayes(const inference::Projected& p, const std::vector<int>& columns) {
   const auto n = static_cast<Eigen::Index>(columns.size());
   MatX A(n, n);
   VecX g(n);
@@ -119,11 +119,11 @@ std::vector<Pair> strongest_pairs(const Field& field, std::size_t most) {
   return pairs;
 }
 
-MaxNull pair_null(const Field& field, int draws) {
+inference::MaxNull pair_null(const Field& field, int draws) {
   const auto units = single_columns(field);
   VecX z;
   const MatX rho = correlations(field, units, z);
-  const MatX g = MaxNull::draw(rho, draws, 2);
+  const MatX g = inference::MaxNull::draw(rho, draws, 2);
   VecX largest = VecX::Zero(draws);
   for (std::size_t i = 0; i < units.size(); ++i)
     for (std::size_t k = 0; k < i; ++k) {
@@ -135,7 +135,7 @@ MaxNull pair_null(const Field& field, int draws) {
         largest[d] = std::max(largest[d], (a * a + b * b - 2.0 * r * a * b) * w);
       }
     }
-  return MaxNull::of(0.5 * largest);
+  return inference::MaxNull::of(0.5 * largest);
 }
 
 std::vector<Pair> adequate_pairs(const Field& field, const std::vector<Score>& scores,
@@ -152,7 +152,7 @@ std::vector<Pair> adequate_pairs(const Field& field, const std::vector<Score>& s
   std::size_t several = 0;
   for (const std::size_t k : order) {
     if (scores[k].dof == 0) continue;
-    const Candidate& c = field.set->candidates[k];
+    const inference::Candidate& c = field.set->candidates[k];
     if (c.params.size() > 1 && (several >= 12 || c.params.size() > 6)) continue;
     several += c.params.size() > 1;
     choices.push_back({k, scores[k].variant});
@@ -169,8 +169,8 @@ std::vector<Pair> adequate_pairs(const Field& field, const std::vector<Score>& s
   double top = 0.0;
   for (std::size_t i = 0; i < choices.size(); ++i)
     for (std::size_t k = 0; k < i; ++k) {
-      const Candidate& a = field.set->candidates[choices[i].candidate];
-      const Candidate& b = field.set->candidates[choices[k].candidate];
+      const inference::Candidate& a = field.set->candidates[choices[i].candidate];
+      const inference::Candidate& b = field.set->candidates[choices[k].candidate];
       if (choices[i].candidate == choices[k].candidate || a.contains(b) || b.contains(a)) continue;
       const double evidence =
           quick_log_bayes(*field.projected, columns_of(field, {choices[k], choices[i]}, false));
@@ -185,10 +185,11 @@ std::vector<Pair> adequate_pairs(const Field& field, const std::vector<Score>& s
     const Remainder r = remainder(field, pair, library_threshold);
     if (r.library > library_threshold || r.scan > scan_threshold) continue;
     const auto columns = columns_of(field, pair, false);
-    const Contrast both = make_contrast(field.projected->C, field.projected->raw, columns);
+    const inference::Contrast both =
+        inference::make_contrast(field.projected->C, field.projected->raw, columns);
     const double T = both.T(field.projected->g);
-    found.push_back(
-        {t.a, t.b, T, both.dof, strength(T, both.dof), log_bayes(*field.projected, columns)});
+    found.push_back({t.a, t.b, T, both.dof, stats::strength(T, both.dof),
+                     log_bayes(*field.projected, columns)});
   }
   std::stable_sort(found.begin(), found.end(),
                    [](const Pair& a, const Pair& b) { return a.log_bayes > b.log_bayes; });
@@ -224,4 +225,4 @@ std::vector<Choice> greedy(const Field& field, const std::vector<Score>& scores,
   return in;
 }
 
-}  // namespace drift::discovery
+}  // namespace drift::search

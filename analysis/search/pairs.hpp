@@ -2,7 +2,7 @@
 
 #include "analysis/search/adequacy.hpp"
 
-namespace drift::discovery {
+namespace drift::search {
 
 /// Two candidates at once.
 struct Pair {
@@ -19,7 +19,7 @@ struct Pair {
 std::vector<Pair> strongest_pairs(const Field& field, std::size_t most);
 
 /// Largest pair strength under the null: threshold and p-values for strongest_pairs.
-MaxNull pair_null(const Field& field, int draws);
+inference::MaxNull pair_null(const Field& field, int draws);
 
 /// Pairs that leave nothing significant, by evidence, best first (at most `most`, of the same terms
 /// and axes at most two). Candidates of several parameters take part where their own score is among
@@ -33,4 +33,4 @@ std::vector<Pair> adequate_pairs(const Field& field, const std::vector<Score>& s
 std::vector<Choice> greedy(const Field& field, const std::vector<Score>& scores,
                            double library_threshold, double scan_threshold, std::size_t most);
 
-}  // namespace drift::discovery
+}  // namespace drift::search

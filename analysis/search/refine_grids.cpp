@@ -6,7 +6,7 @@
 #include <optional>
 #include <set>
 
-namespace drift::discovery {
+namespace drift::search {
 namespace {
 
 constexpr int between = 3;      // settings put between each two points
@@ -14,7 +14,7 @@ constexpr double nearly = 6.0;  // log evidence: a second onset that may come to
 
 /// The one setting of a candidate that may lie between grid points; none if there is no such or
 /// several.
-std::optional<std::size_t> continuous_setting(const Candidate& c) {
+std::optional<std::size_t> continuous_setting(const inference::Candidate& c) {
   std::optional<std::size_t> found;
   const auto& settings = c.variants.front().settings;
   for (std::size_t k = 0; k < settings.size(); ++k) {
@@ -35,11 +35,13 @@ class Columns {
  public:
   explicit Columns(Examination& e) : e_(e), first_(e.set.signatures.size()) {}
 
-  std::vector<int> of(const Candidate& c, const Variant& pattern, std::size_t place, double value) {
+  std::vector<int> of(const inference::Candidate& c, const inference::Variant& pattern,
+                      std::size_t place, double value) {
     const std::size_t param = pattern.settings[place].first;
     std::vector<int> columns;
     for (std::size_t k = 0; k < c.params.size(); ++k) {
-      SignatureSpec spec = e_.set.signatures[static_cast<std::size_t>(pattern.columns[k])];
+      inference::SignatureSpec spec =
+          e_.set.signatures[static_cast<std::size_t>(pattern.columns[k])];
       spec.theta[param] = value;
       const auto [at, fresh] = known_.try_emplace({c.params[k], others(pattern, place), value},
                                                   static_cast<int>(e_.set.signatures.size()));
@@ -48,13 +50,13 @@ class Columns {
     }
     return columns;
   }
-  std::span<const SignatureSpec> added() const {
+  std::span<const inference::SignatureSpec> added() const {
     return std::span(e_.set.signatures).subspan(first_);
   }
 
  private:
   using Key = std::tuple<std::size_t, std::vector<double>, double>;
-  static std::vector<double> others(const Variant& v, std::size_t place) {
+  static std::vector<double> others(const inference::Variant& v, std::size_t place) {
     std::vector<double> values;
     for (std::size_t k = 0; k < v.settings.size(); ++k)
       if (k != place) values.push_back(v.settings[k].second);
@@ -65,7 +67,7 @@ class Columns {
   std::map<Key, int> known_;
 };
 
-bool same_but(const Variant& a, const Variant& b, std::size_t place) {
+bool same_but(const inference::Variant& a, const inference::Variant& b, std::size_t place) {
   for (std::size_t k = 0; k < a.settings.size(); ++k)
     if (k != place && a.settings[k].second != b.settings[k].second) return false;
   return true;
@@ -73,14 +75,14 @@ bool same_but(const Variant& a, const Variant& b, std::size_t place) {
 
 /// Puts settings between variants `v` and `v + 1`; each of them hands over the nearer part of its
 /// chance.
-void fill(Candidate& c, std::size_t v, std::size_t place, Columns& columns) {
-  const Variant low = c.variants[v], high = c.variants[v + 1];
+void fill(inference::Candidate& c, std::size_t v, std::size_t place, Columns& columns) {
+  const inference::Variant low = c.variants[v], high = c.variants[v + 1];
   constexpr double kept = 0.5 + 0.5 / (between + 1);  // half lies on the other side
   c.variants[v].share *= kept;
   c.variants[v + 1].share *= kept;
-  std::vector<Variant> more;
+  std::vector<inference::Variant> more;
   for (int k = 1; k <= between; ++k) {
-    Variant one = low;
+    inference::Variant one = low;
     one.settings[place].second = part_of_the_way(low.settings[place].second,
                                                  high.settings[place].second, k / (between + 1.0));
     one.columns = columns.of(c, low, place, one.settings[place].second);
@@ -94,12 +96,12 @@ void fill(Candidate& c, std::size_t v, std::size_t place, Columns& columns) {
 
 }  // namespace
 
-bool refine_grids(Examination& e, const Test& test, double worth) {
+bool refine_grids(Examination& e, const inference::Test& test, double worth) {
   double top = 0.0;
   for (const Score& s : e.scores) top = std::max(top, s.log_bayes);
   Columns columns(e);
   for (std::size_t k = 0; k < e.set.candidates.size(); ++k) {
-    Candidate& c = e.set.candidates[k];
+    inference::Candidate& c = e.set.candidates[k];
     const auto place = continuous_setting(c);
     if (!place || e.scores[k].dof == 0 || e.scores[k].log_bayes < top - worth) continue;
     // Which gaps; from above, so that those below stay where they are.
@@ -113,7 +115,7 @@ bool refine_grids(Examination& e, const Test& test, double worth) {
   }
   const auto added = columns.added();
   if (added.empty()) return false;
-  const MatX more = signature_columns(e.filter, test, e.fit, added, e.problem.tags);
+  const MatX more = inference::signature_columns(e.filter, test, e.fit, added, e.problem.tags);
   const Eigen::Index before = e.problem.extra.cols();
   e.problem.extra.conservativeResize(Eigen::NoChange, before + more.cols());
   e.problem.extra.rightCols(more.cols()) = more;
@@ -121,4 +123,4 @@ bool refine_grids(Examination& e, const Test& test, double worth) {
   return true;
 }
 
-}  // namespace drift::discovery
+}  // namespace drift::search

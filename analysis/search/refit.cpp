@@ -9,18 +9,18 @@
 #include "analysis/search/size_prior.hpp"
 #include "mc/task/campaign.hpp"
 
-namespace drift::discovery {
+namespace drift::search {
 namespace {
 
 constexpr auto lambda = TermLibrary::index("lambda");
 constexpr double quiet_p_value = 0.01;  // of a free-form input beside the cause: nothing is left
 
 /// Distance of the points of the library's grid about a value, SI: what the grid leaves open.
-double grid_spacing(const Candidate& c, std::size_t param, double value) {
+double grid_spacing(const inference::Candidate& c, std::size_t param, double value) {
   constexpr double none = std::numeric_limits<double>::infinity();
   double below = none, above = none;
   bool on_grid = false;
-  for (const Variant& v : c.variants)
+  for (const inference::Variant& v : c.variants)
     for (const auto& [p, other] : v.settings) {
       if (p != param || v.between) continue;
       on_grid = on_grid || other == value;
@@ -43,8 +43,8 @@ double grid_points(const Examination& e, std::size_t candidate) {
 
 /// Change of the log evidence if the amplitudes of the causes are of unknown size (size_prior.hpp).
 /// lambda is no amplitude: it lies between 0 and 1.
-double gain_of_sizes(const CandidateSet& set, const Refit& r) {
-  const Projector::Fit fit = r.after.projector->fit({});
+double gain_of_sizes(const inference::CandidateSet& set, const Refit& r) {
+  const inference::Projector::Fit fit = r.after.projector->fit({});
   const Layout layout = make_layout(r.filter);
   std::vector<Eigen::Index> rows;
   std::vector<int> cause;
@@ -64,7 +64,7 @@ double gain_of_sizes(const CandidateSet& set, const Refit& r) {
 
 /// Whether each of simultaneous causes has an amplitude that is clearly not zero. A change of
 /// equation is judged by the fit alone: where its weight ends is seldom known well.
-bool all_needed(const CandidateSet& set, const Refit& r) {
+bool all_needed(const inference::CandidateSet& set, const Refit& r) {
   constexpr double clearly = 3.0;  // sigma
   return std::all_of(r.choices.begin(), r.choices.end(), [&](const Choice& choice) {
     const auto& params = set.candidates[choice.candidate].params;
@@ -82,7 +82,7 @@ bool may_be_refined(const ParamSpec& spec) {
 
 }  // namespace
 
-VecX expected_amplitudes(const Projected& p, const std::vector<int>& columns) {
+VecX expected_amplitudes(const inference::Projected& p, const std::vector<int>& columns) {
   const auto n = static_cast<Eigen::Index>(columns.size());
   MatX C(n, n);
   VecX g(n);
@@ -95,11 +95,11 @@ VecX expected_amplitudes(const Projected& p, const std::vector<int>& columns) {
       .solve(g);  // with the unit prior, so that nothing runs away
 }
 
-FilterSpec with_causes(const FilterSpec& nominal, const CandidateSet& set,
+FilterSpec with_causes(const FilterSpec& nominal, const inference::CandidateSet& set,
                        const std::vector<Choice>& choices) {
   FilterSpec filter = nominal;
   for (const Choice& choice : choices) {
-    const Candidate& c = set.candidates[choice.candidate];
+    const inference::Candidate& c = set.candidates[choice.candidate];
     for (const std::size_t i : c.params) {
       filter.active.set(i);
       filter.priors[i] = TermLibrary::specs[i].prior_si();
@@ -123,19 +123,19 @@ FilterSpec with_causes(const FilterSpec& nominal, const CandidateSet& set,
   return filter;
 }
 
-Refit refit(const Examination& nominal, const Test& test, const std::vector<Choice>& choices,
-            const Nulls& nulls) {
+Refit refit(const Examination& nominal, const inference::Test& test,
+            const std::vector<Choice>& choices, const Nulls& nulls) {
   Refit out;
   out.choices = choices;
   out.filter = with_causes(nominal.filter, nominal.set, choices);
-  const Theta theta = theta_of(nominal.filter, nominal.fit);
+  const Theta theta = inference::theta_of(nominal.filter, nominal.fit);
 
   Theta start = theta;
   std::vector<std::pair<std::size_t, double>> expected;
   bool family = false;
   std::vector<int> columns;
   for (const Choice& choice : choices) {
-    const Variant& v = nominal.set.candidates[choice.candidate].variants[choice.variant];
+    const inference::Variant& v = nominal.set.candidates[choice.candidate].variants[choice.variant];
     columns.insert(columns.end(), v.columns.begin(), v.columns.end());
     for (const auto& [param, value] : v.settings) start[param] = value;
   }
@@ -165,19 +165,19 @@ Refit refit(const Examination& nominal, const Test& test, const std::vector<Choi
       held.priors[lambda] = fixed(end);
       Theta from = k < 2 ? theta : make_layout(nominal.filter).theta;
       from[lambda] = end;
-      return fit_from(
-          theta_of(held, fit_batch(held, test.timeline, test.readout, test.measured, from)));
+      return fit_from(inference::theta_of(
+          held, fit_batch(held, test.timeline, test.readout, test.measured, from)));
     };
     for (BatchResult& other : mc::run_campaign(4, from_end))
       if (other.estimate.statistic < best.estimate.statistic) best = std::move(other);
   }
   double narrowed = 0.0;  // log of how much narrower the prior of lambda has become
   if (family)
-    if (const auto profile =
-            profile_closure(out.filter, test, best, nominal.problem.weight, nominal.noise.model)) {
+    if (const auto profile = equation::profile_closure(
+            out.filter, test, best, nominal.problem.weight, nominal.noise.model)) {
       narrowed = std::log(out.filter.priors[lambda].sigma() / profile->sigma);
       out.filter.priors[lambda] = normal(profile->value, profile->sigma);
-      best = fit_from(theta_of(out.filter, profile->fit));
+      best = fit_from(inference::theta_of(out.filter, profile->fit));
     }
   out.after = examine(out.filter, test, best, nullptr, nominal.noise.driven);
   settle_noise(out.after, test, nulls.library_threshold, 2,
@@ -189,17 +189,18 @@ Refit refit(const Examination& nominal, const Test& test, const std::vector<Choi
 
   // What is left, without the members of the chosen families.
   for (std::size_t k = 0; k < out.after.scores.size(); ++k) {
-    const Candidate& c = out.after.set.candidates[k];
+    const inference::Candidate& c = out.after.set.candidates[k];
     const bool own = std::any_of(choices.begin(), choices.end(), [&](const Choice& choice) {
-      const Candidate& chosen = nominal.set.candidates[choice.candidate];
+      const inference::Candidate& chosen = nominal.set.candidates[choice.candidate];
       return chosen.term == c.term && (chosen.params == c.params || chosen.contains(c));
     });
     if (own || out.after.scores[k].strength <= out.remainder.library) continue;
     out.remainder.library = out.after.scores[k].strength;
     out.remainder.strongest = k;
   }
-  for (const PositionScan& s : out.after.scans)
-    for (const double T : s.T) out.remainder.scan = std::max(out.remainder.scan, strength(T, 1));
+  for (const inference::PositionScan& s : out.after.scans)
+    for (const double T : s.T)
+      out.remainder.scan = std::max(out.remainder.scan, stats::strength(T, 1));
   out.excess = std::max(out.remainder.library - nulls.library_threshold,
                         out.remainder.scan - nulls.scan_threshold);
   if (family)  // another equation must be another one: an interval that holds the nominal weight
@@ -212,7 +213,7 @@ Refit refit(const Examination& nominal, const Test& test, const std::vector<Choi
     out.excess = std::numeric_limits<double>::infinity();
   if (out.tolerable()) {
     // Many small traces in one equation that no window and no candidate has alone.
-    out.after.lone = strongest_lone_input(out.after.problem, out.after.noise.model);
+    out.after.lone = inference::strongest_lone_input(out.after.problem, out.after.noise.model);
     out.excess = std::max(out.excess, std::log(quiet_p_value / out.after.lone.p_value));
   }
 
@@ -224,4 +225,4 @@ Refit refit(const Examination& nominal, const Test& test, const std::vector<Choi
   return out;
 }
 
-}  // namespace drift::discovery
+}  // namespace drift::search

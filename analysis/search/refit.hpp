@@ -2,7 +2,7 @@
 
 #include "analysis/search/examination.hpp"
 
-namespace drift::discovery {
+namespace drift::search {
 
 /// A model with causes put in, fitted again through the full dynamics.
 struct Refit {
@@ -23,17 +23,17 @@ struct Refit {
 /// The nominal filter with the parameters of some candidates active: amplitudes with the library's
 /// priors, nonlinear parameters free around the grid's value (discrete ones fixed there).
 /// frame_closure turns coupling eq5 and eq6 into the family that holds both.
-FilterSpec with_causes(const FilterSpec& nominal, const CandidateSet& set,
+FilterSpec with_causes(const FilterSpec& nominal, const inference::CandidateSet& set,
                        const std::vector<Choice>& choices);
 
 /// Fits it from the amplitudes that the score expects and, where that may be far (frame_closure),
 /// from the other ends too; the best is kept. Then everything is scored again. Noise that drives
 /// the platform is allowed for if the nominal model needed it: what one cause leaves is not noise
 /// because it is slow.
-Refit refit(const Examination& nominal, const Test& test, const std::vector<Choice>& choices,
-            const Nulls& nulls);
+Refit refit(const Examination& nominal, const inference::Test& test,
+            const std::vector<Choice>& choices, const Nulls& nulls);
 
 /// Amplitudes, in prior sigmas, that the linear score expects of some columns: C_dd^-1 g_d.
-VecX expected_amplitudes(const Projected& p, const std::vector<int>& columns);
+VecX expected_amplitudes(const inference::Projected& p, const std::vector<int>& columns);
 
-}  // namespace drift::discovery
+}  // namespace drift::search

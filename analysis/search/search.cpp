@@ -13,7 +13,7 @@
 #include "analysis/search/settle_noise.hpp"
 #include "mc/task/campaign.hpp"
 
-namespace drift::discovery {
+namespace drift::search {
 namespace {
 
 constexpr double negligible = 14.0;      // log evidence behind the best: less than one in a million
@@ -58,7 +58,7 @@ std::vector<std::size_t> adequate_singles(const Examination& e, const Search& s)
                                  surely = adequate_by_score(e, s, 1.0);
   std::vector<std::size_t> kept;
   for (const std::size_t k : adequate) {
-    const Candidate& c = e.set.candidates[k];
+    const inference::Candidate& c = e.set.candidates[k];
     const bool part_will_do = std::any_of(surely.begin(), surely.end(), [&](std::size_t other) {
       return c.contains(e.set.candidates[other]) &&
              e.scores[other].log_bayes > e.scores[k].log_bayes - 3.0;
@@ -71,7 +71,7 @@ std::vector<std::size_t> adequate_singles(const Examination& e, const Search& s)
 }
 
 /// Each explanation fitted, spread over threads.
-std::vector<Refit> refit_all(const Examination& nominal, const Test& test,
+std::vector<Refit> refit_all(const Examination& nominal, const inference::Test& test,
                              const std::vector<std::vector<Choice>>& all, const Nulls& nulls) {
   std::vector<Refit> refits;
   if (all.size() == 1) {  // its own fits are spread over the threads then
@@ -83,9 +83,10 @@ std::vector<Refit> refit_all(const Examination& nominal, const Test& test,
 }
 
 /// The same candidate at the same setting in another examination's list, if it has it.
-std::optional<Choice> same_choice(const CandidateSet& in, const Candidate& c, std::size_t variant) {
+std::optional<Choice> same_choice(const inference::CandidateSet& in, const inference::Candidate& c,
+                                  std::size_t variant) {
   for (std::size_t k = 0; k < in.candidates.size(); ++k) {
-    const Candidate& other = in.candidates[k];
+    const inference::Candidate& other = in.candidates[k];
     if (other.term != c.term || other.params != c.params) continue;
     for (std::size_t v = 0; v < other.variants.size(); ++v)
       if (other.variants[v].settings == c.variants[variant].settings) return Choice{k, v};
@@ -95,7 +96,7 @@ std::optional<Choice> same_choice(const CandidateSet& in, const Candidate& c, st
 
 /// What else is in the test once a cause is fitted that the linear score cannot judge (a change of
 /// equation moves the misalignments far): the candidates that leave nothing beside it, by evidence.
-std::vector<std::vector<Choice>> beside(const Refit& r, const CandidateSet& nominal,
+std::vector<std::vector<Choice>> beside(const Refit& r, const inference::CandidateSet& nominal,
                                         const Nulls& nulls) {
   constexpr std::size_t asked = 12, most = 3;
   std::vector<std::vector<Choice>> pairs;
@@ -116,7 +117,7 @@ std::vector<std::vector<Choice>> beside(const Refit& r, const CandidateSet& nomi
 
 }  // namespace
 
-double other_equation_gain(const Examination& nominal, const Test& test) {
+double other_equation_gain(const Examination& nominal, const inference::Test& test) {
   FilterSpec other = nominal.filter;
   if (other.coupling == Coupling::eq5)
     other.coupling = Coupling::eq6;
@@ -125,17 +126,18 @@ double other_equation_gain(const Examination& nominal, const Test& test) {
   else
     return -std::numeric_limits<double>::infinity();
   double best = -std::numeric_limits<double>::infinity();
-  const auto here = theta_of(nominal.filter, nominal.fit);
+  const auto here = inference::theta_of(nominal.filter, nominal.fit);
   for (const Theta& start : {here, make_layout(other).theta}) {
     const BatchResult fit = fit_batch(other, test.timeline, test.readout, test.measured, start);
-    LinearProblem problem = linear_problem(other, test, fit, {});
+    inference::LinearProblem problem = inference::linear_problem(other, test, fit, {});
     problem.weight = nominal.problem.weight;
-    best = std::max(best, Projector(problem, nominal.noise.model).candidates().log_likelihood2());
+    best = std::max(
+        best, inference::Projector(problem, nominal.noise.model).candidates().log_likelihood2());
   }
   return best - nominal.log_likelihood2();
 }
 
-Search search(Examination& nominal, const Test& test, const SearchOptions& options) {
+Search search(Examination& nominal, const inference::Test& test, const SearchOptions& options) {
   Search out;
   out.nulls = make_nulls(nominal, options.alpha, options.draws);
   if (settle_noise(nominal, test, out.nulls.library_threshold))
@@ -144,8 +146,8 @@ Search search(Examination& nominal, const Test& test, const SearchOptions& optio
 
   double library = 0.0, scan = 0.0;
   for (const Score& s : nominal.scores) library = std::max(library, s.strength);
-  for (const PositionScan& s : nominal.scans)
-    for (const double T : s.T) scan = std::max(scan, strength(T, 1));
+  for (const inference::PositionScan& s : nominal.scans)
+    for (const double T : s.T) scan = std::max(scan, stats::strength(T, 1));
   // The other equation is a jump, not a small amplitude: by the likelihood ratio of two points,
   // P(2 log LR > T) <= exp(-T/2).
   const double other = out.other_equation = other_equation_gain(nominal, test);
@@ -153,7 +155,7 @@ Search search(Examination& nominal, const Test& test, const SearchOptions& optio
   out.p_library = out.nulls.library.p_value(std::max(library, 0.5 * other));
   out.p_scan = out.nulls.scan.p_value(scan);
   out.p_pairs = pairs.empty() ? 1.0 : out.pairs.p_value(pairs.front().strength);
-  nominal.lone = strongest_lone_input(nominal.problem, nominal.noise.model);
+  nominal.lone = inference::strongest_lone_input(nominal.problem, nominal.noise.model);
   out.p_lone = nominal.lone.p_value;
   out.p_value = std::min({1.0, out.p_library / library_share, out.p_scan / scan_share,
                           out.p_pairs / pair_share, out.p_lone / lone_share});
@@ -195,10 +197,12 @@ Search search(Examination& nominal, const Test& test, const SearchOptions& optio
     // adequate, and what the refit asks for.
     for (std::size_t next = first; next < refits.size(); ++next) {
       if (refits[next].adequate()) continue;
-      const Candidate& part = nominal.set.candidates[refits[next].choices.front().candidate];
-      const Candidate& asked = refits[next].after.set.candidates[refits[next].remainder.strongest];
+      const inference::Candidate& part =
+          nominal.set.candidates[refits[next].choices.front().candidate];
+      const inference::Candidate& asked =
+          refits[next].after.set.candidates[refits[next].remainder.strongest];
       for (std::size_t k = 0; k < nominal.set.candidates.size(); ++k) {
-        const Candidate& whole = nominal.set.candidates[k];
+        const inference::Candidate& whole = nominal.set.candidates[k];
         if (nominal.scores[k].dof == 0 || !whole.contains(part)) continue;
         const bool asked_for =
             asked.term == part.term && (whole.params == asked.params || whole.contains(asked));
@@ -232,4 +236,4 @@ Search search(Examination& nominal, const Test& test, const SearchOptions& optio
   return out;
 }
 
-}  // namespace drift::discovery
+}  // namespace drift::search

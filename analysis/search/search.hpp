@@ -4,7 +4,7 @@
 #include "analysis/search/pairs.hpp"
 #include "analysis/search/refit.hpp"
 
-namespace drift::discovery {
+namespace drift::search {
 
 /// How sure a diagnosis must be.
 struct SearchOptions {
@@ -17,7 +17,7 @@ struct SearchOptions {
 /// What the search for causes found.
 struct Search {
   Nulls nulls;
-  MaxNull pairs;
+  inference::MaxNull pairs;
   double p_library = 1.0, p_scan = 1.0, p_pairs = 1.0, p_lone = 1.0;
   double other_equation = 0.0;  ///< other_equation_gain()
   double p_value = 1.0;         ///< of the strongest family, for all families together
@@ -34,10 +34,10 @@ struct Search {
 /// adequate set, first of single candidates, then of all pairs, then by greedy steps, each
 /// confirmed by a fit through the full dynamics; probabilities from their evidence. `nominal` may
 /// have its noise replaced by one estimated with a real effect in the mean.
-Search search(Examination& nominal, const Test& test, const SearchOptions& options);
+Search search(Examination& nominal, const inference::Test& test, const SearchOptions& options);
 
 /// Whether and how well the other member of {eq5, eq6} explains the test: twice the log likelihood
 /// gained by changing the equation and fitting again. -infinity for other couplings.
-double other_equation_gain(const Examination& nominal, const Test& test);
+double other_equation_gain(const Examination& nominal, const inference::Test& test);
 
-}  // namespace drift::discovery
+}  // namespace drift::search

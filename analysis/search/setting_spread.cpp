@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace drift::discovery {
+namespace drift::search {
 
 double setting_spread(const Examination& nominal, const std::vector<Choice>& choices,
                       std::size_t which, std::size_t param, double value) {
@@ -33,4 +33,4 @@ double setting_spread(const Examination& nominal, const std::vector<Choice>& cho
   return std::sqrt(square / sum);
 }
 
-}  // namespace drift::discovery
+}  // namespace drift::search

@@ -2,7 +2,7 @@
 
 #include "analysis/search/examination.hpp"
 
-namespace drift::discovery {
+namespace drift::search {
 
 /// Standard deviation about `value` of a nonlinear parameter of simultaneous causes, from the
 /// evidence of all settings of choices[which] with the others as they are (SI, as the settings
@@ -11,4 +11,4 @@ namespace drift::discovery {
 double setting_spread(const Examination& nominal, const std::vector<Choice>& choices,
                       std::size_t which, std::size_t param, double value);
 
-}  // namespace drift::discovery
+}  // namespace drift::search

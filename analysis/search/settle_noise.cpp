@@ -8,7 +8,7 @@
 #include "analysis/inference/evidence.hpp"
 #include "analysis/inference/noise_doubt.hpp"
 
-namespace drift::discovery {
+namespace drift::search {
 namespace {
 
 /// Chance below which noise of all instruments is not believed: together (they overlap) one in ten,
@@ -18,18 +18,18 @@ constexpr double no_noise = 0.08, no_noise_lone = 0.045;
 
 /// log det (1 + C) of some columns under a noise: what a unit prior on their amplitudes costs twice
 /// the log of the marginal likelihood against its maximum.
-double price(const LinearProblem& problem, const NoiseModel& noise,
+double price(const inference::LinearProblem& problem, const inference::NoiseModel& noise,
              const std::vector<int>& columns) {
-  LinearProblem part = problem;
+  inference::LinearProblem part = problem;
   part.extra = problem.extra(Eigen::all, columns);
-  const MatX C =
-      Projector(part, noise).candidates().C + MatX::Identity(part.extra.cols(), part.extra.cols());
+  const MatX C = inference::Projector(part, noise).candidates().C +
+                 MatX::Identity(part.extra.cols(), part.extra.cols());
   const MatX L = Eigen::LLT<MatX>(C).matrixL();
   return 2.0 * L.diagonal().array().log().sum();
 }
 
 /// A noise with what drives the platform made smaller.
-NoiseModel weaker(NoiseModel m, double factor) {
+inference::NoiseModel weaker(inference::NoiseModel m, double factor) {
   for (double* s : {&m.angle_random_walk, &m.drift_random_walk, &m.markov_drift, &m.acc_markov})
     *s *= factor;
   return m;
@@ -44,15 +44,15 @@ struct Try {
 };
 
 /// Candidates by their likelihood ratio against `reference`, best over several noises.
-std::vector<Try> tries_under(const Examination& e, const std::vector<NoiseModel>& views,
+std::vector<Try> tries_under(const Examination& e, const std::vector<inference::NoiseModel>& views,
                              double reference, const std::vector<int>& in_mean) {
   std::vector<Try> tries(e.set.candidates.size());
-  for (const NoiseModel& view : views) {
-    const Evidence seen = evidence_under(e.problem, e.set, view, in_mean);
+  for (const inference::NoiseModel& view : views) {
+    const inference::Evidence seen = inference::evidence_under(e.problem, e.set, view, in_mean);
     for (std::size_t k = 0; k < tries.size(); ++k) {
       const double ratio = seen.log_likelihood2 + seen.gains[k].ratio - reference;
       if (seen.gains[k].ratio > 0.0 && ratio > tries[k].ratio)
-        tries[k] = {k, seen.gains[k].variant, ratio, strength(ratio, seen.gains[k].dof)};
+        tries[k] = {k, seen.gains[k].variant, ratio, stats::strength(ratio, seen.gains[k].dof)};
     }
   }
   std::erase_if(tries, [&](const Try& t) {
@@ -83,43 +83,46 @@ std::vector<std::size_t> by_evidence(const Examination& e) {
   return order;
 }
 
-bool settle_noise(Examination& e, const Test& test, double threshold, std::size_t most_tries,
-                  int rounds) {
-  const NoiseModel declared = declared_noise(e.filter);
-  NoiseEstimate now = e.noise;
+bool settle_noise(Examination& e, const inference::Test& test, double threshold,
+                  std::size_t most_tries, int rounds) {
+  const inference::NoiseModel declared = declared_noise(e.filter);
+  inference::NoiseEstimate now = e.noise;
   std::vector<int> in_mean;
   bool replaced = false;
   for (int round = 0; round < rounds && now.driven; ++round) {
-    const NoiseEstimate white = estimate_noise(e.problem, declared, in_mean, 0);
-    const LoneEffect lone = strongest_lone_input(e.problem, white.model, in_mean);
-    const NoiseDoubt d = doubt(e.problem, e.set, white.model, now.model, lone, in_mean);
+    const inference::NoiseEstimate white =
+        inference::estimate_noise(e.problem, declared, in_mean, 0);
+    const inference::LoneEffect lone =
+        inference::strongest_lone_input(e.problem, white.model, in_mean);
+    const inference::NoiseDoubt d =
+        inference::doubt(e.problem, e.set, white.model, now.model, lone, in_mean);
     if (d.p_lone <= no_noise_lone && white.log_likelihood2 + lone.gain > now.log_likelihood2) {
       // The white noise that is left beside it; the input itself is no noise and is left to be
       // explained.
-      NoiseModel with_lone = white.model;
+      inference::NoiseModel with_lone = white.model;
       with_lone.lone = lone.input;
-      now = estimate_noise(e.problem, with_lone, in_mean, 0);
+      now = inference::estimate_noise(e.problem, with_lone, in_mean, 0);
       now.model.lone = {};
       replaced = true;
       break;
     }
     const bool no_such_noise = d.p_candidate <= no_noise;
-    std::vector<NoiseModel> views{white.model};
+    std::vector<inference::NoiseModel> views{white.model};
     if (!no_such_noise) views.insert(views.end(), {weaker(now.model, 0.3), now.model});
     std::vector<Try> tries =
         tries_under(e, views, no_such_noise ? white.log_likelihood2 : now.log_likelihood2, in_mean);
     if (tries.size() > most_tries) tries.resize(most_tries);
-    NoiseEstimate best;
+    inference::NoiseEstimate best;
     double strongest = 0.0;
     std::vector<int> best_mean;
     for (const Try& t : tries) {
       const auto& columns = e.set.candidates[t.candidate].variants[t.variant].columns;
       std::vector<int> mean = in_mean;
       mean.insert(mean.end(), columns.begin(), columns.end());
-      const NoiseEstimate with = estimate_noise(e.problem, declared, mean);
+      const inference::NoiseEstimate with = inference::estimate_noise(e.problem, declared, mean);
       const double ratio =
           with.log_likelihood2 - now.log_likelihood2 + price(e.problem, with.model, columns);
-      const double s = strength(ratio, static_cast<int>(columns.size()));
+      const double s = stats::strength(ratio, static_cast<int>(columns.size()));
       if (s <= strongest) continue;
       strongest = s;
       best = with;
@@ -134,4 +137,4 @@ bool settle_noise(Examination& e, const Test& test, double threshold, std::size_
   return replaced;
 }
 
-}  // namespace drift::discovery
+}  // namespace drift::search

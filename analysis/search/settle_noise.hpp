@@ -2,7 +2,7 @@
 
 #include "analysis/search/examination.hpp"
 
-namespace drift::discovery {
+namespace drift::search {
 
 /// Candidates that can be observed, best evidence first.
 std::vector<std::size_t> by_evidence(const Examination& e);
@@ -18,7 +18,7 @@ std::vector<std::size_t> by_evidence(const Examination& e);
 ///   noise estimated anew.
 /// threshold: strength that makes a candidate significant. rounds: candidates that may be in the
 /// mean together. True if the noise was replaced.
-bool settle_noise(Examination& e, const Test& test, double threshold, std::size_t tries = 4,
-                  int rounds = 3);
+bool settle_noise(Examination& e, const inference::Test& test, double threshold,
+                  std::size_t tries = 4, int rounds = 3);
 
-}  // namespace drift::discovery
+}  // namespace drift::search

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-namespace drift::discovery {
+namespace drift::search {
 namespace {
 
 constexpr std::array scales{1.0, 0.3, 0.1, 0.03, 0.01};  // of the prior's sigma
@@ -67,4 +67,4 @@ double log_gain_of_sizes(const VecX& x, const MatX& covariance, const std::vecto
   }
 }
 
-}  // namespace drift::discovery
+}  // namespace drift::search

@@ -4,7 +4,7 @@
 
 #include "core/base/linalg.hpp"
 
-namespace drift::discovery {
+namespace drift::search {
 
 /// How large an effect may be is known to orders of magnitude only: physics.md section 4 gives
 /// ranges of one to two decades. So a candidate's amplitudes have, with equal chances, a prior of
@@ -21,4 +21,4 @@ double log_evidence_of_sizes(const MatX& C, const VecX& g);
 /// numbered from 0; causes have scales of their own.
 double log_gain_of_sizes(const VecX& x, const MatX& covariance, const std::vector<int>& cause);
 
-}  // namespace drift::discovery
+}  // namespace drift::search

@@ -15,14 +15,16 @@
 #include "core/base/check.hpp"
 #include "core/base/number_text.hpp"
 
-namespace drift {
+namespace drift::strapdown {
 namespace {
 
-using namespace discovery;
-using strapdown::Evidence;
-using strapdown::Final;
-using strapdown::PartOfModel;
-using strapdown::Trial;
+using namespace diagnosis;
+using namespace inference;
+using namespace search;
+using Evidence;
+using Final;
+using PartOfModel;
+using Trial;
 
 constexpr double surely = 2.0;  // standard errors, as in the ladder
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -31,7 +33,7 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 /// loss is why it is rejected.
 double gain_of(const Trial& t) {
   const double best = std::max(t.z_dwell, t.z_rotation), worst = std::min(t.z_dwell, t.z_rotation);
-  return t.verdict == strapdown::Verdict::rejected && worst < -1.0 ? worst : best;
+  return t.verdict == Verdict::rejected && worst < -1.0 ? worst : best;
 }
 
 std::size_t pairs_of(const Trial& t) {
@@ -51,9 +53,8 @@ const Trial* named(const std::vector<Trial>& trials, std::string_view name,
 double log_gain(const Trial& trial, const Trial* against, const Trial* final_trial) {
   if (against == nullptr || final_trial == nullptr) return none;
   double gain = 0.0;
-  const auto add = [&](const std::optional<strapdown::Score>& before,
-                       const std::optional<strapdown::Score>& after,
-                       const std::optional<strapdown::Score>& scale, double dof) {
+  const auto add = [&](const std::optional<Score>& before, const std::optional<Score>& after,
+                       const std::optional<Score>& scale, double dof) {
     if (!before || !after || !scale) return;
     const double unit = std::max(scale->in_sample, 1e-12);
     for (std::size_t k = 0; k < after->errors.size(); ++k)
@@ -68,15 +69,15 @@ double log_gain(const Trial& trial, const Trial* against, const Trial* final_tri
 
 class Diagnoser {
  public:
-  Diagnoser(const Study& study, const Recording& recording, StrapdownDiagnosis& out)
+  Diagnoser(const mc::Study& study, const Recording& recording, StrapdownDiagnosis& out)
       : study_(study), out_(out), d_(out.diagnosis), r_(out.result) {
-    const strapdown::Signals signals = strapdown::signals_of(recording);
+    const Signals signals = signals_of(recording);
     evidence_.dwells = r_.search.dwells;
-    evidence_.rotations = strapdown::find_rotations(signals, evidence_.dwells).all;
+    evidence_.rotations = find_rotations(signals, evidence_.dwells).all;
     d_.nominal = study.filters.front();
-    nominal_.model = strapdown::nominal_model(d_.nominal);
+    nominal_.model = nominal_model(d_.nominal);
     nominal_.name = "nominal";
-    nominal_.fitted = strapdown::fit(nominal_.model, evidence_, strapdown::Asked::all);
+    nominal_.fitted = fit(nominal_.model, evidence_, Asked::all);
   }
 
   void run() {
@@ -102,7 +103,7 @@ class Diagnoser {
     Cause closure;
     closure.term = "frame_closure";
     closure.T = contest.z * contest.z;
-    closure.p_value = family_wise(strapdown::chance_of_gain(contest.z, contest.eq5.count));
+    closure.p_value = family_wise(chance_of_gain(contest.z, contest.eq5.count));
     closure.probability = 1.0;
     closure.size_sigma = none;
     d_.causes.push_back(closure);
@@ -139,14 +140,14 @@ class Diagnoser {
                                    t->against, equation_);
       c.dof = static_cast<int>(t->parameters - (against ? against->parameters : 0));
       c.absorbed = c.amplitude = c.smallest_detectable = c.size_sigma = none;
-      c.observable = t->verdict != strapdown::Verdict::skipped;
+      c.observable = t->verdict != Verdict::skipped;
       c.score = std::pow(std::max(0.0, gain_of(*t)), 2);
-      c.p_marginal = strapdown::chance_of_gain(gain_of(*t), pairs_of(*t));
+      c.p_marginal = chance_of_gain(gain_of(*t), pairs_of(*t));
       c.p_value = family_wise(c.p_marginal);
       const Trial* last = part.accelerometer ? accelerometer_final() : gyro_final();
       c.log_bayes = log_gain(*t, against, last);
       c.probability = std::isfinite(c.log_bayes) ? 1.0 / (1.0 + std::exp(-c.log_bayes)) : none;
-      c.adequate = t->verdict == strapdown::Verdict::accepted && holds(final_->model, part);
+      c.adequate = t->verdict == Verdict::accepted && holds(final_->model, part);
       d_.remarks.push_back(
           fmt::format("{} {}: {} (gain on dwells {:.1f}{} standard errors)", part.label,
                       name_of(t->verdict), t->reason, t->z_dwell,
@@ -160,17 +161,16 @@ class Diagnoser {
   const Trial* accelerometer_final() const {
     const Trial* last = nullptr;
     for (const Trial& t : r_.accelerometer_trials)
-      if (t.gravity && t.verdict != strapdown::Verdict::rejected) last = &t;
+      if (t.gravity && t.verdict != Verdict::rejected) last = &t;
     return last;
   }
 
   void causes() {
-    const auto parameters = strapdown::parameters_of(*final_);
+    const auto parameters = parameters_of(*final_);
     for (const PartOfModel& part : strapdown::parts_of_model()) {
       if (!holds(final_->model, part) || holds(nominal_.model, part)) continue;
       // All of g_drift goes by its O and S parts: the common part of D_I is not observable.
-      if (part.groups.front() == "D_I" && final_->model.drift >= strapdown::DriftOrder::g_sensitive)
-        continue;
+      if (part.groups.front() == "D_I" && final_->model.drift >= DriftOrder::g_sensitive) continue;
       Cause cause;
       cause.term = part.term;
       for (const auto& p : parameters) {
@@ -193,7 +193,7 @@ class Diagnoser {
     // Alone a candidate explains everything only if it is the whole difference.
     if (d_.causes.size() > 1)
       for (CandidateScore& c : d_.candidates) c.adequate = false;
-    d_.verdict = d_.causes.empty() ? discovery::Verdict::consistent : discovery::Verdict::named;
+    d_.verdict = d_.causes.empty() ? diagnosis::Verdict::consistent : diagnosis::Verdict::named;
     d_.has_patch = !d_.causes.empty();
     d_.patched = patched_filter(d_.nominal, d_.causes);
     if (d_.has_patch) d_.patched.coupling = final_->model.equation;
@@ -204,16 +204,14 @@ class Diagnoser {
   }
 
   void compare() {
-    using strapdown::Asked;
+    using Asked;
     const auto before = residuals_of(nominal_.model, nominal_.fitted, evidence_);
     const auto after = residuals_of(final_->model, final_->fitted, evidence_);
-    const auto scatter = strapdown::scatter_of(after);
-    strapdown::fill_where(before, after, scatter, evidence_, nominal_.fitted.accelerometer.theta,
-                          d_);
+    const auto scatter = scatter_of(after);
+    fill_where(before, after, scatter, evidence_, nominal_.fitted.accelerometer.theta, d_);
 
-    const strapdown::Division division{
-        std::min(r_.options.folds, static_cast<int>(evidence_.dwells.size())), r_.options.repeats,
-        r_.options.seed};
+    const Division division{std::min(r_.options.folds, static_cast<int>(evidence_.dwells.size())),
+                            r_.options.repeats, r_.options.seed};
     const auto out_before = held_out_errors(nominal_.model, evidence_, Asked::all, division);
     const auto out_after = held_out_errors(final_->model, evidence_, Asked::all, division);
     const auto was = scores_of(out_before, evidence_, scatter),
@@ -247,8 +245,8 @@ class Diagnoser {
     moved();
   }
 
-  void kinds(const strapdown::Errors& before, const strapdown::Errors& after) {
-    using strapdown::root_mean_square;
+  void kinds(const Errors& before, const Errors& after) {
+    using root_mean_square;
     const double g = r_.options.gravity;
     out_.kinds = {
         {"gyro rate in dwells", "deg/s", root_mean_square(before.dwell) / unit::deg_per_s.to_si,
@@ -261,8 +259,7 @@ class Diagnoser {
 
   void moved() {
     if (!d_.has_patch) return;
-    const auto before = strapdown::parameters_of(nominal_),
-               after = strapdown::parameters_of(*final_);
+    const auto before = parameters_of(nominal_), after = parameters_of(*final_);
     for (const auto& was : before)
       for (const auto& is : after)
         if (was.key == is.key)
@@ -290,7 +287,7 @@ class Diagnoser {
         "a recording on a case declares no noise: residuals and chi-square are in units of the "
         "scatter "
         "that the accepted model leaves");
-    if (final_->model.drift >= strapdown::DriftOrder::g_sensitive)
+    if (final_->model.drift >= DriftOrder::g_sensitive)
       d_.remarks.push_back(
           "D_I is fitted with D_O and D_S and is left out of the causes: its common part is not "
           "observable, and alone it improved nothing");
@@ -298,7 +295,7 @@ class Diagnoser {
       d_.remarks.push_back(fmt::format("not observable: {}: {}", u.what, u.reason));
   }
 
-  const Study& study_;
+  const mc::Study& study_;
   StrapdownDiagnosis& out_;
   Diagnosis& d_;
   const StrapdownResult& r_;
@@ -310,7 +307,7 @@ class Diagnoser {
 
 }  // namespace
 
-StrapdownDiagnosis diagnose_strapdown(const Study& study, const Recording& recording,
+StrapdownDiagnosis diagnose_strapdown(const mc::Study& study, const Recording& recording,
                                       StrapdownOptions options) {
   if (study.filters.empty())
     throw InputError(ExitCode::config,
@@ -327,4 +324,4 @@ StrapdownDiagnosis diagnose_strapdown(const Study& study, const Recording& recor
   return out;
 }
 
-}  // namespace drift
+}  // namespace drift::strapdown

@@ -7,7 +7,7 @@
 #include "analysis/strapdown/identify.hpp"
 #include "mc/study/study.hpp"
 
-namespace drift {
+namespace drift::strapdown {
 
 /// Root mean square error of the nominal and of the accepted model on one kind of held-out data.
 struct StrapdownKind {
@@ -19,7 +19,7 @@ struct StrapdownKind {
 /// A diagnosis of a strapdown recording and the identification it rests on.
 struct StrapdownDiagnosis {
   StrapdownResult result;
-  discovery::Diagnosis diagnosis;
+  diagnosis::Diagnosis diagnosis;
   std::vector<StrapdownKind> kinds;
 };
 
@@ -36,7 +36,7 @@ struct StrapdownDiagnosis {
 /// p values: Student's t of the paired held-out gain, Bonferroni over all models tried.
 /// Probabilities: from the gain of the held-out log score, equal odds before. Errors as
 /// identify_strapdown; InputError (config) if the study has no filter.
-StrapdownDiagnosis diagnose_strapdown(const Study& study, const Recording& recording,
+StrapdownDiagnosis diagnose_strapdown(const mc::Study& study, const Recording& recording,
                                       StrapdownOptions options);
 
-}  // namespace drift
+}  // namespace drift::strapdown

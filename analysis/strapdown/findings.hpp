@@ -5,7 +5,7 @@
 
 #include "analysis/strapdown/ladder.hpp"
 
-namespace drift {
+namespace drift::strapdown {
 
 /// A parameter of the model the held-out data accept.
 struct StrapdownParameter {
@@ -32,4 +32,4 @@ std::vector<StrapdownParameter> parameters_of(const Final& accepted);
 std::vector<Unobservable> unobservable_of(const Final& accepted);
 
 }  // namespace strapdown
-}  // namespace drift
+}  // namespace drift::strapdown

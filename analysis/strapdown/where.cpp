@@ -10,9 +10,9 @@
 namespace drift::strapdown {
 namespace {
 
-using discovery::Diagnosis;
-using discovery::RecoveredSignal;
-using discovery::Share;
+using diagnosis::Diagnosis;
+using diagnosis::RecoveredSignal;
+using diagnosis::Share;
 
 double square_or_zero(double v) {
   return std::isfinite(v) ? v * v : 0.0;

@@ -4,7 +4,7 @@
 #include <limits>
 #include <numbers>
 
-namespace drift::discovery {
+namespace drift::stats {
 
 /// Natural log of P(chi-square of `dof` degrees > T), accurate far into the tail.
 /// Upper incomplete gamma function: series below its mean, continued fraction (Lentz) above.
@@ -48,4 +48,4 @@ inline double quantile_of_strength(double s, int dof) {
   return 0.5 * (low + high);
 }
 
-}  // namespace drift::discovery
+}  // namespace drift::stats

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace drift {
+namespace drift::stats {
 
 /// An interval.
 struct Band {
@@ -22,4 +22,4 @@ inline Band chi_square_band(double dof) {
   return {std::max(0.0, cube(1.0 - v - z * s)), cube(1.0 - v + z * s)};
 }
 
-}  // namespace drift
+}  // namespace drift::stats

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace drift::mc {
+namespace drift::stats {
 
 double normal_distribution(double z) {
   return 0.5 * std::erfc(-z / std::numbers::sqrt2);
@@ -18,4 +18,4 @@ double normal_half_width(double confidence) {
   return normal_quantile(0.5 + 0.5 * confidence);
 }
 
-}  // namespace drift::mc
+}  // namespace drift::stats

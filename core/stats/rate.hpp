@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace drift::mc {
+namespace drift::stats {
 
 /// A share of runs, with its Wilson score interval (Wilson 1927): right to a percent or so of
 /// coverage from a few dozen runs on, and never outside 0..1, even where nothing or everything hit.
@@ -40,4 +40,4 @@ struct Rate {
   }
 };
 
-}  // namespace drift::mc
+}  // namespace drift::stats

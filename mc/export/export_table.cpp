@@ -14,7 +14,7 @@ namespace drift::mc {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-const double z95 = normal_half_width(0.95);
+const double z95 = stats::normal_half_width(0.95);
 
 void add_once(std::vector<std::string>& names, const std::string& name) {
   if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
@@ -67,7 +67,7 @@ struct StatisticsTables::Tables {
     for (const FilterStatistics& f : points[p].filters())
       for (std::size_t k = 0; k < f.errors().size(); ++k) {
         const ErrorStatistics& e = f.errors()[k];
-        const Rate& silent = f.health()[k].silent;
+        const stats::Rate& silent = f.health()[k].silent;
         const auto r = rmse(e);
         convergence.add({static_cast<double>(p), place(f),
                          static_cast<double>(f.columns().layout.params[k]),

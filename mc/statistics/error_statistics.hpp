@@ -56,7 +56,7 @@ class ErrorStatistics {
   /// deceives.
   Estimated deception() const;
   /// Share of runs whose error is below 1, 2, 3 sigma.
-  const std::array<Rate, 3>& coverage() const { return coverage_; }
+  const std::array<stats::Rate, 3>& coverage() const { return coverage_; }
   double learning() const { return mean_sigma() / prior_sigma_; }
 
  private:
@@ -67,7 +67,7 @@ class ErrorStatistics {
   std::uint64_t n_ = 0;
   // Errors in prior sigmas.
   double sum_ = 0.0, square_ = 0.0, fourth_ = 0.0, variance_ = 0.0;
-  std::array<Rate, 3> coverage_{};
+  std::array<stats::Rate, 3> coverage_{};
   struct Replicate {
     double weight = 0.0, square = 0.0, variance = 0.0;
   };

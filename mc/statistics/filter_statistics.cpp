@@ -12,14 +12,14 @@ void ChiSquareSum::add(double value, double degrees) {
   if (!(degrees > 0.0) || std::isnan(value)) return;
   sum += value;
   dof += degrees;
-  in_band.count(chi_square_band(degrees).holds(value / degrees));
+  in_band.count(stats::chi_square_band(degrees).holds(value / degrees));
 }
 
 double ChiSquareSum::low() const {
-  return chi_square_band(dof).low;
+  return stats::chi_square_band(dof).low;
 }
 double ChiSquareSum::high() const {
-  return chi_square_band(dof).high;
+  return stats::chi_square_band(dof).high;
 }
 
 double ParameterHealth::start_ratio() const {
@@ -78,7 +78,7 @@ void FilterStatistics::add_start(std::span<const double> row, std::size_t start)
   s.nees_all.add(of(C::nees_all), static_cast<double>(columns_.layout.size()));
   if (std::isfinite(of(C::lag1)))
     s.white.count(std::abs(of(C::lag1)) < 1.96 / std::sqrt(of(C::nis_dof)));
-  const bool healthy = chi_square_band(of(C::nis_dof)).holds(of(C::nis) / of(C::nis_dof));
+  const bool healthy = stats::chi_square_band(of(C::nis_dof)).holds(of(C::nis) / of(C::nis_dof));
   bool some_wrong = false;
   for (std::size_t k = 0; k < health_.size(); ++k) {
     const double sigma = row[columns_.sigma(start, k)];

@@ -26,7 +26,7 @@ double width_of(const FilterStatistics& filter, const StopSpec& spec, double z) 
 }  // namespace
 
 HalfWidthRule::HalfWidthRule(const std::vector<StudyPoint>& points, const StopSpec& spec)
-    : spec_(spec), z_(normal_half_width(spec.confidence)) {
+    : spec_(spec), z_(stats::normal_half_width(spec.confidence)) {
   for (const StudyPoint& p : points) points_.push_back({PointStatistics(p.study, 0), 0});
 }
 

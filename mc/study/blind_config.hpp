@@ -3,7 +3,7 @@
 #include "core/config/section.hpp"
 #include "mc/study/blind_spec.hpp"
 
-namespace drift {
+namespace drift::mc {
 
 /// Reads [blind]:
 ///
@@ -23,4 +23,4 @@ namespace drift {
 ///   local = 7
 BlindSpec read_blind(config::Section section);
 
-}  // namespace drift
+}  // namespace drift::mc

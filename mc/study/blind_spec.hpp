@@ -7,7 +7,7 @@
 #include "core/physics/drift_model.hpp"
 #include "core/plan/test_plan.hpp"
 
-namespace drift {
+namespace drift::mc {
 
 /// How many of the trials of a blind study hide what; weights, not fractions.
 struct BlindShares {
@@ -36,4 +36,4 @@ struct BlindSpec {
   BlindShares shares;
 };
 
-}  // namespace drift
+}  // namespace drift::mc

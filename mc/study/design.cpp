@@ -21,7 +21,7 @@ double inside_unit(std::uint64_t bits) {
 double at_quantile(const Prior& prior, double u) {
   switch (prior.kind) {
     case Prior::Kind::normal:
-      return prior.a + prior.b * normal_quantile(u);
+      return prior.a + prior.b * stats::normal_quantile(u);
     case Prior::Kind::uniform:
       return prior.a + (prior.b - prior.a) * u;
     case Prior::Kind::fixed:

@@ -6,7 +6,7 @@
 
 #include "core/config/section.hpp"
 
-namespace drift {
+namespace drift::mc {
 
 /// How the truth parameters of the runs are spread over their distributions.
 enum class DesignKind {
@@ -44,4 +44,4 @@ struct MonteCarlo {
 /// Reads [monte_carlo].
 MonteCarlo read_monte_carlo(config::Section section);
 
-}  // namespace drift
+}  // namespace drift::mc

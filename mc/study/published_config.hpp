@@ -5,7 +5,7 @@
 #include "core/config/section.hpp"
 #include "mc/study/study.hpp"
 
-namespace drift {
+namespace drift::mc {
 
 /// Reads every [[published]] section: results from elsewhere, printed beside ours.
 ///
@@ -16,4 +16,4 @@ namespace drift {
 ///   }
 std::vector<Published> read_published(config::Section& root);
 
-}  // namespace drift
+}  // namespace drift::mc

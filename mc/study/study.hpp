@@ -15,7 +15,7 @@
 #include "mc/study/blind_spec.hpp"
 #include "mc/study/monte_carlo.hpp"
 
-namespace drift {
+namespace drift::mc {
 
 /// One line of [sweep]: a dotted key of the study file and the values it takes, as TOML text.
 struct SweepAxis {
@@ -78,4 +78,4 @@ Study read_study_tree(const config::Node& root, const std::string& path);
 /// apply_override.
 void apply_sweep_value(config::Node& root, const std::string& key, const std::string& value);
 
-}  // namespace drift
+}  // namespace drift::mc

@@ -4,7 +4,7 @@
 #include "analysis/blind/key.hpp"
 #include "analysis/report/blind/report.hpp"
 
-namespace drift::blind {
+namespace drift::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -13,7 +13,7 @@ Json number(double v) {
   return std::isfinite(v) ? Json(v) : Json(nullptr);
 }
 
-Json of(const Proportion& p) {
+Json of(const blind::Proportion& p) {
   return {{"share", number(p.share())},
           {"low", p.low},
           {"high", p.high},
@@ -21,15 +21,15 @@ Json of(const Proportion& p) {
           {"trials", p.n}};
 }
 
-Json of(const std::vector<std::pair<std::string, Proportion>>& list) {
+Json of(const std::vector<std::pair<std::string, blind::Proportion>>& list) {
   Json out = Json::object();
   for (const auto& [name, p] : list) out[name] = of(p);
   return out;
 }
 
-Json of(const std::vector<GroupScore>& groups) {
+Json of(const std::vector<blind::GroupScore>& groups) {
   Json out = Json::object();
-  for (const GroupScore& g : groups)
+  for (const blind::GroupScore& g : groups)
     out[g.name] = {{"false_alarms", of(g.false_alarms)},
                    {"detected", of(g.detected)},
                    {"exact", of(g.exact)},
@@ -39,21 +39,21 @@ Json of(const std::vector<GroupScore>& groups) {
   return out;
 }
 
-Json targets_of(const Summary& s) {
+Json targets_of(const blind::Summary& s) {
   Json out = Json::array();
-  for (const Target& t : s.targets)
+  for (const blind::Target& t : s.targets)
     out.push_back({{"name", t.name},
                    {"from", t.low},
                    {"to", t.high},
                    {"measured", of(t.measured)},
                    {"met", t.met()},
-                   {"standing", std::string(text(t.standing()))}});
+                   {"standing", std::string(blind::text(t.standing()))}});
   return out;
 }
 
-Json power_of(const Summary& s) {
+Json power_of(const blind::Summary& s) {
   Json out = Json::array();
-  for (const PowerPoint& p : s.power)
+  for (const blind::PowerPoint& p : s.power)
     out.push_back({{"size", p.mean},
                    {"detected", of(p.detected)},
                    {"theory", p.theory},
@@ -64,9 +64,9 @@ Json power_of(const Summary& s) {
   return out;
 }
 
-Json of(const TrialScore& t) {
+Json of(const blind::TrialScore& t) {
   Json hidden = Json::array(), pulls = Json::array();
-  for (const HiddenEffect& e : t.key.effects) {
+  for (const blind::HiddenEffect& e : t.key.effects) {
     hidden.push_back({{"term", e.term},
                       {"axis", e.axis},
                       {"size", number(e.size)},
@@ -76,16 +76,17 @@ Json of(const TrialScore& t) {
       hidden.back()["nearest_cosine"] = number(e.nearest_cosine);
     }
   }
-  for (const Pull& p : t.pulls) pulls.push_back({{"key", p.key}, {"pull", number(p.pull())}});
+  for (const blind::Pull& p : t.pulls)
+    pulls.push_back({{"key", p.key}, {"pull", number(p.pull())}});
   return {{"trial", t.key.plan.number},
-          {"stratum", name_in(stratum_names, t.key.plan.stratum)},
+          {"stratum", blind::name_in(blind::stratum_names, t.key.plan.stratum)},
           {"plan", t.key.plan.plan},
-          {"mode", name_in(mode_names, t.key.plan.mode)},
-          {"truth_coupling", name_in(coupling_names, t.key.plan.coupling)},
+          {"mode", blind::name_in(blind::mode_names, t.key.plan.mode)},
+          {"truth_coupling", blind::name_in(blind::coupling_names, t.key.plan.coupling)},
           {"hidden", hidden},
           {"concealed", t.key.certificate.concealed},
           {"largest_bias_sigma", number(t.key.certificate.largest_bias)},
-          {"verdict", t.answer.failed ? "failed" : std::string(discovery::text(t.answer.verdict))},
+          {"verdict", t.answer.failed ? "failed" : std::string(diagnosis::text(t.answer.verdict))},
           {"called", t.called},
           {"p_value", number(t.answer.p_value)},
           {"detected", t.detected},
@@ -102,17 +103,18 @@ Json of(const TrialScore& t) {
           {"failure", t.answer.failure}};
 }
 
-Json of(const Confusion& c) {
+Json of(const blind::Confusion& c) {
   Json rows = Json::object();
-  for (const ConfusionRow& r : c.rows) rows[r.hidden] = r.called;
+  for (const blind::ConfusionRow& r : c.rows) rows[r.hidden] = r.called;
   return {{"columns", c.columns}, {"rows", rows}};
 }
 
 }  // namespace
 
-std::string to_json(const Summary& s, const std::vector<TrialScore>& scores, const Hashes& hashes) {
+std::string to_json(const blind::Summary& s, const std::vector<blind::TrialScore>& scores,
+                    const Hashes& hashes) {
   Json trials = Json::array();
-  for (const TrialScore& t : scores) trials.push_back(of(t));
+  for (const blind::TrialScore& t : scores) trials.push_back(of(t));
   const Json out{
       {"schema", 1},
       {"key_sha256", hashes.key},
@@ -136,4 +138,4 @@ std::string to_json(const Summary& s, const std::vector<TrialScore>& scores, con
   return out.dump(1) + "\n";
 }
 
-}  // namespace drift::blind
+}  // namespace drift::report

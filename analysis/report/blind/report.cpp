@@ -8,28 +8,29 @@
 
 #include "analysis/report/blind/tables.hpp"
 #include "analysis/report/page/html_report.hpp"
-#include "core/base/results_folder.hpp"
 #include "analysis/report/svg/heat_map.hpp"
 #include "analysis/report/svg/svg_chart.hpp"
 #include "core/base/number_text.hpp"
+#include "core/base/results_folder.hpp"
 
-namespace drift::blind {
+namespace drift::report {
 namespace {
 
-std::string standing_text(const std::vector<Target>& targets) {
-  const auto count = [&](Standing standing) {
+std::string standing_text(const std::vector<blind::Target>& targets) {
+  const auto count = [&](blind::Standing standing) {
     return std::count_if(targets.begin(), targets.end(),
-                         [=](const Target& t) { return t.standing() == standing; });
+                         [=](const blind::Target& t) { return t.standing() == standing; });
   };
   return fmt::format(
       "Of {} targets {} are met and {} missed with their whole intervals, {} met and {} missed "
       "within their "
       "intervals, {} not decided.",
-      targets.size(), count(Standing::met), count(Standing::missed), count(Standing::met_within),
-      count(Standing::missed_within), count(Standing::not_decided));
+      targets.size(), count(blind::Standing::met), count(blind::Standing::missed),
+      count(blind::Standing::met_within), count(blind::Standing::missed_within),
+      count(blind::Standing::not_decided));
 }
 
-std::vector<std::string> headlines(const Summary& s, const Hashes& hashes) {
+std::vector<std::string> headlines(const blind::Summary& s, const Hashes& hashes) {
   return {fmt::format("{} trials, {} of them without an answer. {}", s.trials, s.failed,
                       standing_text(s.targets)),
           fmt::format("The nominal fit looks healthy (chi-square inside its 95 % band) in {} "
@@ -41,7 +42,7 @@ std::vector<std::string> headlines(const Summary& s, const Hashes& hashes) {
               hashes.key, hashes.answers)};
 }
 
-std::string times_text(const Summary& s) {
+std::string times_text(const blind::Summary& s) {
   return fmt::format(
       "A diagnosis took {} s on average, the longest {} s. Pulls of the recovered parameters have "
       "a "
@@ -67,7 +68,7 @@ Chart chart_of(std::string title, double height, Panel panel) {
   return chart;
 }
 
-std::string power_svg(const Summary& s) {
+std::string power_svg(const blind::Summary& s) {
   Panel panel;
   panel.x_label = "size, not absorbed by the nominal fit [sigma]";
   panel.y_label = "share of trials";
@@ -76,7 +77,7 @@ std::string power_svg(const Summary& s) {
   Series exact = curve("named exactly", 2), set = curve("in a set of at most 3", 1, Stroke::dashed);
   ExpectedBand band;
   band.label = "95 % interval of detection";
-  for (const PowerPoint& p : s.power) {
+  for (const blind::PowerPoint& p : s.power) {
     for (Series* c : {&power, &theory, &exact, &set}) c->x.push_back(p.mean);
     power.y.push_back(p.detected.share());
     theory.y.push_back(p.theory);
@@ -89,11 +90,11 @@ std::string power_svg(const Summary& s) {
   if (s.power.empty()) panel.note = "no single effects";
   panel.expected = {band};
   panel.series = {power, theory, exact, set};
-  return drift::svg_of(chart_of("Detection and naming of single effects", 320.0, panel));
+  return svg_of(chart_of("Detection and naming of single effects", 320.0, panel));
 }
 
 /// Shares of each row of the confusion table.
-std::string confusion_svg(const Confusion& c) {
+std::string confusion_svg(const blind::Confusion& c) {
   HeatMap map;
   map.title = "What was hidden (rows) and what it was called (columns)";
   map.value_label = "share of the row";
@@ -110,7 +111,7 @@ std::string confusion_svg(const Confusion& c) {
       map.value(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(k)) =
           static_cast<double>(called[k]) / total;
   }
-  return drift::svg_of(map);
+  return svg_of(map);
 }
 
 /// Sorted values against the share of them that is smaller.
@@ -125,7 +126,7 @@ Series distribution(std::string label, std::vector<double> values) {
   return s;
 }
 
-std::string pulls_svg(const Summary& s) {
+std::string pulls_svg(const blind::Summary& s) {
   Panel panel;
   panel.x_label = "(estimate - truth) / sigma";
   panel.y_label = "share below";
@@ -137,22 +138,22 @@ std::string pulls_svg(const Summary& s) {
   }
   panel.series.push_back(normal);
   if (s.pulls.empty()) panel.note = "nothing was named exactly";
-  return drift::svg_of(chart_of("Recovered parameters against the truth", 300.0, panel));
+  return svg_of(chart_of("Recovered parameters against the truth", 300.0, panel));
 }
 
-std::string time_svg(const std::vector<TrialScore>& scores) {
+std::string time_svg(const std::vector<blind::TrialScore>& scores) {
   Panel panel;
   panel.x_label = "time [s]";
   panel.y_label = "share below";
   std::vector<double> seconds;
-  for (const TrialScore& t : scores) seconds.push_back(t.answer.seconds);
+  for (const blind::TrialScore& t : scores) seconds.push_back(t.answer.seconds);
   panel.series = {distribution("trials", seconds)};
-  return drift::svg_of(chart_of("Time of a diagnosis", 260.0, panel));
+  return svg_of(chart_of("Time of a diagnosis", 260.0, panel));
 }
 
 }  // namespace
 
-std::string to_text(const Summary& summary, const std::vector<TrialScore>& scores,
+std::string to_text(const blind::Summary& summary, const std::vector<blind::TrialScore>& scores,
                     const Hashes& hashes) {
   std::string out;
   for (const Table& t : tables_of(summary)) out += drift::text_of(t) + "\n";
@@ -162,9 +163,9 @@ std::string to_text(const Summary& summary, const std::vector<TrialScore>& score
   return out;
 }
 
-std::vector<std::string> write_report(const std::string& title, const Summary& summary,
-                                      const std::vector<TrialScore>& scores, const Hashes& hashes,
-                                      const std::string& folder) {
+std::vector<std::string> write_report(const std::string& title, const blind::Summary& summary,
+                                      const std::vector<blind::TrialScore>& scores,
+                                      const Hashes& hashes, const std::string& folder) {
   const std::string power = power_svg(summary), confusion = confusion_svg(summary.confusion),
                     pulls = pulls_svg(summary), time = time_svg(scores);
   const std::vector<Table> tables = tables_of(summary);
@@ -195,4 +196,4 @@ std::vector<std::string> write_report(const std::string& title, const Summary& s
                      folder);
 }
 
-}  // namespace drift::blind
+}  // namespace drift::report

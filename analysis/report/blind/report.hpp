@@ -5,7 +5,7 @@
 
 #include "analysis/blind/summary.hpp"
 
-namespace drift::blind {
+namespace drift::report {
 
 /// What is published with the scores.
 struct Hashes {
@@ -13,16 +13,16 @@ struct Hashes {
 };
 
 /// For a terminal.
-std::string to_text(const Summary& summary, const std::vector<TrialScore>& scores,
+std::string to_text(const blind::Summary& summary, const std::vector<blind::TrialScore>& scores,
                     const Hashes& hashes);
 /// blind.json: hashes, targets, all scores, every trial.
-std::string to_json(const Summary& summary, const std::vector<TrialScore>& scores,
+std::string to_json(const blind::Summary& summary, const std::vector<blind::TrialScore>& scores,
                     const Hashes& hashes);
 
 /// Writes blind.json, report.html, power.svg, confusion.svg, pulls.svg, time.svg. Returns their
 /// names.
-std::vector<std::string> write_report(const std::string& title, const Summary& summary,
-                                      const std::vector<TrialScore>& scores, const Hashes& hashes,
-                                      const std::string& folder);
+std::vector<std::string> write_report(const std::string& title, const blind::Summary& summary,
+                                      const std::vector<blind::TrialScore>& scores,
+                                      const Hashes& hashes, const std::string& folder);
 
-}  // namespace drift::blind
+}  // namespace drift::report

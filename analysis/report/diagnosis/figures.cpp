@@ -13,10 +13,12 @@
 #include "analysis/report/svg/svg_chart.hpp"
 #include "core/base/number_text.hpp"
 
-namespace drift {
+namespace drift::report {
 namespace {
 
-using namespace discovery;
+using namespace diagnosis;
+using namespace inference;
+using namespace search;
 
 constexpr double hour = 3600.0, none = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t most_signals = 3, most_windows = 6, most_bars = 20, most_moved = 24;
@@ -309,4 +311,4 @@ std::vector<Figure> fit_figures(const Diagnosis& d) {
   return figures;
 }
 
-}  // namespace drift
+}  // namespace drift::report

@@ -8,10 +8,10 @@
 #include "analysis/diagnosis/sentence.hpp"
 #include "analysis/report/diagnosis/json.hpp"
 #include "analysis/report/diagnosis/residual_signal.hpp"
-#include "core/base/results_folder.hpp"
 #include "analysis/report/page/table.hpp"
+#include "core/base/results_folder.hpp"
 
-namespace drift {
+namespace drift::report {
 namespace {
 
 /// A text as comment lines of a study file.
@@ -23,14 +23,14 @@ std::string commented(const std::string& text) {
 }
 
 /// The patched study; where several causes remain possible, headed by what it holds.
-std::string patched_file(const Study& study, const discovery::Diagnosis& d) {
-  const std::string head = discovery::patch_text(d);
-  return (head.empty() ? "" : commented(head)) + discovery::patched_study(study, d.patched);
+std::string patched_file(const mc::Study& study, const diagnosis::Diagnosis& d) {
+  const std::string head = diagnosis::patch_text(d);
+  return (head.empty() ? "" : commented(head)) + diagnosis::patched_study(study, d.patched);
 }
 
 }  // namespace
 
-std::vector<std::string> write_results(const Study& study, const discovery::Diagnosis& d,
+std::vector<std::string> write_results(const mc::Study& study, const diagnosis::Diagnosis& d,
                                        const DiagnosisSource& source, const std::string& folder) {
   // Everything is made before anything is written: what fails then is the disk alone.
   std::vector<TextFile> files{
@@ -41,7 +41,7 @@ std::vector<std::string> write_results(const Study& study, const discovery::Diag
   for (Figure& f : diagnosis_figures(d)) files.emplace_back(f.file, std::move(f.svg));
   if (d.has_patch) files.emplace_back("patched.toml", patched_file(study, d));
   if (!d.advice.empty() && !d.advice.front().plan.empty() && study.kind == RecordingKind::platform)
-    files.emplace_back("advised.toml", discovery::extended_study(study, d.advice.front().plan));
+    files.emplace_back("advised.toml", diagnosis::extended_study(study, d.advice.front().plan));
   for (const char* name : {"patched.toml", "advised.toml"}) {
     std::error_code ignored;
     if (std::ranges::none_of(files, [&](const TextFile& f) { return f.first == name; }))
@@ -50,4 +50,4 @@ std::vector<std::string> write_results(const Study& study, const discovery::Diag
   return write_files(files, folder);
 }
 
-}  // namespace drift
+}  // namespace drift::report

@@ -11,10 +11,12 @@
 #include "core/physics/coupling_text.hpp"
 #include "core/physics/parameters_config.hpp"
 
-namespace drift {
+namespace drift::report {
 namespace {
 
-using namespace discovery;
+using namespace diagnosis;
+using namespace inference;
+using namespace search;
 
 constexpr std::size_t most_candidates = 40, most_moved = 40, most_windows = 12;
 
@@ -101,7 +103,7 @@ std::string model_text(const FilterSpec& f) {
   return fmt::format("{}, terms {}", key_of(f.coupling), fmt::join(terms_text(f.active), ", "));
 }
 
-Section source_section(const Study& study, const Diagnosis& d, const DiagnosisSource& source) {
+Section source_section(const mc::Study& study, const Diagnosis& d, const DiagnosisSource& source) {
   Section section{"Where this came from", {}};
   Table table;
   table.columns = {{"", Align::left}, {"", Align::left}};
@@ -126,7 +128,8 @@ std::vector<Figure> diagnosis_figures(const Diagnosis& d) {
   return all;
 }
 
-HtmlReport diagnosis_html(const Study& study, const Diagnosis& d, const DiagnosisSource& source) {
+HtmlReport diagnosis_html(const mc::Study& study, const Diagnosis& d,
+                          const DiagnosisSource& source) {
   HtmlReport report;
   report.title = study.title.empty() ? "Diagnosis" : study.title;
   report.subtitle =
@@ -149,4 +152,4 @@ HtmlReport diagnosis_html(const Study& study, const Diagnosis& d, const Diagnosi
   return report;
 }
 
-}  // namespace drift
+}  // namespace drift::report

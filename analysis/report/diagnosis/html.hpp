@@ -8,7 +8,7 @@
 #include "analysis/report/page/html_report.hpp"
 #include "mc/study/study.hpp"
 
-namespace drift {
+namespace drift::report {
 
 /// What the report says beside the diagnosis: where it came from.
 struct DiagnosisSource {
@@ -18,10 +18,10 @@ struct DiagnosisSource {
 
 /// Everything there is to say of a diagnosis, with its pictures: verdict, where, candidates, fit
 /// before and after, what moved, noise, likeness, advice, provenance.
-HtmlReport diagnosis_html(const Study& study, const discovery::Diagnosis& diagnosis,
+HtmlReport diagnosis_html(const mc::Study& study, const diagnosis::Diagnosis& diagnosis,
                           const DiagnosisSource& source);
 
 /// All pictures of a diagnosis, in the order of the report.
-std::vector<Figure> diagnosis_figures(const discovery::Diagnosis& diagnosis);
+std::vector<Figure> diagnosis_figures(const diagnosis::Diagnosis& diagnosis);
 
-}  // namespace drift
+}  // namespace drift::report

@@ -5,10 +5,12 @@
 
 #include "analysis/report/diagnosis/words.hpp"
 
-namespace drift {
+namespace drift::report {
 namespace {
 
-using namespace discovery;
+using namespace diagnosis;
+using namespace inference;
+using namespace search;
 using Json = nlohmann::ordered_json;
 
 Json number(double value) {
@@ -268,4 +270,4 @@ std::string to_json(const Diagnosis& d) {
   return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace drift
+}  // namespace drift::report

@@ -6,7 +6,7 @@
 
 #include "analysis/report/diagnosis/words.hpp"
 
-namespace drift {
+namespace drift::report {
 namespace {
 
 std::string cell(double value) {
@@ -22,8 +22,8 @@ std::string plain(std::string text) {
 
 }  // namespace
 
-std::string residual_signal_csv(const std::vector<discovery::RecoveredSignal>& signals,
-                                const std::vector<discovery::RecordingSpan>& recordings) {
+std::string residual_signal_csv(const std::vector<diagnosis::RecoveredSignal>& signals,
+                                const std::vector<diagnosis::RecordingSpan>& recordings) {
   std::string out =
       "# what the nominal model does not explain, as the input that would explain it; sigma: 1 "
       "standard deviation\n";
@@ -45,4 +45,4 @@ std::string residual_signal_csv(const std::vector<discovery::RecoveredSignal>& s
   return out;
 }
 
-}  // namespace drift
+}  // namespace drift::report

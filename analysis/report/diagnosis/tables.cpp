@@ -9,10 +9,12 @@
 #include "analysis/report/diagnosis/words.hpp"
 #include "core/base/number_text.hpp"
 
-namespace drift {
+namespace drift::report {
 namespace {
 
-using namespace discovery;
+using namespace diagnosis;
+using namespace inference;
+using namespace search;
 
 /// Near all and near nothing with decimals: 99.7 % absorbed is not 100 %.
 std::string percent(double share) {
@@ -252,4 +254,4 @@ Table advice_table(const Advice& advice) {
   return table;
 }
 
-}  // namespace drift
+}  // namespace drift::report

@@ -7,10 +7,12 @@
 #include "analysis/report/diagnosis/tables.hpp"
 #include "analysis/report/diagnosis/words.hpp"
 
-namespace drift {
+namespace drift::report {
 namespace {
 
-using namespace discovery;
+using namespace diagnosis;
+using namespace inference;
+using namespace search;
 
 constexpr std::size_t page = 100, most_candidates = 6, most_moved = 8;
 
@@ -45,4 +47,4 @@ std::string to_text(const Diagnosis& d) {
   return out;
 }
 
-}  // namespace drift
+}  // namespace drift::report

@@ -9,10 +9,12 @@
 #include "analysis/diagnosis/sentence.hpp"
 #include "core/base/number_text.hpp"
 
-namespace drift {
+namespace drift::report {
 namespace {
 
-using namespace discovery;
+using namespace diagnosis;
+using namespace inference;
+using namespace search;
 
 std::string keyed(const std::string& term, const std::string& axis) {
   return axis.empty() ? term : term + "." + axis;
@@ -153,4 +155,4 @@ std::string held_out_sentence(const HeldOut& held) {
   return out;
 }
 
-}  // namespace drift
+}  // namespace drift::report

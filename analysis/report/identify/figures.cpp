@@ -10,7 +10,7 @@
 #include "core/physics/coupling_text.hpp"
 #include "core/stats/chi_square_band.hpp"
 
-namespace drift {
+namespace drift::report {
 namespace {
 
 constexpr std::size_t most_highlighted = 6;
@@ -21,8 +21,8 @@ void add_once(std::vector<T>& all, const T& value) {
   if (std::ranges::find(all, value) == all.end()) all.push_back(value);
 }
 
-bool estimated(const Identification& id, std::size_t param) {
-  return std::ranges::any_of(id.summaries, [&](const FilterSummary& s) {
+bool estimated(const identification::Identification& id, std::size_t param) {
+  return std::ranges::any_of(id.summaries, [&](const identification::FilterSummary& s) {
     return std::ranges::find(s.layout.params, param) != s.layout.params.end();
   });
 }
@@ -32,7 +32,7 @@ std::string start_label(std::size_t start) {
 }
 
 /// One parameter from one start. Where the filter has stopped, its history is empty: a gap.
-Series estimate_series(const FilterRun& run, std::size_t k, double unit) {
+Series estimate_series(const identification::FilterRun& run, std::size_t k, double unit) {
   Series s{.label = start_label(run.start), .x = {}, .y = {}, .sigma = {}, .colour = run.start};
   s.stroke = run.start < 7 ? Stroke::solid : Stroke::dashed;
   for (std::size_t i = 0; i < run.history.t.size(); ++i) {
@@ -46,8 +46,8 @@ Series estimate_series(const FilterRun& run, std::size_t k, double unit) {
 }
 
 /// Truth and independent tests; equal values share a line.
-std::vector<ReferenceLine> references(const Study& study, const Identification& id,
-                                      std::size_t param) {
+std::vector<ReferenceLine> references(const mc::Study& study,
+                                      const identification::Identification& id, std::size_t param) {
   const double unit = TermLibrary::specs[param].unit.to_si;
   std::vector<ReferenceLine> lines;
   const auto add = [&](double value, const std::string& label) {
@@ -59,7 +59,7 @@ std::vector<ReferenceLine> references(const Study& study, const Identification& 
     lines.push_back({value, label, lines.empty() ? Stroke::dashed : Stroke::dotted});
   };
   if (id.truth) add(id.truth->theta[param] / unit, "truth");
-  for (const Published& p : study.published)
+  for (const mc::Published& p : study.published)
     for (const auto& v : p.values)
       if (p.filter.empty() && v.param == param && !v.values.empty())
         add(v.values.front() / unit, p.name);
@@ -86,8 +86,8 @@ Range shown_range(const Panel& panel) {
   return all.width() <= 2.5 * late.width() ? all : wide;
 }
 
-Panel estimate_panel(const Study& study, const Identification& id, const FilterSummary& summary,
-                     std::size_t param) {
+Panel estimate_panel(const mc::Study& study, const identification::Identification& id,
+                     const identification::FilterSummary& summary, std::size_t param) {
   const auto& spec = TermLibrary::specs[param];
   const FilterSpec& filter = study.filters[summary.filter];
   Panel panel;
@@ -100,7 +100,7 @@ Panel estimate_panel(const Study& study, const Identification& id, const FilterS
     return panel;
   }
   const auto k = static_cast<std::size_t>(at - summary.layout.params.begin());
-  for (const FilterRun* run : id.runs_of(summary.filter))
+  for (const identification::FilterRun* run : id.runs_of(summary.filter))
     panel.series.push_back(estimate_series(*run, k, spec.unit.to_si));
   panel.references = references(study, id, param);
   if (const Range r = shown_range(panel); !r.empty()) panel.y_range = r;
@@ -108,13 +108,14 @@ Panel estimate_panel(const Study& study, const Identification& id, const FilterS
 }
 
 /// NIS per scalar, averaged over stretches so that at most about 100 points stay readable.
-Panel nis_panel(const Study& study, const Identification& id, const FilterSummary& summary) {
+Panel nis_panel(const mc::Study& study, const identification::Identification& id,
+                const identification::FilterSummary& summary) {
   const FilterSpec& filter = study.filters[summary.filter];
   Panel panel;
   panel.title = fmt::format("{} ({})", filter.name, key_of(filter.coupling));
   panel.x_label = "time [h]";
   panel.y_label = "NIS per measured scalar";
-  for (const FilterRun* run : id.runs_of(summary.filter)) {
+  for (const identification::FilterRun* run : id.runs_of(summary.filter)) {
     const EkfHistory& h = run->history;
     const std::size_t stretch = std::max<std::size_t>(1, h.t.size() / 100);
     Series s{.label = start_label(run->start), .x = {}, .y = {}, .sigma = {}, .colour = run->start};
@@ -126,8 +127,8 @@ Panel nis_panel(const Study& study, const Identification& id, const FilterSummar
         nis += h.nis[i];
         scalars += h.scalars[i];
       }
-      const Band expected =
-          scalars > 0.0 ? chi_square_band(scalars) : Band{std::nan(""), std::nan("")};
+      const stats::Band expected =
+          scalars > 0.0 ? stats::chi_square_band(scalars) : stats::Band{std::nan(""), std::nan("")};
       s.x.push_back(0.5 * (h.t[begin] + h.t[end - 1]) / hour);
       s.y.push_back(scalars > 0.0 ? nis / scalars : std::nan(""));
       band.x.push_back(s.x.back());
@@ -142,15 +143,16 @@ Panel nis_panel(const Study& study, const Identification& id, const FilterSummar
 
 }  // namespace
 
-std::vector<std::size_t> highlighted_parameters(const Study& study, const Identification& id) {
+std::vector<std::size_t> highlighted_parameters(const mc::Study& study,
+                                                const identification::Identification& id) {
   std::vector<std::size_t> params;
-  for (const Published& p : study.published)
+  for (const mc::Published& p : study.published)
     for (const auto& v : p.values)
       if (estimated(id, v.param)) add_once(params, v.param);
   if (!params.empty()) return params;
 
   constexpr std::string_view prefix = "truth.parameters.";
-  for (const Resolved& r : study.resolved) {
+  for (const mc::Resolved& r : study.resolved) {
     if (!id.simulated || !r.key.starts_with(prefix) || r.origin.starts_with("default")) continue;
     const auto param = TermLibrary::find(std::string_view(r.key).substr(prefix.size()));
     if (param && estimated(id, *param) && params.size() < most_highlighted)
@@ -158,17 +160,20 @@ std::vector<std::size_t> highlighted_parameters(const Study& study, const Identi
   }
   if (!params.empty()) return params;
 
-  std::vector<StartSpread> spread;
-  for (const FilterSummary& s : id.summaries)
+  std::vector<identification::StartSpread> spread;
+  for (const identification::FilterSummary& s : id.summaries)
     spread.insert(spread.end(), s.spread.begin(), s.spread.end());
-  const auto size = [](const StartSpread& s) { return std::isfinite(s.ekf) ? s.ekf : -1.0; };
+  const auto size = [](const identification::StartSpread& s) {
+    return std::isfinite(s.ekf) ? s.ekf : -1.0;
+  };
   std::ranges::stable_sort(spread, std::greater{}, size);
-  for (const StartSpread& s : spread)
+  for (const identification::StartSpread& s : spread)
     if (params.size() < 3) add_once(params, s.param);
   return params;
 }
 
-std::vector<Figure> identification_figures(const Study& study, const Identification& id) {
+std::vector<Figure> identification_figures(const mc::Study& study,
+                                           const identification::Identification& id) {
   const std::vector<std::size_t> params = highlighted_parameters(study, id);
   std::vector<Figure> figures;
   if (params.empty()) return figures;
@@ -180,7 +185,7 @@ std::vector<Figure> identification_figures(const Study& study, const Identificat
             260.0};
   std::vector<Figure> alone;
   std::vector<std::string> taken;
-  for (const FilterSummary& s : id.summaries) {
+  for (const identification::FilterSummary& s : id.summaries) {
     const std::string& name = study.filters[s.filter].name;
     Chart chart{
         fmt::format("Estimates of filter {}", name), {}, std::min<std::size_t>(params.size(), 3)};
@@ -209,4 +214,4 @@ std::vector<Figure> identification_figures(const Study& study, const Identificat
   return figures;
 }
 
-}  // namespace drift
+}  // namespace drift::report

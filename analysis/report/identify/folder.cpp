@@ -7,9 +7,10 @@
 #include "analysis/report/identify/json.hpp"
 #include "core/base/results_folder.hpp"
 
-namespace drift {
+namespace drift::report {
 
-std::vector<std::string> write_results(const Study& study, const Identification& id,
+std::vector<std::string> write_results(const mc::Study& study,
+                                       const identification::Identification& id,
                                        const std::string& folder) {
   // Everything is made before anything is written: what fails then is the disk alone.
   const std::vector<Figure> figures = identification_figures(study, id);
@@ -26,4 +27,4 @@ std::vector<std::string> write_results(const Study& study, const Identification&
   return names;
 }
 
-}  // namespace drift
+}  // namespace drift::report

@@ -3,12 +3,13 @@
 #include "analysis/report/identify/published_table.hpp"
 #include "analysis/report/identify/tables.hpp"
 
-namespace drift {
+namespace drift::report {
 namespace {
 
 constexpr std::size_t most_starts = 6;  // columns of a page
 
-Section filter_section(const Study& study, const Identification& id, std::size_t filter) {
+Section filter_section(const mc::Study& study, const identification::Identification& id,
+                       std::size_t filter) {
   const std::vector<std::string> lines = filter_lines(study.filters[filter]);
   Section section{lines.front(), {}};
   section.blocks.emplace_back(Sentences{{lines.begin() + 1, lines.end()}});
@@ -19,17 +20,17 @@ Section filter_section(const Study& study, const Identification& id, std::size_t
   return section;
 }
 
-Section study_section(const Study& study) {
+Section study_section(const mc::Study& study) {
   Table table;
   table.columns = {{"key", Align::left}, {"value", Align::left}, {"from", Align::left}};
-  for (const Resolved& r : study.resolved) table.add({r.key, r.value, r.origin});
+  for (const mc::Resolved& r : study.resolved) table.add({r.key, r.value, r.origin});
   return {"Study",
           {Paragraph{"Every value the study resolves to, and where it comes from."}, table}};
 }
 
 }  // namespace
 
-HtmlReport identification_html(const Study& study, const Identification& id,
+HtmlReport identification_html(const mc::Study& study, const identification::Identification& id,
                                const std::vector<Figure>& figures) {
   HtmlReport report;
   report.title = study.title.empty() ? "Identification" : study.title;
@@ -44,11 +45,11 @@ HtmlReport identification_html(const Study& study, const Identification& id,
     for (Table& t : tables) section.blocks.emplace_back(std::move(t));
     report.sections.push_back(std::move(section));
   }
-  for (const FilterSummary& s : id.summaries)
+  for (const identification::FilterSummary& s : id.summaries)
     report.sections.push_back(filter_section(study, id, s.filter));
   if (!study.resolved.empty()) report.sections.push_back(study_section(study));
   report.footer = "Written by driftscope identify. Values stand with their units; ± is 1 sigma.";
   return report;
 }
 
-}  // namespace drift
+}  // namespace drift::report

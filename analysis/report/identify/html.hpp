@@ -4,10 +4,10 @@
 #include "analysis/report/identify/figures.hpp"
 #include "analysis/report/page/html_report.hpp"
 
-namespace drift {
+namespace drift::report {
 
 /// Everything there is to say of an identification, with its pictures.
-HtmlReport identification_html(const Study& study, const Identification& id,
+HtmlReport identification_html(const mc::Study& study, const identification::Identification& id,
                                const std::vector<Figure>& figures);
 
-}  // namespace drift
+}  // namespace drift::report

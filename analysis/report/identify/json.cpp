@@ -8,7 +8,7 @@
 #include "core/physics/coupling_text.hpp"
 #include "core/stats/chi_square_band.hpp"
 
-namespace drift {
+namespace drift::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -63,7 +63,7 @@ Json estimator(const EstimateResult& result) {
   out["degrees_of_freedom"] = result.measured;
   out["chi2_per_dof"] = measured ? number(result.statistic_per_dof()) : Json(nullptr);
   if (measured) {
-    const Band band = chi_square_band(static_cast<double>(result.measured));
+    const stats::Band band = stats::chi_square_band(static_cast<double>(result.measured));
     out["chi2_per_dof_95"] = {number(band.low), number(band.high)};
   }
   Json& all = out["parameters"] = Json::object();
@@ -79,7 +79,7 @@ Json estimator(const EstimateResult& result) {
   return out;
 }
 
-Json run_json(const FilterRun& run) {
+Json run_json(const identification::FilterRun& run) {
   Json out;
   out["start"] = run.start + 1;
   out["ekf"] = estimator(run.ekf);
@@ -89,7 +89,8 @@ Json run_json(const FilterRun& run) {
   return out;
 }
 
-Json parameters_json(const FilterSummary& summary, const Identification& id) {
+Json parameters_json(const identification::FilterSummary& summary,
+                     const identification::Identification& id) {
   Json all = Json::object();
   for (std::size_t k = 0; k < summary.layout.size(); ++k) {
     const auto& spec = TermLibrary::specs[summary.layout.params[k]];
@@ -107,7 +108,7 @@ Json parameters_json(const FilterSummary& summary, const Identification& id) {
   return all;
 }
 
-Json degeneracies_json(const FilterSpec& filter, const FilterSummary& summary) {
+Json degeneracies_json(const FilterSpec& filter, const identification::FilterSummary& summary) {
   Json all = Json::array();
   for (const NamedDirection& d :
        name_degeneracies(summary.layout, filter.mounting, summary.degeneracies)) {
@@ -121,7 +122,7 @@ Json degeneracies_json(const FilterSpec& filter, const FilterSummary& summary) {
   return all;
 }
 
-Json published_json(const Published& published) {
+Json published_json(const mc::Published& published) {
   Json out;
   out["name"] = published.name;
   out["filter"] = published.filter.empty() ? Json(nullptr) : Json(published.filter);
@@ -141,7 +142,7 @@ Json published_json(const Published& published) {
 
 }  // namespace
 
-std::string to_json(const Study& study, const Identification& id) {
+std::string to_json(const mc::Study& study, const identification::Identification& id) {
   Json out;
   out["schema"] = 1;
   out["study"] = {{"path", study.path}, {"title", study.title}, {"seed", study.monte_carlo.seed}};
@@ -149,7 +150,7 @@ std::string to_json(const Study& study, const Identification& id) {
   out["truth_coupling"] = id.simulated ? Json(text(key_of(study.truth.coupling))) : Json(nullptr);
   out["sources"] = id.sources;
   Json& filters = out["filters"] = Json::array();
-  for (const FilterSummary& summary : id.summaries) {
+  for (const identification::FilterSummary& summary : id.summaries) {
     const FilterSpec& spec = study.filters[summary.filter];
     Json f;
     f["name"] = spec.name;
@@ -157,15 +158,16 @@ std::string to_json(const Study& study, const Identification& id) {
     f["terms"] = term_keys(spec.model().terms);
     f["parameters"] = parameters_json(summary, id);
     Json& starts = f["starts"] = Json::array();
-    for (const FilterRun* run : id.runs_of(summary.filter)) starts.push_back(run_json(*run));
+    for (const identification::FilterRun* run : id.runs_of(summary.filter))
+      starts.push_back(run_json(*run));
     f["weak_directions"] = summary.weak;
     f["degeneracies"] = degeneracies_json(spec, summary);
     filters.push_back(std::move(f));
   }
   Json& published = out["published"] = Json::array();
-  for (const Published& p : study.published) published.push_back(published_json(p));
+  for (const mc::Published& p : study.published) published.push_back(published_json(p));
   // Names are free text; bytes that are not UTF-8 become U+FFFD instead of an exception.
   return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace drift
+}  // namespace drift::report

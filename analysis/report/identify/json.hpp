@@ -4,10 +4,10 @@
 
 #include "analysis/identification/identify.hpp"
 
-namespace drift {
+namespace drift::report {
 
 /// The result for machines: JSON, schema 1. Values stand in the unit named beside them; what is not
 /// a finite number is null.
-std::string to_json(const Study& study, const Identification& id);
+std::string to_json(const mc::Study& study, const identification::Identification& id);
 
-}  // namespace drift
+}  // namespace drift::report

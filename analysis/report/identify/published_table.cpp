@@ -9,7 +9,7 @@
 #include "core/base/number_text.hpp"
 #include "core/estimate/start_consistency.hpp"
 
-namespace drift {
+namespace drift::report {
 namespace {
 
 /// One row: the same parameter from several starts, in SI.
@@ -18,10 +18,11 @@ struct Runs {
   std::vector<double> values, sigmas;
 };
 
-Runs our_runs(const Identification& id, std::size_t filter, std::size_t param,
-              const EstimateResult& (*result)(const FilterRun&), std::string source) {
+Runs our_runs(const identification::Identification& id, std::size_t filter, std::size_t param,
+              const EstimateResult& (*result)(const identification::FilterRun&),
+              std::string source) {
   Runs runs{std::move(source), {}, {}};
-  for (const FilterRun* run : id.runs_of(filter))
+  for (const identification::FilterRun* run : id.runs_of(filter))
     if (const ParameterEstimate* p = result(*run).find(param)) {
       runs.values.push_back(p->value);
       runs.sigmas.push_back(p->sigma);
@@ -46,22 +47,22 @@ void add_row(Table& table, std::size_t starts, const Unit& unit, const Runs& run
 }
 
 /// Names are free text; a long one would push the numbers off the page.
-std::string short_name(const Published& published) {
+std::string short_name(const mc::Published& published) {
   return published.name.size() <= 24 ? published.name
          : published.filter.empty()  ? "independent test"
                                      : "published";
 }
 
-const EstimateResult& ekf_of(const FilterRun& run) {
+const EstimateResult& ekf_of(const identification::FilterRun& run) {
   return run.ekf;
 }
-const EstimateResult& batch_of(const FilterRun& run) {
+const EstimateResult& batch_of(const identification::FilterRun& run) {
   return run.batch.estimate;
 }
 
 /// A published set beside the runs of a filter; no filter: beside nothing of ours.
-Table compare(const Study& study, const Identification& id, const Published& published,
-              std::optional<std::size_t> filter) {
+Table compare(const mc::Study& study, const identification::Identification& id,
+              const mc::Published& published, std::optional<std::size_t> filter) {
   std::size_t starts = filter ? id.runs_of(*filter).size() : 0;
   for (const auto& v : published.values) starts = std::max(starts, v.values.size());
   starts = std::min<std::size_t>(starts, 3);
@@ -74,7 +75,7 @@ Table compare(const Study& study, const Identification& id, const Published& pub
     table.columns.push_back({fmt::format("start {}", k + 1)});
   table.columns.push_back({"ratio"});
   table.columns.push_back({"verdict", Align::left});
-  for (const Published::Value& v : published.values) {
+  for (const mc::Published::Value& v : published.values) {
     const auto& spec = TermLibrary::specs[v.param];
     const auto add = [&](const Runs& runs, std::string (*text)(double, double) = as_given) {
       if (!runs.values.empty()) add_row(table, starts, spec.unit, runs, text);
@@ -86,9 +87,9 @@ Table compare(const Study& study, const Identification& id, const Published& pub
       add(our_runs(id, *filter, v.param, batch_of, "this run, batch"), with_sigma);
     }
     if (id.truth) add({"truth of this run", {id.truth->theta[v.param]}, {}});
-    for (const Published& test : study.published)
+    for (const mc::Published& test : study.published)
       if (test.filter.empty() && &test != &published)
-        for (const Published::Value& other : test.values)
+        for (const mc::Published::Value& other : test.values)
           if (other.param == v.param) add({short_name(test), other.values, other.sigmas});
   }
   table.note =
@@ -113,10 +114,11 @@ Cell verdict_cell(double ratio) {
   return {"depends on start", Tone::bad};
 }
 
-std::vector<Table> published_comparison(const Study& study, const Identification& id) {
+std::vector<Table> published_comparison(const mc::Study& study,
+                                        const identification::Identification& id) {
   std::vector<Table> tables;
   std::vector<bool> compared(study.filters.size(), false);
-  for (const Published& p : study.published) {
+  for (const mc::Published& p : study.published) {
     if (p.filter.empty()) continue;
     std::optional<std::size_t> filter;
     for (std::size_t f = 0; f < study.filters.size(); ++f)
@@ -124,10 +126,10 @@ std::vector<Table> published_comparison(const Study& study, const Identification
     if (filter) compared[*filter] = true;
     tables.push_back(compare(study, id, p, filter));
   }
-  for (const Published& p : study.published)
+  for (const mc::Published& p : study.published)
     for (std::size_t f = 0; f < study.filters.size(); ++f)
       if (p.filter.empty() && !compared[f]) tables.push_back(compare(study, id, p, f));
   return tables;
 }
 
-}  // namespace drift
+}  // namespace drift::report

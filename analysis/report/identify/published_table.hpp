@@ -5,7 +5,7 @@
 #include "analysis/identification/identify.hpp"
 #include "analysis/report/page/table.hpp"
 
-namespace drift {
+namespace drift::report {
 
 /// Verdict on a start-consistency ratio as a cell: "starts agree", "doubtful", "depends on start".
 /// "-" where there is no ratio.
@@ -15,6 +15,7 @@ Cell verdict_cell(double ratio);
 /// and batch, the truth, and independent tests (published without a filter). One table for each set
 /// of published filter runs, and for each other filter and independent test. Empty if nothing is
 /// published.
-std::vector<Table> published_comparison(const Study& study, const Identification& id);
+std::vector<Table> published_comparison(const mc::Study& study,
+                                        const identification::Identification& id);
 
-}  // namespace drift
+}  // namespace drift::report

@@ -14,7 +14,7 @@
 #include "core/physics/coupling_text.hpp"
 #include "core/stats/chi_square_band.hpp"
 
-namespace drift {
+namespace drift::report {
 namespace {
 
 constexpr double nothing_learned = 0.95;  // posterior over prior sigma
@@ -46,13 +46,13 @@ Cell status_cell(const EstimateResult& result) {
 Cell statistic_cell(const EstimateResult& result) {
   if (result.measured == 0) return {"-"};
   const double per_dof = result.statistic_per_dof();
-  const bool fits = chi_square_band(static_cast<double>(result.measured)).holds(per_dof);
+  const bool fits = stats::chi_square_band(static_cast<double>(result.measured)).holds(per_dof);
   return {number_text(per_dof, 4), fits ? Tone::good : Tone::bad};
 }
 
 std::string band_text(const EstimateResult& result) {
   if (result.measured == 0) return "-";
-  const Band band = chi_square_band(static_cast<double>(result.measured));
+  const stats::Band band = stats::chi_square_band(static_cast<double>(result.measured));
   return fmt::format("{:.3f} to {:.3f}", band.low, band.high);
 }
 
@@ -81,7 +81,7 @@ std::string prior_text(const Layout& layout, const std::string_view group) {
 /// Parameters that the two estimators, given the same, see differently: further apart than five of
 /// the smaller sigma, or with sigmas that differ threefold. Empty if one failed, or if the model is
 /// wrong for both.
-std::vector<std::string> disputed(const FilterRun& run) {
+std::vector<std::string> disputed(const identification::FilterRun& run) {
   constexpr double apart = 5.0, unlike = 3.0;
   std::vector<std::string> keys;
   if (run.ekf.status != EstimateStatus::ok || run.batch.estimate.status != EstimateStatus::ok ||
@@ -111,12 +111,13 @@ std::vector<std::string> filter_lines(const FilterSpec& filter) {
           fmt::format("terms: {}", term_keys(model.terms))};
 }
 
-Table fit_table(const Study& study, const Identification& id, std::size_t filter) {
+Table fit_table(const mc::Study& study, const identification::Identification& id,
+                std::size_t filter) {
   Table table;
   table.title = fmt::format("Fit of filter {}", study.filters[filter].name);
   table.columns = {{"start", Align::left}, {"EKF", Align::left}, {"NIS/m"},     {"95 % band"},
                    {"batch", Align::left}, {"cost/m"},           {"95 % band"}, {"iterations"}};
-  for (const FilterRun* run : id.runs_of(filter)) {
+  for (const identification::FilterRun* run : id.runs_of(filter)) {
     const EstimateResult& batch = run->batch.estimate;
     table.add({fmt::format("{}", run->start + 1), status_cell(run->ekf), statistic_cell(run->ekf),
                band_text(run->ekf), status_cell(batch), statistic_cell(batch), band_text(batch),
@@ -132,9 +133,9 @@ Table fit_table(const Study& study, const Identification& id, std::size_t filter
   return table;
 }
 
-Table estimate_table(const Study& study, const Identification& id, std::size_t filter,
-                     const EstimateLayout& how) {
-  const FilterSummary& summary = id.summaries[filter];
+Table estimate_table(const mc::Study& study, const identification::Identification& id,
+                     std::size_t filter, const EstimateLayout& how) {
+  const identification::FilterSummary& summary = id.summaries[filter];
   const auto runs = id.runs_of(filter);
   const std::size_t starts = std::min(how.starts, runs.size());
   Table table;
@@ -194,8 +195,9 @@ Table estimate_table(const Study& study, const Identification& id, std::size_t f
   return table;
 }
 
-Table degeneracy_table(const Study& study, const Identification& id, std::size_t filter) {
-  const FilterSummary& summary = id.summaries[filter];
+Table degeneracy_table(const mc::Study& study, const identification::Identification& id,
+                       std::size_t filter) {
+  const identification::FilterSummary& summary = id.summaries[filter];
   const FilterSpec& spec = study.filters[filter];
   Table table;
   table.title = fmt::format(
@@ -210,24 +212,25 @@ Table degeneracy_table(const Study& study, const Identification& id, std::size_t
   return table;
 }
 
-std::vector<std::string> headlines(const Study& study, const Identification& id) {
+std::vector<std::string> headlines(const mc::Study& study,
+                                   const identification::Identification& id) {
   std::vector<std::string> all;
-  for (const FilterSummary& s : id.summaries) {
+  for (const identification::FilterSummary& s : id.summaries) {
     const std::string name = fmt::format("Filter {} ({})", study.filters[s.filter].name,
                                          key_of(study.filters[s.filter].coupling));
     const auto runs = id.runs_of(s.filter);
     std::size_t failed = 0, outside = 0;
     Range nis;
-    for (const FilterRun* run : runs) {
+    for (const identification::FilterRun* run : runs) {
       failed +=
           run->ekf.status != EstimateStatus::ok || run->batch.estimate.status != EstimateStatus::ok;
       if (run->ekf.measured == 0) continue;
       nis.include(run->ekf.statistic_per_dof());
-      outside += !chi_square_band(static_cast<double>(run->ekf.measured))
+      outside += !stats::chi_square_band(static_cast<double>(run->ekf.measured))
                       .holds(run->ekf.statistic_per_dof());
     }
     std::vector<std::string> dependent;
-    for (const StartSpread& p : s.spread)
+    for (const identification::StartSpread& p : s.spread)
       if (start_verdict(p.ekf) == StartVerdict::depends_on_start)
         dependent.emplace_back(TermLibrary::specs[p.param].key.view());
     if (study.filters[s.filter].noise.any())
@@ -274,10 +277,10 @@ std::vector<std::string> headlines(const Study& study, const Identification& id)
   return all;
 }
 
-std::string source_line(const Study& study, const Identification& id) {
+std::string source_line(const mc::Study& study, const identification::Identification& id) {
   if (!id.simulated) return fmt::format("Recording {}", joined(id.sources));
   return fmt::format("Simulated, truth {}: {}", key_of(study.truth.coupling),
                      equation_of(study.truth.coupling));
 }
 
-}  // namespace drift
+}  // namespace drift::report

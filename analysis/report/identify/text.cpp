@@ -3,13 +3,14 @@
 #include "analysis/report/identify/published_table.hpp"
 #include "analysis/report/identify/tables.hpp"
 
-namespace drift {
+namespace drift::report {
 namespace {
 
 constexpr std::size_t page = 100;  // columns
 
 /// With as many starts as fit.
-Table fitting_estimates(const Study& study, const Identification& id, std::size_t filter) {
+Table fitting_estimates(const mc::Study& study, const identification::Identification& id,
+                        std::size_t filter) {
   for (std::size_t starts = 3; starts > 1; --starts)
     if (Table t = estimate_table(study, id, filter, {.starts = starts}); text_width(t) <= page)
       return t;
@@ -30,9 +31,9 @@ std::string degeneracies(const Table& table) {
 
 }  // namespace
 
-std::string to_text(const Study& study, const Identification& id) {
+std::string to_text(const mc::Study& study, const identification::Identification& id) {
   std::string out = wrapped(study.title, page) + wrapped(source_line(study, id), page);
-  for (const FilterSummary& s : id.summaries) {
+  for (const identification::FilterSummary& s : id.summaries) {
     out += '\n';
     for (const std::string& line : filter_lines(study.filters[s.filter]))
       out += wrapped(line, page, 10);
@@ -46,4 +47,4 @@ std::string to_text(const Study& study, const Identification& id) {
   return out;
 }
 
-}  // namespace drift
+}  // namespace drift::report

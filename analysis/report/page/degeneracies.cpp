@@ -6,7 +6,7 @@
 #include "analysis/report/page/known_degeneracies.hpp"
 #include "core/base/number_text.hpp"
 
-namespace drift {
+namespace drift::report {
 namespace {
 
 constexpr double small_part = 0.02;  // of the largest part, prior-scaled: not worth naming
@@ -97,4 +97,4 @@ std::vector<NamedDirection> name_degeneracies(const Layout& layout, const Mounti
   return all;
 }
 
-}  // namespace drift
+}  // namespace drift::report

@@ -6,7 +6,7 @@
 #include "core/estimate/batch.hpp"
 #include "core/physics/triads.hpp"
 
-namespace drift {
+namespace drift::report {
 
 /// A direction in which the parameters can move together without any effect on the data.
 struct NamedDirection {
@@ -28,4 +28,4 @@ struct NamedDirection {
 std::vector<NamedDirection> name_degeneracies(const Layout& layout, const Mounting& mounting,
                                               const std::vector<WeakDirection>& directions);
 
-}  // namespace drift
+}  // namespace drift::report

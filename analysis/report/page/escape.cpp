@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-namespace drift {
+namespace drift::report {
 namespace {
 
 constexpr std::string_view replacement = "\xEF\xBF\xBD";  // U+FFFD
@@ -68,4 +68,4 @@ std::string file_name_part(std::string_view text) {
   return out.empty() ? "_" : out;
 }
 
-}  // namespace drift
+}  // namespace drift::report

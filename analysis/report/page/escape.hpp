@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-namespace drift {
+namespace drift::report {
 
 /// Text as the content or a quoted attribute value of XML and HTML. Control characters, which XML
 /// cannot hold, and bytes that are not UTF-8 become U+FFFD.
@@ -16,4 +16,4 @@ std::size_t display_width(std::string_view text);
 /// empty, never starting with a dot, at most 64 characters.
 std::string file_name_part(std::string_view text);
 
-}  // namespace drift
+}  // namespace drift::report

@@ -4,7 +4,7 @@
 
 #include "analysis/report/page/escape.hpp"
 
-namespace drift {
+namespace drift::report {
 namespace {
 
 constexpr std::string_view style = R"css(
@@ -93,4 +93,4 @@ std::string to_html(const HtmlReport& report) {
   return out + "<footer><p>" + escaped(report.footer) + "</p></footer>\n</body>\n</html>\n";
 }
 
-}  // namespace drift
+}  // namespace drift::report

@@ -7,7 +7,7 @@
 
 #include "analysis/report/page/table.hpp"
 
-namespace drift {
+namespace drift::report {
 
 /// A paragraph; escaped.
 struct Paragraph {
@@ -50,4 +50,4 @@ struct HtmlReport {
 /// escaped.
 std::string to_html(const HtmlReport& report);
 
-}  // namespace drift
+}  // namespace drift::report

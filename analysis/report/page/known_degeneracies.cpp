@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace drift {
+namespace drift::report {
 namespace {
 
 /// Collects the coefficients of a direction in SI; incomplete if a parameter is no state.
@@ -95,4 +95,4 @@ std::string no_signal_reason(std::size_t param) {
   return "no signal in this test";
 }
 
-}  // namespace drift
+}  // namespace drift::report

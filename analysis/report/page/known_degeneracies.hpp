@@ -6,7 +6,7 @@
 #include "core/estimate/layout.hpp"
 #include "core/physics/triads.hpp"
 
-namespace drift {
+namespace drift::report {
 
 /// A combination of parameters that some tests cannot see, by physics.md 2.4.
 struct KnownDegeneracy {
@@ -21,4 +21,4 @@ std::vector<KnownDegeneracy> known_degeneracies(const Layout& layout, const Moun
 /// Why a parameter may leave no signal at all.
 std::string no_signal_reason(std::size_t param);
 
-}  // namespace drift
+}  // namespace drift::report

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace drift {
+namespace drift::report {
 namespace {
 
 bool is_key(char c) {
@@ -88,4 +88,4 @@ std::string short_value(const std::string& value) {
   return text.empty() ? value : text;
 }
 
-}  // namespace drift
+}  // namespace drift::report

@@ -5,7 +5,7 @@
 
 #include "core/base/units.hpp"
 
-namespace drift {
+namespace drift::report {
 
 /// The number a value of a sweep stands for: of "20 arcsec" 20 arcsec, of 0.5 that, of a
 /// distribution or table its last number. In SI, with the unit it was written in; empty if it holds
@@ -24,4 +24,4 @@ std::string last_member(const std::string& value);
 /// arcsec"; anything else as it is.
 std::string short_value(const std::string& value);
 
-}  // namespace drift
+}  // namespace drift::report

@@ -7,7 +7,7 @@
 #include "analysis/report/page/escape.hpp"
 #include "core/base/check.hpp"
 
-namespace drift {
+namespace drift::report {
 namespace {
 
 std::vector<std::size_t> column_widths(const Table& table) {
@@ -123,4 +123,4 @@ std::string html_of(const Table& table) {
   return out;
 }
 
-}  // namespace drift
+}  // namespace drift::report

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace drift {
+namespace drift::report {
 
 /// How a cell is to be taken; colours it in HTML.
 enum class Tone { plain, good, doubtful, bad };
@@ -53,4 +53,4 @@ std::string html_of(const Table& table);
 /// Text broken at spaces into lines of at most `width`; all but the first are indented.
 std::string wrapped(const std::string& text, std::size_t width, std::size_t indent = 0);
 
-}  // namespace drift
+}  // namespace drift::report

@@ -10,7 +10,7 @@
 #include "core/base/number_text.hpp"
 #include "core/physics/coupling_text.hpp"
 
-namespace drift {
+namespace drift::report {
 namespace {
 
 constexpr double least_shown = -12.0;  // log10 of the information that counts as none in a picture
@@ -20,7 +20,7 @@ std::string_view key_of_state(const Layout& layout, std::size_t state) {
 }
 
 /// One row for each parameter, best known first.
-HeatMap map_of(const Ranking& r, const MatX& values) {
+HeatMap map_of(const observability::Ranking& r, const MatX& values) {
   HeatMap map;
   map.value.resize(values.rows(), values.cols());
   for (std::size_t i = 0; i < r.order.size(); ++i) {
@@ -34,17 +34,17 @@ HeatMap map_of(const Ranking& r, const MatX& values) {
 
 }  // namespace
 
-std::string learning_figure(const RankingGroup& group) {
+std::string learning_figure(const planning::RankingGroup& group) {
   BarChart chart;
   chart.title = fmt::format("What the test teaches, {}", group.filters);
   chart.x_label =
       "log2(prior sigma / sigma after the test) [bit]; beside the bar: what is left of the prior "
       "sigma";
   chart.width = 860.0;
-  const Ranking& first = group.models.front().ranking;
+  const observability::Ranking& first = group.models.front().ranking;
   for (const std::size_t k : first.order)
     for (std::size_t m = 0; m < group.models.size(); ++m) {
-      const ParameterRank& p = group.models[m].ranking.parameters[k];
+      const observability::ParameterRank& p = group.models[m].ranking.parameters[k];
       const std::string coupling(key_of(group.models[m].model.spec.coupling));
       Bar bar;
       bar.label =
@@ -58,7 +58,7 @@ std::string learning_figure(const RankingGroup& group) {
   return svg_of(chart);
 }
 
-std::string spectrum_figure(const RankingGroup& group) {
+std::string spectrum_figure(const planning::RankingGroup& group) {
   Chart chart;
   chart.title = fmt::format("Eigenvalues of the information, {}", group.filters);
   chart.panel_width = 720.0;
@@ -75,7 +75,7 @@ std::string spectrum_figure(const RankingGroup& group) {
              .colour = m};
     s.stroke = m == 0 ? Stroke::solid : Stroke::dashed;
     double index = 1.0;
-    for (const EigenDirection& d : group.models[m].ranking.spectrum) {
+    for (const observability::EigenDirection& d : group.models[m].ranking.spectrum) {
       const double x = index++, y = std::log10(std::max(d.information, 0.0));
       if (y < least_shown) continue;  // not seen at all
       s.x.push_back(x);
@@ -87,7 +87,7 @@ std::string spectrum_figure(const RankingGroup& group) {
   return svg_of(chart);
 }
 
-std::string position_figure(const Study& study, const ModelRanking& m) {
+std::string position_figure(const mc::Study& study, const planning::ModelRanking& m) {
   HeatMap map = map_of(m.ranking, m.course.position_gain);
   map.title = fmt::format("Which position informs which parameter, {} [bit]",
                           key_of(m.model.spec.coupling));
@@ -96,19 +96,19 @@ std::string position_figure(const Study& study, const ModelRanking& m) {
   return svg_of(map);
 }
 
-std::string time_figure(const ModelRanking& m) {
+std::string time_figure(const planning::ModelRanking& m) {
   HeatMap map = map_of(m.ranking, m.course.gain);
   map.title =
       fmt::format("Which minutes inform which parameter, {} [bit]", key_of(m.model.spec.coupling));
-  for (const TimeBin& bin : m.bins)
+  for (const observability::TimeBin& bin : m.bins)
     map.columns.push_back(
         fmt::format("{}: {:.0f} min{}", bin.position + 1, bin.t1 / 60.0, bin.slew ? ", slew" : ""));
   return svg_of(map);
 }
 
-std::string improvement_figure(const PlanRanking& rank) {
-  const Ranking& before = rank.groups.front().models.front().ranking;
-  const Ranking& after = rank.better->after;
+std::string improvement_figure(const planning::PlanRanking& rank) {
+  const observability::Ranking& before = rank.groups.front().models.front().ranking;
+  const observability::Ranking& after = rank.better->after;
   BarChart chart;
   chart.title = "What the proposed positions add";
   chart.x_label =
@@ -132,4 +132,4 @@ std::string improvement_figure(const PlanRanking& rank) {
   return svg_of(chart);
 }
 
-}  // namespace drift
+}  // namespace drift::report

@@ -7,11 +7,11 @@
 #include "analysis/report/rank/tables.hpp"
 #include "core/base/number_text.hpp"
 
-namespace drift {
+namespace drift::report {
 
-Table improvement_table(const PlanRanking& rank) {
+Table improvement_table(const planning::PlanRanking& rank) {
   Table t;
-  const Improvement& better = rank.better->improvement;
+  const planning::Improvement& better = rank.better->improvement;
   t.title = fmt::format("Positions to add, by criterion {}", better.criterion.text);
   t.columns = {{"#"},
                {"axes", Align::left},
@@ -22,7 +22,7 @@ Table improvement_table(const PlanRanking& rank) {
                {"after"},
                {"candidates"}};
   for (std::size_t i = 0; i < better.steps.size(); ++i) {
-    const ImprovementStep& s = better.steps[i];
+    const planning::ImprovementStep& s = better.steps[i];
     std::string entry = s.position.entry == Entry::caged ? "caged" : "torqued";
     if (s.position.case_heading)
       entry += fmt::format(", case at {:.0f} deg", *s.position.case_heading / detail::deg);
@@ -31,8 +31,9 @@ Table improvement_table(const PlanRanking& rank) {
            number_text(s.duration / 3600.0), number_text(s.before, 4), number_text(s.after, 4),
            std::to_string(s.feasible)});
   }
-  const char* what = better.criterion.kind == Criterion::Kind::A ? "sum of squared learning ratios"
-                     : better.criterion.kind == Criterion::Kind::D
+  const char* what = better.criterion.kind == planning::Criterion::Kind::A
+                         ? "sum of squared learning ratios"
+                     : better.criterion.kind == planning::Criterion::Kind::D
                          ? "log2 det of the prior-scaled posterior, over 2"
                          : "learning ratio of the parameter";
   t.note = fmt::format("Criterion: {}. Chosen one after the other for {}; {} h added.", what,
@@ -41,9 +42,9 @@ Table improvement_table(const PlanRanking& rank) {
   return t;
 }
 
-Table gain_table(const PlanRanking& rank) {
-  const Ranking& before = rank.groups.front().models.front().ranking;
-  const Ranking& after = rank.better->after;
+Table gain_table(const planning::PlanRanking& rank) {
+  const observability::Ranking& before = rank.groups.front().models.front().ranking;
+  const observability::Ranking& after = rank.better->after;
   Table t;
   t.title = "Expected sigma before and after";
   t.columns = {{"parameter", Align::left},
@@ -59,7 +60,7 @@ Table gain_table(const PlanRanking& rank) {
   };
   std::ranges::stable_sort(states, std::greater{}, gain);
   for (const std::size_t k : states) {
-    const ParameterRank& p = before.parameters[k];
+    const observability::ParameterRank& p = before.parameters[k];
     const auto& spec = TermLibrary::specs[p.param];
     t.add({fmt::format("{} [{}]", spec.key.view(), spec.unit.symbol.view()),
            number_text(p.prior_sigma / spec.unit.to_si),
@@ -72,7 +73,7 @@ Table gain_table(const PlanRanking& rank) {
   return t;
 }
 
-std::string proposed_toml(const Study& study, const PlanRanking& rank) {
+std::string proposed_toml(const mc::Study& study, const planning::PlanRanking& rank) {
   const TestPlan& plan = rank.better->improvement.plan;
   const bool preset = !study.plan.preset.empty();
   std::string text =
@@ -80,8 +81,8 @@ std::string proposed_toml(const Study& study, const PlanRanking& rank) {
              : "# After the last [[plan.position]]:\n";
   const std::size_t old = study.plan.positions.size();
   for (std::size_t p = preset ? 0 : old; p < plan.positions.size(); ++p)
-    text += position_toml(plan.positions[p]);
+    text += planning::position_toml(plan.positions[p]);
   return text;
 }
 
-}  // namespace drift
+}  // namespace drift::report

@@ -5,7 +5,7 @@
 #include "analysis/report/rank/tables.hpp"
 #include "core/physics/coupling_text.hpp"
 
-namespace drift {
+namespace drift::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -18,7 +18,7 @@ std::string text(std::string_view view) {
   return std::string(view);
 }
 
-std::string key_of_state(const Ranking& r, std::size_t state) {
+std::string key_of_state(const observability::Ranking& r, std::size_t state) {
   return text(TermLibrary::specs[r.layout.params[state]].key.view());
 }
 
@@ -28,12 +28,12 @@ Json numbers(const auto& values) {
   return all;
 }
 
-Json parameters_json(const ModelRanking& m) {
-  const Ranking& r = m.ranking;
-  const RankedModel& model = m.model;
+Json parameters_json(const planning::ModelRanking& m) {
+  const observability::Ranking& r = m.ranking;
+  const observability::RankedModel& model = m.model;
   Json all = Json::array();
   for (std::size_t i = 0; i < r.order.size(); ++i) {
-    const ParameterRank& p = r.parameters[r.order[i]];
+    const observability::ParameterRank& p = r.parameters[r.order[i]];
     const auto& spec = TermLibrary::specs[p.param];
     const double unit = spec.unit.to_si;
     all.push_back({{"rank", i + 1},
@@ -55,9 +55,9 @@ Json parameters_json(const ModelRanking& m) {
   return all;
 }
 
-Json spectrum_json(const Ranking& r) {
+Json spectrum_json(const observability::Ranking& r) {
   Json all = Json::array();
-  for (const EigenDirection& d : r.spectrum) {
+  for (const observability::EigenDirection& d : r.spectrum) {
     Json parts = Json::array();
     for (const std::size_t k : d.dominant)
       parts.push_back({{"key", key_of_state(r, k)},
@@ -81,9 +81,9 @@ Json directions_json(const std::vector<NamedDirection>& directions) {
   return all;
 }
 
-Json methods_json(const ModelRanking& m) {
+Json methods_json(const planning::ModelRanking& m) {
   Json all = Json::array();
-  for (const MethodRanking& method : m.methods) {
+  for (const observability::MethodRanking& method : m.methods) {
     Json scores = Json::object();
     for (std::size_t k = 0; k < m.ranking.layout.size(); ++k)
       scores[key_of_state(m.ranking, k)] = number(method.score[k]);
@@ -103,20 +103,20 @@ Json methods_json(const ModelRanking& m) {
 }
 
 /// By parameter, in the order of the layout: one number for each column.
-Json by_parameter(const Ranking& r, const MatX& values) {
+Json by_parameter(const observability::Ranking& r, const MatX& values) {
   Json all = Json::object();
   for (std::size_t k = 0; k < r.layout.size(); ++k)
     all[key_of_state(r, k)] = numbers(VecX(values.row(static_cast<Eigen::Index>(k)).transpose()));
   return all;
 }
 
-Json course_json(const Study& study, const ModelRanking& m) {
+Json course_json(const mc::Study& study, const planning::ModelRanking& m) {
   Json positions = Json::array(), bins = Json::array();
   for (std::size_t p = 0; p < study.plan.positions.size(); ++p)
     positions.push_back({{"position", p + 1},
                          {"name", study.plan.positions[p].name},
                          {"bits", number(m.course.bits[p])}});
-  for (const TimeBin& b : m.bins)
+  for (const observability::TimeBin& b : m.bins)
     bins.push_back({{"position", b.position + 1},
                     {"slew", b.slew},
                     {"start_s", number(b.t0)},
@@ -128,7 +128,7 @@ Json course_json(const Study& study, const ModelRanking& m) {
           {"gain_bits_by_time_bin", by_parameter(m.ranking, m.course.gain)}};
 }
 
-Json model_json(const Study& study, const ModelRanking& m) {
+Json model_json(const mc::Study& study, const planning::ModelRanking& m) {
   Json out;
   out["coupling"] = text(key_of(m.model.spec.coupling));
   out["of_the_file"] = m.of_the_file;
@@ -147,11 +147,11 @@ Json model_json(const Study& study, const ModelRanking& m) {
   return out;
 }
 
-Json improvement_json(const Study& study, const PlanRanking& rank) {
-  const Improvement& better = rank.better->improvement;
-  const Ranking& before = rank.groups.front().models.front().ranking;
+Json improvement_json(const mc::Study& study, const planning::PlanRanking& rank) {
+  const planning::Improvement& better = rank.better->improvement;
+  const observability::Ranking& before = rank.groups.front().models.front().ranking;
   Json steps = Json::array(), sigmas = Json::object();
-  for (const ImprovementStep& s : better.steps)
+  for (const planning::ImprovementStep& s : better.steps)
     steps.push_back(
         {{"name", s.position.name},
          {"axes", s.position.axes},
@@ -182,7 +182,7 @@ Json improvement_json(const Study& study, const PlanRanking& rank) {
 
 }  // namespace
 
-std::string to_json(const Study& study, const PlanRanking& rank) {
+std::string to_json(const mc::Study& study, const planning::PlanRanking& rank) {
   Json out;
   out["schema"] = 1;
   out["study"] = {{"path", study.path}, {"title", study.title}};
@@ -193,9 +193,9 @@ std::string to_json(const Study& study, const PlanRanking& rank) {
   out["process_noise_left_out"] = rank.process_noise;
   out["headlines"] = headlines(study, rank);
   Json& groups = out["filters"] = Json::array();
-  for (const RankingGroup& g : rank.groups) {
+  for (const planning::RankingGroup& g : rank.groups) {
     Json models = Json::array();
-    for (const ModelRanking& m : g.models) models.push_back(model_json(study, m));
+    for (const planning::ModelRanking& m : g.models) models.push_back(model_json(study, m));
     groups.push_back({{"name", g.filters}, {"models", models}});
   }
   out["improvement"] = rank.better ? improvement_json(study, rank) : Json(nullptr);
@@ -203,4 +203,4 @@ std::string to_json(const Study& study, const PlanRanking& rank) {
   return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace drift
+}  // namespace drift::report

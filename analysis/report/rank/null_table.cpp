@@ -5,7 +5,7 @@
 #include "analysis/report/rank/tables.hpp"
 #include "core/physics/coupling_text.hpp"
 
-namespace drift {
+namespace drift::report {
 namespace {
 
 /// A named direction over the prior-scaled layout, unit length.
@@ -20,14 +20,14 @@ VecX scaled(const NamedDirection& direction, const Layout& layout) {
 
 }  // namespace
 
-std::vector<NamedDirection> exact_degeneracies(const ModelRanking& m) {
+std::vector<NamedDirection> exact_degeneracies(const planning::ModelRanking& m) {
   return name_degeneracies(m.ranking.layout, m.model.spec.mounting, m.ranking.exact);
 }
 
-std::vector<NamedDirection> held_by_attitude(const ModelRanking& m) {
+std::vector<NamedDirection> held_by_attitude(const planning::ModelRanking& m) {
   constexpr double outside = 0.1;  // of a unit vector; parts below 2 % were left out of its name
   std::vector<NamedDirection> found;
-  const Ranking& r = m.ranking;
+  const observability::Ranking& r = m.ranking;
   if (r.held_by_attitude.size() <= r.exact.size()) return found;
   for (NamedDirection& d : name_degeneracies(r.layout, m.model.spec.mounting, r.held_by_attitude)) {
     VecX rest = scaled(d, r.layout);
@@ -37,7 +37,7 @@ std::vector<NamedDirection> held_by_attitude(const ModelRanking& m) {
   return found;
 }
 
-Table null_table(const ModelRanking& m) {
+Table null_table(const planning::ModelRanking& m) {
   Table t;
   t.title = fmt::format("Directions this test does not see, {}", key_of(m.model.spec.coupling));
   t.columns = {{"combination", Align::left}, {"why", Align::left}};
@@ -54,4 +54,4 @@ Table null_table(const ModelRanking& m) {
   return t;
 }
 
-}  // namespace drift
+}  // namespace drift::report

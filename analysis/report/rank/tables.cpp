@@ -10,7 +10,7 @@
 #include "core/base/number_text.hpp"
 #include "core/physics/coupling_text.hpp"
 
-namespace drift {
+namespace drift::report {
 namespace {
 
 constexpr double hour = 3600.0, minute = 60.0;  // [s]
@@ -26,7 +26,7 @@ std::string key_and_unit(const Layout& layout, std::size_t state) {
   return fmt::format("{} [{}]", spec.key.view(), spec.unit.symbol.view());
 }
 
-std::string in_unit(const ParameterRank& p, double si) {
+std::string in_unit(const observability::ParameterRank& p, double si) {
   return number_text(si / TermLibrary::specs[p.param].unit.to_si);
 }
 
@@ -35,7 +35,7 @@ Tone tone_of(double ratio) {
   return ratio > 0.9 ? Tone::bad : ratio > well_known ? Tone::doubtful : Tone::plain;
 }
 
-std::string coupling_key(const ModelRanking& m) {
+std::string coupling_key(const planning::ModelRanking& m) {
   return std::string(key_of(m.model.spec.coupling));
 }
 
@@ -53,12 +53,12 @@ std::string largest(const Layout& layout, const VecX& values, std::size_t count,
 
 }  // namespace
 
-std::string label_of(const RankingGroup& group, const ModelRanking& m) {
+std::string label_of(const planning::RankingGroup& group, const planning::ModelRanking& m) {
   return fmt::format("{} ({} {})", key_of(m.model.spec.coupling),
                      m.of_the_file ? "filter" : "beside filter", group.filters);
 }
 
-std::string plan_line(const Study& study, const PlanRanking& rank) {
+std::string plan_line(const mc::Study& study, const planning::PlanRanking& rank) {
   std::vector<std::string> noise;
   if (study.readout.accelerometers)
     noise.push_back(
@@ -74,11 +74,11 @@ std::string plan_line(const Study& study, const PlanRanking& rank) {
       rank.at_truth ? "[truth]" : "the priors", fmt::join(noise, ", "));
 }
 
-std::vector<std::string> headlines(const Study& study, const PlanRanking& rank) {
+std::vector<std::string> headlines(const mc::Study& study, const planning::PlanRanking& rank) {
   std::vector<std::string> all;
-  for (const RankingGroup& g : rank.groups)
-    for (const ModelRanking& m : g.models) {
-      const Ranking& r = m.ranking;
+  for (const planning::RankingGroup& g : rank.groups)
+    for (const planning::ModelRanking& m : g.models) {
+      const observability::Ranking& r = m.ranking;
       const auto known = std::ranges::count_if(
           r.parameters, [](const auto& p) { return p.learning_ratio() < well_known; });
       const auto better =
@@ -106,9 +106,9 @@ std::vector<std::string> headlines(const Study& study, const PlanRanking& rank) 
   return all;
 }
 
-Table ranking_table(const RankingGroup& group) {
-  const ModelRanking& a = group.models.front();
-  const ModelRanking* b = group.models.size() > 1 ? &group.models[1] : nullptr;
+Table ranking_table(const planning::RankingGroup& group) {
+  const planning::ModelRanking& a = group.models.front();
+  const planning::ModelRanking* b = group.models.size() > 1 ? &group.models[1] : nullptr;
   Table t;
   t.title = fmt::format("Ranking for {}", group.filters);
   t.columns = {{"#"},       {"parameter", Align::left},
@@ -118,7 +118,7 @@ Table ranking_table(const RankingGroup& group) {
   if (b) t.columns.insert(t.columns.end(), {{coupling_key(*b)}, {"left"}});
   for (std::size_t i = 0; i < a.ranking.order.size(); ++i) {
     const std::size_t k = a.ranking.order[i];
-    const ParameterRank& p = a.ranking.parameters[k];
+    const observability::ParameterRank& p = a.ranking.parameters[k];
     std::vector<Cell> row{std::to_string(i + 1),
                           key_and_unit(group.layout(), k),
                           in_unit(p, p.prior_sigma),
@@ -128,7 +128,7 @@ Table ranking_table(const RankingGroup& group) {
                           number_text(p.collinearity()),
                           decimal_text(p.bits(), 1)};
     if (b) {
-      const ParameterRank& q = b->ranking.parameters[k];
+      const observability::ParameterRank& q = b->ranking.parameters[k];
       row.push_back(in_unit(q, q.posterior_sigma));
       row.push_back({number_text(q.learning_ratio()), tone_of(q.learning_ratio())});
     }
@@ -141,7 +141,7 @@ Table ranking_table(const RankingGroup& group) {
   return t;
 }
 
-Table elsewhere_table(const ModelRanking& m) {
+Table elsewhere_table(const planning::ModelRanking& m) {
   constexpr double factor = 1.5;
   Table t;
   t.title = fmt::format("Where the promise depends on the truth, {}", coupling_key(m));
@@ -149,7 +149,7 @@ Table elsewhere_table(const ModelRanking& m) {
       {"parameter", Align::left}, {"left, as ranked"}, {"left, at four drawn truths", Align::left}};
   for (const std::size_t k : m.ranking.order) {
     const double here = m.ranking.learning_ratio(k);
-    const Elsewhere& e = m.elsewhere[k];
+    const planning::Elsewhere& e = m.elsewhere[k];
     if (e.high < factor * here && e.low > here / factor) continue;
     t.add({key_and_unit(m.ranking.layout, k), number_text(here),
            fmt::format("{} to {}", number_text(e.low), number_text(e.high))});
@@ -163,21 +163,21 @@ Table elsewhere_table(const ModelRanking& m) {
   return t;
 }
 
-Table coupling_table(const RankingGroup& group) {
+Table coupling_table(const planning::RankingGroup& group) {
   Table t;
   t.title = "Where eqs. (5) and (6) promise different sigmas";
   t.columns = {{"parameter", Align::left}, {"prior"}, {"eq5"}, {"eq6"}, {"eq6/eq5"}};
   if (group.models.size() < 2) return t;
   const bool swapped = group.models[0].model.spec.coupling == Coupling::eq6;
-  const Ranking& r5 = group.models[swapped ? 1 : 0].ranking;
-  const Ranking& r6 = group.models[swapped ? 0 : 1].ranking;
+  const observability::Ranking& r5 = group.models[swapped ? 1 : 0].ranking;
+  const observability::Ranking& r6 = group.models[swapped ? 0 : 1].ranking;
   std::vector<std::size_t> states = r5.order;
   const auto factor = [&](std::size_t k) { return r6.learning_ratio(k) / r5.learning_ratio(k); };
   std::ranges::stable_sort(states, std::greater{},
                            [&](std::size_t k) { return std::abs(std::log(factor(k))); });
   for (const std::size_t k : states) {
     if (std::abs(std::log(factor(k))) < std::log(other_sigma)) break;
-    const ParameterRank &p5 = r5.parameters[k], &p6 = r6.parameters[k];
+    const observability::ParameterRank &p5 = r5.parameters[k], &p6 = r6.parameters[k];
     t.add({key_and_unit(group.layout(), k), in_unit(p5, p5.prior_sigma),
            in_unit(p5, p5.posterior_sigma), in_unit(p6, p6.posterior_sigma),
            number_text(factor(k))});
@@ -191,7 +191,7 @@ Table coupling_table(const RankingGroup& group) {
   return t;
 }
 
-Table position_table(const Study& study, const ModelRanking& m) {
+Table position_table(const mc::Study& study, const planning::ModelRanking& m) {
   Table t;
   t.title = fmt::format("What each position tells, {}", coupling_key(m));
   t.columns = {{"#"},
@@ -210,7 +210,7 @@ Table position_table(const Study& study, const ModelRanking& m) {
   return t;
 }
 
-Table minutes_table(const Study& study, const ModelRanking& m) {
+Table minutes_table(const mc::Study& study, const planning::ModelRanking& m) {
   Table t;
   t.title = fmt::format("Which minutes tell most of each parameter, {}", coupling_key(m));
   t.columns = {{"parameter", Align::left}, {"bits"},       {"position", Align::left},
@@ -221,7 +221,7 @@ Table minutes_table(const Study& study, const ModelRanking& m) {
     const double there = m.course.gain.row(k).maxCoeff(&bin);
     const double loss = m.course.loss.row(k).maxCoeff(&position);
     const bool some = there > 0.01;
-    const TimeBin& b = m.bins[bin];
+    const observability::TimeBin& b = m.bins[bin];
     t.add({std::string(key_of(m.ranking.layout, k)), decimal_text(bits, 1),
            some ? study.plan.positions[b.position].name : "-",
            some ? fmt::format("{} to {}{}", number_text(b.t0 / minute, 4),
@@ -236,28 +236,28 @@ Table minutes_table(const Study& study, const ModelRanking& m) {
   return t;
 }
 
-Table direction_table(const ModelRanking& m) {
+Table direction_table(const planning::ModelRanking& m) {
   constexpr std::size_t shown = 5;
-  const Ranking& r = m.ranking;
+  const observability::Ranking& r = m.ranking;
   Table t;
   t.title = fmt::format("Directions best and worst seen, {}", coupling_key(m));
   t.columns = {{"#"}, {"information"}, {"left"}, {"made of (participation)", Align::left}};
   const std::size_t seen = r.spectrum.size() - r.exact.size();
   for (std::size_t i = 0; i < seen; ++i) {
     if (i >= shown && i + shown < seen) continue;
-    const EigenDirection& d = r.spectrum[i];
+    const observability::EigenDirection& d = r.spectrum[i];
     t.add({std::to_string(i + 1), number_text(d.information),
-           number_text(1.0 / std::sqrt(1.0 + d.information)), name_of(d, r.layout)});
+           number_text(1.0 / std::sqrt(1.0 + d.information)), observability::name_of(d, r.layout)});
   }
   t.note = "Eigenvalues of the prior-scaled information: 1 is as good as the prior.";
   return t;
 }
 
-Table method_table(const ModelRanking& m) {
+Table method_table(const planning::ModelRanking& m) {
   Table t;
   t.title = fmt::format("Other methods beside the learning ratio, {}", coupling_key(m));
   t.columns = {{"method", Align::left}, {"Spearman"}};
-  for (const MethodRanking& method : m.methods)
+  for (const observability::MethodRanking& method : m.methods)
     t.add({method.method, decimal_text(method.spearman, 2)});
   t.note = fmt::format(
       "PWCS: rank {} of {} (attitude and parameters) of the positions held level with known slews "
@@ -267,9 +267,9 @@ Table method_table(const ModelRanking& m) {
   return t;
 }
 
-std::vector<std::string> disagreements(const ModelRanking& m) {
+std::vector<std::string> disagreements(const planning::ModelRanking& m) {
   std::vector<std::string> all;
-  for (const MethodRanking& method : m.methods)
+  for (const observability::MethodRanking& method : m.methods)
     for (const auto& d : method.disagreements)
       all.push_back(fmt::format("{}: rank {:g} by {}, {:g} by learning ratio: {}.",
                                 key_of(m.ranking.layout, d.state), d.rank_here, method.key,
@@ -277,4 +277,4 @@ std::vector<std::string> disagreements(const ModelRanking& m) {
   return all;
 }
 
-}  // namespace drift
+}  // namespace drift::report

@@ -3,7 +3,7 @@
 #include "analysis/report/rank/report.hpp"
 #include "analysis/report/rank/tables.hpp"
 
-namespace drift {
+namespace drift::report {
 namespace {
 
 constexpr std::size_t width = 100;
@@ -13,7 +13,7 @@ void add(std::string& out, const Table& table) {
 }
 
 /// Both equations often fail to see the same: said once then.
-void add_null_tables(std::string& out, const RankingGroup& group) {
+void add_null_tables(std::string& out, const planning::RankingGroup& group) {
   Table first = null_table(group.models.front());
   if (group.models.size() == 1) return add(out, first);
   const Table second = null_table(group.models[1]);
@@ -34,16 +34,16 @@ void add_null_tables(std::string& out, const RankingGroup& group) {
 
 }  // namespace
 
-std::string to_text(const Study& study, const PlanRanking& rank) {
+std::string to_text(const mc::Study& study, const planning::PlanRanking& rank) {
   std::string out = wrapped(study.title.empty() ? "Observability ranking" : study.title, width);
   out += wrapped(plan_line(study, rank), width, 2) + "\n";
   for (const std::string& line : headlines(study, rank)) out += wrapped("- " + line, width, 2);
   out += "\n";
-  for (const RankingGroup& g : rank.groups) {
-    const ModelRanking& first = g.models.front();
+  for (const planning::RankingGroup& g : rank.groups) {
+    const planning::ModelRanking& first = g.models.front();
     add(out, ranking_table(g));
     if (g.models.size() > 1) add(out, coupling_table(g));
-    for (const ModelRanking& m : g.models) add(out, elsewhere_table(m));
+    for (const planning::ModelRanking& m : g.models) add(out, elsewhere_table(m));
     add_null_tables(out, g);
     add(out, direction_table(first));
     add(out, position_table(study, first));
@@ -59,4 +59,4 @@ std::string to_text(const Study& study, const PlanRanking& rank) {
   return out;
 }
 
-}  // namespace drift
+}  // namespace drift::report

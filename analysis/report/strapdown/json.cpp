@@ -2,7 +2,7 @@
 
 #include "analysis/report/strapdown/report.hpp"
 
-namespace drift {
+namespace drift::report {
 namespace {
 
 using nlohmann::json;
@@ -27,7 +27,7 @@ json to_json(const std::vector<Trial>& trials) {
              {"equation", t.equation},
              {"against", t.against},
              {"parameters", t.parameters},
-             {"verdict", std::string(name_of(t.verdict))},
+             {"verdict", std::string(strapdown::name_of(t.verdict))},
              {"reason", t.reason}};
     if (t.gravity) one["gravity"] = to_json(t.gravity, "m/s^2", t.z_dwell);
     if (t.dwell) one["dwells"] = to_json(t.dwell, "deg/s", t.z_dwell);
@@ -37,7 +37,7 @@ json to_json(const std::vector<Trial>& trials) {
   return list;
 }
 
-json dwells_json(const StrapdownResult& r) {
+json dwells_json(const strapdown::StrapdownResult& r) {
   json list = json::array();
   for (const auto& d : r.search.dwells)
     list.push_back({{"start_s", d.start},
@@ -55,7 +55,7 @@ json dwells_json(const StrapdownResult& r) {
 
 }  // namespace
 
-json to_json(const StrapdownResult& r) {
+json to_json(const strapdown::StrapdownResult& r) {
   json parameters = json::array(), unobservable = json::array(), accepted = json::array();
   for (const auto& p : r.parameters)
     parameters.push_back({{"key", p.key},
@@ -89,4 +89,4 @@ json to_json(const StrapdownResult& r) {
           {"unobservable", std::move(unobservable)}};
 }
 
-}  // namespace drift
+}  // namespace drift::report

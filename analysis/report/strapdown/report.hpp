@@ -5,12 +5,12 @@
 
 #include "analysis/strapdown/identify.hpp"
 
-namespace drift {
+namespace drift::report {
 
 /// The result as tables for a terminal.
-std::string to_text(const StrapdownResult& result);
+std::string to_text(const strapdown::StrapdownResult& result);
 
 /// The result as JSON, schema 1. A number that is not finite is null.
-nlohmann::json to_json(const StrapdownResult& result);
+nlohmann::json to_json(const strapdown::StrapdownResult& result);
 
-}  // namespace drift
+}  // namespace drift::report

@@ -3,14 +3,14 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/report/page/html_report.hpp"
-#include "core/base/results_folder.hpp"
 #include "analysis/report/strapdown/report.hpp"
 #include "analysis/report/svg/bar_chart.hpp"
+#include "core/base/results_folder.hpp"
 
-namespace drift {
+namespace drift::report {
 namespace {
 
-std::string rotations_picture(const StrapdownResult& result) {
+std::string rotations_picture(const strapdown::StrapdownResult& result) {
   BarChart chart;
   chart.title = "Gravity prediction after held-out rotations";
   chart.x_label = "root mean square error [deg], bars: 95 % bootstrap";
@@ -26,7 +26,8 @@ std::string rotations_picture(const StrapdownResult& result) {
 
 }  // namespace
 
-std::vector<std::string> write_results(const Study& study, const StrapdownResult& result,
+std::vector<std::string> write_results(const mc::Study& study,
+                                       const strapdown::StrapdownResult& result,
                                        const std::string& folder) {
   const std::string picture = rotations_picture(result);
   HtmlReport report;
@@ -47,4 +48,4 @@ std::vector<std::string> write_results(const Study& study, const StrapdownResult
                      folder);
 }
 
-}  // namespace drift
+}  // namespace drift::report

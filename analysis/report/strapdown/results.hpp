@@ -6,12 +6,13 @@
 #include "analysis/strapdown/identify.hpp"
 #include "mc/study/study.hpp"
 
-namespace drift {
+namespace drift::report {
 
 /// Writes the results of a strapdown recording into a folder: identification.json, rotations.svg
 /// (the held-out error of every model tried), report.html and study.toml. Returns the names of the
 /// files.
-std::vector<std::string> write_results(const Study& study, const StrapdownResult& result,
+std::vector<std::string> write_results(const mc::Study& study,
+                                       const strapdown::StrapdownResult& result,
                                        const std::string& folder);
 
-}  // namespace drift
+}  // namespace drift::report

@@ -4,7 +4,7 @@
 #include "analysis/report/strapdown/report.hpp"
 #include "core/base/check.hpp"
 
-namespace drift {
+namespace drift::report {
 namespace {
 
 using strapdown::Score;
@@ -31,8 +31,9 @@ std::string reasons(const std::vector<Trial>& trials) {
   std::string text;
   for (std::size_t k = 0; k < trials.size(); ++k)
     if (!trials[k].reason.empty())
-      text += fmt::format("{:>3} {} against '{}': {}\n", k + 1, name_of(trials[k].verdict),
-                          trials[k].against, trials[k].reason);
+      text +=
+          fmt::format("{:>3} {} against '{}': {}\n", k + 1, strapdown::name_of(trials[k].verdict),
+                      trials[k].against, trials[k].reason);
   return text + "\n";
 }
 
@@ -42,7 +43,7 @@ std::size_t name_width(const std::vector<Trial>& trials) {
   return width + 2;
 }
 
-std::string dwells_text(const StrapdownResult& r) {
+std::string dwells_text(const strapdown::StrapdownResult& r) {
   const auto& dwells = r.search.dwells;
   std::vector<double> lengths;
   for (const auto& d : dwells) lengths.push_back(d.duration());
@@ -61,7 +62,7 @@ std::string dwells_text(const StrapdownResult& r) {
              r.search.acc_threshold * r.options.gravity, r.search.acc_floor * r.options.gravity);
 }
 
-std::string accelerometers_text(const StrapdownResult& r) {
+std::string accelerometers_text(const strapdown::StrapdownResult& r) {
   const std::size_t width = name_width(r.accelerometer_trials);
   std::string text = fmt::format(
       "Accelerometers: |f| - g in dwells [m/s^2], root mean square; z: gain in standard errors\n"
@@ -71,11 +72,11 @@ std::string accelerometers_text(const StrapdownResult& r) {
   std::size_t number = 0;
   for (const Trial& t : r.accelerometer_trials)
     text += fmt::format("{:>3} {:<{}}{:>4}{}{:>6.1f}  {}\n", ++number, t.name, width, t.parameters,
-                        held(t.gravity), t.z_dwell, name_of(t.verdict));
+                        held(t.gravity), t.z_dwell, strapdown::name_of(t.verdict));
   return text + reasons(r.accelerometer_trials);
 }
 
-std::string gyros_text(const StrapdownResult& r) {
+std::string gyros_text(const strapdown::StrapdownResult& r) {
   const std::size_t width = name_width(r.gyro_trials);
   std::string text = fmt::format(
       "Gyros: w_g - w_l in dwells [deg/s], then up after a turn [deg], root mean square\n"
@@ -86,11 +87,11 @@ std::string gyros_text(const StrapdownResult& r) {
   for (const Trial& t : r.gyro_trials)
     text += fmt::format("{:>3} {:<{}}{:<4}{:>4}{}{:>6.1f}{}{:>6.1f}  {}\n", ++number, t.name, width,
                         t.equation, t.parameters, held(t.dwell), t.z_dwell, held(t.rotation),
-                        t.z_rotation, name_of(t.verdict));
+                        t.z_rotation, strapdown::name_of(t.verdict));
   return text + reasons(r.gyro_trials);
 }
 
-std::string parameters_text(const StrapdownResult& r) {
+std::string parameters_text(const strapdown::StrapdownResult& r) {
   std::string text = fmt::format("Parameters of '{}'\n{:<8}{:>14}{:>12}  {:<12}{}\n",
                                  r.accepted.front().name, "key", "value", "sigma", "unit", "");
   text += line(46);
@@ -102,7 +103,7 @@ std::string parameters_text(const StrapdownResult& r) {
 
 }  // namespace
 
-std::string to_text(const StrapdownResult& r) {
+std::string to_text(const strapdown::StrapdownResult& r) {
   std::string text = fmt::format("Strapdown recording {}\n", r.source);
   text += dwells_text(r) + accelerometers_text(r) + gyros_text(r);
   for (const auto& c : r.contest)
@@ -115,4 +116,4 @@ std::string to_text(const StrapdownResult& r) {
   return text;
 }
 
-}  // namespace drift
+}  // namespace drift::report

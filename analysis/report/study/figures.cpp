@@ -11,7 +11,7 @@
 #include "core/base/number_text.hpp"
 #include "core/physics/coupling_text.hpp"
 
-namespace drift {
+namespace drift::report {
 namespace {
 
 using mc::ErrorStatistics;
@@ -154,7 +154,7 @@ Picture silent_failure_picture(const StudyResults& results) {
                  std::nullopt,
                  860.0};
   for (const Pair& pair : pairs_of(results)) {
-    const mc::Rate& rate = statistics_of(results, pair).starts().front().silent;
+    const stats::Rate& rate = statistics_of(results, pair).starts().front().silent;
     chart.bars.push_back({pair_label(results, pair), 100.0 * rate.value(), 100.0 * rate.low(),
                           100.0 * rate.high(),
                           matched(results, pair) ? std::size_t{2} : std::size_t{1}, ""});
@@ -219,4 +219,4 @@ Picture convergence_picture(const StudyResults& results, std::size_t point) {
       "band. The first swing may be cut off."};
 }
 
-}  // namespace drift
+}  // namespace drift::report

@@ -2,7 +2,7 @@
 
 #include "analysis/report/study/results.hpp"
 
-namespace drift {
+namespace drift::report {
 
 /// Silent failure rate of every truth and filter, with intervals.
 Picture silent_failure_picture(const StudyResults& results);
@@ -21,4 +21,4 @@ Picture convergence_picture(const StudyResults& results, std::size_t point);
 /// Parameters worth a picture at a point: the worst of each filter, then misalignments.
 std::vector<std::size_t> pictured_parameters(const StudyResults& results, std::size_t point);
 
-}  // namespace drift
+}  // namespace drift::report

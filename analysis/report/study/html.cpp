@@ -4,14 +4,14 @@
 
 #include <algorithm>
 
-#include "core/base/results_folder.hpp"
 #include "analysis/report/study/figures.hpp"
 #include "analysis/report/study/json.hpp"
 #include "analysis/report/study/sweep_figures.hpp"
 #include "analysis/report/study/tables.hpp"
+#include "core/base/results_folder.hpp"
 #include "core/physics/coupling_text.hpp"
 
-namespace drift {
+namespace drift::report {
 namespace {
 
 constexpr std::size_t most_pairs = 24;  ///< of which there is a table of parameters
@@ -101,7 +101,7 @@ HtmlReport study_html(const StudyResults& results) {
   report.sections.push_back(provenance_section(results));
   report.footer = "Written by driftscope run. Intervals hold with 95 %";
   report.footer +=
-      results.study.monte_carlo.design == DesignKind::random
+      results.study.monte_carlo.design == mc::DesignKind::random
           ? "."
           : " for random designs; with this one they are conservative for means and rates.";
   return report;
@@ -134,4 +134,4 @@ std::vector<std::string> write_study_report(const StudyResults& results,
   return write_files(files, folder);
 }
 
-}  // namespace drift
+}  // namespace drift::report

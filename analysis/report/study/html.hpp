@@ -4,7 +4,7 @@
 
 #include "analysis/report/study/results.hpp"
 
-namespace drift {
+namespace drift::report {
 
 /// The report of a study, with its pictures.
 HtmlReport study_html(const StudyResults& results);
@@ -19,4 +19,4 @@ std::vector<std::pair<std::size_t, std::uint64_t>> runs_to_trace(const StudyResu
 /// InputError (io) if one cannot be written.
 std::vector<std::string> write_study_report(const StudyResults& results, const std::string& folder);
 
-}  // namespace drift
+}  // namespace drift::report

@@ -11,20 +11,21 @@
 #include "core/base/number_text.hpp"
 #include "core/physics/coupling_text.hpp"
 
-namespace drift {
+namespace drift::report {
 namespace {
 
 /// The ranking of a filter's own model in a group of its plan.
-const ModelRanking* ranking_of(const PlanRanking& plan, const FilterSpec& filter) {
+const planning::ModelRanking* ranking_of(const planning::PlanRanking& plan,
+                                         const FilterSpec& filter) {
   const Layout layout = make_layout(filter);
-  for (const RankingGroup& group : plan.groups)
-    for (const ModelRanking& m : group.models)
+  for (const planning::RankingGroup& group : plan.groups)
+    for (const planning::ModelRanking& m : group.models)
       if (m.model.spec.coupling == filter.coupling && m.ranking.layout.params == layout.params)
         return &m;
   return nullptr;
 }
 
-Table comparison_table(const MonteCarloComparison& comparison) {
+Table comparison_table(const observability::MonteCarloComparison& comparison) {
   Table table;
   table.title =
       fmt::format("Promised and found; rank correlation {}", number_text(comparison.spearman, 2));
@@ -32,7 +33,7 @@ Table comparison_table(const MonteCarloComparison& comparison) {
       {"parameter", Align::left}, {"promised", Align::right}, {"found RMSE/prior", Align::right},
       {"95 %", Align::left},      {"rank", Align::right},     {"rank found", Align::right},
       {"verdict", Align::left}};
-  for (const ErrorComparison& c : comparison.parameters)
+  for (const observability::ErrorComparison& c : comparison.parameters)
     table.add({std::string(TermLibrary::specs[c.param].key.view()),
                number_text(c.learning_ratio, 3), number_text(c.rmse_ratio, 3),
                fmt::format("{} to {}", number_text(c.low, 3), number_text(c.high, 3)),
@@ -42,10 +43,10 @@ Table comparison_table(const MonteCarloComparison& comparison) {
 }
 
 /// Each reason once, with the parameters it is given for.
-Sentences reasons(const MonteCarloComparison& comparison) {
+Sentences reasons(const observability::MonteCarloComparison& comparison) {
   Sentences sentences;
   std::vector<std::pair<std::string, std::string>> by_reason;
-  for (const ErrorComparison& c : comparison.parameters) {
+  for (const observability::ErrorComparison& c : comparison.parameters) {
     if (c.reason.empty()) continue;
     const std::string key(TermLibrary::specs[c.param].key.view());
     const auto known =
@@ -68,25 +69,27 @@ std::vector<Section> information_sections(const StudyResults& results, int threa
                 "test (learning ratio). "
                 "Found: root mean square error of the runs over the prior sigma, with its "
                 "bootstrap interval."});
-  RankOptions options;
+  planning::RankOptions options;
   options.threads = threads;
   std::set<std::string> shown;  // points that differ in the truth alone have one plan
   for (const std::size_t p : pictured_points(results)) {
-    const Study& study = results.points[p].study;
-    const PlanRanking plan = rank_plan(study, options);
+    const mc::Study& study = results.points[p].study;
+    const planning::PlanRanking plan = planning::rank_plan(study, options);
     for (std::size_t f = 0; f < study.filters.size(); ++f) {
-      const ModelRanking* model = ranking_of(plan, study.filters[f]);
+      const planning::ModelRanking* model = ranking_of(plan, study.filters[f]);
       if (model == nullptr) continue;
       const mc::FilterStatistics& found = statistics_of(results, {p, f});
-      std::vector<MonteCarloError> errors;
+      std::vector<observability::MonteCarloError> errors;
       for (std::size_t k = 0; k < found.errors().size(); ++k) {
         const mc::Estimated rmse = found.errors()[k].rmse();
         errors.push_back({found.columns().layout.params[k], rmse.value, rmse.low, rmse.high,
                           found.errors()[k].mean_sigma()});
       }
-      const MonteCarloComparison comparison = compare_with_monte_carlo(
-          model->ranking, errors,
-          matched(results, {p, f}) ? TruthIs::the_model : TruthIs::another_model);
+      const observability::MonteCarloComparison comparison =
+          observability::compare_with_monte_carlo(model->ranking, errors,
+                                                  matched(results, {p, f})
+                                                      ? observability::TruthIs::the_model
+                                                      : observability::TruthIs::another_model);
       Table table = comparison_table(comparison);
       table.title =
           fmt::format("Truth {}, filter {}{}{}. {}", key_of(study.truth.coupling),
@@ -96,7 +99,7 @@ std::vector<Section> information_sections(const StudyResults& results, int threa
       if (Sentences why = reasons(comparison); !why.items.empty())
         section.blocks.emplace_back(std::move(why));
     }
-    for (const RankingGroup& group : plan.groups) {
+    for (const planning::RankingGroup& group : plan.groups) {
       std::string learning = learning_figure(group);
       if (!shown.insert(learning).second) continue;
       section.blocks.emplace_back(Picture{
@@ -108,4 +111,4 @@ std::vector<Section> information_sections(const StudyResults& results, int threa
   return {std::move(section)};
 }
 
-}  // namespace drift
+}  // namespace drift::report

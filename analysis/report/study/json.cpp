@@ -6,7 +6,7 @@
 #include "analysis/report/study/tables.hpp"
 #include "core/physics/coupling_text.hpp"
 
-namespace drift {
+namespace drift::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -15,7 +15,7 @@ Json number(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
-Json of(const mc::Rate& rate) {
+Json of(const stats::Rate& rate) {
   return {{"value", number(rate.value())},
           {"low", rate.low()},
           {"high", rate.high()},
@@ -54,7 +54,7 @@ Json parameter(const mc::FilterStatistics& f, std::size_t k) {
   const auto& spec = TermLibrary::specs[f.columns().layout.params[k]];
   const double unit = spec.unit.to_si;
   Json coverage = Json::array();
-  for (const mc::Rate& rate : e.coverage()) coverage.push_back(of(rate));
+  for (const stats::Rate& rate : e.coverage()) coverage.push_back(of(rate));
   return {{"key", spec.key.view()},
           {"unit", spec.unit.symbol.view()},
           {"runs", e.runs()},
@@ -78,7 +78,7 @@ Json failures(const mc::FailureStatistics& f) {
   for (const auto& d : f.deciles()) {
     if (d.chi2 == 0.0) continue;
     Json rates = Json::array();
-    for (const mc::Rate& rate : d.rate) rates.push_back(number(rate.value()));
+    for (const stats::Rate& rate : d.rate) rates.push_back(number(rate.value()));
     deciles.push_back({{"key", TermLibrary::specs[d.param].key.view()},
                        {"chi2_of_9", number(d.chi2)},
                        {"rate_by_decile", rates}});
@@ -131,4 +131,4 @@ std::string study_json(const StudyResults& results) {
   return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace drift
+}  // namespace drift::report

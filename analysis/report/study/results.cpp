@@ -6,7 +6,7 @@
 
 #include "analysis/report/page/swept_value.hpp"
 
-namespace drift {
+namespace drift::report {
 
 std::vector<Pair> pairs_of(const StudyResults& results) {
   std::vector<Pair> pairs;
@@ -45,7 +45,7 @@ std::vector<std::size_t> pictured_points(const StudyResults& results) {
   return points;
 }
 
-std::string percent_text(const mc::Rate& rate) {
+std::string percent_text(const stats::Rate& rate) {
   if (rate.of == 0) return "-";
   return fmt::format("{:.1f} % ({:.1f} to {:.1f})", 100.0 * rate.value(), 100.0 * rate.low(),
                      100.0 * rate.high());
@@ -67,4 +67,4 @@ std::string key_at(const mc::FilterStatistics& filter, std::size_t k) {
   return std::string(TermLibrary::specs[filter.columns().layout.params[k]].key.view());
 }
 
-}  // namespace drift
+}  // namespace drift::report

@@ -9,7 +9,7 @@
 #include "mc/study/sweep.hpp"
 #include "mc/task/trace.hpp"
 
-namespace drift {
+namespace drift::report {
 
 /// A run executed again, for its convergence curves.
 struct TracedRun {
@@ -20,7 +20,7 @@ struct TracedRun {
 
 /// Everything a study report is made of.
 struct StudyResults {
-  Study study;  ///< as given, with its sweep
+  mc::Study study;  ///< as given, with its sweep
   std::vector<mc::StudyPoint> points;
   std::vector<mc::PointStatistics> statistics;  ///< one per point
   std::vector<TracedRun> traces;
@@ -46,7 +46,7 @@ std::string condition_of(const mc::StudyPoint& point);
 std::vector<std::size_t> pictured_points(const StudyResults& results);
 
 /// "91.5 % (86.8 to 94.6)"; "-" without runs.
-std::string percent_text(const mc::Rate& rate);
+std::string percent_text(const stats::Rate& rate);
 
 /// The parameter a pair deceives about most: largest RMSE over sigma among those it claims to know.
 /// Layout index; the size of the layout if it claims to know none.
@@ -55,4 +55,4 @@ std::size_t worst_parameter(const mc::FilterStatistics& filter, double claims);
 /// "K3_x" of a layout index.
 std::string key_at(const mc::FilterStatistics& filter, std::size_t k);
 
-}  // namespace drift
+}  // namespace drift::report

@@ -11,7 +11,7 @@
 #include "analysis/report/svg/svg_chart.hpp"
 #include "core/physics/coupling_text.hpp"
 
-namespace drift {
+namespace drift::report {
 namespace {
 
 using mc::FilterStatistics;
@@ -22,7 +22,7 @@ struct Statistic {
   std::function<mc::Estimated(const FilterStatistics&)> value;
 };
 
-mc::Estimated percent(const mc::Rate& r) {
+mc::Estimated percent(const stats::Rate& r) {
   return {100.0 * r.value(), 100.0 * r.low(), 100.0 * r.high()};
 }
 
@@ -112,4 +112,4 @@ std::vector<Picture> sweep_pictures(const StudyResults& results) {
   return pictures;
 }
 
-}  // namespace drift
+}  // namespace drift::report

@@ -2,9 +2,9 @@
 
 #include "analysis/report/study/results.hpp"
 
-namespace drift {
+namespace drift::report {
 
 /// Statistics against the swept value, one picture for each axis whose values are numbers.
 std::vector<Picture> sweep_pictures(const StudyResults& results);
 
-}  // namespace drift
+}  // namespace drift::report

@@ -8,7 +8,7 @@
 #include "core/base/number_text.hpp"
 #include "core/physics/coupling_text.hpp"
 
-namespace drift {
+namespace drift::report {
 namespace {
 
 using mc::ErrorStatistics;
@@ -284,4 +284,4 @@ Table failure_table(const StudyResults& results) {
   return table;
 }
 
-}  // namespace drift
+}  // namespace drift::report

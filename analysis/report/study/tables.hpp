@@ -2,7 +2,7 @@
 
 #include "analysis/report/study/results.hpp"
 
-namespace drift {
+namespace drift::report {
 
 /// What must not be missed, in words: for each truth and filter how often it fails, how often
 /// silently, and where most. Refused, with the reason, where more than 1 % of the runs are lost.
@@ -21,4 +21,4 @@ Table start_table(const StudyResults& results);
 /// well.
 Table failure_table(const StudyResults& results);
 
-}  // namespace drift
+}  // namespace drift::report

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace drift {
+namespace drift::report {
 namespace {
 
 double round_step(double rough) {
@@ -61,4 +61,4 @@ AxisScale make_scale(const Range& data, int count, double margin) {
   return scale;
 }
 
-}  // namespace drift
+}  // namespace drift::report

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace drift {
+namespace drift::report {
 
 /// From `low` to `high`; empty until it includes something.
 struct Range {
@@ -34,4 +34,4 @@ struct AxisScale {
 /// range of its own; an empty range is 0 to 1.
 AxisScale make_scale(const Range& data, int count, double margin);
 
-}  // namespace drift
+}  // namespace drift::report

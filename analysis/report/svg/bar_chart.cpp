@@ -5,7 +5,7 @@
 
 #include "core/base/number_text.hpp"
 
-namespace drift {
+namespace drift::report {
 namespace {
 
 constexpr double row = 22.0, edge = 14.0, axis_height = 44.0;  // [px]
@@ -74,4 +74,4 @@ std::string svg_of(const BarChart& chart) {
   return std::move(canvas).finish();
 }
 
-}  // namespace drift
+}  // namespace drift::report

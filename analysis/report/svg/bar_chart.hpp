@@ -7,7 +7,7 @@
 
 #include "analysis/report/svg/svg_chart.hpp"
 
-namespace drift {
+namespace drift::report {
 
 /// One horizontal bar from zero to a value, with an interval where its ends are finite.
 struct Bar {
@@ -30,4 +30,4 @@ struct BarChart {
 /// The bars from top to bottom as an SVG document; a value that is not finite is "n/a".
 std::string svg_of(const BarChart& chart);
 
-}  // namespace drift
+}  // namespace drift::report

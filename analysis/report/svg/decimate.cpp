@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace drift {
+namespace drift::report {
 
 std::vector<std::size_t> decimated(std::span<const double> y, std::size_t most) {
   std::vector<std::size_t> kept;
@@ -35,4 +35,4 @@ std::vector<std::size_t> decimated(std::span<const double> y, std::size_t most) 
   return kept;
 }
 
-}  // namespace drift
+}  // namespace drift::report

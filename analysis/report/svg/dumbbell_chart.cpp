@@ -7,7 +7,7 @@
 
 #include "core/base/number_text.hpp"
 
-namespace drift {
+namespace drift::report {
 namespace {
 
 constexpr double row = 19.0, edge = 14.0, axis_height = 44.0;  // [px]
@@ -95,4 +95,4 @@ std::string svg_of(const DumbbellChart& chart) {
   return std::move(canvas).finish();
 }
 
-}  // namespace drift
+}  // namespace drift::report

@@ -7,7 +7,7 @@
 
 #include "analysis/report/svg/svg_chart.hpp"
 
-namespace drift {
+namespace drift::report {
 
 /// A value before and after, joined by an arrow; the interval around `after` where it is finite.
 struct Dumbbell {
@@ -34,4 +34,4 @@ struct DumbbellChart {
 /// The lines from top to bottom as an SVG document.
 std::string svg_of(const DumbbellChart& chart);
 
-}  // namespace drift
+}  // namespace drift::report

@@ -9,7 +9,7 @@
 #include "core/base/check.hpp"
 #include "core/base/number_text.hpp"
 
-namespace drift {
+namespace drift::report {
 namespace {
 
 constexpr double edge = 14.0, least_cell = 9.0, most_cell = 70.0;  // [px]
@@ -103,4 +103,4 @@ std::string svg_of(const HeatMap& map) {
   return std::move(canvas).finish();
 }
 
-}  // namespace drift
+}  // namespace drift::report

@@ -5,7 +5,7 @@
 
 #include "core/base/linalg.hpp"
 
-namespace drift {
+namespace drift::report {
 
 /// Numbers in a grid as colours: blue above zero, orange below, white at zero, hatched grey where
 /// there is no number.
@@ -23,4 +23,4 @@ struct HeatMap {
 /// The map as an SVG document, the numbers in the cells where there is room for them.
 std::string svg_of(const HeatMap& map);
 
-}  // namespace drift
+}  // namespace drift::report

@@ -8,7 +8,7 @@
 
 #include "analysis/report/page/escape.hpp"
 
-namespace drift {
+namespace drift::report {
 namespace {
 
 std::string_view dashes(Stroke stroke) {
@@ -140,4 +140,4 @@ double text_pixels(std::string_view text, double size) {
   return 0.56 * size * static_cast<double>(display_width(text));
 }
 
-}  // namespace drift
+}  // namespace drift::report

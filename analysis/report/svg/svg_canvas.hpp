@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace drift {
+namespace drift::report {
 
 /// How a line is drawn, beside its colour: curves must be told apart in print too.
 enum class Stroke { solid, dashed, dotted };
@@ -52,4 +52,4 @@ class SvgCanvas {
 /// Width of text, about right for sans-serif type [px].
 double text_pixels(std::string_view text, double size);
 
-}  // namespace drift
+}  // namespace drift::report

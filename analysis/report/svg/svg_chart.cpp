@@ -6,7 +6,7 @@
 #include "analysis/report/svg/decimate.hpp"
 #include "core/base/check.hpp"
 
-namespace drift {
+namespace drift::report {
 namespace {
 
 // Around the axes of a panel [px].
@@ -199,4 +199,4 @@ std::string svg_of(const Chart& chart) {
   return std::move(canvas).finish();
 }
 
-}  // namespace drift
+}  // namespace drift::report

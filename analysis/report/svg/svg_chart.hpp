@@ -7,7 +7,7 @@
 #include "analysis/report/svg/axis_scale.hpp"
 #include "analysis/report/svg/svg_canvas.hpp"
 
-namespace drift {
+namespace drift::report {
 
 /// A curve, with an optional band of +-1 sigma around it.
 struct Series {
@@ -54,4 +54,4 @@ struct Chart {
 /// and infinity are gaps.
 std::string svg_of(const Chart& chart);
 
-}  // namespace drift
+}  // namespace drift::report

@@ -8,7 +8,7 @@
 namespace drift::blind {
 namespace {
 
-using discovery::Verdict;
+using diagnosis::Verdict;
 
 KeyEntry hiding(Stratum stratum, std::vector<std::pair<std::string, std::string>> terms,
                 double size = 8.0) {
@@ -109,7 +109,7 @@ TEST(BlindScore, PullsAreInTheUnitOfTheKey) {
   KeyEntry key = magnetic;
   key.effects[0].parameters = {{"M_y", 0.010, "deg/h/gauss"}};
   Answer a = answer(Verdict::named, {{"magnetic_drift", "y", 0}});
-  discovery::CauseParameter p;
+  search::CauseParameter p;
   p.key = "M_y";
   p.value = 120.0;  // deg/h/T is 1e4 times smaller than deg/h/gauss
   p.sigma = 10.0;
@@ -213,7 +213,7 @@ TEST(BlindTargets, AreDecidedOnlyByTheWholeInterval) {
 TEST(BlindTargets, AreReportedWithTheirStanding) {
   const Summary s =
       summarise({score_trial(magnetic, answer(Verdict::named, {{"magnetic_drift", "y", 0}}))});
-  const std::string report = to_text(s, {}, {});
+  const std::string report = report::to_text(s, {}, {});
   EXPECT_NE(report.find("Of 10 targets 0 are met and 0 missed"), std::string::npos) << report;
   EXPECT_NE(report.find("10 not decided."), std::string::npos) << report;
   EXPECT_NE(report.find("1 not decided\n"), std::string::npos) << report;

@@ -7,7 +7,7 @@
 #include "core/sim/simulate.hpp"
 #include "tests/support/model_builders.hpp"
 
-namespace drift::discovery {
+namespace drift::diagnosis {
 namespace {
 
 using test::param;
@@ -15,8 +15,8 @@ using test::param;
 constexpr double heat = 0.05;  // deg/h: one prior sigma
 
 /// Six level positions; gyro y drifts after a slew, and the nominal model does not know.
-Study heated_study() {
-  Study s;
+mc::Study heated_study() {
+  mc::Study s;
   s.path = "study.toml";
   s.site = test::harbin;
   PlanDefaults defaults;
@@ -34,7 +34,7 @@ Study heated_study() {
   return s;
 }
 
-Diagnosis diagnosed(const Study& s, Recording* recording = nullptr) {
+Diagnosis diagnosed(const mc::Study& s, Recording* recording = nullptr) {
   const Timeline timeline = lay_out(s.plan, s.site);
   const TruthDraw draw = draw_truth(s.truth, timeline.chains, 1, 0);
   const Recording r = make_recording(
@@ -47,7 +47,7 @@ Diagnosis diagnosed(const Study& s, Recording* recording = nullptr) {
 }
 
 TEST(AdviceFollowed, AnEffectThatThePlanConcealsIsNamedWithTheAdvisedPositions) {
-  Study s = heated_study();
+  mc::Study s = heated_study();
   Recording recording;
   const Diagnosis concealed = diagnosed(s, &recording);
   ASSERT_EQ(concealed.verdict, Verdict::consistent) << concealed.sentence;
@@ -66,9 +66,9 @@ TEST(AdviceFollowed, AnEffectThatThePlanConcealsIsNamedWithTheAdvisedPositions) 
   ASSERT_EQ(seen.causes.size(), 1u) << seen.sentence;
   EXPECT_EQ(seen.causes[0].term, "torquer_heating");
   EXPECT_EQ(seen.causes[0].axis, "y");
-  const CauseParameter& found = seen.causes[0].parameters.front();
+  const search::CauseParameter& found = seen.causes[0].parameters.front();
   EXPECT_NEAR(found.value, heat, 4.0 * found.sigma);
 }
 
 }  // namespace
-}  // namespace drift::discovery
+}  // namespace drift::diagnosis

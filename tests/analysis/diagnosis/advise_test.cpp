@@ -12,14 +12,14 @@
 #include "core/sim/simulate.hpp"
 #include "tests/support/model_builders.hpp"
 
-namespace drift::discovery {
+namespace drift::diagnosis {
 namespace {
 
 using test::param;
 
 /// Six caged positions with the Earth rate torqued: blind to lambda (physics.md 1.7).
-Study level_study() {
-  Study s;
+mc::Study level_study() {
+  mc::Study s;
   s.path = "study.toml";
   s.site = test::harbin;
   PlanDefaults defaults;
@@ -31,16 +31,16 @@ Study level_study() {
   return s;
 }
 
-Recording simulated(const Study& s) {
+Recording simulated(const mc::Study& s) {
   const Timeline timeline = lay_out(s.plan, s.site);
   const TruthDraw draw = draw_truth(s.truth, timeline.chains, 1, 0);
   return make_recording(timeline, Simulator(s.truth, s.readout).run(timeline, draw, 1, 0).measured,
                         s.readout);
 }
 
-Cause cause(std::string_view term, std::string_view key, double value, int set) {
+search::Cause cause(std::string_view term, std::string_view key, double value, int set) {
   const auto index = param(key);
-  Cause c;
+  search::Cause c;
   c.term = term;
   c.set = set;
   c.parameters = {{std::string(key), index, value, 0.01,
@@ -49,10 +49,10 @@ Cause cause(std::string_view term, std::string_view key, double value, int set) 
 }
 
 TEST(PositionPool, HoldsPossiblePositionsOfEveryKind) {
-  const auto pool = position_pool(600.0, 60.0, test::harbin);
+  const auto pool = planning::position_pool(600.0, 60.0, test::harbin);
   std::set<std::string> names;
   std::size_t slews = 0, level = 0, turned = 0;
-  for (const Addition& a : pool) {
+  for (const planning::Addition& a : pool) {
     EXPECT_TRUE(names.insert(a.back().name).second) << a.back().name;
     EXPECT_NEAR((a.back().R_lp * a.back().R_lp.transpose() - Mat3::Identity()).norm(), 0.0, 1e-12);
     EXPECT_EQ(a.front().entry, Entry::caged);
@@ -67,7 +67,7 @@ TEST(PositionPool, HoldsPossiblePositionsOfEveryKind) {
 }
 
 TEST(Advise, SaysNothingWhereNothingIsToBeSeparated) {
-  const Study s = level_study();
+  const mc::Study s = level_study();
   Diagnosis d;
   d.nominal = s.filters.front();
   d.verdict = Verdict::named;
@@ -79,7 +79,7 @@ TEST(Advise, SaysNothingWhereNothingIsToBeSeparated) {
 }
 
 TEST(Advise, ATestBlindToTheEquationIsGivenPositionsThatTellAndASimulationAgrees) {
-  const Study s = level_study();
+  const mc::Study s = level_study();
   Diagnosis d;
   d.nominal = s.filters.front();
   d.other_equation_gain = -0.3;
@@ -96,7 +96,7 @@ TEST(Advise, ATestBlindToTheEquationIsGivenPositionsThatTellAndASimulationAgrees
 }
 
 TEST(Advise, SeparatesAlternativesThatLookAlike) {
-  Study s = level_study();
+  mc::Study s = level_study();
   FilterSpec& nominal = s.filters.front();
   nominal.active &= ~test::only({"D_II", "D_SS", "D_OO", "D_IO", "D_IS", "D_OS"});
   s.truth.active = nominal.active;
@@ -118,7 +118,7 @@ AdviseOptions asking(std::vector<std::string> terms = {}) {
 }
 
 TEST(Advise, OnRequestAnEffectThatThePlanHidesGetsAPositionAndASimulationAgrees) {
-  const Study s = level_study();
+  const mc::Study s = level_study();
   Diagnosis d;
   d.nominal = s.filters.front();
   // Heating of a torquer follows the command; on level positions it is a constant that D_F takes.
@@ -134,7 +134,7 @@ TEST(Advise, OnRequestAnEffectThatThePlanHidesGetsAPositionAndASimulationAgrees)
 }
 
 TEST(Advise, OnRequestAConsistentRecordingIsToldWhatItsPlanHides) {
-  const Study s = level_study();
+  const mc::Study s = level_study();
   Diagnosis d;
   d.nominal = s.filters.front();
   d.other_equation_gain = -0.3;
@@ -155,7 +155,7 @@ TEST(Advise, OnRequestAConsistentRecordingIsToldWhatItsPlanHides) {
 }
 
 TEST(Advise, TwinsAreGivenNoFutilePosition) {
-  const Study s = level_study();
+  const mc::Study s = level_study();
   Diagnosis d;
   d.nominal = s.filters.front();
   d.verdict = Verdict::named;
@@ -179,7 +179,7 @@ TEST(Advise, TwinsAreGivenNoFutilePosition) {
 }
 
 TEST(Advise, TwinsOfAnAmbiguousVerdictAreSaidToBeTwins) {
-  const Study s = level_study();
+  const mc::Study s = level_study();
   Diagnosis d;
   d.nominal = s.filters.front();
   d.verdict = Verdict::ambiguous;
@@ -194,7 +194,7 @@ TEST(Advise, TwinsOfAnAmbiguousVerdictAreSaidToBeTwins) {
 TEST(Advise, WhatGrowsWithTimeIsAskedAtTheTimeTheAdditionWouldHave) {
   // The simulation runs recorded and added positions in turn; added at time zero a ramp would show
   // less.
-  const Study s = level_study();
+  const mc::Study s = level_study();
   Diagnosis d;
   d.nominal = s.filters.front();
   const auto advice =
@@ -207,7 +207,7 @@ TEST(Advise, WhatGrowsWithTimeIsAskedAtTheTimeTheAdditionWouldHave) {
 }
 
 TEST(Advise, TermsThatCannotBeAskedForAreSaidAllAtOnce) {
-  const Study s = level_study();
+  const mc::Study s = level_study();
   Diagnosis d;
   d.nominal = s.filters.front();
   try {
@@ -225,7 +225,7 @@ TEST(Advise, TermsThatCannotBeAskedForAreSaidAllAtOnce) {
 }
 
 TEST(Advise, OnRequestAnUnexplainedMisfitIsToldWhichPositionToRepeat) {
-  const Study s = level_study();
+  const mc::Study s = level_study();
   Diagnosis d;
   d.nominal = s.filters.front();
   d.verdict = Verdict::unexplained;
@@ -244,7 +244,7 @@ TEST(Advise, WhatFollowsTheTemperatureIsNotAskedOfPositions) {
   Diagnosis d;
   d.verdict = Verdict::ambiguous;
   for (const char* term : {"temperature_drift", "drift_ramp", "magnetic_drift"}) {
-    Cause c;
+    search::Cause c;
     c.term = term;
     c.axis = "z";
     c.set = static_cast<int>(d.causes.size());
@@ -253,10 +253,10 @@ TEST(Advise, WhatFollowsTheTemperatureIsNotAskedOfPositions) {
   const Question q = open_question(d);
   EXPECT_EQ(q.alternatives.size(), 2u);
   for (const Alternative& a : q.alternatives)
-    for (const Cause& c : a.causes) EXPECT_NE(c.term, "temperature_drift");
+    for (const search::Cause& c : a.causes) EXPECT_NE(c.term, "temperature_drift");
   d.causes.resize(1);
   EXPECT_TRUE(open_question(d).empty());
 }
 
 }  // namespace
-}  // namespace drift::discovery
+}  // namespace drift::diagnosis

@@ -7,7 +7,7 @@
 
 #include "tests/support/model_builders.hpp"
 
-namespace drift::discovery {
+namespace drift::diagnosis {
 namespace {
 
 using namespace drift::test;
@@ -78,7 +78,7 @@ TEST(Diagnose, TorquerScaleIsFoundWhereTheTestSlewsBesideTheNonlinearityOneRateC
   const Diagnosis d = run(make_case("slew12", "s_y", 30.0, Coupling::eq5, 900.0, 90.0));
   ASSERT_TRUE(d.verdict == Verdict::named || d.verdict == Verdict::ambiguous) << d.sentence;
   EXPECT_LE(d.causes.size(), 2u);
-  EXPECT_TRUE(std::ranges::any_of(d.causes, [](const Cause& c) {
+  EXPECT_TRUE(std::ranges::any_of(d.causes, [](const search::Cause& c) {
     return c.term == "torquer_scale" && c.axis == "y";
   })) << d.sentence;
 }
@@ -117,4 +117,4 @@ TEST(Diagnose, IsRepeatable) {
 }
 
 }  // namespace
-}  // namespace drift::discovery
+}  // namespace drift::diagnosis

@@ -15,15 +15,15 @@
 #include "mc/study/study.hpp"
 #include "tests/support/model_builders.hpp"
 
-namespace drift::discovery {
+namespace drift::diagnosis {
 namespace {
 
 using test::param;
 
 /// Six positions of 15 min; nominal: fixed and g-sensitive drift. size: of D_SS_x in the truth
 /// [deg/h/g^2].
-Study study() {
-  Study s;
+mc::Study study() {
+  mc::Study s;
   s.path = "study.toml";
   s.site = test::harbin;
   PlanDefaults defaults;
@@ -37,7 +37,7 @@ Study study() {
 
 /// One platform, other attitudes and noise in every run.
 Recording made(double size, std::uint64_t run) {
-  const Study s = study();
+  const mc::Study s = study();
   TruthSpec truth = test::base_truth(Coupling::eq5);
   truth.active = s.filters.front().active | test::only({"D_SS_x"});
   const Timeline timeline = lay_out(s.plan, s.site);
@@ -67,7 +67,7 @@ void expect_found(const Diagnosis& d) {
   EXPECT_EQ(d.causes[0].term, "g2_drift");
   EXPECT_EQ(d.causes[0].axis, "x");
   ASSERT_FALSE(d.causes[0].parameters.empty());
-  for (const CauseParameter& p : d.causes[0].parameters)
+  for (const search::CauseParameter& p : d.causes[0].parameters)
     EXPECT_NEAR(p.value, p.key == "D_SS_x" ? hidden : 0.0, 4.0 * p.sigma) << p.key;
 }
 
@@ -91,11 +91,11 @@ TEST(OddInput, ThreadsDoNotChangeWhatIsFound) {
   const Recording r = made(hidden, 0);
   const Diagnosis one = diagnosed({r}, 1), three = diagnosed({r}, 3);
   expect_found(one);
-  EXPECT_EQ(to_json(one), to_json(three));
+  EXPECT_EQ(report::to_json(one), report::to_json(three));
 }
 
 TEST(OddInput, NoiseTenTimesAsDeclaredIsSaidAndMakesNoOutliersButASpikeIsStillOne) {
-  Study s = study();
+  mc::Study s = study();
   s.readout.gimbal_noise /= 10.0;
   s.readout.accelerometer_noise /= 10.0;
   DiagnoseOptions options;
@@ -106,7 +106,7 @@ TEST(OddInput, NoiseTenTimesAsDeclaredIsSaidAndMakesNoOutliersButASpikeIsStillOn
     EXPECT_EQ(d.verdict, Verdict::consistent) << d.sentence;
     EXPECT_NE(d.sentence.find("times as declared"), std::string::npos) << d.sentence;
     std::size_t count = 0;
-    for (const NoiseFinding& f : d.noise)
+    for (const inference::NoiseFinding& f : d.noise)
       if (f.component == "outliers") count += f.count;
     return count;
   };
@@ -129,7 +129,7 @@ TEST(OddInput, ASecondRecordingIsPredictedFromTheFirst) {
   EXPECT_EQ(held.recordings[1].dof, 6u * 15u * 6u);
   EXPECT_GT(held.recording_gain, 0.0);
   EXPECT_NEAR(held.recording_chi2_per_dof_after, 1.0, 0.15);  // 1080 scalars: sigma 0.043
-  const auto json = nlohmann::json::parse(to_json(d))["fit"]["held_out"];
+  const auto json = nlohmann::json::parse(report::to_json(d))["fit"]["held_out"];
   EXPECT_EQ(json["folds"], 6);
   EXPECT_EQ(json["by_recording"]["folds"], 2);
   EXPECT_EQ(json["by_recording"]["each"][1]["name"], "recording 2");
@@ -182,7 +182,7 @@ TEST(OddInput, ACovariateThatExplainsNothingIsNotBlamed) {
 }
 
 TEST(OddInput, AWholeBaseTermThatTheNominalFilterLacksIsNamedAsOne) {
-  Study s = study();
+  mc::Study s = study();
   s.filters.front().active = test::only({"D_F"});
   const Diagnosis d = diagnose(s, {made(0.0, 0)});
   ASSERT_EQ(d.verdict, Verdict::named) << d.sentence;
@@ -202,4 +202,4 @@ TEST(OddInput, OnePositionIsDiagnosedButNothingIsHeldOut) {
 }
 
 }  // namespace
-}  // namespace drift::discovery
+}  // namespace drift::diagnosis

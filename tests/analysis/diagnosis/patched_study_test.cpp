@@ -5,13 +5,13 @@
 #include "core/base/check.hpp"
 #include "tests/analysis/report/diagnosis/diagnosis_fixture.hpp"
 
-namespace drift::discovery {
+namespace drift::diagnosis {
 namespace {
 
 using testing::nominal_study;
 using testing::read_text;
 
-CauseParameter parameter(std::string_view key, double value, bool profiled = false) {
+search::CauseParameter parameter(std::string_view key, double value, bool profiled = false) {
   const auto index = TermLibrary::find(key).value();
   return {std::string(key),
           index,
@@ -40,8 +40,8 @@ void expect_same_model(const FilterSpec& read, const FilterSpec& meant) {
 
 TEST(PatchedStudy, ReadsBackAsTheNominalFilterWithTheCauses) {
   const test::ScratchFolder folder;
-  const Study study = read_text(folder, "s.toml", nominal_study);
-  Cause drift, scale;
+  const mc::Study study = read_text(folder, "s.toml", nominal_study);
+  search::Cause drift, scale;
   drift.term = "g_drift";
   drift.parameters = {parameter("D_S_y", 0.25),
                       parameter("D_I_y", 55.0)};  // 55: far outside its prior
@@ -53,7 +53,7 @@ TEST(PatchedStudy, ReadsBackAsTheNominalFilterWithTheCauses) {
                    55.0 * unit::deg_per_h_per_g.to_si);
   EXPECT_EQ(patched.priors[TermLibrary::find("s_z").value()], fixed(-1200.5 * 1e-6));
 
-  const Study again = read_text(folder, "patched.toml", patched_study(study, patched));
+  const mc::Study again = read_text(folder, "patched.toml", patched_study(study, patched));
   ASSERT_EQ(again.filters.size(), 2u);
   expect_same_model(again.filters[0], patched);
   expect_same_model(again.filters[1], study.filters[1]);
@@ -65,8 +65,8 @@ TEST(PatchedStudy, ReadsBackAsTheNominalFilterWithTheCauses) {
 
 TEST(PatchedStudy, WhatIsFarFromLinearStartsWhereItWasFound) {
   const test::ScratchFolder folder;
-  const Study study = read_text(folder, "s.toml", nominal_study);
-  Cause step, other;
+  const mc::Study study = read_text(folder, "s.toml", nominal_study);
+  search::Cause step, other;
   step.term = "mass_unbalance_step";
   step.parameters = {parameter("dD_I_y", 0.15), parameter("dD_t0", 7.3, true)};
   other.term = "g_drift";
@@ -79,7 +79,7 @@ TEST(PatchedStudy, WhatIsFarFromLinearStartsWhereItWasFound) {
   patched.priors[t0] = normal(8.0 * 3600.0, 2.0 * 3600.0);
   patched = started_where_found(patched, {step, other});
   ASSERT_EQ(patched.starts.size(), 1u);
-  const Study again = read_text(folder, "patched.toml", patched_study(study, patched));
+  const mc::Study again = read_text(folder, "patched.toml", patched_study(study, patched));
   expect_same_model(again.filters[0], patched);
   ASSERT_EQ(again.filters[0].starts.size(), 1u);
   const Start& start = again.filters[0].starts[0];
@@ -87,7 +87,7 @@ TEST(PatchedStudy, WhatIsFarFromLinearStartsWhereItWasFound) {
   EXPECT_EQ(start[1].first, t0);
   EXPECT_NEAR(start[1].second, 7.3 * 3600.0, 1e-6);
   // What is linear starts as the study says.
-  Cause drift;
+  search::Cause drift;
   drift.term = "g_drift";
   drift.parameters = {parameter("D_S_y", 0.25)};
   EXPECT_TRUE(
@@ -96,24 +96,24 @@ TEST(PatchedStudy, WhatIsFarFromLinearStartsWhereItWasFound) {
 
 TEST(PatchedStudy, LambdaMakesTheCouplingLambda) {
   const test::ScratchFolder folder;
-  const Study study = read_text(folder, "s.toml", nominal_study);
-  Cause closure;
+  const mc::Study study = read_text(folder, "s.toml", nominal_study);
+  search::Cause closure;
   closure.term = "frame_closure";
   closure.parameters = {parameter("lambda", 1.0)};
   const FilterSpec patched = patched_filter(study.filters.front(), {closure});
-  const Study again = read_text(folder, "patched.toml", patched_study(study, patched));
+  const mc::Study again = read_text(folder, "patched.toml", patched_study(study, patched));
   EXPECT_EQ(again.filters[0].coupling, Coupling::lambda);
   expect_same_model(again.filters[0], patched);
 }
 
 TEST(PatchedStudy, EveryParameterOfTheLibraryCanBeAdded) {
   const test::ScratchFolder folder;
-  const Study study = read_text(folder, "s.toml", nominal_study);
+  const mc::Study study = read_text(folder, "s.toml", nominal_study);
   for (std::size_t i = 0; i < TermLibrary::num_params; ++i) {
     const auto& spec = TermLibrary::specs[i];
     if (study.filters.front().active[i]) continue;
     for (const bool profiled : {false, true}) {
-      Cause cause;
+      search::Cause cause;
       cause.parameters = {
           parameter(spec.key.view(),
                     0.7 * (spec.prior.sigma() > 0.0 ? spec.prior.sigma() : 1.0) + spec.prior.mean(),
@@ -129,15 +129,15 @@ TEST(PatchedStudy, OfAStudyWithoutFilterIsRefused) {
   const test::ScratchFolder folder;
   std::string text = nominal_study;
   text.erase(text.find("[[filter]]"), text.find("[monte_carlo]") - text.find("[[filter]]"));
-  const Study study = read_text(folder, "s.toml", text);
+  const mc::Study study = read_text(folder, "s.toml", text);
   EXPECT_THROW(patched_study(study, FilterSpec{}), InputError);
 }
 
 TEST(ExtendedStudy, WritesThePresetOutAndAddsThePositions) {
   const test::ScratchFolder folder;
-  const Study study = read_text(folder, "s.toml", nominal_study);
+  const mc::Study study = read_text(folder, "s.toml", nominal_study);
   const auto advice = testing::diagnosis(study.filters.front()).advice.front();
-  const Study again = read_text(folder, "advised.toml", extended_study(study, advice.plan));
+  const mc::Study again = read_text(folder, "advised.toml", extended_study(study, advice.plan));
   ASSERT_EQ(again.plan.positions.size(), study.plan.positions.size() + 1);
   for (std::size_t k = 0; k < study.plan.positions.size(); ++k) {
     const Position &is = again.plan.positions[k], &was = study.plan.positions[k];
@@ -159,8 +159,8 @@ TEST(ExtendedStudy, WorksForEveryPreset) {
     std::string text = nominal_study;
     text.replace(text.find("\"six\""), 5, "\"" + std::string(preset) + "\"");
     text.erase(text.find("mode   = \"free\"\n"), 16);
-    const Study study = read_text(folder, "s.toml", text);
-    const Study again = read_text(folder, "e.toml", extended_study(study, {}));
+    const mc::Study study = read_text(folder, "s.toml", text);
+    const mc::Study again = read_text(folder, "e.toml", extended_study(study, {}));
     ASSERT_EQ(again.plan.positions.size(), study.plan.positions.size()) << preset;
     for (std::size_t k = 0; k < study.plan.positions.size(); ++k) {
       const Position &is = again.plan.positions[k], &was = study.plan.positions[k];
@@ -173,4 +173,4 @@ TEST(ExtendedStudy, WorksForEveryPreset) {
 }
 
 }  // namespace
-}  // namespace drift::discovery
+}  // namespace drift::diagnosis

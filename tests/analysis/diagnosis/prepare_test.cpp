@@ -9,15 +9,15 @@
 #include "core/sim/simulate.hpp"
 #include "tests/support/model_builders.hpp"
 
-namespace drift::discovery {
+namespace drift::diagnosis {
 namespace {
 
 using test::base_filter;
 using test::base_truth;
 
 /// A six-position study with the truth at zero, and its recording.
-Study study(double dwell = 1200.0, double sample = 60.0) {
-  Study s;
+mc::Study study(double dwell = 1200.0, double sample = 60.0) {
+  mc::Study s;
   s.path = "study.toml";
   s.site = test::harbin;
   PlanDefaults defaults;
@@ -29,14 +29,14 @@ Study study(double dwell = 1200.0, double sample = 60.0) {
   return s;
 }
 
-Recording simulated(const Study& s) {
+Recording simulated(const mc::Study& s) {
   const Timeline timeline = lay_out(s.plan, s.site);
   const TruthDraw draw = draw_truth(s.truth, timeline.chains, 1, 0);
   Simulator simulator(s.truth, s.readout);
   return make_recording(timeline, simulator.run(timeline, draw, 1, 0).measured, s.readout);
 }
 
-std::string message(const Study& s, const Recording& r) {
+std::string message(const mc::Study& s, const Recording& r) {
   try {
     prepare(s, {r});
   } catch (const InputError& error) {
@@ -59,7 +59,7 @@ std::vector<double>& channel(Recording& r, std::string_view name) {
 }
 
 TEST(Prepare, AGoodRecordingIsLeftAsItIs) {
-  const Study s = study();
+  const mc::Study s = study();
   const Recording r = simulated(s);
   const Prepared p = prepare(s, {r});
   EXPECT_TRUE(p.remarks.empty()) << p.remarks.front();
@@ -68,11 +68,11 @@ TEST(Prepare, AGoodRecordingIsLeftAsItIs) {
 }
 
 TEST(Prepare, AnotherPlanIsSaid) {
-  const Study s = study();
-  Study other = s;
+  const mc::Study s = study();
+  mc::Study other = s;
   std::swap(other.plan.positions[1], other.plan.positions[4]);
   EXPECT_NE(message(other, simulated(s)).find("Is this the plan"), std::string::npos);
-  Study few = s;
+  mc::Study few = s;
   few.plan.positions.resize(3);
   EXPECT_NE(message(few, simulated(s)).find("are not in the plan"), std::string::npos);
   EXPECT_NE(message(study(1200.0, 40.0), simulated(s)).find("samples are 60 s apart"),
@@ -87,14 +87,14 @@ Recording without(Recording r, std::string_view prefix) {
   return r;
 }
 
-Study with_law(Study s, CommandLaw law) {
+mc::Study with_law(mc::Study s, CommandLaw law) {
   for (Position& p : s.plan.positions) p.mode = law;
   return s;
 }
 
 TEST(Prepare, PositionsThatThePlanDoesNotHaveAreOneMessage) {
-  const Study s = study();
-  Study few = s;
+  const mc::Study s = study();
+  mc::Study few = s;
   few.plan.positions.resize(3);
   const std::string said = message(few, simulated(s));
   EXPECT_NE(said.find("positions 4, 5, 6 are not in the plan, in 60 rows from here on (expected "
@@ -105,7 +105,7 @@ TEST(Prepare, PositionsThatThePlanDoesNotHaveAreOneMessage) {
 }
 
 TEST(Prepare, DwellsOfAnotherLengthAreRemarkedAndUsed) {
-  const Study s = study();
+  const mc::Study s = study();
   Recording r = simulated(s);
   const Prepared all = prepare(study(600.0), {r});
   EXPECT_TRUE(says(all, "positions 1 to 6 for 20 min (in the plan 10 min)"));
@@ -117,7 +117,7 @@ TEST(Prepare, DwellsOfAnotherLengthAreRemarkedAndUsed) {
 }
 
 TEST(Prepare, RecordedCommandsOfAnotherLawAreRemarked) {
-  const Study free = study(), level = with_law(study(), CommandLaw::level);
+  const mc::Study free = study(), level = with_law(study(), CommandLaw::level);
   EXPECT_TRUE(says(prepare(level, {simulated(free)}),
                    "the commands in positions 1 to 6 are those of a free dwell, the plan says mode "
                    "= \"level\""));
@@ -126,7 +126,7 @@ TEST(Prepare, RecordedCommandsOfAnotherLawAreRemarked) {
                    "mode = \"free\""));
   EXPECT_TRUE(prepare(level, {simulated(level)}).remarks.empty());
   // Earth rate of another latitude: the recording knows better than the study.
-  Study elsewhere = level;
+  mc::Study elsewhere = level;
   elsewhere.site.latitude = 50.0 * unit::deg.to_si;
   EXPECT_TRUE(says(prepare(elsewhere, {simulated(level)}),
                    "Earth rate at latitude 45.750 deg, [site] says 50.000 deg"));
@@ -137,7 +137,7 @@ TEST(Prepare, RecordedCommandsOfAnotherLawAreRemarked) {
 }
 
 TEST(Prepare, WithoutCommandsThePlatformShowsTheLawAndTheWrongOneIsRefused) {
-  const Study free = study(), level = with_law(study(), CommandLaw::level);
+  const mc::Study free = study(), level = with_law(study(), CommandLaw::level);
   for (const char* instruments : {"none", "gimbal_", "acc_"}) {
     const Recording drifting = without(without(simulated(free), "cmd_"), instruments);
     const Recording kept = without(without(simulated(level), "cmd_"), instruments);
@@ -155,7 +155,7 @@ TEST(Prepare, WithoutCommandsThePlatformShowsTheLawAndTheWrongOneIsRefused) {
 
 TEST(Prepare, ALargeDriftIsNoOtherLaw) {
   // Three prior sigmas of everything that drifts: the mean over the positions still tells.
-  Study s = study();
+  mc::Study s = study();
   for (const char* key : {"D_F_x", "D_F_y", "D_F_z"})
     s.truth.priors[test::param(key)] = fixed(3.0 * unit::deg_per_h.to_si);
   for (const char* key : {"D_I_x", "D_S_y", "D_I_z"})
@@ -164,7 +164,7 @@ TEST(Prepare, ALargeDriftIsNoOtherLaw) {
 }
 
 TEST(Prepare, AStuckChannelIsLeftOutAndACoarseOneIsNot) {
-  const Study s = study(1800.0);
+  const mc::Study s = study(1800.0);
   Recording r = simulated(s);
   auto& stuck = channel(r, "acc_y");
   std::fill(stuck.begin(), stuck.end(), 0.5);
@@ -182,7 +182,7 @@ TEST(Prepare, AStuckChannelIsLeftOutAndACoarseOneIsNot) {
 }
 
 TEST(Prepare, MissingChannelsAndBurstsAreRemarkedAndNothingMeasuredIsRefused) {
-  const Study s = study();
+  const mc::Study s = study();
   Recording r = simulated(s);
   std::erase_if(r.channels, [](const Channel& c) { return c.name.starts_with("gimbal_"); });
   auto& x = channel(r, "acc_x");
@@ -196,11 +196,11 @@ TEST(Prepare, MissingChannelsAndBurstsAreRemarkedAndNothingMeasuredIsRefused) {
 }
 
 TEST(Prepare, OnePositionIsSaid) {
-  Study s = study();
+  mc::Study s = study();
   s.plan.positions.resize(1);
   const Prepared p = prepare(s, {simulated(s)});
   EXPECT_TRUE(says(p, "one position only"));
-  Study six = study();
+  mc::Study six = study();
   Recording r = simulated(six);
   for (Channel& c : r.channels) c.values.resize(40);
   r.lines.resize(40);
@@ -208,10 +208,10 @@ TEST(Prepare, OnePositionIsSaid) {
 }
 
 TEST(Prepare, FineSamplesAreAveragedToThePlanAndKeepWhatTheySay) {
-  Study fine = study(600.0, 1.0);
+  mc::Study fine = study(600.0, 1.0);
   fine.readout.accelerometer_noise = 1e-12;
   fine.readout.gimbal_noise = 1e-12;
-  Study coarse = study(600.0, 60.0);
+  mc::Study coarse = study(600.0, 60.0);
   coarse.readout = fine.readout;
   const Prepared p = prepare(coarse, {simulated(fine)});
   const Recording direct = simulated(coarse);
@@ -226,7 +226,7 @@ TEST(Prepare, FineSamplesAreAveragedToThePlanAndKeepWhatTheySay) {
 }
 
 TEST(Prepare, AMillionRowsBecomeFewInBoundedTime) {
-  Study s = study(600.0, 60.0);
+  mc::Study s = study(600.0, 60.0);
   Recording r = simulated(s), long_one;
   for (const Channel& c : r.channels) long_one.channels.push_back({c.name, c.unit, {}});
   constexpr std::size_t split = 16000;  // 60 rows become 960,000 of 3.75 ms
@@ -255,4 +255,4 @@ TEST(Prepare, AMillionRowsBecomeFewInBoundedTime) {
 }
 
 }  // namespace
-}  // namespace drift::discovery
+}  // namespace drift::diagnosis

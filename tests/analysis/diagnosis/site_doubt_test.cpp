@@ -9,14 +9,14 @@
 #include "core/sim/simulate.hpp"
 #include "tests/support/model_builders.hpp"
 
-namespace drift::discovery {
+namespace drift::diagnosis {
 namespace {
 
 constexpr double truth = 45.75;  // deg, of test::harbin
 
 /// Six positions of free drift at Harbin, and a study that may say another latitude.
 struct Scene {
-  Study study;
+  mc::Study study;
   Recording recording;
 
   explicit Scene(double latitude_deg) {
@@ -36,7 +36,7 @@ struct Scene {
         study.readout);
     study.site.latitude = latitude_deg * unit::deg.to_si;
   }
-  std::optional<SiteDoubt> doubt(Verdict verdict) const {
+  std::optional<SiteDoubt> inference::doubt(Verdict verdict) const {
     Diagnosis d;
     d.nominal = study.filters.front();
     d.verdict = verdict;
@@ -83,4 +83,4 @@ TEST(SiteDoubt, TheWrongHemisphereHidesInParametersFarFromTheirPriorsAndIsStillF
 }
 
 }  // namespace
-}  // namespace drift::discovery
+}  // namespace drift::diagnosis

@@ -5,7 +5,7 @@
 #include "analysis/search/examination.hpp"
 #include "tests/support/model_builders.hpp"
 
-namespace drift::discovery {
+namespace drift::inference {
 namespace {
 
 using namespace drift::test;
@@ -115,4 +115,4 @@ TEST(Evidence, IsThatOfTheProjectorWithTheColumnInTheMean) {
 }
 
 }  // namespace
-}  // namespace drift::discovery
+}  // namespace drift::inference

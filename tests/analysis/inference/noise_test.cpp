@@ -5,7 +5,7 @@
 #include "analysis/search/examination.hpp"
 #include "tests/support/model_builders.hpp"
 
-namespace drift::discovery {
+namespace drift::inference {
 namespace {
 
 using namespace drift::test;
@@ -96,4 +96,4 @@ TEST(Noise, DifferencesSeeNoiseThroughAGrossMisfit) {
 }
 
 }  // namespace
-}  // namespace drift::discovery
+}  // namespace drift::inference

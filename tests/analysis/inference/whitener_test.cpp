@@ -8,7 +8,7 @@
 #include "analysis/inference/signatures.hpp"
 #include "tests/support/model_builders.hpp"
 
-namespace drift::discovery {
+namespace drift::inference {
 namespace {
 
 using namespace drift::test;
@@ -111,4 +111,4 @@ TEST(Whitener, ColumnsFromALaterRowOnAreTheSameAsZerosBefore) {
 }
 
 }  // namespace
-}  // namespace drift::discovery
+}  // namespace drift::inference

@@ -6,7 +6,7 @@
 
 #include "core/base/rng.hpp"
 
-namespace drift::discovery {
+namespace drift::inference {
 namespace {
 
 constexpr int channels = 3, chains = 4, samples = 12;  // short dwells
@@ -50,7 +50,8 @@ double p_of(const Scene& s, int draws = 99) {
   return whiteness_p(s.problem, Projector(s.theta, MatX(rows, 0), s.r0, 0.0), 5, draws, 7);
 }
 
-TEST(Whiteness, PValuesOfWhiteInnovationsAreUniformThoughDwellsAreShortAndParametersMany) {
+TEST(diagnosis::Whiteness,
+     PValuesOfWhiteInnovationsAreUniformThoughDwellsAreShortAndParametersMany) {
   constexpr int trials = 200;
   int below_tenth = 0, below_half = 0;
   for (int k = 0; k < trials; ++k) {
@@ -63,7 +64,7 @@ TEST(Whiteness, PValuesOfWhiteInnovationsAreUniformThoughDwellsAreShortAndParame
   EXPECT_NEAR(below_half, 100, 29);
 }
 
-TEST(Whiteness, CorrelatedInnovationsAreFound) {
+TEST(diagnosis::Whiteness, CorrelatedInnovationsAreFound) {
   // Per channel 44 pairs at lag 1 with r = 0.7: Q gains some 20, several times its mean of 5.
   int found = 0;
   for (int k = 0; k < 10; ++k)
@@ -71,7 +72,7 @@ TEST(Whiteness, CorrelatedInnovationsAreFound) {
   EXPECT_GE(found, 9);
 }
 
-TEST(Whiteness, IsRepeatableAndNeverZero) {
+TEST(diagnosis::Whiteness, IsRepeatableAndNeverZero) {
   const Scene s = scene(0.9, 3);
   EXPECT_EQ(p_of(s), p_of(s));
   EXPECT_EQ(p_of(s), 1.0 / 100.0);
@@ -79,4 +80,4 @@ TEST(Whiteness, IsRepeatableAndNeverZero) {
 }
 
 }  // namespace
-}  // namespace drift::discovery
+}  // namespace drift::inference

@@ -7,7 +7,7 @@
 
 #include "tests/support/model_builders.hpp"
 
-namespace drift::discovery {
+namespace drift::search {
 namespace {
 
 using test::param;
@@ -18,7 +18,8 @@ struct Case {
   Search out;
 
   std::size_t candidate(std::string term, std::string axis, std::vector<std::size_t> params) {
-    e.set.candidates.push_back({term, axis, term + "." + axis, std::move(params), {Variant{}}});
+    e.set.candidates.push_back(
+        {term, axis, term + "." + axis, std::move(params), {inference::Variant{}}});
     return e.set.candidates.size() - 1;
   }
   void explanation(std::size_t candidate, double log_bayes, double excess) {
@@ -28,9 +29,7 @@ struct Case {
     r.excess = excess;
     refits.push_back(std::move(r));
   }
-  bool weigh(bool chance_alone = false) {
-    return discovery::weigh(e, refits, chance_alone, {}, out);
-  }
+  bool weigh(bool chance_alone = false) { return weigh(e, refits, chance_alone, {}, out); }
 };
 
 TEST(CredibleSet, AFarBetterExplanationDoesNotLoseToAPoorOneForATrifle) {
@@ -102,4 +101,4 @@ TEST(CredibleSet, PartsOfOneTermAreOneCause) {
 }
 
 }  // namespace
-}  // namespace drift::discovery
+}  // namespace drift::search

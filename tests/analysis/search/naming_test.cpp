@@ -5,7 +5,7 @@
 #include "analysis/search/pairs.hpp"
 #include "core/base/rng.hpp"
 
-namespace drift::discovery {
+namespace drift::search {
 namespace {
 
 constexpr Eigen::Index rows = 120, parameters = 8, candidates = 12;
@@ -17,7 +17,7 @@ double three_errors(double p, int n) {
 /// Columns with common parts, so that parameters absorb and candidates resemble each other.
 struct Synthetic {
   MatX theta, extra;
-  CandidateSet set;
+  inference::CandidateSet set;
 
   Synthetic() {
     Stream random(77, 0, Purpose::test);
@@ -35,7 +35,7 @@ struct Synthetic {
           {"term" + std::to_string(k), "", "", {static_cast<std::size_t>(k)}, {{{k}, {}}}});
   }
   /// Scores of data with parameters from their prior and candidate amplitudes a.
-  Projector test(std::uint64_t run, const VecX& a) const {
+  inference::Projector test(std::uint64_t run, const VecX& a) const {
     Stream random(78, run, Purpose::test);
     VecX r(rows), x(parameters);
     for (double& v : x) v = random.normal();
@@ -52,14 +52,14 @@ const Synthetic& synthetic() {
 
 /// Amplitude of candidate k that leaves `size` sigmas after projection.
 VecX amplitude(Eigen::Index k, double size) {
-  const Projected p = synthetic().test(0, VecX::Zero(candidates)).candidates();
+  const inference::Projected p = synthetic().test(0, VecX::Zero(candidates)).candidates();
   return size / std::sqrt(p.C(k, k)) * VecX::Unit(candidates, k);
 }
 
-const std::vector<PositionScan> no_scans;
+const std::vector<inference::PositionScan> no_scans;
 
-MaxNull the_null() {
-  const Projector p = synthetic().test(0, VecX::Zero(candidates));
+inference::MaxNull the_null() {
+  const inference::Projector p = synthetic().test(0, VecX::Zero(candidates));
   const Field field(synthetic().set, p.candidates(), no_scans);
   return {p.candidates().C, field.all_contrasts(), 4000, 1};
 }
@@ -77,7 +77,7 @@ TEST(Naming, FamilyWiseFalseAlarmsAreAsManyAsAllowed) {
   const double k = the_null().threshold(alpha);
   int alarms = 0;
   for (int run = 0; run < n; ++run) {
-    const Projector p = synthetic().test(run, VecX::Zero(candidates));
+    const inference::Projector p = synthetic().test(run, VecX::Zero(candidates));
     alarms += largest({synthetic().set, p.candidates(), no_scans}) > k;
   }
   // The threshold itself is estimated from 4000 draws: its error adds to that of the count.
@@ -88,11 +88,11 @@ TEST(Naming, FamilyWiseFalseAlarmsAreAsManyAsAllowed) {
 TEST(Naming, PowerIsThatOfANormalScore) {
   constexpr int n = 1000;
   constexpr double size = 4.0;
-  const MaxNull null = the_null();
-  const double k = null.threshold(0.05), z = std::sqrt(quantile_of_strength(k, 1));
+  const inference::MaxNull null = the_null();
+  const double k = null.threshold(0.05), z = std::sqrt(stats::quantile_of_strength(k, 1));
   int found = 0;
   for (int run = 0; run < n; ++run) {
-    const Projector p = synthetic().test(run, amplitude(3, size));
+    const inference::Projector p = synthetic().test(run, amplitude(3, size));
     const Field field(synthetic().set, p.candidates(), no_scans);
     found += score(field, 3).strength > k;
   }
@@ -106,7 +106,7 @@ TEST(Naming, ExpectedParameterChangeHasUnitPull) {
   double mean = 0.0, square = 0.0;
   const VecX a = amplitude(3, 6.0);
   for (int run = 0; run < n; ++run) {
-    const Projected p = synthetic().test(run, a).candidates();
+    const inference::Projected p = synthetic().test(run, a).candidates();
     const double pull = (p.g[3] / p.C(3, 3) - a[3]) * std::sqrt(p.C(3, 3));
     mean += pull / n;
     square += pull * pull / n;
@@ -122,7 +122,7 @@ TEST(Naming, TheTruthIsInTheAdequateSetAsOftenAsPromised) {
   const VecX a = amplitude(0, 8.0);
   int covered = 0, single_and_wrong = 0;
   for (int run = 0; run < n; ++run) {
-    const Projector p = synthetic().test(run, a);
+    const inference::Projector p = synthetic().test(run, a);
     const Field field(synthetic().set, p.candidates(), no_scans);
     std::vector<std::size_t> adequate;
     for (std::size_t d = 0; d < synthetic().set.candidates.size(); ++d)
@@ -136,7 +136,7 @@ TEST(Naming, TheTruthIsInTheAdequateSetAsOftenAsPromised) {
 
 TEST(Naming, ACancellingPairIsFoundThoughNoSingleScoreShowsIt) {
   constexpr int n = 200;
-  const Projected unit = synthetic().test(0, VecX::Zero(candidates)).candidates();
+  const inference::Projected unit = synthetic().test(0, VecX::Zero(candidates)).candidates();
   const double rho = unit.C(0, 1) / std::sqrt(unit.C(0, 0) * unit.C(1, 1));
   ASSERT_GT(rho, 0.6);  // else the pair does not cancel
   const VecX a = amplitude(0, 10.0) - amplitude(1, 10.0);
@@ -144,11 +144,11 @@ TEST(Naming, ACancellingPairIsFoundThoughNoSingleScoreShowsIt) {
   double mean = 0.0;
   int pair_first = 0;
   for (int run = 0; run < n; ++run) {
-    const Projector p = synthetic().test(run, a);
+    const inference::Projector p = synthetic().test(run, a);
     const Field field(synthetic().set, p.candidates(), no_scans);
     const auto pairs = strongest_pairs(field, 1);
     pair_first += pairs.front().a.candidate + pairs.front().b.candidate == 1;
-    const auto both = make_contrast(p.candidates().C, p.candidates().raw, {0, 1});
+    const auto both = inference::make_contrast(p.candidates().C, p.candidates().raw, {0, 1});
     mean += both.T(p.candidates().g) / n;
   }
   EXPECT_NEAR(mean, expected + 2.0,
@@ -158,12 +158,12 @@ TEST(Naming, ACancellingPairIsFoundThoughNoSingleScoreShowsIt) {
 
 TEST(ChiSquare, TailsAreExactWhereTheyHaveAClosedForm) {
   for (const double T : {0.1, 1.0, 5.0, 30.0, 300.0}) {
-    EXPECT_NEAR(log_tail(T, 2.0), -0.5 * T, 1e-12 * T + 1e-13);
-    EXPECT_NEAR(log_tail(T, 4.0), -0.5 * T + std::log1p(0.5 * T), 1e-11 * T);
-    EXPECT_NEAR(log_tail(T, 1.0), std::log(std::erfc(std::sqrt(0.5 * T))), 1e-11 * T);
+    EXPECT_NEAR(stats::log_tail(T, 2.0), -0.5 * T, 1e-12 * T + 1e-13);
+    EXPECT_NEAR(stats::log_tail(T, 4.0), -0.5 * T + std::log1p(0.5 * T), 1e-11 * T);
+    EXPECT_NEAR(stats::log_tail(T, 1.0), std::log(std::erfc(std::sqrt(0.5 * T))), 1e-11 * T);
   }
-  EXPECT_NEAR(quantile_of_strength(strength(23.0, 3), 3), 23.0, 1e-7);
+  EXPECT_NEAR(stats::quantile_of_strength(stats::strength(23.0, 3), 3), 23.0, 1e-7);
 }
 
 }  // namespace
-}  // namespace drift::discovery
+}  // namespace drift::search

@@ -9,7 +9,7 @@
 #include "analysis/diagnosis/answer.hpp"
 #include "tests/support/model_builders.hpp"
 
-namespace drift::discovery {
+namespace drift::search {
 namespace {
 
 using namespace drift::test;
@@ -23,7 +23,7 @@ struct Bench {
   Bench(std::string_view preset, double dwell)
       : timeline(preset_timeline(preset, CommandLaw::free, dwell, 60.0)) {}
   Examination nominal() const {
-    const Test test{timeline, readout, measured};
+    const inference::Test test{timeline, readout, measured};
     return examine(filter, test, make_layout(filter).theta);
   }
   Search found(Examination& e) const { return search(e, {timeline, readout, measured}, {}); }
@@ -59,7 +59,7 @@ TEST(Search, ARampOfOneGyroIsNamedAndNotTakenForNoise) {
   ASSERT_FALSE(s.sets.empty());
   EXPECT_FALSE(s.sets.front().after.noise.driven);
   ASSERT_EQ(s.sets.front().choices.size(), 1u);
-  const Candidate& c = e.set.candidates[s.sets.front().choices[0].candidate];
+  const inference::Candidate& c = e.set.candidates[s.sets.front().choices[0].candidate];
   EXPECT_EQ(c.label, "drift_ramp.z");
   const ParameterEstimate* p = s.sets.front().after.fit.estimate.find(param("ramp_z"));
   ASSERT_NE(p, nullptr);
@@ -80,13 +80,13 @@ TEST(Search, AStepBetweenTheHoursOfTheGridIsNamedAloneWithItsTime) {
   ASSERT_EQ(s.sets.size(), 1u);
   ASSERT_EQ(s.sets.front().choices.size(), 1u);
   const Choice choice = s.sets.front().choices.front();
-  const Candidate& c = e.set.candidates[choice.candidate];
+  const inference::Candidate& c = e.set.candidates[choice.candidate];
   EXPECT_EQ(c.label, "mass_unbalance_step.y");
   EXPECT_TRUE(c.variants[choice.variant].between);
   // The axis bears no gravity from 2 to 4 h: the sigma of the time must say that it may be any in
   // between.
-  Diagnosis d;
-  fill_causes(e, s, d);
+  diagnosis::Diagnosis d;
+  diagnosis::fill_causes(e, s, d);
   ASSERT_EQ(d.causes.size(), 1u);
   for (const char* key : {"dD_I_y", "dD_t0"}) {
     const auto p = std::ranges::find(d.causes[0].parameters, key, &CauseParameter::key);
@@ -97,7 +97,7 @@ TEST(Search, AStepBetweenTheHoursOfTheGridIsNamedAloneWithItsTime) {
   }
   // Settings between the points share the chances of the points: as many as there are on the grid.
   double share = 0.0, points = 0.0;
-  for (const Variant& v : c.variants) {
+  for (const inference::Variant& v : c.variants) {
     share += v.share;
     points += v.between ? 0.0 : 1.0;
   }
@@ -105,4 +105,4 @@ TEST(Search, AStepBetweenTheHoursOfTheGridIsNamedAloneWithItsTime) {
 }
 
 }  // namespace
-}  // namespace drift::discovery
+}  // namespace drift::search

@@ -19,8 +19,8 @@
 namespace drift {
 namespace {
 
-using discovery::Cause;
-using discovery::Diagnosis;
+using diagnosis::Diagnosis;
+using search::Cause;
 
 constexpr double share = 0.15;  // by which dwell bounds, folds and seeds may move a number
 
@@ -31,8 +31,8 @@ bool absent(const std::string& name) {
   return !std::filesystem::exists(path_of(name));
 }
 
-Study nominal() {
-  return read_study(std::string(DRIFT_SOURCE_DIR) + "/configs/diagnose_xsens.toml");
+mc::Study nominal() {
+  return mc::read_study(std::string(DRIFT_SOURCE_DIR) + "/configs/diagnose_xsens.toml");
 }
 
 Recording recorded(const std::string& name) {
@@ -40,8 +40,8 @@ Recording recorded(const std::string& name) {
 }
 
 /// Where the verdict is asked for and no number: one division into parts is enough.
-StrapdownOptions quick() {
-  StrapdownOptions options;
+strapdown::StrapdownOptions quick() {
+  strapdown::StrapdownOptions options;
   options.repeats = 1;
   return options;
 }
@@ -66,13 +66,13 @@ bool says(const Diagnosis& d, std::string_view text) {
 }
 
 // One test for one diagnosis: every test is a process of its own.
-TEST(StrapdownDiagnosis,
+TEST(strapdown::StrapdownDiagnosis,
      XsensLacksMisalignmentAndCrossAxisSensitivityAndClaimsNothingThatItCannotShow) {
   if (absent("xsens_mti.csv")) GTEST_SKIP() << "the recording is not beside the sources";
   const Recording recording = recorded("xsens_mti.csv");
-  const auto found = diagnose_strapdown(nominal(), recording, {});
+  const auto found = strapdown::diagnose_strapdown(nominal(), recording, {});
   const Diagnosis& d = found.diagnosis;
-  EXPECT_EQ(d.verdict, discovery::Verdict::named);
+  EXPECT_EQ(d.verdict, diagnosis::Verdict::named);
   EXPECT_EQ(d.causes.size(), 3u);
   ASSERT_TRUE(cause(d, "gyro_misalignment") && cause(d, "g_drift") && cause(d, "accelerometer"));
   EXPECT_EQ(groups_of(*cause(d, "gyro_misalignment")), (std::vector<std::string>{"eta", "xi"}));
@@ -104,18 +104,19 @@ TEST(StrapdownDiagnosis,
       for (const auto& p : c.parameters) EXPECT_FALSE(p.key.starts_with(group)) << p.key;
 
   // A nominal model that holds all this is consistent with the recording.
-  Study patched = nominal();
+  mc::Study patched = nominal();
   patched.filters.front() = d.patched;
-  const Diagnosis again = diagnose_strapdown(patched, recording, quick()).diagnosis;
-  EXPECT_EQ(again.verdict, discovery::Verdict::consistent) << again.sentence;
+  const Diagnosis again = strapdown::diagnose_strapdown(patched, recording, quick()).diagnosis;
+  EXPECT_EQ(again.verdict, diagnosis::Verdict::consistent) << again.sentence;
   EXPECT_FALSE(again.has_patch);
   EXPECT_GT(again.p_value, 0.05);
 }
 
-TEST(StrapdownDiagnosis, MpuHasMisalignmentAndNoGSensitivity) {
+TEST(strapdown::StrapdownDiagnosis, MpuHasMisalignmentAndNoGSensitivity) {
   if (absent("mpu9150_1.csv")) GTEST_SKIP() << "the recording is not beside the sources";
-  const Diagnosis d = diagnose_strapdown(nominal(), recorded("mpu9150_1.csv"), {}).diagnosis;
-  EXPECT_EQ(d.verdict, discovery::Verdict::named);
+  const Diagnosis d =
+      strapdown::diagnose_strapdown(nominal(), recorded("mpu9150_1.csv"), {}).diagnosis;
+  EXPECT_EQ(d.verdict, diagnosis::Verdict::named);
   EXPECT_NE(cause(d, "gyro_misalignment"), nullptr);
   EXPECT_EQ(cause(d, "g_drift"), nullptr);
   EXPECT_EQ(cause(d, "g2_drift"), nullptr);
@@ -132,8 +133,10 @@ Recording made(double size, std::uint64_t seed) {
   return test::strapdown_recording({.dwells = 20, .rest = 4.0, .seed = seed}, theta);
 }
 
-TEST(StrapdownDiagnosis, RecoversTheMisalignmentThatTheRecordingWasMadeWithAndWritesItDown) {
-  const StrapdownDiagnosis found = diagnose_strapdown(nominal(), made(3000.0, 5), quick());
+TEST(strapdown::StrapdownDiagnosis,
+     RecoversTheMisalignmentThatTheRecordingWasMadeWithAndWritesItDown) {
+  const strapdown::StrapdownDiagnosis found =
+      strapdown::diagnose_strapdown(nominal(), made(3000.0, 5), quick());
   const Cause* c = cause(found.diagnosis, "gyro_misalignment");
   ASSERT_NE(c, nullptr) << found.diagnosis.sentence;
   EXPECT_EQ(found.diagnosis.causes.size(), 1u) << found.diagnosis.sentence;
@@ -150,12 +153,12 @@ TEST(StrapdownDiagnosis, RecoversTheMisalignmentThatTheRecordingWasMadeWithAndWr
   EXPECT_NEAR(total, 1.0, 1e-12);
 
   const test::ScratchFolder folder;
-  write_results(nominal(), found.diagnosis, {{"made"}, ""}, folder.file("out"));
-  const Study again = read_study(folder.file("out") + "/patched.toml");
+  report::write_results(nominal(), found.diagnosis, {{"made"}, ""}, folder.file("out"));
+  const mc::Study again = mc::read_study(folder.file("out") + "/patched.toml");
   EXPECT_EQ(again.filters.front().active, found.diagnosis.patched.active);
   EXPECT_TRUE(again.filters.front().active[TermLibrary::find("eta_x").value()]);
   EXPECT_EQ(again.kind, RecordingKind::strapdown);
-  const auto json = nlohmann::json::parse(to_json(found.diagnosis));
+  const auto json = nlohmann::json::parse(report::to_json(found.diagnosis));
   EXPECT_EQ(json["causes"][0]["term"], "gyro_misalignment");
   EXPECT_TRUE(json["fit"]["start_spread_before"].is_null());
   for (const char* key : {"chi2_per_dof_95", "log_likelihood_ratio", "predicted_by_score"})
@@ -166,21 +169,21 @@ TEST(StrapdownDiagnosis, RecoversTheMisalignmentThatTheRecordingWasMadeWithAndWr
             std::nullopt);
 }
 
-TEST(StrapdownDiagnosis, NothingMissingIsConsistentAndANominalEq6IsFoundOut) {
-  EXPECT_EQ(diagnose_strapdown(nominal(), made(0.0, 6), quick()).diagnosis.verdict,
-            discovery::Verdict::consistent);
-  Study six = nominal();
+TEST(strapdown::StrapdownDiagnosis, NothingMissingIsConsistentAndANominalEq6IsFoundOut) {
+  EXPECT_EQ(strapdown::diagnose_strapdown(nominal(), made(0.0, 6), quick()).diagnosis.verdict,
+            diagnosis::Verdict::consistent);
+  mc::Study six = nominal();
   six.filters.front().coupling = Coupling::eq6;
-  const Diagnosis d = diagnose_strapdown(six, made(3000.0, 5), quick()).diagnosis;
+  const Diagnosis d = strapdown::diagnose_strapdown(six, made(3000.0, 5), quick()).diagnosis;
   ASSERT_NE(cause(d, "frame_closure"), nullptr);
   EXPECT_NE(cause(d, "gyro_misalignment"), nullptr);
   EXPECT_EQ(d.patched.coupling, Coupling::eq5);
 }
 
-TEST(StrapdownDiagnosis, WithoutAFilterThereIsNoNominalModel) {
-  Study study = nominal();
+TEST(strapdown::StrapdownDiagnosis, WithoutAFilterThereIsNoNominalModel) {
+  mc::Study study = nominal();
   study.filters.clear();
-  EXPECT_THROW(diagnose_strapdown(study, made(0.0, 1), {}), InputError);
+  EXPECT_THROW(strapdown::diagnose_strapdown(study, made(0.0, 1), {}), InputError);
 }
 
 TEST(ChanceOfGain, IsTheTailOfStudentsT) {

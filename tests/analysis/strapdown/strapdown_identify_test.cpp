@@ -63,7 +63,8 @@ Theta tilted_with_g_drift() {
   return theta;
 }
 
-const StrapdownParameter* find(const StrapdownResult& result, std::string_view key) {
+const strapdown::StrapdownParameter* find(const strapdown::StrapdownResult& result,
+                                          std::string_view key) {
   const auto at = std::find_if(result.parameters.begin(), result.parameters.end(),
                                [&](const auto& p) { return p.key == key; });
   return at == result.parameters.end() ? nullptr : &*at;
@@ -71,7 +72,8 @@ const StrapdownParameter* find(const StrapdownResult& result, std::string_view k
 
 TEST(StrapdownIdentify, NamesWhatIsThereAndNothingElse) {
   const Theta truth = tilted_with_g_drift();
-  const auto result = identify_strapdown(strapdown_recording({.dwells = 40, .seed = 3}, truth), {});
+  const auto result =
+      strapdown::identify_strapdown(strapdown_recording({.dwells = 40, .seed = 3}, truth), {});
   EXPECT_EQ(result.search.dwells.size(), 40u);
   EXPECT_EQ(result.rotations, 39u);
   ASSERT_EQ(result.accepted.size(), 2u);
@@ -88,7 +90,8 @@ TEST(StrapdownIdentify, NamesWhatIsThereAndNothingElse) {
 }
 
 TEST(StrapdownIdentify, EquationSixFailsOnATiltedSensor) {
-  const auto result = identify_strapdown(strapdown_recording({.dwells = 30}, tilted()), {});
+  const auto result =
+      strapdown::identify_strapdown(strapdown_recording({.dwells = 30}, tilted()), {});
   ASSERT_EQ(result.contest.size(), 1u);
   EXPECT_GT(result.contest[0].z, 5.0);
   EXPECT_GT(result.contest[0].eq6.held_out, 3.0 * result.contest[0].eq5.held_out);
@@ -103,7 +106,8 @@ TEST(StrapdownIdentify, MisalignmentThatIsNotThereIsNotClaimed) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     const auto recording =
         strapdown_recording({.dwells = 20, .rest = 3.5, .seed = seed}, straight());
-    const auto result = identify_strapdown(recording, {.repeats = 2, .equations = {Coupling::eq5}});
+    const auto result =
+        strapdown::identify_strapdown(recording, {.repeats = 2, .equations = {Coupling::eq5}});
     EXPECT_EQ(result.accepted[0].name, "bias + scale") << seed;
     EXPECT_EQ(find(result, "eta_x"), nullptr);
     EXPECT_TRUE(std::any_of(result.unobservable.begin(), result.unobservable.end(),
@@ -113,33 +117,34 @@ TEST(StrapdownIdentify, MisalignmentThatIsNotThereIsNotClaimed) {
 }
 
 TEST(StrapdownIdentify, SaysWhatItCannotSeeWithoutANumber) {
-  const auto result = identify_strapdown(strapdown_recording({.dwells = 16, .rest = 3.0}, tilted()),
-                                         {.repeats = 1});
+  const auto result = strapdown::identify_strapdown(
+      strapdown_recording({.dwells = 16, .rest = 3.0}, tilted()), {.repeats = 1});
   std::string all;
   for (const auto& u : result.unobservable) all += u.what + "\n";
   for (const char* what : {"isotropic", "Earth rate", "azimuth", "temperature", "lambda"})
     EXPECT_NE(all.find(what), std::string::npos) << what;
-  const auto json = to_json(result);
+  const auto json = report::to_json(result);
   for (const auto& u : json.at("unobservable"))
     for (const auto& [key, value] : u.items()) EXPECT_TRUE(value.is_string()) << key;
 }
 
 TEST(StrapdownIdentify, IsTheSameForTheSameSeed) {
   const auto recording = strapdown_recording({.dwells = 16, .rest = 3.0}, tilted());
-  const StrapdownOptions options{.repeats = 2, .seed = 9};
-  const auto one = identify_strapdown(recording, options),
-             two = identify_strapdown(recording, options);
-  EXPECT_EQ(to_json(one).dump(), to_json(two).dump());
+  const strapdown::StrapdownOptions options{.repeats = 2, .seed = 9};
+  const auto one = strapdown::identify_strapdown(recording, options),
+             two = strapdown::identify_strapdown(recording, options);
+  EXPECT_EQ(report::to_json(one).dump(), report::to_json(two).dump());
   EXPECT_EQ(to_text(one), to_text(two));
   auto other = options;
   other.seed = 10;
-  EXPECT_NE(to_json(one).dump(), to_json(identify_strapdown(recording, other)).dump());
+  EXPECT_NE(report::to_json(one).dump(),
+            report::to_json(strapdown::identify_strapdown(recording, other)).dump());
 }
 
 TEST(StrapdownIdentify, TooFewDwellsAreRefused) {
   const auto recording = strapdown_recording({.dwells = 4}, straight());
   try {
-    identify_strapdown(recording, {});
+    strapdown::identify_strapdown(recording, {});
     FAIL() << "accepted";
   } catch (const InputError& e) {
     EXPECT_EQ(e.code(), ExitCode::recording);
@@ -148,7 +153,7 @@ TEST(StrapdownIdentify, TooFewDwellsAreRefused) {
 }
 
 TEST(StrapdownIdentify, FewDwellsLeaveLargeModelsUntried) {
-  const auto result = identify_strapdown(
+  const auto result = strapdown::identify_strapdown(
       strapdown_recording({.dwells = 8, .rest = 3.0}, straight()), {.repeats = 1});
   EXPECT_TRUE(std::any_of(result.accelerometer_trials.begin(), result.accelerometer_trials.end(),
                           [](const Trial& t) { return t.verdict == Verdict::skipped; }));
@@ -157,7 +162,7 @@ TEST(StrapdownIdentify, FewDwellsLeaveLargeModelsUntried) {
 TEST(StrapdownIdentify, OnlyEquationsFiveAndSixApply) {
   const auto recording = strapdown_recording({.dwells = 8}, straight());
   for (const auto& equations : {std::vector<Coupling>{}, std::vector{Coupling::lambda}}) try {
-      identify_strapdown(recording, {.equations = equations});
+      strapdown::identify_strapdown(recording, {.equations = equations});
       FAIL() << "accepted";
     } catch (const InputError& e) {
       EXPECT_EQ(e.code(), ExitCode::config);

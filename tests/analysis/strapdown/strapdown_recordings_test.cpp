@@ -18,17 +18,17 @@ std::string path_of(const std::string& name) {
   return std::string(DRIFT_SOURCE_DIR) + "/../shared/recordings/" + name;
 }
 
-const StrapdownResult& identified(const std::string& name) {
-  static std::map<std::string, StrapdownResult> results;
+const strapdown::StrapdownResult& identified(const std::string& name) {
+  static std::map<std::string, strapdown::StrapdownResult> results;
   const auto known = results.find(name);
   if (known != results.end()) return known->second;
   const auto recording = read_recording(path_of(name), RecordingKind::strapdown, 9.80665);
-  return results.emplace(name, identify_strapdown(recording, {})).first->second;
+  return results.emplace(name, strapdown::identify_strapdown(recording, {})).first->second;
 }
 
-const Trial& trial(const std::vector<Trial>& trials, std::string_view name,
-                   std::string_view equation = "any") {
-  const auto at = std::find_if(trials.begin(), trials.end(), [&](const Trial& t) {
+const strapdown::Trial& trial(const std::vector<strapdown::Trial>& trials, std::string_view name,
+                              std::string_view equation = "any") {
+  const auto at = std::find_if(trials.begin(), trials.end(), [&](const strapdown::Trial& t) {
     return t.name == name && t.equation == equation;
   });
   if (at == trials.end()) throw std::runtime_error("not tried: " + std::string(name));
@@ -56,11 +56,11 @@ TEST(StrapdownRecordings, XsensAccelerometers) {
   NEEDS("xsens_mti.csv");
   const auto& trials = identified("xsens_mti.csv").accelerometer_trials;
   EXPECT_NEAR(trial(trials, "bias + scale").gravity->held_out, 0.0382, share * 0.0382);
-  const Trial& misaligned = trial(trials, "bias + scale + misalignment");
+  const strapdown::Trial& misaligned = trial(trials, "bias + scale + misalignment");
   EXPECT_NEAR(misaligned.gravity->held_out, 0.0016, share * 0.0016);
-  EXPECT_EQ(misaligned.verdict, Verdict::accepted);
-  const Trial& quadratic = trial(trials, "bias + scale + misalignment + quadratic");
-  EXPECT_EQ(quadratic.verdict, Verdict::rejected);
+  EXPECT_EQ(misaligned.verdict, strapdown::Verdict::accepted);
+  const strapdown::Trial& quadratic = trial(trials, "bias + scale + misalignment + quadratic");
+  EXPECT_EQ(quadratic.verdict, strapdown::Verdict::rejected);
   EXPECT_GT(quadratic.gravity->held_out, misaligned.gravity->held_out);
 }
 
@@ -69,13 +69,13 @@ TEST(StrapdownRecordings, XsensDriftInDwells) {
   const auto& trials = identified("xsens_mti.csv").gyro_trials;
   const std::string base = "bias + scale + misalignment";
   EXPECT_NEAR(trial(trials, "bias").dwell->held_out, 0.0724, share * 0.0724);
-  const Trial& input_axis = trial(trials, base + " + input-axis g-drift", "eq5");
+  const strapdown::Trial& input_axis = trial(trials, base + " + input-axis g-drift", "eq5");
   EXPECT_NEAR(input_axis.dwell->held_out, 0.073, share * 0.073);
-  EXPECT_EQ(input_axis.verdict, Verdict::rejected);
+  EXPECT_EQ(input_axis.verdict, strapdown::Verdict::rejected);
   EXPECT_NEAR(trial(trials, base + " + g-drift", "eq5").dwell->held_out, 0.0173, share * 0.0173);
-  const Trial& second = trial(trials, base + " + g-drift + g^2-drift", "eq5");
+  const strapdown::Trial& second = trial(trials, base + " + g-drift + g^2-drift", "eq5");
   EXPECT_GT(second.dwell->held_out, 0.0178);
-  EXPECT_EQ(second.verdict, Verdict::rejected);
+  EXPECT_EQ(second.verdict, strapdown::Verdict::rejected);
 }
 
 TEST(StrapdownRecordings, XsensRotations) {
@@ -104,12 +104,13 @@ TEST(StrapdownRecordings, XsensMisalignmentTheOtherWayRoundIsTwiceAsWrong) {
   Theta inverse = fitted.turning.theta;
   for (const auto& g : {group<"eta">(), group<"xi">()})
     for (const std::size_t p : g) inverse[p] = -inverse[p];
-  const SpecificForce force(fitted.accelerometer.theta);
+  const strapdown::SpecificForce force(fitted.accelerometer.theta);
   std::vector<double> errors;
-  for (const Rotation& turn : find_rotations(signals_of(recording), result.search.dwells).all)
-    errors.push_back(
-        prediction_error(calibrated(turn, result.search.dwells, force), Coupling::eq5, inverse));
-  EXPECT_NEAR(root_mean_square(errors) / detail::deg, 6.7, share * 6.7);
+  for (const strapdown::Rotation& turn :
+       strapdown::find_rotations(strapdown::signals_of(recording), result.search.dwells).all)
+    errors.push_back(strapdown::prediction_error(
+        strapdown::calibrated(turn, result.search.dwells, force), Coupling::eq5, inverse));
+  EXPECT_NEAR(strapdown::root_mean_square(errors) / detail::deg, 6.7, share * 6.7);
 }
 
 TEST(StrapdownRecordings, MpuHasMisalignmentAndNoGSensitivityToClaim) {

@@ -24,15 +24,15 @@ TEST(NormalQuantile, IsTheInverseOfTheDistributionFunction) {
                              {0.5, 0.0},
                              {0.8413447460685429, 1.0}};
   for (const auto& [p, z] : known)
-    EXPECT_NEAR(mc::normal_quantile(p), z, 1e-14 * std::max(1.0, std::abs(z))) << p;
+    EXPECT_NEAR(stats::normal_quantile(p), z, 1e-14 * std::max(1.0, std::abs(z))) << p;
   // The inverse loses what rounding of p near 1 costs: half an ulp of p over the density.
   for (double z = -8.0; z <= 5.0; z += 0.37) {
     const double density = std::exp(-0.5 * z * z) / std::sqrt(2.0 * std::numbers::pi);
     const double tolerance =
-        1e-14 * std::max(1.0, std::abs(z)) + 2.3e-16 * mc::normal_distribution(z) / density;
-    EXPECT_NEAR(mc::normal_quantile(mc::normal_distribution(z)), z, tolerance) << z;
+        1e-14 * std::max(1.0, std::abs(z)) + 2.3e-16 * stats::normal_distribution(z) / density;
+    EXPECT_NEAR(stats::normal_quantile(stats::normal_distribution(z)), z, tolerance) << z;
   }
-  EXPECT_NEAR(mc::normal_half_width(0.95), 1.959963984540054, 1e-14);
+  EXPECT_NEAR(stats::normal_half_width(0.95), 1.959963984540054, 1e-14);
 }
 
 TEST(Permutation, HitsEveryNumberOnceAndDependsOnItsKey) {
@@ -63,12 +63,12 @@ TruthSpec two_normal_parameters() {
 TEST(LatinHypercube, HasOneRunInEachStratumOfEachParameter) {
   constexpr std::uint64_t n = 500;
   const TruthSpec truth = two_normal_parameters();
-  mc::Design design(truth, DesignKind::latin_hypercube, n, 17);
+  mc::Design design(truth, mc::DesignKind::latin_hypercube, n, 17);
   for (const std::uint64_t first : {std::uint64_t{0}, n}) {  // later runs are a further hypercube
     std::vector<double> u, v;
     for (std::uint64_t run = first; run < first + n; ++run) {
       const Theta theta = design.draw(run, 1).theta;
-      u.push_back(mc::normal_distribution((theta[param("D_F_x")] - 1.0) / 2.0));
+      u.push_back(stats::normal_distribution((theta[param("D_F_x")] - 1.0) / 2.0));
       v.push_back((theta[param("eta_y")] + 3.0) / 8.0);
       EXPECT_EQ(theta[param("s_z")], 0.25);
     }
@@ -100,16 +100,16 @@ double discrepancy(const std::vector<std::pair<double, double>>& points) {
 TEST(Sobol, FillsThePlaneMoreEvenlyThanChance) {
   const TruthSpec truth = two_normal_parameters();
   double found[2];
-  for (const auto kind : {DesignKind::random, DesignKind::sobol}) {
+  for (const auto kind : {mc::DesignKind::random, mc::DesignKind::sobol}) {
     mc::Design design(truth, kind, 512, 17);
     std::vector<std::pair<double, double>> points;
     for (std::uint64_t run = 0; run < 512; ++run) {
       const Theta theta = design.draw(run, 1).theta;
-      points.emplace_back(mc::normal_distribution((theta[param("D_F_x")] - 1.0) / 2.0),
+      points.emplace_back(stats::normal_distribution((theta[param("D_F_x")] - 1.0) / 2.0),
                           (theta[param("eta_y")] + 3.0) / 8.0);
     }
-    found[kind == DesignKind::sobol] = discrepancy(points);
-    if (kind == DesignKind::random) continue;
+    found[kind == mc::DesignKind::sobol] = discrepancy(points);
+    if (kind == mc::DesignKind::random) continue;
     // A digitally shifted (0, 2)-sequence: each of 512 equal intervals, of either axis, holds one
     // point.
     for (const bool second : {false, true}) {
@@ -125,7 +125,8 @@ TEST(Sobol, FillsThePlaneMoreEvenlyThanChance) {
 
 TEST(Design, IsAPureFunctionOfTheRun) {
   const TruthSpec truth = base_truth(Coupling::eq5);
-  for (const auto kind : {DesignKind::random, DesignKind::latin_hypercube, DesignKind::sobol}) {
+  for (const auto kind :
+       {mc::DesignKind::random, mc::DesignKind::latin_hypercube, mc::DesignKind::sobol}) {
     mc::Design one(truth, kind, 100, 3), other(truth, kind, 100, 3);
     const TruthDraw alone = one.draw(42, 6);
     for (const std::uint64_t run : {7, 99, 0, 41}) other.draw(run, 6);
@@ -139,7 +140,7 @@ TEST(Design, IsAPureFunctionOfTheRun) {
 TEST(Design, HasTheMomentsOfThePrior) {
   // Of 4096 stratified values the mean is off by less than 0.01 sigma, the variance by 2 %.
   const TruthSpec truth = base_truth(Coupling::eq5);
-  for (const auto kind : {DesignKind::latin_hypercube, DesignKind::sobol}) {
+  for (const auto kind : {mc::DesignKind::latin_hypercube, mc::DesignKind::sobol}) {
     mc::Design design(truth, kind, 4096, 1);
     double mean = 0.0, square = 0.0;
     const auto p = param("K_ip_z");

@@ -11,14 +11,15 @@ using namespace drift::test;
 const std::string head =
     "schema = 1\n[site]\nlatitude = \"45.75 deg\"\n[plan]\npreset = \"six\"\n[[published]]\n";
 
-TEST(Published, ValuesAndSigmasAreReadInInternalUnits) {
-  const Study study = read_text(head +
-                                "name = \"paper\"\nfilter = \"eq6\"\n"
-                                "eta_x = { values = [\"268.15 arcsec\", \"-157 arcsec\"], sigmas = "
-                                "[\"15 arcsec\", \"16 arcsec\"] }\n"
-                                "D_I_z = { values = [\"1.45 deg/h/g\"] }\n");
+TEST(mc::Published, ValuesAndSigmasAreReadInInternalUnits) {
+  const mc::Study study =
+      read_text(head +
+                "name = \"paper\"\nfilter = \"eq6\"\n"
+                "eta_x = { values = [\"268.15 arcsec\", \"-157 arcsec\"], sigmas = "
+                "[\"15 arcsec\", \"16 arcsec\"] }\n"
+                "D_I_z = { values = [\"1.45 deg/h/g\"] }\n");
   ASSERT_EQ(study.published.size(), 1u);
-  const Published& p = study.published.front();
+  const mc::Published& p = study.published.front();
   EXPECT_EQ(p.name, "paper");
   EXPECT_EQ(p.filter, "eq6");
   ASSERT_EQ(p.values.size(), 2u);
@@ -33,7 +34,7 @@ TEST(Published, ValuesAndSigmasAreReadInInternalUnits) {
   }
 }
 
-TEST(Published, MistakesAreLocated) {
+TEST(mc::Published, MistakesAreLocated) {
   const auto message = [](const std::string& body) -> std::string {
     try {
       read_text(head + body);

@@ -14,7 +14,7 @@ namespace {
 constexpr double arcsec = std::numbers::pi / 180.0 / 3600.0;
 constexpr double deg_per_h = arcsec;  // per second
 
-Resolved resolved(const Study& study, const std::string& key) {
+mc::Resolved resolved(const mc::Study& study, const std::string& key) {
   for (const auto& value : study.resolved)
     if (value.key == key) return value;
   ADD_FAILURE() << key << " is not in the resolved list";
@@ -22,7 +22,7 @@ Resolved resolved(const Study& study, const std::string& key) {
 }
 
 TEST(StudyConfig, EveryFeatureOfTheFileReachesTheStudy) {
-  const Study s = test::read_text(test::full_study);
+  const mc::Study s = test::read_text(test::full_study);
   EXPECT_EQ(s.title, "Everything at once");
   EXPECT_NEAR(s.site.latitude, 45.75 * std::numbers::pi / 180.0, 1e-15);
   EXPECT_DOUBLE_EQ(s.site.gravity, 9.806);
@@ -83,7 +83,7 @@ TEST(StudyConfig, EveryFeatureOfTheFileReachesTheStudy) {
 }
 
 TEST(StudyConfig, TheResolvedListNamesTheOriginOfEveryValue) {
-  const Study s = test::read_text(test::full_study, {{"plan.position.1.dwell", "10 min"}});
+  const mc::Study s = test::read_text(test::full_study, {{"plan.position.1.dwell", "10 min"}});
   EXPECT_EQ(resolved(s, "site.latitude").value, "45.75 deg");
   EXPECT_EQ(resolved(s, "site.latitude").origin, "study.toml:5");
   EXPECT_EQ(resolved(s, "truth.parameters.eta_x").value, "normal(112, 20) arcsec");
@@ -96,7 +96,7 @@ TEST(StudyConfig, TheResolvedListNamesTheOriginOfEveryValue) {
 }
 
 TEST(StudyConfig, AStudyOfRecordingsNeedsNeitherTruthNorFilter) {
-  const Study s =
+  const mc::Study s =
       test::read_text("schema = 1\nsite.latitude = \"45 deg\"\nplan.preset = \"six\"\n");
   EXPECT_FALSE(s.has_truth);
   EXPECT_TRUE(s.filters.empty());
@@ -105,19 +105,19 @@ TEST(StudyConfig, AStudyOfRecordingsNeedsNeitherTruthNorFilter) {
 }
 
 TEST(StudyConfig, AStrapdownStudyNeedsNoLatitude) {
-  const Study s =
+  const mc::Study s =
       test::read_text("schema = 1\n[plan]\nkind = \"strapdown\"\nstatic_min = \"3 s\"\n");
   EXPECT_EQ(s.kind, RecordingKind::strapdown);
   EXPECT_DOUBLE_EQ(s.static_min, 3.0);
 }
 
 TEST(StudyConfig, OverridesActBeforeReading) {
-  const Overrides overrides = {{"truth.parameters.eta_x", "20 arcsec"},
-                               {"plan.dwell", "10 min"},
-                               {"filter.corrected.coupling", "eq6"},
-                               {"filter.1.parameters.lambda", "{ normal = [0.5, 0.1] }"},
-                               {"monte_carlo.seed", "0x10"}};
-  const Study s = test::read_text(test::full_study, overrides);
+  const mc::Overrides overrides = {{"truth.parameters.eta_x", "20 arcsec"},
+                                   {"plan.dwell", "10 min"},
+                                   {"filter.corrected.coupling", "eq6"},
+                                   {"filter.1.parameters.lambda", "{ normal = [0.5, 0.1] }"},
+                                   {"monte_carlo.seed", "0x10"}};
+  const mc::Study s = test::read_text(test::full_study, overrides);
   EXPECT_EQ(s.truth.priors[TermLibrary::index("eta_x")], fixed(20.0 * unit::arcsec.to_si));
   EXPECT_DOUBLE_EQ(s.plan.positions[1].dwell, 600.0);
   EXPECT_EQ(s.filters[0].coupling, Coupling::eq6);
@@ -142,16 +142,16 @@ TEST(StudyConfig, ASweptCouplingMayKeepTheTablesOfTheOthers) {
   EXPECT_EQ(test::mistakes(text).size(), 1u);
   EXPECT_TRUE(
       test::mistakes(text + "[sweep]\n\"truth.coupling\" = [\"eq5\", \"servo\"]\n").empty());
-  const Study s = test::read_text(text, {{"truth.coupling", "servo"}});
+  const mc::Study s = test::read_text(text, {{"truth.coupling", "servo"}});
   EXPECT_DOUBLE_EQ(s.truth.servo.loop_gain, 100.0);
 }
 
 TEST(StudyConfig, TheTextOfAStudyReadsBackToTheSameStudy) {
   const test::StudyFile file(test::full_study);
-  const Overrides overrides = {{"filter.corrected.terms", "[\"g_drift\", \"accelerometer\"]"},
-                               {"filter.corrected.starts", "2"}};
-  const std::string text = read_study(file.path(), overrides).text;
-  const Study direct = read_study(file.path(), overrides), written = test::read_text(text);
+  const mc::Overrides overrides = {{"filter.corrected.terms", "[\"g_drift\", \"accelerometer\"]"},
+                                   {"filter.corrected.starts", "2"}};
+  const std::string text = mc::read_study(file.path(), overrides).text;
+  const mc::Study direct = mc::read_study(file.path(), overrides), written = test::read_text(text);
   ASSERT_EQ(direct.resolved.size(), written.resolved.size());
   for (std::size_t i = 0; i < direct.resolved.size(); ++i) {
     EXPECT_EQ(direct.resolved[i].key, written.resolved[i].key);
@@ -159,7 +159,7 @@ TEST(StudyConfig, TheTextOfAStudyReadsBackToTheSameStudy) {
   }
   EXPECT_EQ(direct.truth.priors, written.truth.priors);
   EXPECT_EQ(direct.filters[0].active, written.filters[0].active);
-  EXPECT_EQ(read_study(test::StudyFile(text).path()).text, text);
+  EXPECT_EQ(mc::read_study(test::StudyFile(text).path()).text, text);
 }
 
 TEST(StudyConfig, AMisspeltOverrideOfAKeyOfTheFileIsRecognised) {

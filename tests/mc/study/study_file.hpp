@@ -35,17 +35,18 @@ class StudyFile {
   std::filesystem::path folder_;
 };
 
-inline Study read_text(const std::string& text, const Overrides& overrides = {}) {
+inline mc::Study read_text(const std::string& text, const mc::Overrides& overrides = {}) {
   const StudyFile file(text);
-  return read_study(file.path(), overrides);
+  return mc::read_study(file.path(), overrides);
 }
 
 /// The mistakes found in a study, without the folder; empty if it is right.
-inline std::vector<std::string> mistakes(const std::string& text, const Overrides& overrides = {}) {
+inline std::vector<std::string> mistakes(const std::string& text,
+                                         const mc::Overrides& overrides = {}) {
   static const StudyFile file("");  // one for all: thousands of folders take their time
   file.write(text);
   try {
-    read_study(file.path(), overrides);
+    mc::read_study(file.path(), overrides);
   } catch (const InputError& error) {
     if (error.code() != ExitCode::config) return {"wrong exit code"};
     auto messages = error.messages();

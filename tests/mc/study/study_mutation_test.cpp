@@ -12,7 +12,7 @@ void expect_an_answer(const std::string& text) {
   static const test::StudyFile file("");
   file.write(text);
   try {
-    read_study(file.path());
+    mc::read_study(file.path());
   } catch (const InputError& error) {
     EXPECT_EQ(error.code(), ExitCode::config);
     ASSERT_FALSE(error.messages().empty());

@@ -117,13 +117,13 @@ TEST(Sweep, NamesThePointOfValuesThatDoNotGoTogether) {
 
 TEST(MonteCarloSection, ReadsDesignEstimatorAndStop) {
   EXPECT_EQ(read_text(small_study + "design = \"latin_hypercube\"\n").monte_carlo.design,
-            DesignKind::latin_hypercube);
+            mc::DesignKind::latin_hypercube);
   std::string text = small_study +
                      "healthy_sigma = 0.3\nstop = { quantity = \"rmse.eta_x\", half_width = 0.02, "
                      "confidence = 0.9 }\n";
-  const MonteCarlo mc = read_text(text).monte_carlo;
-  EXPECT_EQ(mc.design, DesignKind::random);
-  EXPECT_EQ(mc.estimator, EstimatorKind::iterated);
+  const mc::MonteCarlo mc = read_text(text).monte_carlo;
+  EXPECT_EQ(mc.design, mc::DesignKind::random);
+  EXPECT_EQ(mc.estimator, mc::EstimatorKind::iterated);
   EXPECT_EQ(mc.healthy_sigma, 0.3);
   ASSERT_TRUE(mc.stop);
   EXPECT_EQ(mc.stop->quantity, "rmse.eta_x");

@@ -25,7 +25,7 @@ namespace {
 using namespace drift::test;
 
 /// Allocations of `runs` runs after the first two.
-long allocations_of(const Overrides& overrides, int runs) {
+long allocations_of(const mc::Overrides& overrides, int runs) {
   const mc::StudyTask task(read_text(small_study, overrides));
   const auto worker = task.worker();
   std::vector<double> row(task.columns().size());

@@ -20,7 +20,7 @@ namespace {
 using namespace drift::test;
 using C = mc::StudyColumns;
 
-mc::StudyTask small_task(const Overrides& overrides = {}) {
+mc::StudyTask small_task(const mc::Overrides& overrides = {}) {
   return mc::StudyTask(read_text(small_study, overrides));
 }
 
@@ -60,7 +60,7 @@ TEST(StudyTask, NamesItsColumns) {
 /// Every distributed parameter is echoed as drawn and changes the recording: none is silently
 /// unused.
 TEST(StudyTask, EveryDistributedParameterReachesTheRecording) {
-  Study study =
+  mc::Study study =
       read_text(small_study, {{"plan.preset", "slew12"},
                               {"truth.terms",
                                "[\"fixed_drift\", \"g_drift\", \"g2_drift\", "
@@ -71,7 +71,7 @@ TEST(StudyTask, EveryDistributedParameterReachesTheRecording) {
   worker->execute(3, row);
   Simulator simulator(study.truth, study.readout);
   const TruthDraw draw =
-      mc::Design(study.truth, DesignKind::random, 300, 5).draw(3, task.timeline().chains);
+      mc::Design(study.truth, mc::DesignKind::random, 300, 5).draw(3, task.timeline().chains);
   const Measurements before = simulator.run(task.timeline(), draw, 5, 3).measured;
   int distributed = 0;
   for (std::size_t c = 0; c < task.layout().truth.size(); ++c) {
@@ -105,7 +105,7 @@ TEST(StudyTask, EstimatesWithEveryFilterOnTheSameData) {
 }
 
 TEST(StudyTask, DrawsStartsAnewInEveryRun) {
-  const Study study = read_text(small_study);
+  const mc::Study study = read_text(small_study);
   const FilterSpec& filter = study.filters[0];
   const Theta a = initial_estimate(filter, 5, 0, 1);
   EXPECT_EQ(a, initial_estimate(filter, 5, 0, 1));
@@ -117,7 +117,7 @@ TEST(StudyTask, DrawsStartsAnewInEveryRun) {
 
 TEST(StudyTask, MakesAFailedIntegrationAnOutcome) {
   // A drift of 1e300 rad/s (which no study file may ask for) is beyond any integrator.
-  Study study = read_text(small_study);
+  mc::Study study = read_text(small_study);
   study.truth.priors[param("D_F_x")] = fixed(1e300);
   const mc::StudyTask task(study);
   const auto worker = task.worker();
@@ -173,7 +173,7 @@ TEST(MatchedPair, IsConsistent) {
 }
 
 TEST(Trace, IsThatOfTheRunItself) {
-  const Study study = read_text(
+  const mc::Study study = read_text(
       small_study, {{"monte_carlo.estimator", "ekf"}, {"monte_carlo.design", "latin_hypercube"}});
   const mc::StudyTask task(study);
   const auto worker = task.worker();

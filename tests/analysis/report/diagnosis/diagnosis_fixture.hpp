@@ -37,18 +37,20 @@ coupling = "eq6"
 seed = 3
 )";
 
-inline Study read_text(const test::ScratchFolder& folder, const std::string& name,
-                       const std::string& text) {
-  return read_study(folder.write(name, text));
+inline mc::Study read_text(const test::ScratchFolder& folder, const std::string& name,
+                           const std::string& diagnosis::text) {
+  return mc::read_study(folder.write(name, diagnosis::text));
 }
 
 /// A diagnosis made by hand: D_S_y was left out, found beside a confusable D_I_z; every list
 /// filled, a text that must be escaped, and a number that is none.
-inline discovery::Diagnosis diagnosis(const FilterSpec& nominal) {
-  using namespace discovery;
+inline diagnosis::Diagnosis diagnosis(const FilterSpec& nominal) {
+  using namespace diagnosis;
+  using namespace inference;
+  using namespace search;
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  Diagnosis d;
-  d.verdict = Verdict::named;
+  diagnosis::Diagnosis d;
+  d.verdict = diagnosis::Verdict::named;
   d.p_value = 1e-30;
   d.where.channel_names = {"acc_x",        "acc_y",         "acc_z",
                            "gimbal_outer", "gimbal_middle", "gimbal_inner"};
@@ -59,7 +61,7 @@ inline discovery::Diagnosis diagnosis(const FilterSpec& nominal) {
     for (int c = 0; c < 6; ++c) d.where.heat.push_back({p, c, c == 1 ? 0.1 * p : -0.01, 1.0});
   d.where.windows = {{"platform rate y", 3, 1200.0, 1800.0, 60.0, 1e-9, 1e-7, 1e-8}};
   d.where.equation = "platform rate y";
-  Cause cause;
+  search::Cause cause;
   cause.term = "g_drift";
   cause.axis = "y";
   const auto param = TermLibrary::find("D_S_y").value();
@@ -70,7 +72,7 @@ inline discovery::Diagnosis diagnosis(const FilterSpec& nominal) {
   cause.size_sigma = none;
   cause.confusable_with = {{"g_drift", "z", 0.85}};
   d.causes = {cause};
-  CandidateScore s;
+  search::CandidateScore s;
   s.term = "g_drift";
   s.axis = "y";
   s.label = "g_drift D_S_y <&>";
@@ -97,7 +99,7 @@ inline discovery::Diagnosis diagnosis(const FilterSpec& nominal) {
   d.fit.held_out.log_score_gain = 812.0;
   d.fit.held_out.improves = true;
   for (int p = 1; p <= 6; ++p) {
-    Fold fold;
+    diagnosis::Fold fold;
     fold.name = fmt::format("position {}", p);
     fold.positions = {p};
     fold.chi2_before = 90.0 * p;
@@ -111,7 +113,7 @@ inline discovery::Diagnosis diagnosis(const FilterSpec& nominal) {
       {"eta_x", "arcsec", TermLibrary::find("eta_x").value(), 268.0, 15.0, 101.0, 5.0, -11.1}};
   d.fit.residual_before.setRandom(6, 60);
   d.fit.residual_after.setRandom(6, 60);
-  RecoveredSignal signal;
+  diagnosis::RecoveredSignal signal;
   signal.equation = "platform rate y";
   signal.unit = "deg/h";
   signal.shape = "a step of 0.25 deg/h, from 1200 s on";
@@ -125,7 +127,7 @@ inline discovery::Diagnosis diagnosis(const FilterSpec& nominal) {
   d.signals = {signal};
   d.cosines.labels = {"g_drift.y", "g_drift.z"};
   d.cosines.cosine = (MatX(2, 2) << 1.0, 0.85, 0.85, 1.0).finished();
-  Advice advice;
+  diagnosis::Advice advice;
   advice.text = "Add x up: it separates g_drift.y from g_drift.z by 6.2 sigma";
   Position position;
   position.name = "x up";
@@ -141,7 +143,7 @@ inline discovery::Diagnosis diagnosis(const FilterSpec& nominal) {
   d.advice = {advice};
   d.remarks = {"a <remark> & more"};
   d.nominal = nominal;
-  d.patched = patched_filter(nominal, d.causes);
+  d.patched = diagnosis::patched_filter(nominal, d.causes);
   d.has_patch = true;
   d.seconds = {{"fit", 1.5}};
   return d;

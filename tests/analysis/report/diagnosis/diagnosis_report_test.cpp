@@ -16,7 +16,9 @@
 namespace drift {
 namespace {
 
-using namespace discovery;
+using namespace diagnosis;
+using namespace inference;
+using namespace search;
 using nlohmann::json;
 using testing::nominal_study;
 
@@ -28,7 +30,7 @@ FilterSpec nominal() {
 }
 
 TEST(DiagnosisJson, HasEveryKeyOfTheInterfaceWithTheTypeThatStandsThere) {
-  const json j = json::parse(to_json(testing::diagnosis(nominal())));
+  const json j = json::parse(report::to_json(testing::diagnosis(nominal())));
   EXPECT_EQ(j["schema"], 1);
   EXPECT_EQ(j["verdict"], "named");
   EXPECT_EQ(j["p_value"], 1e-30);
@@ -65,26 +67,26 @@ TEST(DiagnosisJson, HasEveryKeyOfTheInterfaceWithTheTypeThatStandsThere) {
 }
 
 TEST(DiagnosisJson, WhatIsNoNumberIsNull) {
-  const json j = json::parse(to_json(testing::diagnosis(nominal())));
+  const json j = json::parse(report::to_json(testing::diagnosis(nominal())));
   EXPECT_TRUE(j["candidates"][1]["score"].is_null());
   EXPECT_TRUE(j["causes"][0]["size_sigma"].is_null());
   EXPECT_TRUE(j["fit"]["start_spread_after"].is_null());
   EXPECT_TRUE(j["advice"][0]["verified_sigma"].is_null());
-  const json empty = json::parse(to_json(Diagnosis{}));
+  const json empty = json::parse(report::to_json(diagnosis::Diagnosis{}));
   EXPECT_EQ(empty["verdict"], "consistent");
   EXPECT_TRUE(empty["model"].is_null());
   EXPECT_TRUE(empty["causes"].is_array() && empty["causes"].empty());
 }
 
 TEST(DiagnosisJson, WhatWasNotComputedIsNullAndNotZero) {
-  Diagnosis d = testing::diagnosis(nominal());
+  diagnosis::Diagnosis d = testing::diagnosis(nominal());
   d.fit.band_low = 0.9;
   d.fit.band_high = 1.1;
   d.fit.log_likelihood_ratio = 140.0;
   d.fit.linear_T = 144.0;
   d.where.scan_p_value = 1e-9;
   d.where.windows_tried = 300;
-  json j = json::parse(to_json(d));
+  json j = json::parse(report::to_json(d));
   EXPECT_EQ(j["fit"]["in_sample"]["chi2_per_dof_95"], (json{0.9, 1.1}));
   EXPECT_EQ(j["fit"]["in_sample"]["log_likelihood_ratio"], 140.0);
   EXPECT_EQ(j["fit"]["in_sample"]["predicted_by_score"], 144.0);
@@ -94,7 +96,7 @@ TEST(DiagnosisJson, WhatWasNotComputedIsNullAndNotZero) {
   // No cause in the model, nothing held out: no second fit, no gain.
   d.has_patch = false;
   d.fit.held_out = {};
-  j = json::parse(to_json(d));
+  j = json::parse(report::to_json(d));
   for (const char* key : {"log_likelihood_ratio", "predicted_by_score", "sign_agrees"})
     EXPECT_TRUE(j["fit"]["in_sample"].at(key).is_null()) << key;
   for (const char* key :
@@ -104,7 +106,7 @@ TEST(DiagnosisJson, WhatWasNotComputedIsNullAndNotZero) {
   d.has_patch = true;
   d.fit.band_low = d.fit.band_high = d.fit.log_likelihood_ratio = d.where.scan_p_value =
       std::nan("");
-  j = json::parse(to_json(d));
+  j = json::parse(report::to_json(d));
   for (const char* key : {"chi2_per_dof_95", "log_likelihood_ratio", "sign_agrees"})
     EXPECT_TRUE(j["fit"]["in_sample"].at(key).is_null()) << key;
   for (const char* key : {"p_value", "windows_tried"})
@@ -113,38 +115,42 @@ TEST(DiagnosisJson, WhatWasNotComputedIsNullAndNotZero) {
 
 TEST(DiagnosisPage, IsWellFormedOfflineAndEscaped) {
   const test::ScratchFolder folder;
-  const Study study = testing::read_text(folder, "s.toml", nominal_study);
-  const Diagnosis d = testing::diagnosis(study.filters.front());
-  const std::string page = to_html(diagnosis_html(study, d, {{"rec <1>.csv"}, "details <&>"}));
+  const mc::Study study = testing::read_text(folder, "s.toml", nominal_study);
+  const diagnosis::Diagnosis d = testing::diagnosis(study.filters.front());
+  const std::string page =
+      report::to_html(report::diagnosis_html(study, d, {{"rec <1>.csv"}, "details <&>"}));
   EXPECT_EQ(testing::xml_problem(page, void_tags), std::nullopt);
   EXPECT_EQ(page.find("://"), std::string::npos);
   EXPECT_EQ(page.find("<script"), std::string::npos);
-  for (const char* text :
+  for (const char* diagnosis::text :
        {"six &amp; &lt;positions&gt;", "rec &lt;1&gt;.csv", "a &lt;remark&gt; &amp; more",
         "g_drift D_S_y &lt;&amp;&gt;", "[[plan.position]]"})
-    EXPECT_NE(page.find(text), std::string::npos) << text;
-  const auto figures = diagnosis_figures(d);
+    EXPECT_NE(page.find(diagnosis::text), std::string::npos) << diagnosis::text;
+  const auto figures = report::diagnosis_figures(d);
   EXPECT_EQ(figures.size(), 7u);
-  for (const Figure& f : figures) EXPECT_EQ(testing::xml_problem(f.svg), std::nullopt) << f.file;
+  for (const report::Figure& f : figures)
+    EXPECT_EQ(testing::xml_problem(f.svg), std::nullopt) << f.file;
 }
 
 TEST(DiagnosisPage, HoldsOfAnyVerdictAndOfNothing) {
   const test::ScratchFolder folder;
-  const Study study = testing::read_text(folder, "s.toml", nominal_study);
-  for (const Verdict v :
-       {Verdict::consistent, Verdict::named, Verdict::ambiguous, Verdict::unexplained})
-    for (Diagnosis d : {Diagnosis{}, testing::diagnosis(study.filters.front())}) {
+  const mc::Study study = testing::read_text(folder, "s.toml", nominal_study);
+  for (const diagnosis::Verdict v :
+       {diagnosis::Verdict::consistent, diagnosis::Verdict::named, diagnosis::Verdict::ambiguous,
+        diagnosis::Verdict::unexplained})
+    for (diagnosis::Diagnosis d :
+         {diagnosis::Diagnosis{}, testing::diagnosis(study.filters.front())}) {
       d.verdict = v;
-      const std::string page = to_html(diagnosis_html(study, d, {}));
-      EXPECT_EQ(testing::xml_problem(page, void_tags), std::nullopt) << text(v);
+      const std::string page = report::to_html(report::diagnosis_html(study, d, {}));
+      EXPECT_EQ(testing::xml_problem(page, void_tags), std::nullopt) << diagnosis::text(v);
       EXPECT_FALSE(to_text(d).empty());
     }
 }
 
 TEST(DiagnosisFigures, TheLocatedWindowAndTheGapOfTheRecoveredSignalAreSeen) {
-  const auto figures = diagnosis_figures(testing::diagnosis(nominal()));
+  const auto figures = report::diagnosis_figures(testing::diagnosis(nominal()));
   const auto signal = std::find_if(figures.begin(), figures.end(),
-                                   [](const Figure& f) { return f.file == "signal.svg"; });
+                                   [](const report::Figure& f) { return f.file == "signal.svg"; });
   ASSERT_NE(signal, figures.end());
   EXPECT_NE(signal->svg.find("located window"), std::string::npos);
   EXPECT_NE(signal->svg.find("signature of the cause"), std::string::npos);
@@ -152,11 +158,11 @@ TEST(DiagnosisFigures, TheLocatedWindowAndTheGapOfTheRecoveredSignalAreSeen) {
 
 /// Two that cancel were found as a pair, beside a single alternative: each of the pair looks weak
 /// alone.
-Diagnosis cancelling_pair() {
-  Diagnosis d = testing::diagnosis(nominal());
-  d.verdict = Verdict::ambiguous;
+diagnosis::Diagnosis cancelling_pair() {
+  diagnosis::Diagnosis d = testing::diagnosis(nominal());
+  d.verdict = diagnosis::Verdict::ambiguous;
   const auto line = [](const char* term, const char* axis, double score) {
-    CandidateScore s;
+    search::CandidateScore s;
     s.term = term;
     s.axis = axis;
     s.label = fmt::format("{}.{}", term, axis);
@@ -168,7 +174,7 @@ Diagnosis cancelling_pair() {
   for (std::size_t k = 0; k < 60; ++k) d.candidates[k].label += fmt::format(" {}", k);
   d.candidates.push_back(line("sag", "x", 1.5));
   d.candidates.push_back(line("magnetic_drift", "y", 0.5));
-  d.causes.assign(3, Cause{});
+  d.causes.assign(3, search::Cause{});
   d.causes[0].term = "sag";
   d.causes[1].term = "magnetic_drift";
   d.causes[2].term = "g2_drift";
@@ -181,18 +187,18 @@ Diagnosis cancelling_pair() {
 }
 
 TEST(DiagnosisCandidates, TheCausesAreShownHoweverWeakEachIsAlone) {
-  const Diagnosis d = cancelling_pair();
-  const auto shown = shown_candidates(d, 20);
+  const diagnosis::Diagnosis d = cancelling_pair();
+  const auto shown = report::shown_candidates(d, 20);
   ASSERT_EQ(shown.size(), 22u);
   EXPECT_EQ(shown[3].alternative, 2);
   EXPECT_EQ(shown[0].alternative, 0) << "the same term and axis, but other parameters";
   EXPECT_EQ(shown[20].score->term, "sag");
   EXPECT_EQ(shown[20].alternative, 1);
   EXPECT_EQ(shown[21].score->term, "magnetic_drift");
-  const auto figures = name_figures(d);
+  const auto figures = report::name_figures(d);
   ASSERT_EQ(figures.front().file, "candidates.svg");
-  for (const char* text : {"magnetic_drift.y", "alternative 1", "alternative 2"})
-    EXPECT_NE(figures.front().svg.find(text), std::string::npos) << text;
+  for (const char* diagnosis::text : {"magnetic_drift.y", "alternative 1", "alternative 2"})
+    EXPECT_NE(figures.front().svg.find(diagnosis::text), std::string::npos) << diagnosis::text;
   EXPECT_EQ(figures.front().svg.find("g2_drift.x 40"), std::string::npos);
   const std::string out = to_text(d);
   EXPECT_NE(out.find("magnetic_drift.y"), std::string::npos) << out;
@@ -201,24 +207,25 @@ TEST(DiagnosisCandidates, TheCausesAreShownHoweverWeakEachIsAlone) {
 
 TEST(DiagnosisPage, ComparesNothingWhereNoCauseIsInTheModel) {
   const test::ScratchFolder folder;
-  const Study study = testing::read_text(folder, "s.toml", nominal_study);
-  Diagnosis d = testing::diagnosis(study.filters.front());
+  const mc::Study study = testing::read_text(folder, "s.toml", nominal_study);
+  diagnosis::Diagnosis d = testing::diagnosis(study.filters.front());
   d.fit.shifted.clear();
   d.fit.held_out = {};
   for (auto& s : d.signals) s.explained.clear();
-  EXPECT_NE(to_html(diagnosis_html(study, d, {})).find("with the cause"), std::string::npos);
-  d.verdict = Verdict::unexplained;
+  EXPECT_NE(report::to_html(report::diagnosis_html(study, d, {})).find("with the cause"),
+            std::string::npos);
+  d.verdict = diagnosis::Verdict::unexplained;
   d.has_patch = false;
   d.causes.clear();
-  const std::string page = to_html(diagnosis_html(study, d, {}));
-  for (const char* text : {"with the cause", "acc_x, after", "Before and after"})
-    EXPECT_EQ(page.find(text), std::string::npos) << text;
+  const std::string page = report::to_html(report::diagnosis_html(study, d, {}));
+  for (const char* diagnosis::text : {"with the cause", "acc_x, after", "Before and after"})
+    EXPECT_EQ(page.find(diagnosis::text), std::string::npos) << diagnosis::text;
   EXPECT_NE(page.find("No cause is in the model."), std::string::npos);
   EXPECT_EQ(to_text(d).find("with the cause"), std::string::npos);
 }
 
 TEST(DiagnosisFigures, TheNumbersAtTheRightHaveAHead) {
-  for (const Figure& f : fit_figures(testing::diagnosis(nominal()))) {
+  for (const report::Figure& f : report::fit_figures(testing::diagnosis(nominal()))) {
     if (f.file == "held_out.svg") {
       EXPECT_NE(f.svg.find(">gain of log density<"), std::string::npos);
     }
@@ -229,45 +236,48 @@ TEST(DiagnosisFigures, TheNumbersAtTheRightHaveAHead) {
 }
 
 TEST(DiagnosisWords, OfTheStrongestWindowSayTheEquationOnlyIfItIsAnother) {
-  Diagnosis d = testing::diagnosis(nominal());
-  EXPECT_NE(where_sentence(d.where).find("1200 s to 1800 s (chance of a false alarm: 1e-9)"),
-            std::string::npos)
-      << where_sentence(d.where);
+  diagnosis::Diagnosis d = testing::diagnosis(nominal());
+  EXPECT_NE(
+      report::where_sentence(d.where).find("1200 s to 1800 s (chance of a false alarm: 1e-9)"),
+      std::string::npos)
+      << report::where_sentence(d.where);
   d.where.equation = "gimbal inner";
-  EXPECT_NE(where_sentence(d.where).find("1200 s to 1800 s, as the platform rate y (chance"),
-            std::string::npos)
-      << where_sentence(d.where);
+  EXPECT_NE(
+      report::where_sentence(d.where).find("1200 s to 1800 s, as the platform rate y (chance"),
+      std::string::npos)
+      << report::where_sentence(d.where);
 }
 
 TEST(DiagnosisTables, SayALikenessOnceByItsAxis) {
-  Diagnosis d = testing::diagnosis(nominal());
+  diagnosis::Diagnosis d = testing::diagnosis(nominal());
   d.causes[0].confusable_with = {
       {"sag", "", 0.99992}, {"sag", "x", -0.99991}, {"pier_tilt", "", 0.7}};
-  const std::string out = text_of(cause_table(d), 200);
+  const std::string out = text_of(report::cause_table(d), 200);
   EXPECT_NE(out.find("  sag.x (-1.00), pier_tilt (0.70)"), std::string::npos) << out;
   d.causes[0].confusable_with[1].cosine = -0.9;  // all axes together are liker than one
-  EXPECT_NE(text_of(cause_table(d), 200).find("sag (1.00), sag.x (-0.90)"), std::string::npos);
+  EXPECT_NE(text_of(report::cause_table(d), 200).find("sag (1.00), sag.x (-0.90)"),
+            std::string::npos);
 }
 
 TEST(DiagnosisTables, NearlyAllAbsorbedIsNotAll) {
-  Diagnosis d = testing::diagnosis(nominal());
-  for (const auto& [share, text] :
+  diagnosis::Diagnosis d = testing::diagnosis(nominal());
+  for (const auto& [share, diagnosis::text] :
        {std::pair{0.93, "93 %"}, {0.9966, "99.7 %"}, {0.99962, "99.96 %"}, {0.004, "0.4 %"}}) {
     d.candidates[0].absorbed = share;
-    EXPECT_NE(to_text(d).find(text), std::string::npos) << text;
+    EXPECT_NE(to_text(d).find(diagnosis::text), std::string::npos) << diagnosis::text;
   }
 }
 
 TEST(DiagnosisWords, NameChannelsAndEquations) {
-  EXPECT_EQ(channel_in_words("acc_y"), "accelerometer y");
-  EXPECT_EQ(channel_in_words("gimbal_outer"), "outer gimbal");
-  EXPECT_EQ(channel_in_words("turn"), "the turns");
-  EXPECT_EQ(equation_in_words("gimbal middle"), "middle gimbal");
-  EXPECT_EQ(equation_in_words("platform rate y"), "platform rate y");
+  EXPECT_EQ(report::channel_in_words("acc_y"), "accelerometer y");
+  EXPECT_EQ(report::channel_in_words("gimbal_outer"), "outer gimbal");
+  EXPECT_EQ(report::channel_in_words("turn"), "the turns");
+  EXPECT_EQ(diagnosis::equation_in_words("gimbal middle"), "middle gimbal");
+  EXPECT_EQ(diagnosis::equation_in_words("platform rate y"), "platform rate y");
 }
 
 TEST(DiagnosisText, HasNoWordsOfTheMethodInTheNoteOnTheGain) {
-  Diagnosis d = testing::diagnosis(nominal());
+  diagnosis::Diagnosis d = testing::diagnosis(nominal());
   d.fit.log_likelihood_ratio = 140.0;
   d.fit.linear_T = 144.0;
   const std::string out = to_text(d);
@@ -283,15 +293,15 @@ TEST(DiagnosisText, SaysTheVerdictFirstAndStaysWithinTheTerminal) {
   EXPECT_TRUE(out.starts_with(
       "Verdict named: The nominal model lacks g-sensitive drift (mass unbalance), gyro y"))
       << out;
-  for (const char* text :
+  for (const char* diagnosis::text :
        {"platform rate y", "eta_x", "Advice: Add x up", "gimbal_white", "9.10 →"})
-    EXPECT_NE(out.find(text), std::string::npos) << text;
+    EXPECT_NE(out.find(diagnosis::text), std::string::npos) << diagnosis::text;
   EXPECT_LT(std::count(out.begin(), out.end(), '\n'), 60);
 }
 
 TEST(ResidualSignal, IsATableWithEmptyCellsForWhatIsNotKnown) {
-  const Diagnosis d = testing::diagnosis(nominal());
-  const std::string csv = residual_signal_csv(d.signals);
+  const diagnosis::Diagnosis d = testing::diagnosis(nominal());
+  const std::string csv = report::residual_signal_csv(d.signals);
   EXPECT_NE(csv.find("equation,time [s],position,value,sigma,explained,unit\n"), std::string::npos);
   EXPECT_NE(csv.find("platform rate y,60,1,0,0.1,0,deg/h\n"), std::string::npos);
   EXPECT_NE(csv.find("platform rate y,480,1,,0.1,0.644217687,deg/h\n"),
@@ -303,26 +313,26 @@ TEST(ResidualSignal, IsATableWithEmptyCellsForWhatIsNotKnown) {
 
 TEST(SeveralRecordings, AreNamedWhereverATimeStands) {
   const test::ScratchFolder folder;
-  const Study study = testing::read_text(folder, "s.toml", nominal_study);
-  Diagnosis d = testing::diagnosis(
+  const mc::Study study = testing::read_text(folder, "s.toml", nominal_study);
+  diagnosis::Diagnosis d = testing::diagnosis(
       study.filters.front());  // a window at 1200 to 1800 s, a signal up to 3600 s
   EXPECT_EQ(to_text(d).find("through all recordings"), std::string::npos);
-  EXPECT_FALSE(json::parse(to_json(d))["where"].contains("recordings"));
+  EXPECT_FALSE(json::parse(report::to_json(d))["where"].contains("recordings"));
   d.where.recordings = {{"a.csv", 0.0, 900.0, 0.0},
                         {"b,2.csv", 900.0, 3600.0, 800.0}};  // b starts at 100 s of its own time
-  const auto sentence = where_sentence(d.where);
+  const auto sentence = report::where_sentence(d.where);
   EXPECT_NE(sentence.find("the strongest window is 400 s to 1000 s of b,2.csv"), std::string::npos)
       << sentence;
-  const json where = json::parse(to_json(d))["where"];
+  const json where = json::parse(report::to_json(d))["where"];
   EXPECT_EQ(where["windows"][0]["start_s"], 1200.0);
   EXPECT_EQ(where["windows"][0]["recording"], "b,2.csv");
   EXPECT_EQ(where["windows"][0]["start_in_recording_s"], 400.0);
   EXPECT_EQ(where["recordings"][1]["offset_s"], 800.0);
-  const std::string page = to_html(diagnosis_html(study, d, {}));
+  const std::string page = report::to_html(report::diagnosis_html(study, d, {}));
   EXPECT_NE(page.find("b,2.csv begins at 900 s (100 s of its own time)"), std::string::npos);
   EXPECT_NE(page.find("400 to 1000"), std::string::npos);
   EXPECT_NE(page.find("time through all recordings [s]"), std::string::npos);
-  const std::string csv = residual_signal_csv(d.signals, d.where.recordings);
+  const std::string csv = report::residual_signal_csv(d.signals, d.where.recordings);
   EXPECT_NE(csv.find("equation,time [s],position,value,sigma,explained,unit,recording\n"),
             std::string::npos)
       << csv;
@@ -338,40 +348,44 @@ TEST(SeveralRecordings, AreNamedWhereverATimeStands) {
 
 TEST(DiagnosisFolder, ThePatchOfAnAmbiguousVerdictSaysWhichAlternativeItHolds) {
   const test::ScratchFolder folder;
-  const Study study = testing::read_text(folder, "s.toml", nominal_study);
-  Diagnosis d = testing::diagnosis(study.filters.front());
+  const mc::Study study = testing::read_text(folder, "s.toml", nominal_study);
+  diagnosis::Diagnosis d = testing::diagnosis(study.filters.front());
   const std::string out = folder.file("out");
-  write_results(study, d, {}, out);
+  report::write_results(study, d, {}, out);
   EXPECT_EQ(test::text_of(out + "/patched.toml").find('#'), std::string::npos)
       << "a named cause is no alternative";
-  d.verdict = Verdict::ambiguous;
+  d.verdict = diagnosis::Verdict::ambiguous;
   d.causes.push_back(d.causes.front());
   d.causes.back().axis = "z";
   d.causes.back().set = 1;
-  write_results(study, d, {}, out);
+  report::write_results(study, d, {}, out);
   const std::string patched = test::text_of(out + "/patched.toml");
   EXPECT_TRUE(patched.starts_with(
       "# The patched model (patched.toml) holds alternative (1) alone, the most probable of 2"))
       << patched;
-  EXPECT_TRUE(
-      read_study(out + "/patched.toml").filters.front().active[TermLibrary::find("D_S_y").value()]);
-  for (const std::string& text : {to_text(d), to_json(d), test::text_of(out + "/report.html")})
-    EXPECT_NE(text.find("(patched.toml) holds alternative (1)"), std::string::npos) << text;
+  EXPECT_TRUE(mc::read_study(out + "/patched.toml")
+                  .filters.front()
+                  .active[TermLibrary::find("D_S_y").value()]);
+  for (const std::string& diagnosis::text :
+       {to_text(d), report::to_json(d), test::text_of(out + "/report.html")})
+    EXPECT_NE(diagnosis::text.find("(patched.toml) holds alternative (1)"), std::string::npos)
+        << diagnosis::text;
   d.causes.pop_back();
-  EXPECT_NE(patch_text(d).find("it is not confirmed"), std::string::npos) << patch_text(d);
+  EXPECT_NE(diagnosis::patch_text(d).find("it is not confirmed"), std::string::npos)
+      << diagnosis::patch_text(d);
 }
 
 TEST(DiagnosisFolder, HoldsEverythingAndLeavesNoPatchOfAnEarlierDiagnosis) {
   const test::ScratchFolder folder;
-  const Study study = testing::read_text(folder, "s.toml", nominal_study);
+  const mc::Study study = testing::read_text(folder, "s.toml", nominal_study);
   const std::string out = folder.file("out");
-  write_results(study, testing::diagnosis(study.filters.front()), {}, out);
+  report::write_results(study, testing::diagnosis(study.filters.front()), {}, out);
   for (const char* name :
        {"diagnosis.json", "residual_signal.csv", "report.html", "study.toml", "patched.toml",
         "advised.toml", "where.svg", "signal.svg", "candidates.svg", "cosines.svg", "held_out.svg",
         "moved.svg", "residuals.svg"})
     EXPECT_TRUE(std::filesystem::exists(out + "/" + name)) << name;
-  const auto files = write_results(study, Diagnosis{}, {}, out);
+  const auto files = report::write_results(study, diagnosis::Diagnosis{}, {}, out);
   EXPECT_EQ(files.size(), 4u);
   EXPECT_FALSE(std::filesystem::exists(out + "/patched.toml"));
   EXPECT_FALSE(std::filesystem::exists(out + "/advised.toml"));

@@ -13,11 +13,11 @@ struct PaperValue {
   std::vector<double> values, sigmas;  // in the parameter's unit
 };
 
-inline Published published(std::string name, std::string filter,
-                           const std::vector<PaperValue>& rows) {
-  Published p{std::move(name), std::move(filter), {}};
+inline mc::Published published(std::string name, std::string filter,
+                               const std::vector<PaperValue>& rows) {
+  mc::Published p{std::move(name), std::move(filter), {}};
   for (const PaperValue& row : rows) {
-    Published::Value v;
+    mc::Published::Value v;
     v.param = TermLibrary::find(row.key).value();
     const double unit = TermLibrary::specs[v.param].unit.to_si;
     for (const double x : row.values) v.values.push_back(x * unit);
@@ -28,7 +28,7 @@ inline Published published(std::string name, std::string filter,
 }
 
 /// Table 1 of Fu, Shao, Deng, Control and Decision 17(3), 2002.
-inline std::vector<Published> table_1() {
+inline std::vector<mc::Published> table_1() {
   return {published("Table 1", "corrected",
                     {{"D_I_z", {1.51, 1.69, 1.55}, {0.03, 0.03, 0.03}},
                      {"D_S_x", {0.29, 0.44, 0.311}, {0.14, 0.13, 0.08}},
@@ -42,8 +42,8 @@ inline std::vector<Published> table_1() {
 }
 
 /// A study with two filters over the base terms.
-inline Study study() {
-  Study s;
+inline mc::Study study() {
+  mc::Study s;
   s.title = "Six-position drift test";
   s.truth.coupling = Coupling::eq5;
   for (const char* name : {"corrected", "legacy"}) {
@@ -79,19 +79,19 @@ inline EstimateResult result(const Layout& layout, const Theta& truth, double of
 }
 
 /// Made by hand: filter 0 agrees between its starts, filter 1 is 3 prior sigmas apart.
-inline Identification identification(const Study& s) {
-  Identification id;
+inline identification::Identification identification(const mc::Study& s) {
+  identification::Identification id;
   id.simulated = true;
   id.truth.emplace();
   for (std::size_t i = 0; i < TermLibrary::num_params; ++i)
     id.truth->theta[i] = 0.5 * TermLibrary::specs[i].prior_si().sigma();
   for (std::size_t f = 0; f < s.filters.size(); ++f) {
-    FilterSummary summary;
+    identification::FilterSummary summary;
     summary.filter = f;
     summary.layout = make_layout(s.filters[f]);
     const auto n = static_cast<Eigen::Index>(summary.layout.size());
     for (std::size_t k = 0; k < 3; ++k) {
-      FilterRun run;
+      identification::FilterRun run;
       run.filter = f;
       run.start = k;
       const double off = (static_cast<double>(k) - 1.0) * (f == 0 ? 0.02 : 3.0);

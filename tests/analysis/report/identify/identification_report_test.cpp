@@ -9,14 +9,14 @@
 #include <sstream>
 
 #include "analysis/report/identify/figures.hpp"
+#include "analysis/report/identify/folder.hpp"
 #include "analysis/report/identify/html.hpp"
 #include "analysis/report/identify/json.hpp"
 #include "analysis/report/identify/tables.hpp"
 #include "analysis/report/identify/text.hpp"
 #include "analysis/report/page/escape.hpp"
-#include "analysis/report/identify/folder.hpp"
-#include "core/base/results_folder.hpp"
 #include "core/base/check.hpp"
+#include "core/base/results_folder.hpp"
 #include "tests/analysis/report/identify/identification_fixture.hpp"
 #include "tests/analysis/report/xml_check.hpp"
 
@@ -26,9 +26,9 @@ namespace {
 const std::string hostile = "\"><script>alert('x')</script>\xff";
 
 TEST(IdentificationText, FitsOnAPageAndSaysWhatMatters) {
-  Study study = testing::study();
+  mc::Study study = testing::study();
   study.published = testing::table_1();
-  Identification id = testing::identification(study);
+  identification::Identification id = testing::identification(study);
   VecX no_signal = VecX::Zero(static_cast<Eigen::Index>(id.summaries[1].layout.size()));
   no_signal[4] = 1.0;
   id.summaries[1].degeneracies = {{0.0, no_signal}};
@@ -36,7 +36,8 @@ TEST(IdentificationText, FitsOnAPageAndSaysWhatMatters) {
   id.runs[4].ekf.cause = "filter diverged at t = 60 s";
   const std::string text = to_text(study, id);
   std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) EXPECT_LE(display_width(line), 100u) << line;
+  for (std::string line; std::getline(lines, line);)
+    EXPECT_LE(report::display_width(line), 100u) << line;
   for (const char* part :
        {"Filter corrected (eq5)", "w_cp = -w_ic - C^-1 (w_l + w_md)",
         "g_drift: D_I [deg/h/g], prior sigma 2", "eta_x", "1.010", "0.914 to 1.090",
@@ -47,11 +48,11 @@ TEST(IdentificationText, FitsOnAPageAndSaysWhatMatters) {
 }
 
 TEST(IdentificationText, SaysWhereTheEstimatorsDisagree) {
-  const Study study = testing::study();
-  Identification id = testing::identification(study);
+  const mc::Study study = testing::study();
+  identification::Identification id = testing::identification(study);
   const auto said = [&] {
     std::string all;
-    for (const std::string& line : headlines(study, id)) all += line + "\n";
+    for (const std::string& line : report::headlines(study, id)) all += line + "\n";
     return all;
   };
   // Start 1 of filter 1 is 3 prior sigmas, 30 of its own, off; that of filter 0 a fifth of its
@@ -63,20 +64,21 @@ TEST(IdentificationText, SaysWhereTheEstimatorsDisagree) {
       std::string::npos)
       << text;
   EXPECT_EQ(text.find("Filter corrected (eq5): from start 1, EKF"), std::string::npos) << text;
-  for (FilterRun& run : id.runs) run.ekf.status = EstimateStatus::diverged;  // said elsewhere
+  for (identification::FilterRun& run : id.runs)
+    run.ekf.status = EstimateStatus::diverged;  // said elsewhere
   EXPECT_EQ(said().find("more than five sigma apart"), std::string::npos);
 }
 
 TEST(IdentificationJson, HoldsEveryResultInItsUnitAndNoNan) {
-  Study study = testing::study();
+  mc::Study study = testing::study();
   study.published = testing::table_1();
   study.title = hostile;
-  Identification id = testing::identification(study);
+  identification::Identification id = testing::identification(study);
   id.runs[0].ekf.parameters[0].sigma = std::nan("");
   id.runs[0].ekf.parameters[1].value = HUGE_VAL;
   id.summaries[0].spread[0].ekf = std::nan("");
   id.runs[1].ekf.measured = 0;
-  const std::string text = to_json(study, id);
+  const std::string text = report::to_json(study, id);
   const auto json = nlohmann::json::parse(text);  // NaN would not parse
   EXPECT_EQ(json["schema"], 1);
   EXPECT_EQ(json["filters"].size(), 2u);
@@ -101,12 +103,12 @@ TEST(IdentificationJson, HoldsEveryResultInItsUnitAndNoNan) {
 }
 
 TEST(IdentificationFigures, ShowThePublishedParametersOfEveryFilter) {
-  Study study = testing::study();
+  mc::Study study = testing::study();
   study.published = testing::table_1();
-  const Identification id = testing::identification(study);
-  const auto figures = identification_figures(study, id);
+  const identification::Identification id = testing::identification(study);
+  const auto figures = report::identification_figures(study, id);
   std::vector<std::string> files;
-  for (const Figure& f : figures) {
+  for (const report::Figure& f : figures) {
     files.push_back(f.file);
     EXPECT_EQ(testing::xml_problem(f.svg).value_or(""), "") << f.file;
   }
@@ -118,45 +120,45 @@ TEST(IdentificationFigures, ShowThePublishedParametersOfEveryFilter) {
 }
 
 TEST(IdentificationFigures, HighlightWhatIsPublishedElseGivenElseDoubtful) {
-  Study study = testing::study();
-  Identification id = testing::identification(study);
+  mc::Study study = testing::study();
+  identification::Identification id = testing::identification(study);
   id.summaries[0].spread[5].ekf = 99.0;
-  EXPECT_EQ(highlighted_parameters(study, id).front(), id.summaries[0].spread[5].param);
-  EXPECT_EQ(highlighted_parameters(study, id).size(), 3u);
+  EXPECT_EQ(report::highlighted_parameters(study, id).front(), id.summaries[0].spread[5].param);
+  EXPECT_EQ(report::highlighted_parameters(study, id).size(), 3u);
   study.resolved = {{"truth.parameters.eta_y", "1 arcsec", "default prior"},
                     {"truth.parameters.eta_x", "112 arcsec", "study.toml:12"},
                     {"truth.parameters.s_x", "1 ppm", "--set"}};  // no state of either filter
-  EXPECT_EQ(highlighted_parameters(study, id),
+  EXPECT_EQ(report::highlighted_parameters(study, id),
             (std::vector<std::size_t>{TermLibrary::index("eta_x")}));
   study.published = {testing::published("p", "", {{"D_I_z", {1.0}, {}}})};
-  EXPECT_EQ(highlighted_parameters(study, id),
+  EXPECT_EQ(report::highlighted_parameters(study, id),
             (std::vector<std::size_t>{TermLibrary::index("D_I_z")}));
 }
 
 TEST(IdentificationFigures, StopWhereTheFilterStopped) {
-  Study study = testing::study();
+  mc::Study study = testing::study();
   study.published = {testing::published("p", "", {{"D_I_z", {1.0}, {}}})};
-  Identification id = testing::identification(study);
-  for (FilterRun& run : id.runs) {
+  identification::Identification id = testing::identification(study);
+  for (identification::FilterRun& run : id.runs) {
     run.history.estimate.rightCols(200).setZero();
     run.history.sigma.rightCols(200).setZero();
     std::fill(run.history.scalars.begin() + 100, run.history.scalars.end(), 0);
   }
-  for (const Figure& f : identification_figures(study, id)) {
+  for (const report::Figure& f : report::identification_figures(study, id)) {
     EXPECT_EQ(testing::xml_problem(f.svg).value_or(""), "");
     EXPECT_EQ(f.svg.find("nan"), std::string::npos);
   }
 }
 
 TEST(IdentificationHtml, IsSafeWithHostileNames) {
-  Study study = testing::study();
+  mc::Study study = testing::study();
   study.published = testing::table_1();
   study.title = study.filters[0].name = study.published[0].name = hostile;
   study.resolved = {{"title", hostile, hostile}};
-  Identification id = testing::identification(study);
+  identification::Identification id = testing::identification(study);
   id.runs[0].ekf.cause = hostile;
-  const auto figures = identification_figures(study, id);
-  const std::string html = to_html(identification_html(study, id, figures));
+  const auto figures = report::identification_figures(study, id);
+  const std::string html = report::to_html(report::identification_html(study, id, figures));
   EXPECT_EQ(testing::xml_problem(html, {"meta"}).value_or(""), "");
   EXPECT_EQ(html.find("<script"), std::string::npos);
   EXPECT_EQ(html.find("://"), std::string::npos);
@@ -182,15 +184,15 @@ std::string read(const std::filesystem::path& path) {
 }
 
 TEST_F(ResultsFolder, HoldsEveryFileAndNothingElse) {
-  Study study = testing::study();
+  mc::Study study = testing::study();
   study.filters[0].name = "../up/and out";
   study.path = (folder_ / "in.toml").string();
   study.text = "schema = 1\n# text\n";
-  Identification id = testing::identification(study);
+  identification::Identification id = testing::identification(study);
   id.recording.channels = {{"time", unit::s, {60.0, 120.0}},
                            {"position", unit::one, {1.0, 1.0}},
                            {"acc_x", unit::g, {0.5, 0.25}}};
-  const auto names = write_results(study, id, (folder_ / "a/b").string());
+  const auto names = report::write_results(study, id, (folder_ / "a/b").string());
   std::set<std::string> found;
   for (const auto& entry : std::filesystem::directory_iterator(folder_ / "a/b"))
     found.insert(entry.path().filename().string());
@@ -217,10 +219,10 @@ void expect_io_error(const std::function<void()>& action, const std::string& pat
 }
 
 TEST_F(ResultsFolder, SaysWhyItCannotBeWritten) {
-  const Study study = testing::study();
-  const Identification id = testing::identification(study);
+  const mc::Study study = testing::study();
+  const identification::Identification id = testing::identification(study);
   std::ofstream(folder_) << "a file where the folder should be";
-  expect_io_error([&] { write_results(study, id, folder_.string()); }, folder_.string(),
+  expect_io_error([&] { report::write_results(study, id, folder_.string()); }, folder_.string(),
                   "cannot be written");
   expect_io_error([&] { write_text_atomically("/proc/none/x", "text"); }, "/proc/none/x",
                   "No such file");

@@ -42,7 +42,7 @@ std::vector<WeakDirection> turned_space(const Layout& l,
   return space;
 }
 
-std::vector<std::string> combinations_of(const std::vector<NamedDirection>& directions) {
+std::vector<std::string> combinations_of(const std::vector<report::NamedDirection>& directions) {
   std::vector<std::string> all;
   for (const auto& d : directions) all.push_back(d.combination);
   std::ranges::sort(all);
@@ -51,7 +51,7 @@ std::vector<std::string> combinations_of(const std::vector<NamedDirection>& dire
 
 TEST(NameDegeneracies, FindsReadableDirectionsInATurnedBasis) {
   const Layout l = layout();
-  const auto named = name_degeneracies(
+  const auto named = report::name_degeneracies(
       l, {},
       turned_space(l, {{{"D_F_x", 1.0}, {"D_II_x", -1.0}, {"D_OO_x", -1.0}, {"D_SS_x", -1.0}},
                        {{"D_F_z", 1.0}, {"D_II_z", -1.0}, {"D_OO_z", -1.0}, {"D_SS_z", -1.0}},
@@ -76,7 +76,7 @@ TEST(NameDegeneracies, KnowsTheGaugeOfTheTriads) {
   // its output axis: xi_y = 1; for Z (z,x,y), y is its spin axis: eta_z = -1. Accelerometers
   // (I,P,O) alike: dP_y = 1, dO_z = -1.
   const Layout l = layout();
-  const auto named = name_degeneracies(
+  const auto named = report::name_degeneracies(
       l, {}, turned_space(l, {{{"xi_y", 1.0}, {"eta_z", -1.0}, {"dP_y", 1.0}, {"dO_z", -1.0}}}));
   ASSERT_EQ(named.size(), 1u);
   EXPECT_EQ(named[0].combination, "eta_z - xi_y - dP_y + dO_z");
@@ -85,10 +85,10 @@ TEST(NameDegeneracies, KnowsTheGaugeOfTheTriads) {
 
 TEST(NameDegeneracies, ClaimsNothingThatIsNotInTheSpace) {
   const Layout l = layout();
-  const auto named =
-      name_degeneracies(l, {},
-                        turned_space(l, {{{"D_F_x", 1.0}, {"D_II_x", -1.0}, {"D_OO_x", -1.0}},
-                                         {{"K1_x", 1.0}, {"K3_x", 1.0}}}));
+  const auto named = report::name_degeneracies(
+      l, {},
+      turned_space(l, {{{"D_F_x", 1.0}, {"D_II_x", -1.0}, {"D_OO_x", -1.0}},
+                       {{"K1_x", 1.0}, {"K3_x", 1.0}}}));
   ASSERT_EQ(named.size(), 2u);
   for (const auto& d : named) EXPECT_EQ(d.reason, "") << d.combination;
 }
@@ -96,9 +96,10 @@ TEST(NameDegeneracies, ClaimsNothingThatIsNotInTheSpace) {
 TEST(NameDegeneracies, CountsEachDirectionOnce) {
   // K1_x and K3_x each without signal: their difference is no third direction.
   const Layout l = layout();
-  const auto named = name_degeneracies(l, {}, turned_space(l, {{{"K1_x", 1.0}}, {{"K3_x", 1.0}}}));
+  const auto named =
+      report::name_degeneracies(l, {}, turned_space(l, {{{"K1_x", 1.0}}, {{"K3_x", 1.0}}}));
   ASSERT_EQ(named.size(), 2u);
-  EXPECT_TRUE(name_degeneracies(l, {}, {}).empty());
+  EXPECT_TRUE(report::name_degeneracies(l, {}, {}).empty());
 }
 
 }  // namespace

@@ -32,45 +32,45 @@ TEST(NumberText, SigmaHasOneOrTwoDigitsAndTheValueAsManyDecimals) {
 }
 
 TEST(Escaped, KeepsTextAndNeutralisesTheRest) {
-  EXPECT_EQ(escaped("a<b>&\"'"), "a&lt;b&gt;&amp;&quot;&#39;");
-  EXPECT_EQ(escaped("±°é漢😀"), "±°é漢😀");
-  EXPECT_EQ(escaped("\xC0\xAF"), "\xEF\xBF\xBD\xEF\xBF\xBD");  // overlong '/'
-  EXPECT_EQ(escaped(std::string_view("a\0b", 3)),
+  EXPECT_EQ(report::escaped("a<b>&\"'"), "a&lt;b&gt;&amp;&quot;&#39;");
+  EXPECT_EQ(report::escaped("±°é漢😀"), "±°é漢😀");
+  EXPECT_EQ(report::escaped("\xC0\xAF"), "\xEF\xBF\xBD\xEF\xBF\xBD");  // overlong '/'
+  EXPECT_EQ(report::escaped(std::string_view("a\0b", 3)),
             "a\xEF\xBF\xBD"
             "b");
-  EXPECT_EQ(escaped("\xE2\x82"), "\xEF\xBF\xBD\xEF\xBF\xBD");  // cut short
+  EXPECT_EQ(report::escaped("\xE2\x82"), "\xEF\xBF\xBD\xEF\xBF\xBD");  // cut short
 }
 
 TEST(FileNamePart, StaysInItsFolder) {
-  EXPECT_EQ(file_name_part("eq5"), "eq5");
-  EXPECT_EQ(file_name_part("../../etc/passwd"), "_._.._etc_passwd");
-  EXPECT_EQ(file_name_part(""), "_");
-  EXPECT_EQ(file_name_part(std::string_view("a/b\nc\0d", 7)), "a_b_c_d");
-  EXPECT_LE(file_name_part(std::string(4096, 'x')).size(), 64u);
+  EXPECT_EQ(report::file_name_part("eq5"), "eq5");
+  EXPECT_EQ(report::file_name_part("../../etc/passwd"), "_._.._etc_passwd");
+  EXPECT_EQ(report::file_name_part(""), "_");
+  EXPECT_EQ(report::file_name_part(std::string_view("a/b\nc\0d", 7)), "a_b_c_d");
+  EXPECT_LE(report::file_name_part(std::string(4096, 'x')).size(), 64u);
 }
 
 TEST(ChiSquareBand, AgreesWithTables) {
   // Percentage points of chi-square: 6 degrees 1.237, 14.449; 100 degrees 74.222, 129.561.
-  EXPECT_NEAR(chi_square_band(6).low, 1.237 / 6, 0.01);
-  EXPECT_NEAR(chi_square_band(6).high, 14.449 / 6, 0.01);
-  EXPECT_NEAR(chi_square_band(100).low, 0.74222, 1e-4);
-  EXPECT_NEAR(chi_square_band(100).high, 1.29561, 1e-4);
-  EXPECT_NEAR(chi_square_band(1).high, 5.024, 0.1);
-  EXPECT_GE(chi_square_band(1).low, 0.0);
+  EXPECT_NEAR(stats::chi_square_band(6).low, 1.237 / 6, 0.01);
+  EXPECT_NEAR(stats::chi_square_band(6).high, 14.449 / 6, 0.01);
+  EXPECT_NEAR(stats::chi_square_band(100).low, 0.74222, 1e-4);
+  EXPECT_NEAR(stats::chi_square_band(100).high, 1.29561, 1e-4);
+  EXPECT_NEAR(stats::chi_square_band(1).high, 5.024, 0.1);
+  EXPECT_GE(stats::chi_square_band(1).low, 0.0);
 }
 
-Table sample() {
-  Table t{.title = "A <table>",
-          .columns = {{"name", Align::left}, {"value"}},
-          .rows = {},
-          .note = "a note"};
+report::Table sample() {
+  report::Table t{.title = "A <table>",
+                  .columns = {{"name", report::Align::left}, {"value"}},
+                  .rows = {},
+                  .note = "a note"};
   t.add_heading("group & co");
-  t.add({"x", Cell("1.0±0.1", Tone::good)});
-  t.add({"longer", Cell("10", Tone::bad)});
+  t.add({"x", report::Cell("1.0±0.1", report::Tone::good)});
+  t.add({"longer", report::Cell("10", report::Tone::bad)});
   return t;
 }
 
-TEST(Table, TextColumnsLineUp) {
+TEST(report::Table, TextColumnsLineUp) {
   EXPECT_EQ(text_of(sample()),
             "A <table>\n"
             "name      value\n"
@@ -81,8 +81,8 @@ TEST(Table, TextColumnsLineUp) {
             "a note\n");
 }
 
-TEST(Table, HtmlIsWellFormedAndEscaped) {
-  const std::string html = html_of(sample());
+TEST(report::Table, HtmlIsWellFormedAndEscaped) {
+  const std::string html = report::html_of(sample());
   EXPECT_EQ(testing::xml_problem("<p>" + html + "</p>").value_or(""), "");
   EXPECT_NE(html.find("A &lt;table&gt;"), std::string::npos);
   EXPECT_NE(html.find("class=\"right bad\">10<"), std::string::npos);
@@ -91,23 +91,24 @@ TEST(Table, HtmlIsWellFormedAndEscaped) {
 
 TEST(Wrapped, LinesStayWithinTheWidth) {
   std::istringstream lines(
-      wrapped(std::string("aaa bbb ") + std::string(30, 'x') + " cc dd", 10, 2));
+      report::wrapped(std::string("aaa bbb ") + std::string(30, 'x') + " cc dd", 10, 2));
   std::vector<std::string> all;
   for (std::string line; std::getline(lines, line);) all.push_back(line);
   EXPECT_EQ(all, (std::vector<std::string>{"aaa bbb", "  " + std::string(30, 'x'), "  cc dd"}));
 }
 
-TEST(HtmlReport, IsOnePageWithoutScriptsAndAddresses) {
-  HtmlReport report{.title = "<script>alert(1)</script>",
-                    .subtitle = "\"quoted\" & 'single'",
-                    .headlines = {"</ul><img src=x onerror=alert(1)>"},
-                    .sections = {},
-                    .footer = "<b>"};
+TEST(report::HtmlReport, IsOnePageWithoutScriptsAndAddresses) {
+  report::HtmlReport report{.title = "<script>alert(1)</script>",
+                            .subtitle = "\"quoted\" & 'single'",
+                            .headlines = {"</ul><img src=x onerror=alert(1)>"},
+                            .sections = {},
+                            .footer = "<b>"};
   report.sections.push_back(
       {"one <i>",
-       {Paragraph{"<script>"}, Sentences{{"a", "<b"}}, Preformatted{"x < y"}, sample(),
-        Picture{"<svg xmlns=\"http://www.w3.org/2000/svg\"></svg>", "cap <tion>"}}});
-  const std::string html = to_html(report);
+       {report::Paragraph{"<script>"}, report::Sentences{{"a", "<b"}},
+        report::Preformatted{"x < y"}, sample(),
+        report::Picture{"<svg xmlns=\"http://www.w3.org/2000/svg\"></svg>", "cap <tion>"}}});
+  const std::string html = report::to_html(report);
   EXPECT_EQ(testing::xml_problem(html, void_tags).value_or(""), "");
   EXPECT_EQ(html.find("<script"), std::string::npos);
   EXPECT_EQ(html.find("<img"), std::string::npos);

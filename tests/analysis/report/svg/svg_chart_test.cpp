@@ -16,17 +16,17 @@ namespace {
 const double nan_value = std::nan("");
 const double inf = std::numeric_limits<double>::infinity();
 
-Chart chart_of(std::vector<double> y) {
-  Series s{.label = "start 1", .x = {}, .y = std::move(y), .sigma = {}};
+report::Chart chart_of(std::vector<double> y) {
+  report::Series s{.label = "start 1", .x = {}, .y = std::move(y), .sigma = {}};
   for (std::size_t i = 0; i < s.y.size(); ++i) s.x.push_back(static_cast<double>(i));
-  Panel panel{.title = "a",
-              .x_label = "time [h]",
-              .y_label = "eta_x [arcsec]",
-              .expected = {},
-              .series = {s},
-              .references = {},
-              .y_range = {},
-              .note = {}};
+  report::Panel panel{.title = "a",
+                      .x_label = "time [h]",
+                      .y_label = "eta_x [arcsec]",
+                      .expected = {},
+                      .series = {s},
+                      .references = {},
+                      .y_range = {},
+                      .note = {}};
   return {"title", {panel}};
 }
 
@@ -44,10 +44,10 @@ std::string first_path(const std::string& svg) {
 }
 
 TEST(SvgChart, IsWellFormedWithEveryKindOfContent) {
-  Chart chart = chart_of({1.0, 3.0, 2.0});
+  report::Chart chart = chart_of({1.0, 3.0, 2.0});
   chart.panels[0].series[0].sigma = {0.5, 0.4, 0.3};
   chart.panels[0].expected.push_back({"95 % band", {0.0, 2.0}, {0.5, 0.6}, {1.5, 1.4}});
-  chart.panels[0].references = {{2.0, "truth"}, {2.01, "component test", Stroke::dotted}};
+  chart.panels[0].references = {{2.0, "truth"}, {2.01, "component test", report::Stroke::dotted}};
   chart.panels.push_back({.title = "empty",
                           .x_label = "",
                           .y_label = "",
@@ -57,7 +57,7 @@ TEST(SvgChart, IsWellFormedWithEveryKindOfContent) {
                           .y_range = {},
                           .note = "not estimated"});
   chart.columns = 2;
-  const std::string svg = svg_of(chart);
+  const std::string svg = report::svg_of(chart);
   EXPECT_EQ(testing::xml_problem(svg).value_or(""), "");
   for (const char* text :
        {"truth", "component test", "not estimated", "95 % band", "start 1", "time [h]"})
@@ -65,12 +65,12 @@ TEST(SvgChart, IsWellFormedWithEveryKindOfContent) {
 }
 
 TEST(SvgChart, EscapesHostileText) {
-  Chart chart = chart_of({1.0, 2.0});
+  report::Chart chart = chart_of({1.0, 2.0});
   const std::string hostile = "<script>alert(\"1\")</script>' & \x01\xff]]>";
   chart.title = chart.panels[0].title = chart.panels[0].x_label = chart.panels[0].y_label = hostile;
   chart.panels[0].series[0].label = chart.panels[0].note = hostile;
   chart.panels[0].references = {{1.5, hostile}};
-  const std::string svg = svg_of(chart);
+  const std::string svg = report::svg_of(chart);
   EXPECT_EQ(testing::xml_problem(svg).value_or(""), "");
   EXPECT_EQ(svg.find("<script"), std::string::npos);
   EXPECT_EQ(svg.find('\x01'), std::string::npos);
@@ -78,7 +78,7 @@ TEST(SvgChart, EscapesHostileText) {
 }
 
 TEST(SvgChart, LeavesGapsWhereThereIsNoNumber) {
-  const std::string svg = svg_of(chart_of({1.0, 2.0, nan_value, 3.0, inf, 4.0, 5.0, -inf}));
+  const std::string svg = report::svg_of(chart_of({1.0, 2.0, nan_value, 3.0, inf, 4.0, 5.0, -inf}));
   EXPECT_EQ(testing::xml_problem(svg).value_or(""), "");
   EXPECT_EQ(svg.find("nan"), std::string::npos);
   EXPECT_EQ(svg.find("inf"), std::string::npos);
@@ -96,19 +96,19 @@ TEST(SvgChart, DrawsConstantsEmptySeriesAndHugeNumbers) {
                                                         {-1e308, 1e308},
                                                         {1e-300, 2e-300},
                                                         {1e99, -1e99}}) {
-    const std::string svg = svg_of(chart_of(y));
+    const std::string svg = report::svg_of(chart_of(y));
     EXPECT_EQ(testing::xml_problem(svg).value_or(""), "");
     EXPECT_EQ(svg.find("nan"), std::string::npos);
     EXPECT_EQ(svg.find("inf"), std::string::npos);
     EXPECT_LT(svg.size(), 20000u);
   }
-  EXPECT_EQ(testing::xml_problem(svg_of(Chart{})).value_or(""), "");
+  EXPECT_EQ(testing::xml_problem(report::svg_of(report::Chart{})).value_or(""), "");
 }
 
 TEST(SvgChart, ThinsLongCurves) {
   std::vector<double> y(200000);
   for (std::size_t i = 0; i < y.size(); ++i) y[i] = std::sin(0.01 * static_cast<double>(i));
-  const std::string path = first_path(svg_of(chart_of(y)));
+  const std::string path = first_path(report::svg_of(chart_of(y)));
   const std::size_t points = count(path, "M") + count(path, "L");
   EXPECT_LE(points, 2000u);
   EXPECT_GE(points, 1000u);
@@ -119,7 +119,7 @@ TEST(Decimated, KeepsExtremesAndGaps) {
   y[31234] = 9.0;
   y[31240] = -8.0;
   y[77777] = nan_value;
-  const auto kept = decimated(y);
+  const auto kept = report::decimated(y);
   EXPECT_LE(kept.size(), 2000u);
   EXPECT_TRUE(std::ranges::is_sorted(kept));
   for (const std::size_t i : {31234u, 31240u, 77777u})
@@ -128,33 +128,33 @@ TEST(Decimated, KeepsExtremesAndGaps) {
 
 TEST(Decimated, KeepsShortCurvesWhole) {
   const std::vector<double> y{1.0, nan_value, 3.0};
-  EXPECT_EQ(decimated(y), (std::vector<std::size_t>{0, 1, 2}));
+  EXPECT_EQ(report::decimated(y), (std::vector<std::size_t>{0, 1, 2}));
 }
 
-TEST(AxisScale, TicksAreRoundAndInRange) {
-  const AxisScale s = make_scale({0.0, 6.3}, 6, 0.0);
+TEST(report::AxisScale, TicksAreRoundAndInRange) {
+  const report::AxisScale s = report::make_scale({0.0, 6.3}, 6, 0.0);
   EXPECT_EQ(s.labels, (std::vector<std::string>{"0", "2", "4", "6"}));
   EXPECT_TRUE(s.factor.empty());
-  const AxisScale fine = make_scale({-0.012, 0.031}, 5, 0.0);
+  const report::AxisScale fine = report::make_scale({-0.012, 0.031}, 5, 0.0);
   EXPECT_EQ(fine.labels, (std::vector<std::string>{"-0.01", "0.00", "0.01", "0.02", "0.03"}));
-  const AxisScale large = make_scale({0.0, 4.1e7}, 5, 0.0);
+  const report::AxisScale large = report::make_scale({0.0, 4.1e7}, 5, 0.0);
   EXPECT_EQ(large.factor, "×10^7");
   EXPECT_EQ(large.labels.back(), "4");
 }
 
-TEST(AxisScale, ConstantStandsInTheMiddle) {
+TEST(report::AxisScale, ConstantStandsInTheMiddle) {
   for (const double c : {0.0, 5.0, -3e8})
-    EXPECT_NEAR(make_scale({c, c}, 5, 0.05).at(c, 100.0), 50.0, 1e-6);
+    EXPECT_NEAR(report::make_scale({c, c}, 5, 0.05).at(c, 100.0), 50.0, 1e-6);
 }
 
-TEST(BarChart, HasABarAndWhiskersForEachNumber) {
-  BarChart chart{
+TEST(report::BarChart, HasABarAndWhiskersForEachNumber) {
+  report::BarChart chart{
       .title = "learned <most>", .x_label = "posterior / prior", .bars = {}, .limit = {}};
   chart.bars = {{.label = "D_I_z", .value = 0.2, .low = 0.1, .high = 0.3},
                 {.label = "eta_x", .value = -0.4},
                 {.label = "K0 & co", .value = nan_value}};
-  chart.limit = ReferenceLine{1.0, "prior"};
-  const std::string svg = svg_of(chart);
+  chart.limit = report::ReferenceLine{1.0, "prior"};
+  const std::string svg = report::svg_of(chart);
   EXPECT_EQ(testing::xml_problem(svg).value_or(""), "");
   EXPECT_EQ(count(svg, "<rect"), 3u);  // background and two bars
   EXPECT_NE(svg.find(">n/a<"), std::string::npos);
