@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "analysis/inference/candidate.hpp"
-#include "analysis/search/cause.hpp"
+#include "analysis/diagnosis/diagnosis.hpp"
 
 namespace drift::diagnosis {
 

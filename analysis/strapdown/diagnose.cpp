@@ -21,10 +21,6 @@ namespace {
 using namespace diagnosis;
 using namespace inference;
 using namespace search;
-using Evidence;
-using Final;
-using PartOfModel;
-using Trial;
 
 constexpr double surely = 2.0;  // standard errors, as in the ladder
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -204,7 +200,6 @@ class Diagnoser {
   }
 
   void compare() {
-    using Asked;
     const auto before = residuals_of(nominal_.model, nominal_.fitted, evidence_);
     const auto after = residuals_of(final_->model, final_->fitted, evidence_);
     const auto scatter = scatter_of(after);
@@ -246,7 +241,6 @@ class Diagnoser {
   }
 
   void kinds(const Errors& before, const Errors& after) {
-    using root_mean_square;
     const double g = r_.options.gravity;
     out_.kinds = {
         {"gyro rate in dwells", "deg/s", root_mean_square(before.dwell) / unit::deg_per_s.to_si,

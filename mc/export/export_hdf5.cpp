@@ -203,7 +203,7 @@ class RunsGroup {
     Moments moments;
     double min = std::numeric_limits<double>::infinity(), max = -min;
     void add(const Block& b, std::size_t c, std::size_t n) {
-      moments.merge(moments(b, c, n));
+      moments.merge(mc::moments(b, c, n));
       for (std::size_t r = 0; r < b.status.size(); ++r)
         if (const double v = b.rows[r * n + c]; b.status[r] == RunStatus::ok && std::isfinite(v))
           min = std::min(min, v), max = std::max(max, v);

@@ -15,7 +15,7 @@ using config::Option;
 using config::Section;
 
 /// A list of names, each one of `known`; empty optional if absent or wrong.
-std::optional<std::vector<std::size_t>> read_names(report::Section& section, std::string_view key,
+std::optional<std::vector<std::size_t>> read_names(Section& section, std::string_view key,
                                                    const std::vector<std::string_view>& known) {
   const Node* node = section.take(key);
   if (node == nullptr) return std::nullopt;
@@ -42,14 +42,14 @@ std::optional<std::vector<std::size_t>> read_names(report::Section& section, std
 }
 
 /// A number of a list.
-std::optional<double> number(report::Section& section, const Node& node, const std::string& name) {
+std::optional<double> number(Section& section, const Node& node, const std::string& name) {
   const auto q = read_quantity(section.report(), node, name,
                                Option{"sizes", unit::one, 0.1, 1e4, "size in sigma"});
   if (!q) return std::nullopt;
   return q->si();
 }
 
-void read_sizes(report::Section& section, BlindSpec& spec) {
+void read_sizes(Section& section, BlindSpec& spec) {
   const Node* node = section.take("sizes");
   const std::string name = section.full("sizes");
   if (node == nullptr) {
@@ -94,7 +94,7 @@ void visit_options(BlindShares& o, Field&& field) {
   field(Option{"local", unit::one, 0.0, 1e6, "in one position and window"}, o.local);
 }
 
-BlindShares read_shares(report::Section section) {
+BlindShares read_shares(Section section) {
   BlindShares shares;
   visit_options(shares, [&](const Option& option, double& value) { section.read(option, value); });
   if (section.present() && !(shares.sum() > 0.0))
@@ -110,7 +110,7 @@ constexpr CommandLaw modes[] = {CommandLaw::free, CommandLaw::level};
 
 }  // namespace
 
-BlindSpec read_blind(report::Section section) {
+BlindSpec read_blind(Section section) {
   BlindSpec spec;
   section.read(Option{"trials", unit::one, 1.0, 1e6, "recordings"}, spec.trials);
   if (const auto chosen = read_names(section, "plans", preset_names)) {

@@ -31,7 +31,7 @@ void visit_fields(MonteCarlo& o, Field&& field) {
 }
 
 /// "silent_failure_rate", or "rmse." and a parameter.
-void check_quantity(report::Section& section, const std::string& quantity) {
+void check_quantity(Section& section, const std::string& quantity) {
   constexpr std::string_view rmse = "rmse.";
   if (quantity == "silent_failure_rate") return;
   const auto& at = section.take("quantity")->at;
@@ -55,14 +55,14 @@ void check_quantity(report::Section& section, const std::string& quantity) {
 
 }  // namespace
 
-MonteCarlo read_monte_carlo(report::Section section) {
+MonteCarlo read_monte_carlo(Section section) {
   MonteCarlo out;
   visit_fields(out, [&](const Option& option, auto& value) { section.read(option, value); });
   section.read(Option{.key = "design", .doc = "how truth parameters are spread"}, out.design,
                designs);
   section.read(Option{.key = "estimator", .doc = "what makes the estimates"}, out.estimator,
                estimators);
-  report::Section stop = section.section("stop");
+  Section stop = section.section("stop");
   if (stop.present()) {
     StopSpec spec;
     if (stop.require("quantity", "quantity = \"silent_failure_rate\"") &&

@@ -10,7 +10,7 @@ using config::Option;
 using config::Section;
 
 /// A list of quantities in the unit of a parameter, SI.
-std::vector<double> read_list(report::Section& table, std::string_view key, const ParamSpec& spec) {
+std::vector<double> read_list(Section& table, std::string_view key, const ParamSpec& spec) {
   std::vector<double> values;
   const Node* node = table.take(key);
   if (node == nullptr) return values;
@@ -32,16 +32,16 @@ std::vector<double> read_list(report::Section& table, std::string_view key, cons
 
 }  // namespace
 
-std::vector<Published> read_published(report::Section& root) {
+std::vector<Published> read_published(Section& root) {
   std::vector<Published> all;
-  for (report::Section& section : root.sections("published")) {
+  for (Section& section : root.sections("published")) {
     Published p;
     if (section.require("name", "name = \"Table 1 of the paper\""))
       section.read(Option{.key = "name", .doc = "of the source"}, p.name);
     section.read(Option{.key = "filter", .doc = "it is compared with"}, p.filter);
     for (std::size_t i = 0; i < TermLibrary::num_params; ++i) {
       const ParamSpec& spec = TermLibrary::specs[i];
-      report::Section table = section.section(spec.key.view());
+      Section table = section.section(spec.key.view());
       if (!table.present()) continue;
       Published::Value value{i, read_list(table, "values", spec), read_list(table, "sigmas", spec)};
       if (!value.sigmas.empty() && value.sigmas.size() != value.values.size())

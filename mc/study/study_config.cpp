@@ -24,7 +24,7 @@ using config::Option;
 using config::Report;
 using config::Section;
 
-void read_schema(report::Section& root) {
+void read_schema(Section& root) {
   constexpr std::uint64_t schema = 1;
   if (!root.require("schema", "schema = 1")) {
     root.take("schema");
@@ -82,7 +82,7 @@ std::vector<SweepAxis> read_sweep(Report& report, const Node* sweep) {
   std::vector<SweepAxis> axes;
   if (sweep == nullptr) return axes;
   double points = 1.0;
-  report::Section section(report, sweep, sweep->at, "sweep");
+  Section section(report, sweep, sweep->at, "sweep");
   for (const auto& member : sweep->members) {
     const Node& values = member.value;
     if (!values.is(Node::Kind::array) || values.items.empty() ||
@@ -182,7 +182,7 @@ Study read_study_tree(const Node& root, const std::string& path) {
   Report report(path);
   Study study;
   study.path = path;
-  report::Section top(report, &root, config::Place{}, "");
+  Section top(report, &root, config::Place{}, "");
   read_schema(top);
   top.read(Option{.key = "title", .doc = "of the study"}, study.title);
   const Mounting mounting = read_mounting(top.section("mounting"));
@@ -197,14 +197,14 @@ Study read_study_tree(const Node& root, const std::string& path) {
   // A blind study has truths of several couplings too.
   const bool swept =
       (sweep != nullptr && sweep->find("truth.coupling") != nullptr) || top.has("blind");
-  report::Section truth = top.section("truth");
+  Section truth = top.section("truth");
   study.has_truth = truth.present();
   study.truth = read_truth(truth, mounting, swept ? UnusedTables::allowed : UnusedTables::refused);
   study.filters = read_filters(top, mounting);
   study.monte_carlo = read_monte_carlo(top.section("monte_carlo"));
   study.sweep = read_sweep(report, sweep);
   study.published = read_published(top);
-  if (report::Section blind = top.section("blind"); blind.present()) {
+  if (Section blind = top.section("blind"); blind.present()) {
     study.blind = read_blind(blind);
     study.has_blind = true;
   }

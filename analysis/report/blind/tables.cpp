@@ -158,10 +158,10 @@ std::string answer_text(const blind::Answer& a) {
     std::vector<std::string> parts;
     for (const blind::AnswerCause* c : alternative)
       parts.push_back(c->axis.empty() ? c->term : c->term + "." + c->axis);
-    blind::text += fmt::format("{}{}", between, fmt::join(parts, " + "));
+    text += fmt::format("{}{}", between, fmt::join(parts, " + "));
     between = ", or ";
   }
-  return blind::text;
+  return text;
 }
 
 }  // namespace

@@ -73,14 +73,14 @@ TEST(BlindStudy, TheSolverGetsNeitherTruthNorSeedNorKey) {
   const mc::Study study = study_in(scratch);
   const std::string folder = scratch.file("out");
   const std::string hash = make_trials(study, folder, 1);
-  EXPECT_EQ(hash, sha256_hex(report::text_of(folder + "/key.json")));
+  EXPECT_EQ(hash, sha256_hex(text_of(folder + "/key.json")));
   EXPECT_EQ(published_hash(folder, "key.json"), hash);
   for (int n = 1; n <= 6; ++n) {
     const std::string here = folder + "/trials/000" + std::to_string(n);
     const mc::Study given = mc::read_study(here + "/study.toml");
     EXPECT_FALSE(given.has_truth || given.has_blind);
-    EXPECT_EQ(report::text_of(here + "/study.toml").find("seed"), std::string::npos);
-    EXPECT_EQ(report::text_of(here + "/recording.csv").find("seed"), std::string::npos);
+    EXPECT_EQ(text_of(here + "/study.toml").find("seed"), std::string::npos);
+    EXPECT_EQ(text_of(here + "/recording.csv").find("seed"), std::string::npos);
   }
 }
 
@@ -88,7 +88,7 @@ TEST(BlindStudy, WhatIsHiddenHasTheSizeThatWasAskedFor) {
   const ScratchFolder scratch;
   const std::string folder = scratch.file("out");
   make_trials(study_in(scratch), folder, 1);
-  for (const KeyEntry& k : key_of(report::text_of(folder + "/key.json")).entries) {
+  for (const KeyEntry& k : key_of(text_of(folder + "/key.json")).entries) {
     switch (k.plan.stratum) {
       case Stratum::null:
         EXPECT_TRUE(k.effects.empty());
@@ -156,7 +156,7 @@ TEST(BlindStudy, AChangedKeyOrChangedAnswersAreNotScored) {
   answer_trials(folder, consistent, 1);
   EXPECT_EQ(score_folder(folder).size(), 6u);
   for (const char* name : {"key.json", "answers.json"}) {
-    const std::string path = folder + "/" + name, text = report::text_of(path);
+    const std::string path = folder + "/" + name, text = text_of(path);
     std::ofstream(path, std::ios::binary) << text << " ";
     try {
       score_folder(folder);
@@ -201,8 +201,8 @@ TEST(BlindStudy, TrialsDependOnTheSeedAloneAndNotOnThreads) {
   EXPECT_EQ(one, two);
   for (int n = 1; n <= 6; ++n) {
     const std::string name = "/trials/000" + std::to_string(n) + "/recording.csv";
-    EXPECT_EQ(report::text_of(scratch.file("one") + name),
-              report::text_of(scratch.file("two") + name));
+    EXPECT_EQ(text_of(scratch.file("one") + name),
+              text_of(scratch.file("two") + name));
   }
 }
 

@@ -33,8 +33,8 @@ diagnosis::Diagnosis with(diagnosis::Verdict verdict, std::vector<search::Cause>
   return d;
 }
 
-bool says(const std::string& diagnosis::text, const char* part) {
-  return diagnosis::text.find(part) != std::string::npos;
+bool says(const std::string& text, const char* part) {
+  return text.find(part) != std::string::npos;
 }
 
 TEST(Sentence, OfANamedCauseStartsWithWordsAndHasTheKeyInBrackets) {
@@ -61,8 +61,8 @@ TEST(Sentence, SaysWhatAnAxisBelongsTo) {
 
 TEST(Sentence, OfEveryTermStartsWithWords) {
   for (const TermInfo& term : TermLibrary::terms) {
-    const std::string diagnosis::text = diagnosis::in_words(term.key, "");
-    EXPECT_EQ(diagnosis::text.find('_'), std::string::npos) << diagnosis::text;
+    const std::string text = diagnosis::in_words(term.key, "");
+    EXPECT_EQ(text.find('_'), std::string::npos) << text;
   }
 }
 
@@ -135,10 +135,10 @@ TEST(Sentence, OfANamedCauseSaysWhatElseLeavesItsTrace) {
   // Said once: not again of all axes of that term, nor of what the verdict names anyway.
   d.causes[0].confusable_with.push_back({"accelerometer_cross", "", 1.0});
   d.causes[0].confusable_with.push_back({"sag", "", 1.0});
-  const std::string diagnosis::text = diagnosis::sentence(d);
-  EXPECT_EQ(diagnosis::text.find("leave the same trace"),
-            diagnosis::text.rfind("leave the same trace"))
-      << diagnosis::text;
+  const std::string text = diagnosis::sentence(d);
+  EXPECT_EQ(text.find("leave the same trace"),
+            text.rfind("leave the same trace"))
+      << text;
 }
 
 TEST(Sentence, OfOneCauseThatHeldOutDataDoNotSupportIsNotEitherOr) {

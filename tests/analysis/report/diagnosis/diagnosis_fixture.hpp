@@ -38,8 +38,8 @@ seed = 3
 )";
 
 inline mc::Study read_text(const test::ScratchFolder& folder, const std::string& name,
-                           const std::string& diagnosis::text) {
-  return mc::read_study(folder.write(name, diagnosis::text));
+                           const std::string& text) {
+  return mc::read_study(folder.write(name, text));
 }
 
 /// A diagnosis made by hand: D_S_y was left out, found beside a confusable D_I_z; every list

@@ -122,10 +122,10 @@ TEST(DiagnosisPage, IsWellFormedOfflineAndEscaped) {
   EXPECT_EQ(testing::xml_problem(page, void_tags), std::nullopt);
   EXPECT_EQ(page.find("://"), std::string::npos);
   EXPECT_EQ(page.find("<script"), std::string::npos);
-  for (const char* diagnosis::text :
+  for (const char* text :
        {"six &amp; &lt;positions&gt;", "rec &lt;1&gt;.csv", "a &lt;remark&gt; &amp; more",
         "g_drift D_S_y &lt;&amp;&gt;", "[[plan.position]]"})
-    EXPECT_NE(page.find(diagnosis::text), std::string::npos) << diagnosis::text;
+    EXPECT_NE(page.find(text), std::string::npos) << text;
   const auto figures = report::diagnosis_figures(d);
   EXPECT_EQ(figures.size(), 7u);
   for (const report::Figure& f : figures)
@@ -197,8 +197,8 @@ TEST(DiagnosisCandidates, TheCausesAreShownHoweverWeakEachIsAlone) {
   EXPECT_EQ(shown[21].score->term, "magnetic_drift");
   const auto figures = report::name_figures(d);
   ASSERT_EQ(figures.front().file, "candidates.svg");
-  for (const char* diagnosis::text : {"magnetic_drift.y", "alternative 1", "alternative 2"})
-    EXPECT_NE(figures.front().svg.find(diagnosis::text), std::string::npos) << diagnosis::text;
+  for (const char* text : {"magnetic_drift.y", "alternative 1", "alternative 2"})
+    EXPECT_NE(figures.front().svg.find(text), std::string::npos) << text;
   EXPECT_EQ(figures.front().svg.find("g2_drift.x 40"), std::string::npos);
   const std::string out = to_text(d);
   EXPECT_NE(out.find("magnetic_drift.y"), std::string::npos) << out;
@@ -218,8 +218,8 @@ TEST(DiagnosisPage, ComparesNothingWhereNoCauseIsInTheModel) {
   d.has_patch = false;
   d.causes.clear();
   const std::string page = report::to_html(report::diagnosis_html(study, d, {}));
-  for (const char* diagnosis::text : {"with the cause", "acc_x, after", "Before and after"})
-    EXPECT_EQ(page.find(diagnosis::text), std::string::npos) << diagnosis::text;
+  for (const char* text : {"with the cause", "acc_x, after", "Before and after"})
+    EXPECT_EQ(page.find(text), std::string::npos) << text;
   EXPECT_NE(page.find("No cause is in the model."), std::string::npos);
   EXPECT_EQ(to_text(d).find("with the cause"), std::string::npos);
 }
@@ -261,10 +261,10 @@ TEST(DiagnosisTables, SayALikenessOnceByItsAxis) {
 
 TEST(DiagnosisTables, NearlyAllAbsorbedIsNotAll) {
   diagnosis::Diagnosis d = testing::diagnosis(nominal());
-  for (const auto& [share, diagnosis::text] :
+  for (const auto& [share, text] :
        {std::pair{0.93, "93 %"}, {0.9966, "99.7 %"}, {0.99962, "99.96 %"}, {0.004, "0.4 %"}}) {
     d.candidates[0].absorbed = share;
-    EXPECT_NE(to_text(d).find(diagnosis::text), std::string::npos) << diagnosis::text;
+    EXPECT_NE(to_text(d).find(text), std::string::npos) << text;
   }
 }
 
@@ -293,9 +293,9 @@ TEST(DiagnosisText, SaysTheVerdictFirstAndStaysWithinTheTerminal) {
   EXPECT_TRUE(out.starts_with(
       "Verdict named: The nominal model lacks g-sensitive drift (mass unbalance), gyro y"))
       << out;
-  for (const char* diagnosis::text :
+  for (const char* text :
        {"platform rate y", "eta_x", "Advice: Add x up", "gimbal_white", "9.10 →"})
-    EXPECT_NE(out.find(diagnosis::text), std::string::npos) << diagnosis::text;
+    EXPECT_NE(out.find(text), std::string::npos) << text;
   EXPECT_LT(std::count(out.begin(), out.end(), '\n'), 60);
 }
 
@@ -366,10 +366,10 @@ TEST(DiagnosisFolder, ThePatchOfAnAmbiguousVerdictSaysWhichAlternativeItHolds) {
   EXPECT_TRUE(mc::read_study(out + "/patched.toml")
                   .filters.front()
                   .active[TermLibrary::find("D_S_y").value()]);
-  for (const std::string& diagnosis::text :
+  for (const std::string& text :
        {to_text(d), report::to_json(d), test::text_of(out + "/report.html")})
-    EXPECT_NE(diagnosis::text.find("(patched.toml) holds alternative (1)"), std::string::npos)
-        << diagnosis::text;
+    EXPECT_NE(text.find("(patched.toml) holds alternative (1)"), std::string::npos)
+        << text;
   d.causes.pop_back();
   EXPECT_NE(diagnosis::patch_text(d).find("it is not confirmed"), std::string::npos)
       << diagnosis::patch_text(d);

@@ -46,7 +46,7 @@ TEST(PublishedComparison, StandsBesideOurRunsTheTruthAndTheIndependentTest) {
   EXPECT_EQ(rows_of(tables[1], "component test")[2][1].text, "112");
   EXPECT_EQ(rows_of(tables[1], "this run, EKF")[0].back().text, "depends on start");
   EXPECT_EQ(rows_of(tables[0], "this run, EKF")[0].back().text, "starts agree");
-  EXPECT_LE(report::text_width(tables[1]), 100u);
+  EXPECT_LE(text_width(tables[1]), 100u);
 }
 
 TEST(PublishedComparison, IndependentTestAloneStandsBesideEveryFilter) {
