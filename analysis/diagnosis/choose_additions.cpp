@@ -73,7 +73,7 @@ std::vector<std::size_t> choose_additions(const Information& start,
     }
     return made;
   };
-  const Selection thrifty = search::greedy(1.0), lavish = search::greedy(0.0);
+  const Selection thrifty = greedy(1.0), lavish = greedy(0.0);
   const auto there = [&](const Selection& s) { return s.reached.part >= all_there; };
   // A margin that is cheap is taken: the diagnosis that follows knows the noise less well than this
   // does.
