@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 
+#include "core/base/units.hpp"
 #include "core/stats/chi_square.hpp"
 #include "mc/task/campaign.hpp"
 
