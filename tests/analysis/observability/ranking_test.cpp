@@ -137,17 +137,17 @@ TEST(Ranking, TimeBinsHoldTheInformationOfTheWhole) {
   EXPECT_LT((a.transpose() * a - b.transpose() * b).norm(), 1e-12 * (a.transpose() * a).norm());
 }
 
-struct report::TableRow {
+struct TableRow {
   const char* preset;
   int acc, acc_enc;  ///< rank of 63, physics.md 2.5 (twelve: see pwcs_test.cpp)
 };
-constexpr report::TableRow table[] = {
+constexpr TableRow table[] = {
     {"six", 34, 36}, {"apollo10", 51, 52}, {"twelve", 45, 45}, {"twentyfour", 45, 45}};
 
 TEST(Ranking, RanksOfTheTableFromTheInformation) {
   // The table knows the rotations between positions: one attitude error for all, in local axes. So
   // the rows of all positions stand under the same three columns here, without any prior.
-  for (const report::TableRow& row : table)
+  for (const TableRow& row : table)
     for (const bool gimbals : {false, true}) {
       observability::RankedModel model = model_of(Coupling::eq5);
       model.readout.gimbals = gimbals;
@@ -167,7 +167,7 @@ TEST(Ranking, WithGimbalsACagingCostsNoRank) {
   // Gimbals have no parameters of their own: they tell the attitude after every caging. What is
   // left of the table's rank is that of the parameters, 3 less.
   for (const Coupling coupling : {Coupling::eq5, Coupling::eq6})
-    for (const report::TableRow& row : table) {
+    for (const TableRow& row : table) {
       const TestPlan plan = plan_of(row.preset, CommandLaw::level, 3600.0, 300.0);
       const observability::Ranking r =
           observability::rank_parameters(observability::linearise(plan, model_of(coupling)));
