@@ -18,16 +18,6 @@ double detectable_z(double strength_threshold) {
   return std::sqrt(stats::quantile_of_strength(strength_threshold, 1)) + 0.84;
 }
 
-std::vector<int> columns_of(const search::Examination& e,
-                            const std::vector<search::Choice>& choices) {
-  std::vector<int> columns;
-  for (const search::Choice& c : choices) {
-    const auto& more = e.set.candidates[c.candidate].variants[c.variant].columns;
-    columns.insert(columns.end(), more.begin(), more.end());
-  }
-  return columns;
-}
-
 }  // namespace
 
 void fill_candidates(const search::Examination& nominal, const search::Search& found,
@@ -118,7 +108,7 @@ void fill_causes(const search::Examination& nominal, const search::Search& found
       cause.axis = c.axis;
       cause.set = static_cast<int>(set);
       cause.probability = found.probability[set];
-      const auto own = columns_of(nominal, {choice});
+      const auto own = search::columns_of(nominal.set, {choice});
       const inference::Contrast contrast = inference::make_contrast(p.C, p.raw, own);
       cause.dof = contrast.dof;
       // Each of several with the others in the model: alone it may cancel against them.
@@ -126,10 +116,10 @@ void fill_causes(const search::Examination& nominal, const search::Search& found
       for (const search::Choice& o : r.choices)
         if (o.candidate != choice.candidate) others.push_back(o);
       const auto T_of = [&](const std::vector<search::Choice>& some) {
-        return inference::make_contrast(p.C, p.raw, columns_of(nominal, some)).T(p.g);
+        return inference::make_contrast(p.C, p.raw, search::columns_of(nominal.set, some)).T(p.g);
       };
       cause.T = std::max(0.0, T_of(r.choices) - (others.empty() ? 0.0 : T_of(others)));
-      if (c.term == "frame_closure") {  // far from linear: what counts is the fit
+      if (c.term == closure_term) {  // far from linear: what counts is the fit
         cause.T = std::max(cause.T, 2.0 * r.log_bayes);
         cause.dof = std::max(cause.dof, 1);
       }
@@ -205,7 +195,7 @@ void fill_causes(const search::Examination& nominal, const search::Search& found
                     "likelihood better by {:.1f}).",
                     nominal.lone.equation, nominal.lone.gain));
   for (const search::Cause& c : d.causes)
-    if (c.term == "frame_closure")
+    if (c.term == closure_term)
       d.remarks.push_back(
           "Cross-talk between the torquing channels (taken as zero) moves lambda (frame_closure) "
           "as much "

@@ -8,13 +8,14 @@
 
 #include "analysis/diagnosis/sentence.hpp"
 #include "analysis/inference/evidence.hpp"
+#include "core/base/words.hpp"
 
 namespace drift::diagnosis {
 
 void weigh_candidates(const search::Examination& nominal, const search::Search& found,
                       Diagnosis& d) {
   for (search::CandidateScore& line : d.candidates) {
-    if (line.term != "frame_closure" || !(found.other_equation > line.score)) continue;
+    if (line.term != closure_term || !(found.other_equation > line.score)) continue;
     line.score = found.other_equation;
     line.p_marginal =
         std::exp(-0.5 * found.other_equation);  // two points: P(2 log LR > T) <= exp(-T/2)
@@ -103,26 +104,24 @@ void say_beyond_prior(const BatchResult& nominal, Diagnosis& d) {
     farthest = std::max(farthest, off);
   }
   if (far.empty()) return;
-  const std::string more = far.size() > most ? fmt::format(" and {} more", far.size() - most) : "";
-  far.resize(std::min(most, far.size()));
   d.remarks.push_back(
-      fmt::format("The nominal fit takes {}{} up to {:.0f} sigmas from where their priors have "
+      fmt::format("The nominal fit takes {} up to {:.0f} sigmas from where their priors have "
                   "them. If that is not this "
                   "platform, the study is not of this recording: check [site] latitude, axes and "
                   "commands of the plan, "
                   "and the priors",
-                  fmt::join(far, ", "), more, farthest));
+                  listed_up_to(far, most), farthest));
 }
 
 void say_equation(Diagnosis& d) {
-  const bool closure_is_a_cause = std::ranges::any_of(
-      d.causes, [](const search::Cause& c) { return c.term == "frame_closure"; });
+  const bool closure_is_a_cause =
+      std::ranges::any_of(d.causes, [](const search::Cause& c) { return c.term == closure_term; });
   if (!std::isfinite(d.other_equation_gain) || closure_is_a_cause ||
       d.other_equation_gain < -equation_told)
     return;
-  const bool six = d.nominal.coupling == Coupling::eq6;
+  const CouplingFacts& nominal = facts(d.nominal.coupling);
   const std::string both = fmt::format("This plan cannot tell the nominal eq. ({}) from eq. ({})",
-                                       six ? 6 : 5, six ? 5 : 6);
+                                       nominal.number, facts(*nominal.other).number);
   if (d.verdict == Verdict::consistent) d.sentence += fmt::format(" {}.", both);
   d.remarks.push_back(fmt::format(
       "{}: fitted with the other, the test is explained as well (twice the log of the odds: "
