@@ -77,12 +77,8 @@ std::optional<inference::NoiseEstimate> noise_beside_equation(const FilterSpec& 
                                                               const BatchResult& fit) {
   constexpr double evident = 1.5, most = 0.8;  // chi-square per degree; part of its excess
   FilterSpec other = nominal;
-  if (nominal.coupling == Coupling::eq5)
-    other.coupling = Coupling::eq6;
-  else if (nominal.coupling == Coupling::eq6)
-    other.coupling = Coupling::eq5;
-  else
-    return std::nullopt;
+  if (!facts(nominal.coupling).other) return std::nullopt;
+  other.coupling = *facts(nominal.coupling).other;
   const auto per_dof = [](const BatchResult& f) {
     return f.estimate.statistic /
            static_cast<double>(std::max<std::size_t>(1, f.estimate.measured));

@@ -11,25 +11,19 @@
 #include "analysis/inference/noise_finding.hpp"
 #include "analysis/search/cause.hpp"
 #include "core/base/linalg.hpp"
+#include "core/base/named.hpp"
 #include "core/physics/model_spec.hpp"
 
 namespace drift::diagnosis {
 
 /// What a diagnosis ends with (interfaces.md 6).
 enum class Verdict { consistent, named, ambiguous, unexplained };
-
+inline constexpr Named<Verdict> verdicts[] = {{"consistent", Verdict::consistent},
+                                              {"named", Verdict::named},
+                                              {"ambiguous", Verdict::ambiguous},
+                                              {"unexplained", Verdict::unexplained}};
 constexpr std::string_view text(Verdict v) {
-  switch (v) {
-    case Verdict::consistent:
-      return "consistent";
-    case Verdict::named:
-      return "named";
-    case Verdict::ambiguous:
-      return "ambiguous";
-    case Verdict::unexplained:
-      break;
-  }
-  return "unexplained";
+  return name_in(verdicts, v);
 }
 
 /// The missing input as a time series with its band: a platform rate or a channel error.
