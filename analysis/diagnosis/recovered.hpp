@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/diagnosis/diagnosis.hpp"
+#include "analysis/diagnosis/recovered_signal.hpp"
 #include "analysis/search/examination.hpp"
 
 namespace drift::diagnosis {
