@@ -9,13 +9,13 @@
 #include "analysis/diagnosis/candidate_table.hpp"
 #include "analysis/diagnosis/causes.hpp"
 #include "analysis/diagnosis/compare.hpp"
-#include "analysis/diagnosis/covariates.hpp"
 #include "analysis/diagnosis/judge.hpp"
 #include "analysis/diagnosis/located.hpp"
 #include "analysis/diagnosis/noise_found.hpp"
 #include "analysis/diagnosis/nominal_fit.hpp"
 #include "analysis/diagnosis/patched_study.hpp"
-#include "analysis/identification/recorded_test.hpp"
+#include "analysis/preparation/covariates.hpp"
+#include "analysis/preparation/recorded_test.hpp"
 #include "core/base/check.hpp"
 #include "core/estimate/starts.hpp"
 #include "mc/task/campaign.hpp"
@@ -85,7 +85,8 @@ void append(std::vector<Remark>& remarks, std::vector<Remark> more) {
 }  // namespace
 
 Diagnosis diagnose(const FilterSpec& nominal_filter, const inference::Test& given,
-                   std::span<const Theta> starts, const std::vector<Covariate>& covariates,
+                   std::span<const Theta> starts,
+                   const std::vector<preparation::Covariate>& covariates,
                    const DiagnoseOptions& options, const std::vector<std::size_t>& recording_ends) {
   const mc::ThreadCount threads(options.threads);
   Diagnosis d;
@@ -162,7 +163,7 @@ Diagnosis diagnose(const mc::Study& study, const std::vector<Recording>& recordi
                                  "section [[filter]] with name and coupling",
                                  study.path));
   const FilterSpec& filter = study.filters.front();
-  const identification::RecordedTest test = identification::recorded_test(study, recordings);
+  const preparation::RecordedTest test = preparation::recorded_test(study, recordings);
   std::vector<Theta> starts;
   for (int k = 0; k + 1 < options.starts; ++k) {
     FilterSpec drawn = filter;
@@ -170,7 +171,7 @@ Diagnosis diagnose(const mc::Study& study, const std::vector<Recording>& recordi
     starts.push_back(initial_estimate(drawn, study.monte_carlo.seed, static_cast<std::size_t>(k)));
   }
   return diagnose(filter, {test.timeline, study.readout, test.measured}, starts,
-                  covariates_of(recordings), options, test.ends);
+                  preparation::covariates_of(recordings), options, test.ends);
 }
 
 }  // namespace drift::diagnosis

@@ -36,7 +36,7 @@ std::string equation_of(const Judged& judged, const std::vector<InputEstimate>& 
 
 Located located(const search::Examination& nominal, const search::Search& found,
                 const Judged& judged, const Timeline& timeline,
-                const std::vector<Covariate>& covariates, Signals signals) {
+                const std::vector<preparation::Covariate>& covariates, Signals signals) {
   const search::Refit* best = found.sets.empty() ? nullptr : &found.sets.front();
   // What the cause explains, by the refit: what it takes out of the residuals.
   inference::LinearProblem shown = nominal.problem;

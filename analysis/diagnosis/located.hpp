@@ -21,6 +21,6 @@ enum class Signals { recovered, left_out };
 /// with everything in it that the nominal model leaves.
 Located located(const search::Examination& nominal, const search::Search& found,
                 const Judged& judged, const Timeline& timeline,
-                const std::vector<Covariate>& covariates, Signals signals);
+                const std::vector<preparation::Covariate>& covariates, Signals signals);
 
 }  // namespace drift::diagnosis
