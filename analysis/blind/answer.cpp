@@ -66,8 +66,7 @@ Json of(const Answer& a) {
           {"chi2_per_dof_after", json_number(a.chi2_after)},
           {"held_out", a.held_out},
           {"held_out_gain", json_number(a.held_out_gain)},
-          {"seconds", json_number(a.seconds)},
-          {"sentence", a.sentence}};
+          {"seconds", json_number(a.seconds)}};
 }
 
 Answer from(const Json& j) {
@@ -89,7 +88,6 @@ Answer from(const Json& j) {
   a.held_out = j.at("held_out");
   a.held_out_gain = number_of(j.at("held_out_gain"));
   a.seconds = number_of(j.at("seconds"));
-  a.sentence = j.at("sentence");
   return a;
 }
 
@@ -133,7 +131,6 @@ Answer answer_of(const diagnosis::Diagnosis& d) {
   a.chi2_after = d.fit.chi2_per_dof_after;
   a.held_out = !d.fit.held_out.folds.empty();
   a.held_out_gain = d.fit.held_out.log_score_gain;
-  a.sentence = d.sentence;
   return a;
 }
 

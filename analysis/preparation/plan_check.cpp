@@ -1,4 +1,4 @@
-#include "analysis/diagnosis/plan_check.hpp"
+#include "analysis/preparation/plan_check.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,7 +12,7 @@
 #include "core/plan/timeline.hpp"
 #include "core/sim/measurements.hpp"
 
-namespace drift::diagnosis {
+namespace drift::preparation {
 namespace {
 
 constexpr double deg_per_h = unit::deg_per_h.to_si;
@@ -240,4 +240,4 @@ void check_plan(const mc::Study& study, const Recording& recording,
     check_law(study, source, timeline, measurements_of(recording, study.readout), dwells, wrong);
 }
 
-}  // namespace drift::diagnosis
+}  // namespace drift::preparation
