@@ -78,13 +78,14 @@ class Adviser {
             whose.push_back({cause, c, v});
           }
         }
-        const inference::Projector p(problem(test_.timeline, test_.measured, fit_, columns),
-                                     noise_);
+        const inference::Projected p =
+            inference::Projector(problem(test_.timeline, test_.measured, fit_, columns), noise_)
+                .candidates();
         double most = -1.0;
         std::optional<Rival> nearest;
         for (std::size_t k = 0; k < whose.size(); ++k)
-          if (const double c = std::abs(
-                  search::cosine(p.candidates(), own, few.candidates[k].variants.front().columns));
+          if (const double c =
+                  std::abs(search::cosine(p, own, few.candidates[k].variants.front().columns));
               c > most) {
             most = c;
             nearest = whose[k];

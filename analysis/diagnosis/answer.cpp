@@ -32,7 +32,7 @@ std::vector<int> columns_of(const search::Examination& e,
 
 void fill_candidates(const search::Examination& nominal, const search::Search& found,
                      Diagnosis& d) {
-  const inference::Projected& p = nominal.projector->candidates();
+  const inference::Projected& p = nominal.projected;
   std::map<std::string, double> offers;
   for (const inference::Candidate& c : nominal.set.candidates) offers[c.term] += 1.0;
   double top = 0.0, sum = 1.0;  // the nominal model itself
@@ -106,7 +106,7 @@ void fill_noise(const search::Examination& nominal, std::size_t spikes, Diagnosi
 }
 
 void fill_causes(const search::Examination& nominal, const search::Search& found, Diagnosis& d) {
-  const inference::Projected& p = nominal.projector->candidates();
+  const inference::Projected& p = nominal.projected;
   std::vector<std::vector<int>> columns;
   for (std::size_t set = 0; set < found.sets.size(); ++set) {
     const search::Refit& r = found.sets[set];
@@ -217,10 +217,9 @@ bool noise_of_one_axis(const search::Examination& nominal, Diagnosis& d) {
   if (!nominal.noise.driven ||
       all.angle_random_walk + all.drift_random_walk + all.markov_drift == 0.0)
     return false;
-  inference::LinearProblem bare = nominal.problem;
-  bare.extra.resize(bare.rows(), 0);
+  const inference::LinearProblem bare = nominal.problem.bare();
   const auto value = [&](const inference::NoiseModel& m) {
-    return inference::Projector(bare, m).candidates().log_likelihood2();
+    return inference::Projector(bare, m).marginal().log_likelihood2();
   };
   const double together = value(all);
   double best = 0.0;
@@ -237,7 +236,7 @@ bool noise_of_one_axis(const search::Examination& nominal, Diagnosis& d) {
     }
   if (best < one_axis_gain) return false;
   d.p_value = std::min(d.p_value, 12.0 * std::exp(-0.5 * best));
-  d.where.equation = inference::equation_name(inference::Window::Equation::rate, axis);
+  d.where.equation = inference::equation_name(inference::Equation::rate, axis);
   d.remarks.push_back(fmt::format(
       "What drives the platform acts on gyro {} alone: it is no noise that the gyros share "
       "(twice the log likelihood better by {:.1f}).",

@@ -76,18 +76,16 @@ FitComparison compare(const search::Examination& nominal, const search::Refit* p
       const auto& more = nominal.set.candidates[choice.candidate].variants[choice.variant].columns;
       columns.insert(columns.end(), more.begin(), more.end());
     }
-  inference::LinearProblem problem = nominal.problem;
-  problem.extra = nominal.problem.extra(Eigen::all, columns);
-  const inference::Projector before(problem, after.noise.model);
+  const inference::Projector before(nominal.problem, after.noise.model);
   const auto per_row = [](const inference::Projector& p) {
-    return p.candidates().chi2 /
-           static_cast<double>(std::max<Eigen::Index>(1, p.candidates().rows));
+    return p.marginal().chi2 / static_cast<double>(std::max<Eigen::Index>(1, p.marginal().rows));
   };
   c.whiteness.nis_per_dof_before = per_row(before);
   c.whiteness.nis_per_dof_after = per_row(*after.projector);
   c.whiteness.ljung_box_p_before = c.whiteness.ljung_box_p_after = std::nan("");
   if (whiteness_draws > 0) {
-    c.whiteness.ljung_box_p_before = inference::whiteness_p(problem, before, 10, whiteness_draws);
+    c.whiteness.ljung_box_p_before =
+        inference::whiteness_p(nominal.problem, before, 10, whiteness_draws);
     c.whiteness.ljung_box_p_after =
         patched ? inference::whiteness_p(after.problem, *after.projector, 10, whiteness_draws)
                 : c.whiteness.ljung_box_p_before;
@@ -95,8 +93,8 @@ FitComparison compare(const search::Examination& nominal, const search::Refit* p
   c.residual_before = residuals(nominal.fit);
   c.residual_after = residuals(after.fit);
   if (!patched) return c;
-  const inference::Projected& p = before.candidates();
-  c.log_likelihood_ratio = p.chi2 - after.projector->candidates().chi2;
+  c.log_likelihood_ratio = before.marginal().chi2 - after.projector->marginal().chi2;
+  const inference::Projected p = before.candidates(columns);
   std::vector<int> own(columns.size());
   std::iota(own.begin(), own.end(), 0);
   c.linear_T = inference::make_contrast(p.C, p.raw, own).T(p.g);

@@ -12,6 +12,7 @@
 #include "analysis/diagnosis/locate.hpp"
 #include "analysis/diagnosis/patched_study.hpp"
 #include "analysis/identification/recorded_test.hpp"
+#include "analysis/inference/gross_misfit.hpp"
 #include "analysis/search/explained.hpp"
 #include "core/base/check.hpp"
 #include "core/estimate/starts.hpp"

@@ -69,23 +69,18 @@ VecX signature_of(const inference::Projector& projector,
   return projector.clean_extra(columns) * amplitude;
 }
 
-VecX signature_of(const inference::LinearProblem& problem, const Timeline& timeline,
+VecX signature_of(const inference::MeasuredRows& rows, const Timeline& timeline,
                   const inference::Projector& projector, const inference::Window& window) {
-  inference::LinearProblem one = problem;
-  one.extra.resize(problem.rows(), 1);
-  one.extra.col(0) = inference::window_signature(problem, timeline, window, 0, problem.rows());
+  MatX box = inference::window_signature(rows, timeline, window, 0, rows.rows());
   // What the box does after its chain has ended is nothing.
   const int chain = timeline.intervals[window.first].chain;
-  for (Eigen::Index k = 0; k < problem.rows(); ++k)
-    if (timeline.intervals[problem.tags[k].interval].chain != chain) one.extra(k, 0) = 0.0;
-  const double norm = one.extra.norm();
-  if (norm > 0.0) one.extra /= norm;
-  const inference::Whitener* w = projector.whitener();
-  const inference::Projector with(projector.theta(), w ? w->apply(one.extra) : one.extra,
-                                  projector.r0(), 0.0);
-  const inference::Projected& p = with.candidates();
-  return p.C(0, 0) > 0.0 ? VecX(with.clean_extra({0}) * (p.g[0] / p.C(0, 0)))
-                         : VecX::Zero(problem.rows());
+  for (Eigen::Index k = 0; k < rows.rows(); ++k)
+    if (timeline.intervals[rows.tags[k].interval].chain != chain) box(k, 0) = 0.0;
+  const double norm = box.norm();
+  if (norm > 0.0) box /= norm;
+  const inference::Projector::Scan p = projector.scan(box, 0);
+  if (!(p.C(0, 0) > 0.0)) return VecX::Zero(rows.rows());
+  return projector.clean(projector.whitener().apply(box)) * (p.g[0] / p.C(0, 0));
 }
 
 Where locate(const search::Examination& e, const search::Nulls& nulls, const VecX& signature,

@@ -16,7 +16,7 @@ VecX signature_of(const inference::Projector& projector,
                   const std::vector<std::pair<int, double>>& cause);
 
 /// The same of a window's box at the amplitude that fits best.
-VecX signature_of(const inference::LinearProblem& problem, const Timeline& timeline,
+VecX signature_of(const inference::MeasuredRows& rows, const Timeline& timeline,
                   const inference::Projector& projector, const inference::Window& window);
 
 /// The strongest window of all; null if nothing was scanned.

@@ -15,7 +15,7 @@ struct Covariate {
 /// (Ornstein-Uhlenbeck prior whose size and time constant maximise the likelihood), parameters and
 /// attitudes marginalised. What fitted parameters can absorb is not recovered (discovery.md 2.4 b).
 struct InputEstimate {
-  inference::Window::Equation equation = inference::Window::Equation::rate;
+  inference::Equation equation = inference::Equation::rate;
   int axis = 0;
   std::vector<std::pair<std::size_t, std::size_t>> bins;  ///< intervals of each
   VecX value, sigma;                                      ///< of each bin, SI
@@ -27,7 +27,7 @@ struct InputEstimate {
 };
 
 /// The same for each of the twelve equations, best first. per_position: bins of each position.
-std::vector<InputEstimate> estimate_inputs(const inference::LinearProblem& problem,
+std::vector<InputEstimate> estimate_inputs(const inference::MeasuredRows& rows,
                                            const Timeline& timeline,
                                            const inference::Projector& projector, int per_position);
 

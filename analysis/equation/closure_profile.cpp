@@ -43,7 +43,7 @@ class Profiler {
     Point p{value, 0.0, fit_batch(held, test_.timeline, test_.readout, test_.measured, start)};
     inference::LinearProblem problem = inference::linear_problem(held, test_, p.fit, {});
     problem.weight = weight_;
-    p.log2 = inference::Projector(problem, noise_).candidates().log_likelihood2();
+    p.log2 = inference::Projector(problem, noise_).marginal().log_likelihood2();
     const double sigma = prior_.sigma();
     if (sigma > 0.0) p.log2 -= std::pow((value - prior_.mean()) / sigma, 2);
     return p;

@@ -7,9 +7,9 @@ namespace drift::search {
 
 /// Everything that competes to explain a misfit, at one linearisation and noise model.
 struct Field {
-  const inference::CandidateSet* set = nullptr;
-  const inference::Projected* projected = nullptr;
-  const std::vector<inference::PositionScan>* scans = nullptr;
+  inference::CandidateSet set;
+  inference::Projected projected;
+  std::vector<inference::PositionScan> scans;
   std::vector<std::vector<inference::Contrast>> contrasts;  ///< of each candidate and variant
   /// What a candidate's score owes to priors alone, taken off it (empty: nothing). lambda rescales
   /// the misalignments; their prior cost is all that it can gain where the data do not tell.
@@ -18,8 +18,9 @@ struct Field {
     return discount.empty() ? 0.0 : discount[candidate];
   }
 
-  Field(const inference::CandidateSet& candidates, const inference::Projected& p,
-        const std::vector<inference::PositionScan>& windows);
+  Field() = default;
+  Field(inference::CandidateSet candidates, inference::Projected p,
+        std::vector<inference::PositionScan> windows);
   /// All contrasts, for the null of the maximum.
   std::vector<inference::Contrast> all_contrasts() const;
 };

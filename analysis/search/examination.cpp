@@ -2,6 +2,9 @@
 
 #include <cmath>
 
+#include "analysis/inference/gross_misfit.hpp"
+#include "analysis/inference/robust_weights.hpp"
+
 namespace drift::search {
 
 inference::NoiseModel declared_noise(const FilterSpec& filter) {
@@ -29,14 +32,14 @@ double cost_of_misalignments(const FilterSpec& filter, const BatchResult& fit) {
 
 void set_noise(Examination& e, const Timeline& timeline, const inference::NoiseEstimate& noise) {
   e.noise = noise;
-  e.projector = std::make_unique<inference::Projector>(e.problem, noise.model);
-  e.scans = inference::scan_windows(e.problem, timeline, *e.projector);
-  e.field = std::make_unique<Field>(e.set, e.projector->candidates(), e.scans);
+  e.projector.emplace(e.problem, noise.model);
+  static_cast<Field&>(e) = {std::move(e.set), e.projector->candidates(),
+                            inference::scan_windows(e.problem, timeline, *e.projector)};
   const double cost = cost_of_misalignments(e.filter, e.fit);
   for (const inference::Candidate& c : e.set.candidates)
-    e.field->discount.push_back(c.term == "frame_closure" ? cost : 0.0);
+    e.discount.push_back(c.term == "frame_closure" ? cost : 0.0);
   e.scores.clear();
-  for (std::size_t k = 0; k < e.set.candidates.size(); ++k) e.scores.push_back(score(*e.field, k));
+  for (std::size_t k = 0; k < e.set.candidates.size(); ++k) e.scores.push_back(score(e, k));
 }
 
 Examination examine(const FilterSpec& filter, const inference::Test& test, const BatchResult& fit,
@@ -54,7 +57,7 @@ Examination examine(const FilterSpec& filter, const inference::Test& test, const
     return e;
   }
   const inference::Projector first(e.problem, given ? given->model : declared);
-  inference::robust_weights(e.problem, first.clean_residual());
+  e.problem.weight = inference::robust_weights(e.problem, first.clean_residual());
   set_noise(e, test.timeline,
             given ? *given : inference::estimate_noise(e.problem, declared, {}, driven ? 4 : 0));
   return e;
@@ -67,7 +70,7 @@ Examination examine(const FilterSpec& filter, const inference::Test& test, const
 }
 
 Nulls make_nulls(const Examination& e, double alpha, int draws) {
-  Nulls n{inference::MaxNull(e.projector->candidates().C, e.field->all_contrasts(), draws, 1),
+  Nulls n{inference::MaxNull(e.projected.C, e.all_contrasts(), draws, 1),
           inference::scan_null(e.scans, std::max(200, draws / 4))};
   n.library_threshold = n.library.threshold(alpha * library_share);
   // A window by chance must not rule out a cause: thousands are looked at.

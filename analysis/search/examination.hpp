@@ -1,6 +1,6 @@
 #pragma once
 
-#include <memory>
+#include <optional>
 
 #include "analysis/inference/lone_input.hpp"
 #include "analysis/inference/noise.hpp"
@@ -9,19 +9,16 @@
 namespace drift::search {
 
 /// A model fitted to a test and everything that can be said about what it leaves.
-struct Examination {
+struct Examination : Field {
   FilterSpec filter;
   BatchResult fit;
-  inference::CandidateSet set;
   inference::LinearProblem problem;
   inference::NoiseEstimate noise;
-  std::unique_ptr<inference::Projector> projector;
-  std::vector<inference::PositionScan> scans;
-  std::unique_ptr<Field> field;
+  std::optional<inference::Projector> projector;
   std::vector<Score> scores;   ///< of every candidate
   inference::LoneEffect lone;  ///< beside everything that is in the model; where it was asked for
 
-  double log_likelihood2() const { return projector->candidates().log_likelihood2(); }
+  double log_likelihood2() const { return projector->marginal().log_likelihood2(); }
 };
 
 /// Thresholds of a family of tests on one plan; they depend on the signatures, not on the data.

@@ -106,7 +106,7 @@ bool refine_grids(Examination& e, const inference::Test& test, double worth) {
     if (!place || e.scores[k].dof == 0 || e.scores[k].log_bayes < top - worth) continue;
     // Which gaps; from above, so that those below stay where they are.
     std::set<std::size_t, std::greater<>> gaps;
-    for (const std::size_t v : best_settings(*e.field, k, nearly, 2)) {
+    for (const std::size_t v : best_settings(e, k, nearly, 2)) {
       if (v + 1 < c.variants.size()) gaps.insert(v);
       if (v > 0) gaps.insert(v - 1);
     }

@@ -37,14 +37,14 @@ double grid_points(const Examination& e, std::size_t candidate) {
   const auto& variants = e.set.candidates[candidate].variants;
   std::size_t n = 0;
   for (std::size_t v = 0; v < variants.size(); ++v)
-    n += !variants[v].between && e.field->contrasts[candidate][v].dof > 0;
+    n += !variants[v].between && e.contrasts[candidate][v].dof > 0;
   return static_cast<double>(std::max<std::size_t>(1, n));
 }
 
 /// Change of the log evidence if the amplitudes of the causes are of unknown size (size_prior.hpp).
 /// lambda is no amplitude: it lies between 0 and 1.
 double gain_of_sizes(const inference::CandidateSet& set, const Refit& r) {
-  const inference::Projector::Fit fit = r.after.projector->fit({});
+  const inference::Projector::Fit fit = r.after.projector->fit();
   const Layout layout = make_layout(r.filter);
   std::vector<Eigen::Index> rows;
   std::vector<int> cause;
@@ -83,16 +83,9 @@ bool may_be_refined(const ParamSpec& spec) {
 }  // namespace
 
 VecX expected_amplitudes(const inference::Projected& p, const std::vector<int>& columns) {
-  const auto n = static_cast<Eigen::Index>(columns.size());
-  MatX C(n, n);
-  VecX g(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    g[i] = p.g[columns[i]];
-    for (Eigen::Index k = 0; k < n; ++k) C(i, k) = p.C(columns[i], columns[k]);
-  }
-  return (C + MatX::Identity(n, n))
-      .ldlt()
-      .solve(g);  // with the unit prior, so that nothing runs away
+  const VecX g = p.g(columns);
+  // With the unit prior, so that nothing runs away.
+  return (p.C(columns, columns) + MatX::Identity(g.size(), g.size())).ldlt().solve(g);
 }
 
 FilterSpec with_causes(const FilterSpec& nominal, const inference::CandidateSet& set,
@@ -139,7 +132,7 @@ Refit refit(const Examination& nominal, const inference::Test& test,
     columns.insert(columns.end(), v.columns.begin(), v.columns.end());
     for (const auto& [param, value] : v.settings) start[param] = value;
   }
-  const VecX amplitudes = expected_amplitudes(nominal.projector->candidates(), columns);
+  const VecX amplitudes = expected_amplitudes(nominal.projected, columns);
   std::size_t next = 0;
   for (const Choice& choice : choices)
     for (const std::size_t i : nominal.set.candidates[choice.candidate].params) {

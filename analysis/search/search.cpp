@@ -37,7 +37,7 @@ constexpr double slack = 1.25;
 std::vector<Choice> ways_of(const Examination& e, std::size_t k) {
   constexpr double nearly = 4.0;  // log evidence
   std::vector<Choice> ways;
-  for (const std::size_t v : best_settings(*e.field, k, nearly, 2)) ways.push_back({k, v});
+  for (const std::size_t v : best_settings(e, k, nearly, 2)) ways.push_back({k, v});
   return ways;
 }
 
@@ -100,13 +100,11 @@ std::vector<std::vector<Choice>> beside(const Refit& r, const inference::Candida
                                         const Nulls& nulls) {
   constexpr std::size_t asked = 12, most = 3;
   std::vector<std::vector<Choice>> pairs;
-  Field field(r.after.set, r.after.projector->candidates(),
-              r.after.scans);  // it has moved since it was examined
-  field.discount = r.after.field->discount;
   const auto order = by_evidence(r.after);
   for (std::size_t i = 0; i < std::min(asked, order.size()) && pairs.size() < most; ++i) {
     const std::size_t variant = r.after.scores[order[i]].variant;
-    const Remainder left = remainder(field, {{order[i], variant}}, slack * nulls.library_threshold);
+    const Remainder left =
+        remainder(r.after, {{order[i], variant}}, slack * nulls.library_threshold);
     const auto other = same_choice(nominal, r.after.set.candidates[order[i]], variant);
     if (left.library <= slack * nulls.library_threshold &&
         left.scan <= slack * nulls.scan_threshold && other)
@@ -132,7 +130,7 @@ double other_equation_gain(const Examination& nominal, const inference::Test& te
     inference::LinearProblem problem = inference::linear_problem(other, test, fit, {});
     problem.weight = nominal.problem.weight;
     best = std::max(
-        best, inference::Projector(problem, nominal.noise.model).candidates().log_likelihood2());
+        best, inference::Projector(problem, nominal.noise.model).marginal().log_likelihood2());
   }
   return best - nominal.log_likelihood2();
 }
@@ -142,7 +140,7 @@ Search search(Examination& nominal, const inference::Test& test, const SearchOpt
   out.nulls = make_nulls(nominal, options.alpha, options.draws);
   if (settle_noise(nominal, test, out.nulls.library_threshold))
     out.nulls = make_nulls(nominal, options.alpha, options.draws);
-  out.pairs = pair_null(*nominal.field, std::max(200, options.draws / 8));
+  out.pairs = pair_null(nominal, std::max(200, options.draws / 8));
 
   double library = 0.0, scan = 0.0;
   for (const Score& s : nominal.scores) library = std::max(library, s.strength);
@@ -151,7 +149,7 @@ Search search(Examination& nominal, const inference::Test& test, const SearchOpt
   // The other equation is a jump, not a small amplitude: by the likelihood ratio of two points,
   // P(2 log LR > T) <= exp(-T/2).
   const double other = out.other_equation = other_equation_gain(nominal, test);
-  const auto pairs = strongest_pairs(*nominal.field, 1);
+  const auto pairs = strongest_pairs(nominal, 1);
   out.p_library = out.nulls.library.p_value(std::max(library, 0.5 * other));
   out.p_scan = out.nulls.scan.p_value(scan);
   out.p_pairs = pairs.empty() ? 1.0 : out.pairs.p_value(pairs.front().strength);
@@ -165,7 +163,7 @@ Search search(Examination& nominal, const inference::Test& test, const SearchOpt
   for (std::size_t k = 0; k < nominal.scores.size(); ++k)
     out.linear.push_back(nominal.scores[k].dof == 0
                              ? Remainder{1e300, 1e300, 0}
-                             : least_remainder(*nominal.field, ways_of(nominal, k), out.nulls));
+                             : least_remainder(nominal, ways_of(nominal, k), out.nulls));
   if (!out.significant) return out;
 
   std::vector<std::size_t> singles = adequate_singles(nominal, out);
@@ -220,15 +218,14 @@ Search search(Examination& nominal, const inference::Test& test, const SearchOpt
     if (nominal.set.candidates[r.choices.front().candidate].term == "frame_closure" &&
         r.log_bayes > 0.0)
       for (auto& pair : beside(r, nominal.set, out.nulls)) tried.push_back(std::move(pair));
-  for (const Pair& p :
-       adequate_pairs(*nominal.field, nominal.scores, 1.1 * out.nulls.library_threshold,
-                      1.1 * out.nulls.scan_threshold, options.most_refits))
+  for (const Pair& p : adequate_pairs(nominal, nominal.scores, 1.1 * out.nulls.library_threshold,
+                                      1.1 * out.nulls.scan_threshold, options.most_refits))
     tried.push_back({p.a, p.b});
   try_more(tried);
   if (weigh(nominal, refits, false, options, out)) return out;
 
-  const auto several = greedy(*nominal.field, nominal.scores, out.nulls.library_threshold,
-                              out.nulls.scan_threshold, 4);
+  const auto several =
+      greedy(nominal, nominal.scores, out.nulls.library_threshold, out.nulls.scan_threshold, 4);
   if (several.size() > 2) try_more({several});
   if (weigh(nominal, refits, false, options, out)) return out;
   out.just_not = weigh(nominal, refits, true, options, out);

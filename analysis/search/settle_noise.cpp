@@ -1,6 +1,5 @@
 #include "analysis/search/settle_noise.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <map>
 #include <numeric>
@@ -20,12 +19,10 @@ constexpr double no_noise = 0.08, no_noise_lone = 0.045;
 /// the log of the marginal likelihood against its maximum.
 double price(const inference::LinearProblem& problem, const inference::NoiseModel& noise,
              const std::vector<int>& columns) {
-  inference::LinearProblem part = problem;
-  part.extra = problem.extra(Eigen::all, columns);
-  const MatX C = inference::Projector(part, noise).candidates().C +
-                 MatX::Identity(part.extra.cols(), part.extra.cols());
-  const MatX L = Eigen::LLT<MatX>(C).matrixL();
-  return 2.0 * L.diagonal().array().log().sum();
+  const auto log_det = [&](const inference::LinearProblem& p) {
+    return inference::Projector(p.bare(), noise).marginal().log_det;
+  };
+  return log_det(problem.with_mean(columns)) - log_det(problem);
 }
 
 /// A noise with what drives the platform made smaller.

@@ -81,9 +81,9 @@ TEST(LoneInput, IsFoundInItsEquation) {
   const Bench b(8.0);
   EXPECT_GT(strongest_lone_input(b.problem, {}).p_value, 0.01);  // nothing there
   for (const LoneInput& input :
-       {LoneInput{LoneInput::Equation::accelerometer, 2, 2.0 * b.problem.acc_sigma, 300.0},
-        LoneInput{LoneInput::Equation::gimbal, 0, b.problem.gimbal_sigma, 300.0},
-        LoneInput{LoneInput::Equation::rate, 1, 0.1 * deg_per_h, 3600.0}}) {
+       {LoneInput{Equation::accelerometer, 2, 2.0 * b.problem.acc_sigma, 300.0},
+        LoneInput{Equation::gimbal, 0, b.problem.gimbal_sigma, 300.0},
+        LoneInput{Equation::rate, 1, 0.1 * deg_per_h, 3600.0}}) {
     LinearProblem problem = b.problem;
     NoiseModel noise;
     noise.lone = input;
