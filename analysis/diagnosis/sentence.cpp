@@ -100,7 +100,7 @@ bool same_trace(const Diagnosis& d, std::size_t i, std::size_t k) {
   const auto a = static_cast<Eigen::Index>(i), b = static_cast<Eigen::Index>(k);
   const MatX& cosine = d.cosines.cosine;
   return a < cosine.rows() && b < cosine.cols() &&
-         search::cosine(a, b) * search::cosine(a, b) > one_direction;
+         cosine(a, b) * cosine(a, b) > one_direction;
 }
 
 bool same_trace(const Diagnosis& d, const Alternative& one, const Alternative& other) {

@@ -1,5 +1,7 @@
 #include "analysis/inference/noise_component.hpp"
 
+#include "core/base/units.hpp"
+
 namespace drift::inference {
 namespace {
 

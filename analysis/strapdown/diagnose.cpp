@@ -126,7 +126,7 @@ class Diagnoser {
   }
 
   void candidates() {
-    for (const PartOfModel& part : strapdown::parts_of_model()) {
+    for (const PartOfModel& part : parts_of_model()) {
       const Trial* t = trial_of(part);
       if (t == nullptr || holds(nominal_.model, part)) continue;
       CandidateScore c;
@@ -163,7 +163,7 @@ class Diagnoser {
 
   void causes() {
     const auto parameters = parameters_of(*final_);
-    for (const PartOfModel& part : strapdown::parts_of_model()) {
+    for (const PartOfModel& part : parts_of_model()) {
       if (!holds(final_->model, part) || holds(nominal_.model, part)) continue;
       // All of g_drift goes by its O and S parts: the common part of D_I is not observable.
       if (part.groups.front() == "D_I" && final_->model.drift >= DriftOrder::g_sensitive) continue;
@@ -285,7 +285,7 @@ class Diagnoser {
       d_.remarks.push_back(
           "D_I is fitted with D_O and D_S and is left out of the causes: its common part is not "
           "observable, and alone it improved nothing");
-    for (const Unobservable& u : strapdown::unobservable_of(*final_))
+    for (const Unobservable& u : unobservable_of(*final_))
       d_.remarks.push_back(fmt::format("not observable: {}: {}", u.what, u.reason));
   }
 

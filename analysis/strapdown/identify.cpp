@@ -75,7 +75,7 @@ StrapdownResult identify_strapdown(const Recording& recording, const StrapdownOp
         climb_gyros(equation, accelerometer, evidence, scoring, result.gyro_trials));
   }
   result.parameters = parameters_of(result.accepted.front());
-  result.unobservable = strapdown::unobservable_of(result.accepted.front());
+  result.unobservable = unobservable_of(result.accepted.front());
   result.contest = contest_of(result.accepted);
   return result;
 }

@@ -156,9 +156,9 @@ std::string time_svg(const std::vector<blind::TrialScore>& scores) {
 std::string to_text(const blind::Summary& summary, const std::vector<blind::TrialScore>& scores,
                     const Hashes& hashes) {
   std::string out;
-  for (const Table& t : tables_of(summary)) out += drift::text_of(t) + "\n";
+  for (const Table& t : tables_of(summary)) out += text_of(t) + "\n";
   out +=
-      drift::text_of(misses_table(scores), 160) + "\n" + wrapped(times_text(summary), 100) + "\n";
+      text_of(misses_table(scores), 160) + "\n" + wrapped(times_text(summary), 100) + "\n";
   for (const std::string& line : headlines(summary, hashes)) out += wrapped(line, 100) + "\n";
   return out;
 }

@@ -152,7 +152,7 @@ std::string hidden_text(const blind::TrialScore& s) {
 
 std::string answer_text(const blind::Answer& a) {
   if (a.failed) return "failed: " + a.failure;
-  std::string blind::text(diagnosis::text(a.verdict));
+  std::string text(diagnosis::text(a.verdict));
   std::string between = ": ";
   for (const auto& alternative : a.alternatives()) {
     std::vector<std::string> parts;
