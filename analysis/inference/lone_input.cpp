@@ -6,6 +6,7 @@
 
 #include "analysis/inference/projector.hpp"
 #include "analysis/inference/sigma_ladder.hpp"
+#include "core/base/units.hpp"
 #include "core/stats/chi_square.hpp"
 
 namespace drift::inference {

@@ -7,6 +7,7 @@
 
 #include "analysis/inference/projector.hpp"
 #include "core/base/rng.hpp"
+#include "core/base/units.hpp"
 
 namespace drift::inference {
 namespace {
