@@ -36,7 +36,7 @@ void require_nominal(const mc::Study& study) {
 void finish(const mc::Study& study, const diagnosis::Diagnosis& diagnosis,
             const report::DiagnosisSource& source, const std::string& folder,
             std::vector<std::string> more = {}) {
-  fmt::print("{}", to_text(diagnosis));
+  fmt::print("{}", report::to_text(diagnosis));
   if (folder.empty()) return;
   auto files = report::write_results(study, diagnosis, source, folder);
   files.insert(files.end(), more.begin(), more.end());
@@ -66,7 +66,7 @@ ExitCode diagnose_case(const StudyArguments& arguments, const mc::Study& study,
   if (!folder.empty())
     more = write_files({{"identification.json", report::to_json(found.result).dump(2) + "\n"}},
                        folder);
-  finish(study, found.diagnosis, {paths, to_text(found.result)}, folder, more);
+  finish(study, found.diagnosis, {paths, report::to_text(found.result)}, folder, more);
   return ExitCode::ok;
 }
 

@@ -31,7 +31,7 @@ ExitCode identify_case(const mc::Study& study, const std::vector<std::string>& p
   const auto recordings = read_recordings(study, paths);
   const strapdown::StrapdownResult result =
       strapdown::identify_strapdown(recordings.front(), options);
-  fmt::print("{}", to_text(result));
+  fmt::print("{}", report::to_text(result));
   if (!folder.empty())
     fmt::print("\nWritten to {}: {}\n", folder,
                fmt::join(report::write_results(study, result, folder), " "));
@@ -50,7 +50,7 @@ ExitCode identify(const StudyArguments& arguments, const std::vector<std::string
       paths.empty() ? identification::identify_simulated(study, run, arguments.threads, progress)
                     : identification::identify_recordings(study, read_recordings(study, paths),
                                                           arguments.threads, progress);
-  fmt::print("{}", to_text(study, id));
+  fmt::print("{}", report::to_text(study, id));
   if (!folder.empty()) {
     const auto files = report::write_results(study, id, folder);
     fmt::print("\nWritten to {}: {}\n", folder, fmt::join(files, " "));

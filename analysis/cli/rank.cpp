@@ -24,7 +24,8 @@ ExitCode rank(const StudyArguments& arguments, const RankArguments& options) {
   const planning::PlanRanking ranking = planning::rank_plan(study, what, progress);
   std::vector<std::string> files;
   if (!options.folder.empty()) files = report::write_results(study, ranking, options.folder);
-  fmt::print("{}", options.json ? report::to_json(study, ranking) : to_text(study, ranking));
+  fmt::print("{}",
+             options.json ? report::to_json(study, ranking) : report::to_text(study, ranking));
   if (!files.empty())
     fmt::print(options.json ? stderr : stdout, "\nWritten to {}: {}\n", options.folder,
                fmt::join(files, " "));

@@ -201,8 +201,7 @@ TEST(BlindStudy, TrialsDependOnTheSeedAloneAndNotOnThreads) {
   EXPECT_EQ(one, two);
   for (int n = 1; n <= 6; ++n) {
     const std::string name = "/trials/000" + std::to_string(n) + "/recording.csv";
-    EXPECT_EQ(text_of(scratch.file("one") + name),
-              text_of(scratch.file("two") + name));
+    EXPECT_EQ(text_of(scratch.file("one") + name), text_of(scratch.file("two") + name));
   }
 }
 

@@ -220,7 +220,7 @@ TEST(BlindTargets, AreReportedWithTheirStanding) {
   EXPECT_NE(report.find("exact, where an identical twin counts as the same cause"),
             std::string::npos)
       << report;
-  const std::string json = to_json(s, {}, {});
+  const std::string json = report::to_json(s, {}, {});
   EXPECT_NE(json.find("\"standing\": \"not decided\""), std::string::npos);
   EXPECT_NE(json.find("\"met\": true"), std::string::npos) << "by the share alone, as ever";
 }

@@ -136,9 +136,7 @@ TEST(Sentence, OfANamedCauseSaysWhatElseLeavesItsTrace) {
   d.causes[0].confusable_with.push_back({"accelerometer_cross", "", 1.0});
   d.causes[0].confusable_with.push_back({"sag", "", 1.0});
   const std::string text = diagnosis::sentence(d);
-  EXPECT_EQ(text.find("leave the same trace"),
-            text.rfind("leave the same trace"))
-      << text;
+  EXPECT_EQ(text.find("leave the same trace"), text.rfind("leave the same trace")) << text;
 }
 
 TEST(Sentence, OfOneCauseThatHeldOutDataDoNotSupportIsNotEitherOr) {

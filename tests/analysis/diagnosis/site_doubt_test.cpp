@@ -36,7 +36,7 @@ struct Scene {
         study.readout);
     study.site.latitude = latitude_deg * unit::deg.to_si;
   }
-  std::optional<SiteDoubt> inference::doubt(Verdict verdict) const {
+  std::optional<SiteDoubt> doubt(Verdict verdict) const {
     Diagnosis d;
     d.nominal = study.filters.front();
     d.verdict = verdict;

@@ -50,8 +50,7 @@ double p_of(const Scene& s, int draws = 99) {
   return whiteness_p(s.problem, Projector(s.theta, MatX(rows, 0), s.r0, 0.0), 5, draws, 7);
 }
 
-TEST(diagnosis::Whiteness,
-     PValuesOfWhiteInnovationsAreUniformThoughDwellsAreShortAndParametersMany) {
+TEST(Whiteness, PValuesOfWhiteInnovationsAreUniformThoughDwellsAreShortAndParametersMany) {
   constexpr int trials = 200;
   int below_tenth = 0, below_half = 0;
   for (int k = 0; k < trials; ++k) {
@@ -64,7 +63,7 @@ TEST(diagnosis::Whiteness,
   EXPECT_NEAR(below_half, 100, 29);
 }
 
-TEST(diagnosis::Whiteness, CorrelatedInnovationsAreFound) {
+TEST(Whiteness, CorrelatedInnovationsAreFound) {
   // Per channel 44 pairs at lag 1 with r = 0.7: Q gains some 20, several times its mean of 5.
   int found = 0;
   for (int k = 0; k < 10; ++k)
@@ -72,7 +71,7 @@ TEST(diagnosis::Whiteness, CorrelatedInnovationsAreFound) {
   EXPECT_GE(found, 9);
 }
 
-TEST(diagnosis::Whiteness, IsRepeatableAndNeverZero) {
+TEST(Whiteness, IsRepeatableAndNeverZero) {
   const Scene s = scene(0.9, 3);
   EXPECT_EQ(p_of(s), p_of(s));
   EXPECT_EQ(p_of(s), 1.0 / 100.0);

@@ -73,7 +73,7 @@ MatX textbook_covariance(const observability::LinearisedPlan& plan, int without 
   return I.inverse().bottomRightCorner(n, n);
 }
 
-TEST(observability::Ranking, SmallProblemInClosedForm) {
+TEST(Ranking, SmallProblemInClosedForm) {
   const observability::LinearisedPlan plan = small_plan();
   const MatX P = textbook_covariance(plan), I = P.inverse();
   const observability::Ranking r = observability::rank_parameters(plan);
@@ -95,7 +95,7 @@ TEST(observability::Ranking, SmallProblemInClosedForm) {
       std::ranges::is_sorted(r.order, {}, [&](std::size_t k) { return r.learning_ratio(k); }));
 }
 
-TEST(observability::Ranking, GainsAddUpAndLossesAreThoseOfAPlanWithoutThePosition) {
+TEST(Ranking, GainsAddUpAndLossesAreThoseOfAPlanWithoutThePosition) {
   const observability::LinearisedPlan plan = small_plan();
   const observability::Ranking r = observability::rank_parameters(plan);
   const observability::InformationCourse course = observability::information_course(plan);
@@ -110,7 +110,7 @@ TEST(observability::Ranking, GainsAddUpAndLossesAreThoseOfAPlanWithoutThePositio
   }
 }
 
-TEST(observability::Ranking, InformationOfCagedPositionsAdds) {
+TEST(Ranking, InformationOfCagedPositionsAdds) {
   const TestPlan plan = plan_of("six", CommandLaw::free);
   const observability::RankedModel model = model_of(Coupling::eq5);
   const MatX all = information_root(observability::linearise(plan, model), everything);
@@ -124,7 +124,7 @@ TEST(observability::Ranking, InformationOfCagedPositionsAdds) {
   EXPECT_LT((all.transpose() * all - sum).norm(), 1e-12 * sum.norm());
 }
 
-TEST(observability::Ranking, TimeBinsHoldTheInformationOfTheWhole) {
+TEST(Ranking, TimeBinsHoldTheInformationOfTheWhole) {
   const observability::RankedModel model = model_of(Coupling::eq6);
   const TestPlan plan = plan_of("slew12", CommandLaw::level, 600.0);
   const observability::LinearisedPlan coarse = observability::linearise(plan, model, 1),
@@ -137,17 +137,17 @@ TEST(observability::Ranking, TimeBinsHoldTheInformationOfTheWhole) {
   EXPECT_LT((a.transpose() * a - b.transpose() * b).norm(), 1e-12 * (a.transpose() * a).norm());
 }
 
-struct report::TableRow {
+struct TableRow {
   const char* preset;
   int acc, acc_enc;  ///< rank of 63, physics.md 2.5 (twelve: see pwcs_test.cpp)
 };
-constexpr report::TableRow table[] = {
+constexpr TableRow table[] = {
     {"six", 34, 36}, {"apollo10", 51, 52}, {"twelve", 45, 45}, {"twentyfour", 45, 45}};
 
-TEST(observability::Ranking, RanksOfTheTableFromTheInformation) {
+TEST(Ranking, RanksOfTheTableFromTheInformation) {
   // The table knows the rotations between positions: one attitude error for all, in local axes. So
   // the rows of all positions stand under the same three columns here, without any prior.
-  for (const report::TableRow& row : table)
+  for (const TableRow& row : table)
     for (const bool gimbals : {false, true}) {
       observability::RankedModel model = model_of(Coupling::eq5);
       model.readout.gimbals = gimbals;
@@ -163,11 +163,11 @@ TEST(observability::Ranking, RanksOfTheTableFromTheInformation) {
     }
 }
 
-TEST(observability::Ranking, WithGimbalsACagingCostsNoRank) {
+TEST(Ranking, WithGimbalsACagingCostsNoRank) {
   // Gimbals have no parameters of their own: they tell the attitude after every caging. What is
   // left of the table's rank is that of the parameters, 3 less.
   for (const Coupling coupling : {Coupling::eq5, Coupling::eq6})
-    for (const report::TableRow& row : table) {
+    for (const TableRow& row : table) {
       const TestPlan plan = plan_of(row.preset, CommandLaw::level, 3600.0, 300.0);
       const observability::Ranking r =
           observability::rank_parameters(observability::linearise(plan, model_of(coupling)));
@@ -184,7 +184,7 @@ std::vector<std::string> combinations(const observability::Ranking& r,
   return all;
 }
 
-TEST(observability::Ranking, ExactDegeneraciesAreFoundByName) {
+TEST(Ranking, ExactDegeneraciesAreFoundByName) {
   const observability::Ranking r = observability::rank_parameters(observability::linearise(
       plan_of("twentyfour", CommandLaw::level, 3600.0, 300.0), model_of(Coupling::eq5)));
   const auto names = combinations(r, r.exact);
@@ -206,7 +206,7 @@ TEST(observability::Ranking, ExactDegeneraciesAreFoundByName) {
       EXPECT_NEAR(p.learning_ratio(), left, 1e-5);
 }
 
-TEST(observability::Ranking, GaugeIsHeldByTheAttitudePriorAloneWithoutGimbals) {
+TEST(Ranking, GaugeIsHeldByTheAttitudePriorAloneWithoutGimbals) {
   // physics.md 2.4: a common rotation of both triads and the attitude, 3 directions; they are exact
   // with accelerometers only, gyros on the platform (eq. 6) and slews by gyro commands.
   observability::RankedModel model = model_of(Coupling::eq6, {"eta", "xi", "dP", "dO"});
@@ -224,7 +224,7 @@ TEST(observability::Ranking, GaugeIsHeldByTheAttitudePriorAloneWithoutGimbals) {
       EXPECT_NEAR(p.posterior_sigma / limit, 1.0, 0.01);
 }
 
-TEST(observability::Ranking, LearningRatioIsThatOfABatchFitAtTheTruth) {
+TEST(Ranking, LearningRatioIsThatOfABatchFitAtTheTruth) {
   const TestPlan plan = plan_of("slew12", CommandLaw::free, 600.0);
   FilterSpec filter = base_filter(Coupling::eq6);
   filter.active = only({"D_F", "D_I", "D_S", "eta", "xi", "s", "K0"});
@@ -252,7 +252,7 @@ TEST(observability::Ranking, LearningRatioIsThatOfABatchFitAtTheTruth) {
         << TermLibrary::specs[r.parameters[k].param].key.view();
 }
 
-TEST(observability::Ranking, PromisedSigmasAreTheErrorsOfBatchFits) {
+TEST(Ranking, PromisedSigmasAreTheErrorsOfBatchFits) {
   // Matched and nearly linear: 60 draws of truth, attitude and noise, each fitted by batch.
   const TestPlan plan = plan_of("six", CommandLaw::level, 600.0, 120.0);
   FilterSpec filter = base_filter(Coupling::eq5);
@@ -295,7 +295,7 @@ TEST(observability::Ranking, PromisedSigmasAreTheErrorsOfBatchFits) {
   EXPECT_GT(comparison.spearman, 0.8);
 }
 
-TEST(observability::Ranking, AModelThatSeesTheFieldIsRankedInTheFieldOfTheStudy) {
+TEST(Ranking, AModelThatSeesTheFieldIsRankedInTheFieldOfTheStudy) {
   ModelSpec spec = base_spec(Coupling::eq5);
   for (const char* key : {"M_x", "M_y", "M_z"}) {
     const std::size_t i = *TermLibrary::find(key);

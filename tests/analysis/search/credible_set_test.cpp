@@ -29,7 +29,7 @@ struct Case {
     r.excess = excess;
     refits.push_back(std::move(r));
   }
-  bool weigh(bool chance_alone = false) { return weigh(e, refits, chance_alone, {}, out); }
+  bool weigh(bool chance_alone = false) { return search::weigh(e, refits, chance_alone, {}, out); }
 };
 
 TEST(CredibleSet, AFarBetterExplanationDoesNotLoseToAPoorOneForATrifle) {

@@ -66,7 +66,7 @@ bool says(const Diagnosis& d, std::string_view text) {
 }
 
 // One test for one diagnosis: every test is a process of its own.
-TEST(strapdown::StrapdownDiagnosis,
+TEST(StrapdownDiagnosis,
      XsensLacksMisalignmentAndCrossAxisSensitivityAndClaimsNothingThatItCannotShow) {
   if (absent("xsens_mti.csv")) GTEST_SKIP() << "the recording is not beside the sources";
   const Recording recording = recorded("xsens_mti.csv");
@@ -112,7 +112,7 @@ TEST(strapdown::StrapdownDiagnosis,
   EXPECT_GT(again.p_value, 0.05);
 }
 
-TEST(strapdown::StrapdownDiagnosis, MpuHasMisalignmentAndNoGSensitivity) {
+TEST(StrapdownDiagnosis, MpuHasMisalignmentAndNoGSensitivity) {
   if (absent("mpu9150_1.csv")) GTEST_SKIP() << "the recording is not beside the sources";
   const Diagnosis d =
       strapdown::diagnose_strapdown(nominal(), recorded("mpu9150_1.csv"), {}).diagnosis;
@@ -133,8 +133,7 @@ Recording made(double size, std::uint64_t seed) {
   return test::strapdown_recording({.dwells = 20, .rest = 4.0, .seed = seed}, theta);
 }
 
-TEST(strapdown::StrapdownDiagnosis,
-     RecoversTheMisalignmentThatTheRecordingWasMadeWithAndWritesItDown) {
+TEST(StrapdownDiagnosis, RecoversTheMisalignmentThatTheRecordingWasMadeWithAndWritesItDown) {
   const strapdown::StrapdownDiagnosis found =
       strapdown::diagnose_strapdown(nominal(), made(3000.0, 5), quick());
   const Cause* c = cause(found.diagnosis, "gyro_misalignment");
@@ -169,7 +168,7 @@ TEST(strapdown::StrapdownDiagnosis,
             std::nullopt);
 }
 
-TEST(strapdown::StrapdownDiagnosis, NothingMissingIsConsistentAndANominalEq6IsFoundOut) {
+TEST(StrapdownDiagnosis, NothingMissingIsConsistentAndANominalEq6IsFoundOut) {
   EXPECT_EQ(strapdown::diagnose_strapdown(nominal(), made(0.0, 6), quick()).diagnosis.verdict,
             diagnosis::Verdict::consistent);
   mc::Study six = nominal();
@@ -180,7 +179,7 @@ TEST(strapdown::StrapdownDiagnosis, NothingMissingIsConsistentAndANominalEq6IsFo
   EXPECT_EQ(d.patched.coupling, Coupling::eq5);
 }
 
-TEST(strapdown::StrapdownDiagnosis, WithoutAFilterThereIsNoNominalModel) {
+TEST(StrapdownDiagnosis, WithoutAFilterThereIsNoNominalModel) {
   mc::Study study = nominal();
   study.filters.clear();
   EXPECT_THROW(strapdown::diagnose_strapdown(study, made(0.0, 1), {}), InputError);

@@ -11,7 +11,7 @@ using namespace drift::test;
 const std::string head =
     "schema = 1\n[site]\nlatitude = \"45.75 deg\"\n[plan]\npreset = \"six\"\n[[published]]\n";
 
-TEST(mc::Published, ValuesAndSigmasAreReadInInternalUnits) {
+TEST(Published, ValuesAndSigmasAreReadInInternalUnits) {
   const mc::Study study =
       read_text(head +
                 "name = \"paper\"\nfilter = \"eq6\"\n"
@@ -34,7 +34,7 @@ TEST(mc::Published, ValuesAndSigmasAreReadInInternalUnits) {
   }
 }
 
-TEST(mc::Published, MistakesAreLocated) {
+TEST(Published, MistakesAreLocated) {
   const auto message = [](const std::string& body) -> std::string {
     try {
       read_text(head + body);

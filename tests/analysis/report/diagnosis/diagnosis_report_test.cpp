@@ -143,7 +143,7 @@ TEST(DiagnosisPage, HoldsOfAnyVerdictAndOfNothing) {
       d.verdict = v;
       const std::string page = report::to_html(report::diagnosis_html(study, d, {}));
       EXPECT_EQ(testing::xml_problem(page, void_tags), std::nullopt) << diagnosis::text(v);
-      EXPECT_FALSE(to_text(d).empty());
+      EXPECT_FALSE(report::to_text(d).empty());
     }
 }
 
@@ -200,7 +200,7 @@ TEST(DiagnosisCandidates, TheCausesAreShownHoweverWeakEachIsAlone) {
   for (const char* text : {"magnetic_drift.y", "alternative 1", "alternative 2"})
     EXPECT_NE(figures.front().svg.find(text), std::string::npos) << text;
   EXPECT_EQ(figures.front().svg.find("g2_drift.x 40"), std::string::npos);
-  const std::string out = to_text(d);
+  const std::string out = report::to_text(d);
   EXPECT_NE(out.find("magnetic_drift.y"), std::string::npos) << out;
   EXPECT_NE(out.find("54 weaker ones are in diagnosis.json"), std::string::npos) << out;
 }
@@ -221,7 +221,7 @@ TEST(DiagnosisPage, ComparesNothingWhereNoCauseIsInTheModel) {
   for (const char* text : {"with the cause", "acc_x, after", "Before and after"})
     EXPECT_EQ(page.find(text), std::string::npos) << text;
   EXPECT_NE(page.find("No cause is in the model."), std::string::npos);
-  EXPECT_EQ(to_text(d).find("with the cause"), std::string::npos);
+  EXPECT_EQ(report::to_text(d).find("with the cause"), std::string::npos);
 }
 
 TEST(DiagnosisFigures, TheNumbersAtTheRightHaveAHead) {
@@ -264,7 +264,7 @@ TEST(DiagnosisTables, NearlyAllAbsorbedIsNotAll) {
   for (const auto& [share, text] :
        {std::pair{0.93, "93 %"}, {0.9966, "99.7 %"}, {0.99962, "99.96 %"}, {0.004, "0.4 %"}}) {
     d.candidates[0].absorbed = share;
-    EXPECT_NE(to_text(d).find(text), std::string::npos) << text;
+    EXPECT_NE(report::to_text(d).find(text), std::string::npos) << text;
   }
 }
 
@@ -280,16 +280,16 @@ TEST(DiagnosisText, HasNoWordsOfTheMethodInTheNoteOnTheGain) {
   diagnosis::Diagnosis d = testing::diagnosis(nominal());
   d.fit.log_likelihood_ratio = 140.0;
   d.fit.linear_T = 144.0;
-  const std::string out = to_text(d);
+  const std::string out = report::to_text(d);
   EXPECT_EQ(out.find("linear score"), std::string::npos) << out;
   EXPECT_NE(out.find("gains 140 in twice the log likelihood; what"), std::string::npos) << out;
   d.causes[0].term = "frame_closure";  // another equation is no small change
-  EXPECT_NE(to_text(d).find("gains 140 in twice the log likelihood."), std::string::npos)
-      << to_text(d);
+  EXPECT_NE(report::to_text(d).find("gains 140 in twice the log likelihood."), std::string::npos)
+      << report::to_text(d);
 }
 
 TEST(DiagnosisText, SaysTheVerdictFirstAndStaysWithinTheTerminal) {
-  const std::string out = to_text(testing::diagnosis(nominal()));
+  const std::string out = report::to_text(testing::diagnosis(nominal()));
   EXPECT_TRUE(out.starts_with(
       "Verdict named: The nominal model lacks g-sensitive drift (mass unbalance), gyro y"))
       << out;
@@ -316,7 +316,7 @@ TEST(SeveralRecordings, AreNamedWhereverATimeStands) {
   const mc::Study study = testing::read_text(folder, "s.toml", nominal_study);
   diagnosis::Diagnosis d = testing::diagnosis(
       study.filters.front());  // a window at 1200 to 1800 s, a signal up to 3600 s
-  EXPECT_EQ(to_text(d).find("through all recordings"), std::string::npos);
+  EXPECT_EQ(report::to_text(d).find("through all recordings"), std::string::npos);
   EXPECT_FALSE(json::parse(report::to_json(d))["where"].contains("recordings"));
   d.where.recordings = {{"a.csv", 0.0, 900.0, 0.0},
                         {"b,2.csv", 900.0, 3600.0, 800.0}};  // b starts at 100 s of its own time
@@ -367,9 +367,8 @@ TEST(DiagnosisFolder, ThePatchOfAnAmbiguousVerdictSaysWhichAlternativeItHolds) {
                   .filters.front()
                   .active[TermLibrary::find("D_S_y").value()]);
   for (const std::string& text :
-       {to_text(d), report::to_json(d), test::text_of(out + "/report.html")})
-    EXPECT_NE(text.find("(patched.toml) holds alternative (1)"), std::string::npos)
-        << text;
+       {report::to_text(d), report::to_json(d), test::text_of(out + "/report.html")})
+    EXPECT_NE(text.find("(patched.toml) holds alternative (1)"), std::string::npos) << text;
   d.causes.pop_back();
   EXPECT_NE(diagnosis::patch_text(d).find("it is not confirmed"), std::string::npos)
       << diagnosis::patch_text(d);

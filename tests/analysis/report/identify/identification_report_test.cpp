@@ -34,7 +34,7 @@ TEST(IdentificationText, FitsOnAPageAndSaysWhatMatters) {
   id.summaries[1].degeneracies = {{0.0, no_signal}};
   id.runs[4].ekf.status = EstimateStatus::diverged;
   id.runs[4].ekf.cause = "filter diverged at t = 60 s";
-  const std::string text = to_text(study, id);
+  const std::string text = report::to_text(study, id);
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);)
     EXPECT_LE(report::display_width(line), 100u) << line;

@@ -70,7 +70,7 @@ report::Table sample() {
   return t;
 }
 
-TEST(report::Table, TextColumnsLineUp) {
+TEST(Table, TextColumnsLineUp) {
   EXPECT_EQ(text_of(sample()),
             "A <table>\n"
             "name      value\n"
@@ -81,7 +81,7 @@ TEST(report::Table, TextColumnsLineUp) {
             "a note\n");
 }
 
-TEST(report::Table, HtmlIsWellFormedAndEscaped) {
+TEST(Table, HtmlIsWellFormedAndEscaped) {
   const std::string html = report::html_of(sample());
   EXPECT_EQ(testing::xml_problem("<p>" + html + "</p>").value_or(""), "");
   EXPECT_NE(html.find("A &lt;table&gt;"), std::string::npos);
@@ -97,7 +97,7 @@ TEST(Wrapped, LinesStayWithinTheWidth) {
   EXPECT_EQ(all, (std::vector<std::string>{"aaa bbb", "  " + std::string(30, 'x'), "  cc dd"}));
 }
 
-TEST(report::HtmlReport, IsOnePageWithoutScriptsAndAddresses) {
+TEST(HtmlReport, IsOnePageWithoutScriptsAndAddresses) {
   report::HtmlReport report{.title = "<script>alert(1)</script>",
                             .subtitle = "\"quoted\" & 'single'",
                             .headlines = {"</ul><img src=x onerror=alert(1)>"},

@@ -132,7 +132,7 @@ TEST(SweptValue, OfATableIsShortAsALabel) {
   EXPECT_EQ(report::last_member("20 arcsec"), "");
 }
 
-TEST(report::SweptNumber, IsFoundInQuantitiesAndDistributions) {
+TEST(SweptNumber, IsFoundInQuantitiesAndDistributions) {
   EXPECT_DOUBLE_EQ(report::swept_number("20 arcsec")->si, 20.0 * "arcsec"_unit.to_si);
   EXPECT_EQ(report::swept_number("20 arcsec")->unit.symbol.view(), "arcsec");
   EXPECT_DOUBLE_EQ(report::swept_number("0.5")->si, 0.5);

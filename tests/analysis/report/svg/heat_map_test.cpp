@@ -22,7 +22,7 @@ report::HeatMap map_of(Eigen::Index rows, Eigen::Index columns) {
   return map;
 }
 
-TEST(report::HeatMap, ShowsValuesWithTheLargestDarkest) {
+TEST(HeatMap, ShowsValuesWithTheLargestDarkest) {
   report::HeatMap map = map_of(2, 2);
   map.value << 4.0, 2.0, 0.0, -1.0;
   const std::string svg = report::svg_of(map);
@@ -34,7 +34,7 @@ TEST(report::HeatMap, ShowsValuesWithTheLargestDarkest) {
   EXPECT_NE(svg.find(">4</text>"), std::string::npos);
 }
 
-TEST(report::HeatMap, StandsEmptyHugeHostileAndMissingContent) {
+TEST(HeatMap, StandsEmptyHugeHostileAndMissingContent) {
   EXPECT_EQ(xml_problem(report::svg_of(map_of(0, 0))), std::nullopt);
   EXPECT_EQ(xml_problem(report::svg_of(map_of(60, 300))), std::nullopt);
   report::HeatMap map = map_of(1, 2);

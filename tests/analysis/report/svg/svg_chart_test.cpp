@@ -131,7 +131,7 @@ TEST(Decimated, KeepsShortCurvesWhole) {
   EXPECT_EQ(report::decimated(y), (std::vector<std::size_t>{0, 1, 2}));
 }
 
-TEST(report::AxisScale, TicksAreRoundAndInRange) {
+TEST(AxisScale, TicksAreRoundAndInRange) {
   const report::AxisScale s = report::make_scale({0.0, 6.3}, 6, 0.0);
   EXPECT_EQ(s.labels, (std::vector<std::string>{"0", "2", "4", "6"}));
   EXPECT_TRUE(s.factor.empty());
@@ -142,12 +142,12 @@ TEST(report::AxisScale, TicksAreRoundAndInRange) {
   EXPECT_EQ(large.labels.back(), "4");
 }
 
-TEST(report::AxisScale, ConstantStandsInTheMiddle) {
+TEST(AxisScale, ConstantStandsInTheMiddle) {
   for (const double c : {0.0, 5.0, -3e8})
     EXPECT_NEAR(report::make_scale({c, c}, 5, 0.05).at(c, 100.0), 50.0, 1e-6);
 }
 
-TEST(report::BarChart, HasABarAndWhiskersForEachNumber) {
+TEST(BarChart, HasABarAndWhiskersForEachNumber) {
   report::BarChart chart{
       .title = "learned <most>", .x_label = "posterior / prior", .bars = {}, .limit = {}};
   chart.bars = {{.label = "D_I_z", .value = 0.2, .low = 0.1, .high = 0.3},
