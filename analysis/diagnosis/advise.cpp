@@ -14,7 +14,7 @@
 #include "analysis/identification/recorded_test.hpp"
 #include "analysis/inference/signatures.hpp"
 #include "analysis/planning/position_pool.hpp"
-#include "analysis/search/adequacy.hpp"
+#include "analysis/search/remainder.hpp"
 #include "core/sim/simulate.hpp"
 #include "mc/task/campaign.hpp"
 

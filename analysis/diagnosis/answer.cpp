@@ -18,20 +18,9 @@ double detectable_z(double strength_threshold) {
   return std::sqrt(stats::quantile_of_strength(strength_threshold, 1)) + 0.84;
 }
 
-std::vector<int> columns_of(const search::Examination& e,
-                            const std::vector<search::Choice>& choices) {
-  std::vector<int> columns;
-  for (const search::Choice& c : choices) {
-    const auto& more = e.set.candidates[c.candidate].variants[c.variant].columns;
-    columns.insert(columns.end(), more.begin(), more.end());
-  }
-  return columns;
-}
-
 }  // namespace
 
-void fill_candidates(const search::Examination& nominal, const search::Search& found,
-                     Diagnosis& d) {
+void fill_candidates(const search::Fitted& nominal, const search::Search& found, Diagnosis& d) {
   const inference::Projected& p = nominal.projected;
   std::map<std::string, double> offers;
   for (const inference::Candidate& c : nominal.set.candidates) offers[c.term] += 1.0;
@@ -53,7 +42,7 @@ void fill_candidates(const search::Examination& nominal, const search::Search& f
     line.unit = spec.unit.symbol.view();
     line.score = s.T;
     line.p_marginal = s.dof > 0 ? std::exp(-s.strength) : 1.0;
-    line.p_value = s.dof > 0 ? found.nulls.library.p_value(s.strength) : 1.0;
+    line.p_value = s.dof > 0 ? found.thresholds.library.p_value(s.strength) : 1.0;
     line.log_bayes = s.log_bayes;
     line.probability = std::exp(s.log_bayes - top) / offers[c.term] / sum;
     const inference::Variant& v = c.variants[s.variant];
@@ -65,8 +54,8 @@ void fill_candidates(const search::Examination& nominal, const search::Search& f
     line.absorbed = raw > 0.0 ? std::clamp(1.0 - left / raw, 0.0, 1.0) : 1.0;
     if (s.dof > 0) {
       line.worst_conditional = std::max(found.linear[k].library, found.linear[k].scan);
-      line.adequate = found.linear[k].library <= found.nulls.library_threshold &&
-                      found.linear[k].scan <= found.nulls.scan_threshold;
+      line.adequate = found.linear[k].library <= found.thresholds.library_threshold &&
+                      found.linear[k].scan <= found.thresholds.scan_threshold;
     }
     const VecX a = search::expected_amplitudes(p, v.columns);
     line.size_sigma = a.norm();
@@ -75,7 +64,7 @@ void fill_candidates(const search::Examination& nominal, const search::Search& f
       const double information = p.C(v.columns[0], v.columns[0]);
       line.amplitude = p.g[v.columns[0]] / information * scale;
       line.sigma = scale / std::sqrt(information);
-      line.smallest_detectable = detectable_z(found.nulls.library_threshold) * line.sigma;
+      line.smallest_detectable = detectable_z(found.thresholds.library_threshold) * line.sigma;
       line.size_sigma = std::abs(line.amplitude) / scale;
     }
     d.candidates.push_back(std::move(line));
@@ -85,7 +74,7 @@ void fill_candidates(const search::Examination& nominal, const search::Search& f
   });
 }
 
-void fill_noise(const search::Examination& nominal, std::size_t spikes, Diagnosis& d) {
+void fill_noise(const search::Fitted& nominal, std::size_t spikes, Diagnosis& d) {
   d.noise = nominal.noise.findings;
   std::size_t lowered = 0;
   for (const double w : nominal.problem.weight) lowered += w < 1.0;
@@ -105,7 +94,7 @@ void fill_noise(const search::Examination& nominal, std::size_t spikes, Diagnosi
                   spikes, lowered));
 }
 
-void fill_causes(const search::Examination& nominal, const search::Search& found, Diagnosis& d) {
+void fill_causes(const search::Fitted& nominal, const search::Search& found, Diagnosis& d) {
   const inference::Projected& p = nominal.projected;
   std::vector<std::vector<int>> columns;
   for (std::size_t set = 0; set < found.sets.size(); ++set) {
@@ -118,7 +107,7 @@ void fill_causes(const search::Examination& nominal, const search::Search& found
       cause.axis = c.axis;
       cause.set = static_cast<int>(set);
       cause.probability = found.probability[set];
-      const auto own = columns_of(nominal, {choice});
+      const auto own = search::columns_of(nominal.set, {choice});
       const inference::Contrast contrast = inference::make_contrast(p.C, p.raw, own);
       cause.dof = contrast.dof;
       // Each of several with the others in the model: alone it may cancel against them.
@@ -126,7 +115,7 @@ void fill_causes(const search::Examination& nominal, const search::Search& found
       for (const search::Choice& o : r.choices)
         if (o.candidate != choice.candidate) others.push_back(o);
       const auto T_of = [&](const std::vector<search::Choice>& some) {
-        return inference::make_contrast(p.C, p.raw, columns_of(nominal, some)).T(p.g);
+        return inference::make_contrast(p.C, p.raw, search::columns_of(nominal.set, some)).T(p.g);
       };
       cause.T = std::max(0.0, T_of(r.choices) - (others.empty() ? 0.0 : T_of(others)));
       if (c.term == "frame_closure") {  // far from linear: what counts is the fit
@@ -134,7 +123,7 @@ void fill_causes(const search::Examination& nominal, const search::Search& found
         cause.dof = std::max(cause.dof, 1);
       }
       cause.p_value =
-          std::min(1.0, found.nulls.library.p_value(stats::strength(cause.T, cause.dof)) /
+          std::min(1.0, found.thresholds.library.p_value(stats::strength(cause.T, cause.dof)) /
                             search::library_share);
       const auto add = [&](std::size_t param, bool profiled) {
         const ParamSpec& spec = TermLibrary::specs[param];
@@ -212,7 +201,7 @@ void fill_causes(const search::Examination& nominal, const search::Search& found
           "as misalignment does in slews; only Earth rate and turns of the case tell them apart.");
 }
 
-bool noise_of_one_axis(const search::Examination& nominal, Diagnosis& d) {
+bool noise_of_one_axis(const search::Fitted& nominal, Diagnosis& d) {
   const inference::NoiseModel& all = nominal.noise.model;
   if (!nominal.noise.driven ||
       all.angle_random_walk + all.drift_random_walk + all.markov_drift == 0.0)

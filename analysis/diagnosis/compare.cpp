@@ -55,9 +55,9 @@ double start_spread(const std::vector<BatchResult>& fits) {
   return largest;
 }
 
-FitComparison compare(const search::Examination& nominal, const search::Refit* patched,
+FitComparison compare(const search::Fitted& nominal, const search::Refit* patched,
                       int whiteness_draws) {
-  const search::Examination& after = patched ? patched->after : nominal;
+  const search::Fitted& after = patched ? patched->after : nominal;
   FitComparison c;
   c.dof = nominal.fit.estimate.measured;
   // Cost (data and prior) is chi-square of as many degrees as there are scalars.
@@ -69,13 +69,7 @@ FitComparison compare(const search::Examination& nominal, const search::Refit* p
   const double h = 2.0 / (9.0 * n);  // Wilson-Hilferty
   c.band_low = std::pow(1.0 - h - 1.96 * std::sqrt(h), 3.0);
   c.band_high = std::pow(1.0 - h + 1.96 * std::sqrt(h), 3.0);
-  // One noise for both, the candidates' columns left out but those of the cause.
-  std::vector<int> columns;
-  if (patched)
-    for (const search::Choice& choice : patched->choices) {
-      const auto& more = nominal.set.candidates[choice.candidate].variants[choice.variant].columns;
-      columns.insert(columns.end(), more.begin(), more.end());
-    }
+  // One noise for both.
   const inference::Projector before(nominal.problem, after.noise.model);
   const auto per_row = [](const inference::Projector& p) {
     return p.marginal().chi2 / static_cast<double>(std::max<Eigen::Index>(1, p.marginal().rows));
@@ -94,6 +88,7 @@ FitComparison compare(const search::Examination& nominal, const search::Refit* p
   c.residual_after = residuals(after.fit);
   if (!patched) return c;
   c.log_likelihood_ratio = before.marginal().chi2 - after.projector->marginal().chi2;
+  const std::vector<int> columns = search::columns_of(nominal.set, patched->choices);
   const inference::Projected p = before.candidates(columns);
   std::vector<int> own(columns.size());
   std::iota(own.begin(), own.end(), 0);

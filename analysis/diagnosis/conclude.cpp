@@ -11,14 +11,13 @@
 
 namespace drift::diagnosis {
 
-void weigh_candidates(const search::Examination& nominal, const search::Search& found,
-                      Diagnosis& d) {
+void weigh_candidates(const search::Fitted& nominal, const search::Search& found, Diagnosis& d) {
   for (search::CandidateScore& line : d.candidates) {
     if (line.term != "frame_closure" || !(found.other_equation > line.score)) continue;
     line.score = found.other_equation;
     line.p_marginal =
         std::exp(-0.5 * found.other_equation);  // two points: P(2 log LR > T) <= exp(-T/2)
-    line.p_value = std::min(1.0, found.nulls.library.p_value(0.5 * found.other_equation));
+    line.p_value = std::min(1.0, found.thresholds.library.p_value(0.5 * found.other_equation));
     line.log_bayes = 0.5 * found.other_equation;
     line.dof = 1;
     line.observable = true;
@@ -59,9 +58,9 @@ void weigh_candidates(const search::Examination& nominal, const search::Search& 
       });
 }
 
-void say_partial(const search::Examination& nominal, const search::Search& found, Diagnosis& d) {
+void say_partial(const search::Fitted& nominal, const search::Search& found, Diagnosis& d) {
   if (d.verdict != Verdict::unexplained || found.rejected.empty()) return;
-  const auto chi2 = [](const search::Examination& e) {
+  const auto chi2 = [](const search::Fitted& e) {
     return e.fit.estimate.statistic /
            static_cast<double>(std::max<std::size_t>(1, e.fit.estimate.measured));
   };
@@ -82,7 +81,7 @@ void say_partial(const search::Examination& nominal, const search::Search& found
       fmt::join(words, " together with "), before, after);
   const std::size_t k = best->remainder.strongest;
   if (k < best->after.set.candidates.size() &&
-      best->remainder.library > found.nulls.library_threshold)
+      best->remainder.library > found.thresholds.library_threshold)
     d.remarks.push_back(fmt::format(
         "With {} in the model the strongest of what is left is {}: put the first into the nominal "
         "filter and diagnose again",
@@ -133,7 +132,7 @@ void say_equation(Diagnosis& d) {
       both, d.other_equation_gain));
 }
 
-void say_noise_or_effect(const search::Examination& nominal, Diagnosis& d) {
+void say_noise_or_effect(const search::Fitted& nominal, Diagnosis& d) {
   constexpr double evident = 25.0, per_degree = 3.0;  // of twice the log likelihood
   if (d.verdict != Verdict::consistent || !nominal.noise.driven) return;
   const inference::NoiseModel declared = search::declared_noise(nominal.filter);

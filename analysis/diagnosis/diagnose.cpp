@@ -174,10 +174,11 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const inference::Test& give
 
   stages.begin("examine", 0.08);
   const auto plain = noise_beside_equation(nominal_filter, test, fit);
-  search::Examination nominal =
-      search::examine(nominal_filter, test, fit, plain ? &*plain : nullptr);
+  search::Fitted examined = plain ? search::examine(nominal_filter, test, fit, *plain)
+                                  : search::examine(nominal_filter, test, fit);
   stages.begin("search", 0.5);
-  const search::Search found = search::search(nominal, test, options.search);
+  const search::Search found = search::search(std::move(examined), test, options.search);
+  const search::Fitted& nominal = found.nominal;
   stages.begin("held out", 0.25);
 
   fill_candidates(nominal, found, d);
@@ -193,14 +194,14 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const inference::Test& give
     std::vector<std::size_t> named;
     for (const search::Choice& c : best->choices) named.push_back(c.candidate);
     d.fit.held_out =
-        held_out(nominal, best->after, test, named, found.nulls.library_threshold,
+        held_out(nominal, best->after, test, named, found.thresholds.library_threshold,
                  {options.folds, recording_ends,
                   [&](std::size_t done, std::size_t total) { stages.step(done, total); }});
     d.patched = best->filter;
     d.has_patch = true;
   }
   const auto member_gains = best && found.significant
-                                ? judge_members(nominal, test, *best, found.nulls)
+                                ? judge_members(nominal, test, *best, found.thresholds)
                                 : std::vector<double>{};
   stages.begin("locate", 0.06);
 
@@ -243,7 +244,7 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const inference::Test& give
   if (d.has_patch) d.patched = started_where_found(d.patched, d.causes);
   weigh_candidates(nominal, found, d);
   // What the cause explains, by the refit: what it takes out of the residuals.
-  inference::LinearProblem shown = nominal.problem;
+  inference::LinearProblem shown = nominal.problem.bare();
   shown.extra.resize(shown.rows(), best ? 1 : 0);
   std::vector<std::pair<int, double>> cause;
   if (best) {
@@ -271,7 +272,7 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const inference::Test& give
   else if (window)
     signature = signature_of(nominal.problem, test.timeline, *nominal.projector, *window);
   const std::string driven_equation = d.where.equation;
-  d.where = locate(nominal, found.nulls, signature, 8);
+  d.where = locate(nominal, found.thresholds, signature, 8);
   d.where.equation = driven_equation;
   if (d.verdict != Verdict::consistent && driven_equation.empty()) {
     if (!inputs.empty() && inputs.front().gain > 0.0)

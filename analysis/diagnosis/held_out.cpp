@@ -22,9 +22,8 @@ struct Outcome {
 
 class Folder {
  public:
-  Folder(const search::Examination& nominal, const search::Examination& patched,
-         const inference::Test& test, const std::vector<std::size_t>& named,
-         double library_threshold, FoldMethod method)
+  Folder(const search::Fitted& nominal, const search::Fitted& patched, const inference::Test& test,
+         const std::vector<std::size_t>& named, double library_threshold, FoldMethod method)
       : nominal_(nominal),
         patched_(patched),
         test_(test),
@@ -61,7 +60,7 @@ class Folder {
 
  private:
   /// Fitted without the part and linearised anew at that fit; only then is the part looked at.
-  Prediction refitted(const search::Examination& e, const HeldOutPart& part) const {
+  Prediction refitted(const search::Fitted& e, const HeldOutPart& part) const {
     const Measurements rest = without_intervals(test_.measured, part.intervals);
     // Near the whole fit: a step of a hundredth of a sigma is as good as none.
     BatchResult fit = fit_batch(e.filter, test_.timeline, test_.readout, rest,
@@ -103,7 +102,7 @@ class Folder {
     });
   }
 
-  const search::Examination &nominal_, &patched_;
+  const search::Fitted &nominal_, &patched_;
   const inference::Test& test_;
   const std::vector<std::size_t>& named_;
   double threshold_;
@@ -174,7 +173,7 @@ HeldOut with_recordings(HeldOut out, std::vector<Outcome> outcomes) {
 
 }  // namespace
 
-double held_out_gain(const search::Examination& before, const search::Examination& after) {
+double held_out_gain(const search::Fitted& before, const search::Fitted& after) {
   const Predictor with(after.problem, after.noise.model),
       without(before.problem, after.noise.model);
   const std::vector<HeldOutPart> parts = positions_of(before.problem);
@@ -185,7 +184,7 @@ double held_out_gain(const search::Examination& before, const search::Examinatio
   return std::accumulate(gains.begin(), gains.end(), 0.0);
 }
 
-HeldOut held_out(const search::Examination& nominal, const search::Examination& patched,
+HeldOut held_out(const search::Fitted& nominal, const search::Fitted& patched,
                  const inference::Test& test, const std::vector<std::size_t>& named,
                  double library_threshold, const FoldOptions& options) {
   std::vector<HeldOutPart> parts = positions_of(nominal.problem);

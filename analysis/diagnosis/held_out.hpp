@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "analysis/diagnosis/fit_comparison.hpp"
-#include "analysis/search/examination.hpp"
+#include "analysis/search/fitted.hpp"
 
 namespace drift::diagnosis {
 
@@ -27,7 +27,7 @@ struct FoldOptions {
 /// unknown beyond their posterior (discovery.md 2.6; predictor.hpp). Nested: the cause is chosen
 /// anew from the rest alone (discovery.md 0.9), the nominal model where nothing there is
 /// significant.
-HeldOut held_out(const search::Examination& nominal, const search::Examination& patched,
+HeldOut held_out(const search::Fitted& nominal, const search::Fitted& patched,
                  const inference::Test& test, const std::vector<std::size_t>& named,
                  double library_threshold, const FoldOptions& options);
 
@@ -37,6 +37,6 @@ inline constexpr double least_held_out_gain = 1.0;
 /// Gain of the log score over all positions, each predicted from the others, of one fitted model
 /// over another of the same test; by conditioning the linearised tests, under the noise of the
 /// second.
-double held_out_gain(const search::Examination& before, const search::Examination& after);
+double held_out_gain(const search::Fitted& before, const search::Fitted& after);
 
 }  // namespace drift::diagnosis

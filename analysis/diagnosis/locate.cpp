@@ -46,7 +46,7 @@ void sort_by_share(std::vector<Share>& shares) {
 
 }  // namespace
 
-const inference::Window* strongest_window(const search::Examination& e) {
+const inference::Window* strongest_window(const search::Fitted& e) {
   const inference::Window* best = nullptr;
   double T = 0.0;
   for (const inference::PositionScan& s : e.scans)
@@ -83,8 +83,8 @@ VecX signature_of(const inference::MeasuredRows& rows, const Timeline& timeline,
   return projector.clean(projector.whitener().apply(box)) * (p.g[0] / p.C(0, 0));
 }
 
-Where locate(const search::Examination& e, const search::Nulls& nulls, const VecX& signature,
-             std::size_t most_windows) {
+Where locate(const search::Fitted& e, const search::ChanceThresholds& thresholds,
+             const VecX& signature, std::size_t most_windows) {
   Where out;
   out.channel_names.assign(std::begin(channel_names), std::end(channel_names));
   const VecX residual = e.projector->clean_residual();
@@ -118,7 +118,7 @@ Where locate(const search::Examination& e, const search::Nulls& nulls, const Vec
     for (std::size_t k = 0; k < scan.windows.size(); ++k) {
       ++out.windows_tried;
       const double s = stats::strength(scan.T[k], 1);
-      if (s < nulls.scan_threshold) continue;
+      if (s < thresholds.scan_threshold) continue;
       const inference::Window& w = scan.windows[k];
       ScanHit hit;
       hit.equation = inference::equation_name(w.equation, w.axis);
@@ -129,7 +129,7 @@ Where locate(const search::Examination& e, const search::Nulls& nulls, const Vec
       hit.amplitude = scan.scan.g[k] / C * w.unit;
       hit.sigma = w.unit / std::sqrt(C);
       hit.T = scan.T[k];
-      hit.p_value = nulls.scan.p_value(s);
+      hit.p_value = thresholds.scan.p_value(s);
       hits.push_back(hit);
     }
   std::stable_sort(hits.begin(), hits.end(),
@@ -144,7 +144,7 @@ Where locate(const search::Examination& e, const search::Nulls& nulls, const Vec
   double strongest = 0.0;
   for (const inference::PositionScan& s : e.scans)
     for (const double T : s.T) strongest = std::max(strongest, stats::strength(T, 1));
-  out.scan_p_value = nulls.scan.p_value(strongest);
+  out.scan_p_value = thresholds.scan.p_value(strongest);
   return out;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/diagnosis/diagnosis.hpp"
-#include "analysis/search/examination.hpp"
+#include "analysis/search/fitted.hpp"
 
 namespace drift::diagnosis {
 

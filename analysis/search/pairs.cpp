@@ -31,20 +31,19 @@ std::vector<Unit> single_columns(const Field& field) {
   return units;
 }
 
-/// Correlations of the units' scores, and the scores with unit variance.
-MatX correlations(const Field& field, const std::vector<Unit>& units, VecX& z) {
-  const MatX& C = field.projected.C;
-  const auto n = static_cast<Eigen::Index>(units.size());
-  MatX rho(n, n);
-  z.resize(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const double s = std::sqrt(C(units[i].column, units[i].column));
-    z[i] = field.projected.g[units[i].column] / s;
-    for (Eigen::Index k = 0; k < n; ++k)
-      rho(i, k) = C(units[i].column, units[k].column) /
-                  (s * std::sqrt(C(units[k].column, units[k].column)));
-  }
-  return rho;
+/// Scores of units with unit variance.
+struct UnitScores {
+  MatX rho;  ///< their correlations
+  VecX z;
+};
+
+UnitScores unit_scores(const Field& field, const std::vector<Unit>& units) {
+  std::vector<int> columns;
+  for (const Unit& u : units) columns.push_back(u.column);
+  const MatX C = field.projected.C(columns, columns);
+  const VecX scale = C.diagonal().cwiseSqrt().cwiseInverse();
+  return {scale.asDiagonal() * C * scale.asDiagonal(),
+          field.projected.g(columns).cwiseProduct(scale)};
 }
 
 double joint(double za, double zb, double rho) {
@@ -93,8 +92,7 @@ bool same_candidate(const Unit& a, const Unit& b) {
 
 std::vector<Pair> strongest_pairs(const Field& field, std::size_t most) {
   const auto units = single_columns(field);
-  VecX z;
-  const MatX rho = correlations(field, units, z);
+  const auto [rho, z] = unit_scores(field, units);
   std::vector<Pair> pairs;
   for (std::size_t i = 0; i < units.size(); ++i)
     for (std::size_t k = 0; k < i; ++k) {
@@ -107,15 +105,13 @@ std::vector<Pair> strongest_pairs(const Field& field, std::size_t most) {
                                     [](const Pair& a, const Pair& b) { return a.T > b.T; }),
                    p);
     }
-  for (Pair& p : pairs)
-    p.log_bayes = log_bayes(field.projected, columns_of(field, {p.a, p.b}, false));
+  for (Pair& p : pairs) p.log_bayes = log_bayes(field.projected, columns_of(field.set, {p.a, p.b}));
   return pairs;
 }
 
 inference::MaxNull pair_null(const Field& field, int draws) {
   const auto units = single_columns(field);
-  VecX z;
-  const MatX rho = correlations(field, units, z);
+  const MatX rho = unit_scores(field, units).rho;
   const MatX g = inference::MaxNull::draw(rho, draws, 2);
   VecX largest = VecX::Zero(draws);
   for (std::size_t i = 0; i < units.size(); ++i)
@@ -166,7 +162,7 @@ std::vector<Pair> adequate_pairs(const Field& field, const std::vector<Score>& s
       const inference::Candidate& b = field.set.candidates[choices[k].candidate];
       if (choices[i].candidate == choices[k].candidate || a.contains(b) || b.contains(a)) continue;
       const double evidence =
-          quick_log_bayes(field.projected, columns_of(field, {choices[k], choices[i]}, false));
+          quick_log_bayes(field.projected, columns_of(field.set, {choices[k], choices[i]}));
       if (evidence < top - too_little) continue;
       top = std::max(top, evidence);
       tries.push_back({choices[k], choices[i], evidence});
@@ -177,7 +173,7 @@ std::vector<Pair> adequate_pairs(const Field& field, const std::vector<Score>& s
     const std::vector<Choice> pair{t.a, t.b};
     const Remainder r = remainder(field, pair, library_threshold);
     if (r.library > library_threshold || r.scan > scan_threshold) continue;
-    const auto columns = columns_of(field, pair, false);
+    const auto columns = columns_of(field.set, pair);
     const inference::Contrast both =
         inference::make_contrast(field.projected.C, field.projected.raw, columns);
     const double T = both.T(field.projected.g);
@@ -187,35 +183,6 @@ std::vector<Pair> adequate_pairs(const Field& field, const std::vector<Score>& s
   std::stable_sort(found.begin(), found.end(),
                    [](const Pair& a, const Pair& b) { return a.log_bayes > b.log_bayes; });
   return diverse(field, found, most);
-}
-
-std::vector<Choice> greedy(const Field& field, const std::vector<Score>& scores,
-                           double library_threshold, double scan_threshold, std::size_t most) {
-  std::vector<Choice> in;
-  std::size_t next = 0;
-  for (std::size_t k = 1; k < scores.size(); ++k)
-    if (scores[k].strength > scores[next].strength) next = k;
-  const auto quiet = [&](const Remainder& r) {
-    return r.library <= library_threshold && r.scan <= scan_threshold;
-  };
-  Remainder r;
-  do {
-    in.push_back({next, scores[next].variant});
-    r = remainder(field, in, 1e300);
-    next = r.strongest;
-  } while (!quiet(r) && in.size() < most && r.library > library_threshold);
-  if (!quiet(r)) return {};
-  for (std::size_t k = 0; k < in.size() && in.size() > 1;) {
-    std::vector<Choice> fewer = in;
-    fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(k));
-    if (quiet(remainder(field, fewer, 1e300))) {
-      in = fewer;
-      k = 0;
-    } else {
-      ++k;
-    }
-  }
-  return in;
 }
 
 }  // namespace drift::search

@@ -5,8 +5,8 @@
 
 namespace drift::search {
 
-double setting_spread(const Examination& nominal, const std::vector<Choice>& choices,
-                      std::size_t which, std::size_t param, double value) {
+double setting_spread(const Fitted& nominal, const std::vector<Choice>& choices, std::size_t which,
+                      std::size_t param, double value) {
   const std::size_t k = choices[which].candidate;
   const auto& variants = nominal.set.candidates[k].variants;
   std::vector<Choice> tried = choices;
@@ -17,7 +17,7 @@ double setting_spread(const Examination& nominal, const std::vector<Choice>& cho
         std::ranges::find(variants[v].settings, param, &std::pair<std::size_t, double>::first);
     if (setting == variants[v].settings.end()) return 0.0;
     tried[which].variant = v;
-    evidence.push_back(log_bayes(nominal.projected, columns_of(nominal, tried, false)));
+    evidence.push_back(log_bayes(nominal.projected, columns_of(nominal.set, tried)));
     share.push_back(variants[v].share);
     off.push_back(setting->second - value);
   }

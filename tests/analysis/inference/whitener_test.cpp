@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "analysis/inference/signatures.hpp"
+#include "tests/support/dense_covariance.hpp"
 #include "tests/support/model_builders.hpp"
 
 namespace drift::inference {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "analysis/inference/candidate.hpp"
 #include "analysis/inference/scan.hpp"
+#include "analysis/search/choice.hpp"
 
 namespace drift::search {
 
@@ -14,13 +14,13 @@ struct Field {
   /// What a candidate's score owes to priors alone, taken off it (empty: nothing). lambda rescales
   /// the misalignments; their prior cost is all that it can gain where the data do not tell.
   std::vector<double> discount;
-  double discount_of(std::size_t candidate) const {
-    return discount.empty() ? 0.0 : discount[candidate];
-  }
 
   Field() = default;
   Field(inference::CandidateSet candidates, inference::Projected p,
         std::vector<inference::PositionScan> windows);
+  double discount_of(std::size_t candidate) const {
+    return discount.empty() ? 0.0 : discount[candidate];
+  }
   /// All contrasts, for the null of the maximum.
   std::vector<inference::Contrast> all_contrasts() const;
 };
@@ -39,30 +39,13 @@ Score score(const Field& field, std::size_t candidate);
 std::vector<std::size_t> best_settings(const Field& field, std::size_t candidate, double nearly,
                                        std::size_t most);
 
-/// What is left when some causes are in the model, their amplitudes free.
-struct Remainder {
-  double library = 0.0;       ///< largest strength among the other candidates
-  double scan = 0.0;          ///< largest strength among the windows
-  std::size_t strongest = 0;  ///< the candidate that has `library`
-};
-
-/// A cause as it is put into the model: a candidate at one variant. The neighbouring variant on the
-/// grid goes in with it, so that a time constant between two of them is allowed for.
-struct Choice {
-  std::size_t candidate = 0, variant = 0;
-};
-
-std::vector<int> columns_of(const Field& field, const std::vector<Choice>& choices,
-                            bool with_neighbours);
-
-/// Conditional scores T_(c|d) (discovery.md 2.5). Members of a chosen candidate's own family (same
-/// term, parameters among its own) do not count as others. stop: give up (and return what was
-/// found) as soon as a candidate's strength exceeds it.
-Remainder remainder(const Field& field, const std::vector<Choice>& choices, double stop);
-
 /// Log evidence of simultaneous causes against the nominal model, amplitudes of unknown size
 /// (size_prior.hpp).
 double log_bayes(const inference::Projected& p, const std::vector<int>& columns);
+
+/// Amplitudes, in prior sigmas, that the linear score expects of some columns: (C + 1)^-1 g, with
+/// the unit prior, so that nothing runs away.
+VecX expected_amplitudes(const inference::Projected& p, const std::vector<int>& columns);
 
 /// Cosine of what is left of two candidates' signatures; of several dimensions the largest
 /// canonical one.
