@@ -72,8 +72,7 @@ Json of(const Answer& a) {
           {"chi2_per_dof_after", number(a.chi2_after)},
           {"held_out", a.held_out},
           {"held_out_gain", number(a.held_out_gain)},
-          {"seconds", number(a.seconds)},
-          {"sentence", a.sentence}};
+          {"seconds", number(a.seconds)}};
 }
 
 Verdict verdict_of(const std::string& name) {
@@ -100,7 +99,6 @@ Answer from(const Json& j) {
   a.held_out = j.at("held_out");
   a.held_out_gain = number(j.at("held_out_gain"));
   a.seconds = number(j.at("seconds"));
-  a.sentence = j.at("sentence");
   return a;
 }
 
@@ -144,7 +142,6 @@ Answer answer_of(const diagnosis::Diagnosis& d) {
   a.chi2_after = d.fit.chi2_per_dof_after;
   a.held_out = !d.fit.held_out.folds.empty();
   a.held_out_gain = d.fit.held_out.log_score_gain;
-  a.sentence = d.sentence;
   return a;
 }
 

@@ -42,7 +42,8 @@ class Folder {
     if (!std::isfinite(before.log_score)) before = conditioned;
     const Prediction after = linear ? after_.predict(part.intervals) : refitted(patched_, part);
     Fold fold;
-    fold.name = part.name;
+    fold.of = part.of;
+    fold.number = part.number;
     fold.positions = part.positions;
     fold.dof = before.rows;
     fold.chi2_before = before.chi2;

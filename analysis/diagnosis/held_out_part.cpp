@@ -1,7 +1,5 @@
 #include "analysis/diagnosis/held_out_part.hpp"
 
-#include <fmt/format.h>
-
 #include <limits>
 #include <set>
 
@@ -25,7 +23,7 @@ std::vector<HeldOutPart> positions_of(const inference::MeasuredRows& rows) {
   if (positions.size() < 2) return parts;
   for (const int p : positions) {
     HeldOutPart part{
-        fmt::format("position {}", p + 1), {p + 1}, std::vector<bool>(rows.drives.size(), false)};
+        Fold::Of::position, p + 1, {p + 1}, std::vector<bool>(rows.drives.size(), false)};
     for (const inference::RowTag& t : rows.tags)
       if (t.position == p) part.intervals[t.interval] = true;
     parts.push_back(std::move(part));
@@ -37,8 +35,10 @@ std::vector<HeldOutPart> recordings_of(const inference::MeasuredRows& rows,
                                        const std::vector<std::size_t>& ends) {
   std::vector<HeldOutPart> parts;
   for (std::size_t r = 0; r < ends.size(); ++r) {
-    HeldOutPart part{
-        fmt::format("recording {}", r + 1), {}, std::vector<bool>(rows.drives.size(), false)};
+    HeldOutPart part{Fold::Of::recording,
+                     static_cast<int>(r) + 1,
+                     {},
+                     std::vector<bool>(rows.drives.size(), false)};
     for (std::size_t i = r == 0 ? 0 : ends[r - 1]; i < ends[r]; ++i) part.intervals[i] = true;
     for (const int p : positions_in(rows, part.intervals)) part.positions.push_back(p + 1);
     if (!part.positions.empty()) parts.push_back(std::move(part));

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
+#include "analysis/diagnosis/fit_comparison.hpp"
 #include "analysis/inference/linear_problem.hpp"
 #include "core/sim/measurements.hpp"
 
@@ -10,7 +10,8 @@ namespace drift::diagnosis {
 
 /// What is held out at once.
 struct HeldOutPart {
-  std::string name;             ///< "position 3", "recording 1"
+  Fold::Of of = Fold::Of::position;
+  int number = 0;               ///< of it, 1-based
   std::vector<int> positions;   ///< 1-based
   std::vector<bool> intervals;  ///< marked: held out
 };

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/diagnosis/diagnosis.hpp"
+#include "analysis/diagnosis/recovered_signal.hpp"
 #include "analysis/search/fitted.hpp"
 
 namespace drift::diagnosis {
@@ -27,7 +27,7 @@ struct InputEstimate {
 };
 
 /// The same for each of the twelve equations, best first. per_position: bins of each position.
-std::vector<InputEstimate> estimate_inputs(const inference::MeasuredRows& rows,
+std::vector<InputEstimate> estimate_inputs(const inference::LinearProblem& problem,
                                            const Timeline& timeline,
                                            const inference::Projector& projector, int per_position);
 

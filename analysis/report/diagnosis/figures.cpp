@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/diagnosis/sentence.hpp"
+#include "analysis/report/diagnosis/sentence.hpp"
 #include "analysis/report/diagnosis/words.hpp"
 #include "analysis/report/svg/bar_chart.hpp"
 #include "analysis/report/svg/dumbbell_chart.hpp"
@@ -187,7 +187,8 @@ std::optional<Figure> residual_figure(const Diagnosis& d) {
       svg_of(chart)};
 }
 
-std::optional<Figure> held_out_figure(const HeldOut& held) {
+std::optional<Figure> held_out_figure(const HeldOut& held,
+                                      const std::vector<RecordingSpan>& recordings) {
   DumbbellChart chart;
   chart.title = "Prediction of data held out of the fit";
   chart.x_label = "chi-square per degree of freedom (logarithmic)";
@@ -200,7 +201,7 @@ std::optional<Figure> held_out_figure(const HeldOut& held) {
     for (const Fold& f : *folds) {
       if (f.dof == 0) continue;
       const double n = static_cast<double>(f.dof), gain = f.log_score_after - f.log_score_before;
-      chart.lines.push_back({.label = f.name,
+      chart.lines.push_back({.label = fold_name(f, recordings),
                              .before = f.chi2_before / n,
                              .after = f.chi2_after / n,
                              .text = std::isfinite(gain) ? fmt::format("{:+.1f}", gain) : ""});
@@ -305,7 +306,7 @@ std::vector<Figure> name_figures(const Diagnosis& d) {
 
 std::vector<Figure> fit_figures(const Diagnosis& d) {
   std::vector<Figure> figures;
-  add(figures, held_out_figure(d.fit.held_out));
+  add(figures, held_out_figure(d.fit.held_out, d.where.recordings));
   add(figures, moved_figure(d.fit.shifted));
   add(figures, residual_figure(d));
   return figures;

@@ -5,9 +5,9 @@
 #include <sstream>
 
 #include "analysis/diagnosis/patched_study.hpp"
-#include "analysis/diagnosis/sentence.hpp"
 #include "analysis/report/diagnosis/json.hpp"
 #include "analysis/report/diagnosis/residual_signal.hpp"
+#include "analysis/report/diagnosis/sentence.hpp"
 #include "analysis/report/page/table.hpp"
 #include "core/base/results_folder.hpp"
 
@@ -24,7 +24,7 @@ std::string commented(const std::string& text) {
 
 /// The patched study; where several causes remain possible, headed by what it holds.
 std::string patched_file(const mc::Study& study, const diagnosis::Diagnosis& d) {
-  const std::string head = diagnosis::patch_text(d);
+  const std::string head = patch_text(d);
   return (head.empty() ? "" : commented(head)) + diagnosis::patched_study(study, d.patched);
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "analysis/report/diagnosis/figures.hpp"
+#include "analysis/report/diagnosis/sentence.hpp"
 #include "analysis/report/diagnosis/tables.hpp"
 #include "analysis/report/diagnosis/words.hpp"
 #include "core/physics/coupling_text.hpp"
@@ -48,9 +49,8 @@ Section where_section(const Diagnosis& d) {
     section.blocks.emplace_back(Paragraph{sentence});
   add_pictures(section, where_figures(d));
   for (const RecoveredSignal& s : d.signals)
-    if (!s.shape.empty())
-      section.blocks.emplace_back(Paragraph{
-          s.shape.starts_with(s.equation) ? s.shape : fmt::format("{}: {}", s.equation, s.shape)});
+    if (const std::string shape = shape_text(s); !shape.empty())
+      section.blocks.emplace_back(Paragraph{fmt::format("{}: {}", s.equation, shape)});
   if (!d.where.windows.empty()) section.blocks.emplace_back(window_table(d, most_windows));
   return section;
 }
@@ -72,7 +72,7 @@ Section name_section(const Diagnosis& d) {
   if (!d.candidates.empty()) section.blocks.emplace_back(candidate_table(d, most_candidates));
   if (!d.inseparable.empty()) {
     section.blocks.emplace_back(Paragraph{"This plan can never tell these apart:"});
-    section.blocks.emplace_back(Sentences{d.inseparable});
+    section.blocks.emplace_back(Sentences{twins_in_words(d.inseparable)});
   }
   return section;
 }
@@ -134,7 +134,7 @@ HtmlReport diagnosis_html(const mc::Study& study, const Diagnosis& d,
   report.title = study.title.empty() ? "Diagnosis" : study.title;
   report.subtitle =
       fmt::format("{} {}", verdict_word(d.verdict), fmt::join(source.recordings, ", "));
-  report.headlines.push_back(verdict_sentence(d));
+  report.headlines.push_back(sentence(d));
   if (d.verdict != Verdict::consistent) {
     for (const auto& sentence : {where_sentence(d.where), held_out_sentence(d.fit.held_out)})
       if (!sentence.empty()) report.headlines.push_back(sentence);

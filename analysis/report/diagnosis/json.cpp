@@ -1,8 +1,11 @@
 #include "analysis/report/diagnosis/json.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "analysis/report/diagnosis/sentence.hpp"
 #include "analysis/report/diagnosis/words.hpp"
 
 namespace drift::report {
@@ -115,10 +118,10 @@ Json candidates_json(const std::vector<CandidateScore>& candidates) {
   return all;
 }
 
-Json folds_json(const std::vector<Fold>& folds) {
+Json folds_json(const std::vector<Fold>& folds, const std::vector<RecordingSpan>& recordings) {
   Json list = Json::array();
   for (const Fold& f : folds)
-    list.push_back({{"name", f.name},
+    list.push_back({{"name", fold_name(f, recordings)},
                     {"positions", f.positions},
                     {"chi2_before", number(f.chi2_before)},
                     {"chi2_after", number(f.chi2_after)},
@@ -128,7 +131,8 @@ Json folds_json(const std::vector<Fold>& folds) {
   return list;
 }
 
-Json fit_json(const FitComparison& fit, bool has_cause) {
+Json fit_json(const FitComparison& fit, const std::vector<RecordingSpan>& recordings,
+              bool has_cause) {
   Json out;
   // Without a cause there is no second fit; a recording on a case has no likelihood.
   const bool refitted = has_cause && std::isfinite(fit.log_likelihood_ratio);
@@ -158,14 +162,14 @@ Json fit_json(const FitComparison& fit, bool has_cause) {
                      {"nested_gain", of_folds(held.nested_gain)},
                      {"improves", held.improves},
                      {"method", text_or_null(held.method)},
-                     {"each", folds_json(held.folds)}};
+                     {"each", folds_json(held.folds, recordings)}};
   if (!held.recordings.empty())
     out["held_out"]["by_recording"] = {
         {"chi2_per_dof_before", number(held.recording_chi2_per_dof_before)},
         {"chi2_per_dof_after", number(held.recording_chi2_per_dof_after)},
         {"log_score_gain", number(held.recording_gain)},
         {"folds", held.recordings.size()},
-        {"each", folds_json(held.recordings)}};
+        {"each", folds_json(held.recordings, recordings)}};
   out["start_spread_before"] = number(fit.start_spread_before);
   out["start_spread_after"] = number(fit.start_spread_after);
   Json& shifted = out["shifted_parameters"] = Json::array();
@@ -220,16 +224,17 @@ Json noise_json(const std::vector<NoiseFinding>& noise) {
 
 /// What the recovered input says of each equation; the series itself is in residual_signal.csv.
 Json equations_json(const std::vector<RecoveredSignal>& signals) {
+  using Kind = Shape::Kind;
   Json all = Json::array();
   for (const RecoveredSignal& s : signals)
     all.push_back(
         {{"equation", s.equation},
          {"unit", s.unit},
-         {"shape", s.shape},
-         {"onset_s", s.onset_s >= 0.0 ? number(s.onset_s) : Json(nullptr)},
-         {"period_s", s.period_s > 0.0 ? number(s.period_s) : Json(nullptr)},
-         {"covariate", text_or_null(s.best_covariate)},
-         {"correlation", s.best_covariate.empty() ? Json(nullptr) : number(s.correlation)}});
+         {"shape", fmt::format("{}: {}", s.equation, shape_text(s))},
+         {"onset_s", s.shape.kind == Kind::onset ? number(s.shape.seconds) : Json(nullptr)},
+         {"period_s", s.shape.kind == Kind::period ? number(s.shape.seconds) : Json(nullptr)},
+         {"covariate", text_or_null(s.shape.covariate)},
+         {"correlation", s.shape.covariate.empty() ? Json(nullptr) : number(s.correlation)}});
   return all;
 }
 
@@ -251,18 +256,18 @@ std::string to_json(const Diagnosis& d) {
   out["schema"] = 1;
   out["verdict"] = std::string(text(d.verdict));
   out["p_value"] = number(d.p_value);
-  out["sentence"] = d.sentence;
+  out["sentence"] = sentence(d);
   out["other_equation_gain"] = number(d.other_equation_gain);
   out["where"] = where_json(d.where);
   out["causes"] = causes_json(d.causes);
   out["candidates"] = candidates_json(d.candidates);
-  out["fit"] = fit_json(d.fit, d.has_patch);
+  out["fit"] = fit_json(d.fit, d.where.recordings, d.has_patch);
   out["advice"] = advice_json(d.advice);
   out["model"] = d.has_patch ? Json("patched.toml") : Json(nullptr);
   out["noise"] = noise_json(d.noise);
   out["equations"] = equations_json(d.signals);
   out["cosines"] = cosines_json(d.cosines);
-  out["inseparable"] = d.inseparable;
+  out["inseparable"] = twins_in_words(d.inseparable);
   out["remarks"] = remarks_of(d);
   Json& seconds = out["seconds"] = Json::object();
   for (const auto& [stage, time] : d.seconds) seconds[stage] = number(time);

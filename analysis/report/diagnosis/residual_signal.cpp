@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "analysis/report/diagnosis/sentence.hpp"
 #include "analysis/report/diagnosis/words.hpp"
 
 namespace drift::report {
@@ -28,7 +29,8 @@ std::string residual_signal_csv(const std::vector<diagnosis::RecoveredSignal>& s
       "# what the nominal model does not explain, as the input that would explain it; sigma: 1 "
       "standard deviation\n";
   for (const auto& s : signals)
-    if (!s.shape.empty()) out += fmt::format("# {} = {}\n", plain(s.equation), plain(s.shape));
+    if (const std::string shape = shape_text(s); !shape.empty())
+      out += fmt::format("# {} = {}\n", plain(s.equation), plain(shape));
   for (const auto& r : recordings)
     out += fmt::format("# {} = its own time is time [s] less {:.9g}\n", plain(r.name), r.offset_s);
   out += fmt::format("equation,time [s],position,value,sigma,explained,unit{}\n",

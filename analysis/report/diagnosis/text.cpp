@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "analysis/report/diagnosis/sentence.hpp"
 #include "analysis/report/diagnosis/tables.hpp"
 #include "analysis/report/diagnosis/words.hpp"
 
@@ -23,7 +24,7 @@ std::string headed(std::string_view head, const std::string& sentence) {
 }  // namespace
 
 std::string to_text(const Diagnosis& d) {
-  std::string out = headed(fmt::format("Verdict {}", text(d.verdict)), verdict_sentence(d));
+  std::string out = headed(fmt::format("Verdict {}", text(d.verdict)), sentence(d));
   const bool found = d.verdict != Verdict::consistent;
   if (found) {
     out += headed("Where", where_sentence(d.where));

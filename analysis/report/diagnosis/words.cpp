@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/diagnosis/sentence.hpp"
+#include "analysis/report/diagnosis/remark_words.hpp"
+#include "analysis/report/diagnosis/sentence.hpp"
 #include "core/base/number_text.hpp"
 
 namespace drift::report {
@@ -62,7 +63,8 @@ std::vector<ShownCandidate> shown_candidates(const Diagnosis& d, std::size_t mos
 }
 
 std::vector<std::string> remarks_of(const Diagnosis& d) {
-  std::vector<std::string> all = d.remarks;
+  std::vector<std::string> all;
+  for (const Remark& r : d.remarks) all.push_back(in_words(r));
   if (const auto& recordings = d.where.recordings; !recordings.empty()) {
     std::vector<std::string> begins;
     for (const RecordingSpan& r : recordings)
@@ -97,8 +99,28 @@ std::string channel_in_words(const std::string& name) {
   return name;
 }
 
-std::string verdict_sentence(const Diagnosis& d) {
-  return d.sentence.empty() ? sentence(d) : d.sentence;
+std::string fold_name(const Fold& fold, const std::vector<RecordingSpan>& recordings) {
+  switch (fold.of) {
+    case Fold::Of::position:
+      return fmt::format("position {}", fold.number);
+    case Fold::Of::dwell:
+      return fmt::format("dwell {}", fold.number);
+    case Fold::Of::recording:
+      break;
+  }
+  const auto k = static_cast<std::size_t>(fold.number);
+  return k >= 1 && k <= recordings.size()
+             ? fmt::format("recording {}, {}", k, recordings[k - 1].name)
+             : fmt::format("recording {}", k);
+}
+
+std::vector<std::string> twins_in_words(const std::vector<Twins>& twins) {
+  std::vector<std::string> lines;
+  for (const Twins& t : twins)
+    lines.push_back(fmt::format("{} and {} leave the same trace on this plan",
+                                in_words(t.one.term, t.one.axis),
+                                in_words(t.other.term, t.other.axis)));
+  return lines;
 }
 
 std::string where_sentence(const Where& where) {

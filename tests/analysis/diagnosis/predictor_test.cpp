@@ -42,9 +42,10 @@ TEST(HeldOutPart, PositionsAndRecordingsCoverEachIntervalOnce) {
   const inference::LinearProblem p = test::random_problem(2, 0);
   const std::vector<HeldOutPart> positions = positions_of(p);
   ASSERT_EQ(positions.size(), 4u);
-  EXPECT_EQ(positions[2].name, "position 3");
+  EXPECT_EQ(positions[2].number, 3);
   const std::vector<HeldOutPart> recordings = recordings_of(p, {10, 20});
   ASSERT_EQ(recordings.size(), 2u);
+  EXPECT_EQ(recordings[1].of, Fold::Of::recording);
   EXPECT_EQ(recordings[1].positions, (std::vector<int>{3, 4}));
   for (const auto* parts : {&positions, &recordings})
     for (std::size_t i = 0; i < p.drives.size(); ++i) {

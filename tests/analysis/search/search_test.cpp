@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/diagnosis/answer.hpp"
+#include "analysis/diagnosis/causes.hpp"
 #include "tests/support/model_builders.hpp"
 
 namespace drift::search {
@@ -83,12 +83,11 @@ TEST(Search, AStepBetweenTheHoursOfTheGridIsNamedAloneWithItsTime) {
   EXPECT_TRUE(c.variants[choice.variant].between);
   // The axis bears no gravity from 2 to 4 h: the sigma of the time must say that it may be any in
   // between.
-  diagnosis::Diagnosis d;
-  diagnosis::fill_causes(s.nominal, s, d);
-  ASSERT_EQ(d.causes.size(), 1u);
+  const auto causes = diagnosis::causes_of(s.nominal, s).causes;
+  ASSERT_EQ(causes.size(), 1u);
   for (const char* key : {"dD_I_y", "dD_t0"}) {
-    const auto p = std::ranges::find(d.causes[0].parameters, key, &CauseParameter::key);
-    ASSERT_NE(p, d.causes[0].parameters.end());
+    const auto p = std::ranges::find(causes[0].parameters, key, &CauseParameter::key);
+    ASSERT_NE(p, causes[0].parameters.end());
     EXPECT_NEAR(p->value, draw.theta[param(key)] / TermLibrary::specs[param(key)].unit.to_si,
                 4.0 * p->sigma)
         << key;

@@ -1,4 +1,4 @@
-#include "analysis/diagnosis/name_recordings.hpp"
+#include "analysis/diagnosis/recording_spans.hpp"
 
 #include <fmt/format.h>
 
@@ -22,23 +22,22 @@ std::vector<std::string> names_of(const std::vector<Recording>& recordings) {
 
 }  // namespace
 
-void name_recordings(const mc::Study& study, const std::vector<Recording>& recordings,
-                     Diagnosis& d) {
-  if (recordings.size() < 2) return;
+std::vector<RecordingSpan> recording_spans(const mc::Study& study,
+                                           const std::vector<Recording>& recordings) {
+  if (recordings.size() < 2) return {};
   const identification::RecordedTest test = identification::recorded_test(study, recordings);
   const auto names = names_of(recordings);
+  std::vector<RecordingSpan> spans;
   std::size_t first = 0;
   for (std::size_t k = 0; k < recordings.size(); ++k) {
     const Interval &begin = test.timeline.intervals[first],
                    &end = test.timeline.intervals[test.ends[k] - 1];
     const Channel* time = recordings[k].find("time");
     const double own = time && !time->values.empty() ? time->values.front() : begin.t1;
-    d.where.recordings.push_back({names[k], begin.t0, end.t1, begin.t1 - own});
+    spans.push_back({names[k], begin.t0, end.t1, begin.t1 - own});
     first = test.ends[k];
-    for (Fold& fold : d.fit.held_out.recordings)
-      if (fold.name == fmt::format("recording {}", k + 1))
-        fold.name = fmt::format("recording {}, {}", k + 1, names[k]);
   }
+  return spans;
 }
 
 }  // namespace drift::diagnosis

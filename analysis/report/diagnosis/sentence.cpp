@@ -1,4 +1,4 @@
-#include "analysis/diagnosis/sentence.hpp"
+#include "analysis/report/diagnosis/sentence.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -6,10 +6,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/report/diagnosis/remark_words.hpp"
 #include "core/base/number_text.hpp"
+#include "core/base/units.hpp"
 
-namespace drift::diagnosis {
+namespace drift::report {
 namespace {
+
+using namespace diagnosis;
 
 constexpr double one_direction =
     0.999;  // squared cosine above which two signatures leave the same trace
@@ -49,13 +53,11 @@ std::string number_of(const search::CauseParameter& p) {
 }
 
 /// The shape of the strongest recovered signal, its equation said where it is not the one located.
-std::string shape_text(const Diagnosis& d) {
-  if (d.signals.empty() || d.signals.front().shape.empty()) return "";
+std::string located_shape_text(const Diagnosis& d) {
+  if (d.signals.empty() || d.signals.front().shape.kind == Shape::Kind::unknown) return "";
   const RecoveredSignal& s = d.signals.front();
-  const std::string head = s.equation + ": ";
-  const std::string shape = s.shape.starts_with(head) ? s.shape.substr(head.size()) : s.shape;
-  if (s.equation == d.where.equation) return ": " + shape;
-  return fmt::format(". As an input to the {}: {}", equation_in_words(s.equation), shape);
+  if (s.equation == d.where.equation) return ": " + shape_text(s);
+  return fmt::format(". As an input to the {}: {}", equation_in_words(s.equation), shape_text(s));
 }
 
 /// What stands in the brackets behind a cause.
@@ -99,8 +101,7 @@ bool same_trace(const Diagnosis& d, std::size_t i, std::size_t k) {
   if (d.causes[i].term == d.causes[k].term && d.causes[i].axis == d.causes[k].axis) return true;
   const auto a = static_cast<Eigen::Index>(i), b = static_cast<Eigen::Index>(k);
   const MatX& cosine = d.cosines.cosine;
-  return a < cosine.rows() && b < cosine.cols() &&
-         cosine(a, b) * cosine(a, b) > one_direction;
+  return a < cosine.rows() && b < cosine.cols() && cosine(a, b) * cosine(a, b) > one_direction;
 }
 
 bool same_trace(const Diagnosis& d, const Alternative& one, const Alternative& other) {
@@ -193,6 +194,66 @@ std::string ambiguous_text(const Diagnosis& d) {
                      fmt::join(words, ", or "), twins_text(d, all));
 }
 
+std::string verdict_alone(const Diagnosis& d) {
+  const std::string noise = noise_text(d),
+                    false_alarm = fmt::format("chance of a false alarm: {}", p_text(d.p_value));
+  switch (d.verdict) {
+    case Verdict::consistent:
+      return fmt::format(
+          "The recording agrees with the nominal model; no missing physics is found (noise alone "
+          "shows as "
+          "much with a chance of {}).{}",
+          p_text(d.p_value), noise);
+    case Verdict::named:
+      return fmt::format("{}; {} ({}).{}{}", lacking(d.causes),
+                         held_out_text(d.fit.held_out, d.causes.size() > 1), false_alarm,
+                         outside_twins_text(d), noise);
+    case Verdict::ambiguous:
+      return ambiguous_text(d) + outside_twins_text(d) + noise;
+    case Verdict::unexplained:
+      break;
+  }
+  return fmt::format(
+      "Something is missing from the nominal model ({}) and no known effect explains it; it sits "
+      "in the {}{}.{}",
+      false_alarm,
+      d.where.equation.empty() ? "test as a whole" : equation_in_words(d.where.equation),
+      located_shape_text(d), noise);
+}
+
+/// Of a recording on a case.
+std::string case_sentence(const Diagnosis& d) {
+  if (d.causes.empty())
+    return fmt::format(
+        "Nothing is missing that predicts held-out dwells and turns better (noise alone shows as "
+        "much with a chance of {}).",
+        p_text(d.p_value));
+  std::vector<std::string> numbers;
+  for (const ErrorOfKind& k : d.errors)
+    numbers.push_back(fmt::format("{} {:.3g} → {:.3g} {}", k.what, k.before, k.after, k.unit));
+  return fmt::format("{} (chance of a false alarm: {}); error on held-out data: {}.",
+                     lacking(d.causes), p_text(d.p_value), fmt::join(numbers, ", "));
+}
+
+std::string nearest_text(const NearestKnown& near) {
+  std::vector<std::string> words;
+  for (const NamedEffect& e : near.effects)
+    words.push_back(fmt::format("{} ({})", in_words(e.term, e.axis), e.label));
+  return fmt::format(
+      " The nearest known is {}: chi-square per degree of freedom goes from {:.3g} to {:.3g}, and "
+      "something significant is left.",
+      fmt::join(words, " together with "), near.chi2_per_dof_before, near.chi2_per_dof_after);
+}
+
+std::string site_text(const SiteDoubt& doubt) {
+  return fmt::format(
+      " Check [site] latitude: at {:.3f} deg instead of {:.3f} deg the nominal model fits with "
+      "chi-square per degree of freedom {:.3g} instead of {:.3g}. As a cause that is no survey "
+      "error any more: latitude_error would need {:.3g} prior sigmas.",
+      doubt.latitude / unit::deg.to_si, doubt.declared / unit::deg.to_si,
+      doubt.chi2_per_dof_after, doubt.chi2_per_dof_before, doubt.prior_sigmas);
+}
+
 }  // namespace
 
 std::string in_words(std::string_view term, std::string_view axis) {
@@ -259,32 +320,16 @@ std::string patch_text(const Diagnosis& d) {
       "its parameters are right only if this is the cause.",
       all.size(), odds, words);
 }
-
 std::string sentence(const Diagnosis& d) {
-  const std::string noise = noise_text(d),
-                    false_alarm = fmt::format("chance of a false alarm: {}", p_text(d.p_value));
-  switch (d.verdict) {
-    case Verdict::consistent:
-      return fmt::format(
-          "The recording agrees with the nominal model; no missing physics is found (noise alone "
-          "shows as "
-          "much with a chance of {}).{}",
-          p_text(d.p_value), noise);
-    case Verdict::named:
-      return fmt::format("{}; {} ({}).{}{}", lacking(d.causes),
-                         held_out_text(d.fit.held_out, d.causes.size() > 1), false_alarm,
-                         outside_twins_text(d), noise);
-    case Verdict::ambiguous:
-      return ambiguous_text(d) + outside_twins_text(d) + noise;
-    case Verdict::unexplained:
-      break;
-  }
-  return fmt::format(
-      "Something is missing from the nominal model ({}) and no known effect explains it; it sits "
-      "in the {}{}.{}",
-      false_alarm,
-      d.where.equation.empty() ? "test as a whole" : equation_in_words(d.where.equation),
-      shape_text(d), noise);
+  if (!d.errors.empty()) return case_sentence(d);
+  std::string text = verdict_alone(d);
+  if (d.nearest_known) text += nearest_text(*d.nearest_known);
+  if (d.verdict == Verdict::consistent)
+    for (const Remark& r : d.remarks)
+      if (const auto* open = std::get_if<remark::EquationOpen>(&r))
+        text += fmt::format(" {}.", cannot_tell_equations(*open));
+  if (d.site_doubt) text += site_text(*d.site_doubt);
+  return text;
 }
 
-}  // namespace drift::diagnosis
+}  // namespace drift::report

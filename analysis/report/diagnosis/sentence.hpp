@@ -6,7 +6,7 @@
 
 #include "analysis/diagnosis/diagnosis.hpp"
 
-namespace drift::diagnosis {
+namespace drift::report {
 
 /// A term in words, the part it sits in behind: "magnetic sensitivity, gyro y". axis: "y",
 /// "middle", or empty. A key that is no term stands for itself.
@@ -30,11 +30,14 @@ std::string noise_in_words(const std::string& component);
 
 /// Which alternative the patched model holds, where the verdict leaves several open (or one that
 /// held-out data do not support); empty of any other verdict.
-std::string patch_text(const Diagnosis& d);
+std::string patch_text(const diagnosis::Diagnosis& d);
+
+/// What a recovered signal looks like: "grows evenly with time (correlation 0.97)".
+std::string shape_text(const diagnosis::RecoveredSignal& signal);
 
 /// The verdict for a test engineer: words first, keys and numbers in brackets. Alternatives of an
 /// ambiguous verdict are numbered as in the table of causes; those whose signatures are one
 /// direction on this plan are said to leave the same trace.
-std::string sentence(const Diagnosis& d);
+std::string sentence(const diagnosis::Diagnosis& d);
 
-}  // namespace drift::diagnosis
+}  // namespace drift::report
