@@ -62,8 +62,8 @@ std::optional<remark::BeyondPrior> beyond_prior(const BatchResult& nominal) {
 }
 
 std::optional<remark::EquationOpen> equation_open(const Diagnosis& d) {
-  const bool closure_is_a_cause = std::ranges::any_of(
-      d.causes, [](const search::Cause& c) { return c.term == "frame_closure"; });
+  const bool closure_is_a_cause =
+      std::ranges::any_of(d.causes, [](const search::Cause& c) { return c.term == closure_term; });
   if (!std::isfinite(d.other_equation_gain) || closure_is_a_cause ||
       d.other_equation_gain < -equation_told)
     return std::nullopt;

@@ -119,7 +119,7 @@ std::vector<search::CandidateScore> candidate_table(const search::Fitted& nomina
   for (std::size_t k = 0; k < nominal.set.candidates.size(); ++k) {
     lines.push_back(line_of(nominal, found, k));
     lines.back().probability = probability[k];
-    if (lines.back().term == "frame_closure" && found.other_equation > lines.back().score)
+    if (lines.back().term == closure_term && found.other_equation > lines.back().score)
       score_by_jump(lines.back(), found);
   }
   if (!found.sets.empty()) weigh_by_refits(lines, nominal, found);

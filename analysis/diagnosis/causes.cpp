@@ -65,7 +65,7 @@ search::Cause cause_of(const search::Fitted& nominal, const search::Search& foun
     return inference::make_contrast(p.C, p.raw, search::columns_of(nominal.set, some)).T(p.g);
   };
   cause.T = std::max(0.0, T_of(r.choices) - (others.empty() ? 0.0 : T_of(others)));
-  if (c.term == "frame_closure") {  // far from linear: what counts is the fit
+  if (c.term == closure_term) {  // far from linear: what counts is the fit
     cause.T = std::max(cause.T, 2.0 * r.log_bayes);
     cause.dof = std::max(cause.dof, 1);
   }
@@ -136,7 +136,7 @@ CausesFound causes_of(const search::Fitted& nominal, const search::Search& found
   if (found.sets.empty() && nominal.lone.p_value < free_input_told)
     out.remarks.emplace_back(remark::FreeInputExplains{nominal.lone.equation, nominal.lone.gain});
   for (const search::Cause& c : out.causes)
-    if (c.term == "frame_closure") out.remarks.emplace_back(remark::CrosstalkMovesLambda{});
+    if (c.term == closure_term) out.remarks.emplace_back(remark::CrosstalkMovesLambda{});
   return out;
 }
 

@@ -9,14 +9,14 @@
 #include "analysis/diagnosis/candidate_table.hpp"
 #include "analysis/diagnosis/causes.hpp"
 #include "analysis/diagnosis/compare.hpp"
-#include "analysis/diagnosis/covariates.hpp"
 #include "analysis/diagnosis/judge.hpp"
 #include "analysis/diagnosis/located.hpp"
 #include "analysis/diagnosis/noise_found.hpp"
 #include "analysis/diagnosis/nominal_fit.hpp"
 #include "analysis/diagnosis/patched_study.hpp"
-#include "analysis/identification/recorded_test.hpp"
 #include "analysis/inference/gross_misfit.hpp"
+#include "analysis/preparation/covariates.hpp"
+#include "analysis/preparation/recorded_test.hpp"
 #include "core/base/check.hpp"
 #include "core/estimate/starts.hpp"
 #include "mc/task/campaign.hpp"
@@ -32,12 +32,8 @@ std::optional<inference::NoiseEstimate> noise_beside_equation(const FilterSpec& 
                                                               const BatchResult& fit) {
   constexpr double evident = 1.5, most = 0.8;  // chi-square per degree; part of its excess
   FilterSpec other = nominal;
-  if (nominal.coupling == Coupling::eq5)
-    other.coupling = Coupling::eq6;
-  else if (nominal.coupling == Coupling::eq6)
-    other.coupling = Coupling::eq5;
-  else
-    return std::nullopt;
+  if (!facts(nominal.coupling).other) return std::nullopt;
+  other.coupling = *facts(nominal.coupling).other;
   const auto per_dof = [](const BatchResult& f) {
     return f.estimate.statistic /
            static_cast<double>(std::max<std::size_t>(1, f.estimate.measured));
@@ -86,7 +82,8 @@ void append(std::vector<Remark>& remarks, std::vector<Remark> more) {
 }  // namespace
 
 Diagnosis diagnose(const FilterSpec& nominal_filter, const inference::Test& given,
-                   std::span<const Theta> starts, const std::vector<Covariate>& covariates,
+                   std::span<const Theta> starts,
+                   const std::vector<preparation::Covariate>& covariates,
                    const DiagnoseOptions& options, const std::vector<std::size_t>& recording_ends) {
   const mc::ThreadCount threads(options.threads);
   Diagnosis d;
@@ -164,7 +161,7 @@ Diagnosis diagnose(const mc::Study& study, const std::vector<Recording>& recordi
                                  "section [[filter]] with name and coupling",
                                  study.path));
   const FilterSpec& filter = study.filters.front();
-  const identification::RecordedTest test = identification::recorded_test(study, recordings);
+  const preparation::RecordedTest test = preparation::recorded_test(study, recordings);
   std::vector<Theta> starts;
   for (int k = 0; k + 1 < options.starts; ++k) {
     FilterSpec drawn = filter;
@@ -172,7 +169,7 @@ Diagnosis diagnose(const mc::Study& study, const std::vector<Recording>& recordi
     starts.push_back(initial_estimate(drawn, study.monte_carlo.seed, static_cast<std::size_t>(k)));
   }
   return diagnose(filter, {test.timeline, study.readout, test.measured}, starts,
-                  covariates_of(recordings), options, test.ends);
+                  preparation::covariates_of(recordings), options, test.ends);
 }
 
 }  // namespace drift::diagnosis

@@ -3,16 +3,17 @@
 #include <chrono>
 
 #include "analysis/diagnosis/advise.hpp"
-#include "analysis/diagnosis/prepare.hpp"
 #include "analysis/diagnosis/recording_spans.hpp"
 #include "analysis/diagnosis/site_doubt.hpp"
+#include "analysis/preparation/prepare.hpp"
 #include "core/base/check.hpp"
 
 namespace drift::diagnosis {
 namespace {
 
 /// Adds the advice, or why there is none.
-Diagnosis advised(Diagnosis d, const Prepared& test, const RecordingsOptions& options) {
+Diagnosis advised(Diagnosis d, const preparation::Prepared& test,
+                  const RecordingsOptions& options) {
   if (options.advising == Advising::left_out) return d;
   const auto began = std::chrono::steady_clock::now();
   std::optional<std::vector<std::string>> asked;
@@ -33,7 +34,7 @@ Diagnosis advised(Diagnosis d, const Prepared& test, const RecordingsOptions& op
 
 Diagnosis diagnose_recordings(const mc::Study& study, const std::vector<Recording>& recordings,
                               const RecordingsOptions& options) {
-  const Prepared test = prepare(study, recordings);
+  const preparation::Prepared test = preparation::prepare(study, recordings);
   Diagnosis d = diagnose(test.study, test.recordings, options.diagnose);
   d.site_doubt = site_doubt(test.study, test.recordings, d);
   d = advised(std::move(d), test, options);

@@ -35,7 +35,7 @@ std::string equation_of(const Judged& judged, const std::vector<InputEstimate>& 
 }  // namespace
 
 Located located(const search::Fitted& nominal, const search::Search& found, const Judged& judged,
-                const Timeline& timeline, const std::vector<Covariate>& covariates,
+                const Timeline& timeline, const std::vector<preparation::Covariate>& covariates,
                 Signals signals) {
   const search::Refit* best = found.sets.empty() ? nullptr : &found.sets.front();
   // What the cause explains, by the refit: what it takes out of the residuals.

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <set>
 
-#include "analysis/identification/recorded_test.hpp"
+#include "analysis/preparation/recorded_test.hpp"
 
 namespace drift::diagnosis {
 namespace {
@@ -25,7 +25,7 @@ std::vector<std::string> names_of(const std::vector<Recording>& recordings) {
 std::vector<RecordingSpan> recording_spans(const mc::Study& study,
                                            const std::vector<Recording>& recordings) {
   if (recordings.size() < 2) return {};
-  const identification::RecordedTest test = identification::recorded_test(study, recordings);
+  const preparation::RecordedTest test = preparation::recorded_test(study, recordings);
   const auto names = names_of(recordings);
   std::vector<RecordingSpan> spans;
   std::size_t first = 0;

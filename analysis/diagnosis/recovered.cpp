@@ -113,7 +113,7 @@ std::vector<InputEstimate> estimate_inputs(const inference::MeasuredRows& rows,
 }
 
 RecoveredSignal recovered_signal(const InputEstimate& input, const Timeline& timeline,
-                                 const std::vector<Covariate>& covariates,
+                                 const std::vector<preparation::Covariate>& covariates,
                                  const std::vector<std::pair<int, double>>& cause) {
   RecoveredSignal out;
   out.equation = inference::equation_name(input.equation, input.axis);

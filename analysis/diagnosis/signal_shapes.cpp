@@ -86,11 +86,11 @@ std::vector<ShapeColumns> shapes_of_position(const InputEstimate& input, const T
   return all;
 }
 
-std::vector<ShapeColumns> shapes_of_covariates(const InputEstimate& input,
-                                               const std::vector<Covariate>& covariates) {
+std::vector<ShapeColumns> shapes_of_covariates(
+    const InputEstimate& input, const std::vector<preparation::Covariate>& covariates) {
   std::vector<ShapeColumns> all;
   const auto n = static_cast<Eigen::Index>(input.bins.size());
-  for (const Covariate& c : covariates) {
+  for (const preparation::Covariate& c : covariates) {
     VecX v(n);
     for (Eigen::Index k = 0; k < n; ++k) {
       double sum = 0.0, count = 0.0;
@@ -111,7 +111,7 @@ std::vector<ShapeColumns> shapes_of_covariates(const InputEstimate& input,
 }  // namespace
 
 std::vector<ShapeColumns> signal_shapes(const InputEstimate& input, const Timeline& timeline,
-                                        const std::vector<Covariate>& covariates) {
+                                        const std::vector<preparation::Covariate>& covariates) {
   std::vector<ShapeColumns> all = shapes_of_time(input, timeline);
   for (auto more : {shapes_of_force(input, timeline), shapes_of_position(input, timeline),
                     shapes_of_covariates(input, covariates)})

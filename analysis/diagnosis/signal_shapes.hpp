@@ -19,6 +19,6 @@ inline double middle_time(const Timeline& t, const std::pair<std::size_t, std::s
 
 /// All shapes that are tried: of time, of what the platform feels, of positions and covariates.
 std::vector<ShapeColumns> signal_shapes(const InputEstimate& input, const Timeline& timeline,
-                                        const std::vector<Covariate>& covariates);
+                                        const std::vector<preparation::Covariate>& covariates);
 
 }  // namespace drift::diagnosis

@@ -5,8 +5,8 @@
 #include <initializer_list>
 #include <limits>
 
-#include "analysis/identification/recorded_test.hpp"
 #include "analysis/inference/signatures.hpp"
+#include "analysis/preparation/recorded_test.hpp"
 #include "core/base/check.hpp"
 #include "mc/task/campaign.hpp"
 
@@ -42,7 +42,7 @@ class Latitudes {
     mc::Study study = study_;
     study.site.latitude = latitude;
     try {
-      const identification::RecordedTest test = identification::recorded_test(study, recordings_);
+      const preparation::RecordedTest test = preparation::recorded_test(study, recordings_);
       const BatchResult fit = fit_batch(nominal_, test.timeline, study.readout, test.measured,
                                         make_layout(nominal_).theta);
       p.cost = fit.estimate.statistic;

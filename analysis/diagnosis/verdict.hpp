@@ -1,24 +1,17 @@
 #pragma once
 
-#include <string_view>
+#include "core/base/named.hpp"
 
 namespace drift::diagnosis {
 
 /// What a diagnosis ends with (interfaces.md 6).
 enum class Verdict { consistent, named, ambiguous, unexplained };
-
+inline constexpr Named<Verdict> verdicts[] = {{"consistent", Verdict::consistent},
+                                              {"named", Verdict::named},
+                                              {"ambiguous", Verdict::ambiguous},
+                                              {"unexplained", Verdict::unexplained}};
 constexpr std::string_view text(Verdict v) {
-  switch (v) {
-    case Verdict::consistent:
-      return "consistent";
-    case Verdict::named:
-      return "named";
-    case Verdict::ambiguous:
-      return "ambiguous";
-    case Verdict::unexplained:
-      break;
-  }
-  return "unexplained";
+  return name_in(verdicts, v);
 }
 
 }  // namespace drift::diagnosis

@@ -110,8 +110,8 @@ NoiseFinding driving_finding(const Mixture& m, std::size_t k, const NoiseModel& 
   const double sigma = m.model.*(c->sigma), was = declared.*(c->sigma);
   NoiseFinding f;
   f.component = c->name;
-  f.value = sigma / c->to_unit;
-  f.unit = c->unit;
+  f.value = sigma / c->unit.to_si;
+  f.unit = c->unit.symbol.view();
   if (c->tau) f.tau_s = m.model.*(c->tau);
   f.factor = f.factor_sigma = std::nan("");
   if (gain > 0.0) {

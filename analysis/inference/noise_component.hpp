@@ -4,6 +4,7 @@
 
 #include "analysis/inference/linear_problem.hpp"
 #include "analysis/inference/noise_model.hpp"
+#include "core/base/units.hpp"
 
 namespace drift::inference {
 
@@ -13,8 +14,7 @@ struct NoiseComponent {
   double NoiseModel::*sigma;
   double NoiseModel::*tau;  ///< null if it has none
   double reference;         ///< a size at which it may begin to matter, SI
-  const char* unit;
-  double to_unit;  ///< SI per unit
+  Unit unit;
 
   bool white() const {
     return sigma == &NoiseModel::acc_factor || sigma == &NoiseModel::gimbal_factor;
@@ -22,8 +22,21 @@ struct NoiseComponent {
   bool in(const NoiseModel& m) const { return m.*sigma > 0.0; }
 };
 
-extern const NoiseComponent acc_white, gimbal_white, angle_walk, drift_walk, markov_drift,
-    acc_markov;
+inline constexpr NoiseComponent acc_white{"accelerometer_white", &NoiseModel::acc_factor, nullptr,
+                                          1.0, unit::one};
+inline constexpr NoiseComponent gimbal_white{"gimbal_white", &NoiseModel::gimbal_factor, nullptr,
+                                             1.0, unit::one};
+inline constexpr NoiseComponent angle_walk{"angle_random_walk", &NoiseModel::angle_random_walk,
+                                           nullptr, 1e-3 * unit::deg_per_sqrt_h.to_si,
+                                           unit::deg_per_sqrt_h};
+inline constexpr NoiseComponent drift_walk{"drift_random_walk", &NoiseModel::drift_random_walk,
+                                           nullptr, 3e-3 * unit::deg_per_h_per_sqrt_h.to_si,
+                                           unit::deg_per_h_per_sqrt_h};
+inline constexpr NoiseComponent markov_drift{"markov_drift", &NoiseModel::markov_drift,
+                                             &NoiseModel::markov_tau, 3e-3 * unit::deg_per_h.to_si,
+                                             unit::deg_per_h};
+inline constexpr NoiseComponent acc_markov{"accelerometer_markov", &NoiseModel::acc_markov,
+                                           &NoiseModel::acc_tau, 2e-6, unit::ug};
 
 /// Rows of the instruments.
 struct RowCounts {

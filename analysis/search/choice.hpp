@@ -11,12 +11,14 @@ struct Choice {
   std::size_t candidate = 0, variant = 0;
 };
 
-/// The columns of simultaneous causes, ascending, each once.
+/// The columns of causes, one after the other; a parameter of two of them twice.
 std::vector<int> columns_of(const inference::CandidateSet& set, const std::vector<Choice>& choices);
+/// The same, each once and in order.
+std::vector<int> distinct_columns_of(const inference::CandidateSet& set,
+                                     const std::vector<Choice>& choices);
 
-/// Whether a candidate is one of the choices or a part of one: the same term, parameters among its
-/// own.
-bool is_part_of(const inference::Candidate& c, const inference::CandidateSet& set,
-                const std::vector<Choice>& choices);
+/// Whether a candidate is of the family of one of the causes: same term, parameters among its own.
+bool of_a_chosen_family(const inference::CandidateSet& set, const std::vector<Choice>& choices,
+                        const inference::Candidate& candidate);
 
 }  // namespace drift::search

@@ -28,12 +28,8 @@ double strongest_window(const Fitted& nominal) {
 
 double other_equation_gain(const Fitted& nominal, const inference::Test& test) {
   FilterSpec other = nominal.filter;
-  if (other.coupling == Coupling::eq5)
-    other.coupling = Coupling::eq6;
-  else if (other.coupling == Coupling::eq6)
-    other.coupling = Coupling::eq5;
-  else
-    return -infinity;
+  if (!facts(other.coupling).other) return -infinity;
+  other.coupling = *facts(other.coupling).other;
   double best = -infinity;
   const auto here = inference::theta_of(nominal.filter, nominal.fit);
   for (const Theta& start : {here, make_layout(other).theta}) {

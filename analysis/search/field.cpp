@@ -83,8 +83,9 @@ std::vector<std::size_t> best_settings(const Field& field, std::size_t candidate
 }
 
 VecX expected_amplitudes(const inference::Projected& p, const std::vector<int>& columns) {
-  const VecX g = p.g(columns);
-  return (p.C(columns, columns) + MatX::Identity(g.size(), g.size())).ldlt().solve(g);
+  MatX C = p.C(columns, columns);
+  C.diagonal().array() += 1.0;
+  return C.ldlt().solve(VecX(p.g(columns)));
 }
 
 double cosine(const inference::Projected& p, const std::vector<int>& a, const std::vector<int>& b) {

@@ -10,8 +10,6 @@
 namespace drift::search {
 namespace {
 
-constexpr auto lambda = TermLibrary::index("lambda");
-
 /// Distance of the points of the library's grid about a value, SI: what the grid leaves open.
 double grid_spacing(const inference::Candidate& c, std::size_t param, double value) {
   constexpr double none = std::numeric_limits<double>::infinity();
@@ -37,8 +35,7 @@ FilterSpec with_causes(const FilterSpec& nominal, const inference::CandidateSet&
     for (const std::size_t i : c.params) {
       filter.active.set(i);
       filter.priors[i] = TermLibrary::specs[i].prior_si();
-      if (i == lambda && (filter.coupling == Coupling::eq5 || filter.coupling == Coupling::eq6))
-        filter.coupling = Coupling::lambda;
+      if (i == closure_param) filter.coupling = family_of(filter.coupling);
     }
     for (const auto& [i, value] : c.variants[choice.variant].settings) {
       filter.active.set(i);
@@ -59,20 +56,18 @@ FilterSpec with_causes(const FilterSpec& nominal, const inference::CandidateSet&
 
 Expectation expect(const Fitted& nominal, const std::vector<Choice>& choices) {
   Expectation out{inference::theta_of(nominal.filter, nominal.fit), {}, false};
-  std::vector<int> columns;
-  for (const Choice& choice : choices) {
-    const inference::Variant& v = nominal.set.candidates[choice.candidate].variants[choice.variant];
-    columns.insert(columns.end(), v.columns.begin(), v.columns.end());
-    for (const auto& [param, value] : v.settings) out.theta[param] = value;
-  }
-  const VecX scaled = expected_amplitudes(nominal.projected, columns);
+  for (const Choice& choice : choices)
+    for (const auto& [param, value] :
+         nominal.set.candidates[choice.candidate].variants[choice.variant].settings)
+      out.theta[param] = value;
+  const VecX scaled = expected_amplitudes(nominal.projected, columns_of(nominal.set, choices));
   Eigen::Index next = 0;
   for (const Choice& choice : choices)
     for (const std::size_t i : nominal.set.candidates[choice.candidate].params) {
-      const double base = i == lambda ? lambda_of_equation(nominal.filter.coupling) : 0.0;
+      const double base = value_left_out(i, nominal.filter.coupling);
       out.theta[i] = base + scaled[next++] * TermLibrary::specs[i].prior_si().sigma();
       out.amplitude.emplace_back(i, out.theta[i] - base);
-      if (i != lambda) continue;
+      if (i != closure_param) continue;
       out.lambda_among_them = true;
       out.theta[i] = std::clamp(out.theta[i], 0.0, 1.0);
     }
@@ -87,9 +82,9 @@ std::vector<BatchResult> fits_from_both_ends(const Fitted& nominal, const Filter
   return mc::run_campaign(4, [&](std::size_t k) {
     const double end = static_cast<double>(k % 2);
     FilterSpec held = filter;
-    held.priors[lambda] = fixed(end);
+    held.priors[closure_param] = fixed(end);
     Theta from = k < 2 ? theta : make_layout(nominal.filter).theta;
-    from[lambda] = end;
+    from[closure_param] = end;
     const BatchResult first = fit_batch(held, test.timeline, test.readout, test.measured, from);
     return fit_batch(filter, test.timeline, test.readout, test.measured,
                      inference::theta_of(held, first));
@@ -97,10 +92,6 @@ std::vector<BatchResult> fits_from_both_ends(const Fitted& nominal, const Filter
 }
 
 }  // namespace
-
-double lambda_of_equation(Coupling coupling) {
-  return coupling == Coupling::eq6 ? 1.0 : 0.0;
-}
 
 CauseFit fit_causes(const Fitted& nominal, const inference::Test& test,
                     const std::vector<Choice>& choices) {
@@ -115,8 +106,9 @@ CauseFit fit_causes(const Fitted& nominal, const inference::Test& test,
     if (other.estimate.statistic < out.fit.estimate.statistic) out.fit = std::move(other);
   if (const auto profile = equation::profile_closure(out.filter, test, out.fit,
                                                      nominal.problem.weight, nominal.noise.model)) {
-    out.narrowed = std::max(0.0, std::log(out.filter.priors[lambda].sigma() / profile->sigma));
-    out.filter.priors[lambda] = normal(profile->value, profile->sigma);
+    out.narrowed =
+        std::max(0.0, std::log(out.filter.priors[closure_param].sigma() / profile->sigma));
+    out.filter.priors[closure_param] = normal(profile->value, profile->sigma);
     out.fit = fit_from(inference::theta_of(out.filter, profile->fit));
   }
   return out;

@@ -28,7 +28,4 @@ struct CauseFit {
 CauseFit fit_causes(const Fitted& nominal, const inference::Test& test,
                     const std::vector<Choice>& choices);
 
-/// lambda of the member of the family that a coupling is.
-double lambda_of_equation(Coupling coupling);
-
 }  // namespace drift::search

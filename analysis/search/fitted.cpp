@@ -63,7 +63,7 @@ Fitted with_noise(Fitted f, const Timeline& timeline, const inference::NoiseEsti
                             inference::scan_windows(f.problem, timeline, *f.projector)};
   const double cost = cost_of_misalignments(f.filter, f.fit);
   for (const inference::Candidate& c : f.set.candidates)
-    f.discount.push_back(c.term == "frame_closure" ? cost : 0.0);
+    f.discount.push_back(c.term == closure_term ? cost : 0.0);
   f.scores.clear();
   for (std::size_t k = 0; k < f.set.candidates.size(); ++k) f.scores.push_back(score(f, k));
   return f;

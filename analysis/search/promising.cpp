@@ -96,7 +96,7 @@ std::vector<std::size_t> promising_singles(const Search& s, std::size_t most) {
   }
   // The score is blind to a change of equation that only rescales the misalignments.
   for (std::size_t k = 0; k < e.set.candidates.size(); ++k)
-    if (e.set.candidates[k].term == "frame_closure" &&
+    if (e.set.candidates[k].term == closure_term &&
         std::max(0.5 * s.other_equation, e.scores[k].strength) > s.thresholds.library_threshold)
       add(k);
   return singles;
@@ -123,7 +123,7 @@ std::vector<Explanation> promising_pairs(const Search& s, const std::vector<Refi
   constexpr double allowed = 1.1;  // of the thresholds
   std::vector<Explanation> pairs;
   for (const Refit& r : singles)
-    if (s.nominal.set.candidates[r.choices.front().candidate].term == "frame_closure" &&
+    if (s.nominal.set.candidates[r.choices.front().candidate].term == closure_term &&
         r.log_bayes > 0.0)
       for (Explanation& pair : beside(s, r)) pairs.push_back(std::move(pair));
   for (const Pair& p :

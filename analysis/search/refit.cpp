@@ -11,7 +11,6 @@
 namespace drift::search {
 namespace {
 
-constexpr auto lambda = TermLibrary::index("lambda");
 constexpr double quiet_p_value = 0.01;  // of a free-form input beside the cause: nothing is left
 
 /// Points of the library's grid at which a candidate can be seen at all.
@@ -35,7 +34,7 @@ double gain_of_sizes(const inference::CandidateSet& set, const Refit& r) {
     const std::size_t before = rows.size();
     for (const std::size_t i : set.candidates[choice.candidate].params) {
       const auto at = std::find(layout.params.begin(), layout.params.end(), i);
-      if (i == lambda || at == layout.params.end()) continue;
+      if (i == closure_param || at == layout.params.end()) continue;
       rows.push_back(at - layout.params.begin());
       cause.push_back(causes);
     }
@@ -52,7 +51,7 @@ bool all_needed(const inference::CandidateSet& set, const Refit& r) {
     const auto& params = set.candidates[choice.candidate].params;
     return std::any_of(params.begin(), params.end(), [&](std::size_t i) {
       const ParameterEstimate* p = r.after.fit.estimate.find(i);
-      return i == lambda || !p ||
+      return i == closure_param || !p ||
              std::abs(p->value - TermLibrary::specs[i].prior_si().mean()) >= clearly * p->sigma;
     });
   });
@@ -62,7 +61,7 @@ bool all_needed(const inference::CandidateSet& set, const Refit& r) {
 bool signs_agree(const Expectation& expected, const BatchResult& fit) {
   return std::ranges::all_of(expected.amplitude, [&](const auto& a) {
     const ParameterEstimate* p = fit.estimate.find(a.first);
-    return p == nullptr || a.first == lambda || std::abs(a.second) <= 2.0 * p->sigma ||
+    return p == nullptr || a.first == closure_param || std::abs(a.second) <= 2.0 * p->sigma ||
            p->value * a.second >= 0.0;
   });
 }
@@ -73,7 +72,7 @@ Remainder left_by(const Fitted& after, const inference::CandidateSet& set,
   Remainder out;
   for (std::size_t k = 0; k < after.scores.size(); ++k) {
     if (after.scores[k].strength <= out.library ||
-        is_part_of(after.set.candidates[k], set, choices))
+        of_a_chosen_family(set, choices, after.set.candidates[k]))
       continue;
     out.library = after.scores[k].strength;
     out.strongest = k;
@@ -85,8 +84,9 @@ Remainder left_by(const Fitted& after, const inference::CandidateSet& set,
 
 /// Another equation must be another one: an interval that holds the nominal weight names nothing.
 bool is_another_equation(Coupling nominal, const BatchResult& fit) {
-  const ParameterEstimate* p = fit.estimate.find(lambda);
-  return p == nullptr || std::abs(p->value - lambda_of_equation(nominal)) > 3.0 * p->sigma;
+  const ParameterEstimate* p = fit.estimate.find(closure_param);
+  return p == nullptr ||
+         std::abs(p->value - value_left_out(closure_param, nominal)) > 3.0 * p->sigma;
 }
 
 /// Each variant of a grid was one try; the refit took the best of them.

@@ -30,7 +30,7 @@ std::vector<int> columns_with_neighbours(const Field& field, std::vector<Choice>
     }
     choices.push_back({candidate, neighbour});
   }
-  return columns_of(field.set, choices);
+  return distinct_columns_of(field.set, choices);
 }
 
 /// Takes some columns out of C and g: their amplitudes are fitted freely.
@@ -130,7 +130,7 @@ Strongest strongest_other(const Field& field, const std::vector<Choice>& choices
   for (const bool single : {true, false})
     for (std::size_t k = 0; k < field.set.candidates.size(); ++k) {
       const inference::Candidate& c = field.set.candidates[k];
-      if ((c.params.size() == 1) != single || is_part_of(c, field.set, choices)) continue;
+      if ((c.params.size() == 1) != single || of_a_chosen_family(field.set, choices, c)) continue;
       for (const inference::Contrast& whole : field.contrasts[k]) {
         if (whole.dof == 0) continue;
         const auto [T, dof] =

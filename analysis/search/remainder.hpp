@@ -15,7 +15,7 @@ struct Remainder {
 
 /// Conditional scores T_(c|d) (discovery.md 2.5). The neighbouring variant on the grid goes in with
 /// a cause, so that a time constant between two of them is allowed for. Members of a chosen
-/// candidate's own family (is_part_of()) do not count as others. stop: give up (and return what was
+/// candidate's own family do not count as others. stop: give up (and return what was
 /// found) as soon as a candidate's strength exceeds it.
 Remainder remainder(const Field& field, const std::vector<Choice>& choices,
                     double stop = std::numeric_limits<double>::infinity());

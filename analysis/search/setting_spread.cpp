@@ -17,7 +17,7 @@ double setting_spread(const Fitted& nominal, const std::vector<Choice>& choices,
         std::ranges::find(variants[v].settings, param, &std::pair<std::size_t, double>::first);
     if (setting == variants[v].settings.end()) return 0.0;
     tried[which].variant = v;
-    evidence.push_back(log_bayes(nominal.projected, columns_of(nominal.set, tried)));
+    evidence.push_back(log_bayes(nominal.projected, distinct_columns_of(nominal.set, tried)));
     share.push_back(variants[v].share);
     off.push_back(setting->second - value);
   }

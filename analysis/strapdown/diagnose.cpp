@@ -75,7 +75,7 @@ class Diagnoser {
 
   void run() {
     choose_final();
-    equation_ = final_->model.equation == Coupling::eq6 ? "eq6" : "eq5";
+    equation_ = key_of(final_->model.equation);
     candidates();
     causes();
     compare();
@@ -94,7 +94,7 @@ class Diagnoser {
     for (const Final& f : r_.accepted)
       if (f.model.equation == Coupling::eq5) final_ = &f;
     Cause closure;
-    closure.term = "frame_closure";
+    closure.term = closure_term;
     closure.T = contest.z * contest.z;
     closure.p_value = family_wise(chance_of_gain(contest.z, contest.eq5.count));
     closure.probability = 1.0;

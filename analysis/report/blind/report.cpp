@@ -12,6 +12,7 @@
 #include "analysis/report/svg/svg_chart.hpp"
 #include "core/base/number_text.hpp"
 #include "core/base/results_folder.hpp"
+#include "core/stats/normal.hpp"
 
 namespace drift::report {
 namespace {
@@ -134,7 +135,7 @@ std::string pulls_svg(const blind::Summary& s) {
   Series normal = curve("normal distribution", 6, Stroke::dashed);
   for (double x = -3.5; x <= 3.5; x += 0.1) {
     normal.x.push_back(x);
-    normal.y.push_back(0.5 * std::erfc(-x / std::sqrt(2.0)));
+    normal.y.push_back(stats::normal_distribution(x));
   }
   panel.series.push_back(normal);
   if (s.pulls.empty()) panel.note = "nothing was named exactly";
@@ -157,8 +158,7 @@ std::string to_text(const blind::Summary& summary, const std::vector<blind::Tria
                     const Hashes& hashes) {
   std::string out;
   for (const Table& t : tables_of(summary)) out += text_of(t) + "\n";
-  out +=
-      text_of(misses_table(scores), 160) + "\n" + wrapped(times_text(summary), 100) + "\n";
+  out += text_of(misses_table(scores), 160) + "\n" + wrapped(times_text(summary), 100) + "\n";
   for (const std::string& line : headlines(summary, hashes)) out += wrapped(line, 100) + "\n";
   return out;
 }

@@ -10,10 +10,10 @@
 namespace drift::report {
 namespace {
 
-std::string share_text(const blind::Proportion& p) {
+std::string share_text(const stats::Proportion& p) {
   return p.n == 0 ? "-" : fmt::format("{:.3f}", p.share());
 }
-std::string interval_text(const blind::Proportion& p) {
+std::string interval_text(const stats::Proportion& p) {
   return p.n == 0 ? "-" : fmt::format("{:.3f} to {:.3f}", p.low, p.high);
 }
 
@@ -64,7 +64,7 @@ Table further_table(const blind::Summary& s) {
           {{"score", Align::left}, {"measured"}, {"95 % interval"}, {"trials"}},
           {},
           {}};
-  const auto add = [&](const std::string& name, const blind::Proportion& p) {
+  const auto add = [&](const std::string& name, const stats::Proportion& p) {
     if (p.n > 0) t.add({name, share_text(p), interval_text(p), std::to_string(p.n)});
   };
   for (const auto& [name, p] : s.further) add(name, p);
@@ -166,7 +166,7 @@ std::string answer_text(const blind::Answer& a) {
 
 }  // namespace
 
-std::string text_of(const blind::Proportion& p) {
+std::string text_of(const stats::Proportion& p) {
   return p.n == 0 ? "-"
                   : fmt::format("{:.3f} [{:.3f}, {:.3f}] of {}", p.share(), p.low, p.high, p.n);
 }
@@ -189,13 +189,11 @@ Table misses_table(const std::vector<blind::TrialScore>& scores) {
   for (const blind::TrialScore& s : scores) {
     if (!missed(s)) continue;
     const bool effect = !s.key.effects.empty();
-    t.add(
-        {std::to_string(s.key.plan.number),
-         fmt::format("{} {}", s.key.plan.plan, blind::name_in(blind::mode_names, s.key.plan.mode)),
-         blind::name_in(blind::coupling_names, s.key.plan.coupling),
-         effect ? number_text(s.size(), 3) : "-",
-         effect ? fmt::format("{:.3f}", s.key.effects.front().absorbed) : "-", hidden_text(s),
-         answer_text(s.answer)});
+    t.add({std::to_string(s.key.plan.number),
+           fmt::format("{} {}", s.key.plan.plan, key_of(s.key.plan.mode)),
+           std::string(key_of(s.key.plan.coupling)), effect ? number_text(s.size(), 3) : "-",
+           effect ? fmt::format("{:.3f}", s.key.effects.front().absorbed) : "-", hidden_text(s),
+           answer_text(s.answer)});
   }
   return t;
 }

@@ -8,7 +8,7 @@
 namespace drift::report {
 
 /// "0.950 [0.888, 0.984] of 99"; "-" of nothing.
-std::string text_of(const blind::Proportion& p);
+std::string text_of(const stats::Proportion& p);
 
 /// All tables of a blind study: targets, power, plans and couplings, further scores, confusion.
 std::vector<Table> tables_of(const blind::Summary& summary);

@@ -9,7 +9,6 @@
 #include "analysis/report/diagnosis/sentence.hpp"
 #include "analysis/report/diagnosis/tables.hpp"
 #include "analysis/report/diagnosis/words.hpp"
-#include "core/physics/coupling_text.hpp"
 #include "core/physics/parameters_config.hpp"
 
 namespace drift::report {

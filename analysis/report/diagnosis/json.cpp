@@ -7,6 +7,8 @@
 
 #include "analysis/report/diagnosis/sentence.hpp"
 #include "analysis/report/diagnosis/words.hpp"
+#include "core/base/json_number.hpp"
+#include "core/stats/normal.hpp"
 
 namespace drift::report {
 namespace {
@@ -15,10 +17,8 @@ using namespace diagnosis;
 using namespace inference;
 using namespace search;
 using Json = nlohmann::ordered_json;
+constexpr auto number = json_number;
 
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
 Json text_or_null(const std::string& text) {
   return text.empty() ? Json(nullptr) : Json(text);
 }
@@ -67,13 +67,14 @@ Json causes_json(const std::vector<Cause>& causes) {
   for (const Cause& c : causes) {
     Json parameters = Json::array(), confusable = Json::array();
     for (const CauseParameter& p : c.parameters)
-      parameters.push_back(
-          {{"key", p.key},
-           {"value", number(p.value)},
-           {"sigma", number(p.sigma)},
-           {"unit", p.unit},
-           {"interval_95", {number(p.value - 1.96 * p.sigma), number(p.value + 1.96 * p.sigma)}},
-           {"profiled", p.profiled}});
+      parameters.push_back({{"key", p.key},
+                            {"value", number(p.value)},
+                            {"sigma", number(p.sigma)},
+                            {"unit", p.unit},
+                            {"interval_95",
+                             {number(p.value - stats::half_width_95 * p.sigma),
+                              number(p.value + stats::half_width_95 * p.sigma)}},
+                            {"profiled", p.profiled}});
     for (const Confusable& other : c.confusable_with)
       confusable.push_back({{"term", other.term},
                             {"axis", text_or_null(other.axis)},

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "analysis/report/diagnosis/sentence.hpp"
+#include "core/base/words.hpp"
 
 namespace drift::report {
 namespace {
@@ -73,16 +74,14 @@ struct Words {
 
   std::string operator()(const BeyondPrior& r) const {
     constexpr std::size_t most = 6;
-    std::vector<std::string_view> keys;
-    for (const std::size_t param : r.params) keys.push_back(TermLibrary::specs[param].key.view());
-    const std::string more =
-        keys.size() > most ? fmt::format(" and {} more", keys.size() - most) : "";
-    keys.resize(std::min(most, keys.size()));
+    std::vector<std::string> keys;
+    for (const std::size_t param : r.params)
+      keys.emplace_back(TermLibrary::specs[param].key.view());
     return fmt::format(
-        "The nominal fit takes {}{} up to {:.0f} sigmas from where their priors have them. If that "
+        "The nominal fit takes {} up to {:.0f} sigmas from where their priors have them. If that "
         "is not this platform, the study is not of this recording: check [site] latitude, axes and "
         "commands of the plan, and the priors",
-        fmt::join(keys, ", "), more, r.farthest);
+        listed_up_to(keys, most), r.farthest);
   }
 
   std::string operator()(const EquationOpen& r) const {
@@ -143,9 +142,9 @@ std::string in_words(const diagnosis::Remark& remark) {
 }
 
 std::string cannot_tell_equations(const EquationOpen& open) {
-  const bool six = open.nominal == Coupling::eq6;
-  return fmt::format("This plan cannot tell the nominal eq. ({}) from eq. ({})", six ? 6 : 5,
-                     six ? 5 : 6);
+  const CouplingFacts& nominal = facts(open.nominal);
+  return fmt::format("This plan cannot tell the nominal eq. ({}) from eq. ({})", nominal.number,
+                     facts(*nominal.other).number);
 }
 
 }  // namespace drift::report

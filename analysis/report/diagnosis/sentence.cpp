@@ -9,6 +9,8 @@
 #include "analysis/report/diagnosis/remark_words.hpp"
 #include "core/base/number_text.hpp"
 #include "core/base/units.hpp"
+#include "core/base/words.hpp"
+#include "core/stats/normal.hpp"
 
 namespace drift::report {
 namespace {
@@ -19,22 +21,11 @@ constexpr double one_direction =
     0.999;  // squared cosine above which two signatures leave the same trace
 constexpr std::size_t most_numbers = 3;
 
-std::string keyed(std::string_view term, std::string_view axis) {
-  return axis.empty() ? std::string(term) : fmt::format("{}.{}", term, axis);
-}
-
-/// "a", "a and b", "a, b and c".
-std::string listed(const std::vector<std::string>& items, std::string_view last) {
-  if (items.size() < 2) return items.empty() ? "" : items.front();
-  return fmt::format("{} {} {}", fmt::join(items.begin(), items.end() - 1, ", "), last,
-                     items.back());
-}
-
 /// What an axis of a term belongs to: "gyro y", "accelerometer y", "axis y", "outer gimbal".
 std::string part_of(const TermInfo& term, std::string_view axis) {
   if (axis.size() > 1) return fmt::format("{} gimbal", axis);
   if (term.in_readout) return fmt::format("accelerometer {}", axis);
-  if (term.in_offset || term.in_gimbals || term.key == "base_motion_leak")
+  if (term.in_offset || term.in_gimbals || term.subsystem == Subsystem::servo)
     return fmt::format("platform axis {}", axis);
   return fmt::format("gyro {}", axis);
 }
@@ -62,7 +53,7 @@ std::string located_shape_text(const Diagnosis& d) {
 
 /// What stands in the brackets behind a cause.
 std::string numbers_of(const search::Cause& c) {
-  std::string text = keyed(c.term, c.axis);
+  std::string text = search::keyed(c.term, c.axis);
   if (c.parameters.empty()) return text;
   if (c.parameters.size() > most_numbers) {
     const auto largest = std::ranges::max_element(c.parameters, {}, in_prior_sigmas);
@@ -72,9 +63,10 @@ std::string numbers_of(const search::Cause& c) {
   for (const search::CauseParameter& p : c.parameters) numbers.push_back(number_of(p));
   text += fmt::format(": {}", fmt::join(numbers, ", "));
   const search::CauseParameter& p = c.parameters.front();
-  if (c.term == "frame_closure")  // between two equations the interval is the answer
+  if (c.term == closure_term)  // between two equations the interval is the answer
     text += fmt::format(", 95 % interval {:.3g} to {:.3g}, where eq. (5) is 0 and eq. (6) is 1",
-                        p.value - 1.96 * p.sigma, p.value + 1.96 * p.sigma);
+                        p.value - stats::half_width_95 * p.sigma,
+                        p.value + stats::half_width_95 * p.sigma);
   return text;
 }
 
@@ -146,8 +138,8 @@ std::string outside_twins_text(const Diagnosis& d) {
           });
       if (o.cosine * o.cosine <= one_direction || among || narrower) continue;
       const auto line = fmt::format(" On this plan {} ({}) and {} ({}) leave the same trace.",
-                                    in_words(c.term, c.axis), keyed(c.term, c.axis),
-                                    in_words(o.term, o.axis), keyed(o.term, o.axis));
+                                    in_words(c.term, c.axis), search::keyed(c.term, c.axis),
+                                    in_words(o.term, o.axis), search::keyed(o.term, o.axis));
       if (text.find(line) == std::string::npos) text += line;
     }
   return text;
@@ -257,9 +249,9 @@ std::string site_text(const SiteDoubt& doubt) {
 }  // namespace
 
 std::string in_words(std::string_view term, std::string_view axis) {
-  if (term == "frame_closure") return "another drift equation";
+  if (term == closure_term) return "another drift equation";
   const auto known = TermLibrary::find_term(term);
-  if (!known) return keyed(term, axis);
+  if (!known) return search::keyed(term, axis);
   const TermInfo& info = TermLibrary::terms[*known];
   return axis.empty() ? std::string(info.title)
                       : fmt::format("{}, {}", info.title, part_of(info, axis));
@@ -278,7 +270,7 @@ std::string lacking(const std::vector<search::Cause>& causes) {
   std::vector<std::string> effects;
   std::string equation;
   for (const search::Cause& c : causes)
-    if (c.term == "frame_closure")
+    if (c.term == closure_term)
       equation = fmt::format(" has the wrong drift equation ({})", numbers_of(c));
     else
       effects.push_back(in_words(c));

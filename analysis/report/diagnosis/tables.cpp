@@ -163,7 +163,7 @@ Table fit_table(const Diagnosis& d) {
     // From one drift equation to the other is no small step: what is seen near the first says
     // nothing of it.
     const bool small_step =
-        std::ranges::none_of(d.causes, [](const Cause& c) { return c.term == "frame_closure"; });
+        std::ranges::none_of(d.causes, [](const Cause& c) { return c.term == closure_term; });
     if (small_step && std::isfinite(f.linear_T))
       table.note +=
           fmt::format("; what the nominal model left over had let expect {}{}",
@@ -247,9 +247,8 @@ Table advice_table(const Advice& advice) {
                    {"mode", Align::left}, {"entry", Align::left}, {"case heading"}};
   for (const Position& p : advice.plan)
     table.add(
-        {p.name, p.axes, fmt::format("{:.0f} min", p.dwell / 60.0),
-         p.mode == CommandLaw::level ? "level" : "free",
-         p.entry == Entry::torqued ? "torqued" : "caged",
+        {p.name, p.axes, fmt::format("{:.0f} min", p.dwell / 60.0), std::string(key_of(p.mode)),
+         std::string(key_of(p.entry)),
          p.case_heading ? fmt::format("{:.0f} deg", *p.case_heading / unit::deg.to_si) : "chosen"});
   return table;
 }

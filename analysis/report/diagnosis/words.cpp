@@ -9,6 +9,7 @@
 #include "analysis/report/diagnosis/remark_words.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
 #include "core/base/number_text.hpp"
+#include "core/base/words.hpp"
 
 namespace drift::report {
 namespace {
@@ -16,17 +17,6 @@ namespace {
 using namespace diagnosis;
 using namespace inference;
 using namespace search;
-
-std::string keyed(const std::string& term, const std::string& axis) {
-  return axis.empty() ? term : term + "." + axis;
-}
-
-/// "a", "a and b", "a, b and c".
-std::string listed(const std::vector<std::string>& items, std::string_view last) {
-  if (items.size() < 2) return items.empty() ? "" : items.front();
-  return fmt::format("{} {} {}", fmt::join(items.begin(), items.end() - 1, ", "), last,
-                     items.back());
-}
 
 }  // namespace
 

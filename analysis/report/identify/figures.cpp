@@ -7,7 +7,6 @@
 
 #include "analysis/report/page/escape.hpp"
 #include "analysis/report/svg/svg_chart.hpp"
-#include "core/physics/coupling_text.hpp"
 #include "core/stats/chi_square_band.hpp"
 
 namespace drift::report {

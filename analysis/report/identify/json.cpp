@@ -4,18 +4,16 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/report/page/degeneracies.hpp"
+#include "core/base/json_number.hpp"
 #include "core/estimate/start_consistency.hpp"
-#include "core/physics/coupling_text.hpp"
+#include "core/physics/parameters_config.hpp"
 #include "core/stats/chi_square_band.hpp"
 
 namespace drift::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
+constexpr auto number = json_number;
 
 Json numbers(const std::vector<double>& values, double unit) {
   Json all = Json::array();

@@ -1,6 +1,7 @@
 #include "analysis/report/identify/tables.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +12,7 @@
 #include "analysis/report/svg/axis_scale.hpp"
 #include "core/base/number_text.hpp"
 #include "core/estimate/start_consistency.hpp"
-#include "core/physics/coupling_text.hpp"
+#include "core/physics/parameters_config.hpp"
 #include "core/stats/chi_square_band.hpp"
 
 namespace drift::report {
@@ -94,12 +95,6 @@ std::vector<std::string> disputed(const identification::FilterRun& run) {
       keys.emplace_back(TermLibrary::specs[e.param].key.view());
   }
   return keys;
-}
-
-std::string joined(const std::vector<std::string>& texts) {
-  std::string all;
-  for (const auto& t : texts) all += (all.empty() ? "" : ", ") + t;
-  return all;
 }
 
 }  // namespace
@@ -247,7 +242,7 @@ std::vector<std::string> headlines(const mc::Study& study,
               ? fmt::format("{}: no parameter depends on the start.", name)
               : fmt::format("{}: {} of {} parameters depend on the start, their sigmas say nothing "
                             "of their errors: {}.",
-                            name, dependent.size(), s.spread.size(), joined(dependent)));
+                            name, dependent.size(), s.spread.size(), fmt::join(dependent, ", ")));
     if (!nis.empty())
       all.push_back(fmt::format(
           "{}: EKF NIS/m {:.3f} to {:.3f}, {}.", name, nis.low, nis.high,
@@ -267,7 +262,7 @@ std::vector<std::string> headlines(const mc::Study& study,
           "threefold, in {} of {} parameters: {}{}. The EKF linearises once, where it is then; "
           "what is not linear over its prior leads it astray with a "
           "small sigma. Use the batch column.",
-          name, count, s.spread.size(), joined(keys), count > most ? " and others" : ""));
+          name, count, s.spread.size(), fmt::join(keys, ", "), count > most ? " and others" : ""));
     }
     if (!s.degeneracies.empty())
       all.push_back(fmt::format(
@@ -278,7 +273,7 @@ std::vector<std::string> headlines(const mc::Study& study,
 }
 
 std::string source_line(const mc::Study& study, const identification::Identification& id) {
-  if (!id.simulated) return fmt::format("Recording {}", joined(id.sources));
+  if (!id.simulated) return fmt::format("Recording {}", fmt::join(id.sources, ", "));
   return fmt::format("Simulated, truth {}: {}", key_of(study.truth.coupling),
                      equation_of(study.truth.coupling));
 }

@@ -8,7 +8,6 @@
 #include "analysis/report/svg/heat_map.hpp"
 #include "analysis/report/svg/svg_chart.hpp"
 #include "core/base/number_text.hpp"
-#include "core/physics/coupling_text.hpp"
 
 namespace drift::report {
 namespace {

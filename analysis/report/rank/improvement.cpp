@@ -23,11 +23,10 @@ Table improvement_table(const planning::PlanRanking& rank) {
                {"candidates"}};
   for (std::size_t i = 0; i < better.steps.size(); ++i) {
     const planning::ImprovementStep& s = better.steps[i];
-    std::string entry = s.position.entry == Entry::caged ? "caged" : "torqued";
+    std::string entry(key_of(s.position.entry));
     if (s.position.case_heading)
       entry += fmt::format(", case at {:.0f} deg", *s.position.case_heading / detail::deg);
-    t.add({std::to_string(i + 1), s.position.axes,
-           s.position.mode == CommandLaw::free ? "free" : "level", entry,
+    t.add({std::to_string(i + 1), s.position.axes, std::string(key_of(s.position.mode)), entry,
            number_text(s.duration / 3600.0), number_text(s.before, 4), number_text(s.after, 4),
            std::to_string(s.feasible)});
   }

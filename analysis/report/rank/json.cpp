@@ -1,18 +1,15 @@
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "analysis/report/rank/report.hpp"
 #include "analysis/report/rank/tables.hpp"
-#include "core/physics/coupling_text.hpp"
+#include "core/base/json_number.hpp"
+#include "core/physics/parameters_config.hpp"
 
 namespace drift::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
+constexpr auto number = json_number;
 
 std::string text(std::string_view view) {
   return std::string(view);
@@ -155,8 +152,8 @@ Json improvement_json(const mc::Study& study, const planning::PlanRanking& rank)
     steps.push_back(
         {{"name", s.position.name},
          {"axes", s.position.axes},
-         {"mode", s.position.mode == CommandLaw::free ? "free" : "level"},
-         {"entry", s.position.entry == Entry::caged ? "caged" : "torqued"},
+         {"mode", key_of(s.position.mode)},
+         {"entry", key_of(s.position.entry)},
          {"case_heading_deg",
           s.position.case_heading ? number(*s.position.case_heading / detail::deg) : Json(nullptr)},
          {"hours", number(s.duration / 3600.0)},

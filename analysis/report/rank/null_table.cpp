@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "analysis/report/rank/tables.hpp"
-#include "core/physics/coupling_text.hpp"
 
 namespace drift::report {
 namespace {

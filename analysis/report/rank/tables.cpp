@@ -8,7 +8,6 @@
 #include <numeric>
 
 #include "core/base/number_text.hpp"
-#include "core/physics/coupling_text.hpp"
 
 namespace drift::report {
 namespace {

@@ -9,7 +9,6 @@
 
 #include "analysis/report/svg/bar_chart.hpp"
 #include "core/base/number_text.hpp"
-#include "core/physics/coupling_text.hpp"
 
 namespace drift::report {
 namespace {

@@ -9,7 +9,6 @@
 #include "analysis/report/study/sweep_figures.hpp"
 #include "analysis/report/study/tables.hpp"
 #include "core/base/results_folder.hpp"
-#include "core/physics/coupling_text.hpp"
 
 namespace drift::report {
 namespace {

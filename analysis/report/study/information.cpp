@@ -9,7 +9,6 @@
 #include "analysis/planning/rank.hpp"
 #include "analysis/report/rank/report.hpp"
 #include "core/base/number_text.hpp"
-#include "core/physics/coupling_text.hpp"
 
 namespace drift::report {
 namespace {

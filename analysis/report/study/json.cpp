@@ -1,19 +1,15 @@
 #include "analysis/report/study/json.hpp"
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "analysis/report/study/tables.hpp"
-#include "core/physics/coupling_text.hpp"
+#include "core/base/json_number.hpp"
 
 namespace drift::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
+constexpr auto number = json_number;
 
 Json of(const stats::Rate& rate) {
   return {{"value", number(rate.value())},

@@ -9,7 +9,6 @@
 
 #include "analysis/report/page/swept_value.hpp"
 #include "analysis/report/svg/svg_chart.hpp"
-#include "core/physics/coupling_text.hpp"
 
 namespace drift::report {
 namespace {

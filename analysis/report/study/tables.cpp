@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "core/base/number_text.hpp"
-#include "core/physics/coupling_text.hpp"
 
 namespace drift::report {
 namespace {

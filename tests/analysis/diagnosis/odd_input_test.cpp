@@ -8,8 +8,8 @@
 
 #include "analysis/diagnosis/diagnose.hpp"
 #include "analysis/diagnosis/diagnose_recordings.hpp"
-#include "analysis/diagnosis/fill_gaps.hpp"
-#include "analysis/diagnosis/prepare.hpp"
+#include "analysis/preparation/fill_gaps.hpp"
+#include "analysis/preparation/prepare.hpp"
 #include "analysis/report/diagnosis/json.hpp"
 #include "analysis/report/diagnosis/remark_words.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
@@ -144,7 +144,7 @@ TEST(OddInput, RowsThatAreMissingWithinAPositionAreBridged) {
   EXPECT_EQ(gappy.rows() + 4, whole.rows());
   std::vector<std::string> remarks;
   Recording filled = gappy;
-  fill_gaps(filled, 60.0, remarks);
+  preparation::fill_gaps(filled, 60.0, remarks);
   ASSERT_EQ(filled.rows(), whole.rows());
   EXPECT_EQ(remarks.size(), 1u);
   for (std::size_t k = 0; k < whole.rows(); ++k) {
@@ -163,7 +163,7 @@ TEST(OddInput, AGapInWhichTheCommandChangedIsNotBridged) {
       for (std::size_t k = 20; k < c.values.size(); ++k) c.values[k] = 1e-5;
   const std::size_t rows = r.rows();
   std::vector<std::string> remarks;
-  fill_gaps(r, 60.0, remarks);
+  preparation::fill_gaps(r, 60.0, remarks);
   EXPECT_EQ(r.rows(), rows);
   EXPECT_TRUE(remarks.empty());
 }

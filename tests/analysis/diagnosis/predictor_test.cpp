@@ -15,7 +15,7 @@ namespace {
 TEST(Predictor, IsTheConditionalDensityOfTheDenseCovariance) {
   const inference::LinearProblem p = test::random_problem(6, 3);
   const inference::NoiseModel noise = test::every_noise();
-  const MatX V = test::dense_covariance(p, noise) + p.theta * p.theta.transpose();
+  const MatX V = test::DenseCovariance(p, noise).all() + p.theta * p.theta.transpose();
   for (const HeldOutPart& part : positions_of(p)) {
     std::vector<Eigen::Index> held, rest;
     for (Eigen::Index k = 0; k < p.rows(); ++k)

@@ -23,7 +23,7 @@ const LinearProblem& problem() {
 
 /// Marginal covariance of the rows.
 MatX covariance(const LinearProblem& p, const NoiseModel& noise) {
-  return test::dense_covariance(p, noise) + p.theta * p.theta.transpose();
+  return test::DenseCovariance(p, noise).all() + p.theta * p.theta.transpose();
 }
 
 // V has eigenvalues between 0.6 (the smallest white noise) and some 1e4 (random walks of 20
@@ -92,7 +92,7 @@ TEST(Projector, ScoresAreQuadraticFormsInTheInverseCovariance) {
   const Projected all = projector.candidates();
   expect_near(all.C, S.transpose() * inverse * S);
   expect_near(all.g, S.transpose() * inverse * problem().r0);
-  const MatX noise_alone = test::dense_covariance(problem(), noise);
+  const MatX noise_alone = test::DenseCovariance(problem(), noise).all();
   expect_near(all.raw, (S.transpose() * noise_alone.inverse() * S).diagonal());
   const std::vector<int> some{4, 0};
   const Projected part = projector.candidates(some);
@@ -138,7 +138,7 @@ TEST(Projector, TheFitIsThePosteriorOfTheParameters) {
   const NoiseModel noise = test::every_noise();
   const Projector projector(problem(), noise);
   const MatX& T = problem().theta;
-  const MatX inverse = test::dense_covariance(problem(), noise).inverse();
+  const MatX inverse = test::DenseCovariance(problem(), noise).all().inverse();
   const MatX P = (MatX::Identity(parameters, parameters) + T.transpose() * inverse * T).inverse();
   const Projector::Fit fit = projector.fit();
   expect_near(fit.covariance, P);

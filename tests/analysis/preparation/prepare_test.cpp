@@ -1,4 +1,4 @@
-#include "analysis/diagnosis/prepare.hpp"
+#include "analysis/preparation/prepare.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include "core/sim/simulate.hpp"
 #include "tests/support/model_builders.hpp"
 
-namespace drift::diagnosis {
+namespace drift::preparation {
 namespace {
 
 using test::base_filter;
@@ -255,4 +255,4 @@ TEST(Prepare, AMillionRowsBecomeFewInBoundedTime) {
 }
 
 }  // namespace
-}  // namespace drift::diagnosis
+}  // namespace drift::preparation

@@ -6,7 +6,7 @@
 #include "core/recording/recording.hpp"
 #include "mc/study/study.hpp"
 
-namespace drift::diagnosis {
+namespace drift::preparation {
 
 /// Recordings ready for a diagnosis, and what was done to them.
 struct Prepared {
@@ -32,4 +32,4 @@ struct Prepared {
 Prepared prepare(const mc::Study& study, const std::vector<Recording>& recordings,
                  std::size_t most_rows = 20000);
 
-}  // namespace drift::diagnosis
+}  // namespace drift::preparation

@@ -1,11 +1,11 @@
-#include "analysis/identification/recorded_test.hpp"
+#include "analysis/preparation/recorded_test.hpp"
 
 #include <fmt/format.h>
 
 #include "core/base/check.hpp"
 #include "core/plan/environment.hpp"
 
-namespace drift::identification {
+namespace drift::preparation {
 namespace {
 
 Timeline joined(std::vector<Timeline> timelines) {
@@ -76,4 +76,4 @@ Timeline planned_test(const mc::Study& study, const TestPlan& plan) {
   return timeline;
 }
 
-}  // namespace drift::identification
+}  // namespace drift::preparation

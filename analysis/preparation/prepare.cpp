@@ -1,4 +1,4 @@
-#include "analysis/diagnosis/prepare.hpp"
+#include "analysis/preparation/prepare.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,14 +8,14 @@
 #include <limits>
 #include <set>
 
-#include "analysis/diagnosis/fill_gaps.hpp"
-#include "analysis/diagnosis/plan_check.hpp"
+#include "analysis/preparation/fill_gaps.hpp"
+#include "analysis/preparation/plan_check.hpp"
 #include "core/base/check.hpp"
 #include "core/plan/timeline.hpp"
 #include "core/recording/reduce.hpp"
 #include "core/sim/measurements.hpp"
 
-namespace drift::diagnosis {
+namespace drift::preparation {
 namespace {
 
 constexpr std::size_t least_stuck = 20;
@@ -202,4 +202,4 @@ Prepared prepare(const mc::Study& study, const std::vector<Recording>& recording
   return p;
 }
 
-}  // namespace drift::diagnosis
+}  // namespace drift::preparation

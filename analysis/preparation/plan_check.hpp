@@ -6,7 +6,7 @@
 #include "core/recording/recording.hpp"
 #include "mc/study/study.hpp"
 
-namespace drift::diagnosis {
+namespace drift::preparation {
 
 /// Whether a recording can be of the study's plan, as far as its own columns tell. It fits the plan
 /// in positions, sample interval and attitudes (lay_out() and prepare() have looked).
@@ -21,4 +21,4 @@ namespace drift::diagnosis {
 void check_plan(const mc::Study& study, const Recording& recording,
                 std::vector<std::string>& remarks, std::vector<std::string>& wrong);
 
-}  // namespace drift::diagnosis
+}  // namespace drift::preparation

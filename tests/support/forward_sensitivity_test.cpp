@@ -1,4 +1,4 @@
-#include "core/ode/forward_sensitivity.hpp"
+#include "tests/support/forward_sensitivity.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,21 +1,27 @@
-#include "analysis/blind/intervals.hpp"
+#include "core/stats/proportion.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-namespace drift::blind {
+namespace drift::stats {
 namespace {
 
-TEST(Intervals, IncompleteBetaHasItsClosedForms) {
-  for (const double x : {0.001, 0.1, 0.37, 0.5, 0.9, 0.999}) {
-    EXPECT_NEAR(incomplete_beta(1.0, 7.0, x), 1.0 - std::pow(1.0 - x, 7.0), 1e-14);
-    EXPECT_NEAR(incomplete_beta(5.0, 1.0, x), std::pow(x, 5.0), 1e-14);
-    EXPECT_NEAR(incomplete_beta(2.0, 2.0, x), 3.0 * x * x - 2.0 * x * x * x, 1e-14);
-  }
+TEST(Rate, HasTheWilsonInterval) {
+  // Wilson (1927) as in Newcombe (1998), table I: 81 of 263 is 0.2553 to 0.3662; 0 of 20 is 0 to
+  // 0.1611.
+  const Rate a{81, 263}, none{0, 20}, all{20, 20}, many{0, 2000};
+  EXPECT_NEAR(a.low(), 0.2553, 5e-5);
+  EXPECT_NEAR(a.high(), 0.3662, 5e-5);
+  EXPECT_EQ(none.low(), 0.0);
+  EXPECT_NEAR(none.high(), 0.1611, 5e-5);
+  EXPECT_NEAR(all.low(), 1.0 - 0.1611, 5e-5);
+  EXPECT_EQ(all.high(), 1.0);
+  EXPECT_EQ(many.low(), 0.0);  // where rounding of the formula gives 1e-19
+  EXPECT_TRUE(std::isnan(Rate{}.value()));
 }
 
-TEST(Intervals, NothingOfNHasTheRuleOfThree) {
+TEST(Proportion, NothingOfNHasTheRuleOfThree) {
   // k = 0: the upper end p has (1 - p)^n = 0.025.
   for (const std::size_t n : {1u, 10u, 60u, 1000u}) {
     const Proportion p = proportion(0, n);
@@ -35,7 +41,7 @@ double at_most(std::size_t k, std::size_t n, double p) {
   return sum;
 }
 
-TEST(Intervals, TheEndsLeaveTwoAndAHalfPercentInEachTail) {
+TEST(Proportion, TheEndsLeaveTwoAndAHalfPercentInEachTail) {
   for (const auto& [k, n] : {std::pair<std::size_t, std::size_t>{5, 10}, {3, 64}, {90, 99}}) {
     const Proportion p = proportion(k, n);
     EXPECT_NEAR(at_most(k, n, p.high), 0.025, 1e-10);
@@ -43,7 +49,7 @@ TEST(Intervals, TheEndsLeaveTwoAndAHalfPercentInEachTail) {
   }
 }
 
-TEST(Intervals, OfNoTrialsNothingIsKnown) {
+TEST(Proportion, OfNoTrialsNothingIsKnown) {
   const Proportion p = proportion(0, 0);
   EXPECT_TRUE(std::isnan(p.share()));
   EXPECT_EQ(p.low, 0.0);
@@ -51,4 +57,4 @@ TEST(Intervals, OfNoTrialsNothingIsKnown) {
 }
 
 }  // namespace
-}  // namespace drift::blind
+}  // namespace drift::stats

@@ -5,7 +5,7 @@
 
 #include "core/recording/recording.hpp"
 
-namespace drift::diagnosis {
+namespace drift::preparation {
 
 /// Puts rows without measurements where rows are missing within a dwell or a slew, so that the
 /// attitude can be carried along: evenly spaced, commands held, case heading and covariates on a
@@ -13,4 +13,4 @@ namespace drift::diagnosis {
 /// are left for the layout to complain of. interval: of the samples [s]. Says what was done.
 void fill_gaps(Recording& recording, double interval, std::vector<std::string>& remarks);
 
-}  // namespace drift::diagnosis
+}  // namespace drift::preparation

@@ -1,9 +1,9 @@
-#include "analysis/diagnosis/covariates.hpp"
+#include "analysis/preparation/covariates.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace drift::diagnosis {
+namespace drift::preparation {
 namespace {
 
 const std::vector<std::string> platform_channels{
@@ -33,4 +33,4 @@ std::vector<Covariate> covariates_of(const std::vector<Recording>& recordings) {
   return all;
 }
 
-}  // namespace drift::diagnosis
+}  // namespace drift::preparation

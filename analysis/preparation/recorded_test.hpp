@@ -6,7 +6,7 @@
 #include "core/sim/measurements.hpp"
 #include "mc/study/study.hpp"
 
-namespace drift::identification {
+namespace drift::preparation {
 
 /// A test as recordings show it: their chains one after another, and what was measured.
 struct RecordedTest {
@@ -23,4 +23,4 @@ RecordedTest recorded_test(const mc::Study& study, const std::vector<Recording>&
 /// A test that is planned, in the same surroundings.
 Timeline planned_test(const mc::Study& study, const TestPlan& plan);
 
-}  // namespace drift::identification
+}  // namespace drift::preparation

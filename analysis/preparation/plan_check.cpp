@@ -1,4 +1,4 @@
-#include "analysis/diagnosis/plan_check.hpp"
+#include "analysis/preparation/plan_check.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,10 +12,10 @@
 #include "core/plan/timeline.hpp"
 #include "core/sim/measurements.hpp"
 
-namespace drift::diagnosis {
+namespace drift::preparation {
 namespace {
 
-constexpr double deg_per_h = detail::deg / 3600.0;
+constexpr double deg_per_h = unit::deg_per_h.to_si;
 constexpr double same_command =
     1.0 * deg_per_h;  // [rad/s]; compensated drift may be more, and is then remarked
 constexpr double longest_turn =
@@ -36,10 +36,6 @@ std::vector<Dwell> dwells_of(const Timeline& timeline) {
     all.back().rows.push_back(k);
   }
   return all;
-}
-
-std::string_view name(CommandLaw law) {
-  return law == CommandLaw::level ? "level" : "free";
 }
 
 std::string time_text(double seconds) {
@@ -126,7 +122,7 @@ void check_commands(const mc::Study& study, const std::string& source, const Tim
         "commands are "
         "used; correct plan.mode if that is not what was meant",
         source, positions_text(positions),
-        name(law == CommandLaw::level ? CommandLaw::free : CommandLaw::level), name(law)));
+        key_of(law == CommandLaw::level ? CommandLaw::free : CommandLaw::level), key_of(law)));
   }
   if (!elsewhere.empty())
     remarks.push_back(
@@ -225,7 +221,7 @@ void check_law(const mc::Study& study, const std::string& source, const Timeline
         fmt::format("{}: in {} {}, but the plan says mode = \"{}\" and the recording has no "
                     "commands (expected the law "
                     "it was made with). Set plan.mode = \"{}\", or record cmd_x, cmd_y, cmd_z",
-                    source, positions_text(positions), shows, name(law),
+                    source, positions_text(positions), shows, key_of(law),
                     law == CommandLaw::free ? "level" : "free"));
   }
 }
@@ -244,4 +240,4 @@ void check_plan(const mc::Study& study, const Recording& recording,
     check_law(study, source, timeline, measurements_of(recording, study.readout), dwells, wrong);
 }
 
-}  // namespace drift::diagnosis
+}  // namespace drift::preparation

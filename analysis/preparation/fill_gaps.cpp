@@ -1,11 +1,11 @@
-#include "analysis/diagnosis/fill_gaps.hpp"
+#include "analysis/preparation/fill_gaps.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <limits>
 
-namespace drift::diagnosis {
+namespace drift::preparation {
 namespace {
 
 constexpr double same_command = 1e-9;      // [rad/s]
@@ -78,4 +78,4 @@ void fill_gaps(Recording& recording, double interval, std::vector<std::string>& 
   recording.lines = fill(recording.lines, [](std::size_t, std::size_t b, double) { return b; });
 }
 
-}  // namespace drift::diagnosis
+}  // namespace drift::preparation

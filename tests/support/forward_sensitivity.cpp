@@ -1,4 +1,4 @@
-#include "core/ode/forward_sensitivity.hpp"
+#include "tests/support/forward_sensitivity.hpp"
 
 #include <cvodes/cvodes.h>
 #include <nvector/nvector_serial.h>
