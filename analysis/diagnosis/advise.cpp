@@ -50,8 +50,7 @@ class Adviser {
                        make_layout(d.nominal).theta)) {}
 
   inference::CandidateSet candidates() const {
-    return inference::library_candidates(d_.nominal, inference::theta_of(d_.nominal, fit_),
-                                         test_.timeline);
+    return inference::library_candidates(d_.nominal, theta_of(d_.nominal, fit_), test_.timeline);
   }
 
   /// What looks most like a named cause, of each term and axis that it can be confused with.
@@ -59,7 +58,7 @@ class Adviser {
     std::vector<Rival> all;
     Question named = named_question(d_, set, {});
     std::vector<inference::SignatureSpec> specs =
-        number_signatures(named.alternatives, d_.nominal, inference::theta_of(d_.nominal, fit_));
+        number_signatures(named.alternatives, d_.nominal, theta_of(d_.nominal, fit_));
     const std::vector<int> own = named.alternatives.front().columns;
     for (std::size_t cause = 0; cause < d_.causes.size(); ++cause)
       for (const search::Confusable& like : d_.causes[cause].confusable_with) {
@@ -100,7 +99,7 @@ class Adviser {
     if (q.empty()) return {};
     BatchResult at = fit_;
     if (std::ranges::any_of(q.alternatives, holds_lambda)) widen_misalignments(at);
-    const Theta theta = inference::theta_of(d_.nominal, at);
+    const Theta theta = theta_of(d_.nominal, at);
     std::vector<inference::SignatureSpec> specs =
         number_signatures(q.alternatives, d_.nominal, theta);
     const auto as_recorded = [&] {

@@ -22,7 +22,7 @@ struct Outcome {
 
 class Folder {
  public:
-  Folder(const search::Fitted& nominal, const search::Fitted& patched, const inference::Test& test,
+  Folder(const search::Fitted& nominal, const search::Fitted& patched, const MeasuredTest& test,
          const std::vector<std::size_t>& named, double library_threshold, FoldMethod method)
       : nominal_(nominal),
         patched_(patched),
@@ -65,7 +65,7 @@ class Folder {
     const Measurements rest = without_intervals(test_.measured, part.intervals);
     // Near the whole fit: a step of a hundredth of a sigma is as good as none.
     BatchResult fit = fit_batch(e.filter, test_.timeline, test_.readout, rest,
-                                inference::theta_of(e.filter, e.fit), {.tolerance = 1e-2});
+                                theta_of(e.filter, e.fit), {.tolerance = 1e-2});
     // Attitudes of which the fit has seen nothing: linearised where they are, their prior
     // unchanged.
     std::vector<bool> seen(fit.psi0_l.size(), false);
@@ -104,7 +104,7 @@ class Folder {
   }
 
   const search::Fitted &nominal_, &patched_;
-  const inference::Test& test_;
+  const MeasuredTest& test_;
   const std::vector<std::size_t>& named_;
   double threshold_;
   FoldMethod method_;
@@ -186,7 +186,7 @@ double held_out_gain(const search::Fitted& before, const search::Fitted& after) 
 }
 
 HeldOut held_out(const search::Fitted& nominal, const search::Fitted& patched,
-                 const inference::Test& test, const std::vector<std::size_t>& named,
+                 const MeasuredTest& test, const std::vector<std::size_t>& named,
                  double library_threshold, const FoldOptions& options) {
   std::vector<HeldOutPart> parts = positions_of(nominal.problem);
   const auto positions = static_cast<std::ptrdiff_t>(parts.size());

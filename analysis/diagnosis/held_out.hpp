@@ -28,7 +28,7 @@ struct FoldOptions {
 /// anew from the rest alone (discovery.md 0.9), the nominal model where nothing there is
 /// significant.
 HeldOut held_out(const search::Fitted& nominal, const search::Fitted& patched,
-                 const inference::Test& test, const std::vector<std::size_t>& named,
+                 const MeasuredTest& test, const std::vector<std::size_t>& named,
                  double library_threshold, const FoldOptions& options);
 
 /// What the log score must gain for a cause to be kept: less is no prediction.

@@ -7,7 +7,7 @@
 
 namespace drift::diagnosis {
 
-std::vector<double> judge_members(const search::Fitted& nominal, const inference::Test& test,
+std::vector<double> judge_members(const search::Fitted& nominal, const MeasuredTest& test,
                                   const search::Refit& best,
                                   const search::ChanceThresholds& thresholds) {
   std::vector<double> gains;

@@ -13,7 +13,7 @@ namespace drift::diagnosis {
 /// Each of several simultaneous causes judged by itself: what the held-out prediction of all
 /// positions loses (log score) when the model is fitted again without it. In the order of
 /// `best.choices`; empty for one cause.
-std::vector<double> judge_members(const search::Fitted& nominal, const inference::Test& test,
+std::vector<double> judge_members(const search::Fitted& nominal, const MeasuredTest& test,
                                   const search::Refit& best,
                                   const search::ChanceThresholds& thresholds);
 

@@ -19,11 +19,11 @@ struct Point {
 
 class Profiler {
  public:
-  Profiler(const FilterSpec& filter, const inference::Test& test, const BatchResult& joint,
+  Profiler(const FilterSpec& filter, const MeasuredTest& test, const BatchResult& joint,
            const VecX& weight, const inference::NoiseModel& noise)
       : filter_(filter),
         test_(test),
-        start_(inference::theta_of(filter, joint)),
+        start_(theta_of(filter, joint)),
         weight_(weight),
         noise_(noise),
         prior_(filter.priors[closure_param]) {}
@@ -48,7 +48,7 @@ class Profiler {
   }
 
   const FilterSpec& filter_;
-  const inference::Test& test_;
+  const MeasuredTest& test_;
   Theta start_;
   const VecX& weight_;
   const inference::NoiseModel& noise_;
@@ -57,7 +57,7 @@ class Profiler {
 
 }  // namespace
 
-std::optional<ClosureProfile> profile_closure(const FilterSpec& filter, const inference::Test& test,
+std::optional<ClosureProfile> profile_closure(const FilterSpec& filter, const MeasuredTest& test,
                                               const BatchResult& joint, const VecX& weight,
                                               const inference::NoiseModel& noise, double decisive) {
   const ParameterEstimate* found = joint.estimate.find(closure_param);

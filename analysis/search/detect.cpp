@@ -26,12 +26,12 @@ double strongest_window(const Fitted& nominal) {
 
 }  // namespace
 
-double other_equation_gain(const Fitted& nominal, const inference::Test& test) {
+double other_equation_gain(const Fitted& nominal, const MeasuredTest& test) {
   FilterSpec other = nominal.filter;
   if (!facts(other.coupling).other) return -infinity;
   other.coupling = *facts(other.coupling).other;
   double best = -infinity;
-  const auto here = inference::theta_of(nominal.filter, nominal.fit);
+  const auto here = theta_of(nominal.filter, nominal.fit);
   for (const Theta& start : {here, make_layout(other).theta}) {
     const BatchResult fit = fit_batch(other, test.timeline, test.readout, test.measured, start);
     inference::LinearProblem problem = inference::linear_problem(other, test, fit, {});
@@ -42,7 +42,7 @@ double other_equation_gain(const Fitted& nominal, const inference::Test& test) {
   return best - nominal.log_likelihood2();
 }
 
-Detection detect(Fitted nominal, const inference::Test& test, const SearchOptions& options) {
+Detection detect(Fitted nominal, const MeasuredTest& test, const SearchOptions& options) {
   Detection out;
   out.thresholds = chance_thresholds(nominal, options.alpha, options.draws);
   if (const auto noise = settle_noise(nominal, out.thresholds.library_threshold)) {

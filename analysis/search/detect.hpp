@@ -23,10 +23,10 @@ struct Detection {
   bool significant = false;
 };
 
-Detection detect(Fitted nominal, const inference::Test& test, const SearchOptions& options);
+Detection detect(Fitted nominal, const MeasuredTest& test, const SearchOptions& options);
 
 /// Whether and how well the other member of {eq5, eq6} explains the test: twice the log likelihood
 /// gained by changing the equation and fitting again. -infinity for other couplings.
-double other_equation_gain(const Fitted& nominal, const inference::Test& test);
+double other_equation_gain(const Fitted& nominal, const MeasuredTest& test);
 
 }  // namespace drift::search

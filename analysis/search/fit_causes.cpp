@@ -55,7 +55,7 @@ FilterSpec with_causes(const FilterSpec& nominal, const inference::CandidateSet&
 }
 
 Expectation expect(const Fitted& nominal, const std::vector<Choice>& choices) {
-  Expectation out{inference::theta_of(nominal.filter, nominal.fit), {}, false};
+  Expectation out{theta_of(nominal.filter, nominal.fit), {}, false};
   for (const Choice& choice : choices)
     for (const auto& [param, value] :
          nominal.set.candidates[choice.candidate].variants[choice.variant].settings)
@@ -77,8 +77,8 @@ Expectation expect(const Fitted& nominal, const std::vector<Choice>& choices) {
 /// lambda and the misalignments are bilinear, a narrow bent valley: from both equations, fitted
 /// first, from the nominal fit and, as that may be far off, from the prior.
 std::vector<BatchResult> fits_from_both_ends(const Fitted& nominal, const FilterSpec& filter,
-                                             const inference::Test& test) {
-  const Theta theta = inference::theta_of(nominal.filter, nominal.fit);
+                                             const MeasuredTest& test) {
+  const Theta theta = theta_of(nominal.filter, nominal.fit);
   return mc::run_campaign(4, [&](std::size_t k) {
     const double end = static_cast<double>(k % 2);
     FilterSpec held = filter;
@@ -86,14 +86,13 @@ std::vector<BatchResult> fits_from_both_ends(const Fitted& nominal, const Filter
     Theta from = k < 2 ? theta : make_layout(nominal.filter).theta;
     from[closure_param] = end;
     const BatchResult first = fit_batch(held, test.timeline, test.readout, test.measured, from);
-    return fit_batch(filter, test.timeline, test.readout, test.measured,
-                     inference::theta_of(held, first));
+    return fit_batch(filter, test.timeline, test.readout, test.measured, theta_of(held, first));
   });
 }
 
 }  // namespace
 
-CauseFit fit_causes(const Fitted& nominal, const inference::Test& test,
+CauseFit fit_causes(const Fitted& nominal, const MeasuredTest& test,
                     const std::vector<Choice>& choices) {
   CauseFit out{
       with_causes(nominal.filter, nominal.set, choices), {}, expect(nominal, choices), 0.0};
@@ -109,7 +108,7 @@ CauseFit fit_causes(const Fitted& nominal, const inference::Test& test,
     out.narrowed =
         std::max(0.0, std::log(out.filter.priors[closure_param].sigma() / profile->sigma));
     out.filter.priors[closure_param] = normal(profile->value, profile->sigma);
-    out.fit = fit_from(inference::theta_of(out.filter, profile->fit));
+    out.fit = fit_from(theta_of(out.filter, profile->fit));
   }
   return out;
 }

@@ -25,7 +25,7 @@ struct CauseFit {
 /// The filter has the candidates' parameters active: amplitudes with the library's priors,
 /// nonlinear parameters free around the grid's value (discrete ones fixed there). frame_closure
 /// turns coupling eq5 and eq6 into the family that holds both.
-CauseFit fit_causes(const Fitted& nominal, const inference::Test& test,
+CauseFit fit_causes(const Fitted& nominal, const MeasuredTest& test,
                     const std::vector<Choice>& choices);
 
 }  // namespace drift::search

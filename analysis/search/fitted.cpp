@@ -23,11 +23,11 @@ double cost_of_misalignments(const FilterSpec& filter, const BatchResult& fit) {
 }
 
 /// Linearised, without noise and scores.
-Fitted linearised(const FilterSpec& filter, const inference::Test& test, const BatchResult& fit) {
+Fitted linearised(const FilterSpec& filter, const MeasuredTest& test, const BatchResult& fit) {
   Fitted f;
   f.filter = filter;
   f.fit = fit;
-  f.set = inference::library_candidates(filter, inference::theta_of(filter, fit), test.timeline);
+  f.set = inference::library_candidates(filter, theta_of(filter, fit), test.timeline);
   f.problem = inference::linear_problem(filter, test, fit, f.set.signatures);
   return f;
 }
@@ -69,14 +69,14 @@ Fitted with_noise(Fitted f, const Timeline& timeline, const inference::NoiseEsti
   return f;
 }
 
-Fitted examine(const FilterSpec& filter, const inference::Test& test, const BatchResult& fit,
+Fitted examine(const FilterSpec& filter, const MeasuredTest& test, const BatchResult& fit,
                const inference::NoiseEstimate& known) {
   Fitted f = linearised(filter, test, fit);
   lower_outliers(f.problem, known.model);
   return with_noise(std::move(f), test.timeline, known);
 }
 
-Fitted examine(const FilterSpec& filter, const inference::Test& test, const BatchResult& fit,
+Fitted examine(const FilterSpec& filter, const MeasuredTest& test, const BatchResult& fit,
                NoiseKinds kinds) {
   Fitted f = linearised(filter, test, fit);
   const VecX residual = inference::residual_of(f.problem, fit);

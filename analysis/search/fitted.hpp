@@ -27,10 +27,10 @@ struct Fitted : Field {
 enum class NoiseKinds { white, driving_too };
 
 /// Linearises about a fit, lists candidates and scores them; the noise is estimated.
-Fitted examine(const FilterSpec& filter, const inference::Test& test, const BatchResult& fit,
+Fitted examine(const FilterSpec& filter, const MeasuredTest& test, const BatchResult& fit,
                NoiseKinds kinds = NoiseKinds::driving_too);
 /// The same under a noise that is known.
-Fitted examine(const FilterSpec& filter, const inference::Test& test, const BatchResult& fit,
+Fitted examine(const FilterSpec& filter, const MeasuredTest& test, const BatchResult& fit,
                const inference::NoiseEstimate& known);
 
 /// Everything scored again under another noise.

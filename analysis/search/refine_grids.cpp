@@ -96,7 +96,7 @@ void fill(inference::Candidate& c, std::size_t v, std::size_t place, Columns& co
 
 }  // namespace
 
-Fitted refine_grids(Fitted e, const inference::Test& test, double worth) {
+Fitted refine_grids(Fitted e, const MeasuredTest& test, double worth) {
   double top = 0.0;
   for (const Score& s : e.scores) top = std::max(top, s.log_bayes);
   Columns columns(e);

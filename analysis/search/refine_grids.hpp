@@ -9,6 +9,6 @@ namespace drift::search {
 /// two points), their signatures are computed and everything is scored again. A step at 3.5 h
 /// leaves a trace that steps at 3 and 4 h together do not explain, and something else would be
 /// called for beside it.
-Fitted refine_grids(Fitted e, const inference::Test& test, double worth);
+Fitted refine_grids(Fitted e, const MeasuredTest& test, double worth);
 
 }  // namespace drift::search

@@ -98,7 +98,7 @@ double log_tries(const Fitted& nominal, const std::vector<Choice>& choices) {
 
 }  // namespace
 
-Refit refit(const Fitted& nominal, const inference::Test& test, const std::vector<Choice>& choices,
+Refit refit(const Fitted& nominal, const MeasuredTest& test, const std::vector<Choice>& choices,
             const ChanceThresholds& thresholds) {
   const auto [filter, fit, expected, narrowed] = fit_causes(nominal, test, choices);
   Refit out;

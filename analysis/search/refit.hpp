@@ -24,7 +24,7 @@ struct Refit {
 /// Fits causes (fit_causes.hpp) and scores everything again. Noise that drives the platform is
 /// allowed for if the nominal model needed it: what one cause leaves is not noise because it is
 /// slow.
-Refit refit(const Fitted& nominal, const inference::Test& test, const std::vector<Choice>& choices,
+Refit refit(const Fitted& nominal, const MeasuredTest& test, const std::vector<Choice>& choices,
             const ChanceThresholds& thresholds);
 
 }  // namespace drift::search

@@ -25,7 +25,7 @@ Remainder least_remainder(const Search& s, std::size_t candidate) {
 }
 
 /// Each explanation fitted, spread over threads.
-std::vector<Refit> refit_all(const Search& s, const inference::Test& test,
+std::vector<Refit> refit_all(const Search& s, const MeasuredTest& test,
                              const std::vector<Explanation>& all) {
   std::vector<Refit> refits;
   if (all.size() == 1) {  // its own fits are spread over the threads then
@@ -37,7 +37,7 @@ std::vector<Refit> refit_all(const Search& s, const inference::Test& test,
 }
 
 /// Single causes, and more of their terms as long as a part is not adequate.
-std::vector<Refit> refit_singles(const Search& s, const inference::Test& test, std::size_t most) {
+std::vector<Refit> refit_singles(const Search& s, const MeasuredTest& test, std::size_t most) {
   std::vector<std::size_t> singles = promising_singles(s, most);
   std::vector<Refit> refits;
   for (std::size_t done = 0; done < singles.size();) {
@@ -56,7 +56,7 @@ std::vector<Refit> refit_singles(const Search& s, const inference::Test& test, s
 
 }  // namespace
 
-Search search(Fitted nominal, const inference::Test& test, const SearchOptions& options) {
+Search search(Fitted nominal, const MeasuredTest& test, const SearchOptions& options) {
   Search out{detect(std::move(nominal), test, options), {}, {}, false, {}, {}};
   if (out.significant) out.nominal = refine_grids(std::move(out.nominal), test, worth_refining);
   for (std::size_t k = 0; k < out.nominal.scores.size(); ++k)

@@ -18,6 +18,6 @@ struct Search : Detection {
 /// Names what is missing (discovery.md 2.3 to 2.7): detection by the largest projected score; the
 /// adequate set, first of single candidates, then of all pairs, then by greedy steps, each
 /// confirmed by a fit through the full dynamics; probabilities from their evidence.
-Search search(Fitted nominal, const inference::Test& test, const SearchOptions& options);
+Search search(Fitted nominal, const MeasuredTest& test, const SearchOptions& options);
 
 }  // namespace drift::search

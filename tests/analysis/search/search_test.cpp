@@ -23,7 +23,7 @@ struct Bench {
   Bench(std::string_view preset, double dwell)
       : timeline(preset_timeline(preset, CommandLaw::free, dwell, 60.0)) {}
   Fitted nominal() const {
-    const inference::Test test{timeline, readout, measured};
+    const MeasuredTest test{timeline, readout, measured};
     return examine(filter, test,
                    fit_batch(filter, timeline, readout, measured, make_layout(filter).theta));
   }
