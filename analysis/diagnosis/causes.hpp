@@ -26,6 +26,6 @@ struct CausesFound {
   std::vector<Twins> inseparable;
   std::vector<Remark> remarks;
 };
-CausesFound causes_of(const search::Examination& nominal, const search::Search& found);
+CausesFound causes_of(const search::Fitted& nominal, const search::Search& found);
 
 }  // namespace drift::diagnosis
