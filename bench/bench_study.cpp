@@ -15,8 +15,8 @@
 #include "bench/practice_run.hpp"
 #include "core/estimate/ekf.hpp"
 #include "core/estimate/starts.hpp"
-#include "mc/campaign.hpp"
-#include "mc/study_task.hpp"
+#include "mc/task/campaign.hpp"
+#include "mc/task/study_task.hpp"
 
 namespace drift::bench {
 namespace {
@@ -70,7 +70,7 @@ struct Practice {
 Practice practice(const std::vector<Point>& points) {
   Practice out;
   for (const Point& p : points) {
-    const Study& study = p.point->study;
+    const mc::Study& study = p.point->study;
     const Timeline& timeline = p.task->timeline();
     Simulator simulator(study.truth, study.readout);
     for (std::uint64_t k = 0; k < practice_runs; ++k) {
@@ -104,7 +104,7 @@ Practice practice(const std::vector<Point>& points) {
 
 /// The points of a study and what executes their runs.
 struct Points {
-  Points(const Study& study, std::optional<EstimatorKind> estimator)
+  Points(const mc::Study& study, std::optional<mc::EstimatorKind> estimator)
       : points(mc::study_points(study)) {
     if (estimator)
       for (mc::StudyPoint& p : points) p.study.monte_carlo.estimator = *estimator;
@@ -118,8 +118,8 @@ struct Points {
 };
 
 int run(const char* file) {
-  const Study study = read_study(file);
-  const Points as_given(study, {}), one_pass(study, EstimatorKind::ekf);
+  const mc::Study study = mc::read_study(file);
+  const Points as_given(study, {}), one_pass(study, mc::EstimatorKind::ekf);
   const std::vector<Point>& all = one_pass.all;
   const int threads = omp_get_num_procs();
   double one = 1e9, many = 1e9, own = 1e9;

@@ -11,7 +11,7 @@
 #include "bench/dense_ekf.hpp"
 #include "core/estimate/gimbal_prediction.hpp"
 #include "core/estimate/linearize.hpp"
-#include "core/sim/case_heading.hpp"
+#include "core/plan/case_heading.hpp"
 
 namespace drift::bench {
 namespace {

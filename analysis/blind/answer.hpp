@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/discovery/diagnosis.hpp"
+#include "analysis/diagnosis/diagnosis.hpp"
 
 namespace drift::blind {
 
@@ -12,8 +12,8 @@ struct AnswerCause {
   std::string term, axis;
   int set = 0;  ///< simultaneous causes share a number; alternatives have different ones
   double probability = 0.0;
-  std::vector<discovery::CauseParameter> parameters;
-  std::vector<discovery::Confusable>
+  std::vector<search::CauseParameter> parameters;
+  std::vector<search::Confusable>
       confusable_with{};  ///< likest first; |cosine| 1: the same trace on this plan
 };
 
@@ -21,7 +21,7 @@ struct Answer {
   std::size_t number = 0;
   bool failed = false;
   std::string failure;  ///< why there is no diagnosis
-  discovery::Verdict verdict = discovery::Verdict::consistent;
+  diagnosis::Verdict verdict = diagnosis::Verdict::consistent;
   double p_value = 1.0;
   std::vector<AnswerCause> causes;
   std::string equation;  ///< of the strongest location, empty if nothing was located
@@ -32,13 +32,12 @@ struct Answer {
   bool held_out = false;                       ///< positions were held out
   double held_out_gain = 0.0;                  ///< log score
   double seconds = 0.0;
-  std::string sentence;
 
   /// Alternatives: causes or combinations of causes that are offered.
   std::vector<std::vector<const AnswerCause*>> alternatives() const;
 };
 
-Answer answer_of(const discovery::Diagnosis& diagnosis);
+Answer answer_of(const diagnosis::Diagnosis& diagnosis);
 
 std::string to_json(const Answer& answer);
 /// All answers, as answers.json.

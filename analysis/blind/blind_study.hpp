@@ -6,7 +6,7 @@
 
 #include "analysis/blind/answer.hpp"
 #include "analysis/blind/score.hpp"
-#include "mc/study.hpp"
+#include "mc/study/study.hpp"
 
 namespace drift::blind {
 
@@ -28,7 +28,7 @@ using Progress = std::function<void(std::size_t, std::size_t)>;
 /// A folder that holds the same study, sealed, is left as it is. Returns the hash of the key.
 /// InputError (store) if the folder belongs to another study; (self_check) if its key was changed;
 /// (config) if the study has no [blind], [truth], [[filter]] or preset.
-std::string make_trials(const Study& study, const std::string& folder, int threads,
+std::string make_trials(const mc::Study& study, const std::string& folder, int threads,
                         const Progress& progress = {});
 
 /// Diagnoses the trials that have no answer yet, in parallel. An exception of the solver is that

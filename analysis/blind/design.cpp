@@ -25,7 +25,7 @@ std::vector<std::size_t> balanced(std::size_t n, std::size_t levels, Stream& str
 }
 
 /// Trials of each stratum: shares of the whole, rounded so that they add up.
-std::vector<std::size_t> counts_of(const BlindShares& shares, std::size_t trials) {
+std::vector<std::size_t> counts_of(const mc::BlindShares& shares, std::size_t trials) {
   const double weight[num_strata] = {shares.null, shares.wrong_noise, shares.single,
                                      shares.pair, shares.outside,     shares.local};
   std::vector<std::size_t> count(num_strata), order(num_strata);
@@ -43,7 +43,7 @@ std::vector<std::size_t> counts_of(const BlindShares& shares, std::size_t trials
   return count;
 }
 
-double size_of(const BlindSpec& spec, Stratum stratum, std::size_t level, Stream& stream) {
+double size_of(const mc::BlindSpec& spec, Stratum stratum, std::size_t level, Stream& stream) {
   switch (stratum) {
     case Stratum::pair:
       return spec.pair_size;
@@ -62,7 +62,7 @@ double size_of(const BlindSpec& spec, Stratum stratum, std::size_t level, Stream
 
 }  // namespace
 
-std::vector<TrialPlan> design_trials(const BlindSpec& spec, std::uint64_t seed) {
+std::vector<TrialPlan> design_trials(const mc::BlindSpec& spec, std::uint64_t seed) {
   const auto count = counts_of(spec.shares, spec.trials);
   std::vector<TrialPlan> trials;
   for (std::size_t s = 0; s < num_strata; ++s) {
@@ -73,7 +73,7 @@ std::vector<TrialPlan> design_trials(const BlindSpec& spec, std::uint64_t seed) 
     const auto size = balanced(count[s], std::max<std::size_t>(1, spec.sizes.size()), stream);
     for (std::size_t j = 0; j < count[s]; ++j) {
       TrialPlan t;
-      t.stratum = stratum_names[s].first;
+      t.stratum = strata[s].value;
       t.index = j;
       t.plan = spec.plans[plan[j]];
       t.mode = spec.modes[mode[j]];

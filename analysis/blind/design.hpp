@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/blind/trial.hpp"
-#include "mc/blind_spec.hpp"
+#include "mc/study/blind_spec.hpp"
 
 namespace drift::blind {
 
@@ -9,6 +9,6 @@ namespace drift::blind {
 /// remainders); plans, modes, couplings and sizes are spread evenly within each stratum and mixed
 /// at random, and so is the order of the trials: their number says nothing. A pure function of
 /// (spec, seed).
-std::vector<TrialPlan> design_trials(const BlindSpec& spec, std::uint64_t seed);
+std::vector<TrialPlan> design_trials(const mc::BlindSpec& spec, std::uint64_t seed);
 
 }  // namespace drift::blind

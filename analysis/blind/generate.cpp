@@ -12,9 +12,9 @@
 #include "analysis/blind/outside_effects.hpp"
 #include "analysis/blind/sizing.hpp"
 #include "core/base/check.hpp"
-#include "core/base/chi_square_band.hpp"
 #include "core/config/load.hpp"
 #include "core/config/override.hpp"
+#include "core/stats/chi_square_band.hpp"
 
 namespace drift::blind {
 namespace {
@@ -23,12 +23,7 @@ using Sized = SizingBench::Sized;
 
 constexpr std::uint32_t choice_stream = 64;  // the design uses the first few
 
-/// The nominal filter has the truth's coupling; for the servo eq. (6), which it closes like.
-Coupling nominal_coupling(Coupling truth) {
-  return truth == Coupling::eq5 ? Coupling::eq5 : Coupling::eq6;
-}
-
-World make_world(const Study& study, const Study& nominal, const TrialPlan& plan) {
+World make_world(const mc::Study& study, const mc::Study& nominal, const TrialPlan& plan) {
   World w;
   w.truth = study.truth;
   w.truth.coupling = plan.coupling;
@@ -68,20 +63,20 @@ std::vector<Sized> library_effects(const SizingBench& bench, const FilterSpec& n
   return found;
 }
 
-[[noreturn]] void nothing_to_hide(const Study& study, const TrialPlan& plan) {
+[[noreturn]] void nothing_to_hide(const mc::Study& study, const TrialPlan& plan) {
   throw InputError(
       ExitCode::config,
       fmt::format(
           "{}: nothing can be hidden in trial {} as asked: {} of {:.3g} sigma on preset {} "
           "(expected effects of at most {:.3g} prior sigmas). Ask for smaller sizes, longer "
           "dwells, or a larger blind.most_prior_sigmas",
-          study.path, plan.number, name_in(stratum_names, plan.stratum), plan.size, plan.plan,
+          study.path, plan.number, key_of(plan.stratum), plan.size, plan.plan,
           study.blind.most_prior_sigmas));
 }
 
 /// Two effects whose signatures are not too much alike. Every third trial looks for two that cancel
 /// each other as far as that allows.
-std::vector<Sized> pair_effects(const Study& study, const SizingBench& bench,
+std::vector<Sized> pair_effects(const mc::Study& study, const SizingBench& bench,
                                 const FilterSpec& nominal, const TrialPlan& plan, Stream& stream) {
   auto terms = term_order(nominal, study.monte_carlo.seed, plan.index);
   const double most = study.blind.most_prior_sigmas;
@@ -114,7 +109,7 @@ std::vector<Sized> pair_effects(const Study& study, const SizingBench& bench,
 }
 
 /// What is hidden, and put into `world`.
-void hide(const Study& study, const FilterSpec& nominal, const TrialPlan& plan, World& world,
+void hide(const mc::Study& study, const FilterSpec& nominal, const TrialPlan& plan, World& world,
           KeyEntry& key) {
   const std::uint64_t seed = study.monte_carlo.seed;
   Stream stream(seed, plan.number, Purpose::design, choice_stream);
@@ -164,7 +159,7 @@ Certificate certify(const FilterSpec& nominal, const World& world, const Measure
   const BatchResult fit = fit_batch(nominal, world.timeline, world.readout, measured, layout.theta);
   Certificate c;
   const auto dof = static_cast<double>(fit.estimate.measured);
-  const Band band = chi_square_band(dof);
+  const stats::Band band = stats::chi_square_band(dof);
   c.chi2_per_dof = fit.estimate.statistic / dof;
   c.band_low = band.low;
   c.band_high = band.high;
@@ -180,7 +175,7 @@ Certificate certify(const FilterSpec& nominal, const World& world, const Measure
 
 }  // namespace
 
-std::string nominal_text(const Study& study, const TrialPlan& plan) {
+std::string nominal_text(const mc::Study& study, const TrialPlan& plan) {
   config::Node root = config::parse_document(study.text, study.path);
   std::erase_if(root.members, [](const config::Member& m) {
     return m.key == "truth" || m.key == "blind" || m.key == "monte_carlo" || m.key == "sweep" ||
@@ -188,7 +183,7 @@ std::string nominal_text(const Study& study, const TrialPlan& plan) {
   });
   apply_override(root, "title", fmt::format("Blind trial {}", plan.number));
   apply_override(root, "plan.preset", plan.plan);
-  apply_override(root, "plan.mode", name_in(mode_names, plan.mode));
+  apply_override(root, "plan.mode", key_of(plan.mode));
   config::Node* filters = root.find("filter");
   if (filters == nullptr || filters->items.empty())
     throw InputError(ExitCode::config,
@@ -196,17 +191,16 @@ std::string nominal_text(const Study& study, const TrialPlan& plan) {
                                  "section [[filter]] with name and coupling",
                                  study.path));
   filters->items.resize(1);
-  apply_override(root, "filter.0.coupling",
-                 name_in(coupling_names, nominal_coupling(plan.coupling)));
+  apply_override(root, "filter.0.coupling", key_of(facts(plan.coupling).settles_to));
   return config::to_document(root);
 }
 
-MadeTrial make_trial(const Study& study, const Study& nominal, const TrialPlan& plan) {
+MadeTrial make_trial(const mc::Study& study, const mc::Study& nominal, const TrialPlan& plan) {
   const auto started = std::chrono::steady_clock::now();
   const FilterSpec& filter = nominal.filters.front();
   MadeTrial made;
   made.key.plan = plan;
-  made.key.nominal = name_in(coupling_names, filter.coupling);
+  made.key.nominal = key_of(filter.coupling);
   World world = make_world(study, nominal, plan);
   hide(study, filter, plan, world, made.key);
   const Simulation sim = simulate_recorded(world, study.monte_carlo.seed, plan.number);

@@ -1,14 +1,14 @@
 #pragma once
 
 #include "analysis/blind/trial.hpp"
-#include "core/sim/recording.hpp"
-#include "mc/study.hpp"
+#include "core/recording/recording.hpp"
+#include "mc/study/study.hpp"
 
 namespace drift::blind {
 
 /// What the solver gets of a study: no truth, no [blind], no seed; the preset, mode and coupling of
 /// the trial. TOML text that read_study() takes.
-std::string nominal_text(const Study& study, const TrialPlan& plan);
+std::string nominal_text(const mc::Study& study, const TrialPlan& plan);
 
 /// A recording and what it hides.
 struct MadeTrial {
@@ -21,6 +21,6 @@ struct MadeTrial {
 /// [truth]; the effect is as strong as its wanted size asks, and another one is taken where that
 /// would be implausible. A pure function of (study, plan). InputError (config) if nothing can be
 /// hidden as asked.
-MadeTrial make_trial(const Study& study, const Study& nominal, const TrialPlan& plan);
+MadeTrial make_trial(const mc::Study& study, const mc::Study& nominal, const TrialPlan& plan);
 
 }  // namespace drift::blind

@@ -5,12 +5,12 @@
 #include <limits>
 #include <map>
 
-#include "analysis/blind/subsystem.hpp"
+#include "core/physics/term_library.hpp"
 
 namespace drift::blind {
 namespace {
 
-using discovery::Verdict;
+using diagnosis::Verdict;
 using Alternative = std::vector<const AnswerCause*>;
 
 /// The same term, and the same axis where both name one.
@@ -40,7 +40,7 @@ bool is_twin(const Answer& answer, const HiddenEffect& hidden, const AnswerCause
   if (agrees(hidden, cause)) return true;
   const auto lists = [](const AnswerCause& c, const std::string& term, const std::string& axis) {
     return std::any_of(c.confusable_with.begin(), c.confusable_with.end(),
-                       [&](const discovery::Confusable& o) {
+                       [&](const search::Confusable& o) {
                          // A candidate of all axes can be like anything of one of them: that is no
                          // twin.
                          return std::abs(o.cosine) >= one_trace && o.term == term && o.axis == axis;
@@ -92,6 +92,12 @@ std::vector<Pull> pulls_of(const KeyEntry& key, const Alternative& alternative) 
   return pulls;
 }
 
+/// The part of the platform that a term belongs to; none for what is not in the library.
+std::optional<Subsystem> subsystem_of(std::string_view term) {
+  const auto known = TermLibrary::find_term(term);
+  return known ? std::optional(TermLibrary::terms[*known].subsystem) : std::nullopt;
+}
+
 double overlap(double a0, double a1, double b0, double b1) {
   const double inner = std::min(a1, b1) - std::max(a0, b0),
                outer = std::max(a1, b1) - std::min(a0, b0);
@@ -101,7 +107,7 @@ double overlap(double a0, double a1, double b0, double b1) {
 std::string called(const Answer& a) {
   if (a.failed) return "failed";
   if (a.verdict == Verdict::consistent || a.verdict == Verdict::unexplained || a.causes.empty())
-    return std::string(discovery::text(a.verdict));
+    return std::string(diagnosis::text(a.verdict));
   if (a.verdict == Verdict::ambiguous) return "ambiguous";
   const std::string& term = a.causes.front().term;
   const bool one = std::all_of(a.causes.begin(), a.causes.end(),
@@ -113,7 +119,7 @@ std::string called(const Answer& a) {
 
 std::string TrialScore::hidden() const {
   const bool term = key.plan.stratum == Stratum::single && !key.effects.empty();
-  return term ? key.effects.front().term : name_in(stratum_names, key.plan.stratum);
+  return term ? key.effects.front().term : std::string(key_of(key.plan.stratum));
 }
 
 TrialScore score_trial(const KeyEntry& key, const Answer& answer) {

@@ -4,8 +4,8 @@
 
 namespace drift::cli {
 
-Overrides StudyArguments::overrides() const {
-  Overrides overrides;
+mc::Overrides StudyArguments::overrides() const {
+  mc::Overrides overrides;
   for (const std::string& text : sets) {
     const auto equals = text.find('=');
     if (equals == std::string::npos || equals == 0)
@@ -18,19 +18,19 @@ Overrides StudyArguments::overrides() const {
   return overrides;
 }
 
-Study StudyArguments::read() const {
-  return read_study(config, overrides());
+mc::Study StudyArguments::read() const {
+  return mc::read_study(config, overrides());
 }
 
 ExitCode check(const StudyArguments& arguments) {
-  const Study study = arguments.read();
+  const mc::Study study = arguments.read();
   std::size_t key_width = 0, value_width = 0;
-  for (const Resolved& r : study.resolved) {
+  for (const mc::Resolved& r : study.resolved) {
     key_width = std::max(key_width, r.key.size());
     value_width = std::max(value_width, r.value.size());
   }
   value_width = std::min<std::size_t>(value_width, 60);
-  for (const Resolved& r : study.resolved)
+  for (const mc::Resolved& r : study.resolved)
     fmt::print("{:<{}}  {:<{}}  {}\n", r.key, key_width, r.value, value_width, r.origin);
   return ExitCode::ok;
 }

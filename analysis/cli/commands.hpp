@@ -6,7 +6,7 @@
 
 #include "analysis/cli/study_program.hpp"
 #include "core/base/check.hpp"
-#include "mc/study.hpp"
+#include "mc/study/study.hpp"
 
 namespace drift::cli {
 
@@ -19,8 +19,8 @@ struct StudyArguments {
   std::string progress = "auto";  ///< auto, plain, json, none
 
   /// Reads the study with the overrides of the command line.
-  Study read() const;
-  Overrides overrides() const;
+  mc::Study read() const;
+  mc::Overrides overrides() const;
 };
 
 /// What `run` takes besides.

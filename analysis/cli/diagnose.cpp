@@ -1,8 +1,8 @@
-#include "analysis/discovery/diagnose.hpp"
+
+#include "analysis/strapdown/diagnose.hpp"
 
 #include <fmt/ranges.h>
 
-#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -10,21 +10,17 @@
 #include "analysis/cli/commands.hpp"
 #include "analysis/cli/progress.hpp"
 #include "analysis/cli/read_recordings.hpp"
-#include "analysis/discovery/advise.hpp"
-#include "analysis/discovery/name_recordings.hpp"
-#include "analysis/discovery/prepare.hpp"
-#include "analysis/discovery/site_doubt.hpp"
-#include "analysis/report/diagnosis_folder.hpp"
-#include "analysis/report/diagnosis_text.hpp"
-#include "analysis/report/results_folder.hpp"
-#include "analysis/strapdown/diagnose.hpp"
-#include "analysis/strapdown/report.hpp"
-#include "mc/campaign.hpp"
+#include "analysis/diagnosis/diagnose_recordings.hpp"
+#include "analysis/report/diagnosis/folder.hpp"
+#include "analysis/report/diagnosis/text.hpp"
+#include "analysis/report/strapdown/report.hpp"
+#include "core/base/results_folder.hpp"
+#include "mc/task/campaign.hpp"
 
 namespace drift::cli {
 namespace {
 
-void require_nominal(const Study& study) {
+void require_nominal(const mc::Study& study) {
   if (study.filters.empty())
     throw InputError(
         ExitCode::config,
@@ -33,17 +29,17 @@ void require_nominal(const Study& study) {
                     study.path));
 }
 
-void finish(const Study& study, const discovery::Diagnosis& diagnosis,
-            const DiagnosisSource& source, const std::string& folder,
+void finish(const mc::Study& study, const diagnosis::Diagnosis& diagnosis,
+            const report::DiagnosisSource& source, const std::string& folder,
             std::vector<std::string> more = {}) {
-  fmt::print("{}", to_text(diagnosis));
+  fmt::print("{}", report::to_text(diagnosis));
   if (folder.empty()) return;
-  auto files = write_results(study, diagnosis, source, folder);
+  auto files = report::write_results(study, diagnosis, source, folder);
   files.insert(files.end(), more.begin(), more.end());
   fmt::print("\nWritten to {}: {}\n", folder, fmt::join(files, " "));
 }
 
-ExitCode diagnose_case(const StudyArguments& arguments, const Study& study,
+ExitCode diagnose_case(const StudyArguments& arguments, const mc::Study& study,
                        const std::vector<std::string>& paths, const std::string& folder) {
   if (paths.size() != 1)
     throw InputError(
@@ -51,7 +47,7 @@ ExitCode diagnose_case(const StudyArguments& arguments, const Study& study,
         fmt::format("diagnose: a strapdown study takes one recording, {} are given. Name one "
                     "on the command line",
                     paths.size()));
-  StrapdownOptions options;
+  strapdown::StrapdownOptions options;
   options.static_min = study.static_min;
   options.gravity = study.site.gravity;
   options.seed = study.monte_carlo.seed;
@@ -59,39 +55,29 @@ ExitCode diagnose_case(const StudyArguments& arguments, const Study& study,
   std::fflush(stdout);
   const auto report = stage_reporter(arguments.progress, "diagnose");
   if (report) report("dwells, turns and what each step gains", 0.0);
-  const StrapdownDiagnosis found = diagnose_strapdown(study, recordings.front(), options);
+  const strapdown::StrapdownDiagnosis found =
+      strapdown::diagnose_strapdown(study, recordings.front(), options);
   if (report) report("done", 1.0);
   std::vector<std::string> more;
   if (!folder.empty())
-    more = write_files({{"identification.json", to_json(found.result).dump(2) + "\n"}}, folder);
-  finish(study, found.diagnosis, {paths, to_text(found.result)}, folder, more);
+    more = write_files({{"identification.json", report::to_json(found.result).dump(2) + "\n"}},
+                       folder);
+  finish(study, found.diagnosis, {paths, report::to_text(found.result)}, folder, more);
   return ExitCode::ok;
 }
 
-ExitCode diagnose_platform(const StudyArguments& arguments, const Study& study,
+ExitCode diagnose_platform(const StudyArguments& arguments, const mc::Study& study,
                            const std::vector<std::string>& paths, const std::string& folder,
                            const std::optional<std::vector<std::string>>& advise) {
-  discovery::Prepared prepared = discovery::prepare(study, read_recordings(study, paths));
+  const auto recordings = read_recordings(study, paths);
   std::fflush(stdout);
-  discovery::DiagnoseOptions options;
-  options.progress = stage_reporter(arguments.progress, "diagnose");
-  discovery::Diagnosis found = discovery::diagnose(prepared.study, prepared.recordings, options);
-  if (const auto doubt = discovery::site_doubt(prepared.study, prepared.recordings, found))
-    found.sentence += " " + doubt->sentence;
-  const auto began = std::chrono::steady_clock::now();
-  try {
-    found.advice = discovery::advise(prepared.study, prepared.recordings, found,
-                                     {.seed = study.monte_carlo.seed, .asked = advise});
-  } catch (const InputError& e) {
-    if (e.code() == ExitCode::usage) throw;  // what was asked for is wrong
-    found.remarks.push_back(fmt::format("No advice could be made: {}",
-                                        e.what()));  // never at the cost of the diagnosis
+  diagnosis::RecordingsOptions options;
+  options.diagnose.progress = stage_reporter(arguments.progress, "diagnose");
+  if (advise) {
+    options.advising = diagnosis::Advising::on_request;
+    options.asked = *advise;
   }
-  found.seconds.emplace_back(
-      "advice", std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count());
-  found.remarks.insert(found.remarks.begin(), prepared.remarks.begin(), prepared.remarks.end());
-  discovery::name_recordings(prepared.study, prepared.recordings, found);
-  finish(study, found, {paths, ""}, folder);
+  finish(study, diagnosis::diagnose_recordings(study, recordings, options), {paths, ""}, folder);
   return ExitCode::ok;
 }
 
@@ -100,7 +86,7 @@ ExitCode diagnose_platform(const StudyArguments& arguments, const Study& study,
 ExitCode diagnose(const StudyArguments& arguments, const std::vector<std::string>& paths,
                   const std::string& folder,
                   const std::optional<std::vector<std::string>>& advise) {
-  const Study study = arguments.read();
+  const mc::Study study = arguments.read();
   require_nominal(study);
   if (advise && study.kind == RecordingKind::strapdown)
     throw InputError(ExitCode::usage,

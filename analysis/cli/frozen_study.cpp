@@ -25,7 +25,7 @@ void sort_keys(config::Node& table) {
 
 }  // namespace
 
-mc::StudyIdentity identity_of(const Study& study) {
+mc::StudyIdentity identity_of(const mc::Study& study) {
   config::Node root = config::parse_document(study.text, study.path);
   // The strata of a Latin hypercube are as many as its runs: it cannot be extended.
   const config::Node* monte_carlo = root.find("monte_carlo");
@@ -39,7 +39,7 @@ mc::StudyIdentity identity_of(const Study& study) {
   return {config::to_document(root), study.monte_carlo.seed, mc::StudyIdentity{}.block_size};
 }
 
-Study frozen_study(const std::string& folder, const mc::StudyReader& reader) {
+mc::Study frozen_study(const std::string& folder, const mc::StudyReader& reader) {
   const std::string path = folder + "/study.toml";
   const auto mismatch = [&](const std::string& why) {
     return InputError(
@@ -50,7 +50,7 @@ Study frozen_study(const std::string& folder, const mc::StudyReader& reader) {
   };
   const std::uint64_t runs = std::max<std::uint64_t>(reader.runs(), 1);
   try {
-    Study study = read_study(path, {{"monte_carlo.runs", std::to_string(runs)}});
+    mc::Study study = mc::read_study(path, {{"monte_carlo.runs", std::to_string(runs)}});
     mc::StudyIdentity identity = identity_of(study);
     identity.block_size = reader.manifest().identity.block_size;
     if (identity.hash() == reader.manifest().hash) return study;

@@ -1,26 +1,27 @@
-#include "analysis/identify.hpp"
+#include "analysis/identification/identify.hpp"
 
 #include <nlohmann/json.hpp>
 
 #include "analysis/cli/commands.hpp"
 #include "analysis/cli/progress.hpp"
 #include "analysis/cli/read_recordings.hpp"
-#include "analysis/report/identification_text.hpp"
-#include "analysis/report/results_folder.hpp"
-#include "analysis/report/strapdown_results.hpp"
-#include "analysis/strapdown/report.hpp"
+#include "analysis/report/identify/folder.hpp"
+#include "analysis/report/identify/text.hpp"
+#include "analysis/report/strapdown/report.hpp"
+#include "analysis/report/strapdown/results.hpp"
+#include "core/base/results_folder.hpp"
 
 namespace drift::cli {
 namespace {
 
-ExitCode identify_case(const Study& study, const std::vector<std::string>& paths,
+ExitCode identify_case(const mc::Study& study, const std::vector<std::string>& paths,
                        const std::string& folder) {
   if (paths.size() != 1)
     throw InputError(ExitCode::usage,
                      fmt::format("identify: a strapdown study takes one recording, {} are "
                                  "given. Name one on the command line",
                                  paths.size()));
-  StrapdownOptions options;
+  strapdown::StrapdownOptions options;
   options.static_min = study.static_min;
   options.gravity = study.site.gravity;
   options.seed = study.monte_carlo.seed;
@@ -28,11 +29,12 @@ ExitCode identify_case(const Study& study, const std::vector<std::string>& paths
   for (const FilterSpec& f : study.filters) options.equations.push_back(f.coupling);
   if (options.equations.empty()) options.equations = {Coupling::eq5, Coupling::eq6};
   const auto recordings = read_recordings(study, paths);
-  const StrapdownResult result = identify_strapdown(recordings.front(), options);
-  fmt::print("{}", to_text(result));
+  const strapdown::StrapdownResult result =
+      strapdown::identify_strapdown(recordings.front(), options);
+  fmt::print("{}", report::to_text(result));
   if (!folder.empty())
     fmt::print("\nWritten to {}: {}\n", folder,
-               fmt::join(write_results(study, result, folder), " "));
+               fmt::join(report::write_results(study, result, folder), " "));
   return ExitCode::ok;
 }
 
@@ -40,17 +42,17 @@ ExitCode identify_case(const Study& study, const std::vector<std::string>& paths
 
 ExitCode identify(const StudyArguments& arguments, const std::vector<std::string>& paths,
                   const std::string& folder, std::uint64_t run) {
-  const Study study = arguments.read();
+  const mc::Study study = arguments.read();
   require_own_folder(folder, "identify");
   if (study.kind == RecordingKind::strapdown) return identify_case(study, paths, folder);
   const auto progress = progress_reporter(arguments.progress, "estimates");
-  const Identification id =
-      paths.empty()
-          ? identify_simulated(study, run, arguments.threads, progress)
-          : identify_recordings(study, read_recordings(study, paths), arguments.threads, progress);
-  fmt::print("{}", to_text(study, id));
+  const identification::Identification id =
+      paths.empty() ? identification::identify_simulated(study, run, arguments.threads, progress)
+                    : identification::identify_recordings(study, read_recordings(study, paths),
+                                                          arguments.threads, progress);
+  fmt::print("{}", report::to_text(study, id));
   if (!folder.empty()) {
-    const auto files = write_results(study, id, folder);
+    const auto files = report::write_results(study, id, folder);
     fmt::print("\nWritten to {}: {}\n", folder, fmt::join(files, " "));
   }
   return ExitCode::ok;

@@ -6,10 +6,10 @@
 #include "analysis/cli/frozen_study.hpp"
 #include "analysis/cli/run_options.hpp"
 #include "analysis/cli/run_progress.hpp"
-#include "mc/export_hdf5.hpp"
-#include "mc/export_text.hpp"
-#include "mc/replay.hpp"
-#include "mc/study_state.hpp"
+#include "mc/engine/replay.hpp"
+#include "mc/export/export_hdf5.hpp"
+#include "mc/export/export_text.hpp"
+#include "mc/store/study_state.hpp"
 
 namespace drift::cli {
 namespace {
@@ -136,7 +136,7 @@ ExitCode export_results(const std::string& folder, const std::string& format,
       output.empty() ? fmt::format("{}/export.{}", folder, format == "hdf5" ? "h5" : format)
                      : output;
   mc::StudyReader reader(folder);
-  const Study study = frozen_study(folder, reader);
+  const mc::Study study = frozen_study(folder, reader);
   const mc::StudyWork work = program.work(study);
   refuse_another(target, reader.manifest().hash);
   const mc::StudyState state = mc::state_of(reader, work.stop_rules);

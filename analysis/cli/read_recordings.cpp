@@ -5,11 +5,12 @@
 #include <filesystem>
 
 #include "core/base/check.hpp"
-#include "core/sim/quality_card.hpp"
+#include "core/recording/quality_card.hpp"
 
 namespace drift::cli {
 
-std::vector<Recording> read_recordings(const Study& study, const std::vector<std::string>& paths) {
+std::vector<Recording> read_recordings(const mc::Study& study,
+                                       const std::vector<std::string>& paths) {
   for (std::size_t k = 0; k < paths.size(); ++k)
     for (std::size_t before = 0; before < k; ++before)
       if (std::error_code unknown; std::filesystem::equivalent(paths[k], paths[before], unknown))

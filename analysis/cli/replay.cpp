@@ -1,4 +1,4 @@
-#include "mc/replay.hpp"
+#include "mc/engine/replay.hpp"
 
 #include <cerrno>
 #include <cstdio>
@@ -6,8 +6,8 @@
 
 #include "analysis/cli/commands.hpp"
 #include "analysis/cli/frozen_study.hpp"
-#include "core/sim/atomic_file.hpp"
-#include "mc/export_text.hpp"
+#include "core/base/atomic_file.hpp"
+#include "mc/export/export_text.hpp"
 
 namespace drift::cli {
 namespace {

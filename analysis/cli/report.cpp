@@ -2,7 +2,7 @@
 
 #include "analysis/cli/commands.hpp"
 #include "analysis/cli/frozen_study.hpp"
-#include "analysis/report/results_folder.hpp"
+#include "core/base/results_folder.hpp"
 
 namespace drift::cli {
 
@@ -16,7 +16,7 @@ ExitCode report(const std::string& folder, const StudyProgram& program) {
                     folder));
   if (command == "run") {  // made anew, of as many runs as there are
     mc::StudyReader reader(folder);
-    const Study study = frozen_study(folder, reader);
+    const mc::Study study = frozen_study(folder, reader);
     program.present(study, program.work(study), reader, folder);
     return ExitCode::ok;
   }

@@ -8,10 +8,10 @@
 #include "analysis/cli/frozen_study.hpp"
 #include "analysis/cli/run_options.hpp"
 #include "analysis/cli/run_progress.hpp"
-#include "analysis/report/results_folder.hpp"
-#include "mc/engine.hpp"
-#include "mc/export_text.hpp"
-#include "mc/study_state.hpp"
+#include "core/base/results_folder.hpp"
+#include "mc/engine/engine.hpp"
+#include "mc/export/export_text.hpp"
+#include "mc/store/study_state.hpp"
 
 namespace drift::cli {
 namespace {
@@ -113,9 +113,9 @@ void list_failures(mc::StudyReader& reader, const mc::StopRules& rules, const st
 
 ExitCode run(const StudyArguments& arguments, const RunArguments& given,
              const StudyProgram& program) {
-  Overrides overrides = arguments.overrides();
+  mc::Overrides overrides = arguments.overrides();
   if (given.runs) overrides.emplace_back("monte_carlo.runs", std::to_string(*given.runs));
-  const Study study = read_study(arguments.config, overrides);
+  const mc::Study study = mc::read_study(arguments.config, overrides);
   mc::EngineOptions options;
   options.runs = study.monte_carlo.runs;
   options.allowed_failures = study.monte_carlo.allowed_failures;

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "mc/engine.hpp"
+#include "mc/engine/engine.hpp"
 
 namespace drift::cli {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "mc/engine.hpp"
+#include "mc/engine/engine.hpp"
 
 namespace drift::cli {
 

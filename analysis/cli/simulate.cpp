@@ -1,13 +1,13 @@
 #include "core/sim/simulate.hpp"
 
 #include "analysis/cli/commands.hpp"
-#include "core/sim/quality_card.hpp"
+#include "core/recording/quality_card.hpp"
 
 namespace drift::cli {
 namespace {
 
 /// What a reader of the recording must know to repeat it.
-void add_facts(Recording& recording, const Study& study, std::uint64_t run) {
+void add_facts(Recording& recording, const mc::Study& study, std::uint64_t run) {
   recording.facts = {{"driftscope recording", study.title},
                      {"study", study.path},
                      {"seed", std::to_string(study.monte_carlo.seed)},
@@ -18,7 +18,7 @@ void add_facts(Recording& recording, const Study& study, std::uint64_t run) {
 }  // namespace
 
 ExitCode simulate(const StudyArguments& arguments, const std::string& output, std::uint64_t run) {
-  const Study study = arguments.read();
+  const mc::Study study = arguments.read();
   if (study.kind == RecordingKind::strapdown)
     throw InputError(ExitCode::config,
                      fmt::format("{}: simulate makes recordings of platforms; [plan] has kind "

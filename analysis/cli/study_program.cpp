@@ -6,16 +6,16 @@
 #include <algorithm>
 #include <memory>
 
-#include "analysis/report/study_html.hpp"
-#include "analysis/report/study_information.hpp"
-#include "mc/provenance.hpp"
-#include "mc/stop_rule.hpp"
-#include "mc/study_task.hpp"
+#include "analysis/report/study/html.hpp"
+#include "analysis/report/study/information.hpp"
+#include "mc/statistics/stop_rule.hpp"
+#include "mc/store/provenance.hpp"
+#include "mc/task/study_task.hpp"
 
 namespace drift::cli {
 namespace {
 
-mc::StudyWork work_of(const Study& study) {
+mc::StudyWork work_of(const mc::Study& study) {
   const auto points = std::make_shared<const std::vector<mc::StudyPoint>>(mc::study_points(study));
   mc::StudyWork work{mc::study_tasks(*points), {}};
   if (mc::stop_rule(*points))
@@ -43,26 +43,27 @@ void add_speed(mc::StudyReader& reader, mc::Facts& facts) {
                     100.0 * std::max(0.0, total - filter - integration) / total));
 }
 
-void present(const Study& study, const mc::StudyWork& work, mc::StudyReader& reader,
+void present(const mc::Study& study, const mc::StudyWork& work, mc::StudyReader& reader,
              const std::string& folder) {
-  StudyResults results;
+  report::StudyResults results;
   results.study = study;
   results.points = mc::study_points(study);
   for (const mc::StudyPoint& p : results.points) results.statistics.emplace_back(p.study);
   reader.each_result(work.stop_rules, [&](const mc::StoredBlock& b) {
     results.statistics[b.block.point].add(b.block);
   });
-  for (const auto& [point, run] : runs_to_trace(results))
+  for (const auto& [point, run] : report::runs_to_trace(results))
     results.traces.push_back({point, run, mc::trace_run(results.points[point].study, run)});
-  results.further = information_sections(results, 0);
+  results.further = report::information_sections(results, 0);
   results.provenance = mc::provenance();
   results.provenance.emplace_back("study hash", reader.manifest().hash);
   results.provenance.emplace_back("results", mc::results_digest(reader, work.stop_rules));
   add_speed(reader, results.provenance);
-  fmt::print("\n{}", study_text(results));
+  fmt::print("\n{}", report::study_text(results));
   if (!results.provenance.empty() && results.provenance.back().first == "speed")
     fmt::print("\nspeed: {}\n", results.provenance.back().second);
-  fmt::print("\nWritten to {}: {}\n", folder, fmt::join(write_study_report(results, folder), " "));
+  fmt::print("\nWritten to {}: {}\n", folder,
+             fmt::join(report::write_study_report(results, folder), " "));
 }
 
 }  // namespace

@@ -3,10 +3,10 @@
 #include <functional>
 #include <string>
 
-#include "mc/run_task.hpp"
-#include "mc/study.hpp"
-#include "mc/study_reader.hpp"
-#include "mc/sweep.hpp"
+#include "mc/store/study_reader.hpp"
+#include "mc/study/study.hpp"
+#include "mc/study/sweep.hpp"
+#include "mc/task/run_task.hpp"
 
 namespace drift::cli {
 
@@ -14,13 +14,13 @@ namespace drift::cli {
 struct StudyProgram {
   /// The points of a study and when each has enough runs. InputError (config) if it has nothing to
   /// run.
-  std::function<mc::StudyWork(const Study&)> work;
+  std::function<mc::StudyWork(const mc::Study&)> work;
   /// Prints the results of a complete study and writes what belongs into its folder.
-  std::function<void(const Study&, const mc::StudyWork&, mc::StudyReader&,
+  std::function<void(const mc::Study&, const mc::StudyWork&, mc::StudyReader&,
                      const std::string& folder)>
       present;
   /// The study points whose rows are StudyColumns, for statistics of them; may be empty.
-  std::function<std::vector<mc::StudyPoint>(const Study&)> points = {};
+  std::function<std::vector<mc::StudyPoint>(const mc::Study&)> points = {};
 };
 
 /// The one of this program.

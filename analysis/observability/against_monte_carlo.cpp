@@ -8,7 +8,7 @@
 
 #include "analysis/observability/other_methods.hpp"
 
-namespace drift {
+namespace drift::observability {
 namespace {
 
 constexpr double tolerance = 0.1;  // of the promise: what linearisation may cost without a word
@@ -103,4 +103,4 @@ MonteCarloComparison compare_with_monte_carlo(const Ranking& ranking,
   return out;
 }
 
-}  // namespace drift
+}  // namespace drift::observability

@@ -6,7 +6,7 @@
 
 #include "analysis/observability/ranking.hpp"
 
-namespace drift {
+namespace drift::observability {
 
 /// What a Monte Carlo study found of one parameter: root mean square error of the estimates, with a
 /// (bootstrap) interval, and the sigma that the filter reported (root mean square), SI.
@@ -54,4 +54,4 @@ MonteCarloComparison compare_with_monte_carlo(const Ranking& ranking,
                                               std::span<const MonteCarloError> errors,
                                               TruthIs truth);
 
-}  // namespace drift
+}  // namespace drift::observability

@@ -3,10 +3,10 @@
 #include <vector>
 
 #include "core/estimate/batch.hpp"
-#include "core/sim/environment.hpp"
+#include "core/plan/environment.hpp"
 #include "core/sim/simulate.hpp"
 
-namespace drift {
+namespace drift::observability {
 
 /// What a test is judged by before it is done: a model with priors, the numbers it is linearised
 /// at, and what is measured where.
@@ -95,4 +95,4 @@ struct Posterior {
 };
 Posterior posterior_of(const MatX& information_root);
 
-}  // namespace drift
+}  // namespace drift::observability

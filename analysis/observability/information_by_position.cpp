@@ -2,7 +2,7 @@
 
 #include "core/estimate/triangle.hpp"
 
-namespace drift {
+namespace drift::observability {
 namespace {
 
 VecX log2_sigma(const MatX& root) {
@@ -58,4 +58,4 @@ InformationCourse information_course(const LinearisedPlan& plan) {
   return out;
 }
 
-}  // namespace drift
+}  // namespace drift::observability

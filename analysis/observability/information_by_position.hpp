@@ -2,7 +2,7 @@
 
 #include "analysis/observability/information.hpp"
 
-namespace drift {
+namespace drift::observability {
 
 /// Which position, and which minutes, inform each parameter. Gains are log2(sigma before / sigma
 /// after) [bit]: over all bins they add up to log2(prior sigma / posterior sigma).
@@ -18,4 +18,4 @@ struct InformationCourse {
 /// A position that is left out is still passed through: its slew and dwell happen, unmeasured.
 InformationCourse information_course(const LinearisedPlan& plan);
 
-}  // namespace drift
+}  // namespace drift::observability

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace drift {
+namespace drift::observability {
 namespace {
 
 std::string_view key_of_state(const Ranking& r, std::size_t state) {
@@ -185,4 +185,4 @@ std::vector<MethodRanking> compare_methods(const Ranking& ranking, const PwcsRan
   return all;
 }
 
-}  // namespace drift
+}  // namespace drift::observability

@@ -7,7 +7,7 @@
 #include "analysis/observability/pwcs.hpp"
 #include "analysis/observability/ranking.hpp"
 
-namespace drift {
+namespace drift::observability {
 
 /// A ranking by another method: a score for each state, the larger the better observable.
 struct MethodRanking {
@@ -49,4 +49,4 @@ std::vector<MethodRanking> compare_methods(const Ranking& ranking, const PwcsRan
                                            const InformationCourse& course,
                                            const TestPlan& positions);
 
-}  // namespace drift
+}  // namespace drift::observability

@@ -7,9 +7,9 @@
 
 #include "core/estimate/gimbal_prediction.hpp"
 #include "core/estimate/linearize.hpp"
-#include "core/sim/case_heading.hpp"
+#include "core/plan/case_heading.hpp"
 
-namespace drift {
+namespace drift::observability {
 namespace {
 
 struct Spectrum {
@@ -117,4 +117,4 @@ PwcsRank pwcs_rank(const TestPlan& plan, const Site& site, const ModelSpec& spec
   return out;
 }
 
-}  // namespace drift
+}  // namespace drift::observability

@@ -4,10 +4,10 @@
 
 #include "core/estimate/layout.hpp"
 #include "core/physics/earth.hpp"
-#include "core/sim/readout.hpp"
-#include "core/sim/test_plan.hpp"
+#include "core/plan/readout.hpp"
+#include "core/plan/test_plan.hpp"
 
-namespace drift {
+namespace drift::observability {
 
 /// One position of the piecewise-constant system x' = F x, y = H x: x holds the 3 attitude errors
 /// psi_l (R_lp = exp([psi_l x]) R_nominal, local axes) and the parameters of a layout, each divided
@@ -52,4 +52,4 @@ std::vector<PwcsPosition> pwcs_positions(const TestPlan& plan, const Site& site,
 PwcsRank pwcs_rank(const TestPlan& plan, const Site& site, const ModelSpec& spec,
                    const Readout& channels);
 
-}  // namespace drift
+}  // namespace drift::observability

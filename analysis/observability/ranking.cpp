@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace drift {
+namespace drift::observability {
 namespace {
 
 constexpr double wide_attitude = 1e-4;  // weight of an attitude prior that says nothing
@@ -87,4 +87,4 @@ std::string name_of(const EigenDirection& direction, const Layout& layout) {
   return text;
 }
 
-}  // namespace drift
+}  // namespace drift::observability

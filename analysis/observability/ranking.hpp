@@ -5,7 +5,7 @@
 
 #include "analysis/observability/information.hpp"
 
-namespace drift {
+namespace drift::observability {
 
 /// What a test will say of one parameter.
 struct ParameterRank {
@@ -57,4 +57,4 @@ std::string name_of(const EigenDirection& direction, const Layout& layout);
 /// Eigenvalues and vectors of R^T R by SVD of R, falling: small ones keep their digits.
 std::vector<EigenDirection> spectrum_of(const MatX& information_root);
 
-}  // namespace drift
+}  // namespace drift::observability

@@ -1,28 +1,23 @@
 #include "analysis/strapdown/diagnose.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 
-#include "analysis/discovery/patched_study.hpp"
-#include "analysis/discovery/sentence.hpp"
-#include "analysis/report/number_text.hpp"
+#include "analysis/diagnosis/patched_study.hpp"
 #include "analysis/strapdown/nominal.hpp"
 #include "analysis/strapdown/residuals.hpp"
 #include "analysis/strapdown/where.hpp"
 #include "core/base/check.hpp"
 
-namespace drift {
+namespace drift::strapdown {
 namespace {
 
-using namespace discovery;
-using strapdown::Evidence;
-using strapdown::Final;
-using strapdown::PartOfModel;
-using strapdown::Trial;
+using namespace diagnosis;
+using namespace inference;
+using namespace search;
 
 constexpr double surely = 2.0;  // standard errors, as in the ladder
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -31,7 +26,7 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 /// loss is why it is rejected.
 double gain_of(const Trial& t) {
   const double best = std::max(t.z_dwell, t.z_rotation), worst = std::min(t.z_dwell, t.z_rotation);
-  return t.verdict == strapdown::Verdict::rejected && worst < -1.0 ? worst : best;
+  return t.verdict == Verdict::rejected && worst < -1.0 ? worst : best;
 }
 
 std::size_t pairs_of(const Trial& t) {
@@ -51,9 +46,8 @@ const Trial* named(const std::vector<Trial>& trials, std::string_view name,
 double log_gain(const Trial& trial, const Trial* against, const Trial* final_trial) {
   if (against == nullptr || final_trial == nullptr) return none;
   double gain = 0.0;
-  const auto add = [&](const std::optional<strapdown::Score>& before,
-                       const std::optional<strapdown::Score>& after,
-                       const std::optional<strapdown::Score>& scale, double dof) {
+  const auto add = [&](const std::optional<Score>& before, const std::optional<Score>& after,
+                       const std::optional<Score>& scale, double dof) {
     if (!before || !after || !scale) return;
     const double unit = std::max(scale->in_sample, 1e-12);
     for (std::size_t k = 0; k < after->errors.size(); ++k)
@@ -68,20 +62,20 @@ double log_gain(const Trial& trial, const Trial* against, const Trial* final_tri
 
 class Diagnoser {
  public:
-  Diagnoser(const Study& study, const Recording& recording, StrapdownDiagnosis& out)
+  Diagnoser(const mc::Study& study, const Recording& recording, StrapdownDiagnosis& out)
       : study_(study), out_(out), d_(out.diagnosis), r_(out.result) {
-    const strapdown::Signals signals = strapdown::signals_of(recording);
+    const Signals signals = signals_of(recording);
     evidence_.dwells = r_.search.dwells;
-    evidence_.rotations = strapdown::find_rotations(signals, evidence_.dwells).all;
+    evidence_.rotations = find_rotations(signals, evidence_.dwells).all;
     d_.nominal = study.filters.front();
-    nominal_.model = strapdown::nominal_model(d_.nominal);
+    nominal_.model = nominal_model(d_.nominal);
     nominal_.name = "nominal";
-    nominal_.fitted = strapdown::fit(nominal_.model, evidence_, strapdown::Asked::all);
+    nominal_.fitted = fit(nominal_.model, evidence_, Asked::all);
   }
 
   void run() {
     choose_final();
-    equation_ = final_->model.equation == Coupling::eq6 ? "eq6" : "eq5";
+    equation_ = key_of(final_->model.equation);
     candidates();
     causes();
     compare();
@@ -100,18 +94,14 @@ class Diagnoser {
     for (const Final& f : r_.accepted)
       if (f.model.equation == Coupling::eq5) final_ = &f;
     Cause closure;
-    closure.term = "frame_closure";
+    closure.term = closure_term;
     closure.T = contest.z * contest.z;
-    closure.p_value = family_wise(strapdown::chance_of_gain(contest.z, contest.eq5.count));
+    closure.p_value = family_wise(chance_of_gain(contest.z, contest.eq5.count));
     closure.probability = 1.0;
     closure.size_sigma = none;
     d_.causes.push_back(closure);
-    d_.remarks.push_back(
-        fmt::format("eq. (5) predicts held-out turns to {:.3g} deg, eq. (6) to {:.3g} deg ({:.1f} "
-                    "standard errors): lambda is 0 "
-                    "and not 1. Between the two this recording gives it no number: case motion "
-                    "shows (1 - lambda) E alone",
-                    contest.eq5.held_out, contest.eq6.held_out, contest.z));
+    d_.remarks.emplace_back(
+        remark::EquationByTurns{contest.eq5.held_out, contest.eq6.held_out, contest.z});
   }
 
   double family_wise(double p) const {
@@ -129,7 +119,7 @@ class Diagnoser {
   }
 
   void candidates() {
-    for (const PartOfModel& part : strapdown::parts_of_model()) {
+    for (const PartOfModel& part : parts_of_model()) {
       const Trial* t = trial_of(part);
       if (t == nullptr || holds(nominal_.model, part)) continue;
       CandidateScore c;
@@ -139,18 +129,17 @@ class Diagnoser {
                                    t->against, equation_);
       c.dof = static_cast<int>(t->parameters - (against ? against->parameters : 0));
       c.absorbed = c.amplitude = c.smallest_detectable = c.size_sigma = none;
-      c.observable = t->verdict != strapdown::Verdict::skipped;
+      c.observable = t->verdict != Verdict::skipped;
       c.score = std::pow(std::max(0.0, gain_of(*t)), 2);
-      c.p_marginal = strapdown::chance_of_gain(gain_of(*t), pairs_of(*t));
+      c.p_marginal = chance_of_gain(gain_of(*t), pairs_of(*t));
       c.p_value = family_wise(c.p_marginal);
       const Trial* last = part.accelerometer ? accelerometer_final() : gyro_final();
       c.log_bayes = log_gain(*t, against, last);
       c.probability = std::isfinite(c.log_bayes) ? 1.0 / (1.0 + std::exp(-c.log_bayes)) : none;
-      c.adequate = t->verdict == strapdown::Verdict::accepted && holds(final_->model, part);
-      d_.remarks.push_back(
-          fmt::format("{} {}: {} (gain on dwells {:.1f}{} standard errors)", part.label,
-                      name_of(t->verdict), t->reason, t->z_dwell,
-                      part.accelerometer ? "" : fmt::format(", on turns {:.1f}", t->z_rotation)));
+      c.adequate = t->verdict == Verdict::accepted && holds(final_->model, part);
+      d_.remarks.emplace_back(
+          remark::StepJudged{std::string(part.label), std::string(name_of(t->verdict)), t->reason,
+                             t->z_dwell, part.accelerometer ? none : t->z_rotation});
       d_.candidates.push_back(c);
     }
     std::ranges::stable_sort(d_.candidates, std::greater{}, &CandidateScore::score);
@@ -160,17 +149,16 @@ class Diagnoser {
   const Trial* accelerometer_final() const {
     const Trial* last = nullptr;
     for (const Trial& t : r_.accelerometer_trials)
-      if (t.gravity && t.verdict != strapdown::Verdict::rejected) last = &t;
+      if (t.gravity && t.verdict != Verdict::rejected) last = &t;
     return last;
   }
 
   void causes() {
-    const auto parameters = strapdown::parameters_of(*final_);
-    for (const PartOfModel& part : strapdown::parts_of_model()) {
+    const auto parameters = parameters_of(*final_);
+    for (const PartOfModel& part : parts_of_model()) {
       if (!holds(final_->model, part) || holds(nominal_.model, part)) continue;
       // All of g_drift goes by its O and S parts: the common part of D_I is not observable.
-      if (part.groups.front() == "D_I" && final_->model.drift >= strapdown::DriftOrder::g_sensitive)
-        continue;
+      if (part.groups.front() == "D_I" && final_->model.drift >= DriftOrder::g_sensitive) continue;
       Cause cause;
       cause.term = part.term;
       for (const auto& p : parameters) {
@@ -193,7 +181,7 @@ class Diagnoser {
     // Alone a candidate explains everything only if it is the whole difference.
     if (d_.causes.size() > 1)
       for (CandidateScore& c : d_.candidates) c.adequate = false;
-    d_.verdict = d_.causes.empty() ? discovery::Verdict::consistent : discovery::Verdict::named;
+    d_.verdict = d_.causes.empty() ? diagnosis::Verdict::consistent : diagnosis::Verdict::named;
     d_.has_patch = !d_.causes.empty();
     d_.patched = patched_filter(d_.nominal, d_.causes);
     if (d_.has_patch) d_.patched.coupling = final_->model.equation;
@@ -204,16 +192,13 @@ class Diagnoser {
   }
 
   void compare() {
-    using strapdown::Asked;
     const auto before = residuals_of(nominal_.model, nominal_.fitted, evidence_);
     const auto after = residuals_of(final_->model, final_->fitted, evidence_);
-    const auto scatter = strapdown::scatter_of(after);
-    strapdown::fill_where(before, after, scatter, evidence_, nominal_.fitted.accelerometer.theta,
-                          d_);
+    const auto scatter = scatter_of(after);
+    fill_where(before, after, scatter, evidence_, nominal_.fitted.accelerometer.theta, d_);
 
-    const strapdown::Division division{
-        std::min(r_.options.folds, static_cast<int>(evidence_.dwells.size())), r_.options.repeats,
-        r_.options.seed};
+    const Division division{std::min(r_.options.folds, static_cast<int>(evidence_.dwells.size())),
+                            r_.options.repeats, r_.options.seed};
     const auto out_before = held_out_errors(nominal_.model, evidence_, Asked::all, division);
     const auto out_after = held_out_errors(final_->model, evidence_, Asked::all, division);
     const auto was = scores_of(out_before, evidence_, scatter),
@@ -222,7 +207,8 @@ class Diagnoser {
     double chi2_before = 0.0, chi2_after = 0.0, dof = 0.0, squares = 0.0;
     for (std::size_t k = 0; k < was.size(); ++k) {
       Fold fold;
-      fold.name = fmt::format("dwell {}", k + 1);
+      fold.of = Fold::Of::dwell;
+      fold.number = static_cast<int>(k) + 1;
       fold.positions = {static_cast<int>(k) + 1};
       fold.chi2_before = was[k].chi2;
       fold.chi2_after = is[k].chi2;
@@ -247,10 +233,9 @@ class Diagnoser {
     moved();
   }
 
-  void kinds(const strapdown::Errors& before, const strapdown::Errors& after) {
-    using strapdown::root_mean_square;
+  void kinds(const Errors& before, const Errors& after) {
     const double g = r_.options.gravity;
-    out_.kinds = {
+    d_.errors = {
         {"gyro rate in dwells", "deg/s", root_mean_square(before.dwell) / unit::deg_per_s.to_si,
          root_mean_square(after.dwell) / unit::deg_per_s.to_si},
         {"up after a turn", "deg", root_mean_square(before.rotation) / unit::deg.to_si,
@@ -261,8 +246,7 @@ class Diagnoser {
 
   void moved() {
     if (!d_.has_patch) return;
-    const auto before = strapdown::parameters_of(nominal_),
-               after = strapdown::parameters_of(*final_);
+    const auto before = parameters_of(nominal_), after = parameters_of(*final_);
     for (const auto& was : before)
       for (const auto& is : after)
         if (was.key == is.key)
@@ -274,31 +258,14 @@ class Diagnoser {
   }
 
   void say() {
-    std::vector<std::string> numbers;
-    for (const StrapdownKind& k : out_.kinds)
-      numbers.push_back(fmt::format("{} {:.3g} → {:.3g} {}", k.what, k.before, k.after, k.unit));
-    d_.sentence =
-        d_.causes.empty()
-            ? fmt::format(
-                  "Nothing is missing that predicts held-out dwells and turns better (noise alone "
-                  "shows as "
-                  "much with a chance of {}).",
-                  p_text(d_.p_value))
-            : fmt::format("{} (chance of a false alarm: {}); error on held-out data: {}.",
-                          lacking(d_.causes), p_text(d_.p_value), fmt::join(numbers, ", "));
-    d_.remarks.push_back(
-        "a recording on a case declares no noise: residuals and chi-square are in units of the "
-        "scatter "
-        "that the accepted model leaves");
-    if (final_->model.drift >= strapdown::DriftOrder::g_sensitive)
-      d_.remarks.push_back(
-          "D_I is fitted with D_O and D_S and is left out of the causes: its common part is not "
-          "observable, and alone it improved nothing");
-    for (const Unobservable& u : strapdown::unobservable_of(*final_))
-      d_.remarks.push_back(fmt::format("not observable: {}: {}", u.what, u.reason));
+    d_.remarks.emplace_back(remark::NoDeclaredNoise{});
+    if (final_->model.drift >= DriftOrder::g_sensitive)
+      d_.remarks.emplace_back(remark::CommonDriftUnseen{});
+    for (const Unobservable& u : unobservable_of(*final_))
+      d_.remarks.emplace_back(remark::NotObservable{u.what, u.reason});
   }
 
-  const Study& study_;
+  const mc::Study& study_;
   StrapdownDiagnosis& out_;
   Diagnosis& d_;
   const StrapdownResult& r_;
@@ -310,7 +277,7 @@ class Diagnoser {
 
 }  // namespace
 
-StrapdownDiagnosis diagnose_strapdown(const Study& study, const Recording& recording,
+StrapdownDiagnosis diagnose_strapdown(const mc::Study& study, const Recording& recording,
                                       StrapdownOptions options) {
   if (study.filters.empty())
     throw InputError(ExitCode::config,
@@ -327,4 +294,4 @@ StrapdownDiagnosis diagnose_strapdown(const Study& study, const Recording& recor
   return out;
 }
 
-}  // namespace drift
+}  // namespace drift::strapdown

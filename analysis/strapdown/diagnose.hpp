@@ -3,24 +3,16 @@
 #include <string>
 #include <vector>
 
-#include "analysis/discovery/diagnosis.hpp"
+#include "analysis/diagnosis/diagnosis.hpp"
 #include "analysis/strapdown/identify.hpp"
-#include "mc/study.hpp"
+#include "mc/study/study.hpp"
 
-namespace drift {
-
-/// Root mean square error of the nominal and of the accepted model on one kind of held-out data.
-struct StrapdownKind {
-  std::string what;  ///< "gravity in dwells", "gyro rate in dwells", "up after a turn"
-  std::string unit;
-  double before = 0.0, after = 0.0;  ///< [unit]
-};
+namespace drift::strapdown {
 
 /// A diagnosis of a strapdown recording and the identification it rests on.
 struct StrapdownDiagnosis {
   StrapdownResult result;
-  discovery::Diagnosis diagnosis;
-  std::vector<StrapdownKind> kinds;
+  diagnosis::Diagnosis diagnosis;
 };
 
 /// Diagnoses sensors on a case: what must be added to the first filter of the study so that dwells
@@ -36,7 +28,7 @@ struct StrapdownDiagnosis {
 /// p values: Student's t of the paired held-out gain, Bonferroni over all models tried.
 /// Probabilities: from the gain of the held-out log score, equal odds before. Errors as
 /// identify_strapdown; InputError (config) if the study has no filter.
-StrapdownDiagnosis diagnose_strapdown(const Study& study, const Recording& recording,
+StrapdownDiagnosis diagnose_strapdown(const mc::Study& study, const Recording& recording,
                                       StrapdownOptions options);
 
-}  // namespace drift
+}  // namespace drift::strapdown

@@ -5,7 +5,7 @@
 
 #include "analysis/strapdown/ladder.hpp"
 
-namespace drift {
+namespace drift::strapdown {
 
 /// A parameter of the model the held-out data accept.
 struct StrapdownParameter {
@@ -22,8 +22,6 @@ struct Unobservable {
   std::string reason;
 };
 
-namespace strapdown {
-
 /// The parameters of a model, in the units of the term library. The common part of D_I_x, D_I_y,
 /// D_I_z is taken out of them: it is not observable.
 std::vector<StrapdownParameter> parameters_of(const Final& accepted);
@@ -31,5 +29,4 @@ std::vector<StrapdownParameter> parameters_of(const Final& accepted);
 /// What no strapdown recording of this kind shows, and what this model leaves open.
 std::vector<Unobservable> unobservable_of(const Final& accepted);
 
-}  // namespace strapdown
-}  // namespace drift
+}  // namespace drift::strapdown

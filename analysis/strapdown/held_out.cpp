@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/base/rng.hpp"
-#include "mc/campaign.hpp"
+#include "mc/task/campaign.hpp"
 
 namespace drift::strapdown {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "core/base/check.hpp"
 
-namespace drift {
+namespace drift::strapdown {
 namespace {
 
 constexpr std::size_t least_dwells = 6, least_rotations = 4;
@@ -15,7 +15,7 @@ void check(const StrapdownOptions& options) {
   if (options.equations.empty())
     problems.emplace_back("no [[filter]] (a coupling eq5 or eq6 is expected)");
   for (const Coupling c : options.equations)
-    if (c != Coupling::eq5 && c != Coupling::eq6)
+    if (!facts(c).other)
       problems.emplace_back(
           "[[filter]] coupling of a strapdown plan (eq5 or eq6 is expected: gyros on the case have "
           "no "
@@ -23,7 +23,7 @@ void check(const StrapdownOptions& options) {
   if (!problems.empty()) throw InputError(ExitCode::config, std::move(problems));
 }
 
-void check(const StrapdownResult& result, const strapdown::Evidence& evidence) {
+void check(const StrapdownResult& result, const Evidence& evidence) {
   std::vector<std::string> problems;
   if (evidence.dwells.size() < least_dwells)
     problems.push_back(fmt::format(
@@ -38,15 +38,15 @@ void check(const StrapdownResult& result, const strapdown::Evidence& evidence) {
   if (!problems.empty()) throw InputError(ExitCode::recording, std::move(problems));
 }
 
-std::vector<EquationContest> contest_of(const std::vector<strapdown::Final>& accepted) {
+std::vector<EquationContest> contest_of(const std::vector<Final>& accepted) {
   const auto of = [&](Coupling equation) {
     return std::find_if(accepted.begin(), accepted.end(),
                         [&](const auto& f) { return f.model.equation == equation; });
   };
   const auto five = of(Coupling::eq5), six = of(Coupling::eq6);
   if (five == accepted.end() || six == accepted.end()) return {};
-  return {{five->rotation, six->rotation,
-           strapdown::paired_gain(six->rotation.errors, five->rotation.errors)}};
+  return {
+      {five->rotation, six->rotation, paired_gain(six->rotation.errors, five->rotation.errors)}};
 }
 
 }  // namespace
@@ -56,29 +56,28 @@ StrapdownResult identify_strapdown(const Recording& recording, const StrapdownOp
   StrapdownResult result;
   result.source = recording.source;
   result.options = options;
-  const strapdown::Signals signals = strapdown::signals_of(recording);
-  result.search = strapdown::find_dwells(signals, {.static_min = options.static_min});
-  strapdown::Rotations turns = strapdown::find_rotations(signals, result.search.dwells);
-  const strapdown::Evidence evidence{result.search.dwells, std::move(turns.all)};
+  const Signals signals = signals_of(recording);
+  result.search = find_dwells(signals, {.static_min = options.static_min});
+  Rotations turns = find_rotations(signals, result.search.dwells);
+  const Evidence evidence{result.search.dwells, std::move(turns.all)};
   result.rotations = evidence.rotations.size();
   result.rotations_omitted = turns.omitted;
   check(result, evidence);
 
   const int folds = std::min(options.folds, static_cast<int>(evidence.dwells.size()));
-  const strapdown::Scoring scoring{{folds, options.repeats, options.seed}, options.gravity};
-  const auto accelerometer =
-      strapdown::climb_accelerometers(evidence, scoring, result.accelerometer_trials);
+  const Scoring scoring{{folds, options.repeats, options.seed}, options.gravity};
+  const auto accelerometer = climb_accelerometers(evidence, scoring, result.accelerometer_trials);
   std::vector<Coupling> seen;
   for (const Coupling equation : options.equations) {
     if (std::find(seen.begin(), seen.end(), equation) != seen.end()) continue;
     seen.push_back(equation);
     result.accepted.push_back(
-        strapdown::climb_gyros(equation, accelerometer, evidence, scoring, result.gyro_trials));
+        climb_gyros(equation, accelerometer, evidence, scoring, result.gyro_trials));
   }
-  result.parameters = strapdown::parameters_of(result.accepted.front());
-  result.unobservable = strapdown::unobservable_of(result.accepted.front());
+  result.parameters = parameters_of(result.accepted.front());
+  result.unobservable = unobservable_of(result.accepted.front());
   result.contest = contest_of(result.accepted);
   return result;
 }
 
-}  // namespace drift
+}  // namespace drift::strapdown

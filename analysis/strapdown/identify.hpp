@@ -8,9 +8,9 @@
 #include "analysis/strapdown/ladder.hpp"
 #include "core/estimate/strapdown/dwells.hpp"
 #include "core/physics/drift_model.hpp"
-#include "core/sim/recording.hpp"
+#include "core/recording/recording.hpp"
 
-namespace drift {
+namespace drift::strapdown {
 
 /// What is asked of the identification of a strapdown recording.
 struct StrapdownOptions {
@@ -24,20 +24,20 @@ struct StrapdownOptions {
 
 /// The best of each equation against the other, on held-out rotations.
 struct EquationContest {
-  strapdown::Score eq5, eq6;  ///< of the accepted models [deg]
-  double z = 0.0;             ///< paired gain of eq. (5) over eq. (6), in standard errors
+  Score eq5, eq6;  ///< of the accepted models [deg]
+  double z = 0.0;  ///< paired gain of eq. (5) over eq. (6), in standard errors
 };
 
 /// What a strapdown recording says of its sensors.
 struct StrapdownResult {
   std::string source;
   StrapdownOptions options;
-  strapdown::DwellSearch search;
+  DwellSearch search;
   std::size_t rotations = 0, rotations_omitted = 0;
-  std::vector<strapdown::Trial> accelerometer_trials;  ///< in the order tried
-  std::vector<strapdown::Trial> gyro_trials;           ///< in the order tried
-  std::vector<strapdown::Final> accepted;              ///< model of each equation
-  std::vector<StrapdownParameter> parameters;          ///< of the first equation's model
+  std::vector<Trial> accelerometer_trials;     ///< in the order tried
+  std::vector<Trial> gyro_trials;              ///< in the order tried
+  std::vector<Final> accepted;                 ///< model of each equation
+  std::vector<StrapdownParameter> parameters;  ///< of the first equation's model
   std::vector<Unobservable> unobservable;
   std::vector<EquationContest> contest;  ///< one if both equations are scored, else none
 };
@@ -51,4 +51,4 @@ struct StrapdownResult {
 /// InputError (config) if an equation is neither eq5 nor eq6.
 StrapdownResult identify_strapdown(const Recording& recording, const StrapdownOptions& options);
 
-}  // namespace drift
+}  // namespace drift::strapdown

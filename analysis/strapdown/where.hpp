@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/discovery/diagnosis.hpp"
+#include "analysis/diagnosis/diagnosis.hpp"
 #include "analysis/strapdown/residuals.hpp"
 
 namespace drift::strapdown {
@@ -10,6 +10,6 @@ namespace drift::strapdown {
 /// of the accelerometers, for the attitude that the signals are compared with.
 void fill_where(const Residuals& before, const Residuals& after,
                 const Eigen::Vector<double, 5>& scatter, const Evidence& evidence,
-                const Theta& theta, discovery::Diagnosis& diagnosis);
+                const Theta& theta, diagnosis::Diagnosis& diagnosis);
 
 }  // namespace drift::strapdown

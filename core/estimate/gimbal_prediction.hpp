@@ -2,7 +2,7 @@
 
 #include "core/base/dual.hpp"
 #include "core/physics/gimbals.hpp"
-#include "core/sim/timeline.hpp"
+#include "core/plan/timeline.hpp"
 
 namespace drift {
 

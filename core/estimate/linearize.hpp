@@ -7,7 +7,7 @@
 #include "core/estimate/covariance.hpp"
 #include "core/estimate/gimbal_prediction.hpp"
 #include "core/estimate/layout.hpp"
-#include "core/sim/readout.hpp"
+#include "core/plan/readout.hpp"
 #include "core/sim/trajectory.hpp"
 
 namespace drift {

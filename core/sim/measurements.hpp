@@ -3,9 +3,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/sim/readout.hpp"
-#include "core/sim/recording.hpp"
-#include "core/sim/timeline.hpp"
+#include "core/plan/readout.hpp"
+#include "core/plan/timeline.hpp"
+#include "core/recording/recording.hpp"
 
 namespace drift {
 

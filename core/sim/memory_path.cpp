@@ -1,7 +1,7 @@
 #include "core/sim/memory_path.hpp"
 
 #include "core/base/dual.hpp"
-#include "core/sim/case_heading.hpp"
+#include "core/plan/case_heading.hpp"
 #include "core/sim/measurements.hpp"
 
 namespace drift {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/physics/drift_model.hpp"
-#include "core/sim/timeline.hpp"
+#include "core/plan/timeline.hpp"
 
 namespace drift {
 

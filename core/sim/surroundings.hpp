@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/physics/drift_model.hpp"
-#include "core/sim/timeline.hpp"
+#include "core/plan/timeline.hpp"
 
 namespace drift {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "mc/statistics/rate.hpp"
+#include "core/stats/proportion.hpp"
 
 namespace drift::mc {
 
@@ -45,7 +45,7 @@ class ErrorStatistics {
   std::uint64_t runs() const { return n_; }
   double prior_sigma() const { return prior_sigma_; }
   /// Mean error with its interval, mean +- z SD / sqrt(n).
-  Estimated bias(double z = 1.959963984540054) const;
+  Estimated bias(double z = stats::half_width_95) const;
   /// Root mean square error. The interval: the 2.5 and 97.5 % points of the bootstrap.
   Estimated rmse() const;
   /// The same with a normal interval from the spread of the squared errors (delta method): for
@@ -56,7 +56,7 @@ class ErrorStatistics {
   /// deceives.
   Estimated deception() const;
   /// Share of runs whose error is below 1, 2, 3 sigma.
-  const std::array<Rate, 3>& coverage() const { return coverage_; }
+  const std::array<stats::Rate, 3>& coverage() const { return coverage_; }
   double learning() const { return mean_sigma() / prior_sigma_; }
 
  private:
@@ -67,7 +67,7 @@ class ErrorStatistics {
   std::uint64_t n_ = 0;
   // Errors in prior sigmas.
   double sum_ = 0.0, square_ = 0.0, fourth_ = 0.0, variance_ = 0.0;
-  std::array<Rate, 3> coverage_{};
+  std::array<stats::Rate, 3> coverage_{};
   struct Replicate {
     double weight = 0.0, square = 0.0, variance = 0.0;
   };

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mc/statistics/normal.hpp"
+#include "core/stats/normal.hpp"
 
 namespace drift::mc {
 namespace {
@@ -11,7 +11,7 @@ namespace {
 /// Decile of a value in the distribution it was drawn from.
 std::size_t decile(const Prior& prior, double value) {
   const double u = prior.kind == Prior::Kind::normal
-                       ? normal_distribution((value - prior.a) / prior.b)
+                       ? stats::normal_distribution((value - prior.a) / prior.b)
                        : (value - prior.a) / (prior.b - prior.a);
   return static_cast<std::size_t>(std::clamp(10.0 * u, 0.0, 9.0));
 }
@@ -41,12 +41,12 @@ std::vector<FailureStatistics::Deciles> FailureStatistics::deciles() const {
   for (const Drawn& d : drawn_) {
     Deciles out{d.param, d.rate, 0.0};
     double hits = 0.0, of = 0.0;
-    for (const Rate& r : d.rate) {
+    for (const stats::Rate& r : d.rate) {
       hits += static_cast<double>(r.hits);
       of += static_cast<double>(r.of);
     }
     const double p = of > 0.0 ? hits / of : 0.0;
-    for (const Rate& r : d.rate) {
+    for (const stats::Rate& r : d.rate) {
       const double expected = p * static_cast<double>(r.of);
       if (expected > 0.0 && p < 1.0)
         out.chi2 += std::pow(static_cast<double>(r.hits) - expected, 2) / (expected * (1.0 - p));

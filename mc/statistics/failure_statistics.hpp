@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "mc/run_task.hpp"
-#include "mc/statistics/rate.hpp"
-#include "mc/study_columns.hpp"
+#include "core/stats/proportion.hpp"
+#include "mc/task/run_task.hpp"
+#include "mc/task/study_columns.hpp"
 
 namespace drift::mc {
 
@@ -20,14 +20,14 @@ class FailureStatistics {
   void add(RunStatus status, std::uint64_t run, std::span<const double> row);
 
   /// Runs that yield nothing: the simulation failed. (A diverged filter is a result.)
-  const Rate& lost() const { return lost_; }
+  const stats::Rate& lost() const { return lost_; }
   const std::map<RunStatus, std::uint64_t>& by_status() const { return by_status_; }
   const std::vector<std::uint64_t>& first_failed() const { return first_failed_; }  ///< at most 20
 
   /// Failures of any kind by decile of a drawn parameter, lowest first.
   struct Deciles {
     std::size_t param = 0;
-    std::array<Rate, 10> rate{};
+    std::array<stats::Rate, 10> rate{};
     double chi2 = 0.0;  ///< of equal rates, 9 degrees of freedom
   };
   std::vector<Deciles> deciles() const;
@@ -39,10 +39,10 @@ class FailureStatistics {
   struct Drawn {
     std::size_t param, column;
     Prior prior;
-    std::array<Rate, 10> rate{};
+    std::array<stats::Rate, 10> rate{};
   };
   std::vector<Drawn> drawn_;
-  Rate lost_;
+  stats::Rate lost_;
   std::map<RunStatus, std::uint64_t> by_status_;
   std::vector<std::uint64_t> first_failed_;
 };

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "mc/statistics/error_statistics.hpp"
-#include "mc/study_columns.hpp"
+#include "mc/task/study_columns.hpp"
 
 namespace drift::mc {
 
@@ -18,7 +18,7 @@ struct HealthRules {
 /// A sum of chi-squares and of their degrees of freedom over runs.
 struct ChiSquareSum {
   double sum = 0.0, dof = 0.0;
-  Rate in_band;  ///< single runs inside their own 95 % band
+  stats::Rate in_band;  ///< single runs inside their own 95 % band
   void add(double value, double degrees);
   double mean() const { return sum / dof; }  ///< 1 for an honest filter
   /// Where mean() lies with 95 % probability if the filter is honest.
@@ -30,20 +30,20 @@ struct ChiSquareSum {
 /// What the runs say of one filter started in one way.
 struct StartStatistics {
   ChiSquareSum nis, nees, nees_all;
-  Rate white;     ///< lag-1 correlation inside its 95 % band
-  Rate healthy;   ///< NIS of the run inside its 95 % band
-  Rate wrong;     ///< some parameter that the filter claims to know is more than 5 sigma off
-  Rate silent;    ///< wrong and healthy: the silent failure rate
-  Rate diverged;  ///< no estimate at all
+  stats::Rate white;     ///< lag-1 correlation inside its 95 % band
+  stats::Rate healthy;   ///< NIS of the run inside its 95 % band
+  stats::Rate wrong;     ///< some parameter that the filter claims to know is more than 5 sigma off
+  stats::Rate silent;    ///< wrong and healthy: the silent failure rate
+  stats::Rate diverged;  ///< no estimate at all
 };
 
 /// Silent failure and dependence on the start of one parameter.
 struct ParameterHealth {
-  Rate claims;                 ///< runs that claim to know it
-  Rate wrong;                  ///< runs that claim to know it and are more than 5 sigma off
-  Rate silent;                 ///< the same with healthy statistics
+  stats::Rate claims;          ///< runs that claim to know it
+  stats::Rate wrong;           ///< runs that claim to know it and are more than 5 sigma off
+  stats::Rate silent;          ///< the same with healthy statistics
   double start_square = 0.0;   ///< sum of squared start-consistency ratios
-  Rate start_depends;          ///< ratio beyond 5: the answer depends on the start
+  stats::Rate start_depends;   ///< ratio beyond 5: the answer depends on the start
   double start_ratio() const;  ///< root mean square over runs; NaN with one start
 };
 

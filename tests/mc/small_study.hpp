@@ -3,8 +3,8 @@
 #include <cmath>
 #include <span>
 
-#include "mc/study_task.hpp"
-#include "tests/mc/study_file.hpp"
+#include "mc/task/study_task.hpp"
+#include "tests/mc/study/study_file.hpp"
 
 namespace drift::test {
 

@@ -6,7 +6,7 @@
 
 #include "core/base/rng.hpp"
 #include "core/physics/term_library.hpp"
-#include "core/sim/recording.hpp"
+#include "core/recording/recording.hpp"
 
 namespace drift::test {
 

@@ -11,7 +11,7 @@
 namespace drift::cli {
 
 StudyProgram study_program() {
-  const auto work = [](const Study& study) {
+  const auto work = [](const mc::Study& study) {
     test::SyntheticOptions o;
     o.seed = study.monte_carlo.seed;
     std::size_t points = 1;
@@ -42,7 +42,8 @@ StudyProgram study_program() {
       };
     return w;
   };
-  return {work, [](const Study&, const mc::StudyWork&, mc::StudyReader&, const std::string&) {}};
+  return {work,
+          [](const mc::Study&, const mc::StudyWork&, mc::StudyReader&, const std::string&) {}};
 }
 
 }  // namespace drift::cli

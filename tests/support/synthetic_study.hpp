@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "mc/engine.hpp"
-#include "mc/study_reader.hpp"
+#include "mc/engine/engine.hpp"
+#include "mc/store/study_reader.hpp"
 #include "tests/support/synthetic_task.hpp"
 
 namespace drift::test {

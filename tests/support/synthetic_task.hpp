@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "core/base/rng.hpp"
-#include "mc/run_task.hpp"
+#include "mc/task/run_task.hpp"
 
 namespace drift::test {
 

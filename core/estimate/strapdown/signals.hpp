@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/base/linalg.hpp"
-#include "core/sim/recording.hpp"
+#include "core/recording/recording.hpp"
 
 namespace drift::strapdown {
 

@@ -60,8 +60,8 @@ outside = 1
 local = 1
 )toml";
 
-Study study_in(const ScratchFolder& scratch, const std::string& text = tiny) {
-  return read_study(scratch.write("blind.toml", text));
+mc::Study study_in(const ScratchFolder& scratch, const std::string& text = tiny) {
+  return mc::read_study(scratch.write("blind.toml", text));
 }
 
 Answer consistent(const std::string&, const std::string&) {
@@ -70,14 +70,14 @@ Answer consistent(const std::string&, const std::string&) {
 
 TEST(BlindStudy, TheSolverGetsNeitherTruthNorSeedNorKey) {
   const ScratchFolder scratch;
-  const Study study = study_in(scratch);
+  const mc::Study study = study_in(scratch);
   const std::string folder = scratch.file("out");
   const std::string hash = make_trials(study, folder, 1);
   EXPECT_EQ(hash, sha256_hex(text_of(folder + "/key.json")));
   EXPECT_EQ(published_hash(folder, "key.json"), hash);
   for (int n = 1; n <= 6; ++n) {
     const std::string here = folder + "/trials/000" + std::to_string(n);
-    const Study given = read_study(here + "/study.toml");
+    const mc::Study given = mc::read_study(here + "/study.toml");
     EXPECT_FALSE(given.has_truth || given.has_blind);
     EXPECT_EQ(text_of(here + "/study.toml").find("seed"), std::string::npos);
     EXPECT_EQ(text_of(here + "/recording.csv").find("seed"), std::string::npos);
@@ -88,7 +88,7 @@ TEST(BlindStudy, WhatIsHiddenHasTheSizeThatWasAskedFor) {
   const ScratchFolder scratch;
   const std::string folder = scratch.file("out");
   make_trials(study_in(scratch), folder, 1);
-  for (const KeyEntry& k : key_of(text_of(folder + "/key.json")).entries) {
+  for (const KeyEntry& k : read_key(text_of(folder + "/key.json")).entries) {
     switch (k.plan.stratum) {
       case Stratum::null:
         EXPECT_TRUE(k.effects.empty());
@@ -132,7 +132,7 @@ TEST(BlindStudy, AFailingSolverIsRecordedAndStopsNoOther) {
 
 TEST(BlindStudy, AnswersAreKeptAndTheRestIsAnsweredLater) {
   const ScratchFolder scratch;
-  const Study study = study_in(scratch);
+  const mc::Study study = study_in(scratch);
   const std::string folder = scratch.file("out");
   const std::string key = make_trials(study, folder, 1);
   std::atomic<int> calls{0};
@@ -180,10 +180,10 @@ TEST(BlindStudy, NothingIsDiagnosedBeforeTheKeyIsSealedNorScoredBeforeTheAnswers
 
 TEST(BlindStudy, AFolderOfAnotherStudyIsRefused) {
   const ScratchFolder scratch;
-  const Study study = study_in(scratch);
+  const mc::Study study = study_in(scratch);
   const std::string folder = scratch.file("out");
   make_trials(study, folder, 1);
-  Study other = study;
+  mc::Study other = study;
   other.text += "# another\n";
   try {
     make_trials(other, folder, 1);
@@ -195,7 +195,7 @@ TEST(BlindStudy, AFolderOfAnotherStudyIsRefused) {
 
 TEST(BlindStudy, TrialsDependOnTheSeedAloneAndNotOnThreads) {
   const ScratchFolder scratch;
-  const Study study = study_in(scratch);
+  const mc::Study study = study_in(scratch);
   const std::string one = make_trials(study, scratch.file("one"), 1),
                     two = make_trials(study, scratch.file("two"), 2);
   EXPECT_EQ(one, two);

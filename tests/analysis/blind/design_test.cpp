@@ -7,8 +7,8 @@
 namespace drift::blind {
 namespace {
 
-BlindSpec spec() {
-  BlindSpec s;
+mc::BlindSpec spec() {
+  mc::BlindSpec s;
   s.trials = 320;
   s.couplings = {Coupling::eq5, Coupling::eq6, Coupling::servo};
   s.modes = {CommandLaw::free, CommandLaw::level};
@@ -68,7 +68,7 @@ TEST(BlindDesign, TheNumberOfATrialSaysNothingAndTheSeedEverything) {
 }
 
 TEST(BlindDesign, SizesAreDrawnBetweenTheirEndsWithoutAList) {
-  BlindSpec s = spec();
+  mc::BlindSpec s = spec();
   s.sizes.clear();
   for (const TrialPlan& t : design_trials(s, 3)) {
     if (t.stratum != Stratum::single && t.stratum != Stratum::local) continue;

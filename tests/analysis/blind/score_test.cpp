@@ -2,13 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/blind/blind_report.hpp"
 #include "analysis/blind/summary.hpp"
+#include "analysis/report/blind/report.hpp"
 
 namespace drift::blind {
 namespace {
 
-using discovery::Verdict;
+using diagnosis::Verdict;
 
 KeyEntry hiding(Stratum stratum, std::vector<std::pair<std::string, std::string>> terms,
                 double size = 8.0) {
@@ -109,7 +109,7 @@ TEST(BlindScore, PullsAreInTheUnitOfTheKey) {
   KeyEntry key = magnetic;
   key.effects[0].parameters = {{"M_y", 0.010, "deg/h/gauss"}};
   Answer a = answer(Verdict::named, {{"magnetic_drift", "y", 0}});
-  discovery::CauseParameter p;
+  search::CauseParameter p;
   p.key = "M_y";
   p.value = 120.0;  // deg/h/T is 1e4 times smaller than deg/h/gauss
   p.sigma = 10.0;
@@ -195,7 +195,7 @@ TEST(BlindScore, AnswersKeepWhatACauseIsLikeAndAreReadWithoutIt) {
 
 TEST(BlindTargets, AreDecidedOnlyByTheWholeInterval) {
   const auto standing = [](std::size_t k, std::size_t n, double low, double high) {
-    return std::string(text(Target{"", proportion(k, n), low, high}.standing()));
+    return std::string(text(Target{"", stats::proportion(k, n), low, high}.standing()));
   };
   // Clopper and Pearson at 95 %: 20 of 20 [0.832, 1], 18 of 20 [0.683, 0.988], 2 of 20 [0.012,
   // 0.317].
@@ -213,14 +213,14 @@ TEST(BlindTargets, AreDecidedOnlyByTheWholeInterval) {
 TEST(BlindTargets, AreReportedWithTheirStanding) {
   const Summary s =
       summarise({score_trial(magnetic, answer(Verdict::named, {{"magnetic_drift", "y", 0}}))});
-  const std::string report = to_text(s, {}, {});
+  const std::string report = report::to_text(s, {}, {});
   EXPECT_NE(report.find("Of 10 targets 0 are met and 0 missed"), std::string::npos) << report;
   EXPECT_NE(report.find("10 not decided."), std::string::npos) << report;
   EXPECT_NE(report.find("1 not decided\n"), std::string::npos) << report;
   EXPECT_NE(report.find("exact, where an identical twin counts as the same cause"),
             std::string::npos)
       << report;
-  const std::string json = to_json(s, {}, {});
+  const std::string json = report::to_json(s, {}, {});
   EXPECT_NE(json.find("\"standing\": \"not decided\""), std::string::npos);
   EXPECT_NE(json.find("\"met\": true"), std::string::npos) << "by the share alone, as ever";
 }

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/check.hpp"
-#include "core/sim/recording.hpp"
+#include "core/recording/recording.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/strapdown_recording.hpp"
 

@@ -74,7 +74,8 @@ TEST(Pwcs, RanksOfTheTable) {
   for (const Coupling coupling : {Coupling::eq5, Coupling::eq6})
     for (const Case& c : table())
       for (const bool gimbals : {false, true}) {
-        const PwcsRank r = pwcs_rank(c.plan, harbin, test::base_spec(coupling), channels(gimbals));
+        const observability::PwcsRank r =
+            observability::pwcs_rank(c.plan, harbin, test::base_spec(coupling), channels(gimbals));
         EXPECT_EQ(r.states, 63);
         EXPECT_EQ(r.rank, gimbals ? c.acc_enc : c.acc) << c.name << ", gimbals " << gimbals;
         EXPECT_TRUE(r.clear()) << c.name << ", gimbals " << gimbals << ": gap " << r.gap
@@ -85,7 +86,7 @@ TEST(Pwcs, RanksOfTheTable) {
 
 TEST(Pwcs, NullSpaceOfACardinalPositionStandsStill) {
   for (const bool gimbals : {false, true})
-    for (const PwcsPosition& p : pwcs_positions(
+    for (const observability::PwcsPosition& p : observability::pwcs_positions(
              plan_of("twentyfour"), harbin, test::base_spec(Coupling::eq5), channels(gimbals))) {
       // The null space of Q by another route than pwcs_rank takes: complement of the range of Q^T.
       Eigen::ColPivHouseholderQR<MatX> qr(p.Q.transpose());
@@ -100,8 +101,9 @@ TEST(Pwcs, NullSpaceOfACardinalPositionStandsStill) {
 
 TEST(Pwcs, ConditionFailsWhereNothingCouplesAzimuthIntoTilt) {
   // On the pole the horizontal Earth rate is gone: azimuth drift moves an unseen azimuth.
-  const PwcsRank pole = pwcs_rank(plan_of("six", 4, 1), Site{90.0 * detail::deg},
-                                  test::base_spec(Coupling::eq5), channels(false));
+  const observability::PwcsRank pole =
+      observability::pwcs_rank(plan_of("six", 4, 1), Site{90.0 * detail::deg},
+                               test::base_spec(Coupling::eq5), channels(false));
   EXPECT_GT(pole.leak, 1e-3);
   EXPECT_FALSE(pole.clear());
 }
@@ -109,7 +111,8 @@ TEST(Pwcs, ConditionFailsWhereNothingCouplesAzimuthIntoTilt) {
 TEST(Pwcs, FixedDriftAndTraceOfG2AreOneSum) {
   const ModelSpec spec = test::base_spec(Coupling::eq5);
   const Layout layout = make_layout(spec);
-  const PwcsRank r = pwcs_rank(cardinal_and_45(), harbin, spec, channels(true));
+  const observability::PwcsRank r =
+      observability::pwcs_rank(cardinal_and_45(), harbin, spec, channels(true));
   ASSERT_EQ(r.null_space.cols(), 3);
   for (const char axis : {'x', 'y', 'z'}) {
     Theta direction = Theta::Zero();  // D_F + t, D_II = D_OO = D_SS = -t: the same drift at 1 g
@@ -126,7 +129,8 @@ TEST(Pwcs, FixedDriftAndTraceOfG2AreOneSum) {
 TEST(Pwcs, OneMoreKnownParameterIsOneStateLess) {
   ModelSpec spec = test::base_spec(Coupling::eq5);
   spec.active &= ~test::only({"D_II_x", "D_II_y", "D_II_z"});
-  const PwcsRank r = pwcs_rank(cardinal_and_45(), harbin, spec, channels(false));
+  const observability::PwcsRank r =
+      observability::pwcs_rank(cardinal_and_45(), harbin, spec, channels(false));
   EXPECT_EQ(r.states, 60);
   EXPECT_EQ(r.rank, 60);
   EXPECT_EQ(r.null_space.cols(), 0);
@@ -140,7 +144,8 @@ TEST(Pwcs, TermsWithTimeOrMemoryHaveNoPartInAConstantProblem) {
     const std::size_t i = test::param(key);
     more.active.set(i);
     more.priors[i] = TermLibrary::specs[i].prior_si();
-    const PwcsRank rank = pwcs_rank(plan_of("six"), harbin, more, channels(true));
+    const observability::PwcsRank rank =
+        observability::pwcs_rank(plan_of("six"), harbin, more, channels(true));
     EXPECT_EQ(rank.rank, 36) << key;
     EXPECT_EQ(rank.states, 64) << key;
   }

@@ -11,7 +11,7 @@
 #include "analysis/observability/against_monte_carlo.hpp"
 #include "analysis/observability/information_by_position.hpp"
 #include "analysis/observability/other_methods.hpp"
-#include "analysis/report/degeneracies.hpp"
+#include "analysis/report/page/degeneracies.hpp"
 #include "core/base/check.hpp"
 #include "core/estimate/triangle.hpp"
 #include "tests/support/model_builders.hpp"
@@ -21,7 +21,7 @@ namespace {
 
 using namespace drift::test;
 
-constexpr auto everything = [](const TimeBin&) { return true; };
+constexpr auto everything = [](const observability::TimeBin&) { return true; };
 
 TestPlan plan_of(std::string_view preset, CommandLaw mode, double dwell = 3600.0,
                  double sample = 60.0) {
@@ -32,15 +32,16 @@ TestPlan plan_of(std::string_view preset, CommandLaw mode, double dwell = 3600.0
   return preset_plan(preset, defaults).value();
 }
 
-RankedModel model_of(Coupling coupling, std::initializer_list<std::string_view> keys = {}) {
+observability::RankedModel model_of(Coupling coupling,
+                                    std::initializer_list<std::string_view> keys = {}) {
   ModelSpec spec = base_spec(coupling);
   if (keys.size() > 0) spec.active = only(keys);
-  return ranked_model(spec, nullptr, harbin, Readout{});
+  return observability::ranked_model(spec, nullptr, harbin, Readout{});
 }
 
 /// Three parameters, two chains, two position bins in the first.
-LinearisedPlan small_plan() {
-  LinearisedPlan plan;
+observability::LinearisedPlan small_plan() {
+  observability::LinearisedPlan plan;
   plan.layout.params = {param("D_F_x"), param("D_I_x"), param("eta_x")};
   plan.layout.mean = VecX::Zero(3);
   plan.layout.sigma = VecX::Constant(3, 2.0);
@@ -48,7 +49,7 @@ LinearisedPlan small_plan() {
   plan.positions = 3;
   Stream stream(7, 0, Purpose::test);
   for (int b = 0; b < 3; ++b) {
-    TimeBin bin;
+    observability::TimeBin bin;
     bin.position = b;
     bin.chain = b == 2 ? 1 : 0;
     bin.rows = MatX(8, 6);
@@ -59,10 +60,10 @@ LinearisedPlan small_plan() {
 }
 
 /// Posterior covariance of [psi of each chain | x] by normal equations, its x block.
-MatX textbook_covariance(const LinearisedPlan& plan, int without = -1) {
+MatX textbook_covariance(const observability::LinearisedPlan& plan, int without = -1) {
   const Eigen::Index n = plan.size(), m = 3 * plan.chains;
   MatX I = MatX::Identity(m + n, m + n);
-  for (const TimeBin& bin : plan.bins) {
+  for (const observability::TimeBin& bin : plan.bins) {
     if (bin.position == without) continue;
     MatX J = MatX::Zero(bin.rows.rows(), m + n);
     J.middleCols(3 * bin.chain, 3) = bin.rows.leftCols(3);
@@ -73,9 +74,9 @@ MatX textbook_covariance(const LinearisedPlan& plan, int without = -1) {
 }
 
 TEST(Ranking, SmallProblemInClosedForm) {
-  const LinearisedPlan plan = small_plan();
+  const observability::LinearisedPlan plan = small_plan();
   const MatX P = textbook_covariance(plan), I = P.inverse();
-  const Ranking r = rank_parameters(plan);
+  const observability::Ranking r = observability::rank_parameters(plan);
   for (int k = 0; k < 3; ++k) {
     EXPECT_NEAR(r.learning_ratio(k), std::sqrt(P(k, k)), 1e-13);
     EXPECT_NEAR(r.parameters[k].posterior_sigma, 2.0 * std::sqrt(P(k, k)), 1e-13);
@@ -85,17 +86,19 @@ TEST(Ranking, SmallProblemInClosedForm) {
   }
   EXPECT_NEAR(r.bits, -0.5 * std::log2(P.determinant()), 1e-12);
   double product = 0.0;  // bits are also those of the eigenvalues
-  for (const EigenDirection& d : r.spectrum) product += 0.5 * std::log2(1.0 + d.information);
+  for (const observability::EigenDirection& d : r.spectrum)
+    product += 0.5 * std::log2(1.0 + d.information);
   EXPECT_NEAR(r.bits, product, 1e-12);
-  EXPECT_TRUE(std::ranges::is_sorted(r.spectrum, std::greater{}, &EigenDirection::information));
+  EXPECT_TRUE(std::ranges::is_sorted(r.spectrum, std::greater{},
+                                     &observability::EigenDirection::information));
   EXPECT_TRUE(
       std::ranges::is_sorted(r.order, {}, [&](std::size_t k) { return r.learning_ratio(k); }));
 }
 
 TEST(Ranking, GainsAddUpAndLossesAreThoseOfAPlanWithoutThePosition) {
-  const LinearisedPlan plan = small_plan();
-  const Ranking r = rank_parameters(plan);
-  const InformationCourse course = information_course(plan);
+  const observability::LinearisedPlan plan = small_plan();
+  const observability::Ranking r = observability::rank_parameters(plan);
+  const observability::InformationCourse course = observability::information_course(plan);
   EXPECT_NEAR(course.bits.sum(), r.bits, 1e-12);
   for (int k = 0; k < 3; ++k) {
     EXPECT_NEAR(course.gain.row(k).sum(), r.parameters[k].bits(), 1e-12);
@@ -109,22 +112,23 @@ TEST(Ranking, GainsAddUpAndLossesAreThoseOfAPlanWithoutThePosition) {
 
 TEST(Ranking, InformationOfCagedPositionsAdds) {
   const TestPlan plan = plan_of("six", CommandLaw::free);
-  const RankedModel model = model_of(Coupling::eq5);
-  const MatX all = information_root(linearise(plan, model), everything);
+  const observability::RankedModel model = model_of(Coupling::eq5);
+  const MatX all = information_root(observability::linearise(plan, model), everything);
   MatX sum = MatX::Zero(all.rows(), all.cols());
   for (const Position& p : plan.positions) {
     TestPlan one = plan;
     one.positions = {p};
-    const MatX R = information_root(linearise(one, model), everything);
+    const MatX R = information_root(observability::linearise(one, model), everything);
     sum += R.transpose() * R;
   }
   EXPECT_LT((all.transpose() * all - sum).norm(), 1e-12 * sum.norm());
 }
 
 TEST(Ranking, TimeBinsHoldTheInformationOfTheWhole) {
-  const RankedModel model = model_of(Coupling::eq6);
+  const observability::RankedModel model = model_of(Coupling::eq6);
   const TestPlan plan = plan_of("slew12", CommandLaw::level, 600.0);
-  const LinearisedPlan coarse = linearise(plan, model, 1), fine = linearise(plan, model, 5);
+  const observability::LinearisedPlan coarse = observability::linearise(plan, model, 1),
+                                      fine = observability::linearise(plan, model, 5);
   ASSERT_EQ(coarse.bins.size(), 12u + 11u);  // dwells and slews
   ASSERT_EQ(fine.bins.size(), 5u * 12u + 11u);
   for (std::size_t b = 1; b < fine.bins.size(); ++b)
@@ -145,13 +149,13 @@ TEST(Ranking, RanksOfTheTableFromTheInformation) {
   // the rows of all positions stand under the same three columns here, without any prior.
   for (const TableRow& row : table)
     for (const bool gimbals : {false, true}) {
-      RankedModel model = model_of(Coupling::eq5);
+      observability::RankedModel model = model_of(Coupling::eq5);
       model.readout.gimbals = gimbals;
-      const LinearisedPlan plan =
-          linearise(plan_of(row.preset, CommandLaw::level, 3600.0, 300.0), model);
+      const observability::LinearisedPlan plan =
+          observability::linearise(plan_of(row.preset, CommandLaw::level, 3600.0, 300.0), model);
       MatX R = MatX::Zero(63, 63);
-      for (const TimeBin& bin : plan.bins) R = triangle(stacked(R, bin.rows));
-      const auto spectrum = spectrum_of(R);
+      for (const observability::TimeBin& bin : plan.bins) R = triangle(stacked(R, bin.rows));
+      const auto spectrum = observability::spectrum_of(R);
       const int rank = gimbals ? row.acc_enc : row.acc;
       // The last that counts and the first that does not are decades apart.
       EXPECT_GT(spectrum[rank - 1].information, 1e-6) << row.preset << gimbals;
@@ -165,23 +169,24 @@ TEST(Ranking, WithGimbalsACagingCostsNoRank) {
   for (const Coupling coupling : {Coupling::eq5, Coupling::eq6})
     for (const TableRow& row : table) {
       const TestPlan plan = plan_of(row.preset, CommandLaw::level, 3600.0, 300.0);
-      const Ranking r = rank_parameters(linearise(plan, model_of(coupling)));
+      const observability::Ranking r =
+          observability::rank_parameters(observability::linearise(plan, model_of(coupling)));
       EXPECT_EQ(r.layout.size() - r.exact.size(), row.acc_enc - 3u) << row.preset;
       EXPECT_EQ(r.held_by_attitude.size(), r.exact.size()) << row.preset;
     }
 }
 
-std::vector<std::string> combinations(const Ranking& r,
+std::vector<std::string> combinations(const observability::Ranking& r,
                                       const std::vector<WeakDirection>& directions) {
   std::vector<std::string> all;
-  for (const auto& d : name_degeneracies(r.layout, Mounting{}, directions))
+  for (const auto& d : report::name_degeneracies(r.layout, Mounting{}, directions))
     all.push_back(d.combination);
   return all;
 }
 
 TEST(Ranking, ExactDegeneraciesAreFoundByName) {
-  const Ranking r = rank_parameters(
-      linearise(plan_of("twentyfour", CommandLaw::level, 3600.0, 300.0), model_of(Coupling::eq5)));
+  const observability::Ranking r = observability::rank_parameters(observability::linearise(
+      plan_of("twentyfour", CommandLaw::level, 3600.0, 300.0), model_of(Coupling::eq5)));
   const auto names = combinations(r, r.exact);
   ASSERT_EQ(names.size(), 18u);  // physics.md 2.4
   for (const char axis : {'x', 'y', 'z'}) {
@@ -204,12 +209,13 @@ TEST(Ranking, ExactDegeneraciesAreFoundByName) {
 TEST(Ranking, GaugeIsHeldByTheAttitudePriorAloneWithoutGimbals) {
   // physics.md 2.4: a common rotation of both triads and the attitude, 3 directions; they are exact
   // with accelerometers only, gyros on the platform (eq. 6) and slews by gyro commands.
-  RankedModel model = model_of(Coupling::eq6, {"eta", "xi", "dP", "dO"});
+  observability::RankedModel model = model_of(Coupling::eq6, {"eta", "xi", "dP", "dO"});
   model.readout.gimbals = false;
-  const Ranking r = rank_parameters(linearise(plan_of("slew12", CommandLaw::level, 1200.0), model));
+  const observability::Ranking r = observability::rank_parameters(
+      observability::linearise(plan_of("slew12", CommandLaw::level, 1200.0), model));
   EXPECT_EQ(r.exact.size(), 0u);
   ASSERT_EQ(r.held_by_attitude.size(), 3u);
-  const auto named = name_degeneracies(r.layout, Mounting{}, r.held_by_attitude);
+  const auto named = report::name_degeneracies(r.layout, Mounting{}, r.held_by_attitude);
   for (const auto& d : named) EXPECT_TRUE(d.reason.starts_with("gauge")) << d.combination;
   // The limit by priors: 1/sqrt(2/200^2 + 2/100^2 + 1/200^2) = 60.3 arcsec; data cannot beat it.
   const double limit = 1.0 / std::sqrt(3.0 / (200.0 * 200.0) + 2.0 / (100.0 * 100.0)) * arcsec;
@@ -226,8 +232,10 @@ TEST(Ranking, LearningRatioIsThatOfABatchFitAtTheTruth) {
   truth.active = filter.active;
   const Theta nominal = random_theta(11);
   for (std::size_t i = 0; i < TermLibrary::num_params; ++i) truth.priors[i] = fixed(nominal[i]);
-  const RankedModel model = ranked_model(filter, &truth, harbin, Readout{});
-  const Ranking r = rank_parameters(linearise(plan, model));
+  const observability::RankedModel model =
+      observability::ranked_model(filter, &truth, harbin, Readout{});
+  const observability::Ranking r =
+      observability::rank_parameters(observability::linearise(plan, model));
 
   // Data without noise or attitude error, a fit held at the truth: one solution of the same
   // problem.
@@ -252,8 +260,8 @@ TEST(Ranking, PromisedSigmasAreTheErrorsOfBatchFits) {
   TruthSpec truth;
   static_cast<ModelSpec&>(truth) = filter;
   const Timeline timeline = lay_out(plan, harbin);
-  const Ranking r =
-      rank_parameters(linearise(plan, ranked_model(filter, nullptr, harbin, Readout{})));
+  const observability::Ranking r = observability::rank_parameters(observability::linearise(
+      plan, observability::ranked_model(filter, nullptr, harbin, Readout{})));
   constexpr int runs = 60;
   VecX square = VecX::Zero(static_cast<Eigen::Index>(r.parameters.size()));
   Simulator simulator(truth, Readout{});
@@ -270,7 +278,7 @@ TEST(Ranking, PromisedSigmasAreTheErrorsOfBatchFits) {
   // parameter; 4 sigma for the worst of 15 (chance 1e-3). Mean of the 15: two of them may be one
   // (correlated), so no tighter than 3 sigma of about 5 independent ones.
   double mean = 0.0;
-  std::vector<MonteCarloError> errors;
+  std::vector<observability::MonteCarloError> errors;
   for (std::size_t k = 0; k < r.parameters.size(); ++k) {
     const double rmse = std::sqrt(square[k] / runs), ratio = rmse / r.parameters[k].posterior_sigma;
     EXPECT_NEAR(ratio, 1.0, 4.0 * 0.091) << TermLibrary::specs[r.parameters[k].param].key.view();
@@ -279,10 +287,11 @@ TEST(Ranking, PromisedSigmasAreTheErrorsOfBatchFits) {
                       rmse * (1.0 + 2.0 * 0.091), r.parameters[k].posterior_sigma});
   }
   EXPECT_NEAR(mean, 1.0, 3.0 * std::sqrt(2.0 / runs / 5.0));
-  const auto comparison = compare_with_monte_carlo(r, errors, TruthIs::the_model);
+  const auto comparison =
+      observability::compare_with_monte_carlo(r, errors, observability::TruthIs::the_model);
   ASSERT_EQ(comparison.parameters.size(), r.parameters.size());
-  EXPECT_EQ(comparison.count(ErrorVerdict::wrong_model), 0u);
-  EXPECT_LE(comparison.count(ErrorVerdict::nonlinear), 1u);
+  EXPECT_EQ(comparison.count(observability::ErrorVerdict::wrong_model), 0u);
+  EXPECT_LE(comparison.count(observability::ErrorVerdict::nonlinear), 1u);
   EXPECT_GT(comparison.spearman, 0.8);
 }
 
@@ -294,13 +303,15 @@ TEST(Ranking, AModelThatSeesTheFieldIsRankedInTheFieldOfTheStudy) {
     spec.priors[i] = TermLibrary::specs[i].prior_si();
   }
   const TestPlan plan = plan_of("six", CommandLaw::free, 600.0);
-  EXPECT_THROW(linearise(plan, ranked_model(spec, nullptr, harbin, Readout{})), InputError);
+  EXPECT_THROW(
+      observability::linearise(plan, observability::ranked_model(spec, nullptr, harbin, Readout{})),
+      InputError);
   Environment field;
   field.field_n = 0.25e-4;
   field.field_w = 0.0;
   field.field_u = -0.47e-4;
-  const Ranking r =
-      rank_parameters(linearise(plan, ranked_model(spec, nullptr, harbin, Readout{}, field)));
+  const observability::Ranking r = observability::rank_parameters(observability::linearise(
+      plan, observability::ranked_model(spec, nullptr, harbin, Readout{}, field)));
   EXPECT_FALSE(r.parameters.empty());
 }
 

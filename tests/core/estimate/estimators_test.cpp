@@ -6,7 +6,7 @@
 
 #include "core/estimate/batch.hpp"
 #include "core/estimate/ekf.hpp"
-#include "mc/campaign.hpp"
+#include "mc/task/campaign.hpp"
 #include "tests/support/model_builders.hpp"
 
 namespace drift {

@@ -5,7 +5,7 @@
 
 #include "core/base/rng.hpp"
 #include "mc/statistics/point_statistics.hpp"
-#include "mc/stop_rule.hpp"
+#include "mc/statistics/stop_rule.hpp"
 #include "tests/mc/small_study.hpp"
 
 namespace drift {
@@ -13,20 +13,6 @@ namespace {
 
 using namespace drift::test;
 using C = mc::StudyColumns;
-
-TEST(Rate, HasTheWilsonInterval) {
-  // Wilson (1927) as in Newcombe (1998), table I: 81 of 263 is 0.2553 to 0.3662; 0 of 20 is 0 to
-  // 0.1611.
-  const mc::Rate a{81, 263}, none{0, 20}, all{20, 20}, many{0, 2000};
-  EXPECT_NEAR(a.low(), 0.2553, 5e-5);
-  EXPECT_NEAR(a.high(), 0.3662, 5e-5);
-  EXPECT_EQ(none.low(), 0.0);
-  EXPECT_NEAR(none.high(), 0.1611, 5e-5);
-  EXPECT_NEAR(all.low(), 1.0 - 0.1611, 5e-5);
-  EXPECT_EQ(all.high(), 1.0);
-  EXPECT_EQ(many.low(), 0.0);  // where rounding of the formula gives 1e-19
-  EXPECT_TRUE(std::isnan(mc::Rate{}.value()));
-}
 
 TEST(ErrorStatistics, HasClosedForms) {
   // Errors 1, -3 with sigmas 1, 2 in units of a prior of 10.
@@ -78,7 +64,7 @@ TEST(BootstrapWeights, ArePoissonNumbersOfTheRunAlone) {
 
 /// A block of a study point, filled by hand: every run a perfect estimate at first.
 struct Synthetic {
-  Study study = read_text(small_study);
+  mc::Study study = read_text(small_study);
   C columns{study};
   mc::Block block;
 
@@ -194,7 +180,7 @@ TEST(PointStatistics, DoNotDependOnHowRunsAreCutIntoBlocks) {
 }
 
 TEST(StopRule, StopsWhenTheIntervalIsNarrowEnough) {
-  const Study study =
+  const mc::Study study =
       read_text(small_study + "stop = { quantity = \"silent_failure_rate\", half_width = 0.01 }\n");
   const auto points = mc::study_points(study);
   mc::HalfWidthRule rule(points, *study.monte_carlo.stop);
@@ -213,7 +199,7 @@ TEST(StopRule, StopsWhenTheIntervalIsNarrowEnough) {
 }
 
 TEST(StopRule, WaitsForAnRmse) {
-  const Study study = read_text(
+  const mc::Study study = read_text(
       small_study + "stop = { quantity = \"rmse.eta_x\", half_width = 0.005, confidence = 0.9 }\n");
   const auto points = mc::study_points(study);
   const auto rule = mc::stop_rule(points);

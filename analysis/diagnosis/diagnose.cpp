@@ -1,0 +1,173 @@
+#include "analysis/diagnosis/diagnose.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/diagnosis/asides.hpp"
+#include "analysis/diagnosis/candidate_table.hpp"
+#include "analysis/diagnosis/causes.hpp"
+#include "analysis/diagnosis/compare.hpp"
+#include "analysis/diagnosis/judge.hpp"
+#include "analysis/diagnosis/located.hpp"
+#include "analysis/diagnosis/noise_found.hpp"
+#include "analysis/diagnosis/nominal_fit.hpp"
+#include "analysis/diagnosis/patched_study.hpp"
+#include "analysis/preparation/covariates.hpp"
+#include "analysis/preparation/recorded_test.hpp"
+#include "core/base/check.hpp"
+#include "core/estimate/starts.hpp"
+#include "mc/task/campaign.hpp"
+
+namespace drift::diagnosis {
+namespace {
+
+/// White noise as neighbouring samples differ, where the other of eq. (5) and (6) takes most of an
+/// evident misfit away: what looks like noise that drives the platform is the equation then, and
+/// the noise is estimated with that in the model. Empty otherwise.
+std::optional<inference::NoiseEstimate> noise_beside_equation(const FilterSpec& nominal,
+                                                              const inference::Test& test,
+                                                              const BatchResult& fit) {
+  constexpr double evident = 1.5, most = 0.8;  // chi-square per degree; part of its excess
+  FilterSpec other = nominal;
+  if (!facts(nominal.coupling).other) return std::nullopt;
+  other.coupling = *facts(nominal.coupling).other;
+  const auto per_dof = [](const BatchResult& f) {
+    return f.estimate.statistic /
+           static_cast<double>(std::max<std::size_t>(1, f.estimate.measured));
+  };
+  if (per_dof(fit) < evident) return std::nullopt;
+  const BatchResult with_other = fit_batch(other, test.timeline, test.readout, test.measured,
+                                           inference::theta_of(nominal, fit));
+  if (per_dof(fit) - per_dof(with_other) < most * (per_dof(fit) - 1.0)) return std::nullopt;
+  const inference::LinearProblem problem = inference::linear_problem(nominal, test, fit, {});
+  return inference::noise_of_differences(problem, inference::residual_of(problem, fit));
+}
+
+/// The table, fit and held-out prediction before and after the best explanation.
+FitComparison compared(const search::Examination& nominal, const search::Search& found,
+                       const inference::Test& test, const DiagnoseOptions& options,
+                       const std::vector<std::size_t>& recording_ends, Stages& stages) {
+  const search::Refit* best = found.sets.empty() ? nullptr : &found.sets.front();
+  FitComparison fit = compare(nominal, best, options.whiteness_draws);
+  if (!best) return fit;
+  std::vector<std::size_t> named;
+  for (const search::Choice& c : best->choices) named.push_back(c.candidate);
+  fit.held_out = held_out(nominal, best->after, test, named, found.nulls.library_threshold,
+                          {options.folds, recording_ends,
+                           [&](std::size_t done, std::size_t total) { stages.step(done, total); }});
+  return fit;
+}
+
+/// Largest start-consistency ratio of the patched model, from the starts of the nominal one; what
+/// is new starts where the fit has it.
+double patched_spread(const FilterSpec& nominal, const inference::Test& test,
+                      std::span<const Theta> starts, const search::Refit& best) {
+  auto fits = fit_from_starts(nominal, best.filter, test, starts,
+                              inference::theta_of(best.filter, best.after.fit));
+  fits.push_back(best.after.fit);
+  return start_spread(fits);
+}
+
+template <class T>
+void append(std::vector<Remark>& remarks, std::optional<T> remark) {
+  if (remark) remarks.emplace_back(std::move(*remark));
+}
+void append(std::vector<Remark>& remarks, std::vector<Remark> more) {
+  remarks.insert(remarks.end(), more.begin(), more.end());
+}
+
+}  // namespace
+
+Diagnosis diagnose(const FilterSpec& nominal_filter, const inference::Test& given,
+                   std::span<const Theta> starts,
+                   const std::vector<preparation::Covariate>& covariates,
+                   const DiagnoseOptions& options, const std::vector<std::size_t>& recording_ends) {
+  const mc::ThreadCount threads(options.threads);
+  Diagnosis d;
+  // Shares of the whole as they usually are; a diagnosis that finds nothing ends early.
+  Stages stages(d.seconds, options.progress);
+  stages.begin("fit", 0.04);
+  const NominalFit fitted = fit_nominal(nominal_filter, given, starts);
+  const inference::Test test{given.timeline, given.readout, fitted.measured};
+
+  stages.begin("examine", 0.08);
+  const auto plain = noise_beside_equation(nominal_filter, test, fitted.fit);
+  search::Examination nominal =
+      search::examine(nominal_filter, test, fitted.fit, plain ? &*plain : nullptr);
+  stages.begin("search", 0.5);
+  const search::Search found = search::search(nominal, test, options.search);
+  const search::Refit* best = found.sets.empty() ? nullptr : &found.sets.front();
+
+  stages.begin("held out", 0.25);
+  d.fit = compared(nominal, found, test, options, recording_ends, stages);
+  const auto member_gains = best && found.significant
+                                ? judge_members(nominal, test, *best, found.nulls)
+                                : std::vector<double>{};
+  const Judged judged = judge(nominal, found, d.fit.held_out, member_gains, options.named_by);
+
+  stages.begin("locate", 0.06);
+  // With the cause in the mean, what had been taken for noise because of it is none any more.
+  NoiseFound noise = noise_found(best && found.significant ? best->after : nominal, fitted.spikes);
+  CausesFound causes =
+      judged.verdict == Verdict::consistent ? CausesFound{} : causes_of(nominal, found);
+  for (std::size_t k = 0; k < member_gains.size() && k < causes.causes.size(); ++k)
+    causes.causes[k].held_out_gain = member_gains[k];
+  Located place = located(nominal, found, judged, test.timeline, covariates, options.signals);
+
+  stages.begin("starts", 0.07);
+  d.fit.start_spread_before = d.fit.start_spread_after = fitted.start_spread;
+  if (best && !starts.empty())
+    d.fit.start_spread_after = patched_spread(nominal_filter, test, starts, *best);
+  stages.end();
+
+  d.verdict = judged.verdict;
+  d.p_value = found.p_value;
+  if (judged.one_gyro)
+    d.p_value = std::min(d.p_value, 12.0 * std::exp(-0.5 * judged.one_gyro->gain));
+  d.where = std::move(place.where);
+  d.signals = std::move(place.signals);
+  d.causes = std::move(causes.causes);
+  d.cosines = std::move(causes.cosines);
+  d.inseparable = std::move(causes.inseparable);
+  d.candidates = candidate_table(nominal, found);
+  d.noise = std::move(noise.findings);
+  if (std::isfinite(found.other_equation)) d.other_equation_gain = found.other_equation;
+  d.nominal = nominal_filter;
+  d.patched = best ? started_where_found(best->filter, d.causes) : nominal_filter;
+  d.has_patch = best != nullptr;
+  append(d.remarks, std::move(noise.remarks));
+  append(d.remarks, judged.remarks);
+  append(d.remarks, judged.one_gyro);
+  append(d.remarks, std::move(causes.remarks));
+  if (d.verdict == Verdict::unexplained) d.nearest_known = nearest_known(nominal, found);
+  if (d.nearest_known) append(d.remarks, strongest_left(nominal, found));
+  if (d.verdict == Verdict::consistent) append(d.remarks, noise_or_effect(nominal));
+  // Where a cause is named it is what has moved the parameters.
+  if (d.verdict == Verdict::consistent || d.verdict == Verdict::unexplained)
+    append(d.remarks, beyond_prior(nominal.fit));
+  append(d.remarks, equation_open(d));
+  return d;
+}
+
+Diagnosis diagnose(const mc::Study& study, const std::vector<Recording>& recordings,
+                   const DiagnoseOptions& options) {
+  if (study.filters.empty())
+    throw InputError(ExitCode::config,
+                     fmt::format("{}: no [[filter]]: nothing to compare the recording with. Add a "
+                                 "section [[filter]] with name and coupling",
+                                 study.path));
+  const FilterSpec& filter = study.filters.front();
+  const preparation::RecordedTest test = preparation::recorded_test(study, recordings);
+  std::vector<Theta> starts;
+  for (int k = 0; k + 1 < options.starts; ++k) {
+    FilterSpec drawn = filter;
+    drawn.starts.clear();
+    starts.push_back(initial_estimate(drawn, study.monte_carlo.seed, static_cast<std::size_t>(k)));
+  }
+  return diagnose(filter, {test.timeline, study.readout, test.measured}, starts,
+                  preparation::covariates_of(recordings), options, test.ends);
+}
+
+}  // namespace drift::diagnosis

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "analysis/diagnosis/recovered_signal.hpp"
+#include "analysis/preparation/covariates.hpp"
+#include "analysis/search/examination.hpp"
+
+namespace drift::diagnosis {
+
+/// A missing input as a time series: one unknown constant per bin of time in one equation, smooth
+/// (Ornstein-Uhlenbeck prior whose size and time constant maximise the likelihood), parameters and
+/// attitudes marginalised. What fitted parameters can absorb is not recovered (discovery.md 2.4 b).
+struct InputEstimate {
+  inference::Window::Equation equation = inference::Window::Equation::rate;
+  int axis = 0;
+  std::vector<std::pair<std::size_t, std::size_t>> bins;  ///< intervals of each
+  VecX value, sigma;                                      ///< of each bin, SI
+  double gain = 0.0;  ///< twice the log likelihood gained over no input
+  MatX C;             ///< information on the bins, parameters projected out
+  MatX smoother;      ///< value = smoother g
+  VecX g;
+  MatX cross;  ///< shape (bins, candidates): candidates seen through the bins
+};
+
+/// The same for each of the twelve equations, best first. per_position: bins of each position.
+std::vector<InputEstimate> estimate_inputs(const inference::LinearProblem& problem,
+                                           const Timeline& timeline,
+                                           const inference::Projector& projector, int per_position);
+
+/// As a time series with a description of its shape. cause: candidate columns with amplitudes whose
+/// signature is drawn over it; may be empty.
+RecoveredSignal recovered_signal(const InputEstimate& input, const Timeline& timeline,
+                                 const std::vector<preparation::Covariate>& covariates,
+                                 const std::vector<std::pair<int, double>>& cause);
+
+}  // namespace drift::diagnosis

@@ -1,0 +1,100 @@
+#include "analysis/equation/closure_profile.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/inference/projector.hpp"
+#include "mc/task/campaign.hpp"
+
+namespace drift::equation {
+namespace {
+
+/// The model with lambda held, fitted, and twice the log of its evidence (prior of lambda
+/// included).
+struct Point {
+  double lambda = 0.0;
+  double log2 = 0.0;
+  BatchResult fit;
+};
+
+class Profiler {
+ public:
+  Profiler(const FilterSpec& filter, const inference::Test& test, const BatchResult& joint,
+           const VecX& weight, const inference::NoiseModel& noise)
+      : filter_(filter),
+        test_(test),
+        start_(inference::theta_of(filter, joint)),
+        weight_(weight),
+        noise_(noise),
+        prior_(filter.priors[closure_param]) {}
+
+  std::vector<Point> at(const std::vector<double>& values) const {
+    return mc::run_campaign(values.size(), [&](std::size_t k) { return point(values[k]); });
+  }
+
+ private:
+  Point point(double value) const {
+    FilterSpec held = filter_;
+    held.priors[closure_param] = fixed(value);
+    Theta start = start_;
+    start[closure_param] = value;
+    Point p{value, 0.0, fit_batch(held, test_.timeline, test_.readout, test_.measured, start)};
+    inference::LinearProblem problem = inference::linear_problem(held, test_, p.fit, {});
+    problem.weight = weight_;
+    p.log2 = inference::Projector(problem, noise_).candidates().log_likelihood2();
+    const double sigma = prior_.sigma();
+    if (sigma > 0.0) p.log2 -= std::pow((value - prior_.mean()) / sigma, 2);
+    return p;
+  }
+
+  const FilterSpec& filter_;
+  const inference::Test& test_;
+  Theta start_;
+  const VecX& weight_;
+  const inference::NoiseModel& noise_;
+  Prior prior_;
+};
+
+}  // namespace
+
+std::optional<ClosureProfile> profile_closure(const FilterSpec& filter, const inference::Test& test,
+                                              const BatchResult& joint, const VecX& weight,
+                                              const inference::NoiseModel& noise, double decisive) {
+  const ParameterEstimate* found = joint.estimate.find(closure_param);
+  if (found == nullptr) return std::nullopt;
+  const Profiler profiler(filter, test, joint, weight, noise);
+  std::vector<Point> points = profiler.at({0.0, 1.0, found->value});
+  const double end = points[0].log2 > points[1].log2 ? 0.0 : 1.0;
+  if (std::max(points[0].log2, points[1].log2) < points[2].log2 + decisive) return std::nullopt;
+  // How fast it falls around the end is not known beforehand: steps that grow.
+  std::vector<double> around;
+  for (const double step : {0.005, 0.02, 0.06, 0.15, 0.35})
+    for (const double sign : {-1.0, 1.0}) around.push_back(end + sign * step);
+  for (Point& p : profiler.at(around)) points.push_back(std::move(p));
+  std::ranges::sort(points, {}, &Point::lambda);
+  const auto top = std::ranges::max_element(points, {}, &Point::log2);
+  const double most = top->log2;
+
+  // The log runs straight between the points; moments of its exponential by fine steps.
+  double mass = 0.0, first = 0.0, second = 0.0;
+  constexpr int fine = 200;
+  for (std::size_t k = 0; k + 1 < points.size(); ++k) {
+    const double width = points[k + 1].lambda - points[k].lambda;
+    for (int i = 0; i < fine; ++i) {
+      const double part = (i + 0.5) / fine, x = points[k].lambda + part * width;
+      const double p =
+          std::exp(0.5 * ((1.0 - part) * points[k].log2 + part * points[k + 1].log2 - most)) *
+          width / fine;
+      mass += p;
+      first += p * x;
+      second += p * x * x;
+    }
+  }
+  ClosureProfile out;
+  out.value = first / mass;
+  out.sigma = std::sqrt(std::max(0.0, second / mass - out.value * out.value));
+  out.fit = std::move(profiler.at({out.value}).front().fit);
+  return out;
+}
+
+}  // namespace drift::equation

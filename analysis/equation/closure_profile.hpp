@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+
+#include "analysis/inference/signatures.hpp"
+
+namespace drift::equation {
+
+/// lambda of the family of eq. (5) and (6), with everything else integrated out.
+struct ClosureProfile {
+  double value = 0.0, sigma = 0.0;
+  BatchResult fit;  ///< with lambda held at the value
+};
+
+/// lambda and the misalignments E are bilinear: a test shows (1 - lambda) E or lambda E. Where the
+/// other equation makes one of these vanish, the most probable point of all parameters together has
+/// E near zero and any lambda, though nearly all of the probability is at lambda = 1 (or 0) with E
+/// as large as its prior allows (physics.md 1.7: use the profile). Here
+///
+///   p(lambda | y) ~ p(lambda) int p(y | lambda, x) p(x) dx   (Laplace at each lambda)
+///
+/// is evaluated at both ends and at the joint fit; where an end is more probable than the joint fit
+/// by `decisive` (twice the log), around that end too, and mean and sigma are taken from it.
+/// Otherwise empty: the joint fit is as good. filter: with lambda free.
+std::optional<ClosureProfile> profile_closure(const FilterSpec& filter, const inference::Test& test,
+                                              const BatchResult& joint, const VecX& weight,
+                                              const inference::NoiseModel& noise,
+                                              double decisive = 6.0);
+
+}  // namespace drift::equation

@@ -1,0 +1,180 @@
+#include "analysis/identification/identify.hpp"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <cmath>
+
+#include "analysis/equation/fit_either_equation.hpp"
+#include "analysis/preparation/recorded_test.hpp"
+#include "core/base/check.hpp"
+#include "core/estimate/start_consistency.hpp"
+#include "core/estimate/starts.hpp"
+#include "mc/task/campaign.hpp"
+
+namespace drift::identification {
+namespace {
+
+struct Job {
+  std::size_t filter, start;
+};
+
+std::vector<Job> jobs_of(const mc::Study& study) {
+  if (study.filters.empty())
+    throw InputError(ExitCode::config,
+                     fmt::format("{}: no [[filter]]: nothing to estimate with. Add a "
+                                 "section [[filter]] with name and coupling",
+                                 study.path));
+  std::vector<Job> jobs;
+  for (std::size_t f = 0; f < study.filters.size(); ++f)
+    for (std::size_t s = 0; s < start_count(study.filters[f]); ++s) jobs.push_back({f, s});
+  return jobs;
+}
+
+FilterRun estimate(const mc::Study& study, const Job& job, const Timeline& timeline,
+                   const Measurements& measured) {
+  const FilterSpec& filter = study.filters[job.filter];
+  const Theta start = initial_estimate(filter, study.monte_carlo.seed, job.start);
+  FilterRun run;
+  run.filter = job.filter;
+  run.start = job.start;
+  run.ekf = run_ekf(filter, timeline, study.readout, measured, start, &run.history);
+  run.batch = equation::fit_either_equation(filter, timeline, study.readout, measured, start);
+  return run;
+}
+
+void require_ok(const OdeResult& ode, std::uint64_t run) {
+  if (!ode.ok())
+    throw InputError(
+        ExitCode::self_check,
+        fmt::format("simulation of run {} failed at t = {:.6g} s: {} ({}). The truth may be "
+                    "unphysical: see `driftscope check`",
+                    run, ode.t, name(ode.status), ode.cause));
+}
+
+/// One filter and start, in the loop: the test is simulated position by position, and at the start
+/// of each the loop is given the filter's running estimate of the misalignments.
+FilterRun estimate_in_the_loop(const mc::Study& study, const Job& job, Timeline timeline,
+                               const TruthDraw& draw, std::uint64_t run_number) {
+  constexpr auto eta = TermLibrary::index("eta_x");
+  const FilterSpec& filter = study.filters[job.filter];
+  const Theta start = initial_estimate(filter, study.monte_carlo.seed, job.start);
+  Simulator simulator(study.truth, study.readout);
+  Simulation sim;
+  simulator.begin(timeline, draw, study.monte_carlo.seed, run_number, sim);
+  Ekf ekf(filter, timeline, study.readout, start);
+  for (std::size_t first = 0; first < timeline.intervals.size();) {
+    std::size_t end = first;
+    while (end < timeline.intervals.size() &&
+           timeline.intervals[end].position == timeline.intervals[first].position)
+      timeline.intervals[end++].loop = ekf.theta().segment<6>(eta);
+    simulator.extend(timeline, first, end, sim);
+    require_ok(sim.ode, run_number);
+    for (std::size_t i = first; i < end; ++i)
+      ekf.process(i, sim.measured.acc.col(i), sim.measured.gimbal.col(i));
+    first = end;
+  }
+  FilterRun run;
+  run.filter = job.filter;
+  run.start = job.start;
+  run.ekf = ekf.result();
+  run.history = ekf.history();
+  run.batch = equation::fit_either_equation(filter, timeline, study.readout, sim.measured, start);
+  return run;
+}
+
+std::vector<FilterSummary> summarise(const mc::Study& study, const Identification& id) {
+  std::vector<FilterSummary> all;
+  for (std::size_t f = 0; f < study.filters.size(); ++f) {
+    FilterSummary s;
+    s.filter = f;
+    s.layout = make_layout(study.filters[f]);
+    const auto runs = id.runs_of(f);
+    for (std::size_t k = 0; k < s.layout.size(); ++k) {
+      std::vector<double> ekf, ekf_sigma, batch, batch_sigma;
+      for (const FilterRun* r : runs) {
+        ekf.push_back(r->ekf.parameters[k].value);
+        ekf_sigma.push_back(r->ekf.parameters[k].sigma);
+        batch.push_back(r->batch.estimate.parameters[k].value);
+        batch_sigma.push_back(r->batch.estimate.parameters[k].sigma);
+      }
+      s.spread.push_back({s.layout.params[k], start_consistency(ekf, ekf_sigma),
+                          start_consistency(batch, batch_sigma)});
+    }
+    s.degeneracies = weak_directions(runs.front()->batch.information_root, 1e-6);
+    s.weak = weak_directions(runs.front()->batch.information_root, 1.0).size();
+    all.push_back(std::move(s));
+  }
+  return all;
+}
+
+template <class Task>
+void run_jobs(const mc::Study& study, Identification& id, int threads, const Progress& progress,
+              Task&& task) {
+  const std::vector<Job> jobs = jobs_of(study);
+  std::atomic<std::size_t> done{0};
+  id.runs = mc::run_campaign(
+      jobs.size(),
+      [&](std::size_t k) {
+        FilterRun run = task(jobs[k]);
+        const std::size_t count = ++done;
+        if (progress) progress(count, jobs.size());
+        return run;
+      },
+      threads);
+  id.summaries = summarise(study, id);
+}
+
+}  // namespace
+
+std::vector<const FilterRun*> Identification::runs_of(std::size_t filter) const {
+  std::vector<const FilterRun*> found;
+  for (const FilterRun& r : runs)
+    if (r.filter == filter) found.push_back(&r);
+  return found;
+}
+
+Identification identify_simulated(const mc::Study& study, std::uint64_t run, int threads,
+                                  const Progress& progress) {
+  if (!study.has_truth)
+    throw InputError(
+        ExitCode::config,
+        fmt::format("{}: no [truth] to simulate from. Give a recording on the command line, "
+                    "or add a section [truth]",
+                    study.path));
+  Identification id;
+  id.simulated = true;
+  Timeline timeline = lay_out(study.plan, study.site);
+  set_loop(timeline, study.truth);
+  const std::uint64_t seed = study.monte_carlo.seed;
+  set_environment(timeline, study.environment, seed, run);
+  id.truth = draw_truth(study.truth, timeline.chains, seed, run);
+  set_lambda(study.truth, id.truth->theta);
+  if (study.truth.coupling == Coupling::compensated && study.truth.loop == LoopEstimate::feedback) {
+    run_jobs(study, id, threads, progress, [&](const Job& job) {
+      return estimate_in_the_loop(study, job, timeline, *id.truth, run);
+    });
+    return id;
+  }
+  const Simulation sim = Simulator(study.truth, study.readout).run(timeline, *id.truth, seed, run);
+  require_ok(sim.ode, run);
+  id.truth->theta = sim.theta_end;  // what an estimate at the end is to be compared with
+  set_lambda(study.truth, id.truth->theta);
+  id.recording = make_recording(timeline, sim.measured, study.readout);
+  run_jobs(study, id, threads, progress,
+           [&](const Job& job) { return estimate(study, job, timeline, sim.measured); });
+  return id;
+}
+
+Identification identify_recordings(const mc::Study& study, const std::vector<Recording>& recordings,
+                                   int threads, const Progress& progress) {
+  Identification id;
+  for (const Recording& r : recordings) id.sources.push_back(r.source);
+  id.recording = recordings.front();
+  const preparation::RecordedTest test = preparation::recorded_test(study, recordings);
+  run_jobs(study, id, threads, progress,
+           [&](const Job& job) { return estimate(study, job, test.timeline, test.measured); });
+  return id;
+}
+
+}  // namespace drift::identification

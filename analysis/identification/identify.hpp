@@ -1,0 +1,65 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/estimate/batch.hpp"
+#include "core/estimate/ekf.hpp"
+#include "core/sim/simulate.hpp"
+#include "mc/study/study.hpp"
+
+namespace drift::identification {
+
+/// One filter from one start, by both estimators.
+struct FilterRun {
+  std::size_t filter = 0;  ///< index in the study
+  std::size_t start = 0;
+  EstimateResult ekf;
+  EkfHistory history;
+  BatchResult batch;
+};
+
+/// How the starts of one filter agree on one parameter.
+struct StartSpread {
+  std::size_t param = 0;
+  double ekf = 0.0, batch = 0.0;  ///< start-consistency ratios
+};
+
+/// All starts of one filter.
+struct FilterSummary {
+  std::size_t filter = 0;
+  Layout layout;
+  std::vector<StartSpread> spread;          ///< layout order; NaN ratios with one start
+  std::vector<WeakDirection> degeneracies;  ///< exact: the data say nothing of these directions
+  std::size_t weak = 0;  ///< directions of which the prior says more than the data
+};
+
+/// Parameters of a platform, estimated from one test by every filter and start of a study.
+struct Identification {
+  bool simulated = false;
+  std::optional<TruthDraw> truth;  ///< of a simulated recording
+  Recording recording;             ///< the (first) recording; empty with a loop fed back by filters
+  std::vector<std::string> sources;
+  std::vector<FilterRun> runs;  ///< by filter, then start
+  std::vector<FilterSummary> summaries;
+
+  std::vector<const FilterRun*> runs_of(std::size_t filter) const;
+};
+
+/// Called as runs are completed, from any thread: done, total.
+using Progress = std::function<void(std::size_t, std::size_t)>;
+
+/// Simulates one recording from [truth] (run number `run`) and estimates. With a compensated loop
+/// that is fed back, every filter and start watches a test of its own, driven by its estimates.
+/// InputError (config) if the study has no filter or no truth. Failed integration: InputError
+/// (self_check).
+Identification identify_simulated(const mc::Study& study, std::uint64_t run, int threads,
+                                  const Progress& progress = {});
+
+/// Estimates from recordings; several are taken as one test, each starting with a caging.
+Identification identify_recordings(const mc::Study& study, const std::vector<Recording>& recordings,
+                                   int threads, const Progress& progress = {});
+
+}  // namespace drift::identification

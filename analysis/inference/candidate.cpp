@@ -1,0 +1,148 @@
+#include "analysis/inference/candidate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <string_view>
+
+namespace drift::inference {
+namespace {
+
+/// Whether the test carries what a term wants to see.
+bool can_be_seen(const TermInfo& term, const Timeline& timeline) {
+  return (!term.needs.temperature || timeline.has_temperature) &&
+         (!term.needs.field || timeline.has_field);
+}
+
+/// The parameters that a filter finds by itself.
+ParamMask estimated(const FilterSpec& filter) {
+  ParamMask mask = filter.active;
+  for (std::size_t i = 0; i < mask.size(); ++i)
+    if (filter.priors[i].sigma() <= 0.0) mask.reset(i);
+  return mask;
+}
+
+/// The other parameters of a term that is not in the nominal model are at their defaults.
+Theta with_defaults(const TermInfo& term, const FilterSpec& nominal, Theta theta) {
+  for (std::size_t i = term.first; i < term.first + term.count; ++i)
+    if (!nominal.active[i] && !TermLibrary::specs[i].amplitude())
+      theta[i] = TermLibrary::specs[i].prior_si().mean();
+  return theta;
+}
+
+/// Sets of parameters that may be missing together. whole: all of them, however many.
+std::vector<std::vector<std::size_t>> subsets_of(const std::vector<std::size_t>& missing,
+                                                 bool whole) {
+  constexpr std::size_t most = 9;  // parameters of one candidate
+  std::vector<std::vector<std::size_t>> sets;
+  const auto add = [&](const std::vector<std::size_t>& set) {
+    if (!set.empty() && set.size() <= most &&
+        std::find(sets.begin(), sets.end(), set) == sets.end())
+      sets.push_back(set);
+  };
+  std::map<std::string_view, std::vector<std::size_t>> axes, groups;
+  for (const std::size_t i : missing) {
+    add({i});
+    axes[TermLibrary::specs[i].axis].push_back(i);
+    groups[TermLibrary::specs[i].group.view()].push_back(i);
+  }
+  for (const auto& [key, set] : groups) add(set);
+  if (groups.size() > 1)
+    for (const auto& [key, set] : axes) add(set);
+  add(missing);
+  if (whole && missing.size() > most) sets.push_back(missing);
+  return sets;
+}
+
+std::string common_axis(const std::vector<std::size_t>& params) {
+  const std::string_view first = TermLibrary::specs[params.front()].axis;
+  for (const std::size_t i : params)
+    if (TermLibrary::specs[i].axis != first) return {};
+  return std::string(first);
+}
+
+std::string label_of(const TermInfo& term, const std::vector<std::size_t>& set,
+                     std::size_t in_term) {
+  const std::string axis = common_axis(set);
+  std::string label(term.key);
+  if (!axis.empty()) label += "." + axis;
+  // Where a term holds several groups, say which parameters are meant.
+  if (in_term > 3 && set.size() < in_term) {
+    std::string_view group = TermLibrary::specs[set.front()].group.view();
+    bool one_group = true;
+    for (const std::size_t i : set)
+      one_group = one_group && TermLibrary::specs[i].group.view() == group;
+    if (one_group)
+      label +=
+          fmt::format(" {}", set.size() == 1 ? TermLibrary::specs[set.front()].key.view() : group);
+  }
+  return label;
+}
+
+}  // namespace
+
+std::vector<Settings> settings_of(const TermInfo& term, const ParamMask& known) {
+  std::vector<Settings> all{{}};
+  for (std::size_t i = term.first; i < term.first + term.count; ++i) {
+    const ParamSpec& spec = TermLibrary::specs[i];
+    if (!spec.setting() || known[i]) continue;
+    std::vector<Settings> next;
+    for (const Settings& s : all)
+      for (const double v : spec.grid) {
+        next.push_back(s);
+        next.back().emplace_back(i, v * spec.unit.to_si);
+      }
+    all = std::move(next);
+  }
+  return all;
+}
+
+bool Candidate::contains(const Candidate& other) const {
+  return term == other.term && params.size() > other.params.size() &&
+         std::all_of(other.params.begin(), other.params.end(), [&](std::size_t i) {
+           return std::find(params.begin(), params.end(), i) != params.end();
+         });
+}
+
+CandidateSet library_candidates(const FilterSpec& nominal, const Theta& theta,
+                                const Timeline& timeline) {
+  CandidateSet out;
+  const ParamMask known = estimated(nominal);
+  for (const TermInfo& term : TermLibrary::terms) {
+    if (!can_be_seen(term, timeline)) continue;
+    std::vector<std::size_t> missing;
+    for (std::size_t i = term.first; i < term.first + term.count; ++i)
+      if (!known[i] && TermLibrary::specs[i].amplitude()) missing.push_back(i);
+    if (missing.empty()) continue;
+    // The couplings that are no member of the lambda family have no lambda to add.
+    if (term.key == closure_term && family_of(nominal.coupling) != Coupling::lambda) continue;
+    const auto settings = settings_of(term, known);
+    const auto first = static_cast<int>(out.signatures.size());
+    for (const Settings& s : settings)
+      for (const std::size_t i : missing) {
+        SignatureSpec spec{i, with_defaults(term, nominal, theta),
+                           TermLibrary::specs[i].prior_si().sigma()};
+        for (const auto& [param, value] : s) spec.theta[param] = value;
+        out.signatures.push_back(spec);
+      }
+    // A base term is left out by whoever does not know that it is needed: then all of it is
+    // missing.
+    for (const auto& set : subsets_of(missing, is_base(term))) {
+      Candidate c{
+          std::string(term.key), common_axis(set), label_of(term, set, missing.size()), set, {}};
+      for (std::size_t v = 0; v < settings.size(); ++v) {
+        Variant variant{{}, settings[v]};
+        for (const std::size_t i : set) {
+          const auto place = std::find(missing.begin(), missing.end(), i) - missing.begin();
+          variant.columns.push_back(first + static_cast<int>(v * missing.size() + place));
+        }
+        c.variants.push_back(std::move(variant));
+      }
+      out.candidates.push_back(std::move(c));
+    }
+  }
+  return out;
+}
+
+}  // namespace drift::inference

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "analysis/inference/signatures.hpp"
+
+namespace drift::inference {
+
+/// Values of nonlinear parameters: (param, SI value).
+using Settings = std::vector<std::pair<std::size_t, double>>;
+
+/// Every combination of the grids of a term's settings but those `known`; one empty one without
+/// any.
+std::vector<Settings> settings_of(const TermInfo& term, const ParamMask& known);
+
+/// One way a candidate may look: its columns, at one setting of the nonlinear parameters.
+struct Variant {
+  std::vector<int> columns;  ///< of LinearProblem::extra
+  Settings settings;
+  double share =
+      1.0;  ///< prior chance of this setting, over that of one point of the library's grid
+  bool between = false;  ///< put between the points of the library's grid (refine_grids())
+};
+
+/// Physics that may be missing: a term, or an axis or group of it.
+struct Candidate {
+  std::string term;   ///< key of the term
+  std::string axis;   ///< "x", "outer", ...; empty if it belongs to none or to all
+  std::string label;  ///< "magnetic_drift.y", "g2_drift D_IS_x"
+  std::vector<std::size_t>
+      params;                     ///< linear parameters, same order as the columns of each variant
+  std::vector<Variant> variants;  ///< neighbours on the grid stand next to each other
+  bool contains(const Candidate& other) const;  ///< same term, more parameters
+};
+
+/// All that the nominal model leaves out, and the columns they need.
+struct CandidateSet {
+  std::vector<Candidate> candidates;
+  std::vector<SignatureSpec> signatures;
+};
+
+/// Every parameter that the nominal filter does not estimate, singly, per axis, per group of axes
+/// and per term, on the grids of their nonlinear parameters, evaluated at theta. Prior sigmas are
+/// the library's defaults. Nonlinear and noise parameters are no candidates of their own; nor are
+/// terms that need a covariate which the recording does not have.
+CandidateSet library_candidates(const FilterSpec& nominal, const Theta& theta,
+                                const Timeline& timeline);
+
+}  // namespace drift::inference

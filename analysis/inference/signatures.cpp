@@ -1,0 +1,173 @@
+#include "analysis/inference/signatures.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace drift::inference {
+namespace {
+
+/// The nominal model with the terms of some parameters switched on at zero amplitude.
+DriftModel extended(const FilterSpec& nominal, const ParamMask& added) {
+  ModelSpec spec = nominal;
+  spec.active |= added;
+  if (added[closure_param]) spec.coupling = family_of(spec.coupling);
+  return spec.model();
+}
+
+/// A layout of exactly some parameters, those of the rate equation first.
+Layout layout_of(const std::vector<const SignatureSpec*>& specs, const Theta& theta) {
+  Layout layout;
+  layout.theta = theta;
+  layout.mean = VecX::Zero(specs.size());
+  layout.sigma.resize(specs.size());
+  for (const bool rate : {true, false}) {
+    for (const SignatureSpec* s : specs)
+      if (TermLibrary::owner(s->param).in_rates == rate) {
+        layout.sigma[layout.params.size()] = s->unit;
+        layout.params.push_back(s->param);
+      }
+    if (rate) layout.num_rate = layout.params.size();
+  }
+  return layout;
+}
+
+std::vector<RowTag> row_tags(const Test& test) {
+  std::vector<RowTag> tags;
+  for (std::size_t i = 0; i < test.timeline.intervals.size(); ++i)
+    for (int c = 0; c < num_channels; ++c) {
+      const bool read = c < 3 ? test.readout.accelerometers : test.readout.gimbals;
+      const double value = c < 3 ? test.measured.acc(c, i) : test.measured.gimbal(c - 3, i);
+      if (read && std::isfinite(value)) tags.push_back({i, c, test.timeline.intervals[i].position});
+    }
+  return tags;
+}
+
+std::vector<IntervalDrive> drives(const Timeline& timeline, double attitude_sigma) {
+  std::vector<IntervalDrive> all;
+  const Interval* before = nullptr;
+  for (const Interval& i : timeline.intervals) {
+    IntervalDrive d;
+    d.length = i.length();
+    d.gap = before ? std::max(0.0, i.t0 - before->t1) : 0.0;
+    d.cage = i.cage;
+    d.chain = i.chain;
+    const Node& node = timeline.nodes[i.middle_node()];
+    d.per_rate = -i.length() / attitude_sigma * node.R_il * node.R_lr;
+    all.push_back(d);
+    before = &i;
+  }
+  return all;
+}
+
+}  // namespace
+
+Theta theta_of(const FilterSpec& filter, const BatchResult& fit) {
+  Theta theta = make_layout(filter).theta;
+  for (const ParameterEstimate& p : fit.estimate.parameters) theta[p.param] = p.value;
+  return theta;
+}
+
+VecX residual_of(const LinearProblem& problem, const BatchResult& fit) {
+  VecX r(problem.rows());
+  for (Eigen::Index k = 0; k < r.size(); ++k) {
+    const RowTag& t = problem.tags[k];
+    const double value = t.accelerometer() ? fit.acc_residual(t.channel, t.interval)
+                                           : fit.gimbal_residual(t.channel - 3, t.interval);
+    r[k] = std::isfinite(value) ? value : 0.0;  // a fit may have left a sample out
+  }
+  return r;
+}
+
+MatX signature_columns(const FilterSpec& nominal, const Test& test, const BatchResult& fit,
+                       std::span<const SignatureSpec> specs, const std::vector<RowTag>& tags) {
+  MatX out =
+      MatX::Zero(static_cast<Eigen::Index>(tags.size()), static_cast<Eigen::Index>(specs.size()));
+  if (specs.empty()) return out;
+  const Theta theta = theta_of(nominal, fit);
+  const Trajectory phi = integrate_fixed(test.timeline, nominal.model(), theta, fit.psi0_l);
+  std::vector<bool> done(specs.size(), false);
+  for (std::size_t first = 0; first < specs.size(); ++first) {
+    if (done[first]) continue;
+    // Each parameter once: a layout cannot hold it twice; each term at one setting of its
+    // parameters.
+    std::vector<const SignatureSpec*> group;
+    ParamMask added;
+    TermMask terms;
+    Theta at = theta;
+    for (std::size_t k = first; k < specs.size(); ++k) {
+      if (done[k] || added[specs[k].param]) continue;
+      const TermInfo& owner = TermLibrary::owner(specs[k].param);
+      const auto number = *TermLibrary::find_term(owner.key);
+      const auto own = [&](const Theta& t) { return t.segment(owner.first, owner.count); };
+      if (terms[number] && own(specs[k].theta) != own(at)) continue;
+      terms.set(number);
+      at.segment(owner.first, owner.count) = own(specs[k].theta);
+      group.push_back(&specs[k]);
+      added.set(specs[k].param);
+      done[k] = true;
+    }
+    if (added[closure_param])
+      at[closure_param] = facts(nominal.coupling).lambda.value_or(at[closure_param]);
+    const Layout small = layout_of(group, at);
+    const auto parts =
+        measurement_equations(test.timeline, extended(nominal, added), small, test.readout,
+                              test.measured, at, phi, nominal.initial_attitude);
+    Eigen::Index next = 0;
+    for (std::size_t c = 0; c < parts.size(); ++c) {
+      Eigen::Index count = 0;
+      for (const RowTag& t : tags)
+        count += test.timeline.intervals[t.interval].chain == static_cast<int>(c);
+      for (const SignatureSpec* s : group) {
+        const auto place =
+            std::find(small.params.begin(), small.params.end(), s->param) - small.params.begin();
+        out.col(s - specs.data()).segment(next, count) = parts[c].rows.col(3 + place).head(count);
+      }
+      next += count;
+    }
+  }
+  return out;
+}
+
+LinearProblem linear_problem(const FilterSpec& nominal, const Test& test, const BatchResult& fit,
+                             const std::vector<SignatureSpec>& specs) {
+  LinearProblem out;
+  out.tags = row_tags(test);
+  out.drives = drives(test.timeline, nominal.initial_attitude);
+  out.acc_sigma = test.readout.accelerometer_noise;
+  out.gimbal_sigma = test.readout.gimbal_noise;
+  out.attitude_sigma = nominal.initial_attitude;
+  const auto rows = static_cast<Eigen::Index>(out.tags.size());
+  out.weight = VecX::Ones(rows);
+
+  const DriftModel model = nominal.model();
+  const Layout layout = make_layout(nominal);
+  const auto n = static_cast<Eigen::Index>(layout.size());
+  const Theta theta = theta_of(nominal, fit);
+  const Trajectory phi = integrate_fixed(test.timeline, model, theta, fit.psi0_l);
+
+  out.psi.resize(rows, 3);
+  out.theta.resize(rows, n);
+  out.r0.resize(rows);
+  const VecX x = layout.scaled(theta);
+  Eigen::Index next = 0;
+  const auto chains = measurement_equations(test.timeline, model, layout, test.readout,
+                                            test.measured, theta, phi, nominal.initial_attitude);
+  for (std::size_t c = 0; c < chains.size(); ++c) {
+    const MatX& e = chains[c].rows;
+    // Channels that are not read leave zero rows at the end.
+    Eigen::Index count = 0;
+    for (const RowTag& t : out.tags)
+      count += test.timeline.intervals[t.interval].chain == static_cast<int>(c);
+    out.psi.middleRows(next, count) = e.topLeftCorner(count, 3);
+    out.theta.middleRows(next, count) = e.block(0, 3, count, n);
+    out.r0.segment(next, count) =
+        e.col(3 + n).head(count) + e.block(0, 3, count, n) * x +
+        e.topLeftCorner(count, 3) * (fit.psi0_l[c] / nominal.initial_attitude);
+    next += count;
+  }
+
+  out.extra = signature_columns(nominal, test, fit, specs, out.tags);
+  return out;
+}
+
+}  // namespace drift::inference

@@ -1,0 +1,89 @@
+#include "analysis/inference/whiteness.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <map>
+
+#include "core/base/rng.hpp"
+
+namespace drift::inference {
+namespace {
+
+/// Rows of one channel, chain after chain, in time order.
+struct ChannelRows {
+  std::vector<std::vector<Eigen::Index>> chains;
+};
+
+std::vector<ChannelRows> rows_by_channel(const LinearProblem& problem) {
+  std::map<int, std::map<int, std::vector<Eigen::Index>>> sorted;  // channel, chain
+  for (Eigen::Index k = 0; k < problem.rows(); ++k) {
+    const RowTag& t = problem.tags[k];
+    sorted[t.channel][problem.drives[t.interval].chain].push_back(k);
+  }
+  std::vector<ChannelRows> all;
+  for (auto& [channel, chains] : sorted) {
+    all.emplace_back();
+    for (auto& [chain, rows] : chains) all.back().chains.push_back(std::move(rows));
+  }
+  return all;
+}
+
+/// Largest Q of the channels, for each column of z.
+VecX largest_Q(const std::vector<ChannelRows>& channels, const MatX& z, int lags) {
+  VecX largest = VecX::Zero(z.cols());
+  for (const ChannelRows& channel : channels)
+    for (Eigen::Index j = 0; j < z.cols(); ++j) {
+      const double* const v = z.col(j).data();
+      double square = 0.0, Q = 0.0;
+      for (const auto& rows : channel.chains)
+        for (const Eigen::Index k : rows) square += v[k] * v[k];
+      if (!(square > 0.0)) continue;
+      for (int lag = 1; lag <= lags; ++lag) {
+        double sum = 0.0, pairs = 0.0;
+        for (const auto& rows : channel.chains) {
+          if (rows.size() <= static_cast<std::size_t>(lag)) continue;
+          const std::size_t n = rows.size() - static_cast<std::size_t>(lag);
+          for (std::size_t t = 0; t < n; ++t)
+            sum += v[rows[t]] * v[rows[t + static_cast<std::size_t>(lag)]];
+          pairs += static_cast<double>(n);
+        }
+        if (pairs == 0.0) break;
+        double count = 0.0;
+        for (const auto& rows : channel.chains) count += static_cast<double>(rows.size());
+        const double mean_square = square / count, r = sum / pairs / mean_square;
+        Q += pairs * r * r;
+      }
+      largest[j] = std::max(largest[j], Q);
+    }
+  return largest;
+}
+
+}  // namespace
+
+double whiteness_p(const LinearProblem& problem, const Projector& projector, int lags, int draws,
+                   std::uint64_t seed) {
+  if (problem.rows() == 0 || draws <= 0) return 1.0;
+  const auto channels = rows_by_channel(problem);
+  const double observed = largest_Q(channels, projector.clean_residual(), lags)[0];
+  const MatX& T = projector.theta();
+  MatX A = MatX::Identity(T.cols(), T.cols());
+  A.selfadjointView<Eigen::Lower>().rankUpdate(T.transpose());
+  const Eigen::LLT<MatX, Eigen::Lower> llt(A);
+  constexpr int at_once = 50;  // columns
+  int above = 0;
+  for (int first = 0; first < draws; first += at_once) {
+    const int count = std::min(at_once, draws - first);
+    MatX z(problem.rows(), count), x(T.cols(), count);
+    for (int j = 0; j < count; ++j) {
+      Stream stream(seed, static_cast<std::uint64_t>(first + j), Purpose::bootstrap, 1);
+      for (Eigen::Index k = 0; k < z.rows(); ++k) z(k, j) = stream.normal();
+      for (Eigen::Index k = 0; k < x.rows(); ++k) x(k, j) = stream.normal();
+    }
+    z.noalias() += T * x;
+    z -= T * llt.solve(T.transpose() * z);
+    above += static_cast<int>((largest_Q(channels, z, lags).array() >= observed).count());
+  }
+  return (1.0 + above) / (1.0 + draws);
+}
+
+}  // namespace drift::inference

@@ -1,0 +1,153 @@
+#include "analysis/planning/rank.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "core/base/check.hpp"
+#include "core/sim/truth.hpp"
+#include "mc/task/campaign.hpp"
+
+namespace drift::planning {
+namespace {
+
+bool equal_axes(const Triads& a, const Triads& b) {
+  const auto equal = [](const SignedAxis& x, const SignedAxis& y) {
+    return x.index == y.index && x.sign == y.sign;
+  };
+  return std::ranges::equal(a.second, b.second, equal) &&
+         std::ranges::equal(a.third, b.third, equal);
+}
+
+/// Whether two filters are ranked alike, but for eq. (5) or (6).
+bool alike(const ModelSpec& a, const ModelSpec& b) {
+  if (a.active != b.active || a.initial_attitude != b.initial_attitude) return false;
+  if (!equal_axes(a.mounting.gyro, b.mounting.gyro)) return false;
+  if (!equal_axes(a.mounting.accelerometer, b.mounting.accelerometer)) return false;
+  for (std::size_t i = 0; i < TermLibrary::num_params; ++i)
+    if (a.active[i] && !(a.priors[i] == b.priors[i])) return false;
+  return a.coupling == b.coupling || (facts(a.coupling).other && facts(b.coupling).other);
+}
+
+/// Groups with models that are not ranked yet.
+std::vector<RankingGroup> groups_of(const mc::Study& study) {
+  std::vector<RankingGroup> groups;
+  for (const FilterSpec& filter : study.filters) {
+    const auto known = std::ranges::find_if(
+        groups, [&](const RankingGroup& g) { return alike(g.models.front().model.spec, filter); });
+    if (known != groups.end()) {
+      known->filters += ", " + filter.name;
+      for (ModelRanking& m : known->models)
+        m.of_the_file |= m.model.spec.coupling == filter.coupling;
+      continue;
+    }
+    RankingGroup group{filter.name, {}};
+    const auto add = [&](Coupling coupling) {
+      ModelSpec spec = filter;
+      spec.coupling = coupling;
+      ModelRanking m;
+      m.model = observability::ranked_model(spec, study.has_truth ? &study.truth : nullptr,
+                                            study.site, study.readout, study.environment);
+      m.of_the_file = coupling == filter.coupling;
+      group.models.push_back(std::move(m));
+    };
+    add(filter.coupling);
+    if (const auto other = facts(filter.coupling).other) add(*other);
+    if (make_layout(filter).size() == 0)
+      throw InputError(
+          ExitCode::config,
+          fmt::format("{}: filter '{}' estimates no parameter (expected at least one that "
+                      "is not fixed). Give it terms",
+                      study.path, filter.name));
+    groups.push_back(std::move(group));
+  }
+  for (RankingGroup& g : groups)  // of two filters, eq. (5) first
+    if (g.models.size() == 2 && g.models[0].of_the_file && g.models[1].of_the_file &&
+        g.models[0].model.spec.coupling == Coupling::eq6)
+      std::swap(g.models[0], g.models[1]);
+  return groups;
+}
+
+/// Where parameters multiply (misalignment times drift), the mean of the prior may be a special
+/// point: the information at truths drawn from it says so.
+std::vector<Elsewhere> ranges_elsewhere(const mc::Study& study,
+                                        const observability::RankedModel& model) {
+  constexpr std::uint64_t draws = 4;
+  std::vector<Elsewhere> ranges(make_layout(model.spec).size(),
+                                {std::numeric_limits<double>::infinity(), 0.0});
+  for (std::uint64_t k = 0; k < draws; ++k) {
+    observability::RankedModel drawn = model;
+    drawn.nominal = draw_parameters(model.spec, study.monte_carlo.seed, k, Purpose::parameters);
+    const observability::Ranking r =
+        observability::rank_parameters(observability::linearise(study.plan, drawn));
+    for (std::size_t i = 0; i < ranges.size(); ++i) {
+      ranges[i].low = std::min(ranges[i].low, r.learning_ratio(i));
+      ranges[i].high = std::max(ranges[i].high, r.learning_ratio(i));
+    }
+  }
+  return ranges;
+}
+
+void rank_model(const mc::Study& study, const RankOptions& options, ModelRanking& m,
+                double& duration) {
+  observability::LinearisedPlan plan =
+      observability::linearise(study.plan, m.model, options.bins_per_dwell);
+  m.ranking = observability::rank_parameters(plan);
+  m.course = observability::information_course(plan);
+  m.pwcs = observability::pwcs_rank(study.plan, study.site, m.model.spec, study.readout);
+  m.elsewhere = ranges_elsewhere(study, m.model);
+  m.methods = observability::compare_methods(m.ranking, m.pwcs, plan, m.course, study.plan);
+  duration = plan.duration;
+  m.bins = std::move(plan.bins);
+  for (observability::TimeBin& bin : m.bins) bin.rows.resize(0, 0);
+}
+
+}  // namespace
+
+PlanRanking rank_plan(const mc::Study& study, const RankOptions& options,
+                      const ImproveProgress& progress) {
+  if (study.kind != RecordingKind::platform)
+    throw InputError(ExitCode::config,
+                     fmt::format("{}: a strapdown recording has no plan to rank (expected kind = "
+                                 "\"platform\"). Give [plan] a preset or positions",
+                                 study.path));
+  if (study.filters.empty())
+    throw InputError(ExitCode::config,
+                     fmt::format("{}: no [[filter]]: nothing to rank. Add a section [[filter]] "
+                                 "with name and coupling",
+                                 study.path));
+  PlanRanking out;
+  out.at_truth = study.has_truth;
+  out.groups = groups_of(study);
+  std::vector<ModelRanking*> models;
+  for (RankingGroup& g : out.groups)
+    for (ModelRanking& m : g.models) models.push_back(&m);
+  for (const FilterSpec& f : study.filters) out.process_noise |= f.noise.any();
+
+  ModelRanking& first = *models.front();
+  Criterion criterion;
+  if (options.improve > 0)
+    criterion = parse_criterion(options.criterion, make_layout(first.model.spec));
+  const auto durations = mc::run_campaign(
+      models.size(),
+      [&](std::size_t k) {
+        double duration = 0.0;
+        rank_model(study, options, *models[k], duration);
+        return duration;
+      },
+      options.threads);
+  out.duration = durations.front();
+  if (options.improve > 0) {
+    PlanImprovement better;
+    better.improvement = improve_plan(study.plan, first.model, criterion, options.improve,
+                                      options.threads, progress);
+    better.after = observability::rank_parameters(
+        observability::linearise(better.improvement.plan, first.model));
+    out.better = std::move(better);
+  }
+  return out;
+}
+
+}  // namespace drift::planning

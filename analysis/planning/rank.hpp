@@ -1,0 +1,67 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/observability/information_by_position.hpp"
+#include "analysis/observability/other_methods.hpp"
+#include "analysis/planning/improve.hpp"
+#include "mc/study/study.hpp"
+
+namespace drift::planning {
+
+/// Learning ratios of a parameter at other points than the one the plan is linearised at.
+struct Elsewhere {
+  double low = 0.0, high = 0.0;
+};
+
+/// The ranking of a plan under one model, by every method.
+struct ModelRanking {
+  observability::RankedModel model;
+  bool of_the_file = true;  ///< false: the other of eqs. (5) and (6), put beside a filter
+  observability::Ranking ranking;
+  std::vector<observability::TimeBin> bins;  ///< without their rows
+  observability::InformationCourse course;
+  observability::PwcsRank pwcs;
+  std::vector<observability::MethodRanking> methods;
+  std::vector<Elsewhere> elsewhere;  ///< of each state, at four truths drawn from the priors
+};
+
+/// Models of the same terms and priors, side by side: eqs. (5) and (6) for a filter of either.
+struct RankingGroup {
+  std::string filters;               ///< names in the file, "corrected, legacy"
+  std::vector<ModelRanking> models;  ///< the filter's own (of several: eq. (5)) first
+
+  const Layout& layout() const { return models.front().ranking.layout; }
+};
+
+/// A better plan for the first model of the first group.
+struct PlanImprovement {
+  Improvement improvement;
+  observability::Ranking after;  ///< of the improved plan
+};
+
+/// Everything `driftscope rank` says.
+struct PlanRanking {
+  double duration = 0.0;       ///< of the plan, slews included [s]
+  bool at_truth = false;       ///< linearised at the means of [truth], else at prior means
+  bool process_noise = false;  ///< a filter has it; the information does not
+  std::vector<RankingGroup> groups;
+  std::optional<PlanImprovement> better;
+};
+
+/// What to look for beside the ranking.
+struct RankOptions {
+  std::size_t improve = 0;      ///< positions to add
+  std::string criterion = "A";  ///< A, D or a parameter
+  int threads = 0;              ///< 0: all
+  int bins_per_dwell = 6;
+};
+
+/// Ranks every filter of a study on its plan; no sampling. InputError (config) for a strapdown
+/// study or one without filter, (usage) for an unknown criterion.
+PlanRanking rank_plan(const mc::Study& study, const RankOptions& options,
+                      const ImproveProgress& progress = {});
+
+}  // namespace drift::planning

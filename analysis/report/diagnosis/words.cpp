@@ -1,0 +1,170 @@
+#include "analysis/report/diagnosis/words.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/report/diagnosis/remark_words.hpp"
+#include "analysis/report/diagnosis/sentence.hpp"
+#include "core/base/number_text.hpp"
+#include "core/base/words.hpp"
+
+namespace drift::report {
+namespace {
+
+using namespace diagnosis;
+using namespace inference;
+using namespace search;
+
+}  // namespace
+
+std::string label_of(const Cause& c) {
+  return keyed(c.term, c.axis);
+}
+
+std::string label_of(const CandidateScore& c) {
+  return c.label.empty() ? keyed(c.term, c.axis) : c.label;
+}
+
+std::vector<ShownCandidate> shown_candidates(const Diagnosis& d, std::size_t most) {
+  const bool labelled =
+      d.cosines.labels.size() == d.causes.size();  // says which parameters are meant
+  const auto is = [&](const CandidateScore& c, std::size_t k) {
+    if (labelled && std::ranges::any_of(d.candidates, [&](const CandidateScore& o) {
+          return label_of(o) == d.cosines.labels[k];
+        }))
+      return label_of(c) == d.cosines.labels[k];
+    return c.term == d.causes[k].term && c.axis == d.causes[k].axis;
+  };
+  std::vector<ShownCandidate> shown;
+  std::vector<bool> had(d.causes.size(), false);
+  for (std::size_t i = 0; i < d.candidates.size(); ++i) {
+    ShownCandidate s{&d.candidates[i], 0};
+    for (std::size_t k = 0; k < d.causes.size(); ++k)
+      if (!had[k] && is(*s.score, k)) {
+        had[k] = true;
+        if (s.alternative == 0) s.alternative = d.causes[k].set + 1;
+      }
+    if (i < most || s.alternative > 0) shown.push_back(s);
+  }
+  return shown;
+}
+
+std::vector<std::string> remarks_of(const Diagnosis& d) {
+  std::vector<std::string> all;
+  for (const Remark& r : d.remarks) all.push_back(in_words(r));
+  if (const auto& recordings = d.where.recordings; !recordings.empty()) {
+    std::vector<std::string> begins;
+    for (const RecordingSpan& r : recordings)
+      begins.push_back(fmt::format("{} begins at {:.0f} s ({:.0f} s of its own time)", r.name,
+                                   r.start_s, r.start_s - r.offset_s));
+    all.push_back(
+        fmt::format("Times in tables and figures run through all recordings, one after another: "
+                    "{}. A number of a "
+                    "position is that of the plan, whatever the recording.",
+                    listed(begins, "and")));
+  }
+  if (std::string patch = patch_text(d); !patch.empty()) all.push_back(std::move(patch));
+  return all;
+}
+
+const RecordingSpan* recording_at(const std::vector<RecordingSpan>& recordings, double t) {
+  if (recordings.empty()) return nullptr;
+  const auto at =
+      std::ranges::find_if(recordings, [&](const RecordingSpan& r) { return t <= r.end_s; });
+  return at == recordings.end() ? &recordings.back() : &*at;
+}
+
+std::string channel_in_words(const std::string& name) {
+  if (name == "acc") return "gravity in the dwells";
+  if (name == "turn") return "the turns";
+  const auto bar = name.find('_');
+  const std::string kind = name.substr(0, bar),
+                    axis = bar == std::string::npos ? "" : name.substr(bar + 1);
+  if (kind == "acc") return fmt::format("accelerometer {}", axis);
+  if (kind == "gimbal") return fmt::format("{} gimbal", axis);
+  if (kind == "gyro") return fmt::format("gyro {}", axis);
+  return name;
+}
+
+std::string fold_name(const Fold& fold, const std::vector<RecordingSpan>& recordings) {
+  switch (fold.of) {
+    case Fold::Of::position:
+      return fmt::format("position {}", fold.number);
+    case Fold::Of::dwell:
+      return fmt::format("dwell {}", fold.number);
+    case Fold::Of::recording:
+      break;
+  }
+  const auto k = static_cast<std::size_t>(fold.number);
+  return k >= 1 && k <= recordings.size()
+             ? fmt::format("recording {}, {}", k, recordings[k - 1].name)
+             : fmt::format("recording {}", k);
+}
+
+std::vector<std::string> twins_in_words(const std::vector<Twins>& twins) {
+  std::vector<std::string> lines;
+  for (const Twins& t : twins)
+    lines.push_back(fmt::format("{} and {} leave the same trace on this plan",
+                                in_words(t.one.term, t.one.axis),
+                                in_words(t.other.term, t.other.axis)));
+  return lines;
+}
+
+std::string where_sentence(const Where& where) {
+  if (where.equation.empty() && where.channels.empty()) return "";
+  std::string out = where.equation.empty()
+                        ? "The misfit is"
+                        : fmt::format("The misfit is in the {}", equation_in_words(where.equation));
+  std::vector<std::string> parts;
+  for (const Share& s : where.channels)
+    if (parts.size() < 2 && s.share > 0.1)
+      parts.push_back(fmt::format("{} ({:.0f} %)", channel_in_words(s.name), 100.0 * s.share));
+  if (!parts.empty()) out += fmt::format(", seen by {}", listed(parts, "and"));
+  parts.clear();
+  for (const Share& s : where.positions)
+    if (parts.size() < 3 && s.share > 0.1)
+      parts.push_back(fmt::format("{} ({:.0f} %)", s.position, 100.0 * s.share));
+  if (!parts.empty())
+    out += fmt::format(", most of it at position{} {}", parts.size() > 1 ? "s" : "",
+                       listed(parts, "and"));
+  if (!where.windows.empty()) {
+    const ScanHit& w = where.windows.front();
+    const RecordingSpan* r = recording_at(where.recordings, 0.5 * (w.start_s + w.end_s));
+    const double offset = r ? r->offset_s : 0.0;
+    out += fmt::format(
+        "; the strongest window is {:.0f} s to {:.0f} s{}{} (chance of a false alarm: {})",
+        w.start_s - offset, w.end_s - offset, r ? " of " + r->name : "",
+        w.equation == where.equation ? ""
+                                     : fmt::format(", as the {}", equation_in_words(w.equation)),
+        p_text(w.p_value));
+  }
+  return out + ".";
+}
+
+std::string held_out_sentence(const HeldOut& held) {
+  const auto chi2 = [](double value) {
+    return std::abs(value) < 10.0 ? decimal_text(value, 2) : number_text(value);
+  };
+  const auto said = [](double gain) {
+    return std::isfinite(gain) ? fmt::format(", log score {:+.3g}", gain) : std::string();
+  };
+  std::string out;
+  if (!held.folds.empty())
+    out = fmt::format(
+        "Data held out of the fit are predicted {}: chi-square per degree of freedom {} → {} in {} "
+        "folds{}.",
+        held.log_score_gain > 0.0 ? "better" : "no better", chi2(held.chi2_per_dof_before),
+        chi2(held.chi2_per_dof_after), held.folds.size(), said(held.log_score_gain));
+  if (!held.recordings.empty())
+    out += fmt::format(
+        "{}Whole recordings, each from a fit to the others, are predicted {}: {} → {}{}.",
+        out.empty() ? "" : " ", held.recording_gain > 0.0 ? "better" : "no better",
+        chi2(held.recording_chi2_per_dof_before), chi2(held.recording_chi2_per_dof_after),
+        said(held.recording_gain));
+  return out;
+}
+
+}  // namespace drift::report

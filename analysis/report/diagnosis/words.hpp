@@ -1,0 +1,51 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "analysis/diagnosis/diagnosis.hpp"
+
+namespace drift::report {
+
+/// "magnetic_drift.y", as interfaces.md 5 splits keys.
+std::string label_of(const search::Cause& cause);
+std::string label_of(const search::CandidateScore& candidate);
+
+/// A candidate of the table or the figure, and the alternative that it belongs to: 1 for the first
+/// set of causes, 0 for what is no cause.
+struct ShownCandidate {
+  const search::CandidateScore* score = nullptr;
+  int alternative = 0;
+};
+
+/// The strongest candidates, and every cause of the verdict however weak its own score is (of two
+/// that cancel each looks weak alone). In the order of the diagnosis; more than `most` only for
+/// causes.
+std::vector<ShownCandidate> shown_candidates(const diagnosis::Diagnosis& diagnosis,
+                                             std::size_t most);
+
+/// What a reader must know: the diagnosis' own remarks, and what patched.toml holds where several
+/// causes remain possible.
+std::vector<std::string> remarks_of(const diagnosis::Diagnosis& diagnosis);
+
+/// The recording that a time of the timeline falls into; null where there is one recording only.
+const diagnosis::RecordingSpan* recording_at(
+    const std::vector<diagnosis::RecordingSpan>& recordings, double t_s);
+
+/// A channel in words: "accelerometer y" of "acc_y", "outer gimbal" of "gimbal_outer".
+std::string channel_in_words(const std::string& name);
+
+/// What a fold holds out: "position 3", "recording 2, b.csv", "dwell 7".
+std::string fold_name(const diagnosis::Fold& fold,
+                      const std::vector<diagnosis::RecordingSpan>& recordings);
+
+/// "sag, ... and accelerometer_cross, ... leave the same trace on this plan", a line each.
+std::vector<std::string> twins_in_words(const std::vector<diagnosis::Twins>& twins);
+
+/// Where the misfit is, in one sentence; empty if nothing is located.
+std::string where_sentence(const diagnosis::Where& where);
+
+/// Whether the cause made held-out prediction better; empty without held-out data.
+std::string held_out_sentence(const diagnosis::HeldOut& held_out);
+
+}  // namespace drift::report

@@ -1,0 +1,98 @@
+#include "analysis/report/page/known_degeneracies.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace drift::report {
+namespace {
+
+/// Collects the coefficients of a direction in SI; incomplete if a parameter is no state.
+class Direction {
+ public:
+  explicit Direction(const Layout& layout) : layout_(layout), scaled_(VecX::Zero(layout.size())) {}
+
+  void add(std::string_view group, int axis, double si) {
+    if (si == 0.0) return;
+    const auto param = TermLibrary::find(fmt::format("{}_{}", group, "xyz"[axis]));
+    const auto at = std::find(layout_.params.begin(), layout_.params.end(), param.value());
+    if (at == layout_.params.end()) {
+      complete_ = false;
+      return;
+    }
+    const auto k = at - layout_.params.begin();
+    scaled_[k] += si / layout_.sigma[k];
+  }
+  bool complete() const { return complete_; }
+  const VecX& scaled() const { return scaled_; }
+
+ private:
+  const Layout& layout_;
+  VecX scaled_;
+  bool complete_ = true;
+};
+
+double along(const SignedAxis& axis, const Vec3& v) {
+  return axis.sign * v[axis.index];
+}
+
+}  // namespace
+
+std::vector<KnownDegeneracy> known_degeneracies(const Layout& layout, const Mounting& mounting) {
+  std::vector<KnownDegeneracy> all;
+  constexpr double exact = 1e-3;  // what rounding leaves of an eigenvector, with room
+  for (int i = 0; i < 3; ++i) {
+    Direction trace(layout);
+    trace.add("D_F", i, 1.0);
+    for (const char* g2 : {"D_II", "D_OO", "D_SS"}) trace.add(g2, i, -1.0);  // per g^2
+    if (trace.complete())
+      all.push_back(
+          {trace.scaled(),
+           "fixed drift with the trace of the g^2 terms: a_I^2 + a_O^2 + a_S^2 = 1 g^2 in any "
+           "laboratory, so only their sum is seen",
+           exact});
+  }
+  for (int i = 0; i < 3; ++i) {
+    Direction cubic(layout);
+    cubic.add("K1", i, 1.0);
+    cubic.add("K3", i, -1.0);  // per g^3
+    if (cubic.complete())
+      all.push_back(
+          {cubic.scaled(),
+           "accelerometer scale with the cubic term: equal where every a_I is -1, 0 or +1 g; "
+           "positions at 45 deg tell them apart",
+           exact});
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    // A rotation rho of both triads: the axis e_i of an instrument becomes e_i + rho x e_i.
+    Direction gauge(layout);
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 tilt = Vec3::Unit(axis).cross(Vec3::Unit(i));
+      gauge.add("eta", i, along(mounting.gyro.third[i], tilt));
+      gauge.add("xi", i, along(mounting.gyro.second[i], tilt));
+      gauge.add("dP", i, along(mounting.accelerometer.second[i], tilt));
+      gauge.add("dO", i, along(mounting.accelerometer.third[i], tilt));
+    }
+    // The drift coefficients turn along by drift times angle, which is small but not nothing.
+    if (gauge.complete())
+      all.push_back(
+          {gauge.scaled(),
+           "gauge: a common small rotation of gyro triad, accelerometer triad and initial "
+           "attitude; only gimbal readings or a convention fix the platform axes",
+           0.05});
+  }
+  return all;
+}
+
+std::string no_signal_reason(std::size_t param) {
+  const std::string_view group = TermLibrary::specs[param].group.view();
+  const auto is_one_of = [&](std::initializer_list<std::string_view> groups) {
+    return std::find(groups.begin(), groups.end(), group) != groups.end();
+  };
+  if (is_one_of({"D_IO", "D_IS", "D_OS", "K_ip"}))
+    return "no signal: a product of two axes, zero where one of them is level";
+  if (is_one_of({"s"})) return "no signal: the gyro is never torqued";
+  return "no signal in this test";
+}
+
+}  // namespace drift::report

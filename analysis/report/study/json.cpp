@@ -1,0 +1,130 @@
+#include "analysis/report/study/json.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "analysis/report/study/tables.hpp"
+#include "core/base/json_number.hpp"
+
+namespace drift::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+constexpr auto number = json_number;
+
+Json of(const stats::Rate& rate) {
+  return {{"value", number(rate.value())},
+          {"low", rate.low()},
+          {"high", rate.high()},
+          {"hits", rate.hits},
+          {"of", rate.of}};
+}
+
+Json of(const mc::Estimated& e, double unit) {
+  return {{"value", number(e.value / unit)},
+          {"low", number(e.low / unit)},
+          {"high", number(e.high / unit)}};
+}
+
+Json of(const mc::ChiSquareSum& sum) {
+  return {{"mean", number(sum.mean())},
+          {"low", number(sum.low())},
+          {"high", number(sum.high())},
+          {"inside", sum.holds()},
+          {"runs_in_band", of(sum.in_band)}};
+}
+
+Json of(const mc::StartStatistics& s) {
+  return {{"nis", of(s.nis)},
+          {"nees_observed", of(s.nees)},
+          {"nees_all", of(s.nees_all)},
+          {"white", of(s.white)},
+          {"healthy", of(s.healthy)},
+          {"wrong", of(s.wrong)},
+          {"silent_failure_rate", of(s.silent)},
+          {"diverged", of(s.diverged)}};
+}
+
+Json parameter(const mc::FilterStatistics& f, std::size_t k) {
+  const mc::ErrorStatistics& e = f.errors()[k];
+  const mc::ParameterHealth& h = f.health()[k];
+  const auto& spec = TermLibrary::specs[f.columns().layout.params[k]];
+  const double unit = spec.unit.to_si;
+  Json coverage = Json::array();
+  for (const stats::Rate& rate : e.coverage()) coverage.push_back(of(rate));
+  return {{"key", spec.key.view()},
+          {"unit", spec.unit.symbol.view()},
+          {"runs", e.runs()},
+          {"prior_sigma", number(e.prior_sigma() / unit)},
+          {"bias", of(e.bias(), unit)},
+          {"rmse", of(e.rmse(), unit)},
+          {"sigma", number(e.mean_sigma() / unit)},
+          {"rmse_over_prior", of(e.rmse(), e.prior_sigma())},
+          {"learning_ratio", number(e.learning())},
+          {"deception_ratio", of(e.deception(), 1.0)},
+          {"coverage", coverage},
+          {"start_consistency", number(h.start_ratio())},
+          {"depends_on_start", of(h.start_depends)},
+          {"claims_to_know", of(h.claims)},
+          {"wrong", of(h.wrong)},
+          {"silent_failure_rate", of(h.silent)}};
+}
+
+Json failures(const mc::FailureStatistics& f) {
+  Json deciles = Json::array();
+  for (const auto& d : f.deciles()) {
+    if (d.chi2 == 0.0) continue;
+    Json rates = Json::array();
+    for (const stats::Rate& rate : d.rate) rates.push_back(number(rate.value()));
+    deciles.push_back({{"key", TermLibrary::specs[d.param].key.view()},
+                       {"chi2_of_9", number(d.chi2)},
+                       {"rate_by_decile", rates}});
+  }
+  Json by_status = Json::object();
+  for (const auto& [status, count] : f.by_status())
+    by_status[std::to_string(static_cast<int>(status))] = count;
+  return {{"lost", of(f.lost())},
+          {"headline_refused", f.too_many()},
+          {"by_status", by_status},
+          {"first_failed", f.first_failed()},
+          {"by_parameter", deciles}};
+}
+
+}  // namespace
+
+std::string study_json(const StudyResults& results) {
+  Json out = {{"schema", 1},
+              {"title", results.study.title},
+              {"headlines", study_headlines(results)},
+              {"points", Json::array()}};
+  for (std::size_t p = 0; p < results.points.size(); ++p) {
+    const mc::StudyPoint& point = results.points[p];
+    Json values = Json::object();
+    for (const auto& [key, value] : point.values) values[key] = value;
+    Json one = {{"id", point.id},
+                {"label", point.label},
+                {"values", values},
+                {"truth", key_of(point.study.truth.coupling)},
+                {"runs", results.statistics[p].runs()},
+                {"failures", failures(results.statistics[p].failures())},
+                {"filters", Json::array()}};
+    for (std::size_t f = 0; f < results.statistics[p].filters().size(); ++f) {
+      const mc::FilterStatistics& filter = results.statistics[p].filters()[f];
+      Json pair = {{"name", filter.columns().name},
+                   {"coupling", key_of(filter.columns().coupling)},
+                   {"matched", matched(results, {p, f})},
+                   {"starts", Json::array()},
+                   {"parameters", Json::array()}};
+      for (const auto& s : filter.starts()) pair["starts"].push_back(of(s));
+      for (std::size_t k = 0; k < filter.errors().size(); ++k)
+        pair["parameters"].push_back(parameter(filter, k));
+      one["filters"].push_back(std::move(pair));
+    }
+    out["points"].push_back(std::move(one));
+  }
+  out["provenance"] = Json::object();
+  for (const auto& [key, value] : results.provenance) out["provenance"][key] = value;
+  // Text may come from a user's file: what is not UTF-8 is replaced, never thrown at.
+  return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace drift::report

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "analysis/report/page/html_report.hpp"
+#include "mc/statistics/point_statistics.hpp"
+#include "mc/study/sweep.hpp"
+#include "mc/task/trace.hpp"
+
+namespace drift::report {
+
+/// A run executed again, for its convergence curves.
+struct TracedRun {
+  std::size_t point = 0;
+  std::uint64_t run = 0;
+  mc::RunTrace trace;
+};
+
+/// Everything a study report is made of.
+struct StudyResults {
+  mc::Study study;  ///< as given, with its sweep
+  std::vector<mc::StudyPoint> points;
+  std::vector<mc::PointStatistics> statistics;  ///< one per point
+  std::vector<TracedRun> traces;
+  std::vector<std::pair<std::string, std::string>> provenance;  ///< shown as they are
+  std::vector<Section> further;  ///< sections of others: ranking by information ...
+};
+
+/// One filter at one study point.
+struct Pair {
+  std::size_t point = 0, filter = 0;
+};
+std::vector<Pair> pairs_of(const StudyResults& results);
+
+const mc::FilterStatistics& statistics_of(const StudyResults& results, const Pair& pair);
+
+/// The filter's equation is the one that made the data (an integrating servo closes like eq. (6)).
+bool matched(const StudyResults& results, const Pair& pair);
+
+/// What tells a point from the others besides the truth's coupling: "plan.preset = six"; or empty.
+std::string condition_of(const mc::StudyPoint& point);
+
+/// The study points that pictures are drawn of: all, or four from the first to the last.
+std::vector<std::size_t> pictured_points(const StudyResults& results);
+
+/// "91.5 % (86.8 to 94.6)"; "-" without runs.
+std::string percent_text(const stats::Rate& rate);
+
+/// The parameter a pair deceives about most: largest RMSE over sigma among those it claims to know.
+/// Layout index; the size of the layout if it claims to know none.
+std::size_t worst_parameter(const mc::FilterStatistics& filter, double claims);
+
+/// "K3_x" of a layout index.
+std::string key_at(const mc::FilterStatistics& filter, std::size_t k);
+
+}  // namespace drift::report

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace drift::report {
+
+/// How a line is drawn, beside its colour: curves must be told apart in print too.
+enum class Stroke { solid, dashed, dotted };
+
+/// Colours that people with any colour vision tell apart (Okabe and Ito 2008), repeated beyond 7.
+std::string_view palette(std::size_t index);
+
+struct TextStyle {
+  double size = 11.0;                 ///< [px]
+  std::string_view anchor = "start";  ///< start, middle, end
+  std::string_view colour = "#333333";
+  bool bold = false;
+  bool halo = false;    ///< white outline, to be read on top of curves
+  double turned = 0.0;  ///< [deg]
+};
+
+/// Elements of an SVG picture, in pixels from the upper left corner. All text is escaped.
+class SvgCanvas {
+ public:
+  SvgCanvas(double width, double height, std::string_view title);
+
+  void rectangle(double x, double y, double width, double height, std::string_view fill,
+                 double opacity = 1.0);
+  void line(double x1, double y1, double x2, double y2, std::string_view colour, double width,
+            Stroke stroke = Stroke::solid);
+  /// A curve through the points, broken where x or y is not finite; a lonely point is a dot.
+  void curve(std::span<const double> x, std::span<const double> y, std::string_view colour,
+             double width, Stroke stroke);
+  /// The area between two curves, broken where one of them is not finite.
+  void area(std::span<const double> x, std::span<const double> low, std::span<const double> high,
+            std::string_view colour, double opacity);
+  void text(double x, double y, std::string_view text, const TextStyle& style = {});
+
+  /// What is drawn until pop() counts from (x, y) and is cut off outside the rectangle.
+  void push_window(double x, double y, double width, double height);
+  void pop_window();
+
+  /// The whole document.
+  std::string finish() &&;
+
+ private:
+  std::string out_;
+};
+
+/// Width of text, about right for sans-serif type [px].
+double text_pixels(std::string_view text, double size);
+
+}  // namespace drift::report

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace drift::search {
+
+/// "magnetic_drift.y"; the term alone where there is no axis.
+inline std::string keyed(std::string_view term, std::string_view axis) {
+  std::string key(term);
+  if (!axis.empty()) key.append(".").append(axis);
+  return key;
+}
+
+/// A number of a cause, in `unit`.
+struct CauseParameter {
+  std::string key;
+  std::size_t param = 0;  ///< index in TermLibrary
+  double value = 0.0, sigma = 0.0;
+  std::string unit;
+  bool profiled = false;  ///< nonlinear: found on a grid and refined; sigma from the profile
+};
+
+struct Confusable {
+  std::string term, axis;
+  double cosine = 0.0;  ///< of the two projected signatures
+};
+
+/// One cause in the answer.
+struct Cause {
+  std::string term;  ///< key of interfaces.md 5, "magnetic_drift"
+  std::string axis;  ///< "y", empty if it has none or is not split
+  std::vector<CauseParameter> parameters;
+  double T = 0.0;  ///< projected score of `dof` degrees
+  int dof = 1;
+  double p_value =
+      1.0;  ///< family-wise; of several simultaneous causes each with the others in the model
+  double held_out_gain =
+      std::numeric_limits<double>::quiet_NaN();  ///< log score that its absence costs; of
+                                                 ///< simultaneous causes
+  double probability = 0.0;
+  double size_sigma = 0.0;  ///< size needed, in prior sigmas
+  int set = 0;  ///< simultaneous causes share a number; alternatives have different ones
+  std::vector<Confusable> confusable_with;
+};
+
+/// A candidate's line in the table: every one that was tried.
+struct CandidateScore {
+  std::string term, axis, label;
+  int dof = 1;
+  double score = 0.0;       ///< T
+  double p_value = 1.0;     ///< family-wise
+  double p_marginal = 1.0;  ///< of this candidate alone
+  double absorbed = 0.0;    ///< part of the raw signature that fitted parameters take up, 0..1
+  double amplitude = 0.0,
+         sigma = 0.0;  ///< expected parameter change and its sigma, in `unit` (one degree)
+  double smallest_detectable = 0.0;  ///< amplitude found with 80 % probability, in `unit`
+  double size_sigma = 0.0;           ///< amplitude over prior sigma
+  double log_bayes = 0.0;            ///< log evidence against the nominal model
+  double probability = 0.0;          ///< among all single candidates and nothing
+  double worst_conditional = 0.0;    ///< largest p-equivalent T of others once this one is in
+  bool adequate = false;             ///< nothing else is significant once it is in
+  bool observable = true;
+  std::string unit;
+};
+
+}  // namespace drift::search

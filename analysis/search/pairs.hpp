@@ -1,0 +1,36 @@
+#pragma once
+
+#include "analysis/search/adequacy.hpp"
+
+namespace drift::search {
+
+/// Two candidates at once.
+struct Pair {
+  Choice a, b;
+  double T = 0.0;  ///< joint score
+  int dof = 2;
+  double strength = 0.0;
+  double log_bayes = 0.0;
+};
+
+/// All pairs of single-parameter candidates, strongest joint score first (at most `most`),
+/// cancelling ones included: T = [g_a g_b] C^-1 [g_a g_b]'. Pairs that are one direction (cosine
+/// above 0.9999) are left out.
+std::vector<Pair> strongest_pairs(const Field& field, std::size_t most);
+
+/// Largest pair strength under the null: threshold and p-values for strongest_pairs.
+inference::MaxNull pair_null(const Field& field, int draws);
+
+/// Pairs that leave nothing significant, by evidence, best first (at most `most`, of the same terms
+/// and axes at most two). Candidates of several parameters take part where their own score is among
+/// the strongest.
+std::vector<Pair> adequate_pairs(const Field& field, const std::vector<Score>& scores,
+                                 double library_threshold, double scan_threshold, std::size_t most);
+
+/// Further causes one by one, the strongest conditional score each time, until nothing is
+/// significant or `most` are in; then those that are not needed are taken out again. Empty if it
+/// never gets quiet.
+std::vector<Choice> greedy(const Field& field, const std::vector<Score>& scores,
+                           double library_threshold, double scan_threshold, std::size_t most);
+
+}  // namespace drift::search

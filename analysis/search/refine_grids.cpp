@@ -1,0 +1,126 @@
+#include "analysis/search/refine_grids.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+
+namespace drift::search {
+namespace {
+
+constexpr int between = 3;      // settings put between each two points
+constexpr double nearly = 6.0;  // log evidence: a second onset that may come to be the best
+
+/// The one setting of a candidate that may lie between grid points; none if there is no such or
+/// several.
+std::optional<std::size_t> continuous_setting(const inference::Candidate& c) {
+  std::optional<std::size_t> found;
+  const auto& settings = c.variants.front().settings;
+  for (std::size_t k = 0; k < settings.size(); ++k) {
+    if (TermLibrary::specs[settings[k].first].kind != ParamKind::nonlinear) continue;
+    if (found) return {};
+    found = k;
+  }
+  return found;
+}
+
+/// Time constants, periods and moments are spread by factors.
+double part_of_the_way(double a, double b, double part) {
+  return a > 0.0 && b > 0.0 ? a * std::pow(b / a, part) : a + part * (b - a);
+}
+
+/// The columns of a candidate at one more setting, computed once for all candidates of its term.
+class Columns {
+ public:
+  explicit Columns(Examination& e) : e_(e), first_(e.set.signatures.size()) {}
+
+  std::vector<int> of(const inference::Candidate& c, const inference::Variant& pattern,
+                      std::size_t place, double value) {
+    const std::size_t param = pattern.settings[place].first;
+    std::vector<int> columns;
+    for (std::size_t k = 0; k < c.params.size(); ++k) {
+      inference::SignatureSpec spec =
+          e_.set.signatures[static_cast<std::size_t>(pattern.columns[k])];
+      spec.theta[param] = value;
+      const auto [at, fresh] = known_.try_emplace({c.params[k], others(pattern, place), value},
+                                                  static_cast<int>(e_.set.signatures.size()));
+      if (fresh) e_.set.signatures.push_back(spec);
+      columns.push_back(at->second);
+    }
+    return columns;
+  }
+  std::span<const inference::SignatureSpec> added() const {
+    return std::span(e_.set.signatures).subspan(first_);
+  }
+
+ private:
+  using Key = std::tuple<std::size_t, std::vector<double>, double>;
+  static std::vector<double> others(const inference::Variant& v, std::size_t place) {
+    std::vector<double> values;
+    for (std::size_t k = 0; k < v.settings.size(); ++k)
+      if (k != place) values.push_back(v.settings[k].second);
+    return values;
+  }
+  Examination& e_;
+  std::size_t first_;
+  std::map<Key, int> known_;
+};
+
+bool same_but(const inference::Variant& a, const inference::Variant& b, std::size_t place) {
+  for (std::size_t k = 0; k < a.settings.size(); ++k)
+    if (k != place && a.settings[k].second != b.settings[k].second) return false;
+  return true;
+}
+
+/// Puts settings between variants `v` and `v + 1`; each of them hands over the nearer part of its
+/// chance.
+void fill(inference::Candidate& c, std::size_t v, std::size_t place, Columns& columns) {
+  const inference::Variant low = c.variants[v], high = c.variants[v + 1];
+  constexpr double kept = 0.5 + 0.5 / (between + 1);  // half lies on the other side
+  c.variants[v].share *= kept;
+  c.variants[v + 1].share *= kept;
+  std::vector<inference::Variant> more;
+  for (int k = 1; k <= between; ++k) {
+    inference::Variant one = low;
+    one.settings[place].second = part_of_the_way(low.settings[place].second,
+                                                 high.settings[place].second, k / (between + 1.0));
+    one.columns = columns.of(c, low, place, one.settings[place].second);
+    one.share = (1.0 - kept) * (low.share + high.share) / between;
+    one.between = true;
+    more.push_back(std::move(one));
+  }
+  c.variants.insert(c.variants.begin() + static_cast<std::ptrdiff_t>(v) + 1, more.begin(),
+                    more.end());
+}
+
+}  // namespace
+
+bool refine_grids(Examination& e, const inference::Test& test, double worth) {
+  double top = 0.0;
+  for (const Score& s : e.scores) top = std::max(top, s.log_bayes);
+  Columns columns(e);
+  for (std::size_t k = 0; k < e.set.candidates.size(); ++k) {
+    inference::Candidate& c = e.set.candidates[k];
+    const auto place = continuous_setting(c);
+    if (!place || e.scores[k].dof == 0 || e.scores[k].log_bayes < top - worth) continue;
+    // Which gaps; from above, so that those below stay where they are.
+    std::set<std::size_t, std::greater<>> gaps;
+    for (const std::size_t v : best_settings(*e.field, k, nearly, 2)) {
+      if (v + 1 < c.variants.size()) gaps.insert(v);
+      if (v > 0) gaps.insert(v - 1);
+    }
+    for (const std::size_t v : gaps)
+      if (same_but(c.variants[v], c.variants[v + 1], *place)) fill(c, v, *place, columns);
+  }
+  const auto added = columns.added();
+  if (added.empty()) return false;
+  const MatX more = inference::signature_columns(e.filter, test, e.fit, added, e.problem.tags);
+  const Eigen::Index before = e.problem.extra.cols();
+  e.problem.extra.conservativeResize(Eigen::NoChange, before + more.cols());
+  e.problem.extra.rightCols(more.cols()) = more;
+  set_noise(e, test.timeline, e.noise);
+  return true;
+}
+
+}  // namespace drift::search

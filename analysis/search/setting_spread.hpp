@@ -1,0 +1,14 @@
+#pragma once
+
+#include "analysis/search/examination.hpp"
+
+namespace drift::search {
+
+/// Standard deviation about `value` of a nonlinear parameter of simultaneous causes, from the
+/// evidence of all settings of choices[which] with the others as they are (SI, as the settings
+/// are). The curvature at the best setting knows nothing of another onset that explains the test as
+/// well; this does.
+double setting_spread(const Examination& nominal, const std::vector<Choice>& choices,
+                      std::size_t which, std::size_t param, double value);
+
+}  // namespace drift::search

@@ -1,0 +1,70 @@
+#include "analysis/search/size_prior.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace drift::search {
+namespace {
+
+constexpr std::array scales{1.0, 0.3, 0.1, 0.03, 0.01};  // of the prior's sigma
+
+/// log of the mean of exp.
+double log_mean_exp(const std::vector<double>& logs) {
+  const double top = *std::max_element(logs.begin(), logs.end());
+  double sum = 0.0;
+  for (const double l : logs) sum += std::exp(l - top);
+  return top + std::log(sum / static_cast<double>(logs.size()));
+}
+
+double log_det(const MatX& A) {
+  const MatX L = Eigen::LLT<MatX>(A).matrixL();
+  return 2.0 * L.diagonal().array().log().sum();
+}
+
+}  // namespace
+
+double log_evidence_of_sizes(const MatX& C, const VecX& g) {
+  if (g.size() == 0) return 0.0;
+  const Eigen::SelfAdjointEigenSolver<MatX> eigen(C);
+  const VecX y = eigen.eigenvectors().transpose() * g;
+  std::vector<double> logs;
+  for (const double s : scales) {
+    double sum = 0.0;
+    for (Eigen::Index k = 0; k < y.size(); ++k) {
+      const double grown = 1.0 + s * s * std::max(eigen.eigenvalues()[k], 0.0);
+      sum += 0.5 * (s * s * y[k] * y[k] / grown - std::log(grown));
+    }
+    logs.push_back(sum);
+  }
+  return log_mean_exp(logs);
+}
+
+double log_gain_of_sizes(const VecX& x, const MatX& covariance, const std::vector<int>& cause) {
+  if (x.size() == 0) return 0.0;
+  const MatX information = covariance.inverse();
+  const VecX pull = information * x;
+  const double unit = log_det(information);
+  const int causes = *std::max_element(cause.begin(), cause.end()) + 1;
+  std::vector<std::size_t> chosen(static_cast<std::size_t>(causes), 0);
+  std::vector<double> logs;
+  for (;;) {
+    MatX A = information;
+    double shrunk = 0.0;  // log of the priors' densities at zero, over the unit prior's
+    for (Eigen::Index k = 0; k < x.size(); ++k) {
+      const double s = scales[chosen[static_cast<std::size_t>(cause[static_cast<std::size_t>(k)])]];
+      A(k, k) += 1.0 / (s * s) - 1.0;
+      shrunk -= std::log(s);
+    }
+    // Of a Gaussian with information `information` about x, times the ratio of the priors.
+    logs.push_back(shrunk + 0.5 * (unit - log_det(A)) +
+                   0.5 * (pull.dot(A.llt().solve(pull)) - x.dot(pull)));
+    std::size_t next = 0;
+    while (next < chosen.size() && ++chosen[next] == scales.size()) chosen[next++] = 0;
+    if (next == chosen.size()) return log_mean_exp(logs);
+  }
+}
+
+}  // namespace drift::search

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "core/config/section.hpp"
+#include "core/physics/earth.hpp"
+#include "core/plan/readout.hpp"
+#include "core/plan/test_plan.hpp"
+#include "core/recording/recording.hpp"
+
+namespace drift {
+
+/// [plan]: what kind of test, and its positions or its dwell detector.
+struct PlanConfig {
+  RecordingKind kind = RecordingKind::platform;
+  TestPlan plan;            ///< of a platform test
+  double static_min = 2.0;  ///< strapdown: shortest dwell that counts [s]
+};
+
+/// Reads [plan]: a preset, or [[plan.position]] one by one, or kind = "strapdown".
+PlanConfig read_plan(config::Section section);
+
+/// Reads [site]; the latitude may be left out for a strapdown recording alone.
+Site read_site(config::Section section, RecordingKind kind);
+
+/// Reads [readout].
+Readout read_readout(config::Section section);
+
+}  // namespace drift

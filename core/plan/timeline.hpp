@@ -1,0 +1,80 @@
+#pragma once
+
+#include <vector>
+
+#include "core/physics/drift_model.hpp"
+#include "core/physics/earth.hpp"
+#include "core/plan/test_plan.hpp"
+#include "core/recording/recording.hpp"
+
+namespace drift {
+
+/// Surroundings at an instant that a recording may carry and terms may use.
+struct Covariates {
+  double temperature = 0.0;     ///< deviation from the mean of the recording [K]
+  Vec3 field_l = Vec3::Zero();  ///< magnetic field, local axes [T]
+};
+
+/// One sample interval: the command and the turntable rate are constant in it.
+struct Interval {
+  double t0 = 0.0, t1 = 0.0;        ///< [s]
+  int position = 0;                 ///< index into the plan, from 0
+  int chain = 0;                    ///< counts cagings: attitude is carried along within a chain
+  bool slew = false;                ///< on the way to the position
+  bool cage = false;                ///< the platform is caged at t0
+  Vec3 omega_cmd_p = Vec3::Zero();  ///< commanded inertial rate [rad/s]
+  double heading0 = 0.0, heading1 = 0.0;  ///< of the case at t0 and t1 [rad]
+  MisalignmentAngles loop =
+      MisalignmentAngles::Zero();  ///< what the loop of coupling
+                                   ///< "compensated" believes: eta x y z, xi x y z [rad]
+  double t_begin = 0.0;            ///< when the test began (several may follow each other) [s]
+  double t_dwell = 0.0;            ///< when the dwell of the position begins [s]
+  Covariates around0, around1;     ///< at t0 and t1, linear in between; zero where not known
+  std::size_t first_node = 0;      ///< nodes first_node .. first_node + 2 substeps
+  int substeps = 1;                ///< steps of two nodes each, at most 0.05 rad of attitude long
+
+  double length() const { return t1 - t0; }
+  double heading_rate() const { return (heading1 - heading0) / length(); }
+  std::size_t node_count() const { return 2 * static_cast<std::size_t>(substeps) + 1; }
+  std::size_t middle_node() const { return first_node + static_cast<std::size_t>(substeps); }
+  std::size_t last_node() const { return first_node + node_count() - 1; }
+};
+
+/// An instant at which the platform is looked at, with all that does not depend on the run: the
+/// reference frame r (nominal platform, in closed form) and the surroundings.
+struct Node {
+  double t = 0.0;
+  Mat3 R_lr;        ///< reference attitude, v_l = R_lr v_r
+  Mat3 R_lr_half;   ///< the same half way to the next node
+  Mat3 R_il;        ///< local to the inertial frame that is local at the caging of the chain
+  Vec3 omega_ic_l;  ///< inertial rate of the case, local axes [rad/s]
+};
+
+/// A test laid out in time: what a simulation and an estimator run along.
+struct Timeline {
+  Site site;
+  std::vector<Interval> intervals;
+  std::vector<Node> nodes;
+  int chains = 0;
+  int positions = 0;
+  bool has_temperature = false;  ///< the intervals carry it
+  bool has_field = false;
+  double mean_temperature = 0.0;  ///< what `temperature` deviates from [degC]
+
+  /// Interval weights of composite Simpson, for the mean over interval i; they sum to 1.
+  static double simpson_weight(int substeps, std::size_t k);
+};
+
+/// Lays a plan out: caging or slews and turns of the case on the way to each position, then the
+/// dwell. The case heads so that the middle gimbal stays below 60 deg, and is turned when it must.
+/// InputError (config) if no heading can do that.
+Timeline lay_out(const TestPlan& plan, const Site& site);
+
+/// The same from a recording: its times, positions, commands and headings. What the recording does
+/// not say comes from the plan. InputError (recording) if they do not fit each other.
+Timeline lay_out(const Recording& recording, const TestPlan& plan, const Site& site);
+
+/// Computes the nodes from the intervals. R_lp is the nominal attitude at the start of each chain.
+void place_nodes(Timeline& timeline, const std::vector<Mat3>& R_lp);
+
+}  // namespace drift

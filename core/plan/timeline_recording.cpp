@@ -1,0 +1,247 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/check.hpp"
+#include "core/physics/gimbals.hpp"
+#include "core/plan/case_heading.hpp"
+#include "core/plan/timeline.hpp"
+
+namespace drift {
+namespace {
+
+constexpr double largest_mismatch = 10.0 * detail::deg;  // between the plan's attitude and the data
+constexpr std::size_t most_messages = 20;
+
+/// Walks the rows of a recording and turns them into intervals; collects what does not fit.
+class Reader {
+ public:
+  Reader(const Recording& recording, const TestPlan& plan, const Site& site)
+      : rec_(recording), plan_(plan), site_(site), passages_(plan_passages(plan, site)) {
+    heading_ = rec_.find("case_heading");
+    phase_ = rec_.find("phase");
+    for (int a = 0; a < 3; ++a) cmd_[a] = rec_.find(std::string("cmd_") + "xyz"[a]);
+    for (int a = 0; a < 6; ++a)
+      loop_[a] = rec_.find(std::string(a < 3 ? "loop_eta_" : "loop_xi_") + "xyz"[a % 3]);
+  }
+
+  Timeline read() {
+    timeline_.site = site_;
+    timeline_.positions = static_cast<int>(plan_.positions.size());
+    check_positions();
+    if (!errors_.empty()) throw InputError(ExitCode::recording, errors_);
+    for (std::size_t row = 0; row < rec_.rows(); ++row) add(row);
+    if (!errors_.empty()) throw InputError(ExitCode::recording, errors_);
+    place_nodes(timeline_, chain_start_);
+    take_covariates();
+    check_attitudes();
+    if (!errors_.empty()) throw InputError(ExitCode::recording, errors_);
+    return std::move(timeline_);
+  }
+
+ private:
+  void complain(std::size_t row, const std::string& what) {
+    if (errors_.size() < most_messages)
+      errors_.push_back(fmt::format("{}:{}: {}", rec_.source.empty() ? "recording" : rec_.source,
+                                    row < rec_.lines.size() ? rec_.lines[row] : row + 1, what));
+  }
+
+  /// Positions that the plan does not have, all in one message.
+  void check_positions() {
+    const auto& numbers = rec_.find("position")->values;
+    const auto planned = static_cast<double>(plan_.positions.size());
+    std::vector<double> others;
+    std::size_t first = 0, rows = 0;
+    for (std::size_t row = 0; row < numbers.size(); ++row) {
+      if (numbers[row] >= 1.0 && numbers[row] <= planned) continue;
+      if (rows++ == 0) first = row;
+      if (std::ranges::find(others, numbers[row]) == others.end()) others.push_back(numbers[row]);
+    }
+    if (rows == 0) return;
+    constexpr std::size_t most = 8;
+    const std::string more =
+        others.size() > most ? fmt::format(" and {} more", others.size() - most) : "";
+    const bool several = others.size() > 1;
+    others.resize(std::min(most, others.size()));
+    complain(first, fmt::format("position{} {}{} {} not in the plan, in {} rows from here on "
+                                "(expected positions 1 to {}). Use the plan "
+                                "the recording was made with, or correct the column",
+                                several ? "s" : "", fmt::join(others, ", "), more,
+                                several ? "are" : "is", rows, plan_.positions.size()));
+  }
+
+  void add(std::size_t row) {
+    const double t = rec_.find("time")->values[row];
+    const double number = rec_.find("position")->values[row];
+    Interval i;
+    i.position = static_cast<int>(std::lround(number)) - 1;
+    const Position& position = plan_.positions[i.position];
+    const Passage& passage = passages_[i.position];
+    i.slew = phase_ && phase_->values[row] == 1.0;
+    i.t1 = t;
+    const Interval* before = timeline_.intervals.empty() ? nullptr : &timeline_.intervals.back();
+    const bool first_row = !before || before->position != i.position;
+    i.cage = !before || (first_row && passage.caged);
+    i.t0 = i.cage ? t - position.sample : before->t1;
+    if (!i.cage && t - i.t0 > 1.5 * position.sample)
+      complain(row,
+               fmt::format("gap of {:.6g} s before this row, but the attitude is carried along "
+                           "here (samples {:.6g} s apart expected). Give the missing rows, or mark "
+                           "the position as caged",
+                           t - i.t0, position.sample));
+    if (i.cage && before && i.t0 < before->t1 - 0.01 * position.sample)
+      complain(row, fmt::format(
+                        "the first row of a caged position comes {:.6g} s after the row before; "
+                        "its interval is one nominal sample, {:.6g} s. Check `sample` in the plan",
+                        t - before->t1, position.sample));
+    if (i.cage) {
+      ++timeline_.chains;
+      // A recording may begin on the way to a torqued position: then its attitude is the plan's.
+      chain_start_.push_back(position.R_lp);
+      heading_now_ = passage.dwell.heading0;
+    }
+    i.chain = timeline_.chains - 1;
+    command(row, position, i);
+    i.heading0 = heading_now_;
+    i.heading1 = heading_ ? heading_->values[row] : planned_heading(passage, i);
+    if (i.cage && heading_) i.heading0 = i.heading1;
+    if (!std::isfinite(i.heading1))
+      complain(row, "case_heading is missing. Give it in every row, or leave the column out");
+    heading_now_ = i.heading1;
+    for (int a = 0; a < 6; ++a)
+      if (loop_[a] && std::isfinite(loop_[a]->values[row])) i.loop[a] = loop_[a]->values[row];
+    timeline_.intervals.push_back(i);
+  }
+
+  void command(std::size_t row, const Position& position, Interval& i) {
+    if (cmd_[0]) {
+      for (int a = 0; a < 3; ++a) i.omega_cmd_p[a] = cmd_[a]->values[row];
+      if (!i.omega_cmd_p.allFinite())
+        complain(row,
+                 "cmd_x, cmd_y, cmd_z must be numbers in every row: the platform obeys them. "
+                 "Write 0 where nothing was commanded");
+    } else if (i.slew) {
+      complain(row, "a slew (phase 1) without columns cmd_x, cmd_y, cmd_z. Record the commands");
+    } else if (position.mode == CommandLaw::level) {
+      i.omega_cmd_p = position.R_lp.transpose() * site_.omega_ie_l();
+    }
+  }
+
+  /// Without a column, the case heads as planned; it turns evenly between rows that are slews.
+  double planned_heading(const Passage& passage, const Interval& i) const {
+    if (!i.slew || passage.approach.empty()) return passage.dwell.heading1;
+    const Stretch& turn = passage.approach.front();
+    const double rate = (turn.heading1 - turn.heading0) / turn.duration;
+    const double next = heading_now_ + rate * i.length();
+    return rate >= 0.0 ? std::min(next, turn.heading1) : std::max(next, turn.heading1);
+  }
+
+  /// A covariate at the end of every row, gaps closed by straight lines; empty if there is none.
+  std::vector<double> covariate(const char* name) const {
+    const Channel* c = rec_.find(name);
+    if (!c) return {};
+    std::vector<double> values = c->values;
+    std::optional<std::size_t> known;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      if (!std::isfinite(values[k])) continue;
+      const std::size_t from = known ? *known + 1 : 0;
+      for (std::size_t m = from; m < k; ++m) {
+        const double part = known ? (time(m) - time(*known)) / (time(k) - time(*known)) : 1.0;
+        values[m] = known ? values[*known] + part * (values[k] - values[*known]) : values[k];
+      }
+      known = k;
+    }
+    if (!known) return {};
+    for (std::size_t m = *known + 1; m < values.size(); ++m) values[m] = values[*known];
+    return values;
+  }
+  double time(std::size_t row) const { return rec_.find("time")->values[row]; }
+
+  void take_covariates() {
+    const std::size_t n = timeline_.intervals.size();
+    const auto before = [&](std::size_t k) {  // the row whose end is the start of interval k
+      return k > 0 && timeline_.intervals[k].t0 == timeline_.intervals[k - 1].t1 ? k - 1 : k;
+    };
+    if (const auto T = covariate("temperature"); !T.empty()) {
+      timeline_.has_temperature = true;
+      double sum = 0.0;
+      for (const double v : T) sum += v;
+      timeline_.mean_temperature = sum / static_cast<double>(n);
+      for (std::size_t k = 0; k < n; ++k) {
+        timeline_.intervals[k].around0.temperature = T[before(k)] - timeline_.mean_temperature;
+        timeline_.intervals[k].around1.temperature = T[k] - timeline_.mean_temperature;
+      }
+    }
+    const std::array<std::vector<double>, 3> field{covariate("field_n"), covariate("field_w"),
+                                                   covariate("field_u")};
+    if (field[0].empty() || field[1].empty() || field[2].empty()) return;
+    timeline_.has_field = true;
+    for (std::size_t k = 0; k < n; ++k)
+      for (int a = 0; a < 3; ++a) {
+        timeline_.intervals[k].around0.field_l[a] = field[a][before(k)];
+        timeline_.intervals[k].around1.field_l[a] = field[a][k];
+      }
+  }
+
+  /// The instruments must show the attitude that the plan says; 10 deg off is another plan.
+  void check_attitudes() {
+    for (std::size_t k = 0; k < timeline_.intervals.size(); ++k) {
+      const Interval& i = timeline_.intervals[k];
+      if (!i.cage) continue;
+      const Node& node = timeline_.nodes[i.last_node()];
+      const auto channels = [&](const std::array<const char*, 3>& names) -> std::optional<Vec3> {
+        Vec3 v;
+        for (int a = 0; a < 3; ++a) {
+          const Channel* c = rec_.find(names[a]);
+          if (!c || !std::isfinite(c->values[k])) return std::nullopt;
+          v[a] = c->values[k];
+        }
+        return v;
+      };
+      const auto hint = [&](const char* what, double angle) {
+        complain(k,
+                 fmt::format(
+                     "position {} ('{}'): the {} {:.0f} deg from the attitude in the plan. Is "
+                     "this the plan, and the order of positions, the recording was made with?",
+                     i.position + 1, plan_.positions[i.position].name, what, angle / detail::deg));
+      };
+      if (const auto acc = channels({"acc_x", "acc_y", "acc_z"})) {
+        const Vec3 expected = node.R_lr.row(2);
+        const double angle = std::atan2(acc->cross(expected).norm(), acc->dot(expected));
+        if (!(angle < largest_mismatch)) hint("accelerometers show Up", angle);
+      }
+      if (const auto gimbal = channels({"gimbal_outer", "gimbal_middle", "gimbal_inner"})) {
+        const Mat3 R_lp = case_attitude(i.heading1) * gimbal_chain(*gimbal);
+        const double angle = rotation_vector(node.R_lr.transpose() * R_lp).norm();
+        if (!(angle < largest_mismatch)) hint("gimbal angles are", angle);
+      }
+    }
+  }
+
+  const Recording& rec_;
+  const TestPlan& plan_;
+  const Site& site_;
+  std::vector<Passage> passages_;
+  const Channel* heading_ = nullptr;
+  const Channel* phase_ = nullptr;
+  std::array<const Channel*, 3> cmd_{};
+  std::array<const Channel*, 6> loop_{};
+  Timeline timeline_;
+  std::vector<Mat3> chain_start_;
+  double heading_now_ = 0.0;
+  std::vector<std::string> errors_;
+};
+
+}  // namespace
+
+Timeline lay_out(const Recording& recording, const TestPlan& plan, const Site& site) {
+  return Reader(recording, plan, site).read();
+}
+
+}  // namespace drift

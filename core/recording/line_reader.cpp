@@ -1,0 +1,84 @@
+#include "core/recording/line_reader.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "core/base/check.hpp"
+
+namespace drift {
+
+LineReader::LineReader(const std::string& path) : path_(path), buffer_(4 * longest_line) {
+  fd_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (fd_ < 0)
+    throw InputError(ExitCode::io, fmt::format("{}: cannot be opened: {}. Check the path and its "
+                                               "permissions",
+                                               path, std::strerror(errno)));
+  struct stat info {};
+  if (::fstat(fd_, &info) == 0 && info.st_size > 0)
+    file_size_ = static_cast<std::size_t>(info.st_size);
+}
+
+LineReader::~LineReader() {
+  ::close(fd_);
+}
+
+bool LineReader::refill() {
+  if (begin_ > 0) {
+    std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
+    end_ -= begin_;
+    begin_ = 0;
+  }
+  ssize_t got = 0;
+  do got = ::read(fd_, buffer_.data() + end_, buffer_.size() - end_);
+  while (got < 0 && errno == EINTR);
+  if (got < 0)
+    throw InputError(ExitCode::io,
+                     fmt::format("{}:{}: cannot be read on: {}. Check the disk or the "
+                                 "network drive",
+                                 path_, number_ + 1, std::strerror(errno)));
+  end_ += static_cast<std::size_t>(got);
+  at_end_ = got == 0;
+  return got > 0;
+}
+
+bool LineReader::next(std::string_view& line) {
+  cut_ = false;
+  std::size_t searched = 0;
+  while (true) {
+    const char* start = buffer_.data() + begin_;
+    const std::size_t held = end_ - begin_;
+    if (const void* hit = std::memchr(start + searched, '\n', held - searched)) {
+      std::size_t size = static_cast<std::size_t>(static_cast<const char*>(hit) - start);
+      begin_ += size + 1;
+      consumed_ += size + 1;
+      cut_ = cut_ || size > longest_line;
+      if (size > 0 && start[size - 1] == '\r') --size;
+      line = {start, std::min(size, longest_line)};
+      ++number_;
+      return true;
+    }
+    searched = held;
+    if (held > 2 * longest_line) {  // keep the beginning for the message, drop what follows
+      cut_ = true;
+      consumed_ += held - longest_line - 1;
+      end_ = begin_ + longest_line + 1;
+      searched = longest_line + 1;
+    }
+    if (at_end_ || !refill()) {
+      if (begin_ == end_) return false;
+      const std::size_t size = end_ - begin_;
+      line = {buffer_.data() + begin_, std::min(size, longest_line)};
+      cut_ = cut_ || size > longest_line;
+      begin_ = end_;
+      consumed_ += size;
+      ++number_;
+      return true;
+    }
+  }
+}
+
+}  // namespace drift

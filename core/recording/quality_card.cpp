@@ -1,0 +1,202 @@
+#include "core/recording/quality_card.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/recording/recording_channels.hpp"
+#include "core/recording/recording_problems.hpp"
+
+namespace drift {
+namespace {
+
+constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
+
+double median(std::vector<double> values) {
+  if (values.empty()) return nan_value;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  if (values.size() % 2 == 1) return *middle;
+  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
+}
+
+/// Intervals and gaps. Every position has its own sample interval; from one position to the next
+/// time may pass.
+void look_at_time(const Recording& r, QualityCard& card) {
+  const Channel* time = r.find("time");
+  if (!time || r.rows() == 0) return;
+  const auto& t = time->values;
+  const Channel* position = r.find("position");
+  card.start = t.front();
+  card.span = t.back() - t.front();
+  std::vector<double> all;
+  double squares = 0.0;
+  std::size_t regular = 0;
+  double last_interval = nan_value;
+  for (std::size_t first = 0; first < t.size();) {
+    std::size_t end = first + 1;
+    while (end < t.size() && (!position || position->values[end] == position->values[first])) ++end;
+    std::vector<double> steps;
+    for (std::size_t i = first + 1; i < end; ++i) steps.push_back(t[i] - t[i - 1]);
+    all.insert(all.end(), steps.begin(), steps.end());
+    const double interval = steps.empty() ? last_interval : median(steps);
+    for (std::size_t i = first + 1; i < end; ++i) {
+      const double step = t[i] - t[i - 1];
+      if (step > 1.5 * interval) {
+        card.gaps.push_back({r.lines[i], t[i - 1], step});
+        card.lost += std::max(0.0, std::round(step / interval) - 1.0);
+      } else {
+        squares += (step - interval) * (step - interval);
+        ++regular;
+      }
+    }
+    if (first > 0 && t[first] - t[first - 1] > 1.5 * interval)
+      card.between.push_back({r.lines[first], t[first - 1], t[first] - t[first - 1]});
+    last_interval = interval;
+    if (position) ++card.positions;
+    first = end;
+  }
+  card.interval = median(all);
+  card.jitter = regular > 0 ? std::sqrt(squares / static_cast<double>(regular)) : nan_value;
+}
+
+ChannelQuality look_at_channel(const Channel& c, const Recording& r, RecordingKind kind) {
+  ChannelQuality q;
+  q.name = c.name;
+  const auto quantity = known_quantity(c.name);
+  q.unit = quantity && !quantity->needs_unit ? "" : std::string(c.unit.symbol.view());
+  q.covariate = is_covariate(c.name, kind);
+  q.min = q.max = q.mean = q.sd = nan_value;
+  double mean = 0.0, squares = 0.0, low = 0.0, high = 0.0;
+  for (const double x : c.values) {
+    if (!std::isfinite(x)) {
+      ++q.missing;
+      continue;
+    }
+    low = q.measured == 0 ? x : std::min(low, x);
+    high = q.measured == 0 ? x : std::max(high, x);
+    ++q.measured;
+    const double step = x - mean;  // Welford: no cancellation
+    mean += step / static_cast<double>(q.measured);
+    squares += step * (x - mean);
+  }
+  if (q.measured == 0) return q;
+  q.min = in_unit(low, c.unit);
+  q.max = in_unit(high, c.unit);
+  q.mean = mean / c.unit.to_si;
+  q.sd = q.measured > 1 ? std::sqrt(squares / static_cast<double>(q.measured - 1)) / c.unit.to_si
+                        : 0.0;
+  for (std::size_t i = 0; i < c.values.size();) {
+    const double x = c.values[i];
+    std::size_t end = i + 1;
+    while (end < c.values.size() && c.values[end] == x) ++end;
+    if (std::isfinite(x)) {
+      if (end - i > q.stuck) {
+        q.stuck = end - i;
+        q.stuck_line = r.lines[i];
+      }
+      if (end - i >= 3 && (x == low || x == high)) ++q.saturated;
+    }
+    i = end;
+  }
+  return q;
+}
+
+/// A sensor, which cannot read one and the same value for long; a plan or a command can.
+bool is_sensor(const ChannelQuality& q) {
+  return !q.covariate && (q.name.starts_with("acc_") || q.name.starts_with("gyro_") ||
+                          q.name.starts_with("gimbal_"));
+}
+
+void remark(const Recording& r, RecordingKind kind, QualityCard& card) {
+  if (kind == RecordingKind::platform) {
+    if (!r.find("cmd_x"))
+      card.remarks.push_back("no commands (cmd_*): those of the plan are taken");
+    if (!r.find("phase")) card.remarks.push_back("no phase: every row is taken as dwell");
+    for (const auto& triple : {channel_triples[0], channel_triples[1]}) {
+      std::vector<std::string_view> absent;
+      for (const auto name : triple.names)
+        if (!r.find(name)) absent.push_back(name);
+      if (absent.size() == triple.names.size())
+        card.remarks.push_back(fmt::format("no {}", triple.what));
+      else
+        for (const auto name : absent)
+          card.remarks.push_back(fmt::format("no {}: taken as not measured", name));
+    }
+  }
+  if (!card.between.empty())
+    card.remarks.push_back(fmt::format(
+        "{} gaps between positions: normal if the platform was caged there", card.between.size()));
+  for (const auto& q : card.channels) {
+    if (q.measured == 0)
+      card.remarks.push_back(q.name + ": nothing was measured");
+    else if (is_sensor(q) && q.stuck >= 20)
+      card.remarks.push_back(
+          fmt::format("{}: {} identical samples from line {} on: a stuck sensor?", q.name, q.stuck,
+                      q.stuck_line));
+    else if (is_sensor(q) && q.saturated > 0 && q.max > q.min)
+      card.remarks.push_back(
+          fmt::format("{}: {} runs at its extreme: saturated?", q.name, q.saturated));
+  }
+}
+
+/// At most five significant digits, "-" for none.
+std::string digits(double x) {
+  return std::isnan(x) ? "-" : fmt::format("{:.5g}", x);
+}
+
+std::string gap_text(const std::vector<Gap>& gaps) {
+  if (gaps.empty()) return "none";
+  const auto& g = *std::ranges::max_element(gaps, {}, &Gap::length);
+  return fmt::format("{}, largest {} s after {} s (line {})", gaps.size(), digits(g.length),
+                     fmt::format("{:.10g}", g.start), g.line);
+}
+
+}  // namespace
+
+QualityCard quality_card(const Recording& recording, RecordingKind kind) {
+  QualityCard card;
+  card.file = recording.source;
+  const auto dot = card.file.rfind('.');
+  const std::string extension = dot == std::string::npos ? "" : card.file.substr(dot);
+  card.format = extension.empty()                            ? "simulated"
+                : extension == ".mat" || extension == ".MAT" ? "MATLAB"
+                : extension == ".csv" || extension == ".CSV" ? "CSV"
+                                                             : "HDF5";
+  card.rows = recording.rows();
+  card.facts = recording.facts;
+  look_at_time(recording, card);
+  for (const auto& c : recording.channels)
+    if (c.name != "time") card.channels.push_back(look_at_channel(c, recording, kind));
+  remark(recording, kind, card);
+  return card;
+}
+
+std::string to_text(const QualityCard& card) {
+  std::string out = fmt::format("{} ({}): {} rows, {:.10g} s from {:.10g} s on",
+                                card.file.empty() ? "recording" : card.file, card.format, card.rows,
+                                card.span, card.start);
+  if (card.positions > 0) out += fmt::format(", {} positions", card.positions);
+  out += fmt::format("\nsample interval {} s (median), jitter {} s\n", digits(card.interval),
+                     digits(card.jitter));
+  out += fmt::format("gaps {}", gap_text(card.gaps));
+  if (!card.gaps.empty()) out += fmt::format(", about {:.0f} samples lost", card.lost);
+  if (card.positions > 0) out += fmt::format("; between positions {}", gap_text(card.between));
+  out += fmt::format("\n{:<16}{:<10}{:>12}{:>12}{:>12}{:>12}{:>9}{:>8}{:>6}\n", "channel", "unit",
+                     "min", "max", "mean", "sd", "missing", "stuck", "sat");
+  for (const auto& q : card.channels)
+    out += fmt::format("{:<16}{:<10}{:>12}{:>12}{:>12}{:>12}{:>9}{:>8}{:>6}{}\n", q.name, q.unit,
+                       digits(q.min), digits(q.max), digits(q.mean), digits(q.sd), q.missing,
+                       q.stuck, q.saturated, q.covariate ? "  covariate" : "");
+  for (const auto& sentence : card.remarks) out += "! " + sentence + "\n";
+  for (const auto& [key, value] : card.facts) {
+    std::string shown = value.substr(0, 90);
+    while (shown.size() < value.size() && !shown.empty() && !valid_utf8(shown)) shown.pop_back();
+    out += fmt::format("# {} = {}{}\n", key, shown, shown.size() < value.size() ? "..." : "");
+  }
+  return out;
+}
+
+}  // namespace drift

@@ -1,0 +1,110 @@
+#include "core/recording/recording.hpp"
+
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include "core/base/atomic_file.hpp"
+#include "core/base/check.hpp"
+#include "core/recording/recording_channels.hpp"
+#include "core/recording/recording_check.hpp"
+#include "core/recording/recording_csv.hpp"
+#include "core/recording/recording_hdf5.hpp"
+#include "core/recording/recording_mat.hpp"
+
+namespace drift {
+namespace {
+
+/// The extension in lower case, with its dot.
+std::string extension_of(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::ranges::transform(extension, extension.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+  });
+  return extension;
+}
+
+[[noreturn]] void throw_extension(const std::string& path, const std::string& extension) {
+  throw InputError(
+      ExitCode::recording,
+      fmt::format("{}: no format is known for the extension {} (expected .csv, .h5, .hdf5 "
+                  "or .mat). Rename or convert the file",
+                  path, in_quotes(extension)));
+}
+
+void require_regular_file(const std::string& path) {
+  struct stat info {};
+  std::string wrong;
+  if (::stat(path.c_str(), &info) != 0)
+    wrong = std::strerror(errno);
+  else if (S_ISDIR(info.st_mode))
+    wrong = "it is a directory";
+  else if (!S_ISREG(info.st_mode))
+    wrong = "it is not an ordinary file";
+  else if (std::FILE* f = std::fopen(path.c_str(), "re"))
+    std::fclose(f);
+  else
+    wrong = std::strerror(errno);
+  if (!wrong.empty())
+    throw InputError(ExitCode::io,
+                     fmt::format("{}: cannot be read: {} (expected a recording). Check the "
+                                 "path and its permissions",
+                                 path, wrong));
+}
+
+/// Facts as every format can hold them, so that what is written reads back alike everywhere.
+Facts plain_facts(const Recording& recording, const std::string& path) {
+  RawRecording raw;
+  for (const auto& [key, value] : recording.facts) {
+    std::string plain = key;
+    std::ranges::replace(plain, '=', '_');
+    if (!add_fact(raw, plain.empty() ? "fact" : plain, value))
+      throw_cannot_write(path,
+                         "the fact " + in_quotes(key) + " is too long, or there are too many");
+  }
+  return std::move(raw.facts);
+}
+
+}  // namespace
+
+Recording read_recording(const std::string& path, RecordingKind kind, double gravity) {
+  require_regular_file(path);
+  Problems problems(path);
+  RawRecording raw;
+  const std::string extension = extension_of(path);
+  if (extension == ".csv")
+    raw = read_csv(path, problems);
+  else if (extension == ".h5" || extension == ".hdf5")
+    raw = read_isolated(path, problems, read_hdf5);
+  else if (extension == ".mat")
+    raw = read_isolated(path, problems, read_mat);
+  else
+    throw_extension(path, extension);
+  Recording recording = checked_recording(std::move(raw), kind, gravity, problems);
+  problems.throw_if_any();
+  return recording;
+}
+
+void write_recording(const Recording& recording, const std::string& path) {
+  for ([[maybe_unused]] const auto& c : recording.channels) {
+    DRIFT_EXPECTS(c.values.size() == recording.rows());
+    DRIFT_EXPECTS(valid_channel_name(c.name));
+  }
+  const std::string extension = extension_of(path);
+  if (extension != ".csv" && extension != ".h5" && extension != ".hdf5" && extension != ".mat")
+    throw_extension(path, extension);
+  AtomicFile file(path);
+  const Facts facts = plain_facts(recording, path);
+  const auto writer = extension == ".mat" ? write_mat : write_hdf5;
+  const std::string wrong =
+      extension == ".csv"
+          ? write_csv(recording, facts, file.temporary())
+          : write_isolated([&] { return writer(recording, facts, file.temporary()); });
+  if (!wrong.empty()) throw_cannot_write(path, wrong);
+  file.commit();
+}
+
+}  // namespace drift

@@ -1,0 +1,68 @@
+#include "core/recording/recording_channels.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace drift {
+namespace {
+
+constexpr ChannelQuantity time_q{"s"_unit.dim, "a time, for example [s], [ms], [min] or [h]"};
+constexpr ChannelQuantity force_q{"g"_unit.dim, "a specific force, for example [g], [mg] or [ug]",
+                                  true, 1e3};
+constexpr ChannelQuantity angle_q{
+    "rad"_unit.dim, "an angle, for example [deg], [rad], [arcmin] or [arcsec]", true, 1e5};
+constexpr ChannelQuantity rate_q{
+    "rad/s"_unit.dim, "an angular rate, for example [deg/h], [deg/s] or [rad/s]", true, 200.0};
+constexpr ChannelQuantity command_q{rate_q.dim, rate_q.words, true, 10.0};
+constexpr ChannelQuantity heat_q{"K"_unit.dim, "a temperature, [degC] or [K]"};
+constexpr ChannelQuantity field_q{"T"_unit.dim, "a magnetic field, for example [gauss] or [uT]"};
+constexpr ChannelQuantity number_q{{}, "a plain number, without unit", false};
+
+bool is_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+}  // namespace
+
+std::optional<ChannelQuantity> known_quantity(std::string_view name) {
+  if (name == "time") return time_q;
+  if (name == "position" || name == "phase") return number_q;
+  if (name == "case_heading") return angle_q;
+  if (name == "temperature") return heat_q;
+  if (name.starts_with("field_")) return field_q;
+  constexpr std::array quantities{force_q, angle_q, command_q,
+                                  rate_q};  // in the order of the triples
+  for (std::size_t t = 0; t < channel_triples.size(); ++t)
+    if (std::ranges::find(channel_triples[t].names, name) != channel_triples[t].names.end())
+      return quantities[t];
+  return std::nullopt;
+}
+
+bool valid_channel_name(std::string_view name) {
+  if (name.empty() || name.size() > 63 || !is_letter(name.front())) return false;
+  if (name == "units" || name == "facts" || name.ends_with("_unit")) return false;
+  return std::ranges::all_of(name, [](char c) { return is_letter(c) || is_digit(c) || c == '_'; });
+}
+
+bool is_covariate(std::string_view name, RecordingKind kind) {
+  if (name == "time" || name.starts_with("acc_")) return !known_quantity(name);
+  if (kind == RecordingKind::strapdown) return !(name.starts_with("gyro_") && known_quantity(name));
+  if (name.starts_with("gyro_") || name == "temperature" || name.starts_with("field_")) return true;
+  return !known_quantity(name);
+}
+
+double in_unit(double value, const Unit& unit) {
+  const double quotient = value / unit.to_si;
+  if (quotient * unit.to_si == value || !std::isfinite(quotient)) return quotient;
+  double best = quotient;
+  for (const double side : {-HUGE_VAL, HUGE_VAL}) {
+    const double other = std::nextafter(quotient, side);
+    if (std::abs(other * unit.to_si - value) < std::abs(best * unit.to_si - value)) best = other;
+  }
+  return best;
+}
+
+}  // namespace drift

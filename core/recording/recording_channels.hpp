@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include "core/base/units.hpp"
+#include "core/recording/recording.hpp"
+
+namespace drift {
+
+/// What a known channel measures (interfaces.md, sections 3 and 7).
+struct ChannelQuantity {
+  Dimension dim;
+  std::string_view words;  ///< "a specific force, for example [g], [mg] or [ug]"
+  bool needs_unit = true;
+  double most =
+      1e300;  ///< largest plausible magnitude [internal unit]; beyond it something is wrong
+};
+
+/// The quantity of a channel the program knows by name; empty for a covariate of any dimension.
+std::optional<ChannelQuantity> known_quantity(std::string_view name);
+
+/// Channels that come as three axes or not at all.
+struct ChannelTriple {
+  std::string_view what;
+  std::array<std::string_view, 3> names;
+};
+inline constexpr std::array<ChannelTriple, 4> channel_triples{{
+    {"accelerometers", {"acc_x", "acc_y", "acc_z"}},
+    {"gimbal angles", {"gimbal_outer", "gimbal_middle", "gimbal_inner"}},
+    {"commanded rates", {"cmd_x", "cmd_y", "cmd_z"}},
+    {"gyros", {"gyro_x", "gyro_y", "gyro_z"}},
+}};
+
+/// A name that CSV, HDF5 and MATLAB can all hold: a letter, then letters, digits and underscores,
+/// at most 63; not "units", "facts" or one that ends in "_unit", which MATLAB files use.
+bool valid_channel_name(std::string_view name);
+
+/// Whether any term may use the channel but none has to (temperature, field_n, ...).
+bool is_covariate(std::string_view name, RecordingKind kind);
+
+/// A value [internal units] in the unit of its channel, such that reading it back gives the value
+/// itself, or the nearest to it that this unit can express (within 1 ulp).
+double in_unit(double value, const Unit& unit);
+
+}  // namespace drift

@@ -1,0 +1,240 @@
+#include "core/recording/recording_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/base/check.hpp"
+#include "core/recording/recording_channels.hpp"
+
+namespace drift {
+namespace {
+
+/// Where a row is, for messages: "line:column".
+std::string at(const Recording& r, std::size_t row, std::string_view column) {
+  return fmt::format("{}:{}", r.lines[row], column);
+}
+
+void check_names(const RawRecording& raw, Problems& problems) {
+  for (std::size_t i = 0; i < raw.columns.size(); ++i) {
+    const auto& name = raw.columns[i].name;
+    if (!valid_channel_name(name))
+      problems.add(fmt::format("column {}", i + 1), "the name is " + in_quotes(name),
+                   "a letter, then letters, digits and underscores, at most 63; not 'units', "
+                   "'facts' or one that ends in '_unit'",
+                   "Rename the column");
+    for (std::size_t j = 0; j < i; ++j)
+      if (raw.columns[j].name == name)
+        problems.add(name, fmt::format("columns {} and {} have the same name", j + 1, i + 1),
+                     "every name once", "Rename or remove one of them");
+  }
+  for (const auto& [key, value] : raw.facts)
+    if (!valid_utf8(key) || !valid_utf8(value))
+      problems.add("", fmt::format("the fact {} is not UTF-8", in_quotes(key)), "UTF-8 text",
+                   "Save the file as UTF-8");
+}
+
+/// The unit the column's values are converted with.
+Unit checked_unit(const RawColumn& column, RecordingKind kind, double gravity, Problems& problems) {
+  const auto quantity = known_quantity(column.name);
+  const std::string expected(
+      quantity ? quantity->words : "a unit such as [degC], [gauss], [arcsec] or [1] for a number");
+  if (!column.unit) {
+    if (!quantity || quantity->needs_unit)
+      problems.add(column.name, "the unit is missing", expected,
+                   "Give the unit with the name, as in 'time [s]'");
+    return unit::one;
+  }
+  const auto unit = parse_unit(*column.unit);
+  if (!unit) {
+    problems.add(column.name, "unknown unit " + in_quotes(*column.unit), expected,
+                 "Write the unit as a product of known ones, as in deg/h or m/s^2");
+    return unit::one;
+  }
+  if (!quantity || unit->dim == quantity->dim) return *unit;
+  if (quantity->dim == unit::g.dim && unit->dim == "m/s^2"_unit.dim) {
+    if (kind == RecordingKind::strapdown) return {unit->symbol, unit->to_si / gravity, unit::g.dim};
+    problems.add(column.name, fmt::format("the unit is [{}]", *column.unit),
+                 "specific force in units of local g, for example [g] or [ug]",
+                 "Divide by the gravity of the test site and write [g]");
+    return *unit;
+  }
+  problems.add(column.name,
+               fmt::format("the unit [{}] does not measure this channel", *column.unit), expected,
+               "Correct the unit or the name of the column");
+  return *unit;
+}
+
+void check_columns(const Recording& r, RecordingKind kind, Problems& problems) {
+  std::string present;
+  for (const auto& c : r.channels) present += (present.empty() ? "" : ", ") + c.name;
+  const bool strapdown = kind == RecordingKind::strapdown;
+  const std::string hint =
+      strapdown ? "Add it; a recording of a gimballed platform needs a study without kind = "
+                  "\"strapdown\""
+                : "Add it; sensors fixed to a case need [plan] kind = \"strapdown\" in the study";
+  const auto need = [&](std::string_view name) {
+    if (!r.find(name))
+      problems.add(name, "the column is missing",
+                   fmt::format("it beside the columns found: {}", present), hint);
+  };
+  need("time");
+  if (!strapdown) need("position");
+  for (const auto& triple : channel_triples) {
+    const auto has = [&](std::string_view name) { return r.find(name) != nullptr; };
+    const auto count = std::ranges::count_if(triple.names, has);
+    const bool required = strapdown && (triple.what == "gyros" || triple.what == "accelerometers");
+    // A sensor of a platform that was not recorded is one that was not measured: said by the
+    // quality card.
+    const bool sensors = triple.what == "accelerometers" || triple.what == "gimbal angles";
+    for (const auto name : triple.names) {
+      if (has(name) || (sensors && !strapdown)) continue;
+      if (count > 0)
+        problems.add(name,
+                     fmt::format("the column is missing while other {} are there", triple.what),
+                     "all three or none", "Add it, or remove the other two");
+      else if (required)
+        need(name);
+    }
+  }
+  const bool measured = std::ranges::any_of(r.channels, [](const Channel& c) {
+    const auto is_one = [&](const ChannelTriple& t) {
+      return std::ranges::find(t.names, c.name) != t.names.end();
+    };
+    return is_one(channel_triples[0]) || is_one(channel_triples[1]);
+  });
+  if (!strapdown && !measured)
+    problems.add("acc_x", "there are neither accelerometers nor gimbal angles",
+                 "acc_x, acc_y, acc_z or gimbal_outer, gimbal_middle, gimbal_inner, or both", hint);
+}
+
+void check_time(const Recording& r, Problems& problems) {
+  const Channel* time = r.find("time");
+  if (!time) return;
+  double last = -HUGE_VAL;
+  std::size_t last_row = 0;
+  for (std::size_t i = 0; i < r.rows(); ++i) {
+    const double t = time->values[i];
+    if (std::isnan(t)) {
+      problems.add(at(r, i, "time"), "the time is missing", "a number in every row",
+                   "Give the time");
+    } else if (!(t > last)) {
+      problems.add(at(r, i, "time"),
+                   fmt::format("{} s {} {} s at {}", t, t == last ? "repeats" : "comes after", last,
+                               r.lines[last_row]),
+                   "time to increase from row to row",
+                   "Sort the rows, or remove those that were written twice");
+    }
+    if (t > last) {
+      last = t;
+      last_row = i;
+    }
+  }
+}
+
+void check_whole_numbers(const Recording& r, Problems& problems) {
+  double last = 1.0;
+  if (const Channel* position = r.find("position"))
+    for (std::size_t i = 0; i < r.rows(); ++i) {
+      const double p = position->values[i];
+      if (!(p >= 1.0 && p <= 1e9) || p != std::floor(p)) {
+        problems.add(at(r, i, "position"), fmt::format("the position is {}", p),
+                     "a whole number from 1 on", "Give the number of the plan's position");
+      } else if (p < last) {
+        problems.add(at(r, i, "position"), fmt::format("position {} comes after {}", p, last),
+                     "positions in the order of the plan",
+                     "Number the positions in the order they were held");
+      } else {
+        last = p;
+      }
+    }
+  if (const Channel* phase = r.find("phase"))
+    for (std::size_t i = 0; i < r.rows(); ++i)
+      if (const double p = phase->values[i]; !(p == 0.0 || p == 1.0))
+        problems.add(at(r, i, "phase"), fmt::format("the phase is {}", p), "0 (dwell) or 1 (slew)",
+                     "Correct the phase");
+}
+
+void check_values(const Recording& r, RecordingKind kind, Problems& problems) {
+  bool measured = false;
+  for (const auto& c : r.channels) {
+    const bool command = c.name.starts_with("cmd_") && kind == RecordingKind::platform;
+    const auto quantity = known_quantity(c.name);
+    const double most = quantity ? quantity->most : std::numeric_limits<double>::max();
+    const bool sensor = c.name.starts_with("acc_") || c.name.starts_with("gimbal_");
+    for (std::size_t i = 0; i < c.values.size(); ++i) {
+      const double x = c.values[i];
+      if (std::isinf(x))
+        problems.add(at(r, i, c.name), "the value is infinite", "a finite number",
+                     "Leave the cell empty (nan) if it was not measured");
+      else if (std::abs(x) > most)
+        problems.add(
+            at(r, i, c.name), fmt::format("the value {:g} is beyond reason", x / c.unit.to_si),
+            fmt::format("at most {:g} {} in size", most / c.unit.to_si, c.unit.symbol.view()),
+            "Check the unit and the export; leave the cell empty if it was not measured");
+      if (std::isnan(x) && command)
+        problems.add(at(r, i, c.name), "the command is missing", "the commanded rate in every row",
+                     "Give the command, 0 if there was none");
+      measured = measured || (sensor && std::isfinite(x));
+    }
+  }
+  if (!measured && problems.count() == 0)
+    problems.add("", "no accelerometer or gimbal angle was measured in any row",
+                 "numbers in at least one sensor column", "Check how the recording was exported");
+}
+
+bool equal_lengths(const RawRecording& raw, Problems& problems) {
+  const std::size_t rows = raw.columns.front().values.size();
+  bool equal = true;
+  for (const auto& c : raw.columns)
+    if (c.values.size() != rows) {
+      equal = false;
+      problems.add(c.name, fmt::format("{} values", c.values.size()),
+                   fmt::format("{}, as in {}", rows, raw.columns.front().name),
+                   "Give every channel one value per row; remove what is no channel");
+    }
+  return equal;
+}
+
+}  // namespace
+
+Recording checked_recording(RawRecording raw, RecordingKind kind, double gravity,
+                            Problems& problems) {
+  DRIFT_EXPECTS(gravity > 0.0);
+  Recording r{problems.file(), {}, {}, {}};
+  if (raw.columns.empty()) {
+    if (problems.count() == 0)
+      problems.add("", "there is no channel", "columns such as time, acc_x, acc_y, acc_z",
+                   "Check how the recording was exported");
+    return r;
+  }
+  check_names(raw, problems);
+  if (!equal_lengths(raw, problems)) return r;
+  const std::size_t rows = raw.columns.front().values.size();
+  if (rows == 0 && problems.count() == 0)
+    problems.add("", "there are no rows", "one row per sample",
+                 "Check how the recording was exported");
+  if (rows == 1 && kind == RecordingKind::strapdown)
+    problems.add("", "there is one row", "at least two, to tell the sample interval",
+                 "Check how the recording was exported");
+  r.facts = std::move(raw.facts);
+  r.lines = std::move(raw.lines);
+  if (r.lines.empty()) {
+    r.lines.resize(rows);
+    for (std::size_t i = 0; i < rows; ++i) r.lines[i] = i + 1;
+  }
+  for (auto& c : raw.columns) {
+    const Unit unit = checked_unit(c, kind, gravity, problems);
+    for (double& x : c.values) x *= unit.to_si;
+    r.channels.push_back({std::move(c.name), unit, std::move(c.values)});
+  }
+  check_columns(r, kind, problems);
+  check_time(r, problems);
+  check_whole_numbers(r, problems);
+  check_values(r, kind, problems);
+  return r;
+}
+
+}  // namespace drift

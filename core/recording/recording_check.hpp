@@ -1,0 +1,19 @@
+#pragma once
+
+#include "core/recording/recording.hpp"
+#include "core/recording/recording_problems.hpp"
+#include "core/recording/recording_raw.hpp"
+
+namespace drift {
+
+/// Checks what is common to all formats and converts to internal units: names, units and
+/// dimensions, the columns its kind needs, equal lengths, time strictly increasing, positions and
+/// phases that make sense, no infinity. What is wrong is added to `problems`; the recording
+/// returned is only meaningful if there are none.
+///
+/// gravity: of the site [m/s^2], for strapdown accelerations given in m/s^2; they keep that unit
+/// for writing, its size being 1/gravity in g.
+Recording checked_recording(RawRecording raw, RecordingKind kind, double gravity,
+                            Problems& problems);
+
+}  // namespace drift

@@ -1,0 +1,163 @@
+#include "core/recording/reduce.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "core/base/check.hpp"
+#include "core/recording/recording_channels.hpp"
+
+namespace drift {
+namespace {
+
+constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
+constexpr double same_command = 1e-9;                  // [rad/s]
+constexpr double same_heading = detail::deg / 3600.0;  // [rad]
+
+/// How a channel is carried over.
+enum class Rule { last, mean };
+Rule rule_of(const Channel& c) {
+  const auto is = [&](std::string_view start) { return c.name.starts_with(start); };
+  return c.name == "time" || c.name == "position" || c.name == "phase" || is("gimbal_") ||
+                 is("case_heading") || is("loop_")
+             ? Rule::last
+             : Rule::mean;
+}
+
+/// Rows first..end of one stretch.
+struct Stretch {
+  std::size_t first = 0, end = 0;
+};
+
+class Cutter {
+ public:
+  Cutter(const Recording& r, double interval, std::size_t factor)
+      : r_(r),
+        time_(r.find("time")->values),
+        interval_(interval),
+        length_(interval * static_cast<double>(factor)) {
+    position_ = r.find("position");
+    phase_ = r.find("phase");
+    heading_ = r.find("case_heading");
+    for (const Channel& c : r.channels)
+      if (c.name.starts_with("cmd_")) commands_.push_back(&c);
+  }
+
+  std::vector<Stretch> cut() const {
+    std::vector<Stretch> all;
+    double origin = 0.0;
+    for (std::size_t row = 0; row < time_.size(); ++row) {
+      const bool position_changed =
+          row == 0 || (position_ && position_->values[row] != position_->values[row - 1]);
+      if (position_changed || cut_before(row, all.back())) {
+        origin = position_changed ? time_[row] - interval_ : time_[row - 1];
+        all.push_back({row, row + 1});
+      } else if (bin(row, origin) != bin(row - 1, origin)) {
+        all.push_back({row, row + 1});
+      } else {
+        all.back().end = row + 1;
+      }
+    }
+    return all;
+  }
+
+ private:
+  double bin(std::size_t row, double origin) const {
+    return std::floor((time_[row] - origin - 0.5 * interval_) / length_);
+  }
+
+  bool cut_before(std::size_t row, const Stretch& open) const {
+    if (phase_ && phase_->values[row] != phase_->values[row - 1]) return true;
+    for (const Channel* c : commands_)
+      if (std::abs(c->values[row] - c->values[open.first]) > same_command) return true;
+    if (!heading_ || row < open.first + 2) return false;
+    const auto& h = heading_->values;
+    const double slope =
+        (h[open.first + 1] - h[open.first]) / (time_[open.first + 1] - time_[open.first]);
+    return std::abs(h[row] - h[open.first] - slope * (time_[row] - time_[open.first])) >
+           same_heading;
+  }
+
+  const Recording& r_;
+  const std::vector<double>& time_;
+  const Channel* position_ = nullptr;
+  const Channel* phase_ = nullptr;
+  const Channel* heading_ = nullptr;
+  std::vector<const Channel*> commands_;
+  double interval_, length_;
+};
+
+/// Mean over a stretch of `expected` samples, from those that are there: the value of the straight
+/// line through them at its centre.
+double bridged_mean(const std::vector<double>& t, const std::vector<double>& x, const Stretch& s,
+                    double interval, double expected) {
+  const double centre = 0.5 * (t[s.first] + t[s.end - 1]);
+  double n = 0.0, mt = 0.0, mx = 0.0;
+  for (std::size_t i = s.first; i < s.end; ++i) {
+    if (!std::isfinite(x[i])) continue;
+    n += 1.0;
+    mt += t[i] - centre;
+    mx += x[i];
+  }
+  if (!(n >= 0.5 * expected)) return nan_value;
+  mt /= n;
+  mx /= n;
+  if (std::abs(mt) < 1e-9 * interval) return mx;
+  double tt = 0.0, tx = 0.0;
+  for (std::size_t i = s.first; i < s.end; ++i) {
+    if (!std::isfinite(x[i])) continue;
+    tt += (t[i] - centre - mt) * (t[i] - centre - mt);
+    tx += (t[i] - centre - mt) * (x[i] - mx);
+  }
+  return tt > 0.0 ? mx - tx / tt * mt : mx;
+}
+
+}  // namespace
+
+SampleIntervals sample_intervals(const Recording& recording) {
+  SampleIntervals found{nan_value, std::numeric_limits<double>::infinity()};
+  const auto& t = recording.find("time")->values;
+  const Channel* position = recording.find("position");
+  std::vector<double> steps;
+  for (std::size_t first = 0, end = 0; first < t.size(); first = end) {
+    end = first + 1;
+    while (end < t.size() && (!position || position->values[end] == position->values[first])) {
+      steps.push_back(t[end] - t[end - 1]);
+      ++end;
+    }
+    found.shortest_position = std::min(found.shortest_position, t[end - 1] - t[first]);
+  }
+  if (steps.empty()) return found;
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  found.typical = *middle;
+  found.shortest_position += found.typical;
+  return found;
+}
+
+Recording reduced(const Recording& recording, double interval, std::size_t factor) {
+  DRIFT_EXPECTS(interval > 0.0 && factor >= 1 && recording.rows() > 0);
+  const std::vector<Stretch> stretches = Cutter(recording, interval, factor).cut();
+  const auto& t = recording.find("time")->values;
+  Recording out;
+  out.source = recording.source;
+  out.facts = recording.facts;
+  for (const Stretch& s : stretches) out.lines.push_back(recording.lines[s.end - 1]);
+  for (const Channel& c : recording.channels) {
+    Channel reduced_channel{c.name, c.unit, {}};
+    reduced_channel.values.reserve(stretches.size());
+    const Rule rule = rule_of(c);
+    for (const Stretch& s : stretches) {
+      // The rows the stretch spans, gaps in time counted; rows cut off by a command are no gap.
+      const double expected = std::round((t[s.end - 1] - t[s.first]) / interval) + 1.0;
+      reduced_channel.values.push_back(rule == Rule::last
+                                           ? c.values[s.end - 1]
+                                           : bridged_mean(t, c.values, s, interval, expected));
+    }
+    out.channels.push_back(std::move(reduced_channel));
+  }
+  return out;
+}
+
+}  // namespace drift

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "core/recording/recording.hpp"
+
+namespace drift {
+
+/// Sample intervals of a recording.
+struct SampleIntervals {
+  double typical = 0.0;            ///< median within positions [s]; NaN if no position has two rows
+  double shortest_position = 0.0;  ///< shortest time that a position lasts [s]
+};
+SampleIntervals sample_intervals(const Recording& recording);
+
+/// The recording with stretches of `factor` samples of `interval` seconds each made into one.
+///
+/// Accelerometers, gyros and covariates: mean over the stretch. A stretch that holds at least half
+/// of its samples is bridged by the straight line through them (exact to |f''| T^2 / 24: below 1 ug
+/// for a platform that turns at Earth rate and T <= 60 s); with less it is not measured. Gimbal
+/// angles and case heading: as read at the end of the stretch; not measured if that row is missing.
+/// Commands: mean, and a stretch ends where they change by more than 1e-9 rad/s, where phase or
+/// position changes and where the case heading leaves its straight line by more than an arcsecond.
+/// The stretches of a position begin one sample before its first row; rows keep their time.
+Recording reduced(const Recording& recording, double interval, std::size_t factor);
+
+}  // namespace drift

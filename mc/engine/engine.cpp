@@ -1,0 +1,332 @@
+#include "mc/engine/engine.hpp"
+
+#include <omp.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <mutex>
+
+#include "core/base/rng.hpp"
+#include "mc/engine/block_board.hpp"
+#include "mc/engine/rule_follower.hpp"
+#include "mc/engine/stop_signals.hpp"
+#include "mc/store/store.hpp"
+#include "mc/store/study_reader.hpp"
+#include "mc/task/guarded_run.hpp"
+
+namespace drift::mc {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Counter = Ranks::Counter;
+
+/// One session of one worker.
+class Engine {
+ public:
+  Engine(const StudyWork& work, const EngineOptions& options, const std::string& folder,
+         const Manifest& manifest, Ranks& ranks, const ProgressSink& sink)
+      : work_(work),
+        options_(options),
+        folder_(folder),
+        ranks_(ranks),
+        sink_(sink),
+        store_(folder, ranks.size() > 1 ? ranks.rank() : options.share.index, manifest),
+        reader_(folder),
+        rules_(work.stop_rules, options.runs, reader_) {}
+
+  StudyOutcome run() {
+    store_.begin_session(options_.runs);
+    plan();
+    BlockBoard board([this] { return next_block(); }, columns());
+    const int threads = options_.threads > 0 ? options_.threads : omp_get_max_threads();
+#pragma omp parallel num_threads(threads)
+    work_through(board);
+    return finish();
+  }
+
+ private:
+  enum Stop : int { none, asked, full_time, failed_run, elsewhere, broken };
+
+  std::vector<std::size_t> columns() const {
+    std::vector<std::size_t> list;
+    for (const PointInfo& p : reader_.manifest().points) list.push_back(p.columns.size());
+    return list;
+  }
+
+  WorkerShare own_share() const {
+    return ranks_.size() > 1 ? WorkerShare{} : options_.share;
+  }
+
+  /// What is missing, of this worker's share; for several ranks what the leader found to be
+  /// missing.
+  void plan() {
+    reader_.refresh();
+    rules_.advance();
+    all_ = all_blocks(reader_.manifest(), options_.runs);
+    const WorkerShare share = own_share();
+    std::vector<std::uint64_t> missing;
+    if (ranks_.leader())
+      for (std::uint64_t i = 0; i < all_.size(); ++i) {
+        if (const auto block = stored(all_[i])) {
+          before_ += all_[i].count;
+          failed_before_ += block->failures.size();
+        } else if (rules_.enough(all_[i].point)) {
+          total_skipped_ += all_[i].count;
+        } else if (i % share.count == share.index) {
+          missing.push_back(i);
+        }
+      }
+    ranks_.broadcast(missing);
+    found_cut_short_ = cut_short_;
+    if (options_.shuffle != 0) {
+      Stream stream(options_.shuffle, 0, Purpose::test);
+      for (std::size_t i = missing.size(); i > 1; --i)
+        std::swap(missing[i - 1],
+                  missing[static_cast<std::size_t>(stream.uniform() * static_cast<double>(i))]);
+    }
+    todo_ = std::move(missing);
+  }
+
+  std::optional<StoredBlock> stored(const BlockKey& key) {
+    auto block = reader_.read(key.point, key.first);
+    if (block && block->block.status.size() < key.count) {  // of a study with fewer runs
+      cut_short_ += block->block.status.size();
+      block.reset();
+    }
+    return block;
+  }
+
+  /// Called by one thread at a time.
+  std::optional<BlockKey> next_block() {
+    while (true) {
+      const std::uint64_t i = ranks_.add(Counter::block, 1);
+      if (i >= todo_.size()) return std::nullopt;
+      const BlockKey& key = all_[todo_[i]];
+      if (!rules_.enough(key.point)) return key;
+      total_skipped_ += key.count;
+    }
+  }
+
+  bool must_stop() {
+    int expected = none;
+    if (signals_.caught() != 0) {
+      stop_.compare_exchange_strong(expected, asked);
+    } else if (options_.max_wall && seconds() >= *options_.max_wall) {
+      stop_.compare_exchange_strong(expected, full_time);
+    }
+    return stop_ != none;
+  }
+
+  double seconds() const {
+    return std::chrono::duration<double>(Clock::now() - started_).count();
+  }
+
+  void work_through(BlockBoard& board) {
+    try {
+      std::unique_ptr<RunWorker> worker;
+      std::size_t point = 0;
+      while (!must_stop()) {
+        const auto ticket = board.take();
+        if (!ticket) break;
+        if (!worker || point != ticket->point())
+          worker = work_.points[point = ticket->point()].task->worker();
+        const RunOutcome outcome = guarded_run(*worker, ticket->run(), ticket->row());
+        if (outcome.status != RunStatus::ok) {
+          ++own_failed_;
+          int expected = none;
+          if (options_.fail_fast) stop_.compare_exchange_strong(expected, failed_run);
+        }
+        ++own_done_;
+        if (auto block = board.finish(*ticket, outcome)) store(std::move(*block));
+        tell();
+      }
+    } catch (...) {
+      const std::scoped_lock lock(queue_guard_);
+      if (!error_) error_ = std::current_exception();
+      stop_ = broken;
+    }
+  }
+
+  /// The thread that finds nobody storing stores its block and those that others finish meanwhile,
+  /// so that no thread waits for the disk and a slow disk gets fewer, larger transactions.
+  void store(StoredBlock block) {
+    std::unique_lock lock(queue_guard_);
+    queue_.push_back(std::move(block));
+    if (storing_) return;
+    storing_ = true;
+    while (!queue_.empty() && !error_) {
+      const std::vector<StoredBlock> batch = std::exchange(queue_, {});
+      lock.unlock();
+      try {
+        store_.commit(batch);
+        rules_.advance();
+        share_counts(batch);
+      } catch (...) {
+        lock.lock();
+        storing_ = false;
+        lock.unlock();
+        throw;
+      }
+      lock.lock();
+    }
+    storing_ = false;
+  }
+
+  void share_counts(const std::vector<StoredBlock>& batch) {
+    std::uint64_t runs = 0, failed = 0;
+    for (const StoredBlock& b : batch) runs += b.block.status.size(), failed += b.failures.size();
+    ranks_.add(Counter::done, runs);
+    if (failed > 0) ranks_.add(Counter::failed, failed);
+    int expected = none;
+    if (ranks_.size() > 1 && ranks_.add(Counter::stop, 0) > 0)
+      stop_.compare_exchange_strong(expected, elsewhere);
+  }
+
+  void tell() {
+    constexpr double interval = 0.2;  // [s]
+    if (!sink_ || !ranks_.leader()) return;
+    const std::unique_lock lock(progress_guard_, std::try_to_lock);
+    if (!lock || seconds() - told_ < interval) return;
+    told_ = seconds();
+    sink_(progress());
+  }
+
+  Progress progress() {
+    // One process knows its runs one by one; of the other ranks whole blocks are known.
+    const bool alone = ranks_.size() == 1;
+    Progress p;
+    p.done_now = alone ? own_done_.load() : ranks_.add(Counter::done, 0);
+    p.failed = failed_before_ + (alone ? own_failed_.load() : ranks_.add(Counter::failed, 0));
+    p.done = before_ + p.done_now;
+    for (const std::uint64_t i : todo_) p.total += all_[i].count;
+    p.total += before_;
+    p.total -= std::min(p.total - p.done, std::min<std::uint64_t>(total_skipped_, p.total));
+    p.elapsed = seconds();
+    return p;
+  }
+
+  ExitCode stop_code() const {
+    switch (stop_) {
+      case asked:
+        return signals_.caught() == SIGINT ? ExitCode::interrupted : ExitCode::terminated;
+      case full_time:
+        return ExitCode::wall_time;
+      case failed_run:
+        return ExitCode::failed_runs;
+      case broken:
+        return code_of(error_);
+      default:
+        return ExitCode::ok;
+    }
+  }
+
+  /// All ranks come here, whatever happened; the gravest answer is everyone's.
+  ExitCode agree(ExitCode own) {
+    if (stop_ != none && stop_ != elsewhere) ranks_.add(Counter::stop, 1);
+    return of_gravity(ranks_.largest(gravity(own)));
+  }
+
+  StudyOutcome finish() {
+    StudyOutcome outcome;
+    outcome.leader = ranks_.leader();
+    outcome.code = agree(stop_code());
+    if (error_) {
+      end_session(code_of(error_));
+      std::rethrow_exception(error_);
+    }
+    if (sink_ && outcome.leader) sink_(progress());
+    outcome.done_before = before_;
+    outcome.cut_short = found_cut_short_;
+    outcome.stored_runs = reader_.runs();
+    outcome.done = ranks_.add(Counter::done, 0);
+    outcome.failed = ranks_.add(Counter::failed, 0);
+    outcome.seconds = seconds();
+    if (outcome.leader) look_back(outcome);
+    std::vector<std::uint64_t> told{static_cast<std::uint64_t>(outcome.code),
+                                    outcome.complete,
+                                    outcome.failed,
+                                    outcome.results,
+                                    outcome.missing,
+                                    outcome.missing_own};
+    ranks_.broadcast(told);
+    outcome.code = static_cast<ExitCode>(told[0]);
+    outcome.complete = told[1] != 0;
+    outcome.failed = told[2], outcome.results = told[3], outcome.missing = told[4],
+    outcome.missing_own = told[5];
+    end_session(outcome.code);
+    for (const auto* notes : {&store_.notes(), &reader_.notes()})
+      outcome.notes.insert(outcome.notes.end(), notes->begin(), notes->end());
+    return outcome;
+  }
+
+  void end_session(ExitCode code) {
+    try {
+      store_.end_session(static_cast<int>(code));
+    } catch (const InputError&) {
+      // The results are stored; a full disk cannot take the time of the end.
+    }
+  }
+
+  void look_back(StudyOutcome& outcome) {
+    reader_.refresh();
+    rules_.advance();
+    const WorkerShare share = own_share();
+    for (std::size_t i = 0; i < all_.size(); ++i)
+      if (!rules_.enough(all_[i].point) && !stored(all_[i])) {
+        ++outcome.missing;
+        if (i % share.count == share.index) ++outcome.missing_own;
+      }
+    outcome.complete = outcome.missing == 0;
+    if (!outcome.complete) return;
+    outcome.failed = outcome.results = 0;
+    reader_.each_result(work_.stop_rules, [&](const StoredBlock& b) {
+      outcome.results += b.block.status.size();
+      outcome.failed += b.failures.size();
+    });
+    outcome.digest = results_digest(reader_, work_.stop_rules);
+    try {
+      note_finished(folder_, options_.runs);
+    } catch (const InputError&) {
+      // The results are stored; that they are complete can be told anew.
+    }
+    if (outcome.code == ExitCode::wall_time)
+      outcome.code = ExitCode::ok;  // it came when all was done
+    if (outcome.code == ExitCode::ok && outcome.failed > options_.allowed_failures)
+      outcome.code = ExitCode::failed_runs;
+  }
+
+  const StudyWork& work_;
+  const EngineOptions& options_;
+  const std::string& folder_;
+  Ranks& ranks_;
+  const ProgressSink& sink_;
+  StopSignals signals_;
+  Clock::time_point started_ = Clock::now();
+  WorkerStore store_;
+  StudyReader reader_;
+  RuleFollower rules_;
+  std::vector<BlockKey> all_;
+  std::vector<std::uint64_t> todo_;  ///< into all_
+  std::uint64_t before_ = 0, failed_before_ = 0;
+  std::uint64_t cut_short_ = 0,
+                found_cut_short_ = 0;  ///< runs in blocks that are too short; those found at first
+  std::atomic<std::uint64_t> total_skipped_ = 0, own_done_ = 0, own_failed_ = 0;
+  std::atomic<int> stop_ = none;
+  std::mutex queue_guard_, progress_guard_;
+  std::vector<StoredBlock> queue_;
+  bool storing_ = false;
+  std::exception_ptr error_;
+  double told_ = -1.0;
+};
+
+}  // namespace
+
+StudyOutcome run_study(const StudyWork& work, const EngineOptions& options,
+                       const std::string& folder, const Manifest& manifest, Ranks& ranks,
+                       const ProgressSink& progress) {
+  return Engine(work, options, folder, manifest, ranks, progress).run();
+}
+
+}  // namespace drift::mc

@@ -1,0 +1,44 @@
+#include "mc/engine/stop_signals.hpp"
+
+#include <signal.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+
+namespace drift::mc {
+namespace {
+
+constexpr std::array signals{SIGINT, SIGTERM, SIGHUP};
+std::atomic<int> first_caught{0};  // a signal handler reaches nothing but globals
+std::array<struct sigaction, signals.size()> before{};
+
+extern "C" void on_signal(int number) {
+  int none = 0;
+  if (!first_caught.compare_exchange_strong(none, number)) _exit(128 + number);
+}
+
+}  // namespace
+
+StopSignals::StopSignals() {
+  first_caught = 0;
+  struct sigaction action {};
+  action.sa_handler = on_signal;
+  action.sa_flags = SA_RESTART;
+  sigemptyset(&action.sa_mask);
+  for (std::size_t i = 0; i < signals.size(); ++i) {
+    sigaction(signals[i], nullptr, &before[i]);
+    // What the parent chose to ignore (nohup) stays ignored.
+    if (before[i].sa_handler != SIG_IGN) sigaction(signals[i], &action, nullptr);
+  }
+}
+
+StopSignals::~StopSignals() {
+  for (std::size_t i = 0; i < signals.size(); ++i) sigaction(signals[i], &before[i], nullptr);
+}
+
+int StopSignals::caught() const {
+  return first_caught;
+}
+
+}  // namespace drift::mc

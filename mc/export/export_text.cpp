@@ -1,0 +1,211 @@
+#include "mc/export/export_text.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "core/base/atomic_file.hpp"
+#include "core/base/check.hpp"
+#include "core/base/sha256.hpp"
+
+namespace drift::mc {
+namespace {
+
+/// A text file in the making; a full disk is an InputError.
+class TextOut {
+ public:
+  explicit TextOut(const std::string& path)
+      : path_(path), target_(path), file_(std::fopen(target_.temporary().c_str(), "wb")) {
+    if (file_ == nullptr) throw_cannot_write(path_, std::strerror(errno));
+  }
+  ~TextOut() {
+    if (file_ != nullptr) std::fclose(file_);
+  }
+  TextOut(const TextOut&) = delete;
+  TextOut& operator=(const TextOut&) = delete;
+
+  void put(std::string_view text) {
+    if (std::fwrite(text.data(), 1, text.size(), file_) != text.size())
+      throw_cannot_write(path_, std::strerror(errno));
+  }
+  void commit() {
+    if (std::fclose(std::exchange(file_, nullptr)) != 0)
+      throw_cannot_write(path_, std::strerror(errno));
+    target_.commit();
+  }
+
+ private:
+  std::string path_;
+  AtomicFile target_;
+  std::FILE* file_;
+};
+
+/// A field of CSV; what a spreadsheet would take for a formula is made plain text.
+std::string csv_field(std::string text) {
+  if (!text.empty() && std::string_view("=+-@").find(text.front()) != std::string_view::npos)
+    text.insert(0, "'");
+  if (text.find_first_of(",\"\n\r#") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + "\"";
+}
+
+std::string one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  return text;
+}
+
+}  // namespace
+
+const char* name(RunStatus status) {
+  switch (status) {
+    case RunStatus::ok:
+      return "ok";
+    case RunStatus::integrator_failed:
+      return "integrator_failed";
+    case RunStatus::filter_diverged:
+      return "filter_diverged";
+    case RunStatus::nonfinite:
+      return "nonfinite";
+    case RunStatus::timeout:
+      return "timeout";
+    case RunStatus::error:
+      return "error";
+  }
+  return "unknown";
+}
+
+std::string plain_name(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    const bool plain =
+        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+    out += plain ? c : '_';
+  }
+  if (out.empty() || (out.front() >= '0' && out.front() <= '9')) out.insert(0, "c_");
+  return out;
+}
+
+Facts provenance_of(StudyReader& reader) {
+  const Manifest& m = reader.manifest();
+  Facts facts{{"study_hash", m.hash},
+              {"study_sha256", sha256_hex(m.study)},
+              {"seed", std::to_string(m.identity.seed)},
+              {"runs_per_point", std::to_string(reader.runs())},
+              {"block_size", std::to_string(m.identity.block_size)}};
+  facts.insert(facts.end(), m.provenance.begin(), m.provenance.end());
+  const auto sessions = reader.sessions();
+  facts.emplace_back("sessions", std::to_string(sessions.size()));
+  if (!sessions.empty()) facts.emplace_back("ended_utc", sessions.back().ended_utc);
+  facts.emplace_back("study", m.study);
+  return facts;
+}
+
+void export_csv(StudyReader& reader, const StopRules& rules, const std::string& path) {
+  const auto& points = reader.manifest().points;
+  std::vector<Column> all;  // the columns of all points, each once
+  std::map<std::string, std::size_t> place;
+  std::vector<std::vector<std::size_t>> to(points.size());
+  for (std::size_t p = 0; p < points.size(); ++p)
+    for (const Column& c : points[p].columns) {
+      const auto [at, fresh] =
+          place.emplace(fmt::format("{} [{}]", c.name, c.unit.symbol.view()), all.size());
+      if (fresh) all.push_back(c);
+      to[p].push_back(at->second);
+    }
+  TextOut out(path);
+  for (const auto& [key, value] : provenance_of(reader)) {
+    std::string text =
+        key == "study" ? value : one_line(value);  // the study stays readable, line by line
+    for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos;)
+      text.replace(at, 1, "\n# " + key + ": "), at += key.size() + 5;
+    out.put(fmt::format("# {}: {}\n", key, text));
+  }
+  for (std::size_t p = 0; p < points.size(); ++p)
+    out.put(fmt::format("# point {}: {}\n", p, one_line(points[p].label)));
+  std::string line = "point,run,status";
+  for (const Column& c : all)
+    line += "," + csv_field(fmt::format("{} [{}]", c.name, c.unit.symbol.view()));
+  out.put(line + ",t_failed [s],cause\n");
+  std::vector<std::string> cells(all.size());
+  reader.each_result(rules, [&](const StoredBlock& b) {
+    const auto& columns = points[b.block.point].columns;
+    auto failure = b.failures.begin();  // in order of runs
+    for (std::size_t r = 0; r < b.block.status.size(); ++r) {
+      std::fill(cells.begin(), cells.end(), "");
+      for (std::size_t c = 0; c < columns.size(); ++c) {
+        const double value = in_column_unit(b.block.rows[r * columns.size() + c], columns[c]);
+        cells[to[b.block.point][c]] = std::isnan(value) ? "nan" : fmt::format("{}", value);
+      }
+      line = fmt::format("{},{},{}", b.block.point, b.block.first + r, name(b.block.status[r]));
+      for (const std::string& cell : cells) line += "," + cell;
+      if (failure != b.failures.end() && failure->run == b.block.first + r) {
+        line += fmt::format(",{},{}", failure->t, csv_field(one_line(failure->cause)));
+        ++failure;
+      } else {
+        line += ",nan,";
+      }
+      out.put(line + "\n");
+    }
+  });
+  out.commit();
+}
+
+void export_json(StudyReader& reader, const StopRules& rules, const std::string& path) {
+  const auto& points = reader.manifest().points;
+  TextOut out(path);
+  nlohmann::ordered_json facts;
+  for (const auto& [key, value] : provenance_of(reader)) facts[key] = value;
+  out.put("{\"provenance\": " + facts.dump(1) + ",\n\"points\": [");
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    const auto& columns = points[p].columns;
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const Column& c : columns)
+      list.push_back({{"name", c.name}, {"unit", std::string(c.unit.symbol.view())}});
+    out.put(fmt::format("{}\n{{\"label\": {}, \"columns\": {},\n\"runs\": [", p == 0 ? "" : ",",
+                        nlohmann::json(points[p].label).dump(), list.dump()));
+    bool first = true;
+    nlohmann::ordered_json failures = nlohmann::ordered_json::array();
+    reader.each_result(rules, p, [&](const StoredBlock& b) {
+      for (std::size_t r = 0; r < b.block.status.size(); ++r) {
+        std::string line = fmt::format("{}\n[{}, \"{}\"", first ? "" : ",", b.block.first + r,
+                                       name(b.block.status[r]));
+        first = false;
+        for (std::size_t c = 0; c < columns.size(); ++c) {
+          const double value = in_column_unit(b.block.rows[r * columns.size() + c], columns[c]);
+          line += std::isfinite(value) ? fmt::format(", {}", value) : std::string(", null");
+        }
+        out.put(line + "]");
+      }
+      for (const Failure& f : b.failures)
+        failures.push_back(
+            {{"run", f.run}, {"status", name(f.status)}, {"t_s", f.t}, {"cause", f.cause}});
+    });
+    // A cause may quote a user's file: what is not UTF-8 is replaced, never thrown at.
+    out.put("],\n\"failures\": " +
+            failures.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "}");
+  }
+  out.put("]}\n");
+  out.commit();
+}
+
+std::string study_hash_of_text(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string head(4096, '\0');
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(file.gcount()));
+  for (const std::string_view mark :
+       {"# study_hash: ", "{\"provenance\": {\n \"study_hash\": \""}) {
+    if (!head.starts_with(mark)) continue;
+    return head.substr(mark.size(), head.find_first_of("\"\n", mark.size()) - mark.size());
+  }
+  return {};
+}
+
+}  // namespace drift::mc

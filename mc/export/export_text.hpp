@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+
+#include "mc/store/study_reader.hpp"
+
+namespace drift::mc {
+
+/// A name that every reader takes as it is: letters, digits and _ ; "eq5/0/sigma/D_I_z" becomes
+/// "eq5_0_sigma_D_I_z".
+std::string plain_name(std::string_view name);
+
+/// A value in the unit in which people read it.
+inline double in_column_unit(double value, const Column& column) {
+  return value / column.unit.to_si;
+}
+
+/// Writes all results as CSV: `# key: value` lines of provenance, one header row "name [unit]", one
+/// row per run with point, run and status first, and last when and why it failed. Missing is "nan".
+/// Points with different columns leave those of others empty. Shortest digits that read back as the
+/// same number. Bounded memory; the file is complete or not there. InputError (io).
+void export_csv(StudyReader& reader, const StopRules& rules, const std::string& path);
+
+/// The same as JSON: {"provenance": {...}, "points": [{"label", "columns": [{"name", "unit"}],
+/// "runs": [[run, "status", values...], ...], "failures": [{"run", "status", "t_s", "cause"},
+/// ...]}]}; missing is null.
+void export_json(StudyReader& reader, const StopRules& rules, const std::string& path);
+
+/// The study_hash that a CSV or JSON export at this path carries; empty if it is none.
+std::string study_hash_of_text(const std::string& path);
+
+/// "ok", "integrator_failed", ...
+const char* name(RunStatus status);
+inline constexpr int num_statuses = 6;
+
+/// Where a folder's results come from: study, its hash, sessions.
+Facts provenance_of(StudyReader& reader);
+
+}  // namespace drift::mc

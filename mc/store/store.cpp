@@ -1,0 +1,255 @@
+#include "mc/store/store.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "core/base/atomic_file.hpp"
+#include "core/base/check.hpp"
+
+namespace drift::mc {
+namespace {
+
+constexpr const char* schema = R"(
+CREATE TABLE IF NOT EXISTS study (key TEXT PRIMARY KEY, value TEXT) WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS sessions (id INTEGER PRIMARY KEY, runs INTEGER, started_utc TEXT, ended_utc TEXT,
+  exit_code INTEGER, facts TEXT);
+CREATE TABLE IF NOT EXISTS columns (point INTEGER, number INTEGER, name TEXT, unit TEXT,
+  PRIMARY KEY (point, number)) WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS failures (block INTEGER, point INTEGER, run INTEGER, status INTEGER, cause TEXT,
+  t_s REAL, seconds REAL, PRIMARY KEY (block, run)) WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS moments (block INTEGER, number INTEGER, n INTEGER, mean REAL, m2 REAL,
+  PRIMARY KEY (block, number)) WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS blocks (id INTEGER PRIMARY KEY, point INTEGER, first_run INTEGER, runs INTEGER,
+  failed INTEGER, integration_s REAL, filter_s REAL, total_s REAL, committed_utc TEXT, checksum BLOB, payload BLOB);
+)";
+
+}  // namespace
+
+/// Keeps a second process from doing the same work. The kernel lets go of it when the process ends,
+/// however it ends, so it is never stale.
+class WorkerStore::Lock {
+ public:
+  Lock(const std::string& path, double patience)
+      : fd_(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
+    if (fd_ < 0) throw_cannot_write(path, std::strerror(errno));
+    const auto tries = static_cast<int>(patience / 0.1);
+    for (int i = 0; ::flock(fd_, LOCK_EX | LOCK_NB) != 0; ++i) {
+      if (errno != EWOULDBLOCK && errno != EINTR) return;  // a file system without locks
+      if (i >= tries) {
+        ::close(fd_);
+        throw InputError(
+            ExitCode::store,
+            fmt::format("{}: another process is at work as this worker (expected one at a "
+                        "time). Wait for it, or share the work with --worker i/n",
+                        path));
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+  }
+  ~Lock() { ::close(fd_); }
+  Lock(const Lock&) = delete;
+  Lock& operator=(const Lock&) = delete;
+
+ private:
+  int fd_;
+};
+
+/// The file and its statements.
+class WorkerStore::Writer : public WorkerFile {
+ public:
+  Writer(const std::string& path, std::shared_ptr<const Manifest> manifest)
+      : WorkerFile(path, std::move(manifest), Database::Use::write) {
+    if (!sound()) throw InputError(ExitCode::store, path + ": damaged");
+    Transaction all(db_);
+    db_.execute(schema);
+    describe();
+    remove_damaged();
+    all.commit();
+  }
+
+  std::size_t removed() const { return removed_; }
+
+  std::int64_t begin_session(std::uint64_t runs) {
+    nlohmann::ordered_json facts;
+    for (const auto& [key, value] : provenance()) facts[key] = value;
+    Statement insert =
+        db_.prepare("INSERT INTO sessions (runs, started_utc, facts) VALUES (?1, ?2, ?3)");
+    insert.bind(1, static_cast<std::int64_t>(runs))
+        .bind_text(2, utc_now())
+        .bind_text(3, facts.dump())
+        .run();
+    return last_id();
+  }
+
+  void end_session(std::int64_t session, int exit_code) {
+    Statement update =
+        db_.prepare("UPDATE sessions SET ended_utc = ?2, exit_code = ?3 WHERE id = ?1");
+    update.bind(1, session).bind_text(2, utc_now()).bind(3, std::int64_t{exit_code}).run();
+  }
+
+  void insert(std::span<const StoredBlock> blocks) {
+    Transaction all(db_);
+    for (const StoredBlock& b : blocks) insert(b);
+    all.commit();
+  }
+
+ private:
+  std::int64_t last_id() {
+    Statement query = db_.prepare("SELECT last_insert_rowid()");
+    query.step();
+    return query.integer(0);
+  }
+
+  void describe() {
+    Statement known = db_.prepare("SELECT count(*) FROM columns");
+    if (known.step() && known.integer(0) > 0) return;
+    Statement fact = db_.prepare("INSERT OR REPLACE INTO study VALUES (?1, ?2)");
+    const Facts facts{{"format", std::to_string(Manifest::format)},
+                      {"study_hash", manifest_->hash},
+                      {"study", manifest_->study},
+                      {"seed", std::to_string(manifest_->identity.seed)},
+                      {"block_size", std::to_string(manifest_->identity.block_size)},
+                      {"program", manifest_->program},
+                      {"arithmetic", manifest_->arithmetic}};
+    for (const auto& [key, value] : facts) fact.bind_text(1, key).bind_text(2, value).run();
+    Statement column = db_.prepare("INSERT INTO columns VALUES (?1, ?2, ?3, ?4)");
+    for (std::size_t p = 0; p < manifest_->points.size(); ++p) {
+      const auto& columns = manifest_->points[p].columns;
+      for (std::size_t c = 0; c < columns.size(); ++c)
+        column.bind(1, static_cast<std::int64_t>(p))
+            .bind(2, static_cast<std::int64_t>(c))
+            .bind_text(3, columns[c].name)
+            .bind_text(4, columns[c].unit.symbol.view())
+            .run();
+    }
+  }
+
+  void remove_damaged() {
+    bool damaged = false;
+    std::vector<std::int64_t> bad;
+    for (const BlockEntry& e : entries(0, &damaged))
+      if (!read(e)) bad.push_back(e.id);
+    if (damaged)
+      throw InputError(ExitCode::store, path() + ": damaged");  // set aside by the caller
+    for (const std::int64_t id : bad)
+      for (const char* sql :
+           {"DELETE FROM blocks WHERE id = ?1", "DELETE FROM failures WHERE block = ?1",
+            "DELETE FROM moments WHERE block = ?1"})
+        db_.prepare(sql).bind(1, id).run();
+    removed_ = bad.size();
+  }
+
+  void insert(const StoredBlock& b) {
+    const BlockKey key = key_of(b.block);
+    const std::size_t columns = manifest_->points.at(key.point).columns.size();
+    const std::string payload = encode(b.block, columns);
+    Statement block = db_.prepare(
+        "INSERT INTO blocks (point, first_run, runs, failed, integration_s, filter_s, total_s, "
+        "committed_utc, checksum, "
+        "payload) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10)");
+    block.bind(1, static_cast<std::int64_t>(key.point))
+        .bind(2, static_cast<std::int64_t>(key.first));
+    block.bind(3, static_cast<std::int64_t>(key.count))
+        .bind(4, static_cast<std::int64_t>(b.failures.size()));
+    block.bind(5, b.times.integration_s)
+        .bind(6, b.times.filter_s)
+        .bind(7, b.times.total_s)
+        .bind_text(8, utc_now());
+    block.bind_blob(9, checksum(manifest_->hash, key, payload + encode(b.failures)))
+        .bind_blob(10, payload)
+        .run();
+    const std::int64_t id = last_id();
+    Statement failure = db_.prepare("INSERT INTO failures VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7)");
+    for (const Failure& f : b.failures) {
+      failure.bind(1, id)
+          .bind(2, static_cast<std::int64_t>(key.point))
+          .bind(3, static_cast<std::int64_t>(f.run));
+      failure.bind(4, static_cast<std::int64_t>(f.status))
+          .bind_text(5, f.cause)
+          .bind(6, f.t)
+          .bind(7, f.seconds)
+          .run();
+    }
+    insert_moments(id, b.block, columns);
+  }
+
+  void insert_moments(std::int64_t id, const Block& block, std::size_t columns) {
+    Statement insert = db_.prepare("INSERT INTO moments VALUES (?1, ?2, ?3, ?4, ?5)");
+    for (std::size_t c = 0; c < columns; ++c) {
+      const Moments m = moments(block, c, columns);
+      insert.bind(1, id)
+          .bind(2, static_cast<std::int64_t>(c))
+          .bind(3, static_cast<std::int64_t>(m.n));
+      insert.bind(4, m.mean).bind(5, m.m2).run();
+    }
+  }
+
+  std::size_t removed_ = 0;
+};
+
+WorkerStore::WorkerStore(const std::string& folder, std::size_t worker, const Manifest& manifest,
+                         double patience)
+    : path_(worker_path(folder, worker)), manifest_(std::make_shared<Manifest>(manifest)) {
+  lock_ = std::make_unique<Lock>(path_.substr(0, path_.size() - 7) + ".lock", patience);
+  try {
+    writer_ = std::make_unique<Writer>(path_, manifest_);
+    if (writer_->removed() > 0)
+      notes_.push_back(fmt::format("{}: {} damaged blocks removed; they are computed anew", path_,
+                                   writer_->removed()));
+  } catch (const InputError& error) {
+    if (error.code() != ExitCode::store) throw;
+    set_aside();
+  }
+}
+
+WorkerStore::~WorkerStore() = default;
+
+void WorkerStore::set_aside() {
+  namespace fs = std::filesystem;
+  const std::string stem = path_.substr(0, path_.size() - 7);
+  std::string aside;
+  for (int i = 1; fs::exists(aside = fmt::format("{}.damaged-{}", stem, i)); ++i) {
+  }
+  if (std::rename(path_.c_str(), aside.c_str()) != 0)
+    throw_cannot_write(aside, std::strerror(errno));
+  // Its journal belongs to it: beside the new file it would be taken for that file's.
+  if (fs::exists(path_ + "-journal"))
+    std::rename((path_ + "-journal").c_str(), (aside + "-journal").c_str());
+  writer_ = std::make_unique<Writer>(path_, manifest_);
+  std::size_t saved = 0;
+  try {
+    WorkerFile old(aside, manifest_, Database::Use::salvage);
+    for (const BlockEntry& e : old.entries(0))
+      if (const auto block = old.read(e)) {
+        writer_->insert(std::span(&*block, 1));
+        ++saved;
+      }
+  } catch (const InputError& error) {
+    if (error.code() != ExitCode::store) throw;
+  }
+  notes_.push_back(fmt::format(
+      "{}: damaged, set aside as {}; {} whole blocks taken over from it, the others are "
+      "computed anew",
+      path_, aside, saved));
+}
+
+void WorkerStore::begin_session(std::uint64_t runs) {
+  session_ = writer_->begin_session(runs);
+}
+void WorkerStore::end_session(int exit_code) {
+  writer_->end_session(session_, exit_code);
+}
+void WorkerStore::commit(std::span<const StoredBlock> blocks) {
+  writer_->insert(blocks);
+}
+
+}  // namespace drift::mc

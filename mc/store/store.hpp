@@ -1,0 +1,95 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "mc/store/manifest.hpp"
+#include "mc/store/store_database.hpp"
+#include "mc/store/stored_block.hpp"
+
+namespace drift::mc {
+
+/// "folder/worker-0003.sqlite"
+std::string worker_path(const std::string& folder, std::size_t worker);
+/// All worker files of a folder, in order of their numbers.
+std::vector<std::string> worker_files(const std::string& folder);
+
+/// One call of `run` by one worker.
+struct Session {
+  std::uint64_t runs = 0;              ///< runs per study point that were asked for
+  std::string started_utc, ended_utc;  ///< end empty: killed, or still at work
+  int exit_code = -1;
+  Facts facts;
+};
+
+/// Where a block stands in a worker file.
+struct BlockEntry {
+  BlockKey key;
+  std::int64_t id = 0;
+};
+
+/// The file of one worker. SQLite tables (all may be looked into with `sqlite3`):
+///   study     key, value: what manifest.json says
+///   sessions  runs, started_utc, ended_utc, exit_code, facts (JSON)
+///   columns   point, number, name, unit
+///   blocks    point, first_run, runs, failed, CPU seconds, checksum, payload (block_codec.hpp)
+///   failures  block, point, run, status, cause, t_s, seconds
+///   moments   block, number, n, mean, m2: of the runs that are ok, finite values only, SI
+/// Every read verifies the checksum; damage shows as a block that is not there.
+class WorkerFile {
+ public:
+  /// For reading. InputError (store) if the file is damaged beyond opening.
+  WorkerFile(const std::string& path, std::shared_ptr<const Manifest> manifest,
+             Database::Use use = Database::Use::read);
+
+  /// Blocks after the one of number `id`, as the table lists them, not yet verified. Stops where
+  /// the file is damaged and says so.
+  std::vector<BlockEntry> entries(std::int64_t after_id, bool* damaged = nullptr);
+  /// A block, or nothing if it is damaged.
+  std::optional<StoredBlock> read(const BlockEntry& entry);
+  std::vector<Session> sessions();
+  bool sound() { return db_.sound(); }
+  const std::string& path() const { return db_.path(); }
+
+ protected:
+  std::shared_ptr<const Manifest> manifest_;
+  Database db_;
+};
+
+/// The file of this worker, open for writing by one process at a time.
+class WorkerStore {
+ public:
+  /// Opens or makes the file. A damaged one is set aside as "worker-0003.damaged-1" and what is
+  /// whole in it is taken over; `notes` says so. InputError: io if it cannot be written, store if
+  /// another process is still at work on it after `patience` [s]: the ranks of a killed mpirun take
+  /// a moment to die.
+  WorkerStore(const std::string& folder, std::size_t worker, const Manifest& manifest,
+              double patience = 5.0);
+  ~WorkerStore();
+  WorkerStore(const WorkerStore&) = delete;
+  WorkerStore& operator=(const WorkerStore&) = delete;
+
+  void begin_session(std::uint64_t runs);
+  void end_session(int exit_code);
+  /// Brings blocks to the disk in one transaction: each is there as a whole or not at all.
+  void commit(std::span<const StoredBlock> blocks);
+  const std::vector<std::string>& notes() const { return notes_; }
+
+ private:
+  class Lock;
+  class Writer;
+  void set_aside();
+
+  std::string path_;
+  std::shared_ptr<const Manifest> manifest_;
+  std::unique_ptr<Lock> lock_;
+  std::unique_ptr<Writer> writer_;
+  std::int64_t session_ = 0;
+  std::vector<std::string> notes_;
+};
+
+}  // namespace drift::mc

@@ -1,0 +1,174 @@
+#include "mc/store/store_database.hpp"
+
+#include <sqlite3.h>
+
+#include <limits>
+
+#include "core/base/check.hpp"
+
+namespace drift::mc {
+namespace {
+
+constexpr int busy_ms = 20000;  // a reader holds the file for moments only
+
+[[noreturn]] void fail(sqlite3* db, const std::string& path, int code) {
+  const std::string why = db != nullptr ? sqlite3_errmsg(db) : sqlite3_errstr(code);
+  switch (code & 0xff) {
+    case SQLITE_CORRUPT:
+    case SQLITE_NOTADB:
+    case SQLITE_FORMAT:
+    case SQLITE_ERROR:  // a table that should be there is not
+    case SQLITE_MISMATCH:
+    case SQLITE_SCHEMA:
+      throw InputError(
+          ExitCode::store,
+          fmt::format("{}: the file is damaged: {} (expected a worker file of driftscope). Run the "
+                      "same command again: damaged blocks are computed anew",
+                      path, why));
+    case SQLITE_FULL:
+    case SQLITE_IOERR:
+      throw InputError(
+          ExitCode::io,
+          fmt::format(
+              "{}: cannot be written or read: {} (expected free space on the disk). What is "
+              "stored is safe; make room and run the same command again",
+              path, why));
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED:
+      throw InputError(ExitCode::io,
+                       fmt::format("{}: another program keeps the file locked: {} (expected access "
+                                   "within {} s). Close it and run the same command again",
+                                   path, why, busy_ms / 1000));
+    case SQLITE_NOMEM:
+      throw std::bad_alloc();
+    default:
+      throw InputError(
+          ExitCode::io,
+          fmt::format("{}: cannot be opened or written: {} (expected a writable file in "
+                      "a writable folder). Nothing was changed; mend it and run the same "
+                      "command again",
+                      path, why));
+  }
+}
+
+}  // namespace
+
+void Statement::Finalize::operator()(sqlite3_stmt* s) const {
+  sqlite3_finalize(s);
+}
+void Database::Close::operator()(sqlite3* db) const {
+  sqlite3_close_v2(db);
+}
+
+Statement::Statement(sqlite3* db, std::string path, std::string_view sql)
+    : db_(db), path_(std::move(path)) {
+  sqlite3_stmt* made = nullptr;
+  const int code =
+      sqlite3_prepare_v2(db_, sql.data(), static_cast<int>(sql.size()), &made, nullptr);
+  statement_.reset(made);
+  if (code != SQLITE_OK) fail(db_, path_, code);
+}
+
+Statement& Statement::bind(int position, std::int64_t value) {
+  if (const int code = sqlite3_bind_int64(statement_.get(), position, value); code != SQLITE_OK)
+    fail(db_, path_, code);
+  return *this;
+}
+
+Statement& Statement::bind(int position, double value) {
+  if (const int code = sqlite3_bind_double(statement_.get(), position, value); code != SQLITE_OK)
+    fail(db_, path_, code);
+  return *this;
+}
+
+Statement& Statement::bind_text(int position, std::string_view value) {
+  const int code = sqlite3_bind_text64(statement_.get(), position, value.data(), value.size(),
+                                       SQLITE_TRANSIENT, SQLITE_UTF8);
+  if (code != SQLITE_OK) fail(db_, path_, code);
+  return *this;
+}
+
+Statement& Statement::bind_blob(int position, std::string_view value) {
+  const int code =
+      sqlite3_bind_blob64(statement_.get(), position, value.data(), value.size(), SQLITE_TRANSIENT);
+  if (code != SQLITE_OK) fail(db_, path_, code);
+  return *this;
+}
+
+bool Statement::step() {
+  const int code = sqlite3_step(statement_.get());
+  if (code == SQLITE_ROW) return true;
+  if (code != SQLITE_DONE) {
+    const int extended = sqlite3_extended_errcode(db_);
+    sqlite3_reset(statement_.get());
+    fail(db_, path_, extended != SQLITE_OK ? extended : code);
+  }
+  sqlite3_reset(statement_.get());
+  return false;
+}
+
+std::int64_t Statement::integer(int column) const {
+  return sqlite3_column_int64(statement_.get(), column);
+}
+
+double Statement::real(int column) const {
+  if (sqlite3_column_type(statement_.get(), column) == SQLITE_NULL)
+    return std::numeric_limits<double>::quiet_NaN();
+  return sqlite3_column_double(statement_.get(), column);
+}
+
+std::string Statement::bytes(int column) const {
+  const auto* data = static_cast<const char*>(sqlite3_column_blob(statement_.get(), column));
+  const int size = sqlite3_column_bytes(statement_.get(), column);
+  return data == nullptr ? std::string() : std::string(data, static_cast<std::size_t>(size));
+}
+
+Database::Database(std::string path, Use use) : path_(std::move(path)) {
+  sqlite3* made = nullptr;
+  // A reader may write too: only so can it undo the half of a transaction that a killed writer
+  // left.
+  const int flags =
+      SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_READWRITE | (use == Use::write ? SQLITE_OPEN_CREATE : 0);
+  const int code = sqlite3_open_v2(path_.c_str(), &made, flags, nullptr);
+  db_.reset(made);
+  if (code != SQLITE_OK) fail(made, path_, code);
+  sqlite3_extended_result_codes(made, 1);
+  sqlite3_busy_timeout(made, busy_ms);
+  // A rollback journal, not a write-ahead log: the log needs memory shared between the readers,
+  // which network file systems do not have. FULL: what is committed survives a power failure.
+  if (use == Use::write) execute("PRAGMA journal_mode=DELETE; PRAGMA synchronous=FULL");
+  // With this switch SQLite goes on where the file is shorter than its header says.
+  if (use == Use::salvage) execute("PRAGMA writable_schema=1");
+  if (use != Use::write) execute("PRAGMA query_only=1");
+}
+
+void Database::execute(const char* sql) {
+  if (const int code = sqlite3_exec(db_.get(), sql, nullptr, nullptr, nullptr); code != SQLITE_OK)
+    fail(db_.get(), path_, code);
+}
+
+bool Database::sound() {
+  try {
+    Statement check = prepare("PRAGMA quick_check(1)");
+    return check.step() && check.bytes(0) == "ok";
+  } catch (const InputError& error) {
+    if (error.code() != ExitCode::store) throw;
+    return false;
+  }
+}
+
+Transaction::~Transaction() {
+  if (!open_) return;
+  try {
+    db_.execute("ROLLBACK");
+  } catch (const std::exception&) {
+    // A full disk has rolled it back already; the error that led here is on its way.
+  }
+}
+
+void Transaction::commit() {
+  db_.execute("COMMIT");
+  open_ = false;
+}
+
+}  // namespace drift::mc

@@ -1,0 +1,124 @@
+#include <algorithm>
+#include <bit>
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "core/base/check.hpp"
+#include "mc/store/store.hpp"
+
+namespace drift::mc {
+
+std::string worker_path(const std::string& folder, std::size_t worker) {
+  return fmt::format("{}/worker-{:04}.sqlite", folder, worker);
+}
+
+std::vector<std::string> worker_files(const std::string& folder) {
+  std::vector<std::string> files;
+  std::error_code failed;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, failed)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("worker-") && name.ends_with(".sqlite"))
+      files.push_back(folder + "/" + name);
+  }
+  // Numbers of more than four digits after those of four.
+  std::sort(files.begin(), files.end(), [](const std::string& a, const std::string& b) {
+    return std::pair(a.size(), a) < std::pair(b.size(), b);
+  });
+  return files;
+}
+
+WorkerFile::WorkerFile(const std::string& path, std::shared_ptr<const Manifest> manifest,
+                       Database::Use use)
+    : manifest_(std::move(manifest)), db_(path, use) {}
+
+std::vector<BlockEntry> WorkerFile::entries(std::int64_t after_id, bool* damaged) {
+  std::vector<BlockEntry> list;
+  const std::size_t block = manifest_->identity.block_size;
+  const auto note = [&] {
+    if (damaged != nullptr) *damaged = true;
+  };
+  try {
+    Statement tables = db_.prepare("SELECT count(*) FROM sqlite_master");
+    if (tables.step() && tables.integer(0) == 0)
+      return list;  // another worker is about to begin it
+    Statement query =
+        db_.prepare("SELECT id, point, first_run, runs FROM blocks WHERE id > ?1 ORDER BY id");
+    query.bind(1, after_id);
+    while (query.step()) {
+      const auto point = query.integer(1), first = query.integer(2), runs = query.integer(3);
+      // What no worker ever writes is damage.
+      if (point < 0 || static_cast<std::size_t>(point) >= manifest_->points.size() || first < 0 ||
+          runs <= 0 || static_cast<std::size_t>(runs) > block ||
+          static_cast<std::uint64_t>(first) % block != 0) {
+        note();
+        continue;
+      }
+      list.push_back({{static_cast<std::size_t>(point), static_cast<std::uint64_t>(first),
+                       static_cast<std::size_t>(runs)},
+                      query.integer(0)});
+    }
+  } catch (const InputError& error) {
+    if (error.code() != ExitCode::store) throw;
+    note();
+  }
+  return list;
+}
+
+std::optional<StoredBlock> WorkerFile::read(const BlockEntry& entry) {
+  const auto& columns = manifest_->points[entry.key.point].columns;
+  try {
+    Statement query = db_.prepare(
+        "SELECT payload, checksum, integration_s, filter_s, total_s FROM blocks WHERE id = ?1 AND "
+        "point = ?2 AND "
+        "first_run = ?3 AND runs = ?4");
+    query.bind(1, entry.id).bind(2, static_cast<std::int64_t>(entry.key.point));
+    query.bind(3, static_cast<std::int64_t>(entry.key.first))
+        .bind(4, static_cast<std::int64_t>(entry.key.count));
+    if (!query.step()) return std::nullopt;
+    const std::string payload = query.bytes(0);
+    StoredBlock stored;
+    stored.times = {query.real(2), query.real(3), query.real(4)};
+    Statement failed = db_.prepare(
+        "SELECT run, status, cause, t_s, seconds FROM failures WHERE block = ?1 ORDER BY run");
+    failed.bind(1, entry.id);
+    while (failed.step())
+      stored.failures.push_back({static_cast<std::uint64_t>(failed.integer(0)),
+                                 static_cast<RunStatus>(failed.integer(1)), failed.bytes(2),
+                                 failed.real(3), failed.real(4)});
+    if (checksum(manifest_->hash, entry.key, payload + encode(stored.failures)) != query.bytes(1))
+      return std::nullopt;
+    auto block = decode(entry.key, columns.size(), payload);
+    if (!block) return std::nullopt;
+    stored.block = std::move(*block);
+    return stored;
+  } catch (const InputError& error) {
+    if (error.code() != ExitCode::store) throw;
+    return std::nullopt;
+  }
+}
+
+std::vector<Session> WorkerFile::sessions() {
+  std::vector<Session> list;
+  try {
+    Statement query = db_.prepare(
+        "SELECT runs, started_utc, ended_utc, exit_code, facts FROM sessions ORDER BY id");
+    while (query.step()) {
+      Session s{static_cast<std::uint64_t>(query.integer(0)),
+                query.bytes(1),
+                query.bytes(2),
+                static_cast<int>(query.integer(3)),
+                {}};
+      const auto facts = nlohmann::ordered_json::parse(query.bytes(4), nullptr, false);
+      if (facts.is_object())
+        for (const auto& [key, value] : facts.items())
+          if (value.is_string()) s.facts.emplace_back(key, value);
+      list.push_back(std::move(s));
+    }
+  } catch (const InputError& error) {
+    if (error.code() != ExitCode::store) throw;  // sessions are told, not relied upon
+  }
+  return list;
+}
+
+}  // namespace drift::mc

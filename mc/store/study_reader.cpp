@@ -1,0 +1,151 @@
+#include "mc/store/study_reader.hpp"
+
+#include <algorithm>
+
+#include "core/base/check.hpp"
+#include "core/base/sha256.hpp"
+
+namespace drift::mc {
+
+StudyReader::StudyReader(const std::string& folder)
+    : folder_(folder),
+      manifest_(std::make_shared<Manifest>(read_manifest(folder))),
+      asked_(manifest_->runs) {
+  refresh();
+}
+
+void StudyReader::note(std::string text) {
+  if (std::find(notes_.begin(), notes_.end(), text) == notes_.end())
+    notes_.push_back(std::move(text));
+}
+
+void StudyReader::refresh() {
+  paths_ = worker_files(folder_);
+  for (const std::string& path : paths_) {
+    try {
+      Source& source = sources_[path];
+      if (!source.file) source.file = std::make_unique<WorkerFile>(path, manifest_);
+      bool damaged = false;
+      for (const BlockEntry& e : source.file->entries(source.last_id, &damaged)) {
+        source.last_id = std::max(source.last_id, e.id);
+        auto& copies = index_[{e.key.point, e.key.first}];
+        copies.emplace_back(path, e);
+        std::stable_sort(copies.begin(), copies.end(), [](const auto& a, const auto& b) {
+          return a.second.key.count > b.second.key.count;
+        });
+      }
+      for (const Session& session : source.file->sessions())
+        asked_ = std::max(asked_, session.runs);
+      if (damaged) note(fmt::format("{}: damaged; what cannot be read of it is left out", path));
+    } catch (const InputError& error) {
+      if (error.code() != ExitCode::store) throw;
+      note(fmt::format("{}: damaged, cannot be read", path));
+    }
+  }
+}
+
+std::vector<Session> StudyReader::sessions() {
+  std::vector<Session> all;
+  for (auto& [path, source] : sources_)
+    if (source.file)
+      for (Session& s : source.file->sessions()) {
+        s.facts.emplace_back("file", path);
+        all.push_back(std::move(s));
+      }
+  std::stable_sort(all.begin(), all.end(), [](const Session& a, const Session& b) {
+    return a.started_utc < b.started_utc;
+  });
+  return all;
+}
+
+std::vector<BlockKey> StudyReader::keys() const {
+  std::vector<BlockKey> list;
+  list.reserve(index_.size());
+  for (const auto& [place, copies] : index_) list.push_back(copies.front().second.key);
+  return list;
+}
+
+void StudyReader::each_copy(
+    std::size_t point, std::uint64_t first,
+    const std::function<void(const std::string&, const std::optional<StoredBlock>&)>& visit) {
+  const auto found = index_.find({point, first});
+  if (found == index_.end()) return;
+  for (const auto& [path, entry] : found->second) {
+    const auto block = sources_.at(path).file->read(entry);
+    if (!block)
+      note(fmt::format("{}: the block of point {}, runs {} to {} is damaged", path, point, first,
+                       first + entry.key.count - 1));
+    visit(path, block);
+  }
+}
+
+std::optional<StoredBlock> StudyReader::read(std::size_t point, std::uint64_t first) {
+  std::optional<StoredBlock> best;
+  std::string from;
+  each_copy(point, first, [&](const std::string& path, const std::optional<StoredBlock>& block) {
+    if (!block) return;
+    if (best && !agree(best->block, block->block))
+      throw InputError(
+          ExitCode::self_check,
+          fmt::format(
+              "{}: the block of point {}, first run {} differs from that in {} (expected equal "
+              "bits from every worker). Find the faulty machine with `driftscope verify`, remove "
+              "its worker file and run the same command again",
+              path, point, first, from));
+    if (!best) best = block, from = path;
+  });
+  return best;
+}
+
+void StudyReader::each_result(const StopRules& rules, const Visitor& visit) {
+  for (std::size_t p = 0; p < manifest_->points.size(); ++p) each_result(rules, p, visit);
+}
+
+bool StudyReader::each_result(const StopRules& rules, std::size_t point, const Visitor& visit) {
+  const std::unique_ptr<StopRule> rule = rules ? rules(point) : nullptr;
+  bool gap = false;
+  std::uint64_t next = 0;
+  for (auto at = index_.lower_bound({point, 0}); at != index_.end() && at->first.first == point;
+       ++at) {
+    const std::uint64_t first = at->first.second;
+    if (asked_ > 0 && first >= asked_) return false;
+    const auto block = read(point, first);
+    if (!block || first != next) gap = true;  // a rule sees only what is without a gap from run 0
+    next = first + manifest_->identity.block_size;
+    if (!block) continue;
+    visit(*block);
+    if (rule && !gap && rule->enough(block->block)) return true;
+  }
+  return false;
+}
+
+std::vector<std::string> StudyReader::unsound() {
+  std::vector<std::string> list;
+  for (const std::string& path : paths_) {
+    const auto source = sources_.find(path);
+    if (source == sources_.end() || !source->second.file || !source->second.file->sound())
+      list.push_back(path);
+  }
+  return list;
+}
+
+std::string results_digest(StudyReader& reader, const StopRules& rules) {
+  Sha256 hash;
+  reader.each_result(rules, [&](const StoredBlock& b) {
+    const BlockKey key = key_of(b.block);
+    hash.update(fmt::format("{} {} {}\n", key.point, key.first, key.count));
+    hash.update(encode(b.block, reader.manifest().points[key.point].columns.size()));
+  });
+  return to_hex(hash.finish());
+}
+
+std::vector<BlockKey> all_blocks(const Manifest& manifest, std::uint64_t runs) {
+  const std::uint64_t size = manifest.identity.block_size;
+  std::vector<BlockKey> list;
+  for (std::size_t p = 0; p < manifest.points.size(); ++p)
+    for (std::uint64_t first = 0; first < runs; first += size)
+      list.push_back({p, first, static_cast<std::size_t>(std::min(size, runs - first))});
+  return list;
+}
+
+}  // namespace drift::mc

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mc/store/store.hpp"
+
+namespace drift::mc {
+
+/// The results in a folder, from any number of worker files, in order of points and runs whoever
+/// computed them. Keeps one block in memory at a time.
+class StudyReader {
+ public:
+  /// InputError (store) if the folder holds no study. Damaged files and blocks are left out;
+  /// notes() names them.
+  explicit StudyReader(const std::string& folder);
+
+  const Manifest& manifest() const { return *manifest_; }
+  /// Runs per study point: the most that any session was asked for, by its worker file or the
+  /// manifest, which outlives the worker files.
+  std::uint64_t runs() const { return asked_; }
+  std::vector<Session> sessions();
+  /// Looks for blocks stored since, by this or any other worker.
+  void refresh();
+
+  /// Blocks in order (the largest where there are several of the same first run), not yet verified.
+  std::vector<BlockKey> keys() const;
+  /// The verified block at this place, or nothing. InputError (self_check) if two workers came to
+  /// different results.
+  std::optional<StoredBlock> read(std::size_t point, std::uint64_t first);
+  /// Takes every block at this place, damaged ones as nothing.
+  void each_copy(
+      std::size_t point, std::uint64_t first,
+      const std::function<void(const std::string& file, const std::optional<StoredBlock>&)>& visit);
+
+  using Visitor = std::function<void(const StoredBlock&)>;
+  /// The results of all points in order: of every point the blocks up to the one with which the
+  /// stop rule had enough, or all. Blocks beyond are surplus that parallel workers may have
+  /// computed.
+  void each_result(const StopRules& rules, const Visitor& visit);
+  /// The same of one point; true if the stop rule had enough.
+  bool each_result(const StopRules& rules, std::size_t point, const Visitor& visit);
+
+  /// Damage met so far, a line each.
+  const std::vector<std::string>& notes() const { return notes_; }
+  const std::vector<std::string>& files() const { return paths_; }
+  /// The structure of every file is sound; those that are not, by path.
+  std::vector<std::string> unsound();
+
+ private:
+  struct Source {
+    std::unique_ptr<WorkerFile> file;
+    std::int64_t last_id = 0;
+  };
+  void note(std::string text);
+
+  std::string folder_;
+  std::shared_ptr<const Manifest> manifest_;
+  std::vector<std::string> paths_;
+  std::map<std::string, Source> sources_;
+  std::map<std::pair<std::size_t, std::uint64_t>, std::vector<std::pair<std::string, BlockEntry>>>
+      index_;
+  std::uint64_t asked_ = 0;
+  std::vector<std::string> notes_;
+};
+
+/// SHA-256 over key and payload of all results in order, in hexadecimal: what is equal for any
+/// threads, workers, ranks and interruptions.
+std::string results_digest(StudyReader& reader, const StopRules& rules);
+
+/// What a study has to do: blocks of every point that make up `runs` runs.
+std::vector<BlockKey> all_blocks(const Manifest& manifest, std::uint64_t runs);
+
+}  // namespace drift::mc

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/physics/earth.hpp"
+#include "core/physics/model_spec.hpp"
+#include "core/plan/environment.hpp"
+#include "core/plan/readout.hpp"
+#include "core/plan/test_plan.hpp"
+#include "core/recording/recording.hpp"
+#include "mc/study/blind_spec.hpp"
+#include "mc/study/monte_carlo.hpp"
+
+namespace drift::mc {
+
+/// One line of [sweep]: a dotted key of the study file and the values it takes, as TOML text.
+struct SweepAxis {
+  std::string key;
+  std::vector<std::string> values;
+};
+
+/// Results from elsewhere, printed beside ours: [[published]] of a study file.
+struct Published {
+  struct Value {
+    std::size_t param = 0;
+    std::vector<double> values, sigmas;  ///< SI; sigmas may be empty
+  };
+  std::string name;    ///< "Table 1 of the paper"
+  std::string filter;  ///< the filter they are compared with; empty: with all (an independent test)
+  std::vector<Value> values;
+};
+
+/// A value of the resolved study, for `check`: where it stands, what it is, where it came from.
+struct Resolved {
+  std::string key;     ///< "truth.parameters.eta_x"
+  std::string value;   ///< "normal(112, 20) arcsec"
+  std::string origin;  ///< "study.toml:12", "--set", "default", "default prior"
+};
+
+/// A study file, read, checked and converted to internal units.
+struct Study {
+  std::string path;
+  std::string text;  ///< the file as TOML with the overrides of the command line in it
+  std::string title;
+  Site site;
+  RecordingKind kind = RecordingKind::platform;
+  TestPlan plan;            ///< of a platform test
+  double static_min = 2.0;  ///< strapdown: shortest dwell that counts [s]
+  Readout readout;
+  Environment environment;
+  TruthSpec truth;
+  bool has_truth = false;  ///< [truth] is in the file; without it there is nothing to simulate
+  std::vector<FilterSpec> filters;
+  MonteCarlo monte_carlo;
+  std::vector<SweepAxis> sweep;
+  std::vector<Published> published;
+  BlindSpec blind;
+  bool has_blind = false;  ///< [blind] is in the file
+  std::vector<Resolved> resolved;
+};
+
+/// `--set key=value` of the command line.
+using Overrides = std::vector<std::pair<std::string, std::string>>;
+
+/// Reads a study file. InputError (config) lists every mistake in it, each with file:line:col, what
+/// is wrong, what was expected, and the nearest valid key where one was meant.
+Study read_study(const std::string& path, const Overrides& overrides = {});
+
+/// Reads a study from a tree without trying its sweep; `text` is left empty. The same errors.
+Study read_study_tree(const config::Node& root, const std::string& path);
+
+/// Puts one value of a sweep in its place. With "truth.coupling", what only other couplings use
+/// goes: [truth.servo], [truth.loop] and truth.parameters.lambda. InputError (config) as
+/// apply_override.
+void apply_sweep_value(config::Node& root, const std::string& key, const std::string& value);
+
+}  // namespace drift::mc

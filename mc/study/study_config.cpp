@@ -1,0 +1,241 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "core/base/check.hpp"
+#include "core/config/load.hpp"
+#include "core/config/nearest.hpp"
+#include "core/config/override.hpp"
+#include "core/estimate/layout.hpp"
+#include "core/physics/model_config.hpp"
+#include "core/physics/mounting_config.hpp"
+#include "core/plan/environment_config.hpp"
+#include "core/plan/plan_config.hpp"
+#include "mc/study/blind_config.hpp"
+#include "mc/study/published_config.hpp"
+#include "mc/study/study.hpp"
+
+namespace drift::mc {
+namespace {
+
+using config::Node;
+using config::Option;
+using config::Report;
+using config::Section;
+
+void read_schema(Section& root) {
+  constexpr std::uint64_t schema = 1;
+  if (!root.require("schema", "schema = 1")) {
+    root.take("schema");
+    return;
+  }
+  std::uint64_t given = schema;
+  if (root.read(Option{"schema", unit::one, 0.0, 1e9, "of the file"}, given) && given != schema)
+    root.report().error(
+        root.take("schema")->at,
+        fmt::format("'schema' = {} is not known to this program (expected {}). Use a newer "
+                    "program, or write the file in schema {}",
+                    given, schema, schema));
+}
+
+/// A stop rule must be able to end: what it waits for is estimated, and its interval means
+/// something.
+void check_stop(Report& report, const Node& root, const Study& study) {
+  if (!study.monte_carlo.stop) return;
+  const Node& section = *root.find("monte_carlo");
+  const auto& stop = *section.find("stop");
+  if (study.monte_carlo.design != DesignKind::random)
+    report.error(section.find("design")->at,
+                 "'monte_carlo.design' does not go with [monte_carlo.stop] (expected \"random\": "
+                 "the interval that a stop rule "
+                 "waits for supposes independent runs, and the first runs of a spread-out design "
+                 "are not spread out). Remove one "
+                 "of the two");
+  constexpr std::string_view rmse = "rmse.";
+  const std::string& quantity = study.monte_carlo.stop->quantity;
+  const Node* given = stop.find("quantity");
+  if (given == nullptr || !quantity.starts_with(rmse) ||
+      !TermLibrary::find(quantity.substr(rmse.size())))
+    return;
+  std::vector<std::string_view> estimated;
+  for (const FilterSpec& filter : study.filters)
+    for (const std::size_t i : make_layout(filter).params)
+      if (const auto key = TermLibrary::specs[i].key.view();
+          std::ranges::find(estimated, key) == estimated.end())
+        estimated.push_back(key);
+  if (std::ranges::find(estimated, std::string_view(quantity).substr(rmse.size())) ==
+      estimated.end())
+    report.error(
+        given->at,
+        fmt::format(
+            "'monte_carlo.stop.quantity' = \"{}\" waits for a parameter that no filter estimates "
+            "(expected \"rmse.\" and one of {}). {}",
+            quantity, fmt::join(estimated, ", "),
+            config::suggestion(std::string_view(quantity).substr(rmse.size()), estimated,
+                               "Choose one of them, or add its term to a filter")));
+}
+
+std::vector<SweepAxis> read_sweep(Report& report, const Node* sweep) {
+  constexpr std::size_t most_values = 10000;
+  constexpr double most_points = 1e6;
+  std::vector<SweepAxis> axes;
+  if (sweep == nullptr) return axes;
+  double points = 1.0;
+  Section section(report, sweep, sweep->at, "sweep");
+  for (const auto& member : sweep->members) {
+    const Node& values = member.value;
+    if (!values.is(Node::Kind::array) || values.items.empty() ||
+        values.items.size() > most_values) {
+      report.error(
+          values.at,
+          fmt::format("'sweep.\"{}\"' is {} (expected a list of 1 to {} values). Write \"{}\" = "
+                      "[a, b, c], the dotted key in quotes",
+                      member.key, describe(values), most_values, member.key));
+      continue;
+    }
+    SweepAxis axis{member.key, {}};
+    for (const auto& value : values.items) {
+      std::string text = to_toml(value);
+      if (std::ranges::find(axis.values, text) != axis.values.end())
+        report.error(
+            value.at,
+            fmt::format(
+                "'sweep.\"{}\"' has {} twice (expected every value once: both would be one study "
+                "point). Remove one",
+                member.key, text));
+      else
+        axis.values.push_back(std::move(text));
+    }
+    points *= static_cast<double>(axis.values.size());
+    report.given(fmt::format("sweep.{}", member.key), to_toml(values), member.at);
+    axes.push_back(std::move(axis));
+  }
+  if (points > most_points)
+    report.error(sweep->at,
+                 fmt::format("[sweep] makes {:.0f} study points (expected at most {:.0f}). "
+                             "Shorten a list",
+                             points, most_points));
+  return axes;
+}
+
+/// The number of runs, the seed and the like are the study's: points share their runs.
+bool can_be_swept(std::string_view key) {
+  constexpr std::string_view designs[] = {"monte_carlo.design", "monte_carlo.estimator"};
+  if (key.starts_with("monte_carlo")) return std::ranges::find(designs, key) != std::end(designs);
+  return !key.starts_with("sweep") && !key.starts_with("schema");
+}
+
+/// Every value of the sweep is tried in its place, so that no point of a study fails for its file.
+void try_sweep(const Node& root, const Study& study) {
+  constexpr std::size_t most_messages = 20;
+  std::vector<std::string> messages;
+  const Node& sweep = study.sweep.empty() ? root : *root.find("sweep");
+  for (const auto& axis : study.sweep) {
+    const Node& values = *sweep.find(axis.key);
+    std::vector<std::string> told;  // what is wrong with the key is wrong with each of its values
+    for (std::size_t i = 0; i < axis.values.size() && messages.size() < most_messages; ++i) {
+      const auto& at = values.items[i].at;
+      const std::string where = at.set_key.empty()
+                                    ? fmt::format("{}:{}:{}", study.path, at.line, at.column)
+                                    : fmt::format("--set {}", at.set_key);
+      try {
+        if (!can_be_swept(axis.key))
+          throw InputError(ExitCode::config,
+                           fmt::format("'{}' cannot be swept (expected a key of the "
+                                       "study). Remove the line",
+                                       axis.key));
+        Node point = root;
+        apply_sweep_value(point, axis.key, axis.values[i]);
+        read_study_tree(point, study.path);
+      } catch (const InputError& error) {
+        const std::string own = fmt::format("--set {}: ", axis.key);
+        for (const auto& message : error.messages()) {
+          const std::string what = message.starts_with(own) ? message.substr(own.size()) : message;
+          if (std::ranges::find(told, what) != told.end()) continue;
+          told.push_back(what);
+          messages.push_back(fmt::format("{}: with this value of the sweep: {}", where, what));
+        }
+      }
+    }
+  }
+  if (!messages.empty()) throw InputError(ExitCode::config, messages);
+}
+
+Node load_tree(const std::string& path, const Overrides& overrides) {
+  Node root = config::parse_document(config::load_text(path), path);
+  std::vector<std::string> messages;
+  for (const auto& [key, value] : overrides) {
+    try {
+      apply_override(root, key, value);
+    } catch (const InputError& error) {
+      messages.insert(messages.end(), error.messages().begin(), error.messages().end());
+    }
+  }
+  if (!messages.empty()) throw InputError(ExitCode::config, messages);
+  return root;
+}
+
+}  // namespace
+
+Study read_study_tree(const Node& root, const std::string& path) {
+  Report report(path);
+  Study study;
+  study.path = path;
+  Section top(report, &root, config::Place{}, "");
+  read_schema(top);
+  top.read(Option{.key = "title", .doc = "of the study"}, study.title);
+  const Mounting mounting = read_mounting(top.section("mounting"));
+  const PlanConfig plan = read_plan(top.section("plan"));
+  study.kind = plan.kind;
+  study.plan = plan.plan;
+  study.static_min = plan.static_min;
+  study.site = read_site(top.section("site"), plan.kind);
+  study.readout = read_readout(top.section("readout"));
+  study.environment = read_environment(top.section("environment"));
+  const Node* sweep = top.take("sweep");
+  // A blind study has truths of several couplings too.
+  const bool swept =
+      (sweep != nullptr && sweep->find("truth.coupling") != nullptr) || top.has("blind");
+  Section truth = top.section("truth");
+  study.has_truth = truth.present();
+  study.truth = read_truth(truth, mounting, swept ? UnusedTables::allowed : UnusedTables::refused);
+  study.filters = read_filters(top, mounting);
+  study.monte_carlo = read_monte_carlo(top.section("monte_carlo"));
+  study.sweep = read_sweep(report, sweep);
+  study.published = read_published(top);
+  if (Section blind = top.section("blind"); blind.present()) {
+    study.blind = read_blind(blind);
+    study.has_blind = true;
+  }
+  top.finish();
+  if (report.errors() == 0) check_stop(report, root, study);
+  report.throw_if_wrong();
+  for (const auto& value : report.resolved())
+    study.resolved.push_back({value.key, value.text, value.origin});
+  return study;
+}
+
+void apply_sweep_value(Node& root, const std::string& key, const std::string& value) {
+  apply_override(root, key, value);
+  if (key != "truth.coupling") return;
+  Node& truth = *root.find("truth");
+  const std::string coupling = truth.find("coupling")->text;
+  const auto drop = [](Node& table, std::string_view name) {
+    std::erase_if(table.members, [&](const config::Member& m) { return m.key == name; });
+  };
+  if (coupling != "servo") drop(truth, "servo");
+  if (coupling != "compensated") drop(truth, "loop");
+  if (Node* parameters = truth.find("parameters"); parameters && coupling != "lambda")
+    drop(*parameters, "lambda");
+}
+
+Study read_study(const std::string& path, const Overrides& overrides) {
+  const Node root = load_tree(path, overrides);
+  Study study = read_study_tree(root, path);
+  try_sweep(root, study);
+  study.text = config::to_document(root);
+  return study;
+}
+
+}  // namespace drift::mc

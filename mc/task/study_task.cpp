@@ -1,0 +1,56 @@
+#include "mc/task/study_task.hpp"
+
+#include <fmt/format.h>
+
+#include "core/base/check.hpp"
+#include "core/plan/environment.hpp"
+#include "mc/task/study_worker.hpp"
+
+namespace drift::mc {
+namespace {
+
+void check(const Study& study) {
+  const auto refuse = [&](const char* what) {
+    throw InputError(ExitCode::config, fmt::format("{}: {}", study.path, what));
+  };
+  if (study.kind != RecordingKind::platform)
+    refuse(
+        "a strapdown plan cannot be simulated (expected a platform test). Use `driftscope "
+        "identify`");
+  if (!study.has_truth)
+    refuse("no [truth] to simulate from (expected a section [truth]). Add it, with its coupling");
+  if (study.filters.empty())
+    refuse(
+        "no [[filter]]: nothing to estimate with (expected at least one). Add a section [[filter]] "
+        "with "
+        "name and coupling");
+  if (study.truth.coupling == Coupling::compensated && study.truth.loop == LoopEstimate::feedback)
+    refuse(
+        "a loop fed back from a filter makes other data for every filter, so filters cannot be "
+        "compared "
+        "on the same data (expected truth.loop.estimate = \"given\"). Use `driftscope identify`");
+}
+
+}  // namespace
+
+StudyTask::StudyTask(Study study)
+    : study_((check(study), std::move(study))),
+      timeline_(lay_out(study_.plan, study_.site)),
+      layout_(study_),
+      named_(layout_.named()) {
+  set_loop(timeline_, study_.truth);
+  set_environment(timeline_, study_.environment, study_.monte_carlo.seed, 0);
+}
+
+std::unique_ptr<RunWorker> StudyTask::worker() const {
+  return std::make_unique<StudyWorker>(*this);
+}
+
+std::vector<TaskPoint> study_tasks(const std::vector<StudyPoint>& points) {
+  std::vector<TaskPoint> tasks;
+  for (const StudyPoint& p : points)
+    tasks.push_back({p.label, std::make_unique<StudyTask>(p.study)});
+  return tasks;
+}
+
+}  // namespace drift::mc

@@ -1,0 +1,232 @@
+#include "mc/task/study_worker.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <limits>
+
+#include "core/estimate/starts.hpp"
+#include "core/plan/environment.hpp"
+#include "mc/task/trace.hpp"
+
+namespace drift::mc {
+namespace {
+
+/// CPU time of this thread [s].
+double cpu_seconds() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+RunStatus status_of(const OdeResult& ode) {
+  return ode.status == OdeStatus::wall_time ? RunStatus::timeout : RunStatus::integrator_failed;
+}
+
+/// v <- Q^T v for A = Q T Q^T: the Householder reflections one after the other. Allocates nothing.
+void turn_by_reflections(const Eigen::Tridiagonalization<MatX>& A, VecX& v) {
+  const MatX& packed = A.packedMatrix();
+  const Eigen::Index n = v.size();
+  for (Eigen::Index i = 0; i + 2 < n; ++i) {
+    // The reflecting vector is (1, column i below the subdiagonal); of length zero there, none.
+    const auto below = packed.col(i).tail(n - i - 2);
+    const double square = below.squaredNorm();
+    if (square == 0.0) continue;
+    const double d = 2.0 / (1.0 + square) * (v[i + 1] + below.dot(v.tail(n - i - 2)));
+    v[i + 1] -= d;
+    v.tail(n - i - 2) -= d * below;
+  }
+}
+
+/// The first thing that goes wrong names the run.
+void blame(RunOutcome& out, RunStatus status, std::string cause, double t) {
+  if (out.status != RunStatus::ok) return;
+  out.status = status;
+  out.cause = std::move(cause);
+  out.t_failed = t;
+}
+
+}  // namespace
+
+StudyWorker::StudyWorker(const StudyTask& task)
+    : task_(task),
+      timeline_(task.timeline()),
+      design_(task.study().truth, task.study().monte_carlo.design, task.study().monte_carlo.runs,
+              task.study().monte_carlo.seed),
+      simulator_(task.study().truth, task.study().readout) {
+  const Study& study = task.study();
+  for (std::size_t f = 0; f < study.filters.size(); ++f) {
+    const FilterSpec& spec = study.filters[f];
+    const StudyColumns::Filter& columns = task.layout().filters[f];
+    const auto n = static_cast<Eigen::Index>(columns.layout.size());
+    Bench bench{spec,
+                columns,
+                {},
+                nullptr,
+                nullptr,
+                Eigen::Tridiagonalization<MatX>(n),
+                Eigen::SelfAdjointEigenSolver<MatX>(n),
+                VecX(n),
+                VecX(n - 1),
+                VecX(n),
+                VecX(n),
+                VecX(n)};
+    const std::size_t fixed = spec.starts.empty() ? 1 : columns.starts;
+    for (std::size_t s = 0; s < fixed; ++s)
+      bench.fixed_starts.push_back(initial_estimate(spec, study.monte_carlo.seed, 0, s));
+    if (study.monte_carlo.estimator == EstimatorKind::ekf)
+      bench.ekf = std::make_unique<Ekf>(spec, timeline_, study.readout, bench.fixed_starts[0],
+                                        KeepHistory::no);
+    if (study.monte_carlo.estimator == EstimatorKind::iterated)
+      bench.iterated =
+          std::make_unique<IteratedEkf>(spec, timeline_, study.readout, bench.fixed_starts[0]);
+    benches_.push_back(std::move(bench));
+  }
+}
+
+RunOutcome StudyWorker::execute(std::uint64_t run, std::span<double> row) {
+  RunOutcome out;
+  const double begin = cpu_seconds();
+  double simulated = begin;
+  try {
+    simulate(run, row, out);
+    simulated = cpu_seconds();
+    const bool usable = out.status == RunStatus::ok;
+    for (Bench& bench : benches_)
+      for (std::size_t s = 0; usable && s < bench.columns.starts; ++s)
+        estimate(bench, run, s, row, out);
+  } catch (const std::exception& e) {
+    std::ranges::fill(row, std::numeric_limits<double>::quiet_NaN());
+    out.status = RunStatus::error;
+    out.cause = e.what();
+  }
+  const double end = cpu_seconds();
+  out.integration_s = simulated - begin;
+  out.filter_s = end - simulated;
+  out.total_s = end - begin;
+  return out;
+}
+
+void StudyWorker::simulate(std::uint64_t run, std::span<double> row, RunOutcome& out) {
+  const Study& study = task_.study();
+  if (study.environment.temperature_fluctuation > 0.0)
+    set_environment(timeline_, study.environment, study.monte_carlo.seed, run);
+  design_.draw(run, timeline_.chains, draw_);
+  simulator_.run(timeline_, draw_, study.monte_carlo.seed, run, sim_);
+  set_lambda(study.truth, sim_.theta_end);  // what an estimate at the end is to be compared with
+  const auto& truth = task_.layout().truth;
+  for (std::size_t c = 0; c < truth.size(); ++c)
+    row[c] = sim_.theta_end[static_cast<Eigen::Index>(truth[c])];
+  if (!sim_.ode.ok()) {
+    blame(out, status_of(sim_.ode), sim_.ode.cause, sim_.ode.t);
+    return;
+  }
+  const auto infinite = [](const Mat3X& m) { return m.array().isInf().any(); };
+  if (infinite(sim_.measured.acc) || infinite(sim_.measured.gimbal))
+    blame(out, RunStatus::nonfinite, "a simulated measurement is infinite", 0.0);
+}
+
+void StudyWorker::estimate(Bench& bench, std::uint64_t run, std::size_t start,
+                           std::span<double> row, RunOutcome& out) {
+  const Theta from = start < bench.fixed_starts.size()
+                         ? bench.fixed_starts[start]
+                         : initial_estimate(bench.spec, task_.study().monte_carlo.seed, run, start);
+  if (bench.ekf) {
+    Ekf& ekf = *bench.ekf;
+    ekf.reset(from);
+    const auto intervals = static_cast<Eigen::Index>(timeline_.intervals.size());
+    for (Eigen::Index i = 0; i < intervals && ekf.status() == EstimateStatus::ok; ++i)
+      ekf.process(static_cast<std::size_t>(i), sim_.measured.acc.col(i),
+                  sim_.measured.gimbal.col(i));
+    write(bench, ekf, start, row, out);
+  } else if (bench.iterated) {
+    bench.iterated->run(sim_.measured, from);
+    write(bench, *bench.iterated, start, row, out);
+  } else {
+    by_batch(bench, from, start, row, out);
+  }
+}
+
+template <class Filter>
+void StudyWorker::write(Bench& bench, Filter& filter, std::size_t start, std::span<double> row,
+                        RunOutcome& out) {
+  using C = StudyColumns;
+  const C::Filter& at = bench.columns;
+  row[at.at(start, C::status)] = static_cast<double>(filter.status());
+  if (filter.status() != EstimateStatus::ok) {
+    blame(out, RunStatus::filter_diverged, at.name + ": " + filter.cause(), filter.t_diverged());
+    return;
+  }
+  const InnovationSums& sums = filter.innovations();
+  row[at.at(start, C::nis)] = sums.nis;
+  row[at.at(start, C::nis_dof)] = static_cast<double>(sums.scalars);
+  row[at.at(start, C::lag1)] = sums.lag1();
+  for (std::size_t k = 0; k < at.layout.size(); ++k) {
+    row[at.estimate(start, k)] = filter.theta()[static_cast<Eigen::Index>(at.layout.params[k])];
+    row[at.sigma(start, k)] = filter.sigma(k);
+  }
+  judge(bench, start, filter.x(), filter.settled_covariance(), row);
+}
+
+void StudyWorker::by_batch(Bench& bench, const Theta& from, std::size_t start,
+                           std::span<double> row, RunOutcome& out) {
+  using C = StudyColumns;
+  const BatchResult fit =
+      fit_batch(bench.spec, timeline_, task_.study().readout, sim_.measured, from);
+  const EstimateResult& e = fit.estimate;
+  const C::Filter& at = bench.columns;
+  row[at.at(start, C::status)] = static_cast<double>(e.status);
+  if (e.status != EstimateStatus::ok) {
+    blame(out, RunStatus::filter_diverged, at.name + ": " + e.cause, 0.0);
+    return;
+  }
+  row[at.at(start, C::nis)] = e.statistic;
+  row[at.at(start, C::nis_dof)] = static_cast<double>(e.measured);
+  VecX x(static_cast<Eigen::Index>(at.layout.size()));
+  for (std::size_t k = 0; k < at.layout.size(); ++k) {
+    const ParameterEstimate& p = e.parameters[k];
+    row[at.estimate(start, k)] = p.value;
+    row[at.sigma(start, k)] = p.sigma;
+    x[static_cast<Eigen::Index>(k)] = (p.value - p.prior_mean) / p.prior_sigma;
+  }
+  judge(bench, start, x, e.covariance, row);
+}
+
+template <class Vector, class Matrix>
+void StudyWorker::judge(Bench& bench, std::size_t start, const Vector& x, const Matrix& P,
+                        std::span<double> row) {
+  using C = StudyColumns;
+  const C::Filter& at = bench.columns;
+  for (std::size_t k = 0; k < at.layout.size(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    bench.error[i] = x[i] - (row[at.truth[k]] - at.layout.mean[i]) / at.layout.sigma[i];
+  }
+  bench.tridiagonal.compute(P);
+  bench.diagonal = bench.tridiagonal.diagonal();
+  bench.beside = bench.tridiagonal.subDiagonal();
+  bench.eigen.computeFromTridiagonal(bench.diagonal, bench.beside);
+  bench.turned = bench.error;
+  turn_by_reflections(bench.tridiagonal, bench.turned);
+  bench.along.noalias() = bench.eigen.eigenvectors().transpose() * bench.turned;
+  const double observed = std::pow(task_.study().monte_carlo.healthy_sigma, 2);
+  double nees = 0.0, all = 0.0;
+  int dof = 0;
+  for (Eigen::Index j = 0; j < bench.along.size(); ++j) {
+    const double variance = bench.eigen.eigenvalues()[j];
+    const double share = bench.along[j] * bench.along[j] / variance;
+    all += share;
+    if (variance >= observed) continue;
+    nees += share;
+    ++dof;
+  }
+  row[at.at(start, C::nees)] = nees;
+  row[at.at(start, C::nees_dof)] = dof;
+  row[at.at(start, C::nees_all)] = all;
+}
+
+RunOutcome StudyWorker::trace(std::uint64_t run, std::span<double> row, TraceSink& sink) {
+  send_trace(trace_run(task_.study(), run), sink);
+  return execute(run, row);
+}
+
+}  // namespace drift::mc

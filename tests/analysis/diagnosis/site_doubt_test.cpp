@@ -1,0 +1,90 @@
+#include "analysis/diagnosis/site_doubt.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "analysis/diagnosis/diagnose.hpp"
+#include "analysis/report/diagnosis/remark_words.hpp"
+#include "analysis/report/diagnosis/sentence.hpp"
+#include "core/sim/measurements.hpp"
+#include "core/sim/simulate.hpp"
+#include "tests/support/model_builders.hpp"
+
+namespace drift::diagnosis {
+namespace {
+
+constexpr double truth = 45.75;  // deg, of test::harbin
+
+/// Six positions of free drift at Harbin, and a study that may say another latitude.
+struct Scene {
+  mc::Study study;
+  Recording recording;
+
+  explicit Scene(double latitude_deg) {
+    study.path = "study.toml";
+    study.site = test::harbin;
+    PlanDefaults defaults;
+    defaults.dwell = 1200.0;
+    study.plan = preset_plan("six", defaults).value();
+    study.truth = test::base_truth(Coupling::eq5);
+    study.truth.active &= ~test::only({"D_II", "D_OO", "D_SS", "D_IO", "D_IS", "D_OS"});
+    study.filters = {test::base_filter(Coupling::eq5)};
+    study.filters.front().active = study.truth.active;
+    const Timeline timeline = lay_out(study.plan, study.site);
+    const TruthDraw draw = draw_truth(study.truth, timeline.chains, 1, 0);
+    recording = make_recording(
+        timeline, Simulator(study.truth, study.readout).run(timeline, draw, 1, 0).measured,
+        study.readout);
+    study.site.latitude = latitude_deg * unit::deg.to_si;
+  }
+  std::optional<SiteDoubt> doubt(Verdict verdict) const {
+    Diagnosis d;
+    d.nominal = study.filters.front();
+    d.verdict = verdict;
+    return site_doubt(study, {recording}, d);
+  }
+};
+
+TEST(SiteDoubt, FindsTheLatitudeBehindAMisfit) {
+  for (const double declared : {46.5, 30.0, 70.0}) {
+    const auto doubt = Scene(declared).doubt(Verdict::unexplained);
+    ASSERT_TRUE(doubt) << declared;
+    EXPECT_NEAR(doubt->latitude / unit::deg.to_si, truth, 0.05)
+        << declared;  // six positions know it to 0.01 deg or so
+    EXPECT_NEAR(doubt->chi2_per_dof_after, 1.0, 0.2) << declared;
+    EXPECT_GT(doubt->chi2_per_dof_before, doubt->chi2_per_dof_after);
+    EXPECT_NEAR(doubt->prior_sigmas, std::abs(declared - truth) * 3600.0 / 20.0, 9.0)
+        << declared;  // 0.05 deg
+    Diagnosis told;
+    told.site_doubt = doubt;
+    EXPECT_NE(report::sentence(told).find("latitude_error would need"), std::string::npos);
+  }
+}
+
+TEST(SiteDoubt, IsNotRaisedWhereTheLatitudeIsRightOrTheVerdictGivesNoReason) {
+  EXPECT_FALSE(Scene(truth).doubt(Verdict::unexplained));
+  EXPECT_FALSE(Scene(47.0).doubt(
+      Verdict::named));  // latitude_error is no strong candidate of this diagnosis
+}
+
+TEST(SiteDoubt, TheWrongHemisphereHidesInParametersFarFromTheirPriorsAndIsStillFound) {
+  // Earth rate about Up is isotropic D_I: the residuals are clean, the parameters are not.
+  const Scene s(-truth);
+  DiagnoseOptions options;
+  options.starts = 1;
+  options.whiteness_draws = 0;
+  const Diagnosis d = diagnose(s.study, {s.recording}, options);
+  EXPECT_TRUE(std::ranges::any_of(d.remarks, [](const auto& r) {
+    return report::in_words(r).find("D_I_x, D_I_y, D_I_z") != std::string::npos;
+  }));
+  const auto doubt = site_doubt(s.study, {s.recording}, d);
+  ASSERT_TRUE(doubt) << report::sentence(d);
+  EXPECT_NEAR(doubt->latitude / unit::deg.to_si, truth, 0.05);
+  const Diagnosis right = diagnose(Scene(truth).study, {s.recording}, options);
+  EXPECT_TRUE(std::ranges::none_of(
+      right.remarks, [](const auto& r) { return std::holds_alternative<remark::BeyondPrior>(r); }));
+}
+
+}  // namespace
+}  // namespace drift::diagnosis

@@ -1,0 +1,151 @@
+// The paper's own case: the drift equation of the nominal model is not that of the recording.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "analysis/diagnosis/advise.hpp"
+#include "analysis/diagnosis/diagnose.hpp"
+#include "analysis/diagnosis/patched_study.hpp"
+#include "analysis/report/diagnosis/sentence.hpp"
+#include "core/sim/simulate.hpp"
+#include "mc/study/study.hpp"
+#include "tests/support/model_builders.hpp"
+
+namespace drift::equation {
+namespace {
+
+using test::param;
+
+/// A study of the configs folder, with short dwells and the terms that matter here.
+mc::Study short_study(const std::string& name, mc::Overrides sets) {
+  const std::string terms = "[\"fixed_drift\", \"g_drift\", \"gyro_misalignment\"]";
+  sets.emplace_back("truth.terms", terms);
+  sets.emplace_back("filter.nominal.terms", terms);
+  return mc::read_study(std::string(DRIFT_SOURCE_DIR) + "/configs/" + name, sets);
+}
+
+struct Simulated {
+  Recording recording;
+  Theta theta;
+};
+
+Simulated simulated(const mc::Study& s) {
+  const Timeline timeline = lay_out(s.plan, s.site);
+  const TruthDraw draw = draw_truth(s.truth, timeline.chains, s.monte_carlo.seed, 0);
+  return {make_recording(
+              timeline,
+              Simulator(s.truth, s.readout).run(timeline, draw, s.monte_carlo.seed, 0).measured,
+              s.readout),
+          draw.theta};
+}
+
+void expect_lambda(const diagnosis::Diagnosis& d, double truth) {
+  ASSERT_EQ(d.verdict, diagnosis::Verdict::named) << report::sentence(d);
+  ASSERT_EQ(d.causes.size(), 1u) << report::sentence(d);
+  EXPECT_EQ(d.causes[0].term, "frame_closure");
+  const search::CauseParameter& lambda = d.causes[0].parameters.front();
+  EXPECT_EQ(lambda.key, "lambda");
+  EXPECT_NEAR(lambda.value, truth, 4.0 * lambda.sigma);
+  EXPECT_NE(report::sentence(d).find("95 % interval"), std::string::npos) << report::sentence(d);
+  EXPECT_TRUE(d.fit.held_out.improves);
+  EXPECT_NEAR(d.fit.held_out.chi2_per_dof_after, 1.0, 0.2);
+  // The candidates agree with the verdict, and cross-talk is named as the confounder.
+  EXPECT_EQ(d.candidates.front().term, "frame_closure");
+  EXPECT_GT(d.candidates.front().probability, 0.9);
+  EXPECT_TRUE(std::ranges::any_of(d.remarks, [](const auto& r) {
+    return std::holds_alternative<diagnosis::remark::CrosstalkMovesLambda>(r);
+  }));
+}
+
+TEST(Equation, TheOtherOneIsNamedFromSlewsAndTheParametersItHadMovedComeBack) {
+  const mc::Study s = short_study("diagnose_equation.toml", {{"plan.preset", "slew12"},
+                                                             {"plan.dwell", "6 min"},
+                                                             {"truth.coupling", "eq6"},
+                                                             {"filter.nominal.coupling", "eq5"}});
+  const Simulated made = simulated(s);
+  const diagnosis::Diagnosis d = diagnosis::diagnose(s, {made.recording});
+  expect_lambda(d, 1.0);
+  EXPECT_LT(d.causes[0].parameters[0].sigma, 0.1);
+  EXPECT_GT(d.fit.held_out.chi2_per_dof_before, 10.0);
+  EXPECT_LT(d.fit.start_spread_after, 2.0);
+  // Far off before, by the fit's own sigmas; after it within four of the truth.
+  double worst = 0.0;
+  for (const diagnosis::ShiftedParameter& p : d.fit.shifted) {
+    const double truth = made.theta[p.param] / TermLibrary::specs[p.param].unit.to_si;
+    worst = std::max(worst, std::abs(p.before - truth) / p.sigma_before);
+    EXPECT_NEAR(p.after, truth, 4.0 * p.sigma_after) << p.key;
+  }
+  EXPECT_GT(worst, 20.0);
+  EXPECT_GT(std::abs(d.fit.shifted.front().shift_sigma), 20.0);
+}
+
+TEST(Equation, MisalignmentsBeyondTheirPriorAreNoOtherEquation) {
+  // In caged free drift lambda only rescales the misalignments: what it could gain is their prior's
+  // cost, 24 here, which is no evidence.
+  mc::Overrides sets{{"plan.preset", "twelve"},
+                     {"plan.dwell", "30 min"},
+                     {"plan.sample", "120 s"},
+                     {"filter.nominal.coupling", "eq5"}};
+  for (const char* key : {"eta_x", "eta_y", "eta_z", "xi_x", "xi_y", "xi_z"})
+    sets.emplace_back(std::string("truth.parameters.") + key, "400 arcsec");
+  const mc::Study s = short_study("diagnose_equation.toml", sets);
+  const diagnosis::Diagnosis d = diagnosis::diagnose(s, {simulated(s).recording});
+  EXPECT_EQ(d.verdict, diagnosis::Verdict::consistent) << report::sentence(d);
+}
+
+TEST(Equation, TheOtherOneIsNamedFromFreeDrift) {
+  const mc::Study s =
+      short_study("diagnose_equation.toml", {{"plan.dwell", "20 min"}, {"plan.sample", "120 s"}});
+  const diagnosis::Diagnosis d = diagnosis::diagnose(s, {simulated(s).recording});
+  expect_lambda(d, 0.0);
+  EXPECT_GT(d.fit.held_out.log_score_gain, 10.0);
+}
+
+TEST(Equation, LevelPositionsCannotTellAndTheAdviceWorksWhenFollowed) {
+  mc::Study s = short_study("diagnose_level.toml", {{"plan.dwell", "10 min"}});
+  const Recording recording = simulated(s).recording;
+  diagnosis::Diagnosis d = diagnosis::diagnose(s, {recording});
+  EXPECT_EQ(d.verdict, diagnosis::Verdict::consistent) << report::sentence(d);
+  EXPECT_NE(report::sentence(d).find("cannot tell the nominal eq. (6) from eq. (5)"),
+            std::string::npos)
+      << report::sentence(d);
+  EXPECT_LT(std::abs(d.other_equation_gain), diagnosis::equation_told);
+
+  const auto advice = diagnosis::advise(s, {recording}, d);
+  ASSERT_EQ(advice.size(), 1u);
+  ASSERT_FALSE(advice[0].plan.empty());
+  EXPECT_LT(advice[0].now_sigma, 3.0);
+  EXPECT_GT(advice[0].expected_sigma, 5.0);
+  // What is not linear in lambda and the misalignments takes its part of a large separation.
+  EXPECT_NEAR(advice[0].verified_sigma, advice[0].expected_sigma,
+              4.0 + 0.1 * advice[0].expected_sigma);
+
+  // Followed: the positions appended, the test made under the true equation.
+  s.plan.preset.clear();
+  s.plan.positions.insert(s.plan.positions.end(), advice[0].plan.begin(), advice[0].plan.end());
+  const diagnosis::Diagnosis told = diagnosis::diagnose(s, {simulated(s).recording});
+  expect_lambda(told, 0.0);
+  EXPECT_TRUE(diagnosis::advise(s, {recording}, told).empty());
+}
+
+TEST(Equation, LambdaComesFromItsProfileWhereTheNominalEquationLetsTheMisalignmentsVanish) {
+  // Free drift under eq. (6) shows no misalignment; a nominal eq. (5) finds them at zero, where any
+  // lambda fits as well. That all six happen to be zero is what is improbable.
+  const mc::Study s = short_study("diagnose_equation.toml", {{"plan.dwell", "20 min"},
+                                                             {"plan.sample", "120 s"},
+                                                             {"truth.coupling", "eq6"},
+                                                             {"filter.nominal.coupling", "eq5"}});
+  diagnosis::DiagnoseOptions options;
+  options.folds = diagnosis::FoldMethod::linear;
+  options.named_by = diagnosis::NamedBy::fit_alone;
+  const diagnosis::Diagnosis d = diagnosis::diagnose(s, {simulated(s).recording}, options);
+  ASSERT_EQ(d.verdict, diagnosis::Verdict::named) << report::sentence(d);
+  EXPECT_EQ(d.causes[0].term, "frame_closure");
+  const search::CauseParameter& lambda = d.causes[0].parameters.front();
+  EXPECT_NEAR(lambda.value, 1.0, 0.2);
+  EXPECT_LT(lambda.sigma, 0.15);
+  EXPECT_NEAR(d.fit.chi2_per_dof_before, d.fit.chi2_per_dof_after, 0.02);
+}
+
+}  // namespace
+}  // namespace drift::equation

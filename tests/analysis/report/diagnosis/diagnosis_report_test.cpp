@@ -1,0 +1,394 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "analysis/report/diagnosis/figures.hpp"
+#include "analysis/report/diagnosis/folder.hpp"
+#include "analysis/report/diagnosis/json.hpp"
+#include "analysis/report/diagnosis/residual_signal.hpp"
+#include "analysis/report/diagnosis/sentence.hpp"
+#include "analysis/report/diagnosis/tables.hpp"
+#include "analysis/report/diagnosis/text.hpp"
+#include "analysis/report/diagnosis/words.hpp"
+#include "tests/analysis/report/diagnosis/diagnosis_fixture.hpp"
+#include "tests/analysis/report/xml_check.hpp"
+
+namespace drift {
+namespace {
+
+using namespace diagnosis;
+using namespace inference;
+using namespace search;
+using nlohmann::json;
+using testing::nominal_study;
+
+const std::set<std::string> void_tags{"meta", "br", "img", "link", "hr"};
+
+FilterSpec nominal() {
+  const test::ScratchFolder folder;
+  return testing::read_text(folder, "s.toml", nominal_study).filters.front();
+}
+
+TEST(DiagnosisJson, HasEveryKeyOfTheInterfaceWithTheTypeThatStandsThere) {
+  const json j = json::parse(report::to_json(testing::diagnosis(nominal())));
+  EXPECT_EQ(j["schema"], 1);
+  EXPECT_EQ(j["verdict"], "named");
+  EXPECT_EQ(j["p_value"], 1e-30);
+  EXPECT_EQ(j["where"]["channels"][0],
+            (json{{"name", "acc_y"}, {"share", 0.7}, {"sigma", 0.1}, {"chi2_per_dof", 1.0}}));
+  EXPECT_EQ(j["where"]["positions"][0]["position"], 3);
+  EXPECT_EQ(j["where"]["windows"][0]["start_s"], 1200.0);
+  EXPECT_EQ(j["where"]["windows"][0]["end_s"], 1800.0);
+  EXPECT_EQ(j["where"]["equation"], "platform rate y");
+  const json& cause = j["causes"][0];
+  EXPECT_EQ(cause["term"], "g_drift");
+  EXPECT_EQ(cause["axis"], "y");
+  EXPECT_EQ(cause["probability"], 0.97);
+  EXPECT_EQ(cause["parameters"][0]["key"], "D_S_y");
+  EXPECT_EQ(cause["parameters"][0]["value"], 0.25);
+  EXPECT_EQ(cause["parameters"][0]["sigma"], 0.01);
+  EXPECT_EQ(cause["parameters"][0]["unit"], "deg/h/g");
+  EXPECT_EQ(cause["confusable_with"][0]["cosine"], 0.85);
+  for (const char* key : {"term", "score", "p_value", "absorbed"})
+    EXPECT_TRUE(j["candidates"][0].contains(key)) << key;
+  EXPECT_EQ(j["fit"]["in_sample"]["chi2_per_dof_before"], 1.02);
+  EXPECT_EQ(j["fit"]["in_sample"]["chi2_per_dof_after"], 1.0);
+  EXPECT_EQ(j["fit"]["held_out"]["log_score_gain"], 812.0);
+  EXPECT_EQ(j["fit"]["held_out"]["folds"], 6);
+  EXPECT_EQ(j["fit"]["start_spread_before"], 10.6);
+  EXPECT_EQ(j["fit"]["shifted_parameters"][0]["before"], 268.0);
+  EXPECT_EQ(j["fit"]["shifted_parameters"][0]["sigma_after"], 5.0);
+  EXPECT_EQ(j["advice"][0]["plan"]["position"][0]["axes"], "x=U y=N z=W");
+  EXPECT_EQ(j["advice"][0]["separates"], (json{"g_drift.y", "g_drift.z"}));
+  EXPECT_EQ(j["advice"][0]["expected_sigma"], 6.2);
+  EXPECT_EQ(j["noise"][0]["component"], "gimbal_white");
+  EXPECT_EQ(j["noise"][0]["factor"], 1.3);
+  EXPECT_EQ(j["model"], "patched.toml");
+}
+
+TEST(DiagnosisJson, WhatIsNoNumberIsNull) {
+  const json j = json::parse(report::to_json(testing::diagnosis(nominal())));
+  EXPECT_TRUE(j["candidates"][1]["score"].is_null());
+  EXPECT_TRUE(j["causes"][0]["size_sigma"].is_null());
+  EXPECT_TRUE(j["fit"]["start_spread_after"].is_null());
+  EXPECT_TRUE(j["advice"][0]["verified_sigma"].is_null());
+  const json empty = json::parse(report::to_json(diagnosis::Diagnosis{}));
+  EXPECT_EQ(empty["verdict"], "consistent");
+  EXPECT_TRUE(empty["model"].is_null());
+  EXPECT_TRUE(empty["causes"].is_array() && empty["causes"].empty());
+}
+
+TEST(DiagnosisJson, WhatWasNotComputedIsNullAndNotZero) {
+  diagnosis::Diagnosis d = testing::diagnosis(nominal());
+  d.fit.band_low = 0.9;
+  d.fit.band_high = 1.1;
+  d.fit.log_likelihood_ratio = 140.0;
+  d.fit.linear_T = 144.0;
+  d.where.scan_p_value = 1e-9;
+  d.where.windows_tried = 300;
+  json j = json::parse(report::to_json(d));
+  EXPECT_EQ(j["fit"]["in_sample"]["chi2_per_dof_95"], (json{0.9, 1.1}));
+  EXPECT_EQ(j["fit"]["in_sample"]["log_likelihood_ratio"], 140.0);
+  EXPECT_EQ(j["fit"]["in_sample"]["predicted_by_score"], 144.0);
+  EXPECT_EQ(j["fit"]["in_sample"]["sign_agrees"], true);
+  EXPECT_EQ(j["where"]["p_value"], 1e-9);
+  EXPECT_EQ(j["where"]["windows_tried"], 300);
+  // No cause in the model, nothing held out: no second fit, no gain.
+  d.has_patch = false;
+  d.fit.held_out = {};
+  j = json::parse(report::to_json(d));
+  for (const char* key : {"log_likelihood_ratio", "predicted_by_score", "sign_agrees"})
+    EXPECT_TRUE(j["fit"]["in_sample"].at(key).is_null()) << key;
+  for (const char* key :
+       {"log_score_gain", "log_score_gain_sigma", "nested_gain", "chi2_per_dof_before"})
+    EXPECT_TRUE(j["fit"]["held_out"].at(key).is_null()) << key;
+  // A recording on a case: no declared noise, no scan.
+  d.has_patch = true;
+  d.fit.band_low = d.fit.band_high = d.fit.log_likelihood_ratio = d.where.scan_p_value =
+      std::nan("");
+  j = json::parse(report::to_json(d));
+  for (const char* key : {"chi2_per_dof_95", "log_likelihood_ratio", "sign_agrees"})
+    EXPECT_TRUE(j["fit"]["in_sample"].at(key).is_null()) << key;
+  for (const char* key : {"p_value", "windows_tried"})
+    EXPECT_TRUE(j["where"].at(key).is_null()) << key;
+}
+
+TEST(DiagnosisPage, IsWellFormedOfflineAndEscaped) {
+  const test::ScratchFolder folder;
+  const mc::Study study = testing::read_text(folder, "s.toml", nominal_study);
+  const diagnosis::Diagnosis d = testing::diagnosis(study.filters.front());
+  const std::string page =
+      report::to_html(report::diagnosis_html(study, d, {{"rec <1>.csv"}, "details <&>"}));
+  EXPECT_EQ(testing::xml_problem(page, void_tags), std::nullopt);
+  EXPECT_EQ(page.find("://"), std::string::npos);
+  EXPECT_EQ(page.find("<script"), std::string::npos);
+  for (const char* text :
+       {"six &amp; &lt;positions&gt;", "rec &lt;1&gt;.csv", "a &lt;remark&gt; &amp; more",
+        "g_drift D_S_y &lt;&amp;&gt;", "[[plan.position]]"})
+    EXPECT_NE(page.find(text), std::string::npos) << text;
+  const auto figures = report::diagnosis_figures(d);
+  EXPECT_EQ(figures.size(), 7u);
+  for (const report::Figure& f : figures)
+    EXPECT_EQ(testing::xml_problem(f.svg), std::nullopt) << f.file;
+}
+
+TEST(DiagnosisPage, HoldsOfAnyVerdictAndOfNothing) {
+  const test::ScratchFolder folder;
+  const mc::Study study = testing::read_text(folder, "s.toml", nominal_study);
+  for (const diagnosis::Verdict v :
+       {diagnosis::Verdict::consistent, diagnosis::Verdict::named, diagnosis::Verdict::ambiguous,
+        diagnosis::Verdict::unexplained})
+    for (diagnosis::Diagnosis d :
+         {diagnosis::Diagnosis{}, testing::diagnosis(study.filters.front())}) {
+      d.verdict = v;
+      const std::string page = report::to_html(report::diagnosis_html(study, d, {}));
+      EXPECT_EQ(testing::xml_problem(page, void_tags), std::nullopt) << diagnosis::text(v);
+      EXPECT_FALSE(report::to_text(d).empty());
+    }
+}
+
+TEST(DiagnosisFigures, TheLocatedWindowAndTheGapOfTheRecoveredSignalAreSeen) {
+  const auto figures = report::diagnosis_figures(testing::diagnosis(nominal()));
+  const auto signal = std::find_if(figures.begin(), figures.end(),
+                                   [](const report::Figure& f) { return f.file == "signal.svg"; });
+  ASSERT_NE(signal, figures.end());
+  EXPECT_NE(signal->svg.find("located window"), std::string::npos);
+  EXPECT_NE(signal->svg.find("signature of the cause"), std::string::npos);
+}
+
+/// Two that cancel were found as a pair, beside a single alternative: each of the pair looks weak
+/// alone.
+diagnosis::Diagnosis cancelling_pair() {
+  diagnosis::Diagnosis d = testing::diagnosis(nominal());
+  d.verdict = diagnosis::Verdict::ambiguous;
+  const auto line = [](const char* term, const char* axis, double score) {
+    search::CandidateScore s;
+    s.term = term;
+    s.axis = axis;
+    s.label = fmt::format("{}.{}", term, axis);
+    s.score = score;
+    return s;
+  };
+  d.candidates.clear();
+  for (int k = 0; k < 60; ++k) d.candidates.push_back(line("g2_drift", "x", 100.0 - k));
+  for (std::size_t k = 0; k < 60; ++k) d.candidates[k].label += fmt::format(" {}", k);
+  d.candidates.push_back(line("sag", "x", 1.5));
+  d.candidates.push_back(line("magnetic_drift", "y", 0.5));
+  d.causes.assign(3, search::Cause{});
+  d.causes[0].term = "sag";
+  d.causes[1].term = "magnetic_drift";
+  d.causes[2].term = "g2_drift";
+  d.causes[0].axis = d.causes[2].axis = "x";
+  d.causes[1].axis = "y";
+  d.causes[2].set = 1;
+  d.cosines.labels = {"sag.x", "magnetic_drift.y", "g2_drift.x 3"};
+  d.cosines.cosine = MatX::Identity(3, 3);
+  return d;
+}
+
+TEST(DiagnosisCandidates, TheCausesAreShownHoweverWeakEachIsAlone) {
+  const diagnosis::Diagnosis d = cancelling_pair();
+  const auto shown = report::shown_candidates(d, 20);
+  ASSERT_EQ(shown.size(), 22u);
+  EXPECT_EQ(shown[3].alternative, 2);
+  EXPECT_EQ(shown[0].alternative, 0) << "the same term and axis, but other parameters";
+  EXPECT_EQ(shown[20].score->term, "sag");
+  EXPECT_EQ(shown[20].alternative, 1);
+  EXPECT_EQ(shown[21].score->term, "magnetic_drift");
+  const auto figures = report::name_figures(d);
+  ASSERT_EQ(figures.front().file, "candidates.svg");
+  for (const char* text : {"magnetic_drift.y", "alternative 1", "alternative 2"})
+    EXPECT_NE(figures.front().svg.find(text), std::string::npos) << text;
+  EXPECT_EQ(figures.front().svg.find("g2_drift.x 40"), std::string::npos);
+  const std::string out = report::to_text(d);
+  EXPECT_NE(out.find("magnetic_drift.y"), std::string::npos) << out;
+  EXPECT_NE(out.find("54 weaker ones are in diagnosis.json"), std::string::npos) << out;
+}
+
+TEST(DiagnosisPage, ComparesNothingWhereNoCauseIsInTheModel) {
+  const test::ScratchFolder folder;
+  const mc::Study study = testing::read_text(folder, "s.toml", nominal_study);
+  diagnosis::Diagnosis d = testing::diagnosis(study.filters.front());
+  d.fit.shifted.clear();
+  d.fit.held_out = {};
+  for (auto& s : d.signals) s.explained.clear();
+  EXPECT_NE(report::to_html(report::diagnosis_html(study, d, {})).find("with the cause"),
+            std::string::npos);
+  d.verdict = diagnosis::Verdict::unexplained;
+  d.has_patch = false;
+  d.causes.clear();
+  const std::string page = report::to_html(report::diagnosis_html(study, d, {}));
+  for (const char* text : {"with the cause", "acc_x, after", "Before and after"})
+    EXPECT_EQ(page.find(text), std::string::npos) << text;
+  EXPECT_NE(page.find("No cause is in the model."), std::string::npos);
+  EXPECT_EQ(report::to_text(d).find("with the cause"), std::string::npos);
+}
+
+TEST(DiagnosisFigures, TheNumbersAtTheRightHaveAHead) {
+  for (const report::Figure& f : report::fit_figures(testing::diagnosis(nominal()))) {
+    if (f.file == "held_out.svg") {
+      EXPECT_NE(f.svg.find(">gain of log density<"), std::string::npos);
+    }
+    if (f.file == "moved.svg") {
+      EXPECT_NE(f.svg.find(">nominal → with the cause<"), std::string::npos);
+    }
+  }
+}
+
+TEST(DiagnosisWords, OfTheStrongestWindowSayTheEquationOnlyIfItIsAnother) {
+  diagnosis::Diagnosis d = testing::diagnosis(nominal());
+  EXPECT_NE(
+      report::where_sentence(d.where).find("1200 s to 1800 s (chance of a false alarm: 1e-9)"),
+      std::string::npos)
+      << report::where_sentence(d.where);
+  d.where.equation = "gimbal inner";
+  EXPECT_NE(
+      report::where_sentence(d.where).find("1200 s to 1800 s, as the platform rate y (chance"),
+      std::string::npos)
+      << report::where_sentence(d.where);
+}
+
+TEST(DiagnosisTables, SayALikenessOnceByItsAxis) {
+  diagnosis::Diagnosis d = testing::diagnosis(nominal());
+  d.causes[0].confusable_with = {
+      {"sag", "", 0.99992}, {"sag", "x", -0.99991}, {"pier_tilt", "", 0.7}};
+  const std::string out = text_of(report::cause_table(d), 200);
+  EXPECT_NE(out.find("  sag.x (-1.00), pier_tilt (0.70)"), std::string::npos) << out;
+  d.causes[0].confusable_with[1].cosine = -0.9;  // all axes together are liker than one
+  EXPECT_NE(text_of(report::cause_table(d), 200).find("sag (1.00), sag.x (-0.90)"),
+            std::string::npos);
+}
+
+TEST(DiagnosisTables, NearlyAllAbsorbedIsNotAll) {
+  diagnosis::Diagnosis d = testing::diagnosis(nominal());
+  for (const auto& [share, text] :
+       {std::pair{0.93, "93 %"}, {0.9966, "99.7 %"}, {0.99962, "99.96 %"}, {0.004, "0.4 %"}}) {
+    d.candidates[0].absorbed = share;
+    EXPECT_NE(report::to_text(d).find(text), std::string::npos) << text;
+  }
+}
+
+TEST(DiagnosisWords, NameChannelsAndEquations) {
+  EXPECT_EQ(report::channel_in_words("acc_y"), "accelerometer y");
+  EXPECT_EQ(report::channel_in_words("gimbal_outer"), "outer gimbal");
+  EXPECT_EQ(report::channel_in_words("turn"), "the turns");
+  EXPECT_EQ(report::equation_in_words("gimbal middle"), "middle gimbal");
+  EXPECT_EQ(report::equation_in_words("platform rate y"), "platform rate y");
+}
+
+TEST(DiagnosisText, HasNoWordsOfTheMethodInTheNoteOnTheGain) {
+  diagnosis::Diagnosis d = testing::diagnosis(nominal());
+  d.fit.log_likelihood_ratio = 140.0;
+  d.fit.linear_T = 144.0;
+  const std::string out = report::to_text(d);
+  EXPECT_EQ(out.find("linear score"), std::string::npos) << out;
+  EXPECT_NE(out.find("gains 140 in twice the log likelihood; what"), std::string::npos) << out;
+  d.causes[0].term = "frame_closure";  // another equation is no small change
+  EXPECT_NE(report::to_text(d).find("gains 140 in twice the log likelihood."), std::string::npos)
+      << report::to_text(d);
+}
+
+TEST(DiagnosisText, SaysTheVerdictFirstAndStaysWithinTheTerminal) {
+  const std::string out = report::to_text(testing::diagnosis(nominal()));
+  EXPECT_TRUE(out.starts_with(
+      "Verdict named: The nominal model lacks g-sensitive drift (mass unbalance), gyro y"))
+      << out;
+  for (const char* text :
+       {"platform rate y", "eta_x", "Advice: Add x up", "gimbal_white", "9.10 →"})
+    EXPECT_NE(out.find(text), std::string::npos) << text;
+  EXPECT_LT(std::count(out.begin(), out.end(), '\n'), 60);
+}
+
+TEST(ResidualSignal, IsATableWithEmptyCellsForWhatIsNotKnown) {
+  const diagnosis::Diagnosis d = testing::diagnosis(nominal());
+  const std::string csv = report::residual_signal_csv(d.signals);
+  EXPECT_NE(csv.find("equation,time [s],position,value,sigma,explained,unit\n"), std::string::npos);
+  EXPECT_NE(csv.find("platform rate y,60,1,0,0.1,0,deg/h\n"), std::string::npos);
+  EXPECT_NE(csv.find("platform rate y,480,1,,0.1,0.644217687,deg/h\n"),
+            std::string::npos);  // sin(0.7)
+  EXPECT_NE(csv.find("# platform rate y = sets in at 1200 s and stays (correlation 0.90)"),
+            std::string::npos);
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 63);
+}
+
+TEST(SeveralRecordings, AreNamedWhereverATimeStands) {
+  const test::ScratchFolder folder;
+  const mc::Study study = testing::read_text(folder, "s.toml", nominal_study);
+  diagnosis::Diagnosis d = testing::diagnosis(
+      study.filters.front());  // a window at 1200 to 1800 s, a signal up to 3600 s
+  EXPECT_EQ(report::to_text(d).find("through all recordings"), std::string::npos);
+  EXPECT_FALSE(json::parse(report::to_json(d))["where"].contains("recordings"));
+  d.where.recordings = {{"a.csv", 0.0, 900.0, 0.0},
+                        {"b,2.csv", 900.0, 3600.0, 800.0}};  // b starts at 100 s of its own time
+  const auto sentence = report::where_sentence(d.where);
+  EXPECT_NE(sentence.find("the strongest window is 400 s to 1000 s of b,2.csv"), std::string::npos)
+      << sentence;
+  const json where = json::parse(report::to_json(d))["where"];
+  EXPECT_EQ(where["windows"][0]["start_s"], 1200.0);
+  EXPECT_EQ(where["windows"][0]["recording"], "b,2.csv");
+  EXPECT_EQ(where["windows"][0]["start_in_recording_s"], 400.0);
+  EXPECT_EQ(where["recordings"][1]["offset_s"], 800.0);
+  const std::string page = report::to_html(report::diagnosis_html(study, d, {}));
+  EXPECT_NE(page.find("b,2.csv begins at 900 s (100 s of its own time)"), std::string::npos);
+  EXPECT_NE(page.find("400 to 1000"), std::string::npos);
+  EXPECT_NE(page.find("time through all recordings [s]"), std::string::npos);
+  const std::string csv = report::residual_signal_csv(d.signals, d.where.recordings);
+  EXPECT_NE(csv.find("equation,time [s],position,value,sigma,explained,unit,recording\n"),
+            std::string::npos)
+      << csv;
+  EXPECT_NE(csv.find("platform rate y,900,2,"), std::string::npos);
+  const auto end_of = [&](const char* row) {
+    return csv.substr(csv.find(row), csv.find('\n', csv.find(row)) - csv.find(row));
+  };
+  EXPECT_TRUE(end_of("platform rate y,900,").ends_with(",deg/h,a.csv"))
+      << "a sample belongs where its interval ends";
+  EXPECT_TRUE(end_of("platform rate y,960,").ends_with(",deg/h,b 2.csv"));
+  EXPECT_NE(csv.find("# b 2.csv = its own time is time [s] less 800\n"), std::string::npos);
+}
+
+TEST(DiagnosisFolder, ThePatchOfAnAmbiguousVerdictSaysWhichAlternativeItHolds) {
+  const test::ScratchFolder folder;
+  const mc::Study study = testing::read_text(folder, "s.toml", nominal_study);
+  diagnosis::Diagnosis d = testing::diagnosis(study.filters.front());
+  const std::string out = folder.file("out");
+  report::write_results(study, d, {}, out);
+  EXPECT_EQ(test::text_of(out + "/patched.toml").find('#'), std::string::npos)
+      << "a named cause is no alternative";
+  d.verdict = diagnosis::Verdict::ambiguous;
+  d.causes.push_back(d.causes.front());
+  d.causes.back().axis = "z";
+  d.causes.back().set = 1;
+  report::write_results(study, d, {}, out);
+  const std::string patched = test::text_of(out + "/patched.toml");
+  EXPECT_TRUE(patched.starts_with(
+      "# The patched model (patched.toml) holds alternative (1) alone, the most probable of 2"))
+      << patched;
+  EXPECT_TRUE(mc::read_study(out + "/patched.toml")
+                  .filters.front()
+                  .active[TermLibrary::find("D_S_y").value()]);
+  for (const std::string& text :
+       {report::to_text(d), report::to_json(d), test::text_of(out + "/report.html")})
+    EXPECT_NE(text.find("(patched.toml) holds alternative (1)"), std::string::npos) << text;
+  d.causes.pop_back();
+  EXPECT_NE(report::patch_text(d).find("it is not confirmed"), std::string::npos)
+      << report::patch_text(d);
+}
+
+TEST(DiagnosisFolder, HoldsEverythingAndLeavesNoPatchOfAnEarlierDiagnosis) {
+  const test::ScratchFolder folder;
+  const mc::Study study = testing::read_text(folder, "s.toml", nominal_study);
+  const std::string out = folder.file("out");
+  report::write_results(study, testing::diagnosis(study.filters.front()), {}, out);
+  for (const char* name :
+       {"diagnosis.json", "residual_signal.csv", "report.html", "study.toml", "patched.toml",
+        "advised.toml", "where.svg", "signal.svg", "candidates.svg", "cosines.svg", "held_out.svg",
+        "moved.svg", "residuals.svg"})
+    EXPECT_TRUE(std::filesystem::exists(out + "/" + name)) << name;
+  const auto files = report::write_results(study, diagnosis::Diagnosis{}, {}, out);
+  EXPECT_EQ(files.size(), 4u);
+  EXPECT_FALSE(std::filesystem::exists(out + "/patched.toml"));
+  EXPECT_FALSE(std::filesystem::exists(out + "/advised.toml"));
+}
+
+}  // namespace
+}  // namespace drift

@@ -1,0 +1,156 @@
+// The report of a Monte Carlo study, on a small one.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "analysis/report/page/swept_value.hpp"
+#include "analysis/report/study/figures.hpp"
+#include "analysis/report/study/html.hpp"
+#include "analysis/report/study/json.hpp"
+#include "analysis/report/study/sweep_figures.hpp"
+#include "analysis/report/study/tables.hpp"
+#include "tests/analysis/report/xml_check.hpp"
+#include "tests/mc/small_study.hpp"
+
+namespace drift {
+namespace {
+
+using namespace drift::test;
+
+const std::set<std::string> void_tags = {"meta", "br", "hr"};
+
+report::StudyResults results_of(const std::string& text, std::size_t runs) {
+  report::StudyResults results;
+  results.study = read_text(text);
+  results.points = mc::study_points(results.study);
+  for (std::size_t p = 0; p < results.points.size(); ++p) {
+    const mc::StudyTask task(results.points[p].study);
+    const auto worker = task.worker();
+    results.statistics.emplace_back(task.study());
+    results.statistics.back().add(run_block(task, *worker, 0, runs));
+  }
+  for (const auto& [point, run] : report::runs_to_trace(results))
+    results.traces.push_back({point, run, mc::trace_run(results.points[point].study, run)});
+  results.provenance = {{"program", "driftscope <test> & more"}, {"seed", "5"}};
+  return results;
+}
+
+const report::StudyResults& swept() {
+  static const report::StudyResults results =
+      results_of(small_study +
+                     "[sweep]\n\"truth.coupling\" = [\"eq5\", \"eq6\"]\n\"truth.parameters.eta\" = "
+                     "[\"20 arcsec\", \"200 arcsec\"]\n",
+                 30);
+  return results;
+}
+
+TEST(StudyReport, IsOneValidPageThatNeedsNothingElse) {
+  const std::string html = report::to_html(report::study_html(swept()));
+  const auto problem = testing::xml_problem(html, void_tags);
+  EXPECT_FALSE(problem) << *problem;
+  EXPECT_EQ(html.find("http://"), std::string::npos);
+  EXPECT_EQ(html.find("https://"), std::string::npos);
+  EXPECT_EQ(html.find("<script"), std::string::npos);
+  EXPECT_NE(html.find("driftscope &lt;test&gt; &amp; more"), std::string::npos);
+  for (const char* heading :
+       {"Truth against filter", "Sweep", "Ranking by Monte Carlo", "Error against sigma",
+        "Convergence of sample runs", "Every parameter", "Failures", "Provenance"})
+    EXPECT_NE(html.find(std::string("<h2>") + heading), std::string::npos) << heading;
+  EXPECT_EQ(html.find(">nan"), std::string::npos);
+  EXPECT_EQ(html.find("inf<"), std::string::npos);
+}
+
+TEST(StudyReport, TakesSectionsOfOthers) {
+  report::StudyResults results = results_of(small_study, 8);
+  results.further.push_back({"Ranking by information", {report::Paragraph{"from elsewhere"}}});
+  const std::string html = report::to_html(report::study_html(results));
+  EXPECT_NE(html.find("<h2>Ranking by information</h2>"), std::string::npos);
+  EXPECT_EQ(html.find("<h2>Sweep</h2>"), std::string::npos);
+}
+
+TEST(StudyReport, SaysTheSilentFailureRateInWords) {
+  const auto lines = report::study_headlines(swept());
+  ASSERT_EQ(lines.size(), 8u);
+  EXPECT_NE(lines[0].find("the wrong equation"), std::string::npos);
+  EXPECT_NE(lines[0].find("silent failures"), std::string::npos);
+  EXPECT_NE(lines[7].find("the right equation"), std::string::npos);
+  const std::string text = report::study_text(swept());
+  EXPECT_NE(text.find("Truth against filter"), std::string::npos);
+  EXPECT_NE(text.find("truth.parameters.eta = 20 arcsec"), std::string::npos);
+}
+
+TEST(StudyReport, RefusesAHeadlineOverTooManyFailures) {
+  report::StudyResults results = results_of(small_study, 8);
+  mc::Block failed;
+  failed.first = 8;
+  failed.status.assign(1, mc::RunStatus::integrator_failed);
+  failed.rows.assign(results.statistics[0].columns().count, std::nan(""));
+  results.statistics[0].add(failed);
+  const auto lines = report::study_headlines(results);
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_NE(lines[0].find("No headline"), std::string::npos);
+  EXPECT_EQ(report::failure_table(results).rows.size(), 1u);
+  EXPECT_NE(report::study_text(results).find("Lost runs have no data"), std::string::npos);
+}
+
+TEST(StudyReport, JsonHoldsWhatTheTablesSay) {
+  const auto json = nlohmann::json::parse(report::study_json(swept()));
+  ASSERT_EQ(json["points"].size(), 4u);
+  const auto& pair = json["points"][0]["filters"][1];
+  EXPECT_EQ(pair["name"], "wrong");
+  EXPECT_EQ(pair["matched"], false);
+  const auto& start = swept().statistics[0].filters()[1].starts()[0];
+  EXPECT_EQ(pair["starts"][0]["silent_failure_rate"]["hits"], start.silent.hits);
+  EXPECT_EQ(pair["starts"][0]["silent_failure_rate"]["of"], 30);
+  const auto& parameter = pair["parameters"][0];
+  EXPECT_EQ(parameter["key"], "D_F_x");
+  const auto& e = swept().statistics[0].filters()[1].errors()[0];
+  EXPECT_DOUBLE_EQ(parameter["rmse"]["value"], e.rmse().value / TermLibrary::specs[0].unit.to_si);
+  EXPECT_EQ(parameter["coverage"].size(), 3u);
+  EXPECT_EQ(json["provenance"]["seed"], "5");
+  EXPECT_TRUE(json["points"][0]["filters"][1]["parameters"][0]["start_consistency"].is_null());
+}
+
+TEST(StudyReport, WritesItsFiles) {
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("driftscope_report_" + std::to_string(::getpid()));
+  const auto names = report::write_study_report(swept(), folder.string());
+  EXPECT_EQ(names, (std::vector<std::string>{"report.html", "summary.json"}));
+  for (const auto& name : names) EXPECT_GT(std::filesystem::file_size(folder / name), 1000u);
+  std::filesystem::remove_all(folder);
+}
+
+TEST(SweptValue, OfATableIsShortAsALabel) {
+  EXPECT_EQ(
+      report::short_value("{ eta = { normal = [\"0 arcsec\", \"5 arcsec\"] }, xi = { normal = [\"0 "
+                          "arcsec\", \"7 arcsec\"] } }"),
+      "eta 5 arcsec, xi 7 arcsec");
+  EXPECT_EQ(report::last_member("{ accelerometer_noise = \"1 ug\", gimbal_noise = \"2 arcsec\" }"),
+            "gimbal_noise");
+  EXPECT_EQ(report::short_value("20 arcsec"), "20 arcsec");
+  EXPECT_EQ(report::last_member("20 arcsec"), "");
+}
+
+TEST(SweptNumber, IsFoundInQuantitiesAndDistributions) {
+  EXPECT_DOUBLE_EQ(report::swept_number("20 arcsec")->si, 20.0 * "arcsec"_unit.to_si);
+  EXPECT_EQ(report::swept_number("20 arcsec")->unit.symbol.view(), "arcsec");
+  EXPECT_DOUBLE_EQ(report::swept_number("0.5")->si, 0.5);
+  EXPECT_DOUBLE_EQ(report::swept_number("{ normal = [\"0 arcsec\", \"35 arcsec\"] }")->si,
+                   35.0 * "arcsec"_unit.to_si);
+  EXPECT_DOUBLE_EQ(report::swept_number("-1.5e-2 deg/h/g^2")->si, -1.5e-2 * "deg/h/g^2"_unit.to_si);
+  EXPECT_FALSE(report::swept_number("eq5"));
+  EXPECT_FALSE(report::swept_number("slew12"));
+  EXPECT_FALSE(report::swept_number("free"));
+}
+
+TEST(SweepPictures, AreDrawnForAxesOfNumbersAlone) {
+  const auto pictures = report::sweep_pictures(swept());
+  ASSERT_EQ(pictures.size(), 1u);
+  EXPECT_NE(pictures[0].caption.find("truth.parameters.eta"), std::string::npos);
+  EXPECT_NE(pictures[0].svg.find("truth.parameters.eta [arcsec]"), std::string::npos);
+  EXPECT_TRUE(report::sweep_pictures(results_of(small_study, 2)).empty());
+}
+
+}  // namespace
+}  // namespace drift

@@ -1,0 +1,165 @@
+#include "analysis/report/svg/svg_chart.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "analysis/report/svg/bar_chart.hpp"
+#include "analysis/report/svg/decimate.hpp"
+#include "tests/analysis/report/xml_check.hpp"
+
+namespace drift {
+namespace {
+
+const double nan_value = std::nan("");
+const double inf = std::numeric_limits<double>::infinity();
+
+report::Chart chart_of(std::vector<double> y) {
+  report::Series s{.label = "start 1", .x = {}, .y = std::move(y), .sigma = {}};
+  for (std::size_t i = 0; i < s.y.size(); ++i) s.x.push_back(static_cast<double>(i));
+  report::Panel panel{.title = "a",
+                      .x_label = "time [h]",
+                      .y_label = "eta_x [arcsec]",
+                      .expected = {},
+                      .series = {s},
+                      .references = {},
+                      .y_range = {},
+                      .note = {}};
+  return {"title", {panel}};
+}
+
+std::size_t count(const std::string& text, std::string_view what) {
+  std::size_t n = 0;
+  for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++n;
+  return n;
+}
+
+/// The d attribute of the first curve.
+std::string first_path(const std::string& svg) {
+  const auto at = svg.find("<path d=\"");
+  if (at == std::string::npos) return {};
+  return svg.substr(at + 9, svg.find('"', at + 9) - at - 9);
+}
+
+TEST(SvgChart, IsWellFormedWithEveryKindOfContent) {
+  report::Chart chart = chart_of({1.0, 3.0, 2.0});
+  chart.panels[0].series[0].sigma = {0.5, 0.4, 0.3};
+  chart.panels[0].expected.push_back({"95 % band", {0.0, 2.0}, {0.5, 0.6}, {1.5, 1.4}});
+  chart.panels[0].references = {{2.0, "truth"}, {2.01, "component test", report::Stroke::dotted}};
+  chart.panels.push_back({.title = "empty",
+                          .x_label = "",
+                          .y_label = "",
+                          .expected = {},
+                          .series = {},
+                          .references = {},
+                          .y_range = {},
+                          .note = "not estimated"});
+  chart.columns = 2;
+  const std::string svg = report::svg_of(chart);
+  EXPECT_EQ(testing::xml_problem(svg).value_or(""), "");
+  for (const char* text :
+       {"truth", "component test", "not estimated", "95 % band", "start 1", "time [h]"})
+    EXPECT_NE(svg.find(text), std::string::npos) << text;
+}
+
+TEST(SvgChart, EscapesHostileText) {
+  report::Chart chart = chart_of({1.0, 2.0});
+  const std::string hostile = "<script>alert(\"1\")</script>' & \x01\xff]]>";
+  chart.title = chart.panels[0].title = chart.panels[0].x_label = chart.panels[0].y_label = hostile;
+  chart.panels[0].series[0].label = chart.panels[0].note = hostile;
+  chart.panels[0].references = {{1.5, hostile}};
+  const std::string svg = report::svg_of(chart);
+  EXPECT_EQ(testing::xml_problem(svg).value_or(""), "");
+  EXPECT_EQ(svg.find("<script"), std::string::npos);
+  EXPECT_EQ(svg.find('\x01'), std::string::npos);
+  EXPECT_EQ(svg.find('\xff'), std::string::npos);
+}
+
+TEST(SvgChart, LeavesGapsWhereThereIsNoNumber) {
+  const std::string svg = report::svg_of(chart_of({1.0, 2.0, nan_value, 3.0, inf, 4.0, 5.0, -inf}));
+  EXPECT_EQ(testing::xml_problem(svg).value_or(""), "");
+  EXPECT_EQ(svg.find("nan"), std::string::npos);
+  EXPECT_EQ(svg.find("inf"), std::string::npos);
+  const std::string path = first_path(svg);
+  EXPECT_EQ(count(path, "M"), 3u);      // {1, 2}, {3}, {4, 5}
+  EXPECT_EQ(count(path, "h0.01"), 1u);  // the lonely 3
+}
+
+TEST(SvgChart, DrawsConstantsEmptySeriesAndHugeNumbers) {
+  for (const auto& y : std::vector<std::vector<double>>{{},
+                                                        {7.0},
+                                                        {0.0, 0.0},
+                                                        {1e6, 1e6 + 1e-9},
+                                                        {nan_value, nan_value},
+                                                        {-1e308, 1e308},
+                                                        {1e-300, 2e-300},
+                                                        {1e99, -1e99}}) {
+    const std::string svg = report::svg_of(chart_of(y));
+    EXPECT_EQ(testing::xml_problem(svg).value_or(""), "");
+    EXPECT_EQ(svg.find("nan"), std::string::npos);
+    EXPECT_EQ(svg.find("inf"), std::string::npos);
+    EXPECT_LT(svg.size(), 20000u);
+  }
+  EXPECT_EQ(testing::xml_problem(report::svg_of(report::Chart{})).value_or(""), "");
+}
+
+TEST(SvgChart, ThinsLongCurves) {
+  std::vector<double> y(200000);
+  for (std::size_t i = 0; i < y.size(); ++i) y[i] = std::sin(0.01 * static_cast<double>(i));
+  const std::string path = first_path(report::svg_of(chart_of(y)));
+  const std::size_t points = count(path, "M") + count(path, "L");
+  EXPECT_LE(points, 2000u);
+  EXPECT_GE(points, 1000u);
+}
+
+TEST(Decimated, KeepsExtremesAndGaps) {
+  std::vector<double> y(100000, 0.0);
+  y[31234] = 9.0;
+  y[31240] = -8.0;
+  y[77777] = nan_value;
+  const auto kept = report::decimated(y);
+  EXPECT_LE(kept.size(), 2000u);
+  EXPECT_TRUE(std::ranges::is_sorted(kept));
+  for (const std::size_t i : {31234u, 31240u, 77777u})
+    EXPECT_NE(std::ranges::find(kept, i), kept.end()) << i;
+}
+
+TEST(Decimated, KeepsShortCurvesWhole) {
+  const std::vector<double> y{1.0, nan_value, 3.0};
+  EXPECT_EQ(report::decimated(y), (std::vector<std::size_t>{0, 1, 2}));
+}
+
+TEST(AxisScale, TicksAreRoundAndInRange) {
+  const report::AxisScale s = report::make_scale({0.0, 6.3}, 6, 0.0);
+  EXPECT_EQ(s.labels, (std::vector<std::string>{"0", "2", "4", "6"}));
+  EXPECT_TRUE(s.factor.empty());
+  const report::AxisScale fine = report::make_scale({-0.012, 0.031}, 5, 0.0);
+  EXPECT_EQ(fine.labels, (std::vector<std::string>{"-0.01", "0.00", "0.01", "0.02", "0.03"}));
+  const report::AxisScale large = report::make_scale({0.0, 4.1e7}, 5, 0.0);
+  EXPECT_EQ(large.factor, "×10^7");
+  EXPECT_EQ(large.labels.back(), "4");
+}
+
+TEST(AxisScale, ConstantStandsInTheMiddle) {
+  for (const double c : {0.0, 5.0, -3e8})
+    EXPECT_NEAR(report::make_scale({c, c}, 5, 0.05).at(c, 100.0), 50.0, 1e-6);
+}
+
+TEST(BarChart, HasABarAndWhiskersForEachNumber) {
+  report::BarChart chart{
+      .title = "learned <most>", .x_label = "posterior / prior", .bars = {}, .limit = {}};
+  chart.bars = {{.label = "D_I_z", .value = 0.2, .low = 0.1, .high = 0.3},
+                {.label = "eta_x", .value = -0.4},
+                {.label = "K0 & co", .value = nan_value}};
+  chart.limit = report::ReferenceLine{1.0, "prior"};
+  const std::string svg = report::svg_of(chart);
+  EXPECT_EQ(testing::xml_problem(svg).value_or(""), "");
+  EXPECT_EQ(count(svg, "<rect"), 3u);  // background and two bars
+  EXPECT_NE(svg.find(">n/a<"), std::string::npos);
+  EXPECT_NE(svg.find("K0 &amp; co"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace drift

@@ -1,0 +1,104 @@
+// How explanations are weighed against each other, on made-up ones whose answer is known.
+#include "analysis/search/credible_set.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/model_builders.hpp"
+
+namespace drift::search {
+namespace {
+
+using test::param;
+
+struct Case {
+  Examination e;
+  std::vector<Refit> refits;
+  Search out;
+
+  std::size_t candidate(std::string term, std::string axis, std::vector<std::size_t> params) {
+    e.set.candidates.push_back(
+        {term, axis, term + "." + axis, std::move(params), {inference::Variant{}}});
+    return e.set.candidates.size() - 1;
+  }
+  void explanation(std::size_t candidate, double log_bayes, double excess) {
+    Refit r;
+    r.choices = {{candidate, 0}};
+    r.log_bayes = log_bayes;
+    r.excess = excess;
+    refits.push_back(std::move(r));
+  }
+  bool weigh(bool chance_alone = false) { return search::weigh(e, refits, chance_alone, {}, out); }
+};
+
+TEST(CredibleSet, AFarBetterExplanationDoesNotLoseToAPoorOneForATrifle) {
+  Case c;
+  const auto magnetic = c.candidate("magnetic_drift", "x", {param("M_x")});
+  const auto gimbal = c.candidate("gimbal_angle_drift", "y", {param("G_c_y")});
+  c.explanation(magnetic, 37.5, 0.4);  // beside it something unrelated is just significant
+  c.explanation(gimbal, 31.0, -0.1);   // happens to cover that too
+  ASSERT_TRUE(c.weigh());
+  ASSERT_EQ(c.out.sets.size(), 1u);
+  EXPECT_EQ(c.out.sets[0].choices[0].candidate, magnetic);
+  // Odds of their evidence, the price of the chance taken off.
+  EXPECT_NEAR(c.out.probability[0], 1.0 / (1.0 + std::exp(31.0 - (37.5 - 0.4))), 1e-12);
+}
+
+TEST(CredibleSet, WhatLeavesFarTooMuchIsNoExplanationHoweverGood) {
+  Case c;
+  const auto magnetic = c.candidate("magnetic_drift", "x", {param("M_x")});
+  const auto gimbal = c.candidate("gimbal_angle_drift", "y", {param("G_c_y")});
+  c.explanation(magnetic, 60.0, 3.1);
+  c.explanation(gimbal, 20.0, -1.0);
+  ASSERT_TRUE(c.weigh());
+  ASSERT_EQ(c.out.sets.size(), 1u);
+  EXPECT_EQ(c.out.sets[0].choices[0].candidate, gimbal);
+  EXPECT_EQ(c.out.rejected.size(), 1u);
+}
+
+TEST(CredibleSet, WithoutAnAdequateOneNothingIsTouchedUnlessChanceIsAskedFor) {
+  Case c;
+  c.explanation(c.candidate("magnetic_drift", "x", {param("M_x")}), 40.0, 0.5);
+  EXPECT_FALSE(c.weigh());
+  EXPECT_EQ(c.refits.size(), 1u);
+  EXPECT_TRUE(c.out.sets.empty());
+  EXPECT_TRUE(c.weigh(true));
+  EXPECT_EQ(c.out.sets.size(), 1u);
+}
+
+TEST(CredibleSet, LambdaThatIsNotSettledCompetesButIsNoAdequateExplanation) {
+  Case c;
+  c.explanation(c.candidate("frame_closure", "", {param("lambda")}), 40.0, -3.0);
+  c.refits.back().nameable = false;
+  EXPECT_FALSE(c.weigh());
+  c.explanation(c.candidate("magnetic_drift", "x", {param("M_x")}), 20.0, -3.0);
+  ASSERT_TRUE(c.weigh());
+  EXPECT_FALSE(c.out.sets[0].nameable);
+  EXPECT_GT(c.out.probability[0], 0.999);
+}
+
+TEST(CredibleSet, SomethingUnknownThatIsFarBetterLeavesNone) {
+  Case c;
+  c.explanation(c.candidate("magnetic_drift", "x", {param("M_x")}), 40.0, -1.0);
+  c.e.lone.gain = 2.0 * (40.0 + 5.0 + 0.05 * 40.0 + std::log(21.0)) + 0.1;
+  EXPECT_FALSE(c.weigh());
+  c.e.lone.gain -= 0.2;
+  EXPECT_TRUE(c.weigh());
+}
+
+TEST(CredibleSet, PartsOfOneTermAreOneCause) {
+  Case c;
+  const auto group =
+      c.candidate("misalignment_creep", "", {param("eta_t_x"), param("eta_t_y"), param("eta_t_z")});
+  const auto axis = c.candidate("misalignment_creep", "z", {param("eta_t_z"), param("xi_t_z")});
+  c.explanation(group, 27.4, -1.0);
+  c.explanation(axis, 27.0, -1.0);
+  ASSERT_TRUE(c.weigh());
+  ASSERT_EQ(c.out.sets.size(), 1u);
+  EXPECT_EQ(c.out.sets[0].choices[0].candidate, group);
+  EXPECT_NEAR(c.out.probability[0], 1.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace drift::search

@@ -1,0 +1,64 @@
+#include "analysis/search/size_prior.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <array>
+#include <cmath>
+
+namespace drift::search {
+namespace {
+
+constexpr std::array scales{1.0, 0.3, 0.1, 0.03, 0.01};
+
+TEST(SizePrior, EvidenceIsTheIntegralOverTheMixture) {
+  // One amplitude, the likelihood ratio exp(g a - C a^2 / 2): by the trapezoid rule, exact for
+  // Gaussians.
+  const double C = 400.0, g = 60.0;
+  double integral = 0.0;
+  for (const double s : scales) {
+    const double step = 0.01 * std::min(s, 1.0 / std::sqrt(C));
+    for (double a = -8.0 * s; a <= 8.0 * s; a += step)
+      integral += step * std::exp(g * a - 0.5 * C * a * a - 0.5 * a * a / (s * s)) /
+                  (s * std::sqrt(2.0 * M_PI));
+  }
+  const double expected = std::log(integral / scales.size());
+  EXPECT_NEAR(log_evidence_of_sizes(MatX::Constant(1, 1, C), VecX::Constant(1, g)), expected, 1e-6);
+}
+
+TEST(SizePrior, SharpEyesAreNoDisadvantage) {
+  // The same score of 8 sigma, seen 30 times as sharply: with one prior sigma it would lose log 30
+  // = 3.4.
+  const auto evidence = [](double C) {
+    return log_evidence_of_sizes(MatX::Constant(1, 1, C), VecX::Constant(1, 8.0 * std::sqrt(C)));
+  };
+  EXPECT_LT(std::abs(evidence(100.0) - evidence(90000.0)), 1.0);
+  // A size that would have to be unphysical still loses: 8 sigma at ten prior sigmas.
+  EXPECT_LT(evidence(0.64), evidence(100.0) - 10.0);
+}
+
+TEST(SizePrior, ChangingThePriorOfAFitGivesTheSameEvidence) {
+  MatX C(2, 2);
+  C << 900.0, 200.0, 200.0, 2500.0;
+  const VecX g = C * Eigen::Vector2d(0.2, -0.05);
+  const MatX covariance = (C + MatX::Identity(2, 2)).inverse();
+  const VecX x = covariance * g;
+  const double unit = 0.5 * g.dot(x) - 0.5 * std::log((C + MatX::Identity(2, 2)).determinant());
+  EXPECT_NEAR(unit + log_gain_of_sizes(x, covariance, {0, 0}), log_evidence_of_sizes(C, g), 1e-9);
+
+  // Two causes: every scale of the one with every scale of the other.
+  double sum = 0.0;
+  for (const double s : scales)
+    for (const double t : scales) {
+      MatX A = C;
+      A(0, 0) += 1.0 / (s * s);
+      A(1, 1) += 1.0 / (t * t);
+      sum += std::exp(0.5 * g.dot(A.llt().solve(g)) -
+                      0.5 * std::log(A.determinant() * s * s * t * t)) /
+             25.0;
+    }
+  EXPECT_NEAR(unit + log_gain_of_sizes(x, covariance, {0, 1}), std::log(sum), 1e-9);
+}
+
+}  // namespace
+}  // namespace drift::search

@@ -1,0 +1,89 @@
+#include "core/plan/plan_config.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/base/check.hpp"
+#include "core/config/load.hpp"
+
+namespace drift {
+namespace {
+
+struct Read {
+  std::vector<std::string> mistakes;
+  PlanConfig config;
+};
+
+Read read(const std::string& text) {
+  const config::Node root = config::parse_document("[plan]\n" + text, "t.toml");
+  config::Report report("t.toml");
+  config::Section top(report, &root, {}, "");
+  Read result;
+  result.config = read_plan(top.section("plan"));
+  top.finish();
+  try {
+    report.throw_if_wrong();
+  } catch (const InputError& error) {
+    result.mistakes = error.messages();
+  }
+  return result;
+}
+
+TEST(PlanConfig, EveryPresetIsKnown) {
+  for (const auto name : preset_names) {
+    const Read r = read("preset = \"" + std::string(name) + "\"\ndwell = \"20 min\"\n");
+    EXPECT_TRUE(r.mistakes.empty()) << name;
+    EXPECT_EQ(r.config.plan.preset, name);
+    ASSERT_FALSE(r.config.plan.positions.empty());
+    EXPECT_DOUBLE_EQ(r.config.plan.positions.front().dwell, 1200.0);
+  }
+}
+
+TEST(PlanConfig, ModeAndEntryOfThePlanHoldForAllPositionsOfAPreset) {
+  const Read r = read("preset = \"six\"\nmode = \"level\"\nentry = \"torqued\"\n");
+  ASSERT_EQ(r.config.plan.positions.size(), 6u);
+  for (const auto& p : r.config.plan.positions) EXPECT_EQ(p.mode, CommandLaw::level);
+  EXPECT_EQ(r.config.plan.positions.back().entry, Entry::torqued);
+}
+
+TEST(PlanConfig, PositionsTakeWhatTheyDoNotSayFromThePlan) {
+  const Read r = read(
+      "dwell = \"10 min\"\nsample = \"10 s\"\nentry = \"torqued\"\n"
+      "[[plan.position]]\naxes = \"x=N y=W z=U\"\n"
+      "[[plan.position]]\naxes = \"x=U y=N z=W\"\nsample = \"20 s\"\n");
+  EXPECT_TRUE(r.mistakes.empty());
+  ASSERT_EQ(r.config.plan.positions.size(), 2u);
+  EXPECT_EQ(r.config.plan.positions[0].entry, Entry::caged);  // nothing to slew from
+  EXPECT_EQ(r.config.plan.positions[1].entry, Entry::torqued);
+  EXPECT_DOUBLE_EQ(r.config.plan.positions[0].sample, 10.0);
+  EXPECT_DOUBLE_EQ(r.config.plan.positions[1].sample, 20.0);
+  EXPECT_DOUBLE_EQ(r.config.plan.positions[1].dwell, 600.0);
+  EXPECT_TRUE(r.config.plan.positions[0].R_lp.isIdentity(1e-12));
+}
+
+TEST(PlanConfig, ADwellIsAWholeNumberOfSamples) {
+  const auto bad = [](const std::string& dwell, const std::string& sample) {
+    return !read("preset = \"six\"\ndwell = \"" + dwell + "\"\nsample = \"" + sample + "\"\n")
+                .mistakes.empty();
+  };
+  EXPECT_FALSE(bad("60 min", "60 s"));
+  EXPECT_FALSE(bad("0.1 s", "0.01 s"));  // 10 in decimals, 9.999... in binary
+  EXPECT_FALSE(bad("7 min", "0.7 s"));
+  EXPECT_FALSE(bad("60 s", "1 min"));
+  EXPECT_TRUE(bad("60 min", "7 s"));
+  EXPECT_TRUE(bad("30 s", "60 s"));
+  EXPECT_TRUE(bad("1 h", "0.007 s"));
+  EXPECT_TRUE(bad("1000 h", "0.001 s"));  // more than a recording can hold
+}
+
+TEST(PlanConfig, KeysOfTheOtherKindOfTestAreRefused) {
+  for (const char* text :
+       {"kind = \"strapdown\"\npreset = \"six\"\n", "kind = \"strapdown\"\ndwell = \"1 min\"\n",
+        "preset = \"six\"\nstatic_min = \"2 s\"\n"}) {
+    const auto mistakes = read(text).mistakes;
+    ASSERT_EQ(mistakes.size(), 1u) << text;
+    EXPECT_TRUE(mistakes[0].starts_with("t.toml:3:")) << mistakes[0];
+  }
+}
+
+}  // namespace
+}  // namespace drift

@@ -1,0 +1,169 @@
+#include "mc/study/sweep.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "core/sim/truth.hpp"
+#include "tests/mc/small_study.hpp"
+
+namespace drift {
+namespace {
+
+using namespace drift::test;
+
+const std::string swept = small_study + R"toml([sweep]
+"truth.coupling" = ["eq5", "eq6", "servo"]
+"truth.parameters.eta" = ["20 arcsec", { normal = ["0 arcsec", "100 arcsec"] }]
+)toml";
+
+TEST(Sweep, IsEveryCombinationLastAxisFastest) {
+  const auto points = mc::study_points(read_text(swept));
+  ASSERT_EQ(points.size(), 6u);
+  EXPECT_EQ(points[0].label, "truth.coupling = eq5, truth.parameters.eta = 20 arcsec");
+  EXPECT_EQ(points[1].values[0].second, "eq5");
+  EXPECT_EQ(points[2].values[0].second, "eq6");
+  EXPECT_EQ(points[5].study.truth.coupling, Coupling::servo);
+  EXPECT_EQ(points[5].study.truth.priors[TermLibrary::index("eta_y")].kind, Prior::Kind::normal);
+  for (const auto& p : points) {
+    EXPECT_TRUE(p.study.sweep.empty());
+    EXPECT_EQ(p.study.monte_carlo.seed, 5u);
+    EXPECT_EQ(p.study.filters.size(), 2u);
+  }
+}
+
+TEST(Sweep, GivesIdsThatStayAndDiffer) {
+  const auto first = mc::study_points(read_text(swept)), again = mc::study_points(read_text(swept));
+  std::set<std::string> ids;
+  for (std::size_t k = 0; k < first.size(); ++k) {
+    EXPECT_EQ(first[k].id, again[k].id);
+    EXPECT_EQ(first[k].id.size(), 16u);
+    ids.insert(first[k].id);
+  }
+  EXPECT_EQ(ids.size(), first.size());
+  // The text of a point is a study of its own: the same point again.
+  const auto alone = mc::study_points(read_text(first[3].study.text));
+  EXPECT_EQ(alone.front().id, first[3].id);
+}
+
+TEST(Sweep, WithoutSweepIsOnePointWithoutLabel) {
+  const auto points = mc::study_points(read_text(small_study));
+  ASSERT_EQ(points.size(), 1u);
+  EXPECT_TRUE(points[0].label.empty());
+}
+
+TEST(Sweep, SharesRandomNumbersBetweenPoints) {
+  // Truth parameters that are not swept are the same in run k of every point.
+  const auto points = mc::study_points(read_text(swept));
+  const Theta a = draw_truth(points[0].study.truth, 6, 5, 7).theta,
+              b = draw_truth(points[5].study.truth, 6, 5, 7).theta;
+  EXPECT_EQ(a[TermLibrary::index("D_I_z")], b[TermLibrary::index("D_I_z")]);
+  EXPECT_NE(a[TermLibrary::index("eta_z")], b[TermLibrary::index("eta_z")]);
+}
+
+TEST(Sweep, DropsWhatOnlyAnotherCouplingUses) {
+  std::string text = small_study +
+                     "[truth.servo]\nfloat_restraint = \"0.1 "
+                     "N*m/rad\"\n[sweep]\n\"truth.coupling\" = [\"eq5\", \"servo\"]\n";
+  const auto points = mc::study_points(read_text(text));
+  EXPECT_EQ(points[0].study.text.find("float_restraint"), std::string::npos);
+  EXPECT_NE(points[1].study.text.find("float_restraint"), std::string::npos);
+}
+
+TEST(Sweep, RefusesValuesAndKeysThatMakeNoStudy) {
+  const auto found = [](const std::string& sweep) {
+    return mistakes(small_study + "[sweep]\n" + sweep);
+  };
+  ASSERT_EQ(found("\"truth.coupling\" = [\"eq5\", \"eq7\"]\n").size(), 1u);
+  EXPECT_NE(found("\"truth.coupling\" = [\"eq5\", \"eq7\"]\n")[0].find("eq7"), std::string::npos);
+  EXPECT_FALSE(found("\"monte_carlo.runs\" = [10, 20]\n").empty());
+  EXPECT_FALSE(found("\"monte_carlo.seed\" = [1, 2]\n").empty());
+  EXPECT_TRUE(found("\"monte_carlo.design\" = [\"random\", \"sobol\"]\n").empty());
+  EXPECT_FALSE(found("\"plan.dwell\" = [\"60 furlong\"]\n").empty());
+  // What is wrong with the key is said once, not for each of its values.
+  EXPECT_EQ(found("\"monte_carlo.runs\" = [10, 20, 30]\n").size(), 1u);
+  EXPECT_EQ(
+      found("\"truth.parameters.eta_q\" = [\"1 arcsec\", \"2 arcsec\", \"3 arcsec\"]\n").size(),
+      1u);
+  EXPECT_EQ(found("\"plan.dwell\" = [\"60 furlong\", \"61 furlong\"]\n").size(), 2u);
+}
+
+TEST(Sweep, RefusesAValueThatComesTwice) {
+  const auto found = mistakes(
+      small_study +
+      "[sweep]\n\"truth.parameters.eta\" = [\"20 arcsec\", \"30 arcsec\", \"20 arcsec\"]\n");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NE(
+      found[0].find("study.toml:26:53: 'sweep.\"truth.parameters.eta\"' has \"20 arcsec\" twice"),
+      std::string::npos)
+      << found[0];
+}
+
+TEST(Sweep, NamesThePointOfValuesThatDoNotGoTogether) {
+  // Each alone is right with the base study; together the dwell is no whole number of samples.
+  const std::string text = small_study +
+                           "[sweep]\n\"plan.dwell\" = [\"10 min\", \"20 min\"]\n\"plan.sample\" = "
+                           "[\"2 min\", \"4 min\"]\n";
+  try {
+    mc::study_points(read_text(text));
+    FAIL() << "expected an InputError";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.code(), ExitCode::config);
+    EXPECT_NE(error.messages()[0].find("plan.dwell = 10 min, plan.sample = 4 min"),
+              std::string::npos)
+        << error.messages()[0];
+  }
+}
+
+TEST(MonteCarloSection, ReadsDesignEstimatorAndStop) {
+  EXPECT_EQ(read_text(small_study + "design = \"latin_hypercube\"\n").monte_carlo.design,
+            mc::DesignKind::latin_hypercube);
+  std::string text = small_study +
+                     "healthy_sigma = 0.3\nstop = { quantity = \"rmse.eta_x\", half_width = 0.02, "
+                     "confidence = 0.9 }\n";
+  const mc::MonteCarlo mc = read_text(text).monte_carlo;
+  EXPECT_EQ(mc.design, mc::DesignKind::random);
+  EXPECT_EQ(mc.estimator, mc::EstimatorKind::iterated);
+  EXPECT_EQ(mc.healthy_sigma, 0.3);
+  ASSERT_TRUE(mc.stop);
+  EXPECT_EQ(mc.stop->quantity, "rmse.eta_x");
+  EXPECT_EQ(mc.stop->half_width, 0.02);
+  EXPECT_EQ(mc.stop->confidence, 0.9);
+  for (const char* bad :
+       {"stop = { quantity = \"rmse.eta_q\" }\n", "stop = { quantity = \"luck\" }\n",
+        "stop = { half_width = 0.1 }\n",
+        "stop = { quantity = \"silent_failure_rate\", half_width = 0.0 }\n", "design = \"grid\"\n"})
+    EXPECT_EQ(mistakes(small_study + bad).size(), 1u) << bad;
+}
+
+TEST(MonteCarloSection, AStopRuleMustBeAbleToEnd) {
+  const auto found = [](const std::string& lines) { return mistakes(small_study + lines); };
+  const auto unknown = found("stop = { quantity = \"rmse.K1_x\" }\n");  // no filter has the term
+  ASSERT_EQ(unknown.size(), 1u);
+  EXPECT_NE(unknown[0].find("study.toml:25:21: 'monte_carlo.stop.quantity' = \"rmse.K1_x\" waits "
+                            "for a parameter that no filter"),
+            std::string::npos)
+      << unknown[0];
+  EXPECT_NE(unknown[0].find("one of D_F_x, D_F_y, D_F_z, D_I_x"), std::string::npos) << unknown[0];
+  EXPECT_TRUE(found("stop = { quantity = \"rmse.K0_x\" }\n").empty());
+  for (const char* design : {"latin_hypercube", "sobol"}) {
+    const auto refused = found(
+        fmt::format("design = \"{}\"\nstop = {{ quantity = \"silent_failure_rate\" }}\n", design));
+    ASSERT_EQ(refused.size(), 1u);
+    EXPECT_NE(refused[0].find(
+                  "study.toml:25:10: 'monte_carlo.design' does not go with [monte_carlo.stop]"),
+              std::string::npos)
+        << refused[0];
+  }
+}
+
+TEST(MonteCarloSection, WholeNumbersOutOfRangeAreNotToldToLoseTheirQuotes) {
+  const auto found = mistakes(small_study + "[sweep]\n\"filter.right.starts\" = [0]\n");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NE(found[0].find("(expected a whole number from 1 to 1000). Choose one in that range"),
+            std::string::npos)
+      << found[0];
+}
+
+}  // namespace
+}  // namespace drift

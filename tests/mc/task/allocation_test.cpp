@@ -1,0 +1,67 @@
+// After warm-up, a run of a study allocates nothing in its filters. glibc's own entry points carry
+// the work; these only count. Sanitizers bring their own, so the test is left out with them.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+
+#include "core/estimate/iterated_ekf.hpp"
+#include "tests/mc/small_study.hpp"
+
+namespace {
+std::atomic<long> allocations{0};
+}
+
+extern "C" void* __libc_malloc(std::size_t) noexcept;
+extern "C" void* malloc(std::size_t n) noexcept {
+  allocations.fetch_add(1, std::memory_order_relaxed);
+  return __libc_malloc(n);
+}
+
+namespace drift {
+namespace {
+
+using namespace drift::test;
+
+/// Allocations of `runs` runs after the first two.
+long allocations_of(const mc::Overrides& overrides, int runs) {
+  const mc::StudyTask task(read_text(small_study, overrides));
+  const auto worker = task.worker();
+  std::vector<double> row(task.columns().size());
+  worker->execute(0, row);
+  worker->execute(1, row);
+  const long before = allocations;
+  for (int run = 2; run < 2 + runs; ++run) worker->execute(static_cast<std::uint64_t>(run), row);
+  return allocations - before;
+}
+
+TEST(Allocations, AreCounted) {
+  const long before = allocations;
+  std::vector<int>* const kept = new std::vector<int>(1000);
+  EXPECT_GE(allocations - before, 2);
+  delete kept;
+}
+
+TEST(Allocations, ARunOfAStudyMakesNoneInItsFilters) {
+  // More filters on the same data allocate nothing more; what is left is the simulation.
+  const std::string all =
+      "[\"fixed_drift\", \"g_drift\", \"g2_drift\", \"gyro_misalignment\", \"torquer_scale\", "
+      "\"accelerometer\"]";
+  for (const std::string& terms : {std::string("[\"fixed_drift\"]"), all})
+    for (const char* estimator : {"ekf", "iterated"}) {
+      const auto count = [&](const char* starts) {
+        return allocations_of({{"monte_carlo.estimator", estimator},
+                               {"filter.right.terms", terms},
+                               {"filter.right.starts", starts}},
+                              5);
+      };
+      const long few = count("1"), many = count("6");
+      EXPECT_EQ(many, few) << estimator << terms;
+      std::printf("%s: %ld allocations in a run, all of the simulation\n", estimator, few / 5);
+    }
+}
+
+}  // namespace
+}  // namespace drift
+#endif
