@@ -1,33 +1,16 @@
 #include "analysis/report/diagnosis/words.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "analysis/diagnosis/sentence.hpp"
-#include "core/base/number_text.hpp"
+#include "analysis/report/page/wording.hpp"
 
 namespace drift::report {
-namespace {
 
 using namespace diagnosis;
 using namespace inference;
 using namespace search;
-
-std::string keyed(const std::string& term, const std::string& axis) {
-  return axis.empty() ? term : term + "." + axis;
-}
-
-/// "a", "a and b", "a, b and c".
-std::string listed(const std::vector<std::string>& items, std::string_view last) {
-  if (items.size() < 2) return items.empty() ? "" : items.front();
-  return fmt::format("{} {} {}", fmt::join(items.begin(), items.end() - 1, ", "), last,
-                     items.back());
-}
-
-}  // namespace
 
 std::string label_of(const Cause& c) {
   return keyed(c.term, c.axis);
@@ -70,9 +53,8 @@ std::vector<std::string> remarks_of(const Diagnosis& d) {
                                    r.start_s, r.start_s - r.offset_s));
     all.push_back(
         fmt::format("Times in tables and figures run through all recordings, one after another: "
-                    "{}. A number of a "
-                    "position is that of the plan, whatever the recording.",
-                    listed(begins, "and")));
+                    "{}. A number of a position is that of the plan, whatever the recording.",
+                    listed(begins)));
   }
   if (std::string patch = patch_text(d); !patch.empty()) all.push_back(std::move(patch));
   return all;
@@ -110,14 +92,13 @@ std::string where_sentence(const Where& where) {
   for (const Share& s : where.channels)
     if (parts.size() < 2 && s.share > 0.1)
       parts.push_back(fmt::format("{} ({:.0f} %)", channel_in_words(s.name), 100.0 * s.share));
-  if (!parts.empty()) out += fmt::format(", seen by {}", listed(parts, "and"));
+  if (!parts.empty()) out += fmt::format(", seen by {}", listed(parts));
   parts.clear();
   for (const Share& s : where.positions)
     if (parts.size() < 3 && s.share > 0.1)
       parts.push_back(fmt::format("{} ({:.0f} %)", s.position, 100.0 * s.share));
   if (!parts.empty())
-    out += fmt::format(", most of it at position{} {}", parts.size() > 1 ? "s" : "",
-                       listed(parts, "and"));
+    out += fmt::format(", most of it at position{} {}", parts.size() > 1 ? "s" : "", listed(parts));
   if (!where.windows.empty()) {
     const ScanHit& w = where.windows.front();
     const RecordingSpan* r = recording_at(where.recordings, 0.5 * (w.start_s + w.end_s));

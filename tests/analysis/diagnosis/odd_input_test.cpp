@@ -9,7 +9,7 @@
 #include "analysis/diagnosis/diagnose.hpp"
 #include "analysis/diagnosis/fill_gaps.hpp"
 #include "analysis/diagnosis/prepare.hpp"
-#include "analysis/report/diagnosis/json.hpp"
+#include "analysis/report/diagnosis/report.hpp"
 #include "core/base/rng.hpp"
 #include "core/sim/simulate.hpp"
 #include "mc/study/study.hpp"

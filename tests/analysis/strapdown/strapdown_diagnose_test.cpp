@@ -8,8 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/diagnosis/patched_study.hpp"
-#include "analysis/report/diagnosis/folder.hpp"
-#include "analysis/report/diagnosis/json.hpp"
+#include "analysis/report/diagnosis/report.hpp"
 #include "analysis/strapdown/diagnose.hpp"
 #include "core/base/check.hpp"
 #include "tests/analysis/report/xml_check.hpp"
