@@ -5,13 +5,13 @@
 #include <atomic>
 #include <chrono>
 #include <filesystem>
-#include <fstream>
 
 #include "analysis/blind/design.hpp"
 #include "analysis/blind/generate.hpp"
 #include "analysis/blind/key.hpp"
 #include "analysis/blind/seal.hpp"
 #include "core/base/check.hpp"
+#include "core/base/file_text.hpp"
 #include "core/base/results_folder.hpp"
 #include "core/recording/recording.hpp"
 #include "mc/task/campaign.hpp"
@@ -23,11 +23,6 @@ namespace fs = std::filesystem;
 
 fs::path trial_folder(const fs::path& folder, std::size_t number) {
   return folder / "trials" / fmt::format("{:04}", number);
-}
-
-std::string contents(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 void require_blind(const mc::Study& study) {
@@ -68,7 +63,7 @@ bool already_made(const mc::Study& study, const fs::path& folder) {
           fmt::format("{}: holds a key but no study. Give an empty folder", folder.string()));
     return false;
   }
-  if (contents(folder / "study.toml") != study.text)
+  if (file_text(folder / "study.toml") != study.text)
     throw InputError(
         ExitCode::store,
         fmt::format("{}: holds the trials of another study (expected {} as it is now). "
@@ -90,7 +85,7 @@ KeyEntry make_one(const mc::Study& study, const TrialPlan& plan, const fs::path&
 
 /// How often this trial was begun, this time included.
 int begin_attempt(const fs::path& here) {
-  const std::string before = contents(here / "attempts");
+  const std::string before = file_text(here / "attempts").value_or("");
   const int attempt = static_cast<int>(before.size()) + 1;
   write_text_atomically((here / "attempts").string(),
                         std::string(static_cast<std::size_t>(attempt), '|'));
@@ -100,7 +95,7 @@ int begin_attempt(const fs::path& here) {
 Answer answer_one(const Solver& solver, std::size_t number, const fs::path& here) {
   constexpr int most_attempts = 2;
   const fs::path kept = here / "answer.json";
-  if (fs::exists(kept)) return answer_of_json(contents(kept));
+  if (const auto text = file_text(kept)) return answer_of_json(*text);
   const auto started = std::chrono::steady_clock::now();
   Answer answer;
   if (begin_attempt(here) > most_attempts) {
@@ -167,7 +162,7 @@ std::string answer_trials(const std::string& folder, const Solver& solver, int t
 
 std::vector<TrialScore> score_folder(const std::string& folder) {
   const auto answers = answers_of(open_sealed(folder, "answers.json"));
-  return score_trials(key_of(open_sealed(folder, "key.json")).entries, answers);
+  return score_trials(read_key(open_sealed(folder, "key.json")).entries, answers);
 }
 
 }  // namespace drift::blind

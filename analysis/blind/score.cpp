@@ -5,7 +5,7 @@
 #include <limits>
 #include <map>
 
-#include "analysis/blind/subsystem.hpp"
+#include "core/physics/term_library.hpp"
 
 namespace drift::blind {
 namespace {
@@ -92,6 +92,12 @@ std::vector<Pull> pulls_of(const KeyEntry& key, const Alternative& alternative) 
   return pulls;
 }
 
+/// The part of the platform that a term belongs to; none for what is not in the library.
+std::optional<Subsystem> subsystem_of(std::string_view term) {
+  const auto known = TermLibrary::find_term(term);
+  return known ? std::optional(TermLibrary::terms[*known].subsystem) : std::nullopt;
+}
+
 double overlap(double a0, double a1, double b0, double b1) {
   const double inner = std::min(a1, b1) - std::max(a0, b0),
                outer = std::max(a1, b1) - std::min(a0, b0);
@@ -113,7 +119,7 @@ std::string called(const Answer& a) {
 
 std::string TrialScore::hidden() const {
   const bool term = key.plan.stratum == Stratum::single && !key.effects.empty();
-  return term ? key.effects.front().term : name_in(stratum_names, key.plan.stratum);
+  return term ? key.effects.front().term : std::string(key_of(key.plan.stratum));
 }
 
 TrialScore score_trial(const KeyEntry& key, const Answer& answer) {

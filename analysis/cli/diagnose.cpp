@@ -1,8 +1,8 @@
-#include "analysis/diagnosis/diagnose.hpp"
+
+#include "analysis/strapdown/diagnose.hpp"
 
 #include <fmt/ranges.h>
 
-#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -10,13 +10,9 @@
 #include "analysis/cli/commands.hpp"
 #include "analysis/cli/progress.hpp"
 #include "analysis/cli/read_recordings.hpp"
-#include "analysis/diagnosis/advise.hpp"
-#include "analysis/diagnosis/name_recordings.hpp"
-#include "analysis/diagnosis/prepare.hpp"
-#include "analysis/diagnosis/site_doubt.hpp"
+#include "analysis/diagnosis/diagnose_recordings.hpp"
 #include "analysis/report/diagnosis/report.hpp"
 #include "analysis/report/strapdown/report.hpp"
-#include "analysis/strapdown/diagnose.hpp"
 #include "core/base/results_folder.hpp"
 #include "mc/task/campaign.hpp"
 
@@ -73,27 +69,15 @@ ExitCode diagnose_case(const StudyArguments& arguments, const mc::Study& study,
 ExitCode diagnose_platform(const StudyArguments& arguments, const mc::Study& study,
                            const std::vector<std::string>& paths, const std::string& folder,
                            const std::optional<std::vector<std::string>>& advise) {
-  diagnosis::Prepared prepared = diagnosis::prepare(study, read_recordings(study, paths));
+  const auto recordings = read_recordings(study, paths);
   std::fflush(stdout);
-  diagnosis::DiagnoseOptions options;
-  options.progress = stage_reporter(arguments.progress, "diagnose");
-  diagnosis::Diagnosis found = diagnosis::diagnose(prepared.study, prepared.recordings, options);
-  if (const auto doubt = diagnosis::site_doubt(prepared.study, prepared.recordings, found))
-    found.sentence += " " + doubt->sentence;
-  const auto began = std::chrono::steady_clock::now();
-  try {
-    found.advice = diagnosis::advise(prepared.study, prepared.recordings, found,
-                                     {.seed = study.monte_carlo.seed, .asked = advise});
-  } catch (const InputError& e) {
-    if (e.code() == ExitCode::usage) throw;  // what was asked for is wrong
-    found.remarks.push_back(fmt::format("No advice could be made: {}",
-                                        e.what()));  // never at the cost of the diagnosis
+  diagnosis::RecordingsOptions options;
+  options.diagnose.progress = stage_reporter(arguments.progress, "diagnose");
+  if (advise) {
+    options.advising = diagnosis::Advising::on_request;
+    options.asked = *advise;
   }
-  found.seconds.emplace_back(
-      "advice", std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count());
-  found.remarks.insert(found.remarks.begin(), prepared.remarks.begin(), prepared.remarks.end());
-  diagnosis::name_recordings(prepared.study, prepared.recordings, found);
-  finish(study, found, {paths, ""}, folder);
+  finish(study, diagnosis::diagnose_recordings(study, recordings, options), {paths, ""}, folder);
   return ExitCode::ok;
 }
 

@@ -9,13 +9,6 @@ namespace {
 
 using config::Node;
 
-Node text_node(std::string text) {
-  Node node;
-  node.kind = Node::Kind::string;
-  node.text = std::move(text);
-  return node;
-}
-
 /// In whole minutes or seconds where it is whole, so that people can read it.
 std::string time_text(double seconds) {
   const double minutes = seconds / 60.0;
@@ -28,14 +21,14 @@ std::string time_text(double seconds) {
 Node position_node(const Position& p) {
   Node node;
   const auto add = [&](const char* key, std::string text) {
-    node.members.push_back({key, {}, text_node(std::move(text))});
+    node.members.push_back({key, {}, config::text_node(std::move(text))});
   };
   add("name", p.name);
   add("axes", p.axes);
   add("dwell", time_text(p.dwell));
   add("sample", fmt::format("{} s", p.sample));
-  add("mode", p.mode == CommandLaw::level ? "level" : "free");
-  add("entry", p.entry == Entry::torqued ? "torqued" : "caged");
+  add("mode", std::string(key_of(p.mode)));
+  add("entry", std::string(key_of(p.entry)));
   if (p.case_heading)
     add("case_heading", fmt::format("{:.10g} deg", *p.case_heading / unit::deg.to_si));
   return node;

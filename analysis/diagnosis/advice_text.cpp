@@ -7,6 +7,8 @@
 #include <cmath>
 #include <set>
 
+#include "core/base/words.hpp"
+
 namespace drift::diagnosis {
 namespace {
 
@@ -33,10 +35,7 @@ std::string listed(const Question& q, const std::vector<Contest>& pairs, std::st
     const std::string &a = q.alternatives[p.truth].label, &b = q.alternatives[p.rival].label;
     if (said.insert(std::minmax(a, b)).second) texts.push_back(pair_text(q, p, between));
   }
-  if (texts.size() <= most_shown) return fmt::format("{}", fmt::join(texts, ", "));
-  const std::size_t more = texts.size() - most_shown;
-  texts.resize(most_shown);
-  return fmt::format("{} and {} more", fmt::join(texts, ", "), more);
+  return listed_up_to(texts, most_shown);
 }
 
 std::string sized(const Question& q) {

@@ -11,9 +11,9 @@
 #include "analysis/diagnosis/choose_additions.hpp"
 #include "analysis/diagnosis/patched_study.hpp"
 #include "analysis/diagnosis/separation.hpp"
-#include "analysis/identification/recorded_test.hpp"
 #include "analysis/inference/signatures.hpp"
 #include "analysis/planning/position_pool.hpp"
+#include "analysis/preparation/recorded_test.hpp"
 #include "analysis/search/adequacy.hpp"
 #include "core/sim/simulate.hpp"
 #include "mc/task/campaign.hpp"
@@ -45,7 +45,7 @@ class Adviser {
         d_(d),
         options_(options),
         noise_(noise_of(d)),
-        test_(identification::recorded_test(study, recordings)),
+        test_(preparation::recorded_test(study, recordings)),
         fit_(fit_batch(d.nominal, test_.timeline, study.readout, test_.measured,
                        make_layout(d.nominal).theta)) {}
 
@@ -221,7 +221,7 @@ class Adviser {
     TestPlan plan = study_.plan;
     plan.preset.clear();
     plan.positions = positions;
-    Timeline timeline = identification::planned_test(study_, plan);
+    Timeline timeline = preparation::planned_test(study_, plan);
     if (!test_.timeline.has_field || timeline.has_field) return timeline;
     Vec3 mean = Vec3::Zero();
     for (const Interval& i : test_.timeline.intervals)
@@ -294,7 +294,7 @@ class Adviser {
   const Diagnosis& d_;
   AdviseOptions options_;
   inference::NoiseModel noise_;
-  identification::RecordedTest test_;
+  preparation::RecordedTest test_;
   BatchResult fit_;
 };
 

@@ -11,12 +11,6 @@
 namespace drift::diagnosis {
 namespace {
 
-constexpr auto lambda = TermLibrary::index("lambda");
-
-double base_of(std::size_t param, const FilterSpec& nominal) {
-  return param == lambda && nominal.coupling == Coupling::eq6 ? 1.0 : 0.0;
-}
-
 /// "magnetic_drift.y", "g2_drift (D_IS_x)": one parameter tells more than its term.
 std::string label_of(const search::Cause& c) {
   const auto linear = std::ranges::count_if(
@@ -53,8 +47,8 @@ search::Cause cause_of(const inference::Candidate& c, const inference::Variant& 
   };
   for (const std::size_t i : c.params)
     add(i,
-        i == lambda
-            ? 1.0 - base_of(i, nominal)
+        i == closure_param
+            ? 1.0 - value_left_out(i, nominal.coupling)
             : TermLibrary::specs[i].prior_si().mean() + TermLibrary::specs[i].prior_si().sigma(),
         false);
   for (const auto& [i, si] : variant.settings) add(i, si, true);
@@ -68,15 +62,16 @@ const inference::Variant& usual(const inference::Candidate& c) {
 
 /// Adds the two equations where the test is blind to lambda.
 void add_equations(const Diagnosis& d, Question& q) {
-  const bool six = d.nominal.coupling == Coupling::eq6;
-  if (d.verdict != Verdict::consistent || (d.nominal.coupling != Coupling::eq5 && !six)) return;
+  const CouplingFacts& nominal = facts(d.nominal.coupling);
+  if (d.verdict != Verdict::consistent || !nominal.other) return;
+  const CouplingFacts& other = facts(*nominal.other);
   if (!(d.other_equation_gain > -equation_told)) return;  // told, or not asked
   search::Cause cause;
-  cause.term = "frame_closure";
-  cause.parameters = {{"lambda", lambda, six ? 0.0 : 1.0, 0.0, "1", false}};
+  cause.term = closure_term;
+  cause.parameters = {{"lambda", closure_param, *other.lambda, 0.0, "1", false}};
   q.pairs.push_back({q.alternatives.size(), q.alternatives.size() + 1});
-  q.alternatives.push_back({six ? "eq. (5)" : "eq. (6)", {cause}, {}, {}});
-  q.alternatives.push_back({six ? "eq. (6)" : "eq. (5)", {}, {}, VecX()});
+  q.alternatives.push_back({fmt::format("eq. ({})", other.number), {cause}, {}, {}});
+  q.alternatives.push_back({fmt::format("eq. ({})", nominal.number), {}, {}, VecX()});
 }
 
 /// A term, an axis of it, or a parameter, as a user writes it.
@@ -171,7 +166,8 @@ Question hidden_question(const Diagnosis& d, const inference::CandidateSet& set)
   q.size = "at one prior sigma";
   q.alternatives.push_back(nothing());
   for (const inference::Candidate& c : set.candidates) {
-    if (c.params.size() != 1 || c.params.front() == lambda || needs_temperature(c.term)) continue;
+    if (c.params.size() != 1 || c.params.front() == closure_param || needs_temperature(c.term))
+      continue;
     q.pairs.push_back({q.alternatives.size(), 0});
     q.alternatives.push_back(alternative({cause_of(c, usual(c), d.nominal)}));
   }
@@ -264,7 +260,8 @@ std::vector<inference::SignatureSpec> number_signatures(std::vector<Alternative>
         if (p.profiled) continue;
         const ParamSpec& spec = TermLibrary::specs[p.param];
         const double sigma = spec.prior_si().sigma();
-        amplitude.push_back((p.value * spec.unit.to_si - base_of(p.param, nominal)) / sigma);
+        amplitude.push_back(
+            (p.value * spec.unit.to_si - value_left_out(p.param, nominal.coupling)) / sigma);
         const auto same = std::ranges::find_if(specs, [&](const inference::SignatureSpec& s) {
           return s.param == p.param && s.theta == at;
         });
@@ -298,7 +295,7 @@ void prune(Question& q) {
 
 bool holds_lambda(const Alternative& a) {
   return std::ranges::any_of(a.causes,
-                             [](const search::Cause& c) { return c.term == "frame_closure"; });
+                             [](const search::Cause& c) { return c.term == closure_term; });
 }
 
 }  // namespace drift::diagnosis

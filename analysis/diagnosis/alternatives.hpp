@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "analysis/inference/candidate.hpp"
 #include "analysis/diagnosis/diagnosis.hpp"
+#include "analysis/inference/candidate.hpp"
 
 namespace drift::diagnosis {
 

@@ -6,6 +6,7 @@
 
 #include "analysis/inference/whiteness.hpp"
 #include "core/estimate/start_consistency.hpp"
+#include "core/stats/chi_square_band.hpp"
 
 namespace drift::diagnosis {
 namespace {
@@ -66,16 +67,12 @@ FitComparison compare(const search::Examination& nominal, const search::Refit* p
   const auto n = static_cast<double>(c.dof);
   c.chi2_per_dof_before = c.chi2_before / n;
   c.chi2_per_dof_after = c.chi2_after / n;
-  const double h = 2.0 / (9.0 * n);  // Wilson-Hilferty
-  c.band_low = std::pow(1.0 - h - 1.96 * std::sqrt(h), 3.0);
-  c.band_high = std::pow(1.0 - h + 1.96 * std::sqrt(h), 3.0);
+  const stats::Band band = stats::chi_square_band(n);
+  c.band_low = band.low;
+  c.band_high = band.high;
   // One noise for both, the candidates' columns left out but those of the cause.
   std::vector<int> columns;
-  if (patched)
-    for (const search::Choice& choice : patched->choices) {
-      const auto& more = nominal.set.candidates[choice.candidate].variants[choice.variant].columns;
-      columns.insert(columns.end(), more.begin(), more.end());
-    }
+  if (patched) columns = search::columns_of(nominal.set, patched->choices);
   inference::LinearProblem problem = nominal.problem;
   problem.extra = nominal.problem.extra(Eigen::all, columns);
   const inference::Projector before(problem, after.noise.model);

@@ -16,7 +16,9 @@ struct ShiftedParameter {
 
 /// Held-out prediction of one fold.
 struct Fold {
-  std::string name;            ///< "position 3"
+  enum class Of { position, recording, dwell };
+  Of of = Of::position;        ///< what is held out
+  int number = 0;              ///< of it, 1-based
   std::vector<int> positions;  ///< 1-based
   double chi2_before = 0.0, chi2_after = 0.0;
   std::size_t dof = 0;

@@ -61,7 +61,8 @@ inference::Projected marginal(const inference::LinearProblem& problem,
 
 /// What is held out at once.
 struct Part {
-  std::string name;
+  Fold::Of of = Fold::Of::position;
+  int number = 0;               ///< 1-based
   std::vector<int> positions;   ///< 1-based
   std::vector<bool> intervals;  ///< marked: held out
 };
@@ -74,9 +75,7 @@ std::vector<Part> positions_of(const inference::LinearProblem& problem) {
   std::vector<Part> parts;
   if (positions.size() < 2) return parts;
   for (const int p : positions) {
-    Part part{fmt::format("position {}", p + 1),
-              {p + 1},
-              std::vector<bool>(problem.drives.size(), false)};
+    Part part{Fold::Of::position, p + 1, {p + 1}, std::vector<bool>(problem.drives.size(), false)};
     for (const inference::RowTag& t : problem.tags)
       if (t.position == p) part.intervals[t.interval] = true;
     parts.push_back(std::move(part));
@@ -89,8 +88,10 @@ std::vector<Part> recordings_of(const inference::LinearProblem& problem,
   std::vector<Part> parts;
   if (ends.size() < 2) return parts;
   for (std::size_t r = 0; r < ends.size(); ++r) {
-    Part part{
-        fmt::format("recording {}", r + 1), {}, std::vector<bool>(problem.drives.size(), false)};
+    Part part{Fold::Of::recording,
+              static_cast<int>(r) + 1,
+              {},
+              std::vector<bool>(problem.drives.size(), false)};
     for (std::size_t i = r == 0 ? 0 : ends[r - 1]; i < ends[r]; ++i) part.intervals[i] = true;
     for (const inference::RowTag& t : problem.tags)
       if (part.intervals[t.interval]) part.positions.push_back(t.position + 1);
@@ -128,7 +129,8 @@ class Folder {
   Outcome run(const Part& part) const {
     Outcome out;
     Fold& fold = out.fold;
-    fold.name = part.name;
+    fold.of = part.of;
+    fold.number = part.number;
     fold.positions = part.positions;
     const bool linear = options_.method == FoldMethod::linear;
     const Prediction conditioned =

@@ -7,22 +7,16 @@
 
 #include "core/base/check.hpp"
 #include "core/config/load.hpp"
-#include "core/physics/coupling_text.hpp"
 #include "core/physics/parameters_config.hpp"
 
 namespace drift::diagnosis {
 namespace {
 
+using config::list_node;
 using config::Node;
+using config::text_node;
 
 constexpr double far = 3.0;  // sigmas of the library's prior beyond which it does not hold
-
-Node text_node(std::string text) {
-  Node node;
-  node.kind = Node::Kind::string;
-  node.text = std::move(text);
-  return node;
-}
 
 /// The value of a key of a table, made if it is not there.
 Node& at(Node& table, const std::string& key) {
@@ -35,18 +29,15 @@ Node quantity_node(double si, const Unit& unit) {
   const double value = si / unit.to_si;
   if (unit.to_si != 1.0 || unit.dim != Dimension{})
     return text_node(fmt::format("{} {}", value, unit.symbol.view()));
-  Node node;
-  node.kind = Node::Kind::real;
-  node.real = value;
-  return node;
+  return config::real_node(value);
 }
 
 Node prior_node(const Prior& prior, const Unit& unit) {
   if (prior.kind == Prior::Kind::fixed) return quantity_node(prior.a, unit);
-  Node pair, node;
-  pair.kind = Node::Kind::array;
-  pair.items = {quantity_node(prior.a, unit), quantity_node(prior.b, unit)};
-  node.members.push_back({prior.kind == Prior::Kind::normal ? "normal" : "uniform", {}, pair});
+  Node node;
+  node.members.push_back({prior.kind == Prior::Kind::normal ? "normal" : "uniform",
+                          {},
+                          list_node({quantity_node(prior.a, unit), quantity_node(prior.b, unit)})});
   return node;
 }
 
@@ -57,7 +48,6 @@ Node parsed(const mc::Study& study) {
 }  // namespace
 
 FilterSpec patched_filter(const FilterSpec& nominal, const std::vector<search::Cause>& causes) {
-  constexpr auto lambda = TermLibrary::index("lambda");
   FilterSpec patched = nominal;
   for (const search::Cause& cause : causes)
     for (const search::CauseParameter& p : cause.parameters) {
@@ -68,7 +58,7 @@ FilterSpec patched_filter(const FilterSpec& nominal, const std::vector<search::C
       if (prior.kind == Prior::Kind::normal && std::abs(value - prior.a) > far * prior.b)
         prior.b = std::abs(value - prior.a);
       patched.priors[p.param] = p.profiled ? fixed(value) : prior;
-      if (p.param == lambda) patched.coupling = Coupling::lambda;
+      if (p.param == closure_param) patched.coupling = family_of(patched.coupling);
     }
   // A term comes with its time constant and the like, known until the study says otherwise.
   const ParamMask whole = TermLibrary::completed(patched.active);
@@ -79,14 +69,13 @@ FilterSpec patched_filter(const FilterSpec& nominal, const std::vector<search::C
 }
 
 FilterSpec started_where_found(FilterSpec patched, const std::vector<search::Cause>& causes) {
-  constexpr auto lambda = TermLibrary::index("lambda");
   std::vector<const search::CauseParameter*> far_from_linear, found;
   for (const search::Cause& cause : causes) {
     if (cause.set != 0) continue;
     for (const search::CauseParameter& p : cause.parameters) {
       if (!patched.active[p.param] || patched.priors[p.param].sigma() <= 0.0) continue;
       found.push_back(&p);
-      if (p.param == lambda || TermLibrary::specs[p.param].kind == ParamKind::nonlinear)
+      if (p.param == closure_param || TermLibrary::specs[p.param].kind == ParamKind::nonlinear)
         far_from_linear.push_back(&p);
     }
   }
@@ -113,9 +102,7 @@ std::string patched_study(const mc::Study& study, const FilterSpec& patched) {
   Node& filter = filters->items.front();
   const FilterSpec& nominal = study.filters.front();
 
-  Node& terms = at(filter, "terms");
-  terms = Node{};
-  terms.kind = Node::Kind::array;
+  Node& terms = at(filter, "terms") = list_node({});
   for (const std::string& term : terms_text(patched.active)) terms.items.push_back(text_node(term));
   if (patched.coupling != nominal.coupling)
     at(filter, "coupling") = text_node(std::string(key_of(patched.coupling)));
@@ -130,9 +117,7 @@ std::string patched_study(const mc::Study& study, const FilterSpec& patched) {
   if (!parameters.members.empty()) at(filter, "parameters") = std::move(parameters);
 
   if (patched.starts != nominal.starts) {
-    Node& starts = at(filter, "starts");
-    starts = Node{};
-    starts.kind = Node::Kind::array;
+    Node& starts = at(filter, "starts") = list_node({});
     for (const Start& start : patched.starts) {
       Node one;
       for (const auto& [i, value] : start)
@@ -164,8 +149,7 @@ std::string extended_study(const mc::Study& study, const std::vector<Position>& 
     return m.key == "preset" || m.key == "position" || m.key == "dwell" || m.key == "sample" ||
            m.key == "mode" || m.key == "entry";
   });
-  Node list;
-  list.kind = Node::Kind::array;
+  Node list = list_node({});
   for (const Position& p : study.plan.positions) list.items.push_back(position_node(p));
   for (const Position& p : positions) list.items.push_back(position_node(p));
   plan.members.push_back({"position", {}, std::move(list)});

@@ -1,15 +1,10 @@
 #pragma once
 
-#include "analysis/diagnosis/diagnosis.hpp"
+#include "analysis/diagnosis/recovered_signal.hpp"
+#include "analysis/preparation/covariates.hpp"
 #include "analysis/search/examination.hpp"
 
 namespace drift::diagnosis {
-
-/// What a test tells beside the platform's own channels, one value per interval.
-struct Covariate {
-  std::string name;
-  std::vector<double> value;
-};
 
 /// A missing input as a time series: one unknown constant per bin of time in one equation, smooth
 /// (Ornstein-Uhlenbeck prior whose size and time constant maximise the likelihood), parameters and
@@ -34,7 +29,7 @@ std::vector<InputEstimate> estimate_inputs(const inference::LinearProblem& probl
 /// As a time series with a description of its shape. cause: candidate columns with amplitudes whose
 /// signature is drawn over it; may be empty.
 RecoveredSignal recovered_signal(const InputEstimate& input, const Timeline& timeline,
-                                 const std::vector<Covariate>& covariates,
+                                 const std::vector<preparation::Covariate>& covariates,
                                  const std::vector<std::pair<int, double>>& cause);
 
 }  // namespace drift::diagnosis

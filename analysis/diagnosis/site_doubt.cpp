@@ -1,14 +1,12 @@
 #include "analysis/diagnosis/site_doubt.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
 #include <limits>
 
-#include "analysis/identification/recorded_test.hpp"
 #include "analysis/inference/signatures.hpp"
+#include "analysis/preparation/recorded_test.hpp"
 #include "core/base/check.hpp"
 #include "mc/task/campaign.hpp"
 
@@ -44,7 +42,7 @@ class Latitudes {
     mc::Study study = study_;
     study.site.latitude = latitude;
     try {
-      const identification::RecordedTest test = identification::recorded_test(study, recordings_);
+      const preparation::RecordedTest test = preparation::recorded_test(study, recordings_);
       const BatchResult fit = fit_batch(nominal_, test.timeline, study.readout, test.measured,
                                         make_layout(nominal_).theta);
       p.cost = fit.estimate.statistic;
@@ -123,22 +121,12 @@ std::optional<SiteDoubt> site_doubt(const mc::Study& study,
   take(latitudes.at({-best.latitude}));  // the mirrored valley is nearly as deep
   follow({0.2, 0.02, 0.005});
   const double prior = TermLibrary::specs[d_lat].prior_si().sigma();
-  SiteDoubt doubt{best.latitude,
-                  std::abs(best.latitude - declared) / prior,
-                  ends[0].per_dof(),
-                  best.per_dof(),
-                  {}};
+  const SiteDoubt doubt{best.latitude, declared, std::abs(best.latitude - declared) / prior,
+                        ends[0].per_dof(), best.per_dof()};
   const double excess = doubt.chi2_per_dof_before - 1.0;
   if (doubt.prior_sigmas <= beyond_survey || excess <= 0.0) return std::nullopt;
   if (doubt.chi2_per_dof_before - doubt.chi2_per_dof_after < most_of_it * excess)
     return std::nullopt;
-  doubt.sentence = fmt::format(
-      "Check [site] latitude: at {:.3f} deg instead of {:.3f} deg the nominal model fits with "
-      "chi-square per degree of freedom {:.3g} "
-      "instead of {:.3g}. As a cause that is no survey error any more: latitude_error would need "
-      "{:.3g} prior sigmas.",
-      best.latitude / detail::deg, declared / detail::deg, doubt.chi2_per_dof_after,
-      doubt.chi2_per_dof_before, doubt.prior_sigmas);
   return doubt;
 }
 

@@ -9,8 +9,6 @@
 namespace drift::equation {
 namespace {
 
-constexpr auto lambda = TermLibrary::index("lambda");
-
 /// The model with lambda held, fitted, and twice the log of its evidence (prior of lambda
 /// included).
 struct Point {
@@ -28,7 +26,7 @@ class Profiler {
         start_(inference::theta_of(filter, joint)),
         weight_(weight),
         noise_(noise),
-        prior_(filter.priors[lambda]) {}
+        prior_(filter.priors[closure_param]) {}
 
   std::vector<Point> at(const std::vector<double>& values) const {
     return mc::run_campaign(values.size(), [&](std::size_t k) { return point(values[k]); });
@@ -37,9 +35,9 @@ class Profiler {
  private:
   Point point(double value) const {
     FilterSpec held = filter_;
-    held.priors[lambda] = fixed(value);
+    held.priors[closure_param] = fixed(value);
     Theta start = start_;
-    start[lambda] = value;
+    start[closure_param] = value;
     Point p{value, 0.0, fit_batch(held, test_.timeline, test_.readout, test_.measured, start)};
     inference::LinearProblem problem = inference::linear_problem(held, test_, p.fit, {});
     problem.weight = weight_;
@@ -62,7 +60,7 @@ class Profiler {
 std::optional<ClosureProfile> profile_closure(const FilterSpec& filter, const inference::Test& test,
                                               const BatchResult& joint, const VecX& weight,
                                               const inference::NoiseModel& noise, double decisive) {
-  const ParameterEstimate* found = joint.estimate.find(lambda);
+  const ParameterEstimate* found = joint.estimate.find(closure_param);
   if (found == nullptr) return std::nullopt;
   const Profiler profiler(filter, test, joint, weight, noise);
   std::vector<Point> points = profiler.at({0.0, 1.0, found->value});

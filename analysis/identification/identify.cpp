@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "analysis/equation/fit_either_equation.hpp"
-#include "analysis/identification/recorded_test.hpp"
+#include "analysis/preparation/recorded_test.hpp"
 #include "core/base/check.hpp"
 #include "core/estimate/start_consistency.hpp"
 #include "core/estimate/starts.hpp"
@@ -171,7 +171,7 @@ Identification identify_recordings(const mc::Study& study, const std::vector<Rec
   Identification id;
   for (const Recording& r : recordings) id.sources.push_back(r.source);
   id.recording = recordings.front();
-  const RecordedTest test = recorded_test(study, recordings);
+  const preparation::RecordedTest test = preparation::recorded_test(study, recordings);
   run_jobs(study, id, threads, progress,
            [&](const Job& job) { return estimate(study, job, test.timeline, test.measured); });
   return id;

@@ -14,7 +14,7 @@ namespace {
 using Equation = LoneInput::Equation;
 
 constexpr double forever = std::numeric_limits<double>::infinity();
-constexpr double deg_per_h = detail::deg / 3600.0;  // [rad/s]
+constexpr double deg_per_h = unit::deg_per_h.to_si;
 
 /// One kind of input, and a size at which it may begin to matter, SI.
 struct Kind {
@@ -23,7 +23,7 @@ struct Kind {
 };
 
 std::vector<Kind> kinds_of(const LinearProblem& problem) {
-  std::vector<Kind> all{{Equation::rate, forever, 1e-3 * deg_per_h / 60.0},
+  std::vector<Kind> all{{Equation::rate, forever, 1e-3 * unit::deg_per_h_per_sqrt_h.to_si},
                         {Equation::rate, 900.0, 1e-3 * deg_per_h},
                         {Equation::rate, 3600.0, 1e-3 * deg_per_h}};
   const auto read = [&](bool accelerometer) {

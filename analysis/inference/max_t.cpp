@@ -12,25 +12,16 @@ namespace {
 constexpr std::uint64_t null_seed =
     20230517;  // any number: fixed, so that a diagnosis is repeatable
 
-MatX columns_of(const MatX& C, const std::vector<int>& columns) {
-  MatX part(columns.size(), columns.size());
-  for (std::size_t i = 0; i < columns.size(); ++i)
-    for (std::size_t k = 0; k < columns.size(); ++k) part(i, k) = C(columns[i], columns[k]);
-  return part;
-}
-
 }  // namespace
 
 double Contrast::T(const VecX& g) const {
   if (dof == 0) return 0.0;
-  VecX part(columns.size());
-  for (std::size_t k = 0; k < columns.size(); ++k) part[k] = g[columns[k]];
-  return (W.transpose() * part).squaredNorm();
+  return (W.transpose() * g(columns)).squaredNorm();
 }
 
 Contrast make_contrast(const MatX& C, const VecX& raw, const std::vector<int>& columns) {
   Contrast out{columns, {}, 0};
-  const Eigen::SelfAdjointEigenSolver<MatX> eigen(columns_of(C, columns));
+  const Eigen::SelfAdjointEigenSolver<MatX> eigen(C(columns, columns));
   double largest_raw = 0.0;
   for (const int k : columns) largest_raw = std::max(largest_raw, raw[k]);
   const double least = std::max(least_information, 1e-9 * largest_raw);
@@ -53,7 +44,7 @@ MaxNull::MaxNull(const MatX& C, const std::vector<Contrast>& contrasts, int draw
   std::sort(used.begin(), used.end());
   used.erase(std::unique(used.begin(), used.end()), used.end());
   if (used.empty()) return;
-  const MatX g = draw(columns_of(C, used), draws, stream);
+  const MatX g = draw(C(used, used), draws, stream);
 
   std::map<int, VecX> largest;  // by degrees of freedom
   for (const Contrast& c : contrasts) {

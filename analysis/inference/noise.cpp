@@ -16,7 +16,6 @@ namespace {
 
 constexpr double needed_gain = 2.7;        // of twice the log likelihood: a component comes in
 constexpr double significant_gain = 12.0;  // eight alternatives, one in a thousand
-constexpr double deg_per_h = detail::deg / 3600.0;  // [rad/s]
 
 /// One standard deviation of the noise model.
 struct Component {
@@ -24,31 +23,21 @@ struct Component {
   double NoiseModel::*sigma;
   double NoiseModel::*tau;  ///< null if it has none
   double reference;         ///< a size at which it may begin to matter, SI
-  const char* unit;
-  double to_unit;  ///< SI per unit
+  Unit unit;
 };
 
-constexpr Component acc_white{
-    "accelerometer_white", &NoiseModel::acc_factor, nullptr, 1.0, "1", 1.0};
-constexpr Component gimbal_white{
-    "gimbal_white", &NoiseModel::gimbal_factor, nullptr, 1.0, "1", 1.0};
-const Component angle_walk{"angle_random_walk",
-                           &NoiseModel::angle_random_walk,
-                           nullptr,
-                           1e-3 * detail::deg / 60.0,
-                           "deg/sqrt(h)",
-                           detail::deg / 60.0};
-const Component drift_walk{"drift_random_walk",
-                           &NoiseModel::drift_random_walk,
-                           nullptr,
-                           3e-3 * deg_per_h / 60.0,
-                           "deg/h/sqrt(h)",
-                           deg_per_h / 60.0};
-const Component markov{
-    "markov_drift", &NoiseModel::markov_drift, &NoiseModel::markov_tau, 3e-3 * deg_per_h, "deg/h",
-    deg_per_h};
-const Component acc_markov{
-    "accelerometer_markov", &NoiseModel::acc_markov, &NoiseModel::acc_tau, 2e-6, "ug", 1e-6};
+constexpr Component acc_white{"accelerometer_white", &NoiseModel::acc_factor, nullptr, 1.0,
+                              unit::one};
+constexpr Component gimbal_white{"gimbal_white", &NoiseModel::gimbal_factor, nullptr, 1.0,
+                                 unit::one};
+constexpr Component angle_walk{"angle_random_walk", &NoiseModel::angle_random_walk, nullptr,
+                               1e-3 * unit::deg_per_sqrt_h.to_si, unit::deg_per_sqrt_h};
+constexpr Component drift_walk{"drift_random_walk", &NoiseModel::drift_random_walk, nullptr,
+                               3e-3 * unit::deg_per_h_per_sqrt_h.to_si, unit::deg_per_h_per_sqrt_h};
+constexpr Component markov{"markov_drift", &NoiseModel::markov_drift, &NoiseModel::markov_tau,
+                           3e-3 * unit::deg_per_h.to_si, unit::deg_per_h};
+constexpr Component acc_markov{"accelerometer_markov", &NoiseModel::acc_markov,
+                               &NoiseModel::acc_tau, 2e-6, unit::ug};
 
 /// Restricted likelihood as a function of the noise.
 class Likelihood {
@@ -251,8 +240,8 @@ NoiseEstimate estimate_noise(const LinearProblem& problem, const NoiseModel& dec
     }
     NoiseFinding f;
     f.component = c.name;
-    f.value = sigma / c.to_unit;
-    f.unit = c.unit;
+    f.value = sigma / c.unit.to_si;
+    f.unit = c.unit.symbol.view();
     if (c.tau) f.tau_s = out.model.*(c.tau);
     const double was = declared.*(c.sigma);
     f.factor = was > 0.0 ? sigma / was : std::nan("");

@@ -7,6 +7,7 @@
 
 #include "analysis/inference/whitener.hpp"
 #include "core/base/rng.hpp"
+#include "core/stats/normal.hpp"
 
 namespace drift::inference {
 namespace {
@@ -76,10 +77,6 @@ double p_of(const VecX& value) {
   return (1.0 + static_cast<double>(above)) / (1.0 + draws);
 }
 
-double normal_cdf(double z) {
-  return 0.5 * std::erfc(-z / std::numbers::sqrt2);
-}
-
 /// Chance that such noise, if there is any, is so small: log-normal about the sizes that gyros have
 /// (physics.md 4, effects 8, 9 and 11: the ranges are one sigma to either side), and about half the
 /// white noise of an accelerometer. Of several components the one most like noise counts. Never
@@ -89,18 +86,19 @@ double p_of_size(const LinearProblem& problem, const NoiseModel& white, const No
     double NoiseModel::*sigma;
     double low, high;  // SI
   };
-  constexpr double deg_per_h = detail::deg / 3600.0;
+  constexpr double arw = unit::deg_per_sqrt_h.to_si, walk = unit::deg_per_h_per_sqrt_h.to_si,
+                   drift = unit::deg_per_h.to_si;
   const Usual usual[] = {
-      {&NoiseModel::angle_random_walk, 3e-4 * detail::deg / 60.0, 3e-3 * detail::deg / 60.0},
-      {&NoiseModel::drift_random_walk, 1e-3 * deg_per_h / 60.0, 5e-3 * deg_per_h / 60.0},
-      {&NoiseModel::markov_drift, 2e-3 * deg_per_h, 1e-2 * deg_per_h},
+      {&NoiseModel::angle_random_walk, 3e-4 * arw, 3e-3 * arw},
+      {&NoiseModel::drift_random_walk, 1e-3 * walk, 5e-3 * walk},
+      {&NoiseModel::markov_drift, 2e-3 * drift, 1e-2 * drift},
       {&NoiseModel::acc_markov, 0.2 * problem.acc_sigma, 1.2 * problem.acc_sigma}};
-  double p = normal_cdf(-2.0);
+  double p = stats::normal_distribution(-2.0);
   for (const Usual& u : usual) {
     const double found = driven.*(u.sigma);
     if (found <= white.*(u.sigma)) continue;  // declared, or not there
     const double middle = 0.5 * std::log(u.low * u.high), spread = 0.5 * std::log(u.high / u.low);
-    p = std::max(p, normal_cdf((std::log(found) - middle) / spread));
+    p = std::max(p, stats::normal_distribution((std::log(found) - middle) / spread));
   }
   return p;
 }

@@ -6,15 +6,11 @@
 namespace drift::inference {
 namespace {
 
-constexpr auto lambda = TermLibrary::index("lambda");
-
 /// The nominal model with the terms of some parameters switched on at zero amplitude.
 DriftModel extended(const FilterSpec& nominal, const ParamMask& added) {
   ModelSpec spec = nominal;
   spec.active |= added;
-  // A member of the family by name becomes the same member by number.
-  const bool family = spec.coupling == Coupling::eq5 || spec.coupling == Coupling::eq6;
-  if (added[lambda] && family) spec.coupling = Coupling::lambda;
+  if (added[closure_param]) spec.coupling = family_of(spec.coupling);
   return spec.model();
 }
 
@@ -110,7 +106,8 @@ MatX signature_columns(const FilterSpec& nominal, const Test& test, const BatchR
       added.set(specs[k].param);
       done[k] = true;
     }
-    if (added[lambda] && nominal.coupling == Coupling::eq6) at[lambda] = 1.0;
+    if (added[closure_param])
+      at[closure_param] = facts(nominal.coupling).lambda.value_or(at[closure_param]);
     const Layout small = layout_of(group, at);
     const auto parts =
         measurement_equations(test.timeline, extended(nominal, added), small, test.readout,

@@ -191,45 +191,4 @@ MatX Whitener::colour(const MatX& white) const {
   return rows;
 }
 
-MatX dense_covariance(const LinearProblem& problem, const NoiseModel& noise) {
-  // By definition: each row's weights on independent unit variables (prior, each step's noise).
-  const States s(noise);
-  MatX state(s.count, 0);
-  const auto add = [&](const MatX& Q) {
-    const Eigen::LDLT<MatX> ldlt(Q);
-    MatX L = ldlt.matrixL();
-    L = ldlt.transpositionsP().transpose() * L *
-        ldlt.vectorD().cwiseMax(0.0).cwiseSqrt().asDiagonal();
-    MatX wider(s.count, state.cols() + s.count);
-    wider << state, L;
-    state = wider;
-  };
-  MatX prior = initial_covariance(s, noise);
-  prior.topLeftCorner<3, 3>().setZero();
-  add(prior);
-  std::vector<VecX> weights(problem.rows());
-  VecX white(problem.rows());
-  walk(
-      problem, noise, s,
-      [&](std::size_t) {
-        state.topRows<3>().setZero();
-        MatX fresh = MatX::Zero(s.count, s.count);
-        fresh.topLeftCorner<3, 3>().setIdentity();
-        add(fresh);
-      },
-      [&](const Step& step) {
-        state = (step.F * state).eval();
-        add(step.Q);
-      },
-      [&](Eigen::Index k, const VecX& h, double sigma) {
-        weights[k] = state.transpose() * h;
-        white[k] = sigma * sigma;
-      });
-  MatX all = MatX::Zero(problem.rows(), state.cols());
-  for (Eigen::Index k = 0; k < problem.rows(); ++k) all.row(k).head(weights[k].size()) = weights[k];
-  MatX V = all * all.transpose();
-  V.diagonal() += white;
-  return V;
-}
-
 }  // namespace drift::inference

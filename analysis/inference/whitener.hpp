@@ -38,8 +38,4 @@ class Whitener {
   double log_det_ = 0.0;
 };
 
-/// The covariance that a Whitener stands for, shape (rows, rows): slow, for tests and small
-/// problems.
-MatX dense_covariance(const LinearProblem& problem, const NoiseModel& noise);
-
 }  // namespace drift::inference

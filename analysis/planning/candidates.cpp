@@ -87,8 +87,7 @@ std::string position_toml(const Position& p) {
       "[[plan.position]]\nname   = {}\naxes   = {}\ndwell  = \"{:.12g} s\"\nsample = \"{:.12g} "
       "s\"\n"
       "mode   = \"{}\"\nentry  = \"{}\"\n",
-      quoted(p.name), quoted(p.axes), p.dwell, p.sample,
-      p.mode == CommandLaw::free ? "free" : "level", p.entry == Entry::caged ? "caged" : "torqued");
+      quoted(p.name), quoted(p.axes), p.dwell, p.sample, key_of(p.mode), key_of(p.entry));
   if (p.case_heading)
     text += fmt::format("case_heading = \"{:.12g} deg\"\n", *p.case_heading / detail::deg);
   return text;

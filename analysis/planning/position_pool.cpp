@@ -93,8 +93,7 @@ std::vector<Addition> position_pool(double usual_dwell, double sample, const Sit
     p.entry = entry;
     p.case_heading = heading;
     p.name = fmt::format(
-        "{}, {}{}{}{}", axes, mode == CommandLaw::level ? "level" : "free",
-        entry == Entry::torqued ? ", slewed" : "",
+        "{}, {}{}{}{}", axes, key_of(mode), entry == Entry::torqued ? ", slewed" : "",
         heading ? fmt::format(", case at {:.0f} deg", *heading / unit::deg.to_si) : "",
         dwell == usual_dwell ? "" : fmt::format(", for {:.3g} min", dwell / unit::minute.to_si));
     return p;

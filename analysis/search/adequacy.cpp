@@ -10,19 +10,6 @@
 namespace drift::search {
 namespace {
 
-MatX rows_and_columns(const MatX& C, const std::vector<int>& a, const std::vector<int>& b) {
-  MatX part(a.size(), b.size());
-  for (std::size_t i = 0; i < a.size(); ++i)
-    for (std::size_t k = 0; k < b.size(); ++k) part(i, k) = C(a[i], b[k]);
-  return part;
-}
-
-VecX elements(const VecX& g, const std::vector<int>& a) {
-  VecX part(a.size());
-  for (std::size_t i = 0; i < a.size(); ++i) part[i] = g[a[i]];
-  return part;
-}
-
 /// Takes some columns out of C and g: their amplitudes are fitted freely.
 struct Conditioner {
   std::vector<int> columns;
@@ -33,11 +20,32 @@ struct Conditioner {
       : columns(std::move(taken)) {
     const inference::Contrast c = inference::make_contrast(C, raw, columns);
     W = c.W;
-    y = W.transpose() * elements(g, columns);
+    y = W.transpose() * g(columns);
   }
   /// W' C_D,other: shape (dof, others).
   MatX cross(const MatX& C_D_other) const { return W.transpose() * C_D_other; }
 };
+
+/// The causes with the better of each one's two neighbours on its grid.
+std::vector<Choice> with_neighbours(const Field& field, const std::vector<Choice>& choices) {
+  std::vector<Choice> all = choices;
+  for (const Choice& choice : choices) {
+    const inference::Candidate& c = field.set->candidates[choice.candidate];
+    double best = -1.0;
+    std::size_t neighbour = choice.variant;
+    for (const std::size_t v : {choice.variant - 1, choice.variant + 1}) {
+      if (v >= c.variants.size()) continue;
+      const inference::Contrast& contrast = field.contrasts[choice.candidate][v];
+      const double s = stats::strength(contrast.T(field.projected->g), contrast.dof);
+      if (s > best) {
+        best = s;
+        neighbour = v;
+      }
+    }
+    if (neighbour != choice.variant) all.push_back({choice.candidate, neighbour});
+  }
+  return all;
+}
 
 /// Part of a column's information that must be left after conditioning for it to count as another.
 constexpr double least_left = 1e-6;
@@ -61,7 +69,7 @@ std::vector<inference::Contrast> Field::all_contrasts() const {
 }
 
 double log_bayes(const inference::Projected& p, const std::vector<int>& columns) {
-  return log_evidence_of_sizes(rows_and_columns(p.C, columns, columns), elements(p.g, columns));
+  return log_evidence_of_sizes(p.C(columns, columns), p.g(columns));
 }
 
 Score score(const Field& field, std::size_t candidate) {
@@ -116,51 +124,46 @@ std::vector<std::size_t> best_settings(const Field& field, std::size_t candidate
   return found;
 }
 
-std::vector<int> columns_of(const Field& field, const std::vector<Choice>& choices,
-                            bool with_neighbours) {
+std::vector<int> columns_of(const inference::CandidateSet& set,
+                            const std::vector<Choice>& choices) {
   std::vector<int> columns;
   for (const Choice& choice : choices) {
-    const inference::Candidate& c = field.set->candidates[choice.candidate];
-    const auto add = [&](std::size_t v) {
-      columns.insert(columns.end(), c.variants[v].columns.begin(), c.variants[v].columns.end());
-    };
-    add(choice.variant);
-    if (!with_neighbours) continue;
-    // The better of the two neighbours, where the other settings are the same.
-    double best = -1.0;
-    std::size_t neighbour = choice.variant;
-    for (const std::size_t v : {choice.variant - 1, choice.variant + 1}) {
-      if (v >= c.variants.size()) continue;
-      const inference::Contrast& contrast = field.contrasts[choice.candidate][v];
-      const double s = stats::strength(contrast.T(field.projected->g), contrast.dof);
-      if (s > best) {
-        best = s;
-        neighbour = v;
-      }
-    }
-    if (neighbour != choice.variant) add(neighbour);
+    const auto& more = set.candidates[choice.candidate].variants[choice.variant].columns;
+    columns.insert(columns.end(), more.begin(), more.end());
   }
-  std::sort(columns.begin(), columns.end());
+  return columns;
+}
+
+std::vector<int> distinct_columns_of(const inference::CandidateSet& set,
+                                     const std::vector<Choice>& choices) {
+  std::vector<int> columns = columns_of(set, choices);
+  std::ranges::sort(columns);
   columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
   return columns;
 }
 
+bool of_a_chosen_family(const inference::CandidateSet& set, const std::vector<Choice>& choices,
+                        const inference::Candidate& candidate) {
+  return std::ranges::any_of(choices, [&](const Choice& choice) {
+    const inference::Candidate& chosen = set.candidates[choice.candidate];
+    return chosen.term == candidate.term &&
+           (chosen.params == candidate.params || chosen.contains(candidate));
+  });
+}
+
 Remainder remainder(const Field& field, const std::vector<Choice>& choices, double stop) {
   const inference::Projected& p = *field.projected;
-  const Conditioner d(p.C, p.raw, p.g, columns_of(field, choices, true));
+  const Conditioner d(p.C, p.raw, p.g,
+                      distinct_columns_of(*field.set, with_neighbours(field, choices)));
   std::vector<int> everything(p.g.size());
   for (std::size_t k = 0; k < everything.size(); ++k) everything[k] = static_cast<int>(k);
-  const MatX cross = d.cross(rows_and_columns(p.C, d.columns, everything));  // (dof, K)
+  const MatX cross = d.cross(p.C(d.columns, everything));  // (dof, K)
   const VecX g = p.g - cross.transpose() * d.y;
   const VecX left = p.C.diagonal() - cross.colwise().squaredNorm().transpose();
 
   Remainder out;
   const auto own = [&](const inference::Candidate& c) {
-    for (const Choice& choice : choices) {
-      const inference::Candidate& chosen = field.set->candidates[choice.candidate];
-      if (chosen.term == c.term && (chosen.params == c.params || chosen.contains(c))) return true;
-    }
-    return false;
+    return of_a_chosen_family(*field.set, choices, c);
   };
   // Tails are dear: the largest T of each number of degrees is kept, and its tail taken when it
   // grows.
@@ -201,8 +204,7 @@ Remainder remainder(const Field& field, const std::vector<Choice>& choices, doub
       const MatX lost = cross_c * whole.W;
       const MatX rest = MatX::Identity(whole.dof, whole.dof) - lost.transpose() * lost;
       const Eigen::SelfAdjointEigenSolver<MatX> eigen(rest);
-      const VecX y =
-          eigen.eigenvectors().transpose() * (whole.W.transpose() * elements(g, whole.columns));
+      const VecX y = eigen.eigenvectors().transpose() * (whole.W.transpose() * g(whole.columns));
       double T = 0.0;
       int dof = 0;
       for (Eigen::Index j = 0; j < y.size(); ++j)
@@ -233,7 +235,7 @@ double cosine(const inference::Projected& p, const std::vector<int>& a, const st
   const inference::Contrast ca = inference::make_contrast(p.C, p.raw, a),
                             cb = inference::make_contrast(p.C, p.raw, b);
   if (ca.dof == 0 || cb.dof == 0) return 0.0;
-  const MatX m = ca.W.transpose() * rows_and_columns(p.C, a, b) * cb.W;
+  const MatX m = ca.W.transpose() * p.C(a, b) * cb.W;
   if (ca.dof == 1 && cb.dof == 1) return m(0, 0);
   return Eigen::JacobiSVD<MatX>(m).singularValues()[0];
 }

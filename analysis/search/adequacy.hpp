@@ -51,12 +51,19 @@ struct Choice {
   std::size_t candidate = 0, variant = 0;
 };
 
-std::vector<int> columns_of(const Field& field, const std::vector<Choice>& choices,
-                            bool with_neighbours);
+/// The columns of causes, one after the other; a parameter of two of them twice.
+std::vector<int> columns_of(const inference::CandidateSet& set, const std::vector<Choice>& choices);
+/// The same, each once and in order.
+std::vector<int> distinct_columns_of(const inference::CandidateSet& set,
+                                     const std::vector<Choice>& choices);
 
-/// Conditional scores T_(c|d) (discovery.md 2.5). Members of a chosen candidate's own family (same
-/// term, parameters among its own) do not count as others. stop: give up (and return what was
-/// found) as soon as a candidate's strength exceeds it.
+/// Whether a candidate is of the family of one of the causes: same term, parameters among its own.
+bool of_a_chosen_family(const inference::CandidateSet& set, const std::vector<Choice>& choices,
+                        const inference::Candidate& candidate);
+
+/// Conditional scores T_(c|d) (discovery.md 2.5). Members of a chosen candidate's own family do not
+/// count as others. stop: give up (and return what was found) as soon as a candidate's strength
+/// exceeds it.
 Remainder remainder(const Field& field, const std::vector<Choice>& choices, double stop);
 
 /// Log evidence of simultaneous causes against the nominal model, amplitudes of unknown size

@@ -25,7 +25,7 @@ std::string name_of(const Examination& e, const Refit& r) {
   std::vector<std::string> names;
   for (const Choice& choice : r.choices) {
     const inference::Candidate& c = e.set.candidates[choice.candidate];
-    const bool base = *TermLibrary::find_term(c.term) < *TermLibrary::find_term("frame_closure");
+    const bool base = is_base(TermLibrary::terms[*TermLibrary::find_term(c.term)]);
     names.push_back(base ? c.label : c.term + "." + c.axis);
   }
   std::sort(names.begin(), names.end());
@@ -62,7 +62,7 @@ bool one_cause(const Examination& e, const Refit& a, const Refit& b) {
   if (a.choices.size() != 1 || b.choices.size() != 1) return false;
   const inference::Candidate& p = e.set.candidates[a.choices.front().candidate];
   const inference::Candidate& q = e.set.candidates[b.choices.front().candidate];
-  const bool base = *TermLibrary::find_term(p.term) < *TermLibrary::find_term("frame_closure");
+  const bool base = is_base(TermLibrary::terms[*TermLibrary::find_term(p.term)]);
   return !base && p.term == q.term && (p.axis.empty() || q.axis.empty());
 }
 

@@ -34,7 +34,7 @@ void set_noise(Examination& e, const Timeline& timeline, const inference::NoiseE
   e.field = std::make_unique<Field>(e.set, e.projector->candidates(), e.scans);
   const double cost = cost_of_misalignments(e.filter, e.fit);
   for (const inference::Candidate& c : e.set.candidates)
-    e.field->discount.push_back(c.term == "frame_closure" ? cost : 0.0);
+    e.field->discount.push_back(c.term == closure_term ? cost : 0.0);
   e.scores.clear();
   for (std::size_t k = 0; k < e.set.candidates.size(); ++k) e.scores.push_back(score(*e.field, k));
 }

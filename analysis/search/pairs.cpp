@@ -115,7 +115,7 @@ std::vector<Pair> strongest_pairs(const Field& field, std::size_t most) {
                    p);
     }
   for (Pair& p : pairs)
-    p.log_bayes = log_bayes(*field.projected, columns_of(field, {p.a, p.b}, false));
+    p.log_bayes = log_bayes(*field.projected, distinct_columns_of(*field.set, {p.a, p.b}));
   return pairs;
 }
 
@@ -172,8 +172,8 @@ std::vector<Pair> adequate_pairs(const Field& field, const std::vector<Score>& s
       const inference::Candidate& a = field.set->candidates[choices[i].candidate];
       const inference::Candidate& b = field.set->candidates[choices[k].candidate];
       if (choices[i].candidate == choices[k].candidate || a.contains(b) || b.contains(a)) continue;
-      const double evidence =
-          quick_log_bayes(*field.projected, columns_of(field, {choices[k], choices[i]}, false));
+      const double evidence = quick_log_bayes(
+          *field.projected, distinct_columns_of(*field.set, {choices[k], choices[i]}));
       if (evidence < top - too_little) continue;
       top = std::max(top, evidence);
       tries.push_back({choices[k], choices[i], evidence});
@@ -184,7 +184,7 @@ std::vector<Pair> adequate_pairs(const Field& field, const std::vector<Score>& s
     const std::vector<Choice> pair{t.a, t.b};
     const Remainder r = remainder(field, pair, library_threshold);
     if (r.library > library_threshold || r.scan > scan_threshold) continue;
-    const auto columns = columns_of(field, pair, false);
+    const auto columns = distinct_columns_of(*field.set, pair);
     const inference::Contrast both =
         inference::make_contrast(field.projected->C, field.projected->raw, columns);
     const double T = both.T(field.projected->g);

@@ -12,7 +12,6 @@
 namespace drift::search {
 namespace {
 
-constexpr auto lambda = TermLibrary::index("lambda");
 constexpr double quiet_p_value = 0.01;  // of a free-form input beside the cause: nothing is left
 
 /// Distance of the points of the library's grid about a value, SI: what the grid leaves open.
@@ -53,7 +52,7 @@ double gain_of_sizes(const inference::CandidateSet& set, const Refit& r) {
     const std::size_t before = rows.size();
     for (const std::size_t i : set.candidates[choice.candidate].params) {
       const auto at = std::find(layout.params.begin(), layout.params.end(), i);
-      if (i == lambda || at == layout.params.end()) continue;
+      if (i == closure_param || at == layout.params.end()) continue;
       rows.push_back(at - layout.params.begin());
       cause.push_back(causes);
     }
@@ -70,7 +69,7 @@ bool all_needed(const inference::CandidateSet& set, const Refit& r) {
     const auto& params = set.candidates[choice.candidate].params;
     return std::any_of(params.begin(), params.end(), [&](std::size_t i) {
       const ParameterEstimate* p = r.after.fit.estimate.find(i);
-      return i == lambda || !p ||
+      return i == closure_param || !p ||
              std::abs(p->value - TermLibrary::specs[i].prior_si().mean()) >= clearly * p->sigma;
     });
   });
@@ -83,16 +82,9 @@ bool may_be_refined(const ParamSpec& spec) {
 }  // namespace
 
 VecX expected_amplitudes(const inference::Projected& p, const std::vector<int>& columns) {
-  const auto n = static_cast<Eigen::Index>(columns.size());
-  MatX C(n, n);
-  VecX g(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    g[i] = p.g[columns[i]];
-    for (Eigen::Index k = 0; k < n; ++k) C(i, k) = p.C(columns[i], columns[k]);
-  }
-  return (C + MatX::Identity(n, n))
-      .ldlt()
-      .solve(g);  // with the unit prior, so that nothing runs away
+  MatX C = p.C(columns, columns);
+  C.diagonal().array() += 1.0;  // with the unit prior, so that nothing runs away
+  return C.ldlt().solve(VecX(p.g(columns)));
 }
 
 FilterSpec with_causes(const FilterSpec& nominal, const inference::CandidateSet& set,
@@ -103,8 +95,7 @@ FilterSpec with_causes(const FilterSpec& nominal, const inference::CandidateSet&
     for (const std::size_t i : c.params) {
       filter.active.set(i);
       filter.priors[i] = TermLibrary::specs[i].prior_si();
-      if (i == lambda && (filter.coupling == Coupling::eq5 || filter.coupling == Coupling::eq6))
-        filter.coupling = Coupling::lambda;
+      if (i == closure_param) filter.coupling = family_of(filter.coupling);
     }
     for (const auto& [i, value] : c.variants[choice.variant].settings) {
       filter.active.set(i);
@@ -133,20 +124,19 @@ Refit refit(const Examination& nominal, const inference::Test& test,
   Theta start = theta;
   std::vector<std::pair<std::size_t, double>> expected;
   bool family = false;
-  std::vector<int> columns;
-  for (const Choice& choice : choices) {
-    const inference::Variant& v = nominal.set.candidates[choice.candidate].variants[choice.variant];
-    columns.insert(columns.end(), v.columns.begin(), v.columns.end());
-    for (const auto& [param, value] : v.settings) start[param] = value;
-  }
-  const VecX amplitudes = expected_amplitudes(nominal.projector->candidates(), columns);
+  for (const Choice& choice : choices)
+    for (const auto& [param, value] :
+         nominal.set.candidates[choice.candidate].variants[choice.variant].settings)
+      start[param] = value;
+  const VecX amplitudes =
+      expected_amplitudes(nominal.projector->candidates(), columns_of(nominal.set, choices));
   std::size_t next = 0;
   for (const Choice& choice : choices)
     for (const std::size_t i : nominal.set.candidates[choice.candidate].params) {
-      const double base = i == lambda && nominal.filter.coupling == Coupling::eq6 ? 1.0 : 0.0;
+      const double base = value_left_out(i, nominal.filter.coupling);
       start[i] = base + amplitudes[next++] * TermLibrary::specs[i].prior_si().sigma();
       expected.emplace_back(i, start[i] - base);
-      if (i == lambda) {
+      if (i == closure_param) {
         family = true;
         start[i] = std::clamp(start[i], 0.0, 1.0);
       }
@@ -162,9 +152,9 @@ Refit refit(const Examination& nominal, const inference::Test& test,
     const auto from_end = [&](std::size_t k) {
       const double end = static_cast<double>(k % 2);
       FilterSpec held = out.filter;
-      held.priors[lambda] = fixed(end);
+      held.priors[closure_param] = fixed(end);
       Theta from = k < 2 ? theta : make_layout(nominal.filter).theta;
-      from[lambda] = end;
+      from[closure_param] = end;
       return fit_from(inference::theta_of(
           held, fit_batch(held, test.timeline, test.readout, test.measured, from)));
     };
@@ -175,8 +165,8 @@ Refit refit(const Examination& nominal, const inference::Test& test,
   if (family)
     if (const auto profile = equation::profile_closure(
             out.filter, test, best, nominal.problem.weight, nominal.noise.model)) {
-      narrowed = std::log(out.filter.priors[lambda].sigma() / profile->sigma);
-      out.filter.priors[lambda] = normal(profile->value, profile->sigma);
+      narrowed = std::log(out.filter.priors[closure_param].sigma() / profile->sigma);
+      out.filter.priors[closure_param] = normal(profile->value, profile->sigma);
       best = fit_from(inference::theta_of(out.filter, profile->fit));
     }
   out.after = examine(out.filter, test, best, nullptr, nominal.noise.driven);
@@ -184,17 +174,16 @@ Refit refit(const Examination& nominal, const inference::Test& test,
                1);  // a second effect may hide in the noise
   for (const auto& [param, value] :
        expected)  // lambda is a jump: its slope at the nominal fit says nothing
-    if (const ParameterEstimate* p = best.estimate.find(param); p != nullptr && param != lambda)
+    if (const ParameterEstimate* p = best.estimate.find(param);
+        p != nullptr && param != closure_param)
       if (std::abs(value) > 2.0 * p->sigma && p->value * value < 0.0) out.sign_agrees = false;
 
   // What is left, without the members of the chosen families.
   for (std::size_t k = 0; k < out.after.scores.size(); ++k) {
     const inference::Candidate& c = out.after.set.candidates[k];
-    const bool own = std::any_of(choices.begin(), choices.end(), [&](const Choice& choice) {
-      const inference::Candidate& chosen = nominal.set.candidates[choice.candidate];
-      return chosen.term == c.term && (chosen.params == c.params || chosen.contains(c));
-    });
-    if (own || out.after.scores[k].strength <= out.remainder.library) continue;
+    if (of_a_chosen_family(nominal.set, choices, c) ||
+        out.after.scores[k].strength <= out.remainder.library)
+      continue;
     out.remainder.library = out.after.scores[k].strength;
     out.remainder.strongest = k;
   }
@@ -205,8 +194,8 @@ Refit refit(const Examination& nominal, const inference::Test& test,
                         out.remainder.scan - nulls.scan_threshold);
   if (family)  // another equation must be another one: an interval that holds the nominal weight
                // names nothing
-    if (const ParameterEstimate* p = best.estimate.find(lambda)) {
-      const double base = nominal.filter.coupling == Coupling::eq6 ? 1.0 : 0.0;
+    if (const ParameterEstimate* p = best.estimate.find(closure_param)) {
+      const double base = value_left_out(closure_param, nominal.filter.coupling);
       out.nameable = std::abs(p->value - base) > 3.0 * p->sigma;
     }
   if (choices.size() > 1 && !all_needed(nominal.set, out))

@@ -119,12 +119,8 @@ std::vector<std::vector<Choice>> beside(const Refit& r, const inference::Candida
 
 double other_equation_gain(const Examination& nominal, const inference::Test& test) {
   FilterSpec other = nominal.filter;
-  if (other.coupling == Coupling::eq5)
-    other.coupling = Coupling::eq6;
-  else if (other.coupling == Coupling::eq6)
-    other.coupling = Coupling::eq5;
-  else
-    return -std::numeric_limits<double>::infinity();
+  if (!facts(other.coupling).other) return -std::numeric_limits<double>::infinity();
+  other.coupling = *facts(other.coupling).other;
   double best = -std::numeric_limits<double>::infinity();
   const auto here = inference::theta_of(nominal.filter, nominal.fit);
   for (const Theta& start : {here, make_layout(other).theta}) {
@@ -181,7 +177,7 @@ Search search(Examination& nominal, const inference::Test& test, const SearchOpt
       if (0.5 * other - nominal.scores[order[k]].log_bayes < 10.0 * negligible) add(order[k]);
   // The score is blind to a change of equation that only rescales the misalignments.
   for (std::size_t k = 0; k < nominal.set.candidates.size(); ++k)
-    if (nominal.set.candidates[k].term == "frame_closure" &&
+    if (nominal.set.candidates[k].term == closure_term &&
         (0.5 * other > out.nulls.library_threshold ||
          nominal.scores[k].strength > out.nulls.library_threshold))
       add(k);
@@ -217,7 +213,7 @@ Search search(Examination& nominal, const inference::Test& test, const SearchOpt
   };
   std::vector<std::vector<Choice>> tried;
   for (const Refit& r : refits)
-    if (nominal.set.candidates[r.choices.front().candidate].term == "frame_closure" &&
+    if (nominal.set.candidates[r.choices.front().candidate].term == closure_term &&
         r.log_bayes > 0.0)
       for (auto& pair : beside(r, nominal.set, out.nulls)) tried.push_back(std::move(pair));
   for (const Pair& p :

@@ -18,7 +18,7 @@ double setting_spread(const Examination& nominal, const std::vector<Choice>& cho
     if (setting == variants[v].settings.end()) return 0.0;
     tried[which].variant = v;
     evidence.push_back(
-        log_bayes(nominal.projector->candidates(), columns_of(*nominal.field, tried, false)));
+        log_bayes(nominal.projector->candidates(), distinct_columns_of(nominal.set, tried)));
     share.push_back(variants[v].share);
     off.push_back(setting->second - value);
   }

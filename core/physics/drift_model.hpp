@@ -3,21 +3,11 @@
 #include <Eigen/LU>
 
 #include "core/base/dual.hpp"
+#include "core/physics/closure.hpp"
 #include "core/physics/earth.hpp"
 #include "core/physics/gimbals.hpp"
-#include "core/physics/term_library.hpp"
 
 namespace drift {
-
-/// How the platform servo answers the gyros. None of these is "the right one": it depends on the
-/// hardware (physics.md 1.6).
-enum class Coupling {
-  eq5,          ///< w_cp = -C w_ic - u (Fu, Shao, Deng 2002)
-  eq6,          ///< w_cp = -w_ic - C^-1 u (Hellings 1973)
-  lambda,       ///< the family that holds both
-  compensated,  ///< gyros on the case, the loop removes an estimate C-hat
-  servo,        ///< the null-seeking loop itself, integrated (servo.hpp)
-};
 
 /// Which equation, which terms, which axes: everything but the numbers.
 struct DriftModel {

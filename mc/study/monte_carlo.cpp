@@ -9,16 +9,15 @@
 namespace drift::mc {
 namespace {
 
-using config::Choice;
 using config::Option;
 using config::Section;
 
-constexpr Choice<DesignKind> designs[] = {{"random", DesignKind::random},
-                                          {"latin_hypercube", DesignKind::latin_hypercube},
-                                          {"sobol", DesignKind::sobol}};
-constexpr Choice<EstimatorKind> estimators[] = {{"ekf", EstimatorKind::ekf},
-                                                {"iterated", EstimatorKind::iterated},
-                                                {"batch", EstimatorKind::batch}};
+constexpr Named<DesignKind> designs[] = {{"random", DesignKind::random},
+                                         {"latin_hypercube", DesignKind::latin_hypercube},
+                                         {"sobol", DesignKind::sobol}};
+constexpr Named<EstimatorKind> estimators[] = {{"ekf", EstimatorKind::ekf},
+                                               {"iterated", EstimatorKind::iterated},
+                                               {"batch", EstimatorKind::batch}};
 
 template <class Field>
 void visit_fields(MonteCarlo& o, Field&& field) {

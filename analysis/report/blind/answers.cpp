@@ -39,7 +39,7 @@ bool missed(const blind::TrialScore& s) {
 std::string hidden_text(const blind::TrialScore& s) {
   std::vector<std::string> parts;
   for (const blind::HiddenEffect& e : s.key.effects) {
-    parts.push_back(keyed(e.term, e.axis));
+    parts.push_back(search::keyed(e.term, e.axis));
     if (!e.nearest.empty())
       parts.back() += fmt::format(" (cosine {:.2f} to {})", e.nearest_cosine, e.nearest);
   }
@@ -51,7 +51,8 @@ std::string answer_text(const blind::Answer& a) {
   std::vector<std::string> alternatives;
   for (const auto& alternative : a.alternatives()) {
     std::vector<std::string> parts;
-    for (const blind::AnswerCause* c : alternative) parts.push_back(keyed(c->term, c->axis));
+    for (const blind::AnswerCause* c : alternative)
+      parts.push_back(search::keyed(c->term, c->axis));
     alternatives.push_back(fmt::format("{}", fmt::join(parts, " + ")));
   }
   return fmt::format("{}{}{}", diagnosis::text(a.verdict), alternatives.empty() ? "" : ": ",
@@ -84,9 +85,8 @@ Section misses(const BlindResults& results) {
     if (!missed(s)) continue;
     const auto& plan = s.key.plan;
     const bool effect = !s.key.effects.empty();
-    t.add({plan.number,
-           fmt::format("{} {}", plan.plan, blind::name_in(blind::mode_names, plan.mode)),
-           blind::name_in(blind::coupling_names, plan.coupling), effect ? Cell(s.size()) : "-",
+    t.add({plan.number, fmt::format("{} {}", plan.plan, key_of(plan.mode)), key_of(plan.coupling),
+           effect ? Cell(s.size()) : "-",
            effect ? decimals(s.key.effects.front().absorbed, 3) : "-", hidden_text(s),
            answer_text(s.answer)});
   }

@@ -6,12 +6,12 @@
 namespace drift::report {
 namespace {
 
-Json of(const blind::Proportion& p) {
+Json of(const stats::Proportion& p) {
   return {
       {"share", p.share()}, {"low", p.low}, {"high", p.high}, {"successes", p.k}, {"trials", p.n}};
 }
 
-Json of(const std::vector<std::pair<std::string, blind::Proportion>>& list) {
+Json of(const std::vector<std::pair<std::string, stats::Proportion>>& list) {
   Json out = Json::object();
   for (const auto& [name, p] : list) out[name] = of(p);
   return out;
@@ -66,10 +66,10 @@ Json of(const blind::TrialScore& t) {
   }
   for (const blind::Pull& p : t.pulls) pulls.push_back({{"key", p.key}, {"pull", p.pull()}});
   return {{"trial", t.key.plan.number},
-          {"stratum", blind::name_in(blind::stratum_names, t.key.plan.stratum)},
+          {"stratum", key_of(t.key.plan.stratum)},
           {"plan", t.key.plan.plan},
-          {"mode", blind::name_in(blind::mode_names, t.key.plan.mode)},
-          {"truth_coupling", blind::name_in(blind::coupling_names, t.key.plan.coupling)},
+          {"mode", key_of(t.key.plan.mode)},
+          {"truth_coupling", key_of(t.key.plan.coupling)},
           {"hidden", hidden},
           {"concealed", t.key.certificate.concealed},
           {"largest_bias_sigma", t.key.certificate.largest_bias},

@@ -9,7 +9,7 @@ namespace drift::report {
 namespace {
 
 /// "0.950 [0.888, 0.984] of 99"; "-" of nothing.
-std::string text_of(const blind::Proportion& p) {
+std::string text_of(const stats::Proportion& p) {
   return p.n == 0 ? "-"
                   : fmt::format("{:.3f} [{:.3f}, {:.3f}] of {}", p.share(), p.low, p.high, p.n);
 }

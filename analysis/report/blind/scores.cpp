@@ -2,15 +2,16 @@
 
 #include "analysis/report/blind/sections.hpp"
 #include "analysis/report/svg/curve.hpp"
+#include "core/stats/normal.hpp"
 
 namespace drift::report {
 namespace {
 
-Cell share_cell(const blind::Proportion& p) {
+Cell share_cell(const stats::Proportion& p) {
   return p.n == 0 ? Cell("-") : Cell(p.share(), fmt::format("{:.3f}", p.share()));
 }
 
-Cell interval_cell(const blind::Proportion& p) {
+Cell interval_cell(const stats::Proportion& p) {
   if (p.n == 0) return "-";
   return {std::vector{p.low, p.high}, fmt::format("{:.3f} to {:.3f}", p.low, p.high)};
 }
@@ -78,7 +79,7 @@ std::string pulls_svg(const blind::Summary& s) {
   Series normal = curve("normal distribution", 6, Stroke::dashed);
   for (double x = -3.5; x <= 3.5; x += 0.1) {
     normal.x.push_back(x);
-    normal.y.push_back(0.5 * std::erfc(-x / std::sqrt(2.0)));
+    normal.y.push_back(stats::normal_distribution(x));
   }
   panel.series = {distribution("recovered", s.pulls), normal};
   if (s.pulls.empty()) panel.note = "nothing was named exactly";
@@ -150,7 +151,7 @@ Section groups(const BlindResults& results) {
 Section further(const BlindResults& results) {
   const blind::Summary& s = results.summary;
   Table t("Further scores", "<score | measured | 95 % interval | trials");
-  const auto add = [&](const std::string& name, const blind::Proportion& p) {
+  const auto add = [&](const std::string& name, const stats::Proportion& p) {
     if (p.n > 0) t.add({name, share_cell(p), interval_cell(p), p.n});
   };
   for (const auto& [name, p] : s.further) add(name, p);

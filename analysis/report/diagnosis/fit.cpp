@@ -17,8 +17,8 @@ std::string gain_note(const Diagnosis& d) {
   if (!std::isfinite(f.log_likelihood_ratio) || f.log_likelihood_ratio == 0.0) return "";
   // From one drift equation to the other is no small step: what is seen near the first says nothing
   // of it.
-  const bool small_step = std::ranges::none_of(
-      d.causes, [](const search::Cause& c) { return c.term == "frame_closure"; });
+  const bool small_step =
+      std::ranges::none_of(d.causes, [](const search::Cause& c) { return c.term == closure_term; });
   return fmt::format(
       "The refit with the cause gains {} in twice the log likelihood{}.",
       number_text(f.log_likelihood_ratio),
@@ -57,7 +57,7 @@ Table fit_table(const Diagnosis& d) {
   return table;
 }
 
-Blocks held_out_figure(const HeldOut& held) {
+Blocks held_out_figure(const HeldOut& held, const std::vector<RecordingSpan>& recordings) {
   DumbbellChart chart;
   chart.title = "Prediction of data held out of the fit";
   chart.x_label = "chi-square per degree of freedom (logarithmic)";
@@ -70,7 +70,7 @@ Blocks held_out_figure(const HeldOut& held) {
     for (const Fold& f : *folds) {
       if (f.dof == 0) continue;
       const double n = static_cast<double>(f.dof), gain = f.log_score_after - f.log_score_before;
-      chart.lines.push_back({.label = f.name,
+      chart.lines.push_back({.label = fold_name(f, recordings),
                              .before = f.chi2_before / n,
                              .after = f.chi2_after / n,
                              .text = std::isfinite(gain) ? fmt::format("{:+.1f}", gain) : ""});
@@ -192,7 +192,7 @@ Section fit(const Diagnosis& d) {
   if (const auto sentence = held_out_sentence(d.fit.held_out); !sentence.empty())
     section.add({{Paragraph{sentence}, On::page}});
   if (!d.has_patch) section.add({{Paragraph{"No cause is in the model."}, On::page}});
-  section.add(held_out_figure(d.fit.held_out));
+  section.add(held_out_figure(d.fit.held_out, d.where.recordings));
   section.add(moved_figure(d.fit.shifted));
   section.add(residual_figure(d));
   if (!d.fit.shifted.empty()) section.add({{moved_table(d), shown_of(d)}});

@@ -2,6 +2,8 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/report/diagnosis/sections.hpp"
+#include "analysis/report/diagnosis/sentence.hpp"
+#include "core/stats/normal.hpp"
 
 namespace drift::report {
 namespace {
@@ -48,12 +50,14 @@ Json causes_json(const std::vector<Cause>& causes) {
   for (const Cause& c : causes) {
     Json parameters = Json::array(), confusable = Json::array();
     for (const CauseParameter& p : c.parameters)
-      parameters.push_back({{"key", p.key},
-                            {"value", p.value},
-                            {"sigma", p.sigma},
-                            {"unit", p.unit},
-                            {"interval_95", {p.value - 1.96 * p.sigma, p.value + 1.96 * p.sigma}},
-                            {"profiled", p.profiled}});
+      parameters.push_back(
+          {{"key", p.key},
+           {"value", p.value},
+           {"sigma", p.sigma},
+           {"unit", p.unit},
+           {"interval_95",
+            {p.value - stats::half_width_95 * p.sigma, p.value + stats::half_width_95 * p.sigma}},
+           {"profiled", p.profiled}});
     for (const Confusable& other : c.confusable_with)
       confusable.push_back(
           {{"term", other.term}, {"axis", text_or_null(other.axis)}, {"cosine", other.cosine}});
@@ -72,10 +76,10 @@ Json causes_json(const std::vector<Cause>& causes) {
   return all;
 }
 
-Json folds_json(const std::vector<Fold>& folds) {
+Json folds_json(const std::vector<Fold>& folds, const std::vector<RecordingSpan>& recordings) {
   Json list = Json::array();
   for (const Fold& f : folds)
-    list.push_back({{"name", f.name},
+    list.push_back({{"name", fold_name(f, recordings)},
                     {"positions", f.positions},
                     {"chi2_before", f.chi2_before},
                     {"chi2_after", f.chi2_after},
@@ -113,13 +117,13 @@ Json fit_json(const Diagnosis& d) {
                      {"nested_gain", of_folds(held.nested_gain)},
                      {"improves", held.improves},
                      {"method", text_or_null(held.method)},
-                     {"each", folds_json(held.folds)}};
+                     {"each", folds_json(held.folds, d.where.recordings)}};
   if (!held.recordings.empty())
     out["held_out"]["by_recording"] = {{"chi2_per_dof_before", held.recording_chi2_per_dof_before},
                                        {"chi2_per_dof_after", held.recording_chi2_per_dof_after},
                                        {"log_score_gain", held.recording_gain},
                                        {"folds", held.recordings.size()},
-                                       {"each", folds_json(held.recordings)}};
+                                       {"each", folds_json(held.recordings, d.where.recordings)}};
   out["start_spread_before"] = fit.start_spread_before;
   out["start_spread_after"] = fit.start_spread_after;
   out["shifted_parameters"] = rows_json(moved_table(d));
@@ -152,13 +156,14 @@ Json advice_json(const std::vector<Advice>& advice) {
 Json equations_json(const std::vector<RecoveredSignal>& signals) {
   Json all = Json::array();
   for (const RecoveredSignal& s : signals)
-    all.push_back({{"equation", s.equation},
-                   {"unit", s.unit},
-                   {"shape", s.shape},
-                   {"onset_s", s.onset_s >= 0.0 ? s.onset_s : std::nan("")},
-                   {"period_s", s.period_s > 0.0 ? s.period_s : std::nan("")},
-                   {"covariate", text_or_null(s.best_covariate)},
-                   {"correlation", s.best_covariate.empty() ? std::nan("") : s.correlation}});
+    all.push_back(
+        {{"equation", s.equation},
+         {"unit", s.unit},
+         {"shape", fmt::format("{}: {}", s.equation, shape_text(s))},
+         {"onset_s", s.shape.kind == Shape::Kind::onset ? s.shape.seconds : std::nan("")},
+         {"period_s", s.shape.kind == Shape::Kind::period ? s.shape.seconds : std::nan("")},
+         {"covariate", text_or_null(s.shape.covariate)},
+         {"correlation", s.shape.covariate.empty() ? std::nan("") : s.correlation}});
   return all;
 }
 
@@ -183,7 +188,7 @@ Json diagnosis_document(const Diagnosis& d) {
   out["schema"] = 1;
   out["verdict"] = std::string(text(d.verdict));
   out["p_value"] = d.p_value;
-  out["sentence"] = d.sentence;
+  out["sentence"] = sentence(d);
   out["other_equation_gain"] = d.other_equation_gain;
   out["where"] = where_json(d.where);
   out["causes"] = causes_json(d.causes);
@@ -197,7 +202,7 @@ Json diagnosis_document(const Diagnosis& d) {
   out["noise"] = rows_json(noise_table(d));
   out["equations"] = equations_json(d.signals);
   out["cosines"] = cosines_json(d.cosines);
-  out["inseparable"] = d.inseparable;
+  out["inseparable"] = twins_in_words(d.inseparable);
   out["remarks"] = remarks_of(d);
   Json& seconds = out["seconds"] = Json::object();
   for (const auto& [stage, time] : d.seconds) seconds[stage] = time;

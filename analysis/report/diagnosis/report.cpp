@@ -6,8 +6,8 @@
 #include <sstream>
 
 #include "analysis/diagnosis/patched_study.hpp"
-#include "analysis/diagnosis/sentence.hpp"
 #include "analysis/report/diagnosis/sections.hpp"
+#include "analysis/report/diagnosis/sentence.hpp"
 #include "core/physics/parameters_config.hpp"
 
 namespace drift::report {
@@ -62,7 +62,7 @@ std::string patched_file(const mc::Study& study, const Diagnosis& d) {
 /// What the page says in its headlines.
 Section verdict(const Diagnosis& d) {
   const bool found = d.verdict != Verdict::consistent;
-  Sentences said{{fmt::format("Verdict {}: {}", text(d.verdict), verdict_sentence(d))}, ""};
+  Sentences said{{fmt::format("Verdict {}: {}", text(d.verdict), sentence(d))}, ""};
   if (const auto sentence = where_sentence(d.where); found && !sentence.empty())
     said.items.push_back("Where: " + sentence);
   if (const auto sentence = held_out_sentence(d.fit.held_out); found && !sentence.empty())
@@ -114,9 +114,8 @@ Section advice(const Diagnosis& d) {
     if (a.plan.empty()) continue;
     Table table("Positions to add", "<name | <axes | dwell | <mode | <entry | case heading");
     for (const Position& p : a.plan)
-      table.add({p.name, p.axes, fmt::format("{:.0f} min", p.dwell / 60.0),
-                 p.mode == CommandLaw::level ? "level" : "free",
-                 p.entry == Entry::torqued ? "torqued" : "caged",
+      table.add({p.name, p.axes, fmt::format("{:.0f} min", p.dwell / 60.0), key_of(p.mode),
+                 key_of(p.entry),
                  p.case_heading ? fmt::format("{:.0f} deg", *p.case_heading / unit::deg.to_si)
                                 : "chosen"});
     section.add({{table, On::page}, {Preformatted{positions_toml(a.plan)}, On::page}});
@@ -134,7 +133,7 @@ Report diagnosis_report(const mc::Study& study, const Diagnosis& d, const Diagno
   report.title = study.title.empty() ? "Diagnosis" : study.title;
   report.subtitle =
       fmt::format("{} {}", verdict_word(d.verdict), fmt::join(source.recordings, ", "));
-  report.headlines.push_back(verdict_sentence(d));
+  report.headlines.push_back(sentence(d));
   if (d.verdict != Verdict::consistent)
     for (const auto& sentence : {where_sentence(d.where), held_out_sentence(d.fit.held_out)})
       if (!sentence.empty()) report.headlines.push_back(sentence);

@@ -1,4 +1,5 @@
 #include "analysis/report/diagnosis/sections.hpp"
+#include "analysis/report/diagnosis/sentence.hpp"
 
 namespace drift::report {
 
@@ -8,7 +9,8 @@ std::string residual_signal_csv(const std::vector<diagnosis::RecoveredSignal>& s
       "# what the nominal model does not explain, as the input that would explain it; sigma: 1 "
       "standard deviation\n";
   for (const auto& s : signals)
-    if (!s.shape.empty()) facts += fmt::format("# {} = {}\n", csv_of(s.equation), csv_of(s.shape));
+    if (const std::string shape = shape_text(s); !shape.empty())
+      facts += fmt::format("# {} = {}\n", csv_of(s.equation), csv_of(shape));
   for (const auto& r : recordings)
     facts +=
         fmt::format("# {} = its own time is time [s] less {:.9g}\n", csv_of(r.name), r.offset_s);

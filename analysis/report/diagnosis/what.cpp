@@ -172,7 +172,7 @@ Section what(const Diagnosis& d) {
   if (!d.candidates.empty()) section.add({candidate_table(d)});
   if (!d.inseparable.empty())
     section.add({{Paragraph{"This plan can never tell these apart:"}, On::page},
-                 {Sentences{d.inseparable}, On::page}});
+                 {Sentences{twins_in_words(d.inseparable)}, On::page}});
   return section;
 }
 

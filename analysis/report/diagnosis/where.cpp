@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/diagnosis/sentence.hpp"
 #include "analysis/report/diagnosis/sections.hpp"
+#include "analysis/report/diagnosis/sentence.hpp"
 #include "analysis/report/diagnosis/time_axis.hpp"
 #include "analysis/report/svg/curve.hpp"
 #include "analysis/report/svg/heat_map.hpp"
@@ -158,9 +158,8 @@ Section where(const Diagnosis& d) {
   section.add(heat_figure(d.where, d.verdict == Verdict::consistent));
   section.add(signal_figure(d));
   for (const RecoveredSignal& s : d.signals)
-    if (!s.shape.empty())
-      section.add({Paragraph{
-          s.shape.starts_with(s.equation) ? s.shape : fmt::format("{}: {}", s.equation, s.shape)}});
+    if (const std::string shape = shape_text(s); !shape.empty())
+      section.add({Paragraph{fmt::format("{}: {}", s.equation, shape)}});
   if (!d.where.windows.empty()) section.add({window_table(d.where)});
   return section;
 }

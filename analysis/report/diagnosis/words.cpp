@@ -1,16 +1,24 @@
 #include "analysis/report/diagnosis/words.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/diagnosis/sentence.hpp"
-#include "analysis/report/page/wording.hpp"
+#include "analysis/report/diagnosis/remark_words.hpp"
+#include "analysis/report/diagnosis/sentence.hpp"
+#include "core/base/number_text.hpp"
+#include "core/base/words.hpp"
 
 namespace drift::report {
+namespace {
 
 using namespace diagnosis;
 using namespace inference;
 using namespace search;
+
+}  // namespace
 
 std::string label_of(const Cause& c) {
   return keyed(c.term, c.axis);
@@ -45,7 +53,8 @@ std::vector<ShownCandidate> shown_candidates(const Diagnosis& d, std::size_t mos
 }
 
 std::vector<std::string> remarks_of(const Diagnosis& d) {
-  std::vector<std::string> all = d.remarks;
+  std::vector<std::string> all;
+  for (const Remark& r : d.remarks) all.push_back(in_words(r));
   if (const auto& recordings = d.where.recordings; !recordings.empty()) {
     std::vector<std::string> begins;
     for (const RecordingSpan& r : recordings)
@@ -53,8 +62,9 @@ std::vector<std::string> remarks_of(const Diagnosis& d) {
                                    r.start_s, r.start_s - r.offset_s));
     all.push_back(
         fmt::format("Times in tables and figures run through all recordings, one after another: "
-                    "{}. A number of a position is that of the plan, whatever the recording.",
-                    listed(begins)));
+                    "{}. A number of a "
+                    "position is that of the plan, whatever the recording.",
+                    listed(begins, "and")));
   }
   if (std::string patch = patch_text(d); !patch.empty()) all.push_back(std::move(patch));
   return all;
@@ -79,8 +89,28 @@ std::string channel_in_words(const std::string& name) {
   return name;
 }
 
-std::string verdict_sentence(const Diagnosis& d) {
-  return d.sentence.empty() ? sentence(d) : d.sentence;
+std::string fold_name(const Fold& fold, const std::vector<RecordingSpan>& recordings) {
+  switch (fold.of) {
+    case Fold::Of::position:
+      return fmt::format("position {}", fold.number);
+    case Fold::Of::dwell:
+      return fmt::format("dwell {}", fold.number);
+    case Fold::Of::recording:
+      break;
+  }
+  const auto k = static_cast<std::size_t>(fold.number);
+  return k >= 1 && k <= recordings.size()
+             ? fmt::format("recording {}, {}", k, recordings[k - 1].name)
+             : fmt::format("recording {}", k);
+}
+
+std::vector<std::string> twins_in_words(const std::vector<Twins>& twins) {
+  std::vector<std::string> lines;
+  for (const Twins& t : twins)
+    lines.push_back(fmt::format("{} and {} leave the same trace on this plan",
+                                in_words(t.one.term, t.one.axis),
+                                in_words(t.other.term, t.other.axis)));
+  return lines;
 }
 
 std::string where_sentence(const Where& where) {
@@ -92,13 +122,14 @@ std::string where_sentence(const Where& where) {
   for (const Share& s : where.channels)
     if (parts.size() < 2 && s.share > 0.1)
       parts.push_back(fmt::format("{} ({:.0f} %)", channel_in_words(s.name), 100.0 * s.share));
-  if (!parts.empty()) out += fmt::format(", seen by {}", listed(parts));
+  if (!parts.empty()) out += fmt::format(", seen by {}", listed(parts, "and"));
   parts.clear();
   for (const Share& s : where.positions)
     if (parts.size() < 3 && s.share > 0.1)
       parts.push_back(fmt::format("{} ({:.0f} %)", s.position, 100.0 * s.share));
   if (!parts.empty())
-    out += fmt::format(", most of it at position{} {}", parts.size() > 1 ? "s" : "", listed(parts));
+    out += fmt::format(", most of it at position{} {}", parts.size() > 1 ? "s" : "",
+                       listed(parts, "and"));
   if (!where.windows.empty()) {
     const ScanHit& w = where.windows.front();
     const RecordingSpan* r = recording_at(where.recordings, 0.5 * (w.start_s + w.end_s));

@@ -5,6 +5,7 @@
 #include "analysis/report/identify/sections.hpp"
 #include "analysis/report/page/degeneracies.hpp"
 #include "core/estimate/start_consistency.hpp"
+#include "core/physics/parameters_config.hpp"
 #include "core/stats/chi_square_band.hpp"
 
 namespace drift::report {

@@ -23,15 +23,6 @@ Cell parameter_cell(std::size_t param) {
           fmt::format("{} [{}]", parameter_key(param), parameter_unit(param))};
 }
 
-std::string keyed(const std::string& term, const std::string& axis) {
-  return axis.empty() ? term : term + "." + axis;
-}
-
-std::string listed(const std::vector<std::string>& items) {
-  if (items.size() < 2) return items.empty() ? "" : items.front();
-  return fmt::format("{} and {}", fmt::join(items.begin(), items.end() - 1, ", "), items.back());
-}
-
 std::string_view plural(std::size_t count) {
   return count == 1 ? "" : "s";
 }

@@ -6,8 +6,9 @@
 
 #include "analysis/report/page/report.hpp"
 #include "core/base/number_text.hpp"
+#include "core/base/words.hpp"
 #include "core/estimate/layout.hpp"
-#include "core/physics/coupling_text.hpp"
+#include "core/physics/coupling.hpp"
 
 namespace drift::report {
 
@@ -21,12 +22,6 @@ double unit_of(std::size_t param);
 
 /// "D_I_z [deg/h/g]"; for machines the key.
 Cell parameter_cell(std::size_t param);
-
-/// "magnetic_drift.y" of a term and an axis, which may be empty.
-std::string keyed(const std::string& term, const std::string& axis);
-
-/// "a", "a and b", "a, b and c".
-std::string listed(const std::vector<std::string>& items);
 
 /// "" of 1, else "s".
 std::string_view plural(std::size_t count);

@@ -80,13 +80,13 @@ Table improvement_table(const planning::PlanRanking& rank) {
                       better.steps.empty() ? " The gimbals allow no candidate." : ""));
   for (std::size_t i = 0; i < better.steps.size(); ++i) {
     const planning::ImprovementStep& s = better.steps[i];
-    const std::string entry = s.position.entry == Entry::caged ? "caged" : "torqued";
+    const std::string entry(key_of(s.position.entry));
     const auto& heading = s.position.case_heading;
     const double degrees = heading ? *heading / detail::deg : 0.0;
     t.add({i + 1,
            s.position.name,
            s.position.axes,
-           s.position.mode == CommandLaw::free ? "free" : "level",
+           key_of(s.position.mode),
            {entry, heading ? fmt::format("{}, case at {:.0f} deg", entry, degrees) : entry},
            only_value(heading ? Value(degrees) : Value()),
            s.duration / hour,

@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/report/rank/sections.hpp"
+#include "core/physics/parameters_config.hpp"
 
 namespace drift::report {
 namespace {

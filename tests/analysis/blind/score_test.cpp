@@ -195,7 +195,7 @@ TEST(BlindScore, AnswersKeepWhatACauseIsLikeAndAreReadWithoutIt) {
 
 TEST(BlindTargets, AreDecidedOnlyByTheWholeInterval) {
   const auto standing = [](std::size_t k, std::size_t n, double low, double high) {
-    return std::string(text(Target{"", proportion(k, n), low, high}.standing()));
+    return std::string(text(Target{"", stats::proportion(k, n), low, high}.standing()));
   };
   // Clopper and Pearson at 95 %: 20 of 20 [0.832, 1], 18 of 20 [0.683, 0.988], 2 of 20 [0.012,
   // 0.317].

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "analysis/inference/signatures.hpp"
+#include "tests/support/dense_covariance.hpp"
 #include "tests/support/model_builders.hpp"
 
 namespace drift::inference {
@@ -31,7 +32,7 @@ void expect_equals_cholesky(const NoiseModel& noise) {
   LinearProblem problem = short_problem();
   problem.weight[5] = 0.3;
   const Whitener whitener(problem, noise);
-  const Eigen::LLT<MatX> llt(dense_covariance(problem, noise));
+  const Eigen::LLT<MatX> llt(DenseCovariance(problem, noise).all());
   ASSERT_EQ(llt.info(), Eigen::Success);
   const MatX L = llt.matrixL();
   const MatX expected = L.triangularView<Eigen::Lower>().solve(problem.theta);

@@ -156,14 +156,5 @@ TEST(Naming, ACancellingPairIsFoundThoughNoSingleScoreShowsIt) {
   EXPECT_GT(pair_first, n * 9 / 10);
 }
 
-TEST(ChiSquare, TailsAreExactWhereTheyHaveAClosedForm) {
-  for (const double T : {0.1, 1.0, 5.0, 30.0, 300.0}) {
-    EXPECT_NEAR(stats::log_tail(T, 2.0), -0.5 * T, 1e-12 * T + 1e-13);
-    EXPECT_NEAR(stats::log_tail(T, 4.0), -0.5 * T + std::log1p(0.5 * T), 1e-11 * T);
-    EXPECT_NEAR(stats::log_tail(T, 1.0), std::log(std::erfc(std::sqrt(0.5 * T))), 1e-11 * T);
-  }
-  EXPECT_NEAR(stats::quantile_of_strength(stats::strength(23.0, 3), 3), 23.0, 1e-7);
-}
-
 }  // namespace
 }  // namespace drift::search

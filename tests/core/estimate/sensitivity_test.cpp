@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/estimate/batch.hpp"
-#include "core/ode/forward_sensitivity.hpp"
+#include "tests/support/forward_sensitivity.hpp"
 #include "tests/support/model_builders.hpp"
 
 namespace drift {

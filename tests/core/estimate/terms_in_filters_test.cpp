@@ -11,10 +11,6 @@ namespace {
 
 using namespace drift::test;
 
-Coupling coupling_for(std::size_t term) {
-  return TermLibrary::terms[term].key == "frame_closure" ? Coupling::lambda : Coupling::eq6;
-}
-
 /// A filter with D_F, eta and one term, of which everything that may be a state is one.
 FilterSpec filter_with(std::size_t term) {
   FilterSpec filter = base_filter(coupling_for(term));
@@ -28,8 +24,8 @@ FilterSpec filter_with(std::size_t term) {
 /// How well a Jacobian is known, of its largest element. Friction that turns over within a step of
 /// the quadrature is known to a sixth of a step, 5 s in ten minutes; where it turns over, to less.
 double accuracy(std::size_t param) {
-  if (TermLibrary::owner(param).key != "float_restraint") return 5e-4;
-  return TermLibrary::specs[param].kind == ParamKind::linear ? 1e-2 : 6e-2;
+  if (!reverses_within_a_step(TermLibrary::owner(param))) return 5e-4;
+  return TermLibrary::specs[param].amplitude() ? 1e-2 : 6e-2;
 }
 
 TEST(EveryTermInAFilter, HasTheJacobianOfItsPrediction) {

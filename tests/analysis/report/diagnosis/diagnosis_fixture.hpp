@@ -100,7 +100,7 @@ inline diagnosis::Diagnosis diagnosis(const FilterSpec& nominal) {
   d.fit.held_out.improves = true;
   for (int p = 1; p <= 6; ++p) {
     diagnosis::Fold fold;
-    fold.name = fmt::format("position {}", p);
+    fold.number = p;
     fold.positions = {p};
     fold.chi2_before = 90.0 * p;
     fold.chi2_after = 10.0;
@@ -116,7 +116,8 @@ inline diagnosis::Diagnosis diagnosis(const FilterSpec& nominal) {
   diagnosis::RecoveredSignal signal;
   signal.equation = "platform rate y";
   signal.unit = "deg/h";
-  signal.shape = "a step of 0.25 deg/h, from 1200 s on";
+  signal.shape = {diagnosis::Shape::Kind::onset, 1200.0};
+  signal.correlation = 0.9;
   for (int i = 0; i < 60; ++i) {
     signal.t.push_back(60.0 * (i + 1));
     signal.position.push_back(1 + i / 10);
@@ -141,7 +142,7 @@ inline diagnosis::Diagnosis diagnosis(const FilterSpec& nominal) {
   advice.expected_sigma = 6.2;
   advice.verified_sigma = none;
   d.advice = {advice};
-  d.remarks = {"a <remark> & more"};
+  d.remarks = {diagnosis::remark::Input{"a <remark> & more"}};
   d.nominal = nominal;
   d.patched = diagnosis::patched_filter(nominal, d.causes);
   d.has_patch = true;

@@ -2,8 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "analysis/diagnosis/sentence.hpp"
 #include "analysis/report/diagnosis/sections.hpp"
+#include "analysis/report/diagnosis/sentence.hpp"
 #include "tests/analysis/report/diagnosis/diagnosis_fixture.hpp"
 #include "tests/analysis/report/figures_of.hpp"
 #include "tests/analysis/report/xml_check.hpp"
@@ -272,8 +272,8 @@ TEST(DiagnosisWords, NameChannelsAndEquations) {
   EXPECT_EQ(report::channel_in_words("acc_y"), "accelerometer y");
   EXPECT_EQ(report::channel_in_words("gimbal_outer"), "outer gimbal");
   EXPECT_EQ(report::channel_in_words("turn"), "the turns");
-  EXPECT_EQ(diagnosis::equation_in_words("gimbal middle"), "middle gimbal");
-  EXPECT_EQ(diagnosis::equation_in_words("platform rate y"), "platform rate y");
+  EXPECT_EQ(report::equation_in_words("gimbal middle"), "middle gimbal");
+  EXPECT_EQ(report::equation_in_words("platform rate y"), "platform rate y");
 }
 
 TEST(DiagnosisText, HasNoWordsOfTheMethodInTheNoteOnTheGain) {
@@ -306,7 +306,7 @@ TEST(ResidualSignal, IsATableWithEmptyCellsForWhatIsNotKnown) {
   EXPECT_NE(csv.find("platform rate y,60,1,0,0.1,0,deg/h\n"), std::string::npos);
   EXPECT_NE(csv.find("platform rate y,480,1,,0.1,0.644217687,deg/h\n"),
             std::string::npos);  // sin(0.7)
-  EXPECT_NE(csv.find("# platform rate y = a step of 0.25 deg/h  from 1200 s on"),
+  EXPECT_NE(csv.find("# platform rate y = sets in at 1200 s and stays (correlation 0.90)"),
             std::string::npos);
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 63);
 }
@@ -370,8 +370,8 @@ TEST(DiagnosisFolder, ThePatchOfAnAmbiguousVerdictSaysWhichAlternativeItHolds) {
        {report::to_text(d), report::to_json(d), test::text_of(out + "/report.html")})
     EXPECT_NE(text.find("(patched.toml) holds alternative (1)"), std::string::npos) << text;
   d.causes.pop_back();
-  EXPECT_NE(diagnosis::patch_text(d).find("it is not confirmed"), std::string::npos)
-      << diagnosis::patch_text(d);
+  EXPECT_NE(report::patch_text(d).find("it is not confirmed"), std::string::npos)
+      << report::patch_text(d);
 }
 
 TEST(DiagnosisFolder, HoldsEverythingAndLeavesNoPatchOfAnEarlierDiagnosis) {

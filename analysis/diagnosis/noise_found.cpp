@@ -1,0 +1,72 @@
+#include "analysis/diagnosis/noise_found.hpp"
+
+#include <cmath>
+
+#include "analysis/inference/evidence.hpp"
+
+namespace drift::diagnosis {
+
+NoiseFound noise_found(const search::Examination& fitted, std::size_t spikes) {
+  NoiseFound out{fitted.noise.findings, {}};
+  std::size_t lowered = 0;
+  for (const double w : fitted.problem.weight) lowered += w < 1.0;
+  if (spikes + lowered == 0) return out;
+  inference::NoiseFinding f;
+  f.component = "outliers";
+  f.factor = f.factor_sigma = std::nan("");
+  f.unit = "samples";
+  f.value = static_cast<double>(spikes + lowered);
+  f.count = spikes;
+  f.significant = true;
+  f.p_value = 1e-4;  // beyond four sigma of what Gaussian noise gives
+  out.findings.push_back(f);
+  out.remarks.emplace_back(remark::SamplesLeftOut{spikes, lowered});
+  return out;
+}
+
+std::optional<remark::DrivesOneGyro> noise_of_one_axis(const search::Examination& nominal) {
+  constexpr double one_axis_gain = 10.0;  // of twice the log likelihood
+  const inference::NoiseModel& all = nominal.noise.model;
+  if (!nominal.noise.driven ||
+      all.angle_random_walk + all.drift_random_walk + all.markov_drift == 0.0)
+    return std::nullopt;
+  inference::LinearProblem bare = nominal.problem;
+  bare.extra.resize(bare.rows(), 0);
+  const auto value = [&](const inference::NoiseModel& m) {
+    return inference::Projector(bare, m).candidates().log_likelihood2();
+  };
+  const double together = value(all);
+  remark::DrivesOneGyro best{-1, 0.0};
+  for (int a = 0; a < 3; ++a)
+    for (const double factor : {0.7, 1.0, 1.6, 2.5}) {
+      inference::NoiseModel one = all;
+      one.gyros = factor * Vec3::Unit(a);
+      const double gain = value(one) - together;
+      if (gain > best.gain) best = {a, gain};
+    }
+  if (best.gain < one_axis_gain) return std::nullopt;
+  return best;
+}
+
+std::optional<remark::NoiseOrEffect> noise_or_effect(const search::Examination& nominal) {
+  constexpr double evident = 25.0, per_degree = 3.0;  // of twice the log likelihood
+  if (!nominal.noise.driven) return std::nullopt;
+  const inference::NoiseModel declared = search::declared_noise(nominal.filter);
+  inference::NoiseModel plain = nominal.noise.model;
+  plain.angle_random_walk = declared.angle_random_walk;
+  plain.drift_random_walk = declared.drift_random_walk;
+  plain.markov_drift = plain.acc_markov = 0.0;
+  const inference::Evidence seen =
+      inference::evidence_under(nominal.problem, nominal.set, plain, {});
+  const auto worth = [&](std::size_t k) {
+    return seen.gains[k].ratio - per_degree * (seen.gains[k].dof - 1);
+  };
+  std::size_t best = 0;
+  for (std::size_t k = 1; k < seen.gains.size(); ++k)
+    if (worth(k) > worth(best)) best = k;
+  if (seen.gains.empty() || worth(best) < evident) return std::nullopt;
+  const inference::Candidate& c = nominal.set.candidates[best];
+  return remark::NoiseOrEffect{{c.term, c.axis, c.label}, std::sqrt(seen.gains[best].ratio)};
+}
+
+}  // namespace drift::diagnosis
