@@ -14,19 +14,20 @@ ExitCode blind(const StudyArguments& arguments, const std::string& folder,
   if (trials) all.sets.push_back("blind.trials=" + *trials);
   const mc::Study study = all.read();
   require_own_folder(folder, "blind");
-  report::Hashes hashes;
-  hashes.key = blind::make_trials(study, folder, arguments.threads,
-                                  progress_reporter(arguments.progress, "recordings"));
-  fmt::print("Key sealed in {}: SHA-256 {}\n", folder, hashes.key);
+  report::BlindResults results;
+  results.title = study.title;
+  results.key_hash = blind::make_trials(study, folder, arguments.threads,
+                                        progress_reporter(arguments.progress, "recordings"));
+  fmt::print("Key sealed in {}: SHA-256 {}\n", folder, results.key_hash);
   std::fflush(stdout);
-  hashes.answers = blind::answer_trials(folder, blind::diagnosing_solver(), arguments.threads,
-                                        progress_reporter(arguments.progress, "diagnoses"));
-  fmt::print("Answers sealed: SHA-256 {}\n\n", hashes.answers);
-  const auto scores = blind::score_folder(folder);
-  const auto summary = blind::summarise(scores);
-  fmt::print("{}", report::to_text(summary, scores, hashes));
-  const auto files = report::write_report(study.title, summary, scores, hashes, folder);
-  fmt::print("\nWritten to {}: {}\n", folder, fmt::join(files, " "));
+  results.answers_hash = blind::answer_trials(folder, blind::diagnosing_solver(), arguments.threads,
+                                              progress_reporter(arguments.progress, "diagnoses"));
+  fmt::print("Answers sealed: SHA-256 {}\n\n", results.answers_hash);
+  results.scores = blind::score_folder(folder);
+  results.summary = blind::summarise(results.scores);
+  const report::Report said = report::blind_report(results);
+  fmt::print("{}", report::to_text(said));
+  fmt::print("\nWritten to {}: {}\n", folder, fmt::join(report::write_report(said, folder), " "));
   return ExitCode::ok;
 }
 

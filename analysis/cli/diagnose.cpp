@@ -11,8 +11,7 @@
 #include "analysis/cli/progress.hpp"
 #include "analysis/cli/read_recordings.hpp"
 #include "analysis/diagnosis/diagnose_recordings.hpp"
-#include "analysis/report/diagnosis/folder.hpp"
-#include "analysis/report/diagnosis/text.hpp"
+#include "analysis/report/diagnosis/report.hpp"
 #include "analysis/report/strapdown/report.hpp"
 #include "core/base/results_folder.hpp"
 #include "mc/task/campaign.hpp"
@@ -62,7 +61,8 @@ ExitCode diagnose_case(const StudyArguments& arguments, const mc::Study& study,
   if (!folder.empty())
     more = write_files({{"identification.json", report::to_json(found.result).dump(2) + "\n"}},
                        folder);
-  finish(study, found.diagnosis, {paths, report::to_text(found.result)}, folder, more);
+  finish(study, found.diagnosis,
+         {paths, report::to_text(report::strapdown_report(study, found.result))}, folder, more);
   return ExitCode::ok;
 }
 

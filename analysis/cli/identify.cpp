@@ -5,10 +5,8 @@
 #include "analysis/cli/commands.hpp"
 #include "analysis/cli/progress.hpp"
 #include "analysis/cli/read_recordings.hpp"
-#include "analysis/report/identify/folder.hpp"
-#include "analysis/report/identify/text.hpp"
+#include "analysis/report/identify/report.hpp"
 #include "analysis/report/strapdown/report.hpp"
-#include "analysis/report/strapdown/results.hpp"
 #include "core/base/results_folder.hpp"
 
 namespace drift::cli {
@@ -31,10 +29,10 @@ ExitCode identify_case(const mc::Study& study, const std::vector<std::string>& p
   const auto recordings = read_recordings(study, paths);
   const strapdown::StrapdownResult result =
       strapdown::identify_strapdown(recordings.front(), options);
-  fmt::print("{}", report::to_text(result));
+  const report::Report said = report::strapdown_report(study, result);
+  fmt::print("{}", report::to_text(said));
   if (!folder.empty())
-    fmt::print("\nWritten to {}: {}\n", folder,
-               fmt::join(report::write_results(study, result, folder), " "));
+    fmt::print("\nWritten to {}: {}\n", folder, fmt::join(report::write_report(said, folder), " "));
   return ExitCode::ok;
 }
 
@@ -50,11 +48,11 @@ ExitCode identify(const StudyArguments& arguments, const std::vector<std::string
       paths.empty() ? identification::identify_simulated(study, run, arguments.threads, progress)
                     : identification::identify_recordings(study, read_recordings(study, paths),
                                                           arguments.threads, progress);
-  fmt::print("{}", report::to_text(study, id));
-  if (!folder.empty()) {
-    const auto files = report::write_results(study, id, folder);
-    fmt::print("\nWritten to {}: {}\n", folder, fmt::join(files, " "));
-  }
+  const report::Report said = report::identification_report(study, id);
+  fmt::print("{}", report::to_text(said));
+  if (!folder.empty())
+    fmt::print("\nWritten to {}: {}\n", folder,
+               fmt::join(report::write_identification(said, id, folder), " "));
   return ExitCode::ok;
 }
 

@@ -213,14 +213,15 @@ TEST(BlindTargets, AreDecidedOnlyByTheWholeInterval) {
 TEST(BlindTargets, AreReportedWithTheirStanding) {
   const Summary s =
       summarise({score_trial(magnetic, answer(Verdict::named, {{"magnetic_drift", "y", 0}}))});
-  const std::string report = report::to_text(s, {}, {});
+  const report::Report all = report::blind_report({.title = {}, .summary = s, .scores = {}});
+  const std::string report = report::to_text(all);
   EXPECT_NE(report.find("Of 10 targets 0 are met and 0 missed"), std::string::npos) << report;
   EXPECT_NE(report.find("10 not decided."), std::string::npos) << report;
   EXPECT_NE(report.find("1 not decided\n"), std::string::npos) << report;
   EXPECT_NE(report.find("exact, where an identical twin counts as the same cause"),
             std::string::npos)
       << report;
-  const std::string json = report::to_json(s, {}, {});
+  const std::string& json = all.document.second;
   EXPECT_NE(json.find("\"standing\": \"not decided\""), std::string::npos);
   EXPECT_NE(json.find("\"met\": true"), std::string::npos) << "by the share alone, as ever";
 }

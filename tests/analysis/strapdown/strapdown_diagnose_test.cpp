@@ -8,9 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/diagnosis/patched_study.hpp"
-#include "analysis/report/diagnosis/folder.hpp"
-#include "analysis/report/diagnosis/json.hpp"
 #include "analysis/report/diagnosis/remark_words.hpp"
+#include "analysis/report/diagnosis/report.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
 #include "analysis/strapdown/diagnose.hpp"
 #include "core/base/check.hpp"

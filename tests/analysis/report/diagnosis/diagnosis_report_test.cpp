@@ -2,15 +2,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "analysis/report/diagnosis/figures.hpp"
-#include "analysis/report/diagnosis/folder.hpp"
-#include "analysis/report/diagnosis/json.hpp"
-#include "analysis/report/diagnosis/residual_signal.hpp"
+#include "analysis/report/diagnosis/sections.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
-#include "analysis/report/diagnosis/tables.hpp"
-#include "analysis/report/diagnosis/text.hpp"
-#include "analysis/report/diagnosis/words.hpp"
 #include "tests/analysis/report/diagnosis/diagnosis_fixture.hpp"
+#include "tests/analysis/report/figures_of.hpp"
 #include "tests/analysis/report/xml_check.hpp"
 
 namespace drift {
@@ -23,6 +18,10 @@ using nlohmann::json;
 using testing::nominal_study;
 
 const std::set<std::string> void_tags{"meta", "br", "img", "link", "hr"};
+
+std::vector<report::Figure> all_figures(const diagnosis::Diagnosis& d) {
+  return testing::figures_of(report::sections_of(d, report::diagnosis_sections));
+}
 
 FilterSpec nominal() {
   const test::ScratchFolder folder;
@@ -118,7 +117,7 @@ TEST(DiagnosisPage, IsWellFormedOfflineAndEscaped) {
   const mc::Study study = testing::read_text(folder, "s.toml", nominal_study);
   const diagnosis::Diagnosis d = testing::diagnosis(study.filters.front());
   const std::string page =
-      report::to_html(report::diagnosis_html(study, d, {{"rec <1>.csv"}, "details <&>"}));
+      report::to_html(report::diagnosis_report(study, d, {{"rec <1>.csv"}, "details <&>"}));
   EXPECT_EQ(testing::xml_problem(page, void_tags), std::nullopt);
   EXPECT_EQ(page.find("://"), std::string::npos);
   EXPECT_EQ(page.find("<script"), std::string::npos);
@@ -126,7 +125,7 @@ TEST(DiagnosisPage, IsWellFormedOfflineAndEscaped) {
        {"six &amp; &lt;positions&gt;", "rec &lt;1&gt;.csv", "a &lt;remark&gt; &amp; more",
         "g_drift D_S_y &lt;&amp;&gt;", "[[plan.position]]"})
     EXPECT_NE(page.find(text), std::string::npos) << text;
-  const auto figures = report::diagnosis_figures(d);
+  const auto figures = all_figures(d);
   EXPECT_EQ(figures.size(), 7u);
   for (const report::Figure& f : figures)
     EXPECT_EQ(testing::xml_problem(f.svg), std::nullopt) << f.file;
@@ -141,14 +140,14 @@ TEST(DiagnosisPage, HoldsOfAnyVerdictAndOfNothing) {
     for (diagnosis::Diagnosis d :
          {diagnosis::Diagnosis{}, testing::diagnosis(study.filters.front())}) {
       d.verdict = v;
-      const std::string page = report::to_html(report::diagnosis_html(study, d, {}));
+      const std::string page = report::to_html(report::diagnosis_report(study, d, {}));
       EXPECT_EQ(testing::xml_problem(page, void_tags), std::nullopt) << diagnosis::text(v);
       EXPECT_FALSE(report::to_text(d).empty());
     }
 }
 
 TEST(DiagnosisFigures, TheLocatedWindowAndTheGapOfTheRecoveredSignalAreSeen) {
-  const auto figures = report::diagnosis_figures(testing::diagnosis(nominal()));
+  const auto figures = all_figures(testing::diagnosis(nominal()));
   const auto signal = std::find_if(figures.begin(), figures.end(),
                                    [](const report::Figure& f) { return f.file == "signal.svg"; });
   ASSERT_NE(signal, figures.end());
@@ -195,7 +194,7 @@ TEST(DiagnosisCandidates, TheCausesAreShownHoweverWeakEachIsAlone) {
   EXPECT_EQ(shown[20].score->term, "sag");
   EXPECT_EQ(shown[20].alternative, 1);
   EXPECT_EQ(shown[21].score->term, "magnetic_drift");
-  const auto figures = report::name_figures(d);
+  const auto figures = testing::figures_of({report::what(d)});
   ASSERT_EQ(figures.front().file, "candidates.svg");
   for (const char* text : {"magnetic_drift.y", "alternative 1", "alternative 2"})
     EXPECT_NE(figures.front().svg.find(text), std::string::npos) << text;
@@ -212,12 +211,12 @@ TEST(DiagnosisPage, ComparesNothingWhereNoCauseIsInTheModel) {
   d.fit.shifted.clear();
   d.fit.held_out = {};
   for (auto& s : d.signals) s.explained.clear();
-  EXPECT_NE(report::to_html(report::diagnosis_html(study, d, {})).find("with the cause"),
+  EXPECT_NE(report::to_html(report::diagnosis_report(study, d, {})).find("with the cause"),
             std::string::npos);
   d.verdict = diagnosis::Verdict::unexplained;
   d.has_patch = false;
   d.causes.clear();
-  const std::string page = report::to_html(report::diagnosis_html(study, d, {}));
+  const std::string page = report::to_html(report::diagnosis_report(study, d, {}));
   for (const char* text : {"with the cause", "acc_x, after", "Before and after"})
     EXPECT_EQ(page.find(text), std::string::npos) << text;
   EXPECT_NE(page.find("No cause is in the model."), std::string::npos);
@@ -225,7 +224,8 @@ TEST(DiagnosisPage, ComparesNothingWhereNoCauseIsInTheModel) {
 }
 
 TEST(DiagnosisFigures, TheNumbersAtTheRightHaveAHead) {
-  for (const report::Figure& f : report::fit_figures(testing::diagnosis(nominal()))) {
+  for (const report::Figure& f :
+       testing::figures_of({report::fit(testing::diagnosis(nominal()))})) {
     if (f.file == "held_out.svg") {
       EXPECT_NE(f.svg.find(">gain of log density<"), std::string::npos);
     }
@@ -252,10 +252,10 @@ TEST(DiagnosisTables, SayALikenessOnceByItsAxis) {
   diagnosis::Diagnosis d = testing::diagnosis(nominal());
   d.causes[0].confusable_with = {
       {"sag", "", 0.99992}, {"sag", "x", -0.99991}, {"pier_tilt", "", 0.7}};
-  const std::string out = text_of(report::cause_table(d), 200);
+  const std::string out = report::text_of({report::what(d)}, 200);
   EXPECT_NE(out.find("  sag.x (-1.00), pier_tilt (0.70)"), std::string::npos) << out;
   d.causes[0].confusable_with[1].cosine = -0.9;  // all axes together are liker than one
-  EXPECT_NE(text_of(report::cause_table(d), 200).find("sag (1.00), sag.x (-0.90)"),
+  EXPECT_NE(report::text_of({report::what(d)}, 200).find("sag (1.00), sag.x (-0.90)"),
             std::string::npos);
 }
 
@@ -328,7 +328,7 @@ TEST(SeveralRecordings, AreNamedWhereverATimeStands) {
   EXPECT_EQ(where["windows"][0]["recording"], "b,2.csv");
   EXPECT_EQ(where["windows"][0]["start_in_recording_s"], 400.0);
   EXPECT_EQ(where["recordings"][1]["offset_s"], 800.0);
-  const std::string page = report::to_html(report::diagnosis_html(study, d, {}));
+  const std::string page = report::to_html(report::diagnosis_report(study, d, {}));
   EXPECT_NE(page.find("b,2.csv begins at 900 s (100 s of its own time)"), std::string::npos);
   EXPECT_NE(page.find("400 to 1000"), std::string::npos);
   EXPECT_NE(page.find("time through all recordings [s]"), std::string::npos);
