@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "analysis/search/cause.hpp"
 #include "analysis/search/search.hpp"
 
 namespace drift::diagnosis {

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "analysis/diagnosis/remark.hpp"
+#include "analysis/search/cause.hpp"
 #include "analysis/search/search.hpp"
 #include "core/base/linalg.hpp"
 
