@@ -2,7 +2,8 @@
 
 #include <optional>
 
-#include "analysis/inference/signatures.hpp"
+#include "analysis/inference/noise_model.hpp"
+#include "core/estimate/measured_test.hpp"
 
 namespace drift::equation {
 
