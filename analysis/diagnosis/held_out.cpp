@@ -9,6 +9,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "analysis/inference/thresholds.hpp"
 #include "mc/task/campaign.hpp"
 
 namespace drift::diagnosis {
@@ -325,7 +326,7 @@ HeldOut held_out(const search::Examination& nominal, const search::Examination& 
     out.recording_chi2_per_dof_after = whole_after / whole_rows;
   }
   out.improves = !(out.folds.empty() && out.recordings.empty()) &&
-                 (out.folds.empty() || out.log_score_gain > least_held_out_gain ||
+                 (out.folds.empty() || out.log_score_gain > inference::WeighLimits::held_out ||
                   (beyond > 0 && out.log_score_gain >= 0.0)) &&
                  (out.recordings.empty() || out.recording_gain > 0.0);
   return out;

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "analysis/inference/signatures.hpp"
+#include "analysis/inference/thresholds.hpp"
 
 namespace drift::equation {
 
@@ -25,6 +26,6 @@ struct ClosureProfile {
 std::optional<ClosureProfile> profile_closure(const FilterSpec& filter, const inference::Test& test,
                                               const BatchResult& joint, const VecX& weight,
                                               const inference::NoiseModel& noise,
-                                              double decisive = 6.0);
+                                              double decisive = inference::WeighLimits::valley);
 
 }  // namespace drift::equation

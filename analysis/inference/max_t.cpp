@@ -24,7 +24,7 @@ Contrast make_contrast(const MatX& C, const VecX& raw, const std::vector<int>& c
   const Eigen::SelfAdjointEigenSolver<MatX> eigen(C(columns, columns));
   double largest_raw = 0.0;
   for (const int k : columns) largest_raw = std::max(largest_raw, raw[k]);
-  const double least = std::max(least_information, 1e-9 * largest_raw);
+  const double least = std::max(VisibleLimits::information, 1e-9 * largest_raw);
   std::vector<Eigen::Index> keep;
   for (Eigen::Index k = 0; k < eigen.eigenvalues().size(); ++k)
     if (eigen.eigenvalues()[k] > least) keep.push_back(k);

@@ -7,15 +7,13 @@
 #include <functional>
 #include <limits>
 
+#include "analysis/inference/thresholds.hpp"
 #include "core/base/units.hpp"
 #include "core/stats/chi_square.hpp"
 #include "mc/task/campaign.hpp"
 
 namespace drift::inference {
 namespace {
-
-constexpr double needed_gain = 2.7;        // of twice the log likelihood: a component comes in
-constexpr double significant_gain = 12.0;  // eight alternatives, one in a thousand
 
 /// One standard deviation of the noise model.
 struct Component {
@@ -173,7 +171,7 @@ NoiseFinding white_finding(const Component& c, double declared, double sigma,
   f.unit = "of declared";
   const double z = std::log(f.factor) / log_sigma_error;
   f.p_value = std::exp(stats::log_tail(z * z, 1.0));
-  f.significant = f.p_value < 1e-3;
+  f.significant = f.p_value < NoiseLimits::significant_p;
   f.log_likelihood_gain = 0.5 * z * z;
   f.count = rows;
   return f;
@@ -212,13 +210,13 @@ NoiseEstimate estimate_noise(const LinearProblem& problem, const NoiseModel& dec
         std::max_element(trials.begin(), trials.end(),
                          [](const Trial& a, const Trial& b) { return a.gain < b.gain; });
     // On the ladder's rungs: what is close to enough is worth the ascent.
-    if (top == trials.end() || top->gain < 0.5 * needed_gain) break;
+    if (top == trials.end() || top->gain < 0.5 * NoiseLimits::component) break;
     NoiseModel more = out.model;
     more.*(top->component->sigma) = top->sigma;
     if (top->component->tau) more.*(top->component->tau) = top->tau;
     active.push_back(top->component);
     const Ascent next = ascend(likelihood, more, active, curvature());
-    if (next.value - best.value < needed_gain) {
+    if (next.value - best.value < NoiseLimits::component) {
       active.pop_back();
       break;
     }
@@ -249,14 +247,14 @@ NoiseEstimate estimate_noise(const LinearProblem& problem, const NoiseModel& dec
     for (const auto& [component, gain] : gains)
       if (component == &c) {
         f.log_likelihood_gain = 0.5 * gain;
-        f.p_value =
-            std::min(1.0, 6.0 * 0.5 * std::exp(stats::log_tail(gain, 1.0)));  // six alternatives
-        f.significant = gain > significant_gain;
+        f.p_value = std::min(1.0, NoiseLimits::alternatives * 0.5 *
+                                      std::exp(stats::log_tail(gain, 1.0)));  // six alternatives
+        f.significant = gain > NoiseLimits::significant_gain;
       }
     if (was > 0.0) {
       const double z = std::log(f.factor) / std::sqrt(best.inverse_curvature(k, k));
       f.p_value = std::exp(stats::log_tail(z * z, 1.0));
-      f.significant = f.p_value < 1e-3;
+      f.significant = f.p_value < NoiseLimits::significant_p;
     }
     out.findings.push_back(f);
   }

@@ -2,6 +2,7 @@
 
 #include "analysis/inference/noise_finding.hpp"
 #include "analysis/inference/projector.hpp"
+#include "analysis/inference/thresholds.hpp"
 
 namespace drift::inference {
 
@@ -22,7 +23,8 @@ struct NoiseEstimate {
 /// Source: Patterson and Thompson 1971; discovery.md 2.1, 4.6.
 /// most_added: components beside white noise and what is declared.
 NoiseEstimate estimate_noise(const LinearProblem& problem, const NoiseModel& declared,
-                             const std::vector<int>& with = {}, int most_added = 4);
+                             const std::vector<int>& with = {},
+                             int most_added = NoiseLimits::most_components);
 
 /// White noise alone, from differences of neighbouring residuals: what is left of a residual that a
 /// grossly wrong model bends. residual: in declared sigmas, not whitened. shape rows.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "analysis/inference/thresholds.hpp"
 #include "analysis/inference/whitener.hpp"
 #include "core/base/rng.hpp"
 #include "core/stats/normal.hpp"
@@ -15,9 +16,6 @@ namespace {
 constexpr int draws = 250;
 constexpr std::uint64_t doubt_seed =
     19610411;  // any number: fixed, so that a diagnosis is repeatable
-constexpr double per_degree =
-    3.0;  // of twice the log likelihood: what another amplitude must bring
-constexpr std::size_t most_params = 3;
 
 /// Parameters, attitude and noise taken out of columns: what the restricted likelihood needs.
 class View {
@@ -93,7 +91,7 @@ double p_of_size(const LinearProblem& problem, const NoiseModel& white, const No
       {&NoiseModel::drift_random_walk, 1e-3 * walk, 5e-3 * walk},
       {&NoiseModel::markov_drift, 2e-3 * drift, 1e-2 * drift},
       {&NoiseModel::acc_markov, 0.2 * problem.acc_sigma, 1.2 * problem.acc_sigma}};
-  double p = stats::normal_distribution(-2.0);
+  double p = stats::normal_distribution(-NoiseDoubtLimits::smallest);
   for (const Usual& u : usual) {
     const double found = driven.*(u.sigma);
     if (found <= white.*(u.sigma)) continue;  // declared, or not there
@@ -124,7 +122,7 @@ NoiseDoubt doubt(const LinearProblem& problem, const CandidateSet& set, const No
   const MatX g = extra.transpose() * w - half.transpose() * h;  // (K, draws + 1)
   VecX best = VecX::Zero(draws + 1);
   for (const Candidate& c : set.candidates) {
-    if (c.params.size() > most_params) continue;
+    if (c.params.size() > NoiseDoubtLimits::most_params) continue;
     for (const Variant& v : c.variants) {
       const auto n = static_cast<Eigen::Index>(v.columns.size());
       MatX part(n, g.cols()), C = MatX::Identity(n, n);
@@ -136,8 +134,9 @@ NoiseDoubt doubt(const LinearProblem& problem, const CandidateSet& set, const No
       }
       const Eigen::LLT<MatX> llt(C);
       llt.matrixL().solveInPlace(part);
-      best = best.cwiseMax(part.colwise().squaredNorm().transpose() -
-                           VecX::Constant(g.cols(), per_degree * static_cast<double>(n - 1)));
+      best = best.cwiseMax(
+          part.colwise().squaredNorm().transpose() -
+          VecX::Constant(g.cols(), NoiseDoubtLimits::per_amplitude * static_cast<double>(n - 1)));
     }
   }
   NoiseDoubt out;

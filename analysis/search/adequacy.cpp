@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <numeric>
 
+#include "analysis/inference/thresholds.hpp"
 #include "analysis/search/size_prior.hpp"
 
 namespace drift::search {
 namespace {
+
+using inference::VisibleLimits;
 
 /// Takes some columns out of C and g: their amplitudes are fitted freely.
 struct Conditioner {
@@ -46,9 +49,6 @@ std::vector<Choice> with_neighbours(const Field& field, const std::vector<Choice
   }
   return all;
 }
-
-/// Part of a column's information that must be left after conditioning for it to count as another.
-constexpr double least_left = 1e-6;
 
 }  // namespace
 
@@ -186,8 +186,8 @@ Remainder remainder(const Field& field, const std::vector<Choice>& choices, doub
     if (c.params.size() > 1 || own(c)) continue;
     for (std::size_t v = 0; v < c.variants.size(); ++v) {
       const int j = c.variants[v].columns[0];
-      if (field.contrasts[k][v].dof > 0 && left[j] > least_left * p.C(j, j) &&
-          left[j] > 0.1 * inference::least_information &&
+      if (field.contrasts[k][v].dof > 0 && left[j] > VisibleLimits::left * p.C(j, j) &&
+          left[j] > VisibleLimits::information_beside * VisibleLimits::information &&
           take(k, g[j] * g[j] / left[j] - field.discount_of(k), 1))
         return out;
     }
@@ -208,7 +208,7 @@ Remainder remainder(const Field& field, const std::vector<Choice>& choices, doub
       double T = 0.0;
       int dof = 0;
       for (Eigen::Index j = 0; j < y.size(); ++j)
-        if (eigen.eigenvalues()[j] > 1e-5) {
+        if (eigen.eigenvalues()[j] > VisibleLimits::left_of_several) {
           T += y[j] * y[j] / eigen.eigenvalues()[j];
           ++dof;
         }
@@ -224,7 +224,8 @@ Remainder remainder(const Field& field, const std::vector<Choice>& choices, doub
     for (Eigen::Index k = 0; k < g_s.size(); ++k) {
       if (scan.T[k] == 0.0) continue;
       const double c = scan.scan.C(k, k) - cross_s.col(k).squaredNorm();
-      if (c > 1e-5 * scan.scan.C(k, k)) out.scan = std::max(out.scan, g_s[k] * g_s[k] / c);
+      if (c > VisibleLimits::left_of_several * scan.scan.C(k, k))
+        out.scan = std::max(out.scan, g_s[k] * g_s[k] / c);
     }
   }
   out.scan = stats::strength(out.scan, 1);

@@ -7,8 +7,12 @@
 #include <numeric>
 #include <string>
 
+#include "analysis/inference/thresholds.hpp"
+
 namespace drift::search {
 namespace {
+
+using inference::WeighLimits;
 
 /// Log prior of an explanation: every term alike, shared by the candidates it offers; a second
 /// cause is one in twenty.
@@ -17,7 +21,7 @@ double log_prior(const Examination& e, const std::vector<Choice>& choices) {
   for (const inference::Candidate& c : e.set.candidates) offers[c.term] += 1.0;
   double sum = 0.0;
   for (const Choice& c : choices) sum -= std::log(offers[e.set.candidates[c.candidate].term]);
-  return sum - std::log(20.0) * static_cast<double>(choices.size() - 1);
+  return sum - std::log(WeighLimits::second_cause) * static_cast<double>(choices.size() - 1);
 }
 
 /// What an explanation is called: its terms and axes, in order; of a base term the parameters too.
@@ -52,8 +56,7 @@ bool covers(const Examination& e, const Refit& wide, const Refit& narrow) {
 /// Log evidence, against the nominal model, of something unknown in one equation; every equation
 /// and form alike.
 double log_unknown(const Examination& e) {
-  constexpr double forms = 21.0;
-  return 0.5 * e.lone.gain - std::log(forms);
+  return 0.5 * e.lone.gain - std::log(WeighLimits::forms);
 }
 
 /// Whether two single explanations are one cause of which only the part is open: the same term, and
@@ -70,10 +73,6 @@ bool one_cause(const Examination& e, const Refit& a, const Refit& b) {
 
 bool weigh(const Examination& e, std::vector<Refit>& refits, bool chance_alone,
            const SearchOptions& options, Search& out) {
-  constexpr double worth = 3.0;       // log evidence that more parameters must bring
-  constexpr double far_better = 5.0;  // one in a hundred and fifty,
-  constexpr double not_linear =
-      0.05;  // and what the linearised evidence of a large effect may be wrong by
   const auto is_good = [](const Refit& r) { return r.tolerable(); };
   const bool enough = chance_alone ? std::ranges::any_of(refits, is_good)
                                    : std::ranges::any_of(refits, &Refit::adequate);
@@ -84,7 +83,8 @@ bool weigh(const Examination& e, std::vector<Refit>& refits, bool chance_alone,
   double top = -std::numeric_limits<double>::infinity();
   for (const Refit& r : refits)
     if (is_good(r)) top = std::max(top, weight_of(r));
-  if (log_unknown(e) > top + far_better + not_linear * std::max(top, 0.0)) return false;
+  if (log_unknown(e) > top + WeighLimits::far_better + WeighLimits::not_linear * std::max(top, 0.0))
+    return false;
   std::vector<Refit> good;
   for (Refit& r : refits) (is_good(r) ? good : out.rejected).push_back(std::move(r));
   refits.clear();
@@ -103,7 +103,7 @@ bool weigh(const Examination& e, std::vector<Refit>& refits, bool chance_alone,
   for (std::size_t k = 0; k < good.size(); ++k)
     for (const std::size_t other : order)
       if (other != k && covers(e, good[k], good[other]) && !covers(e, good[other], good[k]) &&
-          good[other].log_bayes > good[k].log_bayes - worth) {
+          good[other].log_bayes > good[k].log_bayes - WeighLimits::more_parameters) {
         stands_for[k] = other;
         break;
       }

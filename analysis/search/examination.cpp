@@ -2,7 +2,11 @@
 
 #include <cmath>
 
+#include "analysis/inference/thresholds.hpp"
+
 namespace drift::search {
+
+using inference::SearchLimits;
 
 inference::NoiseModel declared_noise(const FilterSpec& filter) {
   inference::NoiseModel m;
@@ -56,7 +60,10 @@ Examination examine(const FilterSpec& filter, const inference::Test& test, const
   const inference::Projector first(e.problem, given ? given->model : declared);
   inference::robust_weights(e.problem, first.clean_residual());
   set_noise(e, test.timeline,
-            given ? *given : inference::estimate_noise(e.problem, declared, {}, driven ? 4 : 0));
+            given
+                ? *given
+                : inference::estimate_noise(e.problem, declared, {},
+                                            driven ? inference::NoiseLimits::most_components : 0));
   return e;
 }
 
@@ -69,9 +76,9 @@ Examination examine(const FilterSpec& filter, const inference::Test& test, const
 Nulls make_nulls(const Examination& e, double alpha, int draws) {
   Nulls n{inference::MaxNull(e.projector->candidates().C, e.field->all_contrasts(), draws, 1),
           inference::scan_null(e.scans, std::max(200, draws / 4))};
-  n.library_threshold = n.library.threshold(alpha * library_share);
+  n.library_threshold = n.library.threshold(alpha * SearchLimits::library_share);
   // A window by chance must not rule out a cause: thousands are looked at.
-  n.scan_threshold = n.scan.threshold(alpha * scan_share / 3.0);
+  n.scan_threshold = n.scan.threshold(alpha * SearchLimits::scan_share / SearchLimits::scan_cut);
   return n;
 }
 

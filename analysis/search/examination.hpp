@@ -31,9 +31,6 @@ struct Nulls {
   double library_threshold = 0.0, scan_threshold = 0.0;
 };
 
-/// How the chance of a false alarm is shared between the families.
-inline constexpr double library_share = 0.5, scan_share = 0.15, pair_share = 0.15, lone_share = 0.2;
-
 /// Fits (from `start`), linearises and lists candidates; noise is estimated unless `given` says it.
 Examination examine(const FilterSpec& filter, const inference::Test& test, const Theta& start,
                     const inference::NoiseEstimate* given = nullptr);

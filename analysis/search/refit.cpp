@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "analysis/equation/closure_profile.hpp"
+#include "analysis/inference/thresholds.hpp"
 #include "analysis/search/settle_noise.hpp"
 #include "analysis/search/size_prior.hpp"
 #include "mc/task/campaign.hpp"
@@ -12,7 +13,8 @@
 namespace drift::search {
 namespace {
 
-constexpr double quiet_p_value = 0.01;  // of a free-form input beside the cause: nothing is left
+using inference::EffortLimits;
+using inference::WeighLimits;
 
 /// Distance of the points of the library's grid about a value, SI: what the grid leaves open.
 double grid_spacing(const inference::Candidate& c, std::size_t param, double value) {
@@ -64,13 +66,13 @@ double gain_of_sizes(const inference::CandidateSet& set, const Refit& r) {
 /// Whether each of simultaneous causes has an amplitude that is clearly not zero. A change of
 /// equation is judged by the fit alone: where its weight ends is seldom known well.
 bool all_needed(const inference::CandidateSet& set, const Refit& r) {
-  constexpr double clearly = 3.0;  // sigma
   return std::all_of(r.choices.begin(), r.choices.end(), [&](const Choice& choice) {
     const auto& params = set.candidates[choice.candidate].params;
     return std::any_of(params.begin(), params.end(), [&](std::size_t i) {
       const ParameterEstimate* p = r.after.fit.estimate.find(i);
       return i == closure_param || !p ||
-             std::abs(p->value - TermLibrary::specs[i].prior_si().mean()) >= clearly * p->sigma;
+             std::abs(p->value - TermLibrary::specs[i].prior_si().mean()) >=
+                 WeighLimits::needed * p->sigma;
     });
   });
 }
@@ -170,13 +172,14 @@ Refit refit(const Examination& nominal, const inference::Test& test,
       best = fit_from(inference::theta_of(out.filter, profile->fit));
     }
   out.after = examine(out.filter, test, best, nullptr, nominal.noise.driven);
-  settle_noise(out.after, test, nulls.library_threshold, 2,
-               1);  // a second effect may hide in the noise
+  settle_noise(out.after, test, nulls.library_threshold, EffortLimits::noise_tries_beside,
+               EffortLimits::noise_rounds_beside);  // a second effect may hide in the noise
   for (const auto& [param, value] :
        expected)  // lambda is a jump: its slope at the nominal fit says nothing
     if (const ParameterEstimate* p = best.estimate.find(param);
         p != nullptr && param != closure_param)
-      if (std::abs(value) > 2.0 * p->sigma && p->value * value < 0.0) out.sign_agrees = false;
+      if (std::abs(value) > WeighLimits::sign * p->sigma && p->value * value < 0.0)
+        out.sign_agrees = false;
 
   // What is left, without the members of the chosen families.
   for (std::size_t k = 0; k < out.after.scores.size(); ++k) {
@@ -196,14 +199,14 @@ Refit refit(const Examination& nominal, const inference::Test& test,
                // names nothing
     if (const ParameterEstimate* p = best.estimate.find(closure_param)) {
       const double base = value_left_out(closure_param, nominal.filter.coupling);
-      out.nameable = std::abs(p->value - base) > 3.0 * p->sigma;
+      out.nameable = std::abs(p->value - base) > WeighLimits::other_lambda * p->sigma;
     }
   if (choices.size() > 1 && !all_needed(nominal.set, out))
     out.excess = std::numeric_limits<double>::infinity();
   if (out.tolerable()) {
     // Many small traces in one equation that no window and no candidate has alone.
     out.after.lone = inference::strongest_lone_input(out.after.problem, out.after.noise.model);
-    out.excess = std::max(out.excess, std::log(quiet_p_value / out.after.lone.p_value));
+    out.excess = std::max(out.excess, std::log(WeighLimits::quiet_p / out.after.lone.p_value));
   }
 
   // Each variant of a grid was one try; the refit took the best of them.

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "analysis/inference/thresholds.hpp"
 #include "analysis/search/credible_set.hpp"
 #include "analysis/search/refine_grids.hpp"
 #include "analysis/search/settle_noise.hpp"
@@ -16,8 +17,9 @@
 namespace drift::search {
 namespace {
 
-constexpr double negligible = 14.0;      // log evidence behind the best: less than one in a million
-constexpr double worth_refining = 25.0;  // log evidence behind the best: a partner may lift it
+using inference::EffortLimits;
+using inference::ReachLimits;
+using inference::SearchLimits;
 
 /// Candidates that leave nothing significant by the linearised test, give or take `slack`: the
 /// refit decides.
@@ -30,14 +32,13 @@ std::vector<std::size_t> adequate_by_score(const Examination& e, const Search& s
   return adequate;
 }
 
-constexpr double slack = 1.25;
-
 /// A candidate at its strongest setting, and at another far from it that explains the test nearly
 /// as well: which of two onsets it was, the refit decides.
 std::vector<Choice> ways_of(const Examination& e, std::size_t k) {
-  constexpr double nearly = 4.0;  // log evidence
   std::vector<Choice> ways;
-  for (const std::size_t v : best_settings(*e.field, k, nearly, 2)) ways.push_back({k, v});
+  for (const std::size_t v :
+       best_settings(*e.field, k, ReachLimits::refit_setting, EffortLimits::settings))
+    ways.push_back({k, v});
   return ways;
 }
 
@@ -54,17 +55,17 @@ Remainder least_remainder(const Field& field, const std::vector<Choice>& ways, c
 
 /// The adequate ones; larger ones only where no part of them does as well.
 std::vector<std::size_t> adequate_singles(const Examination& e, const Search& s) {
-  const std::vector<std::size_t> adequate = adequate_by_score(e, s, slack),
+  const std::vector<std::size_t> adequate = adequate_by_score(e, s, ReachLimits::slack),
                                  surely = adequate_by_score(e, s, 1.0);
   std::vector<std::size_t> kept;
   for (const std::size_t k : adequate) {
     const inference::Candidate& c = e.set.candidates[k];
     const bool part_will_do = std::any_of(surely.begin(), surely.end(), [&](std::size_t other) {
       return c.contains(e.set.candidates[other]) &&
-             e.scores[other].log_bayes > e.scores[k].log_bayes - 3.0;
+             e.scores[other].log_bayes > e.scores[k].log_bayes - ReachLimits::part;
     });
-    if (!part_will_do &&
-        (kept.empty() || e.scores[kept.front()].log_bayes - e.scores[k].log_bayes < negligible))
+    if (!part_will_do && (kept.empty() || e.scores[kept.front()].log_bayes - e.scores[k].log_bayes <
+                                              ReachLimits::negligible))
       kept.push_back(k);
   }
   return kept;
@@ -98,7 +99,8 @@ std::optional<Choice> same_choice(const inference::CandidateSet& in, const infer
 /// equation moves the misalignments far): the candidates that leave nothing beside it, by evidence.
 std::vector<std::vector<Choice>> beside(const Refit& r, const inference::CandidateSet& nominal,
                                         const Nulls& nulls) {
-  constexpr std::size_t asked = 12, most = 3;
+  constexpr std::size_t asked = EffortLimits::beside_asked, most = EffortLimits::beside;
+  constexpr double slack = ReachLimits::slack;
   std::vector<std::vector<Choice>> pairs;
   Field field(r.after.set, r.after.projector->candidates(),
               r.after.scans);  // it has moved since it was examined
@@ -153,11 +155,12 @@ Search search(Examination& nominal, const inference::Test& test, const SearchOpt
   out.p_pairs = pairs.empty() ? 1.0 : out.pairs.p_value(pairs.front().strength);
   nominal.lone = inference::strongest_lone_input(nominal.problem, nominal.noise.model);
   out.p_lone = nominal.lone.p_value;
-  out.p_value = std::min({1.0, out.p_library / library_share, out.p_scan / scan_share,
-                          out.p_pairs / pair_share, out.p_lone / lone_share});
+  out.p_value = std::min(
+      {1.0, out.p_library / SearchLimits::library_share, out.p_scan / SearchLimits::scan_share,
+       out.p_pairs / SearchLimits::pair_share, out.p_lone / SearchLimits::lone_share});
   out.significant = out.p_value < options.alpha;
 
-  if (out.significant) refine_grids(nominal, test, worth_refining);
+  if (out.significant) refine_grids(nominal, test, ReachLimits::worth_refining);
   for (std::size_t k = 0; k < nominal.scores.size(); ++k)
     out.linear.push_back(nominal.scores[k].dof == 0
                              ? Remainder{1e300, 1e300, 0}
@@ -173,15 +176,17 @@ Search search(Examination& nominal, const inference::Test& test, const SearchOpt
   // A large effect may be beyond the linearised test; one that the other equation leaves far behind
   // is not.
   if (singles.empty())
-    for (std::size_t k = 0; k < std::min<std::size_t>(2, order.size()); ++k)
-      if (0.5 * other - nominal.scores[order[k]].log_bayes < 10.0 * negligible) add(order[k]);
+    for (std::size_t k = 0; k < std::min(EffortLimits::large, order.size()); ++k)
+      if (0.5 * other - nominal.scores[order[k]].log_bayes <
+          ReachLimits::large * ReachLimits::negligible)
+        add(order[k]);
   // The score is blind to a change of equation that only rescales the misalignments.
   for (std::size_t k = 0; k < nominal.set.candidates.size(); ++k)
     if (nominal.set.candidates[k].term == closure_term &&
         (0.5 * other > out.nulls.library_threshold ||
          nominal.scores[k].strength > out.nulls.library_threshold))
       add(k);
-  const auto enough = adequate_by_score(nominal, out, slack);
+  const auto enough = adequate_by_score(nominal, out, ReachLimits::slack);
   std::vector<Refit> refits;
   for (std::size_t done = 0; done < singles.size();) {
     std::vector<std::vector<Choice>> tried;
@@ -216,15 +221,15 @@ Search search(Examination& nominal, const inference::Test& test, const SearchOpt
     if (nominal.set.candidates[r.choices.front().candidate].term == closure_term &&
         r.log_bayes > 0.0)
       for (auto& pair : beside(r, nominal.set, out.nulls)) tried.push_back(std::move(pair));
-  for (const Pair& p :
-       adequate_pairs(*nominal.field, nominal.scores, 1.1 * out.nulls.library_threshold,
-                      1.1 * out.nulls.scan_threshold, options.most_refits))
+  for (const Pair& p : adequate_pairs(
+           *nominal.field, nominal.scores, ReachLimits::pair_slack * out.nulls.library_threshold,
+           ReachLimits::pair_slack * out.nulls.scan_threshold, options.most_refits))
     tried.push_back({p.a, p.b});
   try_more(tried);
   if (weigh(nominal, refits, false, options, out)) return out;
 
   const auto several = greedy(*nominal.field, nominal.scores, out.nulls.library_threshold,
-                              out.nulls.scan_threshold, 4);
+                              out.nulls.scan_threshold, EffortLimits::together);
   if (several.size() > 2) try_more({several});
   if (weigh(nominal, refits, false, options, out)) return out;
   out.just_not = weigh(nominal, refits, true, options, out);

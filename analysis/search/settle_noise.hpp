@@ -1,5 +1,6 @@
 #pragma once
 
+#include "analysis/inference/thresholds.hpp"
 #include "analysis/search/examination.hpp"
 
 namespace drift::search {
@@ -19,6 +20,7 @@ std::vector<std::size_t> by_evidence(const Examination& e);
 /// threshold: strength that makes a candidate significant. rounds: candidates that may be in the
 /// mean together. True if the noise was replaced.
 bool settle_noise(Examination& e, const inference::Test& test, double threshold,
-                  std::size_t tries = 4, int rounds = 3);
+                  std::size_t tries = inference::EffortLimits::noise_tries,
+                  int rounds = inference::EffortLimits::noise_rounds);
 
 }  // namespace drift::search
