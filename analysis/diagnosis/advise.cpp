@@ -24,8 +24,6 @@ namespace {
 
 using inference::AdviceLimits;
 
-constexpr double alike = 1e-3;  // 1 - cosine^2 of traces that are taken as the same
-
 inference::NoiseModel noise_of(const Diagnosis& d) {
   inference::NoiseModel m;
   m.angle_random_walk = d.nominal.noise.angle_random_walk;
@@ -136,8 +134,9 @@ class Adviser {
     for (std::size_t k = 0; k < q.pairs.size(); ++k) {
       const bool nominal = q.alternatives[q.pairs[k].rival].causes.empty();
       const double by_shape = nominal ? most[k].sigma : std::sqrt(most[k].unlike) * most[k].alone;
-      if (!nominal && (most[k].unlike < inference::TraceLimits::unlike_anywhere ||
-                       (most[k].unlike < alike && by_shape < options_.wanted)))
+      if (!nominal &&
+          (most[k].unlike < inference::TraceLimits::unlike_anywhere ||
+           (inference::same_trace_of_unlike(most[k].unlike) && by_shape < options_.wanted)))
         sorted.twins.push_back(q.pairs[k]);
       else if (by_shape < AdviceLimits::told)
         sorted.hidden.push_back(q.pairs[k]);

@@ -11,8 +11,6 @@ namespace {
 
 using inference::TraceLimits;
 
-constexpr double one_direction = 0.999;  // squared cosine of twins
-
 /// Member `which` of an explanation: value and sigma of a parameter, in its unit. profiled: one of
 /// the settings.
 search::CauseParameter parameter_of(const search::Examination& nominal, const search::Refit& r,
@@ -130,7 +128,7 @@ CausesFound causes_of(const search::Examination& nominal, const search::Search& 
   // A candidate that is wider than the cause holds it anyway and is no twin.
   for (const search::Cause& cause : out.causes)
     for (const search::Confusable& c : cause.confusable_with)
-      if (c.cosine * c.cosine > one_direction && (cause.axis.empty() || !c.axis.empty()))
+      if (inference::same_trace(c.cosine) && (cause.axis.empty() || !c.axis.empty()))
         out.inseparable.push_back({{cause.term, cause.axis, ""}, {c.term, c.axis, ""}});
   if (found.sets.empty() && nominal.lone.p_value < inference::RemarkLimits::lone_p)
     out.remarks.emplace_back(remark::FreeInputExplains{nominal.lone.equation, nominal.lone.gain});

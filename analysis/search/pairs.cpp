@@ -15,8 +15,6 @@ namespace {
 using inference::EffortLimits;
 using inference::ReachLimits;
 
-constexpr double one_direction = 0.9999;
-
 /// A single observable column that a candidate has.
 struct Unit {
   Choice choice;
@@ -107,7 +105,7 @@ std::vector<Pair> strongest_pairs(const Field& field, std::size_t most) {
   std::vector<Pair> pairs;
   for (std::size_t i = 0; i < units.size(); ++i)
     for (std::size_t k = 0; k < i; ++k) {
-      if (same_candidate(units[i], units[k]) || std::abs(rho(i, k)) > one_direction) continue;
+      if (same_candidate(units[i], units[k]) || inference::same_trace(rho(i, k))) continue;
       const double T = joint(z[i], z[k], rho(i, k));
       if (pairs.size() == most && T <= pairs.back().T) continue;
       if (pairs.size() == most) pairs.pop_back();
@@ -130,7 +128,7 @@ inference::MaxNull pair_null(const Field& field, int draws) {
   for (std::size_t i = 0; i < units.size(); ++i)
     for (std::size_t k = 0; k < i; ++k) {
       const double r = rho(i, k);
-      if (same_candidate(units[i], units[k]) || std::abs(r) > one_direction) continue;
+      if (same_candidate(units[i], units[k]) || inference::same_trace(r)) continue;
       const double w = 1.0 / (1.0 - r * r);
       for (int d = 0; d < draws; ++d) {
         const double a = g(d, i), b = g(d, k);
