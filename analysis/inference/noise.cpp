@@ -247,9 +247,9 @@ NoiseEstimate estimate_noise(const LinearProblem& problem, const NoiseModel& dec
     for (const auto& [component, gain] : gains)
       if (component == &c) {
         f.log_likelihood_gain = 0.5 * gain;
-        f.p_value = std::min(1.0, NoiseLimits::alternatives * 0.5 *
-                                      std::exp(stats::log_tail(gain, 1.0)));  // six alternatives
-        f.significant = gain > NoiseLimits::significant_gain;
+        f.p_value =
+            std::min(1.0, NoiseLimits::alternatives * 0.5 * std::exp(stats::log_tail(gain, 1.0)));
+        f.significant = f.p_value < NoiseLimits::significant_p;
       }
     if (was > 0.0) {
       const double z = std::log(f.factor) / std::sqrt(best.inverse_curvature(k, k));

@@ -72,7 +72,6 @@ struct NoiseLimits {
   static constexpr double component = 2.7;   ///< [2 log L] to come in: 5 %, half chi-square of 1
   static constexpr int most_components = 4;  ///< beside white noise and what is declared
   static constexpr double significant_p = 1e-3;  ///< chance below which it is not as declared
-  static constexpr double significant_gain = 12.0;  ///< [2 log L]
   /// Components times time constants that are tried at once, at most: two random walks, two Markov
   /// processes of two time constants each. Bounds the chance that the best of them is chance.
   static constexpr double alternatives = 6.0;

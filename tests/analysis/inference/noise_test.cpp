@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "analysis/search/examination.hpp"
+#include "core/stats/chi_square.hpp"
 #include "tests/support/model_builders.hpp"
 
 namespace drift::inference {
@@ -56,6 +57,12 @@ TEST(Noise, AngleRandomWalkIsFoundWithItsSize) {
     const NoiseEstimate e = estimate_noise(problem_of(truth, run, 1.0), {});
     EXPECT_TRUE(e.driven);
     ratio += e.model.angle_random_walk / truth.noise.angle_random_walk / runs;
+    // The best of six, each half a chi-square of one degree (a variance on its boundary).
+    const NoiseFinding* walk = find(e, "angle_random_walk");
+    ASSERT_NE(walk, nullptr);
+    EXPECT_NEAR(std::log(walk->p_value),
+                std::log(6.0 * 0.5) + stats::log_tail(2.0 * walk->log_likelihood_gain, 1.0), 1e-9);
+    EXPECT_EQ(walk->significant, walk->p_value < 1e-3);
   }
   // 540 increments of each run, of which the white noise of the instruments leaves about half:
   // 1 / sqrt(2 * 270 * 3) of one sigma; four of them, for what other components take.
