@@ -12,6 +12,7 @@
 #include "analysis/diagnosis/patched_study.hpp"
 #include "analysis/diagnosis/separation.hpp"
 #include "analysis/inference/signatures.hpp"
+#include "analysis/inference/thresholds.hpp"
 #include "analysis/planning/position_pool.hpp"
 #include "analysis/preparation/recorded_test.hpp"
 #include "analysis/search/field.hpp"
@@ -21,9 +22,7 @@
 namespace drift::diagnosis {
 namespace {
 
-constexpr double told = 2.0;    // sigmas below which nobody would decide
-constexpr double alike = 1e-3;  // 1 - cosine^2 of traces that are taken as the same
-constexpr double same = 1e-6;   // and of those that are, whatever their size
+using inference::AdviceLimits;
 
 inference::NoiseModel noise_of(const Diagnosis& d) {
   inference::NoiseModel m;
@@ -136,9 +135,10 @@ class Adviser {
       const bool nominal = q.alternatives[q.pairs[k].rival].causes.empty();
       const double by_shape = nominal ? most[k].sigma : std::sqrt(most[k].unlike) * most[k].alone;
       if (!nominal &&
-          (most[k].unlike < same || (most[k].unlike < alike && by_shape < options_.wanted)))
+          (most[k].unlike < inference::TraceLimits::unlike_anywhere ||
+           (inference::same_trace_of_unlike(most[k].unlike) && by_shape < options_.wanted)))
         sorted.twins.push_back(q.pairs[k]);
-      else if (by_shape < told)
+      else if (by_shape < AdviceLimits::told)
         sorted.hidden.push_back(q.pairs[k]);
       else
         open.push_back(q.pairs[k]);
@@ -154,7 +154,7 @@ class Adviser {
     const auto after = separations(with, q.alternatives, open);
     const auto now = separations(recorded, q.alternatives, open);
     for (std::size_t k = 0; k < open.size(); ++k)
-      if (after[k].sigma >= told && after[k].sigma > now[k].sigma)
+      if (after[k].sigma >= AdviceLimits::told && after[k].sigma > now[k].sigma)
         sorted.helped.push_back({open[k], now[k].sigma, after[k].sigma});
       else
         sorted.hidden.push_back(open[k]);

@@ -5,15 +5,17 @@
 #include <vector>
 
 #include "analysis/diagnosis/diagnosis.hpp"
+#include "analysis/inference/thresholds.hpp"
 #include "mc/study/study.hpp"
 
 namespace drift::diagnosis {
 
 /// How advice is looked for.
 struct AdviseOptions {
-  std::size_t most = 3;    ///< additions to the plan
-  double wanted = 8.0;     ///< separation that is enough: found almost surely [sigma]
-  std::uint64_t seed = 1;  ///< of the simulation that verifies it
+  std::size_t most = inference::AdviceLimits::most;  ///< additions to the plan
+  double wanted =
+      inference::AdviceLimits::wanted;  ///< separation that is enough: found almost surely [sigma]
+  std::uint64_t seed = 1;               ///< of the simulation that verifies it
   /// On request: terms, axes of them or parameters that are to be told apart and from the nominal
   /// model. Given and empty: what the verdict suggests. Not given: advice only where the verdict
   /// needs it.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/inference/thresholds.hpp"
 #include "core/base/check.hpp"
 #include "core/config/nearest.hpp"
 
@@ -65,7 +66,7 @@ void add_equations(const Diagnosis& d, Question& q) {
   const CouplingFacts& nominal = facts(d.nominal.coupling);
   if (d.verdict != Verdict::consistent || !nominal.other) return;
   const CouplingFacts& other = facts(*nominal.other);
-  if (!(d.other_equation_gain > -equation_told)) return;  // told, or not asked
+  if (!(d.other_equation_gain > -inference::RemarkLimits::equation)) return;  // told, or not asked
   search::Cause cause;
   cause.term = closure_term;
   cause.parameters = {{"lambda", closure_param, *other.lambda, 0.0, "1", false}};

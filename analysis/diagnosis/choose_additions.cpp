@@ -4,12 +4,14 @@
 #include <cmath>
 #include <utility>
 
+#include "analysis/inference/thresholds.hpp"
 #include "mc/task/campaign.hpp"
 
 namespace drift::diagnosis {
 namespace {
 
-constexpr double least_gain = 1e-3;  // of the mean way to `wanted`
+using inference::AdviceLimits;
+
 constexpr double all_there = 1.0 - 1e-9;
 
 double duration_of(const planning::Addition& addition) {
@@ -65,7 +67,8 @@ std::vector<std::size_t> choose_additions(const Information& start,
           most = gain;
         }
       }
-      if (best == pool.size() || values[best].part - made.reached.part < least_gain) break;
+      if (best == pool.size() || values[best].part - made.reached.part < AdviceLimits::least_gain)
+        break;
       made.additions.push_back(best);
       made.reached = values[best];
       made.duration += duration_of(pool[best]);
@@ -77,8 +80,8 @@ std::vector<std::size_t> choose_additions(const Information& start,
   const auto there = [&](const Selection& s) { return s.reached.part >= all_there; };
   // A margin that is cheap is taken: the diagnosis that follows knows the noise less well than this
   // does.
-  const bool margin = lavish.reached.closest > 2.0 * thrifty.reached.closest &&
-                      lavish.duration <= 2.0 * thrifty.duration;
+  const bool margin = lavish.reached.closest > AdviceLimits::margin * thrifty.reached.closest &&
+                      lavish.duration <= AdviceLimits::margin_hours * thrifty.duration;
   const bool prefer = there(thrifty) && there(lavish) ? margin || lavish.duration < thrifty.duration
                                                       : lavish.reached.part > thrifty.reached.part;
   return prefer ? lavish.additions : thrifty.additions;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/diagnosis/separation.hpp"
+#include "analysis/inference/thresholds.hpp"
 #include "analysis/planning/position_pool.hpp"
 
 namespace drift::diagnosis {
@@ -12,8 +13,8 @@ struct Told {
 };
 
 struct ChooseOptions {
-  std::size_t most = 3;  ///< additions
-  double wanted = 8.0;   ///< separation that is enough [sigma]
+  std::size_t most = inference::AdviceLimits::most;  ///< additions
+  double wanted = inference::AdviceLimits::wanted;   ///< separation that is enough [sigma]
 };
 
 /// Additions of the pool that bring the pairs nearest to `wanted` (the mean of sigma / wanted, each

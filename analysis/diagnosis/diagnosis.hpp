@@ -20,9 +20,6 @@
 
 namespace drift::diagnosis {
 
-/// Odds of e^4.5 either way: below, neither of eq. (5) and (6) is ruled out.
-inline constexpr double equation_told = 9.0;
-
 /// The best explanation that was not good enough.
 struct NearestKnown {
   std::vector<NamedEffect> effects;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/inference/thresholds.hpp"
 #include "core/base/check.hpp"
 #include "core/config/load.hpp"
 #include "core/physics/parameters_config.hpp"
@@ -15,8 +16,6 @@ namespace {
 using config::list_node;
 using config::Node;
 using config::text_node;
-
-constexpr double far = 3.0;  // sigmas of the library's prior beyond which it does not hold
 
 /// The value of a key of a table, made if it is not there.
 Node& at(Node& table, const std::string& key) {
@@ -55,7 +54,8 @@ FilterSpec patched_filter(const FilterSpec& nominal, const std::vector<search::C
       const ParamSpec& spec = TermLibrary::specs[p.param];
       const double value = p.value * spec.unit.to_si;
       Prior prior = spec.prior_si();
-      if (prior.kind == Prior::Kind::normal && std::abs(value - prior.a) > far * prior.b)
+      if (prior.kind == Prior::Kind::normal &&
+          std::abs(value - prior.a) > inference::WeighLimits::prior * prior.b)
         prior.b = std::abs(value - prior.a);
       patched.priors[p.param] = p.profiled ? fixed(value) : prior;
       if (p.param == closure_param) patched.coupling = family_of(patched.coupling);
