@@ -15,6 +15,7 @@
 #include "analysis/diagnosis/nominal_fit.hpp"
 #include "analysis/diagnosis/patched_study.hpp"
 #include "analysis/inference/gross_misfit.hpp"
+#include "analysis/inference/thresholds.hpp"
 #include "analysis/preparation/covariates.hpp"
 #include "analysis/preparation/recorded_test.hpp"
 #include "core/base/check.hpp"
@@ -30,7 +31,6 @@ namespace {
 std::optional<inference::NoiseEstimate> noise_beside_equation(const FilterSpec& nominal,
                                                               const MeasuredTest& test,
                                                               const BatchResult& fit) {
-  constexpr double evident = 1.5, most = 0.8;  // chi-square per degree; part of its excess
   FilterSpec other = nominal;
   if (!facts(nominal.coupling).other) return std::nullopt;
   other.coupling = *facts(nominal.coupling).other;
@@ -38,10 +38,12 @@ std::optional<inference::NoiseEstimate> noise_beside_equation(const FilterSpec& 
     return f.estimate.statistic /
            static_cast<double>(std::max<std::size_t>(1, f.estimate.measured));
   };
-  if (per_dof(fit) < evident) return std::nullopt;
+  if (per_dof(fit) < inference::NoiseLimits::evident) return std::nullopt;
   const BatchResult with_other =
       fit_batch(other, test.timeline, test.readout, test.measured, theta_of(nominal, fit));
-  if (per_dof(fit) - per_dof(with_other) < most * (per_dof(fit) - 1.0)) return std::nullopt;
+  if (per_dof(fit) - per_dof(with_other) <
+      inference::NoiseLimits::other_equation * (per_dof(fit) - 1.0))
+    return std::nullopt;
   const inference::LinearProblem problem = inference::linear_problem(nominal, test, fit, {});
   return inference::noise_of_differences(problem, inference::residual_of(problem, fit));
 }
@@ -127,7 +129,8 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
   d.verdict = judged.verdict;
   d.p_value = found.p_value;
   if (judged.one_gyro)
-    d.p_value = std::min(d.p_value, 12.0 * std::exp(-0.5 * judged.one_gyro->gain));
+    d.p_value = std::min(
+        d.p_value, inference::NoiseLimits::one_gyro_tries * std::exp(-0.5 * judged.one_gyro->gain));
   d.where = std::move(place.where);
   d.signals = std::move(place.signals);
   d.causes = std::move(causes.causes);

@@ -49,7 +49,8 @@ class Conditioned {
   /// T of one column; 0 where nothing of it is left.
   double T_of(int column) const {
     const bool seen = left_[column] > least_left * field_.projected.C(column, column) &&
-                      left_[column] > 0.1 * inference::least_information;
+                      left_[column] > inference::VisibleLimits::information_beside *
+                                          inference::VisibleLimits::information;
     return seen ? g_[column] * g_[column] / left_[column] : 0.0;
   }
 
