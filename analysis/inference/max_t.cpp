@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "analysis/inference/thresholds.hpp"
 #include "core/base/rng.hpp"
 
 namespace drift::inference {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "analysis/inference/thresholds.hpp"
+
 namespace drift::search {
 
 ChanceThresholds chance_thresholds(const Field& field, double alpha, int draws) {

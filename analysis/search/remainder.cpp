@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/inference/thresholds.hpp"
+
 namespace drift::search {
 namespace {
 
