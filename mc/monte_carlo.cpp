@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/config/nearest.hpp"
 #include "core/physics/parameters_config.hpp"
 #include "core/physics/term_library.hpp"
@@ -16,10 +18,6 @@ using config::Section;
 constexpr Choice<DesignKind> designs[] = {{"random", DesignKind::random},
                                           {"latin_hypercube", DesignKind::latin_hypercube},
                                           {"sobol", DesignKind::sobol}};
-constexpr Choice<EstimatorKind> estimators[] = {{"ekf", EstimatorKind::ekf},
-                                                {"iterated", EstimatorKind::iterated},
-                                                {"batch", EstimatorKind::batch}};
-
 template <class Field>
 void visit_fields(MonteCarlo& o, Field&& field) {
   constexpr double unbounded = 0x1p64;
@@ -55,13 +53,17 @@ void check_quantity(Section& section, const std::string& quantity) {
 
 }  // namespace
 
+std::string_view name(EstimatorKind estimator) {
+  return std::ranges::find(estimator_choices, estimator, &Choice<EstimatorKind>::value)->name;
+}
+
 MonteCarlo read_monte_carlo(Section section) {
   MonteCarlo out;
   visit_fields(out, [&](const Option& option, auto& value) { section.read(option, value); });
   section.read(Option{.key = "design", .doc = "how truth parameters are spread"}, out.design,
                designs);
   section.read(Option{.key = "estimator", .doc = "what makes the estimates"}, out.estimator,
-               estimators);
+               estimator_choices);
   Section stop = section.section("stop");
   if (stop.present()) {
     StopSpec spec;

@@ -15,7 +15,7 @@ std::vector<std::size_t> column_widths(const Table& table) {
   for (const Column& c : table.columns) widths.push_back(display_width(c.name));
   for (const TableRow& row : table.rows) {
     if (row.heading) continue;
-    DRIFT_EXPECTS(row.cells.size() == widths.size());
+    DRIFT_DEMAND(row.cells.size() == widths.size());
     for (std::size_t c = 0; c < widths.size(); ++c)
       widths[c] = std::max(widths[c], display_width(row.cells[c].text));
   }

@@ -18,7 +18,7 @@ Measurements predict(const Timeline& timeline, const DriftModel& model, const Th
   const Instruments instruments{&timeline, &model, theta.data()};
   MemoryPath path(timeline, model);
   const auto memory = [&](std::size_t k) {
-    return path.active() ? path.at(2 * k).value.data() : nullptr;
+    return path.active() ? path.points()[2 * k].value.data() : nullptr;
   };
   std::vector<Vec3> nodes;
   Vec3 last = Vec3::Zero();
@@ -29,8 +29,8 @@ Measurements predict(const Timeline& timeline, const DriftModel& model, const Th
       last = caged_phi(timeline.nodes[interval.first_node].R_lr, psi0_l[interval.chain]);
     nodes.resize(interval.node_count());
     nodes[0] = last;
-    step_through(interval, timeline, drive_of(interval, timeline, model, theta), nodes.data(), 0,
-                 &path);
+    step_through(interval, timeline, drive_of(interval, timeline, model, theta), path.points(),
+                 nodes.data());
     last = nodes.back();
     const auto column = static_cast<Eigen::Index>(i);
     if (readout.accelerometers)

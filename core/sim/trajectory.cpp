@@ -14,7 +14,7 @@ Trajectory integrate_fixed(const Timeline& timeline, const DriftModel& model, co
     if (i.cage) last = caged_phi(timeline.nodes[i.first_node].R_lr, psi0_l[i.chain]);
     Vec3* out = &phi[i.first_node];
     out[0] = last;
-    step_through(i, timeline, drive_of(i, timeline, model, theta), out, 0, &memory);
+    step_through(i, timeline, drive_of(i, timeline, model, theta), memory.points(), out);
     last = out[i.node_count() - 1];
   }
   return phi;

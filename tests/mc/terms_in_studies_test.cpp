@@ -187,7 +187,11 @@ TEST_P(NightlyEveryTermUnder, IsConsistentOrRefusedInTwelveSlews) {
   check_every_term({"twelve slews", twelve_positions, share_for(GetParam())}, GetParam());
 }
 
-const auto estimators = testing::Values("ekf", "iterated", "batch");
+const auto estimators = [] {
+  std::vector<std::string_view> names;
+  for (const auto& choice : estimator_choices) names.push_back(choice.name);
+  return testing::ValuesIn(names);
+}();
 std::string name_of(const testing::TestParamInfo<std::string_view>& estimator) {
   return std::string(estimator.param);
 }
