@@ -62,7 +62,11 @@ class ContractError : public std::logic_error {
 
 }  // namespace drift
 
-/// A precondition that only a mistake in this program can break; on in dev and asan builds.
+/// A precondition whose breach would touch memory that is not there; always on. Not for innermost
+/// loops.
+#define DRIFT_DEMAND(condition) ((condition) ? void(0) : ::drift::contract_broken(#condition))
+
+/// Any other precondition that only a mistake in this program can break; on in dev and asan builds.
 #ifdef DRIFT_CONTRACTS
 #define DRIFT_EXPECTS(condition) ((condition) ? void(0) : ::drift::contract_broken(#condition))
 #else

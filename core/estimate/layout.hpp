@@ -29,8 +29,12 @@ struct Layout {
   /// The inverse: scaled deviations of `values`.
   VecX scaled(const Theta& values) const {
     VecX x(size());
-    for (std::size_t k = 0; k < size(); ++k) x[k] = (values[params[k]] - mean[k]) / sigma[k];
+    for (std::size_t k = 0; k < size(); ++k) x[k] = scaled(values, k);
     return x;
+  }
+  /// That of state k alone.
+  double scaled(const Theta& values, std::size_t k) const {
+    return (values[params[k]] - mean[k]) / sigma[k];
   }
 };
 

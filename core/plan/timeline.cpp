@@ -80,7 +80,7 @@ Timeline lay_out(const TestPlan& plan, const Site& site) {
 }
 
 void place_nodes(Timeline& timeline, const std::vector<Mat3>& R_lp) {
-  DRIFT_EXPECTS(static_cast<int>(R_lp.size()) == timeline.chains);
+  DRIFT_DEMAND(static_cast<int>(R_lp.size()) == timeline.chains);
   const Vec3 omega_ie_l = timeline.site.omega_ie_l();
   Mat3 R_lr = Mat3::Identity();
   double t_cage = 0.0;

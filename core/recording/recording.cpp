@@ -89,8 +89,8 @@ Recording read_recording(const std::string& path, RecordingKind kind, double gra
 }
 
 void write_recording(const Recording& recording, const std::string& path) {
-  for ([[maybe_unused]] const auto& c : recording.channels) {
-    DRIFT_EXPECTS(c.values.size() == recording.rows());
+  for (const auto& c : recording.channels) {
+    DRIFT_DEMAND(c.values.size() == recording.rows());
     DRIFT_EXPECTS(valid_channel_name(c.name));
   }
   const std::string extension = extension_of(path);

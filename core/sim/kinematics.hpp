@@ -78,9 +78,9 @@ struct Drive {
 };
 
 /// phi' of the algebraic couplings, for the reference attitude R_lr [rad/s]. t [s] and the memory
-/// are looked at if drive.needs says so.
-inline Vec3 attitude_rate(const Drive& drive, const Mat3& R_lr, const Vec3& phi, double t = 0.0,
-                          const double* memory = nullptr) {
+/// (null where the model has none) are looked at if drive.needs says so.
+inline Vec3 attitude_rate(const Drive& drive, const Mat3& R_lr, const Vec3& phi, double t,
+                          const double* memory) {
   const Mat3 R_lp = R_lr * rotation(phi);
   Scene<double> scene(drive.omega_ic_l, drive.omega_cmd_p, drive.model->mounting, R_lp);
   if (drive.needs.any())

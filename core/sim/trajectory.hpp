@@ -26,40 +26,50 @@ inline Drive drive_of(const Interval& interval, const Timeline& timeline, const 
   return d;
 }
 
-/// One classical Runge-Kutta step from node k of an interval to the next, `step` later. memory: of
-/// that interval, if the model has any.
-inline Vec3 step_attitude(const Drive& drive, const Node* node, double step, const Vec3& phi,
-                          std::size_t k = 0, const MemoryPath* memory = nullptr) {
-  const bool remembers = memory && memory->active();
-  const auto recall = [&](std::size_t point) {
-    return remembers ? memory->at(2 * k + point).value.data() : nullptr;
+/// Where a step begins, its half way or its end: the reference attitude and the memory, null where
+/// the model has none.
+struct StepPoint {
+  const Mat3& R_lr;
+  const MemoryPoint* memory;
+};
+
+/// One classical Runge-Kutta step from t on; backwards where `step` is negative.
+inline Vec3 step_attitude(const Drive& drive, double t, double step, const Vec3& phi,
+                          const StepPoint& from, const StepPoint& half, const StepPoint& to) {
+  const auto rate = [&](const StepPoint& at, double time, const Vec3& there) {
+    return attitude_rate(drive, at.R_lr, there, time,
+                         at.memory ? at.memory->value.data() : nullptr);
   };
-  const double t = node->t;
-  const Vec3 k1 = attitude_rate(drive, node->R_lr, phi, t, recall(0));
-  const Vec3 k2 =
-      attitude_rate(drive, node->R_lr_half, phi + 0.5 * step * k1, t + 0.5 * step, recall(1));
-  const Vec3 k3 =
-      attitude_rate(drive, node->R_lr_half, phi + 0.5 * step * k2, t + 0.5 * step, recall(1));
-  const Vec3 k4 = attitude_rate(drive, node[1].R_lr, phi + step * k3, t + step, recall(2));
+  const Vec3 k1 = rate(from, t, phi);
+  const Vec3 k2 = rate(half, t + 0.5 * step, phi + 0.5 * step * k1);
+  const Vec3 k3 = rate(half, t + 0.5 * step, phi + 0.5 * step * k2);
+  const Vec3 k4 = rate(to, t + step, phi + step * k3);
   return phi + step / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
 }
 
-/// phi at the nodes of one interval after the first, whose phi is given in out[0].
+/// phi at the nodes of one interval after number `from`, whose phi is given in out[from]. memory:
+/// the points of the interval, null where the model has none.
 inline void step_through(const Interval& interval, const Timeline& timeline, const Drive& drive,
-                         Vec3* out, std::size_t from = 0, const MemoryPath* memory = nullptr) {
+                         const MemoryPoint* memory, Vec3* out, std::size_t from = 0) {
   const double step = interval.length() / (2.0 * interval.substeps);
-  for (std::size_t k = from; k + 1 < interval.node_count(); ++k)
-    out[k + 1] =
-        step_attitude(drive, &timeline.nodes[interval.first_node + k], step, out[k], k, memory);
+  const auto past = [&](std::size_t point) { return memory ? memory + point : nullptr; };
+  for (std::size_t k = from; k + 1 < interval.node_count(); ++k) {
+    const Node* node = &timeline.nodes[interval.first_node + k];
+    out[k + 1] = step_attitude(drive, node->t, step, out[k], {node->R_lr, past(2 * k)},
+                               {node->R_lr_half, past(2 * k + 1)}, {node[1].R_lr, past(2 * k + 2)});
+  }
 }
 
-/// The same backwards: phi at `node` from phi at the node after it.
-inline Vec3 step_attitude_back(const Drive& drive, const Node* node, double step, const Vec3& phi) {
-  const Vec3 k1 = attitude_rate(drive, node[1].R_lr, phi);
-  const Vec3 k2 = attitude_rate(drive, node->R_lr_half, phi - 0.5 * step * k1);
-  const Vec3 k3 = attitude_rate(drive, node->R_lr_half, phi - 0.5 * step * k2);
-  const Vec3 k4 = attitude_rate(drive, node->R_lr, phi - step * k3);
-  return phi - step / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
+/// The same backwards: phi at the nodes before the last, whose phi is given.
+inline void step_back_through(const Interval& interval, const Timeline& timeline,
+                              const Drive& drive, const MemoryPoint* memory, Vec3* out) {
+  const double step = interval.length() / (2.0 * interval.substeps);
+  const auto past = [&](std::size_t point) { return memory ? memory + point : nullptr; };
+  for (std::size_t k = interval.node_count() - 1; k-- > 0;) {
+    const Node* node = &timeline.nodes[interval.first_node + k];
+    out[k] = step_attitude(drive, node[1].t, -step, out[k + 1], {node[1].R_lr, past(2 * k + 2)},
+                           {node->R_lr_half, past(2 * k + 1)}, {node->R_lr, past(2 * k)});
+  }
 }
 
 /// Initial rotation vector of a chain whose attitude error is psi in local axes:
@@ -85,7 +95,7 @@ void walk(const Timeline& timeline, const DriftModel& model, const Theta& theta,
         i.cage ? caged_phi(timeline.nodes[i.first_node].R_lr, psi0_l[i.chain]) : phi.back();
     phi.resize(i.node_count());
     phi[0] = start;
-    step_through(i, timeline, drive_of(i, timeline, model, theta), phi.data(), 0, &memory);
+    step_through(i, timeline, drive_of(i, timeline, model, theta), memory.points(), phi.data());
     visit(n, phi, memory);
   }
 }
