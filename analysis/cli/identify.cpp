@@ -10,6 +10,7 @@
 #include "analysis/report/strapdown/report.hpp"
 #include "analysis/report/strapdown/results.hpp"
 #include "core/base/results_folder.hpp"
+#include "core/plan/plan_rows.hpp"
 
 namespace drift::cli {
 namespace {
@@ -43,13 +44,17 @@ ExitCode identify_case(const mc::Study& study, const std::vector<std::string>& p
 ExitCode identify(const StudyArguments& arguments, const std::vector<std::string>& paths,
                   const std::string& folder, std::uint64_t run) {
   const mc::Study study = arguments.read();
-  require_own_folder(folder, "identify");
+  require_results_folder({folder, "identify"}, with(paths, study.path));
   if (study.kind == RecordingKind::strapdown) return identify_case(study, paths, folder);
   const auto progress = progress_reporter(arguments.progress, "estimates");
+  const auto recordings = read_recordings(study, paths);
+  for (const Recording& recording : recordings)
+    for (const std::string& remark : rows_other_than_planned(recording, study.plan))
+      fmt::print(stderr, "note: {}\n", remark);
   const identification::Identification id =
-      paths.empty() ? identification::identify_simulated(study, run, arguments.threads, progress)
-                    : identification::identify_recordings(study, read_recordings(study, paths),
-                                                          arguments.threads, progress);
+      paths.empty()
+          ? identification::identify_simulated(study, run, arguments.threads, progress)
+          : identification::identify_recordings(study, recordings, arguments.threads, progress);
   fmt::print("{}", report::to_text(study, id));
   if (!folder.empty()) {
     const auto files = report::write_results(study, id, folder);

@@ -157,8 +157,7 @@ std::string to_text(const blind::Summary& summary, const std::vector<blind::Tria
                     const Hashes& hashes) {
   std::string out;
   for (const Table& t : tables_of(summary)) out += text_of(t) + "\n";
-  out +=
-      text_of(misses_table(scores), 160) + "\n" + wrapped(times_text(summary), 100) + "\n";
+  out += text_of(misses_table(scores), 160) + "\n" + wrapped(times_text(summary), 100) + "\n";
   for (const std::string& line : headlines(summary, hashes)) out += wrapped(line, 100) + "\n";
   return out;
 }
@@ -187,13 +186,12 @@ std::vector<std::string> write_report(const std::string& title, const blind::Sum
        {Picture{confusion, "Of all trials with this thing hidden, the share that got this answer."},
         tables[4]}},
       {"Trials that were answered wrong", {misses_table(scores)}}};
-  return write_files({{"blind.json", to_json(summary, scores, hashes)},
-                      {"power.svg", power},
-                      {"confusion.svg", confusion},
-                      {"pulls.svg", pulls},
-                      {"time.svg", time},
-                      {"report.html", to_html(page)}},
-                     folder);
+  return write_files({folder, "blind"}, {{"blind.json", to_json(summary, scores, hashes)},
+                                         {"power.svg", power},
+                                         {"confusion.svg", confusion},
+                                         {"pulls.svg", pulls},
+                                         {"time.svg", time},
+                                         {"report.html", to_html(page)}});
 }
 
 }  // namespace drift::report

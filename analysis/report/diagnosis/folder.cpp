@@ -1,7 +1,6 @@
 #include "analysis/report/diagnosis/folder.hpp"
 
 #include <algorithm>
-#include <filesystem>
 #include <sstream>
 
 #include "analysis/diagnosis/patched_study.hpp"
@@ -42,12 +41,11 @@ std::vector<std::string> write_results(const mc::Study& study, const diagnosis::
   if (d.has_patch) files.emplace_back("patched.toml", patched_file(study, d));
   if (!d.advice.empty() && !d.advice.front().plan.empty() && study.kind == RecordingKind::platform)
     files.emplace_back("advised.toml", diagnosis::extended_study(study, d.advice.front().plan));
-  for (const char* name : {"patched.toml", "advised.toml"}) {
-    std::error_code ignored;
+  const ResultsFolder results{folder, "diagnose"};
+  for (const char* name : {"patched.toml", "advised.toml"})
     if (std::ranges::none_of(files, [&](const TextFile& f) { return f.first == name; }))
-      std::filesystem::remove(std::filesystem::path(folder) / name, ignored);
-  }
-  return write_files(files, folder);
+      remove_result(results, name);
+  return write_files(results, files);
 }
 
 }  // namespace drift::report

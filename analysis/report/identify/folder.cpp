@@ -1,11 +1,10 @@
 #include "analysis/report/identify/folder.hpp"
 
-#include <filesystem>
-
 #include "analysis/report/identify/figures.hpp"
 #include "analysis/report/identify/html.hpp"
 #include "analysis/report/identify/json.hpp"
 #include "core/base/results_folder.hpp"
+#include "core/recording/recording_output.hpp"
 
 namespace drift::report {
 
@@ -19,9 +18,12 @@ std::vector<std::string> write_results(const mc::Study& study,
   for (const Figure& f : figures) files.emplace_back(f.file, f.svg);
   files.emplace_back("report.html", to_html(identification_html(study, id, figures)));
   if (!study.text.empty()) files.emplace_back("study.toml", study.text);
-  std::vector<std::string> names = write_files(files, folder);
+  const ResultsFolder results{folder, "identify"};
+  std::vector<std::string> names = write_files(results, files);
   if (id.recording.rows() > 0) {
-    write_recording(id.recording, (std::filesystem::path(folder) / "recording.csv").string());
+    write_result(results, "recording.csv", [&](const std::string& temporary) {
+      write_recording_to(id.recording, "recording.csv", temporary);
+    });
     names.emplace_back("recording.csv");
   }
   return names;

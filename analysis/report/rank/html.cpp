@@ -90,7 +90,7 @@ std::vector<std::string> write_results(const mc::Study& study, const planning::P
   }
   files.emplace_back("report.html", to_html(rank_html(study, rank)));
   if (!study.text.empty()) files.emplace_back("study.toml", study.text);
-  return write_files(files, folder);
+  return write_files({folder, "rank"}, files);
 }
 
 }  // namespace drift::report

@@ -41,11 +41,10 @@ std::vector<std::string> write_results(const mc::Study& study,
   report.sections.push_back(
       {"Models tried", {Picture{picture, "Lower is better; held out of the fit."}}});
   report.sections.push_back({"All results", {Preformatted{to_text(result)}}});
-  return write_files({{"identification.json", to_json(result).dump(2) + "\n"},
-                      {"rotations.svg", picture},
-                      {"report.html", to_html(report)},
-                      {"study.toml", study.text}},
-                     folder);
+  return write_files({folder, "identify"}, {{"identification.json", to_json(result).dump(2) + "\n"},
+                                            {"rotations.svg", picture},
+                                            {"report.html", to_html(report)},
+                                            {"study.toml", study.text}});
 }
 
 }  // namespace drift::report

@@ -131,7 +131,7 @@ std::vector<std::string> write_study_report(const StudyResults& results,
   std::vector<TextFile> files;
   files.emplace_back("report.html", to_html(study_html(results)));
   files.emplace_back("summary.json", study_json(results));
-  return write_files(files, folder);
+  return write_files({folder, "run"}, files);
 }
 
 }  // namespace drift::report
