@@ -7,6 +7,7 @@
 
 #include "core/base/check.hpp"
 #include "core/plan/case_heading.hpp"
+#include "core/plan/plan_memory.hpp"
 
 namespace drift {
 namespace {
@@ -59,6 +60,7 @@ double Timeline::simpson_weight(int substeps, std::size_t k) {
 }
 
 Timeline lay_out(const TestPlan& plan, const Site& site) {
+  require_memory_for(plan);
   Timeline timeline;
   timeline.site = site;
   timeline.positions = static_cast<int>(plan.positions.size());

@@ -1,13 +1,13 @@
 #include "analysis/report/diagnosis/report.hpp"
 
 #include <algorithm>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "analysis/diagnosis/patched_study.hpp"
 #include "analysis/report/diagnosis/sections.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
+#include "core/base/results_folder.hpp"
 #include "core/physics/parameters_config.hpp"
 
 namespace drift::report {
@@ -155,11 +155,9 @@ Report diagnosis_report(const mc::Study& study, const Diagnosis& d, const Diagno
 std::vector<std::string> write_results(const mc::Study& study, const Diagnosis& d,
                                        const DiagnosisSource& source, const std::string& folder) {
   const Report report = diagnosis_report(study, d, source);
-  for (const char* name : {"patched.toml", "advised.toml"}) {
-    std::error_code ignored;
+  for (const char* name : {"patched.toml", "advised.toml"})
     if (std::ranges::find(report.files, name, &TextFile::first) == report.files.end())
-      std::filesystem::remove(std::filesystem::path(folder) / name, ignored);
-  }
+      remove_result({folder, report.command}, name);
   return write_report(report, folder);
 }
 
