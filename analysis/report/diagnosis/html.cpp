@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "analysis/planning/position_toml.hpp"
+#include "analysis/report/diagnosis/advice_words.hpp"
 #include "analysis/report/diagnosis/figures.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
 #include "analysis/report/diagnosis/tables.hpp"
@@ -90,10 +92,10 @@ Section fit_section(const Diagnosis& d) {
 Section advice_section(const Diagnosis& d) {
   Section section{"Advice", {}};
   for (const Advice& a : d.advice) {
-    section.blocks.emplace_back(Paragraph{a.text});
+    section.blocks.emplace_back(Paragraph{advice_text(a)});
     if (a.plan.empty()) continue;
     section.blocks.emplace_back(advice_table(a));
-    section.blocks.emplace_back(Preformatted{positions_toml(a.plan)});
+    section.blocks.emplace_back(Preformatted{planning::positions_toml(a.plan)});
   }
   return section;
 }
@@ -138,7 +140,7 @@ HtmlReport diagnosis_html(const mc::Study& study, const Diagnosis& d,
     for (const auto& sentence : {where_sentence(d.where), held_out_sentence(d.fit.held_out)})
       if (!sentence.empty()) report.headlines.push_back(sentence);
   }
-  if (!d.advice.empty()) report.headlines.push_back(d.advice.front().text);
+  if (!d.advice.empty()) report.headlines.push_back(advice_text(d.advice.front()));
   if (auto remarks = remarks_of(d); !remarks.empty())
     add_section(report, {"To be kept in mind", {Sentences{std::move(remarks)}}});
   add_section(report, where_section(d));

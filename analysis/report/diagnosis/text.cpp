@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "analysis/report/diagnosis/advice_words.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
 #include "analysis/report/diagnosis/tables.hpp"
 #include "analysis/report/diagnosis/words.hpp"
@@ -41,7 +42,7 @@ std::string to_text(const Diagnosis& d) {
   if (std::ranges::any_of(d.noise, &NoiseFinding::significant))
     out += "\n" + text_of(noise_table(d), page);
   if (!d.advice.empty()) out += "\n";
-  for (const Advice& a : d.advice) out += headed("Advice", a.text);
+  for (const Advice& a : d.advice) out += headed("Advice", advice_text(a));
   const auto remarks = remarks_of(d);
   if (!remarks.empty()) out += "\n";
   for (const auto& remark : remarks) out += wrapped("! " + remark, page, 2);
