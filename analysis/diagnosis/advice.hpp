@@ -1,28 +1,48 @@
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
-#include "core/config/node.hpp"
+#include "analysis/diagnosis/question.hpp"
 #include "core/plan/test_plan.hpp"
 
 namespace drift::diagnosis {
 
-/// Extra positions that would tell causes apart that a test has left equally likely.
-struct Advice {
-  std::string text;                    ///< one sentence for the person who plans the next test
-  std::vector<Position> plan;          ///< to be added behind the plan, in this order
-  std::vector<std::string> separates;  ///< labels of the causes
-  double expected_sigma = 0.0;         ///< separation of the closest pair with them [1 sigma]
-  double now_sigma = 0.0;              ///< without them
-  double verified_sigma = 0.0;         ///< found by simulating the extended plan; NaN: not done
+/// A pair that an advice is about: one is true, the other is taken for it.
+struct AdvisedPair {
+  planning::Contest pair;         ///< among the alternatives of the advice
+  double now = 0.0, after = 0.0;  ///< separation without and with the plan of the advice [1 sigma]
 };
 
-/// A position as an element of [[plan.position]]; every key is written, so that no default of the
-/// file changes it.
-config::Node position_node(const Position& position);
+/// What is advised about causes that a test has left equally likely, or hides.
+struct Advice {
+  enum class Kind {
+    add,          ///< the positions of `plan`
+    told,         ///< nothing: this plan tells all that was asked
+    unlike,       ///< nothing: no candidate leaves a trace like that of the first alternative
+    twins,        ///< no position: the traces are the same in the whole pool
+    hidden,       ///< no position: all that may be added leaves the pairs below 2 sigma
+    temperature,  ///< no position: the first alternative follows the temperature
+    repeat,       ///< nothing explains the misfit: repeat the position where most of it is
+  };
+  Kind kind = Kind::add;
+  std::vector<Alternative> alternatives;
+  std::vector<AdvisedPair> pairs;  ///< closest first
+  Sizes sizes = Sizes::as_found;
+  std::vector<Position> plan;    ///< to be added behind the plan, in this order
+  double usual_dwell = 0.0;      ///< of the plan [s]
+  double wanted = 0.0;           ///< separation that is enough [1 sigma]
+  std::size_t asked = 0;         ///< pairs of the question, told apart already or not
+  std::size_t most = 0;          ///< additions that a plan may have
+  std::size_t pool = 0;          ///< additions that were possible
+  int position = 0;              ///< of Kind::repeat, 1-based; 0: not located
+  std::string position_name;     ///< of it
+  double expected_sigma = none;  ///< separation of the closest pair with the plan [1 sigma]
+  double now_sigma = none;       ///< without it
+  double verified_sigma = none;  ///< found by simulating the extended plan; NaN: not done
 
-/// The positions as TOML, to be put behind the plan of a study that lists its positions.
-std::string positions_toml(const std::vector<Position>& positions);
+  static constexpr double none = std::numeric_limits<double>::quiet_NaN();
+};
 
 }  // namespace drift::diagnosis

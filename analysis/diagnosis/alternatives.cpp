@@ -12,26 +12,12 @@
 namespace drift::diagnosis {
 namespace {
 
-/// "magnetic_drift.y", "g2_drift (D_IS_x)": one parameter tells more than its term.
-std::string label_of(const search::Cause& c) {
-  const auto linear = std::ranges::count_if(
-      c.parameters, [](const search::CauseParameter& p) { return !p.profiled; });
-  const std::string own =
-      linear == 1 && !c.parameters.empty() && !c.parameters[0].key.starts_with(c.term)
-          ? fmt::format(" ({})", c.parameters[0].key)
-          : "";
-  return fmt::format("{}{}{}{}", c.term, c.axis.empty() ? "" : ".", c.axis, own);
+Alternative alternative(std::vector<search::Cause> causes, std::string asked = {}) {
+  return {Alternative::Kind::causes, std::move(causes), {}, std::move(asked)};
 }
 
-Alternative alternative(std::vector<search::Cause> causes) {
-  Alternative a;
-  for (const search::Cause& c : causes) a.label += (a.label.empty() ? "" : " + ") + label_of(c);
-  a.causes = std::move(causes);
-  return a;
-}
-
-Alternative nothing() {
-  return {"the nominal model", {}, {}, VecX()};
+Alternative equation(Coupling coupling, std::vector<search::Cause> causes) {
+  return {Alternative::Kind::equation, std::move(causes), coupling, {}};
 }
 
 /// A cause that nobody has measured: each linear parameter one prior sigma from where it is
@@ -65,14 +51,13 @@ const inference::Variant& usual(const inference::Candidate& c) {
 void add_equations(const Diagnosis& d, Question& q) {
   const CouplingFacts& nominal = facts(d.nominal.coupling);
   if (d.verdict != Verdict::consistent || !nominal.other) return;
-  const CouplingFacts& other = facts(*nominal.other);
   if (!(d.other_equation_gain > -inference::RemarkLimits::equation)) return;  // told, or not asked
   search::Cause cause;
   cause.term = closure_term;
-  cause.parameters = {{"lambda", closure_param, *other.lambda, 0.0, "1", false}};
+  cause.parameters = {{"lambda", closure_param, *facts(*nominal.other).lambda, 0.0, "1", false}};
   q.pairs.push_back({q.alternatives.size(), q.alternatives.size() + 1});
-  q.alternatives.push_back({fmt::format("eq. ({})", other.number), {cause}, {}, {}});
-  q.alternatives.push_back({fmt::format("eq. ({})", nominal.number), {}, {}, VecX()});
+  q.alternatives.push_back(equation(*nominal.other, {cause}));
+  q.alternatives.push_back(equation(nominal.value, {}));
 }
 
 /// A term, an axis of it, or a parameter, as a user writes it.
@@ -81,14 +66,8 @@ struct Wish {
   std::vector<const inference::Candidate*> single;  ///< its parameters, one by one
 };
 
-/// Positions are planned at one temperature: what follows it stays unseen in any of them.
 bool needs_temperature(const std::string& term) {
   return TermLibrary::terms[*TermLibrary::find_term(term)].needs.temperature;
-}
-
-bool follows_temperature(const std::vector<search::Cause>& causes) {
-  return std::ranges::any_of(causes,
-                             [](const search::Cause& c) { return needs_temperature(c.term); });
 }
 
 bool meant(const inference::Candidate& c, const std::string& text) {
@@ -158,14 +137,14 @@ Question open_question(const Diagnosis& d) {
   for (auto& set : sets)
     if (!set.empty() && !follows_temperature(set)) all.push_back(alternative(std::move(set)));
   if (all.empty()) return q;
-  if (all.size() == 1) all.push_back(nothing());
+  if (all.size() == 1) all.emplace_back();
   return all_against_all(std::move(all));
 }
 
 Question hidden_question(const Diagnosis& d, const inference::CandidateSet& set) {
   Question q;
-  q.size = "at one prior sigma";
-  q.alternatives.push_back(nothing());
+  q.sizes = Sizes::one_prior_sigma;
+  q.alternatives.emplace_back();
   for (const inference::Candidate& c : set.candidates) {
     if (c.params.size() != 1 || c.params.front() == closure_param || needs_temperature(c.term))
       continue;
@@ -179,7 +158,6 @@ Question hidden_question(const Diagnosis& d, const inference::CandidateSet& set)
 Question named_question(const Diagnosis& d, const inference::CandidateSet& set,
                         const std::vector<Rival>& rivals) {
   Question q;
-  if (follows_temperature(d.causes)) return q;
   q.alternatives.push_back(alternative(d.causes));
   for (const Rival& r : rivals) {
     std::vector<search::Cause> causes = d.causes;
@@ -208,7 +186,7 @@ Question asked_question(const Diagnosis& d, const inference::CandidateSet& set,
 
   Question q;
   std::size_t found = 0;
-  q.alternatives.push_back(nothing());
+  q.alternatives.emplace_back();
   std::vector<std::size_t> whole;  // the alternative that is a wish as a whole
   for (const Wish& wish : wishes) {
     search::Cause cause;
@@ -221,8 +199,7 @@ Question asked_question(const Diagnosis& d, const inference::CandidateSet& set,
           cause.parameters.push_back(p);
     }
     whole.push_back(q.alternatives.size());
-    q.alternatives.push_back(alternative({cause}));
-    q.alternatives.back().label = wish.text;
+    q.alternatives.push_back(alternative({cause}, wish.text));
   }
   for (std::size_t k = 0; k < wishes.size(); ++k)
     for (const inference::Candidate* c : wishes[k].single) {
@@ -243,16 +220,16 @@ Question asked_question(const Diagnosis& d, const inference::CandidateSet& set,
         if (other != k && std::ranges::find(wishes[other].single, c) == wishes[other].single.end())
           q.pairs.push_back({truth, whole[other]});
     }
-  q.size = found == 0 ? "at one prior sigma" : "at the sizes found, others at one prior sigma";
+  q.sizes = found == 0 ? Sizes::one_prior_sigma : Sizes::as_found_or_one_prior_sigma;
   return q;
 }
 
-std::vector<inference::SignatureSpec> number_signatures(std::vector<Alternative>& all,
-                                                        const FilterSpec& nominal,
-                                                        const Theta& theta) {
-  std::vector<inference::SignatureSpec> specs;
-  for (Alternative& a : all) {
+Columns columns_of(const std::vector<Alternative>& all, const FilterSpec& nominal,
+                   const Theta& theta) {
+  Columns out;
+  for (const Alternative& a : all) {
     std::vector<double> amplitude;
+    planning::Trace trace;
     for (const search::Cause& cause : a.causes) {
       Theta at = theta;
       for (const search::CauseParameter& p : cause.parameters)
@@ -263,40 +240,46 @@ std::vector<inference::SignatureSpec> number_signatures(std::vector<Alternative>
         const double sigma = spec.prior_si().sigma();
         amplitude.push_back(
             (p.value * spec.unit.to_si - value_left_out(p.param, nominal.coupling)) / sigma);
+        auto& specs = out.signatures;
         const auto same = std::ranges::find_if(specs, [&](const inference::SignatureSpec& s) {
           return s.param == p.param && s.theta == at;
         });
-        a.columns.push_back(static_cast<int>(same - specs.begin()));
+        trace.columns.push_back(static_cast<int>(same - specs.begin()));
         if (same == specs.end()) specs.push_back({p.param, at, sigma});
       }
     }
-    a.amplitude =
+    trace.amplitude =
         Eigen::Map<const VecX>(amplitude.data(), static_cast<Eigen::Index>(amplitude.size()));
+    out.traces.push_back(std::move(trace));
   }
-  return specs;
+  return out;
 }
 
-void prune(Question& q) {
-  std::vector<Alternative> kept;
+Question restricted(const Question& q, const std::vector<planning::Contest>& pairs) {
+  Question out{{}, pairs, q.sizes};
   std::vector<std::size_t> place(q.alternatives.size(), q.alternatives.size());
   const auto keep = [&](std::size_t& k) {
     if (place[k] == q.alternatives.size()) {
-      place[k] = kept.size();
-      kept.push_back(q.alternatives[k]);
-      kept.back().columns.clear();
+      place[k] = out.alternatives.size();
+      out.alternatives.push_back(q.alternatives[k]);
     }
     k = place[k];
   };
-  for (Contest& pair : q.pairs) {
+  for (planning::Contest& pair : out.pairs) {
     keep(pair.truth);
     keep(pair.rival);
   }
-  q.alternatives = std::move(kept);
+  return out;
 }
 
 bool holds_lambda(const Alternative& a) {
   return std::ranges::any_of(a.causes,
                              [](const search::Cause& c) { return c.term == closure_term; });
+}
+
+bool follows_temperature(const std::vector<search::Cause>& causes) {
+  return std::ranges::any_of(causes,
+                             [](const search::Cause& c) { return needs_temperature(c.term); });
 }
 
 }  // namespace drift::diagnosis

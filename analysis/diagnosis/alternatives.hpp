@@ -8,29 +8,6 @@
 
 namespace drift::diagnosis {
 
-/// A way the truth may be: what it adds to the nominal model, and by how much.
-struct Alternative {
-  std::string label;
-  std::vector<search::Cause> causes;  ///< empty: the nominal model itself
-  std::vector<int> columns;           ///< of its linear parameters among all signatures
-  VecX amplitude;                     ///< in prior sigmas
-};
-
-/// Two alternatives to be told apart, by index: one is true, the other is taken for it.
-struct Contest {
-  std::size_t truth = 0, rival = 0;
-  bool operator==(const Contest&) const = default;
-};
-
-/// What is to be told from what.
-struct Question {
-  std::vector<Alternative> alternatives;
-  std::vector<Contest> pairs;
-  std::string size;  ///< of the effects, in words: "at one prior sigma"; empty: as found
-
-  bool empty() const { return pairs.empty(); }
-};
-
 /// What a diagnosis leaves open by itself: the alternatives of an ambiguous verdict, or, where the
 /// nominal coupling is eq5 or eq6 and the test is blind to lambda, the two equations.
 Question open_question(const Diagnosis& d);
@@ -54,16 +31,24 @@ Question named_question(const Diagnosis& d, const inference::CandidateSet& set,
 Question asked_question(const Diagnosis& d, const inference::CandidateSet& set,
                         const std::vector<std::string>& terms);
 
-/// Numbers the linear parameters of all alternatives and notes their amplitudes; the signatures, in
-/// that order. theta: where they are evaluated.
-std::vector<inference::SignatureSpec> number_signatures(std::vector<Alternative>& all,
-                                                        const FilterSpec& nominal,
-                                                        const Theta& theta);
+/// The signatures that a question needs, and where each alternative's are among them.
+struct Columns {
+  std::vector<inference::SignatureSpec> signatures;
+  std::vector<planning::Trace> traces;  ///< of each alternative
+};
 
-/// Drops the alternatives that no pair needs; columns are to be numbered anew.
-void prune(Question& q);
+/// Numbers the linear parameters of all alternatives. theta: where they are evaluated.
+Columns columns_of(const std::vector<Alternative>& all, const FilterSpec& nominal,
+                   const Theta& theta);
+
+/// Some pairs of a question, with the alternatives that they need.
+Question restricted(const Question& q, const std::vector<planning::Contest>& pairs);
 
 /// Whether lambda is part of it.
 bool holds_lambda(const Alternative& a);
+
+/// Whether a cause follows the temperature. Positions are planned at one temperature: it stays
+/// unseen in any of them.
+bool follows_temperature(const std::vector<search::Cause>& causes);
 
 }  // namespace drift::diagnosis

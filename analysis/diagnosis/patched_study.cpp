@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "analysis/inference/thresholds.hpp"
+#include "analysis/planning/position_toml.hpp"
 #include "core/base/check.hpp"
 #include "core/config/load.hpp"
 #include "core/physics/parameters_config.hpp"
@@ -150,8 +151,8 @@ std::string extended_study(const mc::Study& study, const std::vector<Position>& 
            m.key == "mode" || m.key == "entry";
   });
   Node list = list_node({});
-  for (const Position& p : study.plan.positions) list.items.push_back(position_node(p));
-  for (const Position& p : positions) list.items.push_back(position_node(p));
+  for (const Position& p : study.plan.positions) list.items.push_back(planning::position_node(p));
+  for (const Position& p : positions) list.items.push_back(planning::position_node(p));
   plan.members.push_back({"position", {}, std::move(list)});
   return config::to_document(root);
 }

@@ -3,10 +3,9 @@
 #include <span>
 #include <vector>
 
-#include "analysis/diagnosis/alternatives.hpp"
-#include "analysis/inference/projector.hpp"
+#include "analysis/inference/linear_problem.hpp"
 
-namespace drift::diagnosis {
+namespace drift::planning {
 
 /// Information of a test on nominal parameters (t) and signatures (e), in prior sigmas. That of
 /// tests whose attitudes start anew adds up.
@@ -18,7 +17,19 @@ struct Information {
 Information information_of(const inference::LinearProblem& problem,
                            const inference::NoiseModel& noise);
 
-/// How far apart two alternatives are.
+/// What a way that the truth may be adds to the nominal model. Empty: nothing.
+struct Trace {
+  std::vector<int> columns;  ///< among all signatures
+  VecX amplitude;            ///< of each, in prior sigmas
+};
+
+/// Two ways that the truth may be, by index: one is true, the other is taken for it.
+struct Contest {
+  std::size_t truth = 0, rival = 0;
+  bool operator==(const Contest&) const = default;
+};
+
+/// How far apart two of them are.
 struct Separation {
   double sigma = 0.0;  ///< of the rival, all its parameters at their best, from the truth [1 sigma]
   double alone = 0.0;  ///< of the nominal model from the truth [1 sigma]
@@ -32,7 +43,7 @@ struct Separation {
 /// C the information on the signatures that is left by the nominal parameters, in prior sigmas.
 /// Against the nominal model sigma^2 = a_c' C_cc a_c, and unlike is its part of the information
 /// before the nominal parameters took theirs.
-std::vector<Separation> separations(const Information& info, const std::vector<Alternative>& all,
+std::vector<Separation> separations(const Information& info, std::span<const Trace> traces,
                                     std::span<const Contest> pairs);
 
-}  // namespace drift::diagnosis
+}  // namespace drift::planning

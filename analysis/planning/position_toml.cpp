@@ -1,15 +1,13 @@
-#include "analysis/diagnosis/advice.hpp"
+#include "analysis/planning/position_toml.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-namespace drift::diagnosis {
+namespace drift::planning {
 namespace {
 
-using config::Node;
-
-/// In whole minutes or seconds where it is whole, so that people can read it.
+/// In whole minutes where it is whole, so that people can read it.
 std::string time_text(double seconds) {
   const double minutes = seconds / 60.0;
   return minutes == std::round(minutes) ? fmt::format("{:.0f} min", minutes)
@@ -18,8 +16,8 @@ std::string time_text(double seconds) {
 
 }  // namespace
 
-Node position_node(const Position& p) {
-  Node node;
+config::Node position_node(const Position& p) {
+  config::Node node;
   const auto add = [&](const char* key, std::string text) {
     node.members.push_back({key, {}, config::text_node(std::move(text))});
   };
@@ -30,11 +28,11 @@ Node position_node(const Position& p) {
   add("mode", std::string(key_of(p.mode)));
   add("entry", std::string(key_of(p.entry)));
   if (p.case_heading)
-    add("case_heading", fmt::format("{:.10g} deg", *p.case_heading / unit::deg.to_si));
+    add("case_heading", fmt::format("{:.12g} deg", *p.case_heading / unit::deg.to_si));
   return node;
 }
 
-std::string positions_toml(const std::vector<Position>& positions) {
+std::string positions_toml(std::span<const Position> positions) {
   std::string out;
   for (const Position& p : positions) {
     out += out.empty() ? "[[plan.position]]\n" : "\n[[plan.position]]\n";
@@ -44,4 +42,4 @@ std::string positions_toml(const std::vector<Position>& positions) {
   return out;
 }
 
-}  // namespace drift::diagnosis
+}  // namespace drift::planning

@@ -1,11 +1,13 @@
-#include "analysis/diagnosis/separation.hpp"
+#include "analysis/planning/separation.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
-namespace drift::diagnosis {
+#include "analysis/inference/projector.hpp"
+
+namespace drift::planning {
 
 Information& Information::operator+=(const Information& o) {
   tt += o.tt;
@@ -21,13 +23,13 @@ Information information_of(const inference::LinearProblem& problem,
           p.extra().transpose() * p.extra()};
 }
 
-std::vector<Separation> separations(const Information& info, const std::vector<Alternative>& all,
+std::vector<Separation> separations(const Information& info, std::span<const Trace> traces,
                                     std::span<const Contest> pairs) {
   const MatX A = info.tt + MatX::Identity(info.tt.rows(), info.tt.cols());
   const MatX C = info.ee - info.te.transpose() * A.llt().solve(info.te);
   std::vector<Separation> out;
   for (const Contest& pair : pairs) {
-    const Alternative &c = all[pair.truth], &d = all[pair.rival];
+    const Trace &c = traces[pair.truth], &d = traces[pair.rival];
     const MatX cc = C(c.columns, c.columns);
     const auto size = [&](const MatX& m) {
       return std::max(0.0, c.amplitude.dot(m * c.amplitude));
@@ -54,4 +56,4 @@ std::vector<Separation> separations(const Information& info, const std::vector<A
   return out;
 }
 
-}  // namespace drift::diagnosis
+}  // namespace drift::planning
