@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "analysis/inference/noise_model.hpp"
+#include "analysis/inference/noise/noise_model.hpp"
 #include "core/estimate/measured_test.hpp"
 
 namespace drift::equation {

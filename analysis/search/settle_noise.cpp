@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "analysis/inference/evidence.hpp"
-#include "analysis/inference/noise_doubt.hpp"
+#include "analysis/inference/noise/noise_doubt.hpp"
 
 namespace drift::search {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "analysis/inference/max_t.hpp"
-#include "analysis/inference/noise.hpp"
+#include "analysis/inference/noise/noise.hpp"
 
 namespace drift::inference {
 namespace {

@@ -1,14 +1,14 @@
-#include "analysis/inference/noise.hpp"
+#include "analysis/inference/noise/noise.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 
-#include "analysis/inference/noise_component.hpp"
+#include "analysis/inference/noise/noise_component.hpp"
+#include "analysis/inference/noise/quasi_newton.hpp"
+#include "analysis/inference/noise/sigma_ladder.hpp"
 #include "analysis/inference/projector.hpp"
-#include "analysis/inference/sigma_ladder.hpp"
-#include "core/base/quasi_newton.hpp"
 #include "core/stats/chi_square.hpp"
 #include "mc/task/campaign.hpp"
 

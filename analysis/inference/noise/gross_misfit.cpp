@@ -1,4 +1,4 @@
-#include "analysis/inference/gross_misfit.hpp"
+#include "analysis/inference/noise/gross_misfit.hpp"
 
 #include <algorithm>
 #include <array>

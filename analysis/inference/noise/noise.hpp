@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "analysis/inference/linear_problem.hpp"
-#include "analysis/inference/noise_finding.hpp"
-#include "analysis/inference/noise_model.hpp"
+#include "analysis/inference/noise/noise_finding.hpp"
+#include "analysis/inference/noise/noise_model.hpp"
 
 namespace drift::inference {
 
