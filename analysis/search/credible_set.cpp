@@ -7,6 +7,8 @@
 #include <numeric>
 #include <string>
 
+#include "analysis/inference/thresholds.hpp"
+
 namespace drift::search {
 namespace {
 
@@ -46,7 +48,7 @@ bool covers(const Fitted& e, const Refit& wide, const Refit& narrow) {
 /// Log evidence, against the nominal model, of something unknown in one equation; every equation
 /// and form alike.
 double log_unknown(const Fitted& e) {
-  constexpr double forms = 21.0;
+  constexpr double forms = inference::WeighLimits::forms;
   return 0.5 * e.lone.gain - std::log(forms);
 }
 
@@ -77,7 +79,7 @@ std::vector<std::size_t> by_weight(const std::vector<double>& weight) {
 /// stands for all.
 std::vector<std::size_t> heads_of(const Fitted& e, const std::vector<Refit>& good,
                                   const std::vector<std::size_t>& order) {
-  constexpr double worth = 3.0;  // log evidence that more parameters must bring
+  constexpr double worth = inference::WeighLimits::more_parameters;
   std::vector<std::size_t> head(good.size());
   std::iota(head.begin(), head.end(), 0u);
   for (std::size_t k = 0; k < good.size(); ++k)
@@ -106,9 +108,10 @@ std::vector<std::size_t> heads_of(const Fitted& e, const std::vector<Refit>& goo
 }  // namespace
 
 bool can_be_weighed(const Fitted& e, const std::vector<Refit>& refits, Leftover left) {
-  constexpr double far_better = 5.0;   // one in a hundred and fifty,
-  constexpr double not_linear = 0.05;  // and what the linearised evidence of a large effect may be
-                                       // wrong by
+  constexpr double far_better = inference::WeighLimits::far_better;  // one in a hundred and fifty,
+  constexpr double not_linear =
+      inference::WeighLimits::not_linear;  // and what the linearised evidence of a large effect may
+                                           // be wrong by
   double top = -std::numeric_limits<double>::infinity();
   bool enough = false;
   for (const Refit& r : refits) {

@@ -6,14 +6,13 @@
 #include <map>
 #include <string>
 
+#include "analysis/inference/thresholds.hpp"
 #include "core/base/rng.hpp"
 
 namespace drift::search {
 namespace {
 
-constexpr double one_direction = 0.9999;
-constexpr double too_little =
-    22.0;  // log evidence behind the best pair: a million, and what the sizes are worth
+constexpr double too_little = inference::ReachLimits::pair;
 
 /// A single observable column that a candidate has.
 struct Unit {
@@ -96,7 +95,7 @@ std::vector<Pair> strongest_pairs(const Field& field, std::size_t most) {
   std::vector<Pair> pairs;
   for (std::size_t i = 0; i < units.size(); ++i)
     for (std::size_t k = 0; k < i; ++k) {
-      if (same_candidate(units[i], units[k]) || std::abs(rho(i, k)) > one_direction) continue;
+      if (same_candidate(units[i], units[k]) || inference::same_trace(rho(i, k))) continue;
       const double T = joint(z[i], z[k], rho(i, k));
       if (pairs.size() == most && T <= pairs.back().T) continue;
       if (pairs.size() == most) pairs.pop_back();
@@ -118,7 +117,7 @@ inference::MaxNull pair_null(const Field& field, int draws) {
   for (std::size_t i = 0; i < units.size(); ++i)
     for (std::size_t k = 0; k < i; ++k) {
       const double r = rho(i, k);
-      if (same_candidate(units[i], units[k]) || std::abs(r) > one_direction) continue;
+      if (same_candidate(units[i], units[k]) || inference::same_trace(r)) continue;
       const double w = 1.0 / (1.0 - r * r);
       for (int d = 0; d < draws; ++d) {
         const double a = g(d, i), b = g(d, k);

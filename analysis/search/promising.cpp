@@ -3,15 +3,16 @@
 #include <algorithm>
 #include <optional>
 
+#include "analysis/inference/thresholds.hpp"
 #include "analysis/search/greedy.hpp"
 #include "analysis/search/pairs.hpp"
 
 namespace drift::search {
 namespace {
 
-constexpr double negligible = 14.0;  // log evidence behind the best: less than one in a million
-constexpr double slack = 1.25;  // of a threshold: the linearised test may be wrong by it, the refit
-                                // decides
+constexpr double negligible = inference::ReachLimits::negligible;
+constexpr double slack = inference::ReachLimits::slack;  // of a threshold: the linearised test may
+                                                         // be wrong by it, the refit decides
 
 /// Whether what is left is within so many times the thresholds.
 bool within(const Remainder& left, const ChanceThresholds& t, double times) {
@@ -58,7 +59,8 @@ std::optional<Choice> same_choice(const inference::CandidateSet& in, const infer
 /// What else is in the test once a cause is fitted that the linear score cannot judge (a change of
 /// equation moves the misalignments far): the candidates that leave nothing beside it, by evidence.
 std::vector<Explanation> beside(const Search& s, const Refit& r) {
-  constexpr std::size_t asked = 12, most = 3;
+  constexpr std::size_t asked = inference::EffortLimits::beside_asked,
+                        most = inference::EffortLimits::beside;
   std::vector<Explanation> pairs;
   const auto order = r.after.by_evidence();
   for (std::size_t i = 0; i < std::min(asked, order.size()) && pairs.size() < most; ++i) {
@@ -74,7 +76,7 @@ std::vector<Explanation> beside(const Search& s, const Refit& r) {
 }  // namespace
 
 std::vector<Choice> ways_of(const Fitted& e, std::size_t k) {
-  constexpr double nearly = 4.0;  // log evidence
+  constexpr double nearly = inference::ReachLimits::refit_setting;
   std::vector<Choice> ways;
   for (const std::size_t v : best_settings(e, k, nearly, 2)) ways.push_back({k, v});
   return ways;
@@ -120,7 +122,7 @@ std::vector<std::size_t> more_than(const Search& s, const Refit& part) {
 
 std::vector<Explanation> promising_pairs(const Search& s, const std::vector<Refit>& singles,
                                          std::size_t most) {
-  constexpr double allowed = 1.1;  // of the thresholds
+  constexpr double allowed = inference::ReachLimits::pair_slack;
   std::vector<Explanation> pairs;
   for (const Refit& r : singles)
     if (s.nominal.set.candidates[r.choices.front().candidate].term == closure_term &&
@@ -134,7 +136,7 @@ std::vector<Explanation> promising_pairs(const Search& s, const std::vector<Refi
 }
 
 std::vector<Explanation> promising_several(const Search& s) {
-  constexpr std::size_t most = 4;
+  constexpr std::size_t most = inference::EffortLimits::together;
   const Explanation several = greedy(s.nominal, s.nominal.scores, s.thresholds.library_threshold,
                                      s.thresholds.scan_threshold, most);
   if (several.size() <= 2) return {};

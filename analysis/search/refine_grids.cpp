@@ -6,11 +6,14 @@
 #include <optional>
 #include <set>
 
+#include "analysis/inference/thresholds.hpp"
+
 namespace drift::search {
 namespace {
 
-constexpr int between = 3;      // settings put between each two points
-constexpr double nearly = 6.0;  // log evidence: a second onset that may come to be the best
+constexpr int between = 3;  // settings put between each two points
+constexpr double nearly = inference::ReachLimits::refine_setting;  // log evidence: a second onset
+                                                                   // that may come to be the best
 
 /// The one setting of a candidate that may lie between grid points; none if there is no such or
 /// several.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/inference/thresholds.hpp"
 #include "analysis/search/fit_causes.hpp"
 #include "analysis/search/settle_noise.hpp"
 #include "analysis/search/size_prior.hpp"
@@ -11,7 +12,8 @@
 namespace drift::search {
 namespace {
 
-constexpr double quiet_p_value = 0.01;  // of a free-form input beside the cause: nothing is left
+constexpr double quiet_p_value =
+    inference::WeighLimits::quiet_p;  // of a free-form input beside the cause: nothing is left
 
 /// Points of the library's grid at which a candidate can be seen at all.
 double grid_points(const Fitted& e, std::size_t candidate) {
@@ -46,7 +48,7 @@ double gain_of_sizes(const inference::CandidateSet& set, const Refit& r) {
 /// Whether each of simultaneous causes has an amplitude that is clearly not zero. A change of
 /// equation is judged by the fit alone: where its weight ends is seldom known well.
 bool all_needed(const inference::CandidateSet& set, const Refit& r) {
-  constexpr double clearly = 3.0;  // sigma
+  constexpr double clearly = inference::WeighLimits::needed;
   return std::all_of(r.choices.begin(), r.choices.end(), [&](const Choice& choice) {
     const auto& params = set.candidates[choice.candidate].params;
     return std::any_of(params.begin(), params.end(), [&](std::size_t i) {

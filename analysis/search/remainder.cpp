@@ -10,8 +10,9 @@ namespace drift::search {
 namespace {
 
 /// Part of a column's information that must be left after conditioning for it to count as another.
-constexpr double least_left = 1e-6;
-constexpr double least_left_of_several = 1e-5, least_left_of_window = 1e-5;
+constexpr double least_left = inference::VisibleLimits::left;
+constexpr double least_left_of_several = inference::VisibleLimits::left_of_several,
+                 least_left_of_window = inference::VisibleLimits::left_of_several;
 
 /// Columns of simultaneous causes, each with the better of its neighbouring variants.
 std::vector<int> columns_with_neighbours(const Field& field, std::vector<Choice> choices) {

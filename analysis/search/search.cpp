@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "analysis/inference/thresholds.hpp"
 #include "analysis/search/promising.hpp"
 #include "analysis/search/refine_grids.hpp"
 #include "mc/task/campaign.hpp"
@@ -9,7 +10,8 @@
 namespace drift::search {
 namespace {
 
-constexpr double worth_refining = 25.0;  // log evidence behind the best: a partner may lift it
+constexpr double worth_refining =
+    inference::ReachLimits::worth_refining;  // log evidence behind the best: a partner may lift it
 
 /// What the best way to put a candidate in leaves.
 Remainder least_remainder(const Search& s, std::size_t candidate) {

@@ -5,6 +5,7 @@
 
 #include "analysis/inference/evidence.hpp"
 #include "analysis/inference/noise/noise_doubt.hpp"
+#include "analysis/inference/thresholds.hpp"
 
 namespace drift::search {
 namespace {
@@ -12,7 +13,8 @@ namespace {
 /// Chance below which noise of all instruments is not believed: together (they overlap) one in ten,
 /// where the chances themselves are drawn with room (noise_doubt.hpp): of 51 blind nulls with such
 /// noise one was doubted at half.
-constexpr double no_noise = 0.08, no_noise_lone = 0.045;
+constexpr double no_noise = inference::NoiseDoubtLimits::candidate_p,
+                 no_noise_lone = inference::NoiseDoubtLimits::lone_p;
 
 /// log det (1 + C) of some columns under a noise: what a unit prior on their amplitudes costs twice
 /// the log of the marginal likelihood against its maximum.

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "analysis/inference/thresholds.hpp"
+
 namespace drift::inference {
 
 NoiseEstimate noise_of_differences(const MeasuredRows& rows, const VecX& residual) {
@@ -41,7 +43,7 @@ NoiseEstimate noise_of_differences(const MeasuredRows& rows, const VecX& residua
 
 bool grossly_wrong(const MeasuredRows& rows, const VecX& residual,
                    const NoiseEstimate& differences) {
-  constexpr double gross = 30.0;  // chi-square per row that no plausible noise gives
+  constexpr double gross = SampleLimits::gross;
   double chi2 = 0.0;
   for (Eigen::Index k = 0; k < residual.size(); ++k) {
     const double factor = rows.tags[k].accelerometer() ? differences.model.acc_factor

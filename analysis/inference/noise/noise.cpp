@@ -9,13 +9,14 @@
 #include "analysis/inference/noise/quasi_newton.hpp"
 #include "analysis/inference/noise/sigma_ladder.hpp"
 #include "analysis/inference/projector.hpp"
+#include "analysis/inference/thresholds.hpp"
 #include "core/stats/chi_square.hpp"
 #include "mc/task/campaign.hpp"
 
 namespace drift::inference {
 namespace {
 
-constexpr double needed_gain = 2.7;        // of twice the log likelihood: a component comes in
+constexpr double needed_gain = NoiseLimits::component;
 constexpr double significant_gain = 12.0;  // eight alternatives, one in a thousand
 
 /// A component whose sigma is estimated.
@@ -105,7 +106,7 @@ std::optional<Mixture> with_one_more(const LinearProblem& bare, const Mixture& m
 
 /// A component that drives the platform: p by its gain, or against what was declared.
 NoiseFinding driving_finding(const Mixture& m, std::size_t k, const NoiseModel& declared) {
-  constexpr double alternatives = 6.0;
+  constexpr double alternatives = NoiseLimits::alternatives;
   const auto& [c, gain] = m.active[k];
   const double sigma = m.model.*(c->sigma), was = declared.*(c->sigma);
   NoiseFinding f;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "analysis/inference/projector.hpp"
+#include "analysis/inference/thresholds.hpp"
 #include "core/base/rng.hpp"
 #include "core/base/units.hpp"
 #include "core/stats/normal.hpp"
@@ -15,9 +16,8 @@ namespace {
 constexpr int draws = 250;
 constexpr std::uint64_t doubt_seed =
     19610411;  // any number: fixed, so that a diagnosis is repeatable
-constexpr double per_degree =
-    3.0;  // of twice the log likelihood: what another amplitude must bring
-constexpr std::size_t most_params = 3;
+constexpr double per_degree = NoiseDoubtLimits::per_amplitude;
+constexpr std::size_t most_params = NoiseDoubtLimits::most_params;
 
 /// Recordings, one per column: the first is the real one, the others are drawn with the noise and
 /// parameters from their prior.

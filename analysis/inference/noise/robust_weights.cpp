@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "analysis/inference/thresholds.hpp"
+
 namespace drift::inference {
 namespace {
 
@@ -26,7 +28,7 @@ double spread(const MeasuredRows& rows, const VecX& residual, bool accelerometer
 }  // namespace
 
 VecX robust_weights(const MeasuredRows& rows, const VecX& whitened) {
-  constexpr double corner = 2.5;
+  constexpr double corner = SampleLimits::huber;
   const double acc = spread(rows, whitened, true), gimbal = spread(rows, whitened, false);
   VecX residual = whitened;
   for (Eigen::Index k = 0; k < residual.size(); ++k)
