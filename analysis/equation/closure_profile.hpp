@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "analysis/inference/noise/noise_model.hpp"
+#include "core/estimate/batch.hpp"
 #include "core/estimate/measured_test.hpp"
 
 namespace drift::equation {
