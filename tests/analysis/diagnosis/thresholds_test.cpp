@@ -76,7 +76,7 @@ TEST(Thresholds, AnEquationIsOpenUpToOddsOfNinetyToOne) {
 
 TEST(Thresholds, TheNearestKnownExplainsATwentiethOfTheMisfit) {
   const auto with_chi2 = [](double per_dof) {
-    search::Examination e;
+    search::Fitted e;
     e.fit.estimate.measured = 1000;
     e.fit.estimate.statistic = 1000.0 * per_dof;
     return e;
