@@ -122,6 +122,11 @@ class Program {
                  "error: standard output: {}. Results are incomplete; make room and run again\n",
                  e.what());
       return static_cast<int>(ExitCode::io);
+    } catch (const std::bad_alloc&) {
+      fmt::print(stderr,
+                 "error: the memory is used up (expected more, or a smaller job). Make the plan or "
+                 "the recording shorter, use fewer threads, or run where there is more\n");
+      return static_cast<int>(ExitCode::io);
     } catch (const InputError& e) {
       std::fflush(stdout);
       for (const auto& message : e.messages()) fmt::print(stderr, "error: {}\n", message);

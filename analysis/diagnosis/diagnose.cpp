@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/diagnosis/advice/patched_study.hpp"
 #include "analysis/diagnosis/asides.hpp"
 #include "analysis/diagnosis/candidate_table.hpp"
 #include "analysis/diagnosis/causes.hpp"
@@ -13,7 +14,6 @@
 #include "analysis/diagnosis/located.hpp"
 #include "analysis/diagnosis/noise_found.hpp"
 #include "analysis/diagnosis/nominal_fit.hpp"
-#include "analysis/diagnosis/patched_study.hpp"
 #include "analysis/inference/gross_misfit.hpp"
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/preparation/covariates.hpp"

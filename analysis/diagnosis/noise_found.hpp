@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "analysis/diagnosis/remark.hpp"
+#include "analysis/diagnosis/findings/remark.hpp"
 #include "analysis/inference/noise_finding.hpp"
 #include "analysis/search/fitted.hpp"
 

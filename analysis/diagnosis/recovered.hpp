@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/diagnosis/recovered_signal.hpp"
+#include "analysis/diagnosis/findings/recovered_signal.hpp"
 #include "analysis/preparation/covariates.hpp"
 #include "analysis/search/fitted.hpp"
 

@@ -7,9 +7,9 @@
 
 #include "analysis/inference/noise_component.hpp"
 #include "analysis/inference/projector.hpp"
-#include "analysis/inference/quasi_newton.hpp"
 #include "analysis/inference/sigma_ladder.hpp"
 #include "analysis/inference/thresholds.hpp"
+#include "core/base/quasi_newton.hpp"
 #include "core/stats/chi_square.hpp"
 #include "mc/task/campaign.hpp"
 

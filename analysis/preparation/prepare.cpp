@@ -145,7 +145,7 @@ std::size_t factor_for(const std::vector<Recording>& recordings, double sample,
 
 Prepared prepare(const mc::Study& study, const std::vector<Recording>& recordings,
                  std::size_t most_rows) {
-  DRIFT_EXPECTS(!recordings.empty());
+  DRIFT_DEMAND(!recordings.empty());
   Prepared p{study, recordings, {}};
   std::vector<std::string> wrong;
   std::set<int> positions;

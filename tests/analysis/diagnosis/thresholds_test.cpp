@@ -4,10 +4,10 @@
 
 #include <cmath>
 
+#include "analysis/diagnosis/advice/patched_study.hpp"
 #include "analysis/diagnosis/asides.hpp"
 #include "analysis/diagnosis/choose_additions.hpp"
 #include "analysis/diagnosis/judge.hpp"
-#include "analysis/diagnosis/patched_study.hpp"
 #include "analysis/diagnosis/spikes.hpp"
 #include "tests/support/model_builders.hpp"
 

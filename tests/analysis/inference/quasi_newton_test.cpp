@@ -1,4 +1,4 @@
-#include "analysis/inference/quasi_newton.hpp"
+#include "core/base/quasi_newton.hpp"
 
 #include <gtest/gtest.h>
 

@@ -294,7 +294,8 @@ TEST(DiagnosisText, SaysTheVerdictFirstAndStaysWithinTheTerminal) {
       "Verdict named: The nominal model lacks g-sensitive drift (mass unbalance), gyro y"))
       << out;
   for (const char* text :
-       {"platform rate y", "eta_x", "Advice: Add x up", "gimbal_white", "9.10 →"})
+       {"platform rate y", "eta_x", "Advice: g_drift.y and g_drift.z are 1.5 sigma apart",
+        "gimbal_white", "9.10 →"})
     EXPECT_NE(out.find(text), std::string::npos) << text;
   EXPECT_LT(std::count(out.begin(), out.end(), '\n'), 60);
 }
