@@ -57,7 +57,7 @@ Stranger other_than(const std::string& hash) {
 
 ExitCode status(const std::string& folder, const StudyProgram& program) {
   mc::StudyReader reader(folder);
-  const mc::StudyWork work = program.work(frozen_study(folder, reader));
+  const auto [study, work] = frozen_study(folder, reader, program);
   const mc::StudyState state = mc::state_of(reader, work.stop_rules);
   const std::uint64_t total = state.asked * state.points.size();
   fmt::print("{}: {} of {} runs, {} failed, {} of {} points complete\n", folder, state.runs, total,
@@ -91,7 +91,7 @@ ExitCode verify(const std::string& folder, const std::string& sample, int thread
                 const StudyProgram& program) {
   const double share = parse_fraction("--sample", sample);
   mc::StudyReader reader(folder);
-  const mc::StudyWork work = program.work(frozen_study(folder, reader));
+  const auto [study, work] = frozen_study(folder, reader, program);
   const mc::Verification v = mc::verify(work, reader, share, threads);
   fmt::print(
       "{}: {} blocks with {} runs, {} missing; {} checksums verified, {} runs executed again\n",
@@ -131,8 +131,7 @@ ExitCode export_results(const std::string& folder, const std::string& format,
       output.empty() ? fmt::format("{}/export.{}", folder, format == "hdf5" ? "h5" : format)
                      : output;
   mc::StudyReader reader(folder);
-  const mc::Study study = frozen_study(folder, reader);
-  const mc::StudyWork work = program.work(study);
+  const auto [study, work] = frozen_study(folder, reader, program);
   require_output_file(target, {}, other_than(reader.manifest().hash));
   const mc::StudyState state = mc::state_of(reader, work.stop_rules);
   for (const std::string& note : reader.notes()) fmt::print(stderr, "damage: {}\n", note);

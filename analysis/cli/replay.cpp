@@ -90,7 +90,7 @@ void print_row(const std::vector<mc::Column>& columns, const mc::Replay& r) {
 ExitCode replay(const std::string& folder, const RunChoice& choice, const std::string& trace,
                 const StudyProgram& program) {
   mc::StudyReader reader(folder);
-  const mc::StudyWork work = program.work(frozen_study(folder, reader));
+  const auto [study, work] = frozen_study(folder, reader, program);
   if (choice.point >= work.points.size())
     throw InputError(ExitCode::usage,
                      fmt::format("--point {}: the study has points 0 to {}. Choose one of them",

@@ -17,8 +17,8 @@ ExitCode report(const std::string& folder, const StudyProgram& program) {
   if (command == "run") {  // made anew, of as many runs as there are
     require_results_folder({folder, "run"});
     mc::StudyReader reader(folder);
-    const mc::Study study = frozen_study(folder, reader);
-    program.present(study, program.work(study), reader, folder);
+    const auto [study, work] = frozen_study(folder, reader, program);
+    program.present(study, work, reader, folder);
     return ExitCode::ok;
   }
   const std::string file = (std::filesystem::path(folder) / "report.html").string();

@@ -139,6 +139,13 @@ ExitCode run(const StudyArguments& arguments, const RunArguments& given,
   require_results_folder({folder, "run"});
   mc::claim_folder(folder, manifest);
   begin_results({folder, "run"});
+  const std::string aside = ranks.leader() ? mend_study(folder, manifest) : "";
+  if (!aside.empty())
+    fmt::print(
+        stderr,
+        "note: {}/study.toml was not that of the study: written anew, what was there is kept "
+        "as {}\n",
+        folder, aside);
   if (ranks.leader()) fmt::print(stderr, "results go to {}\n", folder);
   const mc::StudyOutcome outcome =
       mc::run_study(work, options, folder, manifest, ranks, run_progress(arguments.progress));
