@@ -2,6 +2,7 @@
 
 #include "analysis/cli/commands.hpp"
 #include "analysis/cli/frozen_study.hpp"
+#include "analysis/cli/print.hpp"
 #include "core/base/results_folder.hpp"
 
 namespace drift::cli {
@@ -28,7 +29,7 @@ ExitCode report(const std::string& folder, const StudyProgram& program) {
         fmt::format("{}: report.html is gone (expected beside the results of `{}`). The same "
                     "`driftscope {}` command writes it again",
                     folder, command, command));
-  fmt::print("{}\n", file);
+  show("{}\n", file);
   return ExitCode::ok;
 }
 
