@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "analysis/diagnosis/findings/remark.hpp"
-#include "analysis/inference/noise_finding.hpp"
+#include "analysis/inference/noise/noise_finding.hpp"
 #include "analysis/search/fitted.hpp"
 
 namespace drift::diagnosis {

@@ -2,8 +2,7 @@
 
 #include <optional>
 
-#include "analysis/inference/noise_model.hpp"
-#include "analysis/inference/thresholds.hpp"
+#include "analysis/inference/noise/noise_model.hpp"
 #include "core/estimate/measured_test.hpp"
 
 namespace drift::equation {
@@ -27,6 +26,6 @@ struct ClosureProfile {
 std::optional<ClosureProfile> profile_closure(const FilterSpec& filter, const MeasuredTest& test,
                                               const BatchResult& joint, const VecX& weight,
                                               const inference::NoiseModel& noise,
-                                              double decisive = inference::WeighLimits::valley);
+                                              double decisive = 6.0);
 
 }  // namespace drift::equation

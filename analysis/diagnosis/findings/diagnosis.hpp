@@ -13,7 +13,7 @@
 #include "analysis/diagnosis/findings/twins.hpp"
 #include "analysis/diagnosis/findings/verdict.hpp"
 #include "analysis/diagnosis/findings/where.hpp"
-#include "analysis/inference/noise_finding.hpp"
+#include "analysis/inference/noise/noise_finding.hpp"
 #include "analysis/search/cause.hpp"
 #include "core/base/linalg.hpp"
 #include "core/physics/model_spec.hpp"

@@ -1,4 +1,4 @@
-#include "analysis/inference/noise_doubt.hpp"
+#include "analysis/inference/noise/noise_doubt.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/base/quasi_newton.hpp"
+#include "analysis/inference/noise/quasi_newton.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,9 +6,9 @@
 
 #include <cmath>
 
-#include "analysis/inference/gross_misfit.hpp"
 #include "analysis/inference/max_t.hpp"
-#include "analysis/inference/robust_weights.hpp"
+#include "analysis/inference/noise/gross_misfit.hpp"
+#include "analysis/inference/noise/robust_weights.hpp"
 
 namespace drift::inference {
 namespace {

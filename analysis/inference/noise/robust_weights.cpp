@@ -1,4 +1,4 @@
-#include "analysis/inference/robust_weights.hpp"
+#include "analysis/inference/noise/robust_weights.hpp"
 
 #include <algorithm>
 #include <cmath>

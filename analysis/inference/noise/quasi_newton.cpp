@@ -1,8 +1,8 @@
-#include "core/base/quasi_newton.hpp"
+#include "analysis/inference/noise/quasi_newton.hpp"
 
 #include "mc/task/campaign.hpp"
 
-namespace drift {
+namespace drift::inference {
 namespace {
 
 using Function = std::function<double(const VecX&)>;
@@ -54,4 +54,4 @@ Maximum maximise(const Function& f, VecX x, const VecX& curvature) {
   return at;
 }
 
-}  // namespace drift
+}  // namespace drift::inference

@@ -1,4 +1,4 @@
-#include "analysis/inference/noise_finding.hpp"
+#include "analysis/inference/noise/noise_finding.hpp"
 
 #include <cmath>
 #include <utility>

@@ -4,7 +4,7 @@
 
 #include "core/base/linalg.hpp"
 
-namespace drift {
+namespace drift::inference {
 
 /// Where a function is largest.
 struct Maximum {
@@ -20,4 +20,4 @@ struct Maximum {
 /// threads at once.
 Maximum maximise(const std::function<double(const VecX&)>& f, VecX x, const VecX& curvature);
 
-}  // namespace drift
+}  // namespace drift::inference
