@@ -4,6 +4,7 @@
 
 #include "analysis/inference/noise/noise_model.hpp"
 #include "analysis/inference/thresholds.hpp"
+#include "core/estimate/batch.hpp"
 #include "core/estimate/measured_test.hpp"
 
 namespace drift::equation {
