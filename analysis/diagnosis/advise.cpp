@@ -14,7 +14,7 @@
 #include "analysis/inference/signatures.hpp"
 #include "analysis/planning/position_pool.hpp"
 #include "analysis/preparation/recorded_test.hpp"
-#include "analysis/search/adequacy.hpp"
+#include "analysis/search/field.hpp"
 #include "core/sim/simulate.hpp"
 #include "mc/task/campaign.hpp"
 
@@ -50,8 +50,7 @@ class Adviser {
                        make_layout(d.nominal).theta)) {}
 
   inference::CandidateSet candidates() const {
-    return inference::library_candidates(d_.nominal, inference::theta_of(d_.nominal, fit_),
-                                         test_.timeline);
+    return inference::library_candidates(d_.nominal, theta_of(d_.nominal, fit_), test_.timeline);
   }
 
   /// What looks most like a named cause, of each term and axis that it can be confused with.
@@ -59,7 +58,7 @@ class Adviser {
     std::vector<Rival> all;
     Question named = named_question(d_, set, {});
     std::vector<inference::SignatureSpec> specs =
-        number_signatures(named.alternatives, d_.nominal, inference::theta_of(d_.nominal, fit_));
+        number_signatures(named.alternatives, d_.nominal, theta_of(d_.nominal, fit_));
     const std::vector<int> own = named.alternatives.front().columns;
     for (std::size_t cause = 0; cause < d_.causes.size(); ++cause)
       for (const search::Confusable& like : d_.causes[cause].confusable_with) {
@@ -78,13 +77,14 @@ class Adviser {
             whose.push_back({cause, c, v});
           }
         }
-        const inference::Projector p(problem(test_.timeline, test_.measured, fit_, columns),
-                                     noise_);
+        const inference::Projected p =
+            inference::Projector(problem(test_.timeline, test_.measured, fit_, columns), noise_)
+                .candidates();
         double most = -1.0;
         std::optional<Rival> nearest;
         for (std::size_t k = 0; k < whose.size(); ++k)
-          if (const double c = std::abs(
-                  search::cosine(p.candidates(), own, few.candidates[k].variants.front().columns));
+          if (const double c =
+                  std::abs(search::cosine(p, own, few.candidates[k].variants.front().columns));
               c > most) {
             most = c;
             nearest = whose[k];
@@ -99,7 +99,7 @@ class Adviser {
     if (q.empty()) return {};
     BatchResult at = fit_;
     if (std::ranges::any_of(q.alternatives, holds_lambda)) widen_misalignments(at);
-    const Theta theta = inference::theta_of(d_.nominal, at);
+    const Theta theta = theta_of(d_.nominal, at);
     std::vector<inference::SignatureSpec> specs =
         number_signatures(q.alternatives, d_.nominal, theta);
     const auto as_recorded = [&] {

@@ -6,7 +6,7 @@
 namespace drift::diagnosis {
 namespace {
 
-double chi2_per_dof(const search::Examination& e) {
+double chi2_per_dof(const search::Fitted& e) {
   return e.fit.estimate.statistic /
          static_cast<double>(std::max<std::size_t>(1, e.fit.estimate.measured));
 }
@@ -19,7 +19,7 @@ const search::Refit& best_rejected(const search::Search& found) {
 
 }  // namespace
 
-std::optional<NearestKnown> nearest_known(const search::Examination& nominal,
+std::optional<NearestKnown> nearest_known(const search::Fitted& nominal,
                                           const search::Search& found) {
   constexpr double least = 0.05;  // part of the excess of chi-square
   if (found.rejected.empty()) return std::nullopt;
@@ -35,12 +35,12 @@ std::optional<NearestKnown> nearest_known(const search::Examination& nominal,
   return out;
 }
 
-std::optional<remark::StrongestLeft> strongest_left(const search::Examination& nominal,
+std::optional<remark::StrongestLeft> strongest_left(const search::Fitted& nominal,
                                                     const search::Search& found) {
   const search::Refit& best = best_rejected(found);
   const std::size_t k = best.remainder.strongest;
   if (k >= best.after.set.candidates.size() ||
-      !(best.remainder.library > found.nulls.library_threshold))
+      !(best.remainder.library > found.thresholds.library_threshold))
     return std::nullopt;
   remark::StrongestLeft out{{}, best.after.set.candidates[k].label};
   for (const search::Choice& choice : best.choices)

@@ -9,11 +9,11 @@ namespace drift::diagnosis {
 
 /// How far the best explanation goes that was not good enough; empty if it explains next to
 /// nothing.
-std::optional<NearestKnown> nearest_known(const search::Examination& nominal,
+std::optional<NearestKnown> nearest_known(const search::Fitted& nominal,
                                           const search::Search& found);
 
 /// With that explanation in the model, the strongest of what is left.
-std::optional<remark::StrongestLeft> strongest_left(const search::Examination& nominal,
+std::optional<remark::StrongestLeft> strongest_left(const search::Fitted& nominal,
                                                     const search::Search& found);
 
 /// Nominal parameters that the recording moves more than five sigmas of their prior: the fit is

@@ -14,7 +14,7 @@ double detectable_z(double strength_threshold) {
 
 /// Probability of each candidate alone, by its linear score, against the nominal model and all
 /// others. Candidates of one term share its prior.
-std::vector<double> linear_probabilities(const search::Examination& nominal) {
+std::vector<double> linear_probabilities(const search::Fitted& nominal) {
   const auto& candidates = nominal.set.candidates;
   std::map<std::string, double> offers;
   for (const inference::Candidate& c : candidates) offers[c.term] += 1.0;
@@ -29,9 +29,9 @@ std::vector<double> linear_probabilities(const search::Examination& nominal) {
   return share;
 }
 
-search::CandidateScore line_of(const search::Examination& nominal, const search::Search& found,
+search::CandidateScore line_of(const search::Fitted& nominal, const search::Search& found,
                                std::size_t k) {
-  const inference::Projected& p = nominal.projector->candidates();
+  const inference::Projected& p = nominal.projected;
   const inference::Candidate& c = nominal.set.candidates[k];
   const search::Score& s = nominal.scores[k];
   const ParamSpec& spec = TermLibrary::specs[c.params.front()];
@@ -44,7 +44,7 @@ search::CandidateScore line_of(const search::Examination& nominal, const search:
   line.unit = spec.unit.symbol.view();
   line.score = s.T;
   line.p_marginal = s.dof > 0 ? std::exp(-s.strength) : 1.0;
-  line.p_value = s.dof > 0 ? found.nulls.library.p_value(s.strength) : 1.0;
+  line.p_value = s.dof > 0 ? found.thresholds.library.p_value(s.strength) : 1.0;
   line.log_bayes = s.log_bayes;
   const inference::Variant& v = c.variants[s.variant];
   double left = 0.0, raw = 0.0;
@@ -55,8 +55,8 @@ search::CandidateScore line_of(const search::Examination& nominal, const search:
   line.absorbed = raw > 0.0 ? std::clamp(1.0 - left / raw, 0.0, 1.0) : 1.0;
   if (s.dof > 0) {
     line.worst_conditional = std::max(found.linear[k].library, found.linear[k].scan);
-    line.adequate = found.linear[k].library <= found.nulls.library_threshold &&
-                    found.linear[k].scan <= found.nulls.scan_threshold;
+    line.adequate = found.linear[k].library <= found.thresholds.library_threshold &&
+                    found.linear[k].scan <= found.thresholds.scan_threshold;
   }
   const VecX a = search::expected_amplitudes(p, v.columns);
   line.size_sigma = a.norm();
@@ -65,7 +65,7 @@ search::CandidateScore line_of(const search::Examination& nominal, const search:
     const double information = p.C(v.columns[0], v.columns[0]);
     line.amplitude = p.g[v.columns[0]] / information * scale;
     line.sigma = scale / std::sqrt(information);
-    line.smallest_detectable = detectable_z(found.nulls.library_threshold) * line.sigma;
+    line.smallest_detectable = detectable_z(found.thresholds.library_threshold) * line.sigma;
     line.size_sigma = std::abs(line.amplitude) / scale;
   }
   return line;
@@ -76,7 +76,7 @@ void score_by_jump(search::CandidateScore& line, const search::Search& found) {
   line.score = found.other_equation;
   line.p_marginal =
       std::exp(-0.5 * found.other_equation);  // two points: P(2 log LR > T) <= exp(-T/2)
-  line.p_value = std::min(1.0, found.nulls.library.p_value(0.5 * found.other_equation));
+  line.p_value = std::min(1.0, found.thresholds.library.p_value(0.5 * found.other_equation));
   line.log_bayes = 0.5 * found.other_equation;
   line.dof = 1;
   line.observable = true;
@@ -85,7 +85,7 @@ void score_by_jump(search::CandidateScore& line, const search::Search& found) {
 
 /// Probabilities by the refits; what the credible set leaves is shared as the linear scores would
 /// have it.
-void weigh_by_refits(std::vector<search::CandidateScore>& lines, const search::Examination& nominal,
+void weigh_by_refits(std::vector<search::CandidateScore>& lines, const search::Fitted& nominal,
                      const search::Search& found) {
   double held = 0.0, linear = 0.0;
   std::vector<std::pair<std::string, double>> judged;  // label, probability
@@ -112,7 +112,7 @@ void weigh_by_refits(std::vector<search::CandidateScore>& lines, const search::E
 
 }  // namespace
 
-std::vector<search::CandidateScore> candidate_table(const search::Examination& nominal,
+std::vector<search::CandidateScore> candidate_table(const search::Fitted& nominal,
                                                     const search::Search& found) {
   const std::vector<double> probability = linear_probabilities(nominal);
   std::vector<search::CandidateScore> lines;

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "analysis/search/cause.hpp"
 #include "analysis/search/search.hpp"
 
 namespace drift::diagnosis {
@@ -10,7 +11,7 @@ namespace drift::diagnosis {
 /// linearised test; frame_closure is scored by the jump to the other equation, which its linear
 /// score at the nominal fit need not see; where explanations were refitted, their probabilities
 /// take the place of those of the linear scores.
-std::vector<search::CandidateScore> candidate_table(const search::Examination& nominal,
+std::vector<search::CandidateScore> candidate_table(const search::Fitted& nominal,
                                                     const search::Search& found);
 
 }  // namespace drift::diagnosis

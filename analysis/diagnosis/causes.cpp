@@ -15,7 +15,7 @@ constexpr double free_input_told = 0.01;  // p-value of an input of free form
 
 /// Member `which` of an explanation: value and sigma of a parameter, in its unit. profiled: one of
 /// the settings.
-search::CauseParameter parameter_of(const search::Examination& nominal, const search::Refit& r,
+search::CauseParameter parameter_of(const search::Fitted& nominal, const search::Refit& r,
                                     std::size_t which, std::size_t param, bool profiled) {
   const ParamSpec& spec = TermLibrary::specs[param];
   search::CauseParameter out{std::string(spec.key.view()),         param,   0.0, 0.0,
@@ -43,9 +43,9 @@ double size_of(const search::Refit& r, const std::vector<std::size_t>& params) {
   return size;
 }
 
-search::Cause cause_of(const search::Examination& nominal, const search::Search& found,
-                       std::size_t set, std::size_t which) {
-  const inference::Projected& p = nominal.projector->candidates();
+search::Cause cause_of(const search::Fitted& nominal, const search::Search& found, std::size_t set,
+                       std::size_t which) {
+  const inference::Projected& p = nominal.projected;
   const search::Refit& r = found.sets[set];
   const search::Choice& choice = r.choices[which];
   const inference::Candidate& c = nominal.set.candidates[choice.candidate];
@@ -69,8 +69,9 @@ search::Cause cause_of(const search::Examination& nominal, const search::Search&
     cause.T = std::max(cause.T, 2.0 * r.log_bayes);
     cause.dof = std::max(cause.dof, 1);
   }
-  cause.p_value = std::min(1.0, found.nulls.library.p_value(stats::strength(cause.T, cause.dof)) /
-                                    search::library_share);
+  cause.p_value =
+      std::min(1.0, found.thresholds.library.p_value(stats::strength(cause.T, cause.dof)) /
+                        search::library_share);
   cause.size_sigma = size_of(r, c.params);
   for (const std::size_t i : c.params)
     cause.parameters.push_back(parameter_of(nominal, r, which, i, false));
@@ -80,10 +81,10 @@ search::Cause cause_of(const search::Examination& nominal, const search::Search&
 }
 
 /// What a cause could be taken for, among all candidates: the strongest cosines of other terms.
-std::vector<search::Confusable> confusable_with(const search::Examination& nominal,
+std::vector<search::Confusable> confusable_with(const search::Fitted& nominal,
                                                 const search::Cause& cause,
                                                 const std::vector<int>& columns) {
-  const inference::Projected& p = nominal.projector->candidates();
+  const inference::Projected& p = nominal.projected;
   std::vector<search::Confusable> near;
   for (std::size_t k = 0; k < nominal.set.candidates.size(); ++k) {
     const inference::Candidate& c = nominal.set.candidates[k];
@@ -109,8 +110,8 @@ std::vector<search::Confusable> confusable_with(const search::Examination& nomin
 
 }  // namespace
 
-CausesFound causes_of(const search::Examination& nominal, const search::Search& found) {
-  const inference::Projected& p = nominal.projector->candidates();
+CausesFound causes_of(const search::Fitted& nominal, const search::Search& found) {
+  const inference::Projected& p = nominal.projected;
   CausesFound out;
   std::vector<std::vector<int>> columns;
   for (std::size_t set = 0; set < found.sets.size(); ++set)

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "analysis/diagnosis/remark.hpp"
+#include "analysis/search/cause.hpp"
 #include "analysis/search/search.hpp"
 #include "core/base/linalg.hpp"
 
@@ -26,6 +27,6 @@ struct CausesFound {
   std::vector<Twins> inseparable;
   std::vector<Remark> remarks;
 };
-CausesFound causes_of(const search::Examination& nominal, const search::Search& found);
+CausesFound causes_of(const search::Fitted& nominal, const search::Search& found);
 
 }  // namespace drift::diagnosis

@@ -14,6 +14,7 @@
 #include "analysis/diagnosis/noise_found.hpp"
 #include "analysis/diagnosis/nominal_fit.hpp"
 #include "analysis/diagnosis/patched_study.hpp"
+#include "analysis/inference/gross_misfit.hpp"
 #include "analysis/preparation/covariates.hpp"
 #include "analysis/preparation/recorded_test.hpp"
 #include "core/base/check.hpp"
@@ -27,7 +28,7 @@ namespace {
 /// evident misfit away: what looks like noise that drives the platform is the equation then, and
 /// the noise is estimated with that in the model. Empty otherwise.
 std::optional<inference::NoiseEstimate> noise_beside_equation(const FilterSpec& nominal,
-                                                              const inference::Test& test,
+                                                              const MeasuredTest& test,
                                                               const BatchResult& fit) {
   constexpr double evident = 1.5, most = 0.8;  // chi-square per degree; part of its excess
   FilterSpec other = nominal;
@@ -38,23 +39,23 @@ std::optional<inference::NoiseEstimate> noise_beside_equation(const FilterSpec& 
            static_cast<double>(std::max<std::size_t>(1, f.estimate.measured));
   };
   if (per_dof(fit) < evident) return std::nullopt;
-  const BatchResult with_other = fit_batch(other, test.timeline, test.readout, test.measured,
-                                           inference::theta_of(nominal, fit));
+  const BatchResult with_other =
+      fit_batch(other, test.timeline, test.readout, test.measured, theta_of(nominal, fit));
   if (per_dof(fit) - per_dof(with_other) < most * (per_dof(fit) - 1.0)) return std::nullopt;
   const inference::LinearProblem problem = inference::linear_problem(nominal, test, fit, {});
   return inference::noise_of_differences(problem, inference::residual_of(problem, fit));
 }
 
 /// The table, fit and held-out prediction before and after the best explanation.
-FitComparison compared(const search::Examination& nominal, const search::Search& found,
-                       const inference::Test& test, const DiagnoseOptions& options,
+FitComparison compared(const search::Fitted& nominal, const search::Search& found,
+                       const MeasuredTest& test, const DiagnoseOptions& options,
                        const std::vector<std::size_t>& recording_ends, Stages& stages) {
   const search::Refit* best = found.sets.empty() ? nullptr : &found.sets.front();
   FitComparison fit = compare(nominal, best, options.whiteness_draws);
   if (!best) return fit;
   std::vector<std::size_t> named;
   for (const search::Choice& c : best->choices) named.push_back(c.candidate);
-  fit.held_out = held_out(nominal, best->after, test, named, found.nulls.library_threshold,
+  fit.held_out = held_out(nominal, best->after, test, named, found.thresholds.library_threshold,
                           {options.folds, recording_ends,
                            [&](std::size_t done, std::size_t total) { stages.step(done, total); }});
   return fit;
@@ -62,10 +63,10 @@ FitComparison compared(const search::Examination& nominal, const search::Search&
 
 /// Largest start-consistency ratio of the patched model, from the starts of the nominal one; what
 /// is new starts where the fit has it.
-double patched_spread(const FilterSpec& nominal, const inference::Test& test,
+double patched_spread(const FilterSpec& nominal, const MeasuredTest& test,
                       std::span<const Theta> starts, const search::Refit& best) {
-  auto fits = fit_from_starts(nominal, best.filter, test, starts,
-                              inference::theta_of(best.filter, best.after.fit));
+  auto fits =
+      fit_from_starts(nominal, best.filter, test, starts, theta_of(best.filter, best.after.fit));
   fits.push_back(best.after.fit);
   return start_spread(fits);
 }
@@ -80,7 +81,7 @@ void append(std::vector<Remark>& remarks, std::vector<Remark> more) {
 
 }  // namespace
 
-Diagnosis diagnose(const FilterSpec& nominal_filter, const inference::Test& given,
+Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
                    std::span<const Theta> starts,
                    const std::vector<preparation::Covariate>& covariates,
                    const DiagnoseOptions& options, const std::vector<std::size_t>& recording_ends) {
@@ -90,20 +91,21 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const inference::Test& give
   Stages stages(d.seconds, options.progress);
   stages.begin("fit", 0.04);
   const NominalFit fitted = fit_nominal(nominal_filter, given, starts);
-  const inference::Test test{given.timeline, given.readout, fitted.measured};
+  const MeasuredTest test{given.timeline, given.readout, fitted.measured};
 
   stages.begin("examine", 0.08);
   const auto plain = noise_beside_equation(nominal_filter, test, fitted.fit);
-  search::Examination nominal =
-      search::examine(nominal_filter, test, fitted.fit, plain ? &*plain : nullptr);
+  search::Fitted examined = plain ? search::examine(nominal_filter, test, fitted.fit, *plain)
+                                  : search::examine(nominal_filter, test, fitted.fit);
   stages.begin("search", 0.5);
-  const search::Search found = search::search(nominal, test, options.search);
+  const search::Search found = search::search(std::move(examined), test, options.search);
+  const search::Fitted& nominal = found.nominal;
   const search::Refit* best = found.sets.empty() ? nullptr : &found.sets.front();
 
   stages.begin("held out", 0.25);
   d.fit = compared(nominal, found, test, options, recording_ends, stages);
   const auto member_gains = best && found.significant
-                                ? judge_members(nominal, test, *best, found.nulls)
+                                ? judge_members(nominal, test, *best, found.thresholds)
                                 : std::vector<double>{};
   const Judged judged = judge(nominal, found, d.fit.held_out, member_gains, options.named_by);
 

@@ -32,7 +32,7 @@ Diagnosis diagnose(const mc::Study& study, const std::vector<Recording>& recordi
 
 /// The same on a test that is laid out already. starts: initial estimates of the nominal filter
 /// beside its prior means. recording_ends: interval behind the last of each recording, if several.
-Diagnosis diagnose(const FilterSpec& nominal, const inference::Test& test,
+Diagnosis diagnose(const FilterSpec& nominal, const MeasuredTest& test,
                    std::span<const Theta> starts,
                    const std::vector<preparation::Covariate>& covariates,
                    const DiagnoseOptions& options = {},

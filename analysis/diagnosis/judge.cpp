@@ -7,20 +7,22 @@
 
 namespace drift::diagnosis {
 
-std::vector<double> judge_members(const search::Examination& nominal, const inference::Test& test,
-                                  const search::Refit& best, const search::Nulls& nulls) {
+std::vector<double> judge_members(const search::Fitted& nominal, const MeasuredTest& test,
+                                  const search::Refit& best,
+                                  const search::ChanceThresholds& thresholds) {
   std::vector<double> gains;
   if (best.choices.size() < 2) return gains;
   for (std::size_t k = 0; k < best.choices.size(); ++k) {
     std::vector<search::Choice> others = best.choices;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
-    gains.push_back(held_out_gain(search::refit(nominal, test, others, nulls).after, best.after));
+    gains.push_back(
+        held_out_gain(search::refit(nominal, test, others, thresholds).after, best.after));
   }
   return gains;
 }
 
-Judged judge(const search::Examination& nominal, const search::Search& found,
-             const HeldOut& held_out, const std::vector<double>& member_gains, NamedBy by) {
+Judged judge(const search::Fitted& nominal, const search::Search& found, const HeldOut& held_out,
+             const std::vector<double>& member_gains, NamedBy by) {
   Judged out;
   if (!found.significant) {
     out.one_gyro = noise_of_one_axis(nominal);

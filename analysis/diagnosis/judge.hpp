@@ -13,8 +13,9 @@ namespace drift::diagnosis {
 /// Each of several simultaneous causes judged by itself: what the held-out prediction of all
 /// positions loses (log score) when the model is fitted again without it. In the order of
 /// `best.choices`; empty for one cause.
-std::vector<double> judge_members(const search::Examination& nominal, const inference::Test& test,
-                                  const search::Refit& best, const search::Nulls& nulls);
+std::vector<double> judge_members(const search::Fitted& nominal, const MeasuredTest& test,
+                                  const search::Refit& best,
+                                  const search::ChanceThresholds& thresholds);
 
 /// The verdict, and why it is no better.
 struct Judged {
@@ -27,7 +28,7 @@ struct Judged {
 enum class NamedBy { held_out, fit_alone };
 
 /// member_gains: of the best explanation, as judge_members() gives them.
-Judged judge(const search::Examination& nominal, const search::Search& found,
-             const HeldOut& held_out, const std::vector<double>& member_gains, NamedBy by);
+Judged judge(const search::Fitted& nominal, const search::Search& found, const HeldOut& held_out,
+             const std::vector<double>& member_gains, NamedBy by);
 
 }  // namespace drift::diagnosis

@@ -13,7 +13,7 @@ constexpr std::size_t most_signals = 2, most_windows = 8;
 
 /// The noise under which the missing input is recovered: noise that was needed only because of the
 /// effect would take the signal away.
-inference::NoiseModel noise_without_effect(const search::Examination& nominal,
+inference::NoiseModel noise_without_effect(const search::Fitted& nominal,
                                            const search::Search& found) {
   if (found.significant) return nominal.noise.model;
   inference::NoiseModel white = search::declared_noise(nominal.filter);
@@ -24,7 +24,7 @@ inference::NoiseModel noise_without_effect(const search::Examination& nominal,
 
 std::string equation_of(const Judged& judged, const std::vector<InputEstimate>& inputs,
                         const inference::Window* window) {
-  using Equation = inference::Window::Equation;
+  using Equation = inference::Equation;
   if (judged.one_gyro) return inference::equation_name(Equation::rate, judged.one_gyro->axis);
   if (judged.verdict == Verdict::consistent) return "";
   if (!inputs.empty() && inputs.front().gain > 0.0)
@@ -34,12 +34,12 @@ std::string equation_of(const Judged& judged, const std::vector<InputEstimate>& 
 
 }  // namespace
 
-Located located(const search::Examination& nominal, const search::Search& found,
-                const Judged& judged, const Timeline& timeline,
-                const std::vector<preparation::Covariate>& covariates, Signals signals) {
+Located located(const search::Fitted& nominal, const search::Search& found, const Judged& judged,
+                const Timeline& timeline, const std::vector<preparation::Covariate>& covariates,
+                Signals signals) {
   const search::Refit* best = found.sets.empty() ? nullptr : &found.sets.front();
   // What the cause explains, by the refit: what it takes out of the residuals.
-  inference::LinearProblem shown = nominal.problem;
+  inference::LinearProblem shown = nominal.problem.bare();
   shown.extra.resize(shown.rows(), best ? 1 : 0);
   std::vector<std::pair<int, double>> cause;
   if (best) {
@@ -59,7 +59,7 @@ Located located(const search::Examination& nominal, const search::Search& found,
     signature = signature_of(inference::Projector(shown, nominal.noise.model), cause);
   else if (window)
     signature = signature_of(nominal.problem, timeline, *nominal.projector, *window);
-  Located out{locate(nominal, found.nulls, signature, most_windows), {}};
+  Located out{locate(nominal, found.thresholds, signature, most_windows), {}};
   out.where.equation = equation_of(judged, inputs, window);
   for (std::size_t k = 0; k < std::min(most_signals, inputs.size()); ++k)
     out.signals.push_back(recovered_signal(inputs[k], timeline, covariates, cause));

@@ -19,8 +19,8 @@ enum class Signals { recovered, left_out };
 
 /// Where it is by the best explanation there is, else by the strongest window; what it looks like
 /// with everything in it that the nominal model leaves.
-Located located(const search::Examination& nominal, const search::Search& found,
-                const Judged& judged, const Timeline& timeline,
-                const std::vector<preparation::Covariate>& covariates, Signals signals);
+Located located(const search::Fitted& nominal, const search::Search& found, const Judged& judged,
+                const Timeline& timeline, const std::vector<preparation::Covariate>& covariates,
+                Signals signals);
 
 }  // namespace drift::diagnosis

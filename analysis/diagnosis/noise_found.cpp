@@ -6,7 +6,7 @@
 
 namespace drift::diagnosis {
 
-NoiseFound noise_found(const search::Examination& fitted, std::size_t spikes) {
+NoiseFound noise_found(const search::Fitted& fitted, std::size_t spikes) {
   NoiseFound out{fitted.noise.findings, {}};
   std::size_t lowered = 0;
   for (const double w : fitted.problem.weight) lowered += w < 1.0;
@@ -24,16 +24,15 @@ NoiseFound noise_found(const search::Examination& fitted, std::size_t spikes) {
   return out;
 }
 
-std::optional<remark::DrivesOneGyro> noise_of_one_axis(const search::Examination& nominal) {
+std::optional<remark::DrivesOneGyro> noise_of_one_axis(const search::Fitted& nominal) {
   constexpr double one_axis_gain = 10.0;  // of twice the log likelihood
   const inference::NoiseModel& all = nominal.noise.model;
   if (!nominal.noise.driven ||
       all.angle_random_walk + all.drift_random_walk + all.markov_drift == 0.0)
     return std::nullopt;
-  inference::LinearProblem bare = nominal.problem;
-  bare.extra.resize(bare.rows(), 0);
+  const inference::LinearProblem bare = nominal.problem.bare();
   const auto value = [&](const inference::NoiseModel& m) {
-    return inference::Projector(bare, m).candidates().log_likelihood2();
+    return inference::Projector(bare, m).marginal().log_likelihood2();
   };
   const double together = value(all);
   remark::DrivesOneGyro best{-1, 0.0};
@@ -48,7 +47,7 @@ std::optional<remark::DrivesOneGyro> noise_of_one_axis(const search::Examination
   return best;
 }
 
-std::optional<remark::NoiseOrEffect> noise_or_effect(const search::Examination& nominal) {
+std::optional<remark::NoiseOrEffect> noise_or_effect(const search::Fitted& nominal) {
   constexpr double evident = 25.0, per_degree = 3.0;  // of twice the log likelihood
   if (!nominal.noise.driven) return std::nullopt;
   const inference::NoiseModel declared = search::declared_noise(nominal.filter);

@@ -5,7 +5,7 @@
 
 #include "analysis/diagnosis/remark.hpp"
 #include "analysis/inference/noise_finding.hpp"
-#include "analysis/search/examination.hpp"
+#include "analysis/search/fitted.hpp"
 
 namespace drift::diagnosis {
 
@@ -16,14 +16,14 @@ struct NoiseFound {
 };
 
 /// spikes: samples left out as outliers.
-NoiseFound noise_found(const search::Examination& fitted, std::size_t spikes);
+NoiseFound noise_found(const search::Fitted& fitted, std::size_t spikes);
 
 /// Noise that drives all gyros alike is noise. Where one gyro alone explains the test decisively
 /// better, it is something that happens to this axis.
-std::optional<remark::DrivesOneGyro> noise_of_one_axis(const search::Examination& nominal);
+std::optional<remark::DrivesOneGyro> noise_of_one_axis(const search::Fitted& nominal);
 
 /// Where noise that drives the platform leaves nothing significant: what would be, were it no
 /// noise.
-std::optional<remark::NoiseOrEffect> noise_or_effect(const search::Examination& nominal);
+std::optional<remark::NoiseOrEffect> noise_or_effect(const search::Fitted& nominal);
 
 }  // namespace drift::diagnosis

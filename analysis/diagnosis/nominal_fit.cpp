@@ -6,13 +6,13 @@
 
 namespace drift::diagnosis {
 
-NominalFit fit_nominal(const FilterSpec& nominal, const inference::Test& given,
+NominalFit fit_nominal(const FilterSpec& nominal, const MeasuredTest& given,
                        std::span<const Theta> starts) {
   constexpr int most_rounds = 4;  // a gross sample may hide a smaller one
   const Theta prior = make_layout(nominal).theta;
   NominalFit out;
   out.measured = given.measured;
-  const inference::Test test{given.timeline, given.readout, out.measured};
+  const MeasuredTest test{given.timeline, given.readout, out.measured};
   const auto fit_at = [&](const Theta& start) {
     return fit_batch(nominal, test.timeline, test.readout, out.measured, start);
   };
@@ -22,7 +22,7 @@ NominalFit fit_nominal(const FilterSpec& nominal, const inference::Test& given,
     if (clean.removed == 0) break;
     out.measured = std::move(clean.measured);
     out.spikes += clean.removed;
-    out.fit = fit_at(inference::theta_of(nominal, out.fit));
+    out.fit = fit_at(theta_of(nominal, out.fit));
   }
   std::vector<BatchResult> fits = fit_from_starts(nominal, nominal, test, starts, prior);
   fits.push_back(out.fit);
@@ -33,7 +33,7 @@ NominalFit fit_nominal(const FilterSpec& nominal, const inference::Test& given,
 }
 
 std::vector<BatchResult> fit_from_starts(const FilterSpec& nominal, const FilterSpec& filter,
-                                         const inference::Test& test, std::span<const Theta> starts,
+                                         const MeasuredTest& test, std::span<const Theta> starts,
                                          const Theta& found) {
   return mc::run_campaign(starts.size(), [&](std::size_t k) {
     FilterSpec held = filter;
@@ -44,10 +44,9 @@ std::vector<BatchResult> fit_from_starts(const FilterSpec& nominal, const Filter
         if (filter.active[i]) held.priors[i] = fixed(found[i]);
       }
     BatchResult first = fit_batch(held, test.timeline, test.readout, test.measured, start);
-    return filter.active == nominal.active
-               ? first
-               : fit_batch(filter, test.timeline, test.readout, test.measured,
-                           inference::theta_of(held, first));
+    return filter.active == nominal.active ? first
+                                           : fit_batch(filter, test.timeline, test.readout,
+                                                       test.measured, theta_of(held, first));
   });
 }
 

@@ -17,14 +17,14 @@ struct NominalFit {
 };
 
 /// starts: initial estimates beside the prior means.
-NominalFit fit_nominal(const FilterSpec& nominal, const inference::Test& given,
+NominalFit fit_nominal(const FilterSpec& nominal, const MeasuredTest& given,
                        std::span<const Theta> starts);
 
 /// A filter that holds causes beside the nominal parameters, fitted from starts of the latter.
 /// Parameters of a cause are held at `found` until the others have been fitted (with them they may
 /// make a narrow bent valley), then all are free.
 std::vector<BatchResult> fit_from_starts(const FilterSpec& nominal, const FilterSpec& filter,
-                                         const inference::Test& test, std::span<const Theta> starts,
+                                         const MeasuredTest& test, std::span<const Theta> starts,
                                          const Theta& found);
 
 }  // namespace drift::diagnosis

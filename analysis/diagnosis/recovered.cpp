@@ -10,7 +10,7 @@
 namespace drift::diagnosis {
 namespace {
 
-using Equation = inference::Window::Equation;
+using Equation = inference::Equation;
 
 constexpr double worth_saying = 0.3;  // correlation of a shape below which it says nothing
 
@@ -65,7 +65,7 @@ void smooth(InputEstimate& input, const Timeline& timeline) {
 
 }  // namespace
 
-std::vector<InputEstimate> estimate_inputs(const inference::LinearProblem& problem,
+std::vector<InputEstimate> estimate_inputs(const inference::MeasuredRows& rows,
                                            const Timeline& timeline,
                                            const inference::Projector& projector,
                                            int per_position) {
@@ -78,20 +78,20 @@ std::vector<InputEstimate> estimate_inputs(const inference::LinearProblem& probl
       input.equation = equation;
       input.axis = axis;
       input.bins = bins;
-      MatX columns = MatX::Zero(problem.rows(), bins.size());
+      MatX columns = MatX::Zero(rows.rows(), bins.size());
       VecX scale(bins.size());
       for (std::size_t k = 0; k < bins.size(); ++k) {
         // A box is felt until the next caging.
         const auto& intervals = timeline.intervals;
         const int chain = intervals[bins[k].first].chain;
         Eigen::Index first = 0;
-        while (first < problem.rows() && problem.tags[first].interval < bins[k].first) ++first;
+        while (first < rows.rows() && rows.tags[first].interval < bins[k].first) ++first;
         Eigen::Index end = first;
-        while (end < problem.rows() && intervals[problem.tags[end].interval].chain == chain) ++end;
+        while (end < rows.rows() && intervals[rows.tags[end].interval].chain == chain) ++end;
         const inference::Window w{equation, axis, intervals[bins[k].first].position, bins[k].first,
                                   bins[k].second};
         columns.col(k).segment(first, end - first) =
-            inference::window_signature(problem, timeline, w, first, end - first);
+            inference::window_signature(rows, timeline, w, first, end - first);
       }
       // Units in which the information is of order one.
       const double unit =

@@ -2,7 +2,7 @@
 
 #include "analysis/diagnosis/recovered_signal.hpp"
 #include "analysis/preparation/covariates.hpp"
-#include "analysis/search/examination.hpp"
+#include "analysis/search/fitted.hpp"
 
 namespace drift::diagnosis {
 
@@ -10,7 +10,7 @@ namespace drift::diagnosis {
 /// (Ornstein-Uhlenbeck prior whose size and time constant maximise the likelihood), parameters and
 /// attitudes marginalised. What fitted parameters can absorb is not recovered (discovery.md 2.4 b).
 struct InputEstimate {
-  inference::Window::Equation equation = inference::Window::Equation::rate;
+  inference::Equation equation = inference::Equation::rate;
   int axis = 0;
   std::vector<std::pair<std::size_t, std::size_t>> bins;  ///< intervals of each
   VecX value, sigma;                                      ///< of each bin, SI

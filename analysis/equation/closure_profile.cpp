@@ -19,11 +19,11 @@ struct Point {
 
 class Profiler {
  public:
-  Profiler(const FilterSpec& filter, const inference::Test& test, const BatchResult& joint,
+  Profiler(const FilterSpec& filter, const MeasuredTest& test, const BatchResult& joint,
            const VecX& weight, const inference::NoiseModel& noise)
       : filter_(filter),
         test_(test),
-        start_(inference::theta_of(filter, joint)),
+        start_(theta_of(filter, joint)),
         weight_(weight),
         noise_(noise),
         prior_(filter.priors[closure_param]) {}
@@ -41,14 +41,14 @@ class Profiler {
     Point p{value, 0.0, fit_batch(held, test_.timeline, test_.readout, test_.measured, start)};
     inference::LinearProblem problem = inference::linear_problem(held, test_, p.fit, {});
     problem.weight = weight_;
-    p.log2 = inference::Projector(problem, noise_).candidates().log_likelihood2();
+    p.log2 = inference::Projector(problem, noise_).marginal().log_likelihood2();
     const double sigma = prior_.sigma();
     if (sigma > 0.0) p.log2 -= std::pow((value - prior_.mean()) / sigma, 2);
     return p;
   }
 
   const FilterSpec& filter_;
-  const inference::Test& test_;
+  const MeasuredTest& test_;
   Theta start_;
   const VecX& weight_;
   const inference::NoiseModel& noise_;
@@ -57,7 +57,7 @@ class Profiler {
 
 }  // namespace
 
-std::optional<ClosureProfile> profile_closure(const FilterSpec& filter, const inference::Test& test,
+std::optional<ClosureProfile> profile_closure(const FilterSpec& filter, const MeasuredTest& test,
                                               const BatchResult& joint, const VecX& weight,
                                               const inference::NoiseModel& noise, double decisive) {
   const ParameterEstimate* found = joint.estimate.find(closure_param);

@@ -2,8 +2,6 @@
 
 #include <utility>
 
-#include "analysis/inference/signatures.hpp"
-
 namespace drift::equation {
 namespace {
 
@@ -24,7 +22,7 @@ BatchResult fit_either_equation(const FilterSpec& filter, const Timeline& timeli
     held.priors[closure_param] = fixed(end);
     Theta from = start;
     from[closure_param] = end;
-    from = inference::theta_of(held, fit_batch(held, timeline, readout, measured, from));
+    from = theta_of(held, fit_batch(held, timeline, readout, measured, from));
     BatchResult other = fit_batch(filter, timeline, readout, measured, from, patient);
     if (other.estimate.statistic < best.estimate.statistic) best = std::move(other);
   }

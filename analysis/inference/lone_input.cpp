@@ -5,13 +5,12 @@
 #include <limits>
 
 #include "analysis/inference/projector.hpp"
-#include "analysis/inference/scan.hpp"
+#include "analysis/inference/sigma_ladder.hpp"
+#include "core/base/units.hpp"
 #include "core/stats/chi_square.hpp"
 
 namespace drift::inference {
 namespace {
-
-using Equation = LoneInput::Equation;
 
 constexpr double forever = std::numeric_limits<double>::infinity();
 constexpr double deg_per_h = unit::deg_per_h.to_si;
@@ -37,54 +36,41 @@ std::vector<Kind> kinds_of(const LinearProblem& problem) {
   return all;
 }
 
-Window::Equation of_window(Equation e) {
-  return e == Equation::rate            ? Window::Equation::rate
-         : e == Equation::accelerometer ? Window::Equation::accelerometer
-                                        : Window::Equation::gimbal;
-}
-
 }  // namespace
 
 LoneEffect strongest_lone_input(const LinearProblem& problem, const NoiseModel& noise,
-                                const std::vector<int>& with) {
-  LinearProblem bare = problem;
-  const Eigen::Index n = problem.theta.cols();
-  bare.extra.resize(problem.rows(), 0);
-  bare.theta.conservativeResize(Eigen::NoChange, n + with.size());
-  for (std::size_t k = 0; k < with.size(); ++k) bare.theta.col(n + k) = problem.extra.col(with[k]);
+                                const std::vector<int>& in_mean) {
+  constexpr int rungs = 7;
+  constexpr double drop = 0.5;
+  const LinearProblem bare = problem.with_mean(in_mean).bare();
   const auto value = [&](const LoneInput& input) {
     NoiseModel m = noise;
     m.lone = input;
-    return Projector(bare, m).candidates().log_likelihood2();
+    return Projector(bare, m).marginal().log_likelihood2();
   };
   const double base = value({});
+  const std::vector<Kind> kinds = kinds_of(problem);
   LoneEffect best;
-  std::size_t tries = 0;
-  for (const Kind& kind : kinds_of(problem))
+  for (const Kind& kind : kinds)
     for (int axis = 0; axis < 3; ++axis) {
-      ++tries;
-      LoneInput input{kind.equation, axis, kind.reference, kind.tau};
-      // Up a ladder from where hardly anything is changed, until it gets worse again.
-      constexpr double rung = 3.0;
-      double last = 0.0;
-      for (int k = 0; k < 7; ++k, input.sigma *= rung) {
-        const double gain = value(input) - base;
-        if (gain > best.gain) best = {input, gain, 1.0, {}};
-        if (gain < last - 0.5) break;
-        last = gain;
-      }
+      LoneInput input{kind.equation, axis, 0.0, kind.tau};
+      const Rung top = climb(kind.reference, rungs, drop, [&](double sigma) {
+        input.sigma = sigma;
+        return value(input) - base;
+      });
+      input.sigma = top.sigma;
+      if (top.gain > best.gain) best = {input, top.gain, 1.0, {}};
     }
   if (best.gain <= 0.0) return best;
-  // Between the rungs.
-  const LoneInput rung_best = best.input;
-  for (const double factor : {0.58, 0.76, 1.32, 1.73}) {
-    LoneInput input = rung_best;
-    input.sigma *= factor;
+  const LoneInput on_rung = best.input;
+  for (const double between : {0.58, 0.76, 1.32, 1.73}) {
+    LoneInput input = on_rung;
+    input.sigma *= between;
     if (const double gain = value(input) - base; gain > best.gain) best = {input, gain, 1.0, {}};
   }
-  best.p_value =
-      std::min(1.0, 0.5 * static_cast<double>(tries) * std::exp(stats::log_tail(best.gain, 1.0)));
-  best.equation = equation_name(of_window(best.input.equation), best.input.axis);
+  const double tries = 3.0 * static_cast<double>(kinds.size());
+  best.p_value = std::min(1.0, 0.5 * tries * std::exp(stats::log_tail(best.gain, 1.0)));
+  best.equation = equation_name(best.input.equation, best.input.axis);
   return best;
 }
 

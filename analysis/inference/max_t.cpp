@@ -22,8 +22,7 @@ double Contrast::T(const VecX& g) const {
 Contrast make_contrast(const MatX& C, const VecX& raw, const std::vector<int>& columns) {
   Contrast out{columns, {}, 0};
   const Eigen::SelfAdjointEigenSolver<MatX> eigen(C(columns, columns));
-  double largest_raw = 0.0;
-  for (const int k : columns) largest_raw = std::max(largest_raw, raw[k]);
+  const double largest_raw = columns.empty() ? 0.0 : raw(columns).maxCoeff();
   const double least = std::max(least_information, 1e-9 * largest_raw);
   std::vector<Eigen::Index> keep;
   for (Eigen::Index k = 0; k < eigen.eigenvalues().size(); ++k)

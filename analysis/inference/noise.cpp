@@ -1,13 +1,14 @@
 #include "analysis/inference/noise.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <functional>
 #include <limits>
+#include <optional>
 
-#include "core/base/units.hpp"
+#include "analysis/inference/noise_component.hpp"
+#include "analysis/inference/projector.hpp"
+#include "analysis/inference/quasi_newton.hpp"
+#include "analysis/inference/sigma_ladder.hpp"
 #include "core/stats/chi_square.hpp"
 #include "mc/task/campaign.hpp"
 
@@ -17,283 +18,146 @@ namespace {
 constexpr double needed_gain = 2.7;        // of twice the log likelihood: a component comes in
 constexpr double significant_gain = 12.0;  // eight alternatives, one in a thousand
 
-/// One standard deviation of the noise model.
-struct Component {
-  const char* name;
-  double NoiseModel::*sigma;
-  double NoiseModel::*tau;  ///< null if it has none
-  double reference;         ///< a size at which it may begin to matter, SI
-  Unit unit;
+/// A component whose sigma is estimated.
+struct Active {
+  const NoiseComponent* component = nullptr;
+  double gain = 0.0;  ///< of twice the log likelihood when it was added; 0: there from the start
 };
 
-constexpr Component acc_white{"accelerometer_white", &NoiseModel::acc_factor, nullptr, 1.0,
-                              unit::one};
-constexpr Component gimbal_white{"gimbal_white", &NoiseModel::gimbal_factor, nullptr, 1.0,
-                                 unit::one};
-constexpr Component angle_walk{"angle_random_walk", &NoiseModel::angle_random_walk, nullptr,
-                               1e-3 * unit::deg_per_sqrt_h.to_si, unit::deg_per_sqrt_h};
-constexpr Component drift_walk{"drift_random_walk", &NoiseModel::drift_random_walk, nullptr,
-                               3e-3 * unit::deg_per_h_per_sqrt_h.to_si, unit::deg_per_h_per_sqrt_h};
-constexpr Component markov{"markov_drift", &NoiseModel::markov_drift, &NoiseModel::markov_tau,
-                           3e-3 * unit::deg_per_h.to_si, unit::deg_per_h};
-constexpr Component acc_markov{"accelerometer_markov", &NoiseModel::acc_markov,
-                               &NoiseModel::acc_tau, 2e-6, unit::ug};
-
-/// Restricted likelihood as a function of the noise.
-class Likelihood {
- public:
-  Likelihood(const LinearProblem& problem, const std::vector<int>& with) : problem_(problem) {
-    const Eigen::Index n = problem.theta.cols();
-    problem_.extra.resize(problem.rows(), 0);
-    problem_.theta.conservativeResize(Eigen::NoChange, n + with.size());
-    for (std::size_t k = 0; k < with.size(); ++k)
-      problem_.theta.col(n + k) = problem.extra.col(with[k]);
-  }
-  double operator()(const NoiseModel& m) const {
-    const double v = Projector(problem_, m).candidates().log_likelihood2();
-    return std::isfinite(v) ? v : -std::numeric_limits<double>::infinity();
-  }
-
- private:
-  LinearProblem problem_;
+/// A noise model at the best of its active components.
+struct Mixture {
+  NoiseModel model;
+  std::vector<Active> active;
+  double log_likelihood2 = 0.0;
+  MatX log_sigma_covariance;  ///< of the active components
 };
 
-NoiseModel at(const NoiseModel& base, const std::vector<const Component*>& active,
-              const VecX& log_sigma) {
-  NoiseModel m = base;
-  for (std::size_t k = 0; k < active.size(); ++k) m.*(active[k]->sigma) = std::exp(log_sigma[k]);
+double log_likelihood2(const LinearProblem& bare, const NoiseModel& m) {
+  const double v = Projector(bare, m).marginal().log_likelihood2();
+  return std::isfinite(v) ? v : -std::numeric_limits<double>::infinity();
+}
+
+NoiseModel at(const Mixture& m, const VecX& log_sigma) {
+  NoiseModel model = m.model;
+  for (std::size_t k = 0; k < m.active.size(); ++k)
+    model.*(m.active[k].component->sigma) = std::exp(log_sigma[static_cast<Eigen::Index>(k)]);
+  return model;
+}
+
+/// The best sigmas of the active components, from where they are.
+Mixture fitted(const LinearProblem& bare, Mixture m) {
+  const RowCounts rows(bare);
+  const auto n = static_cast<Eigen::Index>(m.active.size());
+  VecX log_sigma(n), curvature(n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const NoiseComponent& c = *m.active[static_cast<std::size_t>(k)].component;
+    log_sigma[k] = std::log(m.model.*(c.sigma));
+    curvature[k] = c.white() ? 2.0 * static_cast<double>(rows.of(c)) : 30.0;
+  }
+  const Maximum top = maximise([&](const VecX& x) { return 0.5 * log_likelihood2(bare, at(m, x)); },
+                               log_sigma, curvature);
+  m.model = at(m, top.x);
+  m.log_likelihood2 = 2.0 * top.value;
+  m.log_sigma_covariance = top.inverse_curvature;
   return m;
 }
 
-struct Ascent {
-  VecX log_sigma;
-  double value = 0.0;
-  MatX inverse_curvature;  ///< of half the value: covariance of log sigma
-};
+/// White noise and whatever is declared.
+Mixture declared_mixture(const LinearProblem& bare, const NoiseModel& declared) {
+  const RowCounts rows(bare);
+  Mixture m{declared, {}, 0.0, {}};
+  for (const NoiseComponent* white : {&acc_white, &gimbal_white})
+    if (rows.of(*white) > 0) m.active.push_back({white});
+  for (const NoiseComponent* c : {&angle_walk, &drift_walk})
+    if (c->in(declared)) m.active.push_back({c});
+  return fitted(bare, std::move(m));
+}
 
-/// Maximises over the log sigmas of the active components (BFGS, forward differences).
-Ascent ascend(const Likelihood& likelihood, const NoiseModel& base,
-              const std::vector<const Component*>& active, const VecX& curvature) {
-  const auto n = static_cast<Eigen::Index>(active.size());
-  VecX x(n);
-  for (Eigen::Index k = 0; k < n; ++k) x[k] = std::log(base.*(active[k]->sigma));
-  const auto f = [&](const VecX& p) { return 0.5 * likelihood(at(base, active, p)); };
-  double value = f(x);
-  const auto gradient = [&](const VecX& p, double here) {
-    const auto slopes = mc::run_campaign(active.size(), [&](std::size_t k) {
-      VecX q = p;
-      q[static_cast<Eigen::Index>(k)] += 1e-3;
-      return (f(q) - here) / 1e-3;
+NoiseModel with(const NoiseModel& model, const Addition& a, double sigma) {
+  NoiseModel more = model;
+  more.*(a.component->sigma) = sigma;
+  if (a.component->tau) more.*(a.component->tau) = a.tau;
+  return more;
+}
+
+/// With the component that gains most, all sigmas at their best; none if that is not enough.
+std::optional<Mixture> with_one_more(const LinearProblem& bare, const Mixture& m) {
+  constexpr int rungs = 8;
+  constexpr double drop = 3.0;
+  const std::vector<Addition> additions = possible_additions(m.model, RowCounts(bare));
+  const std::vector<Rung> tried = mc::run_campaign(additions.size(), [&](std::size_t k) {
+    return climb(additions[k].component->reference / 9.0, rungs, drop, [&](double sigma) {
+      return log_likelihood2(bare, with(m.model, additions[k], sigma)) - m.log_likelihood2;
     });
-    return VecX(Eigen::Map<const VecX>(slopes.data(), n));
-  };
-  MatX H = curvature.cwiseInverse().asDiagonal();  // inverse of minus the Hessian
-  VecX g = gradient(x, value);
-  for (int iteration = 0; iteration < 25; ++iteration) {
-    VecX step = H * g;
-    const double longest = step.cwiseAbs().maxCoeff();
-    if (longest > 1.0) step /= longest;
-    double next = f(x + step);
-    for (int k = 0; k < 8 && !(next > value); ++k) {
-      step *= 0.3;
-      next = f(x + step);
-    }
-    if (!(next > value)) break;
-    const double gain = next - value;
-    x += step;
-    value = next;
-    if (gain < 1e-3) break;
-    const VecX g_next = gradient(x, value);
-    const VecX y = g - g_next;  // of minus the function
-    const double sy = step.dot(y);
-    if (sy > 1e-12) {
-      const MatX I = MatX::Identity(n, n);
-      H = (I - step * y.transpose() / sy) * H * (I - y * step.transpose() / sy) +
-          step * step.transpose() / sy;
-    }
-    g = g_next;
-  }
-  return {x, 2.0 * value, H};
-}
-
-/// A component tried alone on top of a model: where along its sigma the likelihood is best.
-struct Trial {
-  const Component* component = nullptr;
-  double sigma = 0.0, tau = 0.0, gain = 0.0;
-};
-
-Trial try_out(const Likelihood& likelihood, const NoiseModel& base, double value,
-              const Component& c, double tau) {
-  Trial best{&c, 0.0, tau, 0.0};
-  NoiseModel m = base;
-  if (c.tau) m.*(c.tau) = tau;
-  const auto gain = [&](double sigma) {
-    m.*(c.sigma) = sigma;
-    return likelihood(m) - value;
-  };
-  // Up a ladder by factors of three, from where nothing is changed, until it gets worse again.
-  double last = 0.0;
-  for (double sigma = c.reference / 9.0; sigma < 300.0 * c.reference; sigma *= 3.0) {
-    const double g = gain(sigma);
-    if (g > best.gain) {
-      best.gain = g;
-      best.sigma = sigma;
-    }
-    if (g < last - 3.0) break;
-    last = g;
-  }
-  return best;
-}
-
-std::vector<Trial> all_trials(const Likelihood& likelihood, const NoiseModel& base, double value,
-                              const LinearProblem& problem) {
-  std::vector<std::pair<const Component*, double>> jobs;  // with the time constant
-  const bool gimbals = std::any_of(problem.tags.begin(), problem.tags.end(),
-                                   [](auto& t) { return !t.accelerometer(); });
-  const bool accs = std::any_of(problem.tags.begin(), problem.tags.end(),
-                                [](auto& t) { return t.accelerometer(); });
-  if (base.angle_random_walk == 0.0) jobs.emplace_back(&angle_walk, 0.0);
-  if (base.drift_random_walk == 0.0) jobs.emplace_back(&drift_walk, 0.0);
-  if (base.markov_drift == 0.0)
-    for (const double tau : {600.0, 2400.0}) jobs.emplace_back(&markov, tau);
-  if (base.acc_markov == 0.0 && accs && gimbals)
-    for (const double tau : {150.0, 900.0}) jobs.emplace_back(&acc_markov, tau);
-  return mc::run_campaign(jobs.size(), [&](std::size_t k) {
-    return try_out(likelihood, base, value, *jobs[k].first, jobs[k].second);
   });
+  const auto top = std::ranges::max_element(tried, {}, &Rung::gain);
+  // On the ladder's rungs: what is close to enough is worth the ascent.
+  if (top == tried.end() || top->gain < 0.5 * needed_gain) return std::nullopt;
+  const Addition& addition = additions[static_cast<std::size_t>(top - tried.begin())];
+  Mixture more = m;
+  more.model = with(m.model, addition, top->sigma);
+  more.active.push_back({addition.component});
+  more = fitted(bare, std::move(more));
+  more.active.back().gain = more.log_likelihood2 - m.log_likelihood2;
+  if (more.active.back().gain < needed_gain) return std::nullopt;
+  return more;
 }
 
-NoiseFinding white_finding(const Component& c, double declared, double sigma,
-                           double log_sigma_error, std::size_t rows) {
+/// A component that drives the platform: p by its gain, or against what was declared.
+NoiseFinding driving_finding(const Mixture& m, std::size_t k, const NoiseModel& declared) {
+  constexpr double alternatives = 6.0;
+  const auto& [c, gain] = m.active[k];
+  const double sigma = m.model.*(c->sigma), was = declared.*(c->sigma);
   NoiseFinding f;
-  f.component = c.name;
-  f.factor = sigma / declared;
-  f.factor_sigma = f.factor * log_sigma_error;
-  f.value = sigma / declared;
-  f.unit = "of declared";
-  const double z = std::log(f.factor) / log_sigma_error;
-  f.p_value = std::exp(stats::log_tail(z * z, 1.0));
-  f.significant = f.p_value < 1e-3;
-  f.log_likelihood_gain = 0.5 * z * z;
-  f.count = rows;
+  f.component = c->name;
+  f.value = sigma / c->unit.to_si;
+  f.unit = c->unit.symbol.view();
+  if (c->tau) f.tau_s = m.model.*(c->tau);
+  f.factor = f.factor_sigma = std::nan("");
+  if (gain > 0.0) {
+    f.log_likelihood_gain = 0.5 * gain;
+    f.p_value = std::min(1.0, alternatives * 0.5 * std::exp(stats::log_tail(gain, 1.0)));
+    f.significant = gain > significant_gain;
+  }
+  if (was > 0.0) {
+    const auto i = static_cast<Eigen::Index>(k);
+    const double log_sigma = std::sqrt(m.log_sigma_covariance(i, i));
+    f.factor = sigma / was;
+    f.factor_sigma = f.factor * log_sigma;
+    const double z = std::log(f.factor) / log_sigma;
+    f.p_value = std::exp(stats::log_tail(z * z, 1.0));
+    f.significant = f.p_value < 1e-3;
+  }
   return f;
+}
+
+std::vector<NoiseFinding> findings_of(const Mixture& m, const NoiseModel& declared,
+                                      const RowCounts& rows) {
+  std::vector<NoiseFinding> all;
+  for (std::size_t k = 0; k < m.active.size(); ++k) {
+    const NoiseComponent& c = *m.active[k].component;
+    all.push_back(c.white() ? white_finding(c.name, m.model.*(c.sigma) / (declared.*(c.sigma)),
+                                            1.0 / std::sqrt(2.0 * static_cast<double>(rows.of(c))),
+                                            rows.of(c))
+                            : driving_finding(m, k, declared));
+  }
+  return all;
 }
 
 }  // namespace
 
 NoiseEstimate estimate_noise(const LinearProblem& problem, const NoiseModel& declared,
-                             const std::vector<int>& with, int most_added) {
-  const Likelihood likelihood(problem, with);
-  std::size_t acc_rows = 0;
-  for (const RowTag& t : problem.tags) acc_rows += t.accelerometer();
-  const std::size_t gimbal_rows = problem.tags.size() - acc_rows;
-
-  NoiseEstimate out;
-  out.model = declared;
-  std::vector<const Component*> active;
-  if (acc_rows > 0) active.push_back(&acc_white);
-  if (gimbal_rows > 0) active.push_back(&gimbal_white);
-  for (const Component* c : {&angle_walk, &drift_walk})
-    if (declared.*(c->sigma) > 0.0) active.push_back(c);
-  const auto curvature = [&] {
-    VecX h(active.size());
-    for (std::size_t k = 0; k < active.size(); ++k)
-      h[k] = active[k] == &acc_white      ? 2.0 * static_cast<double>(acc_rows)
-             : active[k] == &gimbal_white ? 2.0 * static_cast<double>(gimbal_rows)
-                                          : 30.0;
-    return h;
-  };
-  Ascent best = ascend(likelihood, out.model, active, curvature());
-  out.model = at(out.model, active, best.log_sigma);
-  std::vector<std::pair<const Component*, double>> gains;
+                             const std::vector<int>& in_mean, int most_added) {
+  const LinearProblem bare = problem.with_mean(in_mean).bare();
+  Mixture m = declared_mixture(bare, declared);
+  bool driven = false;
   for (int added = 0; added < most_added; ++added) {
-    const auto trials = all_trials(likelihood, out.model, best.value, problem);
-    const auto top =
-        std::max_element(trials.begin(), trials.end(),
-                         [](const Trial& a, const Trial& b) { return a.gain < b.gain; });
-    // On the ladder's rungs: what is close to enough is worth the ascent.
-    if (top == trials.end() || top->gain < 0.5 * needed_gain) break;
-    NoiseModel more = out.model;
-    more.*(top->component->sigma) = top->sigma;
-    if (top->component->tau) more.*(top->component->tau) = top->tau;
-    active.push_back(top->component);
-    const Ascent next = ascend(likelihood, more, active, curvature());
-    if (next.value - best.value < needed_gain) {
-      active.pop_back();
-      break;
-    }
-    gains.emplace_back(top->component, next.value - best.value);
-    out.model = at(more, active, next.log_sigma);
-    best = next;
-    out.driven = true;
+    std::optional<Mixture> more = with_one_more(bare, m);
+    if (!more) break;
+    m = std::move(*more);
+    driven = true;
   }
-  out.log_likelihood2 = best.value;
-
-  for (std::size_t k = 0; k < active.size(); ++k) {
-    const Component& c = *active[k];
-    const double sigma = std::exp(best.log_sigma[k]);
-    if (&c == &acc_white || &c == &gimbal_white) {
-      const std::size_t rows = &c == &acc_white ? acc_rows : gimbal_rows;
-      out.findings.push_back(white_finding(c, declared.*(c.sigma), sigma,
-                                           1.0 / std::sqrt(2.0 * static_cast<double>(rows)), rows));
-      continue;
-    }
-    NoiseFinding f;
-    f.component = c.name;
-    f.value = sigma / c.unit.to_si;
-    f.unit = c.unit.symbol.view();
-    if (c.tau) f.tau_s = out.model.*(c.tau);
-    const double was = declared.*(c.sigma);
-    f.factor = was > 0.0 ? sigma / was : std::nan("");
-    f.factor_sigma = was > 0.0 ? f.factor * std::sqrt(best.inverse_curvature(k, k)) : std::nan("");
-    for (const auto& [component, gain] : gains)
-      if (component == &c) {
-        f.log_likelihood_gain = 0.5 * gain;
-        f.p_value =
-            std::min(1.0, 6.0 * 0.5 * std::exp(stats::log_tail(gain, 1.0)));  // six alternatives
-        f.significant = gain > significant_gain;
-      }
-    if (was > 0.0) {
-      const double z = std::log(f.factor) / std::sqrt(best.inverse_curvature(k, k));
-      f.p_value = std::exp(stats::log_tail(z * z, 1.0));
-      f.significant = f.p_value < 1e-3;
-    }
-    out.findings.push_back(f);
-  }
-  return out;
-}
-
-NoiseEstimate noise_of_differences(const LinearProblem& problem, const VecX& residual) {
-  // Second differences of a channel within a position: variance 6 sigma^2, blind to slopes. Their
-  // median is blind to outliers too.
-  std::array<std::vector<double>, 2> squares;
-  std::array<std::vector<double>, num_channels> last;
-  std::array<int, num_channels> position{};
-  for (std::size_t k = 0; k < problem.tags.size(); ++k) {
-    const RowTag& t = problem.tags[k];
-    auto& seen = last[t.channel];
-    if (position[t.channel] != t.position) seen.clear();
-    position[t.channel] = t.position;
-    seen.push_back(residual[k]);
-    if (const std::size_t n = seen.size(); n >= 3) {
-      const double d = seen[n - 1] - 2.0 * seen[n - 2] + seen[n - 3];
-      squares[t.accelerometer() ? 0 : 1].push_back(d * d / 6.0);
-    }
-  }
-  constexpr double median_of_square = 0.4549;  // of a standard normal
-  NoiseEstimate out;
-  for (const int kind : {0, 1}) {
-    auto& s = squares[kind];
-    if (s.size() < 10) continue;
-    std::nth_element(s.begin(), s.begin() + s.size() / 2, s.end());
-    const double factor = std::sqrt(std::max(s[s.size() / 2] / median_of_square, 1e-6));
-    (kind == 0 ? out.model.acc_factor : out.model.gimbal_factor) = factor;
-    // The median has 37 % efficiency, differences about half of the rows' information.
-    out.findings.push_back(
-        white_finding(kind == 0 ? acc_white : gimbal_white, 1.0, factor,
-                      1.0 / std::sqrt(2.0 * 0.37 * 0.5 * static_cast<double>(s.size())), s.size()));
-  }
-  return out;
+  return {m.model, findings_of(m, declared, RowCounts(bare)), m.log_likelihood2, driven};
 }
 
 }  // namespace drift::inference

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <vector>
+
+#include "analysis/inference/linear_problem.hpp"
 #include "analysis/inference/noise_finding.hpp"
-#include "analysis/inference/projector.hpp"
+#include "analysis/inference/noise_model.hpp"
 
 namespace drift::inference {
 
@@ -23,21 +26,5 @@ struct NoiseEstimate {
 /// most_added: components beside white noise and what is declared.
 NoiseEstimate estimate_noise(const LinearProblem& problem, const NoiseModel& declared,
                              const std::vector<int>& with = {}, int most_added = 4);
-
-/// White noise alone, from differences of neighbouring residuals: what is left of a residual that a
-/// grossly wrong model bends. residual: in declared sigmas, not whitened. shape rows.
-NoiseEstimate noise_of_differences(const LinearProblem& problem, const VecX& residual);
-
-/// Whether the misfit is so gross that it would be taken for noise: chi-square per row thirty times
-/// what the differences of neighbouring residuals allow. (Random walks of ten times the usual size
-/// give three to ten.)
-bool grossly_wrong(const LinearProblem& problem, const VecX& residual,
-                   const NoiseEstimate& differences);
-
-/// Lowers the weight of rows with residuals that Gaussian noise does not have (Huber's function
-/// with corner 2.5) if there are significantly more of them than it allows, but not so many (2 %)
-/// that the model must be wrong. Returns the number lowered. residual: whitened, about unit
-/// variance.
-std::size_t robust_weights(LinearProblem& problem, const VecX& residual);
 
 }  // namespace drift::inference

@@ -3,10 +3,10 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
-#include "analysis/inference/whitener.hpp"
+#include "analysis/inference/projector.hpp"
 #include "core/base/rng.hpp"
+#include "core/base/units.hpp"
 #include "core/stats/normal.hpp"
 
 namespace drift::inference {
@@ -19,45 +19,9 @@ constexpr double per_degree =
     3.0;  // of twice the log likelihood: what another amplitude must bring
 constexpr std::size_t most_params = 3;
 
-/// Parameters, attitude and noise taken out of columns: what the restricted likelihood needs.
-class View {
- public:
-  View(const LinearProblem& problem, const MatX& theta, const NoiseModel& noise)
-      : whitener_(problem, noise) {
-    theta_ = whitener_.apply(theta);
-    MatX A = MatX::Identity(theta.cols(), theta.cols());
-    A.selfadjointView<Eigen::Lower>().rankUpdate(theta_.transpose());
-    L_ = Eigen::LLT<MatX, Eigen::Lower>(A).matrixL();
-    log_det_ = whitener_.log_det() + 2.0 * L_.diagonal().array().log().sum();
-  }
-  MatX white(const MatX& columns) const { return whitener_.apply(columns); }
-  /// L^-1 T' columns.
-  MatX absorbed(const MatX& white_columns) const {
-    MatX h = theta_.transpose() * white_columns;
-    L_.triangularView<Eigen::Lower>().solveInPlace(h);
-    return h;
-  }
-  /// Twice the restricted log likelihood of every column, without constants.
-  VecX log_likelihood2(const MatX& white_columns, const MatX& absorbed_part) const {
-    return (absorbed_part.colwise().squaredNorm() - white_columns.colwise().squaredNorm())
-               .transpose()
-               .array() -
-           log_det_;
-  }
-  VecX log_likelihood2(const MatX& columns) const {
-    const MatX w = white(columns);
-    return log_likelihood2(w, absorbed(w));
-  }
-  const Whitener& whitener() const { return whitener_; }
-
- private:
-  Whitener whitener_;
-  MatX theta_, L_;
-  double log_det_ = 0.0;
-};
-
-/// Recordings, one per column: the first is the real one, the others are drawn.
-MatX recordings(const LinearProblem& problem, const MatX& theta, const Whitener& driven) {
+/// Recordings, one per column: the first is the real one, the others are drawn with the noise and
+/// parameters from their prior.
+MatX recordings(const LinearProblem& problem, const Whitener& noise) {
   Stream random(doubt_seed, 0, Purpose::design);
   const auto normal = [&](Eigen::Index rows) {
     MatX m(rows, draws);
@@ -66,9 +30,28 @@ MatX recordings(const LinearProblem& problem, const MatX& theta, const Whitener&
   };
   MatX all(problem.rows(), draws + 1);
   all.col(0) = problem.r0;
-  all.rightCols(draws) = driven.colour(normal(problem.rows()));
-  all.rightCols(draws).noalias() += theta * normal(theta.cols());
+  all.rightCols(draws) = noise.colour(normal(problem.rows()));
+  all.rightCols(draws).noalias() += problem.theta * normal(problem.theta.cols());
   return all;
+}
+
+/// What the candidate that suits each recording best gains in its mean, of twice the log
+/// likelihood, less the price of its amplitudes.
+VecX best_gain(const Projector& projector, const CandidateSet& set, const MatX& g) {
+  VecX best = VecX::Zero(g.cols());
+  for (const Candidate& c : set.candidates) {
+    if (c.params.size() > most_params) continue;
+    for (const Variant& v : c.variants) {
+      const auto n = static_cast<Eigen::Index>(v.columns.size());
+      const MatX C = projector.candidates(v.columns).C + MatX::Identity(n, n);
+      MatX part = g(v.columns, Eigen::all);
+      const Eigen::LLT<MatX> llt(C);
+      llt.matrixL().solveInPlace(part);
+      best = best.cwiseMax(part.colwise().squaredNorm().transpose() -
+                           VecX::Constant(g.cols(), per_degree * static_cast<double>(n - 1)));
+    }
+  }
+  return best;
 }
 
 /// How often a drawn value reaches the first one.
@@ -112,44 +95,24 @@ double joint(double p, double q) {
 }  // namespace
 
 NoiseDoubt doubt(const LinearProblem& problem, const CandidateSet& set, const NoiseModel& white,
-                 const NoiseModel& driven, const LoneEffect& lone, const std::vector<int>& with) {
-  MatX theta(problem.rows(), problem.theta.cols() + with.size());
-  theta << problem.theta, problem.extra(Eigen::all, with);
-  const View noise(problem, theta, driven), plain(problem, theta, white);
-  const MatX drawn = recordings(problem, theta, noise.whitener());
-  const VecX as_noise = noise.log_likelihood2(drawn);
-
-  const MatX w = plain.white(drawn), h = plain.absorbed(w);
-  const MatX extra = plain.white(problem.extra), half = plain.absorbed(extra);
-  const MatX g = extra.transpose() * w - half.transpose() * h;  // (K, draws + 1)
-  VecX best = VecX::Zero(draws + 1);
-  for (const Candidate& c : set.candidates) {
-    if (c.params.size() > most_params) continue;
-    for (const Variant& v : c.variants) {
-      const auto n = static_cast<Eigen::Index>(v.columns.size());
-      MatX part(n, g.cols()), C = MatX::Identity(n, n);
-      for (Eigen::Index i = 0; i < n; ++i) {
-        part.row(i) = g.row(v.columns[i]);
-        for (Eigen::Index k = 0; k < n; ++k)
-          C(i, k) += extra.col(v.columns[i]).dot(extra.col(v.columns[k])) -
-                     half.col(v.columns[i]).dot(half.col(v.columns[k]));
-      }
-      const Eigen::LLT<MatX> llt(C);
-      llt.matrixL().solveInPlace(part);
-      best = best.cwiseMax(part.colwise().squaredNorm().transpose() -
-                           VecX::Constant(g.cols(), per_degree * static_cast<double>(n - 1)));
-    }
-  }
+                 const NoiseModel& driven, const LoneEffect& lone,
+                 const std::vector<int>& in_mean) {
+  const LinearProblem with = problem.with_mean(in_mean), bare = with.bare();
+  const Projector noise(bare, driven), plain(with, white);
+  const MatX drawn = recordings(bare, noise.whitener());
+  const VecX as_noise = noise.replay(drawn).log_likelihood2;
+  const Projector::Replay as_white = plain.replay(drawn);
   NoiseDoubt out;
   const double size = p_of_size(problem, white, driven);
-  out.p_candidate = joint(p_of(best + plain.log_likelihood2(w, h) - as_noise), size);
+  const VecX as_candidate = as_white.log_likelihood2 + best_gain(plain, set, as_white.g);
+  out.p_candidate = joint(p_of(as_candidate - as_noise), size);
   if (lone.gain <= 0.0) return out;
   VecX alone = VecX::Constant(draws + 1, -1e300);
   for (int axis = 0; axis < 3; ++axis) {
     NoiseModel m = white;
     m.lone = lone.input;
     m.lone.axis = axis;
-    alone = alone.cwiseMax(View(problem, theta, m).log_likelihood2(drawn));
+    alone = alone.cwiseMax(Projector(bare, m).replay(drawn).log_likelihood2);
   }
   out.p_lone = joint(p_of(alone - as_noise), size);
   return out;

@@ -20,4 +20,8 @@ struct NoiseFinding {
   std::size_t count = 0;  ///< outliers: samples left out
 };
 
+/// White noise of so many rows, estimated over declared; its log has the standard deviation given.
+NoiseFinding white_finding(std::string component, double factor, double log_sigma,
+                           std::size_t rows);
+
 }  // namespace drift::inference

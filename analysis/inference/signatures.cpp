@@ -31,7 +31,7 @@ Layout layout_of(const std::vector<const SignatureSpec*>& specs, const Theta& th
   return layout;
 }
 
-std::vector<RowTag> row_tags(const Test& test) {
+std::vector<RowTag> row_tags(const MeasuredTest& test) {
   std::vector<RowTag> tags;
   for (std::size_t i = 0; i < test.timeline.intervals.size(); ++i)
     for (int c = 0; c < num_channels; ++c) {
@@ -61,12 +61,6 @@ std::vector<IntervalDrive> drives(const Timeline& timeline, double attitude_sigm
 
 }  // namespace
 
-Theta theta_of(const FilterSpec& filter, const BatchResult& fit) {
-  Theta theta = make_layout(filter).theta;
-  for (const ParameterEstimate& p : fit.estimate.parameters) theta[p.param] = p.value;
-  return theta;
-}
-
 VecX residual_of(const LinearProblem& problem, const BatchResult& fit) {
   VecX r(problem.rows());
   for (Eigen::Index k = 0; k < r.size(); ++k) {
@@ -78,7 +72,7 @@ VecX residual_of(const LinearProblem& problem, const BatchResult& fit) {
   return r;
 }
 
-MatX signature_columns(const FilterSpec& nominal, const Test& test, const BatchResult& fit,
+MatX signature_columns(const FilterSpec& nominal, const MeasuredTest& test, const BatchResult& fit,
                        std::span<const SignatureSpec> specs, const std::vector<RowTag>& tags) {
   MatX out =
       MatX::Zero(static_cast<Eigen::Index>(tags.size()), static_cast<Eigen::Index>(specs.size()));
@@ -128,8 +122,8 @@ MatX signature_columns(const FilterSpec& nominal, const Test& test, const BatchR
   return out;
 }
 
-LinearProblem linear_problem(const FilterSpec& nominal, const Test& test, const BatchResult& fit,
-                             const std::vector<SignatureSpec>& specs) {
+LinearProblem linear_problem(const FilterSpec& nominal, const MeasuredTest& test,
+                             const BatchResult& fit, const std::vector<SignatureSpec>& specs) {
   LinearProblem out;
   out.tags = row_tags(test);
   out.drives = drives(test.timeline, nominal.initial_attitude);

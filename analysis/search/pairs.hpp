@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/search/adequacy.hpp"
+#include "analysis/search/remainder.hpp"
 
 namespace drift::search {
 
@@ -26,11 +26,5 @@ inference::MaxNull pair_null(const Field& field, int draws);
 /// the strongest.
 std::vector<Pair> adequate_pairs(const Field& field, const std::vector<Score>& scores,
                                  double library_threshold, double scan_threshold, std::size_t most);
-
-/// Further causes one by one, the strongest conditional score each time, until nothing is
-/// significant or `most` are in; then those that are not needed are taken out again. Empty if it
-/// never gets quiet.
-std::vector<Choice> greedy(const Field& field, const std::vector<Score>& scores,
-                           double library_threshold, double scan_threshold, std::size_t most);
 
 }  // namespace drift::search

@@ -61,6 +61,9 @@ struct BatchResult {
   Mat3X gimbal_residual;
 };
 
+/// Theta of a fit: what was estimated, prior means elsewhere.
+Theta theta_of(const FilterSpec& filter, const BatchResult& fit);
+
 /// Maximum a posteriori fit by Levenberg-Marquardt on whitened residuals, solved by QR, everything
 /// scaled by the prior; the attitude at each caging is a nuisance with its own prior. The reference
 /// for the EKF: it relinearises until it stands still. Process noise is not modelled.

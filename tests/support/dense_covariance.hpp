@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "analysis/inference/linear_problem.hpp"
+#include "analysis/inference/noise_model.hpp"
 
 namespace drift::test {
 
@@ -17,7 +18,7 @@ namespace drift::test {
 /// half with the value it had at the end of the half before.
 class DenseCovariance {
  public:
-  DenseCovariance(const inference::LinearProblem& problem, const inference::NoiseModel& noise)
+  DenseCovariance(const inference::MeasuredRows& problem, const inference::NoiseModel& noise)
       : p_(problem), n_(noise), V_(MatX::Zero(problem.rows(), problem.rows())) {
     for (std::size_t i = 0; i < p_.drives.size(); ++i)
       for (const double gap : {p_.drives[i].gap, 0.0}) {
@@ -32,7 +33,7 @@ class DenseCovariance {
   const MatX& all() const { return V_; }
 
  private:
-  using Equation = inference::LoneInput::Equation;
+  using Equation = inference::Equation;
 
   bool begins_chain(std::size_t half) const {
     return half == 0 || (half % 2 == 0 && p_.drives[half / 2].cage);
@@ -110,7 +111,7 @@ class DenseCovariance {
   Eigen::Index times() const { return static_cast<Eigen::Index>(end_.size()); }
 
   static constexpr double forever_ = std::numeric_limits<double>::infinity();
-  const inference::LinearProblem& p_;
+  const inference::MeasuredRows& p_;
   const inference::NoiseModel& n_;
   std::vector<double> end_{0.0};    ///< [0] the start; [j + 1] the end of half j [s]
   std::vector<std::size_t> caged_;  ///< half with which the chain of a half began

@@ -61,7 +61,6 @@ TEST(Whitener, EqualsDenseCholeskyForEveryKindOfNoiseAtOnce) {
 }
 
 TEST(Whitener, EqualsDenseCholeskyForAnInputInOneEquation) {
-  using Equation = LoneInput::Equation;
   const double infinite = std::numeric_limits<double>::infinity();
   for (const LoneInput& lone : {LoneInput{Equation::rate, 1, 0.01 * deg_per_h / 60.0, infinite},
                                 LoneInput{Equation::rate, 2, 0.01 * deg_per_h, 900.0},
@@ -78,7 +77,7 @@ TEST(Whitener, ColoursWhatItWhitens) {
   NoiseModel noise;
   noise.angle_random_walk = 1e-3 * detail::deg / 60.0;
   noise.markov_drift = 0.02 * deg_per_h;
-  noise.lone = {LoneInput::Equation::accelerometer, 1, 3e-6, 300.0};
+  noise.lone = {Equation::accelerometer, 1, 3e-6, 300.0};
   const LinearProblem problem = short_problem();
   const Whitener whitener(problem, noise);
   const MatX back = whitener.colour(whitener.apply(problem.theta));
