@@ -14,6 +14,7 @@
 #include "core/base/check.hpp"
 #include "core/config/load.hpp"
 #include "core/config/override.hpp"
+#include "core/recording/recording_output.hpp"
 #include "core/stats/chi_square_band.hpp"
 
 namespace drift::blind {
@@ -205,7 +206,7 @@ MadeTrial make_trial(const mc::Study& study, const mc::Study& nominal, const Tri
   hide(study, filter, plan, world, made.key);
   const Simulation sim = simulate_recorded(world, study.monte_carlo.seed, plan.number);
   made.recording = make_recording(world.timeline, sim.measured, world.readout);
-  made.recording.facts = {{"driftscope recording", fmt::format("blind trial {}", plan.number)}};
+  made.recording.facts = {{std::string(made_here), fmt::format("blind trial {}", plan.number)}};
   made.key.certificate = certify(filter, world, sim.measured);
   made.key.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();

@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 
+#include "analysis/inference/thresholds.hpp"
 #include "core/physics/term_library.hpp"
 
 namespace drift::blind {
@@ -32,8 +33,6 @@ bool holds_all(const Alternative& alternative, const std::vector<HiddenEffect>& 
                      [&](const HiddenEffect& e) { return holds(alternative, e); });
 }
 
-constexpr double one_trace = 0.999;  // |cosine| of exact twins
-
 /// Whether a cause is the hidden effect or leaves the same trace on the plan, as the answer says of
 /// either.
 bool is_twin(const Answer& answer, const HiddenEffect& hidden, const AnswerCause& cause) {
@@ -43,7 +42,7 @@ bool is_twin(const Answer& answer, const HiddenEffect& hidden, const AnswerCause
                        [&](const search::Confusable& o) {
                          // A candidate of all axes can be like anything of one of them: that is no
                          // twin.
-                         return std::abs(o.cosine) >= one_trace && o.term == term && o.axis == axis;
+                         return inference::same_trace(o.cosine) && o.term == term && o.axis == axis;
                        });
   };
   return lists(cause, hidden.term, hidden.axis) ||

@@ -23,6 +23,10 @@ fs::path hash_path(const std::string& folder, const std::string& name) {
 std::string write_sealed(const std::string& folder, const std::string& name,
                          const std::string& text) {
   const std::string hash = sha256_hex(text);
+  if (!published_hash(folder, name).empty()) open_sealed(folder, name);
+  // Without a hash the text counts as not written yet, wherever the program ends.
+  std::error_code none;
+  fs::remove(hash_path(folder, name), none);
   write_text_atomically((fs::path(folder) / name).string(), text);
   write_text_atomically(hash_path(folder, name).string(), fmt::format("{}  {}\n", hash, name));
   return hash;

@@ -3,6 +3,7 @@
 #include "analysis/blind/seal.hpp"
 #include "analysis/cli/commands.hpp"
 #include "analysis/cli/progress.hpp"
+#include "analysis/cli/stop_at_once.hpp"
 #include "analysis/report/blind/report.hpp"
 #include "core/base/results_folder.hpp"
 
@@ -13,7 +14,9 @@ ExitCode blind(const StudyArguments& arguments, const std::string& folder,
   StudyArguments all = arguments;
   if (trials) all.sets.push_back("blind.trials=" + *trials);
   const mc::Study study = all.read();
-  require_own_folder(folder, "blind");
+  require_results_folder({folder, "blind"});
+  const StopAtOnce stop(
+      "blind: stopped; what is answered is kept, and the same command goes on with the rest\n");
   report::BlindResults results;
   results.title = study.title;
   results.key_hash = blind::make_trials(study, folder, arguments.threads,
@@ -27,8 +30,12 @@ ExitCode blind(const StudyArguments& arguments, const std::string& folder,
   results.summary = blind::summarise(results.scores);
   const report::Report said = report::blind_report(results);
   fmt::print("{}", report::to_text(said));
+  for (const blind::TrialScore& score : results.scores)
+    if (score.answer.failed)
+      fmt::print("Trial {} has no answer: {}\n", score.key.plan.number, score.answer.failure);
   fmt::print("\nWritten to {}: {}\n", folder, fmt::join(report::write_report(said, folder), " "));
-  return ExitCode::ok;
+  return results.summary.failed > study.monte_carlo.allowed_failures ? ExitCode::failed_runs
+                                                                     : ExitCode::ok;
 }
 
 }  // namespace drift::cli

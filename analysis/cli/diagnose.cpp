@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <cstdio>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "analysis/cli/commands.hpp"
@@ -59,8 +58,8 @@ ExitCode diagnose_case(const StudyArguments& arguments, const mc::Study& study,
   if (report) report("done", 1.0);
   std::vector<std::string> more;
   if (!folder.empty())
-    more = write_files({{"identification.json", report::to_json(found.result).dump(2) + "\n"}},
-                       folder);
+    more = write_files({folder, "diagnose"},
+                       {{"identification.json", report::to_json(found.result).dump(2) + "\n"}});
   finish(study, found.diagnosis,
          {paths, report::to_text(report::strapdown_report(study, found.result))}, folder, more);
   return ExitCode::ok;
@@ -93,17 +92,7 @@ ExitCode diagnose(const StudyArguments& arguments, const std::vector<std::string
                      "--advise: a strapdown study has no positions to add (expected a platform "
                      "study). Leave it out; "
                      "more turns about more axes are what helps");
-  require_own_folder(folder, "diagnose");
-  std::error_code absent;
-  if (!folder.empty() &&
-      std::filesystem::equivalent(std::filesystem::path(folder) / "study.toml", study.path, absent))
-    throw InputError(
-        ExitCode::usage,
-        fmt::format(
-            "-o {}: its study.toml is the study itself and would be replaced (expected another "
-            "folder). Name a folder for results",
-            folder));
-  require_writable_folder(folder);
+  require_results_folder({folder, "diagnose"}, with(paths, study.path));
   const mc::ThreadCount threads(arguments.threads);
   return study.kind == RecordingKind::strapdown
              ? diagnose_case(arguments, study, paths, folder)

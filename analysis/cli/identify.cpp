@@ -8,6 +8,7 @@
 #include "analysis/report/identify/report.hpp"
 #include "analysis/report/strapdown/report.hpp"
 #include "core/base/results_folder.hpp"
+#include "core/plan/plan_rows.hpp"
 
 namespace drift::cli {
 namespace {
@@ -41,13 +42,17 @@ ExitCode identify_case(const mc::Study& study, const std::vector<std::string>& p
 ExitCode identify(const StudyArguments& arguments, const std::vector<std::string>& paths,
                   const std::string& folder, std::uint64_t run) {
   const mc::Study study = arguments.read();
-  require_own_folder(folder, "identify");
+  require_results_folder({folder, "identify"}, with(paths, study.path));
   if (study.kind == RecordingKind::strapdown) return identify_case(study, paths, folder);
   const auto progress = progress_reporter(arguments.progress, "estimates");
+  const auto recordings = read_recordings(study, paths);
+  for (const Recording& recording : recordings)
+    for (const std::string& remark : rows_other_than_planned(recording, study.plan))
+      fmt::print(stderr, "note: {}\n", remark);
   const identification::Identification id =
-      paths.empty() ? identification::identify_simulated(study, run, arguments.threads, progress)
-                    : identification::identify_recordings(study, read_recordings(study, paths),
-                                                          arguments.threads, progress);
+      paths.empty()
+          ? identification::identify_simulated(study, run, arguments.threads, progress)
+          : identification::identify_recordings(study, recordings, arguments.threads, progress);
   const report::Report said = report::identification_report(study, id);
   fmt::print("{}", report::to_text(said));
   if (!folder.empty())

@@ -9,7 +9,7 @@ namespace drift::cli {
 
 ExitCode rank(const StudyArguments& arguments, const RankArguments& options) {
   const mc::Study study = arguments.read();
-  require_own_folder(options.folder, "rank");
+  require_results_folder({options.folder, "rank"}, {study.path});
   if (!study.sweep.empty())
     fmt::print(stderr,
                "note: the values of {} in [sweep] are not ranked, those above it are. Rank them "

@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/inference/thresholds.hpp"
+
 namespace drift::diagnosis {
 namespace {
+
+using inference::RemarkLimits;
 
 double chi2_per_dof(const search::Fitted& e) {
   return e.fit.estimate.statistic /
@@ -21,12 +25,11 @@ const search::Refit& best_rejected(const search::Search& found) {
 
 std::optional<NearestKnown> nearest_known(const search::Fitted& nominal,
                                           const search::Search& found) {
-  constexpr double least = 0.05;  // part of the excess of chi-square
   if (found.rejected.empty()) return std::nullopt;
   const search::Refit& best = best_rejected(found);
   const double before = chi2_per_dof(nominal), after = chi2_per_dof(best.after);
   const double excess = before > 1.0 ? (before - std::max(1.0, after)) / (before - 1.0) : 0.0;
-  if (excess < least) return std::nullopt;
+  if (excess < RemarkLimits::nearest) return std::nullopt;
   NearestKnown out{{}, before, after};
   for (const search::Choice& choice : best.choices) {
     const inference::Candidate& c = nominal.set.candidates[choice.candidate];
@@ -49,11 +52,10 @@ std::optional<remark::StrongestLeft> strongest_left(const search::Fitted& nomina
 }
 
 std::optional<remark::BeyondPrior> beyond_prior(const BatchResult& nominal) {
-  constexpr double unphysical = 5.0;  // prior sigmas
   remark::BeyondPrior out;
   for (const ParameterEstimate& p : nominal.estimate.parameters) {
     const double off = p.prior_sigma > 0.0 ? std::abs(p.value - p.prior_mean) / p.prior_sigma : 0.0;
-    if (off <= unphysical) continue;
+    if (off <= RemarkLimits::unphysical) continue;
     out.params.push_back(p.param);
     out.farthest = std::max(out.farthest, off);
   }
@@ -65,7 +67,7 @@ std::optional<remark::EquationOpen> equation_open(const Diagnosis& d) {
   const bool closure_is_a_cause =
       std::ranges::any_of(d.causes, [](const search::Cause& c) { return c.term == closure_term; });
   if (!std::isfinite(d.other_equation_gain) || closure_is_a_cause ||
-      d.other_equation_gain < -equation_told)
+      d.other_equation_gain < -RemarkLimits::equation)
     return std::nullopt;
   return remark::EquationOpen{d.nominal.coupling, d.other_equation_gain};
 }

@@ -4,12 +4,15 @@
 #include <cmath>
 #include <map>
 
+#include "analysis/inference/thresholds.hpp"
+
 namespace drift::diagnosis {
 namespace {
 
-/// Score that is exceeded with 80 % probability: the threshold on |z| plus 0.84.
+/// Score that is exceeded with 80 % probability: the threshold on |z| plus 0.84 sigma.
 double detectable_z(double strength_threshold) {
-  return std::sqrt(stats::quantile_of_strength(strength_threshold, 1)) + 0.84;
+  return std::sqrt(stats::quantile_of_strength(strength_threshold, 1)) +
+         inference::RemarkLimits::detectable;
 }
 
 /// Probability of each candidate alone, by its linear score, against the nominal model and all

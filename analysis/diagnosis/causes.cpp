@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/inference/thresholds.hpp"
 #include "analysis/search/setting_spread.hpp"
 
 namespace drift::diagnosis {
 namespace {
 
-constexpr double one_direction = 0.999;  // squared cosine of twins
-constexpr double worth_listing = 0.5;    // cosine of what a cause could be taken for
-constexpr std::size_t most_confusable = 5;
-constexpr double free_input_told = 0.01;  // p-value of an input of free form
+using inference::TraceLimits;
 
 /// Member `which` of an explanation: value and sigma of a parameter, in its unit. profiled: one of
 /// the settings.
@@ -71,7 +69,7 @@ search::Cause cause_of(const search::Fitted& nominal, const search::Search& foun
   }
   cause.p_value =
       std::min(1.0, found.thresholds.library.p_value(stats::strength(cause.T, cause.dof)) /
-                        search::library_share);
+                        inference::SearchLimits::library_share);
   cause.size_sigma = size_of(r, c.params);
   for (const std::size_t i : c.params)
     cause.parameters.push_back(parameter_of(nominal, r, which, i, false));
@@ -92,7 +90,7 @@ std::vector<search::Confusable> confusable_with(const search::Fitted& nominal,
         (c.term == cause.term && (c.axis == cause.axis || c.axis.empty())))
       continue;
     const double rho = search::cosine(p, columns, c.variants[nominal.scores[k].variant].columns);
-    if (std::abs(rho) > worth_listing) near.push_back({c.term, c.axis, rho});
+    if (std::abs(rho) > TraceLimits::confusable) near.push_back({c.term, c.axis, rho});
   }
   std::stable_sort(near.begin(), near.end(), [](const auto& a, const auto& b) {
     return std::abs(a.cosine) > std::abs(b.cosine);
@@ -102,7 +100,7 @@ std::vector<search::Confusable> confusable_with(const search::Fitted& nominal,
     const auto same = [&](const search::Confusable& o) {
       return o.term == c.term && o.axis == c.axis;
     };
-    if (list.size() < most_confusable && std::none_of(list.begin(), list.end(), same))
+    if (list.size() < TraceLimits::most_confusable && std::none_of(list.begin(), list.end(), same))
       list.push_back(c);
   }
   return list;
@@ -131,9 +129,9 @@ CausesFound causes_of(const search::Fitted& nominal, const search::Search& found
   // A candidate that is wider than the cause holds it anyway and is no twin.
   for (const search::Cause& cause : out.causes)
     for (const search::Confusable& c : cause.confusable_with)
-      if (c.cosine * c.cosine > one_direction && (cause.axis.empty() || !c.axis.empty()))
+      if (inference::same_trace(c.cosine) && (cause.axis.empty() || !c.axis.empty()))
         out.inseparable.push_back({{cause.term, cause.axis, ""}, {c.term, c.axis, ""}});
-  if (found.sets.empty() && nominal.lone.p_value < free_input_told)
+  if (found.sets.empty() && nominal.lone.p_value < inference::RemarkLimits::lone_p)
     out.remarks.emplace_back(remark::FreeInputExplains{nominal.lone.equation, nominal.lone.gain});
   for (const search::Cause& c : out.causes)
     if (c.term == closure_term) out.remarks.emplace_back(remark::CrosstalkMovesLambda{});

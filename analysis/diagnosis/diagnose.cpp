@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/diagnosis/advice/patched_study.hpp"
 #include "analysis/diagnosis/asides.hpp"
 #include "analysis/diagnosis/candidate_table.hpp"
 #include "analysis/diagnosis/causes.hpp"
@@ -13,8 +14,8 @@
 #include "analysis/diagnosis/located.hpp"
 #include "analysis/diagnosis/noise_found.hpp"
 #include "analysis/diagnosis/nominal_fit.hpp"
-#include "analysis/diagnosis/patched_study.hpp"
-#include "analysis/inference/gross_misfit.hpp"
+#include "analysis/inference/noise/gross_misfit.hpp"
+#include "analysis/inference/thresholds.hpp"
 #include "analysis/preparation/covariates.hpp"
 #include "analysis/preparation/recorded_test.hpp"
 #include "core/base/check.hpp"
@@ -24,13 +25,14 @@
 namespace drift::diagnosis {
 namespace {
 
+using inference::NoiseLimits;
+
 /// White noise as neighbouring samples differ, where the other of eq. (5) and (6) takes most of an
 /// evident misfit away: what looks like noise that drives the platform is the equation then, and
 /// the noise is estimated with that in the model. Empty otherwise.
 std::optional<inference::NoiseEstimate> noise_beside_equation(const FilterSpec& nominal,
                                                               const MeasuredTest& test,
                                                               const BatchResult& fit) {
-  constexpr double evident = 1.5, most = 0.8;  // chi-square per degree; part of its excess
   FilterSpec other = nominal;
   if (!facts(nominal.coupling).other) return std::nullopt;
   other.coupling = *facts(nominal.coupling).other;
@@ -38,10 +40,11 @@ std::optional<inference::NoiseEstimate> noise_beside_equation(const FilterSpec& 
     return f.estimate.statistic /
            static_cast<double>(std::max<std::size_t>(1, f.estimate.measured));
   };
-  if (per_dof(fit) < evident) return std::nullopt;
+  if (per_dof(fit) < NoiseLimits::evident) return std::nullopt;
   const BatchResult with_other =
       fit_batch(other, test.timeline, test.readout, test.measured, theta_of(nominal, fit));
-  if (per_dof(fit) - per_dof(with_other) < most * (per_dof(fit) - 1.0)) return std::nullopt;
+  if (per_dof(fit) - per_dof(with_other) < NoiseLimits::other_equation * (per_dof(fit) - 1.0))
+    return std::nullopt;
   const inference::LinearProblem problem = inference::linear_problem(nominal, test, fit, {});
   return inference::noise_of_differences(problem, inference::residual_of(problem, fit));
 }
@@ -127,7 +130,8 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
   d.verdict = judged.verdict;
   d.p_value = found.p_value;
   if (judged.one_gyro)
-    d.p_value = std::min(d.p_value, 12.0 * std::exp(-0.5 * judged.one_gyro->gain));
+    d.p_value =
+        std::min(d.p_value, NoiseLimits::one_gyro_tries * std::exp(-0.5 * judged.one_gyro->gain));
   d.where = std::move(place.where);
   d.signals = std::move(place.signals);
   d.causes = std::move(causes.causes);

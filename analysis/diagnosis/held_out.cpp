@@ -8,6 +8,7 @@
 
 #include "analysis/diagnosis/held_out_part.hpp"
 #include "analysis/diagnosis/predictor.hpp"
+#include "analysis/inference/thresholds.hpp"
 #include "mc/task/campaign.hpp"
 
 namespace drift::diagnosis {
@@ -150,7 +151,7 @@ HeldOut over_positions(std::vector<Outcome> outcomes) {
       out.log_score_gain_sigma =
           std::sqrt(std::max(0.0, (square / n - mean * mean) * n * n / (n - 1.0)));
   }
-  out.improves = out.folds.empty() || out.log_score_gain > least_held_out_gain ||
+  out.improves = out.folds.empty() || out.log_score_gain > inference::WeighLimits::held_out ||
                  (beyond && out.log_score_gain >= 0.0);
   return out;
 }

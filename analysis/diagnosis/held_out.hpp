@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "analysis/diagnosis/fit_comparison.hpp"
+#include "analysis/diagnosis/findings/fit_comparison.hpp"
 #include "analysis/search/fitted.hpp"
 
 namespace drift::diagnosis {
@@ -30,9 +30,6 @@ struct FoldOptions {
 HeldOut held_out(const search::Fitted& nominal, const search::Fitted& patched,
                  const MeasuredTest& test, const std::vector<std::size_t>& named,
                  double library_threshold, const FoldOptions& options);
-
-/// What the log score must gain for a cause to be kept: less is no prediction.
-inline constexpr double least_held_out_gain = 1.0;
 
 /// Gain of the log score over all positions, each predicted from the others, of one fitted model
 /// over another of the same test; by conditioning the linearised tests, under the noise of the

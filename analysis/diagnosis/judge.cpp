@@ -4,6 +4,7 @@
 
 #include "analysis/diagnosis/held_out.hpp"
 #include "analysis/diagnosis/noise_found.hpp"
+#include "analysis/inference/thresholds.hpp"
 
 namespace drift::diagnosis {
 
@@ -31,8 +32,9 @@ Judged judge(const search::Fitted& nominal, const search::Search& found, const H
   }
   const search::Refit* best = found.sets.empty() ? nullptr : &found.sets.front();
   const bool one = found.sets.size() == 1;
-  const bool members = std::all_of(member_gains.begin(), member_gains.end(),
-                                   [](double gain) { return gain >= least_held_out_gain; });
+  const bool members = std::all_of(member_gains.begin(), member_gains.end(), [](double gain) {
+    return gain >= inference::WeighLimits::held_out;
+  });
   const bool judged =
       by == NamedBy::fit_alone || held_out.folds.empty() || (held_out.improves && members);
   const bool nameable = !best || (best->nameable && !found.just_not);

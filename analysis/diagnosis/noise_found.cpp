@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "analysis/inference/evidence.hpp"
+#include "analysis/inference/thresholds.hpp"
 
 namespace drift::diagnosis {
 
@@ -18,14 +19,13 @@ NoiseFound noise_found(const search::Fitted& fitted, std::size_t spikes) {
   f.value = static_cast<double>(spikes + lowered);
   f.count = spikes;
   f.significant = true;
-  f.p_value = 1e-4;  // beyond four sigma of what Gaussian noise gives
+  f.p_value = inference::RemarkLimits::outliers_p;
   out.findings.push_back(f);
   out.remarks.emplace_back(remark::SamplesLeftOut{spikes, lowered});
   return out;
 }
 
 std::optional<remark::DrivesOneGyro> noise_of_one_axis(const search::Fitted& nominal) {
-  constexpr double one_axis_gain = 10.0;  // of twice the log likelihood
   const inference::NoiseModel& all = nominal.noise.model;
   if (!nominal.noise.driven ||
       all.angle_random_walk + all.drift_random_walk + all.markov_drift == 0.0)
@@ -43,12 +43,12 @@ std::optional<remark::DrivesOneGyro> noise_of_one_axis(const search::Fitted& nom
       const double gain = value(one) - together;
       if (gain > best.gain) best = {a, gain};
     }
-  if (best.gain < one_axis_gain) return std::nullopt;
+  if (best.gain < inference::NoiseLimits::one_gyro) return std::nullopt;
   return best;
 }
 
 std::optional<remark::NoiseOrEffect> noise_or_effect(const search::Fitted& nominal) {
-  constexpr double evident = 25.0, per_degree = 3.0;  // of twice the log likelihood
+  using inference::RemarkLimits;
   if (!nominal.noise.driven) return std::nullopt;
   const inference::NoiseModel declared = search::declared_noise(nominal.filter);
   inference::NoiseModel plain = nominal.noise.model;
@@ -58,12 +58,12 @@ std::optional<remark::NoiseOrEffect> noise_or_effect(const search::Fitted& nomin
   const inference::Evidence seen =
       inference::evidence_under(nominal.problem, nominal.set, plain, {});
   const auto worth = [&](std::size_t k) {
-    return seen.gains[k].ratio - per_degree * (seen.gains[k].dof - 1);
+    return seen.gains[k].ratio - RemarkLimits::or_effect_per_amplitude * (seen.gains[k].dof - 1);
   };
   std::size_t best = 0;
   for (std::size_t k = 1; k < seen.gains.size(); ++k)
     if (worth(k) > worth(best)) best = k;
-  if (seen.gains.empty() || worth(best) < evident) return std::nullopt;
+  if (seen.gains.empty() || worth(best) < RemarkLimits::or_effect) return std::nullopt;
   const inference::Candidate& c = nominal.set.candidates[best];
   return remark::NoiseOrEffect{{c.term, c.axis, c.label}, std::sqrt(seen.gains[best].ratio)};
 }

@@ -6,13 +6,12 @@
 #include <numbers>
 
 #include "analysis/diagnosis/signal_shapes.hpp"
+#include "analysis/inference/thresholds.hpp"
 
 namespace drift::diagnosis {
 namespace {
 
 using Equation = inference::Equation;
-
-constexpr double worth_saying = 0.3;  // correlation of a shape below which it says nothing
 
 /// Bins of equal length within every position (its slew included).
 std::vector<std::pair<std::size_t, std::size_t>> make_bins(const Timeline& timeline,
@@ -158,7 +157,7 @@ RecoveredSignal recovered_signal(const InputEstimate& input, const Timeline& tim
   }
   if (!winner) {
     out.shape.kind = Shape::Kind::nothing;
-  } else if (std::abs(out.correlation) < worth_saying) {
+  } else if (std::abs(out.correlation) < inference::RemarkLimits::shape) {
     out.shape.kind = Shape::Kind::none_simple;
     out.correlation = 0.0;
   } else {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "analysis/inference/signatures.hpp"
+#include "analysis/inference/thresholds.hpp"
 #include "analysis/preparation/recorded_test.hpp"
 #include "core/base/check.hpp"
 #include "mc/task/campaign.hpp"
@@ -13,10 +14,9 @@
 namespace drift::diagnosis {
 namespace {
 
-constexpr auto d_lat = TermLibrary::index("d_lat");
-constexpr double beyond_survey = 3.0;  // prior sigmas
-constexpr double most_of_it = 0.9;     // of the excess of chi-square
+using inference::SiteLimits;
 
+constexpr auto d_lat = TermLibrary::index("d_lat");
 /// The nominal fit with the study at one latitude.
 struct Point {
   double latitude = 0.0;
@@ -70,7 +70,7 @@ bool worth_asking(const Diagnosis& d) {
     own = c.score;
     size = c.size_sigma;
   }
-  return own > 0.5 * top && size > beyond_survey;
+  return own > SiteLimits::worth_asking * top && size > SiteLimits::survey;
 }
 
 }  // namespace
@@ -95,7 +95,8 @@ std::optional<SiteDoubt> site_doubt(const mc::Study& study,
   const double bend = beside[0].cost + beside[1].cost - 2.0 * best.cost;
   const double promise =
       std::pow(beside[1].cost - beside[0].cost, 2) / (8.0 * bend);  // of the parabola's foot
-  if (bend > 0.0 && best.latitude == declared && promise < 0.5 * (best.cost - best.dof))
+  if (bend > 0.0 && best.latitude == declared &&
+      promise < SiteLimits::promise * (best.cost - best.dof))
     return std::nullopt;  // nothing to be had
   const auto follow = [&](std::initializer_list<double> steps_deg) {
     for (const double step_deg : steps_deg) {
@@ -124,8 +125,8 @@ std::optional<SiteDoubt> site_doubt(const mc::Study& study,
   const SiteDoubt doubt{best.latitude, declared, std::abs(best.latitude - declared) / prior,
                         ends[0].per_dof(), best.per_dof()};
   const double excess = doubt.chi2_per_dof_before - 1.0;
-  if (doubt.prior_sigmas <= beyond_survey || excess <= 0.0) return std::nullopt;
-  if (doubt.chi2_per_dof_before - doubt.chi2_per_dof_after < most_of_it * excess)
+  if (doubt.prior_sigmas <= SiteLimits::survey || excess <= 0.0) return std::nullopt;
+  if (doubt.chi2_per_dof_before - doubt.chi2_per_dof_after < SiteLimits::most * excess)
     return std::nullopt;
   return doubt;
 }

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/inference/thresholds.hpp"
+
 namespace drift::diagnosis {
 namespace {
 
-constexpr double gate = 8.0;     // sigmas of the difference, noise 1.5 times as declared included
-constexpr double allowed = 1.5;  // times the declared noise
-constexpr int reach = 2;         // samples to either side
+using inference::SampleLimits;
+
+constexpr int reach = 2;                          // samples to either side
 constexpr double median_of_size = 0.6745 * 1.14;  // a normal against the median of four others
 
 struct Difference {
@@ -44,8 +46,10 @@ std::vector<Difference> spikes_of(const Mat3X& residual, const std::vector<Inter
   std::nth_element(all.begin(), middle, all.end(),
                    [](const Difference& x, const Difference& y) { return x.size < y.size; });
   const double noise = middle->size / median_of_size;
-  const double limit = gate * (noise > allowed ? noise : 1.0);
-  std::erase_if(all, [&](const Difference& d) { return d.size <= limit + 2.0 * d.spread; });
+  const double limit = SampleLimits::spike * (noise > SampleLimits::spike_noise ? noise : 1.0);
+  std::erase_if(all, [&](const Difference& d) {
+    return d.size <= limit + SampleLimits::spike_spread * d.spread;
+  });
   return all;
 }
 

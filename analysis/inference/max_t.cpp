@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "analysis/inference/thresholds.hpp"
 #include "core/base/rng.hpp"
 
 namespace drift::inference {
@@ -23,7 +24,7 @@ Contrast make_contrast(const MatX& C, const VecX& raw, const std::vector<int>& c
   Contrast out{columns, {}, 0};
   const Eigen::SelfAdjointEigenSolver<MatX> eigen(C(columns, columns));
   const double largest_raw = columns.empty() ? 0.0 : raw(columns).maxCoeff();
-  const double least = std::max(least_information, 1e-9 * largest_raw);
+  const double least = std::max(VisibleLimits::information, 1e-9 * largest_raw);
   std::vector<Eigen::Index> keep;
   for (Eigen::Index k = 0; k < eigen.eigenvalues().size(); ++k)
     if (eigen.eigenvalues()[k] > least) keep.push_back(k);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "analysis/inference/thresholds.hpp"
+
 namespace drift::inference {
 namespace {
 
@@ -87,7 +89,7 @@ std::vector<PositionScan> scan_windows(const LinearProblem& problem, const Timel
     scan.scan = projector.scan(columns, first);
     scan.T = VecX::Zero(columns.cols());
     for (Eigen::Index k = 0; k < columns.cols(); ++k)
-      if (scan.scan.C(k, k) > 1e-6 * scan.scan.raw[k] && scan.scan.C(k, k) > 0.0)
+      if (scan.scan.C(k, k) > VisibleLimits::left * scan.scan.raw[k] && scan.scan.C(k, k) > 0.0)
         scan.T[k] = scan.scan.g[k] * scan.scan.g[k] / scan.scan.C(k, k);
     all.push_back(std::move(scan));
     first = end;
@@ -99,12 +101,12 @@ MaxNull scan_null(const std::vector<PositionScan>& scans, int draws) {
   std::vector<MaxNull> families;
   for (std::size_t p = 0; p < scans.size(); ++p) {
     const auto& s = scans[p].scan;
-    // Unit variance, so that least_information does not take a weak window away.
+    // Unit variance, so that VisibleLimits::information does not take a weak window away.
     const VecX scale = s.C.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
     const MatX correlation = scale.asDiagonal() * s.C * scale.asDiagonal();
     std::vector<Contrast> contrasts;
     for (Eigen::Index k = 0; k < s.C.cols(); ++k)
-      if (s.C(k, k) > 1e-6 * s.raw[k] && s.C(k, k) > 0.0)
+      if (s.C(k, k) > VisibleLimits::left * s.raw[k] && s.C(k, k) > 0.0)
         contrasts.push_back(
             make_contrast(correlation, VecX::Ones(s.C.cols()), {static_cast<int>(k)}));
     families.emplace_back(correlation, contrasts, draws, 1000 + p);

@@ -5,11 +5,10 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/preparation/input_thresholds.hpp"
+
 namespace drift::preparation {
 namespace {
-
-constexpr double same_command = 1e-9;      // [rad/s]
-constexpr std::size_t most_rows = 100000;  // that one gap may be filled with
 
 bool measured(const Channel& c) {
   return c.name.starts_with("acc_") || c.name.starts_with("gimbal_");
@@ -24,14 +23,14 @@ class Gaps {
   std::size_t before(std::size_t row) const {
     if (row == 0) return 0;
     const double step = time_[row] - time_[row - 1];
-    if (!(step > 1.5 * interval_)) return 0;
+    if (!(step > RecordingLimits::gap * interval_)) return 0;
     for (const Channel& c : r_.channels) {
       const double change = std::abs(c.values[row] - c.values[row - 1]);
       if ((c.name == "position" || c.name == "phase") && change != 0.0) return 0;
-      if (c.name.starts_with("cmd_") && !(change < same_command)) return 0;
+      if (c.name.starts_with("cmd_") && !(change < RecordingLimits::gap_command)) return 0;
     }
     const auto missing = static_cast<std::size_t>(std::lround(step / interval_) - 1);
-    return missing <= most_rows ? missing : 0;
+    return missing <= RecordingLimits::longest_gap ? missing : 0;
   }
 
  private:

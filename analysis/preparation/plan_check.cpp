@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 
+#include "analysis/preparation/input_thresholds.hpp"
 #include "core/plan/timeline.hpp"
 #include "core/sim/measurements.hpp"
 
@@ -16,10 +17,7 @@ namespace drift::preparation {
 namespace {
 
 constexpr double deg_per_h = unit::deg_per_h.to_si;
-constexpr double same_command =
-    1.0 * deg_per_h;  // [rad/s]; compensated drift may be more, and is then remarked
-constexpr double longest_turn =
-    3600.0;  // [s] over which a rotation is read off: 15 deg of the Earth's
+constexpr double same_command = PlanLimits::command_deg_per_h * deg_per_h;  // [rad/s]
 
 /// The rows of a position that dwell.
 struct Dwell {
@@ -61,7 +59,7 @@ void check_dwells(const mc::Study& study, const std::string& source, const Timel
     const Position& p = study.plan.positions[static_cast<std::size_t>(d.position)];
     const double lasts =
         timeline.intervals[d.rows.back()].t1 - timeline.intervals[d.rows.front()].t0;
-    if (std::abs(lasts - p.dwell) > 1.5 * p.sample)
+    if (std::abs(lasts - p.dwell) > PlanLimits::dwell * p.sample)
       others[{p.dwell, p.sample * std::round(lasts / p.sample)}].push_back(d.position);
   }
   if (others.empty()) return;
@@ -99,10 +97,11 @@ void check_commands(const mc::Study& study, const std::string& source, const Tim
     const double off = (mean - command_of(p.mode, p, study.site)).norm();
     // Earth rate, but of another latitude: as long, and in the meridian.
     const Vec3 local = p.R_lp * mean;
-    const bool meridian = p.mode == CommandLaw::level &&
-                          std::abs(mean.norm() - detail::earth_rate) < 0.02 * same_command &&
-                          std::abs(local[1]) < 0.02 * same_command;
-    if (meridian && off > 0.01 * same_command) {
+    const bool meridian =
+        p.mode == CommandLaw::level &&
+        std::abs(mean.norm() - detail::earth_rate) < PlanLimits::meridian * same_command &&
+        std::abs(local[1]) < PlanLimits::meridian * same_command;
+    if (meridian && off > PlanLimits::latitude * same_command) {
       elsewhere.push_back(d.position);
       sine += local[2] / mean.norm();
     } else if (off < same_command) {
@@ -159,7 +158,8 @@ std::optional<Turn> turn_of(const Dwell& d, const Timeline& timeline, const Meas
     if (first == d.rows.end()) return std::nullopt;
     std::size_t last = *first;
     for (const std::size_t k : d.rows)
-      if (good(k) && timeline.intervals[k].t1 - timeline.intervals[*first].t1 <= longest_turn)
+      if (good(k) &&
+          timeline.intervals[k].t1 - timeline.intervals[*first].t1 <= PlanLimits::longest_turn)
         last = k;
     if (last == *first) return std::nullopt;
     return std::pair(*first, last);
@@ -194,9 +194,6 @@ std::optional<Turn> turn_of(const Dwell& d, const Timeline& timeline, const Meas
 void check_law(const mc::Study& study, const std::string& source, const Timeline& timeline,
                const Measurements& m, const std::vector<Dwell>& dwells,
                std::vector<std::string>& wrong) {
-  constexpr double evident = 0.4;  // of the difference of both laws: nearer to the other than this
-  constexpr double enough =
-      5.0 * deg_per_h;  // [rad/s] difference below which drift may look like it
   for (const CommandLaw law : {CommandLaw::free, CommandLaw::level}) {
     Vec3 mean = Vec3::Zero(), seen = Vec3::Ones();
     std::vector<int> positions;
@@ -212,7 +209,9 @@ void check_law(const mc::Study& study, const std::string& source, const Timeline
     mean = (mean / static_cast<double>(positions.size())).cwiseProduct(seen);
     const Vec3 free = Vec3(-study.site.omega_ie_l()).cwiseProduct(seen);
     const Vec3 other = law == CommandLaw::free ? Vec3(Vec3::Zero()) : free;
-    if (free.norm() < enough || (mean - other).norm() > evident * free.norm()) continue;
+    if (free.norm() < PlanLimits::laws_differ_deg_per_h * deg_per_h ||
+        (mean - other).norm() > PlanLimits::other_law * free.norm())
+      continue;
     const std::string shows =
         law == CommandLaw::free
             ? "the platform keeps its attitude to the local axes, as in a level dwell"

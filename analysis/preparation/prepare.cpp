@@ -9,6 +9,7 @@
 #include <set>
 
 #include "analysis/preparation/fill_gaps.hpp"
+#include "analysis/preparation/input_thresholds.hpp"
 #include "analysis/preparation/plan_check.hpp"
 #include "core/base/check.hpp"
 #include "core/plan/timeline.hpp"
@@ -18,8 +19,6 @@
 namespace drift::preparation {
 namespace {
 
-constexpr std::size_t least_stuck = 20;
-constexpr double room = 0.05;  // by which sample intervals may differ from the plan's
 constexpr const char* sensors[] = {"acc_x",        "acc_y",         "acc_z",
                                    "gimbal_outer", "gimbal_middle", "gimbal_inner"};
 
@@ -50,7 +49,8 @@ void leave_out_stuck(Recording& r, std::vector<std::string>& remarks) {
     const std::size_t usual = runs.size() < 3 ? 1 : lengths[lengths.size() / 2];
     std::size_t lost = 0, line = 0;
     for (const Run& run : runs) {
-      if (run.end - run.first < std::max(least_stuck, least_stuck * usual)) continue;
+      if (run.end - run.first < std::max(RecordingLimits::stuck, RecordingLimits::stuck * usual))
+        continue;
       if (lost == 0) line = r.lines[run.first];
       lost += run.end - run.first;
       std::fill(c.values.begin() + static_cast<std::ptrdiff_t>(run.first),
@@ -119,7 +119,8 @@ std::size_t factor_for(const std::vector<Recording>& recordings, double sample,
     rows += r.rows();
     shortest = std::min(shortest, found.shortest_position);
     if (!std::isfinite(found.typical)) continue;
-    if (std::isfinite(interval) && std::abs(found.typical - interval) > room * interval)
+    if (std::isfinite(interval) &&
+        std::abs(found.typical - interval) > RecordingLimits::interval_room * interval)
       wrong.push_back(fmt::format(
           "{}: samples {:.6g} s apart beside others {:.6g} s apart (expected recordings of one "
           "sample interval). Diagnose them apart",
@@ -128,13 +129,14 @@ std::size_t factor_for(const std::vector<Recording>& recordings, double sample,
   }
   if (!std::isfinite(interval)) return 1;
   const double ratio = sample / interval, whole = std::max(1.0, std::round(ratio));
-  if (std::abs(ratio - whole) > room * whole)
+  if (std::abs(ratio - whole) > RecordingLimits::interval_room * whole)
     wrong.push_back(fmt::format(
         "{}: samples are {:.6g} s apart, in the plan {:.6g} s (expected the plan's interval or a "
         "whole part of it). Is this the plan the recording was made with? Set plan.sample",
         name_of(recordings.front()), interval, sample));
   auto factor = static_cast<std::size_t>(whole);
-  while (rows / factor > most_rows && 8.0 * static_cast<double>(factor + 1) * interval <= shortest)
+  while (rows / factor > most_rows &&
+         RecordingLimits::kept_samples * static_cast<double>(factor + 1) * interval <= shortest)
     ++factor;
   return factor;
 }
@@ -143,7 +145,7 @@ std::size_t factor_for(const std::vector<Recording>& recordings, double sample,
 
 Prepared prepare(const mc::Study& study, const std::vector<Recording>& recordings,
                  std::size_t most_rows) {
-  DRIFT_EXPECTS(!recordings.empty());
+  DRIFT_DEMAND(!recordings.empty());
   Prepared p{study, recordings, {}};
   std::vector<std::string> wrong;
   std::set<int> positions;

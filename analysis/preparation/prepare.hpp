@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/preparation/input_thresholds.hpp"
 #include "core/recording/recording.hpp"
 #include "mc/study/study.hpp"
 
@@ -30,6 +31,6 @@ struct Prepared {
 /// (reduced(), core/sim/reduce.hpp): samples closer than the plan's, and recordings of more than
 /// `most_rows` rows.
 Prepared prepare(const mc::Study& study, const std::vector<Recording>& recordings,
-                 std::size_t most_rows = 20000);
+                 std::size_t most_rows = RecordingLimits::most_rows);
 
 }  // namespace drift::preparation

@@ -11,9 +11,6 @@ struct ChanceThresholds {
   double library_threshold = 0.0, scan_threshold = 0.0;
 };
 
-/// How the chance of a false alarm is shared between the families.
-inline constexpr double library_share = 0.5, scan_share = 0.15, pair_share = 0.15, lone_share = 0.2;
-
 ChanceThresholds chance_thresholds(const Field& field, double alpha, int draws);
 
 }  // namespace drift::search

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <limits>
 
+#include "analysis/inference/thresholds.hpp"
 #include "analysis/search/pairs.hpp"
 #include "analysis/search/settle_noise.hpp"
 
 namespace drift::search {
 namespace {
+
+using inference::SearchLimits;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -60,8 +63,9 @@ Detection detect(Fitted nominal, const MeasuredTest& test, const SearchOptions& 
     out.p_pairs = out.pairs.p_value(pairs.front().strength);
   nominal.lone = inference::strongest_lone_input(nominal.problem, nominal.noise.model);
   out.p_lone = nominal.lone.p_value;
-  out.p_value = std::min({1.0, out.p_library / library_share, out.p_scan / scan_share,
-                          out.p_pairs / pair_share, out.p_lone / lone_share});
+  out.p_value = std::min(
+      {1.0, out.p_library / SearchLimits::library_share, out.p_scan / SearchLimits::scan_share,
+       out.p_pairs / SearchLimits::pair_share, out.p_lone / SearchLimits::lone_share});
   out.significant = out.p_value < options.alpha;
   out.nominal = std::move(nominal);
   return out;

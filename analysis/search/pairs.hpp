@@ -14,8 +14,8 @@ struct Pair {
 };
 
 /// All pairs of single-parameter candidates, strongest joint score first (at most `most`),
-/// cancelling ones included: T = [g_a g_b] C^-1 [g_a g_b]'. Pairs that are one direction (cosine
-/// above 0.9999) are left out.
+/// cancelling ones included: T = [g_a g_b] C^-1 [g_a g_b]'. Pairs that
+/// leave the same trace (thresholds.hpp) are one effect under two names and left out.
 std::vector<Pair> strongest_pairs(const Field& field, std::size_t most);
 
 /// Largest pair strength under the null: threshold and p-values for strongest_pairs.

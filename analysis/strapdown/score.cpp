@@ -56,7 +56,7 @@ Score score_of(const std::vector<double>& in_sample, const std::vector<double>& 
 }
 
 double paired_gain(const std::vector<double>& before, const std::vector<double>& after) {
-  DRIFT_EXPECTS(before.size() == after.size());
+  DRIFT_DEMAND(before.size() == after.size());
   const double n = static_cast<double>(before.size());
   double sum = 0.0, squares = 0.0;
   for (std::size_t k = 0; k < before.size(); ++k) sum += before[k] - after[k];

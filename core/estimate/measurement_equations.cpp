@@ -36,8 +36,8 @@ std::vector<ChainEquations> measurement_equations(const Timeline& timeline, cons
     }
     const Mat3 E_loop = misalignment_matrix(model.mounting, interval.loop);
     memory.advance(i, theta.data());
-    linearize_interval(interval, timeline, E_loop, &phi[interval.first_node], linearizer, inner,
-                       &memory);
+    linearize_interval(interval, timeline, E_loop, &phi[interval.first_node], memory.points(),
+                       linearizer, inner);
     MatX& rows = chains[interval.chain].rows;
     const auto add_row = [&](double residual, const Eigen::RowVector3d& d_psi, const auto& d_x,
                              double sigma) {
@@ -73,7 +73,7 @@ std::vector<ChainEquations> measurement_equations(const Timeline& timeline, cons
     if (readout.gimbals && measured.gimbal.col(i).array().isFinite().any()) {
       const GimbalPrediction p =
           linearizer.gimbals(timeline, interval, phi[interval.last_node()],
-                             memory.active() ? &memory.at(2 * last) : nullptr);
+                             memory.active() ? &memory.points()[2 * last] : nullptr);
       Y.setZero();
       Y.leftCols(nr).noalias() = p.H * G;
       if (p.H_par.cols() > 0) Y.rightCols(n - nr) = p.H_par;

@@ -147,7 +147,7 @@ OdeStats Cvode::Impl::current() const {
 }
 
 void Cvode::Impl::begin(double from, const double* y0, double stop, double first_step) {
-  DRIFT_EXPECTS(rhs && (method == Method::adams || jacobian));
+  DRIFT_DEMAND(rhs && (method == Method::adams || jacobian));
   DRIFT_EXPECTS(stop >= from);
   t0 = t = from;
   t_stop = stop;

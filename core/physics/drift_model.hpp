@@ -1,7 +1,5 @@
 #pragma once
 
-#include <Eigen/LU>
-
 #include "core/base/dual.hpp"
 #include "core/physics/closure.hpp"
 #include "core/physics/earth.hpp"
@@ -20,13 +18,7 @@ struct DriftModel {
 using MisalignmentAngles = Eigen::Matrix<double, 6, 1>;
 
 /// E = C_gp - I for given angles [rad].
-inline Mat3 misalignment_matrix(const Mounting& mounting, const MisalignmentAngles& angles) {
-  Inputs<double> in;
-  in.mounting = &mounting;
-  RateAssembly<double> out;
-  terms::GyroMisalignment::rates(in, angles.data(), out);
-  return out.E_gp;
-}
+Mat3 misalignment_matrix(const Mounting& mounting, const MisalignmentAngles& angles);
 
 /// The slots of all active terms at one instant. The torquer obeys the command: w_md = -w_cmd +
 /// terms.

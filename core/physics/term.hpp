@@ -281,6 +281,14 @@ struct TermList {
     return Mask(bits);
   }
 
+  /// Whether every parameter has a name of its own.
+  static consteval bool unique_keys() {
+    for (std::size_t i = 0; i < num_params; ++i)
+      for (std::size_t k = 0; k < i; ++k)
+        if (specs[i].key == specs[k].key) return false;
+    return true;
+  }
+
  private:
   /// The base terms and frame_closure come first, and are tested one by one without a call.
   static constexpr std::size_t num_inline = num_terms > 7 ? 7 : num_terms - 1;
@@ -307,13 +315,6 @@ struct TermList {
     (std::index_sequence_for<Ts...>{});
   }
 
-  static consteval bool unique_keys() {
-    for (std::size_t i = 0; i < num_params; ++i)
-      for (std::size_t k = 0; k < i; ++k)
-        if (specs[i].key == specs[k].key) return false;
-    return true;
-  }
-  static_assert(unique_keys(), "two parameters have the same key");
   static_assert(((!ActsOnRates<Ts, double> ||
                   !(ActsOnReadout<Ts, double> || ActsOnGimbals<Ts, double> ||
                     OffsetsAttitude<Ts, double>)) &&

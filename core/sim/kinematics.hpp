@@ -78,16 +78,8 @@ struct Drive {
 };
 
 /// phi' of the algebraic couplings, for the reference attitude R_lr [rad/s]. t [s] and the memory
-/// are looked at if drive.needs says so.
-inline Vec3 attitude_rate(const Drive& drive, const Mat3& R_lr, const Vec3& phi, double t = 0.0,
-                          const double* memory = nullptr) {
-  const Mat3 R_lp = R_lr * rotation(phi);
-  Scene<double> scene(drive.omega_ic_l, drive.omega_cmd_p, drive.model->mounting, R_lp);
-  if (drive.needs.any())
-    scene.look_around(drive.needs, moment_at(*drive.timeline, *drive.interval, t), R_lp, memory);
-  const Vec3 omega_ip_p =
-      platform_rate(*drive.model, scene.in, drive.theta, drive.E_loop) + drive.omega_noise_p;
-  return rotation_vector_rate(phi, omega_ip_p, drive.omega_cmd_p);
-}
+/// (null where the model has none) are looked at if drive.needs says so.
+Vec3 attitude_rate(const Drive& drive, const Mat3& R_lr, const Vec3& phi, double t,
+                   const double* memory);
 
 }  // namespace drift

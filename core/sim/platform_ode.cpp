@@ -5,6 +5,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "core/base/check.hpp"
 #include "core/base/dual.hpp"
 #include "core/plan/case_heading.hpp"
 
@@ -91,7 +92,7 @@ struct PlatformOde::Problem::SceneAt : Scene<S> {
 
 bool PlatformOde::Problem::reduced(double t, const double* y, double* y_dot) const {
   if (!drive.needs.any()) {
-    Eigen::Map<Vec3>(y_dot, 3) = attitude_rate(drive, reference(t), vec3(y));
+    Eigen::Map<Vec3>(y_dot, 3) = attitude_rate(drive, reference(t), vec3(y), t, nullptr);
     return true;
   }
   std::array<double, num_memory> memory_now;
@@ -149,6 +150,7 @@ OdeResult PlatformOde::segment(const Timeline& timeline, std::size_t first, std:
   p.heading_rate = start.heading_rate();
   p.drive = drive_of(start, timeline, p.model, theta);
   p.drive.omega_noise_p = omega_noise_p;
+  DRIFT_DEMAND(memory != nullptr || !p.drive.needs.memory);
   p.memory = memory;
   p.first = first;
   p.end = end;

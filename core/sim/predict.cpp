@@ -19,7 +19,7 @@ Measurements predict(const Timeline& timeline, const DriftModel& model, const Th
        [&](std::size_t i, const std::vector<Vec3>& nodes, const MemoryPath& path) {
          const Interval& interval = timeline.intervals[i];
          const auto memory = [&](std::size_t k) {
-           return path.active() ? path.at(2 * k).value.data() : nullptr;
+           return path.active() ? path.points()[2 * k].value.data() : nullptr;
          };
          const auto column = static_cast<Eigen::Index>(i);
          if (readout.accelerometers)

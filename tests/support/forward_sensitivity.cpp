@@ -50,8 +50,7 @@ SensitivityResult integrate_with_sensitivities(OdeRhs rhs, SensitivityRhs sensit
                                                const MatX& S0, std::span<const double> p_scale,
                                                double t1) {
   const int n = static_cast<int>(y0.size()), count = static_cast<int>(S0.cols());
-  DRIFT_EXPECTS(S0.rows() == n && static_cast<int>(p_scale.size()) == count && count > 0 &&
-                t1 > t0);
+  DRIFT_DEMAND(S0.rows() == n && static_cast<int>(p_scale.size()) == count && count > 0 && t1 > t0);
   Callbacks callbacks{rhs, sensitivity_rhs, {}, S0, MatX::Zero(n, count)};
   callbacks.guard.start_clock(options.wall_limit);
 

@@ -1,6 +1,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "analysis/planning/position_toml.hpp"
+#include "analysis/report/diagnosis/advice_words.hpp"
 #include "analysis/report/diagnosis/sections.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
 #include "core/stats/normal.hpp"
@@ -134,7 +136,8 @@ Json plan_json(const std::vector<Position>& plan) {
   Json positions = Json::array();
   for (const Position& p : plan) {
     Json one = Json::object();
-    for (const auto& member : position_node(p).members) one[member.key] = member.value.text;
+    for (const auto& member : planning::position_node(p).members)
+      one[member.key] = member.value.text;
     positions.push_back(std::move(one));
   }
   return {{"position", std::move(positions)}};
@@ -143,9 +146,9 @@ Json plan_json(const std::vector<Position>& plan) {
 Json advice_json(const std::vector<Advice>& advice) {
   Json all = Json::array();
   for (const Advice& a : advice)
-    all.push_back({{"text", a.text},
+    all.push_back({{"text", advice_text(a)},
                    {"plan", plan_json(a.plan)},
-                   {"separates", a.separates},
+                   {"separates", advised_labels(a)},
                    {"expected_sigma", a.expected_sigma},
                    {"now_sigma", a.now_sigma},
                    {"verified_sigma", a.verified_sigma}});

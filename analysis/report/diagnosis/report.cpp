@@ -1,13 +1,15 @@
 #include "analysis/report/diagnosis/report.hpp"
 
 #include <algorithm>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "analysis/diagnosis/patched_study.hpp"
+#include "analysis/diagnosis/advice/patched_study.hpp"
+#include "analysis/planning/position_toml.hpp"
+#include "analysis/report/diagnosis/advice_words.hpp"
 #include "analysis/report/diagnosis/sections.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
+#include "core/base/results_folder.hpp"
 #include "core/physics/parameters_config.hpp"
 
 namespace drift::report {
@@ -103,8 +105,8 @@ Section advice(const Diagnosis& d) {
   Section section{"Advice", {}};
   Sentences all{{}, "Advice: "};
   for (const Advice& a : d.advice) {
-    all.items.push_back(a.text);
-    section.add({{Paragraph{a.text}, On::page}});
+    all.items.push_back(advice_text(a));
+    section.add({{Paragraph{advice_text(a)}, On::page}});
     if (a.plan.empty()) continue;
     Table table("Positions to add", "<name | <axes | dwell | <mode | <entry | case heading");
     for (const Position& p : a.plan)
@@ -112,7 +114,7 @@ Section advice(const Diagnosis& d) {
                  key_of(p.entry),
                  p.case_heading ? fmt::format("{:.0f} deg", *p.case_heading / unit::deg.to_si)
                                 : "chosen"});
-    section.add({{table, On::page}, {Preformatted{positions_toml(a.plan)}, On::page}});
+    section.add({{table, On::page}, {Preformatted{planning::positions_toml(a.plan)}, On::page}});
   }
   section.add({{std::move(all), On::terminal}, {Sentences{remarks_of(d), "! "}, On::terminal}});
   return section;
@@ -131,7 +133,7 @@ Report diagnosis_report(const mc::Study& study, const Diagnosis& d, const Diagno
   if (d.verdict != Verdict::consistent)
     for (const auto& sentence : {where_sentence(d.where), held_out_sentence(d.fit.held_out)})
       if (!sentence.empty()) report.headlines.push_back(sentence);
-  if (!d.advice.empty()) report.headlines.push_back(d.advice.front().text);
+  if (!d.advice.empty()) report.headlines.push_back(advice_text(d.advice.front()));
   report.add(sections_of(d, diagnosis_sections));
   report.add({origin(study, d, source)});
   Json document = diagnosis_document(d);
@@ -149,11 +151,9 @@ Report diagnosis_report(const mc::Study& study, const Diagnosis& d, const Diagno
 std::vector<std::string> write_results(const mc::Study& study, const Diagnosis& d,
                                        const DiagnosisSource& source, const std::string& folder) {
   const Report report = diagnosis_report(study, d, source);
-  for (const char* name : {"patched.toml", "advised.toml"}) {
-    std::error_code ignored;
+  for (const char* name : {"patched.toml", "advised.toml"})
     if (std::ranges::find(report.files, name, &TextFile::first) == report.files.end())
-      std::filesystem::remove(std::filesystem::path(folder) / name, ignored);
-  }
+      remove_result({folder, report.command}, name);
   return write_report(report, folder);
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/inference/thresholds.hpp"
 #include "analysis/report/diagnosis/remark_words.hpp"
 #include "core/base/number_text.hpp"
 #include "core/base/units.hpp"
@@ -16,9 +17,6 @@ namespace drift::report {
 namespace {
 
 using namespace diagnosis;
-
-constexpr double one_direction =
-    0.999;  // squared cosine above which two signatures leave the same trace
 
 /// The shape of the strongest recovered signal, its equation said where it is not the one located.
 std::string located_shape_text(const Diagnosis& d) {
@@ -44,7 +42,7 @@ bool same_trace(const Diagnosis& d, std::size_t i, std::size_t k) {
   if (d.causes[i].term == d.causes[k].term && d.causes[i].axis == d.causes[k].axis) return true;
   const auto a = static_cast<Eigen::Index>(i), b = static_cast<Eigen::Index>(k);
   const MatX& cosine = d.cosines.cosine;
-  return a < cosine.rows() && b < cosine.cols() && cosine(a, b) * cosine(a, b) > one_direction;
+  return a < cosine.rows() && b < cosine.cols() && inference::same_trace(cosine(a, b));
 }
 
 bool same_trace(const Diagnosis& d, const Alternative& one, const Alternative& other) {
@@ -85,9 +83,9 @@ std::string outside_twins_text(const Diagnosis& d) {
       const bool narrower =
           o.axis.empty() &&
           std::ranges::any_of(c.confusable_with, [&](const search::Confusable& k) {
-            return k.term == o.term && !k.axis.empty() && k.cosine * k.cosine > one_direction;
+            return k.term == o.term && !k.axis.empty() && inference::same_trace(k.cosine);
           });
-      if (o.cosine * o.cosine <= one_direction || among || narrower) continue;
+      if (!inference::same_trace(o.cosine) || among || narrower) continue;
       const auto line = fmt::format(" On this plan {} ({}) and {} ({}) leave the same trace.",
                                     in_words(c.term, c.axis), search::keyed(c.term, c.axis),
                                     in_words(o.term, o.axis), search::keyed(o.term, o.axis));

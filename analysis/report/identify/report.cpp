@@ -1,10 +1,11 @@
 #include "analysis/report/identify/report.hpp"
 
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "analysis/report/identify/sections.hpp"
 #include "analysis/report/page/study_section.hpp"
+#include "core/base/results_folder.hpp"
+#include "core/recording/recording_output.hpp"
 
 namespace drift::report {
 
@@ -38,7 +39,9 @@ std::vector<std::string> write_identification(const Report& report,
                                               const std::string& folder) {
   std::vector<std::string> names = write_report(report, folder);
   if (id.recording.rows() > 0) {
-    write_recording(id.recording, (std::filesystem::path(folder) / "recording.csv").string());
+    write_result({folder, report.command}, "recording.csv", [&](const std::string& temporary) {
+      write_recording_to(id.recording, "recording.csv", temporary);
+    });
     names.emplace_back("recording.csv");
   }
   return names;

@@ -16,7 +16,7 @@ std::vector<std::string> write_report(const Report& report, const std::string& f
       if (const auto* figure = std::get_if<Figure>(&block.content); figure && !figure->file.empty())
         files.emplace_back(figure->file, figure->svg);
   files.emplace_back("report.html", to_html(report));
-  return write_files(files, folder);
+  return write_files({folder, report.command}, files);
 }
 
 }  // namespace drift::report

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "analysis/planning/candidates.hpp"
+#include "analysis/planning/position_toml.hpp"
 #include "analysis/report/rank/sections.hpp"
 #include "analysis/report/svg/bar_chart.hpp"
 
@@ -94,13 +94,12 @@ Table improvement_table(const planning::PlanRanking& rank) {
 std::string proposed_toml(const mc::Study& study, const planning::PlanRanking& rank) {
   const TestPlan& plan = rank.better->improvement.plan;
   const bool preset = !study.plan.preset.empty();
-  std::string text =
+  const std::string head =
       preset ? fmt::format("# In [plan], instead of preset = \"{}\":\n", study.plan.preset)
              : "# After the last [[plan.position]]:\n";
-  const std::size_t old = study.plan.positions.size();
-  for (std::size_t p = preset ? 0 : old; p < plan.positions.size(); ++p)
-    text += planning::position_toml(plan.positions[p]);
-  return text;
+  const std::span positions(plan.positions);
+  return head +
+         planning::positions_toml(positions.subspan(preset ? 0 : study.plan.positions.size()));
 }
 
 Section improvement(const mc::Study& study, const planning::PlanRanking& rank) {

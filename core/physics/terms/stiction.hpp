@@ -27,11 +27,11 @@ struct Stiction {
 
   template <class S>
   static void start(const PathStep&, const S*, S* T) {
-    for (int k = 0; k < 3; ++k) T[k] = S(0.0);
+    start_friction(T);
   }
   template <class S>
   static void advance(const PathStep& along, const S* p, S* T) {
-    for (int k = 0; k < 3; ++k) T[k] = dahl(T[k], along.turned[k], friction_turn(p[3]));
+    advance_friction(along, p[3], T);
   }
   template <class S>
   static void attitude_offset(const Inputs<S>& in, const S* p, const S* T, Vec3T<S>& delta_p) {

@@ -3,9 +3,10 @@
 
 #include <algorithm>
 
-#include "analysis/diagnosis/advise.hpp"
+#include "analysis/diagnosis/advice/advise.hpp"
+#include "analysis/diagnosis/advice/patched_study.hpp"
 #include "analysis/diagnosis/diagnose.hpp"
-#include "analysis/diagnosis/patched_study.hpp"
+#include "analysis/inference/thresholds.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
 #include "core/sim/simulate.hpp"
 #include "mc/study/study.hpp"
@@ -109,7 +110,7 @@ TEST(Equation, LevelPositionsCannotTellAndTheAdviceWorksWhenFollowed) {
   EXPECT_NE(report::sentence(d).find("cannot tell the nominal eq. (6) from eq. (5)"),
             std::string::npos)
       << report::sentence(d);
-  EXPECT_LT(std::abs(d.other_equation_gain), diagnosis::equation_told);
+  EXPECT_LT(std::abs(d.other_equation_gain), inference::RemarkLimits::equation);
 
   const auto advice = diagnosis::advise(s, {recording}, d);
   ASSERT_EQ(advice.size(), 1u);

@@ -181,6 +181,48 @@ TEST(Prepare, AStuckChannelIsLeftOutAndACoarseOneIsNot) {
   EXPECT_TRUE(std::isfinite(p.recordings[0].find("gimbal_inner")->values[70]));
 }
 
+TEST(Prepare, TwentyEqualSamplesAreAStuckSensor) {
+  const mc::Study s = study(1800.0);
+  const auto stuck = [&](std::ptrdiff_t samples) {
+    Recording r = simulated(s);
+    auto& x = channel(r, "gimbal_inner");
+    std::fill(x.begin() + 40, x.begin() + 40 + samples, x[40]);
+    return says(prepare(s, {r}), "stands still");
+  };
+  EXPECT_FALSE(stuck(19));
+  EXPECT_TRUE(stuck(20));
+}
+
+TEST(Prepare, SampleIntervalsMayDifferFromThePlansByATwentieth) {
+  const Recording r = simulated(study());
+  EXPECT_EQ(message(study(1200.0, 62.9), r), "");
+  EXPECT_NE(message(study(1200.0, 63.2), r).find("samples are 60 s apart"), std::string::npos);
+}
+
+TEST(Prepare, ACommandOneDegPerHourFromThePlansIsSaid) {
+  const mc::Study s = study();
+  const auto said = [&](double deg_per_h) {
+    Recording r = simulated(s);
+    for (double& x : channel(r, "cmd_y")) x = deg_per_h * unit::deg_per_h.to_si;
+    return says(prepare(s, {r}), "the commands in");
+  };
+  EXPECT_FALSE(said(0.99));
+  EXPECT_TRUE(said(1.01));
+}
+
+TEST(Prepare, ADwellTwoSamplesShortIsSaid) {
+  const mc::Study s = study();
+  const auto said = [&](std::ptrdiff_t rows) {
+    Recording r = simulated(s);
+    for (Channel& c : r.channels)
+      c.values.erase(c.values.begin() + 40 - rows, c.values.begin() + 40);
+    r.lines.erase(r.lines.begin() + 40 - rows, r.lines.begin() + 40);
+    return says(prepare(s, {r}), "position 2 for");
+  };
+  EXPECT_FALSE(said(1));
+  EXPECT_TRUE(said(2));
+}
+
 TEST(Prepare, MissingChannelsAndBurstsAreRemarkedAndNothingMeasuredIsRefused) {
   const mc::Study s = study();
   Recording r = simulated(s);

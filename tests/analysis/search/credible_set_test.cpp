@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "analysis/search/detect.hpp"
 #include "tests/support/model_builders.hpp"
 
 namespace drift::search {
@@ -32,7 +33,7 @@ struct Case {
   bool can_be_weighed(Leftover left = Leftover::nothing) const {
     return search::can_be_weighed(e, refits, left);
   }
-  void weigh() { out = search::weigh(e, std::move(refits), 0.95); }
+  void weigh() { out = search::weigh(e, std::move(refits), SearchOptions{}.credible); }
 };
 
 TEST(CredibleSet, AFarBetterExplanationDoesNotLoseToAPoorOneForATrifle) {
@@ -60,6 +61,9 @@ TEST(CredibleSet, WhatLeavesFarTooMuchIsNoExplanationHoweverGood) {
   ASSERT_EQ(c.out.sets.size(), 1u);
   EXPECT_EQ(c.out.sets[0].choices[0].candidate, gimbal);
   EXPECT_EQ(c.out.rejected.size(), 1u);
+  Case less;
+  less.explanation(less.candidate("magnetic_drift", "x", {param("M_x")}), 60.0, 2.9);
+  EXPECT_TRUE(less.can_be_weighed(Leftover::chance));
 }
 
 TEST(CredibleSet, WithoutAnAdequateOneThereIsNoneUnlessChanceIsAskedFor) {
@@ -90,6 +94,45 @@ TEST(CredibleSet, SomethingUnknownThatIsFarBetterLeavesNone) {
   EXPECT_FALSE(c.can_be_weighed());
   c.e.lone.gain -= 0.2;
   EXPECT_TRUE(c.can_be_weighed());
+}
+
+TEST(CredibleSet, ListsWhatTogetherHoldsWithNinetyFivePerCent) {
+  const auto listed = [](double probability) {
+    Case c;
+    c.explanation(c.candidate("magnetic_drift", "x", {param("M_x")}), 30.0, -1.0);
+    c.explanation(c.candidate("gimbal_angle_drift", "y", {param("G_c_y")}),
+                  30.0 - std::log(probability / (1.0 - probability)), -1.0);
+    c.weigh();
+    EXPECT_NEAR(c.out.probability[0], probability, 1e-12);
+    return c.out.sets.size();
+  };
+  EXPECT_EQ(listed(0.949), 2u);
+  EXPECT_EQ(listed(0.951), 1u);
+}
+
+TEST(CredibleSet, ASecondCauseIsOneInTwenty) {
+  Case c;
+  const auto magnetic = c.candidate("magnetic_drift", "x", {param("M_x")});
+  const auto gimbal = c.candidate("gimbal_angle_drift", "y", {param("G_c_y")});
+  const auto ramp = c.candidate("drift_ramp", "z", {param("ramp_z")});
+  c.explanation(magnetic, 30.0, -1.0);
+  c.explanation(gimbal, 30.0, -1.0);
+  c.refits.back().choices.push_back({ramp, 0});
+  c.weigh();
+  EXPECT_NEAR(c.out.probability[0], 20.0 / 21.0, 1e-12);
+}
+
+TEST(CredibleSet, MoreParametersMustBringTwentyToOne) {
+  const auto widest = [](double gain) {
+    Case c;
+    c.explanation(c.candidate("torquer_scale", "", {param("s_x"), param("s_y"), param("s_z")}),
+                  30.0 + gain, -1.0);
+    c.explanation(c.candidate("torquer_scale", "x", {param("s_x")}), 30.0, -1.0);
+    c.weigh();
+    return c.out.sets.at(0).choices[0].candidate == 0;
+  };
+  EXPECT_FALSE(widest(std::log(20.0)));
+  EXPECT_TRUE(widest(std::log(20.2)));
 }
 
 TEST(CredibleSet, PartsOfOneTermAreOneCause) {

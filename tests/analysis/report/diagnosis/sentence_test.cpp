@@ -101,7 +101,9 @@ TEST(Sentence, OfTwinsSaysThatTheyLeaveTheSameTrace) {
            {cause("sag", "x", nullptr, 0, 0, "", 0), cause("drift_ramp", "z", nullptr, 0, 0, "", 1),
             cause("accelerometer_cross", "y", nullptr, 0, 0, "", 2)});
   EXPECT_FALSE(says(report::sentence(d), "same trace")) << report::sentence(d);
-  d.cosines.cosine(0, 2) = d.cosines.cosine(2, 0) = -0.9999;
+  d.cosines.cosine(0, 2) = d.cosines.cosine(2, 0) = -0.9994;  // cosine^2 below 0.999
+  EXPECT_FALSE(says(report::sentence(d), "same trace")) << report::sentence(d);
+  d.cosines.cosine(0, 2) = d.cosines.cosine(2, 0) = -0.9996;
   EXPECT_TRUE(says(report::sentence(d),
                    "(3) further cross terms of the accelerometers, accelerometer y "
                    "(accelerometer_cross.y). (1) and "
@@ -130,6 +132,10 @@ TEST(Sentence, OfANamedCauseSaysWhatElseLeavesItsTrace) {
            "of the accelerometers, accelerometer y (accelerometer_cross.y) leave the same trace."))
       << report::sentence(d);
   EXPECT_FALSE(says(report::sentence(d), "drift_ramp"));
+  d.causes[0].confusable_with[0].cosine = 0.9994;
+  EXPECT_FALSE(says(report::sentence(d), "same trace"));
+  d.causes[0].confusable_with[0].cosine = 0.9996;
+  EXPECT_TRUE(says(report::sentence(d), "same trace"));
   // Said once: not again of all axes of that term, nor of what the verdict names anyway.
   d.causes[0].confusable_with.push_back({"accelerometer_cross", "", 1.0});
   d.causes[0].confusable_with.push_back({"sag", "", 1.0});
