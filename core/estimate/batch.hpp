@@ -13,21 +13,12 @@ struct ChainEquations {
   MatX rows;  ///< shape (measured scalars, 3 + parameters + 1)
 };
 
-/// How the attitude error psi_i at an instant follows from what came before in its chain:
-/// psi_i = Phi psi_i(caging) + G x(rate states).
-struct ChainSensitivity {
-  Mat3 Phi = Mat3::Identity();
-  Mat3X G;  ///< shape (3, rate states); empty: zero
-};
-
 /// Linearises all measurements of a timeline about a trajectory. Channels that are NaN are left
-/// out. carried: of the first interval's start, for a timeline that goes on within a chain; becomes
-/// that of the last interval's end.
+/// out.
 std::vector<ChainEquations> measurement_equations(const Timeline& timeline, const DriftModel& model,
                                                   const Layout& layout, const Readout& readout,
                                                   const Measurements& measured, const Theta& theta,
-                                                  const Trajectory& phi, double sigma_attitude,
-                                                  ChainSensitivity* carried = nullptr);
+                                                  const Trajectory& phi, double sigma_attitude);
 
 /// Upper triangular square root of the information on the parameters, prior-scaled, from the data
 /// alone (no parameter prior), the attitude of each chain eliminated with its prior:

@@ -7,8 +7,7 @@ namespace drift {
 std::vector<ChainEquations> measurement_equations(const Timeline& timeline, const DriftModel& model,
                                                   const Layout& layout, const Readout& readout,
                                                   const Measurements& measured, const Theta& theta,
-                                                  const Trajectory& phi, double sigma_attitude,
-                                                  ChainSensitivity* carried) {
+                                                  const Trajectory& phi, double sigma_attitude) {
   const auto n = static_cast<Eigen::Index>(layout.size());
   const auto nr = static_cast<Eigen::Index>(layout.num_rate);
   std::vector<Eigen::Index> count(timeline.chains, 0), next(timeline.chains, 0);
@@ -21,12 +20,10 @@ std::vector<ChainEquations> measurement_equations(const Timeline& timeline, cons
   Linearizer linearizer(model, layout, readout);
   linearizer.set_theta(theta);
   IntervalSensitivity inner;
-  Mat3 Phi = Mat3::Identity();  // from the caging to the start of the interval
+  // How the attitude error at the start of the interval follows from what came before in its chain:
+  // psi = Phi psi(caging) + G x(rate states).
+  Mat3 Phi = Mat3::Identity();
   Mat3X G = Mat3X::Zero(3, nr), Y(3, n);
-  if (carried && carried->G.cols() == nr) {
-    Phi = carried->Phi;
-    G = carried->G;
-  }
   MemoryPath memory(timeline, model);
   for (std::size_t i = 0; i < timeline.intervals.size(); ++i) {
     const Interval& interval = timeline.intervals[i];
@@ -84,7 +81,6 @@ std::vector<ChainEquations> measurement_equations(const Timeline& timeline, cons
                   readout.gimbal_noise);
     }
   }
-  if (carried) *carried = {Phi, G};
   return chains;
 }
 

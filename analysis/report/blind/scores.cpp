@@ -105,12 +105,8 @@ Section targets(const BlindResults& results) {
                       "decided: fewer than {} trials.",
                       blind::fewest_trials));
   for (const blind::Target& x : results.summary.targets)
-    t.add({x.name,
-           wanted(x),
-           share_cell(x.measured),
-           interval_cell(x.measured),
-           x.measured.n,
-           {std::string(blind::text(x.standing())), tone_of(x.standing())}});
+    t.add({x.name, wanted(x), share_cell(x.measured), interval_cell(x.measured), x.measured.n,
+           Cell(std::string(blind::text(x.standing())), tone_of(x.standing()))});
   return {"Targets", {t}};
 }
 
@@ -121,15 +117,9 @@ Section power(const BlindResults& results) {
           "Size: what the nominal fit cannot absorb. Theory: one known signature against the "
           "threshold of about a hundred candidates, 5 % family-wise.");
   for (const blind::PowerPoint& p : results.summary.power)
-    t.add({p.mean,
-           p.detected.n,
-           share_cell(p.detected),
-           interval_cell(p.detected),
-           {p.theory, fmt::format("{:.3f}", p.theory)},
-           share_cell(p.exact),
-           share_cell(p.in_set),
-           share_cell(p.subsystem),
-           share_cell(p.wrong)});
+    t.add({p.mean, p.detected.n, share_cell(p.detected), interval_cell(p.detected),
+           decimals(p.theory, 3), share_cell(p.exact), share_cell(p.in_set),
+           share_cell(p.subsystem), share_cell(p.wrong)});
   return {
       "Power and naming",
       {Figure{power_svg(results.summary), "Shares of single effects by size.", "power.svg"}, t}};

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "analysis/inference/thresholds.hpp"
 #include "analysis/planning/position_pool.hpp"
 #include "core/base/words.hpp"
 
@@ -17,6 +18,7 @@ using diagnosis::Advice;
 using diagnosis::AdvisedPair;
 using diagnosis::Alternative;
 using diagnosis::Sizes;
+using inference::AdviceLimits;
 
 constexpr std::size_t most_shown = 8;
 
@@ -134,11 +136,12 @@ std::string helped_text(const Advice& a) {
                 "on another",
                 a.asked, size_text(a.sizes), ways.size(), a.wanted);
   return fmt::format(
-      "{}. Add {}: then {} of them come above {:g} sigma and {} stay between 2 and {:g}. Hardest "
+      "{}. Add {}: then {} of them come above {:g} sigma and {} stay between {:g} and {:g}. "
+      "Hardest "
       "now, in sigma before and after: {}. The last comes to {:.1f}: {}{}.",
       state, positions_text(a), reached, a.wanted,
-      static_cast<std::ptrdiff_t>(ways.size()) - reached, a.wanted, fmt::join(shown, ", "),
-      a.expected_sigma, pair_text(a, a.pairs.front()), verified);
+      static_cast<std::ptrdiff_t>(ways.size()) - reached, AdviceLimits::told, a.wanted,
+      fmt::join(shown, ", "), a.expected_sigma, pair_text(a, a.pairs.front()), verified);
 }
 
 std::string hidden_text(const Advice& a) {
@@ -148,14 +151,16 @@ std::string hidden_text(const Advice& a) {
   std::string text;
   if (!unseen.empty())
     text = fmt::format(
-        "No {} of {} possible additions show {}{} with 2 sigma: what the nominal model fits takes "
+        "No {} of {} possible additions show {}{} with {:g} sigma: what the nominal model fits "
+        "takes "
         "the trace, or it is too small for these instruments.",
-        a.most, a.pool, listed(a, unseen, ""), size);
+        a.most, a.pool, listed(a, unseen, ""), size, AdviceLimits::told);
   if (!near.empty())
     text += fmt::format(
-        "{}No {} of {} possible additions separate {}{} by 2 sigma: another measurement is "
+        "{}No {} of {} possible additions separate {}{} by {:g} sigma: another measurement is "
         "needed.",
-        text.empty() ? "" : " ", a.most, a.pool, listed(a, near, " from "), size);
+        text.empty() ? "" : " ", a.most, a.pool, listed(a, near, " from "), size,
+        AdviceLimits::told);
   return text;
 }
 

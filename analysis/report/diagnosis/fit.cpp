@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "analysis/report/diagnosis/sections.hpp"
-#include "analysis/report/diagnosis/time_axis.hpp"
 #include "analysis/report/svg/curve.hpp"
 #include "analysis/report/svg/dumbbell_chart.hpp"
 

@@ -30,6 +30,13 @@ Table window_table(const diagnosis::Where& where);
 std::string residual_signal_csv(const std::vector<diagnosis::RecoveredSignal>& signals,
                                 const std::vector<diagnosis::RecordingSpan>& recordings = {});
 
+/// Short recordings are shown in seconds, long ones in hours.
+struct TimeAxis {
+  double unit = 3600.0;  ///< [s]
+  std::string label;
+};
+TimeAxis time_axis(const std::vector<double>& t, const diagnosis::Where& where);
+
 Json diagnosis_document(const diagnosis::Diagnosis& diagnosis);
 
 }  // namespace drift::report

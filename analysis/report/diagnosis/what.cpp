@@ -74,10 +74,7 @@ Table cause_table(const Diagnosis& d) {
 
 /// Scores of the strongest candidates.
 Blocks candidate_figure(const Diagnosis& d) {
-  BarChart bars;
-  bars.title = "Candidates";
-  bars.x_label = "projected score, chi-square";
-  bars.width = 860.0;
+  BarChart bars{"Candidates", "projected score, chi-square", {}, std::nullopt, 860.0};
   for (const auto& [c, alternative] : shown_candidates(d, 20)) {
     if (!std::isfinite(c->score)) continue;
     const std::string named = alternative == 0 ? ""
@@ -138,25 +135,14 @@ Table candidate_table(const Diagnosis& d) {
   for (const auto& [c, alternative] : shown_candidates(d, d.candidates.size())) {
     const bool one = c->sigma > 0.0;  // of several parameters there is no single amplitude
     const Tone tone = alternative > 0 ? Tone::good : Tone::plain;
-    table.add({c->term,
-               text_or_nothing(c->axis),
-               c->label,
-               {label_of(*c), tone},
-               c->score,
-               c->dof,
-               p_cell(c->p_value),
-               c->p_marginal,
-               percent_cell(c->absorbed),
-               one ? plus_minus(c->amplitude, c->sigma) : only_value({}),
+    table.add({c->term, text_or_nothing(c->axis), c->label, Cell(label_of(*c), tone), c->score,
+               c->dof, p_cell(c->p_value), c->p_marginal, percent_cell(c->absorbed),
+               one ? plus_minus(c->amplitude, c->sigma) : only_value(Value()),
                only_value(one ? Value(c->sigma) : Value()),
-               one ? digits(c->smallest_detectable, 2) : only_value({}),
-               unit_cell(c->unit),
-               c->size_sigma,
-               c->log_bayes,
-               {c->probability, c->probability < 5e-4 ? "0" : number_text(c->probability, 2)},
-               c->adequate,
-               c->observable,
-               remark_of(d, *c, alternative)});
+               one ? digits(c->smallest_detectable, 2) : only_value(Value()), unit_cell(c->unit),
+               c->size_sigma, c->log_bayes,
+               Cell(c->probability, c->probability < 5e-4 ? "0" : number_text(c->probability, 2)),
+               c->adequate, c->observable, remark_of(d, *c, alternative)});
     table.rows.back().always = alternative > 0;
   }
   return table;

@@ -3,7 +3,6 @@
 
 #include "analysis/report/diagnosis/sections.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
-#include "analysis/report/diagnosis/time_axis.hpp"
 #include "analysis/report/svg/curve.hpp"
 #include "analysis/report/svg/heat_map.hpp"
 
@@ -136,7 +135,7 @@ Table window_table(const Where& where) {
   table.limit = {.page = 12, .rest_in = "diagnosis.json"};
   for (const ScanHit& w : where.windows) {
     std::vector<Cell> cells{w.equation,
-                            {w.position, w.position > 0 ? fmt::format("{}", w.position) : ""},
+                            Cell(w.position, w.position > 0 ? fmt::format("{}", w.position) : ""),
                             decimals(w.start_s, 0),
                             decimals(w.end_s, 0),
                             w.T,

@@ -112,8 +112,7 @@ Table estimate_table(const FilterView& v, On where, std::size_t starts) {
     const Cell verdict = verdict_cell(ratio);
     cells.insert(cells.end(),
                  {plus_minus(batch.value / unit, batch.sigma / unit),
-                  {left, left < 0.0005 ? "<.001" : decimal_text(left, 3)},
-                  decimals(ratio, 2),
+                  Cell(left, left < 0.0005 ? "<.001" : decimal_text(left, 3)), decimals(ratio, 2),
                   left > nothing_learned && verdict.tone == Tone::good ? "prior only" : verdict});
     table.add(std::move(cells));
   }

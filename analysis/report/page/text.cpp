@@ -1,3 +1,5 @@
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <numeric>
 #include <sstream>
@@ -110,22 +112,22 @@ std::string text_of(const Table& whole, std::size_t width) {
 }
 
 std::string text_of(const std::vector<Section>& sections, std::size_t width) {
-  std::string out;
+  std::vector<std::string> blocks;
   for (const Section& section : sections)
-    for (const Block& block : section.blocks) {
-      if (!seen(section.on, On::terminal) || !seen(block.on, On::terminal)) continue;
-      const std::string text = std::visit(BlockText{width}, block.content);
-      if (!text.empty()) out += (out.empty() ? "" : "\n") + text;
-    }
-  return out;
+    for (const Block& block : section.blocks)
+      if (seen(section.on, On::terminal) && seen(block.on, On::terminal))
+        blocks.push_back(std::visit(BlockText{width}, block.content));
+  std::erase(blocks, "");
+  return fmt::format("{}", fmt::join(blocks, "\n"));
 }
 
 std::string to_text(const Report& report, std::size_t width) {
-  const std::string head = wrapped(report.title, width) + wrapped(report.subtitle, width, 2),
-                    said = BlockText{width}(Sentences{report.headlines}),
-                    rest = text_of(report.sections, width);
-  return report.order == Order::headlines_last ? head + "\n" + rest + "\n" + said
-                                               : head + "\n" + said + "\n" + rest;
+  std::vector<std::string> parts{wrapped(report.title, width) + wrapped(report.subtitle, width, 2),
+                                 BlockText{width}(Sentences{report.headlines}),
+                                 text_of(report.sections, width)};
+  if (report.order == Order::headlines_last) std::swap(parts[1], parts[2]);
+  std::erase(parts, "");
+  return fmt::format("{}", fmt::join(parts, "\n"));
 }
 
 }  // namespace drift::report

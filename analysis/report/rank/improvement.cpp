@@ -37,12 +37,12 @@ Gains gains_of(const planning::PlanRanking& rank) {
 
 /// Bits that the proposed positions add to each parameter.
 Figure gain_figure(const Gains& g) {
-  BarChart chart;
-  chart.title = "What the proposed positions add";
-  chart.x_label =
-      "log2(sigma before / sigma after) [bit]; beside the bar: left of the prior sigma before and "
-      "after";
-  chart.width = 860.0;
+  BarChart chart{"What the proposed positions add",
+                 "log2(sigma before / sigma after) [bit]; beside the bar: left of the prior sigma "
+                 "before and after",
+                 {},
+                 std::nullopt,
+                 860.0};
   for (const std::size_t k : g.states)
     chart.bars.push_back({.label = parameter_key(g.before.layout, k),
                           .value = g.after.parameters[k].bits() - g.before.parameters[k].bits(),
@@ -83,16 +83,10 @@ Table improvement_table(const planning::PlanRanking& rank) {
     const std::string entry(key_of(s.position.entry));
     const auto& heading = s.position.case_heading;
     const double degrees = heading ? *heading / detail::deg : 0.0;
-    t.add({i + 1,
-           s.position.name,
-           s.position.axes,
-           key_of(s.position.mode),
-           {entry, heading ? fmt::format("{}, case at {:.0f} deg", entry, degrees) : entry},
-           only_value(heading ? Value(degrees) : Value()),
-           s.duration / hour,
-           digits(s.before, 4),
-           digits(s.after, 4),
-           s.feasible});
+    t.add({i + 1, s.position.name, s.position.axes, key_of(s.position.mode),
+           Cell(entry, heading ? fmt::format("{}, case at {:.0f} deg", entry, degrees) : entry),
+           only_value(heading ? Value(degrees) : Value()), s.duration / hour, digits(s.before, 4),
+           digits(s.after, 4), s.feasible});
   }
   return t;
 }

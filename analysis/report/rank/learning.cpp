@@ -15,12 +15,12 @@ Cell ratio_cell(double left) {
 }  // namespace
 
 std::string learning_figure(const planning::RankingGroup& group) {
-  BarChart chart;
-  chart.title = fmt::format("What the test teaches, {}", group.filters);
-  chart.x_label =
-      "log2(prior sigma / sigma after the test) [bit]; beside the bar: what is left of the prior "
-      "sigma";
-  chart.width = 860.0;
+  BarChart chart{fmt::format("What the test teaches, {}", group.filters),
+                 "log2(prior sigma / sigma after the test) [bit]; beside the bar: what is left of "
+                 "the prior sigma",
+                 {},
+                 ReferenceLine{1.0, "half the prior", Stroke::dashed},
+                 860.0};
   const observability::Ranking& first = group.models.front().ranking;
   for (const std::size_t k : first.order)
     for (std::size_t m = 0; m < group.models.size(); ++m) {
@@ -32,7 +32,6 @@ std::string learning_figure(const planning::RankingGroup& group) {
            .colour = m,
            .text = number_text(p.learning_ratio())});
     }
-  chart.limit = ReferenceLine{1.0, "half the prior", Stroke::dashed};
   return svg_of(chart);
 }
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "analysis/inference/noise/gross_misfit.hpp"
+#include "analysis/inference/noise/robust_weights.hpp"
 #include "analysis/search/fitted.hpp"
 #include "tests/support/model_builders.hpp"
 
