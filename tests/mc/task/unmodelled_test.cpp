@@ -73,7 +73,7 @@ TEST(Unmodelled, LambdaBesideMisalignmentsIsForTheBatchFit) {
   EXPECT_EQ(refusal(mc::EstimatorKind::batch, filter), "");
   for (const auto estimator : {mc::EstimatorKind::ekf, mc::EstimatorKind::iterated}) {
     expect_said(refusal(estimator, filter),
-                {"lambda", "frame_closure", name(estimator), "Set monte_carlo.estimator"});
+                {"lambda", "frame_closure", key_of(estimator), "Set monte_carlo.estimator"});
     FilterSpec known = filter;
     known.priors[param("lambda")] = fixed(0.5);
     EXPECT_EQ(refusal(estimator, known), "");
