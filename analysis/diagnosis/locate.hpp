@@ -2,6 +2,8 @@
 
 #include "analysis/diagnosis/findings/diagnosis.hpp"
 #include "analysis/diagnosis/recovered.hpp"
+#include "analysis/search/chance_thresholds.hpp"
+#include "analysis/search/fitted.hpp"
 
 namespace drift::diagnosis {
 

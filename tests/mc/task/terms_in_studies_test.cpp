@@ -89,7 +89,7 @@ runs = {}
 seed = 1
 estimator = "{}"
 )",
-                                      scene.plan, model, model, runs, estimator));
+                                          scene.plan, model, model, runs, estimator));
   tune(study.truth, scene);
   tune(study.filters[0], scene);
   return study;
