@@ -33,11 +33,6 @@ inline ParamMask term_params(std::size_t term) {
   return TermLibrary::params_of(mask);
 }
 
-/// Lambda alone needs a coupling that has it.
-inline Coupling coupling_for(std::size_t term) {
-  return TermLibrary::terms[term].key == "frame_closure" ? Coupling::lambda : Coupling::eq6;
-}
-
 /// Amplitudes of the parameters of a term, alternately 0.8 and -1.2 of their prior sigma; what is
 /// nonlinear at its default, a step early enough to be seen.
 inline void set_term(Theta& theta, std::size_t term, double factor = 1.0) {
@@ -52,7 +47,7 @@ inline void set_term(Theta& theta, std::size_t term, double factor = 1.0) {
   if (info.key == closure_term) theta[closure_param] = 0.4 * factor;
 }
 
-/// The coupling under which a term acts.
+/// The coupling under which a term acts: lambda alone needs one that has it.
 inline Coupling coupling_for(std::size_t term) {
   return TermLibrary::terms[term].key == closure_term ? Coupling::lambda : Coupling::eq6;
 }

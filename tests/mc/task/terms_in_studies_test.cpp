@@ -189,7 +189,7 @@ TEST_P(NightlyEveryTermUnder, IsConsistentOrRefusedInTwelveSlews) {
 
 const auto estimators = [] {
   std::vector<std::string_view> names;
-  for (const auto& choice : estimators) names.push_back(choice.name);
+  for (const auto& choice : mc::estimators) names.push_back(choice.name);
   return testing::ValuesIn(names);
 }();
 std::string name_of(const testing::TestParamInfo<std::string_view>& estimator) {

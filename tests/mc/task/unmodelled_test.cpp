@@ -31,7 +31,7 @@ void expect_said(const std::string& message, std::initializer_list<std::string_v
 
 TEST(Unmodelled, BaseTermsAreModelledByEveryEstimator) {
   for (const Coupling coupling : {Coupling::eq5, Coupling::eq6})
-    for (const auto& estimator : estimators)
+    for (const auto& estimator : mc::estimators)
       EXPECT_EQ(refusal(estimator.value, base_filter(coupling)), "") << estimator.name;
 }
 
