@@ -60,7 +60,7 @@ void tune(ModelSpec& spec, const Scene& scene) {
 
 /// Truth and filter have D_F and one term; lambda shows only where the axes are misaligned.
 mc::Study matched_study(const Scene& scene, const TermInfo& term, std::string_view estimator) {
-  const bool closure = term.key == "frame_closure";
+  const bool closure = term.key == closure_term;
   std::string terms = "\"fixed_drift\"";
   if (term.key != "fixed_drift") terms += fmt::format(", \"{}\"", term.key);
   if (closure) terms += ", \"gyro_misalignment\"";
