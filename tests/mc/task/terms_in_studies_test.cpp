@@ -3,8 +3,6 @@
 // program's own.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
 #include "mc/statistics/point_statistics.hpp"
 #include "mc/task/campaign.hpp"
 #include "tests/mc/small_study.hpp"
@@ -89,7 +87,7 @@ runs = {}
 seed = 1
 estimator = "{}"
 )",
-                                      scene.plan, model, model, runs, estimator));
+                                          scene.plan, model, model, runs, estimator));
   tune(study.truth, scene);
   tune(study.filters[0], scene);
   return study;
@@ -170,20 +168,11 @@ TEST_P(EveryTermUnder, IsConsistentOrRefused) {
   check_every_term(caged, GetParam());
 }
 
-/// Minutes of CPU.
-bool nightly() {
-  return std::getenv("DRIFT_NIGHTLY") != nullptr;
-}
-
 TEST_P(EveryTermUnder, IsConsistentOrRefusedInSlews) {
-  if (GetParam() == "batch" && !nightly()) GTEST_SKIP() << "set DRIFT_NIGHTLY to run it";
   check_every_term({"slews", four_positions, share_for(GetParam())}, GetParam());
 }
 
-class NightlyEveryTermUnder : public EveryTermUnder {};
-
-TEST_P(NightlyEveryTermUnder, IsConsistentOrRefusedInTwelveSlews) {
-  if (!nightly()) GTEST_SKIP() << "set DRIFT_NIGHTLY to run it";
+TEST_P(EveryTermUnder, IsConsistentOrRefusedInTwelveSlews) {
   check_every_term({"twelve slews", twelve_positions, share_for(GetParam())}, GetParam());
 }
 
@@ -196,7 +185,6 @@ std::string name_of(const testing::TestParamInfo<std::string_view>& estimator) {
   return std::string(estimator.param);
 }
 INSTANTIATE_TEST_SUITE_P(Estimators, EveryTermUnder, estimators, name_of);
-INSTANTIATE_TEST_SUITE_P(Estimators, NightlyEveryTermUnder, estimators, name_of);
 
 }  // namespace
 }  // namespace drift
