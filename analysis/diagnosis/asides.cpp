@@ -8,6 +8,8 @@
 namespace drift::diagnosis {
 namespace {
 
+using inference::RemarkLimits;
+
 double chi2_per_dof(const search::Fitted& e) {
   return e.fit.estimate.statistic /
          static_cast<double>(std::max<std::size_t>(1, e.fit.estimate.measured));
@@ -27,7 +29,7 @@ std::optional<NearestKnown> nearest_known(const search::Fitted& nominal,
   const search::Refit& best = best_rejected(found);
   const double before = chi2_per_dof(nominal), after = chi2_per_dof(best.after);
   const double excess = before > 1.0 ? (before - std::max(1.0, after)) / (before - 1.0) : 0.0;
-  if (excess < inference::RemarkLimits::nearest) return std::nullopt;
+  if (excess < RemarkLimits::nearest) return std::nullopt;
   NearestKnown out{{}, before, after};
   for (const search::Choice& choice : best.choices) {
     const inference::Candidate& c = nominal.set.candidates[choice.candidate];
@@ -53,7 +55,7 @@ std::optional<remark::BeyondPrior> beyond_prior(const BatchResult& nominal) {
   remark::BeyondPrior out;
   for (const ParameterEstimate& p : nominal.estimate.parameters) {
     const double off = p.prior_sigma > 0.0 ? std::abs(p.value - p.prior_mean) / p.prior_sigma : 0.0;
-    if (off <= inference::RemarkLimits::unphysical) continue;
+    if (off <= RemarkLimits::unphysical) continue;
     out.params.push_back(p.param);
     out.farthest = std::max(out.farthest, off);
   }
@@ -65,7 +67,7 @@ std::optional<remark::EquationOpen> equation_open(const Diagnosis& d) {
   const bool closure_is_a_cause =
       std::ranges::any_of(d.causes, [](const search::Cause& c) { return c.term == closure_term; });
   if (!std::isfinite(d.other_equation_gain) || closure_is_a_cause ||
-      d.other_equation_gain < -inference::RemarkLimits::equation)
+      d.other_equation_gain < -RemarkLimits::equation)
     return std::nullopt;
   return remark::EquationOpen{d.nominal.coupling, d.other_equation_gain};
 }

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "analysis/diagnosis/diagnosis.hpp"
+#include "analysis/diagnosis/findings/diagnosis.hpp"
 #include "analysis/search/search.hpp"
 
 namespace drift::diagnosis {

@@ -2,23 +2,12 @@
 
 #include <vector>
 
-#include "analysis/diagnosis/remark.hpp"
+#include "analysis/diagnosis/findings/remark.hpp"
+#include "analysis/diagnosis/findings/twins.hpp"
 #include "analysis/search/cause.hpp"
 #include "analysis/search/search.hpp"
-#include "core/base/linalg.hpp"
 
 namespace drift::diagnosis {
-
-/// Cosines between the projected signatures of the causes in question.
-struct CosineMatrix {
-  std::vector<std::string> labels;
-  MatX cosine;
-};
-
-/// Two effects that are one direction on this plan, whatever the data.
-struct Twins {
-  NamedEffect one, other;
-};
 
 /// The causes of the credible set and what they can be confused with.
 struct CausesFound {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/diagnosis/advice/patched_study.hpp"
 #include "analysis/diagnosis/asides.hpp"
 #include "analysis/diagnosis/candidate_table.hpp"
 #include "analysis/diagnosis/causes.hpp"
@@ -13,8 +14,7 @@
 #include "analysis/diagnosis/located.hpp"
 #include "analysis/diagnosis/noise_found.hpp"
 #include "analysis/diagnosis/nominal_fit.hpp"
-#include "analysis/diagnosis/patched_study.hpp"
-#include "analysis/inference/gross_misfit.hpp"
+#include "analysis/inference/noise/gross_misfit.hpp"
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/preparation/covariates.hpp"
 #include "analysis/preparation/recorded_test.hpp"
@@ -24,6 +24,8 @@
 
 namespace drift::diagnosis {
 namespace {
+
+using inference::NoiseLimits;
 
 /// White noise as neighbouring samples differ, where the other of eq. (5) and (6) takes most of an
 /// evident misfit away: what looks like noise that drives the platform is the equation then, and
@@ -38,11 +40,10 @@ std::optional<inference::NoiseEstimate> noise_beside_equation(const FilterSpec& 
     return f.estimate.statistic /
            static_cast<double>(std::max<std::size_t>(1, f.estimate.measured));
   };
-  if (per_dof(fit) < inference::NoiseLimits::evident) return std::nullopt;
+  if (per_dof(fit) < NoiseLimits::evident) return std::nullopt;
   const BatchResult with_other =
       fit_batch(other, test.timeline, test.readout, test.measured, theta_of(nominal, fit));
-  if (per_dof(fit) - per_dof(with_other) <
-      inference::NoiseLimits::other_equation * (per_dof(fit) - 1.0))
+  if (per_dof(fit) - per_dof(with_other) < NoiseLimits::other_equation * (per_dof(fit) - 1.0))
     return std::nullopt;
   const inference::LinearProblem problem = inference::linear_problem(nominal, test, fit, {});
   return inference::noise_of_differences(problem, inference::residual_of(problem, fit));
@@ -129,8 +130,8 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
   d.verdict = judged.verdict;
   d.p_value = found.p_value;
   if (judged.one_gyro)
-    d.p_value = std::min(
-        d.p_value, inference::NoiseLimits::one_gyro_tries * std::exp(-0.5 * judged.one_gyro->gain));
+    d.p_value =
+        std::min(d.p_value, NoiseLimits::one_gyro_tries * std::exp(-0.5 * judged.one_gyro->gain));
   d.where = std::move(place.where);
   d.signals = std::move(place.signals);
   d.causes = std::move(causes.causes);

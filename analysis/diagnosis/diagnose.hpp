@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "analysis/diagnosis/diagnosis.hpp"
+#include "analysis/diagnosis/findings/diagnosis.hpp"
 #include "analysis/diagnosis/held_out.hpp"
 #include "analysis/diagnosis/located.hpp"
 #include "analysis/diagnosis/stages.hpp"

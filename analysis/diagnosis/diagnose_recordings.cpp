@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-#include "analysis/diagnosis/advise.hpp"
+#include "analysis/diagnosis/advice/advise.hpp"
 #include "analysis/diagnosis/recording_spans.hpp"
 #include "analysis/diagnosis/site_doubt.hpp"
 #include "analysis/preparation/prepare.hpp"

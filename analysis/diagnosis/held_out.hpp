@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "analysis/diagnosis/fit_comparison.hpp"
+#include "analysis/diagnosis/findings/fit_comparison.hpp"
 #include "analysis/search/fitted.hpp"
 
 namespace drift::diagnosis {

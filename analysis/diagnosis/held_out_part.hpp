@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "analysis/diagnosis/fit_comparison.hpp"
+#include "analysis/diagnosis/findings/fit_comparison.hpp"
 #include "analysis/inference/linear_problem.hpp"
 #include "core/sim/measurements.hpp"
 

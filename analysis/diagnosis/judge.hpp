@@ -3,9 +3,9 @@
 #include <optional>
 #include <vector>
 
-#include "analysis/diagnosis/fit_comparison.hpp"
-#include "analysis/diagnosis/remark.hpp"
-#include "analysis/diagnosis/verdict.hpp"
+#include "analysis/diagnosis/findings/fit_comparison.hpp"
+#include "analysis/diagnosis/findings/remark.hpp"
+#include "analysis/diagnosis/findings/verdict.hpp"
 #include "analysis/search/search.hpp"
 
 namespace drift::diagnosis {

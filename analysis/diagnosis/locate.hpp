@@ -1,7 +1,9 @@
 #pragma once
 
-#include "analysis/diagnosis/diagnosis.hpp"
+#include "analysis/diagnosis/findings/diagnosis.hpp"
 #include "analysis/diagnosis/recovered.hpp"
+#include "analysis/search/chance_thresholds.hpp"
+#include "analysis/search/fitted.hpp"
 
 namespace drift::diagnosis {
 

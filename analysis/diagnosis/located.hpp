@@ -2,9 +2,9 @@
 
 #include <vector>
 
+#include "analysis/diagnosis/findings/where.hpp"
 #include "analysis/diagnosis/judge.hpp"
 #include "analysis/diagnosis/recovered.hpp"
-#include "analysis/diagnosis/where.hpp"
 
 namespace drift::diagnosis {
 

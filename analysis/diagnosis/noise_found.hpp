@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include "analysis/diagnosis/remark.hpp"
-#include "analysis/inference/noise_finding.hpp"
+#include "analysis/diagnosis/findings/remark.hpp"
+#include "analysis/inference/noise/noise_finding.hpp"
 #include "analysis/search/fitted.hpp"
 
 namespace drift::diagnosis {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "analysis/diagnosis/where.hpp"
+#include "analysis/diagnosis/findings/where.hpp"
 #include "core/recording/recording.hpp"
 #include "mc/study/study.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/diagnosis/recovered_signal.hpp"
+#include "analysis/diagnosis/findings/recovered_signal.hpp"
 #include "analysis/preparation/covariates.hpp"
 #include "analysis/search/fitted.hpp"
 
@@ -22,7 +22,7 @@ struct InputEstimate {
 };
 
 /// The same for each of the twelve equations, best first. per_position: bins of each position.
-std::vector<InputEstimate> estimate_inputs(const inference::LinearProblem& problem,
+std::vector<InputEstimate> estimate_inputs(const inference::MeasuredRows& rows,
                                            const Timeline& timeline,
                                            const inference::Projector& projector, int per_position);
 

@@ -2,7 +2,9 @@
 
 #include <optional>
 
-#include "analysis/inference/noise_model.hpp"
+#include "analysis/inference/noise/noise_model.hpp"
+#include "analysis/inference/thresholds.hpp"
+#include "core/estimate/batch.hpp"
 #include "core/estimate/measured_test.hpp"
 
 namespace drift::equation {
@@ -26,6 +28,6 @@ struct ClosureProfile {
 std::optional<ClosureProfile> profile_closure(const FilterSpec& filter, const MeasuredTest& test,
                                               const BatchResult& joint, const VecX& weight,
                                               const inference::NoiseModel& noise,
-                                              double decisive = 6.0);
+                                              double decisive = inference::WeighLimits::valley);
 
 }  // namespace drift::equation

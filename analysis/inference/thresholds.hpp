@@ -7,7 +7,8 @@
 ///
 /// Each says what it means, in which unit, and the probability or derivation it stands for; where
 /// there is none it says "tuned". Grids, steps and counts of iterations stay beside the algorithms
-/// that use them. What fails if a number is moved: tests/reference/thresholds.csv.
+/// that use them. "Test:" names what meets a number from both sides and fails if it is moved; the
+/// diagnoses of tests/reference watch them all, those without a test alone.
 ///
 /// Units: [2 log L] twice a log likelihood or evidence; [log] a log evidence or log chance;
 /// [strength] minus the log of the tail of a chi-square; [sigma] standard deviations.
@@ -18,6 +19,7 @@ namespace drift::inference {
 /// left to tell the two by.
 struct TraceLimits {
   /// Below: the same. An effect would have to be 63 sigma strong to be told from its twin by 2.
+  /// Test: Thresholds.TracesAreTheSame..., Sentence.OfTwins..., BlindScore.ATwinCounts...
   static constexpr double unlike = 1e-3;
   /// Below, over a whole pool of possible positions: the same however strong (2000 sigma for 2).
   static constexpr double unlike_anywhere = 1e-6;
@@ -39,12 +41,14 @@ constexpr bool same_trace(double cosine) {
 struct VisibleLimits {
   /// Information [per prior sigma squared] that makes a column observable: below it the effect
   /// would have to be some forty prior sigmas large to be found (4 sigma).
+  /// Test: Thresholds.AColumnIsSeen...
   static constexpr double information = 1e-2;
-  /// The part of that which must be left beside causes that are in the model.
+  /// The part of that which must be left beside causes that are in the model. Test: as `left`.
   static constexpr double information_beside = 0.1;
   /// Part of its own information that a column must keep beside causes, or a window beside the
   /// parameters, to count as another effect; of several columns and of windows beside causes by
   /// eigenvalue. Above the rounding of the projections (1e-9), below what 2000 sigma could show.
+  /// Test: Remainder.WhatIsLeftOfATwinIsNoOtherEffect
   static constexpr double left = 1e-6, left_of_several = 1e-5;
 };
 
@@ -52,28 +56,31 @@ struct VisibleLimits {
 struct SampleLimits {
   /// [declared sigma] from the median of four neighbours: 7 of its own sigma (1.14), one in 4e11
   /// samples; one in 3e5 of noise `spike_noise` times as declared. Beyond that factor the noise
-  /// found is the measure.
-  static constexpr double spike = 8.0, spike_noise = 1.5;
-  static constexpr double spike_spread = 2.0;  ///< ranges of the neighbours on top of it. Tuned
+  /// found is the measure. On top of it so many ranges of the neighbours; tuned.
+  /// Test: Thresholds.ASpikeIs...
+  static constexpr double spike = 8.0, spike_noise = 1.5, spike_spread = 2.0;
   /// Chi-square per row, under the noise of neighbours' differences, that is asked for no noise:
-  /// random walks of ten times the usual size give 3 to 10.
+  /// random walks of ten times the usual size give 3 to 10. Test: Thresholds.AMisfitOfThirty...
   static constexpr double gross = 30.0;
   /// |residual| [sigma] of which a normal distribution has `outlier_share`; so many sigma of their
   /// number and some more are outliers, unless they are so large a part that the model is wrong.
+  /// Test: Thresholds.OutliersAreMore...
   static constexpr double outlier = 3.5, outlier_share = 4.65e-4;
   static constexpr double outlier_sigmas = 4.0, outlier_room = 3.0, outlier_most = 0.02;
-  static constexpr double huber = 2.5;  ///< [sigma] corner of weights: touches 1.2 % of normal ones
-  static constexpr double spread =
-      1.1;  ///< robust sigma, of declared, that is more than its scatter
+  static constexpr double huber = 2.5;  ///< [sigma] corner of weights: 1.2 % of normal ones
+  /// Robust sigma, of declared, that is more than its scatter. Test: Thresholds.NoiseMoreThan...
+  static constexpr double spread = 1.1;
 };
 
 /// Which noise is said to be there.
 struct NoiseLimits {
   static constexpr double component = 2.7;   ///< [2 log L] to come in: 5 %, half chi-square of 1
   static constexpr int most_components = 4;  ///< beside white noise and what is declared
-  static constexpr double significant_p = 1e-3;  ///< chance below which it is not as declared
+  /// Chance below which it is not as declared. Test: Thresholds.NoiseIsSaid...
+  static constexpr double significant_p = 1e-3;
   /// Components times time constants that are tried at once, at most: two random walks, two Markov
-  /// processes of two time constants each. Bounds the chance that the best of them is chance.
+  /// processes of two time constants each. Bounds the chance that the best of them is chance; a
+  /// gain of 12.9 has one of 1e-3. Test: Noise.AngleRandomWalkIsFoundWithItsSize
   static constexpr double alternatives = 6.0;
   /// [2 log L] by which noise of one gyro alone beats that of all three; the best of three axes and
   /// four sizes does so by chance 12 exp(-5) = 0.08 times at most.
@@ -87,7 +94,7 @@ struct NoiseLimits {
 struct NoiseDoubtLimits {
   /// Chances below which it is not believed: against a candidate, and against an input in one
   /// equation. Together 0.125, less their overlap: about one in ten. Tuned: of 51 blind nulls with
-  /// such noise one was doubted at half.
+  /// such noise one was doubted at half. Test: NoiseDoubt.NoiseOfAllThree...
   static constexpr double candidate_p = 0.08, lone_p = 0.045;
   static constexpr double per_amplitude = 3.0;   ///< [2 log L] each further one must bring: 8 %
   static constexpr std::size_t most_params = 3;  ///< of candidates that may stand for noise. Tuned
@@ -98,10 +105,11 @@ struct NoiseDoubtLimits {
 
 /// How sure a diagnosis is.
 struct SearchLimits {
-  static constexpr double alpha = 0.02;     ///< chance of a false alarm over all that is tried
-  static constexpr double credible = 0.95;  ///< that what is listed must hold together
-  /// How that chance is shared between candidates, windows, pairs and inputs in one equation: they
-  /// sum to 1. Tuned: half to what can be named.
+  static constexpr double alpha = 0.02;  ///< chance of a false alarm over all that is tried
+  /// That what is listed must hold together. Test: CredibleSet.ListsWhat...
+  static constexpr double credible = 0.95;
+  /// How the chance is shared between candidates, windows, pairs and inputs in one equation: they
+  /// sum to 1. Tuned: half to what can be named. Test: ChanceThresholds.AreExceeded...
   static constexpr double library_share = 0.5, scan_share = 0.15, pair_share = 0.15,
                           lone_share = 0.2;
   /// The windows' share is cut by this where they rule out a cause: thousands are looked at.
@@ -144,36 +152,42 @@ struct EffortLimits {
 /// Which explanation is kept, and named.
 struct WeighLimits {
   static constexpr double quiet_p = 0.01;  ///< of a free input beside a cause: something is left
-  /// [log] of a chance, by which what is left may exceed its threshold: one in 20 of what it lets
-  /// by.
+  /// [log] of a chance, by which what is left may exceed its threshold: one in 20 of what that lets
+  /// by. Test: CredibleSet.WhatLeavesFarTooMuch...
   static constexpr double tolerable = 3.0;
   static constexpr double needed = 3.0;        ///< [sigma] from zero, of each of several causes
   static constexpr double other_lambda = 3.0;  ///< [sigma] from the nominal equation's, to be named
-  static constexpr double sign = 2.0;  ///< [sigma] expected, for another sign to be held against it
-  static constexpr double valley =
-      6.0;  ///< [2 log L] an end beats the joint fit of lambda by: 20:1
-  static constexpr double second_cause = 20.0;    ///< odds against another cause
-  static constexpr double more_parameters = 3.0;  ///< [log] that they must bring: 20:1
+  static constexpr double sign = 2.0;    ///< [sigma] expected, if another sign is to count against
+  static constexpr double valley = 6.0;  ///< [2 log L] an end of lambda gains on the fit: 20:1
+  /// Odds against another cause. Test: CredibleSet.ASecondCauseIsOneInTwenty
+  static constexpr double second_cause = 20.0;
+  /// [log] that more parameters must bring: 20:1. Test: CredibleSet.MoreParametersMustBring...
+  static constexpr double more_parameters = 3.0;
   /// Forms of an unknown input: 7 kinds on 3 axes (of one instrument alone 5: then it is too dear).
+  /// Test: as `far_better`.
   static constexpr double forms = 21.0;
   /// [log] by which an unknown input leaves a cause behind: 150:1; and the part of the cause's own
-  /// evidence that linearisation may be wrong by. Tuned.
+  /// evidence that linearisation may be wrong by; tuned. Test: CredibleSet.SomethingUnknown...
   static constexpr double far_better = 5.0, not_linear = 0.05;
-  static constexpr double held_out = 1.0;  ///< [log score] that held-out positions gain: e:1
+  /// [log score] that held-out positions must gain: e:1. Test: Thresholds.EachOfSeveralCauses...
+  static constexpr double held_out = 1.0;
   /// [sigma] of the library's prior beyond which a found size widens it in patched.toml.
+  /// Test: Thresholds.ASizeBeyondThreeSigma...
   static constexpr double prior = 3.0;
 };
 
 /// What is said beside the verdict.
 struct RemarkLimits {
-  static constexpr double equation = 9.0;  ///< [2 log L] that rules out eq. (5) or (6): odds 90:1
+  /// [2 log L] that rules out eq. (5) or (6): 90:1. Test: Thresholds.AnEquationIsOpen...
+  static constexpr double equation = 9.0;
   static constexpr double detectable = 0.84;  ///< [sigma] above a threshold: found 4 times of 5
   static constexpr double outliers_p = 1e-4;  ///< said of outliers: 4 sigma of their number
   static constexpr double lone_p = 0.01;      ///< of an unknown input that would explain it
-  static constexpr double nearest = 0.05;     ///< part of the misfit that a rejected cause explains
-  static constexpr double unphysical = 5.0;   ///< [prior sigma] from a prior's mean
-  /// [2 log L] of an effect that noise may stand for: 5 sigma; what each further amplitude must
-  /// add.
+  /// Part of the misfit that a rejected cause explains. Test: Thresholds.TheNearestKnown...
+  static constexpr double nearest = 0.05;
+  /// [prior sigma] from a prior's mean. Test: Thresholds.ParametersFiveSigma...
+  static constexpr double unphysical = 5.0;
+  /// [2 log L] of an effect that noise may stand for, 5 sigma; per further amplitude.
   static constexpr double or_effect = 25.0, or_effect_per_amplitude = 3.0;
   static constexpr double shape = 0.3;  ///< |correlation| below which a shape says nothing. Tuned
 };
@@ -189,12 +203,13 @@ struct SiteLimits {
 
 /// What is advised.
 struct AdviceLimits {
-  static constexpr double told = 2.0;         ///< [sigma] below which nobody would decide
-  static constexpr double wanted = 8.0;       ///< [sigma] that is found almost surely
+  static constexpr double told = 2.0;  ///< [sigma] below which nobody would decide
+  /// [sigma] that is found almost surely. Test: ChooseAdditions.EightSigmaAreEnough
+  static constexpr double wanted = 8.0;
   static constexpr std::size_t most = 3;      ///< additions to a plan
   static constexpr double least_gain = 1e-3;  ///< of the mean way to `wanted`
   /// A margin is taken that sets the closest pair so many times farther apart in no more than so
-  /// many times the hours. Tuned.
+  /// many times the hours. Tuned. Test: ChooseAdditions.AMarginIsTwiceAsFar...
   static constexpr double margin = 2.0, margin_hours = 2.0;
 };
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/inference/noise_states.hpp"
+#include "analysis/inference/noise/noise_states.hpp"
 
 namespace drift::inference {
 

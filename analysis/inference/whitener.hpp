@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/inference/linear_problem.hpp"
-#include "analysis/inference/noise_model.hpp"
+#include "analysis/inference/noise/noise_model.hpp"
 
 namespace drift::inference {
 

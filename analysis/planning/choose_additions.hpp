@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "analysis/inference/thresholds.hpp"
 #include "analysis/planning/position_pool.hpp"
 #include "analysis/planning/separation.hpp"
 
@@ -12,8 +13,8 @@ namespace drift::planning {
 struct Aim {
   std::span<const Trace> traces;
   std::span<const Contest> pairs;
-  std::size_t most = 3;  ///< additions
-  double wanted = 8.0;   ///< separation that is enough [1 sigma]
+  std::size_t most = inference::AdviceLimits::most;  ///< additions
+  double wanted = inference::AdviceLimits::wanted;   ///< separation that is enough [1 sigma]
 };
 
 /// Additions of a pool that bring the pairs nearest to `wanted` (the mean of sigma / wanted, each

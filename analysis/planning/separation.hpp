@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "analysis/inference/linear_problem.hpp"
+#include "analysis/inference/noise/noise_model.hpp"
 
 namespace drift::planning {
 

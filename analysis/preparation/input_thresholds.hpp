@@ -3,16 +3,18 @@
 #include <cstddef>
 
 /// Every number by which recordings, plan and site are judged before a fit; those of the diagnosis
-/// are in analysis/inference/thresholds.hpp, which says how to read them.
+/// are in analysis/inference/thresholds.hpp, which says how to read them. Tests are those of
+/// Prepare and OddInput.
 namespace drift::preparation {
 
 /// What is left out, bridged, averaged or refused.
 struct RecordingLimits {
   /// A sensor that stands at one value for so many samples, and so many times as long as it usually
-  /// does, is stuck. Noise of a tenth of a readout step repeats a value 20 times in a row with a
-  /// chance below 1e-6 only where it always does. Tuned on a coarse readout.
+  /// does, is stuck. Tuned on a coarse readout, which repeats a value often.
+  /// Test: Prepare.TwentyEqualSamplesAreAStuckSensor
   static constexpr std::size_t stuck = 20;
   /// Part by which sample intervals may differ from the plan's, and from each other. Tuned.
+  /// Test: Prepare.SampleIntervalsMayDiffer...
   static constexpr double interval_room = 0.05;
   /// Rows beyond which samples are averaged, and the samples that the shortest dwell must keep. The
   /// time of a diagnosis grows with rows; eight samples still show a slope beside noise. Tuned.
@@ -27,9 +29,11 @@ struct RecordingLimits {
 
 /// When a plan is not that of the recording.
 struct PlanLimits {
-  static constexpr double dwell = 1.5;  ///< [samples] by which a dwell may be longer or shorter
+  /// [samples] by which a dwell may be longer or shorter. Test: Prepare.ADwellTwoSamplesShortIsSaid
+  static constexpr double dwell = 1.5;
   /// [deg/h] from the law's command: a fifteenth of Earth rate; compensated drift may be more and
   /// is remarked then.
+  /// Test: Prepare.ACommandOneDegPerHour...
   static constexpr double command_deg_per_h = 1.0;
   /// Of that: how near a command must be to Earth rate in the meridian to be that of a latitude,
   /// and how far from the site's for it to be another one (0.04 deg at Earth rate).

@@ -7,8 +7,12 @@
 #include <numeric>
 #include <string>
 
+#include "analysis/inference/thresholds.hpp"
+
 namespace drift::search {
 namespace {
+
+using inference::WeighLimits;
 
 /// Log prior of an explanation: every term alike, shared by the candidates it offers; a second
 /// cause is one in twenty.
@@ -17,7 +21,7 @@ double log_prior(const Fitted& e, const std::vector<Choice>& choices) {
   for (const inference::Candidate& c : e.set.candidates) offers[c.term] += 1.0;
   double sum = 0.0;
   for (const Choice& c : choices) sum -= std::log(offers[e.set.candidates[c.candidate].term]);
-  return sum - std::log(20.0) * static_cast<double>(choices.size() - 1);
+  return sum - std::log(WeighLimits::second_cause) * static_cast<double>(choices.size() - 1);
 }
 
 /// What an explanation is called: its terms and axes, in order; of a base term the parameters too.
@@ -46,8 +50,7 @@ bool covers(const Fitted& e, const Refit& wide, const Refit& narrow) {
 /// Log evidence, against the nominal model, of something unknown in one equation; every equation
 /// and form alike.
 double log_unknown(const Fitted& e) {
-  constexpr double forms = 21.0;
-  return 0.5 * e.lone.gain - std::log(forms);
+  return 0.5 * e.lone.gain - std::log(WeighLimits::forms);
 }
 
 /// Whether two single explanations are one cause of which only the part is open: the same term, and
@@ -77,13 +80,12 @@ std::vector<std::size_t> by_weight(const std::vector<double>& weight) {
 /// stands for all.
 std::vector<std::size_t> heads_of(const Fitted& e, const std::vector<Refit>& good,
                                   const std::vector<std::size_t>& order) {
-  constexpr double worth = 3.0;  // log evidence that more parameters must bring
   std::vector<std::size_t> head(good.size());
   std::iota(head.begin(), head.end(), 0u);
   for (std::size_t k = 0; k < good.size(); ++k)
     for (const std::size_t other : order)
       if (other != k && covers(e, good[k], good[other]) && !covers(e, good[other], good[k]) &&
-          good[other].log_bayes > good[k].log_bayes - worth) {
+          good[other].log_bayes > good[k].log_bayes - WeighLimits::more_parameters) {
         head[k] = other;
         break;
       }
@@ -106,16 +108,14 @@ std::vector<std::size_t> heads_of(const Fitted& e, const std::vector<Refit>& goo
 }  // namespace
 
 bool can_be_weighed(const Fitted& e, const std::vector<Refit>& refits, Leftover left) {
-  constexpr double far_better = 5.0;   // one in a hundred and fifty,
-  constexpr double not_linear = 0.05;  // and what the linearised evidence of a large effect may be
-                                       // wrong by
   double top = -std::numeric_limits<double>::infinity();
   bool enough = false;
   for (const Refit& r : refits) {
     enough = enough || (left == Leftover::chance ? r.tolerable() : r.adequate());
     if (r.tolerable()) top = std::max(top, log_weight(e, r));
   }
-  return enough && log_unknown(e) <= top + far_better + not_linear * std::max(top, 0.0);
+  return enough && log_unknown(e) <=
+                       top + WeighLimits::far_better + WeighLimits::not_linear * std::max(top, 0.0);
 }
 
 CredibleSet weigh(const Fitted& e, std::vector<Refit> refits, double credible) {

@@ -10,6 +10,8 @@
 namespace drift::search {
 namespace {
 
+using inference::SearchLimits;
+
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double strongest_candidate(const Fitted& nominal) {
@@ -61,10 +63,9 @@ Detection detect(Fitted nominal, const MeasuredTest& test, const SearchOptions& 
     out.p_pairs = out.pairs.p_value(pairs.front().strength);
   nominal.lone = inference::strongest_lone_input(nominal.problem, nominal.noise.model);
   out.p_lone = nominal.lone.p_value;
-  out.p_value = std::min({1.0, out.p_library / inference::SearchLimits::library_share,
-                          out.p_scan / inference::SearchLimits::scan_share,
-                          out.p_pairs / inference::SearchLimits::pair_share,
-                          out.p_lone / inference::SearchLimits::lone_share});
+  out.p_value = std::min(
+      {1.0, out.p_library / SearchLimits::library_share, out.p_scan / SearchLimits::scan_share,
+       out.p_pairs / SearchLimits::pair_share, out.p_lone / SearchLimits::lone_share});
   out.significant = out.p_value < options.alpha;
   out.nominal = std::move(nominal);
   return out;

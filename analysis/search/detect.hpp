@@ -1,15 +1,18 @@
 #pragma once
 
+#include "analysis/inference/thresholds.hpp"
 #include "analysis/search/chance_thresholds.hpp"
 
 namespace drift::search {
 
 /// How sure a diagnosis must be.
 struct SearchOptions {
-  double alpha = 0.02;     ///< chance of a false alarm over everything that is tried
-  double credible = 0.95;  ///< probability that the listed causes must hold together
-  int draws = 4000;        ///< of the null distribution
-  std::size_t most_refits = 6;
+  double alpha =
+      inference::SearchLimits::alpha;  ///< chance of a false alarm over everything that is tried
+  double credible =
+      inference::SearchLimits::credible;  ///< probability that the listed causes must hold together
+  int draws = 4000;                       ///< of the null distribution
+  std::size_t most_refits = inference::EffortLimits::refits;
 };
 
 /// Whether there is anything that the nominal model leaves out.

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "analysis/inference/gross_misfit.hpp"
-#include "analysis/inference/robust_weights.hpp"
+#include "analysis/inference/noise/gross_misfit.hpp"
+#include "analysis/inference/noise/robust_weights.hpp"
 
 namespace drift::search {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "analysis/inference/lone_input.hpp"
-#include "analysis/inference/noise.hpp"
+#include "analysis/inference/noise/lone_input.hpp"
+#include "analysis/inference/noise/noise.hpp"
 #include "analysis/search/field.hpp"
 
 namespace drift::search {

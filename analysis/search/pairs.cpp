@@ -6,14 +6,14 @@
 #include <map>
 #include <string>
 
+#include "analysis/inference/thresholds.hpp"
 #include "core/base/rng.hpp"
 
 namespace drift::search {
 namespace {
 
-constexpr double one_direction = 0.9999;
-constexpr double too_little =
-    22.0;  // log evidence behind the best pair: a million, and what the sizes are worth
+using inference::EffortLimits;
+using inference::ReachLimits;
 
 /// A single observable column that a candidate has.
 struct Unit {
@@ -70,7 +70,7 @@ std::vector<Pair> diverse(const Field& field, const std::vector<Pair>& sorted, s
     const bool seen = std::any_of(kept.begin(), kept.end(), [&](const Pair& k) {
       return k.a.candidate == p.a.candidate && k.b.candidate == p.b.candidate;
     });
-    if (!seen && ++named[name_of(field, p)] <= 2) kept.push_back(p);
+    if (!seen && ++named[name_of(field, p)] <= EffortLimits::pairs_of_a_name) kept.push_back(p);
   }
   return kept;
 }
@@ -96,7 +96,7 @@ std::vector<Pair> strongest_pairs(const Field& field, std::size_t most) {
   std::vector<Pair> pairs;
   for (std::size_t i = 0; i < units.size(); ++i)
     for (std::size_t k = 0; k < i; ++k) {
-      if (same_candidate(units[i], units[k]) || std::abs(rho(i, k)) > one_direction) continue;
+      if (same_candidate(units[i], units[k]) || inference::same_trace(rho(i, k))) continue;
       const double T = joint(z[i], z[k], rho(i, k));
       if (pairs.size() == most && T <= pairs.back().T) continue;
       if (pairs.size() == most) pairs.pop_back();
@@ -118,7 +118,7 @@ inference::MaxNull pair_null(const Field& field, int draws) {
   for (std::size_t i = 0; i < units.size(); ++i)
     for (std::size_t k = 0; k < i; ++k) {
       const double r = rho(i, k);
-      if (same_candidate(units[i], units[k]) || std::abs(r) > one_direction) continue;
+      if (same_candidate(units[i], units[k]) || inference::same_trace(r)) continue;
       const double w = 1.0 / (1.0 - r * r);
       for (int d = 0; d < draws; ++d) {
         const double a = g(d, i), b = g(d, k);
@@ -143,7 +143,9 @@ std::vector<Pair> adequate_pairs(const Field& field, const std::vector<Score>& s
   for (const std::size_t k : order) {
     if (scores[k].dof == 0) continue;
     const inference::Candidate& c = field.set.candidates[k];
-    if (c.params.size() > 1 && (several >= 12 || c.params.size() > 6)) continue;
+    if (c.params.size() > 1 &&
+        (several >= EffortLimits::wide_in_pairs || c.params.size() > EffortLimits::widest_in_pairs))
+      continue;
     several += c.params.size() > 1;
     choices.push_back({k, scores[k].variant});
     for (std::size_t v = 0; c.params.size() == 1 && v < c.variants.size(); ++v)
@@ -164,11 +166,11 @@ std::vector<Pair> adequate_pairs(const Field& field, const std::vector<Score>& s
       if (choices[i].candidate == choices[k].candidate || a.contains(b) || b.contains(a)) continue;
       const double evidence = quick_log_bayes(
           field.projected, distinct_columns_of(field.set, {choices[k], choices[i]}));
-      if (evidence < top - too_little) continue;
+      if (evidence < top - ReachLimits::pair) continue;
       top = std::max(top, evidence);
       tries.push_back({choices[k], choices[i], evidence});
     }
-  std::erase_if(tries, [&](const Try& t) { return t.log_bayes < top - too_little; });
+  std::erase_if(tries, [&](const Try& t) { return t.log_bayes < top - ReachLimits::pair; });
   std::vector<Pair> found;
   for (const Try& t : tries) {
     const std::vector<Choice> pair{t.a, t.b};

@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <optional>
 
+#include "analysis/inference/thresholds.hpp"
 #include "analysis/search/greedy.hpp"
 #include "analysis/search/pairs.hpp"
 
 namespace drift::search {
 namespace {
 
-constexpr double negligible = 14.0;  // log evidence behind the best: less than one in a million
-constexpr double slack = 1.25;  // of a threshold: the linearised test may be wrong by it, the refit
-                                // decides
+using inference::EffortLimits;
+using inference::ReachLimits;
 
 /// Whether what is left is within so many times the thresholds.
 bool within(const Remainder& left, const ChanceThresholds& t, double times) {
@@ -30,14 +30,14 @@ std::vector<std::size_t> adequate_singles(const Search& s) {
   const Fitted& e = s.nominal;
   const std::vector<std::size_t> surely = adequate_by_score(s, 1.0);
   std::vector<std::size_t> kept;
-  for (const std::size_t k : adequate_by_score(s, slack)) {
+  for (const std::size_t k : adequate_by_score(s, ReachLimits::slack)) {
     const inference::Candidate& c = e.set.candidates[k];
     const bool part_will_do = std::ranges::any_of(surely, [&](std::size_t other) {
       return c.contains(e.set.candidates[other]) &&
-             e.scores[other].log_bayes > e.scores[k].log_bayes - 3.0;
+             e.scores[other].log_bayes > e.scores[k].log_bayes - ReachLimits::part;
     });
-    if (!part_will_do &&
-        (kept.empty() || e.scores[kept.front()].log_bayes - e.scores[k].log_bayes < negligible))
+    if (!part_will_do && (kept.empty() || e.scores[kept.front()].log_bayes - e.scores[k].log_bayes <
+                                              ReachLimits::negligible))
       kept.push_back(k);
   }
   return kept;
@@ -58,15 +58,16 @@ std::optional<Choice> same_choice(const inference::CandidateSet& in, const infer
 /// What else is in the test once a cause is fitted that the linear score cannot judge (a change of
 /// equation moves the misalignments far): the candidates that leave nothing beside it, by evidence.
 std::vector<Explanation> beside(const Search& s, const Refit& r) {
-  constexpr std::size_t asked = 12, most = 3;
+  constexpr std::size_t asked = EffortLimits::beside_asked, most = EffortLimits::beside;
   std::vector<Explanation> pairs;
   const auto order = r.after.by_evidence();
   for (std::size_t i = 0; i < std::min(asked, order.size()) && pairs.size() < most; ++i) {
     const std::size_t variant = r.after.scores[order[i]].variant;
-    const Remainder left =
-        remainder(r.after, {{order[i], variant}}, slack * s.thresholds.library_threshold);
+    const Remainder left = remainder(r.after, {{order[i], variant}},
+                                     ReachLimits::slack * s.thresholds.library_threshold);
     const auto other = same_choice(s.nominal.set, r.after.set.candidates[order[i]], variant);
-    if (within(left, s.thresholds, slack) && other) pairs.push_back({r.choices.front(), *other});
+    if (within(left, s.thresholds, ReachLimits::slack) && other)
+      pairs.push_back({r.choices.front(), *other});
   }
   return pairs;
 }
@@ -74,9 +75,10 @@ std::vector<Explanation> beside(const Search& s, const Refit& r) {
 }  // namespace
 
 std::vector<Choice> ways_of(const Fitted& e, std::size_t k) {
-  constexpr double nearly = 4.0;  // log evidence
   std::vector<Choice> ways;
-  for (const std::size_t v : best_settings(e, k, nearly, 2)) ways.push_back({k, v});
+  for (const std::size_t v :
+       best_settings(e, k, ReachLimits::refit_setting, EffortLimits::settings))
+    ways.push_back({k, v});
   return ways;
 }
 
@@ -91,8 +93,10 @@ std::vector<std::size_t> promising_singles(const Search& s, std::size_t most) {
   // is not.
   if (singles.empty()) {
     const std::vector<std::size_t> order = e.by_evidence();
-    for (std::size_t k = 0; k < std::min<std::size_t>(2, order.size()); ++k)
-      if (0.5 * s.other_equation - e.scores[order[k]].log_bayes < 10.0 * negligible) add(order[k]);
+    for (std::size_t k = 0; k < std::min(EffortLimits::large, order.size()); ++k)
+      if (0.5 * s.other_equation - e.scores[order[k]].log_bayes <
+          ReachLimits::large * ReachLimits::negligible)
+        add(order[k]);
   }
   // The score is blind to a change of equation that only rescales the misalignments.
   for (std::size_t k = 0; k < e.set.candidates.size(); ++k)
@@ -103,7 +107,7 @@ std::vector<std::size_t> promising_singles(const Search& s, std::size_t most) {
 }
 
 std::vector<std::size_t> more_than(const Search& s, const Refit& part) {
-  const std::vector<std::size_t> enough = adequate_by_score(s, slack);
+  const std::vector<std::size_t> enough = adequate_by_score(s, ReachLimits::slack);
   const auto& candidates = s.nominal.set.candidates;
   const inference::Candidate& tried = candidates[part.choices.front().candidate];
   const inference::Candidate& asked = part.after.set.candidates[part.remainder.strongest];
@@ -120,7 +124,7 @@ std::vector<std::size_t> more_than(const Search& s, const Refit& part) {
 
 std::vector<Explanation> promising_pairs(const Search& s, const std::vector<Refit>& singles,
                                          std::size_t most) {
-  constexpr double allowed = 1.1;  // of the thresholds
+  constexpr double allowed = ReachLimits::pair_slack;  // of the thresholds
   std::vector<Explanation> pairs;
   for (const Refit& r : singles)
     if (s.nominal.set.candidates[r.choices.front().candidate].term == closure_term &&
@@ -134,9 +138,8 @@ std::vector<Explanation> promising_pairs(const Search& s, const std::vector<Refi
 }
 
 std::vector<Explanation> promising_several(const Search& s) {
-  constexpr std::size_t most = 4;
   const Explanation several = greedy(s.nominal, s.nominal.scores, s.thresholds.library_threshold,
-                                     s.thresholds.scan_threshold, most);
+                                     s.thresholds.scan_threshold, EffortLimits::together);
   if (several.size() <= 2) return {};
   return {several};
 }

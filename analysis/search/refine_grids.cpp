@@ -6,11 +6,12 @@
 #include <optional>
 #include <set>
 
+#include "analysis/inference/thresholds.hpp"
+
 namespace drift::search {
 namespace {
 
-constexpr int between = 3;      // settings put between each two points
-constexpr double nearly = 6.0;  // log evidence: a second onset that may come to be the best
+constexpr int between = 3;  // settings put between each two points
 
 /// The one setting of a candidate that may lie between grid points; none if there is no such or
 /// several.
@@ -106,7 +107,8 @@ Fitted refine_grids(Fitted e, const MeasuredTest& test, double worth) {
     if (!place || e.scores[k].dof == 0 || e.scores[k].log_bayes < top - worth) continue;
     // Which gaps; from above, so that those below stay where they are.
     std::set<std::size_t, std::greater<>> gaps;
-    for (const std::size_t v : best_settings(e, k, nearly, 2)) {
+    for (const std::size_t v : best_settings(e, k, inference::ReachLimits::refine_setting,
+                                             inference::EffortLimits::settings)) {
       if (v + 1 < c.variants.size()) gaps.insert(v);
       if (v > 0) gaps.insert(v - 1);
     }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/inference/thresholds.hpp"
 #include "analysis/search/fit_causes.hpp"
 #include "analysis/search/settle_noise.hpp"
 #include "analysis/search/size_prior.hpp"
@@ -11,7 +12,8 @@
 namespace drift::search {
 namespace {
 
-constexpr double quiet_p_value = 0.01;  // of a free-form input beside the cause: nothing is left
+using inference::EffortLimits;
+using inference::WeighLimits;
 
 /// Points of the library's grid at which a candidate can be seen at all.
 double grid_points(const Fitted& e, std::size_t candidate) {
@@ -46,13 +48,13 @@ double gain_of_sizes(const inference::CandidateSet& set, const Refit& r) {
 /// Whether each of simultaneous causes has an amplitude that is clearly not zero. A change of
 /// equation is judged by the fit alone: where its weight ends is seldom known well.
 bool all_needed(const inference::CandidateSet& set, const Refit& r) {
-  constexpr double clearly = 3.0;  // sigma
   return std::all_of(r.choices.begin(), r.choices.end(), [&](const Choice& choice) {
     const auto& params = set.candidates[choice.candidate].params;
     return std::any_of(params.begin(), params.end(), [&](std::size_t i) {
       const ParameterEstimate* p = r.after.fit.estimate.find(i);
       return i == closure_param || !p ||
-             std::abs(p->value - TermLibrary::specs[i].prior_si().mean()) >= clearly * p->sigma;
+             std::abs(p->value - TermLibrary::specs[i].prior_si().mean()) >=
+                 WeighLimits::needed * p->sigma;
     });
   });
 }
@@ -61,8 +63,8 @@ bool all_needed(const inference::CandidateSet& set, const Refit& r) {
 bool signs_agree(const Expectation& expected, const BatchResult& fit) {
   return std::ranges::all_of(expected.amplitude, [&](const auto& a) {
     const ParameterEstimate* p = fit.estimate.find(a.first);
-    return p == nullptr || a.first == closure_param || std::abs(a.second) <= 2.0 * p->sigma ||
-           p->value * a.second >= 0.0;
+    return p == nullptr || a.first == closure_param ||
+           std::abs(a.second) <= WeighLimits::sign * p->sigma || p->value * a.second >= 0.0;
   });
 }
 
@@ -85,8 +87,8 @@ Remainder left_by(const Fitted& after, const inference::CandidateSet& set,
 /// Another equation must be another one: an interval that holds the nominal weight names nothing.
 bool is_another_equation(Coupling nominal, const BatchResult& fit) {
   const ParameterEstimate* p = fit.estimate.find(closure_param);
-  return p == nullptr ||
-         std::abs(p->value - value_left_out(closure_param, nominal)) > 3.0 * p->sigma;
+  return p == nullptr || std::abs(p->value - value_left_out(closure_param, nominal)) >
+                             WeighLimits::other_lambda * p->sigma;
 }
 
 /// Each variant of a grid was one try; the refit took the best of them.
@@ -107,7 +109,9 @@ Refit refit(const Fitted& nominal, const MeasuredTest& test, const std::vector<C
   out.after = examine(filter, test, fit,
                       nominal.noise.driven ? NoiseKinds::driving_too : NoiseKinds::white);
   // A second effect may hide in the noise.
-  if (const auto noise = settle_noise(out.after, thresholds.library_threshold, 2, 1))
+  if (const auto noise =
+          settle_noise(out.after, thresholds.library_threshold, EffortLimits::noise_tries_beside,
+                       EffortLimits::noise_rounds_beside))
     out.after = with_noise(std::move(out.after), test.timeline, *noise);
   out.sign_agrees = signs_agree(expected, fit);
   out.nameable = !expected.lambda_among_them || is_another_equation(nominal.filter.coupling, fit);
@@ -119,7 +123,7 @@ Refit refit(const Fitted& nominal, const MeasuredTest& test, const std::vector<C
   if (out.tolerable()) {
     // Many small traces in one equation that no window and no candidate has alone.
     out.after.lone = inference::strongest_lone_input(out.after.problem, out.after.noise.model);
-    out.excess = std::max(out.excess, std::log(quiet_p_value / out.after.lone.p_value));
+    out.excess = std::max(out.excess, std::log(WeighLimits::quiet_p / out.after.lone.p_value));
   }
   out.log_bayes = 0.5 * (out.after.log_likelihood2() - nominal.log_likelihood2()) -
                   log_tries(nominal, choices) - narrowed + gain_of_sizes(nominal.set, out);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "analysis/inference/thresholds.hpp"
 #include "analysis/search/chance_thresholds.hpp"
 #include "analysis/search/remainder.hpp"
 
@@ -16,7 +17,7 @@ struct Refit {
   bool nameable = true;  ///< false: lambda that is not clearly another equation's
   bool adequate() const { return excess <= 0.0 && nameable; }
   /// What is left may be chance: one in twenty of those that the threshold lets through.
-  bool tolerable() const { return excess <= 3.0; }
+  bool tolerable() const { return excess <= inference::WeighLimits::tolerable; }
   double log_bayes = 0.0;   ///< log evidence against the nominal model, both with their own noise
   bool sign_agrees = true;  ///< amplitudes came out with the sign the score predicted
 };

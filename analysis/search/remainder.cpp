@@ -9,9 +9,7 @@
 namespace drift::search {
 namespace {
 
-/// Part of a column's information that must be left after conditioning for it to count as another.
-constexpr double least_left = 1e-6;
-constexpr double least_left_of_several = 1e-5, least_left_of_window = 1e-5;
+using inference::VisibleLimits;
 
 /// Columns of simultaneous causes, each with the better of its neighbouring variants.
 std::vector<int> columns_with_neighbours(const Field& field, std::vector<Choice> choices) {
@@ -50,9 +48,9 @@ class Conditioned {
 
   /// T of one column; 0 where nothing of it is left.
   double T_of(int column) const {
-    const bool seen = left_[column] > least_left * field_.projected.C(column, column) &&
-                      left_[column] > inference::VisibleLimits::information_beside *
-                                          inference::VisibleLimits::information;
+    const bool seen =
+        left_[column] > VisibleLimits::left * field_.projected.C(column, column) &&
+        left_[column] > VisibleLimits::information_beside * VisibleLimits::information;
     return seen ? g_[column] * g_[column] / left_[column] : 0.0;
   }
 
@@ -70,7 +68,7 @@ class Conditioned {
     const VecX y = eigen.eigenvectors().transpose() * (whole.W.transpose() * g_(whole.columns));
     Several out;
     for (Eigen::Index j = 0; j < y.size(); ++j)
-      if (eigen.eigenvalues()[j] > least_left_of_several) {
+      if (eigen.eigenvalues()[j] > VisibleLimits::left_of_several) {
         out.T += y[j] * y[j] / eigen.eigenvalues()[j];
         ++out.dof;
       }
@@ -85,7 +83,7 @@ class Conditioned {
     for (Eigen::Index k = 0; k < g.size(); ++k) {
       if (scan.T[k] == 0.0) continue;
       const double c = scan.scan.C(k, k) - cross.col(k).squaredNorm();
-      if (c > least_left_of_window * scan.scan.C(k, k))
+      if (c > VisibleLimits::left_of_several * scan.scan.C(k, k))
         largest = std::max(largest, g[k] * g[k] / c);
     }
     return largest;

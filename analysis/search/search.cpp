@@ -2,14 +2,13 @@
 
 #include <algorithm>
 
+#include "analysis/inference/thresholds.hpp"
 #include "analysis/search/promising.hpp"
 #include "analysis/search/refine_grids.hpp"
 #include "mc/task/campaign.hpp"
 
 namespace drift::search {
 namespace {
-
-constexpr double worth_refining = 25.0;  // log evidence behind the best: a partner may lift it
 
 /// What the best way to put a candidate in leaves.
 Remainder least_remainder(const Search& s, std::size_t candidate) {
@@ -58,7 +57,9 @@ std::vector<Refit> refit_singles(const Search& s, const MeasuredTest& test, std:
 
 Search search(Fitted nominal, const MeasuredTest& test, const SearchOptions& options) {
   Search out{detect(std::move(nominal), test, options), {}, {}, false, {}, {}};
-  if (out.significant) out.nominal = refine_grids(std::move(out.nominal), test, worth_refining);
+  if (out.significant)
+    out.nominal =
+        refine_grids(std::move(out.nominal), test, inference::ReachLimits::worth_refining);
   for (std::size_t k = 0; k < out.nominal.scores.size(); ++k)
     out.linear.push_back(least_remainder(out, k));
   if (!out.significant) return out;

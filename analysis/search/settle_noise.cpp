@@ -4,15 +4,13 @@
 #include <cmath>
 
 #include "analysis/inference/evidence.hpp"
-#include "analysis/inference/noise_doubt.hpp"
+#include "analysis/inference/noise/noise_doubt.hpp"
+#include "analysis/inference/thresholds.hpp"
 
 namespace drift::search {
 namespace {
 
-/// Chance below which noise of all instruments is not believed: together (they overlap) one in ten,
-/// where the chances themselves are drawn with room (noise_doubt.hpp): of 51 blind nulls with such
-/// noise one was doubted at half.
-constexpr double no_noise = 0.08, no_noise_lone = 0.045;
+using inference::NoiseDoubtLimits;
 
 /// log det (1 + C) of some columns under a noise: what a unit prior on their amplitudes costs twice
 /// the log of the marginal likelihood against its maximum.
@@ -30,9 +28,6 @@ inference::NoiseModel weaker(inference::NoiseModel m, double factor) {
     *s *= factor;
   return m;
 }
-
-/// Strength of an effect in the mean that is worth having there once noise is not believed.
-constexpr double chance = 2.0;
 
 struct Try {
   std::size_t candidate = 0, variant = 0;
@@ -118,16 +113,17 @@ std::optional<inference::NoiseEstimate> settle_noise(const Fitted& e, double thr
         inference::strongest_lone_input(e.problem, white.model, in_mean);
     const inference::NoiseDoubt d =
         inference::doubt(e.problem, e.set, white.model, now.model, lone, in_mean);
-    if (d.p_lone <= no_noise_lone && white.log_likelihood2 + lone.gain > now.log_likelihood2)
+    if (d.p_lone <= NoiseDoubtLimits::lone_p &&
+        white.log_likelihood2 + lone.gain > now.log_likelihood2)
       return beside(e, white.model, lone.input, in_mean);
-    const bool no_such_noise = d.p_candidate <= no_noise;
+    const bool no_such_noise = d.p_candidate <= NoiseDoubtLimits::candidate_p;
     std::vector<inference::NoiseModel> views{white.model};
     if (!no_such_noise) views.insert(views.end(), {weaker(now.model, 0.3), now.model});
     std::vector<Try> tries =
         tries_under(e, views, no_such_noise ? white.log_likelihood2 : now.log_likelihood2, in_mean);
     if (tries.size() > most_tries) tries.resize(most_tries);
     Settled best = best_of(e, tries, in_mean, now.log_likelihood2);
-    if (best.strength < (no_such_noise ? chance : threshold)) break;
+    if (best.strength < (no_such_noise ? NoiseDoubtLimits::worth : threshold)) break;
     other = std::move(best.noise);
     in_mean = std::move(best.in_mean);
   }

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "analysis/inference/thresholds.hpp"
 #include "analysis/search/fitted.hpp"
 
 namespace drift::search {
@@ -15,7 +16,8 @@ namespace drift::search {
 ///   the noise estimated anew.
 /// threshold: strength that makes a candidate significant. rounds: candidates that may be in the
 /// mean together. Returns the noise to put in the place of e.noise; nothing if that is believed.
-std::optional<inference::NoiseEstimate> settle_noise(const Fitted& e, double threshold,
-                                                     std::size_t tries = 4, int rounds = 3);
+std::optional<inference::NoiseEstimate> settle_noise(
+    const Fitted& e, double threshold, std::size_t tries = inference::EffortLimits::noise_tries,
+    int rounds = inference::EffortLimits::noise_rounds);
 
 }  // namespace drift::search

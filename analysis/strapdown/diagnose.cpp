@@ -6,7 +6,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "analysis/diagnosis/patched_study.hpp"
+#include "analysis/diagnosis/advice/patched_study.hpp"
 #include "analysis/strapdown/nominal.hpp"
 #include "analysis/strapdown/residuals.hpp"
 #include "analysis/strapdown/where.hpp"

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/diagnosis/diagnosis.hpp"
+#include "analysis/diagnosis/findings/diagnosis.hpp"
 #include "analysis/strapdown/identify.hpp"
 #include "mc/study/study.hpp"
 

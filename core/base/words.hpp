@@ -19,9 +19,10 @@ inline std::string listed(const std::vector<std::string>& items, std::string_vie
 /// "a, b, c and 4 more": the first `most`.
 inline std::string listed_up_to(const std::vector<std::string>& items, std::size_t most) {
   if (items.size() <= most) return fmt::format("{}", fmt::join(items, ", "));
-  return fmt::format("{} and {} more",
-                     fmt::join(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(most), ", "),
-                     items.size() - most);
+  return fmt::format(
+      "{} and {} more",
+      fmt::join(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(most), ", "),
+      items.size() - most);
 }
 
 }  // namespace drift

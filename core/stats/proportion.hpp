@@ -24,9 +24,7 @@ struct Rate {
   }
   /// Bounds for a two-sided interval of z standard deviations; 0..1 without runs.
   /// Exactly 0 where nothing hit and 1 where everything did.
-  double low(double z = half_width_95) const {
-    return hits > 0 ? centre(z) - half_width(z) : 0.0;
-  }
+  double low(double z = half_width_95) const { return hits > 0 ? centre(z) - half_width(z) : 0.0; }
   double high(double z = half_width_95) const {
     return hits < of ? centre(z) + half_width(z) : 1.0;
   }

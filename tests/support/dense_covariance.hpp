@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "analysis/inference/linear_problem.hpp"
-#include "analysis/inference/noise_model.hpp"
+#include "analysis/inference/noise/noise_model.hpp"
 
 namespace drift::test {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/diagnosis/advice.hpp"
+#include "analysis/diagnosis/findings/advice.hpp"
 
 namespace drift::report {
 

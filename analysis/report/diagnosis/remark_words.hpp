@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "analysis/diagnosis/remark.hpp"
+#include "analysis/diagnosis/findings/remark.hpp"
 
 namespace drift::report {
 

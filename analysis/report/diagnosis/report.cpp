@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "analysis/diagnosis/patched_study.hpp"
+#include "analysis/diagnosis/advice/patched_study.hpp"
 #include "analysis/planning/position_toml.hpp"
 #include "analysis/report/diagnosis/advice_words.hpp"
 #include "analysis/report/diagnosis/sections.hpp"

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "analysis/diagnosis/diagnosis.hpp"
+#include "analysis/diagnosis/findings/diagnosis.hpp"
 #include "analysis/report/diagnosis/effect_words.hpp"
 
 namespace drift::report {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/diagnosis/where.hpp"
+#include "analysis/diagnosis/findings/where.hpp"
 
 namespace drift::report {
 

@@ -1,7 +1,7 @@
 // Advice on request, followed: what a plan conceals is named once the advised positions are added.
 #include <gtest/gtest.h>
 
-#include "analysis/diagnosis/advise.hpp"
+#include "analysis/diagnosis/advice/advise.hpp"
 #include "analysis/diagnosis/diagnose.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
 #include "core/sim/measurements.hpp"

@@ -1,10 +1,10 @@
-#include "analysis/diagnosis/advise.hpp"
+#include "analysis/diagnosis/advice/advise.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "analysis/diagnosis/alternatives.hpp"
+#include "analysis/diagnosis/advice/alternatives.hpp"
 #include "analysis/report/diagnosis/advice_words.hpp"
 #include "core/base/check.hpp"
 #include "core/sim/measurements.hpp"

@@ -4,10 +4,9 @@
 
 #include <cmath>
 
+#include "analysis/diagnosis/advice/patched_study.hpp"
 #include "analysis/diagnosis/asides.hpp"
-#include "analysis/diagnosis/choose_additions.hpp"
 #include "analysis/diagnosis/judge.hpp"
-#include "analysis/diagnosis/patched_study.hpp"
 #include "analysis/diagnosis/spikes.hpp"
 #include "tests/support/model_builders.hpp"
 
@@ -76,7 +75,7 @@ TEST(Thresholds, AnEquationIsOpenUpToOddsOfNinetyToOne) {
 
 TEST(Thresholds, TheNearestKnownExplainsATwentiethOfTheMisfit) {
   const auto with_chi2 = [](double per_dof) {
-    search::Examination e;
+    search::Fitted e;
     e.fit.estimate.measured = 1000;
     e.fit.estimate.statistic = 1000.0 * per_dof;
     return e;
@@ -116,42 +115,6 @@ TEST(Thresholds, ASizeBeyondThreeSigmaOfItsPriorWidensIt) {
   };
   EXPECT_DOUBLE_EQ(sigma_of(2.9), 1.0);
   EXPECT_NEAR(sigma_of(3.1), 3.1, 1e-12);
-}
-
-/// One effect of one sigma that a plan does not see, and two additions that both show it well
-/// enough: the short one 9 sigma in an hour, the long one `sigma` in `hours`. Which is chosen?
-std::size_t chosen(double sigma, double hours) {
-  const auto information = [](double s) {
-    return Information{MatX::Zero(1, 1), MatX::Zero(1, 1), MatX::Constant(1, 1, s * s)};
-  };
-  const auto addition = [](double h) {
-    Position p;
-    p.dwell = 3600.0 * h;
-    return planning::Addition{p};
-  };
-  std::vector<Alternative> alternatives(2);
-  alternatives[0].columns = {0};
-  alternatives[0].amplitude = VecX::Ones(1);
-  const std::vector<Contest> pairs{{0, 1}};
-  const auto found =
-      choose_additions(information(0.0), {addition(1.0), addition(hours)},
-                       {information(9.0), information(sigma)}, {alternatives, pairs}, {});
-  EXPECT_EQ(found.size(), 1u);
-  return found.empty() ? 99 : found.front();
-}
-
-TEST(Thresholds, AMarginIsTakenWhereItIsTwiceAndCostsNoMoreThanTwice) {
-  EXPECT_EQ(chosen(17.9, 1.5), 0u);
-  EXPECT_EQ(chosen(18.1, 1.5), 1u);
-  EXPECT_EQ(chosen(18.1, 2.0), 1u);
-  EXPECT_EQ(chosen(18.1, 2.1), 0u);
-}
-
-TEST(Thresholds, EightSigmaAreEnough) {
-  // The short one of six minutes alone if it reaches that, else the hour of nine sigma alone: both
-  // take longer.
-  EXPECT_EQ(chosen(8.1, 0.1), 1u);
-  EXPECT_EQ(chosen(7.9, 0.1), 0u);
 }
 
 }  // namespace

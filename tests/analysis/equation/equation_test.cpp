@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "analysis/diagnosis/advise.hpp"
+#include "analysis/diagnosis/advice/advise.hpp"
+#include "analysis/diagnosis/advice/patched_study.hpp"
 #include "analysis/diagnosis/diagnose.hpp"
-#include "analysis/diagnosis/patched_study.hpp"
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
 #include "core/sim/simulate.hpp"

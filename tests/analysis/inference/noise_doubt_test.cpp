@@ -1,7 +1,8 @@
-#include "analysis/inference/noise_doubt.hpp"
+#include "analysis/inference/noise/noise_doubt.hpp"
 
 #include <gtest/gtest.h>
 
+#include "analysis/inference/thresholds.hpp"
 #include "analysis/search/fitted.hpp"
 #include "tests/support/model_builders.hpp"
 
@@ -73,8 +74,8 @@ TEST(NoiseDoubt, NoiseOfAllThreeGyrosIsBelieved) {
   b.problem.r0 = Whitener(b.problem, noise).colour(z);
   const Outcome o = judged(b);
   ASSERT_TRUE(o.driven);
-  EXPECT_GT(o.doubt.p_candidate, 0.04);
-  EXPECT_GT(o.doubt.p_lone, 0.02);
+  EXPECT_GT(o.doubt.p_candidate, NoiseDoubtLimits::candidate_p);
+  EXPECT_GT(o.doubt.p_lone, NoiseDoubtLimits::lone_p);
 }
 
 TEST(LoneInput, IsFoundInItsEquation) {

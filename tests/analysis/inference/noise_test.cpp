@@ -1,4 +1,4 @@
-#include "analysis/inference/noise.hpp"
+#include "analysis/inference/noise/noise.hpp"
 
 #include <gtest/gtest.h>
 

@@ -78,6 +78,28 @@ TEST(ChooseAdditions, TakesTheShorterWhereBothReachTheAimUnlessTheMarginIsCheap)
             (Indices{0}));
 }
 
+TEST(ChooseAdditions, AMarginIsTwiceAsFarInNoMoreThanTwiceTheTime) {
+  const auto longer = [](double sigma, double dwell) {
+    return chosen({candidate(60.0, 81.0, 81.0), candidate(dwell, sigma * sigma, sigma * sigma)}, 3,
+                  8.0) == Indices{1};
+  };
+  EXPECT_FALSE(longer(17.9, 90.0));
+  EXPECT_TRUE(longer(18.1, 90.0));
+  EXPECT_TRUE(longer(18.1, 120.0));
+  EXPECT_FALSE(longer(18.1, 126.0));
+}
+
+TEST(ChooseAdditions, EightSigmaAreEnough) {
+  // Six minutes that reach it are enough; if not, the hour does without them.
+  const auto short_one = [](double sigma) {
+    const Aim aim;
+    return chosen({candidate(3600.0, 81.0, 81.0), candidate(360.0, sigma * sigma, sigma * sigma)},
+                  aim.most, aim.wanted);
+  };
+  EXPECT_EQ(short_one(8.1), Indices{1});
+  EXPECT_EQ(short_one(7.9), Indices{0});
+}
+
 TEST(ChooseAdditions, IsNothingWhereNothingHelps) {
   EXPECT_TRUE(chosen({candidate(60.0, 0.0, 0.0)}, 3, 8.0).empty());
   EXPECT_TRUE(choose_additions(information(0.0, {0.0, 0.0}, 0.0, 0.0, 0.0), {}, {}).empty());

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "analysis/diagnosis/patched_study.hpp"
+#include "analysis/diagnosis/advice/patched_study.hpp"
 #include "analysis/report/diagnosis/remark_words.hpp"
 #include "analysis/report/diagnosis/report.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"

@@ -172,7 +172,9 @@ TEST_P(EveryTermUnder, IsConsistentOrRefusedInSlews) {
   check_every_term({"slews", four_positions, share_for(GetParam())}, GetParam());
 }
 
-TEST_P(EveryTermUnder, IsConsistentOrRefusedInTwelveSlews) {
+class NightlyEveryTermUnder : public EveryTermUnder {};
+
+TEST_P(NightlyEveryTermUnder, IsConsistentOrRefusedInTwelveSlews) {
   check_every_term({"twelve slews", twelve_positions, share_for(GetParam())}, GetParam());
 }
 
@@ -185,6 +187,7 @@ std::string name_of(const testing::TestParamInfo<std::string_view>& estimator) {
   return std::string(estimator.param);
 }
 INSTANTIATE_TEST_SUITE_P(Estimators, EveryTermUnder, estimators, name_of);
+INSTANTIATE_TEST_SUITE_P(Estimators, NightlyEveryTermUnder, estimators, name_of);
 
 }  // namespace
 }  // namespace drift

@@ -45,7 +45,8 @@ TEST(Unmodelled, ProcessNoiseIsNotModelledByABatchFit) {
   }
   FilterSpec filter = base_filter(Coupling::eq6);
   filter.noise = {.angle_random_walk = 1e-6, .drift_random_walk = 1e-9};
-  expect_said(refusal(mc::EstimatorKind::batch, filter), {"'angle_random_walk', 'drift_random_walk'"});
+  expect_said(refusal(mc::EstimatorKind::batch, filter),
+              {"'angle_random_walk', 'drift_random_walk'"});
   EXPECT_EQ(refusal(mc::EstimatorKind::iterated, filter), "");
 }
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "analysis/diagnosis/diagnosis.hpp"
-#include "analysis/diagnosis/patched_study.hpp"
+#include "analysis/diagnosis/advice/patched_study.hpp"
+#include "analysis/diagnosis/findings/diagnosis.hpp"
 #include "mc/study/study.hpp"
 #include "tests/support/program.hpp"
 

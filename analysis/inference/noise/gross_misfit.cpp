@@ -1,8 +1,10 @@
-#include "analysis/inference/gross_misfit.hpp"
+#include "analysis/inference/noise/gross_misfit.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "analysis/inference/thresholds.hpp"
 
 namespace drift::inference {
 
@@ -41,14 +43,13 @@ NoiseEstimate noise_of_differences(const MeasuredRows& rows, const VecX& residua
 
 bool grossly_wrong(const MeasuredRows& rows, const VecX& residual,
                    const NoiseEstimate& differences) {
-  constexpr double gross = 30.0;  // chi-square per row that no plausible noise gives
   double chi2 = 0.0;
   for (Eigen::Index k = 0; k < residual.size(); ++k) {
     const double factor = rows.tags[k].accelerometer() ? differences.model.acc_factor
                                                        : differences.model.gimbal_factor;
     chi2 += residual[k] * residual[k] / (factor * factor);
   }
-  return chi2 > gross * static_cast<double>(residual.size());
+  return chi2 > SampleLimits::gross * static_cast<double>(residual.size());
 }
 
 }  // namespace drift::inference

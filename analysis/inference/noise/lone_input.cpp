@@ -1,11 +1,11 @@
-#include "analysis/inference/lone_input.hpp"
+#include "analysis/inference/noise/lone_input.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "analysis/inference/noise/sigma_ladder.hpp"
 #include "analysis/inference/projector.hpp"
-#include "analysis/inference/sigma_ladder.hpp"
 #include "core/base/units.hpp"
 #include "core/stats/chi_square.hpp"
 

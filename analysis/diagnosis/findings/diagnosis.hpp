@@ -6,14 +6,14 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/diagnosis/advice.hpp"
-#include "analysis/diagnosis/causes.hpp"
-#include "analysis/diagnosis/fit_comparison.hpp"
-#include "analysis/diagnosis/recovered_signal.hpp"
-#include "analysis/diagnosis/remark.hpp"
-#include "analysis/diagnosis/verdict.hpp"
-#include "analysis/diagnosis/where.hpp"
-#include "analysis/inference/noise_finding.hpp"
+#include "analysis/diagnosis/findings/advice.hpp"
+#include "analysis/diagnosis/findings/fit_comparison.hpp"
+#include "analysis/diagnosis/findings/recovered_signal.hpp"
+#include "analysis/diagnosis/findings/remark.hpp"
+#include "analysis/diagnosis/findings/twins.hpp"
+#include "analysis/diagnosis/findings/verdict.hpp"
+#include "analysis/diagnosis/findings/where.hpp"
+#include "analysis/inference/noise/noise_finding.hpp"
 #include "analysis/search/cause.hpp"
 #include "core/base/linalg.hpp"
 #include "core/physics/model_spec.hpp"

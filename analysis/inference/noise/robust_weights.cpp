@@ -1,8 +1,10 @@
-#include "analysis/inference/robust_weights.hpp"
+#include "analysis/inference/noise/robust_weights.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
+
+#include "analysis/inference/thresholds.hpp"
 
 namespace drift::inference {
 namespace {
@@ -20,24 +22,25 @@ double spread(const MeasuredRows& rows, const VecX& residual, bool accelerometer
   const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
   std::nth_element(sizes.begin(), middle, sizes.end());
   const double sigma = *middle / median_of_size;
-  return sigma > 1.1 ? sigma : 1.0;
+  return sigma > SampleLimits::spread ? sigma : 1.0;
 }
 
 }  // namespace
 
 VecX robust_weights(const MeasuredRows& rows, const VecX& whitened) {
-  constexpr double corner = 2.5;
+  constexpr double corner = SampleLimits::huber;
   const double acc = spread(rows, whitened, true), gimbal = spread(rows, whitened, false);
   VecX residual = whitened;
   for (Eigen::Index k = 0; k < residual.size(); ++k)
     residual[k] /= rows.tags[static_cast<std::size_t>(k)].accelerometer() ? acc : gimbal;
   const double n = static_cast<double>(residual.size());
   std::size_t far = 0;
-  for (const double r : residual) far += std::abs(r) > 3.5;
-  const double expected = 4.65e-4 * n;  // Gaussian
+  for (const double r : residual) far += std::abs(r) > SampleLimits::outlier;
+  const double expected = SampleLimits::outlier_share * n;
   VecX weight = rows.weight;
-  if (static_cast<double>(far) < expected + 4.0 * std::sqrt(expected) + 3.0 ||
-      static_cast<double>(far) > 0.02 * n)
+  if (static_cast<double>(far) < expected + SampleLimits::outlier_sigmas * std::sqrt(expected) +
+                                     SampleLimits::outlier_room ||
+      static_cast<double>(far) > SampleLimits::outlier_most * n)
     return weight;
   for (Eigen::Index k = 0; k < residual.size(); ++k)
     if (std::abs(residual[k]) > corner) weight[k] = std::sqrt(corner / std::abs(residual[k]));

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/inference/evidence.hpp"
-#include "analysis/inference/lone_input.hpp"
+#include "analysis/inference/noise/lone_input.hpp"
 
 namespace drift::inference {
 

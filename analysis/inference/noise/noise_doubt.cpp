@@ -1,10 +1,11 @@
-#include "analysis/inference/noise_doubt.hpp"
+#include "analysis/inference/noise/noise_doubt.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "analysis/inference/projector.hpp"
+#include "analysis/inference/thresholds.hpp"
 #include "core/base/rng.hpp"
 #include "core/base/units.hpp"
 #include "core/stats/normal.hpp"
@@ -15,9 +16,6 @@ namespace {
 constexpr int draws = 250;
 constexpr std::uint64_t doubt_seed =
     19610411;  // any number: fixed, so that a diagnosis is repeatable
-constexpr double per_degree =
-    3.0;  // of twice the log likelihood: what another amplitude must bring
-constexpr std::size_t most_params = 3;
 
 /// Recordings, one per column: the first is the real one, the others are drawn with the noise and
 /// parameters from their prior.
@@ -40,15 +38,16 @@ MatX recordings(const LinearProblem& problem, const Whitener& noise) {
 VecX best_gain(const Projector& projector, const CandidateSet& set, const MatX& g) {
   VecX best = VecX::Zero(g.cols());
   for (const Candidate& c : set.candidates) {
-    if (c.params.size() > most_params) continue;
+    if (c.params.size() > NoiseDoubtLimits::most_params) continue;
     for (const Variant& v : c.variants) {
       const auto n = static_cast<Eigen::Index>(v.columns.size());
       const MatX C = projector.candidates(v.columns).C + MatX::Identity(n, n);
       MatX part = g(v.columns, Eigen::all);
       const Eigen::LLT<MatX> llt(C);
       llt.matrixL().solveInPlace(part);
-      best = best.cwiseMax(part.colwise().squaredNorm().transpose() -
-                           VecX::Constant(g.cols(), per_degree * static_cast<double>(n - 1)));
+      best = best.cwiseMax(
+          part.colwise().squaredNorm().transpose() -
+          VecX::Constant(g.cols(), NoiseDoubtLimits::per_amplitude * static_cast<double>(n - 1)));
     }
   }
   return best;
@@ -76,7 +75,7 @@ double p_of_size(const LinearProblem& problem, const NoiseModel& white, const No
       {&NoiseModel::drift_random_walk, 1e-3 * walk, 5e-3 * walk},
       {&NoiseModel::markov_drift, 2e-3 * drift, 1e-2 * drift},
       {&NoiseModel::acc_markov, 0.2 * problem.acc_sigma, 1.2 * problem.acc_sigma}};
-  double p = stats::normal_distribution(-2.0);
+  double p = stats::normal_distribution(-NoiseDoubtLimits::smallest);
   for (const Usual& u : usual) {
     const double found = driven.*(u.sigma);
     if (found <= white.*(u.sigma)) continue;  // declared, or not there

@@ -1,4 +1,4 @@
-#include "analysis/diagnosis/alternatives.hpp"
+#include "analysis/diagnosis/advice/alternatives.hpp"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/diagnosis/question.hpp"
+#include "analysis/diagnosis/findings/question.hpp"
 #include "core/plan/test_plan.hpp"
 
 namespace drift::diagnosis {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "analysis/inference/linear_problem.hpp"
-#include "analysis/inference/noise_model.hpp"
+#include "analysis/inference/noise/noise_model.hpp"
 #include "core/base/units.hpp"
 
 namespace drift::inference {

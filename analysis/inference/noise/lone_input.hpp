@@ -3,7 +3,7 @@
 #include <string>
 
 #include "analysis/inference/linear_problem.hpp"
-#include "analysis/inference/noise_model.hpp"
+#include "analysis/inference/noise/noise_model.hpp"
 
 namespace drift::inference {
 

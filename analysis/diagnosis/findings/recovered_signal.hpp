@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/diagnosis/shape.hpp"
+#include "analysis/diagnosis/findings/shape.hpp"
 
 namespace drift::diagnosis {
 

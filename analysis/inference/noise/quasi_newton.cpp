@@ -1,4 +1,4 @@
-#include "analysis/inference/quasi_newton.hpp"
+#include "analysis/inference/noise/quasi_newton.hpp"
 
 #include "mc/task/campaign.hpp"
 

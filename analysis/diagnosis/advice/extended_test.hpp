@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "analysis/diagnosis/diagnosis.hpp"
+#include "analysis/diagnosis/findings/diagnosis.hpp"
 #include "analysis/inference/projector.hpp"
 #include "analysis/inference/signatures.hpp"
 #include "analysis/planning/position_pool.hpp"

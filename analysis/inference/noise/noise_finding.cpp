@@ -1,8 +1,9 @@
-#include "analysis/inference/noise_finding.hpp"
+#include "analysis/inference/noise/noise_finding.hpp"
 
 #include <cmath>
 #include <utility>
 
+#include "analysis/inference/thresholds.hpp"
 #include "core/stats/chi_square.hpp"
 
 namespace drift::inference {
@@ -16,7 +17,7 @@ NoiseFinding white_finding(std::string component, double factor, double log_sigm
   f.factor_sigma = factor * log_sigma;
   f.unit = "of declared";
   f.p_value = std::exp(stats::log_tail(z * z, 1.0));
-  f.significant = f.p_value < 1e-3;
+  f.significant = f.p_value < NoiseLimits::significant_p;
   f.log_likelihood_gain = 0.5 * z * z;
   f.count = rows;
   return f;

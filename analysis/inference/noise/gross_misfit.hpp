@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/inference/noise.hpp"
+#include "analysis/inference/noise/noise.hpp"
 
 namespace drift::inference {
 

@@ -1,4 +1,4 @@
-#include "analysis/inference/noise_component.hpp"
+#include "analysis/inference/noise/noise_component.hpp"
 
 namespace drift::inference {
 

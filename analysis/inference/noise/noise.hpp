@@ -3,8 +3,9 @@
 #include <vector>
 
 #include "analysis/inference/linear_problem.hpp"
-#include "analysis/inference/noise_finding.hpp"
-#include "analysis/inference/noise_model.hpp"
+#include "analysis/inference/noise/noise_finding.hpp"
+#include "analysis/inference/noise/noise_model.hpp"
+#include "analysis/inference/thresholds.hpp"
 
 namespace drift::inference {
 
@@ -25,6 +26,7 @@ struct NoiseEstimate {
 /// Source: Patterson and Thompson 1971; discovery.md 2.1, 4.6.
 /// most_added: components beside white noise and what is declared.
 NoiseEstimate estimate_noise(const LinearProblem& problem, const NoiseModel& declared,
-                             const std::vector<int>& with = {}, int most_added = 4);
+                             const std::vector<int>& with = {},
+                             int most_added = NoiseLimits::most_components);
 
 }  // namespace drift::inference

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/diagnosis/diagnosis.hpp"
+#include "analysis/diagnosis/findings/diagnosis.hpp"
 #include "analysis/inference/thresholds.hpp"
 #include "mc/study/study.hpp"
 

@@ -1,4 +1,4 @@
-#include "analysis/inference/noise_states.hpp"
+#include "analysis/inference/noise/noise_states.hpp"
 
 #include <cmath>
 

@@ -1,12 +1,12 @@
-#include "analysis/diagnosis/advise.hpp"
+#include "analysis/diagnosis/advice/advise.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/diagnosis/alternatives.hpp"
-#include "analysis/diagnosis/extended_test.hpp"
+#include "analysis/diagnosis/advice/alternatives.hpp"
+#include "analysis/diagnosis/advice/extended_test.hpp"
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/planning/choose_additions.hpp"
 #include "analysis/search/field.hpp"

@@ -1,8 +1,8 @@
-#include "analysis/diagnosis/extended_test.hpp"
+#include "analysis/diagnosis/advice/extended_test.hpp"
 
 #include <cmath>
 
-#include "analysis/diagnosis/patched_study.hpp"
+#include "analysis/diagnosis/advice/patched_study.hpp"
 #include "core/sim/simulate.hpp"
 
 namespace drift::diagnosis {

@@ -1,22 +1,20 @@
-#include "analysis/inference/noise.hpp"
+#include "analysis/inference/noise/noise.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 
-#include "analysis/inference/noise_component.hpp"
+#include "analysis/inference/noise/noise_component.hpp"
+#include "analysis/inference/noise/quasi_newton.hpp"
+#include "analysis/inference/noise/sigma_ladder.hpp"
 #include "analysis/inference/projector.hpp"
-#include "analysis/inference/quasi_newton.hpp"
-#include "analysis/inference/sigma_ladder.hpp"
+#include "analysis/inference/thresholds.hpp"
 #include "core/stats/chi_square.hpp"
 #include "mc/task/campaign.hpp"
 
 namespace drift::inference {
 namespace {
-
-constexpr double needed_gain = 2.7;        // of twice the log likelihood: a component comes in
-constexpr double significant_gain = 12.0;  // eight alternatives, one in a thousand
 
 /// A component whose sigma is estimated.
 struct Active {
@@ -92,20 +90,19 @@ std::optional<Mixture> with_one_more(const LinearProblem& bare, const Mixture& m
   });
   const auto top = std::ranges::max_element(tried, {}, &Rung::gain);
   // On the ladder's rungs: what is close to enough is worth the ascent.
-  if (top == tried.end() || top->gain < 0.5 * needed_gain) return std::nullopt;
+  if (top == tried.end() || top->gain < 0.5 * NoiseLimits::component) return std::nullopt;
   const Addition& addition = additions[static_cast<std::size_t>(top - tried.begin())];
   Mixture more = m;
   more.model = with(m.model, addition, top->sigma);
   more.active.push_back({addition.component});
   more = fitted(bare, std::move(more));
   more.active.back().gain = more.log_likelihood2 - m.log_likelihood2;
-  if (more.active.back().gain < needed_gain) return std::nullopt;
+  if (more.active.back().gain < NoiseLimits::component) return std::nullopt;
   return more;
 }
 
 /// A component that drives the platform: p by its gain, or against what was declared.
 NoiseFinding driving_finding(const Mixture& m, std::size_t k, const NoiseModel& declared) {
-  constexpr double alternatives = 6.0;
   const auto& [c, gain] = m.active[k];
   const double sigma = m.model.*(c->sigma), was = declared.*(c->sigma);
   NoiseFinding f;
@@ -116,8 +113,9 @@ NoiseFinding driving_finding(const Mixture& m, std::size_t k, const NoiseModel& 
   f.factor = f.factor_sigma = std::nan("");
   if (gain > 0.0) {
     f.log_likelihood_gain = 0.5 * gain;
-    f.p_value = std::min(1.0, alternatives * 0.5 * std::exp(stats::log_tail(gain, 1.0)));
-    f.significant = gain > significant_gain;
+    f.p_value =
+        std::min(1.0, NoiseLimits::alternatives * 0.5 * std::exp(stats::log_tail(gain, 1.0)));
+    f.significant = f.p_value < NoiseLimits::significant_p;
   }
   if (was > 0.0) {
     const auto i = static_cast<Eigen::Index>(k);
@@ -126,7 +124,7 @@ NoiseFinding driving_finding(const Mixture& m, std::size_t k, const NoiseModel& 
     f.factor_sigma = f.factor * log_sigma;
     const double z = std::log(f.factor) / log_sigma;
     f.p_value = std::exp(stats::log_tail(z * z, 1.0));
-    f.significant = f.p_value < 1e-3;
+    f.significant = f.p_value < NoiseLimits::significant_p;
   }
   return f;
 }
