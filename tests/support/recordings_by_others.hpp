@@ -9,7 +9,7 @@ namespace drift::test {
 
 /// A recording by others, which is no part of the repository.
 inline std::string path_of(const std::string& recording) {
-  return std::string(DRIFT_SOURCE_DIR) + "/../shared/recordings/" + recording;
+  return DRIFT_SOURCE_DIR "/../shared/recordings/" + recording;
 }
 
 }  // namespace drift::test
