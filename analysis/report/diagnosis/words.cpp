@@ -99,9 +99,9 @@ std::string fold_name(const Fold& fold, const std::vector<RecordingSpan>& record
       break;
   }
   const auto k = static_cast<std::size_t>(fold.number);
-  return k >= 1 && k <= recordings.size()
-             ? fmt::format("recording {}, {}", k, recordings[k - 1].name)
-             : fmt::format("recording {}", k);
+  const std::string plain = fmt::format("recording {}", k);
+  const bool named = k >= 1 && k <= recordings.size() && recordings[k - 1].name != plain;
+  return named ? fmt::format("{}, {}", plain, recordings[k - 1].name) : plain;
 }
 
 std::vector<std::string> twins_in_words(const std::vector<Twins>& twins) {

@@ -219,8 +219,9 @@ TEST_F(ResultsFolder, SaysWhyItCannotBeWritten) {
   const mc::Study study = testing::study();
   const identification::Identification id = testing::identification(study);
   std::ofstream(folder_) << "a file where the folder should be";
-  expect_io_error([&] { report::write_report(report::identification_report(study, id), folder_.string()); }, folder_.string(),
-                  "cannot be written");
+  expect_io_error(
+      [&] { report::write_report(report::identification_report(study, id), folder_.string()); },
+      folder_.string(), "cannot be written");
   expect_io_error([&] { write_text_atomically("/proc/none/x", "text"); }, "/proc/none/x",
                   "No such file");
 }
