@@ -22,7 +22,7 @@ struct InputEstimate {
 };
 
 /// The same for each of the twelve equations, best first. per_position: bins of each position.
-std::vector<InputEstimate> estimate_inputs(const inference::LinearProblem& problem,
+std::vector<InputEstimate> estimate_inputs(const inference::MeasuredRows& rows,
                                            const Timeline& timeline,
                                            const inference::Projector& projector, int per_position);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "analysis/inference/projector.hpp"
+#include "analysis/inference/signatures.hpp"
 #include "mc/task/campaign.hpp"
 
 namespace drift::equation {
