@@ -1,7 +1,6 @@
 #include <algorithm>
 
 #include "analysis/cli/commands.hpp"
-#include "core/plan/plan_memory.hpp"
 
 namespace drift::cli {
 
@@ -25,7 +24,6 @@ mc::Study StudyArguments::read() const {
 
 ExitCode check(const StudyArguments& arguments) {
   const mc::Study study = arguments.read();
-  if (study.kind == RecordingKind::platform) require_memory_for(study.plan);
   std::size_t key_width = 0, value_width = 0;
   for (const mc::Resolved& r : study.resolved) {
     key_width = std::max(key_width, r.key.size());

@@ -6,7 +6,6 @@
 #include "analysis/cli/frozen_study.hpp"
 #include "analysis/cli/run_options.hpp"
 #include "analysis/cli/run_progress.hpp"
-#include "core/base/output_file.hpp"
 #include "mc/engine/replay.hpp"
 #include "mc/export/export_hdf5.hpp"
 #include "mc/export/export_text.hpp"
@@ -44,13 +43,19 @@ std::string fact(const mc::Session& s, std::string_view key) {
 }
 
 /// An export replaces an earlier one of the same study, nothing else.
-Stranger other_than(const std::string& hash) {
-  return [hash](const std::string& path) -> std::string {
-    std::string known = mc::study_hash_of_text(path);
-    if (known.empty()) known = mc::study_hash_of_hdf5(path);
-    if (known == hash) return {};
-    return known.empty() ? "no export" : "the export of another study";
-  };
+void refuse_another(const std::string& target, const std::string& hash) {
+  namespace fs = std::filesystem;
+  std::error_code none;
+  if (!fs::is_regular_file(target, none) || fs::file_size(target, none) == 0) return;
+  std::string known = mc::study_hash_of_text(target);
+  if (known.empty()) known = mc::study_hash_of_hdf5(target);
+  if (known != hash)
+    throw InputError(
+        ExitCode::store,
+        fmt::format(
+            "{}: is there already, and is {} (expected a free name, or an earlier export of this "
+            "study). Choose another name with -o, or remove the file",
+            target, known.empty() ? "no export" : "the export of another study"));
 }
 
 }  // namespace
@@ -133,7 +138,7 @@ ExitCode export_results(const std::string& folder, const std::string& format,
   mc::StudyReader reader(folder);
   const mc::Study study = frozen_study(folder, reader);
   const mc::StudyWork work = program.work(study);
-  require_output_file(target, {}, other_than(reader.manifest().hash));
+  refuse_another(target, reader.manifest().hash);
   const mc::StudyState state = mc::state_of(reader, work.stop_rules);
   for (const std::string& note : reader.notes()) fmt::print(stderr, "damage: {}\n", note);
   if (state.lost > 0 || (!state.all() && !reader.notes().empty()))

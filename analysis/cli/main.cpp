@@ -9,7 +9,6 @@
 
 #include "analysis/cli/argument_checks.hpp"
 #include "analysis/cli/commands.hpp"
-#include "analysis/cli/not_known.hpp"
 
 namespace {
 
@@ -106,7 +105,7 @@ class Program {
     try {
       app_.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
-      if (const std::string wrong = e.get_exit_code() == 0 ? "" : cli::not_known(app_, argc, argv);
+      if (const std::string wrong = e.get_exit_code() == 0 ? "" : not_known(argc, argv);
           !wrong.empty()) {
         fmt::print(stderr, "error: {}\n", wrong);
         return static_cast<int>(ExitCode::usage);
@@ -123,11 +122,6 @@ class Program {
                  "error: standard output: {}. Results are incomplete; make room and run again\n",
                  e.what());
       return static_cast<int>(ExitCode::io);
-    } catch (const std::bad_alloc&) {
-      fmt::print(stderr,
-                 "error: the memory is used up (expected more, or a smaller job). Make the plan or "
-                 "the recording shorter, use fewer threads, or run where there is more\n");
-      return static_cast<int>(ExitCode::io);
     } catch (const InputError& e) {
       std::fflush(stdout);
       for (const auto& message : e.messages()) fmt::print(stderr, "error: {}\n", message);
@@ -143,6 +137,34 @@ class Program {
 
   static std::function<std::string(std::string)> whole(std::uint64_t least, std::uint64_t most) {
     return [=](const std::string& text) { return cli::check_whole(text, least, most); };
+  }
+
+  /// The first command or option of the line that does not exist, with what may be meant; empty if
+  /// all do.
+  std::string not_known(int argc, char** argv) const {
+    const CLI::App* chosen = nullptr;
+    for (int i = 1; i < argc; ++i) {
+      const std::string word = argv[i];
+      if (chosen == nullptr && !word.starts_with('-')) {
+        std::vector<std::string> names;
+        for (const CLI::App* c : app_.get_subcommands(nullptr)) {
+          names.push_back(c->get_name());
+          if (c->get_name() == word) chosen = c;
+        }
+        if (chosen == nullptr)
+          return cli::unknown("command", word,
+                              std::vector<std::string_view>(names.begin(), names.end()));
+      } else if (word.starts_with("--") && word.size() > 2) {
+        const std::string given = word.substr(0, word.find('='));
+        std::vector<std::string> names;
+        for (const CLI::Option* o : (chosen != nullptr ? *chosen : app_).get_options(nullptr))
+          for (const std::string& name : o->get_lnames()) names.push_back("--" + name);
+        if (std::find(names.begin(), names.end(), given) == names.end())
+          return cli::unknown("option", given,
+                              std::vector<std::string_view>(names.begin(), names.end()));
+      }
+    }
+    return {};
   }
 
   CLI::App* command(const char* name, const char* what, const char* example,

@@ -9,7 +9,7 @@ namespace drift::cli {
 
 ExitCode rank(const StudyArguments& arguments, const RankArguments& options) {
   const mc::Study study = arguments.read();
-  require_results_folder({options.folder, "rank"}, {study.path});
+  require_own_folder(options.folder, "rank");
   if (!study.sweep.empty())
     fmt::print(stderr,
                "note: the values of {} in [sweep] are not ranked, those above it are. Rank them "
@@ -22,10 +22,10 @@ ExitCode rank(const StudyArguments& arguments, const RankArguments& options) {
   planning::ImproveProgress progress;
   if (options.improve > 0) progress = progress_reporter(arguments.progress, "positions");
   const planning::PlanRanking ranking = planning::rank_plan(study, what, progress);
-  const report::Report said = report::rank_report(study, ranking);
   std::vector<std::string> files;
-  if (!options.folder.empty()) files = report::write_report(said, options.folder);
-  fmt::print("{}", options.json ? said.document.second : report::to_text(said));
+  if (!options.folder.empty()) files = report::write_results(study, ranking, options.folder);
+  fmt::print("{}",
+             options.json ? report::to_json(study, ranking) : report::to_text(study, ranking));
   if (!files.empty())
     fmt::print(options.json ? stderr : stdout, "\nWritten to {}: {}\n", options.folder,
                fmt::join(files, " "));

@@ -15,7 +15,6 @@ ExitCode report(const std::string& folder, const StudyProgram& program) {
                     "blind wrote). Give the folder named with -o",
                     folder));
   if (command == "run") {  // made anew, of as many runs as there are
-    require_results_folder({folder, "run"});
     mc::StudyReader reader(folder);
     const mc::Study study = frozen_study(folder, reader);
     program.present(study, program.work(study), reader, folder);

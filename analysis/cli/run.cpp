@@ -136,9 +136,8 @@ ExitCode run(const StudyArguments& arguments, const RunArguments& given,
     throw InputError(ExitCode::usage,
                      "--worker: mpirun shares out the work already (expected one or the other). "
                      "Leave out --worker");
-  require_results_folder({folder, "run"});
+  require_own_folder(folder, "run");
   mc::claim_folder(folder, manifest);
-  begin_results({folder, "run"});
   if (ranks.leader()) fmt::print(stderr, "results go to {}\n", folder);
   const mc::StudyOutcome outcome =
       mc::run_study(work, options, folder, manifest, ranks, run_progress(arguments.progress));

@@ -2,10 +2,7 @@
 
 #include <optional>
 
-#include "analysis/inference/noise/noise_model.hpp"
-#include "analysis/inference/thresholds.hpp"
-#include "core/estimate/batch.hpp"
-#include "core/estimate/measured_test.hpp"
+#include "analysis/inference/signatures.hpp"
 
 namespace drift::equation {
 
@@ -25,9 +22,9 @@ struct ClosureProfile {
 /// is evaluated at both ends and at the joint fit; where an end is more probable than the joint fit
 /// by `decisive` (twice the log), around that end too, and mean and sigma are taken from it.
 /// Otherwise empty: the joint fit is as good. filter: with lambda free.
-std::optional<ClosureProfile> profile_closure(const FilterSpec& filter, const MeasuredTest& test,
+std::optional<ClosureProfile> profile_closure(const FilterSpec& filter, const inference::Test& test,
                                               const BatchResult& joint, const VecX& weight,
                                               const inference::NoiseModel& noise,
-                                              double decisive = inference::WeighLimits::valley);
+                                              double decisive = 6.0);
 
 }  // namespace drift::equation

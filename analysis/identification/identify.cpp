@@ -6,12 +6,10 @@
 #include <cmath>
 
 #include "analysis/equation/fit_either_equation.hpp"
-#include "analysis/preparation/recorded_test.hpp"
+#include "analysis/identification/recorded_test.hpp"
 #include "core/base/check.hpp"
-#include "core/base/memory.hpp"
 #include "core/estimate/start_consistency.hpp"
 #include "core/estimate/starts.hpp"
-#include "core/plan/plan_memory.hpp"
 #include "mc/task/campaign.hpp"
 
 namespace drift::identification {
@@ -110,19 +108,6 @@ std::vector<FilterSummary> summarise(const mc::Study& study, const Identificatio
   return all;
 }
 
-/// Every filter and start keeps its estimates and sigmas at every row.
-void require_memory_for_histories(const mc::Study& study,
-                                  const std::vector<Recording>& recordings) {
-  double rows = 0.0, numbers = 0.0;
-  for (const Recording& r : recordings) rows += static_cast<double>(r.rows());
-  for (const Job& job : jobs_of(study))
-    numbers += 2.0 * static_cast<double>(make_layout(study.filters[job.filter]).size());
-  require_memory(memory_of_samples(rows) + rows * numbers * sizeof(double), ExitCode::recording,
-                 fmt::format("{}: {:.0f} rows, estimated with every filter and start,",
-                             recordings.front().source, rows),
-                 "Average the rows to longer samples, or leave out filters or starts");
-}
-
 template <class Task>
 void run_jobs(const mc::Study& study, Identification& id, int threads, const Progress& progress,
               Task&& task) {
@@ -186,8 +171,7 @@ Identification identify_recordings(const mc::Study& study, const std::vector<Rec
   Identification id;
   for (const Recording& r : recordings) id.sources.push_back(r.source);
   id.recording = recordings.front();
-  require_memory_for_histories(study, recordings);
-  const preparation::RecordedTest test = preparation::recorded_test(study, recordings);
+  const RecordedTest test = recorded_test(study, recordings);
   run_jobs(study, id, threads, progress,
            [&](const Job& job) { return estimate(study, job, test.timeline, test.measured); });
   return id;

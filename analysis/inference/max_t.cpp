@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <map>
 
-#include "analysis/inference/thresholds.hpp"
 #include "core/base/rng.hpp"
 
 namespace drift::inference {
@@ -13,18 +12,28 @@ namespace {
 constexpr std::uint64_t null_seed =
     20230517;  // any number: fixed, so that a diagnosis is repeatable
 
+MatX columns_of(const MatX& C, const std::vector<int>& columns) {
+  MatX part(columns.size(), columns.size());
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    for (std::size_t k = 0; k < columns.size(); ++k) part(i, k) = C(columns[i], columns[k]);
+  return part;
+}
+
 }  // namespace
 
 double Contrast::T(const VecX& g) const {
   if (dof == 0) return 0.0;
-  return (W.transpose() * g(columns)).squaredNorm();
+  VecX part(columns.size());
+  for (std::size_t k = 0; k < columns.size(); ++k) part[k] = g[columns[k]];
+  return (W.transpose() * part).squaredNorm();
 }
 
 Contrast make_contrast(const MatX& C, const VecX& raw, const std::vector<int>& columns) {
   Contrast out{columns, {}, 0};
-  const Eigen::SelfAdjointEigenSolver<MatX> eigen(C(columns, columns));
-  const double largest_raw = columns.empty() ? 0.0 : raw(columns).maxCoeff();
-  const double least = std::max(VisibleLimits::information, 1e-9 * largest_raw);
+  const Eigen::SelfAdjointEigenSolver<MatX> eigen(columns_of(C, columns));
+  double largest_raw = 0.0;
+  for (const int k : columns) largest_raw = std::max(largest_raw, raw[k]);
+  const double least = std::max(least_information, 1e-9 * largest_raw);
   std::vector<Eigen::Index> keep;
   for (Eigen::Index k = 0; k < eigen.eigenvalues().size(); ++k)
     if (eigen.eigenvalues()[k] > least) keep.push_back(k);
@@ -44,7 +53,7 @@ MaxNull::MaxNull(const MatX& C, const std::vector<Contrast>& contrasts, int draw
   std::sort(used.begin(), used.end());
   used.erase(std::unique(used.begin(), used.end()), used.end());
   if (used.empty()) return;
-  const MatX g = draw(C(used, used), draws, stream);
+  const MatX g = draw(columns_of(C, used), draws, stream);
 
   std::map<int, VecX> largest;  // by degrees of freedom
   for (const Contrast& c : contrasts) {

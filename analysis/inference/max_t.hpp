@@ -3,7 +3,6 @@
 #include <cstdint>
 
 #include "analysis/inference/projector.hpp"
-#include "analysis/inference/thresholds.hpp"
 #include "core/stats/chi_square.hpp"
 
 namespace drift::inference {
@@ -16,7 +15,11 @@ struct Contrast {
   double T(const VecX& g) const;
 };
 
-/// Directions of `columns` whose information is above VisibleLimits::information and above `raw` by
+/// Least information (per prior sigma squared) that makes a column observable: below it the effect
+/// would have to be some forty prior sigmas large to be found.
+inline constexpr double least_information = 1e-2;
+
+/// Directions of `columns` whose information is above least_information and above `raw` by
 /// rounding.
 Contrast make_contrast(const MatX& C, const VecX& raw, const std::vector<int>& columns);
 

@@ -71,7 +71,7 @@ std::vector<PwcsPosition> pwcs_positions(const TestPlan& plan, const Site& site,
     Interval interval;
     interval.t1 = pwcs_time_unit;
     interval.omega_cmd_p = passages[p].dwell.omega_cmd_p;
-    linearizer.evaluate(node, interval, Mat3::Zero(), Vec3::Zero(), nullptr, nullptr, j);
+    linearizer.evaluate(node, interval, Mat3::Zero(), Vec3::Zero(), j);
 
     MatX F = MatX::Zero(n, n), H = MatX::Zero(outputs, n);
     F.topLeftCorner<3, 3>() = pwcs_time_unit * (j.A - skew(site.omega_ie_l()));

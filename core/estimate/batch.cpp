@@ -98,12 +98,6 @@ std::vector<WeakDirection> weak_directions(const MatX& information_root, double 
   return weak;
 }
 
-Theta theta_of(const FilterSpec& filter, const BatchResult& fit) {
-  Theta theta = make_layout(filter).theta;
-  for (const ParameterEstimate& p : fit.estimate.parameters) theta[p.param] = p.value;
-  return theta;
-}
-
 namespace {
 
 BatchResult fit_all(const FilterSpec& filter, const Timeline& timeline, const Readout& readout,
@@ -237,7 +231,8 @@ BatchResult fit_batch(const FilterSpec& filter, const Timeline& timeline, const 
   double wide =
       gate * std::max(1.0, std::sqrt(out.data_chi2 / static_cast<double>(out.estimate.measured)));
   for (int round = 0; round < most_rounds; ++round) {
-    const Theta theta = theta_of(filter, out);
+    Theta theta = make_layout(filter).theta;
+    for (const ParameterEstimate& p : out.estimate.parameters) theta[p.param] = p.value;
     const Measurements predicted = predict(timeline, model, theta, out.psi0_l, readout);
     const Measurements now{
         within(measured.acc, predicted.acc, readout.accelerometer_noise, wide, false),

@@ -13,12 +13,21 @@ struct ChainEquations {
   MatX rows;  ///< shape (measured scalars, 3 + parameters + 1)
 };
 
+/// How the attitude error psi_i at an instant follows from what came before in its chain:
+/// psi_i = Phi psi_i(caging) + G x(rate states).
+struct ChainSensitivity {
+  Mat3 Phi = Mat3::Identity();
+  Mat3X G;  ///< shape (3, rate states); empty: zero
+};
+
 /// Linearises all measurements of a timeline about a trajectory. Channels that are NaN are left
-/// out.
+/// out. carried: of the first interval's start, for a timeline that goes on within a chain; becomes
+/// that of the last interval's end.
 std::vector<ChainEquations> measurement_equations(const Timeline& timeline, const DriftModel& model,
                                                   const Layout& layout, const Readout& readout,
                                                   const Measurements& measured, const Theta& theta,
-                                                  const Trajectory& phi, double sigma_attitude);
+                                                  const Trajectory& phi, double sigma_attitude,
+                                                  ChainSensitivity* carried = nullptr);
 
 /// Upper triangular square root of the information on the parameters, prior-scaled, from the data
 /// alone (no parameter prior), the attitude of each chain eliminated with its prior:
@@ -51,9 +60,6 @@ struct BatchResult {
   Mat3X acc_residual;        ///< whitened, measured minus predicted, NaN where not measured
   Mat3X gimbal_residual;
 };
-
-/// Theta of a fit: what was estimated, prior means elsewhere.
-Theta theta_of(const FilterSpec& filter, const BatchResult& fit);
 
 /// Maximum a posteriori fit by Levenberg-Marquardt on whitened residuals, solved by QR, everything
 /// scaled by the prior; the attitude at each caging is a nuisance with its own prior. The reference

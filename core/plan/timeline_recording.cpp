@@ -9,10 +9,8 @@
 #include <vector>
 
 #include "core/base/check.hpp"
-#include "core/base/memory.hpp"
 #include "core/physics/gimbals.hpp"
 #include "core/plan/case_heading.hpp"
-#include "core/plan/plan_memory.hpp"
 #include "core/plan/timeline.hpp"
 
 namespace drift {
@@ -243,9 +241,6 @@ class Reader {
 }  // namespace
 
 Timeline lay_out(const Recording& recording, const TestPlan& plan, const Site& site) {
-  require_memory(memory_of_samples(static_cast<double>(recording.rows())), ExitCode::recording,
-                 fmt::format("{}: {} rows", recording.source, recording.rows()),
-                 "Average the rows to longer samples, or cut the recording");
   return Reader(recording, plan, site).read();
 }
 

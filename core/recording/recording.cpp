@@ -9,14 +9,11 @@
 
 #include "core/base/atomic_file.hpp"
 #include "core/base/check.hpp"
-#include "core/recording/line_reader.hpp"
 #include "core/recording/recording_channels.hpp"
 #include "core/recording/recording_check.hpp"
 #include "core/recording/recording_csv.hpp"
 #include "core/recording/recording_hdf5.hpp"
 #include "core/recording/recording_mat.hpp"
-#include "core/recording/recording_output.hpp"
-#include "core/recording/recording_read_back.hpp"
 
 namespace drift {
 namespace {
@@ -91,47 +88,23 @@ Recording read_recording(const std::string& path, RecordingKind kind, double gra
   return recording;
 }
 
-void write_recording_to(const Recording& recording, const std::string& path,
-                        const std::string& temporary) {
-  for (const auto& c : recording.channels) {
-    DRIFT_DEMAND(c.values.size() == recording.rows());
+void write_recording(const Recording& recording, const std::string& path) {
+  for ([[maybe_unused]] const auto& c : recording.channels) {
+    DRIFT_EXPECTS(c.values.size() == recording.rows());
     DRIFT_EXPECTS(valid_channel_name(c.name));
   }
   const std::string extension = extension_of(path);
   if (extension != ".csv" && extension != ".h5" && extension != ".hdf5" && extension != ".mat")
     throw_extension(path, extension);
-  const Facts facts = plain_facts(recording, path);
-  const bool mat = extension == ".mat";
-  const auto writer = mat ? write_mat : write_hdf5;
-  std::string wrong = extension == ".csv"
-                          ? write_csv(recording, facts, temporary)
-                          : write_isolated([&] { return writer(recording, facts, temporary); });
-  if (wrong.empty() && extension != ".csv") {
-    // Both libraries write late and do not always say what became of it.
-    Problems problems(path);
-    const RawRecording back = read_isolated(temporary, problems, mat ? read_mat : read_hdf5);
-    wrong = lost_in_writing(recording, facts, back, problems);
-  }
-  if (!wrong.empty()) throw_cannot_write(path, wrong);
-}
-
-void write_recording(const Recording& recording, const std::string& path) {
   AtomicFile file(path);
-  write_recording_to(recording, path, file.temporary());
+  const Facts facts = plain_facts(recording, path);
+  const auto writer = extension == ".mat" ? write_mat : write_hdf5;
+  const std::string wrong =
+      extension == ".csv"
+          ? write_csv(recording, facts, file.temporary())
+          : write_isolated([&] { return writer(recording, facts, file.temporary()); });
+  if (!wrong.empty()) throw_cannot_write(path, wrong);
   file.commit();
-}
-
-bool is_made_here(const std::string& path) {
-  Problems ignored(path);
-  RawRecording raw;
-  const std::string extension = extension_of(path);
-  if (extension == ".csv") {
-    std::string_view line;
-    return LineReader(path).next(line) && line.starts_with(fmt::format("# {} = ", made_here));
-  }
-  if (extension == ".h5" || extension == ".hdf5") raw = read_isolated(path, ignored, read_hdf5);
-  if (extension == ".mat") raw = read_isolated(path, ignored, read_mat);
-  return !raw.facts.empty() && raw.facts.front().first == made_here;
 }
 
 }  // namespace drift

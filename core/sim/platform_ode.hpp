@@ -45,7 +45,8 @@ class PlatformOde {
     Mat3 reference(double t) const;
     const Interval& interval_at(double t) const;
     template <class S>
-    struct SceneAt;
+    void look_around(double t, const Mat3T<S>& R_lp, std::array<S, num_memory>& memory_now,
+                     Surroundings<S>& around) const;
     Vec3 base_motion_l(double t) const;  ///< [rad/s]
     bool reduced(double t, const double* y, double* y_dot) const;
     template <class S>

@@ -8,13 +8,14 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "core/base/atomic_file.hpp"
 #include "core/base/build_info.hpp"
 #include "core/base/check.hpp"
-#include "core/base/file_text.hpp"
 #include "core/base/rng.hpp"
 #include "core/base/sha256.hpp"
 #include "mc/store/text_difference.hpp"
@@ -184,15 +185,15 @@ void note_finished(const std::string& folder, std::uint64_t runs) {
 
 Manifest read_manifest(const std::string& folder) {
   const std::string path = folder + "/manifest.json";
-  const auto text = file_text(path);
-  if (!text)
+  std::ifstream file(path, std::ios::binary);
+  if (!file)
     throw InputError(
         ExitCode::store,
         fmt::format("{}: holds no results of `driftscope run` (expected manifest.json in "
                     "it). Give the folder that was named with -o",
                     folder));
   try {
-    return from_text(*text);
+    return from_text(std::string(std::istreambuf_iterator<char>(file), {}));
   } catch (const InputError&) {
     throw;
   } catch (const std::exception& error) {

@@ -7,9 +7,9 @@
 #include <array>
 #include <ctime>
 #include <fstream>
+#include <iterator>
 
 #include "core/base/build_info.hpp"
-#include "core/base/file_text.hpp"
 #include "core/base/rng.hpp"
 
 namespace drift::mc {
@@ -32,7 +32,8 @@ std::string line_of(const char* file, std::string_view key, char separator) {
 }
 
 std::string command_line() {
-  std::string text = file_text("/proc/self/cmdline").value_or("");
+  std::ifstream in("/proc/self/cmdline", std::ios::binary);
+  std::string text(std::istreambuf_iterator<char>(in), {});
   while (!text.empty() && text.back() == '\0') text.pop_back();
   std::replace(text.begin(), text.end(), '\0', ' ');
   return text;

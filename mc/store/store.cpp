@@ -39,7 +39,7 @@ CREATE TABLE IF NOT EXISTS blocks (id INTEGER PRIMARY KEY, point INTEGER, first_
 class WorkerStore::Lock {
  public:
   Lock(const std::string& path, double patience)
-      : fd_(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666)) {
+      : fd_(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
     if (fd_ < 0) throw_cannot_write(path, std::strerror(errno));
     const auto tries = static_cast<int>(patience / 0.1);
     for (int i = 0; ::flock(fd_, LOCK_EX | LOCK_NB) != 0; ++i) {
@@ -68,7 +68,7 @@ class WorkerStore::Writer : public WorkerFile {
  public:
   Writer(const std::string& path, std::shared_ptr<const Manifest> manifest)
       : WorkerFile(path, std::move(manifest), Database::Use::write) {
-    if (!sound() || is_foreign()) throw InputError(ExitCode::store, path + ": damaged");
+    if (!sound()) throw InputError(ExitCode::store, path + ": damaged");
     Transaction all(db_);
     db_.execute(schema);
     describe();
@@ -103,14 +103,6 @@ class WorkerStore::Writer : public WorkerFile {
   }
 
  private:
-  /// Somebody else's database is not written into.
-  bool is_foreign() {
-    Statement query = db_.prepare(
-        "SELECT count(*) FROM sqlite_master WHERE type = 'table' AND name NOT LIKE 'sqlite%' AND "
-        "name NOT IN ('study', 'sessions', 'columns', 'failures', 'moments', 'blocks')");
-    return query.step() && query.integer(0) > 0;
-  }
-
   std::int64_t last_id() {
     Statement query = db_.prepare("SELECT last_insert_rowid()");
     query.step();
@@ -154,10 +146,6 @@ class WorkerStore::Writer : public WorkerFile {
             "DELETE FROM moments WHERE block = ?1"})
         db_.prepare(sql).bind(1, id).run();
     removed_ = bad.size();
-    // Rows of blocks that are gone would stand in the way of later ones.
-    for (const char* sql : {"DELETE FROM failures WHERE block NOT IN (SELECT id FROM blocks)",
-                            "DELETE FROM moments WHERE block NOT IN (SELECT id FROM blocks)"})
-      db_.prepare(sql).run();
   }
 
   void insert(const StoredBlock& b) {

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "core/config/nearest.hpp"
 #include "core/physics/parameters_config.hpp"
 #include "core/physics/term_library.hpp"
@@ -11,12 +9,16 @@
 namespace drift::mc {
 namespace {
 
+using config::Choice;
 using config::Option;
 using config::Section;
 
-constexpr Named<DesignKind> designs[] = {{"random", DesignKind::random},
-                                         {"latin_hypercube", DesignKind::latin_hypercube},
-                                         {"sobol", DesignKind::sobol}};
+constexpr Choice<DesignKind> designs[] = {{"random", DesignKind::random},
+                                          {"latin_hypercube", DesignKind::latin_hypercube},
+                                          {"sobol", DesignKind::sobol}};
+constexpr Choice<EstimatorKind> estimators[] = {{"ekf", EstimatorKind::ekf},
+                                                {"iterated", EstimatorKind::iterated},
+                                                {"batch", EstimatorKind::batch}};
 
 template <class Field>
 void visit_fields(MonteCarlo& o, Field&& field) {
@@ -53,17 +55,13 @@ void check_quantity(Section& section, const std::string& quantity) {
 
 }  // namespace
 
-std::string_view name(EstimatorKind estimator) {
-  return name_in(estimator_choices, estimator);
-}
-
 MonteCarlo read_monte_carlo(Section section) {
   MonteCarlo out;
   visit_fields(out, [&](const Option& option, auto& value) { section.read(option, value); });
   section.read(Option{.key = "design", .doc = "how truth parameters are spread"}, out.design,
                designs);
   section.read(Option{.key = "estimator", .doc = "what makes the estimates"}, out.estimator,
-               estimator_choices);
+               estimators);
   Section stop = section.section("stop");
   if (stop.present()) {
     StopSpec spec;

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "analysis/report/diagnosis/sentence.hpp"
 #include "tests/support/model_builders.hpp"
 
 namespace drift::diagnosis {
@@ -42,13 +41,13 @@ Diagnosis run(const Case& c, FoldMethod folds = FoldMethod::linear) {
   static const Readout readout;
   DiagnoseOptions options;
   options.folds = folds;
-  options.signals = Signals::recovered;
+  options.signals = true;
   return diagnose(c.nominal, {c.timeline, readout, c.measured}, {}, {}, options);
 }
 
 TEST(Diagnose, NothingIsFoundWhereNothingIsHidden) {
   const Diagnosis d = run(make_case("twelve", "", 0.0, Coupling::eq5, 3600.0, 180.0));
-  EXPECT_EQ(d.verdict, Verdict::consistent) << report::sentence(d);
+  EXPECT_EQ(d.verdict, Verdict::consistent) << d.sentence;
   EXPECT_TRUE(d.causes.empty());
   EXPECT_FALSE(d.has_patch);
 }
@@ -56,7 +55,7 @@ TEST(Diagnose, NothingIsFoundWhereNothingIsHidden) {
 TEST(Diagnose, AConcealedDriftIsNamedWithItsSizeAndPredictsHeldOutPositions) {
   const double truth = 0.03;  // deg/h/g^2
   const Diagnosis d = run(make_case("twelve", "D_IS_x", truth, Coupling::eq5, 3600.0, 120.0));
-  ASSERT_EQ(d.verdict, Verdict::named) << report::sentence(d);
+  ASSERT_EQ(d.verdict, Verdict::named) << d.sentence;
   ASSERT_EQ(d.causes.size(), 1u);
   EXPECT_EQ(d.causes[0].term, "g2_drift");
   EXPECT_EQ(d.causes[0].axis, "x");
@@ -77,12 +76,11 @@ TEST(Diagnose, AConcealedDriftIsNamedWithItsSizeAndPredictsHeldOutPositions) {
 
 TEST(Diagnose, TorquerScaleIsFoundWhereTheTestSlewsBesideTheNonlinearityOneRateCannotTellFromIt) {
   const Diagnosis d = run(make_case("slew12", "s_y", 30.0, Coupling::eq5, 900.0, 90.0));
-  ASSERT_TRUE(d.verdict == Verdict::named || d.verdict == Verdict::ambiguous)
-      << report::sentence(d);
+  ASSERT_TRUE(d.verdict == Verdict::named || d.verdict == Verdict::ambiguous) << d.sentence;
   EXPECT_LE(d.causes.size(), 2u);
   EXPECT_TRUE(std::ranges::any_of(d.causes, [](const search::Cause& c) {
     return c.term == "torquer_scale" && c.axis == "y";
-  })) << report::sentence(d);
+  })) << d.sentence;
 }
 
 TEST(Diagnose, HeldOutByRefitAgreesWithHeldOutByConditioning) {
@@ -98,7 +96,7 @@ TEST(Diagnose,
      TheSignatureOfTheCauseIsTheRecoveredSignalEvenWhereParametersHadTakenItUpAgainstTheirPriors) {
   // On six positions D_SS_x looks like drifts and misalignments far outside their priors.
   const Diagnosis d = run(make_case("six", "D_SS_x", 0.3, Coupling::eq5, 1200.0));
-  ASSERT_EQ(d.verdict, Verdict::named) << report::sentence(d);
+  ASSERT_EQ(d.verdict, Verdict::named) << d.sentence;
   ASSERT_FALSE(d.signals.empty());
   const RecoveredSignal& s = d.signals.front();
   double both = 0.0, found = 0.0, explained = 0.0;
@@ -115,7 +113,7 @@ TEST(Diagnose, IsRepeatable) {
   const Case c = make_case("six", "D_IS_x", 0.2, Coupling::eq5, 1800.0);
   const Diagnosis a = run(c), b = run(c);
   EXPECT_EQ(a.p_value, b.p_value);
-  EXPECT_EQ(report::sentence(a), report::sentence(b));
+  EXPECT_EQ(a.sentence, b.sentence);
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "analysis/inference/signatures.hpp"
-#include "tests/support/dense_covariance.hpp"
 #include "tests/support/model_builders.hpp"
 
 namespace drift::inference {
@@ -32,7 +31,7 @@ void expect_equals_cholesky(const NoiseModel& noise) {
   LinearProblem problem = short_problem();
   problem.weight[5] = 0.3;
   const Whitener whitener(problem, noise);
-  const Eigen::LLT<MatX> llt(DenseCovariance(problem, noise).all());
+  const Eigen::LLT<MatX> llt(dense_covariance(problem, noise));
   ASSERT_EQ(llt.info(), Eigen::Success);
   const MatX L = llt.matrixL();
   const MatX expected = L.triangularView<Eigen::Lower>().solve(problem.theta);
@@ -61,6 +60,7 @@ TEST(Whitener, EqualsDenseCholeskyForEveryKindOfNoiseAtOnce) {
 }
 
 TEST(Whitener, EqualsDenseCholeskyForAnInputInOneEquation) {
+  using Equation = LoneInput::Equation;
   const double infinite = std::numeric_limits<double>::infinity();
   for (const LoneInput& lone : {LoneInput{Equation::rate, 1, 0.01 * deg_per_h / 60.0, infinite},
                                 LoneInput{Equation::rate, 2, 0.01 * deg_per_h, 900.0},
@@ -77,7 +77,7 @@ TEST(Whitener, ColoursWhatItWhitens) {
   NoiseModel noise;
   noise.angle_random_walk = 1e-3 * detail::deg / 60.0;
   noise.markov_drift = 0.02 * deg_per_h;
-  noise.lone = {Equation::accelerometer, 1, 3e-6, 300.0};
+  noise.lone = {LoneInput::Equation::accelerometer, 1, 3e-6, 300.0};
   const LinearProblem problem = short_problem();
   const Whitener whitener(problem, noise);
   const MatX back = whitener.colour(whitener.apply(problem.theta));

@@ -7,10 +7,9 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "analysis/diagnosis/advice/patched_study.hpp"
-#include "analysis/report/diagnosis/remark_words.hpp"
-#include "analysis/report/diagnosis/report.hpp"
-#include "analysis/report/diagnosis/sentence.hpp"
+#include "analysis/diagnosis/patched_study.hpp"
+#include "analysis/report/diagnosis/folder.hpp"
+#include "analysis/report/diagnosis/json.hpp"
 #include "analysis/strapdown/diagnose.hpp"
 #include "core/base/check.hpp"
 #include "tests/analysis/report/xml_check.hpp"
@@ -62,9 +61,8 @@ std::vector<std::string> groups_of(const Cause& c) {
 }
 
 bool says(const Diagnosis& d, std::string_view text) {
-  return std::ranges::any_of(d.remarks, [&](const auto& r) {
-    return report::in_words(r).find(text) != std::string::npos;
-  });
+  return std::ranges::any_of(d.remarks,
+                             [&](const auto& r) { return r.find(text) != std::string::npos; });
 }
 
 // One test for one diagnosis: every test is a process of its own.
@@ -84,13 +82,13 @@ TEST(StrapdownDiagnosis,
     EXPECT_LT(c.p_value, 1e-3) << c.term;
     EXPECT_GT(c.probability, 0.99) << c.term;
   }
-  ASSERT_EQ(found.diagnosis.errors.size(), 3u);
-  EXPECT_NEAR(found.diagnosis.errors[0].before, 0.0724, share * 0.0724);  // deg/s in dwells
-  EXPECT_NEAR(found.diagnosis.errors[0].after, 0.0173, share * 0.0173);
-  EXPECT_NEAR(found.diagnosis.errors[1].before, 3.46, share * 3.46);  // deg after a turn
-  EXPECT_NEAR(found.diagnosis.errors[1].after, 0.142, share * 0.142);
-  EXPECT_NEAR(found.diagnosis.errors[2].before, 0.0382, share * 0.0382);  // m/s^2
-  EXPECT_NEAR(found.diagnosis.errors[2].after, 0.0016, share * 0.0016);
+  ASSERT_EQ(found.kinds.size(), 3u);
+  EXPECT_NEAR(found.kinds[0].before, 0.0724, share * 0.0724);  // deg/s in dwells
+  EXPECT_NEAR(found.kinds[0].after, 0.0173, share * 0.0173);
+  EXPECT_NEAR(found.kinds[1].before, 3.46, share * 3.46);  // deg after a turn
+  EXPECT_NEAR(found.kinds[1].after, 0.142, share * 0.142);
+  EXPECT_NEAR(found.kinds[2].before, 0.0382, share * 0.0382);  // m/s^2
+  EXPECT_NEAR(found.kinds[2].after, 0.0016, share * 0.0016);
   EXPECT_TRUE(d.fit.held_out.improves);
   EXPECT_EQ(d.fit.held_out.folds.size(), 38u);
 
@@ -109,7 +107,7 @@ TEST(StrapdownDiagnosis,
   mc::Study patched = nominal();
   patched.filters.front() = d.patched;
   const Diagnosis again = strapdown::diagnose_strapdown(patched, recording, quick()).diagnosis;
-  EXPECT_EQ(again.verdict, diagnosis::Verdict::consistent) << report::sentence(again);
+  EXPECT_EQ(again.verdict, diagnosis::Verdict::consistent) << again.sentence;
   EXPECT_FALSE(again.has_patch);
   EXPECT_GT(again.p_value, 0.05);
 }
@@ -139,8 +137,8 @@ TEST(StrapdownDiagnosis, RecoversTheMisalignmentThatTheRecordingWasMadeWithAndWr
   const strapdown::StrapdownDiagnosis found =
       strapdown::diagnose_strapdown(nominal(), made(3000.0, 5), quick());
   const Cause* c = cause(found.diagnosis, "gyro_misalignment");
-  ASSERT_NE(c, nullptr) << report::sentence(found.diagnosis);
-  EXPECT_EQ(found.diagnosis.causes.size(), 1u) << report::sentence(found.diagnosis);
+  ASSERT_NE(c, nullptr) << found.diagnosis.sentence;
+  EXPECT_EQ(found.diagnosis.causes.size(), 1u) << found.diagnosis.sentence;
   for (const auto& p : c->parameters) {
     const double truth = p.key == "eta_x"   ? 3000.0
                          : p.key == "xi_y"  ? -3000.0

@@ -41,20 +41,14 @@ TEST(AtomicFile, ReplacesRegularFilesAlone) {
   EXPECT_TRUE(fs::is_symlink(scratch.file("dangling")) && fs::is_symlink(scratch.file("to_pipe")));
 }
 
-TEST(AtomicFile, FollowsNoLink) {
+TEST(AtomicFile, FollowsALinkToAFileAndLeavesTheLink) {
   const ScratchFolder scratch;
   fs::create_directory(scratch.file("other"));
   scratch.write("other/file", "old");
   fs::create_symlink("other/file", scratch.file("link"));
-  EXPECT_NE(refusal(scratch.file("link")).find("symbolic link"), std::string::npos);
+  EXPECT_EQ(refusal(scratch.file("link")), "");
   EXPECT_TRUE(fs::is_symlink(scratch.file("link")));
-  EXPECT_EQ(test::text_of(scratch.file("other/file")), "old");
-}
-
-TEST(AtomicFile, ANameThatTheFileSystemRefusesIsSaidBeforeAnythingIsWritten) {
-  const ScratchFolder scratch;
-  EXPECT_NE(refusal(scratch.file(std::string(300, 'a'))).find("File name too long"),
-            std::string::npos);
+  EXPECT_EQ(test::text_of(scratch.file("other/file")), "new");
 }
 
 TEST(AtomicFile, WhatComesInTheWayMeanwhileStays) {

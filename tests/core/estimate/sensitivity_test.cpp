@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/estimate/batch.hpp"
-#include "tests/support/forward_sensitivity.hpp"
+#include "core/ode/forward_sensitivity.hpp"
 #include "tests/support/model_builders.hpp"
 
 namespace drift {
@@ -134,7 +134,7 @@ TEST(Sensitivity, VariationOfConstantsAgreesWithCvodesForwardSensitivities) {
   IntervalSensitivity inner;
   Mat3X G = Mat3X::Zero(3, nr);
   for (const Interval& i : timeline.intervals) {
-    linearize_interval(i, timeline, Mat3::Zero(), &phi[i.first_node], nullptr, linearizer, inner);
+    linearize_interval(i, timeline, Mat3::Zero(), &phi[i.first_node], linearizer, inner);
     G = (inner.Phi.back() * G + inner.G.back()).eval();
   }
   // psi (inertial axes) of a small change of phi: psi = R_ir J_l(phi) dphi, J_l the left Jacobian.

@@ -1,6 +1,7 @@
+#include "analysis/report/identify/published_table.hpp"
+
 #include <gtest/gtest.h>
 
-#include "analysis/report/identify/sections.hpp"
 #include "tests/analysis/report/identify/identification_fixture.hpp"
 
 namespace drift {

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "analysis/diagnosis/diagnosis.hpp"
+
+namespace drift::diagnosis {
+
+/// A term in words, the part it sits in behind: "magnetic sensitivity, gyro y". axis: "y",
+/// "middle", or empty. A key that is no term stands for itself.
+std::string in_words(std::string_view term, std::string_view axis);
+
+/// A cause in words, its key and numbers in brackets behind: "magnetic sensitivity, gyro y
+/// (magnetic_drift.y: M_y = 0.0110±0.0004 deg/h/gauss)". Of more than three numbers the one that is
+/// largest in sigmas of its prior. A title that ends in brackets takes them in: "g-sensitive drift
+/// (mass unbalance; g_drift: ...)".
+std::string in_words(const search::Cause& cause);
+
+/// An equation (Where::equation) as a reader says it: "middle gimbal" of "gimbal middle".
+std::string equation_in_words(const std::string& equation);
+
+/// What a model lacks: "The nominal model lacks ... and ..."; with frame_closure among the causes
+/// "The nominal model has the wrong drift equation (...) and lacks ...".
+std::string lacking(const std::vector<search::Cause>& causes);
+
+/// A component of the noise (NoiseFinding) in words: "white noise of the gimbal readout".
+std::string noise_in_words(const std::string& component);
+
+/// Which alternative the patched model holds, where the verdict leaves several open (or one that
+/// held-out data do not support); empty of any other verdict.
+std::string patch_text(const Diagnosis& d);
+
+/// The verdict for a test engineer: words first, keys and numbers in brackets. Alternatives of an
+/// ambiguous verdict are numbered as in the table of causes; those whose signatures are one
+/// direction on this plan are said to leave the same trace.
+std::string sentence(const Diagnosis& d);
+
+}  // namespace drift::diagnosis
