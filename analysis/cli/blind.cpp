@@ -2,6 +2,7 @@
 #include "analysis/blind/diagnosing_solver.hpp"
 #include "analysis/blind/seal.hpp"
 #include "analysis/cli/commands.hpp"
+#include "analysis/cli/print.hpp"
 #include "analysis/cli/progress.hpp"
 #include "analysis/cli/stop_at_once.hpp"
 #include "analysis/report/blind/report.hpp"
@@ -21,19 +22,19 @@ ExitCode blind(const StudyArguments& arguments, const std::string& folder,
   results.title = study.title;
   results.key_hash = blind::make_trials(study, folder, arguments.threads,
                                         progress_reporter(arguments.progress, "recordings"));
-  fmt::print("Key sealed in {}: SHA-256 {}\n", folder, results.key_hash);
-  std::fflush(stdout);
+  show("Key sealed in {}: SHA-256 {}\n", folder, results.key_hash);
+  flush_output();
   results.answers_hash = blind::answer_trials(folder, blind::diagnosing_solver(), arguments.threads,
                                               progress_reporter(arguments.progress, "diagnoses"));
-  fmt::print("Answers sealed: SHA-256 {}\n\n", results.answers_hash);
+  show("Answers sealed: SHA-256 {}\n\n", results.answers_hash);
   results.scores = blind::score_folder(folder);
   results.summary = blind::summarise(results.scores);
   const report::Report said = report::blind_report(results);
-  fmt::print("{}", report::to_text(said));
+  show("{}", report::to_text(said));
   for (const blind::TrialScore& score : results.scores)
     if (score.answer.failed)
-      fmt::print("Trial {} has no answer: {}\n", score.key.plan.number, score.answer.failure);
-  fmt::print("\nWritten to {}: {}\n", folder, fmt::join(report::write_report(said, folder), " "));
+      show("Trial {} has no answer: {}\n", score.key.plan.number, score.answer.failure);
+  show("\nWritten to {}: {}\n", folder, fmt::join(report::write_report(said, folder), " "));
   return results.summary.failed > study.monte_carlo.allowed_failures ? ExitCode::failed_runs
                                                                      : ExitCode::ok;
 }

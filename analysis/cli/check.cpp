@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "analysis/cli/commands.hpp"
+#include "analysis/cli/print.hpp"
 #include "core/plan/plan_memory.hpp"
 
 namespace drift::cli {
@@ -33,7 +34,7 @@ ExitCode check(const StudyArguments& arguments) {
   }
   value_width = std::min<std::size_t>(value_width, 60);
   for (const mc::Resolved& r : study.resolved)
-    fmt::print("{:<{}}  {:<{}}  {}\n", r.key, key_width, r.value, value_width, r.origin);
+    show("{:<{}}  {:<{}}  {}\n", r.key, key_width, r.value, value_width, r.origin);
   return ExitCode::ok;
 }
 

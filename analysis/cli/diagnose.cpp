@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/cli/commands.hpp"
+#include "analysis/cli/print.hpp"
 #include "analysis/cli/progress.hpp"
 #include "analysis/cli/read_recordings.hpp"
 #include "analysis/diagnosis/diagnose_recordings.hpp"
@@ -30,11 +31,11 @@ void require_nominal(const mc::Study& study) {
 void finish(const mc::Study& study, const diagnosis::Diagnosis& diagnosis,
             const report::DiagnosisSource& source, const std::string& folder,
             std::vector<std::string> more = {}) {
-  fmt::print("{}", report::to_text(diagnosis));
+  show("{}", report::to_text(diagnosis));
   if (folder.empty()) return;
   auto files = report::write_results(study, diagnosis, source, folder);
   files.insert(files.end(), more.begin(), more.end());
-  fmt::print("\nWritten to {}: {}\n", folder, fmt::join(files, " "));
+  show("\nWritten to {}: {}\n", folder, fmt::join(files, " "));
 }
 
 ExitCode diagnose_case(const StudyArguments& arguments, const mc::Study& study,
@@ -50,7 +51,7 @@ ExitCode diagnose_case(const StudyArguments& arguments, const mc::Study& study,
   options.gravity = study.site.gravity;
   options.seed = study.monte_carlo.seed;
   const auto recordings = read_recordings(study, paths);
-  std::fflush(stdout);
+  flush_output();
   const auto report = stage_reporter(arguments.progress, "diagnose");
   if (report) report("dwells, turns and what each step gains", 0.0);
   const strapdown::StrapdownDiagnosis found =
@@ -69,7 +70,7 @@ ExitCode diagnose_platform(const StudyArguments& arguments, const mc::Study& stu
                            const std::vector<std::string>& paths, const std::string& folder,
                            const std::optional<std::vector<std::string>>& advise) {
   const auto recordings = read_recordings(study, paths);
-  std::fflush(stdout);
+  flush_output();
   diagnosis::RecordingsOptions options;
   options.diagnose.progress = stage_reporter(arguments.progress, "diagnose");
   if (advise) {

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/cli/commands.hpp"
+#include "analysis/cli/print.hpp"
 #include "analysis/cli/progress.hpp"
 #include "analysis/cli/read_recordings.hpp"
 #include "analysis/report/identify/report.hpp"
@@ -31,9 +32,9 @@ ExitCode identify_case(const mc::Study& study, const std::vector<std::string>& p
   const strapdown::StrapdownResult result =
       strapdown::identify_strapdown(recordings.front(), options);
   const report::Report said = report::strapdown_report(study, result);
-  fmt::print("{}", report::to_text(said));
+  show("{}", report::to_text(said));
   if (!folder.empty())
-    fmt::print("\nWritten to {}: {}\n", folder, fmt::join(report::write_report(said, folder), " "));
+    show("\nWritten to {}: {}\n", folder, fmt::join(report::write_report(said, folder), " "));
   return ExitCode::ok;
 }
 
@@ -48,16 +49,16 @@ ExitCode identify(const StudyArguments& arguments, const std::vector<std::string
   const auto recordings = read_recordings(study, paths);
   for (const Recording& recording : recordings)
     for (const std::string& remark : rows_other_than_planned(recording, study.plan))
-      fmt::print(stderr, "note: {}\n", remark);
+      say("note: {}\n", remark);
   const identification::Identification id =
       paths.empty()
           ? identification::identify_simulated(study, run, arguments.threads, progress)
           : identification::identify_recordings(study, recordings, arguments.threads, progress);
   const report::Report said = report::identification_report(study, id);
-  fmt::print("{}", report::to_text(said));
+  show("{}", report::to_text(said));
   if (!folder.empty())
-    fmt::print("\nWritten to {}: {}\n", folder,
-               fmt::join(report::write_identification(said, id, folder), " "));
+    show("\nWritten to {}: {}\n", folder,
+         fmt::join(report::write_identification(said, id, folder), " "));
   return ExitCode::ok;
 }
 

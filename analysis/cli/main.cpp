@@ -1,15 +1,14 @@
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cerrno>
 #include <csignal>
-#include <cstdio>
 #include <exception>
 #include <functional>
-#include <system_error>
+#include <sstream>
 
 #include "analysis/cli/argument_checks.hpp"
 #include "analysis/cli/commands.hpp"
 #include "analysis/cli/not_known.hpp"
+#include "analysis/cli/print.hpp"
+#include "analysis/cli/tell_error.hpp"
 
 namespace {
 
@@ -108,31 +107,18 @@ class Program {
     } catch (const CLI::ParseError& e) {
       if (const std::string wrong = e.get_exit_code() == 0 ? "" : cli::not_known(app_, argc, argv);
           !wrong.empty()) {
-        fmt::print(stderr, "error: {}\n", wrong);
+        cli::say("error: {}\n", wrong);
         return static_cast<int>(ExitCode::usage);
       }
-      return app_.exit(e) == 0 ? 0 : static_cast<int>(ExitCode::usage);
+      std::ostringstream out, err;
+      const int code = app_.exit(e, out, err);
+      cli::show_text(out.str());
+      cli::say_text(err.str());
+      return code == 0 ? 0 : static_cast<int>(ExitCode::usage);
     }
-    try {
-      const ExitCode code = chosen_();
-      if (std::fflush(stdout) != 0) throw std::system_error(errno, std::generic_category());
-      return static_cast<int>(code);
-    } catch (const std::system_error& e) {
-      if (e.code() == std::errc::broken_pipe) return 128 + SIGPIPE;  // the reader has seen enough
-      fmt::print(stderr,
-                 "error: standard output: {}. Results are incomplete; make room and run again\n",
-                 e.what());
-      return static_cast<int>(ExitCode::io);
-    } catch (const std::bad_alloc&) {
-      fmt::print(stderr,
-                 "error: the memory is used up (expected more, or a smaller job). Make the plan or "
-                 "the recording shorter, use fewer threads, or run where there is more\n");
-      return static_cast<int>(ExitCode::io);
-    } catch (const InputError& e) {
-      std::fflush(stdout);
-      for (const auto& message : e.messages()) fmt::print(stderr, "error: {}\n", message);
-      return static_cast<int>(e.code());
-    }
+    const ExitCode code = chosen_();
+    cli::flush_output();
+    return static_cast<int>(code);
   }
 
  private:
@@ -281,9 +267,7 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an I/O error, not a crash
   try {
     return Program().run(argc, argv);
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "internal error: %s\nThis is a bug in driftscope; please report it.\n",
-                 e.what());
-    return static_cast<int>(drift::ExitCode::internal);
+  } catch (...) {
+    return cli::tell_error(std::current_exception());
   }
 }

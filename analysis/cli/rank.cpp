@@ -1,6 +1,7 @@
 #include "analysis/planning/rank.hpp"
 
 #include "analysis/cli/commands.hpp"
+#include "analysis/cli/print.hpp"
 #include "analysis/cli/progress.hpp"
 #include "analysis/report/rank/report.hpp"
 #include "core/base/results_folder.hpp"
@@ -11,10 +12,9 @@ ExitCode rank(const StudyArguments& arguments, const RankArguments& options) {
   const mc::Study study = arguments.read();
   require_results_folder({options.folder, "rank"}, {study.path});
   if (!study.sweep.empty())
-    fmt::print(stderr,
-               "note: the values of {} in [sweep] are not ranked, those above it are. Rank them "
-               "one by one with --set\n",
-               study.sweep.front().key);
+    say("note: the values of {} in [sweep] are not ranked, those above it are. Rank them "
+        "one by one with --set\n",
+        study.sweep.front().key);
   planning::RankOptions what;
   what.improve = options.improve;
   what.criterion = options.criterion;
@@ -25,10 +25,15 @@ ExitCode rank(const StudyArguments& arguments, const RankArguments& options) {
   const report::Report said = report::rank_report(study, ranking);
   std::vector<std::string> files;
   if (!options.folder.empty()) files = report::write_report(said, options.folder);
-  fmt::print("{}", options.json ? said.document.second : report::to_text(said));
-  if (!files.empty())
-    fmt::print(options.json ? stderr : stdout, "\nWritten to {}: {}\n", options.folder,
-               fmt::join(files, " "));
+  show("{}", options.json ? said.document.second : report::to_text(said));
+  if (!files.empty()) {
+    const std::string written =
+        fmt::format("\nWritten to {}: {}\n", options.folder, fmt::join(files, " "));
+    if (options.json)
+      say("{}", written);
+    else
+      show("{}", written);
+  }
   return ExitCode::ok;
 }
 

@@ -1,7 +1,9 @@
 #include "core/sim/simulate.hpp"
 
 #include "analysis/cli/commands.hpp"
+#include "analysis/cli/print.hpp"
 #include "core/base/output_file.hpp"
+#include "core/base/utf8.hpp"
 #include "core/recording/quality_card.hpp"
 #include "core/recording/recording_output.hpp"
 
@@ -11,7 +13,7 @@ namespace {
 /// What a reader of the recording must know to repeat it.
 void add_facts(Recording& recording, const mc::Study& study, std::uint64_t run) {
   recording.facts = {{std::string(made_here), study.title},
-                     {"study", study.path},
+                     {"study", utf8_text(study.path)},
                      {"seed", std::to_string(study.monte_carlo.seed)},
                      {"run", std::to_string(run)},
                      {"random_numbers", Stream::scheme}};
@@ -52,7 +54,7 @@ ExitCode simulate(const StudyArguments& arguments, const std::string& output, st
   add_facts(recording, study, run);
   write_recording(recording, output);
   recording.source = output;
-  fmt::print("{}", to_text(quality_card(recording, RecordingKind::platform)));
+  show("{}", to_text(quality_card(recording, RecordingKind::platform)));
   return ExitCode::ok;
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "analysis/cli/print.hpp"
 #include "analysis/report/study/report.hpp"
 #include "mc/statistics/stop_rule.hpp"
 #include "mc/store/provenance.hpp"
@@ -59,10 +60,10 @@ void present(const mc::Study& study, const mc::StudyWork& work, mc::StudyReader&
   results.provenance.emplace_back("results", mc::results_digest(reader, work.stop_rules));
   add_speed(reader, results.provenance);
   const report::Report said = report::study_report(results);
-  fmt::print("\n{}", report::to_text(said, report::study_width));
+  show("\n{}", report::to_text(said, report::study_width));
   if (!results.provenance.empty() && results.provenance.back().first == "speed")
-    fmt::print("\nspeed: {}\n", results.provenance.back().second);
-  fmt::print("\nWritten to {}: {}\n", folder, fmt::join(report::write_report(said, folder), " "));
+    show("\nspeed: {}\n", results.provenance.back().second);
+  show("\nWritten to {}: {}\n", folder, fmt::join(report::write_report(said, folder), " "));
 }
 
 }  // namespace

@@ -10,7 +10,17 @@
 namespace drift::mc {
 namespace {
 
-constexpr int busy_ms = 20000;  // a reader holds the file for moments only
+constexpr std::size_t longest_path = 500;  // [bytes] SQLite takes 512, with its journal's ending
+constexpr int busy_ms = 20000;             // a reader holds the file for moments only
+
+/// The path with the links in its folder resolved: those the user may give, a link in place of the
+/// file itself is not followed.
+std::string with_real_folder(const std::string& path) {
+  namespace fs = std::filesystem;
+  std::error_code none;
+  const fs::path folder = fs::canonical(fs::absolute(fs::path(path), none).parent_path(), none);
+  return none ? path : (folder / fs::path(path).filename()).string();
+}
 
 [[noreturn]] void fail(sqlite3* db, const std::string& path, int code) {
   const std::string why = db != nullptr ? sqlite3_errmsg(db) : sqlite3_errstr(code);
@@ -47,6 +57,12 @@ constexpr int busy_ms = 20000;  // a reader holds the file for moments only
                          fmt::format("{}: is a symbolic link, which is not followed (expected a "
                                      "file of its own). Put a copy in its place",
                                      path));
+      if (with_real_folder(path).size() > longest_path)
+        throw InputError(
+            ExitCode::io,
+            fmt::format("{}: the path is too long for SQLite (expected at most {} bytes from the "
+                        "root on). Choose a folder nearer to the root",
+                        path, longest_path));
       [[fallthrough]];
     default:
       throw InputError(
@@ -58,15 +74,6 @@ constexpr int busy_ms = 20000;  // a reader holds the file for moments only
     case SQLITE_NOMEM:
       throw std::bad_alloc();
   }
-}
-
-/// The path with the links in its folder resolved: those the user may give, a link in place of the
-/// file itself is not followed.
-std::string with_real_folder(const std::string& path) {
-  namespace fs = std::filesystem;
-  std::error_code none;
-  const fs::path folder = fs::canonical(fs::absolute(fs::path(path), none).parent_path(), none);
-  return none ? path : (folder / fs::path(path).filename()).string();
 }
 
 }  // namespace

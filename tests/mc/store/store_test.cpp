@@ -167,6 +167,24 @@ TEST(Store, TheDatabaseOfSomebodyElseIsSetAsideUntouched) {
   EXPECT_EQ(test::text_of(folder.file("worker-0000.damaged-1")), bytes);
 }
 
+TEST(Store, WhatRepeatsOtherTablesIsComparedWithThemAndMended) {
+  for (const char* damage :
+       {"UPDATE columns SET unit = 'rad' WHERE number = 1",
+        "UPDATE study SET value = '2' WHERE key = 'seed'", "UPDATE moments SET mean = mean + 1e-9",
+        "DELETE FROM moments WHERE number = 3", "UPDATE sessions SET runs = runs + 1024"}) {
+    const ScratchFolder folder;
+    const SyntheticStudy study = small_study();
+    const auto before = study.run(folder.path());
+    EXPECT_TRUE(mc::StudyReader(folder.path()).misfits().empty());
+    mc::Database(folder.file("worker-0000.sqlite"), mc::Database::Use::write).execute(damage);
+    mc::StudyReader reader(folder.path());
+    EXPECT_EQ(reader.misfits().size(), 1u) << damage;
+    EXPECT_EQ(reader.runs(), 40u) << damage;
+    EXPECT_EQ(study.run(folder.path()).digest, before.digest);
+    EXPECT_TRUE(mc::StudyReader(folder.path()).misfits().empty()) << damage;
+  }
+}
+
 TEST(Store, EqualDuplicatesAreLegalAndOthersAreNot) {
   const ScratchFolder folder;
   const SyntheticStudy study = small_study();
