@@ -116,10 +116,11 @@ RecoveredSignal recovered_signal(const InputEstimate& input, const Timeline& tim
                                  const std::vector<std::pair<int, double>>& cause) {
   RecoveredSignal out;
   out.equation = inference::equation_name(input.equation, input.axis);
-  const bool rate = input.equation == Equation::rate,
-             acc = input.equation == Equation::accelerometer;
-  out.unit = rate ? "deg/h" : acc ? "ug" : "arcsec";
-  const double to_si = rate || !acc ? detail::deg / 3600.0 : 1e-6;
+  const Unit& shown = input.equation == Equation::rate            ? unit::deg_per_h
+                      : input.equation == Equation::accelerometer ? unit::ug
+                                                                  : unit::arcsec;
+  out.unit = shown.symbol.view();
+  const double to_si = shown.to_si;
   VecX explained;
   if (!cause.empty()) {
     VecX g = VecX::Zero(input.g.size());

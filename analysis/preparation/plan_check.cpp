@@ -36,6 +36,10 @@ std::vector<Dwell> dwells_of(const Timeline& timeline) {
   return all;
 }
 
+CommandLaw other_than(CommandLaw law) {
+  return law == CommandLaw::level ? CommandLaw::free : CommandLaw::level;
+}
+
 std::string time_text(double seconds) {
   return seconds >= 120.0 ? fmt::format("{:.4g} min", seconds / 60.0)
                           : fmt::format("{:.4g} s", seconds);
@@ -93,7 +97,7 @@ void check_commands(const mc::Study& study, const std::string& source, const Tim
     Vec3 mean = Vec3::Zero();
     for (const std::size_t k : d.rows)
       mean += timeline.intervals[k].omega_cmd_p / static_cast<double>(d.rows.size());
-    const auto other = p.mode == CommandLaw::level ? CommandLaw::free : CommandLaw::level;
+    const CommandLaw other = other_than(p.mode);
     const double off = (mean - command_of(p.mode, p, study.site)).norm();
     // Earth rate, but of another latitude: as long, and in the meridian.
     const Vec3 local = p.R_lp * mean;
@@ -120,8 +124,7 @@ void check_commands(const mc::Study& study, const std::string& source, const Tim
         "{}: the commands in {} are those of a {} dwell, the plan says mode = \"{}\". The recorded "
         "commands are "
         "used; correct plan.mode if that is not what was meant",
-        source, positions_text(positions),
-        key_of(law == CommandLaw::level ? CommandLaw::free : CommandLaw::level), key_of(law)));
+        source, positions_text(positions), key_of(other_than(law)), key_of(law)));
   }
   if (!elsewhere.empty())
     remarks.push_back(
@@ -216,12 +219,11 @@ void check_law(const mc::Study& study, const std::string& source, const Timeline
         law == CommandLaw::free
             ? "the platform keeps its attitude to the local axes, as in a level dwell"
             : "the platform turns at Earth rate against the local axes, as in free drift";
-    wrong.push_back(
-        fmt::format("{}: in {} {}, but the plan says mode = \"{}\" and the recording has no "
-                    "commands (expected the law "
-                    "it was made with). Set plan.mode = \"{}\", or record cmd_x, cmd_y, cmd_z",
-                    source, positions_text(positions), shows, key_of(law),
-                    law == CommandLaw::free ? "level" : "free"));
+    wrong.push_back(fmt::format(
+        "{}: in {} {}, but the plan says mode = \"{}\" and the recording has no "
+        "commands (expected the law "
+        "it was made with). Set plan.mode = \"{}\", or record cmd_x, cmd_y, cmd_z",
+        source, positions_text(positions), shows, key_of(law), key_of(other_than(law))));
   }
 }
 

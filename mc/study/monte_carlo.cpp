@@ -53,17 +53,13 @@ void check_quantity(Section& section, const std::string& quantity) {
 
 }  // namespace
 
-std::string_view name(EstimatorKind estimator) {
-  return name_in(estimator_choices, estimator);
-}
-
 MonteCarlo read_monte_carlo(Section section) {
   MonteCarlo out;
   visit_fields(out, [&](const Option& option, auto& value) { section.read(option, value); });
   section.read(Option{.key = "design", .doc = "how truth parameters are spread"}, out.design,
                designs);
   section.read(Option{.key = "estimator", .doc = "what makes the estimates"}, out.estimator,
-               estimator_choices);
+               estimators);
   Section stop = section.section("stop");
   if (stop.present()) {
     StopSpec spec;

@@ -25,10 +25,12 @@ enum class EstimatorKind {
 };
 
 /// As a study file has them.
-inline constexpr Named<EstimatorKind> estimator_choices[] = {{"ekf", EstimatorKind::ekf},
-                                                             {"iterated", EstimatorKind::iterated},
-                                                             {"batch", EstimatorKind::batch}};
-std::string_view name(EstimatorKind estimator);
+inline constexpr Named<EstimatorKind> estimators[] = {{"ekf", EstimatorKind::ekf},
+                                                      {"iterated", EstimatorKind::iterated},
+                                                      {"batch", EstimatorKind::batch}};
+constexpr std::string_view key_of(EstimatorKind estimator) {
+  return name_in(estimators, estimator);
+}
 
 /// When a study point has enough runs: [monte_carlo] stop. With design random alone: the interval
 /// supposes independent runs, and the first runs of a Latin hypercube are not stratified.

@@ -57,7 +57,7 @@ Messages noise_without_state(EstimatorKind estimator, const FilterSpec& filter,
         "filter \"{}\" lets a drift vary ({}) that it does not estimate, so estimator = \"{}\" has "
         "no state for it (expected {} with a prior). Add term \"fixed_drift\" to the filter, or "
         "remove the noise",
-        filter.name, fmt::join(noise, ", "), name(estimator), key));
+        filter.name, fmt::join(noise, ", "), key_of(estimator), key));
   }
   return messages;
 }
@@ -69,13 +69,13 @@ Messages free_closure(EstimatorKind estimator, const FilterSpec& filter, const L
     const std::string_view term = TermLibrary::owner(param).key;
     return term == "gyro_misalignment" || term == "misalignment_creep";
   });
-  if (!misaligned || !is_state(layout, TermLibrary::index("lambda"))) return {};
+  if (!misaligned || !is_state(layout, closure_param)) return {};
   return {fmt::format(
       "filter \"{}\" estimates lambda (term 'frame_closure') and misalignments, a product of "
       "unknowns that estimator = \"{}\" linearises from afar: it can end sure of a wrong value "
       "(expected \"batch\"). Set monte_carlo.estimator = \"batch\", or give lambda a number in "
       "[filter.parameters]",
-      filter.name, name(estimator))};
+      filter.name, key_of(estimator))};
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ inline void set_term(Theta& theta, std::size_t term, double factor = 1.0) {
   if (info.key == closure_term) theta[closure_param] = 0.4 * factor;
 }
 
-/// The coupling under which a term acts.
+/// The coupling under which a term acts: lambda alone needs one that has it.
 inline Coupling coupling_for(std::size_t term) {
   return TermLibrary::terms[term].key == closure_term ? Coupling::lambda : Coupling::eq6;
 }

@@ -60,7 +60,7 @@ void tune(ModelSpec& spec, const Scene& scene) {
 
 /// Truth and filter have D_F and one term; lambda shows only where the axes are misaligned.
 mc::Study matched_study(const Scene& scene, const TermInfo& term, std::string_view estimator) {
-  const bool closure = term.key == "frame_closure";
+  const bool closure = term.key == closure_term;
   std::string terms = "\"fixed_drift\"";
   if (term.key != "fixed_drift") terms += fmt::format(", \"{}\"", term.key);
   if (closure) terms += ", \"gyro_misalignment\"";
@@ -189,7 +189,7 @@ TEST_P(NightlyEveryTermUnder, IsConsistentOrRefusedInTwelveSlews) {
 
 const auto estimators = [] {
   std::vector<std::string_view> names;
-  for (const auto& choice : mc::estimator_choices) names.push_back(choice.name);
+  for (const auto& choice : mc::estimators) names.push_back(choice.name);
   return testing::ValuesIn(names);
 }();
 std::string name_of(const testing::TestParamInfo<std::string_view>& estimator) {

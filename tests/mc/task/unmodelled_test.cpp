@@ -31,7 +31,7 @@ void expect_said(const std::string& message, std::initializer_list<std::string_v
 
 TEST(Unmodelled, BaseTermsAreModelledByEveryEstimator) {
   for (const Coupling coupling : {Coupling::eq5, Coupling::eq6})
-    for (const auto& estimator : mc::estimator_choices)
+    for (const auto& estimator : mc::estimators)
       EXPECT_EQ(refusal(estimator.value, base_filter(coupling)), "") << estimator.name;
 }
 
@@ -74,7 +74,7 @@ TEST(Unmodelled, LambdaBesideMisalignmentsIsForTheBatchFit) {
   EXPECT_EQ(refusal(mc::EstimatorKind::batch, filter), "");
   for (const auto estimator : {mc::EstimatorKind::ekf, mc::EstimatorKind::iterated}) {
     expect_said(refusal(estimator, filter),
-                {"lambda", "frame_closure", name(estimator), "Set monte_carlo.estimator"});
+                {"lambda", "frame_closure", key_of(estimator), "Set monte_carlo.estimator"});
     FilterSpec known = filter;
     known.priors[param("lambda")] = fixed(0.5);
     EXPECT_EQ(refusal(estimator, known), "");
