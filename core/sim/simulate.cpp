@@ -135,6 +135,7 @@ void Simulator::integrate(const Timeline& timeline, std::size_t first, std::size
             noise.angle_random_walk / std::sqrt(interval.length()) * process_noise_[a]->normal();
       theta = drift_of(timeline, first);
     }
+    out.theta_end = theta;
     if (disturbance_.cols() > 0)
       omega_noise_p += disturbance_.col(static_cast<Eigen::Index>(first));
     out.ode =
@@ -146,7 +147,6 @@ void Simulator::integrate(const Timeline& timeline, std::size_t first, std::size
     out.cost.jacobian_calls += stats.jacobian_calls;
     first = last;
   }
-  out.theta_end = theta_;
 }
 
 /// What makes a sample wrong, in units of its noise; nearly always nothing.

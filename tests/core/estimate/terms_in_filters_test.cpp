@@ -200,6 +200,8 @@ TEST(BistableDrift, JumpsBetweenTwoLevelsAndAFilterAllowsForIt) {
     EXPECT_NEAR(std::abs(rate), B, 0.02 * deg_per_h);
   }
   EXPECT_GT(high * low, 0);
+  // What an estimate at the end is to be compared with.
+  EXPECT_EQ(std::abs(sim.theta_end[param("D_F_x")]), B);
   FilterSpec filter = base_filter(Coupling::eq6);
   filter.active = truth.active;
   for (const char* key : {"B_x", "B_y", "B_z"}) filter.priors[param(key)] = fixed(B);
