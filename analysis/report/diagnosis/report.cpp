@@ -87,9 +87,9 @@ Table noise_table(const Diagnosis& d) {
                              : n.component == "outliers"
                                  ? fmt::format("{} samples left out", n.count)
                                  : "not as declared";
-    table.add({n.component, plus_minus(n.factor, n.factor_sigma), n.value, text_or_nothing(n.unit),
-               n.tau_s > 0.0 ? Cell(n.tau_s) : only_value({}), n.log_likelihood_gain,
-               p_cell(n.p_value), n.significant, n.count,
+    table.add({n.component, plus_minus(n.factor, n.factor_sigma), n.factor_sigma, n.value,
+               text_or_nothing(n.unit), n.tau_s > 0.0 ? Cell(n.tau_s) : only_value({}),
+               n.log_likelihood_gain, p_cell(n.p_value), n.significant, n.count,
                Cell(said, n.significant ? Tone::doubtful : Tone::plain)});
   }
   return table;

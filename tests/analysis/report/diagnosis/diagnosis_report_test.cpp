@@ -62,6 +62,11 @@ TEST(DiagnosisJson, HasEveryKeyOfTheInterfaceWithTheTypeThatStandsThere) {
   EXPECT_EQ(j["advice"][0]["expected_sigma"], 6.2);
   EXPECT_EQ(j["noise"][0]["component"], "gimbal_white");
   EXPECT_EQ(j["noise"][0]["factor"], 1.3);
+  EXPECT_EQ(j["noise"][0]["factor_sigma"], 0.02);
+  EXPECT_EQ(j["noise"][0]["value"], 6.5);
+  EXPECT_EQ(j["noise"][0]["unit"], "arcsec");
+  EXPECT_EQ(j["noise"][0]["p_value"], 1.0);
+  EXPECT_EQ(j["noise"][0]["significant"], true);
   EXPECT_EQ(j["model"], "patched.toml");
 }
 
