@@ -1,7 +1,8 @@
 #include "analysis/blind/absorption.hpp"
 
-#include <Eigen/Cholesky>
 #include <cmath>
+
+#include "core/base/decompose.hpp"
 
 namespace drift::blind {
 
@@ -35,7 +36,7 @@ Absorption::Absorption(const FilterSpec& nominal, const Timeline& timeline, cons
   }
   MatX A = MatX::Identity(J_.cols(), J_.cols());
   A.selfadjointView<Eigen::Lower>().rankUpdate(J_.transpose());
-  L_ = Eigen::LLT<MatX, Eigen::Lower>(A).matrixL();
+  L_ = Cholesky(A).L();
 }
 
 VecX Absorption::signal(const Measurements& with, const Measurements& without) const {

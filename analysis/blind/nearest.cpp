@@ -1,12 +1,12 @@
 #include "analysis/blind/nearest.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "analysis/blind/library_effects.hpp"
 #include "analysis/inference/candidate.hpp"
+#include "core/base/decompose.hpp"
 
 namespace drift::blind {
 namespace {
@@ -40,7 +40,7 @@ double mixture_cosine(const MatX& products) {
   const MatX G = scale.asDiagonal() * MatX(products(seen, seen)) * scale.asDiagonal();
   const VecX b = scale.cwiseProduct(VecX(products(seen, n)));
   const MatX regular = G + 1e-9 * MatX::Identity(G.rows(), G.cols());
-  return std::sqrt(std::clamp(b.dot(regular.ldlt().solve(b)) / whole, 0.0, 1.0));
+  return std::sqrt(std::clamp(b.dot(solve_symmetric(regular, b)) / whole, 0.0, 1.0));
 }
 
 }  // namespace

@@ -1,12 +1,12 @@
 #include "analysis/diagnosis/recovered.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "analysis/diagnosis/signal_shapes.hpp"
 #include "analysis/inference/thresholds.hpp"
+#include "core/base/decompose.hpp"
 
 namespace drift::diagnosis {
 namespace {
@@ -48,15 +48,15 @@ void smooth(InputEstimate& input, const Timeline& timeline) {
       for (Eigen::Index i = 0; i < n; ++i)
         for (Eigen::Index k = 0; k < n; ++k)
           K(i, k) = size / information * std::exp(-std::abs(t[i] - t[k]) / tau);
-      const MatX L = Eigen::LLT<MatX>(K).matrixL();
+      const MatX L = Cholesky(K).L();
       const MatX M = MatX::Identity(n, n) + L.transpose() * input.C * L;
-      const Eigen::LLT<MatX> llt(M);
+      const Cholesky llt(M);
       const VecX Lg = L.transpose() * input.g;
-      const MatX factor = llt.matrixL();
+      const MatX factor = llt.L();
       const double gain = Lg.dot(llt.solve(Lg)) - 2.0 * factor.diagonal().array().log().sum();
       if (!(gain > input.gain)) continue;
       input.gain = gain;
-      input.smoother = L * llt.solve(L.transpose());
+      input.smoother = L * llt.solve(MatX(L.transpose()));
       input.value = input.smoother * input.g;
       input.sigma = input.smoother.diagonal().cwiseMax(0.0).cwiseSqrt();
     }
@@ -144,13 +144,13 @@ RecoveredSignal recovered_signal(const InputEstimate& input, const Timeline& tim
     const MatX C = f.columns.transpose() * input.C * f.columns;
     const VecX g = f.columns.transpose() * input.g;
     if (!(C.diagonal().minCoeff() > 0.0)) continue;
-    const double T = g.dot(C.ldlt().solve(g));
+    const double T = g.dot(solve_symmetric(C, g));
     const double worth = stats::strength(T, static_cast<int>(g.size()));
     if (worth > best) {
       best = worth;
       winner = &f;
       // Correlation of the signal with the shape, both as the test shows them.
-      const VecX y = input.smoother * (input.C * f.columns * C.ldlt().solve(g));
+      const VecX y = input.smoother * (input.C * f.columns * solve_symmetric(C, g));
       out.correlation = y.norm() > 0.0 && input.value.norm() > 0.0
                             ? y.dot(input.value) / (y.norm() * input.value.norm())
                             : 0.0;

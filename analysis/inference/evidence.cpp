@@ -1,8 +1,7 @@
 #include "analysis/inference/evidence.hpp"
 
-#include <Eigen/Cholesky>
-
 #include "analysis/inference/projector.hpp"
+#include "core/base/decompose.hpp"
 
 namespace drift::inference {
 
@@ -15,7 +14,7 @@ Evidence evidence_under(const LinearProblem& problem, const CandidateSet& set,
     best.dof = static_cast<int>(c.params.size());
     for (std::size_t v = 0; v < c.variants.size(); ++v) {
       const auto [C, g, raw] = projector.candidates(c.variants[v].columns);
-      const double ratio = g.dot((C + MatX::Identity(g.size(), g.size())).llt().solve(g));
+      const double ratio = g.dot(Cholesky(C + MatX::Identity(g.size(), g.size())).solve(g));
       if (ratio > best.ratio) {
         best.ratio = ratio;
         best.variant = v;

@@ -1,6 +1,6 @@
 #include "analysis/inference/projector.hpp"
 
-#include <Eigen/Cholesky>
+#include "core/base/decompose.hpp"
 
 namespace drift::inference {
 namespace {
@@ -28,7 +28,7 @@ Projector::Projector(const LinearProblem& problem, const NoiseModel& noise)
       white_(whitener_.apply(side_by_side(problem))) {
   MatX A = MatX::Identity(n_, n_);
   A.selfadjointView<Eigen::Lower>().rankUpdate(theta().transpose());
-  L_ = Eigen::LLT<MatX, Eigen::Lower>(A).matrixL();
+  L_ = Cholesky(A).L();
   half_ = h(white_.rightCols(white_.cols() - n_), 0);
   marginal_.chi2 = r0().squaredNorm() - half_.rightCols<1>().squaredNorm();
   marginal_.log_det = whitener_.log_det() + 2.0 * L_.diagonal().array().log().sum();

@@ -1,11 +1,10 @@
 #include "analysis/planning/separation.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "analysis/inference/projector.hpp"
+#include "core/base/decompose.hpp"
 
 namespace drift::planning {
 
@@ -26,7 +25,7 @@ Information information_of(const inference::LinearProblem& problem,
 std::vector<Separation> separations(const Information& info, std::span<const Trace> traces,
                                     std::span<const Contest> pairs) {
   const MatX A = info.tt + MatX::Identity(info.tt.rows(), info.tt.cols());
-  const MatX C = info.ee - info.te.transpose() * A.llt().solve(info.te);
+  const MatX C = info.ee - info.te.transpose() * Cholesky(A).solve(info.te);
   std::vector<Separation> out;
   for (const Contest& pair : pairs) {
     const Trace &c = traces[pair.truth], &d = traces[pair.rival];
@@ -45,11 +44,9 @@ std::vector<Separation> separations(const Information& info, std::span<const Tra
       const MatX cd = C(c.columns, d.columns);
       MatX dd = C(d.columns, d.columns);
       s.unlike =
-          whole > 0.0
-              ? size(cc - cd * dd.completeOrthogonalDecomposition().solve(cd.transpose())) / whole
-              : 0.0;
+          whole > 0.0 ? size(cc - cd * solve_least_squares(dd, cd.transpose())) / whole : 0.0;
       dd.diagonal().array() += 1.0;
-      s.sigma = std::sqrt(size(cc - cd * dd.llt().solve(cd.transpose())));
+      s.sigma = std::sqrt(size(cc - cd * Cholesky(dd).solve(MatX(cd.transpose()))));
     }
     out.push_back(s);
   }

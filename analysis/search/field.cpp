@@ -1,12 +1,11 @@
 #include "analysis/search/field.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "analysis/search/size_prior.hpp"
+#include "core/base/decompose.hpp"
 
 namespace drift::search {
 
@@ -85,7 +84,7 @@ std::vector<std::size_t> best_settings(const Field& field, std::size_t candidate
 VecX expected_amplitudes(const inference::Projected& p, const std::vector<int>& columns) {
   MatX C = p.C(columns, columns);
   C.diagonal().array() += 1.0;
-  return C.ldlt().solve(VecX(p.g(columns)));
+  return solve_symmetric(C, VecX(p.g(columns)));
 }
 
 double cosine(const inference::Projected& p, const std::vector<int>& a, const std::vector<int>& b) {
@@ -94,7 +93,7 @@ double cosine(const inference::Projected& p, const std::vector<int>& a, const st
   if (ca.dof == 0 || cb.dof == 0) return 0.0;
   const MatX m = ca.W.transpose() * p.C(a, b) * cb.W;
   if (ca.dof == 1 && cb.dof == 1) return m(0, 0);
-  return Eigen::JacobiSVD<MatX>(m).singularValues()[0];
+  return largest_singular_value(m);
 }
 
 }  // namespace drift::search

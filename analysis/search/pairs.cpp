@@ -1,12 +1,12 @@
 #include "analysis/search/pairs.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
 
 #include "analysis/inference/thresholds.hpp"
+#include "core/base/decompose.hpp"
 #include "core/base/rng.hpp"
 
 namespace drift::search {
@@ -79,9 +79,8 @@ std::vector<Pair> diverse(const Field& field, const std::vector<Pair>& sorted, s
 double quick_log_bayes(const inference::Projected& p, const std::vector<int>& columns) {
   const VecX g = p.g(columns);
   const MatX A = p.C(columns, columns) + MatX::Identity(g.size(), g.size());
-  const Eigen::LLT<MatX> llt(A);
-  const MatX L = llt.matrixL();
-  return 0.5 * g.dot(llt.solve(g)) - L.diagonal().array().log().sum();
+  const Cholesky root(A);
+  return 0.5 * g.dot(root.solve(g)) - root.L().diagonal().array().log().sum();
 }
 
 bool same_candidate(const Unit& a, const Unit& b) {

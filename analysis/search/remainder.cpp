@@ -1,10 +1,10 @@
 #include "analysis/search/remainder.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "analysis/inference/thresholds.hpp"
+#include "core/base/decompose.hpp"
 
 namespace drift::search {
 namespace {
@@ -64,12 +64,12 @@ class Conditioned {
     // In coordinates where the candidate had unit information.
     const MatX lost = cross_(Eigen::all, whole.columns) * whole.W;
     const MatX rest = MatX::Identity(whole.dof, whole.dof) - lost.transpose() * lost;
-    const Eigen::SelfAdjointEigenSolver<MatX> eigen(rest);
-    const VecX y = eigen.eigenvectors().transpose() * (whole.W.transpose() * g_(whole.columns));
+    const Eigensystem eigen = eigensystem(rest);
+    const VecX y = eigen.vectors.transpose() * (whole.W.transpose() * g_(whole.columns));
     Several out;
     for (Eigen::Index j = 0; j < y.size(); ++j)
-      if (eigen.eigenvalues()[j] > VisibleLimits::left_of_several) {
-        out.T += y[j] * y[j] / eigen.eigenvalues()[j];
+      if (eigen.values[j] > VisibleLimits::left_of_several) {
+        out.T += y[j] * y[j] / eigen.values[j];
         ++out.dof;
       }
     return out;

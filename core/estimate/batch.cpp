@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 
+#include "core/base/decompose.hpp"
 #include "core/estimate/triangle.hpp"
 #include "core/physics/stochastic.hpp"
 #include "core/sim/predict.hpp"
@@ -90,11 +90,11 @@ MatX information_root(const std::vector<ChainEquations>& chains, std::size_t par
 }
 
 std::vector<WeakDirection> weak_directions(const MatX& information_root, double limit) {
-  const Eigen::SelfAdjointEigenSolver<MatX> eigen(information_root.transpose() * information_root);
+  const Eigensystem eigen = eigensystem(information_root.transpose() * information_root);
   std::vector<WeakDirection> weak;
-  for (Eigen::Index k = 0; k < eigen.eigenvalues().size(); ++k)
-    if (eigen.eigenvalues()[k] < limit)
-      weak.push_back({std::max(0.0, eigen.eigenvalues()[k]), eigen.eigenvectors().col(k)});
+  for (Eigen::Index k = 0; k < eigen.values.size(); ++k)
+    if (eigen.values[k] < limit)
+      weak.push_back({std::max(0.0, eigen.values[k]), eigen.vectors.col(k)});
   return weak;
 }
 

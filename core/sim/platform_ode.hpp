@@ -40,7 +40,7 @@ class PlatformOde {
     const MemoryRecord* memory = nullptr;
     std::size_t first = 0, end = 0;  ///< intervals of the segment
     /// All parameters as constants of the differentiation.
-    std::array<Dual<servo_states>, TermLibrary::num_params> theta_dual;
+    std::array<Dual<servo_states>, TermLibrary::num_params> theta_dual{};
 
     Mat3 reference(double t) const;
     const Interval& interval_at(double t) const;

@@ -298,7 +298,7 @@ def blind(run):
 def xsens(run):
     recording = RECORDINGS / "xsens_mti.csv"
     if not recording.exists():
-        raise Absent(f"{recording.name} is no part of the repository and not in ../shared/recordings")
+        raise Absent("recordings by others are not in ../shared/recordings")
     run("identify", CONFIGS / "strapdown_xsens.toml", recording, "-o", "case")
     answer = run.json("case/identification.json")
     yield Number("xsens.dwells", answer["dwells"]["count"], "count")

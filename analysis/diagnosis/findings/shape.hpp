@@ -26,7 +26,7 @@ struct Shape {
   double seconds = 0.0;
   int axis = 0, other_axis = 0;
   int position = 0;  ///< 1-based
-  std::string covariate;
+  std::string covariate = {};
 };
 
 }  // namespace drift::diagnosis

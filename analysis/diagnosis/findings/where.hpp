@@ -9,8 +9,8 @@ namespace drift::diagnosis {
 /// A part of the misfit that the nominal model leaves: `share` of the strongest location's T falls
 /// on it; shares of all parts sum to 1. z: studentised excess of its mean square over 1.
 struct Share {
-  std::string name;  ///< "acc_y", "gimbal_middle"; empty for positions
-  int position = 0;  ///< 1-based; 0 for channels
+  std::string name = {};  ///< "acc_y", "gimbal_middle"; empty for positions
+  int position = 0;       ///< 1-based; 0 for channels
   double share = 0.0, sigma = 0.0;
   double chi2_per_dof = 1.0, z = 0.0;
 };

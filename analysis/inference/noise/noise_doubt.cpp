@@ -1,11 +1,11 @@
 #include "analysis/inference/noise/noise_doubt.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "analysis/inference/projector.hpp"
 #include "analysis/inference/thresholds.hpp"
+#include "core/base/decompose.hpp"
 #include "core/base/rng.hpp"
 #include "core/base/units.hpp"
 #include "core/stats/normal.hpp"
@@ -42,9 +42,7 @@ VecX best_gain(const Projector& projector, const CandidateSet& set, const MatX& 
     for (const Variant& v : c.variants) {
       const auto n = static_cast<Eigen::Index>(v.columns.size());
       const MatX C = projector.candidates(v.columns).C + MatX::Identity(n, n);
-      MatX part = g(v.columns, Eigen::all);
-      const Eigen::LLT<MatX> llt(C);
-      llt.matrixL().solveInPlace(part);
+      const MatX part = Cholesky(C).halved(g(v.columns, Eigen::all));
       best = best.cwiseMax(
           part.colwise().squaredNorm().transpose() -
           VecX::Constant(g.cols(), NoiseDoubtLimits::per_amplitude * static_cast<double>(n - 1)));

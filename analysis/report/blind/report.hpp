@@ -13,7 +13,7 @@ struct BlindResults {
   std::string title;
   blind::Summary summary;
   std::vector<blind::TrialScore> scores;
-  std::string key_hash, answers_hash;
+  std::string key_hash = {}, answers_hash = {};
 };
 
 /// All a blind study has to say: tables, pictures and blind.json with hashes, targets, all scores,

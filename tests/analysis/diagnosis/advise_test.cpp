@@ -134,8 +134,9 @@ TEST(Advise, OnRequestAConsistentRecordingIsToldWhatItsPlanHides) {
   EXPECT_NE(advice_text(advice.back()).find("possible additions show"), std::string::npos)
       << advice_text(advice.back());
   for (const std::string& label : advised_labels(advice.back()))
-    if (label != "the nominal model")
+    if (label != "the nominal model") {
       EXPECT_EQ(std::find(seen.begin(), seen.end(), label), seen.end()) << label;
+    }
 }
 
 TEST(Advise, ANamedCauseThatFollowsTheTemperatureIsNotAskedOfPositions) {

@@ -156,7 +156,8 @@ TEST(Evidence, RatioIsWhatTheCandidateGainsAtItsBest) {
   const auto marginal = [&](const std::vector<int>& columns) {
     return Projector(problem().with_mean(columns), noise).marginal();
   };
-  EXPECT_NEAR(e.log_likelihood2, marginal({3}).log_likelihood2(), 1e-9 * problem().rows());
+  EXPECT_NEAR(e.log_likelihood2, marginal({3}).log_likelihood2(),
+              1e-9 * static_cast<double>(problem().rows()));
   const double first = marginal({3}).chi2 - marginal({3, 1, 2}).chi2,
                second = marginal({3}).chi2 - marginal({3, 0, 4}).chi2;
   ASSERT_EQ(e.gains.size(), 1u);

@@ -93,7 +93,9 @@ TEST(Whitener, WithoutProcessNoiseAChainDoesNotSeeAnother) {
   one(2, 0) = 1.0;
   const VecX white = Whitener(problem, {}).apply(one);
   for (Eigen::Index k = 0; k < problem.rows(); ++k)
-    if (problem.tags[k].position > 0) EXPECT_EQ(white[k], 0.0) << k;
+    if (problem.tags[k].position > 0) {
+      EXPECT_EQ(white[k], 0.0) << k;
+    }
   EXPECT_NE(white[8], 0.0);
 }
 

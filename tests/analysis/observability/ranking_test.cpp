@@ -166,8 +166,9 @@ TEST(Ranking, ExactDegeneraciesAreFoundByName) {
   // of 1.
   const double floor = 0.1 / std::sqrt(3.0), left = floor / std::sqrt(1.0 + floor * floor);
   for (const auto& p : r.parameters)
-    if (TermLibrary::specs[p.param].group == Name("D_F"))
+    if (TermLibrary::specs[p.param].group == Name("D_F")) {
       EXPECT_NEAR(p.learning_ratio(), left, 1e-5);
+    }
 }
 
 TEST(Ranking, GaugeIsHeldByTheAttitudePriorAloneWithoutGimbals) {
@@ -184,8 +185,9 @@ TEST(Ranking, GaugeIsHeldByTheAttitudePriorAloneWithoutGimbals) {
   // The limit by priors: 1/sqrt(2/200^2 + 2/100^2 + 1/200^2) = 60.3 arcsec; data cannot beat it.
   const double limit = 1.0 / std::sqrt(3.0 / (200.0 * 200.0) + 2.0 / (100.0 * 100.0)) * arcsec;
   for (const auto& p : r.parameters)
-    if (TermLibrary::specs[p.param].group == Name("eta"))
+    if (TermLibrary::specs[p.param].group == Name("eta")) {
       EXPECT_NEAR(p.posterior_sigma / limit, 1.0, 0.01);
+    }
 }
 
 TEST(Ranking, LearningRatioIsThatOfABatchFitAtTheTruth) {

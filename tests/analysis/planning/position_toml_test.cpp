@@ -36,7 +36,9 @@ TEST(PositionToml, ReadsBackAsThePositions) {
     EXPECT_EQ(is.entry, was.entry);
     ASSERT_EQ(is.case_heading.has_value(), was.case_heading.has_value());
     // Twelve digits, three of them before the point.
-    if (was.case_heading) EXPECT_NEAR(*is.case_heading, *was.case_heading, 0.51e-9 * detail::deg);
+    if (was.case_heading) {
+      EXPECT_NEAR(*is.case_heading, *was.case_heading, 0.51e-9 * detail::deg);
+    }
   }
 }
 

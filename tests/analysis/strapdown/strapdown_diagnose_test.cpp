@@ -15,6 +15,7 @@
 #include "core/base/check.hpp"
 #include "tests/analysis/report/xml_check.hpp"
 #include "tests/support/program.hpp"
+#include "tests/support/recordings_by_others.hpp"
 #include "tests/support/strapdown_recording.hpp"
 
 namespace drift {
@@ -25,19 +26,12 @@ using search::Cause;
 
 constexpr double share = 0.15;  // by which dwell bounds, folds and seeds may move a number
 
-std::string path_of(const std::string& name) {
-  return std::string(DRIFT_SOURCE_DIR) + "/../shared/recordings/" + name;
-}
-bool absent(const std::string& name) {
-  return !std::filesystem::exists(path_of(name));
-}
-
 mc::Study nominal() {
   return mc::read_study(std::string(DRIFT_SOURCE_DIR) + "/configs/diagnose_xsens.toml");
 }
 
 Recording recorded(const std::string& name) {
-  return read_recording(path_of(name), RecordingKind::strapdown, 9.80665);
+  return read_recording(test::path_of(name), RecordingKind::strapdown, 9.80665);
 }
 
 /// Where the verdict is asked for and no number: one division into parts is enough.
@@ -70,7 +64,7 @@ bool says(const Diagnosis& d, std::string_view text) {
 // One test for one diagnosis: every test is a process of its own.
 TEST(StrapdownDiagnosis,
      XsensLacksMisalignmentAndCrossAxisSensitivityAndClaimsNothingThatItCannotShow) {
-  if (absent("xsens_mti.csv")) GTEST_SKIP() << "the recording is not beside the sources";
+  NEEDS_RECORDING("xsens_mti.csv");
   const Recording recording = recorded("xsens_mti.csv");
   const auto found = strapdown::diagnose_strapdown(nominal(), recording, {});
   const Diagnosis& d = found.diagnosis;
@@ -115,7 +109,7 @@ TEST(StrapdownDiagnosis,
 }
 
 TEST(StrapdownDiagnosis, MpuHasMisalignmentAndNoGSensitivity) {
-  if (absent("mpu9150_1.csv")) GTEST_SKIP() << "the recording is not beside the sources";
+  NEEDS_RECORDING("mpu9150_1.csv");
   const Diagnosis d =
       strapdown::diagnose_strapdown(nominal(), recorded("mpu9150_1.csv"), {}).diagnosis;
   EXPECT_EQ(d.verdict, diagnosis::Verdict::named);

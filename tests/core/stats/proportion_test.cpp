@@ -34,10 +34,12 @@ TEST(Proportion, NothingOfNHasTheRuleOfThree) {
 /// Probability of k or fewer of n, summed.
 double at_most(std::size_t k, std::size_t n, double p) {
   double sum = 0.0;
-  for (std::size_t i = 0; i <= k; ++i)
-    sum += std::exp(std::lgamma(n + 1.0) - std::lgamma(i + 1.0) - std::lgamma(n - i + 1.0) +
-                    static_cast<double>(i) * std::log(p) +
-                    static_cast<double>(n - i) * std::log1p(-p));
+  const auto all = static_cast<double>(n);
+  for (std::size_t number = 0; number <= k; ++number) {
+    const auto i = static_cast<double>(number);
+    sum += std::exp(std::lgamma(all + 1.0) - std::lgamma(i + 1.0) - std::lgamma(all - i + 1.0) +
+                    i * std::log(p) + (all - i) * std::log1p(-p));
+  }
   return sum;
 }
 

@@ -3,8 +3,6 @@
 // program's own.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
 #include "mc/statistics/point_statistics.hpp"
 #include "mc/task/campaign.hpp"
 #include "tests/mc/small_study.hpp"
@@ -172,20 +170,13 @@ TEST_P(EveryTermUnder, IsConsistentOrRefused) {
   check_every_term(caged, GetParam());
 }
 
-/// Minutes of CPU.
-bool nightly() {
-  return std::getenv("DRIFT_NIGHTLY") != nullptr;
-}
-
 TEST_P(EveryTermUnder, IsConsistentOrRefusedInSlews) {
-  if (GetParam() == "batch" && !nightly()) GTEST_SKIP() << "set DRIFT_NIGHTLY to run it";
   check_every_term({"slews", four_positions, share_for(GetParam())}, GetParam());
 }
 
 class NightlyEveryTermUnder : public EveryTermUnder {};
 
 TEST_P(NightlyEveryTermUnder, IsConsistentOrRefusedInTwelveSlews) {
-  if (!nightly()) GTEST_SKIP() << "set DRIFT_NIGHTLY to run it";
   check_every_term({"twelve slews", twelve_positions, share_for(GetParam())}, GetParam());
 }
 
