@@ -14,7 +14,7 @@ Absorption::Absorption(const FilterSpec& nominal, const Timeline& timeline, cons
   const Layout layout = make_layout(nominal);
   const auto n = static_cast<Eigen::Index>(layout.size());
   const Trajectory phi = integrate_fixed(timeline, model, theta, psi0_l);
-  const auto chains = measurement_equations(timeline, model, layout, readout, clean, theta, phi,
+  const auto chains = measurement_equations({timeline, readout, clean}, model, layout, theta, phi,
                                             nominal.initial_attitude);
   const auto rows_of_interval = [&](std::size_t i) {
     return clean.acc.col(static_cast<Eigen::Index>(i)).array().isFinite().count() +

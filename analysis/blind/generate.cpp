@@ -157,7 +157,8 @@ void hide(const mc::Study& study, const FilterSpec& nominal, const TrialPlan& pl
 
 Certificate certify(const FilterSpec& nominal, const World& world, const Measurements& measured) {
   const Layout layout = make_layout(nominal);
-  const BatchResult fit = fit_batch(nominal, world.timeline, world.readout, measured, layout.theta);
+  const BatchResult fit =
+      fit_batch(nominal, {world.timeline, world.readout, measured}, layout.theta);
   Certificate c;
   const auto dof = static_cast<double>(fit.estimate.measured);
   const stats::Band band = stats::chi_square_band(dof);

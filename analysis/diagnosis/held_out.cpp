@@ -65,7 +65,7 @@ class Folder {
   Prediction refitted(const search::Fitted& e, const HeldOutPart& part) const {
     const Measurements rest = without_intervals(test_.measured, part.intervals);
     // Near the whole fit: a step of a hundredth of a sigma is as good as none.
-    BatchResult fit = fit_batch(e.filter, test_.timeline, test_.readout, rest,
+    BatchResult fit = fit_batch(e.filter, {test_.timeline, test_.readout, rest},
                                 theta_of(e.filter, e.fit), {.tolerance = 1e-2});
     // Attitudes of which the fit has seen nothing: linearised where they are, their prior
     // unchanged.

@@ -14,7 +14,7 @@ NominalFit fit_nominal(const FilterSpec& nominal, const MeasuredTest& given,
   out.measured = given.measured;
   const MeasuredTest test{given.timeline, given.readout, out.measured};
   const auto fit_at = [&](const Theta& start) {
-    return fit_batch(nominal, test.timeline, test.readout, out.measured, start);
+    return fit_batch(nominal, {test.timeline, test.readout, out.measured}, start);
   };
   out.fit = fit_at(prior);
   for (int round = 0; round < most_rounds; ++round) {
@@ -43,10 +43,8 @@ std::vector<BatchResult> fit_from_starts(const FilterSpec& nominal, const Filter
         start[i] = found[i];
         if (filter.active[i]) held.priors[i] = fixed(found[i]);
       }
-    BatchResult first = fit_batch(held, test.timeline, test.readout, test.measured, start);
-    return filter.active == nominal.active ? first
-                                           : fit_batch(filter, test.timeline, test.readout,
-                                                       test.measured, theta_of(held, first));
+    BatchResult first = fit_batch(held, test, start);
+    return filter.active == nominal.active ? first : fit_batch(filter, test, theta_of(held, first));
   });
 }
 

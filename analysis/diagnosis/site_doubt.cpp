@@ -43,7 +43,7 @@ class Latitudes {
     study.site.latitude = latitude;
     try {
       const preparation::RecordedTest test = preparation::recorded_test(study, recordings_);
-      const BatchResult fit = fit_batch(nominal_, test.timeline, study.readout, test.measured,
+      const BatchResult fit = fit_batch(nominal_, {test.timeline, study.readout, test.measured},
                                         make_layout(nominal_).theta);
       p.cost = fit.estimate.statistic;
       p.dof = static_cast<double>(std::max<std::size_t>(1, fit.estimate.measured));

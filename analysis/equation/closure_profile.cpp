@@ -39,7 +39,7 @@ class Profiler {
     held.priors[closure_param] = fixed(value);
     Theta start = start_;
     start[closure_param] = value;
-    Point p{value, 0.0, fit_batch(held, test_.timeline, test_.readout, test_.measured, start)};
+    Point p{value, 0.0, fit_batch(held, test_, start)};
     inference::LinearProblem problem = inference::linear_problem(held, test_, p.fit, {});
     problem.weight = weight_;
     p.log2 = inference::Projector(problem, noise_).marginal().log_likelihood2();

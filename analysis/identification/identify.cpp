@@ -40,8 +40,8 @@ FilterRun estimate(const mc::Study& study, const Job& job, const Timeline& timel
   FilterRun run;
   run.filter = job.filter;
   run.start = job.start;
-  run.ekf = run_ekf(filter, timeline, study.readout, measured, start, &run.history);
-  run.batch = equation::fit_either_equation(filter, timeline, study.readout, measured, start);
+  run.ekf = run_ekf(filter, {timeline, study.readout, measured}, start, &run.history);
+  run.batch = equation::fit_either_equation(filter, {timeline, study.readout, measured}, start);
   return run;
 }
 
@@ -81,7 +81,7 @@ FilterRun estimate_in_the_loop(const mc::Study& study, const Job& job, Timeline 
   run.start = job.start;
   run.ekf = ekf.result();
   run.history = ekf.history();
-  run.batch = equation::fit_either_equation(filter, timeline, study.readout, sim.measured, start);
+  run.batch = equation::fit_either_equation(filter, {timeline, study.readout, sim.measured}, start);
   return run;
 }
 

@@ -103,9 +103,8 @@ MatX signature_columns(const FilterSpec& nominal, const MeasuredTest& test, cons
     if (added[closure_param])
       at[closure_param] = facts(nominal.coupling).lambda.value_or(at[closure_param]);
     const Layout small = layout_of(group, at);
-    const auto parts =
-        measurement_equations(test.timeline, extended(nominal, added), small, test.readout,
-                              test.measured, at, phi, nominal.initial_attitude);
+    const auto parts = measurement_equations(test, extended(nominal, added), small, at, phi,
+                                             nominal.initial_attitude);
     Eigen::Index next = 0;
     for (std::size_t c = 0; c < parts.size(); ++c) {
       Eigen::Index count = 0;
@@ -144,8 +143,8 @@ LinearProblem linear_problem(const FilterSpec& nominal, const MeasuredTest& test
   out.r0.resize(rows);
   const VecX x = layout.scaled(theta);
   Eigen::Index next = 0;
-  const auto chains = measurement_equations(test.timeline, model, layout, test.readout,
-                                            test.measured, theta, phi, nominal.initial_attitude);
+  const auto chains =
+      measurement_equations(test, model, layout, theta, phi, nominal.initial_attitude);
   for (std::size_t c = 0; c < chains.size(); ++c) {
     const MatX& e = chains[c].rows;
     // Channels that are not read leave zero rows at the end.

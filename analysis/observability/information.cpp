@@ -72,7 +72,7 @@ LinearisedPlan linearise(const TestPlan& plan, const RankedModel& model, int bin
   out.positions = timeline.positions;
   out.duration = timeline.intervals.back().t1 - timeline.intervals.front().t0;
   const auto chains =
-      measurement_equations(timeline, spec.model(), out.layout, model.readout, sim.measured,
+      measurement_equations({timeline, model.readout, sim.measured}, spec.model(), out.layout,
                             model.nominal, sim.phi, spec.initial_attitude);
   const Eigen::Index width = 3 + out.size();
   const Eigen::Index per_interval =

@@ -36,7 +36,7 @@ double other_equation_gain(const Fitted& nominal, const MeasuredTest& test) {
   double best = -infinity;
   const auto here = theta_of(nominal.filter, nominal.fit);
   for (const Theta& start : {here, make_layout(other).theta}) {
-    const BatchResult fit = fit_batch(other, test.timeline, test.readout, test.measured, start);
+    const BatchResult fit = fit_batch(other, test, start);
     inference::LinearProblem problem = inference::linear_problem(other, test, fit, {});
     problem.weight = nominal.problem.weight;
     best = std::max(

@@ -85,8 +85,8 @@ std::vector<BatchResult> fits_from_both_ends(const Fitted& nominal, const Filter
     held.priors[closure_param] = fixed(end);
     Theta from = k < 2 ? theta : make_layout(nominal.filter).theta;
     from[closure_param] = end;
-    const BatchResult first = fit_batch(held, test.timeline, test.readout, test.measured, from);
-    return fit_batch(filter, test.timeline, test.readout, test.measured, theta_of(held, first));
+    const BatchResult first = fit_batch(held, test, from);
+    return fit_batch(filter, test, theta_of(held, first));
   });
 }
 
@@ -96,9 +96,7 @@ CauseFit fit_causes(const Fitted& nominal, const MeasuredTest& test,
                     const std::vector<Choice>& choices) {
   CauseFit out{
       with_causes(nominal.filter, nominal.set, choices), {}, expect(nominal, choices), 0.0};
-  const auto fit_from = [&](const Theta& from) {
-    return fit_batch(out.filter, test.timeline, test.readout, test.measured, from);
-  };
+  const auto fit_from = [&](const Theta& from) { return fit_batch(out.filter, test, from); };
   out.fit = fit_from(out.expected.theta);
   if (!out.expected.lambda_among_them) return out;
   for (BatchResult& other : fits_from_both_ends(nominal, out.filter, test))

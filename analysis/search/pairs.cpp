@@ -16,13 +16,13 @@ using inference::EffortLimits;
 using inference::ReachLimits;
 
 /// A single observable column that a candidate has.
-struct Unit {
+struct SingleColumn {
   Choice choice;
   int column = 0;
 };
 
-std::vector<Unit> single_columns(const Field& field) {
-  std::vector<Unit> units;
+std::vector<SingleColumn> single_columns(const Field& field) {
+  std::vector<SingleColumn> units;
   for (std::size_t c = 0; c < field.set.candidates.size(); ++c)
     for (std::size_t v = 0; v < field.set.candidates[c].variants.size(); ++v)
       if (field.contrasts[c][v].columns.size() == 1 && field.contrasts[c][v].dof == 1 &&
@@ -37,9 +37,9 @@ struct UnitScores {
   VecX z;
 };
 
-UnitScores unit_scores(const Field& field, const std::vector<Unit>& units) {
+UnitScores scores_of(const Field& field, const std::vector<SingleColumn>& units) {
   std::vector<int> columns;
-  for (const Unit& u : units) columns.push_back(u.column);
+  for (const SingleColumn& u : units) columns.push_back(u.column);
   const MatX C = field.projected.C(columns, columns);
   const VecX scale = C.diagonal().cwiseSqrt().cwiseInverse();
   return {scale.asDiagonal() * C * scale.asDiagonal(),
@@ -83,7 +83,7 @@ double quick_log_bayes(const inference::Projected& p, const std::vector<int>& co
   return 0.5 * g.dot(root.solve(g)) - root.L().diagonal().array().log().sum();
 }
 
-bool same_candidate(const Unit& a, const Unit& b) {
+bool same_candidate(const SingleColumn& a, const SingleColumn& b) {
   return a.choice.candidate == b.choice.candidate;
 }
 
@@ -91,7 +91,7 @@ bool same_candidate(const Unit& a, const Unit& b) {
 
 std::vector<Pair> strongest_pairs(const Field& field, std::size_t most) {
   const auto units = single_columns(field);
-  const auto [rho, z] = unit_scores(field, units);
+  const auto [rho, z] = scores_of(field, units);
   std::vector<Pair> pairs;
   for (std::size_t i = 0; i < units.size(); ++i)
     for (std::size_t k = 0; k < i; ++k) {
@@ -111,7 +111,7 @@ std::vector<Pair> strongest_pairs(const Field& field, std::size_t most) {
 
 inference::MaxNull pair_null(const Field& field, int draws) {
   const auto units = single_columns(field);
-  const MatX rho = unit_scores(field, units).rho;
+  const MatX rho = scores_of(field, units).rho;
   const MatX g = inference::MaxNull::draw(rho, draws, 2);
   VecX largest = VecX::Zero(draws);
   for (std::size_t i = 0; i < units.size(); ++i)

@@ -55,8 +55,9 @@ EstimateResult Ekf::result() const {
   return r;
 }
 
-EstimateResult run_ekf(const FilterSpec& filter, const Timeline& timeline, const Readout& readout,
-                       const Measurements& measured, const Theta& start, EkfHistory* history) {
+EstimateResult run_ekf(const FilterSpec& filter, const MeasuredTest& test, const Theta& start,
+                       EkfHistory* history) {
+  const auto& [timeline, readout, measured] = test;
   Ekf ekf(filter, timeline, readout, start, history ? KeepHistory::yes : KeepHistory::no);
   for (std::size_t i = 0; i < timeline.intervals.size(); ++i)
     ekf.process(i, measured.acc.col(i), measured.gimbal.col(i));

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/estimate/interval_step.hpp"
-#include "core/sim/measurements.hpp"
+#include "core/estimate/measured_test.hpp"
 
 namespace drift {
 
@@ -57,8 +57,7 @@ class Ekf {
 };
 
 /// Runs the filter over a whole recording.
-EstimateResult run_ekf(const FilterSpec& filter, const Timeline& timeline, const Readout& readout,
-                       const Measurements& measured, const Theta& start,
+EstimateResult run_ekf(const FilterSpec& filter, const MeasuredTest& test, const Theta& start,
                        EkfHistory* history = nullptr);
 
 }  // namespace drift

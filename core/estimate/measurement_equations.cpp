@@ -4,10 +4,10 @@
 
 namespace drift {
 
-std::vector<ChainEquations> measurement_equations(const Timeline& timeline, const DriftModel& model,
-                                                  const Layout& layout, const Readout& readout,
-                                                  const Measurements& measured, const Theta& theta,
+std::vector<ChainEquations> measurement_equations(const MeasuredTest& test, const DriftModel& model,
+                                                  const Layout& layout, const Theta& theta,
                                                   const Trajectory& phi, double sigma_attitude) {
+  const auto& [timeline, readout, measured] = test;
   const auto n = static_cast<Eigen::Index>(layout.size());
   const auto nr = static_cast<Eigen::Index>(layout.num_rate);
   std::vector<Eigen::Index> count(timeline.chains, 0), next(timeline.chains, 0);
@@ -20,9 +20,7 @@ std::vector<ChainEquations> measurement_equations(const Timeline& timeline, cons
   Linearizer linearizer(model, layout, readout);
   linearizer.set_theta(theta);
   IntervalSensitivity inner;
-  // How the attitude error at the start of the interval follows from what came before in its chain:
-  // psi = Phi psi(caging) + G x(rate states).
-  Mat3 Phi = Mat3::Identity();
+  Mat3 Phi = Mat3::Identity();  // from the caging to the start of the interval
   Mat3X G = Mat3X::Zero(3, nr), Y(3, n);
   MemoryPath memory(timeline, model);
   for (std::size_t i = 0; i < timeline.intervals.size(); ++i) {

@@ -30,8 +30,8 @@ RunTrace trace_run(const Study& point, std::uint64_t run) {
     for (std::size_t s = 0; s < start_count(point.filters[f]); ++s) {
       const FilterSpec& spec = point.filters[f];
       RunTrace::Filter filter{f, s, make_layout(spec), {}};
-      run_ekf(spec, timeline, point.readout, sim.measured, initial_estimate(spec, mc.seed, run, s),
-              &filter.history);
+      run_ekf(spec, {timeline, point.readout, sim.measured},
+              initial_estimate(spec, mc.seed, run, s), &filter.history);
       trace.filters.push_back(std::move(filter));
     }
   return trace;

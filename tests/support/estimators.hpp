@@ -16,7 +16,7 @@ struct Estimator {
 inline EstimateResult by_ekf(const FilterSpec& filter, const Timeline& timeline,
                              const Readout& readout, const Measurements& measured,
                              const Theta& start) {
-  return run_ekf(filter, timeline, readout, measured, start);
+  return run_ekf(filter, {timeline, readout, measured}, start);
 }
 
 inline EstimateResult by_iterated_ekf(const FilterSpec& filter, const Timeline& timeline,
@@ -38,7 +38,7 @@ inline EstimateResult by_iterated_ekf(const FilterSpec& filter, const Timeline& 
 inline EstimateResult by_batch(const FilterSpec& filter, const Timeline& timeline,
                                const Readout& readout, const Measurements& measured,
                                const Theta& start) {
-  return fit_batch(filter, timeline, readout, measured, start).estimate;
+  return fit_batch(filter, {timeline, readout, measured}, start).estimate;
 }
 
 /// Those that go through the measurements in order, and so can have process noise.

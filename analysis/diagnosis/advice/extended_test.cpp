@@ -28,7 +28,7 @@ ExtendedTest::ExtendedTest(const mc::Study& study, const std::vector<Recording>&
       d_(d),
       noise_(noise_of(d)),
       test_(preparation::recorded_test(study, recordings)),
-      fit_(fit_batch(d.nominal, test_.timeline, study.readout, test_.measured,
+      fit_(fit_batch(d.nominal, {test_.timeline, study.readout, test_.measured},
                      make_layout(d.nominal).theta)) {}
 
 inference::Projector ExtendedTest::projector(
@@ -98,7 +98,7 @@ double ExtendedTest::verified(const std::vector<Position>& added, const Alternat
   const Simulation sim = Simulator(simulated, study_.readout).run(timeline, draw, seed, 0);
   if (!sim.ode.ok()) return std::nan("");
   const auto cost = [&](const FilterSpec& f) {
-    return fit_batch(f, timeline, study_.readout, sim.measured, make_layout(f).theta)
+    return fit_batch(f, {timeline, study_.readout, sim.measured}, make_layout(f).theta)
         .estimate.statistic;
   };
   const double gain = cost(wrong) - cost(right);

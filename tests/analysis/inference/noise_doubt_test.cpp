@@ -24,7 +24,7 @@ struct Bench {
     const Measurements measured =
         Simulator(base_truth(Coupling::eq5), readout).run(timeline, 8, 0).measured;
     const BatchResult fit =
-        fit_batch(filter, timeline, readout, measured, make_layout(filter).theta);
+        fit_batch(filter, {timeline, readout, measured}, make_layout(filter).theta);
     problem = linear_problem(filter, {timeline, readout, measured}, fit, {});
     problem.extra = MatX::Zero(problem.rows(), 3);
     for (Eigen::Index k = 0; k < problem.rows(); ++k) {

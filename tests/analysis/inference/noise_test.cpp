@@ -20,7 +20,7 @@ LinearProblem problem_of(const TruthSpec& truth, std::uint64_t run, double noise
   const FilterSpec filter = base_filter(Coupling::eq5);
   const Measurements measured = Simulator(truth, real).run(timeline, 6, run).measured;
   const BatchResult fit =
-      fit_batch(filter, timeline, declared, measured, make_layout(filter).theta);
+      fit_batch(filter, {timeline, declared, measured}, make_layout(filter).theta);
   return linear_problem(filter, {timeline, declared, measured}, fit, {});
 }
 

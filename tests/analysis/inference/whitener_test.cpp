@@ -23,7 +23,8 @@ LinearProblem short_problem() {
       Simulator(base_truth(Coupling::eq5), readout).run(timeline, 5, 0).measured;
   measured.acc(1, 3) = std::nan("");  // a sample that was not measured
   measured.gimbal(2, 7) = std::nan("");
-  const BatchResult fit = fit_batch(filter, timeline, readout, measured, make_layout(filter).theta);
+  const BatchResult fit =
+      fit_batch(filter, {timeline, readout, measured}, make_layout(filter).theta);
   return linear_problem(filter, {timeline, readout, measured}, fit, {});
 }
 

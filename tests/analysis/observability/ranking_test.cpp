@@ -211,7 +211,7 @@ TEST(Ranking, LearningRatioIsThatOfABatchFitAtTheTruth) {
   const TruthDraw draw{model.nominal, std::vector<Vec3>(timeline.chains, Vec3::Zero())};
   const Simulation sim = Simulator(truth, silent).run(timeline, draw, 1, 0);
   for (const std::size_t i : make_layout(filter).params) filter.priors[i].a = model.nominal[i];
-  const BatchResult fit = fit_batch(filter, timeline, Readout{}, sim.measured, model.nominal);
+  const BatchResult fit = fit_batch(filter, {timeline, Readout{}, sim.measured}, model.nominal);
   ASSERT_EQ(fit.estimate.status, EstimateStatus::ok) << fit.estimate.cause;
   for (std::size_t k = 0; k < r.parameters.size(); ++k)
     EXPECT_NEAR(fit.estimate.parameters[k].learning_ratio() / r.learning_ratio(k), 1.0, 1e-6)
@@ -235,7 +235,7 @@ TEST(Ranking, PromisedSigmasAreTheErrorsOfBatchFits) {
     const Simulation sim = simulator.run(timeline, 5, run);
     ASSERT_TRUE(sim.ode.ok());
     const BatchResult fit =
-        fit_batch(filter, timeline, Readout{}, sim.measured, make_layout(filter).theta);
+        fit_batch(filter, {timeline, Readout{}, sim.measured}, make_layout(filter).theta);
     for (std::size_t k = 0; k < r.parameters.size(); ++k)
       square[k] +=
           std::pow(fit.estimate.parameters[k].value - sim.draw.theta[r.parameters[k].param], 2);

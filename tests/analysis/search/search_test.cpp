@@ -25,7 +25,7 @@ struct Bench {
   Fitted nominal() const {
     const MeasuredTest test{timeline, readout, measured};
     return examine(filter, test,
-                   fit_batch(filter, timeline, readout, measured, make_layout(filter).theta));
+                   fit_batch(filter, {timeline, readout, measured}, make_layout(filter).theta));
   }
   Search found() const { return search(nominal(), {timeline, readout, measured}, {}); }
 };

@@ -20,8 +20,8 @@ struct Fits {
         iterated(base_filter(coupling), timeline, Readout{}, layout.theta) {
     const Simulation sim = Simulator(base_truth(coupling), Readout{}).run(timeline, 4, 2);
     EXPECT_TRUE(sim.ode.ok()) << preset;
-    ekf = run_ekf(base_filter(coupling), timeline, Readout{}, sim.measured, layout.theta);
-    batch = fit_batch(base_filter(coupling), timeline, Readout{}, sim.measured, layout.theta);
+    ekf = run_ekf(base_filter(coupling), {timeline, Readout{}, sim.measured}, layout.theta);
+    batch = fit_batch(base_filter(coupling), {timeline, Readout{}, sim.measured}, layout.theta);
     iterated.run(sim.measured, layout.theta);
   }
 };
@@ -130,7 +130,7 @@ TEST(Ekf, ResetIsAsBuiltAnew) {
   const FilterSpec filter = base_filter(Coupling::eq6);
   const Simulation sim = Simulator(base_truth(Coupling::eq6), Readout{}).run(timeline, 4, 2);
   const Theta start = draw_parameters(filter, 1, 1, Purpose::test);
-  const EstimateResult fresh = run_ekf(filter, timeline, Readout{}, sim.measured, start);
+  const EstimateResult fresh = run_ekf(filter, {timeline, Readout{}, sim.measured}, start);
   Ekf ekf(filter, timeline, Readout{}, make_layout(filter).theta, KeepHistory::no);
   for (int round = 0; round < 2; ++round) {
     ekf.reset(start);

@@ -34,12 +34,12 @@ TEST(Sensitivity, EquationsOfMotionAgreeWithDifferences) {
       const std::vector<Vec3> psi(timeline.chains, Vec3(1e-3, -5e-4, 2e-3));
       const auto predicted = [&](const Theta& t, const std::vector<Vec3>& psi0) {
         const auto chains =
-            measurement_equations(timeline, model, layout, readout, zero, t,
+            measurement_equations({timeline, readout, zero}, model, layout, t,
                                   integrate_fixed(timeline, model, t, psi0), spec.initial_attitude);
         return VecX(-chains.back().rows.rightCols<1>());
       };
       const MatX J =
-          measurement_equations(timeline, model, layout, readout, zero, theta,
+          measurement_equations({timeline, readout, zero}, model, layout, theta,
                                 integrate_fixed(timeline, model, theta, psi), spec.initial_attitude)
               .back()
               .rows;

@@ -48,7 +48,7 @@ TEST(EveryTermInAFilter, HasTheJacobianOfItsPrediction) {
       theta[param("eta_z")] = 70.0 * arcsec;
       set_term(theta, t);
       const Measurements here = predict(timeline, model, theta, psi, readout);
-      const MatX rows = measurement_equations(timeline, model, layout, readout, here, theta,
+      const MatX rows = measurement_equations({timeline, readout, here}, model, layout, theta,
                                               integrate_fixed(timeline, model, theta, psi),
                                               filter.initial_attitude)
                             .front()
