@@ -33,7 +33,7 @@ TEST(Bytes, NamesThatAreNotUtf8AreNamesLikeOthers) {
     EXPECT_EQ(a.code, 0) << line << "\n" << a.err;
     EXPECT_TRUE(valid_utf8(a.out) && valid_utf8(a.err)) << line;
   }
-  for (const std::string& file : {"1/manifest.json", "1/summary.json", "1/export.json",
+  for (const std::string file : {"1/manifest.json", "1/summary.json", "1/export.json",
                                   "2/identification.json", "3/rank.json"}) {
     const std::string text = text_of(out + file);
     EXPECT_TRUE(valid_utf8(text)) << file;

@@ -37,12 +37,15 @@ void expect_whole_or_nothing(const ScratchFolder& scratch, const std::string& pr
         told += a.code == io_error;
         EXPECT_TRUE(a.code == 0 || a.code == io_error) << kind << " " << at << ": " << a.err;
         EXPECT_TRUE(fs::exists(target) || a.code != 0) << kind << " " << at;
-        if (fs::exists(target))
+        if (fs::exists(target)) {
           EXPECT_TRUE(text_of(target) == whole)
               << file << ", " << kind << " " << at << ", exit code " << a.code;
+        }
       });
   EXPECT_GE(faults, 1u) << "no fault reaches " << file;
-  if (kind == "write") EXPECT_EQ(told, faults) << "a write that failed was not noticed";
+  if (kind == "write") {
+    EXPECT_EQ(told, faults) << "a write that failed was not noticed";
+  }
   expect_no_temporaries(scratch.path());
 }
 

@@ -22,7 +22,7 @@ mc::Study short_study(const std::string& name, mc::Overrides sets) {
   const std::string terms = "[\"fixed_drift\", \"g_drift\", \"gyro_misalignment\"]";
   sets.emplace_back("truth.terms", terms);
   sets.emplace_back("filter.nominal.terms", terms);
-  return mc::read_study(std::string(DRIFT_SOURCE_DIR) + "/configs/" + name, sets);
+  return mc::read_study(fmt::format("{}/configs/{}", DRIFT_SOURCE_DIR, name), sets);
 }
 
 struct Simulated {
