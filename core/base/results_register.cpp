@@ -74,7 +74,8 @@ void ResultsRegister::add(const std::string& command, const HashedFiles& files) 
   if (!exists_) command_ = command;
   exists_ = true;
   const Appending file(path_);
-  if (file.ends_within_a_line()) lines.insert(lines.begin(), '\n');  // of a process that ended while writing
+  if (file.ends_within_a_line())
+    lines.insert(lines.begin(), '\n');  // of a process that ended while writing
   const char* data = lines.data();
   for (std::size_t left = lines.size(); left > 0;) {
     const ssize_t done = ::write(file.fd, data, left);

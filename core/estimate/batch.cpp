@@ -6,70 +6,13 @@
 #include <limits>
 
 #include "core/base/decompose.hpp"
+#include "core/estimate/batch_equations.hpp"
 #include "core/estimate/triangle.hpp"
 #include "core/physics/stochastic.hpp"
 #include "core/sim/predict.hpp"
 
 namespace drift {
 namespace {
-
-/// One chain reduced to triangles: [psi | x | r] with the attitude prior (and damping) on top.
-struct ReducedChain {
-  MatX data;  ///< triangle of the rows alone
-};
-
-/// The linear least squares problem at one point, ready to be solved for any damping.
-struct Equations {
-  std::vector<ReducedChain> chains;
-  std::vector<Vec3> psi;  ///< present attitude errors, scaled by their prior sigma
-  VecX x;                 ///< present scaled parameters
-
-  struct Step {
-    VecX dx;
-    std::vector<Vec3> dpsi;
-  };
-
-  /// Minimises |J d - r|^2 + |p + d|^2 + mu |d|^2.
-  Step solve(double mu) const;
-  struct Reduced {
-    MatX triangle;           ///< over [x | r], no parameter prior
-    std::vector<MatX> tops;  ///< of each chain: the rows that give its attitude
-  };
-  /// With every attitude eliminated.
-  Reduced reduced(double mu) const;
-};
-
-Equations::Reduced Equations::reduced(double mu) const {
-  const Eigen::Index n = x.size();
-  Reduced out{MatX::Zero(n + 1, n + 1), {}};
-  for (std::size_t c = 0; c < chains.size(); ++c) {
-    MatX extra = MatX::Zero(mu > 0.0 ? 6 : 3, 3 + n + 1);
-    extra.topLeftCorner<3, 3>().setIdentity();
-    extra.block<3, 1>(0, 3 + n) = -psi[c];
-    if (mu > 0.0) extra.block<3, 3>(3, 0) = std::sqrt(mu) * Mat3::Identity();
-    const MatX R = triangle(stacked(chains[c].data, extra));
-    out.tops.push_back(R.topRows<3>());
-    out.triangle = triangle(stacked(out.triangle, R.bottomRightCorner(n + 1, n + 1)));
-  }
-  return out;
-}
-
-Equations::Step Equations::solve(double mu) const {
-  const Eigen::Index n = x.size();
-  const auto [data, tops] = reduced(mu);
-  MatX extra = MatX::Zero(2 * n, n + 1);
-  extra.topLeftCorner(n, n).setIdentity();
-  extra.topRightCorner(n, 1) = -x;
-  extra.block(n, 0, n, n) = std::sqrt(mu) * MatX::Identity(n, n);
-  const MatX R = triangle(stacked(data, extra));
-  Step step;
-  step.dx = R.topLeftCorner(n, n).triangularView<Eigen::Upper>().solve(R.topRightCorner(n, 1));
-  for (const MatX& top : tops) {
-    const Vec3 right = top.rightCols<1>() - top.middleCols(3, n) * step.dx;
-    step.dpsi.push_back(top.leftCols<3>().triangularView<Eigen::Upper>().solve(right));
-  }
-  return step;
-}
 
 /// Data cost of the last column of each chain.
 double data_cost(const std::vector<ChainEquations>& chains) {
@@ -81,10 +24,10 @@ double data_cost(const std::vector<ChainEquations>& chains) {
 }  // namespace
 
 MatX information_root(const std::vector<ChainEquations>& chains, std::size_t parameters) {
-  Equations e;
+  BatchEquations e;
   e.x = VecX::Zero(parameters);
   for (const auto& c : chains) {
-    e.chains.push_back({triangle(c.rows)});
+    e.chains.push_back(triangle(c.rows));
     e.psi.push_back(Vec3::Zero());
   }
   return e.reduced(0.0).triangle.topLeftCorner(parameters, parameters);
@@ -152,16 +95,16 @@ class BatchProblem {
   double sigma_psi_;
 };
 
-Equations compressed(const Evaluation& e) {
-  Equations out{{}, e.psi, e.x};
-  for (const auto& c : e.rows) out.chains.push_back({triangle(c.rows)});
+BatchEquations compressed(const Evaluation& e) {
+  BatchEquations out{{}, e.psi, e.x};
+  for (const auto& c : e.rows) out.chains.push_back(triangle(c.rows));
   return out;
 }
 
 /// Where the descent ended.
 struct Minimum {
   Evaluation at;
-  Equations equations;  ///< of `at`
+  BatchEquations equations;  ///< of `at`
   int iterations = 0;
   bool converged = false;
 };
@@ -180,7 +123,7 @@ Minimum descend(const BatchProblem& problem, const VecX& start, const BatchOptio
     bool improved = false;
     double smallest_change = std::numeric_limits<double>::infinity();
     for (int tries = 0; tries < 20 && !improved; ++tries) {
-      const Equations::Step step = now.equations.solve(mu);
+      const BatchEquations::Step step = now.equations.solve(mu);
       std::vector<Vec3> psi = now.at.psi;
       for (std::size_t c = 0; c < psi.size(); ++c) psi[c] += step.dpsi[c];
       Evaluation next = problem.evaluate(now.at.x + step.dx, std::move(psi));

@@ -90,19 +90,15 @@ class Reader {
     const Interval* before = timeline_.intervals.empty() ? nullptr : &timeline_.intervals.back();
     const bool first_row = !before || before->position != i.position;
     i.cage = !before || (first_row && passage.caged);
-    i.t0 = i.cage ? t - position.sample : before->t1;
+    i.t0 = !before  ? t - position.sample
+           : i.cage ? std::max(t - position.sample, before->t1)
+                    : before->t1;
     if (!i.cage && t - i.t0 > 1.5 * position.sample)
       complain(row,
                fmt::format("gap of {:.6g} s before this row, but the attitude is carried along "
                            "here (samples {:.6g} s apart expected). Give the missing rows, or mark "
                            "the position as caged",
                            t - i.t0, position.sample));
-    if (i.cage && before && i.t0 < before->t1 - 0.01 * position.sample)
-      complain(row, fmt::format(
-                        "the first row of a caged position comes {:.6g} s after the row before "
-                        "(expected at least its own interval, one nominal sample, {:.6g} s). Check "
-                        "`sample` in the plan",
-                        t - before->t1, position.sample));
     if (i.cage) {
       ++timeline_.chains;
       // A recording may begin on the way to a torqued position: then its attitude is the plan's.

@@ -4,9 +4,9 @@
 //   DRIFT_FAULT_KIND=write  write, fsync, open, rename, close, or any (the default)
 //   DRIFT_FAULT_ERRNO=28    what it says; ENOSPC by default
 //   DRIFT_FAULT_STICKY=1    all calls after it fail too
-//   DRIFT_FAULT_HIT=FILE    made when a call was let fail
+//   DRIFT_FAULT_HIT=FILE    made when a call was let fail; no other fails while it is there, unless sticky
 //
-// Standard streams, pipes and devices are left alone.
+// Standard streams, pipes, devices and the closing of what was only read are left alone.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -52,6 +52,8 @@ bool fails(const char* kind) {
   const long number = calls++;
   if (number != p.at && !(p.sticky && number > p.at)) return false;
   if (p.hit != nullptr) {
+    // Processes that were forked from one count alike: the fault has happened in another.
+    if (!p.sticky && ::access(p.hit, F_OK) == 0) return false;
     const long fd = ::syscall(SYS_openat, AT_FDCWD, p.hit, O_WRONLY | O_CREAT, 0600);
     ::syscall(SYS_close, fd);
   }
@@ -62,6 +64,10 @@ bool fails(const char* kind) {
 bool is_file(int fd) {
   struct stat info {};
   return fd > 2 && ::fstat(fd, &info) == 0 && S_ISREG(info.st_mode);
+}
+
+bool was_written(int fd) {
+  return is_file(fd) && (::fcntl(fd, F_GETFL) & O_ACCMODE) != O_RDONLY;
 }
 
 bool is_written(const char* path, int flags) {
@@ -122,7 +128,7 @@ int link(const char* from, const char* to) noexcept {
 }
 int close(int fd) {
   static const auto next = real<int (*)(int)>("close");
-  if (!is_file(fd) || !fails("close")) return next(fd);
+  if (!was_written(fd) || !fails("close")) return next(fd);
   next(fd);  // the descriptor is gone whatever close() says
   errno = plan().error;
   return -1;
