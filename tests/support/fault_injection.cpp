@@ -4,7 +4,8 @@
 //   DRIFT_FAULT_KIND=write  write, fsync, open, rename, close, or any (the default)
 //   DRIFT_FAULT_ERRNO=28    what it says; ENOSPC by default
 //   DRIFT_FAULT_STICKY=1    all calls after it fail too
-//   DRIFT_FAULT_HIT=FILE    made when a call was let fail; no other fails while it is there, unless sticky
+//   DRIFT_FAULT_HIT=FILE    made when a call was let fail; no other fails while it is there, unless
+//   sticky
 //
 // Standard streams, pipes, devices and the closing of what was only read are left alone.
 #include <dlfcn.h>
