@@ -87,8 +87,8 @@ Problem make_problem() {
   IntervalSensitivity s;
   for (std::size_t i = 0; i < p.timeline.intervals.size(); ++i) {
     const Interval& interval = p.timeline.intervals[i];
-    linearize_interval(interval, p.timeline, Mat3::Zero(), &phi[interval.first_node], linearizer,
-                       s);
+    linearize_interval(interval, p.timeline, Mat3::Zero(), &phi[interval.first_node], nullptr,
+                       linearizer, s);
     const auto m = static_cast<std::size_t>(interval.substeps);
     const std::size_t last = interval.node_count() - 1;
     Step step;

@@ -88,7 +88,7 @@ Practice practice(const std::vector<Point>& points) {
               practice_ekf(f, timeline, study.readout, truth.measured, start_estimate);
           const double before = cpu_time();
           const EstimateResult own =
-              run_ekf(f, timeline, study.readout, truth.measured, start_estimate);
+              run_ekf(f, {timeline, study.readout, truth.measured}, start_estimate);
           out.seconds -= cpu_time() - before;
           if (own.status != EstimateStatus::ok) continue;
           for (std::size_t i = 0; i < own.parameters.size(); ++i)

@@ -27,7 +27,8 @@ struct Stretch {
 int rate(realtype t, N_Vector y, N_Vector y_dot, void* data) {
   const auto& s = *static_cast<Stretch*>(data);
   const Mat3 R_lr = reference_attitude(s.timeline->site, s.R_lr0, s.drive.omega_cmd_p, t - s.t0);
-  Eigen::Map<Vec3>(NV_DATA_S(y_dot)) = attitude_rate(s.drive, R_lr, Eigen::Map<Vec3>(NV_DATA_S(y)));
+  Eigen::Map<Vec3>(NV_DATA_S(y_dot)) =
+      attitude_rate(s.drive, R_lr, Eigen::Map<Vec3>(NV_DATA_S(y)), t, nullptr);
   return 0;
 }
 
@@ -130,8 +131,9 @@ EstimateResult practice_ekf(const FilterSpec& filter, const Timeline& timeline,
     linearizer.set_theta(theta);
     phi.resize(std::max(phi.size(), interval.node_count()));
     phi[0] = now;
-    step_through(interval, timeline, drive_of(interval, timeline, model, theta), phi.data());
-    linearize_interval(interval, timeline, Mat3::Zero(), phi.data(), linearizer, s);
+    step_through(interval, timeline, drive_of(interval, timeline, model, theta), nullptr,
+                 phi.data());
+    linearize_interval(interval, timeline, Mat3::Zero(), phi.data(), nullptr, linearizer, s);
     const std::size_t last = interval.node_count() - 1,
                       m = static_cast<std::size_t>(interval.substeps);
     Q.topLeftCorner<3, 3>() = 0.5 * arw * arw * interval.length() * Mat3::Identity();
@@ -150,7 +152,8 @@ EstimateResult practice_ekf(const FilterSpec& filter, const Timeline& timeline,
       }
       take(measured.acc.col(i) - mean, readout.accelerometer_noise,
            timeline.nodes[interval.first_node + m], phi[m]);
-      step_through(interval, timeline, drive_of(interval, timeline, model, theta), phi.data(), m);
+      step_through(interval, timeline, drive_of(interval, timeline, model, theta), nullptr,
+                   phi.data(), m);
     }
     F.topLeftCorner<3, 3>() = s.Phi[last] * s.Phi[m].inverse();
     F.block(0, 3, 3, nr) = s.G[last] - F.topLeftCorner<3, 3>() * s.G[m];

@@ -1,7 +1,8 @@
 #include "analysis/blind/absorption.hpp"
 
-#include <Eigen/Cholesky>
 #include <cmath>
+
+#include "core/base/decompose.hpp"
 
 namespace drift::blind {
 
@@ -13,7 +14,7 @@ Absorption::Absorption(const FilterSpec& nominal, const Timeline& timeline, cons
   const Layout layout = make_layout(nominal);
   const auto n = static_cast<Eigen::Index>(layout.size());
   const Trajectory phi = integrate_fixed(timeline, model, theta, psi0_l);
-  const auto chains = measurement_equations(timeline, model, layout, readout, clean, theta, phi,
+  const auto chains = measurement_equations({timeline, readout, clean}, model, layout, theta, phi,
                                             nominal.initial_attitude);
   const auto rows_of_interval = [&](std::size_t i) {
     return clean.acc.col(static_cast<Eigen::Index>(i)).array().isFinite().count() +
@@ -35,7 +36,7 @@ Absorption::Absorption(const FilterSpec& nominal, const Timeline& timeline, cons
   }
   MatX A = MatX::Identity(J_.cols(), J_.cols());
   A.selfadjointView<Eigen::Lower>().rankUpdate(J_.transpose());
-  L_ = Eigen::LLT<MatX, Eigen::Lower>(A).matrixL();
+  L_ = Cholesky(A).L();
 }
 
 VecX Absorption::signal(const Measurements& with, const Measurements& without) const {

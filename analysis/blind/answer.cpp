@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/check.hpp"
+#include "core/base/json_number.hpp"
 
 namespace drift::blind {
 namespace {
@@ -14,43 +15,36 @@ namespace {
 using Json = nlohmann::ordered_json;
 using diagnosis::Verdict;
 
-Json number(double v) {
-  return std::isfinite(v) ? Json(v) : Json(nullptr);
-}
-double number(const Json& j) {
-  return j.is_null() ? std::nan("") : j.get<double>();
-}
-
 Json of(const AnswerCause& c) {
   Json params = Json::array();
   for (const auto& p : c.parameters)
     params.push_back({{"key", p.key},
-                      {"value", number(p.value)},
-                      {"sigma", number(p.sigma)},
+                      {"value", json_number(p.value)},
+                      {"sigma", json_number(p.sigma)},
                       {"unit", p.unit},
                       {"profiled", p.profiled}});
   Json confusable = Json::array();
   for (const auto& o : c.confusable_with)
-    confusable.push_back({{"term", o.term}, {"axis", o.axis}, {"cosine", number(o.cosine)}});
+    confusable.push_back({{"term", o.term}, {"axis", o.axis}, {"cosine", json_number(o.cosine)}});
   return {{"term", c.term},       {"axis", c.axis},
-          {"set", c.set},         {"probability", number(c.probability)},
+          {"set", c.set},         {"probability", json_number(c.probability)},
           {"parameters", params}, {"confusable_with", confusable}};
 }
 
 AnswerCause cause_of(const Json& j) {
-  AnswerCause c{j.at("term"), j.at("axis"), j.at("set"), number(j.at("probability")), {}, {}};
+  AnswerCause c{j.at("term"), j.at("axis"), j.at("set"), number_of(j.at("probability")), {}, {}};
   for (const Json& p : j.at("parameters")) {
     search::CauseParameter q;
     q.key = p.at("key");
-    q.value = number(p.at("value"));
-    q.sigma = number(p.at("sigma"));
+    q.value = number_of(p.at("value"));
+    q.sigma = number_of(p.at("sigma"));
     q.unit = p.at("unit");
     q.profiled = p.at("profiled");
     c.parameters.push_back(std::move(q));
   }
   for (const Json& o :
        j.value("confusable_with", Json::array()))  // answers of earlier builds have none
-    c.confusable_with.push_back({o.at("term"), o.at("axis"), number(o.at("cosine"))});
+    c.confusable_with.push_back({o.at("term"), o.at("axis"), number_of(o.at("cosine"))});
   return c;
 }
 
@@ -61,25 +55,18 @@ Json of(const Answer& a) {
           {"failed", a.failed},
           {"failure", a.failure},
           {"verdict", std::string(diagnosis::text(a.verdict))},
-          {"p_value", number(a.p_value)},
+          {"p_value", json_number(a.p_value)},
           {"causes", causes},
           {"equation", a.equation},
           {"position", a.position},
-          {"start_s", number(a.start_s)},
-          {"end_s", number(a.end_s)},
+          {"start_s", json_number(a.start_s)},
+          {"end_s", json_number(a.end_s)},
           {"noise", a.noise},
-          {"chi2_per_dof_before", number(a.chi2_before)},
-          {"chi2_per_dof_after", number(a.chi2_after)},
+          {"chi2_per_dof_before", json_number(a.chi2_before)},
+          {"chi2_per_dof_after", json_number(a.chi2_after)},
           {"held_out", a.held_out},
-          {"held_out_gain", number(a.held_out_gain)},
-          {"seconds", number(a.seconds)},
-          {"sentence", a.sentence}};
-}
-
-Verdict verdict_of(const std::string& name) {
-  for (const Verdict v : {Verdict::consistent, Verdict::named, Verdict::ambiguous})
-    if (diagnosis::text(v) == name) return v;
-  return Verdict::unexplained;
+          {"held_out_gain", json_number(a.held_out_gain)},
+          {"seconds", json_number(a.seconds)}};
 }
 
 Answer from(const Json& j) {
@@ -87,20 +74,20 @@ Answer from(const Json& j) {
   a.number = j.at("trial");
   a.failed = j.at("failed");
   a.failure = j.at("failure");
-  a.verdict = verdict_of(j.at("verdict"));
-  a.p_value = number(j.at("p_value"));
+  a.verdict = value_in(diagnosis::verdicts, j.at("verdict").get<std::string>())
+                  .value_or(Verdict::unexplained);
+  a.p_value = number_of(j.at("p_value"));
   for (const Json& c : j.at("causes")) a.causes.push_back(cause_of(c));
   a.equation = j.at("equation");
   a.position = j.at("position");
-  a.start_s = number(j.at("start_s"));
-  a.end_s = number(j.at("end_s"));
+  a.start_s = number_of(j.at("start_s"));
+  a.end_s = number_of(j.at("end_s"));
   a.noise = j.at("noise").get<std::vector<std::string>>();
-  a.chi2_before = number(j.at("chi2_per_dof_before"));
-  a.chi2_after = number(j.at("chi2_per_dof_after"));
+  a.chi2_before = number_of(j.at("chi2_per_dof_before"));
+  a.chi2_after = number_of(j.at("chi2_per_dof_after"));
   a.held_out = j.at("held_out");
-  a.held_out_gain = number(j.at("held_out_gain"));
-  a.seconds = number(j.at("seconds"));
-  a.sentence = j.at("sentence");
+  a.held_out_gain = number_of(j.at("held_out_gain"));
+  a.seconds = number_of(j.at("seconds"));
   return a;
 }
 
@@ -144,7 +131,6 @@ Answer answer_of(const diagnosis::Diagnosis& d) {
   a.chi2_after = d.fit.chi2_per_dof_after;
   a.held_out = !d.fit.held_out.folds.empty();
   a.held_out_gain = d.fit.held_out.log_score_gain;
-  a.sentence = d.sentence;
   return a;
 }
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/diagnosis/diagnosis.hpp"
+#include "analysis/diagnosis/findings/diagnosis.hpp"
 
 namespace drift::blind {
 
@@ -32,7 +32,6 @@ struct Answer {
   bool held_out = false;                       ///< positions were held out
   double held_out_gain = 0.0;                  ///< log score
   double seconds = 0.0;
-  std::string sentence;
 
   /// Alternatives: causes or combinations of causes that are offered.
   std::vector<std::vector<const AnswerCause*>> alternatives() const;

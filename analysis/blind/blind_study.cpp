@@ -1,19 +1,22 @@
 #include "analysis/blind/blind_study.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <atomic>
 #include <chrono>
 #include <filesystem>
-#include <fstream>
+#include <new>
 
+#include "analysis/blind/crash_mark.hpp"
 #include "analysis/blind/design.hpp"
 #include "analysis/blind/generate.hpp"
 #include "analysis/blind/key.hpp"
 #include "analysis/blind/seal.hpp"
 #include "core/base/check.hpp"
+#include "core/base/file_text.hpp"
 #include "core/base/results_folder.hpp"
-#include "core/recording/recording.hpp"
+#include "core/recording/recording_output.hpp"
 #include "mc/task/campaign.hpp"
 
 namespace drift::blind {
@@ -21,13 +24,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path trial_folder(const fs::path& folder, std::size_t number) {
-  return folder / "trials" / fmt::format("{:04}", number);
+/// Within the folder of the study.
+std::string trial_name(std::size_t number) {
+  return fmt::format("trials/{:04}", number);
 }
 
-std::string contents(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
+fs::path trial_folder(const fs::path& folder, std::size_t number) {
+  return folder / trial_name(number);
+}
+
+ResultsFolder results_in(const fs::path& folder) {
+  return {folder.string(), "blind"};
 }
 
 void require_blind(const mc::Study& study) {
@@ -68,7 +75,7 @@ bool already_made(const mc::Study& study, const fs::path& folder) {
           fmt::format("{}: holds a key but no study. Give an empty folder", folder.string()));
     return false;
   }
-  if (contents(folder / "study.toml") != study.text)
+  if (file_text(folder / "study.toml") != study.text)
     throw InputError(
         ExitCode::store,
         fmt::format("{}: holds the trials of another study (expected {} as it is now). "
@@ -81,45 +88,58 @@ bool already_made(const mc::Study& study, const fs::path& folder) {
 
 KeyEntry make_one(const mc::Study& study, const TrialPlan& plan, const fs::path& folder) {
   const fs::path here = trial_folder(folder, plan.number);
-  write_files({{"study.toml", nominal_text(study, plan)}}, here.string());
-  for (const char* old : {"answer.json", "attempts"}) fs::remove(here / old);
+  const std::string name = trial_name(plan.number);
+  const ResultsFolder results = results_in(folder);
+  write_files(results, {{name + "/study.toml", nominal_text(study, plan)}});
+  remove_result(results, name + "/answer.json");
+  fs::remove(here / "crashes");
   MadeTrial made = make_trial(study, mc::read_study((here / "study.toml").string()), plan);
-  write_recording(made.recording, (here / "recording.csv").string());
+  write_result(results, name + "/recording.csv", [&](const std::string& temporary) {
+    write_recording_to(made.recording, (here / "recording.csv").string(), temporary);
+  });
   return std::move(made.key);
 }
 
-/// How often this trial was begun, this time included.
-int begin_attempt(const fs::path& here) {
-  const std::string before = contents(here / "attempts");
-  const int attempt = static_cast<int>(before.size()) + 1;
-  write_text_atomically((here / "attempts").string(),
-                        std::string(static_cast<std::size_t>(attempt), '|'));
-  return attempt;
+Answer given_up(const std::vector<std::string>& crashes) {
+  Answer answer;
+  answer.failed = true;
+  answer.failure = fmt::format("the program crashed {} times while this trial was diagnosed ({})",
+                               crashes.size(), fmt::join(crashes, ", "));
+  return answer;
 }
 
-Answer answer_one(const Solver& solver, std::size_t number, const fs::path& here) {
-  constexpr int most_attempts = 2;
-  const fs::path kept = here / "answer.json";
-  if (fs::exists(kept)) return answer_of_json(contents(kept));
-  const auto started = std::chrono::steady_clock::now();
+/// What the solver says, or why it says nothing. What is the machine's fault (a disk, memory) is no
+/// answer: it ends the program, and the trial is diagnosed at the next call.
+Answer solved(const Solver& solver, const fs::path& here) {
+  const CrashMark mark((here / "crashes").string());
   Answer answer;
-  if (begin_attempt(here) > most_attempts) {
-    answer.failed = true;
-    answer.failure = "the program ended twice while this trial was diagnosed";
-  } else {
-    try {
-      answer = solver((here / "study.toml").string(), (here / "recording.csv").string());
-    } catch (const std::exception& e) {
-      answer = {};
-      answer.failed = true;
-      answer.failure = e.what();
-    }
+  try {
+    return solver((here / "study.toml").string(), (here / "recording.csv").string());
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const InputError& e) {
+    if (e.code() == ExitCode::io) throw;
+    answer.failure = e.what();
+  } catch (const std::exception& e) {
+    answer.failure = e.what();
   }
+  answer.failed = true;
+  return answer;
+}
+
+Answer answer_one(const Solver& solver, std::size_t number, const fs::path& folder) {
+  constexpr std::size_t most_crashes = 2;
+  const fs::path here = trial_folder(folder, number);
+  const fs::path kept = here / "answer.json";
+  if (const auto text = file_text(kept)) return answer_of_json(*text);
+  const auto started = std::chrono::steady_clock::now();
+  const auto crashes = crashes_in((here / "crashes").string());
+  Answer answer = crashes.size() < most_crashes ? solved(solver, here) : given_up(crashes);
   answer.number = number;
   answer.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-  write_text_atomically(kept.string(), to_json(answer));
-  fs::remove(here / "attempts");
+  write_files(results_in(folder), {{trial_name(number) + "/answer.json", to_json(answer)}});
+  fs::remove(here / "crashes");
   return answer;
 }
 
@@ -129,7 +149,7 @@ std::string make_trials(const mc::Study& study, const std::string& folder, int t
                         const Progress& progress) {
   require_blind(study);
   if (already_made(study, folder)) return published_hash(folder, "key.json");
-  write_files({{"study.toml", study.text}}, folder);
+  write_files(results_in(folder), {{"study.toml", study.text}});
   const std::vector<TrialPlan> plans = design_trials(study.blind, study.monte_carlo.seed);
   Counter counter(plans.size(), progress);
   Key key{salt_of(study.monte_carlo.seed), {}};
@@ -157,7 +177,7 @@ std::string answer_trials(const std::string& folder, const Solver& solver, int t
   const auto answers = mc::run_campaign(
       trials,
       [&](std::size_t k) {
-        Answer answer = answer_one(solver, k + 1, trial_folder(folder, k + 1));
+        Answer answer = answer_one(solver, k + 1, folder);
         counter.step();
         return answer;
       },
@@ -167,7 +187,7 @@ std::string answer_trials(const std::string& folder, const Solver& solver, int t
 
 std::vector<TrialScore> score_folder(const std::string& folder) {
   const auto answers = answers_of(open_sealed(folder, "answers.json"));
-  return score_trials(key_of(open_sealed(folder, "key.json")).entries, answers);
+  return score_trials(read_key(open_sealed(folder, "key.json")).entries, answers);
 }
 
 }  // namespace drift::blind

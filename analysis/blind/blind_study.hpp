@@ -32,7 +32,9 @@ std::string make_trials(const mc::Study& study, const std::string& folder, int t
                         const Progress& progress = {});
 
 /// Diagnoses the trials that have no answer yet, in parallel. An exception of the solver is that
-/// trial's answer; a trial during which the program ended twice is given up. Writes
+/// trial's answer, unless the disk or memory is to blame (that ends the call, to be resumed); a
+/// trial during which the program crashed twice is given up. Ending the program from outside, by
+/// whatever signal and however often, changes no answer. Writes
 /// trials/NNNN/answer.json each, then answers.json and answers.sha256; returns the hash of the
 /// latter.
 std::string answer_trials(const std::string& folder, const Solver& solver, int threads,

@@ -73,7 +73,7 @@ std::vector<TrialPlan> design_trials(const mc::BlindSpec& spec, std::uint64_t se
     const auto size = balanced(count[s], std::max<std::size_t>(1, spec.sizes.size()), stream);
     for (std::size_t j = 0; j < count[s]; ++j) {
       TrialPlan t;
-      t.stratum = stratum_names[s].first;
+      t.stratum = strata[s].value;
       t.index = j;
       t.plan = spec.plans[plan[j]];
       t.mode = spec.modes[mode[j]];

@@ -1,6 +1,6 @@
 #include "analysis/blind/diagnosing_solver.hpp"
 
-#include "analysis/diagnosis/diagnose.hpp"
+#include "analysis/diagnosis/diagnose_recordings.hpp"
 
 namespace drift::blind {
 
@@ -8,12 +8,11 @@ Solver diagnosing_solver() {
   return [](const std::string& study_path, const std::string& recording_path) {
     const mc::Study study = mc::read_study(study_path);
     const Recording recording = read_recording(recording_path, study.kind, study.site.gravity);
-    diagnosis::DiagnoseOptions options;
-    options.starts = 0;
-    options.signals = false;
-    options.whiteness_draws = 0;
-    options.folds = diagnosis::FoldMethod::linear;
-    return answer_of(diagnosis::diagnose(study, {recording}, options));
+    diagnosis::RecordingsOptions options;
+    options.advising =
+        diagnosis::Advising::left_out;     // comes after the verdict and has no part in it
+    options.diagnose.whiteness_draws = 0;  // neither has this
+    return answer_of(diagnosis::diagnose_recordings(study, {recording}, options));
   };
 }
 

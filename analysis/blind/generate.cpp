@@ -14,6 +14,7 @@
 #include "core/base/check.hpp"
 #include "core/config/load.hpp"
 #include "core/config/override.hpp"
+#include "core/recording/recording_output.hpp"
 #include "core/stats/chi_square_band.hpp"
 
 namespace drift::blind {
@@ -22,11 +23,6 @@ namespace {
 using Sized = SizingBench::Sized;
 
 constexpr std::uint32_t choice_stream = 64;  // the design uses the first few
-
-/// The nominal filter has the truth's coupling; for the servo eq. (6), which it closes like.
-Coupling nominal_coupling(Coupling truth) {
-  return truth == Coupling::eq5 ? Coupling::eq5 : Coupling::eq6;
-}
 
 World make_world(const mc::Study& study, const mc::Study& nominal, const TrialPlan& plan) {
   World w;
@@ -75,7 +71,7 @@ std::vector<Sized> library_effects(const SizingBench& bench, const FilterSpec& n
           "{}: nothing can be hidden in trial {} as asked: {} of {:.3g} sigma on preset {} "
           "(expected effects of at most {:.3g} prior sigmas). Ask for smaller sizes, longer "
           "dwells, or a larger blind.most_prior_sigmas",
-          study.path, plan.number, name_in(stratum_names, plan.stratum), plan.size, plan.plan,
+          study.path, plan.number, key_of(plan.stratum), plan.size, plan.plan,
           study.blind.most_prior_sigmas));
 }
 
@@ -161,7 +157,8 @@ void hide(const mc::Study& study, const FilterSpec& nominal, const TrialPlan& pl
 
 Certificate certify(const FilterSpec& nominal, const World& world, const Measurements& measured) {
   const Layout layout = make_layout(nominal);
-  const BatchResult fit = fit_batch(nominal, world.timeline, world.readout, measured, layout.theta);
+  const BatchResult fit =
+      fit_batch(nominal, {world.timeline, world.readout, measured}, layout.theta);
   Certificate c;
   const auto dof = static_cast<double>(fit.estimate.measured);
   const stats::Band band = stats::chi_square_band(dof);
@@ -188,7 +185,7 @@ std::string nominal_text(const mc::Study& study, const TrialPlan& plan) {
   });
   apply_override(root, "title", fmt::format("Blind trial {}", plan.number));
   apply_override(root, "plan.preset", plan.plan);
-  apply_override(root, "plan.mode", name_in(mode_names, plan.mode));
+  apply_override(root, "plan.mode", key_of(plan.mode));
   config::Node* filters = root.find("filter");
   if (filters == nullptr || filters->items.empty())
     throw InputError(ExitCode::config,
@@ -196,8 +193,7 @@ std::string nominal_text(const mc::Study& study, const TrialPlan& plan) {
                                  "section [[filter]] with name and coupling",
                                  study.path));
   filters->items.resize(1);
-  apply_override(root, "filter.0.coupling",
-                 name_in(coupling_names, nominal_coupling(plan.coupling)));
+  apply_override(root, "filter.0.coupling", key_of(facts(plan.coupling).settles_to));
   return config::to_document(root);
 }
 
@@ -206,12 +202,12 @@ MadeTrial make_trial(const mc::Study& study, const mc::Study& nominal, const Tri
   const FilterSpec& filter = nominal.filters.front();
   MadeTrial made;
   made.key.plan = plan;
-  made.key.nominal = name_in(coupling_names, filter.coupling);
+  made.key.nominal = key_of(filter.coupling);
   World world = make_world(study, nominal, plan);
   hide(study, filter, plan, world, made.key);
   const Simulation sim = simulate_recorded(world, study.monte_carlo.seed, plan.number);
   made.recording = make_recording(world.timeline, sim.measured, world.readout);
-  made.recording.facts = {{"driftscope recording", fmt::format("blind trial {}", plan.number)}};
+  made.recording.facts = {{std::string(made_here), fmt::format("blind trial {}", plan.number)}};
   made.key.certificate = certify(filter, world, sim.measured);
   made.key.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();

@@ -18,6 +18,6 @@ std::string salt_of(std::uint64_t seed);
 
 std::string to_json(const Key& key);
 /// InputError (self_check) if the text is no key.
-Key key_of(const std::string& json);
+Key read_key(const std::string& json);
 
 }  // namespace drift::blind

@@ -9,12 +9,6 @@
 namespace drift::blind {
 namespace {
 
-constexpr auto lambda = TermLibrary::index("lambda");
-
-bool is_amplitude(const ParamSpec& spec) {
-  return spec.kind == ParamKind::linear && spec.prior.sigma() > 0.0;
-}
-
 template <class T>
 const T& one_of(const std::vector<T>& list, Stream& stream) {
   return list[static_cast<std::size_t>(stream.uniform() * static_cast<double>(list.size()))];
@@ -43,23 +37,23 @@ HiddenParameter numbers_of(std::size_t param, double si) {
 /// The model form itself: lambda moved away from where the nominal filter has it. A servo closes
 /// like eq. (6) whatever is asked.
 std::optional<Source> frame_closure(const World& world, const FilterSpec& nominal) {
-  if (world.truth.coupling == Coupling::servo || nominal.active[lambda] ||
-      (nominal.coupling != Coupling::eq5 && nominal.coupling != Coupling::eq6))
+  if (world.truth.coupling == Coupling::servo || nominal.active[closure_param] ||
+      !facts(nominal.coupling).lambda)
     return std::nullopt;
-  const double from = nominal.coupling == Coupling::eq6 ? 1.0 : 0.0;
+  const double from = *facts(nominal.coupling).lambda;
   const auto value = [from](double strength) { return from + (from > 0.0 ? -strength : strength); };
   Source s;
-  s.effect.term = "frame_closure";
+  s.effect.term = closure_term;
   s.effect.words = "the loop closes between eq. (5) and eq. (6)";
   s.first = 0.2;
   s.most = 1.0;
   s.put = [value](World& w, double strength) {
     w.truth.coupling = Coupling::lambda;
-    w.truth.active.set(lambda);
-    w.draw.theta[lambda] = value(strength);
+    w.truth.active.set(closure_param);
+    w.draw.theta[closure_param] = value(strength);
   };
   s.parameters = [value](double strength) {
-    return std::vector<HiddenParameter>{numbers_of(lambda, value(strength))};
+    return std::vector<HiddenParameter>{numbers_of(closure_param, value(strength))};
   };
   return s;
 }
@@ -69,17 +63,8 @@ std::optional<Source> frame_closure(const World& world, const FilterSpec& nomina
 std::vector<std::size_t> missing_parameters(const TermInfo& term, const FilterSpec& nominal) {
   std::vector<std::size_t> missing;
   for (std::size_t i = term.first; i < term.first + term.count; ++i)
-    if (!nominal.active[i] && is_amplitude(TermLibrary::specs[i])) missing.push_back(i);
+    if (!nominal.active[i] && TermLibrary::specs[i].amplitude()) missing.push_back(i);
   return missing;
-}
-
-std::string axis_of(std::size_t param) {
-  const std::string_view key = TermLibrary::specs[param].key.view();
-  const auto bar = key.rfind('_');
-  const std::string_view suffix = bar == key.npos ? "" : key.substr(bar + 1);
-  for (const std::string_view axis : {"x", "y", "z", "outer", "middle", "inner"})
-    if (suffix == axis) return std::string(axis);
-  return {};
 }
 
 std::vector<std::size_t> hideable_terms(const FilterSpec& nominal) {
@@ -92,18 +77,19 @@ std::vector<std::size_t> hideable_terms(const FilterSpec& nominal) {
 std::optional<Source> library_source(std::size_t t, const World& world, const FilterSpec& nominal,
                                      double most, Stream& stream) {
   const TermInfo& term = TermLibrary::terms[t];
-  if (term.key == "frame_closure") return frame_closure(world, nominal);
+  if (term.key == closure_term) return frame_closure(world, nominal);
   if ((term.needs.temperature && !world.timeline.has_temperature) ||
       (term.needs.field && !world.timeline.has_field))
     return std::nullopt;
   const auto missing = missing_parameters(term, nominal);
-  std::vector<std::string> axes;
+  std::vector<std::string_view> axes;
   for (const std::size_t i : missing)
-    if (std::find(axes.begin(), axes.end(), axis_of(i)) == axes.end()) axes.push_back(axis_of(i));
-  const std::string axis = one_of(axes, stream);
+    if (const auto axis = TermLibrary::specs[i].axis; std::ranges::find(axes, axis) == axes.end())
+      axes.push_back(axis);
+  const std::string axis(one_of(axes, stream));
   std::vector<std::size_t> params;
   for (const std::size_t i : missing)
-    if (axis_of(i) == axis) params.push_back(i);
+    if (TermLibrary::specs[i].axis == axis) params.push_back(i);
   constexpr double share_of_one = 0.6;
   if (stream.uniform() < share_of_one) params = {one_of(params, stream)};
 
@@ -121,7 +107,7 @@ std::optional<Source> library_source(std::size_t t, const World& world, const Fi
   std::vector<std::size_t> profiled;
   for (std::size_t i = term.first; i < term.first + term.count; ++i) {
     const ParamSpec& spec = TermLibrary::specs[i];
-    if (spec.kind == ParamKind::linear || nominal.active[i]) continue;
+    if (spec.amplitude() || nominal.active[i]) continue;
     settings[i] = draw_setting(spec, duration, stream);
     active.set(i);
     profiled.push_back(i);

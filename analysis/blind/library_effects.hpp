@@ -13,8 +13,6 @@ std::vector<std::size_t> hideable_terms(const FilterSpec& nominal);
 
 /// The amplitudes of a term that a nominal filter leaves out.
 std::vector<std::size_t> missing_parameters(const TermInfo& term, const FilterSpec& nominal);
-/// What stands behind the last bar of a parameter's key: an axis, a gimbal or nothing.
-std::string axis_of(std::size_t param);
 
 /// One way in which a term may be missing: an axis of it, or one parameter of that axis; the shares
 /// of several parameters drawn from their priors, nonlinear ones between the ends of their grids,

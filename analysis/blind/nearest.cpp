@@ -1,33 +1,17 @@
 #include "analysis/blind/nearest.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "analysis/blind/library_effects.hpp"
+#include "analysis/inference/candidate.hpp"
+#include "core/base/decompose.hpp"
 
 namespace drift::blind {
 namespace {
 
-using Settings = std::vector<std::pair<std::size_t, double>>;
-
-/// Every combination of grid points of a term's nonlinear parameters.
-std::vector<Settings> settings_of(const TermInfo& term, const FilterSpec& nominal) {
-  std::vector<Settings> all{{}};
-  for (std::size_t i = term.first; i < term.first + term.count; ++i) {
-    const ParamSpec& spec = TermLibrary::specs[i];
-    if (spec.kind == ParamKind::linear || nominal.active[i]) continue;
-    std::vector<Settings> next;
-    for (const Settings& s : all)
-      for (const double v : spec.grid) {
-        next.push_back(s);
-        next.back().emplace_back(i, v * spec.unit.to_si);
-      }
-    if (spec.grid.size > 0) all = std::move(next);
-  }
-  return all;
-}
+using inference::Settings;
 
 /// One parameter of a term at one prior sigma, times the strength.
 Source one_parameter(std::size_t param, const Settings& settings) {
@@ -56,7 +40,7 @@ double mixture_cosine(const MatX& products) {
   const MatX G = scale.asDiagonal() * MatX(products(seen, seen)) * scale.asDiagonal();
   const VecX b = scale.cwiseProduct(VecX(products(seen, n)));
   const MatX regular = G + 1e-9 * MatX::Identity(G.rows(), G.cols());
-  return std::sqrt(std::clamp(b.dot(regular.ldlt().solve(b)) / whole, 0.0, 1.0));
+  return std::sqrt(std::clamp(b.dot(solve_symmetric(regular, b)) / whole, 0.0, 1.0));
 }
 
 }  // namespace
@@ -68,12 +52,13 @@ Nearest nearest_in_library(const SizingBench& bench, const FilterSpec& nominal,
   for (const std::size_t t : hideable_terms(nominal)) {
     const TermInfo& term = TermLibrary::terms[t];
     const Timeline& timeline = bench.world().timeline;
-    if (term.key == "frame_closure" || (term.needs.temperature && !timeline.has_temperature) ||
+    if (term.key == closure_term || (term.needs.temperature && !timeline.has_temperature) ||
         (term.needs.field && !timeline.has_field))
       continue;
     std::map<std::string, std::vector<std::size_t>> axes;
-    for (const std::size_t i : missing_parameters(term, nominal)) axes[axis_of(i)].push_back(i);
-    for (const Settings& settings : settings_of(term, nominal))
+    for (const std::size_t i : missing_parameters(term, nominal))
+      axes[std::string(TermLibrary::specs[i].axis)].push_back(i);
+    for (const Settings& settings : inference::settings_of(term, nominal.active))
       for (const auto& [axis, params] : axes) {
         MatX signals(signal.size(), static_cast<Eigen::Index>(params.size()) + 1);
         for (std::size_t k = 0; k < params.size(); ++k)

@@ -5,8 +5,6 @@
 namespace drift::blind {
 namespace {
 
-constexpr double deg_per_h = detail::deg / 3600.0;
-
 /// Between two ends, evenly in the logarithm.
 double between(double low, double high, Stream& stream) {
   return low * std::pow(high / low, stream.uniform());
@@ -66,7 +64,7 @@ HiddenEffect spoil_noise(std::size_t kind, World& world, Stream& stream) {
     }
     case 3: {
       const double sigma = between(2e-3, 1e-2, stream), tau = between(600.0, 3600.0, stream);
-      World::add(world.disturbance, correlated(world, tau, stream), sigma * deg_per_h);
+      World::add(world.disturbance, correlated(world, tau, stream), sigma * unit::deg_per_h.to_si);
       e = fault("markov_drift", "correlated noise of the drift",
                 {{"sigma", sigma, "deg/h"}, minutes("tau", tau)});
       break;

@@ -49,8 +49,14 @@ int pick(int n, Stream& stream) {
 
 enum class Slot { rate, accelerometer, gimbal };
 
-/// A source that adds a pattern to one slot; strength 1 is `unit` (SI).
-Source source(std::string name, std::string words, Slot slot, int axis, Mat3X shape, double unit) {
+const Unit& unit_of(Slot slot) {
+  return slot == Slot::rate            ? unit::deg_per_h
+         : slot == Slot::accelerometer ? unit::ug
+                                       : unit::arcsec;
+}
+
+/// A source that adds a pattern to one slot; strength 1 is one of its unit.
+Source source(std::string name, std::string words, Slot slot, int axis, Mat3X shape) {
   static constexpr const char* axes[] = {"x", "y", "z"};
   static constexpr const char* gimbals[] = {"outer", "middle", "inner"};
   Source s;
@@ -59,22 +65,18 @@ Source source(std::string name, std::string words, Slot slot, int axis, Mat3X sh
   s.effect.words = std::move(words);
   s.first = 1.0;
   s.most = 1e6;
-  s.put = [slot, shape, unit](World& w, double strength) {
+  s.put = [slot, shape](World& w, double strength) {
     Mat3X& to = slot == Slot::rate            ? w.disturbance
                 : slot == Slot::accelerometer ? w.acc_error
                                               : w.gimbal_error;
-    World::add(to, shape, strength * unit);
+    World::add(to, shape, strength * unit_of(slot).to_si);
   };
   s.parameters = [slot](double strength) {
-    const char* unit_name = slot == Slot::rate            ? "deg/h"
-                            : slot == Slot::accelerometer ? "ug"
-                                                          : "arcsec";
-    return std::vector<HiddenParameter>{{"amplitude", strength, unit_name}};
+    return std::vector<HiddenParameter>{
+        {"amplitude", strength, std::string(unit_of(slot).symbol.view())}};
   };
   return s;
 }
-
-constexpr double deg_per_h = detail::deg / 3600.0, arcsec = detail::deg / 3600.0, ug = 1e-6;
 
 }  // namespace
 
@@ -90,20 +92,16 @@ Source outside_source(std::size_t kind, const World& world, Stream& stream) {
   switch (kind % num_outside) {
     case 0:
       return source("product_drift", "drift a_I^2 a_S", Slot::rate, axis,
-                    pattern(world, axis,
-                            [&](const Instant& n) {
-                              const double a = along(n.f_p, false);
-                              return -a * a * along(n.f_p, true);
-                            }),
-                    deg_per_h);
+                    pattern(world, axis, [&](const Instant& n) {
+                      const double a = along(n.f_p, false);
+                      return -a * a * along(n.f_p, true);
+                    }));
     case 1: {
       const int gimbal = pick(3, stream), force = pick(3, stream);
-      return source(
-          "gimbal_force", "drift sin(3 gimbal angle) times specific force", Slot::rate, axis,
-          pattern(
-              world, axis,
-              [=](const Instant& n) { return -std::sin(3.0 * n.gimbal[gimbal]) * n.f_p[force]; }),
-          deg_per_h);
+      return source("gimbal_force", "drift sin(3 gimbal angle) times specific force", Slot::rate,
+                    axis, pattern(world, axis, [=](const Instant& n) {
+                      return -std::sin(3.0 * n.gimbal[gimbal]) * n.f_p[force];
+                    }));
     }
     case 2: {
       std::vector<int> chosen;
@@ -115,40 +113,33 @@ Source outside_source(std::size_t kind, const World& world, Stream& stream) {
       std::vector<double> half(static_cast<std::size_t>(world.timeline.positions), 0.0);
       for (const Interval& i : world.timeline.intervals) half[i.position] += 0.5 * i.length();
       return source("intermittent", "drift that is on late in three positions", Slot::rate, axis,
-                    pattern(world, axis,
-                            [&](const Instant& n) {
-                              const bool on = std::find(chosen.begin(), chosen.end(),
-                                                        n.interval->position) != chosen.end();
-                              return on && n.in_dwell > half[n.interval->position] ? -1.0 : 0.0;
-                            }),
-                    deg_per_h);
+                    pattern(world, axis, [&](const Instant& n) {
+                      const bool on = std::find(chosen.begin(), chosen.end(),
+                                                n.interval->position) != chosen.end();
+                      return on && n.in_dwell > half[n.interval->position] ? -1.0 : 0.0;
+                    }));
     }
     case 3: {
       const double T0 = (100.0 + 60.0 * stream.uniform()) * 60.0, phase = two_pi * stream.uniform();
       return source("chirp", "drift whose period shrinks through the test", Slot::rate, axis,
-                    pattern(world, axis,
-                            [=](const Instant& n) {
-                              return std::sin(two_pi * (n.t / T0) * (n.t / T0) + phase);
-                            }),
-                    deg_per_h);
+                    pattern(world, axis, [=](const Instant& n) {
+                      return std::sin(two_pi * (n.t / T0) * (n.t / T0) + phase);
+                    }));
     }
     case 4: {
       const double phase = two_pi * stream.uniform();
-      return source(
-          "acc_pickup", "accelerometer error with a period of 47 min", Slot::accelerometer, axis,
-          pattern(world, axis,
-                  [=](const Instant& n) {
-                    return std::sin(two_pi * n.t / 2820.0 + phase) * (0.3 + std::abs(n.f_p[axis]));
-                  }),
-          ug);
+      return source("acc_pickup", "accelerometer error with a period of 47 min",
+                    Slot::accelerometer, axis, pattern(world, axis, [=](const Instant& n) {
+                      return std::sin(two_pi * n.t / 2820.0 + phase) *
+                             (0.3 + std::abs(n.f_p[axis]));
+                    }));
     }
     default: {
       const double period = (20.0 + 10.0 * stream.uniform()) * 60.0;
-      return source(
-          "resolver_sawtooth", "resolver error that builds up and falls back", Slot::gimbal, axis,
-          pattern(world, axis,
-                  [=](const Instant& n) { return n.t / period - std::floor(n.t / period) - 0.5; }),
-          arcsec);
+      return source("resolver_sawtooth", "resolver error that builds up and falls back",
+                    Slot::gimbal, axis, pattern(world, axis, [=](const Instant& n) {
+                      return n.t / period - std::floor(n.t / period) - 0.5;
+                    }));
     }
   }
 }
@@ -175,10 +166,7 @@ Source local_source(const World& world, Stream& stream) {
   };
   const Slot slot = slots[which];
   Source s = source("local", "a constant disturbance in one window", slot, axis,
-                    pattern(world, axis, inside),
-                    slot == Slot::rate            ? deg_per_h
-                    : slot == Slot::accelerometer ? ug
-                                                  : arcsec);
+                    pattern(world, axis, inside));
   s.effect.position = position + 1;
   s.effect.start_s = from;
   s.effect.end_s = to;

@@ -5,7 +5,8 @@
 #include <limits>
 #include <map>
 
-#include "analysis/blind/subsystem.hpp"
+#include "analysis/inference/thresholds.hpp"
+#include "core/physics/term_library.hpp"
 
 namespace drift::blind {
 namespace {
@@ -32,8 +33,6 @@ bool holds_all(const Alternative& alternative, const std::vector<HiddenEffect>& 
                      [&](const HiddenEffect& e) { return holds(alternative, e); });
 }
 
-constexpr double one_trace = 0.999;  // |cosine| of exact twins
-
 /// Whether a cause is the hidden effect or leaves the same trace on the plan, as the answer says of
 /// either.
 bool is_twin(const Answer& answer, const HiddenEffect& hidden, const AnswerCause& cause) {
@@ -43,7 +42,7 @@ bool is_twin(const Answer& answer, const HiddenEffect& hidden, const AnswerCause
                        [&](const search::Confusable& o) {
                          // A candidate of all axes can be like anything of one of them: that is no
                          // twin.
-                         return std::abs(o.cosine) >= one_trace && o.term == term && o.axis == axis;
+                         return inference::same_trace(o.cosine) && o.term == term && o.axis == axis;
                        });
   };
   return lists(cause, hidden.term, hidden.axis) ||
@@ -92,6 +91,12 @@ std::vector<Pull> pulls_of(const KeyEntry& key, const Alternative& alternative) 
   return pulls;
 }
 
+/// The part of the platform that a term belongs to; none for what is not in the library.
+std::optional<Subsystem> subsystem_of(std::string_view term) {
+  const auto known = TermLibrary::find_term(term);
+  return known ? std::optional(TermLibrary::terms[*known].subsystem) : std::nullopt;
+}
+
 double overlap(double a0, double a1, double b0, double b1) {
   const double inner = std::min(a1, b1) - std::max(a0, b0),
                outer = std::max(a1, b1) - std::min(a0, b0);
@@ -113,7 +118,7 @@ std::string called(const Answer& a) {
 
 std::string TrialScore::hidden() const {
   const bool term = key.plan.stratum == Stratum::single && !key.effects.empty();
-  return term ? key.effects.front().term : name_in(stratum_names, key.plan.stratum);
+  return term ? key.effects.front().term : std::string(key_of(key.plan.stratum));
 }
 
 TrialScore score_trial(const KeyEntry& key, const Answer& answer) {

@@ -24,7 +24,7 @@ struct TrialScore {
       false;  ///< without physics: detected, unless it names the drift's random walk that there is
   bool exact = false;          ///< named, and exactly what was hidden
   bool exact_or_twin = false;  ///< exact, or ambiguous between what is hidden and its exact twins
-                               ///< (|cosine| 0.999 and more) alone
+                               ///< alone (thresholds.hpp)
   bool in_set = false;  ///< named or ambiguous with at most three alternatives, one of them right
   bool extra = false;   ///< named, right causes among others
   bool subsystem = false;          ///< the first cause is of a right subsystem

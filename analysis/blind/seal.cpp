@@ -3,22 +3,16 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
-#include "core/base/results_folder.hpp"
 #include "core/base/check.hpp"
+#include "core/base/file_text.hpp"
+#include "core/base/results_folder.hpp"
 #include "core/base/sha256.hpp"
 
 namespace drift::blind {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string contents(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 fs::path hash_path(const std::string& folder, const std::string& name) {
   return (fs::path(folder) / name).replace_extension(".sha256");
@@ -29,13 +23,17 @@ fs::path hash_path(const std::string& folder, const std::string& name) {
 std::string write_sealed(const std::string& folder, const std::string& name,
                          const std::string& text) {
   const std::string hash = sha256_hex(text);
+  if (!published_hash(folder, name).empty()) open_sealed(folder, name);
+  // Without a hash the text counts as not written yet, wherever the program ends.
+  std::error_code none;
+  fs::remove(hash_path(folder, name), none);
   write_text_atomically((fs::path(folder) / name).string(), text);
   write_text_atomically(hash_path(folder, name).string(), fmt::format("{}  {}\n", hash, name));
   return hash;
 }
 
 std::string published_hash(const std::string& folder, const std::string& name) {
-  const std::string line = contents(hash_path(folder, name));
+  const std::string line = file_text(hash_path(folder, name)).value_or("");
   return line.substr(0, line.find_first_of(" \n"));
 }
 
@@ -49,7 +47,7 @@ std::string open_sealed(const std::string& folder, const std::string& name) {
             "{}: no hash was published for it (expected {}). Run the study again in an empty "
             "folder",
             path, hash_path(folder, name).string()));
-  const std::string text = contents(path), hash = sha256_hex(text);
+  const std::string text = file_text(path).value_or(""), hash = sha256_hex(text);
   if (hash != published)
     throw InputError(
         ExitCode::self_check,

@@ -5,7 +5,8 @@
 namespace drift::blind {
 
 /// Writes `text` to folder/name and its SHA-256 to folder/stem.sha256 ("<hash>  <name>", as
-/// sha256sum writes it). Returns the hash. InputError (io) if that fails.
+/// sha256sum writes it). Returns the hash. InputError: io if that fails; self_check if what is
+/// there was changed after it was sealed.
 std::string write_sealed(const std::string& folder, const std::string& name,
                          const std::string& text);
 

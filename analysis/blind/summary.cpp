@@ -7,6 +7,8 @@
 #include <map>
 #include <set>
 
+#include "core/stats/normal.hpp"
+
 namespace drift::blind {
 namespace {
 
@@ -14,14 +16,14 @@ using Scores = std::vector<TrialScore>;
 using Condition = std::function<bool(const TrialScore&)>;
 
 /// Of the trials in `group`, those for which `success` holds. Failed trials count as unsuccessful.
-Proportion share(const Scores& scores, const Condition& group, const Condition& success) {
+stats::Proportion share(const Scores& scores, const Condition& group, const Condition& success) {
   std::size_t k = 0, n = 0;
   for (const TrialScore& s : scores) {
     if (!group(s)) continue;
     ++n;
     if (success(s)) ++k;
   }
-  return proportion(k, n);
+  return stats::proportion(k, n);
 }
 
 Condition in(Stratum stratum) {
@@ -59,15 +61,11 @@ bool unexplained(const TrialScore& s) {
   return s.unexplained;
 }
 
-double normal_cdf(double x) {
-  return 0.5 * std::erfc(-x / std::sqrt(2.0));
-}
-
 /// Chance that one score of mean A beats the 5 % threshold of the largest of about 100 (11.6,
 /// discovery.md 2.3); either sign.
 double theory(double A) {
   const double k = std::sqrt(11.6);
-  return normal_cdf(A - k) + normal_cdf(-A - k);
+  return stats::normal_distribution(A - k) + stats::normal_distribution(-A - k);
 }
 
 std::vector<PowerPoint> power_curve(const Scores& scores) {
@@ -117,13 +115,14 @@ std::vector<GroupScore> groups(const Scores& scores,
 }
 
 /// Shares of a stratum by the kind of thing that was hidden.
-std::vector<std::pair<std::string, Proportion>> by_kind(const Scores& scores, Stratum stratum,
-                                                        const Condition& success) {
+std::vector<std::pair<std::string, stats::Proportion>> by_kind(const Scores& scores,
+                                                               Stratum stratum,
+                                                               const Condition& success) {
   std::set<std::string> kinds;
   for (const TrialScore& s : scores)
     if (s.key.plan.stratum == stratum && !s.key.effects.empty())
       kinds.insert(s.key.effects.front().term);
-  std::vector<std::pair<std::string, Proportion>> all;
+  std::vector<std::pair<std::string, stats::Proportion>> all;
   for (const std::string& kind : kinds)
     all.emplace_back(kind, share(
                                scores,
@@ -160,10 +159,10 @@ double median(std::vector<double> v) {
   return v[v.size() / 2];
 }
 
-Proportion pulls_within(const std::vector<double>& pulls, double limit) {
+stats::Proportion pulls_within(const std::vector<double>& pulls, double limit) {
   const auto k =
       std::count_if(pulls.begin(), pulls.end(), [&](double p) { return std::abs(p) <= limit; });
-  return proportion(static_cast<std::size_t>(k), pulls.size());
+  return stats::proportion(static_cast<std::size_t>(k), pulls.size());
 }
 
 void add_targets(const Scores& scores, Summary& s) {
@@ -188,7 +187,7 @@ void add_targets(const Scores& scores, Summary& s) {
 }
 
 void add_further(const Scores& scores, Summary& s) {
-  const auto add = [&](std::string name, Proportion p) {
+  const auto add = [&](std::string name, stats::Proportion p) {
     s.further.emplace_back(std::move(name), p);
   };
   add("recovered parameter within 3 sigma", pulls_within(s.pulls, 3.0));
@@ -249,10 +248,10 @@ Summary summarise(const Scores& scores) {
       share(scores, is_effect, [](const TrialScore& t) { return t.key.certificate.concealed; });
   s.power = power_curve(scores);
   s.plans = groups(scores, [](const TrialScore& t) { return t.key.plan.plan; });
-  s.couplings = groups(
-      scores, [](const TrialScore& t) { return name_in(coupling_names, t.key.plan.coupling); });
+  s.couplings =
+      groups(scores, [](const TrialScore& t) { return std::string(key_of(t.key.plan.coupling)); });
   s.modes =
-      groups(scores, [](const TrialScore& t) { return name_in(mode_names, t.key.plan.mode); });
+      groups(scores, [](const TrialScore& t) { return std::string(key_of(t.key.plan.mode)); });
   s.wrong_noise = by_kind(scores, Stratum::wrong_noise, false_alarm);
   s.outside = by_kind(scores, Stratum::outside, unexplained);
   s.confusion = confusion_of(scores);

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "analysis/blind/intervals.hpp"
 #include "analysis/blind/score.hpp"
+#include "core/stats/proportion.hpp"
 
 namespace drift::blind {
 
@@ -35,7 +35,7 @@ inline constexpr std::size_t fewest_trials = 5;
 /// A target of the blind study and what was measured.
 struct Target {
   std::string name;
-  Proportion measured;
+  stats::Proportion measured;
   double low = 0.0, high = 1.0;  ///< the share should lie between
   /// By the share alone.
   bool met() const { return measured.n > 0 && measured.share() >= low && measured.share() <= high; }
@@ -52,15 +52,16 @@ struct Target {
 /// Detection at one size or range of sizes.
 struct PowerPoint {
   double low = 0.0, high = 0.0, mean = 0.0;  ///< [sigma]
-  Proportion detected, exact, in_set, subsystem, wrong;
+  stats::Proportion detected, exact, in_set, subsystem, wrong;
   double theory = 0.0;  ///< detection of one known signature among `family` of them at 5 %
 };
 
 /// How a group of trials went: one plan, one coupling, one stratum, one term.
 struct GroupScore {
   std::string name;
-  Proportion false_alarms;                               ///< on nulls of both kinds
-  Proportion detected, exact, in_set, subsystem, wrong;  ///< of single effects of 8 sigma and more
+  stats::Proportion false_alarms;  ///< on nulls of both kinds
+  stats::Proportion detected, exact, in_set, subsystem,
+      wrong;  ///< of single effects of 8 sigma and more
 };
 
 /// A row of the confusion table: what single effects of one term were called.
@@ -79,9 +80,9 @@ struct Summary {
   std::vector<Target> targets;
   std::vector<PowerPoint> power;
   std::vector<GroupScore> plans, couplings, modes;
-  Proportion concealed;  ///< effect trials with chi-square inside its band
-  std::vector<std::pair<std::string, Proportion>> further;  ///< scores without a target
-  std::vector<std::pair<std::string, Proportion>> wrong_noise,
+  stats::Proportion concealed;  ///< effect trials with chi-square inside its band
+  std::vector<std::pair<std::string, stats::Proportion>> further;  ///< scores without a target
+  std::vector<std::pair<std::string, stats::Proportion>> wrong_noise,
       outside;                ///< by kind: false alarms, unexplained
   std::vector<double> pulls;  ///< of all recovered parameters
   double pull_rms = 0.0;      ///< robust against the few: 1.4826 median |pull|

@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
+#include "core/base/named.hpp"
 #include "core/physics/drift_model.hpp"
 #include "core/plan/test_plan.hpp"
 
@@ -13,31 +13,13 @@ namespace drift::blind {
 
 /// What kind of thing a trial hides (discovery.md 3).
 enum class Stratum { null, wrong_noise, single, pair, outside, local };
-inline constexpr std::pair<Stratum, std::string_view> stratum_names[] = {
-    {Stratum::null, "null"}, {Stratum::wrong_noise, "wrong_noise"}, {Stratum::single, "single"},
-    {Stratum::pair, "pair"}, {Stratum::outside, "outside"},         {Stratum::local, "local"}};
+inline constexpr Named<Stratum> strata[] = {
+    {"null", Stratum::null}, {"wrong_noise", Stratum::wrong_noise}, {"single", Stratum::single},
+    {"pair", Stratum::pair}, {"outside", Stratum::outside},         {"local", Stratum::local}};
+constexpr std::string_view key_of(Stratum stratum) {
+  return name_in(strata, stratum);
+}
 inline constexpr std::size_t num_strata = 6;
-
-inline constexpr std::pair<Coupling, std::string_view> coupling_names[] = {
-    {Coupling::eq5, "eq5"}, {Coupling::eq6, "eq6"}, {Coupling::servo, "servo"}};
-
-inline constexpr std::pair<CommandLaw, std::string_view> mode_names[] = {
-    {CommandLaw::free, "free"}, {CommandLaw::level, "level"}};
-
-/// The name of an enum value in one of the tables above, and back; `first` is returned for a name
-/// that is not in it.
-template <class E, std::size_t N>
-std::string name_in(const std::pair<E, std::string_view> (&table)[N], E value) {
-  for (const auto& [v, name] : table)
-    if (v == value) return std::string(name);
-  return {};
-}
-template <class E, std::size_t N>
-E value_in(const std::pair<E, std::string_view> (&table)[N], std::string_view name) {
-  for (const auto& [v, n] : table)
-    if (n == name) return v;
-  return table[0].first;
-}
 
 /// What is asked of one trial, before anything is drawn.
 struct TrialPlan {

@@ -35,7 +35,7 @@ Simulation simulate(const World& world, const TruthSpec& truth, const Readout& r
 
 Simulation simulate_clean(const World& world, std::uint64_t seed, std::uint64_t run) {
   TruthSpec truth = world.truth;
-  if (truth.coupling == Coupling::servo) truth.coupling = Coupling::eq6;
+  truth.coupling = facts(truth.coupling).settles_to;
   truth.noise = {};
   Readout readout = world.readout;
   readout.accelerometer_noise = readout.gimbal_noise = 0.0;

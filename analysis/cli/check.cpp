@@ -1,6 +1,8 @@
 #include <algorithm>
 
 #include "analysis/cli/commands.hpp"
+#include "analysis/cli/print.hpp"
+#include "core/plan/plan_memory.hpp"
 
 namespace drift::cli {
 
@@ -24,6 +26,7 @@ mc::Study StudyArguments::read() const {
 
 ExitCode check(const StudyArguments& arguments) {
   const mc::Study study = arguments.read();
+  if (study.kind == RecordingKind::platform) require_memory_for(study.plan);
   std::size_t key_width = 0, value_width = 0;
   for (const mc::Resolved& r : study.resolved) {
     key_width = std::max(key_width, r.key.size());
@@ -31,7 +34,7 @@ ExitCode check(const StudyArguments& arguments) {
   }
   value_width = std::min<std::size_t>(value_width, 60);
   for (const mc::Resolved& r : study.resolved)
-    fmt::print("{:<{}}  {:<{}}  {}\n", r.key, key_width, r.value, value_width, r.origin);
+    show("{:<{}}  {:<{}}  {}\n", r.key, key_width, r.value, value_width, r.origin);
   return ExitCode::ok;
 }
 

@@ -47,6 +47,12 @@ struct RankArguments {
   bool json = false;            ///< rank.json on stdout instead of tables
 };
 
+/// A list with one more at its end.
+inline std::vector<std::string> with(std::vector<std::string> list, const std::string& more) {
+  list.push_back(more);
+  return list;
+}
+
 // The commands. Results go to stdout, everything else to stderr. Errors are thrown; main() alone
 // turns them into exit codes.
 ExitCode check(const StudyArguments& arguments);

@@ -1,23 +1,18 @@
-#include "analysis/diagnosis/diagnose.hpp"
+
+#include "analysis/strapdown/diagnose.hpp"
 
 #include <fmt/ranges.h>
 
-#include <chrono>
 #include <cstdio>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "analysis/cli/commands.hpp"
+#include "analysis/cli/print.hpp"
 #include "analysis/cli/progress.hpp"
 #include "analysis/cli/read_recordings.hpp"
-#include "analysis/diagnosis/advise.hpp"
-#include "analysis/diagnosis/name_recordings.hpp"
-#include "analysis/diagnosis/prepare.hpp"
-#include "analysis/diagnosis/site_doubt.hpp"
-#include "analysis/report/diagnosis/folder.hpp"
-#include "analysis/report/diagnosis/text.hpp"
+#include "analysis/diagnosis/diagnose_recordings.hpp"
+#include "analysis/report/diagnosis/report.hpp"
 #include "analysis/report/strapdown/report.hpp"
-#include "analysis/strapdown/diagnose.hpp"
 #include "core/base/results_folder.hpp"
 #include "mc/task/campaign.hpp"
 
@@ -36,11 +31,11 @@ void require_nominal(const mc::Study& study) {
 void finish(const mc::Study& study, const diagnosis::Diagnosis& diagnosis,
             const report::DiagnosisSource& source, const std::string& folder,
             std::vector<std::string> more = {}) {
-  fmt::print("{}", report::to_text(diagnosis));
+  show("{}", report::to_text(diagnosis));
   if (folder.empty()) return;
   auto files = report::write_results(study, diagnosis, source, folder);
   files.insert(files.end(), more.begin(), more.end());
-  fmt::print("\nWritten to {}: {}\n", folder, fmt::join(files, " "));
+  show("\nWritten to {}: {}\n", folder, fmt::join(files, " "));
 }
 
 ExitCode diagnose_case(const StudyArguments& arguments, const mc::Study& study,
@@ -56,7 +51,7 @@ ExitCode diagnose_case(const StudyArguments& arguments, const mc::Study& study,
   options.gravity = study.site.gravity;
   options.seed = study.monte_carlo.seed;
   const auto recordings = read_recordings(study, paths);
-  std::fflush(stdout);
+  flush_output();
   const auto report = stage_reporter(arguments.progress, "diagnose");
   if (report) report("dwells, turns and what each step gains", 0.0);
   const strapdown::StrapdownDiagnosis found =
@@ -64,36 +59,25 @@ ExitCode diagnose_case(const StudyArguments& arguments, const mc::Study& study,
   if (report) report("done", 1.0);
   std::vector<std::string> more;
   if (!folder.empty())
-    more = write_files({{"identification.json", report::to_json(found.result).dump(2) + "\n"}},
-                       folder);
-  finish(study, found.diagnosis, {paths, report::to_text(found.result)}, folder, more);
+    more = write_files({folder, "diagnose"},
+                       {{"identification.json", report::to_json(found.result).dump(2) + "\n"}});
+  finish(study, found.diagnosis,
+         {paths, report::to_text(report::strapdown_report(study, found.result))}, folder, more);
   return ExitCode::ok;
 }
 
 ExitCode diagnose_platform(const StudyArguments& arguments, const mc::Study& study,
                            const std::vector<std::string>& paths, const std::string& folder,
                            const std::optional<std::vector<std::string>>& advise) {
-  diagnosis::Prepared prepared = diagnosis::prepare(study, read_recordings(study, paths));
-  std::fflush(stdout);
-  diagnosis::DiagnoseOptions options;
-  options.progress = stage_reporter(arguments.progress, "diagnose");
-  diagnosis::Diagnosis found = diagnosis::diagnose(prepared.study, prepared.recordings, options);
-  if (const auto doubt = diagnosis::site_doubt(prepared.study, prepared.recordings, found))
-    found.sentence += " " + doubt->sentence;
-  const auto began = std::chrono::steady_clock::now();
-  try {
-    found.advice = diagnosis::advise(prepared.study, prepared.recordings, found,
-                                     {.seed = study.monte_carlo.seed, .asked = advise});
-  } catch (const InputError& e) {
-    if (e.code() == ExitCode::usage) throw;  // what was asked for is wrong
-    found.remarks.push_back(fmt::format("No advice could be made: {}",
-                                        e.what()));  // never at the cost of the diagnosis
+  const auto recordings = read_recordings(study, paths);
+  flush_output();
+  diagnosis::RecordingsOptions options;
+  options.diagnose.progress = stage_reporter(arguments.progress, "diagnose");
+  if (advise) {
+    options.advising = diagnosis::Advising::on_request;
+    options.asked = *advise;
   }
-  found.seconds.emplace_back(
-      "advice", std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count());
-  found.remarks.insert(found.remarks.begin(), prepared.remarks.begin(), prepared.remarks.end());
-  diagnosis::name_recordings(prepared.study, prepared.recordings, found);
-  finish(study, found, {paths, ""}, folder);
+  finish(study, diagnosis::diagnose_recordings(study, recordings, options), {paths, ""}, folder);
   return ExitCode::ok;
 }
 
@@ -109,17 +93,7 @@ ExitCode diagnose(const StudyArguments& arguments, const std::vector<std::string
                      "--advise: a strapdown study has no positions to add (expected a platform "
                      "study). Leave it out; "
                      "more turns about more axes are what helps");
-  require_own_folder(folder, "diagnose");
-  std::error_code absent;
-  if (!folder.empty() &&
-      std::filesystem::equivalent(std::filesystem::path(folder) / "study.toml", study.path, absent))
-    throw InputError(
-        ExitCode::usage,
-        fmt::format(
-            "-o {}: its study.toml is the study itself and would be replaced (expected another "
-            "folder). Name a folder for results",
-            folder));
-  require_writable_folder(folder);
+  require_results_folder({folder, "diagnose"}, with(paths, study.path));
   const mc::ThreadCount threads(arguments.threads);
   return study.kind == RecordingKind::strapdown
              ? diagnose_case(arguments, study, paths, folder)

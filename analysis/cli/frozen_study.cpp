@@ -23,6 +23,25 @@ void sort_keys(config::Node& table) {
   }
 }
 
+/// A study file, or what is wrong with it.
+struct Reading {
+  std::optional<mc::Study> study;
+  std::string wrong;
+};
+
+Reading read_frozen(const std::string& folder, const mc::Manifest& manifest, std::uint64_t runs) {
+  try {
+    mc::Study study =
+        mc::read_study(folder + "/study.toml", {{"monte_carlo.runs", std::to_string(runs)}});
+    mc::StudyIdentity identity = identity_of(study);
+    identity.block_size = manifest.identity.block_size;
+    if (identity.hash() == manifest.hash) return {std::move(study), {}};
+    return {std::nullopt, "changed since"};
+  } catch (const InputError& error) {
+    return {std::nullopt, error.messages().front()};
+  }
+}
+
 }  // namespace
 
 mc::StudyIdentity identity_of(const mc::Study& study) {
@@ -39,25 +58,25 @@ mc::StudyIdentity identity_of(const mc::Study& study) {
   return {config::to_document(root), study.monte_carlo.seed, mc::StudyIdentity{}.block_size};
 }
 
-mc::Study frozen_study(const std::string& folder, const mc::StudyReader& reader) {
-  const std::string path = folder + "/study.toml";
-  const auto mismatch = [&](const std::string& why) {
-    return InputError(
-        ExitCode::store,
-        fmt::format("{}: {} (expected the study that the folder was made with). Restore it: "
-                    "the value of \"study\" in manifest.json",
-                    path, why));
-  };
+FrozenStudy frozen_study(const std::string& folder, const mc::StudyReader& reader,
+                         const StudyProgram& program) {
   const std::uint64_t runs = std::max<std::uint64_t>(reader.runs(), 1);
-  try {
-    mc::Study study = mc::read_study(path, {{"monte_carlo.runs", std::to_string(runs)}});
-    mc::StudyIdentity identity = identity_of(study);
-    identity.block_size = reader.manifest().identity.block_size;
-    if (identity.hash() == reader.manifest().hash) return study;
-  } catch (const InputError& error) {
-    throw mismatch(error.messages().front());
-  }
-  throw mismatch("changed since");
+  const Reading found = read_frozen(folder, reader.manifest(), runs);
+  if (!found.study)
+    throw InputError(
+        ExitCode::store,
+        fmt::format("{}/study.toml: {} (expected the study that the folder was made with). Run the "
+                    "same command again: it is written anew from manifest.json, and this one is "
+                    "kept beside it",
+                    folder, found.wrong));
+  FrozenStudy frozen{*found.study, program.work(*found.study)};
+  mc::require_columns(folder, reader.manifest(), frozen.work.points);
+  return frozen;
+}
+
+std::string mend_study(const std::string& folder, const mc::Manifest& manifest) {
+  if (read_frozen(folder, manifest, 1).study) return {};
+  return mc::restore_study(folder, manifest.study);
 }
 
 }  // namespace drift::cli

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "analysis/cli/study_program.hpp"
 #include "mc/store/manifest.hpp"
 #include "mc/store/study_reader.hpp"
 #include "mc/study/study.hpp"
@@ -12,8 +13,19 @@ namespace drift::cli {
 /// runs and of failures that are allowed.
 mc::StudyIdentity identity_of(const mc::Study& study);
 
-/// The study of a results folder, with the number of runs that was asked for last. InputError
-/// (store) if study.toml is not the one that the folder was made with.
-mc::Study frozen_study(const std::string& folder, const mc::StudyReader& reader);
+/// The study of a results folder, with the number of runs that was asked for last, and its work.
+struct FrozenStudy {
+  mc::Study study;
+  mc::StudyWork work;
+};
+
+/// InputError (store) if study.toml is not the one that the folder was made with, or manifest.json
+/// does not describe its columns.
+FrozenStudy frozen_study(const std::string& folder, const mc::StudyReader& reader,
+                         const StudyProgram& program);
+
+/// Puts back a study.toml that is damaged or changed in a folder that was just claimed with this
+/// manifest; the name under which what was there is kept, empty if all is well.
+std::string mend_study(const std::string& folder, const mc::Manifest& manifest);
 
 }  // namespace drift::cli

@@ -3,13 +3,13 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/cli/commands.hpp"
+#include "analysis/cli/print.hpp"
 #include "analysis/cli/progress.hpp"
 #include "analysis/cli/read_recordings.hpp"
-#include "analysis/report/identify/folder.hpp"
-#include "analysis/report/identify/text.hpp"
+#include "analysis/report/identify/report.hpp"
 #include "analysis/report/strapdown/report.hpp"
-#include "analysis/report/strapdown/results.hpp"
 #include "core/base/results_folder.hpp"
+#include "core/plan/plan_rows.hpp"
 
 namespace drift::cli {
 namespace {
@@ -31,10 +31,10 @@ ExitCode identify_case(const mc::Study& study, const std::vector<std::string>& p
   const auto recordings = read_recordings(study, paths);
   const strapdown::StrapdownResult result =
       strapdown::identify_strapdown(recordings.front(), options);
-  fmt::print("{}", report::to_text(result));
+  const report::Report said = report::strapdown_report(study, result);
+  show("{}", report::to_text(said));
   if (!folder.empty())
-    fmt::print("\nWritten to {}: {}\n", folder,
-               fmt::join(report::write_results(study, result, folder), " "));
+    show("\nWritten to {}: {}\n", folder, fmt::join(report::write_report(said, folder), " "));
   return ExitCode::ok;
 }
 
@@ -43,18 +43,22 @@ ExitCode identify_case(const mc::Study& study, const std::vector<std::string>& p
 ExitCode identify(const StudyArguments& arguments, const std::vector<std::string>& paths,
                   const std::string& folder, std::uint64_t run) {
   const mc::Study study = arguments.read();
-  require_own_folder(folder, "identify");
+  require_results_folder({folder, "identify"}, with(paths, study.path));
   if (study.kind == RecordingKind::strapdown) return identify_case(study, paths, folder);
   const auto progress = progress_reporter(arguments.progress, "estimates");
+  const auto recordings = read_recordings(study, paths);
+  for (const Recording& recording : recordings)
+    for (const std::string& remark : rows_other_than_planned(recording, study.plan))
+      say("note: {}\n", remark);
   const identification::Identification id =
-      paths.empty() ? identification::identify_simulated(study, run, arguments.threads, progress)
-                    : identification::identify_recordings(study, read_recordings(study, paths),
-                                                          arguments.threads, progress);
-  fmt::print("{}", report::to_text(study, id));
-  if (!folder.empty()) {
-    const auto files = report::write_results(study, id, folder);
-    fmt::print("\nWritten to {}: {}\n", folder, fmt::join(files, " "));
-  }
+      paths.empty()
+          ? identification::identify_simulated(study, run, arguments.threads, progress)
+          : identification::identify_recordings(study, recordings, arguments.threads, progress);
+  const report::Report said = report::identification_report(study, id);
+  show("{}", report::to_text(said));
+  if (!folder.empty())
+    show("\nWritten to {}: {}\n", folder,
+         fmt::join(report::write_identification(said, id, folder), " "));
   return ExitCode::ok;
 }
 

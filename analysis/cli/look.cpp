@@ -4,8 +4,10 @@
 
 #include "analysis/cli/commands.hpp"
 #include "analysis/cli/frozen_study.hpp"
+#include "analysis/cli/print.hpp"
 #include "analysis/cli/run_options.hpp"
 #include "analysis/cli/run_progress.hpp"
+#include "core/base/output_file.hpp"
 #include "mc/engine/replay.hpp"
 #include "mc/export/export_hdf5.hpp"
 #include "mc/export/export_text.hpp"
@@ -43,52 +45,45 @@ std::string fact(const mc::Session& s, std::string_view key) {
 }
 
 /// An export replaces an earlier one of the same study, nothing else.
-void refuse_another(const std::string& target, const std::string& hash) {
-  namespace fs = std::filesystem;
-  std::error_code none;
-  if (!fs::is_regular_file(target, none) || fs::file_size(target, none) == 0) return;
-  std::string known = mc::study_hash_of_text(target);
-  if (known.empty()) known = mc::study_hash_of_hdf5(target);
-  if (known != hash)
-    throw InputError(
-        ExitCode::store,
-        fmt::format(
-            "{}: is there already, and is {} (expected a free name, or an earlier export of this "
-            "study). Choose another name with -o, or remove the file",
-            target, known.empty() ? "no export" : "the export of another study"));
+Stranger other_than(const std::string& hash) {
+  return [hash](const std::string& path) -> std::string {
+    std::string known = mc::study_hash_of_text(path);
+    if (known.empty()) known = mc::study_hash_of_hdf5(path);
+    if (known == hash) return {};
+    return known.empty() ? "no export" : "the export of another study";
+  };
 }
 
 }  // namespace
 
 ExitCode status(const std::string& folder, const StudyProgram& program) {
   mc::StudyReader reader(folder);
-  const mc::StudyWork work = program.work(frozen_study(folder, reader));
+  const auto [study, work] = frozen_study(folder, reader, program);
   const mc::StudyState state = mc::state_of(reader, work.stop_rules);
   const std::uint64_t total = state.asked * state.points.size();
-  fmt::print("{}: {} of {} runs, {} failed, {} of {} points complete\n", folder, state.runs, total,
-             state.failed, state.complete, state.points.size());
-  if (state.by_rule > 0) fmt::print("{}\n", state.ended_by_rule());
-  fmt::print("point       runs              failed            label\n");
+  show("{}: {} of {} runs, {} failed, {} of {} points complete\n", folder, state.runs, total,
+       state.failed, state.complete, state.points.size());
+  if (state.by_rule > 0) show("{}\n", state.ended_by_rule());
+  show("point       runs              failed            label\n");
   std::uint64_t left = 0;
   double cpu = 0.0;
   for (std::size_t p = 0; p < state.points.size(); ++p) {
     const mc::PointState& s = state.points[p];
-    fmt::print("{:>5}  {:>9} / {:<9} {:>7}  {:<9} {}\n", p, s.runs, state.asked, s.failed,
-               s.complete ? s.by_rule && s.runs < state.asked ? "stop rule" : "complete" : "",
-               reader.manifest().points[p].label);
+    show("{:>5}  {:>9} / {:<9} {:>7}  {:<9} {}\n", p, s.runs, state.asked, s.failed,
+         s.complete ? s.by_rule && s.runs < state.asked ? "stop rule" : "complete" : "",
+         reader.manifest().points[p].label);
     if (!s.complete) left += state.asked - s.runs;
     cpu += s.cpu_s;
   }
   if (left > 0 && state.runs > 0)
-    fmt::print("at most {} of CPU time to go\n",
-               duration_text(cpu / static_cast<double>(state.runs) * static_cast<double>(left)));
-  fmt::print("disk {:.3g} MB in {} worker files\n", megabytes(reader.files()),
-             reader.files().size());
+    show("at most {} of CPU time to go\n",
+         duration_text(cpu / static_cast<double>(state.runs) * static_cast<double>(left)));
+  show("disk {:.3g} MB in {} worker files\n", megabytes(reader.files()), reader.files().size());
   for (const mc::Session& s : reader.sessions())
-    fmt::print("session {} on {}, {}: {}\n", s.started_utc, fact(s, "host"),
-               std::filesystem::path(fact(s, "file")).filename().string(), ending(s));
-  for (const std::string& note : reader.notes()) fmt::print("damage: {}\n", note);
-  if (state.lost > 0) fmt::print("lost: {}\n", was_complete(reader, state));
+    show("session {} on {}, {}: {}\n", s.started_utc, fact(s, "host"),
+         std::filesystem::path(fact(s, "file")).filename().string(), ending(s));
+  for (const std::string& note : reader.notes()) show("damage: {}\n", note);
+  if (state.lost > 0) show("lost: {}\n", was_complete(reader, state));
   return ExitCode::ok;
 }
 
@@ -96,15 +91,14 @@ ExitCode verify(const std::string& folder, const std::string& sample, int thread
                 const StudyProgram& program) {
   const double share = parse_fraction("--sample", sample);
   mc::StudyReader reader(folder);
-  const mc::StudyWork work = program.work(frozen_study(folder, reader));
+  const auto [study, work] = frozen_study(folder, reader, program);
   const mc::Verification v = mc::verify(work, reader, share, threads);
-  fmt::print(
-      "{}: {} blocks with {} runs, {} missing; {} checksums verified, {} runs executed again\n",
-      folder, v.blocks, v.runs, v.missing, v.copies, v.recomputed);
-  for (const std::string& line : v.notes) fmt::print("damage: {}\n", line);
-  for (const std::string& line : v.damage) fmt::print("lost: {}\n", line);
-  for (const std::string& line : v.mismatch) fmt::print("mismatch: {}\n", line);
-  if (!v.digest.empty() && v.damage.empty()) fmt::print("results {}\n", v.digest);
+  show("{}: {} blocks with {} runs, {} missing; {} checksums verified, {} runs executed again\n",
+       folder, v.blocks, v.runs, v.missing, v.copies, v.recomputed);
+  for (const std::string& line : v.notes) show("damage: {}\n", line);
+  for (const std::string& line : v.damage) show("lost: {}\n", line);
+  for (const std::string& line : v.mismatch) show("mismatch: {}\n", line);
+  if (!v.digest.empty() && v.damage.empty()) show("results {}\n", v.digest);
   if (!v.mismatch.empty())
     throw InputError(
         ExitCode::self_check,
@@ -126,7 +120,7 @@ ExitCode verify(const std::string& folder, const std::string& sample, int thread
             "{}: holds no results, and does not say how many were asked for (expected blocks of "
             "runs). Run the study again with the same command",
             folder));
-  fmt::print("{}\n", v.missing > 0 ? "sound, not complete" : "sound and complete");
+  show("{}\n", v.missing > 0 ? "sound, not complete" : "sound and complete");
   return ExitCode::ok;
 }
 
@@ -136,11 +130,10 @@ ExitCode export_results(const std::string& folder, const std::string& format,
       output.empty() ? fmt::format("{}/export.{}", folder, format == "hdf5" ? "h5" : format)
                      : output;
   mc::StudyReader reader(folder);
-  const mc::Study study = frozen_study(folder, reader);
-  const mc::StudyWork work = program.work(study);
-  refuse_another(target, reader.manifest().hash);
+  const auto [study, work] = frozen_study(folder, reader, program);
+  require_output_file(target, {}, other_than(reader.manifest().hash));
   const mc::StudyState state = mc::state_of(reader, work.stop_rules);
-  for (const std::string& note : reader.notes()) fmt::print(stderr, "damage: {}\n", note);
+  for (const std::string& note : reader.notes()) say("damage: {}\n", note);
   if (state.lost > 0 || (!state.all() && !reader.notes().empty()))
     throw InputError(
         ExitCode::store,
@@ -150,8 +143,8 @@ ExitCode export_results(const std::string& folder, const std::string& format,
             folder,
             state.lost > 0 ? was_complete(reader, state) : "parts of the results are damaged"));
   if (!state.all())
-    fmt::print(stderr, "note: the study is not finished: {} of {} runs, {} of {} points complete\n",
-               state.runs, state.asked * state.points.size(), state.complete, state.points.size());
+    say("note: the study is not finished: {} of {} runs, {} of {} points complete\n", state.runs,
+        state.asked * state.points.size(), state.complete, state.points.size());
   std::vector<std::string> groups;
   if (format == "hdf5")
     groups =
@@ -159,8 +152,8 @@ ExitCode export_results(const std::string& folder, const std::string& format,
                         program.points ? program.points(study) : std::vector<mc::StudyPoint>{});
   if (format == "csv") mc::export_csv(reader, work.stop_rules, target);
   if (format == "json") mc::export_json(reader, work.stop_rules, target);
-  fmt::print("{}: {} runs, {:.3g} MB\n", target, state.runs, megabytes({target}));
-  if (!groups.empty()) fmt::print("groups: {}\n", fmt::join(groups, " "));
+  show("{}: {} runs, {:.3g} MB\n", target, state.runs, megabytes({target}));
+  if (!groups.empty()) show("groups: {}\n", fmt::join(groups, " "));
   return ExitCode::ok;
 }
 

@@ -1,14 +1,14 @@
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cerrno>
 #include <csignal>
-#include <cstdio>
 #include <exception>
 #include <functional>
-#include <system_error>
+#include <sstream>
 
 #include "analysis/cli/argument_checks.hpp"
 #include "analysis/cli/commands.hpp"
+#include "analysis/cli/not_known.hpp"
+#include "analysis/cli/print.hpp"
+#include "analysis/cli/tell_error.hpp"
 
 namespace {
 
@@ -105,28 +105,20 @@ class Program {
     try {
       app_.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
-      if (const std::string wrong = e.get_exit_code() == 0 ? "" : not_known(argc, argv);
+      if (const std::string wrong = e.get_exit_code() == 0 ? "" : cli::not_known(app_, argc, argv);
           !wrong.empty()) {
-        fmt::print(stderr, "error: {}\n", wrong);
+        cli::say("error: {}\n", wrong);
         return static_cast<int>(ExitCode::usage);
       }
-      return app_.exit(e) == 0 ? 0 : static_cast<int>(ExitCode::usage);
+      std::ostringstream out, err;
+      const int code = app_.exit(e, out, err);
+      cli::show_text(out.str());
+      cli::say_text(err.str());
+      return code == 0 ? 0 : static_cast<int>(ExitCode::usage);
     }
-    try {
-      const ExitCode code = chosen_();
-      if (std::fflush(stdout) != 0) throw std::system_error(errno, std::generic_category());
-      return static_cast<int>(code);
-    } catch (const std::system_error& e) {
-      if (e.code() == std::errc::broken_pipe) return 128 + SIGPIPE;  // the reader has seen enough
-      fmt::print(stderr,
-                 "error: standard output: {}. Results are incomplete; make room and run again\n",
-                 e.what());
-      return static_cast<int>(ExitCode::io);
-    } catch (const InputError& e) {
-      std::fflush(stdout);
-      for (const auto& message : e.messages()) fmt::print(stderr, "error: {}\n", message);
-      return static_cast<int>(e.code());
-    }
+    const ExitCode code = chosen_();
+    cli::flush_output();
+    return static_cast<int>(code);
   }
 
  private:
@@ -137,34 +129,6 @@ class Program {
 
   static std::function<std::string(std::string)> whole(std::uint64_t least, std::uint64_t most) {
     return [=](const std::string& text) { return cli::check_whole(text, least, most); };
-  }
-
-  /// The first command or option of the line that does not exist, with what may be meant; empty if
-  /// all do.
-  std::string not_known(int argc, char** argv) const {
-    const CLI::App* chosen = nullptr;
-    for (int i = 1; i < argc; ++i) {
-      const std::string word = argv[i];
-      if (chosen == nullptr && !word.starts_with('-')) {
-        std::vector<std::string> names;
-        for (const CLI::App* c : app_.get_subcommands(nullptr)) {
-          names.push_back(c->get_name());
-          if (c->get_name() == word) chosen = c;
-        }
-        if (chosen == nullptr)
-          return cli::unknown("command", word,
-                              std::vector<std::string_view>(names.begin(), names.end()));
-      } else if (word.starts_with("--") && word.size() > 2) {
-        const std::string given = word.substr(0, word.find('='));
-        std::vector<std::string> names;
-        for (const CLI::Option* o : (chosen != nullptr ? *chosen : app_).get_options(nullptr))
-          for (const std::string& name : o->get_lnames()) names.push_back("--" + name);
-        if (std::find(names.begin(), names.end(), given) == names.end())
-          return cli::unknown("option", given,
-                              std::vector<std::string_view>(names.begin(), names.end()));
-      }
-    }
-    return {};
   }
 
   CLI::App* command(const char* name, const char* what, const char* example,
@@ -303,9 +267,7 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an I/O error, not a crash
   try {
     return Program().run(argc, argv);
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "internal error: %s\nThis is a bug in driftscope; please report it.\n",
-                 e.what());
-    return static_cast<int>(drift::ExitCode::internal);
+  } catch (...) {
+    return cli::tell_error(std::current_exception());
   }
 }

@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <mutex>
 
+#include "analysis/cli/print.hpp"
+
 namespace drift::cli {
 namespace {
 
@@ -38,15 +40,12 @@ std::function<void(std::size_t, std::size_t)> progress_reporter(const std::strin
     const double since = std::chrono::duration<double>(now - state->last).count();
     const double left = elapsed * static_cast<double>(total - done) / static_cast<double>(done);
     if (json) {
-      fmt::print(
-          stderr,
-          "{{\"what\":\"{}\",\"done\":{},\"total\":{},\"elapsed_s\":{:.1f},\"eta_s\":{:.1f}}}\n",
+      say("{{\"what\":\"{}\",\"done\":{},\"total\":{},\"elapsed_s\":{:.1f},\"eta_s\":{:.1f}}}\n",
           what, done, total, elapsed, left);
     } else if (redraw) {
-      fmt::print(stderr, "\r{}: {}/{}, {:.0f} s left {}", what, done, total, left,
-                 done == total ? "\n" : "");
+      say("\r{}: {}/{}, {:.0f} s left {}", what, done, total, left, done == total ? "\n" : "");
     } else if (done == total || since > plain_interval) {
-      fmt::print(stderr, "{}: {}/{} in {:.1f} s\n", what, done, total, elapsed);
+      say("{}: {}/{} in {:.1f} s\n", what, done, total, elapsed);
       state->last = now;
     }
   };
@@ -72,17 +71,15 @@ std::function<void(const std::string&, double)> stage_reporter(const std::string
     const bool known = done > 0.02, over = percent >= 100;
     const double left = known ? elapsed * (1.0 - done) / done : 0.0;
     if (json) {
-      fmt::print(stderr,
-                 "{{\"what\":\"{}\",\"stage\":\"{}\",\"done\":{:.3f},\"elapsed_s\":{:.1f},\"eta_"
-                 "s\":{}}}\n",
-                 what, name, done, elapsed, known ? fmt::format("{:.1f}", left) : "null");
+      say("{{\"what\":\"{}\",\"stage\":\"{}\",\"done\":{:.3f},\"elapsed_s\":{:.1f},\"eta_"
+          "s\":{}}}\n",
+          what, name, done, elapsed, known ? fmt::format("{:.1f}", left) : "null");
     } else if (redraw) {
-      fmt::print(stderr, "\r{}: {}, {} %, {:.0f} s, {}          {}", what, name, percent, elapsed,
-                 known ? fmt::format("{:.0f} s left", left) : "", over ? "\n" : "");
-      std::fflush(stderr);
+      say("\r{}: {}, {} %, {:.0f} s, {}          {}", what, name, percent, elapsed,
+          known ? fmt::format("{:.0f} s left", left) : "", over ? "\n" : "");
     } else if (next || over || since > plain_interval) {
-      fmt::print(stderr, "{}: {}, {} % in {:.1f} s{}\n", what, name, percent, elapsed,
-                 known && !over ? fmt::format(", {:.0f} s left", left) : "");
+      say("{}: {}, {} % in {:.1f} s{}\n", what, name, percent, elapsed,
+          known && !over ? fmt::format(", {:.0f} s left", left) : "");
       state->last = now;
     }
   };

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "analysis/cli/print.hpp"
 #include "core/base/check.hpp"
 #include "core/recording/quality_card.hpp"
 
@@ -22,7 +23,7 @@ std::vector<Recording> read_recordings(const mc::Study& study,
   std::vector<Recording> recordings;
   for (const std::string& path : paths) {
     recordings.push_back(read_recording(path, study.kind, study.site.gravity));
-    fmt::print("{}\n", to_text(quality_card(recordings.back(), study.kind)));
+    show("{}\n", to_text(quality_card(recordings.back(), study.kind)));
   }
   return recordings;
 }

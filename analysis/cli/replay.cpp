@@ -3,14 +3,24 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
 
 #include "analysis/cli/commands.hpp"
 #include "analysis/cli/frozen_study.hpp"
+#include "analysis/cli/print.hpp"
 #include "core/base/atomic_file.hpp"
+#include "core/base/output_file.hpp"
 #include "mc/export/export_text.hpp"
 
 namespace drift::cli {
 namespace {
+
+std::string first_line(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string line;
+  std::getline(file, line);
+  return line;
+}
 
 /// The course of a run as CSV in the units of its columns.
 class CsvTrace : public mc::TraceSink {
@@ -30,6 +40,9 @@ class CsvTrace : public mc::TraceSink {
     std::string line;
     for (const mc::Column& c : columns)
       line += fmt::format("{}{} [{}]", line.empty() ? "" : ",", c.name, c.unit.symbol.view());
+    require_output_file(path_, {}, [&](const std::string& path) -> std::string {
+      return first_line(path) == line ? "" : "no trace of such a run";
+    });
     put(line + "\n");
   }
   void row(std::span<const double> values) override {
@@ -65,11 +78,11 @@ void print_row(const std::vector<mc::Column>& columns, const mc::Replay& r) {
   for (const mc::Column& c : columns) width = std::max(width, c.name.size());
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const double value = mc::in_column_unit(r.row[i], columns[i]);
-    fmt::print("{:<{}}  {:>24} {}", columns[i].name, width, fmt::format("{}", value),
-               columns[i].unit.symbol.view());
+    show("{:<{}}  {:>24} {}", columns[i].name, width, fmt::format("{}", value),
+         columns[i].unit.symbol.view());
     if (r.stored && !r.same && std::memcmp(&r.row[i], &r.stored_row[i], sizeof(double)) != 0)
-      fmt::print("   stored: {}", mc::in_column_unit(r.stored_row[i], columns[i]));
-    fmt::print("\n");
+      show("   stored: {}", mc::in_column_unit(r.stored_row[i], columns[i]));
+    show("\n");
   }
 }
 
@@ -78,7 +91,7 @@ void print_row(const std::vector<mc::Column>& columns, const mc::Replay& r) {
 ExitCode replay(const std::string& folder, const RunChoice& choice, const std::string& trace,
                 const StudyProgram& program) {
   mc::StudyReader reader(folder);
-  const mc::StudyWork work = program.work(frozen_study(folder, reader));
+  const auto [study, work] = frozen_study(folder, reader, program);
   if (choice.point >= work.points.size())
     throw InputError(ExitCode::usage,
                      fmt::format("--point {}: the study has points 0 to {}. Choose one of them",
@@ -95,21 +108,21 @@ ExitCode replay(const std::string& folder, const RunChoice& choice, const std::s
   if (!trace.empty()) sink.emplace(trace);
   const mc::Replay r = mc::replay(task, reader, choice.point, choice.run, sink ? &*sink : nullptr);
   print_row(task.columns(), r);
-  fmt::print("run {}: {}", choice.run, mc::name(r.outcome.status));
+  show("run {}: {}", choice.run, mc::name(r.outcome.status));
   if (r.outcome.status != mc::RunStatus::ok)
-    fmt::print(" at t = {:.6g} s: {}", r.outcome.t_failed, r.outcome.cause);
-  fmt::print("; CPU time {:.3g} s, of it integration {:.3g} s, filters {:.3g} s\n",
-             r.outcome.total_s, r.outcome.integration_s, r.outcome.filter_s);
+    show(" at t = {:.6g} s: {}", r.outcome.t_failed, r.outcome.cause);
+  show("; CPU time {:.3g} s, of it integration {:.3g} s, filters {:.3g} s\n", r.outcome.total_s,
+       r.outcome.integration_s, r.outcome.filter_s);
   if (sink && sink->begun()) {
     sink->commit();
-    fmt::print("trace: {} samples in {}\n", sink->rows(), trace);
+    show("trace: {} samples in {}\n", sink->rows(), trace);
   } else if (sink) {
-    fmt::print(stderr, "note: runs of this study have no trace; {} is not written\n", trace);
+    say("note: runs of this study have no trace; {} is not written\n", trace);
   }
   if (!r.stored) {
-    fmt::print("{}: the run is not stored yet; executed anew, nothing to compare with\n", folder);
+    show("{}: the run is not stored yet; executed anew, nothing to compare with\n", folder);
   } else if (r.same) {
-    fmt::print("{}: equal to the stored result, bit for bit\n", folder);
+    show("{}: equal to the stored result, bit for bit\n", folder);
   } else {
     throw InputError(
         ExitCode::self_check,

@@ -2,6 +2,7 @@
 
 #include "analysis/cli/commands.hpp"
 #include "analysis/cli/frozen_study.hpp"
+#include "analysis/cli/print.hpp"
 #include "core/base/results_folder.hpp"
 
 namespace drift::cli {
@@ -15,9 +16,10 @@ ExitCode report(const std::string& folder, const StudyProgram& program) {
                     "blind wrote). Give the folder named with -o",
                     folder));
   if (command == "run") {  // made anew, of as many runs as there are
+    require_results_folder({folder, "run"});
     mc::StudyReader reader(folder);
-    const mc::Study study = frozen_study(folder, reader);
-    program.present(study, program.work(study), reader, folder);
+    const auto [study, work] = frozen_study(folder, reader, program);
+    program.present(study, work, reader, folder);
     return ExitCode::ok;
   }
   const std::string file = (std::filesystem::path(folder) / "report.html").string();
@@ -27,7 +29,7 @@ ExitCode report(const std::string& folder, const StudyProgram& program) {
         fmt::format("{}: report.html is gone (expected beside the results of `{}`). The same "
                     "`driftscope {}` command writes it again",
                     folder, command, command));
-  fmt::print("{}\n", file);
+  show("{}\n", file);
   return ExitCode::ok;
 }
 

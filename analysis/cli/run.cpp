@@ -6,6 +6,7 @@
 
 #include "analysis/cli/commands.hpp"
 #include "analysis/cli/frozen_study.hpp"
+#include "analysis/cli/print.hpp"
 #include "analysis/cli/run_options.hpp"
 #include "analysis/cli/run_progress.hpp"
 #include "core/base/results_folder.hpp"
@@ -43,7 +44,7 @@ void dry_run(const mc::StudyWork& work, const mc::Manifest& manifest,
   const int threads = options.threads > 0 ? options.threads : omp_get_max_threads();
   const double runs = static_cast<double>(options.runs) * static_cast<double>(work.points.size());
   const double each = seconds / static_cast<double>(probes);
-  fmt::print(
+  show(
       "folder           {}\nstudy points     {}\nruns             {} ({} per point, in {} blocks "
       "of {})\n"
       "numbers per run  {}\nestimated time   {} with {} threads ({:.3g} s per run, {} runs tried)\n"
@@ -52,7 +53,7 @@ void dry_run(const mc::StudyWork& work, const mc::Manifest& manifest,
       manifest.identity.block_size, manifest.points.front().columns.size(),
       duration_text(runs * each / threads), threads, each, probes, 1.1 * bytes / 1e6);
   for (std::size_t p = 0; p < work.points.size(); ++p)
-    if (!work.points[p].label.empty()) fmt::print("point {:<4} {}\n", p, work.points[p].label);
+    if (!work.points[p].label.empty()) show("point {:<4} {}\n", p, work.points[p].label);
 }
 
 std::string blocks_text(std::size_t n) {
@@ -61,33 +62,30 @@ std::string blocks_text(std::size_t n) {
 
 /// What happened, for people; on stderr, where results are not.
 void tell(const mc::StudyOutcome& o, const mc::EngineOptions& asked, const std::string& folder) {
-  for (const std::string& note : o.notes) fmt::print(stderr, "note: {}\n", note);
+  for (const std::string& note : o.notes) say("note: {}\n", note);
   const double rate = o.seconds > 0.0 ? static_cast<double>(o.done) / o.seconds : 0.0;
-  fmt::print(stderr, "{}: {} runs stored before, {} executed in {} ({:.1f} runs/s), {} failed\n",
-             folder, o.done_before, o.done, duration_text(o.seconds), rate, o.failed);
+  say("{}: {} runs stored before, {} executed in {} ({:.1f} runs/s), {} failed\n", folder,
+      o.done_before, o.done, duration_text(o.seconds), rate, o.failed);
   if (o.cut_short > 0)
-    fmt::print(stderr,
-               "{}: {} runs more were stored in blocks that the shorter study before ended within; "
-               "they were executed again "
-               "with the rest of their blocks\n",
-               folder, o.cut_short);
+    say("{}: {} runs more were stored in blocks that the shorter study before ended within; "
+        "they were executed again "
+        "with the rest of their blocks\n",
+        folder, o.cut_short);
   if (o.stored_runs > asked.runs)
-    fmt::print(stderr,
-               "{}: note: {} runs per point were asked for before, {} now; the results are those "
-               "of all that is stored. "
-               "Choose another folder for a shorter study\n",
-               folder, o.stored_runs, asked.runs);
+    say("{}: note: {} runs per point were asked for before, {} now; the results are those "
+        "of all that is stored. "
+        "Choose another folder for a shorter study\n",
+        folder, o.stored_runs, asked.runs);
   if (!o.complete && o.missing_own > 0)
-    fmt::print(stderr, "{}: missing: {}{}. The same command goes on with them\n", folder,
-               blocks_text(o.missing_own),
-               asked.share.count > 1 ? fmt::format(" of this worker's part {}/{}",
-                                                   asked.share.index, asked.share.count)
-                                     : "");
+    say("{}: missing: {}{}. The same command goes on with them\n", folder,
+        blocks_text(o.missing_own),
+        asked.share.count > 1
+            ? fmt::format(" of this worker's part {}/{}", asked.share.index, asked.share.count)
+            : "");
   if (!o.complete && o.missing > o.missing_own)
-    fmt::print(stderr,
-               "{}: missing: {} of the other workers' parts. They, or `run` without --worker, go "
-               "on with them\n",
-               folder, blocks_text(o.missing - o.missing_own));
+    say("{}: missing: {} of the other workers' parts. They, or `run` without --worker, go "
+        "on with them\n",
+        folder, blocks_text(o.missing - o.missing_own));
 }
 
 void list_failures(mc::StudyReader& reader, const mc::StopRules& rules, const std::string& folder) {
@@ -96,17 +94,15 @@ void list_failures(mc::StudyReader& reader, const mc::StopRules& rules, const st
   reader.each_result(rules, [&](const mc::StoredBlock& b) {
     for (const mc::Failure& f : b.failures)
       if (++count <= most)
-        fmt::print(stderr,
-                   "failed: point {}, run {}: {} at t = {:.6g} s: {}. Look closer: driftscope "
-                   "replay {} --run {}{}\n",
-                   b.block.point, f.run, mc::name(f.status), f.t, f.cause, folder, f.run,
-                   b.block.point > 0 ? fmt::format(" --point {}", b.block.point) : "");
+        say("failed: point {}, run {}: {} at t = {:.6g} s: {}. Look closer: driftscope "
+            "replay {} --run {}{}\n",
+            b.block.point, f.run, mc::name(f.status), f.t, f.cause, folder, f.run,
+            b.block.point > 0 ? fmt::format(" --point {}", b.block.point) : "");
   });
   if (count > most)
-    fmt::print(stderr,
-               "failed: ... and {} more; `sqlite3 {}/worker-*.sqlite 'SELECT * FROM failures'` "
-               "lists all\n",
-               count - most, folder);
+    say("failed: ... and {} more; `sqlite3 {}/worker-*.sqlite 'SELECT * FROM failures'` "
+        "lists all\n",
+        count - most, folder);
 }
 
 }  // namespace
@@ -136,9 +132,15 @@ ExitCode run(const StudyArguments& arguments, const RunArguments& given,
     throw InputError(ExitCode::usage,
                      "--worker: mpirun shares out the work already (expected one or the other). "
                      "Leave out --worker");
-  require_own_folder(folder, "run");
+  require_results_folder({folder, "run"});
   mc::claim_folder(folder, manifest);
-  if (ranks.leader()) fmt::print(stderr, "results go to {}\n", folder);
+  begin_results({folder, "run"});
+  const std::string aside = ranks.leader() ? mend_study(folder, manifest) : "";
+  if (!aside.empty())
+    say("note: {}/study.toml was not that of the study: written anew, what was there is kept "
+        "as {}\n",
+        folder, aside);
+  if (ranks.leader()) say("results go to {}\n", folder);
   const mc::StudyOutcome outcome =
       mc::run_study(work, options, folder, manifest, ranks, run_progress(arguments.progress));
   if (!outcome.leader) return outcome.code;
@@ -146,12 +148,12 @@ ExitCode run(const StudyArguments& arguments, const RunArguments& given,
   mc::StudyReader reader(folder);
   if (outcome.failed > 0) list_failures(reader, work.stop_rules, folder);
   if (!outcome.complete) return outcome.code;
-  fmt::print("runs {}, failed {} (allowed {})\nresults {}\n", outcome.results, outcome.failed,
-             options.allowed_failures, outcome.digest);
+  show("runs {}, failed {} (allowed {})\nresults {}\n", outcome.results, outcome.failed,
+       options.allowed_failures, outcome.digest);
   if (work.stop_rules)
     if (const std::string ended = mc::state_of(reader, work.stop_rules).ended_by_rule();
         !ended.empty())
-      fmt::print("{}\n", ended);
+      show("{}\n", ended);
   if (outcome.code == ExitCode::ok || outcome.code == ExitCode::failed_runs)
     program.present(study, work, reader, folder);
   return outcome.code;

@@ -8,6 +8,8 @@
 #include <cstdio>
 #include <memory>
 
+#include "analysis/cli/print.hpp"
+
 namespace drift::cli {
 namespace {
 
@@ -40,19 +42,18 @@ mc::ProgressSink run_progress(const std::string& style) {
     const double left = complete ? 0.0 : static_cast<double>(p.total - p.done) / rate;
     if (json) {
       const std::string eta = std::isfinite(left) ? fmt::format("{:.1f}", left) : "null";
-      fmt::print(stderr,
-                 "{{\"done\":{},\"total\":{},\"failed\":{},\"runs_per_s\":{:.2f},\"elapsed_s\":{:."
-                 "1f},\"eta_s\":{}}}\n",
-                 p.done, p.total, p.failed, rate, p.elapsed, eta);
+      say("{{\"done\":{},\"total\":{},\"failed\":{},\"runs_per_s\":{:.2f},\"elapsed_s\":{:."
+          "1f},\"eta_s\":{}}}\n",
+          p.done, p.total, p.failed, rate, p.elapsed, eta);
       return;
     }
     const std::string line =
         fmt::format("{}/{} runs, {} failed, {:.1f} runs/s, {}", p.done, p.total, p.failed, rate,
                     complete ? "took " + duration_text(p.elapsed) : duration_text(left) + " left");
     if (redraw) {
-      fmt::print(stderr, "\r{:<76}{}", line, complete ? "\n" : "");
+      say("\r{:<76}{}", line, complete ? "\n" : "");
     } else {
-      fmt::print(stderr, "{}\n", line);
+      say("{}\n", line);
     }
   };
 }

@@ -1,15 +1,19 @@
 #include "core/sim/simulate.hpp"
 
 #include "analysis/cli/commands.hpp"
+#include "analysis/cli/print.hpp"
+#include "core/base/output_file.hpp"
+#include "core/base/utf8.hpp"
 #include "core/recording/quality_card.hpp"
+#include "core/recording/recording_output.hpp"
 
 namespace drift::cli {
 namespace {
 
 /// What a reader of the recording must know to repeat it.
 void add_facts(Recording& recording, const mc::Study& study, std::uint64_t run) {
-  recording.facts = {{"driftscope recording", study.title},
-                     {"study", study.path},
+  recording.facts = {{std::string(made_here), study.title},
+                     {"study", utf8_text(study.path)},
                      {"seed", std::to_string(study.monte_carlo.seed)},
                      {"run", std::to_string(run)},
                      {"random_numbers", Stream::scheme}};
@@ -34,6 +38,9 @@ ExitCode simulate(const StudyArguments& arguments, const std::string& output, st
         fmt::format("{}: the loop of [truth] is fed back from a filter, so there is no recording "
                     "without one. Use `driftscope identify`, or truth.loop.estimate = \"given\"",
                     study.path));
+  require_output_file(output, {study.path}, [](const std::string& path) -> std::string {
+    return is_made_here(path) ? "" : "no recording that driftscope made";
+  });
   Timeline timeline = lay_out(study.plan, study.site);
   set_loop(timeline, study.truth);
   set_environment(timeline, study.environment, study.monte_carlo.seed, run);
@@ -47,7 +54,7 @@ ExitCode simulate(const StudyArguments& arguments, const std::string& output, st
   add_facts(recording, study, run);
   write_recording(recording, output);
   recording.source = output;
-  fmt::print("{}", to_text(quality_card(recording, RecordingKind::platform)));
+  show("{}", to_text(quality_card(recording, RecordingKind::platform)));
   return ExitCode::ok;
 }
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <memory>
 
-#include "analysis/report/study/html.hpp"
-#include "analysis/report/study/information.hpp"
+#include "analysis/cli/print.hpp"
+#include "analysis/report/study/report.hpp"
 #include "mc/statistics/stop_rule.hpp"
 #include "mc/store/provenance.hpp"
 #include "mc/task/study_task.hpp"
@@ -54,16 +54,16 @@ void present(const mc::Study& study, const mc::StudyWork& work, mc::StudyReader&
   });
   for (const auto& [point, run] : report::runs_to_trace(results))
     results.traces.push_back({point, run, mc::trace_run(results.points[point].study, run)});
-  results.further = report::information_sections(results, 0);
+  results.information = report::information_section(results, 0);
   results.provenance = mc::provenance();
   results.provenance.emplace_back("study hash", reader.manifest().hash);
   results.provenance.emplace_back("results", mc::results_digest(reader, work.stop_rules));
   add_speed(reader, results.provenance);
-  fmt::print("\n{}", report::study_text(results));
+  const report::Report said = report::study_report(results);
+  show("\n{}", report::to_text(said, report::study_width));
   if (!results.provenance.empty() && results.provenance.back().first == "speed")
-    fmt::print("\nspeed: {}\n", results.provenance.back().second);
-  fmt::print("\nWritten to {}: {}\n", folder,
-             fmt::join(report::write_study_report(results, folder), " "));
+    show("\nspeed: {}\n", results.provenance.back().second);
+  show("\nWritten to {}: {}\n", folder, fmt::join(report::write_report(said, folder), " "));
 }
 
 }  // namespace

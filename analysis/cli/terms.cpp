@@ -1,4 +1,5 @@
 #include "analysis/cli/commands.hpp"
+#include "analysis/cli/print.hpp"
 #include "core/config/nearest.hpp"
 #include "core/physics/term_library.hpp"
 
@@ -48,15 +49,14 @@ std::string grid_text(const ParamSpec& spec) {
 }
 
 void explain(const TermInfo& term) {
-  fmt::print("{}: {}\n  equation  {}\n  source    {}\n  acts on   {}\n  needs     {}\n", term.key,
-             term.title, term.equation, term.source, acts_on(term), asks_for(term));
-  if (term.memory > 0)
-    fmt::print("  memory    {} states, carried along the nominal path\n", term.memory);
-  fmt::print("  {:<14} {:<14} {:<18} {}\n", "parameter", "unit", "default prior", "enters");
+  show("{}: {}\n  equation  {}\n  source    {}\n  acts on   {}\n  needs     {}\n", term.key,
+       term.title, term.equation, term.source, acts_on(term), asks_for(term));
+  if (term.memory > 0) show("  memory    {} states, carried along the nominal path\n", term.memory);
+  show("  {:<14} {:<14} {:<18} {}\n", "parameter", "unit", "default prior", "enters");
   for (std::size_t i = term.first; i < term.first + term.count; ++i) {
     const ParamSpec& spec = TermLibrary::specs[i];
-    fmt::print("  {:<14} {:<14} {:<18} {}{}\n", spec.key.view(), spec.unit.symbol.view(),
-               prior_text(spec), spec.enters, grid_text(spec));
+    show("  {:<14} {:<14} {:<18} {}{}\n", spec.key.view(), spec.unit.symbol.view(),
+         prior_text(spec), spec.enters, grid_text(spec));
   }
 }
 
@@ -64,11 +64,11 @@ void explain(const TermInfo& term) {
 
 ExitCode terms(const std::string& key) {
   if (key.empty()) {
-    fmt::print("{:<26} {:>3}  {}\n", "term", "par", "equation");
+    show("{:<26} {:>3}  {}\n", "term", "par", "equation");
     for (const TermInfo& term : TermLibrary::terms)
-      fmt::print("{:<26} {:>3}  {}\n", term.key, term.count, term.equation);
-    fmt::print("{} terms, {} parameters. `driftscope terms KEY` explains a term or a parameter.\n",
-               TermLibrary::num_terms, TermLibrary::num_params);
+      show("{:<26} {:>3}  {}\n", term.key, term.count, term.equation);
+    show("{} terms, {} parameters. `driftscope terms KEY` explains a term or a parameter.\n",
+         TermLibrary::num_terms, TermLibrary::num_params);
     return ExitCode::ok;
   }
   if (const auto t = TermLibrary::find_term(key)) {

@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/cli/commands.hpp"
+#include "analysis/cli/print.hpp"
 #include "core/base/build_info.hpp"
 #include "core/base/rng.hpp"
 
@@ -27,15 +28,15 @@ nlohmann::ordered_json facts() {
 ExitCode version(bool json) {
   const auto j = facts();
   if (json) {
-    fmt::print("{}\n", j.dump(2));
+    show("{}\n", j.dump(2));
     return ExitCode::ok;
   }
-  const auto print = [](const nlohmann::ordered_json& table) {
+  const auto list = [](const nlohmann::ordered_json& table) {
     for (const auto& [key, value] : table.items())
-      if (value.is_string()) fmt::print("{:<16} {}\n", key, value.get<std::string>());
+      if (value.is_string()) show("{:<16} {}\n", key, value.get<std::string>());
   };
-  print(j);
-  print(j["libraries"]);
+  list(j);
+  list(j["libraries"]);
   return ExitCode::ok;
 }
 

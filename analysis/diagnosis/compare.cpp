@@ -6,6 +6,7 @@
 
 #include "analysis/inference/whiteness.hpp"
 #include "core/estimate/start_consistency.hpp"
+#include "core/stats/chi_square_band.hpp"
 
 namespace drift::diagnosis {
 namespace {
@@ -55,9 +56,9 @@ double start_spread(const std::vector<BatchResult>& fits) {
   return largest;
 }
 
-FitComparison compare(const search::Examination& nominal, const search::Refit* patched,
+FitComparison compare(const search::Fitted& nominal, const search::Refit* patched,
                       int whiteness_draws) {
-  const search::Examination& after = patched ? patched->after : nominal;
+  const search::Fitted& after = patched ? patched->after : nominal;
   FitComparison c;
   c.dof = nominal.fit.estimate.measured;
   // Cost (data and prior) is chi-square of as many degrees as there are scalars.
@@ -66,28 +67,20 @@ FitComparison compare(const search::Examination& nominal, const search::Refit* p
   const auto n = static_cast<double>(c.dof);
   c.chi2_per_dof_before = c.chi2_before / n;
   c.chi2_per_dof_after = c.chi2_after / n;
-  const double h = 2.0 / (9.0 * n);  // Wilson-Hilferty
-  c.band_low = std::pow(1.0 - h - 1.96 * std::sqrt(h), 3.0);
-  c.band_high = std::pow(1.0 - h + 1.96 * std::sqrt(h), 3.0);
-  // One noise for both, the candidates' columns left out but those of the cause.
-  std::vector<int> columns;
-  if (patched)
-    for (const search::Choice& choice : patched->choices) {
-      const auto& more = nominal.set.candidates[choice.candidate].variants[choice.variant].columns;
-      columns.insert(columns.end(), more.begin(), more.end());
-    }
-  inference::LinearProblem problem = nominal.problem;
-  problem.extra = nominal.problem.extra(Eigen::all, columns);
-  const inference::Projector before(problem, after.noise.model);
+  const stats::Band band = stats::chi_square_band(n);
+  c.band_low = band.low;
+  c.band_high = band.high;
+  // One noise for both.
+  const inference::Projector before(nominal.problem, after.noise.model);
   const auto per_row = [](const inference::Projector& p) {
-    return p.candidates().chi2 /
-           static_cast<double>(std::max<Eigen::Index>(1, p.candidates().rows));
+    return p.marginal().chi2 / static_cast<double>(std::max<Eigen::Index>(1, p.marginal().rows));
   };
   c.whiteness.nis_per_dof_before = per_row(before);
   c.whiteness.nis_per_dof_after = per_row(*after.projector);
   c.whiteness.ljung_box_p_before = c.whiteness.ljung_box_p_after = std::nan("");
   if (whiteness_draws > 0) {
-    c.whiteness.ljung_box_p_before = inference::whiteness_p(problem, before, 10, whiteness_draws);
+    c.whiteness.ljung_box_p_before =
+        inference::whiteness_p(nominal.problem, before, 10, whiteness_draws);
     c.whiteness.ljung_box_p_after =
         patched ? inference::whiteness_p(after.problem, *after.projector, 10, whiteness_draws)
                 : c.whiteness.ljung_box_p_before;
@@ -95,8 +88,9 @@ FitComparison compare(const search::Examination& nominal, const search::Refit* p
   c.residual_before = residuals(nominal.fit);
   c.residual_after = residuals(after.fit);
   if (!patched) return c;
-  const inference::Projected& p = before.candidates();
-  c.log_likelihood_ratio = p.chi2 - after.projector->candidates().chi2;
+  c.log_likelihood_ratio = before.marginal().chi2 - after.projector->marginal().chi2;
+  const std::vector<int> columns = search::columns_of(nominal.set, patched->choices);
+  const inference::Projected p = before.candidates(columns);
   std::vector<int> own(columns.size());
   std::iota(own.begin(), own.end(), 0);
   c.linear_T = inference::make_contrast(p.C, p.raw, own).T(p.g);

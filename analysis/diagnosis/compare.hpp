@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/diagnosis/diagnosis.hpp"
+#include "analysis/diagnosis/findings/diagnosis.hpp"
 #include "analysis/search/refit.hpp"
 
 namespace drift::diagnosis {
@@ -8,7 +8,7 @@ namespace drift::diagnosis {
 /// In-sample comparison of two models on one test; without `patched` the fields "after" repeat
 /// "before". Innovations of both are judged under one noise, the second's, which has no misfit in
 /// it; so is what the score foretold. Held-out prediction and start spread are filled in elsewhere.
-FitComparison compare(const search::Examination& nominal, const search::Refit* patched,
+FitComparison compare(const search::Fitted& nominal, const search::Refit* patched,
                       int whiteness_draws);
 
 /// Largest start-consistency ratio over the parameters of fits of one model from several starts (at

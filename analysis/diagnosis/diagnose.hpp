@@ -2,9 +2,9 @@
 
 #include <span>
 
-#include "analysis/diagnosis/diagnosis.hpp"
+#include "analysis/diagnosis/findings/diagnosis.hpp"
 #include "analysis/diagnosis/held_out.hpp"
-#include "analysis/diagnosis/recovered.hpp"
+#include "analysis/diagnosis/located.hpp"
 #include "analysis/diagnosis/stages.hpp"
 #include "analysis/search/search.hpp"
 #include "mc/study/study.hpp"
@@ -15,13 +15,12 @@ namespace drift::diagnosis {
 struct DiagnoseOptions {
   search::SearchOptions search;
   FoldMethod folds = FoldMethod::refitted;
-  int starts = 3;             ///< fits for the start spread, prior mean and drawn; below 2: none
-  bool signals = true;        ///< recover the missing input as a time series
+  int starts = 3;  ///< fits for the start spread, prior mean and drawn; below 2: none
+  Signals signals = Signals::recovered;  ///< the missing input as a time series
   int whiteness_draws = 399;  ///< of the null distribution of the whiteness test; 0: not tested
   int threads = 0;            ///< 0: all; what is found does not depend on it
   StageReport progress;
-  bool named_needs_held_out =
-      true;  ///< a cause is named only if held-out positions are predicted better
+  NamedBy named_by = NamedBy::held_out;
 };
 
 /// Compares recordings with the study's first filter (the nominal model): is there missing physics,
@@ -33,8 +32,9 @@ Diagnosis diagnose(const mc::Study& study, const std::vector<Recording>& recordi
 
 /// The same on a test that is laid out already. starts: initial estimates of the nominal filter
 /// beside its prior means. recording_ends: interval behind the last of each recording, if several.
-Diagnosis diagnose(const FilterSpec& nominal, const inference::Test& test,
-                   std::span<const Theta> starts, const std::vector<Covariate>& covariates,
+Diagnosis diagnose(const FilterSpec& nominal, const MeasuredTest& test,
+                   std::span<const Theta> starts,
+                   const std::vector<preparation::Covariate>& covariates,
                    const DiagnoseOptions& options = {},
                    const std::vector<std::size_t>& recording_ends = {});
 

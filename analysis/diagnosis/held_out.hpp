@@ -2,8 +2,8 @@
 
 #include <functional>
 
-#include "analysis/diagnosis/diagnosis.hpp"
-#include "analysis/search/examination.hpp"
+#include "analysis/diagnosis/findings/fit_comparison.hpp"
+#include "analysis/search/fitted.hpp"
 
 namespace drift::diagnosis {
 
@@ -24,28 +24,16 @@ struct FoldOptions {
 
 /// Predicts every position from all the others, with the nominal and with the patched model; where
 /// there are several recordings, every recording from the others too, its initial attitudes alone
-/// unknown beyond their posterior (discovery.md 2.6).
-///
-/// log p(y_p | y_rest) = log p(y) - log p(y_rest), parameters and attitudes marginalised;
-/// chi-square likewise. Nested: the cause is chosen anew from the rest alone (discovery.md 0.9),
-/// the nominal model where nothing there is significant.
-HeldOut held_out(const search::Examination& nominal, const search::Examination& patched,
-                 const inference::Test& test, const std::vector<std::size_t>& named,
+/// unknown beyond their posterior (discovery.md 2.6; predictor.hpp). Nested: the cause is chosen
+/// anew from the rest alone (discovery.md 0.9), the nominal model where nothing there is
+/// significant.
+HeldOut held_out(const search::Fitted& nominal, const search::Fitted& patched,
+                 const MeasuredTest& test, const std::vector<std::size_t>& named,
                  double library_threshold, const FoldOptions& options);
-
-/// What the log score must gain for a cause to be kept: less is no prediction.
-inline constexpr double least_held_out_gain = 1.0;
 
 /// Gain of the log score over all positions, each predicted from the others, of one fitted model
 /// over another of the same test; by conditioning the linearised tests, under the noise of the
 /// second.
-double held_out_gain(const search::Examination& before, const search::Examination& after);
-
-/// A linear problem without the rows of the intervals that are marked.
-inference::LinearProblem without_intervals(const inference::LinearProblem& problem,
-                                           const std::vector<bool>& left_out);
-
-/// Measurements with those of the marked intervals taken out.
-Measurements without_intervals(const Measurements& measured, const std::vector<bool>& left_out);
+double held_out_gain(const search::Fitted& before, const search::Fitted& after);
 
 }  // namespace drift::diagnosis

@@ -46,7 +46,7 @@ void sort_by_share(std::vector<Share>& shares) {
 
 }  // namespace
 
-const inference::Window* strongest_window(const search::Examination& e) {
+const inference::Window* strongest_window(const search::Fitted& e) {
   const inference::Window* best = nullptr;
   double T = 0.0;
   for (const inference::PositionScan& s : e.scans)
@@ -69,27 +69,22 @@ VecX signature_of(const inference::Projector& projector,
   return projector.clean_extra(columns) * amplitude;
 }
 
-VecX signature_of(const inference::LinearProblem& problem, const Timeline& timeline,
+VecX signature_of(const inference::MeasuredRows& rows, const Timeline& timeline,
                   const inference::Projector& projector, const inference::Window& window) {
-  inference::LinearProblem one = problem;
-  one.extra.resize(problem.rows(), 1);
-  one.extra.col(0) = inference::window_signature(problem, timeline, window, 0, problem.rows());
+  MatX box = inference::window_signature(rows, timeline, window, 0, rows.rows());
   // What the box does after its chain has ended is nothing.
   const int chain = timeline.intervals[window.first].chain;
-  for (Eigen::Index k = 0; k < problem.rows(); ++k)
-    if (timeline.intervals[problem.tags[k].interval].chain != chain) one.extra(k, 0) = 0.0;
-  const double norm = one.extra.norm();
-  if (norm > 0.0) one.extra /= norm;
-  const inference::Whitener* w = projector.whitener();
-  const inference::Projector with(projector.theta(), w ? w->apply(one.extra) : one.extra,
-                                  projector.r0(), 0.0);
-  const inference::Projected& p = with.candidates();
-  return p.C(0, 0) > 0.0 ? VecX(with.clean_extra({0}) * (p.g[0] / p.C(0, 0)))
-                         : VecX::Zero(problem.rows());
+  for (Eigen::Index k = 0; k < rows.rows(); ++k)
+    if (timeline.intervals[rows.tags[k].interval].chain != chain) box(k, 0) = 0.0;
+  const double norm = box.norm();
+  if (norm > 0.0) box /= norm;
+  const inference::Projector::Scan p = projector.scan(box, 0);
+  if (!(p.C(0, 0) > 0.0)) return VecX::Zero(rows.rows());
+  return projector.clean(projector.whitener().apply(box)) * (p.g[0] / p.C(0, 0));
 }
 
-Where locate(const search::Examination& e, const search::Nulls& nulls, const VecX& signature,
-             std::size_t most_windows) {
+Where locate(const search::Fitted& e, const search::ChanceThresholds& thresholds,
+             const VecX& signature, std::size_t most_windows) {
   Where out;
   out.channel_names.assign(std::begin(channel_names), std::end(channel_names));
   const VecX residual = e.projector->clean_residual();
@@ -123,7 +118,7 @@ Where locate(const search::Examination& e, const search::Nulls& nulls, const Vec
     for (std::size_t k = 0; k < scan.windows.size(); ++k) {
       ++out.windows_tried;
       const double s = stats::strength(scan.T[k], 1);
-      if (s < nulls.scan_threshold) continue;
+      if (s < thresholds.scan_threshold) continue;
       const inference::Window& w = scan.windows[k];
       ScanHit hit;
       hit.equation = inference::equation_name(w.equation, w.axis);
@@ -134,7 +129,7 @@ Where locate(const search::Examination& e, const search::Nulls& nulls, const Vec
       hit.amplitude = scan.scan.g[k] / C * w.unit;
       hit.sigma = w.unit / std::sqrt(C);
       hit.T = scan.T[k];
-      hit.p_value = nulls.scan.p_value(s);
+      hit.p_value = thresholds.scan.p_value(s);
       hits.push_back(hit);
     }
   std::stable_sort(hits.begin(), hits.end(),
@@ -149,7 +144,7 @@ Where locate(const search::Examination& e, const search::Nulls& nulls, const Vec
   double strongest = 0.0;
   for (const inference::PositionScan& s : e.scans)
     for (const double T : s.T) strongest = std::max(strongest, stats::strength(T, 1));
-  out.scan_p_value = nulls.scan.p_value(strongest);
+  out.scan_p_value = thresholds.scan.p_value(strongest);
   return out;
 }
 

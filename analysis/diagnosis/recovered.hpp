@@ -1,21 +1,16 @@
 #pragma once
 
-#include "analysis/diagnosis/diagnosis.hpp"
-#include "analysis/search/examination.hpp"
+#include "analysis/diagnosis/findings/recovered_signal.hpp"
+#include "analysis/preparation/covariates.hpp"
+#include "analysis/search/fitted.hpp"
 
 namespace drift::diagnosis {
-
-/// What a test tells beside the platform's own channels, one value per interval.
-struct Covariate {
-  std::string name;
-  std::vector<double> value;
-};
 
 /// A missing input as a time series: one unknown constant per bin of time in one equation, smooth
 /// (Ornstein-Uhlenbeck prior whose size and time constant maximise the likelihood), parameters and
 /// attitudes marginalised. What fitted parameters can absorb is not recovered (discovery.md 2.4 b).
 struct InputEstimate {
-  inference::Window::Equation equation = inference::Window::Equation::rate;
+  inference::Equation equation = inference::Equation::rate;
   int axis = 0;
   std::vector<std::pair<std::size_t, std::size_t>> bins;  ///< intervals of each
   VecX value, sigma;                                      ///< of each bin, SI
@@ -27,14 +22,14 @@ struct InputEstimate {
 };
 
 /// The same for each of the twelve equations, best first. per_position: bins of each position.
-std::vector<InputEstimate> estimate_inputs(const inference::LinearProblem& problem,
+std::vector<InputEstimate> estimate_inputs(const inference::MeasuredRows& rows,
                                            const Timeline& timeline,
                                            const inference::Projector& projector, int per_position);
 
 /// As a time series with a description of its shape. cause: candidate columns with amplitudes whose
 /// signature is drawn over it; may be empty.
 RecoveredSignal recovered_signal(const InputEstimate& input, const Timeline& timeline,
-                                 const std::vector<Covariate>& covariates,
+                                 const std::vector<preparation::Covariate>& covariates,
                                  const std::vector<std::pair<int, double>>& cause);
 
 }  // namespace drift::diagnosis

@@ -1,24 +1,22 @@
 #include "analysis/diagnosis/site_doubt.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
 #include <limits>
 
-#include "analysis/identification/recorded_test.hpp"
 #include "analysis/inference/signatures.hpp"
+#include "analysis/inference/thresholds.hpp"
+#include "analysis/preparation/recorded_test.hpp"
 #include "core/base/check.hpp"
 #include "mc/task/campaign.hpp"
 
 namespace drift::diagnosis {
 namespace {
 
-constexpr auto d_lat = TermLibrary::index("d_lat");
-constexpr double beyond_survey = 3.0;  // prior sigmas
-constexpr double most_of_it = 0.9;     // of the excess of chi-square
+using inference::SiteLimits;
 
+constexpr auto d_lat = TermLibrary::index("d_lat");
 /// The nominal fit with the study at one latitude.
 struct Point {
   double latitude = 0.0;
@@ -44,8 +42,8 @@ class Latitudes {
     mc::Study study = study_;
     study.site.latitude = latitude;
     try {
-      const identification::RecordedTest test = identification::recorded_test(study, recordings_);
-      const BatchResult fit = fit_batch(nominal_, test.timeline, study.readout, test.measured,
+      const preparation::RecordedTest test = preparation::recorded_test(study, recordings_);
+      const BatchResult fit = fit_batch(nominal_, {test.timeline, study.readout, test.measured},
                                         make_layout(nominal_).theta);
       p.cost = fit.estimate.statistic;
       p.dof = static_cast<double>(std::max<std::size_t>(1, fit.estimate.measured));
@@ -72,7 +70,7 @@ bool worth_asking(const Diagnosis& d) {
     own = c.score;
     size = c.size_sigma;
   }
-  return own > 0.5 * top && size > beyond_survey;
+  return own > SiteLimits::worth_asking * top && size > SiteLimits::survey;
 }
 
 }  // namespace
@@ -97,7 +95,8 @@ std::optional<SiteDoubt> site_doubt(const mc::Study& study,
   const double bend = beside[0].cost + beside[1].cost - 2.0 * best.cost;
   const double promise =
       std::pow(beside[1].cost - beside[0].cost, 2) / (8.0 * bend);  // of the parabola's foot
-  if (bend > 0.0 && best.latitude == declared && promise < 0.5 * (best.cost - best.dof))
+  if (bend > 0.0 && best.latitude == declared &&
+      promise < SiteLimits::promise * (best.cost - best.dof))
     return std::nullopt;  // nothing to be had
   const auto follow = [&](std::initializer_list<double> steps_deg) {
     for (const double step_deg : steps_deg) {
@@ -123,22 +122,12 @@ std::optional<SiteDoubt> site_doubt(const mc::Study& study,
   take(latitudes.at({-best.latitude}));  // the mirrored valley is nearly as deep
   follow({0.2, 0.02, 0.005});
   const double prior = TermLibrary::specs[d_lat].prior_si().sigma();
-  SiteDoubt doubt{best.latitude,
-                  std::abs(best.latitude - declared) / prior,
-                  ends[0].per_dof(),
-                  best.per_dof(),
-                  {}};
+  const SiteDoubt doubt{best.latitude, declared, std::abs(best.latitude - declared) / prior,
+                        ends[0].per_dof(), best.per_dof()};
   const double excess = doubt.chi2_per_dof_before - 1.0;
-  if (doubt.prior_sigmas <= beyond_survey || excess <= 0.0) return std::nullopt;
-  if (doubt.chi2_per_dof_before - doubt.chi2_per_dof_after < most_of_it * excess)
+  if (doubt.prior_sigmas <= SiteLimits::survey || excess <= 0.0) return std::nullopt;
+  if (doubt.chi2_per_dof_before - doubt.chi2_per_dof_after < SiteLimits::most * excess)
     return std::nullopt;
-  doubt.sentence = fmt::format(
-      "Check [site] latitude: at {:.3f} deg instead of {:.3f} deg the nominal model fits with "
-      "chi-square per degree of freedom {:.3g} "
-      "instead of {:.3g}. As a cause that is no survey error any more: latitude_error would need "
-      "{:.3g} prior sigmas.",
-      best.latitude / detail::deg, declared / detail::deg, doubt.chi2_per_dof_after,
-      doubt.chi2_per_dof_before, doubt.prior_sigmas);
   return doubt;
 }
 

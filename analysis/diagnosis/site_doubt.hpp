@@ -4,19 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "analysis/diagnosis/diagnosis.hpp"
+#include "analysis/diagnosis/findings/diagnosis.hpp"
 #include "core/recording/recording.hpp"
 #include "mc/study/study.hpp"
 
 namespace drift::diagnosis {
-
-/// The latitude that a recording is of, if it is not that of [site].
-struct SiteDoubt {
-  double latitude = 0.0;      ///< [rad]
-  double prior_sigmas = 0.0;  ///< size that latitude_error would need
-  double chi2_per_dof_before = 0.0, chi2_per_dof_after = 0.0;  ///< of the nominal fit
-  std::string sentence;  ///< for the person who wrote the study
-};
 
 /// Asks whether a wrong [site] latitude is behind a misfit. As a cause, latitude_error is an error
 /// of the survey, of some arcsec; one of degrees loses against its prior, is not linear, and

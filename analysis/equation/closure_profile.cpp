@@ -4,12 +4,11 @@
 #include <cmath>
 
 #include "analysis/inference/projector.hpp"
+#include "analysis/inference/signatures.hpp"
 #include "mc/task/campaign.hpp"
 
 namespace drift::equation {
 namespace {
-
-constexpr auto lambda = TermLibrary::index("lambda");
 
 /// The model with lambda held, fitted, and twice the log of its evidence (prior of lambda
 /// included).
@@ -21,14 +20,14 @@ struct Point {
 
 class Profiler {
  public:
-  Profiler(const FilterSpec& filter, const inference::Test& test, const BatchResult& joint,
+  Profiler(const FilterSpec& filter, const MeasuredTest& test, const BatchResult& joint,
            const VecX& weight, const inference::NoiseModel& noise)
       : filter_(filter),
         test_(test),
-        start_(inference::theta_of(filter, joint)),
+        start_(theta_of(filter, joint)),
         weight_(weight),
         noise_(noise),
-        prior_(filter.priors[lambda]) {}
+        prior_(filter.priors[closure_param]) {}
 
   std::vector<Point> at(const std::vector<double>& values) const {
     return mc::run_campaign(values.size(), [&](std::size_t k) { return point(values[k]); });
@@ -37,20 +36,20 @@ class Profiler {
  private:
   Point point(double value) const {
     FilterSpec held = filter_;
-    held.priors[lambda] = fixed(value);
+    held.priors[closure_param] = fixed(value);
     Theta start = start_;
-    start[lambda] = value;
-    Point p{value, 0.0, fit_batch(held, test_.timeline, test_.readout, test_.measured, start)};
+    start[closure_param] = value;
+    Point p{value, 0.0, fit_batch(held, test_, start)};
     inference::LinearProblem problem = inference::linear_problem(held, test_, p.fit, {});
     problem.weight = weight_;
-    p.log2 = inference::Projector(problem, noise_).candidates().log_likelihood2();
+    p.log2 = inference::Projector(problem, noise_).marginal().log_likelihood2();
     const double sigma = prior_.sigma();
     if (sigma > 0.0) p.log2 -= std::pow((value - prior_.mean()) / sigma, 2);
     return p;
   }
 
   const FilterSpec& filter_;
-  const inference::Test& test_;
+  const MeasuredTest& test_;
   Theta start_;
   const VecX& weight_;
   const inference::NoiseModel& noise_;
@@ -59,10 +58,10 @@ class Profiler {
 
 }  // namespace
 
-std::optional<ClosureProfile> profile_closure(const FilterSpec& filter, const inference::Test& test,
+std::optional<ClosureProfile> profile_closure(const FilterSpec& filter, const MeasuredTest& test,
                                               const BatchResult& joint, const VecX& weight,
                                               const inference::NoiseModel& noise, double decisive) {
-  const ParameterEstimate* found = joint.estimate.find(lambda);
+  const ParameterEstimate* found = joint.estimate.find(closure_param);
   if (found == nullptr) return std::nullopt;
   const Profiler profiler(filter, test, joint, weight, noise);
   std::vector<Point> points = profiler.at({0.0, 1.0, found->value});

@@ -2,7 +2,10 @@
 
 #include <optional>
 
-#include "analysis/inference/signatures.hpp"
+#include "analysis/inference/noise/noise_model.hpp"
+#include "analysis/inference/thresholds.hpp"
+#include "core/estimate/batch.hpp"
+#include "core/estimate/measured_test.hpp"
 
 namespace drift::equation {
 
@@ -22,9 +25,9 @@ struct ClosureProfile {
 /// is evaluated at both ends and at the joint fit; where an end is more probable than the joint fit
 /// by `decisive` (twice the log), around that end too, and mean and sigma are taken from it.
 /// Otherwise empty: the joint fit is as good. filter: with lambda free.
-std::optional<ClosureProfile> profile_closure(const FilterSpec& filter, const inference::Test& test,
+std::optional<ClosureProfile> profile_closure(const FilterSpec& filter, const MeasuredTest& test,
                                               const BatchResult& joint, const VecX& weight,
                                               const inference::NoiseModel& noise,
-                                              double decisive = 6.0);
+                                              double decisive = inference::WeighLimits::valley);
 
 }  // namespace drift::equation

@@ -10,8 +10,7 @@ namespace drift::equation {
 /// lambda and the misalignments E are bilinear (the test shows (1 - lambda) E, or lambda E in
 /// slews): the cost is a narrow bent valley, along which steps are short, with a second one on the
 /// far side of the equation under which E would vanish. One start may end in the wrong one.
-BatchResult fit_either_equation(const FilterSpec& filter, const Timeline& timeline,
-                                const Readout& readout, const Measurements& measured,
+BatchResult fit_either_equation(const FilterSpec& filter, const MeasuredTest& test,
                                 const Theta& start);
 
 }  // namespace drift::equation

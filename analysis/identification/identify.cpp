@@ -6,10 +6,12 @@
 #include <cmath>
 
 #include "analysis/equation/fit_either_equation.hpp"
-#include "analysis/identification/recorded_test.hpp"
+#include "analysis/preparation/recorded_test.hpp"
 #include "core/base/check.hpp"
+#include "core/base/memory.hpp"
 #include "core/estimate/start_consistency.hpp"
 #include "core/estimate/starts.hpp"
+#include "core/plan/plan_memory.hpp"
 #include "mc/task/campaign.hpp"
 
 namespace drift::identification {
@@ -38,8 +40,8 @@ FilterRun estimate(const mc::Study& study, const Job& job, const Timeline& timel
   FilterRun run;
   run.filter = job.filter;
   run.start = job.start;
-  run.ekf = run_ekf(filter, timeline, study.readout, measured, start, &run.history);
-  run.batch = equation::fit_either_equation(filter, timeline, study.readout, measured, start);
+  run.ekf = run_ekf(filter, {timeline, study.readout, measured}, start, &run.history);
+  run.batch = equation::fit_either_equation(filter, {timeline, study.readout, measured}, start);
   return run;
 }
 
@@ -79,7 +81,7 @@ FilterRun estimate_in_the_loop(const mc::Study& study, const Job& job, Timeline 
   run.start = job.start;
   run.ekf = ekf.result();
   run.history = ekf.history();
-  run.batch = equation::fit_either_equation(filter, timeline, study.readout, sim.measured, start);
+  run.batch = equation::fit_either_equation(filter, {timeline, study.readout, sim.measured}, start);
   return run;
 }
 
@@ -106,6 +108,19 @@ std::vector<FilterSummary> summarise(const mc::Study& study, const Identificatio
     all.push_back(std::move(s));
   }
   return all;
+}
+
+/// Every filter and start keeps its estimates and sigmas at every row.
+void require_memory_for_histories(const mc::Study& study,
+                                  const std::vector<Recording>& recordings) {
+  double rows = 0.0, numbers = 0.0;
+  for (const Recording& r : recordings) rows += static_cast<double>(r.rows());
+  for (const Job& job : jobs_of(study))
+    numbers += 2.0 * static_cast<double>(make_layout(study.filters[job.filter]).size());
+  require_memory(memory_of_samples(rows) + rows * numbers * sizeof(double), ExitCode::recording,
+                 fmt::format("{}: {:.0f} rows, estimated with every filter and start,",
+                             recordings.front().source, rows),
+                 "Average the rows to longer samples, or leave out filters or starts");
 }
 
 template <class Task>
@@ -171,7 +186,8 @@ Identification identify_recordings(const mc::Study& study, const std::vector<Rec
   Identification id;
   for (const Recording& r : recordings) id.sources.push_back(r.source);
   id.recording = recordings.front();
-  const RecordedTest test = recorded_test(study, recordings);
+  require_memory_for_histories(study, recordings);
+  const preparation::RecordedTest test = preparation::recorded_test(study, recordings);
   run_jobs(study, id, threads, progress,
            [&](const Job& job) { return estimate(study, job, test.timeline, test.measured); });
   return id;

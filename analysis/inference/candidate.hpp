@@ -7,11 +7,17 @@
 
 namespace drift::inference {
 
+/// Values of nonlinear parameters: (param, SI value).
+using Settings = std::vector<std::pair<std::size_t, double>>;
+
+/// Every combination of the grids of a term's settings but those `known`; one empty one without
+/// any.
+std::vector<Settings> settings_of(const TermInfo& term, const ParamMask& known);
+
 /// One way a candidate may look: its columns, at one setting of the nonlinear parameters.
 struct Variant {
   std::vector<int> columns;  ///< of LinearProblem::extra
-  std::vector<std::pair<std::size_t, double>>
-      settings;  ///< nonlinear parameters: (param, SI value)
+  Settings settings;
   double share =
       1.0;  ///< prior chance of this setting, over that of one point of the library's grid
   bool between = false;  ///< put between the points of the library's grid (refine_grids())

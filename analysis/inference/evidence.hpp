@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "analysis/inference/candidate.hpp"
-#include "analysis/inference/linear_problem.hpp"
+#include "analysis/inference/noise/noise_model.hpp"
 
 namespace drift::inference {
 

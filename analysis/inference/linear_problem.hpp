@@ -1,7 +1,5 @@
 #pragma once
 
-#include <limits>
-#include <string>
 #include <vector>
 
 #include "core/base/linalg.hpp"
@@ -32,14 +30,12 @@ struct IntervalDrive {
   Mat3 per_rate = Mat3::Zero();  ///< d attitude / d gyro drift over the interval [1/(rad/s)]
 };
 
-/// The linearised test about a fit: r0 = J x + sum_c s_c a_c + noise, with theta's x ~ N(0, I).
-/// Rows are in time order and in units of the declared sigma; x in prior sigmas, a likewise.
-struct LinearProblem {
+/// What was measured, row by row, and how noise reaches it. Rows are in time order and in units of
+/// the declared sigma.
+struct MeasuredRows {
   std::vector<RowTag> tags;           ///< of every row
   std::vector<IntervalDrive> drives;  ///< of every interval
   MatX psi;     ///< shape (rows, 3): d row / d attitude at the caging of its chain
-  MatX theta;   ///< shape (rows, n)
-  MatX extra;   ///< shape (rows, K): candidate signatures
   VecX r0;      ///< shape rows: measured minus predicted at the prior mean, by the linearisation
   VecX weight;  ///< shape rows: 1, or less for a row that is not trusted (sigma / weight)
   double acc_sigma = 1.0, gimbal_sigma = 1.0;  ///< declared [g], [rad]
@@ -48,37 +44,19 @@ struct LinearProblem {
   Eigen::Index rows() const { return r0.size(); }
 };
 
-/// Something unknown, of free form, in one equation alone: a first-order Markov process; with
-/// infinite tau a random walk from zero.
-struct LoneInput {
-  enum class Equation {
-    rate,
-    accelerometer,
-    gimbal
-  };  ///< gyro drift, error of an accelerometer, of a resolver
-  Equation equation = Equation::rate;
-  int axis = 0;
-  double sigma =
-      0.0;  ///< stationary [rad/s, g, rad]; of a random walk per sqrt(s). 0: there is none
-  double tau = std::numeric_limits<double>::infinity();  ///< [s]
-};
+/// The linearised test about a fit: r0 = J x + sum_c s_c a_c + noise, with theta's x ~ N(0, I).
+/// x in prior sigmas, a likewise.
+struct LinearProblem : MeasuredRows {
+  MatX theta;  ///< shape (rows, n): J
+  MatX extra;  ///< shape (rows, K): candidate signatures s
 
-/// Standard deviations of all noise: white of the instruments, and what drives the platform.
-struct NoiseModel {
-  double acc_factor = 1.0, gimbal_factor = 1.0;  ///< white, over declared
-  double angle_random_walk = 0.0;                ///< [rad/sqrt(s)]
-  double drift_random_walk = 0.0;                ///< [rad/s/sqrt(s)]
-  double markov_drift = 0.0;                     ///< stationary sigma of a gyro's drift [rad/s]
-  double markov_tau = 1800.0;                    ///< [s]
-  double acc_markov = 0.0;    ///< stationary sigma of correlated accelerometer noise [g]
-  double acc_tau = 300.0;     ///< [s]
-  Vec3 gyros = Vec3::Ones();  ///< weight of each gyro's share in what drives the platform
-  LoneInput lone;             ///< beside what the instruments share
-
-  bool driven() const {
-    return angle_random_walk > 0.0 || drift_random_walk > 0.0 || markov_drift > 0.0 ||
-           acc_markov > 0.0 || lone.sigma > 0.0;
-  }
+  /// With some candidates in the mean: their columns are parameters too, a ~ N(0, I). All of them
+  /// are still listed as candidates, so that their numbers hold.
+  LinearProblem with_mean(const std::vector<int>& columns) const;
+  /// Without candidates.
+  LinearProblem bare() const;
+  /// Without the rows of the intervals that are marked.
+  LinearProblem without(const std::vector<bool>& intervals) const;
 };
 
 }  // namespace drift::inference

@@ -1,9 +1,10 @@
 #include "analysis/inference/max_t.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <map>
 
+#include "analysis/inference/thresholds.hpp"
+#include "core/base/decompose.hpp"
 #include "core/base/rng.hpp"
 
 namespace drift::inference {
@@ -12,35 +13,25 @@ namespace {
 constexpr std::uint64_t null_seed =
     20230517;  // any number: fixed, so that a diagnosis is repeatable
 
-MatX columns_of(const MatX& C, const std::vector<int>& columns) {
-  MatX part(columns.size(), columns.size());
-  for (std::size_t i = 0; i < columns.size(); ++i)
-    for (std::size_t k = 0; k < columns.size(); ++k) part(i, k) = C(columns[i], columns[k]);
-  return part;
-}
-
 }  // namespace
 
 double Contrast::T(const VecX& g) const {
   if (dof == 0) return 0.0;
-  VecX part(columns.size());
-  for (std::size_t k = 0; k < columns.size(); ++k) part[k] = g[columns[k]];
-  return (W.transpose() * part).squaredNorm();
+  return (W.transpose() * g(columns)).squaredNorm();
 }
 
 Contrast make_contrast(const MatX& C, const VecX& raw, const std::vector<int>& columns) {
   Contrast out{columns, {}, 0};
-  const Eigen::SelfAdjointEigenSolver<MatX> eigen(columns_of(C, columns));
-  double largest_raw = 0.0;
-  for (const int k : columns) largest_raw = std::max(largest_raw, raw[k]);
-  const double least = std::max(least_information, 1e-9 * largest_raw);
+  const Eigensystem eigen = eigensystem(C(columns, columns));
+  const double largest_raw = columns.empty() ? 0.0 : raw(columns).maxCoeff();
+  const double least = std::max(VisibleLimits::information, 1e-9 * largest_raw);
   std::vector<Eigen::Index> keep;
-  for (Eigen::Index k = 0; k < eigen.eigenvalues().size(); ++k)
-    if (eigen.eigenvalues()[k] > least) keep.push_back(k);
+  for (Eigen::Index k = 0; k < eigen.values.size(); ++k)
+    if (eigen.values[k] > least) keep.push_back(k);
   out.dof = static_cast<int>(keep.size());
   out.W.resize(columns.size(), out.dof);
   for (int k = 0; k < out.dof; ++k)
-    out.W.col(k) = eigen.eigenvectors().col(keep[k]) / std::sqrt(eigen.eigenvalues()[keep[k]]);
+    out.W.col(k) = eigen.vectors.col(keep[k]) / std::sqrt(eigen.values[keep[k]]);
   return out;
 }
 
@@ -53,7 +44,7 @@ MaxNull::MaxNull(const MatX& C, const std::vector<Contrast>& contrasts, int draw
   std::sort(used.begin(), used.end());
   used.erase(std::unique(used.begin(), used.end()), used.end());
   if (used.empty()) return;
-  const MatX g = draw(columns_of(C, used), draws, stream);
+  const MatX g = draw(C(used, used), draws, stream);
 
   std::map<int, VecX> largest;  // by degrees of freedom
   for (const Contrast& c : contrasts) {
@@ -73,9 +64,8 @@ MaxNull::MaxNull(const MatX& C, const std::vector<Contrast>& contrasts, int draw
 }
 
 MatX MaxNull::draw(const MatX& C, int draws, std::uint64_t stream) {
-  const Eigen::SelfAdjointEigenSolver<MatX> eigen(C);
-  const MatX root =
-      eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  const Eigensystem eigen = eigensystem(C);
+  const MatX root = eigen.vectors * eigen.values.cwiseMax(0.0).cwiseSqrt().asDiagonal();
   MatX z(draws, C.cols());
   Stream random(null_seed, stream, Purpose::design);
   for (Eigen::Index k = 0; k < z.size(); ++k) z.data()[k] = random.normal();

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "analysis/inference/projector.hpp"
+#include "analysis/inference/thresholds.hpp"
 #include "core/stats/chi_square.hpp"
 
 namespace drift::inference {
@@ -15,11 +16,7 @@ struct Contrast {
   double T(const VecX& g) const;
 };
 
-/// Least information (per prior sigma squared) that makes a column observable: below it the effect
-/// would have to be some forty prior sigmas large to be found.
-inline constexpr double least_information = 1e-2;
-
-/// Directions of `columns` whose information is above least_information and above `raw` by
+/// Directions of `columns` whose information is above VisibleLimits::information and above `raw` by
 /// rounding.
 Contrast make_contrast(const MatX& C, const VecX& raw, const std::vector<int>& columns);
 

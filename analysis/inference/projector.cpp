@@ -1,88 +1,87 @@
 #include "analysis/inference/projector.hpp"
 
-#include <Eigen/Cholesky>
-#include <cmath>
+#include "core/base/decompose.hpp"
 
 namespace drift::inference {
+namespace {
 
-Projector::Projector(const LinearProblem& problem, const NoiseModel& noise) {
-  whitener_.emplace(problem, noise);
-  const Eigen::Index n = problem.theta.cols(), K = problem.extra.cols();
-  MatX all(problem.rows(), n + K + 1);
-  all << problem.theta, problem.extra, problem.r0;
-  all = whitener_->apply(all);
-  theta_ = all.leftCols(n);
-  extra_ = all.middleCols(n, K);
-  r0_ = all.rightCols<1>();
-  project(whitener_->log_det());
+MatX side_by_side(const LinearProblem& p) {
+  MatX all(p.rows(), p.theta.cols() + p.extra.cols() + 1);
+  all << p.theta, p.extra, p.r0;
+  return all;
 }
 
-Projector::Projector(MatX theta, MatX extra, VecX r0, double log_det)
-    : theta_(std::move(theta)), extra_(std::move(extra)), r0_(std::move(r0)) {
-  project(log_det);
+/// a'a - h'h.
+MatX information(const Eigen::Ref<const MatX>& a, const Eigen::Ref<const MatX>& h) {
+  MatX C = MatX::Zero(a.cols(), a.cols());
+  C.selfadjointView<Eigen::Lower>().rankUpdate(a.transpose());
+  C.selfadjointView<Eigen::Lower>().rankUpdate(h.transpose(), -1.0);
+  C.triangularView<Eigen::StrictlyUpper>() = C.transpose();
+  return C;
 }
 
-void Projector::project(double log_det) {
-  const Eigen::Index n = theta_.cols(), K = extra_.cols();
-  MatX A = MatX::Identity(n, n);
-  A.selfadjointView<Eigen::Lower>().rankUpdate(theta_.transpose());
-  L_ = Eigen::LLT<MatX, Eigen::Lower>(A).matrixL();
-  MatX right(theta_.rows(), K + 1);
-  right << extra_, r0_;
-  half_ = theta_.transpose() * right;
-  L_.triangularView<Eigen::Lower>().solveInPlace(half_);
+}  // namespace
 
-  MatX M = MatX::Zero(K + 1, K + 1);
-  M.selfadjointView<Eigen::Lower>().rankUpdate(right.transpose());
-  projected_.raw = M.diagonal().head(K);
-  M.selfadjointView<Eigen::Lower>().rankUpdate(half_.transpose(), -1.0);
-  M.triangularView<Eigen::StrictlyUpper>() = M.transpose();
-  projected_.C = M.topLeftCorner(K, K);
-  projected_.g = M.col(K).head(K);
-  projected_.chi2 = M(K, K);
-  projected_.rows = theta_.rows();
-  projected_.log_det = log_det + 2.0 * L_.diagonal().array().log().sum();
+Projector::Projector(const LinearProblem& problem, const NoiseModel& noise)
+    : whitener_(problem, noise),
+      n_(problem.theta.cols()),
+      white_(whitener_.apply(side_by_side(problem))) {
+  MatX A = MatX::Identity(n_, n_);
+  A.selfadjointView<Eigen::Lower>().rankUpdate(theta().transpose());
+  L_ = Cholesky(A).L();
+  half_ = h(white_.rightCols(white_.cols() - n_), 0);
+  marginal_.chi2 = r0().squaredNorm() - half_.rightCols<1>().squaredNorm();
+  marginal_.log_det = whitener_.log_det() + 2.0 * L_.diagonal().array().log().sum();
+  marginal_.rows = white_.rows();
+}
+
+MatX Projector::h(const Eigen::Ref<const MatX>& whitened, Eigen::Index first) const {
+  MatX out = theta().middleRows(first, whitened.rows()).transpose() * whitened;
+  L_.triangularView<Eigen::Lower>().solveInPlace(out);
+  return out;
+}
+
+Projected Projector::candidates() const {
+  const auto half = half_.leftCols(extra().cols());
+  return {information(extra(), half),
+          extra().transpose() * r0() - half.transpose() * half_.rightCols<1>(),
+          extra().colwise().squaredNorm().transpose()};
+}
+
+Projected Projector::candidates(const std::vector<int>& columns) const {
+  const MatX S = extra()(Eigen::all, columns), half = half_(Eigen::all, columns);
+  return {information(S, half), S.transpose() * r0() - half.transpose() * half_.rightCols<1>(),
+          S.colwise().squaredNorm().transpose()};
 }
 
 Projector::Scan Projector::scan(const MatX& columns, Eigen::Index first) const {
-  const MatX white = whitener_ ? whitener_->apply(columns, first) : columns;
-  const Eigen::Index L = white.cols(), K = extra_.cols(), count = white.rows();
-  MatX h = theta_.middleRows(first, count).transpose() * white;
-  L_.triangularView<Eigen::Lower>().solveInPlace(h);
-  Scan out;
-  MatX M = MatX::Zero(L, L);
-  M.selfadjointView<Eigen::Lower>().rankUpdate(white.transpose());
-  out.raw = M.diagonal();
-  M.selfadjointView<Eigen::Lower>().rankUpdate(h.transpose(), -1.0);
-  out.C = M.selfadjointView<Eigen::Lower>();
-  out.cross =
-      white.transpose() * extra_.middleRows(first, count) - h.transpose() * half_.leftCols(K);
-  out.g = white.transpose() * r0_.segment(first, count) - h.transpose() * half_.col(K);
-  return out;
+  const MatX white = whitener_.apply(columns, first), half = h(white, first);
+  const Eigen::Index K = extra().cols(), count = white.rows();
+  return {
+      information(white, half),
+      white.transpose() * extra().middleRows(first, count) - half.transpose() * half_.leftCols(K),
+      white.transpose() * r0().segment(first, count) - half.transpose() * half_.rightCols<1>(),
+      white.colwise().squaredNorm().transpose()};
 }
 
-VecX Projector::clean_residual() const {
-  return r0_ - theta_ * L_.transpose().triangularView<Eigen::Upper>().solve(half_.rightCols<1>());
+Projector::Replay Projector::replay(const MatX& recordings) const {
+  const MatX white = whitener_.apply(recordings), half = h(white, 0);
+  const Eigen::Index K = extra().cols();
+  const VecX chi2 = (white.colwise().squaredNorm() - half.colwise().squaredNorm()).transpose();
+  return {-(chi2.array() + marginal_.log_det),
+          extra().transpose() * white - half_.leftCols(K).transpose() * half};
 }
 
-MatX Projector::clean_extra(const std::vector<int>& columns) const {
-  MatX out(theta_.rows(), columns.size());
-  for (std::size_t k = 0; k < columns.size(); ++k)
-    out.col(k) =
-        extra_.col(columns[k]) -
-        theta_ * L_.transpose().triangularView<Eigen::Upper>().solve(half_.col(columns[k]));
-  return out;
+MatX Projector::clean(const Eigen::Ref<const MatX>& whitened) const {
+  MatX x = h(whitened, 0);
+  L_.transpose().triangularView<Eigen::Upper>().solveInPlace(x);
+  return whitened - theta() * x;
 }
 
-Projector::Fit Projector::fit(const std::vector<int>& with) const {
-  const Eigen::Index n = theta_.cols(), m = with.size();
-  MatX T(theta_.rows(), n + m);
-  T.leftCols(n) = theta_;
-  for (Eigen::Index k = 0; k < m; ++k) T.col(n + k) = extra_.col(with[k]);
-  MatX A = T.transpose() * T;
-  A.topLeftCorner(n, n) += MatX::Identity(n, n);
-  const Eigen::LDLT<MatX> ldlt(A);
-  return {ldlt.solve(T.transpose() * r0_), ldlt.solve(MatX::Identity(n + m, n + m))};
+Projector::Fit Projector::fit() const {
+  MatX inverse = MatX::Identity(n_, n_);  // of L
+  L_.triangularView<Eigen::Lower>().solveInPlace(inverse);
+  return {inverse.transpose() * half_.rightCols<1>(), inverse.transpose() * inverse};
 }
 
 }  // namespace drift::inference

@@ -1,40 +1,53 @@
 #pragma once
 
-#include <optional>
-
 #include "analysis/inference/whitener.hpp"
 
 namespace drift::inference {
+
+/// Marginal (restricted) likelihood of all rows: parameters and attitudes integrated over their
+/// priors, candidates absent.
+struct Marginal {
+  double chi2 = 0.0;     ///< r0' V^-1 r0, of `rows` degrees when the model is right
+  double log_det = 0.0;  ///< of V, the marginal covariance of the rows: noise, attitude, parameters
+  Eigen::Index rows = 0;
+  /// Twice the log, without the constant.
+  double log_likelihood2() const { return -chi2 - log_det; }
+};
 
 /// Everything the data say of candidates once the nominal parameters are fitted (discovery.md 2.2):
 /// g ~ N(C a, C) for candidate amplitudes a in prior sigmas, the parameters marginalised with their
 /// prior.
 struct Projected {
-  MatX C;                ///< shape (K, K): information on the candidates that is left
-  VecX g;                ///< shape K
-  VecX raw;              ///< shape K: information before the parameters took their part
-  double chi2 = 0.0;     ///< r0' P r0, of `rows` degrees under the nominal model
-  double log_det = 0.0;  ///< of the marginal covariance of the rows: noise, attitude, parameters
-  Eigen::Index rows = 0;
+  MatX C;    ///< shape (K, K): S' V^-1 S, information on the candidates that is left
+  VecX g;    ///< shape K: S' V^-1 r0
+  VecX raw;  ///< shape K: information before the parameters took their part
 
   double absorbed(Eigen::Index k) const { return raw[k] > 0.0 ? 1.0 - C(k, k) / raw[k] : 1.0; }
-  /// Twice the log of the marginal likelihood, without the constant.
-  double log_likelihood2() const { return -chi2 - log_det; }
 };
 
-/// Whitened columns with the nominal parameters ready to be projected out.
+/// The restricted likelihood of a linearised test under one noise, and what it says of candidates.
+///
+/// Rows are whitened (noise and attitude), T = whitened theta; with A = I + T'T = L L' and
+/// h(u) = L^-1 T' u, u' V^-1 w = u'w - h(u)'h(w) for whitened columns u, w (Woodbury) and
+/// log det V = log det of the noise + log det A.
 class Projector {
  public:
-  /// Whitens [theta, extra, r0] of a problem; its later use is read only.
   Projector(const LinearProblem& problem, const NoiseModel& noise);
-  /// The same for whitened rows that are given, parameters of unit prior.
-  Projector(MatX theta, MatX extra, VecX r0, double log_det);
 
-  /// Candidates of the problem against all rows.
-  const Projected& candidates() const { return projected_; }
+  const Whitener& whitener() const { return whitener_; }
+  /// Whitened.
+  auto theta() const { return white_.leftCols(n_); }
+  auto extra() const { return white_.middleCols(n_, white_.cols() - n_ - 1); }
+  auto r0() const { return white_.col(white_.cols() - 1); }
 
-  /// Further columns (a scan), whitened from row `first` on: their own C, g and cross information
-  /// with the candidates, parameters projected out.
+  const Marginal& marginal() const { return marginal_; }
+  /// All candidates of the problem, against all rows.
+  Projected candidates() const;
+  /// Some of them, in the order given.
+  Projected candidates(const std::vector<int>& columns) const;
+
+  /// Further columns (a scan) that stand for rows first, first + 1, ..., not whitened: their own C,
+  /// g and cross information with the candidates, parameters projected out.
   struct Scan {
     MatX C;       ///< shape (L, L)
     MatX cross;   ///< shape (L, K)
@@ -42,31 +55,37 @@ class Projector {
   };
   Scan scan(const MatX& columns, Eigen::Index first) const;
 
-  /// The residual with the parameters taken out at their best, whitened; and candidate columns
-  /// alike: (1 - T A^-1 T') column. Shape (rows).
-  VecX clean_residual() const;
-  MatX clean_extra(const std::vector<int>& columns) const;
-  /// Scaled parameters (best fit) with candidate columns `with` free (prior of unit variance on
-  /// them left out), and their covariance; the candidates come last.
+  /// Other data of the same test in the place of r0, a recording per column, not whitened.
+  struct Replay {
+    VecX log_likelihood2;  ///< of each recording
+    MatX g;                ///< shape (K, recordings)
+  };
+  Replay replay(const MatX& recordings) const;
+
+  /// Whitened columns with the parameters taken out at their best: (1 - T A^-1 T') columns.
+  MatX clean(const Eigen::Ref<const MatX>& whitened) const;
+  VecX clean_residual() const { return clean(r0()); }
+  MatX clean_extra(const std::vector<int>& columns) const {
+    return clean(extra()(Eigen::all, columns));
+  }
+
+  /// Scaled parameters at their best, and their covariance.
   struct Fit {
     VecX x;
     MatX covariance;
   };
-  Fit fit(const std::vector<int>& with) const;
-
-  const MatX& theta() const { return theta_; }
-  const MatX& extra() const { return extra_; }
-  const VecX& r0() const { return r0_; }
-  const Whitener* whitener() const { return whitener_ ? &*whitener_ : nullptr; }
+  Fit fit() const;
 
  private:
-  void project(double log_det);
-  std::optional<Whitener> whitener_;
-  MatX theta_, extra_;
-  VecX r0_;
-  MatX L_;     ///< Cholesky factor of A = 1 + T'T
-  MatX half_;  ///< L^-1 T' [extra, r0], shape (n, K + 1)
-  Projected projected_;
+  /// first: row that the first one of `whitened` stands for.
+  MatX h(const Eigen::Ref<const MatX>& whitened, Eigen::Index first) const;
+
+  Whitener whitener_;
+  Eigen::Index n_;  ///< parameters
+  MatX white_;      ///< [theta, extra, r0], whitened
+  MatX L_;
+  MatX half_;  ///< h of [extra, r0], shape (n, K + 1)
+  Marginal marginal_;
 };
 
 }  // namespace drift::inference

@@ -1,13 +1,11 @@
 #include "analysis/inference/scan.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+
+#include "analysis/inference/thresholds.hpp"
 
 namespace drift::inference {
 namespace {
-
-using Equation = Window::Equation;
 
 /// Windows over intervals [first, end): the whole, halves and quarters with half overlap.
 std::vector<std::pair<std::size_t, std::size_t>> spans(std::size_t first, std::size_t end) {
@@ -23,52 +21,36 @@ std::vector<std::pair<std::size_t, std::size_t>> spans(std::size_t first, std::s
 
 }  // namespace
 
-std::string equation_name(Equation equation, int axis) {
-  static constexpr const char* gimbals[] = {"outer", "middle", "inner"};
-  switch (equation) {
-    case Equation::rate:
-      return fmt::format("platform rate {}", "xyz"[axis]);
-    case Equation::attitude:
-      return fmt::format("attitude offset {}", "xyz"[axis]);
-    case Equation::accelerometer:
-      return fmt::format("accelerometer {}", "xyz"[axis]);
-    case Equation::gimbal:
-      break;
-  }
-  return fmt::format("gimbal {}", gimbals[axis]);
-}
-
-VecX window_signature(const LinearProblem& problem, const Timeline& timeline, const Window& w,
+VecX window_signature(const MeasuredRows& rows, const Timeline& timeline, const Window& w,
                       Eigen::Index first, Eigen::Index count) {
   VecX s = VecX::Zero(count);
   Vec3 turned = Vec3::Zero();  // attitude that the box has made, in the units of psi
   std::size_t done = w.first;  // intervals before this one are in `turned`
   for (Eigen::Index r = 0; r < count; ++r) {
-    const RowTag& tag = problem.tags[first + r];
+    const RowTag& tag = rows.tags[first + r];
     const std::size_t i = tag.interval;
     const bool inside = i >= w.first && i < w.end;
     switch (w.equation) {
       case Equation::accelerometer:
-        if (inside && tag.channel == w.axis) s[r] = 1.0 / problem.acc_sigma;
+        if (inside && tag.channel == w.axis) s[r] = 1.0 / rows.acc_sigma;
         break;
       case Equation::gimbal:
-        if (inside && tag.channel == 3 + w.axis) s[r] = 1.0 / problem.gimbal_sigma;
+        if (inside && tag.channel == 3 + w.axis) s[r] = 1.0 / rows.gimbal_sigma;
         break;
       case Equation::attitude:
         if (inside) {
           const Node& node = timeline.nodes[timeline.intervals[i].middle_node()];
-          s[r] = problem.psi.row(first + r).dot((node.R_il * node.R_lr).col(w.axis)) /
-                 problem.attitude_sigma;
+          s[r] = rows.psi.row(first + r).dot((node.R_il * node.R_lr).col(w.axis)) /
+                 rows.attitude_sigma;
         }
         break;
       case Equation::rate:
         // per_rate is per gyro drift, which turns the platform the other way.
-        for (; done < std::min(i, w.end); ++done)
-          turned -= problem.drives[done].per_rate.col(w.axis);
-        s[r] = problem.psi.row(first + r).dot(turned);
+        for (; done < std::min(i, w.end); ++done) turned -= rows.drives[done].per_rate.col(w.axis);
+        s[r] = rows.psi.row(first + r).dot(turned);
         if (inside)
           s[r] -= (tag.accelerometer() ? 0.5 : 1.0) *
-                  problem.psi.row(first + r).dot(problem.drives[i].per_rate.col(w.axis));
+                  rows.psi.row(first + r).dot(rows.drives[i].per_rate.col(w.axis));
         break;
     }
   }
@@ -107,7 +89,7 @@ std::vector<PositionScan> scan_windows(const LinearProblem& problem, const Timel
     scan.scan = projector.scan(columns, first);
     scan.T = VecX::Zero(columns.cols());
     for (Eigen::Index k = 0; k < columns.cols(); ++k)
-      if (scan.scan.C(k, k) > 1e-6 * scan.scan.raw[k] && scan.scan.C(k, k) > 0.0)
+      if (scan.scan.C(k, k) > VisibleLimits::left * scan.scan.raw[k] && scan.scan.C(k, k) > 0.0)
         scan.T[k] = scan.scan.g[k] * scan.scan.g[k] / scan.scan.C(k, k);
     all.push_back(std::move(scan));
     first = end;
@@ -119,12 +101,12 @@ MaxNull scan_null(const std::vector<PositionScan>& scans, int draws) {
   std::vector<MaxNull> families;
   for (std::size_t p = 0; p < scans.size(); ++p) {
     const auto& s = scans[p].scan;
-    // Unit variance, so that least_information does not take a weak window away.
+    // Unit variance, so that VisibleLimits::information does not take a weak window away.
     const VecX scale = s.C.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
     const MatX correlation = scale.asDiagonal() * s.C * scale.asDiagonal();
     std::vector<Contrast> contrasts;
     for (Eigen::Index k = 0; k < s.C.cols(); ++k)
-      if (s.C(k, k) > 1e-6 * s.raw[k] && s.C(k, k) > 0.0)
+      if (s.C(k, k) > VisibleLimits::left * s.raw[k] && s.C(k, k) > 0.0)
         contrasts.push_back(
             make_contrast(correlation, VecX::Ones(s.C.cols()), {static_cast<int>(k)}));
     families.emplace_back(correlation, contrasts, draws, 1000 + p);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "analysis/inference/equation.hpp"
 #include "analysis/inference/max_t.hpp"
 #include "core/plan/timeline.hpp"
 
@@ -7,7 +8,6 @@ namespace drift::inference {
 
 /// A unit box: something constant in one equation, position and window.
 struct Window {
-  enum class Equation { rate, attitude, accelerometer, gimbal };
   Equation equation = Equation::rate;
   int axis = 0;
   int position = 0;                ///< from 0
@@ -15,8 +15,6 @@ struct Window {
   double start_s = 0.0, end_s = 0.0;
   double unit = 1.0;  ///< amplitude that a scan column stands for, SI
 };
-
-std::string equation_name(Window::Equation equation, int axis);
 
 /// The windows of one position, against the parameters and the candidates.
 struct PositionScan {
@@ -33,7 +31,7 @@ std::vector<PositionScan> scan_windows(const LinearProblem& problem, const Timel
                                        const Projector& projector);
 
 /// The signature of a window over rows first .. first + count: per rad/s, rad, g, rad.
-VecX window_signature(const LinearProblem& problem, const Timeline& timeline, const Window& window,
+VecX window_signature(const MeasuredRows& rows, const Timeline& timeline, const Window& window,
                       Eigen::Index first, Eigen::Index count);
 
 /// Null distribution of the largest window, positions joined.

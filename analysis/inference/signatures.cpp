@@ -6,15 +6,11 @@
 namespace drift::inference {
 namespace {
 
-constexpr auto lambda = TermLibrary::index("lambda");
-
 /// The nominal model with the terms of some parameters switched on at zero amplitude.
 DriftModel extended(const FilterSpec& nominal, const ParamMask& added) {
   ModelSpec spec = nominal;
   spec.active |= added;
-  // A member of the family by name becomes the same member by number.
-  const bool family = spec.coupling == Coupling::eq5 || spec.coupling == Coupling::eq6;
-  if (added[lambda] && family) spec.coupling = Coupling::lambda;
+  if (added[closure_param]) spec.coupling = family_of(spec.coupling);
   return spec.model();
 }
 
@@ -35,7 +31,7 @@ Layout layout_of(const std::vector<const SignatureSpec*>& specs, const Theta& th
   return layout;
 }
 
-std::vector<RowTag> row_tags(const Test& test) {
+std::vector<RowTag> row_tags(const MeasuredTest& test) {
   std::vector<RowTag> tags;
   for (std::size_t i = 0; i < test.timeline.intervals.size(); ++i)
     for (int c = 0; c < num_channels; ++c) {
@@ -65,12 +61,6 @@ std::vector<IntervalDrive> drives(const Timeline& timeline, double attitude_sigm
 
 }  // namespace
 
-Theta theta_of(const FilterSpec& filter, const BatchResult& fit) {
-  Theta theta = make_layout(filter).theta;
-  for (const ParameterEstimate& p : fit.estimate.parameters) theta[p.param] = p.value;
-  return theta;
-}
-
 VecX residual_of(const LinearProblem& problem, const BatchResult& fit) {
   VecX r(problem.rows());
   for (Eigen::Index k = 0; k < r.size(); ++k) {
@@ -82,7 +72,7 @@ VecX residual_of(const LinearProblem& problem, const BatchResult& fit) {
   return r;
 }
 
-MatX signature_columns(const FilterSpec& nominal, const Test& test, const BatchResult& fit,
+MatX signature_columns(const FilterSpec& nominal, const MeasuredTest& test, const BatchResult& fit,
                        std::span<const SignatureSpec> specs, const std::vector<RowTag>& tags) {
   MatX out =
       MatX::Zero(static_cast<Eigen::Index>(tags.size()), static_cast<Eigen::Index>(specs.size()));
@@ -110,11 +100,11 @@ MatX signature_columns(const FilterSpec& nominal, const Test& test, const BatchR
       added.set(specs[k].param);
       done[k] = true;
     }
-    if (added[lambda] && nominal.coupling == Coupling::eq6) at[lambda] = 1.0;
+    if (added[closure_param])
+      at[closure_param] = facts(nominal.coupling).lambda.value_or(at[closure_param]);
     const Layout small = layout_of(group, at);
-    const auto parts =
-        measurement_equations(test.timeline, extended(nominal, added), small, test.readout,
-                              test.measured, at, phi, nominal.initial_attitude);
+    const auto parts = measurement_equations(test, extended(nominal, added), small, at, phi,
+                                             nominal.initial_attitude);
     Eigen::Index next = 0;
     for (std::size_t c = 0; c < parts.size(); ++c) {
       Eigen::Index count = 0;
@@ -131,8 +121,8 @@ MatX signature_columns(const FilterSpec& nominal, const Test& test, const BatchR
   return out;
 }
 
-LinearProblem linear_problem(const FilterSpec& nominal, const Test& test, const BatchResult& fit,
-                             const std::vector<SignatureSpec>& specs) {
+LinearProblem linear_problem(const FilterSpec& nominal, const MeasuredTest& test,
+                             const BatchResult& fit, const std::vector<SignatureSpec>& specs) {
   LinearProblem out;
   out.tags = row_tags(test);
   out.drives = drives(test.timeline, nominal.initial_attitude);
@@ -153,8 +143,8 @@ LinearProblem linear_problem(const FilterSpec& nominal, const Test& test, const 
   out.r0.resize(rows);
   const VecX x = layout.scaled(theta);
   Eigen::Index next = 0;
-  const auto chains = measurement_equations(test.timeline, model, layout, test.readout,
-                                            test.measured, theta, phi, nominal.initial_attitude);
+  const auto chains =
+      measurement_equations(test, model, layout, theta, phi, nominal.initial_attitude);
   for (std::size_t c = 0; c < chains.size(); ++c) {
     const MatX& e = chains[c].rows;
     // Channels that are not read leave zero rows at the end.

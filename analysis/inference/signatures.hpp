@@ -4,15 +4,9 @@
 
 #include "analysis/inference/linear_problem.hpp"
 #include "core/estimate/batch.hpp"
+#include "core/estimate/measured_test.hpp"
 
 namespace drift::inference {
-
-/// A test, ready to be examined: where and when, what was measured, how well.
-struct Test {
-  const Timeline& timeline;
-  const Readout& readout;
-  const Measurements& measured;
-};
 
 /// A candidate's signature: a parameter that the nominal model leaves out, per prior sigma.
 struct SignatureSpec {
@@ -26,17 +20,14 @@ struct SignatureSpec {
 /// order. fit: of the nominal filter; its theta and psi0_l are where everything is linearised.
 /// Columns of candidates come by dual numbers, many at once: of a spec's theta, the parameters of
 /// its own term count.
-LinearProblem linear_problem(const FilterSpec& nominal, const Test& test, const BatchResult& fit,
-                             const std::vector<SignatureSpec>& specs);
+LinearProblem linear_problem(const FilterSpec& nominal, const MeasuredTest& test,
+                             const BatchResult& fit, const std::vector<SignatureSpec>& specs);
 
 /// The candidate columns alone, for the rows of `tags`; shape (tags, specs).
-MatX signature_columns(const FilterSpec& nominal, const Test& test, const BatchResult& fit,
+MatX signature_columns(const FilterSpec& nominal, const MeasuredTest& test, const BatchResult& fit,
                        std::span<const SignatureSpec> specs, const std::vector<RowTag>& tags);
 
 /// Residuals of a fit in declared sigmas, in the order of a problem's rows.
 VecX residual_of(const LinearProblem& problem, const BatchResult& fit);
-
-/// Theta of a fit: layout values where estimated, prior means elsewhere.
-Theta theta_of(const FilterSpec& filter, const BatchResult& fit);
 
 }  // namespace drift::inference

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/inference/linear_problem.hpp"
+#include "analysis/inference/noise/noise_model.hpp"
 
 namespace drift::inference {
 
@@ -13,13 +14,13 @@ namespace drift::inference {
 /// Equals multiplication by the inverse Cholesky factor of the covariance of all rows (test).
 class Whitener {
  public:
-  Whitener(const LinearProblem& problem, const NoiseModel& noise);
+  Whitener(const MeasuredRows& rows, const NoiseModel& noise);
 
   /// Whitens columns that stand for rows first, first + 1, ...; before `first` they are zero.
-  MatX apply(const MatX& columns, Eigen::Index first = 0) const;
+  MatX apply(MatX columns, Eigen::Index first = 0) const;
   /// The way back: unit white columns become noise with this covariance, attitude at its prior
   /// included.
-  MatX colour(const MatX& white) const;
+  MatX colour(MatX white) const;
   /// log det of the covariance of all rows, attitude marginalised.
   double log_det() const { return log_det_; }
 
@@ -28,8 +29,15 @@ class Whitener {
   struct Event {
     Eigen::Index row = 0;  ///< before this row
     bool cage = false;     ///< the attitude starts anew
-    MatX F;                ///< otherwise the state moves; shape (states, states)
+    /// Otherwise the state moves: attitude += drive others, others *= decay.
+    Eigen::Matrix<double, 3, Eigen::Dynamic> drive;
+    VecX decay;
   };
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  /// Lets columns run through the filter: each row, and the state in front of it, is handed over.
+  template <class Row>
+  MatX run(MatX columns, Eigen::Index first, Row&& row) const;
+  void move(const Event& event, RowMajor& x) const;
 
   int states_ = 3;
   std::vector<Event> events_;
@@ -37,9 +45,5 @@ class Whitener {
   VecX root_;      ///< sigma of each innovation
   double log_det_ = 0.0;
 };
-
-/// The covariance that a Whitener stands for, shape (rows, rows): slow, for tests and small
-/// problems.
-MatX dense_covariance(const LinearProblem& problem, const NoiseModel& noise);
 
 }  // namespace drift::inference

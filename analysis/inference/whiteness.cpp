@@ -1,6 +1,5 @@
 #include "analysis/inference/whiteness.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <map>
 
@@ -14,7 +13,7 @@ struct ChannelRows {
   std::vector<std::vector<Eigen::Index>> chains;
 };
 
-std::vector<ChannelRows> rows_by_channel(const LinearProblem& problem) {
+std::vector<ChannelRows> rows_by_channel(const MeasuredRows& problem) {
   std::map<int, std::map<int, std::vector<Eigen::Index>>> sorted;  // channel, chain
   for (Eigen::Index k = 0; k < problem.rows(); ++k) {
     const RowTag& t = problem.tags[k];
@@ -60,28 +59,24 @@ VecX largest_Q(const std::vector<ChannelRows>& channels, const MatX& z, int lags
 
 }  // namespace
 
-double whiteness_p(const LinearProblem& problem, const Projector& projector, int lags, int draws,
+double whiteness_p(const MeasuredRows& problem, const Projector& projector, int lags, int draws,
                    std::uint64_t seed) {
   if (problem.rows() == 0 || draws <= 0) return 1.0;
   const auto channels = rows_by_channel(problem);
   const double observed = largest_Q(channels, projector.clean_residual(), lags)[0];
-  const MatX& T = projector.theta();
-  MatX A = MatX::Identity(T.cols(), T.cols());
-  A.selfadjointView<Eigen::Lower>().rankUpdate(T.transpose());
-  const Eigen::LLT<MatX, Eigen::Lower> llt(A);
   constexpr int at_once = 50;  // columns
   int above = 0;
   for (int first = 0; first < draws; first += at_once) {
     const int count = std::min(at_once, draws - first);
-    MatX z(problem.rows(), count), x(T.cols(), count);
+    MatX z(problem.rows(), count), x(projector.theta().cols(), count);
     for (int j = 0; j < count; ++j) {
       Stream stream(seed, static_cast<std::uint64_t>(first + j), Purpose::bootstrap, 1);
       for (Eigen::Index k = 0; k < z.rows(); ++k) z(k, j) = stream.normal();
       for (Eigen::Index k = 0; k < x.rows(); ++k) x(k, j) = stream.normal();
     }
-    z.noalias() += T * x;
-    z -= T * llt.solve(T.transpose() * z);
-    above += static_cast<int>((largest_Q(channels, z, lags).array() >= observed).count());
+    z.noalias() += projector.theta() * x;
+    const VecX drawn = largest_Q(channels, projector.clean(z), lags);
+    above += static_cast<int>((drawn.array() >= observed).count());
   }
   return (1.0 + above) / (1.0 + draws);
 }

@@ -16,7 +16,7 @@ namespace drift::inference {
 /// of the parameters added, go through the same projection as the data (parametric bootstrap), so
 /// that p = (1 + draws at or above the data) / (1 + draws) is uniform when the model is right. A
 /// pure function of (problem, projector, draws, seed).
-double whiteness_p(const LinearProblem& problem, const Projector& projector, int lags = 10,
+double whiteness_p(const MeasuredRows& problem, const Projector& projector, int lags = 10,
                    int draws = 399, std::uint64_t seed = 1);
 
 }  // namespace drift::inference

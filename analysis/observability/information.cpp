@@ -33,7 +33,6 @@ std::vector<int> stretches(const Timeline& timeline, int bins_per_dwell) {
 
 RankedModel ranked_model(const ModelSpec& spec, const TruthSpec* truth, const Site& site,
                          const Readout& readout, const Environment& environment) {
-  constexpr auto lambda = TermLibrary::index("lambda");
   constexpr auto eta = TermLibrary::index("eta_x");
   RankedModel model{spec,       make_layout(spec).theta, MisalignmentAngles::Zero(), site, readout,
                     environment};
@@ -42,11 +41,9 @@ RankedModel ranked_model(const ModelSpec& spec, const TruthSpec* truth, const Si
   for (std::size_t i = 0; i < TermLibrary::num_params; ++i)
     if (spec.active[i] && truth->active[i] && spec.priors[i].sigma() > 0.0)
       model.nominal[i] = truth->priors[i].mean();
-  if (spec.active[lambda] && spec.priors[lambda].sigma() > 0.0) {
-    if (truth->coupling == Coupling::eq5) model.nominal[lambda] = 0.0;
-    if (truth->coupling == Coupling::eq6 || truth->coupling == Coupling::servo)
-      model.nominal[lambda] = 1.0;
-  }
+  if (spec.active[closure_param] && spec.priors[closure_param].sigma() > 0.0)
+    model.nominal[closure_param] =
+        facts(facts(truth->coupling).settles_to).lambda.value_or(model.nominal[closure_param]);
   if (spec.coupling == Coupling::compensated && truth->coupling == Coupling::compensated &&
       truth->loop == LoopEstimate::given)
     model.loop = truth->theta_loop.segment<6>(eta);
@@ -75,7 +72,7 @@ LinearisedPlan linearise(const TestPlan& plan, const RankedModel& model, int bin
   out.positions = timeline.positions;
   out.duration = timeline.intervals.back().t1 - timeline.intervals.front().t0;
   const auto chains =
-      measurement_equations(timeline, spec.model(), out.layout, model.readout, sim.measured,
+      measurement_equations({timeline, model.readout, sim.measured}, spec.model(), out.layout,
                             model.nominal, sim.phi, spec.initial_attitude);
   const Eigen::Index width = 3 + out.size();
   const Eigen::Index per_interval =

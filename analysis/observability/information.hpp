@@ -63,10 +63,6 @@ class InformationSum {
   /// R with R^T R = information on the prior-scaled parameters so far, shape (n, n), upper
   /// triangular; the parameter prior is not in it.
   MatX root() const;
-  /// The present chain alone, its attitude prior included: triangle [psi | x].
-  const MatX& chain_triangle() const { return chain_; }
-  /// All chains before the present one, attitudes eliminated.
-  const MatX& finished() const { return finished_; }
 
  private:
   Eigen::Index n_;

@@ -1,12 +1,12 @@
 #include "analysis/observability/pwcs.hpp"
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <limits>
 
+#include "core/base/decompose.hpp"
 #include "core/estimate/gimbal_prediction.hpp"
 #include "core/estimate/linearize.hpp"
+#include "core/estimate/triangle.hpp"
 #include "core/plan/case_heading.hpp"
 
 namespace drift::observability {
@@ -23,12 +23,11 @@ Spectrum spectrum(const MatX& matrix) {
   const Eigen::Index n = matrix.cols();
   MatX square = MatX::Zero(n, n);
   if (matrix.rows() > n)
-    square =
-        Eigen::HouseholderQR<MatX>(matrix).matrixQR().topRows(n).triangularView<Eigen::Upper>();
+    square = triangle(matrix);
   else
     square.topRows(matrix.rows()) = matrix;
-  const Eigen::JacobiSVD<MatX> svd(square, Eigen::ComputeFullV);
-  Spectrum out{svd.singularValues(), svd.matrixV(), 0};
+  const RightSingular svd = right_singular(square);
+  Spectrum out{svd.values, svd.vectors, 0};
   while (out.rank < n && out.values[out.rank] > pwcs_tolerance * out.values[0]) ++out.rank;
   return out;
 }
@@ -71,7 +70,7 @@ std::vector<PwcsPosition> pwcs_positions(const TestPlan& plan, const Site& site,
     Interval interval;
     interval.t1 = pwcs_time_unit;
     interval.omega_cmd_p = passages[p].dwell.omega_cmd_p;
-    linearizer.evaluate(node, interval, Mat3::Zero(), Vec3::Zero(), j);
+    linearizer.evaluate(node, interval, Mat3::Zero(), Vec3::Zero(), nullptr, nullptr, j);
 
     MatX F = MatX::Zero(n, n), H = MatX::Zero(outputs, n);
     F.topLeftCorner<3, 3>() = pwcs_time_unit * (j.A - skew(site.omega_ie_l()));

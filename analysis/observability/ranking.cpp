@@ -2,10 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+
+#include "core/base/decompose.hpp"
 
 namespace drift::observability {
 namespace {
@@ -26,10 +27,10 @@ double ParameterRank::bits() const {
 }
 
 std::vector<EigenDirection> spectrum_of(const MatX& information_root) {
-  const Eigen::JacobiSVD<MatX> svd(information_root, Eigen::ComputeFullV);
+  const RightSingular svd = right_singular(information_root);
   std::vector<EigenDirection> all;
   for (Eigen::Index i = 0; i < information_root.cols(); ++i) {
-    EigenDirection d{std::pow(svd.singularValues()[i], 2), svd.matrixV().col(i), {}};
+    EigenDirection d{std::pow(svd.values[i], 2), svd.vectors.col(i), {}};
     std::vector<std::size_t> states(static_cast<std::size_t>(d.direction.size()));
     std::iota(states.begin(), states.end(), std::size_t{0});
     std::ranges::stable_sort(states, std::greater{},

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <utility>
 
@@ -13,12 +12,6 @@
 
 namespace drift::planning {
 namespace {
-
-constexpr std::array both{Coupling::eq5, Coupling::eq6};
-
-bool of_either_equation(const ModelSpec& spec) {
-  return std::ranges::find(both, spec.coupling) != both.end();
-}
 
 bool equal_axes(const Triads& a, const Triads& b) {
   const auto equal = [](const SignedAxis& x, const SignedAxis& y) {
@@ -35,7 +28,7 @@ bool alike(const ModelSpec& a, const ModelSpec& b) {
   if (!equal_axes(a.mounting.accelerometer, b.mounting.accelerometer)) return false;
   for (std::size_t i = 0; i < TermLibrary::num_params; ++i)
     if (a.active[i] && !(a.priors[i] == b.priors[i])) return false;
-  return a.coupling == b.coupling || (of_either_equation(a) && of_either_equation(b));
+  return a.coupling == b.coupling || (facts(a.coupling).other && facts(b.coupling).other);
 }
 
 /// Groups with models that are not ranked yet.
@@ -61,7 +54,7 @@ std::vector<RankingGroup> groups_of(const mc::Study& study) {
       group.models.push_back(std::move(m));
     };
     add(filter.coupling);
-    if (of_either_equation(filter)) add(filter.coupling == both[0] ? both[1] : both[0]);
+    if (const auto other = facts(filter.coupling).other) add(*other);
     if (make_layout(filter).size() == 0)
       throw InputError(
           ExitCode::config,

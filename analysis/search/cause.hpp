@@ -3,9 +3,17 @@
 #include <cstddef>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace drift::search {
+
+/// "magnetic_drift.y"; the term alone where there is no axis.
+inline std::string keyed(std::string_view term, std::string_view axis) {
+  std::string key(term);
+  if (!axis.empty()) key.append(".").append(axis);
+  return key;
+}
 
 /// A number of a cause, in `unit`.
 struct CauseParameter {

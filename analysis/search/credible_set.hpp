@@ -1,19 +1,30 @@
 #pragma once
 
-#include "analysis/search/search.hpp"
+#include "analysis/search/refit.hpp"
 
 namespace drift::search {
 
-/// Weighs explanations against each other by evidence and prior and moves those up to the credible
-/// probability into out.sets, the others into out.rejected. Of several with one name the best
-/// stands for all, and what says more is left out where less will do.
+/// What the best explanations may leave.
+enum class Leftover { nothing, chance };
+
+/// Whether there is an explanation that leaves no more than that, and nothing unknown in one
+/// equation explains the test far better than the best of them.
+bool can_be_weighed(const Fitted& e, const std::vector<Refit>& refits, Leftover left);
+
+/// Explanations weighed against each other.
+struct CredibleSet {
+  std::vector<Refit> sets;          ///< most probable first; each may hold several causes
+  std::vector<double> probability;  ///< of each
+  std::vector<Refit> rejected;      ///< those that leave what is no chance
+};
+
+/// Weighs explanations by evidence and prior; those up to the probability `credible` are kept. Of
+/// several with one name the best stands for all, and what says more is left out where less will
+/// do.
 ///
 /// Adequate ones and those whose leftover may be chance compete alike, the latter at the price of
 /// that chance: a far better explanation beside which something unrelated is just significant must
-/// not lose all to a poor one that happens to cover that too. Nothing is done, and false returned,
-/// if none is adequate (chance_alone: none tolerable) or if something unknown in one equation
-/// explains the test far better than the best of them.
-bool weigh(const Examination& e, std::vector<Refit>& refits, bool chance_alone,
-           const SearchOptions& options, Search& out);
+/// not lose all to a poor one that happens to cover that too.
+CredibleSet weigh(const Fitted& e, std::vector<Refit> refits, double credible);
 
 }  // namespace drift::search

@@ -7,8 +7,8 @@ namespace drift::search {
 VecX taken_out(const inference::LinearProblem& problem, const FilterSpec& nominal,
                const BatchResult& before, const FilterSpec& better, const BatchResult& after) {
   const Layout layout = make_layout(nominal);
-  const VecX moved = layout.scaled(inference::theta_of(nominal, before)) -
-                     layout.scaled(inference::theta_of(better, after));
+  const VecX moved =
+      layout.scaled(theta_of(nominal, before)) - layout.scaled(theta_of(better, after));
   VecX out = inference::residual_of(problem, before) - inference::residual_of(problem, after) +
              problem.theta * moved;
   for (Eigen::Index k = 0; k < out.size(); ++k) {

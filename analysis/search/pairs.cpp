@@ -1,50 +1,49 @@
 #include "analysis/search/pairs.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
 
+#include "analysis/inference/thresholds.hpp"
+#include "core/base/decompose.hpp"
 #include "core/base/rng.hpp"
 
 namespace drift::search {
 namespace {
 
-constexpr double one_direction = 0.9999;
-constexpr double too_little =
-    22.0;  // log evidence behind the best pair: a million, and what the sizes are worth
+using inference::EffortLimits;
+using inference::ReachLimits;
 
 /// A single observable column that a candidate has.
-struct Unit {
+struct SingleColumn {
   Choice choice;
   int column = 0;
 };
 
-std::vector<Unit> single_columns(const Field& field) {
-  std::vector<Unit> units;
-  for (std::size_t c = 0; c < field.set->candidates.size(); ++c)
-    for (std::size_t v = 0; v < field.set->candidates[c].variants.size(); ++v)
+std::vector<SingleColumn> single_columns(const Field& field) {
+  std::vector<SingleColumn> units;
+  for (std::size_t c = 0; c < field.set.candidates.size(); ++c)
+    for (std::size_t v = 0; v < field.set.candidates[c].variants.size(); ++v)
       if (field.contrasts[c][v].columns.size() == 1 && field.contrasts[c][v].dof == 1 &&
           field.discount_of(c) == 0.0)
         units.push_back({{c, v}, field.contrasts[c][v].columns[0]});
   return units;
 }
 
-/// Correlations of the units' scores, and the scores with unit variance.
-MatX correlations(const Field& field, const std::vector<Unit>& units, VecX& z) {
-  const MatX& C = field.projected->C;
-  const auto n = static_cast<Eigen::Index>(units.size());
-  MatX rho(n, n);
-  z.resize(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const double s = std::sqrt(C(units[i].column, units[i].column));
-    z[i] = field.projected->g[units[i].column] / s;
-    for (Eigen::Index k = 0; k < n; ++k)
-      rho(i, k) = C(units[i].column, units[k].column) /
-                  (s * std::sqrt(C(units[k].column, units[k].column)));
-  }
-  return rho;
+/// Scores of units with unit variance.
+struct UnitScores {
+  MatX rho;  ///< their correlations
+  VecX z;
+};
+
+UnitScores scores_of(const Field& field, const std::vector<SingleColumn>& units) {
+  std::vector<int> columns;
+  for (const SingleColumn& u : units) columns.push_back(u.column);
+  const MatX C = field.projected.C(columns, columns);
+  const VecX scale = C.diagonal().cwiseSqrt().cwiseInverse();
+  return {scale.asDiagonal() * C * scale.asDiagonal(),
+          field.projected.g(columns).cwiseProduct(scale)};
 }
 
 double joint(double za, double zb, double rho) {
@@ -54,7 +53,7 @@ double joint(double za, double zb, double rho) {
 /// What a pair would be called: terms and axes.
 std::string name_of(const Field& field, const Pair& p) {
   const auto name = [&](const Choice& c) {
-    const inference::Candidate& candidate = field.set->candidates[c.candidate];
+    const inference::Candidate& candidate = field.set.candidates[c.candidate];
     return candidate.term + "." + candidate.axis;
   };
   const std::string a = name(p.a), b = name(p.b);
@@ -71,28 +70,20 @@ std::vector<Pair> diverse(const Field& field, const std::vector<Pair>& sorted, s
     const bool seen = std::any_of(kept.begin(), kept.end(), [&](const Pair& k) {
       return k.a.candidate == p.a.candidate && k.b.candidate == p.b.candidate;
     });
-    if (!seen && ++named[name_of(field, p)] <= 2) kept.push_back(p);
+    if (!seen && ++named[name_of(field, p)] <= EffortLimits::pairs_of_a_name) kept.push_back(p);
   }
   return kept;
 }
 
 /// Log evidence of a few columns with unit priors: what the choice among thousands of pairs needs.
 double quick_log_bayes(const inference::Projected& p, const std::vector<int>& columns) {
-  const auto n = static_cast<Eigen::Index>(columns.size());
-  MatX A(n, n);
-  VecX g(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    g[i] = p.g[columns[static_cast<std::size_t>(i)]];
-    for (Eigen::Index k = 0; k < n; ++k)
-      A(i, k) = p.C(columns[static_cast<std::size_t>(i)], columns[static_cast<std::size_t>(k)]) +
-                (i == k ? 1.0 : 0.0);
-  }
-  const Eigen::LLT<MatX> llt(A);
-  const MatX L = llt.matrixL();
-  return 0.5 * g.dot(llt.solve(g)) - L.diagonal().array().log().sum();
+  const VecX g = p.g(columns);
+  const MatX A = p.C(columns, columns) + MatX::Identity(g.size(), g.size());
+  const Cholesky root(A);
+  return 0.5 * g.dot(root.solve(g)) - root.L().diagonal().array().log().sum();
 }
 
-bool same_candidate(const Unit& a, const Unit& b) {
+bool same_candidate(const SingleColumn& a, const SingleColumn& b) {
   return a.choice.candidate == b.choice.candidate;
 }
 
@@ -100,12 +91,11 @@ bool same_candidate(const Unit& a, const Unit& b) {
 
 std::vector<Pair> strongest_pairs(const Field& field, std::size_t most) {
   const auto units = single_columns(field);
-  VecX z;
-  const MatX rho = correlations(field, units, z);
+  const auto [rho, z] = scores_of(field, units);
   std::vector<Pair> pairs;
   for (std::size_t i = 0; i < units.size(); ++i)
     for (std::size_t k = 0; k < i; ++k) {
-      if (same_candidate(units[i], units[k]) || std::abs(rho(i, k)) > one_direction) continue;
+      if (same_candidate(units[i], units[k]) || inference::same_trace(rho(i, k))) continue;
       const double T = joint(z[i], z[k], rho(i, k));
       if (pairs.size() == most && T <= pairs.back().T) continue;
       if (pairs.size() == most) pairs.pop_back();
@@ -115,20 +105,19 @@ std::vector<Pair> strongest_pairs(const Field& field, std::size_t most) {
                    p);
     }
   for (Pair& p : pairs)
-    p.log_bayes = log_bayes(*field.projected, columns_of(field, {p.a, p.b}, false));
+    p.log_bayes = log_bayes(field.projected, distinct_columns_of(field.set, {p.a, p.b}));
   return pairs;
 }
 
 inference::MaxNull pair_null(const Field& field, int draws) {
   const auto units = single_columns(field);
-  VecX z;
-  const MatX rho = correlations(field, units, z);
+  const MatX rho = scores_of(field, units).rho;
   const MatX g = inference::MaxNull::draw(rho, draws, 2);
   VecX largest = VecX::Zero(draws);
   for (std::size_t i = 0; i < units.size(); ++i)
     for (std::size_t k = 0; k < i; ++k) {
       const double r = rho(i, k);
-      if (same_candidate(units[i], units[k]) || std::abs(r) > one_direction) continue;
+      if (same_candidate(units[i], units[k]) || inference::same_trace(r)) continue;
       const double w = 1.0 / (1.0 - r * r);
       for (int d = 0; d < draws; ++d) {
         const double a = g(d, i), b = g(d, k);
@@ -152,8 +141,10 @@ std::vector<Pair> adequate_pairs(const Field& field, const std::vector<Score>& s
   std::size_t several = 0;
   for (const std::size_t k : order) {
     if (scores[k].dof == 0) continue;
-    const inference::Candidate& c = field.set->candidates[k];
-    if (c.params.size() > 1 && (several >= 12 || c.params.size() > 6)) continue;
+    const inference::Candidate& c = field.set.candidates[k];
+    if (c.params.size() > 1 &&
+        (several >= EffortLimits::wide_in_pairs || c.params.size() > EffortLimits::widest_in_pairs))
+      continue;
     several += c.params.size() > 1;
     choices.push_back({k, scores[k].variant});
     for (std::size_t v = 0; c.params.size() == 1 && v < c.variants.size(); ++v)
@@ -169,60 +160,31 @@ std::vector<Pair> adequate_pairs(const Field& field, const std::vector<Score>& s
   double top = 0.0;
   for (std::size_t i = 0; i < choices.size(); ++i)
     for (std::size_t k = 0; k < i; ++k) {
-      const inference::Candidate& a = field.set->candidates[choices[i].candidate];
-      const inference::Candidate& b = field.set->candidates[choices[k].candidate];
+      const inference::Candidate& a = field.set.candidates[choices[i].candidate];
+      const inference::Candidate& b = field.set.candidates[choices[k].candidate];
       if (choices[i].candidate == choices[k].candidate || a.contains(b) || b.contains(a)) continue;
-      const double evidence =
-          quick_log_bayes(*field.projected, columns_of(field, {choices[k], choices[i]}, false));
-      if (evidence < top - too_little) continue;
+      const double evidence = quick_log_bayes(
+          field.projected, distinct_columns_of(field.set, {choices[k], choices[i]}));
+      if (evidence < top - ReachLimits::pair) continue;
       top = std::max(top, evidence);
       tries.push_back({choices[k], choices[i], evidence});
     }
-  std::erase_if(tries, [&](const Try& t) { return t.log_bayes < top - too_little; });
+  std::erase_if(tries, [&](const Try& t) { return t.log_bayes < top - ReachLimits::pair; });
   std::vector<Pair> found;
   for (const Try& t : tries) {
     const std::vector<Choice> pair{t.a, t.b};
     const Remainder r = remainder(field, pair, library_threshold);
     if (r.library > library_threshold || r.scan > scan_threshold) continue;
-    const auto columns = columns_of(field, pair, false);
+    const auto columns = distinct_columns_of(field.set, pair);
     const inference::Contrast both =
-        inference::make_contrast(field.projected->C, field.projected->raw, columns);
-    const double T = both.T(field.projected->g);
-    found.push_back({t.a, t.b, T, both.dof, stats::strength(T, both.dof),
-                     log_bayes(*field.projected, columns)});
+        inference::make_contrast(field.projected.C, field.projected.raw, columns);
+    const double T = both.T(field.projected.g);
+    found.push_back(
+        {t.a, t.b, T, both.dof, stats::strength(T, both.dof), log_bayes(field.projected, columns)});
   }
   std::stable_sort(found.begin(), found.end(),
                    [](const Pair& a, const Pair& b) { return a.log_bayes > b.log_bayes; });
   return diverse(field, found, most);
-}
-
-std::vector<Choice> greedy(const Field& field, const std::vector<Score>& scores,
-                           double library_threshold, double scan_threshold, std::size_t most) {
-  std::vector<Choice> in;
-  std::size_t next = 0;
-  for (std::size_t k = 1; k < scores.size(); ++k)
-    if (scores[k].strength > scores[next].strength) next = k;
-  const auto quiet = [&](const Remainder& r) {
-    return r.library <= library_threshold && r.scan <= scan_threshold;
-  };
-  Remainder r;
-  do {
-    in.push_back({next, scores[next].variant});
-    r = remainder(field, in, 1e300);
-    next = r.strongest;
-  } while (!quiet(r) && in.size() < most && r.library > library_threshold);
-  if (!quiet(r)) return {};
-  for (std::size_t k = 0; k < in.size() && in.size() > 1;) {
-    std::vector<Choice> fewer = in;
-    fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(k));
-    if (quiet(remainder(field, fewer, 1e300))) {
-      in = fewer;
-      k = 0;
-    } else {
-      ++k;
-    }
-  }
-  return in;
 }
 
 }  // namespace drift::search

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/search/adequacy.hpp"
+#include "analysis/search/remainder.hpp"
 
 namespace drift::search {
 
@@ -14,8 +14,8 @@ struct Pair {
 };
 
 /// All pairs of single-parameter candidates, strongest joint score first (at most `most`),
-/// cancelling ones included: T = [g_a g_b] C^-1 [g_a g_b]'. Pairs that are one direction (cosine
-/// above 0.9999) are left out.
+/// cancelling ones included: T = [g_a g_b] C^-1 [g_a g_b]'. Pairs that
+/// leave the same trace (thresholds.hpp) are one effect under two names and left out.
 std::vector<Pair> strongest_pairs(const Field& field, std::size_t most);
 
 /// Largest pair strength under the null: threshold and p-values for strongest_pairs.
@@ -26,11 +26,5 @@ inference::MaxNull pair_null(const Field& field, int draws);
 /// the strongest.
 std::vector<Pair> adequate_pairs(const Field& field, const std::vector<Score>& scores,
                                  double library_threshold, double scan_threshold, std::size_t most);
-
-/// Further causes one by one, the strongest conditional score each time, until nothing is
-/// significant or `most` are in; then those that are not needed are taken out again. Empty if it
-/// never gets quiet.
-std::vector<Choice> greedy(const Field& field, const std::vector<Score>& scores,
-                           double library_threshold, double scan_threshold, std::size_t most);
 
 }  // namespace drift::search

@@ -6,11 +6,12 @@
 #include <optional>
 #include <set>
 
+#include "analysis/inference/thresholds.hpp"
+
 namespace drift::search {
 namespace {
 
-constexpr int between = 3;      // settings put between each two points
-constexpr double nearly = 6.0;  // log evidence: a second onset that may come to be the best
+constexpr int between = 3;  // settings put between each two points
 
 /// The one setting of a candidate that may lie between grid points; none if there is no such or
 /// several.
@@ -33,7 +34,7 @@ double part_of_the_way(double a, double b, double part) {
 /// The columns of a candidate at one more setting, computed once for all candidates of its term.
 class Columns {
  public:
-  explicit Columns(Examination& e) : e_(e), first_(e.set.signatures.size()) {}
+  explicit Columns(Fitted& e) : e_(e), first_(e.set.signatures.size()) {}
 
   std::vector<int> of(const inference::Candidate& c, const inference::Variant& pattern,
                       std::size_t place, double value) {
@@ -62,7 +63,7 @@ class Columns {
       if (k != place) values.push_back(v.settings[k].second);
     return values;
   }
-  Examination& e_;
+  Fitted& e_;
   std::size_t first_;
   std::map<Key, int> known_;
 };
@@ -96,7 +97,7 @@ void fill(inference::Candidate& c, std::size_t v, std::size_t place, Columns& co
 
 }  // namespace
 
-bool refine_grids(Examination& e, const inference::Test& test, double worth) {
+Fitted refine_grids(Fitted e, const MeasuredTest& test, double worth) {
   double top = 0.0;
   for (const Score& s : e.scores) top = std::max(top, s.log_bayes);
   Columns columns(e);
@@ -106,7 +107,8 @@ bool refine_grids(Examination& e, const inference::Test& test, double worth) {
     if (!place || e.scores[k].dof == 0 || e.scores[k].log_bayes < top - worth) continue;
     // Which gaps; from above, so that those below stay where they are.
     std::set<std::size_t, std::greater<>> gaps;
-    for (const std::size_t v : best_settings(*e.field, k, nearly, 2)) {
+    for (const std::size_t v : best_settings(e, k, inference::ReachLimits::refine_setting,
+                                             inference::EffortLimits::settings)) {
       if (v + 1 < c.variants.size()) gaps.insert(v);
       if (v > 0) gaps.insert(v - 1);
     }
@@ -114,13 +116,13 @@ bool refine_grids(Examination& e, const inference::Test& test, double worth) {
       if (same_but(c.variants[v], c.variants[v + 1], *place)) fill(c, v, *place, columns);
   }
   const auto added = columns.added();
-  if (added.empty()) return false;
+  if (added.empty()) return e;
   const MatX more = inference::signature_columns(e.filter, test, e.fit, added, e.problem.tags);
   const Eigen::Index before = e.problem.extra.cols();
   e.problem.extra.conservativeResize(Eigen::NoChange, before + more.cols());
   e.problem.extra.rightCols(more.cols()) = more;
-  set_noise(e, test.timeline, e.noise);
-  return true;
+  const inference::NoiseEstimate noise = e.noise;
+  return with_noise(std::move(e), test.timeline, noise);
 }
 
 }  // namespace drift::search

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/search/examination.hpp"
+#include "analysis/search/fitted.hpp"
 
 namespace drift::search {
 
@@ -8,7 +8,7 @@ namespace drift::search {
 /// of the best one get further settings on either side of their best settings (three between each
 /// two points), their signatures are computed and everything is scored again. A step at 3.5 h
 /// leaves a trace that steps at 3 and 4 h together do not explain, and something else would be
-/// called for beside it. Returns whether anything was added.
-bool refine_grids(Examination& e, const inference::Test& test, double worth);
+/// called for beside it.
+Fitted refine_grids(Fitted e, const MeasuredTest& test, double worth);
 
 }  // namespace drift::search

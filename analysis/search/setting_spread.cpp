@@ -5,20 +5,19 @@
 
 namespace drift::search {
 
-double setting_spread(const Examination& nominal, const std::vector<Choice>& choices,
-                      std::size_t which, std::size_t param, double value) {
+double setting_spread(const Fitted& nominal, const std::vector<Choice>& choices, std::size_t which,
+                      std::size_t param, double value) {
   const std::size_t k = choices[which].candidate;
   const auto& variants = nominal.set.candidates[k].variants;
   std::vector<Choice> tried = choices;
   std::vector<double> evidence, share, off;
   for (std::size_t v = 0; v < variants.size(); ++v) {
-    if (nominal.field->contrasts[k][v].dof == 0) continue;
+    if (nominal.contrasts[k][v].dof == 0) continue;
     const auto setting =
         std::ranges::find(variants[v].settings, param, &std::pair<std::size_t, double>::first);
     if (setting == variants[v].settings.end()) return 0.0;
     tried[which].variant = v;
-    evidence.push_back(
-        log_bayes(nominal.projector->candidates(), columns_of(*nominal.field, tried, false)));
+    evidence.push_back(log_bayes(nominal.projected, distinct_columns_of(nominal.set, tried)));
     share.push_back(variants[v].share);
     off.push_back(setting->second - value);
   }

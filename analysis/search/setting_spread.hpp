@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/search/examination.hpp"
+#include "analysis/search/fitted.hpp"
 
 namespace drift::search {
 
@@ -8,7 +8,7 @@ namespace drift::search {
 /// evidence of all settings of choices[which] with the others as they are (SI, as the settings
 /// are). The curvature at the best setting knows nothing of another onset that explains the test as
 /// well; this does.
-double setting_spread(const Examination& nominal, const std::vector<Choice>& choices,
-                      std::size_t which, std::size_t param, double value);
+double setting_spread(const Fitted& nominal, const std::vector<Choice>& choices, std::size_t which,
+                      std::size_t param, double value);
 
 }  // namespace drift::search

@@ -1,10 +1,10 @@
 #include "analysis/search/size_prior.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "core/base/decompose.hpp"
 
 namespace drift::search {
 namespace {
@@ -20,7 +20,7 @@ double log_mean_exp(const std::vector<double>& logs) {
 }
 
 double log_det(const MatX& A) {
-  const MatX L = Eigen::LLT<MatX>(A).matrixL();
+  const MatX L = Cholesky(A).L();
   return 2.0 * L.diagonal().array().log().sum();
 }
 
@@ -28,13 +28,13 @@ double log_det(const MatX& A) {
 
 double log_evidence_of_sizes(const MatX& C, const VecX& g) {
   if (g.size() == 0) return 0.0;
-  const Eigen::SelfAdjointEigenSolver<MatX> eigen(C);
-  const VecX y = eigen.eigenvectors().transpose() * g;
+  const Eigensystem eigen = eigensystem(C);
+  const VecX y = eigen.vectors.transpose() * g;
   std::vector<double> logs;
   for (const double s : scales) {
     double sum = 0.0;
     for (Eigen::Index k = 0; k < y.size(); ++k) {
-      const double grown = 1.0 + s * s * std::max(eigen.eigenvalues()[k], 0.0);
+      const double grown = 1.0 + s * s * std::max(eigen.values[k], 0.0);
       sum += 0.5 * (s * s * y[k] * y[k] / grown - std::log(grown));
     }
     logs.push_back(sum);
@@ -60,7 +60,7 @@ double log_gain_of_sizes(const VecX& x, const MatX& covariance, const std::vecto
     }
     // Of a Gaussian with information `information` about x, times the ratio of the priors.
     logs.push_back(shrunk + 0.5 * (unit - log_det(A)) +
-                   0.5 * (pull.dot(A.llt().solve(pull)) - x.dot(pull)));
+                   0.5 * (pull.dot(Cholesky(A).solve(pull)) - x.dot(pull)));
     std::size_t next = 0;
     while (next < chosen.size() && ++chosen[next] == scales.size()) chosen[next++] = 0;
     if (next == chosen.size()) return log_mean_exp(logs);

@@ -1,19 +1,16 @@
 #include "analysis/strapdown/diagnose.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 
-#include "analysis/diagnosis/patched_study.hpp"
-#include "analysis/diagnosis/sentence.hpp"
+#include "analysis/diagnosis/advice/patched_study.hpp"
 #include "analysis/strapdown/nominal.hpp"
 #include "analysis/strapdown/residuals.hpp"
 #include "analysis/strapdown/where.hpp"
 #include "core/base/check.hpp"
-#include "core/base/number_text.hpp"
 
 namespace drift::strapdown {
 namespace {
@@ -78,7 +75,7 @@ class Diagnoser {
 
   void run() {
     choose_final();
-    equation_ = final_->model.equation == Coupling::eq6 ? "eq6" : "eq5";
+    equation_ = key_of(final_->model.equation);
     candidates();
     causes();
     compare();
@@ -97,18 +94,14 @@ class Diagnoser {
     for (const Final& f : r_.accepted)
       if (f.model.equation == Coupling::eq5) final_ = &f;
     Cause closure;
-    closure.term = "frame_closure";
+    closure.term = closure_term;
     closure.T = contest.z * contest.z;
     closure.p_value = family_wise(chance_of_gain(contest.z, contest.eq5.count));
     closure.probability = 1.0;
     closure.size_sigma = none;
     d_.causes.push_back(closure);
-    d_.remarks.push_back(
-        fmt::format("eq. (5) predicts held-out turns to {:.3g} deg, eq. (6) to {:.3g} deg ({:.1f} "
-                    "standard errors): lambda is 0 "
-                    "and not 1. Between the two this recording gives it no number: case motion "
-                    "shows (1 - lambda) E alone",
-                    contest.eq5.held_out, contest.eq6.held_out, contest.z));
+    d_.remarks.emplace_back(
+        remark::EquationByTurns{contest.eq5.held_out, contest.eq6.held_out, contest.z});
   }
 
   double family_wise(double p) const {
@@ -144,10 +137,9 @@ class Diagnoser {
       c.log_bayes = log_gain(*t, against, last);
       c.probability = std::isfinite(c.log_bayes) ? 1.0 / (1.0 + std::exp(-c.log_bayes)) : none;
       c.adequate = t->verdict == Verdict::accepted && holds(final_->model, part);
-      d_.remarks.push_back(
-          fmt::format("{} {}: {} (gain on dwells {:.1f}{} standard errors)", part.label,
-                      name_of(t->verdict), t->reason, t->z_dwell,
-                      part.accelerometer ? "" : fmt::format(", on turns {:.1f}", t->z_rotation)));
+      d_.remarks.emplace_back(
+          remark::StepJudged{std::string(part.label), std::string(name_of(t->verdict)), t->reason,
+                             t->z_dwell, part.accelerometer ? none : t->z_rotation});
       d_.candidates.push_back(c);
     }
     std::ranges::stable_sort(d_.candidates, std::greater{}, &CandidateScore::score);
@@ -215,7 +207,8 @@ class Diagnoser {
     double chi2_before = 0.0, chi2_after = 0.0, dof = 0.0, squares = 0.0;
     for (std::size_t k = 0; k < was.size(); ++k) {
       Fold fold;
-      fold.name = fmt::format("dwell {}", k + 1);
+      fold.of = Fold::Of::dwell;
+      fold.number = static_cast<int>(k) + 1;
       fold.positions = {static_cast<int>(k) + 1};
       fold.chi2_before = was[k].chi2;
       fold.chi2_after = is[k].chi2;
@@ -242,7 +235,7 @@ class Diagnoser {
 
   void kinds(const Errors& before, const Errors& after) {
     const double g = r_.options.gravity;
-    out_.kinds = {
+    d_.errors = {
         {"gyro rate in dwells", "deg/s", root_mean_square(before.dwell) / unit::deg_per_s.to_si,
          root_mean_square(after.dwell) / unit::deg_per_s.to_si},
         {"up after a turn", "deg", root_mean_square(before.rotation) / unit::deg.to_si,
@@ -265,28 +258,11 @@ class Diagnoser {
   }
 
   void say() {
-    std::vector<std::string> numbers;
-    for (const StrapdownKind& k : out_.kinds)
-      numbers.push_back(fmt::format("{} {:.3g} → {:.3g} {}", k.what, k.before, k.after, k.unit));
-    d_.sentence =
-        d_.causes.empty()
-            ? fmt::format(
-                  "Nothing is missing that predicts held-out dwells and turns better (noise alone "
-                  "shows as "
-                  "much with a chance of {}).",
-                  p_text(d_.p_value))
-            : fmt::format("{} (chance of a false alarm: {}); error on held-out data: {}.",
-                          lacking(d_.causes), p_text(d_.p_value), fmt::join(numbers, ", "));
-    d_.remarks.push_back(
-        "a recording on a case declares no noise: residuals and chi-square are in units of the "
-        "scatter "
-        "that the accepted model leaves");
+    d_.remarks.emplace_back(remark::NoDeclaredNoise{});
     if (final_->model.drift >= DriftOrder::g_sensitive)
-      d_.remarks.push_back(
-          "D_I is fitted with D_O and D_S and is left out of the causes: its common part is not "
-          "observable, and alone it improved nothing");
+      d_.remarks.emplace_back(remark::CommonDriftUnseen{});
     for (const Unobservable& u : unobservable_of(*final_))
-      d_.remarks.push_back(fmt::format("not observable: {}: {}", u.what, u.reason));
+      d_.remarks.emplace_back(remark::NotObservable{u.what, u.reason});
   }
 
   const mc::Study& study_;

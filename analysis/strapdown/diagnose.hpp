@@ -3,24 +3,16 @@
 #include <string>
 #include <vector>
 
-#include "analysis/diagnosis/diagnosis.hpp"
+#include "analysis/diagnosis/findings/diagnosis.hpp"
 #include "analysis/strapdown/identify.hpp"
 #include "mc/study/study.hpp"
 
 namespace drift::strapdown {
 
-/// Root mean square error of the nominal and of the accepted model on one kind of held-out data.
-struct StrapdownKind {
-  std::string what;  ///< "gravity in dwells", "gyro rate in dwells", "up after a turn"
-  std::string unit;
-  double before = 0.0, after = 0.0;  ///< [unit]
-};
-
 /// A diagnosis of a strapdown recording and the identification it rests on.
 struct StrapdownDiagnosis {
   StrapdownResult result;
   diagnosis::Diagnosis diagnosis;
-  std::vector<StrapdownKind> kinds;
 };
 
 /// Diagnoses sensors on a case: what must be added to the first filter of the study so that dwells

@@ -15,7 +15,7 @@ void check(const StrapdownOptions& options) {
   if (options.equations.empty())
     problems.emplace_back("no [[filter]] (a coupling eq5 or eq6 is expected)");
   for (const Coupling c : options.equations)
-    if (c != Coupling::eq5 && c != Coupling::eq6)
+    if (!facts(c).other)
       problems.emplace_back(
           "[[filter]] coupling of a strapdown plan (eq5 or eq6 is expected: gyros on the case have "
           "no "

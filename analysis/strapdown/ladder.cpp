@@ -101,7 +101,7 @@ class GyroLadder {
   }
 
   std::string equation_of(const Parts& parts) const {
-    return !parts.misalignment ? "any" : (equation_ == Coupling::eq5 ? "eq5" : "eq6");
+    return parts.misalignment ? std::string(key_of(equation_)) : "any";
   }
 
   const Trial* known(const Parts& parts) const {

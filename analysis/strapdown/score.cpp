@@ -6,41 +6,13 @@
 
 #include "core/base/check.hpp"
 #include "core/base/rng.hpp"
+#include "core/stats/student.hpp"
 
 namespace drift::strapdown {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr int resamples = 1000;
-/// Regularised incomplete beta function I_x(a, b) by its continued fraction (Abramowitz and Stegun
-/// 26.5.8, evaluated after Lentz), for x below (a + 1) / (a + b + 2).
-double incomplete_beta(double a, double b, double x) {
-  constexpr double tiny = 1e-300;
-  if (x <= 0.0) return 0.0;
-  const double front = std::exp(std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b) +
-                                a * std::log(x) + b * std::log1p(-x)) /
-                       a;
-  double c = 1.0, d = 1.0 - (a + b) * x / (a + 1.0);
-  d = 1.0 / (std::abs(d) < tiny ? tiny : d);
-  double fraction = d;
-  const auto step = [&](double coefficient) {
-    d = 1.0 + coefficient * d;
-    d = 1.0 / (std::abs(d) < tiny ? tiny : d);
-    c = 1.0 + coefficient / c;
-    if (std::abs(c) < tiny) c = tiny;
-    fraction *= c * d;
-    return c * d;
-  };
-  for (int k = 1; k < 500; ++k) {
-    const double m = k;
-    step(m * (b - m) * x / ((a + 2.0 * m - 1.0) * (a + 2.0 * m)));
-    if (std::abs(step(-(a + m) * (a + b + m) * x / ((a + 2.0 * m) * (a + 2.0 * m + 1.0))) - 1.0) <
-        1e-14)
-      break;
-  }
-  return front * fraction;
-}
-
 constexpr std::uint32_t bootstrap_stream = 1;  // 0 divides the data into folds
 
 }  // namespace
@@ -84,7 +56,7 @@ Score score_of(const std::vector<double>& in_sample, const std::vector<double>& 
 }
 
 double paired_gain(const std::vector<double>& before, const std::vector<double>& after) {
-  DRIFT_EXPECTS(before.size() == after.size());
+  DRIFT_DEMAND(before.size() == after.size());
   const double n = static_cast<double>(before.size());
   double sum = 0.0, squares = 0.0;
   for (std::size_t k = 0; k < before.size(); ++k) sum += before[k] - after[k];
@@ -96,11 +68,7 @@ double paired_gain(const std::vector<double>& before, const std::vector<double>&
 
 double chance_of_gain(double z, std::size_t count) {
   if (count < 2 || !std::isfinite(z)) return 1.0;
-  const double dof = static_cast<double>(count) - 1.0, x = dof / (dof + z * z), a = 0.5 * dof;
-  // P(|t| > |z|) = I_x(dof/2, 1/2); the fraction converges on the smaller side.
-  const double both = x < (a + 1.0) / (a + 2.5) ? incomplete_beta(a, 0.5, x)
-                                                : 1.0 - incomplete_beta(0.5, a, 1.0 - x);
-  return z > 0.0 ? 0.5 * both : 1.0 - 0.5 * both;
+  return stats::student_tail(z, static_cast<double>(count) - 1.0);
 }
 
 }  // namespace drift::strapdown

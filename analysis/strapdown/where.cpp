@@ -68,17 +68,16 @@ RecoveredSignal signal_of(int gyro, const Residuals& before, const Residuals& af
   for (int axis = 0; axis < 3; ++axis)
     if (const double r = correlation(s.value, force[axis]); std::abs(r) > std::abs(s.correlation)) {
       s.correlation = r;
-      s.best_covariate = fmt::format("acc_{}", "xyz"[axis]);
+      s.shape.covariate = fmt::format("acc_{}", "xyz"[axis]);
     }
   if (const double r = correlation(s.value, s.t); std::abs(r) > std::abs(s.correlation)) {
     s.correlation = r;
-    s.best_covariate = "time";
+    s.shape.covariate = "time";
   }
   // Of n independent pairs |r| exceeds 2 / sqrt(n) in one case of twenty; four are tried.
   const bool follows = std::abs(s.correlation) > 3.0 / std::sqrt(static_cast<double>(s.t.size()));
-  s.shape = follows
-                ? fmt::format("follows {} (correlation {:+.2f})", s.best_covariate, s.correlation)
-                : "follows neither specific force nor time";
+  s.shape.kind =
+      follows ? diagnosis::Shape::Kind::follows : diagnosis::Shape::Kind::follows_nothing;
   return s;
 }
 

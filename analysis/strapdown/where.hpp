@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/diagnosis/diagnosis.hpp"
+#include "analysis/diagnosis/findings/diagnosis.hpp"
 #include "analysis/strapdown/residuals.hpp"
 
 namespace drift::strapdown {

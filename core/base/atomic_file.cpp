@@ -10,6 +10,7 @@
 #include <filesystem>
 
 #include "core/base/check.hpp"
+#include "core/base/temporary_file.hpp"
 
 namespace drift {
 
@@ -25,10 +26,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What is at a path and must stay there: all but regular files. Empty if the path is free.
+/// What is at a path and must stay there: all but regular files; or why the name cannot be used.
+/// Empty if it can.
 std::string in_the_way(const std::string& path) {
-  std::error_code none;
-  switch (fs::symlink_status(path, none).type()) {
+  std::error_code error;
+  switch (fs::symlink_status(path, error).type()) {
+    case fs::file_type::none:
+      return error.message();
     case fs::file_type::directory:
       return "it is a directory";
     case fs::file_type::block:
@@ -39,39 +43,31 @@ std::string in_the_way(const std::string& path) {
     case fs::file_type::socket:
       return "it is a socket";
     case fs::file_type::symlink:
-      return "it is a symbolic link to no regular file";
+      return "it is a symbolic link";
     default:
       return {};
   }
 }
 
-/// A symbolic link to a regular file stands for that file: the link stays.
-std::string followed(std::string path) {
-  std::error_code none;
-  if (!fs::is_symlink(path, none) || !fs::is_regular_file(path, none)) return path;
-  const fs::path target = fs::canonical(path, none);
-  return none ? path : target.string();
+std::string folder_of(const std::string& path) {
+  const std::string folder = fs::path(path).parent_path().string();
+  return folder.empty() ? "." : folder;
 }
 
 }  // namespace
 
-AtomicFile::AtomicFile(std::string path)
-    : path_(followed(std::move(path))), temporary_(path_ + ".XXXXXX") {
-  refuse_what_is_no_file();
-  const int fd = ::mkostemp(temporary_.data(), O_CLOEXEC);
-  if (fd < 0) throw_cannot_write(path_, std::strerror(errno));
-  const mode_t mask = ::umask(0);  // the mode an ordinary new file gets
-  ::umask(mask);
-  ::fchmod(fd, 0666 & ~mask);
-  ::close(fd);
+void require_file_name(const std::string& path) {
+  if (const std::string what = in_the_way(path); !what.empty()) throw_cannot_write(path, what);
+}
+
+AtomicFile::AtomicFile(std::string path) : path_(std::move(path)) {
+  require_file_name(path_);
+  temporary_ = make_temporary(folder_of(path_));
+  if (temporary_.empty()) throw_cannot_write(path_, std::strerror(errno));
 }
 
 AtomicFile::~AtomicFile() {
   if (!temporary_.empty()) ::unlink(temporary_.c_str());
-}
-
-void AtomicFile::refuse_what_is_no_file() const {
-  if (const std::string what = in_the_way(path_); !what.empty()) throw_cannot_write(path_, what);
 }
 
 void AtomicFile::sync_temporary() {
@@ -86,7 +82,7 @@ void AtomicFile::sync_temporary() {
 
 void AtomicFile::commit() {
   sync_temporary();
-  refuse_what_is_no_file();  // rename() would replace it
+  require_file_name(path_);  // rename() would replace it
   if (::rename(temporary_.c_str(), path_.c_str()) != 0)
     throw_cannot_write(path_, std::strerror(errno));
   temporary_.clear();
@@ -113,12 +109,15 @@ bool AtomicFile::commit_new() {
 
 void AtomicFile::sync_folder() {
   // The new name itself reaches the disk with its folder; not every file system allows that.
-  const auto folder = std::filesystem::path(path_).parent_path();
-  const int dir = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (dir >= 0) {
-    ::fsync(dir);
-    ::close(dir);
-  }
+  const int dir = ::open(folder_of(path_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (dir < 0) return;
+  const int reason = ::fsync(dir) == 0 ? 0 : errno;
+  ::close(dir);
+  if (reason == EIO || reason == ENOSPC || reason == EDQUOT)
+    throw InputError(ExitCode::io,
+                     fmt::format("{}: is written, but its name may not have reached the disk: {} "
+                                 "(expected a disk that takes it). Check the disk and run again",
+                                 path_, std::strerror(reason)));
 }
 
 }  // namespace drift

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <source_location>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -54,17 +53,21 @@ class ContractError : public std::logic_error {
   using std::logic_error::logic_error;
 };
 
-[[noreturn]] inline void contract_broken(
-    const char* condition, std::source_location at = std::source_location::current()) {
-  throw ContractError(
-      fmt::format("{}:{}: contract broken: {}", at.file_name(), at.line(), condition));
+[[noreturn]] inline void contract_broken(const char* condition, const char* file, int line) {
+  throw ContractError(fmt::format("{}:{}: contract broken: {}", file, line, condition));
 }
 
 }  // namespace drift
 
-/// A precondition that only a mistake in this program can break; on in dev and asan builds.
+/// A precondition whose breach would touch memory that is not there; always on. Not for innermost
+/// loops.
+#define DRIFT_DEMAND(condition) \
+  ((condition) ? void(0) : ::drift::contract_broken(#condition, __FILE__, __LINE__))
+
+/// Any other precondition that only a mistake in this program can break; on in dev and asan builds.
 #ifdef DRIFT_CONTRACTS
-#define DRIFT_EXPECTS(condition) ((condition) ? void(0) : ::drift::contract_broken(#condition))
+#define DRIFT_EXPECTS(condition) \
+  ((condition) ? void(0) : ::drift::contract_broken(#condition, __FILE__, __LINE__))
 #else
 #define DRIFT_EXPECTS(condition) void(0)
 #endif

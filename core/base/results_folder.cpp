@@ -1,95 +1,145 @@
 #include "core/base/results_folder.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <memory>
 
 #include "core/base/atomic_file.hpp"
 #include "core/base/check.hpp"
+#include "core/base/results_marks.hpp"
+#include "core/base/results_register.hpp"
+#include "core/base/sha256.hpp"
+#include "core/base/temporary_file.hpp"
 
 namespace drift {
+namespace {
 
-void write_text_atomically(const std::string& path, std::string_view text) {
-  AtomicFile target(path);
-  const auto failed = [&] { throw_cannot_write(path, std::strerror(errno)); };
-  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(target.temporary().c_str(), "we"),
-                                                       &std::fclose);
-  if (!file || std::fwrite(text.data(), 1, text.size(), file.get()) != text.size()) failed();
-  if (std::fclose(file.release()) != 0) failed();  // a full disk may show only here
-  target.commit();
+namespace fs = std::filesystem;
+
+/// "a, b and 3 more"
+std::string listed(std::vector<std::string> names) {
+  constexpr std::size_t most = 5;
+  std::ranges::sort(names);
+  const std::size_t more = names.size() > most ? names.size() - most : 0;
+  names.resize(names.size() - more);
+  return fmt::format("{}{}", fmt::join(names, ", "),
+                     more > 0 ? fmt::format(" and {} more", more) : "");
 }
 
-std::string results_of(const std::string& folder) {
-  // A strapdown diagnosis has an identification beside it, so the order matters.
-  constexpr std::pair<std::string_view, std::string_view> marks[] = {
-      {"manifest.json", "run"},
-      {"key.json", "blind"},
-      {"diagnosis.json", "diagnose"},
-      {"rank.json", "rank"},
-      {"identification.json", "identify"}};
-  for (const auto& [file, command] : marks)
-    if (std::filesystem::exists(std::filesystem::path(folder) / file)) return std::string(command);
-  return {};
+/// An input within the folder, by whatever name, link or spelling it was given.
+void refuse_inputs(const fs::path& folder, const std::vector<std::string>& inputs) {
+  std::error_code unknown;
+  for (const auto& entry : fs::directory_iterator(folder, unknown))
+    for (const std::string& input : inputs)
+      if (fs::equivalent(entry.path(), input, unknown))
+        throw InputError(
+            ExitCode::usage,
+            fmt::format("-o {}: {} in it is an input of this command (expected a folder for "
+                        "results alone: inputs are never written to). Name another folder",
+                        folder.string(), entry.path().filename().string()));
 }
 
-void require_own_folder(const std::string& folder, std::string_view command) {
-  if (folder.empty()) return;
-  if (std::filesystem::exists(folder) && !std::filesystem::is_directory(folder))
-    throw_cannot_write(folder, "it is a file, expected a folder");
-  const std::string holder = results_of(folder);
-  if (!holder.empty() && holder != command)
+void refuse_strangers(const ResultsFolder& folder) {
+  std::vector<std::string> names;
+  std::error_code unreadable;
+  for (const auto& entry : fs::directory_iterator(folder.path, unreadable))
+    if (looks_like_result(entry.path())) names.push_back(entry.path().filename().string());
+  if (!names.empty())
     throw InputError(
         ExitCode::store,
-        fmt::format("{}: holds the results of `{}` (expected an empty folder, or one of `{}`). "
-                    "Give another folder with -o",
-                    folder, holder, command));
+        fmt::format("{}: holds {}, which driftscope did not write (expected an empty folder, or "
+                    "one with results of `{}`). Nothing was changed; give another folder with -o",
+                    folder.path, listed(std::move(names)), folder.command));
 }
 
-void require_writable_folder(const std::string& folder) {
-  namespace fs = std::filesystem;
-  if (folder.empty()) return;
-  std::vector<fs::path> missing;  // innermost first
-  std::error_code unknown;
-  for (fs::path at = fs::absolute(folder); !at.empty() && !fs::exists(at, unknown);
-       at = at.parent_path()) {
-    missing.push_back(at);
-    if (unknown || at == at.parent_path()) break;
+/// Links among the results would lead what is written to other places.
+void refuse_links(const std::string& folder) {
+  std::error_code unreadable;
+  for (const auto& entry : fs::directory_iterator(folder, unreadable))
+    if (entry.is_symlink(unreadable) && looks_like_result(entry.path()))
+      throw InputError(
+          ExitCode::store,
+          fmt::format(
+              "{}: is a symbolic link, which is not followed (expected a file of its own). "
+              "Nothing was changed; put a copy in its place, or give another folder with -o",
+              entry.path().string()));
+}
+
+/// Of what driftscope wrote, what is not as it was.
+void refuse_changed(const ResultsFolder& folder) {
+  HashedFiles present;
+  for (const std::string& name : ResultsRegister(folder.path).names()) {
+    const fs::path path = fs::path(folder.path) / name;
+    std::error_code none;
+    const fs::file_status status = fs::symlink_status(path, none);
+    if (fs::exists(status))
+      present.emplace_back(
+          name, fs::is_regular_file(status) ? sha256_hex_of_file(path.string()) : "no file");
   }
+  // Read anew: a hash is noted before its file is written, by other processes too.
+  const ResultsRegister known(folder.path);
+  std::vector<std::string> changed;
+  for (const auto& [name, hash] : present)
+    if (!known.has(name, hash)) changed.push_back(name);
+  if (!changed.empty())
+    throw InputError(
+        ExitCode::store,
+        fmt::format("{}: {} changed since driftscope wrote {} (expected as written, to be "
+                    "replaced). Nothing was changed; move away what you want to keep, or give "
+                    "another folder with -o",
+                    folder.path, listed(changed), changed.size() == 1 ? "it" : "them"));
+}
+
+/// Tries to write where the folder is, or where it would be made, and leaves no trace.
+void require_writable(const std::string& folder) {
+  std::error_code unknown;
+  fs::path at = fs::absolute(folder, unknown);
+  while (!fs::exists(fs::symlink_status(at, unknown)) && at != at.parent_path())
+    at = at.parent_path();
+  const std::string probe = make_temporary(at.string());
+  if (probe.empty()) throw_cannot_write(folder, std::strerror(errno));
+  ::unlink(probe.c_str());
+}
+
+}  // namespace
+
+std::string results_of(const std::string& folder) {
+  const std::string registered = ResultsRegister(folder).command();
+  return registered.empty() ? command_by_files(folder) : registered;
+}
+
+void require_results_folder(const ResultsFolder& folder, const std::vector<std::string>& inputs) {
+  if (folder.path.empty()) return;
   std::error_code error;
-  fs::create_directories(folder, error);
-  std::string reason = error ? error.message() : "";
-  if (reason.empty()) {
-    std::string probe = (fs::path(folder) / ".driftscope.XXXXXX").string();
-    const int file = ::mkostemp(probe.data(), O_CLOEXEC);
-    if (file < 0) {
-      reason = std::strerror(errno);
+  const fs::file_status status = fs::status(folder.path, error);
+  if (status.type() == fs::file_type::none) throw_cannot_write(folder.path, error.message());
+  if (fs::exists(status) && !fs::is_directory(status))
+    throw_cannot_write(folder.path, "it is a file, expected a folder");
+  if (fs::exists(status)) {
+    refuse_inputs(folder.path, inputs);
+    const std::string holder = results_of(folder.path);
+    if (!holder.empty() && holder != folder.command)
+      throw InputError(
+          ExitCode::store,
+          fmt::format("{}: holds the results of `{}` (expected an empty folder, or one of `{}`). "
+                      "Give another folder with -o",
+                      folder.path, holder, folder.command));
+    if (holder.empty()) {
+      refuse_strangers(folder);
     } else {
-      ::close(file);
-      ::unlink(probe.c_str());
+      refuse_links(folder.path);
+      refuse_changed(folder);
     }
   }
-  for (const fs::path& made : missing) fs::remove(made, unknown);  // takes away empty folders only
-  if (!reason.empty()) throw_cannot_write(folder, reason);
-}
-
-std::vector<std::string> write_files(const std::vector<TextFile>& files,
-                                     const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw_cannot_write(folder, error.message());
-  const std::filesystem::path root(folder);
-  std::vector<std::string> names;
-  for (const auto& [name, text] : files) {
-    write_text_atomically((root / name).string(), text);
-    names.push_back(name);
-  }
-  return names;
+  require_writable(folder.path);
+  remove_stale_temporaries(folder.path);
+  for (const auto& trial : fs::directory_iterator(fs::path(folder.path) / "trials", error))
+    remove_stale_temporaries(trial.path().string());
 }
 
 }  // namespace drift

@@ -3,6 +3,7 @@
 #include <openssl/evp.h>
 
 #include <array>
+#include <fstream>
 
 #include "core/base/check.hpp"
 
@@ -61,6 +62,18 @@ std::string to_hex(std::string_view bytes) {
 
 std::string sha256_hex(std::string_view bytes) {
   return to_hex(sha256(bytes));
+}
+
+std::string sha256_hex_of_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return {};
+  Sha256 hash;
+  std::string part(1 << 16, '\0');
+  while (file) {
+    file.read(part.data(), static_cast<std::streamsize>(part.size()));
+    hash.update(std::string_view(part).substr(0, static_cast<std::size_t>(file.gcount())));
+  }
+  return file.bad() ? std::string() : to_hex(hash.finish());
 }
 
 }  // namespace drift

@@ -131,8 +131,11 @@ constexpr std::optional<Unit> parse_unit(std::string_view text) {
 }
 
 /// A unit known when the program is compiled; a symbol that is none does not compile.
-consteval Unit operator""_unit(const char* text, std::size_t size) {
-  return parse_unit(std::string_view(text, size)).value();
+template <FixedString text>
+constexpr Unit operator""_unit() {
+  constexpr std::optional<Unit> unit = parse_unit(text.view());
+  static_assert(unit.has_value(), "not a unit this program knows");
+  return *unit;
 }
 
 namespace unit {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace drift::config {
@@ -50,6 +51,26 @@ inline Node* Node::find(std::string_view key) {
   for (auto& member : members)
     if (member.key == key) return &member.value;
   return nullptr;
+}
+
+/// Values that no file holds yet.
+inline Node text_node(std::string text) {
+  Node node;
+  node.kind = Node::Kind::string;
+  node.text = std::move(text);
+  return node;
+}
+inline Node real_node(double value) {
+  Node node;
+  node.kind = Node::Kind::real;
+  node.real = value;
+  return node;
+}
+inline Node list_node(std::vector<Node> items) {
+  Node node;
+  node.kind = Node::Kind::array;
+  node.items = std::move(items);
+  return node;
 }
 
 /// The value as TOML, on one line: `"112 arcsec"`, `{ normal = ["1 deg", "2 deg"] }`.

@@ -17,13 +17,6 @@ struct Option {
   std::string_view doc = {};
 };
 
-/// A name in the file and the value it stands for.
-template <class E>
-struct Choice {
-  std::string_view name;
-  E value;
-};
-
 /// An options struct: visit_options(struct, field) calls field(Option, member) for each member.
 template <class T>
 concept Options = requires(T& options) {

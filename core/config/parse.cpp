@@ -147,9 +147,7 @@ Node parse_value(std::string_view text, const std::string& set_key) {
   const auto first = text.find_first_not_of(" \t");
   const auto last = text.find_last_not_of(" \t");
   text = first == std::string_view::npos ? "" : text.substr(first, last - first + 1);
-  Node value;
-  value.kind = Node::Kind::string;
-  value.text = text;
+  Node value = text_node(std::string(text));
   try {
     // A line break could smuggle in a second key.
     if (text.find_first_of("\r\n") == std::string_view::npos) {

@@ -6,11 +6,12 @@
 #include <tuple>
 
 #include "core/base/check.hpp"
+#include "core/base/utf8.hpp"
 
 namespace drift::config {
 
 Report::Report(std::string path)
-    : path_(std::move(path)), file_name_(path_.substr(path_.find_last_of('/') + 1)) {}
+    : path_(std::move(path)), file_name_(utf8_text(path_.substr(path_.find_last_of('/') + 1))) {}
 
 void Report::error(const Place& at, const std::string& text) {
   errors_.push_back({at, at.set_key.empty()

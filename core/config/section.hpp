@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/linalg.hpp"
+#include "core/base/named.hpp"
 #include "core/config/option.hpp"
 #include "core/config/quantity.hpp"
 #include "core/config/report.hpp"
@@ -45,8 +46,9 @@ class Section {
   bool read(const Option& option, std::string& value);    ///< one line, max <= 200 characters
   bool read(const Option& option, std::uint64_t& value);  ///< a TOML integer or "0x..."
   bool read(const Option& option, int& value);
-  template <class E, std::size_t N>
-  bool read(const Option& option, E& value, const Choice<E> (&choices)[N]);
+  /// One of the names of a table (named.hpp).
+  template <class E, class Row, std::size_t N>
+  bool read(const Option& option, E& value, const Row (&choices)[N]);
 
   /// Reports the key as missing if it is. `example` is how it may look: `latitude = "45.75 deg"`.
   bool require(std::string_view key, std::string_view example);
@@ -78,18 +80,16 @@ class Section {
   std::string origin_ = "default";
 };
 
-template <class E, std::size_t N>
-bool Section::read(const Option& option, E& value, const Choice<E> (&choices)[N]) {
+template <class E, class Row, std::size_t N>
+bool Section::read(const Option& option, E& value, const Row (&choices)[N]) {
   std::vector<std::string_view> names;
-  for (const auto& choice : choices) names.push_back(choice.name);
+  for (const Row& choice : choices) names.push_back(choice.name);
   if (const auto chosen = choose(option, names)) {
     value = choices[*chosen].value;
     return true;
   }
   if (!has(option.key))
-    for (const auto& choice : choices)
-      if (choice.value == value)
-        report_->assumed(full(option.key), std::string(choice.name), origin_);
+    report_->assumed(full(option.key), std::string(name_in(choices, value)), origin_);
   return false;
 }
 

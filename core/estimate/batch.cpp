@@ -2,73 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 
+#include "core/base/decompose.hpp"
+#include "core/estimate/batch_equations.hpp"
 #include "core/estimate/triangle.hpp"
 #include "core/physics/stochastic.hpp"
 #include "core/sim/predict.hpp"
 
 namespace drift {
 namespace {
-
-/// One chain reduced to triangles: [psi | x | r] with the attitude prior (and damping) on top.
-struct ReducedChain {
-  MatX data;  ///< triangle of the rows alone
-};
-
-/// The linear least squares problem at one point, ready to be solved for any damping.
-struct Equations {
-  std::vector<ReducedChain> chains;
-  std::vector<Vec3> psi;  ///< present attitude errors, scaled by their prior sigma
-  VecX x;                 ///< present scaled parameters
-  double cost = 0.0;      ///< data + prior
-
-  struct Step {
-    VecX dx;
-    std::vector<Vec3> dpsi;
-  };
-
-  /// Minimises |J d - r|^2 + |p + d|^2 + mu |d|^2.
-  Step solve(double mu) const;
-  /// Triangle over [x | r] with every attitude eliminated. prior: 1 keeps the parameter prior, 0
-  /// not.
-  MatX reduced(double mu, std::vector<MatX>* per_chain) const;
-};
-
-MatX Equations::reduced(double mu, std::vector<MatX>* per_chain) const {
-  const Eigen::Index n = x.size();
-  MatX sum = MatX::Zero(n + 1, n + 1);
-  for (std::size_t c = 0; c < chains.size(); ++c) {
-    MatX extra = MatX::Zero(mu > 0.0 ? 6 : 3, 3 + n + 1);
-    extra.topLeftCorner<3, 3>().setIdentity();
-    extra.block<3, 1>(0, 3 + n) = -psi[c];
-    if (mu > 0.0) extra.block<3, 3>(3, 0) = std::sqrt(mu) * Mat3::Identity();
-    const MatX R = triangle(stacked(chains[c].data, extra));
-    if (per_chain) per_chain->push_back(R.topRows<3>());
-    sum = triangle(stacked(sum, R.bottomRightCorner(n + 1, n + 1)));
-  }
-  return sum;
-}
-
-Equations::Step Equations::solve(double mu) const {
-  const Eigen::Index n = x.size();
-  std::vector<MatX> tops;
-  const MatX data = reduced(mu, &tops);
-  MatX extra = MatX::Zero(2 * n, n + 1);
-  extra.topLeftCorner(n, n).setIdentity();
-  extra.topRightCorner(n, 1) = -x;
-  extra.block(n, 0, n, n) = std::sqrt(mu) * MatX::Identity(n, n);
-  const MatX R = triangle(stacked(data, extra));
-  Step step;
-  step.dx = R.topLeftCorner(n, n).triangularView<Eigen::Upper>().solve(R.topRightCorner(n, 1));
-  for (const MatX& top : tops) {
-    const Vec3 right = top.rightCols<1>() - top.middleCols(3, n) * step.dx;
-    step.dpsi.push_back(top.leftCols<3>().triangularView<Eigen::Upper>().solve(right));
-  }
-  return step;
-}
 
 /// Data cost of the last column of each chain.
 double data_cost(const std::vector<ChainEquations>& chains) {
@@ -80,119 +24,186 @@ double data_cost(const std::vector<ChainEquations>& chains) {
 }  // namespace
 
 MatX information_root(const std::vector<ChainEquations>& chains, std::size_t parameters) {
-  Equations e;
+  BatchEquations e;
   e.x = VecX::Zero(parameters);
   for (const auto& c : chains) {
-    e.chains.push_back({triangle(c.rows)});
+    e.chains.push_back(triangle(c.rows));
     e.psi.push_back(Vec3::Zero());
   }
-  return e.reduced(0.0, nullptr).topLeftCorner(parameters, parameters);
+  return e.reduced(0.0).triangle.topLeftCorner(parameters, parameters);
 }
 
 std::vector<WeakDirection> weak_directions(const MatX& information_root, double limit) {
-  const Eigen::SelfAdjointEigenSolver<MatX> eigen(information_root.transpose() * information_root);
+  const Eigensystem eigen = eigensystem(information_root.transpose() * information_root);
   std::vector<WeakDirection> weak;
-  for (Eigen::Index k = 0; k < eigen.eigenvalues().size(); ++k)
-    if (eigen.eigenvalues()[k] < limit)
-      weak.push_back({std::max(0.0, eigen.eigenvalues()[k]), eigen.eigenvectors().col(k)});
+  for (Eigen::Index k = 0; k < eigen.values.size(); ++k)
+    if (eigen.values[k] < limit)
+      weak.push_back({std::max(0.0, eigen.values[k]), eigen.vectors.col(k)});
   return weak;
+}
+
+Theta theta_of(const FilterSpec& filter, const BatchResult& fit) {
+  Theta theta = make_layout(filter).theta;
+  for (const ParameterEstimate& p : fit.estimate.parameters) theta[p.param] = p.value;
+  return theta;
 }
 
 namespace {
 
-BatchResult fit_all(const FilterSpec& filter, const Timeline& timeline, const Readout& readout,
-                    const Measurements& measured, const Theta& start, const BatchOptions& options) {
-  const DriftModel model = filter.model();
-  const Layout layout = make_layout(filter);
-  const auto n = static_cast<Eigen::Index>(layout.size());
-  const double sigma_psi = filter.initial_attitude;
-  BatchResult out;
-
+/// A test linearised at one point.
+struct Evaluation {
+  VecX x;                 ///< scaled parameters
+  std::vector<Vec3> psi;  ///< attitude errors, scaled by their prior sigma
   std::vector<ChainEquations> rows;
-  const auto evaluate = [&](const VecX& x, const std::vector<Vec3>& psi) {
-    Equations e;
-    e.x = x;
-    e.psi = psi;
+  double cost = 0.0;  ///< data + prior
+};
+
+/// A filter's model and a test.
+class BatchProblem {
+ public:
+  BatchProblem(const FilterSpec& filter, const MeasuredTest& test)
+      : test_(test),
+        model_(filter.model()),
+        layout_(make_layout(filter)),
+        sigma_psi_(filter.initial_attitude) {}
+
+  const MeasuredTest& test() const { return test_; }
+  const Layout& layout() const { return layout_; }
+
+  /// Attitude errors in radians.
+  std::vector<Vec3> unscaled(const std::vector<Vec3>& psi) const {
     std::vector<Vec3> psi_l;
-    for (const Vec3& p : psi) psi_l.push_back(sigma_psi * p);
-    const Theta theta = layout.theta_at(x);
-    const Trajectory phi = integrate_fixed(timeline, model, theta, psi_l);
-    rows = measurement_equations(timeline, model, layout, readout, measured, theta, phi, sigma_psi);
-    e.cost = data_cost(rows) + x.squaredNorm();
-    for (const Vec3& p : psi) e.cost += p.squaredNorm();
+    for (const Vec3& p : psi) psi_l.push_back(sigma_psi_ * p);
+    return psi_l;
+  }
+
+  Evaluation evaluate(VecX x, std::vector<Vec3> psi) const {
+    const Theta theta = layout_.theta_at(x);
+    const Trajectory phi = integrate_fixed(test_.timeline, model_, theta, unscaled(psi));
+    Evaluation e{std::move(x), std::move(psi),
+                 measurement_equations(test_, model_, layout_, theta, phi, sigma_psi_), 0.0};
+    e.cost = data_cost(e.rows) + e.x.squaredNorm();
+    for (const Vec3& p : e.psi) e.cost += p.squaredNorm();
     if (!std::isfinite(e.cost)) e.cost = std::numeric_limits<double>::infinity();
     return e;
-  };
-  const auto compress = [&](Equations& e) {
-    for (const auto& c : rows) e.chains.push_back({triangle(c.rows)});
-  };
+  }
 
-  const VecX x_start = layout.scaled(start);
-  Equations now = evaluate(x_start, std::vector<Vec3>(timeline.chains, Vec3::Zero()));
-  compress(now);
-  std::vector<ChainEquations> rows_now = std::move(rows);
-  double mu = 1e-3;
+ private:
+  MeasuredTest test_;
+  DriftModel model_;
+  Layout layout_;
+  double sigma_psi_;
+};
+
+BatchEquations compressed(const Evaluation& e) {
+  BatchEquations out{{}, e.psi, e.x};
+  for (const auto& c : e.rows) out.chains.push_back(triangle(c.rows));
+  return out;
+}
+
+/// Where the descent ended.
+struct Minimum {
+  Evaluation at;
+  BatchEquations equations;  ///< of `at`
+  int iterations = 0;
   bool converged = false;
-  int iteration = 0;
-  for (; iteration < options.max_iterations && !converged; ++iteration) {
+};
+
+/// Levenberg-Marquardt.
+Minimum descend(const BatchProblem& problem, const VecX& start, const BatchOptions& options) {
+  const double standing_still = options.tolerance * options.tolerance;
+  Minimum now{
+      problem.evaluate(start, std::vector<Vec3>(problem.test().timeline.chains, Vec3::Zero())),
+      {},
+      0,
+      false};
+  now.equations = compressed(now.at);
+  double mu = 1e-3;
+  for (; now.iterations < options.max_iterations && !now.converged; ++now.iterations) {
     bool improved = false;
     double smallest_change = std::numeric_limits<double>::infinity();
     for (int tries = 0; tries < 20 && !improved; ++tries) {
-      const Equations::Step step = now.solve(mu);
-      std::vector<Vec3> psi = now.psi;
+      const BatchEquations::Step step = now.equations.solve(mu);
+      std::vector<Vec3> psi = now.at.psi;
       for (std::size_t c = 0; c < psi.size(); ++c) psi[c] += step.dpsi[c];
-      Equations next = evaluate(now.x + step.dx, psi);
+      Evaluation next = problem.evaluate(now.at.x + step.dx, std::move(psi));
       // The last steps change the cost by rounding only: accept them as standing still.
-      if (next.cost <= now.cost * (1.0 + 1e-12)) {
-        converged = now.cost - next.cost < options.tolerance * options.tolerance && mu < 1e-2;
-        compress(next);
-        now = std::move(next);
-        rows_now = std::move(rows);
-        mu = std::max(mu * 0.1, 1e-12);
-        improved = true;
-      } else {
-        smallest_change = std::min(smallest_change, next.cost - now.cost);
+      improved = next.cost <= now.at.cost * (1.0 + 1e-12);
+      if (!improved) {
+        smallest_change = std::min(smallest_change, next.cost - now.at.cost);
         mu *= 10.0;
+        continue;
       }
+      now.converged = now.at.cost - next.cost < standing_still && mu < 1e-2;
+      now.at = std::move(next);
+      now.equations = compressed(now.at);
+      mu = std::max(mu * 0.1, 1e-12);
     }
     if (!improved) {  // at the minimum, up to rounding of the cost
-      converged = smallest_change < options.tolerance * options.tolerance;
+      now.converged = smallest_change < standing_still;
       break;
     }
   }
+  return now;
+}
 
-  MatX prior = MatX::Zero(n, n + 1);
-  prior.leftCols(n).setIdentity();
-  const MatX data = now.reduced(0.0, nullptr);
-  const MatX R = triangle(stacked(data, prior)).topLeftCorner(n, n);
-  const MatX R_inv = R.triangularView<Eigen::Upper>().solve(MatX::Identity(n, n));
-  const MatX P = R_inv * R_inv.transpose();
-  out.information_root = data.topLeftCorner(n, n);
-  out.estimate.parameters = parameter_estimates(layout, x_start, now.x, P);
-  out.estimate.covariance = P;
-  out.estimate.iterations = iteration;
-  out.estimate.statistic = now.cost;
-  out.data_chi2 = data_cost(rows_now);
-  for (const Vec3& p : now.psi) out.psi0_l.push_back(sigma_psi * p);
-  out.acc_residual =
+/// Whitened residuals where they belong, NaN where nothing was measured.
+struct Residuals {
+  Mat3X acc, gimbal;
+  std::size_t scalars = 0;
+};
+
+Residuals residuals_of(const MeasuredTest& test, const std::vector<ChainEquations>& chains) {
+  const auto& [timeline, readout, measured] = test;
+  const Mat3X none =
       Mat3X::Constant(3, measured.acc.cols(), std::numeric_limits<double>::quiet_NaN());
-  out.gimbal_residual = out.acc_residual;
+  Residuals out{none, none, 0};
   std::vector<Eigen::Index> at(timeline.chains, 0);
   for (std::size_t i = 0; i < timeline.intervals.size(); ++i) {
     const int c = timeline.intervals[i].chain;
+    const auto residual = chains[c].rows.rightCols<1>();
     const auto take = [&](const Mat3X& data_of, Mat3X& into) {
       for (int a = 0; a < 3; ++a)
         if (std::isfinite(data_of(a, i))) {
-          into(a, i) = rows_now[c].rows(at[c]++, 3 + n);
-          ++out.estimate.measured;
+          into(a, i) = residual[at[c]++];
+          ++out.scalars;
         }
     };
-    if (readout.accelerometers) take(measured.acc, out.acc_residual);
-    if (readout.gimbals) take(measured.gimbal, out.gimbal_residual);
+    if (readout.accelerometers) take(measured.acc, out.acc);
+    if (readout.gimbals) take(measured.gimbal, out.gimbal);
   }
-  if (!converged) {
+  return out;
+}
+
+BatchResult fit_all(const FilterSpec& filter, const MeasuredTest& test, const Theta& start,
+                    const BatchOptions& options) {
+  const BatchProblem problem(filter, test);
+  const Layout& layout = problem.layout();
+  const auto n = static_cast<Eigen::Index>(layout.size());
+  const VecX x_start = layout.scaled(start);
+  const Minimum minimum = descend(problem, x_start, options);
+
+  MatX prior = MatX::Zero(n, n + 1);
+  prior.leftCols(n).setIdentity();
+  const MatX data = minimum.equations.reduced(0.0).triangle;
+  const MatX R = triangle(stacked(data, prior)).topLeftCorner(n, n);
+  const MatX R_inv = R.triangularView<Eigen::Upper>().solve(MatX::Identity(n, n));
+  const MatX P = R_inv * R_inv.transpose();
+  BatchResult out;
+  out.information_root = data.topLeftCorner(n, n);
+  out.estimate.parameters = parameter_estimates(layout, x_start, minimum.at.x, P);
+  out.estimate.covariance = P;
+  out.estimate.iterations = minimum.iterations;
+  out.estimate.statistic = minimum.at.cost;
+  out.data_chi2 = data_cost(minimum.at.rows);
+  out.psi0_l = problem.unscaled(minimum.at.psi);
+  Residuals residuals = residuals_of(test, minimum.at.rows);
+  out.acc_residual = std::move(residuals.acc);
+  out.gimbal_residual = std::move(residuals.gimbal);
+  out.estimate.measured = residuals.scalars;
+  if (!minimum.converged) {
     out.estimate.status = EstimateStatus::not_converged;
-    out.estimate.cause = fmt::format("no convergence in {} iterations", iteration);
+    out.estimate.cause = fmt::format("no convergence in {} iterations", minimum.iterations);
   }
   return out;
 }
@@ -216,23 +227,22 @@ bool same_samples(const Mat3X& a, const Mat3X& b) {
 
 }  // namespace
 
-BatchResult fit_batch(const FilterSpec& filter, const Timeline& timeline, const Readout& readout,
-                      const Measurements& measured, const Theta& start,
+BatchResult fit_batch(const FilterSpec& filter, const MeasuredTest& test, const Theta& start,
                       const BatchOptions& options) {
-  BatchResult out = fit_all(filter, timeline, readout, measured, start, options);
+  BatchResult out = fit_all(filter, test, start, options);
   const DriftModel model = filter.model();
   if (!has_outliers(model.terms)) return out;
   // Term `outliers`: what lies outside the gate is left out, and may come back, until nothing
   // changes. The gate is narrowed step by step: a fit that outliers have pulled aside has large
   // residuals.
   constexpr int most_rounds = 12;
+  const auto& [timeline, readout, measured] = test;
   Measurements kept = measured;
   double gate = std::max(outlier_gate(make_layout(filter).theta), 1.0);
   double wide =
       gate * std::max(1.0, std::sqrt(out.data_chi2 / static_cast<double>(out.estimate.measured)));
   for (int round = 0; round < most_rounds; ++round) {
-    Theta theta = make_layout(filter).theta;
-    for (const ParameterEstimate& p : out.estimate.parameters) theta[p.param] = p.value;
+    const Theta theta = theta_of(filter, out);
     const Measurements predicted = predict(timeline, model, theta, out.psi0_l, readout);
     const Measurements now{
         within(measured.acc, predicted.acc, readout.accelerometer_noise, wide, false),
@@ -241,7 +251,7 @@ BatchResult fit_batch(const FilterSpec& filter, const Timeline& timeline, const 
         wide == gate && same_samples(now.acc, kept.acc) && same_samples(now.gimbal, kept.gimbal);
     if (done) break;
     kept = now;
-    out = fit_all(filter, timeline, readout, kept, theta, options);
+    out = fit_all(filter, {timeline, readout, kept}, theta, options);
     wide = std::max(gate, 0.5 * wide);
   }
   for (ParameterEstimate& p : out.estimate.parameters) p.start = start[p.param];

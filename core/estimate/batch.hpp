@@ -3,7 +3,7 @@
 #include "core/estimate/estimate_result.hpp"
 #include "core/estimate/gimbal_prediction.hpp"
 #include "core/estimate/linearize.hpp"
-#include "core/sim/measurements.hpp"
+#include "core/estimate/measured_test.hpp"
 
 namespace drift {
 
@@ -13,21 +13,11 @@ struct ChainEquations {
   MatX rows;  ///< shape (measured scalars, 3 + parameters + 1)
 };
 
-/// How the attitude error psi_i at an instant follows from what came before in its chain:
-/// psi_i = Phi psi_i(caging) + G x(rate states).
-struct ChainSensitivity {
-  Mat3 Phi = Mat3::Identity();
-  Mat3X G;  ///< shape (3, rate states); empty: zero
-};
-
-/// Linearises all measurements of a timeline about a trajectory. Channels that are NaN are left
-/// out. carried: of the first interval's start, for a timeline that goes on within a chain; becomes
-/// that of the last interval's end.
-std::vector<ChainEquations> measurement_equations(const Timeline& timeline, const DriftModel& model,
-                                                  const Layout& layout, const Readout& readout,
-                                                  const Measurements& measured, const Theta& theta,
-                                                  const Trajectory& phi, double sigma_attitude,
-                                                  ChainSensitivity* carried = nullptr);
+/// Linearises all measurements of a test about theta and the trajectory phi. Channels that are NaN
+/// are left out. sigma_attitude: prior of the attitude at each caging [rad].
+std::vector<ChainEquations> measurement_equations(const MeasuredTest& test, const DriftModel& model,
+                                                  const Layout& layout, const Theta& theta,
+                                                  const Trajectory& phi, double sigma_attitude);
 
 /// Upper triangular square root of the information on the parameters, prior-scaled, from the data
 /// alone (no parameter prior), the attitude of each chain eliminated with its prior:
@@ -61,12 +51,14 @@ struct BatchResult {
   Mat3X gimbal_residual;
 };
 
+/// Theta of a fit: what was estimated, prior means elsewhere.
+Theta theta_of(const FilterSpec& filter, const BatchResult& fit);
+
 /// Maximum a posteriori fit by Levenberg-Marquardt on whitened residuals, solved by QR, everything
 /// scaled by the prior; the attitude at each caging is a nuisance with its own prior. The reference
 /// for the EKF: it relinearises until it stands still. Process noise is not modelled.
 /// start: library values of the initial estimate.
-BatchResult fit_batch(const FilterSpec& filter, const Timeline& timeline, const Readout& readout,
-                      const Measurements& measured, const Theta& start,
+BatchResult fit_batch(const FilterSpec& filter, const MeasuredTest& test, const Theta& start,
                       const BatchOptions& options = {});
 
 }  // namespace drift

@@ -166,7 +166,7 @@ void Covariance::recage(double sigma_attitude) {
 }
 
 void Covariance::propagate(const Mat3& Phi, const Eigen::Ref<const Mat3X>& G, const Mat3& Q) {
-  DRIFT_EXPECTS(static_cast<std::size_t>(G.cols()) == num_rate_);
+  DRIFT_DEMAND(static_cast<std::size_t>(G.cols()) == num_rate_);
   // With W = P_pa Phi^T and V = W + P_pp G^T, the new P_pa, the symmetric part of G (W + V) is
   // G W + (G W)^T + G P_pp G^T.
   times_transposed(P_pa_, Phi, work_);

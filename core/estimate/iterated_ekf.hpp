@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/estimate/ekf.hpp"
+#include "core/estimate/reference_path.hpp"
 
 namespace drift {
 
@@ -22,48 +23,33 @@ class IteratedEkf {
   /// Estimates from a whole recording; allocates nothing from the second time on.
   void run(const Measurements& measured, const Theta& start);
 
-  EstimateStatus status() const { return status_; }
-  const std::string& cause() const { return cause_; }
-  double t_diverged() const { return t_diverged_; }  ///< [s]
-  const InnovationSums& innovations() const { return sums_; }
+  EstimateStatus status() const { return last().status(); }
+  const std::string& cause() const { return last().cause(); }
+  double t_diverged() const { return last().t_diverged(); }  ///< [s]
+  const InnovationSums& innovations() const { return last().innovations(); }
   const VecX& x() const { return x_; }  ///< deviations from the prior means, in prior sigmas
   const Theta& theta() const { return theta_; }
-  double sigma(std::size_t k) const {
-    return layout_.sigma[static_cast<Eigen::Index>(k)] * std::sqrt(P_.variance(k));
-  }
+  double sigma(std::size_t k) const { return linear_.sigma(k); }  ///< of state k, SI
   /// Covariance of the states in prior sigmas, shape (size, size), without a copy.
   auto settled_covariance() {
-    P_.settle();
-    return P_.settled();
+    linear_.covariance().settle();
+    return linear_.covariance().settled();
   }
 
  private:
-  void first_pass(const Measurements& measured, const Theta& start);
+  void extended_pass(const Measurements& measured, const Theta& start);
   void linear_pass(const Measurements& measured);
-  void place_reference();
   double largest_step() const;  ///< of the last pass, in posterior sigmas
-  void process(std::size_t i, const Vec3& acc, const Vec3& gimbal);
-  void diverge(std::string cause, double t);
+  /// The pass that ended the run.
+  const IntervalStep& last() const {
+    return extended_.status() == EstimateStatus::ok ? linear_ : extended_;
+  }
 
-  FilterSpec filter_;
   const Timeline& timeline_;
-  Readout readout_;
-  DriftModel model_;
-  Layout layout_;
-  Ekf ekf_;
-  Linearizer linearizer_;
-  IntervalSensitivity sensitivity_;
-  Covariance P_;
-  VecX x_, x_start_, x_reference_, dx_;  ///< dx: from the reference
-  Vec3 psi_ = Vec3::Zero();              ///< attitude from the reference, inertial axes [rad]
+  IntervalStep extended_, linear_;
+  ReferencePath reference_;
+  VecX x_, x_start_, x_reference_, dx_;  ///< dx: of the start from the reference
   Theta theta_;
-  Trajectory phi_;             ///< of the reference, at every node [rad]
-  std::vector<Vec3> phi_end_;  ///< the EKF's, at the end of each chain [rad]
-  Mat3X rest_G_;
-  InnovationSums sums_;
-  EstimateStatus status_ = EstimateStatus::ok;
-  std::string cause_;
-  double t_diverged_ = 0.0;
 };
 
 }  // namespace drift

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cmath>
 #include <vector>
 
 #include "core/physics/model_spec.hpp"
@@ -29,8 +28,12 @@ struct Layout {
   /// The inverse: scaled deviations of `values`.
   VecX scaled(const Theta& values) const {
     VecX x(size());
-    for (std::size_t k = 0; k < size(); ++k) x[k] = (values[params[k]] - mean[k]) / sigma[k];
+    for (std::size_t k = 0; k < size(); ++k) x[k] = scaled(values, k);
     return x;
+  }
+  /// That of state k alone.
+  double scaled(const Theta& values, std::size_t k) const {
+    return (values[params[k]] - mean[k]) / sigma[k];
   }
 };
 
@@ -41,27 +44,6 @@ inline bool can_be_state(const ParamSpec& spec) {
 }
 
 /// The layout of a model with priors: every active parameter whose prior is not fixed is a state.
-inline Layout make_layout(const ModelSpec& spec) {
-  Layout layout;
-  layout.theta.setZero();
-  for (const bool rate : {true, false}) {
-    for (std::size_t i = 0; i < TermLibrary::num_params; ++i) {
-      if (!spec.active[i]) continue;
-      layout.theta[i] = spec.priors[i].mean();
-      if (TermLibrary::specs[i].kind == ParamKind::noise)
-        layout.theta[i] = std::hypot(spec.priors[i].mean(), spec.priors[i].sigma());
-      const bool is_state = spec.priors[i].sigma() > 0.0 && can_be_state(TermLibrary::specs[i]);
-      if (is_state && TermLibrary::owner(i).in_rates == rate) layout.params.push_back(i);
-    }
-    if (rate) layout.num_rate = layout.params.size();
-  }
-  layout.mean.resize(layout.size());
-  layout.sigma.resize(layout.size());
-  for (std::size_t k = 0; k < layout.size(); ++k) {
-    layout.mean[k] = spec.priors[layout.params[k]].mean();
-    layout.sigma[k] = spec.priors[layout.params[k]].sigma();
-  }
-  return layout;
-}
+Layout make_layout(const ModelSpec& spec);
 
 }  // namespace drift

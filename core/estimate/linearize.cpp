@@ -84,7 +84,7 @@ void Linearizer::look(const Node& node, const Interval& interval, const Mat3& R_
     }
   }
   if (!needs_.any()) return;
-  DRIFT_EXPECTS(timeline != nullptr && (memory != nullptr || !needs_.memory));
+  DRIFT_DEMAND(timeline != nullptr && (memory != nullptr || !needs_.memory));
   const Moment now = moment_at(*timeline, interval, node.t);
   if (needs_.memory)
     for (std::size_t k = 0; k < num_memory; ++k) {
@@ -101,8 +101,8 @@ void Linearizer::look(const Node& node, const Interval& interval, const Mat3& R_
 }
 
 void Linearizer::evaluate(const Node& node, const Interval& interval, const Mat3& E_loop,
-                          const Vec3& phi, NodeJacobian& out, const Timeline* timeline,
-                          const MemoryPoint* memory) {
+                          const Vec3& phi, const Timeline* timeline, const MemoryPoint* memory,
+                          NodeJacobian& out) {
   const Mat3 R_lp = node.R_lr * rotation(phi);
   const Mat3 R_ip = node.R_il * R_lp;
   look(node, interval, R_lp, timeline, memory);
@@ -187,8 +187,8 @@ MeanOutput mean_output(const Interval& interval, IntervalSensitivity& sensitivit
 }
 
 void linearize_interval(const Interval& interval, const Timeline& timeline, const Mat3& E_loop,
-                        const Vec3* phi, Linearizer& linearizer, IntervalSensitivity& out,
-                        const MemoryPath* memory) {
+                        const Vec3* phi, const MemoryPoint* memory, Linearizer& linearizer,
+                        IntervalSensitivity& out) {
   const std::size_t nodes = interval.node_count();
   while (out.jacobian.size() < nodes) {
     out.jacobian.push_back(linearizer.make());
@@ -197,8 +197,7 @@ void linearize_interval(const Interval& interval, const Timeline& timeline, cons
   }
   for (std::size_t k = 0; k < nodes; ++k)
     linearizer.evaluate(timeline.nodes[interval.first_node + k], interval, E_loop, phi[k],
-                        out.jacobian[k], &timeline,
-                        memory && memory->active() ? &memory->at(2 * k) : nullptr);
+                        &timeline, memory ? &memory[2 * k] : nullptr, out.jacobian[k]);
   const double h = interval.length() / (2.0 * interval.substeps);
   const Mat3 I = Mat3::Identity();
   const auto exponential = [&](const Mat3& a) -> Mat3 { return I + a + 0.5 * a * a; };

@@ -30,10 +30,10 @@ class Linearizer {
 
   void set_theta(const Theta& theta);
   /// Rate part (A, B) and, if accelerometers are read, readout part (acc, H, H_par).
-  /// timeline and memory: needed where a term of the model asks for more than attitude and command.
+  /// timeline and memory: may be null where no term of the model asks for more than attitude and
+  /// command.
   void evaluate(const Node& node, const Interval& interval, const Mat3& E_loop, const Vec3& phi,
-                NodeJacobian& out, const Timeline* timeline = nullptr,
-                const MemoryPoint* memory = nullptr);
+                const Timeline* timeline, const MemoryPoint* memory, NodeJacobian& out);
   /// Gimbal angles at the end of an interval and their derivatives with respect to psi_i and to the
   /// readout states.
   GimbalPrediction gimbals(const Timeline& timeline, const Interval& interval, const Vec3& phi,
@@ -94,9 +94,9 @@ MeanOutput mean_output(const Interval& interval, IntervalSensitivity& sensitivit
 /// Variation of constants: G(t) = Phi(t) Int Phi^-1 B dt with fourth-order quadrature over pairs of
 /// steps; Phi is the exponential of the integral of A to second order (A t is below 1e-3 within an
 /// interval: physics.md 6.5 ii).
-/// memory: of this interval, if the model has terms with memory.
+/// memory: the points of the interval, null where the model has none.
 void linearize_interval(const Interval& interval, const Timeline& timeline, const Mat3& E_loop,
-                        const Vec3* phi, Linearizer& linearizer, IntervalSensitivity& out,
-                        const MemoryPath* memory = nullptr);
+                        const Vec3* phi, const MemoryPoint* memory, Linearizer& linearizer,
+                        IntervalSensitivity& out);
 
 }  // namespace drift

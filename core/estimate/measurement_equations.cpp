@@ -4,11 +4,10 @@
 
 namespace drift {
 
-std::vector<ChainEquations> measurement_equations(const Timeline& timeline, const DriftModel& model,
-                                                  const Layout& layout, const Readout& readout,
-                                                  const Measurements& measured, const Theta& theta,
-                                                  const Trajectory& phi, double sigma_attitude,
-                                                  ChainSensitivity* carried) {
+std::vector<ChainEquations> measurement_equations(const MeasuredTest& test, const DriftModel& model,
+                                                  const Layout& layout, const Theta& theta,
+                                                  const Trajectory& phi, double sigma_attitude) {
+  const auto& [timeline, readout, measured] = test;
   const auto n = static_cast<Eigen::Index>(layout.size());
   const auto nr = static_cast<Eigen::Index>(layout.num_rate);
   std::vector<Eigen::Index> count(timeline.chains, 0), next(timeline.chains, 0);
@@ -23,10 +22,6 @@ std::vector<ChainEquations> measurement_equations(const Timeline& timeline, cons
   IntervalSensitivity inner;
   Mat3 Phi = Mat3::Identity();  // from the caging to the start of the interval
   Mat3X G = Mat3X::Zero(3, nr), Y(3, n);
-  if (carried && carried->G.cols() == nr) {
-    Phi = carried->Phi;
-    G = carried->G;
-  }
   MemoryPath memory(timeline, model);
   for (std::size_t i = 0; i < timeline.intervals.size(); ++i) {
     const Interval& interval = timeline.intervals[i];
@@ -36,8 +31,8 @@ std::vector<ChainEquations> measurement_equations(const Timeline& timeline, cons
     }
     const Mat3 E_loop = misalignment_matrix(model.mounting, interval.loop);
     memory.advance(i, theta.data());
-    linearize_interval(interval, timeline, E_loop, &phi[interval.first_node], linearizer, inner,
-                       &memory);
+    linearize_interval(interval, timeline, E_loop, &phi[interval.first_node], memory.points(),
+                       linearizer, inner);
     MatX& rows = chains[interval.chain].rows;
     const auto add_row = [&](double residual, const Eigen::RowVector3d& d_psi, const auto& d_x,
                              double sigma) {
@@ -73,7 +68,7 @@ std::vector<ChainEquations> measurement_equations(const Timeline& timeline, cons
     if (readout.gimbals && measured.gimbal.col(i).array().isFinite().any()) {
       const GimbalPrediction p =
           linearizer.gimbals(timeline, interval, phi[interval.last_node()],
-                             memory.active() ? &memory.at(2 * last) : nullptr);
+                             memory.active() ? &memory.points()[2 * last] : nullptr);
       Y.setZero();
       Y.leftCols(nr).noalias() = p.H * G;
       if (p.H_par.cols() > 0) Y.rightCols(n - nr) = p.H_par;
@@ -84,7 +79,6 @@ std::vector<ChainEquations> measurement_equations(const Timeline& timeline, cons
                   readout.gimbal_noise);
     }
   }
-  if (carried) *carried = {Phi, G};
   return chains;
 }
 

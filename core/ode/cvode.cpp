@@ -63,7 +63,6 @@ struct Cvode::Impl {
       "";  ///< CVODE's last words; a buffer, because warnings come on good paths too
   double t0 = 0.0, t_stop = 0.0, t = 0.0;
   bool at_stop = true;
-  OdeStats before;  ///< of the segments since `start` that are finished
   long jacobian_calls = 0;
 };
 
@@ -148,7 +147,7 @@ OdeStats Cvode::Impl::current() const {
 }
 
 void Cvode::Impl::begin(double from, const double* y0, double stop, double first_step) {
-  DRIFT_EXPECTS(rhs && (method == Method::adams || jacobian));
+  DRIFT_DEMAND(rhs && (method == Method::adams || jacobian));
   DRIFT_EXPECTS(stop >= from);
   t0 = t = from;
   t_stop = stop;
@@ -177,7 +176,7 @@ OdeResult Cvode::Impl::advance(double t_out) {
 
   double tau_now = 0.0;
   CVodeGetCurrentTime(cvode.get(), &tau_now);
-  const long left = options.max_steps - before.steps - steps();
+  const long left = options.max_steps - steps();
   if (left <= 0 && target - t0 > tau_now) return fail(CV_TOO_MUCH_WORK);
   CVodeSetMaxNumSteps(cvode.get(), std::max(left, 1L));
   // CVODE drops its stop time when it reaches it within rounding.
@@ -233,13 +232,7 @@ void Cvode::system(OdeRhs rhs, OdeJacobian jacobian) {
 }
 
 void Cvode::start(double t0, const double* y0, double t_stop, double first_step) {
-  impl_->before = {};
   impl_->guard.start_clock(impl_->options.wall_limit);
-  impl_->begin(t0, y0, t_stop, first_step);
-}
-
-void Cvode::next_segment(double t0, const double* y0, double t_stop, double first_step) {
-  impl_->before = stats();
   impl_->begin(t0, y0, t_stop, first_step);
 }
 
@@ -250,9 +243,7 @@ std::span<const double> Cvode::state() const {
   return {NV_DATA_S(impl_->y.get()), static_cast<std::size_t>(impl_->n)};
 }
 OdeStats Cvode::stats() const {
-  const OdeStats a = impl_->before, b = impl_->current();
-  return {a.steps + b.steps, a.rhs_calls + b.rhs_calls, a.jacobian_calls + b.jacobian_calls,
-          a.error_test_failures + b.error_test_failures};
+  return impl_->current();
 }
 int Cvode::size() const {
   return impl_->n;

@@ -49,8 +49,6 @@ class Cvode {
   /// counts from t0, so that short first steps survive at large t. first_step [s]: 0 lets CVODE
   /// choose.
   void start(double t0, const double* y0, double t_stop, double first_step = 0.0);
-  /// The same, but the budget of the last `start` goes on: further segments of one run.
-  void next_segment(double t0, const double* y0, double t_stop, double first_step = 0.0);
 
   /// Brings the state to min(t_out, t_stop); t_out must not decrease from call to call. The result
   /// between steps is interpolated to the accuracy of the tolerances. After a failure the state is

@@ -37,6 +37,7 @@ struct Grid {
 struct ParamSpec {
   Name key;                 ///< "D_I_z", as in files
   Name group;               ///< "D_I"
+  std::string_view axis;    ///< "z", "outer"; empty if it belongs to none
   Unit unit;                ///< unit of files, tables and of `prior`
   Prior prior;              ///< default prior, in `unit`
   std::string_view enters;  ///< where it enters the equations
@@ -44,6 +45,12 @@ struct ParamSpec {
   Grid grid = {};  ///< of a nonlinear or discrete parameter
 
   constexpr Prior prior_si() const { return prior.scaled(unit.to_si); }
+  /// The size of an effect, which may be missing; or what an effect cannot do without: a time
+  /// constant, a harmonic number. What is random is neither.
+  constexpr bool amplitude() const { return kind == ParamKind::linear; }
+  constexpr bool setting() const {
+    return kind == ParamKind::nonlinear || kind == ParamKind::discrete;
+  }
 };
 
 namespace detail {
@@ -57,7 +64,7 @@ consteval std::array<ParamSpec, 3> three(std::string_view group,
     Name key(group);
     key.append("_");
     key.append(suffixes[i]);
-    specs[i] = {key, Name(group), unit, prior, enters, kind, {}};
+    specs[i] = {key, Name(group), suffixes[i], unit, prior, enters, kind, {}};
   }
   return specs;
 }
@@ -82,14 +89,15 @@ consteval std::array<ParamSpec, 3> per_gimbal(Unit unit, Prior prior, std::strin
 template <FixedString Key>
 consteval std::array<ParamSpec, 1> single(Unit unit, Prior prior, std::string_view enters,
                                           ParamKind kind = ParamKind::linear) {
-  return {ParamSpec{Name(Key.view()), Name(Key.view()), unit, prior, enters, kind, {}}};
+  return {ParamSpec{Name(Key.view()), Name(Key.view()), {}, unit, prior, enters, kind, {}}};
 }
 
 /// A parameter that is known unless a study says otherwise, with the values to profile it over.
 template <FixedString Key>
 consteval std::array<ParamSpec, 1> profiled(ParamKind kind, Unit unit, double value, Grid grid,
                                             std::string_view enters) {
-  return {ParamSpec{Name(Key.view()), Name(Key.view()), unit, fixed(value), enters, kind, grid}};
+  return {
+      ParamSpec{Name(Key.view()), Name(Key.view()), {}, unit, fixed(value), enters, kind, grid}};
 }
 
 /// Several lists of parameters, one after the other.

@@ -1,23 +1,11 @@
 #pragma once
 
-#include <Eigen/LU>
-
 #include "core/base/dual.hpp"
+#include "core/physics/closure.hpp"
 #include "core/physics/earth.hpp"
 #include "core/physics/gimbals.hpp"
-#include "core/physics/term_library.hpp"
 
 namespace drift {
-
-/// How the platform servo answers the gyros. None of these is "the right one": it depends on the
-/// hardware (physics.md 1.6).
-enum class Coupling {
-  eq5,          ///< w_cp = -C w_ic - u (Fu, Shao, Deng 2002)
-  eq6,          ///< w_cp = -w_ic - C^-1 u (Hellings 1973)
-  lambda,       ///< the family that holds both
-  compensated,  ///< gyros on the case, the loop removes an estimate C-hat
-  servo,        ///< the null-seeking loop itself, integrated (servo.hpp)
-};
 
 /// Which equation, which terms, which axes: everything but the numbers.
 struct DriftModel {
@@ -30,13 +18,7 @@ struct DriftModel {
 using MisalignmentAngles = Eigen::Matrix<double, 6, 1>;
 
 /// E = C_gp - I for given angles [rad].
-inline Mat3 misalignment_matrix(const Mounting& mounting, const MisalignmentAngles& angles) {
-  Inputs<double> in;
-  in.mounting = &mounting;
-  RateAssembly<double> out;
-  terms::GyroMisalignment::rates(in, angles.data(), out);
-  return out.E_gp;
-}
+Mat3 misalignment_matrix(const Mounting& mounting, const MisalignmentAngles& angles);
 
 /// The slots of all active terms at one instant. The torquer obeys the command: w_md = -w_cmd +
 /// terms.

@@ -4,7 +4,6 @@
 
 #include "core/base/dual.hpp"
 #include "core/base/linalg.hpp"
-#include "core/base/units.hpp"
 
 namespace drift {
 
@@ -45,14 +44,6 @@ template <class S>
 int gimbal_number(const S& parameter) {
   const double number = value(parameter);
   return number < 1.5 ? 0 : number < 2.5 ? 1 : 2;
-}
-
-/// The turn over which friction builds up, which a filter's step cannot make zero or negative
-/// [rad].
-template <class S>
-S friction_turn(const S& x_d) {
-  constexpr double least = 0.1 * detail::deg / 3600.0;  // [rad]
-  return value(x_d) > least ? x_d : S(least);
 }
 
 /// The chain's rotation for given angles; inverse of gimbal_angles.

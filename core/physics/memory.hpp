@@ -1,9 +1,9 @@
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/base/dual.hpp"
+#include "core/base/units.hpp"
 #include "core/physics/assembly.hpp"
 
 namespace drift {
@@ -32,6 +32,26 @@ S dahl(const S& torque, double turned, const S& x_d) {
   if (turned == 0.0) return torque;
   const double sign = turned > 0.0 ? 1.0 : -1.0;
   return sign + (torque - sign) * exp(-std::abs(turned) / x_d);
+}
+
+/// The turn over which friction builds up, which a filter's step cannot make zero or negative
+/// [rad].
+template <class S>
+S friction_turn(const S& x_d) {
+  constexpr double least = 0.1 * detail::deg / 3600.0;  // [rad]
+  return value(x_d) > least ? x_d : S(least);
+}
+
+/// Memory of the friction of each gimbal, outer, middle, inner: none where a test begins.
+template <class S>
+void start_friction(S* torque) {
+  for (int k = 0; k < 3; ++k) torque[k] = S(0.0);
+}
+
+/// The same after the gimbals have turned on. x_d: the turn over which friction builds up [rad].
+template <class S>
+void advance_friction(const PathStep& along, const S& x_d, S* torque) {
+  for (int k = 0; k < 3; ++k) torque[k] = dahl(torque[k], along.turned[k], friction_turn(x_d));
 }
 
 }  // namespace drift

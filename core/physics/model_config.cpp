@@ -12,18 +12,12 @@
 namespace drift {
 namespace {
 
-using config::Choice;
 using config::Node;
 using config::Option;
 using config::Section;
 
-constexpr Choice<Coupling> couplings[] = {{"eq5", Coupling::eq5},
-                                          {"eq6", Coupling::eq6},
-                                          {"lambda", Coupling::lambda},
-                                          {"compensated", Coupling::compensated},
-                                          {"servo", Coupling::servo}};
-constexpr Choice<LoopEstimate> loop_estimates[] = {{"given", LoopEstimate::given},
-                                                   {"feedback", LoopEstimate::feedback}};
+constexpr Named<LoopEstimate> loop_estimates[] = {{"given", LoopEstimate::given},
+                                                  {"feedback", LoopEstimate::feedback}};
 
 /// Coupling, terms, parameters and noise: what truth and filters have in common.
 void read_model(Section& section, ModelSpec& spec) {

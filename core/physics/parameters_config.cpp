@@ -15,12 +15,6 @@ using config::Node;
 using config::Option;
 constexpr auto& specs = TermLibrary::specs;
 
-/// The axis letter of "D_I_z"; '\0' for a parameter without one.
-char axis_of(const ParamSpec& spec) {
-  const auto key = spec.key.view();
-  return key == spec.group.view() ? '\0' : key.back();
-}
-
 /// Far outside the default prior a value is a slip of the unit; misalignments are small angles;
 /// time constants and sizes of random things are positive.
 Option plausible(const ParamSpec& spec) {
@@ -45,16 +39,11 @@ std::size_t first_of(const ParamMask& mask) {
   return i;
 }
 
-const TermInfo& term_of(std::size_t param) {
-  std::size_t t = 0;
-  while (param >= TermLibrary::terms[t].first + TermLibrary::terms[t].count) ++t;
-  return TermLibrary::terms[t];
-}
-
-ParamMask term_mask(const TermInfo& term, char axis) {
+/// The parameters of a term, or of one axis of it if one is named.
+ParamMask term_mask(const TermInfo& term, std::string_view axis) {
   ParamMask mask;
   for (std::size_t i = term.first; i < term.first + term.count; ++i)
-    if (axis == '\0' || axis_of(specs[i]) == axis) mask.set(i);
+    if (axis.empty() || specs[i].axis == axis) mask.set(i);
   return TermLibrary::completed(mask);
 }
 
@@ -110,10 +99,9 @@ ParamMask params_named(std::string_view key) {
   const auto dot = key.find('.');
   const auto term = TermLibrary::find_term(key.substr(0, dot));
   if (!term) return mask;
-  if (dot == std::string_view::npos) return mask | term_mask(TermLibrary::terms[*term], '\0');
+  if (dot == std::string_view::npos) return mask | term_mask(TermLibrary::terms[*term], {});
   const auto axis = key.substr(dot + 1);
-  if (axis == "x" || axis == "y" || axis == "z")
-    mask |= term_mask(TermLibrary::terms[*term], axis[0]);
+  if (axis == "x" || axis == "y" || axis == "z") mask |= term_mask(TermLibrary::terms[*term], axis);
   return mask;
 }
 
@@ -121,6 +109,13 @@ std::vector<std::string_view> term_keys() {
   std::vector<std::string_view> keys;
   for (const auto& term : TermLibrary::terms) keys.push_back(term.key);
   return keys;
+}
+
+std::string term_keys(const TermMask& terms) {
+  std::vector<std::string_view> keys;
+  for (std::size_t t = 0; t < TermLibrary::num_terms; ++t)
+    if (terms[t]) keys.push_back(TermLibrary::terms[t].key);
+  return fmt::format("{}", fmt::join(keys, ", "));
 }
 
 std::vector<std::string_view> parameter_keys() {
@@ -134,9 +129,7 @@ std::vector<std::string_view> parameter_keys() {
 
 ParamMask base_parameters() {
   ParamMask mask;
-  for (const auto* key : {"fixed_drift", "g_drift", "g2_drift", "gyro_misalignment",
-                          "torquer_scale", "accelerometer"})
-    mask |= params_named(key);
+  for (std::size_t i = 0; i < specs.size(); ++i) mask[i] = is_base(TermLibrary::owner(i));
   return mask;
 }
 
@@ -161,7 +154,6 @@ std::vector<std::string> terms_text(const ParamMask& mask) {
 }
 
 ParamMask read_terms(config::Section& section, Coupling coupling) {
-  constexpr std::size_t closure = TermLibrary::index("lambda");
   const std::string key = section.full("terms");
   const std::size_t errors = section.report().errors();
   const Node* node = section.take("terms");
@@ -175,15 +167,15 @@ ParamMask read_terms(config::Section& section, Coupling coupling) {
                               key, describe(*node)));
   } else {
     for (const auto& entry : node->items) read_entry(section, entry, mask);
-    if (mask[closure] && coupling != Coupling::lambda)
+    if (mask[closure_param] && coupling != Coupling::lambda)
       section.report().error(
           node->at,
-          fmt::format("'{}' holds frame_closure, the weight between eq. (5) and eq. (6), but "
+          fmt::format("'{}' holds {}, the weight between eq. (5) and eq. (6), but "
                       "the coupling fixes the equation (expected coupling = \"lambda\"). Set "
                       "coupling = \"lambda\", or remove the term",
-                      key));
+                      key, closure_term));
   }
-  if (coupling == Coupling::lambda) mask.set(closure);
+  if (coupling == Coupling::lambda) mask.set(closure_param);
   const std::string text = fmt::format("{}", fmt::join(terms_text(mask), ", "));
   if (node == nullptr)
     section.report().assumed(key, text);
@@ -214,16 +206,16 @@ void read_parameters(config::Section& section, ModelSpec& spec) {
       continue;
     }
     if ((all & spec.active).none()) {
-      const auto& term = term_of(first_of(all));
-      const bool closure = term.key == "frame_closure";
+      const auto& term = TermLibrary::owner(first_of(all));
       section.report().error(
           member.at,
           fmt::format(
               "'{}' belongs to term '{}', which is not part of this model (expected parameters "
               "of {}). {}",
               table.full(member.key), term.key, fmt::join(terms_text(spec.active), ", "),
-              closure ? std::string("Set coupling = \"lambda\", or remove the parameter")
-                      : fmt::format("Add \"{}\" to terms, or remove the parameter", term.key)));
+              term.key == closure_term
+                  ? std::string("Set coupling = \"lambda\", or remove the parameter")
+                  : fmt::format("Add \"{}\" to terms, or remove the parameter", term.key)));
       continue;
     }
     named.emplace_back(member.key, all & spec.active);

@@ -20,6 +20,9 @@ std::vector<std::string_view> parameter_keys();  ///< parameters, then groups
 /// Terms of the base model: what `terms` is when it is absent.
 ParamMask base_parameters();
 
+/// Keys of the terms of a model, "fixed_drift, g_drift".
+std::string term_keys(const TermMask& terms);
+
 /// The shortest list of `terms` that gives a mask: whole terms, then axes, groups, parameters.
 std::vector<std::string> terms_text(const ParamMask& mask);
 

@@ -13,6 +13,18 @@
 
 namespace drift {
 
+/// The part of the platform that an effect comes from, as physics.md 4 groups them.
+enum class Subsystem {
+  gyro,
+  torquer,
+  servo,
+  structure,
+  site,
+  resolvers,
+  accelerometers,
+  recording,
+};
+
 /// A physical effect. It declares its parameters once and adds to the slots it acts on, through one
 /// or more of
 ///   rates            the platform's rate equation
@@ -34,6 +46,7 @@ concept Term = requires {
   { T::title } -> std::convertible_to<std::string_view>;
   { T::equation } -> std::convertible_to<std::string_view>;
   { T::source } -> std::convertible_to<std::string_view>;
+  { T::subsystem } -> std::convertible_to<Subsystem>;
   { T::params.size() } -> std::convertible_to<std::size_t>;
 };
 
@@ -79,6 +92,7 @@ concept OffsetsAttitude = requires(const Inputs<S>& in, const S* p, Vec3T<S>& ou
 /// What the `terms` command, error messages and the diagnosis need to know of a term.
 struct TermInfo {
   std::string_view key, title, equation, source;
+  Subsystem subsystem = {};
   std::size_t first = 0;    ///< index of its first parameter
   std::size_t count = 0;    ///< number of its parameters
   bool in_rates = false;    ///< acts on the platform's rate
@@ -110,8 +124,8 @@ struct TermList {
     std::array<TermInfo, num_terms> infos{};
     std::size_t next = 0, first = 0;
     int memory = 0;
-    ((infos[next++] = {Ts::key, Ts::title, Ts::equation, Ts::source, first, Ts::params.size(),
-                       ActsOnRates<Ts, double>, ActsOnReadout<Ts, double>,
+    ((infos[next++] = {Ts::key, Ts::title, Ts::equation, Ts::source, Ts::subsystem, first,
+                       Ts::params.size(), ActsOnRates<Ts, double>, ActsOnReadout<Ts, double>,
                        ActsOnGimbals<Ts, double>, OffsetsAttitude<Ts, double>, needs_of<Ts>(),
                        memory, memory_of<Ts>()},
       first += Ts::params.size(), memory += memory_of<Ts>()),
@@ -153,7 +167,7 @@ struct TermList {
     const Mask owners = terms_of(params);
     for (std::size_t t = 0; t < num_terms; ++t)
       for (std::size_t i = terms[t].first; owners[t] && i < terms[t].first + terms[t].count; ++i)
-        if (specs[i].kind != ParamKind::linear && specs[i].key == specs[i].group) params.set(i);
+        if (!specs[i].amplitude() && specs[i].axis.empty()) params.set(i);
     return params;
   }
   /// The terms that own at least one parameter of `params`.
@@ -267,6 +281,14 @@ struct TermList {
     return Mask(bits);
   }
 
+  /// Whether every parameter has a name of its own.
+  static consteval bool unique_keys() {
+    for (std::size_t i = 0; i < num_params; ++i)
+      for (std::size_t k = 0; k < i; ++k)
+        if (specs[i].key == specs[k].key) return false;
+    return true;
+  }
+
  private:
   /// The base terms and frame_closure come first, and are tested one by one without a call.
   static constexpr std::size_t num_inline = num_terms > 7 ? 7 : num_terms - 1;
@@ -293,13 +315,6 @@ struct TermList {
     (std::index_sequence_for<Ts...>{});
   }
 
-  static consteval bool unique_keys() {
-    for (std::size_t i = 0; i < num_params; ++i)
-      for (std::size_t k = 0; k < i; ++k)
-        if (specs[i].key == specs[k].key) return false;
-    return true;
-  }
-  static_assert(unique_keys(), "two parameters have the same key");
   static_assert(((!ActsOnRates<Ts, double> ||
                   !(ActsOnReadout<Ts, double> || ActsOnGimbals<Ts, double> ||
                     OffsetsAttitude<Ts, double>)) &&

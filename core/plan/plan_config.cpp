@@ -12,15 +12,12 @@
 namespace drift {
 namespace {
 
-using config::Choice;
 using config::Node;
 using config::Option;
 using config::Section;
 
-constexpr Choice<CommandLaw> laws[] = {{"free", CommandLaw::free}, {"level", CommandLaw::level}};
-constexpr Choice<Entry> entries[] = {{"caged", Entry::caged}, {"torqued", Entry::torqued}};
-constexpr Choice<RecordingKind> kinds[] = {{"platform", RecordingKind::platform},
-                                           {"strapdown", RecordingKind::strapdown}};
+constexpr Named<RecordingKind> kinds[] = {{"platform", RecordingKind::platform},
+                                          {"strapdown", RecordingKind::strapdown}};
 constexpr Option dwell_option{"dwell", unit::minute, 1e-3, 1e5, "length of a dwell"};
 constexpr Option sample_option{"sample", unit::s, 1e-3, 1e5, "sample interval"};
 
@@ -73,8 +70,8 @@ Position read_position(Section section, std::size_t number, const PlanDefaults& 
                       section.full("axes"), p.axes, why));
   }
   read_dwell(section, p.dwell, p.sample);
-  section.read(Option{.key = "mode", .doc = "command law"}, p.mode, laws);
-  if (section.read(Option{.key = "entry", .doc = "how it is entered"}, p.entry, entries) &&
+  section.read(Option{.key = "mode", .doc = "command law"}, p.mode, command_laws);
+  if (section.read(Option{.key = "entry", .doc = "how it is entered"}, p.entry, ways_of_entry) &&
       number == 1 && p.entry == Entry::torqued)
     section.report().error(
         section.take("entry")->at,
@@ -125,7 +122,7 @@ void read_preset(Section& section, const PlanDefaults& defaults, TestPlan& plan)
 
 template <class E, std::size_t N>
 std::optional<E> read_optional(Section& section, std::string_view key,
-                               const Choice<E> (&choices)[N]) {
+                               const Named<E> (&choices)[N]) {
   E value{};
   if (!section.has(key)) {
     section.take(key);
@@ -138,8 +135,8 @@ std::optional<E> read_optional(Section& section, std::string_view key,
 void read_platform(Section& section, TestPlan& plan) {
   PlanDefaults defaults;
   read_dwell(section, defaults.dwell, defaults.sample);
-  defaults.mode = read_optional(section, "mode", laws);
-  defaults.entry = read_optional(section, "entry", entries);
+  defaults.mode = read_optional(section, "mode", command_laws);
+  defaults.entry = read_optional(section, "entry", ways_of_entry);
   section.read(Option{"slew_rate", unit::deg_per_s, 1e-4, 360.0, "of a torqued entry"},
                plan.slew_rate);
   section.read(Option{"case_rate", unit::deg_per_s, 1e-4, 360.0, "of the turntable"},

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/linalg.hpp"
+#include "core/base/named.hpp"
 #include "core/base/units.hpp"
 
 namespace drift {
@@ -15,12 +16,22 @@ enum class CommandLaw {
   free,   ///< nothing: the platform holds inertial space
   level,  ///< the Earth rate at the nominal attitude: the platform keeps its attitude to gravity
 };
+inline constexpr Named<CommandLaw> command_laws[] = {{"free", CommandLaw::free},
+                                                     {"level", CommandLaw::level}};
+constexpr std::string_view key_of(CommandLaw law) {
+  return name_in(command_laws, law);
+}
 
 /// How the platform comes to a position.
 enum class Entry {
   caged,    ///< attitude set anew through the resolvers: unknown within the prior
   torqued,  ///< slewed there by gyro commands: the attitude error is carried along
 };
+inline constexpr Named<Entry> ways_of_entry[] = {{"caged", Entry::caged},
+                                                 {"torqued", Entry::torqued}};
+constexpr std::string_view key_of(Entry entry) {
+  return name_in(ways_of_entry, entry);
+}
 
 /// One position of a test: an attitude at the start of a dwell, and the dwell.
 struct Position {

@@ -7,6 +7,7 @@
 
 #include "core/base/check.hpp"
 #include "core/plan/case_heading.hpp"
+#include "core/plan/plan_memory.hpp"
 
 namespace drift {
 namespace {
@@ -59,6 +60,7 @@ double Timeline::simpson_weight(int substeps, std::size_t k) {
 }
 
 Timeline lay_out(const TestPlan& plan, const Site& site) {
+  require_memory_for(plan);
   Timeline timeline;
   timeline.site = site;
   timeline.positions = static_cast<int>(plan.positions.size());
@@ -80,7 +82,7 @@ Timeline lay_out(const TestPlan& plan, const Site& site) {
 }
 
 void place_nodes(Timeline& timeline, const std::vector<Mat3>& R_lp) {
-  DRIFT_EXPECTS(static_cast<int>(R_lp.size()) == timeline.chains);
+  DRIFT_DEMAND(static_cast<int>(R_lp.size()) == timeline.chains);
   const Vec3 omega_ie_l = timeline.site.omega_ie_l();
   Mat3 R_lr = Mat3::Identity();
   double t_cage = 0.0;

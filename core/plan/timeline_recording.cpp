@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "core/base/check.hpp"
+#include "core/base/memory.hpp"
 #include "core/physics/gimbals.hpp"
 #include "core/plan/case_heading.hpp"
+#include "core/plan/plan_memory.hpp"
 #include "core/plan/timeline.hpp"
 
 namespace drift {
@@ -88,18 +90,15 @@ class Reader {
     const Interval* before = timeline_.intervals.empty() ? nullptr : &timeline_.intervals.back();
     const bool first_row = !before || before->position != i.position;
     i.cage = !before || (first_row && passage.caged);
-    i.t0 = i.cage ? t - position.sample : before->t1;
+    i.t0 = !before  ? t - position.sample
+           : i.cage ? std::max(t - position.sample, before->t1)
+                    : before->t1;
     if (!i.cage && t - i.t0 > 1.5 * position.sample)
       complain(row,
                fmt::format("gap of {:.6g} s before this row, but the attitude is carried along "
                            "here (samples {:.6g} s apart expected). Give the missing rows, or mark "
                            "the position as caged",
                            t - i.t0, position.sample));
-    if (i.cage && before && i.t0 < before->t1 - 0.01 * position.sample)
-      complain(row, fmt::format(
-                        "the first row of a caged position comes {:.6g} s after the row before; "
-                        "its interval is one nominal sample, {:.6g} s. Check `sample` in the plan",
-                        t - before->t1, position.sample));
     if (i.cage) {
       ++timeline_.chains;
       // A recording may begin on the way to a torqued position: then its attitude is the plan's.
@@ -112,7 +111,9 @@ class Reader {
     i.heading1 = heading_ ? heading_->values[row] : planned_heading(passage, i);
     if (i.cage && heading_) i.heading0 = i.heading1;
     if (!std::isfinite(i.heading1))
-      complain(row, "case_heading is missing. Give it in every row, or leave the column out");
+      complain(row,
+               "case_heading is missing (expected a number in every row). Give it, or leave the "
+               "column out");
     heading_now_ = i.heading1;
     for (int a = 0; a < 6; ++a)
       if (loop_[a] && std::isfinite(loop_[a]->values[row])) i.loop[a] = loop_[a]->values[row];
@@ -124,10 +125,12 @@ class Reader {
       for (int a = 0; a < 3; ++a) i.omega_cmd_p[a] = cmd_[a]->values[row];
       if (!i.omega_cmd_p.allFinite())
         complain(row,
-                 "cmd_x, cmd_y, cmd_z must be numbers in every row: the platform obeys them. "
-                 "Write 0 where nothing was commanded");
+                 "cmd_x, cmd_y, cmd_z: not all are numbers (expected numbers in every row: the "
+                 "platform obeys them). Write 0 where nothing was commanded");
     } else if (i.slew) {
-      complain(row, "a slew (phase 1) without columns cmd_x, cmd_y, cmd_z. Record the commands");
+      complain(row,
+               "a slew (phase 1) without commands (expected columns cmd_x, cmd_y, cmd_z). Record "
+               "the commands");
     } else if (position.mode == CommandLaw::level) {
       i.omega_cmd_p = position.R_lp.transpose() * site_.omega_ie_l();
     }
@@ -205,11 +208,13 @@ class Reader {
         return v;
       };
       const auto hint = [&](const char* what, double angle) {
-        complain(k,
-                 fmt::format(
-                     "position {} ('{}'): the {} {:.0f} deg from the attitude in the plan. Is "
-                     "this the plan, and the order of positions, the recording was made with?",
-                     i.position + 1, plan_.positions[i.position].name, what, angle / detail::deg));
+        complain(
+            k, fmt::format(
+                   "position {} ('{}'): the {} {:.0f} deg from the attitude in the plan (expected "
+                   "at most {:.0f}). Is this the plan, and the order of positions, the recording "
+                   "was made with?",
+                   i.position + 1, plan_.positions[i.position].name, what, angle / detail::deg,
+                   largest_mismatch / detail::deg));
       };
       if (const auto acc = channels({"acc_x", "acc_y", "acc_z"})) {
         const Vec3 expected = node.R_lr.row(2);
@@ -241,6 +246,9 @@ class Reader {
 }  // namespace
 
 Timeline lay_out(const Recording& recording, const TestPlan& plan, const Site& site) {
+  require_memory(memory_of_samples(static_cast<double>(recording.rows())), ExitCode::recording,
+                 fmt::format("{}: {} rows", recording.source, recording.rows()),
+                 "Average the rows to longer samples, or cut the recording");
   return Reader(recording, plan, site).read();
 }
 

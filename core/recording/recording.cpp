@@ -9,11 +9,15 @@
 
 #include "core/base/atomic_file.hpp"
 #include "core/base/check.hpp"
+#include "core/base/sha256.hpp"
+#include "core/recording/line_reader.hpp"
 #include "core/recording/recording_channels.hpp"
 #include "core/recording/recording_check.hpp"
 #include "core/recording/recording_csv.hpp"
 #include "core/recording/recording_hdf5.hpp"
 #include "core/recording/recording_mat.hpp"
+#include "core/recording/recording_output.hpp"
+#include "core/recording/recording_read_back.hpp"
 
 namespace drift {
 namespace {
@@ -55,6 +59,18 @@ void require_regular_file(const std::string& path) {
                                  path, wrong));
 }
 
+/// Writes a MATLAB file once more and compares the bytes.
+std::string other_when_written_again(const Recording& recording, const Facts& facts,
+                                     const std::string& first) {
+  const AtomicFile second(first + ".again");
+  const std::string wrong =
+      write_isolated([&] { return write_mat(recording, facts, second.temporary()); });
+  if (!wrong.empty()) return wrong;
+  return sha256_hex_of_file(first) == sha256_hex_of_file(second.temporary())
+             ? ""
+             : "what reaches the file is not always the same";
+}
+
 /// Facts as every format can hold them, so that what is written reads back alike everywhere.
 Facts plain_facts(const Recording& recording, const std::string& path) {
   RawRecording raw;
@@ -88,23 +104,49 @@ Recording read_recording(const std::string& path, RecordingKind kind, double gra
   return recording;
 }
 
-void write_recording(const Recording& recording, const std::string& path) {
-  for ([[maybe_unused]] const auto& c : recording.channels) {
-    DRIFT_EXPECTS(c.values.size() == recording.rows());
+void write_recording_to(const Recording& recording, const std::string& path,
+                        const std::string& temporary) {
+  for (const auto& c : recording.channels) {
+    DRIFT_DEMAND(c.values.size() == recording.rows());
     DRIFT_EXPECTS(valid_channel_name(c.name));
   }
   const std::string extension = extension_of(path);
   if (extension != ".csv" && extension != ".h5" && extension != ".hdf5" && extension != ".mat")
     throw_extension(path, extension);
-  AtomicFile file(path);
   const Facts facts = plain_facts(recording, path);
-  const auto writer = extension == ".mat" ? write_mat : write_hdf5;
-  const std::string wrong =
-      extension == ".csv"
-          ? write_csv(recording, facts, file.temporary())
-          : write_isolated([&] { return writer(recording, facts, file.temporary()); });
+  const bool mat = extension == ".mat";
+  const auto writer = mat ? write_mat : write_hdf5;
+  std::string wrong = extension == ".csv"
+                          ? write_csv(recording, facts, temporary)
+                          : write_isolated([&] { return writer(recording, facts, temporary); });
+  if (wrong.empty() && extension != ".csv") {
+    // Both libraries write late and do not always say what became of it.
+    Problems problems(path);
+    const RawRecording back = read_isolated(temporary, problems, mat ? read_mat : read_hdf5);
+    wrong = lost_in_writing(recording, facts, back, problems);
+  }
+  // matio overlooks failures that its reader overlooks too, but not the same one twice.
+  if (wrong.empty() && mat) wrong = other_when_written_again(recording, facts, temporary);
   if (!wrong.empty()) throw_cannot_write(path, wrong);
+}
+
+void write_recording(const Recording& recording, const std::string& path) {
+  AtomicFile file(path);
+  write_recording_to(recording, path, file.temporary());
   file.commit();
+}
+
+bool is_made_here(const std::string& path) {
+  Problems ignored(path);
+  RawRecording raw;
+  const std::string extension = extension_of(path);
+  if (extension == ".csv") {
+    std::string_view line;
+    return LineReader(path).next(line) && line.starts_with(fmt::format("# {} = ", made_here));
+  }
+  if (extension == ".h5" || extension == ".hdf5") raw = read_isolated(path, ignored, read_hdf5);
+  if (extension == ".mat") raw = read_isolated(path, ignored, read_mat);
+  return !raw.facts.empty() && raw.facts.front().first == made_here;
 }
 
 }  // namespace drift

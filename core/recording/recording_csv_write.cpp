@@ -38,8 +38,8 @@ void append_number(std::string& out, double value, const Unit& unit) {
 }  // namespace
 
 std::string write_csv(const Recording& recording, const Facts& facts, const std::string& path) {
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "we"),
-                                                             &std::fclose);
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "we"),
+                                                       &std::fclose);
   if (!file) return std::strerror(errno);
   std::string out;
   const auto flush = [&] {
@@ -63,7 +63,7 @@ std::string write_csv(const Recording& recording, const Facts& facts, const std:
     out += '\n';
     if (out.size() > (1u << 18) && !flush()) return std::strerror(errno);
   }
-  if (!flush() || std::fflush(file.get()) != 0) return std::strerror(errno);
+  if (!flush() || std::fclose(file.release()) != 0) return std::strerror(errno);
   return {};
 }
 

@@ -27,8 +27,8 @@ void Problems::throw_if_any() const {
   if (count() == 0) return;
   auto all = messages_;
   if (more_ > 0)
-    all.push_back(
-        fmt::format("{}: and {} more problems. Correct the ones above first", file_, more_));
+    all.push_back(fmt::format(
+        "{}: and {} more problems (expected none). Correct the ones above first", file_, more_));
   throw InputError(ExitCode::recording, std::move(all));
 }
 
@@ -47,29 +47,6 @@ std::string in_quotes(std::string_view text) {
       out += c;
   }
   return out + (size < text.size() ? "...'" : "'");
-}
-
-bool valid_utf8(std::string_view text) {
-  for (std::size_t i = 0; i < text.size();) {
-    const auto lead = static_cast<unsigned char>(text[i]);
-    const std::size_t length = lead < 0x80       ? 1
-                               : lead >> 5 == 6  ? 2
-                               : lead >> 4 == 14 ? 3
-                               : lead >> 3 == 30 ? 4
-                                                 : 0;
-    if (length == 0 || i + length > text.size()) return false;
-    char32_t code = length == 1 ? lead : lead & (0xFFu >> (length + 1));
-    for (std::size_t k = 1; k < length; ++k) {
-      const auto next = static_cast<unsigned char>(text[i + k]);
-      if (next >> 6 != 2) return false;
-      code = code << 6 | (next & 0x3Fu);
-    }
-    constexpr char32_t smallest[] = {0, 0, 0x80, 0x800, 0x10000};
-    if (code < smallest[length] || code > 0x10FFFF || (code >= 0xD800 && code < 0xE000))
-      return false;
-    i += length;
-  }
-  return true;
 }
 
 std::string_view trimmed(std::string_view text) {

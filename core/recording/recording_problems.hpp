@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/utf8.hpp"
+
 namespace drift {
 
 /// What is wrong with one file, message by message; the first `cap` are kept, the rest counted.
@@ -40,9 +42,6 @@ class Problems {
 /// Text of a file made fit for a message: in quotes, shortened, control characters and bytes that
 /// are not UTF-8 as \xNN.
 std::string in_quotes(std::string_view text);
-
-/// Whether the bytes are UTF-8 (no surrogates, no overlong forms).
-bool valid_utf8(std::string_view text);
 
 /// Without spaces, tabs and line ends at both ends.
 std::string_view trimmed(std::string_view text);

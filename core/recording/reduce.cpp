@@ -137,7 +137,7 @@ SampleIntervals sample_intervals(const Recording& recording) {
 }
 
 Recording reduced(const Recording& recording, double interval, std::size_t factor) {
-  DRIFT_EXPECTS(interval > 0.0 && factor >= 1 && recording.rows() > 0);
+  DRIFT_DEMAND(interval > 0.0 && factor >= 1 && recording.rows() > 0);
   const std::vector<Stretch> stretches = Cutter(recording, interval, factor).cut();
   const auto& t = recording.find("time")->values;
   Recording out;

@@ -19,14 +19,11 @@ struct Instruments {
     for (std::size_t k = 0; k < interval.node_count(); ++k) {
       const Node& node = timeline->nodes[interval.first_node + k];
       const Mat3 R_lp = node.R_lr * rotation(phi[k]);
-      auto in = inputs_at<double>(node.omega_ic_l, interval.omega_cmd_p, model->mounting, R_lp);
-      Surroundings<double> around;
-      if (needs.any()) {
-        fill_surroundings(needs, moment_at(*timeline, interval, node.t), R_lp, memory(k), around);
-        in.around = &around;
-      }
-      mean +=
-          Timeline::simpson_weight(interval.substeps, k) * accelerometer_output(*model, in, theta);
+      Scene<double> scene(node.omega_ic_l, interval.omega_cmd_p, model->mounting, R_lp);
+      if (needs.any())
+        scene.look_around(needs, moment_at(*timeline, interval, node.t), R_lp, memory(k));
+      mean += Timeline::simpson_weight(interval.substeps, k) *
+              accelerometer_output(*model, scene.in, theta);
     }
     return mean;
   }
@@ -38,13 +35,10 @@ struct Instruments {
     const std::size_t last = interval.node_count() - 1;
     const Node& node = timeline->nodes[interval.last_node()];
     const Mat3 R_lp = node.R_lr * rotation(phi[last]);
-    auto in = inputs_at<double>(node.omega_ic_l, interval.omega_cmd_p, model->mounting, R_lp);
-    Surroundings<double> around;
-    if (needs.any()) {
-      fill_surroundings(needs, moment_at(*timeline, interval, node.t), R_lp, memory(last), around);
-      in.around = &around;
-    }
-    return gimbal_output<double>(*model, in, R_lp, interval.heading1, theta);
+    Scene<double> scene(node.omega_ic_l, interval.omega_cmd_p, model->mounting, R_lp);
+    if (needs.any())
+      scene.look_around(needs, moment_at(*timeline, interval, node.t), R_lp, memory(last));
+    return gimbal_output<double>(*model, scene.in, R_lp, interval.heading1, theta);
   }
 };
 

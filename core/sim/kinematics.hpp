@@ -19,6 +19,24 @@ Inputs<S> inputs_at(const Vec3& omega_ic_l, const Vec3& omega_cmd_p, const Mount
   return in;
 }
 
+/// The same with all that the terms may ask for beside it. Not copied: `in` points to `around`.
+template <class S>
+struct Scene {
+  Inputs<S> in;
+  Surroundings<S> around;  ///< of use after look_around() alone
+
+  Scene(const Vec3& omega_ic_l, const Vec3& omega_cmd_p, const Mounting& mounting,
+        const Mat3T<S>& R_lp)
+      : in(inputs_at<S>(omega_ic_l, omega_cmd_p, mounting, R_lp)) {}
+  Scene(const Scene&) = delete;
+  Scene& operator=(const Scene&) = delete;
+
+  void look_around(const Needs& needs, const Moment& now, const Mat3T<S>& R_lp, const S* memory) {
+    fill_surroundings(needs, now, R_lp, memory, around);
+    in.around = &around;
+  }
+};
+
 /// Rate of the rotation vector phi of the platform against its reference, R_rp = exp([phi x]):
 ///
 ///   phi' = w_e + phi x w_e / 2 + k phi x (phi x w_e),   w_e = w_ip - R_pr w_ir,
@@ -60,21 +78,8 @@ struct Drive {
 };
 
 /// phi' of the algebraic couplings, for the reference attitude R_lr [rad/s]. t [s] and the memory
-/// are looked at if drive.needs says so.
-inline Vec3 attitude_rate(const Drive& drive, const Mat3& R_lr, const Vec3& phi, double t = 0.0,
-                          const double* memory = nullptr) {
-  const Mat3 R_lp = R_lr * rotation(phi);
-  Inputs<double> in =
-      inputs_at<double>(drive.omega_ic_l, drive.omega_cmd_p, drive.model->mounting, R_lp);
-  Surroundings<double> around;
-  if (drive.needs.any()) {
-    fill_surroundings(drive.needs, moment_at(*drive.timeline, *drive.interval, t), R_lp, memory,
-                      around);
-    in.around = &around;
-  }
-  const Vec3 omega_ip_p =
-      platform_rate(*drive.model, in, drive.theta, drive.E_loop) + drive.omega_noise_p;
-  return rotation_vector_rate(phi, omega_ip_p, drive.omega_cmd_p);
-}
+/// (null where the model has none) are looked at if drive.needs says so.
+Vec3 attitude_rate(const Drive& drive, const Mat3& R_lr, const Vec3& phi, double t,
+                   const double* memory);
 
 }  // namespace drift

@@ -1,5 +1,8 @@
 #include "core/sim/memory_path.hpp"
 
+#include <algorithm>
+
+#include "core/base/check.hpp"
 #include "core/base/dual.hpp"
 #include "core/plan/case_heading.hpp"
 #include "core/sim/measurements.hpp"
@@ -108,21 +111,24 @@ void MemoryPath::shift(const double* theta_old, const double* theta_new) {
   });
 }
 
-MemoryRecord::MemoryRecord(const Timeline& timeline, const DriftModel& model, const double* theta)
-    : terms_(model.terms), theta_(Eigen::Map<const Theta>(theta)) {
-  MemoryPath path(timeline, model);
-  if (!path.active()) return;
-  points_.resize(2 * timeline.nodes.size());
-  for (std::size_t i = 0; i < timeline.intervals.size(); ++i) {
-    const Interval& interval = timeline.intervals[i];
-    path.advance(i, theta);
-    for (std::size_t k = 0; k < 2 * interval.node_count() - 1; ++k)
-      points_[2 * interval.first_node + k] = path.at(k);
+MemoryRecord::MemoryRecord(const Timeline& timeline, const DriftModel& model)
+    : timeline_(&timeline), terms_(model.terms), path_(MemoryPath(timeline, model)) {}
+
+void MemoryRecord::trace(const double* theta) {
+  if (!path_ || !path_->active()) return;
+  theta_ = Eigen::Map<const Theta>(theta);
+  points_.resize(2 * timeline_->nodes.size());
+  path_->reset();
+  for (std::size_t i = 0; i < timeline_->intervals.size(); ++i) {
+    const Interval& interval = timeline_->intervals[i];
+    path_->advance(i, theta);
+    std::copy_n(path_->points(), 2 * interval.node_count() - 1, &points_[2 * interval.first_node]);
   }
 }
 
 MemoryPoint MemoryRecord::at_time(const Timeline& timeline, const Interval& interval,
                                   double t) const {
+  DRIFT_DEMAND(points_.size() >= 2 * timeline.nodes.size());
   const double step = interval.length() / (2.0 * interval.substeps);
   const double k = std::floor((t - interval.t0) / step);
   const auto from =

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "core/physics/drift_model.hpp"
@@ -27,10 +28,11 @@ class MemoryPath {
   bool active() const { return active_; }
   /// Back to before the first interval.
   void reset() { started_ = false; }
-  /// Moves on over interval i (in order) with these parameters. Then at(2 k) is the memory at node
-  /// k of the interval and at(2 k + 1) half way to the next.
+  /// Moves on over interval i (in order) with these parameters.
   void advance(std::size_t i, const double* theta);
-  const MemoryPoint& at(std::size_t point) const { return points_[point]; }
+  /// Of the interval: number 2 k is the memory at its node k, number 2 k + 1 half way to the next.
+  /// Null where the model has none.
+  const MemoryPoint* points() const { return active_ ? points_.data() : nullptr; }
   /// As if the parameters had differed by theta_new - theta_old all along, to first order.
   void shift(const double* theta_old, const double* theta_new);
 
@@ -48,15 +50,22 @@ class MemoryPath {
 class MemoryRecord {
  public:
   MemoryRecord() = default;
-  MemoryRecord(const Timeline& timeline, const DriftModel& model, const double* theta);
+  /// Of a model that may have none; there is nothing to read before `trace`.
+  MemoryRecord(const Timeline& timeline, const DriftModel& model);
 
-  bool empty() const { return points_.empty(); }
-  const MemoryPoint& at_node(std::size_t node) const { return points_[2 * node]; }
+  /// Writes it down for these parameters; allocates nothing from the second time on.
+  void trace(const double* theta);
+  /// The points of an interval, as MemoryPath has them.
+  const MemoryPoint* points(const Interval& interval) const {
+    return points_.empty() ? nullptr : &points_[2 * interval.first_node];
+  }
   /// At any time of an interval: from the point before it on.
   MemoryPoint at_time(const Timeline& timeline, const Interval& interval, double t) const;
 
  private:
+  const Timeline* timeline_ = nullptr;
   TermMask terms_;
+  std::optional<MemoryPath> path_;
   Theta theta_;
   std::vector<MemoryPoint> points_;
 };

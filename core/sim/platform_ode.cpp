@@ -5,6 +5,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "core/base/check.hpp"
 #include "core/base/dual.hpp"
 #include "core/plan/case_heading.hpp"
 
@@ -70,22 +71,28 @@ const Interval& PlatformOde::Problem::interval_at(double t) const {
   return after == begin + static_cast<long>(end) ? *(after - 1) : *after;
 }
 
+/// What the terms see at a time of the segment, with the memory that they have of it then.
 template <class S>
-void PlatformOde::Problem::look_around(double t, const Mat3T<S>& R_lp,
-                                       std::array<S, num_memory>& memory_now,
-                                       Surroundings<S>& around) const {
-  const Interval& interval = interval_at(t);
-  if (drive.needs.memory) {
-    const MemoryPoint m = memory->at_time(*drive.timeline, interval, t);
-    for (std::size_t k = 0; k < num_memory; ++k) memory_now[k] = S(m.value[k]);
+struct PlatformOde::Problem::SceneAt : Scene<S> {
+  std::array<S, num_memory> memory_now;
+
+  SceneAt(const Problem& p, double t, const Mat3T<S>& R_lp)
+      : Scene<S>(p.drive.omega_ic_l + p.base_motion_l(t), p.drive.omega_cmd_p, p.model.mounting,
+                 R_lp) {
+    if (!p.drive.needs.any()) return;
+    const Interval& interval = p.interval_at(t);
+    if (p.drive.needs.memory) {
+      const MemoryPoint m = p.memory->at_time(*p.drive.timeline, interval, t);
+      for (std::size_t k = 0; k < num_memory; ++k) memory_now[k] = S(m.value[k]);
+    }
+    this->look_around(p.drive.needs, moment_at(*p.drive.timeline, interval, t), R_lp,
+                      memory_now.data());
   }
-  fill_surroundings(drive.needs, moment_at(*drive.timeline, interval, t), R_lp, memory_now.data(),
-                    around);
-}
+};
 
 bool PlatformOde::Problem::reduced(double t, const double* y, double* y_dot) const {
   if (!drive.needs.any()) {
-    Eigen::Map<Vec3>(y_dot, 3) = attitude_rate(drive, reference(t), vec3(y));
+    Eigen::Map<Vec3>(y_dot, 3) = attitude_rate(drive, reference(t), vec3(y), t, nullptr);
     return true;
   }
   std::array<double, num_memory> memory_now;
@@ -101,20 +108,13 @@ template <class S>
 void PlatformOde::Problem::loop(double t, const S* y, S* y_dot) const {
   const Vec3T<S> phi = vec3(y + ServoState::size);
   const Mat3T<S> R_lp = reference(t).template cast<S>() * rotation(phi);
-  Inputs<S> in =
-      inputs_at<S>(drive.omega_ic_l + base_motion_l(t), drive.omega_cmd_p, model.mounting, R_lp);
-  Surroundings<S> around;
-  std::array<S, num_memory> memory_now;
-  if (drive.needs.any()) {
-    look_around(t, R_lp, memory_now, around);
-    in.around = &around;
-  }
+  const SceneAt<S> scene(*this, t, R_lp);
   const S* theta;
   if constexpr (std::is_same_v<S, double>)
     theta = drive.theta;
   else
     theta = theta_dual.data();
-  const Vec3T<S> unfelt_p = servo_derivative(servo, model, in, theta, y, y_dot);
+  const Vec3T<S> unfelt_p = servo_derivative(servo, model, scene.in, theta, y, y_dot);
   const Vec3T<S> omega_ip_p =
       vec3(y + ServoState::omega_ip) + unfelt_p + drive.omega_noise_p.template cast<S>();
   const Vec3T<S> phi_dot = rotation_vector_rate(phi, omega_ip_p, drive.omega_cmd_p);
@@ -150,6 +150,7 @@ OdeResult PlatformOde::segment(const Timeline& timeline, std::size_t first, std:
   p.heading_rate = start.heading_rate();
   p.drive = drive_of(start, timeline, p.model, theta);
   p.drive.omega_noise_p = omega_noise_p;
+  DRIFT_DEMAND(memory != nullptr || !p.drive.needs.memory);
   p.memory = memory;
   p.first = first;
   p.end = end;
@@ -162,17 +163,9 @@ OdeResult PlatformOde::segment(const Timeline& timeline, std::size_t first, std:
     const Vec3 phi0 = caged_phi(node.R_lr, *psi0_l);
     Eigen::Map<Vec3>(y_.data() + at_phi, 3) = phi0;
     if (servo) {
-      const Mat3 R_lp = node.R_lr * rotation(phi0);
-      auto in = inputs_at<double>(node.omega_ic_l + p.base_motion_l(start.t0), start.omega_cmd_p,
-                                  p.model.mounting, R_lp);
-      Surroundings<double> around;
-      std::array<double, num_memory> memory_now;
-      if (p.drive.needs.any()) {
-        p.look_around(start.t0, R_lp, memory_now, around);
-        in.around = &around;
-      }
+      const Problem::SceneAt<double> scene(p, start.t0, node.R_lr * rotation(phi0));
       Eigen::Map<Eigen::Matrix<double, ServoState::size, 1>>(y_.data()) =
-          servo_at_rest(p.servo, p.model, in, theta.data());
+          servo_at_rest(p.servo, p.model, scene.in, theta.data());
     }
   }
   ode_.start(start.t0, y_.data(), timeline.intervals[end - 1].t1);

@@ -40,13 +40,12 @@ class PlatformOde {
     const MemoryRecord* memory = nullptr;
     std::size_t first = 0, end = 0;  ///< intervals of the segment
     /// All parameters as constants of the differentiation.
-    std::array<Dual<servo_states>, TermLibrary::num_params> theta_dual;
+    std::array<Dual<servo_states>, TermLibrary::num_params> theta_dual{};
 
     Mat3 reference(double t) const;
     const Interval& interval_at(double t) const;
     template <class S>
-    void look_around(double t, const Mat3T<S>& R_lp, std::array<S, num_memory>& memory_now,
-                     Surroundings<S>& around) const;
+    struct SceneAt;
     Vec3 base_motion_l(double t) const;  ///< [rad/s]
     bool reduced(double t, const double* y, double* y_dot) const;
     template <class S>

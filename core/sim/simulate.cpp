@@ -82,7 +82,8 @@ void Simulator::begin(const Timeline& timeline, const TruthDraw& draw, std::uint
   for (std::uint32_t c = 0; c < 6; ++c)
     wrong_samples_[c].emplace(seed, run_number, Purpose::wrong_samples, c);
   require_covariates(model_, timeline);
-  memory_ = MemoryRecord(timeline, model_, draw.theta.data());
+  memory_ = MemoryRecord(timeline, model_);
+  memory_.trace(draw.theta.data());
   const auto n = static_cast<Eigen::Index>(timeline.intervals.size());
   const double missing = std::numeric_limits<double>::quiet_NaN();
   out.ode = {};
@@ -134,6 +135,7 @@ void Simulator::integrate(const Timeline& timeline, std::size_t first, std::size
             noise.angle_random_walk / std::sqrt(interval.length()) * process_noise_[a]->normal();
       theta = drift_of(timeline, first);
     }
+    out.theta_end = theta;
     if (disturbance_.cols() > 0)
       omega_noise_p += disturbance_.col(static_cast<Eigen::Index>(first));
     out.ode =
@@ -145,7 +147,6 @@ void Simulator::integrate(const Timeline& timeline, std::size_t first, std::size
     out.cost.jacobian_calls += stats.jacobian_calls;
     first = last;
   }
-  out.theta_end = theta_;
 }
 
 /// What makes a sample wrong, in units of its noise; nearly always nothing.
@@ -160,9 +161,8 @@ double Simulator::wrong_by(std::size_t channel, const Theta& theta) {
 void Simulator::measure(const Timeline& timeline, std::size_t i, Simulation& out) {
   const Interval& interval = timeline.intervals[i];
   const Instruments instruments{&timeline, &model_, out.draw.theta.data()};
-  const auto memory = [&](std::size_t k) {
-    return memory_.empty() ? nullptr : memory_.at_node(interval.first_node + k).value.data();
-  };
+  const MemoryPoint* points = memory_.points(interval);
+  const auto memory = [&](std::size_t k) { return points ? points[2 * k].value.data() : nullptr; };
   const Vec3* phi = &out.phi[interval.first_node];
   if (readout_.accelerometers) {
     const Vec3 mean = instruments.accelerometers(interval, phi, memory);

@@ -19,7 +19,8 @@ struct Simulation {
   OdeResult ode;  ///< not ok: the run failed, the rest is not to be used
   OdeStats cost;
   TruthDraw draw;
-  Theta theta_end = Theta::Zero();  ///< as draw.theta, but D_F where its random walk has led
+  Theta theta_end = Theta::Zero();  ///< as draw.theta, but D_F where its random walk and its jumps
+                                    ///< have led
   Trajectory phi;                   ///< at every node [rad]
   Measurements measured;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/check.hpp"
 #include "core/physics/drift_model.hpp"
 #include "core/plan/timeline.hpp"
 
@@ -26,6 +27,7 @@ inline Moment moment_at(const Timeline& timeline, const Interval& interval, doub
 template <class S>
 void fill_surroundings(const Needs& needs, const Moment& now, const Mat3T<S>& R_lp, const S* memory,
                        Surroundings<S>& out) {
+  DRIFT_DEMAND(memory != nullptr || !needs.memory);
   out.now = now;
   out.R_lp = R_lp;
   if (needs.gimbals)

@@ -2,22 +2,67 @@
 
 namespace drift {
 
+Drive drive_of(const Interval& interval, const Timeline& timeline, const DriftModel& model,
+               const Theta& theta) {
+  Drive d;
+  d.model = &model;
+  d.theta = theta.data();
+  d.omega_ic_l = timeline.nodes[interval.first_node].omega_ic_l;
+  d.omega_cmd_p = interval.omega_cmd_p;
+  d.E_loop = misalignment_matrix(model.mounting, interval.loop);
+  d.needs = TermLibrary::needs(model.terms);
+  d.timeline = &timeline;
+  d.interval = &interval;
+  return d;
+}
+
+Vec3 step_attitude(const Drive& drive, double t, double step, const Vec3& phi,
+                   const StepPoint& from, const StepPoint& half, const StepPoint& to) {
+  const auto rate = [&](const StepPoint& at, double time, const Vec3& there) {
+    return attitude_rate(drive, at.R_lr, there, time,
+                         at.memory ? at.memory->value.data() : nullptr);
+  };
+  const Vec3 k1 = rate(from, t, phi);
+  const Vec3 k2 = rate(half, t + 0.5 * step, phi + 0.5 * step * k1);
+  const Vec3 k3 = rate(half, t + 0.5 * step, phi + 0.5 * step * k2);
+  const Vec3 k4 = rate(to, t + step, phi + step * k3);
+  return phi + step / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
+}
+
+void step_through(const Interval& interval, const Timeline& timeline, const Drive& drive,
+                  const MemoryPoint* memory, Vec3* out, std::size_t from) {
+  const double step = interval.length() / (2.0 * interval.substeps);
+  const auto past = [&](std::size_t point) { return memory ? memory + point : nullptr; };
+  for (std::size_t k = from; k + 1 < interval.node_count(); ++k) {
+    const Node* node = &timeline.nodes[interval.first_node + k];
+    out[k + 1] = step_attitude(drive, node->t, step, out[k], {node->R_lr, past(2 * k)},
+                               {node->R_lr_half, past(2 * k + 1)}, {node[1].R_lr, past(2 * k + 2)});
+  }
+}
+
+void step_back_through(const Interval& interval, const Timeline& timeline, const Drive& drive,
+                       const MemoryPoint* memory, Vec3* out) {
+  const double step = interval.length() / (2.0 * interval.substeps);
+  const auto past = [&](std::size_t point) { return memory ? memory + point : nullptr; };
+  for (std::size_t k = interval.node_count() - 1; k-- > 0;) {
+    const Node* node = &timeline.nodes[interval.first_node + k];
+    out[k] = step_attitude(drive, node[1].t, -step, out[k + 1], {node[1].R_lr, past(2 * k + 2)},
+                           {node->R_lr_half, past(2 * k + 1)}, {node->R_lr, past(2 * k)});
+  }
+}
+
+Vec3 caged_phi(const Mat3& R_lr, const Vec3& psi_l) {
+  return R_lr.transpose() * psi_l;
+}
+
 Trajectory integrate_fixed(const Timeline& timeline, const DriftModel& model, const Theta& theta,
                            const std::vector<Vec3>& psi0_l) {
-  require_covariates(model, timeline);
-  Trajectory phi(timeline.nodes.size());
-  MemoryPath memory(timeline, model);
-  Vec3 last = Vec3::Zero();
-  for (std::size_t n = 0; n < timeline.intervals.size(); ++n) {
-    const Interval& i = timeline.intervals[n];
-    memory.advance(n, theta.data());
-    if (i.cage) last = caged_phi(timeline.nodes[i.first_node].R_lr, psi0_l[i.chain]);
-    Vec3* out = &phi[i.first_node];
-    out[0] = last;
-    step_through(i, timeline, drive_of(i, timeline, model, theta), out, 0, &memory);
-    last = out[i.node_count() - 1];
-  }
-  return phi;
+  Trajectory all(timeline.nodes.size());
+  walk(timeline, model, theta, psi0_l,
+       [&](std::size_t i, const std::vector<Vec3>& phi, const MemoryPath&) {
+         std::copy(phi.begin(), phi.end(), &all[timeline.intervals[i].first_node]);
+       });
+  return all;
 }
 
 }  // namespace drift

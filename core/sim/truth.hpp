@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/fnv.hpp"
 #include "core/physics/model_spec.hpp"
 
 namespace drift {
@@ -17,8 +18,7 @@ struct TruthDraw {
 /// Streams are named by parameter key, so that a new parameter leaves the draws of all others
 /// alone.
 constexpr std::uint32_t stream_index(std::string_view key) {
-  std::uint32_t h = 2166136261u;  // FNV-1a, folded to 24 bits
-  for (const char c : key) h = (h ^ static_cast<unsigned char>(c)) * 16777619u;
+  const auto h = fnv1a<std::uint32_t>(key);  // folded to 24 bits
   return (h >> 24) ^ (h & 0xffffffu);
 }
 
@@ -52,25 +52,13 @@ inline TruthDraw draw_truth(const TruthSpec& truth, int chains, std::uint64_t se
 }
 
 /// The lambda of a truth whose coupling is no member of the family by name: the integrating servo
-/// closes like eq. (6) (physics.md 1.5); a compensated loop has none.
+/// closes like eq. (6) (physics.md 1.5); with a restraint of the floats, or compensated, it has
+/// none.
 inline void set_lambda(const TruthSpec& truth, Theta& theta) {
-  constexpr auto lambda = TermLibrary::index("lambda");
-  switch (truth.coupling) {
-    case Coupling::eq5:
-      theta[lambda] = 0.0;
-      break;
-    case Coupling::eq6:
-      theta[lambda] = 1.0;
-      break;
-    case Coupling::servo:
-      theta[lambda] = truth.servo.float_restraint == 0.0 ? 1.0 : std::nan("");
-      break;
-    case Coupling::compensated:
-      theta[lambda] = std::nan("");
-      break;
-    case Coupling::lambda:
-      break;
-  }
+  if (truth.coupling == Coupling::lambda) return;
+  const bool leaks = truth.coupling == Coupling::servo && truth.servo.float_restraint != 0.0;
+  const auto lambda = facts(facts(truth.coupling).settles_to).lambda;
+  theta[closure_param] = leaks || !lambda ? std::nan("") : *lambda;
 }
 
 }  // namespace drift

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/stats/normal.hpp"
+
 namespace drift::stats {
 
 /// An interval.
@@ -16,7 +18,7 @@ struct Band {
 /// Wilson and Hilferty: (chi2/m)^(1/3) is normal with mean 1 - 2/(9m) and variance 2/(9m). The
 /// bounds are off by less than 0.01 for m >= 6 and 0.1 for m = 1.
 inline Band chi_square_band(double dof) {
-  constexpr double z = 1.959963984540054;  // 97.5 % point of the normal distribution
+  constexpr double z = half_width_95;
   const double v = 2.0 / (9.0 * dof), s = std::sqrt(v);
   const auto cube = [](double x) { return x * x * x; };
   return {std::max(0.0, cube(1.0 - v - z * s)), cube(1.0 - v + z * s)};

@@ -7,7 +7,8 @@ namespace drift::stats {
 double normal_distribution(double z);
 double normal_quantile(double p);
 
-/// Half width of a two-sided interval of this confidence, in standard deviations: 1.96 for 0.95.
+/// Half width of a two-sided interval of this confidence, in standard deviations.
 double normal_half_width(double confidence);
+inline constexpr double half_width_95 = 1.959963984540054;  ///< normal_half_width(0.95)
 
 }  // namespace drift::stats

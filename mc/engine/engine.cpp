@@ -8,9 +8,10 @@
 #include <chrono>
 #include <mutex>
 
-#include "core/base/rng.hpp"
 #include "mc/engine/block_board.hpp"
+#include "mc/engine/block_queue.hpp"
 #include "mc/engine/rule_follower.hpp"
+#include "mc/engine/shuffled.hpp"
 #include "mc/engine/stop_signals.hpp"
 #include "mc/store/store.hpp"
 #include "mc/store/study_reader.hpp"
@@ -80,13 +81,8 @@ class Engine {
       }
     ranks_.broadcast(missing);
     found_cut_short_ = cut_short_;
-    if (options_.shuffle != 0) {
-      Stream stream(options_.shuffle, 0, Purpose::test);
-      for (std::size_t i = missing.size(); i > 1; --i)
-        std::swap(missing[i - 1],
-                  missing[static_cast<std::size_t>(stream.uniform() * static_cast<double>(i))]);
-    }
-    todo_ = std::move(missing);
+    todo_ =
+        options_.shuffle == 0 ? std::move(missing) : shuffled(std::move(missing), options_.shuffle);
   }
 
   std::optional<StoredBlock> stored(const BlockKey& key) {
@@ -139,42 +135,18 @@ class Engine {
           if (options_.fail_fast) stop_.compare_exchange_strong(expected, failed_run);
         }
         ++own_done_;
-        if (auto block = board.finish(*ticket, outcome)) store(std::move(*block));
+        if (auto block = board.finish(*ticket, outcome)) queue_.store(std::move(*block));
         tell();
       }
     } catch (...) {
-      const std::scoped_lock lock(queue_guard_);
-      if (!error_) error_ = std::current_exception();
+      queue_.give_up(std::current_exception());
       stop_ = broken;
     }
   }
 
-  /// The thread that finds nobody storing stores its block and those that others finish meanwhile,
-  /// so that no thread waits for the disk and a slow disk gets fewer, larger transactions.
-  void store(StoredBlock block) {
-    std::unique_lock lock(queue_guard_);
-    queue_.push_back(std::move(block));
-    if (storing_) return;
-    storing_ = true;
-    while (!queue_.empty() && !error_) {
-      const std::vector<StoredBlock> batch = std::exchange(queue_, {});
-      lock.unlock();
-      try {
-        store_.commit(batch);
-        rules_.advance();
-        share_counts(batch);
-      } catch (...) {
-        lock.lock();
-        storing_ = false;
-        lock.unlock();
-        throw;
-      }
-      lock.lock();
-    }
-    storing_ = false;
-  }
-
-  void share_counts(const std::vector<StoredBlock>& batch) {
+  void commit(const std::vector<StoredBlock>& batch) {
+    store_.commit(batch);
+    rules_.advance();
     std::uint64_t runs = 0, failed = 0;
     for (const StoredBlock& b : batch) runs += b.block.status.size(), failed += b.failures.size();
     ranks_.add(Counter::done, runs);
@@ -216,7 +188,7 @@ class Engine {
       case failed_run:
         return ExitCode::failed_runs;
       case broken:
-        return code_of(error_);
+        return code_of(queue_.error());
       default:
         return ExitCode::ok;
     }
@@ -232,9 +204,9 @@ class Engine {
     StudyOutcome outcome;
     outcome.leader = ranks_.leader();
     outcome.code = agree(stop_code());
-    if (error_) {
-      end_session(code_of(error_));
-      std::rethrow_exception(error_);
+    if (queue_.error()) {
+      end_session(code_of(queue_.error()));
+      std::rethrow_exception(queue_.error());
     }
     if (sink_ && outcome.leader) sink_(progress());
     outcome.done_before = before_;
@@ -244,7 +216,8 @@ class Engine {
     outcome.failed = ranks_.add(Counter::failed, 0);
     outcome.seconds = seconds();
     if (outcome.leader) look_back(outcome);
-    std::vector<std::uint64_t> told{static_cast<std::uint64_t>(outcome.code),
+    const auto code = static_cast<std::uint64_t>(outcome.code);
+    std::vector<std::uint64_t> told{code,
                                     outcome.complete,
                                     outcome.failed,
                                     outcome.results,
@@ -253,8 +226,8 @@ class Engine {
     ranks_.broadcast(told);
     outcome.code = static_cast<ExitCode>(told[0]);
     outcome.complete = told[1] != 0;
-    outcome.failed = told[2], outcome.results = told[3], outcome.missing = told[4],
-    outcome.missing_own = told[5];
+    outcome.failed = told[2], outcome.results = told[3];
+    outcome.missing = told[4], outcome.missing_own = told[5];
     end_session(outcome.code);
     for (const auto* notes : {&store_.notes(), &reader_.notes()})
       outcome.notes.insert(outcome.notes.end(), notes->begin(), notes->end());
@@ -264,8 +237,7 @@ class Engine {
   void end_session(ExitCode code) {
     try {
       store_.end_session(static_cast<int>(code));
-    } catch (const InputError&) {
-      // The results are stored; a full disk cannot take the time of the end.
+    } catch (const InputError&) {  // the results are stored; a full disk has no room for this
     }
   }
 
@@ -288,11 +260,10 @@ class Engine {
     outcome.digest = results_digest(reader_, work_.stop_rules);
     try {
       note_finished(folder_, options_.runs);
-    } catch (const InputError&) {
-      // The results are stored; that they are complete can be told anew.
+    } catch (const InputError&) {  // the results are stored; this can be told anew
     }
-    if (outcome.code == ExitCode::wall_time)
-      outcome.code = ExitCode::ok;  // it came when all was done
+    // The time may have come when all was done.
+    if (outcome.code == ExitCode::wall_time) outcome.code = ExitCode::ok;
     if (outcome.code == ExitCode::ok && outcome.failed > options_.allowed_failures)
       outcome.code = ExitCode::failed_runs;
   }
@@ -310,14 +281,11 @@ class Engine {
   std::vector<BlockKey> all_;
   std::vector<std::uint64_t> todo_;  ///< into all_
   std::uint64_t before_ = 0, failed_before_ = 0;
-  std::uint64_t cut_short_ = 0,
-                found_cut_short_ = 0;  ///< runs in blocks that are too short; those found at first
+  std::uint64_t cut_short_ = 0, found_cut_short_ = 0;  ///< runs in blocks too short; at first
   std::atomic<std::uint64_t> total_skipped_ = 0, own_done_ = 0, own_failed_ = 0;
   std::atomic<int> stop_ = none;
-  std::mutex queue_guard_, progress_guard_;
-  std::vector<StoredBlock> queue_;
-  bool storing_ = false;
-  std::exception_ptr error_;
+  std::mutex progress_guard_;
+  BlockQueue queue_{[this](const std::vector<StoredBlock>& batch) { commit(batch); }};
   double told_ = -1.0;
 };
 

@@ -14,18 +14,9 @@ namespace drift::mc {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-const double z95 = stats::normal_half_width(0.95);
 
 void add_once(std::vector<std::string>& names, const std::string& name) {
   if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-}
-
-/// An RMSE over the prior sigma with its interval.
-std::vector<double> rmse(const ErrorStatistics& e) {
-  const Estimated r = e.rmse_normal(z95);
-  const bool known = e.runs() >= 2;
-  return {r.value / e.prior_sigma(), known ? std::max(0.0, r.low / e.prior_sigma()) : nan,
-          known ? r.high / e.prior_sigma() : nan};
 }
 
 /// Places in order of what was learnt, 1 for the parameter best known compared with its prior.
@@ -45,6 +36,86 @@ std::vector<std::string> parameters() {
   return keys;
 }
 
+/// A number of a row, with the head of its column.
+struct Number {
+  const char *name, *about;
+  double value;
+};
+
+std::vector<Number> rmse_of(const ErrorStatistics& e) {
+  const Estimated r = e.rmse_normal(stats::half_width_95);
+  const double unit = e.prior_sigma(), known = e.runs() >= 2 ? 1.0 : nan;  // one run has no ends
+  return {{"rmse", "root mean square error over the prior sigma", r.value / unit},
+          {"rmse_low", "lower end of its 95 % interval", known * std::max(0.0, r.low / unit)},
+          {"rmse_high", "upper end", known * r.high / unit}};
+}
+
+std::vector<Number> silent_of(const stats::Rate& silent, const char* about) {
+  return {{"silent_failure_rate", about, silent.value()},
+          {"silent_failure_rate_low", "lower end of its 95 % interval", silent.low()},
+          {"silent_failure_rate_high", "upper end", silent.high()}};
+}
+
+std::vector<Number> joined(std::initializer_list<std::vector<Number>> parts) {
+  std::vector<Number> all;
+  for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+const ErrorStatistics nothing(1.0, 0);  // for the heads of columns
+constexpr const char* wrong_in_silence = "share that is wrong with healthy statistics";
+
+/// What is told of a parameter at the end; errors over its prior sigma.
+std::vector<Number> numbers_of(const ErrorStatistics& e, const ParameterHealth& h, double rank) {
+  const Estimated bias = e.bias();
+  const double unit = e.prior_sigma();
+  return joined(
+      {{{"runs", "runs with an estimate", static_cast<double>(e.runs())},
+        {"prior_sigma_si", "prior sigma in SI units of the parameter", unit}},
+       rmse_of(e),
+       {{"bias", "mean error over the prior sigma", bias.value / unit},
+        {"bias_low", "lower end of its 95 % interval", bias.low / unit},
+        {"bias_high", "upper end", bias.high / unit},
+        {"learning_ratio", "root mean square reported sigma over the prior sigma", e.learning()},
+        {"rank", "order of learning_ratio within the filter, 1 the best known", rank},
+        {"deception_ratio", "RMSE over root mean square reported sigma, 1 if honest",
+         e.deception().value},
+        {"coverage_1", "share of errors below 1 sigma", e.coverage()[0].value()},
+        {"coverage_2", "share of errors below 2 sigma", e.coverage()[1].value()},
+        {"coverage_3", "share of errors below 3 sigma", e.coverage()[2].value()},
+        {"claims_to_know", "share of runs that claim to know it", h.claims.value()},
+        {"wrong", "share that claims to know it and is more than 5 sigma off", h.wrong.value()}},
+       silent_of(h.silent, wrong_in_silence),
+       {{"start_consistency", "spread between starts over reported sigma", h.start_ratio()}}});
+}
+
+/// What is told of it on the way.
+std::vector<Number> numbers_so_far(const ErrorStatistics& e, const ParameterHealth& h,
+                                   std::uint64_t runs) {
+  return joined({{{"runs", "runs so far", static_cast<double>(runs)}},
+                 rmse_of(e),
+                 {{"coverage_2", "share of errors below 2 sigma", e.coverage()[1].value()}},
+                 silent_of(h.silent, wrong_in_silence)});
+}
+
+/// What is told of a filter, started in one way.
+std::vector<Number> numbers_of(const StartStatistics& s) {
+  return joined(
+      {{{"nis", "normalised innovations squared per degree of freedom, 1 if honest", s.nis.mean()},
+        {"nis_low", "lower end of the 95 % band of an honest filter", s.nis.low()},
+        {"nis_high", "upper end", s.nis.high()},
+        {"nis_runs_in_band", "share of runs inside their own 95 % band", s.nis.in_band.value()},
+        {"nees", "normalised error squared per observed direction, 1 if honest", s.nees.mean()},
+        {"nees_low", "lower end of the 95 % band of an honest filter", s.nees.low()},
+        {"nees_high", "upper end", s.nees.high()},
+        {"nees_all", "the same of all directions", s.nees_all.mean()},
+        {"white", "share of runs whose innovations are white", s.white.value()},
+        {"healthy", "share of runs whose NIS is in its band", s.healthy.value()},
+        {"wrong", "share of runs with a parameter more than 5 sigma off", s.wrong.value()}},
+       silent_of(s.silent, "share of runs that are wrong and healthy"),
+       {{"diverged", "share of runs without an estimate", s.diverged.value()}}});
+}
+
 }  // namespace
 
 struct StatisticsTables::Tables {
@@ -53,10 +124,19 @@ struct StatisticsTables::Tables {
   std::vector<std::string> labels, filters;
   ExportTable convergence;
 
-  ExportTable table(const char* name, std::vector<ExportColumn> columns) const {
-    columns.insert(columns.begin(), {{"point", "1", "study point", labels},
-                                     {"filter", "1", "filter of the study", filters}});
+  /// A table whose rows are keys and numbers like these.
+  ExportTable table(const char* name, ExportColumn key, const std::vector<Number>& like) const {
+    std::vector<ExportColumn> columns{{"point", "1", "study point", labels},
+                                      {"filter", "1", "filter of the study", filters},
+                                      std::move(key)};
+    for (const Number& n : like) columns.push_back({n.name, "1", n.about});
     return {name, "row", std::move(columns)};
+  }
+  static void add(ExportTable& to, std::size_t point, double filter, double key,
+                  const std::vector<Number>& numbers) {
+    std::vector<double> row{static_cast<double>(point), filter, key};
+    for (const Number& n : numbers) row.push_back(n.value);
+    to.add(row);
   }
   static ExportColumn parameter_column() {
     return {"parameter", "1", "estimated parameter", parameters()};
@@ -65,15 +145,12 @@ struct StatisticsTables::Tables {
   void tell_convergence(std::size_t p) {
     told[p] = points[p].runs();
     for (const FilterStatistics& f : points[p].filters())
-      for (std::size_t k = 0; k < f.errors().size(); ++k) {
-        const ErrorStatistics& e = f.errors()[k];
-        const stats::Rate& silent = f.health()[k].silent;
-        const auto r = rmse(e);
-        convergence.add({static_cast<double>(p), place(f),
-                         static_cast<double>(f.columns().layout.params[k]),
-                         static_cast<double>(told[p]), r[0], r[1], r[2], e.coverage()[1].value(),
-                         silent.value(), silent.low(), silent.high()});
-      }
+      for (std::size_t k = 0; k < f.errors().size(); ++k)
+        add(convergence, p, place(f), number(f, k),
+            numbers_so_far(f.errors()[k], f.health()[k], told[p]));
+  }
+  static double number(const FilterStatistics& f, std::size_t k) {
+    return static_cast<double>(f.columns().layout.params[k]);
   }
   double place(const FilterStatistics& f) const {
     return static_cast<double>(
@@ -84,93 +161,23 @@ struct StatisticsTables::Tables {
 };
 
 ExportTable StatisticsTables::Tables::statistics() const {
-  ExportTable t =
-      table("statistics",
-            {parameter_column(),
-             {"runs", "1", "runs with an estimate"},
-             {"prior_sigma_si", "1", "prior sigma in SI units of the parameter"},
-             {"rmse", "1", "root mean square error over the prior sigma"},
-             {"rmse_low", "1", "lower end of its 95 % interval"},
-             {"rmse_high", "1", "upper end"},
-             {"bias", "1", "mean error over the prior sigma"},
-             {"bias_low", "1", "lower end of its 95 % interval"},
-             {"bias_high", "1", "upper end"},
-             {"learning_ratio", "1", "root mean square reported sigma over the prior sigma"},
-             {"rank", "1", "order of learning_ratio within the filter, 1 the best known"},
-             {"deception_ratio", "1", "RMSE over root mean square reported sigma, 1 if honest"},
-             {"coverage_1", "1", "share of errors below 1 sigma"},
-             {"coverage_2", "1", "share of errors below 2 sigma"},
-             {"coverage_3", "1", "share of errors below 3 sigma"},
-             {"claims_to_know", "1", "share of runs that claim to know it"},
-             {"wrong", "1", "share that claims to know it and is more than 5 sigma off"},
-             {"silent_failure_rate", "1", "share that is wrong with healthy statistics"},
-             {"silent_failure_rate_low", "1", "lower end of its 95 % interval"},
-             {"silent_failure_rate_high", "1", "upper end"},
-             {"start_consistency", "1", "spread between starts over reported sigma"}});
+  ExportTable t = table("statistics", parameter_column(), numbers_of(nothing, {}, 0.0));
   for (std::size_t p = 0; p < points.size(); ++p)
     for (const FilterStatistics& f : points[p].filters()) {
       const auto rank = ranks(f);
-      for (std::size_t k = 0; k < f.errors().size(); ++k) {
-        const ErrorStatistics& e = f.errors()[k];
-        const ParameterHealth& h = f.health()[k];
-        const double prior = e.prior_sigma();
-        const auto r = rmse(e);
-        const Estimated bias = e.bias();
-        t.add({static_cast<double>(p),
-               place(f),
-               static_cast<double>(f.columns().layout.params[k]),
-               static_cast<double>(e.runs()),
-               prior,
-               r[0],
-               r[1],
-               r[2],
-               bias.value / prior,
-               bias.low / prior,
-               bias.high / prior,
-               e.learning(),
-               rank[k],
-               e.deception().value,
-               e.coverage()[0].value(),
-               e.coverage()[1].value(),
-               e.coverage()[2].value(),
-               h.claims.value(),
-               h.wrong.value(),
-               h.silent.value(),
-               h.silent.low(),
-               h.silent.high(),
-               h.start_ratio()});
-      }
+      for (std::size_t k = 0; k < f.errors().size(); ++k)
+        add(t, p, place(f), number(f, k), numbers_of(f.errors()[k], f.health()[k], rank[k]));
     }
   return t;
 }
 
 ExportTable StatisticsTables::Tables::of_filters() const {
-  ExportTable t = table(
-      "filters", {{"start", "1", "number of the initial estimate"},
-                  {"nis", "1", "normalised innovations squared per degree of freedom, 1 if honest"},
-                  {"nis_low", "1", "lower end of the 95 % band of an honest filter"},
-                  {"nis_high", "1", "upper end"},
-                  {"nis_runs_in_band", "1", "share of runs inside their own 95 % band"},
-                  {"nees", "1", "normalised error squared per observed direction, 1 if honest"},
-                  {"nees_low", "1", "lower end of the 95 % band of an honest filter"},
-                  {"nees_high", "1", "upper end"},
-                  {"nees_all", "1", "the same of all directions"},
-                  {"white", "1", "share of runs whose innovations are white"},
-                  {"healthy", "1", "share of runs whose NIS is in its band"},
-                  {"wrong", "1", "share of runs with a parameter more than 5 sigma off"},
-                  {"silent_failure_rate", "1", "share of runs that are wrong and healthy"},
-                  {"silent_failure_rate_low", "1", "lower end of its 95 % interval"},
-                  {"silent_failure_rate_high", "1", "upper end"},
-                  {"diverged", "1", "share of runs without an estimate"}});
+  ExportTable t = table("filters", {"start", "1", "number of the initial estimate"},
+                        numbers_of(StartStatistics{}));
   for (std::size_t p = 0; p < points.size(); ++p)
     for (const FilterStatistics& f : points[p].filters())
-      for (std::size_t i = 0; i < f.starts().size(); ++i) {
-        const StartStatistics& s = f.starts()[i];
-        t.add({static_cast<double>(p), place(f), static_cast<double>(i), s.nis.mean(), s.nis.low(),
-               s.nis.high(), s.nis.in_band.value(), s.nees.mean(), s.nees.low(), s.nees.high(),
-               s.nees_all.mean(), s.white.value(), s.healthy.value(), s.wrong.value(),
-               s.silent.value(), s.silent.low(), s.silent.high(), s.diverged.value()});
-      }
+      for (std::size_t i = 0; i < f.starts().size(); ++i)
+        add(t, p, place(f), static_cast<double>(i), numbers_of(f.starts()[i]));
   return t;
 }
 
@@ -185,16 +192,8 @@ StatisticsTables::StatisticsTables(const std::vector<StudyPoint>& points)
       add_once(t.filters, plain_name(f.columns().name));
   }
   t.told.assign(points.size(), 0);
-  t.convergence = t.table(
-      "convergence", {Tables::parameter_column(),
-                      {"runs", "1", "runs so far"},
-                      {"rmse", "1", "root mean square error over the prior sigma"},
-                      {"rmse_low", "1", "lower end of its 95 % interval"},
-                      {"rmse_high", "1", "upper end"},
-                      {"coverage_2", "1", "share of errors below 2 sigma"},
-                      {"silent_failure_rate", "1", "share that is wrong with healthy statistics"},
-                      {"silent_failure_rate_low", "1", "lower end of its 95 % interval"},
-                      {"silent_failure_rate_high", "1", "upper end"}});
+  t.convergence =
+      t.table("convergence", Tables::parameter_column(), numbers_so_far(nothing, {}, 0));
 }
 
 StatisticsTables::~StatisticsTables() = default;

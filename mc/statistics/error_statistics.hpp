@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "core/stats/rate.hpp"
+#include "core/stats/proportion.hpp"
 
 namespace drift::mc {
 
@@ -45,7 +45,7 @@ class ErrorStatistics {
   std::uint64_t runs() const { return n_; }
   double prior_sigma() const { return prior_sigma_; }
   /// Mean error with its interval, mean +- z SD / sqrt(n).
-  Estimated bias(double z = 1.959963984540054) const;
+  Estimated bias(double z = stats::half_width_95) const;
   /// Root mean square error. The interval: the 2.5 and 97.5 % points of the bootstrap.
   Estimated rmse() const;
   /// The same with a normal interval from the spread of the squared errors (delta method): for

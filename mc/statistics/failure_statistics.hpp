@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "core/stats/rate.hpp"
+#include "core/stats/proportion.hpp"
 #include "mc/task/run_task.hpp"
 #include "mc/task/study_columns.hpp"
 

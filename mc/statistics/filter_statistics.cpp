@@ -5,6 +5,7 @@
 #include "core/estimate/estimate_result.hpp"
 #include "core/estimate/start_consistency.hpp"
 #include "core/stats/chi_square_band.hpp"
+#include "core/stats/normal.hpp"
 
 namespace drift::mc {
 
@@ -77,7 +78,7 @@ void FilterStatistics::add_start(std::span<const double> row, std::size_t start)
   s.nees.add(of(C::nees), of(C::nees_dof));
   s.nees_all.add(of(C::nees_all), static_cast<double>(columns_.layout.size()));
   if (std::isfinite(of(C::lag1)))
-    s.white.count(std::abs(of(C::lag1)) < 1.96 / std::sqrt(of(C::nis_dof)));
+    s.white.count(std::abs(of(C::lag1)) < stats::half_width_95 / std::sqrt(of(C::nis_dof)));
   const bool healthy = stats::chi_square_band(of(C::nis_dof)).holds(of(C::nis) / of(C::nis_dof));
   bool some_wrong = false;
   for (std::size_t k = 0; k < health_.size(); ++k) {

@@ -12,7 +12,7 @@ PointStatistics::PointStatistics(const Study& study, std::size_t replicates)
 
 void PointStatistics::add(const Block& block) {
   const std::size_t width = columns_.count;
-  DRIFT_EXPECTS(block.rows.size() == block.status.size() * width);
+  DRIFT_DEMAND(block.rows.size() == block.status.size() * width);
   for (std::size_t i = 0; i < block.status.size(); ++i) {
     const std::uint64_t run = block.first + i;
     const std::span<const double> row(&block.rows[i * width], width);

@@ -24,7 +24,7 @@ constexpr std::uint64_t little_endian(std::uint64_t v) {
 
 std::string encode(const Block& block, std::size_t columns) {
   const std::size_t runs = block.status.size();
-  DRIFT_EXPECTS(block.rows.size() == runs * columns);
+  DRIFT_DEMAND(block.rows.size() == runs * columns);
   std::string out(runs * (1 + 8 * columns), '\0');
   for (std::size_t r = 0; r < runs; ++r) out[r] = static_cast<char>(block.status[r]);
   char* to = out.data() + runs;

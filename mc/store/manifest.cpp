@@ -8,14 +8,13 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "core/base/atomic_file.hpp"
 #include "core/base/build_info.hpp"
 #include "core/base/check.hpp"
+#include "core/base/file_text.hpp"
 #include "core/base/rng.hpp"
 #include "core/base/sha256.hpp"
 #include "mc/store/text_difference.hpp"
@@ -31,9 +30,13 @@ Json columns_json(const std::vector<Column>& columns) {
   return list;
 }
 
+constexpr std::string_view checksum_key = "\"checksum\": \"";
+const std::string no_checksum(64, '0');  // what the checksum itself counts as
+
 std::string to_text(const Manifest& m) {
   Json j;
-  j["format"] = Manifest::format;
+  j["format"] = Manifest::file_format;
+  j["checksum"] = no_checksum;
   j["study_hash"] = m.hash;
   j["runs_per_point"] = m.runs;
   j["runs_finished"] = m.finished;
@@ -57,14 +60,29 @@ std::string to_text(const Manifest& m) {
   j["identity"] = m.identity.text;
   j["study"] = m.study;
   for (const auto& [key, value] : m.provenance) j["provenance"][key] = value;
-  return j.dump(1) + "\n";
+  std::string text = j.dump(1) + "\n";
+  const std::string checksum = sha256_hex(text);
+  text.replace(text.find(checksum_key) + checksum_key.size(), checksum.size(), checksum);
+  return text;
+}
+
+/// Every byte of the file, but for the checksum itself, is as it was written.
+bool is_whole(std::string text) {
+  const auto at = text.find(checksum_key) + checksum_key.size();
+  if (at < checksum_key.size() || at + no_checksum.size() > text.size()) return false;
+  const std::string checksum = text.substr(at, no_checksum.size());
+  text.replace(at, no_checksum.size(), no_checksum);
+  return sha256_hex(text) == checksum;
 }
 
 Manifest from_text(const std::string& text) {
   const Json j = Json::parse(text);
-  if (const int format = j.at("format"); format != Manifest::format)
-    throw std::runtime_error(fmt::format("format {} is not known to this program", format));
   Manifest m;
+  m.read_as = j.at("format");
+  if (m.read_as < 1 || m.read_as > Manifest::file_format)
+    throw std::runtime_error(fmt::format("format {} is not known to this program", m.read_as));
+  if (m.read_as >= 2 && !is_whole(text))
+    throw std::runtime_error("the file does not fit its checksum");
   m.identity = {j.at("identity"), j.at("seed"), j.at("block_size")};
   m.hash = j.at("study_hash");
   m.study = j.at("study");
@@ -89,6 +107,25 @@ Manifest from_text(const std::string& text) {
   return m;
 }
 
+std::vector<std::string> other_points(const std::vector<PointInfo>& is,
+                                      const std::vector<PointInfo>& wanted) {
+  std::vector<std::string> out;
+  if (is.size() != wanted.size())
+    out.push_back(fmt::format("number of study points: {} in the folder, {} asked for", is.size(),
+                              wanted.size()));
+  for (std::size_t p = 0; p < std::min(is.size(), wanted.size()); ++p)
+    if (is[p].label != wanted[p].label ||
+        columns_json(is[p].columns) != columns_json(wanted[p].columns))
+      out.push_back(fmt::format("study point {} has other columns or another label", p));
+  return out;
+}
+
+std::vector<PointInfo> points_of(std::span<const TaskPoint> points) {
+  std::vector<PointInfo> list;
+  for (const TaskPoint& point : points) list.push_back({point.label, point.task->columns()});
+  return list;
+}
+
 std::vector<std::string> differences(const Manifest& is, const Manifest& wanted) {
   std::vector<std::string> out = difference(is.identity.text, wanted.identity.text);
   const auto note = [&](const char* what, const auto& a, const auto& b) {
@@ -99,11 +136,7 @@ std::vector<std::string> differences(const Manifest& is, const Manifest& wanted)
   note("program", is.program, wanted.program);
   note("instruction set", is.instruction_set, wanted.instruction_set);
   note("arithmetic of the C library on this processor", is.arithmetic, wanted.arithmetic);
-  note("number of study points", is.points.size(), wanted.points.size());
-  for (std::size_t p = 0; p < std::min(is.points.size(), wanted.points.size()); ++p)
-    if (is.points[p].label != wanted.points[p].label ||
-        columns_json(is.points[p].columns) != columns_json(wanted.points[p].columns))
-      out.push_back(fmt::format("study point {} has other columns or another label", p));
+  for (std::string& line : other_points(is.points, wanted.points)) out.push_back(std::move(line));
   return out;
 }
 
@@ -130,7 +163,7 @@ void write_file(const std::string& path, std::string_view text) {
 /// the worker files know as well, and the next call mends it.
 void raise(const std::string& folder, std::uint64_t runs, std::uint64_t finished) {
   Manifest m = read_manifest(folder);
-  if (m.runs >= runs && m.finished >= finished) return;
+  if (m.runs >= runs && m.finished >= finished && m.read_as == Manifest::file_format) return;
   m.runs = std::max(m.runs, runs);
   m.finished = std::max(m.finished, finished);
   AtomicFile file(folder + "/manifest.json");
@@ -154,7 +187,7 @@ Manifest make_manifest(StudyIdentity identity, std::string study,
   m.program = "driftscope " + build_info().version;
   m.instruction_set = build_info().instruction_set;
   m.arithmetic = arithmetic_fingerprint();
-  for (const TaskPoint& point : points) m.points.push_back({point.label, point.task->columns()});
+  m.points = points_of(points);
   m.provenance = provenance();
   return m;
 }
@@ -185,24 +218,59 @@ void note_finished(const std::string& folder, std::uint64_t runs) {
 
 Manifest read_manifest(const std::string& folder) {
   const std::string path = folder + "/manifest.json";
-  std::ifstream file(path, std::ios::binary);
-  if (!file)
+  errno = 0;
+  const auto text = file_text(path);
+  if (!text && errno != ENOENT && errno != ENOTDIR)
+    throw InputError(ExitCode::io,
+                     fmt::format("{}: cannot be read: {} (expected the manifest of a study). Check "
+                                 "the path and its permissions",
+                                 path, std::strerror(errno)));
+  if (!text)
     throw InputError(
         ExitCode::store,
         fmt::format("{}: holds no results of `driftscope run` (expected manifest.json in "
                     "it). Give the folder that was named with -o",
                     folder));
   try {
-    return from_text(std::string(std::istreambuf_iterator<char>(file), {}));
+    return from_text(*text);
   } catch (const InputError&) {
     throw;
   } catch (const std::exception& error) {
     throw InputError(
         ExitCode::store,
-        fmt::format("{}: damaged or of another version: {} (expected a manifest of format "
-                    "{}). Restore the file from a copy, or begin in another folder",
-                    path, error.what(), Manifest::format));
+        fmt::format("{}: damaged or of another version: {} (expected a manifest of format 1 to "
+                    "{}). Move it away and run the same command again: it is made anew, and the "
+                    "results in the worker files are kept",
+                    path, error.what(), Manifest::file_format));
   }
+}
+
+void require_columns(const std::string& folder, const Manifest& manifest,
+                     std::span<const TaskPoint> points) {
+  const auto differ = other_points(manifest.points, points_of(points));
+  if (differ.empty()) return;
+  throw InputError(
+      ExitCode::store,
+      fmt::format(
+          "{}/manifest.json: damaged, or made by another program: {} (expected the columns "
+          "of the study). Move it away and run the same command again: it is made anew, and "
+          "the results in the worker files are kept",
+          folder, fmt::join(differ, "; ")));
+}
+
+std::string restore_study(const std::string& folder, const std::string& text) {
+  namespace fs = std::filesystem;
+  const std::string path = folder + "/study.toml";
+  std::string aside;
+  std::error_code none;
+  for (int i = 1; fs::exists(aside = fmt::format("{}.damaged-{}", path, i), none); ++i) {
+  }
+  if (::rename(path.c_str(), aside.c_str()) != 0 && errno != ENOENT)
+    throw_cannot_write(aside, std::strerror(errno));
+  AtomicFile file(path);
+  write_file(file.temporary(), text);
+  file.commit();
+  return aside;
 }
 
 }  // namespace drift::mc

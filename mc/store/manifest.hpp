@@ -28,9 +28,11 @@ struct PointInfo {
 };
 
 /// manifest.json: what study a results folder holds. Made once; afterwards only `runs` and
-/// `finished` change, so that results that were lost with their worker files are missed.
+/// `finished` change, so that results that were lost with their worker files are missed. A SHA-256
+/// over the whole file guards every byte of it.
 struct Manifest {
-  static constexpr int format = 1;
+  static constexpr int format = 1;       ///< of the store as a whole; part of every study's hash
+  static constexpr int file_format = 2;  ///< of manifest.json: 1 had no checksum, and is read too
 
   StudyIdentity identity;
   std::string hash;             ///< of the identity
@@ -42,6 +44,7 @@ struct Manifest {
   Facts provenance;        ///< of the session that made the folder
   std::uint64_t runs = 0;  ///< per study point, the most asked for; 0: not known (older folders)
   std::uint64_t finished = 0;  ///< per study point, the most that was complete; 0: none yet
+  int read_as = file_format;   ///< the format it was read in
 };
 
 /// The manifest that a study begun by this program here and now has.
@@ -57,7 +60,17 @@ void claim_folder(const std::string& folder, const Manifest& manifest);
 /// Notes in the manifest that `runs` runs of every study point are complete.
 void note_finished(const std::string& folder, std::uint64_t runs);
 
-/// InputError (store) if the folder holds no study or its manifest is damaged.
+/// InputError: store if the folder holds no study or its manifest is damaged; io if it cannot be
+/// read.
 Manifest read_manifest(const std::string& folder);
+
+/// InputError (store) if the labels and columns of the manifest are not those of the study's
+/// points: what readers show would be named or scaled wrongly.
+void require_columns(const std::string& folder, const Manifest& manifest,
+                     std::span<const TaskPoint> points);
+
+/// Writes study.toml of a folder anew. What is in its place is kept, as study.toml.damaged-1 or the
+/// next free number: that name is returned. InputError (io).
+std::string restore_study(const std::string& folder, const std::string& text);
 
 }  // namespace drift::mc

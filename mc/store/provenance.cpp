@@ -7,10 +7,11 @@
 #include <array>
 #include <ctime>
 #include <fstream>
-#include <iterator>
 
 #include "core/base/build_info.hpp"
+#include "core/base/file_text.hpp"
 #include "core/base/rng.hpp"
+#include "core/base/utf8.hpp"
 
 namespace drift::mc {
 namespace {
@@ -32,11 +33,10 @@ std::string line_of(const char* file, std::string_view key, char separator) {
 }
 
 std::string command_line() {
-  std::ifstream in("/proc/self/cmdline", std::ios::binary);
-  std::string text(std::istreambuf_iterator<char>(in), {});
+  std::string text = file_text("/proc/self/cmdline").value_or("");
   while (!text.empty() && text.back() == '\0') text.pop_back();
   std::replace(text.begin(), text.end(), '\0', ' ');
-  return text;
+  return utf8_text(text);
 }
 
 }  // namespace
@@ -69,7 +69,7 @@ Facts provenance() {
           {"processor", line_of("/proc/cpuinfo", "model name", ':')},
           {"operating_system", line_of("/etc/os-release", "PRETTY_NAME", '=') + ", " +
                                    system.sysname + " " + system.release},
-          {"host", system.nodename},
+          {"host", utf8_text(system.nodename)},
           {"process", std::to_string(getpid())},
           {"command_line", command_line()},
           {"started_utc", utc_now()}};

@@ -39,7 +39,7 @@ CREATE TABLE IF NOT EXISTS blocks (id INTEGER PRIMARY KEY, point INTEGER, first_
 class WorkerStore::Lock {
  public:
   Lock(const std::string& path, double patience)
-      : fd_(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
+      : fd_(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666)) {
     if (fd_ < 0) throw_cannot_write(path, std::strerror(errno));
     const auto tries = static_cast<int>(patience / 0.1);
     for (int i = 0; ::flock(fd_, LOCK_EX | LOCK_NB) != 0; ++i) {
@@ -68,11 +68,12 @@ class WorkerStore::Writer : public WorkerFile {
  public:
   Writer(const std::string& path, std::shared_ptr<const Manifest> manifest)
       : WorkerFile(path, std::move(manifest), Database::Use::write) {
-    if (!sound()) throw InputError(ExitCode::store, path + ": damaged");
+    if (!sound() || is_foreign()) throw InputError(ExitCode::store, path + ": damaged");
     Transaction all(db_);
     db_.execute(schema);
     describe();
     remove_damaged();
+    remove_damaged_sessions();
     all.commit();
   }
 
@@ -81,6 +82,7 @@ class WorkerStore::Writer : public WorkerFile {
   std::int64_t begin_session(std::uint64_t runs) {
     nlohmann::ordered_json facts;
     for (const auto& [key, value] : provenance()) facts[key] = value;
+    facts["runs"] = std::to_string(runs);  // once more: a damaged number is known by that
     Statement insert =
         db_.prepare("INSERT INTO sessions (runs, started_utc, facts) VALUES (?1, ?2, ?3)");
     insert.bind(1, static_cast<std::int64_t>(runs))
@@ -103,6 +105,14 @@ class WorkerStore::Writer : public WorkerFile {
   }
 
  private:
+  /// Somebody else's database is not written into.
+  bool is_foreign() {
+    Statement query = db_.prepare(
+        "SELECT count(*) FROM sqlite_master WHERE type = 'table' AND name NOT LIKE 'sqlite%' AND "
+        "name NOT IN ('study', 'sessions', 'columns', 'failures', 'moments', 'blocks')");
+    return query.step() && query.integer(0) > 0;
+  }
+
   std::int64_t last_id() {
     Statement query = db_.prepare("SELECT last_insert_rowid()");
     query.step();
@@ -110,17 +120,11 @@ class WorkerStore::Writer : public WorkerFile {
   }
 
   void describe() {
-    Statement known = db_.prepare("SELECT count(*) FROM columns");
-    if (known.step() && known.integer(0) > 0) return;
-    Statement fact = db_.prepare("INSERT OR REPLACE INTO study VALUES (?1, ?2)");
-    const Facts facts{{"format", std::to_string(Manifest::format)},
-                      {"study_hash", manifest_->hash},
-                      {"study", manifest_->study},
-                      {"seed", std::to_string(manifest_->identity.seed)},
-                      {"block_size", std::to_string(manifest_->identity.block_size)},
-                      {"program", manifest_->program},
-                      {"arithmetic", manifest_->arithmetic}};
-    for (const auto& [key, value] : facts) fact.bind_text(1, key).bind_text(2, value).run();
+    if (is_described()) return;
+    db_.execute("DELETE FROM study; DELETE FROM columns");
+    Statement fact = db_.prepare("INSERT INTO study VALUES (?1, ?2)");
+    for (const auto& [key, value] : description(*manifest_))
+      fact.bind_text(1, key).bind_text(2, value).run();
     Statement column = db_.prepare("INSERT INTO columns VALUES (?1, ?2, ?3, ?4)");
     for (std::size_t p = 0; p < manifest_->points.size(); ++p) {
       const auto& columns = manifest_->points[p].columns;
@@ -136,8 +140,13 @@ class WorkerStore::Writer : public WorkerFile {
   void remove_damaged() {
     bool damaged = false;
     std::vector<std::int64_t> bad;
-    for (const BlockEntry& e : entries(0, &damaged))
-      if (!read(e)) bad.push_back(e.id);
+    for (const BlockEntry& e : entries(0, &damaged)) {
+      const auto stored = read(e);
+      if (!stored)
+        bad.push_back(e.id);
+      else if (!moments_fit(e.id, stored->block))
+        renew_moments(e.id, stored->block);
+    }
     if (damaged)
       throw InputError(ExitCode::store, path() + ": damaged");  // set aside by the caller
     for (const std::int64_t id : bad)
@@ -146,6 +155,17 @@ class WorkerStore::Writer : public WorkerFile {
             "DELETE FROM moments WHERE block = ?1"})
         db_.prepare(sql).bind(1, id).run();
     removed_ = bad.size();
+    // Rows of blocks that are gone would stand in the way of later ones.
+    for (const char* sql : {"DELETE FROM failures WHERE block NOT IN (SELECT id FROM blocks)",
+                            "DELETE FROM moments WHERE block NOT IN (SELECT id FROM blocks)"})
+      db_.prepare(sql).run();
+  }
+
+  /// Those whose number of runs is beyond reason, or not what their facts repeat.
+  void remove_damaged_sessions() {
+    db_.execute(
+        "DELETE FROM sessions WHERE runs > 1000000000 OR CAST(coalesce(json_extract(CASE WHEN "
+        "json_valid(facts) THEN facts ELSE '{}' END, '$.runs'), runs) AS INTEGER) <> runs");
   }
 
   void insert(const StoredBlock& b) {
@@ -180,6 +200,11 @@ class WorkerStore::Writer : public WorkerFile {
           .run();
     }
     insert_moments(id, b.block, columns);
+  }
+
+  void renew_moments(std::int64_t id, const Block& block) {
+    db_.prepare("DELETE FROM moments WHERE block = ?1").bind(1, id).run();
+    insert_moments(id, block, manifest_->points.at(block.point).columns.size());
   }
 
   void insert_moments(std::int64_t id, const Block& block, std::size_t columns) {

@@ -18,12 +18,16 @@ std::string worker_path(const std::string& folder, std::size_t worker);
 /// All worker files of a folder, in order of their numbers.
 std::vector<std::string> worker_files(const std::string& folder);
 
+/// What the table `study` of a worker file says.
+Facts description(const Manifest& manifest);
+
 /// One call of `run` by one worker.
 struct Session {
   std::uint64_t runs = 0;              ///< runs per study point that were asked for
   std::string started_utc, ended_utc;  ///< end empty: killed, or still at work
   int exit_code = -1;
   Facts facts;
+  bool sound = true;  ///< what it says of `runs` is what was written
 };
 
 /// Where a block stands in a worker file.
@@ -39,6 +43,7 @@ struct BlockEntry {
 ///   blocks    point, first_run, runs, failed, CPU seconds, checksum, payload (block_codec.hpp)
 ///   failures  block, point, run, status, cause, t_s, seconds
 ///   moments   block, number, n, mean, m2: of the runs that are ok, finite values only, SI
+/// All but `blocks` and `failures` repeat what stands elsewhere; misfits() compares them.
 /// Every read verifies the checksum; damage shows as a block that is not there.
 class WorkerFile {
  public:
@@ -52,10 +57,18 @@ class WorkerFile {
   /// A block, or nothing if it is damaged.
   std::optional<StoredBlock> read(const BlockEntry& entry);
   std::vector<Session> sessions();
+  /// Tables that say something else than the manifest and the blocks, a line each: of what others
+  /// read in the file, nothing is believed unseen.
+  std::vector<std::string> misfits();
   bool sound() { return db_.sound(); }
   const std::string& path() const { return db_.path(); }
 
  protected:
+  /// Whether the tables `study` and `columns` are those of the manifest.
+  bool is_described();
+  /// Whether the moments of a block are those of its rows.
+  bool moments_fit(std::int64_t id, const Block& block);
+
   std::shared_ptr<const Manifest> manifest_;
   Database db_;
 };

@@ -2,6 +2,7 @@
 
 #include <sqlite3.h>
 
+#include <filesystem>
 #include <limits>
 
 #include "core/base/check.hpp"
@@ -9,7 +10,17 @@
 namespace drift::mc {
 namespace {
 
-constexpr int busy_ms = 20000;  // a reader holds the file for moments only
+constexpr std::size_t longest_path = 500;  // [bytes] SQLite takes 512, with its journal's ending
+constexpr int busy_ms = 20000;             // a reader holds the file for moments only
+
+/// The path with the links in its folder resolved: those the user may give, a link in place of the
+/// file itself is not followed.
+std::string with_real_folder(const std::string& path) {
+  namespace fs = std::filesystem;
+  std::error_code none;
+  const fs::path folder = fs::canonical(fs::absolute(fs::path(path), none).parent_path(), none);
+  return none ? path : (folder / fs::path(path).filename()).string();
+}
 
 [[noreturn]] void fail(sqlite3* db, const std::string& path, int code) {
   const std::string why = db != nullptr ? sqlite3_errmsg(db) : sqlite3_errstr(code);
@@ -19,6 +30,7 @@ constexpr int busy_ms = 20000;  // a reader holds the file for moments only
     case SQLITE_FORMAT:
     case SQLITE_ERROR:  // a table that should be there is not
     case SQLITE_MISMATCH:
+    case SQLITE_CONSTRAINT:
     case SQLITE_SCHEMA:
       throw InputError(
           ExitCode::store,
@@ -39,8 +51,19 @@ constexpr int busy_ms = 20000;  // a reader holds the file for moments only
                        fmt::format("{}: another program keeps the file locked: {} (expected access "
                                    "within {} s). Close it and run the same command again",
                                    path, why, busy_ms / 1000));
-    case SQLITE_NOMEM:
-      throw std::bad_alloc();
+    case SQLITE_CANTOPEN:
+      if (std::error_code none; std::filesystem::is_symlink(path, none))
+        throw InputError(ExitCode::store,
+                         fmt::format("{}: is a symbolic link, which is not followed (expected a "
+                                     "file of its own). Put a copy in its place",
+                                     path));
+      if (with_real_folder(path).size() > longest_path)
+        throw InputError(
+            ExitCode::io,
+            fmt::format("{}: the path is too long for SQLite (expected at most {} bytes from the "
+                        "root on). Choose a folder nearer to the root",
+                        path, longest_path));
+      [[fallthrough]];
     default:
       throw InputError(
           ExitCode::io,
@@ -48,6 +71,8 @@ constexpr int busy_ms = 20000;  // a reader holds the file for moments only
                       "a writable folder). Nothing was changed; mend it and run the same "
                       "command again",
                       path, why));
+    case SQLITE_NOMEM:
+      throw std::bad_alloc();
   }
 }
 
@@ -127,9 +152,9 @@ Database::Database(std::string path, Use use) : path_(std::move(path)) {
   sqlite3* made = nullptr;
   // A reader may write too: only so can it undo the half of a transaction that a killed writer
   // left.
-  const int flags =
-      SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_READWRITE | (use == Use::write ? SQLITE_OPEN_CREATE : 0);
-  const int code = sqlite3_open_v2(path_.c_str(), &made, flags, nullptr);
+  const int flags = SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_READWRITE | SQLITE_OPEN_NOFOLLOW |
+                    (use == Use::write ? SQLITE_OPEN_CREATE : 0);
+  const int code = sqlite3_open_v2(with_real_folder(path_).c_str(), &made, flags, nullptr);
   db_.reset(made);
   if (code != SQLITE_OK) fail(made, path_, code);
   sqlite3_extended_result_codes(made, 1);

@@ -1,7 +1,8 @@
 #include <algorithm>
-#include <bit>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "core/base/check.hpp"
@@ -113,12 +114,82 @@ std::vector<Session> WorkerFile::sessions() {
       if (facts.is_object())
         for (const auto& [key, value] : facts.items())
           if (value.is_string()) s.facts.emplace_back(key, value);
+      constexpr std::uint64_t most = 1000000000;  // of --runs
+      s.sound =
+          s.runs <= most && (!facts.contains("runs") || facts["runs"] == std::to_string(s.runs));
       list.push_back(std::move(s));
     }
   } catch (const InputError& error) {
     if (error.code() != ExitCode::store) throw;  // sessions are told, not relied upon
   }
   return list;
+}
+
+Facts description(const Manifest& manifest) {
+  return {{"format", std::to_string(Manifest::format)},
+          {"study_hash", manifest.hash},
+          {"study", manifest.study},
+          {"seed", std::to_string(manifest.identity.seed)},
+          {"block_size", std::to_string(manifest.identity.block_size)},
+          {"program", manifest.program},
+          {"arithmetic", manifest.arithmetic}};
+}
+
+bool WorkerFile::is_described() {
+  std::map<std::string, std::string> facts;
+  Statement study = db_.prepare("SELECT key, value FROM study");
+  while (study.step()) facts[study.bytes(0)] = study.bytes(1);
+  for (const auto& [key, value] : description(*manifest_))
+    // The text is as the session had it that made the file: of another number of runs, perhaps.
+    if (key != "study" && facts[key] != value) return false;
+  Statement query = db_.prepare("SELECT point, number, name, unit FROM columns ORDER BY 1, 2");
+  for (std::size_t p = 0; p < manifest_->points.size(); ++p)
+    for (std::size_t c = 0; c < manifest_->points[p].columns.size(); ++c) {
+      const Column& column = manifest_->points[p].columns[c];
+      if (!query.step() || query.integer(0) != static_cast<std::int64_t>(p) ||
+          query.integer(1) != static_cast<std::int64_t>(c) || query.bytes(2) != column.name ||
+          query.bytes(3) != column.unit.symbol.view())
+        return false;
+    }
+  return !query.step();
+}
+
+bool WorkerFile::moments_fit(std::int64_t id, const Block& block) {
+  const std::size_t columns = manifest_->points.at(block.point).columns.size();
+  Statement query =
+      db_.prepare("SELECT number, n, mean, m2 FROM moments WHERE block = ?1 ORDER BY number");
+  query.bind(1, id);
+  const auto same = [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); };
+  for (std::size_t c = 0; c < columns; ++c) {
+    const Moments m = moments(block, c, columns);
+    if (!query.step() || query.integer(0) != static_cast<std::int64_t>(c) ||
+        query.integer(1) != static_cast<std::int64_t>(m.n) || !same(query.real(2), m.mean) ||
+        !same(query.real(3), m.m2))
+      return false;
+  }
+  return !query.step();
+}
+
+std::vector<std::string> WorkerFile::misfits() {
+  std::vector<std::string> lines;
+  try {
+    const auto all = entries(0);
+    if (all.empty()) return lines;
+    if (!is_described())
+      lines.push_back(path() + ": the tables study and columns are not those of the manifest");
+    std::size_t others = 0;
+    for (const BlockEntry& e : all)
+      if (const auto stored = read(e)) others += !moments_fit(e.id, stored->block);
+    if (others > 0)
+      lines.push_back(
+          fmt::format("{}: the moments of {} blocks are not those of their rows", path(), others));
+    for (const Session& s : sessions())
+      if (!s.sound) lines.push_back(path() + ": the number of runs of a session is damaged");
+  } catch (const InputError& error) {
+    if (error.code() != ExitCode::store) throw;
+    lines.push_back(path() + ": damaged, cannot be read");
+  }
+  return lines;
 }
 
 }  // namespace drift::mc

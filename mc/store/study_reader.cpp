@@ -35,7 +35,7 @@ void StudyReader::refresh() {
         });
       }
       for (const Session& session : source.file->sessions())
-        asked_ = std::max(asked_, session.runs);
+        if (session.sound) asked_ = std::max(asked_, session.runs);
       if (damaged) note(fmt::format("{}: damaged; what cannot be read of it is left out", path));
     } catch (const InputError& error) {
       if (error.code() != ExitCode::store) throw;
@@ -127,6 +127,14 @@ std::vector<std::string> StudyReader::unsound() {
       list.push_back(path);
   }
   return list;
+}
+
+std::vector<std::string> StudyReader::misfits() {
+  std::vector<std::string> lines;
+  for (auto& [path, source] : sources_)
+    if (source.file)
+      for (std::string& line : source.file->misfits()) lines.push_back(std::move(line));
+  return lines;
 }
 
 std::string results_digest(StudyReader& reader, const StopRules& rules) {

@@ -52,6 +52,8 @@ class StudyReader {
   const std::vector<std::string>& files() const { return paths_; }
   /// The structure of every file is sound; those that are not, by path.
   std::vector<std::string> unsound();
+  /// Tables of the files that say something else than manifest and blocks, a line each.
+  std::vector<std::string> misfits();
 
  private:
   struct Source {

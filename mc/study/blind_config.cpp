@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <optional>
+#include <span>
 
 #include "core/config/nearest.hpp"
 
@@ -14,31 +16,40 @@ using config::Node;
 using config::Option;
 using config::Section;
 
-/// A list of names, each one of `known`; empty optional if absent or wrong.
-std::optional<std::vector<std::size_t>> read_names(Section& section, std::string_view key,
-                                                   const std::vector<std::string_view>& known) {
+/// A list of names, each one of `known`; the numbers of them there. Empty if absent or wrong.
+std::vector<std::size_t> read_names(Section& section, std::string_view key,
+                                    std::span<const std::string_view> known) {
   const Node* node = section.take(key);
-  if (node == nullptr) return std::nullopt;
+  if (node == nullptr) return {};
   const std::string name = section.full(key);
   if (!node->is(Node::Kind::array) || node->items.empty()) {
     section.report().error(
         node->at, fmt::format("'{}' is {} (expected a list of {}). Write {} = [\"{}\"]", name,
                               describe(*node), fmt::join(known, ", "), key, known.front()));
-    return std::nullopt;
+    return {};
   }
   std::vector<std::size_t> chosen;
   for (const Node& item : node->items) {
-    const auto at = item.is(Node::Kind::string) ? std::find(known.begin(), known.end(), item.text)
-                                                : known.end();
+    const auto at = item.is(Node::Kind::string) ? std::ranges::find(known, item.text) : known.end();
     if (at == known.end()) {
       section.report().error(item.at, fmt::format("'{}' holds {} (expected {}). Use one of them",
                                                   name, describe(item), fmt::join(known, ", ")));
-      return std::nullopt;
+      return {};
     }
     chosen.push_back(static_cast<std::size_t>(at - known.begin()));
   }
   section.report().given(name, to_toml(*node), node->at);
   return chosen;
+}
+
+/// A list of values of a table; `out` as it was if absent or wrong.
+template <class E, class Row, std::size_t N>
+void read_list(Section& section, std::string_view key, const Row (&table)[N], std::vector<E>& out) {
+  std::vector<std::string_view> names;
+  for (const Row& row : table) names.push_back(row.name);
+  const auto chosen = read_names(section, key, names);
+  if (!chosen.empty()) out.clear();
+  for (const std::size_t k : chosen) out.push_back(table[k].value);
 }
 
 /// A number of a list.
@@ -105,26 +116,21 @@ BlindShares read_shares(Section section) {
   return shares;
 }
 
-constexpr Coupling couplings[] = {Coupling::eq5, Coupling::eq6, Coupling::servo};
-constexpr CommandLaw modes[] = {CommandLaw::free, CommandLaw::level};
+/// What a truth may be here; its nominal model is settled.
+constexpr CouplingFacts truths[] = {facts(Coupling::eq5), facts(Coupling::eq6),
+                                    facts(Coupling::servo)};
 
 }  // namespace
 
 BlindSpec read_blind(Section section) {
   BlindSpec spec;
   section.read(Option{"trials", unit::one, 1.0, 1e6, "recordings"}, spec.trials);
-  if (const auto chosen = read_names(section, "plans", preset_names)) {
+  if (const auto chosen = read_names(section, "plans", preset_names); !chosen.empty()) {
     spec.plans.clear();
-    for (const std::size_t k : *chosen) spec.plans.emplace_back(preset_names[k]);
+    for (const std::size_t k : chosen) spec.plans.emplace_back(preset_names[k]);
   }
-  if (const auto chosen = read_names(section, "modes", {"free", "level"})) {
-    spec.modes.clear();
-    for (const std::size_t k : *chosen) spec.modes.push_back(modes[k]);
-  }
-  if (const auto chosen = read_names(section, "couplings", {"eq5", "eq6", "servo"})) {
-    spec.couplings.clear();
-    for (const std::size_t k : *chosen) spec.couplings.push_back(couplings[k]);
-  }
+  read_list(section, "modes", command_laws, spec.modes);
+  read_list(section, "couplings", truths, spec.couplings);
   read_sizes(section, spec);
   section.read(Option{"pair_size", unit::one, 0.1, 1e4, "of each of two [sigma]"}, spec.pair_size);
   section.read(Option{"pair_cosine", unit::one, 0.0, 1.0, "largest of two projected signatures"},

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/config/nearest.hpp"
 #include "core/physics/parameters_config.hpp"
 #include "core/physics/term_library.hpp"
@@ -9,16 +11,12 @@
 namespace drift::mc {
 namespace {
 
-using config::Choice;
 using config::Option;
 using config::Section;
 
-constexpr Choice<DesignKind> designs[] = {{"random", DesignKind::random},
-                                          {"latin_hypercube", DesignKind::latin_hypercube},
-                                          {"sobol", DesignKind::sobol}};
-constexpr Choice<EstimatorKind> estimators[] = {{"ekf", EstimatorKind::ekf},
-                                                {"iterated", EstimatorKind::iterated},
-                                                {"batch", EstimatorKind::batch}};
+constexpr Named<DesignKind> designs[] = {{"random", DesignKind::random},
+                                         {"latin_hypercube", DesignKind::latin_hypercube},
+                                         {"sobol", DesignKind::sobol}};
 
 template <class Field>
 void visit_fields(MonteCarlo& o, Field&& field) {

@@ -3,7 +3,9 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
+#include "core/base/named.hpp"
 #include "core/config/section.hpp"
 
 namespace drift::mc {
@@ -21,6 +23,14 @@ enum class EstimatorKind {
   iterated,  ///< the EKF, then once more about what it found
   batch,     ///< Levenberg-Marquardt until it stands still
 };
+
+/// As a study file has them.
+inline constexpr Named<EstimatorKind> estimators[] = {{"ekf", EstimatorKind::ekf},
+                                                      {"iterated", EstimatorKind::iterated},
+                                                      {"batch", EstimatorKind::batch}};
+constexpr std::string_view key_of(EstimatorKind estimator) {
+  return name_in(estimators, estimator);
+}
 
 /// When a study point has enough runs: [monte_carlo] stop. With design random alone: the interval
 /// supposes independent runs, and the first runs of a Latin hypercube are not stratified.

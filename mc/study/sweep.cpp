@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/base/check.hpp"
+#include "core/base/fnv.hpp"
 #include "core/config/load.hpp"
 
 namespace drift::mc {
@@ -12,11 +13,9 @@ namespace {
 
 using config::Node;
 
-/// FNV-1a, 64 bits. Two of a million points share an id with a probability of 3e-8.
+/// Two of a million points share an id with a probability of 3e-8.
 std::string hash_of(std::string_view text) {
-  std::uint64_t h = 14695981039346656037u;
-  for (const char c : text) h = (h ^ static_cast<unsigned char>(c)) * 1099511628211u;
-  return fmt::format("{:016x}", h);
+  return fmt::format("{:016x}", fnv1a<std::uint64_t>(text));
 }
 
 /// A value as people say it: a plain string without its quotes.

@@ -20,7 +20,9 @@ RunOutcome guarded_run(RunWorker& worker, std::uint64_t run, std::span<double> r
   try {
     return trace != nullptr ? worker.trace(run, row, *trace) : worker.execute(run, row);
   } catch (const InputError& error) {
-    if (trace != nullptr && error.code() == ExitCode::io) throw;
+    // A trace that cannot be written, or may not replace what is there.
+    if (trace != nullptr && (error.code() == ExitCode::io || error.code() == ExitCode::store))
+      throw;
     outcome.cause = error.what();
   } catch (const std::exception& error) {
     outcome.cause = error.what();

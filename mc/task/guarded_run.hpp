@@ -9,7 +9,7 @@
 namespace drift::mc {
 
 /// Executes one run, with its course going to `trace` unless null. Whatever is thrown becomes an
-/// outcome, the row NaN; only an InputError of a trace that cannot be written is passed on.
+/// outcome, the row NaN; only an InputError of a trace that cannot be written there is passed on.
 RunOutcome guarded_run(RunWorker& worker, std::uint64_t run, std::span<double> row,
                        TraceSink* trace = nullptr);
 

@@ -5,6 +5,7 @@
 #include "core/base/check.hpp"
 #include "core/plan/environment.hpp"
 #include "mc/task/study_worker.hpp"
+#include "mc/task/unmodelled.hpp"
 
 namespace drift::mc {
 namespace {
@@ -29,6 +30,11 @@ void check(const Study& study) {
         "a loop fed back from a filter makes other data for every filter, so filters cannot be "
         "compared "
         "on the same data (expected truth.loop.estimate = \"given\"). Use `driftscope identify`");
+  std::vector<std::string> messages;
+  for (const FilterSpec& filter : study.filters)
+    for (const std::string& what : unmodelled(study.monte_carlo.estimator, filter))
+      messages.push_back(fmt::format("{}: {}", study.path, what));
+  if (!messages.empty()) throw InputError(ExitCode::config, messages);
 }
 
 }  // namespace

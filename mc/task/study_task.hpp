@@ -11,8 +11,8 @@ namespace drift::mc {
 class StudyTask final : public RunTask {
  public:
   /// InputError (config) if there is nothing to simulate or to estimate with, if the plan is none
-  /// of a platform, or if the loop is fed back from a filter (then every filter makes its own
-  /// data).
+  /// of a platform, if the loop is fed back from a filter (then every filter makes its own data),
+  /// or if the estimator cannot model what a filter claims (unmodelled.hpp).
   explicit StudyTask(Study study);
 
   const std::vector<Column>& columns() const override { return named_; }

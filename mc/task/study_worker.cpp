@@ -172,7 +172,7 @@ void StudyWorker::by_batch(Bench& bench, const Theta& from, std::size_t start,
                            std::span<double> row, RunOutcome& out) {
   using C = StudyColumns;
   const BatchResult fit =
-      fit_batch(bench.spec, timeline_, task_.study().readout, sim_.measured, from);
+      fit_batch(bench.spec, {timeline_, task_.study().readout, sim_.measured}, from);
   const EstimateResult& e = fit.estimate;
   const C::Filter& at = bench.columns;
   row[at.at(start, C::status)] = static_cast<double>(e.status);

@@ -30,53 +30,11 @@ RunTrace trace_run(const Study& point, std::uint64_t run) {
     for (std::size_t s = 0; s < start_count(point.filters[f]); ++s) {
       const FilterSpec& spec = point.filters[f];
       RunTrace::Filter filter{f, s, make_layout(spec), {}};
-      run_ekf(spec, timeline, point.readout, sim.measured, initial_estimate(spec, mc.seed, run, s),
-              &filter.history);
+      run_ekf(spec, {timeline, point.readout, sim.measured},
+              initial_estimate(spec, mc.seed, run, s), &filter.history);
       trace.filters.push_back(std::move(filter));
     }
   return trace;
-}
-
-std::string trace_csv(const Study& point, const RunTrace& trace) {
-  ParamMask shown;
-  for (const auto& f : trace.filters)
-    for (const std::size_t p : f.layout.params) shown.set(p);
-  std::string out;
-  const auto add = [&]<class... A>(fmt::format_string<A...> text, A&&... args) {
-    fmt::format_to(std::back_inserter(out), text, std::forward<A>(args)...);
-  };
-  const auto& specs = TermLibrary::specs;
-  for (std::size_t p = 0; p < shown.size(); ++p)
-    if (shown[p])
-      add("# truth.{} = {:.17g} {}\n", specs[p].key.view(),
-          trace.truth[static_cast<Eigen::Index>(p)] / specs[p].unit.to_si,
-          specs[p].unit.symbol.view());
-  add("filter,start,time [s],nis,scalars");
-  for (std::size_t p = 0; p < shown.size(); ++p)
-    if (shown[p])
-      add(",{0} [{1}],sigma_{0} [{1}]", specs[p].key.view(), specs[p].unit.symbol.view());
-  out += '\n';
-  for (const auto& f : trace.filters)
-    for (std::size_t i = 0; i < f.history.t.size(); ++i) {
-      std::string name = point.filters[f.filter].name;
-      std::ranges::replace_if(
-          name, [](char c) { return c == ',' || c == '"' || c == '\n'; }, '_');
-      add("{},{},{:.17g},{:.17g},{}", name, f.start, f.history.t[i], f.history.nis[i],
-          f.history.scalars[i]);
-      for (std::size_t p = 0; p < shown.size(); ++p) {
-        if (!shown[p]) continue;
-        const auto at = std::ranges::find(f.layout.params, p);
-        const auto k = at - f.layout.params.begin();
-        const auto column = static_cast<Eigen::Index>(i);
-        if (at == f.layout.params.end() || !(f.history.sigma(k, column) > 0.0))
-          out += ",,";  // not a state of this filter, or the filter has stopped
-        else
-          add(",{:.17g},{:.17g}", f.history.estimate(k, column) / specs[p].unit.to_si,
-              f.history.sigma(k, column) / specs[p].unit.to_si);
-      }
-      out += '\n';
-    }
-  return out;
 }
 
 void send_trace(const RunTrace& trace, TraceSink& sink) {

@@ -26,11 +26,8 @@ struct RunTrace {
 /// "iterated" or "batch": of the EKF from the same start). A pure function of (point, run).
 RunTrace trace_run(const Study& point, std::uint64_t run);
 
-/// As CSV: one row per filter, start and sample; for each parameter of any filter its estimate and
-/// sigma, empty where a filter has no such parameter. The truth stands in comment lines.
-std::string trace_csv(const Study& point, const RunTrace& trace);
-
-/// The same to a sink of numbers: filters by their number, NaN where there is no such parameter.
+/// To a sink, one row per filter, start and sample: filters by their number, for each parameter of
+/// any filter its estimate and sigma, NaN where a filter has no such parameter.
 void send_trace(const RunTrace& trace, TraceSink& sink);
 
 }  // namespace drift::mc

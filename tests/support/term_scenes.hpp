@@ -40,11 +40,22 @@ inline void set_term(Theta& theta, std::size_t term, double factor = 1.0) {
   for (std::size_t i = info.first; i < info.first + info.count; ++i) {
     const Prior prior = TermLibrary::specs[i].prior_si();
     theta[i] = prior.mean();
-    if (TermLibrary::specs[i].kind == ParamKind::linear && info.key != "frame_closure")
+    if (TermLibrary::specs[i].amplitude() && i != closure_param)
       theta[i] += factor * (i % 2 ? 0.8 : -1.2) * prior.sigma();
   }
   if (info.key == "mass_unbalance_step") theta[param("dD_t0")] = 3000.0;
-  if (info.key == "frame_closure") theta[info.first] = 0.4 * factor;
+  if (info.key == closure_term) theta[closure_param] = 0.4 * factor;
+}
+
+/// The coupling under which a term acts: lambda alone needs one that has it.
+inline Coupling coupling_for(std::size_t term) {
+  return TermLibrary::terms[term].key == closure_term ? Coupling::lambda : Coupling::eq6;
+}
+
+/// Whether a term drives the platform by what the gimbals' turns leave behind: a reversal is over
+/// in seconds, which fixed steps see to a sixth of a step.
+inline bool reverses_within_a_step(const TermInfo& term) {
+  return term.memory > 0 && term.needs.gimbals && term.in_rates;
 }
 
 /// Every term that a recording shows: no random ones.

@@ -1,27 +1,17 @@
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "analysis/blind/key.hpp"
-#include "analysis/report/blind/report.hpp"
+#include "analysis/report/blind/sections.hpp"
 
 namespace drift::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json number(double v) {
-  return std::isfinite(v) ? Json(v) : Json(nullptr);
+Json of(const stats::Proportion& p) {
+  return {
+      {"share", p.share()}, {"low", p.low}, {"high", p.high}, {"successes", p.k}, {"trials", p.n}};
 }
 
-Json of(const blind::Proportion& p) {
-  return {{"share", number(p.share())},
-          {"low", p.low},
-          {"high", p.high},
-          {"successes", p.k},
-          {"trials", p.n}};
-}
-
-Json of(const std::vector<std::pair<std::string, blind::Proportion>>& list) {
+Json of(const std::vector<std::pair<std::string, stats::Proportion>>& list) {
   Json out = Json::object();
   for (const auto& [name, p] : list) out[name] = of(p);
   return out;
@@ -67,28 +57,25 @@ Json power_of(const blind::Summary& s) {
 Json of(const blind::TrialScore& t) {
   Json hidden = Json::array(), pulls = Json::array();
   for (const blind::HiddenEffect& e : t.key.effects) {
-    hidden.push_back({{"term", e.term},
-                      {"axis", e.axis},
-                      {"size", number(e.size)},
-                      {"absorbed", number(e.absorbed)}});
+    hidden.push_back(
+        {{"term", e.term}, {"axis", e.axis}, {"size", e.size}, {"absorbed", e.absorbed}});
     if (!e.nearest.empty()) {
       hidden.back()["nearest"] = e.nearest;
-      hidden.back()["nearest_cosine"] = number(e.nearest_cosine);
+      hidden.back()["nearest_cosine"] = e.nearest_cosine;
     }
   }
-  for (const blind::Pull& p : t.pulls)
-    pulls.push_back({{"key", p.key}, {"pull", number(p.pull())}});
+  for (const blind::Pull& p : t.pulls) pulls.push_back({{"key", p.key}, {"pull", p.pull()}});
   return {{"trial", t.key.plan.number},
-          {"stratum", blind::name_in(blind::stratum_names, t.key.plan.stratum)},
+          {"stratum", key_of(t.key.plan.stratum)},
           {"plan", t.key.plan.plan},
-          {"mode", blind::name_in(blind::mode_names, t.key.plan.mode)},
-          {"truth_coupling", blind::name_in(blind::coupling_names, t.key.plan.coupling)},
+          {"mode", key_of(t.key.plan.mode)},
+          {"truth_coupling", key_of(t.key.plan.coupling)},
           {"hidden", hidden},
           {"concealed", t.key.certificate.concealed},
-          {"largest_bias_sigma", number(t.key.certificate.largest_bias)},
+          {"largest_bias_sigma", t.key.certificate.largest_bias},
           {"verdict", t.answer.failed ? "failed" : std::string(diagnosis::text(t.answer.verdict))},
           {"called", t.called},
-          {"p_value", number(t.answer.p_value)},
+          {"p_value", t.answer.p_value},
           {"detected", t.detected},
           {"false_alarm", t.false_alarm},
           {"exact", t.exact},
@@ -98,8 +85,8 @@ Json of(const blind::TrialScore& t) {
           {"confidently_wrong", t.confidently_wrong},
           {"pulls", pulls},
           {"noise", t.answer.noise},
-          {"held_out_gain", number(t.answer.held_out_gain)},
-          {"seconds", number(t.answer.seconds)},
+          {"held_out_gain", t.answer.held_out_gain},
+          {"seconds", t.answer.seconds},
           {"failure", t.answer.failure}};
 }
 
@@ -111,31 +98,29 @@ Json of(const blind::Confusion& c) {
 
 }  // namespace
 
-std::string to_json(const blind::Summary& s, const std::vector<blind::TrialScore>& scores,
-                    const Hashes& hashes) {
+Json blind_document(const BlindResults& results) {
+  const blind::Summary& s = results.summary;
   Json trials = Json::array();
-  for (const blind::TrialScore& t : scores) trials.push_back(of(t));
-  const Json out{
-      {"schema", 1},
-      {"key_sha256", hashes.key},
-      {"answers_sha256", hashes.answers},
-      {"trials", s.trials},
-      {"failed", s.failed},
-      {"targets", targets_of(s)},
-      {"concealed", of(s.concealed)},
-      {"power", power_of(s)},
-      {"plans", of(s.plans)},
-      {"modes", of(s.modes)},
-      {"couplings", of(s.couplings)},
-      {"further", of(s.further)},
-      {"wrong_noise", of(s.wrong_noise)},
-      {"outside", of(s.outside)},
-      {"confusion", of(s.confusion)},
-      {"pull_rms", number(s.pull_rms)},
-      {"largest_bias_median_sigma", number(s.largest_bias_median)},
-      {"seconds", {{"mean", number(s.mean_seconds)}, {"longest", number(s.longest_seconds)}}},
-      {"scores", trials}};
-  return out.dump(1) + "\n";
+  for (const blind::TrialScore& t : results.scores) trials.push_back(of(t));
+  return {{"schema", 1},
+          {"key_sha256", results.key_hash},
+          {"answers_sha256", results.answers_hash},
+          {"trials", s.trials},
+          {"failed", s.failed},
+          {"targets", targets_of(s)},
+          {"concealed", of(s.concealed)},
+          {"power", power_of(s)},
+          {"plans", of(s.plans)},
+          {"modes", of(s.modes)},
+          {"couplings", of(s.couplings)},
+          {"further", of(s.further)},
+          {"wrong_noise", of(s.wrong_noise)},
+          {"outside", of(s.outside)},
+          {"confusion", of(s.confusion)},
+          {"pull_rms", s.pull_rms},
+          {"largest_bias_median_sigma", s.largest_bias_median},
+          {"seconds", {{"mean", s.mean_seconds}, {"longest", s.longest_seconds}}},
+          {"scores", trials}};
 }
 
 }  // namespace drift::report

@@ -4,25 +4,20 @@
 #include <vector>
 
 #include "analysis/blind/summary.hpp"
+#include "analysis/report/page/report.hpp"
 
 namespace drift::report {
 
-/// What is published with the scores.
-struct Hashes {
-  std::string key, answers;
+/// A blind study: its scores, and the hashes that are published with them.
+struct BlindResults {
+  std::string title;
+  blind::Summary summary;
+  std::vector<blind::TrialScore> scores;
+  std::string key_hash = {}, answers_hash = {};
 };
 
-/// For a terminal.
-std::string to_text(const blind::Summary& summary, const std::vector<blind::TrialScore>& scores,
-                    const Hashes& hashes);
-/// blind.json: hashes, targets, all scores, every trial.
-std::string to_json(const blind::Summary& summary, const std::vector<blind::TrialScore>& scores,
-                    const Hashes& hashes);
-
-/// Writes blind.json, report.html, power.svg, confusion.svg, pulls.svg, time.svg. Returns their
-/// names.
-std::vector<std::string> write_report(const std::string& title, const blind::Summary& summary,
-                                      const std::vector<blind::TrialScore>& scores,
-                                      const Hashes& hashes, const std::string& folder);
+/// All a blind study has to say: tables, pictures and blind.json with hashes, targets, all scores,
+/// every trial.
+Report blind_report(const BlindResults& results);
 
 }  // namespace drift::report

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/diagnosis/sentence.hpp"
+#include "analysis/report/diagnosis/remark_words.hpp"
+#include "analysis/report/diagnosis/sentence.hpp"
 #include "core/base/number_text.hpp"
+#include "core/base/words.hpp"
 
 namespace drift::report {
 namespace {
@@ -15,17 +17,6 @@ namespace {
 using namespace diagnosis;
 using namespace inference;
 using namespace search;
-
-std::string keyed(const std::string& term, const std::string& axis) {
-  return axis.empty() ? term : term + "." + axis;
-}
-
-/// "a", "a and b", "a, b and c".
-std::string listed(const std::vector<std::string>& items, std::string_view last) {
-  if (items.size() < 2) return items.empty() ? "" : items.front();
-  return fmt::format("{} {} {}", fmt::join(items.begin(), items.end() - 1, ", "), last,
-                     items.back());
-}
 
 }  // namespace
 
@@ -62,7 +53,8 @@ std::vector<ShownCandidate> shown_candidates(const Diagnosis& d, std::size_t mos
 }
 
 std::vector<std::string> remarks_of(const Diagnosis& d) {
-  std::vector<std::string> all = d.remarks;
+  std::vector<std::string> all;
+  for (const Remark& r : d.remarks) all.push_back(in_words(r));
   if (const auto& recordings = d.where.recordings; !recordings.empty()) {
     std::vector<std::string> begins;
     for (const RecordingSpan& r : recordings)
@@ -97,8 +89,28 @@ std::string channel_in_words(const std::string& name) {
   return name;
 }
 
-std::string verdict_sentence(const Diagnosis& d) {
-  return d.sentence.empty() ? sentence(d) : d.sentence;
+std::string fold_name(const Fold& fold, const std::vector<RecordingSpan>& recordings) {
+  switch (fold.of) {
+    case Fold::Of::position:
+      return fmt::format("position {}", fold.number);
+    case Fold::Of::dwell:
+      return fmt::format("dwell {}", fold.number);
+    case Fold::Of::recording:
+      break;
+  }
+  const auto k = static_cast<std::size_t>(fold.number);
+  const std::string plain = fmt::format("recording {}", k);
+  const bool named = k >= 1 && k <= recordings.size() && recordings[k - 1].name != plain;
+  return named ? fmt::format("{}, {}", plain, recordings[k - 1].name) : plain;
+}
+
+std::vector<std::string> twins_in_words(const std::vector<Twins>& twins) {
+  std::vector<std::string> lines;
+  for (const Twins& t : twins)
+    lines.push_back(fmt::format("{} and {} leave the same trace on this plan",
+                                in_words(t.one.term, t.one.axis),
+                                in_words(t.other.term, t.other.axis)));
+  return lines;
 }
 
 std::string where_sentence(const Where& where) {

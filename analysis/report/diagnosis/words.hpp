@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/diagnosis/diagnosis.hpp"
+#include "analysis/diagnosis/findings/diagnosis.hpp"
 
 namespace drift::report {
 
@@ -35,8 +35,12 @@ const diagnosis::RecordingSpan* recording_at(
 /// A channel in words: "accelerometer y" of "acc_y", "outer gimbal" of "gimbal_outer".
 std::string channel_in_words(const std::string& name);
 
-/// The verdict in one sentence: the diagnosis' own, or the one of diagnosis::sentence().
-std::string verdict_sentence(const diagnosis::Diagnosis& diagnosis);
+/// What a fold holds out: "position 3", "recording 2, b.csv", "dwell 7".
+std::string fold_name(const diagnosis::Fold& fold,
+                      const std::vector<diagnosis::RecordingSpan>& recordings);
+
+/// "sag, ... and accelerometer_cross, ... leave the same trace on this plan", a line each.
+std::vector<std::string> twins_in_words(const std::vector<diagnosis::Twins>& twins);
 
 /// Where the misfit is, in one sentence; empty if nothing is located.
 std::string where_sentence(const diagnosis::Where& where);

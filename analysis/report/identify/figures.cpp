@@ -1,13 +1,9 @@
-#include "analysis/report/identify/figures.hpp"
-
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/report/identify/sections.hpp"
 #include "analysis/report/page/escape.hpp"
-#include "analysis/report/svg/svg_chart.hpp"
-#include "core/physics/coupling_text.hpp"
+#include "analysis/report/svg/curve.hpp"
 #include "core/stats/chi_square_band.hpp"
 
 namespace drift::report {
@@ -33,8 +29,8 @@ std::string start_label(std::size_t start) {
 
 /// One parameter from one start. Where the filter has stopped, its history is empty: a gap.
 Series estimate_series(const identification::FilterRun& run, std::size_t k, double unit) {
-  Series s{.label = start_label(run.start), .x = {}, .y = {}, .sigma = {}, .colour = run.start};
-  s.stroke = run.start < 7 ? Stroke::solid : Stroke::dashed;
+  Series s =
+      curve(start_label(run.start), run.start, run.start < 7 ? Stroke::solid : Stroke::dashed);
   for (std::size_t i = 0; i < run.history.t.size(); ++i) {
     const double sigma = run.history.sigma(k, i);
     const bool there = sigma > 0.0;
@@ -48,7 +44,7 @@ Series estimate_series(const identification::FilterRun& run, std::size_t k, doub
 /// Truth and independent tests; equal values share a line.
 std::vector<ReferenceLine> references(const mc::Study& study,
                                       const identification::Identification& id, std::size_t param) {
-  const double unit = TermLibrary::specs[param].unit.to_si;
+  const double unit = unit_of(param);
   std::vector<ReferenceLine> lines;
   const auto add = [&](double value, const std::string& label) {
     for (ReferenceLine& line : lines)
@@ -86,39 +82,34 @@ Range shown_range(const Panel& panel) {
   return all.width() <= 2.5 * late.width() ? all : wide;
 }
 
-Panel estimate_panel(const mc::Study& study, const identification::Identification& id,
-                     const identification::FilterSummary& summary, std::size_t param) {
-  const auto& spec = TermLibrary::specs[param];
-  const FilterSpec& filter = study.filters[summary.filter];
+Panel estimate_panel(const FilterView& v, std::size_t param) {
   Panel panel;
-  panel.title = fmt::format("{} ({}): {}", filter.name, key_of(filter.coupling), spec.key.view());
+  panel.title = fmt::format("{}: {}", v.name(), parameter_key(param));
   panel.x_label = "time [h]";
-  panel.y_label = fmt::format("{} [{}]", spec.key.view(), spec.unit.symbol.view());
-  const auto at = std::ranges::find(summary.layout.params, param);
-  if (at == summary.layout.params.end()) {
+  panel.y_label = parameter_cell(param).text;
+  const auto at = std::ranges::find(v.summary.layout.params, param);
+  if (at == v.summary.layout.params.end()) {
     panel.note = "not estimated by this filter";
     return panel;
   }
-  const auto k = static_cast<std::size_t>(at - summary.layout.params.begin());
-  for (const identification::FilterRun* run : id.runs_of(summary.filter))
-    panel.series.push_back(estimate_series(*run, k, spec.unit.to_si));
-  panel.references = references(study, id, param);
+  const auto k = static_cast<std::size_t>(at - v.summary.layout.params.begin());
+  for (const identification::FilterRun* run : v.id.runs_of(v.summary.filter))
+    panel.series.push_back(estimate_series(*run, k, unit_of(param)));
+  panel.references = references(v.study, v.id, param);
   if (const Range r = shown_range(panel); !r.empty()) panel.y_range = r;
   return panel;
 }
 
 /// NIS per scalar, averaged over stretches so that at most about 100 points stay readable.
-Panel nis_panel(const mc::Study& study, const identification::Identification& id,
-                const identification::FilterSummary& summary) {
-  const FilterSpec& filter = study.filters[summary.filter];
+Panel nis_panel(const FilterView& v) {
   Panel panel;
-  panel.title = fmt::format("{} ({})", filter.name, key_of(filter.coupling));
+  panel.title = v.name();
   panel.x_label = "time [h]";
   panel.y_label = "NIS per measured scalar";
-  for (const identification::FilterRun* run : id.runs_of(summary.filter)) {
+  for (const identification::FilterRun* run : v.id.runs_of(v.summary.filter)) {
     const EkfHistory& h = run->history;
     const std::size_t stretch = std::max<std::size_t>(1, h.t.size() / 100);
-    Series s{.label = start_label(run->start), .x = {}, .y = {}, .sigma = {}, .colour = run->start};
+    Series s = curve(start_label(run->start), run->start);
     ExpectedBand band{"95 % band of a right model", {}, {}, {}};
     for (std::size_t begin = 0; begin < h.t.size(); begin += stretch) {
       const std::size_t end = std::min(begin + stretch, h.t.size());
@@ -172,46 +163,42 @@ std::vector<std::size_t> highlighted_parameters(const mc::Study& study,
   return params;
 }
 
-std::vector<Figure> identification_figures(const mc::Study& study,
-                                           const identification::Identification& id) {
+Section estimate_figures(const mc::Study& study, const identification::Identification& id) {
   const std::vector<std::size_t> params = highlighted_parameters(study, id);
-  std::vector<Figure> figures;
-  if (params.empty()) return figures;
+  if (params.empty()) return {};
   Chart combined{study.title, {}, params.size()};
   Chart nis{"Normalised innovations squared",
             {},
             std::min<std::size_t>(id.summaries.size(), 2),
             540.0,
             260.0};
-  std::vector<Figure> alone;
+  Blocks alone;
   std::vector<std::string> taken;
   for (const identification::FilterSummary& s : id.summaries) {
-    const std::string& name = study.filters[s.filter].name;
+    const FilterView view{study, id, s};
+    const std::string& name = view.spec().name;
     Chart chart{
         fmt::format("Estimates of filter {}", name), {}, std::min<std::size_t>(params.size(), 3)};
-    for (const std::size_t p : params) chart.panels.push_back(estimate_panel(study, id, s, p));
+    for (const std::size_t p : params) chart.panels.push_back(estimate_panel(view, p));
     combined.panels.insert(combined.panels.end(), chart.panels.begin(), chart.panels.end());
-    nis.panels.push_back(nis_panel(study, id, s));
+    nis.panels.push_back(nis_panel(view));
     std::string part = file_name_part(name);
     if (std::ranges::find(taken, part) != taken.end()) part += fmt::format("_{}", s.filter + 1);
     taken.push_back(part);
-    alone.push_back(
-        {fmt::format("figure_{}.svg", part),
-         fmt::format("Estimates of filter {} against time, each start with its 1 sigma band.",
-                     name),
-         svg_of(chart)});
+    alone.push_back({Figure{svg_of(chart), "", fmt::format("figure_{}.svg", part)}, On::neither});
   }
-  figures.push_back(
-      {"estimates.svg",
-       "Estimates against time, each start with its 1 sigma band. The first swing may be cut off.",
-       svg_of(combined)});
-  figures.insert(figures.end(), alone.begin(), alone.end());
-  figures.push_back(
-      {"nis.svg",
-       "Normalised innovations squared per measured scalar, averaged over short stretches: 1 on "
-       "average, and mostly within the grey band, if model and noise are right.",
-       svg_of(nis)});
-  return figures;
+  Section section{"Estimates against time",
+                  {Figure{svg_of(combined),
+                          "Estimates against time, each start with its 1 sigma band. The first "
+                          "swing may be cut off.",
+                          "estimates.svg"}}};
+  section.add(std::move(alone));
+  section.add({Figure{svg_of(nis),
+                      "Normalised innovations squared per measured scalar, averaged over short "
+                      "stretches: 1 on average, and mostly within the grey band, if model and "
+                      "noise are right.",
+                      "nis.svg"}});
+  return section;
 }
 
 }  // namespace drift::report

@@ -1,126 +1,131 @@
 #include "analysis/report/page/table.hpp"
 
-#include <algorithm>
-#include <sstream>
-#include <string_view>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include "analysis/report/page/escape.hpp"
+#include <algorithm>
+#include <cmath>
+
 #include "core/base/check.hpp"
+#include "core/base/number_text.hpp"
 
 namespace drift::report {
 namespace {
 
-std::vector<std::size_t> column_widths(const Table& table) {
-  std::vector<std::size_t> widths;
-  for (const Column& c : table.columns) widths.push_back(display_width(c.name));
-  for (const TableRow& row : table.rows) {
-    if (row.heading) continue;
-    DRIFT_EXPECTS(row.cells.size() == widths.size());
-    for (std::size_t c = 0; c < widths.size(); ++c)
-      widths[c] = std::max(widths[c], display_width(row.cells[c].text));
-  }
-  return widths;
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(' ');
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(' ') - first + 1);
 }
 
-void append_padded(std::string& line, const std::string& text, Align align, std::size_t width) {
-  const std::string blank(width - display_width(text), ' ');
-  line += align == Align::right ? blank + text : text + blank;
+Column column_of(std::string_view spec) {
+  const auto equals = spec.find('=');
+  const bool keyed = equals != std::string_view::npos && (equals == 0 || spec[equals - 1] != '>');
+  Column column;
+  if (keyed) column.key = trimmed(spec.substr(0, equals));
+  std::string_view heading = trimmed(keyed ? spec.substr(equals + 1) : spec);
+  column.left = heading.starts_with('<');
+  column.heading = heading.substr(column.left ? 1 : 0);
+  column.shown = column.left || !heading.empty();
+  return column;
 }
 
-void append_line(std::string& out, std::string line) {
-  line.erase(line.find_last_not_of(' ') + 1);
-  out += line + '\n';
-}
-
-std::string_view tone_class(Tone tone) {
-  switch (tone) {
-    case Tone::good:
-      return " good";
-    case Tone::doubtful:
-      return " doubtful";
-    case Tone::bad:
-      return " bad";
-    case Tone::plain:
-      break;
-  }
+std::string csv_of(const Value& value) {
+  if (const auto* number = std::get_if<double>(&value))
+    return std::isfinite(*number) ? fmt::format("{:.9g}", *number) : "";
+  if (const auto* count = std::get_if<std::int64_t>(&value)) return std::to_string(*count);
+  if (const auto* yes = std::get_if<bool>(&value)) return *yes ? "1" : "0";
+  if (const auto* text = std::get_if<std::string>(&value)) return report::csv_of(*text);
+  if (const auto* span = std::get_if<std::vector<double>>(&value))
+    return fmt::format("{:.9g}", fmt::join(*span, " "));
   return "";
 }
 
 }  // namespace
 
-std::string wrapped(const std::string& text, std::size_t width, std::size_t indent) {
-  std::istringstream words(text);
-  std::string out, word, line;
-  std::size_t margin = 0;
-  while (words >> word) {
-    const std::size_t length = display_width(line);
-    if (length > margin && length + 1 + display_width(word) > width) {
-      out += line + '\n';
-      line.assign(indent, ' ');
-      margin = indent;
-    }
-    if (display_width(line) > margin) line += ' ';
-    line += word;
-  }
-  return out + line + '\n';
+Cell::Cell(double number) : Cell(number, number_text(number)) {}
+
+Cell digits(double value, int count, Tone tone) {
+  return {value, number_text(value, count), tone};
 }
 
-std::size_t text_width(const Table& table) {
-  std::size_t total = 0;
-  for (const std::size_t w : column_widths(table)) total += w + 1;
-  return total > 0 ? total - 1 : 0;
+Cell decimals(double value, int count, Tone tone) {
+  return {value, decimal_text(value, count), tone};
 }
 
-std::string text_of(const Table& table, std::size_t width) {
-  const auto widths = column_widths(table);
-  const std::size_t narrow = text_width(table), wide = narrow + widths.size() - 1;
-  const std::string gap(wide <= width ? 2 : 1, ' ');
-  std::string out, line;
-  if (!table.title.empty()) out += wrapped(table.title, width);
-  for (std::size_t c = 0; c < widths.size(); ++c) {
-    if (c > 0) line += gap;
-    append_padded(line, table.columns[c].name, table.columns[c].align, widths[c]);
+Cell plus_minus(double value, double sigma) {
+  return {value, with_sigma(value, sigma)};
+}
+
+Cell p_cell(double p_value) {
+  return {p_value, p_text(p_value)};
+}
+
+Cell span_cell(double low, double high) {
+  return {std::vector{low, high}, fmt::format("{} to {}", number_text(low), number_text(high))};
+}
+
+Cell only_value(Value value) {
+  return {std::move(value), ""};
+}
+
+Cell text_or_nothing(std::string text) {
+  if (text.empty()) return {Value(), ""};
+  return text;
+}
+
+Table::Table(std::string title_, std::string_view columns_, std::string note_)
+    : title(std::move(title_)), note(std::move(note_)) {
+  add_columns(columns_);
+}
+
+void Table::add_columns(std::string_view spec) {
+  for (std::size_t from = 0; from <= spec.size();) {
+    const std::size_t to = std::min(spec.find('|', from), spec.size());
+    columns.push_back(column_of(spec.substr(from, to - from)));
+    from = to + 1;
   }
-  append_line(out, line);
-  append_line(out, std::string(wide <= width ? wide : std::min(narrow, width), '-'));
-  for (const TableRow& row : table.rows) {
-    if (row.heading) {
-      out += wrapped(row.cells.front().text, width, 4);
-      continue;
-    }
-    line.clear();
-    for (std::size_t c = 0; c < widths.size(); ++c) {
-      if (c > 0) line += gap;
-      append_padded(line, row.cells[c].text, table.columns[c].align, widths[c]);
-    }
-    append_line(out, line);
+}
+
+Table shown(const Table& table, std::size_t most) {
+  Table out;
+  out.title = table.title;
+  out.note = table.note;
+  std::ranges::copy_if(table.columns, std::back_inserter(out.columns), &Column::shown);
+  for (std::size_t r = 0; r < table.rows.size(); ++r) {
+    TableRow row = table.rows[r];
+    if (r >= most && !row.always) continue;
+    DRIFT_DEMAND(row.cells.size() <= table.columns.size());
+    for (std::size_t c = row.cells.size(); !row.heading && c-- > 0;)
+      if (!table.columns[c].shown) row.cells.erase(row.cells.begin() + std::ptrdiff_t(c));
+    out.rows.push_back(std::move(row));
   }
-  if (!table.note.empty()) out += wrapped(table.note, width);
+  if (const std::size_t rest = table.rows.size() - out.rows.size(); rest > 0)
+    out.note += fmt::format("{}{} weaker ones are in {}.", out.note.empty() ? "" : " ", rest,
+                            table.limit.rest_in);
   return out;
 }
 
-std::string html_of(const Table& table) {
-  std::string out = "<div class=\"scroll\"><table>\n";
-  if (!table.title.empty()) out += "<caption>" + escaped(table.title) + "</caption>\n";
-  out += "<thead><tr>";
-  const auto side = [](Align align) { return align == Align::left ? "left" : "right"; };
-  for (const Column& c : table.columns)
-    out += fmt::format("<th scope=\"col\" class=\"{}\">{}</th>", side(c.align), escaped(c.name));
-  out += "</tr></thead>\n<tbody>\n";
+std::string csv_of(std::string text) {
+  for (char& c : text)
+    if (c == ',' || c == '"' || static_cast<unsigned char>(c) < 0x20) c = ' ';
+  return text;
+}
+
+std::string csv_of(const Table& table) {
+  std::string head, out;
+  for (const Column& column : table.columns)
+    if (!column.key.empty()) head += (head.empty() ? "" : ",") + csv_of(column.key);
   for (const TableRow& row : table.rows) {
-    out += "<tr>";
-    if (row.heading)
-      out += fmt::format("<th colspan=\"{}\" class=\"left\">{}</th>", table.columns.size(),
-                         escaped(row.cells.front().text));
-    else
-      for (std::size_t c = 0; c < row.cells.size(); ++c)
-        out += fmt::format("<td class=\"{}{}\">{}</td>", side(table.columns[c].align),
-                           tone_class(row.cells[c].tone), escaped(row.cells[c].text));
-    out += "</tr>\n";
+    if (row.heading) continue;
+    std::string_view separator = "\n";
+    for (std::size_t c = 0; c < table.columns.size(); ++c) {
+      if (table.columns[c].key.empty()) continue;
+      out += std::string(separator) + csv_of(row.cells[c].value);
+      separator = ",";
+    }
   }
-  out += "</tbody></table></div>\n";
-  if (!table.note.empty()) out += "<p class=\"note\">" + escaped(table.note) + "</p>\n";
-  return out;
+  return head + out + "\n";
 }
 
 }  // namespace drift::report

@@ -1,74 +1,92 @@
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
 
-#include "analysis/planning/candidates.hpp"
-#include "analysis/report/rank/tables.hpp"
-#include "core/base/number_text.hpp"
+#include "analysis/planning/position_toml.hpp"
+#include "analysis/report/rank/sections.hpp"
+#include "analysis/report/svg/bar_chart.hpp"
 
 namespace drift::report {
+namespace {
 
-Table improvement_table(const planning::PlanRanking& rank) {
-  Table t;
-  const planning::Improvement& better = rank.better->improvement;
-  t.title = fmt::format("Positions to add, by criterion {}", better.criterion.text);
-  t.columns = {{"#"},
-               {"axes", Align::left},
-               {"mode", Align::left},
-               {"entry", Align::left},
-               {"hours"},
-               {"before"},
-               {"after"},
-               {"candidates"}};
-  for (std::size_t i = 0; i < better.steps.size(); ++i) {
-    const planning::ImprovementStep& s = better.steps[i];
-    std::string entry = s.position.entry == Entry::caged ? "caged" : "torqued";
-    if (s.position.case_heading)
-      entry += fmt::format(", case at {:.0f} deg", *s.position.case_heading / detail::deg);
-    t.add({std::to_string(i + 1), s.position.axes,
-           s.position.mode == CommandLaw::free ? "free" : "level", entry,
-           number_text(s.duration / 3600.0), number_text(s.before, 4), number_text(s.after, 4),
-           std::to_string(s.feasible)});
+constexpr double hour = 3600.0;  // [s]
+
+std::string_view in_words(planning::Criterion::Kind kind) {
+  switch (kind) {
+    case planning::Criterion::Kind::A:
+      return "sum of squared learning ratios";
+    case planning::Criterion::Kind::D:
+      return "log2 det of the prior-scaled posterior, over 2";
+    default:
+      return "learning ratio of the parameter";
   }
-  const char* what = better.criterion.kind == planning::Criterion::Kind::A
-                         ? "sum of squared learning ratios"
-                     : better.criterion.kind == planning::Criterion::Kind::D
-                         ? "log2 det of the prior-scaled posterior, over 2"
-                         : "learning ratio of the parameter";
-  t.note = fmt::format("Criterion: {}. Chosen one after the other for {}; {} h added.", what,
-                       rank.groups.front().filters, number_text(better.added() / 3600.0, 4));
-  if (better.steps.empty()) t.note += " The gimbals allow no candidate.";
+}
+
+/// Before and after, largest gain first.
+struct Gains {
+  const observability::Ranking &before, &after;
+  std::vector<std::size_t> states;
+  double factor(std::size_t k) const { return before.learning_ratio(k) / after.learning_ratio(k); }
+};
+
+Gains gains_of(const planning::PlanRanking& rank) {
+  const observability::Ranking& before = rank.groups.front().models.front().ranking;
+  Gains gains{before, rank.better->after, before.order};
+  std::ranges::stable_sort(gains.states, std::greater{},
+                           [&](std::size_t k) { return gains.factor(k); });
+  return gains;
+}
+
+/// Bits that the proposed positions add to each parameter.
+Figure gain_figure(const Gains& g) {
+  BarChart chart{"What the proposed positions add",
+                 "log2(sigma before / sigma after) [bit]; beside the bar: left of the prior sigma "
+                 "before and after",
+                 {},
+                 std::nullopt,
+                 860.0};
+  for (const std::size_t k : g.states)
+    chart.bars.push_back({.label = parameter_key(g.before.layout, k),
+                          .value = g.after.parameters[k].bits() - g.before.parameters[k].bits(),
+                          .colour = 2,
+                          .text = fmt::format("{} to {}", number_text(g.before.learning_ratio(k)),
+                                              number_text(g.after.learning_ratio(k)))});
+  return {svg_of(chart), "Expected gain of each parameter from all proposed positions.",
+          "improvement.svg"};
+}
+
+Table gain_table(const Gains& g) {
+  Table t("Expected sigma before and after",
+          "<parameter | prior | before | after | left before | left after | gain");
+  for (const std::size_t k : g.states) {
+    const observability::ParameterRank& p = g.before.parameters[k];
+    const double unit = unit_of(p.param);
+    t.add({parameter_cell(p.param), p.prior_sigma / unit, p.posterior_sigma / unit,
+           g.after.parameters[k].posterior_sigma / unit, g.before.learning_ratio(k),
+           g.after.learning_ratio(k),
+           digits(g.factor(k), 3, g.factor(k) > 2.0 ? Tone::good : Tone::plain)});
+  }
   return t;
 }
 
-Table gain_table(const planning::PlanRanking& rank) {
-  const observability::Ranking& before = rank.groups.front().models.front().ranking;
-  const observability::Ranking& after = rank.better->after;
-  Table t;
-  t.title = "Expected sigma before and after";
-  t.columns = {{"parameter", Align::left},
-               {"prior"},
-               {"before"},
-               {"after"},
-               {"left before"},
-               {"left after"},
-               {"gain"}};
-  std::vector<std::size_t> states = before.order;
-  const auto gain = [&](std::size_t k) {
-    return before.learning_ratio(k) / after.learning_ratio(k);
-  };
-  std::ranges::stable_sort(states, std::greater{}, gain);
-  for (const std::size_t k : states) {
-    const observability::ParameterRank& p = before.parameters[k];
-    const auto& spec = TermLibrary::specs[p.param];
-    t.add({fmt::format("{} [{}]", spec.key.view(), spec.unit.symbol.view()),
-           number_text(p.prior_sigma / spec.unit.to_si),
-           number_text(p.posterior_sigma / spec.unit.to_si),
-           number_text(after.parameters[k].posterior_sigma / spec.unit.to_si),
-           number_text(before.learning_ratio(k)),
-           number_text(after.learning_ratio(k)),
-           {number_text(gain(k)), gain(k) > 2.0 ? Tone::good : Tone::plain}});
+}  // namespace
+
+Table improvement_table(const planning::PlanRanking& rank) {
+  const planning::Improvement& better = rank.better->improvement;
+  Table t(fmt::format("Positions to add, by criterion {}", better.criterion.text),
+          "# | name= | axes=<axes | mode=<mode | entry=<entry | case_heading_deg= | hours=hours | "
+          "criterion_before=before | criterion_after=after | candidates=candidates",
+          fmt::format("Criterion: {}. Chosen one after the other for {}; {} h added.{}",
+                      in_words(better.criterion.kind), rank.groups.front().filters,
+                      number_text(better.added() / hour, 4),
+                      better.steps.empty() ? " The gimbals allow no candidate." : ""));
+  for (std::size_t i = 0; i < better.steps.size(); ++i) {
+    const planning::ImprovementStep& s = better.steps[i];
+    const std::string entry(key_of(s.position.entry));
+    const auto& heading = s.position.case_heading;
+    const double degrees = heading ? *heading / detail::deg : 0.0;
+    t.add({i + 1, s.position.name, s.position.axes, key_of(s.position.mode),
+           Cell(entry, heading ? fmt::format("{}, case at {:.0f} deg", entry, degrees) : entry),
+           only_value(heading ? Value(degrees) : Value()), s.duration / hour, digits(s.before, 4),
+           digits(s.after, 4), s.feasible});
   }
   return t;
 }
@@ -76,13 +94,21 @@ Table gain_table(const planning::PlanRanking& rank) {
 std::string proposed_toml(const mc::Study& study, const planning::PlanRanking& rank) {
   const TestPlan& plan = rank.better->improvement.plan;
   const bool preset = !study.plan.preset.empty();
-  std::string text =
+  const std::string head =
       preset ? fmt::format("# In [plan], instead of preset = \"{}\":\n", study.plan.preset)
              : "# After the last [[plan.position]]:\n";
-  const std::size_t old = study.plan.positions.size();
-  for (std::size_t p = preset ? 0 : old; p < plan.positions.size(); ++p)
-    text += planning::position_toml(plan.positions[p]);
-  return text;
+  const std::span positions(plan.positions);
+  return head +
+         planning::positions_toml(positions.subspan(preset ? 0 : study.plan.positions.size()));
+}
+
+Section improvement(const mc::Study& study, const planning::PlanRanking& rank) {
+  if (!rank.better) return {};
+  Section section{"A better plan", {improvement_table(rank)}};
+  if (rank.better->improvement.steps.empty()) return section;
+  const Gains gains = gains_of(rank);
+  section.add({gain_figure(gains), gain_table(gains), Preformatted{proposed_toml(study, rank)}});
+  return section;
 }
 
 }  // namespace drift::report

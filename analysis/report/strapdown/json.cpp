@@ -66,7 +66,7 @@ json to_json(const strapdown::StrapdownResult& r) {
   for (const auto& u : r.unobservable)
     unobservable.push_back({{"what", u.what}, {"reason", u.reason}});
   for (const auto& f : r.accepted)
-    accepted.push_back({{"equation", f.model.equation == Coupling::eq6 ? "eq6" : "eq5"},
+    accepted.push_back({{"equation", key_of(f.model.equation)},
                         {"model", f.name},
                         {"rotation_held_out_deg", f.rotation.held_out}});
   json contest = nullptr;

@@ -1,16 +1,18 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
-#include <string>
 
+#include "analysis/report/page/report.hpp"
 #include "analysis/strapdown/identify.hpp"
+#include "mc/study/study.hpp"
 
 namespace drift::report {
 
-/// The result as tables for a terminal.
-std::string to_text(const strapdown::StrapdownResult& result);
+/// All that the identification of a strapdown recording has to say: tables, the held-out error of
+/// every model tried (rotations.svg), identification.json and study.toml.
+Report strapdown_report(const mc::Study& study, const strapdown::StrapdownResult& result);
 
-/// The result as JSON, schema 1. A number that is not finite is null.
+/// identification.json, schema 1. A number that is not finite is null.
 nlohmann::json to_json(const strapdown::StrapdownResult& result);
 
 }  // namespace drift::report

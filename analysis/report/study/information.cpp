@@ -1,15 +1,10 @@
-#include "analysis/report/study/information.hpp"
-
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <set>
 
 #include "analysis/observability/against_monte_carlo.hpp"
 #include "analysis/planning/rank.hpp"
 #include "analysis/report/rank/report.hpp"
-#include "core/base/number_text.hpp"
-#include "core/physics/coupling_text.hpp"
+#include "analysis/report/study/sections.hpp"
 
 namespace drift::report {
 namespace {
@@ -25,20 +20,24 @@ const planning::ModelRanking* ranking_of(const planning::PlanRanking& plan,
   return nullptr;
 }
 
-Table comparison_table(const observability::MonteCarloComparison& comparison) {
-  Table table;
-  table.title =
-      fmt::format("Promised and found; rank correlation {}", number_text(comparison.spearman, 2));
-  table.columns = {
-      {"parameter", Align::left}, {"promised", Align::right}, {"found RMSE/prior", Align::right},
-      {"95 %", Align::left},      {"rank", Align::right},     {"rank found", Align::right},
-      {"verdict", Align::left}};
+std::vector<observability::MonteCarloError> errors_of(const mc::FilterStatistics& found) {
+  std::vector<observability::MonteCarloError> errors;
+  for (std::size_t k = 0; k < found.errors().size(); ++k) {
+    const mc::Estimated rmse = found.errors()[k].rmse();
+    errors.push_back({found.columns().layout.params[k], rmse.value, rmse.low, rmse.high,
+                      found.errors()[k].mean_sigma()});
+  }
+  return errors;
+}
+
+Table comparison_table(const observability::MonteCarloComparison& comparison,
+                       const std::string& title) {
+  Table table(fmt::format("{}. Promised and found; rank correlation {}", title,
+                          number_text(comparison.spearman, 2)),
+              "<parameter | promised | found RMSE/prior | <95 % | rank | rank found | <verdict");
   for (const observability::ErrorComparison& c : comparison.parameters)
-    table.add({std::string(TermLibrary::specs[c.param].key.view()),
-               number_text(c.learning_ratio, 3), number_text(c.rmse_ratio, 3),
-               fmt::format("{} to {}", number_text(c.low, 3), number_text(c.high, 3)),
-               number_text(c.rank_promised, 3), number_text(c.rank_found, 3),
-               std::string(text_of(c.verdict))});
+    table.add({parameter_key(c.param), c.learning_ratio, c.rmse_ratio, span_cell(c.low, c.high),
+               c.rank_promised, c.rank_found, text_of(c.verdict)});
   return table;
 }
 
@@ -48,7 +47,7 @@ Sentences reasons(const observability::MonteCarloComparison& comparison) {
   std::vector<std::pair<std::string, std::string>> by_reason;
   for (const observability::ErrorComparison& c : comparison.parameters) {
     if (c.reason.empty()) continue;
-    const std::string key(TermLibrary::specs[c.param].key.view());
+    const std::string key = parameter_key(c.param);
     const auto known =
         std::ranges::find(by_reason, c.reason, &std::pair<std::string, std::string>::first);
     if (known == by_reason.end())
@@ -62,53 +61,39 @@ Sentences reasons(const observability::MonteCarloComparison& comparison) {
 
 }  // namespace
 
-std::vector<Section> information_sections(const StudyResults& results, int threads) {
-  Section section{"What the plan promises and what the runs found", {}};
-  section.blocks.emplace_back(
-      Paragraph{"Promised: posterior over prior sigma by Fisher information along the integrated "
-                "test (learning ratio). "
-                "Found: root mean square error of the runs over the prior sigma, with its "
-                "bootstrap interval."});
-  planning::RankOptions options;
-  options.threads = threads;
+Section information_section(const StudyResults& results, int threads) {
+  Section section{"What the plan promises and what the runs found",
+                  {Paragraph{"Promised: posterior over prior sigma by Fisher information along "
+                             "the integrated test (learning ratio). Found: root mean square error "
+                             "of the runs over the prior sigma, with its bootstrap interval."}},
+                  On::page};
   std::set<std::string> shown;  // points that differ in the truth alone have one plan
   for (const std::size_t p : pictured_points(results)) {
     const mc::Study& study = results.points[p].study;
-    const planning::PlanRanking plan = planning::rank_plan(study, options);
+    const planning::PlanRanking plan = planning::rank_plan(study, {.threads = threads});
     for (std::size_t f = 0; f < study.filters.size(); ++f) {
       const planning::ModelRanking* model = ranking_of(plan, study.filters[f]);
       if (model == nullptr) continue;
-      const mc::FilterStatistics& found = statistics_of(results, {p, f});
-      std::vector<observability::MonteCarloError> errors;
-      for (std::size_t k = 0; k < found.errors().size(); ++k) {
-        const mc::Estimated rmse = found.errors()[k].rmse();
-        errors.push_back({found.columns().layout.params[k], rmse.value, rmse.low, rmse.high,
-                          found.errors()[k].mean_sigma()});
-      }
-      const observability::MonteCarloComparison comparison =
-          observability::compare_with_monte_carlo(model->ranking, errors,
-                                                  matched(results, {p, f})
-                                                      ? observability::TruthIs::the_model
-                                                      : observability::TruthIs::another_model);
-      Table table = comparison_table(comparison);
-      table.title =
-          fmt::format("Truth {}, filter {}{}{}. {}", key_of(study.truth.coupling),
-                      study.filters[f].name, condition_of(results.points[p]).empty() ? "" : ", ",
-                      condition_of(results.points[p]), table.title);
-      section.blocks.emplace_back(std::move(table));
-      if (Sentences why = reasons(comparison); !why.items.empty())
-        section.blocks.emplace_back(std::move(why));
+      const auto comparison = observability::compare_with_monte_carlo(
+          model->ranking, errors_of(statistics_of(results, {p, f})),
+          matched(results, {p, f}) ? observability::TruthIs::the_model
+                                   : observability::TruthIs::another_model);
+      const std::string condition = condition_of(results.points[p]);
+      section.add({comparison_table(comparison,
+                                    fmt::format("Truth {}, filter {}{}{}",
+                                                key_of(study.truth.coupling), study.filters[f].name,
+                                                condition.empty() ? "" : ", ", condition)),
+                   reasons(comparison)});
     }
     for (const planning::RankingGroup& group : plan.groups) {
       std::string learning = learning_figure(group);
       if (!shown.insert(learning).second) continue;
-      section.blocks.emplace_back(Picture{
-          std::move(learning), "Learning ratios of the plan " + condition_of(results.points[p])});
-      section.blocks.emplace_back(
-          Picture{spectrum_figure(group), "Eigenvalues of the prior-scaled information"});
+      section.add({Figure{std::move(learning),
+                          "Learning ratios of the plan " + condition_of(results.points[p])},
+                   Figure{spectrum_figure(group), "Eigenvalues of the prior-scaled information"}});
     }
   }
-  return {std::move(section)};
+  return section;
 }
 
 }  // namespace drift::report

@@ -1,22 +1,12 @@
-#include "analysis/report/study/json.hpp"
-
-#include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "analysis/report/study/tables.hpp"
-#include "core/physics/coupling_text.hpp"
+#include "analysis/report/study/sections.hpp"
 
 namespace drift::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
 Json of(const stats::Rate& rate) {
-  return {{"value", number(rate.value())},
+  return {{"value", rate.value()},
           {"low", rate.low()},
           {"high", rate.high()},
           {"hits", rate.hits},
@@ -24,15 +14,13 @@ Json of(const stats::Rate& rate) {
 }
 
 Json of(const mc::Estimated& e, double unit) {
-  return {{"value", number(e.value / unit)},
-          {"low", number(e.low / unit)},
-          {"high", number(e.high / unit)}};
+  return {{"value", e.value / unit}, {"low", e.low / unit}, {"high", e.high / unit}};
 }
 
 Json of(const mc::ChiSquareSum& sum) {
-  return {{"mean", number(sum.mean())},
-          {"low", number(sum.low())},
-          {"high", number(sum.high())},
+  return {{"mean", sum.mean()},
+          {"low", sum.low()},
+          {"high", sum.high()},
           {"inside", sum.holds()},
           {"runs_in_band", of(sum.in_band)}};
 }
@@ -51,22 +39,22 @@ Json of(const mc::StartStatistics& s) {
 Json parameter(const mc::FilterStatistics& f, std::size_t k) {
   const mc::ErrorStatistics& e = f.errors()[k];
   const mc::ParameterHealth& h = f.health()[k];
-  const auto& spec = TermLibrary::specs[f.columns().layout.params[k]];
-  const double unit = spec.unit.to_si;
+  const std::size_t param = f.columns().layout.params[k];
+  const double unit = unit_of(param);
   Json coverage = Json::array();
   for (const stats::Rate& rate : e.coverage()) coverage.push_back(of(rate));
-  return {{"key", spec.key.view()},
-          {"unit", spec.unit.symbol.view()},
+  return {{"key", parameter_key(param)},
+          {"unit", parameter_unit(param)},
           {"runs", e.runs()},
-          {"prior_sigma", number(e.prior_sigma() / unit)},
+          {"prior_sigma", e.prior_sigma() / unit},
           {"bias", of(e.bias(), unit)},
           {"rmse", of(e.rmse(), unit)},
-          {"sigma", number(e.mean_sigma() / unit)},
+          {"sigma", e.mean_sigma() / unit},
           {"rmse_over_prior", of(e.rmse(), e.prior_sigma())},
-          {"learning_ratio", number(e.learning())},
+          {"learning_ratio", e.learning()},
           {"deception_ratio", of(e.deception(), 1.0)},
           {"coverage", coverage},
-          {"start_consistency", number(h.start_ratio())},
+          {"start_consistency", h.start_ratio()},
           {"depends_on_start", of(h.start_depends)},
           {"claims_to_know", of(h.claims)},
           {"wrong", of(h.wrong)},
@@ -78,10 +66,9 @@ Json failures(const mc::FailureStatistics& f) {
   for (const auto& d : f.deciles()) {
     if (d.chi2 == 0.0) continue;
     Json rates = Json::array();
-    for (const stats::Rate& rate : d.rate) rates.push_back(number(rate.value()));
-    deciles.push_back({{"key", TermLibrary::specs[d.param].key.view()},
-                       {"chi2_of_9", number(d.chi2)},
-                       {"rate_by_decile", rates}});
+    for (const stats::Rate& rate : d.rate) rates.push_back(rate.value());
+    deciles.push_back(
+        {{"key", parameter_key(d.param)}, {"chi2_of_9", d.chi2}, {"rate_by_decile", rates}});
   }
   Json by_status = Json::object();
   for (const auto& [status, count] : f.by_status())
@@ -95,10 +82,10 @@ Json failures(const mc::FailureStatistics& f) {
 
 }  // namespace
 
-std::string study_json(const StudyResults& results) {
+Json study_document(const StudyResults& results) {
   Json out = {{"schema", 1},
               {"title", results.study.title},
-              {"headlines", study_headlines(results)},
+              {"headlines", headlines(results)},
               {"points", Json::array()}};
   for (std::size_t p = 0; p < results.points.size(); ++p) {
     const mc::StudyPoint& point = results.points[p];
@@ -127,8 +114,7 @@ std::string study_json(const StudyResults& results) {
   }
   out["provenance"] = Json::object();
   for (const auto& [key, value] : results.provenance) out["provenance"][key] = value;
-  // Text may come from a user's file: what is not UTF-8 is replaced, never thrown at.
-  return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return out;
 }
 
 }  // namespace drift::report

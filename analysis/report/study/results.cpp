@@ -1,10 +1,10 @@
 #include "analysis/report/study/results.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <cmath>
 
 #include "analysis/report/page/swept_value.hpp"
+#include "analysis/report/page/wording.hpp"
 
 namespace drift::report {
 
@@ -45,10 +45,29 @@ std::vector<std::size_t> pictured_points(const StudyResults& results) {
   return points;
 }
 
-std::string percent_text(const stats::Rate& rate) {
+std::string name_of(const StudyResults& results, std::size_t point) {
+  const std::string condition = condition_of(results.points[point]);
+  return fmt::format("truth {}{}{}", key_of(results.points[point].study.truth.coupling),
+                     condition.empty() ? "" : ", ", condition);
+}
+
+std::string label_of(const StudyResults& results, const Pair& pair) {
+  const std::string condition = condition_of(results.points[pair.point]);
+  return fmt::format("{} > {}{}{}", key_of(results.points[pair.point].study.truth.coupling),
+                     statistics_of(results, pair).columns().name, condition.empty() ? "" : ", ",
+                     condition);
+}
+
+Cell rate_cell(const stats::Rate& rate, Tone tone) {
   if (rate.of == 0) return "-";
-  return fmt::format("{:.1f} % ({:.1f} to {:.1f})", 100.0 * rate.value(), 100.0 * rate.low(),
-                     100.0 * rate.high());
+  return {rate.value(),
+          fmt::format("{:.1f} % ({:.1f} to {:.1f})", 100.0 * rate.value(), 100.0 * rate.low(),
+                      100.0 * rate.high()),
+          tone};
+}
+
+Cell percent_cell(double share) {
+  return {share, std::isfinite(share) ? fmt::format("{:.1f}", 100.0 * share) : "-"};
 }
 
 std::size_t worst_parameter(const mc::FilterStatistics& filter, double claims) {
@@ -63,8 +82,19 @@ std::size_t worst_parameter(const mc::FilterStatistics& filter, double claims) {
   return worst;
 }
 
+double coverage_of_claims(const mc::FilterStatistics& filter, double claims) {
+  double sum = 0.0;
+  int n = 0;
+  for (const mc::ErrorStatistics& e : filter.errors())
+    if (e.learning() < claims) {
+      sum += e.coverage()[1].value();
+      ++n;
+    }
+  return n > 0 ? sum / n : std::nan("");
+}
+
 std::string key_at(const mc::FilterStatistics& filter, std::size_t k) {
-  return std::string(TermLibrary::specs[filter.columns().layout.params[k]].key.view());
+  return parameter_key(filter.columns().layout, k);
 }
 
 }  // namespace drift::report

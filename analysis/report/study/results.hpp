@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/report/page/html_report.hpp"
+#include "analysis/report/page/report.hpp"
 #include "mc/statistics/point_statistics.hpp"
 #include "mc/study/sweep.hpp"
 #include "mc/task/trace.hpp"
@@ -25,7 +25,7 @@ struct StudyResults {
   std::vector<mc::PointStatistics> statistics;  ///< one per point
   std::vector<TracedRun> traces;
   std::vector<std::pair<std::string, std::string>> provenance;  ///< shown as they are
-  std::vector<Section> further;  ///< sections of others: ranking by information ...
+  Section information;  ///< of information_section(); may be empty
 };
 
 /// One filter at one study point.
@@ -45,14 +45,29 @@ std::string condition_of(const mc::StudyPoint& point);
 /// The study points that pictures are drawn of: all, or four from the first to the last.
 std::vector<std::size_t> pictured_points(const StudyResults& results);
 
+/// "truth eq5, plan.preset = six" of a point; "eq5 > legacy, plan.preset = six" of a pair.
+std::string name_of(const StudyResults& results, std::size_t point);
+std::string label_of(const StudyResults& results, const Pair& pair);
+
 /// "91.5 % (86.8 to 94.6)"; "-" without runs.
-std::string percent_text(const stats::Rate& rate);
+Cell rate_cell(const stats::Rate& rate, Tone tone = Tone::plain);
+
+/// "91.5" of a share of 0.915.
+Cell percent_cell(double share);
 
 /// The parameter a pair deceives about most: largest RMSE over sigma among those it claims to know.
 /// Layout index; the size of the layout if it claims to know none.
 std::size_t worst_parameter(const mc::FilterStatistics& filter, double claims);
 
+/// Share of the errors within 2 sigma, over the parameters a filter claims to know; NaN of none.
+double coverage_of_claims(const mc::FilterStatistics& filter, double claims);
+
 /// "K3_x" of a layout index.
 std::string key_at(const mc::FilterStatistics& filter, std::size_t k);
+
+/// Of the prior's sigma: below, a filter claims to know a parameter.
+inline double claims_of(const StudyResults& results) {
+  return results.study.monte_carlo.healthy_sigma;
+}
 
 }  // namespace drift::report

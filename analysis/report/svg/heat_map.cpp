@@ -42,8 +42,8 @@ void key(SvgCanvas& canvas, const HeatMap& map, double x, double y, double most,
 
 std::string svg_of(const HeatMap& map) {
   const auto rows = map.value.rows(), columns = map.value.cols();
-  DRIFT_EXPECTS(rows == static_cast<Eigen::Index>(map.rows.size()));
-  DRIFT_EXPECTS(columns == static_cast<Eigen::Index>(map.columns.size()));
+  DRIFT_DEMAND(rows == static_cast<Eigen::Index>(map.rows.size()));
+  DRIFT_DEMAND(columns == static_cast<Eigen::Index>(map.columns.size()));
   const double row_height = map.row_height;
   double label = 30.0, most = map.most;
   bool negative = false;

@@ -32,7 +32,7 @@ class PanelPainter {
       ys.include(b.high);
     }
     for (const auto& s : panel.series) {
-      DRIFT_EXPECTS(s.x.size() == s.y.size() && (s.sigma.empty() || s.sigma.size() == s.y.size()));
+      DRIFT_DEMAND(s.x.size() == s.y.size() && (s.sigma.empty() || s.sigma.size() == s.y.size()));
       xs.include(s.x);
       ys.include(s.y);
       ys.include(s.low);

@@ -1,7 +1,8 @@
 #include "core/estimate/strapdown/dwell_drift.hpp"
 
-#include <Eigen/Cholesky>
 #include <cmath>
+
+#include "core/base/decompose.hpp"
 
 namespace drift::strapdown {
 namespace {
@@ -55,12 +56,11 @@ Estimate fit_drift(DriftOrder order, std::span<const Rest> rests) {
     }
   }
   const MatX normal = design.transpose() * design;
-  const Eigen::LDLT<MatX> solver(normal);
-  const VecX x = solver.solve(design.transpose() * measured);
+  const VecX x = solve_symmetric(normal, VecX(design.transpose() * measured));
   const double squares = (measured - design * x).squaredNorm();
   for (Eigen::Index i = 0; i < p; ++i) fit.theta[fit.params[i]] = x[i];
   fit.covariance = squares / std::max<double>(1.0, static_cast<double>(n - p)) *
-                   solver.solve(MatX::Identity(p, p));
+                   solve_symmetric(normal, MatX(MatX::Identity(p, p)));
   fit.rms = std::sqrt(squares / static_cast<double>(n));
   return fit;
 }

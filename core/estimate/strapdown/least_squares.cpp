@@ -1,15 +1,16 @@
 #include "core/estimate/strapdown/least_squares.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+
+#include "core/base/decompose.hpp"
 
 namespace drift::strapdown {
 
 MatX Minimum::covariance(double freedom) const {
   const MatX normal = jacobian.transpose() * jacobian;
   const double variance = residuals.squaredNorm() / std::max(freedom, 1.0);
-  return variance * normal.ldlt().solve(MatX::Identity(normal.rows(), normal.cols()));
+  return variance * solve_symmetric(normal, MatX(MatX::Identity(normal.rows(), normal.cols())));
 }
 
 Minimum minimise(const Residuals& residuals, VecX x) {
@@ -24,7 +25,7 @@ Minimum minimise(const Residuals& residuals, VecX x) {
     const VecX gradient = at.jacobian.transpose() * at.residuals;
     const VecX diagonal = normal.diagonal().cwiseMax(1e-300);
     normal.diagonal() += damping * diagonal;
-    const VecX candidate = at.x - normal.ldlt().solve(gradient);
+    const VecX candidate = at.x - solve_symmetric(normal, gradient);
     MatX jacobian;
     const VecX r = residuals(candidate, &jacobian);
     const double before = at.residuals.squaredNorm(), after = r.squaredNorm();

@@ -1,9 +1,9 @@
 #include "core/estimate/strapdown/rotation_fit.hpp"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <limits>
 
+#include "core/base/decompose.hpp"
 #include "core/estimate/strapdown/least_squares.hpp"
 
 namespace drift::strapdown {
@@ -48,7 +48,7 @@ Estimate fit_rotations(std::span<const Rotation> rotations, Coupling equation,
       const Rotation& turn = turns[static_cast<std::size_t>(k)];
       const Prediction predicted = predict(turn, equation, theta, free);
       r.segment<3>(3 * k) = predicted.up - turn.up_after;
-      if (jacobian != nullptr) jacobian->middleRows<3>(3 * k) = predicted.jacobian;
+      if (jacobian != nullptr && x.size() > 0) jacobian->middleRows<3>(3 * k) = predicted.jacobian;
     }
     return r;
   };
@@ -64,9 +64,8 @@ Estimate fit_rotations(std::span<const Rotation> rotations, Coupling equation,
       best.covariance(static_cast<double>(2 * n - p));  // a direction has two freedoms
   if (p > 0 && !drift.params.empty()) {
     const MatX by_drift = jacobian_of(rotations, equation, fit.theta, drift.params);
-    const MatX gain = (best.jacobian.transpose() * best.jacobian)
-                          .ldlt()
-                          .solve(best.jacobian.transpose() * by_drift);
+    const MatX gain = solve_symmetric(best.jacobian.transpose() * best.jacobian,
+                                      MatX(best.jacobian.transpose() * by_drift));
     covariance += gain * drift.covariance * gain.transpose();
   }
   constexpr double unknown = std::numeric_limits<double>::infinity();

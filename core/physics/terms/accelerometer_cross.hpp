@@ -11,6 +11,7 @@ struct AccelerometerCross {
   static constexpr std::string_view equation =
       "f_i += K_io a_I a_O + K_po a_P a_O + K_pp a_P^2 + K_oo a_O^2";
   static constexpr std::string_view source = "physics.md 2.2 and 4, no. 47: 5 to 50 ug/g^2";
+  static constexpr Subsystem subsystem = Subsystem::accelerometers;
   static constexpr Prior prior = normal(0.0, 20.0);
   static constexpr auto params =
       join(per_axis<"K_io">(unit::ug_per_g2, prior, "accelerometer output, times a_I a_O"),

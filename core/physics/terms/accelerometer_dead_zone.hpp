@@ -12,6 +12,7 @@ struct AccelerometerDeadZone {
   static constexpr std::string_view title = "dead zone of the accelerometers";
   static constexpr std::string_view equation = "f_i += -Z_i tanh(a_I / Z_width)";
   static constexpr std::string_view source = "physics.md 4, no. 48: 2 to 20 ug near a = 0";
+  static constexpr Subsystem subsystem = Subsystem::accelerometers;
   static constexpr auto params =
       join(per_axis<"Z">(unit::ug, normal(0.0, 10.0), "accelerometer output, times -sgn a_I"),
            profiled<"Z_width">(ParamKind::nonlinear, unit::ug, 500.0, {100.0, 500.0, 2000.0},

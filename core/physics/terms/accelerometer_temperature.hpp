@@ -11,6 +11,7 @@ struct AccelerometerTemperature {
   static constexpr std::string_view equation = "f_i += (K0_T_i + K1_T_i a_I) dT";
   static constexpr std::string_view source =
       "physics.md 4, no. 45: 5 to 50 ug/degC, 20 to 200 ppm/degC";
+  static constexpr Subsystem subsystem = Subsystem::accelerometers;
   static constexpr auto params = join(
       per_axis<"K0_T">("ug/degC"_unit, normal(0.0, 20.0), "accelerometer output, times dT"),
       per_axis<"K1_T">("ppm/degC"_unit, normal(0.0, 50.0), "accelerometer output, times a_I dT"));

@@ -11,6 +11,7 @@ struct AzimuthError {
   static constexpr std::string_view title = "error of the azimuth reference";
   static constexpr std::string_view equation = "w_ip += R_lp^T d_az Omega cos(lat) (0, 1, 0)";
   static constexpr std::string_view source = "physics.md 4, no. 35: 60 arcsec is 0.003 deg/h";
+  static constexpr Subsystem subsystem = Subsystem::site;
   static constexpr auto params =
       single<"d_az">(unit::arcsec, normal(0.0, 60.0), "apparent platform rate");
   static constexpr Needs needs{.clock = true, .attitude = true};

@@ -14,6 +14,7 @@ struct BistableDrift {
       "w_l,i += +-B_i, telegraph noise; a level lasts B_dwell on average";
   static constexpr std::string_view source =
       "physics.md 4, no. 7: 0.01 to 0.05 deg/h, minutes to hours";
+  static constexpr Subsystem subsystem = Subsystem::gyro;
   static constexpr auto params = join(
       per_axis<"B">(unit::deg_per_h, uniform(0.01, 0.05), "w_l, half the distance of the levels",
                     ParamKind::noise),

@@ -13,6 +13,7 @@ struct DriftRandomWalk {
   static constexpr std::string_view equation = "d(D_F_i) = q_i dW_i";
   static constexpr std::string_view source =
       "physics.md 4, no. 8: 0.001 to 0.005 deg/h per sqrt(h)";
+  static constexpr Subsystem subsystem = Subsystem::gyro;
   static constexpr auto params = per_axis<"q">(unit::deg_per_h_per_sqrt_h, uniform(0.001, 0.005),
                                                "random walk of D_F", ParamKind::noise);
 };

@@ -13,6 +13,7 @@ struct EncoderHarmonics {
   static constexpr std::string_view equation =
       "gimbal_k += sum over n = 1, 2, enc_n of enc_sn_k sin(n theta_k) + enc_cn_k cos(n theta_k)";
   static constexpr std::string_view source = "physics.md 4, no. 41: 2 to 20 arcsec";
+  static constexpr Subsystem subsystem = Subsystem::resolvers;
   static constexpr Prior prior = normal(0.0, 5.0);
   static constexpr auto params =
       join(per_gimbal<"enc_s1">(unit::arcsec, prior, "gimbal angle, sine once per turn"),

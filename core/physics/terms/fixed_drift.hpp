@@ -10,6 +10,7 @@ struct FixedDrift {
   static constexpr std::string_view title = "fixed drift of each gyro";
   static constexpr std::string_view equation = "w_l,i += D_F_i";
   static constexpr std::string_view source = "IEEE 517 gyro model equation; physics.md 2.1";
+  static constexpr Subsystem subsystem = Subsystem::gyro;
   static constexpr auto params =
       per_axis<"D_F">(unit::deg_per_h, normal(0.0, 1.0), "w_l, constant");
 

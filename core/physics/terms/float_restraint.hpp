@@ -16,6 +16,7 @@ struct FloatRestraint {
       "w_ip += -sum over k of P_k T_k e_k,  dT_k/dtheta_k = (sgn theta_k' - T_k) / P_turn";
   static constexpr std::string_view source =
       "physics.md 1.5 and 4, no. 28: hang-off of 10 arcsec x k_f/H of 0.005 1/s is 0.05 deg/h";
+  static constexpr Subsystem subsystem = Subsystem::gyro;
   static constexpr auto params = join(
       per_gimbal<"P">(unit::deg_per_h, normal(0.0, 0.03), "platform rate, friction of a gimbal"),
       profiled<"P_turn">(ParamKind::nonlinear, unit::arcsec, 40.0, {10.0, 40.0, 150.0},
@@ -26,11 +27,11 @@ struct FloatRestraint {
 
   template <class S>
   static void start(const PathStep&, const S*, S* T) {
-    for (int k = 0; k < 3; ++k) T[k] = S(0.0);
+    start_friction(T);
   }
   template <class S>
   static void advance(const PathStep& along, const S* p, S* T) {
-    for (int k = 0; k < 3; ++k) T[k] = dahl(T[k], along.turned[k], friction_turn(p[3]));
+    advance_friction(along, p[3], T);
   }
   template <class S>
   static void rates(const Inputs<S>& in, const S* p, const S* T, RateAssembly<S>& out) {

@@ -10,6 +10,7 @@ struct FrameClosure {
   static constexpr std::string_view title = "weight of eq. (6) in the family of drift equations";
   static constexpr std::string_view equation = "w_cp = -(I + lambda E)^-1 (C w_ic + w_l + w_md)";
   static constexpr std::string_view source = "physics.md 1.3";
+  static constexpr Subsystem subsystem = Subsystem::servo;
   static constexpr auto params =
       single<"lambda">(unit::one, uniform(0.0, 1.0), "closure of the servo loop over C_gp");
 

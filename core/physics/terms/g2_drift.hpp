@@ -14,6 +14,7 @@ struct G2Drift {
   static constexpr std::string_view equation =
       "w_l,i += D_II a_I^2 + D_OO a_O^2 + D_SS a_S^2 + D_IO a_I a_O + D_IS a_I a_S + D_OS a_O a_S";
   static constexpr std::string_view source = "IEEE 517 gyro model equation; physics.md 2.1";
+  static constexpr Subsystem subsystem = Subsystem::gyro;
   static constexpr Prior prior = normal(0.0, 0.1);
   static constexpr auto params =
       join(per_axis<"D_II">(unit::deg_per_h_per_g2, prior, "w_l, times a_I^2"),

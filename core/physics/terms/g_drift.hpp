@@ -10,6 +10,7 @@ struct GDrift {
   static constexpr std::string_view title = "g-sensitive drift (mass unbalance)";
   static constexpr std::string_view equation = "w_l,i += D_I_i a_I + D_O_i a_O + D_S_i a_S";
   static constexpr std::string_view source = "IEEE 517 gyro model equation; physics.md 2.1";
+  static constexpr Subsystem subsystem = Subsystem::gyro;
   static constexpr auto params =
       join(per_axis<"D_I">(unit::deg_per_h_per_g, normal(0.0, 2.0), "w_l, times a_I"),
            per_axis<"D_O">(unit::deg_per_h_per_g, normal(0.0, 0.3), "w_l, times a_O"),

@@ -13,6 +13,7 @@ struct GimbalAngleDrift {
       "w_l,i += G_c_i cos(theta_k) + G_s_i sin(theta_k),  k = G_gimbal (1 outer, 2 middle, 3 "
       "inner)";
   static constexpr std::string_view source = "physics.md 4, no. 17: 0.002 to 0.02 deg/h";
+  static constexpr Subsystem subsystem = Subsystem::gyro;
   static constexpr Prior prior = normal(0.0, 0.01);
   static constexpr auto params =
       join(per_axis<"G_c">(unit::deg_per_h, prior, "w_l, times the cosine of the gimbal angle"),

@@ -14,6 +14,7 @@ struct GimbalNonorthogonality {
       "outer += (nonorth_1 sin m - nonorth_2) / cos m,  inner += (nonorth_2 sin m - nonorth_1) / "
       "cos m";
   static constexpr std::string_view source = "physics.md 4, no. 42: 5 to 30 arcsec";
+  static constexpr Subsystem subsystem = Subsystem::resolvers;
   static constexpr auto params = join(
       single<"nonorth_1">(unit::arcsec, normal(0.0, 15.0), "gimbal angles, outer to middle axis"),
       single<"nonorth_2">(unit::arcsec, normal(0.0, 15.0), "gimbal angles, middle to inner axis"));

@@ -11,6 +11,7 @@ struct GyroMisalignment {
   static constexpr std::string_view equation = "row i of C_gp = e_i + eta_i e_S + xi_i e_O";
   static constexpr std::string_view source =
       "Fu, Shao, Deng, Control and Decision 17(3), 2002, eqs. (1) to (6); physics.md 1.1";
+  static constexpr Subsystem subsystem = Subsystem::gyro;
   static constexpr auto params = join(
       per_axis<"eta">(unit::arcsec, normal(0.0, 200.0), "C_gp, tilt of IA toward the spin axis"),
       per_axis<"xi">(unit::arcsec, normal(0.0, 200.0), "C_gp, tilt of IA toward the output axis"));

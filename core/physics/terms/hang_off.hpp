@@ -14,6 +14,7 @@ struct HangOff {
   static constexpr std::string_view equation =
       "delta_p = sum over gimbals k of H_k sin(theta_k) e_k + H_u x a";
   static constexpr std::string_view source = "physics.md 1.5 and 4, no. 25: 1 to 20 arcsec";
+  static constexpr Subsystem subsystem = Subsystem::servo;
   static constexpr auto params =
       join(per_gimbal<"H">(unit::arcsec, normal(0.0, 5.0), "attitude offset, flex leads"),
            per_axis<"H_u">("arcsec/g"_unit, normal(0.0, 5.0), "attitude offset, unbalance"));

@@ -13,6 +13,7 @@ struct LatitudeError {
   static constexpr std::string_view equation =
       "w_ip += -R_lp^T d_lat Omega (-sin lat, 0, cos lat);  true latitude = lat + d_lat";
   static constexpr std::string_view source = "physics.md 4, no. 34: 10 arcsec is 7e-4 deg/h";
+  static constexpr Subsystem subsystem = Subsystem::site;
   static constexpr auto params =
       single<"d_lat">(unit::arcsec, normal(0.0, 20.0), "apparent platform rate");
   static constexpr Needs needs{.clock = true, .attitude = true};

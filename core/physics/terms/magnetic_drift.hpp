@@ -11,6 +11,7 @@ struct MagneticDrift {
   static constexpr std::string_view equation = "w_l,i += M_i B_I,  B_p = R_lp^T B_l";
   static constexpr std::string_view source =
       "physics.md 4, no. 18: 0.002 to 0.02 deg/h/gauss, 0.5 gauss, dip 62 deg at Harbin";
+  static constexpr Subsystem subsystem = Subsystem::gyro;
   static constexpr auto params =
       per_axis<"M">("deg/h/gauss"_unit, normal(0.0, 0.01), "w_l, times the field along IA");
   static constexpr Needs needs{.field = true};

@@ -13,6 +13,7 @@ struct MassUnbalanceStep {
       "w_l,i += dD_I_i a_I (1 + tanh((t - dD_t0) / 120 s)) / 2";
   static constexpr std::string_view source =
       "physics.md 4, no. 6: 0.01 to 0.4 deg/h/g; Miller & Feldman, J. Spacecraft 1968";
+  static constexpr Subsystem subsystem = Subsystem::gyro;
   static constexpr auto params = join(
       per_axis<"dD_I">(unit::deg_per_h_per_g, normal(0.0, 0.2), "w_l, times a_I after the step"),
       profiled<"dD_t0">(ParamKind::nonlinear, unit::hour, 6.0,

@@ -10,6 +10,7 @@ struct MisalignmentCreep {
   static constexpr std::string_view title = "creep of the gyro misalignment";
   static constexpr std::string_view equation = "row i of C_gp += (eta_t_i e_S + xi_t_i e_O) t";
   static constexpr std::string_view source = "physics.md 4, no. 33: 0.5 to 5 arcsec/h";
+  static constexpr Subsystem subsystem = Subsystem::gyro;
   static constexpr auto params = join(per_axis<"eta_t">("arcsec/h"_unit, normal(0.0, 3.0),
                                                         "C_gp, creep of IA toward the spin axis"),
                                       per_axis<"xi_t">("arcsec/h"_unit, normal(0.0, 3.0),

@@ -12,6 +12,7 @@ struct Outliers {
   static constexpr std::string_view equation =
       "with probability outlier_rate, a sample += normal(0, outlier_size) times its noise";
   static constexpr std::string_view source = "physics.md 4, no. 50";
+  static constexpr Subsystem subsystem = Subsystem::recording;
   static constexpr auto params =
       join(single<"outlier_rate">(unit::one, fixed(0.002), "probability that a sample is wrong",
                                   ParamKind::noise),

@@ -14,6 +14,7 @@ struct OutputAxisAcceleration {
   static constexpr std::string_view equation = "delta_p,i = -J_i w_ip,O  (J = J_O/H)";
   static constexpr std::string_view source =
       "physics.md 2.1 and 4, no. 29: J_O/H 1e-4 to 1e-3 s; IEEE 292";
+  static constexpr Subsystem subsystem = Subsystem::gyro;
   static constexpr auto params =
       per_axis<"J">("ms"_unit, normal(0.0, 0.5), "attitude offset, times -w_ip along OA");
 

@@ -14,6 +14,7 @@ struct PierAzimuth {
   static constexpr std::string_view equation =
       "case turn about Up: turn_c cos(2 pi t / turn_T) + turn_s sin(2 pi t / turn_T)";
   static constexpr std::string_view source = "physics.md 4, no. 38: 1 to 5 arcsec in 24 h";
+  static constexpr Subsystem subsystem = Subsystem::site;
   static constexpr Prior prior = normal(0.0, 3.0);
   static constexpr auto params =
       join(single<"turn_c">(unit::arcsec, prior, "case turn about Up, cosine"),

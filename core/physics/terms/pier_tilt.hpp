@@ -16,6 +16,7 @@ struct PierTilt {
       "case tilt about North and West: tilt_c cos(2 pi t / tilt_T) + tilt_s sin(2 pi t / tilt_T)";
   static constexpr std::string_view source =
       "physics.md 4, no. 37: 5 to 10 arcsec in 24 h; NASA TN D-3683";
+  static constexpr Subsystem subsystem = Subsystem::site;
   static constexpr Prior prior = normal(0.0, 5.0);
   static constexpr auto params =
       join(single<"tilt_c_n">(unit::arcsec, prior, "case tilt about North, cosine"),

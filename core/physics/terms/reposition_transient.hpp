@@ -16,6 +16,7 @@ struct RepositionTransient {
   static constexpr std::string_view source =
       "physics.md 4, no. 3: 0.005 to 0.1 deg/h/g, tau 5 to 20 min; ASME J. Appl. Mech. 24 (1957) "
       "506";
+  static constexpr Subsystem subsystem = Subsystem::gyro;
   static constexpr auto params =
       join(per_axis<"R">(unit::deg_per_h_per_g, normal(0.0, 0.05), "w_l, times the change of a_I"),
            profiled<"R_tau">(ParamKind::nonlinear, unit::minute, 10.0, {5.0, 8.0, 12.0, 20.0},

@@ -13,6 +13,7 @@ struct Sag {
   static constexpr std::string_view equation =
       "f -> f + f x delta,  delta = (C_sag_x a_y, C_sag_y a_z, C_sag_z a_x)";
   static constexpr std::string_view source = "physics.md 4, no. 16: 1 to 10 arcsec/g";
+  static constexpr Subsystem subsystem = Subsystem::structure;
   static constexpr auto params = per_axis<"C_sag">("arcsec/g"_unit, normal(0.0, 5.0),
                                                    "accelerometer output, tilt of the block");
 

@@ -12,6 +12,7 @@ struct ServoLag {
   static constexpr std::string_view equation = "delta_p,i = -L_i w_cp,i";
   static constexpr std::string_view source =
       "physics.md 4, no. 27: 0.01 arcsec of viscous friction to some arcsec at 0.5 deg/s";
+  static constexpr Subsystem subsystem = Subsystem::servo;
   static constexpr auto params =
       per_axis<"L">("ms"_unit, normal(0.0, 1.0), "attitude offset, times -w_cp");
 

@@ -16,6 +16,7 @@ struct Stiction {
       "delta_p = -sum over k of F_k T_k e_k,  dT_k/dtheta_k = (sgn theta_k' - T_k) / F_turn";
   static constexpr std::string_view source =
       "physics.md 4, no. 26: Tc c/(K H) 2 to 10 arcsec; Tc 2e-3 to 1e-2 N m over 10 to 100 N m/rad";
+  static constexpr Subsystem subsystem = Subsystem::servo;
   static constexpr auto params =
       join(per_gimbal<"F">(unit::arcsec, normal(0.0, 5.0), "attitude offset, friction of a gimbal"),
            profiled<"F_turn">(ParamKind::nonlinear, unit::arcsec, 40.0, {10.0, 40.0, 150.0},
@@ -26,11 +27,11 @@ struct Stiction {
 
   template <class S>
   static void start(const PathStep&, const S*, S* T) {
-    for (int k = 0; k < 3; ++k) T[k] = S(0.0);
+    start_friction(T);
   }
   template <class S>
   static void advance(const PathStep& along, const S* p, S* T) {
-    for (int k = 0; k < 3; ++k) T[k] = dahl(T[k], along.turned[k], friction_turn(p[3]));
+    advance_friction(along, p[3], T);
   }
   template <class S>
   static void attitude_offset(const Inputs<S>& in, const S* p, const S* T, Vec3T<S>& delta_p) {

@@ -10,6 +10,7 @@ struct TemperatureDrift {
   static constexpr std::string_view title = "temperature coefficient of the fixed drift";
   static constexpr std::string_view equation = "w_l,i += kT_i dT";
   static constexpr std::string_view source = "physics.md 4, no. 4: 0.002 to 0.05 deg/h/degC";
+  static constexpr Subsystem subsystem = Subsystem::gyro;
   static constexpr auto params = per_axis<"kT">("deg/h/degC"_unit, normal(0.0, 0.03),
                                                 "w_l, times the deviation of temperature");
   static constexpr Needs needs{.temperature = true};

@@ -10,6 +10,7 @@ struct TemperatureGDrift {
   static constexpr std::string_view title = "temperature coefficient of the g-sensitive drift";
   static constexpr std::string_view equation = "w_l,i += (kT_I_i a_I + kT_S_i a_S) dT";
   static constexpr std::string_view source = "physics.md 4, no. 5: 0.005 to 0.05 deg/h/g/degC";
+  static constexpr Subsystem subsystem = Subsystem::gyro;
   static constexpr Prior prior = normal(0.0, 0.03);
   static constexpr auto params =
       join(per_axis<"kT_I">("deg/h/g/degC"_unit, prior, "w_l, times a_I dT"),

@@ -13,6 +13,7 @@ struct TimingSkew {
   static constexpr std::string_view equation = "gimbal_k += skew theta_k'";
   static constexpr std::string_view source =
       "physics.md 4, no. 44: 0.1 s is 1.5 arcsec in free drift, 10 ms is 18 arcsec at 0.5 deg/s";
+  static constexpr Subsystem subsystem = Subsystem::resolvers;
   static constexpr auto params =
       single<"skew">("ms"_unit, normal(0.0, 50.0), "gimbal angles, times their rates");
   static constexpr Needs needs{.gimbals = true};

@@ -12,6 +12,7 @@ struct TorquerAsymmetry {
   static constexpr std::string_view title = "torquer scale factor asymmetry";
   static constexpr std::string_view equation = "w_md,i += -s_a_i |w_cmd,i|";
   static constexpr std::string_view source = "physics.md 2.1 and 4, no. 19: 10 to 100 ppm";
+  static constexpr Subsystem subsystem = Subsystem::torquer;
   static constexpr auto params =
       per_axis<"s_a">(unit::ppm, normal(0.0, 100.0), "w_md, times -|w_cmd|");
 

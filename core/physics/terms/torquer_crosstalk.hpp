@@ -13,6 +13,7 @@ struct TorquerCrosstalk {
       "w_md,i += -(X_S_i w_cmd,S + X_O_i w_cmd,O), the commands along the gyro's spin and output "
       "axes";
   static constexpr std::string_view source = "physics.md 1.7 and 4, no. 22: 5 to 50 ppm";
+  static constexpr Subsystem subsystem = Subsystem::torquer;
   static constexpr auto params = join(
       per_axis<"X_S">(unit::ppm, normal(0.0, 50.0), "w_md, times -w_cmd along the spin axis"),
       per_axis<"X_O">(unit::ppm, normal(0.0, 50.0), "w_md, times -w_cmd along the output axis"));

@@ -15,6 +15,7 @@ struct TorquerHeating {
       "the start";
   static constexpr std::string_view source =
       "physics.md 4, no. 21: 0.01 to 0.1 deg/h after a slew, tau 10 to 30 min";
+  static constexpr Subsystem subsystem = Subsystem::torquer;
   static constexpr auto params =
       join(per_axis<"heat">(unit::deg_per_h, normal(0.0, 0.05), "w_l, after a slew of 90 deg"),
            profiled<"heat_tau">(ParamKind::nonlinear, unit::minute, 15.0, {8.0, 12.0, 20.0, 30.0},

@@ -13,6 +13,7 @@ struct TorquerNonlinearity {
   static constexpr std::string_view equation = "w_md,i += -s_2_i w_cmd,i |w_cmd,i| / (0.5 deg/s)";
   static constexpr std::string_view source =
       "physics.md 2.1 and 4, no. 20: 50 to 200 ppm of full scale";
+  static constexpr Subsystem subsystem = Subsystem::torquer;
   static constexpr auto params =
       per_axis<"s_2">(unit::ppm, normal(0.0, 150.0), "w_md, times -w_cmd |w_cmd|");
   static constexpr double full_scale = 0.5 * detail::deg;  // [rad/s]

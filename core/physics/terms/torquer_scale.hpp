@@ -10,6 +10,7 @@ struct TorquerScale {
   static constexpr std::string_view title = "torquer scale factor error";
   static constexpr std::string_view equation = "w_md,i = -(1 + s_i) w_cmd,i";
   static constexpr std::string_view source = "physics.md 1.1 and 2.1";
+  static constexpr Subsystem subsystem = Subsystem::torquer;
   static constexpr auto params =
       per_axis<"s">(unit::ppm, normal(0.0, 1000.0), "w_md, times -w_cmd");
 

@@ -88,7 +88,7 @@ TEST(BlindStudy, WhatIsHiddenHasTheSizeThatWasAskedFor) {
   const ScratchFolder scratch;
   const std::string folder = scratch.file("out");
   make_trials(study_in(scratch), folder, 1);
-  for (const KeyEntry& k : key_of(text_of(folder + "/key.json")).entries) {
+  for (const KeyEntry& k : read_key(text_of(folder + "/key.json")).entries) {
     switch (k.plan.stratum) {
       case Stratum::null:
         EXPECT_TRUE(k.effects.empty());

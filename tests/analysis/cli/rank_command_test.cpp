@@ -65,7 +65,9 @@ TEST(RankCommand, RanksBothEquationsSideBySide) {
       last = p["learning_ratio"].get<double>();
       EXPECT_NEAR(p["posterior_sigma"].get<double>(), last * p["prior_sigma"].get<double>(),
                   1e-9 * p["prior_sigma"].get<double>());
-      if (p["key"] == "D_I_z") EXPECT_DOUBLE_EQ(p["nominal"].get<double>(), 1.45);
+      if (p["key"] == "D_I_z") {
+        EXPECT_DOUBLE_EQ(p["nominal"].get<double>(), 1.45);
+      }
     }
     EXPECT_LE(last, 1.0 + 1e-12);
     for (const Json& p : model["information"]["positions"]) bits += p["bits"].get<double>();

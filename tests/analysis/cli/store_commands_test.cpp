@@ -170,6 +170,64 @@ TEST(StoreCommands, WhenAndWhyARunFailedIsInEveryExport) {
   expect_says(hdf5.out, "groups: runs summary failures\n");
 }
 
+/// What every command that reads a folder answers.
+void expect_all_refuse(const std::string& out, const std::string& words) {
+  for (const std::string& line :
+       {"status " + out, "verify " + out + " --sample 100%", "export " + out + " --format csv",
+        "replay " + out + " --run 1", "report " + out}) {
+    const Answer a = program(line);
+    EXPECT_EQ(a.code, 7) << line << a.out << a.err;
+    expect_says(a.err, words);
+  }
+}
+
+TEST(StoreCommands, NamesAndUnitsOfColumnsAreGuarded) {
+  const ScratchFolder scratch;
+  const std::string config = study_file(scratch, ""), out = scratch.file("out"),
+                    path = out + "/manifest.json";
+  const Answer run = program("run " + config + " -o " + out);
+  const std::string whole = test::text_of(path);
+  for (const auto& [from, to] :
+       {std::pair<std::string, std::string>{"made/1", "made/0"}, {"\"arcsec\"", "\"rad\""}}) {
+    std::string text = whole;
+    text.replace(text.find(from), from.size(), to);
+    scratch.write("out/manifest.json", text);
+    expect_all_refuse(out, "the file does not fit its checksum");
+    // One of the format before, which has no checksum, is compared with the study.
+    auto json = nlohmann::ordered_json::parse(text);
+    json["format"] = 1;
+    json.erase("checksum");
+    scratch.write("out/manifest.json", json.dump(1));
+    expect_all_refuse(out, "study point 0 has other columns");
+  }
+  // The way out that the message names.
+  EXPECT_EQ(program("run " + config + " -o " + out).code, 7);
+  fs::rename(path, scratch.file("moved"));
+  const Answer again = program("run " + config + " -o " + out);
+  EXPECT_EQ(again.out, run.out);
+  expect_says(again.err, "200 runs stored before, 0 executed");
+  EXPECT_EQ(program("verify " + out).code, 0);
+}
+
+TEST(StoreCommands, ADamagedStudyFileIsMendedByTheSameCommandAndKept) {
+  const ScratchFolder scratch;
+  const std::string config = study_file(scratch, ""), out = scratch.file("out");
+  const Answer run = program("run " + config + " -o " + out);
+  const std::string whole = test::text_of(out + "/study.toml");
+  for (const std::string& damaged : {whole.substr(0, whole.size() / 2), std::string("\xff\xfe"),
+                                     whole + "[readout]\ngimbals = false\n"}) {
+    scratch.write("out/study.toml", damaged);
+    expect_all_refuse(out, "Run the same command again: it is written anew");
+    const Answer again = program("run " + config + " -o " + out);
+    EXPECT_EQ(again.out, run.out) << again.err;
+    expect_says(again.err, "study.toml was not that of the study: written anew");
+    EXPECT_EQ(test::text_of(out + "/study.toml"), whole);
+    EXPECT_EQ(test::text_of(out + "/study.toml.damaged-1"), damaged);
+    EXPECT_EQ(program("verify " + out).code, 0);
+    fs::remove(out + "/study.toml.damaged-1");
+  }
+}
+
 TEST(StoreCommands, OnlyRunsOfTheStudyAreReplayed) {
   const ScratchFolder scratch;
   const std::string config = study_file(scratch, ""), out = scratch.file("out");

@@ -98,7 +98,7 @@ TEST(StudyCommands, TheReportIsMadeAnewAndAFolderOfAnotherCommandIsRefused) {
   EXPECT_EQ(program("verify " + out).code, 0);
   const std::string ranked = scratch.file("ranked");
   std::filesystem::create_directories(ranked);
-  scratch.write("ranked/rank.json", "{}");
+  scratch.write("ranked/rank.json", R"({"schema": 1, "linearised_at": "prior means"})");
   EXPECT_EQ(program("run " + config + " -o " + ranked).code, 7);
   const Answer lost = program("report " + ranked);
   EXPECT_EQ(lost.code, 7);

@@ -1,8 +1,9 @@
 // Advice on request, followed: what a plan conceals is named once the advised positions are added.
 #include <gtest/gtest.h>
 
-#include "analysis/diagnosis/advise.hpp"
+#include "analysis/diagnosis/advice/advise.hpp"
 #include "analysis/diagnosis/diagnose.hpp"
+#include "analysis/report/diagnosis/sentence.hpp"
 #include "core/sim/measurements.hpp"
 #include "core/sim/simulate.hpp"
 #include "tests/support/model_builders.hpp"
@@ -50,7 +51,7 @@ TEST(AdviceFollowed, AnEffectThatThePlanConcealsIsNamedWithTheAdvisedPositions) 
   mc::Study s = heated_study();
   Recording recording;
   const Diagnosis concealed = diagnosed(s, &recording);
-  ASSERT_EQ(concealed.verdict, Verdict::consistent) << concealed.sentence;
+  ASSERT_EQ(concealed.verdict, Verdict::consistent) << report::sentence(concealed);
   const auto advice =
       advise(s, {recording}, concealed, {.asked = std::vector<std::string>{"torquer_heating"}});
   ASSERT_FALSE(advice.empty());
@@ -62,8 +63,8 @@ TEST(AdviceFollowed, AnEffectThatThePlanConcealsIsNamedWithTheAdvisedPositions) 
   s.plan.positions.insert(s.plan.positions.end(), advice.front().plan.begin(),
                           advice.front().plan.end());
   const Diagnosis seen = diagnosed(s);
-  ASSERT_EQ(seen.verdict, Verdict::named) << seen.sentence;
-  ASSERT_EQ(seen.causes.size(), 1u) << seen.sentence;
+  ASSERT_EQ(seen.verdict, Verdict::named) << report::sentence(seen);
+  ASSERT_EQ(seen.causes.size(), 1u) << report::sentence(seen);
   EXPECT_EQ(seen.causes[0].term, "torquer_heating");
   EXPECT_EQ(seen.causes[0].axis, "y");
   const search::CauseParameter& found = seen.causes[0].parameters.front();

@@ -1,12 +1,11 @@
-#include "analysis/diagnosis/advise.hpp"
+#include "analysis/diagnosis/advice/advise.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <set>
 
-#include "analysis/diagnosis/alternatives.hpp"
-#include "analysis/planning/position_pool.hpp"
+#include "analysis/diagnosis/advice/alternatives.hpp"
+#include "analysis/report/diagnosis/advice_words.hpp"
 #include "core/base/check.hpp"
 #include "core/sim/measurements.hpp"
 #include "core/sim/simulate.hpp"
@@ -15,6 +14,8 @@
 namespace drift::diagnosis {
 namespace {
 
+using report::advice_text;
+using report::advised_labels;
 using test::param;
 
 /// Six caged positions with the Earth rate torqued: blind to lambda (physics.md 1.7).
@@ -48,24 +49,6 @@ search::Cause cause(std::string_view term, std::string_view key, double value, i
   return c;
 }
 
-TEST(PositionPool, HoldsPossiblePositionsOfEveryKind) {
-  const auto pool = planning::position_pool(600.0, 60.0, test::harbin);
-  std::set<std::string> names;
-  std::size_t slews = 0, level = 0, turned = 0;
-  for (const planning::Addition& a : pool) {
-    EXPECT_TRUE(names.insert(a.back().name).second) << a.back().name;
-    EXPECT_NEAR((a.back().R_lp * a.back().R_lp.transpose() - Mat3::Identity()).norm(), 0.0, 1e-12);
-    EXPECT_EQ(a.front().entry, Entry::caged);
-    slews += a.size() == 2 ? 1 : 0;
-    level += a.back().mode == CommandLaw::level ? 1 : 0;
-    turned += a.back().axes.size() > 11 ? 1 : 0;
-  }
-  EXPECT_GT(slews, 20u);
-  EXPECT_GT(turned, 40u);
-  EXPECT_GT(level, pool.size() / 3);
-  EXPECT_GT(pool.size(), 100u);
-}
-
 TEST(Advise, SaysNothingWhereNothingIsToBeSeparated) {
   const mc::Study s = level_study();
   Diagnosis d;
@@ -86,13 +69,13 @@ TEST(Advise, ATestBlindToTheEquationIsGivenPositionsThatTellAndASimulationAgrees
   const auto advice = advise(s, {simulated(s)}, d);
   ASSERT_EQ(advice.size(), 1u);
   const Advice& a = advice.front();
-  EXPECT_LT(a.now_sigma, 5.0) << a.text;
-  EXPECT_GT(a.expected_sigma, 5.0) << a.text;
+  EXPECT_LT(a.now_sigma, 5.0) << advice_text(a);
+  EXPECT_GT(a.expected_sigma, 5.0) << advice_text(a);
   EXPECT_FALSE(a.plan.empty());
   // Twice the gain of the log likelihood is non-central chi-square: its root is expected_sigma +-
   // 1, and what is not linear in lambda and eta takes its part of a large one.
-  EXPECT_NEAR(a.verified_sigma, a.expected_sigma, 4.0 + 0.1 * a.expected_sigma) << a.text;
-  EXPECT_NE(a.text.find("eq. (5)"), std::string::npos);
+  EXPECT_NEAR(a.verified_sigma, a.expected_sigma, 4.0 + 0.1 * a.expected_sigma) << advice_text(a);
+  EXPECT_NE(advice_text(a).find("eq. (5)"), std::string::npos);
 }
 
 TEST(Advise, SeparatesAlternativesThatLookAlike) {
@@ -107,10 +90,11 @@ TEST(Advise, SeparatesAlternativesThatLookAlike) {
   const auto advice = advise(s, {simulated(s)}, d);
   ASSERT_EQ(advice.size(), 1u);
   const Advice& a = advice.front();
-  EXPECT_EQ(a.separates, (std::vector<std::string>{"g2_drift (D_IS_x)", "g2_drift (D_IO_y)"}));
+  EXPECT_EQ(advised_labels(a),
+            (std::vector<std::string>{"g2_drift (D_IS_x)", "g2_drift (D_IO_y)"}));
   EXPECT_GT(a.expected_sigma, a.now_sigma);
-  EXPECT_GT(a.expected_sigma, 5.0) << a.text;
-  EXPECT_NEAR(a.verified_sigma, a.expected_sigma, 4.0 + 0.1 * a.expected_sigma) << a.text;
+  EXPECT_GT(a.expected_sigma, 5.0) << advice_text(a);
+  EXPECT_NEAR(a.verified_sigma, a.expected_sigma, 4.0 + 0.1 * a.expected_sigma) << advice_text(a);
 }
 
 AdviseOptions asking(std::vector<std::string> terms = {}) {
@@ -125,12 +109,12 @@ TEST(Advise, OnRequestAnEffectThatThePlanHidesGetsAPositionAndASimulationAgrees)
   const auto advice = advise(s, {simulated(s)}, d, asking({"torquer_heating.x"}));
   ASSERT_FALSE(advice.empty());
   const Advice& a = advice.front();
-  EXPECT_LT(a.now_sigma, 1.0) << a.text;
-  ASSERT_FALSE(a.plan.empty()) << a.text;
-  EXPECT_GT(a.expected_sigma, 8.0) << a.text;
-  EXPECT_NEAR(a.verified_sigma, a.expected_sigma, 4.0 + 0.1 * a.expected_sigma) << a.text;
-  EXPECT_NE(a.text.find("torquer_heating.x"), std::string::npos) << a.text;
-  EXPECT_NE(a.text.find("at one prior sigma"), std::string::npos) << a.text;
+  EXPECT_LT(a.now_sigma, 1.0) << advice_text(a);
+  ASSERT_FALSE(a.plan.empty()) << advice_text(a);
+  EXPECT_GT(a.expected_sigma, 8.0) << advice_text(a);
+  EXPECT_NEAR(a.verified_sigma, a.expected_sigma, 4.0 + 0.1 * a.expected_sigma) << advice_text(a);
+  EXPECT_NE(advice_text(a).find("torquer_heating.x"), std::string::npos) << advice_text(a);
+  EXPECT_NE(advice_text(a).find("at one prior sigma"), std::string::npos) << advice_text(a);
 }
 
 TEST(Advise, OnRequestAConsistentRecordingIsToldWhatItsPlanHides) {
@@ -140,18 +124,32 @@ TEST(Advise, OnRequestAConsistentRecordingIsToldWhatItsPlanHides) {
   d.other_equation_gain = -0.3;
   const auto advice = advise(s, {simulated(s)}, d, asking());
   ASSERT_GE(advice.size(), 2u);
-  const auto& seen = advice.front().separates;
+  const auto seen = advised_labels(advice.front());
   EXPECT_FALSE(advice.front().plan.empty());
   EXPECT_TRUE(std::any_of(seen.begin(), seen.end(),
                           [](const std::string& l) { return l.starts_with("torquer_heating.x"); }));
   EXPECT_NE(std::find(seen.begin(), seen.end(), "eq. (6)"), seen.end());
   // What no position shows is said apart, without a plan.
   EXPECT_TRUE(advice.back().plan.empty());
-  EXPECT_NE(advice.back().text.find("possible additions show"), std::string::npos)
-      << advice.back().text;
-  for (const std::string& label : advice.back().separates)
-    if (label != "the nominal model")
+  EXPECT_NE(advice_text(advice.back()).find("possible additions show"), std::string::npos)
+      << advice_text(advice.back());
+  for (const std::string& label : advised_labels(advice.back()))
+    if (label != "the nominal model") {
       EXPECT_EQ(std::find(seen.begin(), seen.end(), label), seen.end()) << label;
+    }
+}
+
+TEST(Advise, ANamedCauseThatFollowsTheTemperatureIsNotAskedOfPositions) {
+  const mc::Study s = level_study();
+  Diagnosis d;
+  d.nominal = s.filters.front();
+  d.verdict = Verdict::named;
+  d.causes = {cause("temperature_drift", "kT_x", 0.1, 0)};
+  d.causes.front().confusable_with = {{"drift_ramp", "x", 0.99}};
+  const auto advice = advise(s, {simulated(s)}, d, asking());
+  ASSERT_EQ(advice.size(), 1u);
+  EXPECT_EQ(advice.front().kind, Advice::Kind::temperature);
+  EXPECT_TRUE(advice.front().plan.empty());
 }
 
 TEST(Advise, TwinsAreGivenNoFutilePosition) {
@@ -167,15 +165,17 @@ TEST(Advise, TwinsAreGivenNoFutilePosition) {
   ASSERT_EQ(advice.size(), 1u);
   EXPECT_TRUE(advice.front().plan.empty());
   EXPECT_NE(
-      advice.front().text.find(
-          "No position of the pool separates accelerometer_cross (K_oo_y) and sag.z (C_sag_z)"),
+      advice_text(advice.front())
+          .find(
+              "No position of the pool separates accelerometer_cross (K_oo_y) and sag.z (C_sag_z)"),
       std::string::npos)
-      << advice.front().text;
+      << advice_text(advice.front());
   // K_po has no twin: it is not called one.
   d.causes = {cause("accelerometer_cross", "K_po_y", 60.0, 0)};
   d.causes.front().confusable_with = {{"sag", "z", 0.6}};
   for (const Advice& a : advise(s, {simulated(s)}, d, asking()))
-    EXPECT_EQ(a.text.find("No position of the pool separates"), std::string::npos) << a.text;
+    EXPECT_EQ(advice_text(a).find("No position of the pool separates"), std::string::npos)
+        << advice_text(a);
 }
 
 TEST(Advise, TwinsOfAnAmbiguousVerdictAreSaidToBeTwins) {
@@ -187,8 +187,8 @@ TEST(Advise, TwinsOfAnAmbiguousVerdictAreSaidToBeTwins) {
   const auto advice = advise(s, {simulated(s)}, d);
   ASSERT_EQ(advice.size(), 1u);
   EXPECT_TRUE(advice.front().plan.empty());
-  EXPECT_NE(advice.front().text.find("Another measurement is needed"), std::string::npos)
-      << advice.front().text;
+  EXPECT_NE(advice_text(advice.front()).find("Another measurement is needed"), std::string::npos)
+      << advice_text(advice.front());
 }
 
 TEST(Advise, WhatGrowsWithTimeIsAskedAtTheTimeTheAdditionWouldHave) {
@@ -202,8 +202,8 @@ TEST(Advise, WhatGrowsWithTimeIsAskedAtTheTimeTheAdditionWouldHave) {
              {.most = 1, .wanted = 50.0, .asked = std::vector<std::string>{"drift_ramp.x"}});
   ASSERT_FALSE(advice.empty());
   const Advice& a = advice.front();
-  ASSERT_FALSE(a.plan.empty()) << a.text;
-  EXPECT_NEAR(a.verified_sigma, a.expected_sigma, 2.0) << a.text;  // two of its sigmas
+  ASSERT_FALSE(a.plan.empty()) << advice_text(a);
+  EXPECT_NEAR(a.verified_sigma, a.expected_sigma, 2.0) << advice_text(a);  // two of its sigmas
 }
 
 TEST(Advise, TermsThatCannotBeAskedForAreSaidAllAtOnce) {
@@ -235,7 +235,7 @@ TEST(Advise, OnRequestAnUnexplainedMisfitIsToldWhichPositionToRepeat) {
   d.where.positions = {share};
   const auto advice = advise(s, {simulated(s)}, d, asking());
   ASSERT_EQ(advice.size(), 1u);
-  EXPECT_NE(advice.front().text.find("Repeat position 3"), std::string::npos);
+  EXPECT_NE(advice_text(advice.front()).find("Repeat position 3"), std::string::npos);
 }
 
 TEST(Advise, WhatFollowsTheTemperatureIsNotAskedOfPositions) {

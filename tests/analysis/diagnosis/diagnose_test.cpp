@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "analysis/report/diagnosis/sentence.hpp"
 #include "tests/support/model_builders.hpp"
 
 namespace drift::diagnosis {
@@ -41,13 +42,13 @@ Diagnosis run(const Case& c, FoldMethod folds = FoldMethod::linear) {
   static const Readout readout;
   DiagnoseOptions options;
   options.folds = folds;
-  options.signals = true;
+  options.signals = Signals::recovered;
   return diagnose(c.nominal, {c.timeline, readout, c.measured}, {}, {}, options);
 }
 
 TEST(Diagnose, NothingIsFoundWhereNothingIsHidden) {
   const Diagnosis d = run(make_case("twelve", "", 0.0, Coupling::eq5, 3600.0, 180.0));
-  EXPECT_EQ(d.verdict, Verdict::consistent) << d.sentence;
+  EXPECT_EQ(d.verdict, Verdict::consistent) << report::sentence(d);
   EXPECT_TRUE(d.causes.empty());
   EXPECT_FALSE(d.has_patch);
 }
@@ -55,7 +56,7 @@ TEST(Diagnose, NothingIsFoundWhereNothingIsHidden) {
 TEST(Diagnose, AConcealedDriftIsNamedWithItsSizeAndPredictsHeldOutPositions) {
   const double truth = 0.03;  // deg/h/g^2
   const Diagnosis d = run(make_case("twelve", "D_IS_x", truth, Coupling::eq5, 3600.0, 120.0));
-  ASSERT_EQ(d.verdict, Verdict::named) << d.sentence;
+  ASSERT_EQ(d.verdict, Verdict::named) << report::sentence(d);
   ASSERT_EQ(d.causes.size(), 1u);
   EXPECT_EQ(d.causes[0].term, "g2_drift");
   EXPECT_EQ(d.causes[0].axis, "x");
@@ -76,11 +77,12 @@ TEST(Diagnose, AConcealedDriftIsNamedWithItsSizeAndPredictsHeldOutPositions) {
 
 TEST(Diagnose, TorquerScaleIsFoundWhereTheTestSlewsBesideTheNonlinearityOneRateCannotTellFromIt) {
   const Diagnosis d = run(make_case("slew12", "s_y", 30.0, Coupling::eq5, 900.0, 90.0));
-  ASSERT_TRUE(d.verdict == Verdict::named || d.verdict == Verdict::ambiguous) << d.sentence;
+  ASSERT_TRUE(d.verdict == Verdict::named || d.verdict == Verdict::ambiguous)
+      << report::sentence(d);
   EXPECT_LE(d.causes.size(), 2u);
   EXPECT_TRUE(std::ranges::any_of(d.causes, [](const search::Cause& c) {
     return c.term == "torquer_scale" && c.axis == "y";
-  })) << d.sentence;
+  })) << report::sentence(d);
 }
 
 TEST(Diagnose, HeldOutByRefitAgreesWithHeldOutByConditioning) {
@@ -96,7 +98,7 @@ TEST(Diagnose,
      TheSignatureOfTheCauseIsTheRecoveredSignalEvenWhereParametersHadTakenItUpAgainstTheirPriors) {
   // On six positions D_SS_x looks like drifts and misalignments far outside their priors.
   const Diagnosis d = run(make_case("six", "D_SS_x", 0.3, Coupling::eq5, 1200.0));
-  ASSERT_EQ(d.verdict, Verdict::named) << d.sentence;
+  ASSERT_EQ(d.verdict, Verdict::named) << report::sentence(d);
   ASSERT_FALSE(d.signals.empty());
   const RecoveredSignal& s = d.signals.front();
   double both = 0.0, found = 0.0, explained = 0.0;
@@ -113,7 +115,7 @@ TEST(Diagnose, IsRepeatable) {
   const Case c = make_case("six", "D_IS_x", 0.2, Coupling::eq5, 1800.0);
   const Diagnosis a = run(c), b = run(c);
   EXPECT_EQ(a.p_value, b.p_value);
-  EXPECT_EQ(a.sentence, b.sentence);
+  EXPECT_EQ(report::sentence(a), report::sentence(b));
 }
 
 }  // namespace

@@ -7,9 +7,12 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/diagnosis/diagnose.hpp"
-#include "analysis/diagnosis/fill_gaps.hpp"
-#include "analysis/diagnosis/prepare.hpp"
-#include "analysis/report/diagnosis/json.hpp"
+#include "analysis/diagnosis/diagnose_recordings.hpp"
+#include "analysis/preparation/fill_gaps.hpp"
+#include "analysis/preparation/prepare.hpp"
+#include "analysis/report/diagnosis/remark_words.hpp"
+#include "analysis/report/diagnosis/report.hpp"
+#include "analysis/report/diagnosis/sentence.hpp"
 #include "core/base/rng.hpp"
 #include "core/sim/simulate.hpp"
 #include "mc/study/study.hpp"
@@ -52,18 +55,17 @@ Recording made(double size, std::uint64_t run) {
 constexpr double hidden = 0.3;
 
 Diagnosis diagnosed(const std::vector<Recording>& recordings, int threads = 0) {
-  const Prepared p = prepare(study(), recordings);
-  DiagnoseOptions options;
-  options.threads = threads;
-  Diagnosis d = diagnose(p.study, p.recordings, options);
-  d.remarks.insert(d.remarks.begin(), p.remarks.begin(), p.remarks.end());
+  RecordingsOptions options;
+  options.diagnose.threads = threads;
+  options.advising = Advising::left_out;
+  Diagnosis d = diagnose_recordings(study(), recordings, options);
   d.seconds.clear();  // all else is the same on every machine
   return d;
 }
 
 void expect_found(const Diagnosis& d) {
-  ASSERT_EQ(d.verdict, Verdict::named) << d.sentence;
-  ASSERT_EQ(d.causes.size(), 1u) << d.sentence;
+  ASSERT_EQ(d.verdict, Verdict::named) << report::sentence(d);
+  ASSERT_EQ(d.causes.size(), 1u) << report::sentence(d);
   EXPECT_EQ(d.causes[0].term, "g2_drift");
   EXPECT_EQ(d.causes[0].axis, "x");
   ASSERT_FALSE(d.causes[0].parameters.empty());
@@ -72,8 +74,9 @@ void expect_found(const Diagnosis& d) {
 }
 
 bool says(const Diagnosis& d, std::string_view text) {
-  return std::ranges::any_of(d.remarks,
-                             [&](const auto& r) { return r.find(text) != std::string::npos; });
+  return std::ranges::any_of(d.remarks, [&](const auto& r) {
+    return report::in_words(r).find(text) != std::string::npos;
+  });
 }
 
 /// A recording without rows [first, end).
@@ -103,8 +106,9 @@ TEST(OddInput, NoiseTenTimesAsDeclaredIsSaidAndMakesNoOutliersButASpikeIsStillOn
   options.whiteness_draws = 0;
   const auto outliers = [&](const Recording& r) {
     const Diagnosis d = diagnose(s, {r}, options);
-    EXPECT_EQ(d.verdict, Verdict::consistent) << d.sentence;
-    EXPECT_NE(d.sentence.find("times as declared"), std::string::npos) << d.sentence;
+    EXPECT_EQ(d.verdict, Verdict::consistent) << report::sentence(d);
+    EXPECT_NE(report::sentence(d).find("times as declared"), std::string::npos)
+        << report::sentence(d);
     std::size_t count = 0;
     for (const inference::NoiseFinding& f : d.noise)
       if (f.component == "outliers") count += f.count;
@@ -140,7 +144,7 @@ TEST(OddInput, RowsThatAreMissingWithinAPositionAreBridged) {
   EXPECT_EQ(gappy.rows() + 4, whole.rows());
   std::vector<std::string> remarks;
   Recording filled = gappy;
-  fill_gaps(filled, 60.0, remarks);
+  preparation::fill_gaps(filled, 60.0, remarks);
   ASSERT_EQ(filled.rows(), whole.rows());
   EXPECT_EQ(remarks.size(), 1u);
   for (std::size_t k = 0; k < whole.rows(); ++k) {
@@ -159,7 +163,7 @@ TEST(OddInput, AGapInWhichTheCommandChangedIsNotBridged) {
       for (std::size_t k = 20; k < c.values.size(); ++k) c.values[k] = 1e-5;
   const std::size_t rows = r.rows();
   std::vector<std::string> remarks;
-  fill_gaps(r, 60.0, remarks);
+  preparation::fill_gaps(r, 60.0, remarks);
   EXPECT_EQ(r.rows(), rows);
   EXPECT_TRUE(remarks.empty());
 }
@@ -178,15 +182,16 @@ TEST(OddInput, ACovariateThatExplainsNothingIsNotBlamed) {
   expect_found(d);
   EXPECT_TRUE(std::ranges::any_of(
       d.candidates, [](const auto& c) { return c.term == "temperature_drift"; }));  // it was asked
-  for (const RecoveredSignal& s : d.signals) EXPECT_TRUE(s.best_covariate.empty()) << s.shape;
+  for (const RecoveredSignal& s : d.signals)
+    EXPECT_TRUE(s.shape.covariate.empty()) << report::shape_text(s);
 }
 
 TEST(OddInput, AWholeBaseTermThatTheNominalFilterLacksIsNamedAsOne) {
   mc::Study s = study();
   s.filters.front().active = test::only({"D_F"});
   const Diagnosis d = diagnose(s, {made(0.0, 0)});
-  ASSERT_EQ(d.verdict, Verdict::named) << d.sentence;
-  ASSERT_EQ(d.causes.size(), 1u) << d.sentence;
+  ASSERT_EQ(d.verdict, Verdict::named) << report::sentence(d);
+  ASSERT_EQ(d.causes.size(), 1u) << report::sentence(d);
   EXPECT_EQ(d.causes[0].term, "g_drift");
   EXPECT_EQ(d.causes[0].parameters.size(), 9u);
   EXPECT_NEAR(d.fit.held_out.chi2_per_dof_after, 1.0, 0.2);
@@ -198,7 +203,7 @@ TEST(OddInput, OnePositionIsDiagnosedButNothingIsHeldOut) {
   EXPECT_TRUE(says(d, "one position only"));
   EXPECT_TRUE(d.fit.held_out.folds.empty());
   EXPECT_FALSE(d.fit.held_out.improves);
-  EXPECT_EQ(d.verdict, Verdict::consistent) << d.sentence;
+  EXPECT_EQ(d.verdict, Verdict::consistent) << report::sentence(d);
 }
 
 }  // namespace

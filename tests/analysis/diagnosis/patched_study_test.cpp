@@ -1,4 +1,4 @@
-#include "analysis/diagnosis/patched_study.hpp"
+#include "analysis/diagnosis/advice/patched_study.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 
 #include "analysis/diagnosis/diagnose.hpp"
+#include "analysis/report/diagnosis/remark_words.hpp"
+#include "analysis/report/diagnosis/sentence.hpp"
 #include "core/sim/measurements.hpp"
 #include "core/sim/simulate.hpp"
 #include "tests/support/model_builders.hpp"
@@ -54,7 +56,9 @@ TEST(SiteDoubt, FindsTheLatitudeBehindAMisfit) {
     EXPECT_GT(doubt->chi2_per_dof_before, doubt->chi2_per_dof_after);
     EXPECT_NEAR(doubt->prior_sigmas, std::abs(declared - truth) * 3600.0 / 20.0, 9.0)
         << declared;  // 0.05 deg
-    EXPECT_NE(doubt->sentence.find("latitude_error would need"), std::string::npos);
+    Diagnosis told;
+    told.site_doubt = doubt;
+    EXPECT_NE(report::sentence(told).find("latitude_error would need"), std::string::npos);
   }
 }
 
@@ -71,15 +75,15 @@ TEST(SiteDoubt, TheWrongHemisphereHidesInParametersFarFromTheirPriorsAndIsStillF
   options.starts = 1;
   options.whiteness_draws = 0;
   const Diagnosis d = diagnose(s.study, {s.recording}, options);
-  EXPECT_TRUE(std::ranges::any_of(
-      d.remarks, [](const auto& r) { return r.find("D_I_x, D_I_y, D_I_z") != std::string::npos; }));
+  EXPECT_TRUE(std::ranges::any_of(d.remarks, [](const auto& r) {
+    return report::in_words(r).find("D_I_x, D_I_y, D_I_z") != std::string::npos;
+  }));
   const auto doubt = site_doubt(s.study, {s.recording}, d);
-  ASSERT_TRUE(doubt) << d.sentence;
+  ASSERT_TRUE(doubt) << report::sentence(d);
   EXPECT_NEAR(doubt->latitude / unit::deg.to_si, truth, 0.05);
   const Diagnosis right = diagnose(Scene(truth).study, {s.recording}, options);
-  EXPECT_TRUE(std::ranges::none_of(right.remarks, [](const auto& r) {
-    return r.find("their priors have them") != std::string::npos;
-  }));
+  EXPECT_TRUE(std::ranges::none_of(
+      right.remarks, [](const auto& r) { return std::holds_alternative<remark::BeyondPrior>(r); }));
 }
 
 }  // namespace

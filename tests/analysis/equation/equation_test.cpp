@@ -3,9 +3,11 @@
 
 #include <algorithm>
 
-#include "analysis/diagnosis/advise.hpp"
+#include "analysis/diagnosis/advice/advise.hpp"
+#include "analysis/diagnosis/advice/patched_study.hpp"
 #include "analysis/diagnosis/diagnose.hpp"
-#include "analysis/diagnosis/patched_study.hpp"
+#include "analysis/inference/thresholds.hpp"
+#include "analysis/report/diagnosis/sentence.hpp"
 #include "core/sim/simulate.hpp"
 #include "mc/study/study.hpp"
 #include "tests/support/model_builders.hpp"
@@ -20,7 +22,7 @@ mc::Study short_study(const std::string& name, mc::Overrides sets) {
   const std::string terms = "[\"fixed_drift\", \"g_drift\", \"gyro_misalignment\"]";
   sets.emplace_back("truth.terms", terms);
   sets.emplace_back("filter.nominal.terms", terms);
-  return mc::read_study(std::string(DRIFT_SOURCE_DIR) + "/configs/" + name, sets);
+  return mc::read_study(fmt::format("{}/configs/{}", DRIFT_SOURCE_DIR, name), sets);
 }
 
 struct Simulated {
@@ -39,20 +41,21 @@ Simulated simulated(const mc::Study& s) {
 }
 
 void expect_lambda(const diagnosis::Diagnosis& d, double truth) {
-  ASSERT_EQ(d.verdict, diagnosis::Verdict::named) << d.sentence;
-  ASSERT_EQ(d.causes.size(), 1u) << d.sentence;
+  ASSERT_EQ(d.verdict, diagnosis::Verdict::named) << report::sentence(d);
+  ASSERT_EQ(d.causes.size(), 1u) << report::sentence(d);
   EXPECT_EQ(d.causes[0].term, "frame_closure");
   const search::CauseParameter& lambda = d.causes[0].parameters.front();
   EXPECT_EQ(lambda.key, "lambda");
   EXPECT_NEAR(lambda.value, truth, 4.0 * lambda.sigma);
-  EXPECT_NE(d.sentence.find("95 % interval"), std::string::npos) << d.sentence;
+  EXPECT_NE(report::sentence(d).find("95 % interval"), std::string::npos) << report::sentence(d);
   EXPECT_TRUE(d.fit.held_out.improves);
   EXPECT_NEAR(d.fit.held_out.chi2_per_dof_after, 1.0, 0.2);
   // The candidates agree with the verdict, and cross-talk is named as the confounder.
   EXPECT_EQ(d.candidates.front().term, "frame_closure");
   EXPECT_GT(d.candidates.front().probability, 0.9);
-  EXPECT_TRUE(std::ranges::any_of(
-      d.remarks, [](const auto& r) { return r.find("Cross-talk") != std::string::npos; }));
+  EXPECT_TRUE(std::ranges::any_of(d.remarks, [](const auto& r) {
+    return std::holds_alternative<diagnosis::remark::CrosstalkMovesLambda>(r);
+  }));
 }
 
 TEST(Equation, TheOtherOneIsNamedFromSlewsAndTheParametersItHadMovedComeBack) {
@@ -88,7 +91,7 @@ TEST(Equation, MisalignmentsBeyondTheirPriorAreNoOtherEquation) {
     sets.emplace_back(std::string("truth.parameters.") + key, "400 arcsec");
   const mc::Study s = short_study("diagnose_equation.toml", sets);
   const diagnosis::Diagnosis d = diagnosis::diagnose(s, {simulated(s).recording});
-  EXPECT_EQ(d.verdict, diagnosis::Verdict::consistent) << d.sentence;
+  EXPECT_EQ(d.verdict, diagnosis::Verdict::consistent) << report::sentence(d);
 }
 
 TEST(Equation, TheOtherOneIsNamedFromFreeDrift) {
@@ -103,10 +106,11 @@ TEST(Equation, LevelPositionsCannotTellAndTheAdviceWorksWhenFollowed) {
   mc::Study s = short_study("diagnose_level.toml", {{"plan.dwell", "10 min"}});
   const Recording recording = simulated(s).recording;
   diagnosis::Diagnosis d = diagnosis::diagnose(s, {recording});
-  EXPECT_EQ(d.verdict, diagnosis::Verdict::consistent) << d.sentence;
-  EXPECT_NE(d.sentence.find("cannot tell the nominal eq. (6) from eq. (5)"), std::string::npos)
-      << d.sentence;
-  EXPECT_LT(std::abs(d.other_equation_gain), diagnosis::equation_told);
+  EXPECT_EQ(d.verdict, diagnosis::Verdict::consistent) << report::sentence(d);
+  EXPECT_NE(report::sentence(d).find("cannot tell the nominal eq. (6) from eq. (5)"),
+            std::string::npos)
+      << report::sentence(d);
+  EXPECT_LT(std::abs(d.other_equation_gain), inference::RemarkLimits::equation);
 
   const auto advice = diagnosis::advise(s, {recording}, d);
   ASSERT_EQ(advice.size(), 1u);
@@ -134,9 +138,9 @@ TEST(Equation, LambdaComesFromItsProfileWhereTheNominalEquationLetsTheMisalignme
                                                              {"filter.nominal.coupling", "eq5"}});
   diagnosis::DiagnoseOptions options;
   options.folds = diagnosis::FoldMethod::linear;
-  options.named_needs_held_out = false;
+  options.named_by = diagnosis::NamedBy::fit_alone;
   const diagnosis::Diagnosis d = diagnosis::diagnose(s, {simulated(s).recording}, options);
-  ASSERT_EQ(d.verdict, diagnosis::Verdict::named) << d.sentence;
+  ASSERT_EQ(d.verdict, diagnosis::Verdict::named) << report::sentence(d);
   EXPECT_EQ(d.causes[0].term, "frame_closure");
   const search::CauseParameter& lambda = d.causes[0].parameters.front();
   EXPECT_NEAR(lambda.value, 1.0, 0.2);

@@ -43,8 +43,8 @@ TEST(FitEitherEquation, EveryStartEndsInTheSameValleyWhereOneFitDoesNot) {
   bool alone_fails = false;
   for (std::size_t k = 0; k < starts; ++k) {
     const BatchResult both =
-        equation::fit_either_equation(s.filter, s.timeline, s.readout, s.measured, s.start(k));
-    const BatchResult alone = fit_batch(s.filter, s.timeline, s.readout, s.measured, s.start(k));
+        equation::fit_either_equation(s.filter, {s.timeline, s.readout, s.measured}, s.start(k));
+    const BatchResult alone = fit_batch(s.filter, {s.timeline, s.readout, s.measured}, s.start(k));
     EXPECT_EQ(both.estimate.status, EstimateStatus::ok) << both.estimate.cause;
     least = std::min(least, both.estimate.statistic);
     most = std::max(most, both.estimate.statistic);
@@ -62,8 +62,8 @@ TEST(FitEitherEquation, IsTheBatchFitWhereTheEquationIsKnown) {
   Scene s;
   s.filter = test::base_filter(Coupling::eq5);
   const BatchResult one =
-      equation::fit_either_equation(s.filter, s.timeline, s.readout, s.measured, s.start(0));
-  const BatchResult two = fit_batch(s.filter, s.timeline, s.readout, s.measured, s.start(0));
+      equation::fit_either_equation(s.filter, {s.timeline, s.readout, s.measured}, s.start(0));
+  const BatchResult two = fit_batch(s.filter, {s.timeline, s.readout, s.measured}, s.start(0));
   EXPECT_EQ(one.estimate.statistic, two.estimate.statistic);
 }
 

@@ -1,8 +1,9 @@
-#include "analysis/inference/noise_doubt.hpp"
+#include "analysis/inference/noise/noise_doubt.hpp"
 
 #include <gtest/gtest.h>
 
-#include "analysis/search/examination.hpp"
+#include "analysis/inference/thresholds.hpp"
+#include "analysis/search/fitted.hpp"
 #include "tests/support/model_builders.hpp"
 
 namespace drift::inference {
@@ -23,7 +24,7 @@ struct Bench {
     const Measurements measured =
         Simulator(base_truth(Coupling::eq5), readout).run(timeline, 8, 0).measured;
     const BatchResult fit =
-        fit_batch(filter, timeline, readout, measured, make_layout(filter).theta);
+        fit_batch(filter, {timeline, readout, measured}, make_layout(filter).theta);
     problem = linear_problem(filter, {timeline, readout, measured}, fit, {});
     problem.extra = MatX::Zero(problem.rows(), 3);
     for (Eigen::Index k = 0; k < problem.rows(); ++k) {
@@ -73,17 +74,17 @@ TEST(NoiseDoubt, NoiseOfAllThreeGyrosIsBelieved) {
   b.problem.r0 = Whitener(b.problem, noise).colour(z);
   const Outcome o = judged(b);
   ASSERT_TRUE(o.driven);
-  EXPECT_GT(o.doubt.p_candidate, 0.04);
-  EXPECT_GT(o.doubt.p_lone, 0.02);
+  EXPECT_GT(o.doubt.p_candidate, NoiseDoubtLimits::candidate_p);
+  EXPECT_GT(o.doubt.p_lone, NoiseDoubtLimits::lone_p);
 }
 
 TEST(LoneInput, IsFoundInItsEquation) {
   const Bench b(8.0);
   EXPECT_GT(strongest_lone_input(b.problem, {}).p_value, 0.01);  // nothing there
   for (const LoneInput& input :
-       {LoneInput{LoneInput::Equation::accelerometer, 2, 2.0 * b.problem.acc_sigma, 300.0},
-        LoneInput{LoneInput::Equation::gimbal, 0, b.problem.gimbal_sigma, 300.0},
-        LoneInput{LoneInput::Equation::rate, 1, 0.1 * deg_per_h, 3600.0}}) {
+       {LoneInput{Equation::accelerometer, 2, 2.0 * b.problem.acc_sigma, 300.0},
+        LoneInput{Equation::gimbal, 0, b.problem.gimbal_sigma, 300.0},
+        LoneInput{Equation::rate, 1, 0.1 * deg_per_h, 3600.0}}) {
     LinearProblem problem = b.problem;
     NoiseModel noise;
     noise.lone = input;
@@ -105,12 +106,12 @@ TEST(Evidence, IsThatOfTheProjectorWithTheColumnInTheMean) {
   noise.acc_factor = 1.2;
   noise.drift_random_walk = 0.005 * deg_per_h / 60.0;
   const Evidence e = evidence_under(b.problem, b.set, noise, {0});
-  LinearProblem with = b.problem;
-  with.theta.conservativeResize(Eigen::NoChange, with.theta.cols() + 1);
-  with.theta.rightCols(1) = b.problem.extra.col(0);
+  LinearProblem with = b.problem.with_mean({0});
   with.extra = b.problem.extra.col(2);
-  const Projected p = Projector(with, noise).candidates();
-  EXPECT_NEAR(e.log_likelihood2, p.log_likelihood2(), 1e-6 * std::abs(p.log_likelihood2()));
+  const Projector projector(with, noise);
+  const double log_likelihood2 = projector.marginal().log_likelihood2();
+  const Projected p = projector.candidates();
+  EXPECT_NEAR(e.log_likelihood2, log_likelihood2, 1e-6 * std::abs(log_likelihood2));
   EXPECT_NEAR(e.gains[2].ratio, p.g[0] * p.g[0] / (1.0 + p.C(0, 0)), 1e-6 * e.gains[2].ratio);
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "analysis/inference/signatures.hpp"
+#include "tests/support/dense_covariance.hpp"
 #include "tests/support/model_builders.hpp"
 
 namespace drift::inference {
@@ -22,7 +23,8 @@ LinearProblem short_problem() {
       Simulator(base_truth(Coupling::eq5), readout).run(timeline, 5, 0).measured;
   measured.acc(1, 3) = std::nan("");  // a sample that was not measured
   measured.gimbal(2, 7) = std::nan("");
-  const BatchResult fit = fit_batch(filter, timeline, readout, measured, make_layout(filter).theta);
+  const BatchResult fit =
+      fit_batch(filter, {timeline, readout, measured}, make_layout(filter).theta);
   return linear_problem(filter, {timeline, readout, measured}, fit, {});
 }
 
@@ -31,7 +33,7 @@ void expect_equals_cholesky(const NoiseModel& noise) {
   LinearProblem problem = short_problem();
   problem.weight[5] = 0.3;
   const Whitener whitener(problem, noise);
-  const Eigen::LLT<MatX> llt(dense_covariance(problem, noise));
+  const Eigen::LLT<MatX> llt(DenseCovariance(problem, noise).all());
   ASSERT_EQ(llt.info(), Eigen::Success);
   const MatX L = llt.matrixL();
   const MatX expected = L.triangularView<Eigen::Lower>().solve(problem.theta);
@@ -60,7 +62,6 @@ TEST(Whitener, EqualsDenseCholeskyForEveryKindOfNoiseAtOnce) {
 }
 
 TEST(Whitener, EqualsDenseCholeskyForAnInputInOneEquation) {
-  using Equation = LoneInput::Equation;
   const double infinite = std::numeric_limits<double>::infinity();
   for (const LoneInput& lone : {LoneInput{Equation::rate, 1, 0.01 * deg_per_h / 60.0, infinite},
                                 LoneInput{Equation::rate, 2, 0.01 * deg_per_h, 900.0},
@@ -77,7 +78,7 @@ TEST(Whitener, ColoursWhatItWhitens) {
   NoiseModel noise;
   noise.angle_random_walk = 1e-3 * detail::deg / 60.0;
   noise.markov_drift = 0.02 * deg_per_h;
-  noise.lone = {LoneInput::Equation::accelerometer, 1, 3e-6, 300.0};
+  noise.lone = {Equation::accelerometer, 1, 3e-6, 300.0};
   const LinearProblem problem = short_problem();
   const Whitener whitener(problem, noise);
   const MatX back = whitener.colour(whitener.apply(problem.theta));
@@ -93,7 +94,9 @@ TEST(Whitener, WithoutProcessNoiseAChainDoesNotSeeAnother) {
   one(2, 0) = 1.0;
   const VecX white = Whitener(problem, {}).apply(one);
   for (Eigen::Index k = 0; k < problem.rows(); ++k)
-    if (problem.tags[k].position > 0) EXPECT_EQ(white[k], 0.0) << k;
+    if (problem.tags[k].position > 0) {
+      EXPECT_EQ(white[k], 0.0) << k;
+    }
   EXPECT_NE(white[8], 0.0);
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/rng.hpp"
+#include "tests/support/white_problem.hpp"
 
 namespace drift::inference {
 namespace {
@@ -15,22 +16,16 @@ constexpr Eigen::Index parameters = 20;
 
 /// A test of many parameters and short dwells; innovations with correlation `phi` from one to the
 /// next.
-struct Scene {
-  LinearProblem problem;
-  MatX theta = MatX(rows, parameters);
-  VecX r0 = VecX(rows);
-};
-
-Scene scene(double phi, std::uint64_t seed) {
-  Scene s;
-  s.problem.r0 = VecX::Zero(rows);
+LinearProblem scene(double phi, std::uint64_t seed) {
+  LinearProblem s = test::white_problem(MatX(rows, parameters), MatX(rows, 0), VecX::Zero(rows));
+  s.tags.clear();
+  s.drives.clear();
   for (int chain = 0; chain < chains; ++chain)
     for (int t = 0; t < samples; ++t) {
       IntervalDrive drive;
       drive.chain = chain;
-      for (int c = 0; c < channels; ++c)
-        s.problem.tags.push_back({s.problem.drives.size(), c, chain});
-      s.problem.drives.push_back(drive);
+      for (int c = 0; c < channels; ++c) s.tags.push_back({s.drives.size(), c, chain});
+      s.drives.push_back(drive);
     }
   Stream columns(1, 0, Purpose::test), noise(seed, 1, Purpose::test);
   for (Eigen::Index k = 0; k < rows; ++k)
@@ -46,8 +41,8 @@ Scene scene(double phi, std::uint64_t seed) {
   return s;
 }
 
-double p_of(const Scene& s, int draws = 99) {
-  return whiteness_p(s.problem, Projector(s.theta, MatX(rows, 0), s.r0, 0.0), 5, draws, 7);
+double p_of(const LinearProblem& s, int draws = 99) {
+  return whiteness_p(s, Projector(s, {}), 5, draws, 7);
 }
 
 TEST(Whiteness, PValuesOfWhiteInnovationsAreUniformThoughDwellsAreShortAndParametersMany) {
@@ -72,7 +67,7 @@ TEST(Whiteness, CorrelatedInnovationsAreFound) {
 }
 
 TEST(Whiteness, IsRepeatableAndNeverZero) {
-  const Scene s = scene(0.9, 3);
+  const LinearProblem s = scene(0.9, 3);
   EXPECT_EQ(p_of(s), p_of(s));
   EXPECT_EQ(p_of(s), 1.0 / 100.0);
   EXPECT_EQ(p_of(s, 0), 1.0);

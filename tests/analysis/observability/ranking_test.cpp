@@ -14,7 +14,7 @@
 #include "analysis/report/page/degeneracies.hpp"
 #include "core/base/check.hpp"
 #include "core/estimate/triangle.hpp"
-#include "tests/support/model_builders.hpp"
+#include "tests/analysis/observability/ranking_fixture.hpp"
 
 namespace drift {
 namespace {
@@ -22,42 +22,6 @@ namespace {
 using namespace drift::test;
 
 constexpr auto everything = [](const observability::TimeBin&) { return true; };
-
-TestPlan plan_of(std::string_view preset, CommandLaw mode, double dwell = 3600.0,
-                 double sample = 60.0) {
-  PlanDefaults defaults;
-  defaults.mode = mode;
-  defaults.dwell = dwell;
-  defaults.sample = sample;
-  return preset_plan(preset, defaults).value();
-}
-
-observability::RankedModel model_of(Coupling coupling,
-                                    std::initializer_list<std::string_view> keys = {}) {
-  ModelSpec spec = base_spec(coupling);
-  if (keys.size() > 0) spec.active = only(keys);
-  return observability::ranked_model(spec, nullptr, harbin, Readout{});
-}
-
-/// Three parameters, two chains, two position bins in the first.
-observability::LinearisedPlan small_plan() {
-  observability::LinearisedPlan plan;
-  plan.layout.params = {param("D_F_x"), param("D_I_x"), param("eta_x")};
-  plan.layout.mean = VecX::Zero(3);
-  plan.layout.sigma = VecX::Constant(3, 2.0);
-  plan.chains = 2;
-  plan.positions = 3;
-  Stream stream(7, 0, Purpose::test);
-  for (int b = 0; b < 3; ++b) {
-    observability::TimeBin bin;
-    bin.position = b;
-    bin.chain = b == 2 ? 1 : 0;
-    bin.rows = MatX(8, 6);
-    for (double& v : bin.rows.reshaped()) v = stream.normal();
-    plan.bins.push_back(bin);
-  }
-  return plan;
-}
 
 /// Posterior covariance of [psi of each chain | x] by normal equations, its x block.
 MatX textbook_covariance(const observability::LinearisedPlan& plan, int without = -1) {
@@ -202,8 +166,9 @@ TEST(Ranking, ExactDegeneraciesAreFoundByName) {
   // of 1.
   const double floor = 0.1 / std::sqrt(3.0), left = floor / std::sqrt(1.0 + floor * floor);
   for (const auto& p : r.parameters)
-    if (TermLibrary::specs[p.param].group == Name("D_F"))
+    if (TermLibrary::specs[p.param].group == Name("D_F")) {
       EXPECT_NEAR(p.learning_ratio(), left, 1e-5);
+    }
 }
 
 TEST(Ranking, GaugeIsHeldByTheAttitudePriorAloneWithoutGimbals) {
@@ -220,8 +185,9 @@ TEST(Ranking, GaugeIsHeldByTheAttitudePriorAloneWithoutGimbals) {
   // The limit by priors: 1/sqrt(2/200^2 + 2/100^2 + 1/200^2) = 60.3 arcsec; data cannot beat it.
   const double limit = 1.0 / std::sqrt(3.0 / (200.0 * 200.0) + 2.0 / (100.0 * 100.0)) * arcsec;
   for (const auto& p : r.parameters)
-    if (TermLibrary::specs[p.param].group == Name("eta"))
+    if (TermLibrary::specs[p.param].group == Name("eta")) {
       EXPECT_NEAR(p.posterior_sigma / limit, 1.0, 0.01);
+    }
 }
 
 TEST(Ranking, LearningRatioIsThatOfABatchFitAtTheTruth) {
@@ -245,7 +211,7 @@ TEST(Ranking, LearningRatioIsThatOfABatchFitAtTheTruth) {
   const TruthDraw draw{model.nominal, std::vector<Vec3>(timeline.chains, Vec3::Zero())};
   const Simulation sim = Simulator(truth, silent).run(timeline, draw, 1, 0);
   for (const std::size_t i : make_layout(filter).params) filter.priors[i].a = model.nominal[i];
-  const BatchResult fit = fit_batch(filter, timeline, Readout{}, sim.measured, model.nominal);
+  const BatchResult fit = fit_batch(filter, {timeline, Readout{}, sim.measured}, model.nominal);
   ASSERT_EQ(fit.estimate.status, EstimateStatus::ok) << fit.estimate.cause;
   for (std::size_t k = 0; k < r.parameters.size(); ++k)
     EXPECT_NEAR(fit.estimate.parameters[k].learning_ratio() / r.learning_ratio(k), 1.0, 1e-6)
@@ -269,7 +235,7 @@ TEST(Ranking, PromisedSigmasAreTheErrorsOfBatchFits) {
     const Simulation sim = simulator.run(timeline, 5, run);
     ASSERT_TRUE(sim.ode.ok());
     const BatchResult fit =
-        fit_batch(filter, timeline, Readout{}, sim.measured, make_layout(filter).theta);
+        fit_batch(filter, {timeline, Readout{}, sim.measured}, make_layout(filter).theta);
     for (std::size_t k = 0; k < r.parameters.size(); ++k)
       square[k] +=
           std::pow(fit.estimate.parameters[k].value - sim.draw.theta[r.parameters[k].param], 2);

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "analysis/observability/ranking.hpp"
-#include "analysis/planning/candidates.hpp"
+#include "analysis/planning/position_pool.hpp"
 #include "core/base/check.hpp"
 #include "tests/support/model_builders.hpp"
 
@@ -23,10 +23,10 @@ TestPlan plan_of(std::string_view preset, CommandLaw mode) {
   return preset_plan(preset, defaults).value();
 }
 
-observability::RankedModel model_of(Coupling coupling,
-                                    std::initializer_list<std::string_view> keys) {
+observability::RankedModel model_of(Coupling coupling, std::initializer_list<const char*> keys) {
   ModelSpec spec = base_spec(coupling);
-  spec.active = only(keys);
+  spec.active.reset();
+  for (const char* key : keys) spec.active |= only({key});
   observability::RankedModel model = observability::ranked_model(spec, nullptr, harbin, Readout{});
   model.nominal[param("D_I_z")] = 1.45 * deg_per_h;  // so that eq. (6) has levers in free drift
   return model;
@@ -41,65 +41,20 @@ VecX learning_ratios(const TestPlan& plan, const observability::RankedModel& mod
   return all;
 }
 
-TEST(Improve, CandidatesAre96FramesAsTheirTextSays) {
-  const auto all = planning::candidate_axes();
-  EXPECT_EQ(all.size(), 96u);
-  std::vector<Mat3> frames;
-  for (const std::string& axes : all) {
-    std::string why;
-    const auto R_lp = parse_axes(axes, why);
-    ASSERT_TRUE(R_lp) << axes << ": " << why;
-    for (const Mat3& other : frames) EXPECT_GT((*R_lp - other).norm(), 0.1) << axes;
-    frames.push_back(*R_lp);
-  }
-  const TestPlan caged = plan_of("six", CommandLaw::level),
-                 torqued = plan_of("slew12", CommandLaw::level);
-  EXPECT_EQ(planning::caged_candidates(caged).size(), 2u * 96u);
-  EXPECT_TRUE(planning::torqued_candidates(caged, 0.0).empty());
-  EXPECT_EQ(planning::torqued_candidates(torqued, 0.0).size(), 4u * 96u);
-}
-
-TEST(Improve, LowRankUpdateIsTheRecomputation) {
-  // Rows from nearly nothing to very much information, on parameters and on the chain's attitude.
-  for (const double size : {1e-4, 1.0, 1e5}) {
-    Stream stream(3, 0, Purpose::test);
-    const auto random = [&](Eigen::Index r, Eigen::Index c, double scale) {
-      MatX m(r, c);
-      for (double& v : m.reshaped()) v = scale * stream.normal();
-      return m;
-    };
-    observability::InformationSum sum(10);
-    sum.add(0, random(20, 13, 1.0));
-    sum.add(1, random(4, 13, 100.0));
-    const MatX rows = random(7, 13, size), J = planning::compressed(rows);
-    const planning::UpdatedBelief updated =
-        planning::updated_belief(planning::joint_posterior(sum), J);
-    sum.add(1, rows);
-    const observability::Posterior again = observability::posterior_of(sum.root());
-    EXPECT_LT((updated.sigma.cwiseQuotient(again.sigma).array() - 1.0).abs().maxCoeff(), 1e-9)
-        << size;
-    EXPECT_NEAR(updated.half_log2_det, -again.bits, 1e-9 * again.bits) << size;
-  }
-}
-
-TEST(Improve, FewRowsStandForMany) {
-  Stream stream(4, 0, Purpose::test);
-  MatX factor(40, 5), mix(5, 13);
-  for (double& v : factor.reshaped()) v = stream.normal();
-  for (double& v : mix.reshaped()) v = stream.normal();
-  const MatX rows = factor * mix, few = planning::compressed(rows);
-  EXPECT_EQ(few.rows(), 5);
-  EXPECT_LT((rows.transpose() * rows - few.transpose() * few).norm(), 1e-11 * rows.squaredNorm());
-  EXPECT_EQ(planning::compressed(MatX::Zero(4, 13)).rows(), 0);
-}
-
 TEST(Improve, EveryPromiseHoldsWhenThePlanIsRankedAnew) {
+  // A ramp knows the time, the heat of torquers remembers the slews before.
+  const auto base = {"D_F", "D_I", "D_S", "eta", "xi", "s", "K0"}, clock = {"D_F", "D_I", "ramp"},
+             memory = {"D_F", "D_I", "heat", "heat_tau"};
   struct Case {
     const char *preset, *criterion;
+    std::initializer_list<const char*> keys;
   };
-  for (const Case& c : {Case{"six", "A"}, {"six", "eta_y"}, {"slew12", "D"}}) {
-    const observability::RankedModel model =
-        model_of(Coupling::eq5, {"D_F", "D_I", "D_S", "eta", "xi", "s", "K0"});
+  for (const Case& c : {Case{"six", "A", base},
+                        {"six", "eta_y", base},
+                        {"slew12", "D", base},
+                        {"six", "A", clock},
+                        {"slew12", "A", memory}}) {
+    const observability::RankedModel model = model_of(Coupling::eq5, c.keys);
     TestPlan plan = plan_of(c.preset, CommandLaw::free);
     plan.positions.resize(3);
     const double duration = observability::linearise(plan, model).duration;
@@ -128,14 +83,19 @@ TEST(Improve, TheChoiceIsTheBestOfAllCandidatesRankedInFull) {
   const planning::Criterion criterion = planning::parse_criterion("eta_x", make_layout(model.spec));
   const planning::Improvement better = planning::improve_plan(plan, model, criterion, 1, 2);
   const Timeline timeline = lay_out(plan, harbin);
-  std::vector<Position> candidates = planning::caged_candidates(plan);
-  for (const Position& p : planning::torqued_candidates(plan, timeline.intervals.back().heading1))
-    candidates.push_back(p);
+  const Position& last = plan.positions.back();
+  const double turned =
+      (std::round(timeline.intervals.back().heading1 / detail::deg) + 180.0) * detail::deg;
+  std::vector<planning::Addition> candidates = planning::held(
+      planning::all_attitudes(), {Entry::torqued, last.dwell, last.sample, {std::nullopt, turned}});
+  for (const planning::Addition& a :
+       planning::held(planning::all_attitudes(), {Entry::caged, last.dwell, last.sample}))
+    candidates.push_back(a);
   double best = 1.0;
   std::size_t feasible = 0;
-  for (const Position& p : candidates) {
+  for (const planning::Addition& a : candidates) {
     TestPlan longer = plan;
-    longer.positions.push_back(p);
+    longer.positions.push_back(a.front());
     try {
       best = std::min(best,
                       learning_ratios(longer, model)[static_cast<Eigen::Index>(criterion.state)]);

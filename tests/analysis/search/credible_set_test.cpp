@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "analysis/search/detect.hpp"
 #include "tests/support/model_builders.hpp"
 
 namespace drift::search {
@@ -13,9 +14,9 @@ namespace {
 using test::param;
 
 struct Case {
-  Examination e;
+  Fitted e;
   std::vector<Refit> refits;
-  Search out;
+  CredibleSet out;
 
   std::size_t candidate(std::string term, std::string axis, std::vector<std::size_t> params) {
     e.set.candidates.push_back(
@@ -29,7 +30,10 @@ struct Case {
     r.excess = excess;
     refits.push_back(std::move(r));
   }
-  bool weigh(bool chance_alone = false) { return search::weigh(e, refits, chance_alone, {}, out); }
+  bool can_be_weighed(Leftover left = Leftover::nothing) const {
+    return search::can_be_weighed(e, refits, left);
+  }
+  void weigh() { out = search::weigh(e, std::move(refits), SearchOptions{}.credible); }
 };
 
 TEST(CredibleSet, AFarBetterExplanationDoesNotLoseToAPoorOneForATrifle) {
@@ -38,7 +42,8 @@ TEST(CredibleSet, AFarBetterExplanationDoesNotLoseToAPoorOneForATrifle) {
   const auto gimbal = c.candidate("gimbal_angle_drift", "y", {param("G_c_y")});
   c.explanation(magnetic, 37.5, 0.4);  // beside it something unrelated is just significant
   c.explanation(gimbal, 31.0, -0.1);   // happens to cover that too
-  ASSERT_TRUE(c.weigh());
+  ASSERT_TRUE(c.can_be_weighed());
+  c.weigh();
   ASSERT_EQ(c.out.sets.size(), 1u);
   EXPECT_EQ(c.out.sets[0].choices[0].candidate, magnetic);
   // Odds of their evidence, the price of the chance taken off.
@@ -51,19 +56,22 @@ TEST(CredibleSet, WhatLeavesFarTooMuchIsNoExplanationHoweverGood) {
   const auto gimbal = c.candidate("gimbal_angle_drift", "y", {param("G_c_y")});
   c.explanation(magnetic, 60.0, 3.1);
   c.explanation(gimbal, 20.0, -1.0);
-  ASSERT_TRUE(c.weigh());
+  ASSERT_TRUE(c.can_be_weighed());
+  c.weigh();
   ASSERT_EQ(c.out.sets.size(), 1u);
   EXPECT_EQ(c.out.sets[0].choices[0].candidate, gimbal);
   EXPECT_EQ(c.out.rejected.size(), 1u);
+  Case less;
+  less.explanation(less.candidate("magnetic_drift", "x", {param("M_x")}), 60.0, 2.9);
+  EXPECT_TRUE(less.can_be_weighed(Leftover::chance));
 }
 
-TEST(CredibleSet, WithoutAnAdequateOneNothingIsTouchedUnlessChanceIsAskedFor) {
+TEST(CredibleSet, WithoutAnAdequateOneThereIsNoneUnlessChanceIsAskedFor) {
   Case c;
   c.explanation(c.candidate("magnetic_drift", "x", {param("M_x")}), 40.0, 0.5);
-  EXPECT_FALSE(c.weigh());
-  EXPECT_EQ(c.refits.size(), 1u);
-  EXPECT_TRUE(c.out.sets.empty());
-  EXPECT_TRUE(c.weigh(true));
+  EXPECT_FALSE(c.can_be_weighed());
+  EXPECT_TRUE(c.can_be_weighed(Leftover::chance));
+  c.weigh();
   EXPECT_EQ(c.out.sets.size(), 1u);
 }
 
@@ -71,9 +79,10 @@ TEST(CredibleSet, LambdaThatIsNotSettledCompetesButIsNoAdequateExplanation) {
   Case c;
   c.explanation(c.candidate("frame_closure", "", {param("lambda")}), 40.0, -3.0);
   c.refits.back().nameable = false;
-  EXPECT_FALSE(c.weigh());
+  EXPECT_FALSE(c.can_be_weighed());
   c.explanation(c.candidate("magnetic_drift", "x", {param("M_x")}), 20.0, -3.0);
-  ASSERT_TRUE(c.weigh());
+  ASSERT_TRUE(c.can_be_weighed());
+  c.weigh();
   EXPECT_FALSE(c.out.sets[0].nameable);
   EXPECT_GT(c.out.probability[0], 0.999);
 }
@@ -82,9 +91,48 @@ TEST(CredibleSet, SomethingUnknownThatIsFarBetterLeavesNone) {
   Case c;
   c.explanation(c.candidate("magnetic_drift", "x", {param("M_x")}), 40.0, -1.0);
   c.e.lone.gain = 2.0 * (40.0 + 5.0 + 0.05 * 40.0 + std::log(21.0)) + 0.1;
-  EXPECT_FALSE(c.weigh());
+  EXPECT_FALSE(c.can_be_weighed());
   c.e.lone.gain -= 0.2;
-  EXPECT_TRUE(c.weigh());
+  EXPECT_TRUE(c.can_be_weighed());
+}
+
+TEST(CredibleSet, ListsWhatTogetherHoldsWithNinetyFivePerCent) {
+  const auto listed = [](double probability) {
+    Case c;
+    c.explanation(c.candidate("magnetic_drift", "x", {param("M_x")}), 30.0, -1.0);
+    c.explanation(c.candidate("gimbal_angle_drift", "y", {param("G_c_y")}),
+                  30.0 - std::log(probability / (1.0 - probability)), -1.0);
+    c.weigh();
+    EXPECT_NEAR(c.out.probability[0], probability, 1e-12);
+    return c.out.sets.size();
+  };
+  EXPECT_EQ(listed(0.949), 2u);
+  EXPECT_EQ(listed(0.951), 1u);
+}
+
+TEST(CredibleSet, ASecondCauseIsOneInTwenty) {
+  Case c;
+  const auto magnetic = c.candidate("magnetic_drift", "x", {param("M_x")});
+  const auto gimbal = c.candidate("gimbal_angle_drift", "y", {param("G_c_y")});
+  const auto ramp = c.candidate("drift_ramp", "z", {param("ramp_z")});
+  c.explanation(magnetic, 30.0, -1.0);
+  c.explanation(gimbal, 30.0, -1.0);
+  c.refits.back().choices.push_back({ramp, 0});
+  c.weigh();
+  EXPECT_NEAR(c.out.probability[0], 20.0 / 21.0, 1e-12);
+}
+
+TEST(CredibleSet, MoreParametersMustBringTwentyToOne) {
+  const auto widest = [](double gain) {
+    Case c;
+    c.explanation(c.candidate("torquer_scale", "", {param("s_x"), param("s_y"), param("s_z")}),
+                  30.0 + gain, -1.0);
+    c.explanation(c.candidate("torquer_scale", "x", {param("s_x")}), 30.0, -1.0);
+    c.weigh();
+    return c.out.sets.at(0).choices[0].candidate == 0;
+  };
+  EXPECT_FALSE(widest(std::log(20.0)));
+  EXPECT_TRUE(widest(std::log(20.2)));
 }
 
 TEST(CredibleSet, PartsOfOneTermAreOneCause) {
@@ -94,7 +142,8 @@ TEST(CredibleSet, PartsOfOneTermAreOneCause) {
   const auto axis = c.candidate("misalignment_creep", "z", {param("eta_t_z"), param("xi_t_z")});
   c.explanation(group, 27.4, -1.0);
   c.explanation(axis, 27.0, -1.0);
-  ASSERT_TRUE(c.weigh());
+  ASSERT_TRUE(c.can_be_weighed());
+  c.weigh();
   ASSERT_EQ(c.out.sets.size(), 1u);
   EXPECT_EQ(c.out.sets[0].choices[0].candidate, group);
   EXPECT_NEAR(c.out.probability[0], 1.0, 1e-12);

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/diagnosis/answer.hpp"
+#include "analysis/diagnosis/causes.hpp"
 #include "tests/support/model_builders.hpp"
 
 namespace drift::search {
@@ -22,11 +22,12 @@ struct Bench {
 
   Bench(std::string_view preset, double dwell)
       : timeline(preset_timeline(preset, CommandLaw::free, dwell, 60.0)) {}
-  Examination nominal() const {
-    const inference::Test test{timeline, readout, measured};
-    return examine(filter, test, make_layout(filter).theta);
+  Fitted nominal() const {
+    const MeasuredTest test{timeline, readout, measured};
+    return examine(filter, test,
+                   fit_batch(filter, {timeline, readout, measured}, make_layout(filter).theta));
   }
-  Search found(Examination& e) const { return search(e, {timeline, readout, measured}, {}); }
+  Search found() const { return search(nominal(), {timeline, readout, measured}, {}); }
 };
 
 TEST(Search, AnErrorThatNoCandidateHoldsIsLeftUnexplained) {
@@ -39,11 +40,10 @@ TEST(Search, AnErrorThatNoCandidateHoldsIsLeftUnexplained) {
     b.measured.gimbal(1, static_cast<Eigen::Index>(i)) +=
         30.0 * detail::deg / 3600.0 * (turn - std::floor(turn) - 0.5);
   }
-  Examination e = b.nominal();
-  const Search s = b.found(e);
+  const Search s = b.found();
   EXPECT_TRUE(s.significant);
   EXPECT_TRUE(s.sets.empty());
-  EXPECT_EQ(e.lone.equation, "gimbal middle");
+  EXPECT_EQ(s.nominal.lone.equation, "gimbal middle");
 }
 
 TEST(Search, ARampOfOneGyroIsNamedAndNotTakenForNoise) {
@@ -53,13 +53,12 @@ TEST(Search, ARampOfOneGyroIsNamedAndNotTakenForNoise) {
   TruthDraw draw = draw_truth(truth, b.timeline.chains, 12, 1);
   draw.theta[param("ramp_z")] = 6e-3 * TermLibrary::specs[param("ramp_z")].unit.to_si;
   b.measured = Simulator(truth, b.readout).run(b.timeline, draw, 12, 1).measured;
-  Examination e = b.nominal();
-  const Search s = b.found(e);
+  const Search s = b.found();
   ASSERT_TRUE(s.significant);
   ASSERT_FALSE(s.sets.empty());
   EXPECT_FALSE(s.sets.front().after.noise.driven);
   ASSERT_EQ(s.sets.front().choices.size(), 1u);
-  const inference::Candidate& c = e.set.candidates[s.sets.front().choices[0].candidate];
+  const inference::Candidate& c = s.nominal.set.candidates[s.sets.front().choices[0].candidate];
   EXPECT_EQ(c.label, "drift_ramp.z");
   const ParameterEstimate* p = s.sets.front().after.fit.estimate.find(param("ramp_z"));
   ASSERT_NE(p, nullptr);
@@ -74,23 +73,21 @@ TEST(Search, AStepBetweenTheHoursOfTheGridIsNamedAloneWithItsTime) {
   draw.theta[param("dD_I_y")] = 0.03 * TermLibrary::specs[param("dD_I_y")].unit.to_si;
   draw.theta[param("dD_t0")] = 2.6 * 3600.0;  // the grid has 2 and 3 h
   b.measured = Simulator(truth, b.readout).run(b.timeline, draw, 12, 2).measured;
-  Examination e = b.nominal();
-  const Search s = b.found(e);
+  const Search s = b.found();
   ASSERT_TRUE(s.significant);
   ASSERT_EQ(s.sets.size(), 1u);
   ASSERT_EQ(s.sets.front().choices.size(), 1u);
   const Choice choice = s.sets.front().choices.front();
-  const inference::Candidate& c = e.set.candidates[choice.candidate];
+  const inference::Candidate& c = s.nominal.set.candidates[choice.candidate];
   EXPECT_EQ(c.label, "mass_unbalance_step.y");
   EXPECT_TRUE(c.variants[choice.variant].between);
   // The axis bears no gravity from 2 to 4 h: the sigma of the time must say that it may be any in
   // between.
-  diagnosis::Diagnosis d;
-  diagnosis::fill_causes(e, s, d);
-  ASSERT_EQ(d.causes.size(), 1u);
+  const auto causes = diagnosis::causes_of(s.nominal, s).causes;
+  ASSERT_EQ(causes.size(), 1u);
   for (const char* key : {"dD_I_y", "dD_t0"}) {
-    const auto p = std::ranges::find(d.causes[0].parameters, key, &CauseParameter::key);
-    ASSERT_NE(p, d.causes[0].parameters.end());
+    const auto p = std::ranges::find(causes[0].parameters, key, &CauseParameter::key);
+    ASSERT_NE(p, causes[0].parameters.end());
     EXPECT_NEAR(p->value, draw.theta[param(key)] / TermLibrary::specs[param(key)].unit.to_si,
                 4.0 * p->sigma)
         << key;

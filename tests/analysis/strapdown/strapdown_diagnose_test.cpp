@@ -7,13 +7,15 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "analysis/diagnosis/patched_study.hpp"
-#include "analysis/report/diagnosis/folder.hpp"
-#include "analysis/report/diagnosis/json.hpp"
+#include "analysis/diagnosis/advice/patched_study.hpp"
+#include "analysis/report/diagnosis/remark_words.hpp"
+#include "analysis/report/diagnosis/report.hpp"
+#include "analysis/report/diagnosis/sentence.hpp"
 #include "analysis/strapdown/diagnose.hpp"
 #include "core/base/check.hpp"
 #include "tests/analysis/report/xml_check.hpp"
 #include "tests/support/program.hpp"
+#include "tests/support/recordings_by_others.hpp"
 #include "tests/support/strapdown_recording.hpp"
 
 namespace drift {
@@ -24,19 +26,12 @@ using search::Cause;
 
 constexpr double share = 0.15;  // by which dwell bounds, folds and seeds may move a number
 
-std::string path_of(const std::string& name) {
-  return std::string(DRIFT_SOURCE_DIR) + "/../shared/recordings/" + name;
-}
-bool absent(const std::string& name) {
-  return !std::filesystem::exists(path_of(name));
-}
-
 mc::Study nominal() {
   return mc::read_study(std::string(DRIFT_SOURCE_DIR) + "/configs/diagnose_xsens.toml");
 }
 
 Recording recorded(const std::string& name) {
-  return read_recording(path_of(name), RecordingKind::strapdown, 9.80665);
+  return read_recording(test::path_of(name), RecordingKind::strapdown, 9.80665);
 }
 
 /// Where the verdict is asked for and no number: one division into parts is enough.
@@ -61,14 +56,15 @@ std::vector<std::string> groups_of(const Cause& c) {
 }
 
 bool says(const Diagnosis& d, std::string_view text) {
-  return std::ranges::any_of(d.remarks,
-                             [&](const auto& r) { return r.find(text) != std::string::npos; });
+  return std::ranges::any_of(d.remarks, [&](const auto& r) {
+    return report::in_words(r).find(text) != std::string::npos;
+  });
 }
 
 // One test for one diagnosis: every test is a process of its own.
 TEST(StrapdownDiagnosis,
      XsensLacksMisalignmentAndCrossAxisSensitivityAndClaimsNothingThatItCannotShow) {
-  if (absent("xsens_mti.csv")) GTEST_SKIP() << "the recording is not beside the sources";
+  NEEDS_RECORDING("xsens_mti.csv");
   const Recording recording = recorded("xsens_mti.csv");
   const auto found = strapdown::diagnose_strapdown(nominal(), recording, {});
   const Diagnosis& d = found.diagnosis;
@@ -82,13 +78,13 @@ TEST(StrapdownDiagnosis,
     EXPECT_LT(c.p_value, 1e-3) << c.term;
     EXPECT_GT(c.probability, 0.99) << c.term;
   }
-  ASSERT_EQ(found.kinds.size(), 3u);
-  EXPECT_NEAR(found.kinds[0].before, 0.0724, share * 0.0724);  // deg/s in dwells
-  EXPECT_NEAR(found.kinds[0].after, 0.0173, share * 0.0173);
-  EXPECT_NEAR(found.kinds[1].before, 3.46, share * 3.46);  // deg after a turn
-  EXPECT_NEAR(found.kinds[1].after, 0.142, share * 0.142);
-  EXPECT_NEAR(found.kinds[2].before, 0.0382, share * 0.0382);  // m/s^2
-  EXPECT_NEAR(found.kinds[2].after, 0.0016, share * 0.0016);
+  ASSERT_EQ(found.diagnosis.errors.size(), 3u);
+  EXPECT_NEAR(found.diagnosis.errors[0].before, 0.0724, share * 0.0724);  // deg/s in dwells
+  EXPECT_NEAR(found.diagnosis.errors[0].after, 0.0173, share * 0.0173);
+  EXPECT_NEAR(found.diagnosis.errors[1].before, 3.46, share * 3.46);  // deg after a turn
+  EXPECT_NEAR(found.diagnosis.errors[1].after, 0.142, share * 0.142);
+  EXPECT_NEAR(found.diagnosis.errors[2].before, 0.0382, share * 0.0382);  // m/s^2
+  EXPECT_NEAR(found.diagnosis.errors[2].after, 0.0016, share * 0.0016);
   EXPECT_TRUE(d.fit.held_out.improves);
   EXPECT_EQ(d.fit.held_out.folds.size(), 38u);
 
@@ -107,13 +103,13 @@ TEST(StrapdownDiagnosis,
   mc::Study patched = nominal();
   patched.filters.front() = d.patched;
   const Diagnosis again = strapdown::diagnose_strapdown(patched, recording, quick()).diagnosis;
-  EXPECT_EQ(again.verdict, diagnosis::Verdict::consistent) << again.sentence;
+  EXPECT_EQ(again.verdict, diagnosis::Verdict::consistent) << report::sentence(again);
   EXPECT_FALSE(again.has_patch);
   EXPECT_GT(again.p_value, 0.05);
 }
 
 TEST(StrapdownDiagnosis, MpuHasMisalignmentAndNoGSensitivity) {
-  if (absent("mpu9150_1.csv")) GTEST_SKIP() << "the recording is not beside the sources";
+  NEEDS_RECORDING("mpu9150_1.csv");
   const Diagnosis d =
       strapdown::diagnose_strapdown(nominal(), recorded("mpu9150_1.csv"), {}).diagnosis;
   EXPECT_EQ(d.verdict, diagnosis::Verdict::named);
@@ -137,8 +133,8 @@ TEST(StrapdownDiagnosis, RecoversTheMisalignmentThatTheRecordingWasMadeWithAndWr
   const strapdown::StrapdownDiagnosis found =
       strapdown::diagnose_strapdown(nominal(), made(3000.0, 5), quick());
   const Cause* c = cause(found.diagnosis, "gyro_misalignment");
-  ASSERT_NE(c, nullptr) << found.diagnosis.sentence;
-  EXPECT_EQ(found.diagnosis.causes.size(), 1u) << found.diagnosis.sentence;
+  ASSERT_NE(c, nullptr) << report::sentence(found.diagnosis);
+  EXPECT_EQ(found.diagnosis.causes.size(), 1u) << report::sentence(found.diagnosis);
   for (const auto& p : c->parameters) {
     const double truth = p.key == "eta_x"   ? 3000.0
                          : p.key == "xi_y"  ? -3000.0

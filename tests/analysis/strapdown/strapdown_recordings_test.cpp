@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
 
 #include "analysis/strapdown/identify.hpp"
+#include "tests/support/recordings_by_others.hpp"
 
 namespace drift {
 namespace {
@@ -14,15 +14,11 @@ namespace {
 using strapdown::Trial;
 using strapdown::Verdict;
 
-std::string path_of(const std::string& name) {
-  return std::string(DRIFT_SOURCE_DIR) + "/../shared/recordings/" + name;
-}
-
 const strapdown::StrapdownResult& identified(const std::string& name) {
   static std::map<std::string, strapdown::StrapdownResult> results;
   const auto known = results.find(name);
   if (known != results.end()) return known->second;
-  const auto recording = read_recording(path_of(name), RecordingKind::strapdown, 9.80665);
+  const auto recording = read_recording(test::path_of(name), RecordingKind::strapdown, 9.80665);
   return results.emplace(name, strapdown::identify_strapdown(recording, {})).first->second;
 }
 
@@ -35,14 +31,10 @@ const strapdown::Trial& trial(const std::vector<strapdown::Trial>& trials, std::
   return *at;
 }
 
-#define NEEDS(name)                            \
-  if (!std::filesystem::exists(path_of(name))) \
-  GTEST_SKIP() << "the recording " << name << " is not beside the sources"
-
 constexpr double share = 0.15;  // by which dwell bounds, folds and seeds may move a number
 
 TEST(StrapdownRecordings, XsensDwells) {
-  NEEDS("xsens_mti.csv");
+  NEEDS_RECORDING("xsens_mti.csv");
   const auto& dwells = identified("xsens_mti.csv").search.dwells;
   ASSERT_EQ(dwells.size(), 38u);
   EXPECT_NEAR(dwells[0].duration(), 51.9, share * 51.9);
@@ -53,7 +45,7 @@ TEST(StrapdownRecordings, XsensDwells) {
 }
 
 TEST(StrapdownRecordings, XsensAccelerometers) {
-  NEEDS("xsens_mti.csv");
+  NEEDS_RECORDING("xsens_mti.csv");
   const auto& trials = identified("xsens_mti.csv").accelerometer_trials;
   EXPECT_NEAR(trial(trials, "bias + scale").gravity->held_out, 0.0382, share * 0.0382);
   const strapdown::Trial& misaligned = trial(trials, "bias + scale + misalignment");
@@ -65,7 +57,7 @@ TEST(StrapdownRecordings, XsensAccelerometers) {
 }
 
 TEST(StrapdownRecordings, XsensDriftInDwells) {
-  NEEDS("xsens_mti.csv");
+  NEEDS_RECORDING("xsens_mti.csv");
   const auto& trials = identified("xsens_mti.csv").gyro_trials;
   const std::string base = "bias + scale + misalignment";
   EXPECT_NEAR(trial(trials, "bias").dwell->held_out, 0.0724, share * 0.0724);
@@ -79,7 +71,7 @@ TEST(StrapdownRecordings, XsensDriftInDwells) {
 }
 
 TEST(StrapdownRecordings, XsensRotations) {
-  NEEDS("xsens_mti.csv");
+  NEEDS_RECORDING("xsens_mti.csv");
   const auto& result = identified("xsens_mti.csv");
   const auto& trials = result.gyro_trials;
   const std::string base = "bias + scale + misalignment";
@@ -95,11 +87,11 @@ TEST(StrapdownRecordings, XsensRotations) {
 }
 
 TEST(StrapdownRecordings, XsensMisalignmentTheOtherWayRoundIsTwiceAsWrong) {
-  NEEDS("xsens_mti.csv");
+  NEEDS_RECORDING("xsens_mti.csv");
   using namespace strapdown;
   const auto& result = identified("xsens_mti.csv");
   const auto recording =
-      read_recording(path_of("xsens_mti.csv"), RecordingKind::strapdown, 9.80665);
+      read_recording(test::path_of("xsens_mti.csv"), RecordingKind::strapdown, 9.80665);
   const auto& fitted = result.accepted[0].fitted;
   Theta inverse = fitted.turning.theta;
   for (const auto& g : {group<"eta">(), group<"xi">()})
@@ -115,7 +107,7 @@ TEST(StrapdownRecordings, XsensMisalignmentTheOtherWayRoundIsTwiceAsWrong) {
 
 TEST(StrapdownRecordings, MpuHasMisalignmentAndNoGSensitivityToClaim) {
   for (const char* name : {"mpu9150_0.csv", "mpu9150_1.csv"}) {
-    NEEDS(name);
+    NEEDS_RECORDING(name);
     const auto& result = identified(name);
     EXPECT_NEAR(static_cast<double>(result.search.dwells.size()), 20.0, 3.0);
     EXPECT_EQ(result.accepted[0].name.substr(0, 5), "bias ");

@@ -41,14 +41,20 @@ TEST(AtomicFile, ReplacesRegularFilesAlone) {
   EXPECT_TRUE(fs::is_symlink(scratch.file("dangling")) && fs::is_symlink(scratch.file("to_pipe")));
 }
 
-TEST(AtomicFile, FollowsALinkToAFileAndLeavesTheLink) {
+TEST(AtomicFile, FollowsNoLink) {
   const ScratchFolder scratch;
   fs::create_directory(scratch.file("other"));
   scratch.write("other/file", "old");
   fs::create_symlink("other/file", scratch.file("link"));
-  EXPECT_EQ(refusal(scratch.file("link")), "");
+  EXPECT_NE(refusal(scratch.file("link")).find("symbolic link"), std::string::npos);
   EXPECT_TRUE(fs::is_symlink(scratch.file("link")));
-  EXPECT_EQ(test::text_of(scratch.file("other/file")), "new");
+  EXPECT_EQ(test::text_of(scratch.file("other/file")), "old");
+}
+
+TEST(AtomicFile, ANameThatTheFileSystemRefusesIsSaidBeforeAnythingIsWritten) {
+  const ScratchFolder scratch;
+  EXPECT_NE(refusal(scratch.file(std::string(300, 'a'))).find("File name too long"),
+            std::string::npos);
 }
 
 TEST(AtomicFile, WhatComesInTheWayMeanwhileStays) {

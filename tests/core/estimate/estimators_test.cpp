@@ -31,8 +31,8 @@ TEST(Estimators, EkfAndBatchAgreeWhereTheTestSeesTheParameter) {
     const FilterSpec filter = base_filter(Coupling::eq5);
     const SimulatedTest t(preset, mode, truth);
     const Theta start = make_layout(filter).theta;
-    const EstimateResult ekf = run_ekf(filter, t.timeline, t.readout, t.sim.measured, start);
-    const BatchResult batch = fit_batch(filter, t.timeline, t.readout, t.sim.measured, start);
+    const EstimateResult ekf = run_ekf(filter, {t.timeline, t.readout, t.sim.measured}, start);
+    const BatchResult batch = fit_batch(filter, {t.timeline, t.readout, t.sim.measured}, start);
     ASSERT_EQ(ekf.status, EstimateStatus::ok);
     ASSERT_EQ(batch.estimate.status, EstimateStatus::ok);
     for (std::size_t k = 0; k < ekf.parameters.size(); ++k) {
@@ -51,7 +51,7 @@ TEST(Estimators, BatchDoesNotDependOnItsStart) {
   const SimulatedTest t("twelve", CommandLaw::free, truth);
   std::vector<BatchResult> fits;
   for (std::uint64_t start = 0; start < 2; ++start)
-    fits.push_back(fit_batch(filter, t.timeline, t.readout, t.sim.measured,
+    fits.push_back(fit_batch(filter, {t.timeline, t.readout, t.sim.measured},
                              draw_parameters(filter, 3, start, Purpose::filter_start)));
   for (std::size_t k = 0; k < fits[0].estimate.parameters.size(); ++k) {
     const auto &a = fits[0].estimate.parameters[k], &b = fits[1].estimate.parameters[k];
@@ -74,7 +74,7 @@ struct NullSpace {
     const std::vector<Vec3> psi(timeline.chains, Vec3::Zero());
     directions = weak_directions(
         information_root(
-            measurement_equations(timeline, spec.model(), layout, Readout{}, zero, theta,
+            measurement_equations({timeline, Readout{}, zero}, spec.model(), layout, theta,
                                   integrate_fixed(timeline, spec.model(), theta, psi),
                                   spec.initial_attitude),
             layout.size()),
@@ -147,7 +147,7 @@ TEST(MatchedFilter, IsConsistentOver200Runs) {
   };
   const auto outcomes = mc::run_campaign(runs, [&](std::size_t run) {
     const Simulation sim = Simulator(truth, readout).run(timeline, 11, run);
-    const EstimateResult r = run_ekf(filter, timeline, readout, sim.measured, layout.theta);
+    const EstimateResult r = run_ekf(filter, {timeline, readout, sim.measured}, layout.theta);
     Outcome o;
     VecX e(static_cast<Eigen::Index>(layout.size()));
     for (std::size_t k = 0; k < layout.size(); ++k) {
@@ -195,7 +195,7 @@ TEST(CrossedFilter, Equation6OnDataOfEquation5IsBiasedAndSureOfIt) {
   const SimulatedTest t("slew12", CommandLaw::level, truth);
   const FilterSpec wrong = base_filter(Coupling::eq6);
   const BatchResult fit =
-      fit_batch(wrong, t.timeline, t.readout, t.sim.measured, make_layout(wrong).theta);
+      fit_batch(wrong, {t.timeline, t.readout, t.sim.measured}, make_layout(wrong).theta);
   double largest = 0.0;
   for (const char* key : {"eta_x", "eta_y", "eta_z"}) {
     const ParameterEstimate& e = *fit.estimate.find(param(key));
@@ -213,7 +213,7 @@ TEST(CrossedFilter, LevelCagedTestsCannotTellTheEquationsApart) {
   for (const Coupling c : {Coupling::eq5, Coupling::eq6}) {
     const FilterSpec filter = base_filter(c);
     cost[c == Coupling::eq6] =
-        fit_batch(filter, t.timeline, t.readout, t.sim.measured, make_layout(filter).theta)
+        fit_batch(filter, {t.timeline, t.readout, t.sim.measured}, make_layout(filter).theta)
             .estimate.statistic;
   }
   EXPECT_LT(std::abs(cost[0] - cost[1]), 25.0);  // second-order differences: below 5 sigma
@@ -226,7 +226,7 @@ TEST(LambdaFilter, FindsTheEquationThatMadeTheData) {
     FilterSpec filter = base_filter(Coupling::lambda);
     filter.active.set(param("lambda"));
     const BatchResult fit =
-        fit_batch(filter, t.timeline, t.readout, t.sim.measured, make_layout(filter).theta);
+        fit_batch(filter, {t.timeline, t.readout, t.sim.measured}, make_layout(filter).theta);
     const ParameterEstimate& e = *fit.estimate.find(param("lambda"));
     EXPECT_NEAR(e.value, lambda, 4.0 * e.sigma);
     EXPECT_LT(e.sigma, 0.1);
@@ -239,7 +239,7 @@ TEST(Ekf, ReportsDivergenceAsAValue) {
   SimulatedTest t("six", CommandLaw::free, truth, 1, 600.0);
   t.sim.measured.acc.setConstant(1e9);
   const EstimateResult r =
-      run_ekf(filter, t.timeline, t.readout, t.sim.measured, make_layout(filter).theta);
+      run_ekf(filter, {t.timeline, t.readout, t.sim.measured}, make_layout(filter).theta);
   EXPECT_EQ(r.status, EstimateStatus::diverged);
   EXPECT_FALSE(r.cause.empty());
 }
@@ -251,13 +251,13 @@ TEST(Ekf, LeavesOutWhatWasNotMeasured) {
   const auto n = static_cast<std::size_t>(t.timeline.intervals.size());
   const Theta start = make_layout(filter).theta;
   const auto count = [&] {
-    return run_ekf(filter, t.timeline, t.readout, t.sim.measured, start).measured;
+    return run_ekf(filter, {t.timeline, t.readout, t.sim.measured}, start).measured;
   };
   EXPECT_EQ(count(), 6 * n);
   t.sim.measured.acc(1, 3) = std::nan("");
   t.sim.measured.gimbal.col(5).setConstant(std::nan(""));
   EXPECT_EQ(count(), 6 * n - 4);
-  const BatchResult batch = fit_batch(filter, t.timeline, t.readout, t.sim.measured, start);
+  const BatchResult batch = fit_batch(filter, {t.timeline, t.readout, t.sim.measured}, start);
   EXPECT_EQ(batch.estimate.measured, 6 * n - 4);
   EXPECT_EQ(batch.estimate.status, EstimateStatus::ok);
 }

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/estimate/batch.hpp"
-#include "core/ode/forward_sensitivity.hpp"
+#include "tests/support/forward_sensitivity.hpp"
 #include "tests/support/model_builders.hpp"
 
 namespace drift {
@@ -34,12 +34,12 @@ TEST(Sensitivity, EquationsOfMotionAgreeWithDifferences) {
       const std::vector<Vec3> psi(timeline.chains, Vec3(1e-3, -5e-4, 2e-3));
       const auto predicted = [&](const Theta& t, const std::vector<Vec3>& psi0) {
         const auto chains =
-            measurement_equations(timeline, model, layout, readout, zero, t,
+            measurement_equations({timeline, readout, zero}, model, layout, t,
                                   integrate_fixed(timeline, model, t, psi0), spec.initial_attitude);
         return VecX(-chains.back().rows.rightCols<1>());
       };
       const MatX J =
-          measurement_equations(timeline, model, layout, readout, zero, theta,
+          measurement_equations({timeline, readout, zero}, model, layout, theta,
                                 integrate_fixed(timeline, model, theta, psi), spec.initial_attitude)
               .back()
               .rows;
@@ -134,7 +134,7 @@ TEST(Sensitivity, VariationOfConstantsAgreesWithCvodesForwardSensitivities) {
   IntervalSensitivity inner;
   Mat3X G = Mat3X::Zero(3, nr);
   for (const Interval& i : timeline.intervals) {
-    linearize_interval(i, timeline, Mat3::Zero(), &phi[i.first_node], linearizer, inner);
+    linearize_interval(i, timeline, Mat3::Zero(), &phi[i.first_node], nullptr, linearizer, inner);
     G = (inner.Phi.back() * G + inner.G.back()).eval();
   }
   // psi (inertial axes) of a small change of phi: psi = R_ir J_l(phi) dphi, J_l the left Jacobian.

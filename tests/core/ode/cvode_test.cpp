@@ -133,7 +133,7 @@ TEST_P(CvodeBoth, SegmentsBehindADiscontinuityAreStartedAgain) {
   double expected = 0.0;
   for (int segment = 0; segment < 5; ++segment) {
     rate = segment % 2 ? -3.0 : 7.0;
-    ode.next_segment(segment, &y, segment + 1.0, 1e-3);
+    ode.start(segment, &y, segment + 1.0, 1e-3);
     ASSERT_TRUE(ode.advance(segment + 1.0).ok());
     y = ode.state()[0];
     expected += rate;

@@ -199,14 +199,22 @@ TEST(TermLibrary, KeysDifferInMoreThanCase) {
 
 TEST(TermLibrary, WhatIsProfiledIsKnownByDefaultAndHasAGrid) {
   for (const auto& spec : TermLibrary::specs) {
-    const bool profiled = spec.kind == ParamKind::nonlinear || spec.kind == ParamKind::discrete;
-    EXPECT_EQ(profiled, spec.grid.size > 0) << spec.key.view();
-    if (profiled) {
+    EXPECT_EQ(spec.setting(), spec.grid.size > 0) << spec.key.view();
+    if (spec.setting()) {
       EXPECT_EQ(spec.prior.kind, Prior::Kind::fixed) << spec.key.view();
     }
-    if (spec.kind == ParamKind::linear && spec.key.view() != "lambda") {
-      EXPECT_EQ(spec.prior.mean(), 0.0) << spec.key.view();
+    if (spec.amplitude()) {
+      EXPECT_GT(spec.prior.sigma(), 0.0) << spec.key.view();
+      EXPECT_EQ(spec.prior.mean() == 0.0, spec.key.view() != "lambda") << spec.key.view();
     }
+  }
+}
+
+TEST(TermLibrary, TheAxisOfAParameterIsTheEndOfItsKey) {
+  for (const auto& spec : TermLibrary::specs) {
+    const std::string key =
+        std::string(spec.group.view()) + (spec.axis.empty() ? "" : "_" + std::string(spec.axis));
+    EXPECT_EQ(spec.key.view(), key);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "recording_fixture.hpp"
+#include "tests/support/recordings_by_others.hpp"
 
 namespace drift {
 namespace {
@@ -125,8 +126,8 @@ INSTANTIATE_TEST_SUITE_P(Recording, RealRecording,
                          });
 
 TEST_P(RealRecording, ReadsCleanlyAndAlikeInEveryFormat) {
-  const std::string path = std::string(DRIFT_SOURCE_DIR) + "/../shared/recordings/" + GetParam();
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << "the recordings are not on this machine";
+  NEEDS_RECORDING(GetParam());
+  const std::string path = path_of(GetParam());
   const Recording r = read_recording(path, RecordingKind::strapdown, gravity);
   const QualityCard card = quality_card(r, RecordingKind::strapdown);
   std::cout << GetParam() << ": " << card.rows << " rows, " << card.span << " s\n";

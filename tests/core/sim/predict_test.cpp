@@ -20,10 +20,6 @@ Measurements predicted(const Timeline& timeline, const DriftModel& model, const 
                  std::vector<Vec3>(timeline.chains, Vec3(4e-4, -3e-4, 5e-4)), {});
 }
 
-Coupling coupling_for(std::size_t term) {
-  return TermLibrary::terms[term].key == "frame_closure" ? Coupling::lambda : Coupling::eq6;
-}
-
 TEST(EveryTermInATest, ShowsNothingAtZeroAmplitude) {
   const Timeline timeline = scene("slew12", CommandLaw::level);
   const Theta base = random_theta(5);
@@ -31,8 +27,7 @@ TEST(EveryTermInATest, ShowsNothingAtZeroAmplitude) {
     if (base_parameters()[TermLibrary::terms[t].first]) continue;
     Theta theta = base;
     set_term(theta, t, 0.0);
-    const Coupling coupling =
-        coupling_for(t) == Coupling::lambda ? Coupling::lambda : Coupling::eq6;
+    const Coupling coupling = coupling_for(t);
     const Measurements without = predicted(timeline, model_of(coupling, base_parameters()), base);
     const Measurements with =
         predicted(timeline, model_of(coupling, base_parameters() | term_params(t)), theta);
@@ -53,7 +48,7 @@ TEST(EveryTermInATest, ShowsEachOfItsParameters) {
     for (std::size_t i = info.first; i < info.first + info.count; ++i) {
       const ParamSpec& spec = TermLibrary::specs[i];
       Theta other = theta;
-      if (spec.kind == ParamKind::linear)
+      if (spec.amplitude())
         other[i] += spec.prior_si().sigma();
       else
         other[i] =
@@ -100,7 +95,7 @@ TEST(EveryTermInATest, IsTheSameInTheTruthAndInTheModel) {
     for (std::size_t k = 0; k < phi.size(); ++k)
       worst = std::max(worst, (phi[k] - sim.phi[k]).norm());
     // A reversal of friction takes seconds: 0.036 deg/h times a sixth of half a minute.
-    const double bound = TermLibrary::terms[t].key == "float_restraint" ? 0.18 : 2e-3;  // [arcsec]
+    const double bound = reverses_within_a_step(TermLibrary::terms[t]) ? 0.18 : 2e-3;  // [arcsec]
     EXPECT_LT(worst / arcsec, bound) << TermLibrary::terms[t].key;
     EXPECT_LT(
         difference(predicted(timeline, model_of(coupling_for(t), active), theta), sim.measured),
@@ -114,7 +109,7 @@ TEST(EveryTermInATest, MayStandBesideAllOthers) {
   Theta theta = random_theta(9);
   ParamMask all;
   for (const std::size_t t : visible_terms()) {
-    if (TermLibrary::terms[t].key == "float_restraint") continue;  // see above
+    if (reverses_within_a_step(TermLibrary::terms[t])) continue;  // see above
     set_term(theta, t, 0.5);
     all |= term_params(t);
   }
@@ -136,7 +131,7 @@ TEST(EveryTermInATest, ActsInsideTheServoLoop) {
   Theta theta = Theta::Zero();
   ParamMask all;
   for (const std::size_t t : visible_terms()) {
-    if (TermLibrary::terms[t].key == "frame_closure") continue;
+    if (TermLibrary::terms[t].key == closure_term) continue;
     set_term(theta, t, 0.3);
     all |= term_params(t);
   }

@@ -122,11 +122,11 @@ TEST(TorquerHeating, IsOneAfterASlewOf90DegLessWhatLeakedAway) {
   for (std::size_t i = 0; i < 18; ++i) path.advance(i, effect.theta.data());
   const double tau = 15.0 * 60.0;
   const auto& info = TermLibrary::terms[TermLibrary::find_term("torquer_heating").value()];
-  EXPECT_NEAR(path.at(2).value[info.first_memory], tau / 180.0 * (1.0 - std::exp(-180.0 / tau)),
-              0.2);
+  EXPECT_NEAR(path.points()[2].value[info.first_memory],
+              tau / 180.0 * (1.0 - std::exp(-180.0 / tau)), 0.2);
   const std::size_t last = 2 * (timeline.intervals[17].node_count() - 1);
-  EXPECT_NEAR(path.at(last).value[info.first_memory], tau / 180.0 * (1.0 - std::exp(-180.0 / tau)),
-              1e-12);
+  EXPECT_NEAR(path.points()[last].value[info.first_memory],
+              tau / 180.0 * (1.0 - std::exp(-180.0 / tau)), 1e-12);
 }
 
 TEST(RepositionTransient, DecaysAfterTheAttitudeChanges) {

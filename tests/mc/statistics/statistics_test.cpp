@@ -14,20 +14,6 @@ namespace {
 using namespace drift::test;
 using C = mc::StudyColumns;
 
-TEST(Rate, HasTheWilsonInterval) {
-  // Wilson (1927) as in Newcombe (1998), table I: 81 of 263 is 0.2553 to 0.3662; 0 of 20 is 0 to
-  // 0.1611.
-  const stats::Rate a{81, 263}, none{0, 20}, all{20, 20}, many{0, 2000};
-  EXPECT_NEAR(a.low(), 0.2553, 5e-5);
-  EXPECT_NEAR(a.high(), 0.3662, 5e-5);
-  EXPECT_EQ(none.low(), 0.0);
-  EXPECT_NEAR(none.high(), 0.1611, 5e-5);
-  EXPECT_NEAR(all.low(), 1.0 - 0.1611, 5e-5);
-  EXPECT_EQ(all.high(), 1.0);
-  EXPECT_EQ(many.low(), 0.0);  // where rounding of the formula gives 1e-19
-  EXPECT_TRUE(std::isnan(stats::Rate{}.value()));
-}
-
 TEST(ErrorStatistics, HasClosedForms) {
   // Errors 1, -3 with sigmas 1, 2 in units of a prior of 10.
   mc::ErrorStatistics e(10.0, 0);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "core/base/check.hpp"
@@ -135,6 +136,33 @@ TEST(Manifest, DamageIsNoticed) {
   other_seed.replace(other_seed.find("\"seed\": 1"), 9, "\"seed\": 3");
   std::ofstream(path, std::ios::binary | std::ios::trunc) << other_seed;
   EXPECT_THROW(mc::read_manifest(folder.path()), InputError);
+}
+
+TEST(Manifest, EveryByteIsGuarded) {
+  const ScratchFolder folder;
+  mc::claim_folder(folder.path(), SyntheticStudy{.points = 2}.manifest());
+  const std::string path = folder.file("manifest.json"), text = test::text_of(path);
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    std::string damaged = text;
+    damaged[at] = static_cast<char>(damaged[at] ^ (1 << at % 8));
+    std::ofstream(path, std::ios::binary | std::ios::trunc) << damaged;
+    EXPECT_THROW(mc::read_manifest(folder.path()), InputError)
+        << "byte " << at << ": " << text.substr(at > 20 ? at - 20 : 0, 40);
+  }
+}
+
+TEST(Manifest, OfTheFormatBeforeIsReadAndRenewedByTheNextRun) {
+  const ScratchFolder folder;
+  const SyntheticStudy study;
+  const std::string digest = study.run(folder.path()).digest;
+  const std::string path = folder.file("manifest.json");
+  auto json = nlohmann::ordered_json::parse(test::text_of(path));
+  json["format"] = 1;
+  json.erase("checksum");
+  std::ofstream(path, std::ios::binary | std::ios::trunc) << json.dump(1) << "\n";
+  EXPECT_EQ(mc::read_manifest(folder.path()).read_as, 1);
+  EXPECT_EQ(study.run(folder.path()).digest, digest);
+  EXPECT_EQ(mc::read_manifest(folder.path()).read_as, mc::Manifest::file_format);
 }
 
 TEST(TextDifference, ShowsChangedLinesOnly) {

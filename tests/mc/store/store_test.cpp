@@ -145,6 +145,46 @@ TEST(Store, AFileThatIsNoDatabaseIsSetAsideAndABrokenOneGivesBackItsWholeBlocks)
   EXPECT_LT(again.done, 40u) << "whole blocks are taken over";
 }
 
+TEST(Store, RowsWhoseBlockIsGoneDoNotStandInTheWay) {
+  const ScratchFolder folder;
+  const SyntheticStudy study = small_study();
+  const auto before = study.run(folder.path());
+  mc::Database(folder.file("worker-0000.sqlite"), mc::Database::Use::write)
+      .execute("DELETE FROM blocks WHERE id = (SELECT max(id) FROM blocks)");
+  const auto after = study.run(folder.path());
+  EXPECT_EQ(after.digest, before.digest);
+  EXPECT_EQ(after.done, 8u);
+}
+
+TEST(Store, TheDatabaseOfSomebodyElseIsSetAsideUntouched) {
+  const ScratchFolder folder;
+  const SyntheticStudy study = small_study();
+  mc::claim_folder(folder.path(), study.manifest());
+  mc::Database(folder.file("worker-0000.sqlite"), mc::Database::Use::write)
+      .execute("CREATE TABLE mine (x); INSERT INTO mine VALUES (1)");
+  const std::string bytes = test::text_of(folder.file("worker-0000.sqlite"));
+  study.run(folder.path());
+  EXPECT_EQ(test::text_of(folder.file("worker-0000.damaged-1")), bytes);
+}
+
+TEST(Store, WhatRepeatsOtherTablesIsComparedWithThemAndMended) {
+  for (const char* damage :
+       {"UPDATE columns SET unit = 'rad' WHERE number = 1",
+        "UPDATE study SET value = '2' WHERE key = 'seed'", "UPDATE moments SET mean = mean + 1e-9",
+        "DELETE FROM moments WHERE number = 3", "UPDATE sessions SET runs = runs + 1024"}) {
+    const ScratchFolder folder;
+    const SyntheticStudy study = small_study();
+    const auto before = study.run(folder.path());
+    EXPECT_TRUE(mc::StudyReader(folder.path()).misfits().empty());
+    mc::Database(folder.file("worker-0000.sqlite"), mc::Database::Use::write).execute(damage);
+    mc::StudyReader reader(folder.path());
+    EXPECT_EQ(reader.misfits().size(), 1u) << damage;
+    EXPECT_EQ(reader.runs(), 40u) << damage;
+    EXPECT_EQ(study.run(folder.path()).digest, before.digest);
+    EXPECT_TRUE(mc::StudyReader(folder.path()).misfits().empty()) << damage;
+  }
+}
+
 TEST(Store, EqualDuplicatesAreLegalAndOthersAreNot) {
   const ScratchFolder folder;
   const SyntheticStudy study = small_study();

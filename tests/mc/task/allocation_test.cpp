@@ -48,7 +48,8 @@ TEST(Allocations, ARunOfAStudyMakesNoneInItsFilters) {
   const std::string all =
       "[\"fixed_drift\", \"g_drift\", \"g2_drift\", \"gyro_misalignment\", \"torquer_scale\", "
       "\"accelerometer\"]";
-  for (const std::string& terms : {std::string("[\"fixed_drift\"]"), all})
+  const std::string memory = "[\"fixed_drift\", \"warmup_drift\", \"torquer_heating\"]";
+  for (const std::string& terms : {std::string("[\"fixed_drift\"]"), all, memory})
     for (const char* estimator : {"ekf", "iterated"}) {
       const auto count = [&](const char* starts) {
         return allocations_of({{"monte_carlo.estimator", estimator},

@@ -190,13 +190,26 @@ TEST(Trace, IsThatOfTheRunItself) {
                 block.rows[columns.sigma(f.start, k)]);
     }
   }
-  const std::string csv = mc::trace_csv(study, trace);
-  EXPECT_NE(csv.find("# truth.eta_x = "), std::string::npos);
-  EXPECT_NE(csv.find("filter,start,time [s],nis,scalars,D_F_x [deg/h],sigma_D_F_x [deg/h]"),
-            std::string::npos);
-  const auto lines = std::ranges::count(csv, '\n');
-  EXPECT_EQ(lines, static_cast<std::ptrdiff_t>(task.layout().truth.size() + 1 +
-                                               3 * task.timeline().intervals.size()));
+  struct : mc::TraceSink {
+    std::vector<std::string> names;
+    std::vector<std::vector<double>> rows;
+    void columns(const std::vector<mc::Column>& all) override {
+      for (const mc::Column& c : all) names.push_back(c.name);
+    }
+    void row(std::span<const double> values) override {
+      rows.emplace_back(values.begin(), values.end());
+    }
+  } sink;
+  mc::send_trace(trace, sink);
+  EXPECT_EQ(std::vector(sink.names.begin(), sink.names.begin() + 7),
+            (std::vector<std::string>{"filter", "start", "time", "nis", "scalars", "D_F_x",
+                                      "sigma_D_F_x"}));
+  const auto& first = trace.filters.front();
+  ASSERT_EQ(sink.rows.size(), 3 * task.timeline().intervals.size());
+  ASSERT_EQ(TermLibrary::specs[first.layout.params[0]].key.view(), "D_F_x");
+  const auto& last = sink.rows[task.timeline().intervals.size() - 1];
+  EXPECT_EQ(last[5], first.history.estimate(0, first.history.estimate.cols() - 1));
+  EXPECT_EQ(last[6], first.history.sigma(0, first.history.sigma.cols() - 1));
 }
 
 }  // namespace

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "analysis/diagnosis/diagnosis.hpp"
-#include "analysis/diagnosis/patched_study.hpp"
+#include "analysis/diagnosis/advice/patched_study.hpp"
+#include "analysis/diagnosis/findings/diagnosis.hpp"
 #include "mc/study/study.hpp"
 #include "tests/support/program.hpp"
 
@@ -100,7 +100,7 @@ inline diagnosis::Diagnosis diagnosis(const FilterSpec& nominal) {
   d.fit.held_out.improves = true;
   for (int p = 1; p <= 6; ++p) {
     diagnosis::Fold fold;
-    fold.name = fmt::format("position {}", p);
+    fold.number = p;
     fold.positions = {p};
     fold.chi2_before = 90.0 * p;
     fold.chi2_after = 10.0;
@@ -116,7 +116,8 @@ inline diagnosis::Diagnosis diagnosis(const FilterSpec& nominal) {
   diagnosis::RecoveredSignal signal;
   signal.equation = "platform rate y";
   signal.unit = "deg/h";
-  signal.shape = "a step of 0.25 deg/h, from 1200 s on";
+  signal.shape = {diagnosis::Shape::Kind::onset, 1200.0};
+  signal.correlation = 0.9;
   for (int i = 0; i < 60; ++i) {
     signal.t.push_back(60.0 * (i + 1));
     signal.position.push_back(1 + i / 10);
@@ -128,7 +129,13 @@ inline diagnosis::Diagnosis diagnosis(const FilterSpec& nominal) {
   d.cosines.labels = {"g_drift.y", "g_drift.z"};
   d.cosines.cosine = (MatX(2, 2) << 1.0, 0.85, 0.85, 1.0).finished();
   diagnosis::Advice advice;
-  advice.text = "Add x up: it separates g_drift.y from g_drift.z by 6.2 sigma";
+  for (const char* axis : {"y", "z"}) {
+    search::Cause one;
+    one.term = "g_drift";
+    one.axis = axis;
+    advice.alternatives.push_back({diagnosis::Alternative::Kind::causes, {one}, Coupling::eq5, {}});
+  }
+  advice.pairs = {{{0, 1}, 1.5, 6.2}};
   Position position;
   position.name = "x up";
   position.axes = "x=U y=N z=W";
@@ -137,11 +144,12 @@ inline diagnosis::Diagnosis diagnosis(const FilterSpec& nominal) {
   std::string why;
   position.R_lp = parse_axes(position.axes, why).value();
   advice.plan = {position};
-  advice.separates = {"g_drift.y", "g_drift.z"};
+  advice.usual_dwell = 600.0;
+  advice.wanted = 5.0;
+  advice.now_sigma = 1.5;
   advice.expected_sigma = 6.2;
-  advice.verified_sigma = none;
   d.advice = {advice};
-  d.remarks = {"a <remark> & more"};
+  d.remarks = {diagnosis::remark::Input{"a <remark> & more"}};
   d.nominal = nominal;
   d.patched = diagnosis::patched_filter(nominal, d.causes);
   d.has_patch = true;

@@ -8,15 +8,11 @@
 #include <set>
 #include <sstream>
 
-#include "analysis/report/identify/figures.hpp"
-#include "analysis/report/identify/folder.hpp"
-#include "analysis/report/identify/html.hpp"
-#include "analysis/report/identify/json.hpp"
-#include "analysis/report/identify/tables.hpp"
-#include "analysis/report/identify/text.hpp"
+#include "analysis/report/identify/sections.hpp"
 #include "analysis/report/page/escape.hpp"
 #include "core/base/check.hpp"
 #include "core/base/results_folder.hpp"
+#include "tests/analysis/report/figures_of.hpp"
 #include "tests/analysis/report/identify/identification_fixture.hpp"
 #include "tests/analysis/report/xml_check.hpp"
 
@@ -34,7 +30,7 @@ TEST(IdentificationText, FitsOnAPageAndSaysWhatMatters) {
   id.summaries[1].degeneracies = {{0.0, no_signal}};
   id.runs[4].ekf.status = EstimateStatus::diverged;
   id.runs[4].ekf.cause = "filter diverged at t = 60 s";
-  const std::string text = report::to_text(study, id);
+  const std::string text = to_text(report::identification_report(study, id));
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);)
     EXPECT_LE(report::display_width(line), 100u) << line;
@@ -78,7 +74,7 @@ TEST(IdentificationJson, HoldsEveryResultInItsUnitAndNoNan) {
   id.runs[0].ekf.parameters[1].value = HUGE_VAL;
   id.summaries[0].spread[0].ekf = std::nan("");
   id.runs[1].ekf.measured = 0;
-  const std::string text = report::to_json(study, id);
+  const std::string text = report::identification_report(study, id).document.second;
   const auto json = nlohmann::json::parse(text);  // NaN would not parse
   EXPECT_EQ(json["schema"], 1);
   EXPECT_EQ(json["filters"].size(), 2u);
@@ -106,7 +102,7 @@ TEST(IdentificationFigures, ShowThePublishedParametersOfEveryFilter) {
   mc::Study study = testing::study();
   study.published = testing::table_1();
   const identification::Identification id = testing::identification(study);
-  const auto figures = report::identification_figures(study, id);
+  const auto figures = testing::figures_of({report::estimate_figures(study, id)});
   std::vector<std::string> files;
   for (const report::Figure& f : figures) {
     files.push_back(f.file);
@@ -144,7 +140,7 @@ TEST(IdentificationFigures, StopWhereTheFilterStopped) {
     run.history.sigma.rightCols(200).setZero();
     std::fill(run.history.scalars.begin() + 100, run.history.scalars.end(), 0);
   }
-  for (const report::Figure& f : report::identification_figures(study, id)) {
+  for (const report::Figure& f : testing::figures_of({report::estimate_figures(study, id)})) {
     EXPECT_EQ(testing::xml_problem(f.svg).value_or(""), "");
     EXPECT_EQ(f.svg.find("nan"), std::string::npos);
   }
@@ -157,8 +153,7 @@ TEST(IdentificationHtml, IsSafeWithHostileNames) {
   study.resolved = {{"title", hostile, hostile}};
   identification::Identification id = testing::identification(study);
   id.runs[0].ekf.cause = hostile;
-  const auto figures = report::identification_figures(study, id);
-  const std::string html = report::to_html(report::identification_html(study, id, figures));
+  const std::string html = report::to_html(report::identification_report(study, id));
   EXPECT_EQ(testing::xml_problem(html, {"meta"}).value_or(""), "");
   EXPECT_EQ(html.find("<script"), std::string::npos);
   EXPECT_EQ(html.find("://"), std::string::npos);
@@ -192,10 +187,12 @@ TEST_F(ResultsFolder, HoldsEveryFileAndNothingElse) {
   id.recording.channels = {{"time", unit::s, {60.0, 120.0}},
                            {"position", unit::one, {1.0, 1.0}},
                            {"acc_x", unit::g, {0.5, 0.25}}};
-  const auto names = report::write_results(study, id, (folder_ / "a/b").string());
+  const auto names = report::write_identification(report::identification_report(study, id), id,
+                                                  (folder_ / "a/b").string());
   std::set<std::string> found;
   for (const auto& entry : std::filesystem::directory_iterator(folder_ / "a/b"))
     found.insert(entry.path().filename().string());
+  EXPECT_EQ(found.erase(".driftscope"), 1u) << "the register of what was written";
   EXPECT_EQ(found, std::set<std::string>(names.begin(), names.end()));
   EXPECT_EQ(found,
             (std::set<std::string>{"identification.json", "estimates.svg",
@@ -222,8 +219,9 @@ TEST_F(ResultsFolder, SaysWhyItCannotBeWritten) {
   const mc::Study study = testing::study();
   const identification::Identification id = testing::identification(study);
   std::ofstream(folder_) << "a file where the folder should be";
-  expect_io_error([&] { report::write_results(study, id, folder_.string()); }, folder_.string(),
-                  "cannot be written");
+  expect_io_error(
+      [&] { report::write_report(report::identification_report(study, id), folder_.string()); },
+      folder_.string(), "cannot be written");
   expect_io_error([&] { write_text_atomically("/proc/none/x", "text"); }, "/proc/none/x",
                   "No such file");
 }

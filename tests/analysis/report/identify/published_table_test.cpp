@@ -1,7 +1,6 @@
-#include "analysis/report/identify/published_table.hpp"
-
 #include <gtest/gtest.h>
 
+#include "analysis/report/identify/sections.hpp"
 #include "tests/analysis/report/identify/identification_fixture.hpp"
 
 namespace drift {

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "analysis/report/page/escape.hpp"
-#include "analysis/report/page/html_report.hpp"
+#include "analysis/report/page/json.hpp"
 #include "core/base/number_text.hpp"
 #include "core/stats/chi_square_band.hpp"
 #include "tests/analysis/report/xml_check.hpp"
@@ -60,10 +60,7 @@ TEST(ChiSquareBand, AgreesWithTables) {
 }
 
 report::Table sample() {
-  report::Table t{.title = "A <table>",
-                  .columns = {{"name", report::Align::left}, {"value"}},
-                  .rows = {},
-                  .note = "a note"};
+  report::Table t("A <table>", "<name | value", "a note");
   t.add_heading("group & co");
   t.add({"x", report::Cell("1.0±0.1", report::Tone::good)});
   t.add({"longer", report::Cell("10", report::Tone::bad)});
@@ -97,17 +94,17 @@ TEST(Wrapped, LinesStayWithinTheWidth) {
   EXPECT_EQ(all, (std::vector<std::string>{"aaa bbb", "  " + std::string(30, 'x'), "  cc dd"}));
 }
 
-TEST(HtmlReport, IsOnePageWithoutScriptsAndAddresses) {
-  report::HtmlReport report{.title = "<script>alert(1)</script>",
-                            .subtitle = "\"quoted\" & 'single'",
-                            .headlines = {"</ul><img src=x onerror=alert(1)>"},
-                            .sections = {},
-                            .footer = "<b>"};
+TEST(Report, IsOnePageWithoutScriptsAndAddresses) {
+  report::Report report{.command = "<b>",
+                        .title = "<script>alert(1)</script>",
+                        .subtitle = "\"quoted\" & 'single'",
+                        .headlines = {"</ul><img src=x onerror=alert(1)>"},
+                        .footer = "<b>"};
   report.sections.push_back(
       {"one <i>",
        {report::Paragraph{"<script>"}, report::Sentences{{"a", "<b"}},
         report::Preformatted{"x < y"}, sample(),
-        report::Picture{"<svg xmlns=\"http://www.w3.org/2000/svg\"></svg>", "cap <tion>"}}});
+        report::Figure{"<svg xmlns=\"http://www.w3.org/2000/svg\"></svg>", "cap <tion>"}}});
   const std::string html = report::to_html(report);
   EXPECT_EQ(testing::xml_problem(html, void_tags).value_or(""), "");
   EXPECT_EQ(html.find("<script"), std::string::npos);

@@ -5,11 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/report/page/swept_value.hpp"
-#include "analysis/report/study/figures.hpp"
-#include "analysis/report/study/html.hpp"
-#include "analysis/report/study/json.hpp"
-#include "analysis/report/study/sweep_figures.hpp"
-#include "analysis/report/study/tables.hpp"
+#include "analysis/report/study/sections.hpp"
+#include "tests/analysis/report/figures_of.hpp"
 #include "tests/analysis/report/xml_check.hpp"
 #include "tests/mc/small_study.hpp"
 
@@ -46,7 +43,7 @@ const report::StudyResults& swept() {
 }
 
 TEST(StudyReport, IsOneValidPageThatNeedsNothingElse) {
-  const std::string html = report::to_html(report::study_html(swept()));
+  const std::string html = report::to_html(report::study_report(swept()));
   const auto problem = testing::xml_problem(html, void_tags);
   EXPECT_FALSE(problem) << *problem;
   EXPECT_EQ(html.find("http://"), std::string::npos);
@@ -63,19 +60,19 @@ TEST(StudyReport, IsOneValidPageThatNeedsNothingElse) {
 
 TEST(StudyReport, TakesSectionsOfOthers) {
   report::StudyResults results = results_of(small_study, 8);
-  results.further.push_back({"Ranking by information", {report::Paragraph{"from elsewhere"}}});
-  const std::string html = report::to_html(report::study_html(results));
+  results.information = {"Ranking by information", {report::Paragraph{"from elsewhere"}}};
+  const std::string html = report::to_html(report::study_report(results));
   EXPECT_NE(html.find("<h2>Ranking by information</h2>"), std::string::npos);
   EXPECT_EQ(html.find("<h2>Sweep</h2>"), std::string::npos);
 }
 
 TEST(StudyReport, SaysTheSilentFailureRateInWords) {
-  const auto lines = report::study_headlines(swept());
+  const auto lines = report::headlines(swept());
   ASSERT_EQ(lines.size(), 8u);
   EXPECT_NE(lines[0].find("the wrong equation"), std::string::npos);
   EXPECT_NE(lines[0].find("silent failures"), std::string::npos);
   EXPECT_NE(lines[7].find("the right equation"), std::string::npos);
-  const std::string text = report::study_text(swept());
+  const std::string text = to_text(report::study_report(swept()));
   EXPECT_NE(text.find("Truth against filter"), std::string::npos);
   EXPECT_NE(text.find("truth.parameters.eta = 20 arcsec"), std::string::npos);
 }
@@ -87,15 +84,16 @@ TEST(StudyReport, RefusesAHeadlineOverTooManyFailures) {
   failed.status.assign(1, mc::RunStatus::integrator_failed);
   failed.rows.assign(results.statistics[0].columns().count, std::nan(""));
   results.statistics[0].add(failed);
-  const auto lines = report::study_headlines(results);
+  const auto lines = report::headlines(results);
   ASSERT_EQ(lines.size(), 1u);
   EXPECT_NE(lines[0].find("No headline"), std::string::npos);
-  EXPECT_EQ(report::failure_table(results).rows.size(), 1u);
-  EXPECT_NE(report::study_text(results).find("Lost runs have no data"), std::string::npos);
+  EXPECT_EQ(std::get<report::Table>(report::failures(results).blocks[0].content).rows.size(), 1u);
+  EXPECT_NE(to_text(report::study_report(results)).find("Lost runs have no data"),
+            std::string::npos);
 }
 
 TEST(StudyReport, JsonHoldsWhatTheTablesSay) {
-  const auto json = nlohmann::json::parse(report::study_json(swept()));
+  const auto json = nlohmann::json::parse(report::study_report(swept()).document.second);
   ASSERT_EQ(json["points"].size(), 4u);
   const auto& pair = json["points"][0]["filters"][1];
   EXPECT_EQ(pair["name"], "wrong");
@@ -115,8 +113,8 @@ TEST(StudyReport, JsonHoldsWhatTheTablesSay) {
 TEST(StudyReport, WritesItsFiles) {
   const auto folder =
       std::filesystem::temp_directory_path() / ("driftscope_report_" + std::to_string(::getpid()));
-  const auto names = report::write_study_report(swept(), folder.string());
-  EXPECT_EQ(names, (std::vector<std::string>{"report.html", "summary.json"}));
+  const auto names = report::write_report(report::study_report(swept()), folder.string());
+  EXPECT_EQ(names, (std::vector<std::string>{"summary.json", "report.html"}));
   for (const auto& name : names) EXPECT_GT(std::filesystem::file_size(folder / name), 1000u);
   std::filesystem::remove_all(folder);
 }
@@ -145,11 +143,11 @@ TEST(SweptNumber, IsFoundInQuantitiesAndDistributions) {
 }
 
 TEST(SweepPictures, AreDrawnForAxesOfNumbersAlone) {
-  const auto pictures = report::sweep_pictures(swept());
+  const auto pictures = testing::figures_of({report::sweep(swept())});
   ASSERT_EQ(pictures.size(), 1u);
   EXPECT_NE(pictures[0].caption.find("truth.parameters.eta"), std::string::npos);
   EXPECT_NE(pictures[0].svg.find("truth.parameters.eta [arcsec]"), std::string::npos);
-  EXPECT_TRUE(report::sweep_pictures(results_of(small_study, 2)).empty());
+  EXPECT_TRUE(report::sweep(results_of(small_study, 2)).blocks.empty());
 }
 
 }  // namespace

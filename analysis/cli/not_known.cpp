@@ -1,0 +1,35 @@
+#include "analysis/cli/not_known.hpp"
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "analysis/cli/argument_checks.hpp"
+
+namespace drift::cli {
+
+std::string not_known(const CLI::App& app, int argc, char** argv) {
+  const CLI::App* chosen = nullptr;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (chosen == nullptr && !word.starts_with('-')) {
+      std::vector<std::string> names;
+      for (const CLI::App* c : app.get_subcommands(nullptr)) {
+        names.push_back(c->get_name());
+        if (c->get_name() == word) chosen = c;
+      }
+      if (chosen == nullptr)
+        return unknown("command", word, std::vector<std::string_view>(names.begin(), names.end()));
+    } else if (word.starts_with("--") && word.size() > 2) {
+      const std::string given = word.substr(0, word.find('='));
+      std::vector<std::string> names;
+      for (const CLI::Option* o : (chosen != nullptr ? *chosen : app).get_options(nullptr))
+        for (const std::string& name : o->get_lnames()) names.push_back("--" + name);
+      if (std::find(names.begin(), names.end(), given) == names.end())
+        return unknown("option", given, std::vector<std::string_view>(names.begin(), names.end()));
+    }
+  }
+  return {};
+}
+
+}  // namespace drift::cli

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+namespace drift::cli {
+
+/// Standard output took no more: a full disk, or a reader that went away.
+struct OutputLost : std::system_error {
+  using std::system_error::system_error;
+};
+
+/// Results, to standard output. What names and titles bring along is shown, not obeyed: control
+/// characters and bytes that are not UTF-8 appear as \xNN. OutputLost if it takes no more.
+void show_text(std::string_view text);
+
+/// Everything else, to standard error, in the same way; lines beyond all measure are shortened. If
+/// nobody takes it, the work goes on all the same.
+void say_text(std::string_view text);
+
+template <class... A>
+void show(fmt::format_string<A...> text, A&&... arguments) {
+  show_text(fmt::format(text, std::forward<A>(arguments)...));
+}
+
+template <class... A>
+void say(fmt::format_string<A...> text, A&&... arguments) {
+  say_text(fmt::format(text, std::forward<A>(arguments)...));
+}
+
+/// Brings what was printed out of the program. OutputLost.
+void flush_output();
+
+}  // namespace drift::cli

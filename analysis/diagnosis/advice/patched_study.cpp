@@ -1,0 +1,160 @@
+#include "analysis/diagnosis/advice/patched_study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/inference/thresholds.hpp"
+#include "analysis/planning/position_toml.hpp"
+#include "core/base/check.hpp"
+#include "core/config/load.hpp"
+#include "core/physics/parameters_config.hpp"
+
+namespace drift::diagnosis {
+namespace {
+
+using config::list_node;
+using config::Node;
+using config::text_node;
+
+/// The value of a key of a table, made if it is not there.
+Node& at(Node& table, const std::string& key) {
+  if (Node* found = table.find(key)) return *found;
+  table.members.push_back({key, {}, {}});
+  return table.members.back().value;
+}
+
+Node quantity_node(double si, const Unit& unit) {
+  const double value = si / unit.to_si;
+  if (unit.to_si != 1.0 || unit.dim != Dimension{})
+    return text_node(fmt::format("{} {}", value, unit.symbol.view()));
+  return config::real_node(value);
+}
+
+Node prior_node(const Prior& prior, const Unit& unit) {
+  if (prior.kind == Prior::Kind::fixed) return quantity_node(prior.a, unit);
+  Node node;
+  node.members.push_back({prior.kind == Prior::Kind::normal ? "normal" : "uniform",
+                          {},
+                          list_node({quantity_node(prior.a, unit), quantity_node(prior.b, unit)})});
+  return node;
+}
+
+Node parsed(const mc::Study& study) {
+  return config::parse_document(study.text, study.path);
+}
+
+}  // namespace
+
+FilterSpec patched_filter(const FilterSpec& nominal, const std::vector<search::Cause>& causes) {
+  FilterSpec patched = nominal;
+  for (const search::Cause& cause : causes)
+    for (const search::CauseParameter& p : cause.parameters) {
+      patched.active.set(p.param);
+      const ParamSpec& spec = TermLibrary::specs[p.param];
+      const double value = p.value * spec.unit.to_si;
+      Prior prior = spec.prior_si();
+      if (prior.kind == Prior::Kind::normal &&
+          std::abs(value - prior.a) > inference::WeighLimits::prior * prior.b)
+        prior.b = std::abs(value - prior.a);
+      patched.priors[p.param] = p.profiled ? fixed(value) : prior;
+      if (p.param == closure_param) patched.coupling = family_of(patched.coupling);
+    }
+  // A term comes with its time constant and the like, known until the study says otherwise.
+  const ParamMask whole = TermLibrary::completed(patched.active);
+  for (std::size_t i = 0; i < TermLibrary::num_params; ++i)
+    if (whole[i] && !patched.active[i]) patched.priors[i] = TermLibrary::specs[i].prior_si();
+  patched.active = whole;
+  return patched;
+}
+
+FilterSpec started_where_found(FilterSpec patched, const std::vector<search::Cause>& causes) {
+  std::vector<const search::CauseParameter*> far_from_linear, found;
+  for (const search::Cause& cause : causes) {
+    if (cause.set != 0) continue;
+    for (const search::CauseParameter& p : cause.parameters) {
+      if (!patched.active[p.param] || patched.priors[p.param].sigma() <= 0.0) continue;
+      found.push_back(&p);
+      if (p.param == closure_param || TermLibrary::specs[p.param].kind == ParamKind::nonlinear)
+        far_from_linear.push_back(&p);
+    }
+  }
+  if (far_from_linear.empty()) return patched;
+  if (patched.starts.empty()) patched.starts.emplace_back();
+  for (Start& start : patched.starts)
+    for (const search::CauseParameter* p : found) {
+      std::erase_if(start, [&](const auto& given) { return given.first == p->param; });
+      start.emplace_back(p->param, p->value * TermLibrary::specs[p->param].unit.to_si);
+    }
+  patched.drawn_starts = static_cast<int>(patched.starts.size());
+  return patched;
+}
+
+std::string patched_study(const mc::Study& study, const FilterSpec& patched) {
+  Node root = parsed(study);
+  Node* filters = root.find("filter");
+  if (filters == nullptr || filters->items.empty() || study.filters.empty())
+    throw InputError(
+        ExitCode::config,
+        fmt::format("{}: no [[filter]] to be patched (expected the nominal model). Add "
+                    "a section [[filter]]",
+                    study.path));
+  Node& filter = filters->items.front();
+  const FilterSpec& nominal = study.filters.front();
+
+  Node& terms = at(filter, "terms") = list_node({});
+  for (const std::string& term : terms_text(patched.active)) terms.items.push_back(text_node(term));
+  if (patched.coupling != nominal.coupling)
+    at(filter, "coupling") = text_node(std::string(key_of(patched.coupling)));
+
+  Node parameters = filter.find("parameters") ? *filter.find("parameters") : Node{};
+  for (std::size_t i = 0; i < TermLibrary::num_params; ++i) {
+    if (!patched.active[i] || (nominal.active[i] && patched.priors[i] == nominal.priors[i]))
+      continue;
+    const ParamSpec& spec = TermLibrary::specs[i];
+    at(parameters, std::string(spec.key.view())) = prior_node(patched.priors[i], spec.unit);
+  }
+  if (!parameters.members.empty()) at(filter, "parameters") = std::move(parameters);
+
+  if (patched.starts != nominal.starts) {
+    Node& starts = at(filter, "starts") = list_node({});
+    for (const Start& start : patched.starts) {
+      Node one;
+      for (const auto& [i, value] : start)
+        at(one, std::string(TermLibrary::specs[i].key.view())) =
+            quantity_node(value, TermLibrary::specs[i].unit);
+      starts.items.push_back(std::move(one));
+    }
+  }
+
+  const auto noise = [&](const char* key, double now, double before, const Unit& unit) {
+    if (now != before) at(filter, key) = quantity_node(now, unit);
+  };
+  noise("angle_random_walk", patched.noise.angle_random_walk, nominal.noise.angle_random_walk,
+        unit::deg_per_sqrt_h);
+  noise("drift_random_walk", patched.noise.drift_random_walk, nominal.noise.drift_random_walk,
+        unit::deg_per_h_per_sqrt_h);
+  return config::to_document(root);
+}
+
+std::string extended_study(const mc::Study& study, const std::vector<Position>& positions) {
+  if (study.kind != RecordingKind::platform)
+    throw InputError(ExitCode::config,
+                     fmt::format("{}: a strapdown plan has no positions to add to "
+                                 "(expected a platform plan). Record more turns",
+                                 study.path));
+  Node root = parsed(study);
+  Node& plan = at(root, "plan");
+  std::erase_if(plan.members, [](const config::Member& m) {
+    return m.key == "preset" || m.key == "position" || m.key == "dwell" || m.key == "sample" ||
+           m.key == "mode" || m.key == "entry";
+  });
+  Node list = list_node({});
+  for (const Position& p : study.plan.positions) list.items.push_back(planning::position_node(p));
+  for (const Position& p : positions) list.items.push_back(planning::position_node(p));
+  plan.members.push_back({"position", {}, std::move(list)});
+  return config::to_document(root);
+}
+
+}  // namespace drift::diagnosis

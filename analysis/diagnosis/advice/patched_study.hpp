@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "analysis/diagnosis/findings/diagnosis.hpp"
+#include "mc/study/study.hpp"
+
+namespace drift::diagnosis {
+
+/// The nominal filter with the parameters of some causes in it. What a cause found by profiling
+/// (time constants, onsets, phases) becomes a known constant, everything else is estimated with the
+/// library's prior, widened to the size found where that is beyond three of its sigmas. A cause
+/// with lambda makes the coupling "lambda".
+FilterSpec patched_filter(const FilterSpec& nominal, const std::vector<search::Cause>& causes);
+
+/// A filter that starts where causes were found, if one of their parameters is far from linear
+/// (lambda, an onset, a time constant): from elsewhere an EKF, which linearises once, settles on a
+/// wrong value with a small sigma, and a batch fit may find another minimum. Priors stay. The
+/// causes of set 0 count.
+FilterSpec started_where_found(FilterSpec patched, const std::vector<search::Cause>& causes);
+
+/// The study file (study.text) with its first filter changed to `patched`, everything else kept:
+/// terms, coupling, starts, and the priors that differ from those of the file. Complete TOML,
+/// readable by read_study(). Order and values are kept, comments are not.
+std::string patched_study(const mc::Study& study, const FilterSpec& patched);
+
+/// The study file with positions added behind its plan; a preset is written out position by
+/// position. InputError (config) if the plan has no positions (strapdown).
+std::string extended_study(const mc::Study& study, const std::vector<Position>& positions);
+
+}  // namespace drift::diagnosis

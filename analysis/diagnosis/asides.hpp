@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+
+#include "analysis/diagnosis/findings/diagnosis.hpp"
+#include "analysis/search/search.hpp"
+
+namespace drift::diagnosis {
+
+/// How far the best explanation goes that was not good enough; empty if it explains next to
+/// nothing.
+std::optional<NearestKnown> nearest_known(const search::Fitted& nominal,
+                                          const search::Search& found);
+
+/// With that explanation in the model, the strongest of what is left.
+std::optional<remark::StrongestLeft> strongest_left(const search::Fitted& nominal,
+                                                    const search::Search& found);
+
+/// Nominal parameters that the recording moves more than five sigmas of their prior: the fit is
+/// good, what it says is not to be believed (isotropic D_I, for one, is Earth rate about Up).
+std::optional<remark::BeyondPrior> beyond_prior(const BatchResult& nominal);
+
+/// Whether the drift equation is (5) or (6) is part of the nominal model: where the test does not
+/// tell, its agreement says nothing of it (physics.md 1.7).
+std::optional<remark::EquationOpen> equation_open(const Diagnosis& diagnosis);
+
+}  // namespace drift::diagnosis

@@ -1,0 +1,141 @@
+#include "analysis/diagnosis/causes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/inference/thresholds.hpp"
+#include "analysis/search/setting_spread.hpp"
+
+namespace drift::diagnosis {
+namespace {
+
+using inference::TraceLimits;
+
+/// Member `which` of an explanation: value and sigma of a parameter, in its unit. profiled: one of
+/// the settings.
+search::CauseParameter parameter_of(const search::Fitted& nominal, const search::Refit& r,
+                                    std::size_t which, std::size_t param, bool profiled) {
+  const ParamSpec& spec = TermLibrary::specs[param];
+  search::CauseParameter out{std::string(spec.key.view()),         param,   0.0, 0.0,
+                             std::string(spec.unit.symbol.view()), profiled};
+  if (const ParameterEstimate* e = r.after.fit.estimate.find(param)) {
+    out.value = e->value / spec.unit.to_si;
+    const double spread = profiled && spec.kind == ParamKind::nonlinear
+                              ? search::setting_spread(nominal, r.choices, which, param, e->value)
+                              : 0.0;
+    out.sigma = std::max(e->sigma, spread) / spec.unit.to_si;
+  } else {
+    out.value = r.filter.priors[param].mean() / spec.unit.to_si;
+  }
+  return out;
+}
+
+/// The largest distance of an amplitude from its prior's mean, in sigmas of the prior.
+double size_of(const search::Refit& r, const std::vector<std::size_t>& params) {
+  double size = 0.0;
+  for (const std::size_t param : params)
+    if (const ParameterEstimate* e = r.after.fit.estimate.find(param)) {
+      const Prior prior = TermLibrary::specs[param].prior_si();
+      size = std::max(size, std::abs(e->value - prior.mean()) / prior.sigma());
+    }
+  return size;
+}
+
+search::Cause cause_of(const search::Fitted& nominal, const search::Search& found, std::size_t set,
+                       std::size_t which) {
+  const inference::Projected& p = nominal.projected;
+  const search::Refit& r = found.sets[set];
+  const search::Choice& choice = r.choices[which];
+  const inference::Candidate& c = nominal.set.candidates[choice.candidate];
+  search::Cause cause;
+  cause.term = c.term;
+  cause.axis = c.axis;
+  cause.set = static_cast<int>(set);
+  cause.probability = found.probability[set];
+  const auto own = search::columns_of(nominal.set, {choice});
+  const inference::Contrast contrast = inference::make_contrast(p.C, p.raw, own);
+  cause.dof = contrast.dof;
+  // Each of several with the others in the model: alone it may cancel against them.
+  std::vector<search::Choice> others;
+  for (const search::Choice& o : r.choices)
+    if (o.candidate != choice.candidate) others.push_back(o);
+  const auto T_of = [&](const std::vector<search::Choice>& some) {
+    return inference::make_contrast(p.C, p.raw, search::columns_of(nominal.set, some)).T(p.g);
+  };
+  cause.T = std::max(0.0, T_of(r.choices) - (others.empty() ? 0.0 : T_of(others)));
+  if (c.term == closure_term) {  // far from linear: what counts is the fit
+    cause.T = std::max(cause.T, 2.0 * r.log_bayes);
+    cause.dof = std::max(cause.dof, 1);
+  }
+  cause.p_value =
+      std::min(1.0, found.thresholds.library.p_value(stats::strength(cause.T, cause.dof)) /
+                        inference::SearchLimits::library_share);
+  cause.size_sigma = size_of(r, c.params);
+  for (const std::size_t i : c.params)
+    cause.parameters.push_back(parameter_of(nominal, r, which, i, false));
+  for (const auto& [i, value] : c.variants[choice.variant].settings)
+    cause.parameters.push_back(parameter_of(nominal, r, which, i, true));
+  return cause;
+}
+
+/// What a cause could be taken for, among all candidates: the strongest cosines of other terms.
+std::vector<search::Confusable> confusable_with(const search::Fitted& nominal,
+                                                const search::Cause& cause,
+                                                const std::vector<int>& columns) {
+  const inference::Projected& p = nominal.projected;
+  std::vector<search::Confusable> near;
+  for (std::size_t k = 0; k < nominal.set.candidates.size(); ++k) {
+    const inference::Candidate& c = nominal.set.candidates[k];
+    if (nominal.scores[k].dof == 0 ||
+        (c.term == cause.term && (c.axis == cause.axis || c.axis.empty())))
+      continue;
+    const double rho = search::cosine(p, columns, c.variants[nominal.scores[k].variant].columns);
+    if (std::abs(rho) > TraceLimits::confusable) near.push_back({c.term, c.axis, rho});
+  }
+  std::stable_sort(near.begin(), near.end(), [](const auto& a, const auto& b) {
+    return std::abs(a.cosine) > std::abs(b.cosine);
+  });
+  std::vector<search::Confusable> list;
+  for (const search::Confusable& c : near) {
+    const auto same = [&](const search::Confusable& o) {
+      return o.term == c.term && o.axis == c.axis;
+    };
+    if (list.size() < TraceLimits::most_confusable && std::none_of(list.begin(), list.end(), same))
+      list.push_back(c);
+  }
+  return list;
+}
+
+}  // namespace
+
+CausesFound causes_of(const search::Fitted& nominal, const search::Search& found) {
+  const inference::Projected& p = nominal.projected;
+  CausesFound out;
+  std::vector<std::vector<int>> columns;
+  for (std::size_t set = 0; set < found.sets.size(); ++set)
+    for (std::size_t which = 0; which < found.sets[set].choices.size(); ++which) {
+      const search::Choice& choice = found.sets[set].choices[which];
+      columns.push_back(search::columns_of(nominal.set, {choice}));
+      out.causes.push_back(cause_of(nominal, found, set, which));
+      out.causes.back().confusable_with =
+          confusable_with(nominal, out.causes.back(), columns.back());
+      out.cosines.labels.push_back(nominal.set.candidates[choice.candidate].label);
+    }
+  const auto n = static_cast<Eigen::Index>(columns.size());
+  out.cosines.cosine = MatX::Identity(n, n);
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index k = 0; k < n; ++k)
+      if (i != k) out.cosines.cosine(i, k) = search::cosine(p, columns[i], columns[k]);
+  // A candidate that is wider than the cause holds it anyway and is no twin.
+  for (const search::Cause& cause : out.causes)
+    for (const search::Confusable& c : cause.confusable_with)
+      if (inference::same_trace(c.cosine) && (cause.axis.empty() || !c.axis.empty()))
+        out.inseparable.push_back({{cause.term, cause.axis, ""}, {c.term, c.axis, ""}});
+  if (found.sets.empty() && nominal.lone.p_value < inference::RemarkLimits::lone_p)
+    out.remarks.emplace_back(remark::FreeInputExplains{nominal.lone.equation, nominal.lone.gain});
+  for (const search::Cause& c : out.causes)
+    if (c.term == closure_term) out.remarks.emplace_back(remark::CrosstalkMovesLambda{});
+  return out;
+}
+
+}  // namespace drift::diagnosis

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "analysis/diagnosis/findings/advice.hpp"
+#include "analysis/diagnosis/findings/fit_comparison.hpp"
+#include "analysis/diagnosis/findings/recovered_signal.hpp"
+#include "analysis/diagnosis/findings/remark.hpp"
+#include "analysis/diagnosis/findings/twins.hpp"
+#include "analysis/diagnosis/findings/verdict.hpp"
+#include "analysis/diagnosis/findings/where.hpp"
+#include "analysis/inference/noise/noise_finding.hpp"
+#include "analysis/search/cause.hpp"
+#include "core/base/linalg.hpp"
+#include "core/physics/model_spec.hpp"
+
+namespace drift::diagnosis {
+
+/// The best explanation that was not good enough.
+struct NearestKnown {
+  std::vector<NamedEffect> effects;
+  double chi2_per_dof_before = 0.0, chi2_per_dof_after = 0.0;
+};
+
+/// How large the errors of prediction of one kind of held-out data are (root mean square).
+struct ErrorOfKind {
+  std::string what, unit;
+  double before = 0.0, after = 0.0;
+};
+
+/// The latitude that a recording is of, if it is not that of [site].
+struct SiteDoubt {
+  double latitude = 0.0, declared = 0.0;  ///< [rad]
+  double prior_sigmas = 0.0;              ///< size that latitude_error would need
+  double chi2_per_dof_before = 0.0, chi2_per_dof_after = 0.0;  ///< of the nominal fit
+};
+
+/// All that a diagnosis found: plain data, for the report, the JSON and the scorer.
+struct Diagnosis {
+  Verdict verdict = Verdict::consistent;
+  double p_value = 1.0;  ///< family-wise, over everything that was tried
+  Where where;
+  std::vector<search::Cause> causes;
+  std::vector<search::CandidateScore> candidates;  ///< strongest first
+  std::vector<inference::NoiseFinding> noise;
+  /// Twice the log evidence that eq. (5) instead of a nominal eq. (6), or the reverse, gains; NaN
+  /// where the nominal coupling is neither.
+  double other_equation_gain = std::numeric_limits<double>::quiet_NaN();
+  FitComparison fit;
+  std::vector<RecoveredSignal> signals;  ///< strongest first; at least one unless consistent
+  CosineMatrix cosines;
+  std::vector<Twins> inseparable;  ///< what this plan can never tell apart
+  std::optional<NearestKnown> nearest_known;
+  std::optional<SiteDoubt> site_doubt;
+  std::vector<ErrorOfKind> errors;  ///< of a recording on a case: what held-out data are missed by
+  std::vector<Advice> advice;       ///< most useful first
+  std::vector<Remark> remarks;      ///< what a reader must know besides
+  FilterSpec nominal;               ///< as fitted
+  FilterSpec patched;               ///< with the named (or most probable) cause; for patched.toml
+  bool has_patch = false;
+  std::vector<std::pair<std::string, double>> seconds;  ///< wall time of each stage
+};
+
+}  // namespace drift::diagnosis

@@ -1,0 +1,105 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/physics/drift_model.hpp"
+
+namespace drift::diagnosis {
+
+/// A term or one axis of it, and how a candidate's line calls it.
+struct NamedEffect {
+  std::string term, axis, label;
+};
+
+/// What a reader must know beside the verdict, as facts; the words are the report's.
+namespace remark {
+
+/// What was done to the input, or what is the matter with it, said where it was read.
+struct Input {
+  std::string text;
+};
+/// With the explanation in the model something is left that is just significant.
+struct JustSignificantLeft {};
+/// Another drift equation explains it, but lambda is within 3 sigma of the nominal one.
+struct LambdaNotSettled {};
+/// Of causes that fit together, one does nothing for held-out positions.
+struct MemberNotConfirmed {};
+/// The cause fits, and held-out positions are predicted no better with it.
+struct NotPredicted {};
+/// Isolated samples left out, and samples given less weight.
+struct SamplesLeftOut {
+  std::size_t removed = 0, lowered = 0;
+};
+/// No candidate fits; an unknown input of free form in one equation would.
+struct FreeInputExplains {
+  std::string equation;
+  double gain = 0.0;  ///< of twice the log likelihood
+};
+/// Torquer cross-talk moves lambda as misalignment does.
+struct CrosstalkMovesLambda {};
+/// What looks like noise of all gyros acts on one.
+struct DrivesOneGyro {
+  int axis = 0;
+  double gain = 0.0;  ///< of twice the log likelihood
+};
+/// With these in the model, what is the strongest of what is left.
+struct StrongestLeft {
+  std::vector<std::string> labels;
+  std::string strongest;
+};
+/// Nominal parameters that the fit takes far from their priors.
+struct BeyondPrior {
+  std::vector<std::size_t> params;  ///< indices in TermLibrary
+  double farthest = 0.0;            ///< prior sigmas
+};
+/// The test does not tell eq. (5) from eq. (6).
+struct EquationOpen {
+  Coupling nominal = Coupling::eq5;
+  double gain = 0.0;  ///< twice the log of the odds of the other
+};
+/// An effect that would explain the test, were the noise that drives the platform none.
+struct NoiseOrEffect {
+  NamedEffect effect;
+  double sigmas = 0.0;
+};
+/// Advice was wanted and could not be made.
+struct NoAdvice {
+  std::string reason;
+};
+
+// Of a recording on a case.
+
+/// How held-out turns judge eqs. (5) and (6) [deg].
+struct EquationByTurns {
+  double error_eq5 = 0.0, error_eq6 = 0.0;
+  double standard_errors = 0.0;  ///< by which eq. (5) is better
+};
+/// What became of one step of the ladder.
+struct StepJudged {
+  std::string label, verdict, reason;
+  double gain_dwells = 0.0, gain_turns = 0.0;  ///< in standard errors; turns NaN of accelerometers
+};
+/// Residuals are in units of the scatter that the accepted model leaves.
+struct NoDeclaredNoise {};
+/// D_I is fitted with D_O and D_S and is no cause of its own.
+struct CommonDriftUnseen {};
+/// What the motion cannot show.
+struct NotObservable {
+  std::string what, reason;
+};
+
+}  // namespace remark
+
+using Remark =
+    std::variant<remark::Input, remark::JustSignificantLeft, remark::LambdaNotSettled,
+                 remark::MemberNotConfirmed, remark::NotPredicted, remark::SamplesLeftOut,
+                 remark::FreeInputExplains, remark::CrosstalkMovesLambda, remark::DrivesOneGyro,
+                 remark::StrongestLeft, remark::BeyondPrior, remark::EquationOpen,
+                 remark::NoiseOrEffect, remark::NoAdvice, remark::EquationByTurns,
+                 remark::StepJudged, remark::NoDeclaredNoise, remark::CommonDriftUnseen,
+                 remark::NotObservable>;
+
+}  // namespace drift::diagnosis

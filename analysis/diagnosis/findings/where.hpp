@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace drift::diagnosis {
+
+/// A part of the misfit that the nominal model leaves: `share` of the strongest location's T falls
+/// on it; shares of all parts sum to 1. z: studentised excess of its mean square over 1.
+struct Share {
+  std::string name = {};  ///< "acc_y", "gimbal_middle"; empty for positions
+  int position = 0;       ///< 1-based; 0 for channels
+  double share = 0.0, sigma = 0.0;
+  double chi2_per_dof = 1.0, z = 0.0;
+};
+
+/// One cell of the heat map channel x position.
+struct HeatCell {
+  int position = 0;    ///< 1-based
+  int channel = 0;     ///< index into Where::channel_names
+  double share = 0.0;  ///< part of the located misfit, signed as its sum
+  double chi2_per_dof = 1.0;
+};
+
+/// Outcome of one window of the location scan: a unit box in one equation, position and window.
+struct ScanHit {
+  std::string
+      equation;      ///< "platform rate y", "attitude offset y", "accelerometer x", "gimbal outer"
+  int position = 0;  ///< 1-based
+  double start_s = 0.0, end_s = 0.0;
+  double T = 0.0;                       ///< projected score, chi-square of one degree
+  double p_value = 1.0;                 ///< family-wise over the scan
+  double amplitude = 0.0, sigma = 0.0;  ///< of the box [rad/s, rad, g, rad by equation]
+};
+
+/// Where one of several recordings lies in the timeline that they make one after another.
+struct RecordingSpan {
+  std::string name;
+  double start_s = 0.0, end_s = 0.0;
+  double offset_s = 0.0;  ///< time of the timeline less the recording's own
+};
+
+struct Where {
+  std::vector<std::string> channel_names;  ///< acc_x y z, gimbal_outer middle inner
+  std::vector<Share> channels, positions;  ///< largest share first
+  std::vector<HeatCell> heat;
+  std::vector<ScanHit> windows;  ///< significant ones, strongest first; overlapping ones once
+  std::string equation;          ///< of the strongest, empty if nothing is significant
+  double scan_p_value = 1.0;     ///< family-wise over all windows
+  std::size_t windows_tried = 0;
+  std::vector<RecordingSpan> recordings;  ///< in order, of several; empty of one
+};
+
+}  // namespace drift::diagnosis

@@ -1,0 +1,55 @@
+#include "analysis/diagnosis/judge.hpp"
+
+#include <algorithm>
+
+#include "analysis/diagnosis/held_out.hpp"
+#include "analysis/diagnosis/noise_found.hpp"
+#include "analysis/inference/thresholds.hpp"
+
+namespace drift::diagnosis {
+
+std::vector<double> judge_members(const search::Fitted& nominal, const MeasuredTest& test,
+                                  const search::Refit& best,
+                                  const search::ChanceThresholds& thresholds) {
+  std::vector<double> gains;
+  if (best.choices.size() < 2) return gains;
+  for (std::size_t k = 0; k < best.choices.size(); ++k) {
+    std::vector<search::Choice> others = best.choices;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
+    gains.push_back(
+        held_out_gain(search::refit(nominal, test, others, thresholds).after, best.after));
+  }
+  return gains;
+}
+
+Judged judge(const search::Fitted& nominal, const search::Search& found, const HeldOut& held_out,
+             const std::vector<double>& member_gains, NamedBy by) {
+  Judged out;
+  if (!found.significant) {
+    out.one_gyro = noise_of_one_axis(nominal);
+    if (out.one_gyro) out.verdict = Verdict::unexplained;
+    return out;
+  }
+  const search::Refit* best = found.sets.empty() ? nullptr : &found.sets.front();
+  const bool one = found.sets.size() == 1;
+  const bool members = std::all_of(member_gains.begin(), member_gains.end(), [](double gain) {
+    return gain >= inference::WeighLimits::held_out;
+  });
+  const bool judged =
+      by == NamedBy::fit_alone || held_out.folds.empty() || (held_out.improves && members);
+  const bool nameable = !best || (best->nameable && !found.just_not);
+  out.verdict = !best                       ? Verdict::unexplained
+                : one && judged && nameable ? Verdict::named
+                                            : Verdict::ambiguous;
+  if (found.just_not)
+    out.remarks.emplace_back(remark::JustSignificantLeft{});
+  else if (one && !nameable)
+    out.remarks.emplace_back(remark::LambdaNotSettled{});
+  if (one && !judged && !members)
+    out.remarks.emplace_back(remark::MemberNotConfirmed{});
+  else if (one && !judged)
+    out.remarks.emplace_back(remark::NotPredicted{});
+  return out;
+}
+
+}  // namespace drift::diagnosis

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "analysis/diagnosis/findings/fit_comparison.hpp"
+#include "analysis/diagnosis/findings/remark.hpp"
+#include "analysis/diagnosis/findings/verdict.hpp"
+#include "analysis/search/search.hpp"
+
+namespace drift::diagnosis {
+
+/// Each of several simultaneous causes judged by itself: what the held-out prediction of all
+/// positions loses (log score) when the model is fitted again without it. In the order of
+/// `best.choices`; empty for one cause.
+std::vector<double> judge_members(const search::Fitted& nominal, const MeasuredTest& test,
+                                  const search::Refit& best,
+                                  const search::ChanceThresholds& thresholds);
+
+/// The verdict, and why it is no better.
+struct Judged {
+  Verdict verdict = Verdict::consistent;
+  std::vector<Remark> remarks;
+  std::optional<remark::DrivesOneGyro> one_gyro;  ///< why it is `unexplained`, if that is why
+};
+
+/// Whether a cause must predict held-out positions better to be named.
+enum class NamedBy { held_out, fit_alone };
+
+/// member_gains: of the best explanation, as judge_members() gives them.
+Judged judge(const search::Fitted& nominal, const search::Search& found, const HeldOut& held_out,
+             const std::vector<double>& member_gains, NamedBy by);
+
+}  // namespace drift::diagnosis

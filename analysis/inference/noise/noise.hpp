@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+#include "analysis/inference/linear_problem.hpp"
+#include "analysis/inference/noise/noise_finding.hpp"
+#include "analysis/inference/noise/noise_model.hpp"
+#include "analysis/inference/thresholds.hpp"
+
+namespace drift::inference {
+
+/// What the noise is, estimated with the model's parameters taken into account.
+struct NoiseEstimate {
+  NoiseModel model;
+  std::vector<NoiseFinding> findings;
+  double log_likelihood2 = 0.0;  ///< twice the restricted log likelihood, without constants
+  bool driven = false;           ///< a component besides white noise was needed
+};
+
+/// Variance components by restricted maximum likelihood (parameters and attitudes marginalised with
+/// their priors): white noise of accelerometers and gimbals always; angle random walk, drift random
+/// walk, Markov drift and correlated accelerometer noise (time constants on a grid) are added one
+/// by one while twice the log likelihood grows by more than 2.7 (the 5 % point of a variance on its
+/// boundary). Logs of the sigmas are found by a quasi-Newton ascent. `with`: candidate columns that
+/// are in the mean (unit priors), so that a real effect is not taken for noise.
+/// Source: Patterson and Thompson 1971; discovery.md 2.1, 4.6.
+/// most_added: components beside white noise and what is declared.
+NoiseEstimate estimate_noise(const LinearProblem& problem, const NoiseModel& declared,
+                             const std::vector<int>& with = {},
+                             int most_added = NoiseLimits::most_components);
+
+}  // namespace drift::inference

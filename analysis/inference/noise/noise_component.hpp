@@ -1,0 +1,59 @@
+#pragma once
+
+#include <vector>
+
+#include "analysis/inference/linear_problem.hpp"
+#include "analysis/inference/noise/noise_model.hpp"
+#include "core/base/units.hpp"
+
+namespace drift::inference {
+
+/// One standard deviation of the noise model.
+struct NoiseComponent {
+  const char* name;  ///< of NoiseFinding
+  double NoiseModel::*sigma;
+  double NoiseModel::*tau;  ///< null if it has none
+  double reference;         ///< a size at which it may begin to matter, SI
+  Unit unit;
+
+  bool white() const {
+    return sigma == &NoiseModel::acc_factor || sigma == &NoiseModel::gimbal_factor;
+  }
+  bool in(const NoiseModel& m) const { return m.*sigma > 0.0; }
+};
+
+inline constexpr NoiseComponent acc_white{"accelerometer_white", &NoiseModel::acc_factor, nullptr,
+                                          1.0, unit::one};
+inline constexpr NoiseComponent gimbal_white{"gimbal_white", &NoiseModel::gimbal_factor, nullptr,
+                                             1.0, unit::one};
+inline constexpr NoiseComponent angle_walk{"angle_random_walk", &NoiseModel::angle_random_walk,
+                                           nullptr, 1e-3 * unit::deg_per_sqrt_h.to_si,
+                                           unit::deg_per_sqrt_h};
+inline constexpr NoiseComponent drift_walk{"drift_random_walk", &NoiseModel::drift_random_walk,
+                                           nullptr, 3e-3 * unit::deg_per_h_per_sqrt_h.to_si,
+                                           unit::deg_per_h_per_sqrt_h};
+inline constexpr NoiseComponent markov_drift{"markov_drift", &NoiseModel::markov_drift,
+                                             &NoiseModel::markov_tau, 3e-3 * unit::deg_per_h.to_si,
+                                             unit::deg_per_h};
+inline constexpr NoiseComponent acc_markov{"accelerometer_markov", &NoiseModel::acc_markov,
+                                           &NoiseModel::acc_tau, 2e-6, unit::ug};
+
+/// Rows of the instruments.
+struct RowCounts {
+  std::size_t accelerometer = 0, gimbal = 0;
+  explicit RowCounts(const MeasuredRows& rows);
+  std::size_t of(const NoiseComponent& white) const {
+    return &white == &acc_white ? accelerometer : gimbal;
+  }
+};
+
+/// A component that may be added, with the time constant to be tried [s].
+struct Addition {
+  const NoiseComponent* component = nullptr;
+  double tau = 0.0;
+};
+
+/// What `model` leaves out and the rows can show: time constants on a coarse grid.
+std::vector<Addition> possible_additions(const NoiseModel& model, const RowCounts& rows);
+
+}  // namespace drift::inference

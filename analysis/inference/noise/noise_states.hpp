@@ -1,0 +1,65 @@
+#pragma once
+
+#include <utility>
+
+#include "analysis/inference/linear_problem.hpp"
+#include "analysis/inference/noise/noise_model.hpp"
+
+namespace drift::inference {
+
+/// Where each kind of state stands; -1: not there.
+struct NoiseStates {
+  int white = -1, walk = -1, markov = -1, acc = -1, lone = -1, count = 3;
+
+  explicit NoiseStates(const NoiseModel& n) {
+    if (n.angle_random_walk > 0.0) white = std::exchange(count, count + 3);
+    if (n.drift_random_walk > 0.0) walk = std::exchange(count, count + 3);
+    if (n.markov_drift > 0.0) markov = std::exchange(count, count + 3);
+    if (n.acc_markov > 0.0) acc = std::exchange(count, count + 3);
+    if (n.lone.sigma > 0.0) lone = std::exchange(count, count + 1);
+  }
+};
+
+/// Transition and noise over one half of an interval. F is the identity for the attitude, beside
+/// what drives it, and diagonal for everything else.
+struct NoiseStep {
+  MatX F, Q;
+};
+
+/// States are in units of their own sigma. White rate noise is constant within an interval, as the
+/// simulator has it: the accelerometers' mean sees half of what the gimbals see at the end.
+NoiseStep step_of(const NoiseStates& s, const NoiseModel& n, const IntervalDrive& d,
+                  bool first_half);
+
+/// Before anything is measured: attitude at its prior, a random walk at zero, the others
+/// stationary.
+MatX initial_covariance(const NoiseStates& s, const NoiseModel& n);
+
+/// Weight of the lone input on a row of its channel.
+double lone_weight(const MeasuredRows& p, const LoneInput& lone, int channel);
+
+/// Walks along intervals and rows; calls cage(), move(step) and row(index, h, white sigma).
+template <class Cage, class Move, class Row>
+void walk(const MeasuredRows& p, const NoiseModel& n, const NoiseStates& s, Cage&& cage,
+          Move&& move, Row&& row) {
+  Eigen::Index k = 0;
+  VecX h(s.count);
+  for (std::size_t i = 0; i < p.drives.size(); ++i) {
+    const IntervalDrive& d = p.drives[i];
+    if (d.cage) cage(i);
+    // Half of the interval's noise before its accelerometer rows, half before its gimbal rows.
+    for (const bool accelerometer : {true, false}) {
+      if (n.driven()) move(step_of(s, n, d, accelerometer));
+      for (; k < p.rows() && p.tags[k].interval == i && p.tags[k].accelerometer() == accelerometer;
+           ++k) {
+        h.setZero();
+        h.head<3>() = p.psi.row(k);
+        if (accelerometer && s.acc >= 0) h[s.acc + p.tags[k].channel] = n.acc_markov / p.acc_sigma;
+        if (s.lone >= 0) h[s.lone] = lone_weight(p, n.lone, p.tags[k].channel);
+        row(k, h, (accelerometer ? n.acc_factor : n.gimbal_factor) / p.weight[k]);
+      }
+    }
+  }
+}
+
+}  // namespace drift::inference

@@ -1,0 +1,57 @@
+#include "analysis/inference/noise/quasi_newton.hpp"
+
+#include "mc/task/campaign.hpp"
+
+namespace drift::inference {
+namespace {
+
+using Function = std::function<double(const VecX&)>;
+
+VecX gradient(const Function& f, const VecX& x, double here) {
+  constexpr double apart = 1e-3;
+  const auto slopes = mc::run_campaign(static_cast<std::size_t>(x.size()), [&](std::size_t k) {
+    VecX next = x;
+    next[static_cast<Eigen::Index>(k)] += apart;
+    return (f(next) - here) / apart;
+  });
+  return Eigen::Map<const VecX>(slopes.data(), x.size());
+}
+
+/// The inverse of minus the Hessian after a step on which the gradient fell by y.
+MatX updated(const MatX& H, const VecX& step, const VecX& y) {
+  const double sy = step.dot(y);
+  if (!(sy > 1e-12)) return H;
+  const MatX I = MatX::Identity(H.rows(), H.cols());
+  return (I - step * y.transpose() / sy) * H * (I - y * step.transpose() / sy) +
+         step * step.transpose() / sy;
+}
+
+}  // namespace
+
+Maximum maximise(const Function& f, VecX x, const VecX& curvature) {
+  constexpr int most_steps = 25, most_cuts = 8;
+  constexpr double cut = 0.3, enough = 1e-3;  // gain of a step below which it stands still
+  Maximum at{x, f(x), curvature.cwiseInverse().asDiagonal()};
+  VecX g = gradient(f, at.x, at.value);
+  for (int k = 0; k < most_steps; ++k) {
+    VecX step = at.inverse_curvature * g;
+    const double longest = step.cwiseAbs().maxCoeff();
+    if (longest > 1.0) step /= longest;
+    double next = f(at.x + step);
+    for (int cuts = 0; cuts < most_cuts && !(next > at.value); ++cuts) {
+      step *= cut;
+      next = f(at.x + step);
+    }
+    if (!(next > at.value)) break;
+    const double gain = next - at.value;
+    at.x += step;
+    at.value = next;
+    if (gain < enough) break;
+    const VecX g_next = gradient(f, at.x, at.value);
+    at.inverse_curvature = updated(at.inverse_curvature, step, g - g_next);
+    g = g_next;
+  }
+  return at;
+}
+
+}  // namespace drift::inference

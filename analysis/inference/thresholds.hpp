@@ -1,0 +1,216 @@
+#pragma once
+
+#include <cstddef>
+
+/// Every number that decides what a user is told of a platform's recording, in one place; those by
+/// which recording and plan are looked over are in analysis/preparation/input_thresholds.hpp.
+///
+/// Each says what it means, in which unit, and the probability or derivation it stands for; where
+/// there is none it says "tuned". Grids, steps and counts of iterations stay beside the algorithms
+/// that use them. "Test:" names what meets a number from both sides and fails if it is moved; the
+/// diagnoses of tests/reference watch them all, those without a test alone.
+///
+/// Units: [2 log L] twice a log likelihood or evidence; [log] a log evidence or log chance;
+/// [strength] minus the log of the tail of a chi-square; [sigma] standard deviations.
+namespace drift::inference {
+
+/// When two effects leave the same trace. unlike = 1 - cosine^2 of their projected signatures is
+/// the part of one that the other cannot copy: of an effect of A sigma, A sqrt(unlike) sigma are
+/// left to tell the two by.
+struct TraceLimits {
+  /// Below: the same. An effect would have to be 63 sigma strong to be told from its twin by 2.
+  /// Test: Thresholds.TracesAreTheSame..., Sentence.OfTwins..., BlindScore.ATwinCounts...
+  static constexpr double unlike = 1e-3;
+  /// Below, over a whole pool of possible positions: the same however strong (2000 sigma for 2).
+  static constexpr double unlike_anywhere = 1e-6;
+  /// |cosine| above which a cause is listed as confusable, and how many are. Tuned: a short list.
+  static constexpr double confusable = 0.5;
+  static constexpr std::size_t most_confusable = 5;
+};
+
+/// The definition of "they leave the same trace on this plan", by the part that is unlike.
+constexpr bool same_trace_of_unlike(double unlike) {
+  return unlike < TraceLimits::unlike;
+}
+/// The same, by the cosine of the projected signatures.
+constexpr bool same_trace(double cosine) {
+  return same_trace_of_unlike(1.0 - cosine * cosine);
+}
+
+/// What can be seen at all.
+struct VisibleLimits {
+  /// Information [per prior sigma squared] that makes a column observable: below it the effect
+  /// would have to be some forty prior sigmas large to be found (4 sigma).
+  /// Test: Thresholds.AColumnIsSeen...
+  static constexpr double information = 1e-2;
+  /// The part of that which must be left beside causes that are in the model. Test: as `left`.
+  static constexpr double information_beside = 0.1;
+  /// Part of its own information that a column must keep beside causes, or a window beside the
+  /// parameters, to count as another effect; of several columns and of windows beside causes by
+  /// eigenvalue. Above the rounding of the projections (1e-9), below what 2000 sigma could show.
+  /// Test: Remainder.WhatIsLeftOfATwinIsNoOtherEffect
+  static constexpr double left = 1e-6, left_of_several = 1e-5;
+};
+
+/// Samples that are none, and a misfit that no noise gives.
+struct SampleLimits {
+  /// [declared sigma] from the median of four neighbours: 7 of its own sigma (1.14), one in 4e11
+  /// samples; one in 3e5 of noise `spike_noise` times as declared. Beyond that factor the noise
+  /// found is the measure. On top of it so many ranges of the neighbours; tuned.
+  /// Test: Thresholds.ASpikeIs...
+  static constexpr double spike = 8.0, spike_noise = 1.5, spike_spread = 2.0;
+  /// Chi-square per row, under the noise of neighbours' differences, that is asked for no noise:
+  /// random walks of ten times the usual size give 3 to 10. Test: Thresholds.AMisfitOfThirty...
+  static constexpr double gross = 30.0;
+  /// |residual| [sigma] of which a normal distribution has `outlier_share`; so many sigma of their
+  /// number and some more are outliers, unless they are so large a part that the model is wrong.
+  /// Test: Thresholds.OutliersAreMore...
+  static constexpr double outlier = 3.5, outlier_share = 4.65e-4;
+  static constexpr double outlier_sigmas = 4.0, outlier_room = 3.0, outlier_most = 0.02;
+  static constexpr double huber = 2.5;  ///< [sigma] corner of weights: 1.2 % of normal ones
+  /// Robust sigma, of declared, that is more than its scatter. Test: Thresholds.NoiseMoreThan...
+  static constexpr double spread = 1.1;
+};
+
+/// Which noise is said to be there.
+struct NoiseLimits {
+  static constexpr double component = 2.7;   ///< [2 log L] to come in: 5 %, half chi-square of 1
+  static constexpr int most_components = 4;  ///< beside white noise and what is declared
+  /// Chance below which it is not as declared. Test: Thresholds.NoiseIsSaid...
+  static constexpr double significant_p = 1e-3;
+  /// Components times time constants that are tried at once, at most: two random walks, two Markov
+  /// processes of two time constants each. Bounds the chance that the best of them is chance; a
+  /// gain of 12.9 has one of 1e-3. Test: Noise.AngleRandomWalkIsFoundWithItsSize
+  static constexpr double alternatives = 6.0;
+  /// [2 log L] by which noise of one gyro alone beats that of all three; the best of three axes and
+  /// four sizes does so by chance 12 exp(-5) = 0.08 times at most.
+  static constexpr double one_gyro = 10.0, one_gyro_tries = 12.0;
+  /// Chi-square per degree that is an evident misfit, and the part of its excess that the other
+  /// equation must take away for it not to be asked for noise. Tuned on wrong equations.
+  static constexpr double evident = 1.5, other_equation = 0.8;
+};
+
+/// Whether noise that drives the platform is noise (noise_doubt.hpp, settle_noise.hpp).
+struct NoiseDoubtLimits {
+  /// Chances below which it is not believed: against a candidate, and against an input in one
+  /// equation. Together 0.125, less their overlap: about one in ten. Tuned: of 51 blind nulls with
+  /// such noise one was doubted at half. Test: NoiseDoubt.NoiseOfAllThree...
+  static constexpr double candidate_p = 0.08, lone_p = 0.045;
+  static constexpr double per_amplitude = 3.0;   ///< [2 log L] each further one must bring: 8 %
+  static constexpr std::size_t most_params = 3;  ///< of candidates that may stand for noise. Tuned
+  static constexpr double worth = 2.0;  ///< [strength] worth having where noise is doubted: 14 %
+  /// [sigma] below the sizes that gyros have, at most: better instruments exist.
+  static constexpr double smallest = 2.0;
+};
+
+/// How sure a diagnosis is.
+struct SearchLimits {
+  static constexpr double alpha = 0.02;  ///< chance of a false alarm over all that is tried
+  /// That what is listed must hold together. Test: CredibleSet.ListsWhat...
+  static constexpr double credible = 0.95;
+  /// How the chance is shared between candidates, windows, pairs and inputs in one equation: they
+  /// sum to 1. Tuned: half to what can be named. Test: ChanceThresholds.AreExceeded...
+  static constexpr double library_share = 0.5, scan_share = 0.15, pair_share = 0.15,
+                          lone_share = 0.2;
+  /// The windows' share is cut by this where they rule out a cause: thousands are looked at.
+  static constexpr double scan_cut = 3.0;
+};
+
+/// Which explanations are tried; [log] behind the best unless said otherwise.
+struct ReachLimits {
+  static constexpr double negligible = 14.0;      ///< one in a million
+  static constexpr double worth_refining = 25.0;  ///< one in 7e10; a partner may lift it
+  /// Pairs by unit priors: one in a million, and e^8 for sizes that such priors misjudge.
+  static constexpr double pair = 22.0;
+  /// Another setting of a candidate, far from its best: for the refit (one in 55), and for a finer
+  /// grid, where it may come to be the best (one in 400).
+  static constexpr double refit_setting = 4.0, refine_setting = 6.0;
+  static constexpr double part = 3.0;  ///< a part of a wider candidate replaces it: one in 20
+  /// Effects beyond linearisation are tried unless the other equation leaves them so many times
+  /// `negligible` behind. Tuned.
+  static constexpr double large = 10.0;
+  /// Times a threshold, within which linear scores leave the decision to the refit: of single
+  /// candidates, of pairs. Tuned.
+  static constexpr double slack = 1.25, pair_slack = 1.1;
+};
+
+/// How much is tried. More costs time and could find another name; tuned on time.
+struct EffortLimits {
+  static constexpr std::size_t refits = 6;         ///< single candidates, and pairs
+  static constexpr std::size_t settings = 2;       ///< of one candidate
+  static constexpr std::size_t large = 2;          ///< candidates where none is adequate
+  static constexpr std::size_t beside_asked = 12;  ///< candidates asked beside another equation,
+  static constexpr std::size_t beside = 3;         ///< and pairs with it that are refitted
+  static constexpr std::size_t wide_in_pairs = 12, widest_in_pairs = 6;  ///< candidates, parameters
+  static constexpr int pairs_of_a_name = 2;
+  static constexpr std::size_t together = 4;  ///< causes found one after the other
+  /// Candidates tried in the place of noise and rounds of that; beside a cause.
+  static constexpr std::size_t noise_tries = 4, noise_tries_beside = 2;
+  static constexpr int noise_rounds = 3, noise_rounds_beside = 1;
+};
+
+/// Which explanation is kept, and named.
+struct WeighLimits {
+  static constexpr double quiet_p = 0.01;  ///< of a free input beside a cause: something is left
+  /// [log] of a chance, by which what is left may exceed its threshold: one in 20 of what that lets
+  /// by. Test: CredibleSet.WhatLeavesFarTooMuch...
+  static constexpr double tolerable = 3.0;
+  static constexpr double needed = 3.0;        ///< [sigma] from zero, of each of several causes
+  static constexpr double other_lambda = 3.0;  ///< [sigma] from the nominal equation's, to be named
+  static constexpr double sign = 2.0;    ///< [sigma] expected, if another sign is to count against
+  static constexpr double valley = 6.0;  ///< [2 log L] an end of lambda gains on the fit: 20:1
+  /// Odds against another cause. Test: CredibleSet.ASecondCauseIsOneInTwenty
+  static constexpr double second_cause = 20.0;
+  /// [log] that more parameters must bring: 20:1. Test: CredibleSet.MoreParametersMustBring...
+  static constexpr double more_parameters = 3.0;
+  /// Forms of an unknown input: 7 kinds on 3 axes (of one instrument alone 5: then it is too dear).
+  /// Test: as `far_better`.
+  static constexpr double forms = 21.0;
+  /// [log] by which an unknown input leaves a cause behind: 150:1; and the part of the cause's own
+  /// evidence that linearisation may be wrong by; tuned. Test: CredibleSet.SomethingUnknown...
+  static constexpr double far_better = 5.0, not_linear = 0.05;
+  /// [log score] that held-out positions must gain: e:1. Test: Thresholds.EachOfSeveralCauses...
+  static constexpr double held_out = 1.0;
+  /// [sigma] of the library's prior beyond which a found size widens it in patched.toml.
+  /// Test: Thresholds.ASizeBeyondThreeSigma...
+  static constexpr double prior = 3.0;
+};
+
+/// What is said beside the verdict.
+struct RemarkLimits {
+  /// [2 log L] that rules out eq. (5) or (6): 90:1. Test: Thresholds.AnEquationIsOpen...
+  static constexpr double equation = 9.0;
+  static constexpr double detectable = 0.84;  ///< [sigma] above a threshold: found 4 times of 5
+  static constexpr double outliers_p = 1e-4;  ///< said of outliers: 4 sigma of their number
+  static constexpr double lone_p = 0.01;      ///< of an unknown input that would explain it
+  /// Part of the misfit that a rejected cause explains. Test: Thresholds.TheNearestKnown...
+  static constexpr double nearest = 0.05;
+  /// [prior sigma] from a prior's mean. Test: Thresholds.ParametersFiveSigma...
+  static constexpr double unphysical = 5.0;
+  /// [2 log L] of an effect that noise may stand for, 5 sigma; per further amplitude.
+  static constexpr double or_effect = 25.0, or_effect_per_amplitude = 3.0;
+  static constexpr double shape = 0.3;  ///< |correlation| below which a shape says nothing. Tuned
+};
+
+/// When the latitude of the study is doubted.
+struct SiteLimits {
+  static constexpr double survey = 3.0;  ///< [prior sigma of latitude_error] no survey is wrong by
+  static constexpr double most = 0.9;    ///< part of the misfit that another latitude takes away
+  /// Part of the strongest score that latitude_error has, and part of the misfit that the foot of
+  /// the parabola promises, for latitudes to be tried. Tuned on time.
+  static constexpr double worth_asking = 0.5, promise = 0.5;
+};
+
+/// What is advised.
+struct AdviceLimits {
+  static constexpr double told = 2.0;  ///< [sigma] below which nobody would decide
+  /// [sigma] that is found almost surely. Test: ChooseAdditions.EightSigmaAreEnough
+  static constexpr double wanted = 8.0;
+  static constexpr std::size_t most = 3;      ///< additions to a plan
+  static constexpr double least_gain = 1e-3;  ///< of the mean way to `wanted`
+  /// A margin is taken that sets the closest pair so many times farther apart in no more than so
+  /// many times the hours. Tuned. Test: ChooseAdditions.AMarginIsTwiceAsFar...
+  static constexpr double margin = 2.0, margin_hours = 2.0;
+};
+
+}  // namespace drift::inference

@@ -1,0 +1,36 @@
+#include "analysis/preparation/covariates.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace drift::preparation {
+namespace {
+
+const std::vector<std::string> platform_channels{
+    "time",       "position",     "phase",         "acc_x",        "acc_y",
+    "acc_z",      "gimbal_outer", "gimbal_middle", "gimbal_inner", "cmd_x",
+    "cmd_y",      "cmd_z",        "case_heading",  "loop_eta_x",   "loop_eta_y",
+    "loop_eta_z", "loop_xi_x",    "loop_xi_y",     "loop_xi_z"};
+
+}  // namespace
+
+std::vector<Covariate> covariates_of(const std::vector<Recording>& recordings) {
+  std::vector<Covariate> all;
+  for (const Channel& c : recordings.front().channels) {
+    if (std::find(platform_channels.begin(), platform_channels.end(), c.name) !=
+        platform_channels.end())
+      continue;
+    Covariate v{c.name, {}};
+    for (const Recording& r : recordings) {
+      const Channel* other = r.find(c.name);
+      if (other)
+        v.value.insert(v.value.end(), other->values.begin(), other->values.end());
+      else
+        v.value.insert(v.value.end(), r.rows(), std::nan(""));
+    }
+    all.push_back(std::move(v));
+  }
+  return all;
+}
+
+}  // namespace drift::preparation

@@ -1,0 +1,244 @@
+#include "analysis/preparation/plan_check.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "analysis/preparation/input_thresholds.hpp"
+#include "core/plan/timeline.hpp"
+#include "core/sim/measurements.hpp"
+
+namespace drift::preparation {
+namespace {
+
+constexpr double deg_per_h = unit::deg_per_h.to_si;
+constexpr double same_command = PlanLimits::command_deg_per_h * deg_per_h;  // [rad/s]
+
+/// The rows of a position that dwell.
+struct Dwell {
+  int position = 0;  ///< from 0
+  std::vector<std::size_t> rows;
+};
+
+std::vector<Dwell> dwells_of(const Timeline& timeline) {
+  std::vector<Dwell> all;
+  for (std::size_t k = 0; k < timeline.intervals.size(); ++k) {
+    const Interval& i = timeline.intervals[k];
+    if (i.slew) continue;
+    if (all.empty() || all.back().position != i.position) all.push_back({i.position, {}});
+    all.back().rows.push_back(k);
+  }
+  return all;
+}
+
+CommandLaw other_than(CommandLaw law) {
+  return law == CommandLaw::level ? CommandLaw::free : CommandLaw::level;
+}
+
+std::string time_text(double seconds) {
+  return seconds >= 120.0 ? fmt::format("{:.4g} min", seconds / 60.0)
+                          : fmt::format("{:.4g} s", seconds);
+}
+
+/// "position 3", "positions 1 to 6", "positions 1, 4, 5".
+std::string positions_text(const std::vector<int>& positions) {
+  if (positions.size() == 1) return fmt::format("position {}", positions.front() + 1);
+  if (positions.back() - positions.front() + 1 == static_cast<int>(positions.size()))
+    return fmt::format("positions {} to {}", positions.front() + 1, positions.back() + 1);
+  std::vector<int> numbers;
+  for (const int p : positions) numbers.push_back(p + 1);
+  return fmt::format("positions {}", fmt::join(numbers, ", "));
+}
+
+void check_dwells(const mc::Study& study, const std::string& source, const Timeline& timeline,
+                  const std::vector<Dwell>& dwells, std::vector<std::string>& remarks) {
+  std::map<std::pair<double, double>, std::vector<int>>
+      others;  // (planned, recorded) in whole samples
+  for (const Dwell& d : dwells) {
+    const Position& p = study.plan.positions[static_cast<std::size_t>(d.position)];
+    const double lasts =
+        timeline.intervals[d.rows.back()].t1 - timeline.intervals[d.rows.front()].t0;
+    if (std::abs(lasts - p.dwell) > PlanLimits::dwell * p.sample)
+      others[{p.dwell, p.sample * std::round(lasts / p.sample)}].push_back(d.position);
+  }
+  if (others.empty()) return;
+  constexpr std::size_t most = 4;
+  std::vector<std::string> texts;
+  for (const auto& [times, positions] : others)
+    texts.push_back(fmt::format("{} for {} (in the plan {})", positions_text(positions),
+                                time_text(times.second), time_text(times.first)));
+  const std::string more =
+      texts.size() > most ? fmt::format(" and {} others", texts.size() - most) : "";
+  texts.resize(std::min(most, texts.size()));
+  remarks.push_back(
+      fmt::format("{}: dwells of another length than in the plan: {}{}. The recording's own times "
+                  "are used; check "
+                  "plan.dwell if that is not what was meant",
+                  source, fmt::join(texts, ", "), more));
+}
+
+Vec3 command_of(CommandLaw law, const Position& p, const Site& site) {
+  return law == CommandLaw::level ? Vec3(p.R_lp.transpose() * site.omega_ie_l()) : Vec3::Zero();
+}
+
+/// Commands in the dwells against those of the plan's law.
+void check_commands(const mc::Study& study, const std::string& source, const Timeline& timeline,
+                    const std::vector<Dwell>& dwells, std::vector<std::string>& remarks) {
+  std::array<std::vector<int>, 2> as_other;  // by the plan's law
+  std::vector<int> elsewhere, neither;
+  double sine = 0.0, farthest = 0.0;
+  for (const Dwell& d : dwells) {
+    const Position& p = study.plan.positions[static_cast<std::size_t>(d.position)];
+    Vec3 mean = Vec3::Zero();
+    for (const std::size_t k : d.rows)
+      mean += timeline.intervals[k].omega_cmd_p / static_cast<double>(d.rows.size());
+    const CommandLaw other = other_than(p.mode);
+    const double off = (mean - command_of(p.mode, p, study.site)).norm();
+    // Earth rate, but of another latitude: as long, and in the meridian.
+    const Vec3 local = p.R_lp * mean;
+    const bool meridian =
+        p.mode == CommandLaw::level &&
+        std::abs(mean.norm() - detail::earth_rate) < PlanLimits::meridian * same_command &&
+        std::abs(local[1]) < PlanLimits::meridian * same_command;
+    if (meridian && off > PlanLimits::latitude * same_command) {
+      elsewhere.push_back(d.position);
+      sine += local[2] / mean.norm();
+    } else if (off < same_command) {
+      continue;
+    } else if ((mean - command_of(other, p, study.site)).norm() < same_command) {
+      as_other[p.mode == CommandLaw::level ? 1 : 0].push_back(d.position);
+    } else {
+      neither.push_back(d.position);
+      farthest = std::max(farthest, off);
+    }
+  }
+  for (const CommandLaw law : {CommandLaw::free, CommandLaw::level}) {
+    const auto& positions = as_other[law == CommandLaw::level ? 1 : 0];
+    if (positions.empty()) continue;
+    remarks.push_back(fmt::format(
+        "{}: the commands in {} are those of a {} dwell, the plan says mode = \"{}\". The recorded "
+        "commands are "
+        "used; correct plan.mode if that is not what was meant",
+        source, positions_text(positions), key_of(other_than(law)), key_of(law)));
+  }
+  if (!elsewhere.empty())
+    remarks.push_back(
+        fmt::format("{}: the commands in {} are the Earth rate at latitude {:.3f} deg, [site] says "
+                    "{:.3f} deg. Check [site] "
+                    "latitude",
+                    source, positions_text(elsewhere),
+                    std::asin(std::clamp(sine / static_cast<double>(elsewhere.size()), -1.0, 1.0)) /
+                        detail::deg,
+                    study.site.latitude / detail::deg));
+  if (!neither.empty())
+    remarks.push_back(
+        fmt::format("{}: the commands in {} are up to {:.3g} deg/h from those of the plan, and of "
+                    "neither law. The recorded "
+                    "commands are used",
+                    source, positions_text(neither), farthest / deg_per_h));
+}
+
+/// How the platform turns against the local axes in a dwell, and which components of that are seen.
+struct Turn {
+  Vec3 rate_l = Vec3::Zero();  ///< [rad/s]
+  Vec3 seen = Vec3::Zero();    ///< 1 or 0 by local axis
+};
+
+std::optional<Turn> turn_of(const Dwell& d, const Timeline& timeline, const Measurements& m,
+                            const Position& p) {
+  const auto whole = [](const Mat3X& values) {
+    return [&values](std::size_t k) {
+      return values.col(static_cast<Eigen::Index>(k)).array().isFinite().all();
+    };
+  };
+  const auto span = [&](auto&& good) -> std::optional<std::pair<std::size_t, std::size_t>> {
+    const auto first = std::ranges::find_if(d.rows, good);
+    if (first == d.rows.end()) return std::nullopt;
+    std::size_t last = *first;
+    for (const std::size_t k : d.rows)
+      if (good(k) &&
+          timeline.intervals[k].t1 - timeline.intervals[*first].t1 <= PlanLimits::longest_turn)
+        last = k;
+    if (last == *first) return std::nullopt;
+    return std::pair(*first, last);
+  };
+  const auto column = [](const Mat3X& values, std::size_t k) {
+    return Vec3(values.col(static_cast<Eigen::Index>(k)));
+  };
+  const auto seconds = [&](const auto& s) {
+    return timeline.intervals[s->second].t1 - timeline.intervals[s->first].t1;
+  };
+  if (const auto s = span(whole(m.gimbal))) {
+    const auto attitude = [&](std::size_t k) -> Mat3 {
+      return case_attitude(timeline.intervals[k].heading1) * gimbal_chain(column(m.gimbal, k));
+    };
+    return Turn{rotation_vector(attitude(s->second) * attitude(s->first).transpose()) / seconds(s),
+                Vec3::Ones()};
+  }
+  if (const auto s = span(whole(m.acc))) {
+    // Up, as the nominal attitude would have it, turns the other way; its turn about itself is not
+    // seen.
+    const Vec3 a = (p.R_lp * column(m.acc, s->first)).normalized(),
+               b = (p.R_lp * column(m.acc, s->second)).normalized();
+    const Vec3 axis = a.cross(b);
+    const double angle = std::atan2(axis.norm(), a.dot(b));
+    const Vec3 turn = axis.norm() > 0.0 ? Vec3(axis.normalized() * angle) : Vec3(Vec3::Zero());
+    return Turn{-turn / seconds(s), Vec3(1.0, 1.0, 0.0)};
+  }
+  return std::nullopt;
+}
+
+/// Without recorded commands the plan's law is believed; the platform shows whether it was so.
+void check_law(const mc::Study& study, const std::string& source, const Timeline& timeline,
+               const Measurements& m, const std::vector<Dwell>& dwells,
+               std::vector<std::string>& wrong) {
+  for (const CommandLaw law : {CommandLaw::free, CommandLaw::level}) {
+    Vec3 mean = Vec3::Zero(), seen = Vec3::Ones();
+    std::vector<int> positions;
+    for (const Dwell& d : dwells) {
+      const Position& p = study.plan.positions[static_cast<std::size_t>(d.position)];
+      const auto turn = p.mode == law ? turn_of(d, timeline, m, p) : std::nullopt;
+      if (!turn) continue;
+      mean += turn->rate_l;
+      seen = seen.cwiseProduct(turn->seen);
+      positions.push_back(d.position);
+    }
+    if (positions.empty()) continue;
+    mean = (mean / static_cast<double>(positions.size())).cwiseProduct(seen);
+    const Vec3 free = Vec3(-study.site.omega_ie_l()).cwiseProduct(seen);
+    const Vec3 other = law == CommandLaw::free ? Vec3(Vec3::Zero()) : free;
+    if (free.norm() < PlanLimits::laws_differ_deg_per_h * deg_per_h ||
+        (mean - other).norm() > PlanLimits::other_law * free.norm())
+      continue;
+    const std::string shows =
+        law == CommandLaw::free
+            ? "the platform keeps its attitude to the local axes, as in a level dwell"
+            : "the platform turns at Earth rate against the local axes, as in free drift";
+    wrong.push_back(fmt::format(
+        "{}: in {} {}, but the plan says mode = \"{}\" and the recording has no "
+        "commands (expected the law "
+        "it was made with). Set plan.mode = \"{}\", or record cmd_x, cmd_y, cmd_z",
+        source, positions_text(positions), shows, key_of(law), key_of(other_than(law))));
+  }
+}
+
+}  // namespace
+
+void check_plan(const mc::Study& study, const Recording& recording,
+                std::vector<std::string>& remarks, std::vector<std::string>& wrong) {
+  const std::string source = recording.source.empty() ? "recording" : recording.source;
+  const Timeline timeline = lay_out(recording, study.plan, study.site);
+  const std::vector<Dwell> dwells = dwells_of(timeline);
+  check_dwells(study, source, timeline, dwells, remarks);
+  if (recording.find("cmd_x") != nullptr)
+    check_commands(study, source, timeline, dwells, remarks);
+  else
+    check_law(study, source, timeline, measurements_of(recording, study.readout), dwells, wrong);
+}
+
+}  // namespace drift::preparation

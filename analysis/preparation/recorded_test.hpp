@@ -1,0 +1,26 @@
+#pragma once
+
+#include <vector>
+
+#include "core/recording/recording.hpp"
+#include "core/sim/measurements.hpp"
+#include "mc/study/study.hpp"
+
+namespace drift::preparation {
+
+/// A test as recordings show it: their chains one after another, and what was measured.
+struct RecordedTest {
+  Timeline timeline;
+  Measurements measured;
+  std::vector<std::size_t> ends;  ///< of each recording, the interval after its last
+};
+
+/// Lays recordings out by the study's plan, in the surroundings that they carry or, of a field that
+/// is known, that [environment] declares. InputError (recording) where one does not fit the plan,
+/// or where nothing is measured.
+RecordedTest recorded_test(const mc::Study& study, const std::vector<Recording>& recordings);
+
+/// A test that is planned, in the same surroundings.
+Timeline planned_test(const mc::Study& study, const TestPlan& plan);
+
+}  // namespace drift::preparation

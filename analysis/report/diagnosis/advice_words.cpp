@@ -1,0 +1,225 @@
+#include "analysis/report/diagnosis/advice_words.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "analysis/inference/thresholds.hpp"
+#include "analysis/planning/position_pool.hpp"
+#include "core/base/words.hpp"
+
+namespace drift::report {
+namespace {
+
+using diagnosis::Advice;
+using diagnosis::AdvisedPair;
+using diagnosis::Alternative;
+using diagnosis::Sizes;
+using inference::AdviceLimits;
+
+constexpr std::size_t most_shown = 8;
+
+/// "magnetic_drift.y", "g2_drift (D_IS_x)": one parameter tells more than its term.
+std::string label_of(const search::Cause& c) {
+  const auto linear = std::count_if(c.parameters.begin(), c.parameters.end(),
+                                    [](const search::CauseParameter& p) { return !p.profiled; });
+  const std::string own =
+      linear == 1 && !c.parameters.empty() && !c.parameters[0].key.starts_with(c.term)
+          ? fmt::format(" ({})", c.parameters[0].key)
+          : "";
+  return search::keyed(c.term, c.axis) + own;
+}
+
+std::string label_of(const Alternative& a) {
+  if (a.kind == Alternative::Kind::nominal) return "the nominal model";
+  if (a.kind == Alternative::Kind::equation)
+    return fmt::format("eq. ({})", facts(a.equation).number);
+  if (!a.asked.empty()) return a.asked;
+  std::string label;
+  for (const search::Cause& c : a.causes) label += (label.empty() ? "" : " + ") + label_of(c);
+  return label;
+}
+
+const Alternative& truth_of(const Advice& a, const AdvisedPair& p) {
+  return a.alternatives[p.pair.truth];
+}
+const Alternative& rival_of(const Advice& a, const AdvisedPair& p) {
+  return a.alternatives[p.pair.rival];
+}
+
+/// Whether the effect is seen at all is what is asked.
+bool against_nominal(const Advice& a, const AdvisedPair& p) {
+  return rival_of(a, p).kind == Alternative::Kind::nominal;
+}
+
+std::string pair_text(const Advice& a, const AdvisedPair& p, std::string_view between = " from ") {
+  const std::string truth = label_of(truth_of(a, p));
+  return against_nominal(a, p) ? truth
+                               : fmt::format("{}{}{}", truth, between, label_of(rival_of(a, p)));
+}
+
+/// "a, b, c and 4 more"; each once, whichever way round.
+std::string listed(const Advice& a, const std::vector<AdvisedPair>& pairs,
+                   std::string_view between) {
+  std::vector<std::string> texts;
+  std::set<std::pair<std::string, std::string>> said;
+  for (const AdvisedPair& p : pairs) {
+    std::pair labels{label_of(truth_of(a, p)), label_of(rival_of(a, p))};
+    if (labels.second < labels.first) std::swap(labels.first, labels.second);
+    if (said.insert(std::move(labels)).second) texts.push_back(pair_text(a, p, between));
+  }
+  return listed_up_to(texts, most_shown);
+}
+
+/// How large the effects are, "at one prior sigma"; empty: as found.
+std::string_view size_text(Sizes sizes) {
+  switch (sizes) {
+    case Sizes::as_found:
+      break;
+    case Sizes::one_prior_sigma:
+      return "at one prior sigma";
+    case Sizes::as_found_or_one_prior_sigma:
+      return "at the sizes found, others at one prior sigma";
+  }
+  return "";
+}
+
+std::string before_it(std::string_view head, std::string_view text) {
+  return text.empty() ? "" : fmt::format("{}{}", head, text);
+}
+
+std::string positions_text(const Advice& a) {
+  std::vector<std::string> all;
+  for (const Position& p : a.plan) all.push_back(planning::description(p, a.usual_dwell));
+  return fmt::format("{}", fmt::join(all, "; "));
+}
+
+/// What a plan does for one pair.
+std::string helped_pair(const Advice& a, const AdvisedPair& p, const std::string& verified) {
+  const std::string size = before_it(", ", size_text(a.sizes));
+  return fmt::format(
+      "{} and {}{} are {:.1f} sigma apart on this plan. Add {}: then {:.1f} sigma{}{}.",
+      label_of(truth_of(a, p)), label_of(rival_of(a, p)), size.empty() ? "" : size + ",",
+      a.now_sigma, positions_text(a), a.expected_sigma, verified,
+      a.expected_sigma < a.wanted ? ", which is not enough" : "");
+}
+
+std::string helped_text(const Advice& a) {
+  const std::string verified = std::isfinite(a.verified_sigma)
+                                   ? fmt::format(" (in a simulation: {:.1f})", a.verified_sigma)
+                                   : "";
+  std::vector<AdvisedPair> ways;  // either may be true: the way round that ends closest
+  for (const AdvisedPair& p : a.pairs)
+    if (std::none_of(ways.begin(), ways.end(), [&](const AdvisedPair& w) {
+          return w.pair.truth == p.pair.rival && w.pair.rival == p.pair.truth;
+        }))
+      ways.push_back(p);
+  if (ways.size() == 1) return helped_pair(a, ways.front(), verified);
+  std::vector<AdvisedPair> hardest = ways;
+  std::stable_sort(hardest.begin(), hardest.end(),
+                   [](const AdvisedPair& x, const AdvisedPair& y) { return x.now < y.now; });
+  std::vector<std::string> shown;
+  for (const AdvisedPair& p : hardest)
+    if (shown.size() < most_shown)
+      shown.push_back(fmt::format("{} {:.1f} to {:.1f}", pair_text(a, p), p.now, p.after));
+  const auto reached = std::count_if(ways.begin(), ways.end(),
+                                     [&](const AdvisedPair& p) { return p.after >= a.wanted; });
+  const std::string state =
+      a.sizes == Sizes::as_found
+          ? fmt::format("Of {} pairs, {} are less than {:g} sigma apart on this plan", a.asked,
+                        ways.size(), a.wanted)
+          : fmt::format(
+                "Of {} effects {}, {} show with less than {:g} sigma on this plan and with more "
+                "on another",
+                a.asked, size_text(a.sizes), ways.size(), a.wanted);
+  return fmt::format(
+      "{}. Add {}: then {} of them come above {:g} sigma and {} stay between {:g} and {:g}. "
+      "Hardest "
+      "now, in sigma before and after: {}. The last comes to {:.1f}: {}{}.",
+      state, positions_text(a), reached, a.wanted,
+      static_cast<std::ptrdiff_t>(ways.size()) - reached, AdviceLimits::told, a.wanted,
+      fmt::join(shown, ", "), a.expected_sigma, pair_text(a, a.pairs.front()), verified);
+}
+
+std::string hidden_text(const Advice& a) {
+  std::vector<AdvisedPair> unseen, near;
+  for (const AdvisedPair& p : a.pairs) (against_nominal(a, p) ? unseen : near).push_back(p);
+  const std::string size = before_it(" ", size_text(a.sizes));
+  std::string text;
+  if (!unseen.empty())
+    text = fmt::format(
+        "No {} of {} possible additions show {}{} with {:g} sigma: what the nominal model fits "
+        "takes "
+        "the trace, or it is too small for these instruments.",
+        a.most, a.pool, listed(a, unseen, ""), size, AdviceLimits::told);
+  if (!near.empty())
+    text += fmt::format(
+        "{}No {} of {} possible additions separate {}{} by {:g} sigma: another measurement is "
+        "needed.",
+        text.empty() ? "" : " ", a.most, a.pool, listed(a, near, " from "), size,
+        AdviceLimits::told);
+  return text;
+}
+
+std::string repeat_text(const Advice& a) {
+  std::string text =
+      "No known effect explains the misfit, so there are no candidates to tell apart.";
+  if (a.position > 0)
+    text += fmt::format(
+        " Repeat position {} ('{}'), where most of the misfit sits: if the signal comes again it "
+        "belongs to the attitude, if not to the hour.",
+        a.position, a.position_name);
+  return text;
+}
+
+}  // namespace
+
+std::string advice_text(const Advice& a) {
+  switch (a.kind) {
+    case Advice::Kind::add:
+      return helped_text(a);
+    case Advice::Kind::told:
+      return fmt::format(
+          "Nothing needs to be added: {} this plan tells {} by {:.1f} sigma, and that is the "
+          "closest.",
+          a.sizes == Sizes::as_found ? "at the sizes found" : size_text(a.sizes),
+          pair_text(a, a.pairs.front()), a.pairs.front().now);
+    case Advice::Kind::unlike:
+      return fmt::format(
+          "Nothing needs to be added: no other candidate leaves a trace like that of {} on this "
+          "plan.",
+          label_of(a.alternatives.front()));
+    case Advice::Kind::twins:
+      return fmt::format(
+          "No position of the pool separates {}: they leave the same trace in all of them. Another "
+          "measurement is needed, of one of them by itself (a bench test of the instrument, say); "
+          "more positions are futile.",
+          listed(a, a.pairs, " and "));
+    case Advice::Kind::hidden:
+      return hidden_text(a);
+    case Advice::Kind::temperature:
+      return fmt::format(
+          "Nothing can be added: {} follows the temperature, and positions are planned at one "
+          "temperature. Let it vary within the dwells and record it.",
+          label_of(a.alternatives.front()));
+    case Advice::Kind::repeat:
+      break;
+  }
+  return repeat_text(a);
+}
+
+std::vector<std::string> advised_labels(const Advice& a) {
+  std::vector<std::string> labels;
+  for (std::size_t k = 0; k < a.alternatives.size(); ++k) {
+    const auto holds = [&](const AdvisedPair& p) { return p.pair.truth == k || p.pair.rival == k; };
+    if (std::none_of(a.pairs.begin(), a.pairs.end(), holds)) continue;
+    const std::string label = label_of(a.alternatives[k]);
+    if (std::find(labels.begin(), labels.end(), label) == labels.end()) labels.push_back(label);
+  }
+  return labels;
+}
+
+}  // namespace drift::report

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "analysis/diagnosis/findings/advice.hpp"
+
+namespace drift::report {
+
+/// An advice in words, for the person who plans the next test.
+std::string advice_text(const diagnosis::Advice& advice);
+
+/// What it is about: the alternatives in its pairs, in their order, each once.
+std::vector<std::string> advised_labels(const diagnosis::Advice& advice);
+
+}  // namespace drift::report

@@ -1,0 +1,115 @@
+#include "analysis/report/diagnosis/effect_words.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/number_text.hpp"
+#include "core/base/words.hpp"
+#include "core/physics/closure.hpp"
+#include "core/physics/term_library.hpp"
+#include "core/stats/normal.hpp"
+
+namespace drift::report {
+namespace {
+
+constexpr std::size_t most_numbers = 3;
+
+/// What an axis of a term belongs to: "gyro y", "accelerometer y", "axis y", "outer gimbal".
+std::string part_of(const TermInfo& term, std::string_view axis) {
+  if (axis.size() > 1) return fmt::format("{} gimbal", axis);
+  if (term.in_readout) return fmt::format("accelerometer {}", axis);
+  if (term.in_offset || term.in_gimbals || term.subsystem == Subsystem::servo)
+    return fmt::format("platform axis {}", axis);
+  return fmt::format("gyro {}", axis);
+}
+
+/// Distance of a found number from its prior's mean, in sigmas of the prior; 0 of what was
+/// profiled.
+double in_prior_sigmas(const search::CauseParameter& p) {
+  const ParamSpec& spec = TermLibrary::specs[p.param];
+  const double sigma = spec.prior.sigma();
+  return p.profiled || !(sigma > 0.0) ? 0.0 : std::abs(p.value - spec.prior.mean()) / sigma;
+}
+
+std::string number_of(const search::CauseParameter& p) {
+  return fmt::format("{} = {}{}{}", p.key, with_sigma(p.value, p.sigma), p.unit == "1" ? "" : " ",
+                     p.unit == "1" ? "" : p.unit);
+}
+
+/// What stands in the brackets behind a cause.
+std::string numbers_of(const search::Cause& c) {
+  std::string text = search::keyed(c.term, c.axis);
+  if (c.parameters.empty()) return text;
+  if (c.parameters.size() > most_numbers) {
+    const auto largest = std::ranges::max_element(c.parameters, {}, in_prior_sigmas);
+    return text + fmt::format(": {} and {} more", number_of(*largest), c.parameters.size() - 1);
+  }
+  std::vector<std::string> numbers;
+  for (const search::CauseParameter& p : c.parameters) numbers.push_back(number_of(p));
+  text += fmt::format(": {}", fmt::join(numbers, ", "));
+  const search::CauseParameter& p = c.parameters.front();
+  if (c.term == closure_term)  // between two equations the interval is the answer
+    text += fmt::format(", 95 % interval {:.3g} to {:.3g}, where eq. (5) is 0 and eq. (6) is 1",
+                        p.value - stats::half_width_95 * p.sigma,
+                        p.value + stats::half_width_95 * p.sigma);
+  return text;
+}
+
+/// Words with something in brackets behind; brackets at their end take it in.
+std::string with_brackets(std::string words, const std::string& inside) {
+  if (!words.ends_with(')')) return fmt::format("{} ({})", words, inside);
+  words.pop_back();
+  return fmt::format("{}; {})", words, inside);
+}
+
+}  // namespace
+
+std::string in_words(std::string_view term, std::string_view axis) {
+  if (term == closure_term) return "another drift equation";
+  const auto known = TermLibrary::find_term(term);
+  if (!known) return search::keyed(term, axis);
+  const TermInfo& info = TermLibrary::terms[*known];
+  return axis.empty() ? std::string(info.title)
+                      : fmt::format("{}, {}", info.title, part_of(info, axis));
+}
+
+std::string in_words(const search::Cause& c) {
+  return with_brackets(in_words(c.term, c.axis), numbers_of(c));
+}
+
+std::string equation_in_words(const std::string& equation) {
+  constexpr std::string_view gimbal = "gimbal ";
+  return equation.starts_with(gimbal) ? equation.substr(gimbal.size()) + " gimbal" : equation;
+}
+
+std::string lacking(const std::vector<search::Cause>& causes) {
+  std::vector<std::string> effects;
+  std::string equation;
+  for (const search::Cause& c : causes)
+    if (c.term == closure_term)
+      equation = fmt::format(" has the wrong drift equation ({})", numbers_of(c));
+    else
+      effects.push_back(in_words(c));
+  const std::string lacks = effects.empty() ? "" : fmt::format(" lacks {}", listed(effects, "and"));
+  return fmt::format("The nominal model{}{}{}", equation,
+                     equation.empty() || lacks.empty() ? "" : " and", lacks);
+}
+
+std::string noise_in_words(const std::string& component) {
+  constexpr std::pair<std::string_view, std::string_view> known[] = {
+      {"gimbal_white", "white noise of the gimbal readout"},
+      {"accelerometer_white", "white noise of the accelerometers"},
+      {"angle_random_walk", "angle random walk of the gyros"},
+      {"drift_random_walk", "random walk of the gyro drift"},
+      {"markov_drift", "slowly wandering gyro drift"},
+      {"accelerometer_markov", "slowly wandering accelerometer error"},
+      {"outliers", "isolated wrong samples"}};
+  for (const auto& [key, words] : known)
+    if (key == component) return std::string(words);
+  return component;
+}
+
+}  // namespace drift::report

@@ -1,0 +1,150 @@
+#include "analysis/report/diagnosis/remark_words.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/report/diagnosis/sentence.hpp"
+#include "core/base/words.hpp"
+
+namespace drift::report {
+namespace {
+
+using namespace diagnosis::remark;
+
+/// One overload for each kind of remark.
+struct Words {
+  std::string operator()(const Input& r) const { return r.text; }
+
+  std::string operator()(const JustSignificantLeft&) const {
+    return "With it in the model something is left that is just significant: chance, or not the "
+           "whole story. It is listed, not named.";
+  }
+
+  std::string operator()(const LambdaNotSettled&) const {
+    return "Another drift equation explains it, but its weight lambda may still be the nominal one "
+           "(3 sigma): it is listed, not named.";
+  }
+
+  std::string operator()(const MemberNotConfirmed&) const {
+    return "The causes fit together, but without one of them held-out positions are predicted no "
+           "worse: it is not confirmed (held_out_gain of each cause in diagnosis.json).";
+  }
+
+  std::string operator()(const NotPredicted&) const {
+    return "The cause fits, but held-out positions are not predicted better with it. An effect "
+           "that lives in one position cannot be confirmed by the others: repeat that position.";
+  }
+
+  std::string operator()(const SamplesLeftOut& r) const {
+    return fmt::format(
+        "{} isolated samples were left out and {} given less weight: their residuals are larger "
+        "than Gaussian noise gives.",
+        r.removed, r.lowered);
+  }
+
+  std::string operator()(const FreeInputExplains& r) const {
+    return fmt::format(
+        "An unknown input of free form in {} alone would explain it (twice the log likelihood "
+        "better by {:.1f}).",
+        r.equation, r.gain);
+  }
+
+  std::string operator()(const CrosstalkMovesLambda&) const {
+    return "Cross-talk between the torquing channels (taken as zero) moves lambda (frame_closure) "
+           "as much as misalignment does in slews; only Earth rate and turns of the case tell them "
+           "apart.";
+  }
+
+  std::string operator()(const DrivesOneGyro& r) const {
+    return fmt::format(
+        "What drives the platform acts on gyro {} alone: it is no noise that the gyros share "
+        "(twice the log likelihood better by {:.1f}).",
+        "xyz"[r.axis], r.gain);
+  }
+
+  std::string operator()(const StrongestLeft& r) const {
+    return fmt::format(
+        "With {} in the model the strongest of what is left is {}: put the first into the nominal "
+        "filter and diagnose again",
+        fmt::join(r.labels, " and "), r.strongest);
+  }
+
+  std::string operator()(const BeyondPrior& r) const {
+    constexpr std::size_t most = 6;
+    std::vector<std::string> keys;
+    for (const std::size_t param : r.params)
+      keys.emplace_back(TermLibrary::specs[param].key.view());
+    return fmt::format(
+        "The nominal fit takes {} up to {:.0f} sigmas from where their priors have them. If that "
+        "is not this platform, the study is not of this recording: check [site] latitude, axes and "
+        "commands of the plan, and the priors",
+        listed_up_to(keys, most), r.farthest);
+  }
+
+  std::string operator()(const EquationOpen& r) const {
+    return fmt::format(
+        "{}: fitted with the other, the test is explained as well (twice the log of the odds: "
+        "{:+.1f}). What tells lambda from the misalignments: slews about each platform axis, free "
+        "drift beside level positions, or turns of the case. In slews, cross-talk between the "
+        "torquing channels (torquer_crosstalk) looks like lambda",
+        cannot_tell_equations(r), r.gain);
+  }
+
+  std::string operator()(const NoiseOrEffect& r) const {
+    return fmt::format(
+        "Without the noise that was found to drive the platform, {} would explain the test ({:.1f} "
+        "sigma): a slow effect and such noise look alike here. More positions or longer dwells "
+        "tell them apart",
+        in_words(r.effect.term, r.effect.axis), r.sigmas);
+  }
+
+  std::string operator()(const NoAdvice& r) const {
+    return fmt::format("No advice could be made: {}", r.reason);
+  }
+
+  std::string operator()(const EquationByTurns& r) const {
+    return fmt::format(
+        "eq. (5) predicts held-out turns to {:.3g} deg, eq. (6) to {:.3g} deg ({:.1f} standard "
+        "errors): lambda is 0 and not 1. Between the two this recording gives it no number: case "
+        "motion shows (1 - lambda) E alone",
+        r.error_eq5, r.error_eq6, r.standard_errors);
+  }
+
+  std::string operator()(const StepJudged& r) const {
+    const std::string turns =
+        std::isfinite(r.gain_turns) ? fmt::format(", on turns {:.1f}", r.gain_turns) : "";
+    return fmt::format("{} {}: {} (gain on dwells {:.1f}{} standard errors)", r.label, r.verdict,
+                       r.reason, r.gain_dwells, turns);
+  }
+
+  std::string operator()(const NoDeclaredNoise&) const {
+    return "a recording on a case declares no noise: residuals and chi-square are in units of the "
+           "scatter that the accepted model leaves";
+  }
+
+  std::string operator()(const CommonDriftUnseen&) const {
+    return "D_I is fitted with D_O and D_S and is left out of the causes: its common part is not "
+           "observable, and alone it improved nothing";
+  }
+
+  std::string operator()(const NotObservable& r) const {
+    return fmt::format("not observable: {}: {}", r.what, r.reason);
+  }
+};
+
+}  // namespace
+
+std::string in_words(const diagnosis::Remark& remark) {
+  return std::visit(Words{}, remark);
+}
+
+std::string cannot_tell_equations(const EquationOpen& open) {
+  const CouplingFacts& nominal = facts(open.nominal);
+  return fmt::format("This plan cannot tell the nominal eq. ({}) from eq. ({})", nominal.number,
+                     facts(*nominal.other).number);
+}
+
+}  // namespace drift::report

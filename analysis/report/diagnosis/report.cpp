@@ -1,0 +1,160 @@
+#include "analysis/report/diagnosis/report.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "analysis/diagnosis/advice/patched_study.hpp"
+#include "analysis/planning/position_toml.hpp"
+#include "analysis/report/diagnosis/advice_words.hpp"
+#include "analysis/report/diagnosis/sections.hpp"
+#include "analysis/report/diagnosis/sentence.hpp"
+#include "core/base/results_folder.hpp"
+#include "core/physics/parameters_config.hpp"
+
+namespace drift::report {
+namespace {
+
+using namespace diagnosis;
+
+std::string verdict_word(Verdict v) {
+  switch (v) {
+    case Verdict::consistent:
+      return "Consistent: nothing significant is missing.";
+    case Verdict::named:
+      return "Named: the data single out what is missing.";
+    case Verdict::ambiguous:
+      return "Ambiguous: something is missing, and several causes remain possible.";
+    case Verdict::unexplained:
+      break;
+  }
+  return "Unexplained: something is missing that no candidate fits.";
+}
+
+std::string model_text(const FilterSpec& f) {
+  return fmt::format("{}, terms {}", key_of(f.coupling), fmt::join(terms_text(f.active), ", "));
+}
+
+Section origin(const mc::Study& study, const Diagnosis& d, const DiagnosisSource& source) {
+  Table table("", "< | <");
+  table.add({"study file", study.path});
+  for (const auto& r : source.recordings) table.add({"recording", r});
+  table.add({"nominal model", model_text(d.nominal)});
+  if (d.has_patch) table.add({"patched model (patched.toml)", model_text(d.patched)});
+  table.add({"seed", study.monte_carlo.seed});
+  for (const auto& [stage, seconds] : d.seconds)
+    table.add({stage, fmt::format("{:.2f} s", seconds)});
+  Section section{"Where this came from", {table}, On::page};
+  if (!source.details.empty()) section.add({Preformatted{source.details}});
+  return section;
+}
+
+/// The patched study; where several causes remain possible, headed by what it holds.
+std::string patched_file(const mc::Study& study, const Diagnosis& d) {
+  std::string out;
+  if (const std::string head = patch_text(d); !head.empty()) {
+    std::istringstream lines(wrapped(head, 98));
+    for (std::string line; std::getline(lines, line);) out += "# " + line + "\n";
+  }
+  return out + patched_study(study, d.patched);
+}
+
+}  // namespace
+
+/// What the page says in its headlines.
+Section verdict(const Diagnosis& d) {
+  const bool found = d.verdict != Verdict::consistent;
+  Sentences said{{fmt::format("Verdict {}: {}", text(d.verdict), sentence(d))}, ""};
+  if (const auto sentence = where_sentence(d.where); found && !sentence.empty())
+    said.items.push_back("Where: " + sentence);
+  if (const auto sentence = held_out_sentence(d.fit.held_out); found && !sentence.empty())
+    said.items.push_back("Held out: " + sentence);
+  return {"", {std::move(said)}, On::terminal};
+}
+
+Section kept_in_mind(const Diagnosis& d) {
+  const auto remarks = remarks_of(d);
+  if (remarks.empty()) return {};
+  return {"To be kept in mind", {Sentences{remarks}}, On::page};
+}
+
+Table noise_table(const Diagnosis& d) {
+  Table table("Noise against what is declared",
+              "component=<component | factor=factor | factor_sigma= | value=value | unit=<unit | "
+              "tau_s=tau [s] | log_likelihood_gain= | p_value=p | significant= | count= | <");
+  for (const inference::NoiseFinding& n : d.noise) {
+    const std::string said = !n.significant ? "as declared"
+                             : n.component == "outliers"
+                                 ? fmt::format("{} samples left out", n.count)
+                                 : "not as declared";
+    table.add({n.component, plus_minus(n.factor, n.factor_sigma), n.factor_sigma, n.value,
+               text_or_nothing(n.unit), n.tau_s > 0.0 ? Cell(n.tau_s) : only_value({}),
+               n.log_likelihood_gain, p_cell(n.p_value), n.significant, n.count,
+               Cell(said, n.significant ? Tone::doubtful : Tone::plain)});
+  }
+  return table;
+}
+
+Section noise(const Diagnosis& d) {
+  if (d.noise.empty()) return {};
+  const bool told = std::ranges::any_of(d.noise, &inference::NoiseFinding::significant);
+  return {"Noise", {noise_table(d)}, told ? On::both : On::page};
+}
+
+Section advice(const Diagnosis& d) {
+  Section section{"Advice", {}};
+  Sentences all{{}, "Advice: "};
+  for (const Advice& a : d.advice) {
+    all.items.push_back(advice_text(a));
+    section.add({{Paragraph{advice_text(a)}, On::page}});
+    if (a.plan.empty()) continue;
+    Table table("Positions to add", "<name | <axes | dwell | <mode | <entry | case heading");
+    for (const Position& p : a.plan)
+      table.add({p.name, p.axes, fmt::format("{:.0f} min", p.dwell / 60.0), key_of(p.mode),
+                 key_of(p.entry),
+                 p.case_heading ? fmt::format("{:.0f} deg", *p.case_heading / unit::deg.to_si)
+                                : "chosen"});
+    section.add({{table, On::page}, {Preformatted{planning::positions_toml(a.plan)}, On::page}});
+  }
+  section.add({{std::move(all), On::terminal}, {Sentences{remarks_of(d), "! "}, On::terminal}});
+  return section;
+}
+
+std::string to_text(const Diagnosis& d) {
+  return text_of(sections_of(d, diagnosis_sections));
+}
+
+Report diagnosis_report(const mc::Study& study, const Diagnosis& d, const DiagnosisSource& source) {
+  Report report{.command = "diagnose"};
+  report.title = study.title.empty() ? "Diagnosis" : study.title;
+  report.subtitle =
+      fmt::format("{} {}", verdict_word(d.verdict), fmt::join(source.recordings, ", "));
+  report.headlines.push_back(sentence(d));
+  if (d.verdict != Verdict::consistent)
+    for (const auto& sentence : {where_sentence(d.where), held_out_sentence(d.fit.held_out)})
+      if (!sentence.empty()) report.headlines.push_back(sentence);
+  if (!d.advice.empty()) report.headlines.push_back(advice_text(d.advice.front()));
+  report.add(sections_of(d, diagnosis_sections));
+  report.add({origin(study, d, source)});
+  Json document = diagnosis_document(d);
+  add_tables(document, report.sections);
+  report.document = {"diagnosis.json", dumped(document)};
+  report.files = {{"residual_signal.csv", residual_signal_csv(d.signals, d.where.recordings)},
+                  {"study.toml", study.text}};
+  if (d.has_patch) report.files.emplace_back("patched.toml", patched_file(study, d));
+  if (!d.advice.empty() && !d.advice.front().plan.empty() && study.kind == RecordingKind::platform)
+    report.files.emplace_back("advised.toml", extended_study(study, d.advice.front().plan));
+  report.footer = "Values stand with their units; ± is 1 sigma.";
+  return report;
+}
+
+std::vector<std::string> write_results(const mc::Study& study, const Diagnosis& d,
+                                       const DiagnosisSource& source, const std::string& folder) {
+  const Report report = diagnosis_report(study, d, source);
+  for (const char* name : {"patched.toml", "advised.toml"})
+    if (std::ranges::find(report.files, name, &TextFile::first) == report.files.end())
+      remove_result({folder, report.command}, name);
+  return write_report(report, folder);
+}
+
+}  // namespace drift::report

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "analysis/report/diagnosis/report.hpp"
+#include "analysis/report/diagnosis/words.hpp"
+#include "analysis/report/page/json.hpp"
+#include "analysis/report/page/wording.hpp"
+
+namespace drift::report {
+
+/// What is said of a diagnosis, in this order.
+DRIFT_SECTIONS(diagnosis::Diagnosis, diagnosis_sections, verdict, kept_in_mind, where, what, fit,
+               noise, advice);
+
+/// Causes are told from a model without, before and after; of a consistent verdict on the page
+/// alone.
+inline On shown_of(const diagnosis::Diagnosis& d) {
+  return d.verdict == diagnosis::Verdict::consistent ? On::page : On::both;
+}
+
+// Tables that stand in diagnosis.json too.
+Table candidate_table(const diagnosis::Diagnosis& diagnosis);
+Table moved_table(const diagnosis::Diagnosis& diagnosis);
+Table noise_table(const diagnosis::Diagnosis& diagnosis);
+Table window_table(const diagnosis::Where& where);
+
+/// residual_signal.csv: the recovered inputs, row by row, with facts in comment lines: what is not
+/// finite or not known is an empty cell, `explained` where no cause is named. Of several
+/// recordings, whose times follow one another, a last column names the recording; a comment line
+/// says what to subtract for its own time.
+std::string residual_signal_csv(const std::vector<diagnosis::RecoveredSignal>& signals,
+                                const std::vector<diagnosis::RecordingSpan>& recordings = {});
+
+/// Short recordings are shown in seconds, long ones in hours.
+struct TimeAxis {
+  double unit = 3600.0;  ///< [s]
+  std::string label;
+};
+TimeAxis time_axis(const std::vector<double>& t, const diagnosis::Where& where);
+
+Json diagnosis_document(const diagnosis::Diagnosis& diagnosis);
+
+}  // namespace drift::report

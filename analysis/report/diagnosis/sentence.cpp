@@ -1,0 +1,231 @@
+#include "analysis/report/diagnosis/sentence.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/inference/thresholds.hpp"
+#include "analysis/report/diagnosis/remark_words.hpp"
+#include "core/base/number_text.hpp"
+#include "core/base/units.hpp"
+#include "core/base/words.hpp"
+#include "core/stats/normal.hpp"
+
+namespace drift::report {
+namespace {
+
+using namespace diagnosis;
+
+/// The shape of the strongest recovered signal, its equation said where it is not the one located.
+std::string located_shape_text(const Diagnosis& d) {
+  if (d.signals.empty() || d.signals.front().shape.kind == Shape::Kind::unknown) return "";
+  const RecoveredSignal& s = d.signals.front();
+  if (s.equation == d.where.equation) return ": " + shape_text(s);
+  return fmt::format(". As an input to the {}: {}", equation_in_words(s.equation), shape_text(s));
+}
+
+/// Causes that act together are one alternative.
+using Alternative = std::vector<std::size_t>;  // indices into Diagnosis::causes
+
+std::vector<Alternative> alternatives_of(const Diagnosis& d) {
+  std::vector<Alternative> all;
+  for (std::size_t k = 0; k < d.causes.size(); ++k) {
+    if (k == 0 || d.causes[k].set != d.causes[k - 1].set) all.emplace_back();
+    all.back().push_back(k);
+  }
+  return all;
+}
+
+bool same_trace(const Diagnosis& d, std::size_t i, std::size_t k) {
+  if (d.causes[i].term == d.causes[k].term && d.causes[i].axis == d.causes[k].axis) return true;
+  const auto a = static_cast<Eigen::Index>(i), b = static_cast<Eigen::Index>(k);
+  const MatX& cosine = d.cosines.cosine;
+  return a < cosine.rows() && b < cosine.cols() && inference::same_trace(cosine(a, b));
+}
+
+bool same_trace(const Diagnosis& d, const Alternative& one, const Alternative& other) {
+  const auto met_in = [&](const Alternative& there) {
+    return [&](std::size_t i) {
+      return std::ranges::any_of(there, [&](std::size_t k) { return same_trace(d, i, k); });
+    };
+  };
+  return std::ranges::all_of(one, met_in(other)) && std::ranges::all_of(other, met_in(one));
+}
+
+/// The alternatives that no data of this plan tells apart: " (1) and (2) leave the same trace on
+/// this plan."
+std::string twins_text(const Diagnosis& d, const std::vector<Alternative>& all) {
+  std::vector<bool> said(all.size(), false);
+  std::string text;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    std::vector<std::string> group{fmt::format("({})", i + 1)};
+    for (std::size_t k = i + 1; k < all.size() && !said[i]; ++k)
+      if (!said[k] && same_trace(d, all[i], all[k])) {
+        group.push_back(fmt::format("({})", k + 1));
+        said[k] = true;
+      }
+    if (group.size() > 1)
+      text += fmt::format(" {} leave the same trace on this plan.", listed(group, "and"));
+  }
+  return text;
+}
+
+/// What leaves the same trace as a cause and is no part of the verdict. A candidate of all axes of
+/// a term is passed over for the one axis of it that does.
+std::string outside_twins_text(const Diagnosis& d) {
+  std::string text;
+  for (const search::Cause& c : d.causes)
+    for (const search::Confusable& o : c.confusable_with) {
+      const bool among =
+          std::ranges::any_of(d.causes, [&](const search::Cause& k) { return k.term == o.term; });
+      const bool narrower =
+          o.axis.empty() &&
+          std::ranges::any_of(c.confusable_with, [&](const search::Confusable& k) {
+            return k.term == o.term && !k.axis.empty() && inference::same_trace(k.cosine);
+          });
+      if (!inference::same_trace(o.cosine) || among || narrower) continue;
+      const auto line = fmt::format(" On this plan {} ({}) and {} ({}) leave the same trace.",
+                                    in_words(c.term, c.axis), search::keyed(c.term, c.axis),
+                                    in_words(o.term, o.axis), search::keyed(o.term, o.axis));
+      if (text.find(line) == std::string::npos) text += line;
+    }
+  return text;
+}
+
+std::string together(const Diagnosis& d, const Alternative& causes) {
+  std::vector<std::string> words;
+  for (const std::size_t k : causes) words.push_back(in_words(d.causes[k]));
+  return fmt::format("{}", fmt::join(words, " together with "));
+}
+
+std::string noise_text(const Diagnosis& d) {
+  std::vector<std::string> parts;
+  for (const inference::NoiseFinding& f : d.noise)
+    if (f.significant && f.component != "outliers")
+      parts.push_back(fmt::format("{} ({}: {})", noise_in_words(f.component), f.component,
+                                  std::isfinite(f.factor)
+                                      ? fmt::format("{:.2f} times as declared", f.factor)
+                                      : fmt::format("{:.2g} {}", f.value, f.unit)));
+  return parts.empty() ? ""
+                       : fmt::format(" The noise is not as declared: {}.", listed(parts, "and"));
+}
+
+std::string held_out_text(const HeldOut& held, bool several) {
+  if (held.folds.empty() && held.recordings.empty())
+    return "nothing was held out of the fit to judge it";
+  return fmt::format("with {}, held-out positions are predicted {}", several ? "them" : "it",
+                     held.improves ? "better" : "no better");
+}
+
+std::string ambiguous_text(const Diagnosis& d) {
+  const std::string missing =
+      fmt::format("Something is missing from the nominal model (chance of a false alarm: {})",
+                  p_text(d.p_value));
+  const auto all = alternatives_of(d);
+  if (all.empty()) return missing + ", and this plan cannot tell what.";
+  if (all.size() == 1)
+    return fmt::format("{}; it may be {}, but {}.", missing, together(d, all.front()),
+                       held_out_text(d.fit.held_out, all.front().size() > 1));
+  std::vector<std::string> words;
+  for (std::size_t k = 0; k < all.size(); ++k)
+    words.push_back(fmt::format("({}) {}", k + 1, together(d, all[k])));
+  return fmt::format("{}, and this plan cannot tell which: either {}.{}", missing,
+                     fmt::join(words, ", or "), twins_text(d, all));
+}
+
+std::string verdict_alone(const Diagnosis& d) {
+  const std::string noise = noise_text(d),
+                    false_alarm = fmt::format("chance of a false alarm: {}", p_text(d.p_value));
+  switch (d.verdict) {
+    case Verdict::consistent:
+      return fmt::format(
+          "The recording agrees with the nominal model; no missing physics is found (noise alone "
+          "shows as "
+          "much with a chance of {}).{}",
+          p_text(d.p_value), noise);
+    case Verdict::named:
+      return fmt::format("{}; {} ({}).{}{}", lacking(d.causes),
+                         held_out_text(d.fit.held_out, d.causes.size() > 1), false_alarm,
+                         outside_twins_text(d), noise);
+    case Verdict::ambiguous:
+      return ambiguous_text(d) + outside_twins_text(d) + noise;
+    case Verdict::unexplained:
+      break;
+  }
+  return fmt::format(
+      "Something is missing from the nominal model ({}) and no known effect explains it; it sits "
+      "in the {}{}.{}",
+      false_alarm,
+      d.where.equation.empty() ? "test as a whole" : equation_in_words(d.where.equation),
+      located_shape_text(d), noise);
+}
+
+/// Of a recording on a case.
+std::string case_sentence(const Diagnosis& d) {
+  if (d.causes.empty())
+    return fmt::format(
+        "Nothing is missing that predicts held-out dwells and turns better (noise alone shows as "
+        "much with a chance of {}).",
+        p_text(d.p_value));
+  std::vector<std::string> numbers;
+  for (const ErrorOfKind& k : d.errors)
+    numbers.push_back(fmt::format("{} {:.3g} → {:.3g} {}", k.what, k.before, k.after, k.unit));
+  return fmt::format("{} (chance of a false alarm: {}); error on held-out data: {}.",
+                     lacking(d.causes), p_text(d.p_value), fmt::join(numbers, ", "));
+}
+
+std::string nearest_text(const NearestKnown& near) {
+  std::vector<std::string> words;
+  for (const NamedEffect& e : near.effects)
+    words.push_back(fmt::format("{} ({})", in_words(e.term, e.axis), e.label));
+  return fmt::format(
+      " The nearest known is {}: chi-square per degree of freedom goes from {:.3g} to {:.3g}, and "
+      "something significant is left.",
+      fmt::join(words, " together with "), near.chi2_per_dof_before, near.chi2_per_dof_after);
+}
+
+std::string site_text(const SiteDoubt& doubt) {
+  return fmt::format(
+      " Check [site] latitude: at {:.3f} deg instead of {:.3f} deg the nominal model fits with "
+      "chi-square per degree of freedom {:.3g} instead of {:.3g}. As a cause that is no survey "
+      "error any more: latitude_error would need {:.3g} prior sigmas.",
+      doubt.latitude / unit::deg.to_si, doubt.declared / unit::deg.to_si, doubt.chi2_per_dof_after,
+      doubt.chi2_per_dof_before, doubt.prior_sigmas);
+}
+
+}  // namespace
+
+std::string patch_text(const Diagnosis& d) {
+  const auto all = alternatives_of(d);
+  if (d.verdict != Verdict::ambiguous || !d.has_patch || all.empty()) return "";
+  const std::string words = together(d, all.front());
+  if (all.size() == 1)
+    return fmt::format(
+        "The patched model (patched.toml) holds the only cause that was found, {}: it is not "
+        "confirmed.",
+        words);
+  const double probability = d.causes.front().probability;
+  const std::string odds = std::isfinite(probability)
+                               ? fmt::format(", probability {}", decimal_text(probability, 2))
+                               : "";
+  return fmt::format(
+      "The patched model (patched.toml) holds alternative (1) alone, the most probable of {}{}: "
+      "{}. The data do not single it out: "
+      "its parameters are right only if this is the cause.",
+      all.size(), odds, words);
+}
+std::string sentence(const Diagnosis& d) {
+  if (!d.errors.empty()) return case_sentence(d);
+  std::string text = verdict_alone(d);
+  if (d.nearest_known) text += nearest_text(*d.nearest_known);
+  if (d.verdict == Verdict::consistent)
+    for (const Remark& r : d.remarks)
+      if (const auto* open = std::get_if<remark::EquationOpen>(&r))
+        text += fmt::format(" {}.", cannot_tell_equations(*open));
+  if (d.site_doubt) text += site_text(*d.site_doubt);
+  return text;
+}
+
+}  // namespace drift::report

@@ -1,0 +1,60 @@
+#include <fmt/format.h>
+
+#include "analysis/report/diagnosis/sentence.hpp"
+
+namespace drift::report {
+namespace {
+
+std::string bare(const diagnosis::Shape& s) {
+  using Kind = diagnosis::Shape::Kind;
+  switch (s.kind) {
+    case Kind::unknown:
+      return "";
+    case Kind::nothing:
+      return "nothing above the noise";
+    case Kind::none_simple:
+      return "of no simple shape: several effects, or many parameters, may be missing at once";
+    case Kind::ramp:
+      return "grows evenly with time";
+    case Kind::decay_from_start:
+      return fmt::format(
+          "dies away from the start of the test with a time constant of about {:.0f} min",
+          s.seconds / 60.0);
+    case Kind::decay_in_position:
+      return fmt::format("dies away within every position with a time constant of about {:.0f} min",
+                         s.seconds / 60.0);
+    case Kind::onset:
+      return fmt::format("sets in at {:.0f} s and stays", s.seconds);
+    case Kind::period:
+      return fmt::format("swings with a period of about {:.1f} h", s.seconds / 3600.0);
+    case Kind::specific_force:
+      return fmt::format("goes with the specific force along {}", "xyz"[s.axis]);
+    case Kind::specific_force_square:
+      return fmt::format("goes with the product of specific forces along {} and {}", "xyz"[s.axis],
+                         "xyz"[s.other_axis]);
+    case Kind::one_position:
+      return fmt::format("is present in position {} alone", s.position);
+    case Kind::covariate:
+      return fmt::format("goes with the recorded {}", s.covariate);
+    case Kind::follows:
+      return fmt::format("follows {}", s.covariate);
+    case Kind::follows_nothing:
+      return "follows neither specific force nor time";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string shape_text(const diagnosis::RecoveredSignal& signal) {
+  using Kind = diagnosis::Shape::Kind;
+  const Kind kind = signal.shape.kind;
+  const std::string words = bare(signal.shape);
+  if (kind == Kind::unknown || kind == Kind::nothing || kind == Kind::none_simple ||
+      kind == Kind::follows_nothing)
+    return words;
+  return kind == Kind::follows ? fmt::format("{} (correlation {:+.2f})", words, signal.correlation)
+                               : fmt::format("{} (correlation {:.2f})", words, signal.correlation);
+}
+
+}  // namespace drift::report

@@ -1,0 +1,165 @@
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/report/diagnosis/sections.hpp"
+#include "analysis/report/svg/bar_chart.hpp"
+#include "analysis/report/svg/heat_map.hpp"
+
+namespace drift::report {
+namespace {
+
+using namespace diagnosis;
+using namespace search;
+
+/// Near all and near nothing with decimals: 99.7 % absorbed is not 100 %.
+Cell percent_cell(double share) {
+  const int decimals = share > 0.999 ? 2 : share > 0.99 || share < 0.1 ? 1 : 0;
+  return {share, std::isfinite(share) ? fmt::format("{:.{}f} %", 100.0 * share, decimals) : "-"};
+}
+
+Cell unit_cell(const std::string& unit) {
+  return {unit.empty() ? Value() : Value(unit), unit == "1" ? "" : unit};
+}
+
+std::string remark_of(const Diagnosis& d, const CandidateScore& c, int alternative) {
+  if (alternative > 0 && d.verdict == Verdict::named) return "named";
+  if (alternative > 0 && d.verdict == Verdict::ambiguous)
+    return fmt::format("alternative {}", alternative);
+  return c.observable ? "" : "not observable on this plan";
+}
+
+/// The likest, at most three. All axes of a term are passed over where one axis alone is as like.
+std::string confusable_text(const Cause& c) {
+  std::vector<std::string> parts;
+  for (const Confusable& o : c.confusable_with) {
+    const bool one_axis_does =
+        o.axis.empty() && std::ranges::any_of(c.confusable_with, [&](const Confusable& k) {
+          return k.term == o.term && !k.axis.empty() &&
+                 std::abs(std::abs(k.cosine) - std::abs(o.cosine)) < 0.005;
+        });
+    if (!one_axis_does && parts.size() < 3)
+      parts.push_back(fmt::format("{} ({:.2f})", keyed(o.term, o.axis), o.cosine));
+  }
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+Table cause_table(const Diagnosis& d) {
+  Table table(d.verdict == Verdict::ambiguous ? "Causes that remain possible" : "Causes",
+              "<term | <parameter | value | <unit | p | probability | size [prior sigmas] | "
+              "<like (cosine)");
+  const bool alternatives = d.verdict == Verdict::ambiguous &&
+                            std::ranges::any_of(d.causes, [](const Cause& c) { return c.set > 0; });
+  int set = -1;
+  for (const Cause& c : d.causes) {
+    if (alternatives && c.set != set) table.add_heading(fmt::format("alternative {}", c.set + 1));
+    set = c.set;
+    const auto add = [&](std::size_t k, Cell key, Cell value, Cell unit) {
+      std::vector<Cell> row{k == 0 ? label_of(c) : "", key, value, unit, "", "", "", ""};
+      if (k == 0) {
+        row[4] = p_cell(c.p_value);
+        row[5] = decimals(c.probability, 2);
+        row[6] = digits(c.size_sigma, 2);
+        row[7] = confusable_text(c);
+      }
+      table.add(std::move(row));
+    };
+    if (c.parameters.empty()) add(0, "", "", "");
+    for (std::size_t k = 0; k < c.parameters.size(); ++k) {
+      const CauseParameter& p = c.parameters[k];
+      add(k, p.key, plus_minus(p.value, p.sigma), unit_cell(p.unit));
+    }
+  }
+  return table;
+}
+
+/// Scores of the strongest candidates.
+Blocks candidate_figure(const Diagnosis& d) {
+  BarChart bars{"Candidates", "projected score, chi-square", {}, std::nullopt, 860.0};
+  for (const auto& [c, alternative] : shown_candidates(d, 20)) {
+    if (!std::isfinite(c->score)) continue;
+    const std::string named = alternative == 0 ? ""
+                              : d.verdict == Verdict::named
+                                  ? ", named"
+                                  : fmt::format(", alternative {}", alternative);
+    bars.bars.push_back(
+        {.label = label_of(*c),
+         .value = c->score,
+         .colour = alternative > 0 ? 1u : 6u,
+         .text = fmt::format("{}, p {}{}", number_text(c->score), p_text(c->p_value), named)});
+  }
+  if (bars.bars.empty()) return {};
+  return {Figure{
+      svg_of(bars),
+      fmt::format("Strength of the strongest candidates, each alone, after what the "
+                  "fitted parameters absorb.{}",
+                  d.causes.empty() ? "" : " Orange: the causes of the verdict, always shown."),
+      "candidates.svg"}};
+}
+
+/// Cosines between causes.
+Blocks likeness_figure(const CosineMatrix& m) {
+  if (m.cosine.rows() < 2 || m.cosine.rows() != std::ssize(m.labels)) return {};
+  HeatMap map;
+  map.title = "Likeness of the causes on this plan";
+  map.value_label = "cosine of the projected signatures: ±1 cannot be told apart";
+  map.rows = map.columns = m.labels;
+  map.value = m.cosine;
+  map.most = 1.0;
+  return {Figure{svg_of(map), "Cosines between what is left of the signatures.", "cosines.svg"}};
+}
+
+/// The terms of the causes with their equations, each once.
+Sentences equations_of(const std::vector<Cause>& causes) {
+  Sentences said;
+  for (const Cause& c : causes)
+    if (const auto term = TermLibrary::find_term(c.term)) {
+      const TermInfo& info = TermLibrary::terms[*term];
+      auto line = fmt::format("{}, {}: {}", info.key, info.title, info.equation);
+      if (std::ranges::find(said.items, line) == said.items.end())
+        said.items.push_back(std::move(line));
+    }
+  return said;
+}
+
+}  // namespace
+
+Table candidate_table(const Diagnosis& d) {
+  Table table("Candidates, strongest first",
+              "term= | axis= | label= | <candidate | score=score | dof=dof | p_value=p | "
+              "p_value_alone= | absorbed=absorbed | amplitude=amplitude | sigma= | "
+              "smallest_detectable=detectable | unit=<unit | size_sigma= | log_bayes= | "
+              "probability=prob. | adequate= | observable= | <",
+              "p: family-wise, over all that was tried. absorbed: part of the raw signature that "
+              "fitted parameters take up. detectable: size found with 80 % probability.");
+  table.limit = {6, 40, "diagnosis.json"};
+  for (const auto& [c, alternative] : shown_candidates(d, d.candidates.size())) {
+    const bool one = c->sigma > 0.0;  // of several parameters there is no single amplitude
+    const Tone tone = alternative > 0 ? Tone::good : Tone::plain;
+    table.add({c->term, text_or_nothing(c->axis), c->label, Cell(label_of(*c), tone), c->score,
+               c->dof, p_cell(c->p_value), c->p_marginal, percent_cell(c->absorbed),
+               one ? plus_minus(c->amplitude, c->sigma) : only_value(Value()),
+               only_value(one ? Value(c->sigma) : Value()),
+               one ? digits(c->smallest_detectable, 2) : only_value(Value()), unit_cell(c->unit),
+               c->size_sigma, c->log_bayes,
+               Cell(c->probability, c->probability < 5e-4 ? "0" : number_text(c->probability, 2)),
+               c->adequate, c->observable, remark_of(d, *c, alternative)});
+    table.rows.back().always = alternative > 0;
+  }
+  return table;
+}
+
+Section what(const Diagnosis& d) {
+  Section section{"What", {}};
+  if (!d.causes.empty()) section.add({cause_table(d)});
+  if (Sentences said = equations_of(d.causes); !said.items.empty())
+    section.add({{std::move(said), On::page}});
+  section.add(candidate_figure(d));
+  section.add(likeness_figure(d.cosines));
+  if (!d.candidates.empty()) section.add({candidate_table(d)});
+  if (!d.inseparable.empty())
+    section.add({{Paragraph{"This plan can never tell these apart:"}, On::page},
+                 {Sentences{twins_in_words(d.inseparable)}, On::page}});
+  return section;
+}
+
+}  // namespace drift::report

@@ -1,0 +1,197 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "analysis/report/identify/sections.hpp"
+#include "analysis/report/page/degeneracies.hpp"
+#include "core/estimate/start_consistency.hpp"
+#include "core/physics/parameters_config.hpp"
+#include "core/stats/chi_square_band.hpp"
+
+namespace drift::report {
+namespace {
+
+constexpr double nothing_learned = 0.95;  // posterior over prior sigma
+
+Cell status_cell(const EstimateResult& result) {
+  switch (result.status) {
+    case EstimateStatus::not_converged:
+      return {"not converged", Tone::bad};
+    case EstimateStatus::diverged:
+      return {"diverged", Tone::bad};
+    case EstimateStatus::ok:
+      break;
+  }
+  return misfit(result) ? Cell{"misfit", Tone::bad} : Cell{"ok"};
+}
+
+Cell statistic_cell(const EstimateResult& result) {
+  if (result.measured == 0) return "-";
+  const double per_dof = result.statistic_per_dof();
+  const bool fits = stats::chi_square_band(static_cast<double>(result.measured)).holds(per_dof);
+  return digits(per_dof, 4, fits ? Tone::good : Tone::bad);
+}
+
+std::string band_text(const EstimateResult& result) {
+  if (result.measured == 0) return "-";
+  const stats::Band band = stats::chi_square_band(static_cast<double>(result.measured));
+  return fmt::format("{:.3f} to {:.3f}", band.low, band.high);
+}
+
+/// States of a layout in library order: readout parameters may come after those of later terms.
+std::vector<std::size_t> library_order(const Layout& layout) {
+  std::vector<std::size_t> states(layout.size());
+  std::iota(states.begin(), states.end(), std::size_t{0});
+  std::ranges::sort(states, {}, [&](std::size_t k) { return layout.params[k]; });
+  return states;
+}
+
+/// "prior sigma 2", or one for each parameter of the group if they differ.
+std::string prior_text(const Layout& layout, std::string_view group) {
+  std::vector<std::string> sigmas;
+  for (const std::size_t k : library_order(layout)) {
+    const auto& spec = TermLibrary::specs[layout.params[k]];
+    if (spec.group.view() == group)
+      sigmas.push_back(number_text(layout.sigma[k] / spec.unit.to_si));
+  }
+  if (std::ranges::count(sigmas, sigmas.front()) == std::ssize(sigmas)) sigmas.resize(1);
+  return fmt::format("prior sigma {}", fmt::join(sigmas, ", "));
+}
+
+/// Term and group of parameters as headings: with the equation on a page, where units and priors
+/// have columns of their own; with unit and prior on a terminal.
+void add_headings(Table& table, const FilterView& v, std::size_t param, std::size_t before,
+                  On where) {
+  const auto& spec = TermLibrary::specs[param];
+  const auto& owner = TermLibrary::owner(param);
+  const bool first = before == TermLibrary::num_params,
+             next_term = first || owner.key != TermLibrary::owner(before).key,
+             next_group = first || spec.group.view() != TermLibrary::specs[before].group.view();
+  if (where == On::page && next_term)
+    table.add_heading(fmt::format("{}: {}", owner.key, owner.equation));
+  if (where == On::terminal && next_group)
+    table.add_heading(fmt::format("{}{} [{}], {}", next_term ? fmt::format("{}: ", owner.key) : "",
+                                  spec.group.view(), spec.unit.symbol.view(),
+                                  prior_text(v.summary.layout, spec.group.view())));
+}
+
+/// Truth, prior, EKF (of so many starts) and batch estimates, learning ratio and start consistency
+/// of every parameter, grouped by term.
+Table estimate_table(const FilterView& v, On where, std::size_t starts) {
+  const auto runs = v.id.runs_of(v.summary.filter);
+  starts = std::min(starts, runs.size());
+  Table table(
+      fmt::format("Estimates of filter {}", v.spec().name),
+      where == On::page ? "< | <unit | prior sigma" : "<",
+      fmt::format(
+          "Values ± 1 sigma{}; batch: from start 1. left: posterior / prior sigma of the batch "
+          "fit, 1 = nothing learned (prior only: agreeing starts mean nothing there). ratio: "
+          "standard deviation between the EKF's {} starts / RMS of their sigmas.",
+          starts < runs.size() ? fmt::format(", {} of {} starts shown", starts, runs.size()) : "",
+          runs.size()));
+  if (v.id.truth) table.add_columns("truth");
+  for (std::size_t s = 0; s < starts; ++s) table.add_columns(fmt::format("EKF {}", s + 1));
+  table.add_columns("batch | left | ratio | <verdict");
+  std::size_t before = TermLibrary::num_params;
+  for (const std::size_t k : library_order(v.summary.layout)) {
+    const std::size_t param = v.summary.layout.params[k];
+    const double unit = unit_of(param), ratio = v.summary.spread[k].ekf;
+    add_headings(table, v, param, before, where);
+    before = param;
+    std::vector<Cell> cells{parameter_key(param)};
+    if (where == On::page)
+      cells.insert(cells.end(), {parameter_unit(param), v.summary.layout.sigma[k] / unit});
+    const ParameterEstimate& batch = runs.front()->batch.estimate.parameters[k];
+    if (v.id.truth)
+      cells.emplace_back(to_match(v.id.truth->theta[param] / unit, batch.sigma / unit));
+    for (std::size_t s = 0; s < starts; ++s) {
+      const ParameterEstimate& p = runs[s]->ekf.parameters[k];
+      cells.push_back(plus_minus(p.value / unit, p.sigma / unit));
+    }
+    const double left = batch.learning_ratio();
+    const Cell verdict = verdict_cell(ratio);
+    cells.insert(cells.end(),
+                 {plus_minus(batch.value / unit, batch.sigma / unit),
+                  Cell(left, left < 0.0005 ? "<.001" : decimal_text(left, 3)), decimals(ratio, 2),
+                  left > nothing_learned && verdict.tone == Tone::good ? "prior only" : verdict});
+    table.add(std::move(cells));
+  }
+  return table;
+}
+
+}  // namespace
+
+bool misfit(const EstimateResult& result) {
+  const double m = static_cast<double>(result.measured);  // the variance of chi-square over m: 2/m
+  return result.measured > 0 &&
+         std::abs(result.statistic_per_dof() - 1.0) > 5.0 * std::sqrt(2.0 / m);
+}
+
+Cell verdict_cell(double ratio) {
+  if (!std::isfinite(ratio)) return "-";
+  switch (start_verdict(ratio)) {
+    case StartVerdict::consistent:
+      return "starts agree";
+    case StartVerdict::doubtful:
+      return {"doubtful", Tone::doubtful};
+    case StartVerdict::depends_on_start:
+      break;
+  }
+  return {"depends on start", Tone::bad};
+}
+
+Section filter_model(const FilterView& v) {
+  const std::string title = "Filter " + v.name(),
+                    equation = fmt::format("equation: {}", equation_of(v.spec().coupling)),
+                    terms = fmt::format("terms: {}", term_keys(v.spec().model().terms));
+  return {title,
+          {{Sentences{{equation, terms}}, On::page},
+           {Sentences{{title, equation, terms}, ""}, On::terminal}}};
+}
+
+/// Of every start: status, and EKF NIS per degree of freedom and batch cost per degree of freedom
+/// with the 95 % band a right model would be in.
+Section fits(const FilterView& v) {
+  Table table(fmt::format("Fit of filter {}", v.spec().name),
+              "<start | <EKF | NIS/m | 95 % band | <batch | cost/m | 95 % band | iterations",
+              "NIS/m and cost/m: chi-square over its m degrees of freedom, 1 if model, noise and "
+              "priors are right; 95 % band by Wilson-Hilferty.");
+  for (const identification::FilterRun* run : v.id.runs_of(v.summary.filter)) {
+    const EstimateResult& batch = run->batch.estimate;
+    table.add({run->start + 1, status_cell(run->ekf), statistic_cell(run->ekf), band_text(run->ekf),
+               status_cell(batch), statistic_cell(batch), band_text(batch), batch.iterations});
+    for (const EstimateResult* result : {&run->ekf, &batch})
+      if (!result->cause.empty())
+        table.add_heading(fmt::format("start {}: {}", run->start + 1, result->cause));
+  }
+  return {"", {table}};
+}
+
+/// On a terminal with as many starts as fit.
+Section estimates(const FilterView& v) {
+  std::size_t starts = 3;
+  while (starts > 1 && text_width(estimate_table(v, On::terminal, starts)) > 100) --starts;
+  return {"",
+          {{estimate_table(v, On::terminal, starts), On::terminal},
+           {estimate_table(v, On::page, 6), On::page}}};
+}
+
+/// The exact degeneracies of the test under this filter, under their common reasons.
+Section degeneracies(const FilterView& v) {
+  const identification::FilterSummary& s = v.summary;
+  Table table(fmt::format("Exact degeneracies of filter {}: {} of {} directions in parameter space "
+                          "change nothing that is measured. {} directions (with these) are known "
+                          "better from the prior than from the data",
+                          v.spec().name, s.degeneracies.size(), s.layout.size(), s.weak),
+              "<direction, each parameter in its unit");
+  std::string reason;
+  for (const NamedDirection& d : name_degeneracies(s.layout, v.spec().mounting, s.degeneracies)) {
+    const std::string said = d.reason.empty() ? "for no known reason" : d.reason;
+    if (said != reason) table.add_heading(said + ":");
+    reason = said;
+    table.add({"  " + d.combination});
+  }
+  return {"", {table}};
+}
+
+}  // namespace drift::report

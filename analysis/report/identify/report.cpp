@@ -1,0 +1,50 @@
+#include "analysis/report/identify/report.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "analysis/report/identify/sections.hpp"
+#include "analysis/report/page/study_section.hpp"
+#include "core/base/results_folder.hpp"
+#include "core/recording/recording_output.hpp"
+
+namespace drift::report {
+
+Report identification_report(const mc::Study& study, const identification::Identification& id) {
+  Report report{.command = "identify"};
+  report.title = study.title.empty() ? "Identification" : study.title;
+  report.subtitle = id.simulated
+                        ? fmt::format("Simulated, truth {}: {}", key_of(study.truth.coupling),
+                                      equation_of(study.truth.coupling))
+                        : fmt::format("Recording {}", fmt::join(id.sources, ", "));
+  report.headlines = headlines(study, id);
+  report.order = Order::headlines_last;
+  Json document = identification_document(study, id);
+  const std::vector<Table> published = published_comparison(study, id);
+  const Blocks blocks(published.begin(), published.end());
+  report.add({estimate_figures(study, id), {"Published results beside ours", blocks, On::page}});
+  for (std::size_t f = 0; f < id.summaries.size(); ++f) {
+    const auto sections = sections_of(FilterView{study, id, id.summaries[f]}, filter_sections);
+    add_tables(document["filters"][f], sections);
+    report.add(sections);
+  }
+  report.add({{"", blocks, On::terminal}, study_section(study)});
+  report.footer = "Values stand with their units; ± is 1 sigma.";
+  report.document = {"identification.json", dumped(document)};
+  if (!study.text.empty()) report.files.emplace_back("study.toml", study.text);
+  return report;
+}
+
+std::vector<std::string> write_identification(const Report& report,
+                                              const identification::Identification& id,
+                                              const std::string& folder) {
+  std::vector<std::string> names = write_report(report, folder);
+  if (id.recording.rows() > 0) {
+    write_result({folder, report.command}, "recording.csv", [&](const std::string& temporary) {
+      write_recording_to(id.recording, "recording.csv", temporary);
+    });
+    names.emplace_back("recording.csv");
+  }
+  return names;
+}
+
+}  // namespace drift::report

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "analysis/identification/identify.hpp"
+#include "analysis/report/page/report.hpp"
+
+namespace drift::report {
+
+/// All an identification has to say: tables, pictures, identification.json (schema 1) and
+/// study.toml, the study with the overrides of the command line.
+Report identification_report(const mc::Study& study, const identification::Identification& id);
+
+/// Writes the report into a folder, and recording.csv unless the recording is empty. Returns the
+/// names of the files. InputError (io) if one cannot be written.
+std::vector<std::string> write_identification(const Report& report,
+                                              const identification::Identification& id,
+                                              const std::string& folder);
+
+}  // namespace drift::report

@@ -1,0 +1,54 @@
+#pragma once
+
+#include "analysis/report/identify/report.hpp"
+#include "analysis/report/page/json.hpp"
+#include "analysis/report/page/wording.hpp"
+
+namespace drift::report {
+
+/// A filter and what it found.
+struct FilterView {
+  const mc::Study& study;
+  const identification::Identification& id;
+  const identification::FilterSummary& summary;
+
+  const FilterSpec& spec() const { return study.filters[summary.filter]; }
+  /// "legacy (eq6)"
+  std::string name() const { return fmt::format("{} ({})", spec().name, key_of(spec().coupling)); }
+};
+
+/// What is said of each filter, in this order.
+DRIFT_SECTIONS(FilterView, filter_sections, filter_model, fits, estimates, degeneracies);
+
+/// Estimates against time from every start, with their sigma bands and the truth or an independent
+/// test as a line: all filters together (estimates.svg) and each alone (figure_<filter>.svg, a file
+/// alone); and the EKF's NIS per measured scalar with its 95 % band (nis.svg).
+Section estimate_figures(const mc::Study& study, const identification::Identification& id);
+
+/// Results of [[published]] beside ours, for every parameter: the published runs, our runs by EKF
+/// and batch, the truth, and independent tests (published without a filter). One table for each set
+/// of published filter runs, and for each other filter and independent test. Empty if nothing is
+/// published.
+std::vector<Table> published_comparison(const mc::Study& study,
+                                        const identification::Identification& id);
+
+/// What a reader must not miss: which filter depends on its start, whose residuals are not what it
+/// believes, what did not converge, what cannot be seen. One sentence each.
+std::vector<std::string> headlines(const mc::Study& study,
+                                   const identification::Identification& id);
+
+/// Library indices of the parameters worth a picture: the published ones; else those the study
+/// gives a true value of its own (at most 6); else the 3 that depend most on the start.
+std::vector<std::size_t> highlighted_parameters(const mc::Study& study,
+                                                const identification::Identification& id);
+
+/// Verdict on a start-consistency ratio as a cell: "starts agree", "doubtful", "depends on start".
+/// "-" where there is no ratio.
+Cell verdict_cell(double ratio);
+
+/// Five sigma of chi-square over its degrees of freedom: no right model does that.
+bool misfit(const EstimateResult& result);
+
+Json identification_document(const mc::Study& study, const identification::Identification& id);
+
+}  // namespace drift::report

@@ -1,0 +1,29 @@
+#pragma once
+
+// What sections are written with.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "analysis/report/page/report.hpp"
+#include "core/base/number_text.hpp"
+#include "core/base/words.hpp"
+#include "core/estimate/layout.hpp"
+#include "core/physics/coupling.hpp"
+
+namespace drift::report {
+
+/// Key of a parameter of TermLibrary, or of the state of a layout: "D_I_z".
+std::string parameter_key(std::size_t param);
+std::string parameter_key(const Layout& layout, std::size_t state);
+
+/// Symbol of a parameter's unit, "deg/h/g", and how much of SI it is.
+std::string parameter_unit(std::size_t param);
+double unit_of(std::size_t param);
+
+/// "D_I_z [deg/h/g]"; for machines the key.
+Cell parameter_cell(std::size_t param);
+
+/// "" of 1, else "s".
+std::string_view plural(std::size_t count);
+
+}  // namespace drift::report

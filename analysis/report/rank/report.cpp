@@ -1,0 +1,86 @@
+#include "analysis/report/rank/report.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "analysis/report/page/study_section.hpp"
+#include "analysis/report/rank/sections.hpp"
+
+namespace drift::report {
+namespace {
+
+/// "6 positions in 6.00 h; linearised at the means of [truth]; noise 5 ug, 5 arcsec".
+std::string plan_line(const mc::Study& study, const planning::PlanRanking& rank) {
+  std::vector<std::string> noise;
+  if (study.readout.accelerometers)
+    noise.push_back(
+        fmt::format("accelerometers {} ug", number_text(study.readout.accelerometer_noise / 1e-6)));
+  if (study.readout.gimbals)
+    noise.push_back(fmt::format("gimbals {} arcsec",
+                                number_text(study.readout.gimbal_noise / unit::arcsec.to_si)));
+  const auto count = study.plan.positions.size();
+  return fmt::format(
+      "{} position{} in {:.2f} h{}; linearised at the means of {}; noise of a sample: {}", count,
+      count == 1 ? "" : "s", rank.duration / 3600.0,
+      study.plan.preset.empty() ? "" : fmt::format(" (preset {})", study.plan.preset),
+      rank.at_truth ? "[truth]" : "the priors", fmt::join(noise, ", "));
+}
+
+std::string headline_of(const planning::RankingGroup& group, const planning::ModelRanking& m) {
+  const observability::Ranking& r = m.ranking;
+  const auto known =
+      std::ranges::count_if(r.parameters, [](const auto& p) { return p.learning_ratio() < 0.5; });
+  const auto better =
+      std::ranges::count_if(r.spectrum, [](const auto& d) { return d.information > 1.0; });
+  std::string text = fmt::format(
+      "{} ({} {}): {:.1f} bits; {} of {} parameters end below half their prior sigma; {} "
+      "directions are better known from the data than from the prior, {} {} not seen at all.",
+      key_of(m.model.spec.coupling), m.of_the_file ? "filter" : "beside filter", group.filters,
+      r.bits, known, r.parameters.size(), better, r.exact.size(),
+      r.exact.size() == 1 ? "is" : "are");
+  if (r.held_by_attitude.size() > r.exact.size())
+    text += fmt::format(" {} more only because the attitude at the cagings has a prior.",
+                        r.held_by_attitude.size() - r.exact.size());
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::string> headlines(const mc::Study& study, const planning::PlanRanking& rank) {
+  std::vector<std::string> all;
+  for (const planning::RankingGroup& g : rank.groups)
+    for (const planning::ModelRanking& m : g.models) all.push_back(headline_of(g, m));
+  if (rank.process_noise)
+    all.push_back(
+        "A filter has process noise, which this information does not model: sigmas are lower "
+        "bounds.");
+  if (std::ranges::any_of(study.plan.positions,
+                          [](const Position& p) { return p.mode == CommandLaw::free; }))
+    all.push_back(
+        "Free drift: the rank of the piecewise-constant problem holds for the same positions held "
+        "level.");
+  return all;
+}
+
+Report rank_report(const mc::Study& study, const planning::PlanRanking& rank) {
+  Report report{.command = "rank"};
+  report.title = study.title.empty() ? "Observability ranking" : study.title;
+  report.subtitle = plan_line(study, rank);
+  report.headlines = headlines(study, rank);
+  Json document = rank_document(study, rank);
+  for (std::size_t g = 0; g < rank.groups.size(); ++g) {
+    const std::string suffix = rank.groups.size() > 1 ? fmt::format("_{}", g + 1) : "";
+    const auto sections = sections_of(RankedGroup{study, rank.groups[g], suffix}, group_sections);
+    add_tables(document["filters"][g], sections);
+    report.add(sections);
+  }
+  report.add({improvement(study, rank), study_section(study)});
+  report.footer = "Nothing is sampled: sigmas are Cramer-Rao bounds with the prior.";
+  report.document = {"rank.json", dumped(document)};
+  if (rank.better && !rank.better->improvement.steps.empty())
+    report.files.emplace_back("proposed_positions.toml", proposed_toml(study, rank));
+  if (!study.text.empty()) report.files.emplace_back("study.toml", study.text);
+  return report;
+}
+
+}  // namespace drift::report

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "analysis/report/page/degeneracies.hpp"
+#include "analysis/report/page/json.hpp"
+#include "analysis/report/page/wording.hpp"
+#include "analysis/report/rank/report.hpp"
+
+namespace drift::report {
+
+/// A filter's models, in the ranking of a plan.
+struct RankedGroup {
+  const mc::Study& study;
+  const planning::RankingGroup& group;
+  std::string suffix;  ///< of the names of its pictures, "_2"; empty of a group that is alone
+};
+
+/// What is said of each group, in this order.
+DRIFT_SECTIONS(RankedGroup, group_sections, learning, equations, elsewhere, unseen, directions,
+               course, methods);
+
+/// The positions proposed and what they bring; nothing where none were asked for.
+Section improvement(const mc::Study& study, const planning::PlanRanking& rank);
+
+/// Of several models a terminal shows the first.
+inline On shown_of(std::size_t model) {
+  return model == 0 ? On::both : On::page;
+}
+
+/// What a reader must not miss, one sentence each.
+std::vector<std::string> headlines(const mc::Study& study, const planning::PlanRanking& rank);
+
+// What stands in rank.json too.
+
+/// Every parameter by rising learning ratio of the first model; a second model beside it.
+Table ranking_table(const planning::ModelRanking& model, const planning::ModelRanking* other);
+/// What each position tells, and what is lost without it.
+Table position_table(const mc::Study& study, const planning::ModelRanking& model);
+/// Positions proposed, with the criterion before and after.
+Table improvement_table(const planning::PlanRanking& rank);
+/// The proposed positions as TOML: those to append, or, where the plan is a preset, all of them.
+std::string proposed_toml(const mc::Study& study, const planning::PlanRanking& rank);
+/// Directions of which the data say nothing, and those that the attitude prior alone holds.
+std::vector<NamedDirection> exact_degeneracies(const planning::ModelRanking& model);
+std::vector<NamedDirection> held_by_attitude(const planning::ModelRanking& model);
+
+Json rank_document(const mc::Study& study, const planning::PlanRanking& rank);
+
+}  // namespace drift::report

@@ -1,0 +1,127 @@
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/report/rank/sections.hpp"
+#include "analysis/report/svg/curve.hpp"
+
+namespace drift::report {
+namespace {
+
+constexpr double least_shown = -12.0;  // log10 of the information that counts as none in a picture
+
+/// A named direction over the prior-scaled layout, unit length.
+VecX scaled(const NamedDirection& direction, const Layout& layout) {
+  VecX v = VecX::Zero(static_cast<Eigen::Index>(layout.size()));
+  for (const auto& part : direction.parts) {
+    const auto k = std::ranges::find(layout.params, part.param) - layout.params.begin();
+    v[k] = part.coefficient * unit_of(part.param) / layout.sigma[k];
+  }
+  return v.normalized();
+}
+
+Table null_table(const planning::ModelRanking& m) {
+  Table t(fmt::format("Directions this test does not see, {}", key_of(m.model.spec.coupling)),
+          "<combination | <why");
+  const auto add = [&](const std::vector<NamedDirection>& all) {
+    for (const NamedDirection& d : all)
+      t.add({d.combination, d.reason.empty() ? "not a known one" : d.reason});
+  };
+  add(exact_degeneracies(m));
+  if (const auto held = held_by_attitude(m); !held.empty()) {
+    t.add_heading("only the prior of the attitude at the cagings holds these:");
+    add(held);
+  }
+  if (t.rows.empty()) t.note = "None: every direction leaves a signal, however small.";
+  return t;
+}
+
+bool same_rows(const Table& a, const Table& b) {
+  return std::ranges::equal(a.rows, b.rows, [](const TableRow& x, const TableRow& y) {
+    return std::ranges::equal(x.cells, y.cells, {}, &Cell::text, &Cell::text);
+  });
+}
+
+}  // namespace
+
+std::vector<NamedDirection> exact_degeneracies(const planning::ModelRanking& m) {
+  return name_degeneracies(m.ranking.layout, m.model.spec.mounting, m.ranking.exact);
+}
+
+std::vector<NamedDirection> held_by_attitude(const planning::ModelRanking& m) {
+  constexpr double outside = 0.1;  // of a unit vector; parts below 2 % were left out of its name
+  std::vector<NamedDirection> found;
+  const observability::Ranking& r = m.ranking;
+  if (r.held_by_attitude.size() <= r.exact.size()) return found;
+  for (NamedDirection& d : name_degeneracies(r.layout, m.model.spec.mounting, r.held_by_attitude)) {
+    VecX rest = scaled(d, r.layout);
+    for (const WeakDirection& w : r.exact) rest -= w.direction.dot(rest) * w.direction;
+    if (rest.norm() > outside) found.push_back(std::move(d));
+  }
+  return found;
+}
+
+std::string spectrum_figure(const planning::RankingGroup& group) {
+  Panel panel;
+  panel.x_label = "direction, best seen first; those not seen at all left out";
+  panel.y_label = "log10(information / prior)";
+  panel.references.push_back({0.0, "as good as the prior", Stroke::dashed});
+  for (std::size_t m = 0; m < group.models.size(); ++m) {
+    Series s = curve(key_of(group.models[m].model.spec.coupling), m,
+                     m == 0 ? Stroke::solid : Stroke::dashed);
+    double index = 1.0;
+    for (const observability::EigenDirection& d : group.models[m].ranking.spectrum) {
+      const double x = index++, y = std::log10(std::max(d.information, 0.0));
+      if (y < least_shown) continue;  // not seen at all
+      s.x.push_back(x);
+      s.y.push_back(y);
+    }
+    panel.series.push_back(std::move(s));
+  }
+  return svg_of(Chart{fmt::format("Eigenvalues of the information, {}", group.filters),
+                      {std::move(panel)},
+                      1,
+                      720.0,
+                      320.0});
+}
+
+/// Eigenvalues, and the directions of which the data say nothing. Both equations often fail to see
+/// the same: said once then.
+Section unseen(const RankedGroup& v) {
+  Section section;
+  section.add({Figure{spectrum_figure(v.group),
+                      "Prior-scaled eigenvalues of the information. Below 0 the prior says more "
+                      "than the data; -12 stands for anything less.",
+                      fmt::format("spectrum{}.svg", v.suffix)}});
+  std::vector<Table> tables;
+  for (const planning::ModelRanking& m : v.group.models) tables.push_back(null_table(m));
+  if (tables.size() == 2 && same_rows(tables[0], tables[1])) {
+    tables.pop_back();
+    tables[0].title = "Directions this test does not see, by eq. (5) or (6)";
+  }
+  for (Table& t : tables) section.add({std::move(t)});
+  return section;
+}
+
+/// The directions best and worst seen.
+Section directions(const RankedGroup& v) {
+  constexpr std::size_t most = 5;
+  Section section;
+  for (std::size_t k = 0; k < v.group.models.size(); ++k) {
+    const planning::ModelRanking& m = v.group.models[k];
+    Table t(fmt::format("Directions best and worst seen, {}", key_of(m.model.spec.coupling)),
+            "# | information | left | <made of (participation)",
+            "Eigenvalues of the prior-scaled information: 1 is as good as the prior.");
+    const observability::Ranking& r = m.ranking;
+    const std::size_t seen = r.spectrum.size() - r.exact.size();
+    for (std::size_t i = 0; i < seen; ++i) {
+      if (i >= most && i + most < seen) continue;
+      const observability::EigenDirection& d = r.spectrum[i];
+      t.add({i + 1, d.information, 1.0 / std::sqrt(1.0 + d.information),
+             observability::name_of(d, r.layout)});
+    }
+    section.add({{t, shown_of(k)}});
+  }
+  return section;
+}
+
+}  // namespace drift::report

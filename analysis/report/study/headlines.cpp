@@ -1,0 +1,72 @@
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/report/study/sections.hpp"
+
+namespace drift::report {
+namespace {
+
+using mc::FilterStatistics;
+
+std::string headline_of(const StudyResults& results, const Pair& pair) {
+  const FilterStatistics& filter = statistics_of(results, pair);
+  const mc::StartStatistics& s = filter.starts().front();
+  const std::string start = pair_in_words(results, pair);
+  if (matched(results, pair))
+    return fmt::format(
+        "{} (the right equation): 2 sigma hold {} % of the errors (95.4 expected) of what the "
+        "filter claims to know; silent failures {}.",
+        start, percent_cell(coverage_of_claims(filter, claims_of(results))).text,
+        rate_cell(s.silent).text);
+  std::string text = fmt::format(
+      "{} (the wrong equation): in {} of the runs some parameter is more than 5 sigma off; silent "
+      "failures, where nothing in the run shows it: {}",
+      start, rate_cell(s.wrong).text, rate_cell(s.silent).text);
+  const std::size_t k = worst_parameter(filter, claims_of(results));
+  if (k < filter.errors().size())
+    text += fmt::format("; worst {}: its error is {} times its sigma", key_at(filter, k),
+                        number_text(filter.errors()[k].deception().value));
+  // What no single parameter shows: combinations that the filter claims to know.
+  if (const double nees = s.nees.mean(); nees > 4.0)
+    text += fmt::format(
+        "; combinations of parameters are off by {} times their sigma (root of NEES/dof)",
+        number_text(std::sqrt(nees), 2));
+  return text + ".";
+}
+
+}  // namespace
+
+std::string pair_in_words(const StudyResults& results, const Pair& pair) {
+  const std::string condition = condition_of(results.points[pair.point]);
+  return fmt::format("{}truth {}, filter {}", condition.empty() ? "" : condition + ": ",
+                     key_of(results.points[pair.point].study.truth.coupling),
+                     statistics_of(results, pair).columns().name);
+}
+
+std::vector<std::string> headlines(const StudyResults& results) {
+  constexpr std::size_t most = 12;
+  std::vector<Pair> pairs = pairs_of(results);
+  // The wrong pairs first, by falling silent failure rate.
+  std::ranges::stable_sort(pairs, {}, [&](const Pair& p) {
+    return std::pair(matched(results, p),
+                     -statistics_of(results, p).starts().front().silent.value());
+  });
+  std::vector<std::string> lines;
+  std::vector<std::size_t> refused;
+  for (const Pair& pair : pairs) {
+    const auto& failures = results.statistics[pair.point].failures();
+    const std::string& label = results.points[pair.point].label;
+    if (!failures.too_many()) {
+      if (lines.size() < most) lines.push_back(headline_of(results, pair));
+    } else if (std::ranges::find(refused, pair.point) == refused.end()) {
+      refused.push_back(pair.point);
+      lines.push_back(
+          fmt::format("No headline for {}: {} of the runs were lost, and what is left may be a "
+                      "biased choice. See Failures.",
+                      label.empty() ? "this study" : label, rate_cell(failures.lost()).text));
+    }
+  }
+  return lines;
+}
+
+}  // namespace drift::report

@@ -1,0 +1,49 @@
+#include "analysis/report/study/report.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "analysis/report/study/sections.hpp"
+
+namespace drift::report {
+
+Section promised(const StudyResults& results) {
+  return results.information;
+}
+
+Section provenance(const StudyResults& results) {
+  Table table("", "<what | <value");
+  for (const auto& [key, value] : results.provenance) table.add({key, value});
+  return {"Provenance", {table, Preformatted{results.study.text}}, On::page};
+}
+
+Report study_report(const StudyResults& results) {
+  Report report{.command = "run"};
+  report.title = results.study.title.empty() ? "Monte Carlo study" : results.study.title;
+  std::uint64_t runs = 0;
+  for (const auto& s : results.statistics) runs += s.runs();
+  report.subtitle = fmt::format("{} runs at {} study point{}, seed {}", runs, results.points.size(),
+                                plural(results.points.size()), results.study.monte_carlo.seed);
+  report.headlines = headlines(results);
+  report.add(sections_of(results, study_sections));
+  Json document = study_document(results);
+  add_tables(document, report.sections);
+  report.document = {"summary.json", dumped(document)};
+  report.footer = fmt::format(
+      "Intervals hold with 95 %{}",
+      results.study.monte_carlo.design == mc::DesignKind::random
+          ? "."
+          : " for random designs; with this one they are conservative for means and rates.");
+  return report;
+}
+
+std::vector<std::pair<std::size_t, std::uint64_t>> runs_to_trace(const StudyResults& results) {
+  std::vector<std::pair<std::size_t, std::uint64_t>> runs;
+  for (const std::size_t p : pictured_points(results))
+    for (std::uint64_t run = 0; run < std::min<std::uint64_t>(3, results.statistics[p].runs());
+         ++run)
+      runs.emplace_back(p, run);
+  return runs;
+}
+
+}  // namespace drift::report

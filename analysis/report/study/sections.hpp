@@ -1,0 +1,22 @@
+#pragma once
+
+#include "analysis/report/page/json.hpp"
+#include "analysis/report/page/wording.hpp"
+#include "analysis/report/study/report.hpp"
+
+namespace drift::report {
+
+/// What is said of a study, in this order.
+DRIFT_SECTIONS(StudyResults, study_sections, crossed, sweep, ranking, promised, scatter,
+               convergence, parameters, failures, provenance);
+
+/// What must not be missed, in words: for each truth and filter how often it fails, how often
+/// silently, and where most. Refused, with the reason, where more than 1 % of the runs are lost.
+std::vector<std::string> headlines(const StudyResults& results);
+
+/// "plan.preset = six: truth eq5, filter legacy".
+std::string pair_in_words(const StudyResults& results, const Pair& pair);
+
+Json study_document(const StudyResults& results);
+
+}  // namespace drift::report

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "analysis/inference/candidate.hpp"
+
+namespace drift::search {
+
+/// A cause as it is put into the model: a candidate at one variant.
+struct Choice {
+  std::size_t candidate = 0, variant = 0;
+};
+
+/// The columns of causes, one after the other; a parameter of two of them twice.
+std::vector<int> columns_of(const inference::CandidateSet& set, const std::vector<Choice>& choices);
+/// The same, each once and in order.
+std::vector<int> distinct_columns_of(const inference::CandidateSet& set,
+                                     const std::vector<Choice>& choices);
+
+/// Whether a candidate is of the family of one of the causes: same term, parameters among its own.
+bool of_a_chosen_family(const inference::CandidateSet& set, const std::vector<Choice>& choices,
+                        const inference::Candidate& candidate);
+
+}  // namespace drift::search

@@ -1,0 +1,74 @@
+#include "analysis/search/detect.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "analysis/inference/thresholds.hpp"
+#include "analysis/search/pairs.hpp"
+#include "analysis/search/settle_noise.hpp"
+
+namespace drift::search {
+namespace {
+
+using inference::SearchLimits;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+double strongest_candidate(const Fitted& nominal) {
+  double strength = 0.0;
+  for (const Score& s : nominal.scores) strength = std::max(strength, s.strength);
+  return strength;
+}
+
+double strongest_window(const Fitted& nominal) {
+  double strength = 0.0;
+  for (const inference::PositionScan& s : nominal.scans)
+    for (const double T : s.T) strength = std::max(strength, stats::strength(T, 1));
+  return strength;
+}
+
+}  // namespace
+
+double other_equation_gain(const Fitted& nominal, const MeasuredTest& test) {
+  FilterSpec other = nominal.filter;
+  if (!facts(other.coupling).other) return -infinity;
+  other.coupling = *facts(other.coupling).other;
+  double best = -infinity;
+  const auto here = theta_of(nominal.filter, nominal.fit);
+  for (const Theta& start : {here, make_layout(other).theta}) {
+    const BatchResult fit = fit_batch(other, test, start);
+    inference::LinearProblem problem = inference::linear_problem(other, test, fit, {});
+    problem.weight = nominal.problem.weight;
+    best = std::max(
+        best, inference::Projector(problem, nominal.noise.model).marginal().log_likelihood2());
+  }
+  return best - nominal.log_likelihood2();
+}
+
+Detection detect(Fitted nominal, const MeasuredTest& test, const SearchOptions& options) {
+  Detection out;
+  out.thresholds = chance_thresholds(nominal, options.alpha, options.draws);
+  if (const auto noise = settle_noise(nominal, out.thresholds.library_threshold)) {
+    nominal = with_noise(std::move(nominal), test.timeline, *noise);
+    out.thresholds = chance_thresholds(nominal, options.alpha, options.draws);
+  }
+  // The other equation is a jump, not a small amplitude: by the likelihood ratio of two points,
+  // P(2 log LR > T) <= exp(-T/2).
+  out.other_equation = other_equation_gain(nominal, test);
+  out.p_library = out.thresholds.library.p_value(
+      std::max(strongest_candidate(nominal), 0.5 * out.other_equation));
+  out.p_scan = out.thresholds.scan.p_value(strongest_window(nominal));
+  out.pairs = pair_null(nominal, std::max(200, options.draws / 8));
+  if (const auto pairs = strongest_pairs(nominal, 1); !pairs.empty())
+    out.p_pairs = out.pairs.p_value(pairs.front().strength);
+  nominal.lone = inference::strongest_lone_input(nominal.problem, nominal.noise.model);
+  out.p_lone = nominal.lone.p_value;
+  out.p_value = std::min(
+      {1.0, out.p_library / SearchLimits::library_share, out.p_scan / SearchLimits::scan_share,
+       out.p_pairs / SearchLimits::pair_share, out.p_lone / SearchLimits::lone_share});
+  out.significant = out.p_value < options.alpha;
+  out.nominal = std::move(nominal);
+  return out;
+}
+
+}  // namespace drift::search

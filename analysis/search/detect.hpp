@@ -1,0 +1,35 @@
+#pragma once
+
+#include "analysis/inference/thresholds.hpp"
+#include "analysis/search/chance_thresholds.hpp"
+
+namespace drift::search {
+
+/// How sure a diagnosis must be.
+struct SearchOptions {
+  double alpha =
+      inference::SearchLimits::alpha;  ///< chance of a false alarm over everything that is tried
+  double credible =
+      inference::SearchLimits::credible;  ///< probability that the listed causes must hold together
+  int draws = 4000;                       ///< of the null distribution
+  std::size_t most_refits = inference::EffortLimits::refits;
+};
+
+/// Whether there is anything that the nominal model leaves out.
+struct Detection {
+  Fitted nominal;  ///< its noise settled (settle_noise.hpp)
+  ChanceThresholds thresholds;
+  inference::MaxNull pairs;
+  double p_library = 1.0, p_scan = 1.0, p_pairs = 1.0, p_lone = 1.0;
+  double other_equation = 0.0;  ///< other_equation_gain()
+  double p_value = 1.0;         ///< of the strongest family, for all families together
+  bool significant = false;
+};
+
+Detection detect(Fitted nominal, const MeasuredTest& test, const SearchOptions& options);
+
+/// Whether and how well the other member of {eq5, eq6} explains the test: twice the log likelihood
+/// gained by changing the equation and fitting again. -infinity for other couplings.
+double other_equation_gain(const Fitted& nominal, const MeasuredTest& test);
+
+}  // namespace drift::search

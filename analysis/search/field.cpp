@@ -1,0 +1,99 @@
+#include "analysis/search/field.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "analysis/search/size_prior.hpp"
+#include "core/base/decompose.hpp"
+
+namespace drift::search {
+
+Field::Field(inference::CandidateSet candidates, inference::Projected p,
+             std::vector<inference::PositionScan> windows)
+    : set(std::move(candidates)), projected(std::move(p)), scans(std::move(windows)) {
+  for (const inference::Candidate& c : set.candidates) {
+    contrasts.emplace_back();
+    for (const inference::Variant& v : c.variants)
+      contrasts.back().push_back(inference::make_contrast(projected.C, projected.raw, v.columns));
+  }
+}
+
+std::vector<inference::Contrast> Field::all_contrasts() const {
+  std::vector<inference::Contrast> all;
+  for (const auto& c : contrasts) all.insert(all.end(), c.begin(), c.end());
+  return all;
+}
+
+double log_bayes(const inference::Projected& p, const std::vector<int>& columns) {
+  return log_evidence_of_sizes(p.C(columns, columns), p.g(columns));
+}
+
+Score score(const Field& field, std::size_t candidate) {
+  Score best;
+  best.strength = -1.0;
+  const inference::Candidate& c = field.set.candidates[candidate];
+  std::vector<double> evidence, share;
+  for (std::size_t v = 0; v < c.variants.size(); ++v) {
+    const inference::Contrast& contrast = field.contrasts[candidate][v];
+    const double T = std::max(0.0, contrast.T(field.projected.g) - field.discount_of(candidate));
+    const double s = stats::strength(T, contrast.dof);
+    if (contrast.dof > 0 && s > best.strength) {
+      best.variant = v;
+      best.T = T;
+      best.strength = s;
+      best.dof = contrast.dof;
+    }
+    if (contrast.dof == 0) continue;  // an onset after the end of the test is no effect
+    evidence.push_back(log_bayes(field.projected, c.variants[v].columns) -
+                       0.5 * field.discount_of(candidate));
+    share.push_back(c.variants[v].share);
+  }
+  best.strength = std::max(best.strength, 0.0);
+  if (evidence.empty()) return best;
+  const double top = *std::max_element(evidence.begin(), evidence.end());
+  const double whole = std::accumulate(share.begin(), share.end(), 0.0);
+  double sum = 0.0;
+  for (std::size_t k = 0; k < evidence.size(); ++k)
+    sum += std::exp(evidence[k] - top) * share[k] / whole;
+  best.log_bayes = top + std::log(sum);
+  return best;
+}
+
+std::vector<std::size_t> best_settings(const Field& field, std::size_t candidate, double nearly,
+                                       std::size_t most) {
+  const auto& variants = field.set.candidates[candidate].variants;
+  std::vector<double> evidence;
+  for (std::size_t v = 0; v < variants.size(); ++v)
+    evidence.push_back(field.contrasts[candidate][v].dof == 0
+                           ? -1e300
+                           : log_bayes(field.projected, variants[v].columns));
+  const double top = *std::max_element(evidence.begin(), evidence.end());
+  std::vector<std::size_t> found;
+  for (std::size_t v = 0; v < variants.size(); ++v) {
+    const bool below_next = v + 1 < variants.size() && evidence[v + 1] > evidence[v];
+    const bool below_last = v > 0 && evidence[v - 1] >= evidence[v];
+    if (!below_next && !below_last && evidence[v] >= top - nearly) found.push_back(v);
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [&](std::size_t a, std::size_t b) { return evidence[a] > evidence[b]; });
+  if (found.size() > most) found.resize(most);
+  return found;
+}
+
+VecX expected_amplitudes(const inference::Projected& p, const std::vector<int>& columns) {
+  MatX C = p.C(columns, columns);
+  C.diagonal().array() += 1.0;
+  return solve_symmetric(C, VecX(p.g(columns)));
+}
+
+double cosine(const inference::Projected& p, const std::vector<int>& a, const std::vector<int>& b) {
+  const inference::Contrast ca = inference::make_contrast(p.C, p.raw, a),
+                            cb = inference::make_contrast(p.C, p.raw, b);
+  if (ca.dof == 0 || cb.dof == 0) return 0.0;
+  const MatX m = ca.W.transpose() * p.C(a, b) * cb.W;
+  if (ca.dof == 1 && cb.dof == 1) return m(0, 0);
+  return largest_singular_value(m);
+}
+
+}  // namespace drift::search

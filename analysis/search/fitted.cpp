@@ -1,0 +1,94 @@
+#include "analysis/search/fitted.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "analysis/inference/noise/gross_misfit.hpp"
+#include "analysis/inference/noise/robust_weights.hpp"
+
+namespace drift::search {
+namespace {
+
+/// Prior cost of the fitted misalignments, which lambda could save by rescaling them.
+double cost_of_misalignments(const FilterSpec& filter, const BatchResult& fit) {
+  double cost = 0.0;
+  for (const ParameterEstimate& p : fit.estimate.parameters) {
+    const auto group = TermLibrary::specs[p.param].group.view();
+    if (group != "eta" && group != "xi") continue;
+    const auto& prior = filter.priors[p.param];
+    if (prior.sigma() > 0.0) cost += std::pow((p.value - prior.mean()) / prior.sigma(), 2);
+  }
+  return cost;
+}
+
+/// Linearised, without noise and scores.
+Fitted linearised(const FilterSpec& filter, const MeasuredTest& test, const BatchResult& fit) {
+  Fitted f;
+  f.filter = filter;
+  f.fit = fit;
+  f.set = inference::library_candidates(filter, theta_of(filter, fit), test.timeline);
+  f.problem = inference::linear_problem(filter, test, fit, f.set.signatures);
+  return f;
+}
+
+/// With less weight on what is no Gaussian noise, the noise about as given.
+void lower_outliers(inference::LinearProblem& problem, const inference::NoiseModel& noise) {
+  const inference::Projector first(problem, noise);
+  problem.weight = inference::robust_weights(problem, first.clean_residual());
+}
+
+}  // namespace
+
+inference::NoiseModel declared_noise(const FilterSpec& filter) {
+  inference::NoiseModel m;
+  m.angle_random_walk = filter.noise.angle_random_walk;
+  m.drift_random_walk = filter.noise.drift_random_walk;
+  return m;
+}
+
+std::vector<std::size_t> Fitted::by_evidence() const {
+  std::vector<std::size_t> order(scores.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::ranges::stable_sort(order, std::greater{},
+                           [&](std::size_t k) { return scores[k].log_bayes; });
+  std::erase_if(order, [&](std::size_t k) { return scores[k].dof == 0; });
+  return order;
+}
+
+Fitted with_noise(Fitted f, const Timeline& timeline, const inference::NoiseEstimate& noise) {
+  f.noise = noise;
+  f.projector.emplace(f.problem, noise.model);
+  static_cast<Field&>(f) = {std::move(f.set), f.projector->candidates(),
+                            inference::scan_windows(f.problem, timeline, *f.projector)};
+  const double cost = cost_of_misalignments(f.filter, f.fit);
+  for (const inference::Candidate& c : f.set.candidates)
+    f.discount.push_back(c.term == closure_term ? cost : 0.0);
+  f.scores.clear();
+  for (std::size_t k = 0; k < f.set.candidates.size(); ++k) f.scores.push_back(score(f, k));
+  return f;
+}
+
+Fitted examine(const FilterSpec& filter, const MeasuredTest& test, const BatchResult& fit,
+               const inference::NoiseEstimate& known) {
+  Fitted f = linearised(filter, test, fit);
+  lower_outliers(f.problem, known.model);
+  return with_noise(std::move(f), test.timeline, known);
+}
+
+Fitted examine(const FilterSpec& filter, const MeasuredTest& test, const BatchResult& fit,
+               NoiseKinds kinds) {
+  Fitted f = linearised(filter, test, fit);
+  const VecX residual = inference::residual_of(f.problem, fit);
+  const inference::NoiseEstimate differences = inference::noise_of_differences(f.problem, residual);
+  if (inference::grossly_wrong(f.problem, residual, differences))
+    return with_noise(std::move(f), test.timeline, differences);
+  const inference::NoiseModel declared = declared_noise(filter);
+  lower_outliers(f.problem, declared);
+  const inference::NoiseEstimate noise = kinds == NoiseKinds::white
+                                             ? inference::estimate_noise(f.problem, declared, {}, 0)
+                                             : inference::estimate_noise(f.problem, declared);
+  return with_noise(std::move(f), test.timeline, noise);
+}
+
+}  // namespace drift::search

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+
+#include "analysis/inference/noise/lone_input.hpp"
+#include "analysis/inference/noise/noise.hpp"
+#include "analysis/search/field.hpp"
+
+namespace drift::search {
+
+/// A model fitted to a test, and everything that can be said about what it leaves.
+struct Fitted : Field {
+  FilterSpec filter;
+  BatchResult fit;
+  inference::LinearProblem problem;
+  inference::NoiseEstimate noise;
+  std::optional<inference::Projector> projector;
+  std::vector<Score> scores;   ///< of every candidate
+  inference::LoneEffect lone;  ///< beside everything that is in the model; where it was asked for
+
+  double log_likelihood2() const { return projector->marginal().log_likelihood2(); }
+  /// Candidates that can be observed, best evidence first.
+  std::vector<std::size_t> by_evidence() const;
+};
+
+/// What noise may be found where it is estimated.
+enum class NoiseKinds { white, driving_too };
+
+/// Linearises about a fit, lists candidates and scores them; the noise is estimated.
+Fitted examine(const FilterSpec& filter, const MeasuredTest& test, const BatchResult& fit,
+               NoiseKinds kinds = NoiseKinds::driving_too);
+/// The same under a noise that is known.
+Fitted examine(const FilterSpec& filter, const MeasuredTest& test, const BatchResult& fit,
+               const inference::NoiseEstimate& known);
+
+/// Everything scored again under another noise.
+Fitted with_noise(Fitted f, const Timeline& timeline, const inference::NoiseEstimate& noise);
+
+/// What the filter says its noise is.
+inference::NoiseModel declared_noise(const FilterSpec& filter);
+
+}  // namespace drift::search

@@ -1,0 +1,147 @@
+#include "analysis/search/promising.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "analysis/inference/thresholds.hpp"
+#include "analysis/search/greedy.hpp"
+#include "analysis/search/pairs.hpp"
+
+namespace drift::search {
+namespace {
+
+using inference::EffortLimits;
+using inference::ReachLimits;
+
+/// Whether what is left is within so many times the thresholds.
+bool within(const Remainder& left, const ChanceThresholds& t, double times) {
+  return left.library <= times * t.library_threshold && left.scan <= times * t.scan_threshold;
+}
+
+/// Candidates that leave nothing significant by the linearised test, give or take, best first.
+std::vector<std::size_t> adequate_by_score(const Search& s, double times) {
+  std::vector<std::size_t> adequate = s.nominal.by_evidence();
+  std::erase_if(adequate, [&](std::size_t k) { return !within(s.linear[k], s.thresholds, times); });
+  return adequate;
+}
+
+/// The adequate ones; larger ones only where no part of them does as well.
+std::vector<std::size_t> adequate_singles(const Search& s) {
+  const Fitted& e = s.nominal;
+  const std::vector<std::size_t> surely = adequate_by_score(s, 1.0);
+  std::vector<std::size_t> kept;
+  for (const std::size_t k : adequate_by_score(s, ReachLimits::slack)) {
+    const inference::Candidate& c = e.set.candidates[k];
+    const bool part_will_do = std::ranges::any_of(surely, [&](std::size_t other) {
+      return c.contains(e.set.candidates[other]) &&
+             e.scores[other].log_bayes > e.scores[k].log_bayes - ReachLimits::part;
+    });
+    if (!part_will_do && (kept.empty() || e.scores[kept.front()].log_bayes - e.scores[k].log_bayes <
+                                              ReachLimits::negligible))
+      kept.push_back(k);
+  }
+  return kept;
+}
+
+/// The same candidate at the same setting in another list, if it has it.
+std::optional<Choice> same_choice(const inference::CandidateSet& in, const inference::Candidate& c,
+                                  std::size_t variant) {
+  for (std::size_t k = 0; k < in.candidates.size(); ++k) {
+    const inference::Candidate& other = in.candidates[k];
+    if (other.term != c.term || other.params != c.params) continue;
+    for (std::size_t v = 0; v < other.variants.size(); ++v)
+      if (other.variants[v].settings == c.variants[variant].settings) return Choice{k, v};
+  }
+  return {};
+}
+
+/// What else is in the test once a cause is fitted that the linear score cannot judge (a change of
+/// equation moves the misalignments far): the candidates that leave nothing beside it, by evidence.
+std::vector<Explanation> beside(const Search& s, const Refit& r) {
+  constexpr std::size_t asked = EffortLimits::beside_asked, most = EffortLimits::beside;
+  std::vector<Explanation> pairs;
+  const auto order = r.after.by_evidence();
+  for (std::size_t i = 0; i < std::min(asked, order.size()) && pairs.size() < most; ++i) {
+    const std::size_t variant = r.after.scores[order[i]].variant;
+    const Remainder left = remainder(r.after, {{order[i], variant}},
+                                     ReachLimits::slack * s.thresholds.library_threshold);
+    const auto other = same_choice(s.nominal.set, r.after.set.candidates[order[i]], variant);
+    if (within(left, s.thresholds, ReachLimits::slack) && other)
+      pairs.push_back({r.choices.front(), *other});
+  }
+  return pairs;
+}
+
+}  // namespace
+
+std::vector<Choice> ways_of(const Fitted& e, std::size_t k) {
+  std::vector<Choice> ways;
+  for (const std::size_t v :
+       best_settings(e, k, ReachLimits::refit_setting, EffortLimits::settings))
+    ways.push_back({k, v});
+  return ways;
+}
+
+std::vector<std::size_t> promising_singles(const Search& s, std::size_t most) {
+  const Fitted& e = s.nominal;
+  std::vector<std::size_t> singles = adequate_singles(s);
+  const auto add = [&](std::size_t k) {
+    if (std::ranges::find(singles, k) == singles.end()) singles.push_back(k);
+  };
+  if (singles.size() > most) singles.resize(most);
+  // A large effect may be beyond the linearised test; one that the other equation leaves far behind
+  // is not.
+  if (singles.empty()) {
+    const std::vector<std::size_t> order = e.by_evidence();
+    for (std::size_t k = 0; k < std::min(EffortLimits::large, order.size()); ++k)
+      if (0.5 * s.other_equation - e.scores[order[k]].log_bayes <
+          ReachLimits::large * ReachLimits::negligible)
+        add(order[k]);
+  }
+  // The score is blind to a change of equation that only rescales the misalignments.
+  for (std::size_t k = 0; k < e.set.candidates.size(); ++k)
+    if (e.set.candidates[k].term == closure_term &&
+        std::max(0.5 * s.other_equation, e.scores[k].strength) > s.thresholds.library_threshold)
+      add(k);
+  return singles;
+}
+
+std::vector<std::size_t> more_than(const Search& s, const Refit& part) {
+  const std::vector<std::size_t> enough = adequate_by_score(s, ReachLimits::slack);
+  const auto& candidates = s.nominal.set.candidates;
+  const inference::Candidate& tried = candidates[part.choices.front().candidate];
+  const inference::Candidate& asked = part.after.set.candidates[part.remainder.strongest];
+  std::vector<std::size_t> more;
+  for (std::size_t k = 0; k < candidates.size(); ++k) {
+    const inference::Candidate& whole = candidates[k];
+    if (s.nominal.scores[k].dof == 0 || !whole.contains(tried)) continue;
+    const bool asked_for =
+        asked.term == tried.term && (whole.params == asked.params || whole.contains(asked));
+    if (asked_for || std::ranges::find(enough, k) != enough.end()) more.push_back(k);
+  }
+  return more;
+}
+
+std::vector<Explanation> promising_pairs(const Search& s, const std::vector<Refit>& singles,
+                                         std::size_t most) {
+  constexpr double allowed = ReachLimits::pair_slack;  // of the thresholds
+  std::vector<Explanation> pairs;
+  for (const Refit& r : singles)
+    if (s.nominal.set.candidates[r.choices.front().candidate].term == closure_term &&
+        r.log_bayes > 0.0)
+      for (Explanation& pair : beside(s, r)) pairs.push_back(std::move(pair));
+  for (const Pair& p :
+       adequate_pairs(s.nominal, s.nominal.scores, allowed * s.thresholds.library_threshold,
+                      allowed * s.thresholds.scan_threshold, most))
+    pairs.push_back({p.a, p.b});
+  return pairs;
+}
+
+std::vector<Explanation> promising_several(const Search& s) {
+  const Explanation several = greedy(s.nominal, s.nominal.scores, s.thresholds.library_threshold,
+                                     s.thresholds.scan_threshold, EffortLimits::together);
+  if (several.size() <= 2) return {};
+  return {several};
+}
+
+}  // namespace drift::search

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "analysis/search/search.hpp"
+
+namespace drift::search {
+
+/// Explanations that are worth a refit, by the linearised test.
+
+using Explanation = std::vector<Choice>;
+
+/// A candidate at its strongest setting, and at another far from it that explains the test nearly
+/// as well: which of two onsets it was, the refit decides.
+std::vector<Choice> ways_of(const Fitted& e, std::size_t candidate);
+
+/// Single candidates: at most `most` adequate ones, best first, and where the linearised test
+/// cannot judge those that it must not miss.
+std::vector<std::size_t> promising_singles(const Search& s, std::size_t most);
+
+/// Where a part of a term will not do, more of the term: what the linearised test finds adequate
+/// and what the refit asks for.
+std::vector<std::size_t> more_than(const Search& s, const Refit& part);
+
+/// Two causes at once: beside another equation, and by the linearised test.
+std::vector<Explanation> promising_pairs(const Search& s, const std::vector<Refit>& singles,
+                                         std::size_t most);
+
+/// More than two, one by one.
+std::vector<Explanation> promising_several(const Search& s);
+
+}  // namespace drift::search

@@ -1,0 +1,89 @@
+#include "core/base/results_marks.hpp"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "core/base/sha256.hpp"
+
+namespace drift {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_file(const fs::path& path) {
+  std::error_code none;
+  return fs::is_regular_file(fs::symlink_status(path, none));
+}
+
+/// A JSON object with two of our fields.
+bool has_fields(const fs::path& path, const char* one, const char* other) {
+  if (!is_file(path)) return false;
+  std::ifstream file(path, std::ios::binary);
+  const auto json = nlohmann::json::parse(file, nullptr, false);
+  return json.is_object() && json.contains(one) && json.contains(other);
+}
+
+bool has_worker_file(const fs::path& folder) {
+  std::error_code none;
+  return std::ranges::any_of(fs::directory_iterator(folder, none), [](const auto& entry) {
+    const std::string name = entry.path().filename().string();
+    return name.starts_with("worker-") && name.ends_with(".sqlite") && is_file(entry.path());
+  });
+}
+
+/// What changes under the guard of its own checksums, by other writers.
+bool is_guarded(const std::string& command, const fs::path& name) {
+  if (command == "run") return name != "report.html" && name != "summary.json";
+  return name == "key.json" || name == "answers.json" || name.extension() == ".sha256";
+}
+
+HashedFiles files_within(const std::string& command, const fs::path& folder,
+                         const fs::path& within) {
+  HashedFiles files;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(folder / within, none))
+    if (is_file(entry.path()) && looks_like_result(entry.path()) &&
+        !is_guarded(command, entry.path().filename()))
+      files.emplace_back((within / entry.path().filename()).string(),
+                         sha256_hex_of_file(entry.path().string()));
+  return files;
+}
+
+}  // namespace
+
+bool looks_like_result(const fs::path& entry) {
+  constexpr std::array endings{".html", ".svg",    ".json", ".toml",
+                               ".csv",  ".sqlite", ".lock", ".sha256"};
+  return entry.filename() == "trials" ||
+         std::ranges::find(endings, entry.extension()) != endings.end();
+}
+
+std::string command_by_files(const fs::path& folder) {
+  // A strapdown diagnosis has an identification beside it, so the order matters.
+  if (has_fields(folder / "manifest.json", "study_hash", "identity") || has_worker_file(folder))
+    return "run";
+  if (has_fields(folder / "key.json", "salt", "trials") ||
+      is_file(folder / "trials/0001/study.toml"))
+    return "blind";
+  if (has_fields(folder / "diagnosis.json", "schema", "verdict")) return "diagnose";
+  if (has_fields(folder / "rank.json", "schema", "linearised_at")) return "rank";
+  if (has_fields(folder / "identification.json", "schema", "simulated") ||
+      has_fields(folder / "identification.json", "schema", "kind"))
+    return "identify";
+  return {};
+}
+
+HashedFiles files_of(const std::string& command, const fs::path& folder) {
+  HashedFiles files = files_within(command, folder, "");
+  std::error_code none;
+  if (command == "blind")
+    for (const auto& trial : fs::directory_iterator(folder / "trials", none))
+      std::ranges::move(files_within(command, folder, fs::path("trials") / trial.path().filename()),
+                        std::back_inserter(files));
+  return files;
+}
+
+}  // namespace drift

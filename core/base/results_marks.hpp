@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "core/base/results_register.hpp"
+
+namespace drift {
+
+/// Whether an entry of a folder could be a result of some command: an entry of this kind in a
+/// folder that is not driftscope's stands in the way. Logs and notes do not.
+bool looks_like_result(const std::filesystem::path& entry);
+
+/// The command that left its files in a folder, judged by them alone; or empty. For folders of
+/// versions without a register, or whose register was lost.
+std::string command_by_files(const std::filesystem::path& folder);
+
+/// The files of such a folder that the command may write again, with their hashes.
+HashedFiles files_of(const std::string& command, const std::filesystem::path& folder);
+
+}  // namespace drift

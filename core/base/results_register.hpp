@@ -1,0 +1,44 @@
+#pragma once
+
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace drift {
+
+/// Names of files and their SHA-256, in hexadecimal.
+using HashedFiles = std::vector<std::pair<std::string, std::string>>;
+
+/// Which files of a results folder driftscope wrote, and their SHA-256: the file .driftscope in it.
+/// Its lines are "<hash>  <name>", as sha256sum writes them, below a comment that names the
+/// command. A name may have several: the hash is noted before the file is written, so that
+/// whenever the program ends, a file of ours has one that is listed.
+class ResultsRegister {
+ public:
+  static constexpr const char* file_name = ".driftscope";
+
+  /// Reads that of a folder; empty if there is none.
+  explicit ResultsRegister(std::string folder);
+
+  bool exists() const { return exists_; }
+  /// The command that made the folder; empty if that is not known.
+  const std::string& command() const { return command_; }
+  /// The names, each once.
+  std::vector<std::string> names() const;
+  /// Whether driftscope wrote a file of this name and content.
+  bool has(const std::string& name, const std::string& hash) const {
+    return hashes_.contains({name, hash});
+  }
+
+  /// Notes names with their hashes; makes the file if need be. Any number of processes may do so at
+  /// the same time. InputError (io).
+  void add(const std::string& command, const HashedFiles& files);
+
+ private:
+  std::string path_, command_;
+  bool exists_ = false;
+  std::set<std::pair<std::string, std::string>> hashes_;  ///< (name, hash)
+};
+
+}  // namespace drift

@@ -1,0 +1,222 @@
+#include "core/estimate/interval_step.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <limits>
+
+#include "core/base/check.hpp"
+#include "core/physics/stochastic.hpp"
+#include "core/sim/measurements.hpp"
+
+namespace drift {
+namespace {
+
+constexpr auto fixed_drift_key = TermLibrary::index("D_F_x");
+
+std::size_t most_nodes(const Timeline& timeline) {
+  std::size_t most = 0;
+  for (const Interval& i : timeline.intervals) most = std::max(most, i.node_count());
+  return most;
+}
+
+/// phi with the attitude turned by a small rotation psi_i, axes of the chain's inertial frame.
+Vec3 turned(const Node& node, const Vec3& psi_i, const Vec3& phi) {
+  const Vec3 psi_r = node.R_lr.transpose() * (node.R_il.transpose() * psi_i);
+  return rotation_vector(rotation(psi_r) * rotation(phi));
+}
+
+}  // namespace
+
+IntervalStep::IntervalStep(const FilterSpec& filter, const Timeline& timeline,
+                           const Readout& readout, About about)
+    : filter_(filter),
+      timeline_(timeline),
+      readout_(readout),
+      about_(about),
+      model_(filter.model()),
+      layout_(make_layout(filter)),
+      linearizer_(model_, layout_, readout),
+      memory_(timeline, model_),
+      P_(layout_.size(), layout_.num_rate, filter.initial_attitude),
+      x_(VecX::Zero(layout_.size())),
+      nodes_(about == About::estimate ? most_nodes(timeline) : 0),
+      rest_G_(Mat3X::Zero(3, layout_.num_rate)) {
+  require_covariates(model_, timeline);
+}
+
+void IntervalStep::reset(const VecX& x, const Theta& theta) {
+  x_ = x;
+  theta_ = theta;
+  linearizer_.set_theta(theta_);
+  memory_.reset();
+  P_.reset(filter_.initial_attitude);
+  phi_.setZero();
+  psi_.setZero();
+  sums_ = {};
+  status_ = EstimateStatus::ok;
+  cause_.clear();
+  t_diverged_ = 0.0;
+}
+
+IntervalStep::Taken IntervalStep::process(std::size_t i, const Vec3& acc, const Vec3& gimbal,
+                                          const Vec3* reference) {
+  DRIFT_DEMAND((reference != nullptr) == (about_ == About::reference));
+  taken_ = {};
+  if (status_ != EstimateStatus::ok) return taken_;
+  const Interval& interval = timeline_.intervals[i];
+  linearise(i, reference);
+
+  const std::size_t last = interval.node_count() - 1;
+  const auto middle = static_cast<std::size_t>(interval.substeps);
+  const double arw = filter_.noise.angle_random_walk;
+  const Mat3 Q_half = 0.5 * arw * arw * interval.length() * Mat3::Identity();
+  const Mat3& Phi_m = sensitivity_.Phi[middle];
+  predict(Phi_m, sensitivity_.G[middle], Q_half);
+  if (readout_.accelerometers && acc.array().isFinite().any()) take_accelerometers(interval, acc);
+  if (status_ != EstimateStatus::ok) return taken_;
+
+  const Mat3 Phi_rest = sensitivity_.Phi[last] * Phi_m.inverse();
+  rest_G_ = sensitivity_.G[last];
+  rest_G_.noalias() -= Phi_rest * sensitivity_.G[middle];
+  predict(Phi_rest, rest_G_, Q_half);
+  if (readout_.gimbals && gimbal.array().isFinite().any()) take_gimbals(interval, gimbal);
+  if (status_ != EstimateStatus::ok) return taken_;
+
+  phi_ = about_ == About::estimate
+             ? nodes_[last]
+             : turned(timeline_.nodes[interval.last_node()], psi_, path_[last]);
+  let_drift_vary(interval.length());
+  return taken_;
+}
+
+void IntervalStep::linearise(std::size_t i, const Vec3* reference) {
+  const Interval& interval = timeline_.intervals[i];
+  memory_.advance(i, theta_.data());
+  if (interval.cage) P_.recage(filter_.initial_attitude);
+  if (about_ == About::estimate) {
+    nodes_[0] = interval.cage ? Vec3::Zero() : phi_;
+    step_through(interval, timeline_, drive_of(interval, timeline_, model_, theta_),
+                 memory_.points(), nodes_.data());
+    linearizer_.set_theta(theta_);
+    path_ = nodes_.data();
+  } else {
+    path_ = reference;
+    if (interval.cage) {  // the attitude is believed to be nominal: the reference taken back
+      const Node& node = timeline_.nodes[interval.first_node];
+      psi_ = node.R_il * (node.R_lr * -path_[0]);
+    }
+  }
+  linearize_interval(interval, timeline_, misalignment_matrix(model_.mounting, interval.loop),
+                     path_, memory_.points(), linearizer_, sensitivity_);
+}
+
+void IntervalStep::predict(const Mat3& Phi, const Mat3X& G, const Mat3& Q) {
+  if (about_ == About::reference)
+    psi_ = (Phi * psi_ + G * x_.head(static_cast<Eigen::Index>(layout_.num_rate))).eval();
+  P_.propagate(Phi, G, Q);
+}
+
+void IntervalStep::take_accelerometers(const Interval& interval, const Vec3& acc) {
+  const MeanOutput mean = mean_output(interval, sensitivity_);
+  const auto middle = static_cast<std::size_t>(interval.substeps);
+  update(interval, middle, acc - mean.acc, mean.H, sensitivity_.jacobian[0].H_par,
+         readout_.accelerometer_noise, InnovationSums::accelerometers);
+  if (about_ == About::estimate && status_ == EstimateStatus::ok)
+    step_through(interval, timeline_, drive_of(interval, timeline_, model_, theta_),
+                 memory_.points(), nodes_.data(), middle);
+}
+
+void IntervalStep::take_gimbals(const Interval& interval, const Vec3& gimbal) {
+  const std::size_t last = interval.node_count() - 1;
+  if (about_ == About::estimate && TermLibrary::act_on_gimbals(model_.terms))
+    linearizer_.set_theta(theta_);
+  const GimbalPrediction predicted =
+      linearizer_.gimbals(timeline_, interval, path_[last], memory_at(last));
+  Vec3 residual;
+  for (int k = 0; k < 3; ++k) residual[k] = angle_difference(gimbal[k], predicted.angles[k]);
+  update(interval, last, residual, predicted.H, predicted.H_par, readout_.gimbal_noise,
+         InnovationSums::gimbals);
+}
+
+/// Takes in three scalars at a node. residual: measured minus predicted along the path.
+void IntervalStep::update(const Interval& interval, std::size_t node, const Vec3& residual,
+                          const Mat3& H_psi, const Mat3X& H_par, double noise,
+                          InnovationSums::Channel channel) {
+  Vec3 nu = residual;
+  if (about_ == About::reference) {
+    nu -= H_psi * psi_;
+    if (H_par.cols() > 0) nu -= H_par * x_.tail(H_par.cols());
+  }
+  if (has_outliers(model_.terms)) nu = gated(nu, H_psi, H_par, noise);
+  const Covariance::Update update =
+      P_.update(nu, H_psi, H_par, H_par.cols() > 0 ? layout_.num_rate : 0, noise, x_);
+  taken_.nis += update.nis;
+  taken_.scalars += update.scalars;
+  sums_.add(update, channel);
+  notice_divergence(update, interval.t1);
+  if (status_ != EstimateStatus::ok) return;
+  if (about_ == About::reference) {
+    psi_ += update.attitude;
+    return;
+  }
+  nodes_[node] = turned(timeline_.nodes[interval.first_node + node], update.attitude, nodes_[node]);
+  learn();
+}
+
+/// Innovations without those that lie outside the gate of the term `outliers`: NaN is left out.
+Vec3 IntervalStep::gated(const Vec3& nu, const Mat3& H_psi, const Mat3X& H_par,
+                         double noise) const {
+  const auto n = static_cast<Eigen::Index>(layout_.size());
+  Mat3X H = Mat3X::Zero(3, n);
+  if (H_par.cols() > 0) H.rightCols(H_par.cols()) = H_par;
+  const Mat3 cross = H * P_.cross().topRows(n) * H_psi.transpose();
+  const Mat3 S = H_psi * P_.attitude() * H_psi.transpose() + cross + cross.transpose() +
+                 H * P_.parameters() * H.transpose() + noise * noise * Mat3::Identity();
+  const double gate = outlier_gate(theta_);
+  Vec3 inside = nu;
+  for (int k = 0; k < 3; ++k)
+    if (std::abs(nu[k]) > gate * std::sqrt(S(k, k)))
+      inside[k] = std::numeric_limits<double>::quiet_NaN();
+  return inside;
+}
+
+void IntervalStep::notice_divergence(const Covariance::Update& update, double t) {
+  const bool finite = std::isfinite(update.nis) && x_.allFinite();
+  if (update.ok && finite && x_.cwiseAbs().maxCoeff() <= 1e6) return;
+  status_ = EstimateStatus::diverged;
+  t_diverged_ = t;
+  cause_ = fmt::format("{} diverged at t = {:.6g} s ({})",
+                       about_ == About::estimate ? "filter" : "second pass of the filter", t,
+                       !update.ok ? "innovation covariance not positive definite"
+                                  : "estimate beyond 1e6 prior sigma");
+}
+
+/// The corrected estimate, and what the past has left according to it.
+void IntervalStep::learn() {
+  if (!memory_.active()) {
+    theta_ = layout_.theta_at(x_);
+    return;
+  }
+  const Theta before = theta_;
+  theta_ = layout_.theta_at(x_);
+  memory_.shift(before.data(), theta_.data());
+}
+
+void IntervalStep::let_drift_vary(double duration) {
+  if (!drift_varies(filter_.noise, model_.terms)) return;
+  for (std::size_t k = 0; k < layout_.size(); ++k) {
+    if (layout_.params[k] < fixed_drift_key || layout_.params[k] >= fixed_drift_key + 3) continue;
+    const auto axis = static_cast<int>(layout_.params[k] - fixed_drift_key);
+    const double variance = drift_variance(filter_.noise, model_.terms, theta_, axis, duration);
+    P_.add_variance(k, variance / (layout_.sigma[k] * layout_.sigma[k]));
+  }
+}
+
+const MemoryPoint* IntervalStep::memory_at(std::size_t node) const {
+  const MemoryPoint* points = memory_.points();
+  return points ? points + 2 * node : nullptr;
+}
+
+}  // namespace drift

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <cmath>
+#include <string>
+
+#include "core/estimate/covariance.hpp"
+#include "core/estimate/estimate_result.hpp"
+#include "core/estimate/innovation_sums.hpp"
+#include "core/estimate/linearize.hpp"
+
+namespace drift {
+
+/// What a sequential estimator linearises about.
+enum class About {
+  estimate,   ///< the running estimate, which every measurement moves: an extended Kalman filter
+  reference,  ///< a path given beforehand: a Kalman filter, linear in the deviations from it
+};
+
+/// What a sequential estimator does with one sample interval: linearise, predict, gate, update.
+///
+/// Time, the memory of terms, terms in the gimbals, drift noise and outliers are dealt with here
+/// alone, so that every sequential estimator knows of them. States are 3 attitude errors and the
+/// parameters of the layout. The mean specific force is taken in at the middle of its interval
+/// (exact to second order in the attitude change), the gimbal angles at its end. Caging brings a
+/// new attitude within the prior (physics.md 3.5, 6.6).
+class IntervalStep {
+ public:
+  /// The timeline must outlive the step.
+  IntervalStep(const FilterSpec& filter, const Timeline& timeline, const Readout& readout,
+               About about);
+
+  /// Before the first interval, with the covariance of the priors. x: the estimate, as x() has it;
+  /// theta: the parameters to linearise about. Allocates nothing.
+  void reset(const VecX& x, const Theta& theta);
+
+  /// What an interval has measured.
+  struct Taken {
+    double nis = 0.0;  ///< normalised innovation squared
+    int scalars = 0;
+  };
+  /// Takes in the measurements of interval i; intervals come in order. reference: rotation vector
+  /// of the path at its nodes [rad], with About::reference alone. Nothing once it has diverged.
+  Taken process(std::size_t i, const Vec3& acc, const Vec3& gimbal,
+                const Vec3* reference = nullptr);
+
+  const Layout& layout() const { return layout_; }
+  /// The estimate, in prior sigmas: deviations from the prior means, or from the reference.
+  const VecX& x() const { return x_; }
+  const Theta& theta() const { return theta_; }  ///< that the next interval is linearised about
+  /// Estimated rotation vector of the platform against its nominal attitude, at the end of the last
+  /// interval [rad].
+  const Vec3& phi() const { return phi_; }
+  Covariance& covariance() { return P_; }
+  const Covariance& covariance() const { return P_; }
+  double sigma(std::size_t k) const {
+    return layout_.sigma[k] * std::sqrt(P_.variance(k));
+  }  ///< of state k, SI
+  const InnovationSums& innovations() const { return sums_; }
+  EstimateStatus status() const { return status_; }
+  const std::string& cause() const { return cause_; }
+  double t_diverged() const { return t_diverged_; }  ///< [s]
+
+ private:
+  void linearise(std::size_t i, const Vec3* reference);
+  void predict(const Mat3& Phi, const Mat3X& G, const Mat3& Q);
+  void take_accelerometers(const Interval& interval, const Vec3& acc);
+  void take_gimbals(const Interval& interval, const Vec3& gimbal);
+  void update(const Interval& interval, std::size_t node, const Vec3& residual, const Mat3& H_psi,
+              const Mat3X& H_par, double noise, InnovationSums::Channel channel);
+  Vec3 gated(const Vec3& nu, const Mat3& H_psi, const Mat3X& H_par, double noise) const;
+  void notice_divergence(const Covariance::Update& update, double t);
+  void learn();
+  void let_drift_vary(double duration);
+  const MemoryPoint* memory_at(std::size_t node) const;
+
+  FilterSpec filter_;
+  const Timeline& timeline_;
+  Readout readout_;
+  About about_;
+  DriftModel model_;
+  Layout layout_;
+  Linearizer linearizer_;
+  IntervalSensitivity sensitivity_;
+  MemoryPath memory_;
+  Covariance P_;
+  VecX x_;
+  Theta theta_ = Theta::Zero();
+  Vec3 phi_ = Vec3::Zero();
+  Vec3 psi_ = Vec3::Zero();     ///< attitude from the reference, inertial axes [rad]
+  std::vector<Vec3> nodes_;     ///< rotation vector of the estimate at the interval's nodes [rad]
+  const Vec3* path_ = nullptr;  ///< the same of what it is linearised about
+  Mat3X rest_G_;                ///< work
+  Taken taken_;
+  InnovationSums sums_;
+  EstimateStatus status_ = EstimateStatus::ok;
+  std::string cause_;
+  double t_diverged_ = 0.0;
+};
+
+}  // namespace drift

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "core/sim/trajectory.hpp"
+
+namespace drift {
+
+/// A motion of the platform to linearise about: that of one set of parameters, through given
+/// attitudes at the end of each chain, from which it is integrated back. The beginning of a chain
+/// is known within the prior alone, its end from all that was measured in it.
+class ReferencePath {
+ public:
+  /// The timeline must outlive the path.
+  ReferencePath(const Timeline& timeline, const DriftModel& model);
+
+  /// Where the chain of this interval, its last, ends: rotation vector [rad].
+  void end_chain(const Interval& interval, const Vec3& phi) {
+    ends_[static_cast<std::size_t>(interval.chain)] = phi;
+  }
+  /// Integrates back from the ends, with these parameters. Allocates nothing from the second time
+  /// on.
+  void place(const Theta& theta);
+  /// Rotation vector at the nodes of an interval [rad].
+  const Vec3* nodes(const Interval& interval) const { return &phi_[interval.first_node]; }
+
+ private:
+  const Timeline& timeline_;
+  DriftModel model_;
+  MemoryRecord memory_;
+  std::vector<Vec3> ends_;  ///< of each chain
+  Trajectory phi_;
+};
+
+}  // namespace drift

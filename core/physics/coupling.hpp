@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstddef>
+#include <iterator>
+#include <optional>
+#include <string_view>
+
+#include "core/base/named.hpp"
+
+namespace drift {
+
+/// How the platform servo answers the gyros. None of these is "the right one": it depends on the
+/// hardware (physics.md 1.6).
+enum class Coupling {
+  eq5,          ///< w_cp = -C w_ic - u (Fu, Shao, Deng 2002)
+  eq6,          ///< w_cp = -w_ic - C^-1 u (Hellings 1973)
+  lambda,       ///< the family that holds both
+  compensated,  ///< gyros on the case, the loop removes an estimate C-hat
+  servo,        ///< the null-seeking loop itself, integrated (servo.hpp)
+};
+
+/// What is to be known of a coupling beside its formula (closed_over).
+struct CouplingFacts {
+  Coupling value;
+  std::string_view name;          ///< "eq5", as in files
+  int number;                     ///< of the equation; 0: it is neither of the two
+  std::string_view equation;      ///< the drift equation, on one line
+  std::optional<double> lambda;   ///< which member of the family it is; none: it is none by name
+  std::optional<Coupling> other;  ///< the other equation, where there are two
+  Coupling settles_to;            ///< the coupling it is alike once nothing moves any more
+};
+
+inline constexpr CouplingFacts couplings[] = {
+    {Coupling::eq5, "eq5", 5, "w_cp = -C w_ic - w_l - w_md", 0.0, Coupling::eq6, Coupling::eq5},
+    {Coupling::eq6, "eq6", 6, "w_cp = -w_ic - C^-1 (w_l + w_md)", 1.0, Coupling::eq5,
+     Coupling::eq6},
+    {Coupling::lambda,
+     "lambda",
+     0,
+     "w_cp = -(I + lambda E)^-1 (C w_ic + w_l + w_md)",
+     {},
+     {},
+     Coupling::lambda},
+    {Coupling::compensated,
+     "compensated",
+     0,
+     "w_cp = -(I + E_loop)^-1 (C w_ic + w_l + w_md)",
+     {},
+     {},
+     Coupling::compensated},
+    {Coupling::servo, "servo", 0, "null-seeking loop, integrated", {}, {}, Coupling::eq6}};
+
+constexpr const CouplingFacts& facts(Coupling coupling) {
+  return couplings[static_cast<std::size_t>(coupling)];
+}
+static_assert(
+    [] {
+      for (std::size_t k = 0; k < std::size(couplings); ++k)
+        if (facts(static_cast<Coupling>(k)).value != static_cast<Coupling>(k)) return false;
+      return true;
+    }(),
+    "the rows stand in the order of the enum");
+
+constexpr std::string_view key_of(Coupling coupling) {
+  return facts(coupling).name;
+}
+constexpr std::string_view equation_of(Coupling coupling) {
+  return facts(coupling).equation;
+}
+
+/// With lambda as a parameter: a member of the family by name becomes the same by number.
+constexpr Coupling family_of(Coupling coupling) {
+  return facts(coupling).lambda ? Coupling::lambda : coupling;
+}
+
+}  // namespace drift

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "core/recording/recording.hpp"
+
+namespace drift {
+
+/// Writes as write_recording() does, into a file that another name is given to when it is complete:
+/// `path`, which decides the format and is named in messages.
+void write_recording_to(const Recording& recording, const std::string& path,
+                        const std::string& temporary);
+
+/// The first fact of every recording that driftscope makes.
+inline constexpr std::string_view made_here = "driftscope recording";
+
+/// Whether a file is a recording that driftscope made: it begins with that fact.
+bool is_made_here(const std::string& path);
+
+}  // namespace drift

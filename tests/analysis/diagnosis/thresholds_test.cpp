@@ -1,0 +1,121 @@
+// Limits of analysis/inference/thresholds.hpp that a stage of the diagnosis applies, met from both
+// sides.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "analysis/diagnosis/advice/patched_study.hpp"
+#include "analysis/diagnosis/asides.hpp"
+#include "analysis/diagnosis/judge.hpp"
+#include "analysis/diagnosis/spikes.hpp"
+#include "tests/support/model_builders.hpp"
+
+namespace drift::diagnosis {
+namespace {
+
+using test::param;
+
+/// Whether one sample `size` away from quiet neighbours, whose range is `range`, is taken out. The
+/// others scatter so that the instrument's noise is `noise` times as declared.
+bool is_spike(double size, double range = 0.0, double noise = 1.0) {
+  constexpr int n = 100, at = 50;
+  Timeline timeline;
+  timeline.intervals.resize(n);
+  BatchResult fit;
+  fit.acc_residual = Mat3X::Zero(3, n);
+  // a a -a -a a a ...: each is 2 a from the median of its four neighbours, which for normal noise
+  // is 0.6745 of its sigma times 1.14 at the median. Around the sample it is quiet.
+  const double a = 0.5 * noise * 0.6745 * 1.14;
+  for (int k = 0; k < n; ++k)
+    if (std::abs(k - at) > 4) fit.acc_residual.col(k).setConstant(k % 4 < 2 ? a : -a);
+  fit.acc_residual(0, at) = size;
+  fit.acc_residual(0, at - 2) = range;
+  Readout readout;
+  readout.gimbals = false;
+  Measurements measured{Mat3X::Zero(3, n), Mat3X::Zero(3, n)};
+  const Despiked clean = without_spikes(measured, timeline, readout, fit);
+  return std::isnan(clean.measured.acc(0, at));
+}
+
+TEST(Thresholds, ASpikeIsEightSigmaAndTwoRangesAway) {
+  EXPECT_FALSE(is_spike(7.9));
+  EXPECT_TRUE(is_spike(8.1));
+  EXPECT_FALSE(is_spike(9.9, 1.0));
+  EXPECT_TRUE(is_spike(10.1, 1.0));
+  // Noise up to 1.5 times as declared is allowed for; beyond, it is the measure.
+  EXPECT_TRUE(is_spike(8.1, 0.0, 1.45));
+  EXPECT_FALSE(is_spike(12.3, 0.0, 1.55));
+  EXPECT_TRUE(is_spike(12.5, 0.0, 1.55));
+}
+
+TEST(Thresholds, ParametersFiveSigmaFromTheirPriorsAreSaid) {
+  const auto said = [](double sigmas) {
+    BatchResult fit;
+    ParameterEstimate p;
+    p.prior_mean = 1.0;
+    p.prior_sigma = 2.0;
+    p.value = 1.0 - 2.0 * sigmas;
+    fit.estimate.parameters = {p};
+    return beyond_prior(fit).has_value();
+  };
+  EXPECT_FALSE(said(4.9));
+  EXPECT_TRUE(said(5.1));
+}
+
+TEST(Thresholds, AnEquationIsOpenUpToOddsOfNinetyToOne) {
+  const auto open = [](double gain) {
+    Diagnosis d;
+    d.nominal.coupling = Coupling::eq6;
+    d.other_equation_gain = gain;
+    return equation_open(d).has_value();
+  };
+  EXPECT_TRUE(open(-2.0 * std::log(89.0)));
+  EXPECT_FALSE(open(-2.0 * std::log(91.5)));
+}
+
+TEST(Thresholds, TheNearestKnownExplainsATwentiethOfTheMisfit) {
+  const auto with_chi2 = [](double per_dof) {
+    search::Fitted e;
+    e.fit.estimate.measured = 1000;
+    e.fit.estimate.statistic = 1000.0 * per_dof;
+    return e;
+  };
+  const auto known = [&](double after) {
+    search::Search found;
+    found.rejected.emplace_back();
+    found.rejected.back().after = with_chi2(after);
+    return nearest_known(with_chi2(2.0), found).has_value();
+  };
+  EXPECT_FALSE(known(1.96));
+  EXPECT_TRUE(known(1.94));
+}
+
+TEST(Thresholds, EachOfSeveralCausesMustBringOneOfLogScore) {
+  const auto verdict = [](double gain) {
+    search::Search found;
+    found.significant = true;
+    found.sets.emplace_back();
+    HeldOut held_out;
+    held_out.folds.resize(6);
+    held_out.improves = true;
+    return judge({}, found, held_out, {2.0, gain}, NamedBy::held_out).verdict;
+  };
+  EXPECT_EQ(verdict(0.99), Verdict::ambiguous);
+  EXPECT_EQ(verdict(1.01), Verdict::named);
+}
+
+TEST(Thresholds, ASizeBeyondThreeSigmaOfItsPriorWidensIt) {
+  const auto sigma_of = [](double prior_sigmas) {
+    const ParamSpec& spec = TermLibrary::specs[param("M_y")];
+    search::Cause cause;
+    cause.term = "magnetic_drift";
+    cause.parameters = {{"M_y", param("M_y"), prior_sigmas * spec.prior.sigma(), 0.1, "", false}};
+    return patched_filter(test::base_filter(Coupling::eq5), {cause}).priors[param("M_y")].sigma() /
+           spec.prior_si().sigma();
+  };
+  EXPECT_DOUBLE_EQ(sigma_of(2.9), 1.0);
+  EXPECT_NEAR(sigma_of(3.1), 3.1, 1e-12);
+}
+
+}  // namespace
+}  // namespace drift::diagnosis

@@ -1,0 +1,46 @@
+#include "analysis/inference/noise/quasi_newton.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace drift::inference {
+namespace {
+
+TEST(QuasiNewton, FindsTheTopOfAParabolaAndItsCurvature) {
+  MatX A(2, 2);
+  A << 40.0, 12.0, 12.0, 20.0;
+  const VecX top = VecX::Constant(2, 0.7);
+  const Maximum m =
+      maximise([&](const VecX& x) { return 5.0 - 0.5 * (x - top).dot(A * (x - top)); },
+               VecX::Zero(2), A.diagonal());
+  // It stands still when a step gains less than 1e-3, and differences forward by 1e-3 move the top
+  // by half of that.
+  EXPECT_NEAR(m.value, 5.0, 1e-3);
+  const VecX off = m.x - top;
+  EXPECT_LT(off.dot(A * off), 2.0 * 1e-3);
+  // Secants of a parabola are exact; each update of the two-by-two curvature keeps one of them.
+  const MatX found = m.inverse_curvature * A;
+  EXPECT_LT((found - MatX::Identity(2, 2)).cwiseAbs().maxCoeff(), 0.05);
+}
+
+TEST(QuasiNewton, FindsTheLogOfASigma) {
+  // n draws of square sum q: n log sigma + q / (2 sigma^2), least at sigma^2 = q / n, where the
+  // second derivative by log sigma is 2 n.
+  constexpr double n = 200.0, q = 200.0 * 9.0;
+  const auto log_likelihood = [](const VecX& x) {
+    return -n * x[0] - 0.5 * q * std::exp(-2.0 * x[0]);
+  };
+  const Maximum m = maximise(log_likelihood, VecX::Zero(1), VecX::Constant(1, 2.0 * n));
+  EXPECT_NEAR(m.x[0], std::log(3.0), std::sqrt(1e-3 / n) + 0.5e-3);
+}
+
+TEST(QuasiNewton, StaysWhereNothingIsBetter) {
+  const Maximum m = maximise([](const VecX& x) { return x.norm() > 0.0 ? -1.0 : 0.0; },
+                             VecX::Zero(2), VecX::Ones(2));
+  EXPECT_EQ(m.x, VecX::Zero(2));
+  EXPECT_EQ(m.value, 0.0);
+}
+
+}  // namespace
+}  // namespace drift::inference

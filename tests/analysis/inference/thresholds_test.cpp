@@ -1,0 +1,109 @@
+// Each limit met from both sides, by numbers that are written out here: who moves a limit meets its
+// test.
+#include "analysis/inference/thresholds.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "analysis/inference/max_t.hpp"
+#include "analysis/inference/noise/gross_misfit.hpp"
+#include "analysis/inference/noise/robust_weights.hpp"
+
+namespace drift::inference {
+namespace {
+
+TEST(Thresholds, TracesAreTheSameWhereSixtyThreeSigmaWouldNotTellThemByTwo) {
+  EXPECT_NEAR(2.0 / std::sqrt(TraceLimits::unlike), 63.25, 0.01);
+  const double limit = std::sqrt(1.0 - 1e-3);
+  for (const double sign : {-1.0, 1.0}) {
+    EXPECT_TRUE(same_trace(sign * (limit + 1e-6)));
+    EXPECT_FALSE(same_trace(sign * (limit - 1e-6)));
+  }
+  EXPECT_TRUE(same_trace_of_unlike(0.99e-3));
+  EXPECT_FALSE(same_trace_of_unlike(1.01e-3));
+}
+
+TEST(Thresholds, TheChanceOfAFalseAlarmIsSharedWhole) {
+  EXPECT_DOUBLE_EQ(SearchLimits::library_share + SearchLimits::scan_share +
+                       SearchLimits::pair_share + SearchLimits::lone_share,
+                   1.0);
+}
+
+TEST(Thresholds, AColumnIsSeenWhereFortyPriorSigmasAreFoundByFour) {
+  const auto dof = [](double information) {
+    return make_contrast(MatX::Constant(1, 1, information), VecX::Ones(1), {0}).dof;
+  };
+  EXPECT_EQ(dof(1.01e-2), 1);
+  EXPECT_EQ(dof(0.99e-2), 0);
+}
+
+/// Rows of one accelerometer, residuals given by their number.
+template <class Residual>
+std::pair<MeasuredRows, VecX> rows_of(Eigen::Index n, Residual&& residual) {
+  MeasuredRows rows;
+  VecX r(n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    rows.tags.push_back({static_cast<std::size_t>(k), 0, 0});
+    r[k] = residual(k);
+  }
+  rows.weight = VecX::Ones(n);
+  return {std::move(rows), std::move(r)};
+}
+
+TEST(Thresholds, AMisfitOfThirtyTimesTheNoiseIsAskedForNone) {
+  NoiseEstimate differences;
+  differences.model.acc_factor = 2.0;
+  const auto wrong = [&](double chi2_per_row) {
+    const auto [rows, residual] =
+        rows_of(100, [&](Eigen::Index) { return 2.0 * std::sqrt(chi2_per_row); });
+    return grossly_wrong(rows, residual, differences);
+  };
+  EXPECT_FALSE(wrong(29.9));
+  EXPECT_TRUE(wrong(30.1));
+}
+
+/// Rows whose robust sigma is `spread`, and among them `far` of the size `size`; how many are given
+/// less weight.
+Eigen::Index lowered(int far, double size, double spread = 1.0) {
+  const auto [rows, residual] = rows_of(2000, [&](Eigen::Index k) {
+    return k < far ? size : (k % 2 == 0 ? 0.6745 : -0.6745) * spread;
+  });
+  const VecX weight = robust_weights(rows, residual);
+  const Eigen::Index count = (weight.array() < 1.0).count();
+  if (count > 0) {
+    EXPECT_NEAR(weight[0], std::sqrt(2.5 / size), 1e-12);  // Huber
+  }
+  return count;
+}
+
+TEST(Thresholds, OutliersAreMoreThanANormalDistributionHasAndNotTooMany) {
+  // 2000 rows have 0.93 beyond 3.5 sigma; four sigma of that and three more are 7.8.
+  EXPECT_EQ(lowered(7, 4.0), 0);
+  EXPECT_EQ(lowered(8, 4.0), 8);
+  EXPECT_EQ(lowered(8, 3.45), 0);
+  EXPECT_EQ(lowered(8, 3.55), 8);
+  EXPECT_EQ(lowered(40, 4.0), 40);  // 2 %
+  EXPECT_EQ(lowered(41, 4.0), 0);
+}
+
+TEST(Thresholds, NoiseMoreThanATenthAboveTheDeclaredIsItsOwnMeasure) {
+  EXPECT_EQ(lowered(8, 3.6, 1.09), 8);
+  EXPECT_EQ(lowered(8, 3.6, 1.11), 0);  // 3.24 of its sigmas
+}
+
+TEST(Thresholds, NoiseIsSaidToBeNotAsDeclaredAtOneInAThousand) {
+  // Residuals that alternate by a have second differences of 4 a, all alike: the factor follows.
+  constexpr Eigen::Index n = 1000;
+  const auto significant = [](double z) {
+    const double error = 1.0 / std::sqrt(2.0 * 0.37 * 0.5 * static_cast<double>(n - 2));
+    const double a = std::exp(z * error) * std::sqrt(0.4549 * 6.0) / 4.0;
+    const auto [rows, residual] = rows_of(n, [&](Eigen::Index k) { return k % 2 == 0 ? a : -a; });
+    return noise_of_differences(rows, residual).findings.at(0).significant;
+  };
+  EXPECT_FALSE(significant(3.25));  // two-sided 1.15e-3
+  EXPECT_TRUE(significant(3.33));   // 0.87e-3
+}
+
+}  // namespace
+}  // namespace drift::inference

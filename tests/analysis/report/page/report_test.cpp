@@ -1,0 +1,128 @@
+// One description, from which the terminal, the page, JSON and CSV are made.
+#include "analysis/report/page/report.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "analysis/report/page/escape.hpp"
+#include "analysis/report/page/json.hpp"
+#include "tests/support/program.hpp"
+
+namespace drift::report {
+namespace {
+
+bool holds(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// A column for all, one for people, one for machines.
+Table sizes() {
+  Table t("Sizes", "name=<name | size=size [m] | <remark | exact=");
+  t.add({"a", 1.23456, {"good", Tone::good}, only_value(true)});
+  t.add_heading("those without a size");
+  t.add({"b, c", std::nan(""), "", only_value({})});
+  return t;
+}
+
+TEST(OneTable, ShowsPeopleWhatHasAHeading) {
+  EXPECT_EQ(text_of(sizes()),
+            "Sizes\n"
+            "name  size [m]  remark\n"
+            "----------------------\n"
+            "a         1.23  good\n"
+            "those without a size\n"
+            "b, c         -\n");
+  const std::string html = html_of(sizes());
+  EXPECT_TRUE(holds(html, "<td class=\"right\">1.23</td><td class=\"left good\">good</td></tr>"));
+  EXPECT_FALSE(holds(html, "exact"));
+}
+
+TEST(OneTable, GivesMachinesNumbersUnderTheirKeys) {
+  EXPECT_EQ(
+      rows_json(sizes()).dump(),
+      R"([{"name":"a","size":1.23456,"exact":true},{"name":"b, c","size":null,"exact":null}])");
+  EXPECT_EQ(rows_json(sizes(), "exact name").dump(),
+            R"([{"exact":true,"name":"a"},{"exact":null,"name":"b, c"}])");
+  EXPECT_EQ(csv_of(sizes()), "name,size,exact\na,1.23456,1\nb  c,,\n");
+}
+
+TEST(OneTable, HeadingsMayHoldAnEqualsSign) {
+  const Table t("", "n=count >= 8 | effects >= 8 sigma");
+  EXPECT_EQ(t.columns[0].key, "n");
+  EXPECT_EQ(t.columns[0].heading, "count >= 8");
+  EXPECT_EQ(t.columns[1].key, "");
+  EXPECT_EQ(t.columns[1].heading, "effects >= 8 sigma");
+}
+
+TEST(OneTable, IsShortenedForPeopleAlone) {
+  Table t("", "n=n");
+  for (int k = 0; k < 6; ++k) t.add({k});
+  t.rows[4].always = true;
+  t.limit = {2, 3, "all.json"};
+  EXPECT_EQ(text_of(t), "n\n-\n0\n1\n4\n3 weaker ones are in all.json.\n");
+  EXPECT_TRUE(holds(html_of(t), "2 weaker ones are in all.json."));
+  EXPECT_EQ(rows_json(t).size(), 6u);
+}
+
+TEST(OneTable, WrapsALastColumnOfWordsThatDoesNotFit) {
+  Table t("", "number | <why");
+  t.add({1, "because of this and of that and of yet another thing that takes many words"});
+  std::istringstream lines(text_of(t, 40));
+  std::string all;
+  for (std::string line; std::getline(lines, line); all += line + "\n")
+    EXPECT_LE(display_width(line), 40u) << line;
+  EXPECT_TRUE(holds(all, "     1 because of this"));
+  EXPECT_TRUE(holds(all, "\n       ")) << "continued below the words:\n" << all;
+}
+
+Report two_sections() {
+  Report report{.command = "test", .title = "title", .subtitle = "subtitle", .headlines = {"said"}};
+  Table table = sizes();
+  table.id = "sizes";
+  report.add(
+      {{"One", {table, {Paragraph{"page words"}, On::page}, Figure{"<svg/>", "drawn", "a.svg"}}},
+       {"Nothing", {}},
+       {"Terminal", {{Sentences{{"spoken"}, "! "}, On::terminal}}},
+       {"", {{Figure{"<svg/>", "unseen", "b.svg"}, On::neither}}}});
+  report.document = {"doc.json", "{}\n"};
+  report.files = {{"more.toml", "x = 1\n"}};
+  return report;
+}
+
+TEST(OneReport, ShowsEachBlockWhereItBelongs) {
+  const std::string text = to_text(two_sections()), html = to_html(two_sections());
+  EXPECT_TRUE(text.starts_with("title\nsubtitle\n\n- said\n\nSizes\n")) << text;
+  EXPECT_TRUE(text.ends_with("\n\n! spoken\n")) << text;
+  EXPECT_FALSE(holds(text, "page words"));
+  EXPECT_TRUE(holds(html, "<h2>One</h2>"));
+  for (const char* part : {"page words", "drawn", "<li>said</li>", "driftscope test"})
+    EXPECT_TRUE(holds(html, part)) << part;
+  for (const char* part : {"<h2>Nothing", "<h2>Terminal", "spoken", "unseen"})
+    EXPECT_FALSE(holds(html, part)) << part;
+  Report late = two_sections();
+  late.order = Order::headlines_last;
+  EXPECT_TRUE(to_text(late).ends_with("! spoken\n\n- said\n"));
+}
+
+TEST(OneReport, WritesDocumentFilesFiguresAndPage) {
+  const test::ScratchFolder folder;
+  EXPECT_EQ(write_report(two_sections(), folder.file("out")),
+            (std::vector<std::string>{"doc.json", "more.toml", "a.svg", "b.svg", "report.html"}));
+  EXPECT_EQ(test::text_of(folder.file("out/doc.json")), "{}\n");
+  EXPECT_EQ(test::text_of(folder.file("out/report.html")), to_html(two_sections()));
+}
+
+TEST(OneReport, NamedTablesReachADocumentThatDoesNotHoldThem) {
+  Json document{{"schema", 1}};
+  add_tables(document, two_sections().sections);
+  EXPECT_EQ(document["sizes"].dump(), rows_json(sizes()).dump());  // null is NaN: unequal to itself
+  document = {{"sizes", "fixed by the interface"}};
+  add_tables(document, two_sections().sections);
+  EXPECT_EQ(document["sizes"], "fixed by the interface");
+}
+
+}  // namespace
+}  // namespace drift::report

@@ -1,0 +1,107 @@
+#include "core/base/results_folder.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "core/base/atomic_file.hpp"
+#include "core/base/check.hpp"
+#include "core/base/results_register.hpp"
+#include "core/base/sha256.hpp"
+#include "core/base/temporary_file.hpp"
+#include "tests/support/program.hpp"
+
+namespace drift {
+namespace {
+
+using test::ScratchFolder;
+using test::text_of;
+namespace fs = std::filesystem;
+
+std::size_t temporaries_in(const std::string& folder) {
+  std::size_t n = 0;
+  for (const auto& entry : fs::directory_iterator(folder))
+    n += is_temporary(entry.path().filename().string());
+  return n;
+}
+
+/// A process that begins a file and is ended before it can finish or tidy up.
+void killed_writer(const std::string& path) {
+  const pid_t child = fork();
+  if (child == 0) {
+    const AtomicFile file(path);
+    _exit(0);
+  }
+  waitpid(child, nullptr, 0);
+}
+
+TEST(Temporaries, OfKilledProcessesVanishAndThoseOfLivingOnesStay) {
+  const ScratchFolder scratch;
+  const AtomicFile alive(scratch.file("a.txt"));
+  killed_writer(scratch.file("b.txt"));
+  scratch.write(".driftscope-notes", "mine");
+  ASSERT_EQ(temporaries_in(scratch.path()), 3u);
+  remove_stale_temporaries(scratch.path());
+  EXPECT_TRUE(fs::exists(alive.temporary()));
+  EXPECT_TRUE(fs::exists(scratch.file(".driftscope-notes")));
+  EXPECT_EQ(temporaries_in(scratch.path()), 2u);
+}
+
+TEST(Temporaries, OfAnotherMachineStayForADay) {
+  const ScratchFolder scratch;
+  const std::string other = scratch.write(".driftscope-00000000-00000000-00000000-1-1-abcdef", "x");
+  remove_stale_temporaries(scratch.path());
+  EXPECT_TRUE(fs::exists(other));
+  fs::last_write_time(other, fs::file_time_type::clock::now() - std::chrono::hours(25));
+  remove_stale_temporaries(scratch.path());
+  EXPECT_FALSE(fs::exists(other));
+}
+
+TEST(Temporaries, VanishAtTheNextUseOfTheFolder) {
+  const ScratchFolder scratch;
+  const ResultsFolder folder{scratch.file("out"), "identify"};
+  write_files(folder, {{"report.html", "page"}});
+  killed_writer(scratch.file("out/report.html"));
+  ASSERT_EQ(temporaries_in(folder.path), 1u);
+  require_results_folder(folder);
+  EXPECT_EQ(temporaries_in(folder.path), 0u);
+}
+
+TEST(ResultsFolderOf, TheCommandIsTheOneThatBeganIt) {
+  const ScratchFolder scratch;
+  EXPECT_EQ(results_of(scratch.file("none")), "");
+  begin_results({scratch.file("out"), "blind"});
+  EXPECT_EQ(results_of(scratch.file("out")), "blind");
+  EXPECT_THROW(require_results_folder({scratch.file("out"), "run"}), InputError);
+  EXPECT_NO_THROW(require_results_folder({scratch.file("out"), "blind"}));
+}
+
+TEST(ResultsFolderOf, AnEndAtAnyMomentLeavesAFolderThatCanBeUsedAgain) {
+  // What a kill leaves between noting a hash and writing its file, and in the midst of noting it.
+  const ScratchFolder scratch;
+  const ResultsFolder folder{scratch.file("out"), "rank"};
+  write_files(folder, {{"rank.json", "1"}});
+  ResultsRegister(folder.path).add("rank", {{"rank.json", sha256_hex("2")}});
+  EXPECT_NO_THROW(require_results_folder(folder)) << "the file before is ours still";
+  scratch.write("out/rank.json", "2");
+  EXPECT_NO_THROW(require_results_folder(folder)) << "and so is the one after";
+  const std::string noted = text_of(scratch.file("out/.driftscope"));
+  scratch.write("out/.driftscope", noted.substr(0, noted.size() - 7));  // torn: "2" is not noted
+  EXPECT_THROW(require_results_folder(folder), InputError);
+  scratch.write("out/rank.json", "1");
+  write_files(folder, {{"rank.json", "3"}});
+  EXPECT_NO_THROW(require_results_folder(folder)) << "what is noted later has a line of its own";
+}
+
+TEST(ResultsFolderOf, NothingIsWrittenThroughALinkedFolder) {
+  const ScratchFolder scratch;
+  const ResultsFolder folder{scratch.file("out"), "blind"};
+  begin_results(folder);
+  fs::create_directory(scratch.file("elsewhere"));
+  fs::create_symlink("../elsewhere", scratch.file("out/trials"));
+  EXPECT_THROW(write_files(folder, {{"trials/0001/study.toml", "x"}}), InputError);
+  EXPECT_TRUE(fs::is_empty(scratch.file("elsewhere")));
+}
+
+}  // namespace
+}  // namespace drift

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "core/estimate/batch.hpp"
+#include "core/estimate/ekf.hpp"
+#include "core/estimate/iterated_ekf.hpp"
+
+namespace drift::test {
+
+/// An estimator by name, from a recording to a result.
+struct Estimator {
+  std::string_view name;
+  EstimateResult (*run)(const FilterSpec& filter, const Timeline& timeline, const Readout& readout,
+                        const Measurements& measured, const Theta& start);
+};
+
+inline EstimateResult by_ekf(const FilterSpec& filter, const Timeline& timeline,
+                             const Readout& readout, const Measurements& measured,
+                             const Theta& start) {
+  return run_ekf(filter, {timeline, readout, measured}, start);
+}
+
+inline EstimateResult by_iterated_ekf(const FilterSpec& filter, const Timeline& timeline,
+                                      const Readout& readout, const Measurements& measured,
+                                      const Theta& start) {
+  const Layout layout = make_layout(filter);
+  IteratedEkf ekf(filter, timeline, readout, start);
+  ekf.run(measured, start);
+  EstimateResult r;
+  r.status = ekf.status();
+  r.cause = ekf.cause();
+  r.covariance = ekf.settled_covariance();
+  r.parameters = parameter_estimates(layout, layout.scaled(start), ekf.x(), r.covariance);
+  r.statistic = ekf.innovations().nis;
+  r.measured = ekf.innovations().scalars;
+  return r;
+}
+
+inline EstimateResult by_batch(const FilterSpec& filter, const Timeline& timeline,
+                               const Readout& readout, const Measurements& measured,
+                               const Theta& start) {
+  return fit_batch(filter, {timeline, readout, measured}, start).estimate;
+}
+
+/// Those that go through the measurements in order, and so can have process noise.
+inline constexpr Estimator sequential_estimators[] = {{"ekf", by_ekf},
+                                                      {"iterated", by_iterated_ekf}};
+inline constexpr Estimator every_estimator[] = {
+    {"ekf", by_ekf}, {"iterated", by_iterated_ekf}, {"batch", by_batch}};
+
+}  // namespace drift::test

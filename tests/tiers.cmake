@@ -1,0 +1,12 @@
+# Which tier a test belongs to, as filters of GoogleTest. Every test is `fast` unless it is named here;
+# the fast ones take less than three minutes together on two cores. tests/architecture/check_tiers.cmake
+# finds filters that select nothing.
+
+# Seconds each: what simulates, diagnoses or runs the program many times over.
+set(DRIFT_FULL_TESTS
+  Advise.* AdviceFollowed.* BlindInterrupted.* BlindSmall.* BlindStudy.* Bytes.* Crossed*.* Diagnose.* DiagnoseCommand.*
+  Equation.* Estimators/EveryTermUnder.* EveryTerm*.* FailedWrite.* FitEitherEquation.* LambdaFilter.* Matched*.*
+  Nearest.* NothingReplaced.* OddInput.* RankCommand.* Readme.* Recording/BinaryFuzz.* RecordingFuzz.* Search.*
+  Sensitivity.* SiteDoubt.* Strapdown*.* StudyConfig.Misspelt* StudyMutation.* StudyReport.* SweepPictures.*)
+# Minutes each: not run unless asked for.
+set(DRIFT_NIGHTLY_TESTS *Nightly*.* Estimators/EveryTermUnder.IsConsistentOrRefusedInSlews/batch)
