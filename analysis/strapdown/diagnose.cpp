@@ -19,7 +19,6 @@ using namespace diagnosis;
 using namespace inference;
 using namespace search;
 
-constexpr double surely = 2.0;  // standard errors, as in the ladder
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// The gain of a trial in standard errors: the best of its kinds if it is accepted, the worst if a
@@ -90,7 +89,7 @@ class Diagnoser {
       if (f.model.equation == nominal_.model.equation) final_ = &f;
     if (nominal_.model.equation != Coupling::eq6 || r_.contest.empty()) return;
     const auto& contest = r_.contest.front();
-    if (!(contest.z > surely)) return;
+    if (!(contest.z > surely_better)) return;
     for (const Final& f : r_.accepted)
       if (f.model.equation == Coupling::eq5) final_ = &f;
     Cause closure;

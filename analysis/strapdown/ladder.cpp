@@ -6,8 +6,7 @@
 namespace drift::strapdown {
 namespace {
 
-constexpr double surely = 2.0;     // standard errors by which a model must be better
-constexpr double tolerated = 1.0;  // and may seem worse on the other kind of data
+constexpr double tolerated = 1.0;  // standard errors by which it may seem worse on the other data
 
 std::vector<std::size_t> joined(std::vector<std::size_t> a, const std::vector<std::size_t>& b) {
   a.insert(a.end(), b.begin(), b.end());
@@ -146,12 +145,12 @@ class GyroLadder {
     trial.verdict = Verdict::rejected;
     trial.z_dwell = paired_gain(against.dwell->errors, trial.dwell->errors);
     trial.z_rotation = paired_gain(against.rotation->errors, trial.rotation->errors);
-    const bool better = trial.z_dwell > surely || trial.z_rotation > surely;
+    const bool better = trial.z_dwell > surely_better || trial.z_rotation > surely_better;
     const bool no_worse = trial.z_dwell > -tolerated && trial.z_rotation > -tolerated;
     if (better && no_worse) {
       trial.verdict = Verdict::accepted;
-      trial.reason = trial.z_rotation > surely ? "held-out rotations are predicted better"
-                                               : "held-out dwells are predicted better";
+      trial.reason = trial.z_rotation > surely_better ? "held-out rotations are predicted better"
+                                                      : "held-out dwells are predicted better";
     } else if (!no_worse) {
       trial.reason = trial.z_rotation > -tolerated ? "held-out dwells get worse"
                                                    : "held-out rotations get worse";
@@ -225,7 +224,7 @@ AccelerometerModel climb_accelerometers(const Evidence& evidence, const Scoring&
                  1.0 / scoring.gravity, scoring.division.seed);
     if (best_trial.gravity) {
       trial.z_dwell = paired_gain(best_trial.gravity->errors, trial.gravity->errors);
-      const bool better = trial.z_dwell > surely;
+      const bool better = trial.z_dwell > surely_better;
       trial.verdict = better ? Verdict::accepted : Verdict::rejected;
       trial.reason =
           better ? "held-out dwells are closer to 1 g" : "no sure gain on held-out dwells";

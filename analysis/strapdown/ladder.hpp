@@ -10,6 +10,9 @@
 
 namespace drift::strapdown {
 
+inline constexpr double surely_better =
+    2.0;  ///< [standard errors] a better model must be better by
+
 /// What held-out data say of a model against the one it is compared with.
 enum class Verdict {
   reference,  ///< the first; nothing to compare with

@@ -12,7 +12,6 @@
 namespace drift {
 namespace {
 
-using config::Node;
 using config::Option;
 using config::Section;
 
@@ -56,7 +55,7 @@ void read_loop(Section loop, TruthSpec& spec) {
       const std::string_view own = TermLibrary::specs[i].key;
       const std::string_view key = loop.has(own) ? own : group;
       loop.take(own);
-      const Node* node = loop.take(key);
+      const config::Node* node = loop.take(key);
       if (node == nullptr) continue;
       if (spec.loop == LoopEstimate::feedback)
         loop.report().error(node->at,
@@ -74,7 +73,7 @@ void read_loop(Section loop, TruthSpec& spec) {
 }
 
 /// One explicit start: parameter keys and plain values, of parameters that the filter estimates.
-Start read_start(Section table, const Node& node, const FilterSpec& spec) {
+Start read_start(Section table, const config::Node& node, const FilterSpec& spec) {
   Start start;
   for (const auto& member : node.members) {
     const auto wrong = [&](std::string_view what, const std::string& fix) {
@@ -110,8 +109,8 @@ Start read_start(Section table, const Node& node, const FilterSpec& spec) {
 
 void read_starts(Section& section, FilterSpec& spec) {
   constexpr int most = 1000;
-  const Node* node = section.take("starts");
-  if (node == nullptr || !node->is(Node::Kind::array)) {
+  const config::Node* node = section.take("starts");
+  if (node == nullptr || !node->is(config::Node::Kind::array)) {
     section.read(Option{"starts", unit::one, 1, most, "number of starts"}, spec.drawn_starts);
     return;
   }

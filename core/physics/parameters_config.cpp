@@ -11,7 +11,6 @@
 namespace drift {
 namespace {
 
-using config::Node;
 using config::Option;
 constexpr auto& specs = TermLibrary::specs;
 
@@ -54,7 +53,7 @@ ParamMask parameters_in(std::string_view key) {  // one, or a group
   return mask;
 }
 
-void read_entry(config::Section& section, const Node& entry, ParamMask& mask) {
+void read_entry(config::Section& section, const config::Node& entry, ParamMask& mask) {
   const auto wrong = [&](const std::string& what, const std::string& fix) {
     section.report().error(
         entry.at,
@@ -62,7 +61,7 @@ void read_entry(config::Section& section, const Node& entry, ParamMask& mask) {
                     "\"D_I_z\"). {}",
                     section.full("terms"), what, fix));
   };
-  if (!entry.is(Node::Kind::string))
+  if (!entry.is(config::Node::Kind::string))
     return wrong("contains " + describe(entry), "Put the key of a term in quotes");
   const ParamMask named = params_named(entry.text);
   if (named.none()) {
@@ -79,7 +78,7 @@ void read_entry(config::Section& section, const Node& entry, ParamMask& mask) {
   mask |= TermLibrary::completed(named);
 }
 
-void read_value(config::Section& table, std::string_view key, const Node& node,
+void read_value(config::Section& table, std::string_view key, const config::Node& node,
                 const ParamMask& which, ModelSpec& spec, ParamMask& done) {
   for (std::size_t i = 0; i < specs.size(); ++i) {
     if (!which[i] || done[i]) continue;
@@ -156,11 +155,11 @@ std::vector<std::string> terms_text(const ParamMask& mask) {
 ParamMask read_terms(config::Section& section, Coupling coupling) {
   const std::string key = section.full("terms");
   const std::size_t errors = section.report().errors();
-  const Node* node = section.take("terms");
+  const config::Node* node = section.take("terms");
   ParamMask mask;
   if (node == nullptr) {
     mask = base_parameters();
-  } else if (!node->is(Node::Kind::array)) {
+  } else if (!node->is(config::Node::Kind::array)) {
     section.report().error(
         node->at, fmt::format("'{}' is {} (expected a list of terms). Write [\"fixed_drift\", "
                               "\"g_drift\"]",
@@ -187,7 +186,7 @@ ParamMask read_terms(config::Section& section, Coupling coupling) {
 
 void read_parameters(config::Section& section, ModelSpec& spec) {
   for (std::size_t i = 0; i < specs.size(); ++i) spec.priors[i] = specs[i].prior_si();
-  const Node* node = section.take("parameters");
+  const config::Node* node = section.take("parameters");
   config::Section table(section.report(), node, node == nullptr ? section.at() : node->at,
                         section.full("parameters"));
   ParamMask done;
@@ -233,7 +232,7 @@ void read_parameters(config::Section& section, ModelSpec& spec) {
 
 std::optional<double> read_parameter(config::Section& table, std::string_view key,
                                      std::size_t index) {
-  const Node* node = table.take(key);
+  const config::Node* node = table.take(key);
   if (node == nullptr) return std::nullopt;
   const auto q = read_quantity(table.report(), *node, table.full(key), plausible(specs[index]));
   if (!q) return std::nullopt;

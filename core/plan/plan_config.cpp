@@ -12,7 +12,6 @@
 namespace drift {
 namespace {
 
-using config::Node;
 using config::Option;
 using config::Section;
 
@@ -24,7 +23,7 @@ constexpr Option sample_option{"sample", unit::s, 1e-3, 1e5, "sample interval"};
 /// A dwell is a whole number of sample intervals, at least one and not beyond memory.
 void check_samples(Section& section, double dwell, double sample) {
   constexpr double most = 1e7;
-  const Node* node = section.has("dwell") ? section.take("dwell") : section.take("sample");
+  const config::Node* node = section.has("dwell") ? section.take("dwell") : section.take("sample");
   const config::Place at = node == nullptr ? section.at() : node->at;
   const double count = std::round(dwell / sample);
   if (!(std::abs(dwell / sample - count) <= 1e-9 * count && count >= 1.0))
@@ -86,9 +85,9 @@ Position read_position(Section section, std::size_t number, const PlanDefaults& 
 
 void read_positions(Section& section, const PlanDefaults& defaults, TestPlan& plan) {
   constexpr std::size_t most = 10000;
-  const Node* node = section.take("position");
+  const config::Node* node = section.take("position");
   auto list = section.sections("position");
-  if (node->is(Node::Kind::array) && (list.empty() || list.size() > most))
+  if (node->is(config::Node::Kind::array) && (list.empty() || list.size() > most))
     section.report().error(node->at,
                            fmt::format("'{}' lists {} positions (expected 1 to {}). List the "
                                        "positions, or name a preset",
@@ -141,8 +140,8 @@ void read_platform(Section& section, TestPlan& plan) {
                plan.slew_rate);
   section.read(Option{"case_rate", unit::deg_per_s, 1e-4, 360.0, "of the turntable"},
                plan.case_rate);
-  const Node* position = section.take("position");
-  const Node* preset = section.take("preset");
+  const config::Node* position = section.take("position");
+  const config::Node* preset = section.take("preset");
   if (position != nullptr && preset != nullptr)
     section.report().error(
         preset->at, fmt::format("'{}' is given together with [[plan.position]] (expected one of "

@@ -9,8 +9,6 @@
 namespace drift {
 namespace {
 
-constexpr std::string_view again = "Copy or export the file again";
-
 /// Text of a scalar attribute: a string, or a number in digits. Empty if it is anything else.
 std::optional<std::string> attribute_text(hid_t object, const char* name) {
   const Hdf5Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
@@ -54,7 +52,7 @@ bool all_written(hid_t dataset, std::string_view name, hsize_t n, std::size_t si
     return false;
   };
   const Hdf5Handle plan(H5Dget_create_plist(dataset), H5Pclose);
-  if (!plan) return bad("the dataset cannot be examined", again);
+  if (!plan) return bad("the dataset cannot be examined", copy_again);
   const H5D_layout_t layout = H5Pget_layout(plan.get());
   if (layout == H5D_VIRTUAL || H5Pget_external_count(plan.get()) > 0)
     return bad("the values are in another file", "Export a file that holds its own data");
@@ -63,20 +61,20 @@ bool all_written(hid_t dataset, std::string_view name, hsize_t n, std::size_t si
   const auto stored = static_cast<double>(H5Dget_storage_size(dataset));
   if (layout != H5D_CHUNKED)
     return stored >= bytes ||
-           bad(fmt::format("{} values declared, {} bytes stored", n, stored), again);
+           bad(fmt::format("{} values declared, {} bytes stored", n, stored), copy_again);
   hsize_t chunk = 0, written = 0;
   if (H5Pget_chunk(plan.get(), 1, &chunk) < 1 || chunk == 0)
-    return bad("the chunks cannot be examined", again);
+    return bad("the chunks cannot be examined", copy_again);
   const Hdf5Handle space(H5Dget_space(dataset), H5Sclose);
   if (!space || H5Dget_num_chunks(dataset, space.get(), &written) < 0)
-    return bad("the chunks cannot be examined", again);
+    return bad("the chunks cannot be examined", copy_again);
   const hsize_t expected = n / chunk + (n % chunk != 0 ? 1 : 0);
   if (written < expected)
     return bad(fmt::format("{} of {} chunks were never written", expected - written, expected),
                "The writer was stopped: end the recording properly");
   // deflate shrinks by at most 1032
   return bytes <= 1100.0 * stored + 1e6 ||
-         bad("the values cannot be so many in so few bytes", again);
+         bad("the values cannot be so many in so few bytes", copy_again);
 }
 
 class Hdf5Reader {
@@ -110,7 +108,8 @@ class Hdf5Reader {
 
  private:
   void damaged(std::string_view what) {
-    sink_.problems().add("", what, "an undamaged HDF5 file with one dataset per channel", again);
+    sink_.problems().add("", what, "an undamaged HDF5 file with one dataset per channel",
+                         copy_again);
   }
 
   static herr_t on_attribute(hid_t root, const char* name, const H5A_info_t*, void* self) {
@@ -131,12 +130,12 @@ class Hdf5Reader {
     if (link != H5L_TYPE_HARD)
       return bad("it is a link to elsewhere", "Store the values under this name");
     const Hdf5Handle object(H5Oopen(root, name.c_str(), H5P_DEFAULT), H5Oclose);
-    if (!object) return bad("it cannot be opened", again);
+    if (!object) return bad("it cannot be opened", copy_again);
     if (H5Iget_type(object.get()) != H5I_DATASET)
       return bad("it is a group or a type", "Put the channels into the root group, without groups");
     const Hdf5Handle type(H5Dget_type(object.get()), H5Tclose);
     const Hdf5Handle space(H5Dget_space(object.get()), H5Sclose);
-    if (!type || !space) return bad("it cannot be examined", again);
+    if (!type || !space) return bad("it cannot be examined", copy_again);
     const H5T_class_t kind = H5Tget_class(type.get());
     if (kind != H5T_INTEGER && kind != H5T_FLOAT)
       return bad(kind == H5T_STRING ? "it holds text" : "it holds no numbers",
@@ -145,7 +144,7 @@ class Hdf5Reader {
       return bad(fmt::format("it has {} dimensions", H5Sget_simple_extent_ndims(space.get())),
                  "Write one dataset per channel");
     const hssize_t n = H5Sget_simple_extent_npoints(space.get());
-    if (n < 0) return bad("its length cannot be read", again);
+    if (n < 0) return bad("its length cannot be read", copy_again);
     if (!all_written(object.get(), in_quotes(name), static_cast<hsize_t>(n),
                      H5Tget_size(type.get()), sink_.problems()))
       return;

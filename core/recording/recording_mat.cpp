@@ -14,8 +14,6 @@
 namespace drift {
 namespace {
 
-constexpr std::string_view again = "Copy or export the file again";
-
 using Variable = std::unique_ptr<matvar_t, void (*)(matvar_t*)>;
 using MatFile = std::unique_ptr<mat_t, int (*)(mat_t*)>;
 
@@ -125,7 +123,7 @@ class MatReader {
                    "Save one variable per channel");
     }
     if (Mat_VarReadDataAll(file, v) != 0)
-      return bad("its values cannot be read", "an undamaged file", again);
+      return bad("its values cannot be read", "an undamaged file", copy_again);
     if (name == "facts") {
       read_facts(v);
     } else if (name == "units" && v->class_type == MAT_C_STRUCT) {
@@ -142,7 +140,7 @@ class MatReader {
       if (const auto values = numbers(*v, n))
         sink_.column(name, *values);
       else
-        bad("its values cannot be read", "an undamaged file", again);
+        bad("its values cannot be read", "an undamaged file", copy_again);
     }
   }
 
@@ -223,7 +221,7 @@ std::optional<std::size_t> count_mat_v5_variables(const std::string& path) {
 
 void read_mat(const std::string& path, RawSink& sink) {
   const auto damaged = [&](std::string_view what) {
-    sink.problems().add("", what, "a complete MATLAB file, v5 to v7.3", again);
+    sink.problems().add("", what, "a complete MATLAB file, v5 to v7.3", copy_again);
   };
   const MatFile file(Mat_Open(path.c_str(), MAT_ACC_RDONLY), Mat_Close);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);

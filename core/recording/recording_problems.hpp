@@ -9,6 +9,9 @@
 
 namespace drift {
 
+/// What to do about a damaged file.
+inline constexpr std::string_view copy_again = "Copy or export the file again";
+
 /// What is wrong with one file, message by message; the first `cap` are kept, the rest counted.
 class Problems {
  public:

@@ -26,7 +26,7 @@ Rule rule_of(const Channel& c) {
 }
 
 /// Rows first..end of one stretch.
-struct Stretch {
+struct Joined {
   std::size_t first = 0, end = 0;
 };
 
@@ -44,8 +44,8 @@ class Cutter {
       if (c.name.starts_with("cmd_")) commands_.push_back(&c);
   }
 
-  std::vector<Stretch> cut() const {
-    std::vector<Stretch> all;
+  std::vector<Joined> cut() const {
+    std::vector<Joined> all;
     double origin = 0.0;
     for (std::size_t row = 0; row < time_.size(); ++row) {
       const bool position_changed =
@@ -67,7 +67,7 @@ class Cutter {
     return std::floor((time_[row] - origin - 0.5 * interval_) / length_);
   }
 
-  bool cut_before(std::size_t row, const Stretch& open) const {
+  bool cut_before(std::size_t row, const Joined& open) const {
     if (phase_ && phase_->values[row] != phase_->values[row - 1]) return true;
     for (const Channel* c : commands_)
       if (std::abs(c->values[row] - c->values[open.first]) > same_command) return true;
@@ -90,7 +90,7 @@ class Cutter {
 
 /// Mean over a stretch of `expected` samples, from those that are there: the value of the straight
 /// line through them at its centre.
-double bridged_mean(const std::vector<double>& t, const std::vector<double>& x, const Stretch& s,
+double bridged_mean(const std::vector<double>& t, const std::vector<double>& x, const Joined& s,
                     double interval, double expected) {
   const double centre = 0.5 * (t[s.first] + t[s.end - 1]);
   double n = 0.0, mt = 0.0, mx = 0.0;
@@ -138,17 +138,17 @@ SampleIntervals sample_intervals(const Recording& recording) {
 
 Recording reduced(const Recording& recording, double interval, std::size_t factor) {
   DRIFT_DEMAND(interval > 0.0 && factor >= 1 && recording.rows() > 0);
-  const std::vector<Stretch> stretches = Cutter(recording, interval, factor).cut();
+  const std::vector<Joined> stretches = Cutter(recording, interval, factor).cut();
   const auto& t = recording.find("time")->values;
   Recording out;
   out.source = recording.source;
   out.facts = recording.facts;
-  for (const Stretch& s : stretches) out.lines.push_back(recording.lines[s.end - 1]);
+  for (const Joined& s : stretches) out.lines.push_back(recording.lines[s.end - 1]);
   for (const Channel& c : recording.channels) {
     Channel reduced_channel{c.name, c.unit, {}};
     reduced_channel.values.reserve(stretches.size());
     const Rule rule = rule_of(c);
-    for (const Stretch& s : stretches) {
+    for (const Joined& s : stretches) {
       // The rows the stretch spans, gaps in time counted; rows cut off by a command are no gap.
       const double expected = std::round((t[s.end - 1] - t[s.first]) / interval) + 1.0;
       reduced_channel.values.push_back(rule == Rule::last

@@ -62,8 +62,8 @@ std::string pair_text(const Advice& a, const AdvisedPair& p, std::string_view be
 }
 
 /// "a, b, c and 4 more"; each once, whichever way round.
-std::string listed(const Advice& a, const std::vector<AdvisedPair>& pairs,
-                   std::string_view between) {
+std::string pairs_in_words(const Advice& a, const std::vector<AdvisedPair>& pairs,
+                           std::string_view between) {
   std::vector<std::string> texts;
   std::set<std::pair<std::string, std::string>> said;
   for (const AdvisedPair& p : pairs) {
@@ -154,12 +154,12 @@ std::string hidden_text(const Advice& a) {
         "No {} of {} possible additions show {}{} with {:g} sigma: what the nominal model fits "
         "takes "
         "the trace, or it is too small for these instruments.",
-        a.most, a.pool, listed(a, unseen, ""), size, AdviceLimits::told);
+        a.most, a.pool, pairs_in_words(a, unseen, ""), size, AdviceLimits::told);
   if (!near.empty())
     text += fmt::format(
         "{}No {} of {} possible additions separate {}{} by {:g} sigma: another measurement is "
         "needed.",
-        text.empty() ? "" : " ", a.most, a.pool, listed(a, near, " from "), size,
+        text.empty() ? "" : " ", a.most, a.pool, pairs_in_words(a, near, " from "), size,
         AdviceLimits::told);
   return text;
 }
@@ -197,7 +197,7 @@ std::string advice_text(const Advice& a) {
           "No position of the pool separates {}: they leave the same trace in all of them. Another "
           "measurement is needed, of one of them by itself (a bench test of the instrument, say); "
           "more positions are futile.",
-          listed(a, a.pairs, " and "));
+          pairs_in_words(a, a.pairs, " and "));
     case Advice::Kind::hidden:
       return hidden_text(a);
     case Advice::Kind::temperature:

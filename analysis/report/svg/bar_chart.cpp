@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/report/svg/svg_canvas.hpp"
 #include "core/base/number_text.hpp"
 
 namespace drift::report {
 namespace {
 
-constexpr double row = 22.0, edge = 14.0, axis_height = 44.0;  // [px]
+constexpr double row = 22.0, axis_height = 44.0;  // [px]
 
 std::string text_of(const Bar& bar) {
   if (!bar.text.empty()) return bar.text;
@@ -29,14 +30,15 @@ std::string svg_of(const BarChart& chart) {
   if (chart.limit) range.include(chart.limit->y);
   label_width = std::min(label_width, 0.5 * chart.width);
 
-  const double x0 = edge + label_width + 8.0, w = chart.width - x0 - value_width - edge - 8.0;
+  const double x0 = canvas_edge + label_width + 8.0,
+               w = chart.width - x0 - value_width - canvas_edge - 8.0;
   const double y0 = (chart.title.empty() ? 8.0 : 40.0) + (chart.limit ? 16.0 : 0.0);
   const double h = row * static_cast<double>(chart.bars.size());
   const AxisScale scale = make_scale(range, static_cast<int>(w / 60.0), 0.02);
   const auto x_of = [&](double v) { return x0 + scale.at(v, w); };
 
   SvgCanvas canvas(chart.width, y0 + h + axis_height, chart.title);
-  canvas.text(edge, 24.0, chart.title, {.size = 15.0, .bold = true});
+  canvas.text(canvas_edge, 24.0, chart.title, {.size = 15.0, .bold = true});
   for (std::size_t i = 0; i < scale.ticks.size(); ++i) {
     const double x = x_of(scale.ticks[i]);
     canvas.line(x, y0, x, y0 + h + 4.0, "#e4e4e4", 1.0);

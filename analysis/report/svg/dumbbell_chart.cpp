@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/report/svg/svg_canvas.hpp"
 #include "core/base/number_text.hpp"
 
 namespace drift::report {
 namespace {
 
-constexpr double row = 19.0, edge = 14.0, axis_height = 44.0;  // [px]
+constexpr double row = 19.0, axis_height = 44.0;  // [px]
 constexpr std::string_view before_colour = "#D55E00", after_colour = "#0072B2";
 
 /// Values along the axis: themselves, or their decimal logarithm.
@@ -46,22 +47,23 @@ std::string svg_of(const DumbbellChart& chart) {
   }
   if (chart.limit) range.include(spaced(chart.limit->y, chart.spacing));
   label_width = std::min(label_width, 0.4 * chart.width);
-  const double x0 = edge + label_width + 10.0;
-  const double w = chart.width - x0 - text_width - edge - 14.0;
+  const double x0 = canvas_edge + label_width + 10.0;
+  const double w = chart.width - x0 - text_width - canvas_edge - 14.0;
   const double y0 = (chart.title.empty() ? 30.0 : 58.0) + (chart.limit ? 14.0 : 0.0);
   const double h = row * static_cast<double>(chart.lines.size());
   const AxisScale scale = make_scale(range, static_cast<int>(w / 60.0), 0.03);
   const auto x_of = [&](double v) { return x0 + scale.at(spaced(v, chart.spacing), w); };
 
   SvgCanvas canvas(chart.width, y0 + h + axis_height, chart.title);
-  canvas.text(edge, 24.0, chart.title, {.size = 15.0, .bold = true});
+  canvas.text(canvas_edge, 24.0, chart.title, {.size = 15.0, .bold = true});
   const double key = chart.title.empty() ? 16.0 : 44.0;
   mark(canvas, x0 + 4.0, key - 4.0, before_colour);
   canvas.text(x0 + 14.0, key, chart.before_label);
   const double second = x0 + 34.0 + text_pixels(chart.before_label, 11.0);
   mark(canvas, second, key - 4.0, after_colour);
   canvas.text(second + 10.0, key, chart.after_label);
-  canvas.text(chart.width - edge, y0 - 8.0, chart.text_label, {.size = 10.5, .anchor = "end"});
+  canvas.text(chart.width - canvas_edge, y0 - 8.0, chart.text_label,
+              {.size = 10.5, .anchor = "end"});
   for (const std::size_t i : shown_ticks(scale, chart.spacing)) {
     const double x = x0 + scale.at(scale.ticks[i], w);
     canvas.line(x, y0, x, y0 + h + 4.0, "#e4e4e4", 1.0);
@@ -84,7 +86,7 @@ std::string svg_of(const DumbbellChart& chart) {
       canvas.line(x_of(d.low), y, x_of(d.high), y, after_colour, 3.0);
     mark(canvas, from, y, before_colour);
     mark(canvas, to, y, after_colour);
-    canvas.text(chart.width - edge, y + 4.0, d.text, {.size = 10.5, .anchor = "end"});
+    canvas.text(chart.width - canvas_edge, y + 4.0, d.text, {.size = 10.5, .anchor = "end"});
   }
   if (chart.limit)
     if (const double x = x_of(chart.limit->y); std::isfinite(x)) {

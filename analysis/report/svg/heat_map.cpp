@@ -12,8 +12,8 @@
 namespace drift::report {
 namespace {
 
-constexpr double edge = 14.0, least_cell = 9.0, most_cell = 70.0;  // [px]
-constexpr double numbers_from = 34.0;  // width of a cell that holds a number [px]
+constexpr double least_cell = 9.0, most_cell = 70.0;  // [px]
+constexpr double numbers_from = 34.0;                 // width of a cell that holds a number [px]
 
 /// From white to the blue or orange of the palette; x in -1..1.
 std::string colour_of(double x) {
@@ -57,11 +57,12 @@ std::string svg_of(const HeatMap& map) {
   }
   if (!(most > 0.0)) most = 1.0;
   label = std::min(label, 0.45 * map.width) + (map.y_label.empty() ? 0.0 : 18.0);
-  const double x0 = edge + label + 8.0;
-  const double cell = std::clamp(
-      (map.width - x0 - edge) / std::max(static_cast<double>(columns), 1.0), least_cell, most_cell);
-  const double width = std::max({map.width, x0 + cell * static_cast<double>(columns) + edge,
-                                 text_pixels(map.title, 15.0) + 2.0 * edge});
+  const double x0 = canvas_edge + label + 8.0;
+  const double cell =
+      std::clamp((map.width - x0 - canvas_edge) / std::max(static_cast<double>(columns), 1.0),
+                 least_cell, most_cell);
+  const double width = std::max({map.width, x0 + cell * static_cast<double>(columns) + canvas_edge,
+                                 text_pixels(map.title, 15.0) + 2.0 * canvas_edge});
   const double y0 = map.title.empty() ? 10.0 : 42.0;
   const double bottom = y0 + row_height * static_cast<double>(rows);
   const bool turned = column_label > cell - 4.0;
@@ -69,9 +70,9 @@ std::string svg_of(const HeatMap& map) {
       (turned ? std::min(column_label, 160.0) + 10.0 : 18.0) + (map.x_label.empty() ? 0.0 : 20.0);
 
   SvgCanvas canvas(width, bottom + under + 44.0, map.title);
-  canvas.text(edge, 24.0, map.title, {.size = 15.0, .bold = true});
+  canvas.text(canvas_edge, 24.0, map.title, {.size = 15.0, .bold = true});
   if (!map.y_label.empty())
-    canvas.text(edge + 8.0, 0.5 * (y0 + bottom), map.y_label,
+    canvas.text(canvas_edge + 8.0, 0.5 * (y0 + bottom), map.y_label,
                 {.anchor = "middle", .turned = -90.0});
   for (Eigen::Index i = 0; i < rows; ++i) {
     const double y = y0 + row_height * static_cast<double>(i);

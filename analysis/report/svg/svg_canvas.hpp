@@ -6,6 +6,8 @@
 
 namespace drift::report {
 
+inline constexpr double canvas_edge = 14.0;  ///< [px] left empty on either side of a picture
+
 /// How a line is drawn, beside its colour: curves must be told apart in print too.
 enum class Stroke { solid, dashed, dotted };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "analysis/report/svg/decimate.hpp"
+#include "analysis/report/svg/svg_canvas.hpp"
 #include "core/base/check.hpp"
 
 namespace drift::report {
@@ -11,7 +12,7 @@ namespace {
 
 // Around the axes of a panel [px].
 constexpr double left = 66.0, right = 14.0, top = 32.0, bottom = 48.0;
-constexpr double legend_line = 20.0, edge = 14.0;
+constexpr double legend_line = 20.0;
 constexpr std::string_view expected_fill = "#7F7F7F", reference_colour = "#222222";
 
 /// Draws one panel; its outer rectangle is given [px].
@@ -183,13 +184,13 @@ double paint_legend(SvgCanvas* canvas, const std::vector<LegendEntry>& entries, 
 std::string svg_of(const Chart& chart) {
   const std::size_t columns = std::max<std::size_t>(chart.columns, 1);
   const std::size_t rows = (chart.panels.size() + columns - 1) / columns;
-  const double width = std::max(static_cast<double>(columns) * chart.panel_width + edge,
-                                text_pixels(chart.title, 15.0) + 2.0 * edge);
+  const double width = std::max(static_cast<double>(columns) * chart.panel_width + canvas_edge,
+                                text_pixels(chart.title, 15.0) + 2.0 * canvas_edge);
   const auto legend = legend_of(chart);
   const double title = chart.title.empty() ? 6.0 : 34.0;
   const double head = title + paint_legend(nullptr, legend, 0.0, width);
   SvgCanvas canvas(width, head + static_cast<double>(rows) * chart.panel_height + 6.0, chart.title);
-  canvas.text(edge, 24.0, chart.title, {.size = 15.0, .bold = true});
+  canvas.text(canvas_edge, 24.0, chart.title, {.size = 15.0, .bold = true});
   paint_legend(&canvas, legend, title + 14.0, width);
   for (std::size_t k = 0; k < chart.panels.size(); ++k)
     PanelPainter(canvas, chart.panels[k], static_cast<double>(k % columns) * chart.panel_width,
