@@ -175,8 +175,9 @@ class Program {
     c->add_option("--runs", run_options_.runs,
                   "override monte_carlo.runs; more than before extends a study")
         ->check(whole(1, 1000000000));
-    c->add_option("--worker", run_options_.worker, "do part i of n of the study, i = 0 .. n - 1")
-        ->type_name("I/N");
+    c->add_option("--worker", run_options_.worker,
+                  "do part i of n of the study, i = 0 .. n - 1; auto: what Slurm, SGE or PBS says")
+        ->type_name("I/N|auto");
     c->add_option("--max-wall", run_options_.max_wall,
                   "stop after this time, resumable: 55m, 1h30m")
         ->type_name("TIME");

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "analysis/cli/batch_system.hpp"
 #include "analysis/cli/commands.hpp"
 #include "analysis/cli/frozen_study.hpp"
 #include "analysis/cli/print.hpp"
@@ -132,6 +133,14 @@ ExitCode run(const StudyArguments& arguments, const RunArguments& given,
     throw InputError(ExitCode::usage,
                      "--worker: mpirun shares out the work already (expected one or the other). "
                      "Leave out --worker");
+  if (const std::size_t tasks = tasks_of_step(process_environment);
+      tasks > 1 && ranks.size() == 1 && given.worker.empty())
+    throw InputError(
+        ExitCode::usage,
+        fmt::format("srun has started {} tasks that know nothing of each other: each would do the "
+                    "whole study (expected one task, MPI, or a part for each). Add --worker auto, "
+                    "or start it with srun --mpi=pmix",
+                    tasks));
   require_results_folder({folder, "run"});
   mc::claim_folder(folder, manifest);
   begin_results({folder, "run"});

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <string_view>
 
+#include "analysis/cli/batch_system.hpp"
 #include "core/base/check.hpp"
 
 namespace drift::cli {
@@ -36,6 +37,7 @@ double unit_seconds(std::string_view& text) {
 }  // namespace
 
 mc::WorkerShare parse_share(const std::string& text) {
+  if (text.starts_with("auto")) return share_of_batch_system(text, process_environment);
   std::string_view rest = text;
   const auto index = take_number<std::size_t>(rest);
   const bool slash = rest.starts_with('/');
@@ -44,9 +46,10 @@ mc::WorkerShare parse_share(const std::string& text) {
   if (!index || !slash || !count || !rest.empty() || *count == 0 || *index >= *count)
     throw InputError(
         ExitCode::usage,
-        fmt::format("--worker {}: expected i/n with i from 0 to n - 1. For a Slurm array 0-15: "
-                    "--worker $SLURM_ARRAY_TASK_ID/16",
-                    text));
+        fmt::format(
+            "--worker {}: expected i/n with i from 0 to n - 1, or auto in an array of Slurm, SGE "
+            "or PBS. For a Slurm array 0-15: --worker $SLURM_ARRAY_TASK_ID/16",
+            text));
   return {*index, *count};
 }
 

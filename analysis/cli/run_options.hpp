@@ -7,7 +7,8 @@
 
 namespace drift::cli {
 
-/// "3/16": worker 3 of 16, counted from 0. InputError (usage).
+/// "3/16": worker 3 of 16, counted from 0; "auto", "auto/16": as the batch system says. InputError
+/// (usage).
 mc::WorkerShare parse_share(const std::string& text);
 
 /// "55m", "1h30m", "90 s", "45" (seconds) -> seconds. InputError (usage) names the option.

@@ -5,13 +5,15 @@
 
 #include <array>
 #include <cstring>
+#include <iterator>
+
+#include "mc/engine/stop_signals.hpp"
 
 namespace drift::cli {
 namespace {
 
-constexpr std::array signals{SIGINT, SIGTERM, SIGHUP};
 const char* last_words = "";  // a signal handler reaches nothing but globals
-std::array<struct sigaction, signals.size()> before{};
+std::array<struct sigaction, std::size(mc::stop_signals)> before{};
 
 extern "C" void on_stop(int number) {
   if (::write(STDERR_FILENO, last_words, std::strlen(last_words)) < 0) {
@@ -27,15 +29,16 @@ StopAtOnce::StopAtOnce(const char* words) {
   struct sigaction action {};
   action.sa_handler = on_stop;
   sigemptyset(&action.sa_mask);
-  for (std::size_t i = 0; i < signals.size(); ++i) {
-    ::sigaction(signals[i], nullptr, &before[i]);
+  for (std::size_t i = 0; i < std::size(mc::stop_signals); ++i) {
+    ::sigaction(mc::stop_signals[i], nullptr, &before[i]);
     // What the parent chose to ignore (nohup) stays ignored.
-    if (before[i].sa_handler != SIG_IGN) ::sigaction(signals[i], &action, nullptr);
+    if (before[i].sa_handler != SIG_IGN) ::sigaction(mc::stop_signals[i], &action, nullptr);
   }
 }
 
 StopAtOnce::~StopAtOnce() {
-  for (std::size_t i = 0; i < signals.size(); ++i) ::sigaction(signals[i], &before[i], nullptr);
+  for (std::size_t i = 0; i < std::size(mc::stop_signals); ++i)
+    ::sigaction(mc::stop_signals[i], &before[i], nullptr);
 }
 
 }  // namespace drift::cli

@@ -2,7 +2,7 @@
 
 namespace drift::cli {
 
-/// While it lives, SIGINT, SIGTERM and SIGHUP say `words` on stderr and end the program at once,
+/// While it lives, mc::stop_signals say `words` on stderr and end the program at once,
 /// with exit code 128 + the signal: for work whose every step is stored or not begun.
 class StopAtOnce {
  public:

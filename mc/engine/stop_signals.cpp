@@ -5,13 +5,13 @@
 
 #include <array>
 #include <atomic>
+#include <iterator>
 
 namespace drift::mc {
 namespace {
 
-constexpr std::array signals{SIGINT, SIGTERM, SIGHUP};
 std::atomic<int> first_caught{0};  // a signal handler reaches nothing but globals
-std::array<struct sigaction, signals.size()> before{};
+std::array<struct sigaction, std::size(stop_signals)> before{};
 
 extern "C" void on_signal(int number) {
   int none = 0;
@@ -26,15 +26,16 @@ StopSignals::StopSignals() {
   action.sa_handler = on_signal;
   action.sa_flags = SA_RESTART;
   sigemptyset(&action.sa_mask);
-  for (std::size_t i = 0; i < signals.size(); ++i) {
-    sigaction(signals[i], nullptr, &before[i]);
+  for (std::size_t i = 0; i < std::size(stop_signals); ++i) {
+    sigaction(stop_signals[i], nullptr, &before[i]);
     // What the parent chose to ignore (nohup) stays ignored.
-    if (before[i].sa_handler != SIG_IGN) sigaction(signals[i], &action, nullptr);
+    if (before[i].sa_handler != SIG_IGN) sigaction(stop_signals[i], &action, nullptr);
   }
 }
 
 StopSignals::~StopSignals() {
-  for (std::size_t i = 0; i < signals.size(); ++i) sigaction(signals[i], &before[i], nullptr);
+  for (std::size_t i = 0; i < std::size(stop_signals); ++i)
+    sigaction(stop_signals[i], &before[i], nullptr);
 }
 
 int StopSignals::caught() const {

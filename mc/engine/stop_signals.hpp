@@ -1,9 +1,15 @@
 #pragma once
 
+#include <csignal>
+
 namespace drift::mc {
 
-/// While it lives, SIGINT, SIGTERM and SIGHUP ask the engine to stop instead of ending the process;
-/// a second signal ends it at once. At most one at a time.
+/// By these a user, a terminal or a batch system asks a program to end: USR1 and USR2 are sent by
+/// sites before the time of a job is over.
+inline constexpr int stop_signals[] = {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2};
+
+/// While it lives, stop_signals ask the engine to stop instead of ending the process; a second one
+/// ends it at once. At most one at a time.
 class StopSignals {
  public:
   StopSignals();

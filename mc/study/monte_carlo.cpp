@@ -14,9 +14,9 @@ namespace {
 using config::Option;
 using config::Section;
 
-constexpr Named<DesignKind> designs[] = {{"random", DesignKind::random},
-                                         {"latin_hypercube", DesignKind::latin_hypercube},
-                                         {"sobol", DesignKind::sobol}};
+constexpr Named<DesignKind> design_kinds[] = {{"random", DesignKind::random},
+                                              {"latin_hypercube", DesignKind::latin_hypercube},
+                                              {"sobol", DesignKind::sobol}};
 
 template <class Field>
 void visit_fields(MonteCarlo& o, Field&& field) {
@@ -57,7 +57,7 @@ MonteCarlo read_monte_carlo(Section section) {
   MonteCarlo out;
   visit_fields(out, [&](const Option& option, auto& value) { section.read(option, value); });
   section.read(Option{.key = "design", .doc = "how truth parameters are spread"}, out.design,
-               designs);
+               design_kinds);
   section.read(Option{.key = "estimator", .doc = "what makes the estimates"}, out.estimator,
                estimators);
   Section stop = section.section("stop");

@@ -1,0 +1,99 @@
+#include "analysis/cli/batch_system.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+
+#include "core/base/check.hpp"
+
+namespace drift::cli {
+namespace {
+
+std::optional<std::size_t> whole_number(std::string_view text) {
+  std::size_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+[[noreturn]] void refuse(std::string_view given, const std::string& why) {
+  throw InputError(
+      ExitCode::usage,
+      fmt::format("--worker {}: {} (expected the variables of an array of Slurm, SGE or PBS, or of "
+                  "srun). Give --worker i/n, or auto/n with the number of tasks",
+                  given, why));
+}
+
+/// One way in which a batch system numbers the tasks of an array.
+struct ArrayVariables {
+  const char* task;
+  const char* first;
+  const char* last;
+  const char* step;
+};
+constexpr ArrayVariables systems[] = {
+    {"SLURM_ARRAY_TASK_ID", "SLURM_ARRAY_TASK_MIN", "SLURM_ARRAY_TASK_MAX",
+     "SLURM_ARRAY_TASK_STEP"},
+    {"SGE_TASK_ID", "SGE_TASK_FIRST", "SGE_TASK_LAST", "SGE_TASK_STEPSIZE"},
+    {"PBS_ARRAY_INDEX", nullptr, nullptr, nullptr},
+    {"PBS_ARRAYID", nullptr, nullptr, nullptr},
+};
+
+}  // namespace
+
+std::optional<std::string> process_environment(const std::string& name) {
+  const char* value = std::getenv(name.c_str());
+  return value == nullptr ? std::nullopt : std::optional<std::string>(value);
+}
+
+std::size_t tasks_of_step(const Environment& environment) {
+  const auto text = environment("SLURM_STEP_NUM_TASKS");
+  return text ? whole_number(*text).value_or(1) : 1;
+}
+
+mc::WorkerShare share_of_batch_system(std::string_view text, const Environment& environment) {
+  const auto number = [&](const char* name) -> std::optional<std::size_t> {
+    const auto value = name == nullptr ? std::nullopt : environment(name);
+    return value ? whole_number(*value) : std::nullopt;  // SGE writes "undefined" outside of arrays
+  };
+  std::optional<std::size_t> given;
+  if (text.size() > 4) {
+    given = whole_number(text.substr(5));
+    if (text[4] != '/' || !given || *given == 0) refuse(text, "no number of tasks");
+  }
+  mc::WorkerShare share;
+  bool told = false;
+  for (const ArrayVariables& names : systems) {
+    const auto task = number(names.task);
+    if (!task) continue;
+    told = true;
+    const auto first = number(names.first), last = number(names.last);
+    const std::size_t step = std::max<std::size_t>(1, number(names.step).value_or(1));
+    if (given) {
+      share = {*task % *given, *given};
+    } else if (first && last && *first <= *task && *task <= *last) {
+      share = {(*task - *first) / step, (*last - *first) / step + 1};
+      const auto count = number("SLURM_ARRAY_TASK_COUNT");
+      if (names.task == systems[0].task && count && *count != share.count)
+        refuse(text, fmt::format("an array of {} tasks numbered {} to {}, not one after the other",
+                                 *count, *first, *last));
+    } else {
+      refuse(text, fmt::format("{} is set, but not how many tasks there are", names.task));
+    }
+    break;
+  }
+  const std::size_t tasks = tasks_of_step(environment);
+  const auto rank = number("SLURM_PROCID");
+  if (tasks > 1 && rank && *rank < tasks) {
+    if (!told && given && *given != tasks)
+      refuse(text, fmt::format("srun has started {} tasks", tasks));
+    share = {share.index * tasks + *rank, share.count * tasks};
+    told = true;
+  }
+  if (!told) refuse(text, "no batch system says which part this is");
+  return share;
+}
+
+}  // namespace drift::cli
