@@ -1,0 +1,28 @@
+#!/usr/bin/env bash
+# Installs a build, compiles the example against what was installed, from another folder, and runs it: by
+# CMake, and by pkg-config.
+#
+#   tests/installed.sh CMAKE BUILD_FOLDER [pkg-config]
+set -euo pipefail
+cmake=$1 build=$2
+here=$(cd "$(dirname "$0")" && pwd)
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+
+"$cmake" --install "$build" --prefix "$scratch/prefix" >"$scratch/log" || { cat "$scratch/log"; exit 1; }
+study=$scratch/prefix/share/driftscope/configs/cheap.toml
+"$scratch/prefix/bin/driftscope" check "$study" >/dev/null
+cp -r "$here/example" "$scratch/source"
+
+if [ "${3:-}" = pkg-config ]; then
+  export PKG_CONFIG_PATH=$scratch/prefix/lib/x86_64-linux-gnu/pkgconfig:$scratch/prefix/lib/pkgconfig
+  # shellcheck disable=SC2046
+  c++ -O1 "$scratch/source/example.cpp" -o "$scratch/example" $(pkg-config --cflags --libs driftscope)
+else
+  "$cmake" -S "$scratch/source" -B "$scratch/build" -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE=-O1 \
+    -DCMAKE_PREFIX_PATH="$scratch/prefix" >"$scratch/log" 2>&1 || { cat "$scratch/log"; exit 1; }
+  "$cmake" --build "$scratch/build" >"$scratch/log" 2>&1 || { cat "$scratch/log"; exit 1; }
+  cp "$scratch/build/example" "$scratch/example"
+fi
+"$scratch/example" "$study" | tee "$scratch/said"
+grep -q 'the plan says [1-9]' "$scratch/said"
