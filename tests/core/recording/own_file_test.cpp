@@ -88,8 +88,8 @@ TEST(OwnFile, Utf16IsDecodedWhereverItIsCut) {
   const std::string bytes("A\0\xE4\0\x3D\xD8\x00\xDE\xAC\x20", 10);
   for (std::size_t cut = 0; cut <= bytes.size(); ++cut) {
     Utf16Decoder decoder(Utf16Decoder::Order::little);
-    const std::string text =
-        decoder.decode(bytes.substr(0, cut)) + decoder.decode(bytes.substr(cut));
+    std::string text = decoder.decode(bytes.substr(0, cut));
+    text += decoder.decode(bytes.substr(cut));
     EXPECT_EQ(text, "A\u00E4\U0001F600\u20AC") << cut;
   }
 }
