@@ -7,7 +7,8 @@ namespace drift::blind {
 Solver diagnosing_solver() {
   return [](const std::string& study_path, const std::string& recording_path) {
     const mc::Study study = mc::read_study(study_path);
-    const Recording recording = read_recording(recording_path, study.kind, study.site.gravity);
+    const Recording recording =
+        read_recording(recording_path, study.recording, study.kind, study.site.gravity);
     diagnosis::RecordingsOptions options;
     options.advising =
         diagnosis::Advising::left_out;     // comes after the verdict and has no part in it

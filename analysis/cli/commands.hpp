@@ -76,7 +76,14 @@ ExitCode report(const std::string& folder, const StudyProgram& program);
 /// given: only where the verdict needs it.
 ExitCode diagnose(const StudyArguments& arguments, const std::vector<std::string>& recordings,
                   const std::string& folder, const std::optional<std::vector<std::string>>& advise);
+/// Writes the recording with the program's own columns and units.
+ExitCode convert(const StudyArguments& arguments, const std::string& recording,
+                 const std::string& output);
+/// Says what a file holds, with a study file or with none (config empty).
+ExitCode look(const StudyArguments& arguments, const std::string& recording);
 ExitCode terms(const std::string& key);
 ExitCode version(bool json);
+/// "driftscope 0.1.0 (commit)".
+std::string version_line();
 
 }  // namespace drift::cli

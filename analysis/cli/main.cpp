@@ -20,6 +20,7 @@ class Program {
   Program() {
     app_.require_subcommand(1);
     app_.get_formatter()->column_width(34);
+    app_.set_version_flag("--version", cli::version_line());
 
     CLI::App* check = command(
         "check", "read a study file, print all values and where each came from, run nothing",
@@ -53,6 +54,7 @@ class Program {
     add_looks();
 
     add_rank();
+    add_own_files();
 
     CLI::App* blind =
         command("blind",
@@ -156,6 +158,28 @@ class Program {
         ->check(cli::check_path);
     rank->add_flag("--json", rank_.json, "rank.json on stdout instead of tables");
     add_progress(*rank);
+  }
+
+  void add_own_files() {
+    CLI::App* convert =
+        command("convert", "a recording of your own with the program's columns and units",
+                "driftscope convert lab.toml log.txt -o recording.csv",
+                [this] { return cli::convert(study_, recordings_.front(), output_); });
+    add_study(*convert);
+    convert->add_option("recording", recordings_, "recording (.csv, .txt, .h5, .mat)")
+        ->required()
+        ->expected(1);
+    convert->add_option("-o,--output", output_, "recording to write (.csv, .h5 or .mat)")
+        ->required()
+        ->check(cli::check_path);
+
+    CLI::App* look = command("look", "what a file holds, and how to read it as a recording",
+                             "driftscope look log.txt",
+                             [this] { return cli::look(study_, recordings_.front()); });
+    look->add_option("recording", recordings_, "recording (.csv, .txt, .h5, .mat)")
+        ->required()
+        ->expected(1);
+    look->add_option("config", study_.config, "study file (TOML) to read it with");
   }
 
   void add_progress(CLI::App& c) {

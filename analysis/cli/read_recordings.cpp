@@ -22,7 +22,7 @@ std::vector<Recording> read_recordings(const mc::Study& study,
                         paths[k]));
   std::vector<Recording> recordings;
   for (const std::string& path : paths) {
-    recordings.push_back(read_recording(path, study.kind, study.site.gravity));
+    recordings.push_back(read_recording(path, study.recording, study.kind, study.site.gravity));
     show("{}\n", to_text(quality_card(recordings.back(), study.kind)));
   }
   return recordings;

@@ -25,6 +25,10 @@ nlohmann::ordered_json facts() {
 
 }  // namespace
 
+std::string version_line() {
+  return fmt::format("driftscope {} ({})", build_info().version, build_info().commit);
+}
+
 ExitCode version(bool json) {
   const auto j = facts();
   if (json) {

@@ -26,21 +26,56 @@ LineReader::~LineReader() {
   ::close(fd_);
 }
 
-bool LineReader::refill() {
-  if (begin_ > 0) {
-    std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
-    end_ -= begin_;
-    begin_ = 0;
-  }
+std::size_t LineReader::read_bytes(char* to, std::size_t most) {
   ssize_t got = 0;
-  do got = ::read(fd_, buffer_.data() + end_, buffer_.size() - end_);
+  do got = ::read(fd_, to, most);
   while (got < 0 && errno == EINTR);
   if (got < 0)
     throw InputError(ExitCode::io,
                      fmt::format("{}:{}: cannot be read on: {}. Check the disk or the "
                                  "network drive",
                                  path_, number_ + 1, std::strerror(errno)));
-  end_ += static_cast<std::size_t>(got);
+  return static_cast<std::size_t>(got);
+}
+
+void LineReader::take_mark() {
+  begun_ = true;
+  while (end_ < 3) {
+    const std::size_t got = read_bytes(buffer_.data() + end_, 3 - end_);
+    if (got == 0) break;
+    end_ += got;
+  }
+  const std::string_view start(buffer_.data(), end_);
+  std::size_t mark = 0;
+  if (start.starts_with("\xEF\xBB\xBF")) mark = 3;
+  if (start.starts_with("\xFF\xFE") || start.starts_with("\xFE\xFF")) {
+    mark = 2;
+    utf16_.emplace(start[0] == '\xFF' ? Utf16Decoder::Order::little : Utf16Decoder::Order::big);
+  }
+  std::string rest(start.substr(mark));
+  if (utf16_) rest = utf16_->decode(rest);
+  std::memcpy(buffer_.data(), rest.data(), rest.size());
+  end_ = rest.size();
+}
+
+bool LineReader::refill() {
+  if (!begun_) take_mark();
+  if (begin_ > 0) {
+    std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
+    end_ -= begin_;
+    begin_ = 0;
+  }
+  std::size_t got = 0;
+  if (!utf16_) {
+    got = read_bytes(buffer_.data() + end_, buffer_.size() - end_);
+    end_ += got;
+  } else {
+    std::string raw((buffer_.size() - end_) / 2, '\0');  // two bytes become at most three
+    got = read_bytes(raw.data(), raw.size());
+    const std::string text = utf16_->decode(std::string_view(raw).substr(0, got));
+    std::memcpy(buffer_.data() + end_, text.data(), text.size());
+    end_ += text.size();
+  }
   at_end_ = got == 0;
   return got > 0;
 }
@@ -59,6 +94,7 @@ bool LineReader::next(std::string_view& line) {
       if (size > 0 && start[size - 1] == '\r') --size;
       line = {start, std::min(size, longest_line)};
       ++number_;
+      ended_ = true;
       return true;
     }
     searched = held;
@@ -76,6 +112,7 @@ bool LineReader::next(std::string_view& line) {
       begin_ = end_;
       consumed_ += size;
       ++number_;
+      ended_ = false;
       return true;
     }
   }

@@ -161,12 +161,13 @@ QualityCard quality_card(const Recording& recording, RecordingKind kind) {
   card.file = recording.source;
   const auto dot = card.file.rfind('.');
   const std::string extension = dot == std::string::npos ? "" : card.file.substr(dot);
-  card.format = extension.empty()                            ? "simulated"
-                : extension == ".mat" || extension == ".MAT" ? "MATLAB"
-                : extension == ".csv" || extension == ".CSV" ? "CSV"
-                                                             : "HDF5";
+  card.format = extension.empty()                                                  ? "simulated"
+                : extension == ".mat" || extension == ".MAT"                       ? "MATLAB"
+                : extension == ".h5" || extension == ".hdf5" || extension == ".H5" ? "HDF5"
+                                                                                   : "CSV";
   card.rows = recording.rows();
   card.facts = recording.facts;
+  card.remarks = recording.remarks;
   look_at_time(recording, card);
   for (const auto& c : recording.channels)
     if (c.name != "time") card.channels.push_back(look_at_channel(c, recording, kind));

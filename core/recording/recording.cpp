@@ -11,6 +11,7 @@
 #include "core/base/check.hpp"
 #include "core/base/sha256.hpp"
 #include "core/recording/line_reader.hpp"
+#include "core/recording/own/columns.hpp"
 #include "core/recording/recording_channels.hpp"
 #include "core/recording/recording_check.hpp"
 #include "core/recording/recording_csv.hpp"
@@ -31,11 +32,43 @@ std::string extension_of(const std::string& path) {
   return extension;
 }
 
+/// Text files of columns, whatever separates them.
+bool is_text_file(const std::string& extension) {
+  constexpr std::string_view all[] = {".csv", ".txt", ".dat", ".tsv"};
+  return std::ranges::find(all, extension) != std::end(all);
+}
+
+/// What was read from a file of named columns, as the format says.
+RawRecording with_format(RawRecording raw, const RecordingFormat& format, RecordingKind kind,
+                         Problems& problems) {
+  std::vector<HeaderCell> header;
+  for (RawColumn& c : raw.columns) {
+    header.push_back({c.name, c.name, c.unit, false});
+    c.numbers = c.values.size();
+  }
+  std::vector<std::string> remarks;
+  if (raw.columns.empty()) return raw;
+  const std::size_t before = problems.count();
+  const auto uses = uses_of_columns(header, format, kind, problems, remarks);
+  raw.settled = problems.count() == before;
+  for (std::size_t i = 0; i < uses.size(); ++i)
+    if (uses[i].role == ColumnUse::Role::position)
+      for (double& x : raw.columns[i].values)
+        for (const auto& [text, number] : format.positions)
+          if (text == fmt::format("{:.15g}", x)) {
+            x = number;
+            break;
+          }
+  raw = with_channels(std::move(raw), uses, format, problems);
+  raw.remarks.insert(raw.remarks.end(), remarks.begin(), remarks.end());
+  return raw;
+}
+
 [[noreturn]] void throw_extension(const std::string& path, const std::string& extension) {
   throw InputError(
       ExitCode::recording,
       fmt::format("{}: no format is known for the extension {} (expected .csv, .h5, .hdf5 "
-                  "or .mat). Rename or convert the file",
+                  "or .mat; to read also .txt, .dat, .tsv). Rename or convert the file",
                   path, in_quotes(extension)));
 }
 
@@ -86,22 +119,27 @@ Facts plain_facts(const Recording& recording, const std::string& path) {
 
 }  // namespace
 
-Recording read_recording(const std::string& path, RecordingKind kind, double gravity) {
+Recording read_recording(const std::string& path, const RecordingFormat& format, RecordingKind kind,
+                         double gravity) {
   require_regular_file(path);
   Problems problems(path);
   RawRecording raw;
   const std::string extension = extension_of(path);
-  if (extension == ".csv")
-    raw = read_csv(path, problems);
-  else if (extension == ".h5" || extension == ".hdf5")
-    raw = read_isolated(path, problems, read_hdf5);
-  else if (extension == ".mat")
-    raw = read_isolated(path, problems, read_mat);
-  else
+  if (is_text_file(extension)) {
+    raw = read_csv(path, format, kind, problems);
+  } else if (extension == ".h5" || extension == ".hdf5" || extension == ".mat") {
+    raw = read_isolated(path, problems, extension == ".mat" ? read_mat : read_hdf5);
+    raw = with_format(std::move(raw), format, kind, problems);
+  } else {
     throw_extension(path, extension);
+  }
   Recording recording = checked_recording(std::move(raw), kind, gravity, problems);
   problems.throw_if_any();
   return recording;
+}
+
+Recording read_recording(const std::string& path, RecordingKind kind, double gravity) {
+  return read_recording(path, RecordingFormat{}, kind, gravity);
 }
 
 void write_recording_to(const Recording& recording, const std::string& path,

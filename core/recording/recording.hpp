@@ -22,7 +22,8 @@ struct Recording {
   std::string source;  ///< the file it came from, for messages; empty if simulated
   std::vector<std::pair<std::string, std::string>> facts;
   std::vector<Channel> channels;
-  std::vector<std::size_t> lines;  ///< line (CSV) or 1-based row of each sample, for messages
+  std::vector<std::size_t> lines;    ///< line (CSV) or 1-based row of each sample, for messages
+  std::vector<std::string> remarks;  ///< sentences about how the file was understood
 
   std::size_t rows() const { return channels.empty() ? 0 : channels.front().values.size(); }
   const Channel* find(std::string_view name) const {
@@ -40,6 +41,12 @@ enum class RecordingKind { platform, strapdown };
 /// file:row:column, what was expected and what to do; InputError (io) if it cannot be opened.
 /// Strapdown accelerations in m/s^2 become g through `gravity` [m/s^2].
 Recording read_recording(const std::string& path, RecordingKind kind, double gravity);
+
+struct RecordingFormat;
+
+/// Reads a user's file as its format says; .txt and .dat are read as CSV. The same errors.
+Recording read_recording(const std::string& path, const RecordingFormat& format, RecordingKind kind,
+                         double gravity);
 
 /// Writes by extension, through a temporary file that is renamed when complete.
 /// InputError (io) if that fails; the target is then as it was.

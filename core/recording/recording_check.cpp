@@ -8,6 +8,7 @@
 
 #include "core/base/check.hpp"
 #include "core/recording/recording_channels.hpp"
+#include "core/recording/recording_units.hpp"
 
 namespace drift {
 namespace {
@@ -34,37 +35,6 @@ void check_names(const RawRecording& raw, Problems& problems) {
     if (!valid_utf8(key) || !valid_utf8(value))
       problems.add("", fmt::format("the fact {} is not UTF-8", in_quotes(key)), "UTF-8 text",
                    "Save the file as UTF-8");
-}
-
-/// The unit the column's values are converted with.
-Unit checked_unit(const RawColumn& column, RecordingKind kind, double gravity, Problems& problems) {
-  const auto quantity = known_quantity(column.name);
-  const std::string expected(
-      quantity ? quantity->words : "a unit such as [degC], [gauss], [arcsec] or [1] for a number");
-  if (!column.unit) {
-    if (!quantity || quantity->needs_unit)
-      problems.add(column.name, "the unit is missing", expected,
-                   "Give the unit with the name, as in 'time [s]'");
-    return unit::one;
-  }
-  const auto unit = parse_unit(*column.unit);
-  if (!unit) {
-    problems.add(column.name, "unknown unit " + in_quotes(*column.unit), expected,
-                 "Write the unit as a product of known ones, as in deg/h or m/s^2");
-    return unit::one;
-  }
-  if (!quantity || unit->dim == quantity->dim) return *unit;
-  if (quantity->dim == unit::g.dim && unit->dim == "m/s^2"_unit.dim) {
-    if (kind == RecordingKind::strapdown) return {unit->symbol, unit->to_si / gravity, unit::g.dim};
-    problems.add(column.name, fmt::format("the unit is [{}]", *column.unit),
-                 "specific force in units of local g, for example [g] or [ug]",
-                 "Divide by the gravity of the test site and write [g]");
-    return *unit;
-  }
-  problems.add(column.name,
-               fmt::format("the unit [{}] does not measure this channel", *column.unit), expected,
-               "Correct the unit or the name of the column");
-  return *unit;
 }
 
 void check_columns(const Recording& r, RecordingKind kind, Problems& problems) {
@@ -134,27 +104,35 @@ void check_time(const Recording& r, Problems& problems) {
   }
 }
 
-void check_whole_numbers(const Recording& r, Problems& problems) {
+/// Whether the rows come in the order of time.
+enum class RowOrder { known, broken };
+
+void check_position(const Recording& r, RowOrder order, Problems& problems) {
+  const Channel* position = r.find("position");
+  if (!position) return;
   double last = 1.0;
-  if (const Channel* position = r.find("position"))
-    for (std::size_t i = 0; i < r.rows(); ++i) {
-      const double p = position->values[i];
-      if (!(p >= 1.0 && p <= 1e9) || p != std::floor(p)) {
-        problems.add(at(r, i, "position"), fmt::format("the position is {}", p),
-                     "a whole number from 1 on", "Give the number of the plan's position");
-      } else if (p < last) {
-        problems.add(at(r, i, "position"), fmt::format("position {} comes after {}", p, last),
-                     "positions in the order of the plan",
-                     "Number the positions in the order they were held");
-      } else {
-        last = p;
-      }
+  for (std::size_t i = 0; i < r.rows(); ++i) {
+    const double p = position->values[i];
+    if (!(p >= 1.0 && p <= 1e9) || p != std::floor(p)) {
+      problems.add(at(r, i, "position"), fmt::format("the position is {}", p),
+                   "a whole number from 1 on", "Give the number of the plan's position");
+    } else if (p < last && order == RowOrder::known) {
+      problems.add(at(r, i, "position"), fmt::format("position {} comes after {}", p, last),
+                   "positions in the order of the plan",
+                   "Number the positions in the order they were held");
+    } else {
+      last = p;
     }
-  if (const Channel* phase = r.find("phase"))
-    for (std::size_t i = 0; i < r.rows(); ++i)
-      if (const double p = phase->values[i]; !(p == 0.0 || p == 1.0))
-        problems.add(at(r, i, "phase"), fmt::format("the phase is {}", p), "0 (dwell) or 1 (slew)",
-                     "Correct the phase");
+  }
+}
+
+void check_phase(const Recording& r, Problems& problems) {
+  const Channel* phase = r.find("phase");
+  if (!phase) return;
+  for (std::size_t i = 0; i < r.rows(); ++i)
+    if (const double p = phase->values[i]; !(p == 0.0 || p == 1.0))
+      problems.add(at(r, i, "phase"), fmt::format("the phase is {}", p), "0 (dwell) or 1 (slew)",
+                   "Correct the phase");
 }
 
 void check_values(const Recording& r, RecordingKind kind, Problems& problems) {
@@ -180,7 +158,7 @@ void check_values(const Recording& r, RecordingKind kind, Problems& problems) {
       measured = measured || (sensor && std::isfinite(x));
     }
   }
-  if (!measured && problems.count() == 0)
+  if (!measured && !problems.any())
     problems.add("", "no accelerometer or gimbal angle was measured in any row",
                  "numbers in at least one sensor column", "Check how the recording was exported");
 }
@@ -203,17 +181,18 @@ bool equal_lengths(const RawRecording& raw, Problems& problems) {
 Recording checked_recording(RawRecording raw, RecordingKind kind, double gravity,
                             Problems& problems) {
   DRIFT_EXPECTS(gravity > 0.0);
-  Recording r{utf8_text(problems.file()), {}, {}, {}};
+  Recording r{utf8_text(problems.file()), {}, {}, {}, {}};
   if (raw.columns.empty()) {
-    if (problems.count() == 0)
+    if (!problems.any())
       problems.add("", "there is no channel", "columns such as time, acc_x, acc_y, acc_z",
                    "Check how the recording was exported");
     return r;
   }
   check_names(raw, problems);
+  r.remarks = std::move(raw.remarks);
   if (!equal_lengths(raw, problems)) return r;
   const std::size_t rows = raw.columns.front().values.size();
-  if (rows == 0 && problems.count() == 0)
+  if (rows == 0 && !problems.any())
     problems.add("", "there are no rows", "one row per sample",
                  "Check how the recording was exported");
   if (rows == 1 && kind == RecordingKind::strapdown)
@@ -225,15 +204,23 @@ Recording checked_recording(RawRecording raw, RecordingKind kind, double gravity
     r.lines.resize(rows);
     for (std::size_t i = 0; i < rows; ++i) r.lines[i] = i + 1;
   }
+  if (raw.settled) check_units_given(raw.columns, {kind, raw.kind, gravity}, problems);
   for (auto& c : raw.columns) {
-    const Unit unit = checked_unit(c, kind, gravity, problems);
-    for (double& x : c.values) x *= unit.to_si;
+    const Unit unit = checked_unit(c, {kind, raw.kind, gravity}, problems, r.remarks);
+    for (double& x : c.values) x *= c.sign * unit.to_si;
+    add_offset(c, unit, problems);
     r.channels.push_back({std::move(c.name), unit, std::move(c.values)});
   }
-  check_columns(r, kind, problems);
+  if (raw.kind == SampleKind::increments && kind == RecordingKind::strapdown)
+    make_rates(r, gravity);
+  if (raw.settled) check_columns(r, kind, problems);
+  const std::size_t before = problems.count();
   check_time(r, problems);
-  check_whole_numbers(r, problems);
+  const bool in_order = problems.count() == before;
+  check_phase(r, problems);
+  check_position(r, in_order ? RowOrder::known : RowOrder::broken, problems);
   check_values(r, kind, problems);
+  check_gravity(r, problems);
   return r;
 }
 

@@ -2,30 +2,73 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/base/check.hpp"
 
 namespace drift {
 
+namespace {
+
+/// The column of "line:column", where the line is a number.
+std::string_view column_of(std::string_view where) {
+  const auto digits = where.find_first_not_of("0123456789");
+  return digits == std::string_view::npos ? std::string_view() : where.substr(digits);
+}
+
+bool starts_with_line(std::string_view where) {
+  return !where.empty() && where.front() >= '0' && where.front() <= '9';
+}
+
+}  // namespace
+
 void Problems::add(std::string_view where, std::string_view wrong, std::string_view expected,
                    std::string_view fix) {
+  const std::string kind =
+      starts_with_line(where) ? fmt::format("{}\n{}\n{}", column_of(where), expected, fix) : "";
+  const auto known =
+      kind.empty() ? messages_.end() : std::ranges::find(messages_, kind, &Message::kind);
+  if (known != messages_.end()) {
+    ++known->alike;
+    known->last_where = where.substr(0, where.find(':'));
+    return;
+  }
   if (full()) {
     ++more_;
     return;
   }
-  messages_.push_back(fmt::format("{}:{}{} {} (expected {}). {}", file_, where,
-                                  where.empty() ? "" : ":", wrong, expected, fix));
+  messages_.push_back({kind,
+                       fmt::format("{}:{}{} {} (expected {}). {}", file_, where,
+                                   where.empty() ? "" : ":", wrong, expected, fix),
+                       0,
+                       {}});
 }
 
 void Problems::add(std::string message) {
   if (full())
     ++more_;
   else
-    messages_.push_back(std::move(message));
+    messages_.push_back({"", std::move(message), 0, {}});
+}
+
+std::size_t Problems::count() const {
+  std::size_t all = messages_.size() + more_;
+  for (const Message& m : messages_) all += m.alike;
+  return all;
+}
+
+std::vector<std::string> Problems::messages() const {
+  std::vector<std::string> texts;
+  for (const Message& m : messages_)
+    texts.push_back(m.alike == 0 ? m.text
+                                 : fmt::format("{} ({} more of the kind, the last in line {})",
+                                               m.text, m.alike, m.last_where));
+  return texts;
 }
 
 void Problems::throw_if_any() const {
-  if (count() == 0) return;
-  auto all = messages_;
+  if (!any()) return;
+  auto all = messages();
   if (more_ > 0)
     all.push_back(fmt::format(
         "{}: and {} more problems (expected none). Correct the ones above first", file_, more_));

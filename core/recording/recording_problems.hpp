@@ -12,7 +12,8 @@ namespace drift {
 /// What to do about a damaged file.
 inline constexpr std::string_view copy_again = "Copy or export the file again";
 
-/// What is wrong with one file, message by message; the first `cap` are kept, the rest counted.
+/// What is wrong with one file, message by message. The same thing wrong in many rows of a column
+/// is one message with a count; the first `cap` messages are kept, the rest counted.
 class Problems {
  public:
   static constexpr std::size_t cap = 50;
@@ -28,17 +29,25 @@ class Problems {
   void add_uncounted(std::size_t more) { more_ += more; }
 
   const std::string& file() const { return file_; }
-  std::size_t count() const { return messages_.size() + more_; }
+  bool any() const { return !messages_.empty() || more_ > 0; }
+  std::size_t count() const;
   std::size_t more() const { return more_; }
   bool full() const { return messages_.size() >= cap; }
-  const std::vector<std::string>& messages() const { return messages_; }
+  std::vector<std::string> messages() const;
 
   /// InputError (recording) with every message kept and the number of those that are not.
   void throw_if_any() const;
 
  private:
+  struct Message {
+    std::string kind;  ///< what messages of the same kind have in common; empty: nothing
+    std::string text;
+    std::size_t alike = 0;   ///< further ones
+    std::string last_where;  ///< of these
+  };
+
   std::string file_;
-  std::vector<std::string> messages_;
+  std::vector<Message> messages_;
   std::size_t more_ = 0;
 };
 

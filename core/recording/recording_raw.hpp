@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/recording/recording_format.hpp"
+
 namespace drift {
 
 /// Facts of a recording, in order: key and value.
@@ -15,8 +17,12 @@ using Facts = std::vector<std::pair<std::string, std::string>>;
 /// One column as it stands in the file.
 struct RawColumn {
   std::string name;
-  std::optional<std::string> unit;  ///< empty: the file gives none
-  std::vector<double> values;       ///< in the unit of the file
+  std::optional<std::string> unit;      ///< empty: the file gives none
+  std::vector<double> values;           ///< in the unit of the file
+  double sign = 1.0;                    ///< the values are multiplied by it
+  std::optional<ChannelOffset> offset;  ///< added after unit and sign
+  std::size_t numbers = 0, texts = 0;   ///< cells of a text file that hold one or the other
+  bool clock = false;  ///< the cells held times of day or dates, which are seconds here
 };
 
 /// A recording as it stands in the file, before anything is checked or converted.
@@ -24,6 +30,9 @@ struct RawRecording {
   Facts facts;
   std::vector<RawColumn> columns;
   std::vector<std::size_t> lines;  ///< line of each row; empty: rows are counted from 1
+  SampleKind kind = SampleKind::rates;
+  bool settled = true;               ///< the columns were told apart without a problem
+  std::vector<std::string> remarks;  ///< sentences about how the file was understood
 };
 
 /// Most facts a recording may carry; more is not a recording.

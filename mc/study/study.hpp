@@ -12,6 +12,7 @@
 #include "core/plan/readout.hpp"
 #include "core/plan/test_plan.hpp"
 #include "core/recording/recording.hpp"
+#include "core/recording/recording_format.hpp"
 #include "mc/study/blind_spec.hpp"
 #include "mc/study/monte_carlo.hpp"
 
@@ -51,6 +52,7 @@ struct Study {
   TestPlan plan;            ///< of a platform test
   double static_min = 2.0;  ///< strapdown: shortest dwell that counts [s]
   Readout readout;
+  RecordingFormat recording;  ///< how files are read that do not have the canonical columns
   Environment environment;
   TruthSpec truth;
   bool has_truth = false;  ///< [truth] is in the file; without it there is nothing to simulate

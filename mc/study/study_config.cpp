@@ -12,6 +12,7 @@
 #include "core/physics/mounting_config.hpp"
 #include "core/plan/environment_config.hpp"
 #include "core/plan/plan_config.hpp"
+#include "core/recording/own/format_config.hpp"
 #include "mc/study/blind_config.hpp"
 #include "mc/study/published_config.hpp"
 #include "mc/study/study.hpp"
@@ -192,6 +193,9 @@ Study read_study_tree(const Node& root, const std::string& path) {
   study.static_min = plan.static_min;
   study.site = read_site(top.section("site"), plan.kind);
   study.readout = read_readout(top.section("readout"));
+  std::vector<std::string> positions;
+  for (const Position& position : plan.plan.positions) positions.push_back(position.name);
+  study.recording = read_recording_format(top.section("recording"), plan.kind, positions);
   study.environment = read_environment(top.section("environment"));
   const Node* sweep = top.take("sweep");
   // A blind study has truths of several couplings too.

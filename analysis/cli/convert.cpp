@@ -1,0 +1,30 @@
+#include "analysis/cli/commands.hpp"
+#include "analysis/cli/print.hpp"
+#include "core/base/output_file.hpp"
+#include "core/base/utf8.hpp"
+#include "core/recording/canonical_units.hpp"
+#include "core/recording/quality_card.hpp"
+#include "core/recording/recording_output.hpp"
+
+namespace drift::cli {
+
+ExitCode convert(const StudyArguments& arguments, const std::string& recording,
+                 const std::string& output) {
+  const mc::Study study = arguments.read();
+  require_output_file(output, {study.path, recording}, [](const std::string& path) -> std::string {
+    return is_made_here(path) ? "" : "no recording that driftscope made";
+  });
+  Recording r = in_canonical_units(
+      read_recording(recording, study.recording, study.kind, study.site.gravity));
+  auto& facts = r.facts;
+  std::erase_if(facts, [](const auto& fact) { return fact.first == made_here; });
+  facts.insert(facts.begin(), {{std::string(made_here), "converted"},
+                               {"converted_from", utf8_text(recording)},
+                               {"converted_with", utf8_text(study.path)}});
+  write_recording(r, output);
+  r.source = output;
+  show("{}", to_text(quality_card(r, study.kind)));
+  return ExitCode::ok;
+}
+
+}  // namespace drift::cli

@@ -1,0 +1,151 @@
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "analysis/cli/commands.hpp"
+#include "analysis/cli/print.hpp"
+#include "core/estimate/strapdown/dwells.hpp"
+#include "core/recording/own/csv_cells.hpp"
+#include "core/recording/own/guess.hpp"
+#include "core/recording/quality_card.hpp"
+
+namespace drift::cli {
+namespace {
+
+bool is_text_file(const std::string& path) {
+  const std::string end = lower_case(std::filesystem::path(path).extension().string());
+  return end == ".csv" || end == ".txt" || end == ".dat" || end == ".tsv";
+}
+
+/// What the columns hold and what they may be.
+void show_columns(const GuessedFile& file) {
+  show("{} rows of {} columns; the header is line {}{}, cells are divided by {}\n", file.rows,
+       file.columns.size(), file.layout.header_line,
+       file.layout.unit_line > 0 ? fmt::format(", units are line {}", file.layout.unit_line) : "",
+       file.layout.delimiter == '\t'  ? "tabs"
+       : file.layout.delimiter == ' ' ? "blanks"
+                                      : fmt::format("'{}'", file.layout.delimiter));
+  show("{:<22}{:>9}{:>7}{:>13}{:>13}  {}\n", "column", "numbers", "texts", "min", "max", "may be");
+  for (const GuessedColumn& c : file.columns) {
+    const std::string unit = c.unit.empty() ? "" : fmt::format(" [{}]", c.unit);
+    show("{:<22}{:>9}{:>7}{:>13}{:>13}  {}\n", c.header.name, c.numbers, c.texts,
+         c.numbers > 0 ? fmt::format("{:.6g}", c.low) : "-",
+         c.numbers > 0 ? fmt::format("{:.6g}", c.high) : "-",
+         c.channel.empty() ? "-" : c.channel + unit);
+  }
+}
+
+/// The usual length of the specific force; empty if it was not measured.
+std::optional<double> usual_force(const Recording& r) {
+  const Channel* acc[3] = {r.find("acc_x"), r.find("acc_y"), r.find("acc_z")};
+  if (!acc[0] || !acc[1] || !acc[2]) return std::nullopt;
+  std::vector<double> lengths;
+  for (std::size_t i = 0; i < r.rows(); ++i)
+    if (const double f = std::hypot(acc[0]->values[i], acc[1]->values[i], acc[2]->values[i]);
+        std::isfinite(f))
+      lengths.push_back(f);
+  if (lengths.empty()) return std::nullopt;
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  return *middle;
+}
+
+void show_positions(const Recording& r) {
+  const Channel *position = r.find("position"), *time = r.find("time");
+  show("\n{:<10}{:>8}{:>14}{:>14}{:>13}\n", "position", "rows", "from [s]", "to [s]", "length [s]");
+  for (std::size_t first = 0, end = 0; first < r.rows(); first = end) {
+    while (end < r.rows() && position->values[end] == position->values[first]) ++end;
+    show("{:<10}{:>8}{:>14.10g}{:>14.10g}{:>13.6g}\n", position->values[first], end - first,
+         time->values[first], time->values[end - 1], time->values[end - 1] - time->values[first]);
+  }
+}
+
+void show_dwells(const Recording& r, double static_min) {
+  strapdown::DwellOptions options;
+  options.static_min = static_min;
+  const auto search = strapdown::find_dwells(strapdown::signals_of(r), options);
+  show("\n{} dwells of at least {:g} s\n", search.dwells.size(), static_min);
+  if (search.dwells.empty()) return;
+  show("{:>12}{:>10}{:>12}{:>12}{:>12}{:>10}\n", "from [s]", "for [s]", "acc_x [g]", "acc_y [g]",
+       "acc_z [g]", "|f| [g]");
+  constexpr std::size_t most = 30;
+  for (std::size_t i = 0; i < std::min(most, search.dwells.size()); ++i) {
+    const strapdown::Dwell& d = search.dwells[i];
+    show("{:>12.6g}{:>10.4g}{:>12.6f}{:>12.6f}{:>12.6f}{:>10.6f}\n", d.start, d.duration(),
+         d.acc.x(), d.acc.y(), d.acc.z(), d.acc.norm());
+  }
+  if (search.dwells.size() > most) show("and {} more\n", search.dwells.size() - most);
+}
+
+void show_recording(const Recording& r, RecordingKind kind, double static_min) {
+  show("\n{}", to_text(quality_card(r, kind)));
+  if (const auto f = usual_force(r))
+    show("the accelerometers together usually read {:.6f} g (1 at rest){}\n", *f,
+         std::abs(*f - 1.0) < 0.02 ? "" : ": check their units, or was the case moving?");
+  if (kind == RecordingKind::strapdown)
+    show_dwells(r, static_min);
+  else
+    show_positions(r);
+}
+
+void show_commands(const std::string& path, RecordingKind kind) {
+  show(
+      "\nThen, with a study file lab.toml that has [plan]{} and a [[filter]]:\n"
+      "  driftscope identify lab.toml '{}'\n"
+      "  driftscope diagnose lab.toml '{}' -o out/lab\n",
+      kind == RecordingKind::strapdown ? " kind = \"strapdown\"" : "", path, path);
+}
+
+ExitCode look_without_study(const std::string& path) {
+  constexpr double gravity = 9.80665;  // [m/s^2]
+  constexpr double static_min = 2.0;   // [s]
+  if (!is_text_file(path)) {           // these formats name their channels; the kind is what reads
+    RecordingKind kind = RecordingKind::platform;
+    Recording r;
+    try {
+      r = read_recording(path, kind, gravity);
+    } catch (const InputError&) {
+      kind = RecordingKind::strapdown;
+      r = read_recording(path, kind, gravity);
+    }
+    show_recording(r, kind, static_min);
+    show_commands(path, kind);
+    return ExitCode::ok;
+  }
+  if (!std::filesystem::is_regular_file(path)) read_recording(path, {}, gravity);  // says why not
+  const GuessedFile file = guess_file(path);
+  show("{}: ", path);
+  show_columns(file);
+  bool read = false;
+  std::vector<std::string> wrong;
+  try {
+    show_recording(read_recording(path, file.format, file.kind, gravity), file.kind, static_min);
+    read = true;
+  } catch (const InputError& e) {
+    if (e.code() != ExitCode::recording) throw;
+    wrong = e.messages();
+  }
+  if (!read) show("\nIt is not a recording yet:\n- {}\n", fmt::join(wrong, "\n- "));
+  if (!file.format.columns.empty() || !read)
+    show("\nFor the study file ({}):\n\n{}",
+         file.complete ? "guessed from names and values: check it"
+                       : "guessed; write the units that show as [?]",
+         recording_section(file));
+  show_commands(path, file.kind);
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+ExitCode look(const StudyArguments& arguments, const std::string& recording) {
+  if (arguments.config.empty()) return look_without_study(recording);
+  const mc::Study study = arguments.read();
+  show_recording(read_recording(recording, study.recording, study.kind, study.site.gravity),
+                 study.kind, study.static_min);
+  show_commands(recording, study.kind);
+  return ExitCode::ok;
+}
+
+}  // namespace drift::cli

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/recording/recording_format.hpp"
+
+namespace drift {
+
+/// Cuts lines into cells: without blanks around them, a cell in double quotes without those. A
+/// blank as delimiter stands for any number of blanks.
+class CellSplitter {
+ public:
+  explicit CellSplitter(char delimiter) : delimiter_(delimiter) {}
+
+  char delimiter() const { return delimiter_; }
+  /// The cells of a line, valid until the call after it.
+  const std::vector<std::string_view>& split(std::string_view line);
+
+ private:
+  char delimiter_;
+  std::vector<std::string_view> cells_;
+};
+
+/// What a cell holds.
+struct ParsedCell {
+  enum class Kind { number, text, out_of_range, wrong_mark };
+  Kind kind = Kind::text;
+  double value = 0.0;  ///< of a number; NaN for an empty cell
+  char mark = 0;       ///< '.' or ',' where the number has one
+};
+
+/// Reads a cell, whatever the locale. `decimal` automatic: point or comma.
+ParsedCell parse_cell(std::string_view text, DecimalMark decimal);
+
+/// Seconds of a time of day "13:05:10.25", or of a date and time "2026-03-01T13:05:10.25Z",
+/// "01.03.2026 13:05:10,25" since 1970. Empty if the text is none.
+std::optional<double> parse_clock(std::string_view text);
+
+/// Text in lower case; letters of ASCII alone.
+std::string lower_case(std::string_view text);
+
+}  // namespace drift

@@ -1,0 +1,166 @@
+#include "core/recording/own/csv_layout.hpp"
+
+#include <algorithm>
+
+#include "core/base/utf8.hpp"
+#include "core/recording/line_reader.hpp"
+#include "core/recording/own/csv_cells.hpp"
+#include "core/recording/own/recording_unit.hpp"
+#include "core/recording/own/text_decoding.hpp"
+#include "core/recording/recording_problems.hpp"
+
+namespace drift {
+namespace {
+
+constexpr std::size_t most_lines = 200;  // a preamble is not longer
+
+struct Line {
+  std::size_t number = 0;
+  std::string text;
+};
+
+/// The first lines that are neither empty nor comments. The last is what is no text, if anything.
+std::vector<Line> first_lines(const std::string& path, std::size_t skip) {
+  LineReader reader(path);
+  std::vector<Line> lines;
+  std::string_view text;
+  while (lines.size() < most_lines && reader.next(text)) {
+    if (reader.number() <= skip) continue;
+    const bool damaged = reader.cut() || std::ranges::any_of(text, [](char c) {
+                           return static_cast<unsigned char>(c) < 0x20 && c != '\t';
+                         });
+    if (!damaged && (trimmed(text).empty() || text.front() == '#')) continue;
+    lines.push_back({reader.number(),
+                     valid_utf8(text) || damaged ? std::string(text) : utf8_from_latin1(text)});
+    if (damaged) break;
+  }
+  return lines;
+}
+
+char mark_of(Delimiter delimiter) {
+  switch (delimiter) {
+    case Delimiter::comma:
+      return ',';
+    case Delimiter::semicolon:
+      return ';';
+    case Delimiter::tab:
+      return '\t';
+    default:
+      return ' ';
+  }
+}
+
+/// What separates the cells of a header: what occurs most often, blanks if nothing else does.
+char delimiter_of(std::string_view line, const RecordingFormat& format) {
+  if (format.delimiter != Delimiter::automatic) return mark_of(format.delimiter);
+  char best = ' ';
+  std::ptrdiff_t most = 0;
+  for (const char c : {',', ';', '\t'})
+    if (const auto count = std::ranges::count(line, c); count > most) {
+      best = c;
+      most = count;
+    }
+  return best;
+}
+
+/// What separates the cells of a row of numbers, where a comma may stand within a number.
+char row_delimiter(std::string_view line, const RecordingFormat& format) {
+  if (format.delimiter != Delimiter::automatic) return mark_of(format.delimiter);
+  for (const char c : {';', '\t', ','})
+    if (line.find(c) != std::string_view::npos) return c;
+  return ' ';
+}
+
+std::vector<HeaderCell> header_cells(std::string_view line, char delimiter) {
+  CellSplitter splitter(delimiter);
+  std::vector<HeaderCell> cells;
+  for (const auto text : splitter.split(line)) {
+    // With blanks between cells, "time [s]" is one all the same.
+    const bool unit = delimiter == ' ' && !cells.empty() && text.starts_with('[');
+    cells.push_back(
+        header_cell(unit ? cells.back().whole + " " + std::string(text) : std::string(text)));
+    if (unit) cells.erase(cells.end() - 2);
+  }
+  return cells;
+}
+
+bool is_row_of_numbers(std::string_view line, char delimiter) {
+  CellSplitter splitter(delimiter);
+  std::size_t numbers = 0, filled = 0;
+  for (const auto cell : splitter.split(line)) {
+    if (cell.empty()) continue;
+    ++filled;
+    if (parse_cell(cell, DecimalMark::automatic).kind == ParsedCell::Kind::number ||
+        parse_clock(cell))
+      ++numbers;
+  }
+  return numbers >= 2 && 2 * numbers >= filled;
+}
+
+std::string_view without_brackets(std::string_view cell) {
+  if (cell.size() >= 2 &&
+      ((cell.front() == '[' && cell.back() == ']') || (cell.front() == '(' && cell.back() == ')')))
+    return trimmed(cell.substr(1, cell.size() - 2));
+  return cell;
+}
+
+/// Whether a line below the header holds units: no number, and units in most of its cells.
+bool is_row_of_units(const std::vector<std::string_view>& cells) {
+  std::size_t units = 0, filled = 0;
+  for (const auto cell : cells) {
+    if (cell.empty() || cell == "-") continue;
+    if (cell != "1" && parse_cell(cell, DecimalMark::automatic).kind == ParsedCell::Kind::number)
+      return false;
+    ++filled;
+    if (cell != "1" && parse_recording_unit(without_brackets(cell))) ++units;
+  }
+  return units > 0 && 2 * units >= filled;
+}
+
+/// Index of the header among the lines.
+std::size_t find_header(const std::vector<Line>& lines, const RecordingFormat& format,
+                        RecordingKind kind) {
+  if (format.skip_rows > 0) return 0;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const auto cells = header_cells(lines[i].text, delimiter_of(lines[i].text, format));
+    if (std::ranges::count_if(cells,
+                              [&](const HeaderCell& c) { return is_known(c, format, kind); }) >= 2)
+      return i;
+  }
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const char delimiter = row_delimiter(lines[i].text, format);
+    if (!is_row_of_numbers(lines[i].text, delimiter)) continue;
+    CellSplitter splitter(delimiter);
+    const std::size_t width = splitter.split(lines[i].text).size();
+    std::size_t header = i == 0 ? 0 : i - 1;
+    if (header > 0 && is_row_of_units(splitter.split(lines[header].text)) &&
+        splitter.split(lines[header - 1].text).size() == width)
+      --header;
+    return header;
+  }
+  return 0;
+}
+
+}  // namespace
+
+CsvLayout find_layout(const std::string& path, const RecordingFormat& format, RecordingKind kind) {
+  CsvLayout layout;
+  const auto lines = first_lines(path, format.skip_rows);
+  if (lines.empty()) return layout;
+  const std::size_t at = find_header(lines, format, kind);
+  layout.header_line = lines[at].number;
+  layout.above = at;
+  layout.delimiter = delimiter_of(lines[at].text, format);
+  layout.header = header_cells(lines[at].text, layout.delimiter);
+  if (at + 1 == lines.size()) return layout;
+  CellSplitter splitter(layout.delimiter);
+  const auto& units = splitter.split(lines[at + 1].text);
+  if (units.size() > layout.header.size() || !is_row_of_units(units)) return layout;
+  layout.unit_line = lines[at + 1].number;
+  for (std::size_t i = 0; i < units.size(); ++i)
+    if (const auto unit = without_brackets(units[i]); !unit.empty() && unit != "-")
+      if (!layout.header[i].unit) layout.header[i].unit = unit;
+  return layout;
+}
+
+}  // namespace drift

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/recording/line_reader.hpp"
+#include "core/recording/own/columns.hpp"
+#include "core/recording/own/csv_cells.hpp"
+#include "core/recording/own/csv_layout.hpp"
+
+namespace drift {
+
+/// Reads the rows of a CSV file whose layout is known.
+class CsvRows {
+ public:
+  CsvRows(const std::string& path, CsvLayout layout, const RecordingFormat& format,
+          RecordingKind kind, Problems& problems);
+
+  /// The columns under the program's names. InputError (io).
+  RawRecording read();
+
+ private:
+  /// What is wrong with a row, kept until it is known that it is not the last, which may be cut.
+  struct Complaint {
+    std::string where, wrong, expected, fix;
+  };
+
+  std::string here(std::string_view column = {}) const;
+  bool is_text(std::string_view line);
+  bool is_header_sound();
+  void read_comment(std::string_view text);
+  void read_row(std::string_view line);
+  std::optional<Complaint> read_cell(std::size_t i, std::string_view cell);
+  std::optional<Complaint> read_time(std::size_t i, std::string_view cell);
+  std::optional<Complaint> read_position(std::size_t i, std::string_view cell);
+  bool may_be_cut(std::string_view cell) const;
+  void note_end(std::string_view cell);
+  void report_pending();
+  void finish();
+  void reserve();
+
+  LineReader lines_;
+  CsvLayout layout_;
+  const RecordingFormat& format_;
+  Problems& problems_;
+  CellSplitter splitter_;
+  RawRecording raw_;
+  std::vector<ColumnUse> uses_;
+  std::vector<double> row_;
+  std::vector<Complaint> pending_;
+  std::string decoded_;
+  std::size_t latin1_line_ = 0, point_line_ = 0, comma_line_ = 0;
+  std::optional<double> last_clock_;
+  std::optional<std::string> time_zero_;
+  double clock_zero_ = 0.0, days_ = 0.0;
+  std::string last_end_;                 ///< the last cell of the row before
+  std::optional<std::size_t> decimals_;  ///< of the last column, where all rows have the same
+  bool rows_have_ends_ = false;          ///< a last cell was seen
+  bool last_row_cut_ = false;
+};
+
+}  // namespace drift

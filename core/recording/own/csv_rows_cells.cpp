@@ -1,0 +1,108 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "core/recording/own/csv_rows.hpp"
+
+namespace drift {
+namespace {
+
+using Role = ColumnUse::Role;
+using Kind = ParsedCell::Kind;
+
+}  // namespace
+
+/// Reads a cell into the row, or says what is wrong with it.
+std::optional<CsvRows::Complaint> CsvRows::read_cell(std::size_t i, std::string_view cell) {
+  const ColumnUse& use = uses_[i];
+  row_[i] = std::numeric_limits<double>::quiet_NaN();
+  if (use.role == Role::ignored) return std::nullopt;
+  if (use.role == Role::position) return read_position(i, cell);
+  RawColumn& column = raw_.columns[i];
+  const ParsedCell parsed = parse_cell(cell, format_.decimal);
+  if (parsed.kind == Kind::number) {
+    row_[i] = parsed.value;
+    if (!cell.empty()) ++column.numbers;
+    if (parsed.mark == '.' && point_line_ == 0) point_line_ = lines_.number();
+    if (parsed.mark == ',' && comma_line_ == 0) comma_line_ = lines_.number();
+    if (column.clock && !cell.empty())
+      return Complaint{here(use.channel), "found " + in_quotes(cell), "a time as in the rows above",
+                       "Write all times alike"};
+    return std::nullopt;
+  }
+  if (use.role == Role::time && parsed.kind == Kind::text) return read_time(i, cell);
+  if (use.role == Role::phase && parsed.kind == Kind::text) {
+    const std::string word = lower_case(cell);
+    if (word == "dwell" || word == "slew") {
+      row_[i] = word == "slew" ? 1.0 : 0.0;
+      return std::nullopt;
+    }
+  }
+  if (use.role == Role::covariate && parsed.kind == Kind::text) {
+    ++column.texts;
+    return std::nullopt;
+  }
+  const std::string found = "found " + in_quotes(cell);
+  if (parsed.kind == Kind::wrong_mark)  // one message for all columns
+    return Complaint{here(), found,
+                     format_.decimal == DecimalMark::point ? "a decimal point" : "a decimal comma",
+                     "Correct recording.decimal of the study file, or the number"};
+  if (parsed.kind == Kind::out_of_range)
+    return Complaint{here(use.channel), found, "a number between 1e-307 and 1e308",
+                     "Correct the number, or choose another unit"};
+  return Complaint{here(use.channel), found, "a number, nan or an empty cell",
+                   "Correct the cell, or leave it empty if it was not measured"};
+}
+
+std::optional<CsvRows::Complaint> CsvRows::read_time(std::size_t i, std::string_view cell) {
+  RawColumn& column = raw_.columns[i];
+  const auto seconds = parse_clock(cell);
+  if (!seconds || (column.numbers > 0 && !column.clock))
+    return Complaint{here("time"), "found " + in_quotes(cell),
+                     seconds ? "a number as in the rows above"
+                             : "a number, or a time such as 2026-03-01T13:05:10.250",
+                     "Write all times alike"};
+  constexpr double day = 86400.0;
+  if (!column.clock) {
+    column.clock = true;
+    column.unit = "s";
+    clock_zero_ = *seconds;
+    time_zero_ = std::string(cell);
+  }
+  ++column.numbers;
+  // A time of day begins again at midnight.
+  if (last_clock_ && *seconds < 2.0 * day && *seconds + 0.5 * day < *last_clock_) days_ += day;
+  last_clock_ = *seconds;
+  row_[i] = *seconds + days_ - clock_zero_;
+  return std::nullopt;
+}
+
+std::optional<CsvRows::Complaint> CsvRows::read_position(std::size_t i, std::string_view cell) {
+  const auto named = std::ranges::find_if(format_.positions,
+                                          [&](const auto& entry) { return entry.first == cell; });
+  if (named != format_.positions.end()) {
+    row_[i] = named->second;
+    return std::nullopt;
+  }
+  const ParsedCell parsed = parse_cell(cell, format_.decimal);
+  if (parsed.kind == Kind::number) {
+    row_[i] = parsed.value;
+    return std::nullopt;
+  }
+  std::vector<std::string> known;
+  for (const auto& [text, number] : format_.positions) known.push_back(text);
+  constexpr std::size_t most = 12;
+  known.resize(std::min(most, known.size()));
+  return Complaint{
+      here("position"), "found " + in_quotes(cell),
+      known.empty() ? std::string("the number of a position")
+                    : fmt::format("the number of a position, or '{}'", fmt::join(known, "', '")),
+      fmt::format(
+          "Say in [recording] of the study file which position it is: positions = {{ \"{}\" "
+          "= 1 }}",
+          cell)};
+}
+
+}  // namespace drift

@@ -1,0 +1,206 @@
+#include "core/recording/own/format_config.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "core/config/nearest.hpp"
+#include "core/recording/own/header.hpp"
+#include "core/recording/own/recording_unit.hpp"
+#include "core/recording/recording_channels.hpp"
+#include "core/recording/recording_problems.hpp"
+
+namespace drift {
+namespace {
+
+using config::Node;
+using config::Option;
+using config::Report;
+using config::Section;
+
+/// The members of a table of the user's own names; empty, with an error, if it is no table.
+const std::vector<config::Member>& members(Section& section, std::string_view key,
+                                           std::string_view example) {
+  static const std::vector<config::Member> none;
+  const Node* node = section.take(key);
+  if (node == nullptr) return none;
+  if (node->is(Node::Kind::table)) return node->members;
+  section.report().error(node->at, fmt::format("'{}' is {} (expected a table). Write {}",
+                                               section.full(key), describe(*node), example));
+  return none;
+}
+
+/// Whether a name may stand on the left of columns and offset.
+bool check_channel(Section& section, std::string_view table, const config::Member& member,
+                   RecordingKind kind) {
+  const auto all = canonical_channels(kind);
+  if (std::ranges::find(all, member.key) != all.end()) return true;
+  const auto meant = meant_channels(member.key, all);
+  if (meant.empty() && valid_channel_name(member.key)) return true;
+  section.report().error(
+      member.at,
+      fmt::format("'{}.{}' is no channel (expected one of {}, or another name of letters, digits "
+                  "and underscores for a covariate). {}",
+                  section.full(table), member.key, fmt::join(all, ", "),
+                  meant.empty() ? std::string("Correct it")
+                                : fmt::format("Did you mean '{}'?", fmt::join(meant, "' or '"))));
+  return false;
+}
+
+void read_columns(Section& section, RecordingKind kind, RecordingFormat& format) {
+  constexpr std::string_view example = "columns = { acc_x = \"Ax [m/s^2]\" }";
+  for (const auto& member : members(section, "columns", example)) {
+    const std::string key = section.full(fmt::format("columns.{}", member.key));
+    if (!check_channel(section, "columns", member, kind)) continue;
+    const Node& value = member.value;
+    std::string_view text = value.is(Node::Kind::string) ? trimmed(value.text) : "";
+    const bool minus = text.starts_with('-');
+    const HeaderCell cell = header_cell(minus ? text.substr(1) : text);
+    if (cell.name.empty() || cell.open) {
+      section.report().error(
+          value.at, fmt::format("'{}' is {} (expected a header of the file with its unit, such as "
+                                "\"Ax [m/s^2]\", with a leading - to change the sign). Correct it",
+                                key, describe(value)));
+      continue;
+    }
+    if (cell.unit && !parse_recording_unit(*cell.unit) && known_quantity(member.key)) {
+      section.report().error(
+          value.at,
+          fmt::format("'{}' = \"{}\" has the unknown unit '{}' (expected {}). Correct the "
+                      "unit",
+                      key, value.text, *cell.unit, known_quantity(member.key)->words));
+      continue;
+    }
+    for (const MappedColumn& other : format.columns)
+      if (other.own == cell.name)
+        section.report().error(
+            value.at,
+            fmt::format("'{}' and '{}' name the same column '{}' (expected one channel for "
+                        "each column). Remove one",
+                        section.full("columns." + other.channel), key, cell.name));
+    format.columns.push_back({member.key, cell.name, cell.unit, minus ? -1.0 : 1.0});
+    section.report().given(key, value.text, member.at);
+  }
+}
+
+void read_positions(Section& section, const std::vector<std::string>& names,
+                    RecordingFormat& format) {
+  const auto most = static_cast<std::int64_t>(names.size());
+  for (const auto& member : members(section, "positions", "positions = { \"x up\" = 1 }")) {
+    const std::string key = section.full(fmt::format("positions.\"{}\"", member.key));
+    const Node& value = member.value;
+    const auto named =
+        value.is(Node::Kind::string) ? std::ranges::find(names, value.text) : names.end();
+    std::int64_t number = 0;
+    if (value.is(Node::Kind::integer) && value.integer >= 1 && value.integer <= most)
+      number = value.integer;
+    if (named != names.end()) number = named - names.begin() + 1;
+    if (number == 0) {
+      const std::vector<std::string_view> known(names.begin(), names.end());
+      section.report().error(
+          value.at,
+          fmt::format("'{}' is {} (expected a position of the plan: 1 to {}, or its name). {}", key,
+                      describe(value), most,
+                      value.is(Node::Kind::string)
+                          ? config::suggestion(value.text, known, "Correct it")
+                          : "Correct it"));
+      continue;
+    }
+    format.positions.emplace_back(member.key, static_cast<int>(number));
+    section.report().given(key, config::to_toml(value), member.at);
+  }
+  for (std::size_t i = 0; i < names.size(); ++i)
+    format.positions.emplace_back(names[i], static_cast<int>(i + 1));
+}
+
+void read_offsets(Section& section, RecordingKind kind, RecordingFormat& format) {
+  for (const auto& member : members(section, "offset", "offset = { gimbal_inner = \"90 deg\" }")) {
+    if (!check_channel(section, "offset", member, kind)) continue;
+    const std::string key = section.full(fmt::format("offset.{}", member.key));
+    Unit wanted = unit::one;
+    if (const auto quantity = known_quantity(member.key))
+      for (const Unit& u :
+           {unit::s, unit::g, unit::deg, unit::deg_per_h, "degC"_unit, "gauss"_unit})
+        if (u.dim == quantity->dim) wanted = u;
+    const Option option{.key = member.key, .unit = wanted};
+    const auto q = config::read_quantity(section.report(), member.value, key, option);
+    if (!q) continue;
+    format.offsets.push_back({member.key, q->si(), q->unit.dim});
+    section.report().given(key, config::to_toml(member.value), member.at);
+  }
+}
+
+void read_ignored(Section& section, RecordingFormat& format) {
+  const Node* node = section.take("ignore");
+  if (node == nullptr) return;
+  const auto is_text = [](const Node& item) { return item.is(Node::Kind::string); };
+  if (!node->is(Node::Kind::array) || !std::ranges::all_of(node->items, is_text)) {
+    section.report().error(node->at, fmt::format("'{}' is {} (expected a list of headers of the "
+                                                 "file). Write ignore = [\"Datum\"]",
+                                                 section.full("ignore"), describe(*node)));
+    return;
+  }
+  for (const Node& item : node->items) format.ignore.push_back(std::string(trimmed(item.text)));
+  section.report().given(section.full("ignore"), config::to_toml(*node), node->at);
+}
+
+/// Keys of time that do not go together.
+void check_time(Section& section, const RecordingFormat& format) {
+  const auto error = [&](std::string_view key, const std::string& text) {
+    section.report().error(section.take(key)->at, fmt::format("'{}' {}", section.full(key), text));
+  };
+  const bool mapped =
+      std::ranges::find(format.columns, "time", &MappedColumn::channel) != format.columns.end();
+  for (const std::string_view key : {"wrap", "tick"})
+    if (section.has(key) && format.counter.empty())
+      error(key,
+            "is given without a counter (expected counter = \"its header\" beside it). Add it, "
+            "or remove the line");
+  if (!format.counter.empty() && !format.tick && !format.rate)
+    error("counter",
+          "is given without the length of a count (expected tick = \"100 us\", or rate = "
+          "\"100 Hz\" where it counts rows). Add one");
+  if (format.tick && format.rate)
+    error("tick", "is given together with rate (expected one of them). Remove one");
+  if (mapped && (format.rate || !format.counter.empty()))
+    error(format.counter.empty() ? "rate" : "counter",
+          "is given together with a column of time (expected one of them). Remove one");
+}
+
+}  // namespace
+
+RecordingFormat read_recording_format(Section section, RecordingKind kind,
+                                      const std::vector<std::string>& positions) {
+  RecordingFormat format;
+  if (section.present()) {
+    read_columns(section, kind, format);
+    read_offsets(section, kind, format);
+    read_ignored(section, format);
+    section.read(Option{.key = "delimiter", .doc = "between cells"}, format.delimiter, delimiters);
+    section.read(Option{.key = "decimal", .doc = "mark within numbers"}, format.decimal,
+                 decimal_marks);
+    section.read_options(format);
+    if (section.has("counter"))
+      section.read(Option{.key = "counter", .doc = "header of a counter"}, format.counter);
+    else
+      section.take("counter");
+    section.read(Option{.key = "kind", .doc = "what a sample is"}, format.kind, sample_kinds);
+    if (format.kind == SampleKind::increments && kind == RecordingKind::platform)
+      section.report().error(section.take("kind")->at,
+                             fmt::format("'{}' = \"increments\" is for sensors fixed to a case "
+                                         "(expected \"rates\" for a platform). Remove it",
+                                         section.full("kind")));
+    if (format.decimal == DecimalMark::comma && format.delimiter == Delimiter::comma)
+      section.report().error(section.take("decimal")->at,
+                             fmt::format("'{}' and '{}' are both a comma (expected two marks). "
+                                         "Correct one",
+                                         section.full("decimal"), section.full("delimiter")));
+    check_time(section, format);
+  }
+  read_positions(section, positions, format);
+  section.finish();
+  return format;
+}
+
+}  // namespace drift

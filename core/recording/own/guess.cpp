@@ -1,0 +1,166 @@
+#include "core/recording/own/guess.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/base/utf8.hpp"
+#include "core/config/node.hpp"
+#include "core/recording/line_reader.hpp"
+#include "core/recording/own/csv_cells.hpp"
+#include "core/recording/own/guess_names.hpp"
+#include "core/recording/own/recording_unit.hpp"
+#include "core/recording/own/text_decoding.hpp"
+#include "core/recording/recording_channels.hpp"
+#include "core/recording/recording_problems.hpp"
+
+namespace drift {
+namespace {
+
+constexpr std::size_t most_words = 100;
+
+/// Counts what stands in the cells of a column.
+void look_at(GuessedColumn& column, std::string_view cell) {
+  if (cell.empty()) return;
+  const ParsedCell parsed = parse_cell(cell, DecimalMark::automatic);
+  if (parsed.kind == ParsedCell::Kind::number && std::isfinite(parsed.value)) {
+    column.low = column.numbers == 0 ? parsed.value : std::min(column.low, parsed.value);
+    column.high = column.numbers == 0 ? parsed.value : std::max(column.high, parsed.value);
+    ++column.numbers;
+  } else if (parsed.kind != ParsedCell::Kind::number) {
+    ++column.texts;
+    if (column.words.size() < most_words &&
+        std::ranges::find(column.words, cell) == column.words.end())
+      column.words.emplace_back(cell);
+  }
+}
+
+/// Goes through all rows; the lengths of the specific force in the units of the file come back.
+std::vector<double> look_at_rows(const std::string& path, GuessedFile& file) {
+  std::vector<double> lengths;
+  std::array<std::size_t, 3> acc{};
+  bool triple = true;
+  for (int a = 0; a < 3; ++a) {
+    const auto it =
+        std::ranges::find(file.columns, fmt::format("acc_{}", "xyz"[a]), &GuessedColumn::channel);
+    triple = triple && it != file.columns.end();
+    acc[a] = static_cast<std::size_t>(it - file.columns.begin());
+  }
+  LineReader lines(path);
+  CellSplitter splitter(file.layout.delimiter);
+  std::string_view line;
+  std::string decoded;
+  while (lines.next(line)) {
+    if (lines.number() <= std::max(file.layout.header_line, file.layout.unit_line)) continue;
+    if (trimmed(line).empty() || line.front() == '#') continue;
+    if (!valid_utf8(line)) line = decoded = utf8_from_latin1(line);
+    const auto& cells = splitter.split(line);
+    if (cells.size() != file.columns.size()) continue;
+    ++file.rows;
+    for (std::size_t i = 0; i < cells.size(); ++i) look_at(file.columns[i], cells[i]);
+    if (!triple) continue;
+    const auto f = [&](int a) { return parse_cell(cells[acc[a]], DecimalMark::automatic).value; };
+    if (const double length = std::hypot(f(0), f(1), f(2)); std::isfinite(length))
+      lengths.push_back(length);
+  }
+  return lengths;
+}
+
+/// The unit of accelerations that makes their usual length that of gravity; "?" if none does.
+std::string unit_of_gravity(std::vector<double> lengths) {
+  if (lengths.empty()) return "?";
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  constexpr std::pair<double, std::string_view> sizes[] = {
+      {1.0, "g"}, {9.80665, "m/s^2"}, {1e3, "mg"}, {1e6, "ug"}};
+  for (const auto& [size, unit] : sizes)
+    if (std::abs(*middle / size - 1.0) < 0.05) return std::string(unit);
+  return "?";
+}
+
+std::string unit_of(const GuessedColumn& c, const std::string& gravity) {
+  const auto quantity = known_quantity(c.channel);
+  if (!quantity || !quantity->needs_unit) return {};
+  if (c.channel == "time" && c.numbers == 0 && c.texts > 0) return {};  // times of a clock
+  if (c.header.unit && parse_recording_unit(*c.header.unit)) return *c.header.unit;
+  if (const std::string ending = guessed_unit(c.header.name); !ending.empty())
+    if (const auto unit = parse_recording_unit(ending);
+        unit && (unit->dim == quantity->dim || c.channel.starts_with("acc_")))
+      return ending;
+  if (c.channel.starts_with("acc_")) return gravity;
+  constexpr double full_turn = 7.0;  // [rad] no angle is larger
+  if (c.channel.starts_with("gimbal_") && std::max(-c.low, c.high) > full_turn) return "deg";
+  return c.channel == "temperature" ? "" : "?";  // a covariate does without
+}
+
+/// Names the channels; of two columns that may be one channel, the first is.
+void name_channels(GuessedFile& file) {
+  for (GuessedColumn& c : file.columns) {
+    std::string channel = guessed_channel(c.header.name);
+    const auto all = canonical_channels(RecordingKind::platform);
+    if (std::ranges::find(all, c.header.name) != all.end()) channel = c.header.name;
+    if (std::ranges::find(file.columns, channel, &GuessedColumn::channel) == file.columns.end())
+      c.channel = channel;
+  }
+  const auto has = [&](std::string_view start) {
+    return std::ranges::any_of(
+        file.columns, [&](const GuessedColumn& c) { return c.channel.starts_with(start); });
+  };
+  if (has("gyro_") && !has("gimbal_") && !has("position")) file.kind = RecordingKind::strapdown;
+}
+
+void fill_format(GuessedFile& file) {
+  file.complete = true;
+  for (const GuessedColumn& c : file.columns) {
+    if (c.channel.empty() || c.unit == "?") {
+      file.complete = file.complete && c.unit != "?";
+      continue;
+    }
+    MappedColumn m{c.channel, c.header.name, {}, 1.0};
+    if (!c.unit.empty()) m.unit = c.unit;
+    if (c.channel != c.header.name || (!c.unit.empty() && !c.header.unit))
+      file.format.columns.push_back(m);
+    if (c.channel == "position")
+      for (std::size_t i = 0; i < c.words.size(); ++i)
+        file.format.positions.emplace_back(c.words[i], static_cast<int>(i + 1));
+  }
+}
+
+std::string quoted(const std::string& text) {
+  return config::to_toml(config::text_node(text));
+}
+
+}  // namespace
+
+GuessedFile guess_file(const std::string& path) {
+  GuessedFile file;
+  file.layout = find_layout(path, {}, RecordingKind::platform);
+  for (const HeaderCell& cell : file.layout.header) {
+    GuessedColumn column;
+    column.header = cell;
+    file.columns.push_back(std::move(column));
+  }
+  name_channels(file);
+  const std::string gravity = unit_of_gravity(look_at_rows(path, file));
+  for (GuessedColumn& c : file.columns) c.unit = unit_of(c, gravity);
+  fill_format(file);
+  return file;
+}
+
+std::string recording_section(const GuessedFile& file) {
+  std::string columns, positions;  // TOML keeps an inline table on one line
+  for (const GuessedColumn& c : file.columns)
+    if (!c.channel.empty())
+      columns += fmt::format(
+          "{}{} = {}", columns.empty() ? "" : ", ", c.channel,
+          quoted(c.unit.empty() ? c.header.name : fmt::format("{} [{}]", c.header.name, c.unit)));
+  std::string out = fmt::format("[recording]\ncolumns = {{ {} }}\n", columns);
+  for (const auto& [text, number] : file.format.positions)
+    positions += fmt::format("{}{} = {}", positions.empty() ? "" : ", ", quoted(text), number);
+  if (!positions.empty()) out += fmt::format("positions = {{ {} }}\n", positions);
+  return out;
+}
+
+}  // namespace drift

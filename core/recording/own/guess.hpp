@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/recording/own/csv_layout.hpp"
+
+namespace drift {
+
+/// One column of a text file, as it looks, and what it may be.
+struct GuessedColumn {
+  HeaderCell header;
+  std::size_t numbers = 0, texts = 0;  ///< cells
+  double low = 0.0, high = 0.0;        ///< of the numbers
+  std::vector<std::string> words;      ///< the first different texts, in order
+  std::string channel;                 ///< the channel it may be; empty: none
+  std::string unit;  ///< of the channel; "?": not to be guessed; empty: none needed
+};
+
+/// What a text file of columns may be as a recording.
+struct GuessedFile {
+  CsvLayout layout;
+  RecordingKind kind = RecordingKind::platform;
+  std::vector<GuessedColumn> columns;
+  std::size_t rows = 0;
+  RecordingFormat format;  ///< reads it, where every unit could be told
+  bool complete = false;   ///< that is so, and the columns that are needed are there
+};
+
+/// Guesses by headers, units and values. InputError (io).
+GuessedFile guess_file(const std::string& path);
+
+/// The [recording] section of a study file that says so.
+std::string recording_section(const GuessedFile& file);
+
+}  // namespace drift

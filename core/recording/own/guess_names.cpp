@@ -1,0 +1,99 @@
+#include "core/recording/own/guess_names.hpp"
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <utility>
+
+#include "core/recording/own/csv_cells.hpp"
+#include "core/recording/own/header.hpp"
+
+namespace drift {
+namespace {
+
+using Words = std::span<const std::string_view>;
+
+constexpr std::pair<std::string_view, std::string_view> unit_endings[] = {
+    {"ms", "ms"},         {"us", "us"},       {"s", "s"},        {"sec", "s"},
+    {"min", "min"},       {"h", "h"},         {"deg", "deg"},    {"rad", "rad"},
+    {"arcsec", "arcsec"}, {"g", "g"},         {"mg", "mg"},      {"ug", "ug"},
+    {"mss", "m/s^2"},     {"ms2", "m/s^2"},   {"mps2", "m/s^2"}, {"dps", "deg/s"},
+    {"degs", "deg/s"},    {"degps", "deg/s"}, {"rads", "rad/s"}, {"radps", "rad/s"},
+    {"degh", "deg/h"},    {"dph", "deg/h"},   {"degc", "degC"},  {"c", "degC"}};
+
+constexpr std::string_view time_words[] = {"time",       "t",           "zeit",        "timestamp",
+                                           "elapsed",    "elapsedtime", "zeitstempel", "uhrzeit",
+                                           "sampletime", "seconds"};
+constexpr std::string_view position_words[] = {"position", "pos",   "lage",      "stellung",
+                                               "lagenr",   "posnr", "positionno"};
+constexpr std::string_view temperature_words[] = {"temperature", "temp", "temperatur", "tc"};
+constexpr std::string_view acc_words[] = {
+    "a",      "acc", "accel",          "acceleration",  "accelerometer",
+    "beschl", "f",   "beschleunigung", "specificforce", "sf"};
+constexpr std::string_view gyro_words[] = {
+    "g",           "gyr",     "gyro",   "gyroscope",       "w",       "omega", "rate", "drehrate",
+    "angularrate", "angrate", "angvel", "angularvelocity", "gyrorate"};
+constexpr std::string_view cmd_words[] = {"cmd", "command", "commanded", "soll", "befehl", "wcmd"};
+constexpr std::string_view gimbal_words[] = {"gimbal", "phi",    "resolver",
+                                             "winkel", "rahmen", "angle"};
+constexpr std::string_view outer_words[] = {"outer", "aussen", "a", "o", "1"};
+constexpr std::string_view middle_words[] = {"middle", "mitte", "mittel", "m", "2"};
+constexpr std::string_view inner_words[] = {"inner", "innen", "i", "3"};
+
+bool is_one(std::string_view word, Words words) {
+  return std::ranges::find(words, word) != words.end();
+}
+
+/// The last part of a header that underscores, blanks or dots divide; empty if it has one part.
+std::string_view last_part(std::string_view name) {
+  const auto at = name.find_last_of("_ .-");
+  return at == std::string_view::npos ? std::string_view() : name.substr(at + 1);
+}
+
+std::string letters(std::string_view text) {
+  std::string out = lower_case(plain_channel_name(text));
+  std::erase(out, '_');
+  return out;
+}
+
+}  // namespace
+
+std::string guessed_unit(std::string_view header) {
+  const std::string last = lower_case(last_part(header));
+  for (const auto& [ending, unit] : unit_endings)
+    if (ending == last) return std::string(unit);
+  return {};
+}
+
+std::string guessed_channel(std::string_view header) {
+  std::string_view name = header;
+  if (!guessed_unit(header).empty())
+    name = header.substr(0, header.size() - last_part(header).size());
+  const std::string word = letters(name);
+  if (word.empty()) return {};
+  if (is_one(word, time_words)) return "time";
+  if (is_one(word, position_words)) return "position";
+  if (is_one(word, temperature_words)) return "temperature";
+  if (word == "phase") return "phase";
+  constexpr std::array<std::pair<Words, std::string_view>, 3> gimbals{
+      {{outer_words, "gimbal_outer"},
+       {middle_words, "gimbal_middle"},
+       {inner_words, "gimbal_inner"}}};
+  for (const auto& [places, channel] : gimbals)
+    for (const auto place : places) {
+      if (place.size() > 2 && word == place) return std::string(channel);
+      if (word.size() > place.size() && word.ends_with(place) &&
+          is_one(std::string_view(word).substr(0, word.size() - place.size()), gimbal_words))
+        return std::string(channel);
+    }
+  const char axis = word.back();
+  if (word.size() < 2 || axis < 'x' || axis > 'z') return {};
+  const std::string_view stem = std::string_view(word).substr(0, word.size() - 1);
+  constexpr std::array<std::pair<Words, std::string_view>, 3> triples{
+      {{acc_words, "acc_"}, {gyro_words, "gyro_"}, {cmd_words, "cmd_"}}};
+  for (const auto& [words, start] : triples)
+    if (is_one(stem, words)) return std::string(start) + axis;
+  return {};
+}
+
+}  // namespace drift

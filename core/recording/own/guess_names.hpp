@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace drift {
+
+/// The channel that a header of some laboratory may mean ("Ax_mss" -> acc_x); empty if none.
+std::string guessed_channel(std::string_view header);
+
+/// The unit at the end of a header ("Zeit_ms" -> ms, "Ax_mss" -> m/s^2); empty if there is none.
+std::string guessed_unit(std::string_view header);
+
+}  // namespace drift

@@ -1,0 +1,122 @@
+#include "core/recording/own/header.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "core/config/nearest.hpp"
+#include "core/recording/own/csv_cells.hpp"
+#include "core/recording/recording_channels.hpp"
+#include "core/recording/recording_problems.hpp"
+
+namespace drift {
+namespace {
+
+/// Letters and digits alone, in lower case: "Acc-X" and "acc_x" are the same word.
+std::string bare(std::string_view name) {
+  std::string out = lower_case(name);
+  std::erase_if(out, [](char c) { return !((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9')); });
+  return out;
+}
+
+}  // namespace
+
+HeaderCell header_cell(std::string_view text) {
+  HeaderCell cell;
+  text = trimmed(text);
+  cell.whole = text;
+  const auto bracket = text.find('[');
+  const bool round = bracket == std::string_view::npos && text.ends_with(')');
+  const auto at = round ? text.rfind('(') : bracket;
+  cell.name = trimmed(text.substr(0, at));
+  if (at == std::string_view::npos) return cell;
+  if (text.back() == (round ? ')' : ']'))
+    cell.unit = trimmed(text.substr(at + 1, text.size() - at - 2));
+  else
+    cell.open = true;
+  return cell;
+}
+
+bool is_called(const HeaderCell& cell, std::string_view own) {
+  return !own.empty() && (cell.whole == own || cell.name == own);
+}
+
+std::vector<std::string_view> canonical_channels(RecordingKind kind) {
+  std::vector<std::string_view> all{"time"};
+  const auto add = [&](const ChannelTriple& t) {
+    all.insert(all.end(), t.names.begin(), t.names.end());
+  };
+  if (kind == RecordingKind::platform) {
+    all.insert(all.end(), {"position", "phase"});
+    add(channel_triples[0]);
+    add(channel_triples[1]);
+    add(channel_triples[2]);
+    all.emplace_back("case_heading");
+  } else {
+    add(channel_triples[3]);
+    add(channel_triples[0]);
+  }
+  all.insert(all.end(), {"temperature", "field_n", "field_w", "field_u"});
+  return all;
+}
+
+bool is_known(const HeaderCell& cell, const RecordingFormat& format, RecordingKind kind) {
+  const auto all = canonical_channels(kind);
+  if (std::ranges::find(all, cell.name) != all.end() || is_called(cell, format.counter))
+    return true;
+  const auto called = [&](const std::string& own) { return is_called(cell, own); };
+  return std::ranges::any_of(format.columns, called, &MappedColumn::own) ||
+         std::ranges::any_of(format.ignore, called);
+}
+
+std::vector<std::string_view> meant_channels(std::string_view name,
+                                             const std::vector<std::string_view>& absent) {
+  const std::string word = bare(name);
+  std::vector<std::string_view> meant;
+  for (const auto channel : absent)
+    if (word == bare(channel)) meant.push_back(channel);
+  if (!meant.empty()) return meant;
+  double best = 0.0;
+  for (const auto channel : absent) {
+    // One slip, two in a long word; a name with a number of its own is another thing.
+    const double enough = channel.size() >= 9 ? 2.0 : channel.size() >= 5 ? 1.0 : 0.9;
+    const double cost = config::typing_distance(name, channel);
+    if (cost > enough || (!meant.empty() && cost > best + 1e-9)) continue;
+    if (meant.empty() || cost < best - 1e-9) meant.clear();
+    best = cost;
+    meant.push_back(channel);
+  }
+  return meant;
+}
+
+std::string plain_channel_name(std::string_view header) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 9> letters{
+      {{"\u00E4", "ae"},
+       {"\u00F6", "oe"},
+       {"\u00FC", "ue"},
+       {"\u00C4", "Ae"},
+       {"\u00D6", "Oe"},
+       {"\u00DC", "Ue"},
+       {"\u00DF", "ss"},
+       {"\u00B5", "u"},
+       {"\u00B0", "deg"}}};
+  std::string text(header);
+  for (const auto& [from, to] : letters)
+    for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+      text.replace(at, from.size(), to);
+  std::string out;
+  for (const char c : text) {
+    const bool fit = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+    if (fit)
+      out += c;
+    else if (!out.empty() && out.back() != '_')
+      out += '_';
+  }
+  while (out.ends_with('_')) out.pop_back();
+  if (out.empty() || !((out[0] >= 'a' && out[0] <= 'z') || (out[0] >= 'A' && out[0] <= 'Z')))
+    out.insert(0, "column_");
+  out = out.substr(0, 50);
+  if (!valid_channel_name(out)) out += "_column";
+  return out;
+}
+
+}  // namespace drift

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/recording/recording.hpp"
+#include "core/recording/recording_format.hpp"
+
+namespace drift {
+
+/// One cell of a header row: "name [unit]" or "name (unit)".
+struct HeaderCell {
+  std::string whole;                ///< as it stands in the file
+  std::string name;                 ///< without the unit
+  std::optional<std::string> unit;  ///< empty: the cell gives none
+  bool open = false;                ///< a bracket that is not closed
+};
+
+HeaderCell header_cell(std::string_view text);
+
+/// Whether a header in the file is the one that a text of the study file means: the whole cell, or
+/// its name.
+bool is_called(const HeaderCell& cell, std::string_view own);
+
+/// Names of the channels that the program knows of a kind of recording, required ones first.
+std::vector<std::string_view> canonical_channels(RecordingKind kind);
+
+/// Whether the header is a channel the program knows, or one that the format names.
+bool is_known(const HeaderCell& cell, const RecordingFormat& format, RecordingKind kind);
+
+/// The channels closest to a header that is none of them but hardly means anything else; empty for
+/// a covariate of its own.
+std::vector<std::string_view> meant_channels(std::string_view name,
+                                             const std::vector<std::string_view>& absent);
+
+/// A header made fit for the name of a channel: "Öl temp" -> "Oel_temp".
+std::string plain_channel_name(std::string_view header);
+
+}  // namespace drift

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/base/named.hpp"
+#include "core/base/units.hpp"
+
+namespace drift {
+
+/// What separates the cells of a line.
+enum class Delimiter { automatic, comma, semicolon, tab, space };
+inline constexpr Named<Delimiter> delimiters[] = {{"auto", Delimiter::automatic},
+                                                  {",", Delimiter::comma},
+                                                  {";", Delimiter::semicolon},
+                                                  {"tab", Delimiter::tab},
+                                                  {"space", Delimiter::space}};
+
+/// What separates the whole part of a number from its decimals.
+enum class DecimalMark { automatic, point, comma };
+inline constexpr Named<DecimalMark> decimal_marks[] = {
+    {"auto", DecimalMark::automatic}, {".", DecimalMark::point}, {",", DecimalMark::comma}};
+
+/// What the sensors of a strapdown recording give.
+enum class SampleKind {
+  rates,       ///< means over the sample interval
+  increments,  ///< angle and velocity gained over the sample interval
+};
+inline constexpr Named<SampleKind> sample_kinds[] = {{"rates", SampleKind::rates},
+                                                     {"increments", SampleKind::increments}};
+
+/// One column of a user's file that stands for a channel: `acc_x = "-Ax [m/s^2]"`.
+struct MappedColumn {
+  std::string channel;              ///< the name the program knows, or a covariate's
+  std::string own;                  ///< the header in the file
+  std::optional<std::string> unit;  ///< empty: the one of the file
+  double sign = 1.0;                ///< the values are multiplied by it
+};
+
+/// What is added to a channel after unit and sign.
+struct ChannelOffset {
+  std::string channel;
+  double value = 0.0;  ///< [internal units]
+  Dimension dim;
+};
+
+/// How a user's file is read as a recording: [recording] of the study file (interfaces.md 8.1).
+struct RecordingFormat {
+  std::vector<MappedColumn> columns;
+  std::vector<std::pair<std::string, int>> positions;  ///< text -> number of the plan's position
+  std::vector<ChannelOffset> offsets;
+  std::vector<std::string> ignore;  ///< headers in the file
+  Delimiter delimiter = Delimiter::automatic;
+  DecimalMark decimal = DecimalMark::automatic;
+  std::uint64_t skip_rows = 0;  ///< lines before the header; 0: recognised
+  std::optional<double> rate;   ///< of rows without a column of time [1/s]
+  std::string counter;          ///< header of a counter that stands for time; empty: none
+  std::optional<double> wrap;   ///< the counter begins again at 0 when it reaches this
+  std::optional<double> tick;   ///< one count [s]
+  SampleKind kind = SampleKind::rates;
+};
+
+}  // namespace drift

@@ -1,0 +1,174 @@
+#include "core/recording/recording_units.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/recording/own/recording_unit.hpp"
+#include "core/recording/recording_channels.hpp"
+
+namespace drift {
+namespace {
+
+constexpr Unit acceleration = "m/s^2"_unit, velocity = "m/s"_unit;
+
+/// Angles and velocities per sample are what a strapdown recording of increments holds.
+std::optional<ChannelQuantity> quantity_of(const RawColumn& column, const UnitContext& context) {
+  const bool increments =
+      context.samples == SampleKind::increments && context.kind == RecordingKind::strapdown;
+  if (increments && column.name.starts_with("gyro_") && known_quantity(column.name))
+    return ChannelQuantity{unit::rad.dim, "an angle gained per sample, for example [rad] or [deg]",
+                           true, 1e3};
+  if (increments && column.name.starts_with("acc_") && known_quantity(column.name))
+    return ChannelQuantity{"g*s"_unit.dim,
+                           "a velocity gained per sample, for example [m/s] or [g*s]", true, 1e5};
+  return known_quantity(column.name);
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// A covariate whose unit is not known: a plain number that no term mistakes for its own.
+Unit carried_plain(RawColumn& column, std::string_view why, std::vector<std::string>& remarks) {
+  const std::string was = column.name;
+  if (known_quantity(was)) column.name += "_raw";
+  remarks.push_back(fmt::format("{}: {}, it is carried as a plain number{}", was, why,
+                                column.name == was
+                                    ? std::string()
+                                    : fmt::format(", as {}, which no term uses", column.name)));
+  return unit::one;
+}
+
+}  // namespace
+
+void check_units_given(const std::vector<RawColumn>& columns, const UnitContext& context,
+                       Problems& problems) {
+  std::string names, expected;
+  for (const RawColumn& c : columns) {
+    const auto quantity = quantity_of(c, context);
+    if (c.unit || is_covariate(c.name, context.kind) || (quantity && !quantity->needs_unit))
+      continue;
+    names += (names.empty() ? "" : ", ") + c.name;
+    if (expected.empty() && quantity) expected = quantity->words;
+  }
+  if (names.empty()) return;
+  const std::string first = names.substr(0, names.find(','));
+  problems.add(names, "the unit is missing",
+               first == names ? expected : fmt::format("one for each, {} for {}", expected, first),
+               fmt::format("Give it with the name, as in '{} [{}]', or in [recording] columns of "
+                           "the study file",
+                           first,
+                           first == "time"            ? "s"
+                           : first.starts_with("acc") ? "g"
+                                                      : "deg"));
+}
+
+Unit checked_unit(RawColumn& column, const UnitContext& context, Problems& problems,
+                  std::vector<std::string>& remarks) {
+  const auto quantity = quantity_of(column, context);
+  const bool plain = quantity && !quantity->needs_unit;
+  const bool covariate = is_covariate(column.name, context.kind);
+  const std::string expected(
+      quantity ? quantity->words : "a unit such as [degC], [gauss], [arcsec] or [1] for a number");
+  if (!column.unit) {
+    if (plain) return unit::one;
+    if (covariate) return carried_plain(column, "no unit is given", remarks);
+    return unit::one;
+  }
+  const auto unit = parse_recording_unit(*column.unit);
+  if (!unit) {
+    if (covariate && !plain)
+      return carried_plain(column, "the unit " + in_quotes(*column.unit) + " is not known",
+                           remarks);
+    problems.add(column.name, "unknown unit " + in_quotes(*column.unit), expected,
+                 "Write the unit as a product of known ones, as in deg/h or m/s^2, or give it in "
+                 "[recording] columns of the study file");
+    return unit::one;
+  }
+  if (!quantity || unit->dim == quantity->dim) return *unit;
+  if (quantity->dim == unit::g.dim && unit->dim == acceleration.dim)
+    return {unit->symbol, unit->to_si / context.gravity, unit::g.dim};
+  if (quantity->dim == "g*s"_unit.dim && unit->dim == velocity.dim)
+    return {unit->symbol, unit->to_si / context.gravity, quantity->dim};
+  std::string fix = "Correct the unit or the name of the column";
+  if (context.samples == SampleKind::rates && context.kind == RecordingKind::strapdown &&
+      (unit->dim == unit::rad.dim || unit->dim == velocity.dim))
+    fix =
+        "Angles and velocities gained per sample need kind = \"increments\" in [recording] of the "
+        "study file; otherwise correct the unit";
+  problems.add(column.name,
+               fmt::format("the unit [{}] does not measure this channel", *column.unit), expected,
+               fix);
+  return *unit;
+}
+
+void add_offset(RawColumn& column, const Unit& unit, Problems& problems) {
+  if (!column.offset || !column.unit) return;  // what has no unit is said elsewhere
+  if (column.offset->dim != unit.dim) {
+    problems.add(column.name, "recording.offset of the study file has another kind of unit",
+                 fmt::format("one that goes with [{}]", unit.symbol.view()),
+                 "Correct the unit of the offset");
+    return;
+  }
+  for (double& x : column.values) x += column.offset->value;
+}
+
+void make_rates(Recording& recording, double gravity) {
+  const Channel* time = recording.find("time");
+  if (!time || recording.rows() < 2) return;
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < recording.rows(); ++i)
+    steps.push_back(time->values[i] - time->values[i - 1]);
+  const double usual = median(steps);
+  if (!(usual > 0.0)) return;
+  const auto length = [&](std::size_t row) {
+    const double step = row == 0 ? usual : steps[row - 1];
+    return std::abs(step - usual) > 0.5 * usual ? usual : step;
+  };
+  for (Channel& c : recording.channels) {
+    const bool gyro = c.name.starts_with("gyro_") && c.unit.dim == unit::rad.dim;
+    const bool acc = c.name.starts_with("acc_") && c.unit.dim == "g*s"_unit.dim;
+    if (!gyro && !acc) continue;
+    for (std::size_t i = 0; i < c.values.size(); ++i) c.values[i] /= length(i);
+    c.unit = gyro ? unit::deg_per_s
+                  : Unit{acceleration.symbol, acceleration.to_si / gravity, unit::g.dim};
+  }
+}
+
+void check_gravity(const Recording& recording, Problems& problems) {
+  const Channel* acc[3] = {recording.find("acc_x"), recording.find("acc_y"),
+                           recording.find("acc_z")};
+  if (problems.any() || !acc[0] || !acc[1] || !acc[2]) return;
+  std::vector<double> lengths;
+  for (std::size_t i = 0; i < recording.rows(); ++i)
+    if (const double f = std::hypot(acc[0]->values[i], acc[1]->values[i], acc[2]->values[i]);
+        std::isfinite(f))
+      lengths.push_back(f);
+  constexpr std::size_t enough = 5;  // a handful of rows says nothing
+  if (lengths.size() < enough) return;
+  const double f = median(lengths);
+  struct Mistake {
+    double factor;
+    std::string_view what;
+  };
+  constexpr double g = 9.80665;
+  constexpr Mistake mistakes[] = {
+      {g, "[m/s^2]"}, {1.0 / g, "[g]"},        {1e3, "[mg]"},         {1e-3, "[g], not [mg]"},
+      {1e6, "[ug]"},  {1e-6, "[g], not [ug]"}, {1e-3 * g, "[m/s^2]"}, {1e3 * g, "1e-3 m/s^2"}};
+  for (const auto& [factor, what] : mistakes)
+    if (std::abs(f / factor - 1.0) < 0.02) {
+      problems.add("acc_x",
+                   fmt::format("the accelerometers together read {:.4g} g, as half of the "
+                               "rows show",
+                               f),
+                   "1 g from a case at rest",
+                   fmt::format("Correct their unit: the numbers look like {}", what));
+      return;
+    }
+}
+
+}  // namespace drift

@@ -1,0 +1,128 @@
+#include <gtest/gtest.h>
+
+#include "core/recording/recording.hpp"
+#include "tests/support/lab_file.hpp"
+#include "tests/support/program.hpp"
+
+namespace drift {
+namespace {
+
+using test::driftscope, test::LabColumn, test::LabFile, test::ScratchFolder;
+
+const std::string study_text = R"toml(schema = 1
+[site]
+latitude = "45.75 deg"
+gravity = "9.81 m/s^2"
+[plan]
+preset = "six"
+dwell = "4 min"
+sample = "20 s"
+[truth]
+coupling = "eq5"
+terms = ["fixed_drift"]
+[[filter]]
+coupling = "eq5"
+terms = ["fixed_drift"]
+)toml";
+
+/// A simulated recording, and the file that a laboratory would have of it.
+struct Own {
+  ScratchFolder folder;
+  std::string study = folder.write("study.toml", study_text);
+  std::string made = folder.file("made.csv");
+  LabFile lab;
+  Recording truth;
+
+  Own() {
+    const auto answer = driftscope("simulate '" + study + "' -o '" + made + "'");
+    EXPECT_EQ(answer.code, 0) << answer.err;
+    truth = read_recording(made, RecordingKind::platform, 9.81);
+    for (LabColumn& c : lab.columns) {
+      c.sign = 1.0;
+      c.offset = 0.0;
+    }
+    lab.units = LabFile::Units::row;
+    lab.preamble = {"Messung 7", "Pruefer Meier"};
+  }
+};
+
+void expect_same_numbers(const LabFile& lab, const Recording& got, const Recording& truth) {
+  ASSERT_EQ(got.rows(), truth.rows());
+  for (const LabColumn& c : lab.columns) {
+    ASSERT_NE(got.find(c.channel), nullptr) << c.channel;
+    for (std::size_t i = 0; i < got.rows(); ++i)
+      ASSERT_NEAR(got.find(c.channel)->values[i], truth.find(c.channel)->values[i], c.rounding())
+          << c.channel << " in row " << i;
+  }
+}
+
+TEST(OwnRecording, WhatLookProposesReadsTheFile) {
+  Own own;
+  const std::string log = own.folder.write("log.txt", own.lab.text(own.truth));
+  const auto look = driftscope("look '" + log + "'");
+  EXPECT_EQ(look.code, 0) << look.err;
+  const auto begin = look.out.find("[recording]");
+  ASSERT_NE(begin, std::string::npos) << look.out;
+  EXPECT_NE(look.out.find("driftscope diagnose"), std::string::npos) << look.out;
+  const std::string section = look.out.substr(begin, look.out.find("\n\n", begin) - begin);
+  EXPECT_NE(section.find("acc_x = \"Ax [m/s^2]\""), std::string::npos) << section;
+  EXPECT_NE(section.find("\"Lage 6\" = 6"), std::string::npos) << section;
+  const std::string study = own.folder.write("lab.toml", study_text + section + "\n");
+  for (const char* name : {"out.csv", "out.h5", "out.mat"}) {
+    const std::string out = own.folder.file(name);
+    const auto convert = driftscope("convert '" + study + "' '" + log + "' -o '" + out + "'");
+    EXPECT_EQ(convert.code, 0) << convert.err;
+    expect_same_numbers(own.lab, read_recording(out, RecordingKind::platform, 9.81), own.truth);
+  }
+  const auto checked = driftscope("check '" + study + "'");
+  EXPECT_NE(checked.out.find("recording.columns.acc_x"), std::string::npos) << checked.out;
+  const auto with_study = driftscope("look '" + log + "' '" + study + "'");
+  EXPECT_EQ(with_study.code, 0) << with_study.err;
+  EXPECT_NE(with_study.out.find("(1 at rest)"), std::string::npos) << with_study.out;
+}
+
+TEST(OwnRecording, IdentifyReadsTheFileAsItIs) {
+  Own own;
+  const std::string log = own.folder.write("log.csv", own.lab.text(own.truth));
+  const std::string study = own.folder.write(
+      "lab.toml", study_text + own.lab.section().replace(
+                                   own.lab.section().find("positions"), std::string::npos,
+                                   "positions = { \"Lage 1\" = 1, \"Lage 2\" = 2, \"Lage 3\" = 3, "
+                                   "\"Lage 4\" = 4, \"Lage 5\" = 5, \"Lage 6\" = 6 }\n"));
+  const auto answer = driftscope("identify '" + study + "' '" + log + "' --progress none");
+  EXPECT_EQ(answer.code, 0) << answer.err;
+  EXPECT_NE(answer.out.find("columns of text are passed over"), std::string::npos) << answer.out;
+}
+
+TEST(OwnRecording, ConvertReplacesOnlyWhatItMade) {
+  Own own;
+  const std::string kept = own.folder.write("kept.csv", "mine");
+  const auto refused =
+      driftscope("convert '" + own.study + "' '" + own.made + "' -o '" + kept + "'");
+  EXPECT_EQ(refused.code, 7) << refused.err;
+  EXPECT_EQ(test::text_of(kept), "mine");
+  const std::string out = own.folder.file("out.csv");
+  for (int i = 0; i < 2; ++i)
+    EXPECT_EQ(driftscope("convert '" + own.study + "' '" + own.made + "' -o '" + out + "'").code,
+              0);
+  EXPECT_EQ(driftscope("convert '" + own.study + "' '" + own.made + "' -o '" + own.made + "'").code,
+            2);
+}
+
+TEST(OwnRecording, LookSaysWhatIsMissingOfWhatCannotBeRead) {
+  const ScratchFolder folder;
+  const std::string log = folder.write("log.dat", "alpha beta\n1 2\n3 4\n");
+  const auto look = driftscope("look '" + log + "'");
+  EXPECT_EQ(look.code, 0) << look.err;
+  EXPECT_NE(look.out.find("It is not a recording yet"), std::string::npos) << look.out;
+  EXPECT_EQ(driftscope("look '" + folder.file("none.csv") + "'").code, 6);
+}
+
+TEST(OwnRecording, VersionIsAnOptionToo) {
+  const auto answer = driftscope("--version");
+  EXPECT_EQ(answer.code, 0);
+  EXPECT_TRUE(answer.out.starts_with("driftscope ")) << answer.out;
+}
+
+}  // namespace
+}  // namespace drift

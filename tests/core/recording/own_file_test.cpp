@@ -1,0 +1,215 @@
+#include <gtest/gtest.h>
+
+#include "core/config/load.hpp"
+#include "core/recording/own/csv_cells.hpp"
+#include "core/recording/own/format_config.hpp"
+#include "core/recording/own/recording_unit.hpp"
+#include "core/recording/own/text_decoding.hpp"
+#include "recording_fixture.hpp"
+
+namespace drift {
+namespace {
+
+using namespace test;
+
+/// What [recording] says, read as a study file's section; the mistakes in it are thrown.
+RecordingFormat format_of(const std::string& text, RecordingKind kind = RecordingKind::strapdown) {
+  const config::Node root = config::parse_document(text, "study.toml");
+  config::Report report("study.toml");
+  const auto format = read_recording_format(
+      config::Section(report, &root, config::Place{}, "recording"), kind, {"z up", "x up"});
+  report.throw_if_wrong();
+  return format;
+}
+
+std::string mistake(const std::string& text, RecordingKind kind = RecordingKind::platform) {
+  try {
+    format_of(text, kind);
+  } catch (const InputError& e) {
+    EXPECT_EQ(e.messages().size(), 1u) << e.what();
+    return e.what();
+  }
+  return "";
+}
+
+const std::string imu_header =
+    "gyro_x [deg/s],gyro_y [deg/s],gyro_z [deg/s],acc_x [g],acc_y [g],acc_z [g]\n";
+const std::string still = ",0.1,0.2,0.3,0,0,1\n";
+
+TEST(RecordingUnit, IsReadInTheSpellingsOfPeople) {
+  const struct {
+    const char* text;
+    double size;
+    const char* dimension;
+  } cases[] = {{"m/s2", 1.0, "m/s^2"},
+               {"m/s\u00B2", 1.0, "m/s^2"},
+               {"m/s^2", 1.0, "m/s^2"},
+               {"m s^-2", 1.0, "m/s^2"},
+               {"\u00B5g", 1e-6, "g"},
+               {"\u03BCg", 1e-6, "g"},
+               {"us", 1e-6, "s"},
+               {"ms", 1e-3, "s"},
+               {"sec", 1.0, "s"},
+               {"\u00B0/s", detail::deg, "rad/s"},
+               {"dps", detail::deg, "rad/s"},
+               {"deg/sec", detail::deg, "rad/s"},
+               {"0.1 arcsec", 0.1 * detail::deg / 3600.0, "rad"},
+               {"0,1 arcsec", 0.1 * detail::deg / 3600.0, "rad"},
+               {"2^2", 0.0, ""},
+               {"1/us", 1e6, "Hz"},
+               {"\u00B0C", 1.0, "K"},
+               {"LSB", 0.0, ""},
+               {"", 0.0, ""},
+               {"-1 g", 0.0, ""},
+               {"G", 0.0, ""}};
+  for (const auto& c : cases) {
+    const auto unit = parse_recording_unit(c.text);
+    ASSERT_EQ(unit.has_value(), c.size > 0.0) << c.text;
+    if (!unit) continue;
+    EXPECT_NEAR(unit->to_si / c.size, 1.0, 1e-15) << c.text;
+    EXPECT_EQ(unit->dim, parse_unit(c.dimension)->dim) << c.text;
+    const auto again = parse_recording_unit(unit->symbol.view());
+    ASSERT_TRUE(again) << c.text;
+    EXPECT_EQ(again->to_si, unit->to_si) << c.text << ": what is written reads back";
+  }
+}
+
+TEST(OwnFile, ClocksAreSecondsAndNothingElseIs) {
+  EXPECT_EQ(parse_clock("1970-01-02T00:00:01.5Z"), 86401.5);
+  EXPECT_EQ(parse_clock("1970-01-02 01:00:01,5+01:00"), 86401.5);
+  EXPECT_EQ(parse_clock("02.01.1970 00:00:01"), 86401.0);
+  EXPECT_EQ(parse_clock("13:05:10.25"), 47110.25);
+  for (const char* text : {"2026-02-30T00:00:00", "25:00:00", "13:05", "01/02/2026 00:00:00", "",
+                           "2026-03-01", "12:00:00x", "2026-03-01T12:00:00+99"})
+    EXPECT_FALSE(parse_clock(text)) << text;
+}
+
+TEST(OwnFile, Utf16IsDecodedWhereverItIsCut) {
+  const std::string bytes("A\0\xE4\0\x3D\xD8\x00\xDE\xAC\x20", 10);
+  for (std::size_t cut = 0; cut <= bytes.size(); ++cut) {
+    Utf16Decoder decoder(Utf16Decoder::Order::little);
+    std::string text = decoder.decode(bytes.substr(0, cut));
+    text += decoder.decode(bytes.substr(cut));
+    EXPECT_EQ(text, "A\u00E4\U0001F600\u20AC") << cut;
+  }
+}
+
+TEST(OwnFile, TimesOfDayGoOnPastMidnight) {
+  const Folder folder;
+  const std::string path = folder.write("imu.csv", "time," + imu_header + "23:59:59.5" + still +
+                                                       "23:59:59.75" + still + "00:00:00" + still);
+  const Recording r = read_recording(path, RecordingKind::strapdown, gravity);
+  EXPECT_EQ(r.find("time")->values, (std::vector<double>{0.0, 0.25, 0.5}));
+  EXPECT_EQ(r.facts.back(), (std::pair<std::string, std::string>{"time_zero", "23:59:59.5"}));
+}
+
+TEST(OwnFile, ACounterThatWrapsIsTime) {
+  const Folder folder;
+  const std::string path = folder.write(
+      "imu.csv", "n," + imu_header + "250" + still + "254" + still + "2" + still + "10" + still);
+  const auto format = format_of("counter = \"n\"\nwrap = 256\ntick = \"10 ms\"\n");
+  const Recording r = read_recording(path, format, RecordingKind::strapdown, gravity);
+  const double expected[] = {2.50, 2.54, 2.58, 2.66};
+  for (int i = 0; i < 4; ++i) EXPECT_NEAR(r.find("time")->values[i], expected[i], 1e-12);
+  const auto without = format_of("counter = \"n\"\ntick = \"10 ms\"\n");
+  try {
+    read_recording(path, without, RecordingKind::strapdown, gravity);
+    FAIL() << "a counter that goes back was read";
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("goes back from 254 to 2"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("recording.wrap"), std::string::npos) << e.what();
+  }
+}
+
+TEST(OwnFile, ARateStandsForTime) {
+  const Folder folder;
+  const std::string path = folder.write("imu.csv", "n," + imu_header + "7" + still + "9" + still);
+  const Recording r = read_recording(path, format_of("rate = \"50 Hz\"\nignore = [\"n\"]\n"),
+                                     RecordingKind::strapdown, gravity);
+  EXPECT_EQ(r.find("time")->values, (std::vector<double>{0.02, 0.04}));
+  EXPECT_EQ(r.find("n"), nullptr);
+}
+
+TEST(OwnFile, IncrementsBecomeRatesOverTheUsualInterval) {
+  const Folder folder;
+  std::string text =
+      "time [s],gyro_x [deg],gyro_y [deg],gyro_z [deg],acc_x [m/s],acc_y [m/s],acc_z [m/s]\n";
+  for (const char* t : {"0.5", "1", "1.5", "4", "4.5"})
+    text += std::string(t) + ",1,2,-3,0,0,4.903325\n";
+  const std::string path = folder.write("imu.csv", text);
+  const Recording r =
+      read_recording(path, format_of("kind = \"increments\"\n"), RecordingKind::strapdown, gravity);
+  for (int i = 0; i < 5;
+       ++i) {  // rows are missing before the fourth: its interval is the usual one
+    EXPECT_NEAR(r.find("gyro_z")->values[i], -6.0 * detail::deg, 1e-15) << i;
+    EXPECT_NEAR(r.find("acc_z")->values[i], 1.0, 1e-12) << i;
+  }
+  const Answer a = answer(path, RecordingKind::strapdown);
+  EXPECT_EQ(a.code, 4);
+  EXPECT_NE(a.text.find("kind = \"increments\""), std::string::npos) << a.text;
+}
+
+TEST(OwnFile, Hdf5AndMatTakeTheSameMapping) {
+  const Folder folder;
+  Recording own = platform_recording();
+  for (Channel& c : own.channels)
+    if (c.name == "gimbal_outer") c.name = "Phi_a";
+  const auto format = format_of(
+      "columns = { gimbal_outer = \"-Phi_a\" }\noffset = { gimbal_outer = \"90 deg\" }\n"
+      "positions = { \"2\" = \"x up\" }\n",
+      RecordingKind::platform);
+  for (const char* name : {"own.h5", "own.mat", "own.csv"}) {
+    write_recording(own, folder / name);
+    const Recording r = read_recording(folder / name, format, RecordingKind::platform, gravity);
+    for (std::size_t i = 0; i < r.rows(); ++i)
+      EXPECT_NEAR(r.find("gimbal_outer")->values[i],
+                  90.0 * detail::deg - own.find("Phi_a")->values[i], 1e-14);
+    EXPECT_EQ(r.find("position")->values.back(), 2.0);
+  }
+}
+
+TEST(OwnFile, ACovariateNeverEndsACommand) {
+  const Folder folder;
+  const std::string path = folder.write("rec.csv",
+                                        "time [s],position,acc_x [g],acc_y [g],acc_z "
+                                        "[g],oil,\u00D6l temp [Grad],temperature [F],note\n"
+                                        "1,1,0,0,1,3,4,70,start\n2,1,0,0,1,n/a,5,71,\n");
+  const Recording r = read_recording(path, RecordingKind::platform, gravity);
+  EXPECT_EQ(r.find("oil")->values[0], 3.0);
+  EXPECT_TRUE(std::isnan(r.find("oil")->values[1]));
+  EXPECT_NE(r.find("Oel_temp"), nullptr);
+  EXPECT_EQ(r.find("temperature"), nullptr) << "no term may take Fahrenheit for Celsius";
+  EXPECT_EQ(r.find("temperature_raw")->values[1], 71.0);
+  EXPECT_EQ(r.find("note"), nullptr);
+  EXPECT_EQ(r.remarks.size(), 6u) << testing::PrintToString(r.remarks);
+}
+
+TEST(OwnFile, MistakesInTheSectionAreNamed) {
+  const struct {
+    const char *text, *says;
+  } cases[] = {
+      {"columms = { acc_x = \"Ax [g]\" }", "Did you mean 'columns'?"},
+      {"columns = { acc_X = \"Ax [g]\" }", "Did you mean 'acc_x'?"},
+      {"columns = { acc_x = 3 }", "expected a header of the file with its unit"},
+      {"columns = { acc_x = \"Ax [gg]\" }", "unknown unit 'gg'"},
+      {"columns = { acc_x = \"Ax [g]\", acc_y = \"Ax [g]\" }", "name the same column 'Ax'"},
+      {"columns = \"Ax\"", "expected a table"},
+      {"positions = { up = 3 }", "expected a position of the plan: 1 to 2"},
+      {"positions = { up = \"z upp\" }", "Did you mean 'z up'?"},
+      {"offset = { gimbal_inner = \"90 s\" }", "measures something else"},
+      {"offset = { gimbal_innr = \"90 deg\" }", "Did you mean 'gimbal_inner'?"},
+      {"ignore = \"Datum\"", "expected a list of headers"},
+      {"delimiter = \"|\"", "one of \"auto\", \",\", \";\", \"tab\", \"space\""},
+      {"decimal = \",\"\ndelimiter = \",\"", "both a comma"},
+      {"rate = 100", "has no unit"},
+      {"counter = \"n\"", "expected tick"},
+      {"wrap = 256", "without a counter"},
+      {"rate = \"1 Hz\"\ncolumns = { time = \"t [s]\" }", "together with a column of time"},
+      {"kind = \"increments\"", "sensors fixed to a case"}};
+  for (const auto& c : cases)
+    EXPECT_NE(mistake(c.text).find(c.says), std::string::npos) << c.text << "\n" << mistake(c.text);
+  EXPECT_EQ(mistake("columns = { oil = \"Oil [bar]\" }"), "") << "a covariate may have any unit";
+}
+
+}  // namespace
+}  // namespace drift
