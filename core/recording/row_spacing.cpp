@@ -1,0 +1,94 @@
+#include "core/recording/row_spacing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace drift {
+namespace {
+
+constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t reach = 8;  // rows to either side: three of four may follow a lost one
+constexpr double same_step = 1e-3;
+
+/// Rows of one position and phase.
+struct Stretch {
+  std::size_t first = 0, end = 0;
+  bool position_begins = false;
+};
+
+std::vector<Stretch> stretches_of(const Recording& r) {
+  const Channel* position = r.find("position");
+  const Channel* phase = r.find("phase");
+  std::vector<Stretch> all;
+  for (std::size_t row = 0; row < r.rows(); ++row) {
+    const bool begins =
+        row == 0 || (position && position->values[row] != position->values[row - 1]);
+    if (begins || (phase && phase->values[row] != phase->values[row - 1]))
+      all.push_back({row, row, begins});
+    all.back().end = row + 1;
+  }
+  return all;
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// The usual step around each row of a stretch. Its first row says how far it is from another
+/// stretch, which is no evidence where the stretch has steps of its own.
+void fill_usual(const Stretch& s, RowSpacing& out) {
+  const std::size_t own = s.first + 1;
+  if (own >= s.end) return;
+  for (std::size_t row = s.first; row < s.end; ++row) {
+    const std::size_t centre = std::max(row, own);
+    const std::size_t from = centre - std::min(reach, centre - own);
+    const std::size_t to = std::min(s.end, centre + reach + 1);
+    out.usual[row] = median({out.step.begin() + static_cast<std::ptrdiff_t>(from),
+                             out.step.begin() + static_cast<std::ptrdiff_t>(to)});
+  }
+}
+
+}  // namespace
+
+double RowSpacing::missing(std::size_t row) const {
+  return gap(row) ? std::max(0.0, std::round(step[row] / usual[row]) - 1.0) : 0.0;
+}
+
+RowSpacing row_spacing(const Recording& recording) {
+  const std::size_t n = recording.rows();
+  const auto& t = recording.find("time")->values;
+  RowSpacing out{std::vector<double>(n, nan_value), std::vector<double>(n, nan_value)};
+  for (std::size_t row = 1; row < n; ++row) out.step[row] = t[row] - t[row - 1];
+  const std::vector<Stretch> stretches = stretches_of(recording);
+  for (const Stretch& s : stretches) fill_usual(s, out);
+  // A stretch of one row is like the one before it, or else like the one behind.
+  for (std::size_t k = 1; k < stretches.size(); ++k)
+    if (std::isnan(out.usual[stretches[k].first]))
+      out.usual[stretches[k].first] = out.usual[stretches[k].first - 1];
+  for (std::size_t k = stretches.size(); k-- > 1;)
+    if (std::isnan(out.usual[stretches[k].first - 1]))
+      out.usual[stretches[k].first - 1] = out.usual[stretches[k].first];
+
+  out.shortest = std::numeric_limits<double>::infinity();
+  double squares = 0.0, steps = 0.0;
+  for (const Stretch& s : stretches)
+    for (std::size_t row = s.first; row < s.end; ++row) {
+      if (std::isnan(out.usual[row])) continue;
+      out.shortest = std::min(out.shortest, out.usual[row]);
+      out.longest = std::max(out.longest, out.usual[row]);
+      if (row == s.first && s.position_begins) continue;  // it may have been caged
+      const double off = out.step[row] - out.usual[row];
+      if (std::abs(off) > same_step * out.usual[row]) out.regular = false;
+      if (out.gap(row)) continue;
+      squares += off * off;
+      steps += 1.0;
+    }
+  out.regular = out.regular && out.longest - out.shortest <= same_step * out.longest;
+  out.jitter = steps > 0.0 ? std::sqrt(squares / steps) : nan_value;
+  return out;
+}
+
+}  // namespace drift
