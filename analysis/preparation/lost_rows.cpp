@@ -71,6 +71,14 @@ class Gaps {
     return 0.5 * detail::earth_rate * spacing_.jitter > RecordingLimits::begin_noise * noise;
   }
 
+  /// A row or more is missing in front of this one, to which the attitude is carried along.
+  bool lost_before(std::size_t row, const Site& site) const {
+    if (spacing_.gap(row)) return true;
+    if (!spacing_.longer(row) || same_command(row)) return false;
+    const CommandChange found = command_change(r_, site, row, spacing_);
+    return found.why_not.empty() && found.time > time_[row - 1];
+  }
+
   /// Looks at the gap in front of a row. Empty and a message if it cannot be closed.
   std::optional<Gap> close(std::size_t row, const Site& site,
                            std::vector<std::string>& wrong) const {
@@ -171,7 +179,7 @@ Spaced with_begins(const Recording& recording, const mc::Study& study,
       continue;
     }
     begins[row] = recording.find("time")->values[row - 1];
-    if (!spacing.gap(row)) continue;
+    if (!gaps.lost_before(row, study.site)) continue;
     missing += spacing.missing(row);
     if (count++ == 0) first = row;
     not_measured(row);

@@ -142,9 +142,17 @@ TEST(Program, ARecordingOfAnotherPlanIsRefused) {
   EXPECT_EQ(other.code, recording_error);
   EXPECT_NE(other.err.find("attitude in the plan"), std::string::npos) << other.err;
   EXPECT_NE(other.err.find("r.csv:"), std::string::npos) << other.err;
+  // Evenly spaced rows that are no whole part of the plan's samples: is this the plan? Two of them
+  // make one sample of 120 s.
   const Answer sample =
-      driftscope("identify " + study + " " + recording + " --set plan.sample='120 s'");
+      driftscope("identify " + study + " " + recording + " --set plan.sample='90 s'");
   EXPECT_EQ(sample.code, recording_error) << sample.err;
+  EXPECT_NE(sample.err.find("samples are 60 s apart, in the plan 90 s"), std::string::npos);
+  const Answer twice =
+      driftscope("identify " + study + " " + recording + " --set plan.sample='120 s'");
+  EXPECT_EQ(twice.code, 0) << twice.err;
+  EXPECT_NE(twice.err.find("60 rows 60 s apart are taken as 30 of 120 s"), std::string::npos)
+      << twice.err;
 }
 
 TEST(Program, AGapInATorquedSequenceIsClosedByTheGimbalsAndRefusedWithoutThem) {
