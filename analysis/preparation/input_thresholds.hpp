@@ -33,6 +33,8 @@ struct RecordingLimits {
   /// [rows] by which the begin of a dwell as planned may miss a row, and the rows that may be
   /// missing at its begin.
   static constexpr double grid_room = 0.1, first_rows = 5.0;
+  /// [rms of the jitter] by which what is usual may miss the plan's sample and be it.
+  static constexpr double hidden = 2.0;
   /// [sigma] that the uncertain begin of a row may add to its accelerometers under Earth rate.
   static constexpr double begin_noise = 0.2;
 };

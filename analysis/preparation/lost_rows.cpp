@@ -41,17 +41,20 @@ class Gaps {
   }
 
   /// When a row begins that is not carried on from the one before: one usual step earlier, or with
-  /// the dwell of the plan where the first rows of the position are missing.
+  /// the dwell of the plan where the first rows of the position are missing and the last are not.
   double begin_of_caged(std::size_t row) const {
     const Position* p = planned(row);
-    const double usual = std::isfinite(spacing_.usual[row]) ? spacing_.usual[row]
-                         : p                                ? p->sample
-                                                            : 0.0;
+    double usual = spacing_.usual[row];
+    // The plan's sample, where jitter hides the difference.
+    if (p && !(std::abs(usual - p->sample) > RecordingLimits::hidden * spacing_.jitter))
+      usual = p->sample;
     const double begin = time_[row] - usual;
     const double before = row > 0 ? time_[row - 1] : -std::numeric_limits<double>::infinity();
     if (p && !(phase_ && phase_->values[row] == 1.0)) {
       std::size_t last = row;
       while (last + 1 < time_.size() && position_[last + 1] == position_[row]) ++last;
+      if (last + 1 < time_.size() ? spacing_.gap(last + 1) : row == 0)
+        return std::max(begin, before);  // its end is missing, or may be
       const double by_plan = time_[last] - p->dwell, earlier = (begin - by_plan) / usual;
       const bool whole = std::abs(earlier - std::round(earlier)) < RecordingLimits::grid_room;
       const bool few = earlier > 0.5 && earlier < RecordingLimits::first_rows + 0.5;

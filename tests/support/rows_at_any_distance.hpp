@@ -20,7 +20,7 @@ enum class Rows {
   each_second,
   each_minute,       ///< a row ends with every command; others 60 s apart
   seconds_in_slews,  ///< and minutes in dwells
-  jittered,          ///< minutes, but for 3 s more or less
+  jittered,          ///< minutes, but for 3 s; the first of every command is on time
   minutes_lost,      ///< one of ten, at random
   seconds_lost,      ///< likewise
 };
@@ -72,7 +72,7 @@ inline std::vector<std::size_t> ends_of(const Recording& fine, Rows rows, Stream
     const auto parts = seconds ? end - first : std::max<std::size_t>(1, (end - first + 30) / 60);
     for (std::size_t k = 1; k <= parts; ++k) {
       std::size_t at = first + (end - first) * k / parts;
-      if (rows == Rows::jittered && k < parts)
+      if (rows == Rows::jittered && k > 1 && k < parts)
         at = at - 3 + static_cast<std::size_t>(7.0 * random.uniform());
       ends.push_back(at);
     }
