@@ -9,7 +9,6 @@
 #include "analysis/report/identify/report.hpp"
 #include "analysis/report/strapdown/report.hpp"
 #include "core/base/results_folder.hpp"
-#include "core/plan/plan_rows.hpp"
 
 namespace drift::cli {
 namespace {
@@ -47,13 +46,11 @@ ExitCode identify(const StudyArguments& arguments, const std::vector<std::string
   if (study.kind == RecordingKind::strapdown) return identify_case(study, paths, folder);
   const auto progress = progress_reporter(arguments.progress, "estimates");
   const auto recordings = read_recordings(study, paths);
-  for (const Recording& recording : recordings)
-    for (const std::string& remark : rows_other_than_planned(recording, study.plan))
-      say("note: {}\n", remark);
   const identification::Identification id =
       paths.empty()
           ? identification::identify_simulated(study, run, arguments.threads, progress)
           : identification::identify_recordings(study, recordings, arguments.threads, progress);
+  for (const std::string& remark : id.remarks) say("note: {}\n", remark);
   const report::Report said = report::identification_report(study, id);
   show("{}", report::to_text(said));
   if (!folder.empty())

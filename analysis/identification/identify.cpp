@@ -6,12 +6,14 @@
 #include <cmath>
 
 #include "analysis/equation/fit_either_equation.hpp"
+#include "analysis/preparation/prepare.hpp"
 #include "analysis/preparation/recorded_test.hpp"
 #include "core/base/check.hpp"
 #include "core/base/memory.hpp"
 #include "core/estimate/start_consistency.hpp"
 #include "core/estimate/starts.hpp"
 #include "core/plan/plan_memory.hpp"
+#include "core/plan/plan_rows.hpp"
 #include "mc/task/campaign.hpp"
 
 namespace drift::identification {
@@ -185,11 +187,19 @@ Identification identify_recordings(const mc::Study& study, const std::vector<Rec
                                    int threads, const Progress& progress) {
   Identification id;
   for (const Recording& r : recordings) id.sources.push_back(r.source);
-  id.recording = recordings.front();
-  require_memory_for_histories(study, recordings);
-  const preparation::RecordedTest test = preparation::recorded_test(study, recordings);
-  run_jobs(study, id, threads, progress,
-           [&](const Job& job) { return estimate(study, job, test.timeline, test.measured); });
+  const preparation::Prepared ready = preparation::prepare(study, recordings);
+  id.recording = ready.recordings.front();
+  id.remarks = ready.remarks;
+  for (const Recording& r : ready.recordings)
+    if (r.samples.empty()) {  // left as they were
+      const auto others = rows_other_than_planned(r, study.plan);
+      id.remarks.insert(id.remarks.end(), others.begin(), others.end());
+    }
+  require_memory_for_histories(ready.study, ready.recordings);
+  const preparation::RecordedTest test = preparation::recorded_test(ready.study, ready.recordings);
+  run_jobs(ready.study, id, threads, progress, [&](const Job& job) {
+    return estimate(ready.study, job, test.timeline, test.measured);
+  });
   return id;
 }
 

@@ -42,7 +42,8 @@ struct Identification {
   std::optional<TruthDraw> truth;  ///< of a simulated recording
   Recording recording;             ///< the (first) recording; empty with a loop fed back by filters
   std::vector<std::string> sources;
-  std::vector<FilterRun> runs;  ///< by filter, then start
+  std::vector<std::string> remarks;  ///< what was left out or changed (prepare())
+  std::vector<FilterRun> runs;       ///< by filter, then start
   std::vector<FilterSummary> summaries;
 
   std::vector<const FilterRun*> runs_of(std::size_t filter) const;
@@ -58,7 +59,8 @@ using Progress = std::function<void(std::size_t, std::size_t)>;
 Identification identify_simulated(const mc::Study& study, std::uint64_t run, int threads,
                                   const Progress& progress = {});
 
-/// Estimates from recordings; several are taken as one test, each starting with a caging.
+/// Estimates from recordings, made ready as for a diagnosis (prepare()); several are taken as one
+/// test, each starting with a caging.
 Identification identify_recordings(const mc::Study& study, const std::vector<Recording>& recordings,
                                    int threads, const Progress& progress = {});
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "core/base/linalg.hpp"
@@ -27,6 +28,7 @@ struct IntervalDrive {
   double gap = 0.0;     ///< time since the end of the interval before [s]
   bool cage = false;
   int chain = 0;
+  double samples = 1.0;          ///< that the accelerometers average (Interval)
   Mat3 per_rate = Mat3::Zero();  ///< d attitude / d gyro drift over the interval [1/(rad/s)]
 };
 
@@ -38,10 +40,14 @@ struct MeasuredRows {
   MatX psi;     ///< shape (rows, 3): d row / d attitude at the caging of its chain
   VecX r0;      ///< shape rows: measured minus predicted at the prior mean, by the linearisation
   VecX weight;  ///< shape rows: 1, or less for a row that is not trusted (sigma / weight)
-  double acc_sigma = 1.0, gimbal_sigma = 1.0;  ///< declared [g], [rad]
+  double acc_sigma = 1.0, gimbal_sigma = 1.0;  ///< declared of one sample [g], [rad]
   double attitude_sigma = 1.0;                 ///< unit of psi [rad]
 
   Eigen::Index rows() const { return r0.size(); }
+  /// 1 sigma declared of an accelerometer row [g].
+  double acc_sigma_of(const RowTag& row) const {
+    return acc_sigma / std::sqrt(drives[row.interval].samples);
+  }
 };
 
 /// The linearised test about a fit: r0 = J x + sum_c s_c a_c + noise, with theta's x ~ N(0, I).

@@ -32,7 +32,7 @@ VecX window_signature(const MeasuredRows& rows, const Timeline& timeline, const 
     const bool inside = i >= w.first && i < w.end;
     switch (w.equation) {
       case Equation::accelerometer:
-        if (inside && tag.channel == w.axis) s[r] = 1.0 / rows.acc_sigma;
+        if (inside && tag.channel == w.axis) s[r] = 1.0 / rows.acc_sigma_of(tag);
         break;
       case Equation::gimbal:
         if (inside && tag.channel == 3 + w.axis) s[r] = 1.0 / rows.gimbal_sigma;

@@ -51,6 +51,7 @@ std::vector<IntervalDrive> drives(const Timeline& timeline, double attitude_sigm
     d.gap = before ? std::max(0.0, i.t0 - before->t1) : 0.0;
     d.cage = i.cage;
     d.chain = i.chain;
+    d.samples = i.samples;
     const Node& node = timeline.nodes[i.middle_node()];
     d.per_rate = -i.length() / attitude_sigma * node.R_il * node.R_lr;
     all.push_back(d);

@@ -16,15 +16,27 @@ struct RecordingLimits {
   /// Part by which sample intervals may differ from the plan's, and from each other. Tuned.
   /// Test: Prepare.SampleIntervalsMayDiffer...
   static constexpr double interval_room = 0.05;
+  /// Part by which the intervals of several evenly spaced recordings may differ to be one interval.
+  static constexpr double same_interval = 1e-3;
   /// Rows beyond which samples are averaged, and the samples that the shortest dwell must keep. The
   /// time of a diagnosis grows with rows; eight samples still show a slope beside noise. Tuned.
   static constexpr std::size_t most_rows = 20000;
   static constexpr double kept_samples = 8.0;
-  /// A step in time that is a gap, in sample intervals: halfway to one missing row.
-  static constexpr double gap = 1.5;
-  static constexpr std::size_t longest_gap = 100000;  ///< [rows] that one gap may be filled with
+  /// By which joined rows at several distances grow until they are few enough.
+  static constexpr double coarser = 1.5;
+  static constexpr std::size_t longest_gap = 100000;  ///< [rows] of one gap that are looked through
   /// [rad/s] by which the command may differ on both sides of a gap: rounding of a text file.
   static constexpr double gap_command = 1e-9;
+  /// [rows] by which the time of a change of command, read off the gimbals, may miss that of a row:
+  /// above that it is nearer to no row than to one. Test: UnequalRows.*
+  static constexpr double change_room = 0.3;
+  /// [rows] by which the begin of a dwell as planned may miss a row, and the rows that may be
+  /// missing at its begin.
+  static constexpr double grid_room = 0.1, first_rows = 5.0;
+  /// [rms of the jitter] by which what is usual may miss the plan's sample and be it.
+  static constexpr double hidden = 2.0;
+  /// [sigma] that the uncertain begin of a row may add to its accelerometers under Earth rate.
+  static constexpr double begin_noise = 0.2;
 };
 
 /// When a plan is not that of the recording.

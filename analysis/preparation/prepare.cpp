@@ -8,11 +8,12 @@
 #include <limits>
 #include <set>
 
-#include "analysis/preparation/fill_gaps.hpp"
 #include "analysis/preparation/input_thresholds.hpp"
+#include "analysis/preparation/lost_rows.hpp"
 #include "analysis/preparation/plan_check.hpp"
 #include "core/base/check.hpp"
 #include "core/plan/timeline.hpp"
+#include "core/recording/join_rows.hpp"
 #include "core/recording/reduce.hpp"
 #include "core/sim/measurements.hpp"
 
@@ -107,38 +108,98 @@ double plan_sample(const mc::Study& study) {
   return shortest;
 }
 
-/// By how much the samples of all recordings are to be put together; 0 and a complaint if they do
-/// not fit the plan.
-std::size_t factor_for(const std::vector<Recording>& recordings, double sample,
-                       std::size_t most_rows, double& interval, std::vector<std::string>& wrong) {
-  interval = std::numeric_limits<double>::quiet_NaN();
-  std::size_t rows = 0;
-  double shortest = std::numeric_limits<double>::infinity();
+/// What of a study's recordings is being made ready.
+struct Work {
+  Prepared& p;
+  double sample = 0.0;  ///< of the plan [s]
+  std::size_t most_rows = 0;
+  std::vector<std::string>& wrong;
+};
+
+/// The one interval of all recordings; NaN if rows lie at other distances, in any of them.
+double common_interval(const mc::Study& study, const std::vector<Recording>& recordings) {
+  double common = std::numeric_limits<double>::quiet_NaN();
   for (const Recording& r : recordings) {
-    const SampleIntervals found = sample_intervals(r);
-    rows += r.rows();
-    shortest = std::min(shortest, found.shortest_position);
-    if (!std::isfinite(found.typical)) continue;
-    if (std::isfinite(interval) &&
-        std::abs(found.typical - interval) > RecordingLimits::interval_room * interval)
-      wrong.push_back(fmt::format(
-          "{}: samples {:.6g} s apart beside others {:.6g} s apart (expected recordings of one "
-          "sample interval). Diagnose them apart",
-          name_of(r), found.typical, interval));
-    interval = found.typical;
+    const double interval = sample_intervals(r).typical;
+    if (!row_spacing(r).regular || gap_on_the_way(r, study.plan)) return std::nan("");
+    if (!std::isfinite(interval)) continue;
+    if (std::isfinite(common) &&
+        std::abs(interval - common) > RecordingLimits::same_interval * common)
+      return std::nan("");
+    common = interval;
   }
-  if (!std::isfinite(interval)) return 1;
-  const double ratio = sample / interval, whole = std::max(1.0, std::round(ratio));
+  return common;
+}
+
+std::size_t rows_of(const std::vector<Recording>& recordings) {
+  std::size_t rows = 0;
+  for (const Recording& r : recordings) rows += r.rows();
+  return rows;
+}
+
+/// By how much evenly spaced samples are to be put together; a complaint if they do not fit the
+/// plan.
+std::size_t factor_for(const Work& work, double interval) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const Recording& r : work.p.recordings)
+    shortest = std::min(shortest, sample_intervals(r).shortest_position);
+  const double ratio = work.sample / interval, whole = std::max(1.0, std::round(ratio));
   if (std::abs(ratio - whole) > RecordingLimits::interval_room * whole)
-    wrong.push_back(fmt::format(
+    work.wrong.push_back(fmt::format(
         "{}: samples are {:.6g} s apart, in the plan {:.6g} s (expected the plan's interval or a "
         "whole part of it). Is this the plan the recording was made with? Set plan.sample",
-        name_of(recordings.front()), interval, sample));
+        name_of(work.p.recordings.front()), interval, work.sample));
   auto factor = static_cast<std::size_t>(whole);
-  while (rows / factor > most_rows &&
+  while (rows_of(work.p.recordings) / factor > work.most_rows &&
          RecordingLimits::kept_samples * static_cast<double>(factor + 1) * interval <= shortest)
     ++factor;
   return factor;
+}
+
+/// Evenly spaced rows: a whole number of them becomes one.
+void take_even_rows(const Work& work, double interval) {
+  const std::size_t factor = factor_for(work, interval);
+  if (!work.wrong.empty() || factor == 1) return;
+  Prepared& p = work.p;
+  const std::size_t before = rows_of(p.recordings);
+  for (Recording& r : p.recordings) r = reduced(r, interval, factor);
+  const double length = interval * static_cast<double>(factor);
+  for (Position& position : p.study.plan.positions) position.sample = length;
+  // Declared is the noise of the mean over the plan's interval; a longer mean has less.
+  p.study.readout.accelerometer_noise *= std::sqrt(std::min(1.0, work.sample / length));
+  p.remarks.push_back(
+      fmt::format("{} rows {:.6g} s apart are taken as {} of {:.6g} s: means of accelerometers, "
+                  "angles at the "
+                  "end; effects faster than that are not looked for",
+                  before, interval, rows_of(p.recordings), length));
+}
+
+/// Rows at any distance: each has its own interval, fine ones are joined.
+void take_uneven_rows(const Work& work) {
+  Prepared& p = work.p;
+  std::vector<Spaced> all;
+  for (const Recording& r : p.recordings)
+    all.push_back(with_begins(r, p.study, p.remarks, work.wrong));
+  if (!work.wrong.empty()) return;
+  const std::size_t before = rows_of(p.recordings);
+  JoinLimits limits{work.sample, work.sample};
+  const auto join = [&] {
+    for (std::size_t k = 0; k < all.size(); ++k)
+      p.recordings[k] = joined_rows(all[k].recording, all[k].spacing, limits);
+    return rows_of(p.recordings);
+  };
+  std::size_t now = join();
+  while (now > work.most_rows) {
+    limits.length *= RecordingLimits::coarser;
+    const std::size_t fewer = join();
+    if (fewer == now) break;  // stretches of one row each
+    now = fewer;
+  }
+  if (now < before)
+    p.remarks.push_back(fmt::format(
+        "{} rows at several distances are taken as {} of up to {:.6g} s: means of accelerometers, "
+        "angles at the end; effects faster than that are not looked for",
+        before, now, limits.length));
 }
 
 }  // namespace
@@ -150,32 +211,17 @@ Prepared prepare(const mc::Study& study, const std::vector<Recording>& recording
   std::vector<std::string> wrong;
   std::set<int> positions;
   for (Recording& r : p.recordings) {
-    fill_gaps(r, sample_intervals(r).typical, p.remarks);
     leave_out_stuck(r, p.remarks);
     remark_missing(r, study.readout, p.remarks);
     positions.merge(positions_of(r));
   }
-  const double sample = plan_sample(study);
-  double interval = 0.0;
-  const std::size_t factor = factor_for(p.recordings, sample, most_rows, interval, wrong);
+  const Work work{p, plan_sample(study), most_rows, wrong};
+  const double interval = common_interval(study, p.recordings);
+  if (std::isfinite(interval))
+    take_even_rows(work, interval);
+  else if (rows_of(p.recordings) > p.recordings.size())
+    take_uneven_rows(work);
   if (!wrong.empty()) throw InputError(ExitCode::recording, std::move(wrong));
-  if (factor > 1) {
-    std::size_t before = 0, after = 0;
-    for (Recording& r : p.recordings) {
-      before += r.rows();
-      r = reduced(r, interval, factor);
-      after += r.rows();
-    }
-    const double length = interval * static_cast<double>(factor);
-    for (Position& position : p.study.plan.positions) position.sample = length;
-    // Declared is the noise of the mean over the plan's interval; a longer mean has less.
-    p.study.readout.accelerometer_noise *= std::sqrt(std::min(1.0, sample / length));
-    p.remarks.push_back(
-        fmt::format("{} rows {:.6g} s apart are taken as {} of {:.6g} s: means of accelerometers, "
-                    "angles at the "
-                    "end; effects faster than that are not looked for",
-                    before, interval, after, length));
-  }
   for (const Recording& r : p.recordings) {
     try {
       check_plan(p.study, r, p.remarks, wrong);

@@ -9,7 +9,7 @@
 
 namespace drift::preparation {
 
-/// Recordings ready for a diagnosis, and what was done to them.
+/// Recordings ready for an estimate or a diagnosis, and what was done to them.
 struct Prepared {
   mc::Study study;  ///< the plan's sample interval and the accelerometer noise fit the recordings
   std::vector<Recording> recordings;
@@ -17,19 +17,24 @@ struct Prepared {
       remarks;  ///< what was left out or changed, and what the plan cannot give
 };
 
-/// Looks recordings over before they are diagnosed.
+/// Looks recordings over before parameters are estimated from them or they are diagnosed:
+/// `identify` and `diagnose` accept the same files.
 ///
 /// Refused, all mistakes at once (InputError, recording): positions that the plan does not have or
-/// whose attitude is not the plan's, gaps in which the command changed (all said by lay_out()),
-/// samples farther apart than the plan's or not a whole part of them, nothing measured, without
-/// recorded commands a platform that moves by another law than the plan's (check_plan()). Remarked
-/// only: positions of the plan that no recording holds, one position (nothing can be held out),
-/// channels absent or empty, bursts of missing samples, dwells and commands that are not the
-/// plan's. Bridged and remarked: rows missing within a position (fill_gaps()). Left out and
-/// remarked: a channel, or a stretch of it, that stands at one and the same value for at least 20
-/// samples and 20 times as long as it usually does: a stuck sensor. Its samples become NaN. Reduced
-/// (reduced(), core/sim/reduce.hpp): samples closer than the plan's, and recordings of more than
-/// `most_rows` rows.
+/// whose attitude is not the plan's, gaps in which the command changed and the gimbals do not tell
+/// when (with_begins()), nothing measured, without recorded commands a platform that moves by
+/// another law than the plan's (check_plan()); evenly spaced rows farther apart than the plan's
+/// samples or not a whole part of them. Remarked only: positions of the plan that no recording
+/// holds, one position (nothing can be held out), channels absent or empty, bursts of missing
+/// samples, missing rows, dwells and commands that are not the plan's. Left out and remarked: a
+/// channel, or a stretch of it, that stands at one and the same value for at least 20 samples and
+/// 20 times as long as it usually does: a stuck sensor. Its samples become NaN.
+///
+/// Rows may lie at any distance from each other, in one recording and in several. Rows that are
+/// evenly spaced throughout stay as they are, or a whole number of them becomes one (reduced()).
+/// Others have each their own interval (with_begins()), and fine ones are joined (joined_rows()) to
+/// samples of the plan, or coarser ones above `most_rows` rows. Declared is the noise of the mean
+/// over a sample of the plan: `samples` of the recordings says how many a row is worth.
 Prepared prepare(const mc::Study& study, const std::vector<Recording>& recordings,
                  std::size_t most_rows = RecordingLimits::most_rows);
 

@@ -208,15 +208,17 @@ BatchResult fit_all(const FilterSpec& filter, const MeasuredTest& test, const Th
   return out;
 }
 
-/// Samples of `measured` whose residual lies within the gate; the others become NaN.
-Mat3X within(const Mat3X& measured, const Mat3X& predicted, double noise, double gate,
+/// Samples of `measured` whose residual lies within the gate; the others become NaN. noise: of an
+/// interval's samples, by its number.
+template <class Noise>
+Mat3X within(const Mat3X& measured, const Mat3X& predicted, const Noise& noise, double gate,
              bool angles) {
   Mat3X kept = measured;
   for (Eigen::Index i = 0; i < kept.cols(); ++i)
     for (int a = 0; a < 3; ++a) {
       const double r = angles ? angle_difference(measured(a, i), predicted(a, i))
                               : measured(a, i) - predicted(a, i);
-      if (std::abs(r) > gate * noise) kept(a, i) = std::numeric_limits<double>::quiet_NaN();
+      if (std::abs(r) > gate * noise(i)) kept(a, i) = std::numeric_limits<double>::quiet_NaN();
     }
   return kept;
 }
@@ -237,6 +239,11 @@ BatchResult fit_batch(const FilterSpec& filter, const MeasuredTest& test, const 
   // residuals.
   constexpr int most_rounds = 12;
   const auto& [timeline, readout, measured] = test;
+  const auto acc_noise = [&](Eigen::Index i) {
+    return test.timeline.intervals[static_cast<std::size_t>(i)].accelerometer_noise(
+        test.readout.accelerometer_noise);
+  };
+  const auto gimbal_noise = [&](Eigen::Index) { return test.readout.gimbal_noise; };
   Measurements kept = measured;
   double gate = std::max(outlier_gate(make_layout(filter).theta), 1.0);
   double wide =
@@ -244,9 +251,8 @@ BatchResult fit_batch(const FilterSpec& filter, const MeasuredTest& test, const 
   for (int round = 0; round < most_rounds; ++round) {
     const Theta theta = theta_of(filter, out);
     const Measurements predicted = predict(timeline, model, theta, out.psi0_l, readout);
-    const Measurements now{
-        within(measured.acc, predicted.acc, readout.accelerometer_noise, wide, false),
-        within(measured.gimbal, predicted.gimbal, readout.gimbal_noise, wide, true)};
+    const Measurements now{within(measured.acc, predicted.acc, acc_noise, wide, false),
+                           within(measured.gimbal, predicted.gimbal, gimbal_noise, wide, true)};
     const bool done =
         wide == gate && same_samples(now.acc, kept.acc) && same_samples(now.gimbal, kept.gimbal);
     if (done) break;

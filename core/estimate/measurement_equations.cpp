@@ -59,7 +59,7 @@ std::vector<ChainEquations> measurement_equations(const MeasuredTest& test, cons
       for (int a = 0; a < 3; ++a)
         if (std::isfinite(measured.acc(a, i)))
           add_row(measured.acc(a, i) - mean[a], Y_psi.row(a), Y.row(a),
-                  readout.accelerometer_noise);
+                  interval.accelerometer_noise(readout.accelerometer_noise));
     }
     // On to the end of the interval.
     const std::size_t last = interval.node_count() - 1;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "core/physics/drift_model.hpp"
@@ -30,10 +31,13 @@ struct Interval {
   double t_begin = 0.0;            ///< when the test began (several may follow each other) [s]
   double t_dwell = 0.0;            ///< when the dwell of the position begins [s]
   Covariates around0, around1;     ///< at t0 and t1, linear in between; zero where not known
-  std::size_t first_node = 0;      ///< nodes first_node .. first_node + 2 substeps
-  int substeps = 1;                ///< steps of two nodes each, at most 0.05 rad of attitude long
+  double samples = 1.0;  ///< of the plan, averaged by the accelerometers: less noise by its root
+  std::size_t first_node = 0;  ///< nodes first_node .. first_node + 2 substeps
+  int substeps = 1;            ///< steps of two nodes each, at most 0.05 rad of attitude long
 
   double length() const { return t1 - t0; }
+  /// 1 sigma of the accelerometers' means, `of_a_sample` declared for one sample of the plan.
+  double accelerometer_noise(double of_a_sample) const { return of_a_sample / std::sqrt(samples); }
   double heading_rate() const { return (heading1 - heading0) / length(); }
   std::size_t node_count() const { return 2 * static_cast<std::size_t>(substeps) + 1; }
   std::size_t middle_node() const { return first_node + static_cast<std::size_t>(substeps); }

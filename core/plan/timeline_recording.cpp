@@ -93,12 +93,9 @@ class Reader {
     i.t0 = !before  ? t - position.sample
            : i.cage ? std::max(t - position.sample, before->t1)
                     : before->t1;
-    if (!i.cage && t - i.t0 > 1.5 * position.sample)
-      complain(row,
-               fmt::format("gap of {:.6g} s before this row, but the attitude is carried along "
-                           "here (samples {:.6g} s apart expected). Give the missing rows, or mark "
-                           "the position as caged",
-                           t - i.t0, position.sample));
+    if (i.cage && !rec_.begins.empty())
+      i.t0 = before ? std::max(rec_.begins[row], before->t1) : rec_.begins[row];
+    if (!rec_.samples.empty()) i.samples = rec_.samples[row];
     if (i.cage) {
       ++timeline_.chains;
       // A recording may begin on the way to a torqued position: then its attitude is the plan's.
@@ -107,6 +104,7 @@ class Reader {
     }
     i.chain = timeline_.chains - 1;
     command(row, position, i);
+    check_change(row, position, before, i);
     i.heading0 = heading_now_;
     i.heading1 = heading_ ? heading_->values[row] : planned_heading(passage, i);
     if (i.cage && heading_) i.heading0 = i.heading1;
@@ -118,6 +116,21 @@ class Reader {
     for (int a = 0; a < 6; ++a)
       if (loop_[a] && std::isfinite(loop_[a]->values[row])) i.loop[a] = loop_[a]->values[row];
     timeline_.intervals.push_back(i);
+  }
+
+  /// The command of a row acts since the row before. Where it changed while rows were missing,
+  /// nothing says when, unless the recording was made ready (`begins`).
+  void check_change(std::size_t row, const Position& position, const Interval* before,
+                    const Interval& i) {
+    constexpr double same_command = 1e-9;  // [rad/s]
+    if (!before || i.cage || !rec_.begins.empty() || i.length() <= 1.5 * position.sample) return;
+    const bool dwells = !before->slew && !i.slew;
+    const bool held = (i.omega_cmd_p - before->omega_cmd_p).cwiseAbs().maxCoeff() < same_command;
+    if (held && !(dwells && before->position != i.position)) return;
+    complain(row, fmt::format("gap of {:.6g} s before this row in which the command changed, but "
+                              "the attitude is carried along here (samples {:.6g} s apart "
+                              "expected). Give the missing rows, or mark the position as caged",
+                              i.length(), position.sample));
   }
 
   void command(std::size_t row, const Position& position, Interval& i) {

@@ -8,6 +8,7 @@
 
 #include "core/recording/recording_channels.hpp"
 #include "core/recording/recording_problems.hpp"
+#include "core/recording/row_spacing.hpp"
 
 namespace drift {
 namespace {
@@ -22,8 +23,8 @@ double median(std::vector<double> values) {
   return 0.5 * (*middle + *std::max_element(values.begin(), middle));
 }
 
-/// Intervals and gaps. Every position has its own sample interval; from one position to the next
-/// time may pass.
+/// Intervals and gaps. Every position and phase has its own sample interval; from one position to
+/// the next time may pass.
 void look_at_time(const Recording& r, QualityCard& card) {
   const Channel* time = r.find("time");
   if (!time || r.rows() == 0) return;
@@ -31,35 +32,21 @@ void look_at_time(const Recording& r, QualityCard& card) {
   const Channel* position = r.find("position");
   card.start = t.front();
   card.span = t.back() - t.front();
-  std::vector<double> all;
-  double squares = 0.0;
-  std::size_t regular = 0;
-  double last_interval = nan_value;
-  for (std::size_t first = 0; first < t.size();) {
-    std::size_t end = first + 1;
-    while (end < t.size() && (!position || position->values[end] == position->values[first])) ++end;
-    std::vector<double> steps;
-    for (std::size_t i = first + 1; i < end; ++i) steps.push_back(t[i] - t[i - 1]);
-    all.insert(all.end(), steps.begin(), steps.end());
-    const double interval = steps.empty() ? last_interval : median(steps);
-    for (std::size_t i = first + 1; i < end; ++i) {
-      const double step = t[i] - t[i - 1];
-      if (step > 1.5 * interval) {
-        card.gaps.push_back({r.lines[i], t[i - 1], step});
-        card.lost += std::max(0.0, std::round(step / interval) - 1.0);
-      } else {
-        squares += (step - interval) * (step - interval);
-        ++regular;
-      }
-    }
-    if (first > 0 && t[first] - t[first - 1] > 1.5 * interval)
-      card.between.push_back({r.lines[first], t[first - 1], t[first] - t[first - 1]});
-    last_interval = interval;
-    if (position) ++card.positions;
-    first = end;
+  const RowSpacing spacing = row_spacing(r);
+  std::vector<double> within;
+  card.positions = position ? 1 : 0;
+  for (std::size_t row = 1; row < t.size(); ++row) {
+    const bool other = position && position->values[row] != position->values[row - 1];
+    if (other) ++card.positions;
+    if (!other) within.push_back(spacing.step[row]);
+    if (!spacing.gap(row)) continue;
+    (other ? card.between : card.gaps).push_back({r.lines[row], t[row - 1], spacing.step[row]});
+    if (!other) card.lost += spacing.missing(row);
   }
-  card.interval = median(all);
-  card.jitter = regular > 0 ? std::sqrt(squares / static_cast<double>(regular)) : nan_value;
+  card.interval = median(within);
+  card.shortest = spacing.shortest;
+  card.longest = spacing.longest;
+  card.jitter = spacing.jitter;
 }
 
 ChannelQuality look_at_channel(const Channel& c, const Recording& r, RecordingKind kind) {
@@ -180,8 +167,12 @@ std::string to_text(const QualityCard& card) {
                                 card.file.empty() ? "recording" : card.file, card.format, card.rows,
                                 card.span, card.start);
   if (card.positions > 0) out += fmt::format(", {} positions", card.positions);
-  out += fmt::format("\nsample interval {} s (median), jitter {} s\n", digits(card.interval),
-                     digits(card.jitter));
+  const std::string range =
+      card.longest > 1.5 * card.shortest
+          ? fmt::format("; {} s to {} s by stretches", digits(card.shortest), digits(card.longest))
+          : "";
+  out += fmt::format("\nsample interval {} s (median{}), jitter {} s\n", digits(card.interval),
+                     range, digits(card.jitter));
   out += fmt::format("gaps {}", gap_text(card.gaps));
   if (!card.gaps.empty()) out += fmt::format(", about {:.0f} samples lost", card.lost);
   if (card.positions > 0) out += fmt::format("; between positions {}", gap_text(card.between));

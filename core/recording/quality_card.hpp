@@ -31,11 +31,12 @@ struct QualityCard {
   std::string file, format;
   std::size_t rows = 0;
   std::vector<std::pair<std::string, std::string>> facts;
-  std::size_t positions = 0;       ///< 0: the recording names none
-  double start = 0.0, span = 0.0;  ///< first time, and from the first to the last [s]
-  double interval = 0.0;           ///< median sample interval [s]; NaN with one row
-  double jitter = 0.0;    ///< rms deviation from the median of each position, gaps left out [s]
-  std::vector<Gap> gaps;  ///< within a position: longer than 1.5 median intervals of that position
+  std::size_t positions = 0;             ///< 0: the recording names none
+  double start = 0.0, span = 0.0;        ///< first time, and from the first to the last [s]
+  double interval = 0.0;                 ///< median sample interval [s]; NaN with one row
+  double shortest = 0.0, longest = 0.0;  ///< interval that is usual in a stretch (RowSpacing) [s]
+  double jitter = 0.0;       ///< rms deviation from what is usual in a stretch, gaps left out [s]
+  std::vector<Gap> gaps;     ///< within a position: longer than 1.5 intervals usual in that stretch
   std::vector<Gap> between;  ///< likewise from one position to the next
   double lost = 0.0;         ///< samples that would fill the gaps within positions
   std::vector<ChannelQuality> channels;

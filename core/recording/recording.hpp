@@ -22,7 +22,11 @@ struct Recording {
   std::string source;  ///< the file it came from, for messages; empty if simulated
   std::vector<std::pair<std::string, std::string>> facts;
   std::vector<Channel> channels;
-  std::vector<std::size_t> lines;    ///< line (CSV) or 1-based row of each sample, for messages
+  std::vector<std::size_t> lines;  ///< line (CSV) or 1-based row of each sample, for messages
+  /// What the rows of a recording that was made ready stand for; not in files. Empty: one sample
+  /// each, since the row before.
+  std::vector<double> begins;        ///< when the interval of each row begins [s]
+  std::vector<double> samples;       ///< samples of the plan whose noise its accelerometers average
   std::vector<std::string> remarks;  ///< sentences about how the file was understood
 
   std::size_t rows() const { return channels.empty() ? 0 : channels.front().values.size(); }

@@ -181,7 +181,8 @@ bool equal_lengths(const RawRecording& raw, Problems& problems) {
 Recording checked_recording(RawRecording raw, RecordingKind kind, double gravity,
                             Problems& problems) {
   DRIFT_EXPECTS(gravity > 0.0);
-  Recording r{utf8_text(problems.file()), {}, {}, {}, {}};
+  Recording r;
+  r.source = utf8_text(problems.file());
   if (raw.columns.empty()) {
     if (!problems.any())
       problems.add("", "there is no channel", "columns such as time, acc_x, acc_y, acc_z",

@@ -28,6 +28,7 @@ Rule rule_of(const Channel& c) {
 /// Rows first..end of one stretch.
 struct Joined {
   std::size_t first = 0, end = 0;
+  bool position_begins = false;
 };
 
 class Cutter {
@@ -52,7 +53,7 @@ class Cutter {
           row == 0 || (position_ && position_->values[row] != position_->values[row - 1]);
       if (position_changed || cut_before(row, all.back())) {
         origin = position_changed ? time_[row] - interval_ : time_[row - 1];
-        all.push_back({row, row + 1});
+        all.push_back({row, row + 1, position_changed});
       } else if (bin(row, origin) != bin(row - 1, origin)) {
         all.push_back({row, row + 1});
       } else {
@@ -143,7 +144,14 @@ Recording reduced(const Recording& recording, double interval, std::size_t facto
   Recording out;
   out.source = recording.source;
   out.facts = recording.facts;
-  for (const Joined& s : stretches) out.lines.push_back(recording.lines[s.end - 1]);
+  for (const Joined& s : stretches) {
+    out.lines.push_back(recording.lines[s.end - 1]);
+    // What a command or a position cuts off is shorter, and says less.
+    out.begins.push_back(out.begins.empty() || s.position_begins ? t[s.first] - interval
+                                                                 : t[s.first - 1]);
+    out.samples.push_back(
+        std::min(1.0, static_cast<double>(s.end - s.first) / static_cast<double>(factor)));
+  }
   for (const Channel& c : recording.channels) {
     Channel reduced_channel{c.name, c.unit, {}};
     reduced_channel.values.reserve(stretches.size());

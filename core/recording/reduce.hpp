@@ -23,6 +23,7 @@ SampleIntervals sample_intervals(const Recording& recording);
 /// Commands: mean, and a stretch ends where they change by more than 1e-9 rad/s, where phase or
 /// position changes and where the case heading leaves its straight line by more than an arcsecond.
 /// The stretches of a position begin one sample before its first row; rows keep their time.
+/// `begins` and `samples` are set: a stretch that is cut off early averages less noise away.
 Recording reduced(const Recording& recording, double interval, std::size_t factor);
 
 }  // namespace drift

@@ -168,8 +168,8 @@ void Simulator::measure(const Timeline& timeline, std::size_t i, Simulation& out
     const Vec3 mean = instruments.accelerometers(interval, phi, memory);
     for (int a = 0; a < 3; ++a)
       out.measured.acc(a, i) =
-          mean[a] +
-          readout_.accelerometer_noise * (sensor_noise_[a]->normal() + wrong_by(a, out.draw.theta));
+          mean[a] + interval.accelerometer_noise(readout_.accelerometer_noise) *
+                        (sensor_noise_[a]->normal() + wrong_by(a, out.draw.theta));
   }
   if (readout_.gimbals) {
     const Vec3 angles = instruments.gimbals(interval, phi, memory);

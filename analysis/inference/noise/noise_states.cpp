@@ -47,10 +47,10 @@ NoiseStep step_of(const NoiseStates& s, const NoiseModel& n, const IntervalDrive
   return step;
 }
 
-double lone_weight(const MeasuredRows& p, const LoneInput& lone, int channel) {
-  if (lone.equation == Equation::accelerometer && channel == lone.axis)
-    return lone.sigma / p.acc_sigma;
-  if (lone.equation == Equation::gimbal && channel == 3 + lone.axis)
+double lone_weight(const MeasuredRows& p, const LoneInput& lone, const RowTag& row) {
+  if (lone.equation == Equation::accelerometer && row.channel == lone.axis)
+    return lone.sigma / p.acc_sigma_of(row);
+  if (lone.equation == Equation::gimbal && row.channel == 3 + lone.axis)
     return lone.sigma / p.gimbal_sigma;
   return 0.0;
 }

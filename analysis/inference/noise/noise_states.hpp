@@ -35,8 +35,8 @@ NoiseStep step_of(const NoiseStates& s, const NoiseModel& n, const IntervalDrive
 /// stationary.
 MatX initial_covariance(const NoiseStates& s, const NoiseModel& n);
 
-/// Weight of the lone input on a row of its channel.
-double lone_weight(const MeasuredRows& p, const LoneInput& lone, int channel);
+/// Weight of the lone input on a row: zero on those of other channels.
+double lone_weight(const MeasuredRows& p, const LoneInput& lone, const RowTag& row);
 
 /// Walks along intervals and rows; calls cage(), move(step) and row(index, h, white sigma).
 template <class Cage, class Move, class Row>
@@ -54,8 +54,9 @@ void walk(const MeasuredRows& p, const NoiseModel& n, const NoiseStates& s, Cage
            ++k) {
         h.setZero();
         h.head<3>() = p.psi.row(k);
-        if (accelerometer && s.acc >= 0) h[s.acc + p.tags[k].channel] = n.acc_markov / p.acc_sigma;
-        if (s.lone >= 0) h[s.lone] = lone_weight(p, n.lone, p.tags[k].channel);
+        if (accelerometer && s.acc >= 0)
+          h[s.acc + p.tags[k].channel] = n.acc_markov / p.acc_sigma_of(p.tags[k]);
+        if (s.lone >= 0) h[s.lone] = lone_weight(p, n.lone, p.tags[k]);
         row(k, h, (accelerometer ? n.acc_factor : n.gimbal_factor) / p.weight[k]);
       }
     }

@@ -142,12 +142,20 @@ TEST(Program, ARecordingOfAnotherPlanIsRefused) {
   EXPECT_EQ(other.code, recording_error);
   EXPECT_NE(other.err.find("attitude in the plan"), std::string::npos) << other.err;
   EXPECT_NE(other.err.find("r.csv:"), std::string::npos) << other.err;
+  // Evenly spaced rows that are no whole part of the plan's samples: is this the plan? Two of them
+  // make one sample of 120 s.
   const Answer sample =
-      driftscope("identify " + study + " " + recording + " --set plan.sample='120 s'");
+      driftscope("identify " + study + " " + recording + " --set plan.sample='90 s'");
   EXPECT_EQ(sample.code, recording_error) << sample.err;
+  EXPECT_NE(sample.err.find("samples are 60 s apart, in the plan 90 s"), std::string::npos);
+  const Answer twice =
+      driftscope("identify " + study + " " + recording + " --set plan.sample='120 s'");
+  EXPECT_EQ(twice.code, 0) << twice.err;
+  EXPECT_NE(twice.err.find("60 rows 60 s apart are taken as 30 of 120 s"), std::string::npos)
+      << twice.err;
 }
 
-TEST(Program, AGapInATorquedSequenceIsRefused) {
+TEST(Program, AGapInATorquedSequenceIsClosedByTheGimbalsAndRefusedWithoutThem) {
   const ScratchFolder folder;
   const std::string study = folder.write("s.toml", short_study), recording = folder.file("r.csv");
   ASSERT_EQ(driftscope("simulate " + study + " --set plan.entry=torqued -o " + recording).code, 0);
@@ -160,10 +168,18 @@ TEST(Program, AGapInATorquedSequenceIsRefused) {
     if (!(data && data_line >= 20 && data_line < 24)) kept += text.substr(at, end - at);
     at = end;
   }
-  const Answer a = driftscope("identify " + study + " --set plan.entry=torqued " +
-                              folder.write("gap.csv", kept));
-  EXPECT_EQ(a.code, recording_error);
-  EXPECT_NE(a.err.find("gap of"), std::string::npos) << a.err;
+  const std::string gap = folder.write("gap.csv", kept);
+  for (const char* command : {"identify ", "diagnose "}) {
+    const Answer seen = driftscope(command + study + " --set plan.entry=torqued " + gap +
+                                   (command[0] == 'd' ? " --set filter.corrected.starts=1" : ""));
+    EXPECT_NE(seen.code, recording_error) << command << seen.err;
+    for (std::size_t k = 0; (k = kept.find("gimbal_", k)) != std::string::npos; ++k)
+      kept.replace(k, 7, "unknown");
+    const Answer blind = driftscope(command + study + " --set plan.entry=torqued " +
+                                    folder.write("blind.csv", kept));
+    EXPECT_EQ(blind.code, recording_error) << command;
+    EXPECT_NE(blind.err.find("rows are missing before this one"), std::string::npos) << blind.err;
+  }
 }
 
 TEST(Program, WhatCannotBeWrittenExitsWith6) {

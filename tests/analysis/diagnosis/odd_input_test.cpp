@@ -8,7 +8,7 @@
 
 #include "analysis/diagnosis/diagnose.hpp"
 #include "analysis/diagnosis/diagnose_recordings.hpp"
-#include "analysis/preparation/fill_gaps.hpp"
+#include "analysis/preparation/lost_rows.hpp"
 #include "analysis/preparation/prepare.hpp"
 #include "analysis/report/diagnosis/remark_words.hpp"
 #include "analysis/report/diagnosis/report.hpp"
@@ -139,33 +139,34 @@ TEST(OddInput, ASecondRecordingIsPredictedFromTheFirst) {
   EXPECT_EQ(json["by_recording"]["each"][1]["name"], "recording 2");
 }
 
-TEST(OddInput, RowsThatAreMissingWithinAPositionAreBridged) {
+TEST(OddInput, RowsThatAreMissingWithinAPositionMakeTheNextOneLonger) {
   const Recording whole = made(hidden, 0), gappy = without_rows(whole, 20, 24);
   EXPECT_EQ(gappy.rows() + 4, whole.rows());
-  std::vector<std::string> remarks;
-  Recording filled = gappy;
-  preparation::fill_gaps(filled, 60.0, remarks);
-  ASSERT_EQ(filled.rows(), whole.rows());
+  std::vector<std::string> remarks, wrong;
+  const Recording ready = preparation::with_begins(gappy, study(), remarks, wrong).recording;
+  EXPECT_TRUE(wrong.empty());
+  ASSERT_EQ(ready.rows(), gappy.rows());
   EXPECT_EQ(remarks.size(), 1u);
-  for (std::size_t k = 0; k < whole.rows(); ++k) {
-    EXPECT_NEAR(filled.find("time")->values[k], whole.find("time")->values[k], 1e-9);
-    EXPECT_EQ(std::isnan(filled.find("acc_x")->values[k]), k >= 20 && k < 24) << k;
+  for (std::size_t k = 0; k < gappy.rows(); ++k) {
+    EXPECT_NEAR(ready.find("time")->values[k] - ready.begins[k], k == 20 ? 300.0 : 60.0, 1e-9) << k;
+    EXPECT_EQ(std::isnan(ready.find("acc_x")->values[k]), k == 20) << k;
+    EXPECT_TRUE(std::isfinite(ready.find("gimbal_outer")->values[k])) << k;
   }
   const Diagnosis d = diagnosed({gappy});
   expect_found(d);
   EXPECT_TRUE(says(d, "4 rows are missing within positions"));
 }
 
-TEST(OddInput, AGapInWhichTheCommandChangedIsNotBridged) {
+TEST(OddInput, AGapInWhichTheCommandChangedIsRefusedWhereTheAnglesDoNotShowIt) {
   Recording r = without_rows(made(0.0, 0), 20, 24);
   for (Channel& c : r.channels)
     if (c.name == "cmd_x")
-      for (std::size_t k = 20; k < c.values.size(); ++k) c.values[k] = 1e-5;
-  const std::size_t rows = r.rows();
-  std::vector<std::string> remarks;
-  preparation::fill_gaps(r, 60.0, remarks);
-  EXPECT_EQ(r.rows(), rows);
-  EXPECT_TRUE(remarks.empty());
+      for (std::size_t k = 20; k < c.values.size(); ++k) c.values[k] = 1e-3;
+  std::vector<std::string> remarks, wrong;
+  preparation::with_begins(r, study(), remarks, wrong);
+  ASSERT_EQ(wrong.size(), 1u);
+  EXPECT_NE(wrong[0].find("about 4 rows are missing before this one"), std::string::npos);
+  EXPECT_NE(wrong[0].find("explains how far the platform turned"), std::string::npos);
 }
 
 TEST(OddInput, ACovariateThatExplainsNothingIsNotBlamed) {

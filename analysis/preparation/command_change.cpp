@@ -1,0 +1,78 @@
+#include "analysis/preparation/command_change.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "analysis/preparation/input_thresholds.hpp"
+#include "core/physics/gimbals.hpp"
+
+namespace drift::preparation {
+namespace {
+
+std::optional<Vec3> triple(const Recording& r, const std::array<const char*, 3>& names,
+                           std::size_t row) {
+  Vec3 v;
+  for (int a = 0; a < 3; ++a) {
+    const Channel* c = r.find(names[a]);
+    if (!c || !std::isfinite(c->values[row])) return std::nullopt;
+    v[a] = c->values[row];
+  }
+  return v;
+}
+
+/// Attitude of the platform against an inertial frame, as the gimbals show it.
+std::optional<Mat3> shown_attitude(const Recording& r, const Site& site, std::size_t row) {
+  const auto angles = triple(r, {"gimbal_outer", "gimbal_middle", "gimbal_inner"}, row);
+  if (!angles) return std::nullopt;
+  const Channel* heading = r.find("case_heading");
+  return Mat3(rotation<double>(site.omega_ie_l() * r.find("time")->values[row]) *
+              case_attitude(heading ? heading->values[row] : 0.0) * gimbal_chain(*angles));
+}
+
+}  // namespace
+
+CommandChange command_change(const Recording& recording, const Site& site, std::size_t row,
+                             const RowSpacing& spacing) {
+  const std::array<const char*, 3> commands{"cmd_x", "cmd_y", "cmd_z"};
+  const auto before = triple(recording, commands, row - 1),
+             after = triple(recording, commands, row);
+  const auto from = shown_attitude(recording, site, row - 1),
+             to = shown_attitude(recording, site, row);
+  if (!before || !after || !from || !to)
+    return {0.0, "no gimbal angles tell when the command changed"};
+  const auto& time = recording.find("time")->values;
+  const double t0 = time[row - 1], t1 = time[row];
+  const Mat3 turned = from->transpose() * *to;
+  const auto misfit = [&](double t) {
+    const Mat3 commanded =
+        rotation<double>(*before * (t - t0)) * rotation<double>(*after * (t1 - t));
+    return rotation_vector(Mat3(commanded.transpose() * turned)).norm();
+  };
+  CommandChange best{t0, ""};
+  double least = std::numeric_limits<double>::infinity();
+  const double finest = std::min(spacing.usual[row - 1], spacing.usual[row]);
+  const auto consider = [&](double t) {
+    if (!(t > t0 - 1e-6 * finest && t < t1 - 1e-6 * finest)) return;
+    if (const double m = misfit(t); m < least) {
+      least = m;
+      best.time = std::max(t, t0);
+    }
+  };
+  const auto steps = [&](double usual) {
+    return std::min(RecordingLimits::longest_gap,
+                    static_cast<std::size_t>(std::lround((t1 - t0) / usual)));
+  };
+  for (std::size_t k = 0; k <= steps(spacing.usual[row - 1]); ++k)
+    consider(t0 + static_cast<double>(k) * spacing.usual[row - 1]);
+  for (std::size_t k = 1; k <= steps(spacing.usual[row]); ++k)
+    consider(t1 - static_cast<double>(k) * spacing.usual[row]);
+  if (!(least <= RecordingLimits::change_room * finest * (*after - *before).norm()))
+    return {0.0, "no time at which a row would have stood explains how far the platform turned"};
+  if (best.time - t0 < 1e-6 * finest) best.time = t0;
+  return best;
+}
+
+}  // namespace drift::preparation

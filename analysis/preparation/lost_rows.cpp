@@ -1,0 +1,221 @@
+#include "analysis/preparation/lost_rows.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "analysis/preparation/command_change.hpp"
+#include "analysis/preparation/input_thresholds.hpp"
+#include "core/plan/case_heading.hpp"
+
+namespace drift::preparation {
+namespace {
+
+constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
+
+/// What a gap in front of a row turns out to be.
+struct Gap {
+  double change = nan_value;  ///< when the command changed; NaN: it did not, or at the last row
+};
+
+class Gaps {
+ public:
+  Gaps(const Recording& r, const TestPlan& plan, const RowSpacing& spacing)
+      : r_(r),
+        plan_(plan),
+        spacing_(spacing),
+        time_(r.find("time")->values),
+        position_(r.find("position")->values),
+        phase_(r.find("phase")) {}
+
+  bool position_begins(std::size_t row) const {
+    return row == 0 || position_[row] != position_[row - 1];
+  }
+  bool caged(std::size_t row) const {
+    if (!position_begins(row)) return false;
+    return row == 0 || !planned(row) || planned(row)->entry == Entry::caged;
+  }
+
+  /// When a row begins that is not carried on from the one before: one usual step earlier, or with
+  /// the dwell of the plan where the first rows of the position are missing and the last are not.
+  double begin_of_caged(std::size_t row) const {
+    const Position* p = planned(row);
+    double usual = spacing_.usual[row];
+    // The plan's sample, where jitter hides the difference.
+    if (p && !(std::abs(usual - p->sample) > RecordingLimits::hidden * spacing_.jitter))
+      usual = p->sample;
+    const double begin = time_[row] - usual;
+    const double before = row > 0 ? time_[row - 1] : -std::numeric_limits<double>::infinity();
+    if (p && !(phase_ && phase_->values[row] == 1.0)) {
+      std::size_t last = row;
+      while (last + 1 < time_.size() && position_[last + 1] == position_[row]) ++last;
+      if (last + 1 < time_.size() ? spacing_.gap(last + 1) : row == 0)
+        return std::max(begin, before);  // its end is missing, or may be
+      const double by_plan = time_[last] - p->dwell, earlier = (begin - by_plan) / usual;
+      const bool whole = std::abs(earlier - std::round(earlier)) < RecordingLimits::grid_room;
+      const bool few = earlier > 0.5 && earlier < RecordingLimits::first_rows + 0.5;
+      if (whole && few && by_plan > before - RecordingLimits::grid_room * usual)
+        return std::max(by_plan, before);
+    }
+    return std::max(begin, before);
+  }
+
+  /// Whether the jitter of the rows around is more than accelerometers can bear at a row that
+  /// begins at an unknown instant.
+  bool begins_uncertain(std::size_t row, const Readout& readout) const {
+    const Position* p = planned(row);
+    if (!p || !(spacing_.jitter > 0.0)) return false;
+    const double noise =
+        readout.accelerometer_noise * std::sqrt(std::max(1.0, p->sample / spacing_.usual[row]));
+    return 0.5 * detail::earth_rate * spacing_.jitter > RecordingLimits::begin_noise * noise;
+  }
+
+  /// A row or more is missing in front of this one, to which the attitude is carried along.
+  bool lost_before(std::size_t row, const Site& site) const {
+    if (spacing_.gap(row)) return true;
+    if (!spacing_.longer(row) || same_command(row)) return false;
+    const CommandChange found = command_change(r_, site, row, spacing_);
+    return found.why_not.empty() && found.time > time_[row - 1];
+  }
+
+  /// Looks at the gap in front of a row. Empty and a message if it cannot be closed.
+  std::optional<Gap> close(std::size_t row, const Site& site,
+                           std::vector<std::string>& wrong) const {
+    const auto refuse = [&](const std::string& why) {
+      wrong.push_back(
+          fmt::format("{}:{}: about {:.0f} rows are missing before this one, and {} (expected rows "
+                      "wherever the command changes, for the attitude is carried along). Give the "
+                      "missing rows, or mark the position as caged",
+                      r_.source.empty() ? "recording" : r_.source,
+                      row < r_.lines.size() ? r_.lines[row] : row + 1, spacing_.missing(row), why));
+      return std::nullopt;
+    };
+    const auto dwells = [&](std::size_t k) { return !phase_ || phase_->values[k] == 0.0; };
+    if (position_begins(row) && dwells(row - 1) && dwells(row))
+      return refuse("with them the whole way from one position to the next");
+    if (same_command(row)) return Gap{};
+    if (!r_.find("cmd_x")) return refuse("there are no commands");
+    const CommandChange found = command_change(r_, site, row, spacing_);
+    if (!found.why_not.empty()) return refuse(found.why_not);
+    return found.time > time_[row - 1] ? Gap{found.time} : Gap{};
+  }
+
+ private:
+  const Position* planned(std::size_t row) const {
+    const auto number = static_cast<std::size_t>(std::max(0.0, position_[row]));
+    return number >= 1 && number <= plan_.positions.size() ? &plan_.positions[number - 1] : nullptr;
+  }
+  bool same_command(std::size_t row) const {
+    for (const char* name : {"cmd_x", "cmd_y", "cmd_z"}) {
+      const Channel* c = r_.find(name);
+      if (c && !(std::abs(c->values[row] - c->values[row - 1]) < RecordingLimits::gap_command))
+        return false;
+    }
+    return true;
+  }
+
+  const Recording& r_;
+  const TestPlan& plan_;
+  const RowSpacing& spacing_;
+  const std::vector<double>& time_;
+  const std::vector<double>& position_;
+  const Channel* phase_;
+};
+
+bool is_accelerometer(const Channel& c) {
+  return c.name.starts_with("acc_");
+}
+
+/// A row at an instant between two others at which the command changed: not measured, the command
+/// that was before; the case turned on the way, if it did.
+void insert_row(Spaced& s, std::size_t row, double t) {
+  auto& time = *std::ranges::find(s.recording.channels, "time", &Channel::name);
+  const double t0 = time.values[row - 1], t1 = time.values[row];
+  const auto at = static_cast<std::ptrdiff_t>(row);
+  const auto value = [&](const char* name, std::size_t k) {
+    const Channel* c = s.recording.find(name);
+    return c ? c->values[k] : 0.0;
+  };
+  const bool turning = value("case_heading", row) != value("case_heading", row - 1);
+  for (Channel& c : s.recording.channels) {
+    const double a = c.values[row - 1], b = c.values[row];
+    const bool held = c.name.starts_with("cmd_") || c.name.starts_with("loop_");
+    const bool named = c.name == "position" || c.name == "phase" || c.name == "case_heading";
+    const double x = is_accelerometer(c) || c.name.starts_with("gimbal_") ? nan_value
+                     : held                                               ? a
+                     : named                                              ? (turning ? b : a)
+                             : a + (b - a) * (t - t0) / (t1 - t0);
+    c.values.insert(c.values.begin() + at, x);
+  }
+  s.recording.lines.insert(s.recording.lines.begin() + at, s.recording.lines[row]);
+  s.spacing.step[row] = t1 - t;
+  s.spacing.step.insert(s.spacing.step.begin() + at, t - t0);
+  s.spacing.usual.insert(s.spacing.usual.begin() + at, s.spacing.usual[row - 1]);
+}
+
+}  // namespace
+
+Spaced with_begins(const Recording& recording, const mc::Study& study,
+                   std::vector<std::string>& remarks, std::vector<std::string>& wrong) {
+  Spaced out{recording, row_spacing(recording)};
+  const Gaps gaps(recording, study.plan, out.spacing);
+  const RowSpacing spacing = out.spacing;
+  const std::size_t n = recording.rows();
+  std::vector<std::pair<std::size_t, double>> changes;
+  std::vector<double> begins(n);
+  double missing = 0.0;
+  std::size_t count = 0, first = 0;
+  const auto not_measured = [&](std::size_t row) {
+    for (Channel& c : out.recording.channels)
+      if (is_accelerometer(c)) c.values[row] = nan_value;
+  };
+  for (std::size_t row = 0; row < n; ++row) {
+    if (gaps.caged(row)) {
+      begins[row] = gaps.begin_of_caged(row);
+      const double own = recording.find("time")->values[row] - begins[row];
+      if (gaps.begins_uncertain(row, study.readout) || own > 1.5 * spacing.usual[row])
+        not_measured(row);
+      continue;
+    }
+    begins[row] = recording.find("time")->values[row - 1];
+    if (!gaps.lost_before(row, study.site)) continue;
+    missing += spacing.missing(row);
+    if (count++ == 0) first = row;
+    not_measured(row);
+    if (const auto gap = gaps.close(row, study.site, wrong); gap && std::isfinite(gap->change))
+      changes.emplace_back(row, gap->change);
+  }
+  out.recording.begins = std::move(begins);
+  for (std::size_t k = changes.size(); k-- > 0;) {
+    const auto [row, t] = changes[k];
+    out.recording.begins.insert(out.recording.begins.begin() + static_cast<std::ptrdiff_t>(row),
+                                out.recording.begins[row]);
+    out.recording.begins[row + 1] = t;
+    insert_row(out, row, t);
+  }
+  if (count > 0)
+    remarks.push_back(fmt::format(
+        "{}: {:.0f} rows are missing within positions, in {} gap{}, the first before line {}: the "
+        "command is taken as held, the accelerometers right behind a gap as not measured{}",
+        recording.source.empty() ? "recording" : recording.source, missing, count,
+        count == 1 ? "" : "s", first < recording.lines.size() ? recording.lines[first] : first + 1,
+        changes.empty() ? ""
+                        : fmt::format("; in {} of them the command changed, when is read off the "
+                                      "gimbal angles",
+                                      changes.size())));
+  return out;
+}
+
+bool gap_on_the_way(const Recording& recording, const TestPlan& plan) {
+  const RowSpacing spacing = row_spacing(recording);
+  const Gaps gaps(recording, plan, spacing);
+  for (std::size_t row = 1; row < recording.rows(); ++row)
+    if (spacing.gap(row) && !gaps.caged(row)) return true;
+  return false;
+}
+
+}  // namespace drift::preparation

@@ -1,0 +1,119 @@
+#include "core/recording/row_spacing.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace drift {
+namespace {
+
+constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t reach = 8;      // rows to either side: three of four may follow a lost one
+constexpr std::size_t few_steps = 8;  // of a stretch, to be judged by itself
+constexpr double same_step = 1e-3;
+
+/// Rows of one position and phase.
+struct Stretch {
+  std::size_t first = 0, end = 0;
+  bool position_begins = false;
+  double phase = 0.0;
+};
+
+std::vector<Stretch> stretches_of(const Recording& r) {
+  const Channel* position = r.find("position");
+  const Channel* phase = r.find("phase");
+  std::vector<Stretch> all;
+  for (std::size_t row = 0; row < r.rows(); ++row) {
+    const bool begins =
+        row == 0 || (position && position->values[row] != position->values[row - 1]);
+    if (begins || (phase && phase->values[row] != phase->values[row - 1]))
+      all.push_back({row, row, begins, phase && phase->values[row] == 1.0 ? 1.0 : 0.0});
+    all.back().end = row + 1;
+  }
+  return all;
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// The usual step around each row of a stretch. Its first row says how far it is from another
+/// stretch, which is no evidence of its own steps.
+void fill_usual(const Stretch& s, RowSpacing& out) {
+  const std::size_t own = s.first + 1;
+  for (std::size_t row = s.first; row < s.end; ++row) {
+    const std::size_t centre = std::max(row, own);
+    const std::size_t from = centre - std::min(reach, centre - own);
+    const std::size_t to = std::min(s.end, centre + reach + 1);
+    out.usual[row] = median({out.step.begin() + static_cast<std::ptrdiff_t>(from),
+                             out.step.begin() + static_cast<std::ptrdiff_t>(to)});
+  }
+}
+
+/// Steps within the stretches of a phase.
+std::vector<double> steps_of(const std::vector<Stretch>& stretches, double phase,
+                             const RowSpacing& out) {
+  std::vector<double> steps;
+  for (const Stretch& s : stretches)
+    if (s.phase == phase)
+      for (std::size_t row = s.first + 1; row < s.end; ++row) steps.push_back(out.step[row]);
+  return steps;
+}
+
+}  // namespace
+
+double RowSpacing::missing(std::size_t row) const {
+  const double around = std::max(usual[row], usual[row - 1]);
+  return std::max(1.0, std::round((step[row] - usual[row]) / around));
+}
+
+bool RowSpacing::longer(std::size_t row) const {
+  return step[row] > usual[row] + 0.5 * std::min(usual[row], usual[row - 1]);
+}
+
+RowSpacing row_spacing(const Recording& recording) {
+  const std::size_t n = recording.rows();
+  const auto& t = recording.find("time")->values;
+  RowSpacing out{std::vector<double>(n, nan_value), std::vector<double>(n, nan_value)};
+  for (std::size_t row = 1; row < n; ++row) out.step[row] = t[row] - t[row - 1];
+  const std::vector<Stretch> stretches = stretches_of(recording);
+  // A stretch of a few rows, some of which may be lost, is like the others of its phase; a phase of
+  // single rows is like the whole recording.
+  std::array<double, 2> of_phase{nan_value, nan_value};
+  for (const int phase : {0, 1})
+    if (auto steps = steps_of(stretches, phase, out); !steps.empty())
+      of_phase[phase] = median(std::move(steps));
+  for (const int phase : {0, 1})
+    if (std::isnan(of_phase[phase])) of_phase[phase] = of_phase[1 - phase];
+  for (const Stretch& s : stretches) {
+    const double usual = of_phase[s.phase == 1.0 ? 1 : 0];
+    if (s.end - s.first > few_steps)
+      fill_usual(s, out);
+    else
+      std::fill(out.usual.begin() + static_cast<std::ptrdiff_t>(s.first),
+                out.usual.begin() + static_cast<std::ptrdiff_t>(s.end), usual);
+  }
+
+  out.shortest = std::numeric_limits<double>::infinity();
+  double squares = 0.0, steps = 0.0;
+  for (const Stretch& s : stretches)
+    for (std::size_t row = s.first; row < s.end; ++row) {
+      if (std::isnan(out.usual[row])) continue;
+      out.shortest = std::min(out.shortest, out.usual[row]);
+      out.longest = std::max(out.longest, out.usual[row]);
+      if (row == s.first && s.position_begins) continue;  // it may have been caged
+      const double off = out.step[row] - out.usual[row];
+      if (std::abs(off) > same_step * out.usual[row]) out.regular = false;
+      if (out.gap(row)) continue;
+      squares += off * off;
+      steps += 1.0;
+    }
+  out.regular = out.regular && out.longest - out.shortest <= same_step * out.longest;
+  out.jitter = steps > 0.0 ? std::sqrt(squares / steps) : nan_value;
+  return out;
+}
+
+}  // namespace drift

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <vector>
+
+#include "core/recording/recording.hpp"
+
+namespace drift {
+
+/// How far the rows of a recording are from each other.
+struct RowSpacing {
+  std::vector<double> step;  ///< since the row before [s]; NaN for the first
+  /// What is usual around the row [s]: the median of the steps of the nearest rows of the same
+  /// position and phase, so that rows 1 s apart in slews and 60 s apart in dwells are both usual. A
+  /// stretch of a few rows is like the others of its phase. NaN where the recording does not tell.
+  std::vector<double> usual;
+
+  /// Rows are missing in front of this one: halfway to one missing row. (At the first row of a
+  /// position, time may also have passed because the platform was caged.)
+  bool gap(std::size_t row) const { return step[row] > 1.5 * usual[row]; }
+  /// The way from the row before is longer than what is usual here by half of what is usual on
+  /// either side: between seconds and minutes one second may be missing that is no gap by itself.
+  bool longer(std::size_t row) const;
+  /// Rows that are missing in front of one behind a gap, counted in the longer steps where those on
+  /// both sides differ.
+  double missing(std::size_t row) const;
+  /// Every row is as far from the one before as is usual everywhere within a position, to a
+  /// thousandth.
+  bool regular = true;
+  double shortest = 0.0, longest = 0.0;  ///< of what is usual [s]
+  double jitter = 0.0;  ///< rms deviation of the steps from what is usual, gaps left out [s]
+};
+RowSpacing row_spacing(const Recording& recording);
+
+}  // namespace drift

@@ -1,0 +1,174 @@
+// Rows at any distance from each other: what becomes of them before anything is estimated.
+#include <gtest/gtest.h>
+
+#include "analysis/preparation/prepare.hpp"
+#include "analysis/preparation/recorded_test.hpp"
+#include "core/base/check.hpp"
+#include "core/sim/predict.hpp"
+#include "tests/support/rows_at_any_distance.hpp"
+
+namespace drift::preparation {
+namespace {
+
+using test::Rows;
+using test::with_rows;
+
+/// Ten minutes a position and no noise to speak of; the truth is at its prior means.
+mc::Study study() {
+  mc::Study s = test::slewing_study(600.0, Coupling::eq5, Coupling::eq5);
+  s.truth.active = test::only({"D_F"});
+  s.readout.accelerometer_noise = 1e-12;
+  s.readout.gimbal_noise = 1e-12;
+  return s;
+}
+
+const Recording& fine() {
+  static const Recording r = test::second_by_second(study());
+  return r;
+}
+
+bool says(const Prepared& p, std::string_view text) {
+  return std::ranges::any_of(
+      p.remarks, [&](const std::string& r) { return r.find(text) != std::string::npos; });
+}
+
+std::string refusal(const Recording& r) {
+  try {
+    prepare(study(), {r});
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.code(), ExitCode::recording);
+    return error.what();
+  }
+  return "";
+}
+
+/// Largest difference between what the rows say and what the truth would show over the intervals
+/// that they are given: [g], [rad].
+struct Misfit {
+  double acc = 0.0, gimbal = 0.0;
+  std::size_t measured = 0;  ///< accelerometer scalars
+};
+
+Misfit misfit(const Prepared& p) {
+  const RecordedTest made = recorded_test(p.study, p.recordings);
+  const TruthDraw draw = draw_truth(study().truth, 1, 1, 0);
+  const Measurements truth = predict(made.timeline, study().truth.model(), draw.theta,
+                                     {draw.psi0_l.begin(), draw.psi0_l.end()}, p.study.readout);
+  Misfit m;
+  for (Eigen::Index i = 0; i < truth.acc.cols(); ++i)
+    for (int a = 0; a < 3; ++a) {
+      if (const double e = made.measured.acc(a, i) - truth.acc(a, i); std::isfinite(e)) {
+        m.acc = std::max(m.acc, std::abs(e));
+        ++m.measured;
+      }
+      if (const double e = angle_difference(made.measured.gimbal(a, i), truth.gimbal(a, i));
+          std::isfinite(e))
+        m.gimbal = std::max(m.gimbal, std::abs(e));
+    }
+  return m;
+}
+
+class AnyRows : public ::testing::TestWithParam<Rows> {};
+INSTANTIATE_TEST_SUITE_P(UnequalRows, AnyRows,
+                         ::testing::Values(Rows::each_second, Rows::each_minute,
+                                           Rows::seconds_in_slews, Rows::jittered,
+                                           Rows::minutes_lost, Rows::seconds_lost));
+
+TEST_P(AnyRows, SayWhatHappenedInTheirOwnIntervals) {
+  const Recording r = with_rows(fine(), GetParam());
+  const Prepared p = prepare(study(), {r});
+  const Misfit m = misfit(p);
+  EXPECT_LT(m.acc, 3e-6) << "3 ug: what bridging a hole in a slew may cost";
+  EXPECT_LT(m.gimbal, 0.05 * test::arcsec);
+  const std::size_t minutes = with_rows(fine(), Rows::each_minute).rows();
+  EXPECT_LT(p.recordings[0].rows(), minutes * 5 / 4);
+  EXPECT_GT(p.recordings[0].rows(), minutes * 4 / 5);
+  EXPECT_GT(m.measured, 3 * minutes * 7 / 10);
+  double weight = 0.0;  // never more than the minutes that were recorded
+  for (const double n : p.recordings[0].samples) weight += n;
+  EXPECT_LE(weight, 1.01 * static_cast<double>(minutes));
+}
+
+TEST(UnequalRows, AreNotReadAsMissing) {
+  const Prepared p = prepare(study(), {with_rows(fine(), Rows::seconds_in_slews)});
+  EXPECT_FALSE(says(p, "missing"));
+  EXPECT_TRUE(says(p, "rows at several distances are taken as"));
+}
+
+TEST(UnequalRows, RowsThatAreLongEnoughStayAsTheyAre) {
+  const Recording r = with_rows(fine(), Rows::jittered);
+  const Prepared p = prepare(study(), {r});
+  EXPECT_EQ(p.recordings[0].rows(), r.rows());
+  EXPECT_EQ(p.recordings[0].find("acc_y")->values[5], r.find("acc_y")->values[5]);
+  EXPECT_DOUBLE_EQ(p.recordings[0].samples[5], 1.0);
+}
+
+TEST(UnequalRows, WhenASlewBeganIsReadOffTheGimbalsWhereRowsAreMissingAndRefusedWithoutThem) {
+  const Recording minutes = with_rows(fine(), Rows::each_minute);
+  const auto& phase = minutes.find("phase")->values;
+  std::size_t slew = 1;  // the first row of the first slew
+  while (phase[slew] == 0.0) ++slew;
+  for (const std::size_t lost : {slew - 1, slew}) {
+    Recording r = minutes;
+    for (Channel& c : r.channels) c.values.erase(c.values.begin() + static_cast<long>(lost));
+    r.lines.erase(r.lines.begin() + static_cast<long>(lost));
+    const Prepared p = prepare(study(), {r});
+    EXPECT_TRUE(says(p, "1 rows are missing within positions, in 1 gap")) << lost;
+    const Misfit m = misfit(p);
+    EXPECT_LT(m.gimbal, 0.05 * test::arcsec) << lost;
+    EXPECT_LT(m.acc, 1e-7) << lost;
+    std::erase_if(r.channels, [](const Channel& c) { return c.name.starts_with("gimbal_"); });
+    EXPECT_NE(refusal(r).find("no gimbal angles tell when the command changed"), std::string::npos)
+        << lost;
+  }
+}
+
+TEST(UnequalRows, AWayToTheNextPositionThatIsMissingAltogetherIsRefused) {
+  Recording r = with_rows(fine(), Rows::each_minute);
+  std::vector<bool> lost;
+  for (std::size_t k = 0; k < r.rows(); ++k)
+    lost.push_back(r.find("position")->values[k] == 2.0 && r.find("phase")->values[k] == 1.0);
+  const auto cut = [&](auto& v) {
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < v.size(); ++k)
+      if (!lost[k]) v[kept++] = v[k];
+    v.resize(kept);
+  };
+  for (Channel& c : r.channels) cut(c.values);
+  cut(r.lines);
+  EXPECT_NE(refusal(r).find("the whole way from one position to the next"), std::string::npos);
+}
+
+TEST(UnequalRows, NoiseIsWeightedByWhatARowAverages) {
+  const Prepared p = prepare(study(), {with_rows(fine(), Rows::seconds_in_slews)});
+  const Recording& r = p.recordings[0];
+  const RecordedTest made = recorded_test(p.study, p.recordings);
+  for (std::size_t k = 1; k < r.rows(); ++k) {
+    const Interval& i = made.timeline.intervals[k];
+    const double averaged = i.slew ? 60.0 / i.length() : 1.0;
+    EXPECT_NEAR(i.accelerometer_noise(5e-6), 5e-6 * std::sqrt(averaged), 1e-12) << k;
+  }
+}
+
+TEST(UnequalRows, RecordingsOfDifferentIntervalsAreTakenTogether) {
+  mc::Study s = study();
+  for (Position& p : s.plan.positions) p.entry = Entry::caged;
+  const auto each = [&](double sample) {
+    mc::Study other = s;
+    for (Position& p : other.plan.positions) p.sample = sample;
+    const Timeline t = lay_out(other.plan, other.site);
+    const TruthDraw draw = draw_truth(other.truth, t.chains, 1, 0);
+    return make_recording(t, Simulator(other.truth, s.readout).run(t, draw, 1, 0).measured,
+                          s.readout);
+  };
+  const Prepared p = prepare(s, {each(60.0), each(1.0), each(20.0)});
+  EXPECT_EQ(p.recordings[0].rows(), 120u);
+  EXPECT_EQ(p.recordings[1].rows(), 120u);
+  EXPECT_EQ(p.recordings[2].rows(), 120u);
+  for (std::size_t k = 0; k < 120; ++k)
+    EXPECT_NEAR(p.recordings[1].find("acc_x")->values[k], p.recordings[0].find("acc_x")->values[k],
+                2e-10);
+}
+
+}  // namespace
+}  // namespace drift::preparation

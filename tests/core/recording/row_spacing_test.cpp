@@ -1,0 +1,71 @@
+#include "core/recording/row_spacing.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace drift {
+namespace {
+
+/// Slews of `seconds` rows a second apart, each followed by a dwell of ten minutes.
+Recording mixed(int positions, int seconds) {
+  Recording r;
+  r.channels = {{"time", unit::s, {}}, {"position", unit::one, {}}, {"phase", unit::one, {}}};
+  double t = 0.0;
+  const auto add = [&](double step, int position, double phase) {
+    t += step;
+    r.channels[0].values.push_back(t);
+    r.channels[1].values.push_back(position);
+    r.channels[2].values.push_back(phase);
+    r.lines.push_back(r.lines.size() + 1);
+  };
+  for (int p = 1; p <= positions; ++p) {
+    for (int k = 0; k < seconds; ++k) add(1.0, p, 1.0);
+    for (int k = 0; k < 10; ++k) add(60.0, p, 0.0);
+  }
+  return r;
+}
+
+Recording without(Recording r, std::size_t row) {
+  for (Channel& c : r.channels) c.values.erase(c.values.begin() + static_cast<std::ptrdiff_t>(row));
+  r.lines.erase(r.lines.begin() + static_cast<std::ptrdiff_t>(row));
+  return r;
+}
+
+TEST(RowSpacing, SecondsInSlewsAndMinutesInDwellsAreBothUsual) {
+  const RowSpacing s = row_spacing(mixed(3, 50));
+  EXPECT_FALSE(s.regular);
+  EXPECT_DOUBLE_EQ(s.shortest, 1.0);
+  EXPECT_DOUBLE_EQ(s.longest, 60.0);
+  EXPECT_DOUBLE_EQ(s.jitter, 0.0);
+  for (std::size_t row = 0; row < s.step.size(); ++row) EXPECT_FALSE(s.gap(row)) << row;
+}
+
+TEST(RowSpacing, KnowsALostRowInEither) {
+  for (const std::size_t lost : {20u, 53u, 50u, 59u}) {  // slew, dwell, first and last of a dwell
+    const RowSpacing s = row_spacing(without(mixed(3, 50), lost));
+    for (std::size_t row = 1; row < s.step.size(); ++row) {
+      // Behind the last row of a dwell comes a slew: 61 s where one second is usual.
+      EXPECT_EQ(s.gap(row), row == lost) << row << " where " << lost << " is lost";
+    }
+    EXPECT_DOUBLE_EQ(s.missing(lost), 1.0) << lost;
+  }
+  // The last second of a slew: the way to the first minute of the dwell is a second too long.
+  const RowSpacing s = row_spacing(without(mixed(3, 50), 49));
+  EXPECT_FALSE(s.gap(49));
+  EXPECT_TRUE(s.longer(49));
+  EXPECT_FALSE(row_spacing(mixed(3, 50)).longer(50));
+}
+
+TEST(RowSpacing, EvenRowsAreRegularWhateverPassesBetweenPositions) {
+  Recording r = mixed(3, 0);
+  EXPECT_TRUE(row_spacing(r).regular);
+  for (std::size_t k = 10; k < 30; ++k) r.channels[0].values[k] += 1000.0;
+  EXPECT_TRUE(row_spacing(r).regular);
+  r.channels[0].values[15] += 0.1;
+  EXPECT_FALSE(row_spacing(r).regular);
+  EXPECT_FALSE(row_spacing(without(mixed(3, 0), 15)).regular);
+}
+
+}  // namespace
+}  // namespace drift
