@@ -3,8 +3,8 @@
 #include "core/base/output_file.hpp"
 #include "core/base/utf8.hpp"
 #include "core/recording/canonical_units.hpp"
-#include "core/recording/quality_card.hpp"
 #include "core/recording/recording_output.hpp"
+#include "core/recording/rows/quality_card.hpp"
 
 namespace drift::cli {
 

@@ -9,7 +9,7 @@
 #include "core/estimate/strapdown/dwells.hpp"
 #include "core/recording/own/csv_cells.hpp"
 #include "core/recording/own/guess.hpp"
-#include "core/recording/quality_card.hpp"
+#include "core/recording/rows/quality_card.hpp"
 
 namespace drift::cli {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "analysis/cli/print.hpp"
 #include "core/base/check.hpp"
-#include "core/recording/quality_card.hpp"
+#include "core/recording/rows/quality_card.hpp"
 
 namespace drift::cli {
 

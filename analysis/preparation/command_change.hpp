@@ -4,7 +4,7 @@
 
 #include "core/physics/earth.hpp"
 #include "core/recording/recording.hpp"
-#include "core/recording/row_spacing.hpp"
+#include "core/recording/rows/row_spacing.hpp"
 
 namespace drift::preparation {
 

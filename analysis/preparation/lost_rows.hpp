@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/recording/recording.hpp"
-#include "core/recording/row_spacing.hpp"
+#include "core/recording/rows/row_spacing.hpp"
 #include "mc/study/study.hpp"
 
 namespace drift::preparation {

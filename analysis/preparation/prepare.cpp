@@ -13,8 +13,8 @@
 #include "analysis/preparation/plan_check.hpp"
 #include "core/base/check.hpp"
 #include "core/plan/timeline.hpp"
-#include "core/recording/join_rows.hpp"
-#include "core/recording/reduce.hpp"
+#include "core/recording/rows/join_rows.hpp"
+#include "core/recording/rows/reduce.hpp"
 #include "core/sim/measurements.hpp"
 
 namespace drift::preparation {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -9,6 +10,9 @@
 #include "core/base/units.hpp"
 
 namespace drift {
+
+/// Where a channel says nothing.
+inline constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 
 /// One column of a recording.
 struct Channel {

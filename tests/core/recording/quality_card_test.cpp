@@ -1,4 +1,4 @@
-#include "core/recording/quality_card.hpp"
+#include "core/recording/rows/quality_card.hpp"
 
 #include <gtest/gtest.h>
 

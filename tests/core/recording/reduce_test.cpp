@@ -1,4 +1,4 @@
-#include "core/recording/reduce.hpp"
+#include "core/recording/rows/reduce.hpp"
 
 #include <gtest/gtest.h>
 

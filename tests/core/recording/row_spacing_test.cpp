@@ -1,4 +1,4 @@
-#include "core/recording/row_spacing.hpp"
+#include "core/recording/rows/row_spacing.hpp"
 
 #include <gtest/gtest.h>
 

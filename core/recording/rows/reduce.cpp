@@ -1,4 +1,4 @@
-#include "core/recording/reduce.hpp"
+#include "core/recording/rows/reduce.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,6 @@
 namespace drift {
 namespace {
 
-constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 constexpr double same_command = 1e-9;                  // [rad/s]
 constexpr double same_heading = detail::deg / 3600.0;  // [rad]
 

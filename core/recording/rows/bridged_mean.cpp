@@ -1,4 +1,4 @@
-#include "core/recording/bridged_mean.hpp"
+#include "core/recording/rows/bridged_mean.hpp"
 
 #include <Eigen/Cholesky>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "core/recording/quality_card.hpp"
+#include "core/recording/rows/quality_card.hpp"
 
 #include <fmt/format.h>
 
@@ -8,12 +8,10 @@
 
 #include "core/recording/recording_channels.hpp"
 #include "core/recording/recording_problems.hpp"
-#include "core/recording/row_spacing.hpp"
+#include "core/recording/rows/row_spacing.hpp"
 
 namespace drift {
 namespace {
-
-constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 
 double median(std::vector<double> values) {
   if (values.empty()) return nan_value;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/recording/recording.hpp"
-#include "core/recording/row_spacing.hpp"
+#include "core/recording/rows/row_spacing.hpp"
 
 namespace drift {
 

@@ -1,4 +1,4 @@
-#include "core/recording/row_spacing.hpp"
+#include "core/recording/rows/row_spacing.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,22 +8,21 @@
 namespace drift {
 namespace {
 
-constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t reach = 8;      // rows to either side: three of four may follow a lost one
 constexpr std::size_t few_steps = 8;  // of a stretch, to be judged by itself
 constexpr double same_step = 1e-3;
 
 /// Rows of one position and phase.
-struct Stretch {
+struct SpacedRows {
   std::size_t first = 0, end = 0;
   bool position_begins = false;
   double phase = 0.0;
 };
 
-std::vector<Stretch> stretches_of(const Recording& r) {
+std::vector<SpacedRows> stretches_of(const Recording& r) {
   const Channel* position = r.find("position");
   const Channel* phase = r.find("phase");
-  std::vector<Stretch> all;
+  std::vector<SpacedRows> all;
   for (std::size_t row = 0; row < r.rows(); ++row) {
     const bool begins =
         row == 0 || (position && position->values[row] != position->values[row - 1]);
@@ -34,7 +33,7 @@ std::vector<Stretch> stretches_of(const Recording& r) {
   return all;
 }
 
-double median(std::vector<double> values) {
+double upper_median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
@@ -42,22 +41,22 @@ double median(std::vector<double> values) {
 
 /// The usual step around each row of a stretch. Its first row says how far it is from another
 /// stretch, which is no evidence of its own steps.
-void fill_usual(const Stretch& s, RowSpacing& out) {
+void fill_usual(const SpacedRows& s, RowSpacing& out) {
   const std::size_t own = s.first + 1;
   for (std::size_t row = s.first; row < s.end; ++row) {
     const std::size_t centre = std::max(row, own);
     const std::size_t from = centre - std::min(reach, centre - own);
     const std::size_t to = std::min(s.end, centre + reach + 1);
-    out.usual[row] = median({out.step.begin() + static_cast<std::ptrdiff_t>(from),
-                             out.step.begin() + static_cast<std::ptrdiff_t>(to)});
+    out.usual[row] = upper_median({out.step.begin() + static_cast<std::ptrdiff_t>(from),
+                                   out.step.begin() + static_cast<std::ptrdiff_t>(to)});
   }
 }
 
 /// Steps within the stretches of a phase.
-std::vector<double> steps_of(const std::vector<Stretch>& stretches, double phase,
+std::vector<double> steps_of(const std::vector<SpacedRows>& stretches, double phase,
                              const RowSpacing& out) {
   std::vector<double> steps;
-  for (const Stretch& s : stretches)
+  for (const SpacedRows& s : stretches)
     if (s.phase == phase)
       for (std::size_t row = s.first + 1; row < s.end; ++row) steps.push_back(out.step[row]);
   return steps;
@@ -79,16 +78,16 @@ RowSpacing row_spacing(const Recording& recording) {
   const auto& t = recording.find("time")->values;
   RowSpacing out{std::vector<double>(n, nan_value), std::vector<double>(n, nan_value)};
   for (std::size_t row = 1; row < n; ++row) out.step[row] = t[row] - t[row - 1];
-  const std::vector<Stretch> stretches = stretches_of(recording);
+  const std::vector<SpacedRows> stretches = stretches_of(recording);
   // A stretch of a few rows, some of which may be lost, is like the others of its phase; a phase of
   // single rows is like the whole recording.
   std::array<double, 2> of_phase{nan_value, nan_value};
   for (const int phase : {0, 1})
     if (auto steps = steps_of(stretches, phase, out); !steps.empty())
-      of_phase[phase] = median(std::move(steps));
+      of_phase[phase] = upper_median(std::move(steps));
   for (const int phase : {0, 1})
     if (std::isnan(of_phase[phase])) of_phase[phase] = of_phase[1 - phase];
-  for (const Stretch& s : stretches) {
+  for (const SpacedRows& s : stretches) {
     const double usual = of_phase[s.phase == 1.0 ? 1 : 0];
     if (s.end - s.first > few_steps)
       fill_usual(s, out);
@@ -99,7 +98,7 @@ RowSpacing row_spacing(const Recording& recording) {
 
   out.shortest = std::numeric_limits<double>::infinity();
   double squares = 0.0, steps = 0.0;
-  for (const Stretch& s : stretches)
+  for (const SpacedRows& s : stretches)
     for (std::size_t row = s.first; row < s.end; ++row) {
       if (std::isnan(out.usual[row])) continue;
       out.shortest = std::min(out.shortest, out.usual[row]);

@@ -1,16 +1,15 @@
-#include "core/recording/join_rows.hpp"
+#include "core/recording/rows/join_rows.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "core/base/check.hpp"
-#include "core/recording/bridged_mean.hpp"
+#include "core/recording/rows/bridged_mean.hpp"
 
 namespace drift {
 namespace {
 
-constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 constexpr double same_command = 1e-9;                  // [rad/s]
 constexpr double same_heading = detail::deg / 3600.0;  // [rad]
 constexpr double long_enough = 0.7;                    // of a joined row, to be left as it is
