@@ -164,21 +164,17 @@ class Program {
     CLI::App* convert =
         command("convert", "a recording of your own with the program's columns and units",
                 "driftscope convert lab.toml log.txt -o recording.csv",
-                [this] { return cli::convert(study_, recordings_.front(), output_); });
+                [this] { return cli::convert(study_, recording_, output_); });
     add_study(*convert);
-    convert->add_option("recording", recordings_, "recording (.csv, .txt, .h5, .mat)")
-        ->required()
-        ->expected(1);
+    convert->add_option("recording", recording_, "recording (.csv, .txt, .h5, .mat)")->required();
     convert->add_option("-o,--output", output_, "recording to write (.csv, .h5 or .mat)")
         ->required()
         ->check(cli::check_path);
 
-    CLI::App* look = command("look", "what a file holds, and how to read it as a recording",
-                             "driftscope look log.txt",
-                             [this] { return cli::look(study_, recordings_.front()); });
-    look->add_option("recording", recordings_, "recording (.csv, .txt, .h5, .mat)")
-        ->required()
-        ->expected(1);
+    CLI::App* look =
+        command("look", "what a file holds, and how to read it as a recording",
+                "driftscope look log.txt", [this] { return cli::look(study_, recording_); });
+    look->add_option("recording", recording_, "recording (.csv, .txt, .h5, .mat)")->required();
     look->add_option("config", study_.config, "study file (TOML) to read it with");
   }
 
@@ -278,7 +274,7 @@ class Program {
   cli::RunChoice choice_;
   CLI::Option* advise_option_ = nullptr;
   std::string advise_;
-  std::string output_, key_, folder_, format_, sample_ = "1%";
+  std::string output_, recording_, key_, folder_, format_, sample_ = "1%";
   std::vector<std::string> recordings_;
   std::uint64_t run_ = 0;
   std::optional<std::string> trials_;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 
 #include "analysis/cli/print.hpp"
@@ -9,6 +10,32 @@
 #include "core/recording/rows/quality_card.hpp"
 
 namespace drift::cli {
+namespace {
+
+/// Says where dwells are a thousand or a million times as long as the plan's, or as short: a wrong
+/// unit of time. What differs less may be another test, and is looked at by those who use it.
+void check_time_unit(const mc::Study& study, const Recording& recording) {
+  const Channel *position = recording.find("position"), *time = recording.find("time");
+  if (study.kind != RecordingKind::platform || !position || recording.rows() < 3) return;
+  const auto number = static_cast<std::size_t>(position->values.front());
+  if (number > study.plan.positions.size()) return;  // said by those who lay it out
+  std::size_t end = 1;
+  while (end < recording.rows() && position->values[end] == position->values.front()) ++end;
+  const Position& planned = study.plan.positions[number - 1];
+  const double usual = planned.dwell - planned.sample;
+  const double length = time->values[end - 1] - time->values.front();
+  if (end < 3 || !(usual > 0.0)) return;
+  for (const double factor : {1e3, 1e6, 1e-3, 1e-6})
+    if (std::abs(length / (factor * usual) - 1.0) < 0.05)
+      throw InputError(
+          ExitCode::recording,
+          fmt::format("{}:time: the first position lasts {:.4g} s, {:g} times as long as in the "
+                      "plan (expected about {:.4g} s). Correct the unit of time, in the file or in "
+                      "[recording] columns of the study file",
+                      recording.source, length, factor, usual));
+}
+
+}  // namespace
 
 std::vector<Recording> read_recordings(const mc::Study& study,
                                        const std::vector<std::string>& paths) {
@@ -23,6 +50,7 @@ std::vector<Recording> read_recordings(const mc::Study& study,
   std::vector<Recording> recordings;
   for (const std::string& path : paths) {
     recordings.push_back(read_recording(path, study.recording, study.kind, study.site.gravity));
+    check_time_unit(study, recordings.back());
     show("{}\n", to_text(quality_card(recordings.back(), study.kind)));
   }
   return recordings;

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/base/check.hpp"
+#include "core/recording/own/header.hpp"
 #include "core/recording/recording_channels.hpp"
 #include "core/recording/recording_units.hpp"
 
@@ -42,14 +43,28 @@ void check_columns(const Recording& r, RecordingKind kind, Problems& problems) {
   for (const auto& c : r.channels) present += (present.empty() ? "" : ", ") + c.name;
   const bool strapdown = kind == RecordingKind::strapdown;
   const std::string hint =
-      strapdown ? "Add it; a recording of a gimballed platform needs a study without kind = "
+      strapdown ? "Add it, or name the column that holds it in [recording] of the study file "
+                  "(`driftscope look` proposes how); a recording of a gimballed platform needs a "
+                  "study without kind = "
                   "\"strapdown\""
-                : "Add it; sensors fixed to a case need [plan] kind = \"strapdown\" in the study";
+                : "Add it, or name the column that holds it in [recording] of the study file "
+                  "(`driftscope look` proposes how); sensors fixed to a case need [plan] kind = "
+                  "\"strapdown\" in the study";
   const auto need = [&](std::string_view name) {
     if (!r.find(name))
       problems.add(name, "the column is missing",
                    fmt::format("it beside the columns found: {}", present), hint);
   };
+  const auto known = canonical_channels(kind);
+  if (std::ranges::none_of(r.channels, [&](const Channel& c) {
+        return std::ranges::find(known, c.name) != known.end();
+      })) {
+    problems.add("", "none of its columns is one that the program knows",
+                 fmt::format("such as {}; there are {}",
+                             strapdown ? "time, gyro_x, acc_x" : "time, position, acc_x", present),
+                 "Name them in [recording] of the study file; `driftscope look` proposes how");
+    return;
+  }
   need("time");
   if (!strapdown) need("position");
   for (const auto& triple : channel_triples) {

@@ -62,19 +62,33 @@ class Assignment {
                     "Rename the others, or give the whole header with its unit");
       return;
     }
+    missing_.emplace_back(own, key);
+  }
+
+  /// Names that the file does not have are one problem.
+  void report_missing() {
+    if (missing_.empty()) return;
     std::vector<std::string_view> names;
     for (const HeaderCell& c : header_) names.push_back(c.name);
-    problems_.add(
-        "",
-        fmt::format("there is no column {}, which {} of the study file names", in_quotes(own), key),
-        fmt::format("one of: {}", listed(header_)),
-        config::suggestion(own, names, "Correct the name in [recording]"));
+    std::vector<std::string> own, keys;
+    for (const auto& [name, key] : missing_) {
+      own.push_back(in_quotes(name));
+      keys.push_back(key);
+    }
+    problems_.add("",
+                  fmt::format("there is no column {}, which the study file names ({})",
+                              fmt::join(own, ", "), fmt::join(keys, ", ")),
+                  fmt::format("one of: {}", listed(header_)),
+                  own.size() == 1 ? config::suggestion(missing_.front().first, names,
+                                                       "Correct the name in [recording]")
+                                  : "Correct the names in [recording], or is it another file?");
   }
 
   void require_own_names() {
     for (const MappedColumn& m : format_.columns)
       require(m.own, fmt::format("recording.columns.{}", m.channel));
     require(format_.counter, "recording.counter");
+    report_missing();
   }
 
   ColumnUse use_of(const HeaderCell& cell) {
@@ -141,6 +155,7 @@ class Assignment {
   RecordingKind kind_;
   Problems& problems_;
   std::vector<ColumnUse> uses_;
+  std::vector<std::pair<std::string, std::string>> missing_;  ///< header, key of the study file
 };
 
 /// Time from a counter or from the rate; and what stands in a column of time beside it is left out.

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/recording/recording.hpp"
 #include "tests/support/lab_file.hpp"
 #include "tests/support/program.hpp"
@@ -92,6 +94,25 @@ TEST(OwnRecording, IdentifyReadsTheFileAsItIs) {
   const auto answer = driftscope("identify '" + study + "' '" + log + "' --progress none");
   EXPECT_EQ(answer.code, 0) << answer.err;
   EXPECT_NE(answer.out.find("columns of text are passed over"), std::string::npos) << answer.out;
+}
+
+TEST(OwnRecording, MillisecondsCalledSecondsAreAskedAbout) {
+  Own own;
+  std::string text = test::text_of(own.made);
+  text.replace(text.find("time [s]"), 8, "time [ms]");
+  const std::string log = own.folder.write("log.csv", text);
+  const auto answer = driftscope("identify '" + own.study + "' '" + log + "' --progress none");
+  EXPECT_EQ(answer.code, 4) << answer.out;
+  EXPECT_NE(answer.err.find("Correct the unit of time"), std::string::npos) << answer.err;
+}
+
+TEST(OwnRecording, AFileOfUnknownNamesIsOneMessage) {
+  Own own;
+  const std::string log = own.folder.write("log.csv", own.lab.text(own.truth));
+  const auto answer = driftscope("diagnose '" + own.study + "' '" + log + "'");
+  EXPECT_EQ(answer.code, 4);
+  EXPECT_EQ(std::ranges::count(answer.err, '\n'), 1) << answer.err;
+  EXPECT_NE(answer.err.find("driftscope look"), std::string::npos) << answer.err;
 }
 
 TEST(OwnRecording, ConvertReplacesOnlyWhatItMade) {
