@@ -122,7 +122,8 @@ void IntervalStep::take_accelerometers(const Interval& interval, const Vec3& acc
   const MeanOutput mean = mean_output(interval, sensitivity_);
   const auto middle = static_cast<std::size_t>(interval.substeps);
   update(interval, middle, acc - mean.acc, mean.H, sensitivity_.jacobian[0].H_par,
-         interval.accelerometer_noise(readout_.accelerometer_noise), InnovationSums::accelerometers);
+         interval.accelerometer_noise(readout_.accelerometer_noise),
+         InnovationSums::accelerometers);
   if (about_ == About::estimate && status_ == EstimateStatus::ok)
     step_through(interval, timeline_, drive_of(interval, timeline_, model_, theta_),
                  memory_.points(), nodes_.data(), middle);

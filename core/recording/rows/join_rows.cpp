@@ -10,10 +10,8 @@
 namespace drift {
 namespace {
 
-constexpr double same_command = 1e-9;                  // [rad/s]
-constexpr double same_heading = detail::deg / 3600.0;  // [rad]
-constexpr double long_enough = 0.7;                    // of a joined row, to be left as it is
-constexpr double largest_turn = 0.6;                   // of a joined row in a slew [rad]
+constexpr double long_enough = 0.7;   // of a joined row, to be left as it is
+constexpr double largest_turn = 0.6;  // of a joined row in a slew [rad]
 
 class Joiner {
  public:

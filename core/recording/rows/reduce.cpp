@@ -7,12 +7,10 @@
 
 #include "core/base/check.hpp"
 #include "core/recording/recording_channels.hpp"
+#include "core/recording/rows/row_spacing.hpp"
 
 namespace drift {
 namespace {
-
-constexpr double same_command = 1e-9;                  // [rad/s]
-constexpr double same_heading = detail::deg / 3600.0;  // [rad]
 
 /// How a channel is carried over.
 enum class Rule { last, mean };

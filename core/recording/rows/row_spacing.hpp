@@ -2,9 +2,14 @@
 
 #include <vector>
 
+#include "core/base/units.hpp"
 #include "core/recording/recording.hpp"
 
 namespace drift {
+
+/// Up to these, two rows were commanded alike and the case turned alike.
+inline constexpr double same_command = 1e-9;                  ///< [rad/s]
+inline constexpr double same_heading = detail::deg / 3600.0;  ///< [rad]
 
 /// How far the rows of a recording are from each other.
 struct RowSpacing {
