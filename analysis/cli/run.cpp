@@ -4,13 +4,13 @@
 #include <filesystem>
 #include <limits>
 
-#include "analysis/cli/batch_system.hpp"
 #include "analysis/cli/commands.hpp"
 #include "analysis/cli/frozen_study.hpp"
 #include "analysis/cli/print.hpp"
 #include "analysis/cli/run_options.hpp"
 #include "analysis/cli/run_progress.hpp"
 #include "core/base/results_folder.hpp"
+#include "mc/engine/batch_system.hpp"
 #include "mc/engine/engine.hpp"
 #include "mc/export/export_text.hpp"
 #include "mc/store/study_state.hpp"
@@ -133,7 +133,7 @@ ExitCode run(const StudyArguments& arguments, const RunArguments& given,
     throw InputError(ExitCode::usage,
                      "--worker: mpirun shares out the work already (expected one or the other). "
                      "Leave out --worker");
-  if (const std::size_t tasks = tasks_of_step(process_environment);
+  if (const std::size_t tasks = mc::tasks_of_step(mc::process_variable);
       tasks > 1 && ranks.size() == 1 && given.worker.empty())
     throw InputError(
         ExitCode::usage,

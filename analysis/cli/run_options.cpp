@@ -3,8 +3,8 @@
 #include <charconv>
 #include <string_view>
 
-#include "analysis/cli/batch_system.hpp"
 #include "core/base/check.hpp"
+#include "mc/engine/batch_system.hpp"
 
 namespace drift::cli {
 namespace {
@@ -37,7 +37,7 @@ double unit_seconds(std::string_view& text) {
 }  // namespace
 
 mc::WorkerShare parse_share(const std::string& text) {
-  if (text.starts_with("auto")) return share_of_batch_system(text, process_environment);
+  if (text.starts_with("auto")) return mc::share_of_batch_system(text, mc::process_variable);
   std::string_view rest = text;
   const auto index = take_number<std::size_t>(rest);
   const bool slash = rest.starts_with('/');

@@ -7,18 +7,18 @@
 
 #include "mc/engine/engine.hpp"
 
-namespace drift::cli {
+namespace drift::mc {
 
 /// Value of a variable of the environment, nothing where it is not set.
-using Environment = std::function<std::optional<std::string>(const std::string&)>;
-std::optional<std::string> process_environment(const std::string& name);
+using ProcessVariables = std::function<std::optional<std::string>(const std::string&)>;
+std::optional<std::string> process_variable(const std::string& name);
 
 /// Which part of the work a batch system gives this process: an array task of Slurm, SGE or PBS, a
 /// task of `srun`, or both. `text` is "auto", or "auto/16" where the system does not say how many
 /// there are (PBS) or only some are started again. InputError (usage) where nothing says it.
-mc::WorkerShare share_of_batch_system(std::string_view text, const Environment& environment);
+WorkerShare share_of_batch_system(std::string_view text, const ProcessVariables& environment);
 
 /// How many tasks `srun` has started of this program; 1 where it has not.
-std::size_t tasks_of_step(const Environment& environment);
+std::size_t tasks_of_step(const ProcessVariables& environment);
 
-}  // namespace drift::cli
+}  // namespace drift::mc

@@ -1,4 +1,4 @@
-#include "analysis/cli/batch_system.hpp"
+#include "mc/engine/batch_system.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,12 +8,12 @@
 
 #include "core/base/check.hpp"
 
-namespace drift::cli {
+namespace drift::mc {
 namespace {
 
 using Variables = std::map<std::string, std::string>;
 
-Environment of(Variables variables) {
+ProcessVariables of(Variables variables) {
   return [v = std::move(variables)](const std::string& name) -> std::optional<std::string> {
     const auto found = v.find(name);
     return found == v.end() ? std::nullopt : std::optional(found->second);
@@ -21,7 +21,7 @@ Environment of(Variables variables) {
 }
 
 std::pair<std::size_t, std::size_t> share(const std::string& text, const Variables& variables) {
-  const mc::WorkerShare s = share_of_batch_system(text, of(variables));
+  const WorkerShare s = share_of_batch_system(text, of(variables));
   return {s.index, s.count};
 }
 
@@ -93,4 +93,4 @@ TEST(BatchSystem, WhatSaysNothingOrOddThingsIsRefused) {
 }
 
 }  // namespace
-}  // namespace drift::cli
+}  // namespace drift::mc

@@ -1,4 +1,4 @@
-#include "analysis/cli/batch_system.hpp"
+#include "mc/engine/batch_system.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 
 #include "core/base/check.hpp"
 
-namespace drift::cli {
+namespace drift::mc {
 namespace {
 
 std::optional<std::size_t> whole_number(std::string_view text) {
@@ -43,17 +43,17 @@ constexpr ArrayVariables systems[] = {
 
 }  // namespace
 
-std::optional<std::string> process_environment(const std::string& name) {
+std::optional<std::string> process_variable(const std::string& name) {
   const char* value = std::getenv(name.c_str());
   return value == nullptr ? std::nullopt : std::optional<std::string>(value);
 }
 
-std::size_t tasks_of_step(const Environment& environment) {
+std::size_t tasks_of_step(const ProcessVariables& environment) {
   const auto text = environment("SLURM_STEP_NUM_TASKS");
   return text ? whole_number(*text).value_or(1) : 1;
 }
 
-mc::WorkerShare share_of_batch_system(std::string_view text, const Environment& environment) {
+WorkerShare share_of_batch_system(std::string_view text, const ProcessVariables& environment) {
   const auto number = [&](const char* name) -> std::optional<std::size_t> {
     const auto value = name == nullptr ? std::nullopt : environment(name);
     return value ? whole_number(*value) : std::nullopt;  // SGE writes "undefined" outside of arrays
@@ -63,7 +63,7 @@ mc::WorkerShare share_of_batch_system(std::string_view text, const Environment& 
     given = whole_number(text.substr(5));
     if (text[4] != '/' || !given || *given == 0) refuse(text, "no number of tasks");
   }
-  mc::WorkerShare share;
+  WorkerShare share;
   bool told = false;
   for (const ArrayVariables& names : systems) {
     const auto task = number(names.task);
@@ -96,4 +96,4 @@ mc::WorkerShare share_of_batch_system(std::string_view text, const Environment& 
   return share;
 }
 
-}  // namespace drift::cli
+}  // namespace drift::mc
