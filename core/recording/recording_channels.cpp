@@ -30,7 +30,8 @@ bool is_digit(char c) {
 std::optional<ChannelQuantity> known_quantity(std::string_view name) {
   if (name == "time") return time_q;
   if (name == "position" || name == "phase") return number_q;
-  if (name == "case_heading") return angle_q;
+  if (name == "case_heading" || name.starts_with("loop_eta_") || name.starts_with("loop_xi_"))
+    return angle_q;
   if (name == "temperature") return heat_q;
   if (name.starts_with("field_")) return field_q;
   constexpr std::array quantities{force_q, angle_q, command_q,

@@ -59,8 +59,8 @@ INSTANTIATE_TEST_SUITE_P(
         H5Case{"Text", [](hid_t f) { add_dataset(f, "t", H5T_C_S1, {40}); }, "'t': it holds text"},
         H5Case{"OtherLength", [](hid_t f) { add_dataset(f, "t", H5T_NATIVE_DOUBLE, {39}); },
                ":t: 39 values (expected 40"},
-        H5Case{"NoUnit", [](hid_t f) { add_dataset(f, "t", H5T_NATIVE_DOUBLE, {40}); },
-               ":t: the unit is missing"},
+        H5Case{"NoUnit", [](hid_t f) { H5Adelete_by_name(f, "acc_x", "unit", H5P_DEFAULT); },
+               ":acc_x: the unit is missing"},
         H5Case{"SoftLink", [](hid_t f) { H5Lcreate_soft("/time", f, "s", 0, 0); },
                "'s': it is a link to elsewhere"},
         H5Case{"ExternalLink",
@@ -150,9 +150,9 @@ INSTANTIATE_TEST_SUITE_P(
                               ":fs: 1 values (expected 40"},
                       MatCase{"NoUnit",
                               [] {
-                                return doubles("oil", {40, 1});
+                                return doubles("loop_eta_x", {40, 1});
                               },
-                              ":oil: the unit is missing"},
+                              ":loop_eta_x: the unit is missing"},
                       MatCase{"Text", [] { return text("t", "words"); }, "'t': it is a text"},
                       MatCase{"Cell",
                               [] {
