@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace drift {
+namespace drift::forward_sensitivity_test {
 namespace {
 
 // y' = (y2, -a y1 - b y2): parameters a, b and the initial value y1(0).
@@ -79,4 +79,4 @@ TEST(ForwardSensitivity, FailuresAreValues) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::forward_sensitivity_test

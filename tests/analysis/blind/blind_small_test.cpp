@@ -5,40 +5,25 @@
 #include "core/base/sha256.hpp"
 #include "tests/support/program.hpp"
 
-namespace drift {
+namespace drift::blind_small_test {
 namespace {
 
 using test::text_of;
 using Json = nlohmann::json;
 
-/// The twenty trials of configs/blind_small.toml through the program, as a user runs them.
-///
-/// What holds by design is asserted exactly. The statistical bounds are loose: of 7 nulls, each
-/// with a false alarm of at most 5 %, three or more alarm with probability sum_{k>=3} C(7,k) .05^k
-/// .95^(7-k) = 0.0038; a diagnosis that does not see the effects but alarms at its 5 % finds five
-/// or more of 13 with probability sum_{k>=5} C(13,k) .05^k .95^(13-k) = 3e-4. The short dwells
-/// leave mostly slow effects to hide, which look like a random walk of the drift: the power is that
-/// of configs/blind.toml, not of this.
-TEST(BlindSmall, TwentyTrialsAreSealedAnsweredScoredAndKept) {
+/// The twenty trials of configs/blind_small.toml through the program, as a user runs them. The
+/// bounds are loose: of 7 nulls, each with a false alarm of at most 5 %, three or more alarm with
+/// probability sum_{k>=3} C(7,k) .05^k .95^(7-k) = 0.0038; a diagnosis that does not see the
+/// effects but alarms at its 5 % finds five or more of 13 with probability sum_{k>=5} C(13,k) .05^k
+/// .95^(13-k) = 3e-4. The short dwells leave mostly slow effects to hide, which look like a random
+/// walk of the drift: the power is that of configs/blind.toml, not of this.
+TEST(BlindSmallNightly, OfTwentyTrialsNoMoreAlarmAndNoFewerAreSeenThanByChance) {
   const test::ScratchFolder scratch;
   const std::string folder = scratch.file("out");
-  const std::string command =
-      "blind " + test::config("blind_small.toml") + " -o '" + folder + "' --progress none";
-  const test::Answer first = test::driftscope(command);
-  ASSERT_EQ(first.code, 0) << first.err;
-
-  const std::string key_hash = sha256_hex(text_of(folder + "/key.json"));
-  const auto sealed = first.out.find("Key sealed in"), answered = first.out.find("Answers sealed"),
-             targets = first.out.find("Targets");
-  ASSERT_NE(sealed, std::string::npos);
-  EXPECT_LT(sealed, answered);
-  EXPECT_LT(answered, targets);
-  EXPECT_NE(first.out.find(key_hash, sealed), std::string::npos);
-  EXPECT_NE(first.out.find("95 % interval"), std::string::npos);
-
+  const test::Answer a = test::driftscope("blind " + test::config("blind_small.toml") + " -o '" +
+                                          folder + "' --progress none");
+  ASSERT_EQ(a.code, 0) << a.err;
   const Json blind = Json::parse(text_of(folder + "/blind.json"));
-  EXPECT_EQ(blind.at("key_sha256"), key_hash);
-  EXPECT_EQ(blind.at("answers_sha256"), sha256_hex(text_of(folder + "/answers.json")));
   EXPECT_EQ(blind.at("trials"), 20);
   EXPECT_EQ(blind.at("failed"), 0);
   std::size_t nulls = 0, alarms = 0, effects = 0, detected = 0;
@@ -54,6 +39,31 @@ TEST(BlindSmall, TwentyTrialsAreSealedAnsweredScoredAndKept) {
   EXPECT_EQ(effects, 13u);
   EXPECT_LE(alarms, 2u);
   EXPECT_GE(detected, 5u);
+}
+
+TEST(BlindSmall, TrialsAreSealedAnsweredScoredAndKept) {
+  const test::ScratchFolder scratch;
+  const std::string folder = scratch.file("out");
+  const std::string command = "blind " + test::config("blind_small.toml") + " -o '" + folder +
+                              "' --trials 3 --progress none";
+  const test::Answer first = test::driftscope(command);
+  ASSERT_EQ(first.code, 0) << first.err;
+
+  const std::string key_hash = sha256_hex(text_of(folder + "/key.json"));
+  const auto sealed = first.out.find("Key sealed in"), answered = first.out.find("Answers sealed"),
+             targets = first.out.find("Targets");
+  ASSERT_NE(sealed, std::string::npos);
+  EXPECT_LT(sealed, answered);
+  EXPECT_LT(answered, targets);
+  EXPECT_NE(first.out.find(key_hash, sealed), std::string::npos);
+  EXPECT_NE(first.out.find("95 % interval"), std::string::npos);
+
+  const Json blind = Json::parse(text_of(folder + "/blind.json"));
+  EXPECT_EQ(blind.at("key_sha256"), key_hash);
+  EXPECT_EQ(blind.at("answers_sha256"), sha256_hex(text_of(folder + "/answers.json")));
+  EXPECT_EQ(blind.at("trials"), 3);
+  EXPECT_EQ(blind.at("failed"), 0);
+  EXPECT_EQ(blind.at("scores").size(), 3u);
   EXPECT_NE(text_of(folder + "/report.html").find("<svg"), std::string::npos);
 
   // Finished answers are kept: the same command again opens the same key on the same answers.
@@ -70,4 +80,4 @@ TEST(BlindSmall, TwentyTrialsAreSealedAnsweredScoredAndKept) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::blind_small_test

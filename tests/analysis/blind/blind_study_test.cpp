@@ -13,7 +13,7 @@
 #include "core/base/sha256.hpp"
 #include "tests/support/program.hpp"
 
-namespace drift::blind {
+namespace drift::blind::blind_study_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -206,4 +206,4 @@ TEST(BlindStudy, TrialsDependOnTheSeedAloneAndNotOnThreads) {
 }
 
 }  // namespace
-}  // namespace drift::blind
+}  // namespace drift::blind::blind_study_test

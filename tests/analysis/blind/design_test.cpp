@@ -4,7 +4,7 @@
 
 #include <map>
 
-namespace drift::blind {
+namespace drift::blind::design_test {
 namespace {
 
 mc::BlindSpec spec() {
@@ -78,4 +78,4 @@ TEST(BlindDesign, SizesAreDrawnBetweenTheirEndsWithoutAList) {
 }
 
 }  // namespace
-}  // namespace drift::blind
+}  // namespace drift::blind::design_test

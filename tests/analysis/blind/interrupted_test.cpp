@@ -12,7 +12,7 @@
 #include "core/base/check.hpp"
 #include "tests/support/program.hpp"
 
-namespace drift::blind {
+namespace drift::blind::interrupted_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -140,4 +140,4 @@ TEST(BlindInterrupted, AStopSignalEndsTheProgramWithItsExitCodeAndAWord) {
 }
 
 }  // namespace
-}  // namespace drift::blind
+}  // namespace drift::blind::interrupted_test

@@ -5,7 +5,7 @@
 #include "analysis/blind/summary.hpp"
 #include "analysis/report/blind/report.hpp"
 
-namespace drift::blind {
+namespace drift::blind::score_test {
 namespace {
 
 using diagnosis::Verdict;
@@ -229,4 +229,4 @@ TEST(BlindTargets, AreReportedWithTheirStanding) {
 }
 
 }  // namespace
-}  // namespace drift::blind
+}  // namespace drift::blind::score_test

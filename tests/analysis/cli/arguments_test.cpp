@@ -3,7 +3,7 @@
 
 #include "tests/support/program.hpp"
 
-namespace drift {
+namespace drift::arguments_test {
 namespace {
 
 using test::Answer;
@@ -53,4 +53,4 @@ TEST(Arguments, HelpIsNoMistake) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::arguments_test

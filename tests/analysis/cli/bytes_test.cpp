@@ -5,7 +5,7 @@
 #include "core/base/utf8.hpp"
 #include "tests/support/program.hpp"
 
-namespace drift {
+namespace drift::bytes_test {
 namespace {
 
 using namespace drift::test;
@@ -84,7 +84,7 @@ TEST(Bytes, WhatAFileSystemRefusesIsToldAsThat) {
     for (const std::string& line :
          {"run " + study + " --runs 64 -o " + path, "identify " + study + " -o " + path,
           "rank " + study + " -o " + path, "simulate " + study + " -o " + path + ".csv",
-          "blind " + config("blind_small.toml") + " -o " + path}) {
+          "blind " + test::config("blind_small.toml") + " -o " + path}) {
       const Answer a = driftscope(line);
       EXPECT_EQ(a.code, io_error) << line << a.err;
       EXPECT_NE(a.err.find(reason), std::string::npos) << line << a.err;
@@ -118,4 +118,4 @@ TEST(Bytes, StandardErrorThatIsFullStopsNothing) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::bytes_test

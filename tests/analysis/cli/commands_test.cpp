@@ -5,7 +5,7 @@
 #include "tests/support/program.hpp"
 #include "tests/support/short_study.hpp"
 
-namespace drift {
+namespace drift::commands_test {
 namespace {
 
 using namespace drift::test;
@@ -170,7 +170,8 @@ TEST(Program, WhatCannotBeWrittenExitsWith6) {
 }
 
 TEST(Program, ALoopThatIsFedBackHasNoRecordingOfItsOwn) {
-  const Answer a = driftscope("simulate " + config("compensated.toml") + " -o /tmp/never.csv");
+  const Answer a =
+      driftscope("simulate " + test::config("compensated.toml") + " -o /tmp/never.csv");
   EXPECT_EQ(a.code, config_error);
   EXPECT_NE(a.err.find("given"), std::string::npos) << a.err;
 }
@@ -283,4 +284,4 @@ field_u = "-0.48 gauss"
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::commands_test

@@ -7,7 +7,7 @@
 #include "tests/support/program.hpp"
 #include "tests/support/strapdown_recording.hpp"
 
-namespace drift {
+namespace drift::diagnose_test {
 namespace {
 
 using namespace drift::test;
@@ -250,4 +250,4 @@ TEST(DiagnoseCommand, RefusesWhatItCannotDiagnose) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::diagnose_test

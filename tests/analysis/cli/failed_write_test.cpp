@@ -3,7 +3,7 @@
 #include "core/base/temporary_file.hpp"
 #include "tests/support/faults.hpp"
 
-namespace drift {
+namespace drift::failed_write_test {
 namespace {
 
 using namespace drift::test;
@@ -77,4 +77,4 @@ TEST(FailedWrite, OfARecordingIsExitCode6) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::failed_write_test

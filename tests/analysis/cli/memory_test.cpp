@@ -2,7 +2,7 @@
 #include "core/base/check.hpp"
 #include "tests/support/program.hpp"
 
-namespace drift {
+namespace drift::memory_test {
 namespace {
 
 using namespace drift::test;
@@ -53,4 +53,4 @@ TEST(Memory, RowsOtherThanPlannedAreRemarked) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::memory_test

@@ -8,7 +8,7 @@
 #include "core/base/check.hpp"
 #include "tests/support/program.hpp"
 
-namespace drift {
+namespace drift::nothing_replaced_test {
 namespace {
 
 using namespace drift::test;
@@ -227,4 +227,4 @@ TEST(NothingReplaced, ATraceIsWrittenOverTracesAlone) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::nothing_replaced_test

@@ -6,7 +6,7 @@
 #include "tests/support/lab_file.hpp"
 #include "tests/support/program.hpp"
 
-namespace drift {
+namespace drift::own_recording_test {
 namespace {
 
 using test::driftscope, test::LabColumn, test::LabFile, test::ScratchFolder;
@@ -146,4 +146,4 @@ TEST(OwnRecording, VersionIsAnOptionToo) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::own_recording_test

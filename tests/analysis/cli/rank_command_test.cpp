@@ -7,7 +7,7 @@
 // After it: this one opens drift::testing, where program.hpp means ::testing.
 #include "tests/analysis/report/xml_check.hpp"
 
-namespace drift {
+namespace drift::rank_command_test {
 namespace {
 
 using namespace drift::test;
@@ -189,4 +189,4 @@ TEST(RankCommand, SaysWhatIsWrongWithWhatItIsAsked) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::rank_command_test

@@ -8,7 +8,7 @@
 
 #include "tests/support/program.hpp"
 
-namespace drift {
+namespace drift::store_commands_test {
 namespace {
 
 using test::Answer;
@@ -264,4 +264,4 @@ TEST(StoreCommands, AStudyThatItsStopRuleEndedSaysSo) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::store_commands_test

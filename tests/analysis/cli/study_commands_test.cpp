@@ -7,7 +7,7 @@
 
 #include "tests/support/program.hpp"
 
-namespace drift {
+namespace drift::study_commands_test {
 namespace {
 
 using test::Answer;
@@ -214,4 +214,4 @@ TEST(StudyCommands, ProgressComesAsJsonLines) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::study_commands_test

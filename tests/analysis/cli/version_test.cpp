@@ -3,7 +3,7 @@
 #include "core/base/check.hpp"
 #include "tests/support/program.hpp"
 
-namespace drift {
+namespace drift::version_test {
 namespace {
 
 using namespace drift::test;
@@ -28,4 +28,4 @@ TEST(Program, TermsAndVersionAnswer) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::version_test

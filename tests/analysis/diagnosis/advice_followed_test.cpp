@@ -8,7 +8,7 @@
 #include "core/sim/simulate.hpp"
 #include "tests/support/model_builders.hpp"
 
-namespace drift::diagnosis {
+namespace drift::diagnosis::advice_followed_test {
 namespace {
 
 using test::param;
@@ -72,4 +72,4 @@ TEST(AdviceFollowed, AnEffectThatThePlanConcealsIsNamedWithTheAdvisedPositions) 
 }
 
 }  // namespace
-}  // namespace drift::diagnosis
+}  // namespace drift::diagnosis::advice_followed_test

@@ -11,7 +11,7 @@
 #include "core/sim/simulate.hpp"
 #include "tests/support/model_builders.hpp"
 
-namespace drift::diagnosis {
+namespace drift::diagnosis::advise_test {
 namespace {
 
 using report::advice_text;
@@ -259,4 +259,4 @@ TEST(Advise, WhatFollowsTheTemperatureIsNotAskedOfPositions) {
 }
 
 }  // namespace
-}  // namespace drift::diagnosis
+}  // namespace drift::diagnosis::advise_test

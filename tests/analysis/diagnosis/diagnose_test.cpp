@@ -8,7 +8,7 @@
 #include "analysis/report/diagnosis/sentence.hpp"
 #include "tests/support/model_builders.hpp"
 
-namespace drift::diagnosis {
+namespace drift::diagnosis::diagnose_test {
 namespace {
 
 using namespace drift::test;
@@ -119,4 +119,4 @@ TEST(Diagnose, IsRepeatable) {
 }
 
 }  // namespace
-}  // namespace drift::diagnosis
+}  // namespace drift::diagnosis::diagnose_test

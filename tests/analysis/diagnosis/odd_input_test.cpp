@@ -18,7 +18,7 @@
 #include "mc/study/study.hpp"
 #include "tests/support/model_builders.hpp"
 
-namespace drift::diagnosis {
+namespace drift::diagnosis::odd_input_test {
 namespace {
 
 using test::param;
@@ -208,4 +208,4 @@ TEST(OddInput, OnePositionIsDiagnosedButNothingIsHeldOut) {
 }
 
 }  // namespace
-}  // namespace drift::diagnosis
+}  // namespace drift::diagnosis::odd_input_test

@@ -5,7 +5,7 @@
 #include "core/base/check.hpp"
 #include "tests/analysis/report/diagnosis/diagnosis_fixture.hpp"
 
-namespace drift::diagnosis {
+namespace drift::diagnosis::patched_study_test {
 namespace {
 
 using testing::nominal_study;
@@ -173,4 +173,4 @@ TEST(ExtendedStudy, WorksForEveryPreset) {
 }
 
 }  // namespace
-}  // namespace drift::diagnosis
+}  // namespace drift::diagnosis::patched_study_test

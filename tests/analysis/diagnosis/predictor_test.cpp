@@ -9,7 +9,7 @@
 #include "tests/support/dense_covariance.hpp"
 #include "tests/support/random_problem.hpp"
 
-namespace drift::diagnosis {
+namespace drift::diagnosis::predictor_test {
 namespace {
 
 TEST(Predictor, IsTheConditionalDensityOfTheDenseCovariance) {
@@ -57,4 +57,4 @@ TEST(HeldOutPart, PositionsAndRecordingsCoverEachIntervalOnce) {
 }
 
 }  // namespace
-}  // namespace drift::diagnosis
+}  // namespace drift::diagnosis::predictor_test

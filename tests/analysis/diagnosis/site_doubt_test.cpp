@@ -11,7 +11,7 @@
 #include "core/sim/simulate.hpp"
 #include "tests/support/model_builders.hpp"
 
-namespace drift::diagnosis {
+namespace drift::diagnosis::site_doubt_test {
 namespace {
 
 constexpr double truth = 45.75;  // deg, of test::harbin
@@ -87,4 +87,4 @@ TEST(SiteDoubt, TheWrongHemisphereHidesInParametersFarFromTheirPriorsAndIsStillF
 }
 
 }  // namespace
-}  // namespace drift::diagnosis
+}  // namespace drift::diagnosis::site_doubt_test

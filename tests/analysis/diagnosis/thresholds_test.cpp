@@ -10,7 +10,7 @@
 #include "analysis/diagnosis/spikes.hpp"
 #include "tests/support/model_builders.hpp"
 
-namespace drift::diagnosis {
+namespace drift::diagnosis::thresholds_test {
 namespace {
 
 using test::param;
@@ -118,4 +118,4 @@ TEST(Thresholds, ASizeBeyondThreeSigmaOfItsPriorWidensIt) {
 }
 
 }  // namespace
-}  // namespace drift::diagnosis
+}  // namespace drift::diagnosis::thresholds_test

@@ -11,7 +11,7 @@
 #include "analysis/report/diagnosis/sentence.hpp"
 #include "tests/support/rows_at_any_distance.hpp"
 
-namespace drift::diagnosis {
+namespace drift::diagnosis::unequal_rows_diagnosed_test {
 namespace {
 
 using test::Rows;
@@ -106,4 +106,4 @@ TEST(UnequalRowsDiagnosed, IdentifyAcceptsTheSameFilesAndEstimatesTheSame) {
 }
 
 }  // namespace
-}  // namespace drift::diagnosis
+}  // namespace drift::diagnosis::unequal_rows_diagnosed_test

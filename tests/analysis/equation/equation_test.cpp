@@ -12,7 +12,7 @@
 #include "mc/study/study.hpp"
 #include "tests/support/model_builders.hpp"
 
-namespace drift::equation {
+namespace drift::equation::equation_test {
 namespace {
 
 using test::param;
@@ -149,4 +149,4 @@ TEST(Equation, LambdaComesFromItsProfileWhereTheNominalEquationLetsTheMisalignme
 }
 
 }  // namespace
-}  // namespace drift::equation
+}  // namespace drift::equation::equation_test

@@ -6,7 +6,7 @@
 #include "core/sim/simulate.hpp"
 #include "tests/support/model_builders.hpp"
 
-namespace drift {
+namespace drift::fit_either_equation_test {
 namespace {
 
 using test::param;
@@ -68,4 +68,4 @@ TEST(FitEitherEquation, IsTheBatchFitWhereTheEquationIsKnown) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::fit_either_equation_test

@@ -6,7 +6,7 @@
 #include "analysis/search/fitted.hpp"
 #include "tests/support/model_builders.hpp"
 
-namespace drift::inference {
+namespace drift::inference::noise_doubt_test {
 namespace {
 
 using namespace drift::test;
@@ -116,4 +116,4 @@ TEST(Evidence, IsThatOfTheProjectorWithTheColumnInTheMean) {
 }
 
 }  // namespace
-}  // namespace drift::inference
+}  // namespace drift::inference::noise_doubt_test

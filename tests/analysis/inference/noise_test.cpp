@@ -7,7 +7,7 @@
 #include "analysis/search/fitted.hpp"
 #include "tests/support/model_builders.hpp"
 
-namespace drift::inference {
+namespace drift::inference::noise_test {
 namespace {
 
 using namespace drift::test;
@@ -51,7 +51,7 @@ TEST(Noise, NoiseLargerThanDeclaredMakesNoOutliers) {
 
 TEST(Noise, AngleRandomWalkIsFoundWithItsSize) {
   TruthSpec truth = base_truth(Coupling::eq5);
-  truth.noise.angle_random_walk = 5e-3 * detail::deg / 60.0;
+  truth.noise.angle_random_walk = 5e-3 * drift::detail::deg / 60.0;
   double ratio = 0.0;
   constexpr int runs = 3;
   for (int run = 0; run < runs; ++run) {
@@ -98,4 +98,4 @@ TEST(Noise, DifferencesSeeNoiseThroughAGrossMisfit) {
 }
 
 }  // namespace
-}  // namespace drift::inference
+}  // namespace drift::inference::noise_test

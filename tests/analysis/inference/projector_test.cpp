@@ -11,7 +11,7 @@
 #include "tests/support/dense_covariance.hpp"
 #include "tests/support/random_problem.hpp"
 
-namespace drift::inference {
+namespace drift::inference::projector_test {
 namespace {
 
 constexpr int parameters = 7, candidates = 5;
@@ -167,4 +167,4 @@ TEST(Evidence, RatioIsWhatTheCandidateGainsAtItsBest) {
 }
 
 }  // namespace
-}  // namespace drift::inference
+}  // namespace drift::inference::projector_test

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace drift::inference {
+namespace drift::inference::quasi_newton_test {
 namespace {
 
 TEST(QuasiNewton, FindsTheTopOfAParabolaAndItsCurvature) {
@@ -43,4 +43,4 @@ TEST(QuasiNewton, StaysWhereNothingIsBetter) {
 }
 
 }  // namespace
-}  // namespace drift::inference
+}  // namespace drift::inference::quasi_newton_test

@@ -10,7 +10,7 @@
 #include "analysis/inference/noise/gross_misfit.hpp"
 #include "analysis/inference/noise/robust_weights.hpp"
 
-namespace drift::inference {
+namespace drift::inference::thresholds_test {
 namespace {
 
 TEST(Thresholds, TracesAreTheSameWhereSixtyThreeSigmaWouldNotTellThemByTwo) {
@@ -106,4 +106,4 @@ TEST(Thresholds, NoiseIsSaidToBeNotAsDeclaredAtOneInAThousand) {
 }
 
 }  // namespace
-}  // namespace drift::inference
+}  // namespace drift::inference::thresholds_test

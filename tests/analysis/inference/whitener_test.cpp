@@ -9,7 +9,7 @@
 #include "tests/support/dense_covariance.hpp"
 #include "tests/support/model_builders.hpp"
 
-namespace drift::inference {
+namespace drift::inference::whitener_test {
 namespace {
 
 using namespace drift::test;
@@ -114,4 +114,4 @@ TEST(Whitener, ColumnsFromALaterRowOnAreTheSameAsZerosBefore) {
 }
 
 }  // namespace
-}  // namespace drift::inference
+}  // namespace drift::inference::whitener_test

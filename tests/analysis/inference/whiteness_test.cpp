@@ -7,7 +7,7 @@
 #include "core/base/rng.hpp"
 #include "tests/support/white_problem.hpp"
 
-namespace drift::inference {
+namespace drift::inference::whiteness_test {
 namespace {
 
 constexpr int channels = 3, chains = 4, samples = 12;  // short dwells
@@ -74,4 +74,4 @@ TEST(Whiteness, IsRepeatableAndNeverZero) {
 }
 
 }  // namespace
-}  // namespace drift::inference
+}  // namespace drift::inference::whiteness_test

@@ -8,7 +8,7 @@
 #include "analysis/observability/other_methods.hpp"
 #include "tests/support/model_builders.hpp"
 
-namespace drift {
+namespace drift::methods_test {
 namespace {
 
 using namespace drift::test;
@@ -142,4 +142,4 @@ TEST(AgainstMonteCarlo, WhatIsMissingOnEitherSideIsLeftOut) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::methods_test

@@ -8,7 +8,7 @@
 
 #include "tests/support/model_builders.hpp"
 
-namespace drift {
+namespace drift::pwcs_test {
 namespace {
 
 using test::harbin;
@@ -152,4 +152,4 @@ TEST(Pwcs, TermsWithTimeOrMemoryHaveNoPartInAConstantProblem) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::pwcs_test

@@ -16,7 +16,7 @@
 #include "core/estimate/triangle.hpp"
 #include "tests/analysis/observability/ranking_fixture.hpp"
 
-namespace drift {
+namespace drift::ranking_test {
 namespace {
 
 using namespace drift::test;
@@ -282,4 +282,4 @@ TEST(Ranking, AModelThatSeesTheFieldIsRankedInTheFieldOfTheStudy) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::ranking_test

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace drift::planning {
+namespace drift::planning::choose_additions_test {
 namespace {
 
 /// Information on one nominal parameter and two signatures.
@@ -106,4 +106,4 @@ TEST(ChooseAdditions, IsNothingWhereNothingHelps) {
 }
 
 }  // namespace
-}  // namespace drift::planning
+}  // namespace drift::planning::choose_additions_test

@@ -4,7 +4,7 @@
 
 #include <set>
 
-namespace drift::planning {
+namespace drift::planning::greedy_test {
 namespace {
 
 /// Sets of numbers; the merit of one is how many it adds to what is there.
@@ -55,4 +55,4 @@ TEST(Greedy, EndsWhereNothingIsWorthItOrThereIsNothing) {
 }
 
 }  // namespace
-}  // namespace drift::planning
+}  // namespace drift::planning::greedy_test

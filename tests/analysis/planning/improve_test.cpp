@@ -10,7 +10,7 @@
 #include "core/base/check.hpp"
 #include "tests/support/model_builders.hpp"
 
-namespace drift {
+namespace drift::improve_test {
 namespace {
 
 using namespace drift::test;
@@ -133,4 +133,4 @@ TEST(Improve, AnUnknownCriterionNamesTheNearest) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::improve_test

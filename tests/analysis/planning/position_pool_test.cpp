@@ -7,7 +7,7 @@
 #include "core/plan/timeline.hpp"
 #include "tests/support/model_builders.hpp"
 
-namespace drift::planning {
+namespace drift::planning::position_pool_test {
 namespace {
 
 TEST(Attitudes, Are96FramesAsTheirTextSays) {
@@ -85,4 +85,4 @@ TEST(PositionPool, WhatTheGimbalsForbidIsLeftOutAndTheRestKeepsItsOrder) {
 }
 
 }  // namespace
-}  // namespace drift::planning
+}  // namespace drift::planning::position_pool_test

@@ -5,7 +5,7 @@
 #include "mc/study/study.hpp"
 #include "tests/support/program.hpp"
 
-namespace drift::planning {
+namespace drift::planning::position_toml_test {
 namespace {
 
 TEST(PositionToml, ReadsBackAsThePositions) {
@@ -43,4 +43,4 @@ TEST(PositionToml, ReadsBackAsThePositions) {
 }
 
 }  // namespace
-}  // namespace drift::planning
+}  // namespace drift::planning::position_toml_test

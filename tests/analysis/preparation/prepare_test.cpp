@@ -9,7 +9,7 @@
 #include "core/sim/simulate.hpp"
 #include "tests/support/model_builders.hpp"
 
-namespace drift::preparation {
+namespace drift::preparation::prepare_test {
 namespace {
 
 using test::base_filter;
@@ -297,4 +297,4 @@ TEST(Prepare, AMillionRowsBecomeFewInBoundedTime) {
 }
 
 }  // namespace
-}  // namespace drift::preparation
+}  // namespace drift::preparation::prepare_test

@@ -7,7 +7,7 @@
 #include "core/sim/predict.hpp"
 #include "tests/support/rows_at_any_distance.hpp"
 
-namespace drift::preparation {
+namespace drift::preparation::unequal_rows_test {
 namespace {
 
 using test::Rows;
@@ -171,4 +171,4 @@ TEST(UnequalRows, RecordingsOfDifferentIntervalsAreTakenTogether) {
 }
 
 }  // namespace
-}  // namespace drift::preparation
+}  // namespace drift::preparation::unequal_rows_test

@@ -8,7 +8,7 @@
 #include "analysis/search/detect.hpp"
 #include "tests/support/model_builders.hpp"
 
-namespace drift::search {
+namespace drift::search::credible_set_test {
 namespace {
 
 using test::param;
@@ -150,4 +150,4 @@ TEST(CredibleSet, PartsOfOneTermAreOneCause) {
 }
 
 }  // namespace
-}  // namespace drift::search
+}  // namespace drift::search::credible_set_test

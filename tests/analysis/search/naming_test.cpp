@@ -6,7 +6,7 @@
 #include "core/base/rng.hpp"
 #include "tests/support/white_problem.hpp"
 
-namespace drift::search {
+namespace drift::search::naming_test {
 namespace {
 
 constexpr Eigen::Index rows = 120, parameters = 8, candidates = 12;
@@ -158,4 +158,4 @@ TEST(Naming, ACancellingPairIsFoundThoughNoSingleScoreShowsIt) {
 }
 
 }  // namespace
-}  // namespace drift::search
+}  // namespace drift::search::naming_test

@@ -9,7 +9,7 @@
 #include "analysis/diagnosis/causes.hpp"
 #include "tests/support/model_builders.hpp"
 
-namespace drift::search {
+namespace drift::search::search_test {
 namespace {
 
 using namespace drift::test;
@@ -102,4 +102,4 @@ TEST(Search, AStepBetweenTheHoursOfTheGridIsNamedAloneWithItsTime) {
 }
 
 }  // namespace
-}  // namespace drift::search
+}  // namespace drift::search::search_test

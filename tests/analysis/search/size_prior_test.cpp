@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-namespace drift::search {
+namespace drift::search::size_prior_test {
 namespace {
 
 constexpr std::array scales{1.0, 0.3, 0.1, 0.03, 0.01};
@@ -61,4 +61,4 @@ TEST(SizePrior, ChangingThePriorOfAFitGivesTheSameEvidence) {
 }
 
 }  // namespace
-}  // namespace drift::search
+}  // namespace drift::search::size_prior_test

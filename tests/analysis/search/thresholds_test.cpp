@@ -5,7 +5,7 @@
 #include "analysis/search/pairs.hpp"
 #include "analysis/search/remainder.hpp"
 
-namespace drift::search {
+namespace drift::search::thresholds_test {
 namespace {
 
 /// Candidates of one column each with this information and these scores.
@@ -61,4 +61,4 @@ TEST(Pairs, OfTwoNamesOfOneTraceAreNone) {
 }
 
 }  // namespace
-}  // namespace drift::search
+}  // namespace drift::search::thresholds_test

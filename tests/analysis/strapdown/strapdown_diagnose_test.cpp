@@ -18,7 +18,7 @@
 #include "tests/support/recordings_by_others.hpp"
 #include "tests/support/strapdown_recording.hpp"
 
-namespace drift {
+namespace drift::strapdown_diagnose_test {
 namespace {
 
 using diagnosis::Diagnosis;
@@ -196,4 +196,4 @@ TEST(ChanceOfGain, IsTheTailOfStudentsT) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::strapdown_diagnose_test

@@ -8,7 +8,7 @@
 #include "core/base/check.hpp"
 #include "tests/support/strapdown_recording.hpp"
 
-namespace drift {
+namespace drift::strapdown_identify_test {
 namespace {
 
 using strapdown::Trial;
@@ -171,4 +171,4 @@ TEST(StrapdownIdentify, OnlyEquationsFiveAndSixApply) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::strapdown_identify_test

@@ -8,7 +8,7 @@
 #include "analysis/strapdown/identify.hpp"
 #include "tests/support/recordings_by_others.hpp"
 
-namespace drift {
+namespace drift::strapdown_recordings_test {
 namespace {
 
 using strapdown::Trial;
@@ -123,4 +123,4 @@ TEST(StrapdownRecordings, MpuHasMisalignmentAndNoGSensitivityToClaim) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::strapdown_recordings_test

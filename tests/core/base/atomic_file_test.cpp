@@ -6,7 +6,7 @@
 #include "core/base/check.hpp"
 #include "tests/support/program.hpp"
 
-namespace drift {
+namespace drift::atomic_file_test {
 namespace {
 
 using test::ScratchFolder;
@@ -66,4 +66,4 @@ TEST(AtomicFile, WhatComesInTheWayMeanwhileStays) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::atomic_file_test

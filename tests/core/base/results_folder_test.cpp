@@ -11,7 +11,7 @@
 #include "core/base/temporary_file.hpp"
 #include "tests/support/program.hpp"
 
-namespace drift {
+namespace drift::results_folder_test {
 namespace {
 
 using test::ScratchFolder;
@@ -104,4 +104,4 @@ TEST(ResultsFolderOf, NothingIsWrittenThroughALinkedFolder) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::results_folder_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace drift {
+namespace drift::sha256_test {
 namespace {
 
 TEST(Sha256, GivesTheDigestsOfFips180) {
@@ -18,4 +18,4 @@ TEST(Sha256, DoesNotDependOnThePieces) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::sha256_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace drift {
+namespace drift::units_test {
 namespace {
 
 TEST(Units, CompoundUnitsAreProductsOfTheirFactors) {
@@ -33,4 +33,4 @@ TEST(Units, DimensionsAreKeptApart) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::units_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace drift {
+namespace drift::utf8_test {
 namespace {
 
 TEST(Utf8, WhatIsWellFormedStaysAndTheRestIsShown) {
@@ -47,4 +47,4 @@ TEST(Utf8, OnlyTheMiddleOfALongLineIsLeftOut) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::utf8_test

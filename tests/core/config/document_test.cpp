@@ -10,7 +10,7 @@
 #include "core/config/load.hpp"
 #include "core/config/override.hpp"
 
-namespace drift::config {
+namespace drift::config::document_test {
 namespace {
 
 class Document : public testing::Test {
@@ -169,4 +169,4 @@ TEST(Override, AValueCannotSmuggleInASecondKey) {
 }
 
 }  // namespace
-}  // namespace drift::config
+}  // namespace drift::config::document_test

@@ -8,7 +8,7 @@
 #include "core/physics/parameters_config.hpp"
 #include "tests/core/config/typos.hpp"
 
-namespace drift::config {
+namespace drift::config::nearest_test {
 namespace {
 
 TEST(Nearest, DistanceCountsSlipsOfTheKeyboard) {
@@ -64,4 +64,4 @@ TEST(Nearest, MisspeltParametersAreRecognised) {
 }
 
 }  // namespace
-}  // namespace drift::config
+}  // namespace drift::config::nearest_test

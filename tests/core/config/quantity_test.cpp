@@ -7,7 +7,7 @@
 #include "core/base/check.hpp"
 #include "core/config/load.hpp"
 
-namespace drift::config {
+namespace drift::config::quantity_test {
 namespace {
 
 Node value(const std::string& toml) {
@@ -97,4 +97,4 @@ TEST(Quantity, PriorsAreShownInTheirUnit) {
 }
 
 }  // namespace
-}  // namespace drift::config
+}  // namespace drift::config::quantity_test

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <limits>
 
-namespace drift {
+namespace drift::covariance_test {
 namespace {
 
 /// A dense filter beside the structured one: x = [attitude, parameters].
@@ -76,4 +76,4 @@ TEST(Covariance, AgreesWithADenseFilter) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::covariance_test

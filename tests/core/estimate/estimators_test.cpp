@@ -9,7 +9,7 @@
 #include "mc/task/campaign.hpp"
 #include "tests/support/model_builders.hpp"
 
-namespace drift {
+namespace drift::estimators_test {
 namespace {
 
 using namespace drift::test;
@@ -263,4 +263,4 @@ TEST(Ekf, LeavesOutWhatWasNotMeasured) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::estimators_test

@@ -5,7 +5,7 @@
 #include "core/base/check.hpp"
 #include "tests/support/term_scenes.hpp"
 
-namespace drift {
+namespace drift::interval_step_test {
 namespace {
 
 using namespace drift::test;
@@ -73,4 +73,4 @@ TEST(Linearizer, DemandsTheTimeAndTheMemoryThatTermsLookAt) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::interval_step_test

@@ -5,7 +5,7 @@
 #include "tests/support/estimators.hpp"
 #include "tests/support/term_scenes.hpp"
 
-namespace drift {
+namespace drift::iterated_ekf_test {
 namespace {
 
 using namespace drift::test;
@@ -148,4 +148,4 @@ TEST(Ekf, ResetIsAsBuiltAnew) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::iterated_ekf_test

@@ -4,7 +4,7 @@
 
 #include "tests/support/term_scenes.hpp"
 
-namespace drift {
+namespace drift::reference_path_test {
 namespace {
 
 using namespace drift::test;
@@ -47,4 +47,4 @@ TEST(ReferencePath, LeadsBackToWhereTheChainBeganWithEveryTerm) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::reference_path_test

@@ -8,7 +8,7 @@
 #include "tests/support/forward_sensitivity.hpp"
 #include "tests/support/model_builders.hpp"
 
-namespace drift {
+namespace drift::sensitivity_test {
 namespace {
 
 using namespace drift::test;
@@ -151,4 +151,4 @@ TEST(Sensitivity, VariationOfConstantsAgreesWithCvodesForwardSensitivities) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::sensitivity_test

@@ -6,7 +6,7 @@
 #include "core/estimate/strapdown/dwells.hpp"
 #include "tests/support/strapdown_recording.hpp"
 
-namespace drift::strapdown {
+namespace drift::strapdown::strapdown_dwells_test {
 namespace {
 
 using test::strapdown_recording;
@@ -85,4 +85,4 @@ TEST(StrapdownSignals, TimeThatStandsStillIsRefused) {
 }
 
 }  // namespace
-}  // namespace drift::strapdown
+}  // namespace drift::strapdown::strapdown_dwells_test

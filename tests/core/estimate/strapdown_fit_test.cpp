@@ -3,7 +3,7 @@
 #include "core/estimate/strapdown/rotation_fit.hpp"
 #include "tests/support/strapdown_recording.hpp"
 
-namespace drift::strapdown {
+namespace drift::strapdown::strapdown_fit_test {
 namespace {
 
 using test::set;
@@ -157,4 +157,4 @@ TEST(StrapdownFit, TheIsotropicPartOfGSensitivityMovesNoGravity) {
 }
 
 }  // namespace
-}  // namespace drift::strapdown
+}  // namespace drift::strapdown::strapdown_fit_test

@@ -8,7 +8,7 @@
 #include "tests/support/estimators.hpp"
 #include "tests/support/term_scenes.hpp"
 
-namespace drift {
+namespace drift::terms_in_filters_test {
 namespace {
 
 using namespace drift::test;
@@ -264,4 +264,4 @@ TEST(Layout, HasNoStatesForWhatIsRandomOrDiscrete) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::terms_in_filters_test

@@ -10,7 +10,7 @@
 
 #include "core/ode/cvode.hpp"
 
-namespace drift {
+namespace drift::cvode_failure_test {
 namespace {
 
 using Method = Cvode::Method;
@@ -241,4 +241,4 @@ TEST(Cvode, TheWallClockChangesNothingElse) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::cvode_failure_test

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace drift {
+namespace drift::cvode_test {
 namespace {
 
 using Method = Cvode::Method;
@@ -185,4 +185,4 @@ TEST(Cvode, CanBeMoved) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::cvode_test

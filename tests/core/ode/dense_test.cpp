@@ -8,7 +8,7 @@
 #include "core/base/linalg.hpp"
 #include "core/ode/vector_ops.hpp"
 
-namespace drift::detail {
+namespace drift::detail::dense_test {
 namespace {
 
 TEST(Dense, SolvesWhatEigenSolvesWithPivoting) {
@@ -47,4 +47,4 @@ TEST(Dense, ASingularMatrixIsReportedByItsColumn) {
 }
 
 }  // namespace
-}  // namespace drift::detail
+}  // namespace drift::detail::dense_test

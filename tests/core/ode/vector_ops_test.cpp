@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-namespace drift::detail {
+namespace drift::detail::vector_ops_test {
 namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
@@ -162,4 +162,4 @@ TEST(VectorOpsOrder, SumsDoNotDependOnTheAddress) {
 }
 
 }  // namespace
-}  // namespace drift::detail
+}  // namespace drift::detail::vector_ops_test

@@ -6,7 +6,7 @@
 #include "core/physics/drift_model.hpp"
 #include "tests/support/model_builders.hpp"
 
-namespace drift {
+namespace drift::coupling_test {
 namespace {
 
 using namespace drift::test;
@@ -49,4 +49,4 @@ TEST(Closure, StandsBehindTheBaseTerms) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::coupling_test

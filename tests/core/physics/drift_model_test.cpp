@@ -5,7 +5,7 @@
 #include "core/physics/parameters_config.hpp"
 #include "tests/support/model_builders.hpp"
 
-namespace drift {
+namespace drift::drift_model_test {
 namespace {
 
 using namespace drift::test;
@@ -149,4 +149,4 @@ TEST(Accelerometer, FollowsTheModelEquation) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::drift_model_test

@@ -7,7 +7,7 @@
 #include "core/physics/mounting_config.hpp"
 #include "core/physics/parameters_config.hpp"
 
-namespace drift {
+namespace drift::model_config_test {
 namespace {
 
 struct Read {
@@ -161,4 +161,4 @@ TEST(ModelConfig, EveryCardinalRightHandedMountingIsAccepted) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::model_config_test

@@ -8,7 +8,7 @@
 #include "core/base/dual.hpp"
 #include "tests/support/model_builders.hpp"
 
-namespace drift {
+namespace drift::terms_test {
 namespace {
 
 using namespace drift::test;
@@ -258,4 +258,4 @@ TEST(TermLibrary, DefaultPriorsAreThoseOfTheInterface) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::terms_test

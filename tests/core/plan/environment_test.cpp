@@ -10,7 +10,7 @@
 #include "core/sim/measurements.hpp"
 #include "tests/support/term_scenes.hpp"
 
-namespace drift {
+namespace drift::environment_test {
 namespace {
 
 using namespace drift::test;
@@ -121,4 +121,4 @@ TEST(Environment, GapsInACovariateAreClosedByStraightLines) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::environment_test

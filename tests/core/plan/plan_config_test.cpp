@@ -5,7 +5,7 @@
 #include "core/base/check.hpp"
 #include "core/config/load.hpp"
 
-namespace drift {
+namespace drift::plan_config_test {
 namespace {
 
 struct Read {
@@ -86,4 +86,4 @@ TEST(PlanConfig, KeysOfTheOtherKindOfTestAreRefused) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::plan_config_test

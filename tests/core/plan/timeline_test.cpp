@@ -9,7 +9,7 @@
 #include "core/plan/case_heading.hpp"
 #include "tests/support/model_builders.hpp"
 
-namespace drift {
+namespace drift::timeline_test {
 namespace {
 
 using namespace drift::test;
@@ -162,4 +162,4 @@ TEST(Layout, ARecordingIsLaidOutAsItsPlan) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::timeline_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace drift {
+namespace drift::bridged_mean_test {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -71,4 +71,4 @@ TEST(BridgedMean, SaysWhatItsNoiseIsWorth) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::bridged_mean_test

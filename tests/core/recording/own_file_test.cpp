@@ -7,7 +7,7 @@
 #include "core/recording/own/text_decoding.hpp"
 #include "recording_fixture.hpp"
 
-namespace drift {
+namespace drift::own_file_test {
 namespace {
 
 using namespace test;
@@ -212,4 +212,4 @@ TEST(OwnFile, MistakesInTheSectionAreNamed) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::own_file_test

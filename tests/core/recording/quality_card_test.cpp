@@ -7,7 +7,7 @@
 #include "recording_fixture.hpp"
 #include "tests/support/recordings_by_others.hpp"
 
-namespace drift {
+namespace drift::quality_card_test {
 namespace {
 
 using namespace test;
@@ -146,4 +146,4 @@ TEST_P(RealRecording, ReadsCleanlyAndAlikeInEveryFormat) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::quality_card_test

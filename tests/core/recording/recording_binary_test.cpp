@@ -6,7 +6,7 @@
 
 #include "recording_fixture.hpp"
 
-namespace drift {
+namespace drift::recording_binary_test {
 namespace {
 
 using namespace test;
@@ -265,4 +265,4 @@ TEST(MalformedBinary, Matlab73FilesAreRead) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::recording_binary_test

@@ -4,7 +4,7 @@
 
 #include "recording_fixture.hpp"
 
-namespace drift {
+namespace drift::recording_fuzz_test {
 namespace {
 
 using namespace test;
@@ -121,4 +121,4 @@ TEST_P(BinaryFuzz, DamagedFilesAreReadOrRefusedAndNeverCrash) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::recording_fuzz_test

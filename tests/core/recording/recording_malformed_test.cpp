@@ -2,7 +2,7 @@
 
 #include "recording_fixture.hpp"
 
-namespace drift {
+namespace drift::recording_malformed_test {
 namespace {
 
 using namespace test;
@@ -188,4 +188,4 @@ TEST(MalformedRecording, AnUnknownExtensionNamesTheKnownOnes) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::recording_malformed_test

@@ -9,7 +9,7 @@
 
 #include "recording_fixture.hpp"
 
-namespace drift {
+namespace drift::recording_test {
 namespace {
 
 using namespace test;
@@ -249,4 +249,4 @@ TEST(RecordingReaders, OctaveReadsBothAndWhatItWritesIsRead) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::recording_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace drift {
+namespace drift::reduce_test {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -80,4 +80,4 @@ TEST(Reduce, AFactorOfOneChangesNothing) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::reduce_test

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace drift {
+namespace drift::row_spacing_test {
 namespace {
 
 /// Slews of `seconds` rows a second apart, each followed by a dwell of ten minutes.
@@ -68,4 +68,4 @@ TEST(RowSpacing, EvenRowsAreRegularWhateverPassesBetweenPositions) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::row_spacing_test

@@ -5,7 +5,7 @@
 #include "core/sim/simulate.hpp"
 #include "tests/support/model_builders.hpp"
 
-namespace drift {
+namespace drift::dynamics_test {
 namespace {
 
 using namespace drift::test;
@@ -291,4 +291,4 @@ TEST(ProcessNoise, AngleRandomWalkGrowsWithTheSquareRootOfTime) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::dynamics_test

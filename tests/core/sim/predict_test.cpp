@@ -6,7 +6,7 @@
 #include "core/base/check.hpp"
 #include "tests/support/term_scenes.hpp"
 
-namespace drift {
+namespace drift::predict_test {
 namespace {
 
 using namespace drift::test;
@@ -158,4 +158,4 @@ TEST(Predict, SaysWhichCovariateIsMissing) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::predict_test

@@ -5,7 +5,7 @@
 #include "core/sim/memory_path.hpp"
 #include "tests/support/term_scenes.hpp"
 
-namespace drift {
+namespace drift::term_physics_test {
 namespace {
 
 using namespace drift::test;
@@ -250,4 +250,4 @@ TEST(HangOff, IsSeenByAccelerometersAndGimbalsAlike) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::term_physics_test

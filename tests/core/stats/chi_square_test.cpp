@@ -7,7 +7,7 @@
 
 #include "core/stats/chi_square_band.hpp"
 
-namespace drift::stats {
+namespace drift::stats::chi_square_test {
 namespace {
 
 TEST(ChiSquare, TailsAreExactWhereTheyHaveAClosedForm) {
@@ -60,4 +60,4 @@ TEST(ChiSquareBand, HoldsTheMiddleOfTheDistribution) {
 }
 
 }  // namespace
-}  // namespace drift::stats
+}  // namespace drift::stats::chi_square_test

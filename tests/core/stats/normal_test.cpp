@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace drift::stats {
+namespace drift::stats::normal_test {
 namespace {
 
 TEST(NormalQuantile, IsTheInverseOfTheDistributionFunction) {
@@ -31,4 +31,4 @@ TEST(NormalQuantile, IsTheInverseOfTheDistributionFunction) {
 }
 
 }  // namespace
-}  // namespace drift::stats
+}  // namespace drift::stats::normal_test

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace drift::stats {
+namespace drift::stats::proportion_test {
 namespace {
 
 TEST(Rate, HasTheWilsonInterval) {
@@ -59,4 +59,4 @@ TEST(Proportion, OfNoTrialsNothingIsKnown) {
 }
 
 }  // namespace
-}  // namespace drift::stats
+}  // namespace drift::stats::proportion_test

@@ -7,7 +7,7 @@
 
 #include "core/stats/normal.hpp"
 
-namespace drift::stats {
+namespace drift::stats::student_test {
 namespace {
 
 TEST(Student, TailsAreExactWhereTheyHaveAClosedForm) {
@@ -20,4 +20,4 @@ TEST(Student, TailsAreExactWhereTheyHaveAClosedForm) {
 }
 
 }  // namespace
-}  // namespace drift::stats
+}  // namespace drift::stats::student_test

@@ -8,7 +8,7 @@
 
 #include "core/base/check.hpp"
 
-namespace drift::mc {
+namespace drift::mc::batch_system_test {
 namespace {
 
 using Variables = std::map<std::string, std::string>;
@@ -93,4 +93,4 @@ TEST(BatchSystem, WhatSaysNothingOrOddThingsIsRefused) {
 }
 
 }  // namespace
-}  // namespace drift::mc
+}  // namespace drift::mc::batch_system_test

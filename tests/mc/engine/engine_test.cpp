@@ -10,7 +10,7 @@
 #include "tests/support/program.hpp"
 #include "tests/support/synthetic_study.hpp"
 
-namespace drift {
+namespace drift::engine_test {
 namespace {
 
 using test::ScratchFolder;
@@ -174,4 +174,4 @@ TEST(Engine, ProgressCountsUpToTheWholeStudy) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::engine_test

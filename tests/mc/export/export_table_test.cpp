@@ -5,7 +5,7 @@
 #include "mc/statistics/point_statistics.hpp"
 #include "tests/mc/small_study.hpp"
 
-namespace drift {
+namespace drift::export_table_test {
 namespace {
 
 using namespace drift::test;
@@ -63,4 +63,4 @@ TEST(ExportTable, HoldsTheStatisticsOfTheRuns) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::export_table_test

@@ -8,7 +8,7 @@
 #include "mc/statistics/stop_rule.hpp"
 #include "tests/mc/small_study.hpp"
 
-namespace drift {
+namespace drift::statistics_test {
 namespace {
 
 using namespace drift::test;
@@ -224,4 +224,4 @@ TEST(StopRule, WaitsForAnRmse) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::statistics_test

@@ -11,7 +11,7 @@
 #include "tests/support/program.hpp"
 #include "tests/support/synthetic_study.hpp"
 
-namespace drift {
+namespace drift::manifest_test {
 namespace {
 
 using test::ScratchFolder;
@@ -173,4 +173,4 @@ TEST(TextDifference, ShowsChangedLinesOnly) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::manifest_test

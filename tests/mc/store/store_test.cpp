@@ -9,7 +9,7 @@
 #include "tests/support/program.hpp"
 #include "tests/support/synthetic_study.hpp"
 
-namespace drift {
+namespace drift::store_test {
 namespace {
 
 using test::ScratchFolder;
@@ -226,4 +226,4 @@ TEST(Store, OneProcessAtATimeIsAWorker) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::store_test

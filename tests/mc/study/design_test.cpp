@@ -9,7 +9,7 @@
 #include "core/stats/normal.hpp"
 #include "tests/support/model_builders.hpp"
 
-namespace drift {
+namespace drift::design_test {
 namespace {
 
 using namespace drift::test;
@@ -134,4 +134,4 @@ TEST(Design, HasTheMomentsOfThePrior) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::design_test

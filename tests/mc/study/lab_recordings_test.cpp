@@ -5,7 +5,7 @@
 #include "tests/mc/study/study_file.hpp"
 #include "tests/support/lab_damage.hpp"
 
-namespace drift {
+namespace drift::lab_recordings_test {
 namespace {
 
 using test::LabColumn, test::LabFile, test::Variant;
@@ -106,4 +106,4 @@ TEST(LabRecordings, AreSixtyOrMore) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::lab_recordings_test

@@ -3,7 +3,7 @@
 #include "tests/mc/study/study_file.hpp"
 #include "tests/support/model_builders.hpp"
 
-namespace drift {
+namespace drift::published_config_test {
 namespace {
 
 using namespace drift::test;
@@ -62,4 +62,4 @@ TEST(Published, MistakesAreLocated) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::published_config_test

@@ -8,7 +8,7 @@
 #include "tests/mc/small_study.hpp"
 #include "tests/mc/study/study_file.hpp"
 
-namespace drift {
+namespace drift::study_config_test {
 namespace {
 
 constexpr double arcsec = std::numbers::pi / 180.0 / 3600.0;
@@ -213,4 +213,4 @@ TEST(StudyConfig, MisspeltKeysOfSectionsAreRecognised) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::study_config_test

@@ -5,7 +5,7 @@
 #include "tests/mc/study/study_file.hpp"
 #include "tests/mc/study/study_mistake_cases.hpp"
 
-namespace drift {
+namespace drift::study_mistakes_test {
 namespace {
 
 using test::Case, test::cases, test::right;
@@ -58,4 +58,4 @@ TEST(StudyMistakes, AllOfAFileAreReportedAtOnceInItsOrder) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::study_mistakes_test

@@ -4,7 +4,7 @@
 
 #include "tests/mc/study/study_file.hpp"
 
-namespace drift {
+namespace drift::study_mutation_test {
 namespace {
 
 /// Reading either succeeds or throws InputError(config) with at least one located message.
@@ -59,4 +59,4 @@ TEST(StudyMutation, RandomDamageIsReadOrExplained) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::study_mutation_test

@@ -7,7 +7,7 @@
 #include "core/sim/truth.hpp"
 #include "tests/mc/small_study.hpp"
 
-namespace drift {
+namespace drift::sweep_test {
 namespace {
 
 using namespace drift::test;
@@ -166,4 +166,4 @@ TEST(MonteCarloSection, WholeNumbersOutOfRangeAreNotToldToLoseTheirQuotes) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::sweep_test

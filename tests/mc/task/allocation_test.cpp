@@ -19,7 +19,7 @@ extern "C" void* malloc(std::size_t n) noexcept {
   return __libc_malloc(n);
 }
 
-namespace drift {
+namespace drift::allocation_test {
 namespace {
 
 using namespace drift::test;
@@ -64,5 +64,5 @@ TEST(Allocations, ARunOfAStudyMakesNoneInItsFilters) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::allocation_test
 #endif

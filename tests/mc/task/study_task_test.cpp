@@ -14,7 +14,7 @@
 #include "tests/mc/small_study.hpp"
 #include "tests/support/model_builders.hpp"
 
-namespace drift {
+namespace drift::study_task_test {
 namespace {
 
 using namespace drift::test;
@@ -213,4 +213,4 @@ TEST(Trace, IsThatOfTheRunItself) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::study_task_test

@@ -7,7 +7,7 @@
 #include "mc/task/campaign.hpp"
 #include "tests/mc/small_study.hpp"
 
-namespace drift {
+namespace drift::terms_in_studies_test {
 namespace {
 
 using namespace drift::test;
@@ -192,4 +192,4 @@ INSTANTIATE_TEST_SUITE_P(Estimators, EveryTermUnder, estimators, name_of);
 INSTANTIATE_TEST_SUITE_P(Estimators, NightlyEveryTermUnder, estimators, name_of);
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::terms_in_studies_test

@@ -5,7 +5,7 @@
 #include "tests/mc/small_study.hpp"
 #include "tests/support/model_builders.hpp"
 
-namespace drift {
+namespace drift::unmodelled_test {
 namespace {
 
 using namespace drift::test;
@@ -102,4 +102,4 @@ TEST(Unmodelled, IsRefusedBeforeTheFirstRunForEveryFilter) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::unmodelled_test

@@ -8,7 +8,7 @@
 #include "tests/analysis/report/figures_of.hpp"
 #include "tests/analysis/report/xml_check.hpp"
 
-namespace drift {
+namespace drift::diagnosis_report_test {
 namespace {
 
 using namespace diagnosis;
@@ -241,4 +241,4 @@ TEST(DiagnosisFigures, TheNumbersAtTheRightHaveAHead) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::diagnosis_report_test

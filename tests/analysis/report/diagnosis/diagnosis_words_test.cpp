@@ -8,7 +8,7 @@
 #include "tests/analysis/report/figures_of.hpp"
 #include "tests/analysis/report/xml_check.hpp"
 
-namespace drift {
+namespace drift::diagnosis_words_test {
 namespace {
 
 using namespace diagnosis;
@@ -179,4 +179,4 @@ TEST(DiagnosisFolder, HoldsEverythingAndLeavesNoPatchOfAnEarlierDiagnosis) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::diagnosis_words_test

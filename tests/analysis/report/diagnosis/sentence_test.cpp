@@ -4,7 +4,7 @@
 
 #include "core/base/number_text.hpp"
 
-namespace drift {
+namespace drift::sentence_test {
 namespace {
 
 using namespace diagnosis;
@@ -209,4 +209,4 @@ TEST(NumberText, OfAProbabilityIsScientificOnlyBelowAThousandth) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::sentence_test

@@ -16,7 +16,7 @@
 #include "tests/analysis/report/identify/identification_fixture.hpp"
 #include "tests/analysis/report/xml_check.hpp"
 
-namespace drift {
+namespace drift::identification_report_test {
 namespace {
 
 const std::string hostile = "\"><script>alert('x')</script>\xff";
@@ -236,4 +236,4 @@ TEST_F(ResultsFolder, AWrittenTextReplacesTheOldOneWhole) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::identification_report_test

@@ -3,7 +3,7 @@
 #include "analysis/report/identify/sections.hpp"
 #include "tests/analysis/report/identify/identification_fixture.hpp"
 
-namespace drift {
+namespace drift::published_table_test {
 namespace {
 
 /// Rows of one source in a table, in order.
@@ -67,4 +67,4 @@ TEST(PublishedComparison, MissingSigmasGiveNoVerdict) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::published_table_test

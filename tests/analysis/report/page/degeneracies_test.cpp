@@ -7,7 +7,7 @@
 
 #include "tests/analysis/report/identify/identification_fixture.hpp"
 
-namespace drift {
+namespace drift::degeneracies_test {
 namespace {
 
 using Combination = std::map<std::string_view, double>;  // in each parameter's unit
@@ -103,4 +103,4 @@ TEST(NameDegeneracies, CountsEachDirectionOnce) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::degeneracies_test

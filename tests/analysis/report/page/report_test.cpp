@@ -11,7 +11,7 @@
 #include "analysis/report/page/json.hpp"
 #include "tests/support/program.hpp"
 
-namespace drift::report {
+namespace drift::report::report_test {
 namespace {
 
 bool holds(const std::string& text, const std::string& part) {
@@ -125,4 +125,4 @@ TEST(OneReport, NamedTablesReachADocumentThatDoesNotHoldThem) {
 }
 
 }  // namespace
-}  // namespace drift::report
+}  // namespace drift::report::report_test

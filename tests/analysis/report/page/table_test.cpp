@@ -11,7 +11,7 @@
 #include "core/stats/chi_square_band.hpp"
 #include "tests/analysis/report/xml_check.hpp"
 
-namespace drift {
+namespace drift::table_test {
 namespace {
 
 const std::set<std::string> void_tags{"meta"};
@@ -123,4 +123,4 @@ TEST(XmlCheck, FindsWhatIsBroken) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::table_test

@@ -10,7 +10,7 @@
 #include "tests/analysis/report/xml_check.hpp"
 #include "tests/mc/small_study.hpp"
 
-namespace drift {
+namespace drift::study_report_test {
 namespace {
 
 using namespace drift::test;
@@ -151,4 +151,4 @@ TEST(SweepPictures, AreDrawnForAxesOfNumbersAlone) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::study_report_test

@@ -6,7 +6,7 @@
 
 #include "tests/analysis/report/xml_check.hpp"
 
-namespace drift {
+namespace drift::heat_map_test {
 namespace {
 
 using drift::testing::xml_problem;
@@ -48,4 +48,4 @@ TEST(HeatMap, StandsEmptyHugeHostileAndMissingContent) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::heat_map_test

@@ -10,7 +10,7 @@
 #include "analysis/report/svg/decimate.hpp"
 #include "tests/analysis/report/xml_check.hpp"
 
-namespace drift {
+namespace drift::svg_chart_test {
 namespace {
 
 const double nan_value = std::nan("");
@@ -162,4 +162,4 @@ TEST(BarChart, HasABarAndWhiskersForEachNumber) {
 }
 
 }  // namespace
-}  // namespace drift
+}  // namespace drift::svg_chart_test
