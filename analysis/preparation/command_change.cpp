@@ -1,31 +1,20 @@
 #include "analysis/preparation/command_change.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
 
 #include "analysis/preparation/input_thresholds.hpp"
 #include "core/physics/gimbals.hpp"
+#include "core/recording/recording_channels.hpp"
 
 namespace drift::preparation {
 namespace {
 
-std::optional<Vec3> triple(const Recording& r, const std::array<const char*, 3>& names,
-                           std::size_t row) {
-  Vec3 v;
-  for (int a = 0; a < 3; ++a) {
-    const Channel* c = r.find(names[a]);
-    if (!c || !std::isfinite(c->values[row])) return std::nullopt;
-    v[a] = c->values[row];
-  }
-  return v;
-}
-
 /// Attitude of the platform against an inertial frame, as the gimbals show it.
 std::optional<Mat3> shown_attitude(const Recording& r, const Site& site, std::size_t row) {
-  const auto angles = triple(r, {"gimbal_outer", "gimbal_middle", "gimbal_inner"}, row);
+  const auto angles = measured(r, gimbal_channels, row);
   if (!angles) return std::nullopt;
   const Channel* heading = r.find("case_heading");
   return Mat3(rotation<double>(site.omega_ie_l() * r.find("time")->values[row]) *
@@ -36,9 +25,8 @@ std::optional<Mat3> shown_attitude(const Recording& r, const Site& site, std::si
 
 CommandChange command_change(const Recording& recording, const Site& site, std::size_t row,
                              const RowSpacing& spacing) {
-  const std::array<const char*, 3> commands{"cmd_x", "cmd_y", "cmd_z"};
-  const auto before = triple(recording, commands, row - 1),
-             after = triple(recording, commands, row);
+  const auto before = measured(recording, command_channels, row - 1),
+             after = measured(recording, command_channels, row);
   const auto from = shown_attitude(recording, site, row - 1),
              to = shown_attitude(recording, site, row);
   if (!before || !after || !from || !to)

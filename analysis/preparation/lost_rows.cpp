@@ -15,8 +15,6 @@
 namespace drift::preparation {
 namespace {
 
-constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
-
 /// What a gap in front of a row turns out to be.
 struct Gap {
   double change = nan_value;  ///< when the command changed; NaN: it did not, or at the last row

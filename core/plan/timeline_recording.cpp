@@ -14,6 +14,7 @@
 #include "core/plan/case_heading.hpp"
 #include "core/plan/plan_memory.hpp"
 #include "core/plan/timeline.hpp"
+#include "core/recording/recording_channels.hpp"
 
 namespace drift {
 namespace {
@@ -211,15 +212,6 @@ class Reader {
       const Interval& i = timeline_.intervals[k];
       if (!i.cage) continue;
       const Node& node = timeline_.nodes[i.last_node()];
-      const auto channels = [&](const std::array<const char*, 3>& names) -> std::optional<Vec3> {
-        Vec3 v;
-        for (int a = 0; a < 3; ++a) {
-          const Channel* c = rec_.find(names[a]);
-          if (!c || !std::isfinite(c->values[k])) return std::nullopt;
-          v[a] = c->values[k];
-        }
-        return v;
-      };
       const auto hint = [&](const char* what, double angle) {
         complain(
             k, fmt::format(
@@ -229,12 +221,12 @@ class Reader {
                    i.position + 1, plan_.positions[i.position].name, what, angle / detail::deg,
                    largest_mismatch / detail::deg));
       };
-      if (const auto acc = channels({"acc_x", "acc_y", "acc_z"})) {
+      if (const auto acc = measured(rec_, accelerometer_channels, k)) {
         const Vec3 expected = node.R_lr.row(2);
         const double angle = std::atan2(acc->cross(expected).norm(), acc->dot(expected));
         if (!(angle < largest_mismatch)) hint("accelerometers show Up", angle);
       }
-      if (const auto gimbal = channels({"gimbal_outer", "gimbal_middle", "gimbal_inner"})) {
+      if (const auto gimbal = measured(rec_, gimbal_channels, k)) {
         const Mat3 R_lp = case_attitude(i.heading1) * gimbal_chain(*gimbal);
         const double angle = rotation_vector(node.R_lr.transpose() * R_lp).norm();
         if (!(angle < largest_mismatch)) hint("gimbal angles are", angle);

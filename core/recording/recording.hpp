@@ -1,18 +1,15 @@
 #pragma once
 
-#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "core/base/nan.hpp"
 #include "core/base/units.hpp"
 
 namespace drift {
-
-/// Where a channel says nothing.
-inline constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 
 /// One column of a recording.
 struct Channel {

@@ -66,4 +66,20 @@ double in_unit(double value, const Unit& unit) {
   return best;
 }
 
+std::optional<Vec3> measured(const Recording& recording, const ChannelTriple& channels,
+                             std::size_t row) {
+  Vec3 v;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const Channel* c = recording.find(channels.names[a]);
+    if (!c || !std::isfinite(c->values[row])) return std::nullopt;
+    v[static_cast<Eigen::Index>(a)] = c->values[row];
+  }
+  return v;
+}
+
+bool read_at_the_end(std::string_view name) {
+  return name == "time" || name == "position" || name == "phase" || name.starts_with("gimbal_") ||
+         name.starts_with("case_heading") || name.starts_with("loop_");
+}
+
 }  // namespace drift

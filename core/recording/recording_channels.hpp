@@ -4,6 +4,7 @@
 #include <optional>
 #include <string_view>
 
+#include "core/base/linalg.hpp"
 #include "core/base/units.hpp"
 #include "core/recording/recording.hpp"
 
@@ -26,12 +27,23 @@ struct ChannelTriple {
   std::string_view what;
   std::array<std::string_view, 3> names;
 };
-inline constexpr std::array<ChannelTriple, 4> channel_triples{{
-    {"accelerometers", {"acc_x", "acc_y", "acc_z"}},
-    {"gimbal angles", {"gimbal_outer", "gimbal_middle", "gimbal_inner"}},
-    {"commanded rates", {"cmd_x", "cmd_y", "cmd_z"}},
-    {"gyros", {"gyro_x", "gyro_y", "gyro_z"}},
-}};
+inline constexpr ChannelTriple accelerometer_channels{"accelerometers",
+                                                      {"acc_x", "acc_y", "acc_z"}};
+inline constexpr ChannelTriple gimbal_channels{"gimbal angles",
+                                               {"gimbal_outer", "gimbal_middle", "gimbal_inner"}};
+inline constexpr ChannelTriple command_channels{"commanded rates", {"cmd_x", "cmd_y", "cmd_z"}};
+inline constexpr ChannelTriple gyro_channels{"gyros", {"gyro_x", "gyro_y", "gyro_z"}};
+inline constexpr std::array<ChannelTriple, 4> channel_triples{
+    accelerometer_channels, gimbal_channels, command_channels, gyro_channels};
+
+/// Three channels of a row as a vector [internal units]; empty where one of them is absent or not
+/// measured.
+std::optional<Vec3> measured(const Recording& recording, const ChannelTriple& channels,
+                             std::size_t row);
+
+/// Whether a row that joins others carries the channel as read at its end: the place in the test,
+/// and what is an attitude; the rest is averaged.
+bool read_at_the_end(std::string_view name);
 
 /// A name that CSV, HDF5 and MATLAB can all hold: a letter, then letters, digits and underscores,
 /// at most 63; not "units", "facts" or one that ends in "_unit", which MATLAB files use.

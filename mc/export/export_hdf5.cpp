@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/base/atomic_file.hpp"
+#include "core/base/nan.hpp"
 #include "core/recording/hdf5_handle.hpp"
 #include "mc/export/export_table.hpp"
 #include "mc/export/export_text.hpp"
@@ -112,16 +113,18 @@ class RunsGroup {
       file_.attach(set, point, 0);
       file_.attach(set, column, 1);
     };
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     put("n", [](const Statistics& s, double) { return static_cast<double>(s.moments.n); });
-    put("mean",
-        [](const Statistics& s, double u) { return s.moments.n > 0 ? s.moments.mean / u : nan; });
+    put("mean", [](const Statistics& s, double u) {
+      return s.moments.n > 0 ? s.moments.mean / u : nan_value;
+    });
     put("sd", [](const Statistics& s, double u) {
       return s.moments.n > 1 ? std::sqrt(s.moments.m2 / static_cast<double>(s.moments.n - 1)) / u
-                             : nan;
+                             : nan_value;
     });
-    put("min", [](const Statistics& s, double u) { return s.moments.n > 0 ? s.min / u : nan; });
-    put("max", [](const Statistics& s, double u) { return s.moments.n > 0 ? s.max / u : nan; });
+    put("min",
+        [](const Statistics& s, double u) { return s.moments.n > 0 ? s.min / u : nan_value; });
+    put("max",
+        [](const Statistics& s, double u) { return s.moments.n > 0 ? s.max / u : nan_value; });
   }
 
  private:

@@ -4,16 +4,14 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <limits>
 
+#include "core/base/nan.hpp"
 #include "core/stats/normal.hpp"
 #include "mc/export/export_text.hpp"
 #include "mc/statistics/point_statistics.hpp"
 
 namespace drift::mc {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 void add_once(std::vector<std::string>& names, const std::string& name) {
   if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
@@ -44,7 +42,8 @@ struct Number {
 
 std::vector<Number> rmse_of(const ErrorStatistics& e) {
   const Estimated r = e.rmse_normal(stats::half_width_95);
-  const double unit = e.prior_sigma(), known = e.runs() >= 2 ? 1.0 : nan;  // one run has no ends
+  const double unit = e.prior_sigma(),
+               known = e.runs() >= 2 ? 1.0 : nan_value;  // one run has no ends
   return {{"rmse", "root mean square error over the prior sigma", r.value / unit},
           {"rmse_low", "lower end of its 95 % interval", known * std::max(0.0, r.low / unit)},
           {"rmse_high", "upper end", known * r.high / unit}};

@@ -4,12 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/nan.hpp"
 #include "core/base/rng.hpp"
 
 namespace drift::mc {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Poisson number of mean 1 by inversion of its distribution function.
 double poisson_one(double u) {
@@ -52,7 +51,7 @@ void ErrorStatistics::add(double error, double sigma, std::span<const double> we
 
 Estimated ErrorStatistics::bias(double z) const {
   const double n = static_cast<double>(n_);
-  if (n_ < 2) return {n_ == 1 ? prior_sigma_ * sum_ : nan, nan, nan};
+  if (n_ < 2) return {n_ == 1 ? prior_sigma_ * sum_ : nan_value, nan_value, nan_value};
   const double mean = sum_ / n;
   const double spread = std::sqrt(std::max(0.0, square_ / n - mean * mean) * n / (n - 1.0));
   const double half = z * spread / std::sqrt(n);
@@ -64,7 +63,7 @@ Estimated ErrorStatistics::between_replicates(double value, Ratio&& ratio) const
   std::vector<double> values;
   for (const Replicate& r : replicates_)
     if (r.weight > 0.0) values.push_back(ratio(r));
-  if (values.size() < 20 || n_ < 2) return {value, nan, nan};
+  if (values.size() < 20 || n_ < 2) return {value, nan_value, nan_value};
   std::ranges::sort(values);
   const auto at = [&](double share) {
     const double place = share * static_cast<double>(values.size() - 1);
@@ -76,7 +75,8 @@ Estimated ErrorStatistics::between_replicates(double value, Ratio&& ratio) const
 }
 
 Estimated ErrorStatistics::rmse() const {
-  const double value = n_ > 0 ? prior_sigma_ * std::sqrt(square_ / static_cast<double>(n_)) : nan;
+  const double value =
+      n_ > 0 ? prior_sigma_ * std::sqrt(square_ / static_cast<double>(n_)) : nan_value;
   return between_replicates(
       value, [&](const Replicate& r) { return prior_sigma_ * std::sqrt(r.square / r.weight); });
 }
@@ -84,7 +84,8 @@ Estimated ErrorStatistics::rmse() const {
 Estimated ErrorStatistics::rmse_normal(double z) const {
   const double n = static_cast<double>(n_);
   if (n_ < 2)
-    return {nan, -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+    return {nan_value, -std::numeric_limits<double>::infinity(),
+            std::numeric_limits<double>::infinity()};
   const double mean = square_ / n, value = std::sqrt(mean);
   const double spread = std::sqrt(std::max(0.0, fourth_ / n - mean * mean) / (n - 1.0));
   const double half = value > 0.0 ? prior_sigma_ * z * spread / (2.0 * value) : 0.0;
@@ -92,11 +93,11 @@ Estimated ErrorStatistics::rmse_normal(double z) const {
 }
 
 double ErrorStatistics::mean_sigma() const {
-  return n_ > 0 ? prior_sigma_ * std::sqrt(variance_ / static_cast<double>(n_)) : nan;
+  return n_ > 0 ? prior_sigma_ * std::sqrt(variance_ / static_cast<double>(n_)) : nan_value;
 }
 
 Estimated ErrorStatistics::deception() const {
-  return between_replicates(n_ > 0 ? std::sqrt(square_ / variance_) : nan,
+  return between_replicates(n_ > 0 ? std::sqrt(square_ / variance_) : nan_value,
                             [](const Replicate& r) { return std::sqrt(r.square / r.variance); });
 }
 

@@ -10,7 +10,16 @@
 #include <fstream>
 #include <string>
 
+#include "core/base/check.hpp"
+
 namespace drift::test {
+
+/// Exit codes of the program.
+inline constexpr int usage_error = static_cast<int>(ExitCode::usage),
+                     config_error = static_cast<int>(ExitCode::config),
+                     recording_error = static_cast<int>(ExitCode::recording),
+                     io_error = static_cast<int>(ExitCode::io),
+                     store_error = static_cast<int>(ExitCode::store);
 
 /// What a run of the program answered.
 struct Answer {

@@ -69,13 +69,17 @@ Table gain_table(const Gains& g) {
 
 }  // namespace
 
+std::string_view equation_of_plan(const planning::PlanRanking& rank) {
+  return key_of(rank.groups.front().models.front().model.spec.coupling);
+}
+
 Table improvement_table(const planning::PlanRanking& rank) {
   const planning::Improvement& better = rank.better->improvement;
   Table t(fmt::format("Positions to add, by criterion {}", better.criterion.text),
           "# | name= | axes=<axes | mode=<mode | entry=<entry | case_heading_deg= | hours=hours | "
           "criterion_before=before | criterion_after=after | candidates=candidates",
-          fmt::format("Criterion: {}. Chosen one after the other for {}; {} h added.{}",
-                      in_words(better.criterion.kind), rank.groups.front().filters,
+          fmt::format("Criterion: {}. Chosen one after the other for a filter on {}; {} h added.{}",
+                      in_words(better.criterion.kind), equation_of_plan(rank),
                       number_text(better.added() / hour, 4),
                       better.steps.empty() ? " The gimbals allow no candidate." : ""));
   for (std::size_t i = 0; i < better.steps.size(); ++i) {

@@ -99,6 +99,7 @@ Json improvement_json(const mc::Study& study, const planning::PlanRanking& rank)
         {"after", rank.better->after.parameters[k].posterior_sigma / unit}};
   }
   return {{"criterion", better.criterion.text},
+          {"coupling", equation_of_plan(rank)},
           {"hours_added", better.added() / 3600.0},
           {"bits_before", before.bits},
           {"bits_after", rank.better->after.bits},

@@ -36,6 +36,8 @@ Table ranking_table(const planning::ModelRanking& model, const planning::ModelRa
 /// What each position tells, and what is lost without it.
 Table position_table(const mc::Study& study, const planning::ModelRanking& model);
 /// Positions proposed, with the criterion before and after.
+/// The equation that the proposed positions were chosen for.
+std::string_view equation_of_plan(const planning::PlanRanking& rank);
 Table improvement_table(const planning::PlanRanking& rank);
 /// The proposed positions as TOML: those to append, or, where the plan is a preset, all of them.
 std::string proposed_toml(const mc::Study& study, const planning::PlanRanking& rank);

@@ -1,17 +1,15 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 
 #include "analysis/report/study/sections.hpp"
 #include "analysis/report/svg/curve.hpp"
+#include "core/base/nan.hpp"
 
 namespace drift::report {
 namespace {
 
 using mc::FilterStatistics;
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 std::size_t layout_index(const FilterStatistics& filter, std::size_t param) {
   const auto& params = filter.columns().layout.params;
@@ -61,8 +59,8 @@ Panel scatter_panel(const StudyResults& results, const Pair& pair, std::size_t p
   Series runs = curve("one run", 0);
   Range sigmas;
   for (const mc::Sample& s : filter.samples()[k]) {  // lone dots: a gap after each
-    runs.x.insert(runs.x.end(), {s.sigma / unit, nan});
-    runs.y.insert(runs.y.end(), {s.error / unit, nan});
+    runs.x.insert(runs.x.end(), {s.sigma / unit, nan_value});
+    runs.y.insert(runs.y.end(), {s.error / unit, nan_value});
     sigmas.include(s.sigma / unit);
   }
   if (sigmas.empty()) {
@@ -104,8 +102,8 @@ Panel convergence_panel(const StudyResults& results, const Pair& pair, std::size
         const double error =
             f.history.estimate(k, column) - traced.trace.truth[static_cast<Eigen::Index>(param)];
         s.x.push_back(f.history.t[i] / 3600.0);
-        s.y.push_back(there ? error / unit : nan);
-        s.sigma.push_back(there ? sigma / unit : nan);
+        s.y.push_back(there ? error / unit : nan_value);
+        s.sigma.push_back(there ? sigma / unit : nan_value);
         if (there && i > n / 4) {
           late.include((error + sigma) / unit);
           late.include((error - sigma) / unit);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/base/check.hpp"
+#include "core/recording/recording_channels.hpp"
 #include "core/recording/rows/bridged_mean.hpp"
 
 namespace drift {
@@ -93,12 +94,6 @@ class Joiner {
   std::vector<const Channel*> commands_;
 };
 
-bool read_at_the_end(const Channel& c) {
-  const auto is = [&](std::string_view start) { return c.name.starts_with(start); };
-  return c.name == "time" || c.name == "position" || c.name == "phase" || is("gimbal_") ||
-         is("case_heading") || is("loop_");
-}
-
 /// Of the rows that are there, weighted by time.
 double mean_of(const std::vector<double>& values, const RowSpan& s, const Recording& r,
                const std::vector<double>& time) {
@@ -133,10 +128,11 @@ Recording joined_rows(const Recording& recording, const RowSpacing& spacing,
   for (const Channel& c : recording.channels) {
     Channel joined{c.name, c.unit, {}};
     joined.values.reserve(spans.size());
+    const bool at_the_end = read_at_the_end(c.name);
     const bool accelerometer = c.name.starts_with("acc_");
     for (std::size_t k = 0; k < spans.size(); ++k) {
       const RowSpan& s = spans[k];
-      if (read_at_the_end(c)) {
+      if (at_the_end) {
         joined.values.push_back(c.values[s.end - 1]);
       } else if (accelerometer && s.end > s.first + 1) {
         const BridgedMean mean =

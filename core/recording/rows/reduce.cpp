@@ -12,16 +12,6 @@
 namespace drift {
 namespace {
 
-/// How a channel is carried over.
-enum class Rule { last, mean };
-Rule rule_of(const Channel& c) {
-  const auto is = [&](std::string_view start) { return c.name.starts_with(start); };
-  return c.name == "time" || c.name == "position" || c.name == "phase" || is("gimbal_") ||
-                 is("case_heading") || is("loop_")
-             ? Rule::last
-             : Rule::mean;
-}
-
 /// Rows first..end of one stretch.
 struct Joined {
   std::size_t first = 0, end = 0;
@@ -152,13 +142,12 @@ Recording reduced(const Recording& recording, double interval, std::size_t facto
   for (const Channel& c : recording.channels) {
     Channel reduced_channel{c.name, c.unit, {}};
     reduced_channel.values.reserve(stretches.size());
-    const Rule rule = rule_of(c);
+    const bool at_the_end = read_at_the_end(c.name);
     for (const Joined& s : stretches) {
       // The rows the stretch spans, gaps in time counted; rows cut off by a command are no gap.
       const double expected = std::round((t[s.end - 1] - t[s.first]) / interval) + 1.0;
-      reduced_channel.values.push_back(rule == Rule::last
-                                           ? c.values[s.end - 1]
-                                           : bridged_mean(t, c.values, s, interval, expected));
+      reduced_channel.values.push_back(
+          at_the_end ? c.values[s.end - 1] : bridged_mean(t, c.values, s, interval, expected));
     }
     out.channels.push_back(std::move(reduced_channel));
   }

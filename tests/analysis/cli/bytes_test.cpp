@@ -11,9 +11,6 @@ namespace {
 using namespace drift::test;
 namespace fs = std::filesystem;
 
-constexpr int config_error = static_cast<int>(ExitCode::config);
-constexpr int io_error = static_cast<int>(ExitCode::io);
-
 std::string cheap_study() {
   return text_of(std::string(DRIFT_SOURCE_DIR) + "/configs/cheap.toml");
 }

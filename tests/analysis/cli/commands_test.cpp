@@ -10,11 +10,6 @@ namespace {
 
 using namespace drift::test;
 
-constexpr int config_error = static_cast<int>(ExitCode::config);
-constexpr int recording_error = static_cast<int>(ExitCode::recording);
-constexpr int io_error = static_cast<int>(ExitCode::io);
-constexpr int usage_error = static_cast<int>(ExitCode::usage);
-
 TEST(Program, EveryConfigurationThatIsShippedIsValid) {
   for (const auto& entry :
        std::filesystem::directory_iterator(std::string(DRIFT_SOURCE_DIR) + "/configs")) {

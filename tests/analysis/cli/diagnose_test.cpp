@@ -12,8 +12,6 @@ namespace {
 
 using namespace drift::test;
 
-constexpr int recording_error = static_cast<int>(ExitCode::recording);
-
 /// A case with misalignment, written to a file.
 std::string tilted_case(const ScratchFolder& folder) {
   Theta theta = Theta::Zero();

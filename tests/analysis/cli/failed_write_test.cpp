@@ -9,8 +9,6 @@ namespace {
 using namespace drift::test;
 namespace fs = std::filesystem;
 
-constexpr int io_error = static_cast<int>(ExitCode::io);
-
 void expect_no_temporaries(const std::string& folder) {
   for (const auto& entry : fs::directory_iterator(folder))
     EXPECT_FALSE(is_temporary(entry.path().filename().string())) << entry.path();

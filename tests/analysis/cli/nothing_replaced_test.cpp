@@ -14,10 +14,6 @@ namespace {
 using namespace drift::test;
 namespace fs = std::filesystem;
 
-constexpr int usage_error = static_cast<int>(ExitCode::usage);
-constexpr int store_error = static_cast<int>(ExitCode::store);
-constexpr int io_error = static_cast<int>(ExitCode::io);
-
 /// Every file below a folder with its content; a link as where it leads.
 std::map<std::string, std::string> snapshot(const std::string& folder) {
   std::map<std::string, std::string> files;
