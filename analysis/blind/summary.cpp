@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "core/stats/median.hpp"
 #include "core/stats/normal.hpp"
 
 namespace drift::blind {
@@ -153,12 +154,6 @@ Confusion confusion_of(const Scores& scores) {
   return c;
 }
 
-double median(std::vector<double> v) {
-  if (v.empty()) return std::nan("");
-  std::nth_element(v.begin(), v.begin() + static_cast<long>(v.size() / 2), v.end());
-  return v[v.size() / 2];
-}
-
 stats::Proportion pulls_within(const std::vector<double>& pulls, double limit) {
   const auto k =
       std::count_if(pulls.begin(), pulls.end(), [&](double p) { return std::abs(p) <= limit; });
@@ -242,8 +237,8 @@ Summary summarise(const Scores& scores) {
   }
   std::vector<double> sizes;
   for (const double p : s.pulls) sizes.push_back(std::abs(p));
-  s.pull_rms = 1.4826 * median(sizes);
-  s.largest_bias_median = median(biases);
+  s.pull_rms = 1.4826 * stats::upper_median(sizes);
+  s.largest_bias_median = stats::upper_median(biases);
   s.concealed =
       share(scores, is_effect, [](const TrialScore& t) { return t.key.certificate.concealed; });
   s.power = power_curve(scores);

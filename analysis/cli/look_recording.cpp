@@ -10,6 +10,7 @@
 #include "core/recording/own/csv_cells.hpp"
 #include "core/recording/own/guess.hpp"
 #include "core/recording/rows/quality_card.hpp"
+#include "core/stats/median.hpp"
 
 namespace drift::cli {
 namespace {
@@ -47,9 +48,7 @@ std::optional<double> usual_force(const Recording& r) {
         std::isfinite(f))
       lengths.push_back(f);
   if (lengths.empty()) return std::nullopt;
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  return *middle;
+  return stats::upper_median(std::move(lengths));
 }
 
 void show_positions(const Recording& r) {

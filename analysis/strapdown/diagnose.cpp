@@ -11,6 +11,7 @@
 #include "analysis/strapdown/residuals.hpp"
 #include "analysis/strapdown/where.hpp"
 #include "core/base/check.hpp"
+#include "core/base/nan.hpp"
 
 namespace drift::strapdown {
 namespace {
@@ -18,8 +19,6 @@ namespace {
 using namespace diagnosis;
 using namespace inference;
 using namespace search;
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// The gain of a trial in standard errors: the best of its kinds if it is accepted, the worst if a
 /// loss is why it is rejected.
@@ -43,7 +42,7 @@ const Trial* named(const std::vector<Trial>& trials, std::string_view name,
 /// Gain of the log predictive density of a step over the model it is compared with, in units of the
 /// scatter of the accepted model.
 double log_gain(const Trial& trial, const Trial* against, const Trial* final_trial) {
-  if (against == nullptr || final_trial == nullptr) return none;
+  if (against == nullptr || final_trial == nullptr) return nan_value;
   double gain = 0.0;
   const auto add = [&](const std::optional<Score>& before, const std::optional<Score>& after,
                        const std::optional<Score>& scale, double dof) {
@@ -97,7 +96,7 @@ class Diagnoser {
     closure.T = contest.z * contest.z;
     closure.p_value = family_wise(chance_of_gain(contest.z, contest.eq5.count));
     closure.probability = 1.0;
-    closure.size_sigma = none;
+    closure.size_sigma = nan_value;
     d_.causes.push_back(closure);
     d_.remarks.emplace_back(
         remark::EquationByTurns{contest.eq5.held_out, contest.eq6.held_out, contest.z});
@@ -127,18 +126,18 @@ class Diagnoser {
       const Trial* against = named(part.accelerometer ? r_.accelerometer_trials : r_.gyro_trials,
                                    t->against, equation_);
       c.dof = static_cast<int>(t->parameters - (against ? against->parameters : 0));
-      c.absorbed = c.amplitude = c.smallest_detectable = c.size_sigma = none;
+      c.absorbed = c.amplitude = c.smallest_detectable = c.size_sigma = nan_value;
       c.observable = t->verdict != Verdict::skipped;
       c.score = std::pow(std::max(0.0, gain_of(*t)), 2);
       c.p_marginal = chance_of_gain(gain_of(*t), pairs_of(*t));
       c.p_value = family_wise(c.p_marginal);
       const Trial* last = part.accelerometer ? accelerometer_final() : gyro_final();
       c.log_bayes = log_gain(*t, against, last);
-      c.probability = std::isfinite(c.log_bayes) ? 1.0 / (1.0 + std::exp(-c.log_bayes)) : none;
+      c.probability = std::isfinite(c.log_bayes) ? 1.0 / (1.0 + std::exp(-c.log_bayes)) : nan_value;
       c.adequate = t->verdict == Verdict::accepted && holds(final_->model, part);
       d_.remarks.emplace_back(
           remark::StepJudged{std::string(part.label), std::string(name_of(t->verdict)), t->reason,
-                             t->z_dwell, part.accelerometer ? none : t->z_rotation});
+                             t->z_dwell, part.accelerometer ? nan_value : t->z_rotation});
       d_.candidates.push_back(c);
     }
     std::ranges::stable_sort(d_.candidates, std::greater{}, &CandidateScore::score);

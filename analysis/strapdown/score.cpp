@@ -5,13 +5,13 @@
 #include <limits>
 
 #include "core/base/check.hpp"
+#include "core/base/nan.hpp"
 #include "core/base/rng.hpp"
 #include "core/stats/student.hpp"
 
 namespace drift::strapdown {
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr int resamples = 1000;
 constexpr std::uint32_t bootstrap_stream = 1;  // 0 divides the data into folds
 
@@ -20,7 +20,7 @@ constexpr std::uint32_t bootstrap_stream = 1;  // 0 divides the data into folds
 double root_mean_square(const std::vector<double>& errors) {
   double sum = 0.0;
   for (const double e : errors) sum += e * e;
-  return errors.empty() ? none : std::sqrt(sum / static_cast<double>(errors.size()));
+  return errors.empty() ? nan_value : std::sqrt(sum / static_cast<double>(errors.size()));
 }
 
 Score score_of(const std::vector<double>& in_sample, const std::vector<double>& held_out,
@@ -28,9 +28,9 @@ Score score_of(const std::vector<double>& in_sample, const std::vector<double>& 
   Score score{.count = held_out.size(),
               .in_sample = root_mean_square(in_sample) / unit,
               .held_out = root_mean_square(held_out) / unit,
-              .low = none,
-              .high = none,
-              .median = none,
+              .low = nan_value,
+              .high = nan_value,
+              .median = nan_value,
               .errors = held_out};
   for (double& e : score.errors) e /= unit;
   // A model that cannot predict (NaN) has no order statistics either.

@@ -7,6 +7,7 @@
 
 #include "core/recording/own/recording_unit.hpp"
 #include "core/recording/recording_channels.hpp"
+#include "core/stats/median.hpp"
 
 namespace drift {
 namespace {
@@ -24,12 +25,6 @@ std::optional<ChannelQuantity> quantity_of(const RawColumn& column, const UnitCo
     return ChannelQuantity{"g*s"_unit.dim,
                            "a velocity gained per sample, for example [m/s] or [g*s]", true, 1e5};
   return known_quantity(column.name);
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// A covariate whose unit is not known: a plain number that no term mistakes for its own.
@@ -123,7 +118,7 @@ void make_rates(Recording& recording, double gravity) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < recording.rows(); ++i)
     steps.push_back(time->values[i] - time->values[i - 1]);
-  const double usual = median(steps);
+  const double usual = stats::upper_median(steps);
   if (!(usual > 0.0)) return;
   const auto length = [&](std::size_t row) {
     const double step = row == 0 ? usual : steps[row - 1];
@@ -150,7 +145,7 @@ void check_gravity(const Recording& recording, Problems& problems) {
       lengths.push_back(f);
   constexpr std::size_t enough = 5;  // a handful of rows says nothing
   if (lengths.size() < enough) return;
-  const double f = median(lengths);
+  const double f = stats::upper_median(lengths);
   struct Mistake {
     double factor;
     std::string_view what;

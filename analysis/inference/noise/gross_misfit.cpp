@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "analysis/inference/thresholds.hpp"
+#include "core/stats/median.hpp"
 
 namespace drift::inference {
 
@@ -28,10 +29,9 @@ NoiseEstimate noise_of_differences(const MeasuredRows& rows, const VecX& residua
   constexpr double median_of_square = 0.4549;  // of a standard normal
   NoiseEstimate out;
   for (const int kind : {0, 1}) {
-    auto& s = squares[kind];
+    const auto& s = squares[kind];
     if (s.size() < 10) continue;
-    std::nth_element(s.begin(), s.begin() + s.size() / 2, s.end());
-    const double factor = std::sqrt(std::max(s[s.size() / 2] / median_of_square, 1e-6));
+    const double factor = std::sqrt(std::max(stats::upper_median(s) / median_of_square, 1e-6));
     (kind == 0 ? out.model.acc_factor : out.model.gimbal_factor) = factor;
     // The median has 37 % efficiency, differences about half of the rows' information.
     out.findings.push_back(

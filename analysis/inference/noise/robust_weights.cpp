@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "analysis/inference/thresholds.hpp"
+#include "core/stats/median.hpp"
 
 namespace drift::inference {
 namespace {
@@ -19,9 +20,7 @@ double spread(const MeasuredRows& rows, const VecX& residual, bool accelerometer
     if (rows.tags[static_cast<std::size_t>(k)].accelerometer() == accelerometers)
       sizes.push_back(std::abs(residual[k]));
   if (sizes.empty()) return 1.0;
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  const double sigma = *middle / median_of_size;
+  const double sigma = stats::upper_median(std::move(sizes)) / median_of_size;
   return sigma > SampleLimits::spread ? sigma : 1.0;
 }
 

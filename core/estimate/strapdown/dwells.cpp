@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "core/stats/median.hpp"
+
 namespace drift::strapdown {
 namespace {
 
@@ -100,12 +102,6 @@ Dwell summary(const Signals& s, std::size_t first, std::size_t last) {
   return dwell;
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 struct Run {
   std::size_t first = 0, last = 0;
 };
@@ -126,8 +122,8 @@ Run longest_run(std::size_t from, std::size_t to, auto&& accepts) {
 Run core_of(const Spread& spread, std::size_t first, std::size_t last) {
   const auto limit = [&](const std::vector<double>& s) {
     const auto at = s.begin();
-    return outlying * median({at + static_cast<std::ptrdiff_t>(first),
-                              at + static_cast<std::ptrdiff_t>(last) + 1});
+    return outlying * stats::upper_median({at + static_cast<std::ptrdiff_t>(first),
+                                           at + static_cast<std::ptrdiff_t>(last) + 1});
   };
   const double gyro = limit(spread.gyro), acc = limit(spread.acc);
   return longest_run(first, last,
@@ -141,7 +137,7 @@ void drop_steady_turns(std::vector<Dwell>& dwells, double slow) {
   for (int i = 0; i < 3 && !dwells.empty(); ++i) {
     std::vector<double> rates;
     for (const Dwell& d : dwells) rates.push_back(d.gyro[i]);
-    usual[i] = median(std::move(rates));
+    usual[i] = stats::upper_median(std::move(rates));
   }
   std::erase_if(dwells, [&](const Dwell& d) { return !((d.gyro - usual).norm() <= slow); });
 }

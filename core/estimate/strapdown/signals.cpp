@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/base/check.hpp"
+#include "core/stats/median.hpp"
 
 namespace drift::strapdown {
 namespace {
@@ -71,9 +72,7 @@ Signals signals_of(const Recording& recording) {
   }
   std::vector<double> steps(n - 1);
   for (std::size_t k = 1; k < n; ++k) steps[k - 1] = signals.time[k] - signals.time[k - 1];
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  signals.interval = *middle;
+  signals.interval = stats::upper_median(std::move(steps));
   return signals;
 }
 

@@ -15,6 +15,7 @@
 #include "core/recording/own/text_decoding.hpp"
 #include "core/recording/recording_channels.hpp"
 #include "core/recording/recording_problems.hpp"
+#include "core/stats/median.hpp"
 
 namespace drift {
 namespace {
@@ -71,12 +72,11 @@ std::vector<double> look_at_rows(const std::string& path, GuessedFile& file) {
 /// The unit of accelerations that makes their usual length that of gravity; "?" if none does.
 std::string unit_of_gravity(std::vector<double> lengths) {
   if (lengths.empty()) return "?";
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
+  const double usual = stats::upper_median(std::move(lengths));
   constexpr std::pair<double, std::string_view> sizes[] = {
       {1.0, "g"}, {9.80665, "m/s^2"}, {1e3, "mg"}, {1e6, "ug"}};
   for (const auto& [size, unit] : sizes)
-    if (std::abs(*middle / size - 1.0) < 0.05) return std::string(unit);
+    if (std::abs(usual / size - 1.0) < 0.05) return std::string(unit);
   return "?";
 }
 

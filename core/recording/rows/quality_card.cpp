@@ -9,17 +9,10 @@
 #include "core/recording/recording_channels.hpp"
 #include "core/recording/recording_problems.hpp"
 #include "core/recording/rows/row_spacing.hpp"
+#include "core/stats/median.hpp"
 
 namespace drift {
 namespace {
-
-double median(std::vector<double> values) {
-  if (values.empty()) return nan_value;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1) return *middle;
-  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
-}
 
 /// Intervals and gaps. Every position and phase has its own sample interval; from one position to
 /// the next time may pass.
@@ -41,7 +34,7 @@ void look_at_time(const Recording& r, QualityCard& card) {
     (other ? card.between : card.gaps).push_back({r.lines[row], t[row - 1], spacing.step[row]});
     if (!other) card.lost += spacing.missing(row);
   }
-  card.interval = median(within);
+  card.interval = stats::median(within);
   card.shortest = spacing.shortest;
   card.longest = spacing.longest;
   card.jitter = spacing.jitter;

@@ -8,6 +8,7 @@
 #include "core/base/check.hpp"
 #include "core/recording/recording_channels.hpp"
 #include "core/recording/rows/row_spacing.hpp"
+#include "core/stats/median.hpp"
 
 namespace drift {
 namespace {
@@ -117,9 +118,7 @@ SampleIntervals sample_intervals(const Recording& recording) {
     found.shortest_position = std::min(found.shortest_position, t[end - 1] - t[first]);
   }
   if (steps.empty()) return found;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  found.typical = *middle;
+  found.typical = stats::upper_median(std::move(steps));
   found.shortest_position += found.typical;
   return found;
 }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/stats/median.hpp"
+
 namespace drift {
 namespace {
 
@@ -33,12 +35,6 @@ std::vector<SpacedRows> stretches_of(const Recording& r) {
   return all;
 }
 
-double upper_median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// The usual step around each row of a stretch. Its first row says how far it is from another
 /// stretch, which is no evidence of its own steps.
 void fill_usual(const SpacedRows& s, RowSpacing& out) {
@@ -47,8 +43,8 @@ void fill_usual(const SpacedRows& s, RowSpacing& out) {
     const std::size_t centre = std::max(row, own);
     const std::size_t from = centre - std::min(reach, centre - own);
     const std::size_t to = std::min(s.end, centre + reach + 1);
-    out.usual[row] = upper_median({out.step.begin() + static_cast<std::ptrdiff_t>(from),
-                                   out.step.begin() + static_cast<std::ptrdiff_t>(to)});
+    out.usual[row] = stats::upper_median({out.step.begin() + static_cast<std::ptrdiff_t>(from),
+                                          out.step.begin() + static_cast<std::ptrdiff_t>(to)});
   }
 }
 
@@ -84,7 +80,7 @@ RowSpacing row_spacing(const Recording& recording) {
   std::array<double, 2> of_phase{nan_value, nan_value};
   for (const int phase : {0, 1})
     if (auto steps = steps_of(stretches, phase, out); !steps.empty())
-      of_phase[phase] = upper_median(std::move(steps));
+      of_phase[phase] = stats::upper_median(std::move(steps));
   for (const int phase : {0, 1})
     if (std::isnan(of_phase[phase])) of_phase[phase] = of_phase[1 - phase];
   for (const SpacedRows& s : stretches) {
