@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "analysis/cli/commands.hpp"
+#include "analysis/cli/command.hpp"
 #include "analysis/cli/print.hpp"
 #include "analysis/cli/progress.hpp"
 #include "analysis/cli/read_recordings.hpp"
@@ -37,8 +37,6 @@ ExitCode identify_case(const mc::Study& study, const std::vector<std::string>& p
   return ExitCode::ok;
 }
 
-}  // namespace
-
 ExitCode identify(const StudyArguments& arguments, const std::vector<std::string>& paths,
                   const std::string& folder, std::uint64_t run) {
   const mc::Study study = arguments.read();
@@ -57,6 +55,32 @@ ExitCode identify(const StudyArguments& arguments, const std::vector<std::string
     show("\nWritten to {}: {}\n", folder,
          fmt::join(report::write_identification(said, id, folder), " "));
   return ExitCode::ok;
+}
+
+}  // namespace
+
+Command identify_command() {
+  struct Arguments {
+    StudyArguments study;
+    std::vector<std::string> recordings;
+    std::string output;
+    std::uint64_t run = 0;
+  };
+  const auto add = [](CLI::App& app, Arguments& a) {
+    add_study(app, a.study);
+    app.add_option("recordings", a.recordings,
+                   "recordings (.csv, .h5, .mat); none: simulated from [truth]");
+    add_output(app, a.output, "folder for tables, pictures and report");
+    app.add_option("--run", a.run, "run number of the simulated recording")
+        ->check(whole(0, last_run));
+    add_progress(app, a.study.progress);
+  };
+  return {"identify", group::recordings,
+          "estimate the parameters of a recording, or of a simulated one",
+          "driftscope identify configs/table1.toml -o out/table1",
+          with_arguments<Arguments>(add, [](const Arguments& a) {
+            return identify(a.study, a.recordings, a.output, a.run);
+          })};
 }
 
 }  // namespace drift::cli

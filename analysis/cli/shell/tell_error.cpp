@@ -1,4 +1,4 @@
-#include "analysis/cli/tell_error.hpp"
+#include "analysis/cli/shell/tell_error.hpp"
 
 #include <csignal>
 #include <cstdio>
