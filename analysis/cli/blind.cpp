@@ -55,11 +55,13 @@ Command blind_command() {
     app.add_option("--trials", a.trials, "override blind.trials");
     add_progress(app, a.study.progress);
   };
-  return {"blind", group::studies,
+  return {"blind",
+          group::studies,
           "make recordings with concealed effects, diagnose each without the key, then score",
           "driftscope blind configs/blind_small.toml -o out/blind",
           with_arguments<Arguments>(
-              add, [](const Arguments& a) { return blind(a.study, a.output, a.trials); })};
+              add, [](const Arguments& a) { return blind(a.study, a.output, a.trials); }),
+          Result::in_files};
 }
 
 }  // namespace drift::cli

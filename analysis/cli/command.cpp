@@ -7,7 +7,8 @@ namespace drift::cli {
 void add_study(CLI::App& app, StudyArguments& study) {
   app.add_option("config", study.config, "study file (TOML)")->required();
   app.add_option("--set", study.sets,
-                 "override a value of the study file, e.g. plan.dwell=\"20 min\"")
+                 "override a value of the study file, e.g. plan.dwell=\"20 min\"; KEY+=VALUE adds "
+                 "to a list")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   app.add_option("--seed", study.seed, "override monte_carlo.seed")->check(check_seed);

@@ -12,6 +12,9 @@
 
 namespace drift::cli {
 
+/// Where what was asked for goes: to standard output, or into files.
+enum class Result { printed, in_files };
+
 /// What the program knows of a command. Each command declares itself in its own file; commands.cpp
 /// lists them all.
 struct Command {
@@ -19,6 +22,8 @@ struct Command {
   /// Adds the options to the command's part of the command line; what it returns runs the command
   /// with what was given. Errors are thrown; main() alone turns them into exit codes.
   std::function<std::function<ExitCode()>(CLI::App&)> add;
+  /// Whether all that was asked for is written into files even where no option names them.
+  Result result = Result::printed;
 };
 
 /// The `add` of a command whose arguments are an A. They live as long as the command line, which
@@ -49,6 +54,9 @@ void add_progress(CLI::App& app, std::string& style);
 CLI::Option* add_output(CLI::App& app, std::string& path, const std::string& what);
 /// A results folder of `run`.
 void add_folder(CLI::App& app, std::string& folder);
+
+/// "driftscope 0.1.0 (commit)".
+std::string version_line();
 
 inline constexpr std::uint64_t last_run = 999999999;  ///< monte_carlo.runs is at most 1e9
 /// The check of an option that is a whole number.

@@ -32,7 +32,7 @@ void require_nominal(const mc::Study& study) {
 void finish(const mc::Study& study, const diagnosis::Diagnosis& diagnosis,
             const report::DiagnosisSource& source, const std::string& folder,
             std::vector<std::string> more = {}) {
-  show("{}", report::to_text(diagnosis));
+  show_verdicts(report::to_text(diagnosis));
   if (folder.empty()) return;
   auto files = report::write_results(study, diagnosis, source, folder);
   files.insert(files.end(), more.begin(), more.end());

@@ -31,7 +31,7 @@ ExitCode identify_case(const mc::Study& study, const std::vector<std::string>& p
   const strapdown::StrapdownResult result =
       strapdown::identify_strapdown(recordings.front(), options);
   const report::Report said = report::strapdown_report(study, result);
-  show("{}", report::to_text(said));
+  show_verdicts(report::to_text(said));
   if (!folder.empty())
     show("\nWritten to {}: {}\n", folder, fmt::join(report::write_report(said, folder), " "));
   return ExitCode::ok;
@@ -50,7 +50,7 @@ ExitCode identify(const StudyArguments& arguments, const std::vector<std::string
           : identification::identify_recordings(study, recordings, arguments.threads, progress);
   for (const std::string& remark : id.remarks) say("note: {}\n", remark);
   const report::Report said = report::identification_report(study, id);
-  show("{}", report::to_text(said));
+  show_verdicts(report::to_text(said));
   if (!folder.empty())
     show("\nWritten to {}: {}\n", folder,
          fmt::join(report::write_identification(said, id, folder), " "));

@@ -133,7 +133,7 @@ ExitCode export_results(const std::string& folder, const std::string& format,
   const auto [study, work] = frozen_study(folder, reader, program);
   require_output_file(target, {}, other_than(reader.manifest().hash));
   const mc::StudyState state = mc::state_of(reader, work.stop_rules);
-  for (const std::string& note : reader.notes()) say("damage: {}\n", note);
+  for (const std::string& note : reader.notes()) complain("damage: {}\n", note);
   if (state.lost > 0 || (!state.all() && !reader.notes().empty()))
     throw InputError(
         ExitCode::store,

@@ -200,10 +200,13 @@ Command run_command() {
                  "say what would be done and how long it takes, write nothing");
     app.add_flag("--fail-fast", a.run.fail_fast, "stop at the first run that fails");
   };
-  return {"run", group::studies, "the Monte Carlo study of a file; the same command again resumes",
+  return {"run",
+          group::studies,
+          "the Monte Carlo study of a file; the same command again resumes",
           "driftscope run configs/study.toml -o out/study --max-wall 55m",
           with_arguments<Arguments>(
-              add, [](const Arguments& a) { return run(a.study, a.run, study_program()); })};
+              add, [](const Arguments& a) { return run(a.study, a.run, study_program()); }),
+          Result::in_files};
 }
 
 }  // namespace drift::cli

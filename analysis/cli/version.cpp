@@ -1,6 +1,6 @@
 #include <nlohmann/json.hpp>
 
-#include "analysis/cli/commands.hpp"
+#include "analysis/cli/command.hpp"
 #include "analysis/cli/print.hpp"
 #include "core/base/build_info.hpp"
 #include "core/base/rng.hpp"

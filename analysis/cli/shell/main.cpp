@@ -3,10 +3,11 @@
 #include <exception>
 #include <sstream>
 
-#include "analysis/cli/commands.hpp"
 #include "analysis/cli/print.hpp"
+#include "analysis/cli/shell/commands.hpp"
 #include "analysis/cli/shell/not_known.hpp"
 #include "analysis/cli/shell/tell_error.hpp"
+#include "analysis/cli/shell/terminal_options.hpp"
 
 namespace {
 
@@ -19,6 +20,7 @@ class Program {
     app_.require_subcommand(1);
     app_.get_formatter()->column_width(34);
     app_.set_version_flag("--version", cli::version_line());
+    cli::add_terminal_options(app_, terminal_);
     for (const cli::Command& command : cli::commands()) add(command);
   }
 
@@ -28,13 +30,13 @@ class Program {
     } catch (const CLI::ParseError& e) {
       if (const std::string wrong = e.get_exit_code() == 0 ? "" : cli::not_known(app_, argc, argv);
           !wrong.empty()) {
-        cli::say("error: {}\n", wrong);
+        cli::complain("error: {}\n", wrong);
         return static_cast<int>(ExitCode::usage);
       }
       std::ostringstream out, err;
       const int code = app_.exit(e, out, err);
       cli::show_text(out.str());
-      cli::say_text(err.str());
+      cli::complain_text(err.str());
       return code == 0 ? 0 : static_cast<int>(ExitCode::usage);
     }
     const ExitCode code = chosen_();
@@ -47,10 +49,15 @@ class Program {
     CLI::App* app = app_.add_subcommand(std::string(command.name), std::string(command.what));
     app->group(std::string(command.group));
     app->footer(fmt::format("Example: {}", command.example));
-    app->callback([this, run = command.add(*app)] { chosen_ = run; });
+    app->callback([this, app, run = command.add(*app), result = command.result] {
+      cli::set_terminal(cli::terminal_of(terminal_, *app, result));
+      chosen_ = run;
+    });
+    cli::add_terminal_options(*app, terminal_);
   }
 
   CLI::App app_{"driftscope: Monte Carlo observability engine for gimballed inertial platforms"};
+  cli::TerminalOptions terminal_;
   std::function<ExitCode()> chosen_;
 };
 

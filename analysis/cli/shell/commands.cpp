@@ -1,4 +1,4 @@
-#include "analysis/cli/commands.hpp"
+#include "analysis/cli/shell/commands.hpp"
 
 namespace drift::cli {
 
@@ -18,13 +18,15 @@ Command replay_command();
 Command report_command();
 Command export_command();
 Command blind_command();
+Command help_command();
 Command version_command();
 
 std::vector<Command> commands() {
-  return {check_command(),  simulate_command(), rank_command(),     terms_command(),
-          look_command(),   convert_command(),  identify_command(), diagnose_command(),
-          run_command(),    status_command(),   verify_command(),   replay_command(),
-          report_command(), export_command(),   blind_command(),    version_command()};
+  return {check_command(),  simulate_command(),   rank_command(),     terms_command(),
+          look_command(),   convert_command(),    identify_command(), diagnose_command(),
+          run_command(),    status_command(),     verify_command(),   replay_command(),
+          report_command(), export_command(),     blind_command(),    help_command(),
+          version_command()};
 }
 
 }  // namespace drift::cli
