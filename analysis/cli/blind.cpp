@@ -1,7 +1,7 @@
 #include "analysis/blind/blind_study.hpp"
 #include "analysis/blind/diagnosing_solver.hpp"
 #include "analysis/blind/seal.hpp"
-#include "analysis/cli/commands.hpp"
+#include "analysis/cli/command.hpp"
 #include "analysis/cli/print.hpp"
 #include "analysis/cli/progress.hpp"
 #include "analysis/cli/stop_at_once.hpp"
@@ -9,6 +9,7 @@
 #include "core/base/results_folder.hpp"
 
 namespace drift::cli {
+namespace {
 
 ExitCode blind(const StudyArguments& arguments, const std::string& folder,
                const std::optional<std::string>& trials) {
@@ -37,6 +38,30 @@ ExitCode blind(const StudyArguments& arguments, const std::string& folder,
   show("\nWritten to {}: {}\n", folder, fmt::join(report::write_report(said, folder), " "));
   return results.summary.failed > study.monte_carlo.allowed_failures ? ExitCode::failed_runs
                                                                      : ExitCode::ok;
+}
+
+}  // namespace
+
+Command blind_command() {
+  struct Arguments {
+    StudyArguments study;
+    std::string output;
+    std::optional<std::string> trials;
+  };
+  const auto add = [](CLI::App& app, Arguments& a) {
+    add_study(app, a.study);
+    add_output(app, a.output, "folder for trials, key, answers and report; the same one resumes")
+        ->required();
+    app.add_option("--trials", a.trials, "override blind.trials");
+    add_progress(app, a.study.progress);
+  };
+  return {"blind",
+          group::studies,
+          "make recordings with concealed effects, diagnose each without the key, then score",
+          "driftscope blind configs/blind_small.toml -o out/blind",
+          with_arguments<Arguments>(
+              add, [](const Arguments& a) { return blind(a.study, a.output, a.trials); }),
+          Result::in_files};
 }
 
 }  // namespace drift::cli

@@ -1,28 +1,11 @@
 #include <algorithm>
 
-#include "analysis/cli/commands.hpp"
+#include "analysis/cli/command.hpp"
 #include "analysis/cli/print.hpp"
 #include "core/plan/plan_memory.hpp"
 
 namespace drift::cli {
-
-mc::Overrides StudyArguments::overrides() const {
-  mc::Overrides overrides;
-  for (const std::string& text : sets) {
-    const auto equals = text.find('=');
-    if (equals == std::string::npos || equals == 0)
-      throw InputError(ExitCode::usage, fmt::format("--set {}: expected key=value, for example "
-                                                    "--set plan.dwell=\"20 min\"",
-                                                    text));
-    overrides.emplace_back(text.substr(0, equals), text.substr(equals + 1));
-  }
-  if (seed) overrides.emplace_back("monte_carlo.seed", *seed);
-  return overrides;
-}
-
-mc::Study StudyArguments::read() const {
-  return mc::read_study(config, overrides());
-}
+namespace {
 
 ExitCode check(const StudyArguments& arguments) {
   const mc::Study study = arguments.read();
@@ -36,6 +19,16 @@ ExitCode check(const StudyArguments& arguments) {
   for (const mc::Resolved& r : study.resolved)
     show("{:<{}}  {:<{}}  {}\n", r.key, key_width, r.value, value_width, r.origin);
   return ExitCode::ok;
+}
+
+}  // namespace
+
+Command check_command() {
+  const auto add = [](CLI::App& app, StudyArguments& study) { add_study(app, study); };
+  return {"check", group::plans,
+          "read a study file, print all values and where each came from, run nothing",
+          "driftscope check configs/table1.toml --set plan.dwell=\"20 min\"",
+          with_arguments<StudyArguments>(add, check)};
 }
 
 }  // namespace drift::cli

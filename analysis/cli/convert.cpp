@@ -1,4 +1,4 @@
-#include "analysis/cli/commands.hpp"
+#include "analysis/cli/command.hpp"
 #include "analysis/cli/print.hpp"
 #include "core/base/output_file.hpp"
 #include "core/base/utf8.hpp"
@@ -7,7 +7,9 @@
 #include "core/recording/rows/quality_card.hpp"
 
 namespace drift::cli {
+namespace {
 
+/// Writes the recording with the program's own columns and units.
 ExitCode convert(const StudyArguments& arguments, const std::string& recording,
                  const std::string& output) {
   const mc::Study study = arguments.read();
@@ -25,6 +27,25 @@ ExitCode convert(const StudyArguments& arguments, const std::string& recording,
   r.source = output;
   show("{}", to_text(quality_card(r, study.kind)));
   return ExitCode::ok;
+}
+
+}  // namespace
+
+Command convert_command() {
+  struct Arguments {
+    StudyArguments study;
+    std::string recording, output;
+  };
+  const auto add = [](CLI::App& app, Arguments& a) {
+    add_study(app, a.study);
+    app.add_option("recording", a.recording, "recording (.csv, .txt, .h5, .mat)")->required();
+    add_output(app, a.output, "recording to write (.csv, .h5 or .mat)")->required();
+  };
+  return {"convert", group::recordings,
+          "a recording of your own with the program's columns and units",
+          "driftscope convert lab.toml log.txt -o recording.csv",
+          with_arguments<Arguments>(
+              add, [](const Arguments& a) { return convert(a.study, a.recording, a.output); })};
 }
 
 }  // namespace drift::cli

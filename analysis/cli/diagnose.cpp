@@ -6,7 +6,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "analysis/cli/commands.hpp"
+#include "analysis/cli/argument_checks.hpp"
+#include "analysis/cli/command.hpp"
 #include "analysis/cli/print.hpp"
 #include "analysis/cli/progress.hpp"
 #include "analysis/cli/read_recordings.hpp"
@@ -31,7 +32,7 @@ void require_nominal(const mc::Study& study) {
 void finish(const mc::Study& study, const diagnosis::Diagnosis& diagnosis,
             const report::DiagnosisSource& source, const std::string& folder,
             std::vector<std::string> more = {}) {
-  show("{}", report::to_text(diagnosis));
+  show_verdicts(report::to_text(diagnosis));
   if (folder.empty()) return;
   auto files = report::write_results(study, diagnosis, source, folder);
   files.insert(files.end(), more.begin(), more.end());
@@ -81,8 +82,8 @@ ExitCode diagnose_platform(const StudyArguments& arguments, const mc::Study& stu
   return ExitCode::ok;
 }
 
-}  // namespace
-
+/// advise: terms to be told apart by further positions; empty: what the verdict suggests; not
+/// given: only where the verdict needs it.
 ExitCode diagnose(const StudyArguments& arguments, const std::vector<std::string>& paths,
                   const std::string& folder,
                   const std::optional<std::vector<std::string>>& advise) {
@@ -98,6 +99,41 @@ ExitCode diagnose(const StudyArguments& arguments, const std::vector<std::string
   return study.kind == RecordingKind::strapdown
              ? diagnose_case(arguments, study, paths, folder)
              : diagnose_platform(arguments, study, paths, folder, advise);
+}
+
+}  // namespace
+
+Command diagnose_command() {
+  struct Arguments {
+    StudyArguments study;
+    std::vector<std::string> recordings;
+    std::string output;
+    CLI::Option* advise_option = nullptr;
+    std::string advise;
+  };
+  const auto add = [](CLI::App& app, Arguments& a) {
+    add_study(app, a.study);
+    app.add_option("recordings", a.recordings, "recordings of the study's plan (.csv, .h5, .mat)")
+        ->required();
+    add_output(app, a.output, "folder for diagnosis.json, report, pictures and patched.toml");
+    a.advise_option =
+        app.add_option("--advise", a.advise,
+                       "which further positions would tell these terms apart and from the nominal "
+                       "model; without terms: what the verdict suggests")
+            ->type_name("[TERM,...]")
+            ->expected(0, 1)
+            ->check(check_no_file);
+    add_progress(app, a.study.progress);
+  };
+  const auto run = [](const Arguments& a) {
+    std::optional<std::vector<std::string>> advise;
+    if (a.advise_option->count() > 0) advise = list_of(a.advise);
+    return diagnose(a.study, a.recordings, a.output, advise);
+  };
+  return {"diagnose", group::recordings,
+          "locate a mismatch, name the physics left out, model it, show the fit improve",
+          "driftscope diagnose configs/diagnose_xsens.toml recording.csv -o out/diagnosis",
+          with_arguments<Arguments>(add, run)};
 }
 
 }  // namespace drift::cli

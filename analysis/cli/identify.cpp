@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "analysis/cli/commands.hpp"
+#include "analysis/cli/command.hpp"
 #include "analysis/cli/print.hpp"
 #include "analysis/cli/progress.hpp"
 #include "analysis/cli/read_recordings.hpp"
@@ -31,13 +31,11 @@ ExitCode identify_case(const mc::Study& study, const std::vector<std::string>& p
   const strapdown::StrapdownResult result =
       strapdown::identify_strapdown(recordings.front(), options);
   const report::Report said = report::strapdown_report(study, result);
-  show("{}", report::to_text(said));
+  show_verdicts(report::to_text(said));
   if (!folder.empty())
     show("\nWritten to {}: {}\n", folder, fmt::join(report::write_report(said, folder), " "));
   return ExitCode::ok;
 }
-
-}  // namespace
 
 ExitCode identify(const StudyArguments& arguments, const std::vector<std::string>& paths,
                   const std::string& folder, std::uint64_t run) {
@@ -52,11 +50,37 @@ ExitCode identify(const StudyArguments& arguments, const std::vector<std::string
           : identification::identify_recordings(study, recordings, arguments.threads, progress);
   for (const std::string& remark : id.remarks) say("note: {}\n", remark);
   const report::Report said = report::identification_report(study, id);
-  show("{}", report::to_text(said));
+  show_verdicts(report::to_text(said));
   if (!folder.empty())
     show("\nWritten to {}: {}\n", folder,
          fmt::join(report::write_identification(said, id, folder), " "));
   return ExitCode::ok;
+}
+
+}  // namespace
+
+Command identify_command() {
+  struct Arguments {
+    StudyArguments study;
+    std::vector<std::string> recordings;
+    std::string output;
+    std::uint64_t run = 0;
+  };
+  const auto add = [](CLI::App& app, Arguments& a) {
+    add_study(app, a.study);
+    app.add_option("recordings", a.recordings,
+                   "recordings (.csv, .h5, .mat); none: simulated from [truth]");
+    add_output(app, a.output, "folder for tables, pictures and report");
+    app.add_option("--run", a.run, "run number of the simulated recording")
+        ->check(whole(0, last_run));
+    add_progress(app, a.study.progress);
+  };
+  return {"identify", group::recordings,
+          "estimate the parameters of a recording, or of a simulated one",
+          "driftscope identify configs/table1.toml -o out/table1",
+          with_arguments<Arguments>(add, [](const Arguments& a) {
+            return identify(a.study, a.recordings, a.output, a.run);
+          })};
 }
 
 }  // namespace drift::cli

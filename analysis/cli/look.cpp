@@ -2,11 +2,12 @@
 
 #include <filesystem>
 
-#include "analysis/cli/commands.hpp"
+#include "analysis/cli/command.hpp"
 #include "analysis/cli/frozen_study.hpp"
 #include "analysis/cli/print.hpp"
 #include "analysis/cli/run_options.hpp"
 #include "analysis/cli/run_progress.hpp"
+#include "analysis/cli/study_program.hpp"
 #include "core/base/output_file.hpp"
 #include "mc/engine/replay.hpp"
 #include "mc/export/export_hdf5.hpp"
@@ -53,8 +54,6 @@ Stranger other_than(const std::string& hash) {
     return known.empty() ? "no export" : "the export of another study";
   };
 }
-
-}  // namespace
 
 ExitCode status(const std::string& folder, const StudyProgram& program) {
   mc::StudyReader reader(folder);
@@ -134,7 +133,7 @@ ExitCode export_results(const std::string& folder, const std::string& format,
   const auto [study, work] = frozen_study(folder, reader, program);
   require_output_file(target, {}, other_than(reader.manifest().hash));
   const mc::StudyState state = mc::state_of(reader, work.stop_rules);
-  for (const std::string& note : reader.notes()) say("damage: {}\n", note);
+  for (const std::string& note : reader.notes()) complain("damage: {}\n", note);
   if (state.lost > 0 || (!state.all() && !reader.notes().empty()))
     throw InputError(
         ExitCode::store,
@@ -156,6 +155,52 @@ ExitCode export_results(const std::string& folder, const std::string& format,
   show("{}: {} runs, {:.3g} MB\n", target, state.runs, megabytes({target}));
   if (!groups.empty()) show("groups: {}\n", fmt::join(groups, " "));
   return ExitCode::ok;
+}
+
+}  // namespace
+
+Command status_command() {
+  return {"status", group::studies, "how far a study is: runs, failures, sessions, disk",
+          "driftscope status results/study",
+          with_arguments<std::string>(add_folder, [](const std::string& folder) {
+            return status(folder, study_program());
+          })};
+}
+
+Command verify_command() {
+  struct Arguments {
+    std::string folder, sample = "1%";
+    int threads = 0;
+  };
+  const auto add = [](CLI::App& app, Arguments& a) {
+    add_folder(app, a.folder);
+    app.add_option("--sample", a.sample, "share of the runs to execute again, 1% by default")
+        ->type_name("SHARE");
+    add_threads(app, a.threads);
+  };
+  return {"verify", group::studies, "check every checksum and execute some runs again",
+          "driftscope verify results/study --sample 5%",
+          with_arguments<Arguments>(add, [](const Arguments& a) {
+            return verify(a.folder, a.sample, a.threads, study_program());
+          })};
+}
+
+Command export_command() {
+  struct Arguments {
+    std::string folder, format, output;
+  };
+  const auto add = [](CLI::App& app, Arguments& a) {
+    add_folder(app, a.folder);
+    app.add_option("--format", a.format, "hdf5, csv or json")
+        ->required()
+        ->check(CLI::IsMember({"hdf5", "csv", "json"}));
+    add_output(app, a.output, "file to write; FOLDER/export.h5, .csv or .json by default");
+  };
+  return {"export", group::studies, "convert the results",
+          "driftscope export results/study --format hdf5",
+          with_arguments<Arguments>(add, [](const Arguments& a) {
+            return export_results(a.folder, a.format, a.output, study_program());
+          })};
 }
 
 }  // namespace drift::cli

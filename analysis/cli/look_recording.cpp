@@ -4,7 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "analysis/cli/commands.hpp"
+#include "analysis/cli/command.hpp"
 #include "analysis/cli/print.hpp"
 #include "core/estimate/strapdown/dwells.hpp"
 #include "core/recording/own/csv_cells.hpp"
@@ -136,8 +136,7 @@ ExitCode look_without_study(const std::string& path) {
   return ExitCode::ok;
 }
 
-}  // namespace
-
+/// Says what a file holds, with a study file or with none (config empty).
 ExitCode look(const StudyArguments& arguments, const std::string& recording) {
   if (arguments.config.empty()) return look_without_study(recording);
   const mc::Study study = arguments.read();
@@ -145,6 +144,23 @@ ExitCode look(const StudyArguments& arguments, const std::string& recording) {
                  study.kind, study.static_min);
   show_commands(recording, study.kind);
   return ExitCode::ok;
+}
+
+}  // namespace
+
+Command look_command() {
+  struct Arguments {
+    StudyArguments study;
+    std::string recording;
+  };
+  const auto add = [](CLI::App& app, Arguments& a) {
+    app.add_option("recording", a.recording, "recording (.csv, .txt, .h5, .mat)")->required();
+    app.add_option("config", a.study.config, "study file (TOML) to read it with");
+  };
+  return {"look", group::recordings, "what a file holds, and how to read it as a recording",
+          "driftscope look log.txt", with_arguments<Arguments>(add, [](const Arguments& a) {
+            return look(a.study, a.recording);
+          })};
 }
 
 }  // namespace drift::cli

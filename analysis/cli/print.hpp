@@ -13,13 +13,30 @@ struct OutputLost : std::system_error {
   using std::system_error::system_error;
 };
 
+/// What of the program's words reaches whom.
+struct Terminal {
+  enum class Shown { yes, no };
+  Shown results = Shown::yes;  ///< what show() prints
+  Shown remarks = Shown::yes;  ///< what say() prints
+  Shown colour = Shown::no;    ///< of verdicts
+};
+
+/// Set once, before a command runs.
+void set_terminal(const Terminal& terminal);
+
 /// Results, to standard output. What names and titles bring along is shown, not obeyed: control
 /// characters and bytes that are not UTF-8 appear as \xNN. OutputLost if it takes no more.
 void show_text(std::string_view text);
 
+/// Results with a verdict in them, which has a colour where the terminal shows one.
+void show_verdicts(std::string_view text);
+
 /// Everything else, to standard error, in the same way; lines beyond all measure are shortened. If
 /// nobody takes it, the work goes on all the same.
 void say_text(std::string_view text);
+
+/// Errors: as say_text(), but never silenced.
+void complain_text(std::string_view text);
 
 template <class... A>
 void show(fmt::format_string<A...> text, A&&... arguments) {
@@ -29,6 +46,11 @@ void show(fmt::format_string<A...> text, A&&... arguments) {
 template <class... A>
 void say(fmt::format_string<A...> text, A&&... arguments) {
   say_text(fmt::format(text, std::forward<A>(arguments)...));
+}
+
+template <class... A>
+void complain(fmt::format_string<A...> text, A&&... arguments) {
+  complain_text(fmt::format(text, std::forward<A>(arguments)...));
 }
 
 /// Brings what was printed out of the program. OutputLost.

@@ -5,15 +5,23 @@
 #include <cstring>
 #include <fstream>
 
-#include "analysis/cli/commands.hpp"
+#include "analysis/cli/argument_checks.hpp"
+#include "analysis/cli/command.hpp"
 #include "analysis/cli/frozen_study.hpp"
 #include "analysis/cli/print.hpp"
+#include "analysis/cli/study_program.hpp"
 #include "core/base/atomic_file.hpp"
 #include "core/base/output_file.hpp"
 #include "mc/export/export_text.hpp"
 
 namespace drift::cli {
 namespace {
+
+/// Which run of which study point.
+struct RunChoice {
+  std::uint64_t run = 0;
+  std::size_t point = 0;
+};
 
 std::string first_line(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
@@ -86,8 +94,6 @@ void print_row(const std::vector<mc::Column>& columns, const mc::Replay& r) {
   }
 }
 
-}  // namespace
-
 ExitCode replay(const std::string& folder, const RunChoice& choice, const std::string& trace,
                 const StudyProgram& program) {
   mc::StudyReader reader(folder);
@@ -131,6 +137,27 @@ ExitCode replay(const std::string& folder, const RunChoice& choice, const std::s
                     folder, choice.run, mc::name(r.stored_status)));
   }
   return ExitCode::ok;
+}
+
+}  // namespace
+
+Command replay_command() {
+  struct Arguments {
+    std::string folder, trace;
+    RunChoice choice;
+  };
+  const auto add = [](CLI::App& app, Arguments& a) {
+    add_folder(app, a.folder);
+    app.add_option("--run", a.choice.run, "run number")->required()->check(whole(0, last_run));
+    app.add_option("--point", a.choice.point, "study point of a sweep, from 0")
+        ->check(whole(0, last_run));
+    app.add_option("--trace", a.trace, "write the course of the run as CSV")->check(check_path);
+  };
+  return {"replay", group::studies, "execute one run again, bit for bit",
+          "driftscope replay results/study --run 17 --trace run17.csv",
+          with_arguments<Arguments>(add, [](const Arguments& a) {
+            return replay(a.folder, a.choice, a.trace, study_program());
+          })};
 }
 
 }  // namespace drift::cli

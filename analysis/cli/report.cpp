@@ -1,11 +1,13 @@
 #include <filesystem>
 
-#include "analysis/cli/commands.hpp"
+#include "analysis/cli/command.hpp"
 #include "analysis/cli/frozen_study.hpp"
 #include "analysis/cli/print.hpp"
+#include "analysis/cli/study_program.hpp"
 #include "core/base/results_folder.hpp"
 
 namespace drift::cli {
+namespace {
 
 ExitCode report(const std::string& folder, const StudyProgram& program) {
   const std::string command = results_of(folder);
@@ -31,6 +33,17 @@ ExitCode report(const std::string& folder, const StudyProgram& program) {
                     folder, command, command));
   show("{}\n", file);
   return ExitCode::ok;
+}
+
+}  // namespace
+
+Command report_command() {
+  return {"report", group::studies,
+          "the HTML report of a results folder; of a study made anew, finished or not",
+          "driftscope report results/study",
+          with_arguments<std::string>(add_folder, [](const std::string& folder) {
+            return report(folder, study_program());
+          })};
 }
 
 }  // namespace drift::cli

@@ -4,11 +4,12 @@
 #include <filesystem>
 #include <limits>
 
-#include "analysis/cli/commands.hpp"
+#include "analysis/cli/command.hpp"
 #include "analysis/cli/frozen_study.hpp"
 #include "analysis/cli/print.hpp"
 #include "analysis/cli/run_options.hpp"
 #include "analysis/cli/run_progress.hpp"
+#include "analysis/cli/study_program.hpp"
 #include "core/base/results_folder.hpp"
 #include "mc/engine/batch_system.hpp"
 #include "mc/engine/engine.hpp"
@@ -17,6 +18,16 @@
 
 namespace drift::cli {
 namespace {
+
+/// What `run` takes beside a study.
+struct RunArguments {
+  std::string folder;  ///< empty: results/<name of the study file>
+  std::optional<std::uint64_t> runs;
+  std::string worker;    ///< "i/n"
+  std::string max_wall;  ///< "55m"
+  bool dry_run = false;
+  bool fail_fast = false;
+};
 
 std::string default_folder(const std::string& config) {
   return "results/" + std::filesystem::path(config).stem().string();
@@ -106,8 +117,6 @@ void list_failures(mc::StudyReader& reader, const mc::StopRules& rules, const st
         count - most, folder);
 }
 
-}  // namespace
-
 ExitCode run(const StudyArguments& arguments, const RunArguments& given,
              const StudyProgram& program) {
   mc::Overrides overrides = arguments.overrides();
@@ -166,6 +175,38 @@ ExitCode run(const StudyArguments& arguments, const RunArguments& given,
   if (outcome.code == ExitCode::ok || outcome.code == ExitCode::failed_runs)
     program.present(study, work, reader, folder);
   return outcome.code;
+}
+
+}  // namespace
+
+Command run_command() {
+  struct Arguments {
+    StudyArguments study;
+    RunArguments run;
+  };
+  const auto add = [](CLI::App& app, Arguments& a) {
+    add_study(app, a.study);
+    add_progress(app, a.study.progress);
+    add_output(app, a.run.folder, "results folder; results/<name of the study file> by default");
+    app.add_option("--runs", a.run.runs,
+                   "override monte_carlo.runs; more than before extends a study")
+        ->check(whole(1, 1000000000));
+    app.add_option("--worker", a.run.worker,
+                   "do part i of n of the study, i = 0 .. n - 1; auto: what Slurm, SGE or PBS says")
+        ->type_name("I/N|auto");
+    app.add_option("--max-wall", a.run.max_wall, "stop after this time, resumable: 55m, 1h30m")
+        ->type_name("TIME");
+    app.add_flag("--dry-run", a.run.dry_run,
+                 "say what would be done and how long it takes, write nothing");
+    app.add_flag("--fail-fast", a.run.fail_fast, "stop at the first run that fails");
+  };
+  return {"run",
+          group::studies,
+          "the Monte Carlo study of a file; the same command again resumes",
+          "driftscope run configs/study.toml -o out/study --max-wall 55m",
+          with_arguments<Arguments>(
+              add, [](const Arguments& a) { return run(a.study, a.run, study_program()); }),
+          Result::in_files};
 }
 
 }  // namespace drift::cli

@@ -1,6 +1,6 @@
 #include "core/sim/simulate.hpp"
 
-#include "analysis/cli/commands.hpp"
+#include "analysis/cli/command.hpp"
 #include "analysis/cli/print.hpp"
 #include "core/base/output_file.hpp"
 #include "core/base/utf8.hpp"
@@ -18,8 +18,6 @@ void add_facts(Recording& recording, const mc::Study& study, std::uint64_t run) 
                      {"run", std::to_string(run)},
                      {"random_numbers", Stream::scheme}};
 }
-
-}  // namespace
 
 ExitCode simulate(const StudyArguments& arguments, const std::string& output, std::uint64_t run) {
   const mc::Study study = arguments.read();
@@ -56,6 +54,25 @@ ExitCode simulate(const StudyArguments& arguments, const std::string& output, st
   recording.source = output;
   show("{}", to_text(quality_card(recording, RecordingKind::platform)));
   return ExitCode::ok;
+}
+
+}  // namespace
+
+Command simulate_command() {
+  struct Arguments {
+    StudyArguments study;
+    std::string output;
+    std::uint64_t run = 0;
+  };
+  const auto add = [](CLI::App& app, Arguments& a) {
+    add_study(app, a.study);
+    add_output(app, a.output, "recording to write (.csv, .h5 or .mat)")->required();
+    app.add_option("--run", a.run, "run number")->check(whole(0, last_run));
+  };
+  return {"simulate", group::plans, "one recording from the truth of a study file",
+          "driftscope simulate configs/table1.toml -o recording.csv --run 3",
+          with_arguments<Arguments>(
+              add, [](const Arguments& a) { return simulate(a.study, a.output, a.run); })};
 }
 
 }  // namespace drift::cli

@@ -1,4 +1,4 @@
-#include "analysis/cli/commands.hpp"
+#include "analysis/cli/command.hpp"
 #include "analysis/cli/print.hpp"
 #include "core/config/nearest.hpp"
 #include "core/physics/term_library.hpp"
@@ -60,8 +60,6 @@ void explain(const TermInfo& term) {
   }
 }
 
-}  // namespace
-
 ExitCode terms(const std::string& key) {
   if (key.empty()) {
     show("{:<26} {:>3}  {}\n", "term", "par", "equation");
@@ -86,6 +84,16 @@ ExitCode terms(const std::string& key) {
                    fmt::format("terms: no term or parameter '{}'. {} `driftscope terms` "
                                "lists all",
                                key, config::suggestion(key, known, "See the list:")));
+}
+
+}  // namespace
+
+Command terms_command() {
+  const auto add = [](CLI::App& app, std::string& key) {
+    app.add_option("key", key, "a term or a parameter");
+  };
+  return {"terms", group::plans, "list the physics terms, or explain one",
+          "driftscope terms gyro_misalignment", with_arguments<std::string>(add, terms)};
 }
 
 }  // namespace drift::cli

@@ -1,6 +1,6 @@
 #include <nlohmann/json.hpp>
 
-#include "analysis/cli/commands.hpp"
+#include "analysis/cli/command.hpp"
 #include "analysis/cli/print.hpp"
 #include "core/base/build_info.hpp"
 #include "core/base/rng.hpp"
@@ -23,12 +23,6 @@ nlohmann::ordered_json facts() {
   return j;
 }
 
-}  // namespace
-
-std::string version_line() {
-  return fmt::format("driftscope {} ({})", build_info().version, build_info().commit);
-}
-
 ExitCode version(bool json) {
   const auto j = facts();
   if (json) {
@@ -42,6 +36,22 @@ ExitCode version(bool json) {
   list(j);
   list(j["libraries"]);
   return ExitCode::ok;
+}
+
+}  // namespace
+
+std::string version_line() {
+  return fmt::format("driftscope {} ({})", build_info().version, build_info().commit);
+}
+
+Command version_command() {
+  struct Arguments {
+    bool json = false;
+  };
+  const auto add = [](CLI::App& app, Arguments& a) { app.add_flag("--json", a.json, "as JSON"); };
+  return {"version", group::program, "program, libraries, compiler, instruction set",
+          "driftscope version --json",
+          with_arguments<Arguments>(add, [](const Arguments& a) { return version(a.json); })};
 }
 
 }  // namespace drift::cli

@@ -70,9 +70,8 @@ Node& element(Node& list, const std::string& part, const std::string& key) {
   return list.items[index];
 }
 
-}  // namespace
-
-void apply_override(Node& root, const std::string& key, std::string_view value) {
+/// The node that a key leads to; what is missing on the way is made, as tables.
+Node& node_of(Node& root, const std::string& key) {
   const auto parts = split(key);
   Node* at = &root;
   for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -96,7 +95,38 @@ void apply_override(Node& root, const std::string& key, std::string_view value) 
     }
     at = next;
   }
-  *at = parse_value(value, key);
+  return *at;
+}
+
+/// The list that a key leads to; null if the tree has none there.
+Node* list_of(Node& root, const std::string& key) {
+  Node* at = &root;
+  for (const std::string& part : split(key)) {
+    at =
+        at->is(Node::Kind::array) && !at->items.empty() ? &element(*at, part, key) : at->find(part);
+    if (at == nullptr) return nullptr;
+  }
+  return at;
+}
+
+}  // namespace
+
+void apply_override(Node& root, const std::string& key, std::string_view value) {
+  node_of(root, key) = parse_value(value, key);
+}
+
+void apply_addition(Node& root, const std::string& key, std::string_view value) {
+  Node* list = list_of(root, key);
+  if (list == nullptr)
+    refuse(key, fmt::format("nothing stands there that could be added to (expected a list in the "
+                            "study file). Write the whole list: --set '{}=[\"a\", \"b\"]'",
+                            key));
+  if (!list->is(Node::Kind::array))
+    refuse(key, fmt::format("{} cannot be added to (expected a list). Replace it with --set {}=...",
+                            describe(*list), key));
+  Node more = parse_value(value, key);
+  if (!more.is(Node::Kind::array)) more = list_node({std::move(more)});
+  list->items.insert(list->items.end(), more.items.begin(), more.items.end());
 }
 
 }  // namespace drift::config

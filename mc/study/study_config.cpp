@@ -109,7 +109,7 @@ std::vector<SweepAxis> read_sweep(Report& report, const Node* sweep) {
         axis.values.push_back(std::move(text));
     }
     points *= static_cast<double>(axis.values.size());
-    report.given(fmt::format("sweep.{}", member.key), to_toml(values), member.at);
+    report.given(fmt::format("sweep.\"{}\"", member.key), to_toml(values), member.at);
     axes.push_back(std::move(axis));
   }
   if (points > most_points)
@@ -168,7 +168,10 @@ Node load_tree(const std::string& path, const Overrides& overrides) {
   std::vector<std::string> messages;
   for (const auto& [key, value] : overrides) {
     try {
-      apply_override(root, key, value);
+      if (key.ends_with('+'))
+        config::apply_addition(root, key.substr(0, key.size() - 1), value);
+      else
+        config::apply_override(root, key, value);
     } catch (const InputError& error) {
       messages.insert(messages.end(), error.messages().begin(), error.messages().end());
     }

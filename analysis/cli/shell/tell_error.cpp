@@ -1,4 +1,4 @@
-#include "analysis/cli/tell_error.hpp"
+#include "analysis/cli/shell/tell_error.hpp"
 
 #include <csignal>
 #include <cstdio>
@@ -15,22 +15,23 @@ ExitCode told(const std::exception_ptr& error) {
   try {
     std::rethrow_exception(error);
   } catch (const InputError& e) {
-    for (const auto& message : e.messages()) say("error: {}\n", message);
+    for (const auto& message : e.messages()) complain("error: {}\n", message);
     return e.code();
   } catch (const OutputLost& e) {
-    say("error: standard output: {}. Results are incomplete; make room and run again\n",
-        e.code().message());
+    complain("error: standard output: {}. Results are incomplete; make room and run again\n",
+             e.code().message());
   } catch (const std::filesystem::filesystem_error& e) {
-    say("error: {}: {} (expected a path that can be used). Check it and its permissions\n",
-        e.path1().string(), e.code().message());
+    complain("error: {}: {} (expected a path that can be used). Check it and its permissions\n",
+             e.path1().string(), e.code().message());
   } catch (const std::bad_alloc&) {
-    say("error: the memory is used up (expected more, or a smaller job). Make the plan or the "
+    complain(
+        "error: the memory is used up (expected more, or a smaller job). Make the plan or the "
         "recording shorter, use fewer threads, or run where there is more\n");
   } catch (const std::system_error& e) {
-    say("error: the system refuses: {} (expected more of what it is short of). Run again\n",
-        e.what());
+    complain("error: the system refuses: {} (expected more of what it is short of). Run again\n",
+             e.what());
   } catch (const std::exception& e) {
-    say("internal error: {}\nThis is a bug in driftscope; please report it.\n", e.what());
+    complain("internal error: {}\nThis is a bug in driftscope; please report it.\n", e.what());
     return ExitCode::internal;
   }
   return ExitCode::io;

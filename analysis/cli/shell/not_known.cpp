@@ -1,4 +1,4 @@
-#include "analysis/cli/not_known.hpp"
+#include "analysis/cli/shell/not_known.hpp"
 
 #include <algorithm>
 #include <string_view>

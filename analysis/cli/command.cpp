@@ -1,0 +1,40 @@
+#include "analysis/cli/command.hpp"
+
+#include "analysis/cli/argument_checks.hpp"
+
+namespace drift::cli {
+
+void add_study(CLI::App& app, StudyArguments& study) {
+  app.add_option("config", study.config, "study file (TOML)")->required();
+  app.add_option("--set", study.sets,
+                 "override a value of the study file, e.g. plan.dwell=\"20 min\"; KEY+=VALUE adds "
+                 "to a list")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  app.add_option("--seed", study.seed, "override monte_carlo.seed")->check(check_seed);
+  add_threads(app, study.threads);
+}
+
+void add_threads(CLI::App& app, int& threads) {
+  app.add_option("--threads", threads, "number of threads; all by default")
+      ->check(CLI::Range(1, 4096));
+}
+
+void add_progress(CLI::App& app, std::string& style) {
+  app.add_option("--progress", style, "auto, plain, json or none")
+      ->check(CLI::IsMember({"auto", "plain", "json", "none"}));
+}
+
+CLI::Option* add_output(CLI::App& app, std::string& path, const std::string& what) {
+  return app.add_option("-o,--output", path, what)->check(check_path);
+}
+
+void add_folder(CLI::App& app, std::string& folder) {
+  app.add_option("folder", folder, "results folder of `run`")->required();
+}
+
+std::function<std::string(std::string)> whole(std::uint64_t least, std::uint64_t most) {
+  return [=](const std::string& text) { return check_whole(text, least, most); };
+}
+
+}  // namespace drift::cli

@@ -1,0 +1,74 @@
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <exception>
+#include <sstream>
+
+#include "analysis/cli/print.hpp"
+#include "analysis/cli/shell/commands.hpp"
+#include "analysis/cli/shell/not_known.hpp"
+#include "analysis/cli/shell/tell_error.hpp"
+#include "analysis/cli/shell/terminal_options.hpp"
+
+namespace {
+
+using namespace drift;
+
+/// The command line of all commands.
+class Program {
+ public:
+  Program() {
+    app_.require_subcommand(1);
+    app_.get_formatter()->column_width(34);
+    app_.set_version_flag("--version", cli::version_line());
+    cli::add_terminal_options(app_, terminal_);
+    for (const cli::Command& command : cli::commands()) add(command);
+  }
+
+  int run(int argc, char** argv) {
+    try {
+      app_.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+      if (const std::string wrong = e.get_exit_code() == 0 ? "" : cli::not_known(app_, argc, argv);
+          !wrong.empty()) {
+        cli::complain("error: {}\n", wrong);
+        return static_cast<int>(ExitCode::usage);
+      }
+      std::ostringstream out, err;
+      const int code = app_.exit(e, out, err);
+      cli::show_text(out.str());
+      cli::complain_text(err.str());
+      return code == 0 ? 0 : static_cast<int>(ExitCode::usage);
+    }
+    const ExitCode code = chosen_();
+    cli::flush_output();
+    return static_cast<int>(code);
+  }
+
+ private:
+  void add(const cli::Command& command) {
+    CLI::App* app = app_.add_subcommand(std::string(command.name), std::string(command.what));
+    app->group(std::string(command.group));
+    app->footer(fmt::format("Example: {}", command.example));
+    app->callback([this, app, run = command.add(*app), result = command.result] {
+      cli::set_terminal(cli::terminal_of(terminal_, *app, result));
+      chosen_ = run;
+    });
+    cli::add_terminal_options(*app, terminal_);
+  }
+
+  CLI::App app_{"driftscope: Monte Carlo observability engine for gimballed inertial platforms"};
+  cli::TerminalOptions terminal_;
+  std::function<ExitCode()> chosen_;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an I/O error, not a crash
+  try {
+    return Program().run(argc, argv);
+  } catch (...) {
+    return cli::tell_error(std::current_exception());
+  }
+}

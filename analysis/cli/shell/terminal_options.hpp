@@ -1,0 +1,24 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "analysis/cli/command.hpp"
+#include "analysis/cli/print.hpp"
+
+namespace drift::cli {
+
+/// What every command takes beside its own options.
+struct TerminalOptions {
+  bool quiet = false;
+  std::string color = "auto";  ///< auto, always, never
+};
+
+/// Adds --quiet and --color.
+void add_terminal_options(CLI::App& app, TerminalOptions& options);
+
+/// What the terminal shows of a command that was given: with --quiet no remarks and no progress,
+/// and no text on standard output where what was asked for is in files.
+Terminal terminal_of(const TerminalOptions& options, const CLI::App& given, Result result);
+
+}  // namespace drift::cli
