@@ -1,16 +1,10 @@
 #include "mc/store/store.hpp"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
 #include <cerrno>
-#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "core/base/atomic_file.hpp"
 #include "core/base/check.hpp"
@@ -34,40 +28,11 @@ CREATE TABLE IF NOT EXISTS blocks (id INTEGER PRIMARY KEY, point INTEGER, first_
 
 }  // namespace
 
-/// Keeps a second process from doing the same work. The kernel lets go of it when the process ends,
-/// however it ends, so it is never stale.
-class WorkerStore::Lock {
- public:
-  Lock(const std::string& path, double patience)
-      : fd_(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666)) {
-    if (fd_ < 0) throw_cannot_write(path, std::strerror(errno));
-    const auto tries = static_cast<int>(patience / 0.1);
-    for (int i = 0; ::flock(fd_, LOCK_EX | LOCK_NB) != 0; ++i) {
-      if (errno != EWOULDBLOCK && errno != EINTR) return;  // a file system without locks
-      if (i >= tries) {
-        ::close(fd_);
-        throw InputError(
-            ExitCode::store,
-            fmt::format("{}: another process is at work as this worker (expected one at a "
-                        "time). Wait for it, or share the work with --worker i/n",
-                        path));
-      }
-      std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    }
-  }
-  ~Lock() { ::close(fd_); }
-  Lock(const Lock&) = delete;
-  Lock& operator=(const Lock&) = delete;
-
- private:
-  int fd_;
-};
-
 /// The file and its statements.
 class WorkerStore::Writer : public WorkerFile {
  public:
-  Writer(const std::string& path, std::shared_ptr<const Manifest> manifest)
-      : WorkerFile(path, std::move(manifest), Database::Use::write) {
+  Writer(const std::string& path, std::shared_ptr<const Manifest> manifest, Locks locks)
+      : WorkerFile(path, std::move(manifest), Database::Use::write, locks) {
     if (!sound() || is_foreign()) throw InputError(ExitCode::store, path + ": damaged");
     Transaction all(db_);
     db_.execute(schema);
@@ -223,10 +188,16 @@ class WorkerStore::Writer : public WorkerFile {
 
 WorkerStore::WorkerStore(const std::string& folder, std::size_t worker, const Manifest& manifest,
                          double patience)
-    : path_(worker_path(folder, worker)), manifest_(std::make_shared<Manifest>(manifest)) {
-  lock_ = std::make_unique<Lock>(path_.substr(0, path_.size() - 7) + ".lock", patience);
+    : path_(worker_path(folder, worker)),
+      manifest_(std::make_shared<Manifest>(manifest)),
+      lock_(path_, patience) {
+  if (lock_.locks() == Locks::none)
+    notes_.push_back(
+        fmt::format("{}: this file system has no locks; every worker's file is opened without "
+                    "them, and kept for one process by worker-*.holder.lock",
+                    folder));
   try {
-    writer_ = std::make_unique<Writer>(path_, manifest_);
+    writer_ = std::make_unique<Writer>(path_, manifest_, lock_.locks());
     if (writer_->removed() > 0)
       notes_.push_back(fmt::format("{}: {} damaged blocks removed; they are computed anew", path_,
                                    writer_->removed()));
@@ -249,10 +220,10 @@ void WorkerStore::set_aside() {
   // Its journal belongs to it: beside the new file it would be taken for that file's.
   if (fs::exists(path_ + "-journal"))
     std::rename((path_ + "-journal").c_str(), (aside + "-journal").c_str());
-  writer_ = std::make_unique<Writer>(path_, manifest_);
+  writer_ = std::make_unique<Writer>(path_, manifest_, lock_.locks());
   std::size_t saved = 0;
   try {
-    WorkerFile old(aside, manifest_, Database::Use::salvage);
+    WorkerFile old(aside, manifest_, Database::Use::salvage, lock_.locks());
     for (const BlockEntry& e : old.entries(0))
       if (const auto block = old.read(e)) {
         writer_->insert(std::span(&*block, 1));

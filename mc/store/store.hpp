@@ -49,7 +49,7 @@ class WorkerFile {
  public:
   /// For reading. InputError (store) if the file is damaged beyond opening.
   WorkerFile(const std::string& path, std::shared_ptr<const Manifest> manifest,
-             Database::Use use = Database::Use::read);
+             Database::Use use = Database::Use::read, Locks locks = Locks::kernel);
 
   /// Blocks after the one of number `id`, as the table lists them, not yet verified. Stops where
   /// the file is damaged and says so.
@@ -60,7 +60,7 @@ class WorkerFile {
   /// Tables that say something else than the manifest and the blocks, a line each: of what others
   /// read in the file, nothing is believed unseen.
   std::vector<std::string> misfits();
-  bool sound() { return db_.sound(); }
+  bool sound();
   const std::string& path() const { return db_.path(); }
 
  protected:
@@ -68,6 +68,23 @@ class WorkerFile {
   bool is_described();
   /// Whether the moments of a block are those of its rows.
   bool moments_fit(std::int64_t id, const Block& block);
+  std::vector<BlockEntry> list(std::int64_t after_id, bool& damaged);
+  std::optional<StoredBlock> take(const BlockEntry& entry);
+  std::vector<Session> all_sessions();
+  std::vector<std::string> all_misfits();
+
+  /// What `read` gives, of a file that did not change meanwhile. A file that is read without locks
+  /// may: then it is opened anew, a few times.
+  template <class Read>
+  auto steadily(Read read) {
+    auto result = read();
+    for (int i = 0; i < 5 && db_.is_outdated(); ++i) {
+      open_anew();
+      result = read();
+    }
+    return result;
+  }
+  void open_anew();
 
   std::shared_ptr<const Manifest> manifest_;
   Database db_;
@@ -93,13 +110,12 @@ class WorkerStore {
   const std::vector<std::string>& notes() const { return notes_; }
 
  private:
-  class Lock;
   class Writer;
   void set_aside();
 
   std::string path_;
   std::shared_ptr<const Manifest> manifest_;
-  std::unique_ptr<Lock> lock_;
+  WorkerLock lock_;
   std::unique_ptr<Writer> writer_;
   std::int64_t session_ = 0;
   std::vector<std::string> notes_;

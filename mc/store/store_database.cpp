@@ -22,6 +22,15 @@ std::string with_real_folder(const std::string& path) {
   return none ? path : (folder / fs::path(path).filename()).string();
 }
 
+/// The name by which SQLite neither locks a file nor looks for what a writer is about to do to it.
+std::string immutable_uri(const std::string& path) {
+  std::string uri = "file:";
+  for (const char c : path)
+    uri += c == '%' || c == '?' || c == '#' ? fmt::format("%{:02x}", static_cast<int>(c))
+                                            : std::string(1, c);
+  return uri + "?immutable=1";
+}
+
 [[noreturn]] void fail(sqlite3* db, const std::string& path, int code) {
   const std::string why = db != nullptr ? sqlite3_errmsg(db) : sqlite3_errstr(code);
   switch (code & 0xff) {
@@ -148,23 +157,40 @@ std::string Statement::bytes(int column) const {
   return data == nullptr ? std::string() : std::string(data, static_cast<std::size_t>(size));
 }
 
-Database::Database(std::string path, Use use) : path_(std::move(path)) {
+Database::Database(std::string path, Use use, Locks locks)
+    : path_(std::move(path)), use_(use), locks_(locks) {
+  reopen();
+}
+
+bool Database::is_outdated() const {
+  return opened_ && version_of(path_) != *opened_;
+}
+
+void Database::reopen() {
+  db_.reset();
   sqlite3* made = nullptr;
+  const bool unlocked_reader = locks_ == Locks::none && use_ == Use::read;
+  if (unlocked_reader) opened_ = version_of(path_);
   // A reader may write too: only so can it undo the half of a transaction that a killed writer
   // left.
-  const int flags = SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_READWRITE | SQLITE_OPEN_NOFOLLOW |
-                    (use == Use::write ? SQLITE_OPEN_CREATE : 0);
-  const int code = sqlite3_open_v2(with_real_folder(path_).c_str(), &made, flags, nullptr);
+  const int flags =
+      SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_NOFOLLOW |
+      (unlocked_reader ? SQLITE_OPEN_READONLY | SQLITE_OPEN_URI : SQLITE_OPEN_READWRITE) |
+      (use_ == Use::write ? SQLITE_OPEN_CREATE : 0);
+  const std::string real = with_real_folder(path_);
+  const int code =
+      sqlite3_open_v2(unlocked_reader ? immutable_uri(real).c_str() : real.c_str(), &made, flags,
+                      locks_ == Locks::none && !unlocked_reader ? "unix-none" : nullptr);
   db_.reset(made);
   if (code != SQLITE_OK) fail(made, path_, code);
   sqlite3_extended_result_codes(made, 1);
   sqlite3_busy_timeout(made, busy_ms);
   // A rollback journal, not a write-ahead log: the log needs memory shared between the readers,
   // which network file systems do not have. FULL: what is committed survives a power failure.
-  if (use == Use::write) execute("PRAGMA journal_mode=DELETE; PRAGMA synchronous=FULL");
+  if (use_ == Use::write) execute("PRAGMA journal_mode=DELETE; PRAGMA synchronous=FULL");
   // With this switch SQLite goes on where the file is shorter than its header says.
-  if (use == Use::salvage) execute("PRAGMA writable_schema=1");
-  if (use != Use::write) execute("PRAGMA query_only=1");
+  if (use_ == Use::salvage) execute("PRAGMA writable_schema=1");
+  if (use_ != Use::write) execute("PRAGMA query_only=1");
 }
 
 void Database::execute(const char* sql) {

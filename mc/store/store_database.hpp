@@ -2,8 +2,12 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
+
+#include "mc/store/file_version.hpp"
+#include "mc/store/worker_lock.hpp"
 
 struct sqlite3;
 struct sqlite3_stmt;
@@ -46,7 +50,15 @@ class Database {
   enum class Use { write, read, salvage };
   /// `write` makes the file if need be. `read` finishes, where it may, what a killed writer had
   /// begun; `salvage` reads of a damaged file what it can.
-  Database(std::string path, Use use);
+  ///
+  /// Without locks a writer, who is alone by its WorkerLock, opens its file as it is; a reader
+  /// takes what it finds, undoes nothing, and must look by is_outdated() whether that has changed.
+  Database(std::string path, Use use, Locks locks = Locks::kernel);
+
+  /// True where a file that is read without locks is no longer what was opened.
+  bool is_outdated() const;
+  /// Opens the file anew. No statement may be left.
+  void reopen();
 
   void execute(const char* sql);
   Statement prepare(std::string_view sql) { return {db_.get(), path_, sql}; }
@@ -59,6 +71,9 @@ class Database {
     void operator()(sqlite3* db) const;
   };
   std::string path_;
+  Use use_;
+  Locks locks_;
+  std::optional<FileVersion> opened_;  ///< where a reader has no locks
   std::unique_ptr<sqlite3, Close> db_;
 };
 

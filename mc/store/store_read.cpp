@@ -6,9 +6,18 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/check.hpp"
+#include "mc/store/settle.hpp"
 #include "mc/store/store.hpp"
 
 namespace drift::mc {
+namespace {
+
+const std::string& settled(const std::string& path, Database::Use use, Locks locks) {
+  if (locks == Locks::none && use == Database::Use::read) settle(path);
+  return path;
+}
+
+}  // namespace
 
 std::string worker_path(const std::string& folder, std::size_t worker) {
   return fmt::format("{}/worker-{:04}.sqlite", folder, worker);
@@ -30,15 +39,43 @@ std::vector<std::string> worker_files(const std::string& folder) {
 }
 
 WorkerFile::WorkerFile(const std::string& path, std::shared_ptr<const Manifest> manifest,
-                       Database::Use use)
-    : manifest_(std::move(manifest)), db_(path, use) {}
+                       Database::Use use, Locks locks)
+    : manifest_(std::move(manifest)), db_(settled(path, use, locks), use, locks) {}
+
+void WorkerFile::open_anew() {
+  settle(db_.path());
+  db_.reopen();
+}
 
 std::vector<BlockEntry> WorkerFile::entries(std::int64_t after_id, bool* damaged) {
+  bool bad = false;
+  auto found = steadily([&] { return list(after_id, bad); });
+  if (damaged != nullptr && bad) *damaged = true;
+  return found;
+}
+
+std::optional<StoredBlock> WorkerFile::read(const BlockEntry& entry) {
+  // What fits its checksum is right, whatever was written meanwhile.
+  if (auto block = take(entry)) return block;
+  return steadily([&] { return take(entry); });
+}
+
+std::vector<Session> WorkerFile::sessions() {
+  return steadily([this] { return all_sessions(); });
+}
+
+bool WorkerFile::sound() {
+  return steadily([this] { return db_.sound(); });
+}
+
+std::vector<std::string> WorkerFile::misfits() {
+  return steadily([this] { return all_misfits(); });
+}
+
+std::vector<BlockEntry> WorkerFile::list(std::int64_t after_id, bool& damaged) {
   std::vector<BlockEntry> list;
+  damaged = false;
   const std::size_t block = manifest_->identity.block_size;
-  const auto note = [&] {
-    if (damaged != nullptr) *damaged = true;
-  };
   try {
     Statement tables = db_.prepare("SELECT count(*) FROM sqlite_master");
     if (tables.step() && tables.integer(0) == 0)
@@ -52,7 +89,7 @@ std::vector<BlockEntry> WorkerFile::entries(std::int64_t after_id, bool* damaged
       if (point < 0 || static_cast<std::size_t>(point) >= manifest_->points.size() || first < 0 ||
           runs <= 0 || static_cast<std::size_t>(runs) > block ||
           static_cast<std::uint64_t>(first) % block != 0) {
-        note();
+        damaged = true;
         continue;
       }
       list.push_back({{static_cast<std::size_t>(point), static_cast<std::uint64_t>(first),
@@ -61,12 +98,12 @@ std::vector<BlockEntry> WorkerFile::entries(std::int64_t after_id, bool* damaged
     }
   } catch (const InputError& error) {
     if (error.code() != ExitCode::store) throw;
-    note();
+    damaged = true;
   }
   return list;
 }
 
-std::optional<StoredBlock> WorkerFile::read(const BlockEntry& entry) {
+std::optional<StoredBlock> WorkerFile::take(const BlockEntry& entry) {
   const auto& columns = manifest_->points[entry.key.point].columns;
   try {
     Statement query = db_.prepare(
@@ -99,7 +136,7 @@ std::optional<StoredBlock> WorkerFile::read(const BlockEntry& entry) {
   }
 }
 
-std::vector<Session> WorkerFile::sessions() {
+std::vector<Session> WorkerFile::all_sessions() {
   std::vector<Session> list;
   try {
     Statement query = db_.prepare(
@@ -170,20 +207,21 @@ bool WorkerFile::moments_fit(std::int64_t id, const Block& block) {
   return !query.step();
 }
 
-std::vector<std::string> WorkerFile::misfits() {
+std::vector<std::string> WorkerFile::all_misfits() {
   std::vector<std::string> lines;
   try {
-    const auto all = entries(0);
+    bool damaged = false;
+    const auto all = list(0, damaged);
     if (all.empty()) return lines;
     if (!is_described())
       lines.push_back(path() + ": the tables study and columns are not those of the manifest");
     std::size_t others = 0;
     for (const BlockEntry& e : all)
-      if (const auto stored = read(e)) others += !moments_fit(e.id, stored->block);
+      if (const auto stored = take(e)) others += !moments_fit(e.id, stored->block);
     if (others > 0)
       lines.push_back(
           fmt::format("{}: the moments of {} blocks are not those of their rows", path(), others));
-    for (const Session& s : sessions())
+    for (const Session& s : all_sessions())
       if (!s.sound) lines.push_back(path() + ": the number of runs of a session is damaged");
   } catch (const InputError& error) {
     if (error.code() != ExitCode::store) throw;

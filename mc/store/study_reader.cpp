@@ -10,7 +10,8 @@ namespace drift::mc {
 StudyReader::StudyReader(const std::string& folder)
     : folder_(folder),
       manifest_(std::make_shared<Manifest>(read_manifest(folder))),
-      asked_(manifest_->runs) {
+      asked_(manifest_->runs),
+      locks_(probe_locks(folder + "/manifest.json")) {
   refresh();
 }
 
@@ -24,7 +25,8 @@ void StudyReader::refresh() {
   for (const std::string& path : paths_) {
     try {
       Source& source = sources_[path];
-      if (!source.file) source.file = std::make_unique<WorkerFile>(path, manifest_);
+      if (!source.file)
+        source.file = std::make_unique<WorkerFile>(path, manifest_, Database::Use::read, locks_);
       bool damaged = false;
       for (const BlockEntry& e : source.file->entries(source.last_id, &damaged)) {
         source.last_id = std::max(source.last_id, e.id);

@@ -70,6 +70,7 @@ class StudyReader {
       index_;
   std::uint64_t asked_ = 0;
   std::vector<std::string> notes_;
+  Locks locks_;
 };
 
 /// SHA-256 over key and payload of all results in order, in hexadecimal: what is equal for any

@@ -7,9 +7,14 @@
 //   DRIFT_FAULT_HIT=FILE    made when a call was let fail; no other fails while it is there, unless
 //   sticky
 //
+// or lets every lock be refused, as on a Lustre mounted without flock or an NFS with nolock:
+//
+//   DRIFT_NO_LOCKS=1        flock and the locks of fcntl say ENOSYS
+//
 // Standard streams, pipes, devices and the closing of what was only read are left alone.
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -87,9 +92,47 @@ mode_t mode_in(int flags, va_list arguments) {
   return (flags & (O_CREAT | O_TMPFILE)) != 0 ? static_cast<mode_t>(va_arg(arguments, int)) : 0;
 }
 
+bool is_refused_lock(int command) {
+  static const bool refused = std::getenv("DRIFT_NO_LOCKS") != nullptr;
+  if (!refused) return false;
+  for (const int lock : {F_GETLK, F_SETLK, F_SETLKW, F_OFD_GETLK, F_OFD_SETLK, F_OFD_SETLKW})
+    if (command == lock) return true;
+  return false;
+}
+
+/// fcntl() with its third argument, which is a number or a pointer, passed on as it came.
+int passed_on(const char* name, int fd, int command, void* argument) {
+  if (is_refused_lock(command)) {
+    errno = ENOSYS;
+    return -1;
+  }
+  return real<int (*)(int, int, ...)>(name)(fd, command, argument);
+}
+
 }  // namespace
 
 extern "C" {
+
+int flock(int fd, int operation) noexcept {
+  static const auto next = real<int (*)(int, int)>("flock");
+  if (!is_refused_lock(F_SETLK)) return next(fd, operation);
+  errno = ENOSYS;
+  return -1;
+}
+int fcntl(int fd, int command, ...) {
+  va_list arguments;
+  va_start(arguments, command);
+  void* argument = va_arg(arguments, void*);
+  va_end(arguments);
+  return passed_on("fcntl", fd, command, argument);
+}
+int fcntl64(int fd, int command, ...) {
+  va_list arguments;
+  va_start(arguments, command);
+  void* argument = va_arg(arguments, void*);
+  va_end(arguments);
+  return passed_on("fcntl64", fd, command, argument);
+}
 
 ssize_t write(int fd, const void* data, size_t n) {
   static const auto next = real<ssize_t (*)(int, const void*, size_t)>("write");
