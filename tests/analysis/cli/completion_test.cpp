@@ -6,13 +6,17 @@ namespace {
 
 using namespace drift::test;
 
+/// The script for bash, made once: the program asks its reader about every key.
+const std::string& bash_script() {
+  static const std::string script = driftscope("completion bash").out;
+  return script;
+}
+
 /// What bash offers for the last of these words, one a line.
 std::string offered(const std::string& words) {
   const ScratchFolder folder;
-  const Answer script = driftscope("completion bash");
-  EXPECT_EQ(script.code, 0) << script.err;
   const std::string file =
-      folder.write("try.sh", script.out + "COMP_WORDS=(" + words +
+      folder.write("try.sh", bash_script() + "COMP_WORDS=(" + words +
                                  ")\nCOMP_CWORD=$((${#COMP_WORDS[@]} - 1))\n_driftscope\n"
                                  "printf '%s\\n' \"${COMPREPLY[@]}\"\n");
   const Answer answer = run_program("/bin/bash", "--norc " + file);
@@ -22,7 +26,7 @@ std::string offered(const std::string& words) {
 
 TEST(Completion, TheBashScriptIsValid) {
   const ScratchFolder folder;
-  const std::string script = folder.write("c.bash", driftscope("completion bash").out);
+  const std::string script = folder.write("c.bash", bash_script());
   const Answer answer = run_program("/bin/bash", "-n " + script);
   EXPECT_EQ(answer.code, 0) << answer.err;
 }
