@@ -249,6 +249,7 @@ std::optional<std::size_t> Section::choose(const Option& option,
 }
 
 bool Section::require(std::string_view key, std::string_view example) {
+  take(key);  // known, present or not
   if (has(key) || table_ == &no_table) return true;
   report_->error(at_, fmt::format("'{}' is missing (expected {}). Add it{}", full(key), example,
                                   path_.empty() ? "" : fmt::format(" to [{}]", path_)));
