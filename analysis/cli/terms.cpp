@@ -1,6 +1,7 @@
 #include "analysis/cli/command.hpp"
 #include "analysis/cli/print.hpp"
 #include "core/config/nearest.hpp"
+#include "core/physics/parameters_config.hpp"
 #include "core/physics/term_library.hpp"
 
 namespace drift::cli {
@@ -69,17 +70,15 @@ ExitCode terms(const std::string& key) {
          TermLibrary::num_terms, TermLibrary::num_params);
     return ExitCode::ok;
   }
-  if (const auto t = TermLibrary::find_term(key)) {
-    explain(TermLibrary::terms[*t]);
-    return ExitCode::ok;
-  }
-  if (const auto p = TermLibrary::find(key)) {
-    explain(TermLibrary::owner(*p));
-    return ExitCode::ok;
-  }
-  std::vector<std::string_view> known;
-  for (const TermInfo& term : TermLibrary::terms) known.push_back(term.key);
-  for (const ParamSpec& spec : TermLibrary::specs) known.push_back(spec.key.view());
+  // Whatever a study file may call them: a term, one axis of it, a parameter, a group of them.
+  const ParamMask named = params_named(key);
+  for (std::size_t i = 0; i < named.size(); ++i)
+    if (named[i]) {
+      explain(TermLibrary::owner(i));
+      return ExitCode::ok;
+    }
+  std::vector<std::string_view> known = term_keys();
+  for (const std::string_view parameter : parameter_keys()) known.push_back(parameter);
   throw InputError(ExitCode::usage,
                    fmt::format("terms: no term or parameter '{}'. {} `driftscope terms` "
                                "lists all",
@@ -90,7 +89,8 @@ ExitCode terms(const std::string& key) {
 
 Command terms_command() {
   const auto add = [](CLI::App& app, std::string& key) {
-    app.add_option("key", key, "a term or a parameter");
+    app.add_option("key", key,
+                   "a term, an axis of one (g_drift.x), a parameter or a group of them (eta)");
   };
   return {"terms", group::plans, "list the physics terms, or explain one",
           "driftscope terms gyro_misalignment", with_arguments<std::string>(add, terms)};

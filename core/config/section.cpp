@@ -34,6 +34,13 @@ const std::vector<std::string_view>& likelier(std::string_view typed,
              : free;
 }
 
+/// A name as a part of a dotted key that --set takes: in quotes where it has dots of its own.
+std::string key_part(const std::string& name) {
+  if (name.find('.') == std::string::npos) return name;
+  const char quote = name.find('"') == std::string::npos ? '"' : '\'';
+  return quote + name + quote;
+}
+
 /// Stands for a section that is no table, so that its keys are not reported as missing on top.
 const Node no_table{};
 
@@ -242,6 +249,7 @@ std::optional<std::size_t> Section::choose(const Option& option,
 }
 
 bool Section::require(std::string_view key, std::string_view example) {
+  take(key);  // known, present or not
   if (has(key) || table_ == &no_table) return true;
   report_->error(at_, fmt::format("'{}' is missing (expected {}). Add it{}", full(key), example,
                                   path_.empty() ? "" : fmt::format(" to [{}]", path_)));
@@ -267,7 +275,7 @@ std::vector<Section> Section::sections(std::string_view key) {
     const std::string called = name != nullptr && name->is(Node::Kind::string)
                                    ? name->text
                                    : fmt::format("{}", all.size());
-    all.emplace_back(*report_, &item, item.at, fmt::format("{}.{}", full(key), called));
+    all.emplace_back(*report_, &item, item.at, fmt::format("{}.{}", full(key), key_part(called)));
   }
   return all;
 }

@@ -19,6 +19,8 @@ Command report_command();
 Command export_command();
 Command blind_command();
 Command help_command();
+Command schema_command();
+Command completion_command();
 Command version_command();
 
 std::vector<Command> commands() {
@@ -26,7 +28,7 @@ std::vector<Command> commands() {
           look_command(),   convert_command(),    identify_command(), diagnose_command(),
           run_command(),    status_command(),     verify_command(),   replay_command(),
           report_command(), export_command(),     blind_command(),    help_command(),
-          version_command()};
+          schema_command(), completion_command(), version_command()};
 }
 
 }  // namespace drift::cli

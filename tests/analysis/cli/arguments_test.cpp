@@ -52,5 +52,30 @@ TEST(Arguments, HelpIsNoMistake) {
     EXPECT_EQ(test::run_program(DRIFT_SYNTHETIC, words).code, 0) << words;
 }
 
+TEST(Arguments, TheCommandHelpIsTheOptionHelp) {
+  const auto out = [](const char* words) {
+    const Answer answer = test::run_program(DRIFT_SYNTHETIC, words);
+    EXPECT_EQ(answer.code, 0) << words << answer.err;
+    return answer.out;
+  };
+  EXPECT_EQ(out("help"), out("--help"));
+  EXPECT_EQ(out("help run"), out("run --help"));
+  expect_says(out("help run"), "--max-wall");
+  expect_says(refusal("help runn"), "unknown command 'runn' (expected one of check, ");
+  expect_says(refusal("help runn"), "Did you mean 'run'?");
+}
+
+TEST(Arguments, EveryCommandOfTheHelpHasHelp) {
+  const std::string list = test::run_program(DRIFT_SYNTHETIC, "help").out;
+  for (const char* command : {"check", "simulate", "rank", "terms", "look", "convert", "identify",
+                              "diagnose", "run", "status", "verify", "replay", "report", "export",
+                              "blind", "help", "schema", "completion", "version"}) {
+    expect_says(list, std::string("\n  ") + command + " ");
+    const Answer own = test::run_program(DRIFT_SYNTHETIC, std::string("help ") + command);
+    EXPECT_EQ(own.code, 0) << command;
+    expect_says(own.out, "Example: ");
+  }
+}
+
 }  // namespace
 }  // namespace drift::arguments_test

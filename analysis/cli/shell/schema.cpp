@@ -1,0 +1,189 @@
+#include "analysis/cli/shell/schema.hpp"
+
+#include <charconv>
+#include <optional>
+
+#include "analysis/cli/command.hpp"
+#include "analysis/cli/print.hpp"
+#include "analysis/cli/shell/study_keys.hpp"
+#include "core/physics/parameters_config.hpp"
+
+namespace drift::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Kind = StudyKey::Kind;
+
+Json reference(std::string_view definition) {
+  return {{"$ref", fmt::format("#/$defs/{}", definition)}};
+}
+
+/// What `terms` may list: terms, terms of one axis, parameters, groups of them.
+Json term_names() {
+  Json names = Json::array();
+  for (const auto key : term_keys()) names.push_back(key);
+  for (const auto key : term_keys())
+    for (const char axis : {'x', 'y', 'z'})
+      if (const auto name = fmt::format("{}.{}", key, axis); params_named(name).any())
+        names.push_back(name);
+  for (const auto key : parameter_keys()) names.push_back(key);
+  return names;
+}
+
+/// A table whose keys are parameters and groups of them.
+Json parameters(std::string_view value) {
+  Json properties = Json::object();
+  for (const auto key : parameter_keys()) properties[std::string(key)] = reference(value);
+  return {{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
+}
+
+Json definitions() {
+  // A number, then a unit; which units fit is the program's to say.
+  const std::string number = R"(^[ \t]*[+]?-?([0-9]+[.]?[0-9]*|[.][0-9]+)([eE][+-]?[0-9]+)?)";
+  Json defs;
+  defs["quantity"] = {{"type", "string"},
+                      {"pattern", number + R"(([ \t]+[^ \t].*|[^ \t0-9.].*)$)"}};
+  defs["number"] = {{"anyOf", {{{"type", "number"}}, {{"type", "string"}, {"pattern", number}}}}};
+  const Json pair = {
+      {"type", "array"}, {"items", reference("number")}, {"minItems", 2}, {"maxItems", 2}};
+  const Json spread = {{"type", "object"},
+                       {"properties", {{"normal", pair}, {"uniform", pair}}},
+                       {"additionalProperties", false},
+                       {"minProperties", 1},
+                       {"maxProperties", 1}};
+  defs["prior"] = {{"description",
+                    "a value, { normal = [mean, sigma] } or { uniform = [low, high] "
+                    "}, in the unit that `driftscope terms` shows"},
+                   {"anyOf", {reference("number"), spread}}};
+  defs["terms"] = {{"type", "array"}, {"items", {{"enum", term_names()}}}};
+  defs["parameters"] = parameters("prior");
+  defs["start"] = parameters("number");
+  return defs;
+}
+
+std::optional<double> number_after(std::string_view text, std::string_view mark) {
+  const auto at = text.find(mark);
+  double value = 0.0;
+  if (at == std::string_view::npos) return std::nullopt;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data() + at + mark.size(), end, value);
+  // 2^64-1 is said where there is no bound.
+  if (error != std::errc() || (stop != end && *stop == '^')) return std::nullopt;
+  return value;
+}
+
+Json whole(const StudyKey& key) {
+  Json number = {{"type", "integer"}};
+  if (const auto least = number_after(key.expected, "from ")) number["minimum"] = *least;
+  if (const auto most = number_after(key.expected, " to ")) number["maximum"] = *most;
+  return {{"anyOf", {number, {{"type", "string"}, {"pattern", "^0x[0-9a-fA-F]+$"}}}}};
+}
+
+Json three_of(const Json& items) {
+  return {{"type", "array"}, {"items", items}, {"minItems", 3}, {"maxItems", 3}};
+}
+
+Json section_of(const std::vector<StudyKey>& keys);
+
+Json rule_of(const StudyKey& key) {
+  switch (key.kind) {
+    case Kind::section:
+      return section_of(key.keys);
+    case Kind::sections:
+      return {{"type", "array"}, {"items", section_of(key.keys)}};
+    case Kind::table:
+      if (key.key == "parameters") return reference("parameters");
+      if (key.key == "sweep")
+        return {{"type", "object"}, {"additionalProperties", {{"type", "array"}, {"minItems", 1}}}};
+      return {{"type", "object"}};
+    case Kind::list:
+      if (key.key == "terms") return reference("terms");
+      // Some lists may be written shorter; the words of the reader say how.
+      if (key.expected.find(", or ") != std::string::npos) return Json::object();
+      return {{"type", "array"}};
+    case Kind::choice:
+      return {{"enum", key.choices}};
+    case Kind::truth_value:
+      return {{"type", "boolean"}};
+    case Kind::whole:
+      if (key.key == "starts")
+        return {{"anyOf", {whole(key), {{"type", "array"}, {"items", reference("start")}}}}};
+      return whole(key);
+    case Kind::number:
+      return reference("number");
+    case Kind::quantity:
+      return reference("quantity");
+    case Kind::vector:
+      return three_of(reference("number"));
+    case Kind::matrix:
+      return three_of(three_of(reference("number")));
+    case Kind::text:
+      break;
+  }
+  return {{"type", "string"}};
+}
+
+Json described(const StudyKey& key) {
+  Json rule = rule_of(key);
+  if (key.kind == Kind::section) {
+    rule["description"] = fmt::format("section [{}]", key.path);
+    return rule;
+  }
+  const bool has_range = !key.range.empty();
+  rule["description"] =
+      fmt::format("{}: {}{}{}", key.path, key.expected, has_range ? ", " : "", key.range);
+  if (!key.unit.empty()) rule["examples"] = Json::array({fmt::format("1 {}", key.unit)});
+  return rule;
+}
+
+Json section_of(const std::vector<StudyKey>& keys) {
+  Json properties = Json::object(), required = Json::array();
+  for (const StudyKey& key : keys) {
+    properties[key.key] = described(key);
+    if (key.required) required.push_back(key.key);
+  }
+  Json section = {{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
+  if (!required.empty()) section["required"] = required;
+  return section;
+}
+
+void add_settable(const std::vector<StudyKey>& keys, std::vector<std::string>& out) {
+  for (const StudyKey& key : keys) {
+    if (key.kind == Kind::section)
+      add_settable(key.keys, out);
+    else if (key.key == "parameters")
+      for (const auto parameter : parameter_keys())
+        out.push_back(fmt::format("{}.{}", key.path, parameter));
+    else if (key.kind != Kind::sections && key.kind != Kind::table)
+      out.push_back(key.path);
+  }
+}
+
+}  // namespace
+
+Json study_schema() {
+  Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
+                 {"title", "driftscope study file"}};
+  schema.update(section_of(study_keys()));
+  schema["$defs"] = definitions();
+  return schema;
+}
+
+std::vector<std::string> settable_keys() {
+  std::vector<std::string> keys;
+  add_settable(study_keys(), keys);
+  return keys;
+}
+
+Command schema_command() {
+  struct Arguments {};
+  return {"schema", group::program, "JSON schema of the study file, for editors",
+          "driftscope schema > driftscope.schema.json",
+          with_arguments<Arguments>([](CLI::App&, Arguments&) {},
+                                    [](const Arguments&) {
+                                      show("{}\n", study_schema().dump(2));
+                                      return ExitCode::ok;
+                                    })};
+}
+
+}  // namespace drift::cli

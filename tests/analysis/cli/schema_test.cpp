@@ -1,0 +1,162 @@
+// `driftscope schema` against the study files that are shipped, and against mistakes.
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "core/config/load.hpp"
+#include "tests/support/program.hpp"
+
+namespace drift::schema_test {
+namespace {
+
+using config::Node;
+using nlohmann::json;
+using namespace drift::test;
+
+json json_of(const Node& node) {
+  switch (node.kind) {
+    case Node::Kind::table: {
+      json object = json::object();
+      for (const auto& member : node.members) object[member.key] = json_of(member.value);
+      return object;
+    }
+    case Node::Kind::array: {
+      json list = json::array();
+      for (const Node& item : node.items) list.push_back(json_of(item));
+      return list;
+    }
+    case Node::Kind::integer:
+      return node.integer;
+    case Node::Kind::real:
+      return node.real;
+    case Node::Kind::boolean:
+      return node.boolean;
+    default:
+      return node.text;
+  }
+}
+
+bool is_type(const json& value, const std::string& type) {
+  return type == "object"    ? value.is_object()
+         : type == "array"   ? value.is_array()
+         : type == "string"  ? value.is_string()
+         : type == "boolean" ? value.is_boolean()
+         : type == "integer" ? value.is_number_integer()
+                             : type == "number" && value.is_number();
+}
+
+/// The rules of JSON schema that the program uses; a rule it does not know fails the test.
+struct Validator {
+  json schema;
+
+  std::string wrong(const json& value, const json& rule, const std::string& at) const {
+    for (const auto& [word, says] : rule.items())
+      if (const std::string why = broken(value, rule, word, says, at); !why.empty()) return why;
+    return "";
+  }
+
+  std::string broken(const json& value, const json& rule, const std::string& word, const json& says,
+                     const std::string& at) const {
+    const std::string here = at + ": " + value.dump() + " against " + word + " ";
+    if (word == "type") return is_type(value, says) ? "" : here + says.dump();
+    if (word == "enum")
+      return std::find(says.begin(), says.end(), value) != says.end() ? "" : here + says.dump();
+    if (word == "pattern")
+      return !value.is_string() || std::regex_search(value.get<std::string>(),
+                                                     std::regex(says.get<std::string>()))
+                 ? ""
+                 : here;
+    if (word == "minimum") return !value.is_number() || value >= says ? "" : here;
+    if (word == "maximum") return !value.is_number() || value <= says ? "" : here;
+    if (word == "minItems" || word == "minProperties") return value.size() >= says ? "" : here;
+    if (word == "maxItems" || word == "maxProperties") return value.size() <= says ? "" : here;
+    if (word == "anyOf") {
+      for (const json& one : says)
+        if (wrong(value, one, at).empty()) return "";
+      return here;
+    }
+    if (word == "$ref")
+      return wrong(value, schema.at(json::json_pointer(says.get<std::string>().substr(1))), at);
+    if (word == "items" && value.is_array()) {
+      for (std::size_t i = 0; i < value.size(); ++i)
+        if (auto why = wrong(value[i], says, at + "[" + std::to_string(i) + "]"); !why.empty())
+          return why;
+      return "";
+    }
+    if (word == "required") {
+      for (const json& key : says)
+        if (!value.contains(key.get<std::string>())) return here + key.dump();
+      return "";
+    }
+    if (word == "additionalProperties" || word == "properties")
+      return word == "properties" ? members_wrong(value, rule, at) : "";
+    const bool words_only = word == "description" || word == "examples" || word == "title" ||
+                            word == "$schema" || word == "$defs" || word == "items";
+    return words_only ? "" : "unknown rule " + word;
+  }
+
+  std::string members_wrong(const json& value, const json& rule, const std::string& at) const {
+    if (!value.is_object()) return "";
+    for (const auto& [key, inner] : value.items()) {
+      if (!rule.at("properties").contains(key)) {
+        if (rule.value("additionalProperties", true)) continue;
+        return at + ": unknown key " + key;
+      }
+      if (auto why = wrong(inner, rule.at("properties").at(key), at + "." + key); !why.empty())
+        return why;
+    }
+    return "";
+  }
+
+  std::string wrong(const std::string& toml) const {
+    return wrong(json_of(config::parse_document(toml, "study")), schema, "");
+  }
+};
+
+Validator the_schema() {
+  const Answer answer = driftscope("schema");
+  EXPECT_EQ(answer.code, 0) << answer.err;
+  return {json::parse(answer.out)};
+}
+
+TEST(Schema, EveryConfigurationThatIsShippedIsValid) {
+  const Validator schema = the_schema();
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::string(DRIFT_SOURCE_DIR) + "/configs"))
+    if (entry.path().extension() == ".toml") {
+      EXPECT_EQ(schema.wrong(text_of(entry.path().string())), "") << entry.path();
+    }
+}
+
+TEST(Schema, RefusesWhatTheProgramRefuses) {
+  const Validator schema = the_schema();
+  const ScratchFolder folder;
+  const std::string good = text_of(std::string(DRIFT_SOURCE_DIR) + "/configs/study.toml");
+  for (const std::string mistake :
+       {"[readuot]", "[environment]\ntemprature = \"20 degC\"", "[environment]\ntemperature = 20",
+        "[environment]\ntemperature = \"20\"", "[monte_carlo.stop]\nquantity = 3",
+        "[mounting]\ngyro_x = [1]", "[[filter]]\nname = \"more\"\ncoupling = \"eq7\"",
+        "[[filter]]\nname = \"more\"\ncoupling = \"eq5\"\nterms = [\"no_such_term\"]",
+        "[[filter]]\nname = \"more\"\ncoupling = \"eq5\"\nstarts = 0",
+        "[[filter]]\nname = \"more\"\ncoupling = \"eq5\"\nparameters = { eta_q = \"1 arcsec\" }",
+        "[[filter]]\nname = \"more\""}) {
+    const std::string text = good + "\n" + mistake + "\n";
+    EXPECT_NE(schema.wrong(text), "") << mistake;
+    EXPECT_NE(driftscope("check " + folder.write("s.toml", text)).code, 0) << mistake;
+  }
+}
+
+TEST(Schema, NamesUnitRangeAndChoices) {
+  const json schema = the_schema().schema;
+  const json plan = schema.at("properties").at("plan").at("properties");
+  EXPECT_NE(plan.at("dwell").at("description").get<std::string>().find("0.001 min to 100000 min"),
+            std::string::npos)
+      << plan.at("dwell");
+  EXPECT_EQ(plan.at("dwell").at("examples").at(0), "1 min");
+  EXPECT_TRUE(plan.contains("static_min"));  // of the other kind of test
+  EXPECT_EQ(plan.at("kind").at("enum"), json({"platform", "strapdown"}));
+  EXPECT_EQ(schema.at("$schema"), "https://json-schema.org/draft/2020-12/schema");
+  EXPECT_EQ(schema.at("required"), json({"schema"}));
+}
+
+}  // namespace
+}  // namespace drift::schema_test
