@@ -37,6 +37,15 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/configs/ DESTINATION ${CMAKE_INSTALL_DAT
 install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md ${PROJECT_SOURCE_DIR}/LICENSE
         DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT driftscope)
 
+include(${CMAKE_CURRENT_LIST_DIR}/sbom.cmake)
+string(REGEX REPLACE "[|]MPI=.*" "" parts "${libraries}")
+if(DRIFT_MPI AND MPI_C_FOUND)
+  string(APPEND parts "|MPI=${MPI_C_VERSION}")
+endif()
+write_sbom(${CMAKE_BINARY_DIR}/generated/sbom.cdx.json "${parts}")
+install(FILES ${CMAKE_BINARY_DIR}/generated/sbom.cdx.json ${CMAKE_CURRENT_LIST_DIR}/SECURITY.md
+        ${CMAKE_CURRENT_LIST_DIR}/CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT driftscope)
+
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME driftscope)
 set(CPACK_PACKAGE_CONTACT "the maintainers of driftscope")
