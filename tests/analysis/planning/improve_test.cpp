@@ -15,7 +15,7 @@ namespace {
 
 using namespace drift::test;
 
-TestPlan plan_of(std::string_view preset, CommandLaw mode) {
+TestPlan preset_plan(std::string_view preset, CommandLaw mode) {
   PlanDefaults defaults;
   defaults.mode = mode;
   defaults.dwell = 600.0;
@@ -55,7 +55,7 @@ TEST(Improve, EveryPromiseHoldsWhenThePlanIsRankedAnew) {
                         {"six", "A", clock},
                         {"slew12", "A", memory}}) {
     const observability::RankedModel model = model_of(Coupling::eq5, c.keys);
-    TestPlan plan = plan_of(c.preset, CommandLaw::free);
+    TestPlan plan = preset_plan(c.preset, CommandLaw::free);
     plan.positions.resize(3);
     const double duration = observability::linearise(plan, model).duration;
     const planning::Criterion criterion =
@@ -78,7 +78,7 @@ TEST(Improve, EveryPromiseHoldsWhenThePlanIsRankedAnew) {
 
 TEST(Improve, TheChoiceIsTheBestOfAllCandidatesRankedInFull) {
   const observability::RankedModel model = model_of(Coupling::eq6, {"D_F", "eta"});
-  TestPlan plan = plan_of("slew12", CommandLaw::level);
+  TestPlan plan = preset_plan("slew12", CommandLaw::level);
   plan.positions.resize(2);
   const planning::Criterion criterion = planning::parse_criterion("eta_x", make_layout(model.spec));
   const planning::Improvement better = planning::improve_plan(plan, model, criterion, 1, 2);
@@ -109,7 +109,7 @@ TEST(Improve, TheChoiceIsTheBestOfAllCandidatesRankedInFull) {
 
 TEST(Improve, DoesNotDependOnThreads) {
   const observability::RankedModel model = model_of(Coupling::eq5, {"D_F", "D_I", "eta"});
-  TestPlan plan = plan_of("slew12", CommandLaw::free);
+  TestPlan plan = preset_plan("slew12", CommandLaw::free);
   plan.positions.resize(2);
   const planning::Criterion criterion = planning::parse_criterion("A", make_layout(model.spec));
   const planning::Improvement one = planning::improve_plan(plan, model, criterion, 1, 1),
