@@ -1,0 +1,84 @@
+#!/usr/bin/env python3
+"""Documents that the program writes of itself: core/docs/effects.md, of `driftscope terms`, and core/docs/study.md,
+of `driftscope schema`.
+
+    tests/checks/generated.py PROGRAM             compares; exit code 1 and the difference if one is stale
+    tests/checks/generated.py PROGRAM --update    writes them
+"""
+import difflib
+import json
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+DOCS = Path(__file__).resolve().parents[2] / "core" / "docs"
+EFFECTS = """# Effects
+
+Every term of the library, as `driftscope terms KEY` prints it; written by `tests/checks/generated.py`. Sections of
+physics.md are those of [Physics](physics.md). w_l: drift of a gyro, w_md: its torquing, w_cp: rate of the platform against the
+case, f: specific force, delta: an offset of the attitude; I, O, S: input, output and spin axis of a gyro.
+"""
+STUDY = """# The study file
+
+Every key that the reader of study files knows, written by `tests/checks/generated.py` from `driftscope schema`. A file is TOML;
+numbers with a unit are texts ("1.45 deg/h/g"). `driftscope check FILE` prints every value of a file, defaults included, and where
+it came from. What one key asks of another, and a unit that does not fit, `check` says. Terms and parameters:
+[effects](effects.md); `[recording]`: [the recording](recording.md).
+"""
+
+
+def effects(program):
+    def terms(*key):
+        return subprocess.run([program, "terms", *key], check=True, capture_output=True, text=True).stdout
+
+    yield EFFECTS
+    for key in re.findall(r"^([a-z0-9_]+) +\d+  ", terms(), re.M):
+        yield f"\n## {key}\n\n" + re.sub(r"^", "    ", terms(key).rstrip("\n"), flags=re.M) + "\n"
+
+
+def rows(section, path=""):
+    """(key, what it is) of a section and of the tables and lists in it."""
+    for key, value in section.get("properties", {}).items():
+        what = value.get("description", "").partition(": ")[2] or value.get("description", "")
+        if "enum" in value:
+            what = "one of " + ", ".join(json.dumps(name) for name in value["enum"])
+        yield path + key, what
+        below = value if "properties" in value else value.get("items", {})
+        if isinstance(below, dict) and "properties" in below:
+            yield from rows(below, f"{path}{key}{'[]' if below is not value else ''}.")
+
+
+def study(program):
+    schema = json.loads(subprocess.run([program, "schema"], check=True, capture_output=True, text=True).stdout)
+    parameters = set(schema["properties"]["published"]["items"]["properties"]) - {"name", "filter"}
+    yield STUDY
+    for top, section in schema["properties"].items():
+        below = list(rows({"properties": {top: section}}))
+        yield f"\n## {top}\n\n| key | what |\n|---|---|\n"
+        for key, what in below:
+            if top == "published" and key.split(".")[1:2] and key.split(".")[1] in parameters:
+                continue
+            yield f"| `{key}` | {what} |\n"
+        if top == "published":
+            yield "| `published[].KEY.values`, `published[].KEY.sigmas` | of a parameter: lists of numbers in its unit |\n"
+
+
+def main():
+    program, update = sys.argv[1], "--update" in sys.argv[2:]
+    stale = 0
+    for name, make in (("effects.md", effects), ("study.md", study)):
+        text = "".join(make(program))
+        path = DOCS / name
+        if update:
+            path.write_text(text)
+            continue
+        was = path.read_text()
+        if was != text:
+            stale += 1
+            sys.stdout.writelines(difflib.unified_diff(was.splitlines(True), text.splitlines(True), name, "the program's"))
+    return 1 if stale else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
