@@ -4,6 +4,7 @@ namespace drift::cli {
 
 // Each is declared at the end of its own file.
 Command check_command();
+Command new_command();
 Command simulate_command();
 Command rank_command();
 Command terms_command();
@@ -24,11 +25,11 @@ Command completion_command();
 Command version_command();
 
 std::vector<Command> commands() {
-  return {check_command(),  simulate_command(),   rank_command(),     terms_command(),
-          look_command(),   convert_command(),    identify_command(), diagnose_command(),
-          run_command(),    status_command(),     verify_command(),   replay_command(),
-          report_command(), export_command(),     blind_command(),    help_command(),
-          schema_command(), completion_command(), version_command()};
+  return {check_command(),    new_command(),    simulate_command(),   rank_command(),
+          terms_command(),    look_command(),   convert_command(),    identify_command(),
+          diagnose_command(), run_command(),    status_command(),     verify_command(),
+          replay_command(),   report_command(), export_command(),     blind_command(),
+          help_command(),     schema_command(), completion_command(), version_command()};
 }
 
 }  // namespace drift::cli

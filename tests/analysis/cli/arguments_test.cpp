@@ -67,9 +67,10 @@ TEST(Arguments, TheCommandHelpIsTheOptionHelp) {
 
 TEST(Arguments, EveryCommandOfTheHelpHasHelp) {
   const std::string list = test::run_program(DRIFT_SYNTHETIC, "help").out;
-  for (const char* command : {"check", "simulate", "rank", "terms", "look", "convert", "identify",
-                              "diagnose", "run", "status", "verify", "replay", "report", "export",
-                              "blind", "help", "schema", "completion", "version"}) {
+  for (const char* command :
+       {"check",    "simulate", "rank",   "terms",  "look",       "convert", "identify",
+        "diagnose", "run",      "status", "verify", "replay",     "report",  "export",
+        "blind",    "new",      "help",   "schema", "completion", "version"}) {
     expect_says(list, std::string("\n  ") + command + " ");
     const Answer own = test::run_program(DRIFT_SYNTHETIC, std::string("help ") + command);
     EXPECT_EQ(own.code, 0) << command;

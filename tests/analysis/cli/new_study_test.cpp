@@ -1,0 +1,56 @@
+// `driftscope new`: what it writes is a study that the other commands take.
+#include "core/base/check.hpp"
+#include "tests/support/program.hpp"
+#include "tests/support/short_study.hpp"
+
+namespace drift::new_study_test {
+namespace {
+
+using namespace drift::test;
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST(NewStudy, EveryKindIsValid) {
+  const ScratchFolder folder;
+  for (const std::string kind : {"platform", "strapdown", "study", "sweep", "diagnose"}) {
+    const std::string file = folder.file(kind + ".toml");
+    const Answer made = driftscope("new " + kind + " -o " + file);
+    EXPECT_EQ(made.code, 0) << made.err;
+    const Answer checked = driftscope("check " + file);
+    EXPECT_EQ(checked.code, 0) << kind << "\n" << checked.err;
+    EXPECT_EQ(has(checked.out, "sweep."), kind == "sweep");
+  }
+  EXPECT_EQ(driftscope("new poem -o " + folder.file("p.toml")).code,
+            static_cast<int>(ExitCode::usage));
+}
+
+TEST(NewStudy, APlanIsFilledFromTheRecording) {
+  const ScratchFolder folder;
+  const std::string made = folder.write("made.toml", short_study);
+  const std::string recording = folder.file("r.csv"), file = folder.file("lab.toml");
+  ASSERT_EQ(driftscope("simulate " + made + " -o " + recording).code, 0);
+  const Answer a = driftscope("new diagnose " + recording + " -o " + file);
+  ASSERT_EQ(a.code, 0) << a.err;
+  const std::string checked = driftscope("check " + file).out;
+  EXPECT_TRUE(has(checked, "plan.position.position 6.dwell"));
+  EXPECT_FALSE(has(checked, "plan.position.position 7."));
+  const std::string text = text_of(file);
+  EXPECT_TRUE(has(text, "sample = \"60 s\"")) << text;
+  EXPECT_TRUE(has(text, "dwell = \"600 s\"")) << text;
+  // The plan six holds each axis up and down once.
+  for (const std::string axis : {"x", "y", "z"})
+    for (const std::string way : {"U", "D"}) EXPECT_TRUE(has(text, axis + "=" + way)) << text;
+  EXPECT_EQ(driftscope("identify " + file + " " + recording + " --quiet").code, 0);
+}
+
+TEST(NewStudy, NoFileOfTheUsersIsReplaced) {
+  const ScratchFolder folder;
+  const std::string mine = folder.write("mine.toml", "# mine\n");
+  EXPECT_NE(driftscope("new study -o " + mine).code, 0);
+  EXPECT_EQ(text_of(mine), "# mine\n");
+}
+
+}  // namespace
+}  // namespace drift::new_study_test
