@@ -51,7 +51,7 @@ ExitCode make_study(const NewArguments& a) {
   const StudyKind kind = *value_in(study_kinds, a.kind);
   const bool on_case = kind == StudyKind::strapdown;
   require_output_file(a.output, {a.recording},
-                      [](const std::string&) { return "a file that is there already"; });
+                      [](const std::string&) { return "a file that may hold work of yours"; });
   std::optional<RecordedPlan> plan;
   std::string mapping;
   if (!a.recording.empty()) {

@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 
+#include "core/physics/gimbals.hpp"
+#include "core/recording/recording_channels.hpp"
 #include "core/recording/rows/quality_card.hpp"
 
 namespace drift::cli {
@@ -12,24 +13,37 @@ namespace {
 
 /// A right-handed frame with the axis up (or down) that the accelerometers show. Headings leave no
 /// trace in them.
-std::string axes_of(const std::array<double, 3>& force) {
+std::string axes_of(const Vec3& force) {
   constexpr std::string_view up[] = {"x=U y=N z=W", "x=W y=U z=N", "x=N y=W z=U"};
   constexpr std::string_view down[] = {"x=D y=W z=N", "x=N y=D z=W", "x=W y=N z=D"};
-  std::size_t vertical = 0;
-  for (std::size_t i = 1; i < 3; ++i)
-    if (std::abs(force[i]) > std::abs(force[vertical])) vertical = i;
+  int vertical = 0;
+  force.cwiseAbs().maxCoeff(&vertical);
   return std::string(force[vertical] < 0.0 ? down[vertical] : up[vertical]);
 }
 
-double mean_of(const Channel* channel, std::size_t first, std::size_t end) {
-  double sum = 0.0;
-  std::size_t count = 0;
-  for (std::size_t i = first; channel != nullptr && i < end; ++i)
-    if (std::isfinite(channel->values[i])) {
-      sum += channel->values[i];
-      ++count;
-    }
-  return count == 0 ? 0.0 : sum / static_cast<double>(count);
+Vec3 mean_force(const Recording& r, std::size_t first, std::size_t end) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t row = first; row < end; ++row)
+    if (const auto force = measured(r, accelerometer_channels, row)) sum += *force;
+  return sum;
+}
+
+/// The directions N, S, W, E, U, D, or half way between two of them, nearest to the axes that the
+/// gimbals show; empty without gimbal angles, and where an axis lies between three.
+std::optional<std::string> cardinal_axes(const Recording& r, std::size_t row, double heading) {
+  const double shares = std::sin(22.5 * detail::deg);  // nearer to half way than to the other one
+  const auto angles = measured(r, gimbal_channels, row);
+  if (!angles) return std::nullopt;
+  const Mat3 R_lp = case_attitude(heading) * gimbal_chain(*angles);
+  std::string text;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::string letters;
+    for (int l = 0; l < 3; ++l)
+      if (std::abs(R_lp(l, axis)) > shares) letters += (R_lp(l, axis) > 0.0 ? "NWU" : "SED")[l];
+    if (letters.size() > 2) return std::nullopt;
+    text += fmt::format("{}{}={}", axis == 0 ? "" : " ", "xyz"[axis], letters);
+  }
+  return text;
 }
 
 std::string_view title_of(StudyKind kind) {
@@ -51,29 +65,35 @@ std::string_view title_of(StudyKind kind) {
 /// Whether each position keeps the dwell it was recorded with, or all have that of [plan].
 enum class Dwells { as_recorded, alike };
 
+std::string position_text(const RecordedPlan::Position& p, std::size_t number, Dwells dwells) {
+  std::string text =
+      fmt::format("[[plan.position]]\nname  = \"position {}\"\naxes  = \"{}\"\n", number, p.axes);
+  if (p.torqued) text += "entry = \"torqued\"\n";
+  if (p.heading)
+    text += fmt::format("case_heading = \"{:.0f} deg\"\n", std::round(*p.heading / detail::deg));
+  if (dwells == Dwells::as_recorded) text += fmt::format("dwell = \"{:.9g} s\"\n", p.length);
+  return text;
+}
+
 std::string plan_text(const std::optional<RecordedPlan>& plan, Dwells dwells) {
-  const std::string heading =
-      "\n[plan]\nmode   = \"free\"        # between entries: \"free\", or \"level\" with Earth "
-      "rate "
+  std::string text = fmt::format(
+      "\n[plan]\nmode   = \"{}\"        # in the dwells: \"free\", or \"level\" with Earth rate "
       "commanded\nentry  = \"caged\"       # how a position is entered: \"caged\", or "
-      "\"torqued\"\n";
+      "\"torqued\"\n",
+      plan && plan->level ? "level" : "free");
   if (!plan)
-    return heading +
+    return text +
            "preset = \"six\"         # or [[plan.position]] one by one, with name and axes\n"
            "dwell  = \"60 min\"\nsample = \"60 s\"\n";
-  std::string text =
-      heading + fmt::format("sample = \"{:.9g} s\"      # of the recording\n", plan->sample);
+  text += fmt::format("sample = \"{:.9g} s\"      # of the recording\n", plan->sample);
   if (dwells == Dwells::alike)
     text += fmt::format("dwell  = \"{:.9g} s\"\n", plan->positions.front().length);
-  text +=
-      "# What is up is of the recording. Which axis points North no accelerometer shows: correct "
-      "N, S, E, W.\n";
-  for (std::size_t i = 0; i < plan->positions.size(); ++i) {
-    text += fmt::format("[[plan.position]]\nname  = \"position {}\"\naxes  = \"{}\"\n", i + 1,
-                        plan->positions[i].axes);
-    if (dwells == Dwells::as_recorded)
-      text += fmt::format("dwell = \"{:.9g} s\"\n", plan->positions[i].length);
-  }
+  text += plan->north
+              ? "# The axes are those that the gimbal angles show of a case that faces North.\n"
+              : "# What is up is of the recording. Which axis points North no accelerometer "
+                "shows: correct N, S, E, W.\n";
+  for (std::size_t i = 0; i < plan->positions.size(); ++i)
+    text += position_text(plan->positions[i], i + 1, dwells);
   return text;
 }
 
@@ -110,15 +130,23 @@ std::string simulated_text() {
 RecordedPlan recorded_plan(const Recording& r) {
   RecordedPlan plan;
   plan.sample = quality_card(r, RecordingKind::platform).interval;
-  const Channel *position = r.find("position"), *time = r.find("time");
+  plan.north = true;
+  const Channel *position = r.find("position"), *time = r.find("time"), *phase = r.find("phase"),
+                *heading = r.find("case_heading");
   for (std::size_t first = 0, end = 0; first < r.rows(); first = end) {
     end = first + 1;
     while (end < r.rows() && (!position || position->values[end] == position->values[first])) ++end;
-    const double span = time->values[end - 1] - time->values[first] + plan.sample;
-    std::array<double, 3> force{};
-    for (std::size_t i = 0; i < 3; ++i)
-      force[i] = mean_of(r.find(fmt::format("acc_{}", "xyz"[i])), first, end);
-    plan.positions.push_back({std::round(span / plan.sample) * plan.sample, axes_of(force)});
+    std::size_t dwell = first;
+    while (phase && dwell + 1 < end && phase->values[dwell] == 1.0) ++dwell;
+    const double span = time->values[end - 1] - time->values[dwell] + plan.sample;
+    RecordedPlan::Position p{std::round(span / plan.sample) * plan.sample, "", dwell > first, {}};
+    if (heading) p.heading = heading->values[end - 1];
+    const auto shown = cardinal_axes(r, dwell, p.heading.value_or(0.0));
+    plan.north = plan.north && shown;
+    p.axes = shown ? *shown : axes_of(mean_force(r, dwell, end));
+    const auto command = measured(r, command_channels, dwell);
+    plan.level = plan.level || (command && command->norm() > 0.5 * detail::earth_rate);
+    plan.positions.push_back(std::move(p));
   }
   return plan;
 }

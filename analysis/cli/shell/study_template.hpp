@@ -14,14 +14,21 @@ enum class StudyKind { platform, strapdown, study, sweep, diagnose };
 /// What a recording says of the plan it was made on.
 struct RecordedPlan {
   struct Position {
-    double length = 0.0;  ///< [s], a whole number of samples
-    std::string axes;     ///< "x=N y=W z=U": only what is up is seen
+    double length = 0.0;            ///< of the dwell [s], a whole number of samples
+    std::string axes;               ///< "x=N y=W z=U"
+    bool torqued = false;           ///< slewed to, as the phases say
+    std::optional<double> heading;  ///< of the case [rad], where it is recorded
   };
   double sample = 0.0;  ///< [s]
+  bool level = false;   ///< Earth rate is commanded in the dwells
+  bool north =
+      false;  ///< the axes that lie level are from gimbal angles, of a case that faces North
   std::vector<Position> positions;
 };
 
-/// Dwells, samples and the vertical axis of each position of a platform's recording.
+/// Dwells, samples and attitudes (the nearest cardinal ones) of a platform's recording: from the
+/// gimbal angles at the beginning of each dwell, or, without them, what is up from the
+/// accelerometers.
 RecordedPlan recorded_plan(const Recording& recording);
 
 /// A study file with a comment at everything that is to be thought about. `mapping`: the

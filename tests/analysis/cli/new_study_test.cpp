@@ -45,6 +45,25 @@ TEST(NewStudy, APlanIsFilledFromTheRecording) {
   EXPECT_EQ(driftscope("identify " + file + " " + recording + " --quiet").code, 0);
 }
 
+TEST(NewStudy, AttitudesEntriesHeadingsAndLawAreThoseOfTheRecording) {
+  const ScratchFolder folder;
+  const std::string recording = folder.file("r.csv"), file = folder.file("lab.toml");
+  ASSERT_EQ(driftscope("simulate " + config("table1.toml") + " -o " + recording).code, 0);
+  ASSERT_EQ(driftscope("new platform " + recording + " -o " + file).code, 0);
+  const std::string text = text_of(file),
+                    made = text_of(std::string(DRIFT_SOURCE_DIR) + "/configs/table1.toml");
+  const auto axes_in = [](const std::string& study) {
+    std::vector<std::string> all;
+    for (std::size_t at = 0; (at = study.find("\"x=", at)) != std::string::npos; ++at)
+      all.push_back(study.substr(at, study.find('"', at + 1) - at));
+    return all;
+  };
+  EXPECT_EQ(axes_in(text), axes_in(made));
+  EXPECT_TRUE(has(text, "entry = \"torqued\"\ncase_heading = \"360 deg\"")) << text;
+  EXPECT_TRUE(has(text, "mode   = \"free\"")) << text;
+  EXPECT_EQ(driftscope("identify " + file + " " + recording + " --quiet").code, 0);
+}
+
 TEST(NewStudy, NoFileOfTheUsersIsReplaced) {
   const ScratchFolder folder;
   const std::string mine = folder.write("mine.toml", "# mine\n");
