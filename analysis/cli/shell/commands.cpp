@@ -25,11 +25,11 @@ Command completion_command();
 Command version_command();
 
 std::vector<Command> commands() {
-  return {check_command(),    new_command(),    simulate_command(),   rank_command(),
-          terms_command(),    look_command(),   convert_command(),    identify_command(),
-          diagnose_command(), run_command(),    status_command(),     verify_command(),
-          replay_command(),   report_command(), export_command(),     blind_command(),
-          help_command(),     schema_command(), completion_command(), version_command()};
+  return {check_command(),    simulate_command(), new_command(),        rank_command(),
+          terms_command(),    look_command(),     convert_command(),    identify_command(),
+          diagnose_command(), run_command(),      status_command(),     verify_command(),
+          replay_command(),   report_command(),   export_command(),     blind_command(),
+          help_command(),     schema_command(),   completion_command(), version_command()};
 }
 
 }  // namespace drift::cli

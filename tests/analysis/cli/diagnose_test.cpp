@@ -25,7 +25,7 @@ std::string tilted_case(const ScratchFolder& folder) {
 
 TEST(DiagnoseCommand, NamesWhatACaseLacksAndLeavesAReport) {
   const ScratchFolder folder;
-  const Answer a = driftscope("diagnose " + config("diagnose_xsens.toml") + " " +
+  const Answer a = driftscope("diagnose " + test::config("diagnose_xsens.toml") + " " +
                               tilted_case(folder) + " -o " + folder.file("out"));
   ASSERT_EQ(a.code, 0) << a.err;
   EXPECT_NE(a.out.find("Verdict named: The nominal model lacks misalignment of the gyro input axes "
@@ -52,14 +52,14 @@ TEST(DiagnoseCommand, AFolderThatCannotBeWrittenIsSaidBeforeAnythingIsComputed) 
   const std::string file = folder.write("file", "no folder"), recording = tilted_case(folder);
   for (const std::string& out :
        {file + "/out", std::string("/proc/no/folder"), std::string("/proc/self")}) {
-    const Answer a =
-        driftscope("diagnose " + config("diagnose_xsens.toml") + " " + recording + " -o " + out);
+    const Answer a = driftscope("diagnose " + test::config("diagnose_xsens.toml") + " " +
+                                recording + " -o " + out);
     EXPECT_EQ(a.code, static_cast<int>(ExitCode::io)) << out;
     EXPECT_NE(a.err.find(out + ": cannot be written"), std::string::npos) << a.err;
     EXPECT_EQ(a.out, "") << "the recording is not even read";
   }
   // A folder that can be written is not made for a recording that cannot be read.
-  const Answer a = driftscope("diagnose " + config("diagnose_xsens.toml") + " " +
+  const Answer a = driftscope("diagnose " + test::config("diagnose_xsens.toml") + " " +
                               folder.file("absent.csv") + " -o " + folder.file("a/b/c"));
   EXPECT_NE(a.code, 0);
   EXPECT_FALSE(std::filesystem::exists(folder.file("a")));
@@ -226,23 +226,23 @@ TEST(DiagnoseCommand, AdvisesOnRequest) {
   EXPECT_EQ(wrong.code, static_cast<int>(ExitCode::usage));
   EXPECT_NE(wrong.err.find("Did you mean 'sag'"), std::string::npos) << wrong.err;
   EXPECT_NE(wrong.err.find("D_F_x"), std::string::npos) << wrong.err;
-  EXPECT_EQ(driftscope("diagnose " + config("diagnose_xsens.toml") + " " + tilted_case(folder) +
-                       " --advise")
+  EXPECT_EQ(driftscope("diagnose " + test::config("diagnose_xsens.toml") + " " +
+                       tilted_case(folder) + " --advise")
                 .code,
             static_cast<int>(ExitCode::usage));
 }
 
 TEST(DiagnoseCommand, RefusesWhatItCannotDiagnose) {
   const ScratchFolder folder;
-  EXPECT_EQ(driftscope("diagnose " + config("diagnose_xsens.toml")).code,
+  EXPECT_EQ(driftscope("diagnose " + test::config("diagnose_xsens.toml")).code,
             static_cast<int>(ExitCode::usage));
-  EXPECT_EQ(
-      driftscope("diagnose " + config("diagnose_xsens.toml") + " " + folder.file("absent.csv"))
-          .code,
-      static_cast<int>(ExitCode::io));
+  EXPECT_EQ(driftscope("diagnose " + test::config("diagnose_xsens.toml") + " " +
+                       folder.file("absent.csv"))
+                .code,
+            static_cast<int>(ExitCode::io));
   const std::string no_gyros =
       folder.write("r.csv", "time [s],acc_x [g],acc_y [g],acc_z [g]\n1,0,0,1\n2,0,0,1\n");
-  const Answer a = driftscope("diagnose " + config("diagnose_xsens.toml") + " " + no_gyros);
+  const Answer a = driftscope("diagnose " + test::config("diagnose_xsens.toml") + " " + no_gyros);
   EXPECT_EQ(a.code, recording_error);
   EXPECT_NE(a.err.find("gyro_x"), std::string::npos) << a.err;
 }

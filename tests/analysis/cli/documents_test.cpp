@@ -76,8 +76,9 @@ TEST(Documents, EveryCommandWorks) {
   Commands here;
   int run = 0;
   for (const std::string& command : commands()) {
-    // The same diagnosis once more, with another ending: AdviceFollowed and the nightly test below.
+    // The same once more with another ending, or with more of it: left to the nightly test below.
     if (command.find("--advise") != std::string::npos) continue;
+    if (command.starts_with("blind configs/blind.toml")) continue;
     here.run(cut(command));
     ++run;
   }

@@ -48,7 +48,7 @@ TEST(NewStudy, APlanIsFilledFromTheRecording) {
 TEST(NewStudy, AttitudesEntriesHeadingsAndLawAreThoseOfTheRecording) {
   const ScratchFolder folder;
   const std::string recording = folder.file("r.csv"), file = folder.file("lab.toml");
-  ASSERT_EQ(driftscope("simulate " + config("table1.toml") + " -o " + recording).code, 0);
+  ASSERT_EQ(driftscope("simulate " + test::config("table1.toml") + " -o " + recording).code, 0);
   ASSERT_EQ(driftscope("new platform " + recording + " -o " + file).code, 0);
   const std::string text = text_of(file),
                     made = text_of(std::string(DRIFT_SOURCE_DIR) + "/configs/table1.toml");

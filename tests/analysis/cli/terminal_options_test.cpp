@@ -71,7 +71,7 @@ TEST(Color, ATerminalHasItUnlessNoColorSaysNo) {
 
 TEST(SetList, AddsToAListOfTheFile) {
   const ScratchFolder folder;
-  const std::string study = config("table1.toml");
+  const std::string study = test::config("table1.toml");
   const Answer one = driftscope("check " + study + " --set truth.terms+=magnetic_drift.y");
   EXPECT_EQ(one.code, 0) << one.err;
   EXPECT_TRUE(has(one.out, "fixed_drift, g_drift, gyro_misalignment, magnetic_drift.y")) << one.out;
@@ -83,7 +83,7 @@ TEST(SetList, AddsToAListOfTheFile) {
 
 TEST(SetList, RefusesWhatIsNoList) {
   const auto refused = [](const std::string& set) {
-    const Answer a = driftscope("check " + config("table1.toml") + " --set '" + set + "'");
+    const Answer a = driftscope("check " + test::config("table1.toml") + " --set '" + set + "'");
     EXPECT_EQ(a.code, static_cast<int>(ExitCode::config)) << set;
     return a.err;
   };
