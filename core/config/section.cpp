@@ -76,7 +76,6 @@ void Section::wrong(const Node& node, std::string_view key, const std::string& e
 }
 
 bool Section::read(const Option& option, double& value) {
-  std::optional<double> given;
   const Node* node = take(option.key);
   if (node == nullptr) {
     report_->assumed(full(option.key), quantity_text(value / option.unit.to_si, option.unit),

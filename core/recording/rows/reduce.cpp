@@ -22,8 +22,7 @@ struct Joined {
 class Cutter {
  public:
   Cutter(const Recording& r, double interval, std::size_t factor)
-      : r_(r),
-        time_(r.find("time")->values),
+      : time_(r.find("time")->values),
         interval_(interval),
         length_(interval * static_cast<double>(factor)) {
     position_ = r.find("position");
@@ -68,7 +67,6 @@ class Cutter {
            same_heading;
   }
 
-  const Recording& r_;
   const std::vector<double>& time_;
   const Channel* position_ = nullptr;
   const Channel* phase_ = nullptr;
