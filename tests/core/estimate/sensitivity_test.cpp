@@ -17,15 +17,15 @@ TEST(Sensitivity, EquationsOfMotionAgreeWithDifferences) {
   // Rows of the whitened Jacobian against central differences of whole simulated tests. Steps of
   // 1e-3 prior sigma: truncation 1e-6 of the nonlinearity; the quadrature adds (0.05 rad)^4 in
   // slews.
-  for (const auto& [preset, mode] : {std::pair{"eighteen", CommandLaw::free},
-                                     {"slew12", CommandLaw::level},
-                                     {"casespin", CommandLaw::level}})
+  for (const auto& test : {std::pair{"eighteen", CommandLaw::free},
+                           {"slew12", CommandLaw::level},
+                           {"casespin", CommandLaw::level}})
     for (const Coupling coupling : {Coupling::eq5, Coupling::eq6, Coupling::lambda}) {
       ModelSpec spec = base_spec(coupling);
       if (coupling == Coupling::lambda) spec.active.set(param("lambda"));
       const DriftModel model = spec.model();
       const Layout layout = make_layout(spec);
-      const Timeline timeline = preset_timeline(preset, mode, 600.0);
+      const Timeline timeline = preset_timeline(test.first, test.second, 600.0);
       Theta theta = random_theta(21);
       theta[param("lambda")] = 0.4;
       const Readout readout;
@@ -53,7 +53,7 @@ TEST(Sensitivity, EquationsOfMotionAgreeWithDifferences) {
           worst = std::max(worst, std::abs(difference[r] - column[r]));
           scale = std::max(scale, std::abs(column[r]));
         }
-        EXPECT_LT(worst, 2e-4 * scale + 1e-5) << what << " " << preset;
+        EXPECT_LT(worst, 2e-4 * scale + 1e-5) << what << " " << test.first;
       };
       for (std::size_t k = 0; k < layout.size(); ++k) {
         Theta up = theta, down = theta;

@@ -96,8 +96,8 @@ TEST(Cvode, BdfFollowsTheSlowSolutionOfAProtheroRobinsonProblem) {
 
 TEST_P(CvodeBoth, TheRightHandSideIsNeverCalledBeyondTheStop) {
   // 0.1 + 0.7 rounds up: local time must not pass the stop either.
-  for (const auto& [t0, t_stop] :
-       {std::pair{0.0, 1.0}, {0.1, 0.1 + 0.7}, {1e6 / 3.0, 1e6 / 3.0 + 0.3}}) {
+  for (const auto& span : {std::pair{0.0, 1.0}, {0.1, 0.1 + 0.7}, {1e6 / 3.0, 1e6 / 3.0 + 0.3}}) {
+    const double t0 = span.first, t_stop = span.second;
     double latest = t0;
     long beyond = 0;
     auto f = [&](double t, const double* y, double* y_dot) {
