@@ -1,6 +1,11 @@
 // After warm-up, a run of a study allocates nothing in its filters. glibc's own entry points carry
 // the work; these only count. Sanitizers bring their own, so the test is left out with them.
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if defined(__has_feature)  // clang
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define DRIFT_SANITIZED
+#endif
+#endif
+#if !defined(DRIFT_SANITIZED) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #include <gtest/gtest.h>
 
 #include <atomic>
