@@ -21,8 +21,6 @@ struct State {
   std::size_t shown = 0;
 };
 
-constexpr double plain_interval = 10.0;  // [s]
-
 }  // namespace
 
 std::function<void(std::size_t, std::size_t)> progress_reporter(const std::string& style,

@@ -6,6 +6,8 @@
 
 namespace drift::cli {
 
+inline constexpr double plain_interval = 10.0;  ///< between plain lines [s]
+
 /// Reports progress on stderr: a line that is redrawn on a terminal, plain lines elsewhere, JSON
 /// lines, or nothing. Done, total and the time left, judged by what is completed. Thread-safe.
 std::function<void(std::size_t, std::size_t)> progress_reporter(const std::string& style,

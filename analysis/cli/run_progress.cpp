@@ -9,12 +9,12 @@
 #include <memory>
 
 #include "analysis/cli/print.hpp"
+#include "analysis/cli/progress.hpp"
 
 namespace drift::cli {
 namespace {
 
-constexpr double plain_interval = 10.0;  // [s]
-constexpr double json_interval = 1.0;    // [s]
+constexpr double json_interval = 1.0;  // [s]
 
 }  // namespace
 

@@ -3,7 +3,7 @@
 namespace drift::test {
 
 /// A short six-position study: seconds of computing, all features of a long one.
-constexpr const char* short_study = R"(schema = 1
+inline constexpr const char* short_study = R"(schema = 1
 title  = "short"
 [site]
 latitude = "45.75 deg"
