@@ -13,7 +13,6 @@ Mat3 misalignment_matrix(const Mounting& mounting, const MisalignmentAngles& ang
 }
 
 DRIFT_SELDOM(double, );
-DRIFT_SELDOM(Dual<8>, );
 DRIFT_SELDOM(Dual<15>, );
 
 }  // namespace drift

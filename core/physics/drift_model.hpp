@@ -131,7 +131,6 @@ Vec3T<S> gimbal_output(const DriftModel& model, const Inputs<S>& in, const Mat3T
   prefix template Vec3T<S> offset_gimbal_output<S>(const DriftModel&, const Inputs<S>&,           \
                                                    const Mat3T<S>&, double, const S*)
 DRIFT_SELDOM(double, extern);
-DRIFT_SELDOM(Dual<8>, extern);   // the estimators' chunks
 DRIFT_SELDOM(Dual<15>, extern);  // the servo's states
 
 }  // namespace drift

@@ -12,7 +12,7 @@ namespace drift {
 template <class S>
 S time_constant(const S& tau) {
   constexpr double shortest = 1.0;  // [s]
-  return value(tau) > shortest ? tau : S(shortest);
+  return at_least(tau, shortest);
 }
 
 /// Solution of tau m' = u(t) - m over a step dt with u linear from u0 to u1: exact.
@@ -39,7 +39,7 @@ S dahl(const S& torque, double turned, const S& x_d) {
 template <class S>
 S friction_turn(const S& x_d) {
   constexpr double least = 0.1 * detail::deg / 3600.0;  // [rad]
-  return value(x_d) > least ? x_d : S(least);
+  return at_least(x_d, least);
 }
 
 /// Memory of the friction of each gimbal, outer, middle, inner: none where a test begins.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/physics/term_list.hpp"
 #include "core/physics/terms/accelerometer.hpp"
 #include "core/physics/terms/accelerometer_asymmetry.hpp"
 #include "core/physics/terms/accelerometer_cross.hpp"

@@ -43,13 +43,13 @@ struct Scene {
 ///   k = 1/th^2 - (1 + cos th)/(2 th sin th) -> 1/12.
 ///
 /// w_ir is the command, since the reference does what it is told. physics.md 6.1. [rad/s]
+/// R_rp: rotation(phi), which whoever knows omega_ip_p has at hand.
 template <class S>
-Vec3T<S> rotation_vector_rate(const Vec3T<S>& phi, const Vec3T<S>& omega_ip_p,
+Vec3T<S> rotation_vector_rate(const Vec3T<S>& phi, const Mat3T<S>& R_rp, const Vec3T<S>& omega_ip_p,
                               const Vec3& omega_ir_r) {
   using std::cos;
   using std::sin;
   using std::sqrt;
-  const Mat3T<S> R_rp = rotation(phi);
   const Vec3T<S> w = omega_ip_p - R_rp.transpose() * omega_ir_r.template cast<S>();
   const S t2 = phi.squaredNorm();
   S k;

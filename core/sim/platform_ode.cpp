@@ -107,7 +107,8 @@ bool PlatformOde::Problem::reduced(double t, const double* y, double* y_dot) con
 template <class S>
 void PlatformOde::Problem::loop(double t, const S* y, S* y_dot) const {
   const Vec3T<S> phi = vec3(y + ServoState::size);
-  const Mat3T<S> R_lp = reference(t).template cast<S>() * rotation(phi);
+  const Mat3T<S> R_rp = rotation(phi);
+  const Mat3T<S> R_lp = reference(t).template cast<S>() * R_rp;
   const SceneAt<S> scene(*this, t, R_lp);
   const S* theta;
   if constexpr (std::is_same_v<S, double>)
@@ -117,7 +118,7 @@ void PlatformOde::Problem::loop(double t, const S* y, S* y_dot) const {
   const Vec3T<S> unfelt_p = servo_derivative(servo, model, scene.in, theta, y, y_dot);
   const Vec3T<S> omega_ip_p =
       vec3(y + ServoState::omega_ip) + unfelt_p + drive.omega_noise_p.template cast<S>();
-  const Vec3T<S> phi_dot = rotation_vector_rate(phi, omega_ip_p, drive.omega_cmd_p);
+  const Vec3T<S> phi_dot = rotation_vector_rate(phi, R_rp, omega_ip_p, drive.omega_cmd_p);
   for (int i = 0; i < 3; ++i) y_dot[ServoState::size + i] = phi_dot[i];
 }
 

@@ -22,7 +22,7 @@ struct AccelerometerDeadZone {
   template <class S>
   static void readout(const Inputs<S>& in, const S* p, ReadoutAssembly<S>& out) {
     using std::tanh;
-    const S width = value(p[3]) > least ? p[3] : S(least);
+    const S width = at_least(p[3], least);
     for (int i = 0; i < 3; ++i) out.acc[i] -= p[i] * tanh(in.f_p[i] / width);
   }
 };

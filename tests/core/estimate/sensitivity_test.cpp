@@ -98,9 +98,10 @@ TEST(Sensitivity, VariationOfConstantsAgreesWithCvodesForwardSensitivities) {
     p[parameter].d[3] = scale;
     Vec3T<D> v;
     for (int i = 0; i < 3; ++i) v[i] = D::variable(phi[i], i);
+    const Mat3T<D> R_rp = rotation(v);
     const Inputs<D> in =
-        inputs_at<D>(omega_ie_l, Vec3::Zero(), model.mounting, R_lr.cast<D>() * rotation(v));
-    return rotation_vector_rate<D>(v, platform_rate(model, in, p.data(), Mat3::Zero()),
+        inputs_at<D>(omega_ie_l, Vec3::Zero(), model.mounting, R_lr.cast<D>() * R_rp);
+    return rotation_vector_rate<D>(v, R_rp, platform_rate(model, in, p.data(), Mat3::Zero()),
                                    Vec3::Zero());
   };
   const auto rhs = [&](double t, const double* y, double* f) {

@@ -55,7 +55,7 @@ struct Bench {
     for (int i = 0; i < n; ++i) variable[i] = D::variable(x[i], i);
     derivative(variable.data(), x_dot.data());
     Jacobian J;
-    for (int i = 0; i < n; ++i) J.row(i) = x_dot[i].d.matrix().transpose();
+    for (int i = 0; i < n; ++i) J.row(i) = x_dot[i].d.head<n>().matrix().transpose();
     return J;
   }
   Eigen::VectorXcd modes(const State& x) const { return MatX(jacobian(x)).eigenvalues(); }

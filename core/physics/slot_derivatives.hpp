@@ -1,0 +1,200 @@
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <vector>
+
+#include "core/base/dual.hpp"
+#include "core/physics/dependence.hpp"
+#include "core/physics/hooks.hpp"
+#include "core/physics/term_library.hpp"
+
+namespace drift {
+
+/// What the terms see at one instant, and the numbers they see it with. Not copied: the inputs
+/// point to the surroundings.
+template <class S>
+struct SeenByTerms {
+  Inputs<S> still;            ///< at the attitude itself
+  Inputs<Dual<3, S>> at_psi;  ///< with derivatives with respect to three directions of attitude
+  const S* theta = nullptr;   ///< every parameter of TermLibrary
+  const S* memory = nullptr;  ///< of all terms; null where none has any
+  const S* memory_derivative = nullptr;  ///< each with respect to its term's parameter
+};
+
+/// An instant at which every term has something to do, to find out what depends on what.
+SeenByTerms<Dependence> scene_of_dependence();
+
+/// The slots of one hook, summed over the terms of a model, and their derivatives: with respect to
+/// three directions of attitude by dual numbers, each term once; with respect to the states of a
+/// layout by differences, exact because a hook is affine in a parameter of ParamKind::linear.
+/// Parameters that meet in no slot (the three axes of a group, as a rule) share an evaluation. A
+/// nonlinear parameter, or one that memory depends on, takes a dual number of its own.
+///
+/// Hooks may only add to their slots (term.hpp). Allocates nothing once it is built.
+template <class Hook, class S>
+class SlotDerivatives {
+ public:
+  static constexpr int slots = Hook::slots;
+  using D3 = Dual<3, S>;
+  using Sum = typename Hook::template Assembly<D3>;
+
+  /// A slot that depends on a state.
+  struct Entry {
+    std::size_t state = 0;
+    int slot = 0;
+  };
+
+  /// states: library index of each, in the order of a layout.
+  SlotDerivatives(const TermMask& terms, const std::vector<std::size_t>& states) {
+    TermLibrary::for_each_of(terms, [&]<class T>(const TermInfo& info) {
+      if constexpr (Hook::template has<T>) add<T>(info, states);
+    });
+  }
+
+  bool any() const { return !terms_.empty(); }
+  /// Those of one state stand together.
+  const std::vector<Entry>& entries() const { return entries_; }
+
+  /// Adds the terms' slots to `sum`, with derivatives with respect to the directions of at_psi.
+  void add_to(const SeenByTerms<S>& seen, Sum& sum) const {
+    for (const OneTerm& t : terms_) t.value(seen, t, sum);
+  }
+  /// d slot / d state of every entry, SI.
+  void differentiate(const SeenByTerms<S>& seen, S* out) const {
+    for (const OneTerm& t : terms_) t.derivative(seen, t, out);
+  }
+
+ private:
+  /// Parameters of a term that one evaluation differentiates by, and where the result goes.
+  struct Together {
+    bool affine = true;
+    std::vector<std::size_t> params;
+    std::vector<std::pair<int, std::size_t>> slot_to_entry;
+    std::uint32_t met = 0;  ///< slots
+  };
+  struct OneTerm {
+    std::size_t first = 0, first_memory = 0;
+    std::vector<Together> groups;
+    void (*value)(const SeenByTerms<S>&, const OneTerm&, Sum&) = nullptr;
+    void (*derivative)(const SeenByTerms<S>&, const OneTerm&, S*) = nullptr;
+  };
+
+  template <class T>
+  void add(const TermInfo& info, const std::vector<std::size_t>& states);
+
+  template <class T>
+  static void value(const SeenByTerms<S>& seen, const OneTerm& t, Sum& sum) {
+    std::array<D3, T::params.size()> p;
+    for (std::size_t k = 0; k < p.size(); ++k) p[k] = D3(seen.theta[t.first + k]);
+    std::array<D3, memory_of<T>() + 1> m;
+    for (std::size_t k = 0; k + 1 < m.size(); ++k) m[k] = D3(seen.memory[t.first_memory + k]);
+    Hook::template add<T, D3>(seen.at_psi, p.data(), m.data(), sum);
+  }
+
+  template <class T>
+  static void derivative(const SeenByTerms<S>& seen, const OneTerm& t, S* out) {
+    const S* theta = seen.theta + t.first;
+    const S* memory = memory_of<T>() > 0 ? seen.memory + t.first_memory : nullptr;
+    std::array<S, T::params.size()> p;
+    for (std::size_t k = 0; k < p.size(); ++k) p[k] = theta[k];
+    typename Hook::template Assembly<S> here;
+    Hook::template add<T, S>(seen.still, p.data(), memory, here);
+    for (const Together& group : t.groups) {
+      if (!group.affine) {
+        tangent<T>(seen, t, group, out);
+        continue;
+      }
+      for (const std::size_t k : group.params) p[k] = theta[k] + S(1.0);
+      typename Hook::template Assembly<S> there;
+      Hook::template add<T, S>(seen.still, p.data(), memory, there);
+      for (const std::size_t k : group.params) p[k] = theta[k];
+      for (const auto& [slot, entry] : group.slot_to_entry)
+        out[entry] = Hook::template slot<S>(there, slot) - Hook::template slot<S>(here, slot);
+    }
+  }
+
+  /// One parameter, in which the hook need not be affine.
+  template <class T>
+  static void tangent(const SeenByTerms<S>& seen, const OneTerm& t, const Together& group, S* out) {
+    using D = Dual<1, S>;
+    const std::size_t param = group.params.front();
+    std::array<D, T::params.size()> p;
+    for (std::size_t k = 0; k < p.size(); ++k) p[k] = D(seen.theta[t.first + k]);
+    p[param].d[0] = S(1.0);
+    std::array<D, memory_of<T>() + 1> m;
+    if constexpr (memory_of<T>() > 0)
+      for (std::size_t k = 0; k + 1 < m.size(); ++k) {
+        m[k] = D(seen.memory[t.first_memory + k]);
+        if (param == T::memory_parameter) m[k].d[0] = seen.memory_derivative[t.first_memory + k];
+      }
+    Surroundings<D> around;
+    Inputs<D> in;
+    in.mounting = seen.still.mounting;
+    in.f_p = seen.still.f_p.template cast<D>();
+    in.omega_ic_p = seen.still.omega_ic_p.template cast<D>();
+    in.omega_cmd_p = seen.still.omega_cmd_p;
+    if (seen.still.around) {
+      around.now = seen.still.around->now;
+      around.R_lp = seen.still.around->R_lp.template cast<D>();
+      around.gimbal = seen.still.around->gimbal.template cast<D>();
+      in.around = &around;
+    }
+    typename Hook::template Assembly<D> there;
+    Hook::template add<T, D>(in, p.data(), m.data(), there);
+    for (const auto& [slot, entry] : group.slot_to_entry)
+      out[entry] = Hook::template slot<D>(there, slot).d[0];
+  }
+
+  std::vector<OneTerm> terms_;
+  std::vector<Entry> entries_;
+};
+
+/// The slots that each parameter of a term meets: a bit for each slot.
+template <class Hook, class T>
+std::array<std::uint32_t, T::params.size()> slots_met() {
+  static_assert(T::params.size() <= 32);
+  const SeenByTerms<Dependence> scene = scene_of_dependence();
+  std::array<Dependence, T::params.size()> p;
+  for (std::size_t k = 0; k < p.size(); ++k) {
+    const Prior prior = T::params[k].prior_si();
+    p[k] = {prior.mean() + prior.sigma(), 1u << k};
+  }
+  std::array<Dependence, memory_of<T>() + 1> m;
+  if constexpr (memory_of<T>() > 0) m.fill({0.5, 1u << T::memory_parameter});
+  typename Hook::template Assembly<Dependence> added;
+  Hook::template add<T, Dependence>(scene.still, p.data(), m.data(), added);
+  std::array<std::uint32_t, T::params.size()> met{};
+  for (std::size_t k = 0; k < met.size(); ++k)
+    for (int s = 0; s < Hook::slots; ++s)
+      if (Hook::template slot<Dependence>(added, s).on >> k & 1u) met[k] |= 1u << s;
+  return met;
+}
+
+template <class Hook, class S>
+template <class T>
+void SlotDerivatives<Hook, S>::add(const TermInfo& info, const std::vector<std::size_t>& states) {
+  OneTerm t{info.first, static_cast<std::size_t>(info.first_memory), {}, &value<T>, &derivative<T>};
+  const auto met = slots_met<Hook, T>();
+  for (std::size_t k = 0; k < info.count; ++k) {
+    const auto state = std::find(states.begin(), states.end(), info.first + k);
+    if (state == states.end() || met[k] == 0) continue;
+    bool affine = T::params[k].kind == ParamKind::linear;
+    if constexpr (memory_of<T>() > 0) affine = affine && k != T::memory_parameter;
+    auto group = std::find_if(t.groups.begin(), t.groups.end(), [&](const Together& g) {
+      return affine && g.affine && (g.met & met[k]) == 0;
+    });
+    if (group == t.groups.end()) group = t.groups.insert(group, Together{affine, {}, {}, 0});
+    group->params.push_back(k);
+    group->met |= met[k];
+    for (std::uint32_t rest = met[k]; rest != 0; rest &= rest - 1) {
+      const int slot = std::countr_zero(rest);
+      group->slot_to_entry.emplace_back(slot, entries_.size());
+      entries_.push_back({static_cast<std::size_t>(state - states.begin()), slot});
+    }
+  }
+  if (t.groups.empty()) t.derivative = [](const SeenByTerms<S>&, const OneTerm&, S*) {};
+  terms_.push_back(std::move(t));
+}
+
+}  // namespace drift
