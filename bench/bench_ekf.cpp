@@ -133,9 +133,9 @@ Timed run_structured(const Problem& p) {
   for (const Step& s : p.steps) {
     if (s.cage) P.recage(p.filter.initial_attitude);
     P.propagate(s.Phi_half, s.G_half, s.Q);
-    P.update(s.nu_acc, s.H_acc, s.H_par, p.layout.num_rate, p.readout.accelerometer_noise, x);
+    P.update(s.nu_acc, s.H_acc, none, s.H_par, p.readout.accelerometer_noise, x);
     P.propagate(s.Phi_rest, s.G_rest, s.Q);
-    P.update(s.nu_gimbal, s.H_gimbal, none, 0, p.readout.gimbal_noise, x);
+    P.update(s.nu_gimbal, s.H_gimbal, none, none, p.readout.gimbal_noise, x);
   }
   Timed out{cpu_time() - start, allocations - before, MatX(p.states(), p.states())};
   out.P.topLeftCorner<3, 3>() = P.attitude();

@@ -148,6 +148,7 @@ EstimateResult practice_ekf(const FilterSpec& filter, const Timeline& timeline,
         const double w = Timeline::simpson_weight(interval.substeps, k);
         mean += w * s.jacobian[k].acc;
         H.leftCols<3>() += w * s.jacobian[k].H * s.Phi[k] * back;
+        H.middleCols(3, nr) += w * s.jacobian[k].H * (s.G[k] - s.Phi[k] * back * s.G[m]);
         H.rightCols(n - 3 - nr) += w * s.jacobian[k].H_par;
       }
       take(measured.acc.col(i) - mean, readout.accelerometer_noise,

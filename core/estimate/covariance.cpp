@@ -149,7 +149,8 @@ Covariance::Covariance(std::size_t parameters, std::size_t num_rate, double sigm
       P_pp_(MatX::Identity(whole_lanes(parameters), parameters)),
       work_(MatX3::Zero(whole_lanes(parameters), 3)),
       gain_(MatX3::Zero(whole_lanes(parameters), 3)),
-      later_gain_(gain_) {
+      later_gain_(gain_),
+      H_rate_(Mat3X::Zero(3, num_rate)) {
   entries_.reserve(3 * parameters);
   recage(sigma_attitude);
 }
@@ -183,9 +184,8 @@ void Covariance::propagate(const Mat3& Phi, const Eigen::Ref<const Mat3X>& G, co
   P_aa_ = 0.5 * (P + P.transpose());
 }
 
-Covariance::Update Covariance::update(const Vec3& nu, const Mat3& H_psi,
-                                      const Eigen::Ref<const Mat3X>& H_par, std::size_t first,
-                                      double sigma, VecX& x) {
+Covariance::Update Covariance::update(const Vec3& nu, const Mat3& H_psi, const Ref3X& H_rate,
+                                      const Ref3X& H_par, double sigma, VecX& x) {
   Update out;
   // A scalar that was not measured becomes one of zero sensitivity, zero innovation, unit noise.
   Mat3 H = H_psi;
@@ -204,12 +204,20 @@ Covariance::Update Covariance::update(const Vec3& nu, const Mat3& H_psi,
   }
   if (out.scalars == 0) return out;
 
-  if (owed_ && H_par.cols() > 0) {
+  if (owed_ && (H_rate.cols() > 0 || H_par.cols() > 0)) {
     downdate(P_pp_, gain_);
     owed_ = false;
   }
   MatX3& U = owed_ ? later_gain_ : gain_;
-  const auto at = static_cast<Eigen::Index>(first);
+  const bool by_rates = H_rate.cols() > 0;
+  if (by_rates)
+    for (int i = 0; i < 3; ++i) {
+      if (used[i])
+        H_rate_.row(i) = H_rate.row(i);
+      else
+        H_rate_.row(i).setZero();
+    }
+  const auto at = static_cast<Eigen::Index>(num_rate_);
   entries_.clear();
   std::size_t end[4] = {0, 0, 0, 0};  // entries of row i run from end[i] to end[i + 1]
   for (int i = 0; i < 3; ++i) {
@@ -226,12 +234,17 @@ Covariance::Update Covariance::update(const Vec3& nu, const Mat3& H_psi,
   };
   Mat3 V_a = P_aa_ * H.transpose();  // V = P H^T
   times_transposed(P_pa_, H, work_);
+  if (by_rates) {
+    V_a += small_product(H_rate_, P_pa_).transpose();
+    add_product(P_pp_, H_rate_, work_);
+  }
   for (int i = 0; i < 3; ++i) {
     if (end[i] == end[i + 1]) continue;
     V_a.col(i) += row_product(i, P_pa_);
     add_sparse_product(P_pp_, &entries_[end[i]], end[i + 1] - end[i], work_.col(i).data());
   }
   Mat3 S = H * V_a;
+  if (by_rates) S += small_product(H_rate_, work_);
   for (int i = 0; i < 3; ++i)
     if (end[i] < end[i + 1]) S.row(i) += row_product(i, work_).transpose();
   S = 0.5 * (S + S.transpose()).eval();

@@ -45,11 +45,11 @@ class Covariance {
     bool ok = true;  ///< false: innovation covariance not positive definite
   };
 
-  /// Measurement of m scalars: innovation nu, H = [H_psi, H_par on parameters from `first`],
-  /// independent noise of standard deviation sigma. NaN innovations are left out. The parameter
-  /// correction is added to x. H_par may be empty.
-  Update update(const Vec3& nu, const Mat3& H_psi, const Eigen::Ref<const Mat3X>& H_par,
-                std::size_t first, double sigma, VecX& x);
+  /// Measurement of m scalars: innovation nu, H = [H_psi, H_rate on the first num_rate parameters,
+  /// H_par on those after them], independent noise of standard deviation sigma. NaN innovations are
+  /// left out. The parameter correction is added to x. H_rate and H_par may be empty.
+  Update update(const Vec3& nu, const Mat3& H_psi, const Eigen::Ref<const Mat3X>& H_rate,
+                const Eigen::Ref<const Mat3X>& H_par, double sigma, VecX& x);
 
   const Mat3& attitude() const { return P_aa_; }
   MatX parameters() const;
@@ -69,6 +69,7 @@ class Covariance {
   MatX3 P_pa_;
   MatX P_pp_;
   MatX3 work_, gain_, later_gain_;
+  Mat3X H_rate_;  ///< without the rows that were not measured
   /// An element of H_par that is not zero.
   struct Entry {
     Eigen::Index column;  ///< counts parameters

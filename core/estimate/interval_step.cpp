@@ -119,9 +119,9 @@ void IntervalStep::predict(const Mat3& Phi, const Mat3X& G, const Mat3& Q) {
 }
 
 void IntervalStep::take_accelerometers(const Interval& interval, const Vec3& acc) {
-  const MeanOutput mean = mean_output(interval, sensitivity_);
+  mean_output(interval, sensitivity_, mean_);
   const auto middle = static_cast<std::size_t>(interval.substeps);
-  update(interval, middle, acc - mean.acc, mean.H, sensitivity_.jacobian[0].H_par,
+  update(interval, middle, acc - mean_.acc, {mean_.H, mean_.H_rate, mean_.H_par},
          interval.accelerometer_noise(readout_.accelerometer_noise),
          InnovationSums::accelerometers);
   if (about_ == About::estimate && status_ == EstimateStatus::ok)
@@ -137,22 +137,22 @@ void IntervalStep::take_gimbals(const Interval& interval, const Vec3& gimbal) {
       linearizer_.gimbals(timeline_, interval, path_[last], memory_at(last));
   Vec3 residual;
   for (int k = 0; k < 3; ++k) residual[k] = angle_difference(gimbal[k], predicted.angles[k]);
-  update(interval, last, residual, predicted.H, predicted.H_par, readout_.gimbal_noise,
+  static const Mat3X none(3, 0);
+  update(interval, last, residual, {predicted.H, none, predicted.H_par}, readout_.gimbal_noise,
          InnovationSums::gimbals);
 }
 
 /// Takes in three scalars at a node. residual: measured minus predicted along the path.
 void IntervalStep::update(const Interval& interval, std::size_t node, const Vec3& residual,
-                          const Mat3& H_psi, const Mat3X& H_par, double noise,
-                          InnovationSums::Channel channel) {
+                          const Sensitivity& H, double noise, InnovationSums::Channel channel) {
   Vec3 nu = residual;
   if (about_ == About::reference) {
-    nu -= H_psi * psi_;
-    if (H_par.cols() > 0) nu -= H_par * x_.tail(H_par.cols());
+    nu -= H.psi * psi_;
+    if (H.rate.cols() > 0) nu -= H.rate * x_.head(H.rate.cols());
+    if (H.par.cols() > 0) nu -= H.par * x_.tail(H.par.cols());
   }
-  if (has_outliers(model_.terms)) nu = gated(nu, H_psi, H_par, noise);
-  const Covariance::Update update =
-      P_.update(nu, H_psi, H_par, H_par.cols() > 0 ? layout_.num_rate : 0, noise, x_);
+  if (has_outliers(model_.terms)) nu = gated(nu, H, noise);
+  const Covariance::Update update = P_.update(nu, H.psi, H.rate, H.par, noise, x_);
   taken_.nis += update.nis;
   taken_.scalars += update.scalars;
   sums_.add(update, channel);
@@ -167,14 +167,14 @@ void IntervalStep::update(const Interval& interval, std::size_t node, const Vec3
 }
 
 /// Innovations without those that lie outside the gate of the term `outliers`: NaN is left out.
-Vec3 IntervalStep::gated(const Vec3& nu, const Mat3& H_psi, const Mat3X& H_par,
-                         double noise) const {
+Vec3 IntervalStep::gated(const Vec3& nu, const Sensitivity& H, double noise) const {
   const auto n = static_cast<Eigen::Index>(layout_.size());
-  Mat3X H = Mat3X::Zero(3, n);
-  if (H_par.cols() > 0) H.rightCols(H_par.cols()) = H_par;
-  const Mat3 cross = H * P_.cross().topRows(n) * H_psi.transpose();
-  const Mat3 S = H_psi * P_.attitude() * H_psi.transpose() + cross + cross.transpose() +
-                 H * P_.parameters() * H.transpose() + noise * noise * Mat3::Identity();
+  Mat3X H_x = Mat3X::Zero(3, n);
+  if (H.rate.cols() > 0) H_x.leftCols(H.rate.cols()) = H.rate;
+  if (H.par.cols() > 0) H_x.rightCols(H.par.cols()) = H.par;
+  const Mat3 cross = H_x * P_.cross().topRows(n) * H.psi.transpose();
+  const Mat3 S = H.psi * P_.attitude() * H.psi.transpose() + cross + cross.transpose() +
+                 H_x * P_.parameters() * H_x.transpose() + noise * noise * Mat3::Identity();
   const double gate = outlier_gate(theta_);
   Vec3 inside = nu;
   for (int k = 0; k < 3; ++k)

@@ -20,8 +20,8 @@ enum class About {
 ///
 /// Time, the memory of terms, terms in the gimbals, drift noise and outliers are dealt with here
 /// alone, so that every sequential estimator knows of them. States are 3 attitude errors and the
-/// parameters of the layout. The mean specific force is taken in at the middle of its interval
-/// (exact to second order in the attitude change), the gimbal angles at its end. Caging brings a
+/// parameters of the layout. The mean specific force is taken in at the middle of its interval, as
+/// the mean over the path through that attitude; the gimbal angles at its end. Caging brings a
 /// new attitude within the prior (physics.md 3.5, 6.6).
 class IntervalStep {
  public:
@@ -65,9 +65,15 @@ class IntervalStep {
   void predict(const Mat3& Phi, const Mat3X& G, const Mat3& Q);
   void take_accelerometers(const Interval& interval, const Vec3& acc);
   void take_gimbals(const Interval& interval, const Vec3& gimbal);
-  void update(const Interval& interval, std::size_t node, const Vec3& residual, const Mat3& H_psi,
-              const Mat3X& H_par, double noise, InnovationSums::Channel channel);
-  Vec3 gated(const Vec3& nu, const Mat3& H_psi, const Mat3X& H_par, double noise) const;
+  /// How three scalars depend on the attitude and on the states; matrices may be empty.
+  struct Sensitivity {
+    const Mat3& psi;
+    const Mat3X& rate;
+    const Mat3X& par;
+  };
+  void update(const Interval& interval, std::size_t node, const Vec3& residual,
+              const Sensitivity& H, double noise, InnovationSums::Channel channel);
+  Vec3 gated(const Vec3& nu, const Sensitivity& H, double noise) const;
   void notice_divergence(const Covariance::Update& update, double t);
   void learn();
   void let_drift_vary(double duration);
@@ -90,6 +96,7 @@ class IntervalStep {
   std::vector<Vec3> nodes_;     ///< rotation vector of the estimate at the interval's nodes [rad]
   const Vec3* path_ = nullptr;  ///< the same of what it is linearised about
   Mat3X rest_G_;                ///< work
+  MeanOutput mean_;             ///< work
   Taken taken_;
   InnovationSums sums_;
   EstimateStatus status_ = EstimateStatus::ok;

@@ -31,23 +31,36 @@ void accumulate(const Mat3& Phi, const Mat3X& G, const Mat3& C0, const Mat3X& B0
   }
 }
 
+/// out += A G.
+void add_product(const Mat3& A, const Mat3X& G, Mat3X& out) {
+  const Columns by(A);
+  const double* g = G.data();
+  double* into = out.data();
+  for (Eigen::Index c = 0; c < out.cols(); ++c, g += 3, into += 3) {
+    const Eigen::Vector4d product = by.times(g);
+    for (int i = 0; i < 3; ++i) into[i] += product[i];
+  }
+}
+
 }  // namespace
 
-MeanOutput mean_output(const Interval& interval, IntervalSensitivity& sensitivity) {
-  MeanOutput mean;
-  const Mat3 Phi_m_inv = sensitivity.Phi[static_cast<std::size_t>(interval.substeps)].inverse();
-  Mat3X& H_par = sensitivity.jacobian[0].H_par;
+void mean_output(const Interval& interval, const IntervalSensitivity& sensitivity,
+                 MeanOutput& mean) {
+  const auto middle = static_cast<std::size_t>(interval.substeps);
+  const Mat3 Phi_m_inv = sensitivity.Phi[middle].inverse();
+  mean.acc.setZero();
+  mean.H.setZero();
+  mean.H_rate.setZero(3, sensitivity.G[0].cols());
+  mean.H_par.setZero(3, sensitivity.jacobian[0].H_par.cols());
   for (std::size_t k = 0; k < interval.node_count(); ++k) {
     const double w = Timeline::simpson_weight(interval.substeps, k);
     const NodeJacobian& j = sensitivity.jacobian[k];
     mean.acc += w * j.acc;
     mean.H += w * j.H * sensitivity.Phi[k] * Phi_m_inv;
-    if (k == 0)
-      H_par *= w;
-    else
-      H_par += w * j.H_par;
+    if (k > 0) add_product(w * j.H, sensitivity.G[k], mean.H_rate);  // G[0] is zero
+    mean.H_par += w * j.H_par;
   }
-  return mean;
+  add_product(-mean.H, sensitivity.G[middle], mean.H_rate);
 }
 
 void linearize_interval(const Interval& interval, const Timeline& timeline, const Mat3& E_loop,

@@ -14,15 +14,19 @@ struct IntervalSensitivity {
   std::vector<Mat3X> G;
 };
 
-/// Mean of the accelerometer outputs over an interval, and its derivative with respect to the
-/// attitude in the middle.
+/// Mean of the accelerometer outputs over an interval, and its derivatives with respect to the
+/// attitude in the middle, psi_m, and to the states: the outputs at each node k hang on the
+/// attitude there, psi_k = Phi_k Phi_m^-1 (psi_m - G_m x) + G_k x.
 struct MeanOutput {
   Vec3 acc = Vec3::Zero();  ///< [g]
   Mat3 H = Mat3::Zero();    ///< [g/rad]
+  Mat3X H_rate;             ///< by rate states, the attitude in the middle as it is [g]
+  Mat3X H_par;              ///< by readout states [g]
 };
 
-/// Also gathers the mean of H_par, in sensitivity.jacobian[0].H_par (it allocates nothing).
-MeanOutput mean_output(const Interval& interval, IntervalSensitivity& sensitivity);
+/// Fills `mean`; allocates nothing from the second time on.
+void mean_output(const Interval& interval, const IntervalSensitivity& sensitivity,
+                 MeanOutput& mean);
 
 /// Fills `out` along the nodes of an interval, phi given at each.
 ///

@@ -46,8 +46,10 @@ TEST(Covariance, AgreesWithADenseFilter) {
       const Mat3 H_psi = Mat3::Random();
       Mat3X H_par = readout ? Mat3X::Random(3, m) : Mat3X(3, 0);
       if (H_par.cols() > 1) H_par(1, 1) = 0.0;
+      const Mat3X H_rate = step % 2 ? Mat3X::Random(3, nr) : Mat3X(3, 0);
       MatX H = MatX::Zero(3, 3 + n);
       H.leftCols<3>() = H_psi;
+      H.middleCols(3, H_rate.cols()) = H_rate;
       H.rightCols(H_par.cols()) = H_par;
       const int missing = step % 4;  // 3: none
       if (missing < 3) nu[missing] = std::numeric_limits<double>::quiet_NaN();
@@ -59,7 +61,7 @@ TEST(Covariance, AgreesWithADenseFilter) {
           H_dense.row(k++) = H.row(i);
         }
       dense.x.head<3>().setZero();
-      const auto update = P.update(nu, H_psi, H_par, readout ? nr : 0, 0.1, x);
+      const auto update = P.update(nu, H_psi, H_rate, H_par, 0.1, x);
       dense.update(nu_dense, H_dense, 0.1);
       EXPECT_TRUE(update.ok);
       EXPECT_EQ(update.scalars, nu_dense.size());

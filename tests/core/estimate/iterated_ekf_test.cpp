@@ -51,6 +51,67 @@ TEST(IteratedEkf, IsTheBatchFitWhereAnEkfIsNot) {
   EXPECT_NEAR(fits.iterated.innovations().nis, fits.batch.estimate.statistic, 0.5);
 }
 
+/// A linear pass about the minimum of the batch fit: the largest step it makes away from it, in
+/// posterior sigmas, and the largest relative difference of a sigma.
+struct AtTheMinimum {
+  double step = 0.0, sigma = 0.0;
+};
+
+AtTheMinimum at_the_minimum(const char* preset, CommandLaw mode, Coupling truth_of,
+                            Coupling coupling) {
+  const Timeline timeline = preset_timeline(preset, mode, 3600.0, 180.0);
+  const Simulation sim = Simulator(base_truth(truth_of), Readout{}).run(timeline, 4, 2);
+  EXPECT_TRUE(sim.ode.ok());
+  FilterSpec filter = base_filter(coupling);
+  if (coupling == Coupling::lambda) filter.active.set(closure_param);
+  const Layout layout = make_layout(filter);
+  BatchOptions tight;
+  tight.tolerance = 1e-6;
+  const BatchResult fit =
+      fit_batch(filter, {timeline, Readout{}, sim.measured}, layout.theta, tight);
+  EXPECT_EQ(fit.estimate.status, EstimateStatus::ok);
+  const Theta theta = theta_of(filter, fit);
+  const Trajectory phi = integrate_fixed(timeline, filter.model(), theta, fit.psi0_l);
+  IntervalStep pass(filter, timeline, Readout{}, About::reference);
+  pass.reset(-layout.scaled(theta), theta);  // the prior means, from the reference
+  for (std::size_t i = 0; i < timeline.intervals.size(); ++i)
+    pass.process(i, sim.measured.acc.col(static_cast<Eigen::Index>(i)),
+                 sim.measured.gimbal.col(static_cast<Eigen::Index>(i)),
+                 &phi[timeline.intervals[i].first_node]);
+  EXPECT_EQ(pass.status(), EstimateStatus::ok);
+  AtTheMinimum out;
+  for (std::size_t k = 0; k < layout.size(); ++k) {
+    const double sigma = fit.estimate.parameters[k].sigma;
+    const auto i = static_cast<Eigen::Index>(k);
+    out.step = std::max(out.step, std::abs(pass.x()[i]) * layout.sigma[i] / sigma);
+    out.sigma = std::max(out.sigma, std::abs(pass.sigma(k) / sigma - 1.0));
+  }
+  std::printf("%s, truth %s, filter %s: step %.1e posterior sigma, sigma off by %.1e\n", preset,
+              key_of(truth_of).data(), key_of(coupling).data(), out.step, out.sigma);
+  return out;
+}
+
+TEST(IteratedEkf, ALinearPassStandsStillAtTheMinimumOfTheBatchFit) {
+  // Two implementations of one Gauss-Newton step: rows and their triangle, and a Kalman filter. The
+  // second takes the mean over an interval as seen from its middle: all of it, in slews too.
+  struct Case {
+    const char* preset;
+    CommandLaw mode;
+    Coupling truth, filter;
+  };
+  for (const Case& c : {Case{"six", CommandLaw::free, Coupling::eq5, Coupling::eq5},
+                        Case{"six", CommandLaw::free, Coupling::eq6, Coupling::eq6},
+                        Case{"slew12", CommandLaw::free, Coupling::eq5, Coupling::eq5},
+                        Case{"slew12", CommandLaw::free, Coupling::eq6, Coupling::eq6},
+                        Case{"slew12", CommandLaw::free, Coupling::eq5, Coupling::eq6},
+                        Case{"slew12", CommandLaw::free, Coupling::eq5, Coupling::lambda},
+                        Case{"casespin", CommandLaw::free, Coupling::eq6, Coupling::eq6}}) {
+    const AtTheMinimum at = at_the_minimum(c.preset, c.mode, c.truth, c.filter);
+    EXPECT_LT(at.step, 1e-3) << c.preset;
+    EXPECT_LT(at.sigma, 1e-6) << c.preset;
+  }
+}
+
 TEST(IteratedEkf, IsTheBatchFitOverCagings) {
   const Timeline timeline = preset_timeline("six", CommandLaw::free, 3600.0, 300.0);
   Fits fits("six", timeline, Coupling::eq5);
