@@ -11,6 +11,7 @@
 #include "core/base/output_file.hpp"
 #include "mc/engine/replay.hpp"
 #include "mc/export/export_hdf5.hpp"
+#include "mc/export/export_netcdf.hpp"
 #include "mc/export/export_text.hpp"
 #include "mc/store/study_state.hpp"
 
@@ -124,11 +125,14 @@ ExitCode verify(const std::string& folder, const std::string& sample, int thread
   return ExitCode::ok;
 }
 
+std::string suffix_of(const std::string& format) {
+  return format == "hdf5" ? "h5" : format == "netcdf" ? "nc" : format;
+}
+
 ExitCode export_results(const std::string& folder, const std::string& format,
                         const std::string& output, const StudyProgram& program) {
   const std::string target =
-      output.empty() ? fmt::format("{}/export.{}", folder, format == "hdf5" ? "h5" : format)
-                     : output;
+      output.empty() ? fmt::format("{}/export.{}", folder, suffix_of(format)) : output;
   mc::StudyReader reader(folder);
   const auto [study, work] = frozen_study(folder, reader, program);
   require_output_file(target, {}, other_than(reader.manifest().hash));
@@ -146,10 +150,14 @@ ExitCode export_results(const std::string& folder, const std::string& format,
     say("note: the study is not finished: {} of {} runs, {} of {} points complete\n", state.runs,
         state.asked * state.points.size(), state.complete, state.points.size());
   std::vector<std::string> groups;
-  if (format == "hdf5")
-    groups =
-        mc::export_hdf5(reader, work.stop_rules, target,
-                        program.points ? program.points(study) : std::vector<mc::StudyPoint>{});
+  const auto points = program.points ? program.points(study) : std::vector<mc::StudyPoint>{};
+  if (format == "hdf5") groups = mc::export_hdf5(reader, work.stop_rules, target, points);
+  if (format == "netcdf" && points.empty())
+    throw InputError(ExitCode::usage,
+                     fmt::format("{}: these results have no filters to name arrays by (expected "
+                                 "those of `driftscope run`). Export them as hdf5, csv or json",
+                                 folder));
+  if (format == "netcdf") mc::export_netcdf(reader, work.stop_rules, target, points);
   if (format == "csv") mc::export_csv(reader, work.stop_rules, target);
   if (format == "json") mc::export_json(reader, work.stop_rules, target);
   show("{}: {} runs, {:.3g} MB\n", target, state.runs, megabytes({target}));
@@ -191,10 +199,10 @@ Command export_command() {
   };
   const auto add = [](CLI::App& app, Arguments& a) {
     add_folder(app, a.folder);
-    app.add_option("--format", a.format, "hdf5, csv or json")
+    app.add_option("--format", a.format, "hdf5, netcdf, csv or json")
         ->required()
-        ->check(CLI::IsMember({"hdf5", "csv", "json"}));
-    add_output(app, a.output, "file to write; FOLDER/export.h5, .csv or .json by default");
+        ->check(CLI::IsMember({"hdf5", "netcdf", "csv", "json"}));
+    add_output(app, a.output, "file to write; FOLDER/export.h5, .nc, .csv or .json by default");
   };
   return {"export", group::studies, "convert the results",
           "driftscope export results/study --format hdf5",

@@ -92,6 +92,8 @@ std::vector<FilterSummary> summarise(const mc::Study& study, const Identificatio
   for (std::size_t f = 0; f < study.filters.size(); ++f) {
     FilterSummary s;
     s.filter = f;
+    s.name = study.filters[f].name;
+    s.coupling = study.filters[f].coupling;
     s.layout = make_layout(study.filters[f]);
     const auto runs = id.runs_of(f);
     for (std::size_t k = 0; k < s.layout.size(); ++k) {
@@ -110,6 +112,14 @@ std::vector<FilterSummary> summarise(const mc::Study& study, const Identificatio
     all.push_back(std::move(s));
   }
   return all;
+}
+
+std::vector<SampleOfTest> samples_of(const Timeline& timeline, const Readout& readout) {
+  std::vector<SampleOfTest> samples;
+  for (const Interval& i : timeline.intervals)
+    samples.push_back({i.t1, i.position + 1, i.slew,
+                       i.accelerometer_noise(readout.accelerometer_noise), readout.gimbal_noise});
+  return samples;
 }
 
 /// Every filter and start keeps its estimates and sigmas at every row.
@@ -165,6 +175,7 @@ Identification identify_simulated(const mc::Study& study, std::uint64_t run, int
   set_loop(timeline, study.truth);
   const std::uint64_t seed = study.monte_carlo.seed;
   set_environment(timeline, study.environment, seed, run);
+  id.samples = samples_of(timeline, study.readout);
   id.truth = draw_truth(study.truth, timeline.chains, seed, run);
   set_lambda(study.truth, id.truth->theta);
   if (study.truth.coupling == Coupling::compensated && study.truth.loop == LoopEstimate::feedback) {
@@ -197,6 +208,7 @@ Identification identify_recordings(const mc::Study& study, const std::vector<Rec
     }
   require_memory_for_histories(ready.study, ready.recordings);
   const preparation::RecordedTest test = preparation::recorded_test(ready.study, ready.recordings);
+  id.samples = samples_of(test.timeline, ready.study.readout);
   run_jobs(ready.study, id, threads, progress, [&](const Job& job) {
     return estimate(ready.study, job, test.timeline, test.measured);
   });

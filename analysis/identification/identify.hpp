@@ -30,10 +30,21 @@ struct StartSpread {
 /// All starts of one filter.
 struct FilterSummary {
   std::size_t filter = 0;
+  std::string name;
+  Coupling coupling = Coupling::eq5;
   Layout layout;
   std::vector<StartSpread> spread;          ///< layout order; NaN ratios with one start
   std::vector<WeakDirection> degeneracies;  ///< exact: the data say nothing of these directions
   std::size_t weak = 0;  ///< directions of which the prior says more than the data
+};
+
+/// One sample interval of the test.
+struct SampleOfTest {
+  double t = 0.0;    ///< its end [s]
+  int position = 1;  ///< number of the plan position, from 1
+  bool slew = false;
+  double accelerometer_noise = 0.0;  ///< of their means, 1 sigma [g]
+  double gimbal_noise = 0.0;         ///< 1 sigma [rad]
 };
 
 /// Parameters of a platform, estimated from one test by every filter and start of a study.
@@ -43,7 +54,8 @@ struct Identification {
   Recording recording;             ///< the (first) recording; empty with a loop fed back by filters
   std::vector<std::string> sources;
   std::vector<std::string> remarks;  ///< what was left out or changed (prepare())
-  std::vector<FilterRun> runs;       ///< by filter, then start
+  std::vector<SampleOfTest> samples;
+  std::vector<FilterRun> runs;  ///< by filter, then start
   std::vector<FilterSummary> summaries;
 
   std::vector<const FilterRun*> runs_of(std::size_t filter) const;

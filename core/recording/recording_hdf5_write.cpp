@@ -36,7 +36,9 @@ Hdf5Handle write_channel(hid_t file, const Channel& channel, std::vector<double>
   if (!dataset ||
       (n > 0 && H5Dwrite(dataset.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT,
                          values.data()) < 0) ||
-      !set_text(dataset.get(), "unit", channel.unit.symbol.view()))
+      !set_text(dataset.get(), "unit", channel.unit.symbol.view()) ||
+      !set_text(dataset.get(), "units",
+                channel.unit.symbol.view()))  // the name that CF readers look for
     return {-1, H5Dclose};
   return dataset;
 }

@@ -28,6 +28,12 @@ std::vector<double> ranks(const FilterStatistics& f) {
   return out;
 }
 
+std::vector<std::string> plain_names(const std::vector<std::string>& names) {
+  std::vector<std::string> plain;
+  for (const std::string& name : names) plain.push_back(plain_name(name));
+  return plain;
+}
+
 std::vector<std::string> parameters() {
   std::vector<std::string> keys;
   for (const ParamSpec& spec : TermLibrary::specs) keys.emplace_back(plain_name(spec.key.view()));
@@ -101,12 +107,12 @@ std::vector<Number> numbers_so_far(const ErrorStatistics& e, const ParameterHeal
 std::vector<Number> numbers_of(const StartStatistics& s) {
   return joined(
       {{{"nis", "normalised innovations squared per degree of freedom, 1 if honest", s.nis.mean()},
-        {"nis_low", "lower end of the 95 % band of an honest filter", s.nis.low()},
-        {"nis_high", "upper end", s.nis.high()},
+        {"nis_expected_low", "lower end of the 95 % band of an honest filter", s.nis.low()},
+        {"nis_expected_high", "upper end", s.nis.high()},
         {"nis_runs_in_band", "share of runs inside their own 95 % band", s.nis.in_band.value()},
         {"nees", "normalised error squared per observed direction, 1 if honest", s.nees.mean()},
-        {"nees_low", "lower end of the 95 % band of an honest filter", s.nees.low()},
-        {"nees_high", "upper end", s.nees.high()},
+        {"nees_expected_low", "lower end of the 95 % band of an honest filter", s.nees.low()},
+        {"nees_expected_high", "upper end", s.nees.high()},
         {"nees_all", "the same of all directions", s.nees_all.mean()},
         {"white", "share of runs whose innovations are white", s.white.value()},
         {"healthy", "share of runs whose NIS is in its band", s.healthy.value()},
@@ -126,7 +132,7 @@ struct StatisticsTables::Tables {
   /// A table whose rows are keys and numbers like these.
   ExportTable table(const char* name, ExportColumn key, const std::vector<Number>& like) const {
     std::vector<ExportColumn> columns{{"point", "1", "study point", labels},
-                                      {"filter", "1", "filter of the study", filters},
+                                      {"filter", "1", "filter of the study", plain_names(filters)},
                                       std::move(key)};
     for (const Number& n : like) columns.push_back({n.name, "1", n.about});
     return {name, "row", std::move(columns)};
@@ -152,8 +158,8 @@ struct StatisticsTables::Tables {
     return static_cast<double>(f.columns().layout.params[k]);
   }
   double place(const FilterStatistics& f) const {
-    return static_cast<double>(
-        std::find(filters.begin(), filters.end(), plain_name(f.columns().name)) - filters.begin());
+    return static_cast<double>(std::find(filters.begin(), filters.end(), f.columns().name) -
+                               filters.begin());
   }
   ExportTable statistics() const;
   ExportTable of_filters() const;
@@ -171,12 +177,12 @@ ExportTable StatisticsTables::Tables::statistics() const {
 }
 
 ExportTable StatisticsTables::Tables::of_filters() const {
-  ExportTable t = table("filters", {"start", "1", "number of the initial estimate"},
-                        numbers_of(StartStatistics{}));
+  ExportTable t =
+      table("filters", {"start", "1", "initial estimate, from 1"}, numbers_of(StartStatistics{}));
   for (std::size_t p = 0; p < points.size(); ++p)
     for (const FilterStatistics& f : points[p].filters())
       for (std::size_t i = 0; i < f.starts().size(); ++i)
-        add(t, p, place(f), static_cast<double>(i), numbers_of(f.starts()[i]));
+        add(t, p, place(f), static_cast<double>(i + 1), numbers_of(f.starts()[i]));
   return t;
 }
 
@@ -188,7 +194,7 @@ StatisticsTables::StatisticsTables(const std::vector<StudyPoint>& points)
     t.labels.push_back(points[p].label.empty() ? fmt::format("point_{}", p)
                                                : plain_name(points[p].label));
     for (const FilterStatistics& f : t.points.back().filters())
-      add_once(t.filters, plain_name(f.columns().name));
+      add_once(t.filters, f.columns().name);
   }
   t.told.assign(points.size(), 0);
   t.convergence =

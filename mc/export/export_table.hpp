@@ -45,6 +45,7 @@ class StatisticsTables {
   explicit StatisticsTables(const std::vector<StudyPoint>& points);
   ~StatisticsTables();
   void add(const Block& block);
+  /// The three, in this order.
   std::vector<ExportTable> finish();
 
  private:

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "mc/export/hdf5_box.hpp"
+
 namespace drift::mc {
 namespace {
 
@@ -46,13 +48,33 @@ Hdf5Handle create_file(const std::string& path) {
   return checked({H5Fcreate(path.c_str(), H5F_ACC_TRUNC, create.get(), access.get()), H5Fclose});
 }
 
-/// Moves `n` numbers from place `from` on between memory and a dataset of one dimension.
+/// Moves numbers of a box between memory and a dataset.
 template <class Transfer>
-void transfer_part(hid_t dataset, hsize_t from, hsize_t n, const Transfer& transfer) {
-  const Hdf5Handle memory = checked({H5Screate_simple(1, &n, nullptr), H5Sclose});
+void transfer_box(hid_t dataset, const Box& box, const Transfer& transfer) {
+  const Hdf5Handle memory = checked({H5Screate_simple(1, &box.numbers, nullptr), H5Sclose});
   const Hdf5Handle space = checked({H5Dget_space(dataset), H5Sclose});
-  check(H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, &from, nullptr, &n, nullptr) >= 0 &&
+  check(H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, box.start.data(), nullptr,
+                            box.count.data(), nullptr) >= 0 &&
         transfer(memory.get(), space.get()) >= 0);
+}
+
+/// The type of a text of any length.
+Hdf5Handle words_type() {
+  Hdf5Handle type = checked({H5Tcopy(H5T_C_S1), H5Tclose});
+  check(H5Tset_size(type.get(), H5T_VARIABLE) >= 0 && H5Tset_cset(type.get(), H5T_CSET_UTF8) >= 0);
+  return type;
+}
+
+void compare_words(hid_t dataset, const std::vector<std::string>& words) {
+  const Hdf5Handle type = words_type();
+  std::vector<char*> read(words.size(), nullptr);
+  check(H5Dread(dataset, type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, read.data()) >= 0);
+  bool same = true;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    same = same && read[i] != nullptr && words[i] == read[i];
+    H5free_memory(read[i]);
+  }
+  check(same);
 }
 
 hsize_t count_of(const std::vector<hsize_t>& shape) {
@@ -77,27 +99,48 @@ void Hdf5Output::make_group(const std::string& path) {
             .close());
 }
 
-std::size_t Hdf5Output::make_dataset(const std::string& path, Type type,
-                                     std::vector<hsize_t> shape) {
+void Hdf5Output::add_dataset(const std::string& path, hid_t type, std::vector<hsize_t> shape) {
   const Hdf5Handle space =
       checked({H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose});
   const Hdf5Handle plan = checked({H5Pcreate(H5P_DATASET_CREATE), H5Pclose});
   check(H5Pset_obj_track_times(plan.get(), false) >= 0);
   datasets_.push_back({path,
-                       checked({H5Dcreate2(file_.get(), path.c_str(), file_type(type), space.get(),
+                       checked({H5Dcreate2(file_.get(), path.c_str(), type, space.get(),
                                            H5P_DEFAULT, plan.get(), H5P_DEFAULT),
                                 H5Dclose}),
                        std::move(shape)});
+}
+
+std::size_t Hdf5Output::make_dataset(const std::string& path, Type type,
+                                     std::vector<hsize_t> shape) {
+  add_dataset(path, file_type(type), std::move(shape));
   return datasets_.size() - 1;
 }
 
-std::size_t Hdf5Output::make_scale(const std::string& path, hsize_t size) {
+std::size_t Hdf5Output::make_scale(const std::string& path, hsize_t size, int first) {
   const std::size_t scale = make_dataset(path, Type::i64, {size});
   std::vector<double> numbers(size);
-  std::iota(numbers.begin(), numbers.end(), 0.0);
+  std::iota(numbers.begin(), numbers.end(), static_cast<double>(first));
   append(scale, numbers);
-  check(H5DSset_scale(datasets_[scale].id.get(), path.substr(path.rfind('/') + 1).c_str()) >= 0);
+  name_dimension(scale);
   return scale;
+}
+
+std::size_t Hdf5Output::make_words(const std::string& path, std::vector<std::string> words) {
+  const Hdf5Handle type = words_type();
+  add_dataset(path, type.get(), {words.size()});
+  Dataset& d = datasets_.back();
+  std::vector<const char*> texts;
+  for (const std::string& word : words) texts.push_back(word.c_str());
+  check(H5Dwrite(d.id.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, texts.data()) >= 0);
+  d.written = words.size();
+  d.words = std::move(words);
+  return datasets_.size() - 1;
+}
+
+void Hdf5Output::name_dimension(std::size_t dataset) {
+  const Dataset& d = datasets_[dataset];
+  check(H5DSset_scale(d.id.get(), d.path.substr(d.path.rfind('/') + 1).c_str()) >= 0);
 }
 
 void Hdf5Output::attach(std::size_t dataset, std::size_t scale, unsigned dimension) {
@@ -109,15 +152,15 @@ void Hdf5Output::attach(std::size_t dataset, std::size_t scale, unsigned dimensi
 void Hdf5Output::append(std::size_t dataset, std::span<const double> values) {
   Dataset& d = datasets_[dataset];
   d.digest.update(values);
-  if (values.empty()) return;
-  const auto write = [&](hid_t memory, hid_t space) {
-    return H5Dwrite(d.id.get(), H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values.data());
-  };
-  if (d.shape.size() == 1)
-    transfer_part(d.id.get(), d.written, values.size(), write);
-  else
-    check(values.size() == count_of(d.shape) && write(H5S_ALL, H5S_ALL) >= 0);
-  d.written += values.size();
+  while (!values.empty()) {
+    const Box box = largest_box(d.shape, d.written, values.size());
+    check(box.numbers > 0);
+    transfer_box(d.id.get(), box, [&](hid_t memory, hid_t space) {
+      return H5Dwrite(d.id.get(), H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values.data());
+    });
+    d.written += box.numbers;
+    values = values.subspan(box.numbers);
+  }
 }
 
 void Hdf5Output::set_text(const std::string& object, const std::string& name,
@@ -165,18 +208,15 @@ void Hdf5Output::compare(Dataset& dataset, hid_t file) const {
   check(H5Sget_simple_extent_npoints(space.get()) == static_cast<hssize_t>(count));
   for (unsigned k = 0; k < dataset.shape.size() && dataset.scales > 0; ++k)
     check(H5DSget_num_scales(set.get(), k) == 1);
+  if (!dataset.words.empty()) return compare_words(set.get(), dataset.words);
   std::vector<double> values;
   Sha256 digest;
-  const bool whole = dataset.shape.size() > 1;
   for (hsize_t from = 0; from < count; from += values.size()) {
-    values.resize(whole ? count : std::min(most, count - from));
-    const auto read = [&](hid_t memory, hid_t part) {
+    const Box box = largest_box(dataset.shape, from, std::min(most, count - from));
+    values.resize(box.numbers);
+    transfer_box(set.get(), box, [&](hid_t memory, hid_t part) {
       return H5Dread(set.get(), H5T_NATIVE_DOUBLE, memory, part, H5P_DEFAULT, values.data());
-    };
-    if (whole)
-      check(read(H5S_ALL, H5S_ALL) >= 0);
-    else
-      transfer_part(set.get(), from, values.size(), read);
+    });
     digest.update(values);
   }
   check(digest.finish() == dataset.digest.finish());

@@ -22,12 +22,17 @@ class Hdf5Output {
   explicit Hdf5Output(const std::string& path);
 
   void make_group(const std::string& path);
-  /// Makes a dataset of one or two dimensions; returns its number, for the calls below.
+  /// Makes a dataset; returns its number, for the calls below.
   std::size_t make_dataset(const std::string& path, Type type, std::vector<hsize_t> shape);
-  /// A dataset 0, 1, 2, ... that names a dimension.
-  std::size_t make_scale(const std::string& path, hsize_t size);
+  /// A dataset first, first + 1, ... that names a dimension.
+  std::size_t make_scale(const std::string& path, hsize_t size, int first = 0);
+  /// A dataset of texts of any length. Octave, which reads numbers alone, cannot load a file that
+  /// has one.
+  std::size_t make_words(const std::string& path, std::vector<std::string> words);
+  /// Makes a dataset name a dimension, by its own name.
+  void name_dimension(std::size_t dataset);
   void attach(std::size_t dataset, std::size_t scale, unsigned dimension);
-  /// The next numbers of a dataset; one of two dimensions takes all at once.
+  /// The next numbers of a dataset, the last dimension fastest.
   void append(std::size_t dataset, std::span<const double> values);
   void set_text(const std::string& object, const std::string& name, const std::string& text);
   /// CF: which number of the dataset means what.
@@ -44,6 +49,7 @@ class Hdf5Output {
     hsize_t written = 0;
     int scales = 0;  ///< attached
     Sha256 digest = {};
+    std::vector<std::string> words = {};  ///< of a dataset of texts
   };
   struct Text {
     std::string object, name, text;
@@ -53,6 +59,7 @@ class Hdf5Output {
     std::size_t count;
   };
 
+  void add_dataset(const std::string& path, hid_t type, std::vector<hsize_t> shape);
   void compare(Dataset& dataset, hid_t file) const;
   void compare(const Text& text, hid_t file) const;
   void compare(const Flags& flags, hid_t file) const;

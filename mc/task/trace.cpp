@@ -56,7 +56,7 @@ void send_trace(const RunTrace& trace, TraceSink& sink) {
   sink.columns(columns);
   for (const auto& f : trace.filters)
     for (std::size_t i = 0; i < f.history.t.size(); ++i) {
-      std::vector<double> row{static_cast<double>(f.filter), static_cast<double>(f.start),
+      std::vector<double> row{static_cast<double>(f.filter), static_cast<double>(f.start + 1),
                               f.history.t[i], f.history.nis[i],
                               static_cast<double>(f.history.scalars[i])};
       for (std::size_t p = 0; p < shown.size(); ++p) {

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "analysis/report/identify/results_out.hpp"
 #include "analysis/report/identify/sections.hpp"
 #include "core/estimate/start_consistency.hpp"
 #include "core/physics/parameters_config.hpp"
@@ -8,18 +9,6 @@
 
 namespace drift::report {
 namespace {
-
-const char* status_key(EstimateStatus status) {
-  switch (status) {
-    case EstimateStatus::ok:
-      return "ok";
-    case EstimateStatus::not_converged:
-      return "not_converged";
-    case EstimateStatus::diverged:
-      return "diverged";
-  }
-  return "";
-}
 
 std::string verdict_key(double ratio) {
   if (!std::isfinite(ratio)) return "";

@@ -1,7 +1,10 @@
 #include "analysis/report/identify/report.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "analysis/report/identify/results_out.hpp"
 #include "analysis/report/identify/sections.hpp"
 #include "analysis/report/page/study_section.hpp"
 #include "core/base/results_folder.hpp"
@@ -37,7 +40,14 @@ Report identification_report(const mc::Study& study, const identification::Ident
 std::vector<std::string> write_identification(const Report& report,
                                               const identification::Identification& id,
                                               const std::string& folder) {
-  std::vector<std::string> names = write_report(report, folder);
+  Report all = report;
+  std::ranges::move(result_tables(id), std::back_inserter(all.files));
+  std::vector<std::string> names = write_report(all, folder);
+  const std::string arrays = "identification.nc";
+  write_result({folder, report.command}, arrays, [&](const std::string& temporary) {
+    write_identification_netcdf(id, arrays, temporary);
+  });
+  names.push_back(arrays);
   if (id.recording.rows() > 0) {
     write_result({folder, report.command}, "recording.csv", [&](const std::string& temporary) {
       write_recording_to(id.recording, "recording.csv", temporary);

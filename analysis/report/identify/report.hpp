@@ -9,8 +9,9 @@ namespace drift::report {
 /// study.toml, the study with the overrides of the command line.
 Report identification_report(const mc::Study& study, const identification::Identification& id);
 
-/// Writes the report into a folder, and recording.csv unless the recording is empty. Returns the
-/// names of the files. InputError (io) if one cannot be written.
+/// Writes the report into a folder, what was estimated as tables and as netCDF (results_out.hpp),
+/// and recording.csv unless the recording is empty. Returns the names of the files. InputError (io)
+/// if one cannot be written.
 std::vector<std::string> write_identification(const Report& report,
                                               const identification::Identification& id,
                                               const std::string& folder);

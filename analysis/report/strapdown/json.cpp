@@ -1,5 +1,8 @@
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
+#include "analysis/report/page/table.hpp"
 #include "analysis/report/strapdown/report.hpp"
 
 namespace drift::report {
@@ -87,6 +90,14 @@ json to_json(const strapdown::StrapdownResult& r) {
           {"equations", std::move(contest)},
           {"parameters", std::move(parameters)},
           {"unobservable", std::move(unobservable)}};
+}
+
+std::string estimates_csv(const strapdown::StrapdownResult& r) {
+  std::string out = "parameter,unit,estimate,sigma,note\n";
+  for (const auto& p : r.parameters)
+    out += fmt::format("{},{},{},{},{}\n", csv_of(p.key), csv_of(p.unit), p.value, p.sigma,
+                       csv_of(p.note));
+  return out;
 }
 
 }  // namespace drift::report

@@ -130,6 +130,7 @@ Report strapdown_report(const mc::Study& study, const StrapdownResult& result) {
   report.add(sections_of(result, strapdown_sections));
   report.document = {"identification.json", to_json(result).dump(2) + "\n"};
   report.files.emplace_back("study.toml", study.text);
+  report.files.emplace_back("estimates.csv", estimates_csv(result));
   return report;
 }
 

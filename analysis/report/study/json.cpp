@@ -19,8 +19,8 @@ Json of(const mc::Estimated& e, double unit) {
 
 Json of(const mc::ChiSquareSum& sum) {
   return {{"mean", sum.mean()},
-          {"low", sum.low()},
-          {"high", sum.high()},
+          {"expected_low", sum.low()},
+          {"expected_high", sum.high()},
           {"inside", sum.holds()},
           {"runs_in_band", of(sum.in_band)}};
 }

@@ -11,7 +11,7 @@
 namespace drift::report {
 namespace {
 
-constexpr double row = 19.0, axis_height = 44.0;  // [px]
+constexpr double line_height = 19.0, room_of_axis = 44.0;  // [px]
 constexpr std::string_view before_colour = "#D55E00", after_colour = "#0072B2";
 
 /// Values along the axis: themselves, or their decimal logarithm.
@@ -50,11 +50,11 @@ std::string svg_of(const DumbbellChart& chart) {
   const double x0 = canvas_edge + label_width + 10.0;
   const double w = chart.width - x0 - text_width - canvas_edge - 14.0;
   const double y0 = (chart.title.empty() ? 30.0 : 58.0) + (chart.limit ? 14.0 : 0.0);
-  const double h = row * static_cast<double>(chart.lines.size());
+  const double h = line_height * static_cast<double>(chart.lines.size());
   const AxisScale scale = make_scale(range, static_cast<int>(w / 60.0), 0.03);
   const auto x_of = [&](double v) { return x0 + scale.at(spaced(v, chart.spacing), w); };
 
-  SvgCanvas canvas(chart.width, y0 + h + axis_height, chart.title);
+  SvgCanvas canvas(chart.width, y0 + h + room_of_axis, chart.title);
   canvas.text(canvas_edge, 24.0, chart.title, {.size = 15.0, .bold = true});
   const double key = chart.title.empty() ? 16.0 : 44.0;
   mark(canvas, x0 + 4.0, key - 4.0, before_colour);
@@ -78,7 +78,7 @@ std::string svg_of(const DumbbellChart& chart) {
               factor ? chart.x_label + "  " + scale.factor : chart.x_label, {.anchor = "middle"});
   for (std::size_t k = 0; k < chart.lines.size(); ++k) {
     const Dumbbell& d = chart.lines[k];
-    const double y = y0 + row * (static_cast<double>(k) + 0.5);
+    const double y = y0 + line_height * (static_cast<double>(k) + 0.5);
     canvas.text(x0 - 10.0, y + 4.0, d.label, {.anchor = "end"});
     const double from = x_of(d.before), to = x_of(d.after);
     if (std::isfinite(from) && std::isfinite(to)) canvas.line(from, y, to, y, "#999999", 1.6);

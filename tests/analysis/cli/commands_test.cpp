@@ -83,7 +83,8 @@ TEST(Program, IdentifyLeavesTablesPicturesAndAPage) {
   ASSERT_EQ(a.code, 0) << a.err;
   for (const char* name :
        {"identification.json", "estimates.svg", "figure_corrected.svg", "figure_legacy.svg",
-        "nis.svg", "report.html", "study.toml", "recording.csv"})
+        "nis.svg", "report.html", "study.toml", "recording.csv", "estimates.csv", "covariance.csv",
+        "residuals.csv", "identification.nc"})
     EXPECT_GT(std::filesystem::file_size(folder.file("out") + "/" + name), 100u) << name;
   const std::string page = text_of(folder.file("out") + "/report.html");
   EXPECT_EQ(page.find("http://"), page.find("http://www.w3.org"));  // nothing but the SVG namespace

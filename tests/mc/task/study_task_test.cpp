@@ -208,6 +208,7 @@ TEST(Trace, IsThatOfTheRunItself) {
   ASSERT_EQ(sink.rows.size(), 3 * task.timeline().intervals.size());
   ASSERT_EQ(TermLibrary::specs[first.layout.params[0]].key.view(), "D_F_x");
   const auto& last = sink.rows[task.timeline().intervals.size() - 1];
+  EXPECT_EQ(last[1], 1.0) << "starts are counted from 1";
   EXPECT_EQ(last[5], first.history.estimate(0, first.history.estimate.cols() - 1));
   EXPECT_EQ(last[6], first.history.sigma(0, first.history.sigma.cols() - 1));
 }

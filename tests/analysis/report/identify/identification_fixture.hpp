@@ -88,6 +88,8 @@ inline identification::Identification identification(const mc::Study& s) {
   for (std::size_t f = 0; f < s.filters.size(); ++f) {
     identification::FilterSummary summary;
     summary.filter = f;
+    summary.name = s.filters[f].name;
+    summary.coupling = s.filters[f].coupling;
     summary.layout = make_layout(s.filters[f]);
     const auto n = static_cast<Eigen::Index>(summary.layout.size());
     for (std::size_t k = 0; k < 3; ++k) {

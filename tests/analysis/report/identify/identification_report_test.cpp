@@ -194,10 +194,10 @@ TEST_F(ResultsFolder, HoldsEveryFileAndNothingElse) {
     found.insert(entry.path().filename().string());
   EXPECT_EQ(found.erase(".driftscope"), 1u) << "the register of what was written";
   EXPECT_EQ(found, std::set<std::string>(names.begin(), names.end()));
-  EXPECT_EQ(found,
-            (std::set<std::string>{"identification.json", "estimates.svg",
-                                   "figure__._up_and_out.svg", "figure_legacy.svg", "nis.svg",
-                                   "report.html", "recording.csv", "study.toml"}));
+  EXPECT_EQ(found, (std::set<std::string>{
+                       "identification.json", "estimates.svg", "figure__._up_and_out.svg",
+                       "figure_legacy.svg", "nis.svg", "report.html", "recording.csv", "study.toml",
+                       "estimates.csv", "covariance.csv", "residuals.csv", "identification.nc"}));
   EXPECT_EQ(read(folder_ / "a/b/study.toml"), "schema = 1\n# text\n");
   EXPECT_EQ(nlohmann::json::parse(read(folder_ / "a/b/identification.json"))["schema"], 1);
   EXPECT_NE(read(folder_ / "a/b/recording.csv").find("acc_x [g]"), std::string::npos);

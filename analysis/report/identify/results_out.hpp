@@ -1,0 +1,47 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "analysis/identification/identify.hpp"
+#include "core/base/results_folder.hpp"
+
+namespace drift::report {
+
+/// An estimator's result of one filter and start, with the words that name it in files.
+struct NamedResult {
+  const identification::FilterSummary& summary;
+  const identification::FilterRun& run;
+  const char* estimator;  ///< "ekf" or "batch"
+  const EstimateResult& result;
+
+  /// Covariance of the parameters k and l, in their units.
+  double covariance(std::size_t k, std::size_t l) const;
+};
+
+/// By filter, start and estimator.
+std::vector<NamedResult> named_results(const identification::Identification& id);
+
+/// "ok", "not_converged", "diverged"
+const char* status_key(EstimateStatus status);
+
+/// What is measured in a sample, in the order of the rows of whitened_residuals().
+inline constexpr const char* channel_names[] = {"acc_x",        "acc_y",         "acc_z",
+                                                "gimbal_outer", "gimbal_middle", "gimbal_inner"};
+
+/// Measured minus predicted of sample i by the batch fit, over 1 sigma of the noise; NaN where
+/// nothing was measured.
+std::vector<double> whitened_residuals(const identification::FilterRun& run, std::size_t i);
+
+/// An identification as tables, a row for each
+///   estimates.csv    filter, start, estimator, parameter
+///   covariance.csv   the same and a second parameter, each pair once
+///   residuals.csv    filter, start, sample: residuals of the batch fit, innovations of the EKF
+std::vector<TextFile> result_tables(const identification::Identification& id);
+
+/// The same as netCDF-4 with dimensions estimator, filter, start, parameter, sample, channel.
+/// InputError (io) naming `path`; the file is written to `temporary`.
+void write_identification_netcdf(const identification::Identification& id, const std::string& path,
+                                 const std::string& temporary);
+
+}  // namespace drift::report

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/base/units.hpp"
+#include "mc/export/named_group.hpp"
+#include "mc/study/sweep.hpp"
+#include "mc/task/study_columns.hpp"
+
+namespace drift::mc {
+
+/// What the values of one swept key are at the points: numbers with a unit where all are, else
+/// words.
+struct SweptCoordinate {
+  std::string key;
+  std::vector<std::string> words;  ///< of each point
+  std::vector<double> numbers;     ///< in `unit`; empty where a value is no number
+  Unit unit = unit::one;
+};
+
+/// The names along the dimensions of a study's results.
+struct NamedAxes {
+  std::vector<std::string> points;   ///< labels; of one point empty
+  std::vector<std::string> filters;  ///< of all points, each once
+  std::vector<std::size_t> params;   ///< library indices, in the order of the library
+  std::size_t starts = 0;            ///< of the filter that has most
+  std::vector<SweptCoordinate> swept;
+  std::vector<StudyColumns> columns;  ///< of each point
+
+  explicit NamedAxes(const std::vector<StudyPoint>& study_points);
+  /// `dimensions`, behind `point` where the study has several.
+  std::vector<std::string> with_point(std::vector<std::string> dimensions) const;
+  /// Makes point, filter, start and parameter the dimensions of a group, with what belongs to them.
+  void make_dimensions(NamedGroup& group) const;
+  std::size_t filter(const std::string& name) const;       ///< its place
+  std::size_t parameter(std::size_t library_index) const;  ///< its place
+};
+
+/// Makes the dimension `parameter` of a group, and `parameter_unit` along it.
+void put_parameter_dimension(NamedGroup& group, const std::vector<std::size_t>& params);
+/// What stands for the unit of an array whose numbers are those of several parameters.
+inline const char* const unit_of_parameter = "as parameter_unit says";
+
+}  // namespace drift::mc

@@ -1,0 +1,51 @@
+#include "mc/export/named_axes.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/mc/small_study.hpp"
+
+namespace drift::named_axes_test {
+namespace {
+
+using namespace drift::test;
+
+mc::NamedAxes axes_of(const std::string& sweep) {
+  return mc::NamedAxes(mc::study_points(read_text(small_study + sweep)));
+}
+
+TEST(NamedAxes, NameWhatThePointsHave) {
+  const mc::NamedAxes axes = axes_of("");
+  EXPECT_EQ(axes.filters, (std::vector<std::string>{"right", "wrong"}));
+  EXPECT_EQ(axes.starts, 2u) << "of the filter that has most";
+  EXPECT_EQ(axes.params.size(), 15u);
+  EXPECT_EQ(axes.parameter(TermLibrary::index("D_F_y")), 1u);
+  EXPECT_EQ(axes.with_point({"run"}), (std::vector<std::string>{"run"})) << "one point";
+  EXPECT_TRUE(axes.swept.empty());
+}
+
+TEST(NamedAxes, SweptQuantitiesAreNumbersInTheUnitOfTheFirst) {
+  const mc::NamedAxes axes = axes_of(
+      "[sweep]\n\"truth.parameters.eta_x\" = [\"20 arcsec\", \"5 arcmin\"]\n"
+      "\"truth.coupling\" = [\"eq5\", \"eq6\"]\n");
+  ASSERT_EQ(axes.points.size(), 4u);
+  EXPECT_EQ(axes.with_point({"run"}), (std::vector<std::string>{"point", "run"}));
+  ASSERT_EQ(axes.swept.size(), 2u);
+  EXPECT_EQ(axes.swept[0].unit.symbol.view(), "arcsec");
+  ASSERT_EQ(axes.swept[0].numbers.size(), 4u);
+  EXPECT_EQ(axes.swept[0].numbers[1], 20.0) << "as written";
+  EXPECT_NEAR(axes.swept[0].numbers[2], 300.0, 1e-9);
+  EXPECT_TRUE(axes.swept[1].numbers.empty());
+  EXPECT_EQ(axes.swept[1].words, (std::vector<std::string>{"eq5", "eq6", "eq5", "eq6"}));
+}
+
+TEST(NamedAxes, ADistributionIsNoNumber) {
+  const mc::NamedAxes axes = axes_of(
+      "[sweep]\n\"truth.parameters.eta_x\" = [\"20 arcsec\", { normal = [\"1 arcsec\", \"2 "
+      "arcsec\"] "
+      "}]\n");
+  ASSERT_EQ(axes.swept.size(), 1u);
+  EXPECT_TRUE(axes.swept[0].numbers.empty());
+}
+
+}  // namespace
+}  // namespace drift::named_axes_test
