@@ -4,9 +4,11 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "core/base/decompose.hpp"
 #include "core/estimate/batch_equations.hpp"
+#include "core/estimate/normal_equations.hpp"
 #include "core/estimate/triangle.hpp"
 #include "core/physics/stochastic.hpp"
 #include "core/sim/predict.hpp"
@@ -104,26 +106,40 @@ BatchEquations compressed(const Evaluation& e) {
 /// Where the descent ended.
 struct Minimum {
   Evaluation at;
-  BatchEquations equations;  ///< of `at`
   int iterations = 0;
   bool converged = false;
+};
+
+/// The linear problem at an evaluation: its normal equations where they are good enough for a step,
+/// triangles where they are not.
+class StepSolver {
+ public:
+  explicit StepSolver(const Evaluation& e) : normal_(e.rows, e.psi, e.x) {
+    constexpr double of_the_prior = 1e-6;  // the next evaluation mends what a step leaves
+    if (!normal_.good_to(of_the_prior)) triangles_ = compressed(e);
+  }
+  BatchEquations::Step solve(double mu) const {
+    return triangles_ ? triangles_->solve(mu) : normal_.solve(mu);
+  }
+
+ private:
+  NormalEquations normal_;
+  std::optional<BatchEquations> triangles_;
 };
 
 /// Levenberg-Marquardt.
 Minimum descend(const BatchProblem& problem, const VecX& start, const BatchOptions& options) {
   const double standing_still = options.tolerance * options.tolerance;
   Minimum now{
-      problem.evaluate(start, std::vector<Vec3>(problem.test().timeline.chains, Vec3::Zero())),
-      {},
-      0,
+      problem.evaluate(start, std::vector<Vec3>(problem.test().timeline.chains, Vec3::Zero())), 0,
       false};
-  now.equations = compressed(now.at);
   double mu = 1e-3;
   for (; now.iterations < options.max_iterations && !now.converged; ++now.iterations) {
+    const StepSolver solver(now.at);
     bool improved = false;
     double smallest_change = std::numeric_limits<double>::infinity();
     for (int tries = 0; tries < 20 && !improved; ++tries) {
-      const BatchEquations::Step step = now.equations.solve(mu);
+      const BatchEquations::Step step = solver.solve(mu);
       std::vector<Vec3> psi = now.at.psi;
       for (std::size_t c = 0; c < psi.size(); ++c) psi[c] += step.dpsi[c];
       Evaluation next = problem.evaluate(now.at.x + step.dx, std::move(psi));
@@ -136,7 +152,6 @@ Minimum descend(const BatchProblem& problem, const VecX& start, const BatchOptio
       }
       now.converged = now.at.cost - next.cost < standing_still && mu < 1e-2;
       now.at = std::move(next);
-      now.equations = compressed(now.at);
       mu = std::max(mu * 0.1, 1e-12);
     }
     if (!improved) {  // at the minimum, up to rounding of the cost
@@ -185,7 +200,7 @@ BatchResult fit_all(const FilterSpec& filter, const MeasuredTest& test, const Th
 
   MatX prior = MatX::Zero(n, n + 1);
   prior.leftCols(n).setIdentity();
-  const MatX data = minimum.equations.reduced(0.0).triangle;
+  const MatX data = compressed(minimum.at).reduced(0.0).triangle;
   const MatX R = triangle(stacked(data, prior)).topLeftCorner(n, n);
   const MatX R_inv = R.triangularView<Eigen::Upper>().solve(MatX::Identity(n, n));
   const MatX P = R_inv * R_inv.transpose();

@@ -1,0 +1,56 @@
+#include "core/estimate/normal_equations.hpp"
+
+#include <Eigen/Cholesky>
+#include <limits>
+
+#include "core/base/decompose.hpp"
+
+namespace drift {
+
+NormalEquations::NormalEquations(const std::vector<ChainEquations>& rows,
+                                 const std::vector<Vec3>& psi, const VecX& x)
+    : psi_(psi), x_(x) {
+  for (const ChainEquations& c : rows) {
+    MatX& N = chains_.emplace_back(MatX::Zero(c.rows.cols(), c.rows.cols()));
+    N.selfadjointView<Eigen::Lower>().rankUpdate(c.rows.transpose());
+  }
+}
+
+bool NormalEquations::good_to(double relative) const {
+  // A sum of m products is off by at most m eps of its size; elimination adds as much again.
+  double largest = 0.0;
+  for (const MatX& N : chains_) {
+    if (!N.diagonal().allFinite()) return false;
+    largest += N.diagonal().head(N.cols() - 1).maxCoeff();
+  }
+  return 2.0 * std::numeric_limits<double>::epsilon() * largest < relative;
+}
+
+BatchEquations::Step NormalEquations::solve(double mu) const {
+  const Eigen::Index n = x_.size();
+  // S over [x | r], what is left of a chain when its attitude is eliminated: L L^T is that of the
+  // attitude with its prior and damping, T = L^-1 [its columns].
+  MatX S = MatX::Zero(n + 1, n + 1);
+  std::vector<Eigen::LLT<Mat3>> of_attitude;
+  std::vector<Mat3X> T;
+  for (std::size_t c = 0; c < chains_.size(); ++c) {
+    const MatX& N = chains_[c];
+    const Mat3 A = N.topLeftCorner<3, 3>().selfadjointView<Eigen::Lower>();
+    of_attitude.emplace_back(A + (1.0 + mu) * Mat3::Identity());
+    Mat3X beside = N.block(3, 0, n + 1, 3).transpose();
+    beside.col(n) -= psi_[c];
+    T.push_back(of_attitude.back().matrixL().solve(beside));
+    S.triangularView<Eigen::Lower>() += N.bottomRightCorner(n + 1, n + 1);
+    S.selfadjointView<Eigen::Lower>().rankUpdate(T.back().transpose(), -1.0);
+  }
+  MatX on_x = S.topLeftCorner(n, n);
+  on_x.diagonal().array() += 1.0 + mu;
+  const VecX right = S.row(n).head(n).transpose() - x_;
+  BatchEquations::Step step;
+  step.dx = Cholesky(on_x).solve(right);
+  for (std::size_t c = 0; c < chains_.size(); ++c)
+    step.dpsi.push_back(of_attitude[c].matrixU().solve(T[c].col(n) - T[c].leftCols(n) * step.dx));
+  return step;
+}
+
+}  // namespace drift

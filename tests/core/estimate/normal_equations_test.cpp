@@ -1,0 +1,60 @@
+#include "core/estimate/normal_equations.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/estimate/triangle.hpp"
+
+namespace drift::normal_equations_test {
+namespace {
+
+/// Chains of random rows over 3 attitudes, n states and the residual, `scale` times as informative
+/// as the prior per row.
+struct Random {
+  std::vector<ChainEquations> rows;
+  std::vector<Vec3> psi;
+  VecX x;
+  Random(int chains, Eigen::Index n, double scale) : x(VecX::Random(n)) {
+    for (int c = 0; c < chains; ++c) {
+      rows.push_back({scale * MatX::Random(40 + 10 * c, 3 + n + 1)});
+      psi.push_back(Vec3::Random());
+    }
+  }
+  BatchEquations triangles() const {
+    BatchEquations out{{}, psi, x};
+    for (const ChainEquations& c : rows) out.chains.push_back(triangle(c.rows));
+    return out;
+  }
+};
+
+TEST(NormalEquations, GiveTheStepOfTheTriangles) {
+  for (const Eigen::Index n : {1, 7, 63})
+    for (const double mu : {0.0, 1e-3, 10.0})
+      for (const double scale : {0.1, 1.0, 30.0}) {
+        const Random problem(3, n, scale);
+        const BatchEquations::Step of_products =
+            NormalEquations(problem.rows, problem.psi, problem.x).solve(mu);
+        const BatchEquations::Step of_triangles = problem.triangles().solve(mu);
+        // Rounding times the condition, at most all rows' information over the prior's.
+        const double bound = 1e-15 * 150.0 * static_cast<double>(n + 4) * (1.0 + scale * scale);
+        EXPECT_LT((of_products.dx - of_triangles.dx).norm(), bound * (1.0 + of_triangles.dx.norm()))
+            << n << " " << mu << " " << scale;
+        for (std::size_t c = 0; c < problem.psi.size(); ++c)
+          EXPECT_LT((of_products.dpsi[c] - of_triangles.dpsi[c]).norm(),
+                    bound * (1.0 + of_triangles.dpsi[c].norm()));
+      }
+}
+
+TEST(NormalEquations, SayWhenRoundingIsNoLongerSmall) {
+  const Random tame(2, 5, 1.0), wild(2, 5, 1e6);
+  EXPECT_TRUE(NormalEquations(tame.rows, tame.psi, tame.x).good_to(1e-6));
+  EXPECT_FALSE(NormalEquations(wild.rows, wild.psi, wild.x).good_to(1e-6));
+}
+
+TEST(NormalEquations, AreNotGoodWhereARowIsNotFinite) {
+  Random broken(1, 3, 1.0);
+  broken.rows[0].rows(2, 1) = std::nan("");
+  EXPECT_FALSE(NormalEquations(broken.rows, broken.psi, broken.x).good_to(1e-6));
+}
+
+}  // namespace
+}  // namespace drift::normal_equations_test
