@@ -12,7 +12,8 @@ NormalEquations::NormalEquations(const std::vector<ChainEquations>& rows,
     : psi_(psi), x_(x) {
   for (const ChainEquations& c : rows) {
     MatX& N = chains_.emplace_back(MatX::Zero(c.rows.cols(), c.rows.cols()));
-    N.selfadjointView<Eigen::Lower>().rankUpdate(c.rows.transpose());
+    if (c.rows.rows() > 0)  // Eigen divides by it
+      N.selfadjointView<Eigen::Lower>().rankUpdate(c.rows.transpose());
   }
 }
 

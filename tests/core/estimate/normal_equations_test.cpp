@@ -44,6 +44,14 @@ TEST(NormalEquations, GiveTheStepOfTheTriangles) {
       }
 }
 
+TEST(NormalEquations, AChainOfWhichNothingWasMeasuredKeepsItsPrior) {
+  Random problem(2, 4, 1.0);
+  problem.rows[1].rows.resize(0, 3 + 4 + 1);
+  const NormalEquations normal(problem.rows, problem.psi, problem.x);
+  EXPECT_TRUE(normal.good_to(1e-6));
+  EXPECT_LT((normal.solve(0.0).dpsi[1] + problem.psi[1]).norm(), 1e-15);
+}
+
 TEST(NormalEquations, SayWhenRoundingIsNoLongerSmall) {
   const Random tame(2, 5, 1.0), wild(2, 5, 1e6);
   EXPECT_TRUE(NormalEquations(tame.rows, tame.psi, tame.x).good_to(1e-6));
