@@ -98,7 +98,9 @@ TEST(ManPage, IsReadByManWithoutComplaint) {
   const ScratchFolder scratch;
   const std::string page = scratch.write("driftscope.1", driftscope("help --man").out);
   const std::string log = scratch.file("log"), text = scratch.file("text");
-  ASSERT_EQ(std::system(("groff -man -Tascii -P-cbu -ww " + page + " >" + text + " 2>" + log).c_str()), 0);
+  ASSERT_EQ(
+      std::system(("groff -man -Tascii -P-cbu -ww " + page + " >" + text + " 2>" + log).c_str()),
+      0);
   EXPECT_EQ(text_of(log), "");
   EXPECT_NE(text_of(text).find("--output"), std::string::npos);
 }
