@@ -15,6 +15,8 @@ study=$scratch/prefix/share/driftscope/configs/cheap.toml
 python3 -c 'import json, sys; parts = json.load(open(sys.argv[1]))["components"]; assert any(p["name"] == "SUNDIALS" for p in parts)' \
   "$scratch"/prefix/share/doc/driftscope/sbom.cdx.json
 [ -s "$scratch/prefix/share/doc/driftscope/SECURITY.md" ] && [ -s "$scratch/prefix/share/doc/driftscope/CITATION.cff" ]
+grep -q '^\.TH DRIFTSCOPE 1' "$scratch/prefix/share/man/man1/driftscope.1"
+PYTHONPATH=$scratch/prefix/share/driftscope/python python3 -c 'import driftscope; driftscope.open' # needs nothing but Python
 cp -r "$here/example" "$scratch/source"
 
 if [ "${3:-}" = pkg-config ]; then

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/config/declared_key.hpp"
 #include "core/config/nearest.hpp"
 
 namespace drift::config {
@@ -42,14 +43,6 @@ std::string unit_suggestion(std::string_view text, const Unit& wanted) {
     start = end + 1;
   }
   return fmt::format("Write the value in '{}'", wanted.symbol.view());
-}
-
-std::string in_range(const Option& option) {
-  constexpr double none = std::numeric_limits<double>::max();
-  const std::string unit = shown(option.unit.symbol);
-  if (option.min == -none) return fmt::format("at most {}{}", number(option.max), unit);
-  if (option.max == none) return fmt::format("at least {}{}", number(option.min), unit);
-  return fmt::format("{}{} to {}{}", number(option.min), unit, number(option.max), unit);
 }
 
 /// Splits and converts "60 min"; empty, with the reason in `why`, if it is none.
@@ -111,12 +104,21 @@ std::string expected_quantity(const Unit& unit) {
   return fmt::format("a number with a unit, such as \"1 {}\"", unit.symbol.view());
 }
 
+std::string range_text(const Option& option) {
+  constexpr double none = std::numeric_limits<double>::max();
+  const std::string unit = shown(option.unit.symbol);
+  if (option.min == -none) return fmt::format("at most {}{}", number(option.max), unit);
+  if (option.max == none) return fmt::format("at least {}{}", number(option.min), unit);
+  return fmt::format("{}{} to {}{}", number(option.min), unit, number(option.max), unit);
+}
+
 std::string quantity_text(double value, const Unit& unit) {
   return number(value) + shown(unit.symbol);
 }
 
 std::optional<Quantity> read_quantity(Report& report, const Node& node, std::string_view key,
                                       const Option& option) {
+  report.declare_at(key, declared_number("", "", option));
   const bool is_number = node.is(Node::Kind::integer) || node.is(Node::Kind::real);
   const double plain = node.is(Node::Kind::integer) ? static_cast<double>(node.integer) : node.real;
   std::optional<Quantity> q;
@@ -145,7 +147,7 @@ std::optional<Quantity> read_quantity(Report& report, const Node& node, std::str
     if (!(value >= option.min - room * std::abs(option.min) &&
           value <= option.max + room * std::abs(option.max))) {
       why = fmt::format("'{}' = {} is out of range (expected {}). Check value and unit", key,
-                        to_toml(node), in_range(option));
+                        to_toml(node), range_text(option));
       q.reset();
     }
   }

@@ -10,8 +10,41 @@
 
 namespace drift::config {
 
-Report::Report(std::string path)
-    : path_(std::move(path)), file_name_(utf8_text(path_.substr(path_.find_last_of('/') + 1))) {}
+Report::Report(std::string path, Declared declared)
+    : path_(std::move(path)),
+      file_name_(utf8_text(path_.substr(path_.find_last_of('/') + 1))),
+      kept_(declared) {}
+
+void Report::declare(const DeclaredKey& key) {
+  if (!keeps_declared()) return;
+  for (DeclaredKey& known : declared_) {
+    if (known.section != key.section || known.key != key.key) continue;
+    const bool required = known.required || key.required;
+    if (known.kind == DeclaredKey::Kind::unknown) known = key;
+    known.required = required;
+    return;
+  }
+  declared_.push_back(key);
+}
+
+void Report::declare_at(std::string_view path, const DeclaredKey& key) {
+  if (!keeps_declared()) return;
+  for (const DeclaredKey& known : declared_) {
+    const std::string full = known.section.empty() ? known.key : known.section + "." + known.key;
+    if (full != path) continue;
+    DeclaredKey named = key;
+    named.section = known.section;
+    named.key = known.key;
+    return declare(named);
+  }
+}
+
+void Report::require(std::string_view section, std::string_view key) {
+  if (!keeps_declared()) return;
+  declare({std::string(section), std::string(key)});
+  for (DeclaredKey& known : declared_)
+    if (known.section == section && known.key == key) known.required = true;
+}
 
 void Report::error(const Place& at, const std::string& text) {
   errors_.push_back({at, at.set_key.empty()

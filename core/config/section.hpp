@@ -21,6 +21,8 @@ namespace drift::config {
 /// as it was, so that all mistakes of a file are found in one reading.
 class Section {
  public:
+  using Kind = DeclaredKey::Kind;
+
   /// `table` may be null (the section is absent) or no table (reported). `path` is its dotted key.
   Section(Report& report, const Node* table, Place at, std::string path);
 
@@ -34,6 +36,10 @@ class Section {
 
   /// The value of a key, which thereby is known; null if absent.
   const Node* take(std::string_view key);
+  /// The same, saying what the key takes to a report that keeps it: the reads below do.
+  const Node* take(std::string_view key, Kind kind, const std::string& expected);
+  /// Says that a key, read as a text, takes one of these names.
+  void choices(std::string_view key, std::span<const std::string_view> names);
   bool has(std::string_view key) const;
 
   /// Each reads one key into `value` (a quantity: in SI) if it is present and right; the resolved
@@ -71,6 +77,7 @@ class Section {
   void wrong(const Node& node, std::string_view key, const std::string& expected,
              const std::string& fix);
   bool read_whole(const Option& option, std::uint64_t& value);
+  const Node* take_number(const Option& option);
 
   Report* report_;
   const Node* table_;

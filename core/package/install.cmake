@@ -1,5 +1,5 @@
 # What `cmake --install` puts where: the program, the libraries with their headers by layer, the files by
-# which CMake and pkg-config find them, study files and job scripts; and the Debian package that CPack makes.
+# which CMake and pkg-config find them, study files and job scripts, the Python reader, the manual page; and the Debian package that CPack makes.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -34,6 +34,9 @@ install(FILES ${CMAKE_BINARY_DIR}/generated/driftscope.pc DESTINATION ${CMAKE_IN
 
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/configs/ DESTINATION ${CMAKE_INSTALL_DATADIR}/driftscope/configs
         USE_SOURCE_PERMISSIONS COMPONENT driftscope)
+install(FILES ${DRIFT_MAN} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT driftscope)
+file(GLOB DRIFT_PYTHON CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/analysis/python/*.py)
+install(FILES ${DRIFT_PYTHON} DESTINATION ${CMAKE_INSTALL_DATADIR}/driftscope/python COMPONENT driftscope)
 install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md ${PROJECT_SOURCE_DIR}/LICENSE
         DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT driftscope)
 

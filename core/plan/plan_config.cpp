@@ -123,10 +123,10 @@ template <class E, std::size_t N>
 std::optional<E> read_optional(Section& section, std::string_view key,
                                const Named<E> (&choices)[N]) {
   E value{};
-  if (!section.has(key)) {
-    section.take(key);
-    return std::nullopt;
-  }
+  std::vector<std::string_view> names;
+  for (const Named<E>& choice : choices) names.push_back(choice.name);
+  section.choices(key, names);
+  if (!section.has(key)) return std::nullopt;
   if (!section.read(Option{.key = key}, value, choices)) return std::nullopt;
   return value;
 }
@@ -140,7 +140,9 @@ void read_platform(Section& section, TestPlan& plan) {
                plan.slew_rate);
   section.read(Option{"case_rate", unit::deg_per_s, 1e-4, 360.0, "of the turntable"},
                plan.case_rate);
-  const config::Node* position = section.take("position");
+  const config::Node* position = section.take("position", Section::Kind::sections,
+                                              config::expected_sections(section.full("position")));
+  section.choices("preset", preset_names);
   const config::Node* preset = section.take("preset");
   if (position != nullptr && preset != nullptr)
     section.report().error(
@@ -209,7 +211,7 @@ Site read_site(Section section, RecordingKind kind) {
   if (section.has("note"))
     section.read(Option{.key = "note", .doc = "any text"}, note);
   else
-    section.take("note");
+    section.take("note", Section::Kind::text, config::expected_text());
   section.finish();
   return site;
 }

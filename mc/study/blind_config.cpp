@@ -19,13 +19,14 @@ using config::Section;
 /// A list of names, each one of `known`; the numbers of them there. Empty if absent or wrong.
 std::vector<std::size_t> read_names(Section& section, std::string_view key,
                                     std::span<const std::string_view> known) {
-  const Node* node = section.take(key);
+  const std::string expected = fmt::format("a list of {}", fmt::join(known, ", "));
+  const Node* node = section.take(key, Section::Kind::list, expected);
   if (node == nullptr) return {};
   const std::string name = section.full(key);
   if (!node->is(Node::Kind::array) || node->items.empty()) {
-    section.report().error(
-        node->at, fmt::format("'{}' is {} (expected a list of {}). Write {} = [\"{}\"]", name,
-                              describe(*node), fmt::join(known, ", "), key, known.front()));
+    section.report().error(node->at,
+                           fmt::format("'{}' is {} (expected {}). Write {} = [\"{}\"]", name,
+                                       describe(*node), expected, key, known.front()));
     return {};
   }
   std::vector<std::size_t> chosen;
@@ -61,7 +62,8 @@ std::optional<double> number(Section& section, const Node& node, const std::stri
 }
 
 void read_sizes(Section& section, BlindSpec& spec) {
-  const Node* node = section.take("sizes");
+  const std::string expected = "a list of sizes, or { uniform = [low, high] }";
+  const Node* node = section.take("sizes", Section::Kind::list_or_table, expected);
   const std::string name = section.full("sizes");
   if (node == nullptr) {
     section.report().assumed(name,
@@ -70,9 +72,8 @@ void read_sizes(Section& section, BlindSpec& spec) {
   }
   const auto wrong = [&] {
     section.report().error(
-        node->at, fmt::format("'{}' is {} (expected a list of sizes, or {{ uniform = [low, high] "
-                              "}}). Write sizes = [4, 6, 8, 12]",
-                              name, describe(*node)));
+        node->at, fmt::format("'{}' is {} (expected {}). Write sizes = [4, 6, 8, 12]", name,
+                              describe(*node), expected));
   };
   const Node* range = node->is(Node::Kind::table) ? node->find("uniform") : nullptr;
   const Node* list = node->is(Node::Kind::array) ? node : range;

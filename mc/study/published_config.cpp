@@ -12,14 +12,14 @@ using config::Section;
 /// A list of quantities in the unit of a parameter, SI.
 std::vector<double> read_list(Section& table, std::string_view key, const ParamSpec& spec) {
   std::vector<double> values;
-  const Node* node = table.take(key);
+  const std::string expected = "a list of " + config::expected_quantity(spec.unit);
+  const Node* node = table.take(key, Section::Kind::list, expected);
   if (node == nullptr) return values;
   const std::string name = table.full(key);
   if (!node->is(Node::Kind::array)) {
-    table.report().error(
-        node->at, fmt::format("'{}' is {} (expected a list of {}). Write {} = [\"1 {}\", ...]",
-                              name, describe(*node), config::expected_quantity(spec.unit), key,
-                              spec.unit.symbol.view()));
+    table.report().error(node->at,
+                         fmt::format("'{}' is {} (expected {}). Write {} = [\"1 {}\", ...]", name,
+                                     describe(*node), expected, key, spec.unit.symbol.view()));
     return values;
   }
   for (const Node& item : node->items)
@@ -36,6 +36,7 @@ std::vector<Published> read_published(Section& root) {
   std::vector<Published> all;
   for (Section& section : root.sections("published")) {
     Published p;
+    section.take("name", Section::Kind::text, config::expected_text());
     if (section.require("name", "name = \"Table 1 of the paper\""))
       section.read(Option{.key = "name", .doc = "of the source"}, p.name);
     section.read(Option{.key = "filter", .doc = "it is compared with"}, p.filter);

@@ -14,6 +14,7 @@
 #include "core/plan/plan_config.hpp"
 #include "core/recording/own/format_config.hpp"
 #include "mc/study/blind_config.hpp"
+#include "mc/study/declared_keys.hpp"
 #include "mc/study/published_config.hpp"
 #include "mc/study/study.hpp"
 
@@ -180,10 +181,8 @@ Node load_tree(const std::string& path, const Overrides& overrides) {
   return root;
 }
 
-}  // namespace
-
-Study read_study_tree(const Node& root, const std::string& path) {
-  Report report(path);
+/// Reads a tree; what is wrong with it is in the report.
+Study read_tree(const Node& root, const std::string& path, Report& report) {
   Study study;
   study.path = path;
   Section top(report, &root, config::Place{}, "");
@@ -217,10 +216,28 @@ Study read_study_tree(const Node& root, const std::string& path) {
   }
   top.finish();
   if (report.errors() == 0) check_stop(report, root, study);
+  return study;
+}
+
+}  // namespace
+
+Study read_study_tree(const Node& root, const std::string& path) {
+  Report report(path);
+  Study study = read_tree(root, path, report);
   report.throw_if_wrong();
   for (const auto& value : report.resolved())
     study.resolved.push_back({value.key, value.text, value.origin});
   return study;
+}
+
+std::vector<config::DeclaredKey> declared_keys(const Node& root) {
+  Report report("", config::Declared::kept);
+  try {
+    read_tree(root, "", report);
+  } catch (const InputError&) {
+    // What came after it is declared in another reading, of a tree that it is content with.
+  }
+  return report.declared();
 }
 
 void apply_sweep_value(Node& root, const std::string& key, const std::string& value) {

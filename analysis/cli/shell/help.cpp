@@ -1,6 +1,7 @@
 #include "analysis/cli/argument_checks.hpp"
 #include "analysis/cli/command.hpp"
 #include "analysis/cli/print.hpp"
+#include "analysis/cli/shell/man_page.hpp"
 
 namespace drift::cli {
 namespace {
@@ -8,6 +9,7 @@ namespace {
 struct HelpArguments {
   const CLI::App* program = nullptr;
   std::string command;
+  bool man = false;
 };
 
 std::string help_text(const CLI::App& app, const std::string& name) {
@@ -15,6 +17,10 @@ std::string help_text(const CLI::App& app, const std::string& name) {
 }
 
 ExitCode help(const HelpArguments& a) {
+  if (a.man) {
+    show_text(man_page(*a.program));
+    return ExitCode::ok;
+  }
   const std::string program = a.program->get_name();
   if (a.command.empty()) {
     show_text(help_text(*a.program, program));
@@ -37,7 +43,8 @@ ExitCode help(const HelpArguments& a) {
 Command help_command() {
   const auto add = [](CLI::App& app, HelpArguments& a) {
     a.program = app.get_parent();
-    app.add_option("command", a.command, "a command");
+    CLI::Option* command = app.add_option("command", a.command, "a command");
+    app.add_flag("--man", a.man, "all of it as a manual page")->excludes(command);
   };
   return {"help", group::program, "this list, or the options of a command",
           "driftscope help identify", with_arguments<HelpArguments>(add, help)};

@@ -1,7 +1,6 @@
 #include "analysis/cli/shell/schema.hpp"
 
-#include <charconv>
-#include <optional>
+#include <limits>
 
 #include "analysis/cli/command.hpp"
 #include "analysis/cli/print.hpp"
@@ -61,21 +60,9 @@ Json definitions() {
   return defs;
 }
 
-std::optional<double> number_after(std::string_view text, std::string_view mark) {
-  const auto at = text.find(mark);
-  double value = 0.0;
-  if (at == std::string_view::npos) return std::nullopt;
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data() + at + mark.size(), end, value);
-  // 2^64-1 is said where there is no bound.
-  if (error != std::errc() || (stop != end && *stop == '^')) return std::nullopt;
-  return value;
-}
-
 Json whole(const StudyKey& key) {
-  Json number = {{"type", "integer"}};
-  if (const auto least = number_after(key.expected, "from ")) number["minimum"] = *least;
-  if (const auto most = number_after(key.expected, " to ")) number["maximum"] = *most;
+  Json number = {{"type", "integer"}, {"minimum", key.option.min}};
+  if (!config::unbounded_whole(key.option)) number["maximum"] = key.option.max;
   return {{"anyOf", {number, {{"type", "string"}, {"pattern", "^0x[0-9a-fA-F]+$"}}}}};
 }
 
@@ -98,9 +85,9 @@ Json rule_of(const StudyKey& key) {
       return {{"type", "object"}};
     case Kind::list:
       if (key.key == "terms") return reference("terms");
-      // Some lists may be written shorter; the words of the reader say how.
-      if (key.expected.find(", or ") != std::string::npos) return Json::object();
       return {{"type", "array"}};
+    case Kind::list_or_table:
+      return Json::object();
     case Kind::choice:
       return {{"enum", key.choices}};
     case Kind::truth_value:
@@ -118,6 +105,7 @@ Json rule_of(const StudyKey& key) {
     case Kind::matrix:
       return three_of(three_of(reference("number")));
     case Kind::text:
+    case Kind::unknown:
       break;
   }
   return {{"type", "string"}};
@@ -129,10 +117,12 @@ Json described(const StudyKey& key) {
     rule["description"] = fmt::format("section [{}]", key.path);
     return rule;
   }
-  const bool has_range = !key.range.empty();
-  rule["description"] =
-      fmt::format("{}: {}{}{}", key.path, key.expected, has_range ? ", " : "", key.range);
-  if (!key.unit.empty()) rule["examples"] = Json::array({fmt::format("1 {}", key.unit)});
+  const bool number = key.kind == Kind::quantity || key.kind == Kind::number,
+             has_range = number && key.option.max < std::numeric_limits<double>::max();
+  rule["description"] = fmt::format("{}: {}{}{}", key.path, key.expected, has_range ? ", " : "",
+                                    has_range ? config::range_text(key.option) : "");
+  if (key.kind == Kind::quantity)
+    rule["examples"] = Json::array({fmt::format("1 {}", key.option.unit.symbol.view())});
   return rule;
 }
 

@@ -3,38 +3,25 @@
 #include <string>
 #include <vector>
 
+#include "core/config/declared_key.hpp"
+
 namespace drift::cli {
 
-/// One key that a study file may have, as the strict reader of study files tells of it.
+/// One key that a study file may have, as its reader declares it.
 struct StudyKey {
-  enum class Kind {
-    section,   ///< keys that are listed in turn
-    sections,  ///< a list of sections, [[...]]
-    table,     ///< keys of the user's own, or parameters
-    list,
-    choice,
-    truth_value,
-    whole,     ///< a whole number
-    number,    ///< without unit
-    quantity,  ///< a number with a unit
-    vector,    ///< three values
-    matrix,    ///< three rows of three values
-    text
-  };
+  using Kind = config::DeclaredKey::Kind;
   std::string key;   ///< the last part of the path
   std::string path;  ///< "plan.dwell"; of an element of a list "filter[].name"
   Kind kind = Kind::text;
-  std::string expected;  ///< in the words of the reader: what may stand there
-  std::string range;     ///< of a number or quantity: "0.001 min to 1e+05 min"; or empty
-  std::string unit;      ///< of a quantity
+  std::string expected;              ///< in the words of the reader: what may stand there
+  config::Option option;             ///< of a number: unit, least and most
   std::vector<std::string> choices;  ///< of a choice
   bool required = false;
   std::vector<StudyKey> keys;  ///< of a section
 };
 
-/// Every key of a study file. Nothing is listed by hand: studies with a key that nobody knows, or
-/// with a date where no key takes one, are given to the reader, whose messages name the keys that
-/// are known and what each expects.
+/// Every key of a study file. Nothing is listed by hand: the reader declares each key that it asks
+/// for, and reads a tree that has every section it declares.
 std::vector<StudyKey> study_keys();
 
 }  // namespace drift::cli

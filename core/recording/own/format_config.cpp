@@ -23,11 +23,13 @@ using config::Section;
 const std::vector<config::Member>& members(Section& section, std::string_view key,
                                            std::string_view example) {
   static const std::vector<config::Member> none;
-  const Node* node = section.take(key);
+  const std::string expected = "a table";
+  const Node* node = section.take(key, Section::Kind::table, expected);
   if (node == nullptr) return none;
   if (node->is(Node::Kind::table)) return node->members;
-  section.report().error(node->at, fmt::format("'{}' is {} (expected a table). Write {}",
-                                               section.full(key), describe(*node), example));
+  section.report().error(node->at,
+                         fmt::format("'{}' is {} (expected {}). Write {}", section.full(key),
+                                     describe(*node), expected, example));
   return none;
 }
 
@@ -132,13 +134,14 @@ void read_offsets(Section& section, RecordingKind kind, RecordingFormat& format)
 }
 
 void read_ignored(Section& section, RecordingFormat& format) {
-  const Node* node = section.take("ignore");
+  const std::string expected = "a list of headers of the file";
+  const Node* node = section.take("ignore", Section::Kind::list, expected);
   if (node == nullptr) return;
   const auto is_text = [](const Node& item) { return item.is(Node::Kind::string); };
   if (!node->is(Node::Kind::array) || !std::ranges::all_of(node->items, is_text)) {
-    section.report().error(node->at, fmt::format("'{}' is {} (expected a list of headers of the "
-                                                 "file). Write ignore = [\"Datum\"]",
-                                                 section.full("ignore"), describe(*node)));
+    section.report().error(node->at,
+                           fmt::format("'{}' is {} (expected {}). Write ignore = [\"Datum\"]",
+                                       section.full("ignore"), describe(*node), expected));
     return;
   }
   for (const Node& item : node->items) format.ignore.push_back(std::string(trimmed(item.text)));
@@ -184,7 +187,7 @@ RecordingFormat read_recording_format(Section section, RecordingKind kind,
     if (section.has("counter"))
       section.read(Option{.key = "counter", .doc = "header of a counter"}, format.counter);
     else
-      section.take("counter");
+      section.take("counter", Section::Kind::text, config::expected_text());
     section.read(Option{.key = "kind", .doc = "what a sample is"}, format.kind, sample_kinds);
     if (format.kind == SampleKind::increments && kind == RecordingKind::platform)
       section.report().error(section.take("kind")->at,
