@@ -25,6 +25,10 @@ void add_progress(CLI::App& app, std::string& style) {
       ->check(CLI::IsMember({"auto", "plain", "json", "none"}));
 }
 
+void add_full(CLI::App& app) {
+  app.add_flag("--full")->description("print all tables behind the answer");
+}
+
 CLI::Option* add_output(CLI::App& app, std::string& path, const std::string& what) {
   return app.add_option("-o,--output", path, what)->check(check_path);
 }

@@ -24,6 +24,9 @@ struct Command {
   std::function<std::function<ExitCode()>(CLI::App&)> add;
   /// Whether all that was asked for is written into files even where no option names them.
   Result result = Result::printed;
+  /// What is said where the user stops it; ended with how to go on.
+  const char* stopped =
+      "stopped: nothing was stored, what was computed is lost; the same command begins anew\n";
 };
 
 /// The `add` of a command whose arguments are an A. They live as long as the command line, which
@@ -50,6 +53,8 @@ inline constexpr std::string_view program = "The program";
 void add_study(CLI::App& app, StudyArguments& study);
 void add_threads(CLI::App& app, int& threads);
 void add_progress(CLI::App& app, std::string& style);
+/// --full, of a command that prints its answer in brief (answer.hpp).
+void add_full(CLI::App& app);
 /// --output, of a file or folder.
 CLI::Option* add_output(CLI::App& app, std::string& path, const std::string& what);
 /// A results folder of `run`.

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "analysis/cli/answer.hpp"
 #include "analysis/cli/argument_checks.hpp"
 #include "analysis/cli/command.hpp"
 #include "analysis/cli/print.hpp"
@@ -30,13 +31,12 @@ void require_nominal(const mc::Study& study) {
 }
 
 void finish(const mc::Study& study, const diagnosis::Diagnosis& diagnosis,
-            const report::DiagnosisSource& source, const std::string& folder,
-            std::vector<std::string> more = {}) {
-  show_verdicts(report::to_text(diagnosis));
-  if (folder.empty()) return;
-  auto files = report::write_results(study, diagnosis, source, folder);
-  files.insert(files.end(), more.begin(), more.end());
-  show("\nWritten to {}: {}\n", folder, fmt::join(files, " "));
+            const report::DiagnosisSource& source, const std::vector<Recording>& recordings,
+            const std::string& folder, std::vector<std::string> more = {}) {
+  Rest rest{cards_text(recordings, study.kind) + report::to_text(diagnosis), folder, {}};
+  if (!folder.empty()) rest.files = report::write_results(study, diagnosis, source, folder);
+  rest.files.insert(rest.files.end(), more.begin(), more.end());
+  show_answer(report::diagnosis_in_brief(diagnosis), rest);
 }
 
 ExitCode diagnose_case(const StudyArguments& arguments, const mc::Study& study,
@@ -61,9 +61,13 @@ ExitCode diagnose_case(const StudyArguments& arguments, const mc::Study& study,
   std::vector<std::string> more;
   if (!folder.empty())
     more = write_files({folder, "diagnose"},
-                       {{"identification.json", report::to_json(found.result).dump(2) + "\n"}});
+                       {{"identification.json",
+                         report::with_provenance(report::to_json(found.result).dump(2),
+                                                 report::provenance_of(study.path, paths))}});
   finish(study, found.diagnosis,
-         {paths, report::to_text(report::strapdown_report(study, found.result))}, folder, more);
+         {paths, report::to_text(report::strapdown_report(study, found.result)),
+          report::provenance_of(study.path, paths)},
+         recordings, folder, more);
   return ExitCode::ok;
 }
 
@@ -78,7 +82,8 @@ ExitCode diagnose_platform(const StudyArguments& arguments, const mc::Study& stu
     options.advising = diagnosis::Advising::on_request;
     options.asked = *advise;
   }
-  finish(study, diagnosis::diagnose_recordings(study, recordings, options), {paths, ""}, folder);
+  finish(study, diagnosis::diagnose_recordings(study, recordings, options),
+         {paths, "", report::provenance_of(study.path, paths)}, recordings, folder);
   return ExitCode::ok;
 }
 
@@ -124,6 +129,7 @@ Command diagnose_command() {
             ->expected(0, 1)
             ->check(check_no_file);
     add_progress(app, a.study.progress);
+    add_full(app);
   };
   const auto run = [](const Arguments& a) {
     std::optional<std::vector<std::string>> advise;

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "analysis/cli/answer.hpp"
 #include "analysis/cli/command.hpp"
 #include "analysis/cli/print.hpp"
 #include "analysis/cli/progress.hpp"
@@ -30,10 +31,11 @@ ExitCode identify_case(const mc::Study& study, const std::vector<std::string>& p
   const auto recordings = read_recordings(study, paths);
   const strapdown::StrapdownResult result =
       strapdown::identify_strapdown(recordings.front(), options);
-  const report::Report said = report::strapdown_report(study, result);
-  show_verdicts(report::to_text(said));
-  if (!folder.empty())
-    show("\nWritten to {}: {}\n", folder, fmt::join(report::write_report(said, folder), " "));
+  const report::Report said = with_provenance(report::strapdown_report(study, result),
+                                              report::provenance_of(study.path, paths));
+  Rest rest{cards_text(recordings, study.kind) + report::to_text(said), folder, {}};
+  if (!folder.empty()) rest.files = report::write_report(said, folder);
+  show_answer(said.brief, rest);
   return ExitCode::ok;
 }
 
@@ -49,11 +51,11 @@ ExitCode identify(const StudyArguments& arguments, const std::vector<std::string
           ? identification::identify_simulated(study, run, arguments.threads, progress)
           : identification::identify_recordings(study, recordings, arguments.threads, progress);
   for (const std::string& remark : id.remarks) say("note: {}\n", remark);
-  const report::Report said = report::identification_report(study, id);
-  show_verdicts(report::to_text(said));
-  if (!folder.empty())
-    show("\nWritten to {}: {}\n", folder,
-         fmt::join(report::write_identification(said, id, folder), " "));
+  const report::Report said = with_provenance(report::identification_report(study, id),
+                                              report::provenance_of(study.path, paths));
+  Rest rest{cards_text(recordings, study.kind) + report::to_text(said), folder, {}};
+  if (!folder.empty()) rest.files = report::write_identification(said, id, folder);
+  show_answer(said.brief, rest);
   return ExitCode::ok;
 }
 
@@ -74,6 +76,7 @@ Command identify_command() {
     app.add_option("--run", a.run, "run number of the simulated recording")
         ->check(whole(0, last_run));
     add_progress(app, a.study.progress);
+    add_full(app);
   };
   return {"identify", group::recordings,
           "estimate the parameters of a recording, or of a simulated one",

@@ -1,5 +1,9 @@
 #include "analysis/cli/print.hpp"
 
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 
@@ -15,8 +19,16 @@ Terminal& the_terminal() {
   return terminal;
 }
 
+volatile std::sig_atomic_t open_line = 0;  // a signal handler reaches nothing but globals
+
+void end_open_line() {
+  if (open_line != 0) std::fputc('\n', stderr);
+  open_line = 0;
+}
+
 void write_results(const std::string& shown) {
   if (the_terminal().results == Terminal::Shown::no) return;
+  end_open_line();
   if (std::fwrite(shown.data(), 1, shown.size(), stdout) != shown.size())
     throw OutputLost(errno, std::generic_category());
 }
@@ -27,13 +39,31 @@ void set_terminal(const Terminal& terminal) {
   the_terminal() = terminal;
 }
 
+const Terminal& terminal() {
+  return the_terminal();
+}
+
+std::size_t terminal_width(std::size_t least) {
+  winsize size{};
+  if (isatty(STDOUT_FILENO) == 0 || ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0) return least;
+  return std::max<std::size_t>(least, size.ws_col);
+}
+
+std::sig_atomic_t line_is_open() {
+  return open_line;
+}
+
 void show_text(std::string_view text) {
   write_results(terminal_text(text));
 }
 
 void show_verdicts(std::string_view text) {
+  show_judgement(text, report::Tone::plain);
+}
+
+void show_judgement(std::string_view text, report::Tone tone) {
   const std::string shown = terminal_text(text);
-  write_results(the_terminal().colour == Terminal::Shown::yes ? with_coloured_verdicts(shown)
+  write_results(the_terminal().colour == Terminal::Shown::yes ? with_coloured_judgement(shown, tone)
                                                               : shown);
 }
 
@@ -47,7 +77,11 @@ void complain_text(std::string_view text) {
   const bool redrawn = text.starts_with('\r');
   const std::string shown =
       shortened_lines(terminal_text(redrawn ? text.substr(1) : text), longest);
-  if (redrawn) std::fputc('\r', stderr);
+  if (redrawn)
+    std::fputc('\r', stderr);
+  else
+    end_open_line();
+  open_line = redrawn && !shown.ends_with('\n') ? 1 : 0;
   std::fwrite(shown.data(), 1, shown.size(), stderr);
   std::fflush(stderr);
 }

@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <csignal>
 #include <string_view>
 #include <system_error>
 #include <utility>
+
+#include "analysis/report/page/table.hpp"
 
 namespace drift::cli {
 
@@ -19,10 +22,19 @@ struct Terminal {
   Shown results = Shown::yes;  ///< what show() prints
   Shown remarks = Shown::yes;  ///< what say() prints
   Shown colour = Shown::no;    ///< of verdicts
+  Shown details = Shown::no;   ///< what --full asks for, behind the answer
 };
 
 /// Set once, before a command runs.
 void set_terminal(const Terminal& terminal);
+const Terminal& terminal();
+
+/// Columns of the terminal that results go to, at least `least`; that where they go elsewhere.
+std::size_t terminal_width(std::size_t least);
+
+/// Not 0 while a line that is redrawn stands on the terminal without an end: whoever prints ends
+/// it first. Signal handlers may read it.
+std::sig_atomic_t line_is_open();
 
 /// Results, to standard output. What names and titles bring along is shown, not obeyed: control
 /// characters and bytes that are not UTF-8 appear as \xNN. OutputLost if it takes no more.
@@ -30,6 +42,9 @@ void show_text(std::string_view text);
 
 /// Results with a verdict in them, which has a colour where the terminal shows one.
 void show_verdicts(std::string_view text);
+
+/// An answer whose judgement, before the first colon, has the colour of its tone.
+void show_judgement(std::string_view text, report::Tone tone);
 
 /// Everything else, to standard error, in the same way; lines beyond all measure are shortened. If
 /// nobody takes it, the work goes on all the same.

@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
-#include <cstdio>
+#include <cmath>
 #include <mutex>
 
 #include "analysis/cli/print.hpp"
@@ -21,30 +22,59 @@ struct State {
   std::size_t shown = 0;
 };
 
+double seconds_since(Clock::time_point t) {
+  return std::chrono::duration<double>(Clock::now() - t).count();
+}
+
 }  // namespace
+
+std::string duration_text(double seconds) {
+  if (!std::isfinite(seconds)) return "unknown";
+  const auto s = static_cast<long long>(std::lround(seconds));
+  if (s < 120) return fmt::format("{} s", s);
+  if (s < 7200) return fmt::format("{} min {} s", s / 60, s % 60);
+  return fmt::format("{} h {} min", s / 3600, s / 60 % 60);
+}
+
+void redraw_progress(const std::string& what, double done, const std::string& words,
+                     LineEnd line_end) {
+  constexpr std::size_t columns = 79, bar = 20;
+  const double part = std::isfinite(done) ? std::clamp(done, 0.0, 1.0) : 1.0;
+  const auto full = static_cast<std::size_t>(part * static_cast<double>(bar));
+  const std::string line = fmt::format("{} [{}{}] {}", what, std::string(full, '#'),
+                                       std::string(bar - full, '-'), words);
+  // As long as any line before it, and no longer than the terminal.
+  say("\r{:<{}.{}}{}", line, columns, columns, line_end == LineEnd::last ? "\n" : "");
+}
+
+bool progress_is_redrawn(const std::string& style) {
+  return style == "auto" && isatty(STDERR_FILENO) != 0;
+}
 
 std::function<void(std::size_t, std::size_t)> progress_reporter(const std::string& style,
                                                                 const std::string& what) {
   if (style == "none") return {};
-  const bool redraw = style == "auto" && isatty(STDERR_FILENO);
-  const bool json = style == "json";
+  const bool redraw = progress_is_redrawn(style), json = style == "json";
   auto state = std::make_shared<State>();
   return [=](std::size_t done, std::size_t total) {
     const std::scoped_lock lock(state->guard);
     if (done <= state->shown) return;  // threads may report out of order
     state->shown = done;
-    const auto now = Clock::now();
-    const double elapsed = std::chrono::duration<double>(now - state->started).count();
-    const double since = std::chrono::duration<double>(now - state->last).count();
-    const double left = elapsed * static_cast<double>(total - done) / static_cast<double>(done);
+    const double elapsed = seconds_since(state->started);
+    const double rate = elapsed > 0.0 ? static_cast<double>(done) / elapsed : 0.0;
+    const double left = static_cast<double>(total - done) / rate;
     if (json) {
       say("{{\"what\":\"{}\",\"done\":{},\"total\":{},\"elapsed_s\":{:.1f},\"eta_s\":{:.1f}}}\n",
           what, done, total, elapsed, left);
     } else if (redraw) {
-      say("\r{}: {}/{}, {:.0f} s left {}", what, done, total, left, done == total ? "\n" : "");
-    } else if (done == total || since > plain_interval) {
+      redraw_progress(what, static_cast<double>(done) / static_cast<double>(total),
+                      fmt::format("{}/{}, {:.3g}/s, {}", done, total, rate,
+                                  done == total ? "took " + duration_text(elapsed)
+                                                : duration_text(left) + " left"),
+                      done == total ? LineEnd::last : LineEnd::redrawn);
+    } else if (done == total || seconds_since(state->last) > plain_interval) {
       say("{}: {}/{} in {:.1f} s\n", what, done, total, elapsed);
-      state->last = now;
+      state->last = Clock::now();
     }
   };
 }
@@ -52,8 +82,7 @@ std::function<void(std::size_t, std::size_t)> progress_reporter(const std::strin
 std::function<void(const std::string&, double)> stage_reporter(const std::string& style,
                                                                const std::string& what) {
   if (style == "none") return {};
-  const bool redraw = style == "auto" && isatty(STDERR_FILENO);
-  const bool json = style == "json";
+  const bool redraw = progress_is_redrawn(style), json = style == "json";
   auto state = std::make_shared<State>();
   auto stage = std::make_shared<std::string>();
   return [=](const std::string& name, double done) {
@@ -63,9 +92,7 @@ std::function<void(const std::string&, double)> stage_reporter(const std::string
     if (percent < state->shown || (percent == state->shown && !next)) return;
     state->shown = percent;
     *stage = name;
-    const auto now = Clock::now();
-    const double elapsed = std::chrono::duration<double>(now - state->started).count();
-    const double since = std::chrono::duration<double>(now - state->last).count();
+    const double elapsed = seconds_since(state->started);
     const bool known = done > 0.02, over = percent >= 100;
     const double left = known ? elapsed * (1.0 - done) / done : 0.0;
     if (json) {
@@ -73,12 +100,15 @@ std::function<void(const std::string&, double)> stage_reporter(const std::string
           "s\":{}}}\n",
           what, name, done, elapsed, known ? fmt::format("{:.1f}", left) : "null");
     } else if (redraw) {
-      say("\r{}: {}, {} %, {:.0f} s, {}          {}", what, name, percent, elapsed,
-          known ? fmt::format("{:.0f} s left", left) : "", over ? "\n" : "");
-    } else if (next || over || since > plain_interval) {
+      redraw_progress(what, done,
+                      over ? fmt::format("took {}", duration_text(elapsed))
+                           : fmt::format("{} %, {}{}", percent, name,
+                                         known ? ", " + duration_text(left) + " left" : ""),
+                      over ? LineEnd::last : LineEnd::redrawn);
+    } else if (next || over || seconds_since(state->last) > plain_interval) {
       say("{}: {}, {} % in {:.1f} s{}\n", what, name, percent, elapsed,
           known && !over ? fmt::format(", {:.0f} s left", left) : "");
-      state->last = now;
+      state->last = Clock::now();
     }
   };
 }

@@ -1,5 +1,6 @@
 #include "analysis/planning/rank.hpp"
 
+#include "analysis/cli/answer.hpp"
 #include "analysis/cli/command.hpp"
 #include "analysis/cli/print.hpp"
 #include "analysis/cli/progress.hpp"
@@ -31,18 +32,16 @@ ExitCode rank(const StudyArguments& arguments, const RankArguments& options) {
   planning::ImproveProgress progress;
   if (options.improve > 0) progress = progress_reporter(arguments.progress, "positions");
   const planning::PlanRanking ranking = planning::rank_plan(study, what, progress);
-  const report::Report said = report::rank_report(study, ranking);
-  std::vector<std::string> files;
-  if (!options.folder.empty()) files = report::write_report(said, options.folder);
-  show("{}", options.json ? said.document.second : report::to_text(said));
-  if (!files.empty()) {
-    const std::string written =
-        fmt::format("\nWritten to {}: {}\n", options.folder, fmt::join(files, " "));
-    if (options.json)
-      say("{}", written);
-    else
-      show("{}", written);
+  const report::Report said =
+      with_provenance(report::rank_report(study, ranking), report::provenance_of(study.path, {}));
+  Rest rest{options.json ? "" : report::to_text(said), options.folder, {}};
+  if (!options.folder.empty()) rest.files = report::write_report(said, options.folder);
+  if (!options.json) {
+    show_answer(said.brief, rest);
+    return ExitCode::ok;
   }
+  show("{}", said.document.second);
+  if (!rest.files.empty()) say("\nWritten to {}: {}\n", options.folder, fmt::join(rest.files, " "));
   return ExitCode::ok;
 }
 
@@ -64,6 +63,7 @@ Command rank_command() {
     add_output(app, a.rank.folder, "folder for rank.json, pictures and report");
     app.add_flag("--json", a.rank.json, "rank.json on stdout instead of tables");
     add_progress(app, a.study.progress);
+    add_full(app);
   };
   return {"rank", group::plans,
           "how observable each parameter is on a plan, and which positions to add",

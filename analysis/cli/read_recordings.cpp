@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -35,6 +36,15 @@ void check_time_unit(const mc::Study& study, const Recording& recording) {
                       recording.source, length, factor, usual));
 }
 
+/// What looks odd is told at once, the first of it.
+void tell_remarks(const QualityCard& card) {
+  constexpr std::size_t most = 3;
+  for (std::size_t k = 0; k < std::min(card.remarks.size(), most); ++k)
+    say("note: {}: {}\n", card.file, card.remarks[k]);
+  if (card.remarks.size() > most)
+    say("note: {}: {} more remarks; --full prints them\n", card.file, card.remarks.size() - most);
+}
+
 }  // namespace
 
 std::vector<Recording> read_recordings(const mc::Study& study,
@@ -51,9 +61,15 @@ std::vector<Recording> read_recordings(const mc::Study& study,
   for (const std::string& path : paths) {
     recordings.push_back(read_recording(path, study.recording, study.kind, study.site.gravity));
     check_time_unit(study, recordings.back());
-    show("{}\n", to_text(quality_card(recordings.back(), study.kind)));
+    tell_remarks(quality_card(recordings.back(), study.kind));
   }
   return recordings;
+}
+
+std::string cards_text(const std::vector<Recording>& recordings, RecordingKind kind) {
+  std::string out;
+  for (const Recording& r : recordings) out += to_text(quality_card(r, kind)) + "\n";
+  return out;
 }
 
 }  // namespace drift::cli

@@ -8,9 +8,11 @@
 
 namespace drift::cli {
 
-/// Reads the recordings of a command line and prints the quality card of each. InputError
-/// (recording).
+/// Reads the recordings of a command line and tells what looks odd in them. InputError (recording).
 std::vector<Recording> read_recordings(const mc::Study& study,
                                        const std::vector<std::string>& paths);
+
+/// The quality cards of recordings.
+std::string cards_text(const std::vector<Recording>& recordings, RecordingKind kind);
 
 }  // namespace drift::cli

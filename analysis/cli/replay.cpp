@@ -5,6 +5,7 @@
 #include <cstring>
 #include <fstream>
 
+#include "analysis/cli/answer.hpp"
 #include "analysis/cli/argument_checks.hpp"
 #include "analysis/cli/command.hpp"
 #include "analysis/cli/frozen_study.hpp"
@@ -81,17 +82,47 @@ class CsvTrace : public mc::TraceSink {
   std::size_t rows_ = 0;
 };
 
-void print_row(const std::vector<mc::Column>& columns, const mc::Replay& r) {
-  std::size_t width = 0;
+bool as_stored(const mc::Replay& r, std::size_t i) {
+  return !r.stored || r.same || std::memcmp(&r.row[i], &r.stored_row[i], sizeof(double)) == 0;
+}
+
+/// The numbers of a run: all, or the first that are not as stored.
+std::string numbers_text(const std::vector<mc::Column>& columns, const mc::Replay& r,
+                         Terminal::Shown all) {
+  constexpr std::size_t most = 6;
+  std::size_t width = 0, others = 0;
   for (const mc::Column& c : columns) width = std::max(width, c.name.size());
+  std::string out;
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    const double value = mc::in_column_unit(r.row[i], columns[i]);
-    show("{:<{}}  {:>24} {}", columns[i].name, width, fmt::format("{}", value),
-         columns[i].unit.symbol.view());
-    if (r.stored && !r.same && std::memcmp(&r.row[i], &r.stored_row[i], sizeof(double)) != 0)
-      show("   stored: {}", mc::in_column_unit(r.stored_row[i], columns[i]));
-    show("\n");
+    others += !as_stored(r, i);
+    if (all == Terminal::Shown::no && (as_stored(r, i) || others > most)) continue;
+    out += fmt::format("{:<{}}  {:>24} {}", columns[i].name, width,
+                       fmt::format("{}", mc::in_column_unit(r.row[i], columns[i])),
+                       columns[i].unit.symbol.view());
+    if (!as_stored(r, i))
+      out += fmt::format("   stored: {}", mc::in_column_unit(r.stored_row[i], columns[i]));
+    out += "\n";
   }
+  if (all == Terminal::Shown::no && others > most)
+    out += fmt::format("... {} numbers of {} are not as stored\n", others, columns.size());
+  return out;
+}
+
+/// The result in one sentence, its judgement first.
+report::InBrief in_brief(const RunChoice& choice, const mc::Replay& r) {
+  report::InBrief brief;
+  const std::string_view compared = !r.stored ? "the run is not stored yet; executed anew, nothing "
+                                                "to compare with"
+                                    : r.same  ? "equal to the stored result, bit for bit"
+                                              : "other than the stored result";
+  brief.tone = !r.stored ? report::Tone::doubtful : r.same ? report::Tone::good : report::Tone::bad;
+  brief.verdict =
+      fmt::format("Run {}: {}. It ended {}", choice.run, compared, mc::name(r.outcome.status));
+  if (r.outcome.status != mc::RunStatus::ok)
+    brief.verdict += fmt::format(" at t = {:.6g} s: {}", r.outcome.t_failed, r.outcome.cause);
+  brief.more = {fmt::format("CPU time {:.3g} s, of it integration {:.3g} s, filters {:.3g} s.",
+                            r.outcome.total_s, r.outcome.integration_s, r.outcome.filter_s)};
+  return brief;
 }
 
 ExitCode replay(const std::string& folder, const RunChoice& choice, const std::string& trace,
@@ -113,29 +144,21 @@ ExitCode replay(const std::string& folder, const RunChoice& choice, const std::s
   std::optional<CsvTrace> sink;
   if (!trace.empty()) sink.emplace(trace);
   const mc::Replay r = mc::replay(task, reader, choice.point, choice.run, sink ? &*sink : nullptr);
-  print_row(task.columns(), r);
-  show("run {}: {}", choice.run, mc::name(r.outcome.status));
-  if (r.outcome.status != mc::RunStatus::ok)
-    show(" at t = {:.6g} s: {}", r.outcome.t_failed, r.outcome.cause);
-  show("; CPU time {:.3g} s, of it integration {:.3g} s, filters {:.3g} s\n", r.outcome.total_s,
-       r.outcome.integration_s, r.outcome.filter_s);
+  show_answer(in_brief(choice, r), {numbers_text(task.columns(), r, Terminal::Shown::yes), "", {}});
+  if (terminal().details == Terminal::Shown::no)
+    show("{}", numbers_text(task.columns(), r, Terminal::Shown::no));
   if (sink && sink->begun()) {
     sink->commit();
     show("trace: {} samples in {}\n", sink->rows(), trace);
   } else if (sink) {
     say("note: runs of this study have no trace; {} is not written\n", trace);
   }
-  if (!r.stored) {
-    show("{}: the run is not stored yet; executed anew, nothing to compare with\n", folder);
-  } else if (r.same) {
-    show("{}: equal to the stored result, bit for bit\n", folder);
-  } else {
+  if (r.stored && !r.same)
     throw InputError(
         ExitCode::self_check,
         fmt::format("{}: run {} came out other than stored ({}; expected equal bits). Was another "
                     "program or processor at work?",
                     folder, choice.run, mc::name(r.stored_status)));
-  }
   return ExitCode::ok;
 }
 
@@ -152,6 +175,7 @@ Command replay_command() {
     app.add_option("--point", a.choice.point, "study point of a sweep, from 0")
         ->check(whole(0, last_run));
     app.add_option("--trace", a.trace, "write the course of the run as CSV")->check(check_path);
+    add_full(app);
   };
   return {"replay", group::studies, "execute one run again, bit for bit",
           "driftscope replay results/study --run 17 --trace run17.csv",

@@ -38,12 +38,15 @@ ExitCode report(const std::string& folder, const StudyProgram& program) {
 }  // namespace
 
 Command report_command() {
+  const auto add = [](CLI::App& app, std::string& folder) {
+    add_folder(app, folder);
+    add_full(app);
+  };
   return {"report", group::studies,
           "the HTML report of a results folder; of a study made anew, finished or not",
           "driftscope report results/study",
-          with_arguments<std::string>(add_folder, [](const std::string& folder) {
-            return report(folder, study_program());
-          })};
+          with_arguments<std::string>(
+              add, [](const std::string& folder) { return report(folder, study_program()); })};
 }
 
 }  // namespace drift::cli

@@ -7,6 +7,7 @@
 #include "analysis/cli/command.hpp"
 #include "analysis/cli/frozen_study.hpp"
 #include "analysis/cli/print.hpp"
+#include "analysis/cli/progress.hpp"
 #include "analysis/cli/run_options.hpp"
 #include "analysis/cli/run_progress.hpp"
 #include "analysis/cli/study_program.hpp"
@@ -75,9 +76,17 @@ std::string blocks_text(std::size_t n) {
 /// What happened, for people; on stderr, where results are not.
 void tell(const mc::StudyOutcome& o, const mc::EngineOptions& asked, const std::string& folder) {
   for (const std::string& note : o.notes) say("note: {}\n", note);
+  if (o.code == ExitCode::interrupted || o.code == ExitCode::terminated) {
+    say("stopped: {} runs are stored in {}, {} of unfinished blocks are lost; the same command "
+        "goes "
+        "on with the rest\n",
+        o.done_before + o.done, folder, o.dropped);
+    return;
+  }
   const double rate = o.seconds > 0.0 ? static_cast<double>(o.done) / o.seconds : 0.0;
-  say("{}: {} runs stored before, {} executed in {} ({:.1f} runs/s), {} failed\n", folder,
-      o.done_before, o.done, duration_text(o.seconds), rate, o.failed);
+  say("{}: {} runs stored before, {} executed in {} ({:.1f} runs/s), {} failed{}\n", folder,
+      o.done_before, o.done, duration_text(o.seconds), rate, o.failed,
+      o.dropped > 0 ? fmt::format("; {} more, of unfinished blocks, are lost", o.dropped) : "");
   if (o.cut_short > 0)
     say("{}: {} runs more were stored in blocks that the shorter study before ended within; "
         "they were executed again "
@@ -166,14 +175,14 @@ ExitCode run(const StudyArguments& arguments, const RunArguments& given,
   mc::StudyReader reader(folder);
   if (outcome.failed > 0) list_failures(reader, work.stop_rules, folder);
   if (!outcome.complete) return outcome.code;
+  if (outcome.code == ExitCode::ok || outcome.code == ExitCode::failed_runs)
+    program.present(study, work, reader, folder);
   show("runs {}, failed {} (allowed {})\nresults {}\n", outcome.results, outcome.failed,
        options.allowed_failures, outcome.digest);
   if (work.stop_rules)
     if (const std::string ended = mc::state_of(reader, work.stop_rules).ended_by_rule();
         !ended.empty())
       show("{}\n", ended);
-  if (outcome.code == ExitCode::ok || outcome.code == ExitCode::failed_runs)
-    program.present(study, work, reader, folder);
   return outcome.code;
 }
 
@@ -187,6 +196,7 @@ Command run_command() {
   const auto add = [](CLI::App& app, Arguments& a) {
     add_study(app, a.study);
     add_progress(app, a.study.progress);
+    add_full(app);
     add_output(app, a.run.folder, "results folder; results/<name of the study file> by default");
     app.add_option("--runs", a.run.runs,
                    "override monte_carlo.runs; more than before extends a study")
@@ -206,7 +216,8 @@ Command run_command() {
           "driftscope run configs/study.toml -o out/study --max-wall 55m",
           with_arguments<Arguments>(
               add, [](const Arguments& a) { return run(a.study, a.run, study_program()); }),
-          Result::in_files};
+          Result::in_files,
+          "stopped: what is stored stays; the same command goes on with the rest\n"};
 }
 
 }  // namespace drift::cli

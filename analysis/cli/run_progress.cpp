@@ -1,7 +1,6 @@
 #include "analysis/cli/run_progress.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,17 +17,9 @@ constexpr double json_interval = 1.0;  // [s]
 
 }  // namespace
 
-std::string duration_text(double seconds) {
-  if (!std::isfinite(seconds)) return "unknown";
-  const auto s = static_cast<long long>(std::lround(seconds));
-  if (s < 120) return fmt::format("{} s", s);
-  if (s < 7200) return fmt::format("{} min {} s", s / 60, s % 60);
-  return fmt::format("{} h {} min", s / 3600, s / 60 % 60);
-}
-
 mc::ProgressSink run_progress(const std::string& style) {
   if (style == "none") return {};
-  const bool redraw = style == "auto" && isatty(STDERR_FILENO);
+  const bool redraw = progress_is_redrawn(style);
   const bool json = style == "json";
   const double interval = redraw ? 0.0 : json ? json_interval : plain_interval;
   // The first line comes after one interval: a study of a moment needs none.
@@ -51,7 +42,8 @@ mc::ProgressSink run_progress(const std::string& style) {
         fmt::format("{}/{} runs, {} failed, {:.1f} runs/s, {}", p.done, p.total, p.failed, rate,
                     complete ? "took " + duration_text(p.elapsed) : duration_text(left) + " left");
     if (redraw) {
-      say("\r{:<76}{}", line, complete ? "\n" : "");
+      redraw_progress("run", static_cast<double>(p.done) / static_cast<double>(p.total), line,
+                      complete ? LineEnd::last : LineEnd::redrawn);
     } else {
       say("{}\n", line);
     }

@@ -6,12 +6,9 @@
 
 namespace drift::cli {
 
-/// Reports a study on stderr: a line that is redrawn on a terminal (auto), a line every 10 s
+/// Reports a study on stderr: a bar that is redrawn on a terminal (auto), a line every 10 s
 /// (plain), JSON lines (json), or nothing (none). Done, failed, runs per second, and the time left
 /// judged by completed runs.
 mc::ProgressSink run_progress(const std::string& style);
-
-/// "2 h 5 min", "48 s"
-std::string duration_text(double seconds);
 
 }  // namespace drift::cli

@@ -3,29 +3,38 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstring>
 #include <iterator>
 
+#include "analysis/cli/print.hpp"
 #include "mc/engine/stop_signals.hpp"
 
 namespace drift::cli {
 namespace {
 
-const char* last_words = "";  // a signal handler reaches nothing but globals
+// A signal handler reaches nothing but globals. Words are written where it does not look.
+constexpr std::size_t room = 512;
+std::array<std::array<char, room>, 2> texts{};
+std::atomic<int> said{0};
 std::array<struct sigaction, std::size(mc::stop_signals)> before{};
+int living = 0;
 
-extern "C" void on_stop(int number) {
-  if (::write(STDERR_FILENO, last_words, std::strlen(last_words)) < 0) {
+void write_words(const char* words) {
+  if (::write(STDERR_FILENO, words, std::strlen(words)) < 0) {
     // Nobody listens; the program ends all the same.
   }
+}
+
+extern "C" void on_stop(int number) {
+  if (line_is_open() != 0) write_words("\n");
+  write_words(texts[static_cast<std::size_t>(said.load())].data());
   ::_exit(128 + number);
 }
 
-}  // namespace
-
-StopAtOnce::StopAtOnce(const char* words) {
-  last_words = words;
+void install() {
   struct sigaction action {};
   action.sa_handler = on_stop;
   sigemptyset(&action.sa_mask);
@@ -36,7 +45,25 @@ StopAtOnce::StopAtOnce(const char* words) {
   }
 }
 
+}  // namespace
+
+StopAtOnce::StopAtOnce(std::string_view words)
+    : before_(texts[static_cast<std::size_t>(said.load())].data()) {
+  say(words);
+  if (living++ == 0) install();
+}
+
+void StopAtOnce::say(std::string_view words) {
+  const int other = 1 - said.load();
+  auto& text = texts[static_cast<std::size_t>(other)];
+  const std::string_view kept = words.substr(0, room - 1);
+  *std::copy(kept.begin(), kept.end(), text.begin()) = '\0';
+  said = other;
+}
+
 StopAtOnce::~StopAtOnce() {
+  say(before_);
+  if (--living > 0) return;
   for (std::size_t i = 0; i < std::size(mc::stop_signals); ++i)
     ::sigaction(mc::stop_signals[i], &before[i], nullptr);
 }

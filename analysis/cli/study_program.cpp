@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "analysis/cli/print.hpp"
+#include "analysis/cli/answer.hpp"
 #include "analysis/report/study/report.hpp"
 #include "mc/statistics/stop_rule.hpp"
 #include "mc/store/provenance.hpp"
@@ -59,11 +59,12 @@ void present(const mc::Study& study, const mc::StudyWork& work, mc::StudyReader&
   results.provenance.emplace_back("study hash", reader.manifest().hash);
   results.provenance.emplace_back("results", mc::results_digest(reader, work.stop_rules));
   add_speed(reader, results.provenance);
-  const report::Report said = report::study_report(results);
-  show("\n{}", report::to_text(said, report::study_width));
-  if (!results.provenance.empty() && results.provenance.back().first == "speed")
-    show("\nspeed: {}\n", results.provenance.back().second);
-  show("\nWritten to {}: {}\n", folder, fmt::join(report::write_report(said, folder), " "));
+  const report::Report said =
+      with_provenance(report::study_report(results), report::provenance_of(study.path, {}));
+  std::string details = report::to_text(said, report::study_width);
+  if (results.provenance.back().first == "speed")
+    details += fmt::format("\nspeed: {}\n", results.provenance.back().second);
+  show_answer(said.brief, {details, folder, report::write_report(said, folder)});
 }
 
 }  // namespace

@@ -50,4 +50,15 @@ std::string with_coloured_verdicts(std::string_view text) {
   return out;
 }
 
+std::string with_coloured_judgement(std::string_view text, report::Tone tone) {
+  const auto colon = text.find(':');
+  const std::string_view colour = tone == report::Tone::good       ? green
+                                  : tone == report::Tone::doubtful ? yellow
+                                  : tone == report::Tone::bad      ? red
+                                                                   : "";
+  if (colour.empty() || colon == std::string_view::npos) return with_coloured_verdicts(text);
+  return std::string(colour).append(text.substr(0, colon + 1)).append(plain) +
+         with_coloured_verdicts(text.substr(colon + 1));
+}
+
 }  // namespace drift::cli

@@ -35,9 +35,19 @@ Diagnosis advised(Diagnosis d, const preparation::Prepared& test,
 Diagnosis diagnose_recordings(const mc::Study& study, const std::vector<Recording>& recordings,
                               const RecordingsOptions& options) {
   const preparation::Prepared test = preparation::prepare(study, recordings);
-  Diagnosis d = diagnose(test.study, test.recordings, options.diagnose);
+  const StageReport& progress = options.diagnose.progress;
+  // Where nothing is advised the rest takes a moment.
+  const double of_diagnosis = options.advising == Advising::left_out ? 0.99 : 0.8;
+  DiagnoseOptions first = options.diagnose;
+  if (progress)
+    first.progress = [&](const std::string& stage, double done) {
+      progress(stage, of_diagnosis * done);
+    };
+  Diagnosis d = diagnose(test.study, test.recordings, first);
+  if (progress) progress("latitude and advice", of_diagnosis);
   d.site_doubt = site_doubt(test.study, test.recordings, d);
   d = advised(std::move(d), test, options);
+  if (progress) progress("done", 1.0);
   std::vector<Remark> remarks;
   for (const std::string& text : test.remarks) remarks.emplace_back(remark::Input{text});
   d.remarks.insert(d.remarks.begin(), remarks.begin(), remarks.end());

@@ -203,6 +203,7 @@ class Engine {
   StudyOutcome finish() {
     StudyOutcome outcome;
     outcome.leader = ranks_.leader();
+    ranks_.add(Counter::executed, own_done_);
     outcome.code = agree(stop_code());
     if (queue_.error()) {
       end_session(code_of(queue_.error()));
@@ -213,6 +214,8 @@ class Engine {
     outcome.cut_short = found_cut_short_;
     outcome.stored_runs = reader_.runs();
     outcome.done = ranks_.add(Counter::done, 0);
+    const std::uint64_t executed = ranks_.add(Counter::executed, 0);
+    outcome.dropped = executed - std::min(executed, outcome.done);
     outcome.failed = ranks_.add(Counter::failed, 0);
     outcome.seconds = seconds();
     if (outcome.leader) look_back(outcome);

@@ -50,7 +50,8 @@ struct StudyOutcome {
       0;  ///< runs found in blocks that the shorter study before ended within: done anew
   std::uint64_t stored_runs =
       0;  ///< per point, the most asked for so far; more than `runs`: results have them too
-  std::uint64_t done = 0;       ///< runs executed in this session, all ranks
+  std::uint64_t done = 0;       ///< runs executed and stored in this session, all ranks
+  std::uint64_t dropped = 0;    ///< runs executed in blocks that were not completed: not stored
   std::uint64_t failed = 0;     ///< failed runs: of all results if complete, else of this session
   std::uint64_t results = 0;    ///< runs that count (complete studies)
   std::size_t missing = 0;      ///< blocks still to be done

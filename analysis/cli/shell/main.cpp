@@ -8,6 +8,7 @@
 #include "analysis/cli/shell/not_known.hpp"
 #include "analysis/cli/shell/tell_error.hpp"
 #include "analysis/cli/shell/terminal_options.hpp"
+#include "analysis/cli/stop_at_once.hpp"
 
 namespace {
 
@@ -49,10 +50,14 @@ class Program {
     CLI::App* app = app_.add_subcommand(std::string(command.name), std::string(command.what));
     app->group(std::string(command.group));
     app->footer(fmt::format("Example: {}", command.example));
-    app->callback([this, app, run = command.add(*app), result = command.result] {
-      cli::set_terminal(cli::terminal_of(terminal_, *app, result));
-      chosen_ = run;
-    });
+    app->callback(
+        [this, app, run = command.add(*app), result = command.result, stopped = command.stopped] {
+          cli::set_terminal(cli::terminal_of(terminal_, *app, result));
+          chosen_ = [run, stopped] {
+            const cli::StopAtOnce stop(stopped);
+            return run();
+          };
+        });
     cli::add_terminal_options(*app, terminal_);
   }
 

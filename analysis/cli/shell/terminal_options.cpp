@@ -42,6 +42,7 @@ void add_terminal_options(CLI::App& app, TerminalOptions& options) {
 Terminal terminal_of(const TerminalOptions& options, const CLI::App& given, Result result) {
   using enum Terminal::Shown;
   Terminal terminal;
+  terminal.details = has(given, "--full") ? yes : no;
   terminal.colour = shows_colour(options.color) ? yes : no;
   if (!options.quiet) return terminal;
   terminal.remarks = no;

@@ -26,6 +26,33 @@ std::string standing_text(const std::vector<blind::Target>& targets) {
       count(blind::Standing::not_decided));
 }
 
+/// "named 12 of 14 (0.57 to 0.98)".
+std::string share_text(const stats::Proportion& p) {
+  return fmt::format("{} of {} ({:.0f} to {:.0f} %)", p.k, p.n, 100.0 * p.low, 100.0 * p.high);
+}
+
+/// Of so few trials that most targets are not decided, the counts; else how the targets stand.
+InBrief in_brief(const BlindResults& results) {
+  const blind::Summary& s = results.summary;
+  InBrief brief;
+  const auto of = [&](blind::Standing standing) {
+    return static_cast<std::size_t>(
+        std::ranges::count(s.targets, standing, &blind::Target::standing));
+  };
+  const bool decided = 2 * of(blind::Standing::not_decided) < s.targets.size();
+  brief.verdict = fmt::format("{}: {} trials, {} of them without an answer.{}",
+                              decided ? "Scored" : "Scored, too few trials to decide targets",
+                              s.trials, s.failed, decided ? " " + standing_text(s.targets) : "");
+  const std::size_t missed = of(blind::Standing::missed);
+  brief.tone = missed > 0 ? Tone::bad : decided && s.failed == 0 ? Tone::good : Tone::doubtful;
+  for (const blind::Target& t : s.targets)
+    if (t.measured.n > 0)
+      brief.more.push_back(fmt::format("{}: {}", t.name, share_text(t.measured)));
+  if (!decided)
+    brief.next = "Next: more trials (--trials, or configs/blind.toml) decide the targets.";
+  return brief;
+}
+
 }  // namespace
 
 Report blind_report(const BlindResults& results) {
@@ -43,7 +70,8 @@ Report blind_report(const BlindResults& results) {
           "Key sealed before any diagnosis: SHA-256 {}; answers before the key was opened: {}.",
           results.key_hash, results.answers_hash)};
   report.order = Order::headlines_last;
-  report.add(sections_of(results, blind_sections));
+  report.brief = in_brief(results);
+  report.add(sections_of(results, blind_sections, blind_parts));
   Json document = blind_document(results);
   add_tables(document, report.sections);
   report.document = {"blind.json", dumped(document)};

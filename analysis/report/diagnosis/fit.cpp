@@ -137,6 +137,7 @@ double round_limit(const FitComparison& fit, Eigen::Index channel) {
 }
 
 Blocks residual_figure(const Diagnosis& d) {
+  constexpr std::size_t most_windows = 3;
   const FitComparison& fit = d.fit;
   if (fit.residual_before.cols() == 0) return {};
   const std::vector<double>& t =
@@ -151,7 +152,16 @@ Blocks residual_figure(const Diagnosis& d) {
   const auto add = [&](const MatX& residual, Eigen::Index channel, std::size_t colour,
                        const char* label, std::string title) {
     chart.panels.push_back(residual_panel(residual, channel, t, axis, round_limit(fit, channel)));
-    chart.panels.back().title = std::move(title);
+    Panel& panel = chart.panels.back();
+    panel.title = std::move(title);
+    if (residual.cols() == static_cast<Eigen::Index>(t.size()))
+      for (const auto& w : d.where.windows) {
+        if (panel.expected.size() > most_windows) break;
+        panel.expected.push_back({"located window",
+                                  {w.start_s / axis.unit, w.end_s / axis.unit},
+                                  {panel.y_range->low, panel.y_range->low},
+                                  {panel.y_range->high, panel.y_range->high}});
+      }
     chart.panels.back().series.front().label = label;
     chart.panels.back().series.front().colour = colour;
   };
@@ -192,8 +202,12 @@ Section fit(const Diagnosis& d) {
     section.add({{Paragraph{sentence}, On::page}});
   if (!d.has_patch) section.add({{Paragraph{"No cause is in the model."}, On::page}});
   section.add(held_out_figure(d.fit.held_out, d.where.recordings));
-  section.add(moved_figure(d.fit.shifted));
   section.add(residual_figure(d));
+  return section;
+}
+
+Section moved(const Diagnosis& d) {
+  Section section{"Parameters that moved", moved_figure(d.fit.shifted)};
   if (!d.fit.shifted.empty()) section.add({{moved_table(d), shown_of(d)}});
   return section;
 }

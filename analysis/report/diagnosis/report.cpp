@@ -44,7 +44,7 @@ Section origin(const mc::Study& study, const Diagnosis& d, const DiagnosisSource
   table.add({"seed", study.monte_carlo.seed});
   for (const auto& [stage, seconds] : d.seconds)
     table.add({stage, fmt::format("{:.2f} s", seconds)});
-  Section section{"Where this came from", {table}, On::page};
+  Section section{"Where this came from", {table}, On::page, Part::provenance};
   if (!source.details.empty()) section.add({Preformatted{source.details}});
   return section;
 }
@@ -124,17 +124,38 @@ std::string to_text(const Diagnosis& d) {
   return text_of(sections_of(d, diagnosis_sections));
 }
 
+InBrief diagnosis_in_brief(const Diagnosis& d) {
+  InBrief brief;
+  brief.verdict = fmt::format("Verdict {}: {}", text(d.verdict), sentence(d));
+  brief.tone = d.verdict == Verdict::consistent ? Tone::good
+               : d.verdict == Verdict::named    ? Tone::doubtful
+                                                : Tone::bad;
+  const auto add = [&](std::string_view head, const std::string& sentence) {
+    if (!sentence.empty()) brief.more.push_back(fmt::format("{}: {}", head, sentence));
+  };
+  if (d.verdict != Verdict::consistent) {
+    add("Where", where_sentence(d.where));
+    add("Held out", held_out_sentence(d.fit.held_out));
+  }
+  if (!d.advice.empty())
+    brief.next = "Next: " + advice_text(d.advice.front());
+  else if (d.verdict == Verdict::named && d.has_patch)
+    brief.next = "Next: identify with patched.toml, the study with the cause in its model.";
+  return brief;
+}
+
 Report diagnosis_report(const mc::Study& study, const Diagnosis& d, const DiagnosisSource& source) {
   Report report{.command = "diagnose"};
   report.title = study.title.empty() ? "Diagnosis" : study.title;
   report.subtitle =
       fmt::format("{} {}", verdict_word(d.verdict), fmt::join(source.recordings, ", "));
+  report.brief = diagnosis_in_brief(d);
   report.headlines.push_back(sentence(d));
   if (d.verdict != Verdict::consistent)
     for (const auto& sentence : {where_sentence(d.where), held_out_sentence(d.fit.held_out)})
       if (!sentence.empty()) report.headlines.push_back(sentence);
   if (!d.advice.empty()) report.headlines.push_back(advice_text(d.advice.front()));
-  report.add(sections_of(d, diagnosis_sections));
+  report.add(sections_of(d, diagnosis_sections, diagnosis_parts));
   report.add({origin(study, d, source)});
   Json document = diagnosis_document(d);
   add_tables(document, report.sections);
@@ -145,7 +166,8 @@ Report diagnosis_report(const mc::Study& study, const Diagnosis& d, const Diagno
   if (!d.advice.empty() && !d.advice.front().plan.empty() && study.kind == RecordingKind::platform)
     report.files.emplace_back("advised.toml", extended_study(study, d.advice.front().plan));
   report.footer = "Values stand with their units; ± is 1 sigma.";
-  return report;
+  return source.provenance.version.empty() ? report
+                                           : with_provenance(std::move(report), source.provenance);
 }
 
 std::vector<std::string> write_results(const mc::Study& study, const Diagnosis& d,

@@ -13,6 +13,7 @@ namespace drift::report {
 struct DiagnosisSource {
   std::vector<std::string> recordings;  ///< files
   std::string details;                  ///< kept as written, fixed width; may be empty
+  Provenance provenance = {};
 };
 
 /// All there is to say of a diagnosis, with its pictures; diagnosis.json, residual_signal.csv,
@@ -21,6 +22,9 @@ struct DiagnosisSource {
 /// first advice).
 Report diagnosis_report(const mc::Study& study, const diagnosis::Diagnosis& diagnosis,
                         const DiagnosisSource& source);
+
+/// The answer in brief.
+InBrief diagnosis_in_brief(const diagnosis::Diagnosis& diagnosis);
 
 /// The same on one screen of a terminal, for a test engineer: verdict, where, causes, the strongest
 /// candidates, before and after, what moved, noise that is not as declared, advice.

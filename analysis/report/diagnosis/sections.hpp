@@ -8,14 +8,20 @@
 namespace drift::report {
 
 /// What is said of a diagnosis, in this order.
-DRIFT_SECTIONS(diagnosis::Diagnosis, diagnosis_sections, verdict, kept_in_mind, where, what, fit,
-               noise, advice);
+DRIFT_SECTIONS(diagnosis::Diagnosis, diagnosis_sections, verdict, kept_in_mind, where, windows,
+               what, rivals, fit, moved, whiteness, noise, advice);
+inline constexpr Part diagnosis_parts[] = {
+    Part::evidence, Part::how_sure, Part::evidence, Part::details, Part::how_sure, Part::details,
+    Part::evidence, Part::details,  Part::how_sure, Part::details, Part::how_sure};
 
 /// Causes are told from a model without, before and after; of a consistent verdict on the page
 /// alone.
 inline On shown_of(const diagnosis::Diagnosis& d) {
   return d.verdict == diagnosis::Verdict::consistent ? On::page : On::both;
 }
+
+/// Every parameter of the causes with its interval.
+Blocks cause_figure(const diagnosis::Diagnosis& diagnosis);
 
 // Tables that stand in diagnosis.json too.
 Table candidate_table(const diagnosis::Diagnosis& diagnosis);

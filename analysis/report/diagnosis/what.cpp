@@ -150,15 +150,21 @@ Table candidate_table(const Diagnosis& d) {
 
 Section what(const Diagnosis& d) {
   Section section{"What", {}};
+  section.add(cause_figure(d));
   if (!d.causes.empty()) section.add({cause_table(d)});
   if (Sentences said = equations_of(d.causes); !said.items.empty())
     section.add({{std::move(said), On::page}});
-  section.add(candidate_figure(d));
   section.add(likeness_figure(d.cosines));
-  if (!d.candidates.empty()) section.add({candidate_table(d)});
   if (!d.inseparable.empty())
     section.add({{Paragraph{"This plan can never tell these apart:"}, On::page},
                  {Sentences{twins_in_words(d.inseparable)}, On::page}});
+  return section;
+}
+
+/// All that was tried.
+Section rivals(const Diagnosis& d) {
+  Section section{"Candidates", candidate_figure(d)};
+  if (!d.candidates.empty()) section.add({candidate_table(d)});
   return section;
 }
 

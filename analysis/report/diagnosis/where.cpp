@@ -159,8 +159,12 @@ Section where(const Diagnosis& d) {
   for (const RecoveredSignal& s : d.signals)
     if (const std::string shape = shape_text(s); !shape.empty())
       section.add({Paragraph{fmt::format("{}: {}", s.equation, shape)}});
-  if (!d.where.windows.empty()) section.add({window_table(d.where)});
   return section;
+}
+
+Section windows(const Diagnosis& d) {
+  if (d.where.windows.empty()) return {};
+  return {"Located windows", {window_table(d.where)}, On::page};
 }
 
 }  // namespace drift::report

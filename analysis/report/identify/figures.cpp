@@ -100,12 +100,24 @@ Panel estimate_panel(const FilterView& v, std::size_t param) {
   return panel;
 }
 
+/// When the positions of one recording begin, but for the first [h].
+std::vector<double> position_begins(const identification::Identification& id) {
+  const Channel *position = id.recording.find("position"), *time = id.recording.find("time");
+  std::vector<double> begins;
+  if (position == nullptr || time == nullptr || id.sources.size() > 1) return begins;
+  for (std::size_t i = 1; i < position->values.size(); ++i)
+    if (position->values[i] != position->values[i - 1])
+      begins.push_back(time->values[i - 1] / hour);
+  return begins;
+}
+
 /// NIS per scalar, averaged over stretches so that at most about 100 points stay readable.
 Panel nis_panel(const FilterView& v) {
   Panel panel;
   panel.title = v.name();
   panel.x_label = "time [h]";
   panel.y_label = "NIS per measured scalar";
+  panel.marks = position_begins(v.id);
   for (const identification::FilterRun* run : v.id.runs_of(v.summary.filter)) {
     const EkfHistory& h = run->history;
     const std::size_t stretch = std::max<std::size_t>(1, h.t.size() / 100);
@@ -166,7 +178,7 @@ std::vector<std::size_t> highlighted_parameters(const mc::Study& study,
 Section estimate_figures(const mc::Study& study, const identification::Identification& id) {
   const std::vector<std::size_t> params = highlighted_parameters(study, id);
   if (params.empty()) return {};
-  Chart combined{study.title, {}, params.size()};
+  Chart combined{study.title, {}, std::min<std::size_t>(params.size(), 3)};
   Chart nis{"Normalised innovations squared",
             {},
             std::min<std::size_t>(id.summaries.size(), 2),
@@ -196,7 +208,7 @@ Section estimate_figures(const mc::Study& study, const identification::Identific
   section.add({Figure{svg_of(nis),
                       "Normalised innovations squared per measured scalar, averaged over short "
                       "stretches: 1 on average, and mostly within the grey band, if model and "
-                      "noise are right.",
+                      "noise are right. Dotted: a position begins.",
                       "nis.svg"}});
   return section;
 }

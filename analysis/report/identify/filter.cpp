@@ -11,8 +11,6 @@
 namespace drift::report {
 namespace {
 
-constexpr double nothing_learned = 0.95;  // posterior over prior sigma
-
 Cell status_cell(const EstimateResult& result) {
   switch (result.status) {
     case EstimateStatus::not_converged:
@@ -85,8 +83,9 @@ Table estimate_table(const FilterView& v, On where, std::size_t starts) {
       where == On::page ? "< | <unit | prior sigma" : "<",
       fmt::format(
           "Values ± 1 sigma{}; batch: from start 1. left: posterior / prior sigma of the batch "
-          "fit, 1 = nothing learned (prior only: agreeing starts mean nothing there). ratio: "
-          "standard deviation between the EKF's {} starts / RMS of their sigmas.",
+          "fit, 1 = nothing learned. ratio: standard deviation between the EKF's {} starts / RMS "
+          "of "
+          "their sigmas. wrong: by more than 5 sigma of the truth.",
           starts < runs.size() ? fmt::format(", {} of {} starts shown", starts, runs.size()) : "",
           runs.size()));
   if (v.id.truth) table.add_columns("truth");
@@ -109,11 +108,9 @@ Table estimate_table(const FilterView& v, On where, std::size_t starts) {
       cells.push_back(plus_minus(p.value / unit, p.sigma / unit));
     }
     const double left = batch.learning_ratio();
-    const Cell verdict = verdict_cell(ratio);
-    cells.insert(cells.end(),
-                 {plus_minus(batch.value / unit, batch.sigma / unit),
-                  Cell(left, left < 0.0005 ? "<.001" : decimal_text(left, 3)), decimals(ratio, 2),
-                  left > nothing_learned && verdict.tone == Tone::good ? "prior only" : verdict});
+    cells.insert(cells.end(), {plus_minus(batch.value / unit, batch.sigma / unit),
+                               Cell(left, left < 0.0005 ? "<.001" : decimal_text(left, 3)),
+                               decimals(ratio, 2), verdict_cell(verdict_of(v, k))});
     table.add(std::move(cells));
   }
   return table;

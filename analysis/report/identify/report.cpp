@@ -21,12 +21,15 @@ Report identification_report(const mc::Study& study, const identification::Ident
                         : fmt::format("Recording {}", fmt::join(id.sources, ", "));
   report.headlines = headlines(study, id);
   report.order = Order::headlines_last;
+  report.brief = identification_in_brief(study, id);
   Json document = identification_document(study, id);
   const std::vector<Table> published = published_comparison(study, id);
   const Blocks blocks(published.begin(), published.end());
-  report.add({estimate_figures(study, id), {"Published results beside ours", blocks, On::page}});
+  report.add({estimate_figures(study, id),
+              {"Published results beside ours", blocks, On::page, Part::details}});
   for (std::size_t f = 0; f < id.summaries.size(); ++f) {
-    const auto sections = sections_of(FilterView{study, id, id.summaries[f]}, filter_sections);
+    const auto sections =
+        sections_of(FilterView{study, id, id.summaries[f]}, filter_sections, filter_parts);
     add_tables(document["filters"][f], sections);
     report.add(sections);
   }

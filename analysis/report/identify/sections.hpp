@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "analysis/report/identify/report.hpp"
 #include "analysis/report/page/json.hpp"
 #include "analysis/report/page/wording.hpp"
@@ -18,7 +20,10 @@ struct FilterView {
 };
 
 /// What is said of each filter, in this order.
-DRIFT_SECTIONS(FilterView, filter_sections, filter_model, fits, estimates, degeneracies);
+DRIFT_SECTIONS(FilterView, filter_sections, against_prior, filter_model, fits, estimates,
+               degeneracies);
+inline constexpr Part filter_parts[] = {Part::evidence, Part::details, Part::how_sure,
+                                        Part::details, Part::details};
 
 /// Estimates against time from every start, with their sigma bands and the truth or an independent
 /// test as a line: all filters together (estimates.svg) and each alone (figure_<filter>.svg, a file
@@ -41,6 +46,28 @@ std::vector<std::string> headlines(const mc::Study& study,
 /// gives a true value of its own (at most 6); else the 3 that depend most on the start.
 std::vector<std::size_t> highlighted_parameters(const mc::Study& study,
                                                 const identification::Identification& id);
+
+/// What an estimate is worth, the gravest objection first.
+enum class Worth {
+  wrong,            ///< by more than five of its sigmas, where the truth is known
+  untrusted,        ///< the fit does not explain the data, or did not converge
+  prior_only,       ///< nothing was learned
+  start_dependent,  ///< another start gives another answer
+  learned
+};
+struct ParameterVerdict {
+  std::size_t param = 0;  ///< index in TermLibrary
+  Worth worth = Worth::learned;
+  double off = std::numeric_limits<double>::quiet_NaN();  ///< from the truth [sigma]
+};
+
+/// Of a state of the filter's layout: by the batch fit, or by the EKF where process noise is
+/// declared.
+ParameterVerdict verdict_of(const FilterView& view, std::size_t state);
+Cell verdict_cell(const ParameterVerdict& verdict);
+
+/// Which filter to believe, what its parameters are worth, what to do next.
+InBrief identification_in_brief(const mc::Study& study, const identification::Identification& id);
 
 /// Verdict on a start-consistency ratio as a cell: "starts agree", "doubtful", "depends on start".
 /// "-" where there is no ratio.

@@ -1,40 +1,13 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "analysis/report/page/escape.hpp"
 #include "analysis/report/page/report.hpp"
+#include "analysis/report/page/style.hpp"
 
 namespace drift::report {
 namespace {
-
-constexpr std::string_view style = R"css(
-:root { color-scheme: light; }
-body { font: 15px/1.5 Helvetica, Arial, sans-serif; color: #222; background: #fff;
-       margin: 0 auto; padding: 1.5rem; max-width: 1180px; }
-h1 { font-size: 1.6rem; margin: 0; overflow-wrap: anywhere; }
-h2 { font-size: 1.2rem; margin: 2.2rem 0 .6rem; border-bottom: 1px solid #ccc;
-     overflow-wrap: anywhere; }
-.subtitle, .note, figcaption, footer { color: #555; font-size: .9rem; }
-.headlines { background: #f3f6fa; border-left: 4px solid #0072B2; padding: .6rem 1rem .6rem 2rem; }
-nav ul { columns: 2; padding-left: 1.2rem; }
-.scroll { overflow-x: auto; }
-table { border-collapse: collapse; font-size: .86rem; margin: .8rem 0 .3rem;
-        font-variant-numeric: tabular-nums; }
-caption { text-align: left; font-weight: bold; padding-bottom: .3rem; }
-th, td { padding: .16rem .65rem; white-space: nowrap; }
-thead th { border-bottom: 2px solid #888; }
-tbody tr:nth-child(even) { background: #f7f7f7; }
-tbody th { font-weight: normal; font-style: italic; color: #444; background: #e9eef4;
-           white-space: normal; }
-.left { text-align: left; } .right { text-align: right; } td.left { white-space: normal; }
-.good { color: #00664d; } .doubtful { color: #8a5a00; } .bad { color: #b03000; font-weight: bold; }
-figure { margin: 1rem 0; } figure svg { max-width: 100%; height: auto; }
-pre { font-size: .82rem; overflow-x: auto; background: #f7f7f7; padding: .8rem; }
-@media print {
-  body { max-width: none; padding: 0; font-size: 10pt; } nav { display: none; }
-  figure, tr { break-inside: avoid; } h2 { break-after: avoid; } .scroll { overflow: visible; }
-  thead { display: table-header-group; }
-}
-)css";
 
 /// Inside HTML an <svg> needs no namespace, and the page shall hold no address at all.
 std::string inlined(std::string svg) {
@@ -65,16 +38,34 @@ std::string_view tone_class(Tone tone) {
   return "";
 }
 
+/// Lines of a table or a text beyond which it is folded in place.
+constexpr std::size_t most_open = 12;
+
+/// Folded under a line that says what it is.
+std::string folded(const std::string& summary, const std::string& body) {
+  return fmt::format("<details>\n<summary>{}</summary>\n{}</details>\n", summary, body);
+}
+
 struct BlockHtml {
   std::string operator()(const Paragraph& p) const { return "<p>" + escaped(p.text) + "</p>\n"; }
   std::string operator()(const Sentences& s) const { return list_of(s.items, "sentences"); }
   std::string operator()(const Preformatted& p) const {
-    return "<pre>" + escaped(p.text) + "</pre>\n";
+    const std::string body = "<pre>" + escaped(p.text) + "</pre>\n";
+    const auto lines = static_cast<std::size_t>(std::ranges::count(p.text, '\n'));
+    return lines > most_open ? folded(fmt::format("As text, {} lines", lines), body) : body;
   }
-  std::string operator()(const Table& t) const { return html_of(t); }
+  std::string operator()(const Table& t) const {
+    if (t.rows.empty()) return t.title.empty() ? "" : "<p>" + escaped(t.title) + ": none.</p>\n";
+    if (t.rows.size() <= most_open) return html_of(t);
+    Table body = t;
+    body.title.clear();
+    return folded(fmt::format("{} ({} rows)", escaped(t.title.empty() ? "Table" : t.title),
+                              shown(t, t.limit.page).rows.size()),
+                  html_of(body));
+  }
   std::string operator()(const Figure& f) const {
-    return "<figure>\n" + inlined(f.svg) + "<figcaption>" + escaped(f.caption) +
-           "</figcaption>\n</figure>\n";
+    return "<figure>\n<div class=\"scroll\">" + inlined(f.svg) + "</div><figcaption>" +
+           escaped(f.caption) + "</figcaption>\n</figure>\n";
   }
 };
 
@@ -87,12 +78,110 @@ std::string body_of(const Section& section) {
   return out;
 }
 
+/// The answer: its light, what belongs to it, what to do next, and when it was made.
+std::string answer_of(const Report& report) {
+  const InBrief& brief = report.brief;
+  std::string out = fmt::format("<section class=\"answer{}\">\n", tone_class(brief.tone));
+  if (!brief.verdict.empty()) out += "<p class=\"verdict\">" + escaped(brief.verdict) + "</p>\n";
+  out += list_of(brief.verdict.empty() ? report.headlines : brief.more, "headlines");
+  if (!brief.next.empty()) out += "<p class=\"next\">" + escaped(brief.next) + "</p>\n";
+  if (const Provenance& p = report.provenance; !p.version.empty()) {
+    out += fmt::format("<p class=\"small\">driftscope {} ({}), {}", escaped(p.version),
+                       escaped(p.commit), escaped(p.date));
+    for (const auto* files : {&p.study, &p.recordings})
+      for (const SourceFile& file : *files)
+        out += fmt::format("; {} {}", escaped(file.path), file.sha256.substr(0, 12));
+    out += "</p>\n";
+  }
+  return out + "</section>\n";
+}
+
+/// Headlines that the answer does not say already.
+std::string headlines_of(const Report& report) {
+  std::vector<std::string> others;
+  for (const std::string& said : report.headlines) {
+    bool known = report.brief.verdict.empty() ||
+                 report.brief.verdict.find(said) != std::string::npos ||
+                 report.brief.next.find(said) != std::string::npos;
+    for (const std::string& more : report.brief.more)
+      known = known || more.find(said) != std::string::npos;
+    if (!known) others.push_back(said);
+  }
+  return list_of(others, "sentences");
+}
+
+std::string provenance_html(const Report& report) {
+  const Provenance& p = report.provenance;
+  if (p.version.empty()) return "";
+  Table table("", "< | <");
+  table.add({"program", fmt::format("driftscope {}, commit {}", p.version, p.commit)});
+  table.add({"made", p.date});
+  table.add({"command line", p.command_line});
+  for (const SourceFile& file : p.study)
+    table.add({"study file", fmt::format("{}, SHA-256 {}", file.path, file.sha256)});
+  for (const SourceFile& file : p.recordings)
+    table.add({"recording", fmt::format("{}, SHA-256 {}", file.path, file.sha256)});
+  return html_of(table);
+}
+
+std::string_view title_of(Part part) {
+  switch (part) {
+    case Part::evidence:
+      return "Evidence";
+    case Part::how_sure:
+      return "How sure";
+    case Part::details:
+      return "Details";
+    case Part::provenance:
+      break;
+  }
+  return "Provenance";
+}
+
+/// A part of the page with all its sections; empty without any.
+std::string part_of(const Report& report, Part part) {
+  const bool fold = part == Part::details || part == Part::provenance;
+  std::string out, title;
+  const auto end_section = [&](const std::string& body) {
+    if (body.empty()) return;
+    if (fold)
+      out += folded(title.empty() ? "More" : title, body);
+    else
+      out += (title.empty() ? "" : "<h3>" + title + "</h3>\n") + body;
+  };
+  if (part == Part::how_sure) out += headlines_of(report);
+  std::string body;
+  if (part == Part::provenance) {
+    title = "Program, command, files";
+    body = provenance_html(report);
+  }
+  std::string topic;  // the last title, of whatever part: a section without one goes on with it
+  for (const Section& section : report.sections) {
+    const bool next = !section.title.empty();
+    if (next) topic = escaped(section.title);
+    if (section.part != part) continue;
+    const std::string more = body_of(section);
+    if (more.empty()) continue;
+    if (next || (fold && title != topic)) {
+      end_section(body);
+      body.clear();
+      title = topic;
+    }
+    body += more;
+  }
+  end_section(body);
+  if (out.empty()) return "";
+  return fmt::format("<section>\n<h2>{}</h2>\n{}</section>\n", title_of(part), out);
+}
+
 }  // namespace
 
 std::string html_of(const Table& whole) {
+  constexpr std::size_t most_upright = 9;  // columns of a table that a page takes upright
   const Table table = shown(whole, whole.limit.page);
   const auto side = [&](std::size_t c) { return table.columns[c].left ? "left" : "right"; };
-  std::string out = "<div class=\"scroll\"><table>\n";
+  std::string out = fmt::format("<div class=\"scroll{}\"><table>\n",
+                                table.columns.size() > most_upright ? " wide" : "");
   if (!table.title.empty()) out += "<caption>" + escaped(table.title) + "</caption>\n";
   out += "<thead><tr>";
   for (std::size_t c = 0; c < table.columns.size(); ++c)
@@ -123,22 +212,10 @@ std::string to_html(const Report& report) {
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<title>{0}</title>\n<style>{1}</style>\n</head>\n<body>\n<header><h1>{0}</h1>\n"
       "<p class=\"subtitle\">{2}</p></header>\n",
-      escaped(report.title), style, escaped(report.subtitle));
-  out += list_of(report.headlines, "headlines");
-  std::string nav, main;
-  std::size_t titled = 0;
-  for (const Section& section : report.sections) {
-    const std::string body = body_of(section);
-    if (!body.empty() && !section.title.empty()) {
-      const std::string title = escaped(section.title);
-      main += fmt::format("{}<section id=\"s{}\">\n<h2>{}</h2>\n", titled > 0 ? "</section>\n" : "",
-                          titled + 1, title);
-      nav += fmt::format("<li><a href=\"#s{}\">{}</a></li>\n", ++titled, title);
-    }
-    main += body;
-  }
-  if (titled > 2) out += "<nav><ul>\n" + nav + "</ul></nav>\n";
-  out += main + (titled > 0 ? "</section>\n" : "");
+      escaped(report.title), page_style, escaped(report.subtitle));
+  out += answer_of(report);
+  for (const Part part : {Part::evidence, Part::how_sure, Part::details, Part::provenance})
+    out += part_of(report, part);
   return out +
          fmt::format("<footer><p>Written by driftscope {}. {}</p></footer>\n</body>\n</html>\n",
                      escaped(report.command), escaped(report.footer));

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "analysis/report/page/provenance.hpp"
 #include "analysis/report/page/table.hpp"
 #include "core/base/results_folder.hpp"
 
@@ -54,13 +55,25 @@ inline bool seen(On on, On where) {
   return on == On::both || on == where;
 }
 
+/// The parts of a page, in their order below the answer. Details and provenance are folded.
+enum class Part { evidence, how_sure, details, provenance };
+
 /// Without a title it goes on with the section before it.
 struct Section {
   std::string title = {};
   Blocks blocks = {};
   On on = On::both;  ///< of all its blocks
+  Part part = Part::evidence;
 
   void add(Blocks more) { blocks.insert(blocks.end(), more.begin(), more.end()); }
+};
+
+/// The answer for a reader who reads nothing else.
+struct InBrief {
+  std::string verdict = {};  ///< one sentence, its judgement before a colon
+  Tone tone = Tone::plain;   ///< good: model and data agree; bad: they do not, or nobody can tell
+  std::vector<std::string> more = {};  ///< what belongs to it, the most important first
+  std::string next = {};               ///< what to do
 };
 
 /// On a terminal, whose last lines are read first, headlines may come last.
@@ -76,6 +89,8 @@ struct Report {
   TextFile document = {};            ///< what machines read: "rank.json" and its text
   std::vector<TextFile> files = {};  ///< beside document, figures and page
   Order order = Order::headlines_first;
+  InBrief brief = {};
+  Provenance provenance = {};  ///< of with_provenance()
 
   void add(std::vector<Section> more);  ///< those that say something
 };
@@ -88,10 +103,26 @@ std::vector<Section> sections_of(const View& view, const List& list) {
   return all;
 }
 
+/// The same, each in its part of the page.
+template <class View, std::size_t n>
+std::vector<Section> sections_of(const View& view, Section (*const (&list)[n])(const View&),
+                                 const Part (&parts)[n]) {
+  std::vector<Section> all = sections_of(view, list);
+  for (std::size_t k = 0; k < n; ++k) all[k].part = parts[k];
+  return all;
+}
+
 /// Declares the sections of a view and lists them in the order of the report.
 #define DRIFT_SECTIONS(View, list, ...)                   \
   std::type_identity_t<Section(const View&)> __VA_ARGS__; \
   inline constexpr Section (*list[])(const View&) = {__VA_ARGS__}
+
+/// The lines that a terminal shows of an answer unless it is asked for more.
+inline constexpr std::size_t most_brief_lines = 10, least_brief_width = 80;
+
+/// The answer in at most most_brief_lines lines: the verdict, what to do, and between them as much
+/// as there is room for. What is cut off ends with "...".
+std::string brief_text(const InBrief& brief, std::size_t width = least_brief_width);
 
 /// The report for a terminal.
 std::string to_text(const Report& report, std::size_t width = 100);

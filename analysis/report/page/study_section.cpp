@@ -8,7 +8,8 @@ Section study_section(const mc::Study& study) {
   for (const mc::Resolved& r : study.resolved) table.add({r.key, r.value, r.origin});
   return {"Study",
           {Paragraph{"Every value the study resolves to, and where it comes from."}, table},
-          On::page};
+          On::page,
+          Part::provenance};
 }
 
 }  // namespace drift::report

@@ -67,14 +67,21 @@ Report rank_report(const mc::Study& study, const planning::PlanRanking& rank) {
   report.title = study.title.empty() ? "Observability ranking" : study.title;
   report.subtitle = plan_line(study, rank);
   report.headlines = headlines(study, rank);
+  report.brief = rank_in_brief(study, rank);
   Json document = rank_document(study, rank);
+  // On a page what was asked for comes first, on a terminal last.
+  const Section better = improvement(study, rank);
+  report.add({{better.title, better.blocks, On::page}});
   for (std::size_t g = 0; g < rank.groups.size(); ++g) {
     const std::string suffix = rank.groups.size() > 1 ? fmt::format("_{}", g + 1) : "";
-    const auto sections = sections_of(RankedGroup{study, rank.groups[g], suffix}, group_sections);
+    const auto sections =
+        sections_of(RankedGroup{study, rank.groups[g], suffix}, group_sections, group_parts);
     add_tables(document["filters"][g], sections);
     report.add(sections);
   }
-  report.add({improvement(study, rank), study_section(study)});
+  Blocks words = better.blocks;
+  std::erase_if(words, [](const Block& b) { return std::holds_alternative<Figure>(b.content); });
+  report.add({{"", std::move(words), On::terminal}, study_section(study)});
   report.footer = "Nothing is sampled: sigmas are Cramer-Rao bounds with the prior.";
   report.document = {"rank.json", dumped(document)};
   if (rank.better && !rank.better->improvement.steps.empty())

@@ -17,6 +17,9 @@ struct RankedGroup {
 /// What is said of each group, in this order.
 DRIFT_SECTIONS(RankedGroup, group_sections, learning, equations, elsewhere, unseen, directions,
                course, methods);
+inline constexpr Part group_parts[] = {Part::evidence, Part::how_sure, Part::how_sure,
+                                       Part::how_sure, Part::details,  Part::details,
+                                       Part::details};
 
 /// The positions proposed and what they bring; nothing where none were asked for.
 Section improvement(const mc::Study& study, const planning::PlanRanking& rank);
@@ -25,6 +28,9 @@ Section improvement(const mc::Study& study, const planning::PlanRanking& rank);
 inline On shown_of(std::size_t model) {
   return model == 0 ? On::both : On::page;
 }
+
+/// What the plan sees and what not, in words; and what the proposed positions bring.
+InBrief rank_in_brief(const mc::Study& study, const planning::PlanRanking& rank);
 
 /// What a reader must not miss, one sentence each.
 std::vector<std::string> headlines(const mc::Study& study, const planning::PlanRanking& rank);

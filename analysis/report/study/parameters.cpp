@@ -23,10 +23,11 @@ Figure ranking_figure(const StudyResults& results, const Pair& pair) {
     return std::isfinite(v) ? v : std::numeric_limits<double>::infinity();
   });
   BarChart chart{fmt::format("Monte Carlo ranking, {}", label_of(results, pair)),
-                 "RMSE / prior sigma",
+                 "RMSE / prior sigma (logarithmic)",
                  {},
                  ReferenceLine{1.0, "nothing learned", Stroke::dashed},
-                 860.0};
+                 860.0,
+                 Spacing::logarithmic};
   for (const std::size_t k : order) {
     const ErrorStatistics& e = filter.errors()[k];
     const mc::Estimated rmse = e.rmse();
@@ -37,8 +38,8 @@ Figure ranking_figure(const StudyResults& results, const Pair& pair) {
   }
   return {svg_of(chart),
           "Parameters by Monte Carlo RMSE over prior sigma with 95 % bootstrap intervals; in "
-          "brackets what the filter says, sigma over prior sigma. 1: nothing learned; above 1: "
-          "misled."};
+          "brackets what the filter says, sigma over prior sigma. 1: nothing learned; an interval "
+          "wholly above 1: misled."};
 }
 
 /// Every parameter of a pair: bias, RMSE, sigma, deception, coverage, silent failures, starts.

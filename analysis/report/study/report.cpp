@@ -25,7 +25,8 @@ Report study_report(const StudyResults& results) {
   report.subtitle = fmt::format("{} runs at {} study point{}, seed {}", runs, results.points.size(),
                                 plural(results.points.size()), results.study.monte_carlo.seed);
   report.headlines = headlines(results);
-  report.add(sections_of(results, study_sections));
+  report.brief = study_in_brief(results);
+  report.add(sections_of(results, study_sections, study_parts));
   Json document = study_document(results);
   add_tables(document, report.sections);
   report.document = {"summary.json", dumped(document)};

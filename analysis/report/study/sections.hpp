@@ -7,8 +7,14 @@
 namespace drift::report {
 
 /// What is said of a study, in this order.
-DRIFT_SECTIONS(StudyResults, study_sections, crossed, sweep, ranking, promised, scatter,
+DRIFT_SECTIONS(StudyResults, study_sections, sweep, crossed, ranking, promised, scatter,
                convergence, parameters, failures, provenance);
+inline constexpr Part study_parts[] = {Part::evidence, Part::evidence, Part::details,
+                                       Part::details,  Part::details,  Part::details,
+                                       Part::details,  Part::how_sure, Part::provenance};
+
+/// How the wrong and the right equation do, at their worst.
+InBrief study_in_brief(const StudyResults& results);
 
 /// What must not be missed, in words: for each truth and filter how often it fails, how often
 /// silently, and where most. Refused, with the reason, where more than 1 % of the runs are lost.

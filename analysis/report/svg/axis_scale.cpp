@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/number_text.hpp"
+
 namespace drift::report {
 namespace {
 
@@ -59,6 +61,25 @@ AxisScale make_scale(const Range& data, int count, double margin) {
   for (const double t : scale.ticks)
     scale.labels.push_back(fmt::format("{:.{}f}", t == 0.0 ? 0.0 : t / unit, decimals));
   return scale;
+}
+
+double spaced(double value, Spacing spacing) {
+  if (spacing == Spacing::linear) return value;
+  return value > 0.0 ? std::log10(value) : std::nan("");
+}
+
+std::vector<std::size_t> shown_ticks(const AxisScale& scale, Spacing spacing) {
+  std::vector<std::size_t> all, powers;
+  for (std::size_t i = 0; i < scale.ticks.size(); ++i) {
+    all.push_back(i);
+    if (std::abs(scale.ticks[i] - std::round(scale.ticks[i])) < 1e-9) powers.push_back(i);
+  }
+  return spacing == Spacing::logarithmic && powers.size() >= 2 ? powers : all;
+}
+
+std::string tick_label(const AxisScale& scale, std::size_t tick, Spacing spacing) {
+  if (spacing == Spacing::linear) return scale.labels[tick];
+  return fmt::format("{:.6g}", std::stod(number_text(std::pow(10.0, scale.ticks[tick]), 2)));
 }
 
 }  // namespace drift::report

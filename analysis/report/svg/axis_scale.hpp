@@ -34,4 +34,14 @@ struct AxisScale {
 /// range of its own; an empty range is 0 to 1.
 AxisScale make_scale(const Range& data, int count, double margin);
 
+enum class Spacing { linear, logarithmic };
+
+/// A value as it stands on an axis: itself, or its decimal logarithm; NaN of what has none.
+double spaced(double value, Spacing spacing);
+
+/// Which ticks are labelled: on a logarithmic axis the powers of ten alone, if there are two or
+/// more.
+std::vector<std::size_t> shown_ticks(const AxisScale& scale, Spacing spacing);
+std::string tick_label(const AxisScale& scale, std::size_t tick, Spacing spacing);
+
 }  // namespace drift::report

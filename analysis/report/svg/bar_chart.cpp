@@ -21,13 +21,13 @@ std::string text_of(const Bar& bar) {
 std::string svg_of(const BarChart& chart) {
   double label_width = 40.0, value_width = 24.0;
   Range range;
-  range.include(0.0);
+  if (chart.spacing == Spacing::linear) range.include(0.0);
   for (const Bar& b : chart.bars) {
-    label_width = std::max(label_width, text_pixels(b.label, 11.0));
-    value_width = std::max(value_width, text_pixels(text_of(b), 10.5));
-    for (const double v : {b.value, b.low, b.high}) range.include(v);
+    label_width = std::max(label_width, text_pixels(b.label, label_type));
+    value_width = std::max(value_width, text_pixels(text_of(b), small_type));
+    for (const double v : {b.value, b.low, b.high}) range.include(spaced(v, chart.spacing));
   }
-  if (chart.limit) range.include(chart.limit->y);
+  if (chart.limit) range.include(spaced(chart.limit->y, chart.spacing));
   label_width = std::min(label_width, 0.5 * chart.width);
 
   const double x0 = canvas_edge + label_width + 8.0,
@@ -35,43 +35,47 @@ std::string svg_of(const BarChart& chart) {
   const double y0 = (chart.title.empty() ? 8.0 : 40.0) + (chart.limit ? 16.0 : 0.0);
   const double h = row * static_cast<double>(chart.bars.size());
   const AxisScale scale = make_scale(range, static_cast<int>(w / 60.0), 0.02);
-  const auto x_of = [&](double v) { return x0 + scale.at(v, w); };
+  const auto x_of = [&](double v) { return x0 + scale.at(spaced(v, chart.spacing), w); };
+  const double zero = chart.spacing == Spacing::linear ? x_of(0.0) : x0;
 
   SvgCanvas canvas(chart.width, y0 + h + axis_height, chart.title);
   canvas.text(canvas_edge, 24.0, chart.title, {.size = 15.0, .bold = true});
-  for (std::size_t i = 0; i < scale.ticks.size(); ++i) {
-    const double x = x_of(scale.ticks[i]);
+  for (const std::size_t i : shown_ticks(scale, chart.spacing)) {
+    const double x = x0 + scale.at(scale.ticks[i], w);
     canvas.line(x, y0, x, y0 + h + 4.0, "#e4e4e4", 1.0);
-    canvas.text(x, y0 + h + 17.0, scale.labels[i], {.size = 10.5, .anchor = "middle"});
+    canvas.text(x, y0 + h + 17.0, tick_label(scale, i, chart.spacing),
+                {.size = small_type, .anchor = "middle"});
   }
   canvas.text(x0 + 0.5 * w, y0 + h + 36.0,
-              scale.factor.empty() ? chart.x_label : chart.x_label + "  " + scale.factor,
+              chart.spacing == Spacing::logarithmic || scale.factor.empty()
+                  ? chart.x_label
+                  : chart.x_label + "  " + scale.factor,
               {.anchor = "middle"});
   for (std::size_t k = 0; k < chart.bars.size(); ++k) {
     const Bar& b = chart.bars[k];
     const double y = y0 + row * static_cast<double>(k), middle = y + 0.5 * row;
     canvas.text(x0 - 8.0, middle + 4.0, b.label, {.anchor = "end"});
-    double end = x_of(0.0);  // text stands right of bar and interval
+    double end = zero;  // text stands right of bar and interval
     if (const double at = x_of(b.value); std::isfinite(at)) {
-      const double zero = x_of(0.0);
       canvas.rectangle(std::min(at, zero), y + 4.0, std::abs(at - zero), row - 8.0,
                        palette(b.colour), 0.85);
       end = std::max(end, at);
     }
-    if (std::isfinite(b.low) && std::isfinite(b.high)) {
-      canvas.line(x_of(b.low), middle, x_of(b.high), middle, "#222222", 1.3);
-      for (const double x : {x_of(b.low), x_of(b.high)})
+    if (std::isfinite(b.low) && std::isfinite(x_of(b.high))) {
+      const double low = std::isfinite(x_of(b.low)) ? x_of(b.low) : zero, high = x_of(b.high);
+      canvas.line(low, middle, high, middle, "#222222", 1.3);
+      for (const double x : {low, high})
         canvas.line(x, middle - 4.0, x, middle + 4.0, "#222222", 1.3);
-      end = std::max(end, x_of(b.high));
+      end = std::max(end, high);
     }
-    canvas.text(end + 6.0, middle + 4.0, text_of(b), {.size = 10.5, .halo = true});
+    canvas.text(end + 6.0, middle + 4.0, text_of(b), {.size = small_type, .halo = true});
   }
-  canvas.line(x_of(0.0), y0, x_of(0.0), y0 + h, "#555555", 1.0);
+  canvas.line(zero, y0, zero, y0 + h, "#555555", 1.0);
   if (chart.limit) {
     const double x = x_of(chart.limit->y);
     canvas.line(x, y0 - 4.0, x, y0 + h, "#222222", 1.2, chart.limit->stroke);
     canvas.text(x, y0 - 8.0, chart.limit->label,
-                {.size = 10.5, .anchor = "middle", .colour = "#222222"});
+                {.size = small_type, .anchor = "middle", .colour = "#222222"});
   }
   return std::move(canvas).finish();
 }

@@ -9,7 +9,8 @@
 
 namespace drift::report {
 
-/// One horizontal bar from zero to a value, with an interval where its ends are finite.
+/// One horizontal bar from zero (on a logarithmic axis from its edge) to a value, with an interval
+/// where its ends are finite.
 struct Bar {
   std::string label;
   double value = 0.0;
@@ -25,6 +26,7 @@ struct BarChart {
   std::vector<Bar> bars;
   std::optional<ReferenceLine> limit;  ///< a vertical line at a value (its member y)
   double width = 720.0;                ///< [px]
+  Spacing spacing = Spacing::linear;   ///< logarithmic: values that are not positive have no bar
 };
 
 /// The bars from top to bottom as an SVG document; a value that is not finite is "n/a".

@@ -1,34 +1,15 @@
 #include "analysis/report/svg/dumbbell_chart.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "analysis/report/svg/svg_canvas.hpp"
-#include "core/base/number_text.hpp"
 
 namespace drift::report {
 namespace {
 
 constexpr double line_height = 19.0, room_of_axis = 44.0;  // [px]
 constexpr std::string_view before_colour = "#D55E00", after_colour = "#0072B2";
-
-/// Values along the axis: themselves, or their decimal logarithm.
-double spaced(double value, Spacing spacing) {
-  if (spacing == Spacing::linear) return value;
-  return value > 0.0 ? std::log10(value) : std::nan("");
-}
-
-/// On a logarithmic axis the powers of ten alone, if there are two or more.
-std::vector<std::size_t> shown_ticks(const AxisScale& scale, Spacing spacing) {
-  std::vector<std::size_t> all, powers;
-  for (std::size_t i = 0; i < scale.ticks.size(); ++i) {
-    all.push_back(i);
-    if (std::abs(scale.ticks[i] - std::round(scale.ticks[i])) < 1e-9) powers.push_back(i);
-  }
-  return spacing == Spacing::logarithmic && powers.size() >= 2 ? powers : all;
-}
 
 void mark(SvgCanvas& canvas, double x, double y, std::string_view colour) {
   if (std::isfinite(x)) canvas.rectangle(x - 4.0, y - 4.0, 8.0, 8.0, colour);
@@ -37,11 +18,11 @@ void mark(SvgCanvas& canvas, double x, double y, std::string_view colour) {
 }  // namespace
 
 std::string svg_of(const DumbbellChart& chart) {
-  double label_width = 40.0, text_width = text_pixels(chart.text_label, 10.5);
+  double label_width = 40.0, text_width = text_pixels(chart.text_label, small_type);
   Range range;
   for (const Dumbbell& d : chart.lines) {
-    label_width = std::max(label_width, text_pixels(d.label, 11.0));
-    text_width = std::max(text_width, text_pixels(d.text, 10.5));
+    label_width = std::max(label_width, text_pixels(d.label, label_type));
+    text_width = std::max(text_width, text_pixels(d.text, small_type));
     for (const double v : {d.before, d.after, d.low, d.high})
       range.include(spaced(v, chart.spacing));
   }
@@ -59,19 +40,16 @@ std::string svg_of(const DumbbellChart& chart) {
   const double key = chart.title.empty() ? 16.0 : 44.0;
   mark(canvas, x0 + 4.0, key - 4.0, before_colour);
   canvas.text(x0 + 14.0, key, chart.before_label);
-  const double second = x0 + 34.0 + text_pixels(chart.before_label, 11.0);
+  const double second = x0 + 34.0 + text_pixels(chart.before_label, label_type);
   mark(canvas, second, key - 4.0, after_colour);
   canvas.text(second + 10.0, key, chart.after_label);
   canvas.text(chart.width - canvas_edge, y0 - 8.0, chart.text_label,
-              {.size = 10.5, .anchor = "end"});
+              {.size = small_type, .anchor = "end"});
   for (const std::size_t i : shown_ticks(scale, chart.spacing)) {
     const double x = x0 + scale.at(scale.ticks[i], w);
     canvas.line(x, y0, x, y0 + h + 4.0, "#e4e4e4", 1.0);
-    const std::string label =
-        chart.spacing == Spacing::linear
-            ? scale.labels[i]
-            : fmt::format("{:.6g}", std::stod(number_text(std::pow(10.0, scale.ticks[i]), 2)));
-    canvas.text(x, y0 + h + 17.0, label, {.size = 10.5, .anchor = "middle"});
+    canvas.text(x, y0 + h + 17.0, tick_label(scale, i, chart.spacing),
+                {.size = small_type, .anchor = "middle"});
   }
   const bool factor = chart.spacing == Spacing::linear && !scale.factor.empty();
   canvas.text(x0 + 0.5 * w, y0 + h + 36.0,
@@ -86,13 +64,13 @@ std::string svg_of(const DumbbellChart& chart) {
       canvas.line(x_of(d.low), y, x_of(d.high), y, after_colour, 3.0);
     mark(canvas, from, y, before_colour);
     mark(canvas, to, y, after_colour);
-    canvas.text(chart.width - canvas_edge, y + 4.0, d.text, {.size = 10.5, .anchor = "end"});
+    canvas.text(chart.width - canvas_edge, y + 4.0, d.text, {.size = small_type, .anchor = "end"});
   }
   if (chart.limit)
     if (const double x = x_of(chart.limit->y); std::isfinite(x)) {
       canvas.line(x, y0 - 4.0, x, y0 + h, "#222222", 1.2, chart.limit->stroke);
       canvas.text(x, y0 - 8.0, chart.limit->label,
-                  {.size = 10.5, .anchor = "middle", .colour = "#222222"});
+                  {.size = small_type, .anchor = "middle", .colour = "#222222"});
     }
   return std::move(canvas).finish();
 }

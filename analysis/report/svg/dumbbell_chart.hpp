@@ -18,8 +18,6 @@ struct Dumbbell {
   std::string text = {};  ///< at the right edge
 };
 
-enum class Spacing { linear, logarithmic };
-
 struct DumbbellChart {
   std::string title;
   std::string x_label;  ///< with its unit

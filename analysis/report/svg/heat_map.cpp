@@ -33,8 +33,8 @@ void key(SvgCanvas& canvas, const HeatMap& map, double x, double y, double most,
     canvas.rectangle(x + step * k, y, step + 0.2, 10.0,
                      colour_of(low + (1.0 - low) * k / (steps - 1.0)));
   const double end = x + step * steps;
-  canvas.text(x, y + 24.0, number_text(low * most, 2), {.size = 10.5});
-  canvas.text(end, y + 24.0, number_text(most, 2), {.size = 10.5, .anchor = "end"});
+  canvas.text(x, y + 24.0, number_text(low * most, 2), {.size = small_type});
+  canvas.text(end, y + 24.0, number_text(most, 2), {.size = small_type, .anchor = "end"});
   canvas.text(end + 12.0, y + 9.0, map.value_label);
 }
 
@@ -47,9 +47,10 @@ std::string svg_of(const HeatMap& map) {
   const double row_height = map.row_height;
   double label = 30.0, most = map.most;
   bool negative = false;
-  for (const auto& r : map.rows) label = std::max(label, text_pixels(r, 11.0));
+  for (const auto& r : map.rows) label = std::max(label, text_pixels(r, label_type));
   double column_label = 10.0;
-  for (const auto& c : map.columns) column_label = std::max(column_label, text_pixels(c, 10.5));
+  for (const auto& c : map.columns)
+    column_label = std::max(column_label, text_pixels(c, small_type));
   for (const double v : map.value.reshaped()) {
     if (!std::isfinite(v)) continue;
     if (map.most <= 0.0) most = std::max(most, std::abs(v));
@@ -83,7 +84,7 @@ std::string svg_of(const HeatMap& map) {
       canvas.rectangle(x + 0.5, y + 0.5, cell - 1.0, row_height - 1.0, colour_of(v / most));
       if (cell >= numbers_from && std::isfinite(v))
         canvas.text(x + 0.5 * cell, y + 0.5 * row_height + 4.0, number_text(v, 2),
-                    {.size = 10.0,
+                    {.size = small_type,
                      .anchor = "middle",
                      .colour = std::abs(v) > 0.6 * most ? "#ffffff" : "#333333"});
     }
@@ -93,9 +94,9 @@ std::string svg_of(const HeatMap& map) {
     const double x = x0 + cell * (static_cast<double>(j) + 0.5);
     if (turned)
       canvas.text(x + 4.0, bottom + 8.0, map.columns[j],
-                  {.size = 10.5, .anchor = "end", .turned = -90.0});
+                  {.size = small_type, .anchor = "end", .turned = -90.0});
     else
-      canvas.text(x, bottom + 15.0, map.columns[j], {.size = 10.5, .anchor = "middle"});
+      canvas.text(x, bottom + 15.0, map.columns[j], {.size = small_type, .anchor = "middle"});
   }
   if (!map.x_label.empty())
     canvas.text(x0 + 0.5 * cell * static_cast<double>(columns), bottom + under - 4.0, map.x_label,

@@ -8,6 +8,10 @@ namespace drift::report {
 
 inline constexpr double canvas_edge = 14.0;  ///< [px] left empty on either side of a picture
 
+/// Sizes of type [px]: the smallest, on axes and beside bars, and that of labels. Pages do not
+/// scale pictures down, so that no text is smaller than this.
+inline constexpr double small_type = 12.0, label_type = 12.5;
+
 /// How a line is drawn, beside its colour: curves must be told apart in print too.
 enum class Stroke { solid, dashed, dotted };
 
@@ -15,7 +19,7 @@ enum class Stroke { solid, dashed, dotted };
 std::string_view palette(std::size_t index);
 
 struct TextStyle {
-  double size = 11.0;                 ///< [px]
+  double size = label_type;           ///< [px]
   std::string_view anchor = "start";  ///< start, middle, end
   std::string_view colour = "#333333";
   bool bold = false;

@@ -11,7 +11,7 @@ namespace drift::report {
 namespace {
 
 // Around the axes of a panel [px].
-constexpr double left = 66.0, right = 14.0, top = 32.0, bottom = 48.0;
+constexpr double left = 70.0, right = 14.0, top = 32.0, bottom = 48.0;
 constexpr double legend_line = 20.0;
 constexpr std::string_view expected_fill = "#7F7F7F", reference_colour = "#222222";
 
@@ -42,7 +42,7 @@ class PanelPainter {
     if (!ys.empty())
       for (const auto& r : panel.references) ys.include(r.y);
     if (xs.low > 0.0 && xs.low < 0.05 * xs.high) xs.include(0.0);  // time starts at zero
-    x_scale_ = make_scale(xs, static_cast<int>(w_ / 45.0), 0.0);
+    x_scale_ = make_scale(xs, static_cast<int>(w_ / 56.0), 0.0);
     y_scale_ = make_scale(panel.y_range.value_or(ys), static_cast<int>(h_ / 32.0), 0.06);
   }
 
@@ -52,6 +52,8 @@ class PanelPainter {
     canvas_.push_window(x0_, y0_, w_, h_);
     if (!empty) {
       for (const auto& b : panel_.expected) area(b.x, b.low, b.high, expected_fill, 0.16);
+      for (const double x : panel_.marks)
+        canvas_.line(x_of(x), 0.0, x_of(x), h_, "#8a8a8a", 1.0, Stroke::dotted);
       for (const auto& s : panel_.series) sigma_band(s);
       for (const auto& r : panel_.references)
         canvas_.line(0.0, y_of(r.y), w_, y_of(r.y), reference_colour, 1.2, r.stroke);
@@ -69,17 +71,18 @@ class PanelPainter {
 
   void axes() {
     canvas_.text(x0_ + 0.5 * w_, y0_ - 12.0, panel_.title,
-                 {.size = 12.0, .anchor = "middle", .bold = true});
+                 {.size = 13.0, .anchor = "middle", .bold = true});
     for (std::size_t i = 0; i < y_scale_.ticks.size(); ++i) {
       const double y = y0_ + y_of(y_scale_.ticks[i]);
       canvas_.line(x0_, y, x0_ + w_, y, "#e4e4e4", 1.0);
-      canvas_.text(x0_ - 6.0, y + 3.5, y_scale_.labels[i], {.size = 10.5, .anchor = "end"});
+      canvas_.text(x0_ - 6.0, y + 3.5, y_scale_.labels[i], {.size = small_type, .anchor = "end"});
     }
     for (std::size_t i = 0; i < x_scale_.ticks.size(); ++i) {
       const double x = x0_ + x_of(x_scale_.ticks[i]);
       canvas_.line(x, y0_, x, y0_ + h_, "#f0f0f0", 1.0);
       canvas_.line(x, y0_ + h_, x, y0_ + h_ + 4.0, "#555555", 1.0);
-      canvas_.text(x, y0_ + h_ + 16.0, x_scale_.labels[i], {.size = 10.5, .anchor = "middle"});
+      canvas_.text(x, y0_ + h_ + 16.0, x_scale_.labels[i],
+                   {.size = small_type, .anchor = "middle"});
     }
     canvas_.line(x0_, y0_ + h_, x0_ + w_, y0_ + h_, "#555555", 1.0);
     canvas_.line(x0_, y0_, x0_, y0_ + h_, "#555555", 1.0);
@@ -162,7 +165,7 @@ double paint_legend(SvgCanvas* canvas, const std::vector<LegendEntry>& entries, 
                     double width) {
   double x = left, line = y;
   for (const auto& e : entries) {
-    const double needed = 30.0 + text_pixels(e.label, 11.0) + 18.0;
+    const double needed = 30.0 + text_pixels(e.label, label_type) + 18.0;
     if (x > left && x + needed > width) {
       x = left;
       line += legend_line;

@@ -38,8 +38,9 @@ struct Panel {
   std::vector<ExpectedBand> expected;
   std::vector<Series> series;
   std::vector<ReferenceLine> references;
-  std::optional<Range> y_range;  ///< empty: all of the curves; what is outside is cut off
-  std::string note;              ///< in the middle of the panel, where there is nothing to draw
+  std::optional<Range> y_range;    ///< empty: all of the curves; what is outside is cut off
+  std::string note;                ///< in the middle of the panel, where there is nothing to draw
+  std::vector<double> marks = {};  ///< vertical lines, where something begins
 };
 
 /// Panels in a grid, filled row by row, with one legend.

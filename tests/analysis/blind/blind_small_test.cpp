@@ -45,18 +45,18 @@ TEST(BlindSmall, TrialsAreSealedAnsweredScoredAndKept) {
   const test::ScratchFolder scratch;
   const std::string folder = scratch.file("out");
   const std::string command = "blind " + test::config("blind_small.toml") + " -o '" + folder +
-                              "' --trials 3 --progress none";
+                              "' --full --trials 3 --progress none";
   const test::Answer first = test::driftscope(command);
   ASSERT_EQ(first.code, 0) << first.err;
 
   const std::string key_hash = sha256_hex(text_of(folder + "/key.json"));
-  const auto sealed = first.out.find("Key sealed in"), answered = first.out.find("Answers sealed"),
-             targets = first.out.find("Targets");
+  const auto sealed = first.err.find("Key sealed in"), answered = first.err.find("Answers sealed");
   ASSERT_NE(sealed, std::string::npos);
+  ASSERT_NE(answered, std::string::npos);
   EXPECT_LT(sealed, answered);
-  EXPECT_LT(answered, targets);
-  EXPECT_NE(first.out.find(key_hash, sealed), std::string::npos);
-  EXPECT_NE(first.out.find("95 % interval"), std::string::npos);
+  EXPECT_NE(first.err.find(key_hash, sealed), std::string::npos);
+  for (const char* part : {"Targets", "95 % interval", key_hash.c_str()})
+    EXPECT_NE(first.out.find(part), std::string::npos) << part;
 
   const Json blind = Json::parse(text_of(folder + "/blind.json"));
   EXPECT_EQ(blind.at("key_sha256"), key_hash);

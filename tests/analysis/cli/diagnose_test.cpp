@@ -26,7 +26,7 @@ std::string tilted_case(const ScratchFolder& folder) {
 TEST(DiagnoseCommand, NamesWhatACaseLacksAndLeavesAReport) {
   const ScratchFolder folder;
   const Answer a = driftscope("diagnose " + test::config("diagnose_xsens.toml") + " " +
-                              tilted_case(folder) + " -o " + folder.file("out"));
+                              tilted_case(folder) + " --full -o " + folder.file("out"));
   ASSERT_EQ(a.code, 0) << a.err;
   EXPECT_NE(a.out.find("Verdict named: The nominal model lacks misalignment of the gyro input axes "
                        "(gyro_misalignment"),
@@ -132,8 +132,8 @@ TEST(DiagnoseCommand, OfSeveralRecordingsSaysWhichOneATimeBelongsTo) {
     ASSERT_EQ(driftscope("simulate " + study + " -o " + path + " --run " + run).code, 0);
     recordings += " " + path;
   }
-  const Answer a =
-      driftscope("diagnose " + study + recordings + " --progress none -o " + folder.file("out"));
+  const Answer a = driftscope("diagnose " + study + recordings + " --full --progress none -o " +
+                              folder.file("out"));
   ASSERT_EQ(a.code, 0) << a.err;
   EXPECT_NE(a.out.find("r1.csv begins at 7200 s (0 s of its own time)"), std::string::npos)
       << a.out;
@@ -171,7 +171,7 @@ TEST(DiagnoseCommand, TheWrongPlanIsSaidAndOddInputIsRemarked) {
   for (Channel& c : r.channels)
     if (c.name == "gimbal_inner") c.values.assign(c.values.size(), 0.1);
   write_recording(r, folder.file("stuck.csv"));
-  const Answer stuck = driftscope("diagnose " + study + " " + folder.file("stuck.csv"));
+  const Answer stuck = driftscope("diagnose --full " + study + " " + folder.file("stuck.csv"));
   EXPECT_EQ(stuck.code, 0) << stuck.err;
   EXPECT_NE(stuck.out.find("gimbal_inner stands still for 120 samples"), std::string::npos)
       << stuck.out;
@@ -189,8 +189,8 @@ TEST(DiagnoseCommand, AnAbsentChannelIsAnEmptyOne) {
   write_recording(r, folder.file("empty.csv"));
   std::erase_if(r.channels, [](const Channel& c) { return c.name == "acc_z"; });
   write_recording(r, folder.file("absent.csv"));
-  const Answer empty = driftscope("diagnose " + study + " " + folder.file("empty.csv"));
-  const Answer absent = driftscope("diagnose " + study + " " + folder.file("absent.csv"));
+  const Answer empty = driftscope("diagnose --full " + study + " " + folder.file("empty.csv"));
+  const Answer absent = driftscope("diagnose --full " + study + " " + folder.file("absent.csv"));
   ASSERT_EQ(absent.code, 0) << absent.err;
   EXPECT_NE(absent.out.find("no acc_z: taken as not measured"), std::string::npos) << absent.out;
   EXPECT_NE(absent.out.find("would show is not seen"), std::string::npos) << absent.out;
@@ -209,7 +209,7 @@ TEST(DiagnoseCommand, AdvisesOnRequest) {
                     recording = folder.file("r.csv");
   ASSERT_EQ(driftscope("simulate " + study + " -o " + recording).code, 0);
   const std::string diagnose = "diagnose " + study + " " + recording;
-  EXPECT_EQ(driftscope(diagnose).out.find("one prior sigma"), std::string::npos);
+  EXPECT_EQ(driftscope(diagnose + " --full").out.find("one prior sigma"), std::string::npos);
   const Answer a =
       driftscope(diagnose + " --advise torquer_heating.x,sag -o " + folder.file("out"));
   ASSERT_EQ(a.code, 0) << a.err;
@@ -219,7 +219,7 @@ TEST(DiagnoseCommand, AdvisesOnRequest) {
   EXPECT_FALSE(json["advice"][0]["plan"].empty());
   EXPECT_EQ(driftscope("check " + folder.file("out") + "/advised.toml").code, 0);
   // Without terms: whatever the plan hides. The option does not swallow the files behind it.
-  const Answer all = driftscope("diagnose --advise " + study + " " + recording);
+  const Answer all = driftscope("diagnose --full --advise " + study + " " + recording);
   ASSERT_EQ(all.code, 0) << all.err;
   EXPECT_NE(all.out.find("effects at one prior sigma"), std::string::npos) << all.out;
   const Answer wrong = driftscope(diagnose + " --advise=sagg,D_F_x");

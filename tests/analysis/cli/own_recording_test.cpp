@@ -91,7 +91,7 @@ TEST(OwnRecording, IdentifyReadsTheFileAsItIs) {
                                    own.lab.section().find("positions"), std::string::npos,
                                    "positions = { \"Lage 1\" = 1, \"Lage 2\" = 2, \"Lage 3\" = 3, "
                                    "\"Lage 4\" = 4, \"Lage 5\" = 5, \"Lage 6\" = 6 }\n"));
-  const auto answer = driftscope("identify '" + study + "' '" + log + "' --progress none");
+  const auto answer = driftscope("identify '" + study + "' '" + log + "' --full --progress none");
   EXPECT_EQ(answer.code, 0) << answer.err;
   EXPECT_NE(answer.out.find("columns of text are passed over"), std::string::npos) << answer.out;
 }

@@ -42,7 +42,8 @@ TEST(Quiet, ErrorsAreToldAllTheSame) {
 
 TEST(Color, VerdictsAreColouredOnRequestAndNeverInAPipeOrFile) {
   const ScratchFolder folder;
-  const std::string run = "identify " + folder.write("s.toml", short_study) + " --progress none";
+  const std::string run =
+      "identify " + folder.write("s.toml", short_study) + " --full --progress none";
   const Answer plain = driftscope(run), never = driftscope(run + " --color never"),
                always = driftscope(run + " --color always -o " + folder.file("out"));
   EXPECT_FALSE(has(plain.out, escape));

@@ -122,7 +122,7 @@ TEST(DiagnosisPage, IsWellFormedOfflineAndEscaped) {
   const mc::Study study = testing::read_text(folder, "s.toml", nominal_study);
   const diagnosis::Diagnosis d = testing::diagnosis(study.filters.front());
   const std::string page =
-      report::to_html(report::diagnosis_report(study, d, {{"rec <1>.csv"}, "details <&>"}));
+      report::to_html(report::diagnosis_report(study, d, {{"rec <1>.csv"}, "details <&>", {}}));
   EXPECT_EQ(testing::xml_problem(page, void_tags), std::nullopt);
   EXPECT_EQ(page.find("://"), std::string::npos);
   EXPECT_EQ(page.find("<script"), std::string::npos);
@@ -131,7 +131,7 @@ TEST(DiagnosisPage, IsWellFormedOfflineAndEscaped) {
         "g_drift D_S_y &lt;&amp;&gt;", "[[plan.position]]"})
     EXPECT_NE(page.find(text), std::string::npos) << text;
   const auto figures = all_figures(d);
-  EXPECT_EQ(figures.size(), 7u);
+  EXPECT_EQ(figures.size(), 9u);
   for (const report::Figure& f : figures)
     EXPECT_EQ(testing::xml_problem(f.svg), std::nullopt) << f.file;
 }
@@ -199,7 +199,7 @@ TEST(DiagnosisCandidates, TheCausesAreShownHoweverWeakEachIsAlone) {
   EXPECT_EQ(shown[20].score->term, "sag");
   EXPECT_EQ(shown[20].alternative, 1);
   EXPECT_EQ(shown[21].score->term, "magnetic_drift");
-  const auto figures = testing::figures_of({report::what(d)});
+  const auto figures = testing::figures_of({report::rivals(d)});
   ASSERT_EQ(figures.front().file, "candidates.svg");
   for (const char* text : {"magnetic_drift.y", "alternative 1", "alternative 2"})
     EXPECT_NE(figures.front().svg.find(text), std::string::npos) << text;

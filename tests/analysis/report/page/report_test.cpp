@@ -97,14 +97,52 @@ TEST(OneReport, ShowsEachBlockWhereItBelongs) {
   EXPECT_TRUE(text.starts_with("title\nsubtitle\n\n- said\n\nSizes\n")) << text;
   EXPECT_TRUE(text.ends_with("\n\n! spoken\n")) << text;
   EXPECT_FALSE(holds(text, "page words"));
-  EXPECT_TRUE(holds(html, "<h2>One</h2>"));
+  EXPECT_TRUE(holds(html, "<h2>Evidence</h2>\n<h3>One</h3>"));
   for (const char* part : {"page words", "drawn", "<li>said</li>", "driftscope test"})
     EXPECT_TRUE(holds(html, part)) << part;
-  for (const char* part : {"<h2>Nothing", "<h2>Terminal", "spoken", "unseen"})
+  for (const char* part : {">Nothing<", ">Terminal<", "spoken", "unseen"})
     EXPECT_FALSE(holds(html, part)) << part;
   Report late = two_sections();
   late.order = Order::headlines_last;
   EXPECT_TRUE(to_text(late).ends_with("! spoken\n\n- said\n"));
+}
+
+TEST(OneReport, HasTheSamePartsWhateverTheCommand) {
+  Report report = two_sections();
+  report.brief = {"Verdict: so <it> is.", Tone::bad, {"because"}, "Next: that."};
+  report.add({{"Late", {Paragraph{"known how well"}}, On::both, Part::how_sure},
+              {"Long", {Paragraph{"all of it"}}, On::both, Part::details}});
+  const Provenance made{"1.2",
+                        "abcdef",
+                        "2026-01-02T03:04:05Z",
+                        "driftscope test",
+                        {{"s.toml", std::string(64, 'a')}},
+                        {{"r.csv", std::string(64, 'b')}}};
+  report = with_provenance(std::move(report), made);
+  const std::string html = to_html(report);
+  std::size_t at = 0;
+  for (const char* part :
+       {"class=\"answer bad\"", "so &lt;it&gt; is.", "<li>because</li>", "Next: that.",
+        "driftscope 1.2 (abcdef)", "<h2>Evidence</h2>", "<h2>How sure</h2>", "<li>said</li>",
+        "known how well", "<h2>Details</h2>", "<details>\n<summary>Long</summary>",
+        "<h2>Provenance</h2>", "driftscope test", "s.toml, SHA-256 aaaa", "r.csv, SHA-256 bbbb"}) {
+    const auto next = html.find(part, at);
+    ASSERT_NE(next, std::string::npos) << part << " is absent, or not in its place";
+    at = next;
+  }
+  const Json json = Json::parse(report.document.second).at("provenance");
+  EXPECT_EQ(json.at("version"), "1.2");
+  EXPECT_EQ(json.at("command_line"), "driftscope test");
+  EXPECT_EQ(json.at("study").at("sha256"), std::string(64, 'a'));
+  EXPECT_EQ(json.at("recordings").at(0).at("path"), "r.csv");
+}
+
+TEST(OneReport, LongTablesAreFoldedInPlace) {
+  Report report = two_sections();
+  Table table("Many", "n=n");
+  for (int k = 0; k < 40; ++k) table.add({k});
+  report.add({{"Numbers", {table}}});
+  EXPECT_TRUE(holds(to_html(report), "<details>\n<summary>Many (40 rows)</summary>"));
 }
 
 TEST(OneReport, WritesDocumentFilesFiguresAndPage) {

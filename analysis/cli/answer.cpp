@@ -1,0 +1,39 @@
+#include "analysis/cli/answer.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "analysis/cli/print.hpp"
+
+namespace drift::cli {
+namespace {
+
+/// Where the report is, what lies beside it, and how to see the rest.
+std::string where_text(const Rest& rest, std::size_t width) {
+  std::string out;
+  std::vector<std::string> others = rest.files;
+  if (std::erase(others, "report.html") > 0)
+    out += fmt::format("Report: {}/report.html\n", rest.folder);
+  if (!others.empty())
+    out += report::wrapped(fmt::format("{}{}: {}", out.empty() ? "Written to " : "Beside it",
+                                       out.empty() ? rest.folder : "", fmt::join(others, " ")),
+                           width, 2);
+  if (terminal().details == Terminal::Shown::no && !rest.details.empty())
+    out += "Details: the same command with --full prints them.\n";
+  return out;
+}
+
+}  // namespace
+
+void show_answer(const report::InBrief& brief, const Rest& rest) {
+  const std::size_t width = terminal_width(report::least_brief_width);
+  show_judgement(report::brief_text(brief, width), brief.tone);
+  if (const std::string where = where_text(rest, width); !where.empty()) show("\n{}", where);
+  if (terminal().details == Terminal::Shown::no) return;
+  show("\n");
+  show_verdicts(rest.details);
+}
+
+}  // namespace drift::cli

@@ -1,0 +1,84 @@
+#include <algorithm>
+
+#include "analysis/report/rank/sections.hpp"
+
+namespace drift::report {
+namespace {
+
+constexpr double half_known = 0.5, hardly_known = 0.9;  // of the prior sigma
+
+/// "14 of 18 parameters end below half their prior sigma; hardly seen: eta_y, xi_x (...)".
+std::string seen_text(const observability::Ranking& r) {
+  constexpr std::size_t most = 8;
+  std::vector<std::string> unseen;
+  std::size_t known = 0;
+  for (const std::size_t k : r.order) {
+    known += r.learning_ratio(k) < half_known;
+    if (r.learning_ratio(k) > hardly_known) unseen.push_back(parameter_key(r.layout, k));
+  }
+  return fmt::format(
+      "{} of {} parameters end below half their prior sigma{}", known, r.parameters.size(),
+      unseen.empty()
+          ? "; every one is seen."
+          : fmt::format("; hardly or not seen, at least 90 % of the prior sigma is left: "
+                        "{}.",
+                        listed_up_to(unseen, most)));
+}
+
+/// What the proposed positions do to the parameter that gains most, or that was asked for.
+std::string gain_text(const planning::PlanRanking& rank) {
+  const planning::Improvement& better = rank.better->improvement;
+  if (better.steps.empty()) return "A better plan: the gimbals allow no further position.";
+  const observability::Ranking &before = rank.groups.front().models.front().ranking,
+                               &after = rank.better->after;
+  const auto gain = [&](std::size_t k) {
+    return before.learning_ratio(k) / after.learning_ratio(k);
+  };
+  std::vector<std::size_t> shown = before.order;
+  std::ranges::stable_sort(shown, std::greater{}, gain);
+  std::vector<std::size_t> asked;
+  for (const std::size_t k : before.order)
+    if (parameter_key(before.layout, k) == better.criterion.text) asked.push_back(k);
+  if (!asked.empty()) shown = asked;
+  shown.resize(std::min<std::size_t>(shown.size(), 2));
+  std::vector<std::string> parts;
+  for (const std::size_t k : shown) {
+    const double unit = unit_of(before.parameters[k].param);
+    parts.push_back(fmt::format("{} from {} to {} {}", parameter_key(before.layout, k),
+                                number_text(before.parameters[k].posterior_sigma / unit),
+                                number_text(after.parameters[k].posterior_sigma / unit),
+                                parameter_unit(before.parameters[k].param)));
+  }
+  return fmt::format("A better plan: {} further position{} ({} h) bring {}.", better.steps.size(),
+                     plural(better.steps.size()), number_text(better.added() / 3600.0),
+                     listed(parts, "and"));
+}
+
+}  // namespace
+
+InBrief rank_in_brief(const mc::Study& study, const planning::PlanRanking& rank) {
+  InBrief brief;
+  brief.tone = Tone::good;
+  for (const planning::RankingGroup& g : rank.groups) {
+    const planning::ModelRanking& m = g.models.front();
+    const std::string said = fmt::format("{} (filter {}): {}", key_of(m.model.spec.coupling),
+                                         g.filters, seen_text(m.ranking));
+    if (brief.verdict.empty())
+      brief.verdict = "Seen under " + said;
+    else
+      brief.more.push_back("Under " + said);
+    if (std::ranges::any_of(m.ranking.parameters,
+                            [](const auto& p) { return p.learning_ratio() > hardly_known; }))
+      brief.tone = Tone::doubtful;
+  }
+  if (rank.better) {
+    brief.more.insert(brief.more.begin(), gain_text(rank));
+    brief.next = "Next: put the proposed positions (proposed_positions.toml) into the plan.";
+  } else if (brief.tone == Tone::doubtful) {
+    brief.next = fmt::format("Next: driftscope rank {} --improve 3 proposes positions to add.",
+                             study.path.empty() ? "STUDY" : study.path);
+  }
+  return brief;
+}
+
+}  // namespace drift::report

@@ -1,0 +1,82 @@
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/report/study/sections.hpp"
+
+namespace drift::report {
+namespace {
+
+/// What the pairs of one kind (with the right equation, or a wrong one) have in common.
+struct Tally {
+  std::size_t pairs = 0;
+  double least_held = 1.0, most_held = 0.0;  ///< share of the errors within 2 sigma
+  const Pair* worst = nullptr;               ///< of the most silent failures
+  stats::Rate silent = {};
+};
+
+void add(Tally& tally, const StudyResults& results, const Pair& pair) {
+  const mc::FilterStatistics& filter = statistics_of(results, pair);
+  const stats::Rate& silent = filter.starts().front().silent;
+  ++tally.pairs;
+  if (const double held = coverage_of_claims(filter, claims_of(results)); std::isfinite(held)) {
+    tally.least_held = std::min(tally.least_held, held);
+    tally.most_held = std::max(tally.most_held, held);
+  }
+  if (tally.worst == nullptr || silent.value() > tally.silent.value()) {
+    tally.worst = &pair;
+    tally.silent = silent;
+  }
+}
+
+std::string held_text(const Tally& t) {
+  if (t.most_held < t.least_held) return "";
+  return fmt::format("2 sigma hold {} to {} % of the errors (95.4 expected)",
+                     percent_cell(t.least_held).text, percent_cell(t.most_held).text);
+}
+
+std::string worst_text(const StudyResults& results, const Tally& t) {
+  return fmt::format("silent failures up to {} ({})", rate_cell(t.silent).text,
+                     pair_in_words(results, *t.worst));
+}
+
+}  // namespace
+
+InBrief study_in_brief(const StudyResults& results) {
+  const std::vector<Pair> pairs = pairs_of(results);
+  Tally right, wrong;
+  std::size_t lost = 0;
+  for (const Pair& pair : pairs) {
+    if (results.statistics[pair.point].failures().too_many())
+      ++lost;
+    else
+      add(matched(results, pair) ? right : wrong, results, pair);
+  }
+  InBrief brief;
+  brief.tone = Tone::good;
+  if (wrong.pairs > 0) {
+    brief.verdict = fmt::format("With the wrong equation: {}.", worst_text(results, wrong));
+    if (wrong.silent.low() > 0.01) brief.tone = Tone::bad;
+  }
+  if (right.pairs > 0) {
+    const std::string said = fmt::format("With the right equation: {}; {}.", held_text(right),
+                                         worst_text(results, right));
+    if (brief.verdict.empty())
+      brief.verdict = said;
+    else
+      brief.more.push_back(said);
+    if (right.silent.low() > 0.01) brief.tone = Tone::bad;
+  }
+  if (lost > 0) {
+    brief.more.push_back(fmt::format(
+        "Of {} pairs of point and filter nothing is said: too many of their runs were lost.",
+        lost));
+    if (brief.verdict.empty()) brief.verdict = "No result: too many runs were lost. See Failures.";
+    brief.tone = Tone::bad;
+  }
+  brief.more.push_back(
+      "A silent failure: some parameter is more than 5 sigma off, and nothing in the run shows "
+      "it.");
+  return brief;
+}
+
+}  // namespace drift::report

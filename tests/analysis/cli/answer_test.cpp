@@ -1,0 +1,128 @@
+// The answer comes first and in brief, the rest on request; a stop says what is kept.
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "analysis/report/page/escape.hpp"
+#include "analysis/report/page/report.hpp"
+#include "tests/support/program.hpp"
+#include "tests/support/short_study.hpp"
+
+namespace drift::answer_test {
+namespace {
+
+using namespace drift::test;
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+TEST(Brief, KeepsVerdictAndNextStepAndCutsWhatIsBetween) {
+  report::InBrief brief;
+  for (int k = 0; k < 40; ++k) brief.verdict += "verdict ";
+  for (int k = 0; k < 90; ++k) brief.more.push_back("said " + std::string(40, 'x'));
+  brief.next = "Next: do this.";
+  for (const std::size_t width : {80u, 120u}) {
+    const auto lines = lines_of(report::brief_text(brief, width));
+    EXPECT_EQ(lines.size(), report::most_brief_lines);
+    EXPECT_TRUE(lines.front().starts_with("verdict"));
+    EXPECT_EQ(lines.back(), "Next: do this.");
+    for (const std::string& line : lines) EXPECT_LE(report::display_width(line), width);
+  }
+  brief.more.clear();
+  for (int k = 0; k < 200; ++k) brief.verdict += "verdict ";
+  const auto cut = lines_of(report::brief_text(brief));
+  EXPECT_EQ(cut.size(), report::most_brief_lines);
+  EXPECT_TRUE(cut[report::most_brief_lines - 2].ends_with(" ...")) << "what is cut is said";
+}
+
+/// The answer of a command: what it prints up to the first empty line.
+std::string answer_of(const std::string& out) {
+  return out.substr(0, out.find("\n\n"));
+}
+
+TEST(Terminal, FirstTheAnswerInTenLinesThenWhereThenOnRequestTheRest) {
+  const ScratchFolder folder;
+  const std::string study = folder.write("s.toml", short_study), recording = folder.file("r.csv");
+  ASSERT_EQ(driftscope("simulate " + study + " -o " + recording).code, 0);
+  for (const std::string& command : {"identify " + study, "identify " + study + " " + recording,
+                                     "rank " + study, "diagnose " + study + " " + recording}) {
+    const std::string quietly =
+        command + " --progress none -o " + folder.file(command.substr(0, 4));
+    const Answer brief = driftscope(quietly), full = driftscope(quietly + " --full");
+    ASSERT_EQ(brief.code, 0) << command << brief.err;
+    const auto answer = lines_of(answer_of(brief.out));
+    EXPECT_FALSE(answer.empty()) << command;
+    EXPECT_LE(answer.size(), 10u) << brief.out;
+    for (const std::string& line : answer) {
+      const bool path = !has(line.substr(line.find_first_not_of(' ')), " ");  // cannot be broken
+      EXPECT_TRUE(path || report::display_width(line) <= 80u) << line;
+    }
+    EXPECT_TRUE(has(brief.out, "/report.html\n")) << brief.out;
+    EXPECT_TRUE(has(brief.out, "--full")) << brief.out;
+    EXPECT_EQ(answer_of(full.out), answer_of(brief.out)) << "verdict first, here too";
+    EXPECT_GT(lines_of(full.out).size(), lines_of(brief.out).size() + 10) << command;
+  }
+}
+
+TEST(Terminal, ABarThatEndsStandsBeforeTheAnswer) {
+  if (std::system("script --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no script(1) here";
+  const ScratchFolder folder;
+  const std::string typed = folder.file("typed");
+  const std::string line = "script -qec '" DRIFT_PROGRAM " identify " +
+                           folder.write("s.toml", short_study) + " --color never' " + typed +
+                           " >/dev/null 2>&1 </dev/null";
+  ASSERT_EQ(std::system(line.c_str()), 0);
+  const std::string said = text_of(typed);
+  const auto bar = said.find("estimates [####################]"),
+             answer = said.find("Filter corrected: of");
+  ASSERT_NE(bar, std::string::npos) << said;
+  ASSERT_NE(answer, std::string::npos) << said;
+  EXPECT_LT(bar, answer);
+  EXPECT_NE(said.find('\n', bar), std::string::npos);
+  EXPECT_LT(said.find('\n', bar), answer) << "the answer begins a line";
+}
+
+/// Stops a command a moment after its progress says something; its exit code. As jobs of a shell's
+/// own, commands in the background do not ignore the signal.
+int stopped(const ScratchFolder& folder, const std::string& command) {
+  const std::string script = folder.write(
+      "stop.sh", "set -m\n" + command + " >/dev/null 2>'" + folder.file("err") +
+                     "' &\npid=$!\nuntil [ -s '" + folder.file("err") +
+                     "' ]; do sleep 0.02; done\nsleep 0.5\nkill -INT $pid\nwait $pid\n");
+  return WEXITSTATUS(std::system(("bash '" + script + "' 2>/dev/null").c_str()));
+}
+
+TEST(Stopped, SaysInOneLineWhatIsKeptWhatIsLostAndHowToGoOn) {
+  const ScratchFolder folder;
+  const std::string err = folder.file("err"), out = folder.file("out");
+  EXPECT_EQ(stopped(folder, "'" DRIFT_PROGRAM "' rank " + config("table1.toml") +
+                                " --improve 99 --progress plain"),
+            130);
+  EXPECT_TRUE(text_of(err).ends_with(
+      "\nstopped: nothing was stored, what was computed is lost; the same command begins anew\n"))
+      << text_of(err);
+
+  const std::string study = folder.write(
+      "s.toml",
+      "schema = 1\ntitle = \"synthetic ms=20\"\n[site]\nlatitude = \"45.75 deg\"\n[plan]\n"
+      "preset = \"six\"\n[truth]\ncoupling = \"eq5\"\n[[filter]]\nname = \"eq5\"\n"
+      "coupling = \"eq5\"\n[monte_carlo]\nruns = 4000\n");
+  EXPECT_EQ(stopped(folder, "'" DRIFT_SYNTHETIC "' run " + study + " -o " + out), 130);
+  const auto said = lines_of(text_of(err));
+  ASSERT_FALSE(said.empty());
+  EXPECT_TRUE(said.back().starts_with("stopped: ")) << said.back();
+  EXPECT_TRUE(has(said.back(), " runs are stored in " + out)) << said.back();
+  EXPECT_TRUE(has(said.back(), "of unfinished blocks are lost; the same command goes on"));
+  EXPECT_FALSE(has(said.back(), ", 0 of unfinished")) << "what is lost is counted: " << said.back();
+}
+
+}  // namespace
+}  // namespace drift::answer_test
