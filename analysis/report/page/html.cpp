@@ -39,7 +39,7 @@ std::string_view tone_class(Tone tone) {
 }
 
 /// Lines of a table or a text beyond which it is folded in place.
-constexpr std::size_t most_open = 12;
+constexpr std::size_t most_open = 12, most_open_sentences = 8;
 
 /// Folded under a line that says what it is.
 std::string folded(const std::string& summary, const std::string& body) {
@@ -48,7 +48,12 @@ std::string folded(const std::string& summary, const std::string& body) {
 
 struct BlockHtml {
   std::string operator()(const Paragraph& p) const { return "<p>" + escaped(p.text) + "</p>\n"; }
-  std::string operator()(const Sentences& s) const { return list_of(s.items, "sentences"); }
+  std::string operator()(const Sentences& s) const {
+    const std::string body = list_of(s.items, "sentences");
+    return s.items.size() > most_open_sentences
+               ? folded(fmt::format("{} remarks", s.items.size()), body)
+               : body;
+  }
   std::string operator()(const Preformatted& p) const {
     const std::string body = "<pre>" + escaped(p.text) + "</pre>\n";
     const auto lines = static_cast<std::size_t>(std::ranges::count(p.text, '\n'));

@@ -56,7 +56,8 @@ summary { cursor: pointer; color: var(--accent); font-weight: bold; }
   body { max-width: none; padding: 0; font-size: 9.5pt; }
   .answer, figure, tr { break-inside: avoid; } h2, h3, summary { break-after: avoid; }
   .scroll { overflow: visible; } .scroll.wide { page: sideways; }
-  figure { margin: .5rem 0; } figure svg { max-width: 100%; height: auto; max-height: 105mm; }
+  h2 { margin: .9rem 0 .3rem; } h3 { margin: .7rem 0 .2rem; } p, ul { margin: .3rem 0; }
+  figure { margin: .4rem 0; } figure svg { max-width: 100%; height: auto; max-height: 78mm; }
   th, td { padding: .1rem .35rem; } table { font-size: 8pt; }
   thead { display: table-header-group; }
 }
