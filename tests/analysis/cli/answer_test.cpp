@@ -103,7 +103,7 @@ int stopped(const ScratchFolder& folder, const std::string& command) {
 TEST(Stopped, SaysInOneLineWhatIsKeptWhatIsLostAndHowToGoOn) {
   const ScratchFolder folder;
   const std::string err = folder.file("err"), out = folder.file("out");
-  EXPECT_EQ(stopped(folder, "'" DRIFT_PROGRAM "' rank " + config("table1.toml") +
+  EXPECT_EQ(stopped(folder, "'" DRIFT_PROGRAM "' rank " + test::config("table1.toml") +
                                 " --improve 99 --progress plain"),
             130);
   EXPECT_TRUE(text_of(err).ends_with(
