@@ -214,13 +214,11 @@ class Engine {
     outcome.cut_short = found_cut_short_;
     outcome.stored_runs = reader_.runs();
     outcome.done = ranks_.add(Counter::done, 0);
-    const std::uint64_t executed = ranks_.add(Counter::executed, 0);
-    outcome.dropped = executed - std::min(executed, outcome.done);
+    outcome.dropped = std::max(ranks_.add(Counter::executed, 0), outcome.done) - outcome.done;
     outcome.failed = ranks_.add(Counter::failed, 0);
     outcome.seconds = seconds();
     if (outcome.leader) look_back(outcome);
-    const auto code = static_cast<std::uint64_t>(outcome.code);
-    std::vector<std::uint64_t> told{code,
+    std::vector<std::uint64_t> told{static_cast<std::uint64_t>(outcome.code),
                                     outcome.complete,
                                     outcome.failed,
                                     outcome.results,
@@ -265,8 +263,7 @@ class Engine {
       note_finished(folder_, options_.runs);
     } catch (const InputError&) {  // the results are stored; this can be told anew
     }
-    // The time may have come when all was done.
-    if (outcome.code == ExitCode::wall_time) outcome.code = ExitCode::ok;
+    if (outcome.code == ExitCode::wall_time) outcome.code = ExitCode::ok;  // it came after all
     if (outcome.code == ExitCode::ok && outcome.failed > options_.allowed_failures)
       outcome.code = ExitCode::failed_runs;
   }

@@ -59,7 +59,11 @@ INSTANTIATE_TEST_SUITE_P(
         H5Case{"Text", [](hid_t f) { add_dataset(f, "t", H5T_C_S1, {40}); }, "'t': it holds text"},
         H5Case{"OtherLength", [](hid_t f) { add_dataset(f, "t", H5T_NATIVE_DOUBLE, {39}); },
                ":t: 39 values (expected 40"},
-        H5Case{"NoUnit", [](hid_t f) { H5Adelete_by_name(f, "acc_x", "unit", H5P_DEFAULT); },
+        H5Case{"NoUnit",
+               [](hid_t f) {
+                 for (const char* name : {"unit", "units"})
+                   H5Adelete_by_name(f, "acc_x", name, H5P_DEFAULT);
+               },
                ":acc_x: the unit is missing"},
         H5Case{"SoftLink", [](hid_t f) { H5Lcreate_soft("/time", f, "s", 0, 0); },
                "'s': it is a link to elsewhere"},
