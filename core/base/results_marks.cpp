@@ -55,8 +55,8 @@ HashedFiles files_within(const std::string& command, const fs::path& folder,
 }  // namespace
 
 bool looks_like_result(const fs::path& entry) {
-  constexpr std::array endings{".html", ".svg",    ".json", ".toml",
-                               ".csv",  ".sqlite", ".lock", ".sha256"};
+  constexpr std::array endings{".html", ".svg",    ".json", ".toml",  ".csv",
+                               ".nc",   ".sqlite", ".lock", ".sha256"};
   return entry.filename() == "trials" ||
          std::ranges::find(endings, entry.extension()) != endings.end();
 }
