@@ -163,9 +163,13 @@ std::string study_template(StudyKind kind, const std::optional<RecordedPlan>& pl
         "gravity  = \"9.80665 m/s^2\" # there\n\n[plan]\nkind       = \"strapdown\"\nstatic_min "
         "= \"2 s\"        # the shortest rest that counts\n";
   else
-    text += plan_text(plan, kind == StudyKind::sweep ? Dwells::alike : Dwells::as_recorded) +
-            "\n[readout]\naccelerometer_noise = \"5 ug\"      # 1 sigma of a sample: of the data "
-            "sheet, or of a rest\ngimbal_noise        = \"5 arcsec\"\n";
+    text +=
+        "gravity  = \"9.80665 m/s^2\" # there: a recording in m/s^2 is divided by it, and K1 is "
+        "off "
+        "by as many ppm\n" +
+        plan_text(plan, kind == StudyKind::sweep ? Dwells::alike : Dwells::as_recorded) +
+        "\n[readout]\naccelerometer_noise = \"5 ug\"      # 1 sigma of a sample: of the data "
+        "sheet, or of a rest\ngimbal_noise        = \"5 arcsec\"\n";
   if (!mapping.empty()) text += "\n" + mapping;
   if (kind == StudyKind::study || kind == StudyKind::sweep) text += simulated_text();
   text += filter_text(kind == StudyKind::diagnose ? "nominal" : "eq5", "eq5");

@@ -8,6 +8,7 @@ namespace drift::report {
 namespace {
 
 constexpr double nothing_learned = 0.8;  // posterior over prior sigma
+constexpr double mostly = 0.5;           // of its variance
 constexpr double surely_wrong = 5.0;     // [sigma] off the truth: no right model is, in any of 100
 
 /// What is believed of a filter: with process noise, which the batch fit does not model, the EKF.
@@ -29,6 +30,15 @@ std::string misfit_text(const FilterView& v) {
                            number_text(result.statistic_per_dof()));
 }
 
+/// The part of a parameter's variance that is the prior's, along combinations of which the data say
+/// nothing: there the variance is one in units of the prior.
+double share_of_sums(const FilterView& v, std::size_t state, const ParameterEstimate& p) {
+  double variance = 0.0;
+  for (const WeakDirection& d : v.summary.degeneracies)
+    variance += std::pow(d.direction[static_cast<Eigen::Index>(state)], 2);
+  return variance / std::pow(p.learning_ratio(), 2);
+}
+
 /// How many parameters are worth what, and which: "14 learned, 4 prior only (eta_y, ...)".
 std::string count_text(const FilterView& v) {
   constexpr std::size_t most = 6;
@@ -40,6 +50,7 @@ std::string count_text(const FilterView& v) {
                {Worth::untrusted, "not to be trusted", {}},
                {Worth::start_dependent, "dependent on the start", {}},
                {Worth::prior_only, "prior only", {}},
+               {Worth::sum_only, "known in sums with others alone", {}},
                {Worth::learned, "learned", {}}};
   ParameterVerdict worst;
   for (std::size_t k = 0; k < v.summary.layout.size(); ++k) {
@@ -54,7 +65,7 @@ std::string count_text(const FilterView& v) {
     std::string part = fmt::format("{} {}", kind.keys.size(), kind.words);
     if (kind.worth == Worth::wrong)
       part += fmt::format(" (worst {}: {:.0f})", parameter_key(worst.param), worst.off);
-    else if (kind.worth == Worth::prior_only || kind.worth == Worth::start_dependent)
+    else if (kind.worth != Worth::learned && kind.worth != Worth::untrusted)
       part += fmt::format(" ({})", listed_up_to(kind.keys, most));
     parts.push_back(std::move(part));
   }
@@ -82,7 +93,7 @@ Judgement judgement_of(const mc::Study& study, const identification::Identificat
     for (std::size_t k = 0; k < s.layout.size(); ++k) {
       const Worth worth = verdict_of(v, k).worth;
       j.wrong = j.wrong || worth == Worth::wrong;
-      j.unlearned = j.unlearned || worth == Worth::prior_only;
+      j.unlearned = j.unlearned || worth == Worth::prior_only || worth == Worth::sum_only;
     }
   }
   return j;
@@ -120,6 +131,8 @@ ParameterVerdict verdict_of(const FilterView& v, std::size_t state) {
     out.worth = Worth::prior_only;
   else if (std::isfinite(ratio) && start_verdict(ratio) == StartVerdict::depends_on_start)
     out.worth = Worth::start_dependent;
+  else if (share_of_sums(v, state, *p) > mostly)
+    out.worth = Worth::sum_only;
   return out;
 }
 
@@ -133,6 +146,8 @@ Cell verdict_cell(const ParameterVerdict& verdict) {
       return {"depends on start", Tone::bad};
     case Worth::prior_only:
       return {"prior only", Tone::doubtful};
+    case Worth::sum_only:
+      return {"in a sum alone", Tone::doubtful};
     case Worth::learned:
       break;
   }

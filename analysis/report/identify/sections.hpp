@@ -52,6 +52,7 @@ enum class Worth {
   wrong,            ///< by more than five of its sigmas, where the truth is known
   untrusted,        ///< the fit does not explain the data, or did not converge
   prior_only,       ///< nothing was learned
+  sum_only,         ///< the data know a combination of it with others alone
   start_dependent,  ///< another start gives another answer
   learned
 };
