@@ -7,6 +7,7 @@
 #include "analysis/report/page/report.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/short_study.hpp"
+#include "tests/support/terminal.hpp"
 
 namespace drift::answer_test {
 namespace {
@@ -73,14 +74,11 @@ TEST(Terminal, FirstTheAnswerInTenLinesThenWhereThenOnRequestTheRest) {
 }
 
 TEST(Terminal, ABarThatEndsStandsBeforeTheAnswer) {
-  if (std::system("script --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no script(1) here";
+  if (!has_terminal()) GTEST_SKIP() << "no script(1) here";
   const ScratchFolder folder;
-  const std::string typed = folder.file("typed");
-  const std::string line = "script -qec '" DRIFT_PROGRAM " identify " +
-                           folder.write("s.toml", short_study) + " --color never' " + typed +
-                           " >/dev/null 2>&1 </dev/null";
-  ASSERT_EQ(std::system(line.c_str()), 0);
-  const std::string said = text_of(typed);
+  const std::string said =
+      shown_on_a_terminal(folder, std::string(DRIFT_PROGRAM) + " identify " +
+                                      folder.write("s.toml", short_study) + " --color never");
   const auto bar = said.find("estimates [####################]"),
              answer = said.find("Filter corrected: of");
   ASSERT_NE(bar, std::string::npos) << said;

@@ -2,6 +2,7 @@
 #include "core/base/check.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/short_study.hpp"
+#include "tests/support/terminal.hpp"
 
 namespace drift::terminal_options_test {
 namespace {
@@ -54,16 +55,12 @@ TEST(Color, VerdictsAreColouredOnRequestAndNeverInAPipeOrFile) {
 }
 
 TEST(Color, ATerminalHasItUnlessNoColorSaysNo) {
-  if (std::system("script --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no script(1) here";
+  if (!has_terminal()) GTEST_SKIP() << "no script(1) here";
   const ScratchFolder folder;
   const std::string run = std::string(DRIFT_PROGRAM) + " identify " +
                           folder.write("s.toml", short_study) + " --progress none";
   const auto on_terminal = [&](const std::string& environment) {
-    const std::string typed = folder.file("typed");
-    const std::string line = "script -qec 'env " + environment + " " + run + "' " + typed +
-                             " >/dev/null 2>&1 </dev/null";
-    EXPECT_EQ(std::system(line.c_str()), 0) << line;
-    return text_of(typed);
+    return shown_on_a_terminal(folder, "env " + environment + " " + run);
   };
   EXPECT_TRUE(has(on_terminal("-u NO_COLOR TERM=xterm"), escape));
   EXPECT_FALSE(has(on_terminal("NO_COLOR=1 TERM=xterm"), "\x1b[32m"));
