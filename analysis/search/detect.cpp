@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "analysis/inference/thresholds.hpp"
+#include "analysis/search/other_equation.hpp"
 #include "analysis/search/pairs.hpp"
 #include "analysis/search/settle_noise.hpp"
 
@@ -29,22 +30,6 @@ double strongest_window(const Fitted& nominal) {
 
 }  // namespace
 
-double other_equation_gain(const Fitted& nominal, const MeasuredTest& test) {
-  FilterSpec other = nominal.filter;
-  if (!facts(other.coupling).other) return -infinity;
-  other.coupling = *facts(other.coupling).other;
-  double best = -infinity;
-  const auto here = theta_of(nominal.filter, nominal.fit);
-  for (const Theta& start : {here, make_layout(other).theta}) {
-    const BatchResult fit = fit_batch(other, test, start);
-    inference::LinearProblem problem = inference::linear_problem(other, test, fit, {});
-    problem.weight = nominal.problem.weight;
-    best = std::max(
-        best, inference::Projector(problem, nominal.noise.model).marginal().log_likelihood2());
-  }
-  return best - nominal.log_likelihood2();
-}
-
 Detection detect(Fitted nominal, const MeasuredTest& test, const SearchOptions& options) {
   Detection out;
   out.thresholds = chance_thresholds(nominal, options.alpha, options.draws);
@@ -54,7 +39,8 @@ Detection detect(Fitted nominal, const MeasuredTest& test, const SearchOptions& 
   }
   // The other equation is a jump, not a small amplitude: by the likelihood ratio of two points,
   // P(2 log LR > T) <= exp(-T/2).
-  out.other_equation = other_equation_gain(nominal, test);
+  const auto other = fit_other_equation(nominal, test);
+  out.other_equation = other ? other->gain : -infinity;
   out.p_library = out.thresholds.library.p_value(
       std::max(strongest_candidate(nominal), 0.5 * out.other_equation));
   out.p_scan = out.thresholds.scan.p_value(strongest_window(nominal));

@@ -21,15 +21,11 @@ struct Detection {
   ChanceThresholds thresholds;
   inference::MaxNull pairs;
   double p_library = 1.0, p_scan = 1.0, p_pairs = 1.0, p_lone = 1.0;
-  double other_equation = 0.0;  ///< other_equation_gain()
+  double other_equation = 0.0;  ///< gain of fit_other_equation(); -infinity where there is none
   double p_value = 1.0;         ///< of the strongest family, for all families together
   bool significant = false;
 };
 
 Detection detect(Fitted nominal, const MeasuredTest& test, const SearchOptions& options);
-
-/// Whether and how well the other member of {eq5, eq6} explains the test: twice the log likelihood
-/// gained by changing the equation and fitting again. -infinity for other couplings.
-double other_equation_gain(const Fitted& nominal, const MeasuredTest& test);
 
 }  // namespace drift::search

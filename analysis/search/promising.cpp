@@ -1,7 +1,6 @@
 #include "analysis/search/promising.hpp"
 
 #include <algorithm>
-#include <optional>
 
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/search/greedy.hpp"
@@ -41,35 +40,6 @@ std::vector<std::size_t> adequate_singles(const Search& s) {
       kept.push_back(k);
   }
   return kept;
-}
-
-/// The same candidate at the same setting in another list, if it has it.
-std::optional<Choice> same_choice(const inference::CandidateSet& in, const inference::Candidate& c,
-                                  std::size_t variant) {
-  for (std::size_t k = 0; k < in.candidates.size(); ++k) {
-    const inference::Candidate& other = in.candidates[k];
-    if (other.term != c.term || other.params != c.params) continue;
-    for (std::size_t v = 0; v < other.variants.size(); ++v)
-      if (other.variants[v].settings == c.variants[variant].settings) return Choice{k, v};
-  }
-  return {};
-}
-
-/// What else is in the test once a cause is fitted that the linear score cannot judge (a change of
-/// equation moves the misalignments far): the candidates that leave nothing beside it, by evidence.
-std::vector<Explanation> beside(const Search& s, const Refit& r) {
-  constexpr std::size_t asked = EffortLimits::beside_asked, most = EffortLimits::beside;
-  std::vector<Explanation> pairs;
-  const auto order = r.after.by_evidence();
-  for (std::size_t i = 0; i < std::min(asked, order.size()) && pairs.size() < most; ++i) {
-    const std::size_t variant = r.after.scores[order[i]].variant;
-    const Remainder left = remainder(r.after, {{order[i], variant}},
-                                     ReachLimits::slack * s.thresholds.library_threshold);
-    const auto other = same_choice(s.nominal.set, r.after.set.candidates[order[i]], variant);
-    if (within(left, s.thresholds, ReachLimits::slack) && other)
-      pairs.push_back({r.choices.front(), *other});
-  }
-  return pairs;
 }
 
 }  // namespace
@@ -122,14 +92,9 @@ std::vector<std::size_t> more_than(const Search& s, const Refit& part) {
   return more;
 }
 
-std::vector<Explanation> promising_pairs(const Search& s, const std::vector<Refit>& singles,
-                                         std::size_t most) {
+std::vector<Explanation> promising_pairs(const Search& s, std::size_t most) {
   constexpr double allowed = ReachLimits::pair_slack;  // of the thresholds
   std::vector<Explanation> pairs;
-  for (const Refit& r : singles)
-    if (s.nominal.set.candidates[r.choices.front().candidate].term == closure_term &&
-        r.log_bayes > 0.0)
-      for (Explanation& pair : beside(s, r)) pairs.push_back(std::move(pair));
   for (const Pair& p :
        adequate_pairs(s.nominal, s.nominal.scores, allowed * s.thresholds.library_threshold,
                       allowed * s.thresholds.scan_threshold, most))

@@ -20,9 +20,8 @@ std::vector<std::size_t> promising_singles(const Search& s, std::size_t most);
 /// and what the refit asks for.
 std::vector<std::size_t> more_than(const Search& s, const Refit& part);
 
-/// Two causes at once: beside another equation, and by the linearised test.
-std::vector<Explanation> promising_pairs(const Search& s, const std::vector<Refit>& singles,
-                                         std::size_t most);
+/// Two causes at once, by the linearised test.
+std::vector<Explanation> promising_pairs(const Search& s, std::size_t most);
 
 /// More than two, one by one.
 std::vector<Explanation> promising_several(const Search& s);

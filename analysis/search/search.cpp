@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "analysis/inference/thresholds.hpp"
+#include "analysis/search/other_equation.hpp"
 #include "analysis/search/promising.hpp"
 #include "analysis/search/refine_grids.hpp"
 #include "mc/task/campaign.hpp"
@@ -77,7 +78,8 @@ Search search(Fitted nominal, const MeasuredTest& test, const SearchOptions& opt
     for (Refit& r : refit_all(out, test, more)) refits.push_back(std::move(r));
   };
   if (settled(Leftover::nothing)) return out;
-  try_more(promising_pairs(out, refits, options.most_refits));
+  try_more(beside_other_equation(out, test));
+  try_more(promising_pairs(out, options.most_refits));
   if (settled(Leftover::nothing)) return out;
   try_more(promising_several(out));
   if (settled(Leftover::nothing)) return out;

@@ -1,0 +1,78 @@
+#include "analysis/search/other_equation.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "analysis/inference/thresholds.hpp"
+#include "analysis/search/settle_noise.hpp"
+
+namespace drift::search {
+namespace {
+
+using inference::EffortLimits;
+using inference::ReachLimits;
+
+/// The same candidate at the same setting in another list, if it has it.
+std::optional<Choice> same_choice(const inference::CandidateSet& in, const inference::Candidate& c,
+                                  std::size_t variant) {
+  for (std::size_t k = 0; k < in.candidates.size(); ++k) {
+    const inference::Candidate& other = in.candidates[k];
+    if (other.term != c.term || other.params != c.params) continue;
+    for (std::size_t v = 0; v < other.variants.size(); ++v)
+      if (other.variants[v].settings == c.variants[variant].settings) return Choice{k, v};
+  }
+  return {};
+}
+
+std::optional<Choice> change_of_equation(const inference::CandidateSet& set) {
+  for (std::size_t k = 0; k < set.candidates.size(); ++k)
+    if (set.candidates[k].term == closure_term) return Choice{k, 0};
+  return {};
+}
+
+}  // namespace
+
+std::optional<OtherEquation> fit_other_equation(const Fitted& nominal, const MeasuredTest& test) {
+  if (!facts(nominal.filter.coupling).other) return std::nullopt;
+  OtherEquation out{nominal.filter, {}, -std::numeric_limits<double>::infinity()};
+  out.filter.coupling = *facts(nominal.filter.coupling).other;
+  const auto here = theta_of(nominal.filter, nominal.fit);
+  for (const Theta& start : {here, make_layout(out.filter).theta}) {
+    BatchResult fit = fit_batch(out.filter, test, start);
+    inference::LinearProblem problem = inference::linear_problem(out.filter, test, fit, {});
+    problem.weight = nominal.problem.weight;
+    const double gain =
+        inference::Projector(problem, nominal.noise.model).marginal().log_likelihood2() -
+        nominal.log_likelihood2();
+    if (gain > out.gain) {
+      out.gain = gain;
+      out.fit = std::move(fit);
+    }
+  }
+  return out;
+}
+
+std::vector<Explanation> beside_other_equation(const Search& s, const MeasuredTest& test) {
+  std::vector<Explanation> pairs;
+  const auto changed = change_of_equation(s.nominal.set);
+  const auto other = fit_other_equation(s.nominal, test);
+  if (!changed || !other) return pairs;
+  Fitted there = examine(other->filter, test, other->fit);
+  if (const auto noise = settle_noise(there, s.thresholds.library_threshold))
+    there = with_noise(std::move(there), test.timeline, *noise);
+  const auto order = there.by_evidence();
+  for (std::size_t i = 0; i < std::min(EffortLimits::beside_asked, order.size()) &&
+                          pairs.size() < EffortLimits::beside;
+       ++i) {
+    const std::size_t variant = there.scores[order[i]].variant;
+    const Remainder left = remainder(there, {{order[i], variant}},
+                                     ReachLimits::slack * s.thresholds.library_threshold);
+    const auto cause = same_choice(s.nominal.set, there.set.candidates[order[i]], variant);
+    if (cause && left.library <= ReachLimits::slack * s.thresholds.library_threshold &&
+        left.scan <= ReachLimits::slack * s.thresholds.scan_threshold)
+      pairs.push_back({*changed, *cause});
+  }
+  return pairs;
+}
+
+}  // namespace drift::search

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+
+#include "analysis/search/promising.hpp"
+
+namespace drift::search {
+
+/// The other of eq. (5) and (6) in the place of the nominal one, all else as it is.
+struct OtherEquation {
+  FilterSpec filter;
+  BatchResult fit;
+  double gain = 0.0;  ///< of twice the log likelihood, under the noise of the nominal model
+};
+
+/// Fitted from the nominal fit and from the prior; empty for couplings that have no other.
+std::optional<OtherEquation> fit_other_equation(const Fitted& nominal, const MeasuredTest& test);
+
+/// A wrong equation together with an effect: what leaves nothing where the other equation is the
+/// nominal one, best first. Neither shows alone: the misalignments take up the effect under the
+/// wrong equation, and without the effect the right one may fit worse than the wrong.
+std::vector<Explanation> beside_other_equation(const Search& s, const MeasuredTest& test);
+
+}  // namespace drift::search
