@@ -63,13 +63,15 @@ std::optional<remark::BeyondPrior> beyond_prior(const BatchResult& nominal) {
   return out;
 }
 
-std::optional<remark::EquationOpen> equation_open(const Diagnosis& d) {
+std::optional<remark::OtherEquation> equation_against_other(const Diagnosis& d) {
   const bool closure_is_a_cause =
       std::ranges::any_of(d.causes, [](const search::Cause& c) { return c.term == closure_term; });
-  if (!std::isfinite(d.other_equation_gain) || closure_is_a_cause ||
-      d.other_equation_gain < -RemarkLimits::equation)
-    return std::nullopt;
-  return remark::EquationOpen{d.nominal.coupling, d.other_equation_gain};
+  if (!std::isfinite(d.other_equation_gain) || closure_is_a_cause) return std::nullopt;
+  return remark::OtherEquation{d.nominal.coupling, d.other_equation_gain, !d.causes.empty()};
+}
+
+bool remark::OtherEquation::open() const {
+  return gain >= -RemarkLimits::equation;
 }
 
 }  // namespace drift::diagnosis

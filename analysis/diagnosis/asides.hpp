@@ -21,7 +21,7 @@ std::optional<remark::StrongestLeft> strongest_left(const search::Fitted& nomina
 std::optional<remark::BeyondPrior> beyond_prior(const BatchResult& nominal);
 
 /// Whether the drift equation is (5) or (6) is part of the nominal model: where the test does not
-/// tell, its agreement says nothing of it (physics.md 1.7).
-std::optional<remark::EquationOpen> equation_open(const Diagnosis& diagnosis);
+/// tell, its agreement says nothing of it (physics.md 1.7). Empty where a cause is the equation.
+std::optional<remark::OtherEquation> equation_against_other(const Diagnosis& diagnosis);
 
 }  // namespace drift::diagnosis

@@ -27,6 +27,8 @@ search::CauseParameter parameter_of(const search::Fitted& nominal, const search:
   } else {
     out.value = r.filter.priors[param].mean() / spec.unit.to_si;
   }
+  if (spec.prior.sigma() > 0.0)
+    out.prior_sigmas = (out.value - spec.prior.mean()) / spec.prior.sigma();
   return out;
 }
 

@@ -14,10 +14,13 @@
 #include "analysis/diagnosis/located.hpp"
 #include "analysis/diagnosis/noise_found.hpp"
 #include "analysis/diagnosis/nominal_fit.hpp"
+#include "analysis/diagnosis/not_examined.hpp"
 #include "analysis/inference/noise/gross_misfit.hpp"
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/preparation/covariates.hpp"
 #include "analysis/preparation/recorded_test.hpp"
+#include "analysis/search/other_equation.hpp"
+#include "analysis/search/posterior.hpp"
 #include "core/base/check.hpp"
 #include "core/estimate/starts.hpp"
 #include "mc/task/campaign.hpp"
@@ -71,6 +74,32 @@ double patched_spread(const FilterSpec& nominal, const MeasuredTest& test,
       fit_from_starts(nominal, best.filter, test, starts, theta_of(best.filter, best.after.fit));
   fits.push_back(best.after.fit);
   return start_spread(fits);
+}
+
+/// What the other of eq. (5) and (6) gains, with the best explanation in the model: without it the
+/// misalignments of either equation would take the missing effect up. NaN: nothing to be said.
+double other_equation_gain(const search::Search& found, const Judged& judged,
+                           const MeasuredTest& test) {
+  constexpr double silent = std::numeric_limits<double>::quiet_NaN();
+  if (judged.verdict == Verdict::unexplained) return silent;
+  if (judged.verdict == Verdict::consistent)
+    return std::isfinite(found.other_equation) ? found.other_equation : silent;
+  if (found.sets.empty()) return silent;
+  const auto other = search::fit_other_equation(found.sets.front().after, test);
+  return other ? other->gain : silent;
+}
+
+Probabilities probabilities(const search::Search& found) {
+  const search::Posterior p = search::posterior_of(found);
+  Probabilities out{p.consistent, p.noise_only, p.outside, {}};
+  for (const auto& [choices, probability] : p.named) {
+    out.named.push_back({{}, probability});
+    for (const search::Choice& choice : choices) {
+      const inference::Candidate& c = found.nominal.set.candidates[choice.candidate];
+      out.named.back().causes.push_back({c.term, c.axis, c.label});
+    }
+  }
+  return out;
 }
 
 template <class T>
@@ -138,7 +167,9 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
   d.inseparable = std::move(causes.inseparable);
   d.candidates = candidate_table(nominal, found);
   d.noise = std::move(noise.findings);
-  if (std::isfinite(found.other_equation)) d.other_equation_gain = found.other_equation;
+  d.other_equation_gain = other_equation_gain(found, judged, test);
+  d.not_examined = not_examined(nominal, d.causes);
+  d.probabilities = probabilities(found);
   d.nominal = nominal_filter;
   d.patched = best ? started_where_found(best->filter, d.causes) : nominal_filter;
   d.has_patch = best != nullptr;
@@ -152,7 +183,7 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
   // Where a cause is named it is what has moved the parameters.
   if (d.verdict == Verdict::consistent || d.verdict == Verdict::unexplained)
     append(d.remarks, beyond_prior(nominal.fit));
-  append(d.remarks, equation_open(d));
+  append(d.remarks, equation_against_other(d));
   return d;
 }
 
@@ -171,8 +202,11 @@ Diagnosis diagnose(const mc::Study& study, const std::vector<Recording>& recordi
     drawn.starts.clear();
     starts.push_back(initial_estimate(drawn, study.monte_carlo.seed, static_cast<std::size_t>(k)));
   }
-  return diagnose(filter, {test.timeline, study.readout, test.measured}, starts,
-                  preparation::covariates_of(recordings), options, test.ends);
+  Diagnosis d = diagnose(filter, {test.timeline, study.readout, test.measured}, starts,
+                         preparation::covariates_of(recordings), options, test.ends);
+  if (test.field == preparation::FieldKnown::assumed)
+    d.remarks.emplace_back(remark::FieldAssumed{preparation::dipole_field_l(study.site.latitude)});
+  return d;
 }
 
 }  // namespace drift::diagnosis

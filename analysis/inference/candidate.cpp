@@ -109,12 +109,16 @@ CandidateSet library_candidates(const FilterSpec& nominal, const Theta& theta,
                                 const Timeline& timeline) {
   CandidateSet out;
   const ParamMask known = estimated(nominal);
-  for (const TermInfo& term : TermLibrary::terms) {
-    if (!can_be_seen(term, timeline)) continue;
+  for (std::size_t t = 0; t < TermLibrary::num_terms; ++t) {
+    const TermInfo& term = TermLibrary::terms[t];
     std::vector<std::size_t> missing;
     for (std::size_t i = term.first; i < term.first + term.count; ++i)
       if (!known[i] && TermLibrary::specs[i].amplitude()) missing.push_back(i);
     if (missing.empty()) continue;
+    if (!can_be_seen(term, timeline)) {
+      out.without_covariate.push_back(t);
+      continue;
+    }
     // The couplings that are no member of the lambda family have no lambda to add.
     if (term.key == closure_term && family_of(nominal.coupling) != Coupling::lambda) continue;
     const auto settings = settings_of(term, known);

@@ -38,6 +38,8 @@ struct Candidate {
 struct CandidateSet {
   std::vector<Candidate> candidates;
   std::vector<SignatureSpec> signatures;
+  /// Terms (index in TermLibrary) that need a covariate which the test does not have.
+  std::vector<std::size_t> without_covariate;
 };
 
 /// Every parameter that the nominal filter does not estimate, singly, per axis, per group of axes

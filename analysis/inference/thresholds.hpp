@@ -50,6 +50,9 @@ struct VisibleLimits {
   /// eigenvalue. Above the rounding of the projections (1e-9), below what 2000 sigma could show.
   /// Test: Remainder.WhatIsLeftOfATwinIsNoOtherEffect
   static constexpr double left = 1e-6, left_of_several = 1e-5;
+  /// [sigma] that an effect of a usual size must be strong for a test to count as one that could
+  /// have seen it: where probabilities say "nothing missing", it means nothing of such a size.
+  static constexpr double size = 3.0;
 };
 
 /// Samples that are none, and a misfit that no noise gives.
@@ -174,6 +177,15 @@ struct WeighLimits {
   /// [sigma] of the library's prior beyond which a found size widens it in patched.toml.
   /// Test: Thresholds.ASizeBeyondThreeSigma...
   static constexpr double prior = 3.0;
+};
+
+/// The prior over what a recording may be, as stated in diagnose.md; not tuned. Test:
+/// Posterior.SumsToOneAnd..., and the reliability table of blind studies.
+struct PosteriorLimits {
+  /// Nothing beside the nominal model, one term of the library or several, something outside it.
+  static constexpr double nothing = 0.5, library = 0.45, outside = 0.05;
+  static constexpr double noise_as_declared = 0.8;  ///< whatever drives the mean
+  static constexpr double listed = 1e-3;            ///< probability below which none is listed
 };
 
 /// What is said beside the verdict.

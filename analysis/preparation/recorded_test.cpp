@@ -53,13 +53,16 @@ RecordedTest recorded_test(const mc::Study& study, const std::vector<Recording>&
   std::vector<Timeline> timelines;
   std::vector<Measurements> parts;
   std::vector<std::size_t> ends;
+  FieldKnown field = FieldKnown::declared_or_recorded;
   for (const Recording& r : recordings) {
     timelines.push_back(lay_out(r, study.plan, study.site));
     set_known_field(timelines.back(), study.environment);
+    if (assume_field(timelines.back(), study.site.latitude) == FieldKnown::assumed)
+      field = FieldKnown::assumed;
     ends.push_back((ends.empty() ? 0 : ends.back()) + timelines.back().intervals.size());
     parts.push_back(measurements_of(r, study.readout));
   }
-  RecordedTest test{joined(std::move(timelines)), joined(parts), std::move(ends)};
+  RecordedTest test{joined(std::move(timelines)), joined(parts), std::move(ends), field};
   if (!test.measured.acc.array().isFinite().any() && !test.measured.gimbal.array().isFinite().any())
     throw InputError(
         ExitCode::recording,
@@ -73,6 +76,7 @@ RecordedTest recorded_test(const mc::Study& study, const std::vector<Recording>&
 Timeline planned_test(const mc::Study& study, const TestPlan& plan) {
   Timeline timeline = lay_out(plan, study.site);
   set_known_field(timeline, study.environment);
+  assume_field(timeline, study.site.latitude);
   return timeline;
 }
 

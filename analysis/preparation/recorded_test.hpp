@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "analysis/preparation/assumed_field.hpp"
 #include "core/recording/recording.hpp"
 #include "core/sim/measurements.hpp"
 #include "mc/study/study.hpp"
@@ -13,11 +14,12 @@ struct RecordedTest {
   Timeline timeline;
   Measurements measured;
   std::vector<std::size_t> ends;  ///< of each recording, the interval after its last
+  FieldKnown field = FieldKnown::declared_or_recorded;
 };
 
 /// Lays recordings out by the study's plan, in the surroundings that they carry or, of a field that
-/// is known, that [environment] declares. InputError (recording) where one does not fit the plan,
-/// or where nothing is measured.
+/// is known, that [environment] declares; else with the field of a dipole. InputError (recording)
+/// where one does not fit the plan, or where nothing is measured.
 RecordedTest recorded_test(const mc::Study& study, const std::vector<Recording>& recordings);
 
 /// A test that is planned, in the same surroundings.

@@ -22,6 +22,8 @@ struct CauseParameter {
   double value = 0.0, sigma = 0.0;
   std::string unit;
   bool profiled = false;  ///< nonlinear: found on a grid and refined; sigma from the profile
+  /// Distance from the mean of the library's prior, in its sigmas; NaN where that is one value.
+  double prior_sigmas = std::numeric_limits<double>::quiet_NaN();
 };
 
 struct Confusable {

@@ -11,6 +11,9 @@ struct Choice {
   std::size_t candidate = 0, variant = 0;
 };
 
+/// Simultaneous causes.
+using Explanation = std::vector<Choice>;
+
 /// The columns of causes, one after the other; a parameter of two of them twice.
 std::vector<int> columns_of(const inference::CandidateSet& set, const std::vector<Choice>& choices);
 /// The same, each once and in order.

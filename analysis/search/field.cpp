@@ -29,11 +29,26 @@ double log_bayes(const inference::Projected& p, const std::vector<int>& columns)
   return log_evidence_of_sizes(p.C(columns, columns), p.g(columns));
 }
 
+namespace {
+
+/// Log of the average of exp(logs) by the shares.
+double log_average(const std::vector<double>& logs, const std::vector<double>& share) {
+  const double top = *std::max_element(logs.begin(), logs.end());
+  if (!std::isfinite(top)) return top;
+  const double whole = std::accumulate(share.begin(), share.end(), 0.0);
+  double sum = 0.0;
+  for (std::size_t k = 0; k < logs.size(); ++k) sum += std::exp(logs[k] - top) * share[k] / whole;
+  return top + std::log(sum);
+}
+
+}  // namespace
+
 Score score(const Field& field, std::size_t candidate) {
   Score best;
   best.strength = -1.0;
   const inference::Candidate& c = field.set.candidates[candidate];
-  std::vector<double> evidence, share;
+  std::vector<double> evidence, visible, share;
+  double invisible = 0.0;
   for (std::size_t v = 0; v < c.variants.size(); ++v) {
     const inference::Contrast& contrast = field.contrasts[candidate][v];
     const double T = std::max(0.0, contrast.T(field.projected.g) - field.discount_of(candidate));
@@ -45,18 +60,20 @@ Score score(const Field& field, std::size_t candidate) {
       best.dof = contrast.dof;
     }
     if (contrast.dof == 0) continue;  // an onset after the end of the test is no effect
-    evidence.push_back(log_bayes(field.projected, c.variants[v].columns) -
-                       0.5 * field.discount_of(candidate));
+    const double priors_alone = 0.5 * field.discount_of(candidate);
+    const std::vector<int>& columns = c.variants[v].columns;
+    const VisibleEvidence seen =
+        evidence_of_visible_sizes(field.projected.C(columns, columns), field.projected.g(columns));
+    evidence.push_back(log_bayes(field.projected, columns) - priors_alone);
+    visible.push_back(seen.log - priors_alone);
     share.push_back(c.variants[v].share);
+    invisible += seen.invisible * share.back();
   }
   best.strength = std::max(best.strength, 0.0);
   if (evidence.empty()) return best;
-  const double top = *std::max_element(evidence.begin(), evidence.end());
-  const double whole = std::accumulate(share.begin(), share.end(), 0.0);
-  double sum = 0.0;
-  for (std::size_t k = 0; k < evidence.size(); ++k)
-    sum += std::exp(evidence[k] - top) * share[k] / whole;
-  best.log_bayes = top + std::log(sum);
+  best.log_bayes = log_average(evidence, share);
+  best.log_bayes_visible = log_average(visible, share);
+  best.invisible = invisible / std::accumulate(share.begin(), share.end(), 0.0);
   return best;
 }
 

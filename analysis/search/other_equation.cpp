@@ -52,14 +52,15 @@ std::optional<OtherEquation> fit_other_equation(const Fitted& nominal, const Mea
   return out;
 }
 
-std::vector<Explanation> beside_other_equation(const Search& s, const MeasuredTest& test) {
-  std::vector<Explanation> pairs;
+std::vector<BesideEquation> beside_other_equation(const Search& s, const MeasuredTest& test) {
+  std::vector<BesideEquation> pairs;
   const auto changed = change_of_equation(s.nominal.set);
   const auto other = fit_other_equation(s.nominal, test);
   if (!changed || !other) return pairs;
   Fitted there = examine(other->filter, test, other->fit);
   if (const auto noise = settle_noise(there, s.thresholds.library_threshold))
     there = with_noise(std::move(there), test.timeline, *noise);
+  const double equation = 0.5 * (there.log_likelihood2() - s.nominal.log_likelihood2());
   const auto order = there.by_evidence();
   for (std::size_t i = 0; i < std::min(EffortLimits::beside_asked, order.size()) &&
                           pairs.size() < EffortLimits::beside;
@@ -70,7 +71,7 @@ std::vector<Explanation> beside_other_equation(const Search& s, const MeasuredTe
     const auto cause = same_choice(s.nominal.set, there.set.candidates[order[i]], variant);
     if (cause && left.library <= ReachLimits::slack * s.thresholds.library_threshold &&
         left.scan <= ReachLimits::slack * s.thresholds.scan_threshold)
-      pairs.push_back({*changed, *cause});
+      pairs.push_back({{*changed, *cause}, equation + there.scores[order[i]].log_bayes});
   }
   return pairs;
 }

@@ -16,9 +16,15 @@ struct OtherEquation {
 /// Fitted from the nominal fit and from the prior; empty for couplings that have no other.
 std::optional<OtherEquation> fit_other_equation(const Fitted& nominal, const MeasuredTest& test);
 
-/// A wrong equation together with an effect: what leaves nothing where the other equation is the
-/// nominal one, best first. Neither shows alone: the misalignments take up the effect under the
-/// wrong equation, and without the effect the right one may fit worse than the wrong.
-std::vector<Explanation> beside_other_equation(const Search& s, const MeasuredTest& test);
+/// A wrong equation together with an effect.
+struct BesideEquation {
+  Explanation choices;
+  double log_bayes = 0.0;  ///< log evidence against the nominal model, linearised
+};
+
+/// What leaves nothing where the other equation is the nominal one, best first. Neither shows
+/// alone: the misalignments take up the effect under the wrong equation, and without the effect the
+/// right one may fit worse than the wrong.
+std::vector<BesideEquation> beside_other_equation(const Search& s, const MeasuredTest& test);
 
 }  // namespace drift::search

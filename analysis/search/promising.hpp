@@ -6,8 +6,6 @@ namespace drift::search {
 
 /// Explanations that are worth a refit, by the linearised test.
 
-using Explanation = std::vector<Choice>;
-
 /// A candidate at its strongest setting, and at another far from it that explains the test nearly
 /// as well: which of two onsets it was, the refit decides.
 std::vector<Choice> ways_of(const Fitted& e, std::size_t candidate);

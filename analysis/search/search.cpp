@@ -1,6 +1,7 @@
 #include "analysis/search/search.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/search/other_equation.hpp"
@@ -10,6 +11,8 @@
 
 namespace drift::search {
 namespace {
+
+using inference::ReachLimits;
 
 /// What the best way to put a candidate in leaves.
 Remainder least_remainder(const Search& s, std::size_t candidate) {
@@ -77,8 +80,14 @@ Search search(Fitted nominal, const MeasuredTest& test, const SearchOptions& opt
   const auto try_more = [&](const std::vector<Explanation>& more) {
     for (Refit& r : refit_all(out, test, more)) refits.push_back(std::move(r));
   };
+  double best = -std::numeric_limits<double>::infinity();
+  for (const Refit& r : refits)
+    if (r.adequate()) best = std::max(best, r.log_bayes);
+  std::vector<Explanation> beside;
+  for (BesideEquation& b : beside_other_equation(out, test))
+    if (b.log_bayes > best - ReachLimits::negligible) beside.push_back(std::move(b.choices));
+  try_more(beside);
   if (settled(Leftover::nothing)) return out;
-  try_more(beside_other_equation(out, test));
   try_more(promising_pairs(out, options.most_refits));
   if (settled(Leftover::nothing)) return out;
   try_more(promising_several(out));

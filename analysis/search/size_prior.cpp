@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "analysis/inference/thresholds.hpp"
 #include "core/base/decompose.hpp"
 
 namespace drift::search {
@@ -24,22 +25,51 @@ double log_det(const MatX& A) {
   return 2.0 * L.diagonal().array().log().sum();
 }
 
+/// Information and gradient along the axes in which the amplitudes do not meet.
+class Rotated {
+ public:
+  Rotated(const MatX& C, const VecX& g) {
+    const Eigensystem eigen = eigensystem(C);
+    information_ = eigen.values.cwiseMax(0.0);
+    y_ = eigen.vectors.transpose() * g;
+  }
+  double most() const { return information_.maxCoeff(); }
+  /// Log evidence of amplitudes of s prior sigmas against none.
+  double log_evidence(double s) const {
+    double sum = 0.0;
+    for (Eigen::Index k = 0; k < y_.size(); ++k) {
+      const double grown = 1.0 + s * s * information_[k];
+      sum += 0.5 * (s * s * y_[k] * y_[k] / grown - std::log(grown));
+    }
+    return sum;
+  }
+
+ private:
+  VecX information_, y_;
+};
+
 }  // namespace
 
 double log_evidence_of_sizes(const MatX& C, const VecX& g) {
   if (g.size() == 0) return 0.0;
-  const Eigensystem eigen = eigensystem(C);
-  const VecX y = eigen.vectors.transpose() * g;
+  const Rotated r(C, g);
   std::vector<double> logs;
-  for (const double s : scales) {
-    double sum = 0.0;
-    for (Eigen::Index k = 0; k < y.size(); ++k) {
-      const double grown = 1.0 + s * s * std::max(eigen.values[k], 0.0);
-      sum += 0.5 * (s * s * y[k] * y[k] / grown - std::log(grown));
-    }
-    logs.push_back(sum);
-  }
+  for (const double s : scales) logs.push_back(r.log_evidence(s));
   return log_mean_exp(logs);
+}
+
+VisibleEvidence evidence_of_visible_sizes(const MatX& C, const VecX& g) {
+  VisibleEvidence out;
+  if (g.size() == 0) return out;
+  const Rotated r(C, g);
+  std::vector<double> logs;
+  for (const double s : scales)
+    if (s * std::sqrt(r.most()) >= inference::VisibleLimits::size)
+      logs.push_back(r.log_evidence(s));
+  const double visible = static_cast<double>(logs.size()) / static_cast<double>(std::size(scales));
+  out.invisible = 1.0 - visible;
+  if (!logs.empty()) out.log = log_mean_exp(logs) + std::log(visible);
+  return out;
 }
 
 double log_gain_of_sizes(const VecX& x, const MatX& covariance, const std::vector<int>& cause) {

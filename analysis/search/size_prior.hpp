@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "core/base/linalg.hpp"
@@ -15,6 +16,14 @@ namespace drift::search {
 /// Log evidence of amplitudes with projected information C and gradient g (in prior sigmas) against
 /// none: log of the mean over scales s of exp(g' (1/s^2 + C)^-1 g / 2) / sqrt(det(1 + s^2 C)).
 double log_evidence_of_sizes(const MatX& C, const VecX& g);
+
+/// The same of those scales alone at which an effect of one of their sigmas is
+/// VisibleLimits::size strong; the rest would leave a test as it is without the effect.
+struct VisibleEvidence {
+  double log = -std::numeric_limits<double>::infinity();  ///< of the sum over them, over all scales
+  double invisible = 1.0;                                 ///< share of the others
+};
+VisibleEvidence evidence_of_visible_sizes(const MatX& C, const VecX& g);
 
 /// What the mixture changes in the log evidence of a fit that was made with unit priors: amplitudes
 /// x with posterior `covariance` (in prior sigmas). cause: which cause each amplitude belongs to,

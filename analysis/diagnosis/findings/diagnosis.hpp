@@ -8,6 +8,8 @@
 
 #include "analysis/diagnosis/findings/advice.hpp"
 #include "analysis/diagnosis/findings/fit_comparison.hpp"
+#include "analysis/diagnosis/findings/not_examined.hpp"
+#include "analysis/diagnosis/findings/probabilities.hpp"
 #include "analysis/diagnosis/findings/recovered_signal.hpp"
 #include "analysis/diagnosis/findings/remark.hpp"
 #include "analysis/diagnosis/findings/twins.hpp"
@@ -46,9 +48,12 @@ struct Diagnosis {
   Where where;
   std::vector<search::Cause> causes;
   std::vector<search::CandidateScore> candidates;  ///< strongest first
+  std::vector<NotExamined> not_examined;
+  Probabilities probabilities;
   std::vector<inference::NoiseFinding> noise;
   /// Twice the log evidence that eq. (5) instead of a nominal eq. (6), or the reverse, gains; NaN
-  /// where the nominal coupling is neither.
+  /// where the nominal coupling is neither, and where what is missing has not been found. With the
+  /// best explanation in the model, if that is no change of equation.
   double other_equation_gain = std::numeric_limits<double>::quiet_NaN();
   FitComparison fit;
   std::vector<RecoveredSignal> signals;  ///< strongest first; at least one unless consistent

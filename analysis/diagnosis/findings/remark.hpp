@@ -55,10 +55,16 @@ struct BeyondPrior {
   std::vector<std::size_t> params;  ///< indices in TermLibrary
   double farthest = 0.0;            ///< prior sigmas
 };
-/// The test does not tell eq. (5) from eq. (6).
-struct EquationOpen {
+/// The other of eq. (5) and (6) in the place of the nominal one.
+struct OtherEquation {
   Coupling nominal = Coupling::eq5;
-  double gain = 0.0;  ///< twice the log of the odds of the other
+  double gain = 0.0;          ///< twice the log of the odds of the other
+  bool beside_cause = false;  ///< with a cause in the model
+  bool open() const;          ///< the test does not tell the two apart
+};
+/// The magnetic field is that of a dipole: none was recorded or declared.
+struct FieldAssumed {
+  Vec3 field_l = Vec3::Zero();  ///< [T]
 };
 /// An effect that would explain the test, were the noise that drives the platform none.
 struct NoiseOrEffect {
@@ -97,9 +103,9 @@ using Remark =
     std::variant<remark::Input, remark::JustSignificantLeft, remark::LambdaNotSettled,
                  remark::MemberNotConfirmed, remark::NotPredicted, remark::SamplesLeftOut,
                  remark::FreeInputExplains, remark::CrosstalkMovesLambda, remark::DrivesOneGyro,
-                 remark::StrongestLeft, remark::BeyondPrior, remark::EquationOpen,
-                 remark::NoiseOrEffect, remark::NoAdvice, remark::EquationByTurns,
-                 remark::StepJudged, remark::NoDeclaredNoise, remark::CommonDriftUnseen,
-                 remark::NotObservable>;
+                 remark::StrongestLeft, remark::BeyondPrior, remark::OtherEquation,
+                 remark::FieldAssumed, remark::NoiseOrEffect, remark::NoAdvice,
+                 remark::EquationByTurns, remark::StepJudged, remark::NoDeclaredNoise,
+                 remark::CommonDriftUnseen, remark::NotObservable>;
 
 }  // namespace drift::diagnosis

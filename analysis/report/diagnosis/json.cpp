@@ -3,6 +3,7 @@
 
 #include "analysis/planning/position_toml.hpp"
 #include "analysis/report/diagnosis/advice_words.hpp"
+#include "analysis/report/diagnosis/not_examined_words.hpp"
 #include "analysis/report/diagnosis/sections.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
 #include "core/stats/normal.hpp"
@@ -59,7 +60,8 @@ Json causes_json(const std::vector<Cause>& causes) {
            {"unit", p.unit},
            {"interval_95",
             {p.value - stats::half_width_95 * p.sigma, p.value + stats::half_width_95 * p.sigma}},
-           {"profiled", p.profiled}});
+           {"profiled", p.profiled},
+           {"prior_sigmas", p.prior_sigmas}});
     for (const Confusable& other : c.confusable_with)
       confusable.push_back(
           {{"term", other.term}, {"axis", text_or_null(other.axis)}, {"cosine", other.cosine}});
@@ -89,6 +91,31 @@ Json folds_json(const std::vector<Fold>& folds, const std::vector<RecordingSpan>
                     {"log_score_gain", f.log_score_after - f.log_score_before},
                     {"same_choice", f.same_choice}});
   return list;
+}
+
+Json not_examined_json(const std::vector<NotExamined>& left_out) {
+  Json all = Json::array();
+  for (const NotExamined& n : left_out) {
+    Json twins = Json::array();
+    for (const NamedEffect& twin : n.twins) twins.push_back(twin.label);
+    all.push_back({{"term", n.term}, {"why", reason_in_words(n.why)}, {"twins", std::move(twins)}});
+  }
+  return all;
+}
+
+Json probabilities_json(const Probabilities& p) {
+  if (!p.known()) return nullptr;
+  Json named = Json::array();
+  for (const Probabilities::Explanation& e : p.named) {
+    Json causes = Json::array();
+    for (const NamedEffect& c : e.causes)
+      causes.push_back({{"term", c.term}, {"axis", text_or_null(c.axis)}, {"label", c.label}});
+    named.push_back({{"causes", std::move(causes)}, {"probability", e.probability}});
+  }
+  return {{"consistent", p.consistent},
+          {"noise_only", p.noise_only},
+          {"named", std::move(named)},
+          {"outside", p.outside}};
 }
 
 Json fit_json(const Diagnosis& d) {
@@ -199,6 +226,8 @@ Json diagnosis_document(const Diagnosis& d) {
       rows_json(candidate_table(d),
                 "term score p_value absorbed axis label dof p_value_alone amplitude sigma "
                 "smallest_detectable unit size_sigma log_bayes probability adequate observable");
+  out["not_examined"] = not_examined_json(d.not_examined);
+  out["probabilities"] = probabilities_json(d.probabilities);
   out["fit"] = fit_json(d);
   out["advice"] = advice_json(d.advice);
   out["model"] = d.has_patch ? Json("patched.toml") : Json(nullptr);

@@ -14,6 +14,10 @@ namespace {
 
 using namespace diagnosis::remark;
 
+auto other_number(const OtherEquation& r) {
+  return facts(*facts(r.nominal).other).number;
+}
+
 /// One overload for each kind of remark.
 struct Words {
   std::string operator()(const Input& r) const { return r.text; }
@@ -84,13 +88,27 @@ struct Words {
         listed_up_to(keys, most), r.farthest);
   }
 
-  std::string operator()(const EquationOpen& r) const {
+  std::string operator()(const OtherEquation& r) const {
+    const std::string with = r.beside_cause ? ", the cause in the model" : "";
+    if (!r.open())
+      return fmt::format(
+          "The recording speaks for the nominal eq. ({}): fitted with eq. ({}) instead{}, twice "
+          "the log of the odds changes by {:+.1f}",
+          facts(r.nominal).number, other_number(r), with, r.gain);
     return fmt::format(
-        "{}: fitted with the other, the test is explained as well (twice the log of the odds: "
+        "{}: fitted with the other{}, the test is explained as well (twice the log of the odds: "
         "{:+.1f}). What tells lambda from the misalignments: slews about each platform axis, free "
         "drift beside level positions, or turns of the case. In slews, cross-talk between the "
         "torquing channels (torquer_crosstalk) looks like lambda",
-        cannot_tell_equations(r), r.gain);
+        cannot_tell_equations(r), with, r.gain);
+  }
+
+  std::string operator()(const FieldAssumed& r) const {
+    return fmt::format(
+        "The magnetic field was neither recorded nor declared: that of a dipole is taken, {:.3f} "
+        "gauss North and {:.3f} gauss Up. Declare field_n, field_w, field_u in [environment] if a "
+        "magnetic effect is in question",
+        r.field_l.x() / "gauss"_unit.to_si, r.field_l.z() / "gauss"_unit.to_si);
   }
 
   std::string operator()(const NoiseOrEffect& r) const {
@@ -141,10 +159,9 @@ std::string in_words(const diagnosis::Remark& remark) {
   return std::visit(Words{}, remark);
 }
 
-std::string cannot_tell_equations(const EquationOpen& open) {
-  const CouplingFacts& nominal = facts(open.nominal);
-  return fmt::format("This plan cannot tell the nominal eq. ({}) from eq. ({})", nominal.number,
-                     facts(*nominal.other).number);
+std::string cannot_tell_equations(const OtherEquation& open) {
+  return fmt::format("This plan cannot tell the nominal eq. ({}) from eq. ({})",
+                     facts(open.nominal).number, other_number(open));
 }
 
 }  // namespace drift::report

@@ -10,6 +10,6 @@ namespace drift::report {
 std::string in_words(const diagnosis::Remark& remark);
 
 /// "This plan cannot tell the nominal eq. (6) from eq. (5)".
-std::string cannot_tell_equations(const diagnosis::remark::EquationOpen& open);
+std::string cannot_tell_equations(const diagnosis::remark::OtherEquation& open);
 
 }  // namespace drift::report

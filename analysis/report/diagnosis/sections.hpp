@@ -8,11 +8,11 @@
 namespace drift::report {
 
 /// What is said of a diagnosis, in this order.
-DRIFT_SECTIONS(diagnosis::Diagnosis, diagnosis_sections, verdict, kept_in_mind, where, windows,
-               what, rivals, fit, moved, whiteness, noise, advice);
+DRIFT_SECTIONS(diagnosis::Diagnosis, diagnosis_sections, verdict, kept_in_mind, odds, where,
+               windows, what, rivals, fit, moved, whiteness, noise, advice);
 inline constexpr Part diagnosis_parts[] = {
-    Part::evidence, Part::how_sure, Part::evidence, Part::details, Part::how_sure, Part::details,
-    Part::evidence, Part::details,  Part::how_sure, Part::details, Part::how_sure};
+    Part::evidence, Part::how_sure, Part::how_sure, Part::evidence, Part::details, Part::how_sure,
+    Part::details,  Part::evidence, Part::details,  Part::how_sure, Part::details, Part::how_sure};
 
 /// Causes are told from a model without, before and after; of a consistent verdict on the page
 /// alone.

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "analysis/inference/thresholds.hpp"
+#include "analysis/report/diagnosis/not_examined_words.hpp"
 #include "analysis/report/diagnosis/remark_words.hpp"
 #include "core/base/number_text.hpp"
 #include "core/base/units.hpp"
@@ -222,9 +223,10 @@ std::string sentence(const Diagnosis& d) {
   if (d.nearest_known) text += nearest_text(*d.nearest_known);
   if (d.verdict == Verdict::consistent)
     for (const Remark& r : d.remarks)
-      if (const auto* open = std::get_if<remark::EquationOpen>(&r))
-        text += fmt::format(" {}.", cannot_tell_equations(*open));
+      if (const auto* other = std::get_if<remark::OtherEquation>(&r); other && other->open())
+        text += fmt::format(" {}.", cannot_tell_equations(*other));
   if (d.site_doubt) text += site_text(*d.site_doubt);
+  text += unexamined_twins_text(d.not_examined);
   return text;
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/report/diagnosis/not_examined_words.hpp"
 #include "analysis/report/diagnosis/remark_words.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
 #include "core/base/number_text.hpp"
@@ -55,6 +56,8 @@ std::vector<ShownCandidate> shown_candidates(const Diagnosis& d, std::size_t mos
 std::vector<std::string> remarks_of(const Diagnosis& d) {
   std::vector<std::string> all;
   for (const Remark& r : d.remarks) all.push_back(in_words(r));
+  for (std::string& left_out : not_examined_sentences(d.not_examined))
+    all.push_back(std::move(left_out));
   if (const auto& recordings = d.where.recordings; !recordings.empty()) {
     std::vector<std::string> begins;
     for (const RecordingSpan& r : recordings)

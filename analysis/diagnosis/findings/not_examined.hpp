@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "analysis/diagnosis/findings/remark.hpp"
+
+namespace drift::diagnosis {
+
+/// A term of the library that was no candidate.
+struct NotExamined {
+  enum class Why {
+    no_temperature,  ///< neither the recording nor the study has the covariate it follows
+    no_field,
+    beyond_reach,  ///< the plan does not show it, however large
+  };
+  std::string term;
+  Why why = Why::no_temperature;
+  /// Named causes that it may stand behind: they act on the same instruments by the clock alone, as
+  /// it would if what it follows had moved like that.
+  std::vector<NamedEffect> twins;
+};
+
+}  // namespace drift::diagnosis

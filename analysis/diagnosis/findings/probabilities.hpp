@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include "analysis/diagnosis/findings/remark.hpp"
+
+namespace drift::diagnosis {
+
+/// What the recording may be, and how probable that is; all together 1 (search/posterior.hpp). Of a
+/// recording on a case there are none.
+struct Probabilities {
+  double consistent = 0.0, noise_only = 0.0, outside = 0.0;
+  struct Explanation {
+    std::vector<NamedEffect> causes;
+    double probability = 0.0;
+  };
+  std::vector<Explanation> named;  ///< most probable first
+  bool known() const { return consistent + noise_only + outside > 0.0 || !named.empty(); }
+};
+
+}  // namespace drift::diagnosis

@@ -1,0 +1,56 @@
+#include "analysis/report/diagnosis/not_examined_words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/base/words.hpp"
+
+namespace drift::report {
+
+using diagnosis::NotExamined;
+using Why = NotExamined::Why;
+
+std::string reason_in_words(Why why) {
+  switch (why) {
+    case Why::no_temperature:
+      return "it follows the temperature, which was not recorded";
+    case Why::no_field:
+      return "it follows the magnetic field, which is not known";
+    case Why::beyond_reach:
+      break;
+  }
+  return "this plan does not show it, however large it is";
+}
+
+std::vector<std::string> not_examined_sentences(const std::vector<NotExamined>& all) {
+  std::vector<std::string> sentences;
+  for (const auto& [why, said] :
+       {std::pair{Why::no_temperature, "the temperature was not recorded"},
+        std::pair{Why::no_field, "the magnetic field is not known"},
+        std::pair{Why::beyond_reach, "this plan does not show them, however large they are"}}) {
+    std::vector<std::string> terms;
+    for (const NotExamined& n : all)
+      if (n.why == why) terms.push_back(n.term);
+    if (!terms.empty())
+      sentences.push_back(fmt::format("Not examined: {}: {}", listed(terms, "and"), said));
+  }
+  return sentences;
+}
+
+std::string unexamined_twins_text(const std::vector<NotExamined>& all) {
+  std::vector<std::string> unseen, twins;
+  for (const NotExamined& n : all) {
+    if (n.twins.empty()) continue;
+    unseen.push_back(n.term);
+    for (const diagnosis::NamedEffect& twin : n.twins)
+      if (std::ranges::find(twins, twin.label) == twins.end()) twins.push_back(twin.label);
+  }
+  if (unseen.empty()) return "";
+  return fmt::format(
+      " Not examined for want of a temperature: {}; if the temperature moved alike, that is what "
+      "{} may be.",
+      listed(unseen, "and"), listed(twins, "or"));
+}
+
+}  // namespace drift::report

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "analysis/diagnosis/findings/not_examined.hpp"
+
+namespace drift::report {
+
+/// "it follows a temperature that is not known".
+std::string reason_in_words(diagnosis::NotExamined::Why why);
+
+/// What was left out of the comparison, a sentence for each reason.
+std::vector<std::string> not_examined_sentences(const std::vector<diagnosis::NotExamined>& all);
+
+/// Of those that may stand behind a named cause, for the verdict; empty if none may.
+std::string unexamined_twins_text(const std::vector<diagnosis::NotExamined>& all);
+
+}  // namespace drift::report

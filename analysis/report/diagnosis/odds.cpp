@@ -1,0 +1,33 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "analysis/report/diagnosis/sections.hpp"
+#include "core/base/number_text.hpp"
+
+namespace drift::report {
+
+using namespace diagnosis;
+
+Section odds(const Diagnosis& d) {
+  constexpr double least_shown = 0.02;
+  const Probabilities& p = d.probabilities;
+  if (!p.known()) return {};
+  Table table("", "< | probability");
+  const auto add = [&](const std::string& what, double probability) {
+    table.add({what, probability < 5e-4 ? Cell("below 0.001") : decimals(probability, 3)});
+  };
+  add("nothing missing, noise as declared", p.consistent);
+  add("nothing missing, noise not as declared", p.noise_only);
+  for (const Probabilities::Explanation& e : p.named) {
+    if (e.probability < least_shown) continue;  // diagnosis.json has them all
+    std::vector<std::string> labels;
+    for (const NamedEffect& c : e.causes) labels.push_back(c.label);
+    add(fmt::format("{}", fmt::join(labels, " together with ")), e.probability);
+  }
+  add("something that no term of the library describes", p.outside);
+  return {"What the recording may be",
+          {table, Paragraph{"By the marginal likelihood of each and a prior that is stated in "
+                            "diagnose.md; they sum to 1."}}};
+}
+
+}  // namespace drift::report

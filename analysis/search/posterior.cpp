@@ -1,0 +1,155 @@
+#include "analysis/search/posterior.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "analysis/inference/thresholds.hpp"
+
+namespace drift::search {
+namespace {
+
+using inference::PosteriorLimits;
+using inference::WeighLimits;
+
+constexpr double never = -std::numeric_limits<double>::infinity();
+
+double log_sum(double a, double b) {
+  const double top = std::max(a, b);
+  return top == never ? never : top + std::log(std::exp(a - top) + std::exp(b - top));
+}
+
+/// Log evidence of a fitted model with the noise that was declared, and with the one estimated.
+struct ByNoise {
+  double declared = 0.0, estimated = 0.0;
+  double either() const { return log_sum(declared, estimated); }
+};
+
+ByNoise by_noise(const Fitted& f, const inference::NoiseModel& declared) {
+  const double rows = static_cast<double>(f.problem.rows());
+  const double with_declared =
+      0.5 * inference::Projector(f.problem.bare(), declared).marginal().log_likelihood2();
+  const double price = 0.5 * std::log(rows) * static_cast<double>(f.noise.findings.size());
+  return {std::log(PosteriorLimits::noise_as_declared) + with_declared,
+          std::log(1.0 - PosteriorLimits::noise_as_declared) + 0.5 * f.log_likelihood2() - price};
+}
+
+double log_terms(const Fitted& e) {
+  std::vector<std::string> terms;
+  for (const inference::Candidate& c : e.set.candidates)
+    if (std::ranges::find(terms, c.term) == terms.end()) terms.push_back(c.term);
+  return std::log(static_cast<double>(std::max<std::size_t>(1, terms.size())));
+}
+
+/// A model and the log of its prior and evidence together.
+struct Weighed {
+  Explanation choices;
+  double log_weight = never;
+};
+
+/// Single candidates, linearised.
+std::vector<Weighed> singles(const Fitted& e, double base) {
+  std::vector<Weighed> all;
+  for (std::size_t k = 0; k < e.scores.size(); ++k)
+    if (e.scores[k].dof > 0) {
+      const Explanation one{{k, e.scores[k].variant}};
+      all.push_back({one, base + log_prior(e, one) + e.scores[k].log_bayes_visible});
+    }
+  return all;
+}
+
+/// Fitted explanations, each with the noise that suits it.
+double log_evidence(const Search& found, const Refit& r, const inference::NoiseModel& declared) {
+  const ByNoise noise = by_noise(r.after, declared);
+  // log_bayes compares the two models under the noise estimated for each.
+  return r.log_bayes - 0.5 * (r.after.log_likelihood2() - found.nominal.log_likelihood2()) +
+         noise.either();
+}
+
+/// Those of the credible set, which share their evidence as it weighs them: members of a family
+/// count together there.
+std::vector<Weighed> explanations(const Search& found, const inference::NoiseModel& declared) {
+  std::vector<Weighed> all;
+  double evidence = never, share = 0.0;
+  for (std::size_t k = 0; k < found.sets.size(); ++k) {
+    const Refit& r = found.sets[k];
+    evidence = log_sum(evidence, log_evidence(found, r, declared) +
+                                     log_prior(found.nominal, r.choices) - std::max(0.0, r.excess));
+    share += found.probability[k];
+  }
+  for (std::size_t k = 0; k < found.sets.size(); ++k)
+    all.push_back({found.sets[k].choices, evidence + std::log(found.probability[k] / share)});
+  return all;
+}
+
+/// Something of free form in one equation beside a model, of which nothing is known but that it is
+/// there: where it sits and how fast it varies is one of `forms`, its size has Schwarz's price.
+double log_free_form(const inference::LoneEffect& lone, const Fitted& e) {
+  return 0.5 * lone.gain - std::log(WeighLimits::forms) -
+         0.5 * std::log(static_cast<double>(e.problem.rows()));
+}
+
+/// Something outside the library, beside nothing or beside the best that the library offers.
+double log_outside(const Search& found, const inference::NoiseModel& declared,
+                   const ByNoise& nothing) {
+  const Fitted& e = found.nominal;
+  // Its gain is against the estimated noise, which is not at its best where the misfit is gross.
+  const double alone =
+      std::min(nothing.either(), 0.5 * e.log_likelihood2()) + log_free_form(e.lone, e);
+  const std::vector<Refit>& fitted = found.sets.empty() ? found.rejected : found.sets;
+  const Refit* best = nullptr;
+  for (const Refit& r : fitted)
+    if (!best || r.log_bayes > best->log_bayes) best = &r;
+  if (!best) return alone;
+  const auto lone = inference::strongest_lone_input(best->after.problem, best->after.noise.model);
+  return std::max(alone, log_evidence(found, *best, declared) + log_prior(e, best->choices) -
+                             log_terms(e) - std::log(WeighLimits::second_cause) +
+                             log_free_form(lone, best->after));
+}
+
+/// Prior share of the library that this test would not have seen.
+double unseen_share(const Fitted& e) {
+  double share = 0.0;
+  for (std::size_t k = 0; k < e.scores.size(); ++k)
+    share += e.scores[k].invisible * std::exp(log_prior(e, {{k, 0}}) - log_terms(e));
+  return share;
+}
+
+}  // namespace
+
+Posterior posterior_of(const Search& found) {
+  const Fitted& e = found.nominal;
+  const inference::NoiseModel declared = declared_noise(e.filter);
+  const ByNoise nothing = by_noise(e, declared);
+  std::vector<Weighed> library;
+  if (found.significant) {
+    library = explanations(found, declared);
+  } else {
+    library = singles(e, nothing.either());
+  }
+  const double of_library = std::log(PosteriorLimits::library) - log_terms(e);
+  for (Weighed& w : library) w.log_weight += of_library;
+  const double none =
+      std::log(PosteriorLimits::nothing + PosteriorLimits::library * unseen_share(e));
+  const double outside = std::log(PosteriorLimits::outside) + log_outside(found, declared, nothing);
+
+  double total = log_sum(none + nothing.either(), outside);
+  for (const Weighed& w : library) total = log_sum(total, w.log_weight);
+  Posterior out;
+  out.consistent = std::exp(none + nothing.declared - total);
+  out.noise_only = std::exp(none + nothing.estimated - total);
+  out.outside = std::exp(outside - total);
+  for (const Weighed& w : library)
+    if (const double p = std::exp(w.log_weight - total); p >= PosteriorLimits::listed)
+      out.named.push_back({w.choices, p});
+  std::ranges::stable_sort(out.named, std::greater{}, &Posterior::Explained::probability);
+  double sum = out.consistent + out.noise_only + out.outside;
+  for (const auto& n : out.named) sum += n.probability;
+  out.consistent /= sum;
+  out.noise_only /= sum;
+  out.outside /= sum;
+  for (auto& n : out.named) n.probability /= sum;
+  return out;
+}
+
+}  // namespace drift::search

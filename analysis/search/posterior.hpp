@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+#include "analysis/search/search.hpp"
+
+namespace drift::search {
+
+/// Probabilities of what a recording may be, summing to 1. A model is what drives the mean (nothing
+/// beside the nominal model; causes of the library; something outside it) and the noise (as
+/// declared or not). Means and noise have the prior of PosteriorLimits; sizes of effects are known
+/// to orders of magnitude (size_prior.hpp), settings share a term's prior, the price of a noise
+/// that was estimated is Schwarz's, half the log of the number of rows for each of its numbers.
+struct Posterior {
+  /// Nothing missing that the test could see (VisibleLimits::size), noise as declared.
+  double consistent = 1.0;
+  double noise_only = 0.0;  ///< nothing missing, noise not as declared
+  double outside = 0.0;     ///< something that no term of the library describes
+  /// Explanations by the library, most probable first; what is below a thousandth is shared out
+  /// over all.
+  struct Explained {
+    Explanation choices;
+    double probability = 0.0;
+  };
+  std::vector<Explained> named;
+};
+
+/// Of a search that found nothing significant: by the linearised scores of single candidates;
+/// otherwise of the explanations that were fitted.
+Posterior posterior_of(const Search& found);
+
+}  // namespace drift::search
