@@ -57,6 +57,22 @@ std::vector<Refit> refit_singles(const Search& s, const MeasuredTest& test, std:
   return refits;
 }
 
+/// Effects together with another equation that may do as well as the best single cause; none where
+/// the equation alone will do.
+std::vector<Explanation> worth_beside_equation(const Search& s, const MeasuredTest& test,
+                                               const std::vector<Refit>& singles) {
+  double best = -std::numeric_limits<double>::infinity();
+  for (const Refit& r : singles) {
+    if (!r.adequate()) continue;
+    if (s.nominal.set.candidates[r.choices.front().candidate].term == closure_term) return {};
+    best = std::max(best, r.log_bayes);
+  }
+  std::vector<Explanation> worth;
+  for (BesideEquation& b : beside_other_equation(s, test))
+    if (b.log_bayes > best - ReachLimits::negligible) worth.push_back(std::move(b.choices));
+  return worth;
+}
+
 }  // namespace
 
 Search search(Fitted nominal, const MeasuredTest& test, const SearchOptions& options) {
@@ -80,13 +96,7 @@ Search search(Fitted nominal, const MeasuredTest& test, const SearchOptions& opt
   const auto try_more = [&](const std::vector<Explanation>& more) {
     for (Refit& r : refit_all(out, test, more)) refits.push_back(std::move(r));
   };
-  double best = -std::numeric_limits<double>::infinity();
-  for (const Refit& r : refits)
-    if (r.adequate()) best = std::max(best, r.log_bayes);
-  std::vector<Explanation> beside;
-  for (BesideEquation& b : beside_other_equation(out, test))
-    if (b.log_bayes > best - ReachLimits::negligible) beside.push_back(std::move(b.choices));
-  try_more(beside);
+  try_more(worth_beside_equation(out, test, refits));
   if (settled(Leftover::nothing)) return out;
   try_more(promising_pairs(out, options.most_refits));
   if (settled(Leftover::nothing)) return out;

@@ -1,0 +1,97 @@
+// Probabilities of what a recording may be.
+#include "analysis/search/posterior.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "analysis/diagnosis/diagnose.hpp"
+#include "analysis/inference/thresholds.hpp"
+#include "analysis/search/size_prior.hpp"
+#include "core/sim/simulate.hpp"
+#include "tests/support/model_builders.hpp"
+#include "tests/support/short_study.hpp"
+
+namespace drift::search::posterior_test {
+namespace {
+
+TEST(VisibleEvidence, IsTheEvidenceOfTheScalesThatATestCanSee) {
+  // One amplitude of information 100: of the scales 1, 0.3, 0.1, ... of the prior's sigma the first
+  // two are 10 and 3 sigma strong, the others 1 and less.
+  const MatX C = MatX::Constant(1, 1, 100.0);
+  const VecX g = VecX::Constant(1, 40.0);
+  const auto of_scale = [&](double s) {
+    const double grown = 1.0 + s * s * 100.0;
+    return std::exp(0.5 * s * s * 1600.0 / grown) / std::sqrt(grown);
+  };
+  const VisibleEvidence seen = evidence_of_visible_sizes(C, g);
+  EXPECT_NEAR(seen.invisible, 0.6, 1e-12);
+  EXPECT_NEAR(seen.log, std::log((of_scale(1.0) + of_scale(0.3)) / 5.0), 1e-12);
+  const VisibleEvidence none = evidence_of_visible_sizes(MatX::Constant(1, 1, 8.9), g);
+  EXPECT_EQ(none.invisible, 1.0);
+  EXPECT_TRUE(std::isinf(none.log));
+  EXPECT_LT(evidence_of_visible_sizes(MatX::Constant(1, 1, 9.1), g).invisible, 1.0);
+}
+
+diagnosis::Probabilities of(const mc::Study& study, std::uint64_t run) {
+  const Timeline timeline = lay_out(study.plan, study.site);
+  const TruthDraw draw = draw_truth(study.truth, timeline.chains, study.monte_carlo.seed, run);
+  const Recording recording = make_recording(timeline,
+                                             Simulator(study.truth, study.readout)
+                                                 .run(timeline, draw, study.monte_carlo.seed, run)
+                                                 .measured,
+                                             study.readout);
+  diagnosis::DiagnoseOptions options;
+  options.folds = diagnosis::FoldMethod::linear;
+  options.starts = 1;
+  return diagnosis::diagnose(study, {recording}, options).probabilities;
+}
+
+double total(const diagnosis::Probabilities& p) {
+  double sum = p.consistent + p.noise_only + p.outside;
+  for (const auto& e : p.named) sum += e.probability;
+  return sum;
+}
+
+mc::Study small(mc::Overrides more) {
+  const std::string terms = "[\"fixed_drift\", \"g_drift\"]";
+  mc::Overrides sets{{"plan.preset", "six"},          {"plan.dwell", "30 min"},
+                     {"plan.sample", "120 s"},        {"truth.terms", terms},
+                     {"filter.nominal.terms", terms}, {"filter.nominal.coupling", "eq5"}};
+  sets.insert(sets.end(), more.begin(), more.end());
+  return mc::read_study(DRIFT_SOURCE_DIR "/configs/diagnose_equation.toml", sets);
+}
+
+TEST(Posterior, SumsToOneAndSaysNothingIsMissingWhereNothingIs) {
+  const mc::Study study = small({});
+  double consistent = 0.0;
+  for (std::uint64_t run = 0; run < 5; ++run) {
+    const diagnosis::Probabilities p = of(study, run);
+    EXPECT_NEAR(total(p), 1.0, 1e-12);
+    consistent += p.consistent / 5.0;
+  }
+  EXPECT_GT(consistent, 0.8);
+}
+
+TEST(Posterior, NoiseThatIsNotAsDeclaredIsNoEffect) {
+  const mc::Study study = small({{"truth.drift_random_walk", "0.02 deg/h/sqrt(h)"}});
+  const diagnosis::Probabilities p = of(study, 0);
+  EXPECT_NEAR(total(p), 1.0, 1e-12);
+  EXPECT_GT(p.noise_only, p.consistent);
+  EXPECT_GT(p.noise_only, 0.5);
+}
+
+TEST(Posterior, AnEffectOfTwentySigmaIsNearlyCertain) {
+  const mc::Study study = small({{"truth.terms+", "drift_ramp"},
+                                 {"truth.parameters.ramp_x", "0 deg/h/h"},
+                                 {"truth.parameters.ramp_y", "0.01 deg/h/h"},
+                                 {"truth.parameters.ramp_z", "0 deg/h/h"}});
+  const diagnosis::Probabilities p = of(study, 0);
+  EXPECT_NEAR(total(p), 1.0, 1e-12);
+  EXPECT_LT(p.consistent + p.noise_only, 1e-6);
+  ASSERT_FALSE(p.named.empty());
+  EXPECT_EQ(p.named.front().causes.front().term, "drift_ramp");
+}
+
+}  // namespace
+}  // namespace drift::search::posterior_test
