@@ -31,6 +31,25 @@ Json of(const AnswerCause& c) {
           {"parameters", params}, {"confusable_with", confusable}};
 }
 
+Json of(const Belief& b) {
+  Json causes = Json::array();
+  for (const diagnosis::NamedEffect& c : b.causes)
+    causes.push_back({{"term", c.term}, {"axis", c.axis}});
+  return {{"kind", std::string(name_in(belief_kinds, b.kind))},
+          {"probability", json_number(b.probability)},
+          {"causes", causes}};
+}
+
+Belief belief_in(const Json& answer) {
+  Belief b;
+  if (!answer.contains("belief")) return b;  // answers of earlier builds have none
+  const Json& j = answer.at("belief");
+  b.kind = value_in(belief_kinds, j.at("kind").get<std::string>()).value_or(Belief::Kind::none);
+  b.probability = number_of(j.at("probability"));
+  for (const Json& c : j.at("causes")) b.causes.push_back({c.at("term"), c.at("axis"), ""});
+  return b;
+}
+
 AnswerCause cause_of(const Json& j) {
   AnswerCause c{j.at("term"), j.at("axis"), j.at("set"), number_of(j.at("probability")), {}, {}};
   for (const Json& p : j.at("parameters")) {
@@ -66,6 +85,7 @@ Json of(const Answer& a) {
           {"chi2_per_dof_after", json_number(a.chi2_after)},
           {"held_out", a.held_out},
           {"held_out_gain", json_number(a.held_out_gain)},
+          {"belief", of(a.belief)},
           {"seconds", json_number(a.seconds)}};
 }
 
@@ -87,6 +107,7 @@ Answer from(const Json& j) {
   a.chi2_after = number_of(j.at("chi2_per_dof_after"));
   a.held_out = j.at("held_out");
   a.held_out_gain = number_of(j.at("held_out_gain"));
+  a.belief = belief_in(j);
   a.seconds = number_of(j.at("seconds"));
   return a;
 }
@@ -131,6 +152,7 @@ Answer answer_of(const diagnosis::Diagnosis& d) {
   a.chi2_after = d.fit.chi2_per_dof_after;
   a.held_out = !d.fit.held_out.folds.empty();
   a.held_out_gain = d.fit.held_out.log_score_gain;
+  a.belief = belief_of(d.probabilities);
   return a;
 }
 

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/blind/belief.hpp"
 #include "analysis/diagnosis/findings/diagnosis.hpp"
 
 namespace drift::blind {
@@ -31,6 +32,7 @@ struct Answer {
   double chi2_before = 1.0, chi2_after = 1.0;  ///< per degree of freedom, in sample
   bool held_out = false;                       ///< positions were held out
   double held_out_gain = 0.0;                  ///< log score
+  Belief belief;
   double seconds = 0.0;
 
   /// Alternatives: causes or combinations of causes that are offered.

@@ -128,6 +128,7 @@ TrialScore score_trial(const KeyEntry& key, const Answer& answer) {
   s.answer = answer;
   s.called = called(answer);
   if (answer.failed) return s;
+  s.believed_right = is_right(answer.belief, key);
   const bool effect = key.plan.stratum != Stratum::null && key.plan.stratum != Stratum::wrong_noise;
   s.detected = answer.verdict != Verdict::consistent;
   s.unexplained = answer.verdict == Verdict::unexplained;

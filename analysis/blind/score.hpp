@@ -32,7 +32,8 @@ struct TrialScore {
   bool unexplained = false;
   bool position_right = false, equation_right = false;  ///< of a local effect
   double overlap = 0.0;                                 ///< of the windows, intersection over union
-  std::vector<Pull> pulls;                              ///< of linear parameters, where exact
+  bool believed_right = false;  ///< what the diagnosis took for most probable was hidden
+  std::vector<Pull> pulls;      ///< of linear parameters, where exact
   std::string
       called;  ///< for the confusion table: term, "several", "unexplained", "consistent", "failed"
 

@@ -75,6 +75,12 @@ struct Confusion {
   std::vector<ConfusionRow> rows;
 };
 
+/// Trials whose most probable explanation was stated with a probability in [low, high).
+struct ReliabilityBin {
+  double low = 0.0, high = 1.0, stated = 0.0;  ///< mean of what was stated
+  stats::Proportion right;
+};
+
 struct Summary {
   std::size_t trials = 0, failed = 0;
   std::vector<Target> targets;
@@ -85,7 +91,10 @@ struct Summary {
   std::vector<std::pair<std::string, stats::Proportion>> wrong_noise,
       outside;                ///< by kind: false alarms, unexplained
   std::vector<double> pulls;  ///< of all recovered parameters
-  double pull_rms = 0.0;      ///< robust against the few: 1.4826 median |pull|
+  std::vector<ReliabilityBin> reliability;
+  /// Mean over trials of |stated probability - share of right ones| of their bins; NaN without any.
+  double calibration_error = 0.0;
+  double pull_rms = 0.0;  ///< robust against the few: 1.4826 median |pull|
   Confusion confusion;
   double mean_seconds = 0.0, longest_seconds = 0.0;  ///< per diagnosis
   double largest_bias_median = 0.0;  ///< of the nominal fits of effect trials [sigma]

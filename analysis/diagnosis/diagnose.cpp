@@ -85,6 +85,10 @@ double other_equation_gain(const search::Search& found, const Judged& judged,
   if (judged.verdict == Verdict::consistent)
     return std::isfinite(found.other_equation) ? found.other_equation : silent;
   if (found.sets.empty()) return silent;
+  if (const auto& causes = found.sets.front().choices;
+      causes.size() == 1 &&
+      found.nominal.set.candidates[causes.front().candidate].term == closure_term)
+    return found.other_equation;  // itself the cause
   const auto other = search::fit_other_equation(found.sets.front().after, test);
   return other ? other->gain : silent;
 }

@@ -53,7 +53,7 @@ struct Diagnosis {
   std::vector<inference::NoiseFinding> noise;
   /// Twice the log evidence that eq. (5) instead of a nominal eq. (6), or the reverse, gains; NaN
   /// where the nominal coupling is neither, and where what is missing has not been found. With the
-  /// best explanation in the model, if that is no change of equation.
+  /// best explanation in the model, if that is not this very change.
   double other_equation_gain = std::numeric_limits<double>::quiet_NaN();
   FitComparison fit;
   std::vector<RecoveredSignal> signals;  ///< strongest first; at least one unless consistent

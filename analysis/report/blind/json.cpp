@@ -54,6 +54,13 @@ Json power_of(const blind::Summary& s) {
   return out;
 }
 
+Json of(const std::vector<blind::ReliabilityBin>& bins) {
+  Json out = Json::array();
+  for (const blind::ReliabilityBin& b : bins)
+    out.push_back({{"from", b.low}, {"to", b.high}, {"stated", b.stated}, {"right", of(b.right)}});
+  return out;
+}
+
 Json of(const blind::TrialScore& t) {
   Json hidden = Json::array(), pulls = Json::array();
   for (const blind::HiddenEffect& e : t.key.effects) {
@@ -83,6 +90,9 @@ Json of(const blind::TrialScore& t) {
           {"in_set", t.in_set},
           {"subsystem", t.subsystem},
           {"confidently_wrong", t.confidently_wrong},
+          {"belief", std::string(name_in(blind::belief_kinds, t.answer.belief.kind))},
+          {"belief_probability", t.answer.belief.probability},
+          {"believed_right", t.believed_right},
           {"pulls", pulls},
           {"noise", t.answer.noise},
           {"held_out_gain", t.answer.held_out_gain},
@@ -117,6 +127,8 @@ Json blind_document(const BlindResults& results) {
           {"wrong_noise", of(s.wrong_noise)},
           {"outside", of(s.outside)},
           {"confusion", of(s.confusion)},
+          {"reliability", of(s.reliability)},
+          {"calibration_error", s.calibration_error},
           {"pull_rms", s.pull_rms},
           {"largest_bias_median_sigma", s.largest_bias_median},
           {"seconds", {{"mean", s.mean_seconds}, {"longest", s.longest_seconds}}},

@@ -7,9 +7,11 @@
 namespace drift::report {
 
 /// What is said of a blind study, in this order.
-DRIFT_SECTIONS(BlindResults, blind_sections, targets, power, groups, further, confusion, misses);
-inline constexpr Part blind_parts[] = {Part::evidence, Part::evidence, Part::details,
-                                       Part::details,  Part::how_sure, Part::how_sure};
+DRIFT_SECTIONS(BlindResults, blind_sections, targets, power, reliability, groups, further,
+               confusion, misses);
+inline constexpr Part blind_parts[] = {Part::evidence, Part::evidence, Part::how_sure,
+                                       Part::details,  Part::details,  Part::how_sure,
+                                       Part::how_sure};
 
 Json blind_document(const BlindResults& results);
 

@@ -137,7 +137,10 @@ InBrief diagnosis_in_brief(const Diagnosis& d) {
     add("Where", where_sentence(d.where));
     add("Held out", held_out_sentence(d.fit.held_out));
   }
-  if (!d.advice.empty())
+  if (d.site_doubt)
+    brief.next = fmt::format("Next: diagnose again with --set site.latitude=\"{:.3f} deg\".",
+                             d.site_doubt->latitude / unit::deg.to_si);
+  else if (!d.advice.empty())
     brief.next = "Next: " + advice_text(d.advice.front());
   else if (d.verdict == Verdict::named && d.has_patch)
     brief.next = "Next: identify with patched.toml, the study with the cause in its model.";

@@ -187,11 +187,13 @@ std::string nearest_text(const NearestKnown& near) {
       fmt::join(words, " together with "), near.chi2_per_dof_before, near.chi2_per_dof_after);
 }
 
+/// A verdict of its own: nothing that is said of causes holds for another place on the Earth.
 std::string site_text(const SiteDoubt& doubt) {
   return fmt::format(
-      " Check [site] latitude: at {:.3f} deg instead of {:.3f} deg the nominal model fits with "
-      "chi-square per degree of freedom {:.3g} instead of {:.3g}. As a cause that is no survey "
-      "error any more: latitude_error would need {:.3g} prior sigmas.",
+      "The latitude of [site] is not that of the recording: at {:.3f} deg instead of {:.3f} deg "
+      "the nominal model fits with chi-square per degree of freedom {:.3g} instead of {:.3g}. No "
+      "survey is wrong by so much (latitude_error would need {:.3g} prior sigmas): correct the "
+      "latitude and diagnose again before anything else is made of it.",
       doubt.latitude / unit::deg.to_si, doubt.declared / unit::deg.to_si, doubt.chi2_per_dof_after,
       doubt.chi2_per_dof_before, doubt.prior_sigmas);
 }
@@ -219,13 +221,13 @@ std::string patch_text(const Diagnosis& d) {
 }
 std::string sentence(const Diagnosis& d) {
   if (!d.errors.empty()) return case_sentence(d);
+  if (d.site_doubt) return site_text(*d.site_doubt);
   std::string text = verdict_alone(d);
   if (d.nearest_known) text += nearest_text(*d.nearest_known);
   if (d.verdict == Verdict::consistent)
     for (const Remark& r : d.remarks)
       if (const auto* other = std::get_if<remark::OtherEquation>(&r); other && other->open())
         text += fmt::format(" {}.", cannot_tell_equations(*other));
-  if (d.site_doubt) text += site_text(*d.site_doubt);
   text += unexamined_twins_text(d.not_examined);
   return text;
 }

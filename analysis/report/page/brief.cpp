@@ -13,29 +13,43 @@ std::vector<std::string> lines_of(const std::string& sentence, std::size_t width
   return lines;
 }
 
-/// At most so many lines; the last of a sentence that is longer ends with "...".
-void shorten(std::vector<std::string>& lines, std::size_t most, std::size_t width) {
+/// The longest beginning of a text that is whole: up to the end of a sentence or of a clause before
+/// a semicolon. Empty where there is none.
+std::string whole_part(const std::string& text, std::size_t most) {
+  std::size_t end = 0;
+  for (std::size_t at = 0; at + 1 < text.size() && at < most; ++at)
+    if ((text[at] == '.' || text[at] == ';') && text[at + 1] == ' ') end = at;
+  return end == 0 ? "" : text.substr(0, end) + ".";
+}
+
+/// A sentence in at most so many lines. What has no room is left off where a sentence or a clause
+/// ends, so that nothing is shown without what qualifies it; failing that the last line ends with
+/// "...".
+std::vector<std::string> shortened(const std::string& sentence, std::size_t most,
+                                   std::size_t width) {
   constexpr std::string_view mark = " ...";
-  if (lines.size() <= most) return;
+  std::vector<std::string> lines = lines_of(sentence, width);
+  if (lines.size() <= most || most == 0) return most == 0 ? std::vector<std::string>{} : lines;
+  for (std::string part = whole_part(sentence, most * width); !part.empty();
+       part = whole_part(part, part.size() - 2))
+    if (auto fitting = lines_of(part, width); fitting.size() <= most) return fitting;
   lines.resize(most);
-  if (lines.empty()) return;
   std::string& last = lines.back();
   while (last.size() + mark.size() > width && last.find_last_of(' ') != std::string::npos)
     last.erase(last.find_last_of(' '));
   last += mark;
+  return lines;
 }
 
 }  // namespace
 
 std::string brief_text(const InBrief& brief, std::size_t width) {
   constexpr std::size_t most_of_next = 4;
-  std::vector<std::string> next = lines_of(brief.next, width);
-  shorten(next, most_of_next, width);
+  const std::vector<std::string> next = shortened(brief.next, most_of_next, width);
   std::size_t room = most_brief_lines - next.size();
   std::vector<std::string> shown;
   const auto add = [&](const std::string& sentence) {
-    std::vector<std::string> lines = lines_of(sentence, width);
-    shorten(lines, room, width);
+    const std::vector<std::string> lines = shortened(sentence, room, width);
     room -= lines.size();
     shown.insert(shown.end(), lines.begin(), lines.end());
   };

@@ -36,6 +36,46 @@ Answer answer(Verdict verdict, std::vector<std::tuple<std::string, std::string, 
 
 const KeyEntry magnetic = hiding(Stratum::single, {{"magnetic_drift", "y"}});
 
+diagnosis::Probabilities believing(double consistent, double noise, double named, double outside) {
+  diagnosis::Probabilities p{consistent, noise, outside, {}};
+  p.named.push_back({{{"magnetic_drift", "y", "magnetic_drift.y"}}, named});
+  return p;
+}
+
+TEST(BlindScore, WhatIsMostProbableIsRightIfItWasHidden) {
+  const Belief named = belief_of(believing(0.2, 0.1, 0.6, 0.1));
+  EXPECT_EQ(named.kind, Belief::Kind::named);
+  EXPECT_EQ(named.probability, 0.6);
+  EXPECT_TRUE(is_right(named, magnetic));
+  EXPECT_FALSE(is_right(named, hiding(Stratum::single, {{"magnetic_drift", "x"}})));
+  EXPECT_FALSE(is_right(named, hiding(Stratum::pair, {{"magnetic_drift", "y"}, {"sag", "z"}})));
+  EXPECT_FALSE(is_right(named, hiding(Stratum::null, {})));
+  EXPECT_FALSE(is_right(named, hiding(Stratum::outside, {{"burst", ""}})));
+  EXPECT_TRUE(is_right(belief_of(believing(0.5, 0.1, 0.2, 0.2)), hiding(Stratum::null, {})));
+  EXPECT_TRUE(is_right(belief_of(believing(0.1, 0.5, 0.2, 0.2)),
+                       hiding(Stratum::wrong_noise, {{"markov_drift", ""}})));
+  EXPECT_TRUE(
+      is_right(belief_of(believing(0.1, 0.1, 0.3, 0.5)), hiding(Stratum::local, {{"burst", ""}})));
+  EXPECT_EQ(belief_of({}).kind, Belief::Kind::none);
+}
+
+TEST(BlindScore, ReliabilityComparesWhatWasStatedWithWhatWasRight) {
+  // Ten answers of 0.6, six of them right; ten of 0.97, five of them right: errors 0 and 0.47.
+  std::vector<TrialScore> scores;
+  for (int k = 0; k < 20; ++k) {
+    const bool sure = k >= 10, right = k % 10 < (sure ? 5 : 6);
+    Answer a = answer(Verdict::named, {{"magnetic_drift", right ? "y" : "x", 0}});
+    a.belief = {
+        Belief::Kind::named, sure ? 0.97 : 0.6, {{"magnetic_drift", right ? "y" : "x", ""}}};
+    scores.push_back(score_trial(magnetic, answers_of(to_json(std::vector{a})).front()));
+  }
+  const Summary s = summarise(scores);
+  ASSERT_EQ(s.reliability.size(), 2u);
+  EXPECT_EQ(s.reliability[0].right.k, 6u);
+  EXPECT_NEAR(s.reliability[1].stated, 0.97, 1e-12);
+  EXPECT_NEAR(s.calibration_error, 0.5 * 0.47, 1e-12);
+}
+
 TEST(BlindScore, ARightNameIsExactAndInTheSet) {
   const TrialScore s = score_trial(magnetic, answer(Verdict::named, {{"magnetic_drift", "y", 0}}));
   EXPECT_TRUE(s.detected && s.exact && s.in_set && s.subsystem);

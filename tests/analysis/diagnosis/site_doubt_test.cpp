@@ -58,7 +58,8 @@ TEST(SiteDoubt, FindsTheLatitudeBehindAMisfit) {
         << declared;  // 0.05 deg
     Diagnosis told;
     told.site_doubt = doubt;
-    EXPECT_NE(report::sentence(told).find("latitude_error would need"), std::string::npos);
+    EXPECT_EQ(report::sentence(told).find("The latitude of [site] is not that of the recording"),
+              0u);
   }
 }
 

@@ -1,0 +1,49 @@
+#include "analysis/report/blind/sections.hpp"
+#include "analysis/report/svg/curve.hpp"
+
+namespace drift::report {
+namespace {
+
+std::string reliability_svg(const std::vector<blind::ReliabilityBin>& bins) {
+  Panel panel;
+  panel.x_label = "probability stated";
+  panel.y_label = "share of right ones";
+  panel.y_range = Range{0.0, 1.02};
+  Series right = curve("right", 0), honest = curve("as stated", 6, Stroke::dashed);
+  ExpectedBand band{"95 % interval", {}, {}, {}};
+  honest.x = honest.y = {0.0, 1.0};
+  for (const blind::ReliabilityBin& b : bins) {
+    right.x.push_back(b.stated);
+    right.y.push_back(b.right.share());
+    band.x.push_back(b.stated);
+    band.low.push_back(b.right.low);
+    band.high.push_back(b.right.high);
+  }
+  panel.expected = {band};
+  panel.series = {right, honest};
+  return svg_of(
+      Chart{"How often what was called most probable was right", {panel}, 1, 640.0, 320.0});
+}
+
+}  // namespace
+
+Section reliability(const BlindResults& results) {
+  const auto& bins = results.summary.reliability;
+  if (bins.empty()) return {};
+  Table t("", "<stated | mean | right | trials | 95 %");
+  for (const blind::ReliabilityBin& b : bins)
+    t.add({fmt::format("{:.2f} to {:.2f}", b.low, b.high), decimals(b.stated, 3),
+           decimals(b.right.share(), 3), b.right.n,
+           fmt::format("{:.3f} to {:.3f}", b.right.low, b.right.high)});
+  return {"Are the probabilities right?",
+          {t,
+           Paragraph{fmt::format("Expected calibration error {:.3f}: the mean distance of the "
+                                 "probability stated from the share of right ones.",
+                                 results.summary.calibration_error)},
+           Figure{reliability_svg(bins),
+                  "What a diagnosis takes for most probable, by the probability that it states, "
+                  "against how often that was hidden.",
+                  "reliability.svg"}}};
+}
+
+}  // namespace drift::report
