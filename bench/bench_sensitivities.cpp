@@ -1,0 +1,137 @@
+// Speed of the sensitivities of the platform's attitude to every rate parameter over six hours of
+// free drift: variation of constants as the estimators do it, against packaged CVODES by its
+// staggered forward method, with the same derivatives in closed form. Exit code 8 if the two differ
+// by more than the tolerances allow.
+
+#include <algorithm>
+#include <cmath>
+
+#include "bench/rows.hpp"
+#include "core/estimate/linearize.hpp"
+#include "core/estimate/starts.hpp"
+#include "core/physics/parameters_config.hpp"
+#include "core/plan/case_heading.hpp"
+#include "tests/support/forward_sensitivity.hpp"
+
+namespace drift::bench {
+namespace {
+
+constexpr int repetitions = 20;
+constexpr double allowed = 1e-6;  // of the norm of all columns: CVODES holds 1e-8 a step
+
+FilterSpec rate_terms() {
+  FilterSpec filter;
+  filter.active = base_parameters();
+  for (std::size_t i = 0; i < TermLibrary::num_params; ++i)
+    filter.priors[i] = TermLibrary::specs[i].prior_si();
+  return filter;
+}
+
+Timeline six_free() {
+  PlanDefaults defaults;
+  defaults.mode = CommandLaw::free;
+  defaults.dwell = 3600.0;
+  defaults.sample = 600.0;
+  return lay_out(preset_plan("six", defaults).value(), Site{45.75 * detail::deg});
+}
+
+/// The state of the problem that both sides solve.
+struct Problem {
+  FilterSpec filter = rate_terms();
+  Timeline timeline = six_free();
+  DriftModel model = filter.model();
+  Layout layout = make_layout(filter);
+  Theta theta = draw_parameters(filter, 1, 0, Purpose::test);
+  Eigen::Index columns() const { return static_cast<Eigen::Index>(layout.num_rate); }
+};
+
+/// d psi at the end of every chain, shape (3, chains * columns).
+MatX by_variation_of_constants(const Problem& p) {
+  MatX all(3, p.timeline.chains * p.columns());
+  Linearizer linearizer(p.model, p.layout, Readout{false, true});
+  linearizer.set_theta(p.theta);
+  const Trajectory phi = integrate_fixed(p.timeline, p.model, p.theta,
+                                         std::vector<Vec3>(p.timeline.chains, Vec3::Zero()));
+  IntervalSensitivity inner;
+  Mat3X G = Mat3X::Zero(3, p.columns());
+  for (const Interval& i : p.timeline.intervals) {
+    if (i.cage) G.setZero();
+    linearize_interval(i, p.timeline, Mat3::Zero(), &phi[i.first_node], nullptr, linearizer, inner);
+    G = (inner.Phi.back() * G + inner.G.back()).eval();
+    all.middleCols(i.chain * p.columns(), p.columns()) = G;
+  }
+  return all;
+}
+
+MatX by_cvodes(const Problem& p) {
+  MatX all(3, p.timeline.chains * p.columns());
+  Linearizer linearizer(p.model, p.layout, Readout{false, true});
+  linearizer.set_theta(p.theta);
+  NodeJacobian jacobian = linearizer.make();
+  const Vec3 omega_ie_l = p.timeline.site.omega_ie_l();
+  const std::vector<double> scale(static_cast<std::size_t>(p.columns()), 1.0);
+  for (const Interval& cage : p.timeline.intervals) {
+    if (!cage.cage) continue;
+    const Node& start = p.timeline.nodes[cage.first_node];
+    Drive drive = drive_of(cage, p.timeline, p.model, p.theta);
+    double end = cage.t1;
+    for (const Interval& i : p.timeline.intervals)
+      if (i.chain == cage.chain) end = i.t1;
+    const auto node_at = [&](double t) {
+      Node node = start;
+      node.t = t;
+      node.R_lr = reference_attitude(p.timeline.site, start.R_lr, drive.omega_cmd_p, t - start.t);
+      node.R_il = rotation<double>(omega_ie_l * (t - start.t));
+      return node;
+    };
+    const auto rhs = [&](double t, const double* y, double* f) {
+      Eigen::Map<Vec3>(f, 3) = attitude_rate(drive, node_at(t).R_lr, vec3(y), t, nullptr);
+      return true;
+    };
+    const auto sensitivity_rhs = [&](double t, const double* y, const double*, const double* S,
+                                     double* S_dot) {
+      linearizer.evaluate(node_at(t), cage, Mat3::Zero(), vec3(y), &p.timeline, nullptr, jacobian);
+      Eigen::Map<Mat3X>(S_dot, 3, p.columns()) =
+          jacobian.A * Eigen::Map<const Mat3X>(S, 3, p.columns()) + jacobian.B;
+      return true;
+    };
+    const SensitivityResult r =
+        integrate_with_sensitivities(rhs, sensitivity_rhs, OdeOptions{}, start.t, VecX::Zero(3),
+                                     MatX::Zero(3, p.columns()), scale, end);
+    all.middleCols(cage.chain * p.columns(), p.columns()) = r.S;
+  }
+  return all;
+}
+
+int run() {
+  const Problem p;
+  double ours = 1e9, slowest = 0.0, peer = 1e9;
+  MatX own, theirs;
+  for (int k = 0; k < repetitions; ++k) {
+    double start = cpu_time();
+    own = by_variation_of_constants(p);
+    const double taken = cpu_time() - start;
+    ours = std::min(ours, taken);
+    slowest = std::max(slowest, taken);
+    start = cpu_time();
+    theirs = by_cvodes(p);
+    peer = std::min(peer, cpu_time() - start);
+  }
+  const double apart = (own - theirs).colwise().norm().maxCoeff() / theirs.norm();
+  fmt::print(
+      "{} sensitivities of {} h: ours {:.3f} ms, CVODES {:.2f} ms, {:.0f} times; apart "
+      "{:.1e} of all\n",
+      p.columns(), p.timeline.chains, 1e3 * ours, 1e3 * peer, peer / ours, apart);
+  print_row("sensitivities_cvodes", ours, peer, slowest / ours,
+            fmt::format("{} sensitivities of the attitude after each of {} hours of free drift, "
+                        "against packaged CVODES (staggered, derivatives in closed form)",
+                        p.columns(), p.timeline.chains));
+  return apart < allowed ? 0 : 8;
+}
+
+}  // namespace
+}  // namespace drift::bench
+
+int main() {
+  return drift::bench::run();
+}
