@@ -93,9 +93,17 @@ double other_equation_gain(const search::Search& found, const Judged& judged,
   return other ? other->gain : silent;
 }
 
-Probabilities probabilities(const search::Search& found) {
+/// noise: what was found of it; samples that are none are noise not as declared, too.
+Probabilities probabilities(const search::Search& found,
+                            const std::vector<inference::NoiseFinding>& noise) {
   const search::Posterior p = search::posterior_of(found);
   Probabilities out{p.consistent, p.noise_only, p.outside, {}};
+  if (std::ranges::any_of(noise, [](const inference::NoiseFinding& f) {
+        return f.significant && f.component == "outliers";
+      })) {
+    out.noise_only += out.consistent;
+    out.consistent = 0.0;
+  }
   for (const auto& [choices, probability] : p.named) {
     out.named.push_back({{}, probability});
     for (const search::Choice& choice : choices) {
@@ -173,7 +181,7 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
   d.noise = std::move(noise.findings);
   d.other_equation_gain = other_equation_gain(found, judged, test);
   d.not_examined = not_examined(nominal, d.causes);
-  d.probabilities = probabilities(found);
+  d.probabilities = probabilities(found, d.noise);
   d.nominal = nominal_filter;
   d.patched = best ? started_where_found(best->filter, d.causes) : nominal_filter;
   d.has_patch = best != nullptr;

@@ -51,7 +51,7 @@ struct VisibleLimits {
   /// Test: Remainder.WhatIsLeftOfATwinIsNoOtherEffect
   static constexpr double left = 1e-6, left_of_several = 1e-5;
   /// [sigma] that an effect of a usual size must be strong for a test to count as one that could
-  /// have seen it: where probabilities say "nothing missing", it means nothing of such a size.
+  /// have seen it. Where probabilities say "nothing missing", it means nothing of such a size.
   static constexpr double size = 3.0;
 };
 

@@ -14,6 +14,16 @@ namespace {
 
 using inference::WeighLimits;
 
+/// Log prior of an explanation: every term alike, shared by the candidates it offers; a second
+/// cause is one in twenty.
+double log_prior(const Fitted& e, const Explanation& choices) {
+  std::map<std::string, double> offers;
+  for (const inference::Candidate& c : e.set.candidates) offers[c.term] += 1.0;
+  double sum = 0.0;
+  for (const Choice& c : choices) sum -= std::log(offers[e.set.candidates[c.candidate].term]);
+  return sum - std::log(WeighLimits::second_cause) * static_cast<double>(choices.size() - 1);
+}
+
 /// What an explanation is called: its terms and axes, in order; of a base term the parameters too.
 std::string name_of(const Fitted& e, const Refit& r) {
   std::vector<std::string> names;
@@ -96,14 +106,6 @@ std::vector<std::size_t> heads_of(const Fitted& e, const std::vector<Refit>& goo
 }
 
 }  // namespace
-
-double log_prior(const Fitted& e, const Explanation& choices) {
-  std::map<std::string, double> offers;
-  for (const inference::Candidate& c : e.set.candidates) offers[c.term] += 1.0;
-  double sum = 0.0;
-  for (const Choice& c : choices) sum -= std::log(offers[e.set.candidates[c.candidate].term]);
-  return sum - std::log(WeighLimits::second_cause) * static_cast<double>(choices.size() - 1);
-}
 
 bool can_be_weighed(const Fitted& e, const std::vector<Refit>& refits, Leftover left) {
   double top = -std::numeric_limits<double>::infinity();

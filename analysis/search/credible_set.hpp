@@ -11,10 +11,6 @@ enum class Leftover { nothing, chance };
 /// equation explains the test far better than the best of them.
 bool can_be_weighed(const Fitted& e, const std::vector<Refit>& refits, Leftover left);
 
-/// Log prior of an explanation: every term alike, shared by the candidates it offers; a second
-/// cause is one in twenty.
-double log_prior(const Fitted& e, const Explanation& choices);
-
 /// Explanations weighed against each other.
 struct CredibleSet {
   std::vector<Refit> sets;          ///< most probable first; each may hold several causes

@@ -47,8 +47,7 @@ Score score(const Field& field, std::size_t candidate) {
   Score best;
   best.strength = -1.0;
   const inference::Candidate& c = field.set.candidates[candidate];
-  std::vector<double> evidence, visible, share;
-  double invisible = 0.0;
+  std::vector<double> evidence, visible, seen_share, share;
   for (std::size_t v = 0; v < c.variants.size(); ++v) {
     const inference::Contrast& contrast = field.contrasts[candidate][v];
     const double T = std::max(0.0, contrast.T(field.projected.g) - field.discount_of(candidate));
@@ -65,15 +64,16 @@ Score score(const Field& field, std::size_t candidate) {
     const VisibleEvidence seen =
         evidence_of_visible_sizes(field.projected.C(columns, columns), field.projected.g(columns));
     evidence.push_back(log_bayes(field.projected, columns) - priors_alone);
-    visible.push_back(seen.log - priors_alone);
+    visible.push_back(seen.log + std::log(seen.share) - priors_alone);
+    seen_share.push_back(std::log(seen.share));
     share.push_back(c.variants[v].share);
-    invisible += seen.invisible * share.back();
   }
   best.strength = std::max(best.strength, 0.0);
   if (evidence.empty()) return best;
   best.log_bayes = log_average(evidence, share);
-  best.log_bayes_visible = log_average(visible, share);
-  best.invisible = invisible / std::accumulate(share.begin(), share.end(), 0.0);
+  const double log_visible = log_average(seen_share, share);
+  best.visible = std::exp(log_visible);
+  if (best.visible > 0.0) best.log_bayes_visible = log_average(visible, share) - log_visible;
   return best;
 }
 

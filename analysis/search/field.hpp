@@ -33,8 +33,8 @@ struct Score {
   double T = 0.0, strength = 0.0;
   int dof = 0;             ///< 0: unobservable
   double log_bayes = 0.0;  ///< log evidence against the nominal model, averaged over variants
-  /// The same of the sizes alone that the test can see, and the prior share of the others.
-  double log_bayes_visible = -std::numeric_limits<double>::infinity(), invisible = 1.0;
+  /// The same of the sizes alone that the test can see, and their share of the prior.
+  double log_bayes_visible = -std::numeric_limits<double>::infinity(), visible = 0.0;
 };
 Score score(const Field& field, std::size_t candidate);
 

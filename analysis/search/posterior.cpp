@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <string>
 
 #include "analysis/inference/thresholds.hpp"
 
@@ -34,12 +36,34 @@ ByNoise by_noise(const Fitted& f, const inference::NoiseModel& declared) {
           std::log(1.0 - PosteriorLimits::noise_as_declared) + 0.5 * f.log_likelihood2() - price};
 }
 
-double log_terms(const Fitted& e) {
-  std::vector<std::string> terms;
-  for (const inference::Candidate& c : e.set.candidates)
-    if (std::ranges::find(terms, c.term) == terms.end()) terms.push_back(c.term);
-  return std::log(static_cast<double>(std::max<std::size_t>(1, terms.size())));
-}
+/// Every term of which the test could see an effect alike, shared by the candidates it offers; each
+/// further cause one in twenty.
+class LibraryPrior {
+ public:
+  explicit LibraryPrior(const Fitted& e) : e_(e) {
+    for (std::size_t k = 0; k < e.scores.size(); ++k)
+      if (e.scores[k].visible > 0.0) offers_[e.set.candidates[k].term] += 1.0;
+  }
+  double log_of(const Explanation& choices) const {
+    double sum = -std::log(std::max<double>(1.0, static_cast<double>(offers_.size()))) -
+                 std::log(WeighLimits::second_cause) * static_cast<double>(choices.size() - 1);
+    for (const Choice& c : choices)
+      if (const auto at = offers_.find(e_.set.candidates[c.candidate].term); at != offers_.end())
+        sum -= std::log(at->second);
+    return sum;
+  }
+  /// What an evidence over all sizes says of those that the test could see.
+  double log_of_visible(const Explanation& choices) const {
+    double sum = 0.0;
+    for (const Choice& c : choices)
+      if (const double share = e_.scores[c.candidate].visible; share > 0.0) sum -= std::log(share);
+    return sum;
+  }
+
+ private:
+  const Fitted& e_;
+  std::map<std::string, double> offers_;
+};
 
 /// A model and the log of its prior and evidence together.
 struct Weighed {
@@ -48,12 +72,12 @@ struct Weighed {
 };
 
 /// Single candidates, linearised.
-std::vector<Weighed> singles(const Fitted& e, double base) {
+std::vector<Weighed> singles(const Fitted& e, const LibraryPrior& prior, double base) {
   std::vector<Weighed> all;
   for (std::size_t k = 0; k < e.scores.size(); ++k)
-    if (e.scores[k].dof > 0) {
+    if (e.scores[k].visible > 0.0) {
       const Explanation one{{k, e.scores[k].variant}};
-      all.push_back({one, base + log_prior(e, one) + e.scores[k].log_bayes_visible});
+      all.push_back({one, base + prior.log_of(one) + e.scores[k].log_bayes_visible});
     }
   return all;
 }
@@ -68,13 +92,14 @@ double log_evidence(const Search& found, const Refit& r, const inference::NoiseM
 
 /// Those of the credible set, which share their evidence as it weighs them: members of a family
 /// count together there.
-std::vector<Weighed> explanations(const Search& found, const inference::NoiseModel& declared) {
+std::vector<Weighed> explanations(const Search& found, const LibraryPrior& prior,
+                                  const inference::NoiseModel& declared) {
   std::vector<Weighed> all;
   double evidence = never, share = 0.0;
   for (std::size_t k = 0; k < found.sets.size(); ++k) {
     const Refit& r = found.sets[k];
-    evidence = log_sum(evidence, log_evidence(found, r, declared) +
-                                     log_prior(found.nominal, r.choices) - std::max(0.0, r.excess));
+    evidence = log_sum(evidence, log_evidence(found, r, declared) + prior.log_of(r.choices) +
+                                     prior.log_of_visible(r.choices) - std::max(0.0, r.excess));
     share += found.probability[k];
   }
   for (std::size_t k = 0; k < found.sets.size(); ++k)
@@ -90,8 +115,8 @@ double log_free_form(const inference::LoneEffect& lone, const Fitted& e) {
 }
 
 /// Something outside the library, beside nothing or beside the best that the library offers.
-double log_outside(const Search& found, const inference::NoiseModel& declared,
-                   const ByNoise& nothing) {
+double log_outside(const Search& found, const LibraryPrior& prior,
+                   const inference::NoiseModel& declared, const ByNoise& nothing) {
   const Fitted& e = found.nominal;
   // Its gain is against the estimated noise, which is not at its best where the misfit is gross.
   const double alone =
@@ -102,17 +127,10 @@ double log_outside(const Search& found, const inference::NoiseModel& declared,
     if (!best || r.log_bayes > best->log_bayes) best = &r;
   if (!best) return alone;
   const auto lone = inference::strongest_lone_input(best->after.problem, best->after.noise.model);
-  return std::max(alone, log_evidence(found, *best, declared) + log_prior(e, best->choices) -
-                             log_terms(e) - std::log(WeighLimits::second_cause) +
+  return std::max(alone, log_evidence(found, *best, declared) + prior.log_of(best->choices) +
+                             prior.log_of_visible(best->choices) -
+                             std::log(WeighLimits::second_cause) +
                              log_free_form(lone, best->after));
-}
-
-/// Prior share of the library that this test would not have seen.
-double unseen_share(const Fitted& e) {
-  double share = 0.0;
-  for (std::size_t k = 0; k < e.scores.size(); ++k)
-    share += e.scores[k].invisible * std::exp(log_prior(e, {{k, 0}}) - log_terms(e));
-  return share;
 }
 
 }  // namespace
@@ -121,17 +139,13 @@ Posterior posterior_of(const Search& found) {
   const Fitted& e = found.nominal;
   const inference::NoiseModel declared = declared_noise(e.filter);
   const ByNoise nothing = by_noise(e, declared);
-  std::vector<Weighed> library;
-  if (found.significant) {
-    library = explanations(found, declared);
-  } else {
-    library = singles(e, nothing.either());
-  }
-  const double of_library = std::log(PosteriorLimits::library) - log_terms(e);
-  for (Weighed& w : library) w.log_weight += of_library;
-  const double none =
-      std::log(PosteriorLimits::nothing + PosteriorLimits::library * unseen_share(e));
-  const double outside = std::log(PosteriorLimits::outside) + log_outside(found, declared, nothing);
+  const LibraryPrior prior(e);
+  std::vector<Weighed> library = found.significant ? explanations(found, prior, declared)
+                                                   : singles(e, prior, nothing.either());
+  for (Weighed& w : library) w.log_weight += std::log(PosteriorLimits::library);
+  const double none = std::log(PosteriorLimits::nothing);
+  const double outside =
+      std::log(PosteriorLimits::outside) + log_outside(found, prior, declared, nothing);
 
   double total = log_sum(none + nothing.either(), outside);
   for (const Weighed& w : library) total = log_sum(total, w.log_weight);

@@ -66,9 +66,8 @@ VisibleEvidence evidence_of_visible_sizes(const MatX& C, const VecX& g) {
   for (const double s : scales)
     if (s * std::sqrt(r.most()) >= inference::VisibleLimits::size)
       logs.push_back(r.log_evidence(s));
-  const double visible = static_cast<double>(logs.size()) / static_cast<double>(std::size(scales));
-  out.invisible = 1.0 - visible;
-  if (!logs.empty()) out.log = log_mean_exp(logs) + std::log(visible);
+  out.share = static_cast<double>(logs.size()) / static_cast<double>(std::size(scales));
+  if (!logs.empty()) out.log = log_mean_exp(logs);
   return out;
 }
 

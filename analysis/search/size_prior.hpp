@@ -20,8 +20,8 @@ double log_evidence_of_sizes(const MatX& C, const VecX& g);
 /// The same of those scales alone at which an effect of one of their sigmas is
 /// VisibleLimits::size strong; the rest would leave a test as it is without the effect.
 struct VisibleEvidence {
-  double log = -std::numeric_limits<double>::infinity();  ///< of the sum over them, over all scales
-  double invisible = 1.0;                                 ///< share of the others
+  double log = -std::numeric_limits<double>::infinity();  ///< of the mean over them
+  double share = 0.0;                                     ///< of all scales
 };
 VisibleEvidence evidence_of_visible_sizes(const MatX& C, const VecX& g);
 

@@ -10,7 +10,7 @@
 
 #include "core/base/check.hpp"
 #include "core/base/memory.hpp"
-#include "core/physics/gimbals.hpp"
+#include "core/plan/attitude_check.hpp"
 #include "core/plan/case_heading.hpp"
 #include "core/plan/plan_memory.hpp"
 #include "core/plan/timeline.hpp"
@@ -19,7 +19,6 @@
 namespace drift {
 namespace {
 
-constexpr double largest_mismatch = 10.0 * detail::deg;  // between the plan's attitude and the data
 constexpr std::size_t most_messages = 20;
 
 /// Walks the rows of a recording and turns them into intervals; collects what does not fit.
@@ -43,7 +42,7 @@ class Reader {
     if (!errors_.empty()) throw InputError(ExitCode::recording, errors_);
     place_nodes(timeline_, chain_start_);
     take_covariates();
-    check_attitudes();
+    for (const RowMistake& m : attitude_mistakes(rec_, plan_, timeline_)) complain(m.row, m.text);
     if (!errors_.empty()) throw InputError(ExitCode::recording, errors_);
     return std::move(timeline_);
   }
@@ -204,34 +203,6 @@ class Reader {
         timeline_.intervals[k].around0.field_l[a] = field[a][before(k)];
         timeline_.intervals[k].around1.field_l[a] = field[a][k];
       }
-  }
-
-  /// The instruments must show the attitude that the plan says; 10 deg off is another plan.
-  void check_attitudes() {
-    for (std::size_t k = 0; k < timeline_.intervals.size(); ++k) {
-      const Interval& i = timeline_.intervals[k];
-      if (!i.cage) continue;
-      const Node& node = timeline_.nodes[i.last_node()];
-      const auto hint = [&](const char* what, double angle) {
-        complain(
-            k, fmt::format(
-                   "position {} ('{}'): the {} {:.0f} deg from the attitude in the plan (expected "
-                   "at most {:.0f}). Is this the plan, and the order of positions, the recording "
-                   "was made with?",
-                   i.position + 1, plan_.positions[i.position].name, what, angle / detail::deg,
-                   largest_mismatch / detail::deg));
-      };
-      if (const auto acc = measured(rec_, accelerometer_channels, k)) {
-        const Vec3 expected = node.R_lr.row(2);
-        const double angle = std::atan2(acc->cross(expected).norm(), acc->dot(expected));
-        if (!(angle < largest_mismatch)) hint("accelerometers show Up", angle);
-      }
-      if (const auto gimbal = measured(rec_, gimbal_channels, k)) {
-        const Mat3 R_lp = case_attitude(i.heading1) * gimbal_chain(*gimbal);
-        const double angle = rotation_vector(node.R_lr.transpose() * R_lp).norm();
-        if (!(angle < largest_mismatch)) hint("gimbal angles are", angle);
-      }
-    }
   }
 
   const Recording& rec_;

@@ -25,12 +25,12 @@ TEST(VisibleEvidence, IsTheEvidenceOfTheScalesThatATestCanSee) {
     return std::exp(0.5 * s * s * 1600.0 / grown) / std::sqrt(grown);
   };
   const VisibleEvidence seen = evidence_of_visible_sizes(C, g);
-  EXPECT_NEAR(seen.invisible, 0.6, 1e-12);
-  EXPECT_NEAR(seen.log, std::log((of_scale(1.0) + of_scale(0.3)) / 5.0), 1e-12);
+  EXPECT_NEAR(seen.share, 0.4, 1e-12);
+  EXPECT_NEAR(seen.log, std::log((of_scale(1.0) + of_scale(0.3)) / 2.0), 1e-12);
   const VisibleEvidence none = evidence_of_visible_sizes(MatX::Constant(1, 1, 8.9), g);
-  EXPECT_EQ(none.invisible, 1.0);
+  EXPECT_EQ(none.share, 0.0);
   EXPECT_TRUE(std::isinf(none.log));
-  EXPECT_LT(evidence_of_visible_sizes(MatX::Constant(1, 1, 9.1), g).invisible, 1.0);
+  EXPECT_NEAR(evidence_of_visible_sizes(MatX::Constant(1, 1, 9.1), g).share, 0.2, 1e-12);
 }
 
 diagnosis::Probabilities of(const mc::Study& study, std::uint64_t run) {

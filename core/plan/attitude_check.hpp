@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/plan/test_plan.hpp"
+#include "core/plan/timeline.hpp"
+#include "core/recording/recording.hpp"
+
+namespace drift {
+
+/// What is wrong, and in which row it shows first.
+struct RowMistake {
+  std::size_t row = 0;
+  std::string text;
+};
+
+/// Where the instruments of a recording do not show the attitude that the plan has, at the first
+/// row of each caged position: 10 deg off is another plan. Where exchanging or reversing the
+/// columns of one kind of instrument brings all positions into place, that alone is said.
+std::vector<RowMistake> attitude_mistakes(const Recording& recording, const TestPlan& plan,
+                                          const Timeline& timeline);
+
+}  // namespace drift
