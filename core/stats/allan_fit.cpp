@@ -71,7 +71,8 @@ double chance_of(const UnderNull& u, double inflation) {
 double upper_square(const AllanProblem& problem, const AllanSet& set, int noise,
                     AllanSquares squares, double inflation) {
   constexpr double level = 0.05;
-  const double found = as_if(problem, set, noise, squares).estimate;
+  // A fluctuation below zero must not make the limit better than the recording is.
+  const double found = std::max(0.0, as_if(problem, set, noise, squares).estimate);
   const auto shortfall = [&](double square) {
     squares[noise] = square;
     const UnderNull u = as_if(problem, set, noise, squares);
@@ -81,7 +82,7 @@ double upper_square(const AllanProblem& problem, const AllanSet& set, int noise,
   };
   squares[noise] = 0.0;
   const UnderNull null = as_if(problem, set, noise, squares);
-  double low = 0.0, high = std::max(found, 0.0) + null.sigma * inflation;
+  double low = 0.0, high = found + null.sigma * inflation;
   for (int i = 0; i < 60 && shortfall(high) < 0.0; ++i) high *= 2.0;
   for (int i = 0; i < 40; ++i) {
     const double middle = 0.5 * (low + high);
@@ -192,7 +193,7 @@ AllanFitter::AllanFitter(std::span<const std::size_t> lengths, double interval, 
 
 AllanFit AllanFitter::fit(std::span<const Stretch> stretches,
                           std::span<const AllanNoise> noises) const {
-  DRIFT_DEMAND(enough());
+  DRIFT_DEMAND(possible());
   const AllanProblem problem = problem_of(covariance_, octaves_, stretches);
   AllanSet all{};
   for (const AllanNoise noise : noises) all[static_cast<std::size_t>(noise)] = true;

@@ -55,9 +55,10 @@ class AllanFitter {
   AllanFitter(std::span<const std::size_t> lengths, double interval,
               std::size_t most = std::numeric_limits<std::size_t>::max());
 
-  /// Averaging times an octave apart that a fit needs.
-  static constexpr std::size_t least_octaves = 3;
-  bool enough() const { return octaves_.size() >= least_octaves; }
+  /// Whether there is an averaging time at all, and as many an octave apart as more than white
+  /// noise takes.
+  bool possible() const { return !octaves_.empty(); }
+  bool enough() const { return octaves_.size() >= 3; }
 
   /// sigma^2(tau) = 3 Q^2 / tau^2 + N^2 / tau + (2 ln 2 / pi) B^2 + K^2 tau / 3 + R^2 tau^2 / 2 by
   /// generalised least squares, no square negative, the covariance that of the fitted noise. The
