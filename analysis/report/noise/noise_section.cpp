@@ -110,7 +110,7 @@ Sentences reading(const NoiseCard& card) {
 }  // namespace
 
 Section noise_section(const NoiseCard& card, double gravity) {
-  Section section{"Noise at rest", {}, On::both, Part::how_sure};
+  Section section{"Noise at rest", {}, On::both, Part::details};
   if (card.missing != NoNoise::there_is_one) {
     section.add({Paragraph{std::string(why_not(card.missing))}});
     return section;

@@ -47,7 +47,7 @@ class PanelPainter {
     if (panel.y_range)
       ys = {spaced(panel.y_range->low, panel.y_spacing),
             spaced(panel.y_range->high, panel.y_spacing)};
-    x_scale_ = make_scale(xs, static_cast<int>(w_ / 56.0), linear ? 0.0 : 0.02);
+    x_scale_ = make_scale(xs, static_cast<int>(w_ / (linear ? 56.0 : 40.0)), linear ? 0.0 : 0.02);
     y_scale_ = make_scale(ys, static_cast<int>(h_ / 32.0), 0.06);
   }
 
