@@ -24,9 +24,10 @@ bool is_text_file(const std::string& path) {
 
 /// What the columns hold and what they may be.
 void show_columns(const GuessedFile& file) {
-  show("{} rows of {} columns; the header is line {}{}, cells are divided by {}\n", file.rows,
-       file.columns.size(), file.layout.header_line,
-       file.layout.unit_line > 0 ? fmt::format(", units are line {}", file.layout.unit_line) : "",
+  const std::size_t header = file.layout.header_line, units = file.layout.unit_line;
+  show("{} rows of {} columns; {}{}, cells are divided by {}\n", file.rows, file.columns.size(),
+       header > 0 ? fmt::format("the header is line {}", header) : "there is no header row",
+       units > 0 ? fmt::format(", units are line {}", units) : "",
        file.layout.delimiter == '\t'  ? "tabs"
        : file.layout.delimiter == ' ' ? "blanks"
                                       : fmt::format("'{}'", file.layout.delimiter));

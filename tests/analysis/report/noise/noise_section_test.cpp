@@ -61,7 +61,7 @@ TEST(NoiseSection, NumbersStandInTheUnitsOfTheField) {
 
 TEST(NoiseSection, ThePictureIsWellFormedWithPointsFitsAndSpectra) {
   const std::string svg = report::allan_picture(card_of());
-  EXPECT_EQ(test::xml_error(svg), "");
+  EXPECT_EQ(testing::xml_problem(svg).value_or(""), "");
   for (const char* words : {"Gyros: Allan deviation", "Accelerometers: Allan deviation",
                             "Spectral density", "averaging time [s]", "[ug/sqrt(Hz)]"})
     EXPECT_NE(svg.find(words), std::string::npos) << words;
