@@ -95,7 +95,7 @@ TEST(NoiseCard, AGapEndsAStretchAndUnequalRowsAreRefused) {
 
   Recording shaken = platform(5e-6);
   Stream random(2, 0, Purpose::test);
-  for (double& t : shaken.channels[0].values) t += 10.0 * (random.uniform() - 0.5);
+  for (double& t : shaken.channels[0].values) t += 20.0 * (random.uniform() - 0.5);
   const NoiseCard none = noise_card(shaken, RecordingKind::platform, rests);
   EXPECT_EQ(none.missing, NoNoise::unequal_rows);
   EXPECT_TRUE(none.channels.empty());
