@@ -4,7 +4,7 @@
 
 # Seconds each: what simulates, diagnoses or runs the program many times over.
 set(DRIFT_FULL_TESTS
-  Advise.* AdviceFollowed.* BlindInterrupted.* BlindSmall.* BlindStudy.* Bytes.* Crossed*.* Diagnose.* DiagnoseCommand.*
+  Advise.* AllanFit.* AdviceFollowed.* BlindInterrupted.* BlindSmall.* BlindStudy.* Bytes.* Crossed*.* Diagnose.* DiagnoseCommand.*
   Equation.* Estimators/EveryTermUnder.* EveryTerm*.* FailedWrite.* FitEitherEquation.* LambdaFilter.* Matched*.*
   Nearest.* NothingReplaced.* OddInput.* RankCommand.* Documents.* Recording/BinaryFuzz.* RecordingFuzz.* Search.*
   Sensitivity.* SiteDoubt.* Strapdown*.* StudyConfig.Misspelt* StudyMutation.* StudyReport.* SweepPictures.*

@@ -14,6 +14,7 @@
 #include "analysis/cli/read_recordings.hpp"
 #include "analysis/diagnosis/diagnose_recordings.hpp"
 #include "analysis/report/diagnosis/report.hpp"
+#include "analysis/report/noise/noise.hpp"
 #include "analysis/report/strapdown/report.hpp"
 #include "core/base/results_folder.hpp"
 #include "mc/task/campaign.hpp"
@@ -65,8 +66,10 @@ ExitCode diagnose_case(const StudyArguments& arguments, const mc::Study& study,
                          report::with_provenance(report::to_json(found.result).dump(2),
                                                  report::provenance_of(study.path, paths))}});
   finish(study, found.diagnosis,
-         {paths, report::to_text(report::strapdown_report(study, found.result)),
-          report::provenance_of(study.path, paths)},
+         {paths,
+          report::to_text(report::strapdown_report(study, found.result)),
+          report::provenance_of(study.path, paths),
+          {report::noise_section(found.result.noise, study.site.gravity)}},
          recordings, folder, more);
   return ExitCode::ok;
 }
@@ -83,7 +86,7 @@ ExitCode diagnose_platform(const StudyArguments& arguments, const mc::Study& stu
     options.asked = *advise;
   }
   finish(study, diagnosis::diagnose_recordings(study, recordings, options),
-         {paths, "", report::provenance_of(study.path, paths)}, recordings, folder);
+         {paths, "", report::provenance_of(study.path, paths), {}}, recordings, folder);
   return ExitCode::ok;
 }
 

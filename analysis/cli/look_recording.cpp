@@ -6,6 +6,8 @@
 
 #include "analysis/cli/command.hpp"
 #include "analysis/cli/print.hpp"
+#include "analysis/report/noise/noise.hpp"
+#include "analysis/strapdown/identify.hpp"
 #include "core/estimate/strapdown/dwells.hpp"
 #include "core/recording/own/csv_cells.hpp"
 #include "core/recording/own/guess.hpp"
@@ -22,9 +24,10 @@ bool is_text_file(const std::string& path) {
 
 /// What the columns hold and what they may be.
 void show_columns(const GuessedFile& file) {
-  show("{} rows of {} columns; the header is line {}{}, cells are divided by {}\n", file.rows,
-       file.columns.size(), file.layout.header_line,
-       file.layout.unit_line > 0 ? fmt::format(", units are line {}", file.layout.unit_line) : "",
+  const std::size_t header = file.layout.header_line, units = file.layout.unit_line;
+  show("{} rows of {} columns; {}{}, cells are divided by {}\n", file.rows, file.columns.size(),
+       header > 0 ? fmt::format("the header is line {}", header) : "there is no header row",
+       units > 0 ? fmt::format(", units are line {}", units) : "",
        file.layout.delimiter == '\t'  ? "tabs"
        : file.layout.delimiter == ' ' ? "blanks"
                                       : fmt::format("'{}'", file.layout.delimiter));
@@ -61,10 +64,7 @@ void show_positions(const Recording& r) {
   }
 }
 
-void show_dwells(const Recording& r, double static_min) {
-  strapdown::DwellOptions options;
-  options.static_min = static_min;
-  const auto search = strapdown::find_dwells(strapdown::signals_of(r), options);
+void show_dwells(const strapdown::DwellSearch& search, double static_min) {
   show("\n{} dwells of at least {:g} s\n", search.dwells.size(), static_min);
   if (search.dwells.empty()) return;
   show("{:>12}{:>10}{:>12}{:>12}{:>12}{:>10}\n", "from [s]", "for [s]", "acc_x [g]", "acc_y [g]",
@@ -78,15 +78,34 @@ void show_dwells(const Recording& r, double static_min) {
   if (search.dwells.size() > most) show("and {} more\n", search.dwells.size() - most);
 }
 
-void show_recording(const Recording& r, RecordingKind kind, double static_min) {
+/// The recording as a whole; the noise that its rests show comes back.
+preparation::NoiseCard show_recording(const Recording& r, RecordingKind kind, double static_min,
+                                      double gravity) {
   show("\n{}", to_text(quality_card(r, kind)));
   if (const auto f = usual_force(r))
     show("the accelerometers together usually read {:.6f} g (1 at rest){}\n", *f,
          std::abs(*f - 1.0) < 0.02 ? "" : ": check their units, or was the case moving?");
-  if (kind == RecordingKind::strapdown)
-    show_dwells(r, static_min);
-  else
+  preparation::NoiseCard card;
+  if (kind == RecordingKind::strapdown) {
+    const auto search =
+        strapdown::find_dwells(strapdown::signals_of(r), {.static_min = static_min});
+    show_dwells(search, static_min);
+    card = strapdown::noise_of(r, search);
+  } else {
     show_positions(r);
+    card = preparation::noise_card(r, kind, preparation::resting_rows(r));
+  }
+  show("\n{}", report::text_of({report::noise_section(card, gravity)}));
+  return card;
+}
+
+/// What goes into the study file.
+void show_paste(const std::string& section, const preparation::NoiseCard& card,
+                std::string_view how) {
+  const std::string noise = report::noise_keys(card);
+  if (section.empty() && noise.empty()) return;
+  show("\nFor the study file{}:\n\n{}", section.empty() ? "" : how,
+       section.empty() || noise.empty() ? section + noise : section + "\n" + noise);
 }
 
 void show_commands(const std::string& path, RecordingKind kind) {
@@ -109,7 +128,7 @@ ExitCode look_without_study(const std::string& path) {
       kind = RecordingKind::strapdown;
       r = read_recording(path, kind, gravity);
     }
-    show_recording(r, kind, static_min);
+    show_paste("", show_recording(r, kind, static_min, gravity), "");
     show_commands(path, kind);
     return ExitCode::ok;
   }
@@ -119,19 +138,19 @@ ExitCode look_without_study(const std::string& path) {
   show_columns(file);
   bool read = false;
   std::vector<std::string> wrong;
+  preparation::NoiseCard card;
   try {
-    show_recording(read_recording(path, file.format, file.kind, gravity), file.kind, static_min);
+    const Recording r = read_recording(path, file.format, file.kind, gravity);
     read = true;
+    card = show_recording(r, file.kind, static_min, gravity);
   } catch (const InputError& e) {
-    if (e.code() != ExitCode::recording) throw;
+    if (read || e.code() != ExitCode::recording) throw;
     wrong = e.messages();
   }
   if (!read) show("\nIt is not a recording yet:\n- {}\n", fmt::join(wrong, "\n- "));
-  if (!file.format.columns.empty() || !read)
-    show("\nFor the study file ({}):\n\n{}",
-         file.complete ? "guessed from names and values: check it"
-                       : "guessed; write the units that show as [?]",
-         recording_section(file));
+  show_paste(!file.format.columns.empty() || !read ? recording_section(file) : "", card,
+             file.complete ? " (guessed from names and values: check it)"
+                           : " (guessed; write the units that show as [?])");
   show_commands(path, file.kind);
   return ExitCode::ok;
 }
@@ -140,8 +159,10 @@ ExitCode look_without_study(const std::string& path) {
 ExitCode look(const StudyArguments& arguments, const std::string& recording) {
   if (arguments.config.empty()) return look_without_study(recording);
   const mc::Study study = arguments.read();
-  show_recording(read_recording(recording, study.recording, study.kind, study.site.gravity),
-                 study.kind, study.static_min);
+  const auto card =
+      show_recording(read_recording(recording, study.recording, study.kind, study.site.gravity),
+                     study.kind, study.static_min, study.site.gravity);
+  show_paste("", card, "");
   show_commands(recording, study.kind);
   return ExitCode::ok;
 }

@@ -51,6 +51,12 @@ std::vector<EquationContest> contest_of(const std::vector<Final>& accepted) {
 
 }  // namespace
 
+preparation::NoiseCard noise_of(const Recording& recording, const DwellSearch& search) {
+  std::vector<preparation::RestingRows> rests;
+  for (const Dwell& d : search.dwells) rests.push_back({d.first, d.last});
+  return preparation::noise_card(recording, RecordingKind::strapdown, rests);
+}
+
 StrapdownResult identify_strapdown(const Recording& recording, const StrapdownOptions& options) {
   check(options);
   StrapdownResult result;
@@ -63,6 +69,7 @@ StrapdownResult identify_strapdown(const Recording& recording, const StrapdownOp
   result.rotations = evidence.rotations.size();
   result.rotations_omitted = turns.omitted;
   check(result, evidence);
+  result.noise = noise_of(recording, result.search);
 
   const int folds = std::min(options.folds, static_cast<int>(evidence.dwells.size()));
   const Scoring scoring{{folds, options.repeats, options.seed}, options.gravity};

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/preparation/noise_card.hpp"
 #include "analysis/strapdown/findings.hpp"
 #include "analysis/strapdown/ladder.hpp"
 #include "core/estimate/strapdown/dwells.hpp"
@@ -33,6 +34,7 @@ struct StrapdownResult {
   std::string source;
   StrapdownOptions options;
   DwellSearch search;
+  preparation::NoiseCard noise;  ///< of the sensors in the dwells
   std::size_t rotations = 0, rotations_omitted = 0;
   std::vector<Trial> accelerometer_trials;     ///< in the order tried
   std::vector<Trial> gyro_trials;              ///< in the order tried
@@ -41,6 +43,9 @@ struct StrapdownResult {
   std::vector<Unobservable> unobservable;
   std::vector<EquationContest> contest;  ///< one if both equations are scored, else none
 };
+
+/// The noise of the sensors in the dwells.
+preparation::NoiseCard noise_of(const Recording& recording, const DwellSearch& search);
 
 /// Identifies the sensors of a strapdown recording: finds dwells, calibrates the accelerometers on
 /// gravity, the gyro drift on dwells, scale and misalignment on the rotations between dwells, and

@@ -45,6 +45,13 @@ std::string unit_suggestion(std::string_view text, const Unit& wanted) {
   return fmt::format("Write the value in '{}'", wanted.symbol.view());
 }
 
+/// A unit of study files; beside those of physics the short times of counters and stamps.
+std::optional<Unit> unit_of(std::string_view symbol) {
+  for (const auto& [text, size] : {std::pair{"us", 1e-6}, std::pair{"ns", 1e-9}})
+    if (symbol == text) return Unit{Name(text), size, unit::s.dim};
+  return parse_unit(symbol);
+}
+
 /// Splits and converts "60 min"; empty, with the reason in `why`, if it is none.
 std::optional<Quantity> parse(std::string_view whole, const Unit& wanted, std::string& why) {
   const bool dimensionless = wanted.same_dimension(unit::one);
@@ -69,7 +76,7 @@ std::optional<Quantity> parse(std::string_view whole, const Unit& wanted, std::s
                       expected_quantity(wanted), number(q.value), wanted.symbol.view());
     return std::nullopt;
   }
-  const auto unit = parse_unit(symbol);
+  const auto unit = unit_of(symbol);
   if (!unit && symbol.front() == ',') {
     why = fmt::format("has a decimal comma (expected {}). Write a decimal point",
                       expected_quantity(wanted));

@@ -32,7 +32,7 @@ std::string single_line(std::string_view text) {
 RawRecording read_csv(const std::string& path, const RecordingFormat& format, RecordingKind kind,
                       Problems& problems) {
   CsvLayout layout = find_layout(path, format, kind);
-  if (layout.header_line == 0) {
+  if (layout.header.empty()) {
     problems.add("1", "there is no header row", "a row such as 'time [s],acc_x [g],...'",
                  "Add the header, or check how the recording was exported");
     return {};

@@ -14,6 +14,7 @@ struct DiagnosisSource {
   std::vector<std::string> recordings;  ///< files
   std::string details;                  ///< kept as written, fixed width; may be empty
   Provenance provenance = {};
+  std::vector<Section> more = {};  ///< at the end of what a diagnosis says
 };
 
 /// All there is to say of a diagnosis, with its pictures; diagnosis.json, residual_signal.csv,

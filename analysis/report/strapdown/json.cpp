@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "analysis/report/noise/noise.hpp"
 #include "analysis/report/page/table.hpp"
 #include "analysis/report/strapdown/report.hpp"
 
@@ -88,6 +89,7 @@ json to_json(const strapdown::StrapdownResult& r) {
           {"gyros", to_json(r.gyro_trials)},
           {"accepted", std::move(accepted)},
           {"equations", std::move(contest)},
+          {"noise", to_json(r.noise, r.options.gravity)},
           {"parameters", std::move(parameters)},
           {"unobservable", std::move(unobservable)}};
 }

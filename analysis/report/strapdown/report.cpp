@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "analysis/report/noise/noise.hpp"
 #include "analysis/report/page/wording.hpp"
 #include "analysis/report/svg/bar_chart.hpp"
 
@@ -14,9 +15,9 @@ using strapdown::StrapdownResult;
 using strapdown::Trial;
 
 DRIFT_SECTIONS(StrapdownResult, strapdown_sections, dwells, accelerometers, gyros, parameters,
-               unobservable);
-inline constexpr Part strapdown_parts[] = {Part::details, Part::how_sure, Part::evidence,
-                                           Part::evidence, Part::how_sure};
+               unobservable, noise);
+inline constexpr Part strapdown_parts[] = {Part::details,  Part::how_sure, Part::evidence,
+                                           Part::evidence, Part::how_sure, Part::how_sure};
 
 namespace {
 
@@ -160,6 +161,10 @@ Section unobservable(const StrapdownResult& r) {
   Table t("Not observable in this recording", "<what | <why");
   for (const auto& u : r.unobservable) t.add({u.what, u.reason});
   return {"Not observable", {t}};
+}
+
+Section noise(const StrapdownResult& r) {
+  return noise_section(r.noise, r.options.gravity);
 }
 
 Report strapdown_report(const mc::Study& study, const StrapdownResult& result) {

@@ -27,23 +27,28 @@ class PanelPainter {
         w_(width - left - right),
         h_(height - top - bottom) {
     Range xs, ys;
+    const auto include = [](Range& range, const std::vector<double>& values, Spacing spacing) {
+      for (const double v : values) range.include(spaced(v, spacing));
+    };
     for (const auto& b : panel.expected) {
-      xs.include(b.x);
-      ys.include(b.low);
-      ys.include(b.high);
+      include(xs, b.x, panel.x_spacing);
+      include(ys, b.low, panel.y_spacing);
+      include(ys, b.high, panel.y_spacing);
     }
     for (const auto& s : panel.series) {
       DRIFT_DEMAND(s.x.size() == s.y.size() && (s.sigma.empty() || s.sigma.size() == s.y.size()));
-      xs.include(s.x);
-      ys.include(s.y);
-      ys.include(s.low);
-      ys.include(s.high);
+      include(xs, s.x, panel.x_spacing);
+      for (const auto* values : {&s.y, &s.low, &s.high}) include(ys, *values, panel.y_spacing);
     }
     if (!ys.empty())
-      for (const auto& r : panel.references) ys.include(r.y);
-    if (xs.low > 0.0 && xs.low < 0.05 * xs.high) xs.include(0.0);  // time starts at zero
-    x_scale_ = make_scale(xs, static_cast<int>(w_ / 56.0), 0.0);
-    y_scale_ = make_scale(panel.y_range.value_or(ys), static_cast<int>(h_ / 32.0), 0.06);
+      for (const auto& r : panel.references) ys.include(spaced(r.y, panel.y_spacing));
+    const bool linear = panel.x_spacing == Spacing::linear;
+    if (linear && xs.low > 0.0 && xs.low < 0.05 * xs.high) xs.include(0.0);  // time starts at zero
+    if (panel.y_range)
+      ys = {spaced(panel.y_range->low, panel.y_spacing),
+            spaced(panel.y_range->high, panel.y_spacing)};
+    x_scale_ = make_scale(xs, static_cast<int>(w_ / (linear ? 56.0 : 40.0)), linear ? 0.0 : 0.02);
+    y_scale_ = make_scale(ys, static_cast<int>(h_ / 32.0), 0.06);
   }
 
   void paint() {
@@ -66,32 +71,35 @@ class PanelPainter {
   }
 
  private:
-  double x_of(double x) const { return x_scale_.at(x, w_); }
-  double y_of(double y) const { return h_ - y_scale_.at(y, h_); }
+  double x_of(double x) const { return x_scale_.at(spaced(x, panel_.x_spacing), w_); }
+  double y_of(double y) const { return h_ - y_scale_.at(spaced(y, panel_.y_spacing), h_); }
 
   void axes() {
     canvas_.text(x0_ + 0.5 * w_, y0_ - 12.0, panel_.title,
                  {.size = 13.0, .anchor = "middle", .bold = true});
-    for (std::size_t i = 0; i < y_scale_.ticks.size(); ++i) {
-      const double y = y0_ + y_of(y_scale_.ticks[i]);
+    for (const std::size_t i : shown_ticks(y_scale_, panel_.y_spacing)) {
+      const double y = y0_ + h_ - y_scale_.at(y_scale_.ticks[i], h_);
       canvas_.line(x0_, y, x0_ + w_, y, "#e4e4e4", 1.0);
-      canvas_.text(x0_ - 6.0, y + 3.5, y_scale_.labels[i], {.size = small_type, .anchor = "end"});
+      canvas_.text(x0_ - 6.0, y + 3.5, tick_label(y_scale_, i, panel_.y_spacing),
+                   {.size = small_type, .anchor = "end"});
     }
-    for (std::size_t i = 0; i < x_scale_.ticks.size(); ++i) {
-      const double x = x0_ + x_of(x_scale_.ticks[i]);
+    for (const std::size_t i : shown_ticks(x_scale_, panel_.x_spacing)) {
+      const double x = x0_ + x_scale_.at(x_scale_.ticks[i], w_);
       canvas_.line(x, y0_, x, y0_ + h_, "#f0f0f0", 1.0);
       canvas_.line(x, y0_ + h_, x, y0_ + h_ + 4.0, "#555555", 1.0);
-      canvas_.text(x, y0_ + h_ + 16.0, x_scale_.labels[i],
+      canvas_.text(x, y0_ + h_ + 16.0, tick_label(x_scale_, i, panel_.x_spacing),
                    {.size = small_type, .anchor = "middle"});
     }
     canvas_.line(x0_, y0_ + h_, x0_ + w_, y0_ + h_, "#555555", 1.0);
     canvas_.line(x0_, y0_, x0_, y0_ + h_, "#555555", 1.0);
-    const auto labelled = [](const std::string& label, const AxisScale& scale) {
-      return scale.factor.empty() ? label : label + "  " + scale.factor;
+    const auto labelled = [](const std::string& label, const AxisScale& scale, Spacing spacing) {
+      const bool plain = scale.factor.empty() || spacing == Spacing::logarithmic;
+      return plain ? label : label + "  " + scale.factor;
     };
-    canvas_.text(x0_ + 0.5 * w_, y0_ + h_ + 34.0, labelled(panel_.x_label, x_scale_),
-                 {.anchor = "middle"});
-    canvas_.text(x0_ - left + 14.0, y0_ + 0.5 * h_, labelled(panel_.y_label, y_scale_),
+    canvas_.text(x0_ + 0.5 * w_, y0_ + h_ + 34.0,
+                 labelled(panel_.x_label, x_scale_, panel_.x_spacing), {.anchor = "middle"});
+    canvas_.text(x0_ - left + 14.0, y0_ + 0.5 * h_,
+                 labelled(panel_.y_label, y_scale_, panel_.y_spacing),
                  {.anchor = "middle", .turned = -90.0});
   }
 
@@ -112,6 +120,7 @@ class PanelPainter {
   }
 
   void sigma_band(const Series& s) {
+    if (s.drawn == Drawn::points) return;
     if (!s.low.empty()) area(s.x, s.low, s.high, palette(s.colour), 0.13);
     if (s.sigma.empty()) return;
     std::vector<double> low(s.y), high(s.y);
@@ -122,7 +131,19 @@ class PanelPainter {
     area(s.x, low, high, palette(s.colour), 0.13);
   }
 
+  /// Dots with their intervals.
+  void points(const Series& s) {
+    for (std::size_t i = 0; i < s.y.size(); ++i) {
+      const double x = x_of(s.x[i]), y = y_of(s.y[i]);
+      if (!std::isfinite(x) || !std::isfinite(y)) continue;
+      if (!s.low.empty())
+        canvas_.line(x, y_of(s.low[i]), x, y_of(s.high[i]), palette(s.colour), 1.0);
+      canvas_.rectangle(x - 1.8, y - 1.8, 3.6, 3.6, palette(s.colour));
+    }
+  }
+
   void curve(const Series& s) {
+    if (s.drawn == Drawn::points) return points(s);
     std::vector<double> px, py;
     for (const std::size_t i : decimated(s.y)) {
       px.push_back(x_of(s.x[i]));

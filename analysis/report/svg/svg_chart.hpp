@@ -9,6 +9,9 @@
 
 namespace drift::report {
 
+/// How the points of a series are shown: joined, or each by itself with a bar from low to high.
+enum class Drawn { curve, points };
+
 /// A curve, with an optional band of +-1 sigma around it.
 struct Series {
   std::string label;  ///< in the legend; series of equal label share one entry
@@ -17,6 +20,7 @@ struct Series {
   std::vector<double> low = {}, high = {};  ///< instead of sigma: a band with edges of its own
   std::size_t colour = 0;                   ///< index in the palette
   Stroke stroke = Stroke::solid;
+  Drawn drawn = Drawn::curve;
 };
 
 /// An area that values should lie in.
@@ -41,6 +45,7 @@ struct Panel {
   std::optional<Range> y_range;    ///< empty: all of the curves; what is outside is cut off
   std::string note;                ///< in the middle of the panel, where there is nothing to draw
   std::vector<double> marks = {};  ///< vertical lines, where something begins
+  Spacing x_spacing = Spacing::linear, y_spacing = Spacing::linear;
 };
 
 /// Panels in a grid, filled row by row, with one legend.

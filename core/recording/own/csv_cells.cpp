@@ -111,6 +111,16 @@ const std::vector<std::string_view>& CellSplitter::split(std::string_view line) 
   return cells_;
 }
 
+std::string_view without_checksum(std::string_view line) {
+  const std::string_view text = trimmed(line);
+  const auto star = text.rfind('*');
+  if (star == std::string_view::npos) return line;
+  const std::string_view sum = text.substr(star + 1);
+  const bool hexadecimal =
+      sum.find_first_not_of("0123456789abcdefABCDEF") == std::string_view::npos;
+  return hexadecimal && (sum.size() == 2 || sum.size() == 8) ? text.substr(0, star) : line;
+}
+
 ParsedCell parse_cell(std::string_view text, DecimalMark decimal) {
   using Kind = ParsedCell::Kind;
   if (text.empty()) return {Kind::number, std::numeric_limits<double>::quiet_NaN(), 0};

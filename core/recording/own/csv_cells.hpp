@@ -24,6 +24,9 @@ class CellSplitter {
   std::vector<std::string_view> cells_;
 };
 
+/// A line without the checksum "*1a2b3c4d" or "*5f" that NovAtel and NMEA put at its end.
+std::string_view without_checksum(std::string_view line);
+
 /// What a cell holds.
 struct ParsedCell {
   enum class Kind { number, text, out_of_range, wrong_mark };

@@ -85,6 +85,7 @@ std::vector<HeaderCell> header_cells(std::string_view line, char delimiter) {
 }
 
 bool is_row_of_numbers(std::string_view line, char delimiter) {
+  line = without_checksum(line);
   CellSplitter splitter(delimiter);
   std::size_t numbers = 0, filled = 0;
   for (const auto cell : splitter.split(line)) {
@@ -147,6 +148,12 @@ CsvLayout find_layout(const std::string& path, const RecordingFormat& format, Re
   CsvLayout layout;
   const auto lines = first_lines(path, format.skip_rows);
   if (lines.empty()) return layout;
+  if (!format.header.empty()) {
+    layout.header_line = format.skip_rows;
+    layout.delimiter = row_delimiter(lines.front().text, format);
+    for (const std::string& name : format.header) layout.header.push_back(header_cell(name));
+    return layout;
+  }
   const std::size_t at = find_header(lines, format, kind);
   layout.header_line = lines[at].number;
   layout.above = at;

@@ -86,7 +86,8 @@ bool CsvRows::is_header_sound() {
     if (!cell.whole.empty() &&
         parse_cell(cell.whole, DecimalMark::automatic).kind == ParsedCell::Kind::number) {
       problems_.add(at, "the first row holds the number " + in_quotes(cell.whole), header_example,
-                    "Add the header row");
+                    "Add the header row, or name the columns in [recording] of the study file: "
+                    "header = [\"...\"]");
       return false;
     }
   }
@@ -95,6 +96,7 @@ bool CsvRows::is_header_sound() {
 
 RawRecording CsvRows::read() {
   std::string_view line;
+  if (layout_.header_line == 0 && uses_.empty()) return {};
   while (lines_.next(line)) {
     const bool header = lines_.number() == layout_.header_line;
     if (lines_.number() < layout_.header_line && !line.starts_with('#')) continue;
@@ -136,11 +138,13 @@ void CsvRows::read_comment(std::string_view text) {
 void CsvRows::read_row(std::string_view line) {
   report_pending();
   const std::size_t n = row_.size();
-  const auto& cells = splitter_.split(line);
+  const auto& cells = splitter_.split(without_checksum(line));
   if (cells.size() != n) {
     const bool comma = layout_.delimiter == ',' && cells.size() > n;
     Complaint complaint{
-        here(), fmt::format("{} cells", cells.size()), fmt::format("{}, as in the header", n),
+        here(), fmt::format("{} cells", cells.size()),
+        fmt::format("{}, as in the header{}", n,
+                    format_.header.empty() ? "" : " of the study file"),
         comma ? "Write numbers with a decimal point, not a comma, and remove superfluous cells"
               : "Complete the row, or leave cells empty that were not measured"};
     if (cells.size() > n)

@@ -133,19 +133,37 @@ void read_offsets(Section& section, RecordingKind kind, RecordingFormat& format)
   }
 }
 
-void read_ignored(Section& section, RecordingFormat& format) {
-  const std::string expected = "a list of headers of the file";
-  const Node* node = section.take("ignore", Section::Kind::list, expected);
-  if (node == nullptr) return;
+/// A list of names of columns.
+std::vector<std::string> read_names(Section& section, std::string_view key,
+                                    const std::string& expected, std::string_view example) {
+  std::vector<std::string> names;
+  const Node* node = section.take(key, Section::Kind::list, expected);
+  if (node == nullptr) return names;
   const auto is_text = [](const Node& item) { return item.is(Node::Kind::string); };
   if (!node->is(Node::Kind::array) || !std::ranges::all_of(node->items, is_text)) {
-    section.report().error(node->at,
-                           fmt::format("'{}' is {} (expected {}). Write ignore = [\"Datum\"]",
-                                       section.full("ignore"), describe(*node), expected));
-    return;
+    section.report().error(
+        node->at, fmt::format("'{}' is {} (expected {}). Write {} = [\"{}\"]", section.full(key),
+                              describe(*node), expected, key, example));
+    return names;
   }
-  for (const Node& item : node->items) format.ignore.push_back(std::string(trimmed(item.text)));
-  section.report().given(section.full("ignore"), config::to_toml(*node), node->at);
+  for (const Node& item : node->items) names.emplace_back(trimmed(item.text));
+  section.report().given(section.full(key), config::to_toml(*node), node->at);
+  return names;
+}
+
+/// Names for the columns of a file without a header row: all of them, each its own.
+void read_header(Section& section, RecordingFormat& format) {
+  format.header = read_names(section, "header", "a list of names for the columns", "wx");
+  for (std::size_t i = 0; i < format.header.size(); ++i)
+    if (format.header[i].empty() ||
+        std::find(format.header.begin(), format.header.begin() + static_cast<std::ptrdiff_t>(i),
+                  format.header[i]) != format.header.begin() + static_cast<std::ptrdiff_t>(i))
+      section.report().error(
+          section.take("header")->at,
+          fmt::format(
+              "'{}' has \"{}\" as name {} (expected a name for every column, each its own). "
+              "Correct it",
+              section.full("header"), format.header[i], i + 1));
 }
 
 /// Keys of time that do not go together.
@@ -179,7 +197,8 @@ RecordingFormat read_recording_format(Section section, RecordingKind kind,
   if (section.present()) {
     read_columns(section, kind, format);
     read_offsets(section, kind, format);
-    read_ignored(section, format);
+    format.ignore = read_names(section, "ignore", "a list of headers of the file", "Datum");
+    read_header(section, format);
     section.read(Option{.key = "delimiter", .doc = "between cells"}, format.delimiter, delimiters);
     section.read(Option{.key = "decimal", .doc = "mark within numbers"}, format.decimal,
                  decimal_marks);

@@ -57,7 +57,7 @@ std::vector<double> look_at_rows(const std::string& path, GuessedFile& file) {
     if (lines.number() <= std::max(file.layout.header_line, file.layout.unit_line)) continue;
     if (trimmed(line).empty() || line.front() == '#') continue;
     if (!valid_utf8(line)) line = decoded = utf8_from_latin1(line);
-    const auto& cells = splitter.split(line);
+    const auto& cells = splitter.split(without_checksum(line));
     if (cells.size() != file.columns.size()) continue;
     ++file.rows;
     for (std::size_t i = 0; i < cells.size(); ++i) look_at(file.columns[i], cells[i]);
@@ -80,6 +80,16 @@ std::string unit_of_gravity(std::vector<double> lengths) {
   return "?";
 }
 
+/// Times that are counted since 1970 tell their unit by their size; others do not.
+std::string unit_of_epoch(const GuessedColumn& c) {
+  constexpr std::pair<double, std::string_view> sizes[] = {
+      {1.0, "s"}, {1e3, "ms"}, {1e6, "us"}, {1e9, "ns"}};
+  constexpr double early = 1e9, late = 4e9;  // [s] 2001 to 2096
+  for (const auto& [size, unit] : sizes)
+    if (c.numbers > 0 && c.low > early * size && c.high < late * size) return std::string(unit);
+  return "?";
+}
+
 std::string unit_of(const GuessedColumn& c, const std::string& gravity) {
   const auto quantity = known_quantity(c.channel);
   if (!quantity || !quantity->needs_unit) return {};
@@ -90,6 +100,8 @@ std::string unit_of(const GuessedColumn& c, const std::string& gravity) {
         unit && (unit->dim == quantity->dim || c.channel.starts_with("acc_")))
       return ending;
   if (c.channel.starts_with("acc_")) return gravity;
+  if (c.channel.starts_with("gyro_") && c.header.name.starts_with("field.")) return "rad/s";  // ROS
+  if (c.channel == "time") return unit_of_epoch(c);
   constexpr double full_turn = 7.0;  // [rad] no angle is larger
   if (c.channel.starts_with("gimbal_") && std::max(-c.low, c.high) > full_turn) return "deg";
   return c.channel == "temperature" ? "" : "?";  // a covariate does without
@@ -103,6 +115,15 @@ void name_channels(GuessedFile& file) {
     if (std::ranges::find(all, c.header.name) != all.end()) channel = c.header.name;
     if (std::ranges::find(file.columns, channel, &GuessedColumn::channel) == file.columns.end())
       c.channel = channel;
+  }
+  const auto fine = std::ranges::find(file.columns, "SampleTimeFine", [](const GuessedColumn& c) {
+    return std::string_view(c.header.name);
+  });
+  if (fine != file.columns.end() && fine->channel.empty() &&
+      std::ranges::find(file.columns, "time", &GuessedColumn::channel) == file.columns.end()) {
+    file.format.counter = fine->header.name;  // Xsens: 10 kHz in 32 bits
+    file.format.tick = 1e-4;
+    file.format.wrap = 4294967296.0;
   }
   const auto has = [&](std::string_view start) {
     return std::ranges::any_of(
@@ -134,9 +155,25 @@ std::string quoted(const std::string& text) {
 
 }  // namespace
 
+/// Where the first row holds numbers there is no header: the columns are numbered.
+void name_columns_without_header(GuessedFile& file) {
+  std::size_t numbers = 0;
+  for (const HeaderCell& cell : file.layout.header)
+    if (!cell.whole.empty() &&
+        parse_cell(cell.whole, DecimalMark::automatic).kind == ParsedCell::Kind::number)
+      ++numbers;
+  if (numbers < 2 || 2 * numbers < file.layout.header.size()) return;
+  for (std::size_t i = 0; i < file.layout.header.size(); ++i) {
+    file.format.header.push_back(fmt::format("column_{}", i + 1));
+    file.layout.header[i] = header_cell(file.format.header.back());
+  }
+  file.layout.header_line = file.layout.unit_line = 0;
+}
+
 GuessedFile guess_file(const std::string& path) {
   GuessedFile file;
   file.layout = find_layout(path, {}, RecordingKind::platform);
+  name_columns_without_header(file);
   for (const HeaderCell& cell : file.layout.header) {
     GuessedColumn column;
     column.header = cell;
@@ -156,7 +193,16 @@ std::string recording_section(const GuessedFile& file) {
       columns += fmt::format(
           "{}{} = {}", columns.empty() ? "" : ", ", c.channel,
           quoted(c.unit.empty() ? c.header.name : fmt::format("{} [{}]", c.header.name, c.unit)));
-  std::string out = fmt::format("[recording]\ncolumns = {{ {} }}\n", columns);
+  const RecordingFormat& f = file.format;
+  std::string out = "[recording]\n", header;
+  for (const std::string& name : f.header)
+    header += fmt::format("{}{}", header.empty() ? "" : ", ", quoted(name));
+  if (!header.empty())
+    out += fmt::format("header  = [{}]  # name them and say below what they are\n", header);
+  out += fmt::format("columns = {{ {} }}\n", columns);
+  if (!f.counter.empty())
+    out += fmt::format("counter = {}\ntick    = \"{:g} us\"\nwrap    = {:.0f}\n", quoted(f.counter),
+                       1e6 * f.tick.value_or(0.0), f.wrap.value_or(0.0));
   for (const auto& [text, number] : file.format.positions)
     positions += fmt::format("{}{} = {}", positions.empty() ? "" : ", ", quoted(text), number);
   if (!positions.empty()) out += fmt::format("positions = {{ {} }}\n", positions);

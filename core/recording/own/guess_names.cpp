@@ -23,16 +23,28 @@ constexpr std::pair<std::string_view, std::string_view> unit_endings[] = {
 
 constexpr std::string_view time_words[] = {"time",       "t",           "zeit",        "timestamp",
                                            "elapsed",    "elapsedtime", "zeitstempel", "uhrzeit",
-                                           "sampletime", "seconds"};
+                                           "sampletime", "seconds",     "timestartup", "timegps"};
 constexpr std::string_view position_words[] = {"position", "pos",   "lage",      "stellung",
                                                "lagenr",   "posnr", "positionno"};
 constexpr std::string_view temperature_words[] = {"temperature", "temp", "temperatur", "tc"};
-constexpr std::string_view acc_words[] = {
-    "a",      "acc", "accel",          "acceleration",  "accelerometer",
-    "beschl", "f",   "beschleunigung", "specificforce", "sf"};
-constexpr std::string_view gyro_words[] = {
-    "g",           "gyr",     "gyro",   "gyroscope",       "w",       "omega", "rate", "drehrate",
-    "angularrate", "angrate", "angvel", "angularvelocity", "gyrorate"};
+constexpr std::string_view acc_words[] = {"a",
+                                          "acc",
+                                          "accel",
+                                          "acceleration",
+                                          "accelerometer",
+                                          "beschl",
+                                          "f",
+                                          "beschleunigung",
+                                          "specificforce",
+                                          "sf",
+                                          "fieldlinearacceleration"};
+constexpr std::string_view gyro_words[] = {"g",           "gyr",
+                                           "gyro",        "gyroscope",
+                                           "w",           "omega",
+                                           "rate",        "drehrate",
+                                           "angularrate", "angrate",
+                                           "angvel",      "angularvelocity",
+                                           "gyrorate",    "fieldangularvelocity"};
 constexpr std::string_view cmd_words[] = {"cmd", "command", "commanded", "soll", "befehl", "wcmd"};
 constexpr std::string_view gimbal_words[] = {"gimbal", "phi",    "resolver",
                                              "winkel", "rahmen", "angle"};

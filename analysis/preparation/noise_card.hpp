@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/recording/recording.hpp"
+#include "core/stats/allan_fit.hpp"
+#include "core/stats/welch.hpp"
+
+namespace drift::preparation {
+
+/// Rows first..last, both included, in which a sensor rests.
+struct RestingRows {
+  std::size_t first = 0, last = 0;
+};
+
+/// The noise of one channel at rest, in internal units (rad/s, g) and seconds.
+struct ChannelNoise {
+  std::string channel;
+  stats::AllanFit fit;
+  stats::Spectrum spectrum;  ///< thinned, for a picture
+  /// Deviation of one sample (square root of its Allan variance) in the quietest dwell and the
+  /// noisiest, of those with thirty samples or more; 0 without two of them.
+  double quietest = 0.0, noisiest = 0.0;
+};
+
+/// Why a recording has no noise card.
+enum class NoNoise { there_is_one, unequal_rows, too_short };
+
+/// What rests of a recording say of the noise of its sensors.
+struct NoiseCard {
+  NoNoise missing = NoNoise::too_short;
+  RecordingKind kind = RecordingKind::platform;
+  double interval = 0.0;      ///< of the samples [s]
+  std::size_t stretches = 0;  ///< evenly spaced rests that are pooled
+  double longest = 0.0;       ///< of them [s]
+  double total = 0.0;         ///< [s]
+  std::size_t left_out = 0;   ///< rows at rest with another interval, or alone between gaps
+  std::vector<ChannelNoise> channels;
+};
+
+/// Looks at each gyro and accelerometer channel in rests of a recording. Nothing is differenced
+/// across a gap or from one rest to the next. Rows whose distances scatter by more than a fifth of
+/// what is usual are refused (unequal_rows): an average over them is none over equal times.
+///
+/// On a platform what the accelerometers read changes with the attitude in every dwell: the
+/// polynomial of fourth degree of each dwell is taken off, which leaves Earth rate and drift below
+/// 1 ug in an hour, and only averaging times up to a twentieth of the longest dwell are looked at,
+/// of which it takes less than 4 % of white noise, and only Q and N are fitted.
+NoiseCard noise_card(const Recording& recording, RecordingKind kind,
+                     const std::vector<RestingRows>& rests);
+
+/// The rests of a platform recording: its positions, slews left out.
+std::vector<RestingRows> resting_rows(const Recording& recording);
+
+}  // namespace drift::preparation

@@ -1,0 +1,117 @@
+#include "analysis/preparation/noise_card.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/base/rng.hpp"
+#include "core/estimate/strapdown/dwells.hpp"
+#include "tests/support/strapdown_recording.hpp"
+
+namespace drift::noise_card_test {
+namespace {
+
+using preparation::ChannelNoise, preparation::NoiseCard, preparation::NoNoise,
+    preparation::noise_card, preparation::RestingRows;
+using stats::AllanNoise;
+
+void expect_white(const ChannelNoise& c, double sample_sigma, double interval) {
+  const stats::AllanCoefficient& n = c.fit[AllanNoise::white];
+  ASSERT_TRUE(n.found) << c.channel;
+  EXPECT_NEAR(n.value, sample_sigma * std::sqrt(interval), 4.0 * n.sigma) << c.channel;
+  EXPECT_LT(n.sigma, 0.1 * n.value) << c.channel;
+  EXPECT_TRUE(c.fit.fits) << c.channel << " " << c.fit.misfit;
+}
+
+TEST(NoiseCard, OfSensorsOnACaseIsWhatTheDwellsHold) {
+  const test::StrapdownScript script{.dwells = 12, .rest = 8.0};
+  const Recording r = test::strapdown_recording(script, Theta::Zero());
+  const auto search = strapdown::find_dwells(strapdown::signals_of(r), {});
+  std::vector<RestingRows> rests;
+  for (const auto& d : search.dwells) rests.push_back({d.first, d.last});
+  const NoiseCard card = noise_card(r, RecordingKind::strapdown, rests);
+  ASSERT_EQ(card.missing, NoNoise::there_is_one);
+  ASSERT_EQ(card.channels.size(), 6u);
+  EXPECT_EQ(card.stretches, search.dwells.size());
+  EXPECT_NEAR(card.interval, script.interval, 1e-9);
+  for (const ChannelNoise& c : card.channels) {
+    expect_white(c, c.channel.starts_with("gyro") ? script.gyro_noise : script.acc_noise,
+                 script.interval);
+    EXPECT_GT(c.quietest, 0.0);
+    EXPECT_LT(c.noisiest, 1.3 * c.quietest) << c.channel;  // all dwells are alike
+    EXPECT_FALSE(c.spectrum.frequency.empty());
+  }
+}
+
+/// Three positions of 150 rows: Earth rate turns the platform in each, and in slews between.
+Recording platform(double noise) {
+  const double rate = 7.292115e-5, sample = 30.0;  // [rad/s], [s]
+  Recording r;
+  r.source = "made";
+  for (const char* name : {"time", "position", "phase", "acc_x", "acc_y", "acc_z"})
+    r.channels.push_back({name,
+                          name[0] == 'a'   ? unit::g
+                          : name[0] == 't' ? unit::s
+                                           : unit::one,
+                          {}});
+  Stream random(1, 0, Purpose::test);
+  double t = 0.0;
+  for (int position = 1; position <= 3; ++position)
+    for (int k = 0; k < 160; ++k) {
+      t += sample;
+      const double turned = rate * sample * k, row[] = {t,
+                                                        static_cast<double>(position),
+                                                        k < 10 ? 1.0 : 0.0,
+                                                        std::sin(turned + position),
+                                                        std::cos(turned + position),
+                                                        0.5 * std::cos(turned)};
+      for (std::size_t c = 0; c < 6; ++c)
+        r.channels[c].values.push_back(row[c] + (c >= 3 ? noise * random.normal() : 0.0));
+    }
+  return r;
+}
+
+TEST(NoiseCard, OfAPlatformIsWhatIsLeftWhenTheCourseOfEachDwellIsTakenOff) {
+  const Recording r = platform(5e-6);
+  const auto rests = preparation::resting_rows(r);
+  ASSERT_EQ(rests.size(), 3u);
+  EXPECT_EQ(rests[1].first, 170u);
+  EXPECT_EQ(rests[1].last, 319u);
+  const NoiseCard card = noise_card(r, RecordingKind::platform, rests);
+  ASSERT_EQ(card.channels.size(), 3u);
+  for (const ChannelNoise& c : card.channels) {
+    expect_white(c, 5e-6, 30.0);
+    EXPECT_LE(c.fit.points.back().tau, 150 * 30.0 / 20.0);
+  }
+}
+
+TEST(NoiseCard, AGapEndsAStretchAndUnequalRowsAreRefused) {
+  Recording r = platform(5e-6);
+  const auto rests = preparation::resting_rows(r);
+  for (std::size_t k = 240; k < r.rows(); ++k) r.channels[0].values[k] += 3600.0;
+  EXPECT_EQ(noise_card(r, RecordingKind::platform, rests).stretches, 4u);
+  r.channels[3].values[50] = std::nan("");  // not measured: two stretches of this channel
+  EXPECT_EQ(noise_card(r, RecordingKind::platform, rests).channels.size(), 3u);
+
+  Recording shaken = platform(5e-6);
+  Stream random(2, 0, Purpose::test);
+  for (double& t : shaken.channels[0].values) t += 20.0 * (random.uniform() - 0.5);
+  const NoiseCard none = noise_card(shaken, RecordingKind::platform, rests);
+  EXPECT_EQ(none.missing, NoNoise::unequal_rows);
+  EXPECT_TRUE(none.channels.empty());
+}
+
+TEST(NoiseCard, AStuckChannelAndRestsTooShortHaveNone) {
+  Recording r = platform(5e-6);
+  for (double& v : r.channels[3].values) v = 0.25;
+  const auto rests = preparation::resting_rows(r);
+  // What the polynomial leaves of a constant is rounding, not noise.
+  const NoiseCard card = noise_card(r, RecordingKind::platform, rests);
+  for (const ChannelNoise& c : card.channels)
+    EXPECT_TRUE(c.channel != "acc_x" || c.fit[AllanNoise::white].value < 1e-12) << c.channel;
+  EXPECT_EQ(noise_card(r, RecordingKind::platform, {{10, 20}}).missing, NoNoise::too_short);
+  EXPECT_EQ(noise_card(r, RecordingKind::platform, {}).missing, NoNoise::too_short);
+}
+
+}  // namespace
+}  // namespace drift::noise_card_test
