@@ -7,6 +7,17 @@
 namespace drift::cli {
 namespace {
 
+/// The positions in the order in which a recording has to have them.
+void show_positions(const TestPlan& plan) {
+  show("\n{:>8}  {:<36}  {:<18}  {:<5}  {:<7}  {}\n", "position", "name", "axes", "mode", "entry",
+       "dwell");
+  for (std::size_t k = 0; k < plan.positions.size(); ++k) {
+    const Position& p = plan.positions[k];
+    show("{:>8}  {:<36}  {:<18}  {:<5}  {:<7}  {:g} min\n", k + 1, p.name, p.axes, key_of(p.mode),
+         key_of(p.entry), p.dwell / 60.0);
+  }
+}
+
 ExitCode check(const StudyArguments& arguments) {
   const mc::Study study = arguments.read();
   if (study.kind == RecordingKind::platform) require_memory_for(study.plan);
@@ -18,6 +29,7 @@ ExitCode check(const StudyArguments& arguments) {
   value_width = std::min<std::size_t>(value_width, 60);
   for (const mc::Resolved& r : study.resolved)
     show("{:<{}}  {:<{}}  {}\n", r.key, key_width, r.value, value_width, r.origin);
+  if (study.kind == RecordingKind::platform) show_positions(study.plan);
   return ExitCode::ok;
 }
 
@@ -25,10 +37,11 @@ ExitCode check(const StudyArguments& arguments) {
 
 Command check_command() {
   const auto add = [](CLI::App& app, StudyArguments& study) { add_study(app, study); };
-  return {"check", group::plans,
-          "read a study file, print all values and where each came from, run nothing",
-          "driftscope check configs/table1.toml --set plan.dwell=\"20 min\"",
-          with_arguments<StudyArguments>(add, check)};
+  return {
+      "check", group::plans,
+      "read a study file, print all values, where each came from and the positions, run nothing",
+      "driftscope check configs/table1.toml --set plan.dwell=\"20 min\"",
+      with_arguments<StudyArguments>(add, check)};
 }
 
 }  // namespace drift::cli

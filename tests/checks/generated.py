@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Documents that the program writes of itself: core/docs/effects.md, of `driftscope terms`, and core/docs/study.md,
-of `driftscope schema`.
+"""Documents that the program writes of itself: core/docs/effects.md, of `driftscope terms`, core/docs/study.md, of
+`driftscope schema`, and core/docs/plans.md, of `driftscope check`.
 
     tests/checks/generated.py PROGRAM             compares; exit code 1 and the difference if one is stale
     tests/checks/generated.py PROGRAM --update    writes them
@@ -26,6 +26,29 @@ numbers with a unit are texts ("1.45 deg/h/g"). `driftscope check FILE` prints e
 it came from. What one key asks of another, and a unit that does not fit, `check` says. Terms and parameters:
 [effects](effects.md); `[recording]`: [the recording](recording.md).
 """
+
+
+PLANS = """# Plans
+
+The positions of every preset of `plan.preset`, in order, as `driftscope check` prints them; written by
+`tests/checks/generated.py`. A recording numbers its positions like this (column `position`), or `[recording] positions` says
+which is which. axes: where the platform's axes point, of N(orth), E, S, W, U(p), D(own); two letters: half way between. Another
+order, or other attitudes, are written position by position ([the study file](study.md), `plan.position[]`).
+"""
+
+
+def plans(program):
+    yield PLANS
+    schema = json.loads(subprocess.run([program, "schema"], check=True, capture_output=True, text=True).stdout)
+    config = str(DOCS.parents[1] / "configs" / "diagnose_equation.toml")
+    for preset in schema["properties"]["plan"]["properties"]["preset"]["enum"]:
+        command = [program, "check", config, "--set", f'plan.preset="{preset}"']
+        lines = subprocess.run(command, check=True, capture_output=True, text=True).stdout.splitlines()
+        first = next(k for k, line in enumerate(lines) if line.split()[:3] == ["position", "name", "axes"])
+        yield f"\n## {preset}\n\n| position | name | axes | entry |\n|---|---|---|---|\n"
+        for line in lines[first + 1:]:
+            number, name, axes, _, entry, *_ = (part.strip() for part in re.split(r"  +", line.strip()))
+            yield f"| {number} | {name} | {axes} | {entry} |\n"
 
 
 def effects(program):
@@ -67,7 +90,7 @@ def study(program):
 def main():
     program, update = sys.argv[1], "--update" in sys.argv[2:]
     stale = 0
-    for name, make in (("effects.md", effects), ("study.md", study)):
+    for name, make in (("effects.md", effects), ("study.md", study), ("plans.md", plans)):
         text = "".join(make(program))
         path = DOCS / name
         if update:
