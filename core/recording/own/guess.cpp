@@ -107,6 +107,22 @@ std::string unit_of(const GuessedColumn& c, const std::string& gravity) {
   return c.channel == "temperature" ? "" : "?";  // a covariate does without
 }
 
+/// A counter that stands for time where nothing else does.
+void guess_counter(GuessedFile& file) {
+  if (std::ranges::find(file.columns, "time", &GuessedColumn::channel) != file.columns.end())
+    return;
+  for (const GuessedColumn& c : file.columns) {
+    const bool xsens = c.header.name == "SampleTimeFine";  // 10 kHz in 32 bits
+    if (!c.channel.empty() || (!xsens && lower_case(c.header.name) != "counter")) continue;
+    (xsens ? file.format.counter : file.counter) = c.header.name;
+    if (xsens) {
+      file.format.tick = 1e-4;
+      file.format.wrap = 4294967296.0;
+    }
+    return;
+  }
+}
+
 /// Names the channels; of two columns that may be one channel, the first is.
 void name_channels(GuessedFile& file) {
   for (GuessedColumn& c : file.columns) {
@@ -116,15 +132,7 @@ void name_channels(GuessedFile& file) {
     if (std::ranges::find(file.columns, channel, &GuessedColumn::channel) == file.columns.end())
       c.channel = channel;
   }
-  const auto fine = std::ranges::find(file.columns, "SampleTimeFine", [](const GuessedColumn& c) {
-    return std::string_view(c.header.name);
-  });
-  if (fine != file.columns.end() && fine->channel.empty() &&
-      std::ranges::find(file.columns, "time", &GuessedColumn::channel) == file.columns.end()) {
-    file.format.counter = fine->header.name;  // Xsens: 10 kHz in 32 bits
-    file.format.tick = 1e-4;
-    file.format.wrap = 4294967296.0;
-  }
+  guess_counter(file);
   const auto has = [&](std::string_view start) {
     return std::ranges::any_of(
         file.columns, [&](const GuessedColumn& c) { return c.channel.starts_with(start); });
@@ -133,7 +141,7 @@ void name_channels(GuessedFile& file) {
 }
 
 void fill_format(GuessedFile& file) {
-  file.complete = true;
+  file.complete = file.counter.empty();
   for (const GuessedColumn& c : file.columns) {
     if (c.channel.empty() || c.unit == "?") {
       file.complete = file.complete && c.unit != "?";
@@ -147,6 +155,7 @@ void fill_format(GuessedFile& file) {
       for (std::size_t i = 0; i < c.words.size(); ++i)
         file.format.positions.emplace_back(c.words[i], static_cast<int>(i + 1));
   }
+  if (!file.format.header.empty() && file.format.columns.empty()) file.complete = false;
 }
 
 std::string quoted(const std::string& text) {
@@ -163,10 +172,18 @@ void name_columns_without_header(GuessedFile& file) {
         parse_cell(cell.whole, DecimalMark::automatic).kind == ParsedCell::Kind::number)
       ++numbers;
   if (numbers < 2 || 2 * numbers < file.layout.header.size()) return;
+  // The fields of NovAtel's short log of raw increments; the size of a count is that of its IMU.
+  constexpr std::array<std::string_view, 13> raw_imu{
+      "log", "header_week", "header_seconds", "imu", "week", "seconds", "status", "az", "minus_ay",
+      "ax",  "gz",          "minus_gy",       "gx"};
+  const bool novatel = file.layout.header.front().whole == "%RAWIMUSXA" &&
+                       file.layout.header.size() == raw_imu.size();
   for (std::size_t i = 0; i < file.layout.header.size(); ++i) {
-    file.format.header.push_back(fmt::format("column_{}", i + 1));
+    file.format.header.push_back(novatel ? std::string(raw_imu[i])
+                                         : fmt::format("column_{}", i + 1));
     file.layout.header[i] = header_cell(file.format.header.back());
   }
+  if (file.layout.delimiter == ',') file.format.delimiter = Delimiter::comma;
   file.layout.header_line = file.layout.unit_line = 0;
 }
 
@@ -199,10 +216,18 @@ std::string recording_section(const GuessedFile& file) {
     header += fmt::format("{}{}", header.empty() ? "" : ", ", quoted(name));
   if (!header.empty())
     out += fmt::format("header  = [{}]  # name them and say below what they are\n", header);
-  out += fmt::format("columns = {{ {} }}\n", columns);
+  if (f.delimiter == Delimiter::comma) out += "delimiter = \",\"\n";
+  out += columns.empty()
+             ? "# columns = { time = \"column_1 [s]\", gyro_x = \"column_2 [rad/s]\" }\n"
+             : fmt::format("columns = {{ {} }}\n", columns);
   if (!f.counter.empty())
     out += fmt::format("counter = {}\ntick    = \"{:g} us\"\nwrap    = {:.0f}\n", quoted(f.counter),
                        1e6 * f.tick.value_or(0.0), f.wrap.value_or(0.0));
+  if (!file.counter.empty())
+    out += fmt::format(
+        "counter = {}\ntick    = \"[?]\"  # from one count to the next; wrap = where it begins "
+        "again\n",
+        quoted(file.counter));
   for (const auto& [text, number] : file.format.positions)
     positions += fmt::format("{}{} = {}", positions.empty() ? "" : ", ", quoted(text), number);
   if (!positions.empty()) out += fmt::format("positions = {{ {} }}\n", positions);

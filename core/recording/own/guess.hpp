@@ -24,6 +24,7 @@ struct GuessedFile {
   std::vector<GuessedColumn> columns;
   std::size_t rows = 0;
   RecordingFormat format;  ///< reads it, where every unit could be told
+  std::string counter;     ///< that may stand for time, were its tick known; empty: none
   bool complete = false;   ///< that is so, and the columns that are needed are there
 };
 
