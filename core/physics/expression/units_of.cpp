@@ -77,8 +77,11 @@ class UnitChecker {
                             fmt::format("puts together what measures different things, {} and {}",
                                         dimension_in_words(*a), dimension_in_words(*b)),
                             "two of a kind", "Multiply one by a parameter of the missing unit"};
+    // "1 + abs(f_x)": either the figure is in g, or the force is meant as a number.
+    if (is_literal(node.left) || is_literal(node.right)) return std::nullopt;
     return a ? a : b;
   }
+  bool is_literal(int k) const { return tree_.nodes[static_cast<std::size_t>(k)].literal; }
   MaybeDimension combined(const EquationNode& node, double power) const {
     const MaybeDimension &a = operand(node.left), &b = operand(node.right);
     return a && b ? dimension_product(*a, *b, power) : std::nullopt;

@@ -176,10 +176,10 @@ OrMistake<MaybeDimension> measured(const char* text) {
 
 TEST(Expression, UnitsAreCheckedWhereNamesMeet) {
   const MaybeDimension rate = "rad/s"_unit.dim, anything;
-  for (const char* text : {"A", "B*y", "A*sin(pi*x/P)", "A + B*y", "B*max(y, 0.1)", "A*tanh(x/P)",
+  for (const char* text : {"A", "B*y", "A*sin(pi*x/P)", "A + B*y", "B*max(y, -y)", "A*tanh(x/P)",
                            "A*sqrt(x^2/P^2)", "A*(x/P)^1.5", "A*step(abs(y) - 0.8)", "-A*x/P"})
     EXPECT_EQ(std::get<MaybeDimension>(measured(text)), rate) << text;
-  for (const char* text : {"A*x/3600", "2*B", "A*atan(x/P)"})
+  for (const char* text : {"A*x/3600", "2*B", "A*atan(x/P)", "A*(1 + abs(y))"})
     EXPECT_EQ(std::get<MaybeDimension>(measured(text)), anything) << text;
   const std::pair<const char*, const char*> wrong[] = {{"A + B", "puts together"},
                                                        {"A*sin(x)", "takes a function of time"},
