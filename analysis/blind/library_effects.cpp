@@ -78,9 +78,7 @@ std::optional<Source> library_source(std::size_t t, const World& world, const Fi
                                      double most, Stream& stream) {
   const TermInfo& term = TermLibrary::terms[t];
   if (term.key == closure_term) return frame_closure(world, nominal);
-  if ((term.needs.temperature && !world.timeline.has_temperature) ||
-      (term.needs.field && !world.timeline.has_field))
-    return std::nullopt;
+  if (!world.timeline.carries(term.needs)) return std::nullopt;
   const auto missing = missing_parameters(term, nominal);
   std::vector<std::string_view> axes;
   for (const std::size_t i : missing)

@@ -52,9 +52,7 @@ Nearest nearest_in_library(const SizingBench& bench, const FilterSpec& nominal,
   for (const std::size_t t : hideable_terms(nominal)) {
     const TermInfo& term = TermLibrary::terms[t];
     const Timeline& timeline = bench.world().timeline;
-    if (term.key == closure_term || (term.needs.temperature && !timeline.has_temperature) ||
-        (term.needs.field && !timeline.has_field))
-      continue;
+    if (term.key == closure_term || !timeline.carries(term.needs)) continue;
     std::map<std::string, std::vector<std::size_t>> axes;
     for (const std::size_t i : missing_parameters(term, nominal))
       axes[std::string(TermLibrary::specs[i].axis)].push_back(i);

@@ -1,8 +1,10 @@
 #include "analysis/cli/command.hpp"
 #include "analysis/cli/print.hpp"
 #include "core/config/nearest.hpp"
+#include "core/physics/own/own_terms.hpp"
 #include "core/physics/parameters_config.hpp"
 #include "core/physics/term_library.hpp"
+#include "mc/study/study.hpp"
 
 namespace drift::cli {
 namespace {
@@ -36,9 +38,15 @@ std::string acts_on(const TermInfo& term) {
 /// What a term must be given, beyond attitude and command.
 std::string asks_for(const TermInfo& term) {
   std::string what;
-  if (term.needs.temperature) what += "temperature [degC] of the recording";
+  const auto add = [&](std::string_view more) {
+    what += (what.empty() ? "" : "; ") + std::string(more);
+  };
+  if (term.needs.temperature) add("temperature [degC] of the recording");
   if (term.needs.field)
-    what += "field_n, field_w, field_u [gauss] of the recording or of [environment]";
+    add("field_n, field_w, field_u [gauss] of the recording or of [environment]");
+  for (std::size_t k = 0; k < own_terms().covariates.size(); ++k)
+    if (term.needs.covariates >> k & 1u)
+      add(fmt::format("the column {} of the recording", own_terms().covariates[k]));
   return what.empty() ? "nothing beyond attitude, command and time" : what;
 }
 
@@ -61,13 +69,19 @@ void explain(const TermInfo& term) {
   }
 }
 
-ExitCode terms(const std::string& key) {
+struct TermsArguments {
+  std::string key, config;
+};
+
+ExitCode terms(const TermsArguments& arguments) {
+  if (!arguments.config.empty()) mc::read_study(arguments.config);  // its own terms come with it
+  const std::string& key = arguments.key;
   if (key.empty()) {
     show("{:<26} {:>3}  {}\n", "term", "par", "equation");
     for (const TermInfo& term : TermLibrary::terms)
       show("{:<26} {:>3}  {}\n", term.key, term.count, term.equation);
     show("{} terms, {} parameters. `driftscope terms KEY` explains a term or a parameter.\n",
-         TermLibrary::num_terms, TermLibrary::num_params);
+         TermLibrary::terms.size(), TermLibrary::specs.size());
     return ExitCode::ok;
   }
   // Whatever a study file may call them: a term, one axis of it, a parameter, a group of them.
@@ -88,12 +102,13 @@ ExitCode terms(const std::string& key) {
 }  // namespace
 
 Command terms_command() {
-  const auto add = [](CLI::App& app, std::string& key) {
-    app.add_option("key", key,
+  const auto add = [](CLI::App& app, TermsArguments& a) {
+    app.add_option("key", a.key,
                    "a term, an axis of one (g_drift.x), a parameter or a group of them (eta)");
+    app.add_option("--config", a.config, "a study file whose own terms, [[term]], are listed too");
   };
   return {"terms", group::plans, "list the physics terms, or explain one",
-          "driftscope terms gyro_misalignment", with_arguments<std::string>(add, terms)};
+          "driftscope terms gyro_misalignment", with_arguments<TermsArguments>(add, terms)};
 }
 
 }  // namespace drift::cli

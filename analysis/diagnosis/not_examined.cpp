@@ -60,9 +60,10 @@ std::vector<NotExamined> not_examined(const search::Fitted& nominal,
   std::vector<NotExamined> out;
   for (const std::size_t t : nominal.set.without_covariate) {
     const TermInfo& term = TermLibrary::terms[t];
-    out.push_back({std::string(term.key),
-                   term.needs.temperature ? Why::no_temperature : Why::no_field,
-                   twins_of(term, causes)});
+    const Why why = term.needs.temperature ? Why::no_temperature
+                    : term.needs.field     ? Why::no_field
+                                           : Why::no_covariate;
+    out.push_back({std::string(term.key), why, twins_of(term, causes)});
   }
   for (const TermInfo& term : TermLibrary::terms) {
     if (term.key == closure_term) continue;  // judged by the jump to the other equation

@@ -9,12 +9,6 @@
 namespace drift::inference {
 namespace {
 
-/// Whether the test carries what a term wants to see.
-bool can_be_seen(const TermInfo& term, const Timeline& timeline) {
-  return (!term.needs.temperature || timeline.has_temperature) &&
-         (!term.needs.field || timeline.has_field);
-}
-
 /// The parameters that a filter finds by itself.
 ParamMask estimated(const FilterSpec& filter) {
   ParamMask mask = filter.active;
@@ -86,7 +80,7 @@ std::vector<Settings> settings_of(const TermInfo& term, const ParamMask& known) 
   std::vector<Settings> all{{}};
   for (std::size_t i = term.first; i < term.first + term.count; ++i) {
     const ParamSpec& spec = TermLibrary::specs[i];
-    if (!spec.setting() || known[i]) continue;
+    if (!spec.setting() || known[i] || spec.grid.size == 0) continue;
     std::vector<Settings> next;
     for (const Settings& s : all)
       for (const double v : spec.grid) {
@@ -109,13 +103,13 @@ CandidateSet library_candidates(const FilterSpec& nominal, const Theta& theta,
                                 const Timeline& timeline) {
   CandidateSet out;
   const ParamMask known = estimated(nominal);
-  for (std::size_t t = 0; t < TermLibrary::num_terms; ++t) {
+  for (std::size_t t = 0; t < TermLibrary::terms.size(); ++t) {
     const TermInfo& term = TermLibrary::terms[t];
     std::vector<std::size_t> missing;
     for (std::size_t i = term.first; i < term.first + term.count; ++i)
       if (!known[i] && TermLibrary::specs[i].amplitude()) missing.push_back(i);
     if (missing.empty()) continue;
-    if (!can_be_seen(term, timeline)) {
+    if (!timeline.carries(term.needs)) {
       out.without_covariate.push_back(t);
       continue;
     }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "core/base/linalg.hpp"
 #include "core/physics/triads.hpp"
 
@@ -14,26 +16,33 @@ struct Needs {
   bool temperature = false;  ///< the covariate
   bool field = false;        ///< the covariate, and R_lp
   bool memory = false;       ///< states that the past has left; set for terms that declare `memory`
+  unsigned covariates = 0;   ///< bit k: further column number k of the recording (OwnTermSet)
 
   constexpr bool any() const {
-    return clock || attitude || gimbals || temperature || field || memory;
+    return clock || attitude || gimbals || temperature || field || memory || covariates != 0;
   }
   constexpr Needs operator|(const Needs& o) const {
-    return {clock || o.clock,     attitude || o.attitude,
-            gimbals || o.gimbals, temperature || o.temperature,
-            field || o.field,     memory || o.memory};
+    return {clock || o.clock,         attitude || o.attitude,
+            gimbals || o.gimbals,     temperature || o.temperature,
+            field || o.field,         memory || o.memory,
+            covariates | o.covariates};
   }
 };
 
+/// How many further columns of a recording the terms of a study may name.
+inline constexpr std::size_t most_covariates = 4;
+
 /// An instant of the test: all that does not depend on the platform's attitude.
 struct Moment {
-  double t;            ///< since the start of the test [s]
-  double t_p;          ///< since the start of the dwell; 0 on the way to it [s]
-  bool slew;           ///< on the way to a position
-  double heading;      ///< of the case [rad]
-  Vec3 omega_ie_l;     ///< rate of the Earth, as the site has it [rad/s]
-  double temperature;  ///< deviation from the mean of the recording [K]
-  Vec3 field_l;        ///< local magnetic field [T]
+  double t;                       ///< since the start of the test [s]
+  double t_p;                     ///< since the start of the dwell; 0 on the way to it [s]
+  bool slew;                      ///< on the way to a position
+  double heading;                 ///< of the case [rad]
+  Vec3 omega_ie_l;                ///< rate of the Earth, as the site has it [rad/s]
+  double temperature;             ///< deviation from the mean of the recording [K]
+  Vec3 field_l;                   ///< local magnetic field [T]
+  double temperature_rate = 0.0;  ///< [K/s]
+  std::array<double, most_covariates> covariates{};  ///< further columns of the recording [SI]
 };
 
 /// What `Needs` names, for one attitude. Only what is asked for is filled.

@@ -8,7 +8,8 @@ namespace drift {
 /// The parameter that says which drift equation holds, lambda, and the term that holds it. Unlike
 /// all others it is no small effect: it turns one equation into another.
 inline constexpr std::size_t closure_param = TermLibrary::index("lambda");
-inline constexpr std::string_view closure_term = TermLibrary::owner(closure_param).key;
+inline constexpr std::string_view closure_term =
+    TermLibrary::known_terms[TermLibrary::term_index("frame_closure")].key;
 
 /// The value a parameter has in a model that leaves it out: none of the effect, but lambda as the
 /// equation has it.

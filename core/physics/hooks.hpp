@@ -6,7 +6,8 @@ namespace drift {
 
 /// The four hooks of terms seen alike: each adds to an assembly, whose numbers, in a row, are its
 /// slots. What they stand for is known to whoever chains their derivatives
-/// (core/estimate/linearizer).
+/// (core/estimate/linearizer). has: whether a type has the hook; acts: whether a term uses it,
+/// which a place for a study's own term may not.
 struct RatesHook {
   static constexpr int slots = 16;
   /// Slot of E_gp(gyro, column), of w_l + w_md of a gyro, of the rate no gyro takes part in.
@@ -19,6 +20,7 @@ struct RatesHook {
   using Assembly = RateAssembly<S>;
   template <class T>
   static constexpr bool has = ActsOnRates<T, double>;
+  static bool acts(const TermInfo& term) { return term.in_rates; }
   template <class T, class S>
   static void add(const Inputs<S>& in, const S* p, const S* m, Assembly<S>& to) {
     if constexpr (memory_of<T>() > 0)
@@ -43,6 +45,7 @@ struct OffsetHook {
   };
   template <class T>
   static constexpr bool has = OffsetsAttitude<T, double>;
+  static bool acts(const TermInfo& term) { return term.in_offset; }
   template <class T, class S>
   static void add(const Inputs<S>& in, const S* p, const S* m, Assembly<S>& to) {
     if constexpr (memory_of<T>() > 0)
@@ -65,6 +68,7 @@ struct ReadoutHook {
   };
   template <class T>
   static constexpr bool has = ActsOnReadout<T, double>;
+  static bool acts(const TermInfo& term) { return term.in_readout; }
   template <class T, class S>
   static void add(const Inputs<S>& in, const S* p, const S*, Assembly<S>& to) {
     T::readout(in, p, to);
@@ -82,6 +86,7 @@ struct GimbalsHook {
   using Assembly = GimbalAssembly<S>;
   template <class T>
   static constexpr bool has = ActsOnGimbals<T, double>;
+  static bool acts(const TermInfo& term) { return term.in_gimbals; }
   template <class T, class S>
   static void add(const Inputs<S>& in, const S* p, const S*, Assembly<S>& to) {
     T::gimbals(in, p, to);

@@ -16,7 +16,11 @@ constexpr auto& specs = TermLibrary::specs;
 
 /// Far outside the default prior a value is a slip of the unit; misalignments are small angles;
 /// time constants and sizes of random things are positive.
-Option plausible(const ParamSpec& spec) {
+Option plausible(std::size_t param) {
+  const ParamSpec& spec = specs[param];
+  // Of a setting that a study brings itself nobody knows what is plausible.
+  if (param >= TermLibrary::num_known_params && spec.setting())
+    return {.key = spec.key.view(), .unit = spec.unit, .doc = spec.enters};
   constexpr double sigmas = 1e4;
   constexpr double small_angle = 10.0 * detail::deg;
   double limit = sigmas * std::max(std::abs(spec.prior.a), std::abs(spec.prior.b));
@@ -82,7 +86,7 @@ void read_value(config::Section& table, std::string_view key, const config::Node
                 const ParamMask& which, ModelSpec& spec, ParamMask& done) {
   for (std::size_t i = 0; i < specs.size(); ++i) {
     if (!which[i] || done[i]) continue;
-    const auto prior = read_prior(table.report(), node, table.full(key), plausible(specs[i]));
+    const auto prior = read_prior(table.report(), node, table.full(key), plausible(i));
     if (!prior) return;  // a group has one mistake, not three
     spec.priors[i] = prior->scaled(specs[i].unit.to_si);
     done.set(i);
@@ -234,7 +238,7 @@ std::optional<double> read_parameter(config::Section& table, std::string_view ke
                                      std::size_t index) {
   const config::Node* node = table.take(key);
   if (node == nullptr) return std::nullopt;
-  const auto q = read_quantity(table.report(), *node, table.full(key), plausible(specs[index]));
+  const auto q = read_quantity(table.report(), *node, table.full(key), plausible(index));
   if (!q) return std::nullopt;
   table.report().given(table.full(specs[index].key.view()),
                        config::quantity_text(q->in(specs[index].unit), specs[index].unit),

@@ -6,7 +6,15 @@ SeenByTerms<Dependence> scene_of_dependence() {
   // On the way to a position of a test, hours after its start: nothing is at zero.
   static const Surroundings<Dependence> around = [] {
     Surroundings<Dependence> s;
-    s.now = {5000.0, 1000.0, true, 0.3, Vec3(5e-5, 0.0, 5e-5), 0.7, Vec3(2.6e-5, 1e-6, -4.8e-5)};
+    s.now = {5000.0,
+             1000.0,
+             true,
+             0.3,
+             Vec3(5e-5, 0.0, 5e-5),
+             0.7,
+             Vec3(2.6e-5, 1e-6, -4.8e-5),
+             1e-4,
+             {0.3, -0.4, 0.5, 0.6}};
     s.R_lp = rotation<double>(Vec3(0.4, -0.3, 0.8)).cast<Dependence>();
     s.gimbal = Vec3(0.5, -0.4, 1.1).cast<Dependence>();
     return s;

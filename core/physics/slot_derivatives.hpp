@@ -48,7 +48,8 @@ class SlotDerivatives {
   /// states: library index of each, in the order of a layout.
   SlotDerivatives(const TermMask& terms, const std::vector<std::size_t>& states) {
     TermLibrary::for_each_of(terms, [&]<class T>(const TermInfo& info) {
-      if constexpr (Hook::template has<T>) add<T>(info, states);
+      if constexpr (Hook::template has<T>)
+        if (Hook::acts(info)) add<T>(info, states);
     });
   }
 
@@ -150,14 +151,15 @@ class SlotDerivatives {
   std::vector<Entry> entries_;
 };
 
-/// The slots that each parameter of a term meets: a bit for each slot.
+/// The slots that each parameter of a term meets: a bit for each slot. specs: its parameters, where
+/// a study says what they are.
 template <class Hook, class T>
-std::array<std::uint32_t, T::params.size()> slots_met() {
+std::array<std::uint32_t, T::params.size()> slots_met(const ParamSpec* specs = T::params.data()) {
   static_assert(T::params.size() <= 32);
   const SeenByTerms<Dependence> scene = scene_of_dependence();
   std::array<Dependence, T::params.size()> p;
   for (std::size_t k = 0; k < p.size(); ++k) {
-    const Prior prior = T::params[k].prior_si();
+    const Prior prior = specs[k].prior_si();
     p[k] = {prior.mean() + prior.sigma(), 1u << k};
   }
   std::array<Dependence, memory_of<T>() + 1> m;
@@ -175,11 +177,12 @@ template <class Hook, class S>
 template <class T>
 void SlotDerivatives<Hook, S>::add(const TermInfo& info, const std::vector<std::size_t>& states) {
   OneTerm t{info.first, static_cast<std::size_t>(info.first_memory), {}, &value<T>, &derivative<T>};
-  const auto met = slots_met<Hook, T>();
+  const ParamSpec* specs = &TermLibrary::specs[info.first];
+  const auto met = slots_met<Hook, T>(specs);
   for (std::size_t k = 0; k < info.count; ++k) {
     const auto state = std::find(states.begin(), states.end(), info.first + k);
     if (state == states.end() || met[k] == 0) continue;
-    bool affine = T::params[k].kind == ParamKind::linear;
+    bool affine = specs[k].kind == ParamKind::linear;
     if constexpr (memory_of<T>() > 0) affine = affine && k != T::memory_parameter;
     auto group = std::find_if(t.groups.begin(), t.groups.end(), [&](const Together& g) {
       return affine && g.affine && (g.met & met[k]) == 0;

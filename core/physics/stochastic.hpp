@@ -10,15 +10,15 @@ namespace drift {
 /// variance). They act through D_F of each gyro or on single samples, so no other hook is needed.
 
 inline bool walks(const TermMask& terms) {
-  constexpr std::size_t term = TermLibrary::find_term("drift_random_walk").value();
+  constexpr std::size_t term = TermLibrary::term_index("drift_random_walk");
   return terms[term];
 }
 inline bool is_bistable(const TermMask& terms) {
-  constexpr std::size_t term = TermLibrary::find_term("bistable_drift").value();
+  constexpr std::size_t term = TermLibrary::term_index("bistable_drift");
   return terms[term];
 }
 inline bool has_outliers(const TermMask& terms) {
-  constexpr std::size_t term = TermLibrary::find_term("outliers").value();
+  constexpr std::size_t term = TermLibrary::term_index("outliers");
   return terms[term];
 }
 
@@ -62,7 +62,7 @@ inline bool drift_varies(const ProcessNoise& noise, const TermMask& terms) {
 
 /// The model with D_F in it where something random acts through D_F.
 inline DriftModel with_random_drift(DriftModel model) {
-  constexpr std::size_t fixed = TermLibrary::find_term("fixed_drift").value();
+  constexpr std::size_t fixed = TermLibrary::term_index("fixed_drift");
   if (walks(model.terms) || is_bistable(model.terms)) model.terms.set(fixed);
   return model;
 }

@@ -27,7 +27,7 @@ enum class Subsystem {
 ///   gimbals          what the resolvers say, and the tilt of the case
 ///   attitude_offset  a small rotation of the platform that both see, but that no gyro integrates
 /// or through none, if it is random (parameters of ParamKind::noise). A term acts on the rates or
-/// on the readout, not on both.
+/// on the readout, not on both. (A place for a study's own term has every hook, and uses one.)
 ///
 /// A term may declare `needs`, what it wants to see beyond the usual (Needs), and memory: a number
 /// `memory` of states with
@@ -54,6 +54,13 @@ constexpr int memory_of() {
     return T::memory;
   else
     return 0;
+}
+/// Whether a type is a place for a term that a study brings (own/own_place.hpp).
+template <class T>
+constexpr bool is_place() {
+  return requires {
+    T::place;
+  };
 }
 template <class T>
 constexpr Needs needs_of() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/physics/own/own_place.hpp"
 #include "core/physics/term_list.hpp"
 #include "core/physics/terms/accelerometer.hpp"
 #include "core/physics/terms/accelerometer_asymmetry.hpp"
@@ -49,7 +50,7 @@ namespace drift {
 
 /// Every effect the program knows, numbered as in physics.md section 4 after the base terms. A new
 /// one is its file, its include and its line here. The first seven are tested for one by one in the
-/// innermost loop (TermList); they stay first.
+/// innermost loop (TermList); they stay first. The places for a study's own terms are last.
 using TermLibrary = TermList<
     terms::FixedDrift, terms::GDrift, terms::G2Drift, terms::GyroMisalignment, terms::TorquerScale,
     terms::Accelerometer, terms::FrameClosure,  //
@@ -62,7 +63,9 @@ using TermLibrary = TermList<
     terms::MisalignmentCreep, terms::LatitudeError, terms::AzimuthError, terms::PierTilt,
     terms::PierAzimuth, terms::EncoderHarmonics, terms::GimbalNonorthogonality, terms::TimingSkew,
     terms::AccelerometerTemperature, terms::AccelerometerAsymmetry, terms::AccelerometerCross,
-    terms::AccelerometerDeadZone, terms::AccelerometerRamp, terms::Outliers>;
+    terms::AccelerometerDeadZone, terms::AccelerometerRamp, terms::Outliers,  //
+    OwnPlace<0>, OwnPlace<1>, OwnPlace<2>, OwnPlace<3>, OwnPlace<4>, OwnPlace<5>>;
+static_assert(TermLibrary::num_known + most_own_terms == TermLibrary::num_terms);
 
 using TermMask = TermLibrary::Mask;
 using ParamMask = TermLibrary::ParamMask;

@@ -2,14 +2,19 @@
 
 #include <bitset>
 #include <optional>
+#include <span>
 #include <tuple>
 #include <utility>
 
+#include "core/physics/filled_table.hpp"
 #include "core/physics/term.hpp"
 
 namespace drift {
 
-/// A compile-time list of terms: numbering of parameters, lookup by name, application by mask.
+/// A compile-time list of terms: numbering of parameters, lookup by name, application by mask. Its
+/// last ones may be places (own/own_place.hpp): what stands there is known when a study is read. So
+/// `terms` and `specs` hold what there is, and num_terms and num_params what there may be; whoever
+/// loops over those asks a mask, and no mask holds an empty place.
 template <Term... Ts>
 struct TermList {
   static constexpr std::size_t num_terms = sizeof...(Ts);
@@ -17,11 +22,13 @@ struct TermList {
   using Mask = std::bitset<num_terms>;
   using ParamMask = std::bitset<num_params>;
 
-  static constexpr auto specs = join(Ts::params...);
-
   static constexpr int num_memory = (memory_of<Ts>() + ... + 0);
 
-  static constexpr auto terms = [] {
+  /// Terms and parameters that are known when the program is compiled; places have no names.
+  static constexpr std::size_t num_known = (std::size_t{!is_place<Ts>()} + ...);
+  static constexpr std::size_t num_known_params = ((is_place<Ts>() ? 0 : Ts::params.size()) + ...);
+  static constexpr auto known_specs = join(Ts::params...);
+  static constexpr auto known_terms = [] {
     std::array<TermInfo, num_terms> infos{};
     std::size_t next = 0, first = 0;
     int memory = 0;
@@ -34,30 +41,71 @@ struct TermList {
     return infos;
   }();
 
-  static constexpr std::optional<std::size_t> find(std::string_view key) {
-    for (std::size_t i = 0; i < num_params; ++i)
+ private:
+  static inline FilledTable<ParamSpec, num_params> specs_{known_specs, num_known_params};
+  static inline FilledTable<TermInfo, num_terms> terms_{known_terms, num_known};
+
+ public:
+  /// All that there is, the places that are filled among it.
+  static constexpr const FilledTable<ParamSpec, num_params>& specs = specs_;
+  static constexpr const FilledTable<TermInfo, num_terms>& terms = terms_;
+
+  static std::optional<std::size_t> find(std::string_view key) {
+    for (std::size_t i = 0; i < specs.size(); ++i)
       if (specs[i].key.view() == key) return i;
     return std::nullopt;
   }
-  /// The term that owns parameter i.
-  static constexpr const TermInfo& owner(std::size_t i) {
-    std::size_t t = 0;
-    while (i >= terms[t].first + terms[t].count) ++t;
-    return terms[t];
+  /// The term that owns parameter i; one without name if that is a place which nobody took.
+  static const TermInfo& owner(std::size_t i) {
+    static constexpr TermInfo nobody{};
+    for (const TermInfo& term : terms)
+      if (i < term.first + term.count) return term;
+    return nobody;
   }
-  /// Index of a parameter named in the code; a typo does not compile.
-  static consteval std::size_t index(std::string_view key) { return find(key).value(); }
+  /// Index of a parameter, of a term, named in the code; a typo does not compile.
+  static consteval std::size_t index(std::string_view key) {
+    std::size_t i = 0;
+    while (known_specs[i].key.view() != key) ++i;
+    return i;
+  }
+  static consteval std::size_t term_index(std::string_view key) {
+    std::size_t t = 0;
+    while (known_terms[t].key != key) ++t;
+    return t;
+  }
 
-  static constexpr std::optional<std::size_t> find_term(std::string_view key) {
-    for (std::size_t i = 0; i < num_terms; ++i)
+  static std::optional<std::size_t> find_term(std::string_view key) {
+    for (std::size_t i = 0; i < terms.size(); ++i)
       if (terms[i].key == key) return i;
     return std::nullopt;
+  }
+
+  /// What comes into a place.
+  struct Filling {
+    TermInfo info;  ///< but `first`, which is said here
+    std::span<const ParamSpec> params;
+  };
+  /// Fills the places in their order and empties the rest. Not while other threads use the list.
+  static void fill_places(std::span<const Filling> fillings) {
+    specs_ = {known_specs, num_known_params};
+    terms_ = {known_terms, num_known};
+    places_ = {};
+    for (const Filling& f : fillings) {
+      TermInfo info = f.info;
+      info.first = specs_.size();
+      const std::size_t t = terms_.size();
+      places_.rates[t] = info.in_rates;
+      places_.readout[t] = info.in_readout;
+      places_.gimbals[t] = info.in_gimbals;
+      terms_.add(info);
+      for (const ParamSpec& spec : f.params) specs_.add(spec);
+    }
   }
 
   /// The parameters of the terms in `mask`.
   static ParamMask params_of(const Mask& mask) {
     ParamMask params;
-    for (std::size_t t = 0; t < num_terms; ++t)
+    for (std::size_t t = 0; t < terms.size(); ++t)
       if (mask[t])
         for (std::size_t i = 0; i < terms[t].count; ++i) params.set(terms[t].first + i);
     return params;
@@ -66,7 +114,7 @@ struct TermList {
   /// like, which belong to no axis. "warmup_drift.x" needs the time constant of all three.
   static ParamMask completed(ParamMask params) {
     const Mask owners = terms_of(params);
-    for (std::size_t t = 0; t < num_terms; ++t)
+    for (std::size_t t = 0; t < terms.size(); ++t)
       for (std::size_t i = terms[t].first; owners[t] && i < terms[t].first + terms[t].count; ++i)
         if (!specs[i].amplitude() && specs[i].axis.empty()) params.set(i);
     return params;
@@ -74,7 +122,7 @@ struct TermList {
   /// The terms that own at least one parameter of `params`.
   static Mask terms_of(const ParamMask& params) {
     Mask mask;
-    for (std::size_t t = 0; t < num_terms; ++t)
+    for (std::size_t t = 0; t < terms.size(); ++t)
       for (std::size_t i = 0; i < terms[t].count; ++i)
         if (params[terms[t].first + i]) mask.set(t);
     return mask;
@@ -84,8 +132,8 @@ struct TermList {
   static Needs needs(const Mask& mask) {
     constexpr Mask needy = selected([](const TermInfo& t) { return t.needs.any(); });
     Needs all;
-    if ((mask & needy).none()) return all;
-    for (std::size_t t = 0; t < num_terms; ++t)
+    if ((mask & (needy | every_place())).none()) return all;
+    for (std::size_t t = 0; t < terms.size(); ++t)
       if (mask[t]) all = all | terms[t].needs;
     return all;
   }
@@ -95,7 +143,7 @@ struct TermList {
   }
   static bool act_on_gimbals(const Mask& mask) {
     constexpr Mask which = selected([](const TermInfo& t) { return t.in_gimbals || t.in_offset; });
-    return (mask & which).any();
+    return (mask & (which | places_.gimbals)).any();
   }
   static bool remember(const Mask& mask) { return num_memory > 0 && needs(mask).memory; }
 
@@ -106,8 +154,8 @@ struct TermList {
         if (mask[t]) call_rates<T>(t, in, theta, out);
     });
     constexpr Mask rest = selected(
-        [](const TermInfo& t) { return t.in_rates && t.first >= terms[num_inline].first; });
-    if ((mask & rest).any()) further_rates(mask, in, theta, out);
+        [](const TermInfo& t) { return t.in_rates && t.first >= known_terms[num_inline].first; });
+    if ((mask & (rest | places_.rates)).any()) further_rates(mask, in, theta, out);
   }
   /// The rates of all but the first terms, which every model has. Kept out of the way of those.
   template <class S>
@@ -121,16 +169,16 @@ struct TermList {
   /// Whether the accelerometers are read by the first terms alone.
   static bool plain_readout(const Mask& mask) {
     constexpr Mask rest = selected([](const TermInfo& t) {
-      return t.in_offset || (t.in_readout && t.first >= terms[num_inline].first);
+      return t.in_offset || (t.in_readout && t.first >= known_terms[num_inline].first);
     });
-    return (mask & rest).none();
+    return (mask & (rest | places_.readout)).none();
   }
   template <class S>
   static void first_readout(const Mask& mask, const Inputs<S>& in, const S* theta,
                             ReadoutAssembly<S>& out) {
     for_first([&]<class T>(std::size_t t) {
       if constexpr (ActsOnReadout<T, S>)
-        if (mask[t]) T::readout(in, theta + terms[t].first, out);
+        if (mask[t]) T::readout(in, theta + first_of<T>(t), out);
     });
   }
   template <class S>
@@ -138,7 +186,7 @@ struct TermList {
                       ReadoutAssembly<S>& out) {
     for_each([&]<class T>(std::size_t t) {
       if constexpr (ActsOnReadout<T, S>)
-        if (mask[t]) T::readout(in, theta + terms[t].first, out);
+        if (mask[t]) T::readout(in, theta + first_of<T>(t), out);
     });
   }
   template <class S>
@@ -146,7 +194,7 @@ struct TermList {
                       GimbalAssembly<S>& out) {
     for_each([&]<class T>(std::size_t t) {
       if constexpr (ActsOnGimbals<T, S>)
-        if (mask[t]) T::gimbals(in, theta + terms[t].first, out);
+        if (mask[t]) T::gimbals(in, theta + first_of<T>(t), out);
     });
   }
   /// Sum of the attitude offsets, platform axes [rad].
@@ -157,10 +205,10 @@ struct TermList {
       if constexpr (OffsetsAttitude<T, S>) {
         if (!mask[t]) return;
         if constexpr (memory_of<T>() > 0)
-          T::attitude_offset(in, theta + terms[t].first, in.around->memory + terms[t].first_memory,
-                             delta_p);
+          T::attitude_offset(in, theta + first_of<T>(t),
+                             in.around->memory + known_terms[t].first_memory, delta_p);
         else
-          T::attitude_offset(in, theta + terms[t].first, delta_p);
+          T::attitude_offset(in, theta + first_of<T>(t), delta_p);
       }
     });
     return delta_p;
@@ -178,20 +226,20 @@ struct TermList {
       if constexpr (memory_of<T>() > 0) visit.template operator()<T>(info);
     });
   }
-  /// The terms for which a condition on TermInfo holds.
+  /// The terms known when the program is compiled for which a condition on TermInfo holds.
   static constexpr Mask selected(auto&& condition) {
     static_assert(num_terms <= 64, "a mask is made of one word");
     unsigned long long bits = 0;
-    for (std::size_t t = 0; t < num_terms; ++t)
-      if (condition(terms[t])) bits |= 1ull << t;
+    for (std::size_t t = 0; t < num_known; ++t)
+      if (condition(known_terms[t])) bits |= 1ull << t;
     return Mask(bits);
   }
 
   /// Whether every parameter has a name of its own.
   static consteval bool unique_keys() {
-    for (std::size_t i = 0; i < num_params; ++i)
+    for (std::size_t i = 0; i < num_known_params; ++i)
       for (std::size_t k = 0; k < i; ++k)
-        if (specs[i].key == specs[k].key) return false;
+        if (known_specs[i].key == known_specs[k].key) return false;
     return true;
   }
 
@@ -199,12 +247,30 @@ struct TermList {
   /// The base terms and frame_closure come first, and are tested one by one without a call.
   static constexpr std::size_t num_inline = num_terms > 7 ? 7 : num_terms - 1;
 
+  static constexpr Mask every_place() {
+    return Mask((~0ull >> (64 - num_terms)) & ~(~0ull >> (64 - num_known)));
+  }
+  /// The places by what their terms act on.
+  struct Places {
+    Mask rates, readout, gimbals;
+  };
+  static inline Places places_;
+
+  /// Index of the first parameter of a term; that of a place depends on the places before it.
+  template <class T>
+  static std::size_t first_of(std::size_t t) {
+    if constexpr (is_place<T>())
+      return terms[t].first;
+    else
+      return known_terms[t].first;
+  }
+
   template <class T, class S>
   static void call_rates(std::size_t t, const Inputs<S>& in, const S* theta, RateAssembly<S>& out) {
     if constexpr (memory_of<T>() > 0)
-      T::rates(in, theta + terms[t].first, in.around->memory + terms[t].first_memory, out);
+      T::rates(in, theta + first_of<T>(t), in.around->memory + known_terms[t].first_memory, out);
     else
-      T::rates(in, theta + terms[t].first, out);
+      T::rates(in, theta + first_of<T>(t), out);
   }
 
   /// The first terms alone: nothing is made of the others where this is called.
@@ -221,7 +287,7 @@ struct TermList {
     (std::index_sequence_for<Ts...>{});
   }
 
-  static_assert(((!ActsOnRates<Ts, double> ||
+  static_assert(((is_place<Ts>() || !ActsOnRates<Ts, double> ||
                   !(ActsOnReadout<Ts, double> || ActsOnGimbals<Ts, double> ||
                     OffsetsAttitude<Ts, double>)) &&
                  ...),

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -12,8 +13,9 @@ namespace drift {
 
 /// Surroundings at an instant that a recording may carry and terms may use.
 struct Covariates {
-  double temperature = 0.0;     ///< deviation from the mean of the recording [K]
-  Vec3 field_l = Vec3::Zero();  ///< magnetic field, local axes [T]
+  double temperature = 0.0;                       ///< deviation from the mean of the recording [K]
+  Vec3 field_l = Vec3::Zero();                    ///< magnetic field, local axes [T]
+  std::array<double, most_covariates> further{};  ///< columns that own terms name (OwnTermSet) [SI]
 };
 
 /// One sample interval: the command and the turntable rate are constant in it.
@@ -63,7 +65,14 @@ struct Timeline {
   int positions = 0;
   bool has_temperature = false;  ///< the intervals carry it
   bool has_field = false;
+  unsigned has_further = 0;       ///< bit k: the further covariate number k
   double mean_temperature = 0.0;  ///< what `temperature` deviates from [degC]
+
+  /// Whether it carries the covariates that a term, or a model, wants to see.
+  bool carries(const Needs& needs) const {
+    return (has_temperature || !needs.temperature) && (has_field || !needs.field) &&
+           (needs.covariates & ~has_further) == 0;
+  }
 
   /// Interval weights of composite Simpson, for the mean over interval i; they sum to 1.
   static double simpson_weight(int substeps, std::size_t k);

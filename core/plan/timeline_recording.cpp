@@ -10,6 +10,7 @@
 
 #include "core/base/check.hpp"
 #include "core/base/memory.hpp"
+#include "core/physics/own/own_terms.hpp"
 #include "core/plan/attitude_check.hpp"
 #include "core/plan/case_heading.hpp"
 #include "core/plan/plan_memory.hpp"
@@ -192,6 +193,15 @@ class Reader {
       for (std::size_t k = 0; k < n; ++k) {
         timeline_.intervals[k].around0.temperature = T[before(k)] - timeline_.mean_temperature;
         timeline_.intervals[k].around1.temperature = T[k] - timeline_.mean_temperature;
+      }
+    }
+    for (std::size_t c = 0; c < own_terms().covariates.size(); ++c) {
+      const auto further = covariate(own_terms().covariates[c].c_str());
+      if (further.empty()) continue;
+      timeline_.has_further |= 1u << c;
+      for (std::size_t k = 0; k < n; ++k) {
+        timeline_.intervals[k].around0.further[c] = further[before(k)];
+        timeline_.intervals[k].around1.further[c] = further[k];
       }
     }
     const std::array<std::vector<double>, 3> field{covariate("field_n"), covariate("field_w"),

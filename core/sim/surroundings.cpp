@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include "core/base/check.hpp"
+#include "core/physics/own/own_terms.hpp"
 
 namespace drift {
 
 void require_covariates(const DriftModel& model, const Timeline& timeline) {
   const Needs needs = TermLibrary::needs(model.terms);
-  if (!(needs.temperature && !timeline.has_temperature) && !(needs.field && !timeline.has_field))
-    return;
+  if (timeline.carries(needs)) return;
   std::vector<std::string> messages;
   for (std::size_t t = 0; t < TermLibrary::num_terms; ++t) {
     const TermInfo& term = TermLibrary::terms[t];
@@ -21,6 +21,12 @@ void require_covariates(const DriftModel& model, const Timeline& timeline) {
           "with numbers in the recording; for a simulated one, temperature = \"20 degC\" in "
           "[environment]). Add it, or remove the term",
           term.key));
+    for (std::size_t k = 0; k < own_terms().covariates.size(); ++k)
+      if ((term.needs.covariates & ~timeline.has_further) >> k & 1u)
+        messages.push_back(fmt::format(
+            "term '{}' needs '{}', which is not known (expected a column of that name with numbers "
+            "in the recording; a simulated one has none). Add it, or remove the term",
+            term.key, own_terms().covariates[k]));
     if (term.needs.field && !timeline.has_field)
       messages.push_back(
           fmt::format("term '{}' needs the magnetic field, which is not known (expected columns "

@@ -40,7 +40,7 @@ std::vector<Published> read_published(Section& root) {
     if (section.require("name", "name = \"Table 1 of the paper\""))
       section.read(Option{.key = "name", .doc = "of the source"}, p.name);
     section.read(Option{.key = "filter", .doc = "it is compared with"}, p.filter);
-    for (std::size_t i = 0; i < TermLibrary::num_params; ++i) {
+    for (std::size_t i = 0; i < TermLibrary::specs.size(); ++i) {
       const ParamSpec& spec = TermLibrary::specs[i];
       Section table = section.section(spec.key.view());
       if (!table.present()) continue;

@@ -10,6 +10,8 @@
 #include "core/estimate/layout.hpp"
 #include "core/physics/model_config.hpp"
 #include "core/physics/mounting_config.hpp"
+#include "core/physics/own/own_terms.hpp"
+#include "core/physics/own/own_terms_config.hpp"
 #include "core/plan/environment_config.hpp"
 #include "core/plan/plan_config.hpp"
 #include "core/recording/own/format_config.hpp"
@@ -121,11 +123,12 @@ std::vector<SweepAxis> read_sweep(Report& report, const Node* sweep) {
   return axes;
 }
 
-/// The number of runs, the seed and the like are the study's: points share their runs.
+/// The number of runs, the seed and the like are the study's: points share their runs. So are its
+/// own terms, of which the library holds one set; their settings are parameters of [truth] too.
 bool can_be_swept(std::string_view key) {
   constexpr std::string_view designs[] = {"monte_carlo.design", "monte_carlo.estimator"};
   if (key.starts_with("monte_carlo")) return std::ranges::find(designs, key) != std::end(designs);
-  return !key.starts_with("sweep") && !key.starts_with("schema");
+  return !key.starts_with("sweep") && !key.starts_with("schema") && !key.starts_with("term");
 }
 
 /// Every value of the sweep is tried in its place, so that no point of a study fails for its file.
@@ -181,6 +184,17 @@ Node load_tree(const std::string& path, const Overrides& overrides) {
   return root;
 }
 
+/// Puts the study's own terms into the library, for the sections that name them.
+void read_terms_into_library(Section& top, RecordingKind kind) {
+  OwnTermSet own = read_own_terms(top);
+  if (kind == RecordingKind::strapdown && !own.terms.empty())
+    top.report().error(top.take("term")->at,
+                       "[[term]] in a study of a strapdown recording (expected in a study of a "
+                       "platform: its effects are added to the platform's drift equation and "
+                       "readout). Remove it");
+  set_own_terms(std::move(own));
+}
+
 /// Reads a tree; what is wrong with it is in the report.
 Study read_tree(const Node& root, const std::string& path, Report& report) {
   Study study;
@@ -199,6 +213,7 @@ Study read_tree(const Node& root, const std::string& path, Report& report) {
   for (const Position& position : plan.plan.positions) positions.push_back(position.name);
   study.recording = read_recording_format(top.section("recording"), plan.kind, positions);
   study.environment = read_environment(top.section("environment"));
+  read_terms_into_library(top, plan.kind);
   const Node* sweep = top.take("sweep");
   // A blind study has truths of several couplings too.
   const bool swept =
@@ -232,6 +247,7 @@ Study read_study_tree(const Node& root, const std::string& path) {
 
 std::vector<config::DeclaredKey> declared_keys(const Node& root) {
   Report report("", config::Declared::kept);
+  const KeptOwnTerms kept;
   try {
     read_tree(root, "", report);
   } catch (const InputError&) {

@@ -17,14 +17,15 @@ EFFECTS = """# Effects
 
 Every term of the library, as `driftscope terms KEY` prints it; written by `tests/checks/generated.py`. Sections of
 physics.md are those of [Physics](physics.md). w_l: drift of a gyro, w_md: its torquing, w_cp: rate of the platform against the
-case, f: specific force, delta: an offset of the attitude; I, O, S: input, output and spin axis of a gyro.
+case, f: specific force, delta: an offset of the attitude; I, O, S: input, output and spin axis of a gyro. A study brings
+others: [own terms](own_terms.md).
 """
 STUDY = """# The study file
 
 Every key that the reader of study files knows, written by `tests/checks/generated.py` from `driftscope schema`. A file is TOML;
 numbers with a unit are texts ("1.45 deg/h/g"). `driftscope check FILE` prints every value of a file, defaults included, and where
 it came from. What one key asks of another, and a unit that does not fit, `check` says. Terms and parameters:
-[effects](effects.md); `[recording]`: [the recording](recording.md).
+[effects](effects.md); `[[term]]`: [own terms](own_terms.md); `[recording]`: [the recording](recording.md).
 """
 
 

@@ -12,7 +12,7 @@ inline constexpr double arcsec = detail::deg / 3600.0;     // [rad]
 inline constexpr double deg_per_h = detail::deg / 3600.0;  // [rad/s]
 inline const Site harbin{45.75 * detail::deg};
 
-constexpr std::size_t param(std::string_view key) {
+inline std::size_t param(std::string_view key) {
   return TermLibrary::find(key).value();
 }
 

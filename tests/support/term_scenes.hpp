@@ -61,7 +61,7 @@ inline bool reverses_within_a_step(const TermInfo& term) {
 /// Every term that a recording shows: no random ones.
 inline std::vector<std::size_t> visible_terms() {
   std::vector<std::size_t> terms;
-  for (std::size_t t = 0; t < TermLibrary::num_terms; ++t)
+  for (std::size_t t = 0; t < TermLibrary::terms.size(); ++t)
     if (!TermLibrary::terms[t].stochastic()) terms.push_back(t);
   return terms;
 }

@@ -29,11 +29,34 @@ Json term_names() {
   return names;
 }
 
-/// A table whose keys are parameters and groups of them.
+/// A table whose keys are parameters and groups of them; a study may bring others.
 Json parameters(std::string_view value) {
   Json properties = Json::object();
   for (const auto key : parameter_keys()) properties[std::string(key)] = reference(value);
-  return {{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
+  return {
+      {"type", "object"}, {"properties", properties}, {"additionalProperties", reference(value)}};
+}
+
+/// Parameters of a study's own term.
+Json own_parameters() {
+  const Json any = Json::object();
+  const Json list = {{"type", "array"}, {"minItems", 2}, {"maxItems", Grid::capacity}};
+  const Json one = {
+      {"type", "object"},
+      {"properties",
+       {{"unit", {{"type", "string"}}}, {"prior", any}, {"value", any}, {"grid", list}}},
+      {"additionalProperties", false}};
+  return {{"type", "object"}, {"properties", Json::object()}, {"additionalProperties", one}};
+}
+
+/// A study that brings no terms names those of the library.
+Json own_terms_or_known_names() {
+  const Json names = {{"propertyNames", reference("parameter_names")}};
+  Json model = {{"terms", {{"items", reference("term_names")}}}, {"parameters", names}};
+  const Json truth = {{"properties", model}};
+  model["starts"] = {{"items", names}};
+  const Json filter = {{"items", {{"properties", model}}}};
+  return {{{"required", {"term"}}}, {{"properties", {{"truth", truth}, {"filter", filter}}}}};
 }
 
 Json definitions() {
@@ -54,7 +77,10 @@ Json definitions() {
                     "a value, { normal = [mean, sigma] } or { uniform = [low, high] "
                     "}, in the unit that `driftscope terms` shows"},
                    {"anyOf", {reference("number"), spread}}};
-  defs["terms"] = {{"type", "array"}, {"items", {{"enum", term_names()}}}};
+  defs["term_names"] = {{"enum", term_names()}};
+  defs["parameter_names"] = {{"enum", parameter_keys()}};
+  const Json own_name = {{"type", "string"}, {"pattern", "^[A-Za-z_][A-Za-z0-9_]*$"}};
+  defs["terms"] = {{"type", "array"}, {"items", {{"anyOf", {reference("term_names"), own_name}}}}};
   defs["parameters"] = parameters("prior");
   defs["start"] = parameters("number");
   return defs;
@@ -76,9 +102,14 @@ Json rule_of(const StudyKey& key) {
   switch (key.kind) {
     case Kind::section:
       return section_of(key.keys);
-    case Kind::sections:
-      return {{"type", "array"}, {"items", section_of(key.keys)}};
+    case Kind::sections: {
+      Json items = section_of(key.keys);
+      // Results from elsewhere name parameters, those of own terms too.
+      if (key.key == "published") items["additionalProperties"] = {{"type", "object"}};
+      return {{"type", "array"}, {"items", items}};
+    }
     case Kind::table:
+      if (key.path == "term[].parameters") return own_parameters();
       if (key.key == "parameters") return reference("parameters");
       if (key.key == "sweep")
         return {{"type", "object"}, {"additionalProperties", {{"type", "array"}, {"minItems", 1}}}};
@@ -155,6 +186,7 @@ Json study_schema() {
   Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
                  {"title", "driftscope study file"}};
   schema.update(section_of(study_keys()));
+  schema["anyOf"] = own_terms_or_known_names();
   schema["$defs"] = definitions();
   return schema;
 }

@@ -117,6 +117,18 @@ std::string filter_text(std::string_view name, std::string_view coupling) {
       name, coupling, terms);
 }
 
+/// How an effect that the library does not have may be tried.
+constexpr std::string_view own_term_text =
+    "\n# An effect of your own, a candidate like the library's: remove the # signs, write its "
+    "equation.\n"
+    "# [[term]]\n"
+    "# key        = \"rumble\"\n"
+    "# acts_on    = \"drift.y\"       # rate.x, drift.x, accelerometer.x (y, z) or gimbal.outer "
+    "(middle, inner)\n"
+    "# equation   = \"A * sin(2*pi*t/P)\"\n"
+    "# parameters = { A = { unit = \"deg/h\", prior = 0.01 }, P = { unit = \"min\", value = 37 } }"
+    "\n";
+
 std::string simulated_text() {
   return fmt::format(
       "\n# What is simulated; parameters without a value are drawn from their "
@@ -174,6 +186,7 @@ std::string study_template(StudyKind kind, const std::optional<RecordedPlan>& pl
   if (kind == StudyKind::study || kind == StudyKind::sweep) text += simulated_text();
   text += filter_text(kind == StudyKind::diagnose ? "nominal" : "eq5", "eq5");
   if (kind != StudyKind::diagnose) text += filter_text("eq6", "eq6");
+  if (kind == StudyKind::diagnose) text += own_term_text;
   if (kind == StudyKind::study || kind == StudyKind::sweep)
     text +=
         "\n[monte_carlo]\nruns = 200               # each draws parameters and noise anew\nseed "

@@ -66,8 +66,11 @@ struct Wish {
   std::vector<const inference::Candidate*> single;  ///< its parameters, one by one
 };
 
-bool needs_temperature(const std::string& term) {
-  return TermLibrary::terms[*TermLibrary::find_term(term)].needs.temperature;
+/// Whether a term follows what no plan of positions can set: the temperature, a column of the
+/// recording.
+bool follows_a_covariate(const std::string& term) {
+  const Needs& needs = TermLibrary::terms[*TermLibrary::find_term(term)].needs;
+  return needs.temperature || needs.covariates != 0;
 }
 
 bool meant(const inference::Candidate& c, const std::string& text) {
@@ -96,6 +99,11 @@ std::string refusal(const std::string& text) {
         "(expected a term that "
         "attitude, command or time shows). Let the temperature vary within the dwells and record "
         "it",
+        text);
+  if (t.needs.covariates != 0)
+    return fmt::format(
+        "advise: {} follows a column of the recording that no plan can foretell (expected a term "
+        "that attitude, command or time shows). Let that column vary within the dwells",
         text);
   if (t.needs.field)
     return fmt::format(
@@ -146,7 +154,7 @@ Question hidden_question(const Diagnosis& d, const inference::CandidateSet& set)
   q.sizes = Sizes::one_prior_sigma;
   q.alternatives.emplace_back();
   for (const inference::Candidate& c : set.candidates) {
-    if (c.params.size() != 1 || c.params.front() == closure_param || needs_temperature(c.term))
+    if (c.params.size() != 1 || c.params.front() == closure_param || follows_a_covariate(c.term))
       continue;
     q.pairs.push_back({q.alternatives.size(), 0});
     q.alternatives.push_back(alternative({cause_of(c, usual(c), d.nominal)}));
@@ -162,7 +170,7 @@ Question named_question(const Diagnosis& d, const inference::CandidateSet& set,
   for (const Rival& r : rivals) {
     std::vector<search::Cause> causes = d.causes;
     const inference::Candidate& c = set.candidates[r.candidate];
-    if (needs_temperature(c.term)) continue;
+    if (follows_a_covariate(c.term)) continue;
     causes[r.cause] = cause_of(c, c.variants[r.variant], d.nominal);
     q.pairs.push_back({0, q.alternatives.size()});
     q.alternatives.push_back(alternative(std::move(causes)));
@@ -177,7 +185,7 @@ Question asked_question(const Diagnosis& d, const inference::CandidateSet& set,
   for (const std::string& text : terms) {
     Wish wish{text, {}};
     for (const inference::Candidate& c : set.candidates)
-      if (c.params.size() == 1 && meant(c, text) && !needs_temperature(c.term))
+      if (c.params.size() == 1 && meant(c, text) && !follows_a_covariate(c.term))
         wish.single.push_back(&c);
     if (wish.single.empty()) wrong.push_back(refusal(text));
     wishes.push_back(std::move(wish));
@@ -279,7 +287,7 @@ bool holds_lambda(const Alternative& a) {
 
 bool follows_temperature(const std::vector<search::Cause>& causes) {
   return std::ranges::any_of(causes,
-                             [](const search::Cause& c) { return needs_temperature(c.term); });
+                             [](const search::Cause& c) { return follows_a_covariate(c.term); });
 }
 
 }  // namespace drift::diagnosis

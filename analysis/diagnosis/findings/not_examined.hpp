@@ -12,6 +12,7 @@ struct NotExamined {
   enum class Why {
     no_temperature,  ///< neither the recording nor the study has the covariate it follows
     no_field,
+    no_covariate,  ///< of a term of the study's own
     beyond_reach,  ///< the plan does not show it, however large
   };
   std::string term;

@@ -17,6 +17,8 @@ std::string reason_in_words(Why why) {
       return "it follows the temperature, which was not recorded";
     case Why::no_field:
       return "it follows the magnetic field, which is not known";
+    case Why::no_covariate:
+      return "it follows a covariate that the recording does not have";
     case Why::beyond_reach:
       break;
   }
@@ -28,6 +30,7 @@ std::vector<std::string> not_examined_sentences(const std::vector<NotExamined>& 
   for (const auto& [why, said] :
        {std::pair{Why::no_temperature, "the temperature was not recorded"},
         std::pair{Why::no_field, "the magnetic field is not known"},
+        std::pair{Why::no_covariate, "the recording lacks the covariate that they follow"},
         std::pair{Why::beyond_reach, "this plan does not show them, however large they are"}}) {
     std::vector<std::string> terms;
     for (const NotExamined& n : all)
@@ -48,8 +51,8 @@ std::string unexamined_twins_text(const std::vector<NotExamined>& all) {
   }
   if (unseen.empty()) return "";
   return fmt::format(
-      " Not examined for want of a temperature: {}; if the temperature moved alike, that is what "
-      "{} may be.",
+      " Not examined, for want of what they follow: {}; if that moved alike, it is what {} may "
+      "be.",
       listed(unseen, "and"), listed(twins, "or"));
 }
 

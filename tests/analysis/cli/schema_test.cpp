@@ -89,8 +89,14 @@ struct Validator {
     }
     if (word == "additionalProperties" || word == "properties")
       return word == "properties" ? members_wrong(value, rule, at) : "";
+    if (word == "propertyNames" && value.is_object()) {
+      for (const auto& [key, inner] : value.items())
+        if (auto why = wrong(json(key), says, at); !why.empty()) return why;
+      return "";
+    }
     const bool words_only = word == "description" || word == "examples" || word == "title" ||
-                            word == "$schema" || word == "$defs" || word == "items";
+                            word == "$schema" || word == "$defs" || word == "items" ||
+                            word == "propertyNames";
     return words_only ? "" : "unknown rule " + word;
   }
 
@@ -98,8 +104,11 @@ struct Validator {
     if (!value.is_object()) return "";
     for (const auto& [key, inner] : value.items()) {
       if (!rule.at("properties").contains(key)) {
-        if (rule.value("additionalProperties", true)) continue;
-        return at + ": unknown key " + key;
+        const json others = rule.value("additionalProperties", json(true));
+        if (others == json(false)) return at + ": unknown key " + key;
+        if (others.is_object())
+          if (auto why = wrong(inner, others, at + "." + key); !why.empty()) return why;
+        continue;
       }
       if (auto why = wrong(inner, rule.at("properties").at(key), at + "." + key); !why.empty())
         return why;
@@ -143,6 +152,20 @@ TEST(Schema, RefusesWhatTheProgramRefuses) {
     EXPECT_NE(schema.wrong(text), "") << mistake;
     EXPECT_NE(driftscope("check " + folder.write("s.toml", text)).code, 0) << mistake;
   }
+}
+
+TEST(Schema, KnowsTermsThatAStudyBrings) {
+  const Validator schema = the_schema();
+  const std::string good = text_of(std::string(DRIFT_SOURCE_DIR) + "/configs/study.toml") +
+                           "\n[[filter]]\nname = \"own\"\ncoupling = \"eq5\"\nterms = "
+                           "[\"g_drift.x\", \"rumble\"]\nstarts = [ { rumble_A = \"1 deg/h\" } ]\n"
+                           "parameters = { rumble_A = \"0.1 deg/h\" }\n",
+                    term = "[[term]]\nkey = \"rumble\"\nacts_on = \"drift.x\"\nequation = \"A\"\n";
+  EXPECT_NE(schema.wrong(good), "") << "nobody brings it";
+  EXPECT_EQ(schema.wrong(good + term + "parameters = { A = { unit = \"deg/h\", prior = 1 } }\n"),
+            "");
+  EXPECT_NE(schema.wrong(good + term + "parameters = { A = { units = \"deg/h\" } }\n"), "");
+  EXPECT_NE(schema.wrong(good + "[[term]]\nkey = \"rumble\"\nacts_on = \"drift.w\"\n"), "");
 }
 
 TEST(Schema, NamesUnitRangeAndChoices) {

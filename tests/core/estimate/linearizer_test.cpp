@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/own_terms.hpp"
 #include "tests/support/term_scenes.hpp"
 
 namespace drift::linearizer_test {
@@ -154,6 +155,16 @@ TEST(Linearizer, ChainsTheSlotsOfEveryTermAsTheWholeEquationDoes) {
     for (const std::size_t t : visible_terms()) {
       SCOPED_TRACE(TermLibrary::terms[t].key);
       expect_derivatives_of(Model(coupling_for(t), {t}), Point(at));
+    }
+}
+
+TEST(Linearizer, ChainsThemForTermsThatAStudyBrings) {
+  const OwnTermsHeld held(own_terms_of_every_kind());
+  ASSERT_EQ(TermLibrary::terms.size(), TermLibrary::num_terms);
+  for (const std::size_t at : {in_a_slew, in_a_dwell})
+    for (std::size_t t = TermLibrary::num_known; t < TermLibrary::num_terms; ++t) {
+      SCOPED_TRACE(TermLibrary::terms[t].key);
+      expect_derivatives_of(Model(Coupling::eq6, {t}), Point(at));
     }
 }
 

@@ -1,0 +1,103 @@
+#include "core/physics/own/own_scenes.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+
+#include "core/base/rng.hpp"
+#include "core/physics/expression/evaluate.hpp"
+#include "core/physics/own/own_inputs.hpp"
+
+namespace drift {
+namespace {
+
+using Slope = Dual<1>;
+
+/// Scene number k: some with as much as possible at zero or along an axis, the rest anywhere.
+std::vector<double> own_scene(std::uint64_t k, std::size_t inputs) {
+  Stream stream(1, k, Purpose::test);
+  const auto spread = [&](double size) {
+    return k < 12 ? 0.0 : size * (2.0 * stream.uniform() - 1.0);
+  };
+  Vec3 f = k < 6 ? Vec3(k % 2 ? -Vec3::Unit(k / 2) : Vec3(Vec3::Unit(k / 2)))
+                 : Vec3(stream.normal(), stream.normal(), stream.normal()).normalized();
+  constexpr double times[] = {0.0, 60.0, 3600.0, 86400.0};  // [s]
+  const double t = times[k % 4], t_position = k % 3 ? std::min(t, 1800.0) : 0.0;
+  std::vector<double> values{t, t_position, f[0], f[1], f[2], f[0], f[1], f[2]};
+  for (int i = 0; i < 3; ++i) values.push_back(spread(8e-5));  // [rad/s] of the case
+  for (int i = 0; i < 3; ++i) values.push_back(spread(5e-3));  // [rad/s] commanded
+  for (int i = 0; i < 3; ++i) values.push_back(spread(3.0));   // [rad] of the gimbals
+  values.push_back(spread(10.0));                              // [K]
+  values.push_back(spread(1e-3));                              // [K/s]
+  for (int i = 0; i < 3; ++i) values.push_back(spread(5e-5));  // [T]
+  while (values.size() < inputs) values.push_back(1.0 + stream.uniform());
+  return values;
+}
+
+/// The parameters, each of whose grids is at its value number k.
+std::vector<double> parameter_values(const std::vector<ParamSpec>& params, std::size_t k) {
+  std::vector<double> values;
+  for (const ParamSpec& spec : params) {
+    const Prior prior = spec.prior_si();
+    values.push_back(spec.amplitude()      ? prior.mean() + prior.sigma()
+                     : k == 0              ? prior.mean()
+                     : k <= spec.grid.size ? spec.grid.values[k - 1] * spec.unit.to_si
+                                           : prior.mean());
+  }
+  return values;
+}
+
+/// The value of a program and its slope in one input (or none).
+Slope program_at(const EquationProgram& program, const std::vector<double>& inputs,
+                 const std::vector<double>& params, std::size_t variable) {
+  std::vector<Slope> p(params.begin(), params.end());
+  return evaluate_program(program, p.data(), [&](int index) {
+    Slope x(inputs[static_cast<std::size_t>(index)]);
+    if (static_cast<std::size_t>(index) == variable) x.d[0] = 1.0;
+    return x;
+  });
+}
+
+/// "t = 0, f_x = 1": what a program reads.
+std::string inputs_told(const EquationProgram& program, const std::vector<double>& values,
+                        const std::vector<std::string>& names) {
+  std::vector<std::string> parts;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    for (std::size_t k = 0; k < program.size; ++k)
+      if (program.code[k].op == Operation::input &&
+          program.code[k].index == static_cast<std::int16_t>(i)) {
+        parts.push_back(fmt::format("{} = {:.3g}", names[i], values[i]));
+        break;
+      }
+  return parts.empty() ? "anywhere" : fmt::format("where {}", fmt::join(parts, ", "));
+}
+
+}  // namespace
+
+std::optional<EquationMistake> mistake_in_scenes(const EquationProgram& program,
+                                                 const std::vector<ParamSpec>& params,
+                                                 const std::vector<std::string>& inputs) {
+  constexpr std::uint64_t scenes = 100;
+  for (std::uint64_t k = 0; k < scenes; ++k)
+    for (std::size_t grid = 0; grid <= (k < 12 ? Grid::capacity : 0); ++grid) {
+      const auto values = own_scene(k, inputs.size());
+      const auto p = parameter_values(params, grid);
+      for (std::size_t variable = 0; variable < inputs.size(); ++variable) {
+        const Slope y = program_at(program, values, p, variable);
+        if (std::isfinite(y.v) && std::isfinite(y.d[0])) continue;
+        const bool number = std::isfinite(y.v);
+        return EquationMistake{
+            0,
+            fmt::format("{} {} (in rad, s, g, K, T)",
+                        number ? fmt::format("has no finite slope in {}", inputs[variable])
+                               : "is not a number",
+                        inputs_told(program, values, inputs)),
+            "a finite number with a finite slope wherever the platform may be",
+            "Keep divisors, logarithms and roots away from zero, as with max(x, 0.01)"};
+      }
+    }
+  return std::nullopt;
+}
+
+}  // namespace drift

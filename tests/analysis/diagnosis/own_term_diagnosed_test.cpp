@@ -1,0 +1,45 @@
+// A user's own term hidden in a test of a platform: found, named and sized like any other.
+#include <gtest/gtest.h>
+
+#include "analysis/diagnosis/diagnose.hpp"
+#include "analysis/report/diagnosis/sentence.hpp"
+#include "tests/support/model_builders.hpp"
+#include "tests/support/own_terms.hpp"
+
+namespace drift::own_term_diagnosed_test {
+namespace {
+
+using namespace drift::test;
+
+const std::string rumble =
+    "[[term]]\nkey = \"bearing_rumble\"\ntitle = \"bearing rumble of the inner gimbal\"\n"
+    "acts_on = \"rate.y\"\nequation = \"A * sin(2*pi*t/P) * step(abs(f_z) - 0.8)\"\n"
+    "parameters = { A = { unit = \"deg/h\", prior = 0.01 }, P = { unit = \"min\", value = 37, grid "
+    "= [33, 35, 37, 39] } }\n";
+
+TEST(Diagnose, ATermThatTheStudyBringsIsNamedWithItsSizeAndPeriod) {
+  const OwnTermsHeld held(rumble);
+  const Timeline timeline = preset_timeline("twelve", CommandLaw::free, 1800.0, 90.0);
+  TruthSpec truth = base_truth(Coupling::eq5);
+  truth.active |= params_named("bearing_rumble");
+  TruthDraw draw = draw_truth(truth, timeline.chains, 3, 1);
+  draw.theta[param("bearing_rumble_A")] = 0.05 * deg_per_h;
+  draw.theta[param("bearing_rumble_P")] = 36.0 * 60.0;  // between the values of the grid
+  const Readout readout;
+  const Measurements measured = Simulator(truth, readout).run(timeline, draw, 3, 1).measured;
+  const diagnosis::Diagnosis d =
+      diagnosis::diagnose(base_filter(Coupling::eq5), {timeline, readout, measured}, {}, {}, {});
+  ASSERT_EQ(d.verdict, diagnosis::Verdict::named) << report::sentence(d);
+  ASSERT_EQ(d.causes.size(), 1u);
+  EXPECT_EQ(d.causes[0].term, "bearing_rumble");
+  EXPECT_NE(report::sentence(d).find("bearing rumble of the inner gimbal"), std::string::npos);
+  for (const search::CauseParameter& p : d.causes[0].parameters) {
+    const bool size = p.key == "bearing_rumble_A";
+    EXPECT_NEAR(p.value, size ? 0.05 : 36.0, 4.0 * p.sigma) << p.key;
+    EXPECT_EQ(p.unit, size ? "deg/h" : "min");
+  }
+  EXPECT_TRUE(d.fit.held_out.improves);
+}
+
+}  // namespace
+}  // namespace drift::own_term_diagnosed_test
