@@ -63,7 +63,7 @@ std::string allan_picture(const NoiseCard& card) {
   Chart chart;
   chart.title = "Noise at rest";
   chart.columns = 2;
-  chart.panel_width = 286.0;  // two fit into a page of 600 px
+  chart.panel_width = 268.0;  // two fit into a page of 600 px
   chart.panel_height = 270.0;
   for (const Sensor sensor : sensors) {
     const double size = noise_units(sensor, 1.0)[2].size;

@@ -18,7 +18,7 @@ bool fitted(const NoiseCard& card, int noise) {
 
 /// "0.1021±0.0012", "0.5±0.1 or K", or "<0.3".
 std::string coefficient_text(const AllanCoefficient& c, double size) {
-  if (!c.found) return c.upper > 0.0 ? fmt::format("<{}", number_text(c.upper / size, 2)) : "";
+  if (!c.found) return c.upper > 0.0 ? fmt::format("<{}", number_text(c.upper / size)) : "";
   constexpr double long_number = 1e4;
   std::string text =
       c.value < long_number * size
