@@ -6,27 +6,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <cstdlib>
 #include <vector>
 
+#include "bench/allocations.hpp"
 #include "bench/dense_ekf.hpp"
 #include "bench/rows.hpp"
 #include "core/estimate/ekf.hpp"
 #include "core/physics/parameters_config.hpp"
 #include "core/sim/simulate.hpp"
-
-namespace {
-std::atomic<long> allocations{0};
-}
-
-// glibc's own entry points carry the work; these only count.
-extern "C" void* __libc_malloc(std::size_t) noexcept;
-extern "C" void* malloc(std::size_t n) noexcept {
-  allocations.fetch_add(1, std::memory_order_relaxed);
-  return __libc_malloc(n);
-}
 
 namespace drift::bench {
 namespace {

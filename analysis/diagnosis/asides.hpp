@@ -24,4 +24,9 @@ std::optional<remark::BeyondPrior> beyond_prior(const BatchResult& nominal);
 /// tell, its agreement says nothing of it (physics.md 1.7). Empty where a cause is the equation.
 std::optional<remark::OtherEquation> equation_against_other(const Diagnosis& diagnosis);
 
+/// The terms that were left out of the comparison, and why; those that the nominal model holds and
+/// those that act through random numbers alone are not among them.
+std::vector<NotExamined> not_examined(const search::Fitted& nominal,
+                                      const std::vector<search::Cause>& causes);
+
 }  // namespace drift::diagnosis

@@ -14,7 +14,6 @@
 #include "analysis/diagnosis/located.hpp"
 #include "analysis/diagnosis/noise_found.hpp"
 #include "analysis/diagnosis/nominal_fit.hpp"
-#include "analysis/diagnosis/not_examined.hpp"
 #include "analysis/inference/noise/gross_misfit.hpp"
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/preparation/covariates.hpp"

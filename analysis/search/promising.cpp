@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "analysis/inference/thresholds.hpp"
-#include "analysis/search/greedy.hpp"
 #include "analysis/search/pairs.hpp"
 
 namespace drift::search {
@@ -40,6 +39,38 @@ std::vector<std::size_t> adequate_singles(const Search& s) {
       kept.push_back(k);
   }
   return kept;
+}
+
+/// Further causes one by one, the strongest conditional score each time, until nothing is
+/// significant or `most` are in; then those that are not needed are taken out again. Empty if it
+/// never gets quiet.
+std::vector<Choice> greedy(const Field& field, const std::vector<Score>& scores,
+                           double library_threshold, double scan_threshold, std::size_t most) {
+  std::vector<Choice> in;
+  std::size_t next = 0;
+  for (std::size_t k = 1; k < scores.size(); ++k)
+    if (scores[k].strength > scores[next].strength) next = k;
+  const auto quiet = [&](const Remainder& r) {
+    return r.library <= library_threshold && r.scan <= scan_threshold;
+  };
+  Remainder r;
+  do {
+    in.push_back({next, scores[next].variant});
+    r = remainder(field, in);
+    next = r.strongest;
+  } while (!quiet(r) && in.size() < most && r.library > library_threshold);
+  if (!quiet(r)) return {};
+  for (std::size_t k = 0; k < in.size() && in.size() > 1;) {
+    std::vector<Choice> fewer = in;
+    fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(k));
+    if (quiet(remainder(field, fewer))) {
+      in = fewer;
+      k = 0;
+    } else {
+      ++k;
+    }
+  }
+  return in;
 }
 
 }  // namespace

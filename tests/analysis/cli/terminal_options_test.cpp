@@ -94,7 +94,7 @@ TEST(SetList, RefusesWhatIsNoList) {
 std::vector<std::pair<std::string, std::string>> given_values(const std::string& study) {
   std::istringstream lines(driftscope("check " + study).out);
   std::vector<std::pair<std::string, std::string>> all;
-  for (std::string line; std::getline(lines, line);) {
+  for (std::string line; std::getline(lines, line) && !line.empty();) {  // the positions follow
     const auto end = line.find("  "), start = line.find_first_not_of(' ', end);
     if (!line.ends_with(" default") && start != std::string::npos)
       all.emplace_back(line.substr(0, end), line.substr(start, line.find("  ", start) - start));

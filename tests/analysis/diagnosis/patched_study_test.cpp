@@ -109,7 +109,7 @@ TEST(PatchedStudy, LambdaMakesTheCouplingLambda) {
 TEST(PatchedStudy, EveryParameterOfTheLibraryCanBeAdded) {
   const test::ScratchFolder folder;
   const mc::Study study = read_text(folder, "s.toml", nominal_study);
-  for (std::size_t i = 0; i < TermLibrary::num_params; ++i) {
+  for (std::size_t i = 0; i < TermLibrary::specs.size(); ++i) {
     const auto& spec = TermLibrary::specs[i];
     if (study.filters.front().active[i]) continue;
     for (const bool profiled : {false, true}) {
