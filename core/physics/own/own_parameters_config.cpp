@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include "core/physics/expression/parse.hpp"
 #include "core/physics/own/own_inputs.hpp"

@@ -49,8 +49,8 @@ bool is_taken(std::string_view name, const std::vector<OwnTerm>& before) {
   const auto is_parameter = [&](const ParamSpec& s) {
     return alike(s.key.view(), name) || alike(s.group.view(), name);
   };
-  const auto& [terms, specs] = std::tie(TermLibrary::known_terms, TermLibrary::known_specs);
-  return std::ranges::any_of(terms, is_term) || std::ranges::any_of(specs, is_parameter) ||
+  return std::ranges::any_of(TermLibrary::known_terms, is_term) ||
+         std::ranges::any_of(TermLibrary::known_specs, is_parameter) ||
          std::ranges::any_of(before, is_term) || std::ranges::any_of(before, [&](const OwnTerm& t) {
            return std::ranges::any_of(t.params, is_parameter);
          });
