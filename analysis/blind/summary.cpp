@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <set>
 
 #include "core/stats/median.hpp"
@@ -183,6 +184,18 @@ double calibration_error_of(const std::vector<ReliabilityBin>& bins) {
   return n > 0 ? sum / static_cast<double>(n) : std::nan("");
 }
 
+/// Mean of the same for trials that are right as often as stated: binomial, |normal| by bins.
+double calibration_error_by_chance_of(const std::vector<ReliabilityBin>& bins) {
+  double sum = 0.0;
+  std::size_t n = 0;
+  for (const ReliabilityBin& b : bins) {
+    const auto trials = static_cast<double>(b.right.n);
+    sum += std::sqrt(2.0 / std::numbers::pi * b.stated * (1.0 - b.stated) * trials);
+    n += b.right.n;
+  }
+  return n > 0 ? sum / static_cast<double>(n) : std::nan("");
+}
+
 stats::Proportion pulls_within(const std::vector<double>& pulls, double limit) {
   const auto k =
       std::count_if(pulls.begin(), pulls.end(), [&](double p) { return std::abs(p) <= limit; });
@@ -281,6 +294,7 @@ Summary summarise(const Scores& scores) {
   s.confusion = confusion_of(scores);
   s.reliability = reliability_of(scores);
   s.calibration_error = calibration_error_of(s.reliability);
+  s.calibration_error_by_chance = calibration_error_by_chance_of(s.reliability);
   add_targets(scores, s);
   add_further(scores, s);
   return s;

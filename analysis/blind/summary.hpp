@@ -94,6 +94,7 @@ struct Summary {
   std::vector<ReliabilityBin> reliability;
   /// Mean over trials of |stated probability - share of right ones| of their bins; NaN without any.
   double calibration_error = 0.0;
+  double calibration_error_by_chance = 0.0;  ///< what it would be, on average, were they all right
   double pull_rms = 0.0;  ///< robust against the few: 1.4826 median |pull|
   Confusion confusion;
   double mean_seconds = 0.0, longest_seconds = 0.0;  ///< per diagnosis

@@ -129,6 +129,7 @@ Json blind_document(const BlindResults& results) {
           {"confusion", of(s.confusion)},
           {"reliability", of(s.reliability)},
           {"calibration_error", s.calibration_error},
+          {"calibration_error_by_chance", s.calibration_error_by_chance},
           {"pull_rms", s.pull_rms},
           {"largest_bias_median_sigma", s.largest_bias_median},
           {"seconds", {{"mean", s.mean_seconds}, {"longest", s.longest_seconds}}},

@@ -37,9 +37,11 @@ Section reliability(const BlindResults& results) {
            fmt::format("{:.3f} to {:.3f}", b.right.low, b.right.high)});
   return {"Are the probabilities right?",
           {t,
-           Paragraph{fmt::format("Expected calibration error {:.3f}: the mean distance of the "
-                                 "probability stated from the share of right ones.",
-                                 results.summary.calibration_error)},
+           Paragraph{fmt::format("Calibration error {:.3f}: the mean distance of the probability "
+                                 "stated from the share of right ones. Were they all right, chance "
+                                 "alone would make it {:.3f} with so many trials.",
+                                 results.summary.calibration_error,
+                                 results.summary.calibration_error_by_chance)},
            Figure{reliability_svg(bins),
                   "What a diagnosis takes for most probable, by the probability that it states, "
                   "against how often that was hidden.",

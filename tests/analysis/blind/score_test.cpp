@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "analysis/blind/summary.hpp"
 #include "analysis/report/blind/report.hpp"
 
@@ -74,6 +77,11 @@ TEST(BlindScore, ReliabilityComparesWhatWasStatedWithWhatWasRight) {
   EXPECT_EQ(s.reliability[0].right.k, 6u);
   EXPECT_NEAR(s.reliability[1].stated, 0.97, 1e-12);
   EXPECT_NEAR(s.calibration_error, 0.5 * 0.47, 1e-12);
+  // Binomial: the mean of |share - p| of ten at 0.6 and at 0.97, as a normal distribution has it.
+  EXPECT_NEAR(s.calibration_error_by_chance,
+              0.5 * std::sqrt(2.0 / std::numbers::pi / 10.0) *
+                  (std::sqrt(0.6 * 0.4) + std::sqrt(0.97 * 0.03)),
+              1e-12);
 }
 
 TEST(BlindScore, ARightNameIsExactAndInTheSet) {
