@@ -5,6 +5,7 @@
 #include "core/recording/recording.hpp"
 #include "tests/support/lab_file.hpp"
 #include "tests/support/program.hpp"
+#include "tests/support/strapdown_recording.hpp"
 
 namespace drift::own_recording_test {
 namespace {
@@ -137,6 +138,25 @@ TEST(OwnRecording, LookSaysWhatIsMissingOfWhatCannotBeRead) {
   EXPECT_EQ(look.code, 0) << look.err;
   EXPECT_NE(look.out.find("It is not a recording yet"), std::string::npos) << look.out;
   EXPECT_EQ(driftscope("look '" + folder.file("none.csv") + "'").code, 6);
+}
+
+TEST(OwnRecording, TheNoiseThatLookProposesIsThatOfTheSensorsAndAStudyReadsIt) {
+  const ScratchFolder folder;
+  const test::StrapdownScript script{.dwells = 8, .rest = 10.0, .acc_noise = 0.0015};
+  const std::string log = folder.file("log.csv");
+  write_recording(test::strapdown_recording(script, Theta::Zero()), log);
+  const auto look = driftscope("look '" + log + "'");
+  EXPECT_EQ(look.code, 0) << look.err;
+  EXPECT_NE(look.out.find("Noise of the gyros at rest"), std::string::npos) << look.out;
+  const auto begin = look.out.find("[readout]");
+  ASSERT_NE(begin, std::string::npos) << look.out;
+  const std::string study = folder.write(
+      "lab.toml", study_text + look.out.substr(begin, look.out.find("\n\n", begin) - begin));
+  const auto checked = driftscope("check '" + study + "'");
+  EXPECT_EQ(checked.code, 0) << checked.err;
+  // 24,000 samples tell 1500 ug to half a percent: four sigmas are 30 ug.
+  const auto key = look.out.find("accelerometer_noise = \"", begin);
+  EXPECT_NEAR(std::stod(look.out.substr(key + 23)), 1500.0, 30.0) << look.out.substr(begin, 200);
 }
 
 TEST(OwnRecording, VersionIsAnOptionToo) {
