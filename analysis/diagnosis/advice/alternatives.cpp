@@ -105,12 +105,6 @@ std::string refusal(const std::string& text) {
         "advise: {} follows a column of the recording that no plan can foretell (expected a term "
         "that attitude, command or time shows). Let that column vary within the dwells",
         text);
-  if (t.needs.field)
-    return fmt::format(
-        "advise: {} needs the magnetic field, and neither the recording nor [environment] gives it "
-        "(expected columns "
-        "field_n, field_w, field_u). Record it: no position helps before",
-        text);
   return fmt::format(
       "advise: nothing of {} can be asked for (expected a term that the nominal filter leaves out "
       "and that has an "

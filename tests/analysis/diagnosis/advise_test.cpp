@@ -216,11 +216,11 @@ TEST(Advise, TermsThatCannotBeAskedForAreSaidAllAtOnce) {
     FAIL();
   } catch (const InputError& error) {
     EXPECT_EQ(error.code(), ExitCode::usage);
-    ASSERT_EQ(error.messages().size(), 4u);
+    // The field of magnetic_drift is that of a dipole where nobody has measured it.
+    ASSERT_EQ(error.messages().size(), 3u);
     EXPECT_NE(error.messages()[0].find("Did you mean 'sag'"), std::string::npos);
     EXPECT_NE(error.messages()[1].find("eta_x"), std::string::npos);
-    EXPECT_NE(error.messages()[2].find("field_n"), std::string::npos);
-    EXPECT_NE(error.messages()[3].find("temperature"), std::string::npos);
+    EXPECT_NE(error.messages()[2].find("temperature"), std::string::npos);
   }
 }
 
