@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <set>
 
 #include "core/stats/median.hpp"
@@ -155,47 +154,6 @@ Confusion confusion_of(const Scores& scores) {
   return c;
 }
 
-std::vector<ReliabilityBin> reliability_of(const Scores& scores) {
-  // Finer where answers are sure: that is where most of them lie.
-  const double edges[] = {0.0, 0.3, 0.5, 0.7, 0.8, 0.9, 0.95, 0.99, 1.0 + 1e-9};
-  std::vector<ReliabilityBin> bins;
-  for (std::size_t k = 0; k + 1 < std::size(edges); ++k) {
-    const double low = edges[k], high = edges[k + 1];
-    const Condition group = [low, high](const TrialScore& s) {
-      return s.answer.belief.probability >= low && s.answer.belief.probability < high;
-    };
-    ReliabilityBin bin{low, std::min(high, 1.0), 0.0,
-                       share(scores, group, [](const TrialScore& s) { return s.believed_right; })};
-    if (bin.right.n == 0) continue;
-    for (const TrialScore& s : scores)
-      if (group(s)) bin.stated += s.answer.belief.probability / static_cast<double>(bin.right.n);
-    bins.push_back(bin);
-  }
-  return bins;
-}
-
-double calibration_error_of(const std::vector<ReliabilityBin>& bins) {
-  double sum = 0.0;
-  std::size_t n = 0;
-  for (const ReliabilityBin& b : bins) {
-    sum += static_cast<double>(b.right.n) * std::abs(b.stated - b.right.share());
-    n += b.right.n;
-  }
-  return n > 0 ? sum / static_cast<double>(n) : std::nan("");
-}
-
-/// Mean of the same for trials that are right as often as stated: binomial, |normal| by bins.
-double calibration_error_by_chance_of(const std::vector<ReliabilityBin>& bins) {
-  double sum = 0.0;
-  std::size_t n = 0;
-  for (const ReliabilityBin& b : bins) {
-    const auto trials = static_cast<double>(b.right.n);
-    sum += std::sqrt(2.0 / std::numbers::pi * b.stated * (1.0 - b.stated) * trials);
-    n += b.right.n;
-  }
-  return n > 0 ? sum / static_cast<double>(n) : std::nan("");
-}
-
 stats::Proportion pulls_within(const std::vector<double>& pulls, double limit) {
   const auto k =
       std::count_if(pulls.begin(), pulls.end(), [&](double p) { return std::abs(p) <= limit; });
@@ -293,8 +251,6 @@ Summary summarise(const Scores& scores) {
   s.outside = by_kind(scores, Stratum::outside, unexplained);
   s.confusion = confusion_of(scores);
   s.reliability = reliability_of(scores);
-  s.calibration_error = calibration_error_of(s.reliability);
-  s.calibration_error_by_chance = calibration_error_by_chance_of(s.reliability);
   add_targets(scores, s);
   add_further(scores, s);
   return s;

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "analysis/blind/reliability.hpp"
 #include "analysis/blind/score.hpp"
 #include "core/stats/proportion.hpp"
 
@@ -75,12 +76,6 @@ struct Confusion {
   std::vector<ConfusionRow> rows;
 };
 
-/// Trials whose most probable explanation was stated with a probability in [low, high).
-struct ReliabilityBin {
-  double low = 0.0, high = 1.0, stated = 0.0;  ///< mean of what was stated
-  stats::Proportion right;
-};
-
 struct Summary {
   std::size_t trials = 0, failed = 0;
   std::vector<Target> targets;
@@ -91,10 +86,7 @@ struct Summary {
   std::vector<std::pair<std::string, stats::Proportion>> wrong_noise,
       outside;                ///< by kind: false alarms, unexplained
   std::vector<double> pulls;  ///< of all recovered parameters
-  std::vector<ReliabilityBin> reliability;
-  /// Mean over trials of |stated probability - share of right ones| of their bins; NaN without any.
-  double calibration_error = 0.0;
-  double calibration_error_by_chance = 0.0;  ///< what it would be, on average, were they all right
+  Reliability reliability;
   double pull_rms = 0.0;  ///< robust against the few: 1.4826 median |pull|
   Confusion confusion;
   double mean_seconds = 0.0, longest_seconds = 0.0;  ///< per diagnosis

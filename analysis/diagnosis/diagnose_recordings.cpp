@@ -30,6 +30,17 @@ Diagnosis advised(Diagnosis d, const preparation::Prepared& test,
   return d;
 }
 
+/// Nothing is said of causes, and no probabilities, at a latitude that is not the recording's.
+Diagnosis of_another_place(Diagnosis d) {
+  d.probabilities = {};
+  std::erase_if(d.remarks, [](const Remark& r) {
+    return std::holds_alternative<remark::StrongestLeft>(r) ||
+           std::holds_alternative<remark::FreeInputExplains>(r) ||
+           std::holds_alternative<remark::BeyondPrior>(r);
+  });
+  return d;
+}
+
 }  // namespace
 
 Diagnosis diagnose_recordings(const mc::Study& study, const std::vector<Recording>& recordings,
@@ -46,6 +57,7 @@ Diagnosis diagnose_recordings(const mc::Study& study, const std::vector<Recordin
   Diagnosis d = diagnose(test.study, test.recordings, first);
   if (progress) progress("latitude and advice", of_diagnosis);
   d.site_doubt = site_doubt(test.study, test.recordings, d);
+  if (d.site_doubt) d = of_another_place(std::move(d));
   d = advised(std::move(d), test, options);
   if (progress) progress("done", 1.0);
   std::vector<Remark> remarks;

@@ -1,6 +1,8 @@
 #include "analysis/strapdown/ladder.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 namespace drift::strapdown {
@@ -52,6 +54,11 @@ class GyroLadder {
   bool climb(const Parts& parts) {
     Trial trial = tried(parts);
     judge(trial, best_.trial);
+    if (trial.verdict == Verdict::accepted && parts.drift > best_.parts.drift &&
+        may_be_earth_rate(parts)) {
+      trial.verdict = Verdict::rejected;
+      trial.reason = "no larger than Earth rate, which this model leaves out";
+    }
     record(trial);
     if (trial.verdict == Verdict::accepted) best_ = {parts, trial};
     return trial.verdict == Verdict::accepted;
@@ -90,6 +97,16 @@ class GyroLadder {
     Parts parts;
     Trial trial;
   };
+
+  /// Whether what drift hangs on the specific force may be Earth rate: that turns with the
+  /// attitude, too, and makes coefficients of up to its own size.
+  bool may_be_earth_rate(const Parts& parts) const {
+    const Estimate drift = fit(model_of(parts), evidence_, Asked::all).drift;
+    return std::ranges::all_of(drift.params, [&](std::size_t p) {
+      return TermLibrary::specs[p].group.view() == "D_F" ||
+             std::abs(drift.theta[p]) <= detail::earth_rate;
+    });
+  }
 
   Model model_of(const Parts& parts) const {
     Model model{equation_, accelerometer_, parts.drift, {}};

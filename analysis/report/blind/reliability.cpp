@@ -28,7 +28,7 @@ std::string reliability_svg(const std::vector<blind::ReliabilityBin>& bins) {
 }  // namespace
 
 Section reliability(const BlindResults& results) {
-  const auto& bins = results.summary.reliability;
+  const auto& bins = results.summary.reliability.bins;
   if (bins.empty()) return {};
   Table t("", "<stated | mean | right | trials | 95 %");
   for (const blind::ReliabilityBin& b : bins)
@@ -40,8 +40,8 @@ Section reliability(const BlindResults& results) {
            Paragraph{fmt::format("Calibration error {:.3f}: the mean distance of the probability "
                                  "stated from the share of right ones. Were they all right, chance "
                                  "alone would make it {:.3f} with so many trials.",
-                                 results.summary.calibration_error,
-                                 results.summary.calibration_error_by_chance)},
+                                 results.summary.reliability.error,
+                                 results.summary.reliability.error_by_chance)},
            Figure{reliability_svg(bins),
                   "What a diagnosis takes for most probable, by the probability that it states, "
                   "against how often that was hidden.",

@@ -18,12 +18,18 @@ Section odds(const Diagnosis& d) {
   };
   add("nothing missing, noise as declared", p.consistent);
   add("nothing missing, noise not as declared", p.noise_only);
+  double others = 0.0;
   for (const Probabilities::Explanation& e : p.named) {
-    if (e.probability < least_shown) continue;  // diagnosis.json has them all
+    if (e.probability < least_shown) {
+      others += e.probability;
+      continue;
+    }
     std::vector<std::string> labels;
     for (const NamedEffect& c : e.causes) labels.push_back(c.label);
     add(fmt::format("{}", fmt::join(labels, " together with ")), e.probability);
   }
+  if (others > 0.0)
+    add(fmt::format("another effect of the library, each below {}", least_shown), others);
   add("something that no term of the library describes", p.outside);
   return {"What the recording may be",
           {table, Paragraph{"By the marginal likelihood of each and a prior that is stated in "

@@ -124,13 +124,15 @@ Sentences equations_of(const std::vector<Cause>& causes) {
 }  // namespace
 
 Table candidate_table(const Diagnosis& d) {
-  Table table("Candidates, strongest first",
-              "term= | axis= | label= | <candidate | score=score | dof=dof | p_value=p | "
-              "p_value_alone= | absorbed=absorbed | amplitude=amplitude | sigma= | "
-              "smallest_detectable=detectable | unit=<unit | size_sigma= | log_bayes= | "
-              "probability=prob. | adequate= | observable= | <",
-              "p: family-wise, over all that was tried. absorbed: part of the raw signature that "
-              "fitted parameters take up. detectable: size found with 80 % probability.");
+  Table table(
+      "Candidates, strongest first",
+      "term= | axis= | label= | <candidate | score=score | dof=dof | p_value=p | "
+      "p_value_alone= | absorbed=absorbed | amplitude=amplitude | sigma= | "
+      "smallest_detectable=detectable | unit=<unit | size_sigma= | log_bayes= | "
+      "probability=prob. | adequate= | observable= | <",
+      "p: family-wise, over all that was tried. absorbed: part of the raw signature that "
+      "fitted parameters take up. detectable: size found with 80 % probability. prob.: of this "
+      "candidate alone, before a fit with it, against all others and nothing.");
   table.limit = {6, 40, "diagnosis.json"};
   for (const auto& [c, alternative] : shown_candidates(d, d.candidates.size())) {
     const bool one = c->sigma > 0.0;  // of several parameters there is no single amplitude

@@ -5,6 +5,8 @@
 namespace drift::report {
 namespace {
 
+constexpr std::string_view cut_off = " ...";
+
 std::vector<std::string> lines_of(const std::string& sentence, std::size_t width) {
   std::vector<std::string> lines;
   if (sentence.empty()) return lines;
@@ -27,7 +29,6 @@ std::string whole_part(const std::string& text, std::size_t most) {
 /// "...".
 std::vector<std::string> shortened(const std::string& sentence, std::size_t most,
                                    std::size_t width) {
-  constexpr std::string_view mark = " ...";
   std::vector<std::string> lines = lines_of(sentence, width);
   if (lines.size() <= most || most == 0) return most == 0 ? std::vector<std::string>{} : lines;
   for (std::string part = whole_part(sentence, most * width); !part.empty();
@@ -35,9 +36,9 @@ std::vector<std::string> shortened(const std::string& sentence, std::size_t most
     if (auto fitting = lines_of(part, width); fitting.size() <= most) return fitting;
   lines.resize(most);
   std::string& last = lines.back();
-  while (last.size() + mark.size() > width && last.find_last_of(' ') != std::string::npos)
+  while (last.size() + cut_off.size() > width && last.find_last_of(' ') != std::string::npos)
     last.erase(last.find_last_of(' '));
-  last += mark;
+  last += cut_off;
   return lines;
 }
 
@@ -54,7 +55,10 @@ std::string brief_text(const InBrief& brief, std::size_t width) {
     shown.insert(shown.end(), lines.begin(), lines.end());
   };
   add(brief.verdict);
-  for (const std::string& sentence : brief.more) add(sentence);
+  for (const std::string& sentence : brief.more)  // with nothing whole to be said: not at all
+    if (const auto lines = shortened(sentence, room, width);
+        !lines.empty() && !lines.back().ends_with(cut_off))
+      add(sentence);
   shown.insert(shown.end(), next.begin(), next.end());
   std::string out;
   for (const std::string& line : shown) out += line + '\n';

@@ -72,13 +72,13 @@ TEST(BlindScore, ReliabilityComparesWhatWasStatedWithWhatWasRight) {
         Belief::Kind::named, sure ? 0.97 : 0.6, {{"magnetic_drift", right ? "y" : "x", ""}}};
     scores.push_back(score_trial(magnetic, answers_of(to_json(std::vector{a})).front()));
   }
-  const Summary s = summarise(scores);
-  ASSERT_EQ(s.reliability.size(), 2u);
-  EXPECT_EQ(s.reliability[0].right.k, 6u);
-  EXPECT_NEAR(s.reliability[1].stated, 0.97, 1e-12);
-  EXPECT_NEAR(s.calibration_error, 0.5 * 0.47, 1e-12);
+  const Reliability s = summarise(scores).reliability;
+  ASSERT_EQ(s.bins.size(), 2u);
+  EXPECT_EQ(s.bins[0].right.k, 6u);
+  EXPECT_NEAR(s.bins[1].stated, 0.97, 1e-12);
+  EXPECT_NEAR(s.error, 0.5 * 0.47, 1e-12);
   // Binomial: the mean of |share - p| of ten at 0.6 and at 0.97, as a normal distribution has it.
-  EXPECT_NEAR(s.calibration_error_by_chance,
+  EXPECT_NEAR(s.error_by_chance,
               0.5 * std::sqrt(2.0 / std::numbers::pi / 10.0) *
                   (std::sqrt(0.6 * 0.4) + std::sqrt(0.97 * 0.03)),
               1e-12);
