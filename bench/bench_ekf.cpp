@@ -9,12 +9,12 @@
 #include <cmath>
 #include <vector>
 
-#include "bench/allocations.hpp"
 #include "bench/dense_ekf.hpp"
 #include "bench/rows.hpp"
 #include "core/estimate/ekf.hpp"
 #include "core/physics/parameters_config.hpp"
 #include "core/sim/simulate.hpp"
+#include "tests/support/counted_allocations.hpp"
 
 namespace drift::bench {
 namespace {

@@ -8,21 +8,9 @@
 #if !defined(DRIFT_SANITIZED) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
-
 #include "core/estimate/iterated_ekf.hpp"
 #include "tests/mc/small_study.hpp"
-
-namespace {
-std::atomic<long> allocations{0};
-}
-
-extern "C" void* __libc_malloc(std::size_t) noexcept;
-extern "C" void* malloc(std::size_t n) noexcept {
-  allocations.fetch_add(1, std::memory_order_relaxed);
-  return __libc_malloc(n);
-}
+#include "tests/support/counted_allocations.hpp"
 
 namespace drift::allocation_test {
 namespace {
