@@ -15,7 +15,9 @@
 #include "analysis/diagnosis/diagnose_recordings.hpp"
 #include "analysis/report/diagnosis/report.hpp"
 #include "analysis/report/noise/noise.hpp"
+#include "analysis/report/strapdown/case_report.hpp"
 #include "analysis/report/strapdown/report.hpp"
+#include "analysis/strapdown/case_diagnose.hpp"
 #include "core/base/results_folder.hpp"
 #include "mc/task/campaign.hpp"
 
@@ -40,6 +42,32 @@ void finish(const mc::Study& study, const diagnosis::Diagnosis& diagnosis,
   show_answer(report::diagnosis_in_brief(diagnosis), rest);
 }
 
+ExitCode diagnose_case_that_sees_the_earth(const mc::Study& study,
+                                           const std::vector<std::string>& paths,
+                                           const std::string& folder,
+                                           const std::vector<Recording>& recordings,
+                                           strapdown::CaseStudy of,
+                                           const diagnosis::StageReport& progress) {
+  diagnosis::DiagnoseOptions options;
+  options.progress = progress;
+  const diagnosis::Diagnosis found = strapdown::diagnose_case(study, of, options);
+  const strapdown::CaseIdentification id = strapdown::identify_case(study, std::move(of));
+  const report::Provenance provenance = report::provenance_of(study.path, paths);
+  std::vector<std::string> more;
+  if (!folder.empty())
+    more = write_files(
+        {folder, "diagnose"},
+        {{"identification.json",
+          report::with_provenance(report::to_json(id, study.site.gravity).dump(2), provenance)}});
+  finish(study, found,
+         {paths,
+          report::to_text(report::case_report(study, id)),
+          provenance,
+          {report::noise_section(id.study.noise, study.site.gravity)}},
+         recordings, folder, more);
+  return ExitCode::ok;
+}
+
 ExitCode diagnose_case(const StudyArguments& arguments, const mc::Study& study,
                        const std::vector<std::string>& paths, const std::string& folder) {
   if (paths.size() != 1)
@@ -55,6 +83,10 @@ ExitCode diagnose_case(const StudyArguments& arguments, const mc::Study& study,
   const auto recordings = read_recordings(study, paths);
   flush_output();
   const auto report = stage_reporter(arguments.progress, "diagnose");
+  strapdown::CaseStudy of = strapdown::case_study(study, recordings.front());
+  if (of.compass.sees_earth)
+    return diagnose_case_that_sees_the_earth(study, paths, folder, recordings, std::move(of),
+                                             report);
   if (report) report("dwells, turns and what each step gains", 0.0);
   const strapdown::StrapdownDiagnosis found =
       strapdown::diagnose_strapdown(study, recordings.front(), options);

@@ -8,6 +8,7 @@
 #include "analysis/cli/progress.hpp"
 #include "analysis/cli/read_recordings.hpp"
 #include "analysis/report/identify/report.hpp"
+#include "analysis/report/strapdown/case_report.hpp"
 #include "analysis/report/strapdown/report.hpp"
 #include "core/base/results_folder.hpp"
 
@@ -29,10 +30,13 @@ ExitCode identify_case(const mc::Study& study, const std::vector<std::string>& p
   for (const FilterSpec& f : study.filters) options.equations.push_back(f.coupling);
   if (options.equations.empty()) options.equations = {Coupling::eq5, Coupling::eq6};
   const auto recordings = read_recordings(study, paths);
-  const strapdown::StrapdownResult result =
-      strapdown::identify_strapdown(recordings.front(), options);
-  const report::Report said = with_provenance(report::strapdown_report(study, result),
-                                              report::provenance_of(study.path, paths));
+  strapdown::CaseStudy of = strapdown::case_study(study, recordings.front());
+  const report::Report said = with_provenance(
+      of.compass.sees_earth && !study.filters.empty()
+          ? report::case_report(study, strapdown::identify_case(study, std::move(of)))
+          : report::strapdown_report(study,
+                                     strapdown::identify_strapdown(recordings.front(), options)),
+      report::provenance_of(study.path, paths));
   Rest rest{cards_text(recordings, study.kind) + report::to_text(said), folder, {}};
   if (!folder.empty()) rest.files = report::write_report(said, folder);
   show_answer(said.brief, rest);

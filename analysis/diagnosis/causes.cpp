@@ -27,17 +27,19 @@ search::CauseParameter parameter_of(const search::Fitted& nominal, const search:
   } else {
     out.value = r.filter.priors[param].mean() / spec.unit.to_si;
   }
-  if (spec.prior.sigma() > 0.0)
-    out.prior_sigmas = (out.value - spec.prior.mean()) / spec.prior.sigma();
+  const Prior prior = nominal.filter.believed(param);
+  if (prior.sigma() > 0.0)
+    out.prior_sigmas = (out.value * spec.unit.to_si - prior.mean()) / prior.sigma();
   return out;
 }
 
 /// The largest distance of an amplitude from its prior's mean, in sigmas of the prior.
-double size_of(const search::Refit& r, const std::vector<std::size_t>& params) {
+double size_of(const search::Fitted& nominal, const search::Refit& r,
+               const std::vector<std::size_t>& params) {
   double size = 0.0;
   for (const std::size_t param : params)
     if (const ParameterEstimate* e = r.after.fit.estimate.find(param)) {
-      const Prior prior = TermLibrary::specs[param].prior_si();
+      const Prior prior = nominal.filter.believed(param);
       size = std::max(size, std::abs(e->value - prior.mean()) / prior.sigma());
     }
   return size;
@@ -72,7 +74,7 @@ search::Cause cause_of(const search::Fitted& nominal, const search::Search& foun
   cause.p_value =
       std::min(1.0, found.thresholds.library.p_value(stats::strength(cause.T, cause.dof)) /
                         inference::SearchLimits::library_share);
-  cause.size_sigma = size_of(r, c.params);
+  cause.size_sigma = size_of(nominal, r, c.params);
   for (const std::size_t i : c.params)
     cause.parameters.push_back(parameter_of(nominal, r, which, i, false));
   for (const auto& [i, value] : c.variants[choice.variant].settings)

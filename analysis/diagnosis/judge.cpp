@@ -16,8 +16,9 @@ std::vector<double> judge_members(const search::Fitted& nominal, const MeasuredT
   for (std::size_t k = 0; k < best.choices.size(); ++k) {
     std::vector<search::Choice> others = best.choices;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
-    gains.push_back(
-        held_out_gain(search::refit(nominal, test, others, thresholds).after, best.after));
+    gains.push_back(held_out_gain(
+        search::refit(nominal, test, others, thresholds, search::noise_beside(nominal)).after,
+        best.after));
   }
   return gains;
 }

@@ -70,8 +70,7 @@ std::vector<InputEstimate> estimate_inputs(const inference::MeasuredRows& rows,
                                            int per_position) {
   std::vector<InputEstimate> all;
   const auto bins = make_bins(timeline, per_position);
-  for (const Equation equation :
-       {Equation::rate, Equation::attitude, Equation::accelerometer, Equation::gimbal})
+  for (const Equation equation : inference::equations_of(timeline))
     for (int axis = 0; axis < 3; ++axis) {
       InputEstimate input;
       input.equation = equation;

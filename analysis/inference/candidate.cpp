@@ -6,6 +6,8 @@
 #include <map>
 #include <string_view>
 
+#include "core/estimate/strapdown/case_test.hpp"
+
 namespace drift::inference {
 namespace {
 
@@ -17,11 +19,28 @@ ParamMask estimated(const FilterSpec& filter) {
   return mask;
 }
 
+/// Whether a strapdown unit can have an effect: one of its sensors. It has no servo, no gimbals and
+/// no pier to lean. Of what torquers do to a command its gyros do three things to a rate;
+/// cross-talk of theirs is misalignment by another name.
+bool is_of_case(const TermInfo& term) {
+  constexpr std::string_view of_rate[] = {"torquer_scale", "torquer_asymmetry",
+                                          "torquer_nonlinearity"};
+  if (term.key == closure_term || std::ranges::find(of_rate, term.key) != std::end(of_rate))
+    return true;
+  return (term.subsystem == Subsystem::gyro || term.subsystem == Subsystem::accelerometers) &&
+         !term.needs.gimbals && !term.in_gimbals && !term.in_offset;
+}
+
+bool by_definition(std::size_t param) {
+  return std::ranges::find(strapdown::zero_by_definition, param) !=
+         strapdown::zero_by_definition.end();
+}
+
 /// The other parameters of a term that is not in the nominal model are at their defaults.
 Theta with_defaults(const TermInfo& term, const FilterSpec& nominal, Theta theta) {
   for (std::size_t i = term.first; i < term.first + term.count; ++i)
     if (!nominal.active[i] && !TermLibrary::specs[i].amplitude())
-      theta[i] = TermLibrary::specs[i].prior_si().mean();
+      theta[i] = nominal.believed(i).mean();
   return theta;
 }
 
@@ -107,20 +126,21 @@ CandidateSet library_candidates(const FilterSpec& nominal, const Theta& theta,
     const TermInfo& term = TermLibrary::terms[t];
     std::vector<std::size_t> missing;
     for (std::size_t i = term.first; i < term.first + term.count; ++i)
-      if (!known[i] && TermLibrary::specs[i].amplitude()) missing.push_back(i);
+      if (!known[i] && TermLibrary::specs[i].amplitude() && !(timeline.of_case && by_definition(i)))
+        missing.push_back(i);
     if (missing.empty()) continue;
     if (!timeline.carries(term.needs)) {
       out.without_covariate.push_back(t);
       continue;
     }
+    if (timeline.of_case && !is_of_case(term)) continue;
     // The couplings that are no member of the lambda family have no lambda to add.
     if (term.key == closure_term && family_of(nominal.coupling) != Coupling::lambda) continue;
     const auto settings = settings_of(term, known);
     const auto first = static_cast<int>(out.signatures.size());
     for (const Settings& s : settings)
       for (const std::size_t i : missing) {
-        SignatureSpec spec{i, with_defaults(term, nominal, theta),
-                           TermLibrary::specs[i].prior_si().sigma()};
+        SignatureSpec spec{i, with_defaults(term, nominal, theta), nominal.believed(i).sigma()};
         for (const auto& [param, value] : s) spec.theta[param] = value;
         out.signatures.push_back(spec);
       }

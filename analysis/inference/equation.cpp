@@ -4,6 +4,14 @@
 
 namespace drift::inference {
 
+std::span<const Equation> equations_of(const Timeline& timeline) {
+  static constexpr Equation of_platform[] = {Equation::rate, Equation::attitude,
+                                             Equation::accelerometer, Equation::gimbal};
+  static constexpr Equation of_case[] = {Equation::rate, Equation::accelerometer};
+  return timeline.of_case ? std::span<const Equation>(of_case)
+                          : std::span<const Equation>(of_platform);
+}
+
 std::string equation_name(Equation equation, int axis) {
   static constexpr const char* gimbals[] = {"outer", "middle", "inner"};
   switch (equation) {

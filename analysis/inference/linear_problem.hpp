@@ -7,7 +7,8 @@
 
 namespace drift::inference {
 
-inline constexpr int num_channels = 6;  ///< acc x y z, gimbal outer middle inner
+/// acc x y z, gimbal outer middle inner; of a strapdown unit the gyros at rest in place of these.
+inline constexpr int num_channels = 6;
 
 /// Which measured scalar a row is, and what process noise may have moved before it.
 struct RowTag {
@@ -27,6 +28,7 @@ struct IntervalDrive {
   double length = 0.0;  ///< [s]
   double gap = 0.0;     ///< time since the end of the interval before [s]
   bool cage = false;
+  bool rest = false;  ///< nothing moves the attitude; the gyros are measured (Interval::rest)
   int chain = 0;
   double samples = 1.0;          ///< that the accelerometers average (Interval)
   Mat3 per_rate = Mat3::Zero();  ///< d attitude / d gyro drift over the interval [1/(rad/s)]
@@ -44,6 +46,10 @@ struct MeasuredRows {
   double attitude_sigma = 1.0;                 ///< unit of psi [rad]
 
   Eigen::Index rows() const { return r0.size(); }
+  /// What a gyro's drift adds to a row at rest that reads it [1/(rad/s)]; 0 in other rows.
+  double per_drift(const RowTag& row, int gyro) const {
+    return drives[row.interval].rest && row.channel == 3 + gyro ? -1.0 / gimbal_sigma : 0.0;
+  }
   /// 1 sigma declared of an accelerometer row [g].
   double acc_sigma_of(const RowTag& row) const {
     return acc_sigma / std::sqrt(drives[row.interval].samples);

@@ -50,7 +50,8 @@ VecX window_signature(const MeasuredRows& rows, const Timeline& timeline, const 
         s[r] = rows.psi.row(first + r).dot(turned);
         if (inside)
           s[r] -= (tag.accelerometer() ? 0.5 : 1.0) *
-                  rows.psi.row(first + r).dot(rows.drives[i].per_rate.col(w.axis));
+                      rows.psi.row(first + r).dot(rows.drives[i].per_rate.col(w.axis)) +
+                  rows.per_drift(tag, w.axis);
         break;
     }
   }
@@ -73,8 +74,7 @@ std::vector<PositionScan> scan_windows(const LinearProblem& problem, const Timel
     PositionScan scan;
     for (const auto& [a, b] :
          spans(problem.tags[first].interval, problem.tags[end - 1].interval + 1))
-      for (const Equation e :
-           {Equation::rate, Equation::attitude, Equation::accelerometer, Equation::gimbal})
+      for (const Equation e : equations_of(timeline))
         for (int axis = 0; axis < 3; ++axis)
           scan.windows.push_back({e, axis, position, a, b, timeline.intervals[a].t0,
                                   timeline.intervals[b - 1].t1, 1.0});

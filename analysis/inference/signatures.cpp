@@ -53,7 +53,8 @@ std::vector<IntervalDrive> drives(const Timeline& timeline, double attitude_sigm
     d.chain = i.chain;
     d.samples = i.samples;
     const Node& node = timeline.nodes[i.middle_node()];
-    d.per_rate = -i.length() / attitude_sigma * node.R_il * node.R_lr;
+    d.rest = i.rest;
+    if (!i.rest) d.per_rate = -i.length() / attitude_sigma * node.R_il * node.R_lr;
     all.push_back(d);
     before = &i;
   }

@@ -34,7 +34,7 @@ FilterSpec with_causes(const FilterSpec& nominal, const inference::CandidateSet&
     const inference::Candidate& c = set.candidates[choice.candidate];
     for (const std::size_t i : c.params) {
       filter.active.set(i);
-      filter.priors[i] = TermLibrary::specs[i].prior_si();
+      filter.priors[i] = nominal.believed(i);
       if (i == closure_param) filter.coupling = family_of(filter.coupling);
     }
     for (const auto& [i, value] : c.variants[choice.variant].settings) {
@@ -48,7 +48,7 @@ FilterSpec with_causes(const FilterSpec& nominal, const inference::CandidateSet&
     for (std::size_t i = term.first; i < term.first + term.count; ++i)
       if (!filter.active[i] && TermLibrary::specs[i].prior.sigma() <= 0.0) {
         filter.active.set(i);
-        filter.priors[i] = TermLibrary::specs[i].prior_si();
+        filter.priors[i] = nominal.believed(i);
       }
   }
   return filter;
@@ -65,7 +65,7 @@ Expectation expect(const Fitted& nominal, const std::vector<Choice>& choices) {
   for (const Choice& choice : choices)
     for (const std::size_t i : nominal.set.candidates[choice.candidate].params) {
       const double base = value_left_out(i, nominal.filter.coupling);
-      out.theta[i] = base + scaled[next++] * TermLibrary::specs[i].prior_si().sigma();
+      out.theta[i] = base + scaled[next++] * nominal.filter.believed(i).sigma();
       out.amplitude.emplace_back(i, out.theta[i] - base);
       if (i != closure_param) continue;
       out.lambda_among_them = true;

@@ -81,8 +81,8 @@ Fitted examine(const FilterSpec& filter, const MeasuredTest& test, const BatchRe
   Fitted f = linearised(filter, test, fit);
   const VecX residual = inference::residual_of(f.problem, fit);
   const inference::NoiseEstimate differences = inference::noise_of_differences(f.problem, residual);
-  if (inference::grossly_wrong(f.problem, residual, differences))
-    return with_noise(std::move(f), test.timeline, differences);
+  f.gross = inference::grossly_wrong(f.problem, residual, differences);
+  if (f.gross) return with_noise(std::move(f), test.timeline, differences);
   const inference::NoiseModel declared = declared_noise(filter);
   lower_outliers(f.problem, declared);
   const inference::NoiseEstimate noise = kinds == NoiseKinds::white

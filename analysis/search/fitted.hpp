@@ -15,6 +15,7 @@ struct Fitted : Field {
   inference::LinearProblem problem;
   inference::NoiseEstimate noise;
   std::optional<inference::Projector> projector;
+  bool gross = false;          ///< so far off that its noise was read off differences of samples
   std::vector<Score> scores;   ///< of every candidate
   inference::LoneEffect lone;  ///< beside everything that is in the model; where it was asked for
 

@@ -53,8 +53,7 @@ bool all_needed(const inference::CandidateSet& set, const Refit& r) {
     return std::any_of(params.begin(), params.end(), [&](std::size_t i) {
       const ParameterEstimate* p = r.after.fit.estimate.find(i);
       return i == closure_param || !p ||
-             std::abs(p->value - TermLibrary::specs[i].prior_si().mean()) >=
-                 WeighLimits::needed * p->sigma;
+             std::abs(p->value - r.filter.believed(i).mean()) >= WeighLimits::needed * p->sigma;
     });
   });
 }
@@ -100,14 +99,17 @@ double log_tries(const Fitted& nominal, const std::vector<Choice>& choices) {
 
 }  // namespace
 
+NoiseKinds noise_beside(const Fitted& nominal) {
+  return nominal.noise.driven ? NoiseKinds::driving_too : NoiseKinds::white;
+}
+
 Refit refit(const Fitted& nominal, const MeasuredTest& test, const std::vector<Choice>& choices,
-            const ChanceThresholds& thresholds) {
+            const ChanceThresholds& thresholds, NoiseKinds kinds) {
   const auto [filter, fit, expected, narrowed] = fit_causes(nominal, test, choices);
   Refit out;
   out.choices = choices;
   out.filter = filter;
-  out.after = examine(filter, test, fit,
-                      nominal.noise.driven ? NoiseKinds::driving_too : NoiseKinds::white);
+  out.after = examine(filter, test, fit, kinds);
   // A second effect may hide in the noise.
   if (const auto noise =
           settle_noise(out.after, thresholds.library_threshold, EffortLimits::noise_tries_beside,

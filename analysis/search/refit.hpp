@@ -22,10 +22,12 @@ struct Refit {
   bool sign_agrees = true;  ///< amplitudes came out with the sign the score predicted
 };
 
-/// Fits causes (fit_causes.hpp) and scores everything again. Noise that drives the platform is
-/// allowed for if the nominal model needed it: what one cause leaves is not noise because it is
-/// slow.
+/// The noise that is looked for beside a cause: such as drives the platform if the nominal model
+/// needed it. What one cause leaves is not noise because it is slow.
+NoiseKinds noise_beside(const Fitted& nominal);
+
+/// Fits causes (fit_causes.hpp) and scores everything again.
 Refit refit(const Fitted& nominal, const MeasuredTest& test, const std::vector<Choice>& choices,
-            const ChanceThresholds& thresholds);
+            const ChanceThresholds& thresholds, NoiseKinds kinds);
 
 }  // namespace drift::search

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/search/other_equation.hpp"
@@ -12,6 +13,7 @@
 namespace drift::search {
 namespace {
 
+using inference::EffortLimits;
 using inference::ReachLimits;
 
 /// What the best way to put a candidate in leaves.
@@ -27,16 +29,21 @@ Remainder least_remainder(const Search& s, std::size_t candidate) {
   return least;
 }
 
-/// Each explanation fitted, spread over threads.
+/// Each explanation fitted, spread over threads. kinds: of noise that are looked for.
 std::vector<Refit> refit_all(const Search& s, const MeasuredTest& test,
-                             const std::vector<Explanation>& all) {
+                             const std::vector<Explanation>& all, NoiseKinds kinds) {
   std::vector<Refit> refits;
   if (all.size() == 1) {  // its own fits are spread over the threads then
-    refits.push_back(refit(s.nominal, test, all.front(), s.thresholds));
+    refits.push_back(refit(s.nominal, test, all.front(), s.thresholds, kinds));
     return refits;
   }
-  return mc::run_campaign(
-      all.size(), [&](std::size_t k) { return refit(s.nominal, test, all[k], s.thresholds); });
+  return mc::run_campaign(all.size(), [&](std::size_t k) {
+    return refit(s.nominal, test, all[k], s.thresholds, kinds);
+  });
+}
+std::vector<Refit> refit_all(const Search& s, const MeasuredTest& test,
+                             const std::vector<Explanation>& all) {
+  return refit_all(s, test, all, noise_beside(s.nominal));
 }
 
 /// Single causes, and more of their terms as long as a part is not adequate.
@@ -73,6 +80,58 @@ std::vector<Explanation> worth_beside_equation(const Search& s, const MeasuredTe
   return worth;
 }
 
+/// The largest candidate of a base term: all of it that the nominal model leaves out.
+bool is_whole_base_term(const inference::CandidateSet& set, const inference::Candidate& c) {
+  return is_base(TermLibrary::terms[*TermLibrary::find_term(c.term)]) &&
+         std::ranges::none_of(set.candidates,
+                              [&](const inference::Candidate& o) { return o.contains(c); });
+}
+
+/// The base term that a fit misses most, as a choice among the candidates of the nominal fit.
+std::optional<Choice> base_term_missed(const Search& s, const Fitted& now) {
+  const Score* best = nullptr;
+  std::optional<Choice> missed;
+  for (std::size_t k = 0; k < now.set.candidates.size(); ++k) {
+    const inference::Candidate& c = now.set.candidates[k];
+    const Score& score = now.scores[k];
+    if (score.dof == 0 || score.strength <= s.thresholds.library_threshold ||
+        !is_whole_base_term(now.set, c) || (best && score.strength <= best->strength))
+      continue;
+    for (std::size_t n = 0; n < s.nominal.set.candidates.size(); ++n)
+      if (s.nominal.set.candidates[n].term == c.term &&
+          s.nominal.set.candidates[n].params == c.params) {
+        best = &score;
+        missed = Choice{n, s.nominal.scores[n].variant};
+      }
+  }
+  return missed;
+}
+
+/// Base terms that the nominal model leaves out, one after the other, each fitted through the full
+/// dynamics: whoever leaves out one usually leaves out several, and beside them the linearised test
+/// says little. Nor is anything known of what drives the platform. The last fit, and
+/// those without one of its members.
+std::vector<Refit> refit_base_terms(const Search& s, const MeasuredTest& test) {
+  Explanation in;
+  std::vector<Refit> found;
+  for (std::optional<Choice> next = base_term_missed(s, s.nominal);
+       next && in.size() < EffortLimits::together;
+       next = base_term_missed(s, found.front().after)) {
+    in.push_back(*next);
+    found = refit_all(s, test, {in}, NoiseKinds::driving_too);
+    if (found.front().adequate()) break;
+  }
+  if (in.size() < 2) return {};
+  if (!found.front().adequate()) return found;
+  std::vector<Explanation> fewer;
+  for (std::size_t k = 0; k < in.size(); ++k) {
+    fewer.push_back(in);
+    fewer.back().erase(fewer.back().begin() + static_cast<std::ptrdiff_t>(k));
+  }
+  for (Refit& r : refit_all(s, test, fewer, NoiseKinds::driving_too)) found.push_back(std::move(r));
+  return found;
+}
+
 }  // namespace
 
 Search search(Fitted nominal, const MeasuredTest& test, const SearchOptions& options) {
@@ -84,7 +143,7 @@ Search search(Fitted nominal, const MeasuredTest& test, const SearchOptions& opt
     out.linear.push_back(least_remainder(out, k));
   if (!out.significant) return out;
 
-  std::vector<Refit> refits = refit_singles(out, test, options.most_refits);
+  std::vector<Refit> refits;
   const auto settled = [&](Leftover left) {
     if (!can_be_weighed(out.nominal, refits, left)) return false;
     CredibleSet weighed = weigh(out.nominal, std::move(refits), options.credible);
@@ -96,11 +155,21 @@ Search search(Fitted nominal, const MeasuredTest& test, const SearchOptions& opt
   const auto try_more = [&](const std::vector<Explanation>& more) {
     for (Refit& r : refit_all(out, test, more)) refits.push_back(std::move(r));
   };
+  // Where base terms are left out and everything is far off, one effect will not mend it.
+  const bool far_off = out.nominal.gross;
+  if (far_off) {
+    refits = refit_base_terms(out, test);
+    if (settled(Leftover::nothing)) return out;
+  }
+  for (Refit& r : refit_singles(out, test, options.most_refits)) refits.push_back(std::move(r));
   try_more(worth_beside_equation(out, test, refits));
   if (settled(Leftover::nothing)) return out;
   try_more(promising_pairs(out, options.most_refits));
   if (settled(Leftover::nothing)) return out;
   try_more(promising_several(out));
+  if (settled(Leftover::nothing)) return out;
+  if (!far_off)
+    for (Refit& r : refit_base_terms(out, test)) refits.push_back(std::move(r));
   if (settled(Leftover::nothing)) return out;
   out.just_not = settled(Leftover::chance);
   if (!out.just_not) out.rejected = std::move(refits);

@@ -9,6 +9,7 @@
 #include "core/base/decompose.hpp"
 #include "core/estimate/batch_equations.hpp"
 #include "core/estimate/normal_equations.hpp"
+#include "core/estimate/random_walk.hpp"
 #include "core/estimate/triangle.hpp"
 #include "core/physics/stochastic.hpp"
 #include "core/sim/predict.hpp"
@@ -67,10 +68,12 @@ class BatchProblem {
       : test_(test),
         model_(filter.model()),
         layout_(make_layout(filter)),
-        sigma_psi_(filter.initial_attitude) {}
+        sigma_psi_(filter.initial_attitude),
+        angle_random_walk_(filter.noise.angle_random_walk) {}
 
   const MeasuredTest& test() const { return test_; }
   const Layout& layout() const { return layout_; }
+  bool walks() const { return angle_random_walk_ > 0.0; }
 
   /// Attitude errors in radians.
   std::vector<Vec3> unscaled(const std::vector<Vec3>& psi) const {
@@ -79,11 +82,22 @@ class BatchProblem {
     return psi_l;
   }
 
+  /// With angle random walk: the cost of what evaluate() returns is that of the point at which the
+  /// rows were made white last, here.
+  void whiten_at(const VecX& x, const std::vector<Vec3>& psi) {
+    if (!walks()) return;
+    const Theta theta = layout_.theta_at(x);
+    const Trajectory phi = integrate_fixed(test_.timeline, model_, theta, unscaled(psi));
+    white_at_ =
+        attitude_columns(measurement_equations(test_, model_, layout_, theta, phi, sigma_psi_));
+  }
+
   Evaluation evaluate(VecX x, std::vector<Vec3> psi) const {
     const Theta theta = layout_.theta_at(x);
     const Trajectory phi = integrate_fixed(test_.timeline, model_, theta, unscaled(psi));
     Evaluation e{std::move(x), std::move(psi),
                  measurement_equations(test_, model_, layout_, theta, phi, sigma_psi_), 0.0};
+    if (walks()) whiten_random_walk(test_, angle_random_walk_ / sigma_psi_, white_at_, e.rows);
     e.cost = data_cost(e.rows) + e.x.squaredNorm();
     for (const Vec3& p : e.psi) e.cost += p.squaredNorm();
     if (!std::isfinite(e.cost)) e.cost = std::numeric_limits<double>::infinity();
@@ -95,6 +109,8 @@ class BatchProblem {
   DriftModel model_;
   Layout layout_;
   double sigma_psi_;
+  double angle_random_walk_;
+  std::vector<MatX> white_at_;
 };
 
 BatchEquations compressed(const Evaluation& e) {
@@ -130,11 +146,10 @@ class StepSolver {
 };
 
 /// Levenberg-Marquardt.
-Minimum descend(const BatchProblem& problem, const VecX& start, const BatchOptions& options) {
+Minimum descend(const BatchProblem& problem, VecX x, std::vector<Vec3> psi,
+                const BatchOptions& options) {
   const double standing_still = options.tolerance * options.tolerance;
-  Minimum now{
-      problem.evaluate(start, std::vector<Vec3>(problem.test().timeline.chains, Vec3::Zero())), 0,
-      false};
+  Minimum now{problem.evaluate(std::move(x), std::move(psi)), 0, false};
   double mu = 1e-3;
   for (; now.iterations < options.max_iterations && !now.converged; ++now.iterations) {
     const StepSolver solver(now.at);
@@ -142,9 +157,9 @@ Minimum descend(const BatchProblem& problem, const VecX& start, const BatchOptio
     double smallest_change = std::numeric_limits<double>::infinity();
     for (int tries = 0; tries < 20 && !improved; ++tries) {
       const BatchEquations::Step step = solver.solve(mu);
-      std::vector<Vec3> psi = now.at.psi;
-      for (std::size_t c = 0; c < psi.size(); ++c) psi[c] += step.dpsi[c];
-      Evaluation next = problem.evaluate(now.at.x + step.dx, std::move(psi));
+      std::vector<Vec3> moved = now.at.psi;
+      for (std::size_t c = 0; c < moved.size(); ++c) moved[c] += step.dpsi[c];
+      Evaluation next = problem.evaluate(now.at.x + step.dx, std::move(moved));
       // The last steps change the cost by rounding only: accept them as standing still.
       improved = next.cost <= now.at.cost * (1.0 + 1e-12);
       if (!improved) {
@@ -162,6 +177,17 @@ Minimum descend(const BatchProblem& problem, const VecX& start, const BatchOptio
     }
   }
   return now;
+}
+
+/// With angle random walk the rows are made white once more where the first descent has ended.
+Minimum minimum_from(BatchProblem& problem, const VecX& start, const BatchOptions& options) {
+  const std::vector<Vec3> nominal(static_cast<std::size_t>(problem.test().timeline.chains),
+                                  Vec3::Zero());
+  problem.whiten_at(start, nominal);
+  Minimum first = descend(problem, start, nominal, options);
+  if (!problem.walks() || !first.converged) return first;
+  problem.whiten_at(first.at.x, first.at.psi);
+  return descend(problem, first.at.x, first.at.psi, options);
 }
 
 /// Whitened residuals where they belong, NaN where nothing was measured.
@@ -194,11 +220,11 @@ Residuals residuals_of(const MeasuredTest& test, const std::vector<ChainEquation
 
 BatchResult fit_all(const FilterSpec& filter, const MeasuredTest& test, const Theta& start,
                     const BatchOptions& options) {
-  const BatchProblem problem(filter, test);
+  BatchProblem problem(filter, test);
   const Layout& layout = problem.layout();
   const auto n = static_cast<Eigen::Index>(layout.size());
   const VecX x_start = layout.scaled(start);
-  const Minimum minimum = descend(problem, x_start, options);
+  const Minimum minimum = minimum_from(problem, x_start, options);
 
   MatX prior = MatX::Zero(n, n + 1);
   prior.leftCols(n).setIdentity();

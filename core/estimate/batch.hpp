@@ -57,7 +57,8 @@ Theta theta_of(const FilterSpec& filter, const BatchResult& fit);
 /// Maximum a posteriori fit by Levenberg-Marquardt on whitened residuals, everything scaled by the
 /// prior, steps by normal equations where rounding allows, the covariance by QR; the attitude at
 /// each caging is a nuisance with its own prior. The reference for the EKF: it relinearises until
-/// it stands still. Process noise is not modelled. start: library values of the initial estimate.
+/// it stands still. Angle random walk of the filter is (whiten_random_walk), that of the drift is
+/// not. start: library values of the initial estimate.
 BatchResult fit_batch(const FilterSpec& filter, const MeasuredTest& test, const Theta& start,
                       const BatchOptions& options = {});
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/base/check.hpp"
+#include "core/estimate/rest_rate.hpp"
 #include "core/physics/stochastic.hpp"
 #include "core/sim/measurements.hpp"
 
@@ -71,7 +72,9 @@ IntervalStep::Taken IntervalStep::process(std::size_t i, const Vec3& acc, const 
   const std::size_t last = interval.node_count() - 1;
   const auto middle = static_cast<std::size_t>(interval.substeps);
   const double arw = filter_.noise.angle_random_walk;
-  const Mat3 Q_half = 0.5 * arw * arw * interval.length() * Mat3::Identity();
+  // At rest the noise of the gyros is in what is measured; the attitude stays as it is.
+  const double driven = interval.rest ? 0.0 : interval.length();
+  const Mat3 Q_half = 0.5 * arw * arw * driven * Mat3::Identity();
   const Mat3& Phi_m = sensitivity_.Phi[middle];
   predict(Phi_m, sensitivity_.G[middle], Q_half);
   if (readout_.accelerometers && acc.array().isFinite().any()) take_accelerometers(interval, acc);
@@ -134,12 +137,12 @@ void IntervalStep::take_gimbals(const Interval& interval, const Vec3& gimbal) {
   if (about_ == About::estimate && TermLibrary::act_on_gimbals(model_.terms))
     linearizer_.set_theta(theta_);
   const GimbalPrediction predicted =
-      linearizer_.gimbals(timeline_, interval, path_[last], memory_at(last));
+      interval.rest ? predict_rest_rate(interval, timeline_, path_, sensitivity_)
+                    : linearizer_.gimbals(timeline_, interval, path_[last], memory_at(last));
   Vec3 residual;
   for (int k = 0; k < 3; ++k) residual[k] = angle_difference(gimbal[k], predicted.angles[k]);
-  static const Mat3X none(3, 0);
-  update(interval, last, residual, {predicted.H, none, predicted.H_par}, readout_.gimbal_noise,
-         InnovationSums::gimbals);
+  update(interval, last, residual, {predicted.H, predicted.H_rate, predicted.H_par},
+         readout_.gimbal_noise, InnovationSums::gimbals);
 }
 
 /// Takes in three scalars at a node. residual: measured minus predicted along the path.

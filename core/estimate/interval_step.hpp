@@ -21,7 +21,8 @@ enum class About {
 /// Time, the memory of terms, terms in the gimbals, drift noise and outliers are dealt with here
 /// alone, so that every sequential estimator knows of them. States are 3 attitude errors and the
 /// parameters of the layout. The mean specific force is taken in at the middle of its interval, as
-/// the mean over the path through that attitude; the gimbal angles at its end. Caging brings a
+/// the mean over the path through that attitude; the gimbal angles, or what stands for them at
+/// rest (predict_rest_rate), at its end. Caging brings a
 /// new attitude within the prior (physics.md 3.5, 6.6).
 class IntervalStep {
  public:

@@ -75,6 +75,14 @@ void linearize_interval(const Interval& interval, const Timeline& timeline, cons
   for (std::size_t k = 0; k < nodes; ++k)
     linearizer.evaluate(timeline.nodes[interval.first_node + k], interval, E_loop, phi[k],
                         &timeline, memory ? &memory[2 * k] : nullptr, out.jacobian[k]);
+  if (interval.rest) {
+    for (std::size_t k = 0; k < nodes; ++k) {
+      out.Phi[k] = timeline.nodes[interval.first_node + k].R_il *
+                   timeline.nodes[interval.first_node].R_il.transpose();
+      out.G[k].setZero();
+    }
+    return;
+  }
   const double h = interval.length() / (2.0 * interval.substeps);
   const Mat3 I = Mat3::Identity();
   const auto exponential = [&](const Mat3& a) -> Mat3 { return I + a + 0.5 * a * a; };

@@ -32,7 +32,7 @@ void mean_output(const Interval& interval, const IntervalSensitivity& sensitivit
 ///
 /// Variation of constants: G(t) = Phi(t) Int Phi^-1 B dt with fourth-order quadrature over pairs of
 /// steps; Phi is the exponential of the integral of A to second order (A t is below 1e-3 within an
-/// interval: physics.md 6.5 ii).
+/// interval: physics.md 6.5 ii). At rest on the Earth psi turns with it, and nothing else moves it.
 /// memory: the points of the interval, null where the model has none.
 void linearize_interval(const Interval& interval, const Timeline& timeline, const Mat3& E_loop,
                         const Vec3* phi, const MemoryPoint* memory, Linearizer& linearizer,

@@ -63,6 +63,7 @@ Linearizer::Linearizer(const DriftModel& model, const Layout& layout, Readout re
     : model_(model),
       layout_(layout),
       readout_(readout),
+      with_readout_(readout.accelerometers),
       needs_(TermLibrary::needs(model.terms)),
       theta_(layout.theta),
       rates_(model.terms, rate_states(layout)),
@@ -129,7 +130,7 @@ void Linearizer::evaluate(const Node& node, const Interval& interval, const Mat3
   const Mat3 R_lp = node.R_lr * rotation(phi);
   look(node, interval, R_lp, timeline, memory);
   differentiate_rate(E_loop, node.R_il * R_lp, node.R_il, out);
-  if (readout_.accelerometers) differentiate_readout(node.R_il, out);
+  if (with_readout_) differentiate_readout(node.R_il, out);
 }
 
 /// w_ip = w_o - v with (I + K) v = (E - K) w_ic + u (drift_model.hpp), so
@@ -160,6 +161,7 @@ void Linearizer::differentiate_rate(const Mat3& E_loop, const Mat3& R_ip, const 
     A_l.col(k) = derivative(sum.omega_ip_p, 0, k) + minus_closed * ds;
   }
   out.A = R_ip * A_l * R_il.transpose();
+  out.omega_ip_i = R_ip * (Vec3(sum.omega_ip_p[0].v, sum.omega_ip_p[1].v, sum.omega_ip_p[2].v) - v);
 
   rates_.differentiate(seen_, derivative_.data());
   const Mat3 by_gyro = R_ip * minus_closed;

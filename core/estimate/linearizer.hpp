@@ -16,11 +16,12 @@ namespace drift {
 /// Derivatives at one node, with respect to the attitude error psi_i (R_ip = exp([psi_i x]) R_ip,
 /// axes of the chain's inertial frame i) and to the scaled states of a layout.
 struct NodeJacobian {
-  Mat3 A;       ///< d psi_i' / d psi_i [1/s]
-  Mat3X B;      ///< d psi_i' / d rate states, shape (3, num_rate) [rad/s]
-  Vec3 acc;     ///< accelerometer outputs [g]
-  Mat3 H;       ///< d acc / d psi_i [g/rad]
-  Mat3X H_par;  ///< d acc / d readout states, shape (3, size - num_rate) [g]
+  Mat3 A;                          ///< d psi_i' / d psi_i [1/s]
+  Mat3X B;                         ///< d psi_i' / d rate states, shape (3, num_rate) [rad/s]
+  Vec3 omega_ip_i = Vec3::Zero();  ///< inertial rate of the platform, as the model has it [rad/s]
+  Vec3 acc;                        ///< accelerometer outputs [g]
+  Mat3 H;                          ///< d acc / d psi_i [g/rad]
+  Mat3X H_par;                     ///< d acc / d readout states, shape (3, size - num_rate) [g]
 };
 
 /// Works out NodeJacobian from the derivatives of the terms' slots: each active term is evaluated
@@ -32,6 +33,10 @@ class Linearizer {
   Linearizer(const DriftModel& model, const Layout& layout, Readout readout);
 
   void set_theta(const Theta& theta) { theta_ = theta; }
+  /// evaluate() leaves the readout part as it is until the other is called: where nothing was
+  /// measured nobody asks for it.
+  void leave_readout_out() { with_readout_ = false; }
+  void work_readout_out() { with_readout_ = readout_.accelerometers; }
   /// Rate part (A, B) and, if accelerometers are read, readout part (acc, H, H_par).
   /// timeline and memory: may be null where no term of the model asks for more than attitude and
   /// command.
@@ -57,6 +62,7 @@ class Linearizer {
   DriftModel model_;
   Layout layout_;
   Readout readout_;
+  bool with_readout_ = true;
   Needs needs_;
   Theta theta_;
   SlotDerivatives<RatesHook, double> rates_;

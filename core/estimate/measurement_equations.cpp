@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "core/estimate/batch.hpp"
+#include "core/estimate/rest_rate.hpp"
 
 namespace drift {
 
@@ -31,6 +32,8 @@ std::vector<ChainEquations> measurement_equations(const MeasuredTest& test, cons
     }
     const Mat3 E_loop = misalignment_matrix(model.mounting, interval.loop);
     memory.advance(i, theta.data());
+    const bool reads = readout.accelerometers && measured.acc.col(i).array().isFinite().any();
+    reads ? linearizer.work_readout_out() : linearizer.leave_readout_out();
     linearize_interval(interval, timeline, E_loop, &phi[interval.first_node], memory.points(),
                        linearizer, inner);
     MatX& rows = chains[interval.chain].rows;
@@ -42,7 +45,7 @@ std::vector<ChainEquations> measurement_equations(const MeasuredTest& test, cons
       row[3 + n] = residual / sigma;
     };
 
-    if (readout.accelerometers && measured.acc.col(i).array().isFinite().any()) {
+    if (reads) {
       Vec3 mean = Vec3::Zero();
       Mat3 Y_psi = Mat3::Zero();  // with respect to the attitude at the start of the interval
       Y.setZero();
@@ -67,10 +70,13 @@ std::vector<ChainEquations> measurement_equations(const MeasuredTest& test, cons
     Phi = (inner.Phi[last] * Phi).eval();
     if (readout.gimbals && measured.gimbal.col(i).array().isFinite().any()) {
       const GimbalPrediction p =
-          linearizer.gimbals(timeline, interval, phi[interval.last_node()],
-                             memory.active() ? &memory.points()[2 * last] : nullptr);
+          interval.rest
+              ? predict_rest_rate(interval, timeline, &phi[interval.first_node], inner)
+              : linearizer.gimbals(timeline, interval, phi[interval.last_node()],
+                                   memory.active() ? &memory.points()[2 * last] : nullptr);
       Y.setZero();
       Y.leftCols(nr).noalias() = p.H * G;
+      if (p.H_rate.cols() > 0) Y.leftCols(nr) += p.H_rate;
       if (p.H_par.cols() > 0) Y.rightCols(n - nr) = p.H_par;
       const Mat3 Y_psi = p.H * Phi;
       for (int a = 0; a < 3; ++a)

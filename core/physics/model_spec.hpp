@@ -27,6 +27,13 @@ struct ModelSpec {
   ProcessNoise noise;
   Mounting mounting;
 
+  /// What is believed of a parameter that the model would estimate: its own prior, or the library's
+  /// where its own is a known constant.
+  Prior believed(std::size_t param) const {
+    const Prior& own = priors[param];
+    return own.kind == Prior::Kind::fixed ? TermLibrary::specs[param].prior_si() : own;
+  }
+
   DriftModel model() const { return {coupling, TermLibrary::terms_of(active), mounting}; }
 };
 

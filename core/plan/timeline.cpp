@@ -12,8 +12,6 @@
 namespace drift {
 namespace {
 
-constexpr double longest_step = 0.05;  // [rad] attitude change between Simpson's end points
-
 /// Adds a stretch of constant command, cut into whole samples.
 void add_stretch(Timeline& timeline, const Stretch& stretch, const Position& position, int index,
                  double& t, double heading0, double heading1, bool cage) {
@@ -81,7 +79,7 @@ Timeline lay_out(const TestPlan& plan, const Site& site) {
   return timeline;
 }
 
-void place_nodes(Timeline& timeline, const std::vector<Mat3>& R_lp) {
+void place_nodes(Timeline& timeline, const std::vector<Mat3>& R_lp, double longest_step) {
   DRIFT_DEMAND(static_cast<int>(R_lp.size()) == timeline.chains);
   const Vec3 omega_ie_l = timeline.site.omega_ie_l();
   Mat3 R_lr = Mat3::Identity();
@@ -93,7 +91,8 @@ void place_nodes(Timeline& timeline, const std::vector<Mat3>& R_lp) {
       R_lr = R_lp[i.chain];
       t_cage = i.t0;
     }
-    const double turned = (i.omega_cmd_p - R_lr.transpose() * omega_ie_l).norm() * i.length();
+    const double turned =
+        i.rest ? 0.0 : (i.omega_cmd_p - R_lr.transpose() * omega_ie_l).norm() * i.length();
     i.substeps = std::max(1, static_cast<int>(std::ceil(turned / longest_step)));
     i.first_node = timeline.nodes.size();
     const Vec3 omega_ic_l = omega_ie_l + i.heading_rate() * up_l;
@@ -102,8 +101,11 @@ void place_nodes(Timeline& timeline, const std::vector<Mat3>& R_lp) {
       const double tau = step * static_cast<double>(k);
       Node node;
       node.t = i.t0 + tau;
-      node.R_lr = reference_attitude(timeline.site, R_lr, i.omega_cmd_p, tau);
-      node.R_lr_half = reference_attitude(timeline.site, R_lr, i.omega_cmd_p, tau + 0.5 * step);
+      const auto reference = [&](double after) -> Mat3 {
+        return i.rest ? R_lr : reference_attitude(timeline.site, R_lr, i.omega_cmd_p, after);
+      };
+      node.R_lr = reference(tau);
+      node.R_lr_half = reference(tau + 0.5 * step);
       node.R_il = rotation<double>(omega_ie_l * (node.t - t_cage));
       node.omega_ic_l = omega_ic_l;
       timeline.nodes.push_back(node);

@@ -20,12 +20,16 @@ struct Covariates {
 
 /// One sample interval: the command and the turntable rate are constant in it.
 struct Interval {
-  double t0 = 0.0, t1 = 0.0;        ///< [s]
-  int position = 0;                 ///< index into the plan, from 0
-  int chain = 0;                    ///< counts cagings: attitude is carried along within a chain
-  bool slew = false;                ///< on the way to the position
-  bool cage = false;                ///< the platform is caged at t0
-  Vec3 omega_cmd_p = Vec3::Zero();  ///< commanded inertial rate [rad/s]
+  double t0 = 0.0, t1 = 0.0;  ///< [s]
+  int position = 0;           ///< index into the plan, from 0
+  int chain = 0;              ///< counts cagings: attitude is carried along within a chain
+  bool slew = false;          ///< on the way to the position
+  bool cage = false;          ///< the platform is caged at t0
+  /// The platform stands still on the Earth, whatever it is told: a strapdown unit at rest, whose
+  /// "command" is what its gyros read. What the model makes of the reading beyond the Earth's rate
+  /// is measured (as zero) in place of the gimbal angles.
+  bool rest = false;
+  Vec3 omega_cmd_p = Vec3::Zero();        ///< commanded inertial rate [rad/s]
   double heading0 = 0.0, heading1 = 0.0;  ///< of the case at t0 and t1 [rad]
   MisalignmentAngles loop =
       MisalignmentAngles::Zero();  ///< what the loop of coupling
@@ -63,6 +67,7 @@ struct Timeline {
   std::vector<Node> nodes;
   int chains = 0;
   int positions = 0;
+  bool of_case = false;          ///< of a strapdown unit: its dwells are at rest (Interval::rest)
   bool has_temperature = false;  ///< the intervals carry it
   bool has_field = false;
   unsigned has_further = 0;       ///< bit k: the further covariate number k
@@ -87,7 +92,8 @@ Timeline lay_out(const TestPlan& plan, const Site& site);
 /// not say comes from the plan. InputError (recording) if they do not fit each other.
 Timeline lay_out(const Recording& recording, const TestPlan& plan, const Site& site);
 
-/// Computes the nodes from the intervals. R_lp is the nominal attitude at the start of each chain.
-void place_nodes(Timeline& timeline, const std::vector<Mat3>& R_lp);
+/// Computes the nodes from the intervals. R_lp is the nominal attitude at the start of each chain;
+/// longest_step: attitude change between the end points of Simpson's rule [rad].
+void place_nodes(Timeline& timeline, const std::vector<Mat3>& R_lp, double longest_step = 0.05);
 
 }  // namespace drift

@@ -40,6 +40,25 @@ struct Instruments {
       scene.look_around(needs, moment_at(*timeline, interval, node.t), R_lp, memory(last));
     return gimbal_output<double>(*model, scene.in, R_lp, interval.heading1, theta);
   }
+
+  /// What is measured at rest in place of the gimbal angles (Interval::rest): the mean rate against
+  /// the Earth that the model reads out of the gyros [rad/s].
+  template <class Memory>
+  Vec3 rest_rate(const Interval& interval, const Vec3* phi, const Memory& memory) const {
+    const Needs needs = TermLibrary::needs(model->terms);
+    const Mat3 E_loop = misalignment_matrix(model->mounting, interval.loop);
+    Vec3 mean = Vec3::Zero();
+    for (std::size_t k = 0; k < interval.node_count(); ++k) {
+      const Node& node = timeline->nodes[interval.first_node + k];
+      const Mat3 R_lp = node.R_lr * rotation(phi[k]);
+      Scene<double> scene(node.omega_ic_l, interval.omega_cmd_p, model->mounting, R_lp);
+      if (needs.any())
+        scene.look_around(needs, moment_at(*timeline, interval, node.t), R_lp, memory(k));
+      mean += Timeline::simpson_weight(interval.substeps, k) *
+              (platform_rate(*model, scene.in, theta, E_loop) - scene.in.omega_ic_p);
+    }
+    return mean;
+  }
 };
 
 }  // namespace drift

@@ -25,7 +25,9 @@ Measurements predict(const Timeline& timeline, const DriftModel& model, const Th
          if (readout.accelerometers)
            out.acc.col(column) = instruments.accelerometers(interval, nodes.data(), memory);
          if (readout.gimbals)
-           out.gimbal.col(column) = instruments.gimbals(interval, nodes.data(), memory);
+           out.gimbal.col(column) = interval.rest
+                                        ? instruments.rest_rate(interval, nodes.data(), memory)
+                                        : instruments.gimbals(interval, nodes.data(), memory);
          if (phi) std::copy(nodes.begin(), nodes.end(), &(*phi)[interval.first_node]);
        });
   return out;

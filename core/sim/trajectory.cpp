@@ -1,5 +1,7 @@
 #include "core/sim/trajectory.hpp"
 
+#include <algorithm>
+
 namespace drift {
 
 Drive drive_of(const Interval& interval, const Timeline& timeline, const DriftModel& model,
@@ -31,6 +33,10 @@ Vec3 step_attitude(const Drive& drive, double t, double step, const Vec3& phi,
 
 void step_through(const Interval& interval, const Timeline& timeline, const Drive& drive,
                   const MemoryPoint* memory, Vec3* out, std::size_t from) {
+  if (interval.rest) {
+    std::fill(out + from + 1, out + interval.node_count(), out[from]);
+    return;
+  }
   const double step = interval.length() / (2.0 * interval.substeps);
   const auto past = [&](std::size_t point) { return memory ? memory + point : nullptr; };
   for (std::size_t k = from; k + 1 < interval.node_count(); ++k) {
@@ -42,6 +48,10 @@ void step_through(const Interval& interval, const Timeline& timeline, const Driv
 
 void step_back_through(const Interval& interval, const Timeline& timeline, const Drive& drive,
                        const MemoryPoint* memory, Vec3* out) {
+  if (interval.rest) {
+    std::fill(out, out + interval.node_count() - 1, out[interval.node_count() - 1]);
+    return;
+  }
   const double step = interval.length() / (2.0 * interval.substeps);
   const auto past = [&](std::size_t point) { return memory ? memory + point : nullptr; };
   for (std::size_t k = interval.node_count() - 1; k-- > 0;) {

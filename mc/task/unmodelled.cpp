@@ -29,10 +29,9 @@ std::vector<std::string> drift_noise(const FilterSpec& filter, const Layout& lay
 
 using Messages = std::vector<std::string>;
 
-/// A batch fit has no process noise: it would take a drift that varies for one that does not.
+/// A batch fit knows angle random walk, and would take a drift that varies for one that does not.
 Messages noise_in_batch(const FilterSpec& filter, const Layout& layout) {
   std::vector<std::string> noise;
-  if (filter.noise.angle_random_walk > 0.0) noise.emplace_back("'angle_random_walk'");
   for (int axis = 0; axis < 3; ++axis)
     for (std::string& what : drift_noise(filter, layout, axis))
       if (std::ranges::find(noise, what) == noise.end()) noise.push_back(std::move(what));

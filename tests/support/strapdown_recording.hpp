@@ -15,11 +15,12 @@ namespace drift::test {
 /// the sensor equations of interfaces.md 4 and 7 are spelt out here.
 struct StrapdownScript {
   std::size_t dwells = 30;
-  double rest = 5.0;          ///< length of a dwell [s]
-  double turn = 2.5;          ///< length of a turn [s]
-  double interval = 0.01;     ///< [s]
-  double gyro_noise = 0.01;   ///< of one sample, 1 sigma [rad/s]
-  double acc_noise = 0.0015;  ///< of one sample, 1 sigma [g]
+  double rest = 5.0;               ///< length of a dwell [s]
+  double turn = 2.5;               ///< length of a turn [s]
+  double interval = 0.01;          ///< [s]
+  double gyro_noise = 0.01;        ///< of one sample, 1 sigma [rad/s]
+  double acc_noise = 0.0015;       ///< of one sample, 1 sigma [g]
+  Vec3 omega_ie_l = Vec3::Zero();  ///< Earth rate; the case starts along the local axes [rad/s]
   std::uint64_t seed = 1;
 };
 
@@ -70,7 +71,8 @@ inline Recording strapdown_recording(const StrapdownScript& script, const Theta&
   const auto sample = [&](const Mat3& attitude, const Vec3& w) {
     t += script.interval;
     const Vec3 f = attitude.transpose() * Vec3::UnitZ();
-    const Vec3 gyro = gyro_output(theta, w, f), acc = accelerometer_output(theta, f);
+    const Vec3 turning = w + attitude.transpose() * script.omega_ie_l;
+    const Vec3 gyro = gyro_output(theta, turning, f), acc = accelerometer_output(theta, f);
     r.channels[0].values.push_back(t);
     for (int i = 0; i < 3; ++i) {
       r.channels[1 + i].values.push_back(gyro[i] + script.gyro_noise * noise.normal());

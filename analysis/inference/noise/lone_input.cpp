@@ -29,9 +29,11 @@ std::vector<Kind> kinds_of(const LinearProblem& problem) {
     return std::any_of(problem.tags.begin(), problem.tags.end(),
                        [&](auto& t) { return t.accelerometer() == accelerometer; });
   };
+  const bool of_case = std::ranges::any_of(problem.drives, &IntervalDrive::rest);
   for (const double tau : {300.0, 1800.0}) {
     if (read(true)) all.push_back({Equation::accelerometer, tau, 0.05 * problem.acc_sigma});
-    if (read(false)) all.push_back({Equation::gimbal, tau, 0.05 * problem.gimbal_sigma});
+    if (read(false) && !of_case)
+      all.push_back({Equation::gimbal, tau, 0.05 * problem.gimbal_sigma});
   }
   return all;
 }

@@ -52,6 +52,7 @@ double lone_weight(const MeasuredRows& p, const LoneInput& lone, const RowTag& r
     return lone.sigma / p.acc_sigma_of(row);
   if (lone.equation == Equation::gimbal && row.channel == 3 + lone.axis)
     return lone.sigma / p.gimbal_sigma;
+  if (lone.equation == Equation::rate) return lone.sigma * p.per_drift(row, lone.axis);
   return 0.0;
 }
 

@@ -57,6 +57,11 @@ void walk(const MeasuredRows& p, const NoiseModel& n, const NoiseStates& s, Cage
         if (accelerometer && s.acc >= 0)
           h[s.acc + p.tags[k].channel] = n.acc_markov / p.acc_sigma_of(p.tags[k]);
         if (s.lone >= 0) h[s.lone] = lone_weight(p, n.lone, p.tags[k]);
+        for (int gyro = 0; d.rest && gyro < 3; ++gyro) {
+          const double by_drift = p.per_drift(p.tags[k], gyro) * n.gyros[gyro];
+          if (s.walk >= 0) h[s.walk + gyro] = by_drift * n.drift_random_walk;
+          if (s.markov >= 0) h[s.markov + gyro] = by_drift * n.markov_drift;
+        }
         row(k, h, (accelerometer ? n.acc_factor : n.gimbal_factor) / p.weight[k]);
       }
     }

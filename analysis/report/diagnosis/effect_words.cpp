@@ -101,6 +101,7 @@ std::string lacking(const std::vector<search::Cause>& causes) {
 std::string noise_in_words(const std::string& component) {
   constexpr std::pair<std::string_view, std::string_view> known[] = {
       {"gimbal_white", "white noise of the gimbal readout"},
+      {"gyro_white", "white noise of the gyros"},
       {"accelerometer_white", "white noise of the accelerometers"},
       {"angle_random_walk", "angle random walk of the gyros"},
       {"drift_random_walk", "random walk of the gyro drift"},

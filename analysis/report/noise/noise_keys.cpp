@@ -62,13 +62,14 @@ std::string noise_keys(const NoiseCard& card) {
   const auto units = noise_units(Sensor::gyro, 1.0);
   constexpr std::pair<AllanNoise, std::string_view> keys[] = {
       {AllanNoise::white, "angle_random_walk"}, {AllanNoise::rate_walk, "drift_random_walk"}};
-  for (const auto& [noise, key] : keys) {
+  for (const auto& line : keys) {
+    const AllanNoise noise = line.first;
     const double value =
         over_axes(card, Sensor::gyro, [&](const ChannelNoise& c) { return certain(c, noise); });
     const NoiseUnit& unit = units[static_cast<std::size_t>(noise)];
     if (value > 0.0)
       out += fmt::format("# in a [[filter]] of a platform with these gyros: {} = \"{} {}\"{}\n",
-                         key, number_text(value / unit.size), unit.symbol, unsure(Sensor::gyro));
+                         line.second, number_text(value / unit.size), unit.symbol, unsure(Sensor::gyro));
   }
   return out;
 }

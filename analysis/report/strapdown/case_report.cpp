@@ -1,0 +1,233 @@
+#include "analysis/report/strapdown/case_report.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "analysis/report/noise/noise.hpp"
+#include "analysis/report/page/wording.hpp"
+
+namespace drift::report {
+
+using nlohmann::json;
+using strapdown::CaseFit;
+using strapdown::CaseIdentification;
+using strapdown::Score;
+
+DRIFT_SECTIONS(CaseIdentification, case_sections, case_test, case_parameters, case_unobservable,
+               case_held_out, case_noise);
+inline constexpr Part case_parts[] = {Part::details, Part::evidence, Part::how_sure, Part::how_sure,
+                                      Part::how_sure};
+
+namespace {
+
+std::string up_of(const strapdown::Dwell& dwell) {
+  const Vec3 up = dwell.acc.normalized();
+  return fmt::format("x {:.3f} y {:.3f} z {:.3f} deg above the horizon",
+                     std::asin(up[0]) / unit::deg.to_si, std::asin(up[1]) / unit::deg.to_si,
+                     std::asin(up[2]) / unit::deg.to_si);
+}
+
+std::string azimuth_sentence(const CaseIdentification& id) {
+  return fmt::format(
+      "The gyros see the Earth: North to {} deg (1 sigma), its rate taken from the latitude",
+      number_text(id.study.compass.sigma / unit::deg.to_si, 2));
+}
+
+json to_json(const Score& score, const char* unit) {
+  return {{"unit", unit},
+          {"count", score.count},
+          {"in_sample", score.in_sample},
+          {"held_out", score.held_out},
+          {"held_out_95", {score.low, score.high}}};
+}
+
+json to_json(const CaseFit& fit) {
+  json parameters = json::array(), unobservable = json::array();
+  for (const auto& p : fit.parameters)
+    parameters.push_back({{"key", p.key},
+                          {"value", p.value},
+                          {"sigma", p.sigma},
+                          {"unit", p.unit},
+                          {"note", p.note}});
+  for (const auto& u : fit.unobservable)
+    unobservable.push_back({{"what", u.what}, {"reason", u.reason}});
+  json out{{"name", fit.name},
+           {"equation", key_of(fit.equation)},
+           {"chi2_per_dof", fit.fit.estimate.statistic_per_dof()},
+           {"converged", fit.fit.estimate.status == EstimateStatus::ok},
+           {"parameters", std::move(parameters)},
+           {"unobservable", std::move(unobservable)}};
+  if (fit.up.count > 0) out["rotations"] = to_json(fit.up, "deg");
+  if (fit.gyro.count > 0) out["dwells"] = to_json(fit.gyro, "deg/h");
+  if (fit.gravity.count > 0) out["gravity"] = to_json(fit.gravity, "g");
+  return out;
+}
+
+std::string estimates_csv(const CaseIdentification& id) {
+  std::string out = "filter,parameter,unit,estimate,sigma,note\n";
+  for (const CaseFit& fit : id.fits)
+    for (const auto& p : fit.parameters)
+      out += fmt::format("{},{},{},{},{},{}\n", csv_of(fit.name), csv_of(p.key), csv_of(p.unit),
+                         p.value, p.sigma, csv_of(p.note));
+  return out;
+}
+
+/// "x", or "x and y and 3 more".
+std::string some_of(const std::vector<std::string>& all) {
+  constexpr std::size_t most = 6;
+  if (all.size() <= most) return fmt::format("{}", fmt::join(all, ", "));
+  return fmt::format("{} and {} more", fmt::join(all.begin(), all.begin() + most, ", "),
+                     all.size() - most);
+}
+
+InBrief in_brief(const CaseIdentification& id) {
+  const CaseFit& first = id.fits.front();
+  const bool at_rest = id.study.search.dwells.size() == 1;
+  InBrief brief;
+  const double chi2 = first.fit.estimate.statistic_per_dof();
+  brief.verdict =
+      at_rest
+          ? fmt::format(
+                "Found: one rest of {:.0f} s and no turn. It shows {} of the {} parameters.",
+                id.study.search.dwells.front().duration(), first.parameters.size(),
+                first.parameters.size() + first.unobservable.size())
+          : fmt::format(
+                "Found: {} dwells and {} turns; {} of {} parameters are learned, "
+                "chi-square per degree of freedom {}.",
+                id.study.search.dwells.size(), id.study.test.ways.size(), first.parameters.size(),
+                first.parameters.size() + first.unobservable.size(), number_text(chi2, 3));
+  brief.tone = Tone::good;
+  brief.more.push_back(azimuth_sentence(id) + ".");
+  if (at_rest) brief.more.push_back("Up is " + up_of(id.study.search.dwells.front()) + ".");
+  if (first.up.count > 0)
+    brief.more.push_back(
+        fmt::format("Up after a turn that was held out: {} deg off; gyros in "
+                    "dwells held out: {} deg/h.",
+                    number_text(first.up.held_out, 3), number_text(first.gyro.held_out, 3)));
+  std::vector<std::string> unseen;
+  for (const auto& u : first.unobservable) unseen.push_back(u.what);
+  if (!unseen.empty())
+    brief.more.push_back(fmt::format("This recording says nothing of {}.", some_of(unseen)));
+  brief.next = "Next: driftscope diagnose, on the same study and recording, says what is missing.";
+  return brief;
+}
+
+}  // namespace
+
+json to_json(const CaseIdentification& id, double gravity) {
+  json dwells = json::array(), fits = json::array();
+  for (const auto& d : id.study.search.dwells)
+    dwells.push_back({{"start_s", d.start},
+                      {"end_s", d.end},
+                      {"gyro_noise_deg_per_s", d.gyro_noise.norm() / unit::deg_per_s.to_si},
+                      {"acc_noise_g", d.acc_noise.norm()}});
+  for (const CaseFit& fit : id.fits) fits.push_back(to_json(fit));
+  json out{{"schema", 1},
+           {"kind", "strapdown"},
+           {"recording", id.study.source},
+           {"dwells", std::move(dwells)},
+           {"rotations",
+            {{"count", id.study.test.ways.size()}, {"omitted", id.study.test.ways_with_gap}}},
+           {"earth_seen", true},
+           {"azimuth_sigma_deg", id.study.compass.sigma / unit::deg.to_si},
+           {"folds", id.folds},
+           {"equations", nullptr},
+           {"noise", to_json(id.study.noise, gravity)},
+           {"parameters", fits.front()["parameters"]},
+           {"unobservable", fits.front()["unobservable"]},
+           {"filters", std::move(fits)}};
+  if (std::isfinite(id.eq5_gain)) {
+    json contest{{"z", id.eq5_gain}};
+    for (const CaseFit& fit : id.fits)
+      contest[fmt::format("{}_held_out_deg", key_of(fit.equation))] = fit.up.held_out;
+    out["equations"] = std::move(contest);
+  }
+  return out;
+}
+
+Section case_test(const CaseIdentification& id) {
+  const auto& s = id.study;
+  std::vector<std::string> found{
+      fmt::format("{} dwells, {} turns between them{}", s.search.dwells.size(), s.test.ways.size(),
+                  s.test.ways_with_gap > 0
+                      ? fmt::format(", {} left out for gaps", s.test.ways_with_gap)
+                      : ""),
+      fmt::format("in dwells rows of {} s: accelerometers {} ug, gyros {} deg/h (1 sigma, from "
+                  "their scatter)",
+                  number_text(s.test.row, 3),
+                  number_text(s.test.readout.accelerometer_noise / unit::ug.to_si, 3),
+                  number_text(s.test.readout.gimbal_noise / unit::deg_per_h.to_si, 3)),
+      azimuth_sentence(id),
+      "in the first dwell up is " + up_of(s.search.dwells.front()),
+      "the axes of the case are those of the accelerometers: dP_x, dO_x and dP_y are zero",
+      "not in the model: lever arms of the accelerometers and a delay between them and the gyros; "
+      "the accelerometers are read in dwells alone, where neither shows"};
+  return {"Dwells and turns", {Sentences{std::move(found), ""}}};
+}
+
+Section case_parameters(const CaseIdentification& id) {
+  Section section{"Parameters", {}};
+  for (const CaseFit& fit : id.fits) {
+    Table t(fmt::format("{} ({})", fit.name, key_of(fit.equation)),
+            "<key | value | sigma | <unit | <");
+    for (const auto& p : fit.parameters)
+      t.add({p.key, digits(p.value, 6), p.sigma, p.unit, p.note});
+    section.blocks.emplace_back(std::move(t));
+  }
+  return section;
+}
+
+Section case_unobservable(const CaseIdentification& id) {
+  Section section{"Not observable", {}};
+  for (const CaseFit& fit : id.fits) {
+    if (fit.unobservable.empty()) continue;
+    Table t(fmt::format("{}: of which the prior says more than this recording", fit.name),
+            "<what | <why");
+    for (const auto& u : fit.unobservable) t.add({u.what, u.reason});
+    section.blocks.emplace_back(std::move(t));
+  }
+  return section;
+}
+
+Section case_held_out(const CaseIdentification& id) {
+  if (id.folds == 0) return {};
+  Table t(
+      fmt::format("Root mean square errors on the data of the fit, and on dwells held out of it "
+                  "({} parts)",
+                  id.folds),
+      "<filter | <eq | up after a turn [deg] | held out | gyros [deg/h] | held out | gravity "
+      "[ug] | held out");
+  for (const CaseFit& fit : id.fits)
+    t.add({fit.name, std::string(key_of(fit.equation)), fit.up.in_sample, fit.up.held_out,
+           fit.gyro.in_sample, fit.gyro.held_out, fit.gravity.in_sample / unit::ug.to_si,
+           fit.gravity.held_out / unit::ug.to_si});
+  Section section{"Held out", {t}};
+  if (std::isfinite(id.eq5_gain))
+    section.blocks.emplace_back(
+        Sentences{{fmt::format("Held-out turns speak for eq. ({}) by {:.1f} standard errors",
+                               id.eq5_gain > 0.0 ? 5 : 6, std::abs(id.eq5_gain))},
+                  ""});
+  return section;
+}
+
+Section case_noise(const CaseIdentification& id) {
+  return noise_section(id.study.noise, id.study.test.timeline.site.gravity);
+}
+
+Report case_report(const mc::Study& study, const CaseIdentification& id) {
+  Report report{.command = "identify"};
+  report.title = study.title.empty() ? "Strapdown recording" : study.title;
+  report.subtitle = fmt::format("Strapdown recording {}", id.study.source);
+  report.brief = in_brief(id);
+  report.add(sections_of(id, case_sections, case_parts));
+  report.document = {"identification.json", to_json(id, study.site.gravity).dump(2) + "\n"};
+  report.files.emplace_back("study.toml", study.text);
+  report.files.emplace_back("estimates.csv", estimates_csv(id));
+  return report;
+}
+
+}  // namespace drift::report

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "analysis/report/page/report.hpp"
+#include "analysis/strapdown/case_identify.hpp"
+#include "mc/study/study.hpp"
+
+namespace drift::report {
+
+/// All that the identification of a unit whose gyros see the Earth has to say: tables,
+/// identification.json, estimates.csv and study.toml.
+Report case_report(const mc::Study& study, const strapdown::CaseIdentification& id);
+
+/// identification.json, schema 1. A number that is not finite is null.
+nlohmann::json to_json(const strapdown::CaseIdentification& id, double gravity);
+
+}  // namespace drift::report

@@ -1,0 +1,95 @@
+#include "analysis/strapdown/case_study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/check.hpp"
+
+namespace drift::strapdown {
+namespace {
+
+constexpr auto fixed_drift = TermLibrary::index("D_F_x");
+constexpr auto first_scale = TermLibrary::index("s_x");
+
+double drift_prior(const mc::Study& study) {
+  double largest = 0.0;
+  for (std::size_t p = fixed_drift; p < fixed_drift + 3; ++p) {
+    const Prior library = TermLibrary::specs[p].prior_si();
+    const Prior prior = study.filters.empty() ? library : study.filters.front().believed(p);
+    largest = std::max(largest, prior.sigma());
+  }
+  return largest;
+}
+
+/// The temperature, as its deviation from the mean of the recording, at both ends of each interval.
+void take_temperature(const Recording& recording, Timeline& timeline) {
+  const Channel* temperature = recording.find("temperature");
+  const Channel* time = recording.find("time");
+  if (temperature == nullptr || time == nullptr) return;
+  double mean = 0.0;
+  for (const double v : temperature->values) {
+    if (!std::isfinite(v)) return;
+    mean += v / static_cast<double>(temperature->values.size());
+  }
+  const auto at = [&](double t) {
+    const auto next = std::ranges::lower_bound(time->values, t);
+    const auto row = std::min<std::ptrdiff_t>(next - time->values.begin(),
+                                              static_cast<std::ptrdiff_t>(time->values.size()) - 1);
+    return temperature->values[static_cast<std::size_t>(row)] - mean;
+  };
+  timeline.has_temperature = true;
+  timeline.mean_temperature = mean;
+  for (Interval& i : timeline.intervals) {
+    i.around0.temperature = at(i.t0);
+    i.around1.temperature = at(i.t1);
+  }
+}
+
+}  // namespace
+
+CaseStudy case_study(const mc::Study& study, const Recording& recording) {
+  CaseStudy out;
+  out.source = recording.source;
+  const Signals signals = signals_of(recording);
+  out.search = find_dwells(signals, {.static_min = study.static_min});
+  if (out.search.dwells.empty())
+    throw InputError(
+        ExitCode::recording,
+        fmt::format("{}: no dwell of {} s in which both sensors are quiet (one or more is "
+                    "expected). Rest the case, or lower plan.static_min",
+                    out.source, study.static_min));
+  std::vector<preparation::RestingRows> rests;
+  for (const Dwell& d : out.search.dwells) rests.push_back({d.first, d.last});
+  out.noise = preparation::noise_card(recording, RecordingKind::strapdown, rests);
+  // Each round knows better how the Earth turned the unit during the test.
+  constexpr int rounds = 3;
+  std::vector<double> azimuth;
+  for (int round = 0; round < rounds; ++round) {
+    out.test = lay_out_case(signals, out.search.dwells, study.site, Carry::through, azimuth);
+    out.compass = gyrocompass(out.test, azimuth, drift_prior(study));
+    if (!out.compass.sees_earth) break;
+    azimuth = out.compass.azimuth;
+  }
+  take_temperature(recording, out.test.timeline);
+  return out;
+}
+
+FilterSpec case_filter(const FilterSpec& filter, const CaseStudy& of) {
+  constexpr double of_the_same_data = 10.0, least = 2e-3, most = 1.0;  // [], [rad], [rad]
+  FilterSpec out = filter;
+  if (const auto other = facts(filter.coupling).other) out.coupling = *other;
+  for (const std::size_t p : zero_by_definition) out.priors[p] = fixed(0.0);
+  out.initial_attitude = std::clamp(of_the_same_data * of.compass.sigma, least, most);
+  if (out.noise.angle_random_walk == 0.0) out.noise.angle_random_walk = of.test.angle_random_walk;
+  return out;
+}
+
+Sensed as_sensed(std::size_t param, double value, double sigma) {
+  if (param < first_scale || param >= first_scale + 3) return {value, sigma};
+  const double read = 1.0 / (1.0 + value);
+  return {read - 1.0, sigma * read * read};
+}
+
+}  // namespace drift::strapdown

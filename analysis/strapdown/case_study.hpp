@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+
+#include "analysis/preparation/noise_card.hpp"
+#include "core/estimate/strapdown/gyrocompass.hpp"
+#include "core/physics/model_spec.hpp"
+#include "mc/study/study.hpp"
+
+namespace drift::strapdown {
+
+/// A recording of sensors on a case, made ready as a test of a platform (case_test.hpp).
+struct CaseStudy {
+  std::string source;
+  DwellSearch search;
+  Gyrocompass compass;
+  CaseTest test;
+  preparation::NoiseCard noise;  ///< of the sensors in the dwells
+
+  MeasuredTest measured() const { return {test.timeline, test.readout, test.measured}; }
+};
+
+/// Finds the dwells, levels and gyrocompasses, lays out. The prior of the gyros' fixed drift is
+/// that of the study's first filter. InputError (recording) if the channels are not there or the
+/// unit never rests.
+CaseStudy case_study(const mc::Study& study, const Recording& recording);
+
+/// A filter of the study as it is a platform's: what the gyros read is its command. Eqs. (5) and
+/// (6) change places. (5) says that misalignment has its part in what the gyros read of the motion,
+/// as eq. (6) says of what a platform makes of a command; (6) that it has none. Attitude at the
+/// start as the gyrocompass leaves it: what it is sure of it has from the same data, so ten times
+/// that.
+FilterSpec case_filter(const FilterSpec& filter, const CaseStudy& of);
+
+/// A parameter of such a filter in the sensors' convention, reading = (1 + s) (C w + ...) + w_l.
+struct Sensed {
+  double value = 0.0, sigma = 0.0;
+};
+Sensed as_sensed(std::size_t param, double value, double sigma);
+
+}  // namespace drift::strapdown

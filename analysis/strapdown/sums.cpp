@@ -1,0 +1,68 @@
+#include "analysis/strapdown/sums.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "analysis/strapdown/case_study.hpp"
+#include "core/base/decompose.hpp"
+
+namespace drift::strapdown {
+namespace {
+
+constexpr double small_part = 0.02, about_one = 0.02;
+
+/// "+ 0.52 D_I_z", the first without a plus.
+std::string member(double factor, std::string_view key, bool first) {
+  const double size = std::abs(factor);
+  const std::string number = std::abs(size - 1.0) < about_one ? "" : fmt::format("{:.2g} ", size);
+  return fmt::format("{}{}{}", first ? (factor < 0.0 ? "-" : "") : (factor < 0.0 ? " - " : " + "),
+                     number, key);
+}
+
+}  // namespace
+
+std::vector<StrapdownParameter> known_sums(const EstimateResult& estimate) {
+  std::vector<Eigen::Index> unknown;
+  for (std::size_t k = 0; k < estimate.parameters.size(); ++k)
+    if (estimate.parameters[k].learning_ratio() > learned_ratio)
+      unknown.push_back(static_cast<Eigen::Index>(k));
+  if (unknown.empty()) return {};
+  const MatX P = estimate.covariance(unknown, unknown);
+  const Eigensystem eigen = eigensystem(P);
+  std::vector<StrapdownParameter> all;
+  for (Eigen::Index d = 0; d < eigen.values.size(); ++d) {
+    if (!(std::sqrt(eigen.values[d]) < learned_ratio)) continue;
+    const VecX direction = eigen.vectors.col(d);
+    Eigen::Index largest = 0;
+    direction.cwiseAbs().maxCoeff(&largest);
+    const auto of = [&](Eigen::Index k) -> const ParameterEstimate& {
+      return estimate.parameters[static_cast<std::size_t>(unknown[static_cast<std::size_t>(k)])];
+    };
+    const ParamSpec& spec = TermLibrary::specs[of(largest).param];
+    StrapdownParameter sum{"", 0.0, 0.0, std::string(spec.unit.symbol.view()),
+                           "a sum: its members are not told apart"};
+    VecX kept = VecX::Zero(direction.size());
+    for (const bool first : {true, false})
+      for (Eigen::Index k = 0; k < direction.size(); ++k) {
+        const double part = direction[k] / direction[largest];
+        if ((k == largest) != first || std::abs(part) < small_part) continue;
+        const ParameterEstimate& p = of(k);
+        const ParamSpec& own = TermLibrary::specs[p.param];
+        kept[k] = part;
+        // In the member's own unit, so that the sum is in that of the largest.
+        const double factor =
+            part * of(largest).prior_sigma / p.prior_sigma * own.unit.to_si / spec.unit.to_si;
+        const Sensed sensed = as_sensed(p.param, p.value, p.sigma);
+        const double sign = sensed.value * p.value < 0.0 ? -1.0 : 1.0;
+        sum.key += member(sign * factor, own.key.view(), sum.key.empty());
+        sum.value += part * of(largest).prior_sigma * (p.value - p.prior_mean) / p.prior_sigma;
+      }
+    sum.value /= spec.unit.to_si;
+    sum.sigma = of(largest).prior_sigma * std::sqrt(kept.dot(P * kept)) / spec.unit.to_si;
+    all.push_back(std::move(sum));
+  }
+  return all;
+}
+
+}  // namespace drift::strapdown

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "core/estimate/measured_test.hpp"
+#include "core/estimate/strapdown/dwells.hpp"
+
+namespace drift::strapdown {
+
+/// A strapdown recording laid out as a platform test. The case is the platform: gyros and
+/// accelerometers stand on it, and what the gyros read is what it is "told" to do, so that
+///
+///   (I + S) (C w_ip) + w_l = reading   <=>   w_ip = C^-1 ((I + S_T) w_cmd - w_l'),
+///
+/// eq. (6) of a platform that is torqued with its own readings, S_T and w_l' as in sensed_case().
+/// Positions are dwells. In a dwell the case stands still on the Earth (Interval::rest): the gyros
+/// are measured in place of gimbal angles, the accelerometers as on a platform. On the way to the
+/// next dwell the readings carry the attitude along; nothing is measured there.
+struct CaseTest {
+  Timeline timeline;
+  Measurements measured;
+  Readout readout;                 ///< noise of a row, from the scatter of the rows within dwells
+  double angle_random_walk = 0.0;  ///< that the scatter of the gyros stands for [rad/sqrt(s)]
+  double row = 0.0;                ///< length of the rows in dwells [s]
+  std::vector<std::size_t> ways;   ///< dwell (from 0) at the end of each way without a gap
+  std::size_t ways_with_gap = 0;
+  std::vector<Mat3> R_lp;  ///< attitude at the start of each chain as it was assumed
+};
+
+/// The axes of the case are those of the accelerometers: x is the input axis of accelerometer x, y
+/// lies in the plane of the input axes of x and y. So these three are zero.
+inline constexpr std::array<std::size_t, 3> zero_by_definition{
+    TermLibrary::index("dP_x"), TermLibrary::index("dO_x"), TermLibrary::index("dP_y")};
+
+/// About how many rows the dwells are cut into, together.
+inline constexpr double rows_at_rest = 400.0;
+/// Attitude change and length of a row on the way: [rad], [s]. Within a row the reading is taken as
+/// constant: what an error of relative size e makes of that is e turn^2 / 12, 1e-4 e and 5e-4 e.
+inline constexpr double longest_turn_row = 0.04, longest_turn_row_one_way = 0.08,
+                        longest_way_row = 1.0;
+
+/// How far attitude is carried along.
+enum class Carry {
+  through,  ///< from way to way, until one has a gap: azimuth is worth carrying
+  one_way,  ///< over one way; a dwell's first half ends a chain, its second half begins the next.
+            ///< For gyros that do not see the Earth: all that a way shows then is where up is
+            ///< before and after it. A half is one row, its noise what the halves of dwells differ
+            ///< by: such sensors wander within a dwell, and nobody declares by how much
+};
+
+/// Lays a recording out. azimuth: heading of the case at the start of each chain, from North to
+/// West about Up, against the attitude of least turn that levels it [rad]; empty: zero.
+CaseTest lay_out_case(const Signals& signals, const std::vector<Dwell>& dwells, const Site& site,
+                      Carry carry, const std::vector<double>& azimuth = {});
+
+}  // namespace drift::strapdown

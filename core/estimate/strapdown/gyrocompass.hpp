@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "core/estimate/strapdown/case_test.hpp"
+
+namespace drift::strapdown {
+
+/// Where North is, as far as the gyros at rest tell.
+struct Gyrocompass {
+  bool sees_earth = false;      ///< the Earth's rate stands out of the gyros' drift and noise
+  std::vector<double> azimuth;  ///< of each chain, as lay_out_case() takes it [rad]
+  double sigma = 1.0;           ///< 1 standard deviation of the worst [rad]; 1 where it is unknown
+};
+
+/// Sum of the Earth's rate and a fixed drift of each gyro, least squares on the dwells: the Earth's
+/// horizontal rate of each chain (two numbers; the vertical is the latitude's) and the drift, with
+/// the prior `sigma_drift` of each axis [rad/s]. Attitudes are those of the laid out test.
+/// The Earth is seen where its rate is found within what the site says, and the azimuth to 0.3 rad.
+Gyrocompass gyrocompass(const CaseTest& test, const std::vector<double>& assumed_azimuth,
+                        double sigma_drift);
+
+}  // namespace drift::strapdown
