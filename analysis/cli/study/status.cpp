@@ -7,6 +7,7 @@
 #include "analysis/cli/progress.hpp"
 #include "analysis/cli/study/megabytes.hpp"
 #include "analysis/cli/study_program.hpp"
+#include "analysis/planning/shared_steps.hpp"
 #include "core/base/results_folder.hpp"
 #include "mc/store/study_state.hpp"
 
@@ -68,8 +69,24 @@ ExitCode status_of_trials(const std::string& folder) {
   return code_of(s.complete());
 }
 
+ExitCode status_of_ranking(const std::string& folder) {
+  namespace fs = std::filesystem;
+  const bool written = fs::exists(fs::path(folder) / "rank.json");
+  if (!fs::exists(planning::steps_folder(folder))) {
+    show("{}: {}\n", folder, written ? "ranked" : "nothing is ranked yet");
+    return code_of(written);
+  }
+  const mc::StudyState state = planning::steps_state(folder);
+  const bool complete = written && state.finished > 0;
+  show("{}: {} of {} positions to add are chosen, {} candidates judged; {}\n", folder,
+       state.complete, state.points.size(), state.runs,
+       complete ? "the results are written" : "the results are not written yet");
+  return code_of(complete);
+}
+
 ExitCode status(const std::string& folder) {
   if (results_of(folder) == "blind") return status_of_trials(folder);
+  if (results_of(folder) == "rank") return status_of_ranking(folder);
   return status_of_study(folder, study_program());
 }
 
@@ -77,7 +94,7 @@ ExitCode status(const std::string& folder) {
 
 Command status_command() {
   const auto add_shared_folder = [](CLI::App& app, std::string& folder) {
-    app.add_option("folder", folder, "results folder of `run` or `blind`")
+    app.add_option("folder", folder, "results folder of `run`, `blind` or `rank --improve`")
         ->required();
   };
   return {"status", group::studies,
