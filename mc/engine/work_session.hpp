@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <optional>
@@ -45,14 +46,17 @@ struct WorkSession {
 };
 
 /// Calls job(k) for the jobs of a list on the threads of a session, until its time is over: jobs at
-/// work are finished then, no other is begun. The exception of the first in the list is rethrown
-/// when all are done.
+/// work are finished then, no other is begun. One is done however short the time, so that the same
+/// call, again and again, comes to an end. The exception of the first in the list is rethrown when
+/// all are done.
 template <class Job>
 void work_through(const std::vector<std::size_t>& jobs, const WorkSession& session, Job&& job) {
+  std::atomic<bool> begun{false};
   run_campaign(
       jobs.size(),
       [&](std::size_t i) {
-        if (!session.time.is_over()) job(jobs[i]);
+        if (const bool first = !begun.exchange(true); first || !session.time.is_over())
+          job(jobs[i]);
         return 0;
       },
       session.threads);

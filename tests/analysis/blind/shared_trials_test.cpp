@@ -152,6 +152,7 @@ TEST(SharedTrials, NothingIsSealedBeforeAllTrialsAreMade) {
   const std::string folder = scratch.file("out");
   EXPECT_EQ(make_trials(study, folder, {1, {}, mc::WallTime(0.0)}), std::nullopt);
   EXPECT_EQ(published_hash(folder, "key.json"), "");
+  EXPECT_EQ(trials_state(folder).made, 1u) << "however short the time, one";
   const auto hash = make_trials(study, folder, {1, {2, 3}});
   ASSERT_TRUE(hash) << "a worker makes what the others have not made";
   EXPECT_FALSE(fs::exists(folder + "/making"));
