@@ -85,8 +85,7 @@ Json of(const Answer& a) {
           {"chi2_per_dof_after", json_number(a.chi2_after)},
           {"held_out", a.held_out},
           {"held_out_gain", json_number(a.held_out_gain)},
-          {"belief", of(a.belief)},
-          {"seconds", json_number(a.seconds)}};
+          {"belief", of(a.belief)}};
 }
 
 Answer from(const Json& j) {
@@ -108,7 +107,7 @@ Answer from(const Json& j) {
   a.held_out = j.at("held_out");
   a.held_out_gain = number_of(j.at("held_out_gain"));
   a.belief = belief_in(j);
-  a.seconds = number_of(j.at("seconds"));
+  if (j.contains("seconds")) a.seconds = number_of(j.at("seconds"));  // of earlier builds
   return a;
 }
 

@@ -33,7 +33,7 @@ struct Answer {
   bool held_out = false;                       ///< positions were held out
   double held_out_gain = 0.0;                  ///< log score
   Belief belief;
-  double seconds = 0.0;
+  double seconds = 0.0;  ///< by the clock; no part of what is sealed
 
   /// Alternatives: causes or combinations of causes that are offered.
   std::vector<std::vector<const AnswerCause*>> alternatives() const;

@@ -1,18 +1,27 @@
 #include <mutex>
 
-#include "analysis/blind/blind_study.hpp"
-#include "analysis/blind/diagnosing_solver.hpp"
-#include "analysis/blind/seal.hpp"
+#include "analysis/blind/session/answer_trials.hpp"
+#include "analysis/blind/session/diagnosing_solver.hpp"
+#include "analysis/blind/session/make_trials.hpp"
 #include "analysis/cli/answer.hpp"
 #include "analysis/cli/command.hpp"
 #include "analysis/cli/print.hpp"
 #include "analysis/cli/progress.hpp"
+#include "analysis/cli/sharing.hpp"
 #include "analysis/cli/stop_at_once.hpp"
 #include "analysis/report/blind/report.hpp"
 #include "core/base/results_folder.hpp"
+#include "mc/store/worker_lock.hpp"
 
 namespace drift::cli {
 namespace {
+
+/// What `blind` takes beside a study.
+struct BlindArguments {
+  std::string folder;
+  std::optional<std::string> trials;
+  Sharing sharing;
+};
 
 /// What is said where the diagnoses are stopped.
 std::string stopped_text(const std::string& folder, std::size_t done, std::size_t total) {
@@ -22,34 +31,39 @@ std::string stopped_text(const std::string& folder, std::size_t done, std::size_
       done, total, folder);
 }
 
-ExitCode blind(const StudyArguments& arguments, const std::string& folder,
-               const std::optional<std::string>& trials) {
-  StudyArguments all = arguments;
-  if (trials) all.sets.push_back("blind.trials=" + *trials);
-  const mc::Study study = all.read();
-  require_results_folder({folder, "blind"});
-  report::BlindResults results;
-  results.title = study.title;
-  results.key_hash = blind::make_trials(study, folder, arguments.threads,
-                                        progress_reporter(arguments.progress, "recordings"));
-  say("Key sealed in {}: SHA-256 {}\n", folder, results.key_hash);
-  StopAtOnce stop("");
-  const auto progress = progress_reporter(arguments.progress, "diagnoses");
-  std::mutex guard;
-  const auto answered = [&](std::size_t done, std::size_t total) {
-    if (progress) progress(done, total);
-    const std::scoped_lock lock(guard);
-    stop.say(stopped_text(folder, done, total));
-  };
-  answered(0, study.blind.trials);
-  results.answers_hash =
-      blind::answer_trials(folder, blind::diagnosing_solver(), arguments.threads, answered);
+/// Where a session ends before all is answered: the rest is this worker's, if its time was over, or
+/// that of the others.
+ExitCode tell_unfinished(const std::string& folder, const mc::WorkerShare& share) {
+  const blind::TrialsState state = blind::trials_state(folder);
+  if (!state.key_sealed) {
+    say("{}: {} of {} trials are made, the time is over. The same command goes on\n", folder,
+        state.made, state.trials);
+    return ExitCode::wall_time;
+  }
+  say("{}: {} of {} trials are answered\n", folder, state.answered, state.trials);
+  const std::size_t own = blind::unanswered(folder, share).size();
+  const std::size_t others = blind::unanswered(folder, {}).size() - own;
+  if (own > 0)
+    say("{}: missing: {} trials{}. The same command goes on with them\n", folder, own,
+        share.count > 1 ? fmt::format(" of this worker's part {}/{}", share.index, share.count)
+                        : "");
+  if (others > 0)
+    say("{}: missing: {} trials of the other workers' parts. They, or `blind` without --worker, go "
+        "on with them\n",
+        folder, others);
+  return own > 0 ? ExitCode::wall_time : ExitCode::ok;
+}
+
+/// Scores what is answered, writes and shows it.
+ExitCode present(const mc::Study& study, report::BlindResults results, const std::string& folder) {
   say("Answers sealed: SHA-256 {}\n", results.answers_hash);
   results.scores = blind::score_folder(folder);
   results.summary = blind::summarise(results.scores);
   const report::Report said =
       with_provenance(report::blind_report(results), report::provenance_of(study.path, {}));
   show_answer(said.brief, {report::to_text(said), folder, report::write_report(said, folder)});
+  say("A diagnosis took {:.3g} s on average, the longest {:.3g} s\n", results.summary.mean_seconds,
+      results.summary.longest_seconds);
   for (const blind::TrialScore& score : results.scores)
     if (score.answer.failed)
       say("Trial {} has no answer: {}\n", score.key.plan.number, score.answer.failure);
@@ -57,30 +71,64 @@ ExitCode blind(const StudyArguments& arguments, const std::string& folder,
                                                                      : ExitCode::ok;
 }
 
+ExitCode blind(const StudyArguments& arguments, const BlindArguments& given) {
+  StudyArguments all = arguments;
+  if (given.trials) all.sets.push_back("blind.trials=" + *given.trials);
+  const std::string& folder = given.folder;
+  const mc::WorkSession session = given.sharing.session(arguments.threads);
+  given.sharing.require_part("Add --worker auto");
+  const mc::Study study = all.read();
+  require_results_folder({folder, "blind"});
+  blind::open_trials(study, folder);
+  const mc::WorkerLock lock(blind::worker_of_trials(folder, session.share.index),
+                            mc::worker_patience);
+  report::BlindResults results;
+  results.title = study.title;
+  const auto key = blind::make_trials(study, folder, session,
+                                      progress_reporter(arguments.progress, "recordings"));
+  if (!key) return tell_unfinished(folder, session.share);
+  results.key_hash = *key;
+  say("Key sealed in {}: SHA-256 {}\n", folder, results.key_hash);
+  StopAtOnce stop("");
+  const auto progress = progress_reporter(arguments.progress, "diagnoses");
+  std::mutex guard;
+  const auto answered = [&](std::size_t done, std::size_t total) {
+    if (progress) progress(done, total);
+    const std::scoped_lock words(guard);
+    stop.say(stopped_text(folder, done, total));
+  };
+  answered(study.blind.trials - blind::unanswered(folder, {}).size(), study.blind.trials);
+  const auto answers = blind::answer_trials(folder, blind::diagnosing_solver(), session, answered);
+  if (!answers) return tell_unfinished(folder, session.share);
+  results.answers_hash = *answers;
+  return present(study, std::move(results), folder);
+}
+
 }  // namespace
 
 Command blind_command() {
   struct Arguments {
     StudyArguments study;
-    std::string output;
-    std::optional<std::string> trials;
+    BlindArguments blind;
   };
   const auto add = [](CLI::App& app, Arguments& a) {
     add_study(app, a.study);
-    add_output(app, a.output, "folder for trials, key, answers and report; the same one resumes")
+    add_output(app, a.blind.folder,
+               "folder for trials, key, answers and report; the same one resumes")
         ->required();
-    app.add_option("--trials", a.trials, "override blind.trials");
+    app.add_option("--trials", a.blind.trials, "override blind.trials");
+    add_sharing(app, a.blind.sharing);
     add_progress(app, a.study.progress);
     add_full(app);
   };
-  return {"blind",
-          group::studies,
-          "make recordings with concealed effects, diagnose each without the key, then score",
-          "driftscope blind configs/blind_small.toml -o out/blind",
-          with_arguments<Arguments>(
-              add, [](const Arguments& a) { return blind(a.study, a.output, a.trials); }),
-          Result::in_files,
-          "stopped: nothing is answered yet; the same command goes on with the rest\n"};
+  return {
+      "blind",
+      group::studies,
+      "make recordings with concealed effects, diagnose each without the key, then score",
+      "driftscope blind configs/blind_small.toml -o out/blind",
+      with_arguments<Arguments>(add, [](const Arguments& a) { return blind(a.study, a.blind); }),
+      Result::in_files,
+      "stopped: nothing is answered yet; the same command goes on with the rest\n"};
 }
 
 }  // namespace drift::cli

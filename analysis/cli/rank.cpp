@@ -1,9 +1,16 @@
 #include "analysis/planning/rank.hpp"
 
+#include <filesystem>
+#include <memory>
+
 #include "analysis/cli/answer.hpp"
 #include "analysis/cli/command.hpp"
+#include "analysis/cli/frozen_study.hpp"
 #include "analysis/cli/print.hpp"
 #include "analysis/cli/progress.hpp"
+#include "analysis/cli/sharing.hpp"
+#include "analysis/cli/stop_at_once.hpp"
+#include "analysis/planning/shared_steps.hpp"
 #include "analysis/report/rank/report.hpp"
 #include "core/base/results_folder.hpp"
 
@@ -16,7 +23,38 @@ struct RankArguments {
   std::string criterion = "A";  ///< A, D or a parameter
   std::string folder;           ///< empty: nothing is written
   bool json = false;            ///< rank.json on stdout instead of tables
+  Sharing sharing;
 };
+
+/// Looks whether the work is shared: asked for, or begun so in the folder.
+bool is_shared(const RankArguments& options) {
+  const bool possible = options.improve > 0 && !options.folder.empty();
+  if (options.sharing.is_asked_for() && !possible)
+    throw InputError(ExitCode::usage,
+                     "--worker, --max-wall: without --improve or -o (expected both: the candidates "
+                     "of --improve are what is shared, in the folder of -o). Add them");
+  return possible && (options.sharing.is_asked_for() ||
+                      std::filesystem::exists(planning::steps_folder(options.folder)));
+}
+
+/// The candidates of a study, in the folder of its results.
+std::unique_ptr<planning::SharedSteps> shared_steps(const mc::Study& study,
+                                                    const RankArguments& options, int threads) {
+  const std::string folder = planning::steps_folder(options.folder);
+  const mc::Manifest manifest =
+      planning::steps_manifest(identity_of(study), study.text, options.improve, options.criterion);
+  begin_results({options.folder, "rank"});
+  mc::claim_folder(folder, manifest);
+  return std::make_unique<planning::SharedSteps>(folder, manifest,
+                                                 options.sharing.session(threads));
+}
+
+void say_stopped(const std::string& folder) {
+  const mc::StudyState state = planning::steps_state(folder);
+  say("{}: {} of {} positions to add are chosen, {} candidates are judged and kept, the time is "
+      "over. The same command goes on\n",
+      folder, state.complete, state.points.size(), state.runs);
+}
 
 ExitCode rank(const StudyArguments& arguments, const RankArguments& options) {
   const mc::Study study = arguments.read();
@@ -31,11 +69,33 @@ ExitCode rank(const StudyArguments& arguments, const RankArguments& options) {
   what.threads = arguments.threads;
   planning::ImproveProgress progress;
   if (options.improve > 0) progress = progress_reporter(arguments.progress, "positions");
+  std::unique_ptr<planning::SharedSteps> shared;
+  std::optional<StopAtOnce> stop;
+  if (is_shared(options)) {
+    options.sharing.require_part("Add --worker auto");
+    planning::criterion_of(study, options.criterion);  // before anything is written
+    shared = shared_steps(study, options, arguments.threads);
+    stop.emplace(fmt::format(
+        "stopped: what is judged is kept in {}; the same command goes on with the rest\n",
+        options.folder));
+    what.improvement = planning::improve_study(
+        study, what,
+        [&](std::size_t step, std::size_t candidates, const planning::Judge& judge) {
+          return shared->judge(step, candidates, judge);
+        },
+        progress);
+    if (!what.improvement) {
+      shared->end(ExitCode::wall_time);
+      say_stopped(options.folder);
+      return ExitCode::wall_time;
+    }
+  }
   const planning::PlanRanking ranking = planning::rank_plan(study, what, progress);
   const report::Report said =
       with_provenance(report::rank_report(study, ranking), report::provenance_of(study.path, {}));
   Rest rest{options.json ? "" : report::to_text(said), options.folder, {}};
   if (!options.folder.empty()) rest.files = report::write_report(said, options.folder);
+  if (shared) shared->end(ExitCode::ok);
   if (!options.json) {
     show_answer(said.brief, rest);
     return ExitCode::ok;
@@ -62,6 +122,7 @@ Command rank_command() {
         ->needs(improve);
     add_output(app, a.rank.folder, "folder for rank.json, pictures and report");
     app.add_flag("--json", a.rank.json, "rank.json on stdout instead of tables");
+    add_sharing(app, a.rank.sharing);
     add_progress(app, a.study.progress);
     add_full(app);
   };

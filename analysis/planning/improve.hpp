@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,19 @@ struct Improvement {
 /// Called as steps are completed: done, total.
 using ImproveProgress = std::function<void(std::size_t, std::size_t)>;
 
+/// What the candidates of one step are worth, in their order: the greatest is taken, of equals the
+/// first. Nothing: the gimbals do not allow it.
+using Merits = std::vector<std::optional<double>>;
+using Judge = std::function<std::optional<double>(std::size_t candidate)>;
+
+/// Has all candidates of a step judged; nothing if that ended before. The judge may be called for
+/// different candidates at the same time.
+using JudgeStep = std::function<std::optional<Merits>(std::size_t step, std::size_t candidates,
+                                                      const Judge& judge)>;
+
+/// Judges on this process's threads.
+JudgeStep judge_here(int threads);
+
 /// Adds `count` positions, greedily: each time the candidate that makes the criterion smallest (the
 /// first of equals). Candidates are all attitudes under both command laws, caged; where the plan
 /// slews, also slewed to, with the case left where the gimbals allow it, and with it turned half
@@ -56,5 +70,13 @@ using ImproveProgress = std::function<void(std::size_t, std::size_t)>;
 Improvement improve_plan(const TestPlan& plan, const observability::RankedModel& model,
                          const Criterion& criterion, std::size_t count, int threads = 0,
                          const ImproveProgress& progress = {});
+
+/// The same, judged by whatever judges: a pure function of what it says. Nothing if it ended
+/// before.
+std::optional<Improvement> improve_plan(const TestPlan& plan,
+                                        const observability::RankedModel& model,
+                                        const Criterion& criterion, std::size_t count,
+                                        const JudgeStep& judge,
+                                        const ImproveProgress& progress = {});
 
 }  // namespace drift::planning

@@ -104,10 +104,7 @@ void rank_model(const mc::Study& study, const RankOptions& options, ModelRanking
   for (observability::TimeBin& bin : m.bins) bin.rows.resize(0, 0);
 }
 
-}  // namespace
-
-PlanRanking rank_plan(const mc::Study& study, const RankOptions& options,
-                      const ImproveProgress& progress) {
+void require_ranked(const mc::Study& study) {
   if (study.kind != RecordingKind::platform)
     throw InputError(ExitCode::config,
                      fmt::format("{}: a strapdown recording has no plan to rank (expected kind = "
@@ -118,6 +115,27 @@ PlanRanking rank_plan(const mc::Study& study, const RankOptions& options,
                      fmt::format("{}: no [[filter]]: nothing to rank. Add a section [[filter]] "
                                  "with name and coupling",
                                  study.path));
+}
+
+}  // namespace
+
+Criterion criterion_of(const mc::Study& study, const std::string& name) {
+  require_ranked(study);
+  return parse_criterion(name, make_layout(groups_of(study).front().models.front().model.spec));
+}
+
+std::optional<Improvement> improve_study(const mc::Study& study, const RankOptions& options,
+                                         const JudgeStep& judge, const ImproveProgress& progress) {
+  require_ranked(study);
+  const std::vector<RankingGroup> groups = groups_of(study);
+  const observability::RankedModel& model = groups.front().models.front().model;
+  const Criterion criterion = parse_criterion(options.criterion, make_layout(model.spec));
+  return improve_plan(study.plan, model, criterion, options.improve, judge, progress);
+}
+
+PlanRanking rank_plan(const mc::Study& study, const RankOptions& options,
+                      const ImproveProgress& progress) {
+  require_ranked(study);
   PlanRanking out;
   out.at_truth = study.has_truth;
   out.groups = groups_of(study);
@@ -141,8 +159,10 @@ PlanRanking rank_plan(const mc::Study& study, const RankOptions& options,
   out.duration = durations.front();
   if (options.improve > 0) {
     PlanImprovement better;
-    better.improvement = improve_plan(study.plan, first.model, criterion, options.improve,
-                                      options.threads, progress);
+    better.improvement = options.improvement
+                             ? *options.improvement
+                             : improve_plan(study.plan, first.model, criterion, options.improve,
+                                            options.threads, progress);
     better.after = observability::rank_parameters(
         observability::linearise(better.improvement.plan, first.model));
     out.better = std::move(better);

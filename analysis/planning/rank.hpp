@@ -36,6 +36,9 @@ struct RankingGroup {
   const Layout& layout() const { return models.front().ranking.layout; }
 };
 
+/// What a better plan of the study should make small, by its name. InputError as rank_plan().
+Criterion criterion_of(const mc::Study& study, const std::string& name);
+
 /// A better plan for the first model of the first group.
 struct PlanImprovement {
   Improvement improvement;
@@ -57,7 +60,17 @@ struct RankOptions {
   std::string criterion = "A";  ///< A, D or a parameter
   int threads = 0;              ///< 0: all
   int bins_per_dwell = 6;
+  std::optional<Improvement> improvement = {};  ///< found by improve_study() before
 };
+
+/// What a better plan of the study should make small, by its name. InputError as rank_plan().
+Criterion criterion_of(const mc::Study& study, const std::string& name);
+
+/// A better plan for the first model that rank_plan() ranks, judged by `judge`; nothing if that
+/// ended before. InputError as rank_plan().
+std::optional<Improvement> improve_study(const mc::Study& study, const RankOptions& options,
+                                         const JudgeStep& judge,
+                                         const ImproveProgress& progress = {});
 
 /// Ranks every filter of a study on its plan; no sampling. InputError (config) for a strapdown
 /// study or one without filter, (usage) for an unknown criterion.

@@ -137,7 +137,8 @@ void require_results_folder(const ResultsFolder& folder, const std::vector<std::
     }
   }
   require_writable(folder.path);
-  remove_stale_temporaries(folder.path);
+  for (const char* within : {"", "trials", "making", "candidates"})
+    remove_stale_temporaries((fs::path(folder.path) / within).string());
   for (const auto& trial : fs::directory_iterator(fs::path(folder.path) / "trials", error))
     remove_stale_temporaries(trial.path().string());
 }

@@ -9,16 +9,11 @@
 
 #include "core/base/check.hpp"
 #include "mc/engine/mpi_launch.hpp"
+#include "mc/engine/work_session.hpp"
 #include "mc/store/manifest.hpp"
 #include "mc/task/run_task.hpp"
 
 namespace drift::mc {
-
-/// Which part of the blocks a worker takes: those whose number is index modulo count. The part does
-/// not depend on when the worker starts, so that no block falls between two workers.
-struct WorkerShare {
-  std::size_t index = 0, count = 1;
-};
 
 struct EngineOptions {
   std::uint64_t runs = 100;             ///< per study point

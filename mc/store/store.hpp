@@ -95,10 +95,9 @@ class WorkerStore {
  public:
   /// Opens or makes the file. A damaged one is set aside as "worker-0003.damaged-1" and what is
   /// whole in it is taken over; `notes` says so. InputError: io if it cannot be written, store if
-  /// another process is still at work on it after `patience` [s]: the ranks of a killed mpirun take
-  /// a moment to die.
+  /// another process is still at work on it after `patience` [s].
   WorkerStore(const std::string& folder, std::size_t worker, const Manifest& manifest,
-              double patience = 5.0);
+              double patience = worker_patience);
   ~WorkerStore();
   WorkerStore(const WorkerStore&) = delete;
   WorkerStore& operator=(const WorkerStore&) = delete;

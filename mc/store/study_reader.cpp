@@ -4,6 +4,7 @@
 
 #include "core/base/check.hpp"
 #include "core/base/sha256.hpp"
+#include "mc/store/open_files.hpp"
 
 namespace drift::mc {
 
@@ -12,6 +13,7 @@ StudyReader::StudyReader(const std::string& folder)
       manifest_(std::make_shared<Manifest>(read_manifest(folder))),
       asked_(manifest_->runs),
       locks_(probe_locks(folder + "/manifest.json")) {
+  allow_many_files();
   refresh();
 }
 

@@ -9,6 +9,7 @@ namespace drift::mc {
 StudyState state_of(StudyReader& reader, const StopRules& rules) {
   StudyState s;
   s.asked = reader.runs();
+  s.finished = reader.manifest().finished;
   const std::uint64_t finished = std::min(reader.manifest().finished, s.asked);
   for (std::size_t p = 0; p < reader.manifest().points.size(); ++p) {
     PointState& here = s.points.emplace_back();
@@ -36,6 +37,13 @@ std::string StudyState::ended_by_rule() const {
       "the stop rule ended {} early, after {} of at most {} runs",
       points.size() == 1 ? "the study" : fmt::format("{} of {} points", by_rule, points.size()),
       least == most ? fmt::format("{}", least) : fmt::format("{} to {}", least, most), asked);
+}
+
+std::string StudyState::was_complete() const {
+  return fmt::format(
+      "the study was complete with {} runs per point; of {} of {} points results are not there any "
+      "more",
+      finished, lost, points.size());
 }
 
 }  // namespace drift::mc

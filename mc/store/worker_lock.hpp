@@ -10,6 +10,10 @@ enum class Locks {
   none  ///< Lustre mounted without flock, NFS with nolock: every call that locks fails
 };
 
+/// How long a process waits for another that is this worker [s]: the ranks of a killed mpirun take
+/// a moment to die.
+inline constexpr double worker_patience = 5.0;
+
 /// Whether the file system of an existing file has the locks that SQLite needs.
 Locks probe_locks(const std::string& file);
 

@@ -1,5 +1,3 @@
-#include "analysis/blind/blind_study.hpp"
-
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -7,11 +5,14 @@
 #include <set>
 
 #include "analysis/blind/key.hpp"
-#include "analysis/blind/seal.hpp"
+#include "analysis/blind/session/answer_trials.hpp"
+#include "analysis/blind/session/make_trials.hpp"
+#include "analysis/blind/session/seal.hpp"
 #include "analysis/blind/summary.hpp"
 #include "core/base/check.hpp"
 #include "core/base/sha256.hpp"
 #include "tests/support/program.hpp"
+#include "tests/support/tiny_blind_study.hpp"
 
 namespace drift::blind::blind_study_test {
 namespace {
@@ -20,47 +21,7 @@ namespace fs = std::filesystem;
 using test::ScratchFolder;
 using test::text_of;
 
-/// Six trials of a quarter of an hour per position: one of every stratum.
-const char* const tiny = R"toml(schema = 1
-[site]
-latitude = "45.75 deg"
-[plan]
-preset = "six"
-dwell = "15 min"
-sample = "180 s"
-[environment]
-temperature = "20 degC"
-temperature_amplitude = "0.4 degC"
-field_n = "0.25 gauss"
-field_w = "0.02 gauss"
-field_u = "-0.47 gauss"
-[readout]
-accelerometer_noise = "5 ug"
-gimbal_noise = "5 arcsec"
-[truth]
-coupling = "eq5"
-[[filter]]
-name = "nominal"
-coupling = "eq5"
-[monte_carlo]
-seed = 5
-[blind]
-trials = 6
-plans = ["six"]
-couplings = ["eq5", "eq6"]
-sizes = [6]
-pair_size = 5
-most_prior_sigmas = 100
-[blind.shares]
-null = 1
-wrong_noise = 1
-single = 1
-pair = 1
-outside = 1
-local = 1
-)toml";
-
-mc::Study study_in(const ScratchFolder& scratch, const std::string& text = tiny) {
+mc::Study study_in(const ScratchFolder& scratch, const std::string& text = test::tiny_blind_study) {
   return mc::read_study(scratch.write("blind.toml", text));
 }
 
@@ -72,7 +33,7 @@ TEST(BlindStudy, TheSolverGetsNeitherTruthNorSeedNorKey) {
   const ScratchFolder scratch;
   const mc::Study study = study_in(scratch);
   const std::string folder = scratch.file("out");
-  const std::string hash = make_trials(study, folder, 1);
+  const std::string hash = make_trials(study, folder, {1}).value();
   EXPECT_EQ(hash, sha256_hex(text_of(folder + "/key.json")));
   EXPECT_EQ(published_hash(folder, "key.json"), hash);
   for (int n = 1; n <= 6; ++n) {
@@ -87,7 +48,7 @@ TEST(BlindStudy, TheSolverGetsNeitherTruthNorSeedNorKey) {
 TEST(BlindStudy, WhatIsHiddenHasTheSizeThatWasAskedFor) {
   const ScratchFolder scratch;
   const std::string folder = scratch.file("out");
-  make_trials(study_in(scratch), folder, 1);
+  make_trials(study_in(scratch), folder, {1});
   for (const KeyEntry& k : read_key(text_of(folder + "/key.json")).entries) {
     switch (k.plan.stratum) {
       case Stratum::null:
@@ -115,14 +76,14 @@ TEST(BlindStudy, WhatIsHiddenHasTheSizeThatWasAskedFor) {
 TEST(BlindStudy, AFailingSolverIsRecordedAndStopsNoOther) {
   const ScratchFolder scratch;
   const std::string folder = scratch.file("out");
-  make_trials(study_in(scratch), folder, 1);
-  answer_trials(
-      folder,
-      [](const std::string& path, const std::string&) -> Answer {
-        if (path.find("0003") != std::string::npos) throw std::runtime_error("no convergence");
-        return {};
-      },
-      2);
+  make_trials(study_in(scratch), folder, {1});
+  answer_trials(folder,
+                [](const std::string& path, const std::string&) -> Answer {
+                  if (path.find("0003") != std::string::npos)
+                    throw std::runtime_error("no convergence");
+                  return {};
+                },
+                {2});
   const auto scores = score_folder(folder);
   ASSERT_EQ(scores.size(), 6u);
   for (const TrialScore& s : scores) EXPECT_EQ(s.answer.failed, s.key.plan.number == 3);
@@ -134,17 +95,17 @@ TEST(BlindStudy, AnswersAreKeptAndTheRestIsAnsweredLater) {
   const ScratchFolder scratch;
   const mc::Study study = study_in(scratch);
   const std::string folder = scratch.file("out");
-  const std::string key = make_trials(study, folder, 1);
+  const std::string key = make_trials(study, folder, {1}).value();
   std::atomic<int> calls{0};
   const Solver counting = [&](const std::string&, const std::string&) {
     ++calls;
     return Answer{};
   };
-  const std::string first = answer_trials(folder, counting, 1);
+  const std::string first = answer_trials(folder, counting, {1}).value();
   EXPECT_EQ(calls, 6);
   fs::remove(folder + "/trials/0002/answer.json");
-  EXPECT_EQ(make_trials(study, folder, 1), key);
-  answer_trials(folder, counting, 1);
+  EXPECT_EQ(make_trials(study, folder, {1}), key);
+  answer_trials(folder, counting, {1});
   EXPECT_EQ(calls, 7);
   EXPECT_EQ(first.size(), 64u);
 }
@@ -152,8 +113,8 @@ TEST(BlindStudy, AnswersAreKeptAndTheRestIsAnsweredLater) {
 TEST(BlindStudy, AChangedKeyOrChangedAnswersAreNotScored) {
   const ScratchFolder scratch;
   const std::string folder = scratch.file("out");
-  make_trials(study_in(scratch), folder, 1);
-  answer_trials(folder, consistent, 1);
+  make_trials(study_in(scratch), folder, {1});
+  answer_trials(folder, consistent, {1});
   EXPECT_EQ(score_folder(folder).size(), 6u);
   for (const char* name : {"key.json", "answers.json"}) {
     const std::string path = folder + "/" + name, text = text_of(path);
@@ -172,21 +133,21 @@ TEST(BlindStudy, AChangedKeyOrChangedAnswersAreNotScored) {
 TEST(BlindStudy, NothingIsDiagnosedBeforeTheKeyIsSealedNorScoredBeforeTheAnswersAre) {
   const ScratchFolder scratch;
   const std::string folder = scratch.file("out");
-  make_trials(study_in(scratch), folder, 1);
+  make_trials(study_in(scratch), folder, {1});
   EXPECT_THROW(score_folder(folder), InputError);
   fs::remove(folder + "/key.sha256");
-  EXPECT_THROW(answer_trials(folder, consistent, 1), InputError);
+  EXPECT_THROW(answer_trials(folder, consistent, {1}), InputError);
 }
 
 TEST(BlindStudy, AFolderOfAnotherStudyIsRefused) {
   const ScratchFolder scratch;
   const mc::Study study = study_in(scratch);
   const std::string folder = scratch.file("out");
-  make_trials(study, folder, 1);
+  make_trials(study, folder, {1});
   mc::Study other = study;
   other.text += "# another\n";
   try {
-    make_trials(other, folder, 1);
+    make_trials(other, folder, {1});
     ADD_FAILURE();
   } catch (const InputError& e) {
     EXPECT_EQ(e.code(), ExitCode::store);
@@ -196,8 +157,8 @@ TEST(BlindStudy, AFolderOfAnotherStudyIsRefused) {
 TEST(BlindStudy, TrialsDependOnTheSeedAloneAndNotOnThreads) {
   const ScratchFolder scratch;
   const mc::Study study = study_in(scratch);
-  const std::string one = make_trials(study, scratch.file("one"), 1),
-                    two = make_trials(study, scratch.file("two"), 2);
+  const auto one = make_trials(study, scratch.file("one"), {1}),
+             two = make_trials(study, scratch.file("two"), {2});
   EXPECT_EQ(one, two);
   for (int n = 1; n <= 6; ++n) {
     const std::string name = "/trials/000" + std::to_string(n) + "/recording.csv";

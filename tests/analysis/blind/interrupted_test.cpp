@@ -7,8 +7,8 @@
 
 #include <filesystem>
 
-#include "analysis/blind/blind_study.hpp"
-#include "analysis/blind/seal.hpp"
+#include "analysis/blind/session/answer_trials.hpp"
+#include "analysis/blind/session/seal.hpp"
 #include "core/base/check.hpp"
 #include "tests/support/program.hpp"
 
@@ -39,13 +39,12 @@ Answer named(const std::string&, const std::string&) {
 int status_of(const std::string& folder, const std::function<void()>& end) {
   const pid_t child = fork();
   if (child == 0) {
-    answer_trials(
-        folder,
-        [&](const std::string& study, const std::string& recording) {
-          if (study.find("0002") != std::string::npos) end();
-          return named(study, recording);
-        },
-        1);
+    answer_trials(folder,
+                  [&](const std::string& study, const std::string& recording) {
+                    if (study.find("0002") != std::string::npos) end();
+                    return named(study, recording);
+                  },
+                  {1});
     _exit(0);
   }
   int status = 0;
@@ -54,7 +53,7 @@ int status_of(const std::string& folder, const std::function<void()>& end) {
 }
 
 std::vector<Answer> finished(const std::string& folder) {
-  answer_trials(folder, named, 1);
+  answer_trials(folder, named, {1});
   return answers_of(text_of(folder + "/answers.json"));
 }
 
@@ -114,8 +113,9 @@ TEST(BlindInterrupted, AFullDiskOrTooLittleMemoryIsNoAnswer) {
       return {};
     };
   };
-  EXPECT_THROW(answer_trials(folder, refusing(InputError(ExitCode::io, "no room")), 1), InputError);
-  EXPECT_THROW(answer_trials(folder, refusing(std::bad_alloc()), 1), std::bad_alloc);
+  EXPECT_THROW(answer_trials(folder, refusing(InputError(ExitCode::io, "no room")), {1}),
+               InputError);
+  EXPECT_THROW(answer_trials(folder, refusing(std::bad_alloc()), {1}), std::bad_alloc);
   EXPECT_FALSE(fs::exists(folder + "/trials/0002/answer.json"));
   EXPECT_TRUE(fs::exists(folder + "/trials/0001/answer.json")) << "the others are kept";
   for (const Answer& a : finished(folder)) EXPECT_FALSE(a.failed);

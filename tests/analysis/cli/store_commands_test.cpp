@@ -64,6 +64,24 @@ TEST(StoreCommands, ResultsThatWereThereAreMissed) {
   }
 }
 
+TEST(StoreCommands, MoreWorkerFilesThanTheUsualLimitOfOpenFilesAreRead) {
+  const ScratchFolder scratch;
+  const std::string config = study_file(scratch, ""), out = scratch.file("out");
+  ASSERT_EQ(program("run " + config + " -o " + out).code, 0);
+  for (int worker = 1; worker < 60; ++worker)  // as if sixty had come to the same results
+    fs::copy_file(out + "/worker-0000.sqlite", out + "/worker-00" + (worker < 10 ? "0" : "") +
+                                                   std::to_string(worker) + ".sqlite");
+  const auto limited = [&](const std::string& command) {
+    return test::run_program("/bin/sh",
+                             "-c \"ulimit -S -n 40; exec '" DRIFT_SYNTHETIC "' " + command + "\"");
+  };
+  const Answer status = limited("status " + out);
+  EXPECT_EQ(status.code, 0) << status.err << status.out;
+  expect_says(status.out, "in 60 worker files");
+  EXPECT_EQ(status.out.find("damage"), std::string::npos) << status.out;
+  expect_says(limited("verify " + out + " --sample 0%").out, "sound and complete");
+}
+
 TEST(StoreCommands, AStudyThatWasExtendedIsMissedToItsNewEnd) {
   const ScratchFolder scratch;
   const std::string config = study_file(scratch, ""), out = scratch.file("out");

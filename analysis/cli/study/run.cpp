@@ -8,11 +8,10 @@
 #include "analysis/cli/frozen_study.hpp"
 #include "analysis/cli/print.hpp"
 #include "analysis/cli/progress.hpp"
-#include "analysis/cli/run_options.hpp"
-#include "analysis/cli/run_progress.hpp"
+#include "analysis/cli/sharing.hpp"
+#include "analysis/cli/study/run_progress.hpp"
 #include "analysis/cli/study_program.hpp"
 #include "core/base/results_folder.hpp"
-#include "mc/engine/batch_system.hpp"
 #include "mc/engine/engine.hpp"
 #include "mc/export/export_text.hpp"
 #include "mc/store/study_state.hpp"
@@ -24,8 +23,7 @@ namespace {
 struct RunArguments {
   std::string folder;  ///< empty: results/<name of the study file>
   std::optional<std::uint64_t> runs;
-  std::string worker;    ///< "i/n"
-  std::string max_wall;  ///< "55m"
+  Sharing sharing;
   bool dry_run = false;
   bool fail_fast = false;
 };
@@ -135,8 +133,8 @@ ExitCode run(const StudyArguments& arguments, const RunArguments& given,
   options.runs = study.monte_carlo.runs;
   options.allowed_failures = study.monte_carlo.allowed_failures;
   options.threads = arguments.threads;
-  if (!given.worker.empty()) options.share = parse_share(given.worker);
-  if (!given.max_wall.empty()) options.max_wall = parse_duration("--max-wall", given.max_wall);
+  options.share = given.sharing.share();
+  options.max_wall = given.sharing.seconds();
   options.fail_fast = given.fail_fast;
   const mc::StudyWork work = program.work(study);
   mc::Manifest manifest = mc::make_manifest(identity_of(study), study.text, work.points);
@@ -147,18 +145,12 @@ ExitCode run(const StudyArguments& arguments, const RunArguments& given,
     return ExitCode::ok;
   }
   mc::Ranks ranks;
-  if (ranks.size() > 1 && !given.worker.empty())
+  if (ranks.size() > 1 && !given.sharing.worker.empty())
     throw InputError(ExitCode::usage,
                      "--worker: mpirun shares out the work already (expected one or the other). "
                      "Leave out --worker");
-  if (const std::size_t tasks = mc::tasks_of_step(mc::process_variable);
-      tasks > 1 && ranks.size() == 1 && given.worker.empty())
-    throw InputError(
-        ExitCode::usage,
-        fmt::format("srun has started {} tasks that know nothing of each other: each would do the "
-                    "whole study (expected one task, MPI, or a part for each). Add --worker auto, "
-                    "or start it with srun --mpi=pmix",
-                    tasks));
+  if (ranks.size() == 1)
+    given.sharing.require_part("Add --worker auto, or start it with srun --mpi=pmix");
   require_results_folder({folder, "run"});
   mc::claim_folder(folder, manifest);
   begin_results({folder, "run"});
@@ -201,11 +193,7 @@ Command run_command() {
     app.add_option("--runs", a.run.runs,
                    "override monte_carlo.runs; more than before extends a study")
         ->check(whole(1, 1000000000));
-    app.add_option("--worker", a.run.worker,
-                   "do part i of n of the study, i = 0 .. n - 1; auto: what Slurm, SGE or PBS says")
-        ->type_name("I/N|auto");
-    app.add_option("--max-wall", a.run.max_wall, "stop after this time, resumable: 55m, 1h30m")
-        ->type_name("TIME");
+    add_sharing(app, a.run.sharing);
     app.add_flag("--dry-run", a.run.dry_run,
                  "say what would be done and how long it takes, write nothing");
     app.add_flag("--fail-fast", a.run.fail_fast, "stop at the first run that fails");

@@ -1,4 +1,4 @@
-#include "analysis/blind/crash_mark.hpp"
+#include "analysis/blind/session/crash_mark.hpp"
 
 #include <fcntl.h>
 #include <signal.h>

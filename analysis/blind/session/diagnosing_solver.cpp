@@ -1,4 +1,4 @@
-#include "analysis/blind/diagnosing_solver.hpp"
+#include "analysis/blind/session/diagnosing_solver.hpp"
 
 #include "analysis/diagnosis/diagnose_recordings.hpp"
 

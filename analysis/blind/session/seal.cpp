@@ -1,4 +1,4 @@
-#include "analysis/blind/seal.hpp"
+#include "analysis/blind/session/seal.hpp"
 
 #include <fmt/format.h>
 
@@ -23,10 +23,13 @@ fs::path hash_path(const std::string& folder, const std::string& name) {
 std::string write_sealed(const std::string& folder, const std::string& name,
                          const std::string& text) {
   const std::string hash = sha256_hex(text);
-  if (!published_hash(folder, name).empty()) open_sealed(folder, name);
-  // Without a hash the text counts as not written yet, wherever the program ends.
-  std::error_code none;
-  fs::remove(hash_path(folder, name), none);
+  if (!published_hash(folder, name).empty()) {
+    // What is sealed stays as it is: other workers may be reading it.
+    if (open_sealed(folder, name) == text) return hash;
+    // Without a hash the text counts as not written yet, wherever the program ends.
+    std::error_code none;
+    fs::remove(hash_path(folder, name), none);
+  }
   write_text_atomically((fs::path(folder) / name).string(), text);
   write_text_atomically(hash_path(folder, name).string(), fmt::format("{}  {}\n", hash, name));
   return hash;

@@ -1,4 +1,4 @@
-#include "analysis/cli/run_progress.hpp"
+#include "analysis/cli/study/run_progress.hpp"
 
 #include <fmt/format.h>
 

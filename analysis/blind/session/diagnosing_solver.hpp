@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/blind/blind_study.hpp"
+#include "analysis/blind/session/answer_trials.hpp"
 
 namespace drift::blind {
 

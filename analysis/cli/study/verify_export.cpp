@@ -1,12 +1,10 @@
 #include <fmt/ranges.h>
 
-#include <filesystem>
-
 #include "analysis/cli/command.hpp"
 #include "analysis/cli/frozen_study.hpp"
 #include "analysis/cli/print.hpp"
 #include "analysis/cli/run_options.hpp"
-#include "analysis/cli/run_progress.hpp"
+#include "analysis/cli/study/megabytes.hpp"
 #include "analysis/cli/study_program.hpp"
 #include "core/base/output_file.hpp"
 #include "mc/engine/replay.hpp"
@@ -18,34 +16,6 @@
 namespace drift::cli {
 namespace {
 
-double megabytes(const std::vector<std::string>& files) {
-  double bytes = 0.0;
-  for (const std::string& file : files) {
-    std::error_code failed;
-    const auto size = std::filesystem::file_size(file, failed);
-    if (!failed) bytes += static_cast<double>(size);
-  }
-  return bytes / 1e6;
-}
-
-std::string ending(const mc::Session& s) {
-  return s.ended_utc.empty() ? "at work, or killed"
-                             : fmt::format("ended {} with exit code {}", s.ended_utc, s.exit_code);
-}
-
-std::string was_complete(const mc::StudyReader& reader, const mc::StudyState& state) {
-  return fmt::format(
-      "the study was complete with {} runs per point; of {} of {} points results are not there any "
-      "more",
-      reader.manifest().finished, state.lost, state.points.size());
-}
-
-std::string fact(const mc::Session& s, std::string_view key) {
-  for (const auto& [k, value] : s.facts)
-    if (k == key) return value;
-  return "?";
-}
-
 /// An export replaces an earlier one of the same study, nothing else.
 Stranger other_than(const std::string& hash) {
   return [hash](const std::string& path) -> std::string {
@@ -54,38 +24,6 @@ Stranger other_than(const std::string& hash) {
     if (known == hash) return {};
     return known.empty() ? "no export" : "the export of another study";
   };
-}
-
-ExitCode status(const std::string& folder, const StudyProgram& program) {
-  mc::StudyReader reader(folder);
-  const auto [study, work] = frozen_study(folder, reader, program);
-  const mc::StudyState state = mc::state_of(reader, work.stop_rules);
-  const std::uint64_t total = state.asked * state.points.size();
-  show("{}: {} of {} runs, {} failed, {} of {} points complete\n", folder, state.runs, total,
-       state.failed, state.complete, state.points.size());
-  if (state.by_rule > 0) show("{}\n", state.ended_by_rule());
-  show("point       runs              failed            label\n");
-  std::uint64_t left = 0;
-  double cpu = 0.0;
-  for (std::size_t p = 0; p < state.points.size(); ++p) {
-    const mc::PointState& s = state.points[p];
-    show("{:>5}  {:>9} / {:<9} {:>7}  {:<9} {}\n", p, s.runs, state.asked, s.failed,
-         s.complete ? s.by_rule && s.runs < state.asked ? "stop rule" : "complete" : "",
-         reader.manifest().points[p].label);
-    if (!s.complete) left += state.asked - s.runs;
-    cpu += s.cpu_s;
-  }
-  if (left > 0 && state.runs > 0)
-    show("at most {} of CPU time to go\n",
-         duration_text(cpu / static_cast<double>(state.runs) * static_cast<double>(left)));
-  show("disk {:.3g} MB in {} worker files\n", megabytes(reader.files()), reader.files().size());
-  for (const mc::Session& s : reader.sessions())
-    show("session {} on {}, {}: {}\n", s.started_utc, fact(s, "host"),
-         std::filesystem::path(fact(s, "file")).filename().string(), ending(s));
-  for (const std::string& note : reader.notes()) show("damage: {}\n", note);
-  if (state.lost > 0) show("lost: {}\n", was_complete(reader, state));
-  // What a batch system asks before the last job of a study: 75, as a run that stopped in time.
-  return state.complete == state.points.size() ? ExitCode::ok : ExitCode::wall_time;
 }
 
 ExitCode verify(const std::string& folder, const std::string& sample, int threads,
@@ -144,8 +82,7 @@ ExitCode export_results(const std::string& folder, const std::string& format,
         fmt::format(
             "{}: {} (expected whole results). Run the study again with the same command: what "
             "is lost is computed anew. Nothing was exported",
-            folder,
-            state.lost > 0 ? was_complete(reader, state) : "parts of the results are damaged"));
+            folder, state.lost > 0 ? state.was_complete() : "parts of the results are damaged"));
   if (!state.all())
     say("note: the study is not finished: {} of {} runs, {} of {} points complete\n", state.runs,
         state.asked * state.points.size(), state.complete, state.points.size());
@@ -160,20 +97,12 @@ ExitCode export_results(const std::string& folder, const std::string& format,
   if (format == "netcdf") mc::export_netcdf(reader, work.stop_rules, target, points);
   if (format == "csv") mc::export_csv(reader, work.stop_rules, target);
   if (format == "json") mc::export_json(reader, work.stop_rules, target);
-  show("{}: {} runs, {:.3g} MB\n", target, state.runs, megabytes({target}));
+  show("{}: {} runs, {:.3g} MB\n", target, state.runs, megabytes_of({target}));
   if (!groups.empty()) show("groups: {}\n", fmt::join(groups, " "));
   return ExitCode::ok;
 }
 
 }  // namespace
-
-Command status_command() {
-  return {"status", group::studies, "how far a study is: runs, failures, sessions, disk",
-          "driftscope status results/study",
-          with_arguments<std::string>(add_folder, [](const std::string& folder) {
-            return status(folder, study_program());
-          })};
-}
 
 Command verify_command() {
   struct Arguments {

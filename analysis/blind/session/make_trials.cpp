@@ -1,0 +1,98 @@
+#include "analysis/blind/session/make_trials.hpp"
+
+#include <fmt/format.h>
+
+#include "analysis/blind/design.hpp"
+#include "analysis/blind/generate.hpp"
+#include "analysis/blind/key.hpp"
+#include "analysis/blind/session/counter.hpp"
+#include "analysis/blind/session/seal.hpp"
+#include "core/base/check.hpp"
+#include "core/base/file_text.hpp"
+#include "core/base/results_register.hpp"
+#include "core/base/sha256.hpp"
+#include "core/recording/recording_output.hpp"
+
+namespace drift::blind {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string part_name(std::size_t number) {
+  return fmt::format("making/{:04}.json", number);
+}
+
+bool is_sealed(const std::string& folder) {
+  return !published_hash(folder, "key.json").empty();
+}
+
+/// What the key says of a trial that is made, noted when the trial was complete.
+std::optional<KeyEntry> kept_entry(const std::string& folder, std::size_t number) {
+  const auto text = file_text(fs::path(folder) / part_name(number));
+  if (!text || !ResultsRegister(folder).has(part_name(number), sha256_hex(*text)))
+    return std::nullopt;
+  return read_key(*text).entries.at(0);
+}
+
+/// Two workers may make the same trial: they write the same bytes.
+void make_one(const mc::Study& study, const TrialPlan& plan, const std::string& folder) {
+  const std::string name = trial_name(plan.number);
+  const fs::path here = fs::path(folder) / name;
+  const ResultsFolder results = results_in(folder);
+  write_files(results, {{name + "/study.toml", nominal_text(study, plan)}});
+  remove_result(results, name + "/answer.json");  // to a key that is there no more
+  fs::remove(here / "crashes");
+  const MadeTrial made = make_trial(study, mc::read_study((here / "study.toml").string()), plan);
+  write_result(results, name + "/recording.csv", [&](const std::string& temporary) {
+    write_recording_to(made.recording, (here / "recording.csv").string(), temporary);
+  });
+  write_files(results, {{part_name(plan.number), to_json(Key{"", {made.key}})}});
+}
+
+void make_missing(const mc::Study& study, const std::string& folder,
+                  const std::vector<TrialPlan>& plans, const mc::WorkSession& session,
+                  const Progress& progress) {
+  std::vector<std::size_t> missing;
+  for (const std::size_t k : mc::own_part_first(plans.size(), session.share))
+    if (!kept_entry(folder, plans[k].number)) missing.push_back(k);
+  Counter counter(plans.size() - missing.size(), plans.size(), progress);
+  mc::work_through(missing, session, [&](std::size_t k) {
+    // Another worker may have come here first.
+    if (!is_sealed(folder) && !kept_entry(folder, plans[k].number))
+      make_one(study, plans[k], folder);
+    counter.step();
+  });
+}
+
+/// The key of all trials, or nothing while one is missing.
+std::optional<Key> whole_key(const mc::Study& study, const std::string& folder,
+                             const std::vector<TrialPlan>& plans) {
+  Key key{salt_of(study.monte_carlo.seed), {}};
+  for (const TrialPlan& plan : plans) {
+    auto entry = kept_entry(folder, plan.number);
+    if (!entry) return std::nullopt;
+    key.entries.push_back(std::move(*entry));
+  }
+  return key;
+}
+
+}  // namespace
+
+std::optional<std::string> make_trials(const mc::Study& study, const std::string& folder,
+                                       const mc::WorkSession& session, const Progress& progress) {
+  open_trials(study, folder);
+  while (!is_sealed(folder)) {
+    const std::vector<TrialPlan> plans = design_trials(study.blind, study.monte_carlo.seed);
+    make_missing(study, folder, plans, session, progress);
+    if (const auto key = whole_key(study, folder, plans))
+      write_sealed(folder, "key.json", to_json(*key));
+    else if (session.time.is_over())
+      return std::nullopt;
+  }
+  open_sealed(folder, "key.json");
+  std::error_code none;
+  fs::remove_all(fs::path(folder) / "making", none);
+  return published_hash(folder, "key.json");
+}
+
+}  // namespace drift::blind

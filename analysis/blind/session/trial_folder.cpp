@@ -1,0 +1,104 @@
+#include "analysis/blind/session/trial_folder.hpp"
+
+#include <fmt/format.h>
+
+#include "analysis/blind/answer.hpp"
+#include "analysis/blind/session/seal.hpp"
+#include "core/base/check.hpp"
+#include "core/base/file_text.hpp"
+#include "mc/store/manifest.hpp"
+#include "mc/store/store.hpp"
+
+namespace drift::blind {
+namespace {
+
+namespace fs = std::filesystem;
+
+void require_blind(const mc::Study& study) {
+  const auto refuse = [&](const std::string& text) {
+    throw InputError(ExitCode::config, fmt::format("{}: {}", study.path, text));
+  };
+  if (!study.has_blind) refuse("no [blind] (expected which trials to make). Add a section [blind]");
+  if (!study.has_truth) refuse("no [truth] to make recordings from. Add a section [truth]");
+  if (study.filters.empty())
+    refuse("no [[filter]]: a blind study needs a nominal one. Add a section [[filter]]");
+  if (study.kind != RecordingKind::platform || study.plan.preset.empty())
+    refuse(
+        "[plan] has no preset (expected one, to be replaced by those of blind.plans). Write preset "
+        "= \"twelve\"");
+}
+
+void require_same(const mc::Study& study, const fs::path& folder) {
+  const auto held = file_text(folder / "study.toml");
+  if (!held && fs::exists(folder / "key.json"))
+    throw InputError(
+        ExitCode::store,
+        fmt::format("{}: holds a key but no study. Give an empty folder", folder.string()));
+  if (held && *held != study.text)
+    throw InputError(
+        ExitCode::store,
+        fmt::format("{}: holds the trials of another study (expected {} as it is now). "
+                    "Give another folder, or remove it",
+                    folder.string(), study.path));
+}
+
+/// What trials and answers depend on besides the program: every byte of the study.
+mc::Manifest manifest_of(const mc::Study& study) {
+  mc::Manifest manifest =
+      mc::make_manifest({study.text, study.monte_carlo.seed, 1}, study.text, {});
+  manifest.runs = study.blind.trials;
+  return manifest;
+}
+
+/// How many files dir/NNNN<name> there are, of the first so many numbers.
+std::size_t count(const fs::path& dir, const std::string& name, std::size_t numbers) {
+  std::size_t found = 0;
+  for (std::size_t n = 1; n <= numbers; ++n)
+    found += fs::exists(dir / fmt::format("{:04}{}", n, name));
+  return found;
+}
+
+}  // namespace
+
+ResultsFolder results_in(const fs::path& folder) {
+  return {folder.string(), "blind"};
+}
+
+std::string trial_name(std::size_t number) {
+  return fmt::format("trials/{:04}", number);
+}
+
+std::string worker_of_trials(const std::string& folder, std::size_t worker) {
+  return mc::worker_path((fs::path(folder) / "trials").string(), worker);
+}
+
+void open_trials(const mc::Study& study, const std::string& folder) {
+  require_blind(study);
+  require_same(study, folder);
+  begin_results(results_in(folder));
+  mc::claim_folder((fs::path(folder) / "trials").string(), manifest_of(study));
+  if (!fs::exists(fs::path(folder) / "study.toml"))
+    write_files(results_in(folder), {{"study.toml", study.text}});
+}
+
+TrialsState trials_state(const std::string& folder) {
+  const fs::path here(folder);
+  if (results_of(folder) != "blind" || !fs::exists(here / "study.toml"))
+    throw InputError(ExitCode::store,
+                     fmt::format("{}: holds no trials (expected those of `driftscope blind`). Give "
+                                 "the folder that was named with -o",
+                                 folder));
+  TrialsState s;
+  s.trials = mc::read_study((here / "study.toml").string()).blind.trials;
+  s.key_sealed = !published_hash(folder, "key.json").empty();
+  s.made = s.key_sealed ? s.trials : count(here / "making", ".json", s.trials);
+  for (std::size_t n = 1; n <= s.trials; ++n)
+    if (const auto answer = file_text(here / trial_name(n) / "answer.json")) {
+      ++s.answered;
+      s.failed += answer_of_json(*answer).failed;
+    }
+  s.scored = !published_hash(folder, "answers.json").empty() && fs::exists(here / "blind.json");
+  return s;
+}
+
+}  // namespace drift::blind

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "core/base/results_folder.hpp"
+#include "mc/study/study.hpp"
+
+namespace drift::blind {
+
+/// Called as trials are completed, from any thread: done, total.
+using Progress = std::function<void(std::size_t, std::size_t)>;
+
+/// The folder of a blind study:
+///
+///   study.toml                 the blind study itself
+///   trials/manifest.json       the same, with what it is computed with, as that of `run`
+///   trials/worker-0000.lock    keeps two processes from being the same worker
+///   trials/NNNN/study.toml     what the solver gets: no truth
+///   trials/NNNN/recording.csv
+///   trials/NNNN/answer.json    what it said, and in time.json how long it took
+///   making/NNNN.json           of the key, until it is sealed
+///   key.json, key.sha256       what was hidden, and the hash that is published before anything is
+///                              diagnosed
+///   answers.json, answers.sha256
+ResultsFolder results_in(const std::filesystem::path& folder);
+/// Within the folder of the study, "trials/0003".
+std::string trial_name(std::size_t number);
+
+/// Looks whether the folder can hold this study, and makes it if need be. Any number of workers may
+/// do so at the same time. InputError (store) if it belongs to another study, or to a program whose
+/// results may differ; (config) if the study has no [blind], [truth], [[filter]] or preset.
+void open_trials(const mc::Study& study, const std::string& folder);
+
+/// The path of a worker's lock (mc/store/worker_lock.hpp), by the name of a file beside it.
+std::string worker_of_trials(const std::string& folder, std::size_t worker);
+
+/// How far a blind study is.
+struct TrialsState {
+  std::size_t trials = 0, made = 0, answered = 0, failed = 0;
+  bool key_sealed = false;
+  bool scored = false;  ///< and its results are written
+
+  bool complete() const { return scored && answered == trials; }
+};
+
+/// InputError (store) if the folder holds no blind study.
+TrialsState trials_state(const std::string& folder);
+
+}  // namespace drift::blind

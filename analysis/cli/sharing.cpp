@@ -1,0 +1,42 @@
+#include "analysis/cli/sharing.hpp"
+
+#include <fmt/format.h>
+
+#include "analysis/cli/run_options.hpp"
+#include "core/base/check.hpp"
+#include "mc/engine/batch_system.hpp"
+
+namespace drift::cli {
+
+mc::WorkerShare Sharing::share() const {
+  return worker.empty() ? mc::WorkerShare{} : parse_share(worker);
+}
+
+std::optional<double> Sharing::seconds() const {
+  if (max_wall.empty()) return std::nullopt;
+  return parse_duration("--max-wall", max_wall);
+}
+
+mc::WorkSession Sharing::session(int threads) const {
+  return {threads, share(), mc::WallTime(seconds())};
+}
+
+void Sharing::require_part(const std::string& advice) const {
+  const std::size_t tasks = mc::tasks_of_step(mc::process_variable);
+  if (tasks <= 1 || !worker.empty()) return;
+  throw InputError(
+      ExitCode::usage,
+      fmt::format("srun has started {} tasks that know nothing of each other: each would do the "
+                  "whole study (expected one task, MPI, or a part for each). {}",
+                  tasks, advice));
+}
+
+void add_sharing(CLI::App& app, Sharing& sharing) {
+  app.add_option("--worker", sharing.worker,
+                 "do part i of n of the study, i = 0 .. n - 1; auto: what Slurm, SGE or PBS says")
+      ->type_name("I/N|auto");
+  app.add_option("--max-wall", sharing.max_wall, "stop after this time, resumable: 55m, 1h30m")
+      ->type_name("TIME");
+}
+
+}  // namespace drift::cli

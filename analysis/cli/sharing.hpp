@@ -1,0 +1,30 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+#include "mc/engine/work_session.hpp"
+
+namespace drift::cli {
+
+/// What a command takes whose work several processes may share, each for a limited time.
+struct Sharing {
+  std::string worker;    ///< "i/n", "auto"
+  std::string max_wall;  ///< "55m"
+
+  /// All of the work where no part is asked for. InputError (usage).
+  mc::WorkerShare share() const;
+  std::optional<double> seconds() const;
+  /// One that begins at this moment.
+  mc::WorkSession session(int threads) const;
+  bool is_asked_for() const { return !worker.empty() || !max_wall.empty(); }
+  /// InputError (usage) if `srun` has started several processes that would each do everything;
+  /// `advice` says what to do.
+  void require_part(const std::string& advice) const;
+};
+
+/// --worker and --max-wall.
+void add_sharing(CLI::App& app, Sharing& sharing);
+
+}  // namespace drift::cli

@@ -1,0 +1,106 @@
+#include <filesystem>
+
+#include "analysis/blind/session/trial_folder.hpp"
+#include "analysis/cli/command.hpp"
+#include "analysis/cli/frozen_study.hpp"
+#include "analysis/cli/print.hpp"
+#include "analysis/cli/progress.hpp"
+#include "analysis/cli/study/megabytes.hpp"
+#include "analysis/cli/study_program.hpp"
+#include "analysis/planning/shared_steps.hpp"
+#include "core/base/results_folder.hpp"
+#include "mc/store/study_state.hpp"
+
+namespace drift::cli {
+namespace {
+
+/// What a batch system asks before the last job of a study: 75, as a run that stopped in time.
+ExitCode code_of(bool complete) {
+  return complete ? ExitCode::ok : ExitCode::wall_time;
+}
+
+std::string ending(const mc::Session& s) {
+  return s.ended_utc.empty() ? "at work, or killed"
+                             : fmt::format("ended {} with exit code {}", s.ended_utc, s.exit_code);
+}
+
+std::string fact(const mc::Session& s, std::string_view key) {
+  for (const auto& [k, value] : s.facts)
+    if (k == key) return value;
+  return "?";
+}
+
+ExitCode status_of_study(const std::string& folder, const StudyProgram& program) {
+  mc::StudyReader reader(folder);
+  const auto [study, work] = frozen_study(folder, reader, program);
+  const mc::StudyState state = mc::state_of(reader, work.stop_rules);
+  const std::uint64_t total = state.asked * state.points.size();
+  show("{}: {} of {} runs, {} failed, {} of {} points complete\n", folder, state.runs, total,
+       state.failed, state.complete, state.points.size());
+  if (state.by_rule > 0) show("{}\n", state.ended_by_rule());
+  show("point       runs              failed            label\n");
+  std::uint64_t left = 0;
+  double cpu = 0.0;
+  for (std::size_t p = 0; p < state.points.size(); ++p) {
+    const mc::PointState& s = state.points[p];
+    show("{:>5}  {:>9} / {:<9} {:>7}  {:<9} {}\n", p, s.runs, state.asked, s.failed,
+         s.complete ? s.by_rule && s.runs < state.asked ? "stop rule" : "complete" : "",
+         reader.manifest().points[p].label);
+    if (!s.complete) left += state.asked - s.runs;
+    cpu += s.cpu_s;
+  }
+  if (left > 0 && state.runs > 0)
+    show("at most {} of CPU time to go\n",
+         duration_text(cpu / static_cast<double>(state.runs) * static_cast<double>(left)));
+  show("disk {:.3g} MB in {} worker files\n", megabytes_of(reader.files()), reader.files().size());
+  for (const mc::Session& s : reader.sessions())
+    show("session {} on {}, {}: {}\n", s.started_utc, fact(s, "host"),
+         std::filesystem::path(fact(s, "file")).filename().string(), ending(s));
+  for (const std::string& note : reader.notes()) show("damage: {}\n", note);
+  if (state.lost > 0) show("lost: {}\n", state.was_complete());
+  return code_of(state.all());
+}
+
+ExitCode status_of_trials(const std::string& folder) {
+  const blind::TrialsState s = blind::trials_state(folder);
+  show("{}: {} of {} trials made, {}; {} answered, {} of them without a diagnosis; {}\n", folder,
+       s.made, s.trials, s.key_sealed ? "the key is sealed" : "the key is not sealed yet",
+       s.answered, s.failed, s.scored ? "scored" : "not scored yet");
+  return code_of(s.complete());
+}
+
+ExitCode status_of_ranking(const std::string& folder) {
+  namespace fs = std::filesystem;
+  const bool written = fs::exists(fs::path(folder) / "rank.json");
+  if (!fs::exists(planning::steps_folder(folder))) {
+    show("{}: {}\n", folder, written ? "ranked" : "nothing is ranked yet");
+    return code_of(written);
+  }
+  const mc::StudyState state = planning::steps_state(folder);
+  const bool complete = written && state.finished > 0;
+  show("{}: {} of {} positions to add are chosen, {} candidates judged; {}\n", folder,
+       state.complete, state.points.size(), state.runs,
+       complete ? "the results are written" : "the results are not written yet");
+  return code_of(complete);
+}
+
+ExitCode status(const std::string& folder) {
+  if (results_of(folder) == "blind") return status_of_trials(folder);
+  if (results_of(folder) == "rank") return status_of_ranking(folder);
+  return status_of_study(folder, study_program());
+}
+
+}  // namespace
+
+Command status_command() {
+  const auto add_shared_folder = [](CLI::App& app, std::string& folder) {
+    app.add_option("folder", folder, "results folder of `run`, `blind` or `rank --improve`")
+        ->required();
+  };
+  return {"status", group::studies,
+          "how far the work in a folder is: runs or trials, failures, sessions, disk",
+          "driftscope status results/study",
+          with_arguments<std::string>(add_shared_folder, status)};
+}
+
+}  // namespace drift::cli
