@@ -7,6 +7,7 @@
 #include "analysis/diagnosis/advice/patched_study.hpp"
 #include "analysis/planning/position_toml.hpp"
 #include "analysis/report/diagnosis/advice_words.hpp"
+#include "analysis/report/diagnosis/form_words.hpp"
 #include "analysis/report/diagnosis/sections.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
 #include "core/base/results_folder.hpp"
@@ -136,6 +137,7 @@ InBrief diagnosis_in_brief(const Diagnosis& d) {
   if (d.verdict != Verdict::consistent) {
     add("Where", where_sentence(d.where));
     add("Held out", held_out_sentence(d.fit.held_out));
+    if (d.proposal) add("Proposal", form_sentence(*d.proposal));
   }
   if (d.site_doubt)
     brief.next = fmt::format("Next: diagnose again with --set site.latitude=\"{:.3f} deg\".",
