@@ -2,12 +2,14 @@
 
 #include "analysis/blind/blind_study.hpp"
 #include "analysis/blind/diagnosing_solver.hpp"
+#include "analysis/blind/rivals/export_trials.hpp"
 #include "analysis/blind/seal.hpp"
 #include "analysis/cli/answer.hpp"
 #include "analysis/cli/command.hpp"
 #include "analysis/cli/print.hpp"
 #include "analysis/cli/progress.hpp"
 #include "analysis/cli/stop_at_once.hpp"
+#include "analysis/inference/thresholds.hpp"
 #include "analysis/report/blind/report.hpp"
 #include "core/base/results_folder.hpp"
 
@@ -22,8 +24,27 @@ std::string stopped_text(const std::string& folder, std::size_t done, std::size_
       done, total, folder);
 }
 
+/// What others have to do with the trials.
+struct Others {
+  std::string export_to;  ///< folder for whoever wants to answer them; empty: none
+  bool rivals = false;    ///< simple methods answer them beside the diagnosis
+};
+
+void export_for(const Others& others, const std::string& folder) {
+  if (others.export_to.empty()) return;
+  const std::size_t trials = blind::export_trials(folder, others.export_to);
+  say("{} trials for others in {}, the key apart in {}/sealed\n", trials, others.export_to,
+      others.export_to);
+}
+
+std::vector<blind::RivalScore> rivals_of(const Others& others, const std::string& folder,
+                                         int threads) {
+  if (!others.rivals) return {};
+  return blind::score_rivals(folder, inference::SearchLimits::alpha, threads);
+}
+
 ExitCode blind(const StudyArguments& arguments, const std::string& folder,
-               const std::optional<std::string>& trials) {
+               const std::optional<std::string>& trials, const Others& others) {
   StudyArguments all = arguments;
   if (trials) all.sets.push_back("blind.trials=" + *trials);
   const mc::Study study = all.read();
@@ -33,6 +54,7 @@ ExitCode blind(const StudyArguments& arguments, const std::string& folder,
   results.key_hash = blind::make_trials(study, folder, arguments.threads,
                                         progress_reporter(arguments.progress, "recordings"));
   say("Key sealed in {}: SHA-256 {}\n", folder, results.key_hash);
+  export_for(others, folder);
   StopAtOnce stop("");
   const auto progress = progress_reporter(arguments.progress, "diagnoses");
   std::mutex guard;
@@ -47,6 +69,7 @@ ExitCode blind(const StudyArguments& arguments, const std::string& folder,
   say("Answers sealed: SHA-256 {}\n", results.answers_hash);
   results.scores = blind::score_folder(folder);
   results.summary = blind::summarise(results.scores);
+  results.rivals = rivals_of(others, folder, arguments.threads);
   const report::Report said =
       with_provenance(report::blind_report(results), report::provenance_of(study.path, {}));
   show_answer(said.brief, {report::to_text(said), folder, report::write_report(said, folder)});
@@ -64,12 +87,17 @@ Command blind_command() {
     StudyArguments study;
     std::string output;
     std::optional<std::string> trials;
+    Others others;
   };
   const auto add = [](CLI::App& app, Arguments& a) {
     add_study(app, a.study);
     add_output(app, a.output, "folder for trials, key, answers and report; the same one resumes")
         ->required();
     app.add_option("--trials", a.trials, "override blind.trials");
+    app.add_option("--export", a.others.export_to,
+                   "folder for whoever wants to answer: recordings and nominal studies, key apart")
+        ->type_name("DIR");
+    app.add_flag("--rivals", a.others.rivals, "score simple methods on the same trials too");
     add_progress(app, a.study.progress);
     add_full(app);
   };
@@ -78,7 +106,7 @@ Command blind_command() {
           "make recordings with concealed effects, diagnose each without the key, then score",
           "driftscope blind configs/blind_small.toml -o out/blind",
           with_arguments<Arguments>(
-              add, [](const Arguments& a) { return blind(a.study, a.output, a.trials); }),
+              add, [](const Arguments& a) { return blind(a.study, a.output, a.trials, a.others); }),
           Result::in_files,
           "stopped: nothing is answered yet; the same command goes on with the rest\n"};
 }
