@@ -167,13 +167,15 @@ std::optional<ScreenedForm> screened(const Grammar& grammar, const OwnTarget& pl
                       ? TimePart{When::window, 1, e.start, e.end, 0.5 * bins.length}
                       : grammar.when[e.when];
   out.form.log_prior = grammar.log_prior(out.form.where.kind, when);
+  // The price is that of the grid's points: what a setting gains between them is not counted.
+  const auto on_grid = info.score(bins.mean(columns_of(out.form, at)));
+  if (on_grid.dof == 0) return std::nullopt;
+  out.log_p = std::min(0.0, stats::log_tail(on_grid.T, on_grid.dof) - out.form.log_prior);
   out.form = with_setting_moved(out.form, at, bins, info);
   const auto s = info.score(bins.mean(columns_of(out.form, at)));
-  if (s.dof == 0) return std::nullopt;
   out.T = s.T;
   out.dof = s.dof;
   out.amplitude = s.amplitude;
-  out.log_p = std::min(0.0, stats::log_tail(s.T, s.dof) - out.form.log_prior);
   return out;
 }
 
