@@ -159,6 +159,7 @@ Report diagnosis_report(const mc::Study& study, const Diagnosis& d, const Diagno
   if (d.verdict != Verdict::consistent)
     for (const auto& sentence : {where_sentence(d.where), held_out_sentence(d.fit.held_out)})
       if (!sentence.empty()) report.headlines.push_back(sentence);
+  if (d.proposal) report.headlines.push_back(form_sentence(*d.proposal));
   if (!d.advice.empty()) report.headlines.push_back(advice_text(d.advice.front()));
   report.add(sections_of(d, diagnosis_sections, diagnosis_parts));
   report.add(source.more);
