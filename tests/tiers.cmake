@@ -6,7 +6,7 @@
 set(DRIFT_FULL_TESTS
   Advise.* AllanFit.* AdviceFollowed.* BlindInterrupted.* BlindSmall.* BlindStudy.* Bytes.* Crossed*.* Diagnose.* DiagnoseCommand.*
   Equation.* Estimators/EveryTermUnder.* EveryTerm*.* FailedWrite.* FitEitherEquation.* LambdaFilter.* Matched*.*
-  Nearest.* NothingReplaced.* OddInput.* OwnTermCommands.* RankCommand.* Documents.* Recording/BinaryFuzz.*
+  Nearest.* NothingReplaced.* OddInput.* OwnTermCommands.* RankCommand.* Rivals.* ScreenForms.* Documents.* Recording/BinaryFuzz.*
   RecordingFuzz.* Search.* Sensitivity.* SharedCandidates.* SharedTrials.* SiteDoubt.* Strapdown*.* StudyConfig.Misspelt*
   StudyMutation.* StudyReport.*
   SweepPictures.* UnequalRowsDiagnosed.*)

@@ -1,5 +1,7 @@
 #include <mutex>
 
+#include "analysis/blind/rivals/export_trials.hpp"
+#include "analysis/blind/rivals/score_rivals.hpp"
 #include "analysis/blind/session/answer_trials.hpp"
 #include "analysis/blind/session/diagnosing_solver.hpp"
 #include "analysis/blind/session/make_trials.hpp"
@@ -9,6 +11,7 @@
 #include "analysis/cli/progress.hpp"
 #include "analysis/cli/sharing.hpp"
 #include "analysis/cli/stop_at_once.hpp"
+#include "analysis/inference/thresholds.hpp"
 #include "analysis/report/blind/report.hpp"
 #include "core/base/results_folder.hpp"
 #include "mc/store/worker_lock.hpp"
@@ -17,11 +20,31 @@ namespace drift::cli {
 namespace {
 
 /// What `blind` takes beside a study.
+/// What others have to do with the trials.
+struct Others {
+  std::string export_to;  ///< folder for whoever wants to answer them; empty: none
+  bool rivals = false;    ///< simple methods answer them beside the diagnosis
+};
+
 struct BlindArguments {
   std::string folder;
   std::optional<std::string> trials;
   Sharing sharing;
+  Others others;
 };
+
+void export_for(const Others& others, const std::string& folder) {
+  if (others.export_to.empty()) return;
+  const std::size_t trials = blind::export_trials(folder, others.export_to);
+  say("{} trials for others in {}, the key apart in {}/sealed\n", trials, others.export_to,
+      others.export_to);
+}
+
+std::vector<blind::RivalScore> rivals_of(const Others& others, const std::string& folder,
+                                         int threads) {
+  if (!others.rivals) return {};
+  return blind::score_rivals(folder, inference::SearchLimits::alpha, threads);
+}
 
 /// What is said where the diagnoses are stopped.
 std::string stopped_text(const std::string& folder, std::size_t done, std::size_t total) {
@@ -55,10 +78,12 @@ ExitCode tell_unfinished(const std::string& folder, const mc::WorkerShare& share
 }
 
 /// Scores what is answered, writes and shows it.
-ExitCode present(const mc::Study& study, report::BlindResults results, const std::string& folder) {
+ExitCode present(const mc::Study& study, report::BlindResults results, const std::string& folder,
+                 const Others& others, int threads) {
   say("Answers sealed: SHA-256 {}\n", results.answers_hash);
   results.scores = blind::score_folder(folder);
   results.summary = blind::summarise(results.scores);
+  results.rivals = rivals_of(others, folder, threads);
   const report::Report said =
       with_provenance(report::blind_report(results), report::provenance_of(study.path, {}));
   show_answer(said.brief, {report::to_text(said), folder, report::write_report(said, folder)});
@@ -89,6 +114,7 @@ ExitCode blind(const StudyArguments& arguments, const BlindArguments& given) {
   if (!key) return tell_unfinished(folder, session.share);
   results.key_hash = *key;
   say("Key sealed in {}: SHA-256 {}\n", folder, results.key_hash);
+  export_for(given.others, folder);
   StopAtOnce stop("");
   const auto progress = progress_reporter(arguments.progress, "diagnoses");
   std::mutex guard;
@@ -101,7 +127,7 @@ ExitCode blind(const StudyArguments& arguments, const BlindArguments& given) {
   const auto answers = blind::answer_trials(folder, blind::diagnosing_solver(), session, answered);
   if (!answers) return tell_unfinished(folder, session.share);
   results.answers_hash = *answers;
-  return present(study, std::move(results), folder);
+  return present(study, std::move(results), folder, given.others, arguments.threads);
 }
 
 }  // namespace
@@ -118,6 +144,10 @@ Command blind_command() {
         ->required();
     app.add_option("--trials", a.blind.trials, "override blind.trials");
     add_sharing(app, a.blind.sharing);
+    app.add_option("--export", a.blind.others.export_to,
+                   "folder for whoever wants to answer: recordings and nominal studies, key apart")
+        ->type_name("DIR");
+    app.add_flag("--rivals", a.blind.others.rivals, "score simple methods on the same trials too");
     add_progress(app, a.study.progress);
     add_full(app);
   };

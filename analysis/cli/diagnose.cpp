@@ -113,6 +113,7 @@ ExitCode diagnose_platform(const StudyArguments& arguments, const mc::Study& stu
   flush_output();
   diagnosis::RecordingsOptions options;
   options.diagnose.progress = stage_reporter(arguments.progress, "diagnose");
+  options.diagnose.proposing = diagnosis::Proposing::where_unexplained;
   if (advise) {
     options.advising = diagnosis::Advising::on_request;
     options.asked = *advise;

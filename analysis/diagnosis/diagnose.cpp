@@ -18,6 +18,7 @@
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/preparation/covariates.hpp"
 #include "analysis/preparation/recorded_test.hpp"
+#include "analysis/proposal/propose.hpp"
 #include "analysis/search/other_equation.hpp"
 #include "analysis/search/posterior.hpp"
 #include "core/base/check.hpp"
@@ -160,6 +161,11 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
     causes.causes[k].held_out_gain = member_gains[k];
   Located place = located(nominal, found, judged, test.timeline, covariates, options.signals);
 
+  if (judged.verdict == Verdict::unexplained && options.proposing != Proposing::left_out) {
+    stages.begin("forms", 0.0);
+    d.proposal = proposal::propose(found, noise_without_effect(nominal, found), test,
+                                   options.search.alpha, {options.folds, recording_ends, {}});
+  }
   stages.begin("starts", 0.07);
   d.fit.start_spread_before = d.fit.start_spread_after = fitted.start_spread;
   if (best && !starts.empty())

@@ -3,13 +3,17 @@
 #include <span>
 
 #include "analysis/diagnosis/findings/diagnosis.hpp"
-#include "analysis/diagnosis/held_out.hpp"
+#include "analysis/diagnosis/held_out/held_out.hpp"
 #include "analysis/diagnosis/located.hpp"
 #include "analysis/diagnosis/stages.hpp"
 #include "analysis/search/search.hpp"
 #include "mc/study/study.hpp"
 
 namespace drift::diagnosis {
+
+/// Whether a form is looked for where nothing known explains a misfit (proposal/propose.hpp). It
+/// takes places of the process's own terms meanwhile: not while other threads diagnose.
+enum class Proposing { left_out, where_unexplained };
 
 /// How much a diagnosis does.
 struct DiagnoseOptions {
@@ -21,6 +25,7 @@ struct DiagnoseOptions {
   int threads = 0;            ///< 0: all; what is found does not depend on it
   StageReport progress;
   NamedBy named_by = NamedBy::held_out;
+  Proposing proposing = Proposing::left_out;
 };
 
 /// Compares recordings with the study's first filter (the nominal model): is there missing physics,

@@ -30,9 +30,11 @@ Diagnosis advised(Diagnosis d, const preparation::Prepared& test,
   return d;
 }
 
-/// Nothing is said of causes, and no probabilities, at a latitude that is not the recording's.
+/// Nothing is said of causes and forms, and no probabilities, at a latitude that is not the
+/// recording's.
 Diagnosis of_another_place(Diagnosis d) {
   d.probabilities = {};
+  d.proposal.reset();
   std::erase_if(d.remarks, [](const Remark& r) {
     return std::holds_alternative<remark::StrongestLeft>(r) ||
            std::holds_alternative<remark::FreeInputExplains>(r) ||

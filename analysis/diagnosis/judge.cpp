@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "analysis/diagnosis/held_out.hpp"
+#include "analysis/diagnosis/held_out/held_out.hpp"
 #include "analysis/diagnosis/noise_found.hpp"
 #include "analysis/inference/thresholds.hpp"
 

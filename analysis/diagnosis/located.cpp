@@ -11,17 +11,6 @@ namespace {
 constexpr int bins_per_position = 6;
 constexpr std::size_t most_signals = 2, most_windows = 8;
 
-/// The noise under which the missing input is recovered: noise that was needed only because of the
-/// effect would take the signal away.
-inference::NoiseModel noise_without_effect(const search::Fitted& nominal,
-                                           const search::Search& found) {
-  if (found.significant) return nominal.noise.model;
-  inference::NoiseModel white = search::declared_noise(nominal.filter);
-  white.acc_factor = nominal.noise.model.acc_factor;
-  white.gimbal_factor = nominal.noise.model.gimbal_factor;
-  return white;
-}
-
 std::string equation_of(const Judged& judged, const std::vector<InputEstimate>& inputs,
                         const inference::Window* window) {
   using Equation = inference::Equation;
@@ -33,6 +22,15 @@ std::string equation_of(const Judged& judged, const std::vector<InputEstimate>& 
 }
 
 }  // namespace
+
+inference::NoiseModel noise_without_effect(const search::Fitted& nominal,
+                                           const search::Search& found) {
+  if (found.significant) return nominal.noise.model;
+  inference::NoiseModel white = search::declared_noise(nominal.filter);
+  white.acc_factor = nominal.noise.model.acc_factor;
+  white.gimbal_factor = nominal.noise.model.gimbal_factor;
+  return white;
+}
 
 Located located(const search::Fitted& nominal, const search::Search& found, const Judged& judged,
                 const Timeline& timeline, const std::vector<preparation::Covariate>& covariates,

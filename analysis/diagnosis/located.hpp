@@ -17,6 +17,11 @@ struct Located {
 /// Whether the missing input is recovered as a time series.
 enum class Signals { recovered, left_out };
 
+/// The noise under which what is missing is a signal: noise that was needed only because of the
+/// effect would take it away.
+inference::NoiseModel noise_without_effect(const search::Fitted& nominal,
+                                           const search::Search& found);
+
 /// Where it is by the best explanation there is, else by the strongest window; what it looks like
 /// with everything in it that the nominal model leaves.
 Located located(const search::Fitted& nominal, const search::Search& found, const Judged& judged,

@@ -91,7 +91,10 @@ Diagnosis diagnose_case(const mc::Study& study, const CaseStudy& of,
                                  "one). Add a section [[filter]] with name, coupling and terms",
                                  study.path));
   const FilterSpec& nominal = study.filters.front();
-  Diagnosis d = diagnosis::diagnose(case_filter(nominal, of), of.measured(), {}, {}, options);
+  diagnosis::DiagnoseOptions as_asked = options;
+  as_asked.proposing =
+      diagnosis::Proposing::left_out;  // a strapdown study takes no term of its own
+  Diagnosis d = diagnosis::diagnose(case_filter(nominal, of), of.measured(), {}, {}, as_asked);
   d.errors = errors_of(d, of, study.site.gravity);
   rename(d);
   for (search::Cause& cause : d.causes)

@@ -10,6 +10,7 @@
 #include "analysis/diagnosis/findings/fit_comparison.hpp"
 #include "analysis/diagnosis/findings/not_examined.hpp"
 #include "analysis/diagnosis/findings/probabilities.hpp"
+#include "analysis/diagnosis/findings/proposal.hpp"
 #include "analysis/diagnosis/findings/recovered_signal.hpp"
 #include "analysis/diagnosis/findings/remark.hpp"
 #include "analysis/diagnosis/findings/twins.hpp"
@@ -60,6 +61,7 @@ struct Diagnosis {
   CosineMatrix cosines;
   std::vector<Twins> inseparable;  ///< what this plan can never tell apart
   std::optional<NearestKnown> nearest_known;
+  std::optional<Proposal> proposal;  ///< where it is unexplained and a form was looked for
   std::optional<SiteDoubt> site_doubt;
   std::vector<ErrorOfKind> errors;  ///< of a recording on a case: what held-out data are missed by
   std::vector<Advice> advice;       ///< most useful first

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/blind/rivals/score_rivals.hpp"
 #include "analysis/blind/summary.hpp"
 #include "analysis/report/page/report.hpp"
 
@@ -14,6 +15,7 @@ struct BlindResults {
   blind::Summary summary;
   std::vector<blind::TrialScore> scores;
   std::string key_hash = {}, answers_hash = {};
+  std::vector<blind::RivalScore> rivals = {};  ///< where they were asked for
 };
 
 /// All a blind study has to say: tables, pictures and blind.json with hashes, targets, all scores,

@@ -7,11 +7,11 @@
 namespace drift::report {
 
 /// What is said of a blind study, in this order.
-DRIFT_SECTIONS(BlindResults, blind_sections, targets, power, reliability, groups, further,
+DRIFT_SECTIONS(BlindResults, blind_sections, targets, power, reliability, groups, further, others,
                confusion, misses);
 inline constexpr Part blind_parts[] = {Part::evidence, Part::evidence, Part::how_sure,
-                                       Part::details,  Part::details,  Part::how_sure,
-                                       Part::how_sure};
+                                       Part::details,  Part::details,  Part::details,
+                                       Part::how_sure, Part::how_sure};
 
 Json blind_document(const BlindResults& results);
 

@@ -228,6 +228,8 @@ Json diagnosis_document(const Diagnosis& d) {
                 "smallest_detectable unit size_sigma log_bayes probability adequate observable");
   out["not_examined"] = not_examined_json(d.not_examined);
   out["probabilities"] = probabilities_json(d.probabilities);
+  out["proposal"] = d.proposal ? Json(d.proposal->text) : Json(nullptr);
+  out["proposal_fit"] = form_json(d.proposal);
   out["fit"] = fit_json(d);
   out["advice"] = advice_json(d.advice);
   out["model"] = d.has_patch ? Json("patched.toml") : Json(nullptr);

@@ -7,6 +7,7 @@
 #include "analysis/diagnosis/advice/patched_study.hpp"
 #include "analysis/planning/position_toml.hpp"
 #include "analysis/report/diagnosis/advice_words.hpp"
+#include "analysis/report/diagnosis/form_words.hpp"
 #include "analysis/report/diagnosis/sections.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
 #include "core/base/results_folder.hpp"
@@ -136,6 +137,7 @@ InBrief diagnosis_in_brief(const Diagnosis& d) {
   if (d.verdict != Verdict::consistent) {
     add("Where", where_sentence(d.where));
     add("Held out", held_out_sentence(d.fit.held_out));
+    if (d.proposal) add("Proposal", form_sentence(*d.proposal));
   }
   if (d.site_doubt)
     brief.next = fmt::format("Next: diagnose again with --set site.latitude=\"{:.3f} deg\".",
@@ -157,6 +159,7 @@ Report diagnosis_report(const mc::Study& study, const Diagnosis& d, const Diagno
   if (d.verdict != Verdict::consistent)
     for (const auto& sentence : {where_sentence(d.where), held_out_sentence(d.fit.held_out)})
       if (!sentence.empty()) report.headlines.push_back(sentence);
+  if (d.proposal) report.headlines.push_back(form_sentence(*d.proposal));
   if (!d.advice.empty()) report.headlines.push_back(advice_text(d.advice.front()));
   report.add(sections_of(d, diagnosis_sections, diagnosis_parts));
   report.add(source.more);

@@ -9,10 +9,11 @@ namespace drift::report {
 
 /// What is said of a diagnosis, in this order.
 DRIFT_SECTIONS(diagnosis::Diagnosis, diagnosis_sections, verdict, kept_in_mind, odds, where,
-               windows, what, rivals, fit, moved, whiteness, noise, advice);
+               windows, what, form_that_fits, rivals, fit, moved, whiteness, noise, advice);
 inline constexpr Part diagnosis_parts[] = {
-    Part::evidence, Part::how_sure, Part::how_sure, Part::evidence, Part::details, Part::how_sure,
-    Part::details,  Part::evidence, Part::details,  Part::how_sure, Part::details, Part::how_sure};
+    Part::evidence, Part::how_sure, Part::how_sure, Part::evidence, Part::details,
+    Part::how_sure, Part::evidence, Part::details,  Part::evidence, Part::details,
+    Part::how_sure, Part::details,  Part::how_sure};
 
 /// Causes are told from a model without, before and after; of a consistent verdict on the page
 /// alone.
@@ -42,6 +43,9 @@ struct TimeAxis {
   std::string label;
 };
 TimeAxis time_axis(const std::vector<double>& t, const diagnosis::Where& where);
+
+/// The facts about a proposed form; null without one.
+Json form_json(const std::optional<diagnosis::Proposal>& proposal);
 
 Json diagnosis_document(const diagnosis::Diagnosis& diagnosis);
 

@@ -164,15 +164,17 @@ OwnTermSet with_term(OwnTermSet set, Section& section) {
 
 }  // namespace
 
-OwnTermSet read_own_terms(Section& root) {
-  OwnTermSet set;
+OwnTermSet read_own_terms(Section& root, OwnTermSet before) {
+  OwnTermSet set = std::move(before);
   std::vector<Section> sections = root.sections("term");
-  if (sections.size() > most_own_terms) {
+  if (set.terms.size() + sections.size() > most_own_terms) {
     root.report().error(
-        sections[most_own_terms].at(),
+        sections[most_own_terms - set.terms.size()].at(),
         fmt::format("the study brings {} terms (expected at most {} [[term]]). Remove some",
                     sections.size(), most_own_terms));
-    sections.erase(sections.begin() + most_own_terms, sections.end());
+    sections.erase(
+        sections.begin() + static_cast<std::ptrdiff_t>(most_own_terms - set.terms.size()),
+        sections.end());
   }
   for (Section& section : sections) set = with_term(std::move(set), section);
   return set;

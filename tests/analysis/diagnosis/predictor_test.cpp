@@ -1,11 +1,11 @@
-#include "analysis/diagnosis/predictor.hpp"
+#include "analysis/diagnosis/held_out/predictor.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
 #include <numbers>
 
-#include "analysis/diagnosis/held_out_part.hpp"
+#include "analysis/diagnosis/held_out/held_out_part.hpp"
 #include "tests/support/dense_covariance.hpp"
 #include "tests/support/random_problem.hpp"
 

@@ -1,4 +1,4 @@
-#include "analysis/diagnosis/held_out.hpp"
+#include "analysis/diagnosis/held_out/held_out.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -6,8 +6,8 @@
 #include <numeric>
 #include <optional>
 
-#include "analysis/diagnosis/held_out_part.hpp"
-#include "analysis/diagnosis/predictor.hpp"
+#include "analysis/diagnosis/held_out/held_out_part.hpp"
+#include "analysis/diagnosis/held_out/predictor.hpp"
 #include "analysis/inference/thresholds.hpp"
 #include "mc/task/campaign.hpp"
 

@@ -1,4 +1,4 @@
-#include "analysis/diagnosis/predictor.hpp"
+#include "analysis/diagnosis/held_out/predictor.hpp"
 
 #include <cmath>
 #include <numbers>

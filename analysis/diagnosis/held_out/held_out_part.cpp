@@ -1,4 +1,4 @@
-#include "analysis/diagnosis/held_out_part.hpp"
+#include "analysis/diagnosis/held_out/held_out_part.hpp"
 
 #include <limits>
 #include <set>

@@ -1,0 +1,98 @@
+#include "analysis/proposal/instants.hpp"
+
+#include <fmt/format.h>
+
+#include <functional>
+
+#include "core/physics/own/own_terms.hpp"
+
+namespace drift::proposal {
+namespace {
+
+/// The middle of an interval.
+struct Middle {
+  const Interval* interval;
+  const Node* node;
+  double between(double at0, double at1) const { return 0.5 * (at0 + at1); }
+};
+
+class Path {
+ public:
+  explicit Path(const Timeline& timeline) {
+    for (const Interval& i : timeline.intervals)
+      middles_.push_back({&i, &timeline.nodes[i.middle_node()]});
+  }
+  VecX of(const std::function<double(const Middle&)>& value) const {
+    VecX out(static_cast<Eigen::Index>(middles_.size()));
+    for (Eigen::Index k = 0; k < out.size(); ++k) out[k] = value(middles_[k]);
+    return out;
+  }
+  const std::vector<Middle>& middles() const { return middles_; }
+
+ private:
+  std::vector<Middle> middles_;
+};
+
+/// Covariates by the names that equations have for them.
+std::vector<Quantity> covariates_of(const Timeline& timeline, const Path& path) {
+  std::vector<Quantity> out;
+  if (timeline.has_temperature) {
+    out.push_back({"(temperature/1)", 0, path.of([](const Middle& m) {
+                     return m.between(m.interval->around0.temperature,
+                                      m.interval->around1.temperature);
+                   })});
+    out.push_back({"(temperature_rate*3600)", 0, path.of([](const Middle& m) {
+                     return (m.interval->around1.temperature - m.interval->around0.temperature) /
+                            m.interval->length() * 3600.0;
+                   })});
+  }
+  if (timeline.has_field)
+    for (int a = 0; a < 3; ++a)
+      out.push_back({fmt::format("(field_{}/1e-4)", "xyz"[a]), 0, path.of([&](const Middle& m) {
+                       const Vec3 field_l =
+                           0.5 * (m.interval->around0.field_l + m.interval->around1.field_l);
+                       return field_l.dot(m.node->R_lr.col(a)) / 1e-4;
+                     })});
+  for (std::size_t k = 0; k < own_terms().covariates.size(); ++k)
+    if (timeline.has_further & (1u << k))
+      out.push_back({own_terms().covariates[k], 0, path.of([&](const Middle& m) {
+                       return m.between(m.interval->around0.further[k],
+                                        m.interval->around1.further[k]);
+                     })});
+  return out;
+}
+
+}  // namespace
+
+Instants instants_of(const Timeline& timeline) {
+  const Path path(timeline);
+  Instants out;
+  out.t = path.of([](const Middle& m) { return m.node->t - m.interval->t_begin; });
+  out.t_position = path.of(
+      [](const Middle& m) { return m.interval->slew ? 0.0 : m.node->t - m.interval->t_dwell; });
+  for (const Middle& m : path.middles()) out.position.push_back(m.interval->position);
+  for (int a = 0; a < 3; ++a) {
+    out.force[a] = path.of([&](const Middle& m) { return m.node->R_lr(2, a); });
+    out.gimbal[a] = path.of([&](const Middle& m) {
+      const double heading = m.between(m.interval->heading0, m.interval->heading1);
+      return gimbal_angles<double>(case_attitude(heading).transpose() * m.node->R_lr)[a];
+    });
+  }
+  std::vector<Quantity> all;
+  for (int a = 0; a < 3; ++a) all.push_back({fmt::format("f_{}", "xyz"[a]), 1, out.force[a]});
+  const double earth = detail::earth_rate;  // rates as parts of the Earth's: of order one
+  for (int a = 0; a < 3; ++a)
+    all.push_back(
+        {fmt::format("(omega_ic_{}/{:.4g})", "xyz"[a], earth), 0, path.of([&](const Middle& m) {
+           return m.node->omega_ic_l.dot(m.node->R_lr.col(a)) / earth;
+         })});
+  for (int a = 0; a < 3; ++a)
+    all.push_back({fmt::format("(cmd_{}/{:.4g})", "xyz"[a], earth), 0,
+                   path.of([&](const Middle& m) { return m.interval->omega_cmd_p[a] / earth; })});
+  for (Quantity& q : covariates_of(timeline, path)) all.push_back(std::move(q));
+  for (Quantity& q : all)
+    if (q.value.cwiseAbs().maxCoeff() > 0.0) out.quantities.push_back(std::move(q));
+  return out;
+}
+
+}  // namespace drift::proposal

@@ -1,0 +1,50 @@
+#include "analysis/proposal/move_setting.hpp"
+
+#include <cmath>
+
+namespace drift::proposal {
+namespace {
+
+/// How far the next points of the grid are from a setting, as a factor: harmonics lie half a cycle
+/// of the whole test apart, time constants and widths a factor of two.
+double grid_step(const Form& form, const Instants& at) {
+  if (form.when.kind != TimePart::Kind::harmonic) return 2.0;
+  const double length = at.t.maxCoeff() - at.t.minCoeff();
+  return 1.0 + 0.5 * form.when.setting / length;
+}
+
+}  // namespace
+
+Form with_setting_moved(Form form, const Instants& at, const Bins& bins,
+                        const PlaceInformation& info) {
+  double* setting = moved_setting(form);
+  if (setting == nullptr) return form;
+  const double step = std::log(grid_step(form, at)), start = *setting;
+  const auto T_at = [&](double log_factor) {
+    *setting = start * std::exp(log_factor);
+    return info.score(bins.mean(columns_of(form, at))).T;
+  };
+  double best = 0.0, top = T_at(0.0);
+  for (double width = step; width > 1e-3 * step; width *= 0.3)
+    for (const double off : {-0.9, -0.6, -0.3, 0.3, 0.6, 0.9}) {
+      const double at_here = best + off * width;
+      if (std::abs(at_here) > step) continue;
+      if (const double T = T_at(at_here); T > top) {
+        top = T;
+        best = at_here;
+      }
+    }
+  // Sigma by the curvature of T over a distance at which it changes by more than rounding.
+  double h = 1e-3 * step;
+  double fall = 0.0;
+  for (; h < step; h *= 2.0) {
+    fall = top - 0.5 * (T_at(best - h) + T_at(best + h));
+    if (fall > 0.5) break;
+  }
+  *setting = start * std::exp(best);
+  // T falls by (h / sigma)^2; where it hardly falls the grid's own width is all that is known.
+  *sigma_of_moved(form) = *setting * (fall > 0.0 ? std::min(step, h / std::sqrt(fall)) : step);
+  return form;
+}
+
+}  // namespace drift::proposal

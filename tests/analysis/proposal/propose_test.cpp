@@ -1,0 +1,68 @@
+// What nothing known explains is proposed as a term, and the term does what is said of it.
+#include "analysis/proposal/propose.hpp"
+
+#include <gtest/gtest.h>
+
+#include "analysis/diagnosis/diagnose.hpp"
+#include "analysis/report/diagnosis/form_words.hpp"
+#include "analysis/report/diagnosis/sentence.hpp"
+#include "tests/support/model_builders.hpp"
+#include "tests/support/own_terms.hpp"
+
+namespace drift::proposal::propose_test {
+namespace {
+
+using namespace drift::test;
+
+/// A test of a truth whose gyro y oscillates in some attitudes.
+struct Oscillating {
+  Timeline timeline = preset_timeline("twelve", CommandLaw::free, 1800.0, 90.0);
+  Readout readout;
+  Measurements measured;
+  Oscillating() {
+    const OwnTermsHeld hidden(
+        own_term("hidden", "drift.y", "A*sin(2*pi*t/P)*step(abs(f_z) - 0.6)",
+                 "A = { unit = 'deg/h', prior = 0.1 }, P = { unit = 'min', value = 41 }"));
+    TruthSpec truth = base_truth(Coupling::eq5);
+    truth.active |= params_named("hidden");
+    TruthDraw draw = draw_truth(truth, timeline.chains, 11, 1);
+    draw.theta[param("hidden_A")] = 0.06 * deg_per_h;
+    draw.theta[param("hidden_P")] = 41.0 * 60.0;
+    measured = Simulator(truth, readout).run(timeline, draw, 11, 1).measured;
+  }
+  diagnosis::Diagnosis diagnose(diagnosis::Proposing proposing) const {
+    diagnosis::DiagnoseOptions options;
+    options.proposing = proposing;
+    options.whiteness_draws = 0;
+    options.signals = diagnosis::Signals::left_out;
+    return diagnosis::diagnose(base_filter(Coupling::eq5), {timeline, readout, measured}, {}, {},
+                               options);
+  }
+};
+
+TEST(Diagnose, AFormIsProposedThatNamesTheEffectOnceItIsInTheStudy) {
+  const Oscillating test;
+  const OwnTermSet before = own_terms();
+  const auto first = test.diagnose(diagnosis::Proposing::where_unexplained);
+  EXPECT_TRUE(own_terms() == before);  // the library is as it was
+  ASSERT_EQ(first.verdict, diagnosis::Verdict::unexplained) << report::sentence(first);
+  ASSERT_TRUE(first.proposal);
+  const diagnosis::Proposal& p = *first.proposal;
+  EXPECT_EQ(p.acts_on, "drift.y") << p.text;
+  EXPECT_GT(p.held_out_gain, inference::WeighLimits::held_out);
+  EXPECT_LT(p.chi2_per_dof_after, p.chi2_per_dof_before);
+  EXPECT_LT(p.p_value, inference::SearchLimits::alpha);
+  EXPECT_NE(report::form_sentence(p).find("not a cause"), std::string::npos);
+  for (const search::CauseParameter& parameter : p.parameters)
+    if (parameter.unit == "min") {
+      EXPECT_NEAR(parameter.value, 41.0, 4.0 * parameter.sigma);
+    }
+
+  const OwnTermsHeld held(p.text);
+  const auto second = test.diagnose(diagnosis::Proposing::left_out);
+  ASSERT_EQ(second.verdict, diagnosis::Verdict::named) << report::sentence(second) << p.text;
+  EXPECT_EQ(second.causes.front().term, "form_1");
+}
+
+}  // namespace
+}  // namespace drift::proposal::propose_test
