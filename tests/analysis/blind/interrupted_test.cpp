@@ -125,12 +125,11 @@ TEST(BlindInterrupted, AStopSignalEndsTheProgramWithItsExitCodeAndAWord) {
   const ScratchFolder scratch;
   const std::string out = scratch.file("out"), err = scratch.file("err");
   for (int time = 0; time < 2; ++time) {
-    // As soon as the key is sealed the first diagnosis is on its way.
-    const std::string line = "'" DRIFT_PROGRAM "' blind " + test::config("blind_small.toml") +
-                             " --trials 1 --progress none -o '" + out + "' 2>'" + err +
-                             "' & pid=$!; until [ -e '" + out +
-                             "/key.sha256' ]; do sleep 0.05; done; sleep 0.2; kill -TERM $pid; "
-                             "wait $pid";
+    // As soon as it says that the key is sealed the first diagnosis is on its way.
+    const std::string line = "rm -f '" + err + "'; '" DRIFT_PROGRAM "' blind " +
+                             test::config("blind_small.toml") + " --trials 1 --progress none -o '" +
+                             out + "' 2>'" + err + "' & pid=$!; until grep -qs 'Key sealed' '" +
+                             err + "'; do sleep 0.05; done; sleep 0.2; kill -TERM $pid; wait $pid";
     const int status = std::system(line.c_str());
     EXPECT_EQ(WEXITSTATUS(status), 143);
     EXPECT_NE(text_of(err).find("the same command goes on"), std::string::npos);

@@ -103,6 +103,7 @@ TEST(CaseIdentify, ARestSaysSumsAndNoMore) {
     EXPECT_NE(p.key.find(' '), std::string::npos) << p.key;
   // The drift about the vertical, with what of it hangs on gravity.
   const StrapdownParameter* vertical = find(fit, "D_I_z + D_F_z");
+  for (auto& p : fit.parameters) fprintf(stderr, "%s %g %g\n", p.key.c_str(), p.value, p.sigma);
   ASSERT_NE(vertical, nullptr);
   EXPECT_NEAR(vertical->value, 0.1, 4.0 * vertical->sigma);
   EXPECT_LT(vertical->sigma, 0.05);
@@ -119,6 +120,8 @@ TEST(CaseDiagnose, NamesScaleAndDriftThatAreLeftOut) {
   const Recording recording = strapdown_recording(script(study, 12, 20.0), theta);
   const diagnosis::Diagnosis d = diagnose_case(study, case_study(study, recording));
   ASSERT_EQ(d.verdict, diagnosis::Verdict::named);
+  for (auto& c : d.causes) { fprintf(stderr, "%s.%s set %d p %g\n", c.term.c_str(), c.axis.c_str(), c.set, c.probability); for (auto& p : c.parameters) fprintf(stderr, "   %s %g %g\n", p.key.c_str(), p.value, p.sigma); }
+  for (auto& [k, v] : d.seconds) fprintf(stderr, "%s %g\n", k.c_str(), v);
   ASSERT_EQ(d.causes.size(), 1u);
   EXPECT_EQ(d.causes[0].term, "torquer_scale");
   const auto s_y = std::ranges::find(d.causes[0].parameters, "s_y", &search::CauseParameter::key);

@@ -3,10 +3,10 @@
 # time is up, one by a signal to its shell alone, and queued again until all is done. The results are
 # those of one process.
 #
-#   tests/cluster_jobs.sh PROGRAM CONFIG
+#   tests/cluster/stand_in.sh PROGRAM CONFIG
 set -uo pipefail
 program=$1 config=$2
-jobs=$(cd "$(dirname "$0")/../configs/cluster" && pwd)
+jobs=$(cd "$(dirname "$0")/../../configs/cluster" && pwd)
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 fail() {
