@@ -44,6 +44,9 @@ bool is_right(const Belief& belief, const KeyEntry& key) {
       return belief.kind == Belief::Kind::noise_only;
     case Stratum::single:
     case Stratum::pair:
+    case Stratum::other_equation:
+    case Stratum::noisy_single:
+    case Stratum::noisy_covariate:
       return belief.kind == Belief::Kind::named && same_effects(belief.causes, key.effects);
     case Stratum::outside:
     case Stratum::local:

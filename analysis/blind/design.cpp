@@ -51,13 +51,53 @@ double size_of(const mc::BlindSpec& spec, Stratum stratum, std::size_t level, St
       return spec.outside_size;
     case Stratum::single:
     case Stratum::local:
+    case Stratum::noisy_single:
+    case Stratum::noisy_covariate:
       return spec.sizes.empty() ? spec.smallest + (spec.largest - spec.smallest) * stream.uniform()
                                 : spec.sizes[level];
     case Stratum::null:
     case Stratum::wrong_noise:
+    case Stratum::other_equation:
       break;
   }
   return 0.0;
+}
+
+/// Trials of one stratum, plans, modes, couplings and sizes balanced; not numbered yet.
+std::vector<TrialPlan> trials_of(const mc::BlindSpec& spec, Stratum stratum, std::size_t count,
+                                 Stream stream) {
+  const auto plan = balanced(count, spec.plans.size(), stream);
+  const auto mode = balanced(count, spec.modes.size(), stream);
+  const auto coupling = balanced(count, spec.couplings.size(), stream);
+  const auto size = balanced(count, std::max<std::size_t>(1, spec.sizes.size()), stream);
+  std::vector<TrialPlan> trials;
+  for (std::size_t j = 0; j < count; ++j) {
+    TrialPlan t;
+    t.stratum = stratum;
+    t.index = j;
+    t.plan = spec.plans[plan[j]];
+    t.mode = spec.modes[mode[j]];
+    t.coupling = spec.couplings[coupling[j]];
+    t.size = size_of(spec, stratum, size[j], stream);
+    trials.push_back(t);
+  }
+  return trials;
+}
+
+/// Those that are asked for by number, one stratum after the other.
+std::vector<TrialPlan> further_trials(const mc::BlindSpec& spec, std::uint64_t seed) {
+  const std::pair<Stratum, std::uint64_t> asked[] = {
+      {Stratum::other_equation, spec.further.other_equation},
+      {Stratum::noisy_single, spec.further.noisy_single},
+      {Stratum::noisy_covariate, spec.further.noisy_covariate}};
+  std::vector<TrialPlan> trials;
+  for (const auto& [stratum, count] : asked) {
+    // The streams up to num_strata are those of the shares and of their order.
+    const auto number = static_cast<std::uint32_t>(stratum) + 1;
+    for (TrialPlan& t : trials_of(spec, stratum, count, Stream(seed, 0, Purpose::design, number)))
+      trials.push_back(std::move(t));
+  }
+  return trials;
 }
 
 }  // namespace
@@ -66,24 +106,13 @@ std::vector<TrialPlan> design_trials(const mc::BlindSpec& spec, std::uint64_t se
   const auto count = counts_of(spec.shares, spec.trials);
   std::vector<TrialPlan> trials;
   for (std::size_t s = 0; s < num_strata; ++s) {
-    Stream stream(seed, 0, Purpose::design, static_cast<std::uint32_t>(s));
-    const auto plan = balanced(count[s], spec.plans.size(), stream);
-    const auto mode = balanced(count[s], spec.modes.size(), stream);
-    const auto coupling = balanced(count[s], spec.couplings.size(), stream);
-    const auto size = balanced(count[s], std::max<std::size_t>(1, spec.sizes.size()), stream);
-    for (std::size_t j = 0; j < count[s]; ++j) {
-      TrialPlan t;
-      t.stratum = strata[s].value;
-      t.index = j;
-      t.plan = spec.plans[plan[j]];
-      t.mode = spec.modes[mode[j]];
-      t.coupling = spec.couplings[coupling[j]];
-      t.size = size_of(spec, t.stratum, size[j], stream);
-      trials.push_back(t);
-    }
+    const Stream stream(seed, 0, Purpose::design, static_cast<std::uint32_t>(s));
+    for (TrialPlan& t : trials_of(spec, strata[s].value, count[s], stream))
+      trials.push_back(std::move(t));
   }
   Stream order(seed, 0, Purpose::design, static_cast<std::uint32_t>(num_strata));
   shuffle(trials, order);
+  for (TrialPlan& t : further_trials(spec, seed)) trials.push_back(std::move(t));
   for (std::size_t k = 0; k < trials.size(); ++k) trials[k].number = k + 1;
   return trials;
 }

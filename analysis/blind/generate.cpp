@@ -109,6 +109,38 @@ std::vector<Sized> pair_effects(const mc::Study& study, const SizingBench& bench
   return first;
 }
 
+/// The nominal equation is the wrong one: what that is, and what it leaves of a test.
+HiddenEffect other_equation(const FilterSpec& nominal, const World& world, std::uint64_t seed,
+                            std::uint64_t run) {
+  const double truth = *facts(facts(world.truth.coupling).settles_to).lambda;
+  World as_nominal = world;
+  as_nominal.truth.coupling = nominal.coupling;
+  const SizingBench bench(as_nominal, nominal, seed, run);
+  Source jump;
+  jump.put = [truth](World& w, double) {
+    w.truth.coupling = Coupling::lambda;
+    w.truth.active.set(closure_param);
+    w.draw.theta[closure_param] = truth;
+  };
+  const Absorption::Size size = bench.absorption().size_of(bench.signal(jump, 1.0));
+  HiddenEffect e;
+  e.term = closure_term;
+  e.words = "the nominal equation is the wrong one";
+  e.parameters = {{std::string(TermLibrary::specs[closure_param].key.view()), truth, "1"}};
+  e.size = size.left;
+  e.absorbed = size.absorbed;
+  return e;
+}
+
+/// Terms that follow a covariate.
+std::vector<std::size_t> following(std::vector<std::size_t> terms) {
+  std::erase_if(terms, [](std::size_t t) {
+    const Needs& needs = TermLibrary::terms[t].needs;
+    return !needs.temperature && !needs.field;
+  });
+  return terms;
+}
+
 /// What is hidden, and put into `world`.
 void hide(const mc::Study& study, const FilterSpec& nominal, const TrialPlan& plan, World& world,
           KeyEntry& key) {
@@ -119,12 +151,24 @@ void hide(const mc::Study& study, const FilterSpec& nominal, const TrialPlan& pl
     key.effects = {spoil_noise(plan.index, world, stream)};
     return;
   }
+  if (plan.stratum == Stratum::other_equation) {
+    key.effects = {other_equation(nominal, world, seed, plan.number)};
+    key.total_size = key.effects.front().size;
+    return;
+  }
   const SizingBench bench(world, nominal, seed, plan.number);
   std::vector<Sized> sized;
+  const auto one_of = [&](const std::vector<std::size_t>& terms) {
+    return library_effects(bench, nominal, terms, plan.size, study.blind.most_prior_sigmas, 1,
+                           stream);
+  };
   switch (plan.stratum) {
     case Stratum::single:
-      sized = library_effects(bench, nominal, term_order(nominal, seed, plan.index), plan.size,
-                              study.blind.most_prior_sigmas, 1, stream);
+    case Stratum::noisy_single:
+      sized = one_of(term_order(nominal, seed, plan.index));
+      break;
+    case Stratum::noisy_covariate:
+      sized = one_of(following(term_order(nominal, seed, plan.index)));
       break;
     case Stratum::pair:
       sized = pair_effects(study, bench, nominal, plan, stream);
@@ -147,6 +191,8 @@ void hide(const mc::Study& study, const FilterSpec& nominal, const TrialPlan& pl
     key.effects.push_back(s.effect());
     total += s.signal;
   }
+  if (plan.stratum == Stratum::noisy_single)
+    key.effects[0].words += ", beside " + spoil_noise(plan.index, world, stream).words;
   if (plan.stratum == Stratum::outside) {
     const Nearest nearest = nearest_in_library(bench, nominal, sized[0].signal);
     key.effects[0].nearest = nearest.term + (nearest.axis.empty() ? "" : "." + nearest.axis);
@@ -193,7 +239,10 @@ std::string nominal_text(const mc::Study& study, const TrialPlan& plan) {
                                  "section [[filter]] with name and coupling",
                                  study.path));
   filters->items.resize(1);
-  apply_override(root, "filter.0.coupling", key_of(facts(plan.coupling).settles_to));
+  const Coupling settled = facts(plan.coupling).settles_to;
+  apply_override(
+      root, "filter.0.coupling",
+      key_of(plan.stratum == Stratum::other_equation ? facts(settled).other.value() : settled));
   return config::to_document(root);
 }
 
@@ -206,7 +255,12 @@ MadeTrial make_trial(const mc::Study& study, const mc::Study& nominal, const Tri
   World world = make_world(study, nominal, plan);
   hide(study, filter, plan, world, made.key);
   const Simulation sim = simulate_recorded(world, study.monte_carlo.seed, plan.number);
-  made.recording = make_recording(world.timeline, sim.measured, world.readout);
+  Timeline recorded = world.timeline;
+  if (plan.stratum == Stratum::noisy_covariate) {
+    Stream stream(study.monte_carlo.seed, plan.number, Purpose::design, choice_stream + 1);
+    recorded = with_noisy_covariates(std::move(recorded), stream);
+  }
+  made.recording = make_recording(recorded, sim.measured, world.readout);
   made.recording.facts = {{std::string(made_here), fmt::format("blind trial {}", plan.number)}};
   made.key.certificate = certify(filter, world, sim.measured);
   made.key.seconds =

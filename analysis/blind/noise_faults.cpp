@@ -94,4 +94,22 @@ HiddenEffect spoil_noise(std::size_t kind, World& world, Stream& stream) {
   return e;
 }
 
+Timeline with_noisy_covariates(Timeline timeline, Stream& stream) {
+  double square = 0.0, field = 0.0;
+  for (const Interval& i : timeline.intervals) {
+    square += i.around1.temperature * i.around1.temperature;
+    field = std::max(field, i.around1.field_l.norm());
+  }
+  const double rms = std::sqrt(square / static_cast<double>(timeline.intervals.size())),
+               kelvin = rms * between(0.1, 0.5, stream),
+               tesla = field * between(0.01, 0.05, stream);
+  for (std::size_t k = 0; k < timeline.intervals.size(); ++k) {
+    Covariates& here = timeline.intervals[k].around1;
+    here.temperature += kelvin * stream.normal();
+    for (double& component : here.field_l) component += tesla * stream.normal();
+    if (k + 1 < timeline.intervals.size()) timeline.intervals[k + 1].around0 = here;
+  }
+  return timeline;
+}
+
 }  // namespace drift::blind

@@ -19,4 +19,8 @@ inline constexpr std::size_t num_noise_faults = 6;
 /// Sizes: physics.md 4, entries 8, 9, 11, 50, and 3.4.
 HiddenEffect spoil_noise(std::size_t kind, World& world, Stream& stream);
 
+/// The timeline as it is recorded with covariates that have noise of their own, white from row to
+/// row: 0.1 to 0.5 of what the temperature varies by (rms), 1 to 5 % of the field.
+Timeline with_noisy_covariates(Timeline timeline, Stream& stream);
+
 }  // namespace drift::blind

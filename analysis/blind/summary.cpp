@@ -222,17 +222,44 @@ void add_further(const Scores& scores, Summary& s) {
           [](auto& t) { return t.answer.held_out_gain > 0.0; }));
 }
 
+/// Trials that were asked for by number, where the effect is one that a test could show.
+void add_harder(const Scores& scores, Summary& s) {
+  const std::pair<Stratum, const char*> harder[] = {
+      {Stratum::other_equation, "wrong nominal equation"},
+      {Stratum::noisy_single, "effect beside undeclared noise"},
+      {Stratum::noisy_covariate, "covariate with noise"}};
+  for (const auto& [stratum, name] : harder) {
+    const Stratum wanted = stratum;
+    const auto group = [wanted](const TrialScore& t) {
+      return t.key.plan.stratum == wanted && t.size() >= eight_sigma;
+    };
+    if (!std::ranges::any_of(scores, group)) continue;
+    const auto add = [&](const char* what, bool (*success)(const TrialScore&)) {
+      s.further.emplace_back(fmt::format("{}, 8 sigma and above: {}", name, what),
+                             share(scores, group, success));
+    };
+    add("detected", detected);
+    add("named exactly", exact);
+    add("exactly or in a set of at most 3", in_set);
+    add("a wrong name alone", wrong);
+  }
+}
+
 }  // namespace
 
-Summary summarise(const Scores& scores) {
+Summary summarise(const Scores& all) {
   Summary s;
-  s.trials = scores.size();
+  s.trials = all.size();
   std::vector<double> biases;
-  for (const TrialScore& t : scores) {
+  Scores scores;  // targets are those of the trials that have shares
+  for (const TrialScore& t : all) {
     s.failed += t.answer.failed;
-    for (const Pull& p : t.pulls) s.pulls.push_back(p.pull());
-    s.mean_seconds += t.answer.seconds / static_cast<double>(scores.size());
+    s.mean_seconds += t.answer.seconds / static_cast<double>(all.size());
     s.longest_seconds = std::max(s.longest_seconds, t.answer.seconds);
+    if (!is_further(t.key.plan.stratum)) scores.push_back(t);
+  }
+  for (const TrialScore& t : scores) {
+    for (const Pull& p : t.pulls) s.pulls.push_back(p.pull());
     if (is_effect(t)) biases.push_back(t.key.certificate.largest_bias);
   }
   std::vector<double> sizes;
@@ -253,6 +280,7 @@ Summary summarise(const Scores& scores) {
   s.reliability = reliability_of(scores);
   add_targets(scores, s);
   add_further(scores, s);
+  add_harder(all, s);
   return s;
 }
 

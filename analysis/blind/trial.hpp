@@ -11,15 +11,35 @@
 
 namespace drift::blind {
 
-/// What kind of thing a trial hides (discovery.md 3).
-enum class Stratum { null, wrong_noise, single, pair, outside, local };
-inline constexpr Named<Stratum> strata[] = {
-    {"null", Stratum::null}, {"wrong_noise", Stratum::wrong_noise}, {"single", Stratum::single},
-    {"pair", Stratum::pair}, {"outside", Stratum::outside},         {"local", Stratum::local}};
+/// What kind of thing a trial hides (discovery.md 3). The last three are asked for by number
+/// (mc::BlindFurther), the others by their shares.
+enum class Stratum {
+  null,
+  wrong_noise,
+  single,
+  pair,
+  outside,
+  local,
+  other_equation,
+  noisy_single,
+  noisy_covariate
+};
+inline constexpr Named<Stratum> strata[] = {{"null", Stratum::null},
+                                            {"wrong_noise", Stratum::wrong_noise},
+                                            {"single", Stratum::single},
+                                            {"pair", Stratum::pair},
+                                            {"outside", Stratum::outside},
+                                            {"local", Stratum::local},
+                                            {"other_equation", Stratum::other_equation},
+                                            {"noisy_single", Stratum::noisy_single},
+                                            {"noisy_covariate", Stratum::noisy_covariate}};
 constexpr std::string_view key_of(Stratum stratum) {
   return name_in(strata, stratum);
 }
-inline constexpr std::size_t num_strata = 6;
+inline constexpr std::size_t num_strata = 6;  ///< that have shares
+constexpr bool is_further(Stratum stratum) {
+  return stratum >= Stratum::other_equation;
+}
 
 /// What is asked of one trial, before anything is drawn.
 struct TrialPlan {

@@ -34,16 +34,9 @@ Form with_setting_moved(Form form, const Instants& at, const Bins& bins,
         best = at_here;
       }
     }
-  // Sigma by the curvature of T over a distance at which it changes by more than rounding.
-  double h = 1e-3 * step;
-  double fall = 0.0;
-  for (; h < step; h *= 2.0) {
-    fall = top - 0.5 * (T_at(best - h) + T_at(best + h));
-    if (fall > 0.5) break;
-  }
   *setting = start * std::exp(best);
-  // T falls by (h / sigma)^2; where it hardly falls the grid's own width is all that is known.
-  *sigma_of_moved(form) = *setting * (fall > 0.0 ? std::min(step, h / std::sqrt(fall)) : step);
+  // Half a step of the grid down: what a fit through the full dynamics is left to find.
+  *sigma_of_moved(form) = 0.5 * *setting * (1.0 - std::exp(-step));
   return form;
 }
 

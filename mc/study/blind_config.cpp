@@ -117,6 +117,19 @@ BlindShares read_shares(Section section) {
   return shares;
 }
 
+BlindFurther read_further(Section section) {
+  BlindFurther further;
+  const auto read = [&](const char* key, const char* doc, std::uint64_t& value) {
+    section.read(Option{key, unit::one, 0.0, 1e6, doc}, value);
+  };
+  read("other_equation", "trials whose nominal equation is the wrong one", further.other_equation);
+  read("noisy_single", "trials of one effect, noise not as declared", further.noisy_single);
+  read("noisy_covariate", "trials of one effect whose covariate was recorded with noise",
+       further.noisy_covariate);
+  section.finish();
+  return further;
+}
+
 /// What a truth may be here; its nominal model is settled.
 constexpr CouplingFacts truths[] = {facts(Coupling::eq5), facts(Coupling::eq6),
                                     facts(Coupling::servo)};
@@ -140,6 +153,7 @@ BlindSpec read_blind(Section section) {
   section.read(Option{"most_prior_sigmas", unit::one, 0.01, 1e6, "of an effect"},
                spec.most_prior_sigmas);
   spec.shares = read_shares(section.section("shares"));
+  spec.further = read_further(section.section("further"));
   section.finish();
   return spec;
 }

@@ -21,6 +21,10 @@ namespace drift::mc {
 ///   pair = 10
 ///   outside = 8
 ///   local = 7
+///   [blind.further]                    # trials beside the others, by number
+///   other_equation = 20
+///   noisy_single = 40
+///   noisy_covariate = 20
 BlindSpec read_blind(config::Section section);
 
 }  // namespace drift::mc

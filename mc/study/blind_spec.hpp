@@ -21,6 +21,16 @@ struct BlindShares {
   double sum() const { return null + wrong_noise + single + pair + outside + local; }
 };
 
+/// Harder trials, by number, beside those that the shares deal out: they come after them and change
+/// none of their draws.
+struct BlindFurther {
+  std::uint64_t other_equation = 0;   ///< the nominal equation is the wrong one
+  std::uint64_t noisy_single = 0;     ///< one effect of the library, noise not as declared
+  std::uint64_t noisy_covariate = 0;  ///< one that follows a covariate, recorded with noise
+
+  std::uint64_t sum() const { return other_equation + noisy_single + noisy_covariate; }
+};
+
 /// [blind] of a study file: which recordings with concealed effects are made (discovery.md 3).
 struct BlindSpec {
   std::uint64_t trials = 300;
@@ -34,6 +44,7 @@ struct BlindSpec {
   double outside_size = 15.0;             ///< [sigma]
   double most_prior_sigmas = 3.0;  ///< an effect that would need more is not hidden on this plan
   BlindShares shares;
+  BlindFurther further;
 };
 
 }  // namespace drift::mc

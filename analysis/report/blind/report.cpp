@@ -73,6 +73,7 @@ Report blind_report(const BlindResults& results) {
   report.brief = in_brief(results);
   report.add(sections_of(results, blind_sections, blind_parts));
   Json document = blind_document(results);
+  if (!results.rivals.empty()) document["rivals"] = rows_json(rivals_table(results));
   add_tables(document, report.sections);
   report.document = {"blind.json", dumped(document)};
   return report;

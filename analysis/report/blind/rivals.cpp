@@ -11,8 +11,7 @@ Cell cell_of(const stats::Proportion& p) {
 
 }  // namespace
 
-Section others(const BlindResults& results) {
-  if (results.rivals.empty()) return {};
+Table rivals_table(const BlindResults& results) {
   Table table("Other methods on the same trials (95 % intervals)",
               "method=<method | false_alarms=false alarms, nothing hidden | noise_alarms=noise not "
               "as declared | detected=effects detected | right=single: the right name alone | "
@@ -22,7 +21,12 @@ Section others(const BlindResults& results) {
   for (const blind::RivalScore& r : all)
     table.add({r.name, cell_of(r.false_alarms), cell_of(r.noise_alarms), cell_of(r.detected),
                cell_of(r.right), cell_of(r.among), cell_of(r.wrong)});
-  return {"Rivals", {table}};
+  return table;
+}
+
+Section others(const BlindResults& results) {
+  if (results.rivals.empty()) return {};
+  return {"Rivals", {rivals_table(results)}};
 }
 
 }  // namespace drift::report

@@ -13,6 +13,9 @@ inline constexpr Part blind_parts[] = {Part::evidence, Part::evidence, Part::how
                                        Part::details,  Part::details,  Part::details,
                                        Part::how_sure, Part::how_sure};
 
+/// The other methods and ours; also `rivals` of blind.json.
+Table rivals_table(const BlindResults& results);
+
 Json blind_document(const BlindResults& results);
 
 }  // namespace drift::report
