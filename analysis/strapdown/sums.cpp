@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "analysis/strapdown/case_study.hpp"
@@ -20,6 +21,20 @@ std::string member(double factor, std::string_view key, bool first) {
                      number, key);
 }
 
+/// Rows that span the same directions, each with a one where the others have a zero: sums of as few
+/// members as there are.
+MatX reduced(MatX rows) {
+  for (Eigen::Index r = 0; r < rows.rows(); ++r) {
+    Eigen::Index pivot = 0, column = 0;
+    rows.bottomRows(rows.rows() - r).cwiseAbs().maxCoeff(&pivot, &column);
+    rows.row(r).swap(rows.row(r + pivot));
+    rows.row(r) /= rows(r, column);
+    for (Eigen::Index other = 0; other < rows.rows(); ++other)
+      if (other != r) rows.row(other) -= (rows(other, column) * rows.row(r)).eval();
+  }
+  return rows;
+}
+
 }  // namespace
 
 std::vector<StrapdownParameter> known_sums(const EstimateResult& estimate) {
@@ -30,10 +45,12 @@ std::vector<StrapdownParameter> known_sums(const EstimateResult& estimate) {
   if (unknown.empty()) return {};
   const MatX P = estimate.covariance(unknown, unknown);
   const Eigensystem eigen = eigensystem(P);
+  const auto known = static_cast<Eigen::Index>(std::ranges::count_if(
+      eigen.values, [](double v) { return std::sqrt(std::max(v, 0.0)) < learned_ratio; }));
+  const MatX sums = reduced(eigen.vectors.leftCols(known).transpose());  // smallest come first
   std::vector<StrapdownParameter> all;
-  for (Eigen::Index d = 0; d < eigen.values.size(); ++d) {
-    if (!(std::sqrt(eigen.values[d]) < learned_ratio)) continue;
-    const VecX direction = eigen.vectors.col(d);
+  for (Eigen::Index d = 0; d < known; ++d) {
+    const VecX direction = sums.row(d);
     Eigen::Index largest = 0;
     direction.cwiseAbs().maxCoeff(&largest);
     const auto of = [&](Eigen::Index k) -> const ParameterEstimate& {
