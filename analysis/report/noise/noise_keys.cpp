@@ -69,7 +69,8 @@ std::string noise_keys(const NoiseCard& card) {
     const NoiseUnit& unit = units[static_cast<std::size_t>(noise)];
     if (value > 0.0)
       out += fmt::format("# in a [[filter]] of a platform with these gyros: {} = \"{} {}\"{}\n",
-                         line.second, number_text(value / unit.size), unit.symbol, unsure(Sensor::gyro));
+                         line.second, number_text(value / unit.size), unit.symbol,
+                         unsure(Sensor::gyro));
   }
   return out;
 }
