@@ -58,7 +58,7 @@ std::vector<StrapdownParameter> known_sums(const EstimateResult& estimate) {
     };
     const ParamSpec& spec = TermLibrary::specs[of(largest).param];
     StrapdownParameter sum{"", 0.0, 0.0, std::string(spec.unit.symbol.view()),
-                           "a sum: its members are not told apart"};
+                           "a sum, each member in its own unit: they are not told apart"};
     VecX kept = VecX::Zero(direction.size());
     for (const bool first : {true, false})
       for (Eigen::Index k = 0; k < direction.size(); ++k) {

@@ -84,25 +84,42 @@ std::string some_of(const std::vector<std::string>& all) {
                      all.size() - most);
 }
 
+std::string counted(std::size_t n, std::string_view what) {
+  return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+}
+
+/// Whether a chi-square per degree of freedom is beyond what noise makes of it: five of its sigmas.
+bool misfits(const EstimateResult& e) {
+  return e.statistic_per_dof() > 1.0 + 5.0 * std::sqrt(2.0 / static_cast<double>(e.measured));
+}
+
 InBrief in_brief(const CaseIdentification& id) {
   const CaseFit& first = id.fits.front();
-  const bool at_rest = id.study.search.dwells.size() == 1;
+  const EstimateResult& estimate = first.fit.estimate;
+  const std::size_t all = estimate.parameters.size(), alone = all - first.unobservable.size();
+  const std::size_t sums = first.parameters.size() - alone;
+  const std::string told =
+      fmt::format("{} of {} parameters are learned{}", alone, all,
+                  sums > 0 ? fmt::format(", and {} of others", counted(sums, "sum")) : "");
+  const auto& dwells = id.study.search.dwells;
+  const bool at_rest = dwells.size() == 1;
   InBrief brief;
-  const double chi2 = first.fit.estimate.statistic_per_dof();
-  brief.verdict =
-      at_rest
-          ? fmt::format(
-                "Found: one rest of {:.0f} s and no turn. It shows {} of the {} parameters.",
-                id.study.search.dwells.front().duration(), first.parameters.size(),
-                first.parameters.size() + first.unobservable.size())
-          : fmt::format(
-                "Found: {} dwells and {} turns; {} of {} parameters are learned, "
-                "chi-square per degree of freedom {}.",
-                id.study.search.dwells.size(), id.study.test.ways.size(), first.parameters.size(),
-                first.parameters.size() + first.unobservable.size(), number_text(chi2, 3));
-  brief.tone = Tone::good;
+  const std::string fits = fmt::format("chi-square per degree of freedom {}",
+                                       number_text(estimate.statistic_per_dof(), 3));
+  if (misfits(estimate))
+    brief.verdict = fmt::format(
+        "Misfit: {} where noise makes 1: something is missing or wrong, and no number below is to "
+        "be trusted.",
+        fits);
+  else if (at_rest)
+    brief.verdict = fmt::format("Found: one rest of {:.0f} s and no turn; {}.",
+                                dwells.front().duration(), told);
+  else
+    brief.verdict = fmt::format("Found: {} and {}; {}, {}.", counted(dwells.size(), "dwell"),
+                                counted(id.study.test.ways.size(), "turn"), told, fits);
+  brief.tone = misfits(estimate) ? Tone::bad : Tone::good;
   brief.more.push_back(azimuth_sentence(id) + ".");
-  if (at_rest) brief.more.push_back("Up is " + up_of(id.study.search.dwells.front()) + ".");
+  if (at_rest) brief.more.push_back("Up is " + up_of(dwells.front()) + ".");
   if (first.up.count > 0)
     brief.more.push_back(
         fmt::format("Up after a turn that was held out: {} deg off; gyros in "
@@ -111,7 +128,7 @@ InBrief in_brief(const CaseIdentification& id) {
   std::vector<std::string> unseen;
   for (const auto& u : first.unobservable) unseen.push_back(u.what);
   if (!unseen.empty())
-    brief.more.push_back(fmt::format("This recording says nothing of {}.", some_of(unseen)));
+    brief.more.push_back(fmt::format("Alone this recording shows little of {}.", some_of(unseen)));
   brief.next = "Next: driftscope diagnose, on the same study and recording, says what is missing.";
   return brief;
 }
@@ -152,7 +169,8 @@ json to_json(const CaseIdentification& id, double gravity) {
 Section case_test(const CaseIdentification& id) {
   const auto& s = id.study;
   std::vector<std::string> found{
-      fmt::format("{} dwells, {} turns between them{}", s.search.dwells.size(), s.test.ways.size(),
+      fmt::format("{}, {} between them{}", counted(s.search.dwells.size(), "dwell"),
+                  counted(s.test.ways.size(), "turn"),
                   s.test.ways_with_gap > 0
                       ? fmt::format(", {} left out for gaps", s.test.ways_with_gap)
                       : ""),
