@@ -228,8 +228,9 @@ void add_harder(const Scores& scores, Summary& s) {
       {Stratum::other_equation, "wrong nominal equation"},
       {Stratum::noisy_single, "effect beside undeclared noise"},
       {Stratum::noisy_covariate, "covariate with noise"}};
-  for (const auto& [stratum, name] : harder) {
-    const Stratum wanted = stratum;
+  for (const auto& [stratum, title] : harder) {
+    const Stratum wanted = stratum;  // clang captures no binding
+    const char* name = title;
     const auto group = [wanted](const TrialScore& t) {
       return t.key.plan.stratum == wanted && t.size() >= eight_sigma;
     };
