@@ -85,11 +85,12 @@ Problem make_problem(double sample) {
     Step step;
     step.cage = interval.cage;
     step.Phi_half = s.Phi[m];
-    step.G_half = s.G[m];
+    const auto nr = static_cast<Eigen::Index>(p.layout.num_rate);
+    step.G_half = s.G[m].leftCols(nr);
     step.Phi_rest = s.Phi[last] * s.Phi[m].inverse();
-    step.G_rest = s.G[last] - step.Phi_rest * s.G[m];
+    step.G_rest = s.G[last].leftCols(nr) - step.Phi_rest * step.G_half;
     step.H_acc = s.jacobian[m].H;
-    step.H_par = s.jacobian[m].H_par;
+    step.H_par = s.jacobian[m].H_par.leftCols(static_cast<Eigen::Index>(p.layout.size()) - nr);
     step.H_gimbal = predict_gimbals(p.timeline.nodes[interval.last_node()], interval.heading1,
                                     phi[interval.last_node()])
                         .H;
@@ -111,7 +112,7 @@ struct Timed {
 Timed run_structured(const Problem& p) {
   Covariance P(p.layout.size(), p.layout.num_rate, p.filter.initial_attitude);
   VecX x = VecX::Zero(p.layout.size());
-  const Mat3X none(3, 0);
+  const Rows3 none(3, 0);
   const long before = allocations;
   const double start = cpu_time();
   for (const Step& s : p.steps) {

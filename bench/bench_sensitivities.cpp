@@ -53,12 +53,12 @@ MatX by_variation_of_constants(const Problem& p) {
   const Trajectory phi = integrate_fixed(p.timeline, p.model, p.theta,
                                          std::vector<Vec3>(p.timeline.chains, Vec3::Zero()));
   IntervalSensitivity inner;
-  Mat3X G = Mat3X::Zero(3, p.columns());
+  Rows3 G = padded_rows(p.layout.num_rate);
   for (const Interval& i : p.timeline.intervals) {
     if (i.cage) G.setZero();
     linearize_interval(i, p.timeline, Mat3::Zero(), &phi[i.first_node], nullptr, linearizer, inner);
     G = (inner.Phi.back() * G + inner.G.back()).eval();
-    all.middleCols(i.chain * p.columns(), p.columns()) = G;
+    all.middleCols(i.chain * p.columns(), p.columns()) = G.leftCols(p.columns());
   }
   return all;
 }
@@ -90,9 +90,11 @@ MatX by_cvodes(const Problem& p) {
     };
     const auto sensitivity_rhs = [&](double t, const double* y, const double*, const double* S,
                                      double* S_dot) {
-      linearizer.evaluate(node_at(t), cage, Mat3::Zero(), vec3(y), &p.timeline, nullptr, jacobian);
+      const Node node = node_at(t);
+      linearizer.evaluate({{{&node, &cage, vec3(y)}}}, Mat3::Zero(), &p.timeline, &jacobian);
       Eigen::Map<Mat3X>(S_dot, 3, p.columns()) =
-          jacobian.A * Eigen::Map<const Mat3X>(S, 3, p.columns()) + jacobian.B;
+          jacobian.A * Eigen::Map<const Mat3X>(S, 3, p.columns()) +
+          jacobian.B.leftCols(p.columns());
       return true;
     };
     const SensitivityResult r =

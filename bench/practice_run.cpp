@@ -138,7 +138,7 @@ EstimateResult practice_ekf(const FilterSpec& filter, const Timeline& timeline,
                       m = static_cast<std::size_t>(interval.substeps);
     Q.topLeftCorner<3, 3>() = 0.5 * arw * arw * interval.length() * Mat3::Identity();
     F.topLeftCorner<3, 3>() = s.Phi[m];
-    F.block(0, 3, 3, nr) = s.G[m];
+    F.block(0, 3, 3, nr) = s.G[m].leftCols(nr);
     kalman.propagate(F, Q);
     if (readout.accelerometers) {
       H.setZero();
@@ -148,8 +148,9 @@ EstimateResult practice_ekf(const FilterSpec& filter, const Timeline& timeline,
         const double w = Timeline::simpson_weight(interval.substeps, k);
         mean += w * s.jacobian[k].acc;
         H.leftCols<3>() += w * s.jacobian[k].H * s.Phi[k] * back;
-        H.middleCols(3, nr) += w * s.jacobian[k].H * (s.G[k] - s.Phi[k] * back * s.G[m]);
-        H.rightCols(n - 3 - nr) += w * s.jacobian[k].H_par;
+        H.middleCols(3, nr) +=
+            w * s.jacobian[k].H * (s.G[k] - s.Phi[k] * back * s.G[m]).leftCols(nr);
+        H.rightCols(n - 3 - nr) += w * s.jacobian[k].H_par.leftCols(n - 3 - nr);
       }
       take(measured.acc.col(i) - mean, readout.accelerometer_noise,
            timeline.nodes[interval.first_node + m], phi[m]);
@@ -157,7 +158,7 @@ EstimateResult practice_ekf(const FilterSpec& filter, const Timeline& timeline,
                    phi.data(), m);
     }
     F.topLeftCorner<3, 3>() = s.Phi[last] * s.Phi[m].inverse();
-    F.block(0, 3, 3, nr) = s.G[last] - F.topLeftCorner<3, 3>() * s.G[m];
+    F.block(0, 3, 3, nr) = (s.G[last] - F.topLeftCorner<3, 3>() * s.G[m]).leftCols(nr);
     kalman.propagate(F, Q);
     now = phi[last];
     if (readout.gimbals) {

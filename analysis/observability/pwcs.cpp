@@ -70,14 +70,14 @@ std::vector<PwcsPosition> pwcs_positions(const TestPlan& plan, const Site& site,
     Interval interval;
     interval.t1 = pwcs_time_unit;
     interval.omega_cmd_p = passages[p].dwell.omega_cmd_p;
-    linearizer.evaluate(node, interval, Mat3::Zero(), Vec3::Zero(), nullptr, nullptr, j);
+    linearizer.evaluate({{{&node, &interval}}}, Mat3::Zero(), nullptr, &j);
 
     MatX F = MatX::Zero(n, n), H = MatX::Zero(outputs, n);
     F.topLeftCorner<3, 3>() = pwcs_time_unit * (j.A - skew(site.omega_ie_l()));
-    F.block(0, 3, 3, nr) = pwcs_time_unit / spec.initial_attitude * j.B;
+    F.block(0, 3, 3, nr) = pwcs_time_unit / spec.initial_attitude * j.B.leftCols(nr);
     if (channels.accelerometers) {
       H.topLeftCorner<3, 3>() = spec.initial_attitude * j.H;
-      H.topRightCorner(3, n - 3 - nr) = j.H_par;
+      H.topRightCorner(3, n - 3 - nr) = j.H_par.leftCols(n - 3 - nr);
     }
     if (channels.gimbals)
       H.bottomLeftCorner<3, 3>() =

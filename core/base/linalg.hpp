@@ -29,23 +29,33 @@ Mat3T<S> skew(const Vec3T<S>& v) {
   return m;
 }
 
-/// Rotation matrix of the rotation vector v [rad]: exp([v x]), Rodrigues' formula, by series below
-/// 1e-2 rad (remainder v^10/10! relative to the coefficient, below 1e-20).
+/// Of Rodrigues' formula, for the square of an angle t: sin(t)/t and (1 - cos t)/t^2.
 template <class S>
-Mat3T<S> rotation(const Vec3T<S>& v) {
+struct RotationCoefficients {
+  S a, b;
+};
+/// Where the series end: their remainder v^10/10! is below 1e-20 of the coefficient.
+inline constexpr double rotation_series_until = 1e-4;
+template <class S>
+RotationCoefficients<S> rotation_series(const S& t2) {
+  return {S(1) - t2 / 6.0 * (S(1) - t2 / 20.0 * (S(1) - t2 / 42.0)),
+          S(0.5) * (S(1) - t2 / 12.0 * (S(1) - t2 / 30.0 * (S(1) - t2 / 56.0)))};
+}
+template <class S>
+RotationCoefficients<S> rotation_coefficients(const S& t2) {
   using std::cos;
   using std::sin;
   using std::sqrt;
-  const S t2 = v.squaredNorm();
-  S a, b;  // sin(t)/t, (1 - cos t)/t^2
-  if (t2 < 1e-4) {
-    a = S(1) - t2 / 6.0 * (S(1) - t2 / 20.0 * (S(1) - t2 / 42.0));
-    b = S(0.5) * (S(1) - t2 / 12.0 * (S(1) - t2 / 30.0 * (S(1) - t2 / 56.0)));
-  } else {
-    const S t = sqrt(t2);
-    a = sin(t) / t;
-    b = (S(1) - cos(t)) / t2;
-  }
+  if (t2 < rotation_series_until) return rotation_series(t2);
+  const S t = sqrt(t2);
+  return {sin(t) / t, (S(1) - cos(t)) / t2};
+}
+
+/// Rotation matrix of the rotation vector v [rad]: exp([v x]), Rodrigues' formula, by series below
+/// 1e-2 rad.
+template <class S>
+Mat3T<S> rotation(const Vec3T<S>& v) {
+  const auto [a, b] = rotation_coefficients<S>(v.squaredNorm());
   const Mat3T<S> k = skew(v);
   return Mat3T<S>::Identity() + a * k + b * (k * k).eval();
 }

@@ -4,11 +4,12 @@
 
 #include "core/base/check.hpp"
 #include "core/estimate/lanes.hpp"
+#include "core/estimate/small_cholesky.hpp"
 
 namespace drift {
 namespace {
 
-using Ref3X = Eigen::Ref<const Mat3X>;
+using Ref3X = Eigen::Ref<const Rows3>;
 
 /// out = in M^T, plus `plus` if given. out may be in or plus.
 void times_transposed(const MatX3& in, const Mat3& M, MatX3& out, const MatX3* plus = nullptr) {
@@ -35,9 +36,9 @@ void add_product(const MatX& P, const Ref3X& G, MatX3& out) {
 #pragma GCC unroll 8
       for (int b = 0; b < count; ++b) sum[k][b] = load(&out(row + b * lane_width, k));
     const double* p = P.data() + row;
-    const double* g = G.data();
-    for (Eigen::Index j = 0; j < columns; ++j, p += stride, g += G.outerStride()) {
-      const Lanes g0 = broadcast(g[0]), g1 = broadcast(g[1]), g2 = broadcast(g[2]);
+    const double *x = G.data(), *y = x + G.outerStride(), *z = y + G.outerStride();
+    for (Eigen::Index j = 0; j < columns; ++j, p += stride) {
+      const Lanes g0 = broadcast(x[j]), g1 = broadcast(y[j]), g2 = broadcast(z[j]);
 #pragma GCC unroll 8
       for (int b = 0; b < count; ++b) {
         const Lanes pj = load(p + b * lane_width);
@@ -105,40 +106,9 @@ void downdate(MatX& P, const U&... us) {
   for_lanes<lanes_at_once / 2>(P.rows(), block);
 }
 
-/// G A for a tall A, shape (3, 3). Columns of G are read four numbers at a time where one follows.
+/// G A for a tall A, shape (3, 3).
 Mat3 small_product(const Ref3X& G, const MatX3& A) {
-  Eigen::Vector4d z0 = Eigen::Vector4d::Zero(), z1 = z0, z2 = z0;
-  const Eigen::Index last = G.cols() - 1;
-  const double* a0 = A.col(0).data();
-  const double* a1 = A.col(1).data();
-  const double* a2 = A.col(2).data();
-  const double* p = G.data();
-  for (Eigen::Index j = 0; j < last; ++j, p += G.outerStride()) {
-    const Eigen::Vector4d g = Eigen::Map<const Eigen::Vector4d>(p);
-    z0 += g * a0[j];
-    z1 += g * a1[j];
-    z2 += g * a2[j];
-  }
-  Mat3 Z;
-  Z << z0.head<3>(), z1.head<3>(), z2.head<3>();
-  if (last >= 0) Z += G.col(last) * A.row(last);
-  return Z;
-}
-
-/// L^-1 of S = L L^T. False unless S is positive definite (a NaN is not).
-bool inverse_cholesky(const Mat3& S, Mat3& L_inv) {
-  const double d0 = S(0, 0);
-  if (!(d0 > 0.0)) return false;
-  const double i0 = 1.0 / std::sqrt(d0), l10 = S(1, 0) * i0, l20 = S(2, 0) * i0;
-  const double d1 = S(1, 1) - l10 * l10;
-  if (!(d1 > 0.0)) return false;
-  const double i1 = 1.0 / std::sqrt(d1), l21 = (S(2, 1) - l20 * l10) * i1;
-  const double d2 = S(2, 2) - l20 * l20 - l21 * l21;
-  if (!(d2 > 0.0)) return false;
-  const double i2 = 1.0 / std::sqrt(d2);
-  const double m10 = -i1 * l10 * i0, m21 = -i2 * l21 * i1;
-  L_inv << i0, 0.0, 0.0, m10, i1, 0.0, -i2 * (l20 * i0 + l21 * m10), m21, i2;
-  return std::isfinite(i0 + i1 + i2);
+  return G.lazyProduct(A.topRows(G.cols()));
 }
 
 }  // namespace
@@ -150,7 +120,7 @@ Covariance::Covariance(std::size_t parameters, std::size_t num_rate, double sigm
       work_(MatX3::Zero(whole_lanes(parameters), 3)),
       gain_(MatX3::Zero(whole_lanes(parameters), 3)),
       later_gain_(gain_),
-      H_rate_(Mat3X::Zero(3, num_rate)) {
+      H_rate_(Rows3::Zero(3, static_cast<Eigen::Index>(num_rate))) {
   entries_.reserve(3 * parameters);
   recage(sigma_attitude);
 }
@@ -166,7 +136,7 @@ void Covariance::recage(double sigma_attitude) {
   P_pa_.setZero();
 }
 
-void Covariance::propagate(const Mat3& Phi, const Eigen::Ref<const Mat3X>& G, const Mat3& Q) {
+void Covariance::propagate(const Mat3& Phi, const Ref3X& G, const Mat3& Q) {
   DRIFT_DEMAND(static_cast<std::size_t>(G.cols()) == num_rate_);
   // With W = P_pa Phi^T and V = W + P_pp G^T, the new P_pa, the symmetric part of G (W + V) is
   // G W + (G W)^T + G P_pp G^T.

@@ -2,11 +2,10 @@
 
 #include <vector>
 
-#include "core/base/linalg.hpp"
+#include "core/estimate/rows3.hpp"
 
 namespace drift {
 
-using Mat3X = Eigen::Matrix<double, 3, Eigen::Dynamic>;
 using MatX3 = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
 /// Covariance of 3 attitude errors and n static parameters, of which the first `num_rate` act on
@@ -29,7 +28,7 @@ class Covariance {
 
   /// psi <- Phi psi + G x(rate), plus white noise Q on the attitude and q on diagonal entries.
   /// G has shape (3, num_rate).
-  void propagate(const Mat3& Phi, const Eigen::Ref<const Mat3X>& G, const Mat3& Q);
+  void propagate(const Mat3& Phi, const Eigen::Ref<const Rows3>& G, const Mat3& Q);
 
   /// Adds variance to one parameter (drift random walk).
   void add_variance(std::size_t parameter, double variance) {
@@ -48,8 +47,8 @@ class Covariance {
   /// Measurement of m scalars: innovation nu, H = [H_psi, H_rate on the first num_rate parameters,
   /// H_par on those after them], independent noise of standard deviation sigma. NaN innovations are
   /// left out. The parameter correction is added to x. H_rate and H_par may be empty.
-  Update update(const Vec3& nu, const Mat3& H_psi, const Eigen::Ref<const Mat3X>& H_rate,
-                const Eigen::Ref<const Mat3X>& H_par, double sigma, VecX& x);
+  Update update(const Vec3& nu, const Mat3& H_psi, const Eigen::Ref<const Rows3>& H_rate,
+                const Eigen::Ref<const Rows3>& H_par, double sigma, VecX& x);
 
   const Mat3& attitude() const { return P_aa_; }
   MatX parameters() const;
@@ -69,7 +68,7 @@ class Covariance {
   MatX3 P_pa_;
   MatX P_pp_;
   MatX3 work_, gain_, later_gain_;
-  Mat3X H_rate_;  ///< without the rows that were not measured
+  Rows3 H_rate_;  ///< without the rows that were not measured
   /// An element of H_par that is not zero.
   struct Entry {
     Eigen::Index column;  ///< counts parameters

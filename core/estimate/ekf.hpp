@@ -34,6 +34,9 @@ class Ekf {
   EstimateResult result() const;
   const EkfHistory& history() const { return history_; }  ///< empty unless kept
   const InnovationSums& innovations() const { return step_.innovations(); }
+  double nis() const { return innovations().nis; }
+  std::size_t scalars() const { return innovations().scalars; }
+  double lag1() const { return innovations().lag1(); }
   EstimateStatus status() const { return step_.status(); }
   const std::string& cause() const { return step_.cause(); }
   double t_diverged() const { return step_.t_diverged(); }      ///< [s]

@@ -7,29 +7,12 @@
 #include <limits>
 
 #include "core/base/check.hpp"
+#include "core/estimate/drift_walk.hpp"
 #include "core/estimate/rest_rate.hpp"
 #include "core/physics/stochastic.hpp"
 #include "core/sim/measurements.hpp"
 
 namespace drift {
-namespace {
-
-constexpr auto fixed_drift_key = TermLibrary::index("D_F_x");
-
-std::size_t most_nodes(const Timeline& timeline) {
-  std::size_t most = 0;
-  for (const Interval& i : timeline.intervals) most = std::max(most, i.node_count());
-  return most;
-}
-
-/// phi with the attitude turned by a small rotation psi_i, axes of the chain's inertial frame.
-Vec3 turned(const Node& node, const Vec3& psi_i, const Vec3& phi) {
-  const Vec3 psi_r = node.R_lr.transpose() * (node.R_il.transpose() * psi_i);
-  return rotation_vector(rotation(psi_r) * rotation(phi));
-}
-
-}  // namespace
-
 IntervalStep::IntervalStep(const FilterSpec& filter, const Timeline& timeline,
                            const Readout& readout, About about)
     : filter_(filter),
@@ -38,12 +21,13 @@ IntervalStep::IntervalStep(const FilterSpec& filter, const Timeline& timeline,
       about_(about),
       model_(filter.model()),
       layout_(make_layout(filter)),
+      walking_(walking_states(filter, layout_)),
       linearizer_(model_, layout_, readout),
       memory_(timeline, model_),
       P_(layout_.size(), layout_.num_rate, filter.initial_attitude),
       x_(VecX::Zero(layout_.size())),
       nodes_(about == About::estimate ? most_nodes(timeline) : 0),
-      rest_G_(Mat3X::Zero(3, layout_.num_rate)) {
+      rest_G_(padded_rows(layout_.num_rate)) {
   require_covariates(model_, timeline);
 }
 
@@ -115,16 +99,24 @@ void IntervalStep::linearise(std::size_t i, const Vec3* reference) {
                      path_, memory_.points(), linearizer_, sensitivity_);
 }
 
-void IntervalStep::predict(const Mat3& Phi, const Mat3X& G, const Mat3& Q) {
-  if (about_ == About::reference)
-    psi_ = (Phi * psi_ + G * x_.head(static_cast<Eigen::Index>(layout_.num_rate))).eval();
-  P_.propagate(Phi, G, Q);
+void IntervalStep::predict(const Mat3& Phi, const Rows3& G, const Mat3& Q) {
+  const auto nr = static_cast<Eigen::Index>(layout_.num_rate);
+  if (about_ == About::reference) psi_ = (Phi * psi_ + G.leftCols(nr) * x_.head(nr)).eval();
+  P_.propagate(Phi, G.leftCols(nr), Q);
+}
+
+/// Without the columns that fill up lanes.
+IntervalStep::Sensitivity IntervalStep::sensitivity_of(const Mat3& psi, const Rows3& rate,
+                                                       const Rows3& par) const {
+  const auto nr = static_cast<Eigen::Index>(layout_.num_rate);
+  const auto np = static_cast<Eigen::Index>(layout_.size()) - nr;
+  return {psi, rate.leftCols(std::min(rate.cols(), nr)), par.leftCols(std::min(par.cols(), np))};
 }
 
 void IntervalStep::take_accelerometers(const Interval& interval, const Vec3& acc) {
   mean_output(interval, sensitivity_, mean_);
   const auto middle = static_cast<std::size_t>(interval.substeps);
-  update(interval, middle, acc - mean_.acc, {mean_.H, mean_.H_rate, mean_.H_par},
+  update(interval, middle, acc - mean_.acc, sensitivity_of(mean_.H, mean_.H_rate, mean_.H_par),
          interval.accelerometer_noise(readout_.accelerometer_noise),
          InnovationSums::accelerometers);
   if (about_ == About::estimate && status_ == EstimateStatus::ok)
@@ -141,7 +133,7 @@ void IntervalStep::take_gimbals(const Interval& interval, const Vec3& gimbal) {
                     : linearizer_.gimbals(timeline_, interval, path_[last], memory_at(last));
   Vec3 residual;
   for (int k = 0; k < 3; ++k) residual[k] = angle_difference(gimbal[k], predicted.angles[k]);
-  update(interval, last, residual, {predicted.H, predicted.H_rate, predicted.H_par},
+  update(interval, last, residual, sensitivity_of(predicted.H, predicted.H_rate, predicted.H_par),
          readout_.gimbal_noise, InnovationSums::gimbals);
 }
 
@@ -172,7 +164,7 @@ void IntervalStep::update(const Interval& interval, std::size_t node, const Vec3
 /// Innovations without those that lie outside the gate of the term `outliers`: NaN is left out.
 Vec3 IntervalStep::gated(const Vec3& nu, const Sensitivity& H, double noise) const {
   const auto n = static_cast<Eigen::Index>(layout_.size());
-  Mat3X H_x = Mat3X::Zero(3, n);
+  Rows3 H_x = Rows3::Zero(3, n);
   if (H.rate.cols() > 0) H_x.leftCols(H.rate.cols()) = H.rate;
   if (H.par.cols() > 0) H_x.rightCols(H.par.cols()) = H.par;
   const Mat3 cross = H_x * P_.cross().topRows(n) * H.psi.transpose();
@@ -209,13 +201,8 @@ void IntervalStep::learn() {
 }
 
 void IntervalStep::let_drift_vary(double duration) {
-  if (!drift_varies(filter_.noise, model_.terms)) return;
-  for (std::size_t k = 0; k < layout_.size(); ++k) {
-    if (layout_.params[k] < fixed_drift_key || layout_.params[k] >= fixed_drift_key + 3) continue;
-    const auto axis = static_cast<int>(layout_.params[k] - fixed_drift_key);
-    const double variance = drift_variance(filter_.noise, model_.terms, theta_, axis, duration);
-    P_.add_variance(k, variance / (layout_.sigma[k] * layout_.sigma[k]));
-  }
+  for (const std::size_t k : walking_)
+    P_.add_variance(k, walk_variance(filter_, layout_, k, theta_, duration));
 }
 
 const MemoryPoint* IntervalStep::memory_at(std::size_t node) const {

@@ -63,15 +63,16 @@ class IntervalStep {
 
  private:
   void linearise(std::size_t i, const Vec3* reference);
-  void predict(const Mat3& Phi, const Mat3X& G, const Mat3& Q);
+  void predict(const Mat3& Phi, const Rows3& G, const Mat3& Q);
   void take_accelerometers(const Interval& interval, const Vec3& acc);
   void take_gimbals(const Interval& interval, const Vec3& gimbal);
   /// How three scalars depend on the attitude and on the states; matrices may be empty.
   struct Sensitivity {
     const Mat3& psi;
-    const Mat3X& rate;
-    const Mat3X& par;
+    Eigen::Ref<const Rows3> rate;
+    Eigen::Ref<const Rows3> par;
   };
+  Sensitivity sensitivity_of(const Mat3& psi, const Rows3& rate, const Rows3& par) const;
   void update(const Interval& interval, std::size_t node, const Vec3& residual,
               const Sensitivity& H, double noise, InnovationSums::Channel channel);
   Vec3 gated(const Vec3& nu, const Sensitivity& H, double noise) const;
@@ -86,6 +87,7 @@ class IntervalStep {
   About about_;
   DriftModel model_;
   Layout layout_;
+  std::vector<std::size_t> walking_;  ///< states whose value is not constant
   Linearizer linearizer_;
   IntervalSensitivity sensitivity_;
   MemoryPath memory_;
@@ -96,7 +98,7 @@ class IntervalStep {
   Vec3 psi_ = Vec3::Zero();     ///< attitude from the reference, inertial axes [rad]
   std::vector<Vec3> nodes_;     ///< rotation vector of the estimate at the interval's nodes [rad]
   const Vec3* path_ = nullptr;  ///< the same of what it is linearised about
-  Mat3X rest_G_;                ///< work
+  Rows3 rest_G_;                ///< work
   MeanOutput mean_;             ///< work
   Taken taken_;
   InnovationSums sums_;

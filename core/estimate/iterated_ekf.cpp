@@ -1,64 +1,243 @@
 #include "core/estimate/iterated_ekf.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <utility>
+
+#include "core/physics/stochastic.hpp"
 
 namespace drift {
+namespace {
+
+/// Whether something else begins with interval i: a chain, a position, a slew.
+bool begins(const Timeline& timeline, std::size_t i) {
+  if (i == 0 || i == timeline.intervals.size()) return true;
+  const Interval &before = timeline.intervals[i - 1], &now = timeline.intervals[i];
+  return now.cage || now.position != before.position || now.slew != before.slew ||
+         now.rest != before.rest;
+}
+bool ends_chain(const Timeline& timeline, std::size_t i) {
+  return i + 1 == timeline.intervals.size() || timeline.intervals[i + 1].cage;
+}
+
+}  // namespace
 
 IteratedEkf::IteratedEkf(const FilterSpec& filter, const Timeline& timeline, const Readout& readout,
                          const Theta& start)
     : timeline_(timeline),
-      extended_(filter, timeline, readout, About::estimate),
-      linear_(filter, timeline, readout, About::reference),
-      reference_(timeline, filter.model()),
-      x_(extended_.layout().scaled(start)),
+      rows_(filter, timeline, readout),
+      information_(rows_.layout().size(), rows_.width()),
+      reference_(timeline, rows_.model()),
+      gated_(has_outliers(rows_.model().terms)),
+      store_(IntervalRows::most * timeline.intervals.size() * rows_.width()),
+      channel_(IntervalRows::most / 3 * timeline.intervals.size()),
+      ends_(static_cast<std::size_t>(timeline.chains), rows_.attitude()),
+      x_(rows_.layout().scaled(start)),
       x_start_(x_),
       x_reference_(x_),
-      dx_(x_),
+      moved_(VecX::Zero(x_.size())),
+      prior_(moved_),
+      step_(moved_),
+      nothing_(moved_),
+      P_(MatX::Identity(x_.size(), x_.size())),
+      path_(most_nodes(timeline)),
       theta_(start) {}
 
 void IteratedEkf::run(const Measurements& measured, const Theta& start) {
-  extended_pass(measured, start);
-  if (extended_.status() != EstimateStatus::ok) return;
-  x_ = extended_.x();
+  status_ = EstimateStatus::ok;
+  cause_.clear();
+  t_diverged_ = 0.0;
+  if (!first_pass(measured, start)) return;
   constexpr int most_passes = 4;
   for (int pass = 0; pass < most_passes; ++pass) {
-    linear_pass(measured);
-    if (linear_.status() != EstimateStatus::ok) return;
-    if (largest_step() < 1.0) return;  // what is left is of second order in less than a sigma
+    if (!linear_pass(measured)) return;
+    if (largest_step() < 1.0) break;  // what is left is of second order in less than a sigma
   }
+  finish();
 }
 
-void IteratedEkf::extended_pass(const Measurements& measured, const Theta& start) {
-  const Layout& layout = extended_.layout();
-  for (std::size_t k = 0; k < layout.size(); ++k) x_start_[k] = layout.scaled(start, k);
-  extended_.reset(x_start_, layout.theta_at(x_start_));
-  for (std::size_t i = 0; i < timeline_.intervals.size(); ++i) {
-    extended_.process(i, measured.acc.col(i), measured.gimbal.col(i));
-    reference_.end_chain(timeline_.intervals[i], extended_.phi());
-  }
+/// Rows of one interval behind those of the others.
+bool IteratedEkf::take(std::size_t i, const Measurements& measured, const Vec3* path, Pass pass) {
+  const auto column = static_cast<Eigen::Index>(i);
+  const AttitudeFilter::Gate gate{outlier_gate(theta_), &information_, &nothing_};
+  double* into = row(3 * triples_);
+  const IntervalRows::Taken taken =
+      rows_.take(i, measured.acc.col(column), measured.gimbal.col(column), path,
+                 gated_ ? &gate : nullptr, into);
+  std::copy_n(taken.channel, taken.triples, &channel_[triples_]);
+  triples_ += taken.triples;
+  scalars_ += taken.scalars;
+  if (diverged(taken.ok, timeline_.intervals[i].t1, pass)) return false;
+  if (pass == Pass::first)  // right hand sides count from the start
+    for (double* r = into; r != row(3 * triples_); r += rows_.width())
+      r[rows_.attitude().right()] += moved_.dot(Eigen::Map<const VecX>(r, moved_.size()));
+  return true;
 }
 
-void IteratedEkf::linear_pass(const Measurements& measured) {
-  x_reference_ = x_;
-  theta_ = linear_.layout().theta_at(x_reference_);
-  reference_.place(theta_);
-  dx_ = x_start_ - x_reference_;
-  linear_.reset(dx_, theta_);
+bool IteratedEkf::first_pass(const Measurements& measured, const Theta& start) {
+  const Layout& layout = rows_.layout();
+  for (std::size_t k = 0; k < layout.size(); ++k)
+    x_start_[static_cast<Eigen::Index>(k)] = layout.scaled(start, k);
+  x_ = x_start_;
+  moved_.setZero();
+  theta_ = layout.theta_at(x_);
+  rows_.reset(theta_);
+  information_.clear();
+  information_.factorise();
+  triples_ = summed_ = scalars_ = 0;
+  Vec3 phi = Vec3::Zero();
+  std::size_t block = 1, in_block = 0;
   for (std::size_t i = 0; i < timeline_.intervals.size(); ++i) {
     const Interval& interval = timeline_.intervals[i];
-    linear_.process(i, measured.acc.col(i), measured.gimbal.col(i), reference_.nodes(interval));
-    reference_.end_chain(interval, linear_.phi());
+    if (interval.cage) {
+      phi.setZero();
+      rows_.cage(interval, phi);
+    }
+    if (begins(timeline_, i)) block = 1;
+    path_[0] = phi;
+    step_through(interval, timeline_, drive_of(interval, timeline_, rows_.model(), theta_),
+                 rows_.enter(i), path_.data());
+    if (!take(i, measured, path_.data(), Pass::first)) return false;
+    phi = path_[interval.node_count() - 1];
+    if (++in_block == block || begins(timeline_, i + 1)) {
+      if (!solve_block(interval, phi)) return false;
+      in_block = 0;
+      block *= 2;
+    }
+    if (ends_chain(timeline_, i)) reference_.end_chain(interval, phi);
   }
-  x_ = x_reference_ + linear_.x();
-  theta_ = linear_.layout().theta_at(x_);
+  return true;
 }
 
-double IteratedEkf::largest_step() const {
+/// The estimate after a block of samples, about which the next one is linearised.
+bool IteratedEkf::solve_block(const Interval& interval, Vec3& phi) {
+  information_.add(row(3 * summed_), 3 * (triples_ - summed_));
+  summed_ = triples_;
+  const bool finite = information_.factorise();
+  const VecX& d = information_.solve(nothing_);
+  step_ = d - moved_;
+  moved_ = d;
+  x_ = x_start_ + d;
+  if (diverged(finite && x_.allFinite() && x_.cwiseAbs().maxCoeff() <= 1e6, interval.t1,
+               Pass::first))
+    return false;
+  AttitudeFilter& attitude = rows_.attitude();
+  phi = turned(timeline_.nodes[interval.last_node()], attitude.attitude(step_), phi);
+  attitude.move_reference(step_);
+  theta_ = rows_.layout().theta_at(x_);
+  rows_.set_theta(theta_);
+  return true;
+}
+
+bool IteratedEkf::linear_pass(const Measurements& measured) {
+  x_reference_ = x_;
+  theta_ = rows_.layout().theta_at(x_reference_);
+  reference_.place(theta_);
+  rows_.reset(theta_);
+  triples_ = summed_ = scalars_ = 0;
+  information_.clear();
+  constexpr std::size_t at_once = 16;  // triples that are still in the first cache
+  for (std::size_t i = 0; i < timeline_.intervals.size(); ++i) {
+    const Interval& interval = timeline_.intervals[i];
+    const Vec3* path = reference_.nodes(interval);
+    if (interval.cage) rows_.cage(interval, path[0]);
+    rows_.enter(i);
+    if (!take(i, measured, path, Pass::linear)) return false;
+    if (triples_ - summed_ >= at_once || i + 1 == timeline_.intervals.size()) {
+      information_.add(row(3 * summed_), 3 * (triples_ - summed_));
+      summed_ = triples_;
+    }
+    if (ends_chain(timeline_, i))
+      ends_[static_cast<std::size_t>(interval.chain)] = rows_.attitude();
+  }
+  const bool finite = information_.factorise();
+  prior_ = x_start_ - x_reference_;
+  moved_ = information_.solve(prior_);
+  nis_ = information_.cost(moved_, prior_);
+  x_ = x_reference_ + moved_;
+  if (diverged(finite && std::isfinite(nis_) && x_.allFinite() && x_.cwiseAbs().maxCoeff() <= 1e6,
+               timeline_.intervals.back().t1, Pass::linear))
+    return false;
+  for (std::size_t i = 0; i < timeline_.intervals.size(); ++i) {
+    if (!ends_chain(timeline_, i)) continue;
+    const Interval& interval = timeline_.intervals[i];
+    const Vec3 psi = ends_[static_cast<std::size_t>(interval.chain)].attitude(moved_);
+    reference_.end_chain(interval, turned(timeline_.nodes[interval.last_node()], psi,
+                                          reference_.nodes(interval)[interval.node_count() - 1]));
+  }
+  return true;
+}
+
+bool IteratedEkf::diverged(bool finite, double t, Pass pass) {
+  if (finite) return false;
+  status_ = EstimateStatus::diverged;
+  t_diverged_ = t;
+  cause_ = fmt::format("{} diverged at t = {:.6g} s (estimate beyond 1e6 prior sigma)",
+                       pass == Pass::first ? "filter" : "second pass of the filter", t);
+  return true;
+}
+
+double IteratedEkf::largest_step() {
+  // No component is longer, in its sigma, than the whole step is in the metric of the covariance.
+  const double bound = std::sqrt(information_.length_squared(moved_));
+  if (bound < 1.0) return bound;
   double largest = 0.0;
-  for (std::size_t k = 0; k < linear_.layout().size(); ++k)
+  for (Eigen::Index k = 0; k < x_.size(); ++k) {
+    step_.setZero();
+    step_[k] = 1.0;
     largest =
-        std::max(largest, std::abs(linear_.x()[k]) / std::sqrt(linear_.covariance().variance(k)));
+        std::max(largest, std::abs(moved_[k]) / std::sqrt(information_.variance_of(step_.data())));
+  }
   return largest;
+}
+
+/// What is reported of the last pass.
+void IteratedEkf::finish() {
+  measure_lag();
+  information_.invert(P_);
+  const AttitudeFilter& end = ends_.back();
+  for (std::size_t k = 0; k < end.walking().size(); ++k) {
+    // The value at the end: what it was at the beginning, and what the walk has added.
+    const auto i = static_cast<Eigen::Index>(end.walking()[k]);
+    x_[i] += end.walked(k, moved_);
+  }
+  if (!end.walking().empty()) {
+    const auto m = static_cast<Eigen::Index>(end.walking().size());
+    MatX J = MatX::Identity(P_.rows(), P_.cols());
+    for (Eigen::Index k = 0; k < m; ++k)
+      J.row(static_cast<Eigen::Index>(end.walking()[static_cast<std::size_t>(k)])) +=
+          end.walked_by(static_cast<std::size_t>(k));
+    P_ = J * P_ * J.transpose();
+    for (Eigen::Index k = 0; k < m; ++k)
+      for (Eigen::Index l = 0; l < m; ++l)
+        P_(static_cast<Eigen::Index>(end.walking()[static_cast<std::size_t>(k)]),
+           static_cast<Eigen::Index>(end.walking()[static_cast<std::size_t>(l)])) +=
+            end.variance()(3 + k, 3 + l);
+  }
+  theta_ = rows_.layout().theta_at(x_);
+}
+
+void IteratedEkf::measure_lag() {
+  const std::size_t right = rows_.attitude().right();
+  double lagged = 0.0;
+  std::size_t pairs = 0;
+  const double* last[2] = {nullptr, nullptr};
+  for (std::size_t k = 0; k < triples_; ++k) {
+    const double* now = row(3 * k);
+    const double* before = std::exchange(last[channel_[k]], now);
+    if (before == nullptr) continue;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double *s = before + a * rows_.width(), *t = now + a * rows_.width();
+      if (s[right] == 0.0 || t[right] == 0.0) continue;
+      const Eigen::Map<const VecX> u(s, moved_.size()), v(t, moved_.size());
+      lagged += (s[right] - u.dot(moved_)) * (t[right] - v.dot(moved_));
+      lagged += information_.covariance_of(s, t);
+      ++pairs;
+    }
+  }
+  const double variance = nis_ / static_cast<double>(scalars_);
+  lag1_ = pairs > 0 && nis_ > 0.0 ? lagged / static_cast<double>(pairs) / variance : 0.0;
 }
 
 }  // namespace drift

@@ -1,55 +1,89 @@
 #pragma once
 
-#include "core/estimate/ekf.hpp"
+#include <string>
+
+#include "core/estimate/estimate_result.hpp"
+#include "core/estimate/interval_rows.hpp"
 #include "core/estimate/reference_path.hpp"
+#include "core/sim/measurements.hpp"
 
 namespace drift {
 
-/// An EKF, then the same measurements once more, linearised about what was found.
+/// An EKF that relinearises in blocks, then the same measurements once more, linearised about what
+/// was found.
 ///
-/// An EKF takes Jacobians at estimates that are still poor, and where parameters enter as products
-/// (misalignment times drift or command) it ends surer than it should be (physics.md 5.9). The
-/// second pass is a Kalman filter, linear in the deviations from a reference: the EKF's final
-/// parameters, and the attitude integrated back with them from its estimate at the end of each
-/// chain. Its result is that of a Gauss-Newton step on all data at once, and the sum of its NIS the
-/// minimum of the linearised cost. While a pass moves some parameter by more than a posterior sigma
-/// there is another, four at most; mostly there is one, at the cost of the EKF itself.
+/// Both passes make whitened rows of a static least squares problem (AttitudeFilter) and solve it
+/// in information form. The first relinearises about the running estimate after 1, 2, 4, ...
+/// samples from the beginning of every stretch on; in between its solution is exact. An EKF takes
+/// Jacobians at estimates that are still poor, and where parameters enter as products (misalignment
+/// times drift or command) it ends surer than it should be (physics.md 5.9). The second pass is
+/// linear in the deviations from a reference: the first one's final parameters, and the attitude
+/// integrated back with them from its estimate at the end of each chain. Its result is that of a
+/// Gauss-Newton step on all data at once, its cost at the minimum is chi-square. While a pass moves
+/// some parameter by more than a posterior sigma there is another, four at most; mostly there is
+/// one.
 class IteratedEkf {
  public:
   /// The timeline must outlive the filter. start: library values of the initial estimate.
   IteratedEkf(const FilterSpec& filter, const Timeline& timeline, const Readout& readout,
               const Theta& start);
 
-  /// Estimates from a whole recording; allocates nothing from the second time on.
+  /// As if built anew from this start, over a whole recording. Allocates nothing from the second
+  /// time on.
   void run(const Measurements& measured, const Theta& start);
 
-  EstimateStatus status() const { return last().status(); }
-  const std::string& cause() const { return last().cause(); }
-  double t_diverged() const { return last().t_diverged(); }  ///< [s]
-  const InnovationSums& innovations() const { return last().innovations(); }
+  EstimateStatus status() const { return status_; }
+  const std::string& cause() const { return cause_; }
+  double t_diverged() const { return t_diverged_; }  ///< [s]
+  double nis() const { return nis_; }                ///< minimum of data and prior cost
+  std::size_t scalars() const { return scalars_; }   ///< measured scalars it sums over
+  /// Correlation of whitened residuals of one channel, one sample apart, less what the fit makes
+  /// of white ones: 0 on average for a right model, with standard deviation 1 / sqrt(scalars) or a
+  /// little more (physics.md 5.6).
+  double lag1() const { return lag1_; }
   const VecX& x() const { return x_; }  ///< deviations from the prior means, in prior sigmas
   const Theta& theta() const { return theta_; }
-  double sigma(std::size_t k) const { return linear_.sigma(k); }  ///< of state k, SI
-  /// Covariance of the states in prior sigmas, shape (size, size), without a copy.
-  auto settled_covariance() {
-    linear_.covariance().settle();
-    return linear_.covariance().settled();
+  const Layout& layout() const { return rows_.layout(); }
+  /// Of state k, SI.
+  double sigma(std::size_t k) const {
+    const auto i = static_cast<Eigen::Index>(k);
+    return layout().sigma[i] * std::sqrt(P_(i, i));
   }
+  /// Covariance of the states in prior sigmas, shape (size, size).
+  const MatX& settled_covariance() const { return P_; }
 
  private:
-  void extended_pass(const Measurements& measured, const Theta& start);
-  void linear_pass(const Measurements& measured);
-  double largest_step() const;  ///< of the last pass, in posterior sigmas
-  /// The pass that ended the run.
-  const IntervalStep& last() const {
-    return extended_.status() == EstimateStatus::ok ? linear_ : extended_;
-  }
+  enum class Pass { first, linear };
+  bool first_pass(const Measurements& measured, const Theta& start);
+  bool linear_pass(const Measurements& measured);
+  bool take(std::size_t i, const Measurements& measured, const Vec3* path, Pass pass);
+  bool solve_block(const Interval& interval, Vec3& phi);
+  bool diverged(bool finite, double t, Pass pass);
+  double largest_step();  ///< of the last pass, in posterior sigmas
+  void finish();
+  void measure_lag();
+  double* row(std::size_t k) { return store_.data() + k * rows_.width(); }
 
   const Timeline& timeline_;
-  IntervalStep extended_, linear_;
+  IntervalRows rows_;
+  Information information_;
   ReferencePath reference_;
-  VecX x_, x_start_, x_reference_, dx_;  ///< dx: of the start from the reference
-  Theta theta_;
+  bool gated_;
+  std::vector<double> store_;                   ///< all rows of a pass
+  std::vector<IntervalRows::Channel> channel_;  ///< of each three of them
+  std::size_t triples_ = 0, summed_ = 0;        ///< rows by threes; summed up so far
+  std::vector<AttitudeFilter> ends_;            ///< at the end of each chain
+  VecX x_, x_start_, x_reference_;
+  VecX moved_;  ///< of the reference from the start; of the estimate from the reference
+  VecX prior_, step_, nothing_;  ///< work
+  MatX P_;
+  std::vector<Vec3> path_;
+  Theta theta_ = Theta::Zero();
+  double nis_ = 0.0, lag1_ = 0.0;
+  std::size_t scalars_ = 0;
+  EstimateStatus status_ = EstimateStatus::ok;
+  std::string cause_;
+  double t_diverged_ = 0.0;
 };
 
 }  // namespace drift

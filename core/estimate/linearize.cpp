@@ -1,49 +1,15 @@
 #include "core/estimate/linearize.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 
 namespace drift {
-namespace {
 
-/// A matrix of three columns, each filled up to a whole register.
-class Columns {
- public:
-  explicit Columns(const Mat3& M) {
-    for (int j = 0; j < 3; ++j) column_[j] << M.col(j), 0.0;
-  }
-  Eigen::Vector4d times(const double* v) const {
-    return column_[0] * v[0] + column_[1] * v[1] + column_[2] * v[2];
-  }
-
- private:
-  Eigen::Vector4d column_[3];
-};
-
-/// out = Phi G + C0 B0 + C1 B1 + C2 B2, column by column.
-void accumulate(const Mat3& Phi, const Mat3X& G, const Mat3& C0, const Mat3X& B0, const Mat3& C1,
-                const Mat3X& B1, const Mat3& C2, const Mat3X& B2, Mat3X& out) {
-  const Columns by_G(Phi), by_0(C0), by_1(C1), by_2(C2);
-  const double *g = G.data(), *b0 = B0.data(), *b1 = B1.data(), *b2 = B2.data();
-  double* into = out.data();
-  for (Eigen::Index c = 0; c < out.cols(); ++c, g += 3, b0 += 3, b1 += 3, b2 += 3, into += 3) {
-    const Eigen::Vector4d sum = by_G.times(g) + by_0.times(b0) + by_1.times(b1) + by_2.times(b2);
-    for (int i = 0; i < 3; ++i) into[i] = sum[i];
-  }
+std::size_t most_nodes(const Timeline& timeline) {
+  std::size_t most = 0;
+  for (const Interval& i : timeline.intervals) most = std::max(most, i.node_count());
+  return most;
 }
-
-/// out += A G.
-void add_product(const Mat3& A, const Mat3X& G, Mat3X& out) {
-  const Columns by(A);
-  const double* g = G.data();
-  double* into = out.data();
-  for (Eigen::Index c = 0; c < out.cols(); ++c, g += 3, into += 3) {
-    const Eigen::Vector4d product = by.times(g);
-    for (int i = 0; i < 3; ++i) into[i] += product[i];
-  }
-}
-
-}  // namespace
-
 void mean_output(const Interval& interval, const IntervalSensitivity& sensitivity,
                  MeanOutput& mean) {
   const auto middle = static_cast<std::size_t>(interval.substeps);
@@ -57,10 +23,11 @@ void mean_output(const Interval& interval, const IntervalSensitivity& sensitivit
     const NodeJacobian& j = sensitivity.jacobian[k];
     mean.acc += w * j.acc;
     mean.H += w * j.H * sensitivity.Phi[k] * Phi_m_inv;
-    if (k > 0) add_product(w * j.H, sensitivity.G[k], mean.H_rate);  // G[0] is zero
+    if (k > 0)  // G[0] is zero
+      sum_of_products<Sum::onto>({w * j.H}, {&sensitivity.G[k]}, mean.H_rate);
     mean.H_par += w * j.H_par;
   }
-  add_product(-mean.H, sensitivity.G[middle], mean.H_rate);
+  sum_of_products<Sum::onto>({-mean.H}, {&sensitivity.G[middle]}, mean.H_rate);
 }
 
 void linearize_interval(const Interval& interval, const Timeline& timeline, const Mat3& E_loop,
@@ -72,9 +39,16 @@ void linearize_interval(const Interval& interval, const Timeline& timeline, cons
     out.Phi.emplace_back();
     out.G.push_back(out.jacobian.back().B);
   }
-  for (std::size_t k = 0; k < nodes; ++k)
-    linearizer.evaluate(timeline.nodes[interval.first_node + k], interval, E_loop, phi[k],
-                        &timeline, memory ? &memory[2 * k] : nullptr, out.jacobian[k]);
+  for (std::size_t first = 0; first < nodes; first += Linearizer::at_once) {
+    const std::size_t count = std::min(nodes - first, Linearizer::at_once);
+    std::array<NodePoint, Linearizer::at_once> points;
+    for (std::size_t l = 0; l < count; ++l) {
+      const std::size_t k = first + l;
+      points[l] = {&timeline.nodes[interval.first_node + k], &interval, phi[k],
+                   memory ? &memory[2 * k] : nullptr};
+    }
+    linearizer.evaluate({points.data(), count}, E_loop, &timeline, &out.jacobian[first]);
+  }
   if (interval.rest) {
     for (std::size_t k = 0; k < nodes; ++k) {
       out.Phi[k] = timeline.nodes[interval.first_node + k].R_il *
@@ -97,10 +71,11 @@ void linearize_interval(const Interval& interval, const Timeline& timeline, cons
     const Mat3 from_end = exponential(a1 - a2), from_middle = exponential(a2 - a1);
     out.Phi[k + 1] = Phi1 * out.Phi[k];
     out.Phi[k + 2] = Phi2 * out.Phi[k];
-    accumulate(Phi1, out.G[k], h * 5.0 / 12.0 * Phi1, j0.B, h * 8.0 / 12.0 * I, j1.B,
-               -h / 12.0 * from_end, j2.B, out.G[k + 1]);
-    accumulate(Phi2, out.G[k], h / 3.0 * Phi2, j0.B, h * 4.0 / 3.0 * from_middle, j1.B, h / 3.0 * I,
-               j2.B, out.G[k + 2]);
+    sum_of_products<Sum::afresh>(
+        {Phi1, h * 5.0 / 12.0 * Phi1, h * 8.0 / 12.0 * I, -h / 12.0 * from_end},
+        {&out.G[k], &j0.B, &j1.B, &j2.B}, out.G[k + 1]);
+    sum_of_products<Sum::afresh>({Phi2, h / 3.0 * Phi2, h * 4.0 / 3.0 * from_middle, h / 3.0 * I},
+                                 {&out.G[k], &j0.B, &j1.B, &j2.B}, out.G[k + 2]);
   }
 }
 

@@ -6,12 +6,15 @@
 
 namespace drift {
 
+/// Nodes of the interval that has most.
+std::size_t most_nodes(const Timeline& timeline);
+
 /// Sensitivities within one interval, from its start to each of its nodes:
 /// psi(node k) = Phi[k] psi(start) + G[k] x(rate states).
 struct IntervalSensitivity {
   std::vector<NodeJacobian> jacobian;  ///< at each node
   std::vector<Mat3> Phi;
-  std::vector<Mat3X> G;
+  std::vector<Rows3> G;  ///< as wide as NodeJacobian::B
 };
 
 /// Mean of the accelerometer outputs over an interval, and its derivatives with respect to the
@@ -20,8 +23,8 @@ struct IntervalSensitivity {
 struct MeanOutput {
   Vec3 acc = Vec3::Zero();  ///< [g]
   Mat3 H = Mat3::Zero();    ///< [g/rad]
-  Mat3X H_rate;             ///< by rate states, the attitude in the middle as it is [g]
-  Mat3X H_par;              ///< by readout states [g]
+  Rows3 H_rate;             ///< by rate states, the attitude in the middle as it is [g]
+  Rows3 H_par;              ///< by readout states [g]
 };
 
 /// Fills `mean`; allocates nothing from the second time on.

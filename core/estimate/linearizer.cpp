@@ -1,14 +1,11 @@
 #include "core/estimate/linearizer.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 
 #include "core/base/check.hpp"
 
 namespace drift {
 namespace {
-
-using D3 = Dual<3>;
 
 std::vector<std::size_t> rate_states(const Layout& layout) {
   return {layout.params.begin(),
@@ -19,42 +16,36 @@ std::vector<std::size_t> readout_states(const Layout& layout) {
           layout.params.end()};
 }
 
-/// Derivative number k of a row of duals.
-template <class Duals>
-Vec3 derivative(const Duals& d, int first, int k) {
-  return {d[first].d[k], d[first + 1].d[k], d[first + 2].d[k]};
+/// A matrix of each point, in lanes; the last point stands in the lanes that are left.
+template <class Of>
+Mat3T<Pack> in_lanes_of(std::span<const NodePoint> points, Of&& of) {
+  std::array<const double*, static_cast<std::size_t>(Pack::width)> from;
+  for (std::size_t l = 0; l < from.size(); ++l)
+    from[l] = of(points[std::min(l, points.size() - 1)]).data();
+  Mat3T<Pack> M;
+  for (int k = 0; k < 9; ++k)
+    M.data()[k] = Pack::of_each([&](int l) { return from[static_cast<std::size_t>(l)][k]; });
+  return M;
 }
 
-/// d (R(delta)^T f) / d delta, columns x, y, z.
-Mat3 by_offset(const Vec3& delta_p, const Vec3& f_p) {
-  Vec3T<D3> delta;
-  for (int k = 0; k < 3; ++k) delta[k] = D3::variable(delta_p[k], k);
-  const Vec3T<D3> f = rotation(delta).transpose() * f_p.cast<D3>();
-  Mat3 J;
-  for (int k = 0; k < 3; ++k) J.col(k) = derivative(f, 0, k);
-  return J;
+/// The same of a vector.
+template <class Of>
+Vec3T<Pack> vector_in_lanes(std::span<const NodePoint> points, Of&& of) {
+  Vec3T<Pack> v;
+  for (int k = 0; k < 3; ++k)
+    v[k] = Pack::of_each([&](int l) {
+      return of(points[std::min(static_cast<std::size_t>(l), points.size() - 1)])[k];
+    });
+  return v;
 }
 
-/// The misalignment that the loop closes over, K = share E + fixed (drift_model.hpp).
-struct Closure {
-  double share = 0.0;
-  bool varies = false;  ///< the share is the slot lambda
-  Mat3 K = Mat3::Zero();
-};
-
-Closure closure_of(Coupling coupling, const Mat3& E, double lambda, const Mat3& E_loop) {
-  switch (coupling) {
-    case Coupling::eq6:
-      return {1.0, false, E};
-    case Coupling::lambda:
-      return {lambda, true, lambda * E};
-    case Coupling::compensated:
-      return {0.0, false, E_loop};
-    case Coupling::eq5:
-    case Coupling::servo:
-      break;
-  }
-  return {};
+Mat3 lane(const Mat3T<Pack>& M, std::size_t l) {
+  Mat3 one;
+  for (int k = 0; k < 9; ++k) one.data()[k] = M.data()[k][static_cast<int>(l)];
+  return one;
+}
+Vec3 lane(const Vec3T<Pack>& v, std::size_t l) {
+  return {v[0][static_cast<int>(l)], v[1][static_cast<int>(l)], v[2][static_cast<int>(l)]};
 }
 
 }  // namespace
@@ -65,31 +56,81 @@ Linearizer::Linearizer(const DriftModel& model, const Layout& layout, Readout re
       readout_(readout),
       with_readout_(readout.accelerometers),
       needs_(TermLibrary::needs(model.terms)),
-      theta_(layout.theta),
+      theta_together_(TermLibrary::num_params),
       rates_(model.terms, rate_states(layout)),
-      offsets_(model.terms, readout_states(layout)),
       accelerometers_(model.terms, readout_states(layout)),
+      offset_accelerometers_(model.terms, readout_states(layout)),
+      offsets_(model.terms, readout_states(layout)),
       resolvers_(model.terms, readout_states(layout)) {
-  derivative_.resize(std::max({rates_.entries().size(), offsets_.entries().size(),
-                               accelerometers_.entries().size(), resolvers_.entries().size()}));
+  derivative_.resize(
+      std::max({rates_.apart.entries().size(), offsets_.entries().size(),
+                offset_accelerometers_.entries().size(), resolvers_.entries().size()}));
+  set_theta(layout.theta);
+}
+
+void Linearizer::set_theta(const Theta& theta) {
+  theta_ = theta;
+  for (std::size_t k = 0; k < theta_together_.size(); ++k)
+    theta_together_[k] = Pack(theta_[static_cast<Eigen::Index>(k)]);
 }
 
 NodeJacobian Linearizer::make() const {
   NodeJacobian j;
   j.A.setZero();
-  j.B = Mat3X::Zero(3, layout_.num_rate);
+  j.B = padded_rows(layout_.num_rate);
   j.acc.setZero();
   j.H.setZero();
-  j.H_par = Mat3X::Zero(3, layout_.size() - layout_.num_rate);
+  j.H_par = padded_rows(layout_.size() - layout_.num_rate);
   return j;
 }
 
-/// Works out what the terms see at an attitude. What the base terms see is linear in R_lp, so its
-/// derivative is what they would see of dR_lp.
-void Linearizer::look(const Node& node, const Interval& interval, const Mat3& R_lp,
-                      const Timeline* timeline, const MemoryPoint* memory) {
+void Linearizer::evaluate(std::span<const NodePoint> points, const Mat3& E_loop,
+                          const Timeline* timeline, NodeJacobian* out) {
+  DRIFT_DEMAND(!points.empty() && points.size() <= at_once);
+  look_together(points);
+  differentiate_rates(points, E_loop, timeline, out);
+  if (!with_readout_) return;
+  if (!offsets_.any()) return differentiate_readout(points, timeline, out);
+  for (std::size_t l = 0; l < points.size(); ++l) {
+    look(points[l], lane(R_lp_, l), timeline);
+    differentiate_offset_readout(points[l].node->R_il, out[l]);
+  }
+}
+
+/// Works out what the terms see at some attitudes. What the base terms see is linear in R_lp, so
+/// its derivative is what they would see of dR_lp = [psi x] R_lp.
+void Linearizer::look_together(std::span<const NodePoint> points) {
+  const Vec3T<Pack> phi = vector_in_lanes(points, [](const NodePoint& p) { return p.phi; });
+  R_il_ = in_lanes_of(points, [](const NodePoint& p) -> const Mat3& { return p.node->R_il; });
+  R_lp_ = in_lanes_of(points, [](const NodePoint& p) -> const Mat3& { return p.node->R_lr; }) *
+          rotation(phi);
+  const Vec3T<Pack> w_l =
+      vector_in_lanes(points, [](const NodePoint& p) { return p.node->omega_ic_l; });
+  Inputs<Pack>& still = together_.still;
+  Inputs<PackD>& at_psi = together_.at_psi;
+  still.mounting = at_psi.mounting = &model_.mounting;
+  still.omega_cmd_p = at_psi.omega_cmd_p = points[0].interval->omega_cmd_p;
+  still.f_p = R_lp_.row(2);
+  still.omega_ic_p = R_lp_.transpose() * w_l;
+  for (int k = 0; k < 3; ++k) {
+    // R_lp^T [psi x]^T of Up and of the rate, psi a unit vector.
+    const int a = (k + 1) % 3, b = (k + 2) % 3;
+    const Vec3T<Pack> dw = R_lp_.row(a).transpose() * w_l[b] - R_lp_.row(b).transpose() * w_l[a];
+    for (int i = 0; i < 3; ++i) {
+      at_psi.omega_ic_p[i].v = still.omega_ic_p[i];
+      at_psi.omega_ic_p[i].d[k] = dw[i];
+      at_psi.f_p[i].v = still.f_p[i];
+      at_psi.f_p[i].d[k] = k == 0 ? R_lp_(1, i) : k == 1 ? -R_lp_(0, i) : Pack(0.0);
+    }
+  }
+  together_.theta = theta_together_.data();
+}
+
+/// The same at one attitude, with all that the terms may ask for.
+void Linearizer::look(const NodePoint& point, const Mat3& R_lp, const Timeline* timeline) {
   const auto seen = [&](const Mat3& R) {
-    return inputs_at<double>(node.omega_ic_l, interval.omega_cmd_p, model_.mounting, R);
+    return inputs_at<double>(point.node->omega_ic_l, point.interval->omega_cmd_p, model_.mounting,
+                             R);
   };
   Inputs<double>& still = seen_.still;
   Inputs<D3>& at_psi = seen_.at_psi;
@@ -110,11 +151,11 @@ void Linearizer::look(const Node& node, const Interval& interval, const Mat3& R_
   }
   seen_.theta = theta_.data();
   if (!needs_.any()) return;
-  DRIFT_DEMAND(timeline != nullptr && (memory != nullptr || !needs_.memory));
-  const Moment now = moment_at(*timeline, interval, node.t);
+  DRIFT_DEMAND(timeline != nullptr && (point.memory != nullptr || !needs_.memory));
+  const Moment now = moment_at(*timeline, *point.interval, point.node->t);
   if (needs_.memory) {
-    seen_.memory = memory->value.data();
-    seen_.memory_derivative = memory->derivative.data();
+    seen_.memory = point.memory->value.data();
+    seen_.memory_derivative = point.memory->derivative.data();
   }
   Needs shown = needs_;  // memory comes with the hook
   shown.memory = false;
@@ -124,175 +165,83 @@ void Linearizer::look(const Node& node, const Interval& interval, const Mat3& R_
   at_psi.around = &around_at_psi_;
 }
 
-void Linearizer::evaluate(const Node& node, const Interval& interval, const Mat3& E_loop,
-                          const Vec3& phi, const Timeline* timeline, const MemoryPoint* memory,
-                          NodeJacobian& out) {
-  const Mat3 R_lp = node.R_lr * rotation(phi);
-  look(node, interval, R_lp, timeline, memory);
-  differentiate_rate(E_loop, node.R_il * R_lp, node.R_il, out);
-  if (with_readout_) differentiate_readout(node.R_il, out);
-}
-
-/// w_ip = w_o - v with (I + K) v = (E - K) w_ic + u (drift_model.hpp), so
-///   dw_ip = dw_o - (I + K)^-1 (dE l - dshare E (w_ic + v) + (E - K) dw_ic + du),
-///   l = (1 - share) w_ic - share v,  K = share E  (or fixed, then share = 0).
-void Linearizer::differentiate_rate(const Mat3& E_loop, const Mat3& R_ip, const Mat3& R_il,
-                                    NodeJacobian& out) {
-  using H = RatesHook;
-  RateAssembly<D3> sum;
-  rates_.add_to(seen_, sum);
-  const Vec3T<D3> u = sum.omega_drift_g + sum.omega_torque_g;
-  Mat3 E;
-  for (int i = 0; i < 9; ++i) E.data()[i] = sum.E_gp.data()[i].v;
-  const Closure closure = closure_of(model_.coupling, E, sum.lambda.v, E_loop);
-  const Mat3 open = E - closure.K;
-  const Mat3 minus_closed = -(Mat3::Identity() + closure.K).inverse();
-  const Vec3& w = seen_.still.omega_ic_p;
-  const Vec3 torqued = Vec3(u[0].v, u[1].v, u[2].v) - seen_.still.omega_cmd_p;
-  const Vec3 v = -(minus_closed * (open * w + torqued));
-  const Vec3 lever = (1.0 - closure.share) * w - closure.share * v;
-  const Vec3 by_share = closure.varies ? Vec3(-(E * (w + v))) : Vec3::Zero();
-
-  Mat3 A_l;
-  for (int k = 0; k < 3; ++k) {
-    const Vec3 dw = derivative(seen_.at_psi.omega_ic_p, 0, k);
-    Vec3 ds = open * dw + derivative(u, 0, k) + by_share * sum.lambda.d[k];
-    for (int c = 0; c < 3; ++c) ds += derivative(sum.E_gp.data(), H::E(0, c), k) * lever[c];
-    A_l.col(k) = derivative(sum.omega_ip_p, 0, k) + minus_closed * ds;
+/// The slots of a hook at all points, and their derivatives by the states, in hooked.derivative and
+/// hooked.beside.
+template <class Hook>
+typename SlotDerivatives<Hook, Pack>::Slots Linearizer::slots_of(Hooked<Hook>& hooked,
+                                                                 std::span<const NodePoint> points,
+                                                                 const Timeline* timeline) {
+  auto slots = hooked.together.slots_of(together_);
+  hooked.together.differentiate(together_, hooked.derivative.data());
+  if (!hooked.apart.any()) return slots;
+  for (std::size_t l = 0; l < points.size(); ++l) {
+    const int at = static_cast<int>(l);
+    look(points[l], lane(R_lp_, l), timeline);
+    const auto one = hooked.apart.slots_of(seen_);
+    for (std::size_t s = 0; s < slots.size(); ++s) {
+      slots[s].v.set(at, slots[s].v[at] + one[s].v);
+      for (int k = 0; k < 3; ++k) slots[s].d[k].set(at, slots[s].d[k][at] + one[s].d[k]);
+    }
+    hooked.apart.differentiate(seen_, derivative_.data());
+    for (std::size_t e = 0; e < hooked.beside.size(); ++e) hooked.beside[e].set(at, derivative_[e]);
   }
-  out.A = R_ip * A_l * R_il.transpose();
-  out.omega_ip_i = R_ip * (Vec3(sum.omega_ip_p[0].v, sum.omega_ip_p[1].v, sum.omega_ip_p[2].v) - v);
+  return slots;
+}
 
-  rates_.differentiate(seen_, derivative_.data());
-  const Mat3 by_gyro = R_ip * minus_closed;
-  const Vec3 share_i = by_gyro * by_share;
-  std::size_t before = layout_.size();
-  for (std::size_t e = 0; e < rates_.entries().size(); ++e) {
-    const auto [state, at] = rates_.entries()[e];
-    const double d = derivative_[e] * layout_.sigma[static_cast<Eigen::Index>(state)];
-    Vec3 column;
-    if (at < H::u(0))
-      column = by_gyro.col(at % 3) * (d * lever[at / 3]);
-    else if (at < H::omega(0))
-      column = by_gyro.col(at - H::u(0)) * d;
-    else if (at < H::lambda)
-      column = R_ip.col(at - H::omega(0)) * d;
-    else
-      column = share_i * d;
-    auto into = out.B.col(static_cast<Eigen::Index>(state));
-    if (state == before)
-      into += column;
-    else
-      into = column;
-    before = state;
+void Linearizer::differentiate_rates(std::span<const NodePoint> points, const Mat3& E_loop,
+                                     const Timeline* timeline, NodeJacobian* out) {
+  const auto slots = slots_of(rates_, points, timeline);
+  const Mat3T<Pack> R_ip = R_il_ * R_lp_;
+  const RateChain<Pack> chain(model_, slots, together_.at_psi.omega_ic_p,
+                              together_.still.omega_cmd_p, E_loop, R_ip);
+  const Mat3T<Pack> A = R_ip * chain.by_attitude() * R_il_.transpose();
+  const Vec3T<Pack> omega_ip_i = R_ip * chain.omega_ip_p();
+  for (std::size_t l = 0; l < points.size(); ++l) {
+    out[l].A = lane(A, l);
+    out[l].omega_ip_i = lane(omega_ip_i, l);
   }
-}
-
-/// Rotation by the terms that offset the attitude, with derivatives with respect to psi.
-Linearizer::Vec3D Linearizer::offset() const {
-  OffsetHook::Assembly<D3> sum;
-  offsets_.add_to(seen_, sum);
-  return sum.delta_p;
-}
-
-void Linearizer::differentiate_readout(const Mat3& R_il, NodeJacobian& out) {
-  const auto sigma = [&](std::size_t state) {
-    return layout_.sigma[static_cast<Eigen::Index>(layout_.num_rate + state)];
+  const auto write = [&](const auto& entries, const std::vector<Pack>& derivative) {
+    for (std::size_t e = 0; e < entries.size();) {
+      const std::size_t state = entries[e].state;
+      const Pack sigma(layout_.sigma[static_cast<Eigen::Index>(state)]);
+      Vec3T<Pack> column = chain.by_slot(entries[e].slot, derivative[e] * sigma);
+      for (++e; e < entries.size() && entries[e].state == state; ++e)
+        column += chain.by_slot(entries[e].slot, derivative[e] * sigma);
+      for (int i = 0; i < 3; ++i)
+        for (std::size_t l = 0; l < points.size(); ++l)
+          out[l].B(i, static_cast<Eigen::Index>(state)) = column[i][static_cast<int>(l)];
+    }
   };
-  SeenByTerms<double> seen = seen_;
-  Vec3D delta_p;
-  if (offsets_.any()) {
-    delta_p = offset();
-    seen.at_psi.f_p = rotation(delta_p).transpose() * seen_.at_psi.f_p;
-    for (int i = 0; i < 3; ++i) seen.still.f_p[i] = seen.at_psi.f_p[i].v;
-  }
-  const auto outputs = [&] {
-    ReadoutHook::Assembly<D3> sum;
-    sum.acc = seen.at_psi.f_p;
-    accelerometers_.add_to(seen, sum);
-    return sum.acc;
-  };
-  const Vec3D acc = outputs();
-  Mat3 H_l;
+  write(rates_.together.entries(), rates_.derivative);
+  write(rates_.apart.entries(), rates_.beside);
+}
+
+void Linearizer::differentiate_readout(std::span<const NodePoint> points, const Timeline* timeline,
+                                       NodeJacobian* out) {
+  auto slots = slots_of(accelerometers_, points, timeline);
+  Mat3T<Pack> H_l;
+  Vec3T<Pack> acc;
   for (int i = 0; i < 3; ++i) {
-    out.acc[i] = acc[i].v;
-    for (int k = 0; k < 3; ++k) H_l(i, k) = acc[i].d[k];
+    const PackD& f = together_.at_psi.f_p[i];
+    const PackD& s = slots[static_cast<std::size_t>(i)];
+    acc[i] = f.v + s.v;
+    for (int k = 0; k < 3; ++k) H_l(i, k) = f.d[k] + s.d[k];
   }
-  out.H = H_l * R_il.transpose();
-
-  accelerometers_.differentiate(seen, derivative_.data());
-  for (std::size_t e = 0; e < accelerometers_.entries().size(); ++e) {
-    const auto [state, axis] = accelerometers_.entries()[e];
-    out.H_par(axis, static_cast<Eigen::Index>(state)) = derivative_[e] * sigma(state);
+  const Mat3T<Pack> H = H_l * R_il_.transpose();
+  for (std::size_t l = 0; l < points.size(); ++l) {
+    out[l].acc = lane(acc, l);
+    out[l].H = lane(H, l);
   }
-  if (offsets_.entries().empty()) return;
-  // The states that turn the platform: through the specific force that the accelerometers feel.
-  for (int i = 0; i < 3; ++i) seen.at_psi.f_p[i] = D3::variable(seen.still.f_p[i], i);
-  const Vec3D by_force = outputs();
-  Mat3 D;
-  for (int k = 0; k < 3; ++k) D.col(k) = derivative(by_force, 0, k);
-  const Mat3 J = D * by_offset({delta_p[0].v, delta_p[1].v, delta_p[2].v}, seen_.still.f_p);
-  offsets_.differentiate(seen_, derivative_.data());
-  for (const auto& [state, axis] : offsets_.entries())
-    out.H_par.col(static_cast<Eigen::Index>(state)).setZero();
-  for (std::size_t e = 0; e < offsets_.entries().size(); ++e) {
-    const auto [state, axis] = offsets_.entries()[e];
-    out.H_par.col(static_cast<Eigen::Index>(state)) +=
-        J.col(axis) * (derivative_[e] * sigma(state));
-  }
-}
-
-GimbalPrediction Linearizer::gimbals(const Timeline& timeline, const Interval& interval,
-                                     const Vec3& phi, const MemoryPoint* memory) {
-  const Node& node = timeline.nodes[interval.last_node()];
-  if (!offsets_.any() && !resolvers_.any()) return predict_gimbals(node, interval.heading1, phi);
-  const Mat3 R_lp = node.R_lr * rotation(phi);
-  look(node, interval, R_lp, &timeline, memory);
-  GimbalAssembly<D3> sum;
-  resolvers_.add_to(seen_, sum);
-  const Vec3D delta_p = offset();
-  const Mat3 R_cl = case_attitude(interval.heading1).transpose();
-  const auto angles_of = [&](const Vec3D& tilt_l, const Mat3T<D3>& R, const Vec3D& delta) {
-    const Mat3T<D3> R_tp = rotation(tilt_l).transpose() * R * rotation(delta);
-    return gimbal_angles<D3>(R_cl.cast<D3>() * R_tp);
+  const auto write = [&](const auto& entries, const std::vector<Pack>& derivative) {
+    for (std::size_t e = 0; e < entries.size(); ++e) {
+      const auto state = static_cast<Eigen::Index>(entries[e].state);
+      const double sigma = layout_.sigma[static_cast<Eigen::Index>(layout_.num_rate) + state];
+      for (std::size_t l = 0; l < points.size(); ++l)
+        out[l].H_par(entries[e].slot, state) = derivative[e][static_cast<int>(l)] * sigma;
+    }
   };
-  const Vec3D angles = angles_of(sum.case_tilt_l, R_at_psi_, delta_p);
-  GimbalPrediction out;
-  Mat3 H_l;
-  for (int a = 0; a < 3; ++a) {
-    out.angles[a] = angles[a].v + sum.error[a].v;
-    for (int k = 0; k < 3; ++k) H_l(a, k) = angles[a].d[k] + sum.error[a].d[k];
-  }
-  out.H = H_l * node.R_il.transpose();
-
-  // Where one of the two small rotations is the variable.
-  Vec3D tilt_still, delta_still, tilt_variable, delta_variable;
-  for (int k = 0; k < 3; ++k) {
-    tilt_still[k] = D3(sum.case_tilt_l[k].v);
-    delta_still[k] = D3(delta_p[k].v);
-    tilt_variable[k] = D3::variable(sum.case_tilt_l[k].v, k);
-    delta_variable[k] = D3::variable(delta_p[k].v, k);
-  }
-  const Mat3T<D3> R_still = R_lp.cast<D3>();
-  const Vec3D by_tilt = angles_of(tilt_variable, R_still, delta_still);
-  const Vec3D by_delta = angles_of(tilt_still, R_still, delta_variable);
-
-  out.H_par = Mat3X::Zero(3, layout_.size() - layout_.num_rate);
-  const auto add = [&](std::size_t state, const Vec3& d) {
-    const auto k = static_cast<Eigen::Index>(state);
-    out.H_par.col(k) += d * layout_.sigma[static_cast<Eigen::Index>(layout_.num_rate) + k];
-  };
-  resolvers_.differentiate(seen_, derivative_.data());
-  for (std::size_t e = 0; e < resolvers_.entries().size(); ++e) {
-    const auto [state, at] = resolvers_.entries()[e];
-    add(state, derivative_[e] * (at < 3 ? Vec3(Vec3::Unit(at)) : derivative(by_tilt, 0, at - 3)));
-  }
-  offsets_.differentiate(seen_, derivative_.data());
-  for (std::size_t e = 0; e < offsets_.entries().size(); ++e) {
-    const auto [state, axis] = offsets_.entries()[e];
-    add(state, derivative_[e] * derivative(by_delta, 0, axis));
-  }
-  return out;
+  write(accelerometers_.together.entries(), accelerometers_.derivative);
+  write(accelerometers_.apart.entries(), accelerometers_.beside);
 }
 
 }  // namespace drift

@@ -22,7 +22,7 @@ std::vector<ChainEquations> measurement_equations(const MeasuredTest& test, cons
   linearizer.set_theta(theta);
   IntervalSensitivity inner;
   Mat3 Phi = Mat3::Identity();  // from the caging to the start of the interval
-  Mat3X G = Mat3X::Zero(3, nr), Y(3, n);
+  Rows3 G = padded_rows(layout.num_rate), Y(3, n);
   MemoryPath memory(timeline, model);
   for (std::size_t i = 0; i < timeline.intervals.size(); ++i) {
     const Interval& interval = timeline.intervals[i];
@@ -54,10 +54,10 @@ std::vector<ChainEquations> measurement_equations(const MeasuredTest& test, cons
         const NodeJacobian& j = inner.jacobian[k];
         mean += w * j.acc;
         Y_psi += w * j.H * inner.Phi[k];
-        Y.leftCols(nr).noalias() += (w * j.H) * inner.G[k];
-        Y.rightCols(n - nr) += w * j.H_par;
+        Y.leftCols(nr).noalias() += (w * j.H) * inner.G[k].leftCols(nr);
+        Y.rightCols(n - nr) += w * j.H_par.leftCols(n - nr);
       }
-      Y.leftCols(nr).noalias() += Y_psi * G;
+      Y.leftCols(nr).noalias() += Y_psi * G.leftCols(nr);
       Y_psi = (Y_psi * Phi).eval();
       for (int a = 0; a < 3; ++a)
         if (std::isfinite(measured.acc(a, i)))
@@ -75,9 +75,9 @@ std::vector<ChainEquations> measurement_equations(const MeasuredTest& test, cons
               : linearizer.gimbals(timeline, interval, phi[interval.last_node()],
                                    memory.active() ? &memory.points()[2 * last] : nullptr);
       Y.setZero();
-      Y.leftCols(nr).noalias() = p.H * G;
-      if (p.H_rate.cols() > 0) Y.leftCols(nr) += p.H_rate;
-      if (p.H_par.cols() > 0) Y.rightCols(n - nr) = p.H_par;
+      Y.leftCols(nr).noalias() = p.H * G.leftCols(nr);
+      if (p.H_rate.cols() > 0) Y.leftCols(nr) += p.H_rate.leftCols(nr);
+      if (p.H_par.cols() > 0) Y.rightCols(n - nr) = p.H_par.leftCols(n - nr);
       const Mat3 Y_psi = p.H * Phi;
       for (int a = 0; a < 3; ++a)
         if (std::isfinite(measured.gimbal(a, i)))

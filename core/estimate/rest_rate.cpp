@@ -18,7 +18,7 @@ GimbalPrediction predict_rest_rate(const Interval& interval, const Timeline& tim
     // An attitude error turns what the platform sees of the Earth's rate: R_pi -> R_pi (I - [psi
     // x]).
     out.H += w * R_pi * (j.A - skew(omega_ie_i)) * sensitivity.Phi[k] * to_end;
-    out.H_rate.noalias() += w * R_pi * j.B;
+    out.H_rate.noalias() += (w * R_pi) * j.B;
   }
   return out;
 }

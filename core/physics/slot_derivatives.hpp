@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/dual.hpp"
+#include "core/base/pack.hpp"
 #include "core/physics/dependence.hpp"
 #include "core/physics/hooks.hpp"
 #include "core/physics/term_library.hpp"
@@ -22,6 +23,22 @@ struct SeenByTerms {
   const S* memory_derivative = nullptr;  ///< each with respect to its term's parameter
 };
 
+/// Whether a term can be worked out for several instants in lock step (Pack): it sees attitude and
+/// command alone. What else a term may see belongs to one instant.
+template <class T>
+constexpr bool in_lanes() {
+  return !is_place<T>() && !needs_of<T>().any();
+}
+/// The terms of a mask that can, and those that cannot.
+inline TermMask those_in_lanes(const TermMask& terms) {
+  constexpr TermMask which =
+      TermLibrary::selected([](const TermInfo& t) { return !t.needs.any(); });
+  return terms & which;
+}
+inline TermMask those_apart(const TermMask& terms) {
+  return terms & ~those_in_lanes(terms);
+}
+
 /// An instant at which every term has something to do, to find out what depends on what.
 SeenByTerms<Dependence> scene_of_dependence();
 
@@ -38,6 +55,7 @@ class SlotDerivatives {
   static constexpr int slots = Hook::slots;
   using D3 = Dual<3, S>;
   using Sum = typename Hook::template Assembly<D3>;
+  using Slots = std::array<D3, static_cast<std::size_t>(Hook::slots)>;
 
   /// A slot that depends on a state.
   struct Entry {
@@ -45,10 +63,11 @@ class SlotDerivatives {
     int slot = 0;
   };
 
-  /// states: library index of each, in the order of a layout.
+  /// states: library index of each, in the order of a layout. Of several instants at once: no term
+  /// may be among `terms` that is not in_lanes.
   SlotDerivatives(const TermMask& terms, const std::vector<std::size_t>& states) {
     TermLibrary::for_each_of(terms, [&]<class T>(const TermInfo& info) {
-      if constexpr (Hook::template has<T>)
+      if constexpr (Hook::template has<T> && (in_lanes<T>() || std::same_as<S, double>))
         if (Hook::acts(info)) add<T>(info, states);
     });
   }
@@ -60,6 +79,15 @@ class SlotDerivatives {
   /// Adds the terms' slots to `sum`, with derivatives with respect to the directions of at_psi.
   void add_to(const SeenByTerms<S>& seen, Sum& sum) const {
     for (const OneTerm& t : terms_) t.value(seen, t, sum);
+  }
+  /// The slots of the terms, as they stand in a row.
+  Slots slots_of(const SeenByTerms<S>& seen) const {
+    Sum sum;
+    add_to(seen, sum);
+    Slots out;
+    for (int k = 0; k < slots; ++k)
+      out[static_cast<std::size_t>(k)] = Hook::template slot<D3>(sum, k);
+    return out;
   }
   /// d slot / d state of every entry, SI.
   void differentiate(const SeenByTerms<S>& seen, S* out) const {

@@ -65,6 +65,11 @@ Vec3 caged_phi(const Mat3& R_lr, const Vec3& psi_l) {
   return R_lr.transpose() * psi_l;
 }
 
+Vec3 turned(const Node& node, const Vec3& psi_i, const Vec3& phi) {
+  const Vec3 psi_r = node.R_lr.transpose() * (node.R_il.transpose() * psi_i);
+  return rotation_vector(rotation(psi_r) * rotation(phi));
+}
+
 Trajectory integrate_fixed(const Timeline& timeline, const DriftModel& model, const Theta& theta,
                            const std::vector<Vec3>& psi0_l) {
   Trajectory all(timeline.nodes.size());

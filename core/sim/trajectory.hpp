@@ -39,6 +39,10 @@ void step_back_through(const Interval& interval, const Timeline& timeline, const
 /// R_lp = exp([psi x]) R_lr = R_lr exp([phi x]).
 Vec3 caged_phi(const Mat3& R_lr, const Vec3& psi_l);
 
+/// phi with the attitude turned by a small rotation psi_i, axes of the chain's inertial frame
+/// [rad].
+Vec3 turned(const Node& node, const Vec3& psi_i, const Vec3& phi);
+
 /// Fixed-step integration of the algebraic couplings over a whole timeline, fourth order, two steps
 /// per substep. Calls visit(i, phi, memory) for interval after interval, phi at its nodes.
 /// psi0_l: initial attitude error of each chain, local axes [rad].

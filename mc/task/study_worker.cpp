@@ -157,10 +157,9 @@ void StudyWorker::write(Bench& bench, Filter& filter, std::size_t start, std::sp
     blame(out, RunStatus::filter_diverged, at.name + ": " + filter.cause(), filter.t_diverged());
     return;
   }
-  const InnovationSums& sums = filter.innovations();
-  row[at.at(start, C::nis)] = sums.nis;
-  row[at.at(start, C::nis_dof)] = static_cast<double>(sums.scalars);
-  row[at.at(start, C::lag1)] = sums.lag1();
+  row[at.at(start, C::nis)] = filter.nis();
+  row[at.at(start, C::nis_dof)] = static_cast<double>(filter.scalars());
+  row[at.at(start, C::lag1)] = filter.lag1();
   for (std::size_t k = 0; k < at.layout.size(); ++k) {
     row[at.estimate(start, k)] = filter.theta()[static_cast<Eigen::Index>(at.layout.params[k])];
     row[at.sigma(start, k)] = filter.sigma(k);

@@ -30,8 +30,8 @@ inline EstimateResult by_iterated_ekf(const FilterSpec& filter, const Timeline& 
   r.cause = ekf.cause();
   r.covariance = ekf.settled_covariance();
   r.parameters = parameter_estimates(layout, layout.scaled(start), ekf.x(), r.covariance);
-  r.statistic = ekf.innovations().nis;
-  r.measured = ekf.innovations().scalars;
+  r.statistic = ekf.nis();
+  r.measured = ekf.scalars();
   return r;
 }
 

@@ -33,7 +33,7 @@ TEST(Covariance, AgreesWithADenseFilter) {
     dense.P.topLeftCorner<3, 3>() *= 0.25;
     for (int step = 0; step < 12; ++step) {
       const Mat3 Phi = Mat3::Identity() + 0.1 * Mat3::Random();
-      const Mat3X G = Mat3X::Random(3, nr);
+      const Rows3 G = Rows3::Random(3, nr);
       MatX F = MatX::Identity(3 + n, 3 + n), Q = MatX::Zero(3 + n, 3 + n);
       F.topLeftCorner<3, 3>() = Phi;
       F.block(0, 3, 3, nr) = G;
@@ -44,9 +44,9 @@ TEST(Covariance, AgreesWithADenseFilter) {
       const bool readout = step % 3 != 1;  // then an update of the attitude alone
       Vec3 nu = Vec3::Random();
       const Mat3 H_psi = Mat3::Random();
-      Mat3X H_par = readout ? Mat3X::Random(3, m) : Mat3X(3, 0);
+      Rows3 H_par = readout ? Rows3::Random(3, m) : Rows3(3, 0);
       if (H_par.cols() > 1) H_par(1, 1) = 0.0;
-      const Mat3X H_rate = step % 2 ? Mat3X::Random(3, nr) : Mat3X(3, 0);
+      const Rows3 H_rate = step % 2 ? Rows3::Random(3, nr) : Rows3(3, 0);
       MatX H = MatX::Zero(3, 3 + n);
       H.leftCols<3>() = H_psi;
       H.middleCols(3, H_rate.cols()) = H_rate;

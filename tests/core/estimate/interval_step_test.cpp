@@ -65,8 +65,7 @@ TEST(Linearizer, DemandsTheTimeAndTheMemoryThatTermsLookAt) {
   NodeJacobian j = linearizer.make();
   const Interval& interval = b.timeline.intervals[0];
   const auto evaluate = [&](const Timeline* timeline) {
-    linearizer.evaluate(b.timeline.nodes[0], interval, Mat3::Zero(), Vec3::Zero(), timeline,
-                        nullptr, j);
+    linearizer.evaluate({{{&b.timeline.nodes[0], &interval}}}, Mat3::Zero(), timeline, &j);
   };
   EXPECT_THROW(evaluate(&b.timeline), ContractError);
   EXPECT_THROW(evaluate(nullptr), ContractError);

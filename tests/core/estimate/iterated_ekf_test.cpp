@@ -48,7 +48,7 @@ TEST(IteratedEkf, IsTheBatchFitWhereAnEkfIsNot) {
   EXPECT_LT(off, 0.5);
   EXPECT_LT(off, 0.25 * ekf_off);
   // Sum of NIS = minimum of data and prior cost, up to the attitude prior at caging.
-  EXPECT_NEAR(fits.iterated.innovations().nis, fits.batch.estimate.statistic, 0.5);
+  EXPECT_NEAR(fits.iterated.nis(), fits.batch.estimate.statistic, 0.5);
 }
 
 /// A linear pass about the minimum of the batch fit: the largest step it makes away from it, in
@@ -123,7 +123,7 @@ TEST(IteratedEkf, IsTheBatchFitOverCagings) {
         << TermLibrary::specs[b.param].key.view();
     EXPECT_NEAR(fits.iterated.sigma(k) / b.sigma, 1.0, 0.01);
   }
-  EXPECT_NEAR(fits.iterated.innovations().nis, fits.batch.estimate.statistic, 0.5);
+  EXPECT_NEAR(fits.iterated.nis(), fits.batch.estimate.statistic, 0.5);
 }
 
 TEST(IteratedEkf, IsTheBatchFitWithEveryTerm) {
@@ -167,8 +167,8 @@ TEST(IteratedEkf, StartsAnewWithoutATrace) {
   other.run(b.measured, draw_parameters(filter, 1, 1, Purpose::test));
   other.run(a.measured, start);
   EXPECT_EQ(one.x(), other.x());
-  EXPECT_EQ(one.innovations().nis, other.innovations().nis);
-  EXPECT_EQ(one.innovations().lag1(), other.innovations().lag1());
+  EXPECT_EQ(one.nis(), other.nis());
+  EXPECT_EQ(one.lag1(), other.lag1());
 }
 
 TEST(IteratedEkf, ReportsDivergenceAsAValueAndRecovers) {

@@ -91,7 +91,7 @@ Vec3 derivative(const Vec3T<D>& v) {
 /// Both ways round off alike, each sum of a few dozen numbers: a relative 1e-12 of the largest
 /// derivative of a column, or of what cancels (a difference of values of order one, for the
 /// parameter taken to one: 1e-15 per unit of the parameter).
-void expect_same(const Mat3X& chained, Eigen::Index column, const Vec3& whole, double sigma,
+void expect_same(const Rows3& chained, Eigen::Index column, const Vec3& whole, double sigma,
                  std::string_view what) {
   const double bound = 1e-12 * whole.norm() + 4e-15 * sigma;
   EXPECT_LE((chained.col(column) - whole).norm(), bound) << what;
@@ -106,7 +106,7 @@ void expect_derivatives_of(const Model& m, const Point& p) {
   Linearizer linearizer(model, m.layout, Readout{});
   linearizer.set_theta(m.theta);
   NodeJacobian j = linearizer.make();
-  linearizer.evaluate(p.node(), p.at(), p.E_loop, p.phi, &p.timeline, last, j);
+  linearizer.evaluate({{{&p.node(), &p.at(), p.phi, last}}}, p.E_loop, &p.timeline, &j);
   const GimbalPrediction g = linearizer.gimbals(p.timeline, p.at(), p.phi, last);
 
   const Mat3 R_ip = p.node().R_il * (p.node().R_lr * rotation(p.phi));

@@ -133,7 +133,7 @@ TEST(Sensitivity, VariationOfConstantsAgreesWithCvodesForwardSensitivities) {
   Linearizer linearizer(model, layout, Readout{});
   linearizer.set_theta(theta);
   IntervalSensitivity inner;
-  Mat3X G = Mat3X::Zero(3, nr);
+  Rows3 G = padded_rows(layout.num_rate);
   for (const Interval& i : timeline.intervals) {
     linearize_interval(i, timeline, Mat3::Zero(), &phi[i.first_node], nullptr, linearizer, inner);
     G = (inner.Phi.back() * G + inner.G.back()).eval();

@@ -169,8 +169,11 @@ TEST(Expression, AmplitudesStandInEverySummandOnce) {
 
 /// x: a time, y: a specific force, A: a rate, B: a rate per g, P: a time.
 OrMistake<MaybeDimension> measured(const char* text) {
-  const std::vector<MaybeDimension> of_inputs{"s"_unit.dim, "g"_unit.dim},
-      of_params{"deg/h"_unit.dim, "deg/h/g"_unit.dim, "min"_unit.dim};
+  // clang 14 crashes over lists of them.
+  std::vector<MaybeDimension> of_inputs, of_params;
+  for (const Unit& unit : {"s"_unit, "g"_unit}) of_inputs.emplace_back(unit.dim);
+  for (const Unit& unit : {"deg/h"_unit, "deg/h/g"_unit, "min"_unit})
+    of_params.emplace_back(unit.dim);
   return dimension_of(std::get<EquationTree>(read(text)), of_inputs, of_params);
 }
 

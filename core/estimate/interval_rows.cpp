@@ -1,0 +1,102 @@
+#include "core/estimate/interval_rows.hpp"
+
+#include <Eigen/LU>
+
+#include "core/estimate/drift_walk.hpp"
+#include "core/estimate/rest_rate.hpp"
+#include "core/sim/measurements.hpp"
+
+namespace drift {
+IntervalRows::IntervalRows(const FilterSpec& filter, const Timeline& timeline,
+                           const Readout& readout)
+    : filter_(filter),
+      timeline_(timeline),
+      readout_(readout),
+      model_(filter.model()),
+      layout_(make_layout(filter)),
+      linearizer_(model_, layout_, readout),
+      memory_(timeline, model_),
+      attitude_(layout_.size(), walking_states(filter, layout_)),
+      rest_G_(padded_rows(layout_.num_rate)) {
+  require_covariates(model_, timeline);
+}
+
+void IntervalRows::reset(const Theta& theta) {
+  theta_ = theta;
+  linearizer_.set_theta(theta_);
+  memory_.reset();
+  attitude_.reset();
+}
+
+void IntervalRows::set_theta(const Theta& theta) {
+  if (memory_.active()) memory_.shift(theta_.data(), theta.data());
+  theta_ = theta;
+  linearizer_.set_theta(theta_);
+}
+
+const MemoryPoint* IntervalRows::enter(std::size_t i) {
+  memory_.advance(i, theta_.data());
+  return memory_.points();
+}
+
+void IntervalRows::cage(const Interval& interval, const Vec3& phi) {
+  const Node& node = timeline_.nodes[interval.first_node];
+  attitude_.cage(node.R_il * (node.R_lr * -phi), filter_.initial_attitude);
+}
+
+void IntervalRows::take_triple(Channel channel, const AttitudeFilter::Scalars& scalars,
+                               const AttitudeFilter::Gate* gate, double* rows, Taken& taken) {
+  if (!taken.ok) return;
+  double* into = rows + 3 * taken.triples * width();
+  const auto used = attitude_.update(scalars, gate, into);
+  taken.ok = used.has_value();
+  taken.scalars += used.value_or(0);
+  taken.channel[taken.triples++] = channel;
+}
+
+IntervalRows::Taken IntervalRows::take(std::size_t i, const Vec3& acc, const Vec3& gimbal,
+                                       const Vec3* path, const AttitudeFilter::Gate* gate,
+                                       double* rows) {
+  Taken taken;
+  const Interval& interval = timeline_.intervals[i];
+  const MemoryPoint* memory = memory_.points();
+  linearize_interval(interval, timeline_, misalignment_matrix(model_.mounting, interval.loop), path,
+                     memory, linearizer_, sensitivity_);
+  const std::size_t last = interval.node_count() - 1;
+  const auto middle = static_cast<std::size_t>(interval.substeps);
+  const double arw = filter_.noise.angle_random_walk;
+  // At rest the noise of the gyros is in what is measured; the attitude stays as it is.
+  const double driven = interval.rest ? 0.0 : interval.length();
+  const Mat3 Q_half = 0.5 * arw * arw * driven * Mat3::Identity();
+  const Mat3& Phi_m = sensitivity_.Phi[middle];
+  attitude_.propagate(Phi_m, sensitivity_.G[middle], Q_half);
+  if (readout_.accelerometers && acc.array().isFinite().any()) {
+    mean_output(interval, sensitivity_, mean_);
+    take_triple(accelerometers,
+                {acc - mean_.acc, mean_.H, &mean_.H_rate, &mean_.H_par, layout_.num_rate,
+                 interval.accelerometer_noise(readout_.accelerometer_noise)},
+                gate, rows, taken);
+  }
+  const Mat3 Phi_rest = sensitivity_.Phi[last] * Phi_m.inverse();
+  rest_G_ = sensitivity_.G[last];
+  sum_of_products<Sum::onto>({-Phi_rest}, {&sensitivity_.G[middle]}, rest_G_);
+  attitude_.propagate(Phi_rest, rest_G_, Q_half);
+  if (readout_.gimbals && gimbal.array().isFinite().any()) {
+    const GimbalPrediction predicted =
+        interval.rest ? predict_rest_rate(interval, timeline_, path, sensitivity_)
+                      : linearizer_.gimbals(timeline_, interval, path[last],
+                                            memory ? memory + 2 * last : nullptr);
+    Vec3 residual;
+    for (int k = 0; k < 3; ++k) residual[k] = angle_difference(gimbal[k], predicted.angles[k]);
+    take_triple(gimbals,
+                {residual, predicted.H, &predicted.H_rate, &predicted.H_par, layout_.num_rate,
+                 readout_.gimbal_noise},
+                gate, rows, taken);
+  }
+  for (std::size_t k = 0; k < attitude_.walking().size(); ++k)
+    attitude_.walk(
+        k, walk_variance(filter_, layout_, attitude_.walking()[k], theta_, interval.length()));
+  return taken;
+}
+
+}  // namespace drift
