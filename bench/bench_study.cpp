@@ -13,7 +13,7 @@
 
 #include "bench/practice_run.hpp"
 #include "bench/rows.hpp"
-#include "core/estimate/ekf.hpp"
+#include "core/estimate/sequential/ekf.hpp"
 #include "core/estimate/starts.hpp"
 #include "mc/task/campaign.hpp"
 #include "mc/task/study_task.hpp"

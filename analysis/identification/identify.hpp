@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/estimate/batch.hpp"
-#include "core/estimate/ekf.hpp"
+#include "core/estimate/sequential/ekf.hpp"
 #include "core/sim/simulate.hpp"
 #include "mc/study/study.hpp"
 

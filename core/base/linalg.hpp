@@ -34,12 +34,16 @@ template <class S>
 struct RotationCoefficients {
   S a, b;
 };
-/// Where the series end: their remainder v^10/10! is below 1e-20 of the coefficient.
-inline constexpr double rotation_series_until = 1e-4;
+/// Where the series end, 0.1 rad: their remainders, t^12/13! and t^12/14!, are below 1e-21.
+inline constexpr double rotation_series_until = 1e-2;
 template <class S>
 RotationCoefficients<S> rotation_series(const S& t2) {
-  return {S(1) - t2 / 6.0 * (S(1) - t2 / 20.0 * (S(1) - t2 / 42.0)),
-          S(0.5) * (S(1) - t2 / 12.0 * (S(1) - t2 / 30.0 * (S(1) - t2 / 56.0)))};
+  S a(-1.0 / 39916800.0), b(-1.0 / 479001600.0);
+  for (const double c : {1.0 / 362880.0, -1.0 / 5040.0, 1.0 / 120.0, -1.0 / 6.0, 1.0})
+    a = a * t2 + c;
+  for (const double c : {1.0 / 3628800.0, -1.0 / 40320.0, 1.0 / 720.0, -1.0 / 24.0, 0.5})
+    b = b * t2 + c;
+  return {a, b};
 }
 template <class S>
 RotationCoefficients<S> rotation_coefficients(const S& t2) {
@@ -52,7 +56,7 @@ RotationCoefficients<S> rotation_coefficients(const S& t2) {
 }
 
 /// Rotation matrix of the rotation vector v [rad]: exp([v x]), Rodrigues' formula, by series below
-/// 1e-2 rad.
+/// 0.1 rad.
 template <class S>
 Mat3T<S> rotation(const Vec3T<S>& v) {
   const auto [a, b] = rotation_coefficients<S>(v.squaredNorm());

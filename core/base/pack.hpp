@@ -83,21 +83,23 @@ inline Pack atan2(const Pack& y, const Pack& x) {
   return Pack::of_each([&](int l) { return std::atan2(y[l], x[l]); });
 }
 
+/// `usual` with the lanes of a mask replaced by of(x), each as it would be alone.
+template <class Mask, class Of>
+Pack lane_by_lane(const Pack& x, Pack usual, const Mask& others, Of&& of) {
+  if (std::experimental::none_of(others)) return usual;
+  for (int l = 0; l < Pack::width; ++l)
+    if (others[static_cast<std::size_t>(l)]) usual.set(l, of(x[l]));
+  return usual;
+}
+
 /// rotation(v) lane by lane where some angle is too large for the series, which serves all others:
 /// every lane gets what it would get alone.
 template <>
 inline RotationCoefficients<Pack> rotation_coefficients(const Pack& t2) {
   const auto series = rotation_series(t2);
   const auto large = t2.v >= rotation_series_until;
-  if (std::experimental::none_of(large)) return series;
-  RotationCoefficients<Pack> out = series;
-  for (int l = 0; l < Pack::width; ++l) {
-    if (!large[static_cast<std::size_t>(l)]) continue;
-    const auto one = rotation_coefficients(t2[l]);
-    out.a.set(l, one.a);
-    out.b.set(l, one.b);
-  }
-  return out;
+  return {lane_by_lane(t2, series.a, large, [](double x) { return rotation_coefficients(x).a; }),
+          lane_by_lane(t2, series.b, large, [](double x) { return rotation_coefficients(x).b; })};
 }
 
 }  // namespace drift

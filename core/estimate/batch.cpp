@@ -132,6 +132,7 @@ Minimum descend(const BatchProblem& problem, VecX x, std::vector<Vec3> psi,
   const double standing_still = options.tolerance * options.tolerance;
   Minimum now{problem.evaluate(std::move(x), std::move(psi)), 0, false};
   double mu = 1e-3;
+  int still = 0;  // iterations in a row that hardly lowered the cost
   for (; now.iterations < options.max_iterations && !now.converged; ++now.iterations) {
     const StepSolver solver(now.at);
     bool improved = false;
@@ -148,7 +149,10 @@ Minimum descend(const BatchProblem& problem, VecX x, std::vector<Vec3> psi,
         mu *= 10.0;
         continue;
       }
-      now.converged = now.at.cost - next.cost < standing_still && mu < 1e-2;
+      still = now.at.cost - next.cost < standing_still ? still + 1 : 0;
+      // Small steps may be damping's doing; where they stay so, the cost has a kink (the onset of a
+      // step that crosses a sample) and lies in it.
+      now.converged = still > 0 && (mu < 1e-2 || still == 3);
       now.at = std::move(next);
       mu = std::max(mu * 0.1, 1e-12);
     }

@@ -17,7 +17,7 @@ void mean_output(const Interval& interval, const IntervalSensitivity& sensitivit
   mean.acc.setZero();
   mean.H.setZero();
   mean.H_rate.setZero(3, sensitivity.G[0].cols());
-  mean.H_par.setZero(3, sensitivity.jacobian[0].H_par.cols());
+  mean.H_par.setZero(3, sensitivity.jacobian->H_par.cols());
   for (std::size_t k = 0; k < interval.node_count(); ++k) {
     const double w = Timeline::simpson_weight(interval.substeps, k);
     const NodeJacobian& j = sensitivity.jacobian[k];
@@ -34,11 +34,7 @@ void linearize_interval(const Interval& interval, const Timeline& timeline, cons
                         const Vec3* phi, const MemoryPoint* memory, Linearizer& linearizer,
                         IntervalSensitivity& out) {
   const std::size_t nodes = interval.node_count();
-  while (out.jacobian.size() < nodes) {
-    out.jacobian.push_back(linearizer.make());
-    out.Phi.emplace_back();
-    out.G.push_back(out.jacobian.back().B);
-  }
+  while (out.own.size() < nodes) out.own.push_back(linearizer.make());
   for (std::size_t first = 0; first < nodes; first += Linearizer::at_once) {
     const std::size_t count = std::min(nodes - first, Linearizer::at_once);
     std::array<NodePoint, Linearizer::at_once> points;
@@ -47,7 +43,18 @@ void linearize_interval(const Interval& interval, const Timeline& timeline, cons
       points[l] = {&timeline.nodes[interval.first_node + k], &interval, phi[k],
                    memory ? &memory[2 * k] : nullptr};
     }
-    linearizer.evaluate({points.data(), count}, E_loop, &timeline, &out.jacobian[first]);
+    linearizer.evaluate({points.data(), count}, E_loop, &timeline, &out.own[first]);
+  }
+  propagate_sensitivity(interval, timeline, out.own.data(), out);
+}
+
+void propagate_sensitivity(const Interval& interval, const Timeline& timeline,
+                           const NodeJacobian* jacobian, IntervalSensitivity& out) {
+  const std::size_t nodes = interval.node_count();
+  out.jacobian = jacobian;
+  while (out.Phi.size() < nodes) {
+    out.Phi.emplace_back();
+    out.G.push_back(jacobian->B);
   }
   if (interval.rest) {
     for (std::size_t k = 0; k < nodes; ++k) {
@@ -63,7 +70,7 @@ void linearize_interval(const Interval& interval, const Timeline& timeline, cons
   out.Phi[0] = I;
   out.G[0].setZero();
   for (std::size_t k = 0; k + 2 < nodes; k += 2) {
-    const NodeJacobian &j0 = out.jacobian[k], &j1 = out.jacobian[k + 1], &j2 = out.jacobian[k + 2];
+    const NodeJacobian &j0 = jacobian[k], &j1 = jacobian[k + 1], &j2 = jacobian[k + 2];
     // Integrals of the parabola through the three nodes, to the middle and to the end.
     const Mat3 a1 = h / 12.0 * (5.0 * j0.A + 8.0 * j1.A - j2.A);
     const Mat3 a2 = h / 3.0 * (j0.A + 4.0 * j1.A + j2.A);
@@ -71,11 +78,13 @@ void linearize_interval(const Interval& interval, const Timeline& timeline, cons
     const Mat3 from_end = exponential(a1 - a2), from_middle = exponential(a2 - a1);
     out.Phi[k + 1] = Phi1 * out.Phi[k];
     out.Phi[k + 2] = Phi2 * out.Phi[k];
-    sum_of_products<Sum::afresh>(
-        {Phi1, h * 5.0 / 12.0 * Phi1, h * 8.0 / 12.0 * I, -h / 12.0 * from_end},
-        {&out.G[k], &j0.B, &j1.B, &j2.B}, out.G[k + 1]);
-    sum_of_products<Sum::afresh>({Phi2, h / 3.0 * Phi2, h * 4.0 / 3.0 * from_middle, h / 3.0 * I},
-                                 {&out.G[k], &j0.B, &j1.B, &j2.B}, out.G[k + 2]);
+    sum_of_products<Sum::afresh>({h * 5.0 / 12.0 * Phi1, h * 8.0 / 12.0 * I, -h / 12.0 * from_end},
+                                 {&j0.B, &j1.B, &j2.B}, out.G[k + 1]);
+    sum_of_products<Sum::afresh>({h / 3.0 * Phi2, h * 4.0 / 3.0 * from_middle, h / 3.0 * I},
+                                 {&j0.B, &j1.B, &j2.B}, out.G[k + 2]);
+    if (k == 0) continue;  // G is zero there
+    sum_of_products<Sum::onto>({Phi1}, {&out.G[k]}, out.G[k + 1]);
+    sum_of_products<Sum::onto>({Phi2}, {&out.G[k]}, out.G[k + 2]);
   }
 }
 

@@ -12,9 +12,10 @@ std::size_t most_nodes(const Timeline& timeline);
 /// Sensitivities within one interval, from its start to each of its nodes:
 /// psi(node k) = Phi[k] psi(start) + G[k] x(rate states).
 struct IntervalSensitivity {
-  std::vector<NodeJacobian> jacobian;  ///< at each node
+  const NodeJacobian* jacobian = nullptr;  ///< at each node
   std::vector<Mat3> Phi;
-  std::vector<Rows3> G;  ///< as wide as NodeJacobian::B
+  std::vector<Rows3> G;           ///< as wide as NodeJacobian::B
+  std::vector<NodeJacobian> own;  ///< where linearize_interval keeps them
 };
 
 /// Mean of the accelerometer outputs over an interval, and its derivatives with respect to the
@@ -31,12 +32,16 @@ struct MeanOutput {
 void mean_output(const Interval& interval, const IntervalSensitivity& sensitivity,
                  MeanOutput& mean);
 
-/// Fills `out` along the nodes of an interval, phi given at each.
+/// Fills Phi and G along the nodes of an interval, whose Jacobians are given.
 ///
 /// Variation of constants: G(t) = Phi(t) Int Phi^-1 B dt with fourth-order quadrature over pairs of
 /// steps; Phi is the exponential of the integral of A to second order (A t is below 1e-3 within an
 /// interval: physics.md 6.5 ii). At rest on the Earth psi turns with it, and nothing else moves it.
-/// memory: the points of the interval, null where the model has none.
+void propagate_sensitivity(const Interval& interval, const Timeline& timeline,
+                           const NodeJacobian* jacobian, IntervalSensitivity& out);
+
+/// The same for an interval alone, phi given at each node. memory: the points of the interval, null
+/// where the model has none.
 void linearize_interval(const Interval& interval, const Timeline& timeline, const Mat3& E_loop,
                         const Vec3* phi, const MemoryPoint* memory, Linearizer& linearizer,
                         IntervalSensitivity& out);

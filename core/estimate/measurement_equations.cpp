@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <cmath>
 
 #include "core/estimate/batch.hpp"
 #include "core/estimate/rest_rate.hpp"
+#include "core/estimate/stretch_jacobians.hpp"
 
 namespace drift {
 
@@ -24,6 +26,11 @@ std::vector<ChainEquations> measurement_equations(const MeasuredTest& test, cons
   Mat3 Phi = Mat3::Identity();  // from the caging to the start of the interval
   Rows3 G = padded_rows(layout.num_rate), Y(3, n);
   MemoryPath memory(timeline, model);
+  // Where the accelerometers were seldom read, intervals are better looked at one by one.
+  const bool together = StretchJacobians::can(model) &&
+                        (!readout.accelerometers || !measured.acc.array().isNaN().any());
+  constexpr std::size_t at_once = 32;  // intervals
+  StretchJacobians jacobians(timeline);
   for (std::size_t i = 0; i < timeline.intervals.size(); ++i) {
     const Interval& interval = timeline.intervals[i];
     if (interval.cage) {
@@ -32,10 +39,17 @@ std::vector<ChainEquations> measurement_equations(const MeasuredTest& test, cons
     }
     const Mat3 E_loop = misalignment_matrix(model.mounting, interval.loop);
     memory.advance(i, theta.data());
+    if (together && i % at_once == 0)
+      jacobians.evaluate(i, std::min(i + at_once, timeline.intervals.size()), phi.data(),
+                         model.mounting, linearizer);
     const bool reads = readout.accelerometers && measured.acc.col(i).array().isFinite().any();
-    reads ? linearizer.work_readout_out() : linearizer.leave_readout_out();
-    linearize_interval(interval, timeline, E_loop, &phi[interval.first_node], memory.points(),
-                       linearizer, inner);
+    if (together) {
+      propagate_sensitivity(interval, timeline, jacobians.of(i), inner);
+    } else {
+      reads ? linearizer.work_readout_out() : linearizer.leave_readout_out();
+      linearize_interval(interval, timeline, E_loop, &phi[interval.first_node], memory.points(),
+                         linearizer, inner);
+    }
     MatX& rows = chains[interval.chain].rows;
     const auto add_row = [&](double residual, const Eigen::RowVector3d& d_psi, const auto& d_x,
                              double sigma) {

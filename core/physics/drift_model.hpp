@@ -53,18 +53,17 @@ Mat3T<S> closed_over(Coupling coupling, const RateAssembly<S>& a, const Mat3& E_
 ///   w_ip = w_ic - (I + K)^-1 (C w_ic + u) = -(I + K)^-1 ((E - K) w_ic + u),   u = w_l + w_md,
 ///
 /// eq. (5) for K = 0, eq. (6) for K = E. The second form has no cancellation of Earth rate.
-/// theta: every parameter of TermLibrary in SI. E_loop: the loop's estimate of E [rad], used by
+/// of the slots that all terms have added to. E_loop: the loop's estimate of E [rad], used by
 /// coupling "compensated" alone.
 /// Source: Fu, Shao, Deng, Control and Decision 17(3), 2002, eqs. (5), (6);
 /// physics.md 1.2, 1.3, 1.6.
 template <class S>
-Vec3T<S> platform_rate(const DriftModel& model, const Inputs<S>& in, const S* theta,
+Vec3T<S> rate_of_slots(Coupling coupling, const RateAssembly<S>& a, const Vec3T<S>& omega_ic_p,
                        const Mat3& E_loop) {
-  const RateAssembly<S> a = assemble(model, in, theta);
-  const Mat3T<S> K = closed_over(model.coupling, a, E_loop);
+  const Mat3T<S> K = closed_over(coupling, a, E_loop);
   const Vec3T<S> u = a.omega_drift_g + a.omega_torque_g;
-  const Vec3T<S> s = (a.E_gp - K) * in.omega_ic_p + u;
-  if (model.coupling == Coupling::eq5) return a.omega_ip_p - s;
+  const Vec3T<S> s = (a.E_gp - K) * omega_ic_p + u;
+  if (coupling == Coupling::eq5) return a.omega_ip_p - s;
   const Mat3T<S> M = Mat3T<S>::Identity() + K;
   // Adjugate over determinant: exact, differentiable, and M is near the identity.
   const Vec3T<S> r0 = M.row(0), r1 = M.row(1), r2 = M.row(2);
@@ -72,6 +71,13 @@ Vec3T<S> platform_rate(const DriftModel& model, const Inputs<S>& in, const S* th
   const S det = r0.dot(c12);
   const Vec3T<S> adj_s = c12 * s[0] + c20 * s[1] + c01 * s[2];
   return a.omega_ip_p - adj_s / det;
+}
+
+/// The same at one instant. theta: every parameter of TermLibrary in SI.
+template <class S>
+Vec3T<S> platform_rate(const DriftModel& model, const Inputs<S>& in, const S* theta,
+                       const Mat3& E_loop) {
+  return rate_of_slots(model.coupling, assemble(model, in, theta), in.omega_ic_p, E_loop);
 }
 
 /// The same as accelerometer_output, for models with terms beyond the first ones.

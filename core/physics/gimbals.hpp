@@ -16,6 +16,24 @@ Vec3T<S> gimbal_angles(const Mat3T<S>& R_cp) {
   return {atan2(-R_cp(1, 2), R_cp(2, 2)), asin(R_cp(0, 2)), atan2(-R_cp(0, 1), R_cp(0, 0))};
 }
 
+/// Derivatives of gimbal_angles by a small rotation of the platform, case axes: R_cp -> exp([d x])
+/// R_cp, shape (3, 3).
+inline Mat3 gimbal_angles_by_rotation(const Mat3& R_cp) {
+  // Of a row of R_cp, the rotation adds another: row 0 gains d_y row 2 - d_z row 1, and so on.
+  const Vec3 last = R_cp.col(2);
+  const double n = last[1] * last[1] + last[2] * last[2];
+  const double m = R_cp(0, 0) * R_cp(0, 0) + R_cp(0, 1) * R_cp(0, 1);
+  const double cos_middle = std::sqrt(1.0 - last[0] * last[0]);
+  const auto across = [&](int row) {
+    return (R_cp(0, 1) * R_cp(row, 0) - R_cp(0, 0) * R_cp(row, 1)) / m;
+  };
+  Mat3 J;
+  J << 1.0, -last[0] * last[1] / n, -last[0] * last[2] / n,  //
+      0.0, last[2] / cos_middle, -last[1] / cos_middle,      //
+      0.0, across(2), -across(1);
+  return J;
+}
+
 /// Directions of the gimbal axes outer, middle, inner (columns), platform axes, shape (3, 3).
 template <class S>
 Mat3T<S> gimbal_axes(const Vec3T<S>& angles) {

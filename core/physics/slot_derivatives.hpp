@@ -80,6 +80,10 @@ class SlotDerivatives {
   void add_to(const SeenByTerms<S>& seen, Sum& sum) const {
     for (const OneTerm& t : terms_) t.value(seen, t, sum);
   }
+  /// The same without derivatives.
+  void add_plain_to(const SeenByTerms<S>& seen, typename Hook::template Assembly<S>& sum) const {
+    for (const OneTerm& t : terms_) t.plain(seen, t, sum);
+  }
   /// The slots of the terms, as they stand in a row.
   Slots slots_of(const SeenByTerms<S>& seen) const {
     Sum sum;
@@ -107,6 +111,8 @@ class SlotDerivatives {
     std::vector<Together> groups;
     void (*value)(const SeenByTerms<S>&, const OneTerm&, Sum&) = nullptr;
     void (*derivative)(const SeenByTerms<S>&, const OneTerm&, S*) = nullptr;
+    void (*plain)(const SeenByTerms<S>&, const OneTerm&,
+                  typename Hook::template Assembly<S>&) = nullptr;
   };
 
   template <class T>
@@ -119,6 +125,13 @@ class SlotDerivatives {
     std::array<D3, memory_of<T>() + 1> m;
     for (std::size_t k = 0; k + 1 < m.size(); ++k) m[k] = D3(seen.memory[t.first_memory + k]);
     Hook::template add<T, D3>(seen.at_psi, p.data(), m.data(), sum);
+  }
+
+  template <class T>
+  static void plain(const SeenByTerms<S>& seen, const OneTerm& t,
+                    typename Hook::template Assembly<S>& sum) {
+    const S* memory = memory_of<T>() > 0 ? seen.memory + t.first_memory : nullptr;
+    Hook::template add<T, S>(seen.still, seen.theta + t.first, memory, sum);
   }
 
   template <class T>
@@ -204,7 +217,8 @@ std::array<std::uint32_t, T::params.size()> slots_met(const ParamSpec* specs = T
 template <class Hook, class S>
 template <class T>
 void SlotDerivatives<Hook, S>::add(const TermInfo& info, const std::vector<std::size_t>& states) {
-  OneTerm t{info.first, static_cast<std::size_t>(info.first_memory), {}, &value<T>, &derivative<T>};
+  OneTerm t{info.first, static_cast<std::size_t>(info.first_memory), {}, &value<T>, &derivative<T>,
+            &plain<T>};
   const ParamSpec* specs = &TermLibrary::specs[info.first];
   const auto met = slots_met<Hook, T>(specs);
   for (std::size_t k = 0; k < info.count; ++k) {

@@ -72,11 +72,24 @@ Vec3 turned(const Node& node, const Vec3& psi_i, const Vec3& phi) {
 
 Trajectory integrate_fixed(const Timeline& timeline, const DriftModel& model, const Theta& theta,
                            const std::vector<Vec3>& psi0_l) {
+  require_covariates(model, timeline);
+  const auto& intervals = timeline.intervals;
   Trajectory all(timeline.nodes.size());
-  walk(timeline, model, theta, psi0_l,
-       [&](std::size_t i, const std::vector<Vec3>& phi, const MemoryPath&) {
-         std::copy(phi.begin(), phi.end(), &all[timeline.intervals[i].first_node]);
-       });
+  MemoryPath memory(timeline, model);
+  for (std::size_t first = 0, end = 0; first < intervals.size(); first = end) {
+    for (end = first + 1; end < intervals.size() && !intervals[end].cage;) ++end;
+    const Interval& begin = intervals[first];
+    all[begin.first_node] = begin.cage ? caged_phi(timeline.nodes[begin.first_node].R_lr,
+                                                   psi0_l[static_cast<std::size_t>(begin.chain)])
+                                       : Vec3(Vec3::Zero());
+    for (std::size_t n = first; n < end; ++n) {
+      const Interval& i = intervals[n];
+      memory.advance(n, theta.data());
+      if (n > first) all[i.first_node] = all[intervals[n - 1].last_node()];
+      step_through(i, timeline, drive_of(i, timeline, model, theta), memory.points(),
+                   &all[i.first_node]);
+    }
+  }
   return all;
 }
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/estimate/batch.hpp"
-#include "core/estimate/ekf.hpp"
-#include "core/estimate/iterated_ekf.hpp"
+#include "core/estimate/sequential/ekf.hpp"
+#include "core/estimate/sequential/iterated_ekf.hpp"
 #include "core/sim/simulate.hpp"
 #include "mc/study/design.hpp"
 #include "mc/task/study_task.hpp"

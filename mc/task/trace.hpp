@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/estimate/ekf.hpp"
+#include "core/estimate/sequential/ekf.hpp"
 #include "core/sim/simulate.hpp"
 #include "mc/study/study.hpp"
 #include "mc/task/run_task.hpp"

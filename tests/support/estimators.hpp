@@ -1,8 +1,8 @@
 #pragma once
 
 #include "core/estimate/batch.hpp"
-#include "core/estimate/ekf.hpp"
-#include "core/estimate/iterated_ekf.hpp"
+#include "core/estimate/sequential/ekf.hpp"
+#include "core/estimate/sequential/iterated_ekf.hpp"
 
 namespace drift::test {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/estimate/batch.hpp"
-#include "core/estimate/iterated_ekf.hpp"
+#include "core/estimate/sequential/iterated_ekf.hpp"
 #include "core/estimate/strapdown/gyrocompass.hpp"
 #include "core/sim/predict.hpp"
 #include "tests/support/strapdown_recording.hpp"

@@ -1,4 +1,4 @@
-#include "core/estimate/covariance.hpp"
+#include "core/estimate/sequential/covariance.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "core/estimate/batch.hpp"
-#include "core/estimate/ekf.hpp"
+#include "core/estimate/sequential/ekf.hpp"
 #include "mc/task/campaign.hpp"
 #include "tests/support/model_builders.hpp"
 

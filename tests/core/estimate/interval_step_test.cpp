@@ -1,8 +1,9 @@
-#include "core/estimate/interval_step.hpp"
+#include "core/estimate/sequential/interval_step.hpp"
 
 #include <gtest/gtest.h>
 
 #include "core/base/check.hpp"
+#include "core/estimate/sequential/interval_rows.hpp"
 #include "tests/support/term_scenes.hpp"
 
 namespace drift::interval_step_test {
@@ -23,39 +24,39 @@ struct Bench {
   }
 };
 
-/// About a path of its own, a step from the estimate along that path is the step about the
-/// estimate.
-TEST(IntervalStep, SeesTheSameFromBothPointsOfViewWhileTheyAgree) {
-  // Nothing is known of the first interval but the prior: estimate and nominal path coincide.
+/// Second implementation: while nothing is relinearised, a filter that carries the covariance of
+/// everything and rows that a filter of the attitude whitens say the same.
+TEST(IntervalStep, SaysWhatTheRowsOfAnIntervalSay) {
   Bench b({"D_F", "heat", "F", "enc_s1"});
-  IntervalStep estimate(b.filter, b.timeline, Readout{}, About::estimate);
-  IntervalStep reference(b.filter, b.timeline, Readout{}, About::reference);
+  b.filter.noise.angle_random_walk = 0.1 * detail::deg / 60.0;
+  IntervalStep step(b.filter, b.timeline, Readout{});
+  IntervalRows rows(b.filter, b.timeline, Readout{});
   const VecX zero = VecX::Zero(static_cast<Eigen::Index>(b.layout.size()));
-  estimate.reset(zero, b.layout.theta);
-  reference.reset(zero, b.layout.theta);
+  step.reset(zero, b.layout.theta);
+  rows.reset(b.layout.theta);
   const Trajectory nominal = integrate_fixed(b.timeline, b.filter.model(), b.layout.theta,
                                              std::vector<Vec3>(b.timeline.chains, Vec3::Zero()));
   const Vec3 none = Vec3::Constant(std::nan(""));
-  const auto gimbals = b.measured.gimbal.col(0);
-  const auto here = estimate.process(0, none, gimbals);
-  const auto there = reference.process(0, none, gimbals, nominal.data());
-  EXPECT_EQ(here.scalars, 3);
-  EXPECT_EQ(there.scalars, 3);
-  EXPECT_EQ(here.nis, there.nis);
-  EXPECT_EQ(estimate.x(), reference.x());
-  EXPECT_EQ(estimate.phi(), reference.phi());
-}
-
-TEST(IntervalStep, DemandsAReferenceAndOnlyWhereItLinearisesAboutOne) {
-  Bench b({"D_F"});
-  const VecX zero = VecX::Zero(3);
-  for (const About about : {About::estimate, About::reference}) {
-    IntervalStep step(b.filter, b.timeline, Readout{}, about);
-    step.reset(zero, b.layout.theta);
-    const Vec3 phi = Vec3::Zero();
-    EXPECT_THROW(step.process(0, b.measured.acc.col(0), b.measured.gimbal.col(0),
-                              about == About::estimate ? &phi : nullptr),
-                 ContractError);
+  const Vec3 gimbals = b.measured.gimbal.col(0);
+  const auto taken = step.process(0, none, gimbals);
+  std::vector<double> whitened(3 * rows.width());
+  rows.enter(0);
+  rows.look_ahead(0, 1, nominal.data());
+  rows.cage(b.timeline.intervals[0], nominal[0]);
+  const auto triple = rows.take(0, none, gimbals, nominal.data(), nullptr, whitened.data());
+  EXPECT_EQ(taken.scalars, 3);
+  EXPECT_EQ(triple.scalars, 3u);
+  Information information(b.layout.size(), rows.width());
+  information.add(whitened.data(), 3);
+  ASSERT_TRUE(information.factorise());
+  const VecX x = information.solve(zero);
+  EXPECT_LT((x - step.x()).norm(), 1e-12 * x.norm());
+  EXPECT_NEAR(information.cost(x, zero), taken.nis, 1e-12 * taken.nis);
+  MatX P(x.size(), x.size());
+  information.invert(P);
+  for (std::size_t k = 0; k < b.layout.size(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    EXPECT_NEAR(b.layout.sigma[i] * std::sqrt(P(i, i)) / step.sigma(k), 1.0, 1e-12);
   }
 }
 

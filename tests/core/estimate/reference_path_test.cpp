@@ -1,4 +1,4 @@
-#include "core/estimate/reference_path.hpp"
+#include "core/estimate/sequential/reference_path.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,8 +3,8 @@
 #include <string>
 
 #include "core/estimate/estimate_result.hpp"
-#include "core/estimate/interval_rows.hpp"
-#include "core/estimate/reference_path.hpp"
+#include "core/estimate/sequential/interval_rows.hpp"
+#include "core/estimate/sequential/reference_path.hpp"
 #include "core/sim/measurements.hpp"
 
 namespace drift {
@@ -57,6 +57,7 @@ class IteratedEkf {
   bool first_pass(const Measurements& measured, const Theta& start);
   bool linear_pass(const Measurements& measured);
   bool take(std::size_t i, const Measurements& measured, const Vec3* path, Pass pass);
+  bool take_block(std::size_t first, std::size_t end, const Measurements& measured, Vec3& phi);
   bool solve_block(const Interval& interval, Vec3& phi);
   bool diverged(bool finite, double t, Pass pass);
   double largest_step();  ///< of the last pass, in posterior sigmas
@@ -67,6 +68,7 @@ class IteratedEkf {
   const Timeline& timeline_;
   IntervalRows rows_;
   Information information_;
+  PathInLanes lanes_;
   ReferencePath reference_;
   bool gated_;
   std::vector<double> store_;                   ///< all rows of a pass
@@ -77,7 +79,7 @@ class IteratedEkf {
   VecX moved_;  ///< of the reference from the start; of the estimate from the reference
   VecX prior_, step_, nothing_;  ///< work
   MatX P_;
-  std::vector<Vec3> path_;
+  std::vector<Vec3> path_;  ///< of the first pass, at every node
   Theta theta_ = Theta::Zero();
   double nis_ = 0.0, lag1_ = 0.0;
   std::size_t scalars_ = 0;

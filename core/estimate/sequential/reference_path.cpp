@@ -1,4 +1,4 @@
-#include "core/estimate/reference_path.hpp"
+#include "core/estimate/sequential/reference_path.hpp"
 
 namespace drift {
 
@@ -6,11 +6,24 @@ ReferencePath::ReferencePath(const Timeline& timeline, const DriftModel& model)
     : timeline_(timeline),
       model_(model),
       memory_(timeline, model),
+      in_lanes_(PathInLanes::can(model)),
+      lanes_(timeline, model),
       ends_(static_cast<std::size_t>(timeline.chains), Vec3::Zero()),
       phi_(timeline.nodes.size(), Vec3::Zero()) {}
 
 void ReferencePath::place(const Theta& theta) {
   const auto& intervals = timeline_.intervals;
+  if (in_lanes_) {
+    lanes_.set_theta(theta);
+    for (std::size_t end = intervals.size(), first = end; end > 0; end = first) {
+      while (!intervals[--first].cage && first > 0) {
+      }
+      phi_[intervals[end - 1].last_node()] =
+          ends_[static_cast<std::size_t>(intervals[first].chain)];
+      lanes_.backward(first, end, phi_.data());
+    }
+    return;
+  }
   memory_.trace(theta.data());
   Vec3 phi = Vec3::Zero();
   for (std::size_t i = intervals.size(); i-- > 0;) {

@@ -1,10 +1,10 @@
-#include "core/estimate/attitude_filter.hpp"
+#include "core/estimate/sequential/attitude_filter.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/base/check.hpp"
-#include "core/estimate/small_cholesky.hpp"
+#include "core/estimate/sequential/small_cholesky.hpp"
 
 namespace drift {
 

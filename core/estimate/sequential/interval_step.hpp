@@ -3,18 +3,12 @@
 #include <cmath>
 #include <string>
 
-#include "core/estimate/covariance.hpp"
 #include "core/estimate/estimate_result.hpp"
-#include "core/estimate/innovation_sums.hpp"
 #include "core/estimate/linearize.hpp"
+#include "core/estimate/sequential/covariance.hpp"
+#include "core/estimate/sequential/innovation_sums.hpp"
 
 namespace drift {
-
-/// What a sequential estimator linearises about.
-enum class About {
-  estimate,   ///< the running estimate, which every measurement moves: an extended Kalman filter
-  reference,  ///< a path given beforehand: a Kalman filter, linear in the deviations from it
-};
 
 /// What a sequential estimator does with one sample interval: linearise, predict, gate, update.
 ///
@@ -27,8 +21,7 @@ enum class About {
 class IntervalStep {
  public:
   /// The timeline must outlive the step.
-  IntervalStep(const FilterSpec& filter, const Timeline& timeline, const Readout& readout,
-               About about);
+  IntervalStep(const FilterSpec& filter, const Timeline& timeline, const Readout& readout);
 
   /// Before the first interval, with the covariance of the priors. x: the estimate, as x() has it;
   /// theta: the parameters to linearise about. Allocates nothing.
@@ -39,13 +32,12 @@ class IntervalStep {
     double nis = 0.0;  ///< normalised innovation squared
     int scalars = 0;
   };
-  /// Takes in the measurements of interval i; intervals come in order. reference: rotation vector
-  /// of the path at its nodes [rad], with About::reference alone. Nothing once it has diverged.
-  Taken process(std::size_t i, const Vec3& acc, const Vec3& gimbal,
-                const Vec3* reference = nullptr);
+  /// Takes in the measurements of interval i; intervals come in order. Nothing once it has
+  /// diverged.
+  Taken process(std::size_t i, const Vec3& acc, const Vec3& gimbal);
 
   const Layout& layout() const { return layout_; }
-  /// The estimate, in prior sigmas: deviations from the prior means, or from the reference.
+  /// The estimate, in prior sigmas: deviations from the prior means.
   const VecX& x() const { return x_; }
   const Theta& theta() const { return theta_; }  ///< that the next interval is linearised about
   /// Estimated rotation vector of the platform against its nominal attitude, at the end of the last
@@ -62,7 +54,7 @@ class IntervalStep {
   double t_diverged() const { return t_diverged_; }  ///< [s]
 
  private:
-  void linearise(std::size_t i, const Vec3* reference);
+  void linearise(std::size_t i);
   void predict(const Mat3& Phi, const Rows3& G, const Mat3& Q);
   void take_accelerometers(const Interval& interval, const Vec3& acc);
   void take_gimbals(const Interval& interval, const Vec3& gimbal);
@@ -84,7 +76,6 @@ class IntervalStep {
   FilterSpec filter_;
   const Timeline& timeline_;
   Readout readout_;
-  About about_;
   DriftModel model_;
   Layout layout_;
   std::vector<std::size_t> walking_;  ///< states whose value is not constant
@@ -95,11 +86,9 @@ class IntervalStep {
   VecX x_;
   Theta theta_ = Theta::Zero();
   Vec3 phi_ = Vec3::Zero();
-  Vec3 psi_ = Vec3::Zero();     ///< attitude from the reference, inertial axes [rad]
-  std::vector<Vec3> nodes_;     ///< rotation vector of the estimate at the interval's nodes [rad]
-  const Vec3* path_ = nullptr;  ///< the same of what it is linearised about
-  Rows3 rest_G_;                ///< work
-  MeanOutput mean_;             ///< work
+  std::vector<Vec3> nodes_;  ///< rotation vector of the estimate at the interval's nodes [rad]
+  Rows3 rest_G_;             ///< work
+  MeanOutput mean_;          ///< work
   Taken taken_;
   InnovationSums sums_;
   EstimateStatus status_ = EstimateStatus::ok;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/estimate/covariance.hpp"
+#include "core/estimate/sequential/covariance.hpp"
 
 namespace drift {
 

@@ -1,9 +1,9 @@
-#include "core/estimate/interval_rows.hpp"
+#include "core/estimate/sequential/interval_rows.hpp"
 
 #include <Eigen/LU>
 
-#include "core/estimate/drift_walk.hpp"
 #include "core/estimate/rest_rate.hpp"
+#include "core/estimate/sequential/drift_walk.hpp"
 #include "core/sim/measurements.hpp"
 
 namespace drift {
@@ -15,6 +15,8 @@ IntervalRows::IntervalRows(const FilterSpec& filter, const Timeline& timeline,
       model_(filter.model()),
       layout_(make_layout(filter)),
       linearizer_(model_, layout_, readout),
+      together_(StretchJacobians::can(model_)),
+      jacobians_(timeline),
       memory_(timeline, model_),
       attitude_(layout_.size(), walking_states(filter, layout_)),
       rest_G_(padded_rows(layout_.num_rate)) {
@@ -39,6 +41,10 @@ const MemoryPoint* IntervalRows::enter(std::size_t i) {
   return memory_.points();
 }
 
+void IntervalRows::look_ahead(std::size_t first, std::size_t end, const Vec3* path) {
+  if (together_) jacobians_.evaluate(first, end, path, model_.mounting, linearizer_);
+}
+
 void IntervalRows::cage(const Interval& interval, const Vec3& phi) {
   const Node& node = timeline_.nodes[interval.first_node];
   attitude_.cage(node.R_il * (node.R_lr * -phi), filter_.initial_attitude);
@@ -60,8 +66,12 @@ IntervalRows::Taken IntervalRows::take(std::size_t i, const Vec3& acc, const Vec
   Taken taken;
   const Interval& interval = timeline_.intervals[i];
   const MemoryPoint* memory = memory_.points();
-  linearize_interval(interval, timeline_, misalignment_matrix(model_.mounting, interval.loop), path,
-                     memory, linearizer_, sensitivity_);
+  const Vec3* phi = path + interval.first_node;
+  if (together_)
+    propagate_sensitivity(interval, timeline_, jacobians_.of(i), sensitivity_);
+  else
+    linearize_interval(interval, timeline_, misalignment_matrix(model_.mounting, interval.loop),
+                       phi, memory, linearizer_, sensitivity_);
   const std::size_t last = interval.node_count() - 1;
   const auto middle = static_cast<std::size_t>(interval.substeps);
   const double arw = filter_.noise.angle_random_walk;
@@ -83,8 +93,8 @@ IntervalRows::Taken IntervalRows::take(std::size_t i, const Vec3& acc, const Vec
   attitude_.propagate(Phi_rest, rest_G_, Q_half);
   if (readout_.gimbals && gimbal.array().isFinite().any()) {
     const GimbalPrediction predicted =
-        interval.rest ? predict_rest_rate(interval, timeline_, path, sensitivity_)
-                      : linearizer_.gimbals(timeline_, interval, path[last],
+        interval.rest ? predict_rest_rate(interval, timeline_, phi, sensitivity_)
+                      : linearizer_.gimbals(timeline_, interval, phi[last],
                                             memory ? memory + 2 * last : nullptr);
     Vec3 residual;
     for (int k = 0; k < 3; ++k) residual[k] = angle_difference(gimbal[k], predicted.angles[k]);

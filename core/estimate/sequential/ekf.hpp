@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/estimate/interval_step.hpp"
 #include "core/estimate/measured_test.hpp"
+#include "core/estimate/sequential/interval_step.hpp"
 
 namespace drift {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/sim/trajectory.hpp"
+#include "core/sim/path_in_lanes.hpp"
 
 namespace drift {
 
@@ -19,13 +19,17 @@ class ReferencePath {
   /// Integrates back from the ends, with these parameters. Allocates nothing from the second time
   /// on.
   void place(const Theta& theta);
-  /// Rotation vector at the nodes of an interval [rad].
+  /// Rotation vector at every node of the timeline [rad].
+  const Vec3* nodes() const { return phi_.data(); }
+  /// The same at those of an interval.
   const Vec3* nodes(const Interval& interval) const { return &phi_[interval.first_node]; }
 
  private:
   const Timeline& timeline_;
   DriftModel model_;
   MemoryRecord memory_;
+  bool in_lanes_;
+  PathInLanes lanes_;
   std::vector<Vec3> ends_;  ///< of each chain
   Trajectory phi_;
 };

@@ -1,7 +1,8 @@
 #pragma once
 
-#include "core/estimate/attitude_filter.hpp"
 #include "core/estimate/linearize.hpp"
+#include "core/estimate/sequential/attitude_filter.hpp"
+#include "core/estimate/stretch_jacobians.hpp"
 
 namespace drift {
 
@@ -30,6 +31,9 @@ class IntervalRows {
   /// Moves the memory of the terms on over interval i, in order; its points, null where there are
   /// none.
   const MemoryPoint* enter(std::size_t i);
+  /// Linearises the intervals first to end - 1 beforehand, together, where that is possible. path:
+  /// rotation vector at every node of the timeline [rad].
+  void look_ahead(std::size_t first, std::size_t end, const Vec3* path);
   /// A new attitude at the beginning of an interval: nominal within the prior, the path begins at
   /// phi.
   void cage(const Interval& interval, const Vec3& phi);
@@ -42,7 +46,8 @@ class IntervalRows {
     std::size_t scalars = 0;  ///< measured and not gated
     bool ok = true;           ///< false: an innovation covariance is not positive definite
   };
-  /// Rows of interval i, entered before, about the path. gate: null where nothing is gated.
+  /// Rows of interval i, entered before and looked ahead to, about the same path. gate: null where
+  /// nothing is gated.
   Taken take(std::size_t i, const Vec3& acc, const Vec3& gimbal, const Vec3* path,
              const AttitudeFilter::Gate* gate, double* rows);
 
@@ -56,6 +61,8 @@ class IntervalRows {
   DriftModel model_;
   Layout layout_;
   Linearizer linearizer_;
+  bool together_;
+  StretchJacobians jacobians_;
   IntervalSensitivity sensitivity_;
   MemoryPath memory_;
   AttitudeFilter attitude_;

@@ -1,4 +1,4 @@
-#include "core/estimate/interval_step.hpp"
+#include "core/estimate/sequential/interval_step.hpp"
 
 #include <fmt/format.h>
 
@@ -7,18 +7,17 @@
 #include <limits>
 
 #include "core/base/check.hpp"
-#include "core/estimate/drift_walk.hpp"
 #include "core/estimate/rest_rate.hpp"
+#include "core/estimate/sequential/drift_walk.hpp"
 #include "core/physics/stochastic.hpp"
 #include "core/sim/measurements.hpp"
 
 namespace drift {
 IntervalStep::IntervalStep(const FilterSpec& filter, const Timeline& timeline,
-                           const Readout& readout, About about)
+                           const Readout& readout)
     : filter_(filter),
       timeline_(timeline),
       readout_(readout),
-      about_(about),
       model_(filter.model()),
       layout_(make_layout(filter)),
       walking_(walking_states(filter, layout_)),
@@ -26,7 +25,7 @@ IntervalStep::IntervalStep(const FilterSpec& filter, const Timeline& timeline,
       memory_(timeline, model_),
       P_(layout_.size(), layout_.num_rate, filter.initial_attitude),
       x_(VecX::Zero(layout_.size())),
-      nodes_(about == About::estimate ? most_nodes(timeline) : 0),
+      nodes_(most_nodes(timeline)),
       rest_G_(padded_rows(layout_.num_rate)) {
   require_covariates(model_, timeline);
 }
@@ -38,20 +37,17 @@ void IntervalStep::reset(const VecX& x, const Theta& theta) {
   memory_.reset();
   P_.reset(filter_.initial_attitude);
   phi_.setZero();
-  psi_.setZero();
   sums_ = {};
   status_ = EstimateStatus::ok;
   cause_.clear();
   t_diverged_ = 0.0;
 }
 
-IntervalStep::Taken IntervalStep::process(std::size_t i, const Vec3& acc, const Vec3& gimbal,
-                                          const Vec3* reference) {
-  DRIFT_DEMAND((reference != nullptr) == (about_ == About::reference));
+IntervalStep::Taken IntervalStep::process(std::size_t i, const Vec3& acc, const Vec3& gimbal) {
   taken_ = {};
   if (status_ != EstimateStatus::ok) return taken_;
   const Interval& interval = timeline_.intervals[i];
-  linearise(i, reference);
+  linearise(i);
 
   const std::size_t last = interval.node_count() - 1;
   const auto middle = static_cast<std::size_t>(interval.substeps);
@@ -71,38 +67,25 @@ IntervalStep::Taken IntervalStep::process(std::size_t i, const Vec3& acc, const 
   if (readout_.gimbals && gimbal.array().isFinite().any()) take_gimbals(interval, gimbal);
   if (status_ != EstimateStatus::ok) return taken_;
 
-  phi_ = about_ == About::estimate
-             ? nodes_[last]
-             : turned(timeline_.nodes[interval.last_node()], psi_, path_[last]);
+  phi_ = nodes_[last];
   let_drift_vary(interval.length());
   return taken_;
 }
 
-void IntervalStep::linearise(std::size_t i, const Vec3* reference) {
+void IntervalStep::linearise(std::size_t i) {
   const Interval& interval = timeline_.intervals[i];
   memory_.advance(i, theta_.data());
   if (interval.cage) P_.recage(filter_.initial_attitude);
-  if (about_ == About::estimate) {
-    nodes_[0] = interval.cage ? Vec3::Zero() : phi_;
-    step_through(interval, timeline_, drive_of(interval, timeline_, model_, theta_),
-                 memory_.points(), nodes_.data());
-    linearizer_.set_theta(theta_);
-    path_ = nodes_.data();
-  } else {
-    path_ = reference;
-    if (interval.cage) {  // the attitude is believed to be nominal: the reference taken back
-      const Node& node = timeline_.nodes[interval.first_node];
-      psi_ = node.R_il * (node.R_lr * -path_[0]);
-    }
-  }
+  nodes_[0] = interval.cage ? Vec3::Zero() : phi_;
+  step_through(interval, timeline_, drive_of(interval, timeline_, model_, theta_), memory_.points(),
+               nodes_.data());
+  linearizer_.set_theta(theta_);
   linearize_interval(interval, timeline_, misalignment_matrix(model_.mounting, interval.loop),
-                     path_, memory_.points(), linearizer_, sensitivity_);
+                     nodes_.data(), memory_.points(), linearizer_, sensitivity_);
 }
 
 void IntervalStep::predict(const Mat3& Phi, const Rows3& G, const Mat3& Q) {
-  const auto nr = static_cast<Eigen::Index>(layout_.num_rate);
-  if (about_ == About::reference) psi_ = (Phi * psi_ + G.leftCols(nr) * x_.head(nr)).eval();
-  P_.propagate(Phi, G.leftCols(nr), Q);
+  P_.propagate(Phi, G.leftCols(static_cast<Eigen::Index>(layout_.num_rate)), Q);
 }
 
 /// Without the columns that fill up lanes.
@@ -119,18 +102,17 @@ void IntervalStep::take_accelerometers(const Interval& interval, const Vec3& acc
   update(interval, middle, acc - mean_.acc, sensitivity_of(mean_.H, mean_.H_rate, mean_.H_par),
          interval.accelerometer_noise(readout_.accelerometer_noise),
          InnovationSums::accelerometers);
-  if (about_ == About::estimate && status_ == EstimateStatus::ok)
+  if (status_ == EstimateStatus::ok)
     step_through(interval, timeline_, drive_of(interval, timeline_, model_, theta_),
                  memory_.points(), nodes_.data(), middle);
 }
 
 void IntervalStep::take_gimbals(const Interval& interval, const Vec3& gimbal) {
   const std::size_t last = interval.node_count() - 1;
-  if (about_ == About::estimate && TermLibrary::act_on_gimbals(model_.terms))
-    linearizer_.set_theta(theta_);
+  if (TermLibrary::act_on_gimbals(model_.terms)) linearizer_.set_theta(theta_);
   const GimbalPrediction predicted =
-      interval.rest ? predict_rest_rate(interval, timeline_, path_, sensitivity_)
-                    : linearizer_.gimbals(timeline_, interval, path_[last], memory_at(last));
+      interval.rest ? predict_rest_rate(interval, timeline_, nodes_.data(), sensitivity_)
+                    : linearizer_.gimbals(timeline_, interval, nodes_[last], memory_at(last));
   Vec3 residual;
   for (int k = 0; k < 3; ++k) residual[k] = angle_difference(gimbal[k], predicted.angles[k]);
   update(interval, last, residual, sensitivity_of(predicted.H, predicted.H_rate, predicted.H_par),
@@ -140,23 +122,13 @@ void IntervalStep::take_gimbals(const Interval& interval, const Vec3& gimbal) {
 /// Takes in three scalars at a node. residual: measured minus predicted along the path.
 void IntervalStep::update(const Interval& interval, std::size_t node, const Vec3& residual,
                           const Sensitivity& H, double noise, InnovationSums::Channel channel) {
-  Vec3 nu = residual;
-  if (about_ == About::reference) {
-    nu -= H.psi * psi_;
-    if (H.rate.cols() > 0) nu -= H.rate * x_.head(H.rate.cols());
-    if (H.par.cols() > 0) nu -= H.par * x_.tail(H.par.cols());
-  }
-  if (has_outliers(model_.terms)) nu = gated(nu, H, noise);
+  const Vec3 nu = has_outliers(model_.terms) ? gated(residual, H, noise) : residual;
   const Covariance::Update update = P_.update(nu, H.psi, H.rate, H.par, noise, x_);
   taken_.nis += update.nis;
   taken_.scalars += update.scalars;
   sums_.add(update, channel);
   notice_divergence(update, interval.t1);
   if (status_ != EstimateStatus::ok) return;
-  if (about_ == About::reference) {
-    psi_ += update.attitude;
-    return;
-  }
   nodes_[node] = turned(timeline_.nodes[interval.first_node + node], update.attitude, nodes_[node]);
   learn();
 }
@@ -183,8 +155,7 @@ void IntervalStep::notice_divergence(const Covariance::Update& update, double t)
   if (update.ok && finite && x_.cwiseAbs().maxCoeff() <= 1e6) return;
   status_ = EstimateStatus::diverged;
   t_diverged_ = t;
-  cause_ = fmt::format("{} diverged at t = {:.6g} s ({})",
-                       about_ == About::estimate ? "filter" : "second pass of the filter", t,
+  cause_ = fmt::format("filter diverged at t = {:.6g} s ({})", t,
                        !update.ok ? "innovation covariance not positive definite"
                                   : "estimate beyond 1e6 prior sigma");
 }

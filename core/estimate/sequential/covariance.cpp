@@ -1,10 +1,10 @@
-#include "core/estimate/covariance.hpp"
+#include "core/estimate/sequential/covariance.hpp"
 
 #include <cmath>
 
 #include "core/base/check.hpp"
 #include "core/estimate/lanes.hpp"
-#include "core/estimate/small_cholesky.hpp"
+#include "core/estimate/sequential/small_cholesky.hpp"
 
 namespace drift {
 namespace {

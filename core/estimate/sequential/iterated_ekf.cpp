@@ -1,4 +1,4 @@
-#include "core/estimate/iterated_ekf.hpp"
+#include "core/estimate/sequential/iterated_ekf.hpp"
 
 #include <fmt/format.h>
 
@@ -28,6 +28,7 @@ IteratedEkf::IteratedEkf(const FilterSpec& filter, const Timeline& timeline, con
     : timeline_(timeline),
       rows_(filter, timeline, readout),
       information_(rows_.layout().size(), rows_.width()),
+      lanes_(timeline, rows_.model()),
       reference_(timeline, rows_.model()),
       gated_(has_outliers(rows_.model().terms)),
       store_(IntervalRows::most * timeline.intervals.size() * rows_.width()),
@@ -41,7 +42,7 @@ IteratedEkf::IteratedEkf(const FilterSpec& filter, const Timeline& timeline, con
       step_(moved_),
       nothing_(moved_),
       P_(MatX::Identity(x_.size(), x_.size())),
-      path_(most_nodes(timeline)),
+      path_(timeline.nodes.size()),
       theta_(start) {}
 
 void IteratedEkf::run(const Measurements& measured, const Theta& start) {
@@ -86,28 +87,48 @@ bool IteratedEkf::first_pass(const Measurements& measured, const Theta& start) {
   information_.clear();
   information_.factorise();
   triples_ = summed_ = scalars_ = 0;
+  const std::size_t count = timeline_.intervals.size();
   Vec3 phi = Vec3::Zero();
-  std::size_t block = 1, in_block = 0;
-  for (std::size_t i = 0; i < timeline_.intervals.size(); ++i) {
-    const Interval& interval = timeline_.intervals[i];
-    if (interval.cage) {
-      phi.setZero();
-      rows_.cage(interval, phi);
-    }
+  std::size_t block = 1;
+  for (std::size_t i = 0; i < count;) {
     if (begins(timeline_, i)) block = 1;
-    path_[0] = phi;
-    step_through(interval, timeline_, drive_of(interval, timeline_, rows_.model(), theta_),
-                 rows_.enter(i), path_.data());
-    if (!take(i, measured, path_.data(), Pass::first)) return false;
-    phi = path_[interval.node_count() - 1];
-    if (++in_block == block || begins(timeline_, i + 1)) {
-      if (!solve_block(interval, phi)) return false;
-      in_block = 0;
-      block *= 2;
+    std::size_t end = i + 1;
+    while (end < count && end < i + block && !begins(timeline_, end)) ++end;
+    block *= 2;
+    if (timeline_.intervals[i].cage) {
+      phi.setZero();
+      rows_.cage(timeline_.intervals[i], phi);
     }
-    if (ends_chain(timeline_, i)) reference_.end_chain(interval, phi);
+    if (!take_block(i, end, measured, phi)) return false;
+    i = end;
+    const Interval& last = timeline_.intervals[end - 1];
+    if (ends_chain(timeline_, end - 1)) reference_.end_chain(last, phi);
   }
   return true;
+}
+
+/// Intervals linearised about one estimate, whose path begins at phi; then phi is where the next
+/// estimate has its end.
+bool IteratedEkf::take_block(std::size_t first, std::size_t end, const Measurements& measured,
+                             Vec3& phi) {
+  const auto& all = timeline_.intervals;
+  path_[all[first].first_node] = phi;
+  const bool together = PathInLanes::can(rows_.model());
+  if (together) {
+    lanes_.set_theta(theta_);
+    lanes_.forward(first, end, path_.data());
+    rows_.look_ahead(first, end, path_.data());
+  }
+  for (std::size_t i = first; i < end; ++i) {
+    if (!together) {
+      if (i > first) path_[all[i].first_node] = path_[all[i - 1].last_node()];
+      step_through(all[i], timeline_, drive_of(all[i], timeline_, rows_.model(), theta_),
+                   rows_.enter(i), &path_[all[i].first_node]);
+    }
+    if (!take(i, measured, path_.data(), Pass::first)) return false;
+  }
+  phi = path_[all[end - 1].last_node()];
+  return solve_block(timeline_.intervals[end - 1], phi);
 }
 
 /// The estimate after a block of samples, about which the next one is linearised.
@@ -137,19 +158,21 @@ bool IteratedEkf::linear_pass(const Measurements& measured) {
   rows_.reset(theta_);
   triples_ = summed_ = scalars_ = 0;
   information_.clear();
-  constexpr std::size_t at_once = 16;  // triples that are still in the first cache
-  for (std::size_t i = 0; i < timeline_.intervals.size(); ++i) {
-    const Interval& interval = timeline_.intervals[i];
-    const Vec3* path = reference_.nodes(interval);
-    if (interval.cage) rows_.cage(interval, path[0]);
-    rows_.enter(i);
-    if (!take(i, measured, path, Pass::linear)) return false;
-    if (triples_ - summed_ >= at_once || i + 1 == timeline_.intervals.size()) {
-      information_.add(row(3 * summed_), 3 * (triples_ - summed_));
-      summed_ = triples_;
+  constexpr std::size_t at_once = 8;  // intervals whose rows are still in the first cache
+  const std::size_t count = timeline_.intervals.size();
+  for (std::size_t first = 0; first < count; first += at_once) {
+    const std::size_t end = std::min(first + at_once, count);
+    rows_.look_ahead(first, end, reference_.nodes());
+    for (std::size_t i = first; i < end; ++i) {
+      const Interval& interval = timeline_.intervals[i];
+      if (interval.cage) rows_.cage(interval, reference_.nodes(interval)[0]);
+      rows_.enter(i);
+      if (!take(i, measured, reference_.nodes(), Pass::linear)) return false;
+      if (ends_chain(timeline_, i))
+        ends_[static_cast<std::size_t>(interval.chain)] = rows_.attitude();
     }
-    if (ends_chain(timeline_, i))
-      ends_[static_cast<std::size_t>(interval.chain)] = rows_.attitude();
+    information_.add(row(3 * summed_), 3 * (triples_ - summed_));
+    summed_ = triples_;
   }
   const bool finite = information_.factorise();
   prior_ = x_start_ - x_reference_;
@@ -180,16 +203,10 @@ bool IteratedEkf::diverged(bool finite, double t, Pass pass) {
 
 double IteratedEkf::largest_step() {
   // No component is longer, in its sigma, than the whole step is in the metric of the covariance.
-  const double bound = std::sqrt(information_.length_squared(moved_));
+  const double bound = information_.whitened(moved_).norm();
   if (bound < 1.0) return bound;
-  double largest = 0.0;
-  for (Eigen::Index k = 0; k < x_.size(); ++k) {
-    step_.setZero();
-    step_[k] = 1.0;
-    largest =
-        std::max(largest, std::abs(moved_[k]) / std::sqrt(information_.variance_of(step_.data())));
-  }
-  return largest;
+  information_.invert(P_);
+  return (moved_.array().abs() / P_.diagonal().array().sqrt()).maxCoeff();
 }
 
 /// What is reported of the last pass.
@@ -218,21 +235,23 @@ void IteratedEkf::finish() {
   theta_ = rows_.layout().theta_at(x_);
 }
 
+/// Whitened by the filter of the attitude, residuals at the estimate of neighbours u, t have the
+/// covariance -u (1 + information)^-1 t^T where innovations are white.
 void IteratedEkf::measure_lag() {
   const std::size_t right = rows_.attitude().right();
+  information_.whiten(row(0), 3 * triples_);
+  const VecX& d = information_.whitened(moved_);
   double lagged = 0.0;
   std::size_t pairs = 0;
   const double* last[2] = {nullptr, nullptr};
   for (std::size_t k = 0; k < triples_; ++k) {
     const double* now = row(3 * k);
     const double* before = std::exchange(last[channel_[k]], now);
-    if (before == nullptr) continue;
-    for (std::size_t a = 0; a < 3; ++a) {
+    for (std::size_t a = 0; before != nullptr && a < 3; ++a) {
       const double *s = before + a * rows_.width(), *t = now + a * rows_.width();
       if (s[right] == 0.0 || t[right] == 0.0) continue;
-      const Eigen::Map<const VecX> u(s, moved_.size()), v(t, moved_.size());
-      lagged += (s[right] - u.dot(moved_)) * (t[right] - v.dot(moved_));
-      lagged += information_.covariance_of(s, t);
+      const Eigen::Map<const VecX> u(s, d.size()), v(t, d.size());
+      lagged += (s[right] - u.dot(d)) * (t[right] - v.dot(d)) + u.dot(v);
       ++pairs;
     }
   }

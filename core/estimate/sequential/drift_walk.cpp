@@ -1,4 +1,4 @@
-#include "core/estimate/drift_walk.hpp"
+#include "core/estimate/sequential/drift_walk.hpp"
 
 #include "core/physics/stochastic.hpp"
 

@@ -1,4 +1,4 @@
-#include "core/estimate/ekf.hpp"
+#include "core/estimate/sequential/ekf.hpp"
 
 #include <algorithm>
 
@@ -7,7 +7,7 @@ namespace drift {
 Ekf::Ekf(const FilterSpec& filter, const Timeline& timeline, const Readout& readout,
          const Theta& start, KeepHistory keep)
     : timeline_(timeline),
-      step_(filter, timeline, readout, About::estimate),
+      step_(filter, timeline, readout),
       start_(step_.layout().scaled(start)),
       keep_(keep) {
   const std::size_t n = keep == KeepHistory::yes ? timeline.intervals.size() : 0;

@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/estimate/information.hpp"
 #include "core/estimate/rows3.hpp"
+#include "core/estimate/sequential/information.hpp"
 
 namespace drift {
 
@@ -55,7 +55,7 @@ class AttitudeFilter {
   /// definite.
   struct Gate {
     double gate;
-    const Information* known;
+    Information* known;
     const VecX* x;  ///< where the parameters are thought to be, from the reference
   };
   std::optional<std::size_t> update(const Scalars& scalars, const Gate* gate, double* rows);
