@@ -2,6 +2,7 @@
 
 #include "analysis/report/study/sections.hpp"
 #include "analysis/report/svg/curve.hpp"
+#include "analysis/report/svg/zoomable.hpp"
 
 namespace drift::report {
 namespace {
@@ -126,8 +127,7 @@ Section honesty(const StudyResults& results) {
       chart.panels.push_back(coverage_panel(filter, claims_of(results)));
       said.items.push_back(said_of(results, {p, f}));
     }
-    section.add(
-        {Figure{svg_of(chart), section.blocks.empty() ? how_to_read : ""}, std::move(said)});
+    section.add({figure_of(chart, section.blocks.empty() ? how_to_read : ""), std::move(said)});
   }
   return section;
 }
@@ -163,13 +163,14 @@ Section rate_course(const StudyResults& results) {
     chart.panels.push_back(std::move(panel));
   }
   if (chart.panels.empty()) return {};
-  return {"Are these runs enough?",
-          {Figure{svg_of(chart),
-                  "The silent failure rate of the first 1, 2, 3, ... runs with its 95 % interval, "
-                  "start 1 of every filter. It is known when the interval is as narrow as asked "
-                  "for and later rates stay inside earlier intervals."},
-           std::move(said)},
-          On::page};
+  return {
+      "Are these runs enough?",
+      {figure_of(chart,
+                 "The silent failure rate of the first 1, 2, 3, ... runs with its 95 % interval, "
+                 "start 1 of every filter. It is known when the interval is as narrow as asked "
+                 "for and later rates stay inside earlier intervals."),
+       std::move(said)},
+      On::page};
 }
 
 }  // namespace drift::report
