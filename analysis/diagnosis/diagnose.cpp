@@ -147,6 +147,7 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
 
   stages.begin("held out", 0.25);
   d.fit = compared(nominal, found, test, options, recording_ends, stages);
+  for (const Interval& interval : test.timeline.intervals) d.fit.residual_t.push_back(interval.t1);
   const auto member_gains = best && found.significant
                                 ? judge_members(nominal, test, *best, found.thresholds)
                                 : std::vector<double>{};
@@ -165,6 +166,10 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
     stages.begin("forms", 0.0);
     d.proposal = proposal::propose(found, noise_without_effect(nominal, found), test,
                                    options.search.alpha, {options.folds, recording_ends, {}});
+  }
+  if (options.profiles != Profiles::left_out && !causes.causes.empty()) {
+    stages.begin("profiles", 0.0);
+    d.profiles = profiles_of(found, test, causes.causes);
   }
   stages.begin("starts", 0.07);
   d.fit.start_spread_before = d.fit.start_spread_after = fitted.start_spread;
