@@ -9,7 +9,7 @@ and printed:
   - with its details folded it prints on at most four pages
   - a figure that can be zoomed is drawn by the script of the page itself, with no error in it, and
     without script the static picture is there
-KEEP: a folder for the pages and their pictures, to be looked at. Skipped (77) without Chromium.
+KEEP: a new folder for the pages and their pictures, to be looked at. Skipped (77) without Chromium.
 """
 import base64
 import hashlib
@@ -223,6 +223,8 @@ def main():
     keep = pathlib.Path(sys.argv[2]).resolve() if len(sys.argv) > 2 else None
     folder = keep or pathlib.Path(tempfile.mkdtemp())
     folder.mkdir(parents=True, exist_ok=True)
+    if any(folder.iterdir()):
+        sys.exit(f"{folder}: is not empty (expected a new folder for the pages)")
     wrong = []
     try:
         pages_made = make_pages(program, folder)

@@ -58,7 +58,7 @@ struct Diagnosis {
   /// best explanation in the model, if that is not this very change.
   double other_equation_gain = std::numeric_limits<double>::quiet_NaN();
   FitComparison fit;
-  std::vector<Profile> profiles;  ///< of parameters of the causes, where they were asked for
+  std::vector<Profile> profiles;         ///< of parameters of the causes, where they were asked for
   std::vector<RecoveredSignal> signals;  ///< strongest first; at least one unless consistent
   CosineMatrix cosines;
   std::vector<Twins> inseparable;  ///< what this plan can never tell apart

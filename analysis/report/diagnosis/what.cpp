@@ -172,11 +172,14 @@ Section what(const Diagnosis& d) {
   if (!d.causes.empty()) section.add({cause_table(d)});
   if (Sentences said = equations_of(d.causes); !said.items.empty())
     section.add({{std::move(said), On::page}});
-  section.add(likeness_figure(d.cosines));
   if (!d.inseparable.empty())
     section.add({{Paragraph{"This plan can never tell these apart:"}, On::page},
                  {Sentences{twins_in_words(d.inseparable)}, On::page}});
   return section;
+}
+
+Section likeness(const Diagnosis& d) {
+  return {"Likeness of the causes", likeness_figure(d.cosines), On::page};
 }
 
 /// All that was tried.

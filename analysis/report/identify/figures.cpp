@@ -179,7 +179,7 @@ std::vector<std::size_t> highlighted_parameters(const mc::Study& study,
 Section estimate_figures(const mc::Study& study, const identification::Identification& id) {
   const std::vector<std::size_t> params = highlighted_parameters(study, id);
   if (params.empty()) return {};
-  Chart combined{study.title, {}, std::min<std::size_t>(params.size(), 3)};
+  Chart combined{"Estimates against time", {}, std::min<std::size_t>(params.size(), 3)};
   Chart nis{"Normalised innovations squared",
             {},
             std::min<std::size_t>(id.summaries.size(), 2),

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "analysis/report/diagnosis/sentence.hpp"
+#include "core/stats/normal.hpp"
 #include "tests/support/model_builders.hpp"
 
 namespace drift::diagnosis::diagnose_test {

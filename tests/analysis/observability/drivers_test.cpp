@@ -19,7 +19,8 @@ const TestPlan& plan() {
 }
 
 RankedModel model() {
-  return model_of(Coupling::eq5, {"D_F_x", "D_F_y", "D_I_x", "D_S_x", "eta_x", "xi_x", "K1_x"});
+  return model_of(Coupling::eq5,
+                  {"D_F_x", "D_F_y", "D_I_x", "D_S_x", "eta_x", "xi_x", "K1_x", "K3_x"});
 }
 
 VecX sigmas_of(const RankedModel& m) {
@@ -70,20 +71,24 @@ TEST(Drivers, TableSaysTheStrongestOtherPrior) {
   const LinearisedPlan linearised = linearise(plan(), m.model);
   m.ranking = rank_parameters(linearised);
   m.drivers = drivers_of(linearised, plan(), m.model);
-  const std::size_t k = m.ranking.order.back(), row = m.ranking.order.size() - 1;
-  double most = 0.0;
-  std::size_t other = k;
-  for (std::size_t j = 0; j < m.ranking.order.size(); ++j) {
-    const double part =
-        1.0 - m.drivers.priors(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(j));
-    if (j == k || part <= most) continue;
-    most = part;
-    other = j;
+  const report::Table table = report::driver_table(m);
+  int driven = 0;
+  for (std::size_t row = 0; row < m.ranking.order.size(); ++row) {
+    const std::size_t k = m.ranking.order[row];
+    double most = 0.001;  // less is not worth a name
+    std::string other = "-";
+    for (std::size_t j = 0; j < m.ranking.order.size(); ++j) {
+      const double part =
+          1.0 - m.drivers.priors(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(j));
+      if (j == k || part < most) continue;
+      most = part;
+      other = report::parameter_key(m.ranking.layout, j);
+    }
+    EXPECT_EQ(table.rows[row].cells[0].text, report::parameter_key(m.ranking.layout, k));
+    EXPECT_EQ(table.rows[row].cells[5].text, other);
+    driven += other == "-" ? 0 : 1;
   }
-  ASSERT_GT(most, 0.001);
-  const auto& cells = report::driver_table(m).rows[row].cells;
-  EXPECT_EQ(cells[0].text, report::parameter_key(m.ranking.layout, k));
-  EXPECT_EQ(cells[5].text, report::parameter_key(m.ranking.layout, other));
+  EXPECT_GT(driven, 0);  // K1 and K3 of one accelerometer are hard to tell apart
 }
 
 }  // namespace
