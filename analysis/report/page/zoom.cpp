@@ -1,7 +1,8 @@
 #include "analysis/report/page/zoom.hpp"
 
+#include <zoom_script.hpp>  // made by the build
+
 #include "core/base/sha256.hpp"
-#include "zoom_script.hpp"
 
 namespace drift::report {
 namespace {
