@@ -50,6 +50,7 @@ ExitCode diagnose_case_that_sees_the_earth(const mc::Study& study,
                                            const diagnosis::StageReport& progress) {
   diagnosis::DiagnoseOptions options;
   options.progress = progress;
+  options.profiles = diagnosis::Profiles::of_the_causes;
   const diagnosis::Diagnosis found = strapdown::diagnose_case(study, of, options);
   const strapdown::CaseIdentification id = strapdown::identify_case(study, std::move(of));
   const report::Provenance provenance = report::provenance_of(study.path, paths);
@@ -113,6 +114,7 @@ ExitCode diagnose_platform(const StudyArguments& arguments, const mc::Study& stu
   flush_output();
   diagnosis::RecordingsOptions options;
   options.diagnose.progress = stage_reporter(arguments.progress, "diagnose");
+  options.diagnose.profiles = diagnosis::Profiles::of_the_causes;
   options.diagnose.proposing = diagnosis::Proposing::where_unexplained;
   if (advise) {
     options.advising = diagnosis::Advising::on_request;

@@ -60,6 +60,7 @@ search::CandidateScore line_of(const search::Fitted& nominal, const search::Sear
     line.worst_conditional = std::max(found.linear[k].library, found.linear[k].scan);
     line.adequate = found.linear[k].library <= found.thresholds.library_threshold &&
                     found.linear[k].scan <= found.thresholds.scan_threshold;
+    line.leaves_nothing = line.adequate;
   }
   const VecX a = search::expected_amplitudes(p, v.columns);
   line.size_sigma = a.norm();

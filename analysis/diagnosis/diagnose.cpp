@@ -57,6 +57,7 @@ FitComparison compared(const search::Fitted& nominal, const search::Search& foun
                        const std::vector<std::size_t>& recording_ends, Stages& stages) {
   const search::Refit* best = found.sets.empty() ? nullptr : &found.sets.front();
   FitComparison fit = compare(nominal, best, options.whiteness_draws);
+  for (const Interval& interval : test.timeline.intervals) fit.residual_t.push_back(interval.t1);
   if (!best) return fit;
   std::vector<std::size_t> named;
   for (const search::Choice& c : best->choices) named.push_back(c.candidate);
@@ -64,6 +65,15 @@ FitComparison compared(const search::Fitted& nominal, const search::Search& foun
                           {options.folds, recording_ends,
                            [&](std::size_t done, std::size_t total) { stages.step(done, total); }});
   return fit;
+}
+
+/// Profiles of the causes' parameters, where they were asked for.
+std::vector<Profile> profiled(const search::Search& found, const MeasuredTest& test,
+                              const std::vector<search::Cause>& causes,
+                              const DiagnoseOptions& options, Stages& stages) {
+  if (options.profiles == Profiles::left_out || causes.empty()) return {};
+  stages.begin("profiles", 0.0);
+  return profiles_of(found, test, causes);
 }
 
 /// Largest start-consistency ratio of the patched model, from the starts of the nominal one; what
@@ -166,6 +176,7 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
     d.proposal = proposal::propose(found, noise_without_effect(nominal, found), test,
                                    options.search.alpha, {options.folds, recording_ends, {}});
   }
+  d.profiles = profiled(found, test, causes.causes, options, stages);
   stages.begin("starts", 0.07);
   d.fit.start_spread_before = d.fit.start_spread_after = fitted.start_spread;
   if (best && !starts.empty())

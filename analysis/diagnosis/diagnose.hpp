@@ -5,6 +5,7 @@
 #include "analysis/diagnosis/findings/diagnosis.hpp"
 #include "analysis/diagnosis/held_out/held_out.hpp"
 #include "analysis/diagnosis/located.hpp"
+#include "analysis/diagnosis/profiles.hpp"
 #include "analysis/diagnosis/stages.hpp"
 #include "analysis/search/search.hpp"
 #include "mc/study/study.hpp"
@@ -26,6 +27,7 @@ struct DiagnoseOptions {
   StageReport progress;
   NamedBy named_by = NamedBy::held_out;
   Proposing proposing = Proposing::left_out;
+  Profiles profiles = Profiles::left_out;
 };
 
 /// Compares recordings with the study's first filter (the nominal model): is there missing physics,

@@ -3,20 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/inference/projector.hpp"
-#include "analysis/inference/signatures.hpp"
+#include "analysis/equation/held_parameter.hpp"
 #include "mc/task/campaign.hpp"
 
 namespace drift::equation {
 namespace {
 
-/// The model with lambda held, fitted, and twice the log of its evidence (prior of lambda
-/// included).
-struct Point {
-  double lambda = 0.0;
-  double log2 = 0.0;
-  BatchResult fit;
-};
+/// The model with lambda held; the log includes the prior of lambda.
+using Point = HeldFit;
 
 class Profiler {
  public:
@@ -35,14 +29,7 @@ class Profiler {
 
  private:
   Point point(double value) const {
-    FilterSpec held = filter_;
-    held.priors[closure_param] = fixed(value);
-    Theta start = start_;
-    start[closure_param] = value;
-    Point p{value, 0.0, fit_batch(held, test_, start)};
-    inference::LinearProblem problem = inference::linear_problem(held, test_, p.fit, {});
-    problem.weight = weight_;
-    p.log2 = inference::Projector(problem, noise_).marginal().log_likelihood2();
+    Point p = fit_held(filter_, test_, start_, closure_param, value, weight_, noise_);
     const double sigma = prior_.sigma();
     if (sigma > 0.0) p.log2 -= std::pow((value - prior_.mean()) / sigma, 2);
     return p;
@@ -72,7 +59,7 @@ std::optional<ClosureProfile> profile_closure(const FilterSpec& filter, const Me
   for (const double step : {0.005, 0.02, 0.06, 0.15, 0.35})
     for (const double sign : {-1.0, 1.0}) around.push_back(end + sign * step);
   for (Point& p : profiler.at(around)) points.push_back(std::move(p));
-  std::ranges::sort(points, {}, &Point::lambda);
+  std::ranges::sort(points, {}, &Point::value);
   const auto top = std::ranges::max_element(points, {}, &Point::log2);
   const double most = top->log2;
 
@@ -80,9 +67,9 @@ std::optional<ClosureProfile> profile_closure(const FilterSpec& filter, const Me
   double mass = 0.0, first = 0.0, second = 0.0;
   constexpr int fine = 200;
   for (std::size_t k = 0; k + 1 < points.size(); ++k) {
-    const double width = points[k + 1].lambda - points[k].lambda;
+    const double width = points[k + 1].value - points[k].value;
     for (int i = 0; i < fine; ++i) {
-      const double part = (i + 0.5) / fine, x = points[k].lambda + part * width;
+      const double part = (i + 0.5) / fine, x = points[k].value + part * width;
       const double p =
           std::exp(0.5 * ((1.0 - part) * points[k].log2 + part * points[k + 1].log2 - most)) *
           width / fine;

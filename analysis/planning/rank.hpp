@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/observability/drivers.hpp"
 #include "analysis/observability/information_by_position.hpp"
 #include "analysis/observability/other_methods.hpp"
 #include "analysis/planning/improve.hpp"
@@ -25,6 +26,7 @@ struct ModelRanking {
   observability::InformationCourse course;
   observability::PwcsRank pwcs;
   std::vector<observability::MethodRanking> methods;
+  observability::Drivers drivers;
   std::vector<Elsewhere> elsewhere;  ///< of each state, at four truths drawn from the priors
 };
 

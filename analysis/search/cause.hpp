@@ -65,6 +65,7 @@ struct CandidateScore {
   double probability = 0.0;          ///< among all single candidates and nothing
   double worst_conditional = 0.0;    ///< largest p-equivalent T of others once this one is in
   bool adequate = false;             ///< nothing else is significant once it is in
+  bool leaves_nothing = false;  ///< the same by the linearised test alone, whatever the refits say
   bool observable = true;
   std::string unit;
 };

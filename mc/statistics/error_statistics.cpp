@@ -42,6 +42,7 @@ void ErrorStatistics::add(double error, double sigma, std::span<const double> we
   variance_ += variance;
   for (std::size_t k = 0; k < coverage_.size(); ++k)
     coverage_[k].count(std::abs(error) < static_cast<double>(k + 1) * sigma);
+  magnitudes_.add(magnitude_probability(error / sigma));
   for (std::size_t b = 0; b < replicates_.size(); ++b) {
     replicates_[b].weight += weights[b];
     replicates_[b].square += weights[b] * square;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/stats/proportion.hpp"
+#include "mc/statistics/distribution_bins.hpp"
 
 namespace drift::mc {
 
@@ -57,6 +58,8 @@ class ErrorStatistics {
   Estimated deception() const;
   /// Share of runs whose error is below 1, 2, 3 sigma.
   const std::array<stats::Rate, 3>& coverage() const { return coverage_; }
+  /// Where the magnitudes of error over sigma lie in those of a standard normal number.
+  const DistributionBins& magnitudes() const { return magnitudes_; }
   double learning() const { return mean_sigma() / prior_sigma_; }
 
  private:
@@ -68,6 +71,7 @@ class ErrorStatistics {
   // Errors in prior sigmas.
   double sum_ = 0.0, square_ = 0.0, fourth_ = 0.0, variance_ = 0.0;
   std::array<stats::Rate, 3> coverage_{};
+  DistributionBins magnitudes_;
   struct Replicate {
     double weight = 0.0, square = 0.0, variance = 0.0;
   };

@@ -14,6 +14,7 @@ void ChiSquareSum::add(double value, double degrees) {
   sum += value;
   dof += degrees;
   in_band.count(stats::chi_square_band(degrees).holds(value / degrees));
+  place.add(chi_square_probability(value, degrees));
 }
 
 double ChiSquareSum::low() const {
@@ -69,6 +70,7 @@ void FilterStatistics::add_start(std::span<const double> row, std::size_t start)
     s.healthy.count(false);
     s.wrong.count(true);
     s.silent.count(false);
+    s.silent_course.follow(s.silent);
     if (start == 0)
       for (ParameterHealth& h : health_) h.silent.count(false);
     return;
@@ -95,6 +97,7 @@ void FilterStatistics::add_start(std::span<const double> row, std::size_t start)
   s.healthy.count(healthy);
   s.wrong.count(some_wrong);
   s.silent.count(some_wrong && healthy);
+  s.silent_course.follow(s.silent);
 }
 
 void FilterStatistics::compare_starts(std::span<const double> row) {

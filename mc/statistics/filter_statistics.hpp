@@ -18,7 +18,8 @@ struct HealthRules {
 /// A sum of chi-squares and of their degrees of freedom over runs.
 struct ChiSquareSum {
   double sum = 0.0, dof = 0.0;
-  stats::Rate in_band;  ///< single runs inside their own 95 % band
+  stats::Rate in_band;     ///< single runs inside their own 95 % band
+  DistributionBins place;  ///< of single runs in the chi-square of their degrees
   void add(double value, double degrees);
   double mean() const { return sum / dof; }  ///< 1 for an honest filter
   /// Where mean() lies with 95 % probability if the filter is honest.
@@ -35,6 +36,7 @@ struct StartStatistics {
   stats::Rate wrong;     ///< some parameter that the filter claims to know is more than 5 sigma off
   stats::Rate silent;    ///< wrong and healthy: the silent failure rate
   stats::Rate diverged;  ///< no estimate at all
+  RateCourse silent_course;  ///< `silent` as it came about
 };
 
 /// Silent failure and dependence on the start of one parameter.

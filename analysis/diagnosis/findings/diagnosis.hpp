@@ -10,6 +10,7 @@
 #include "analysis/diagnosis/findings/fit_comparison.hpp"
 #include "analysis/diagnosis/findings/not_examined.hpp"
 #include "analysis/diagnosis/findings/probabilities.hpp"
+#include "analysis/diagnosis/findings/profile.hpp"
 #include "analysis/diagnosis/findings/proposal.hpp"
 #include "analysis/diagnosis/findings/recovered_signal.hpp"
 #include "analysis/diagnosis/findings/remark.hpp"
@@ -57,6 +58,7 @@ struct Diagnosis {
   /// best explanation in the model, if that is not this very change.
   double other_equation_gain = std::numeric_limits<double>::quiet_NaN();
   FitComparison fit;
+  std::vector<Profile> profiles;         ///< of parameters of the causes, where they were asked for
   std::vector<RecoveredSignal> signals;  ///< strongest first; at least one unless consistent
   CosineMatrix cosines;
   std::vector<Twins> inseparable;  ///< what this plan can never tell apart

@@ -4,6 +4,7 @@
 #include "analysis/report/diagnosis/sections.hpp"
 #include "analysis/report/svg/curve.hpp"
 #include "analysis/report/svg/dumbbell_chart.hpp"
+#include "analysis/report/svg/zoomable.hpp"
 
 namespace drift::report {
 namespace {
@@ -168,15 +169,16 @@ Blocks residual_figure(const Diagnosis& d) {
   const auto& names = d.where.channel_names;
   for (Eigen::Index c = 0; c < std::min<Eigen::Index>(6, std::ssize(names)); ++c) {
     if (!fit.residual_before.row(c).array().isFinite().any()) continue;
-    const std::string& name = names[static_cast<std::size_t>(c)];
+    const std::string name = channel_in_words(names[static_cast<std::size_t>(c)]);
     add(fit.residual_before, c, 1, "nominal model", d.has_patch ? name + ", before" : name);
     if (compared) add(fit.residual_after, c, 0, "with the cause", name + ", after");
   }
   if (chart.panels.empty()) return {};
-  return {Figure{svg_of(chart),
-                 "Residuals of every channel in sigmas. A concealed effect need not be seen here: "
-                 "the fitted parameters take most of it up.",
-                 "residuals.svg"}};
+  return {
+      zoomable(chart,
+               "Residuals of every channel in sigmas. A concealed effect need not be seen here: "
+               "the fitted parameters take most of it up.",
+               "residuals.svg")};
 }
 
 }  // namespace

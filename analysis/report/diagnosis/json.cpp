@@ -222,15 +222,16 @@ Json diagnosis_document(const Diagnosis& d) {
   out["other_equation_gain"] = d.other_equation_gain;
   out["where"] = where_json(d.where);
   out["causes"] = causes_json(d.causes);
-  out["candidates"] =
-      rows_json(candidate_table(d),
-                "term score p_value absorbed axis label dof p_value_alone amplitude sigma "
-                "smallest_detectable unit size_sigma log_bayes probability adequate observable");
+  out["candidates"] = rows_json(
+      candidate_table(d),
+      "term score p_value absorbed axis label dof p_value_alone amplitude sigma "
+      "smallest_detectable unit size_sigma log_bayes probability adequate observable why_not");
   out["not_examined"] = not_examined_json(d.not_examined);
   out["probabilities"] = probabilities_json(d.probabilities);
   out["proposal"] = d.proposal ? Json(d.proposal->text) : Json(nullptr);
   out["proposal_fit"] = form_json(d.proposal);
   out["fit"] = fit_json(d);
+  out["profiles"] = profiles_json(d.profiles);
   out["advice"] = advice_json(d.advice);
   out["model"] = d.has_patch ? Json("patched.toml") : Json(nullptr);
   out["noise"] = rows_json(noise_table(d));

@@ -9,11 +9,12 @@ namespace drift::report {
 
 /// What is said of a diagnosis, in this order.
 DRIFT_SECTIONS(diagnosis::Diagnosis, diagnosis_sections, verdict, kept_in_mind, odds, where,
-               windows, what, form_that_fits, rivals, fit, moved, whiteness, noise, advice);
+               windows, what, form_that_fits, profiles, likeness, rivals, fit, moved, whiteness,
+               normality, noise, advice);
 inline constexpr Part diagnosis_parts[] = {
-    Part::evidence, Part::how_sure, Part::how_sure, Part::evidence, Part::details,
-    Part::how_sure, Part::evidence, Part::details,  Part::evidence, Part::details,
-    Part::how_sure, Part::details,  Part::how_sure};
+    Part::evidence, Part::how_sure, Part::how_sure, Part::evidence, Part::details,  Part::how_sure,
+    Part::evidence, Part::details,  Part::details,  Part::details,  Part::evidence, Part::details,
+    Part::details,  Part::details,  Part::details,  Part::how_sure};
 
 /// Causes are told from a model without, before and after; of a consistent verdict on the page
 /// alone.
@@ -43,6 +44,13 @@ struct TimeAxis {
   std::string label;
 };
 TimeAxis time_axis(const std::vector<double>& t, const diagnosis::Where& where);
+
+/// Residuals of a channel as sorted, at most 150 of them with both ends, each beside the quantile
+/// that a standard normal number has there.
+std::vector<std::pair<double, double>> normal_quantiles(const MatX& residual, Eigen::Index channel);
+
+/// `profiles` of diagnosis.json.
+Json profiles_json(const std::vector<diagnosis::Profile>& profiles);
 
 /// The facts about a proposed form; null without one.
 Json form_json(const std::optional<diagnosis::Proposal>& proposal);

@@ -4,6 +4,7 @@
 #include "analysis/report/diagnosis/sections.hpp"
 #include "analysis/report/svg/curve.hpp"
 #include "analysis/report/svg/dumbbell_chart.hpp"
+#include "analysis/report/svg/zoomable.hpp"
 
 namespace drift::report {
 namespace {
@@ -101,13 +102,14 @@ Section whiteness(const Diagnosis& d) {
     if (residual.row(c).array().isFinite().any())
       chart.panels.push_back(whiteness_panel(d, c, lags));
   if (chart.panels.empty()) return {};
-  return {"Is what is left white noise?",
-          {Figure{svg_of(chart),
-                  "How much of a residual comes again so many samples later. A right model leaves "
-                  "white noise, nearly all within the grey band; what a fit takes up lies a little "
-                  "below it.",
-                  "whiteness.svg"}},
-          On::page};
+  return {
+      "Is what is left white noise?",
+      {figure_of(chart,
+                 "How much of a residual comes again so many samples later. A right model leaves "
+                 "white noise, nearly all within the grey band; what a fit takes up lies a little "
+                 "below it.",
+                 "whiteness.svg")},
+      On::page};
 }
 
 }  // namespace drift::report

@@ -21,11 +21,23 @@ Cell unit_cell(const std::string& unit) {
   return {unit.empty() ? Value() : Value(unit), unit == "1" ? "" : unit};
 }
 
-std::string remark_of(const Diagnosis& d, const CandidateScore& c, int alternative) {
+/// Why a candidate is none of the causes. best: the largest log evidence among those.
+std::string why_not(const Diagnosis& d, const CandidateScore& c, double best) {
+  constexpr double chance = 0.05, unusual = 5.0;  // family-wise p; prior sigmas
+  if (!c.observable) return "not observable on this plan";
+  if (c.p_value > chance) return "no stronger than chance";
+  if (c.size_sigma > unusual)
+    return fmt::format("would be {} times its usual size", number_text(c.size_sigma, 2));
+  if (!c.leaves_nothing) return "with it, others stay significant";
+  if (d.causes.empty() || !(best > c.log_bayes)) return "did not hold in the refit";
+  return fmt::format("less likely by a factor of {}", number_text(std::exp(best - c.log_bayes), 2));
+}
+
+std::string remark_of(const Diagnosis& d, const CandidateScore& c, int alternative, double best) {
   if (alternative > 0 && d.verdict == Verdict::named) return "named";
   if (alternative > 0 && d.verdict == Verdict::ambiguous)
     return fmt::format("alternative {}", alternative);
-  return c.observable ? "" : "not observable on this plan";
+  return why_not(d, c, best);
 }
 
 /// The likest, at most three. All axes of a term are passed over where one axis alone is as like.
@@ -129,12 +141,16 @@ Table candidate_table(const Diagnosis& d) {
       "term= | axis= | label= | <candidate | score=score | dof=dof | p_value=p | "
       "p_value_alone= | absorbed=absorbed | amplitude=amplitude | sigma= | "
       "smallest_detectable=detectable | unit=<unit | size_sigma= | log_bayes= | "
-      "probability=prob. | adequate= | observable= | <",
+      "probability=prob. | adequate= | observable= | why_not=<verdict, or why not",
       "p: family-wise, over all that was tried. absorbed: part of the raw signature that "
       "fitted parameters take up. detectable: size found with 80 % probability. prob.: of this "
       "candidate alone, before a fit with it, against all others and nothing.");
   table.limit = {6, 40, "diagnosis.json"};
-  for (const auto& [c, alternative] : shown_candidates(d, d.candidates.size())) {
+  const std::vector<ShownCandidate> all = shown_candidates(d, d.candidates.size());
+  double best = -std::numeric_limits<double>::infinity();
+  for (const ShownCandidate& c : all)
+    if (c.alternative > 0) best = std::max(best, c.score->log_bayes);
+  for (const auto& [c, alternative] : all) {
     const bool one = c->sigma > 0.0;  // of several parameters there is no single amplitude
     const Tone tone = alternative > 0 ? Tone::good : Tone::plain;
     table.add({c->term, text_or_nothing(c->axis), c->label, Cell(label_of(*c), tone), c->score,
@@ -144,7 +160,7 @@ Table candidate_table(const Diagnosis& d) {
                one ? digits(c->smallest_detectable, 2) : only_value(Value()), unit_cell(c->unit),
                c->size_sigma, c->log_bayes,
                Cell(c->probability, c->probability < 5e-4 ? "0" : number_text(c->probability, 2)),
-               c->adequate, c->observable, remark_of(d, *c, alternative)});
+               c->adequate, c->observable, remark_of(d, *c, alternative, best)});
     table.rows.back().always = alternative > 0;
   }
   return table;
@@ -156,11 +172,14 @@ Section what(const Diagnosis& d) {
   if (!d.causes.empty()) section.add({cause_table(d)});
   if (Sentences said = equations_of(d.causes); !said.items.empty())
     section.add({{std::move(said), On::page}});
-  section.add(likeness_figure(d.cosines));
   if (!d.inseparable.empty())
     section.add({{Paragraph{"This plan can never tell these apart:"}, On::page},
                  {Sentences{twins_in_words(d.inseparable)}, On::page}});
   return section;
+}
+
+Section likeness(const Diagnosis& d) {
+  return {"Likeness of the causes", likeness_figure(d.cosines), On::page};
 }
 
 /// All that was tried.

@@ -5,6 +5,7 @@
 #include "analysis/report/diagnosis/sentence.hpp"
 #include "analysis/report/svg/curve.hpp"
 #include "analysis/report/svg/heat_map.hpp"
+#include "analysis/report/svg/zoomable.hpp"
 
 namespace drift::report {
 namespace {
@@ -110,10 +111,11 @@ Blocks signal_figure(const Diagnosis& d) {
   for (std::size_t k = 0; k < std::min(most, d.signals.size()); ++k)
     chart.panels.push_back(signal_panel(d.signals[k], d.where));
   if (chart.panels.empty()) return {};
-  return {Figure{svg_of(chart),
-                 "The input that would explain the misfit, as a time series; grey: the located "
-                 "window. The signature of the cause is what the fitted parameters cannot absorb.",
-                 "signal.svg"}};
+  return {
+      zoomable(chart,
+               "The input that would explain the misfit, as a time series; grey: the located "
+               "window. The signature of the cause is what the fitted parameters cannot absorb.",
+               "signal.svg")};
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "analysis/report/identify/sections.hpp"
 #include "analysis/report/page/escape.hpp"
 #include "analysis/report/svg/curve.hpp"
+#include "analysis/report/svg/zoomable.hpp"
 #include "core/stats/chi_square_band.hpp"
 
 namespace drift::report {
@@ -178,7 +179,7 @@ std::vector<std::size_t> highlighted_parameters(const mc::Study& study,
 Section estimate_figures(const mc::Study& study, const identification::Identification& id) {
   const std::vector<std::size_t> params = highlighted_parameters(study, id);
   if (params.empty()) return {};
-  Chart combined{study.title, {}, std::min<std::size_t>(params.size(), 3)};
+  Chart combined{"Estimates against time", {}, std::min<std::size_t>(params.size(), 3)};
   Chart nis{"Normalised innovations squared",
             {},
             std::min<std::size_t>(id.summaries.size(), 2),
@@ -200,16 +201,16 @@ Section estimate_figures(const mc::Study& study, const identification::Identific
     alone.push_back({Figure{svg_of(chart), "", fmt::format("figure_{}.svg", part)}, On::neither});
   }
   Section section{"Estimates against time",
-                  {Figure{svg_of(combined),
-                          "Estimates against time, each start with its 1 sigma band. The first "
-                          "swing may be cut off.",
-                          "estimates.svg"}}};
+                  {zoomable(combined,
+                            "Estimates against time, each start with its 1 sigma band. The first "
+                            "swing may be cut off.",
+                            "estimates.svg")}};
   section.add(std::move(alone));
-  section.add({Figure{svg_of(nis),
-                      "Normalised innovations squared per measured scalar, averaged over short "
-                      "stretches: 1 on average, and mostly within the grey band, if model and "
-                      "noise are right. Dotted: a position begins.",
-                      "nis.svg"}});
+  section.add({zoomable(nis,
+                        "Normalised innovations squared per measured scalar, averaged over short "
+                        "stretches: 1 on average, and mostly within the grey band, if model and "
+                        "noise are right. Dotted: a position begins.",
+                        "nis.svg")});
   return section;
 }
 

@@ -21,9 +21,9 @@ struct FilterView {
 
 /// What is said of each filter, in this order.
 DRIFT_SECTIONS(FilterView, filter_sections, against_prior, filter_model, fits, estimates,
-               degeneracies);
+               correlations, degeneracies);
 inline constexpr Part filter_parts[] = {Part::evidence, Part::details, Part::how_sure,
-                                        Part::details, Part::details};
+                                        Part::details,  Part::details, Part::details};
 
 /// Estimates against time from every start, with their sigma bands and the truth or an independent
 /// test as a line: all filters together (estimates.svg) and each alone (figure_<filter>.svg, a file

@@ -5,6 +5,7 @@
 #include "analysis/report/page/escape.hpp"
 #include "analysis/report/page/report.hpp"
 #include "analysis/report/page/style.hpp"
+#include "analysis/report/page/zoom.hpp"
 
 namespace drift::report {
 namespace {
@@ -46,6 +47,21 @@ std::string folded(const std::string& summary, const std::string& body) {
   return fmt::format("<details>\n<summary>{}</summary>\n{}</details>\n", summary, body);
 }
 
+/// A picture as it stands on a page.
+std::string picture_of(const Figure& f) {
+  const FlowingPanels& flowing = f.flowing;
+  if (flowing.panels.empty()) return "<div class=\"scroll\">" + inlined(f.svg) + "</div>";
+  const std::size_t columns = std::min(flowing.columns, flowing.panels.size()),
+                    rows = (flowing.panels.size() + columns - 1) / columns;
+  std::string out = fmt::format(
+      "<div class=\"scroll panels\" style=\"--columns: {}; --rows: {}; max-width: {:.0f}px\">"
+      "<div class=\"head\">{}</div>",
+      columns, rows, static_cast<double>(columns) * flowing.panel_width + 1.0,
+      inlined(flowing.head));
+  for (const std::string& panel : flowing.panels) out += inlined(panel);
+  return out + "</div>";
+}
+
 struct BlockHtml {
   std::string operator()(const Paragraph& p) const { return "<p>" + escaped(p.text) + "</p>\n"; }
   std::string operator()(const Sentences& s) const {
@@ -69,8 +85,11 @@ struct BlockHtml {
                   html_of(body));
   }
   std::string operator()(const Figure& f) const {
-    return "<figure>\n<div class=\"scroll\">" + inlined(f.svg) + "</div><figcaption>" +
-           escaped(f.caption) + "</figcaption>\n</figure>\n";
+    const bool zoomed = !f.zoom.empty() && !zoom_script().empty();
+    return fmt::format("<figure{}>\n{}{}<figcaption>{}</figcaption>\n</figure>\n",
+                       zoomed ? " class=\"zoomable\"" : "", picture_of(f),
+                       zoomed ? "<script type=\"application/json\">" + f.zoom + "</script>" : "",
+                       escaped(f.caption));
   }
 };
 
@@ -210,20 +229,23 @@ std::string html_of(const Table& whole) {
 }
 
 std::string to_html(const Report& report) {
+  std::string body = answer_of(report);
+  for (const Part part : {Part::evidence, Part::how_sure, Part::details, Part::provenance})
+    body += part_of(report, part);
+  const bool zoomed = body.find("<figure class=\"zoomable\">") != std::string::npos;
   std::string out = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src "
-      "'unsafe-inline'; base-uri 'none'; form-action 'none'\">\n"
+      "'unsafe-inline'; {4}base-uri 'none'; form-action 'none'\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<title>{0}</title>\n<style>{1}</style>\n</head>\n<body>\n<header><h1>{0}</h1>\n"
+      "<title>{0}</title>\n<style>{1}{3}</style>\n</head>\n<body>\n<header><h1>{0}</h1>\n"
       "<p class=\"subtitle\">{2}</p></header>\n",
-      escaped(report.title), page_style, escaped(report.subtitle));
-  out += answer_of(report);
-  for (const Part part : {Part::evidence, Part::how_sure, Part::details, Part::provenance})
-    out += part_of(report, part);
-  return out +
-         fmt::format("<footer><p>Written by driftscope {}. {}</p></footer>\n</body>\n</html>\n",
-                     escaped(report.command), escaped(report.footer));
+      escaped(report.title), page_style, escaped(report.subtitle), zoomed ? zoom_style() : "",
+      zoomed ? fmt::format("script-src '{}'; ", policy_of(zoom_script())) : "");
+  out += body + fmt::format("<footer><p>Written by driftscope {}. {}</p></footer>\n",
+                            escaped(report.command), escaped(report.footer));
+  if (zoomed) out.append("<script>").append(zoom_script()).append("</script>\n");
+  return out + "</body>\n</html>\n";
 }
 
 }  // namespace drift::report

@@ -28,11 +28,22 @@ struct Preformatted {
   std::string text;
 };
 
+/// A picture in panels, each an SVG document: on a page as many stand side by side as there is room
+/// for, at most `columns`.
+struct FlowingPanels {
+  std::string head;  ///< title and legend
+  std::vector<std::string> panels;
+  std::size_t columns = 1;
+  double panel_width = 0.0;  ///< [px]
+};
+
 /// An SVG document of this program, put into the page itself and into a file of its own.
 struct Figure {
   std::string svg;
   std::string caption;
   std::string file = {};  ///< "estimates.svg"; empty: on the page alone
+  std::string zoom = {};  ///< numbers to zoom it by (svg/zoomable.hpp); empty: it stays as it is
+  FlowingPanels flowing = {};  ///< the picture on the page, instead of svg; without panels: svg
 };
 
 /// Where a block stands. A figure with a file name is always a file too.
@@ -130,8 +141,8 @@ std::string to_text(const Report& report, std::size_t width = 100);
 /// Sections alone, a blank line between blocks.
 std::string text_of(const std::vector<Section>& sections, std::size_t width = 100);
 
-/// One HTML page that needs nothing else: no script, no address, fit for print. All text is
-/// escaped.
+/// One HTML page that needs nothing else: no address, fit for print, no script but the one that
+/// zooms its time series, which is in it once. All text is escaped.
 std::string to_html(const Report& report);
 
 /// Writes document, files, figures and report.html into a folder, made if need be. Returns the

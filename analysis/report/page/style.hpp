@@ -15,7 +15,7 @@ inline constexpr std::string_view page_style = R"css(
   :root { --ink: #e2e2e2; --dim: #b0b0b0; --paper: #1c1c1c; --edge: #555; --soft: #242424;
           --head: #2b333c; --box: #232a32; --accent: #56B4E9;
           --good: #5fd0a5; --doubtful: #f0b75e; --bad: #ff9470; }
-  figure svg { filter: invert(.89) hue-rotate(180deg); }
+  figure svg, .zoomed { filter: invert(.89) hue-rotate(180deg); }
 }
 body { font: 15px/1.5 Helvetica, Arial, sans-serif; color: var(--ink); background: var(--paper);
        margin: 0 auto; padding: 1.5rem; max-width: 1180px; }
@@ -47,17 +47,30 @@ td.left { white-space: normal; overflow-wrap: anywhere; min-width: 5em; }
 .good { color: var(--good); } .doubtful { color: var(--doubtful); }
 .bad { color: var(--bad); font-weight: bold; }
 figure { margin: 1rem 0; } figure svg { display: block; }
+.panels { display: flex; flex-wrap: wrap; } .panels > svg { flex-shrink: 0; } .panels > .head { flex-basis: 100%; overflow-x: auto; }
+figure button { font: inherit; font-size: .85rem; } .replaced { display: none; }
+.zoomed { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(460px, 100%), 1fr));
+          gap: 1rem; background: #fff; color: #333; }
+.zoomed[hidden] { display: none; } .zoomed > div { height: 260px; min-width: 0; }
 pre { font-size: .82rem; overflow-x: auto; background: var(--soft); padding: .8rem; }
 details { margin: .4rem 0; } details details { padding-left: .8rem; }
 summary { cursor: pointer; color: var(--accent); font-weight: bold; }
-@page { size: A4; margin: 14mm; }
+@page { size: A4; margin: 12mm; }
 @page sideways { size: A4 landscape; }
 @media print {
-  body { max-width: none; padding: 0; font-size: 9.5pt; }
+  body { max-width: none; padding: 0; font-size: 9pt; line-height: 1.4; }
+  figure button, figure .note, .zoomed { display: none; } .replaced { display: block; }
   .answer, figure, tr { break-inside: avoid; } h2, h3, summary { break-after: avoid; }
   .scroll { overflow: visible; } .scroll.wide { page: sideways; }
-  h2 { margin: .9rem 0 .3rem; } h3 { margin: .7rem 0 .2rem; } p, ul { margin: .3rem 0; }
-  figure { margin: .4rem 0; } figure svg { max-width: 100%; height: auto; max-height: 78mm; }
+  h1 { font-size: 15pt; } h2 { font-size: 12.5pt; margin: 10pt 0 3pt; }
+  h3 { font-size: 10.5pt; margin: 7pt 0 2pt; } p, ul { margin: 3pt 0; }
+  .verdict { font-size: 10pt; } .answer { padding: 4pt 8pt; margin: 6pt 0; }
+  .subtitle, .note, .small, figcaption, footer { font-size: 8.5pt; }
+  details:not([open]) { display: inline-block; margin: 0 12pt 0 0; }
+  figure { margin: 4pt 0; } figure svg { max-width: 100%; height: auto; max-height: 60mm; }
+  .panels { max-width: none !important; }
+  .panels > svg { width: calc(99% / var(--columns)); max-height: calc(5mm + 44mm / var(--rows)); }
+  .panels > .head svg { max-height: 12mm; }
   th, td { padding: .1rem .35rem; } table { font-size: 8pt; }
   thead { display: table-header-group; }
 }

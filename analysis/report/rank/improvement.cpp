@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "analysis/planning/position_toml.hpp"
 #include "analysis/report/rank/sections.hpp"
@@ -35,21 +36,31 @@ Gains gains_of(const planning::PlanRanking& rank) {
   return gains;
 }
 
-/// Bits that the proposed positions add to each parameter.
+/// Bits that the proposed positions add to the parameters that gain by them.
 Figure gain_figure(const Gains& g) {
+  constexpr std::size_t most = 24;
+  constexpr double least = 0.01;  // [bit]
   BarChart chart{"What the proposed positions add",
                  "log2(sigma before / sigma after) [bit]; beside the bar: left of the prior sigma "
                  "before and after",
                  {},
                  std::nullopt,
                  860.0};
-  for (const std::size_t k : g.states)
+  for (const std::size_t k : g.states) {
+    if (chart.bars.size() == most || !(std::log2(g.factor(k)) > least)) break;
     chart.bars.push_back({.label = parameter_key(g.before.layout, k),
                           .value = g.after.parameters[k].bits() - g.before.parameters[k].bits(),
                           .colour = 2,
                           .text = fmt::format("{} to {}", number_text(g.before.learning_ratio(k)),
                                               number_text(g.after.learning_ratio(k)))});
-  return {svg_of(chart), "Expected gain of each parameter from all proposed positions.",
+  }
+  const std::size_t others = g.states.size() - chart.bars.size();
+  return {svg_of(chart),
+          fmt::format("Expected gain from all proposed positions.{}",
+                      others > 0 ? fmt::format(" {} parameters gain less, or nothing: they are in "
+                                               "the table.",
+                                               others)
+                                 : ""),
           "improvement.svg"};
 }
 

@@ -81,6 +81,7 @@ Json model_json(const mc::Study& study, const planning::ModelRanking& m) {
                  {"states", m.pwcs.states},
                  {"clear", m.pwcs.clear()},
                  {"singular_values", numbers(m.pwcs.singular_values)}};
+  out["drivers"] = rows_json(driver_table(m));
   out["methods"] = methods_json(m);
   out["information"] = course_json(study, m);
   return out;

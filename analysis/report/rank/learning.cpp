@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include "analysis/report/rank/sections.hpp"
 #include "analysis/report/svg/bar_chart.hpp"
 
@@ -12,6 +15,15 @@ Cell ratio_cell(double left) {
                              : Tone::plain);
 }
 
+/// Whether a parameter is known equally well under every equation: one bar says it.
+bool same_for_all(const planning::RankingGroup& group, std::size_t k) {
+  constexpr double alike = 0.02;
+  const double first = group.models.front().ranking.learning_ratio(k);
+  return std::ranges::all_of(group.models, [&](const planning::ModelRanking& m) {
+    return std::abs(m.ranking.learning_ratio(k) - first) <= alike * first;
+  });
+}
+
 }  // namespace
 
 std::string learning_figure(const planning::RankingGroup& group) {
@@ -22,16 +34,19 @@ std::string learning_figure(const planning::RankingGroup& group) {
                  ReferenceLine{1.0, "half the prior", Stroke::dashed},
                  860.0};
   const observability::Ranking& first = group.models.front().ranking;
-  for (const std::size_t k : first.order)
-    for (std::size_t m = 0; m < group.models.size(); ++m) {
+  for (const std::size_t k : first.order) {
+    const bool alike = same_for_all(group, k);
+    for (std::size_t m = 0; m < (alike ? 1 : group.models.size()); ++m) {
       const observability::ParameterRank& p = group.models[m].ranking.parameters[k];
-      const std::string coupling(key_of(group.models[m].model.spec.coupling));
+      const std::string coupling(
+          alike && group.models.size() > 1 ? "both" : key_of(group.models[m].model.spec.coupling));
       chart.bars.push_back(
           {.label = m == 0 ? parameter_key(first.layout, k) + "  " + coupling : coupling,
            .value = p.bits(),
-           .colour = m,
+           .colour = alike && group.models.size() > 1 ? 6 : m,
            .text = number_text(p.learning_ratio())});
     }
+  }
   return svg_of(chart);
 }
 
@@ -77,10 +92,12 @@ Section learning(const RankedGroup& v) {
   const auto& models = v.group.models;
   Table table = ranking_table(models.front(), models.size() > 1 ? &models[1] : nullptr);
   table.title = fmt::format("Ranking for {}", v.group.filters);
-  return {fmt::format("Filter {}", v.group.filters),
-          {Figure{learning_figure(v.group), "Longer is better known. Each bar is one equation.",
-                  fmt::format("learning{}.svg", v.suffix)},
-           table}};
+  return {
+      fmt::format("Filter {}", v.group.filters),
+      {Figure{learning_figure(v.group),
+              "Longer is better known. Each bar is one equation; grey: both know it equally well.",
+              fmt::format("learning{}.svg", v.suffix)},
+       table}};
 }
 
 }  // namespace drift::report

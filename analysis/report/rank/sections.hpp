@@ -15,11 +15,11 @@ struct RankedGroup {
 };
 
 /// What is said of each group, in this order.
-DRIFT_SECTIONS(RankedGroup, group_sections, learning, equations, elsewhere, unseen, directions,
-               course, methods);
+DRIFT_SECTIONS(RankedGroup, group_sections, learning, equations, elsewhere, unseen, drivers,
+               directions, course, methods);
 inline constexpr Part group_parts[] = {Part::evidence, Part::how_sure, Part::how_sure,
                                        Part::how_sure, Part::details,  Part::details,
-                                       Part::details};
+                                       Part::details,  Part::details};
 
 /// The positions proposed and what they bring; nothing where none were asked for.
 Section improvement(const mc::Study& study, const planning::PlanRanking& rank);
@@ -39,6 +39,8 @@ std::vector<std::string> headlines(const mc::Study& study, const planning::PlanR
 
 /// Every parameter by rising learning ratio of the first model; a second model beside it.
 Table ranking_table(const planning::ModelRanking& model, const planning::ModelRanking* other);
+/// How much smaller every sigma becomes where noise or a prior is halved, in percent.
+Table driver_table(const planning::ModelRanking& model);
 /// What each position tells, and what is lost without it.
 Table position_table(const mc::Study& study, const planning::ModelRanking& model);
 /// Positions proposed, with the criterion before and after.

@@ -22,7 +22,14 @@ Json of(const mc::ChiSquareSum& sum) {
           {"expected_low", sum.low()},
           {"expected_high", sum.high()},
           {"inside", sum.holds()},
-          {"runs_in_band", of(sum.in_band)}};
+          {"runs_in_band", of(sum.in_band)},
+          {"runs_by_chi_square_bin", sum.place.counts()}};
+}
+
+Json of(const mc::RateCourse& course) {
+  Json all = Json::array();
+  for (const stats::Rate& rate : course.steps()) all.push_back(of(rate));
+  return all;
 }
 
 Json of(const mc::StartStatistics& s) {
@@ -33,6 +40,7 @@ Json of(const mc::StartStatistics& s) {
           {"healthy", of(s.healthy)},
           {"wrong", of(s.wrong)},
           {"silent_failure_rate", of(s.silent)},
+          {"silent_failure_rate_by_runs", of(s.silent_course)},
           {"diverged", of(s.diverged)}};
 }
 
@@ -54,6 +62,7 @@ Json parameter(const mc::FilterStatistics& f, std::size_t k) {
           {"learning_ratio", e.learning()},
           {"deception_ratio", of(e.deception(), 1.0)},
           {"coverage", coverage},
+          {"errors_by_normal_bin", e.magnitudes().counts()},
           {"start_consistency", h.start_ratio()},
           {"depends_on_start", of(h.start_depends)},
           {"claims_to_know", of(h.claims)},

@@ -4,6 +4,7 @@
 
 #include "analysis/report/study/sections.hpp"
 #include "analysis/report/svg/curve.hpp"
+#include "analysis/report/svg/zoomable.hpp"
 #include "core/base/nan.hpp"
 
 namespace drift::report {
@@ -121,13 +122,13 @@ Panel convergence_panel(const StudyResults& results, const Pair& pair, std::size
 }
 
 /// A panel of each filter and each parameter worth it.
-std::string chart_of(const StudyResults& results, std::size_t point, std::string title,
-                     Panel (*panel_of)(const StudyResults&, const Pair&, std::size_t)) {
+Chart chart_of(const StudyResults& results, std::size_t point, std::string title,
+               Panel (*panel_of)(const StudyResults&, const Pair&, std::size_t)) {
   const auto params = pictured_parameters(results, point);
   Chart chart{std::move(title), {}, std::max<std::size_t>(1, params.size())};
   for (std::size_t f = 0; f < results.statistics[point].filters().size(); ++f)
     for (const std::size_t p : params) chart.panels.push_back(panel_of(results, {point, f}, p));
-  return svg_of(chart);
+  return chart;
 }
 
 }  // namespace
@@ -135,11 +136,12 @@ std::string chart_of(const StudyResults& results, std::size_t point, std::string
 Section scatter(const StudyResults& results) {
   Section section{"Error against sigma", {}, On::page};
   for (const std::size_t p : pictured_points(results))
-    section.add({Paragraph{name_of(results, p)},
-                 Figure{chart_of(results, p, "Error against sigma", scatter_panel),
-                        fmt::format("Error of the first {} runs against the sigma the filter gave "
-                                    "it. An honest filter stays between the lines at 5 sigma.",
-                                    FilterStatistics::most_samples)}});
+    section.add(
+        {Paragraph{name_of(results, p)},
+         figure_of(chart_of(results, p, "Error against sigma", scatter_panel),
+                   fmt::format("Error of the first {} runs against the sigma the filter gave "
+                               "it. An honest filter stays between the lines at 5 sigma.",
+                               FilterStatistics::most_samples))});
   return section;
 }
 
@@ -147,10 +149,11 @@ Section convergence(const StudyResults& results) {
   Section section{"Convergence of sample runs", {}, On::page};
   for (std::size_t p = 0; p < results.points.size(); ++p)
     if (std::ranges::find(results.traces, p, &TracedRun::point) != results.traces.end())
-      section.add({Paragraph{name_of(results, p)},
-                   Figure{chart_of(results, p, "Convergence", convergence_panel),
-                          "Error of the EKF's running estimate against time in sample runs, start "
-                          "1, with its 1 sigma band. The first swing may be cut off."}});
+      section.add(
+          {Paragraph{name_of(results, p)},
+           zoomable(chart_of(results, p, "Convergence", convergence_panel),
+                    "Error of the EKF's running estimate against time in sample runs, start "
+                    "1, with its 1 sigma band. The first swing may be cut off.")});
   return section;
 }
 

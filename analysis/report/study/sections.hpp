@@ -7,11 +7,11 @@
 namespace drift::report {
 
 /// What is said of a study, in this order.
-DRIFT_SECTIONS(StudyResults, study_sections, sweep, crossed, ranking, promised, scatter,
-               convergence, parameters, failures, provenance);
-inline constexpr Part study_parts[] = {Part::evidence, Part::evidence, Part::details,
-                                       Part::details,  Part::details,  Part::details,
-                                       Part::details,  Part::how_sure, Part::provenance};
+DRIFT_SECTIONS(StudyResults, study_sections, sweep, crossed, ranking, promised, honesty, scatter,
+               convergence, parameters, rate_course, failures, provenance);
+inline constexpr Part study_parts[] = {
+    Part::evidence, Part::evidence, Part::details,  Part::details,  Part::details,   Part::details,
+    Part::details,  Part::details,  Part::how_sure, Part::how_sure, Part::provenance};
 
 /// How the wrong and the right equation do, at their worst.
 InBrief study_in_brief(const StudyResults& results);

@@ -6,6 +6,7 @@
 #include "analysis/report/page/swept_value.hpp"
 #include "analysis/report/study/sections.hpp"
 #include "analysis/report/svg/curve.hpp"
+#include "analysis/report/svg/zoomable.hpp"
 
 namespace drift::report {
 namespace {
@@ -102,9 +103,8 @@ Section sweep(const StudyResults& results) {
     Chart chart{fmt::format("Against {}", key), {}, 2, 480.0, 270.0};
     for (const Statistic& s : statistics(claims_of(results)))
       chart.panels.push_back(panel_of(results, s, a, at));
-    section.add(
-        {Figure{svg_of(chart),
-                fmt::format("Statistics against {}, truth > filter, with 95 % intervals.", key)}});
+    section.add({figure_of(
+        chart, fmt::format("Statistics against {}, truth > filter, with 95 % intervals.", key))});
   }
   return section;
 }

@@ -205,6 +205,24 @@ double paint_legend(SvgCanvas* canvas, const std::vector<LegendEntry>& entries, 
 
 }  // namespace
 
+ChartParts parts_of(const Chart& chart) {
+  constexpr double narrow = 540.0;  // [px] that the legend has on a narrow page
+  const auto legend = legend_of(chart);
+  const double title = chart.title.empty() ? 6.0 : 34.0,
+               width = std::max(narrow, text_pixels(chart.title, 15.0) + 2.0 * canvas_edge);
+  ChartParts parts;
+  SvgCanvas head(width, title + paint_legend(nullptr, legend, 0.0, width), chart.title);
+  head.text(canvas_edge, 24.0, chart.title, {.size = 15.0, .bold = true});
+  paint_legend(&head, legend, title + 14.0, width);
+  parts.head = std::move(head).finish();
+  for (const Panel& panel : chart.panels) {
+    SvgCanvas canvas(chart.panel_width, chart.panel_height, panel.title);
+    PanelPainter(canvas, panel, 0.0, 0.0, chart.panel_width, chart.panel_height).paint();
+    parts.panels.push_back(std::move(canvas).finish());
+  }
+  return parts;
+}
+
 std::string svg_of(const Chart& chart) {
   const std::size_t columns = std::max<std::size_t>(chart.columns, 1);
   const std::size_t rows = (chart.panels.size() + columns - 1) / columns;

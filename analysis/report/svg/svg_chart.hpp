@@ -60,4 +60,12 @@ struct Chart {
 /// and infinity are gaps.
 std::string svg_of(const Chart& chart);
 
+/// The same in parts, each an SVG document, for a page that lets them flow: title and legend, and
+/// every panel.
+struct ChartParts {
+  std::string head;
+  std::vector<std::string> panels;
+};
+ChartParts parts_of(const Chart& chart);
+
 }  // namespace drift::report

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "analysis/report/diagnosis/sentence.hpp"
+#include "core/stats/normal.hpp"
 #include "tests/support/model_builders.hpp"
 
 namespace drift::diagnosis::diagnose_test {
@@ -43,6 +44,7 @@ Diagnosis run(const Case& c, FoldMethod folds = FoldMethod::linear) {
   DiagnoseOptions options;
   options.folds = folds;
   options.signals = Signals::recovered;
+  options.profiles = Profiles::of_the_causes;
   return diagnose(c.nominal, {c.timeline, readout, c.measured}, {}, {}, options);
 }
 
@@ -50,6 +52,7 @@ TEST(Diagnose, NothingIsFoundWhereNothingIsHidden) {
   const Diagnosis d = run(make_case("twelve", "", 0.0, Coupling::eq5, 3600.0, 180.0));
   EXPECT_EQ(d.verdict, Verdict::consistent) << report::sentence(d);
   EXPECT_TRUE(d.causes.empty());
+  EXPECT_TRUE(d.profiles.empty());
   EXPECT_FALSE(d.has_patch);
 }
 
@@ -70,6 +73,14 @@ TEST(Diagnose, AConcealedDriftIsNamedWithItsSizeAndPredictsHeldOutPositions) {
   // Adding one parameter to a nearly linear problem gains what the score said, prior and second
   // order aside.
   EXPECT_NEAR(d.fit.log_likelihood_ratio, d.fit.linear_T, 0.2 * d.fit.linear_T + 3.0);
+  // The same interval a second way: by refits with the parameter held, not by its sigma.
+  ASSERT_EQ(d.profiles.size(), 1u);
+  const Profile& profile = d.profiles.front();
+  const double half = stats::half_width_95 * profile.sigma;
+  EXPECT_EQ(profile.sigma, d.causes[0].parameters[0].sigma);
+  EXPECT_EQ(profile.points.size(), 5u);
+  EXPECT_NEAR(profile.low_95, profile.value - half, 0.15 * 2.0 * half);
+  EXPECT_NEAR(profile.high_95, profile.value + half, 0.15 * 2.0 * half);
   EXPECT_EQ(d.where.equation, "platform rate x");
   ASSERT_FALSE(d.signals.empty());
   EXPECT_EQ(d.signals[0].value.size(), d.signals[0].sigma.size());

@@ -76,6 +76,7 @@ inline std::optional<std::string> xml_problem(std::string_view text,
       rooted = true;
       open.push_back(name);
       if (name == "style") i = text.find("</style>", i);
+      if (name == "script") i = text.find("</script>", i);
     }
   }
   if (!open.empty()) return "<" + open.back() + "> never closed";

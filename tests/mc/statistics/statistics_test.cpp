@@ -62,6 +62,62 @@ TEST(BootstrapWeights, ArePoissonNumbersOfTheRunAlone) {
   EXPECT_NEAR(square, 2.0, 4.0 * std::sqrt(11.0 / 1e5));  // E k^4 - 4 = 15 - 4
 }
 
+TEST(DistributionBins, HoldFiveOfAHundredEachWhereTheNumbersFollow) {
+  // The middles of 100 equal shares of chi-square of 2 degrees, whose quantile is -2 log(1 - p).
+  mc::DistributionBins bins;
+  for (int k = 0; k < 100; ++k)
+    bins.add(mc::chi_square_probability(-2.0 * std::log1p(-(k + 0.5) / 100.0), 2.0));
+  for (std::size_t b = 0; b < mc::DistributionBins::size; ++b) {
+    EXPECT_EQ(bins.in(b).hits, 5u) << b;
+    EXPECT_DOUBLE_EQ(bins.up_to(b).value(), 0.05 * static_cast<double>(b + 1)) << b;
+  }
+  bins.add(mc::chi_square_probability(1e6, 2.0));
+  bins.add(std::nan(""));  // no number: not counted
+  EXPECT_EQ(bins.in(19).hits, 6u);
+  EXPECT_EQ(bins.total(), 101u);
+}
+
+TEST(DistributionBins, OfMagnitudesAreThoseOfTheErrorFunction) {
+  for (const double z : {0.0, 0.05, 0.7, -1.5, 1.9, 2.5, -40.0}) {
+    const double p = std::erf(std::abs(z) / std::sqrt(2.0));
+    const double bin = std::min(19.0, std::floor(20.0 * p));
+    EXPECT_DOUBLE_EQ(mc::magnitude_probability(z), (bin + 0.5) / 20.0) << z;
+  }
+}
+
+TEST(ErrorStatistics, CoverageAgreesWithTheBinsOfItsErrors) {
+  // 95 % are within 1.96 sigma: the first nineteen bins; counted here a second way.
+  mc::ErrorStatistics e(1.0, 0);
+  Stream stream(3, 0, Purpose::test);
+  std::uint64_t within = 0;
+  for (int run = 0; run < 1000; ++run) {
+    const double error = stream.normal();
+    within += std::abs(error) < 2.0 * stats::half_width_95 ? 1 : 0;
+    e.add(error, 2.0, {});
+  }
+  EXPECT_EQ(e.magnitudes().up_to(18).hits, within);
+  EXPECT_EQ(e.magnitudes().total(), 1000u);
+}
+
+TEST(RateCourse, RemembersTheRateAtEveryTenthMore) {
+  mc::RateCourse course;
+  stats::Rate rate;
+  for (int run = 1; run <= 1000; ++run) {
+    rate.count(run % 4 == 0);
+    course.follow(rate);
+  }
+  const auto& steps = course.steps();
+  EXPECT_LT(steps.size(), 70u);
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    EXPECT_EQ(steps[k].hits, steps[k].of / 4);
+    if (k < 20) {
+      EXPECT_EQ(steps[k].of, k + 1);
+    } else {
+      EXPECT_EQ(steps[k].of, steps[k - 1].of + steps[k - 1].of / 10);
+    }
+  }
+}
+
 /// A block of a study point, filled by hand: every run a perfect estimate at first.
 struct Synthetic {
   mc::Study study = read_text(small_study);

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "analysis/diagnosis/findings/profile.hpp"
+#include "analysis/search/cause.hpp"
+#include "analysis/search/search.hpp"
+
+namespace drift::diagnosis {
+
+/// Whether parameters of causes are profiled: five to seven refits each.
+enum class Profiles { left_out, of_the_causes };
+
+/// Causes beyond so many parameters are not profiled, the first ones come first.
+inline constexpr std::size_t most_profiles = 8;
+
+/// The profile of every parameter of the causes that has a sigma: refits with it held at its value
+/// and 1.5 and 3 sigmas to either side, of lambda at 0 and 1 too. The likelihood is that by which
+/// causes are weighed, all else integrated out; the prior of the parameter counts, but not that of
+/// a setting, which stands for the distance of grid points. causes: of found.sets, in their order.
+std::vector<Profile> profiles_of(const search::Search& found, const MeasuredTest& test,
+                                 const std::vector<search::Cause>& causes);
+
+/// Top and interval of a profile from its points, whose losses are counted from anywhere: the top
+/// by a parabola through the highest three, the interval on the signed root of the loss, which is
+/// straight where the profile is a parabola. At least three points with different values.
+Profile with_interval(Profile profile);
+
+}  // namespace drift::diagnosis

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "analysis/inference/noise/noise_model.hpp"
+#include "core/estimate/batch.hpp"
+#include "core/estimate/measured_test.hpp"
+
+namespace drift::equation {
+
+/// A model with one parameter held at a value, everything else fitted.
+struct HeldFit {
+  double value = 0.0;
+  /// Twice the log of p(y | value) with all other parameters and attitudes integrated over their
+  /// priors (Laplace at the fit), without the constant and without the prior of the held parameter.
+  double log2 = 0.0;
+  BatchResult fit;
+};
+
+/// start: of the fit; `param` is put at `value`. weight: of the rows, as in LinearProblem.
+HeldFit fit_held(const FilterSpec& filter, const MeasuredTest& test, const Theta& start,
+                 std::size_t param, double value, const VecX& weight,
+                 const inference::NoiseModel& noise);
+
+}  // namespace drift::equation

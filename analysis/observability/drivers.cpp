@@ -1,0 +1,41 @@
+#include "analysis/observability/drivers.hpp"
+
+#include <cmath>
+
+namespace drift::observability {
+namespace {
+
+VecX sigmas(const LinearisedPlan& plan, double attitude_weight = 1.0) {
+  const auto everything = [](const TimeBin&) { return true; };
+  return posterior_of(information_root(plan, everything, attitude_weight)).sigma;
+}
+
+}  // namespace
+
+Drivers drivers_of(const LinearisedPlan& plan, const TestPlan& test, const RankedModel& model) {
+  const auto everything = [](const TimeBin&) { return true; };
+  const MatX P = posterior_of(information_root(plan, everything)).covariance();
+  const VecX before = P.diagonal().cwiseSqrt();
+  Drivers out;
+  out.attitude = sigmas(plan, 2.0).cwiseQuotient(before);
+  const auto with_half = [&](double Readout::*noise) -> VecX {
+    RankedModel better = model;
+    better.readout.*noise *= 0.5;
+    return sigmas(linearise(test, better)).cwiseQuotient(before);
+  };
+  const VecX same = VecX::Ones(before.size());
+  out.accelerometers =
+      model.readout.accelerometers ? with_half(&Readout::accelerometer_noise) : same;
+  out.gimbals = model.readout.gimbals ? with_half(&Readout::gimbal_noise) : same;
+  // Half the sigma is four times the information: three units more on one scaled parameter. The
+  // inverse of a matrix changed by one column (Sherman and Morrison 1950).
+  constexpr double more = 3.0;
+  out.priors.resize(P.rows(), P.cols());
+  for (Eigen::Index j = 0; j < P.cols(); ++j)
+    for (Eigen::Index k = 0; k < P.rows(); ++k)
+      out.priors(k, j) = std::sqrt(
+          std::max(0.0, 1.0 - more * P(k, j) * P(k, j) / ((1.0 + more * P(j, j)) * P(k, k))));
+  return out;
+}
+
+}  // namespace drift::observability

@@ -1,0 +1,88 @@
+// Profiles and quantiles in the report of a diagnosis, and why candidates are no causes.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "analysis/report/diagnosis/sections.hpp"
+#include "core/stats/normal.hpp"
+#include "tests/analysis/report/diagnosis/diagnosis_fixture.hpp"
+#include "tests/analysis/report/figures_of.hpp"
+#include "tests/analysis/report/xml_check.hpp"
+
+namespace drift::profile_figures_test {
+namespace {
+
+using namespace report;
+
+diagnosis::Profile profile() {
+  diagnosis::Profile p{.label = "g_drift.y", .key = "D_S_y", .unit = "deg/h/g"};
+  p.value = p.top = 0.25;
+  p.sigma = 0.01;
+  for (const double x : {-3.0, -1.5, 0.0, 1.5, 3.0}) p.points.push_back({0.25 + 0.01 * x, x * x});
+  p.low_95 = 0.25 - 0.01 * stats::half_width_95;
+  p.high_95 = 0.25 + 0.01 * stats::half_width_95;
+  return p;
+}
+
+TEST(ProfileFigure, SaysBothIntervalsAndWhetherTheyAgree) {
+  diagnosis::Diagnosis d;
+  EXPECT_TRUE(profiles(d).blocks.empty());
+  d.profiles = {profile(), profile()};
+  d.profiles[1].high_95 = std::nan("");
+  const Section section = profiles(d);
+  const auto figures = testing::figures_of({section});
+  ASSERT_EQ(figures.size(), 1u);
+  EXPECT_FALSE(testing::xml_problem(figures[0].svg, {}));
+  const auto& said = std::get<Sentences>(section.blocks[1].content).items;
+  EXPECT_EQ(said[0],
+            "g_drift.y D_S_y: 0.230 to 0.270 deg/h/g by refits, 0.230 to 0.270 by its sigma: they "
+            "agree.");
+  EXPECT_NE(said[1].find("beyond the refits"), std::string::npos);
+  EXPECT_NE(said[1].find("take the interval by refits"), std::string::npos);
+  const Json json = profiles_json(d.profiles);
+  EXPECT_EQ(json[0]["refits"].size(), 5u);
+  EXPECT_DOUBLE_EQ(json[0]["refits"][1]["loss"], 2.25);
+  EXPECT_DOUBLE_EQ(json[0]["interval_95"][0], 0.25 - 0.01 * stats::half_width_95);
+}
+
+TEST(NormalQuantiles, OfNumbersThatAreQuantilesLieOnTheLine) {
+  MatX residual(1, 1001);
+  for (Eigen::Index i = 0; i < 1000; ++i)  // in no order
+    residual(0, i) = stats::normal_quantile((static_cast<double>((7 * i) % 1000) + 0.5) / 1000.0);
+  residual(0, 1000) = std::nan("");
+  const auto all = normal_quantiles(residual, 0);
+  EXPECT_GT(all.size(), 100u);
+  EXPECT_LE(all.size(), 150u);
+  for (const auto& [normal, found] : all) EXPECT_NEAR(normal, found, 1e-9);
+  EXPECT_NEAR(all.front().second, -all.back().second, 1e-9);  // both ends are there
+  EXPECT_NEAR(all.back().first, stats::normal_quantile(0.9995), 1e-9);
+}
+
+TEST(Candidates, SayWhyTheyAreNoCauses) {
+  const test::ScratchFolder folder;
+  const mc::Study study = testing::read_text(folder, "study.toml", testing::nominal_study);
+  diagnosis::Diagnosis d = testing::diagnosis(study.filters.front());
+  search::CandidateScore c = d.candidates[0];
+  d.candidates[0].log_bayes = 12.0;
+  const auto why = [&](search::CandidateScore other) {
+    d.candidates[1] = other;
+    d.candidates[1].label = d.candidates[1].term = "other";
+    const Table table = candidate_table(d);
+    return table.rows[1].cells.back().text;
+  };
+  c.leaves_nothing = true;
+  c.log_bayes = 10.0;
+  EXPECT_EQ(why(c), "less likely by a factor of 7.4");  // exp(2)
+  c.leaves_nothing = false;
+  EXPECT_EQ(why(c), "with it, others stay significant");
+  c.size_sigma = 12.0;
+  EXPECT_EQ(why(c), "would be 12 times its usual size");
+  c.p_value = 0.2;
+  EXPECT_EQ(why(c), "no stronger than chance");
+  c.observable = false;
+  EXPECT_EQ(why(c), "not observable on this plan");
+  EXPECT_EQ(candidate_table(d).rows[0].cells.back().text, "named");
+}
+
+}  // namespace
+}  // namespace drift::profile_figures_test
