@@ -99,14 +99,16 @@ CaseStudy case_study(const mc::Study& study, const Recording& recording) {
 
 FilterSpec case_filter(const FilterSpec& filter, const CaseStudy& of) {
   constexpr double of_the_same_data = 10.0, least = 2e-3, most = 1.0;  // [], [rad], [rad]
-  constexpr double levelled_as_a_consumer_is = 0.3;                    // [rad]
+  // Levelled by accelerometers that are calibrated on gravity, and by some that are not.
+  constexpr double calibrated = 0.03, as_bought = 0.3;  // [rad]
   FilterSpec out = filter;
   if (const auto other = facts(filter.coupling).other) out.coupling = *other;
   if (!of.compass.sees_earth) take_consumer_priors(out);
   for (const std::size_t p : zero_by_definition) out.priors[p] = fixed(0.0);
   out.initial_attitude = of.compass.sees_earth
                              ? std::clamp(of_the_same_data * of.compass.sigma, least, most)
-                             : levelled_as_a_consumer_is;
+                         : of.start.isZero() ? as_bought
+                                             : calibrated;
   if (out.noise.angle_random_walk == 0.0) out.noise.angle_random_walk = of.test.angle_random_walk;
   return out;
 }

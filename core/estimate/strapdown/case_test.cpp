@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "core/base/check.hpp"
@@ -188,6 +187,14 @@ class Layout {
     return rows;
   }
 
+  /// Of the gyros' mean over a dwell. The Earth's horizontal rate is laid along a North that nobody
+  /// knows: what it is and what it is taken for, a third of its square on each axis, are noise.
+  double noise_of_dwells() const {
+    const Vec3 earth = test_.timeline.site.omega_ie_l();
+    const double of_north = 2.0 / 3.0 * earth.head<2>().squaredNorm();
+    return std::sqrt(0.5 * stillness_.gyro_noise * stillness_.gyro_noise + of_north);
+  }
+
   void finish() {
     const auto n = static_cast<Eigen::Index>(acc_.size());
     test_.measured.acc.resize(3, n);
@@ -201,8 +208,7 @@ class Layout {
       test_.measured.gimbal.col(static_cast<Eigen::Index>(i)).setConstant(nan_value);
     const bool halved = carry_ == Carry::one_way;
     test_.readout.accelerometer_noise = halved ? stillness_.acc_noise : of_acc_.sigma();
-    test_.readout.gimbal_noise =
-        halved ? stillness_.gyro_noise / std::numbers::sqrt2 : of_gyro_.sigma();
+    test_.readout.gimbal_noise = halved ? noise_of_dwells() : of_gyro_.sigma();
     test_.angle_random_walk = of_gyro_.sigma() * std::sqrt(test_.row);
     if (halved) test_.row = stillness_.half;
     place_nodes(test_.timeline, test_.R_lp, longest_turn());
