@@ -4,34 +4,43 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/nan.hpp"
 #include "core/estimate/strapdown/accelerometer_fit.hpp"
 #include "core/sim/predict.hpp"
 
 namespace drift::strapdown {
 namespace {
 
-/// Intervals of one dwell, [first, end), and what was measured in it.
+/// Rows of one dwell, [first, end), and what was measured in it.
 struct Stay {
   std::size_t first = 0, end = 0;
-  Vec3 acc = Vec3::Zero();        ///< mean output [g]
-  Vec3 rest_rate = Vec3::Zero();  ///< mean rate that the model reads out of the gyros [rad/s]
+  Vec3 acc = Vec3::Zero();            ///< mean output [g]
+  Vec3 at_start = acc, at_end = acc;  ///< where the unit did not stand still: of the outer rows
+  Vec3 rest_rate = Vec3::Zero();      ///< mean rate that the model reads out of the gyros [rad/s]
 };
 
 std::vector<Stay> stays_of(const CaseTest& test, const Measurements& predicted) {
   std::vector<Stay> stays(static_cast<std::size_t>(test.timeline.positions));
   for (std::size_t i = 0; i < test.timeline.intervals.size(); ++i) {
     const Interval& interval = test.timeline.intervals[i];
-    if (!interval.rest) continue;
+    if (interval.slew) continue;
+    const auto column = static_cast<Eigen::Index>(i);
     Stay& stay = stays[static_cast<std::size_t>(interval.position)];
-    if (stay.end == 0) stay.first = i;
+    if (stay.end == 0) {
+      stay.first = i;
+      stay.at_start = test.measured.acc.col(column);
+    }
     stay.end = i + 1;
-    stay.acc += test.measured.acc.col(static_cast<Eigen::Index>(i));
-    stay.rest_rate += predicted.gimbal.col(static_cast<Eigen::Index>(i));
+    stay.at_end = test.measured.acc.col(column);
+    stay.acc += test.measured.acc.col(column);
+    if (interval.rest) stay.rest_rate += predicted.gimbal.col(column);
   }
-  for (Stay& s : stays) {
+  for (std::size_t d = 0; d < stays.size(); ++d) {
+    Stay& s = stays[d];
     const auto n = static_cast<double>(std::max<std::size_t>(1, s.end - s.first));
     s.acc /= n;
     s.rest_rate /= n;
+    if (test.still[d]) s.at_start = s.at_end = s.acc;
   }
   return stays;
 }
@@ -48,31 +57,36 @@ CaseErrors case_errors(const CaseTest& test, const DriftModel& model, const Thet
   MemoryRecord memory(timeline, model);
   memory.trace(theta.data());
   CaseErrors out;
-  for (const Stay& s : stays) {
-    out.gyro.push_back(s.rest_rate.norm() / std::sqrt(3.0));
+  for (std::size_t d = 0; d < stays.size(); ++d) {
+    const Stay& s = stays[d];
+    out.gyro.push_back(test.still[d] ? s.rest_rate.norm() / std::sqrt(3.0) : nan_value);
     out.gravity.push_back(std::abs(force(s.acc).norm() - 1.0));
   }
   for (const std::size_t d : test.ways) {
     const Stay &from = stays[d - 1], &to = stays[d];
-    const std::size_t node = timeline.intervals[from.end - 1].last_node();
-    const Mat3& R_lr = timeline.nodes[node].R_lr;
-    const Mat3 R = R_lr * rotation(phi[node]);
+    const Interval& leaving = timeline.intervals[from.end - 1];
+    const auto attitude = [&](std::size_t node) -> Mat3 {
+      return timeline.nodes[node].R_lr * rotation(phi[node]);
+    };
     // The least turn that levels it.
-    const Vec3 up_seen_l = R * force(from.acc).normalized();
+    const Vec3 up_seen_l = attitude(leaving.middle_node()) * force(from.at_end).normalized();
     const Mat3 level = Eigen::Quaterniond::FromTwoVectors(up_seen_l, up_l).toRotationMatrix();
-    Vec3 now = rotation_vector(R_lr.transpose() * level * R);
-    std::vector<Vec3> on_the_way;
-    std::size_t last = node;
-    for (std::size_t i = from.end; i < to.first; ++i) {
+    const std::size_t node = leaving.last_node();
+    Vec3 now = rotation_vector(timeline.nodes[node].R_lr.transpose() * level * attitude(node));
+    std::size_t seen_at = node;  // where gravity is seen again: in the middle of the first row
+    Vec3 then = now;
+    std::vector<Vec3> nodes;
+    for (std::size_t i = from.end; i < to.first + (test.still[d] ? 0 : 1); ++i) {
       const Interval& interval = timeline.intervals[i];
-      on_the_way.assign(interval.node_count(), now);
+      nodes.assign(interval.node_count(), now);
       step_through(interval, timeline, drive_of(interval, timeline, model, theta),
-                   memory.points(interval), on_the_way.data());
-      now = on_the_way.back();
-      last = interval.last_node();
+                   memory.points(interval), nodes.data());
+      now = nodes.back();
+      seen_at = i < to.first ? interval.last_node() : interval.middle_node();
+      then = i < to.first ? now : nodes[static_cast<std::size_t>(interval.substeps)];
     }
-    const Vec3 up = (timeline.nodes[last].R_lr * rotation(now)).transpose() * up_l;
-    const Vec3 seen = force(to.acc).normalized();
+    const Vec3 up = (timeline.nodes[seen_at].R_lr * rotation(then)).transpose() * up_l;
+    const Vec3 seen = force(to.at_start).normalized();
     out.up.push_back(std::atan2(up.cross(seen).norm(), up.dot(seen)));
   }
   return out;

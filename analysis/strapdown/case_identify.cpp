@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <iterator>
 
 #include "analysis/strapdown/sums.hpp"
 #include "core/base/check.hpp"
@@ -64,19 +64,39 @@ void say_parameters(CaseFit& out) {
   for (StrapdownParameter& sum : known_sums(e)) out.parameters.push_back(std::move(sum));
 }
 
-BatchResult fitted(const FilterSpec& filter, const CaseStudy& of, const Measurements& measured) {
-  return fit_batch(filter, {of.test.timeline, of.test.readout, measured},
-                   make_layout(filter).theta);
+BatchResult fitted(const FilterSpec& filter, const CaseStudy& of, const Measurements& measured,
+                   const Theta& start) {
+  return fit_batch(filter, {of.test.timeline, of.test.readout, measured}, start);
 }
 
-/// Errors in dwells, and on the ways that begin in them, that were left out of the fit.
-CaseErrors held_out(const FilterSpec& filter, const CaseStudy& of, int parts) {
+/// The test without what was measured in some dwells.
+Measurements without_dwells(const CaseTest& test, const std::vector<bool>& left_out) {
+  Measurements m = test.measured;
+  for (std::size_t i = 0; i < test.timeline.intervals.size(); ++i)
+    if (left_out[static_cast<std::size_t>(test.timeline.intervals[i].position)]) {
+      m.acc.col(static_cast<Eigen::Index>(i)).setConstant(nan_value);
+      m.gimbal.col(static_cast<Eigen::Index>(i)).setConstant(nan_value);
+    }
+  return m;
+}
+
+/// Without those of dwells that are no rest.
+std::vector<double> known(const std::vector<double>& errors) {
+  std::vector<double> all;
+  std::ranges::copy_if(errors, std::back_inserter(all), [](double e) { return std::isfinite(e); });
+  return all;
+}
+
+/// Errors in dwells, and on the ways that begin in them, that were left out of the fit. found: with
+/// them.
+CaseErrors held_out(const FilterSpec& filter, const CaseStudy& of, int parts, const Theta& found) {
   const std::size_t dwells = of.search.dwells.size();
-  const std::vector<int> part = parts_of_dwells(dwells, parts);
+  std::vector<int> part(dwells);
+  for (std::size_t d = 0; d < dwells; ++d) part[d] = static_cast<int>(d) % parts;
   const auto of_parts = mc::run_campaign(static_cast<std::size_t>(parts), [&](std::size_t k) {
     std::vector<bool> left_out(dwells);
     for (std::size_t d = 0; d < dwells; ++d) left_out[d] = part[d] == static_cast<int>(k);
-    const BatchResult fit = fitted(filter, of, without_dwells(of.test, left_out));
+    const BatchResult fit = fitted(filter, of, without_dwells(of.test, left_out), found);
     return case_errors(of.test, filter.model(), theta_of(filter, fit), fit.psi0_l);
   });
   CaseErrors out = of_parts.front();
@@ -92,23 +112,6 @@ CaseErrors held_out(const FilterSpec& filter, const CaseStudy& of, int parts) {
 
 }  // namespace
 
-std::vector<int> parts_of_dwells(std::size_t dwells, int parts) {
-  std::vector<int> part(dwells);
-  for (std::size_t d = 0; d < dwells; ++d) part[d] = static_cast<int>(d) % parts;
-  return part;
-}
-
-Measurements without_dwells(const CaseTest& test, const std::vector<bool>& left_out) {
-  Measurements m = test.measured;
-  for (std::size_t i = 0; i < test.timeline.intervals.size(); ++i) {
-    const Interval& interval = test.timeline.intervals[i];
-    if (!interval.rest || !left_out[static_cast<std::size_t>(interval.position)]) continue;
-    m.acc.col(static_cast<Eigen::Index>(i)).setConstant(nan_value);
-    m.gimbal.col(static_cast<Eigen::Index>(i)).setConstant(nan_value);
-  }
-  return m;
-}
-
 CaseIdentification identify_case(const mc::Study& study, CaseStudy of) {
   DRIFT_DEMAND(!study.filters.empty());
   CaseIdentification out;
@@ -121,15 +124,15 @@ CaseIdentification identify_case(const mc::Study& study, CaseStudy of) {
     CaseFit fit;
     fit.name = filter.name;
     fit.equation = filter.coupling;
-    fit.fit = fitted(seen, out.study, out.study.test.measured);
+    fit.fit = fitted(seen, out.study, out.study.test.measured, start_of(seen, out.study));
     say_parameters(fit);
     if (out.folds > 0) {
       const CaseErrors in =
           case_errors(out.study.test, seen.model(), theta_of(seen, fit.fit), fit.fit.psi0_l);
-      const CaseErrors held = held_out(seen, out.study, out.folds);
+      const CaseErrors held = held_out(seen, out.study, out.folds, theta_of(seen, fit.fit));
       const std::uint64_t seed = study.monte_carlo.seed;
       fit.up = score_of(in.up, held.up, unit::deg.to_si, seed);
-      fit.gyro = score_of(in.gyro, held.gyro, unit::deg_per_h.to_si, seed);
+      fit.gyro = score_of(known(in.gyro), known(held.gyro), unit::deg_per_h.to_si, seed);
       fit.gravity = score_of(in.gravity, held.gravity, 1.0, seed);
     }
     out.fits.push_back(std::move(fit));

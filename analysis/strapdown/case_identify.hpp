@@ -34,10 +34,4 @@ struct CaseIdentification {
 /// of any other what it is one with, or that the recording says little of it.
 CaseIdentification identify_case(const mc::Study& study, CaseStudy of);
 
-/// The dwells of a laid out test divided into parts: part of each dwell.
-std::vector<int> parts_of_dwells(std::size_t dwells, int parts);
-
-/// The test without what was measured in some dwells.
-Measurements without_dwells(const CaseTest& test, const std::vector<bool>& left_out);
-
 }  // namespace drift::strapdown

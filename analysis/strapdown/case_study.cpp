@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/strapdown/consumer_grade.hpp"
 #include "core/base/check.hpp"
+#include "core/estimate/strapdown/accelerometer_fit.hpp"
 
 namespace drift::strapdown {
 namespace {
@@ -47,6 +49,24 @@ void take_temperature(const Recording& recording, Timeline& timeline) {
   }
 }
 
+/// The accelerometers from what they read of gravity; nothing where the dwells are too few to tell.
+Theta calibrated_on_gravity(const std::vector<Dwell>& dwells) {
+  std::vector<Vec3> outputs;
+  for (const Dwell& d : dwells) outputs.push_back(d.acc);
+  for (const auto model : {AccelerometerModel::misaligned, AccelerometerModel::bias_scale})
+    if (outputs.size() > parameters_of(model).size())
+      return fit_accelerometers(model, outputs).theta;
+  return Theta::Zero();
+}
+
+void lay_out_one_way(const mc::Study& study, const Signals& signals, CaseStudy& out) {
+  out.start = calibrated_on_gravity(out.search.dwells);
+  const SpecificForce force(out.start);
+  std::vector<Dwell> dwells = out.search.dwells;
+  for (Dwell& d : dwells) d.acc = force(d.acc);
+  out.test = lay_out_case(signals, dwells, study.site, Carry::one_way);
+}
+
 }  // namespace
 
 CaseStudy case_study(const mc::Study& study, const Recording& recording) {
@@ -72,18 +92,33 @@ CaseStudy case_study(const mc::Study& study, const Recording& recording) {
     if (!out.compass.sees_earth) break;
     azimuth = out.compass.azimuth;
   }
+  if (!out.compass.sees_earth) lay_out_one_way(study, signals, out);
   take_temperature(recording, out.test.timeline);
   return out;
 }
 
 FilterSpec case_filter(const FilterSpec& filter, const CaseStudy& of) {
   constexpr double of_the_same_data = 10.0, least = 2e-3, most = 1.0;  // [], [rad], [rad]
+  // Levelled by accelerometers that are calibrated on gravity, and by some that are not.
+  constexpr double calibrated = 0.03, as_bought = 0.3;  // [rad]
   FilterSpec out = filter;
   if (const auto other = facts(filter.coupling).other) out.coupling = *other;
+  if (!of.compass.sees_earth) take_consumer_priors(out);
   for (const std::size_t p : zero_by_definition) out.priors[p] = fixed(0.0);
-  out.initial_attitude = std::clamp(of_the_same_data * of.compass.sigma, least, most);
+  out.initial_attitude = of.compass.sees_earth
+                             ? std::clamp(of_the_same_data * of.compass.sigma, least, most)
+                         : of.start.isZero() ? as_bought
+                                             : calibrated;
   if (out.noise.angle_random_walk == 0.0) out.noise.angle_random_walk = of.test.angle_random_walk;
   return out;
+}
+
+Theta start_of(const FilterSpec& case_filter, const CaseStudy& of) {
+  const Layout layout = make_layout(case_filter);
+  Theta start = layout.theta;
+  for (const std::size_t p : layout.params)
+    if (of.start[p] != 0.0) start[p] = of.start[p];
+  return start;
 }
 
 Sensed as_sensed(std::size_t param, double value, double sigma) {

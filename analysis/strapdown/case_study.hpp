@@ -16,21 +16,27 @@ struct CaseStudy {
   Gyrocompass compass;
   CaseTest test;
   preparation::NoiseCard noise;  ///< of the sensors in the dwells
+  Theta start = Theta::Zero();   ///< accelerometers as gravity in the dwells has them; else zero
 
   MeasuredTest measured() const { return {test.timeline, test.readout, test.measured}; }
 };
 
 /// Finds the dwells, levels and gyrocompasses, lays out. The prior of the gyros' fixed drift is
-/// that of the study's first filter. InputError (recording) if the channels are not there or the
-/// unit never rests.
+/// that of the study's first filter. A unit whose gyros do not see the Earth is laid out one way at
+/// a time, levelled by accelerometers that are calibrated on gravity where there are dwells enough.
+/// InputError (recording) if the channels are not there or the unit never rests.
 CaseStudy case_study(const mc::Study& study, const Recording& recording);
 
 /// A filter of the study as it is a platform's: what the gyros read is its command. Eqs. (5) and
 /// (6) change places. (5) says that misalignment has its part in what the gyros read of the motion,
 /// as eq. (6) says of what a platform makes of a command; (6) that it has none. Attitude at the
 /// start as the gyrocompass leaves it: what it is sure of it has from the same data, so ten times
-/// that.
+/// that. Of gyros that do not see the Earth the priors are a consumer's (consumer_grade.hpp).
 FilterSpec case_filter(const FilterSpec& filter, const CaseStudy& of);
+
+/// Where the fit of such a filter starts: at its prior means, and at what is known of what it
+/// estimates.
+Theta start_of(const FilterSpec& case_filter, const CaseStudy& of);
 
 /// A parameter of such a filter in the sensors' convention, reading = (1 + s) (C w + ...) + w_l.
 struct Sensed {

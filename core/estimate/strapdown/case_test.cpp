@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <utility>
 
 #include "core/base/check.hpp"
 #include "core/base/nan.hpp"
+#include "core/estimate/strapdown/stillness.hpp"
 
 namespace drift::strapdown {
 namespace {
@@ -54,30 +55,6 @@ struct Scatter {
   double sigma() const { return dof > 0.0 ? std::sqrt(squares / dof) : 0.0; }
 };
 
-/// A row at rest: means of the outputs.
-struct Row {
-  double t0 = 0.0, t1 = 0.0;
-  Vec3 gyro = Vec3::Zero(), acc = Vec3::Zero();
-};
-
-Row mean(std::vector<Row>::const_iterator first, std::vector<Row>::const_iterator end) {
-  const auto n = static_cast<double>(end - first);
-  Row all{first->t0, std::prev(end)->t1};
-  for (; first != end; ++first) {
-    all.gyro += first->gyro / n;
-    all.acc += first->acc / n;
-  }
-  return all;
-}
-
-/// 1 sigma of a row from the absolute differences of two: by their median, so that dwells in which
-/// the unit was touched do not count. 0.6745: the normal's upper quartile.
-double sigma_of_differences(std::vector<double> absolute) {
-  const auto middle = absolute.begin() + static_cast<std::ptrdiff_t>(absolute.size() / 2);
-  std::ranges::nth_element(absolute, middle);
-  return *middle / (0.6745 * std::numbers::sqrt2);
-}
-
 class Layout {
  public:
   Layout(const Signals& signals, const std::vector<Dwell>& dwells, const Site& site, Carry carry)
@@ -86,112 +63,136 @@ class Layout {
     test_.timeline.of_case = true;
     test_.timeline.positions = static_cast<int>(dwells.size());
     test_.row = row_length(signals, dwells);
+    if (carry == Carry::one_way) stillness_ = stillness_of(signals, dwells);
+    test_.still = carry == Carry::one_way ? stillness_.still : std::vector(dwells.size(), true);
   }
 
   CaseTest made(const std::vector<double>& azimuth) {
+    azimuth_ = azimuth;
     for (std::size_t d = 0; d < dwells_.size(); ++d) {
-      bool carried = d > 0 && without_gap(signals_, at_, dwells_[d].first);
-      if (d > 0) {
-        if (carried) {
-          take_way(d);
-          test_.ways.push_back(d);
-        } else {
-          ++test_.ways_with_gap;
-        }
+      const bool carried = d > 0 && without_gap(signals_, at_, dwells_[d].first);
+      if (carried) {
+        carry(d, dwells_[d].first, What::way);
+        test_.ways.push_back(d);
+      } else {
+        if (d > 0) ++test_.ways_with_gap;
+        cage_next(d);
       }
-      const std::vector<Row> rows = rows_of(dwells_[d]);
-      const bool parts = carried && carry_ == Carry::one_way && d + 1 < dwells_.size();
-      const std::size_t first_part = parts ? rows.size() / 2 : rows.size();
-      for (std::size_t k = 0; k < rows.size(); ++k) {
-        const bool cage = k == 0 ? !carried : k == first_part;
-        if (cage) {
-          const auto chain = static_cast<std::size_t>(test_.timeline.chains++);
-          test_.R_lp.push_back(
-              levelled(dwells_[d].acc, chain < azimuth.size() ? azimuth[chain] : 0.0));
-        }
-        add(rows[k], static_cast<int>(d), cage);
-      }
+      at_ = dwells_[d].first;
+      const std::vector<MeanReading> rows = rows_of(dwells_[d]);
+      if (carry_ == Carry::through)
+        for (const MeanReading& row : rows) add_rest(row, d);
+      else
+        take_halves(d, carried && d + 1 < dwells_.size());
     }
     finish();
     return std::move(test_);
   }
 
  private:
-  void add(Interval i, const Vec3& acc, bool rest) {
+  enum class What { way, held };  ///< on the way to a dwell, or in one that is no rest
+
+  void cage_next(std::size_t d) {
+    const auto chain = static_cast<std::size_t>(test_.timeline.chains++);
+    test_.R_lp.push_back(levelled(dwells_[d].acc, chain < azimuth_.size() ? azimuth_[chain] : 0.0));
+    cage_ = true;
+  }
+
+  void add(Interval i, const Vec3& acc) {
     i.chain = test_.timeline.chains - 1;
-    i.rest = rest;
-    i.slew = !rest;
+    i.cage = std::exchange(cage_, false);
     test_.timeline.intervals.push_back(i);
     acc_.push_back(acc);
+  }
+
+  void add_rest(const MeanReading& row, std::size_t d) {
+    Interval i;
+    i.t0 = row.start;
+    i.t1 = row.end;
+    i.position = static_cast<int>(d);
+    i.rest = true;
+    i.omega_cmd_p = row.gyro;
+    add(i, row.acc);
   }
 
   double longest_turn() const {
     return carry_ == Carry::through ? longest_turn_row : longest_turn_row_one_way;
   }
 
-  void take_way(std::size_t d) {
-    const std::size_t last = dwells_[d].first;
+  /// Whether a row that has turned so far, from readings that sum up to `sum`, takes one more.
+  bool has_room(const Mat3& R, const Vec3& sum, const Vec3& next, double length) const {
+    const Vec3 angle = rotation_vector(R);
+    return angle.norm() + next.norm() < longest_turn() && length < longest_way_row &&
+           (carry_ == Carry::through || (angle - sum).norm() < largest_bend);
+  }
+
+  /// The readings carry the attitude on to sample `last`. In a dwell that is no rest the
+  /// accelerometers are read, too.
+  void carry(std::size_t d, std::size_t last, What what) {
     Mat3 R = Mat3::Identity();
+    Vec3 sum = Vec3::Zero();
     std::size_t begin = at_;
     for (std::size_t k = at_ + 1; k <= last; ++k) {
       R = R * rotation(turned(signals_, k));
-      const Vec3 angle = rotation_vector(R);
+      sum += turned(signals_, k);
       const double length = signals_.time[k] - signals_.time[begin];
-      const bool full = k < last &&
-                        angle.norm() + turned(signals_, k + 1).norm() < longest_turn() &&
-                        length < longest_way_row;
-      if (full) continue;
+      if (k < last && has_room(R, sum, turned(signals_, k + 1), length)) continue;
       Interval i;
       i.t0 = signals_.time[begin];
       i.t1 = signals_.time[k];
       i.position = static_cast<int>(d);
-      i.omega_cmd_p = angle / length;
-      add(i, Vec3::Constant(nan_value), false);
+      i.slew = what == What::way;
+      i.omega_cmd_p = rotation_vector(R) / length;
+      if (what == What::held) i.samples = length / stillness_.half;
+      add(i, what == What::way ? Vec3::Constant(nan_value) : mean_reading(signals_, begin, k).acc);
       R.setIdentity();
+      sum.setZero();
       begin = k;
+    }
+    at_ = last;
+  }
+
+  /// The gyros of a still dwell are read once: what they wander by from dwell to dwell its halves
+  /// have in common.
+  void take_halves(std::size_t d, bool in_two_chains) {
+    const std::size_t ends[] = {dwells_[d].first, middle_of(dwells_[d]), dwells_[d].last};
+    const Vec3 gyro = mean_reading(signals_, ends[0], ends[2]).gyro;
+    at_ = ends[0];
+    for (const int half : {0, 1}) {
+      if (half == 1 && in_two_chains) cage_next(d);
+      if (test_.still[d]) {
+        MeanReading row = mean_reading(signals_, ends[half], ends[half + 1]);
+        row.gyro = gyro;
+        add_rest(row, d);
+        if (half == 1) again_.push_back(test_.timeline.intervals.size() - 1);
+      } else {
+        carry(d, ends[half + 1], What::held);
+      }
+      at_ = ends[half + 1];
     }
   }
 
   /// Whole rows; what is left of the dwell belongs to the way to the next.
-  std::vector<Row> rows_of(const Dwell& dwell) {
+  std::vector<MeanReading> rows_of(const Dwell& dwell) {
     const auto samples = static_cast<std::size_t>(std::lround(test_.row / signals_.interval));
-    const double inverse = 1.0 / static_cast<double>(samples);
-    std::vector<Row> rows;
+    std::vector<MeanReading> rows;
     std::vector<Vec3> accs, gyros;
-    for (at_ = dwell.first; at_ + samples <= dwell.last; at_ += samples) {
-      Row row{signals_.time[at_], signals_.time[at_ + samples]};
-      for (std::size_t k = at_ + 1; k <= at_ + samples; ++k) {
-        row.gyro += inverse * signals_.gyro[k];
-        row.acc += inverse * signals_.acc[k];
-      }
-      accs.push_back(row.acc);
-      gyros.push_back(row.gyro);
-      rows.push_back(row);
+    for (; at_ + samples <= dwell.last; at_ += samples) {
+      rows.push_back(mean_reading(signals_, at_, at_ + samples));
+      accs.push_back(rows.back().acc);
+      gyros.push_back(rows.back().gyro);
     }
     of_acc_.add(accs);
-    of_gyro_.add(gyros);
-    return carry_ == Carry::one_way ? halves(rows) : rows;
+    if (test_.still[static_cast<std::size_t>(&dwell - dwells_.data())]) of_gyro_.add(gyros);
+    return rows;
   }
 
-  /// Two rows of a dwell, and how they differ.
-  std::vector<Row> halves(const std::vector<Row>& rows) {
-    const auto middle = rows.begin() + static_cast<std::ptrdiff_t>(rows.size() / 2);
-    const Row first = mean(rows.begin(), middle), second = mean(middle, rows.end());
-    for (int a = 0; a < 3; ++a) {
-      acc_halves_.push_back(std::abs(second.acc[a] - first.acc[a]));
-      gyro_halves_.push_back(std::abs(second.gyro[a] - first.gyro[a]));
-    }
-    return {first, second};
-  }
-
-  void add(const Row& row, int position, bool cage) {
-    Interval i;
-    i.t0 = row.t0;
-    i.t1 = row.t1;
-    i.position = position;
-    i.cage = cage;
-    i.omega_cmd_p = row.gyro;
-    add(i, row.acc, true);
+  /// Of the gyros' mean over a dwell. The Earth's horizontal rate is laid along a North that nobody
+  /// knows: what it is and what it is taken for, a third of its square on each axis, are noise.
+  double noise_of_dwells() const {
+    const Vec3 earth = test_.timeline.site.omega_ie_l();
+    const double of_north = 2.0 / 3.0 * earth.head<2>().squaredNorm();
+    return std::sqrt(0.5 * stillness_.gyro_noise * stillness_.gyro_noise + of_north);
   }
 
   void finish() {
@@ -203,22 +204,27 @@ class Layout {
       if (test_.timeline.intervals[static_cast<std::size_t>(i)].rest)
         test_.measured.gimbal.col(i).setZero();
     }
+    for (const std::size_t i : again_)
+      test_.measured.gimbal.col(static_cast<Eigen::Index>(i)).setConstant(nan_value);
     const bool halved = carry_ == Carry::one_way;
-    test_.readout.accelerometer_noise =
-        halved ? sigma_of_differences(acc_halves_) : of_acc_.sigma();
-    test_.readout.gimbal_noise = halved ? sigma_of_differences(gyro_halves_) : of_gyro_.sigma();
+    test_.readout.accelerometer_noise = halved ? stillness_.acc_noise : of_acc_.sigma();
+    test_.readout.gimbal_noise = halved ? noise_of_dwells() : of_gyro_.sigma();
     test_.angle_random_walk = of_gyro_.sigma() * std::sqrt(test_.row);
+    if (halved) test_.row = stillness_.half;
     place_nodes(test_.timeline, test_.R_lp, longest_turn());
   }
 
   const Signals& signals_;
   const std::vector<Dwell>& dwells_;
   Carry carry_;
+  std::vector<double> azimuth_;
+  Stillness stillness_;  ///< of Carry::one_way
   CaseTest test_;
   std::size_t at_ = 0;  ///< sample up to which the recording is laid out
+  bool cage_ = false;   ///< the next row begins a chain
   std::vector<Vec3> acc_;
+  std::vector<std::size_t> again_;  ///< rows at rest whose gyros are in the row before
   Scatter of_acc_, of_gyro_;
-  std::vector<double> acc_halves_, gyro_halves_;
 };
 
 }  // namespace

@@ -26,7 +26,8 @@ struct CaseTest {
   double row = 0.0;                ///< length of the rows in dwells [s]
   std::vector<std::size_t> ways;   ///< dwell (from 0) at the end of each way without a gap
   std::size_t ways_with_gap = 0;
-  std::vector<Mat3> R_lp;  ///< attitude at the start of each chain as it was assumed
+  std::vector<bool> still;  ///< of each dwell: a rest to the gyros
+  std::vector<Mat3> R_lp;   ///< attitude at the start of each chain as it was assumed
 };
 
 /// The axes of the case are those of the accelerometers: x is the input axis of accelerometer x, y
@@ -37,17 +38,20 @@ inline constexpr std::array<std::size_t, 3> zero_by_definition{
 /// About how many rows the dwells are cut into, together.
 inline constexpr double rows_at_rest = 400.0;
 /// Attitude change and length of a row on the way: [rad], [s]. Within a row the reading is taken as
-/// constant: what an error of relative size e makes of that is e turn^2 / 12, 1e-4 e and 5e-4 e.
-inline constexpr double longest_turn_row = 0.04, longest_turn_row_one_way = 0.08,
-                        longest_way_row = 1.0;
+/// constant: what an error of relative size e makes of that is at most e turn^2 / 12, 1e-4 e.
+inline constexpr double longest_turn_row = 0.04, longest_way_row = 1.0;
+/// Over one way: an axis that stands still lets rows be longer. Of the error only what turns do to
+/// each other counts: 2 e times the `bend`, by which the turn of a row differs from the sum of its
+/// samples', 5e-4 e.
+inline constexpr double longest_turn_row_one_way = 0.25, largest_bend = 2.5e-4;
 
 /// How far attitude is carried along.
 enum class Carry {
   through,  ///< from way to way, until one has a gap: azimuth is worth carrying
   one_way,  ///< over one way; a dwell's first half ends a chain, its second half begins the next.
             ///< For gyros that do not see the Earth: all that a way shows then is where up is
-            ///< before and after it. A half is one row, its noise what the halves of dwells differ
-            ///< by: such sensors wander within a dwell, and nobody declares by how much
+            ///< before and after it. Half of a still dwell (stillness.hpp) is one row at rest; in
+            ///< any other the readings carry the attitude as on a way, while gravity is seen
 };
 
 /// Lays a recording out. azimuth: heading of the case at the start of each chain, from North to
