@@ -76,19 +76,15 @@ Trajectory integrate_fixed(const Timeline& timeline, const DriftModel& model, co
   const auto& intervals = timeline.intervals;
   Trajectory all(timeline.nodes.size());
   MemoryPath memory(timeline, model);
-  for (std::size_t first = 0, end = 0; first < intervals.size(); first = end) {
-    for (end = first + 1; end < intervals.size() && !intervals[end].cage;) ++end;
-    const Interval& begin = intervals[first];
-    all[begin.first_node] = begin.cage ? caged_phi(timeline.nodes[begin.first_node].R_lr,
-                                                   psi0_l[static_cast<std::size_t>(begin.chain)])
-                                       : Vec3(Vec3::Zero());
-    for (std::size_t n = first; n < end; ++n) {
-      const Interval& i = intervals[n];
-      memory.advance(n, theta.data());
-      if (n > first) all[i.first_node] = all[intervals[n - 1].last_node()];
-      step_through(i, timeline, drive_of(i, timeline, model, theta), memory.points(),
-                   &all[i.first_node]);
-    }
+  for (std::size_t n = 0; n < intervals.size(); ++n) {
+    const Interval& i = intervals[n];
+    Vec3& begin = all[i.first_node];
+    memory.advance(n, theta.data());
+    begin = n > 0 ? all[intervals[n - 1].last_node()] : Vec3(Vec3::Zero());
+    if (i.cage)
+      begin =
+          caged_phi(timeline.nodes[i.first_node].R_lr, psi0_l[static_cast<std::size_t>(i.chain)]);
+    step_through(i, timeline, drive_of(i, timeline, model, theta), memory.points(), &begin);
   }
   return all;
 }
