@@ -1,6 +1,4 @@
 
-#include "analysis/strapdown/diagnose.hpp"
-
 #include <fmt/ranges.h>
 
 #include <cstdio>
@@ -16,7 +14,6 @@
 #include "analysis/report/diagnosis/report.hpp"
 #include "analysis/report/noise/noise.hpp"
 #include "analysis/report/strapdown/case_report.hpp"
-#include "analysis/report/strapdown/report.hpp"
 #include "analysis/strapdown/case_diagnose.hpp"
 #include "core/base/results_folder.hpp"
 #include "mc/task/campaign.hpp"
@@ -42,17 +39,22 @@ void finish(const mc::Study& study, const diagnosis::Diagnosis& diagnosis,
   show_answer(report::diagnosis_in_brief(diagnosis), rest);
 }
 
-ExitCode diagnose_case_that_sees_the_earth(const mc::Study& study,
-                                           const std::vector<std::string>& paths,
-                                           const std::string& folder,
-                                           const std::vector<Recording>& recordings,
-                                           strapdown::CaseStudy of,
-                                           const diagnosis::StageReport& progress) {
+ExitCode diagnose_case(const StudyArguments& arguments, const mc::Study& study,
+                       const std::vector<std::string>& paths, const std::string& folder) {
+  if (paths.size() != 1)
+    throw InputError(
+        ExitCode::usage,
+        fmt::format("diagnose: a strapdown study takes one recording, {} are given. Name one "
+                    "on the command line",
+                    paths.size()));
+  const auto recordings = read_recordings(study, paths);
+  flush_output();
   diagnosis::DiagnoseOptions options;
-  options.progress = progress;
+  options.progress = stage_reporter(arguments.progress, "diagnose");
   options.profiles = diagnosis::Profiles::of_the_causes;
-  const diagnosis::Diagnosis found = strapdown::diagnose_case(study, of, options);
-  const strapdown::CaseIdentification id = strapdown::identify_case(study, std::move(of));
+  const strapdown::CaseIdentification id =
+      strapdown::identify_case(study, strapdown::case_study(study, recordings.front()));
+  const diagnosis::Diagnosis found = strapdown::diagnose_case(study, id, options);
   const report::Provenance provenance = report::provenance_of(study.path, paths);
   std::vector<std::string> more;
   if (!folder.empty())
@@ -65,44 +67,6 @@ ExitCode diagnose_case_that_sees_the_earth(const mc::Study& study,
           report::to_text(report::case_report(study, id)),
           provenance,
           {report::noise_section(id.study.noise, study.site.gravity)}},
-         recordings, folder, more);
-  return ExitCode::ok;
-}
-
-ExitCode diagnose_case(const StudyArguments& arguments, const mc::Study& study,
-                       const std::vector<std::string>& paths, const std::string& folder) {
-  if (paths.size() != 1)
-    throw InputError(
-        ExitCode::usage,
-        fmt::format("diagnose: a strapdown study takes one recording, {} are given. Name one "
-                    "on the command line",
-                    paths.size()));
-  strapdown::StrapdownOptions options;
-  options.static_min = study.static_min;
-  options.gravity = study.site.gravity;
-  options.seed = study.monte_carlo.seed;
-  const auto recordings = read_recordings(study, paths);
-  flush_output();
-  const auto report = stage_reporter(arguments.progress, "diagnose");
-  strapdown::CaseStudy of = strapdown::case_study(study, recordings.front());
-  if (of.compass.sees_earth)
-    return diagnose_case_that_sees_the_earth(study, paths, folder, recordings, std::move(of),
-                                             report);
-  if (report) report("dwells, turns and what each step gains", 0.0);
-  const strapdown::StrapdownDiagnosis found =
-      strapdown::diagnose_strapdown(study, recordings.front(), options);
-  if (report) report("done", 1.0);
-  std::vector<std::string> more;
-  if (!folder.empty())
-    more = write_files({folder, "diagnose"},
-                       {{"identification.json",
-                         report::with_provenance(report::to_json(found.result).dump(2),
-                                                 report::provenance_of(study.path, paths))}});
-  finish(study, found.diagnosis,
-         {paths,
-          report::to_text(report::strapdown_report(study, found.result)),
-          report::provenance_of(study.path, paths),
-          {report::noise_section(found.result.noise, study.site.gravity)}},
          recordings, folder, more);
   return ExitCode::ok;
 }
@@ -174,10 +138,12 @@ Command diagnose_command() {
     if (a.advise_option->count() > 0) advise = list_of(a.advise);
     return diagnose(a.study, a.recordings, a.output, advise);
   };
-  return {"diagnose", group::recordings,
-          "locate a mismatch, name the physics left out, model it, show the fit improve",
-          "driftscope diagnose configs/diagnose_xsens.toml recording.csv -o out/diagnosis",
-          with_arguments<Arguments>(add, run)};
+  return {
+      "diagnose", group::recordings,
+      "locate a mismatch, name the physics left out (of a platform or a strapdown unit), model it, "
+      "show the fit improve",
+      "driftscope diagnose configs/diagnose_xsens.toml recording.csv -o out/diagnosis",
+      with_arguments<Arguments>(add, run)};
 }
 
 }  // namespace drift::cli

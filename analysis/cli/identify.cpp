@@ -9,7 +9,6 @@
 #include "analysis/cli/read_recordings.hpp"
 #include "analysis/report/identify/report.hpp"
 #include "analysis/report/strapdown/case_report.hpp"
-#include "analysis/report/strapdown/report.hpp"
 #include "core/base/results_folder.hpp"
 
 namespace drift::cli {
@@ -22,20 +21,10 @@ ExitCode identify_case(const mc::Study& study, const std::vector<std::string>& p
                      fmt::format("identify: a strapdown study takes one recording, {} are "
                                  "given. Name one on the command line",
                                  paths.size()));
-  strapdown::StrapdownOptions options;
-  options.static_min = study.static_min;
-  options.gravity = study.site.gravity;
-  options.seed = study.monte_carlo.seed;
-  options.equations.clear();
-  for (const FilterSpec& f : study.filters) options.equations.push_back(f.coupling);
-  if (options.equations.empty()) options.equations = {Coupling::eq5, Coupling::eq6};
   const auto recordings = read_recordings(study, paths);
-  strapdown::CaseStudy of = strapdown::case_study(study, recordings.front());
   const report::Report said = with_provenance(
-      of.compass.sees_earth && !study.filters.empty()
-          ? report::case_report(study, strapdown::identify_case(study, std::move(of)))
-          : report::strapdown_report(study,
-                                     strapdown::identify_strapdown(recordings.front(), options)),
+      report::case_report(
+          study, strapdown::identify_case(study, strapdown::case_study(study, recordings.front()))),
       report::provenance_of(study.path, paths));
   Rest rest{cards_text(recordings, study.kind) + report::to_text(said), folder, {}};
   if (!folder.empty()) rest.files = report::write_report(said, folder);
@@ -83,7 +72,7 @@ Command identify_command() {
     add_full(app);
   };
   return {"identify", group::recordings,
-          "estimate the parameters of a recording, or of a simulated one",
+          "estimate the parameters of a recording (platform or strapdown), or of a simulated one",
           "driftscope identify configs/table1.toml -o out/table1",
           with_arguments<Arguments>(add, [](const Arguments& a) {
             return identify(a.study, a.recordings, a.output, a.run);

@@ -7,7 +7,7 @@
 #include "analysis/cli/command.hpp"
 #include "analysis/cli/print.hpp"
 #include "analysis/report/noise/noise.hpp"
-#include "analysis/strapdown/identify.hpp"
+#include "analysis/strapdown/case_study.hpp"
 #include "core/estimate/strapdown/dwells.hpp"
 #include "core/recording/own/csv_cells.hpp"
 #include "core/recording/own/guess.hpp"

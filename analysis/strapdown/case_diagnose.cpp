@@ -1,13 +1,10 @@
 #include "analysis/strapdown/case_diagnose.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "analysis/diagnosis/advice/patched_study.hpp"
-#include "analysis/strapdown/case_errors.hpp"
-#include "analysis/strapdown/score.hpp"
+#include "analysis/strapdown/sensed.hpp"
 #include "core/base/check.hpp"
 
 namespace drift::strapdown {
@@ -43,70 +40,112 @@ void rename(Diagnosis& d) {
       free->equation = equation_of_case(free->equation);
 }
 
-void sense(search::CauseParameter& p) {
-  const double unit = TermLibrary::specs[p.param].unit.to_si;
-  if (p.param == closure_param) {
-    p.value = 1.0 - p.value;
-    return;
-  }
-  const Sensed s = as_sensed(p.param, p.value * unit, p.sigma * unit);
-  p.value = s.value / unit;
-  p.sigma = s.sigma / unit;
+/// Values [library units] as the sensors have them; scales: the platform's (as_sensed).
+void sense(search::CauseParameter& p, const Vec3& scales) {
+  const double unit = TermLibrary::specs[p.param].unit.to_si, value = p.value * unit,
+               side = as_sensed(p.param, value + p.sigma * unit, scales);
+  p.value = as_sensed(p.param, value, scales) / unit;
+  p.sigma = std::abs(side / unit - p.value);
 }
 
-void sense(diagnosis::ShiftedParameter& p) {
-  const double unit = TermLibrary::specs[p.param].unit.to_si;
-  const Sensed before = as_sensed(p.param, p.before * unit, p.sigma_before * unit),
-               after = as_sensed(p.param, p.after * unit, p.sigma_after * unit);
-  p.before = before.value / unit;
-  p.sigma_before = before.sigma / unit;
-  p.after = after.value / unit;
-  p.sigma_after = after.sigma / unit;
+void sense(diagnosis::ShiftedParameter& p, const Vec3& before, const Vec3& after) {
+  search::CauseParameter was{p.key, p.param, p.before, p.sigma_before, p.unit},
+      is{p.key, p.param, p.after, p.sigma_after, p.unit};
+  sense(was, before);
+  sense(is, after);
+  p.before = was.value;
+  p.sigma_before = was.sigma;
+  p.after = is.value;
+  p.sigma_after = is.sigma;
   p.shift_sigma = (p.after - p.before) / p.sigma_before;
 }
 
-/// Root mean square errors of the nominal and of the patched model, on the data of the fit.
-std::vector<diagnosis::ErrorOfKind> errors_of(const Diagnosis& d, const CaseStudy& of,
-                                              double gravity) {
-  const auto of_model = [&](const FilterSpec& filter) {
-    const BatchResult fit = fit_batch(filter, of.measured(), make_layout(filter).theta);
-    return case_errors(of.test, filter.model(), theta_of(filter, fit), fit.psi0_l);
+/// All that was found, in the sensors' convention. fit: of the nominal filter.
+void sense(Diagnosis& d, const BatchResult& fit) {
+  const Vec3 before = scales_of(fit.estimate);
+  Vec3 after = before;
+  const auto take = [&](std::size_t param, double value) {
+    const std::size_t axis = param - TermLibrary::index("s_x");
+    if (axis < 3)
+      after[static_cast<Eigen::Index>(axis)] = value * TermLibrary::specs[param].unit.to_si;
   };
-  const CaseErrors before = of_model(d.nominal), after = d.has_patch ? of_model(d.patched) : before;
-  return {{"gyro rate in dwells", "deg/h", root_mean_square(before.gyro) / unit::deg_per_h.to_si,
-           root_mean_square(after.gyro) / unit::deg_per_h.to_si},
-          {"up after a turn", "deg", root_mean_square(before.up) / unit::deg.to_si,
-           root_mean_square(after.up) / unit::deg.to_si},
-          {"gravity in dwells", "m/s^2", root_mean_square(before.gravity) * gravity,
-           root_mean_square(after.gravity) * gravity}};
+  for (const diagnosis::ShiftedParameter& p : d.fit.shifted) take(p.param, p.after);
+  for (const search::Cause& cause : d.causes)
+    for (const search::CauseParameter& p : cause.parameters) take(p.param, p.value);
+  for (search::Cause& cause : d.causes)
+    for (search::CauseParameter& p : cause.parameters) sense(p, after);
+  for (diagnosis::ShiftedParameter& p : d.fit.shifted) sense(p, before, after);
+}
+
+/// Of D_I_x, D_I_y and D_I_z as causes what differs between them.
+void take_common_drift_out(Diagnosis& d) {
+  std::vector<search::CauseParameter*> of_input_axis;
+  for (search::Cause& cause : d.causes)
+    for (search::CauseParameter& p : cause.parameters)
+      if (TermLibrary::specs[p.param].group.view() == "D_I") of_input_axis.push_back(&p);
+  if (of_input_axis.size() < 3) return;
+  double mean = 0.0;
+  for (const search::CauseParameter* p : of_input_axis) mean += p->value / 3.0;
+  for (search::CauseParameter* p : of_input_axis) p->value -= mean;
+  d.remarks.emplace_back(diagnosis::remark::CommonDriftUnseen{});
+}
+
+/// What held-out dwells and turns are missed by, without and with the causes.
+std::vector<diagnosis::ErrorOfKind> errors_of(const Diagnosis& d, const CaseIdentification& id,
+                                              double gravity) {
+  const CaseScores& before = id.fits.front();
+  if (before.gravity.count == 0) return {};
+  CaseScores after = before;
+  if (d.has_patch) {
+    const BatchResult fit =
+        fit_batch(d.patched, id.study.measured(), theta_of(d.patched, id.fits.front().fit));
+    after = scores_of(d.patched, fit, id.study, id.division, id.seed);
+  }
+  std::vector<diagnosis::ErrorOfKind> all;
+  if (before.gyro.count > 0)
+    all.push_back({"gyro rate in dwells", "deg/h", before.gyro.held_out, after.gyro.held_out});
+  if (before.up.count > 0)
+    all.push_back({"up after a turn", "deg", before.up.held_out, after.up.held_out});
+  all.push_back({"gravity in dwells", "m/s^2", before.gravity.held_out * gravity,
+                 after.gravity.held_out * gravity});
+  return all;
+}
+
+void remark(Diagnosis& d, const CaseIdentification& id) {
+  d.remarks.emplace_back(diagnosis::remark::NoDeclaredNoise{});
+  for (const Unobservable& u : id.fits.front().unobservable)
+    d.remarks.emplace_back(diagnosis::remark::NotObservable{u.what, u.reason});
 }
 
 }  // namespace
 
-Diagnosis diagnose_case(const mc::Study& study, const CaseStudy& of,
+Diagnosis diagnose_case(const mc::Study& study, const CaseIdentification& id,
                         const diagnosis::DiagnoseOptions& options) {
-  if (study.filters.empty())
-    throw InputError(ExitCode::config,
-                     fmt::format("{}: no [[filter]]: its first is the nominal model (expected "
-                                 "one). Add a section [[filter]] with name, coupling and terms",
-                                 study.path));
+  DRIFT_DEMAND(!study.filters.empty() && id.fits.size() == study.filters.size());
   const FilterSpec& nominal = study.filters.front();
   diagnosis::DiagnoseOptions as_asked = options;
   as_asked.proposing =
       diagnosis::Proposing::left_out;  // a strapdown study takes no term of its own
-  Diagnosis d = diagnosis::diagnose(case_filter(nominal, of), of.measured(), {}, {}, as_asked);
-  d.errors = errors_of(d, of, study.site.gravity);
+  Diagnosis d =
+      diagnosis::diagnose(case_filter(nominal, id.study), id.study.measured(), {}, {}, as_asked);
+  d.of_case = true;
+  d.errors = errors_of(d, id, study.site.gravity);
   rename(d);
-  for (search::Cause& cause : d.causes)
-    for (search::CauseParameter& p : cause.parameters) sense(p);
-  for (diagnosis::ShiftedParameter& p : d.fit.shifted) sense(p);
+  sense(d, id.fits.front().fit);
+  if (!id.study.compass.sees_earth) take_common_drift_out(d);
   for (auto& remark : d.remarks)
-    if (auto* other = std::get_if<diagnosis::remark::OtherEquation>(&remark))
+    if (auto* other = std::get_if<diagnosis::remark::OtherEquation>(&remark)) {
       other->nominal = nominal.coupling;
+      other->of_case = true;
+    }
+  remark(d, id);
   d.nominal = nominal;
-  // Another equation is the other one: what lies between the two is for the report.
+  // Another equation is the other one: of what lies between the two a case shows (1 - lambda) E
+  // alone.
   std::vector<search::Cause> effects = d.causes;
   const auto closure = [](const search::Cause& c) { return c.term == closure_term; };
+  for (search::Cause& c : d.causes)
+    if (closure(c)) c.parameters.clear();
   const bool other_equation = std::erase_if(effects, closure) > 0;
   d.patched = diagnosis::patched_filter(nominal, effects);
   if (other_equation) d.patched.coupling = facts(nominal.coupling).other.value_or(nominal.coupling);

@@ -13,7 +13,6 @@ namespace drift::strapdown {
 namespace {
 
 constexpr auto fixed_drift = TermLibrary::index("D_F_x");
-constexpr auto first_scale = TermLibrary::index("s_x");
 
 double drift_prior(const mc::Study& study) {
   double largest = 0.0;
@@ -65,13 +64,33 @@ void lay_out_one_way(const mc::Study& study, const Signals& signals, CaseStudy& 
   std::vector<Dwell> dwells = out.search.dwells;
   for (Dwell& d : dwells) d.acc = force(d.acc);
   out.test = lay_out_case(signals, dwells, study.site, Carry::one_way);
+  double still = 0.0;
+  Vec3 drift = Vec3::Zero();
+  for (std::size_t d = 0; d < dwells.size(); ++d)
+    if (out.test.still[d]) {
+      drift += dwells[d].gyro;
+      still += 1.0;
+    }
+  for (int a = 0; a < 3; ++a)
+    out.start[fixed_drift + static_cast<std::size_t>(a)] = drift[a] / still;
+}
+
+bool levelled_by_calibrated(const CaseStudy& of) {
+  return of.start[TermLibrary::index("K0_x")] != 0.0;
 }
 
 }  // namespace
 
+preparation::NoiseCard noise_of(const Recording& recording, const DwellSearch& search) {
+  std::vector<preparation::RestingRows> rests;
+  for (const Dwell& d : search.dwells) rests.push_back({d.first, d.last});
+  return preparation::noise_card(recording, RecordingKind::strapdown, rests);
+}
+
 CaseStudy case_study(const mc::Study& study, const Recording& recording) {
   CaseStudy out;
   out.source = recording.source;
+  out.static_min = study.static_min;
   const Signals signals = signals_of(recording);
   out.search = find_dwells(signals, {.static_min = study.static_min});
   if (out.search.dwells.empty())
@@ -80,9 +99,7 @@ CaseStudy case_study(const mc::Study& study, const Recording& recording) {
         fmt::format("{}: no dwell of {} s in which both sensors are quiet (one or more is "
                     "expected). Rest the case, or lower plan.static_min",
                     out.source, study.static_min));
-  std::vector<preparation::RestingRows> rests;
-  for (const Dwell& d : out.search.dwells) rests.push_back({d.first, d.last});
-  out.noise = preparation::noise_card(recording, RecordingKind::strapdown, rests);
+  out.noise = noise_of(recording, out.search);
   // Each round knows better how the Earth turned the unit during the test.
   constexpr int rounds = 3;
   std::vector<double> azimuth;
@@ -103,12 +120,18 @@ FilterSpec case_filter(const FilterSpec& filter, const CaseStudy& of) {
   constexpr double calibrated = 0.03, as_bought = 0.3;  // [rad]
   FilterSpec out = filter;
   if (const auto other = facts(filter.coupling).other) out.coupling = *other;
-  if (!of.compass.sees_earth) take_consumer_priors(out);
+  if (!of.compass.sees_earth) {
+    take_consumer_priors(out);
+    // Of a width of 20 deg/s a mean says nothing, but every fit starts from it.
+    for (std::size_t p = fixed_drift; p < fixed_drift + 3; ++p)
+      if (out.priors[p].kind == Prior::Kind::normal && out.priors[p].mean() == 0.0)
+        out.priors[p] = normal(of.start[p], out.priors[p].sigma());
+  }
   for (const std::size_t p : zero_by_definition) out.priors[p] = fixed(0.0);
-  out.initial_attitude = of.compass.sees_earth
-                             ? std::clamp(of_the_same_data * of.compass.sigma, least, most)
-                         : of.start.isZero() ? as_bought
-                                             : calibrated;
+  if (of.compass.sees_earth)
+    out.initial_attitude = std::clamp(of_the_same_data * of.compass.sigma, least, most);
+  else
+    out.initial_attitude = levelled_by_calibrated(of) ? calibrated : as_bought;
   if (out.noise.angle_random_walk == 0.0) out.noise.angle_random_walk = of.test.angle_random_walk;
   return out;
 }
@@ -119,12 +142,6 @@ Theta start_of(const FilterSpec& case_filter, const CaseStudy& of) {
   for (const std::size_t p : layout.params)
     if (of.start[p] != 0.0) start[p] = of.start[p];
   return start;
-}
-
-Sensed as_sensed(std::size_t param, double value, double sigma) {
-  if (param < first_scale || param >= first_scale + 3) return {value, sigma};
-  const double read = 1.0 / (1.0 + value);
-  return {read - 1.0, sigma * read * read};
 }
 
 }  // namespace drift::strapdown

@@ -12,14 +12,20 @@ namespace drift::strapdown {
 /// A recording of sensors on a case, made ready as a test of a platform (case_test.hpp).
 struct CaseStudy {
   std::string source;
+  double static_min = 0.0;  ///< shortest dwell that counts [s]
   DwellSearch search;
   Gyrocompass compass;
   CaseTest test;
   preparation::NoiseCard noise;  ///< of the sensors in the dwells
-  Theta start = Theta::Zero();   ///< accelerometers as gravity in the dwells has them; else zero
+  /// Where the fit of a unit begins whose gyros do not see the Earth: accelerometers as gravity in
+  /// the dwells has them, fixed drift as the gyros read it there.
+  Theta start = Theta::Zero();
 
   MeasuredTest measured() const { return {test.timeline, test.readout, test.measured}; }
 };
+
+/// The noise of the sensors in the dwells.
+preparation::NoiseCard noise_of(const Recording& recording, const DwellSearch& search);
 
 /// Finds the dwells, levels and gyrocompasses, lays out. The prior of the gyros' fixed drift is
 /// that of the study's first filter. A unit whose gyros do not see the Earth is laid out one way at
@@ -37,11 +43,5 @@ FilterSpec case_filter(const FilterSpec& filter, const CaseStudy& of);
 /// Where the fit of such a filter starts: at its prior means, and at what is known of what it
 /// estimates.
 Theta start_of(const FilterSpec& case_filter, const CaseStudy& of);
-
-/// A parameter of such a filter in the sensors' convention, reading = (1 + s) (C w + ...) + w_l.
-struct Sensed {
-  double value = 0.0, sigma = 0.0;
-};
-Sensed as_sensed(std::size_t param, double value, double sigma);
 
 }  // namespace drift::strapdown

@@ -3,11 +3,11 @@
 #include <string>
 #include <vector>
 
-#include "analysis/strapdown/ladder.hpp"
+#include "core/estimate/estimate_result.hpp"
 
 namespace drift::strapdown {
 
-/// A parameter of the model the held-out data accept.
+/// A parameter, or a sum of some, that a recording says.
 struct StrapdownParameter {
   std::string key;     ///< as in interfaces.md 4
   double value = 0.0;  ///< in `unit`
@@ -22,11 +22,23 @@ struct Unobservable {
   std::string reason;
 };
 
-/// The parameters of a model, in the units of the term library. The common part of D_I_x, D_I_y,
-/// D_I_z is taken out of them: it is not observable.
-std::vector<StrapdownParameter> parameters_of(const Final& accepted);
+/// What a model says of a recording's sensors.
+struct Findings {
+  std::vector<StrapdownParameter> parameters;  ///< of which the recording says more than the prior
+  std::vector<Unobservable> unobservable;      ///< the others
+};
 
-/// What no strapdown recording of this kind shows, and what this model leaves open.
-std::vector<Unobservable> unobservable_of(const Final& accepted);
+/// Whether the gyros see the Earth's rate.
+enum class EarthRate { seen, hidden };
+
+/// A parameter is said with its number where the recording says ten times as much of it as the
+/// prior (learned_ratio), or as a sum with others (known_sums); of any other what it is one with,
+/// or that the recording says little of it. Where the Earth is hidden the common part of D_I_x,
+/// D_I_y and D_I_z is taken out of them, and what no such recording shows is listed. sensed: as
+/// as_sensed() has it.
+Findings findings_of(const EstimateResult& sensed, EarthRate earth);
+
+/// D_I_x, D_I_y and D_I_z less their mean, covariance included; as they are without one of them.
+EstimateResult without_common_drift(EstimateResult estimate);
 
 }  // namespace drift::strapdown

@@ -7,13 +7,12 @@
 #include "core/base/check.hpp"
 #include "core/base/nan.hpp"
 #include "core/base/rng.hpp"
-#include "core/stats/student.hpp"
 
 namespace drift::strapdown {
 namespace {
 
 constexpr int resamples = 1000;
-constexpr std::uint32_t bootstrap_stream = 1;  // 0 divides the data into folds
+constexpr std::uint32_t bootstrap_stream = 1;  // 0 divides the dwells into parts
 
 }  // namespace
 
@@ -64,11 +63,6 @@ double paired_gain(const std::vector<double>& before, const std::vector<double>&
     squares += std::pow(before[k] - after[k] - sum / n, 2);
   if (sum == 0.0 && squares == 0.0) return 0.0;
   return sum / n / std::sqrt(squares / (n - 1.0) / n);
-}
-
-double chance_of_gain(double z, std::size_t count) {
-  if (count < 2 || !std::isfinite(z)) return 1.0;
-  return stats::student_tail(z, static_cast<double>(count) - 1.0);
 }
 
 }  // namespace drift::strapdown

@@ -27,8 +27,4 @@ Score score_of(const std::vector<double>& in_sample, const std::vector<double>& 
 /// Zero where no pair differs; NaN if an error is none.
 double paired_gain(const std::vector<double>& before, const std::vector<double>& after);
 
-/// Probability that a paired gain of z standard errors or more from `count` pairs comes by chance:
-/// upper tail of Student's t with count - 1 degrees of freedom; 1 for fewer than two pairs or no z.
-double chance_of_gain(double z, std::size_t count);
-
 }  // namespace drift::strapdown

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/strapdown/case_study.hpp"
 #include "core/base/decompose.hpp"
 
 namespace drift::strapdown {
@@ -70,10 +69,8 @@ std::vector<StrapdownParameter> known_sums(const EstimateResult& estimate) {
         // In the member's own unit, so that the sum is in that of the largest.
         const double factor =
             part * of(largest).prior_sigma / p.prior_sigma * own.unit.to_si / spec.unit.to_si;
-        const Sensed sensed = as_sensed(p.param, p.value, p.sigma);
-        const double sign = sensed.value * p.value < 0.0 ? -1.0 : 1.0;
-        sum.key += member(sign * factor, own.key.view(), sum.key.empty());
-        sum.value += part * of(largest).prior_sigma * (p.value - p.prior_mean) / p.prior_sigma;
+        sum.key += member(factor, own.key.view(), sum.key.empty());
+        sum.value += part * of(largest).prior_sigma * p.value / p.prior_sigma;
       }
     sum.value /= spec.unit.to_si;
     sum.sigma = of(largest).prior_sigma * std::sqrt(kept.dot(P * kept)) / spec.unit.to_si;

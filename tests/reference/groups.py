@@ -303,14 +303,10 @@ def xsens(run):
     answer = run.json("case/identification.json")
     yield Number("xsens.dwells", answer["dwells"]["count"], "count")
     yield Number("xsens.rotations", answer["rotations"]["count"], "count")
-    for k, trial in enumerate(answer["accelerometers"] + answer["gyros"], 1):
-        at = f"xsens.step{k}"
-        yield Number(f"{at}.model", f"{trial['equation']} {trial['model']}", "word")
-        yield Number(f"{at}.verdict", trial["verdict"], "word")
+    for fit in answer["filters"]:
         for what in ("gravity", "dwells", "rotations"):
-            if trial.get(what):
-                yield Number(f"{at}.{what}.held_out", real(trial[what]["held_out"]), "held_error",
-                             trial[what]["unit"])
+            yield Number(f"xsens.{fit['equation']}.{what}.held_out", real(fit[what]["held_out"]), "held_error",
+                         fit[what]["unit"])
     for p in answer["parameters"]:
         yield Number(f"xsens.{p['key']}", real(p["value"]), "estimate", p["unit"], p["sigma"] or 0.0)
     run("diagnose", CONFIGS / "diagnose_xsens.toml", recording, "-o", "diagnosis", "--progress", "none")

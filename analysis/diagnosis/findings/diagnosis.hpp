@@ -65,6 +65,7 @@ struct Diagnosis {
   std::optional<NearestKnown> nearest_known;
   std::optional<Proposal> proposal;  ///< where it is unexplained and a form was looked for
   std::optional<SiteDoubt> site_doubt;
+  bool of_case = false;             ///< of a recording on a case
   std::vector<ErrorOfKind> errors;  ///< of a recording on a case: what held-out data are missed by
   std::vector<Advice> advice;       ///< most useful first
   std::vector<Remark> remarks;      ///< what a reader must know besides

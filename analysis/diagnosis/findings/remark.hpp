@@ -60,6 +60,7 @@ struct OtherEquation {
   Coupling nominal = Coupling::eq5;
   double gain = 0.0;          ///< twice the log of the odds of the other
   bool beside_cause = false;  ///< with a cause in the model
+  bool of_case = false;       ///< of gyros on a case
   bool open() const;          ///< the test does not tell the two apart
 };
 /// The magnetic field is that of a dipole: none was recorded or declared.
@@ -78,19 +79,9 @@ struct NoAdvice {
 
 // Of a recording on a case.
 
-/// How held-out turns judge eqs. (5) and (6) [deg].
-struct EquationByTurns {
-  double error_eq5 = 0.0, error_eq6 = 0.0;
-  double standard_errors = 0.0;  ///< by which eq. (5) is better
-};
-/// What became of one step of the ladder.
-struct StepJudged {
-  std::string label, verdict, reason;
-  double gain_dwells = 0.0, gain_turns = 0.0;  ///< in standard errors; turns NaN of accelerometers
-};
-/// Residuals are in units of the scatter that the accepted model leaves.
+/// What is called declared is the scatter within dwells.
 struct NoDeclaredNoise {};
-/// D_I is fitted with D_O and D_S and is no cause of its own.
+/// Of the D_I that are named the common part is taken out.
 struct CommonDriftUnseen {};
 /// What the motion cannot show.
 struct NotObservable {
@@ -105,7 +96,6 @@ using Remark =
                  remark::FreeInputExplains, remark::CrosstalkMovesLambda, remark::DrivesOneGyro,
                  remark::StrongestLeft, remark::BeyondPrior, remark::OtherEquation,
                  remark::FieldAssumed, remark::NoiseOrEffect, remark::NoAdvice,
-                 remark::EquationByTurns, remark::StepJudged, remark::NoDeclaredNoise,
-                 remark::CommonDriftUnseen, remark::NotObservable>;
+                 remark::NoDeclaredNoise, remark::CommonDriftUnseen, remark::NotObservable>;
 
 }  // namespace drift::diagnosis

@@ -26,9 +26,10 @@ std::string part_of(const TermInfo& term, std::string_view axis) {
   return fmt::format("gyro {}", axis);
 }
 
-/// Distance of a found number from its prior's mean, in sigmas of the prior; 0 of what was
-/// profiled.
+/// Distance of a found number from its prior's mean, in sigmas of the prior, the library's where no
+/// other is known; 0 of what was profiled.
 double in_prior_sigmas(const search::CauseParameter& p) {
+  if (!p.profiled && std::isfinite(p.prior_sigmas)) return std::abs(p.prior_sigmas);
   const ParamSpec& spec = TermLibrary::specs[p.param];
   const double sigma = spec.prior.sigma();
   return p.profiled || !(sigma > 0.0) ? 0.0 : std::abs(p.value - spec.prior.mean()) / sigma;

@@ -83,7 +83,7 @@ struct Words {
       keys.emplace_back(TermLibrary::specs[param].key.view());
     return fmt::format(
         "The nominal fit takes {} up to {:.0f} sigmas from where their priors have them. If that "
-        "is not this platform, the study is not of this recording: check [site] latitude, axes and "
+        "is not this unit, the study is not of this recording: check [site] latitude, axes and "
         "commands of the plan, and the priors",
         listed_up_to(keys, most), r.farthest);
   }
@@ -95,12 +95,16 @@ struct Words {
           "The recording speaks for the nominal eq. ({}): fitted with eq. ({}) instead{}, twice "
           "the log of the odds changes by {:+.1f}",
           facts(r.nominal).number, other_number(r), with, r.gain);
+    constexpr std::string_view
+        on_a_case = "Turns about each axis of the case tell them apart",
+        on_a_platform =
+            "What tells lambda from the misalignments: slews about each platform axis, free "
+            "drift beside level positions, or turns of the case. In slews, cross-talk between the "
+            "torquing channels (torquer_crosstalk) looks like lambda";
     return fmt::format(
         "{}: fitted with the other{}, the test is explained as well (twice the log of the odds: "
-        "{:+.1f}). What tells lambda from the misalignments: slews about each platform axis, free "
-        "drift beside level positions, or turns of the case. In slews, cross-talk between the "
-        "torquing channels (torquer_crosstalk) looks like lambda",
-        cannot_tell_equations(r), with, r.gain);
+        "{:+.1f}). {}",
+        cannot_tell_equations(r), with, r.gain, r.of_case ? on_a_case : on_a_platform);
   }
 
   std::string operator()(const FieldAssumed& r) const {
@@ -123,29 +127,13 @@ struct Words {
     return fmt::format("No advice could be made: {}", r.reason);
   }
 
-  std::string operator()(const EquationByTurns& r) const {
-    return fmt::format(
-        "eq. (5) predicts held-out turns to {:.3g} deg, eq. (6) to {:.3g} deg ({:.1f} standard "
-        "errors): lambda is 0 and not 1. Between the two this recording gives it no number: case "
-        "motion shows (1 - lambda) E alone",
-        r.error_eq5, r.error_eq6, r.standard_errors);
-  }
-
-  std::string operator()(const StepJudged& r) const {
-    const std::string turns =
-        std::isfinite(r.gain_turns) ? fmt::format(", on turns {:.1f}", r.gain_turns) : "";
-    return fmt::format("{} {}: {} (gain on dwells {:.1f}{} standard errors)", r.label, r.verdict,
-                       r.reason, r.gain_dwells, turns);
-  }
-
   std::string operator()(const NoDeclaredNoise&) const {
-    return "a recording on a case declares no noise: residuals and chi-square are in units of the "
-           "scatter that the accepted model leaves";
+    return "a recording on a case declares no noise: what is called declared is the scatter within "
+           "its dwells";
   }
 
   std::string operator()(const CommonDriftUnseen&) const {
-    return "D_I is fitted with D_O and D_S and is left out of the causes: its common part is not "
-           "observable, and alone it improved nothing";
+    return "D_I_x, D_I_y and D_I_z are less their mean: their common part is not observable";
   }
 
   std::string operator()(const NotObservable& r) const {

@@ -113,11 +113,12 @@ std::string noise_text(const Diagnosis& d) {
                        : fmt::format(" The noise is not as declared: {}.", listed(parts, "and"));
 }
 
-std::string held_out_text(const HeldOut& held, bool several) {
+std::string held_out_text(const Diagnosis& d, bool several) {
+  const HeldOut& held = d.fit.held_out;
   if (held.folds.empty() && held.recordings.empty())
     return "nothing was held out of the fit to judge it";
-  return fmt::format("with {}, held-out positions are predicted {}", several ? "them" : "it",
-                     held.improves ? "better" : "no better");
+  return fmt::format("with {}, held-out {} are predicted {}", several ? "them" : "it",
+                     d.of_case ? "dwells" : "positions", held.improves ? "better" : "no better");
 }
 
 std::string ambiguous_text(const Diagnosis& d) {
@@ -128,7 +129,7 @@ std::string ambiguous_text(const Diagnosis& d) {
   if (all.empty()) return missing + ", and this plan cannot tell what.";
   if (all.size() == 1)
     return fmt::format("{}; it may be {}, but {}.", missing, together(d, all.front()),
-                       held_out_text(d.fit.held_out, all.front().size() > 1));
+                       held_out_text(d, all.front().size() > 1));
   std::vector<std::string> words;
   for (std::size_t k = 0; k < all.size(); ++k)
     words.push_back(fmt::format("({}) {}", k + 1, together(d, all[k])));
@@ -148,8 +149,8 @@ std::string verdict_alone(const Diagnosis& d) {
           p_text(d.p_value), noise);
     case Verdict::named:
       return fmt::format("{}; {} ({}).{}{}", lacking(d.causes),
-                         held_out_text(d.fit.held_out, d.causes.size() > 1), false_alarm,
-                         outside_twins_text(d), noise);
+                         held_out_text(d, d.causes.size() > 1), false_alarm, outside_twins_text(d),
+                         noise);
     case Verdict::ambiguous:
       return ambiguous_text(d) + outside_twins_text(d) + noise;
     case Verdict::unexplained:
@@ -163,18 +164,13 @@ std::string verdict_alone(const Diagnosis& d) {
       located_shape_text(d), noise);
 }
 
-/// Of a recording on a case.
-std::string case_sentence(const Diagnosis& d) {
-  if (d.causes.empty())
-    return fmt::format(
-        "Nothing is missing that predicts held-out dwells and turns better (noise alone shows as "
-        "much with a chance of {}).",
-        p_text(d.p_value));
+/// How a recording on a case is predicted, without the cause and with it.
+std::string errors_text(const Diagnosis& d) {
+  if (d.errors.empty() || !d.has_patch) return "";
   std::vector<std::string> numbers;
   for (const ErrorOfKind& k : d.errors)
     numbers.push_back(fmt::format("{} {:.3g} → {:.3g} {}", k.what, k.before, k.after, k.unit));
-  return fmt::format("{} (chance of a false alarm: {}); error on held-out data: {}.",
-                     lacking(d.causes), p_text(d.p_value), fmt::join(numbers, ", "));
+  return fmt::format(" Error on held-out data: {}.", fmt::join(numbers, ", "));
 }
 
 std::string nearest_text(const NearestKnown& near) {
@@ -220,7 +216,6 @@ std::string patch_text(const Diagnosis& d) {
       all.size(), odds, words);
 }
 std::string sentence(const Diagnosis& d) {
-  if (!d.errors.empty()) return case_sentence(d);
   if (d.site_doubt) return site_text(*d.site_doubt);
   std::string text = verdict_alone(d);
   if (d.nearest_known) text += nearest_text(*d.nearest_known);
@@ -229,6 +224,7 @@ std::string sentence(const Diagnosis& d) {
       if (const auto* other = std::get_if<remark::OtherEquation>(&r); other && other->open())
         text += fmt::format(" {}.", cannot_tell_equations(*other));
   text += unexamined_twins_text(d.not_examined);
+  text += errors_text(d);
   return text;
 }
 

@@ -12,10 +12,8 @@
 
 namespace drift::report {
 
-using nlohmann::json;
 using strapdown::CaseFit;
 using strapdown::CaseIdentification;
-using strapdown::Score;
 
 DRIFT_SECTIONS(CaseIdentification, case_sections, case_test, case_parameters, case_unobservable,
                case_held_out, case_noise);
@@ -31,40 +29,14 @@ std::string up_of(const strapdown::Dwell& dwell) {
                      std::asin(up[2]) / unit::deg.to_si);
 }
 
+/// What is said of North.
 std::string azimuth_sentence(const CaseIdentification& id) {
+  if (!id.study.compass.sees_earth)
+    return "The gyros do not see the Earth: of every turn it is told where up is before and after "
+           "it, and North is not known";
   return fmt::format(
       "The gyros see the Earth: North to {} deg (1 sigma), its rate taken from the latitude",
       number_text(id.study.compass.sigma / unit::deg.to_si, 2));
-}
-
-json to_json(const Score& score, const char* unit) {
-  return {{"unit", unit},
-          {"count", score.count},
-          {"in_sample", score.in_sample},
-          {"held_out", score.held_out},
-          {"held_out_95", {score.low, score.high}}};
-}
-
-json to_json(const CaseFit& fit) {
-  json parameters = json::array(), unobservable = json::array();
-  for (const auto& p : fit.parameters)
-    parameters.push_back({{"key", p.key},
-                          {"value", p.value},
-                          {"sigma", p.sigma},
-                          {"unit", p.unit},
-                          {"note", p.note}});
-  for (const auto& u : fit.unobservable)
-    unobservable.push_back({{"what", u.what}, {"reason", u.reason}});
-  json out{{"name", fit.name},
-           {"equation", key_of(fit.equation)},
-           {"chi2_per_dof", fit.fit.estimate.statistic_per_dof()},
-           {"converged", fit.fit.estimate.status == EstimateStatus::ok},
-           {"parameters", std::move(parameters)},
-           {"unobservable", std::move(unobservable)}};
-  if (fit.up.count > 0) out["rotations"] = to_json(fit.up, "deg");
-  if (fit.gyro.count > 0) out["dwells"] = to_json(fit.gyro, "deg/h");
-  if (fit.gravity.count > 0) out["gravity"] = to_json(fit.gravity, "g");
-  return out;
 }
 
 std::string estimates_csv(const CaseIdentification& id) {
@@ -74,6 +46,34 @@ std::string estimates_csv(const CaseIdentification& id) {
       out += fmt::format("{},{},{},{},{},{}\n", csv_of(fit.name), csv_of(p.key), csv_of(p.unit),
                          p.value, p.sigma, csv_of(p.note));
   return out;
+}
+
+/// Length and noise of a row at rest.
+std::string noise_sentence(const strapdown::CaseStudy& s) {
+  const std::string row = number_text(s.test.row, 3),
+                    acc = number_text(s.test.readout.accelerometer_noise / unit::ug.to_si, 3),
+                    gyro = number_text(s.test.readout.gimbal_noise / unit::deg_per_h.to_si, 3);
+  return s.compass.sees_earth
+             ? fmt::format(
+                   "in dwells rows of {} s: accelerometers {} ug, gyros {} deg/h (1 sigma, "
+                   "from their scatter)",
+                   row, acc, gyro)
+             : fmt::format(
+                   "halves of dwells of {} s: accelerometers {} ug; gyros, once in each "
+                   "dwell, {} deg/h (1 sigma, from how halves differ, and for the unknown "
+                   "North)",
+                   row, acc, gyro);
+}
+
+/// Dwells that are none to the gyros; empty: all are.
+std::string rest_sentence(const CaseIdentification& id) {
+  const auto held = std::ranges::count(id.study.test.still, false);
+  if (held == 0) return "";
+  return fmt::format(
+      "in {} of the dwells the unit did not stand still (its gyros scatter more than in the "
+      "others, "
+      "or its halves differ): there the gyros carry the attitude and gravity alone is measured",
+      held);
 }
 
 /// "x", or "x and y and 3 more".
@@ -93,10 +93,21 @@ bool misfits(const EstimateResult& e) {
   return e.statistic_per_dof() > 1.0 + 5.0 * std::sqrt(2.0 / static_cast<double>(e.measured));
 }
 
+std::string contest_sentence(const CaseIdentification& id) {
+  std::vector<std::string> errors;
+  for (const CaseFit& fit : id.fits)
+    errors.push_back(fmt::format("eq. ({}) {} deg", facts(fit.equation).number,
+                                 number_text(fit.up.held_out, 4)));
+  return fmt::format("Held-out turns: {} ({:.1f} standard errors in favour of eq. ({}))",
+                     fmt::join(errors, ", "), std::abs(id.eq5_gain), id.eq5_gain > 0.0 ? 5 : 6);
+}
+
 InBrief in_brief(const CaseIdentification& id) {
   const CaseFit& first = id.fits.front();
   const EstimateResult& estimate = first.fit.estimate;
-  const std::size_t all = estimate.parameters.size(), alone = all - first.unobservable.size();
+  const std::size_t all = estimate.parameters.size();
+  const auto alone = static_cast<std::size_t>(std::ranges::count_if(
+      first.parameters, [](const auto& p) { return TermLibrary::find(p.key).has_value(); }));
   const std::size_t sums = first.parameters.size() - alone;
   const std::string told =
       fmt::format("{} of {} parameters are learned{}", alone, all,
@@ -120,6 +131,7 @@ InBrief in_brief(const CaseIdentification& id) {
   brief.tone = misfits(estimate) ? Tone::bad : Tone::good;
   brief.more.push_back(azimuth_sentence(id) + ".");
   if (at_rest) brief.more.push_back("Up is " + up_of(dwells.front()) + ".");
+  if (std::isfinite(id.eq5_gain)) brief.more.push_back(contest_sentence(id) + ".");
   if (first.up.count > 0)
     brief.more.push_back(
         fmt::format("Up after a turn that was held out: {} deg off; gyros in "
@@ -135,37 +147,6 @@ InBrief in_brief(const CaseIdentification& id) {
 
 }  // namespace
 
-json to_json(const CaseIdentification& id, double gravity) {
-  json dwells = json::array(), fits = json::array();
-  for (const auto& d : id.study.search.dwells)
-    dwells.push_back({{"start_s", d.start},
-                      {"end_s", d.end},
-                      {"gyro_noise_deg_per_s", d.gyro_noise.norm() / unit::deg_per_s.to_si},
-                      {"acc_noise_g", d.acc_noise.norm()}});
-  for (const CaseFit& fit : id.fits) fits.push_back(to_json(fit));
-  json out{{"schema", 1},
-           {"kind", "strapdown"},
-           {"recording", id.study.source},
-           {"dwells", std::move(dwells)},
-           {"rotations",
-            {{"count", id.study.test.ways.size()}, {"omitted", id.study.test.ways_with_gap}}},
-           {"earth_seen", true},
-           {"azimuth_sigma_deg", id.study.compass.sigma / unit::deg.to_si},
-           {"folds", id.folds},
-           {"equations", nullptr},
-           {"noise", to_json(id.study.noise, gravity)},
-           {"parameters", fits.front()["parameters"]},
-           {"unobservable", fits.front()["unobservable"]},
-           {"filters", std::move(fits)}};
-  if (std::isfinite(id.eq5_gain)) {
-    json contest{{"z", id.eq5_gain}};
-    for (const CaseFit& fit : id.fits)
-      contest[fmt::format("{}_held_out_deg", key_of(fit.equation))] = fit.up.held_out;
-    out["equations"] = std::move(contest);
-  }
-  return out;
-}
-
 Section case_test(const CaseIdentification& id) {
   const auto& s = id.study;
   std::vector<std::string> found{
@@ -174,16 +155,14 @@ Section case_test(const CaseIdentification& id) {
                   s.test.ways_with_gap > 0
                       ? fmt::format(", {} left out for gaps", s.test.ways_with_gap)
                       : ""),
-      fmt::format("in dwells rows of {} s: accelerometers {} ug, gyros {} deg/h (1 sigma, from "
-                  "their scatter)",
-                  number_text(s.test.row, 3),
-                  number_text(s.test.readout.accelerometer_noise / unit::ug.to_si, 3),
-                  number_text(s.test.readout.gimbal_noise / unit::deg_per_h.to_si, 3)),
+      noise_sentence(s),
+      rest_sentence(id),
       azimuth_sentence(id),
       "in the first dwell up is " + up_of(s.search.dwells.front()),
       "the axes of the case are those of the accelerometers: dP_x, dO_x and dP_y are zero",
       "not in the model: lever arms of the accelerometers and a delay between them and the gyros; "
       "the accelerometers are read in dwells alone, where neither shows"};
+  std::erase(found, "");
   return {"Dwells and turns", {Sentences{std::move(found), ""}}};
 }
 
@@ -212,23 +191,21 @@ Section case_unobservable(const CaseIdentification& id) {
 }
 
 Section case_held_out(const CaseIdentification& id) {
-  if (id.folds == 0) return {};
-  Table t(
-      fmt::format("Root mean square errors on the data of the fit, and on dwells held out of it "
-                  "({} parts)",
-                  id.folds),
-      "<filter | <eq | up after a turn [deg] | held out | gyros [deg/h] | held out | gravity "
-      "[ug] | held out");
+  if (id.division.folds == 0) return {};
+  Table t(fmt::format(
+              "Root mean square errors on the data of the fit, and on dwells held out of it "
+              "({} parts{})",
+              id.division.folds,
+              id.division.repeats > 1 ? fmt::format(", {} divisions", id.division.repeats) : ""),
+          "<filter | <eq | up after a turn [deg] | held out | gyros [deg/h] | held out | gravity "
+          "[ug] | held out");
   for (const CaseFit& fit : id.fits)
     t.add({fit.name, std::string(key_of(fit.equation)), fit.up.in_sample, fit.up.held_out,
            fit.gyro.in_sample, fit.gyro.held_out, fit.gravity.in_sample / unit::ug.to_si,
            fit.gravity.held_out / unit::ug.to_si});
   Section section{"Held out", {t}};
   if (std::isfinite(id.eq5_gain))
-    section.blocks.emplace_back(
-        Sentences{{fmt::format("Held-out turns speak for eq. ({}) by {:.1f} standard errors",
-                               id.eq5_gain > 0.0 ? 5 : 6, std::abs(id.eq5_gain))},
-                  ""});
+    section.blocks.emplace_back(Sentences{{contest_sentence(id)}, ""});
   return section;
 }
 

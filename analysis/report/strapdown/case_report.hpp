@@ -8,8 +8,8 @@
 
 namespace drift::report {
 
-/// All that the identification of a unit whose gyros see the Earth has to say: tables,
-/// identification.json, estimates.csv and study.toml.
+/// All that the identification of a strapdown recording has to say: tables, identification.json,
+/// estimates.csv and study.toml.
 Report case_report(const mc::Study& study, const strapdown::CaseIdentification& id);
 
 /// identification.json, schema 1. A number that is not finite is null.

@@ -15,13 +15,4 @@ struct Estimate {
   bool converged = true;
 };
 
-/// Indices of the parameters of a group, "D_I" -> D_I_x, D_I_y, D_I_z.
-template <FixedString Group>
-std::vector<std::size_t> group() {
-  std::vector<std::size_t> indices;
-  for (std::size_t i = 0; i < TermLibrary::num_params; ++i)
-    if (TermLibrary::specs[i].group.view() == Group.view()) indices.push_back(i);
-  return indices;
-}
-
 }  // namespace drift::strapdown

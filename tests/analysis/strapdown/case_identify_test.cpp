@@ -84,7 +84,7 @@ TEST(CaseIdentify, FindsWhatPsinsMade) {
     expect_near(fit, key, truth, 4.0 * find(fit, key)->sigma);
   // The Earth left out would be 0.038 deg after a turn.
   EXPECT_LT(fit.up.held_out, 0.0038);
-  const diagnosis::Diagnosis d = diagnose_case(study, of);
+  const diagnosis::Diagnosis d = diagnose_case(study, identify_case(study, of));
   EXPECT_EQ(d.verdict, diagnosis::Verdict::consistent);
   EXPECT_GT(d.probabilities.consistent, 0.5);
 }
@@ -109,7 +109,7 @@ TEST(CaseIdentify, ARestSaysSumsAndNoMore) {
   ASSERT_NE(vertical, fit.parameters.end());
   EXPECT_NEAR(vertical->value, 0.1, 4.0 * vertical->sigma);
   EXPECT_LT(vertical->sigma, 0.05);
-  const diagnosis::Diagnosis d = diagnose_case(study, of);
+  const diagnosis::Diagnosis d = diagnose_case(study, identify_case(study, of));
   EXPECT_EQ(d.verdict, diagnosis::Verdict::consistent);
 }
 
@@ -121,7 +121,8 @@ TEST(CaseDiagnose, NamesScaleAndDriftThatAreLeftOut) {
   test::set(theta, "s_y", 300.0);
   for (const char* key : {"eta_x", "eta_y", "xi_y", "xi_z"}) test::set(theta, key, 60.0);
   const Recording recording = strapdown_recording(script(study, 12, 20.0), theta);
-  const diagnosis::Diagnosis d = diagnose_case(study, case_study(study, recording));
+  const diagnosis::Diagnosis d =
+      diagnose_case(study, identify_case(study, case_study(study, recording)));
   ASSERT_EQ(d.verdict, diagnosis::Verdict::named);
   ASSERT_EQ(d.causes.size(), 1u);
   EXPECT_EQ(d.causes[0].term, "torquer_scale");

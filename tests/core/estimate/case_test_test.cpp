@@ -200,6 +200,47 @@ TEST(CaseTest, OneWayAtATimeMakesAChainOfEach) {
   EXPECT_EQ(at_rest, 32u);  // two halves of each dwell
 }
 
+/// Held in the hand a unit does not rest to its gyros.
+TEST(CaseTest, InADwellThatIsNoRestTheGyrosCarryTheAttitude) {
+  test::StrapdownScript shaken = script(9);
+  shaken.dwells = 8;
+  Recording recording = strapdown_recording(shaken, sensors());
+  // The fourth dwell, from 84 s on: the gyros scatter ten times as much.
+  Stream hand(1, 0, Purpose::test, 5);
+  for (std::size_t k = 8400; k < 10400; ++k)
+    for (int a = 0; a < 3; ++a) recording.channels[1 + a].values[k] += 3e-5 * hand.normal();
+  const Signals signals = signals_of(recording);
+  const auto dwells = find_dwells(signals, {}).dwells;
+  ASSERT_EQ(dwells.size(), 8u);
+  const CaseTest t = lay_out_case(signals, dwells, site, Carry::one_way);
+  EXPECT_EQ(t.still, (std::vector<bool>{true, true, true, false, true, true, true, true}));
+  EXPECT_EQ(t.timeline.chains, 7);
+  std::size_t seen = 0;
+  for (std::size_t i = 0; i < t.timeline.intervals.size(); ++i) {
+    const Interval& row = t.timeline.intervals[i];
+    const auto column = static_cast<Eigen::Index>(i);
+    EXPECT_EQ(t.measured.acc.col(column).array().isFinite().all(), !row.slew);
+    if (row.position != 3 || row.slew) continue;
+    ++seen;
+    EXPECT_FALSE(row.rest);
+    EXPECT_FALSE(t.measured.gimbal.col(column).array().isFinite().any());
+  }
+  EXPECT_GE(seen, 16u);  // rows of a second
+}
+
+/// A gyro is read once in a dwell, and what its halves differ by is its noise, with the Earth's.
+TEST(CaseTest, TheNoiseOfAStillDwellIsThatOfItsHalves) {
+  const CaseTest t = [] {
+    const Signals signals = signals_of(strapdown_recording(script(10), sensors()));
+    return lay_out_case(signals, find_dwells(signals, {}).dwells, site, Carry::one_way);
+  }();
+  const double half = t.row / 0.01;  // samples
+  EXPECT_NEAR(t.readout.accelerometer_noise, 1e-4 / std::sqrt(half), 0.25e-4 / std::sqrt(half));
+  const double earth = std::sqrt(2.0 / 3.0) * site.omega_ie_l().head<2>().norm();
+  EXPECT_NEAR(t.readout.gimbal_noise, earth, 0.01 * earth);
+  EXPECT_EQ((t.measured.gimbal.array() == 0.0).count(), 3 * 16);
+}
+
 TEST(CaseTest, AGapOnTheWayBeginsANewChain) {
   Recording recording = strapdown_recording(script(6), sensors());
   // One second of the third way is lost.

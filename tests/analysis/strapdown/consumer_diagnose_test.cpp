@@ -1,0 +1,104 @@
+// What a recording on a case lacks in a model of bias and scale.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "analysis/report/diagnosis/remark_words.hpp"
+#include "analysis/report/diagnosis/report.hpp"
+#include "analysis/report/diagnosis/sentence.hpp"
+#include "analysis/strapdown/case_diagnose.hpp"
+#include "core/base/check.hpp"
+#include "tests/analysis/report/xml_check.hpp"
+#include "tests/support/program.hpp"
+#include "tests/support/strapdown_recording.hpp"
+
+namespace drift::strapdown::consumer_diagnose_test {
+namespace {
+
+using diagnosis::Diagnosis;
+using search::Cause;
+
+mc::Study nominal() {
+  return mc::read_study(std::string(DRIFT_SOURCE_DIR) + "/configs/diagnose_xsens.toml");
+}
+
+const Cause* cause(const Diagnosis& d, std::string_view term) {
+  const auto at = std::ranges::find(d.causes, term, &Cause::term);
+  return at == d.causes.end() ? nullptr : &*at;
+}
+
+/// A case with fixed drift and scale, and misalignment of some size [arcsec].
+Recording made(double size, std::uint64_t seed) {
+  Theta theta = Theta::Zero();
+  for (const char* key : {"D_F_x", "D_F_y", "D_F_z"}) test::set(theta, key, 900.0);
+  test::set(theta, "s_x", 4000.0);
+  test::set(theta, "eta_x", size);
+  test::set(theta, "xi_y", -size);
+  test::set(theta, "eta_z", 0.7 * size);
+  return test::strapdown_recording({.dwells = 20, .rest = 4.0, .seed = seed}, theta);
+}
+
+Diagnosis diagnosed(const mc::Study& study, const Recording& recording) {
+  return diagnose_case(study, identify_case(study, case_study(study, recording)));
+}
+
+TEST(ConsumerDiagnose, RecoversTheMisalignmentThatTheRecordingWasMadeWithAndWritesItDown) {
+  const Diagnosis d = diagnosed(nominal(), made(3000.0, 5));
+  EXPECT_EQ(d.verdict, diagnosis::Verdict::named) << report::sentence(d);
+  const Cause* c = cause(d, "gyro_misalignment");
+  ASSERT_NE(c, nullptr) << report::sentence(d);
+  EXPECT_EQ(d.causes.size(), 1u) << report::sentence(d);
+  for (const auto& p : c->parameters) {
+    const double truth = p.key == "eta_x"   ? 3000.0
+                         : p.key == "xi_y"  ? -3000.0
+                         : p.key == "eta_z" ? 2100.0
+                                            : 0.0;
+    EXPECT_NEAR(p.value, truth, 4.0 * p.sigma) << p.key;
+  }
+  double total = 0.0;
+  for (const auto& s : d.where.channels) total += s.share;
+  EXPECT_NEAR(total, 1.0, 1e-12);
+  ASSERT_EQ(d.errors.size(), 3u);
+  EXPECT_LT(d.errors[1].after, 0.5 * d.errors[1].before);
+  // Words of sensors on a case.
+  std::string words = report::sentence(d);
+  for (const auto& r : d.remarks) words += report::in_words(r) + "\n";
+  for (const char* of_a_platform : {"gimbal", "torqu", "platform axis", "held-out positions"})
+    EXPECT_EQ(words.find(of_a_platform), std::string::npos) << of_a_platform << "\n" << words;
+  for (const char* what : {"isotropic g-sensitivity", "Earth rate", "temperature", "azimuth"})
+    EXPECT_NE(words.find(what), std::string::npos) << what;
+
+  const test::ScratchFolder folder;
+  report::write_results(nominal(), d, {{"made"}, ""}, folder.file("out"));
+  const mc::Study again = mc::read_study(folder.file("out") + "/patched.toml");
+  EXPECT_EQ(again.filters.front().active, d.patched.active);
+  EXPECT_TRUE(again.filters.front().active[TermLibrary::index("eta_x")]);
+  EXPECT_EQ(again.kind, RecordingKind::strapdown);
+  const auto json = nlohmann::json::parse(report::to_json(d));
+  EXPECT_EQ(json["causes"][0]["term"], "gyro_misalignment");
+  EXPECT_TRUE(json["fit"]["in_sample"]["chi2_per_dof_before"].is_number());
+  EXPECT_EQ(testing::xml_problem(test::text_of(folder.file("out") + "/report.html"), {"meta"}),
+            std::nullopt);
+  // A nominal model that holds this is consistent with the recording.
+  EXPECT_EQ(diagnosed(again, made(3000.0, 5)).verdict, diagnosis::Verdict::consistent);
+}
+
+TEST(ConsumerDiagnose, NothingMissingIsConsistentAndANominalEq6IsFoundOut) {
+  EXPECT_EQ(diagnosed(nominal(), made(0.0, 6)).verdict, diagnosis::Verdict::consistent);
+  mc::Study six = nominal();
+  for (const char* group : {"eta", "xi"})
+    for (std::size_t p = 0; p < TermLibrary::num_params; ++p)
+      if (TermLibrary::specs[p].group.view() == group) {
+        six.filters.front().active.set(p);
+        six.filters.front().priors[p] = TermLibrary::specs[p].prior_si();
+      }
+  six.filters.front().coupling = Coupling::eq6;
+  const Diagnosis d = diagnosed(six, made(3000.0, 5));
+  ASSERT_NE(cause(d, "frame_closure"), nullptr) << report::sentence(d);
+  EXPECT_TRUE(cause(d, "frame_closure")->parameters.empty());
+  EXPECT_EQ(d.patched.coupling, Coupling::eq5);
+}
+
+}  // namespace
+}  // namespace drift::strapdown::consumer_diagnose_test
