@@ -11,6 +11,7 @@
 
 #include "bench/dense_ekf.hpp"
 #include "bench/linear_pass.hpp"
+#include "bench/repeated.hpp"
 #include "bench/rows.hpp"
 #include "core/estimate/sequential/ekf.hpp"
 #include "core/physics/parameters_config.hpp"
@@ -103,12 +104,6 @@ Problem make_problem(double sample) {
   }
   return p;
 }
-
-struct Timed {
-  double seconds = 0.0;
-  long allocated = 0;
-  MatX P;  ///< final covariance, attitude first
-};
 
 Timed run_structured(const Problem& p) {
   Covariance P(p.layout.size(), p.layout.num_rate, p.filter.initial_attitude);
@@ -206,22 +201,6 @@ void scale_attitude(const Problem& p, Timed& t) {
   t.P.topRows<3>() /= p.filter.initial_attitude;
   t.P.leftCols<3>() /= p.filter.initial_attitude;
 }
-
-/// The quickest of several, and how far their median is from it.
-struct Repeated {
-  Timed best;
-  std::vector<double> seconds;
-
-  void add(const Timed& now) {
-    if (seconds.empty() || now.seconds < best.seconds) best = now;
-    seconds.push_back(now.seconds);
-  }
-  double spread() const {
-    std::vector<double> sorted = seconds;
-    std::sort(sorted.begin(), sorted.end());
-    return sorted[sorted.size() / 2] / best.seconds;
-  }
-};
 
 void print_line(const char* name, const Timed& t, std::size_t steps, double reference) {
   fmt::print("{:<34}{:>12.0f}{:>12.3f}{:>12.2f}{:>12}\n", name,

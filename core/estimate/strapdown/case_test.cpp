@@ -36,10 +36,12 @@ Mat3 levelled(const Vec3& f_c, double azimuth) {
   return case_attitude(azimuth) * least;
 }
 
-/// Turn of the case from sample to sample: the trapezoid and coning, w_a x w_b dt^2 / 12.
-Vec3 turned(const Signals& s, std::size_t k) {
+/// Turn of the case from sample to sample: the trapezoid and coning, w_a x w_b dt^2 / 12. drift:
+/// what the gyros read at rest.
+Vec3 turned(const Signals& s, std::size_t k, const Vec3& drift) {
   const double dt = s.time[k] - s.time[k - 1];
-  return 0.5 * dt * (s.gyro[k - 1] + s.gyro[k]) + dt * dt / 12.0 * s.gyro[k - 1].cross(s.gyro[k]);
+  const Vec3 a = s.gyro[k - 1] - drift, b = s.gyro[k] - drift;
+  return 0.5 * dt * (a + b) + dt * dt / 12.0 * a.cross(b);
 }
 
 /// Sum of squares of rows about the mean of their dwell.
@@ -64,6 +66,7 @@ class Layout {
     test_.timeline.positions = static_cast<int>(dwells.size());
     test_.row = row_length(signals, dwells);
     if (carry == Carry::one_way) stillness_ = stillness_of(signals, dwells);
+    if (carry == Carry::one_way) drift_ = drift_at_rest();
     test_.still = carry == Carry::one_way ? stillness_.still : std::vector(dwells.size(), true);
   }
 
@@ -91,6 +94,17 @@ class Layout {
 
  private:
   enum class What { way, held };  ///< on the way to a dwell, or in one that is no rest
+
+  Vec3 drift_at_rest() const {
+    Vec3 sum = Vec3::Zero();
+    double still = 0.0;
+    for (std::size_t d = 0; d < dwells_.size(); ++d)
+      if (stillness_.still[d]) {
+        sum += dwells_[d].gyro;
+        still += 1.0;
+      }
+    return sum / still;
+  }
 
   void cage_next(std::size_t d) {
     const auto chain = static_cast<std::size_t>(test_.timeline.chains++);
@@ -133,16 +147,16 @@ class Layout {
     Vec3 sum = Vec3::Zero();
     std::size_t begin = at_;
     for (std::size_t k = at_ + 1; k <= last; ++k) {
-      R = R * rotation(turned(signals_, k));
-      sum += turned(signals_, k);
+      R = R * rotation(turned(signals_, k, drift_));
+      sum += turned(signals_, k, drift_);
       const double length = signals_.time[k] - signals_.time[begin];
-      if (k < last && has_room(R, sum, turned(signals_, k + 1), length)) continue;
+      if (k < last && has_room(R, sum, turned(signals_, k + 1, drift_), length)) continue;
       Interval i;
       i.t0 = signals_.time[begin];
       i.t1 = signals_.time[k];
       i.position = static_cast<int>(d);
       i.slew = what == What::way;
-      i.omega_cmd_p = rotation_vector(R) / length;
+      i.omega_cmd_p = rotation_vector(R) / length + drift_;
       if (what == What::held) i.samples = length / stillness_.half;
       add(i, what == What::way ? Vec3::Constant(nan_value) : mean_reading(signals_, begin, k).acc);
       R.setIdentity();
@@ -220,6 +234,9 @@ class Layout {
   std::vector<double> azimuth_;
   Stillness stillness_;  ///< of Carry::one_way
   CaseTest test_;
+  /// Taken out while samples are joined to rows, and put back: a drift of 20 deg/s would bend a row
+  /// of a second by more than any misalignment does.
+  Vec3 drift_ = Vec3::Zero();
   std::size_t at_ = 0;  ///< sample up to which the recording is laid out
   bool cage_ = false;   ///< the next row begins a chain
   std::vector<Vec3> acc_;
