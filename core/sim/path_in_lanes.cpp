@@ -1,5 +1,7 @@
 #include "core/sim/path_in_lanes.hpp"
 
+#include <limits>
+
 namespace drift {
 namespace {
 
@@ -187,7 +189,8 @@ double PathInLanes::round(std::size_t anchor) {
   double change = 0.0;
   integral([&](std::size_t k, const Vec3& sum) {
     const Vec3 psi = given + (sum - at_anchor);
-    change = std::max(change, (psi - psi_[k]).cwiseAbs().maxCoeff());
+    change = psi.allFinite() ? std::max(change, (psi - psi_[k]).cwiseAbs().maxCoeff())
+                             : std::numeric_limits<double>::infinity();
     psi_[k] = psi;
   });
   return change;

@@ -98,7 +98,7 @@ std::string count_of_drivers(const planning::ModelRanking& m) {
   std::ranges::stable_sort(counts, std::greater{}, &std::pair<std::string, std::size_t>::second);
   std::vector<std::string> parts;
   for (const auto& [word, n] : counts) parts.push_back(fmt::format("{} by {}", n, word));
-  return fmt::format("Of {} parameters are driven most: {}.", layout.size(),
+  return fmt::format("What drives the sigma most, of {} parameters: {}.", layout.size(),
                      fmt::join(parts, ", "));
 }
 

@@ -169,6 +169,7 @@ void Information::whiten(double* rows, std::size_t count) const {
 }
 
 double Information::variance_of(const double* t) {
+  if (n_ == 0) return 0.0;
   std::copy_n(t, n_, work_.data());
   std::fill_n(work_.data() + n_, width_ - n_, 0.0);
   whiten(work_.data(), 1);

@@ -82,6 +82,7 @@ IntervalRows::Taken IntervalRows::take(std::size_t i, const Vec3& acc, const Vec
   attitude_.propagate(Phi_m, sensitivity_.G[middle], Q_half);
   if (readout_.accelerometers && acc.array().isFinite().any()) {
     mean_output(interval, sensitivity_, mean_);
+    taken.ok = mean_.acc.allFinite();  // what is not finite in nu is what was not measured
     take_triple(accelerometers,
                 {acc - mean_.acc, mean_.H, &mean_.H_rate, &mean_.H_par, layout_.num_rate,
                  interval.accelerometer_noise(readout_.accelerometer_noise)},
@@ -96,6 +97,7 @@ IntervalRows::Taken IntervalRows::take(std::size_t i, const Vec3& acc, const Vec
         interval.rest ? predict_rest_rate(interval, timeline_, phi, sensitivity_)
                       : linearizer_.gimbals(timeline_, interval, phi[last],
                                             memory ? memory + 2 * last : nullptr);
+    taken.ok = taken.ok && predicted.angles.allFinite();
     Vec3 residual;
     for (int k = 0; k < 3; ++k) residual[k] = angle_difference(gimbal[k], predicted.angles[k]);
     take_triple(gimbals,

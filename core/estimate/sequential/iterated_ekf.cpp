@@ -32,7 +32,7 @@ IteratedEkf::IteratedEkf(const FilterSpec& filter, const Timeline& timeline, con
       reference_(timeline, rows_.model()),
       gated_(has_outliers(rows_.model().terms)),
       store_(IntervalRows::most * timeline.intervals.size() * rows_.width()),
-      channel_(IntervalRows::most / 3 * timeline.intervals.size()),
+      neighbours_(IntervalRows::most / 3 * timeline.intervals.size()),
       ends_(static_cast<std::size_t>(timeline.chains), rows_.attitude()),
       x_(rows_.layout().scaled(start)),
       x_start_(x_),
@@ -48,7 +48,7 @@ IteratedEkf::IteratedEkf(const FilterSpec& filter, const Timeline& timeline, con
 void IteratedEkf::run(const Measurements& measured, const Theta& start) {
   status_ = EstimateStatus::ok;
   cause_.clear();
-  t_diverged_ = 0.0;
+  t_diverged_ = nis_ = lag1_ = 0.0;
   if (!first_pass(measured, start)) return;
   constexpr int most_passes = 4;
   for (int pass = 0; pass < most_passes; ++pass) {
@@ -66,7 +66,12 @@ bool IteratedEkf::take(std::size_t i, const Measurements& measured, const Vec3* 
   const IntervalRows::Taken taken =
       rows_.take(i, measured.acc.col(column), measured.gimbal.col(column), path,
                  gated_ ? &gate : nullptr, into);
-  std::copy_n(taken.channel, taken.triples, &channel_[triples_]);
+  if (timeline_.intervals[i].cage) measured_last_[0] = measured_last_[1] = nothing_measured;
+  for (std::size_t k = 0; k < taken.triples; ++k) {
+    const IntervalRows::Channel channel = taken.channel[k];
+    neighbours_[triples_ + k] = {channel, measured_last_[channel] + 1 == i};
+    measured_last_[channel] = i;
+  }
   triples_ += taken.triples;
   scalars_ += taken.scalars;
   if (diverged(taken.ok, timeline_.intervals[i].t1, pass)) return false;
@@ -145,6 +150,7 @@ bool IteratedEkf::solve_block(const Interval& interval, Vec3& phi) {
     return false;
   AttitudeFilter& attitude = rows_.attitude();
   phi = turned(timeline_.nodes[interval.last_node()], attitude.attitude(step_), phi);
+  if (diverged(phi.allFinite(), interval.t1, Pass::first)) return false;
   attitude.move_reference(step_);
   theta_ = rows_.layout().theta_at(x_);
   rows_.set_theta(theta_);
@@ -155,6 +161,9 @@ bool IteratedEkf::linear_pass(const Measurements& measured) {
   x_reference_ = x_;
   theta_ = rows_.layout().theta_at(x_reference_);
   reference_.place(theta_);
+  for (const Interval& interval : timeline_.intervals)
+    if (diverged(reference_.nodes(interval)[0].allFinite(), interval.t0, Pass::linear))
+      return false;
   rows_.reset(theta_);
   triples_ = summed_ = scalars_ = 0;
   information_.clear();
@@ -246,8 +255,9 @@ void IteratedEkf::measure_lag() {
   const double* last[2] = {nullptr, nullptr};
   for (std::size_t k = 0; k < triples_; ++k) {
     const double* now = row(3 * k);
-    const double* before = std::exchange(last[channel_[k]], now);
-    for (std::size_t a = 0; before != nullptr && a < 3; ++a) {
+    const auto [channel, follows] = neighbours_[k];
+    const double* before = std::exchange(last[channel], now);
+    for (std::size_t a = 0; follows && a < 3; ++a) {
       const double *s = before + a * rows_.width(), *t = now + a * rows_.width();
       if (s[right] == 0.0 || t[right] == 0.0) continue;
       const Eigen::Map<const VecX> u(s, d.size()), v(t, d.size());

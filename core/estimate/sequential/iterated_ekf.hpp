@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 
 #include "core/estimate/estimate_result.hpp"
@@ -71,10 +72,18 @@ class IteratedEkf {
   PathInLanes lanes_;
   ReferencePath reference_;
   bool gated_;
-  std::vector<double> store_;                   ///< all rows of a pass
-  std::vector<IntervalRows::Channel> channel_;  ///< of each three of them
-  std::size_t triples_ = 0, summed_ = 0;        ///< rows by threes; summed up so far
-  std::vector<AttitudeFilter> ends_;            ///< at the end of each chain
+  std::vector<double> store_;  ///< all rows of a pass
+  /// Of three rows: their channel, and whether the interval before has some of it too.
+  struct Neighbour {
+    IntervalRows::Channel channel;
+    bool follows;
+  };
+  std::vector<Neighbour> neighbours_;
+  /// Never the interval before another one: one more is no index.
+  static constexpr std::size_t nothing_measured = std::numeric_limits<std::size_t>::max() - 1;
+  std::size_t measured_last_[2] = {nothing_measured, nothing_measured};  ///< interval, by channel
+  std::size_t triples_ = 0, summed_ = 0;  ///< rows by threes; summed up so far
+  std::vector<AttitudeFilter> ends_;      ///< at the end of each chain
   VecX x_, x_start_, x_reference_;
   VecX moved_;  ///< of the reference from the start; of the estimate from the reference
   VecX prior_, step_, nothing_;  ///< work
