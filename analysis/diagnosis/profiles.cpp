@@ -31,9 +31,9 @@ std::vector<double> held_values(const search::CauseParameter& p) {
   if (p.param == closure_param) values.insert(values.end(), {0.0, 1.0});
   std::ranges::sort(values);
   const double least = 1e-6 * p.sigma * unit;
-  const auto same =
-      std::ranges::unique(values, [&](double a, double b) { return std::abs(a - b) <= least; });
-  values.erase(same.begin(), same.end());
+  // Not std::ranges::unique: its subrange is beyond clang 14.
+  const auto same = [&](double a, double b) { return std::abs(a - b) <= least; };
+  values.erase(std::unique(values.begin(), values.end(), same), values.end());
   return values;
 }
 
