@@ -44,7 +44,8 @@ std::optional<inference::NoiseEstimate> noise_beside_equation(const FilterSpec& 
            static_cast<double>(std::max<std::size_t>(1, f.estimate.measured));
   };
   if (per_dof(fit) < NoiseLimits::evident) return std::nullopt;
-  const BatchResult with_other = fit_batch(other, test, theta_of(nominal, fit));
+  const BatchResult with_other = fit_batch_from(other, test, theta_of(nominal, fit), fit.psi0_l,
+                                                {.result = BatchOptions::Result::estimates});
   if (per_dof(fit) - per_dof(with_other) < NoiseLimits::other_equation * (per_dof(fit) - 1.0))
     return std::nullopt;
   const inference::LinearProblem problem = inference::linear_problem(nominal, test, fit, {});

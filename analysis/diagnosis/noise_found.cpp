@@ -32,7 +32,7 @@ std::optional<remark::DrivesOneGyro> noise_of_one_axis(const search::Fitted& nom
     return std::nullopt;
   const inference::LinearProblem bare = nominal.problem.bare();
   const auto value = [&](const inference::NoiseModel& m) {
-    return inference::Projector(bare, m).marginal().log_likelihood2();
+    return inference::marginal_of(bare, m).log_likelihood2();
   };
   const double together = value(all);
   remark::DrivesOneGyro best{-1, 0.0};

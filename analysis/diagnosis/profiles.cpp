@@ -102,8 +102,7 @@ std::vector<Profile> profiles_of(const search::Search& found, const MeasuredTest
   const auto losses = mc::run_campaign(holds.size(), [&](std::size_t k) {
     const Hold& hold = holds[k];
     const search::Fitted& after = hold.model->after;
-    return hold.penalty - equation::fit_held(hold.model->filter, test,
-                                             theta_of(hold.model->filter, after.fit),
+    return hold.penalty - equation::fit_held(hold.model->filter, test, after.fit,
                                              profiles[hold.profile].param, hold.value,
                                              after.problem.weight, after.noise.model)
                               .log2;

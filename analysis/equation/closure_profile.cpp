@@ -18,7 +18,7 @@ class Profiler {
            const VecX& weight, const inference::NoiseModel& noise)
       : filter_(filter),
         test_(test),
-        start_(theta_of(filter, joint)),
+        joint_(joint),
         weight_(weight),
         noise_(noise),
         prior_(filter.priors[closure_param]) {}
@@ -29,7 +29,7 @@ class Profiler {
 
  private:
   Point point(double value) const {
-    Point p = fit_held(filter_, test_, start_, closure_param, value, weight_, noise_);
+    Point p = fit_held(filter_, test_, joint_, closure_param, value, weight_, noise_);
     const double sigma = prior_.sigma();
     if (sigma > 0.0) p.log2 -= std::pow((value - prior_.mean()) / sigma, 2);
     return p;
@@ -37,7 +37,7 @@ class Profiler {
 
   const FilterSpec& filter_;
   const MeasuredTest& test_;
-  Theta start_;
+  const BatchResult& joint_;
   const VecX& weight_;
   const inference::NoiseModel& noise_;
   Prior prior_;

@@ -5,7 +5,6 @@
 #include <atomic>
 #include <cmath>
 
-#include "analysis/equation/fit_either_equation.hpp"
 #include "analysis/preparation/prepare.hpp"
 #include "analysis/preparation/recorded_test.hpp"
 #include "core/base/check.hpp"
@@ -43,7 +42,7 @@ FilterRun estimate(const mc::Study& study, const Job& job, const Timeline& timel
   run.filter = job.filter;
   run.start = job.start;
   run.ekf = run_ekf(filter, {timeline, study.readout, measured}, start, &run.history);
-  run.batch = equation::fit_either_equation(filter, {timeline, study.readout, measured}, start);
+  run.batch = fit_batch(filter, {timeline, study.readout, measured}, start);
   return run;
 }
 
@@ -83,7 +82,7 @@ FilterRun estimate_in_the_loop(const mc::Study& study, const Job& job, Timeline 
   run.start = job.start;
   run.ekf = ekf.result();
   run.history = ekf.history();
-  run.batch = equation::fit_either_equation(filter, {timeline, study.readout, sim.measured}, start);
+  run.batch = fit_batch(filter, {timeline, study.readout, sim.measured}, start);
   return run;
 }
 

@@ -14,6 +14,10 @@ struct Marginal {
   double log_likelihood2() const { return -chi2 - log_det; }
 };
 
+/// with: candidates whose columns are parameters too, a ~ N(0, I).
+Marginal marginal_of(const LinearProblem& problem, const NoiseModel& noise,
+                     const std::vector<int>& with = {});
+
 /// Everything the data say of candidates once the nominal parameters are fitted (discovery.md 2.2):
 /// g ~ N(C a, C) for candidate amplitudes a in prior sigmas, the parameters marginalised with their
 /// prior.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/sim/path_in_lanes.hpp"
+
 namespace drift::inference {
 namespace {
 
@@ -80,7 +82,7 @@ MatX signature_columns(const FilterSpec& nominal, const MeasuredTest& test, cons
       MatX::Zero(static_cast<Eigen::Index>(tags.size()), static_cast<Eigen::Index>(specs.size()));
   if (specs.empty()) return out;
   const Theta theta = theta_of(nominal, fit);
-  const Trajectory phi = integrate_fixed(test.timeline, nominal.model(), theta, fit.psi0_l);
+  const Trajectory phi = integrate(test.timeline, nominal.model(), theta, fit.psi0_l);
   std::vector<bool> done(specs.size(), false);
   for (std::size_t first = 0; first < specs.size(); ++first) {
     if (done[first]) continue;
@@ -109,13 +111,11 @@ MatX signature_columns(const FilterSpec& nominal, const MeasuredTest& test, cons
                                              nominal.initial_attitude);
     Eigen::Index next = 0;
     for (std::size_t c = 0; c < parts.size(); ++c) {
-      Eigen::Index count = 0;
-      for (const RowTag& t : tags)
-        count += test.timeline.intervals[t.interval].chain == static_cast<int>(c);
+      const Eigen::Index count = parts[c].rows.rows();
       for (const SignatureSpec* s : group) {
         const auto place =
             std::find(small.params.begin(), small.params.end(), s->param) - small.params.begin();
-        out.col(s - specs.data()).segment(next, count) = parts[c].rows.col(3 + place).head(count);
+        out.col(s - specs.data()).segment(next, count) = parts[c].rows.col(3 + place);
       }
       next += count;
     }
@@ -138,7 +138,7 @@ LinearProblem linear_problem(const FilterSpec& nominal, const MeasuredTest& test
   const Layout layout = make_layout(nominal);
   const auto n = static_cast<Eigen::Index>(layout.size());
   const Theta theta = theta_of(nominal, fit);
-  const Trajectory phi = integrate_fixed(test.timeline, model, theta, fit.psi0_l);
+  const Trajectory phi = integrate(test.timeline, model, theta, fit.psi0_l);
 
   out.psi.resize(rows, 3);
   out.theta.resize(rows, n);
@@ -149,15 +149,11 @@ LinearProblem linear_problem(const FilterSpec& nominal, const MeasuredTest& test
       measurement_equations(test, model, layout, theta, phi, nominal.initial_attitude);
   for (std::size_t c = 0; c < chains.size(); ++c) {
     const MatX& e = chains[c].rows;
-    // Channels that are not read leave zero rows at the end.
-    Eigen::Index count = 0;
-    for (const RowTag& t : out.tags)
-      count += test.timeline.intervals[t.interval].chain == static_cast<int>(c);
-    out.psi.middleRows(next, count) = e.topLeftCorner(count, 3);
-    out.theta.middleRows(next, count) = e.block(0, 3, count, n);
-    out.r0.segment(next, count) =
-        e.col(3 + n).head(count) + e.block(0, 3, count, n) * x +
-        e.topLeftCorner(count, 3) * (fit.psi0_l[c] / nominal.initial_attitude);
+    const Eigen::Index count = e.rows();
+    out.psi.middleRows(next, count) = e.leftCols<3>();
+    out.theta.middleRows(next, count) = e.middleCols(3, n);
+    out.r0.segment(next, count) = e.col(3 + n) + e.middleCols(3, n) * x +
+                                  e.leftCols<3>() * (fit.psi0_l[c] / nominal.initial_attitude);
     next += count;
   }
 

@@ -51,43 +51,69 @@ void Whitener::move(const Event& event, RowMajor& x) const {
   x.bottomRows(others).array().colwise() *= event.decay.array();
 }
 
-template <class Row>
-MatX Whitener::run(MatX columns, Eigen::Index first, Row&& row) const {
-  constexpr Eigen::Index at_once = 64;  // columns: row by row they stay in the cache
-  for (Eigen::Index start = 0; start < columns.cols(); start += at_once) {
-    auto some = columns.middleCols(start, std::min(at_once, columns.cols() - start));
-    RowMajor part = some;
-    RowMajor x = RowMajor::Zero(states_, part.cols());  // state estimate of every column
-    auto event = events_.begin();
-    while (event != events_.end() && event->row < first) ++event;
-    for (Eigen::Index r = 0; r < part.rows(); ++r) {
-      for (; event != events_.end() && event->row == first + r; ++event) move(*event, x);
-      row(part.row(r), first + r, x);
+template <class Row, class Done>
+void Whitener::run(const Eigen::Ref<const MatX>& columns, Eigen::Index first, Row&& row,
+                   Done&& done) const {
+  constexpr Eigen::Index at_once = 64;                   // rows: they stay in the cache
+  RowMajor x = RowMajor::Zero(states_, columns.cols());  // state estimate of every column
+  RowMajor part(std::min(at_once, columns.rows()), columns.cols());
+  auto event = events_.begin();
+  while (event != events_.end() && event->row < first) ++event;
+  for (Eigen::Index start = 0; start < columns.rows(); start += at_once) {
+    const Eigen::Index count = std::min(at_once, columns.rows() - start);
+    part.topRows(count) = columns.middleRows(start, count);
+    for (Eigen::Index r = 0; r < count; ++r) {
+      const Eigen::Index k = first + start + r;
+      for (; event != events_.end() && event->row == k; ++event) move(*event, x);
+      row(part.row(r), k, x);
     }
-    some = part;
+    done(part.topRows(count), start);
   }
-  return columns;
+}
+
+void Whitener::whiten_row(Eigen::Block<RowMajor, 1, Eigen::Dynamic, true> e, Eigen::Index k,
+                          RowMajor& x) const {
+  for (int m = 0; m < states_; ++m)
+    if (H_(m, k) != 0.0) e -= H_(m, k) * x.row(m);
+  for (int m = 0; m < states_; ++m)
+    if (gain_(m, k) != 0.0) x.row(m) += gain_(m, k) * e;
+  e /= root_[k];
 }
 
 MatX Whitener::apply(MatX columns, Eigen::Index first) const {
-  return run(std::move(columns), first, [&](auto e, Eigen::Index k, RowMajor& x) {
-    for (int m = 0; m < states_; ++m)
-      if (H_(m, k) != 0.0) e -= H_(m, k) * x.row(m);
-    for (int m = 0; m < states_; ++m)
-      if (gain_(m, k) != 0.0) x.row(m) += gain_(m, k) * e;
-    e /= root_[k];
-  });
+  run(
+      columns, first, [&](auto e, Eigen::Index k, RowMajor& x) { whiten_row(e, k, x); },
+      [&](const auto& white, Eigen::Index start) {
+        columns.middleRows(start, white.rows()) = white;
+      });
+  return columns;
+}
+
+MatX Whitener::products(const MatX& columns) const {
+  MatX sum = MatX::Zero(columns.cols(), columns.cols());
+  run(
+      columns, 0, [&](auto e, Eigen::Index k, RowMajor& x) { whiten_row(e, k, x); },
+      [&](const auto& white, Eigen::Index) {
+        sum.selfadjointView<Eigen::Lower>().rankUpdate(white.transpose());
+      });
+  return sum;
 }
 
 MatX Whitener::colour(MatX white) const {
-  return run(std::move(white), 0, [&](auto y, Eigen::Index k, RowMajor& x) {
-    y *= root_[k];
-    const Eigen::RowVectorXd innovation = y;
-    for (int m = 0; m < states_; ++m)
-      if (H_(m, k) != 0.0) y += H_(m, k) * x.row(m);
-    for (int m = 0; m < states_; ++m)
-      if (gain_(m, k) != 0.0) x.row(m) += gain_(m, k) * innovation;
-  });
+  run(
+      white, 0,
+      [&](auto y, Eigen::Index k, RowMajor& x) {
+        y *= root_[k];
+        const Eigen::RowVectorXd innovation = y;
+        for (int m = 0; m < states_; ++m)
+          if (H_(m, k) != 0.0) y += H_(m, k) * x.row(m);
+        for (int m = 0; m < states_; ++m)
+          if (gain_(m, k) != 0.0) x.row(m) += gain_(m, k) * innovation;
+      },
+      [&](const auto& coloured, Eigen::Index start) {
+        white.middleRows(start, coloured.rows()) = coloured;
+      });
+  return white;
 }
 
 }  // namespace drift::inference

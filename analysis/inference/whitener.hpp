@@ -18,6 +18,9 @@ class Whitener {
 
   /// Whitens columns that stand for rows first, first + 1, ...; before `first` they are zero.
   MatX apply(MatX columns, Eigen::Index first = 0) const;
+  /// Products of all whitened columns with each other, lower triangle; the columns themselves are
+  /// not kept.
+  MatX products(const MatX& columns) const;
   /// The way back: unit white columns become noise with this covariance, attitude at its prior
   /// included.
   MatX colour(MatX white) const;
@@ -34,9 +37,12 @@ class Whitener {
     VecX decay;
   };
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  /// Lets columns run through the filter: each row, and the state in front of it, is handed over.
-  template <class Row>
-  MatX run(MatX columns, Eigen::Index first, Row&& row) const;
+  /// Lets columns run through the filter: each row, and the state in front of it, is handed to
+  /// `row`; some rows that are done, and the number of the first, to `done`.
+  template <class Row, class Done>
+  void run(const Eigen::Ref<const MatX>& columns, Eigen::Index first, Row&& row, Done&& done) const;
+  void whiten_row(Eigen::Block<RowMajor, 1, Eigen::Dynamic, true> e, Eigen::Index k,
+                  RowMajor& x) const;
   void move(const Event& event, RowMajor& x) const;
 
   int states_ = 3;

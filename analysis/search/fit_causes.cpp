@@ -74,20 +74,29 @@ Expectation expect(const Fitted& nominal, const std::vector<Choice>& choices) {
   return out;
 }
 
-/// lambda and the misalignments are bilinear, a narrow bent valley: from both equations, fitted
-/// first, from the nominal fit and, as that may be far off, from the prior.
-std::vector<BatchResult> fits_from_both_ends(const Fitted& nominal, const FilterSpec& filter,
-                                             const MeasuredTest& test) {
-  const Theta theta = theta_of(nominal.filter, nominal.fit);
-  return mc::run_campaign(4, [&](std::size_t k) {
+/// With lambda among the causes the cost may have several valleys: from the better fit at each of
+/// both equations, of those from the nominal fit and, as that may be far off, from the prior.
+BatchResult fit_from_both_ends(const Fitted& nominal, const FilterSpec& filter,
+                               const MeasuredTest& test, const Theta& expected) {
+  const Theta starts[2] = {expected, make_layout(filter).theta};
+  const auto at_ends = mc::run_campaign(4, [&](std::size_t k) {
     const double end = static_cast<double>(k % 2);
     FilterSpec held = filter;
     held.priors[closure_param] = fixed(end);
-    Theta from = k < 2 ? theta : make_layout(nominal.filter).theta;
+    Theta from = starts[k / 2];
     from[closure_param] = end;
-    const BatchResult first = fit_batch(held, test, from);
-    return fit_batch(filter, test, theta_of(held, first));
+    BatchResult fit = fit_batch_from(held, test, from, nominal.fit.psi0_l,
+                                     {.result = BatchOptions::Result::estimates});
+    return std::pair(theta_of(held, fit), std::move(fit));
   });
+  auto fits = mc::run_campaign(2, [&](std::size_t end) {
+    const bool prior =
+        at_ends[end + 2].second.estimate.statistic < at_ends[end].second.estimate.statistic;
+    const auto& [theta, fit] = at_ends[prior ? end + 2 : end];
+    return fit_batch_from(filter, test, theta, fit.psi0_l);
+  });
+  return std::move(*std::ranges::min_element(
+      fits, {}, [](const BatchResult& f) { return f.estimate.statistic; }));
 }
 
 }  // namespace
@@ -96,17 +105,20 @@ CauseFit fit_causes(const Fitted& nominal, const MeasuredTest& test,
                     const std::vector<Choice>& choices) {
   CauseFit out{
       with_causes(nominal.filter, nominal.set, choices), {}, expect(nominal, choices), 0.0};
-  const auto fit_from = [&](const Theta& from) { return fit_batch(out.filter, test, from); };
-  out.fit = fit_from(out.expected.theta);
-  if (!out.expected.lambda_among_them) return out;
-  for (BatchResult& other : fits_from_both_ends(nominal, out.filter, test))
-    if (other.estimate.statistic < out.fit.estimate.statistic) out.fit = std::move(other);
+  const auto fit_from = [&](const Theta& from, const BatchResult& beside) {
+    return fit_batch_from(out.filter, test, from, beside.psi0_l);
+  };
+  if (!out.expected.lambda_among_them) {
+    out.fit = fit_from(out.expected.theta, nominal.fit);
+    return out;
+  }
+  out.fit = fit_from_both_ends(nominal, out.filter, test, out.expected.theta);
   if (const auto profile = equation::profile_closure(out.filter, test, out.fit,
                                                      nominal.problem.weight, nominal.noise.model)) {
     out.narrowed =
         std::max(0.0, std::log(out.filter.priors[closure_param].sigma() / profile->sigma));
     out.filter.priors[closure_param] = normal(profile->value, profile->sigma);
-    out.fit = fit_from(theta_of(out.filter, profile->fit));
+    out.fit = fit_from(theta_of(out.filter, profile->fit), profile->fit);
   }
   return out;
 }

@@ -38,12 +38,11 @@ std::optional<OtherEquation> fit_other_equation(const Fitted& nominal, const Mea
   out.filter.coupling = *facts(nominal.filter.coupling).other;
   const auto here = theta_of(nominal.filter, nominal.fit);
   for (const Theta& start : {here, make_layout(out.filter).theta}) {
-    BatchResult fit = fit_batch(out.filter, test, start);
+    BatchResult fit = fit_batch_from(out.filter, test, start, nominal.fit.psi0_l);
     inference::LinearProblem problem = inference::linear_problem(out.filter, test, fit, {});
     problem.weight = nominal.problem.weight;
-    const double gain =
-        inference::Projector(problem, nominal.noise.model).marginal().log_likelihood2() -
-        nominal.log_likelihood2();
+    const double gain = inference::marginal_of(problem, nominal.noise.model).log_likelihood2() -
+                        nominal.log_likelihood2();
     if (gain > out.gain) {
       out.gain = gain;
       out.fit = std::move(fit);

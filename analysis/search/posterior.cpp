@@ -29,8 +29,7 @@ struct ByNoise {
 
 ByNoise by_noise(const Fitted& f, const inference::NoiseModel& declared) {
   const double rows = static_cast<double>(f.problem.rows());
-  const double with_declared =
-      0.5 * inference::Projector(f.problem.bare(), declared).marginal().log_likelihood2();
+  const double with_declared = 0.5 * inference::marginal_of(f.problem, declared).log_likelihood2();
   const double price = 0.5 * std::log(rows) * static_cast<double>(f.noise.findings.size());
   return {std::log(PosteriorLimits::noise_as_declared) + with_declared,
           std::log(1.0 - PosteriorLimits::noise_as_declared) + 0.5 * f.log_likelihood2() - price};

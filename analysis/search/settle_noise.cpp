@@ -17,7 +17,7 @@ using inference::NoiseDoubtLimits;
 double price(const inference::LinearProblem& problem, const inference::NoiseModel& noise,
              const std::vector<int>& columns) {
   const auto log_det = [&](const inference::LinearProblem& p) {
-    return inference::Projector(p.bare(), noise).marginal().log_det;
+    return inference::marginal_of(p, noise).log_det;
   };
   return log_det(problem.with_mean(columns)) - log_det(problem);
 }

@@ -4,27 +4,13 @@
 
 #include <cmath>
 #include <limits>
-#include <optional>
 
-#include "core/base/decompose.hpp"
-#include "core/estimate/batch_equations.hpp"
-#include "core/estimate/normal_equations.hpp"
-#include "core/estimate/random_walk.hpp"
+#include "core/estimate/descent.hpp"
 #include "core/estimate/triangle.hpp"
 #include "core/physics/stochastic.hpp"
 #include "core/sim/predict.hpp"
 
 namespace drift {
-namespace {
-
-/// Data cost of the last column of each chain.
-double data_cost(const std::vector<ChainEquations>& chains) {
-  double cost = 0.0;
-  for (const auto& c : chains) cost += c.rows.rightCols<1>().squaredNorm();
-  return cost;
-}
-
-}  // namespace
 
 Theta theta_of(const FilterSpec& filter, const BatchResult& fit) {
   Theta theta = make_layout(filter).theta;
@@ -34,145 +20,26 @@ Theta theta_of(const FilterSpec& filter, const BatchResult& fit) {
 
 namespace {
 
-/// A test linearised at one point.
-struct Evaluation {
-  VecX x;                 ///< scaled parameters
-  std::vector<Vec3> psi;  ///< attitude errors, scaled by their prior sigma
-  std::vector<ChainEquations> rows;
-  double cost = 0.0;  ///< data + prior
-};
+/// What is known of where a fit begins.
+enum class Known { parameters, attitudes_too };
 
-/// A filter's model and a test.
-class BatchProblem {
- public:
-  BatchProblem(const FilterSpec& filter, const MeasuredTest& test)
-      : test_(test),
-        model_(filter.model()),
-        layout_(make_layout(filter)),
-        sigma_psi_(filter.initial_attitude),
-        angle_random_walk_(filter.noise.angle_random_walk) {}
-
-  const MeasuredTest& test() const { return test_; }
-  const Layout& layout() const { return layout_; }
-  bool walks() const { return angle_random_walk_ > 0.0; }
-
-  /// Attitude errors in radians.
-  std::vector<Vec3> unscaled(const std::vector<Vec3>& psi) const {
-    std::vector<Vec3> psi_l;
-    for (const Vec3& p : psi) psi_l.push_back(sigma_psi_ * p);
-    return psi_l;
-  }
-
-  /// With angle random walk: the cost of what evaluate() returns is that of the point at which the
-  /// rows were made white last, here.
-  void whiten_at(const VecX& x, const std::vector<Vec3>& psi) {
-    if (!walks()) return;
-    const Theta theta = layout_.theta_at(x);
-    const Trajectory phi = integrate_fixed(test_.timeline, model_, theta, unscaled(psi));
-    white_at_ =
-        attitude_columns(measurement_equations(test_, model_, layout_, theta, phi, sigma_psi_));
-  }
-
-  Evaluation evaluate(VecX x, std::vector<Vec3> psi) const {
-    const Theta theta = layout_.theta_at(x);
-    const Trajectory phi = integrate_fixed(test_.timeline, model_, theta, unscaled(psi));
-    Evaluation e{std::move(x), std::move(psi),
-                 measurement_equations(test_, model_, layout_, theta, phi, sigma_psi_), 0.0};
-    if (walks()) whiten_random_walk(test_, angle_random_walk_ / sigma_psi_, white_at_, e.rows);
-    e.cost = data_cost(e.rows) + e.x.squaredNorm();
-    for (const Vec3& p : e.psi) e.cost += p.squaredNorm();
-    if (!std::isfinite(e.cost)) e.cost = std::numeric_limits<double>::infinity();
-    return e;
-  }
-
- private:
-  MeasuredTest test_;
-  DriftModel model_;
-  Layout layout_;
-  double sigma_psi_;
-  double angle_random_walk_;
-  std::vector<MatX> white_at_;
-};
-
-BatchEquations compressed(const Evaluation& e) {
-  BatchEquations out{{}, e.psi, e.x};
-  for (const auto& c : e.rows) out.chains.push_back(triangle(c.rows));
-  return out;
-}
-
-/// Where the descent ended.
-struct Minimum {
-  Evaluation at;
-  int iterations = 0;
-  bool converged = false;
-};
-
-/// The linear problem at an evaluation: its normal equations where they are good enough for a step,
-/// triangles where they are not.
-class StepSolver {
- public:
-  explicit StepSolver(const Evaluation& e) : normal_(e.rows, e.psi, e.x) {
-    // What a step leaves undone for rounding is met again at the next evaluation, whose residuals
-    // and gradient are exact: a thousandth each time.
-    constexpr double of_the_prior = 1e-3;
-    if (!normal_.good_to(of_the_prior)) triangles_ = compressed(e);
-  }
-  BatchEquations::Step solve(double mu) const {
-    return triangles_ ? triangles_->solve(mu) : normal_.solve(mu);
-  }
-
- private:
-  NormalEquations normal_;
-  std::optional<BatchEquations> triangles_;
-};
-
-/// Levenberg-Marquardt.
-Minimum descend(const BatchProblem& problem, VecX x, std::vector<Vec3> psi,
-                const BatchOptions& options) {
-  const double standing_still = options.tolerance * options.tolerance;
-  Minimum now{problem.evaluate(std::move(x), std::move(psi)), 0, false};
-  double mu = 1e-3;
-  int still = 0;  // iterations in a row that hardly lowered the cost
-  for (; now.iterations < options.max_iterations && !now.converged; ++now.iterations) {
-    const StepSolver solver(now.at);
-    bool improved = false;
-    double smallest_change = std::numeric_limits<double>::infinity();
-    for (int tries = 0; tries < 20 && !improved; ++tries) {
-      const BatchEquations::Step step = solver.solve(mu);
-      std::vector<Vec3> moved = now.at.psi;
-      for (std::size_t c = 0; c < moved.size(); ++c) moved[c] += step.dpsi[c];
-      Evaluation next = problem.evaluate(now.at.x + step.dx, std::move(moved));
-      // The last steps change the cost by rounding only: accept them as standing still.
-      improved = next.cost <= now.at.cost * (1.0 + 1e-12);
-      if (!improved) {
-        smallest_change = std::min(smallest_change, next.cost - now.at.cost);
-        mu *= 10.0;
-        continue;
-      }
-      still = now.at.cost - next.cost < standing_still ? still + 1 : 0;
-      // Small steps may be damping's doing; where they stay so, the cost has a kink (the onset of a
-      // step that crosses a sample) and lies in it.
-      now.converged = still > 0 && (mu < 1e-2 || still == 3);
-      now.at = std::move(next);
-      mu = std::max(mu * 0.1, 1e-12);
-    }
-    if (!improved) {  // at the minimum, up to rounding of the cost
-      now.converged = smallest_change < standing_still;
-      break;
-    }
-  }
-  return now;
+Minimum descend_from(BatchProblem& problem, const VecX& x, const std::vector<Vec3>& psi,
+                     Known known, const BatchOptions& options) {
+  const auto multiplier = problem.multiplier();
+  if (!multiplier) return descend(problem, x, psi, options);
+  std::vector<double> beside;
+  if (known == Known::parameters) beside = problem.both_equations();
+  return descend_along(problem, x, psi, *multiplier, beside, options);
 }
 
 /// With angle random walk the rows are made white once more where the first descent has ended.
-Minimum minimum_from(BatchProblem& problem, const VecX& start, const BatchOptions& options) {
-  const std::vector<Vec3> nominal(static_cast<std::size_t>(problem.test().timeline.chains),
-                                  Vec3::Zero());
-  problem.whiten_at(start, nominal);
-  Minimum first = descend(problem, start, nominal, options);
+Minimum minimum_from(BatchProblem& problem, const VecX& x, const std::vector<Vec3>& psi,
+                     Known known, const BatchOptions& options) {
+  problem.whiten_at(x, psi);
+  Minimum first = descend_from(problem, x, psi, known, options);
   if (!problem.walks() || !first.converged) return first;
   problem.whiten_at(first.at.x, first.at.psi);
-  return descend(problem, first.at.x, first.at.psi, options);
+  return descend_from(problem, first.at.x, first.at.psi, Known::attitudes_too, options);
 }
 
 /// Whitened residuals where they belong, NaN where nothing was measured.
@@ -203,27 +70,38 @@ Residuals residuals_of(const MeasuredTest& test, const std::vector<ChainEquation
   return out;
 }
 
-BatchResult fit_all(const FilterSpec& filter, const MeasuredTest& test, const Theta& start,
+/// Where a fit begins: parameters, library values, and the attitude of each chain [rad].
+struct Start {
+  Theta theta;
+  std::vector<Vec3> psi0_l;
+  Known known;
+};
+
+BatchResult fit_all(const FilterSpec& filter, const MeasuredTest& test, const Start& start,
                     const BatchOptions& options) {
   BatchProblem problem(filter, test);
   const Layout& layout = problem.layout();
   const auto n = static_cast<Eigen::Index>(layout.size());
-  const VecX x_start = layout.scaled(start);
-  const Minimum minimum = minimum_from(problem, x_start, options);
+  const VecX x_start = layout.scaled(start.theta);
+  const Minimum minimum =
+      minimum_from(problem, x_start, problem.scaled(start.psi0_l), start.known, options);
 
-  MatX prior = MatX::Zero(n, n + 1);
-  prior.leftCols(n).setIdentity();
-  const MatX data = compressed(minimum.at).reduced(0.0).triangle;
-  const MatX R = triangle(stacked(data, prior)).topLeftCorner(n, n);
-  const MatX R_inv = R.triangularView<Eigen::Upper>().solve(MatX::Identity(n, n));
-  const MatX P = R_inv * R_inv.transpose();
   BatchResult out;
-  out.information_root = data.topLeftCorner(n, n);
+  MatX P = MatX::Zero(n, n);
+  if (options.result == BatchOptions::Result::whole) {
+    MatX prior = MatX::Zero(n, n + 1);
+    prior.leftCols(n).setIdentity();
+    const MatX data = compressed(minimum.at).reduced(0.0).triangle;
+    const MatX R = triangle(stacked(data, prior)).topLeftCorner(n, n);
+    const MatX R_inv = R.triangularView<Eigen::Upper>().solve(MatX::Identity(n, n));
+    P = R_inv * R_inv.transpose();
+    out.information_root = data.topLeftCorner(n, n);
+    out.estimate.covariance = P;
+  }
   out.estimate.parameters = parameter_estimates(layout, x_start, minimum.at.x, P);
-  out.estimate.covariance = P;
   out.estimate.iterations = minimum.iterations;
   out.estimate.statistic = minimum.at.cost;
-  out.data_chi2 = data_cost(minimum.at.rows);
+  out.data_chi2 = minimum.at.data_cost();
   out.psi0_l = problem.unscaled(minimum.at.psi);
   Residuals residuals = residuals_of(test, minimum.at.rows);
   out.acc_residual = std::move(residuals.acc);
@@ -255,10 +133,8 @@ bool same_samples(const Mat3X& a, const Mat3X& b) {
   return (a.array().isFinite() == b.array().isFinite()).all();
 }
 
-}  // namespace
-
-BatchResult fit_batch(const FilterSpec& filter, const MeasuredTest& test, const Theta& start,
-                      const BatchOptions& options) {
+BatchResult fit_from(const FilterSpec& filter, const MeasuredTest& test, const Start& start,
+                     const BatchOptions& options) {
   BatchResult out = fit_all(filter, test, start, options);
   const DriftModel model = filter.model();
   if (!has_outliers(model.terms)) return out;
@@ -277,19 +153,32 @@ BatchResult fit_batch(const FilterSpec& filter, const MeasuredTest& test, const 
   double wide =
       gate * std::max(1.0, std::sqrt(out.data_chi2 / static_cast<double>(out.estimate.measured)));
   for (int round = 0; round < most_rounds; ++round) {
-    const Theta theta = theta_of(filter, out);
-    const Measurements predicted = predict(timeline, model, theta, out.psi0_l, readout);
+    const Start here{theta_of(filter, out), out.psi0_l, Known::attitudes_too};
+    const Measurements predicted = predict(timeline, model, here.theta, here.psi0_l, readout);
     const Measurements now{within(measured.acc, predicted.acc, acc_noise, wide, false),
                            within(measured.gimbal, predicted.gimbal, gimbal_noise, wide, true)};
     const bool done =
         wide == gate && same_samples(now.acc, kept.acc) && same_samples(now.gimbal, kept.gimbal);
     if (done) break;
     kept = now;
-    out = fit_all(filter, {timeline, readout, kept}, theta, options);
+    out = fit_all(filter, {timeline, readout, kept}, here, options);
     wide = std::max(gate, 0.5 * wide);
   }
-  for (ParameterEstimate& p : out.estimate.parameters) p.start = start[p.param];
+  for (ParameterEstimate& p : out.estimate.parameters) p.start = start.theta[p.param];
   return out;
+}
+
+}  // namespace
+
+BatchResult fit_batch(const FilterSpec& filter, const MeasuredTest& test, const Theta& start,
+                      const BatchOptions& options) {
+  const std::vector<Vec3> level(static_cast<std::size_t>(test.timeline.chains), Vec3::Zero());
+  return fit_from(filter, test, {start, level, Known::parameters}, options);
+}
+
+BatchResult fit_batch_from(const FilterSpec& filter, const MeasuredTest& test, const Theta& start,
+                           const std::vector<Vec3>& psi0_l, const BatchOptions& options) {
+  return fit_from(filter, test, {start, psi0_l, Known::attitudes_too}, options);
 }
 
 }  // namespace drift

@@ -1,23 +1,9 @@
 #pragma once
 
 #include "core/estimate/estimate_result.hpp"
-#include "core/estimate/gimbal_prediction.hpp"
-#include "core/estimate/linearize.hpp"
-#include "core/estimate/measured_test.hpp"
+#include "core/estimate/measurement_equations.hpp"
 
 namespace drift {
-
-/// The whitened, linearised test of one chain: rows [J_psi, J_x, r], where r = (measured -
-/// predicted) / sigma and J = d predicted / sigma; psi in units of its prior sigma, x of theirs.
-struct ChainEquations {
-  MatX rows;  ///< shape (measured scalars, 3 + parameters + 1)
-};
-
-/// Linearises all measurements of a test about theta and the trajectory phi. Channels that are NaN
-/// are left out. sigma_attitude: prior of the attitude at each caging [rad].
-std::vector<ChainEquations> measurement_equations(const MeasuredTest& test, const DriftModel& model,
-                                                  const Layout& layout, const Theta& theta,
-                                                  const Trajectory& phi, double sigma_attitude);
 
 /// Upper triangular square root of the information on the parameters, prior-scaled, from the data
 /// alone (no parameter prior), the attitude of each chain eliminated with its prior:
@@ -39,6 +25,9 @@ std::vector<WeakDirection> weak_directions(const MatX& information_root, double 
 struct BatchOptions {
   int max_iterations = 40;
   double tolerance = 1e-4;  ///< largest step that counts as converged, in posterior sigmas
+  /// Estimates alone leave sigmas, covariance and information empty: they cost as much as two
+  /// iterations.
+  enum class Result { whole, estimates } result = Result::whole;
 };
 
 /// Outcome of a batch fit.
@@ -55,11 +44,16 @@ struct BatchResult {
 Theta theta_of(const FilterSpec& filter, const BatchResult& fit);
 
 /// Maximum a posteriori fit by Levenberg-Marquardt on whitened residuals, everything scaled by the
-/// prior, steps by normal equations where rounding allows, the covariance by QR; the attitude at
+/// prior, steps by normal equations where rounding allows and with second order where
+/// it tells, the covariance by QR; the attitude at
 /// each caging is a nuisance with its own prior. The reference for the EKF: it relinearises until
 /// it stands still. Angle random walk of the filter is (whiten_random_walk), that of the drift is
 /// not. start: library values of the initial estimate.
 BatchResult fit_batch(const FilterSpec& filter, const MeasuredTest& test, const Theta& start,
                       const BatchOptions& options = {});
+/// The same where the attitudes are known about as well: psi0_l of a fit beside this one [rad].
+/// That one has found the valley of lambda, too, which fit_batch looks for at both equations.
+BatchResult fit_batch_from(const FilterSpec& filter, const MeasuredTest& test, const Theta& start,
+                           const std::vector<Vec3>& psi0_l, const BatchOptions& options = {});
 
 }  // namespace drift

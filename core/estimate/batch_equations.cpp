@@ -21,17 +21,23 @@ BatchEquations::Reduced BatchEquations::reduced(double mu) const {
   return out;
 }
 
-BatchEquations::Step BatchEquations::solve(double mu) const {
+BatchEquations::Step BatchEquations::solve(double mu, std::optional<Eigen::Index> held) const {
   const Eigen::Index n = x.size();
-  const auto [data, tops] = reduced(mu);
+  auto [data, tops] = reduced(mu);
   MatX extra = MatX::Zero(2 * n, n + 1);
   extra.topLeftCorner(n, n).setIdentity();
   extra.topRightCorner(n, 1) = -x;
   extra.block(n, 0, n, n) = std::sqrt(mu) * MatX::Identity(n, n);
+  if (held) {
+    data.col(*held).setZero();
+    extra(*held, n) = 0.0;
+  }
   const MatX R = triangle(stacked(data, extra));
   Step step;
+  step.slope = R.topRightCorner(n, 1).squaredNorm();
   step.dx = R.topLeftCorner(n, n).triangularView<Eigen::Upper>().solve(R.topRightCorner(n, 1));
   for (const MatX& top : tops) {
+    step.slope += top.rightCols<1>().squaredNorm();
     const Vec3 right = top.rightCols<1>() - top.middleCols(3, n) * step.dx;
     step.dpsi.push_back(top.leftCols<3>().triangularView<Eigen::Upper>().solve(right));
   }

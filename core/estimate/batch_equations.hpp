@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/base/linalg.hpp"
@@ -17,10 +18,13 @@ struct BatchEquations {
   struct Step {
     VecX dx;
     std::vector<Vec3> dpsi;
+    /// Half of what the cost would fall along all of it at its first rate: -(gradient, step) / 2.
+    /// Undamped, the whole of what the linear problem has it fall.
+    double slope = 0.0;
   };
 
-  /// Minimises |J d - r|^2 + |p + d|^2 + mu |d|^2.
-  Step solve(double mu) const;
+  /// Minimises |J d - r|^2 + |p + d|^2 + mu |d|^2. held: a parameter that stays where it is.
+  Step solve(double mu, std::optional<Eigen::Index> held = {}) const;
   struct Reduced {
     MatX triangle;           ///< over [x | r], no parameter prior
     std::vector<MatX> tops;  ///< of each chain: the rows that give its attitude

@@ -1,105 +1,181 @@
+#include "core/estimate/measurement_equations.hpp"
+
 #include <algorithm>
 #include <cmath>
 
-#include "core/estimate/batch.hpp"
 #include "core/estimate/rest_rate.hpp"
-#include "core/estimate/stretch_jacobians.hpp"
 
 namespace drift {
+namespace {
+
+constexpr std::size_t at_once = 32;  // intervals that are linearised together
+constexpr Eigen::Index rows_of_interval = 6;
+
+bool read_in(const Mat3X& channel, std::size_t i) {
+  return channel.col(static_cast<Eigen::Index>(i)).array().isFinite().any();
+}
+
+/// Whether the accelerometers were read in most intervals; where they were not, intervals are
+/// better looked at one by one.
+bool mostly_read(const MeasuredTest& test) {
+  if (!test.readout.accelerometers) return true;
+  std::size_t read = 0;
+  const std::size_t all = test.timeline.intervals.size();
+  for (std::size_t i = 0; i < all; ++i) read += read_in(test.measured.acc, i) ? 1 : 0;
+  return 2 * read > all;
+}
+
+}  // namespace
+
+MeasurementEquations::MeasurementEquations(const MeasuredTest& test, const DriftModel& model,
+                                           const Layout& layout, double sigma_attitude)
+    : test_(test),
+      model_(model),
+      layout_(layout),
+      sigma_attitude_(sigma_attitude),
+      linearizer_(model, layout, test.readout),
+      memory_(test.timeline, model),
+      jacobians_(test.timeline),
+      together_(StretchJacobians::can(model) && mostly_read(test)),
+      G_(padded_rows(layout.num_rate)),
+      G_next_(G_),
+      Y_rate_(G_),
+      Y_par_(padded_rows(layout.size() - layout.num_rate)),
+      some_(rows_of_interval * static_cast<Eigen::Index>(at_once),
+            3 + static_cast<Eigen::Index>(layout.size()) + 1),
+      count_(static_cast<std::size_t>(test.timeline.chains), 0) {
+  for (std::size_t i = 0; i < test.timeline.intervals.size(); ++i) {
+    const auto column = static_cast<Eigen::Index>(i);
+    Eigen::Index& count = count_[static_cast<std::size_t>(test.timeline.intervals[i].chain)];
+    if (test.readout.accelerometers)
+      count += test.measured.acc.col(column).array().isFinite().count();
+    if (test.readout.gimbals) count += test.measured.gimbal.col(column).array().isFinite().count();
+  }
+}
+
+std::vector<ChainEquations> MeasurementEquations::at(const Theta& theta, const Trajectory& phi) {
+  std::vector<ChainEquations> chains;
+  for (const Eigen::Index rows : count_) chains.push_back({MatX(rows, some_.cols())});
+  std::vector<Eigen::Index> handed_over(count_.size(), 0);
+  memory_.reset();
+  in_some_ = 0;
+  linearizer_.set_theta(theta);
+  const auto& intervals = test_.timeline.intervals;
+  for (std::size_t i = 0; i < intervals.size(); ++i) {
+    enter(intervals[i]);
+    linearize(i, theta, phi);
+    take_accelerometers(i);
+    leave(intervals[i]);
+    take_gimbals(i, phi);
+    const bool last = i + 1 == intervals.size() || intervals[i + 1].chain != intervals[i].chain;
+    if (last || in_some_ + rows_of_interval > some_.rows())
+      hand_over(chains[static_cast<std::size_t>(intervals[i].chain)].rows,
+                handed_over[static_cast<std::size_t>(intervals[i].chain)]);
+  }
+  return chains;
+}
+
+void MeasurementEquations::enter(const Interval& interval) {
+  if (!interval.cage) return;
+  Phi_.setIdentity();
+  G_.setZero();
+}
+
+void MeasurementEquations::linearize(std::size_t i, const Theta& theta, const Trajectory& phi) {
+  const auto& [timeline, readout, measured] = test_;
+  const Interval& interval = timeline.intervals[i];
+  memory_.advance(i, theta.data());
+  if (together_) {
+    if (i % at_once == 0)
+      jacobians_.evaluate(i, std::min(i + at_once, timeline.intervals.size()), phi.data(),
+                          model_.mounting, linearizer_);
+    propagate_sensitivity(interval, timeline, jacobians_.of(i), inner_);
+    return;
+  }
+  readout.accelerometers&& read_in(measured.acc, i) ? linearizer_.work_readout_out()
+                                                    : linearizer_.leave_readout_out();
+  linearize_interval(interval, timeline, misalignment_matrix(model_.mounting, interval.loop),
+                     &phi[interval.first_node], memory_.points(), linearizer_, inner_);
+}
+
+void MeasurementEquations::take_accelerometers(std::size_t i) {
+  const auto& [timeline, readout, measured] = test_;
+  if (!readout.accelerometers || !read_in(measured.acc, i)) return;
+  const Interval& interval = timeline.intervals[i];
+  Vec3 mean = Vec3::Zero();
+  Mat3 Y_psi = Mat3::Zero();  // by the attitude at the start of the interval
+  Y_rate_.setZero();
+  Y_par_.setZero();
+  for (std::size_t k = 0; k < interval.node_count(); ++k) {
+    const double w = Timeline::simpson_weight(interval.substeps, k);
+    const NodeJacobian& j = inner_.jacobian[k];
+    mean += w * j.acc;
+    Y_psi += w * j.H * inner_.Phi[k];
+    if (k > 0) sum_of_products<Sum::onto>({w * j.H}, {&inner_.G[k]}, Y_rate_);  // G[0] is zero
+    if (Y_par_.cols() > 0) Y_par_ += w * j.H_par;
+  }
+  sum_of_products<Sum::onto>({Y_psi}, {&G_}, Y_rate_);
+  Y_psi = (Y_psi * Phi_).eval();
+  const double sigma = interval.accelerometer_noise(readout.accelerometer_noise);
+  for (int a = 0; a < 3; ++a)
+    if (const double m = measured.acc(a, static_cast<Eigen::Index>(i)); std::isfinite(m))
+      add_row(m - mean[a], Y_psi.row(a), a, sigma);
+}
+
+/// On to the end of the interval.
+void MeasurementEquations::leave(const Interval& interval) {
+  const std::size_t last = interval.node_count() - 1;
+  G_next_ = inner_.G[last];
+  sum_of_products<Sum::onto>({inner_.Phi[last]}, {&G_}, G_next_);
+  G_.swap(G_next_);
+  Phi_ = (inner_.Phi[last] * Phi_).eval();
+}
+
+void MeasurementEquations::take_gimbals(std::size_t i, const Trajectory& phi) {
+  const auto& [timeline, readout, measured] = test_;
+  if (!readout.gimbals || !read_in(measured.gimbal, i)) return;
+  const Interval& interval = timeline.intervals[i];
+  const std::size_t last = interval.node_count() - 1;
+  const GimbalPrediction p =
+      interval.rest ? predict_rest_rate(interval, timeline, &phi[interval.first_node], inner_)
+                    : linearizer_.gimbals(timeline, interval, phi[interval.last_node()],
+                                          memory_.active() ? &memory_.points()[2 * last] : nullptr);
+  if (p.H_rate.cols() > 0)
+    Y_rate_ = p.H_rate;
+  else
+    Y_rate_.setZero();
+  sum_of_products<Sum::onto>({p.H}, {&G_}, Y_rate_);
+  if (p.H_par.cols() > 0)
+    Y_par_ = p.H_par;
+  else
+    Y_par_.setZero();
+  const Mat3 Y_psi = p.H * Phi_;
+  for (int a = 0; a < 3; ++a)
+    if (const double m = measured.gimbal(a, static_cast<Eigen::Index>(i)); std::isfinite(m))
+      add_row(angle_difference(m, p.angles[a]), Y_psi.row(a), a, readout.gimbal_noise);
+}
+
+void MeasurementEquations::add_row(double residual, const Eigen::RowVector3d& d_psi, int axis,
+                                   double sigma) {
+  const auto n = static_cast<Eigen::Index>(layout_.size());
+  const auto nr = static_cast<Eigen::Index>(layout_.num_rate);
+  auto row = some_.row(in_some_++);
+  row.head<3>() = d_psi * (sigma_attitude_ / sigma);
+  row.segment(3, nr) = Y_rate_.row(axis).head(nr) / sigma;
+  row.segment(3 + nr, n - nr) = Y_par_.row(axis).head(n - nr) / sigma;
+  row[3 + n] = residual / sigma;
+}
+
+void MeasurementEquations::hand_over(MatX& rows, Eigen::Index& done) {
+  rows.middleRows(done, in_some_) = some_.topRows(in_some_);
+  done += in_some_;
+  in_some_ = 0;
+}
 
 std::vector<ChainEquations> measurement_equations(const MeasuredTest& test, const DriftModel& model,
                                                   const Layout& layout, const Theta& theta,
                                                   const Trajectory& phi, double sigma_attitude) {
-  const auto& [timeline, readout, measured] = test;
-  const auto n = static_cast<Eigen::Index>(layout.size());
-  const auto nr = static_cast<Eigen::Index>(layout.num_rate);
-  std::vector<Eigen::Index> count(timeline.chains, 0), next(timeline.chains, 0);
-  for (std::size_t i = 0; i < timeline.intervals.size(); ++i)
-    count[timeline.intervals[i].chain] += measured.acc.col(i).array().isFinite().count() +
-                                          measured.gimbal.col(i).array().isFinite().count();
-  std::vector<ChainEquations> chains(timeline.chains);
-  for (int c = 0; c < timeline.chains; ++c) chains[c].rows = MatX::Zero(count[c], 3 + n + 1);
-
-  Linearizer linearizer(model, layout, readout);
-  linearizer.set_theta(theta);
-  IntervalSensitivity inner;
-  Mat3 Phi = Mat3::Identity();  // from the caging to the start of the interval
-  Rows3 G = padded_rows(layout.num_rate), Y(3, n);
-  MemoryPath memory(timeline, model);
-  // Where the accelerometers were seldom read, intervals are better looked at one by one.
-  const bool together = StretchJacobians::can(model) &&
-                        (!readout.accelerometers || !measured.acc.array().isNaN().any());
-  constexpr std::size_t at_once = 32;  // intervals
-  StretchJacobians jacobians(timeline);
-  for (std::size_t i = 0; i < timeline.intervals.size(); ++i) {
-    const Interval& interval = timeline.intervals[i];
-    if (interval.cage) {
-      Phi.setIdentity();
-      G.setZero();
-    }
-    const Mat3 E_loop = misalignment_matrix(model.mounting, interval.loop);
-    memory.advance(i, theta.data());
-    if (together && i % at_once == 0)
-      jacobians.evaluate(i, std::min(i + at_once, timeline.intervals.size()), phi.data(),
-                         model.mounting, linearizer);
-    const bool reads = readout.accelerometers && measured.acc.col(i).array().isFinite().any();
-    if (together) {
-      propagate_sensitivity(interval, timeline, jacobians.of(i), inner);
-    } else {
-      reads ? linearizer.work_readout_out() : linearizer.leave_readout_out();
-      linearize_interval(interval, timeline, E_loop, &phi[interval.first_node], memory.points(),
-                         linearizer, inner);
-    }
-    MatX& rows = chains[interval.chain].rows;
-    const auto add_row = [&](double residual, const Eigen::RowVector3d& d_psi, const auto& d_x,
-                             double sigma) {
-      auto row = rows.row(next[interval.chain]++);
-      row.head<3>() = d_psi * (sigma_attitude / sigma);
-      row.segment(3, n) = d_x / sigma;
-      row[3 + n] = residual / sigma;
-    };
-
-    if (reads) {
-      Vec3 mean = Vec3::Zero();
-      Mat3 Y_psi = Mat3::Zero();  // with respect to the attitude at the start of the interval
-      Y.setZero();
-      for (std::size_t k = 0; k < interval.node_count(); ++k) {
-        const double w = Timeline::simpson_weight(interval.substeps, k);
-        const NodeJacobian& j = inner.jacobian[k];
-        mean += w * j.acc;
-        Y_psi += w * j.H * inner.Phi[k];
-        Y.leftCols(nr).noalias() += (w * j.H) * inner.G[k].leftCols(nr);
-        Y.rightCols(n - nr) += w * j.H_par.leftCols(n - nr);
-      }
-      Y.leftCols(nr).noalias() += Y_psi * G.leftCols(nr);
-      Y_psi = (Y_psi * Phi).eval();
-      for (int a = 0; a < 3; ++a)
-        if (std::isfinite(measured.acc(a, i)))
-          add_row(measured.acc(a, i) - mean[a], Y_psi.row(a), Y.row(a),
-                  interval.accelerometer_noise(readout.accelerometer_noise));
-    }
-    // On to the end of the interval.
-    const std::size_t last = interval.node_count() - 1;
-    G = (inner.Phi[last] * G + inner.G[last]).eval();
-    Phi = (inner.Phi[last] * Phi).eval();
-    if (readout.gimbals && measured.gimbal.col(i).array().isFinite().any()) {
-      const GimbalPrediction p =
-          interval.rest
-              ? predict_rest_rate(interval, timeline, &phi[interval.first_node], inner)
-              : linearizer.gimbals(timeline, interval, phi[interval.last_node()],
-                                   memory.active() ? &memory.points()[2 * last] : nullptr);
-      Y.setZero();
-      Y.leftCols(nr).noalias() = p.H * G.leftCols(nr);
-      if (p.H_rate.cols() > 0) Y.leftCols(nr) += p.H_rate.leftCols(nr);
-      if (p.H_par.cols() > 0) Y.rightCols(n - nr) = p.H_par.leftCols(n - nr);
-      const Mat3 Y_psi = p.H * Phi;
-      for (int a = 0; a < 3; ++a)
-        if (std::isfinite(measured.gimbal(a, i)))
-          add_row(angle_difference(measured.gimbal(a, i), p.angles[a]), Y_psi.row(a), Y.row(a),
-                  readout.gimbal_noise);
-    }
-  }
-  return chains;
+  return MeasurementEquations(test, model, layout, sigma_attitude).at(theta, phi);
 }
 
 }  // namespace drift

@@ -27,7 +27,7 @@ bool NormalEquations::good_to(double relative) const {
   return 2.0 * std::numeric_limits<double>::epsilon() * largest < relative;
 }
 
-BatchEquations::Step NormalEquations::solve(double mu) const {
+BatchEquations::Step NormalEquations::solve(double mu, std::optional<Eigen::Index> held) const {
   const Eigen::Index n = x_.size();
   // S over [x | r], what is left of a chain when its attitude is eliminated: L L^T is that of the
   // attitude with its prior and damping, T = L^-1 [its columns].
@@ -38,17 +38,25 @@ BatchEquations::Step NormalEquations::solve(double mu) const {
     const MatX& N = chains_[c];
     const Mat3 A = N.topLeftCorner<3, 3>().selfadjointView<Eigen::Lower>();
     of_attitude.emplace_back(A + (1.0 + mu) * Mat3::Identity());
-    Mat3X beside = N.block(3, 0, n + 1, 3).transpose();
-    beside.col(n) -= psi_[c];
-    T.push_back(of_attitude.back().matrixL().solve(beside));
+    Mat3X with_attitude = N.block(3, 0, n + 1, 3).transpose();
+    with_attitude.col(n) -= psi_[c];
+    T.push_back(of_attitude.back().matrixL().solve(with_attitude));
     S.triangularView<Eigen::Lower>() += N.bottomRightCorner(n + 1, n + 1);
     S.selfadjointView<Eigen::Lower>().rankUpdate(T.back().transpose(), -1.0);
   }
   MatX on_x = S.topLeftCorner(n, n);
   on_x.diagonal().array() += 1.0 + mu;
-  const VecX right = S.row(n).head(n).transpose() - x_;
+  VecX right = S.row(n).head(n).transpose() - x_;
+  if (held) {
+    on_x.row(*held).setZero();
+    on_x.col(*held).setZero();
+    on_x(*held, *held) = 1.0;
+    right[*held] = 0.0;
+  }
   BatchEquations::Step step;
   step.dx = Cholesky(on_x).solve(right);
+  step.slope = right.dot(step.dx);
+  for (const Mat3X& t : T) step.slope += t.col(n).squaredNorm();
   for (std::size_t c = 0; c < chains_.size(); ++c)
     step.dpsi.push_back(of_attitude[c].matrixU().solve(T[c].col(n) - T[c].leftCols(n) * step.dx));
   return step;

@@ -1,7 +1,9 @@
 #pragma once
 
-#include "core/estimate/batch.hpp"
+#include <optional>
+
 #include "core/estimate/batch_equations.hpp"
+#include "core/estimate/measurement_equations.hpp"
 
 namespace drift {
 
@@ -17,7 +19,8 @@ class NormalEquations {
   /// Whether rounding is below `relative` of the information of the prior, which is one: a step is
   /// off by no more in any direction.
   bool good_to(double relative) const;
-  BatchEquations::Step solve(double mu) const;
+  /// held: a parameter that stays where it is.
+  BatchEquations::Step solve(double mu, std::optional<Eigen::Index> held = {}) const;
 
  private:
   std::vector<MatX> chains_;  ///< rows^T rows of each, lower triangle

@@ -81,6 +81,18 @@ void PathInLanes::backward(std::size_t first, std::size_t end, Vec3* phi) {
   }
 }
 
+void PathInLanes::all_forward(const std::vector<Vec3>& psi0_l, Vec3* phi) {
+  const auto& all = timeline_.intervals;
+  for (std::size_t first = 0, end = 0; first < all.size(); first = end) {
+    end = first + 1;
+    while (end < all.size() && !all[end].cage) ++end;
+    const Interval& begin = all[first];
+    phi[begin.first_node] = caged_phi(timeline_.nodes[begin.first_node].R_lr,
+                                      psi0_l[static_cast<std::size_t>(begin.chain)]);
+    forward(first, end, phi);
+  }
+}
+
 void PathInLanes::gather(std::size_t first, std::size_t end) {
   node_.clear();
   t_.clear();
@@ -238,6 +250,16 @@ void PathInLanes::step_by_step(std::size_t first, std::size_t end, Given given, 
       if (i + 1 < end) phi[all[i].last_node()] = phi[all[i + 1].first_node];
       step_back_through(all[i], timeline_, drive(all[i]), nullptr, &phi[all[i].first_node]);
     }
+}
+
+Trajectory integrate(const Timeline& timeline, const DriftModel& model, const Theta& theta,
+                     const std::vector<Vec3>& psi0_l) {
+  if (!PathInLanes::can(model)) return integrate_fixed(timeline, model, theta, psi0_l);
+  Trajectory phi(timeline.nodes.size());
+  PathInLanes lanes(timeline, model);
+  lanes.set_theta(theta);
+  lanes.all_forward(psi0_l, phi.data());
+  return phi;
 }
 
 }  // namespace drift

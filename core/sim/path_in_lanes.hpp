@@ -26,6 +26,8 @@ class PathInLanes {
   void forward(std::size_t first, std::size_t end, Vec3* phi);
   /// The same, given at the end of the last one.
   void backward(std::size_t first, std::size_t end, Vec3* phi);
+  /// The whole timeline, from the initial attitude error of each chain on, local axes [rad].
+  void all_forward(const std::vector<Vec3>& psi0_l, Vec3* phi);
 
  private:
   /// As many nodes as are worked out in lock step; in the lanes that are left, the last once more.
@@ -58,5 +60,10 @@ class PathInLanes {
   std::vector<Vec3> psi_;
   std::vector<Lane> lanes_;
 };
+
+/// The platform's motion over a whole timeline, in lanes where the model's terms allow it, step by
+/// step where they do not. psi0_l: initial attitude error of each chain, local axes [rad].
+Trajectory integrate(const Timeline& timeline, const DriftModel& model, const Theta& theta,
+                     const std::vector<Vec3>& psi0_l);
 
 }  // namespace drift

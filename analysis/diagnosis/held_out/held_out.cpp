@@ -56,8 +56,7 @@ class Folder {
     if (!again) return {fold, 0.0};
     const auto& columns =
         nominal_.set.candidates[again->candidate].variants[again->variant].columns;
-    const Predictor chosen(nominal_.problem.with_mean(columns), noise_);
-    return {fold, chosen.predict(part.intervals).log_score - conditioned.log_score};
+    return {fold, before_.predict(part.intervals, columns).log_score - conditioned.log_score};
   }
 
  private:
@@ -65,8 +64,9 @@ class Folder {
   Prediction refitted(const search::Fitted& e, const HeldOutPart& part) const {
     const Measurements rest = without_intervals(test_.measured, part.intervals);
     // Near the whole fit: a step of a hundredth of a sigma is as good as none.
-    BatchResult fit = fit_batch(e.filter, {test_.timeline, test_.readout, rest},
-                                theta_of(e.filter, e.fit), {.tolerance = 1e-2});
+    BatchResult fit = fit_batch_from(
+        e.filter, {test_.timeline, test_.readout, rest}, theta_of(e.filter, e.fit), e.fit.psi0_l,
+        {.tolerance = 1e-2, .result = BatchOptions::Result::estimates});
     // Attitudes of which the fit has seen nothing: linearised where they are, their prior
     // unchanged.
     std::vector<bool> seen(fit.psi0_l.size(), false);
@@ -82,8 +82,7 @@ class Folder {
 
   /// The cause that would be chosen without having seen this part; none if nothing is significant.
   std::optional<search::Choice> chosen_without(const HeldOutPart& part) const {
-    const inference::Projector rest(nominal_.problem.without(part.intervals), noise_);
-    search::Field field(nominal_.set, rest.candidates(), {});
+    search::Field field(nominal_.set, before_.candidates_without(part.intervals), {});
     field.discount = nominal_.discount;
     std::optional<search::Choice> best;
     double best_evidence = -1.0;

@@ -1,6 +1,8 @@
 #pragma once
 
-#include "analysis/inference/projector.hpp"
+#include <optional>
+
+#include "analysis/inference/sums_by_cell.hpp"
 
 namespace drift::diagnosis {
 
@@ -11,19 +13,25 @@ struct Prediction {
 };
 
 /// A linearised test that predicts a part of its rows from all the others, parameters and attitudes
-/// marginalised: log p(y_p | y_rest) = log p(y) - log p(y_rest), chi-square likewise. Candidates
-/// are left out.
+/// marginalised: log p(y_p | y_rest) = log p(y) - log p(y_rest), chi-square likewise.
 class Predictor {
  public:
+  /// The problem must outlive it.
   Predictor(const inference::LinearProblem& problem, const inference::NoiseModel& noise);
 
-  /// The rows of the intervals that are marked.
-  Prediction predict(const std::vector<bool>& intervals) const;
+  /// The rows of the intervals that are marked, whole positions. with: candidates that are
+  /// parameters too; the others are left out.
+  Prediction predict(const std::vector<bool>& intervals, const std::vector<int>& with = {}) const;
+  /// What the others say of the candidates.
+  inference::Projected candidates_without(const std::vector<bool>& intervals) const;
 
  private:
-  inference::LinearProblem problem_;
+  inference::Marginal marginal(const std::vector<bool>& left_out,
+                               const std::vector<int>& with) const;
+
+  const inference::LinearProblem& problem_;
   inference::NoiseModel noise_;
-  inference::Marginal all_;
+  std::optional<inference::SumsByCell> sums_;  ///< where the noise allows them
 };
 
 }  // namespace drift::diagnosis

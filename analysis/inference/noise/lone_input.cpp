@@ -48,7 +48,7 @@ LoneEffect strongest_lone_input(const LinearProblem& problem, const NoiseModel& 
   const auto value = [&](const LoneInput& input) {
     NoiseModel m = noise;
     m.lone = input;
-    return Projector(bare, m).marginal().log_likelihood2();
+    return marginal_of(bare, m).log_likelihood2();
   };
   const double base = value({});
   const std::vector<Kind> kinds = kinds_of(problem);

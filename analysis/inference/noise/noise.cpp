@@ -31,7 +31,7 @@ struct Mixture {
 };
 
 double log_likelihood2(const LinearProblem& bare, const NoiseModel& m) {
-  const double v = Projector(bare, m).marginal().log_likelihood2();
+  const double v = marginal_of(bare, m).log_likelihood2();
   return std::isfinite(v) ? v : -std::numeric_limits<double>::infinity();
 }
 

@@ -104,11 +104,12 @@ TEST(OwnTerm, IsEstimatedAsTheLibrarysTermIs) {
       };
       const EstimateResult a = estimate(twin.key), b = estimate(own);
       const ParameterEstimate &p = *a.find(param(twin.key)), &q = *b.find(param(own));
-      // Two ways of rounding, through normal equations of condition 1e6 at most; in the iterated
-      // filter two ways of integrating too (PathInLanes has no places for terms), which differ by
-      // 2e-4 arcsec in slews: 4e-5 of a reading's noise, at worst in all readings alike.
+      // Two ways of rounding, through normal equations of condition 1e6 at most; where
+      // the path is found in lanes two ways of integrating too (PathInLanes has no places for
+      // terms), which differ by 2e-4 arcsec in slews: 4e-5 of a reading's noise, at worst in all
+      // readings alike.
       const double apart =
-          estimator.name == "iterated" ? 4e-5 * std::sqrt(static_cast<double>(a.measured)) : 1e-6;
+          estimator.name == "ekf" ? 1e-6 : 4e-5 * std::sqrt(static_cast<double>(a.measured));
       EXPECT_NEAR(p.value, q.value / twin.scale, apart * p.sigma);
       EXPECT_NEAR(p.sigma * twin.scale / q.sigma, 1.0, 1e-8);
       EXPECT_NEAR(a.statistic, b.statistic, 1e-6 * a.statistic);

@@ -11,6 +11,7 @@ namespace drift::declared_key_test {
 namespace {
 
 using namespace drift::config;
+using config::Node;
 using Kind = DeclaredKey::Kind;
 
 const DeclaredKey& found(const Report& report, const std::string& section, const std::string& key) {

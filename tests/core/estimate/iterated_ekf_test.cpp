@@ -71,7 +71,7 @@ AtTheMinimum at_the_minimum(const char* preset, CommandLaw mode, Coupling truth_
       fit_batch(filter, {timeline, Readout{}, sim.measured}, layout.theta, tight);
   EXPECT_EQ(fit.estimate.status, EstimateStatus::ok);
   const Theta theta = theta_of(filter, fit);
-  const Trajectory phi = integrate_fixed(timeline, filter.model(), theta, fit.psi0_l);
+  const Trajectory phi = integrate(timeline, filter.model(), theta, fit.psi0_l);
   IntervalRows pass(filter, timeline, Readout{});
   pass.reset(theta);
   Information information(layout.size(), pass.width());
