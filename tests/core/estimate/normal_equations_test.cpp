@@ -44,6 +44,49 @@ TEST(NormalEquations, GiveTheStepOfTheTriangles) {
       }
 }
 
+TEST(NormalEquations, AHeldParameterIsAsIfItWereNotThere) {
+  constexpr Eigen::Index n = 6, held = 2;
+  const Random problem(2, n, 1.0);
+  Random without = problem;
+  without.x.resize(n - 1);
+  without.x << problem.x.head(held), problem.x.tail(n - 1 - held);
+  for (std::size_t c = 0; c < problem.rows.size(); ++c) {
+    const MatX& all = problem.rows[c].rows;
+    MatX& rows = without.rows[c].rows;
+    rows.resize(all.rows(), all.cols() - 1);
+    rows << all.leftCols(3 + held), all.rightCols(n - held);
+  }
+  for (const double mu : {0.0, 0.1}) {
+    const auto expected = NormalEquations(without.rows, without.psi, without.x).solve(mu);
+    for (const BatchEquations::Step& step :
+         {NormalEquations(problem.rows, problem.psi, problem.x).solve(mu, held),
+          problem.triangles().solve(mu, held)}) {
+      EXPECT_NEAR(step.dx[held], 0.0, 1e-14);
+      EXPECT_LT((step.dx.head(held) - expected.dx.head(held)).norm(), 1e-11);
+      EXPECT_LT((step.dx.tail(n - 1 - held) - expected.dx.tail(n - 1 - held)).norm(), 1e-11);
+      for (std::size_t c = 0; c < step.dpsi.size(); ++c)
+        EXPECT_LT((step.dpsi[c] - expected.dpsi[c]).norm(), 1e-11);
+      EXPECT_NEAR(step.slope, expected.slope, 1e-10 * expected.slope);
+    }
+  }
+}
+
+TEST(NormalEquations, SlopeIsWhatAnUndampedStepLowersTheCostBy) {
+  const Random problem(3, 7, 1.0);
+  const auto step = NormalEquations(problem.rows, problem.psi, problem.x).solve(0.0);
+  const auto cost = [&](double part) {
+    double sum = (problem.x + part * step.dx).squaredNorm();
+    for (std::size_t c = 0; c < problem.rows.size(); ++c) {
+      const MatX& rows = problem.rows[c].rows;
+      const VecX left = rows.rightCols<1>() - part * (rows.leftCols<3>() * step.dpsi[c] +
+                                                      rows.middleCols(3, 7) * step.dx);
+      sum += left.squaredNorm() + (problem.psi[c] + part * step.dpsi[c]).squaredNorm();
+    }
+    return sum;
+  };
+  EXPECT_NEAR(step.slope, cost(0.0) - cost(1.0), 1e-11 * cost(0.0));
+}
+
 TEST(NormalEquations, AChainOfWhichNothingWasMeasuredKeepsItsPrior) {
   Random problem(2, 4, 1.0);
   problem.rows[1].rows.resize(0, 3 + 4 + 1);
