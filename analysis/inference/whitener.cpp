@@ -12,7 +12,7 @@ Whitener::Whitener(const MeasuredRows& rows, const NoiseModel& noise) : root_(ro
   states_ = s.count;
   H_.resize(s.count, rows.rows());
   gain_.resize(s.count, rows.rows());
-  MatX P = initial_covariance(s, noise);
+  OverPairs P = initial_covariance(s, noise);
   Eigen::Index next = 0;
   walk(
       rows, noise, s,
@@ -29,8 +29,8 @@ Whitener::Whitener(const MeasuredRows& rows, const NoiseModel& noise) : root_(ro
           events_.push_back(
               {next, false, step.F.topRightCorner(3, others), step.F.diagonal().tail(others)});
       },
-      [&](Eigen::Index k, const VecX& h, double sigma) {
-        const VecX Ph = P * h;
+      [&](Eigen::Index k, const OverStates& h, double sigma) {
+        const OverStates Ph = P * h;
         const double S = h.dot(Ph) + sigma * sigma;
         H_.col(k) = h;
         gain_.col(k) = Ph / S;

@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include "core/base/check.hpp"
+#include "core/estimate/measurement_equations.hpp"
 #include "core/estimate/triangle.hpp"
+#include "core/sim/path_in_lanes.hpp"
 
 namespace drift::observability {
 namespace {
@@ -55,25 +57,26 @@ LinearisedPlan linearise(const TestPlan& plan, const RankedModel& model, int bin
   set_environment(timeline, model.environment, 0, 0);
   for (Interval& i : timeline.intervals) i.loop = model.loop;
   const ModelSpec& spec = model.spec;
-  TruthSpec truth;
-  static_cast<ModelSpec&>(truth) = spec;
-  const TruthDraw draw{model.nominal, std::vector<Vec3>(timeline.chains, Vec3::Zero())};
-  const Simulation sim = Simulator(truth, model.readout).run(timeline, draw, 0, 0);
-  if (!sim.ode.ok())
+  const Trajectory phi =
+      integrate(timeline, spec.model(), model.nominal,
+                std::vector<Vec3>(static_cast<std::size_t>(timeline.chains), Vec3::Zero()));
+  if (const auto lost = std::ranges::find_if_not(phi, &Vec3::allFinite); lost != phi.end())
     throw InputError(
         ExitCode::self_check,
-        fmt::format("integration of the nominal test failed at t = {:.6g} s: {} ({}). The "
+        fmt::format("the platform of the nominal test has no attitude at t = {:.6g} s. The "
                     "nominal parameters may be unphysical: see `driftscope check`",
-                    sim.ode.t, name(sim.ode.status), sim.ode.cause));
+                    timeline.nodes[static_cast<std::size_t>(lost - phi.begin())].t));
+  // What is measured does not matter, only that it is.
+  const auto count = static_cast<Eigen::Index>(timeline.intervals.size());
+  const Measurements measured{Mat3X::Zero(3, count), Mat3X::Zero(3, count)};
 
   LinearisedPlan out;
   out.layout = make_layout(spec);
   out.chains = timeline.chains;
   out.positions = timeline.positions;
   out.duration = timeline.intervals.back().t1 - timeline.intervals.front().t0;
-  const auto chains =
-      measurement_equations({timeline, model.readout, sim.measured}, spec.model(), out.layout,
-                            model.nominal, sim.phi, spec.initial_attitude);
+  const auto chains = measurement_equations({timeline, model.readout, measured}, spec.model(),
+                                            out.layout, model.nominal, phi, spec.initial_attitude);
   const Eigen::Index width = 3 + out.size();
   const Eigen::Index per_interval =
       (model.readout.accelerometers ? 3 : 0) + (model.readout.gimbals ? 3 : 0);

@@ -7,7 +7,7 @@ namespace drift::inference {
 NoiseStep step_of(const NoiseStates& s, const NoiseModel& n, const IntervalDrive& d,
                   bool first_half) {
   const double dt = 0.5 * d.length, gap = first_half ? d.gap : 0.0;
-  NoiseStep step{MatX::Identity(s.count, s.count), MatX::Zero(s.count, s.count)};
+  NoiseStep step{OverPairs::Identity(s.count, s.count), OverPairs::Zero(s.count, s.count)};
   const Mat3 part = 0.5 * d.per_rate * n.gyros.asDiagonal();
   if (s.white >= 0) {
     const Mat3 kick = part * (n.angle_random_walk / std::sqrt(d.length));
@@ -56,8 +56,8 @@ double lone_weight(const MeasuredRows& p, const LoneInput& lone, const RowTag& r
   return 0.0;
 }
 
-MatX initial_covariance(const NoiseStates& s, const NoiseModel& n) {
-  MatX P = MatX::Identity(s.count, s.count);
+OverPairs initial_covariance(const NoiseStates& s, const NoiseModel& n) {
+  OverPairs P = OverPairs::Identity(s.count, s.count);
   if (s.walk >= 0) P.block<3, 3>(s.walk, s.walk).setZero();
   if (s.lone >= 0 && std::isinf(n.lone.tau)) P(s.lone, s.lone) = 0.0;
   return P;

@@ -20,10 +20,16 @@ struct NoiseStates {
   }
 };
 
+/// Over the states: at most the attitude, four kinds by three and a lone one; never on the heap.
+inline constexpr int most_states = 16;
+using OverStates = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_states, 1>;
+using OverPairs =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_states, most_states>;
+
 /// Transition and noise over one half of an interval. F is the identity for the attitude, beside
 /// what drives it, and diagonal for everything else.
 struct NoiseStep {
-  MatX F, Q;
+  OverPairs F, Q;
 };
 
 /// States are in units of their own sigma. White rate noise is constant within an interval, as the
@@ -33,7 +39,7 @@ NoiseStep step_of(const NoiseStates& s, const NoiseModel& n, const IntervalDrive
 
 /// Before anything is measured: attitude at its prior, a random walk at zero, the others
 /// stationary.
-MatX initial_covariance(const NoiseStates& s, const NoiseModel& n);
+OverPairs initial_covariance(const NoiseStates& s, const NoiseModel& n);
 
 /// Weight of the lone input on a row: zero on those of other channels.
 double lone_weight(const MeasuredRows& p, const LoneInput& lone, const RowTag& row);
@@ -43,7 +49,7 @@ template <class Cage, class Move, class Row>
 void walk(const MeasuredRows& p, const NoiseModel& n, const NoiseStates& s, Cage&& cage,
           Move&& move, Row&& row) {
   Eigen::Index k = 0;
-  VecX h(s.count);
+  OverStates h(s.count);
   for (std::size_t i = 0; i < p.drives.size(); ++i) {
     const IntervalDrive& d = p.drives[i];
     if (d.cage) cage(i);
