@@ -30,9 +30,11 @@ Verified WorkPlan::verified() {
 
 void WorkPlan::make() {
   all_ = all_blocks(reader_.manifest(), options_.runs);
-  const Listed found = listed();
   std::vector<std::uint64_t> missing;
-  if (ranks_.leader()) {
+  if (!ranks_.leader()) {
+    rules_.advance();
+  } else {
+    const Listed found = listed();
     before_ = found.runs;
     failed_before_ = found.failed;
     skipped_ = found.skipped;

@@ -5,14 +5,16 @@
 #   tsan      the tests of mc, which share work among threads, under the thread sanitizer
 #   fuzz      a million damaged study files, recordings, manifests and worker files under the sanitizers of
 #             asan, others every night; MUTANTS: how many, KEEP: where those that fail are kept
+#   tidy      clang-tidy, with the checks of .clang-tidy, on what nobody may lose results by: core/base, mc/store
+#             and mc/engine; OF: other folders
 #
-#   tests/checks/other_builds.sh [headers] [asan] [tsan] [fuzz]       all, unless some are named
+#   tests/checks/other_builds.sh [headers] [asan] [tsan] [fuzz] [tidy]       all, unless some are named
 #
 # Each costs a build; together an hour on two cores. ./driftscope test nightly runs them.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
-[ $# -gt 0 ] || set -- headers asan tsan fuzz
+[ $# -gt 0 ] || set -- headers asan tsan fuzz tidy
 # What the OpenMP library keeps for its threads until the process ends is no leak of ours.
 suppressed=$(mktemp)
 trap 'rm -f "$suppressed"' EXIT
@@ -23,6 +25,7 @@ for way; do
   cmake --preset "$preset" >/dev/null
   case $way in
     fuzz) cmake --build --preset asan --target driftscope_mc_tests ;;
+    tidy) cmake --build build/tidy --target drift_commit ;;
     *) cmake --build --preset "$way" ;;
   esac
   case $way in
@@ -34,6 +37,7 @@ for way; do
       DRIFT_FUZZ=${MUTANTS:-1000000} DRIFT_FUZZ_SERIES=$series DRIFT_FUZZ_KEEP=$keep \
         build/asan/bin/driftscope_mc_tests --gtest_filter='Fuzz*'
       ;;
+    tidy) run-clang-tidy -quiet -p build/tidy "/(${OF:-core/base|mc/store|mc/engine})/" ;;
     tsan)
       # Archer tells the sanitizer how OpenMP keeps threads apart; the libraries are not instrumented.
       OMP_TOOL_LIBRARIES=$(clang --print-resource-dir)/../../libarcher.so OMP_NUM_THREADS=4 \
