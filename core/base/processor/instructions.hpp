@@ -6,8 +6,8 @@
 namespace drift {
 
 /// The extensions of x86-64 that this build uses, as the compiler names them, apart by blanks:
-/// " avx2 fma "; " " where it uses none. Looked at before main() (cpu.cpp): where one is lacking, a
-/// message says so and the program exits with 2.
+/// " avx2 fma "; " " where it uses none. Looked at before main() (look.cpp): where one is lacking,
+/// a message says so and the program exits with 2.
 extern const char needed_instructions[];
 
 }  // namespace drift

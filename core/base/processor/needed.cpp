@@ -1,4 +1,4 @@
-#include "core/base/cpu.hpp"
+#include "core/base/processor/instructions.hpp"
 
 namespace drift {
 

@@ -1,6 +1,6 @@
-#include "core/base/cpu.hpp"
-
 #include <unistd.h>
+
+#include "core/base/processor/instructions.hpp"
 
 // Compiled for any x86-64 (CMakeLists.txt), and calls nothing but the system: a function that
 // another source has too, a template above all, could be the other's, of instructions that are not
