@@ -12,6 +12,7 @@ trap 'rm -rf "$scratch"' EXIT
 "$cmake" --install "$build" --prefix "$scratch/prefix" >"$scratch/log" || { cat "$scratch/log"; exit 1; }
 study=$scratch/prefix/share/driftscope/configs/cheap.toml
 "$scratch/prefix/bin/driftscope" check "$study" >/dev/null
+"$here/checks/hardened.sh" "$scratch/prefix/bin/driftscope" "$(sed -n "s/^CMAKE_BUILD_TYPE:[A-Z]*=//p" "$build/CMakeCache.txt")"
 python3 -c 'import json, sys; parts = json.load(open(sys.argv[1]))["components"]; assert any(p["name"] == "SUNDIALS" for p in parts)' \
   "$scratch"/prefix/share/doc/driftscope/sbom.cdx.json
 [ -s "$scratch/prefix/share/doc/driftscope/SECURITY.md" ] && [ -s "$scratch/prefix/share/doc/driftscope/CITATION.cff" ]

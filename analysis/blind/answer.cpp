@@ -51,7 +51,12 @@ Belief belief_in(const Json& answer) {
 }
 
 AnswerCause cause_of(const Json& j) {
-  AnswerCause c{j.at("term"), j.at("axis"), j.at("set"), number_of(j.at("probability")), {}, {}};
+  AnswerCause c{j.at("term"),
+                j.at("axis"),
+                whole_of<int>(j.at("set")),
+                number_of(j.at("probability")),
+                {},
+                {}};
   for (const Json& p : j.at("parameters")) {
     search::CauseParameter q;
     q.key = p.at("key");
@@ -90,7 +95,7 @@ Json of(const Answer& a) {
 
 Answer from(const Json& j) {
   Answer a;
-  a.number = j.at("trial");
+  a.number = whole_of<std::size_t>(j.at("trial"));
   a.failed = j.at("failed");
   a.failure = j.at("failure");
   a.verdict = value_in(diagnosis::verdicts, j.at("verdict").get<std::string>())
@@ -98,7 +103,7 @@ Answer from(const Json& j) {
   a.p_value = number_of(j.at("p_value"));
   for (const Json& c : j.at("causes")) a.causes.push_back(cause_of(c));
   a.equation = j.at("equation");
-  a.position = j.at("position");
+  a.position = whole_of<int>(j.at("position"));
   a.start_s = number_of(j.at("start_s"));
   a.end_s = number_of(j.at("end_s"));
   a.noise = j.at("noise").get<std::vector<std::string>>();
@@ -115,7 +120,7 @@ template <class Read>
 auto parsed(const std::string& json, Read&& read) {
   try {
     return read(Json::parse(json));
-  } catch (const Json::exception& e) {
+  } catch (const std::exception& e) {
     throw InputError(
         ExitCode::self_check,
         fmt::format("an answer cannot be read ({}). Remove it and run again", e.what()));

@@ -42,7 +42,7 @@ HiddenEffect effect_of(const Json& j) {
     e.parameters.push_back({p.at("key"), number_of(p.at("value")), p.at("unit")});
   e.size = number_of(j.at("size"));
   e.absorbed = number_of(j.at("absorbed"));
-  e.position = j.at("position");
+  e.position = whole_of<int>(j.at("position"));
   e.start_s = j.at("start_s");
   e.end_s = j.at("end_s");
   e.equation = j.at("equation");
@@ -97,9 +97,9 @@ auto named(const Table& table, const Json& name) {
 
 KeyEntry entry_of(const Json& j) {
   KeyEntry k;
-  k.plan.number = j.at("trial");
+  k.plan.number = whole_of<std::size_t>(j.at("trial"));
   k.plan.stratum = named(strata, j.at("stratum"));
-  k.plan.index = j.at("index");
+  k.plan.index = whole_of<std::size_t>(j.at("index"));
   k.plan.plan = j.at("plan");
   k.plan.mode = named(command_laws, j.at("mode"));
   k.plan.coupling = named(couplings, j.at("truth_coupling"));

@@ -38,7 +38,7 @@ std::vector<std::pair<std::string, std::string>> parse_list(const char* text) {
 std::string compute_fingerprint() {
   constexpr int samples = 2000;
   std::vector<double> values;
-  values.reserve(6 * samples);
+  values.reserve(std::size_t{6} * samples);
   for (int i = 1; i <= samples; ++i) {
     const volatile double x = 0.0137 * i;  // volatile: computed when the program runs
     const volatile double y = 0.71 + 1e-3 * i;

@@ -69,7 +69,7 @@ void ResultsRegister::add(const std::string& command, const HashedFiles& files) 
     lines = fmt::format("{}{}: the files that driftscope wrote here; it replaces no others\n", head,
                         command);
   for (const auto& [name, hash] : files)
-    if (hashes_.emplace(name, hash).second) lines += hash + "  " + name + "\n";
+    if (hashes_.emplace(name, hash).second) lines += fmt::format("{}  {}\n", hash, name);
   if (lines.empty()) return;
   if (!exists_) command_ = command;
   exists_ = true;

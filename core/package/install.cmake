@@ -23,9 +23,6 @@ install(FILES ${CMAKE_BINARY_DIR}/generated/driftscope-config.cmake
 
 # pkg-config takes no targets: what the program links is named by the libraries' own .pc files, or as it is.
 file(RELATIVE_PATH DRIFT_PC_UP /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
-if(DRIFT_NATIVE)
-  set(DRIFT_PC_ARCH -march=native)
-endif()
 if(DRIFT_MPI AND MPI_C_FOUND)
   list(JOIN MPI_C_LIBRARIES " " DRIFT_PC_MPI)
 endif()

@@ -11,8 +11,8 @@
 #include "mc/engine/block_board.hpp"
 #include "mc/engine/block_queue.hpp"
 #include "mc/engine/rule_follower.hpp"
-#include "mc/engine/shuffled.hpp"
 #include "mc/engine/stop_signals.hpp"
+#include "mc/engine/work_plan.hpp"
 #include "mc/store/store.hpp"
 #include "mc/store/study_reader.hpp"
 #include "mc/task/guarded_run.hpp"
@@ -35,74 +35,31 @@ class Engine {
         sink_(sink),
         store_(folder, ranks.size() > 1 ? ranks.rank() : options.share.index, manifest),
         reader_(folder),
-        rules_(work.stop_rules, options.runs, reader_) {}
+        rules_(work.stop_rules, options.runs, reader_),
+        plan_(work, options, ranks, reader_, rules_) {}
 
   StudyOutcome run() {
     store_.begin_session(options_.runs);
-    plan();
-    BlockBoard board([this] { return next_block(); }, columns());
-    const int threads = options_.threads > 0 ? options_.threads : omp_get_max_threads();
-#pragma omp parallel num_threads(threads)
-    work_through(board);
+    plan_.make();
+    execute();
+    if (ranks_.largest(stop_ != none) == 0 && plan_.mend()) execute();
     return finish();
   }
 
  private:
   enum Stop : int { none, asked, full_time, failed_run, elsewhere, broken };
 
+  void execute() {
+    BlockBoard board([this] { return plan_.next(); }, columns());
+    const int threads = options_.threads > 0 ? options_.threads : omp_get_max_threads();
+#pragma omp parallel num_threads(threads)
+    work_through(board);
+  }
+
   std::vector<std::size_t> columns() const {
     std::vector<std::size_t> list;
     for (const PointInfo& p : reader_.manifest().points) list.push_back(p.columns.size());
     return list;
-  }
-
-  WorkerShare own_share() const {
-    return ranks_.size() > 1 ? WorkerShare{} : options_.share;
-  }
-
-  /// What is missing, of this worker's share; for several ranks what the leader found to be
-  /// missing.
-  void plan() {
-    reader_.refresh();
-    rules_.advance();
-    all_ = all_blocks(reader_.manifest(), options_.runs);
-    const WorkerShare share = own_share();
-    std::vector<std::uint64_t> missing;
-    if (ranks_.leader())
-      for (std::uint64_t i = 0; i < all_.size(); ++i) {
-        if (const auto block = stored(all_[i])) {
-          before_ += all_[i].count;
-          failed_before_ += block->failures.size();
-        } else if (rules_.enough(all_[i].point)) {
-          total_skipped_ += all_[i].count;
-        } else if (i % share.count == share.index) {
-          missing.push_back(i);
-        }
-      }
-    ranks_.broadcast(missing);
-    found_cut_short_ = cut_short_;
-    todo_ =
-        options_.shuffle == 0 ? std::move(missing) : shuffled(std::move(missing), options_.shuffle);
-  }
-
-  std::optional<StoredBlock> stored(const BlockKey& key) {
-    auto block = reader_.read(key.point, key.first);
-    if (block && block->block.status.size() < key.count) {  // of a study with fewer runs
-      cut_short_ += block->block.status.size();
-      block.reset();
-    }
-    return block;
-  }
-
-  /// Called by one thread at a time.
-  std::optional<BlockKey> next_block() {
-    while (true) {
-      const std::uint64_t i = ranks_.add(Counter::block, 1);
-      if (i >= todo_.size()) return std::nullopt;
-      const BlockKey& key = all_[todo_[i]];
-      if (!rules_.enough(key.point)) return key;
-      total_skipped_ += key.count;
-    }
   }
 
   bool must_stop() {
@@ -170,11 +127,10 @@ class Engine {
     const bool alone = ranks_.size() == 1;
     Progress p;
     p.done_now = alone ? own_done_.load() : ranks_.add(Counter::done, 0);
-    p.failed = failed_before_ + (alone ? own_failed_.load() : ranks_.add(Counter::failed, 0));
-    p.done = before_ + p.done_now;
-    for (const std::uint64_t i : todo_) p.total += all_[i].count;
-    p.total += before_;
-    p.total -= std::min(p.total - p.done, std::min<std::uint64_t>(total_skipped_, p.total));
+    p.failed =
+        plan_.failed_before() + (alone ? own_failed_.load() : ranks_.add(Counter::failed, 0));
+    p.done = plan_.runs_before() + p.done_now;
+    p.total = plan_.total(p.done);
     p.elapsed = seconds();
     return p;
   }
@@ -210,8 +166,8 @@ class Engine {
       std::rethrow_exception(queue_.error());
     }
     if (sink_ && outcome.leader) sink_(progress());
-    outcome.done_before = before_;
-    outcome.cut_short = found_cut_short_;
+    outcome.done_before = plan_.runs_before();
+    outcome.cut_short = plan_.cut_short();
     outcome.stored_runs = reader_.runs();
     outcome.done = ranks_.add(Counter::done, 0);
     outcome.dropped = std::max(ranks_.add(Counter::executed, 0), outcome.done) - outcome.done;
@@ -243,22 +199,14 @@ class Engine {
   }
 
   void look_back(StudyOutcome& outcome) {
-    reader_.refresh();
-    rules_.advance();
-    const WorkerShare share = own_share();
-    for (std::size_t i = 0; i < all_.size(); ++i)
-      if (!rules_.enough(all_[i].point) && !stored(all_[i])) {
-        ++outcome.missing;
-        if (i % share.count == share.index) ++outcome.missing_own;
-      }
-    outcome.complete = outcome.missing == 0;
+    const WorkPlan::Rest rest = plan_.rest();
+    outcome.missing = rest.all;
+    outcome.missing_own = rest.own;
+    outcome.complete = rest.all == 0;
     if (!outcome.complete) return;
-    outcome.failed = outcome.results = 0;
-    reader_.each_result(work_.stop_rules, [&](const StoredBlock& b) {
-      outcome.results += b.block.status.size();
-      outcome.failed += b.failures.size();
-    });
-    outcome.digest = results_digest(reader_, work_.stop_rules);
+    outcome.results = rest.verified->results;
+    outcome.failed = rest.verified->failed;
+    outcome.digest = rest.verified->digest;
     try {
       note_finished(folder_, options_.runs);
     } catch (const InputError&) {  // the results are stored; this can be told anew
@@ -278,11 +226,8 @@ class Engine {
   WorkerStore store_;
   StudyReader reader_;
   RuleFollower rules_;
-  std::vector<BlockKey> all_;
-  std::vector<std::uint64_t> todo_;  ///< into all_
-  std::uint64_t before_ = 0, failed_before_ = 0;
-  std::uint64_t cut_short_ = 0, found_cut_short_ = 0;  ///< runs in blocks too short; at first
-  std::atomic<std::uint64_t> total_skipped_ = 0, own_done_ = 0, own_failed_ = 0;
+  WorkPlan plan_;
+  std::atomic<std::uint64_t> own_done_ = 0, own_failed_ = 0;
   std::atomic<int> stop_ = none;
   std::mutex progress_guard_;
   BlockQueue queue_{[this](const std::vector<StoredBlock>& batch) { commit(batch); }};

@@ -14,6 +14,8 @@ class RuleFollower {
   /// `runs`: per point. Without a maker no point ever has enough before that.
   RuleFollower(const StopRules& make, std::uint64_t runs, StudyReader& reader);
 
+  /// Whether there are rules at all.
+  bool follows() const { return !points_.empty(); }
   bool enough(std::size_t point) const { return !points_.empty() && points_[point].enough; }
   /// Takes in what was stored since. One thread at a time.
   void advance();

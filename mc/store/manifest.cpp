@@ -15,6 +15,7 @@
 #include "core/base/build_info.hpp"
 #include "core/base/check.hpp"
 #include "core/base/file_text.hpp"
+#include "core/base/json_number.hpp"
 #include "core/base/rng.hpp"
 #include "core/base/sha256.hpp"
 #include "mc/store/text_difference.hpp"
@@ -78,16 +79,18 @@ bool is_whole(std::string text) {
 Manifest from_text(const std::string& text) {
   const Json j = Json::parse(text);
   Manifest m;
-  m.read_as = j.at("format");
-  if (m.read_as < 1 || m.read_as > Manifest::file_format)
-    throw std::runtime_error(fmt::format("format {} is not known to this program", m.read_as));
+  const auto format = whole_of<std::uint64_t>(j.at("format"));
+  if (format < 1 || format > Manifest::file_format)
+    throw std::runtime_error(fmt::format("format {} is not known to this program", format));
+  m.read_as = static_cast<int>(format);
   if (m.read_as >= 2 && !is_whole(text))
     throw std::runtime_error("the file does not fit its checksum");
-  m.identity = {j.at("identity"), j.at("seed"), j.at("block_size")};
+  m.identity = {j.at("identity"), whole_of<std::uint64_t>(j.at("seed")),
+                whole_of<std::size_t>(j.at("block_size"))};
   m.hash = j.at("study_hash");
   m.study = j.at("study");
-  m.runs = j.value("runs_per_point", std::uint64_t{0});
-  m.finished = j.value("runs_finished", std::uint64_t{0});
+  m.runs = whole_of<std::uint64_t>(j.value("runs_per_point", Json(0u)));
+  m.finished = whole_of<std::uint64_t>(j.value("runs_finished", Json(0u)));
   m.program = j.at("program");
   m.instruction_set = j.at("instruction_set");
   m.arithmetic = j.at("arithmetic");
@@ -101,7 +104,7 @@ Manifest from_text(const std::string& text) {
     }
   }
   for (const Json& p : j.at("points"))
-    m.points.push_back({p.at("label"), sets.at(p.at("columns").get<std::size_t>())});
+    m.points.push_back({p.at("label"), sets.at(whole_of<std::size_t>(p.at("columns")))});
   for (const auto& [key, value] : j.at("provenance").items()) m.provenance.emplace_back(key, value);
   if (m.hash != m.identity.hash()) throw std::runtime_error("the study does not fit its hash");
   return m;

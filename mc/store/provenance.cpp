@@ -1,5 +1,6 @@
 #include "mc/store/provenance.hpp"
 
+#include <fmt/format.h>
 #include <sys/utsname.h>
 #include <unistd.h>
 
@@ -56,7 +57,7 @@ Facts provenance() {
   uname(&system);
   std::string libraries;
   for (const auto& [name, version] : build.libraries)
-    libraries += (libraries.empty() ? "" : ", ") + name + " " + version;
+    libraries += fmt::format("{}{} {}", libraries.empty() ? "" : ", ", name, version);
   return {{"program", "driftscope " + build.version},
           {"commit", build.commit},
           {"build", build.build_type},

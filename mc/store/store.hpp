@@ -34,6 +34,7 @@ struct Session {
 struct BlockEntry {
   BlockKey key;
   std::int64_t id = 0;
+  std::size_t failed = 0;  ///< runs; only told, not under the checksum
 };
 
 /// The file of one worker. SQLite tables (all may be looked into with `sqlite3`):

@@ -2,16 +2,20 @@
 
 #include <sqlite3.h>
 
+#include <chrono>
 #include <filesystem>
 #include <limits>
+#include <thread>
 
 #include "core/base/check.hpp"
+#include "mc/store/lock_holder.hpp"
 
 namespace drift::mc {
 namespace {
 
 constexpr std::size_t longest_path = 500;  // [bytes] SQLite takes 512, with its journal's ending
 constexpr int busy_ms = 20000;             // a reader holds the file for moments only
+constexpr int stopped_ms = 1000;           // long enough for a process that is stopped for a moment
 
 /// The path with the links in its folder resolved: those the user may give, a link in place of the
 /// file itself is not followed.
@@ -29,6 +33,36 @@ std::string immutable_uri(const std::string& path) {
     uri += c == '%' || c == '?' || c == '#' ? fmt::format("%{:02x}", static_cast<int>(c))
                                             : std::string(1, c);
   return uri + "?immutable=1";
+}
+
+/// Waits for a lock, `times` counting from 0: true to try again. Who is stopped is not waited for.
+int wait_for_lock(void* path, int times) {
+  constexpr int step_ms = 20;
+  if (times * step_ms >= busy_ms) return 0;
+  if (times > 0 && times * step_ms % stopped_ms == 0)
+    if (const auto holder = lock_holder(*static_cast<std::string*>(path));
+        holder && holder->is_stopped)
+      return 0;
+  std::this_thread::sleep_for(std::chrono::milliseconds(step_ms));
+  return 1;
+}
+
+[[noreturn]] void fail_locked(const std::string& path, const std::string& why) {
+  const auto holder = lock_holder(path);
+  if (holder && holder->is_stopped)
+    throw InputError(
+        ExitCode::io,
+        fmt::format("{}: process {} keeps the file locked and is stopped in the middle of a "
+                    "change (expected one that goes on). Continue it with `kill -CONT {}` or end "
+                    "it, nothing that is stored is lost; then run the same command again",
+                    path, holder->process, holder->process));
+  throw InputError(
+      ExitCode::io,
+      fmt::format(
+          "{}: {} keeps the file locked: {} (expected access within {} s). Close it and run "
+          "the same command again",
+          path, holder ? fmt::format("process {}", holder->process) : "another program", why,
+          busy_ms / 1000));
 }
 
 [[noreturn]] void fail(sqlite3* db, const std::string& path, int code) {
@@ -56,10 +90,7 @@ std::string immutable_uri(const std::string& path) {
               path, why));
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
-      throw InputError(ExitCode::io,
-                       fmt::format("{}: another program keeps the file locked: {} (expected access "
-                                   "within {} s). Close it and run the same command again",
-                                   path, why, busy_ms / 1000));
+      fail_locked(path, why);
     case SQLITE_CANTOPEN:
       if (std::error_code none; std::filesystem::is_symlink(path, none))
         throw InputError(ExitCode::store,
@@ -184,7 +215,7 @@ void Database::reopen() {
   db_.reset(made);
   if (code != SQLITE_OK) fail(made, path_, code);
   sqlite3_extended_result_codes(made, 1);
-  sqlite3_busy_timeout(made, busy_ms);
+  sqlite3_busy_handler(made, wait_for_lock, &path_);
   // A rollback journal, not a write-ahead log: the log needs memory shared between the readers,
   // which network file systems do not have. FULL: what is committed survives a power failure.
   if (use_ == Use::write) execute("PRAGMA journal_mode=DELETE; PRAGMA synchronous=FULL");

@@ -54,6 +54,8 @@ class Database {
   /// Without locks a writer, who is alone by its WorkerLock, opens its file as it is; a reader
   /// takes what it finds, undoes nothing, and must look by is_outdated() whether that has changed.
   Database(std::string path, Use use, Locks locks = Locks::kernel);
+  Database(const Database&) = delete;  // SQLite keeps its address, to wait for locks
+  Database& operator=(const Database&) = delete;
 
   /// True where a file that is read without locks is no longer what was opened.
   bool is_outdated() const;

@@ -80,8 +80,8 @@ std::vector<BlockEntry> WorkerFile::list(std::int64_t after_id, bool& damaged) {
     Statement tables = db_.prepare("SELECT count(*) FROM sqlite_master");
     if (tables.step() && tables.integer(0) == 0)
       return list;  // another worker is about to begin it
-    Statement query =
-        db_.prepare("SELECT id, point, first_run, runs FROM blocks WHERE id > ?1 ORDER BY id");
+    Statement query = db_.prepare(
+        "SELECT id, point, first_run, runs, failed FROM blocks WHERE id > ?1 ORDER BY id");
     query.bind(1, after_id);
     while (query.step()) {
       const auto point = query.integer(1), first = query.integer(2), runs = query.integer(3);
@@ -92,9 +92,11 @@ std::vector<BlockEntry> WorkerFile::list(std::int64_t after_id, bool& damaged) {
         damaged = true;
         continue;
       }
-      list.push_back({{static_cast<std::size_t>(point), static_cast<std::uint64_t>(first),
-                       static_cast<std::size_t>(runs)},
-                      query.integer(0)});
+      list.push_back(
+          {{static_cast<std::size_t>(point), static_cast<std::uint64_t>(first),
+            static_cast<std::size_t>(runs)},
+           query.integer(0),
+           static_cast<std::size_t>(std::clamp<std::int64_t>(query.integer(4), 0, runs))});
     }
   } catch (const InputError& error) {
     if (error.code() != ExitCode::store) throw;

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/base/check.hpp"
-#include "core/base/sha256.hpp"
 #include "mc/store/open_files.hpp"
 
 namespace drift::mc {
@@ -67,6 +66,11 @@ std::vector<BlockKey> StudyReader::keys() const {
   list.reserve(index_.size());
   for (const auto& [place, copies] : index_) list.push_back(copies.front().second.key);
   return list;
+}
+
+const BlockEntry* StudyReader::listed(std::size_t point, std::uint64_t first) const {
+  const auto found = index_.find({point, first});
+  return found == index_.end() ? nullptr : &found->second.front().second;
 }
 
 void StudyReader::each_copy(
@@ -141,14 +145,20 @@ std::vector<std::string> StudyReader::misfits() {
   return lines;
 }
 
+void ResultsDigest::add(const StoredBlock& b) {
+  const BlockKey key = key_of(b.block);
+  hash_.update(fmt::format("{} {} {}\n", key.point, key.first, key.count));
+  hash_.update(encode(b.block, manifest_.points[key.point].columns.size()));
+}
+
+std::string ResultsDigest::finish() {
+  return to_hex(hash_.finish());
+}
+
 std::string results_digest(StudyReader& reader, const StopRules& rules) {
-  Sha256 hash;
-  reader.each_result(rules, [&](const StoredBlock& b) {
-    const BlockKey key = key_of(b.block);
-    hash.update(fmt::format("{} {} {}\n", key.point, key.first, key.count));
-    hash.update(encode(b.block, reader.manifest().points[key.point].columns.size()));
-  });
-  return to_hex(hash.finish());
+  ResultsDigest digest(reader.manifest());
+  reader.each_result(rules, [&](const StoredBlock& b) { digest.add(b); });
+  return digest.finish();
 }
 
 std::vector<BlockKey> all_blocks(const Manifest& manifest, std::uint64_t runs) {

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/sha256.hpp"
 #include "mc/store/store.hpp"
 
 namespace drift::mc {
@@ -31,6 +32,8 @@ class StudyReader {
 
   /// Blocks in order (the largest where there are several of the same first run), not yet verified.
   std::vector<BlockKey> keys() const;
+  /// What is listed at this place (the largest), not yet verified; or nothing.
+  const BlockEntry* listed(std::size_t point, std::uint64_t first) const;
   /// The verified block at this place, or nothing. InputError (self_check) if two workers came to
   /// different results.
   std::optional<StoredBlock> read(std::size_t point, std::uint64_t first);
@@ -73,8 +76,20 @@ class StudyReader {
   Locks locks_;
 };
 
-/// SHA-256 over key and payload of all results in order, in hexadecimal: what is equal for any
-/// threads, workers, ranks and interruptions.
+/// SHA-256 over key and payload of results as each_result() visits them, in hexadecimal: what is
+/// equal for any threads, workers, ranks and interruptions.
+class ResultsDigest {
+ public:
+  explicit ResultsDigest(const Manifest& manifest) : manifest_(manifest) {}
+  void add(const StoredBlock& b);
+  std::string finish();
+
+ private:
+  const Manifest& manifest_;
+  Sha256 hash_;
+};
+
+/// That of all results.
 std::string results_digest(StudyReader& reader, const StopRules& rules);
 
 /// What a study has to do: blocks of every point that make up `runs` runs.

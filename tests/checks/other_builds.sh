@@ -3,25 +3,41 @@
 #   headers   every header compiles alone
 #   asan      the fast tests under the address and undefined behaviour sanitizers
 #   tsan      the tests of mc, which share work among threads, under the thread sanitizer
+#   fuzz      a million damaged study files, recordings, manifests and worker files under the sanitizers of
+#             asan, others every night; MUTANTS: how many, KEEP: where those that fail are kept
+#   tidy      clang-tidy, with the checks of .clang-tidy, on what nobody may lose results by: core/base, mc/store
+#             and mc/engine; OF: other folders
 #
-#   tests/checks/other_builds.sh [headers] [asan] [tsan]       all, unless some are named
+#   tests/checks/other_builds.sh [headers] [asan] [tsan] [fuzz] [tidy]       all, unless some are named
 #
 # Each costs a build; together an hour on two cores. ./driftscope test nightly runs them.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
-[ $# -gt 0 ] || set -- headers asan tsan
+[ $# -gt 0 ] || set -- headers asan tsan fuzz tidy
+# What the OpenMP library keeps for its threads until the process ends is no leak of ours.
+suppressed=$(mktemp)
+trap 'rm -f "$suppressed"' EXIT
+echo leak:libomp >"$suppressed"
+export LSAN_OPTIONS=suppressions=$suppressed
 for way; do
-  cmake --preset "$way" >/dev/null
-  cmake --build --preset "$way"
+  preset=${way/fuzz/asan}
+  cmake --preset "$preset" >/dev/null
   case $way in
-    asan)
-      # What the OpenMP library keeps for its threads until the process ends is no leak of ours.
-      suppressed=$(mktemp)
-      trap 'rm -f "$suppressed"' EXIT
-      echo leak:libomp >"$suppressed"
-      LSAN_OPTIONS=suppressions=$suppressed ctest --preset asan -j "$(nproc)"
+    fuzz) cmake --build --preset asan --target driftscope_mc_tests ;;
+    tidy) cmake --build build/tidy --target drift_commit ;;
+    *) cmake --build --preset "$way" ;;
+  esac
+  case $way in
+    asan) ctest --preset asan -j "$(nproc)" ;;
+    fuzz)
+      keep=${KEEP:-$PWD/build/asan/fuzz}
+      series=$(date +%Y%m%d)
+      echo "fuzz: series $series, failures are kept in $keep"
+      DRIFT_FUZZ=${MUTANTS:-1000000} DRIFT_FUZZ_SERIES=$series DRIFT_FUZZ_KEEP=$keep \
+        build/asan/bin/driftscope_mc_tests --gtest_filter='Fuzz*'
       ;;
+    tidy) run-clang-tidy -quiet -p build/tidy "/(${OF:-core/base|mc/store|mc/engine})/" ;;
     tsan)
       # Archer tells the sanitizer how OpenMP keeps threads apart; the libraries are not instrumented.
       OMP_TOOL_LIBRARIES=$(clang --print-resource-dir)/../../libarcher.so OMP_NUM_THREADS=4 \

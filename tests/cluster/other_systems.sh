@@ -7,18 +7,8 @@
 #
 # 77 where there is no GNU parallel and it cannot be fetched; HTCondor's part is shown all the same.
 set -uo pipefail
-program=$(realpath "$1") config=$(realpath "$2")
-jobs=$(cd "$(dirname "$0")/../../configs/cluster" && pwd)
-scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
-fail() {
-  echo "FAILED: $*" >&2
-  exit 1
-}
-digest() { "$program" verify "$1" --sample 0% | sed -n 's/^results //p'; }
-"$program" run "$config" -o "$scratch/reference" --progress none >/dev/null 2>&1
-reference=$(digest "$scratch/reference")
-[ -n "$reference" ] || fail "no digest of one process"
+. "$(dirname "$0")/common.sh"
+run_reference
 
 # A value of the submit file, with its macros as job $1 sees them.
 said() { sed -n "s/^$2 *= *//p" "$jobs/htcondor.sub" | sed "s/\$(Process)/$1/g"; }
@@ -57,7 +47,7 @@ echo "htcondor.sub: $count jobs, $checkpoints checkpoints, merged: the results o
 if ! command -v parallel >/dev/null; then
   (timeout 120 apt-get download parallel >apt.log 2>&1 && dpkg -x parallel_*.deb root) ||
     { echo "skipped: no GNU parallel, and its package cannot be fetched"; exit 77; }
-  export PATH=$scratch/root/usr/bin:$PATH
+  export PATH=$scratch/root/usr/bin:$PATH  # unpacked for this script, not installed
 fi
 parallel --version 2>/dev/null | grep -q 'GNU parallel' || { echo "skipped: parallel is not GNU parallel, or lacks perl"; exit 77; }
 HOME=$scratch DRIFTSCOPE=$program bash "$jobs/gnu_parallel.sh" "$config" out 6 >said 2>&1 || { cat said >&2; fail "gnu_parallel.sh ends with $?"; }

@@ -9,11 +9,10 @@
 # (default 3s) as in slurm_array.sh. KEEP=folder: where the results go. ARRAY_ALONE=1: without MPI and srun.
 # 77 where there is no Slurm and none can be fetched.
 set -uo pipefail
-program=$(realpath "$1") config=$(realpath "$2") kills=${3:-2}
-shift $(($# < 3 ? $# : 3))
 here=$(cd "$(dirname "$0")" && pwd)
-jobs=$(cd "$here/../../configs/cluster" && pwd)
-scratch=$(mktemp -d)
+. "$here/common.sh"
+kills=${3:-2}
+shift $(($# < 3 ? $# : 3))
 results=${KEEP:-$scratch}
 mkdir -p "$results"
 . "$here/local_slurm.sh"
@@ -23,7 +22,6 @@ fail() {
   tail -n 20 "$scratch"/log.* "$scratch/slurm/log/ctld.log" >&2
   exit 1
 }
-digest() { "$program" verify "$1" --sample 0% | sed -n 's/^results //p'; }
 queued() { squeue -h -o %T 2>/dev/null | wc -l; }
 seconds() { awk -v a="$1" -v b="$(date +%s.%N)" 'BEGIN { printf "%.1f", b - a }'; }
 

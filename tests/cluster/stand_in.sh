@@ -5,15 +5,7 @@
 #
 #   tests/cluster/stand_in.sh PROGRAM CONFIG
 set -uo pipefail
-program=$1 config=$2
-jobs=$(cd "$(dirname "$0")/../../configs/cluster" && pwd)
-scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
-fail() {
-  echo "FAILED: $*" >&2
-  exit 1
-}
-digest() { "$program" verify "$1" --sample 0% | sed -n 's/^results //p'; }
+. "$(dirname "$0")/common.sh"
 
 mkdir "$scratch/bin"
 printf '#!/bin/sh\n[ "$1" = requeue ] && : >"%s/queue.${2#*_}"\n' "$scratch" >"$scratch/bin/scontrol"
@@ -48,14 +40,14 @@ for ((round = 0; round < 40; ++round)); do
 done
 [ $requeues -gt 4 ] || fail "no task was queued again for time"
 "$program" status "$scratch/out" >/dev/null || fail "status after the last task: $?"
-"$program" run "$config" -o "$scratch/reference" --progress none >/dev/null 2>&1
-[ -n "$(digest "$scratch/out")" ] && [ "$(digest "$scratch/out")" = "$(digest "$scratch/reference")" ] ||
+run_reference
+[ "$(digest "$scratch/out")" = "$reference" ] ||
   fail "results of the array are not those of one process"
 
 for i in 0 1; do "$program" run "$config" -o "$scratch/part$i" --worker $i/2 --progress none >/dev/null 2>&1; done
 cp "$scratch"/part1/worker-0001.sqlite "$scratch/part0/"
 "$program" status "$scratch/part0" >/dev/null || fail "a folder with the worker files of both parts is not complete"
-[ "$(digest "$scratch/part0")" = "$(digest "$scratch/reference")" ] || fail "merged folders differ from one process"
+[ "$(digest "$scratch/part0")" = "$reference" ] || fail "merged folders differ from one process"
 
 SLURM_STEP_NUM_TASKS=4 SLURM_PROCID=0 "$program" run "$config" -o "$scratch/alone" >/dev/null 2>"$scratch/said"
 [ $? -eq 2 ] && grep -q 'worker auto' "$scratch/said" || fail "srun without MPI was not refused"

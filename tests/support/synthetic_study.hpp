@@ -33,12 +33,12 @@ struct SyntheticStudy {
     m.runs = options.runs;
     return m;
   }
-  mc::StudyOutcome run(const std::string& folder) const {
+  mc::StudyOutcome run(const std::string& folder, const mc::ProgressSink& progress = {}) const {
     const mc::StudyWork w = work();
     const mc::Manifest m = manifest();
     mc::claim_folder(folder, m);
     mc::Ranks ranks;
-    return mc::run_study(w, options, folder, m, ranks);
+    return mc::run_study(w, options, folder, m, ranks, progress);
   }
 };
 

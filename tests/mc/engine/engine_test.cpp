@@ -5,7 +5,7 @@
 #include <csignal>
 #include <cstring>
 #include <set>
-#include <thread>
+#include <utility>
 
 #include "tests/support/program.hpp"
 #include "tests/support/synthetic_study.hpp"
@@ -144,15 +144,76 @@ TEST(Engine, WallTimeAndSignalsLeaveAResumableStudy) {
   EXPECT_EQ(stopped.code, ExitCode::wall_time);
   EXPECT_FALSE(stopped.complete);
   study.options.max_wall.reset();
+  // The first progress is told after the first run, by the thread that executed it: however slow
+  // the machine, it gets the signal while there are runs to do.
   for (const auto& [signal, code] :
        {std::pair{SIGTERM, ExitCode::terminated}, {SIGINT, ExitCode::interrupted}}) {
-    std::jthread killer([signal = signal] {
-      std::this_thread::sleep_for(std::chrono::milliseconds(30));
-      kill(getpid(), signal);
-    });
-    EXPECT_EQ(study.run(folder.path()).code, code);
+    const ScratchFolder stopped_by_signal;
+    bool sent = false;
+    const auto send = [&, signal = signal](const mc::Progress&) {
+      if (!std::exchange(sent, true)) std::raise(signal);
+    };
+    const auto outcome = study.run(stopped_by_signal.path(), send);
+    EXPECT_EQ(outcome.code, code);
+    EXPECT_FALSE(outcome.complete);
+    EXPECT_LT(outcome.done, 300u);
+    EXPECT_EQ(study.run(stopped_by_signal.path()).digest, whole.digest);
   }
   EXPECT_EQ(study.run(folder.path()).digest, whole.digest);
+}
+
+/// One bit of one result of the first block, changed behind the back of its checksum.
+void damage(const std::string& path) {
+  mc::Database(path, mc::Database::Use::write)
+      .execute(
+          "UPDATE blocks SET payload = CAST(substr(payload, 1, 9) || x'5a' || substr(payload, 11) "
+          "AS BLOB) WHERE id = (SELECT min(id) FROM blocks)");
+}
+
+TEST(Engine, AStartReadsNothingOfOthersAndDamageIsMetBeforeTheStudyIsComplete) {
+  const ScratchFolder straight, folder;
+  SyntheticStudy study{.points = 2};
+  const auto whole = study.run(straight.path());
+  const auto run = [&](std::size_t worker) {
+    study.options.share = {worker, 3};
+    return study.run(folder.path());
+  };
+  run(0);
+  damage(folder.file("worker-0000.sqlite"));
+  const auto second = run(1);
+  EXPECT_EQ(second.notes.size(), 0u) << second.notes[0];  // whoever reads the block says so
+  const auto third = run(2);
+  EXPECT_EQ(third.notes.size(), 1u);
+  EXPECT_FALSE(third.complete);
+  EXPECT_EQ(third.missing, 1u);
+  EXPECT_EQ(third.missing_own, 0u);
+  EXPECT_EQ(third.digest, "");
+  const auto mended = run(0);
+  EXPECT_EQ(mended.done, 64u);
+  EXPECT_EQ(mended.digest, whole.digest);
+}
+
+TEST(Engine, DamageInTheFileOfAnotherWorkerIsMendedByTheCallThatMeetsIt) {
+  for (const bool with_rule : {false, true}) {
+    const ScratchFolder straight, folder;
+    SyntheticStudy study;
+    if (with_rule)
+      study.rules = [](std::size_t) { return std::make_unique<test::MeanRule>(5, 0.07); };
+    const auto whole = study.run(straight.path());
+    study.options.share = {1, 2};
+    study.run(folder.path());
+    study.options.share = {0, 2};
+    study.run(folder.path());
+    damage(folder.file("worker-0001.sqlite"));
+    study.options.share = {};
+    mc::Progress last;
+    const auto mended = study.run(folder.path(), [&](const mc::Progress& p) { last = p; });
+    EXPECT_TRUE(mended.complete);
+    EXPECT_EQ(mended.done, 64u) << with_rule;
+    EXPECT_EQ(mended.digest, whole.digest);
+    EXPECT_EQ(last.done, last.total);
+    EXPECT_FALSE(mended.notes.empty());
+  }
 }
 
 TEST(Engine, ProgressCountsUpToTheWholeStudy) {
