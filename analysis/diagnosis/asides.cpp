@@ -99,6 +99,11 @@ std::optional<remark::StrongestLeft> strongest_left(const search::Fitted& nomina
   return out;
 }
 
+std::optional<remark::LeftNotWhite> left_not_white(const Whiteness& w) {
+  if (!(w.ljung_box_p_after < Whiteness::least_p)) return std::nullopt;
+  return remark::LeftNotWhite{w.ljung_box_p_before, w.ljung_box_p_after};
+}
+
 std::optional<remark::BeyondPrior> beyond_prior(const BatchResult& nominal) {
   remark::BeyondPrior out;
   for (const ParameterEstimate& p : nominal.estimate.parameters) {

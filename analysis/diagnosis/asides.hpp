@@ -16,6 +16,9 @@ std::optional<NearestKnown> nearest_known(const search::Fitted& nominal,
 std::optional<remark::StrongestLeft> strongest_left(const search::Fitted& nominal,
                                                     const search::Search& found);
 
+/// Where the fit with the explanation leaves innovations that are not white.
+std::optional<remark::LeftNotWhite> left_not_white(const Whiteness& whiteness);
+
 /// Nominal parameters that the recording moves more than five sigmas of their prior: the fit is
 /// good, what it says is not to be believed (isotropic D_I, for one, is Earth rate about Up).
 std::optional<remark::BeyondPrior> beyond_prior(const BatchResult& nominal);

@@ -90,8 +90,9 @@ std::vector<search::Confusable> confusable_with(const search::Fitted& nominal,
   std::vector<search::Confusable> near;
   for (std::size_t k = 0; k < nominal.set.candidates.size(); ++k) {
     const inference::Candidate& c = nominal.set.candidates[k];
-    if (nominal.scores[k].dof == 0 ||
-        (c.term == cause.term && (c.axis == cause.axis || c.axis.empty())))
+    // A family and its own members are one thing.
+    const bool family = c.axis.empty() || cause.axis.empty();
+    if (nominal.scores[k].dof == 0 || (c.term == cause.term && (c.axis == cause.axis || family)))
       continue;
     const double rho = search::cosine(p, columns, c.variants[nominal.scores[k].variant].columns);
     if (std::abs(rho) > TraceLimits::confusable) near.push_back({c.term, c.axis, rho});
@@ -108,6 +109,25 @@ std::vector<search::Confusable> confusable_with(const search::Fitted& nominal,
       list.push_back(c);
   }
   return list;
+}
+
+/// Whether a candidate could leave the trace that a cause of several parameters was found with: of
+/// such a cause a candidate can be like one direction alone, which is no twin.
+bool explains_all_of(const search::Fitted& nominal, const std::vector<int>& cause,
+                     const search::Confusable& other) {
+  if (cause.size() == 1) return true;
+  const inference::Projected& p = nominal.projected;
+  const inference::Contrast own = inference::make_contrast(p.C, p.raw, cause);
+  const VecX found = own.W.transpose() * p.g(cause);  // of the trace, along orthonormal directions
+  for (std::size_t k = 0; k < nominal.set.candidates.size(); ++k) {
+    const inference::Candidate& c = nominal.set.candidates[k];
+    if (c.term != other.term || c.axis != other.axis) continue;
+    const std::vector<int>& columns = c.variants[nominal.scores[k].variant].columns;
+    const inference::Contrast its = inference::make_contrast(p.C, p.raw, columns);
+    const VecX seen = its.W.transpose() * (p.C(columns, cause) * (own.W * found));
+    if (inference::same_trace(seen.norm() / std::max(found.norm(), 1e-300))) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -131,9 +151,11 @@ CausesFound causes_of(const search::Fitted& nominal, const search::Search& found
     for (Eigen::Index k = 0; k < n; ++k)
       if (i != k) out.cosines.cosine(i, k) = search::cosine(p, columns[i], columns[k]);
   // A candidate that is wider than the cause holds it anyway and is no twin.
-  for (const search::Cause& cause : out.causes)
-    for (const search::Confusable& c : cause.confusable_with)
-      if (inference::same_trace(c.cosine) && (cause.axis.empty() || !c.axis.empty()))
+  for (std::size_t k = 0; k < out.causes.size(); ++k)
+    for (const search::Confusable& c : out.causes[k].confusable_with)
+      if (const search::Cause& cause = out.causes[k]; inference::same_trace(c.cosine) &&
+                                                      (cause.axis.empty() || !c.axis.empty()) &&
+                                                      explains_all_of(nominal, columns[k], c))
         out.inseparable.push_back({{cause.term, cause.axis, ""}, {c.term, c.axis, ""}});
   if (found.sets.empty() && nominal.lone.p_value < inference::RemarkLimits::lone_p)
     out.remarks.emplace_back(remark::FreeInputExplains{nominal.lone.equation, nominal.lone.gain});

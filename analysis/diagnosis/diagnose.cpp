@@ -170,7 +170,8 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
       judged.verdict == Verdict::consistent ? CausesFound{} : causes_of(nominal, found);
   for (std::size_t k = 0; k < member_gains.size() && k < causes.causes.size(); ++k)
     causes.causes[k].held_out_gain = member_gains[k];
-  Located place = located(nominal, found, judged, test.timeline, covariates, options.signals);
+  Located place =
+      located(nominal, found, judged, causes.causes, test.timeline, covariates, options.signals);
 
   if (judged.verdict == Verdict::unexplained && options.proposing != Proposing::left_out) {
     stages.begin("forms", 0.0);
@@ -205,6 +206,7 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
   append(d.remarks, std::move(noise.remarks));
   append(d.remarks, judged.remarks);
   append(d.remarks, judged.one_gyro);
+  if (best && found.significant) append(d.remarks, left_not_white(d.fit.whiteness));
   append(d.remarks, std::move(causes.remarks));
   if (d.verdict == Verdict::unexplained) d.nearest_known = nearest_known(nominal, found);
   if (d.nearest_known) append(d.remarks, strongest_left(nominal, found));

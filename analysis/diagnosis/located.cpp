@@ -1,7 +1,11 @@
 #include "analysis/diagnosis/located.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <optional>
+#include <span>
 
+#include "analysis/diagnosis/acting.hpp"
 #include "analysis/diagnosis/locate.hpp"
 #include "analysis/search/explained.hpp"
 
@@ -11,6 +15,48 @@ namespace {
 constexpr int bins_per_position = 6;
 constexpr std::size_t most_signals = 2, most_windows = 8;
 
+/// The axis on which something of an equation is seen best: by the inputs of free form, strongest
+/// first, where there are any, else by the windows.
+std::optional<int> seen_axis(const search::Fitted& nominal,
+                             const std::vector<InputEstimate>& inputs,
+                             inference::Equation equation) {
+  for (const InputEstimate& input : inputs)
+    if (input.equation == equation) return input.axis;
+  std::optional<int> axis;
+  double strongest = 0.0;
+  for (const inference::PositionScan& scan : nominal.scans)
+    for (std::size_t k = 0; k < scan.windows.size(); ++k)
+      if (scan.windows[k].equation == equation &&
+          scan.T[static_cast<Eigen::Index>(k)] > strongest) {
+        strongest = scan.T[static_cast<Eigen::Index>(k)];
+        axis = scan.windows[k].axis;
+      }
+  return axis;
+}
+
+/// An equation on one axis.
+struct Place {
+  inference::Equation equation;
+  int axis;
+  bool operator==(const Place&) const = default;
+  std::string name() const { return inference::equation_name(equation, axis); }
+};
+
+/// Where causes act, each place once. What has no axis of its own is where its kind is seen best;
+/// left out where it is not.
+std::vector<Place> places_of(const std::vector<Acting>& acting, const search::Fitted& nominal,
+                             const std::vector<InputEstimate>& inputs) {
+  std::vector<Place> all;
+  for (const Acting& a : acting) {
+    std::optional<int> axis = a.axis;
+    if (!axis) axis = seen_axis(nominal, inputs, a.equation);
+    if (!axis) continue;
+    const Place place{a.equation, *axis};
+    if (std::ranges::find(all, place) == all.end()) all.push_back(place);
+  }
+  return all;
+}
+
 std::string equation_of(const Judged& judged, const std::vector<InputEstimate>& inputs,
                         const inference::Window* window) {
   using Equation = inference::Equation;
@@ -19,6 +65,45 @@ std::string equation_of(const Judged& judged, const std::vector<InputEstimate>& 
   if (!inputs.empty() && inputs.front().gain > 0.0)
     return inference::equation_name(inputs.front().equation, inputs.front().axis);
   return window ? inference::equation_name(window->equation, window->axis) : "";
+}
+
+/// The time in which a cause acts that sets in once.
+ScanHit window_of(const Place& place, double onset, const search::Cause& cause,
+                  const Timeline& timeline) {
+  const auto& all = timeline.intervals;
+  const auto at = std::ranges::find_if(all, [&](const Interval& i) { return i.t1 > onset; });
+  ScanHit hit;
+  hit.equation = place.name();
+  hit.position = (at == all.end() ? all.back() : *at).position + 1;
+  hit.start_s = onset;
+  hit.end_s = all.back().t1;
+  hit.T = cause.T;
+  hit.p_value = cause.p_value;
+  return hit;
+}
+
+/// Those of all causes.
+std::vector<ScanHit> windows_of(const std::vector<search::Cause>& causes,
+                                const std::vector<Acting>& acting, const search::Fitted& nominal,
+                                const std::vector<InputEstimate>& inputs,
+                                const Timeline& timeline) {
+  std::vector<ScanHit> all;
+  for (std::size_t k = 0; k < acting.size(); ++k) {
+    if (!acting[k].onset) continue;
+    for (const Place& place : places_of({acting[k]}, nominal, inputs))
+      all.push_back(window_of(place, *acting[k].onset, causes[k], timeline));
+  }
+  return all;
+}
+
+/// The inputs at some places, in their order.
+std::vector<InputEstimate> inputs_at(const std::vector<Place>& places,
+                                     const std::vector<InputEstimate>& inputs) {
+  std::vector<InputEstimate> all;
+  for (const Place& place : places)
+    for (const InputEstimate& input : inputs)
+      if (place == Place{input.equation, input.axis}) all.push_back(input);
+  return all;
 }
 
 }  // namespace
@@ -33,8 +118,8 @@ inference::NoiseModel noise_without_effect(const search::Fitted& nominal,
 }
 
 Located located(const search::Fitted& nominal, const search::Search& found, const Judged& judged,
-                const Timeline& timeline, const std::vector<preparation::Covariate>& covariates,
-                Signals signals) {
+                const std::vector<search::Cause>& causes, const Timeline& timeline,
+                const std::vector<preparation::Covariate>& covariates, Signals signals) {
   const search::Refit* best = found.sets.empty() ? nullptr : &found.sets.front();
   // What the cause explains, by the refit: what it takes out of the residuals.
   inference::LinearProblem shown = nominal.problem.bare();
@@ -58,9 +143,24 @@ Located located(const search::Fitted& nominal, const search::Search& found, cons
   else if (window)
     signature = signature_of(nominal.problem, timeline, *nominal.projector, *window);
   Located out{locate(nominal, found.thresholds, signature, most_windows), {}};
-  out.where.equation = equation_of(judged, inputs, window);
-  for (std::size_t k = 0; k < std::min(most_signals, inputs.size()); ++k)
-    out.signals.push_back(recovered_signal(inputs[k], timeline, covariates, cause));
+  std::vector<search::Cause> named;
+  if (judged.verdict == Verdict::named)
+    std::ranges::copy_if(causes, std::back_inserter(named),
+                         [](const search::Cause& c) { return c.set == 0; });
+  const std::vector<Acting> acting = acting_of(std::span<const search::Cause>(named));
+  const std::vector<Place> places = places_of(acting, nominal, inputs);
+  if (places.empty()) {
+    out.where.equation = equation_of(judged, inputs, window);
+    for (std::size_t k = 0; k < std::min(most_signals, inputs.size()); ++k)
+      out.signals.push_back(recovered_signal(inputs[k], timeline, covariates, cause));
+    return out;
+  }
+  out.where.equation = places.front().name();
+  for (const Place& place : places) out.where.equations.push_back(place.name());
+  out.where.windows = windows_of(named, acting, nominal, inputs, timeline);
+  if (named.size() == 1 && acting.front().onset) out.where.onset_s = *acting.front().onset;
+  for (const InputEstimate& input : inputs_at(places, inputs))
+    out.signals.push_back(recovered_signal(input, timeline, covariates, cause, ShapeFrom::cause));
   return out;
 }
 

@@ -22,10 +22,12 @@ enum class Signals { recovered, left_out };
 inference::NoiseModel noise_without_effect(const search::Fitted& nominal,
                                            const search::Search& found);
 
-/// Where it is by the best explanation there is, else by the strongest window; what it looks like
-/// with everything in it that the nominal model leaves.
+/// Of causes that are named everything follows from them: equation, channels, positions, when they
+/// act, and the input that is recovered. Without a name the equation is that of the input of free
+/// form with the largest evidence, the rest of the best explanation there is, else of the strongest
+/// window; the signals hold everything that the nominal model leaves.
 Located located(const search::Fitted& nominal, const search::Search& found, const Judged& judged,
-                const Timeline& timeline, const std::vector<preparation::Covariate>& covariates,
-                Signals signals);
+                const std::vector<search::Cause>& causes, const Timeline& timeline,
+                const std::vector<preparation::Covariate>& covariates, Signals signals);
 
 }  // namespace drift::diagnosis

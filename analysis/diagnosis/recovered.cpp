@@ -62,6 +62,11 @@ void smooth(InputEstimate& input, const Timeline& timeline) {
     }
 }
 
+double correlation(const VecX& a, const VecX& b) {
+  const double norms = a.norm() * b.norm();
+  return norms > 0.0 ? a.dot(b) / norms : 0.0;
+}
+
 }  // namespace
 
 std::vector<InputEstimate> estimate_inputs(const inference::MeasuredRows& rows,
@@ -112,7 +117,8 @@ std::vector<InputEstimate> estimate_inputs(const inference::MeasuredRows& rows,
 
 RecoveredSignal recovered_signal(const InputEstimate& input, const Timeline& timeline,
                                  const std::vector<preparation::Covariate>& covariates,
-                                 const std::vector<std::pair<int, double>>& cause) {
+                                 const std::vector<std::pair<int, double>>& cause,
+                                 ShapeFrom shape) {
   RecoveredSignal out;
   out.equation = inference::equation_name(input.equation, input.axis);
   const Unit& shown = input.equation == Equation::rate            ? unit::deg_per_h
@@ -135,6 +141,11 @@ RecoveredSignal recovered_signal(const InputEstimate& input, const Timeline& tim
       if (explained.size() > 0) out.explained.push_back(explained[k] / to_si);
     }
 
+  if (shape == ShapeFrom::cause) {
+    out.shape.kind = Shape::Kind::of_cause;
+    out.correlation = explained.size() > 0 ? correlation(explained, input.value) : 0.0;
+    return out;
+  }
   // The shape whose own projected score is largest, two-parameter ones at a discount.
   double best = 0.0;
   const ShapeColumns* winner = nullptr;
@@ -150,9 +161,7 @@ RecoveredSignal recovered_signal(const InputEstimate& input, const Timeline& tim
       winner = &f;
       // Correlation of the signal with the shape, both as the test shows them.
       const VecX y = input.smoother * (input.C * f.columns * solve_symmetric(C, g));
-      out.correlation = y.norm() > 0.0 && input.value.norm() > 0.0
-                            ? y.dot(input.value) / (y.norm() * input.value.norm())
-                            : 0.0;
+      out.correlation = correlation(y, input.value);
     }
   }
   if (!winner) {

@@ -26,10 +26,14 @@ std::vector<InputEstimate> estimate_inputs(const inference::MeasuredRows& rows,
                                            const Timeline& timeline,
                                            const inference::Projector& projector, int per_position);
 
+/// Whether the shape of a signal is to be found, or is that of a cause which is named.
+enum class ShapeFrom { signal, cause };
+
 /// As a time series with a description of its shape. cause: candidate columns with amplitudes whose
 /// signature is drawn over it; may be empty.
 RecoveredSignal recovered_signal(const InputEstimate& input, const Timeline& timeline,
                                  const std::vector<preparation::Covariate>& covariates,
-                                 const std::vector<std::pair<int, double>>& cause);
+                                 const std::vector<std::pair<int, double>>& cause,
+                                 ShapeFrom shape = ShapeFrom::signal);
 
 }  // namespace drift::diagnosis

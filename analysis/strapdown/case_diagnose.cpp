@@ -32,6 +32,7 @@ void rename(Diagnosis& d) {
   for (auto& share : d.where.channels) share.name = channel_of_case(share.name);
   for (auto& hit : d.where.windows) hit.equation = equation_of_case(hit.equation);
   d.where.equation = equation_of_case(d.where.equation);
+  for (std::string& equation : d.where.equations) equation = equation_of_case(equation);
   for (auto& signal : d.signals) signal.equation = equation_of_case(signal.equation);
   for (auto& noise : d.noise)
     if (noise.component == "gimbal_white") noise.component = "gyro_white";

@@ -1,11 +1,14 @@
 #include "analysis/strapdown/sensed.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace drift::strapdown {
 namespace {
 
 constexpr auto first_scale = TermLibrary::index("s_x");
+constexpr std::array bent_scales{TermLibrary::index("s_a_x"), TermLibrary::index("s_2_x")};
 constexpr auto num_drifts = TermLibrary::index("eta_x");  // the drifts come first in the library
 static_assert(TermLibrary::index("D_F_x") == 0 && TermLibrary::index("D_OS_z") < num_drifts);
 
@@ -15,6 +18,12 @@ int axis_of(std::size_t param) {
 
 bool is_scale(std::size_t param) {
   return param >= first_scale && param < first_scale + 3;
+}
+
+/// Asymmetry or nonlinearity of a scale factor.
+bool is_bent_scale(std::size_t param) {
+  return std::ranges::any_of(
+      bent_scales, [&](std::size_t first) { return param >= first && param < first + 3; });
 }
 
 }  // namespace
@@ -28,6 +37,7 @@ Vec3 scales_of(const EstimateResult& of_platform) {
 
 double as_sensed(std::size_t param, double value, const Vec3& scales) {
   if (is_scale(param)) return 1.0 / (1.0 + value) - 1.0;
+  if (is_bent_scale(param)) return -value;
   return param < num_drifts ? value / (1.0 + scales[axis_of(param)]) : value;
 }
 
@@ -37,6 +47,7 @@ EstimateResult as_sensed(EstimateResult e) {
   MatX derivative = MatX::Identity(n, n);  // of what is sensed by the platform's, prior-scaled
   for (Eigen::Index k = 0; k < n; ++k) {
     const ParameterEstimate& p = e.parameters[static_cast<std::size_t>(k)];
+    if (is_bent_scale(p.param)) derivative(k, k) = -1.0;
     if (!is_scale(p.param) && p.param >= num_drifts) continue;
     const double read = 1.0 / (1.0 + scales[axis_of(p.param)]);
     derivative(k, k) = is_scale(p.param) ? -read * read : read;

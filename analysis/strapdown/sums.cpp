@@ -12,10 +12,25 @@ namespace {
 
 constexpr double small_part = 0.02, about_one = 0.02;
 
-/// "+ 0.52 D_I_z", the first without a plus.
-std::string member(double factor, std::string_view key, bool first) {
+/// What a member is multiplied with, beside a number, to be in the unit of the sum: "g" turns
+/// deg/h/g into deg/h; of units that have nothing in common "(ug per arcsec)".
+std::string unit_of_factor(std::string_view member, std::string_view sum) {
+  if (member == sum) return "";
+  if (member.starts_with(sum) && member.substr(sum.size()).starts_with('/')) {
+    std::string rest(member.substr(sum.size() + 1));
+    if (rest.find('/') == std::string::npos) return rest;
+  }
+  if (sum.starts_with(member) && sum.substr(member.size()).starts_with('/'))
+    return "1" + std::string(sum.substr(member.size()));
+  return fmt::format("({} per {})", sum, member);
+}
+
+/// "+ 0.52 g D_I_z", the first without a plus.
+std::string member(double factor, std::string_view key, const std::string& unit, bool first) {
   const double size = std::abs(factor);
-  const std::string number = std::abs(size - 1.0) < about_one ? "" : fmt::format("{:.2g} ", size);
+  const bool plain = std::abs(size - 1.0) < about_one && unit.empty();
+  const std::string number =
+      plain ? "" : fmt::format("{:.2g} {}{}", size, unit, unit.empty() ? "" : " ");
   return fmt::format("{}{}{}", first ? (factor < 0.0 ? "-" : "") : (factor < 0.0 ? " - " : " + "),
                      number, key);
 }
@@ -57,7 +72,7 @@ std::vector<StrapdownParameter> known_sums(const EstimateResult& estimate) {
     };
     const ParamSpec& spec = TermLibrary::specs[of(largest).param];
     StrapdownParameter sum{"", 0.0, 0.0, std::string(spec.unit.symbol.view()),
-                           "a sum, each member in its own unit: they are not told apart"};
+                           "a sum: its members are not told apart"};
     VecX kept = VecX::Zero(direction.size());
     for (const bool first : {true, false})
       for (Eigen::Index k = 0; k < direction.size(); ++k) {
@@ -69,7 +84,9 @@ std::vector<StrapdownParameter> known_sums(const EstimateResult& estimate) {
         // In the member's own unit, so that the sum is in that of the largest.
         const double factor =
             part * of(largest).prior_sigma / p.prior_sigma * own.unit.to_si / spec.unit.to_si;
-        sum.key += member(factor, own.key.view(), sum.key.empty());
+        sum.key += member(factor, own.key.view(),
+                          unit_of_factor(own.unit.symbol.view(), spec.unit.symbol.view()),
+                          sum.key.empty());
         sum.value += part * of(largest).prior_sigma * p.value / p.prior_sigma;
       }
     sum.value /= spec.unit.to_si;

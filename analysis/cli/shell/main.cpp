@@ -61,7 +61,9 @@ class Program {
     cli::add_terminal_options(*app, terminal_);
   }
 
-  CLI::App app_{"driftscope: Monte Carlo observability engine for gimballed inertial platforms"};
+  CLI::App app_{
+      "driftscope: Monte Carlo observability engine for gimballed platforms and strapdown "
+      "units"};
   cli::TerminalOptions terminal_;
   std::function<ExitCode()> chosen_;
 };

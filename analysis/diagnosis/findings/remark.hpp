@@ -29,6 +29,10 @@ struct LambdaNotSettled {};
 struct MemberNotConfirmed {};
 /// The cause fits, and held-out positions are predicted no better with it.
 struct NotPredicted {};
+/// With the cause in the model the innovations are not white; p by chance, without it and with it.
+struct LeftNotWhite {
+  double before = 1.0, after = 1.0;
+};
 /// Isolated samples left out, and samples given less weight.
 struct SamplesLeftOut {
   std::size_t removed = 0, lowered = 0;
@@ -93,9 +97,10 @@ struct NotObservable {
 using Remark =
     std::variant<remark::Input, remark::JustSignificantLeft, remark::LambdaNotSettled,
                  remark::MemberNotConfirmed, remark::NotPredicted, remark::SamplesLeftOut,
-                 remark::FreeInputExplains, remark::CrosstalkMovesLambda, remark::DrivesOneGyro,
-                 remark::StrongestLeft, remark::BeyondPrior, remark::OtherEquation,
-                 remark::FieldAssumed, remark::NoiseOrEffect, remark::NoAdvice,
-                 remark::NoDeclaredNoise, remark::CommonDriftUnseen, remark::NotObservable>;
+                 remark::FreeInputExplains, remark::LeftNotWhite, remark::CrosstalkMovesLambda,
+                 remark::DrivesOneGyro, remark::StrongestLeft, remark::BeyondPrior,
+                 remark::OtherEquation, remark::FieldAssumed, remark::NoiseOrEffect,
+                 remark::NoAdvice, remark::NoDeclaredNoise, remark::CommonDriftUnseen,
+                 remark::NotObservable>;
 
 }  // namespace drift::diagnosis

@@ -19,6 +19,7 @@ struct Shape {
     specific_force_square,  ///< goes with the product of those along `axis` and `other_axis`
     one_position,           ///< is present in `position` alone
     covariate,              ///< goes with `covariate`
+    of_cause,               ///< what a named cause makes of it
     follows,                ///< of a recording on a case: goes with `covariate`, signed
     follows_nothing,        ///< of a recording on a case: neither with specific force nor time
   };

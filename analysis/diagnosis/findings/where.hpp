@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -45,9 +46,15 @@ struct Where {
   std::vector<std::string> channel_names;  ///< acc_x y z, gimbal_outer middle inner
   std::vector<Share> channels, positions;  ///< largest share first
   std::vector<HeatCell> heat;
-  std::vector<ScanHit> windows;  ///< significant ones, strongest first; overlapping ones once
-  std::string equation;          ///< of the strongest, empty if nothing is significant
-  double scan_p_value = 1.0;     ///< family-wise over all windows
+  /// Significant ones, strongest first, overlapping ones once; of causes that are named the time in
+  /// which they act, none where that is always.
+  std::vector<ScanHit> windows;
+  /// Of the first cause that is named, else of the strongest input of free form; empty if nothing
+  /// is significant.
+  std::string equation;
+  std::vector<std::string> equations;  ///< of every cause that is named, each once
+  double onset_s = std::numeric_limits<double>::quiet_NaN();  ///< of a cause that sets in once
+  double scan_p_value = 1.0;                                  ///< family-wise over all windows
   std::size_t windows_tried = 0;
   std::vector<RecordingSpan> recordings;  ///< in order, of several; empty of one
 };

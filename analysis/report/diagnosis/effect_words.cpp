@@ -68,17 +68,17 @@ std::string with_brackets(std::string words, const std::string& inside) {
 
 }  // namespace
 
-std::string in_words(std::string_view term, std::string_view axis) {
+std::string in_words(std::string_view term, std::string_view axis, Instrument instrument) {
   if (term == closure_term) return "another drift equation";
   const auto known = TermLibrary::find_term(term);
   if (!known) return search::keyed(term, axis);
   const TermInfo& info = TermLibrary::terms[*known];
-  return axis.empty() ? std::string(info.title)
-                      : fmt::format("{}, {}", info.title, part_of(info, axis));
+  const std::string_view title = title_of(info, instrument);
+  return axis.empty() ? std::string(title) : fmt::format("{}, {}", title, part_of(info, axis));
 }
 
-std::string in_words(const search::Cause& c) {
-  return with_brackets(in_words(c.term, c.axis), numbers_of(c));
+std::string in_words(const search::Cause& c, Instrument instrument) {
+  return with_brackets(in_words(c.term, c.axis, instrument), numbers_of(c));
 }
 
 std::string equation_in_words(const std::string& equation) {
@@ -86,14 +86,14 @@ std::string equation_in_words(const std::string& equation) {
   return equation.starts_with(gimbal) ? equation.substr(gimbal.size()) + " gimbal" : equation;
 }
 
-std::string lacking(const std::vector<search::Cause>& causes) {
+std::string lacking(const std::vector<search::Cause>& causes, Instrument instrument) {
   std::vector<std::string> effects;
   std::string equation;
   for (const search::Cause& c : causes)
     if (c.term == closure_term)
       equation = fmt::format(" has the wrong drift equation ({})", numbers_of(c));
     else
-      effects.push_back(in_words(c));
+      effects.push_back(in_words(c, instrument));
   const std::string lacks = effects.empty() ? "" : fmt::format(" lacks {}", listed(effects, "and"));
   return fmt::format("The nominal model{}{}{}", equation,
                      equation.empty() || lacks.empty() ? "" : " and", lacks);

@@ -42,6 +42,7 @@ Json where_json(const Where& where) {
     out["recordings"].push_back(
         {{"name", r.name}, {"start_s", r.start_s}, {"end_s", r.end_s}, {"offset_s", r.offset_s}});
   out["equation"] = text_or_null(where.equation);
+  if (!where.equations.empty()) out["equations"] = where.equations;
   const bool scanned = std::isfinite(where.scan_p_value);
   out["p_value"] = where.scan_p_value;
   out["windows_tried"] = scanned ? Json(where.windows_tried) : Json(nullptr);
@@ -237,7 +238,7 @@ Json diagnosis_document(const Diagnosis& d) {
   out["noise"] = rows_json(noise_table(d));
   out["equations"] = equations_json(d.signals);
   out["cosines"] = cosines_json(d.cosines);
-  out["inseparable"] = twins_in_words(d.inseparable);
+  out["inseparable"] = twins_in_words(d.inseparable, instrument_of(d));
   out["remarks"] = remarks_of(d);
   Json& seconds = out["seconds"] = Json::object();
   for (const auto& [stage, time] : d.seconds) seconds[stage] = time;

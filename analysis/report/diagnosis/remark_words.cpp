@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/diagnosis/findings/fit_comparison.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
+#include "core/base/number_text.hpp"
 #include "core/base/words.hpp"
 
 namespace drift::report {
@@ -20,6 +22,8 @@ auto other_number(const OtherEquation& r) {
 
 /// One overload for each kind of remark.
 struct Words {
+  Instrument instrument;
+
   std::string operator()(const Input& r) const { return r.text; }
 
   std::string operator()(const JustSignificantLeft&) const {
@@ -40,6 +44,17 @@ struct Words {
   std::string operator()(const NotPredicted&) const {
     return "The cause fits, but held-out positions are not predicted better with it. An effect "
            "that lives in one position cannot be confirmed by the others: repeat that position.";
+  }
+
+  std::string operator()(const LeftNotWhite& r) const {
+    return fmt::format(
+        "With the cause in the model the innovations are less white than chance makes them in 19 "
+        "of "
+        "20 recordings (p {}, without it {}): {}.",
+        p_text(r.after), p_text(r.before),
+        r.before < diagnosis::Whiteness::least_p
+            ? "something beside it is left"
+            : "something is left, or the cause takes the place of another");
   }
 
   std::string operator()(const SamplesLeftOut& r) const {
@@ -120,7 +135,7 @@ struct Words {
         "Without the noise that was found to drive the platform, {} would explain the test ({:.1f} "
         "sigma): a slow effect and such noise look alike here. More positions or longer dwells "
         "tell them apart",
-        in_words(r.effect.term, r.effect.axis), r.sigmas);
+        in_words(r.effect.term, r.effect.axis, instrument), r.sigmas);
   }
 
   std::string operator()(const NoAdvice& r) const {
@@ -143,8 +158,8 @@ struct Words {
 
 }  // namespace
 
-std::string in_words(const diagnosis::Remark& remark) {
-  return std::visit(Words{}, remark);
+std::string in_words(const diagnosis::Remark& remark, Instrument instrument) {
+  return std::visit(Words{instrument}, remark);
 }
 
 std::string cannot_tell_equations(const OtherEquation& open) {

@@ -3,11 +3,12 @@
 #include <string>
 
 #include "analysis/diagnosis/findings/remark.hpp"
+#include "analysis/report/diagnosis/instrument.hpp"
 
 namespace drift::report {
 
 /// A remark in words, for a test engineer.
-std::string in_words(const diagnosis::Remark& remark);
+std::string in_words(const diagnosis::Remark& remark, Instrument instrument = Instrument::platform);
 
 /// "This plan cannot tell the nominal eq. (6) from eq. (5)".
 std::string cannot_tell_equations(const diagnosis::remark::OtherEquation& open);

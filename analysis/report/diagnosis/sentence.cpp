@@ -9,6 +9,7 @@
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/report/diagnosis/not_examined_words.hpp"
 #include "analysis/report/diagnosis/remark_words.hpp"
+#include "analysis/report/diagnosis/too_large.hpp"
 #include "core/base/number_text.hpp"
 #include "core/base/units.hpp"
 #include "core/base/words.hpp"
@@ -73,6 +74,15 @@ std::string twins_text(const Diagnosis& d, const std::vector<Alternative>& all) 
   return text;
 }
 
+/// Whether a cause that was fitted with several sizes is one with another effect in all of them.
+bool one_in_all(const Diagnosis& d, const search::Cause& c, const search::Confusable& o) {
+  if (std::ranges::count(c.parameters, false, &search::CauseParameter::profiled) < 2) return true;
+  return std::ranges::any_of(d.inseparable, [&](const Twins& t) {
+    return t.one.term == c.term && t.one.axis == c.axis && t.other.term == o.term &&
+           t.other.axis == o.axis;
+  });
+}
+
 /// What leaves the same trace as a cause and is no part of the verdict. A candidate of all axes of
 /// a term is passed over for the one axis of it that does.
 std::string outside_twins_text(const Diagnosis& d) {
@@ -86,10 +96,11 @@ std::string outside_twins_text(const Diagnosis& d) {
           std::ranges::any_of(c.confusable_with, [&](const search::Confusable& k) {
             return k.term == o.term && !k.axis.empty() && inference::same_trace(k.cosine);
           });
-      if (!inference::same_trace(o.cosine) || among || narrower) continue;
-      const auto line = fmt::format(" On this plan {} ({}) and {} ({}) leave the same trace.",
-                                    in_words(c.term, c.axis), search::keyed(c.term, c.axis),
-                                    in_words(o.term, o.axis), search::keyed(o.term, o.axis));
+      if (!inference::same_trace(o.cosine) || among || narrower || !one_in_all(d, c, o)) continue;
+      const auto line =
+          fmt::format(" On this plan {} ({}) and {} ({}) leave the same trace.",
+                      in_words(c.term, c.axis, instrument_of(d)), search::keyed(c.term, c.axis),
+                      in_words(o.term, o.axis, instrument_of(d)), search::keyed(o.term, o.axis));
       if (text.find(line) == std::string::npos) text += line;
     }
   return text;
@@ -97,7 +108,7 @@ std::string outside_twins_text(const Diagnosis& d) {
 
 std::string together(const Diagnosis& d, const Alternative& causes) {
   std::vector<std::string> words;
-  for (const std::size_t k : causes) words.push_back(in_words(d.causes[k]));
+  for (const std::size_t k : causes) words.push_back(in_words(d.causes[k], instrument_of(d)));
   return fmt::format("{}", fmt::join(words, " together with "));
 }
 
@@ -137,6 +148,14 @@ std::string ambiguous_text(const Diagnosis& d) {
                      fmt::join(words, ", or "), twins_text(d, all));
 }
 
+/// "shows as much with a chance of 0.2".
+std::string shows_as_much(double p_value) {
+  constexpr double nearly_always = 0.995;  // what two digits would call 1
+  return p_value > nearly_always
+             ? "nearly always shows as much"
+             : fmt::format("shows as much with a chance of {}", p_text(p_value));
+}
+
 std::string verdict_alone(const Diagnosis& d) {
   const std::string noise = noise_text(d),
                     false_alarm = fmt::format("chance of a false alarm: {}", p_text(d.p_value));
@@ -144,11 +163,10 @@ std::string verdict_alone(const Diagnosis& d) {
     case Verdict::consistent:
       return fmt::format(
           "The recording agrees with the nominal model; no missing physics is found (noise alone "
-          "shows as "
-          "much with a chance of {}).{}",
-          p_text(d.p_value), noise);
+          "{}).{}",
+          shows_as_much(d.p_value), noise);
     case Verdict::named:
-      return fmt::format("{}; {} ({}).{}{}", lacking(d.causes),
+      return fmt::format("{}; {} ({}).{}{}", lacking(d.causes, instrument_of(d)),
                          held_out_text(d, d.causes.size() > 1), false_alarm, outside_twins_text(d),
                          noise);
     case Verdict::ambiguous:
@@ -173,10 +191,10 @@ std::string errors_text(const Diagnosis& d) {
   return fmt::format(" Error on held-out data: {}.", fmt::join(numbers, ", "));
 }
 
-std::string nearest_text(const NearestKnown& near) {
+std::string nearest_text(const NearestKnown& near, Instrument instrument) {
   std::vector<std::string> words;
   for (const NamedEffect& e : near.effects)
-    words.push_back(fmt::format("{} ({})", in_words(e.term, e.axis), e.label));
+    words.push_back(fmt::format("{} ({})", in_words(e.term, e.axis, instrument), e.label));
   return fmt::format(
       " The nearest known is {}: chi-square per degree of freedom goes from {:.3g} to {:.3g}, and "
       "something significant is left.",
@@ -218,11 +236,12 @@ std::string patch_text(const Diagnosis& d) {
 std::string sentence(const Diagnosis& d) {
   if (d.site_doubt) return site_text(*d.site_doubt);
   std::string text = verdict_alone(d);
-  if (d.nearest_known) text += nearest_text(*d.nearest_known);
+  if (d.nearest_known) text += nearest_text(*d.nearest_known, instrument_of(d));
   if (d.verdict == Verdict::consistent)
     for (const Remark& r : d.remarks)
       if (const auto* other = std::get_if<remark::OtherEquation>(&r); other && other->open())
         text += fmt::format(" {}.", cannot_tell_equations(*other));
+  text += too_large_text(d);
   text += unexamined_twins_text(d.not_examined);
   text += errors_text(d);
   return text;

@@ -36,6 +36,8 @@ std::string bare(const diagnosis::Shape& s) {
       return fmt::format("is present in position {} alone", s.position);
     case Kind::covariate:
       return fmt::format("goes with the recorded {}", s.covariate);
+    case Kind::of_cause:
+      return "as the cause that is named makes it";
     case Kind::follows:
       return fmt::format("follows {}", s.covariate);
     case Kind::follows_nothing:

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "analysis/report/diagnosis/sections.hpp"
+#include "analysis/report/diagnosis/too_large.hpp"
 #include "analysis/report/svg/bar_chart.hpp"
 #include "analysis/report/svg/heat_map.hpp"
 
@@ -23,10 +24,9 @@ Cell unit_cell(const std::string& unit) {
 
 /// Why a candidate is none of the causes. best: the largest log evidence among those.
 std::string why_not(const Diagnosis& d, const CandidateScore& c, double best) {
-  constexpr double chance = 0.05, unusual = 5.0;  // family-wise p; prior sigmas
   if (!c.observable) return "not observable on this plan";
-  if (c.p_value > chance) return "no stronger than chance";
-  if (c.size_sigma > unusual)
+  if (c.p_value > no_stronger_than_chance) return "no stronger than chance";
+  if (c.size_sigma > unusual_size)
     return fmt::format("would be {} times its usual size", number_text(c.size_sigma, 2));
   if (!c.leaves_nothing) return "with it, others stay significant";
   if (d.causes.empty() || !(best > c.log_bayes)) return "did not hold in the refit";
@@ -66,7 +66,7 @@ Table cause_table(const Diagnosis& d) {
     if (alternatives && c.set != set) table.add_heading(fmt::format("alternative {}", c.set + 1));
     set = c.set;
     const auto add = [&](std::size_t k, Cell key, Cell value, Cell unit) {
-      std::vector<Cell> row{k == 0 ? label_of(c) : "", key, value, unit, "", "", "", ""};
+      std::vector<Cell> row{k == 0 ? shown_label(d, c) : "", key, value, unit, "", "", "", ""};
       if (k == 0) {
         row[4] = p_cell(c.p_value);
         row[5] = decimals(c.probability, 2);
@@ -94,7 +94,7 @@ Blocks candidate_figure(const Diagnosis& d) {
                                   ? ", named"
                                   : fmt::format(", alternative {}", alternative);
     bars.bars.push_back(
-        {.label = label_of(*c),
+        {.label = shown_label(d, *c),
          .value = c->score,
          .colour = alternative > 0 ? 1u : 6u,
          .text = fmt::format("{}, p {}{}", number_text(c->score), p_text(c->p_value), named)});
@@ -121,12 +121,13 @@ Blocks likeness_figure(const CosineMatrix& m) {
 }
 
 /// The terms of the causes with their equations, each once.
-Sentences equations_of(const std::vector<Cause>& causes) {
+Sentences equations_of(const std::vector<Cause>& causes, Instrument instrument) {
   Sentences said;
   for (const Cause& c : causes)
     if (const auto term = TermLibrary::find_term(c.term)) {
       const TermInfo& info = TermLibrary::terms[*term];
-      auto line = fmt::format("{}, {}: {}", info.key, info.title, info.equation);
+      auto line = fmt::format("{}, {}: {}", info.key, title_of(info, instrument),
+                              equation_of(info, instrument));
       if (std::ranges::find(said.items, line) == said.items.end())
         said.items.push_back(std::move(line));
     }
@@ -153,8 +154,8 @@ Table candidate_table(const Diagnosis& d) {
   for (const auto& [c, alternative] : all) {
     const bool one = c->sigma > 0.0;  // of several parameters there is no single amplitude
     const Tone tone = alternative > 0 ? Tone::good : Tone::plain;
-    table.add({c->term, text_or_nothing(c->axis), c->label, Cell(label_of(*c), tone), c->score,
-               c->dof, p_cell(c->p_value), c->p_marginal, percent_cell(c->absorbed),
+    table.add({c->term, text_or_nothing(c->axis), c->label, Cell(shown_label(d, *c), tone),
+               c->score, c->dof, p_cell(c->p_value), c->p_marginal, percent_cell(c->absorbed),
                one ? plus_minus(c->amplitude, c->sigma) : only_value(Value()),
                only_value(one ? Value(c->sigma) : Value()),
                one ? digits(c->smallest_detectable, 2) : only_value(Value()), unit_cell(c->unit),
@@ -170,11 +171,11 @@ Section what(const Diagnosis& d) {
   Section section{"What", {}};
   section.add(cause_figure(d));
   if (!d.causes.empty()) section.add({cause_table(d)});
-  if (Sentences said = equations_of(d.causes); !said.items.empty())
+  if (Sentences said = equations_of(d.causes, instrument_of(d)); !said.items.empty())
     section.add({{std::move(said), On::page}});
   if (!d.inseparable.empty())
     section.add({{Paragraph{"This plan can never tell these apart:"}, On::page},
-                 {Sentences{twins_in_words(d.inseparable)}, On::page}});
+                 {Sentences{twins_in_words(d.inseparable, instrument_of(d))}, On::page}});
   return section;
 }
 

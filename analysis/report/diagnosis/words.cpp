@@ -19,6 +19,23 @@ using namespace diagnosis;
 using namespace inference;
 using namespace search;
 
+std::string with_own_words(const Diagnosis& d, const std::string& term, std::string label) {
+  const auto known = TermLibrary::find_term(term);
+  if (!known) return label;
+  const TermInfo& info = TermLibrary::terms[*known];
+  const std::string_view title = title_of(info, instrument_of(d));
+  return title == info.title ? label : fmt::format("{} ({})", title, label);
+}
+
+/// "gyro y and the accelerometer z" of several causes.
+std::string equations_text(const Where& where) {
+  if (where.equations.empty()) return equation_in_words(where.equation);
+  std::vector<std::string> words;
+  for (const std::string& e : where.equations)
+    words.push_back((words.empty() ? "" : "the ") + equation_in_words(e));
+  return listed(words, "and");
+}
+
 }  // namespace
 
 std::string label_of(const Cause& c) {
@@ -27,6 +44,14 @@ std::string label_of(const Cause& c) {
 
 std::string label_of(const CandidateScore& c) {
   return c.label.empty() ? keyed(c.term, c.axis) : c.label;
+}
+
+std::string shown_label(const Diagnosis& d, const Cause& c) {
+  return with_own_words(d, c.term, label_of(c));
+}
+
+std::string shown_label(const Diagnosis& d, const CandidateScore& c) {
+  return with_own_words(d, c.term, label_of(c));
 }
 
 std::vector<ShownCandidate> shown_candidates(const Diagnosis& d, std::size_t most) {
@@ -55,7 +80,7 @@ std::vector<ShownCandidate> shown_candidates(const Diagnosis& d, std::size_t mos
 
 std::vector<std::string> remarks_of(const Diagnosis& d) {
   std::vector<std::string> all;
-  for (const Remark& r : d.remarks) all.push_back(in_words(r));
+  for (const Remark& r : d.remarks) all.push_back(in_words(r, instrument_of(d)));
   for (std::string& left_out : not_examined_sentences(d.not_examined))
     all.push_back(std::move(left_out));
   if (const auto& recordings = d.where.recordings; !recordings.empty()) {
@@ -107,12 +132,12 @@ std::string fold_name(const Fold& fold, const std::vector<RecordingSpan>& record
   return named ? fmt::format("{}, {}", plain, recordings[k - 1].name) : plain;
 }
 
-std::vector<std::string> twins_in_words(const std::vector<Twins>& twins) {
+std::vector<std::string> twins_in_words(const std::vector<Twins>& twins, Instrument instrument) {
   std::vector<std::string> lines;
   for (const Twins& t : twins)
     lines.push_back(fmt::format("{} and {} leave the same trace on this plan",
-                                in_words(t.one.term, t.one.axis),
-                                in_words(t.other.term, t.other.axis)));
+                                in_words(t.one.term, t.one.axis, instrument),
+                                in_words(t.other.term, t.other.axis, instrument)));
   return lines;
 }
 
@@ -120,7 +145,7 @@ std::string where_sentence(const Where& where) {
   if (where.equation.empty() && where.channels.empty()) return "";
   std::string out = where.equation.empty()
                         ? "The misfit is"
-                        : fmt::format("The misfit is in the {}", equation_in_words(where.equation));
+                        : fmt::format("The misfit is in the {}", equations_text(where));
   std::vector<std::string> parts;
   for (const Share& s : where.channels)
     if (parts.size() < 2 && s.share > 0.1)
@@ -133,7 +158,11 @@ std::string where_sentence(const Where& where) {
   if (!parts.empty())
     out += fmt::format(", most of it at position{} {}", parts.size() > 1 ? "s" : "",
                        listed(parts, "and"));
-  if (!where.windows.empty()) {
+  if (std::isfinite(where.onset_s)) {
+    const RecordingSpan* r = recording_at(where.recordings, where.onset_s);
+    out += fmt::format("; it sets in at {:.0f} s{} and stays",
+                       where.onset_s - (r ? r->offset_s : 0.0), r ? " of " + r->name : "");
+  } else if (!where.windows.empty()) {
     const ScanHit& w = where.windows.front();
     const RecordingSpan* r = recording_at(where.recordings, 0.5 * (w.start_s + w.end_s));
     const double offset = r ? r->offset_s : 0.0;

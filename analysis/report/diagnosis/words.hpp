@@ -4,12 +4,19 @@
 #include <vector>
 
 #include "analysis/diagnosis/findings/diagnosis.hpp"
+#include "analysis/report/diagnosis/instrument.hpp"
 
 namespace drift::report {
 
 /// "magnetic_drift.y", as interfaces.md 5 splits keys.
 std::string label_of(const search::Cause& cause);
 std::string label_of(const search::CandidateScore& candidate);
+
+/// The same as a table shows it. A key of which the instrument has no such part has the words of
+/// what it has before it: "scale factor asymmetry of the gyros (torquer_asymmetry.x)".
+std::string shown_label(const diagnosis::Diagnosis& diagnosis, const search::Cause& cause);
+std::string shown_label(const diagnosis::Diagnosis& diagnosis,
+                        const search::CandidateScore& candidate);
 
 /// A candidate of the table or the figure, and the alternative that it belongs to: 1 for the first
 /// set of causes, 0 for what is no cause.
@@ -40,7 +47,8 @@ std::string fold_name(const diagnosis::Fold& fold,
                       const std::vector<diagnosis::RecordingSpan>& recordings);
 
 /// "sag, ... and accelerometer_cross, ... leave the same trace on this plan", a line each.
-std::vector<std::string> twins_in_words(const std::vector<diagnosis::Twins>& twins);
+std::vector<std::string> twins_in_words(const std::vector<diagnosis::Twins>& twins,
+                                        Instrument instrument = Instrument::platform);
 
 /// Where the misfit is, in one sentence; empty if nothing is located.
 std::string where_sentence(const diagnosis::Where& where);

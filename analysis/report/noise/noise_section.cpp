@@ -2,6 +2,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "analysis/report/noise/limits.hpp"
 #include "analysis/report/noise/noise.hpp"
 #include "analysis/report/noise/noise_units.hpp"
 #include "analysis/report/page/wording.hpp"
@@ -10,15 +11,20 @@ namespace drift::report {
 namespace {
 
 using preparation::ChannelNoise, preparation::NoiseCard, preparation::NoNoise;
-using stats::AllanCoefficient, stats::AllanNoise;
+using stats::AllanCoefficient, stats::AllanFit, stats::AllanNoise;
 
 bool fitted(const NoiseCard& card, int noise) {
   return card.kind == RecordingKind::strapdown || noise <= static_cast<int>(AllanNoise::white);
 }
 
-/// "0.1021±0.0012", "0.5±0.1 or K", or "<0.3".
-std::string coefficient_text(const AllanCoefficient& c, double size) {
-  if (!c.found) return c.upper > 0.0 ? fmt::format("<{}", number_text(c.upper / size)) : "";
+/// "0.1021±0.0012", "0.5±0.1 or K", "<0.3"; "-" where nothing bounds it.
+std::string coefficient_text(const AllanFit& fit, AllanNoise noise, double size) {
+  const AllanCoefficient& c = fit[noise];
+  if (!c.found && c.upper > 0.0) {
+    const double limit = limit_of(fit, noise);
+    return limit > 0.0 ? fmt::format("<{}", number_text(limit / size)) : "-";
+  }
+  if (!c.found) return "";
   constexpr double long_number = 1e4;
   std::string text =
       c.value < long_number * size
@@ -63,7 +69,7 @@ Table coefficients(const NoiseCard& card, Sensor sensor, double gravity) {
     for (int a = 0; a < stats::allan_noises; ++a) {
       if (!fitted(card, a)) continue;
       const AllanCoefficient& k = c.fit.coefficients[a];
-      row.emplace_back(coefficient_text(k, units[a].size));
+      row.emplace_back(coefficient_text(c.fit, static_cast<AllanNoise>(a), units[a].size));
       if (sensor == Sensor::accelerometer && a == static_cast<int>(AllanNoise::white))
         row.emplace_back(velocity_walk(k, gravity));
     }
@@ -98,6 +104,15 @@ Sentences reading(const NoiseCard& card) {
   said.items.push_back(
       "± is 1 sigma; < is an upper limit (95 %) of what is not distinguished from zero: without it "
       "chance shows as much in more than 1 of 100 recordings.");
+  const bool any_by_sum = std::ranges::any_of(card.channels, [](const ChannelNoise& c) {
+    return std::ranges::any_of(stats::AllanFitter::all_noises, [&](AllanNoise noise) {
+      return !c.fit[noise].found && limit_of(c.fit, noise) < c.fit[noise].upper;
+    });
+  });
+  if (any_by_sum)
+    said.items.push_back(
+        "A limit is no higher than what all noises together show at some averaging time: beyond "
+        "that the rests are too short to say anything of a slow noise.");
   if (any_rival)
     said.items.push_back("'or K': the rests are too short to tell which of these noises it is.");
   if (any_misfit)
@@ -152,7 +167,8 @@ nlohmann::json to_json(const NoiseCard& card, double gravity) {
                 {"p_value", k.p}};
       term["value"] = k.found ? json(k.value / units[a].size) : json(nullptr);
       term["sigma"] = k.found ? json(k.sigma / units[a].size) : json(nullptr);
-      term["upper_95"] = k.found ? json(nullptr) : json(k.upper / units[a].size);
+      const double limit = limit_of(c.fit, static_cast<AllanNoise>(a));
+      term["upper_95"] = k.found || !(limit > 0.0) ? json(nullptr) : json(limit / units[a].size);
       term["or"] = json::array();
       for (const AllanNoise rival : k.rivals)
         term["or"].push_back(std::string(units[static_cast<std::size_t>(rival)].key));

@@ -12,6 +12,8 @@ struct Tally {
   double least_held = 1.0, most_held = 0.0;  ///< share of the errors within 2 sigma
   const Pair* worst = nullptr;               ///< of the most silent failures
   stats::Rate silent = {};
+  double sigmas_off = 1.0;  ///< factor between errors and sigmas of the worst pair
+  const Pair* overconfident = nullptr;
 };
 
 void add(Tally& tally, const StudyResults& results, const Pair& pair) {
@@ -21,6 +23,10 @@ void add(Tally& tally, const StudyResults& results, const Pair& pair) {
   if (const double held = coverage_of_claims(filter, claims_of(results)); std::isfinite(held)) {
     tally.least_held = std::min(tally.least_held, held);
     tally.most_held = std::max(tally.most_held, held);
+  }
+  if (const double off = sigmas_off(filter.starts().front()); off > tally.sigmas_off) {
+    tally.sigmas_off = off;
+    tally.overconfident = &pair;
   }
   if (tally.worst == nullptr || silent.value() > tally.silent.value()) {
     tally.worst = &pair;
@@ -37,6 +43,13 @@ std::string held_text(const Tally& t) {
 std::string worst_text(const StudyResults& results, const Tally& t) {
   return fmt::format("silent failures up to {} ({})", rate_cell(t.silent).text,
                      pair_in_words(results, *t.worst));
+}
+
+/// Whatever the innovations say: the sigmas of such a filter are not those of its errors.
+std::string sigmas_text(const StudyResults& results, const Tally& t) {
+  return fmt::format(
+      "Do not trust the sigmas: errors are up to {} times as large (root of NEES/dof; {}).",
+      number_text(t.sigmas_off, 2), pair_in_words(results, *t.overconfident));
 }
 
 }  // namespace
@@ -66,6 +79,11 @@ InBrief study_in_brief(const StudyResults& results) {
       brief.more.push_back(said);
     if (right.silent.low() > 0.01) brief.tone = Tone::bad;
   }
+  for (const Tally* t : {&wrong, &right})
+    if (t->sigmas_off > much_too_small) {
+      brief.more.insert(brief.more.begin(), sigmas_text(results, *t));
+      brief.tone = Tone::bad;
+    }
   if (lost > 0) {
     brief.more.push_back(fmt::format(
         "Of {} pairs of point and filter nothing is said: too many of their runs were lost.",

@@ -8,6 +8,16 @@ namespace {
 
 using mc::FilterStatistics;
 
+/// What no single parameter shows: combinations that the filter claims to know.
+std::string off_text(const mc::StartStatistics& s) {
+  const double off = sigmas_off(s);
+  return off > much_too_small ? fmt::format(
+                                    "; combinations of parameters are off by {} times their sigma "
+                                    "(root of NEES/dof)",
+                                    number_text(off, 2))
+                              : "";
+}
+
 std::string headline_of(const StudyResults& results, const Pair& pair) {
   const FilterStatistics& filter = statistics_of(results, pair);
   const mc::StartStatistics& s = filter.starts().front();
@@ -15,9 +25,9 @@ std::string headline_of(const StudyResults& results, const Pair& pair) {
   if (matched(results, pair))
     return fmt::format(
         "{} (the right equation): 2 sigma hold {} % of the errors (95.4 expected) of what the "
-        "filter claims to know; silent failures {}.",
+        "filter claims to know; silent failures {}{}.",
         start, percent_cell(coverage_of_claims(filter, claims_of(results))).text,
-        rate_cell(s.silent).text);
+        rate_cell(s.silent).text, off_text(s));
   std::string text = fmt::format(
       "{} (the wrong equation): in {} of the runs some parameter is more than 5 sigma off; silent "
       "failures, where nothing in the run shows it: {}",
@@ -26,15 +36,15 @@ std::string headline_of(const StudyResults& results, const Pair& pair) {
   if (k < filter.errors().size())
     text += fmt::format("; worst {}: its error is {} times its sigma", key_at(filter, k),
                         number_text(filter.errors()[k].deception().value));
-  // What no single parameter shows: combinations that the filter claims to know.
-  if (const double nees = s.nees.mean(); nees > 4.0)
-    text += fmt::format(
-        "; combinations of parameters are off by {} times their sigma (root of NEES/dof)",
-        number_text(std::sqrt(nees), 2));
-  return text + ".";
+  return text + off_text(s) + ".";
 }
 
 }  // namespace
+
+double sigmas_off(const mc::StartStatistics& s) {
+  const double nees = s.nees.mean();
+  return std::isfinite(nees) ? std::sqrt(nees) : 1.0;
+}
 
 std::string pair_in_words(const StudyResults& results, const Pair& pair) {
   const std::string condition = condition_of(results.points[pair.point]);

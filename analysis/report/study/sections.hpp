@@ -20,6 +20,11 @@ InBrief study_in_brief(const StudyResults& results);
 /// silently, and where most. Refused, with the reason, where more than 1 % of the runs are lost.
 std::vector<std::string> headlines(const StudyResults& results);
 
+/// How many times as large as their sigmas errors are, over all that a filter claims to know: the
+/// root of NEES/dof; 1 where no truth tells.
+double sigmas_off(const mc::StartStatistics& start);
+inline constexpr double much_too_small = 2.0;  ///< of such a factor: the sigmas are not to be used
+
 /// "plan.preset = six: truth eq5, filter legacy".
 std::string pair_in_words(const StudyResults& results, const Pair& pair);
 

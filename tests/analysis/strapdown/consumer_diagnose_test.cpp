@@ -56,6 +56,9 @@ TEST(ConsumerDiagnose, RecoversTheMisalignmentThatTheRecordingWasMadeWithAndWrit
                                             : 0.0;
     EXPECT_NEAR(p.value, truth, 4.0 * p.sigma) << p.key;
   }
+  // A family and its members are one thing, no twins.
+  for (const search::Confusable& like : c->confusable_with) EXPECT_NE(like.term, c->term);
+  for (const diagnosis::Twins& twins : d.inseparable) EXPECT_NE(twins.one.term, twins.other.term);
   double total = 0.0;
   for (const auto& s : d.where.channels) total += s.share;
   EXPECT_NEAR(total, 1.0, 1e-12);

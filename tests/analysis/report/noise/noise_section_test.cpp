@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "analysis/report/noise/limits.hpp"
 #include "analysis/report/noise/noise.hpp"
 #include "analysis/report/noise/noise_units.hpp"
 #include "tests/analysis/report/xml_check.hpp"
@@ -57,6 +58,31 @@ TEST(NoiseSection, NumbersStandInTheUnitsOfTheField) {
   EXPECT_NE(text.find("N [deg/sqrt(h)]"), std::string::npos) << text;
   EXPECT_NE(text.find("N [m/s/sqrt(h)]"), std::string::npos) << text;
   EXPECT_NE(text.find("<"), std::string::npos) << text;  // an upper limit
+}
+
+/// At the limit of a fit that knows nothing of it a slow noise would tower over all that was
+/// measured: no part is more than the sum.
+TEST(NoiseSection, NoLimitIsAboveAllThatWasMeasured) {
+  NoiseCard card = card_of();
+  stats::AllanFit& fit = card.channels[1].fit;
+  stats::AllanCoefficient& slow = fit.coefficients[static_cast<std::size_t>(AllanNoise::rate_walk)];
+  ASSERT_FALSE(slow.found);
+  slow.upper = 1e10;
+  const double limit = report::limit_of(fit, AllanNoise::rate_walk);
+  double closest = 1e10;  // how near it comes to what was measured
+  for (const stats::AllanPoint& p : fit.points) {
+    EXPECT_LE(limit * std::sqrt(p.tau / 3.0), p.high * (1.0 + 1e-12));
+    closest = std::min(closest, p.high / (limit * std::sqrt(p.tau / 3.0)));
+  }
+  EXPECT_NEAR(closest, 1.0, 1e-12);
+  const auto json = report::to_json(card, 9.80665);
+  const double size = report::noise_units(report::Sensor::accelerometer, 9.80665)[3].size;
+  EXPECT_NEAR(json["channels"][1]["coefficients"][3]["upper_95"].get<double>() * size, limit,
+              1e-9 * limit);
+  const std::string text = report::text_of({report::noise_section(card, 9.80665)});
+  EXPECT_NE(text.find("all noises together show"), std::string::npos) << text;
+  slow.upper = 0.5 * limit;  // a fit that knows more
+  EXPECT_EQ(report::limit_of(fit, AllanNoise::rate_walk), 0.5 * limit);
 }
 
 TEST(NoiseSection, ThePictureIsWellFormedWithPointsFitsAndSpectra) {

@@ -68,6 +68,23 @@ TEST(StudyReport, TakesSectionsOfOthers) {
   EXPECT_EQ(html.find(">Sweep</"), std::string::npos);
 }
 
+/// Innovations that look healthy do not make sigmas right: the short answer says by how much they
+/// are wrong.
+TEST(StudyReport, TheShortAnswerSaysThatSigmasAreWrong) {
+  double worst = 1.0;
+  for (const auto& point : swept().statistics)
+    for (const auto& filter : point.filters())
+      worst = std::max(worst, report::sigmas_off(filter.starts().front()));
+  ASSERT_GT(worst, report::much_too_small);
+  const report::InBrief brief = report::study_in_brief(swept());
+  ASSERT_FALSE(brief.more.empty());
+  EXPECT_NE(brief.more.front().find(
+                fmt::format("errors are up to {} times as large", number_text(worst, 2))),
+            std::string::npos)
+      << brief.more.front();
+  EXPECT_EQ(brief.tone, report::Tone::bad);
+}
+
 TEST(StudyReport, SaysTheSilentFailureRateInWords) {
   const auto lines = report::headlines(swept());
   ASSERT_EQ(lines.size(), 8u);

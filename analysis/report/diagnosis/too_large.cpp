@@ -1,0 +1,61 @@
+#include "analysis/report/diagnosis/too_large.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "analysis/report/diagnosis/effect_words.hpp"
+#include "analysis/report/diagnosis/words.hpp"
+#include "core/base/number_text.hpp"
+#include "core/base/words.hpp"
+
+namespace drift::report {
+namespace {
+
+using diagnosis::Diagnosis;
+using search::CandidateScore;
+
+/// Significant, with nothing significant left beside it, and too large.
+bool loses_by_size(const CandidateScore& c) {
+  return c.observable && c.leaves_nothing && c.p_value <= no_stronger_than_chance &&
+         c.size_sigma > unusual_size;
+}
+
+bool is_named(const Diagnosis& d, const CandidateScore& c) {
+  return std::ranges::any_of(d.causes,
+                             [&](const search::Cause& cause) { return cause.term == c.term; });
+}
+
+/// Of every term the candidate that needs the smallest size.
+std::vector<const CandidateScore*> smallest_of_each_term(const Diagnosis& d) {
+  std::vector<const CandidateScore*> all;
+  for (const CandidateScore& c : d.candidates) {
+    if (!loses_by_size(c) || is_named(d, c)) continue;
+    const auto same = std::ranges::find(all, c.term, &CandidateScore::term);
+    if (same == all.end())
+      all.push_back(&c);
+    else if (c.size_sigma < (*same)->size_sigma)
+      *same = &c;
+  }
+  std::ranges::stable_sort(all, {}, &CandidateScore::size_sigma);
+  return all;
+}
+
+}  // namespace
+
+std::string too_large_text(const Diagnosis& d) {
+  constexpr std::size_t most = 3;
+  if (d.causes.empty()) return "";
+  std::vector<std::string> effects;
+  for (const CandidateScore* c : smallest_of_each_term(d))
+    if (effects.size() < most)
+      effects.push_back(fmt::format("{} ({}) would have to be {} times its usual size",
+                                    in_words(c->term, c->axis, instrument_of(d)), label_of(*c),
+                                    number_text(c->size_sigma, 2)));
+  if (effects.empty()) return "";
+  return fmt::format(" What would explain it as well loses by its size alone: {}.",
+                     listed(effects, "and"));
+}
+
+}  // namespace drift::report

@@ -1,0 +1,114 @@
+// What is said of gyros on a case, and of numbers that say nothing.
+#include <gtest/gtest.h>
+
+#include "analysis/diagnosis/asides.hpp"
+#include "analysis/report/diagnosis/remark_words.hpp"
+#include "analysis/report/diagnosis/sections.hpp"
+#include "analysis/report/diagnosis/sentence.hpp"
+
+namespace drift::case_words_test {
+namespace {
+
+using diagnosis::Diagnosis, diagnosis::Verdict;
+using report::Instrument;
+
+bool says(const std::string& text, std::string_view part) {
+  return text.find(part) != std::string::npos;
+}
+
+Diagnosis of_case(const char* term, const char* axis, const char* key) {
+  Diagnosis d;
+  d.of_case = true;
+  d.verdict = Verdict::named;
+  d.p_value = 1e-20;
+  search::Cause c;
+  c.term = term;
+  c.axis = axis;
+  c.parameters = {{key, TermLibrary::find(key).value(), 40.0, 2.0, "ppm", false}};
+  d.causes = {c};
+  search::CandidateScore score;
+  score.term = term;
+  score.axis = axis;
+  score.label = search::keyed(term, axis);
+  d.candidates = {score};
+  return d;
+}
+
+TEST(CaseWords, AStrapdownUnitHasAScaleFactorAndNoTorquer) {
+  for (const char* key : {"torquer_scale", "torquer_asymmetry", "torquer_nonlinearity"}) {
+    EXPECT_FALSE(says(report::in_words(key, "x", Instrument::on_case), "torquer")) << key;
+    EXPECT_TRUE(says(report::in_words(key, "x", Instrument::on_case), "of the gyros, gyro x"));
+    EXPECT_TRUE(says(report::in_words(key, "x"), "torquer")) << key;
+  }
+  const Diagnosis d = of_case("torquer_asymmetry", "y", "s_a_y");
+  EXPECT_TRUE(says(report::sentence(d),
+                   "lacks scale factor asymmetry of the gyros, gyro y (torquer_asymmetry.y: "))
+      << report::sentence(d);
+  const std::string what = report::text_of({report::what(d), report::rivals(d)});
+  EXPECT_TRUE(says(what, "scale factor asymmetry of the gyros (torquer_asymmetry.y)")) << what;
+  const TermInfo& term = TermLibrary::terms[*TermLibrary::find_term("torquer_asymmetry")];
+  EXPECT_TRUE(says(std::string(report::equation_of(term, Instrument::on_case)), "reading"));
+  EXPECT_EQ(report::equation_of(term, Instrument::platform), term.equation);
+}
+
+/// A direction of a wide cause may look like another effect; the cause does not.
+TEST(CaseWords, ACauseOfManySizesIsATwinOnlyWhereAllOfItIs) {
+  Diagnosis d = of_case("accelerometer", "", "K2_x");
+  d.causes[0].parameters.push_back(
+      {"K2_y", TermLibrary::find("K2_y").value(), 10.0, 2.0, "ug/g^2", false});
+  d.causes[0].confusable_with = {{"accelerometer_cross", "z", 1.0}};
+  EXPECT_FALSE(says(report::sentence(d), "same trace")) << report::sentence(d);
+  d.inseparable = {{{"accelerometer", "", ""}, {"accelerometer_cross", "z", ""}}};
+  EXPECT_TRUE(says(report::sentence(d), "same trace")) << report::sentence(d);
+}
+
+TEST(TooLarge, ACandidateThatLosesByItsSizeAloneIsNamedWithIt) {
+  Diagnosis d = of_case("magnetic_drift", "y", "M_y");
+  d.of_case = false;
+  search::CandidateScore leak;
+  leak.term = "base_motion_leak";
+  leak.axis = "y";
+  leak.label = "base_motion_leak.y";
+  leak.p_value = 1e-20;
+  leak.size_sigma = 11.5;
+  leak.leaves_nothing = true;
+  d.candidates.push_back(leak);
+  EXPECT_TRUE(says(report::sentence(d), "loses by its size alone: ")) << report::sentence(d);
+  EXPECT_TRUE(
+      says(report::sentence(d), "(base_motion_leak.y) would have to be 12 times its usual size."))
+      << report::sentence(d);
+  for (const auto change : {+[](search::CandidateScore& c) { c.leaves_nothing = false; },
+                            +[](search::CandidateScore& c) { c.size_sigma = 4.0; },
+                            +[](search::CandidateScore& c) { c.p_value = 0.3; },
+                            +[](search::CandidateScore& c) { c.term = "magnetic_drift"; }}) {
+    Diagnosis other = d;
+    change(other.candidates.back());
+    EXPECT_FALSE(says(report::sentence(other), "size alone")) << report::sentence(other);
+  }
+}
+
+TEST(CaseWords, AChanceNearOneIsNoNumber) {
+  Diagnosis d;
+  d.p_value = 1.0;
+  EXPECT_TRUE(says(report::sentence(d), "(noise alone nearly always shows as much)"))
+      << report::sentence(d);
+  d.p_value = 0.98;
+  EXPECT_TRUE(says(report::sentence(d), "with a chance of 0.98"));
+}
+
+TEST(CaseWords, InnovationsThatACauseLeavesColouredAreSaid) {
+  diagnosis::Whiteness w;
+  w.ljung_box_p_before = 0.66;
+  w.ljung_box_p_after = 0.0125;
+  const auto remark = diagnosis::left_not_white(w);
+  ASSERT_TRUE(remark);
+  const std::string words = report::in_words(*remark);
+  EXPECT_TRUE(says(words, "p 0.013")) << words;
+  EXPECT_TRUE(says(words, "without it 0.66")) << words;
+  EXPECT_TRUE(says(words, "takes the place of another")) << words;
+  w.ljung_box_p_after = 0.06;
+  EXPECT_FALSE(diagnosis::left_not_white(w));
+}
+
+}  // namespace
+}  // namespace drift::case_words_test
