@@ -1,6 +1,7 @@
 #include "analysis/inference/candidate.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
@@ -44,9 +45,15 @@ Theta with_defaults(const TermInfo& term, const FilterSpec& nominal, Theta theta
   return theta;
 }
 
+/// Whether the parameters of a term that have one unit are offered together, of all axes and of
+/// one: its linear, its quadratic and its cubic part.
+enum class Kinds { offered, left_out };
+
 /// Sets of parameters that may be missing together. whole: all of them, however many.
+/// kinds: of sensors whose data sheets allow much, a part must not bring in all of its term: sizes
+/// that the data do not show would be carried into predictions.
 std::vector<std::vector<std::size_t>> subsets_of(const std::vector<std::size_t>& missing,
-                                                 bool whole) {
+                                                 bool whole, Kinds kinds) {
   constexpr std::size_t most = 9;  // parameters of one candidate
   std::vector<std::vector<std::size_t>> sets;
   const auto add = [&](const std::vector<std::size_t>& set) {
@@ -54,15 +61,23 @@ std::vector<std::vector<std::size_t>> subsets_of(const std::vector<std::size_t>&
         std::find(sets.begin(), sets.end(), set) == sets.end())
       sets.push_back(set);
   };
-  std::map<std::string_view, std::vector<std::size_t>> axes, groups;
+  std::map<std::string_view, std::vector<std::size_t>> axes, groups, units;
+  std::map<std::pair<std::string_view, std::string_view>, std::vector<std::size_t>> units_of_axes;
   for (const std::size_t i : missing) {
     add({i});
     axes[TermLibrary::specs[i].axis].push_back(i);
     groups[TermLibrary::specs[i].group.view()].push_back(i);
+    const std::string_view unit = TermLibrary::specs[i].unit.symbol.view();
+    units[unit].push_back(i);
+    units_of_axes[{TermLibrary::specs[i].axis, unit}].push_back(i);
   }
   for (const auto& [key, set] : groups) add(set);
   if (groups.size() > 1)
     for (const auto& [key, set] : axes) add(set);
+  if (kinds == Kinds::offered) {
+    for (const auto& [key, set] : units) add(set);
+    for (const auto& [key, set] : units_of_axes) add(set);
+  }
   add(missing);
   if (whole && missing.size() > most) sets.push_back(missing);
   return sets;
@@ -75,20 +90,28 @@ std::string common_axis(const std::vector<std::size_t>& params) {
   return std::string(first);
 }
 
+std::size_t of_axis(const std::vector<std::size_t>& params, std::string_view axis) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      params, [&](std::size_t i) { return TermLibrary::specs[i].axis == axis; }));
+}
+
 std::string label_of(const TermInfo& term, const std::vector<std::size_t>& set,
-                     std::size_t in_term) {
+                     const std::vector<std::size_t>& missing) {
   const std::string axis = common_axis(set);
   std::string label(term.key);
   if (!axis.empty()) label += "." + axis;
   // Where a term holds several groups, say which parameters are meant.
-  if (in_term > 3 && set.size() < in_term) {
+  if (missing.size() > 3 && set.size() < missing.size()) {
     std::string_view group = TermLibrary::specs[set.front()].group.view();
-    bool one_group = true;
+    std::vector<std::string_view> groups;
     for (const std::size_t i : set)
-      one_group = one_group && TermLibrary::specs[i].group.view() == group;
-    if (one_group)
+      if (std::ranges::find(groups, TermLibrary::specs[i].group.view()) == groups.end())
+        groups.push_back(TermLibrary::specs[i].group.view());
+    if (groups.size() == 1)
       label +=
           fmt::format(" {}", set.size() == 1 ? TermLibrary::specs[set.front()].key.view() : group);
+    else if (axis.empty() || set.size() < of_axis(missing, axis))
+      label += fmt::format(" {}", fmt::join(groups, " "));
   }
   return label;
 }
@@ -146,9 +169,9 @@ CandidateSet library_candidates(const FilterSpec& nominal, const Theta& theta,
       }
     // A base term is left out by whoever does not know that it is needed: then all of it is
     // missing.
-    for (const auto& set : subsets_of(missing, is_base(term))) {
-      Candidate c{
-          std::string(term.key), common_axis(set), label_of(term, set, missing.size()), set, {}};
+    for (const auto& set :
+         subsets_of(missing, is_base(term), timeline.of_case ? Kinds::offered : Kinds::left_out)) {
+      Candidate c{std::string(term.key), common_axis(set), label_of(term, set, missing), set, {}};
       for (std::size_t v = 0; v < settings.size(); ++v) {
         Variant variant{{}, settings[v]};
         for (const std::size_t i : set) {

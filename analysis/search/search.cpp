@@ -107,10 +107,44 @@ std::optional<Choice> base_term_missed(const Search& s, const Fitted& now) {
   return missed;
 }
 
+/// Whether the parameters of a candidate are all of one unit that another one holds, and not all
+/// that that one holds: the linear, the quadratic or the cubic part of a term.
+bool is_part(const inference::CandidateSet& set, const inference::Candidate& whole,
+             const inference::Candidate& c) {
+  const auto unit_of = [](std::size_t param) {
+    return TermLibrary::specs[param].unit.symbol.view();
+  };
+  const auto of_unit = [&](const inference::Candidate& o) {
+    return whole.contains(o) && std::ranges::all_of(o.params, [&](std::size_t i) {
+             return unit_of(i) == unit_of(c.params.front());
+           });
+  };
+  return c.params.size() > 1 && of_unit(c) &&
+         std::ranges::none_of(set.candidates, [&](const inference::Candidate& o) {
+           return of_unit(o) && o.contains(c);
+         });
+}
+
+/// Explanations in which a part of one member's term stands for all of it. Where everything is far
+/// off a whole term scores best whatever part of it is missing; which of it the recording shows is
+/// told by evidence only once the others are in the model.
+std::vector<Explanation> with_parts(const Search& s, const Explanation& in) {
+  std::vector<Explanation> all;
+  for (std::size_t k = 0; k < in.size(); ++k) {
+    const inference::CandidateSet& set = s.nominal.set;
+    for (std::size_t n = 0; n < set.candidates.size(); ++n) {
+      if (!is_part(set, set.candidates[in[k].candidate], set.candidates[n])) continue;
+      all.push_back(in);
+      all.back()[k] = Choice{n, s.nominal.scores[n].variant};
+    }
+  }
+  return all;
+}
+
 /// Base terms that the nominal model leaves out, one after the other, each fitted through the full
 /// dynamics: whoever leaves out one usually leaves out several, and beside them the linearised test
-/// says little. Nor is anything known of what drives the platform. The last fit, and
-/// those without one of its members.
+/// says little. Nor is anything known of what drives the platform. The last fit, those without one
+/// of its members and, of sensors on a case, those with a part of one.
 std::vector<Refit> refit_base_terms(const Search& s, const MeasuredTest& test) {
   Explanation in;
   std::vector<Refit> found;
@@ -128,6 +162,8 @@ std::vector<Refit> refit_base_terms(const Search& s, const MeasuredTest& test) {
     fewer.push_back(in);
     fewer.back().erase(fewer.back().begin() + static_cast<std::ptrdiff_t>(k));
   }
+  if (test.timeline.of_case)
+    for (Explanation& smaller : with_parts(s, in)) fewer.push_back(std::move(smaller));
   for (Refit& r : refit_all(s, test, fewer, NoiseKinds::driving_too)) found.push_back(std::move(r));
   return found;
 }
