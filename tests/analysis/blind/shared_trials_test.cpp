@@ -95,7 +95,7 @@ TEST(SharedTrials, AnyNumberOfWorkersKilledAndResumedGivesTheResultsOfOneProcess
     for (const char* share : {"0/3", "1/3", "2/3"})
       line += "timeout -s KILL " + std::string(moment) + " '" DRIFT_PROGRAM "' " +
               shared.line("three", "--worker " + std::string(share)) + " >/dev/null 2>&1 & ";
-    std::system((line + "wait").c_str());
+    EXPECT_NE(std::system((line + "wait").c_str()), -1);
   }
   shared.blind("three", "--worker 1/2");
   EXPECT_EQ(shared.blind("three").code, 0);
@@ -121,11 +121,13 @@ TEST(SharedTrials, OneProcessAtATimeIsAWorker) {
   const Shared shared;
   const std::string command = "'" DRIFT_PROGRAM "' " + shared.line("out", "--worker 0/2");
   // The first is held up by a signal; the second gives up after its patience.
-  std::system((command + " >/dev/null 2>&1 & pid=$!; until [ -e '" + shared.out("out") +
-               "/trials/worker-0000.lock' ]; do sleep 0.02; done; sleep 0.05; kill -STOP $pid; " +
-               command + " >/dev/null 2>'" + shared.out("said") + "'; echo $? >'" +
-               shared.out("code") + "'; kill -CONT $pid; wait $pid")
-                  .c_str());
+  const int begun = std::system(
+      (command + " >/dev/null 2>&1 & pid=$!; until [ -e '" + shared.out("out") +
+       "/trials/worker-0000.lock' ]; do sleep 0.02; done; sleep 0.05; kill -STOP $pid; " + command +
+       " >/dev/null 2>'" + shared.out("said") + "'; echo $? >'" + shared.out("code") +
+       "'; kill -CONT $pid; wait $pid")
+          .c_str());
+  EXPECT_NE(begun, -1);
   EXPECT_EQ(text_of(shared.out("code")), "7\n");
   EXPECT_NE(text_of(shared.out("said")).find("another process is at work as this worker"),
             std::string::npos)
