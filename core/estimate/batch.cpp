@@ -42,27 +42,38 @@ Minimum minimum_from(BatchProblem& problem, const VecX& x, const std::vector<Vec
   return descend_from(problem, first.at.x, first.at.psi, Known::attitudes_too, options);
 }
 
+/// A minimum of compressed dwells, seen sample by sample: there it is one, too, or the way goes on.
+Minimum followed(BatchProblem& problem, Minimum from, const BatchOptions& options) {
+  Minimum to = descend_from(problem, from.at.x, from.at.psi, Known::attitudes_too, options);
+  to.iterations += from.iterations;
+  to.converged = to.converged && from.converged;
+  return to;
+}
+
 /// Whitened residuals where they belong, NaN where nothing was measured.
 struct Residuals {
   Mat3X acc, gimbal;
-  std::size_t scalars = 0;
 };
+
+std::size_t scalars_of(const MeasuredTest& test) {
+  Eigen::Index count = 0;
+  if (test.readout.accelerometers) count += test.measured.acc.array().isFinite().count();
+  if (test.readout.gimbals) count += test.measured.gimbal.array().isFinite().count();
+  return static_cast<std::size_t>(count);
+}
 
 Residuals residuals_of(const MeasuredTest& test, const std::vector<ChainEquations>& chains) {
   const auto& [timeline, readout, measured] = test;
   const Mat3X none =
       Mat3X::Constant(3, measured.acc.cols(), std::numeric_limits<double>::quiet_NaN());
-  Residuals out{none, none, 0};
+  Residuals out{none, none};
   std::vector<Eigen::Index> at(timeline.chains, 0);
   for (std::size_t i = 0; i < timeline.intervals.size(); ++i) {
     const int c = timeline.intervals[i].chain;
     const auto residual = chains[c].rows.rightCols<1>();
     const auto take = [&](const Mat3X& data_of, Mat3X& into) {
       for (int a = 0; a < 3; ++a)
-        if (std::isfinite(data_of(a, i))) {
-          into(a, i) = residual[at[c]++];
-          ++out.scalars;
-        }
+        if (std::isfinite(data_of(a, i))) into(a, i) = residual[at[c]++];
     };
     if (readout.accelerometers) take(measured.acc, out.acc);
     if (readout.gimbals) take(measured.gimbal, out.gimbal);
@@ -83,12 +94,17 @@ BatchResult fit_all(const FilterSpec& filter, const MeasuredTest& test, const St
   const Layout& layout = problem.layout();
   const auto n = static_cast<Eigen::Index>(layout.size());
   const VecX x_start = layout.scaled(start.theta);
-  const Minimum minimum =
+  Minimum minimum =
       minimum_from(problem, x_start, problem.scaled(start.psi0_l), start.known, options);
+  const bool whole = options.result == BatchOptions::Result::whole;
+  if (whole && problem.compressed()) {
+    problem.take_every_sample();
+    minimum = followed(problem, std::move(minimum), options);
+  }
 
   BatchResult out;
   MatX P = MatX::Zero(n, n);
-  if (options.result == BatchOptions::Result::whole) {
+  if (whole) {
     MatX prior = MatX::Zero(n, n + 1);
     prior.leftCols(n).setIdentity();
     const MatX data = compressed(minimum.at).reduced(0.0).triangle;
@@ -103,10 +119,12 @@ BatchResult fit_all(const FilterSpec& filter, const MeasuredTest& test, const St
   out.estimate.statistic = minimum.at.cost;
   out.data_chi2 = minimum.at.data_cost();
   out.psi0_l = problem.unscaled(minimum.at.psi);
-  Residuals residuals = residuals_of(test, minimum.at.rows);
-  out.acc_residual = std::move(residuals.acc);
-  out.gimbal_residual = std::move(residuals.gimbal);
-  out.estimate.measured = residuals.scalars;
+  out.estimate.measured = scalars_of(test);
+  if (!problem.compressed()) {
+    Residuals residuals = residuals_of(test, minimum.at.rows);
+    out.acc_residual = std::move(residuals.acc);
+    out.gimbal_residual = std::move(residuals.gimbal);
+  }
   if (!minimum.converged) {
     out.estimate.status = EstimateStatus::not_converged;
     out.estimate.cause = fmt::format("no convergence in {} iterations", minimum.iterations);

@@ -11,7 +11,7 @@
 namespace drift {
 
 double Evaluation::data_cost() const {
-  double sum = 0.0;
+  double sum = left_over;
   for (const auto& c : rows) sum += c.rows.rightCols<1>().squaredNorm();
   return sum;
 }
@@ -22,15 +22,44 @@ BatchEquations compressed(const Evaluation& e) {
   return out;
 }
 
-BatchProblem::BatchProblem(const FilterSpec& filter, const MeasuredTest& test)
-    : test_(test),
+template <class Test>
+RowsAlongPath::RowsAlongPath(const Test& test, const Timeline& timeline, const FilterSpec& filter)
+    : timeline_(timeline),
       model_(filter.model()),
-      equations_(test_, model_, make_layout(filter), filter.initial_attitude),
-      lanes_(test.timeline, model_),
+      equations_(test, model_, make_layout(filter), filter.initial_attitude),
+      lanes_(timeline, model_),
       in_lanes_(PathInLanes::can(model_)),
+      phi_(timeline.nodes.size(), Vec3::Zero()) {}
+
+std::vector<ChainEquations> RowsAlongPath::at(const Theta& theta, const std::vector<Vec3>& psi0_l) {
+  if (in_lanes_) {
+    lanes_.set_theta(theta);
+    lanes_.all_forward(psi0_l, phi_.data());
+  } else {
+    phi_ = integrate_fixed(timeline_, model_, theta, psi0_l);
+  }
+  return equations_.at(theta, phi_);
+}
+
+BatchProblem::BatchProblem(const FilterSpec& filter, const MeasuredTest& test)
+    : filter_(filter),
+      test_(test),
+      samples_(test_, test_.timeline, filter_),
       sigma_psi_(filter.initial_attitude),
-      angle_random_walk_(filter.noise.angle_random_walk),
-      phi_(test.timeline.nodes.size(), Vec3::Zero()) {}
+      angle_random_walk_(filter.noise.angle_random_walk) {
+  if (!walks() && StretchJacobians::can(filter.model())) compress();
+}
+
+void BatchProblem::compress() {
+  compressed_ = std::make_unique<CompressedTest>(test_, left_alone_);
+  if (!compressed_->any()) return take_every_sample();
+  stretches_ = std::make_unique<RowsAlongPath>(*compressed_, compressed_->test().timeline, filter_);
+}
+
+void BatchProblem::take_every_sample() {
+  stretches_.reset();
+  compressed_.reset();
+}
 
 std::optional<Eigen::Index> BatchProblem::multiplier() const {
   const auto& params = layout().params;
@@ -63,13 +92,15 @@ std::vector<Vec3> BatchProblem::unscaled(const std::vector<Vec3>& psi) const {
 
 std::vector<ChainEquations> BatchProblem::rows_at(const VecX& x, const std::vector<Vec3>& psi) {
   const Theta theta = layout().theta_at(x);
-  if (in_lanes_) {
-    lanes_.set_theta(theta);
-    lanes_.all_forward(unscaled(psi), phi_.data());
-  } else {
-    phi_ = integrate_fixed(test_.timeline, model_, theta, unscaled(psi));
+  const std::vector<Vec3> psi0_l = unscaled(psi);
+  while (compressed()) {
+    std::vector<ChainEquations> rows = stretches_->at(theta, psi0_l);
+    if (stretches_->too_rough().empty()) return rows;
+    for (const std::size_t i : stretches_->too_rough())
+      left_alone_.push_back(compressed_->first(i));
+    compress();
   }
-  return equations_.at(theta, phi_);
+  return samples_.at(theta, psi0_l);
 }
 
 void BatchProblem::whiten_at(const VecX& x, const std::vector<Vec3>& psi) {
@@ -78,7 +109,8 @@ void BatchProblem::whiten_at(const VecX& x, const std::vector<Vec3>& psi) {
 
 Evaluation BatchProblem::evaluate(VecX x, std::vector<Vec3> psi) {
   std::vector<ChainEquations> rows = rows_at(x, psi);
-  Evaluation e{std::move(x), std::move(psi), std::move(rows), 0.0};
+  Evaluation e{std::move(x), std::move(psi), std::move(rows), 0.0,
+               compressed() ? compressed_->left_over() : 0.0};
   if (walks()) whiten_random_walk(test_, angle_random_walk_ / sigma_psi_, white_at_, e.rows);
   e.cost = e.data_cost() + e.x.squaredNorm();
   for (const Vec3& p : e.psi) e.cost += p.squaredNorm();

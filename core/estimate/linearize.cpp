@@ -3,6 +3,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 
+#include "core/estimate/transition.hpp"
+
 namespace drift {
 
 std::size_t most_nodes(const Timeline& timeline) {
@@ -66,16 +68,17 @@ void propagate_sensitivity(const Interval& interval, const Timeline& timeline,
   }
   const double h = interval.length() / (2.0 * interval.substeps);
   const Mat3 I = Mat3::Identity();
-  const auto exponential = [&](const Mat3& a) -> Mat3 { return I + a + 0.5 * a * a; };
   out.Phi[0] = I;
   out.G[0].setZero();
   for (std::size_t k = 0; k + 2 < nodes; k += 2) {
     const NodeJacobian &j0 = jacobian[k], &j1 = jacobian[k + 1], &j2 = jacobian[k + 2];
     // Integrals of the parabola through the three nodes, to the middle and to the end.
-    const Mat3 a1 = h / 12.0 * (5.0 * j0.A + 8.0 * j1.A - j2.A);
-    const Mat3 a2 = h / 3.0 * (j0.A + 4.0 * j1.A + j2.A);
-    const Mat3 Phi1 = exponential(a1), Phi2 = exponential(a2);
-    const Mat3 from_end = exponential(a1 - a2), from_middle = exponential(a2 - a1);
+    const Mat3 to_middle = h / 12.0 * (5.0 * j0.A + 8.0 * j1.A - j2.A);
+    const Mat3 to_end = h / 3.0 * (j0.A + 4.0 * j1.A + j2.A);
+    const Mat3 rest = magnus(to_end - to_middle, j1.A, j2.A, h);
+    const Mat3 Phi1 = small_exponential(magnus(to_middle, j0.A, j1.A, h)),
+               Phi2 = small_exponential(magnus(to_end, j0.A, j2.A, 2.0 * h));
+    const Mat3 from_end = small_exponential(-rest), from_middle = small_exponential(rest);
     out.Phi[k + 1] = Phi1 * out.Phi[k];
     out.Phi[k + 2] = Phi2 * out.Phi[k];
     sum_of_products<Sum::afresh>({h * 5.0 / 12.0 * Phi1, h * 8.0 / 12.0 * I, -h / 12.0 * from_end},

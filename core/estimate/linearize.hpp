@@ -35,8 +35,9 @@ void mean_output(const Interval& interval, const IntervalSensitivity& sensitivit
 /// Fills Phi and G along the nodes of an interval, whose Jacobians are given.
 ///
 /// Variation of constants: G(t) = Phi(t) Int Phi^-1 B dt with fourth-order quadrature over pairs of
-/// steps; Phi is the exponential of the integral of A to second order (A t is below 1e-3 within an
-/// interval: physics.md 6.5 ii). At rest on the Earth psi turns with it, and nothing else moves it.
+/// steps; Phi is the exponential of Magnus' series to fourth order in the step, of the exponential
+/// three terms (A t is below 1e-3 within a sample of minutes, physics.md 6.5 ii, and below 1e-2
+/// within a step along a dwell). At rest on the Earth psi turns with it, and nothing else moves it.
 void propagate_sensitivity(const Interval& interval, const Timeline& timeline,
                            const NodeJacobian* jacobian, IntervalSensitivity& out);
 

@@ -58,10 +58,9 @@ class Linearizer {
   /// command.
   void evaluate(std::span<const NodePoint> points, const Mat3& E_loop, const Timeline* timeline,
                 NodeJacobian* out);
-  /// Gimbal angles at the end of an interval and their derivatives with respect to psi_i and to the
-  /// readout states.
-  GimbalPrediction gimbals(const Timeline& timeline, const Interval& interval, const Vec3& phi,
-                           const MemoryPoint* memory);
+  /// Gimbal angles at a node and their derivatives with respect to psi_i and to the readout states;
+  /// the case heads as at the end of the node's interval.
+  GimbalPrediction gimbals(const Timeline& timeline, const NodePoint& point);
   NodeJacobian make() const;
   const Layout& layout() const { return layout_; }
 

@@ -73,12 +73,13 @@ void Linearizer::differentiate_offset_readout(const Mat3& R_il, NodeJacobian& ou
   }
 }
 
-GimbalPrediction Linearizer::gimbals(const Timeline& timeline, const Interval& interval,
-                                     const Vec3& phi, const MemoryPoint* memory) {
-  const Node& node = timeline.nodes[interval.last_node()];
+GimbalPrediction Linearizer::gimbals(const Timeline& timeline, const NodePoint& point) {
+  const Node& node = *point.node;
+  const Interval& interval = *point.interval;
+  const Vec3& phi = point.phi;
   if (!offsets_.any() && !resolvers_.any()) return predict_gimbals(node, interval.heading1, phi);
   const Mat3 R_lp = node.R_lr * rotation(phi);
-  look({&node, &interval, phi, memory}, R_lp, &timeline);
+  look(point, R_lp, &timeline);
   GimbalAssembly<D3> sum;
   resolvers_.add_to(seen_, sum);
   const Vec3D delta_p = offset();

@@ -29,24 +29,38 @@ bool mostly_read(const MeasuredTest& test) {
 
 MeasurementEquations::MeasurementEquations(const MeasuredTest& test, const DriftModel& model,
                                            const Layout& layout, double sigma_attitude)
+    : MeasurementEquations(test, nullptr, model, layout, sigma_attitude) {}
+
+MeasurementEquations::MeasurementEquations(const CompressedTest& test, const DriftModel& model,
+                                           const Layout& layout, double sigma_attitude)
+    : MeasurementEquations(test.test(), &test, model, layout, sigma_attitude) {}
+
+MeasurementEquations::MeasurementEquations(const MeasuredTest& test,
+                                           const CompressedTest* compressed,
+                                           const DriftModel& model, const Layout& layout,
+                                           double sigma_attitude)
     : test_(test),
+      compressed_(compressed),
       model_(model),
       layout_(layout),
       sigma_attitude_(sigma_attitude),
       linearizer_(model, layout, test.readout),
       memory_(test.timeline, model),
       jacobians_(test.timeline),
-      together_(StretchJacobians::can(model) && mostly_read(test)),
+      together_(StretchJacobians::can(model) && (compressed || mostly_read(test))),
       G_(padded_rows(layout.num_rate)),
       G_next_(G_),
       Y_rate_(G_),
       Y_par_(padded_rows(layout.size() - layout.num_rate)),
       some_(rows_of_interval * static_cast<Eigen::Index>(at_once),
             3 + static_cast<Eigen::Index>(layout.size()) + 1),
-      count_(static_cast<std::size_t>(test.timeline.chains), 0) {
+      count_(static_cast<std::size_t>(test.timeline.chains), 0),
+      stretch_(layout) {
   for (std::size_t i = 0; i < test.timeline.intervals.size(); ++i) {
     const auto column = static_cast<Eigen::Index>(i);
     Eigen::Index& count = count_[static_cast<std::size_t>(test.timeline.intervals[i].chain)];
+    if (const StretchReadings* s = compressed ? compressed->readings(i) : nullptr)
+      count += s->accelerometers.rows() + s->gimbals.rows();
     if (test.readout.accelerometers)
       count += test.measured.acc.col(column).array().isFinite().count();
     if (test.readout.gimbals) count += test.measured.gimbal.col(column).array().isFinite().count();
@@ -59,18 +73,20 @@ std::vector<ChainEquations> MeasurementEquations::at(const Theta& theta, const T
   std::vector<Eigen::Index> handed_over(count_.size(), 0);
   memory_.reset();
   in_some_ = 0;
+  too_rough_.clear();
   linearizer_.set_theta(theta);
   const auto& intervals = test_.timeline.intervals;
   for (std::size_t i = 0; i < intervals.size(); ++i) {
     enter(intervals[i]);
     linearize(i, theta, phi);
+    const auto chain = static_cast<std::size_t>(intervals[i].chain);
+    take_stretch(i, phi, chains[chain].rows, handed_over[chain]);
     take_accelerometers(i);
     leave(intervals[i]);
     take_gimbals(i, phi);
     const bool last = i + 1 == intervals.size() || intervals[i + 1].chain != intervals[i].chain;
     if (last || in_some_ + rows_of_interval > some_.rows())
-      hand_over(chains[static_cast<std::size_t>(intervals[i].chain)].rows,
-                handed_over[static_cast<std::size_t>(intervals[i].chain)]);
+      hand_over(chains[chain].rows, handed_over[chain]);
   }
   return chains;
 }
@@ -89,7 +105,11 @@ void MeasurementEquations::linearize(std::size_t i, const Theta& theta, const Tr
     if (i % at_once == 0)
       jacobians_.evaluate(i, std::min(i + at_once, timeline.intervals.size()), phi.data(),
                           model_.mounting, linearizer_);
-    propagate_sensitivity(interval, timeline, jacobians_.of(i), inner_);
+    const StretchReadings* stretch = compressed_ ? compressed_->readings(i) : nullptr;
+    if (stretch)
+      stretch_.propagate(*stretch, interval, jacobians_.of(i), inner_);
+    else
+      propagate_sensitivity(interval, timeline, jacobians_.of(i), inner_);
     return;
   }
   readout.accelerometers&& read_in(measured.acc, i) ? linearizer_.work_readout_out()
@@ -122,6 +142,38 @@ void MeasurementEquations::take_accelerometers(std::size_t i) {
       add_row(m - mean[a], Y_psi.row(a), a, sigma);
 }
 
+/// All that was read along a stretch, at once.
+void MeasurementEquations::take_stretch(std::size_t i, const Trajectory& phi, MatX& rows,
+                                        Eigen::Index& done) {
+  const StretchReadings* readings = compressed_ ? compressed_->readings(i) : nullptr;
+  if (!readings) return;
+  hand_over(rows, done);
+  const Interval& interval = test_.timeline.intervals[i];
+  double tail = 0.0;
+  if (readings->accelerometers.rows() > 0) {
+    add_rows(stretch_.accelerometers(readings->accelerometers, interval, inner_), rows, done);
+    tail += stretch_.tail();
+  }
+  if (readings->gimbals.rows() > 0) {
+    add_rows(stretch_.gimbals(readings->gimbals, test_.timeline, interval, inner_,
+                              &phi[interval.first_node], linearizer_),
+             rows, done);
+    tail += stretch_.tail();
+  }
+  constexpr double negligible = 1e-4;
+  if (!(tail < negligible)) too_rough_.push_back(i);
+}
+
+/// Rows over the attitude at the beginning of the interval, as rows over that at the caging.
+void MeasurementEquations::add_rows(const StretchRows::Rows& from, MatX& rows, Eigen::Index& done) {
+  const auto nr = static_cast<Eigen::Index>(layout_.num_rate);
+  auto to = rows.middleRows(done, from.rows());
+  to.rightCols(from.cols() - 3) = from.rightCols(from.cols() - 3);
+  to.middleCols(3, nr) += from.leftCols<3>() * G_.leftCols(nr);
+  to.leftCols<3>() = sigma_attitude_ * from.leftCols<3>() * Phi_;
+  done += from.rows();
+}
+
 /// On to the end of the interval.
 void MeasurementEquations::leave(const Interval& interval) {
   const std::size_t last = interval.node_count() - 1;
@@ -138,8 +190,10 @@ void MeasurementEquations::take_gimbals(std::size_t i, const Trajectory& phi) {
   const std::size_t last = interval.node_count() - 1;
   const GimbalPrediction p =
       interval.rest ? predict_rest_rate(interval, timeline, &phi[interval.first_node], inner_)
-                    : linearizer_.gimbals(timeline, interval, phi[interval.last_node()],
-                                          memory_.active() ? &memory_.points()[2 * last] : nullptr);
+                    : linearizer_.gimbals(
+                          timeline, {&timeline.nodes[interval.last_node()], &interval,
+                                     phi[interval.last_node()],
+                                     memory_.active() ? &memory_.points()[2 * last] : nullptr});
   if (p.H_rate.cols() > 0)
     Y_rate_ = p.H_rate;
   else

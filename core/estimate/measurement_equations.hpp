@@ -1,8 +1,7 @@
 #pragma once
 
+#include "core/estimate/compressed/stretch_rows.hpp"
 #include "core/estimate/gimbal_prediction.hpp"
-#include "core/estimate/linearize.hpp"
-#include "core/estimate/measured_test.hpp"
 #include "core/estimate/stretch_jacobians.hpp"
 
 namespace drift {
@@ -20,21 +19,32 @@ class MeasurementEquations {
   /// outlive it.
   MeasurementEquations(const MeasuredTest& test, const DriftModel& model, const Layout& layout,
                        double sigma_attitude);
+  /// The same of a test whose stretches are compressed.
+  MeasurementEquations(const CompressedTest& test, const DriftModel& model, const Layout& layout,
+                       double sigma_attitude);
 
   const Layout& layout() const { return layout_; }
   /// About theta and the trajectory phi, chain by chain.
   std::vector<ChainEquations> at(const Theta& theta, const Trajectory& phi);
+  /// Stretches, by their intervals, whose polynomials were too few there: the last ones hold more
+  /// than a ten thousandth of the prior's information on some parameter.
+  const std::vector<std::size_t>& too_rough() const { return too_rough_; }
 
  private:
+  MeasurementEquations(const MeasuredTest& test, const CompressedTest* compressed,
+                       const DriftModel& model, const Layout& layout, double sigma_attitude);
   void enter(const Interval& interval);
   void linearize(std::size_t i, const Theta& theta, const Trajectory& phi);
   void take_accelerometers(std::size_t i);
   void take_gimbals(std::size_t i, const Trajectory& phi);
+  void take_stretch(std::size_t i, const Trajectory& phi, MatX& rows, Eigen::Index& done);
+  void add_rows(const StretchRows::Rows& from, MatX& rows, Eigen::Index& done);
   void leave(const Interval& interval);
   void add_row(double residual, const Eigen::RowVector3d& d_psi, int axis, double sigma);
   void hand_over(MatX& rows, Eigen::Index& done);
 
   MeasuredTest test_;
+  const CompressedTest* compressed_;  ///< null: every interval is a sample
   DriftModel model_;
   Layout layout_;
   double sigma_attitude_;
@@ -51,6 +61,8 @@ class MeasurementEquations {
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> some_;
   Eigen::Index in_some_ = 0;
   std::vector<Eigen::Index> count_;  ///< rows of each chain
+  StretchRows stretch_;
+  std::vector<std::size_t> too_rough_;
 };
 
 /// The same once.

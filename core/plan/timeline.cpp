@@ -93,7 +93,7 @@ void place_nodes(Timeline& timeline, const std::vector<Mat3>& R_lp, double longe
     }
     const double turned =
         i.rest ? 0.0 : (i.omega_cmd_p - R_lr.transpose() * omega_ie_l).norm() * i.length();
-    i.substeps = std::max(1, static_cast<int>(std::ceil(turned / longest_step)));
+    i.substeps = std::max(i.substeps, static_cast<int>(std::ceil(turned / longest_step)));
     i.first_node = timeline.nodes.size();
     const Vec3 omega_ic_l = omega_ie_l + i.heading_rate() * up_l;
     for (std::size_t k = 0; k < i.node_count(); ++k) {

@@ -93,7 +93,8 @@ Timeline lay_out(const TestPlan& plan, const Site& site);
 Timeline lay_out(const Recording& recording, const TestPlan& plan, const Site& site);
 
 /// Computes the nodes from the intervals. R_lp is the nominal attitude at the start of each chain;
-/// longest_step: attitude change between the end points of Simpson's rule [rad].
+/// longest_step: attitude change between the end points of Simpson's rule [rad]. An interval that
+/// has more substeps keeps them.
 void place_nodes(Timeline& timeline, const std::vector<Mat3>& R_lp, double longest_step = 0.05);
 
 }  // namespace drift

@@ -94,9 +94,10 @@ IntervalRows::Taken IntervalRows::take(std::size_t i, const Vec3& acc, const Vec
   attitude_.propagate(Phi_rest, rest_G_, Q_half);
   if (readout_.gimbals && gimbal.array().isFinite().any()) {
     const GimbalPrediction predicted =
-        interval.rest ? predict_rest_rate(interval, timeline_, phi, sensitivity_)
-                      : linearizer_.gimbals(timeline_, interval, phi[last],
-                                            memory ? memory + 2 * last : nullptr);
+        interval.rest
+            ? predict_rest_rate(interval, timeline_, phi, sensitivity_)
+            : linearizer_.gimbals(timeline_, {&timeline_.nodes[interval.last_node()], &interval,
+                                              phi[last], memory ? memory + 2 * last : nullptr});
     taken.ok = taken.ok && predicted.angles.allFinite();
     Vec3 residual;
     for (int k = 0; k < 3; ++k) residual[k] = angle_difference(gimbal[k], predicted.angles[k]);

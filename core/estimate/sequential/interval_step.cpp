@@ -112,7 +112,8 @@ void IntervalStep::take_gimbals(const Interval& interval, const Vec3& gimbal) {
   if (TermLibrary::act_on_gimbals(model_.terms)) linearizer_.set_theta(theta_);
   const GimbalPrediction predicted =
       interval.rest ? predict_rest_rate(interval, timeline_, nodes_.data(), sensitivity_)
-                    : linearizer_.gimbals(timeline_, interval, nodes_[last], memory_at(last));
+                    : linearizer_.gimbals(timeline_, {&timeline_.nodes[interval.last_node()],
+                                                      &interval, nodes_[last], memory_at(last)});
   Vec3 residual;
   for (int k = 0; k < 3; ++k) residual[k] = angle_difference(gimbal[k], predicted.angles[k]);
   update(interval, last, residual, sensitivity_of(predicted.H, predicted.H_rate, predicted.H_par),
