@@ -51,9 +51,11 @@ BatchProblem::BatchProblem(const FilterSpec& filter, const MeasuredTest& test)
 }
 
 void BatchProblem::compress() {
-  compressed_ = std::make_unique<CompressedTest>(test_, left_alone_);
+  compressed_ = std::make_unique<CompressedTest>(test_.timeline, test_.readout,
+                                                 CompressedTest::Options{.leave = left_alone_});
   if (!compressed_->any()) return take_every_sample();
-  stretches_ = std::make_unique<RowsAlongPath>(*compressed_, compressed_->test().timeline, filter_);
+  compressed_->read(test_.measured);
+  stretches_ = std::make_unique<RowsAlongPath>(*compressed_, compressed_->timeline(), filter_);
 }
 
 void BatchProblem::take_every_sample() {

@@ -160,8 +160,7 @@ void MeasurementEquations::take_stretch(std::size_t i, const Trajectory& phi, Ma
              rows, done);
     tail += stretch_.tail();
   }
-  constexpr double negligible = 1e-4;
-  if (!(tail < negligible)) too_rough_.push_back(i);
+  if (!(tail < StretchRows::negligible)) too_rough_.push_back(i);
 }
 
 /// Rows over the attitude at the beginning of the interval, as rows over that at the caging.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace drift {
 namespace {
@@ -24,12 +25,13 @@ double angle_of(const Timeline& timeline, const Interval& begin, double duration
                               (begin.omega_cmd_p - R_lr.transpose() * omega_ie_l).norm()});
 }
 
-/// Polynomials whose coefficients tell, (a / 4)^k / k! > 1e-10, and two.
+/// Polynomials whose coefficients tell, (3 a / 4)^k / k! > 1e-10, and two.
 std::size_t polynomials_for(double angle) {
   constexpr double negligible = 1e-10;
+  constexpr double directions = 3.0;  // what is predicted is a product of so many
   std::size_t k = 0;
   for (double coefficient = 1.0; coefficient > negligible; ++k)
-    coefficient *= 0.25 * angle / static_cast<double>(k + 1);
+    coefficient *= 0.25 * directions * angle / static_cast<double>(k + 1);
   return k + 2;
 }
 
@@ -43,140 +45,140 @@ int substeps_for(double angle, std::size_t polynomials) {
 
 }  // namespace
 
-CompressedTest::CompressedTest(const MeasuredTest& test, const std::vector<std::size_t>& leave)
-    : readout_(test.readout) {
-  const auto& all = test.timeline.intervals;
-  timeline_.site = test.timeline.site;
-  timeline_.chains = test.timeline.chains;
-  timeline_.positions = test.timeline.positions;
-  measured_ = {Mat3X(3, 0), Mat3X(3, 0)};
-  std::vector<Mat3> R_lp(static_cast<std::size_t>(test.timeline.chains));
-  const double nothing = std::numeric_limits<double>::quiet_NaN();
-  measured_.acc = measured_.gimbal =
-      Mat3X::Constant(3, static_cast<Eigen::Index>(all.size()), nothing);
-  const auto acc_noise = [&](const Interval& i) {
-    return i.accelerometer_noise(readout_.accelerometer_noise);
-  };
-  const auto gimbal_noise = [&](const Interval&) { return readout_.gimbal_noise; };
+CompressedTest::CompressedTest(const Timeline& timeline, const Readout& readout,
+                               const Options& options)
+    : whole_(timeline), readout_(readout) {
+  const auto& all = timeline.intervals;
+  timeline_.site = timeline.site;
+  timeline_.chains = timeline.chains;
+  timeline_.positions = timeline.positions;
+  std::vector<Mat3> R_lp(static_cast<std::size_t>(timeline.chains));
+  std::size_t most = 1;  // samples
   for (std::size_t first = 0, end = 0; first < all.size(); first = end) {
+    const bool begins = first == 0 || !go_on(timeline, all[first - 1], all[first]);
+    most = options.cut == Cut::nowhere ? all.size() : begins ? 1 : 2 * most;
     if (all[first].cage)
-      R_lp[static_cast<std::size_t>(all[first].chain)] =
-          test.timeline.nodes[all[first].first_node].R_lr;
+      R_lp[static_cast<std::size_t>(all[first].chain)] = timeline.nodes[all[first].first_node].R_lr;
     int steps = all[first].substeps;
-    for (end = first + 1; end < all.size() && go_on(test.timeline, all[end - 1], all[end]); ++end)
+    for (end = first + 1;
+         end < all.size() && end - first < most && go_on(timeline, all[end - 1], all[end]); ++end)
       steps += all[end].substeps;
-    const double angle = angle_of(test.timeline, all[first], all[end - 1].t1 - all[first].t0);
+    const double angle = angle_of(timeline, all[first], all[end - 1].t1 - all[first].t0);
     const std::size_t polynomials = polynomials_for(angle);
     const int substeps = substeps_for(angle, polynomials);
-    const bool pays = 2 * substeps <= steps && polynomials < end - first;
-    if (!pays || std::ranges::find(leave, first) != leave.end()) {
-      for (std::size_t i = first; i < end; ++i) take_alone(test, i);
-      continue;
-    }
-    take_together(test, first, end, substeps);
-    const MatX fit = legendre_fit(polynomials, timeline_.intervals.back().node_count());
-    StretchReadings readings;
-    readings.integral = 0.5 * timeline_.intervals.back().length() * legendre_integral(fit);
-    if (readout_.accelerometers)
-      readings.accelerometers =
-          read(test, first, end, Reading::mean, test.measured.acc, acc_noise, fit);
-    if (readout_.gimbals)
-      readings.gimbals =
-          read(test, first, end, Reading::at_end, test.measured.gimbal, gimbal_noise, fit);
-    readings_.push_back(std::move(readings));
+    const bool pays = options.fewer * substeps <= steps && polynomials < end - first;
+    if (pays && std::ranges::find(options.leave, first) == options.leave.end())
+      take_together(first, end, polynomials, substeps);
+    else
+      for (std::size_t i = first; i < end; ++i) take_alone(i);
   }
   const auto count = static_cast<Eigen::Index>(timeline_.intervals.size());
-  measured_.acc.conservativeResize(3, count);
-  measured_.gimbal.conservativeResize(3, count);
+  const Mat3X nothing = Mat3X::Constant(3, count, std::numeric_limits<double>::quiet_NaN());
+  measured_ = {nothing, nothing};
   if (any()) place_nodes(timeline_, R_lp);
 }
 
-void CompressedTest::take_alone(const MeasuredTest& test, std::size_t i) {
-  const auto from = static_cast<Eigen::Index>(i);
-  const auto to = static_cast<Eigen::Index>(timeline_.intervals.size());
-  measured_.acc.col(to) = test.measured.acc.col(from);
-  measured_.gimbal.col(to) = test.measured.gimbal.col(from);
-  timeline_.intervals.push_back(test.timeline.intervals[i]);
+void CompressedTest::take_alone(std::size_t i) {
+  timeline_.intervals.push_back(whole_.intervals[i]);
   first_.push_back(i);
   of_interval_.push_back(-1);
 }
 
-void CompressedTest::take_together(const MeasuredTest& test, std::size_t first, std::size_t end,
+void CompressedTest::take_together(std::size_t first, std::size_t end, std::size_t polynomials,
                                    int substeps) {
-  Interval whole = test.timeline.intervals[first];
-  whole.t1 = test.timeline.intervals[end - 1].t1;
-  whole.substeps = substeps;
-  timeline_.intervals.push_back(whole);
+  Interval joined = whole_.intervals[first];
+  joined.t1 = whole_.intervals[end - 1].t1;
+  joined.substeps = substeps;
+  Stretch stretch{first, end, legendre_fit(polynomials, joined.node_count()), {}, {}, {}};
+  stretch.readings.integral = 0.5 * joined.length() * legendre_integral(stretch.fit);
+  std::vector<std::size_t> every(end - first);
+  std::iota(every.begin(), every.end(), 0);
+  if (readout_.accelerometers) stretch.means = how_to_read(stretch, Reading::mean, every);
+  if (readout_.gimbals) stretch.ends = how_to_read(stretch, Reading::at_end, every);
+  timeline_.intervals.push_back(joined);
   first_.push_back(first);
-  of_interval_.push_back(static_cast<int>(stretches_++));
+  of_interval_.push_back(static_cast<int>(stretches_.size()));
+  stretches_.push_back(std::move(stretch));
 }
 
-namespace {
-
-/// What one axis has read along a stretch, counted from its first reading.
-struct AxisSamples {
+AxisReading CompressedTest::how_to_read(const Stretch& stretch, Reading what,
+                                        std::vector<std::size_t> samples) const {
+  const double begin = whole_.intervals[stretch.first].t0;
+  const double length = whole_.intervals[stretch.end - 1].t1 - begin;
+  const auto scaled = [&](double t) { return 2.0 * (t - begin) / length - 1.0; };
+  AxisReading how{std::move(samples), VecX(0), {}, {}};
   std::vector<ReadingTime> times;
-  std::vector<double> values;
-  double reference = 0.0;
-};
-
-template <class Noise>
-AxisSamples samples_of(const Timeline& timeline, std::size_t first, std::size_t end, Reading what,
-                       const Eigen::RowVectorXd& readings, const Noise& noise) {
-  const double begin = timeline.intervals[first].t0, last = timeline.intervals[end - 1].t1;
-  const auto scaled = [&](double t) { return 2.0 * (t - begin) / (last - begin) - 1.0; };
-  AxisSamples out;
-  for (std::size_t i = first; i < end; ++i) {
-    const double value = readings[static_cast<Eigen::Index>(i)];
-    if (!std::isfinite(value)) continue;
-    const Interval& sample = timeline.intervals[i];
-    if (out.times.empty()) out.reference = value;
-    out.times.push_back({scaled(sample.t0), scaled(sample.t1), noise(sample)});
-    out.values.push_back(what == Reading::mean ? value - out.reference
-                                               : angle_difference(value, out.reference));
+  for (const std::size_t s : how.samples) {
+    const Interval& i = whole_.intervals[stretch.first + s];
+    times.push_back({scaled(i.t0), scaled(i.t1),
+                     what == Reading::mean ? i.accelerometer_noise(readout_.accelerometer_noise)
+                                           : readout_.gimbal_noise});
   }
-  return out;
+  how.sigma.resize(static_cast<Eigen::Index>(times.size()));
+  for (std::size_t k = 0; k < times.size(); ++k)
+    how.sigma[static_cast<Eigen::Index>(k)] = times[k].sigma;
+  how.projection = polynomial_projection(what, times, stretch.fit);
+  const MatX& basis = how.projection.basis;
+  how.neighbours = MatX::Zero(basis.cols(), basis.cols());
+  for (std::size_t k = 0; k + 1 < how.samples.size(); ++k)
+    if (how.samples[k] + 1 == how.samples[k + 1])
+      how.neighbours += basis.row(static_cast<Eigen::Index>(k)).transpose() *
+                        basis.row(static_cast<Eigen::Index>(k + 1));
+  return how;
 }
 
-/// Sum of squares of whitened readings less their projection.
-double left_of(const AxisSamples& samples, const PolynomialProjection& projection,
-               const VecX& projected) {
-  const VecX smooth = projection.of_readings.transpose() * projected;  // over sigma twice
-  double sum = 0.0;
-  for (std::size_t k = 0; k < samples.values.size(); ++k) {
-    const double sigma = samples.times[k].sigma;
-    const double rest = samples.values[k] / sigma - smooth[static_cast<Eigen::Index>(k)] * sigma;
-    sum += rest * rest;
+void CompressedTest::read(const Measurements& measured) {
+  left_over_ = 0.0;
+  scalars_ = 0;
+  with_gaps_.clear();
+  for (std::size_t i = 0; i < first_.size(); ++i) {
+    if (of_interval_[i] >= 0) continue;
+    const auto from = static_cast<Eigen::Index>(first_[i]), to = static_cast<Eigen::Index>(i);
+    measured_.acc.col(to) = measured.acc.col(from);
+    measured_.gimbal.col(to) = measured.gimbal.col(from);
+    if (readout_.accelerometers) scalars_ += measured.acc.col(from).array().isFinite().count();
+    if (readout_.gimbals) scalars_ += measured.gimbal.col(from).array().isFinite().count();
   }
-  return sum;
+  for (Stretch& s : stretches_) {
+    if (readout_.accelerometers)
+      read_channel(s, Reading::mean, measured.acc, s.readings.accelerometers);
+    if (readout_.gimbals) read_channel(s, Reading::at_end, measured.gimbal, s.readings.gimbals);
+  }
 }
 
-}  // namespace
-
-template <class Noise>
-StretchChannel CompressedTest::read(const MeasuredTest& test, std::size_t first, std::size_t end,
-                                    Reading what, const Mat3X& measured, const Noise& noise,
-                                    const MatX& fit) {
-  StretchChannel out;
-  std::vector<ReadingTime> times;
-  PolynomialProjection projection;
+void CompressedTest::read_channel(const Stretch& stretch, Reading what, const Mat3X& measured,
+                                  StretchChannel& channel) {
+  const AxisReading& complete = what == Reading::mean ? stretch.means : stretch.ends;
   for (int a = 0; a < 3; ++a) {
-    StretchChannel::Axis& axis = out.axes[static_cast<std::size_t>(a)];
-    axis.of_nodes.resize(0, fit.cols());
-    const AxisSamples samples = samples_of(test.timeline, first, end, what, measured.row(a), noise);
-    if (samples.times.empty()) continue;
-    const auto same = [](const ReadingTime& s, const ReadingTime& t) { return s.end == t.end; };
-    if (!std::ranges::equal(samples.times, times, same))
-      projection = polynomial_projection(what, samples.times, fit);
-    times = samples.times;
-    out.reference[a] = samples.reference;
-    axis = {projection.of_nodes,
-            projection.of_readings *
-                Eigen::Map<const VecX>(samples.values.data(),
-                                       static_cast<Eigen::Index>(samples.values.size()))};
-    left_over_ += left_of(samples, projection, axis.measured);
+    StretchChannel::Axis& axis = channel.axes[static_cast<std::size_t>(a)];
+    const auto readings =
+        measured.row(a).segment(static_cast<Eigen::Index>(stretch.first),
+                                static_cast<Eigen::Index>(stretch.end - stretch.first));
+    axis.how = &complete;
+    if (!readings.array().isFinite().all()) {
+      std::vector<std::size_t> there;
+      for (Eigen::Index k = 0; k < readings.size(); ++k)
+        if (std::isfinite(readings[k])) there.push_back(static_cast<std::size_t>(k));
+      axis.how = nullptr;
+      if (there.empty()) continue;
+      axis.how = &with_gaps_.emplace_back(how_to_read(stretch, what, std::move(there)));
+    }
+    const AxisReading& how = *axis.how;
+    channel.reference[a] = readings[static_cast<Eigen::Index>(how.samples.front())];
+    values_.resize(how.samples.size());
+    for (std::size_t k = 0; k < values_.size(); ++k) {
+      const double value = readings[static_cast<Eigen::Index>(how.samples[k])];
+      values_[k] = (what == Reading::mean ? value - channel.reference[a]
+                                          : angle_difference(value, channel.reference[a])) /
+                   how.sigma[static_cast<Eigen::Index>(k)];
+    }
+    const Eigen::Map<const VecX> v(values_.data(), static_cast<Eigen::Index>(values_.size()));
+    axis.measured.noalias() = how.projection.basis.transpose() * v;
+    axis.left = v;
+    axis.left.noalias() -= how.projection.basis * axis.measured;
+    left_over_ += axis.left.squaredNorm();
+    scalars_ += values_.size();
   }
-  return out;
 }
 
 }  // namespace drift

@@ -58,19 +58,17 @@ PolynomialProjection polynomial_projection(Reading what, std::span<const Reading
   const auto N = static_cast<Eigen::Index>(readings.size());
   const auto count = static_cast<std::size_t>(fit.rows());
   MatX V(N, fit.rows());
-  VecX weight(N);
   for (Eigen::Index i = 0; i < N; ++i) {
     const ReadingTime& r = readings[static_cast<std::size_t>(i)];
-    weight[i] = 1.0 / r.sigma;
-    V.row(i) = weight[i] * (what == Reading::mean ? legendre_means(count, r.begin, r.end)
-                                                  : legendre(count, r.end))
-                               .transpose();
+    V.row(i) =
+        (what == Reading::mean ? legendre_means(count, r.begin, r.end) : legendre(count, r.end))
+            .transpose() /
+        r.sigma;
   }
   const Eigen::Index rows = std::min(N, fit.rows());
   const Eigen::HouseholderQR<MatX> qr(V);
-  const MatX Q = qr.householderQ() * MatX::Identity(N, rows);
   const MatX R = qr.matrixQR().topRows(rows).triangularView<Eigen::Upper>();
-  return {Q.transpose() * weight.asDiagonal(), R * fit};
+  return {qr.householderQ() * MatX::Identity(N, rows), R * fit};
 }
 
 }  // namespace drift

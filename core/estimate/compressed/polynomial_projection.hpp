@@ -26,8 +26,8 @@ MatX legendre_integral(const MatX& fit);
 /// What readings of something smooth say, white noise of the given sigmas in them, is what their
 /// projections on polynomials say: fewer rows, of unit variance and uncorrelated, degree by degree.
 struct PolynomialProjection {
-  MatX of_readings;  ///< shape (rows, readings) [1/unit]
-  MatX of_nodes;     ///< of the values at the nodes, shape (rows, nodes) [1/unit]
+  MatX basis;     ///< orthonormal columns, of readings by their sigmas, shape (readings, rows)
+  MatX of_nodes;  ///< rows of the values at the nodes, shape (rows, nodes) [1/unit]
 };
 
 /// fit: legendre_fit of the nodes. As many rows as polynomials, or as readings if these are fewer.

@@ -62,7 +62,7 @@ const StretchRows::Rows& StretchRows::accelerometers(const StretchChannel& chann
       row[3 + rate_ + readout_] = j.acc[a] - channel.reference[a];
     }
   }
-  return combined(channel);
+  return combined(channel, out_[0]);
 }
 
 const StretchRows::Rows& StretchRows::gimbals(const StretchChannel& channel,
@@ -88,27 +88,27 @@ const StretchRows::Rows& StretchRows::gimbals(const StretchChannel& channel,
       row[3 + rate_ + readout_] = angle_difference(p.angles[a], channel.reference[a]);
     }
   }
-  return combined(channel);
+  return combined(channel, out_[1]);
 }
 
-const StretchRows::Rows& StretchRows::combined(const StretchChannel& channel) {
+const StretchRows::Rows& StretchRows::combined(const StretchChannel& channel, Rows& out) {
   constexpr Eigen::Index last_ones = 2;
   const Eigen::Index states = 3 + rate_ + readout_;
-  out_.resize(channel.rows(), states + 1);
+  out.resize(channel.rows(), states + 1);
   last_.setZero(states);
   Eigen::Index done = 0;
   for (std::size_t a = 0; a < 3; ++a) {
     const StretchChannel::Axis& axis = channel.axes[a];
-    const Eigen::Index count = axis.measured.size();
+    const Eigen::Index count = axis.rows();
     if (count == 0) continue;
-    auto rows = out_.middleRows(done, count);
-    rows.noalias() = axis.of_nodes * at_nodes_[a];
+    auto rows = out.middleRows(done, count);
+    rows.noalias() = axis.how->projection.of_nodes * at_nodes_[a];
     rows.col(states) = axis.measured - rows.col(states);
     last_ += rows.bottomRows(std::min(count, last_ones)).leftCols(states).colwise().squaredNorm();
     done += count;
   }
   tail_ = last_.tail(rate_ + readout_).maxCoeff();
-  return out_;
+  return out;
 }
 
 }  // namespace drift

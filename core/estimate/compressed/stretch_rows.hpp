@@ -26,18 +26,23 @@ class StretchRows {
                       const Interval& interval, const IntervalSensitivity& sensitivity,
                       const Vec3* phi, Linearizer& linearizer);
   /// Information on a state, at most, in the last two polynomials of what was worked out last: what
-  /// was cut off holds less.
+  /// was cut off holds less. Information of the prior is one.
   double tail() const { return tail_; }
+  /// A tail that changes no sigma by more than a ten thousandth.
+  static constexpr double negligible = 1e-4;
+  /// What was worked out last of each channel.
+  const Rows& of_accelerometers() const { return out_[0]; }
+  const Rows& of_gimbals() const { return out_[1]; }
 
  private:
-  const Rows& combined(const StretchChannel& channel);
+  const Rows& combined(const StretchChannel& channel, Rows& out);
 
   Eigen::Index rate_, readout_;   ///< states
   std::array<Rows, 3> at_nodes_;  ///< of each axis; what is predicted in the last column
   Rows3 by_rate_;
   Rows turned_back_, integral_;  ///< of rate states, a node per row
   Eigen::RowVectorXd last_;
-  Rows out_;
+  std::array<Rows, 2> out_;
   double tail_ = 0.0;
 };
 

@@ -1,28 +1,12 @@
 #pragma once
 
-#include <limits>
-#include <string>
-
-#include "core/estimate/estimate_result.hpp"
-#include "core/estimate/sequential/interval_rows.hpp"
-#include "core/estimate/sequential/reference_path.hpp"
-#include "core/sim/measurements.hpp"
+#include "core/estimate/sequential/iterated_passes.hpp"
 
 namespace drift {
 
-/// An EKF that relinearises in blocks, then the same measurements once more, linearised about what
-/// was found.
-///
-/// Both passes make whitened rows of a static least squares problem (AttitudeFilter) and solve it
-/// in information form. The first relinearises about the running estimate after 1, 2, 4, ...
-/// samples from the beginning of every stretch on; in between its solution is exact. An EKF takes
-/// Jacobians at estimates that are still poor, and where parameters enter as products (misalignment
-/// times drift or command) it ends surer than it should be (physics.md 5.9). The second pass is
-/// linear in the deviations from a reference: the first one's final parameters, and the attitude
-/// integrated back with them from its estimate at the end of each chain. Its result is that of a
-/// Gauss-Newton step on all data at once, its cost at the minimum is chi-square. While a pass moves
-/// some parameter by more than a posterior sigma there is another, four at most; mostly there is
-/// one.
+/// The iterated EKF of a whole recording (IteratedPasses). Where the noise is white and the terms
+/// ask for attitude and command alone, it sees long stretches through polynomials (CompressedTest);
+/// a recording for which that is too rough, or in which it fails, it sees sample by sample.
 class IteratedEkf {
  public:
   /// The timeline must outlive the filter. start: library values of the initial estimate.
@@ -30,71 +14,39 @@ class IteratedEkf {
               const Theta& start);
 
   /// As if built anew from this start, over a whole recording. Allocates nothing from the second
-  /// time on.
+  /// time on, where no sample is missing in a stretch.
   void run(const Measurements& measured, const Theta& start);
 
-  EstimateStatus status() const { return status_; }
-  const std::string& cause() const { return cause_; }
-  double t_diverged() const { return t_diverged_; }  ///< [s]
-  double nis() const { return nis_; }                ///< minimum of data and prior cost
-  std::size_t scalars() const { return scalars_; }   ///< measured scalars it sums over
-  /// Correlation of whitened residuals of one channel, one sample apart, less what the fit makes
-  /// of white ones: 0 on average for a right model, with standard deviation 1 / sqrt(scalars) or a
-  /// little more (physics.md 5.6).
-  double lag1() const { return lag1_; }
-  const VecX& x() const { return x_; }  ///< deviations from the prior means, in prior sigmas
-  const Theta& theta() const { return theta_; }
-  const Layout& layout() const { return rows_.layout(); }
+  EstimateStatus status() const { return passes().status(); }
+  const std::string& cause() const { return passes().cause(); }
+  double t_diverged() const { return passes().t_diverged(); }  ///< [s]
+  double nis() const { return passes().nis(); }                ///< minimum of data and prior cost
+  std::size_t scalars() const { return passes().scalars(); }   ///< measured scalars it sums over
+  double lag1() const { return passes().lag1(); }              ///< see IteratedPasses
+  const VecX& x() const {
+    return passes().x();
+  }  ///< deviations from the prior means, in their sigmas
+  const Theta& theta() const { return passes().theta(); }
+  const Layout& layout() const { return passes().layout(); }
   /// Of state k, SI.
-  double sigma(std::size_t k) const {
-    const auto i = static_cast<Eigen::Index>(k);
-    return layout().sigma[i] * std::sqrt(P_(i, i));
-  }
+  double sigma(std::size_t k) const { return passes().sigma(k); }
   /// Covariance of the states in prior sigmas, shape (size, size).
-  const MatX& settled_covariance() const { return P_; }
+  const MatX& settled_covariance() const { return passes().settled_covariance(); }
+  /// Whether the last run has seen some stretch through polynomials.
+  bool compressed() const { return last_ == through_polynomials_.get(); }
 
  private:
-  enum class Pass { first, linear };
-  bool first_pass(const Measurements& measured, const Theta& start);
-  bool linear_pass(const Measurements& measured);
-  bool take(std::size_t i, const Measurements& measured, const Vec3* path, Pass pass);
-  bool take_block(std::size_t first, std::size_t end, const Measurements& measured, Vec3& phi);
-  bool solve_block(const Interval& interval, Vec3& phi);
-  bool diverged(bool finite, double t, Pass pass);
-  double largest_step();  ///< of the last pass, in posterior sigmas
-  void finish();
-  void measure_lag();
-  double* row(std::size_t k) { return store_.data() + k * rows_.width(); }
+  const IteratedPasses& passes() const { return *last_; }
+  IteratedPasses& sample_by_sample();
+  bool begin(const Measurements& measured, const Theta& start);
 
+  FilterSpec filter_;
   const Timeline& timeline_;
-  IntervalRows rows_;
-  Information information_;
-  PathInLanes lanes_;
-  ReferencePath reference_;
-  bool gated_;
-  std::vector<double> store_;  ///< all rows of a pass
-  /// Of three rows: their channel, and whether the interval before has some of it too.
-  struct Neighbour {
-    IntervalRows::Channel channel;
-    bool follows;
-  };
-  std::vector<Neighbour> neighbours_;
-  /// Never the interval before another one: one more is no index.
-  static constexpr std::size_t nothing_measured = std::numeric_limits<std::size_t>::max() - 1;
-  std::size_t measured_last_[2] = {nothing_measured, nothing_measured};  ///< interval, by channel
-  std::size_t triples_ = 0, summed_ = 0;  ///< rows by threes; summed up so far
-  std::vector<AttitudeFilter> ends_;      ///< at the end of each chain
-  VecX x_, x_start_, x_reference_;
-  VecX moved_;  ///< of the reference from the start; of the estimate from the reference
-  VecX prior_, step_, nothing_;  ///< work
-  MatX P_;
-  std::vector<Vec3> path_;  ///< of the first pass, at every node
-  Theta theta_ = Theta::Zero();
-  double nis_ = 0.0, lag1_ = 0.0;
-  std::size_t scalars_ = 0;
-  EstimateStatus status_ = EstimateStatus::ok;
-  std::string cause_;
-  double t_diverged_ = 0.0;
+  Readout readout_;
+  Theta start_;
+  std::unique_ptr<CompressedTest> test_, pieces_;
+  std::unique_ptr<IteratedPasses> through_polynomials_, piece_by_piece_, sample_by_sample_;
+  IteratedPasses* last_ = nullptr;
 };
 
 }  // namespace drift

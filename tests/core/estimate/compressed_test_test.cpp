@@ -148,9 +148,9 @@ TEST(PolynomialProjection, OfAPolynomialIsExactWhereverItIsRead) {
       sigma[k] = s;
       read[k] = what == Reading::mean ? (integral(end) - integral(begin)) / (end - begin) : f(end);
     }
-    EXPECT_LT((p.of_readings * read - p.of_nodes * at_nodes).norm(), 1e-12);
-    const MatX Q = p.of_readings * sigma.asDiagonal();
-    EXPECT_LT((Q * Q.transpose() - MatX::Identity(6, 6)).norm(), 1e-13);
+    EXPECT_LT((p.basis.transpose() * read.cwiseQuotient(sigma) - p.of_nodes * at_nodes).norm(),
+              1e-12);
+    EXPECT_LT((p.basis.transpose() * p.basis - MatX::Identity(6, 6)).norm(), 1e-13);
   }
 }
 

@@ -107,7 +107,7 @@ void expect_derivatives_of(const Model& m, const Point& p) {
   linearizer.set_theta(m.theta);
   NodeJacobian j = linearizer.make();
   linearizer.evaluate({{{&p.node(), &p.at(), p.phi, last}}}, p.E_loop, &p.timeline, &j);
-  const GimbalPrediction g = linearizer.gimbals(p.timeline, p.at(), p.phi, last);
+  const GimbalPrediction g = linearizer.gimbals(p.timeline, {&p.node(), &p.at(), p.phi, last});
 
   const Mat3 R_ip = p.node().R_il * (p.node().R_lr * rotation(p.phi));
   const auto whole = [&](int psi, std::size_t variable) {
