@@ -104,7 +104,8 @@ CaseStudy case_study(const mc::Study& study, const Recording& recording) {
   constexpr int rounds = 3;
   std::vector<double> azimuth;
   for (int round = 0; round < rounds; ++round) {
-    out.test = lay_out_case(signals, out.search.dwells, study.site, Carry::through, azimuth);
+    out.test = lay_out_case(signals, out.search.dwells, study.site, Carry::through, azimuth,
+                            study.accelerometers_in_turns ? InTurns::read : InTurns::left_out);
     out.compass = gyrocompass(out.test, azimuth, drift_prior(study));
     if (!out.compass.sees_earth) break;
     azimuth = out.compass.azimuth;

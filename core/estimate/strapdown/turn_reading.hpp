@@ -1,0 +1,30 @@
+#pragma once
+
+#include "core/estimate/strapdown/signals.hpp"
+#include "core/physics/assembly.hpp"
+
+namespace drift::strapdown {
+
+/// Turn of the case from sample k - 1 to sample k: the trapezoid and coning, w_a x w_b dt^2 / 12.
+/// drift: what the gyros read at rest.
+Vec3 turned(const Signals& signals, std::size_t k, const Vec3& drift);
+
+/// What is read over a row in which the case turns.
+struct TurnReading {
+  Vec3 acc = Vec3::Zero();  ///< mean output of the accelerometers, had the case turned evenly [g]
+  CaseTurn turn;
+};
+
+/// Means from sample `first` to sample `last` by the trapezoid, as turned() takes the rates: gyros
+/// and accelerometers are taken at the same times, whether a sample is an instant or a mean. A row
+/// is predicted as an even turn; where the rate changes within it, the case does not face gravity
+/// as in an even one. What that makes,
+///
+///   (<C_even^T> - <C^T>) f,   C: against the attitude at the beginning,
+///
+/// is added to the reading. f_first: specific force at the beginning, good to 1e-3 [g];
+/// gravity [m/s^2].
+TurnReading turn_reading(const Signals& signals, std::size_t first, std::size_t last,
+                         const Vec3& f_first, double gravity);
+
+}  // namespace drift::strapdown
