@@ -130,9 +130,12 @@ class Layout {
   }
 
   /// Whether a row that has turned so far, from readings that sum up to `sum`, takes one more.
-  bool has_room(const Mat3& R, const Vec3& sum, const Vec3& next, double length) const {
-    const Vec3 angle = rotation_vector(R);
-    return angle.norm() + next.norm() < longest_turn() && length < longest_way_row &&
+  bool has_room(const Mat3& R, const Vec3& sum, std::size_t k, double length) const {
+    const Vec3 angle = rotation_vector(R), next = turned(signals_, k + 1, drift_);
+    const double times =
+        test_.timeline.reads_turns && speeds_up(signals_, k) ? longer_while_speeding_up : 1.0;
+    return angle.norm() + next.norm() < times * longest_turn() &&
+           length < times * longest_way_row &&
            (carry_ == Carry::through || (angle - sum).norm() < largest_bend);
   }
 
@@ -148,7 +151,7 @@ class Layout {
       R = R * rotation(turned(signals_, k, drift_));
       sum += turned(signals_, k, drift_);
       const double length = signals_.time[k] - signals_.time[begin];
-      if (k < last && has_room(R, sum, turned(signals_, k + 1, drift_), length)) continue;
+      if (k < last && has_room(R, sum, k, length)) continue;
       Interval i;
       i.t0 = signals_.time[begin];
       i.t1 = signals_.time[k];

@@ -45,6 +45,9 @@ inline constexpr double longest_turn_row = 0.04, longest_way_row = 1.0;
 /// each other counts: 2 e times the `bend`, by which the turn of a row differs from the sum of its
 /// samples', 5e-4 e.
 inline constexpr double longest_turn_row_one_way = 0.25, largest_bend = 2.5e-4;
+/// A row in which accelerometers are read ends where the rate is steady, if it can (speeds_up): it
+/// may be so many times longer until then.
+inline constexpr double longer_while_speeding_up = 3.0;
 
 /// How far attitude is carried along.
 enum class Carry {

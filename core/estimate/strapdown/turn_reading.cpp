@@ -10,6 +10,11 @@ Vec3 turned(const Signals& s, std::size_t k, const Vec3& drift) {
   return 0.5 * dt * (a + b) + dt * dt / 12.0 * a.cross(b);
 }
 
+bool speeds_up(const Signals& s, std::size_t k) {
+  constexpr double of_the_rate = 1e-3;
+  return (s.gyro[k + 1] - s.gyro[k]).norm() > of_the_rate * s.gyro[k].norm();
+}
+
 TurnReading turn_reading(const Signals& s, std::size_t first, std::size_t last, const Vec3& f_first,
                          double gravity) {
   DRIFT_EXPECTS(first < last);

@@ -9,6 +9,11 @@ namespace drift::strapdown {
 /// drift: what the gyros read at rest.
 Vec3 turned(const Signals& signals, std::size_t k, const Vec3& drift);
 
+/// Whether the rate changes at sample k by so much of itself that half a sample is more than 5e-4
+/// of a turn's whole acceleration. Where in a sample its rate was read nobody says: a row that ends
+/// there would not know how much of the acceleration is its own.
+bool speeds_up(const Signals& signals, std::size_t k);
+
 /// What is read over a row in which the case turns.
 struct TurnReading {
   Vec3 acc = Vec3::Zero();  ///< mean output of the accelerometers, had the case turned evenly [g]
