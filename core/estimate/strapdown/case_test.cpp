@@ -146,7 +146,9 @@ class Layout {
     Vec3 sum = Vec3::Zero();
     std::size_t begin = at_;
     const bool reads_turn = what == What::way && test_.timeline.reads_turns;
-    Vec3 f = d > 0 ? dwells_[d - 1].acc : dwells_[d].acc;  // at the beginning of the row
+    const std::size_t start = at_;
+    std::vector<Vec3> f;
+    if (reads_turn) f = carried_force(signals_, at_, last, dwells_[d - 1].acc, dwells_[d].acc);
     for (std::size_t k = at_ + 1; k <= last; ++k) {
       R = R * rotation(turned(signals_, k, drift_));
       sum += turned(signals_, k, drift_);
@@ -164,10 +166,10 @@ class Layout {
         acc = mean_reading(signals_, begin, k).acc;
       } else if (reads_turn) {
         i.samples = length / test_.row;
-        const TurnReading read = turn_reading(signals_, begin, k, f, test_.timeline.site.gravity);
+        const TurnReading read =
+            turn_reading(signals_, begin, k, f[begin - start], test_.timeline.site.gravity);
         i.turn = read.turn;
         acc = read.acc;
-        f = R.transpose() * f;
       }
       add(i, acc);
       R.setIdentity();

@@ -15,6 +15,19 @@ bool speeds_up(const Signals& s, std::size_t k) {
   return (s.gyro[k + 1] - s.gyro[k]).norm() > of_the_rate * s.gyro[k].norm();
 }
 
+std::vector<Vec3> carried_force(const Signals& s, std::size_t first, std::size_t last,
+                                const Vec3& before, const Vec3& after) {
+  std::vector<Vec3> f(last - first + 1);
+  f.front() = before;
+  f.back() = after;
+  const std::size_t middle = f.size() / 2;
+  for (std::size_t k = 1; k < middle; ++k)
+    f[k] = rotation(turned(s, first + k, Vec3::Zero())).transpose() * f[k - 1];
+  for (std::size_t k = f.size() - 1; k > middle; --k)
+    f[k - 1] = rotation(turned(s, first + k, Vec3::Zero())) * f[k];
+  return f;
+}
+
 TurnReading turn_reading(const Signals& s, std::size_t first, std::size_t last, const Vec3& f_first,
                          double gravity) {
   DRIFT_EXPECTS(first < last);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "core/estimate/strapdown/signals.hpp"
 #include "core/physics/assembly.hpp"
 
@@ -14,6 +16,11 @@ Vec3 turned(const Signals& signals, std::size_t k, const Vec3& drift);
 /// there would not know how much of the acceleration is its own.
 bool speeds_up(const Signals& signals, std::size_t k);
 
+/// Specific force in case axes at each sample of a way, carried by the gyros from the nearer of the
+/// two dwells that it lies between. before, after: what is read in these [g].
+std::vector<Vec3> carried_force(const Signals& signals, std::size_t first, std::size_t last,
+                                const Vec3& before, const Vec3& after);
+
 /// What is read over a row in which the case turns.
 struct TurnReading {
   Vec3 acc = Vec3::Zero();  ///< mean output of the accelerometers, had the case turned evenly [g]
@@ -27,8 +34,8 @@ struct TurnReading {
 ///
 ///   (<C_even^T> - <C^T>) f,   C: against the attitude at the beginning,
 ///
-/// is added to the reading. f_first: specific force at the beginning, good to 1e-3 [g];
-/// gravity [m/s^2].
+/// is added to the reading. f_first: specific force at the beginning, as carried_force() has it
+/// [g]; gravity [m/s^2].
 TurnReading turn_reading(const Signals& signals, std::size_t first, std::size_t last,
                          const Vec3& f_first, double gravity);
 

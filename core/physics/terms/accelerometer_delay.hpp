@@ -4,8 +4,9 @@
 
 namespace drift::terms {
 
-/// The accelerometers of a strapdown unit are read a little later than its gyros say they are: what
-/// they read is gravity as it was before the case turned on.
+/// What the accelerometers of a strapdown unit say is a little behind what its gyros say: gravity
+/// as it was before the case turned on. Negative where it is ahead: they are read later than the
+/// gyros.
 struct AccelerometerDelay {
   static constexpr std::string_view key = "accelerometer_delay";
   static constexpr std::string_view title = "delay of the accelerometers against the gyros";
