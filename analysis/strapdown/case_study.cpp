@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "analysis/strapdown/consumer_grade.hpp"
+#include "analysis/strapdown/gyro_unit.hpp"
 #include "core/base/check.hpp"
 #include "core/estimate/strapdown/accelerometer_fit.hpp"
 
@@ -99,6 +100,7 @@ CaseStudy case_study(const mc::Study& study, const Recording& recording) {
         fmt::format("{}: no dwell of {} s in which both sensors are quiet (one or more is "
                     "expected). Rest the case, or lower plan.static_min",
                     out.source, study.static_min));
+  require_gyro_unit(signals, out.search.dwells, out.source);
   out.noise = noise_of(recording, out.search);
   // Each round knows better how the Earth turned the unit during the test.
   constexpr int rounds = 3;

@@ -170,6 +170,27 @@ TEST(CaseDiagnose, ATermOfTurnsIsRefusedWhereTheyAreNotRead) {
   EXPECT_THROW(identify_case(study, case_study(study, recording)), InputError);
 }
 
+/// A wrong unit is no missing physics: it is said before anything else.
+TEST(CaseStudy, GyrosInAnotherUnitOrOfTheOtherSignAreRefused) {
+  const mc::Study study = study_with(sensors_of_unit);
+  const Recording right = strapdown_recording(script(study, 8, 10.0), Theta::Zero());
+  EXPECT_NO_THROW(case_study(study, right));
+  for (const auto& [times, words] : std::initializer_list<std::pair<double, const char*>>{
+           {detail::deg, "look like [rad/s], not [deg/s]"},
+           {1.0 / detail::deg, "look like [deg/s], not [rad/s]"},
+           {-1.0, "Correct their sign"}}) {
+    Recording wrong = right;
+    for (const std::size_t channel : {1, 2, 3})
+      for (double& rate : wrong.channels[channel].values) rate *= times;
+    try {
+      case_study(study, wrong);
+      ADD_FAILURE() << words;
+    } catch (const InputError& e) {
+      EXPECT_NE(std::string(e.what()).find(words), std::string::npos) << e.what();
+    }
+  }
+}
+
 TEST(CaseIdentify, ARestSaysSumsAndNoMore) {
   const mc::Study study = study_with(
       R"("fixed_drift", "g_drift", "gyro_misalignment", "torquer_scale", "accelerometer")");
