@@ -44,6 +44,8 @@ std::string asks_for(const TermInfo& term) {
   if (term.needs.temperature) add("temperature [degC] of the recording");
   if (term.needs.field)
     add("field_n, field_w, field_u [gauss] of the recording or of [environment]");
+  if (term.needs.turning)
+    add("a strapdown unit whose accelerometers are read in turns (plan.accelerometers_in_turns)");
   for (std::size_t k = 0; k < own_terms().covariates.size(); ++k)
     if (term.needs.covariates >> k & 1u)
       add(fmt::format("the column {} of the recording", own_terms().covariates[k]));

@@ -130,6 +130,7 @@ std::vector<NotExamined> not_examined(const search::Fitted& nominal,
     const TermInfo& term = TermLibrary::terms[t];
     const Why why = term.needs.temperature ? Why::no_temperature
                     : term.needs.field     ? Why::no_field
+                    : term.needs.turning   ? Why::no_turns
                                            : Why::no_covariate;
     out.push_back({std::string(term.key), why, twins_of(term, causes)});
   }

@@ -23,7 +23,8 @@ std::vector<Difference> differences(const Mat3X& residual, const std::vector<Int
   std::vector<Difference> all;
   for (int a = 0; a < 3; ++a)
     for (int i = 0; i < n; ++i) {
-      if (!std::isfinite(residual(a, i))) continue;
+      // Rows beside one in a turn were read at another rate: what begins a turn is no spike.
+      if (!std::isfinite(residual(a, i)) || intervals[static_cast<std::size_t>(i)].turn) continue;
       std::vector<double> around;
       for (int k = std::max(0, i - reach); k <= std::min(n - 1, i + reach); ++k)
         if (k != i && std::isfinite(residual(a, k)) &&

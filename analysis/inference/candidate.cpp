@@ -151,7 +151,7 @@ CandidateSet library_candidates(const FilterSpec& nominal, const Theta& theta,
     for (std::size_t i = term.first; i < term.first + term.count; ++i)
       if (!known[i] && TermLibrary::specs[i].amplitude() && !(timeline.of_case && by_definition(i)))
         missing.push_back(i);
-    if (missing.empty()) continue;
+    if (missing.empty() || (term.needs.turning && !timeline.of_case)) continue;
     if (!timeline.carries(term.needs)) {
       out.without_covariate.push_back(t);
       continue;

@@ -80,22 +80,29 @@ std::vector<Explanation> worth_beside_equation(const Search& s, const MeasuredTe
   return worth;
 }
 
-/// The largest candidate of a base term: all of it that the nominal model leaves out.
-bool is_whole_base_term(const inference::CandidateSet& set, const inference::Candidate& c) {
-  return is_base(TermLibrary::terms[*TermLibrary::find_term(c.term)]) &&
+/// Whether a term is left out by whoever does not know that it is needed: a base term, or what a
+/// case does to its accelerometers while it turns, which only matters once they are read there.
+bool is_left_out_unknowingly(const TermInfo& term) {
+  return is_base(term) || term.needs.turning;
+}
+
+/// The largest candidate of such a term: all of it that the nominal model leaves out.
+bool is_whole_left_out_term(const inference::CandidateSet& set, const inference::Candidate& c) {
+  return is_left_out_unknowingly(TermLibrary::terms[*TermLibrary::find_term(c.term)]) &&
          std::ranges::none_of(set.candidates,
                               [&](const inference::Candidate& o) { return o.contains(c); });
 }
 
-/// The base term that a fit misses most, as a choice among the candidates of the nominal fit.
-std::optional<Choice> base_term_missed(const Search& s, const Fitted& now) {
+/// The term left out unknowingly that a fit misses most, as a choice among the candidates of the
+/// nominal fit.
+std::optional<Choice> left_out_term_missed(const Search& s, const Fitted& now) {
   const Score* best = nullptr;
   std::optional<Choice> missed;
   for (std::size_t k = 0; k < now.set.candidates.size(); ++k) {
     const inference::Candidate& c = now.set.candidates[k];
     const Score& score = now.scores[k];
     if (score.dof == 0 || score.strength <= s.thresholds.library_threshold ||
-        !is_whole_base_term(now.set, c) || (best && score.strength <= best->strength))
+        !is_whole_left_out_term(now.set, c) || (best && score.strength <= best->strength))
       continue;
     for (std::size_t n = 0; n < s.nominal.set.candidates.size(); ++n)
       if (s.nominal.set.candidates[n].term == c.term &&
@@ -141,16 +148,16 @@ std::vector<Explanation> with_parts(const Search& s, const Explanation& in) {
   return all;
 }
 
-/// Base terms that the nominal model leaves out, one after the other, each fitted through the full
-/// dynamics: whoever leaves out one usually leaves out several, and beside them the linearised test
-/// says little. Nor is anything known of what drives the platform. The last fit, those without one
-/// of its members and, of sensors on a case, those with a part of one.
-std::vector<Refit> refit_base_terms(const Search& s, const MeasuredTest& test) {
+/// Terms that the nominal model leaves out unknowingly, one after the other, each fitted through
+/// the full dynamics: whoever leaves out one usually leaves out several, and beside them the
+/// linearised test says little. Nor is anything known of what drives the platform. The last fit,
+/// those without one of its members and, of sensors on a case, those with a part of one.
+std::vector<Refit> refit_left_out_terms(const Search& s, const MeasuredTest& test) {
   Explanation in;
   std::vector<Refit> found;
-  for (std::optional<Choice> next = base_term_missed(s, s.nominal);
+  for (std::optional<Choice> next = left_out_term_missed(s, s.nominal);
        next && in.size() < EffortLimits::together;
-       next = base_term_missed(s, found.front().after)) {
+       next = left_out_term_missed(s, found.front().after)) {
     in.push_back(*next);
     found = refit_all(s, test, {in}, NoiseKinds::driving_too);
     if (found.front().adequate()) break;
@@ -191,10 +198,10 @@ Search search(Fitted nominal, const MeasuredTest& test, const SearchOptions& opt
   const auto try_more = [&](const std::vector<Explanation>& more) {
     for (Refit& r : refit_all(out, test, more)) refits.push_back(std::move(r));
   };
-  // Where base terms are left out and everything is far off, one effect will not mend it.
+  // Where such terms are left out and everything is far off, one effect will not mend it.
   const bool far_off = out.nominal.gross;
   if (far_off) {
-    refits = refit_base_terms(out, test);
+    refits = refit_left_out_terms(out, test);
     if (settled(Leftover::nothing)) return out;
   }
   for (Refit& r : refit_singles(out, test, options.most_refits)) refits.push_back(std::move(r));
@@ -205,7 +212,7 @@ Search search(Fitted nominal, const MeasuredTest& test, const SearchOptions& opt
   try_more(promising_several(out));
   if (settled(Leftover::nothing)) return out;
   if (!far_off)
-    for (Refit& r : refit_base_terms(out, test)) refits.push_back(std::move(r));
+    for (Refit& r : refit_left_out_terms(out, test)) refits.push_back(std::move(r));
   if (settled(Leftover::nothing)) return out;
   out.just_not = settled(Leftover::chance);
   if (!out.just_not) out.rejected = std::move(refits);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "analysis/strapdown/consumer_grade.hpp"
+#include "analysis/strapdown/gyro_unit.hpp"
 #include "core/base/check.hpp"
 #include "core/estimate/strapdown/accelerometer_fit.hpp"
 
@@ -99,12 +100,14 @@ CaseStudy case_study(const mc::Study& study, const Recording& recording) {
         fmt::format("{}: no dwell of {} s in which both sensors are quiet (one or more is "
                     "expected). Rest the case, or lower plan.static_min",
                     out.source, study.static_min));
+  require_gyro_unit(signals, out.search.dwells, out.source);
   out.noise = noise_of(recording, out.search);
   // Each round knows better how the Earth turned the unit during the test.
   constexpr int rounds = 3;
   std::vector<double> azimuth;
   for (int round = 0; round < rounds; ++round) {
-    out.test = lay_out_case(signals, out.search.dwells, study.site, Carry::through, azimuth);
+    out.test = lay_out_case(signals, out.search.dwells, study.site, Carry::through, azimuth,
+                            study.accelerometers_in_turns ? InTurns::read : InTurns::left_out);
     out.compass = gyrocompass(out.test, azimuth, drift_prior(study));
     if (!out.compass.sees_earth) break;
     azimuth = out.compass.azimuth;

@@ -68,6 +68,8 @@ inline constexpr BaseUnit base_units[] = {
     {"mg", 1e-3, dim_of(Dimension::g)},
     {"ug", 1e-6, dim_of(Dimension::g)},
     {"m", 1.0, dim_of(Dimension::length)},
+    {"cm", 1e-2, dim_of(Dimension::length)},
+    {"mm", 1e-3, dim_of(Dimension::length)},
     {"degC", 1.0, dim_of(Dimension::temperature)},
     {"K", 1.0, dim_of(Dimension::temperature)},
     {"T", 1.0, dim_of(Dimension::field)},

@@ -16,21 +16,32 @@ struct Needs {
   bool temperature = false;  ///< the covariate
   bool field = false;        ///< the covariate, and R_lp
   bool memory = false;       ///< states that the past has left; set for terms that declare `memory`
+  bool turning = false;      ///< how a case turns while its accelerometers are read
   unsigned covariates = 0;   ///< bit k: further column number k of the recording (OwnTermSet)
 
   constexpr bool any() const {
-    return clock || attitude || gimbals || temperature || field || memory || covariates != 0;
+    return clock || attitude || gimbals || temperature || field || memory || turning ||
+           covariates != 0;
   }
   constexpr Needs operator|(const Needs& o) const {
-    return {clock || o.clock,         attitude || o.attitude,
-            gimbals || o.gimbals,     temperature || o.temperature,
-            field || o.field,         memory || o.memory,
-            covariates | o.covariates};
+    return {clock || o.clock,     attitude || o.attitude,
+            gimbals || o.gimbals, temperature || o.temperature,
+            field || o.field,     memory || o.memory,
+            turning || o.turning, covariates | o.covariates};
   }
 };
 
 /// How many further columns of a recording the terms of a study may name.
 inline constexpr std::size_t most_covariates = 4;
+
+/// How a strapdown unit turns while its accelerometers are read: means over a row, case axes, as
+/// its own gyros have it.
+struct CaseTurn {
+  Vec3 rate = Vec3::Zero();  ///< inertial [rad/s]
+  /// <w' x> + <(w x)^2>: row k times the place r [m] of accelerometer k is what that reads of the
+  /// turn itself [g/m].
+  Mat3 arm = Mat3::Zero();
+};
 
 /// An instant of the test: all that does not depend on the platform's attitude.
 struct Moment {
@@ -43,6 +54,7 @@ struct Moment {
   Vec3 field_l;                   ///< local magnetic field [T]
   double temperature_rate = 0.0;  ///< [K/s]
   std::array<double, most_covariates> covariates{};  ///< further columns of the recording [SI]
+  const CaseTurn* turn = nullptr;  ///< null: the case rests, or its accelerometers are not read
 };
 
 /// What `Needs` names, for one attitude. Only what is asked for is filled.

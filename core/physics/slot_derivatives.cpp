@@ -4,6 +4,7 @@ namespace drift {
 
 SeenByTerms<Dependence> scene_of_dependence() {
   // On the way to a position of a test, hours after its start: nothing is at zero.
+  static const CaseTurn turn{Vec3(0.1, -0.2, 0.3), Mat3::Constant(0.1)};
   static const Surroundings<Dependence> around = [] {
     Surroundings<Dependence> s;
     s.now = {5000.0,
@@ -14,7 +15,8 @@ SeenByTerms<Dependence> scene_of_dependence() {
              0.7,
              Vec3(2.6e-5, 1e-6, -4.8e-5),
              1e-4,
-             {0.3, -0.4, 0.5, 0.6}};
+             {0.3, -0.4, 0.5, 0.6},
+             &turn};
     s.R_lp = rotation<double>(Vec3(0.4, -0.3, 0.8)).cast<Dependence>();
     s.gimbal = Vec3(0.5, -0.4, 1.1).cast<Dependence>();
     return s;

@@ -6,6 +6,7 @@
 #include "core/physics/terms/accelerometer_asymmetry.hpp"
 #include "core/physics/terms/accelerometer_cross.hpp"
 #include "core/physics/terms/accelerometer_dead_zone.hpp"
+#include "core/physics/terms/accelerometer_delay.hpp"
 #include "core/physics/terms/accelerometer_ramp.hpp"
 #include "core/physics/terms/accelerometer_temperature.hpp"
 #include "core/physics/terms/azimuth_error.hpp"
@@ -24,6 +25,7 @@
 #include "core/physics/terms/gimbal_nonorthogonality.hpp"
 #include "core/physics/terms/gyro_misalignment.hpp"
 #include "core/physics/terms/hang_off.hpp"
+#include "core/physics/terms/inner_lever_arm.hpp"
 #include "core/physics/terms/latitude_error.hpp"
 #include "core/physics/terms/magnetic_drift.hpp"
 #include "core/physics/terms/mass_unbalance_step.hpp"
@@ -64,6 +66,7 @@ using TermLibrary = TermList<
     terms::PierAzimuth, terms::EncoderHarmonics, terms::GimbalNonorthogonality, terms::TimingSkew,
     terms::AccelerometerTemperature, terms::AccelerometerAsymmetry, terms::AccelerometerCross,
     terms::AccelerometerDeadZone, terms::AccelerometerRamp, terms::Outliers,  //
+    terms::InnerLeverArm, terms::AccelerometerDelay,                          //
     OwnPlace<0>, OwnPlace<1>, OwnPlace<2>, OwnPlace<3>, OwnPlace<4>, OwnPlace<5>>;
 static_assert(TermLibrary::num_known + most_own_terms == TermLibrary::num_terms);
 

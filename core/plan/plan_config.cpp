@@ -190,10 +190,13 @@ PlanConfig read_plan(Section section) {
   if (section.report().errors() != errors) return config;  // what is missing depends on it
   if (config.kind == RecordingKind::platform) {
     read_platform(section, config.plan);
-    refuse_keys(section, {"static_min"}, "kind = \"strapdown\"");
+    refuse_keys(section, {"static_min", "accelerometers_in_turns"}, "kind = \"strapdown\"");
   } else {
     section.read(Option{"static_min", unit::s, 1e-2, 1e5, "shortest dwell that counts"},
                  config.static_min);
+    section.read(Option{.key = "accelerometers_in_turns",
+                        .doc = "what they read in turns counts, too: a turntable moves no origin"},
+                 config.accelerometers_in_turns);
     refuse_keys(
         section,
         {"preset", "position", "dwell", "sample", "mode", "entry", "slew_rate", "case_rate"},

@@ -11,8 +11,9 @@ namespace drift {
 /// [plan]: what kind of test, and its positions or its dwell detector.
 struct PlanConfig {
   RecordingKind kind = RecordingKind::platform;
-  TestPlan plan;            ///< of a platform test
-  double static_min = 2.0;  ///< strapdown: shortest dwell that counts [s]
+  TestPlan plan;                         ///< of a platform test
+  double static_min = 2.0;               ///< strapdown: shortest dwell that counts [s]
+  bool accelerometers_in_turns = false;  ///< strapdown: what they read in turns counts, too
 };
 
 /// Reads [plan]: a preset, or [[plan.position]] one by one, or kind = "strapdown".

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "core/physics/drift_model.hpp"
@@ -38,8 +39,9 @@ struct Interval {
   double t_dwell = 0.0;            ///< when the dwell of the position begins [s]
   Covariates around0, around1;     ///< at t0 and t1, linear in between; zero where not known
   double samples = 1.0;  ///< of the plan, averaged by the accelerometers: less noise by its root
-  std::size_t first_node = 0;  ///< nodes first_node .. first_node + 2 substeps
-  int substeps = 1;            ///< steps of two nodes each, at most 0.05 rad of attitude long
+  std::optional<CaseTurn> turn;  ///< of a case whose accelerometers are read while it turns
+  std::size_t first_node = 0;    ///< nodes first_node .. first_node + 2 substeps
+  int substeps = 1;              ///< steps of two nodes each, at most 0.05 rad of attitude long
 
   double length() const { return t1 - t0; }
   /// 1 sigma of the accelerometers' means, `of_a_sample` declared for one sample of the plan.
@@ -68,6 +70,7 @@ struct Timeline {
   int chains = 0;
   int positions = 0;
   bool of_case = false;          ///< of a strapdown unit: its dwells are at rest (Interval::rest)
+  bool reads_turns = false;      ///< accelerometers are read in turns, too (Interval::turn)
   bool has_temperature = false;  ///< the intervals carry it
   bool has_field = false;
   unsigned has_further = 0;       ///< bit k: the further covariate number k
@@ -76,7 +79,7 @@ struct Timeline {
   /// Whether it carries the covariates that a term, or a model, wants to see.
   bool carries(const Needs& needs) const {
     return (has_temperature || !needs.temperature) && (has_field || !needs.field) &&
-           (needs.covariates & ~has_further) == 0;
+           (reads_turns || !needs.turning) && (needs.covariates & ~has_further) == 0;
   }
 
   /// Interval weights of composite Simpson, for the mean over interval i; they sum to 1.

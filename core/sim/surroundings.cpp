@@ -21,6 +21,12 @@ void require_covariates(const DriftModel& model, const Timeline& timeline) {
           "with numbers in the recording; for a simulated one, temperature = \"20 degC\" in "
           "[environment]). Add it, or remove the term",
           term.key));
+    if (term.needs.turning && !timeline.reads_turns)
+      messages.push_back(fmt::format(
+          "term '{}' needs accelerometers that are read while the case turns (expected a strapdown "
+          "study with accelerometers_in_turns = true in [plan], and gyros that see the Earth). Set "
+          "it, or remove the term",
+          term.key));
     for (std::size_t k = 0; k < own_terms().covariates.size(); ++k)
       if ((term.needs.covariates & ~timeline.has_further) >> k & 1u)
         messages.push_back(fmt::format(

@@ -21,6 +21,7 @@ inline Moment moment_at(const Timeline& timeline, const Interval& interval, doub
   m.temperature = a.temperature + part * (b.temperature - a.temperature);
   m.field_l = a.field_l + part * (b.field_l - a.field_l);
   m.temperature_rate = (b.temperature - a.temperature) / interval.length();
+  if (interval.turn) m.turn = &*interval.turn;
   if (timeline.has_further != 0)
     for (std::size_t k = 0; k < most_covariates; ++k)
       m.covariates[k] = a.further[k] + part * (b.further[k] - a.further[k]);

@@ -207,6 +207,7 @@ Study read_tree(const Node& root, const std::string& path, Report& report) {
   study.kind = plan.kind;
   study.plan = plan.plan;
   study.static_min = plan.static_min;
+  study.accelerometers_in_turns = plan.accelerometers_in_turns;
   study.site = read_site(top.section("site"), plan.kind);
   study.readout = read_readout(top.section("readout"));
   std::vector<std::string> positions;

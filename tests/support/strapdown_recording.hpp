@@ -21,6 +21,7 @@ struct StrapdownScript {
   double gyro_noise = 0.01;        ///< of one sample, 1 sigma [rad/s]
   double acc_noise = 0.0015;       ///< of one sample, 1 sigma [g]
   Vec3 omega_ie_l = Vec3::Zero();  ///< Earth rate; the case starts along the local axes [rad/s]
+  double gravity = 9.8;            ///< [m/s^2]; lever arms are felt against it
   std::uint64_t seed = 1;
 };
 
@@ -57,6 +58,16 @@ inline Vec3 accelerometer_output(const Theta& t, const Vec3& f) {
   return out;
 }
 
+/// What accelerometers away from the centre read of a turn: w' x r + w x (w x r) [g].
+inline Vec3 felt_in_turn(const Theta& t, const Vec3& w, const Vec3& acceleration, double gravity) {
+  Vec3 out;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 r(param(t, "arm_x", i), param(t, "arm_y", i), param(t, "arm_z", i));
+    out[i] = (acceleration.cross(r) + w.cross(w.cross(r)))[i] / gravity;
+  }
+  return out;
+}
+
 /// The recording of a script with sensors of parameters theta (SI).
 inline Recording strapdown_recording(const StrapdownScript& script, const Theta& theta) {
   Recording r;
@@ -68,11 +79,15 @@ inline Recording strapdown_recording(const StrapdownScript& script, const Theta&
   Stream path(script.seed, 0, Purpose::test, 0), noise(script.seed, 0, Purpose::test, 1);
   double t = 0.0;
   Mat3 R_lc = Mat3::Identity();  // at the start of the dwell or turn
-  const auto sample = [&](const Mat3& attitude, const Vec3& w) {
+  const double delay = theta[static_cast<Eigen::Index>(*TermLibrary::find("acc_delay"))];
+  const auto sample = [&](const Mat3& attitude, const Vec3& w, const Vec3& acceleration) {
     t += script.interval;
     const Vec3 f = attitude.transpose() * Vec3::UnitZ();
     const Vec3 turning = w + attitude.transpose() * script.omega_ie_l;
-    const Vec3 gyro = gyro_output(theta, turning, f), acc = accelerometer_output(theta, f);
+    const Vec3 gyro = gyro_output(theta, turning, f);
+    const Vec3 before = rotation(Vec3(delay * w - 0.5 * delay * delay * acceleration)) * f;
+    const Vec3 acc = accelerometer_output(theta, delay == 0.0 ? f : before) +
+                     felt_in_turn(theta, w, acceleration, script.gravity);
     r.channels[0].values.push_back(t);
     for (int i = 0; i < 3; ++i) {
       r.channels[1 + i].values.push_back(gyro[i] + script.gyro_noise * noise.normal());
@@ -81,7 +96,7 @@ inline Recording strapdown_recording(const StrapdownScript& script, const Theta&
   };
   for (std::size_t d = 0; d < script.dwells; ++d) {
     const auto resting = static_cast<int>(std::lround(script.rest / script.interval));
-    for (int k = 0; k < resting; ++k) sample(R_lc, Vec3::Zero());
+    for (int k = 0; k < resting; ++k) sample(R_lc, Vec3::Zero(), Vec3::Zero());
     if (d + 1 == script.dwells) break;
     const Vec3 axis = Vec3(path.normal(), path.normal(), path.normal()).normalized();
     const double angle =
@@ -91,7 +106,9 @@ inline Recording strapdown_recording(const StrapdownScript& script, const Theta&
       const double phase = 2.0 * std::numbers::pi * k / steps;
       const double turned = angle * (phase - std::sin(phase)) / (2.0 * std::numbers::pi);
       const double rate = angle / script.turn * (1.0 - std::cos(phase));
-      sample(R_lc * rotation(Vec3(turned * axis)), rate * axis);
+      const double acceleration =
+          angle / script.turn * 2.0 * std::numbers::pi / script.turn * std::sin(phase);
+      sample(R_lc * rotation(Vec3(turned * axis)), rate * axis, acceleration * axis);
     }
     R_lc = R_lc * rotation(Vec3(angle * axis));
   }

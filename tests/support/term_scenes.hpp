@@ -18,12 +18,24 @@ inline Environment harbin_day() {
   return e;
 }
 
+/// Makes of a test one of a case that turns while its accelerometers are read: as it is told, and
+/// with an acceleration beside.
+inline void read_turns(Timeline& timeline) {
+  timeline.reads_turns = true;
+  for (Interval& i : timeline.intervals) {
+    const Mat3 w = skew(Vec3(i.omega_cmd_p + Vec3(0.02, -0.03, 0.01)));
+    const Mat3 acceleration = skew(Vec3(0.004, 0.002, -0.003));
+    i.turn = CaseTurn{i.omega_cmd_p, (acceleration + w * w) / 9.8};
+  }
+}
+
 /// A test in which every effect shows: with slews and commands, or at 45 deg; temperature and field
 /// known.
 inline Timeline scene(std::string_view preset, CommandLaw mode, double dwell = 600.0,
                       double sample = 60.0) {
   Timeline timeline = preset_timeline(preset, mode, dwell, sample);
   set_environment(timeline, harbin_day(), 1, 0);
+  read_turns(timeline);
   return timeline;
 }
 

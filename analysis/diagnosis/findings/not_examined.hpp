@@ -13,6 +13,7 @@ struct NotExamined {
     no_temperature,  ///< neither the recording nor the study has the covariate it follows
     no_field,
     no_covariate,  ///< of a term of the study's own
+    no_turns,      ///< the accelerometers of a case are not read while it turns
     beyond_reach,  ///< the plan does not show it, however large
   };
   std::string term;

@@ -19,6 +19,8 @@ std::string reason_in_words(Why why) {
       return "it follows the magnetic field, which is not known";
     case Why::no_covariate:
       return "it follows a covariate that the recording does not have";
+    case Why::no_turns:
+      return "it acts while the case turns, where the accelerometers are not read";
     case Why::beyond_reach:
       break;
   }
@@ -31,6 +33,9 @@ std::vector<std::string> not_examined_sentences(const std::vector<NotExamined>& 
        {std::pair{Why::no_temperature, "the temperature was not recorded"},
         std::pair{Why::no_field, "the magnetic field is not known"},
         std::pair{Why::no_covariate, "the recording lacks the covariate that they follow"},
+        std::pair{Why::no_turns,
+                  "they act while the case turns, where the accelerometers are read only with "
+                  "accelerometers_in_turns = true in [plan] and gyros that see the Earth"},
         std::pair{Why::beyond_reach, "this plan does not show them, however large they are"}}) {
     std::vector<std::string> terms;
     for (const NotExamined& n : all)

@@ -132,6 +132,22 @@ std::string held_out_text(const Diagnosis& d, bool several) {
                      d.of_case ? "dwells" : "positions", held.improves ? "better" : "no better");
 }
 
+template <class R>
+bool remarked(const Diagnosis& d) {
+  return std::ranges::any_of(d.remarks,
+                             [](const Remark& r) { return std::holds_alternative<R>(r); });
+}
+
+/// Why the only cause that was found is not named.
+std::string not_confirmed_text(const Diagnosis& d, bool several) {
+  if (remarked<remark::JustSignificantLeft>(d))
+    return fmt::format("with {} something is left that is just significant",
+                       several ? "them" : "it");
+  if (several && remarked<remark::MemberNotConfirmed>(d))
+    return "held-out data do not ask for each of them";
+  return held_out_text(d, several);
+}
+
 std::string ambiguous_text(const Diagnosis& d) {
   const std::string missing =
       fmt::format("Something is missing from the nominal model (chance of a false alarm: {})",
@@ -140,7 +156,7 @@ std::string ambiguous_text(const Diagnosis& d) {
   if (all.empty()) return missing + ", and this plan cannot tell what.";
   if (all.size() == 1)
     return fmt::format("{}; it may be {}, but {}.", missing, together(d, all.front()),
-                       held_out_text(d, all.front().size() > 1));
+                       not_confirmed_text(d, all.front().size() > 1));
   std::vector<std::string> words;
   for (std::size_t k = 0; k < all.size(); ++k)
     words.push_back(fmt::format("({}) {}", k + 1, together(d, all[k])));

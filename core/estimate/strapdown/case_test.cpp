@@ -7,6 +7,7 @@
 #include "core/base/check.hpp"
 #include "core/base/nan.hpp"
 #include "core/estimate/strapdown/stillness.hpp"
+#include "core/estimate/strapdown/turn_reading.hpp"
 
 namespace drift::strapdown {
 namespace {
@@ -36,14 +37,6 @@ Mat3 levelled(const Vec3& f_c, double azimuth) {
   return case_attitude(azimuth) * least;
 }
 
-/// Turn of the case from sample to sample: the trapezoid and coning, w_a x w_b dt^2 / 12. drift:
-/// what the gyros read at rest.
-Vec3 turned(const Signals& s, std::size_t k, const Vec3& drift) {
-  const double dt = s.time[k] - s.time[k - 1];
-  const Vec3 a = s.gyro[k - 1] - drift, b = s.gyro[k] - drift;
-  return 0.5 * dt * (a + b) + dt * dt / 12.0 * a.cross(b);
-}
-
 /// Sum of squares of rows about the mean of their dwell.
 struct Scatter {
   double squares = 0.0, dof = 0.0;
@@ -59,8 +52,11 @@ struct Scatter {
 
 class Layout {
  public:
-  Layout(const Signals& signals, const std::vector<Dwell>& dwells, const Site& site, Carry carry)
+  Layout(const Signals& signals, const std::vector<Dwell>& dwells, const Site& site, Carry carry,
+         InTurns in_turns)
       : signals_(signals), dwells_(dwells), carry_(carry) {
+    test_.timeline.reads_turns = in_turns == InTurns::read;
+    DRIFT_EXPECTS(in_turns == InTurns::left_out || carry == Carry::through);
     test_.timeline.site = site;
     test_.timeline.of_case = true;
     test_.timeline.positions = static_cast<int>(dwells.size());
@@ -134,9 +130,12 @@ class Layout {
   }
 
   /// Whether a row that has turned so far, from readings that sum up to `sum`, takes one more.
-  bool has_room(const Mat3& R, const Vec3& sum, const Vec3& next, double length) const {
-    const Vec3 angle = rotation_vector(R);
-    return angle.norm() + next.norm() < longest_turn() && length < longest_way_row &&
+  bool has_room(const Mat3& R, const Vec3& sum, std::size_t k, double length) const {
+    const Vec3 angle = rotation_vector(R), next = turned(signals_, k + 1, drift_);
+    const double times =
+        test_.timeline.reads_turns && speeds_up(signals_, k) ? longer_while_speeding_up : 1.0;
+    return angle.norm() + next.norm() < times * longest_turn() &&
+           length < times * longest_way_row &&
            (carry_ == Carry::through || (angle - sum).norm() < largest_bend);
   }
 
@@ -146,19 +145,33 @@ class Layout {
     Mat3 R = Mat3::Identity();
     Vec3 sum = Vec3::Zero();
     std::size_t begin = at_;
+    const bool reads_turn = what == What::way && test_.timeline.reads_turns;
+    const std::size_t start = at_;
+    std::vector<Vec3> f;
+    if (reads_turn) f = carried_force(signals_, at_, last, dwells_[d - 1].acc, dwells_[d].acc);
     for (std::size_t k = at_ + 1; k <= last; ++k) {
       R = R * rotation(turned(signals_, k, drift_));
       sum += turned(signals_, k, drift_);
       const double length = signals_.time[k] - signals_.time[begin];
-      if (k < last && has_room(R, sum, turned(signals_, k + 1, drift_), length)) continue;
+      if (k < last && has_room(R, sum, k, length)) continue;
       Interval i;
       i.t0 = signals_.time[begin];
       i.t1 = signals_.time[k];
       i.position = static_cast<int>(d);
       i.slew = what == What::way;
       i.omega_cmd_p = rotation_vector(R) / length + drift_;
-      if (what == What::held) i.samples = length / stillness_.half;
-      add(i, what == What::way ? Vec3::Constant(nan_value) : mean_reading(signals_, begin, k).acc);
+      Vec3 acc = Vec3::Constant(nan_value);
+      if (what == What::held) {
+        i.samples = length / stillness_.half;
+        acc = mean_reading(signals_, begin, k).acc;
+      } else if (reads_turn) {
+        i.samples = length / test_.row;
+        const TurnReading read =
+            turn_reading(signals_, begin, k, f[begin - start], test_.timeline.site.gravity);
+        i.turn = read.turn;
+        acc = read.acc;
+      }
+      add(i, acc);
       R.setIdentity();
       sum.setZero();
       begin = k;
@@ -247,9 +260,9 @@ class Layout {
 }  // namespace
 
 CaseTest lay_out_case(const Signals& signals, const std::vector<Dwell>& dwells, const Site& site,
-                      Carry carry, const std::vector<double>& azimuth) {
+                      Carry carry, const std::vector<double>& azimuth, InTurns in_turns) {
   DRIFT_EXPECTS(!dwells.empty());
-  return Layout(signals, dwells, site, carry).made(azimuth);
+  return Layout(signals, dwells, site, carry, in_turns).made(azimuth);
 }
 
 }  // namespace drift::strapdown

@@ -17,7 +17,8 @@ namespace drift::strapdown {
 /// eq. (6) of a platform that is torqued with its own readings, S_T and w_l' as in sensed_case().
 /// Positions are dwells. In a dwell the case stands still on the Earth (Interval::rest): the gyros
 /// are measured in place of gimbal angles, the accelerometers as on a platform. On the way to the
-/// next dwell the readings carry the attitude along; nothing is measured there.
+/// next dwell the readings carry the attitude along; nothing is measured there, unless the
+/// accelerometers are said to be read there, too (InTurns).
 struct CaseTest {
   Timeline timeline;
   Measurements measured;
@@ -44,6 +45,9 @@ inline constexpr double longest_turn_row = 0.04, longest_way_row = 1.0;
 /// each other counts: 2 e times the `bend`, by which the turn of a row differs from the sum of its
 /// samples', 5e-4 e.
 inline constexpr double longest_turn_row_one_way = 0.25, largest_bend = 2.5e-4;
+/// A row in which accelerometers are read ends where the rate is steady, if it can (speeds_up): it
+/// may be so many times longer until then.
+inline constexpr double longer_while_speeding_up = 3.0;
 
 /// How far attitude is carried along.
 enum class Carry {
@@ -54,9 +58,15 @@ enum class Carry {
             ///< any other the readings carry the attitude as on a way, while gravity is seen
 };
 
-/// Lays a recording out. azimuth: heading of the case at the start of each chain, from North to
-/// West about Up, against the attitude of least turn that levels it [rad]; empty: zero.
+/// What is made of the accelerometers while the case turns. On a table with fixed axes they read
+/// gravity and what the turn itself does to them; moved by hand they read the hand.
+enum class InTurns { left_out, read };
+
+/// Lays a recording out. in_turns: `read` only with Carry::through. azimuth: heading of the case at
+/// the start of each chain, from North to West about Up, against the attitude of least turn that
+/// levels it [rad]; empty: zero.
 CaseTest lay_out_case(const Signals& signals, const std::vector<Dwell>& dwells, const Site& site,
-                      Carry carry, const std::vector<double>& azimuth = {});
+                      Carry carry, const std::vector<double>& azimuth = {},
+                      InTurns in_turns = InTurns::left_out);
 
 }  // namespace drift::strapdown

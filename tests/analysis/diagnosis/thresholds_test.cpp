@@ -17,10 +17,11 @@ using test::param;
 
 /// Whether one sample `size` away from quiet neighbours, whose range is `range`, is taken out. The
 /// others scatter so that the instrument's noise is `noise` times as declared.
-bool is_spike(double size, double range = 0.0, double noise = 1.0) {
+bool is_spike(double size, double range = 0.0, double noise = 1.0, bool in_turn = false) {
   constexpr int n = 100, at = 50;
   Timeline timeline;
   timeline.intervals.resize(n);
+  if (in_turn) timeline.intervals[at].turn = CaseTurn{};
   BatchResult fit;
   fit.acc_residual = Mat3X::Zero(3, n);
   // a a -a -a a a ...: each is 2 a from the median of its four neighbours, which for normal noise
@@ -46,6 +47,8 @@ TEST(Thresholds, ASpikeIsEightSigmaAndTwoRangesAway) {
   EXPECT_TRUE(is_spike(8.1, 0.0, 1.45));
   EXPECT_FALSE(is_spike(12.3, 0.0, 1.55));
   EXPECT_TRUE(is_spike(12.5, 0.0, 1.55));
+  // A row that was read in a turn stands beside others that were read at another rate.
+  EXPECT_FALSE(is_spike(100.0, 0.0, 1.0, true));
 }
 
 TEST(Thresholds, ParametersFiveSigmaFromTheirPriorsAreSaid) {

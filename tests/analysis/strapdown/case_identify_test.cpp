@@ -13,10 +13,12 @@
 namespace drift::strapdown::case_identify_test {
 namespace {
 
-mc::Study study_with(const std::string& terms) {
+mc::Study study_with(const std::string& terms, const std::string& plan = "") {
   const std::string text =
       "schema = 1\n[site]\nlatitude = \"34 deg\"\ngravity = \"9.79648 m/s^2\"\n"
-      "[plan]\nkind = \"strapdown\"\n[[filter]]\nname = \"nominal\"\ncoupling = \"eq5\"\nterms = "
+      "[plan]\nkind = \"strapdown\"\n" +
+      plan +
+      "[[filter]]\nname = \"nominal\"\ncoupling = \"eq5\"\nterms = "
       "[" +
       terms + "]\n";
   return mc::read_study_tree(config::parse_document(text, "study.toml"), "study.toml");
@@ -33,6 +35,7 @@ test::StrapdownScript script(const mc::Study& study, std::size_t dwells, double 
   s.gyro_noise = 3e-6;
   s.acc_noise = 1e-4;
   s.omega_ie_l = study.site.omega_ie_l();
+  s.gravity = study.site.gravity;
   return s;
 }
 
@@ -45,6 +48,24 @@ void expect_near(const CaseFit& fit, std::string_view key, double truth, double 
   const StrapdownParameter* p = find(fit, key);
   ASSERT_NE(p, nullptr) << key;
   EXPECT_LT(std::abs(p->value - truth), most) << key << " = " << p->value << " +- " << p->sigma;
+}
+
+const std::string read_in_turns = "accelerometers_in_turns = true\n";
+
+/// Lever arms and delay are the causes, each within four sigma.
+void expect_named(const diagnosis::Diagnosis& d,
+                  const std::vector<std::pair<const char*, double>>& truth) {
+  for (const search::Cause& c : d.causes)
+    EXPECT_TRUE(c.term == "inner_lever_arm" || c.term == "accelerometer_delay") << c.term;
+  for (const auto& [key, value] : truth) {
+    const search::CauseParameter* found = nullptr;
+    for (const search::Cause& c : d.causes)
+      for (const search::CauseParameter& p : c.parameters)
+        if (p.key == key) found = &p;
+    ASSERT_NE(found, nullptr) << key;
+    EXPECT_LT(std::abs(found->value - value), 4.0 * found->sigma)
+        << key << " = " << found->value << " +- " << found->sigma;
+  }
 }
 
 }  // namespace
@@ -87,6 +108,87 @@ TEST(CaseIdentify, FindsWhatPsinsMade) {
   const diagnosis::Diagnosis d = diagnose_case(study, identify_case(study, of));
   EXPECT_EQ(d.verdict, diagnosis::Verdict::consistent);
   EXPECT_GT(d.probabilities.consistent, 0.5);
+  // What acts while the case turns is said to be out of sight.
+  for (const char* term : {"inner_lever_arm", "accelerometer_delay"}) {
+    const auto left_out = std::ranges::find(d.not_examined, term, &diagnosis::NotExamined::term);
+    ASSERT_NE(left_out, d.not_examined.end()) << term;
+    EXPECT_EQ(left_out->why, diagnosis::NotExamined::Why::no_turns);
+  }
+}
+
+/// What its simulator knew beyond that, with the accelerometers read in turns. Its signs are those
+/// of its other errors: "output error with minus".
+TEST(CaseDiagnose, NamesLeverArmsAndDelayOfPsins) {
+  NEEDS_RECORDING("psins19.csv");
+  const mc::Study study = study_with(sensors_of_unit, read_in_turns);
+  const Recording recording =
+      read_recording(test::path_of("psins19.csv"), RecordingKind::strapdown, study.site.gravity);
+  const diagnosis::Diagnosis d =
+      diagnose_case(study, identify_case(study, case_study(study, recording)));
+  ASSERT_EQ(d.verdict, diagnosis::Verdict::named);
+  expect_named(d, {{"arm_x_x", -1},
+                   {"arm_y_x", -2},
+                   {"arm_z_x", -3},
+                   {"arm_x_y", -4},
+                   {"arm_y_y", -5},
+                   {"arm_z_y", -6},
+                   {"arm_x_z", 0},
+                   {"arm_y_z", 0},
+                   {"arm_z_z", 0},
+                   {"acc_delay", -1}});
+  const auto up = std::ranges::find(d.errors, "up after a turn", &diagnosis::ErrorOfKind::what);
+  ASSERT_NE(up, d.errors.end());
+  EXPECT_LT(up->after, 0.0004);
+  EXPECT_GT(up->before, 0.002);
+}
+
+/// The same of a unit of our own, and nothing where nothing is left out.
+TEST(CaseDiagnose, NamesLeverArmsAndDelayOnlyWhereTheyAre) {
+  const mc::Study study = study_with(sensors_of_unit, read_in_turns);
+  Theta theta = Theta::Zero();
+  for (const char* key : {"eta_x", "eta_y", "xi_y", "xi_z"}) test::set(theta, key, 60.0);
+  const auto diagnosed = [&](std::uint64_t seed) {
+    test::StrapdownScript s = script(study, 12, 20.0);
+    s.seed = seed;
+    return diagnose_case(study,
+                         identify_case(study, case_study(study, strapdown_recording(s, theta))));
+  };
+  for (const std::uint64_t seed : {31, 32})
+    EXPECT_EQ(diagnosed(seed).verdict, diagnosis::Verdict::consistent) << seed;
+  const std::vector<std::pair<const char*, double>> truth{
+      {"arm_x_x", 3},  {"arm_y_x", -2}, {"arm_z_x", 4}, {"arm_x_y", -4}, {"arm_y_y", 5},
+      {"arm_z_y", -3}, {"arm_x_z", 2},  {"arm_y_z", 6}, {"arm_z_z", -5}, {"acc_delay", 2}};
+  for (const auto& [key, value] : truth) test::set(theta, key, value);
+  const diagnosis::Diagnosis d = diagnosed(33);
+  ASSERT_EQ(d.verdict, diagnosis::Verdict::named);
+  expect_named(d, truth);
+}
+
+TEST(CaseDiagnose, ATermOfTurnsIsRefusedWhereTheyAreNotRead) {
+  const mc::Study study = study_with(sensors_of_unit + R"(, "inner_lever_arm")");
+  const Recording recording = strapdown_recording(script(study, 12, 20.0), Theta::Zero());
+  EXPECT_THROW(identify_case(study, case_study(study, recording)), InputError);
+}
+
+/// A wrong unit is no missing physics: it is said before anything else.
+TEST(CaseStudy, GyrosInAnotherUnitOrOfTheOtherSignAreRefused) {
+  const mc::Study study = study_with(sensors_of_unit);
+  const Recording right = strapdown_recording(script(study, 8, 10.0), Theta::Zero());
+  EXPECT_NO_THROW(case_study(study, right));
+  for (const auto& [times, words] : std::initializer_list<std::pair<double, const char*>>{
+           {detail::deg, "look like [rad/s], not [deg/s]"},
+           {1.0 / detail::deg, "look like [deg/s], not [rad/s]"},
+           {-1.0, "Correct their sign"}}) {
+    Recording wrong = right;
+    for (const std::size_t channel : {1, 2, 3})
+      for (double& rate : wrong.channels[channel].values) rate *= times;
+    try {
+      case_study(study, wrong);
+      ADD_FAILURE() << words;
+    } catch (const InputError& e) {
+      EXPECT_NE(std::string(e.what()).find(words), std::string::npos) << e.what();
+    }
+  }
 }
 
 TEST(CaseIdentify, ARestSaysSumsAndNoMore) {

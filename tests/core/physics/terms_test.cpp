@@ -16,6 +16,7 @@ using D = Dual<1>;
 
 struct Scene {
   Mounting mounting;
+  CaseTurn turn{Vec3(0.1, -0.2, 0.3), Mat3::Constant(0.1)};
   /// An attitude, an hour and a place at which every term has something to do.
   template <class S>
   Surroundings<S> around(const std::array<S, TermLibrary::num_memory>& memory) const {
@@ -28,7 +29,8 @@ struct Scene {
              0.7,
              Vec3(2.6e-5, 1e-6, -4.8e-5),
              1e-4,
-             {0.3, -0.4, 0.5, 0.6}};
+             {0.3, -0.4, 0.5, 0.6},
+             &turn};
     s.R_lp = rotation<double>(Vec3(0.4, -0.3, 0.8)).cast<S>();
     s.gimbal = Vec3(0.5, -0.4, 1.1).cast<S>();
     s.memory = memory.data();
@@ -191,7 +193,9 @@ TEST(TermLibrary, HoldsEveryCandidateOfTheInterface) {
                           "accelerometer_dead_zone",
                           "accelerometer_ramp",
                           "outliers",
-                          "frame_closure"})
+                          "frame_closure",
+                          "inner_lever_arm",
+                          "accelerometer_delay"})
     EXPECT_TRUE(TermLibrary::find_term(key).has_value()) << key;
 }
 

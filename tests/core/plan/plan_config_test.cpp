@@ -78,7 +78,8 @@ TEST(PlanConfig, ADwellIsAWholeNumberOfSamples) {
 TEST(PlanConfig, KeysOfTheOtherKindOfTestAreRefused) {
   for (const char* text :
        {"kind = \"strapdown\"\npreset = \"six\"\n", "kind = \"strapdown\"\ndwell = \"1 min\"\n",
-        "preset = \"six\"\nstatic_min = \"2 s\"\n"}) {
+        "preset = \"six\"\nstatic_min = \"2 s\"\n",
+        "preset = \"six\"\naccelerometers_in_turns = true\n"}) {
     const auto mistakes = read(text).mistakes;
     ASSERT_EQ(mistakes.size(), 1u) << text;
     EXPECT_TRUE(mistakes[0].starts_with("t.toml:3:")) << mistakes[0];

@@ -128,6 +128,7 @@ TEST(EveryTermInATest, ActsInsideTheServoLoop) {
   plan.positions.resize(3);
   Timeline timeline = lay_out(plan, harbin);
   set_environment(timeline, harbin_day(), 1, 0);
+  read_turns(timeline);
   Theta theta = Theta::Zero();
   ParamMask all;
   for (const std::size_t t : visible_terms()) {

@@ -109,6 +109,7 @@ TEST(StudyConfig, AStrapdownStudyNeedsNoLatitude) {
       test::read_text("schema = 1\n[plan]\nkind = \"strapdown\"\nstatic_min = \"3 s\"\n");
   EXPECT_EQ(s.kind, RecordingKind::strapdown);
   EXPECT_DOUBLE_EQ(s.static_min, 3.0);
+  EXPECT_FALSE(s.accelerometers_in_turns);
 }
 
 TEST(StudyConfig, OverridesActBeforeReading) {

@@ -143,6 +143,15 @@ TEST(Sentence, OfANamedCauseSaysWhatElseLeavesItsTrace) {
   EXPECT_EQ(text.find("leave the same trace"), text.rfind("leave the same trace")) << text;
 }
 
+TEST(Sentence, OfOneCauseThatLeavesSomethingSaysThatAndNotThatItPredicts) {
+  auto d = with(diagnosis::Verdict::ambiguous, {cause("drift_ramp", "z", nullptr, 0, 0, "")});
+  d.fit.held_out.improves = true;
+  d.remarks.emplace_back(diagnosis::remark::JustSignificantLeft{});
+  const std::string text = report::sentence(d);
+  EXPECT_TRUE(says(text, "but with it something is left that is just significant"));
+  EXPECT_FALSE(says(text, "predicted better"));
+}
+
 TEST(Sentence, OfOneCauseThatHeldOutDataDoNotSupportIsNotEitherOr) {
   auto d = with(diagnosis::Verdict::ambiguous, {cause("drift_ramp", "z", nullptr, 0, 0, "")});
   d.fit.held_out.improves = false;

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <vector>
+
+#include "core/estimate/strapdown/signals.hpp"
+#include "core/physics/assembly.hpp"
+
+namespace drift::strapdown {
+
+/// Turn of the case from sample k - 1 to sample k: the trapezoid and coning, w_a x w_b dt^2 / 12.
+/// drift: what the gyros read at rest.
+Vec3 turned(const Signals& signals, std::size_t k, const Vec3& drift);
+
+/// Whether the rate changes at sample k by so much of itself that half a sample is more than 5e-4
+/// of a turn's whole acceleration. Where in a sample its rate was read nobody says: a row that ends
+/// there would not know how much of the acceleration is its own.
+bool speeds_up(const Signals& signals, std::size_t k);
+
+/// Specific force in case axes at each sample of a way, carried by the gyros from the nearer of the
+/// two dwells that it lies between. before, after: what is read in these [g].
+std::vector<Vec3> carried_force(const Signals& signals, std::size_t first, std::size_t last,
+                                const Vec3& before, const Vec3& after);
+
+/// What is read over a row in which the case turns.
+struct TurnReading {
+  Vec3 acc = Vec3::Zero();  ///< mean output of the accelerometers, had the case turned evenly [g]
+  CaseTurn turn;
+};
+
+/// Means from sample `first` to sample `last` by the trapezoid, as turned() takes the rates: gyros
+/// and accelerometers are taken at the same times, whether a sample is an instant or a mean. A row
+/// is predicted as an even turn; where the rate changes within it, the case does not face gravity
+/// as in an even one. What that makes,
+///
+///   (<C_even^T> - <C^T>) f,   C: against the attitude at the beginning,
+///
+/// is added to the reading. f_first: specific force at the beginning, as carried_force() has it
+/// [g]; gravity [m/s^2].
+TurnReading turn_reading(const Signals& signals, std::size_t first, std::size_t last,
+                         const Vec3& f_first, double gravity);
+
+}  // namespace drift::strapdown
