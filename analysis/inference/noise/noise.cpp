@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 
 #include "analysis/inference/noise/noise_component.hpp"
@@ -127,8 +128,17 @@ NoiseModel with(const NoiseModel& model, const Addition& a, double sigma) {
   return more;
 }
 
-/// With the component that gains most, all sigmas at their best; none if that is not enough.
-std::optional<Mixture> with_one_more(const LinearProblem& bare, const Mixture& m) {
+/// Log evidence of a mixture, its constants left out.
+double log_evidence(const Mixture& m, const NoiseModel& declared, double acc_sigma) {
+  return 0.5 * m.log_likelihood2 + log_price(m, declared, acc_sigma);
+}
+
+/// With the component that gains most, all sigmas at their best; none if that is not enough. The
+/// rungs of the ladder are far apart: each component is fitted from its best one, and the one of
+/// best evidence is taken. (A Markov process of a time constant as short as a sample is an angle
+/// random walk, and the prior of time constants says so.)
+std::optional<Mixture> with_one_more(const LinearProblem& bare, const Mixture& m,
+                                     const NoiseModel& declared) {
   constexpr int rungs = 8;
   constexpr double drop = 3.0;
   const std::vector<Addition> additions = possible_additions(m.model, RowCounts(bare));
@@ -137,17 +147,28 @@ std::optional<Mixture> with_one_more(const LinearProblem& bare, const Mixture& m
       return log_likelihood2(bare, with(m.model, additions[k], sigma)) - m.log_likelihood2;
     });
   });
-  const auto top = std::ranges::max_element(tried, {}, &Rung::gain);
-  // On the ladder's rungs: what is close to enough is worth the ascent.
-  if (top == tried.end() || top->gain < 0.5 * NoiseLimits::component) return std::nullopt;
-  const Addition& addition = additions[static_cast<std::size_t>(top - tried.begin())];
-  Mixture more = m;
-  more.model = with(m.model, addition, top->sigma);
-  more.active.push_back({addition.component});
-  more = fitted(bare, std::move(more));
-  more.active.back().gain = more.log_likelihood2 - m.log_likelihood2;
-  if (more.active.back().gain < NoiseLimits::component) return std::nullopt;
-  return more;
+  std::vector<std::size_t> order(tried.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, std::greater{}, [&](std::size_t k) { return tried[k].gain; });
+  std::optional<Mixture> best;
+  std::vector<const NoiseComponent*> fitted_already;
+  for (const std::size_t k : order) {
+    const NoiseComponent* c = additions[k].component;
+    // On the ladder's rungs: what is close to enough is worth the ascent.
+    if (tried[k].gain < 0.5 * NoiseLimits::component) break;
+    if (std::ranges::find(fitted_already, c) != fitted_already.end()) continue;
+    fitted_already.push_back(c);
+    Mixture more = m;
+    more.model = with(m.model, additions[k], tried[k].sigma);
+    more.active.push_back({c});
+    more = fitted(bare, std::move(more));
+    more.active.back().gain = more.log_likelihood2 - m.log_likelihood2;
+    if (more.active.back().gain < NoiseLimits::component) continue;
+    if (!best || log_evidence(more, declared, bare.acc_sigma) >
+                     log_evidence(*best, declared, bare.acc_sigma))
+      best = std::move(more);
+  }
+  return best;
 }
 
 /// A component that drives the platform: p by its gain, or against what was declared.
@@ -213,7 +234,7 @@ NoiseEstimate estimate_noise(const LinearProblem& problem, const NoiseModel& dec
   const LinearProblem bare = problem.with_mean(in_mean).bare();
   Mixture m = declared_mixture(bare, declared);
   for (int added = 0; added < most_added; ++added) {
-    std::optional<Mixture> more = with_one_more(bare, m);
+    std::optional<Mixture> more = with_one_more(bare, m, declared);
     if (!more) break;
     m = std::move(*more);
   }
@@ -230,9 +251,6 @@ NoiseEstimate estimate_noise_from(const LinearProblem& problem, const NoiseModel
   for (const NoiseComponent* c : {&angle_walk, &drift_walk, &markov_drift, &acc_markov})
     if (c->in(start)) m.active.push_back({c});
   m = fitted(bare, std::move(m));
-  const auto evidence = [&](const Mixture& x) {
-    return 0.5 * x.log_likelihood2 + log_price(x, declared, bare.acc_sigma);
-  };
   for (std::size_t k = 0; k < m.active.size();) {
     const NoiseComponent& c = *m.active[k].component;
     if (c.white() || c.in(declared)) {
@@ -240,7 +258,8 @@ NoiseEstimate estimate_noise_from(const LinearProblem& problem, const NoiseModel
       continue;
     }
     Mixture fewer = without(bare, m, k);
-    if (evidence(fewer) >= evidence(m)) {
+    if (log_evidence(fewer, declared, bare.acc_sigma) >=
+        log_evidence(m, declared, bare.acc_sigma)) {
       m = std::move(fewer);
       k = 0;
     } else {

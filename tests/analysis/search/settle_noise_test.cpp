@@ -58,7 +58,6 @@ TEST(SettleNoise, TwoEffectsTogetherAreNoNoise) {
   const auto s = settled(e);
   ASSERT_TRUE(s);
   EXPECT_GT(s->probability, 0.95);
-  EXPECT_FALSE(s->noise.driven);
 }
 
 TEST(SettleNoise, NoiseOfAllThreeGyrosIsMoreProbableThanEffects) {
