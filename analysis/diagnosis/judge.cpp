@@ -36,7 +36,7 @@ Judged judge(const search::Fitted& nominal, const search::Search& found,
   const double noise = posterior.consistent + posterior.noise_only;
   constexpr double credible = inference::SearchLimits::credible;
   // Chance is what is more probable; noise that explains the same as an effect must be credible.
-  if (noise > (best && found.noise_alone ? credible : 0.5)) return out;
+  if (noise > (best && found.noise_alone ? credible : inference::SearchLimits::chance)) return out;
   const bool one = found.sets.size() == 1, or_noise = noise > 1.0 - credible;
   const bool members = std::all_of(member_gains.begin(), member_gains.end(), [](double gain) {
     return gain >= inference::WeighLimits::held_out;
