@@ -1,5 +1,6 @@
 // The candidates of `rank --improve`, shared by several processes, stopped and resumed: the results
 // of one process.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -99,8 +100,10 @@ TEST(SharedCandidates, AnyNumberOfWorkersKilledAndResumedGivesTheResultsOfOnePro
 TEST(SharedCandidates, MaxWallEndsResumableAndTheSameCommandFinishes) {
   const Shared shared;
   int stopped = 0, code = 75;
-  for (int call = 0; call < 200 && code == 75; ++call) {
-    const test::Answer answer = shared.rank("out", "--max-wall 0.5s");
+  // Too short at first on any machine, in the end long enough on any.
+  double wall = 0.2;
+  for (int call = 0; call < 40 && code == 75; ++call, wall *= 1.5) {
+    const test::Answer answer = shared.rank("out", fmt::format("--max-wall {:.1f}s", wall));
     code = answer.code;
     if (code != 75) break;
     EXPECT_NE(answer.err.find("candidates are judged and kept"), std::string::npos) << answer.err;
