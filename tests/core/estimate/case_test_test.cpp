@@ -7,83 +7,11 @@
 #include "core/estimate/batch.hpp"
 #include "core/estimate/sequential/iterated_ekf.hpp"
 #include "core/estimate/strapdown/gyrocompass.hpp"
-#include "core/estimate/strapdown/turn_reading.hpp"
 #include "core/sim/predict.hpp"
-#include "tests/support/strapdown_recording.hpp"
+#include "tests/support/case_unit.hpp"
 
 namespace drift::strapdown::case_test_test {
-namespace {
-
-using test::set;
-
-constexpr Site site{0.6, 9.8};
-
-/// A navigation-grade unit; the sensors' convention.
-Theta sensors() {
-  Theta theta = Theta::Zero();
-  for (const auto& [key, value] : std::initializer_list<std::pair<const char*, double>>{
-           {"D_F_x", 0.1}, {"D_F_y", -0.2}, {"D_F_z", 0.3}, {"s_x", 40},   {"s_y", -25},
-           {"s_z", 60},    {"eta_x", 30},   {"eta_y", -45}, {"eta_z", 20}, {"xi_x", 15},
-           {"xi_y", 50},   {"xi_z", -35},   {"K0_x", 40},   {"K0_y", -60}, {"K0_z", 25},
-           {"K1_x", 50},   {"K1_y", -30},   {"K1_z", 70},   {"dO_y", 20},  {"dP_z", -30},
-           {"dO_z", 10}})
-    set(theta, key, value);
-  return theta;
-}
-
-test::StrapdownScript script(std::uint64_t seed) {
-  test::StrapdownScript s;
-  s.dwells = 16;
-  s.rest = 20.0;
-  s.turn = 8.0;
-  s.gyro_noise = 3e-6;
-  s.acc_noise = 1e-4;
-  s.omega_ie_l = site.omega_ie_l();
-  s.seed = seed;
-  return s;
-}
-
-FilterSpec filter_for(const CaseTest& test, double attitude) {
-  FilterSpec f;
-  f.coupling = Coupling::eq6;  // of a platform that is told what its gyros read
-  for (const char* group : {"D_F", "s", "eta", "xi", "K0", "K1", "dP", "dO"})
-    for (std::size_t p = 0; p < TermLibrary::num_params; ++p)
-      if (TermLibrary::specs[p].group.view() == group) {
-        f.active.set(p);
-        f.priors[p] = TermLibrary::specs[p].prior_si();
-      }
-  for (const std::size_t p : zero_by_definition) f.priors[p] = fixed(0.0);
-  f.initial_attitude = attitude;
-  f.noise.angle_random_walk = test.angle_random_walk;
-  return f;
-}
-
-struct Unit {
-  CaseTest test;
-  Gyrocompass compass;
-};
-
-Unit unit_of(const test::StrapdownScript& script, const Theta& theta = sensors(),
-             InTurns in_turns = InTurns::left_out) {
-  const Signals signals = signals_of(strapdown_recording(script, theta));
-  const auto dwells = find_dwells(signals, {}).dwells;
-  Unit u;
-  std::vector<double> azimuth;
-  for (int round = 0; round < 3; ++round) {
-    u.test = lay_out_case(signals, dwells, site, Carry::through, azimuth, in_turns);
-    u.compass = gyrocompass(u.test, azimuth, 1.0 * unit::deg_per_h.to_si);
-    azimuth = u.compass.azimuth;
-  }
-  return u;
-}
-
-/// The platform's parameters that stand for the sensors' (case_test.hpp).
-double as_platform(std::size_t param, const Theta& sensors) {
-  const double value = sensors[static_cast<Eigen::Index>(param)];
-  return TermLibrary::specs[param].group.view() == "s" ? 1.0 / (1.0 + value) - 1.0 : value;
-}
-
-}  // namespace
+using namespace case_unit;
 
 TEST(CaseTest, RestsAndWaysAreLaidOutAndTheGyrosFindNorth) {
   const Unit u = unit_of(script(1));
@@ -147,78 +75,6 @@ TEST(CaseTest, RowsAreTheDerivativesOfThePrediction) {
     moved[0][axis] += step * filter.initial_attitude;
     compare(predict(u.test.timeline, model, theta, moved, u.test.readout), step, axis, "attitude");
   }
-}
-
-/// Of 8 units whose accelerometers sit centimetres apart and lag by a millisecond: errors of both
-/// in their own sigmas. 80 of them would have an rms of 1 +- 0.08.
-TEST(CaseTest, LeverArmsAndDelayAreFoundWhereTurnsAreRead) {
-  Theta theta = sensors();
-  std::vector<std::size_t> wanted;
-  for (const auto& [key, value] :
-       std::initializer_list<std::pair<const char*, double>>{{"arm_x_x", 1.0},
-                                                             {"arm_y_x", -2.0},
-                                                             {"arm_z_x", 3.0},
-                                                             {"arm_x_y", 4.0},
-                                                             {"arm_y_y", 5.0},
-                                                             {"arm_z_y", -6.0},
-                                                             {"arm_x_z", 0.0},
-                                                             {"arm_y_z", 2.0},
-                                                             {"arm_z_z", 1.0},
-                                                             {"acc_delay", 1.0}}) {
-    set(theta, key, value);
-    wanted.push_back(*TermLibrary::find(key));
-  }
-  double squares = 0.0, chi2 = 0.0, measured = 0.0;
-  for (std::uint64_t seed = 201; seed <= 208; ++seed) {
-    const Unit u = unit_of(script(seed), theta, InTurns::read);
-    ASSERT_TRUE(u.test.timeline.reads_turns);
-    FilterSpec filter = filter_for(u.test, std::max(10.0 * u.compass.sigma, 2e-3));
-    for (const std::size_t p : wanted) {
-      filter.active.set(p);
-      filter.priors[p] = TermLibrary::specs[p].prior_si();
-    }
-    const BatchResult fit = fit_batch(filter, {u.test.timeline, u.test.readout, u.test.measured},
-                                      make_layout(filter).theta);
-    ASSERT_EQ(fit.estimate.status, EstimateStatus::ok);
-    chi2 += fit.estimate.statistic;
-    measured += static_cast<double>(fit.estimate.measured);
-    for (const std::size_t p : wanted) {
-      const ParameterEstimate& found = *fit.estimate.find(p);
-      const double z = (found.value - theta[static_cast<Eigen::Index>(p)]) / found.sigma;
-      EXPECT_LT(std::abs(z), 4.5) << TermLibrary::specs[p].key.view() << ", seed " << seed;
-      EXPECT_LT(found.learning_ratio(), 0.05) << TermLibrary::specs[p].key.view();
-      squares += z * z;
-    }
-  }
-  EXPECT_GT(std::sqrt(squares / 80.0), 0.8);
-  EXPECT_LT(std::sqrt(squares / 80.0), 1.25);
-  EXPECT_NEAR(chi2 / measured, 1.0, 0.05);
-}
-
-/// A row in which the rate changes reads as an even turn does; the acceleration is the change of
-/// the rate over the row.
-TEST(TurnReading, IsThatOfAnEvenTurn) {
-  constexpr double dt = 0.002, length = 0.4, gravity = 9.8;
-  const Vec3 axis = Vec3(1.0, -2.0, 0.5).normalized(), f0(0.6, 0.0, 0.8);
-  Signals s;
-  s.interval = dt;
-  for (int k = 0; k <= 200; ++k) {
-    const double t = dt * k, angle = 0.5 * t * t;  // 1 rad/s^2 from rest
-    s.time.push_back(t);
-    s.gyro.push_back(t * axis);
-    s.acc.push_back(rotation(Vec3(-angle * axis)) * f0);
-  }
-  const TurnReading read = turn_reading(s, 0, 200, f0, gravity);
-  const double whole = 0.5 * length * length;
-  Vec3 even = Vec3::Zero();
-  constexpr int steps = 1000;
-  for (int k = 0; k < steps; ++k)
-    even += rotation(Vec3(-whole * (k + 0.5) / steps * axis)) * f0 / steps;
-  EXPECT_LT((read.acc - even).norm(), 2e-7);
-  EXPECT_GT((s.acc[100] - even).norm(), 1e-2);  // what the correction is of
-  EXPECT_LT((read.turn.rate - 0.5 * length * axis).norm(), 1e-12);
-  const Mat3 expected = (skew(axis) + length * length / 3.0 * skew(axis) * skew(axis)) / gravity;
-  EXPECT_LT((read.turn.arm - expected).norm(), 1e-5);
 }
 
 /// Second implementation: the filter that carries a covariance, and the fit that whitens its rows.
@@ -327,27 +183,6 @@ TEST(CaseTest, AGapOnTheWayBeginsANewChain) {
   const CaseTest t = lay_out_case(signals, dwells, site, Carry::through);
   EXPECT_EQ(t.timeline.chains, 2);
   EXPECT_EQ(t.ways_with_gap, 1u);
-}
-
-TEST(Gyrocompass, OneRestKnowsNorthAsWellAsThePriorOfItsDrift) {
-  test::StrapdownScript one = script(7);
-  one.dwells = 1;
-  one.rest = 600.0;
-  const Unit u = unit_of(one);
-  ASSERT_TRUE(u.compass.sees_earth);
-  const double horizontal = site.omega_ie_l()[0];
-  EXPECT_NEAR(u.compass.sigma, unit::deg_per_h.to_si / horizontal, 0.01);
-}
-
-TEST(Gyrocompass, GyrosOfAPhoneSeeNoEarth) {
-  test::StrapdownScript coarse = script(8);
-  coarse.gyro_noise = 0.002;
-  Theta theta = sensors();
-  set(theta, "D_F_x", 900.0);
-  set(theta, "D_F_y", -2500.0);
-  const Signals signals = signals_of(strapdown_recording(coarse, theta));
-  const CaseTest t = lay_out_case(signals, find_dwells(signals, {}).dwells, site, Carry::through);
-  EXPECT_FALSE(gyrocompass(t, {}, unit::deg_per_h.to_si).sees_earth);
 }
 
 }  // namespace drift::strapdown::case_test_test

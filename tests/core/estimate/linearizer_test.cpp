@@ -179,6 +179,8 @@ TEST(Linearizer, ChainsThemForEveryCoupling) {
 TEST(Linearizer, ChainsThemWithEveryTermAtOnce) {
   Model all(Coupling::lambda, {});
   for (const std::size_t t : visible_terms()) {
+    // Terms of a case that turns never meet those that offset a platform from its gyros.
+    if (TermLibrary::terms[t].needs.turning) continue;
     all.filter.active |= term_params(t);
     set_term(all.theta, t);
   }
