@@ -209,7 +209,11 @@ TEST(Engine, DamageInTheFileOfAnotherWorkerIsMendedByTheCallThatMeetsIt) {
     mc::Progress last;
     const auto mended = study.run(folder.path(), [&](const mc::Progress& p) { last = p; });
     EXPECT_TRUE(mended.complete);
-    EXPECT_EQ(mended.done, 64u) << with_rule;
+    // Under a rule the other worker may have run ahead and hold the block, too.
+    if (with_rule)
+      EXPECT_LE(mended.done, 64u);
+    else
+      EXPECT_EQ(mended.done, 64u);
     EXPECT_EQ(mended.digest, whole.digest);
     EXPECT_EQ(last.done, last.total);
     EXPECT_FALSE(mended.notes.empty());
