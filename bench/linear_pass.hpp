@@ -12,13 +12,15 @@ class LinearPass {
  public:
   LinearPass(const FilterSpec& filter, const Timeline& timeline, const Readout& readout)
       : LinearPass(filter, timeline, readout, nullptr) {}
-  /// Of stretches, whose projections are made in every pass.
+  /// Of stretches, whose projections are made once (read) for all passes of a run.
   LinearPass(const FilterSpec& filter, CompressedTest& test, const Readout& readout)
       : LinearPass(filter, test.timeline(), readout, &test) {}
 
+  void read(const Measurements& all) {
+    if (compressed_) compressed_->read(all);
+  }
   /// About theta, chains that end at the nominal attitude.
   const MatX& run(const Measurements& all, const Theta& theta) {
-    if (compressed_) compressed_->read(all);
     const Measurements& measured = compressed_ ? compressed_->test().measured : all;
     path_.place(theta);
     rows_.reset(theta);
