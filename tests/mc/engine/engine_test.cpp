@@ -162,12 +162,13 @@ TEST(Engine, WallTimeAndSignalsLeaveAResumableStudy) {
   EXPECT_EQ(study.run(folder.path()).digest, whole.digest);
 }
 
-/// One bit of one result of the first block, changed behind the back of its checksum.
+/// One bit of one result of the block with the first runs, changed behind the back of its checksum.
+/// Threads may have stored a later one before it, which a study that a rule ends does not need.
 void damage(const std::string& path) {
   mc::Database(path, mc::Database::Use::write)
       .execute(
           "UPDATE blocks SET payload = CAST(substr(payload, 1, 9) || x'5a' || substr(payload, 11) "
-          "AS BLOB) WHERE id = (SELECT min(id) FROM blocks)");
+          "AS BLOB) WHERE id = (SELECT id FROM blocks ORDER BY point, first_run LIMIT 1)");
 }
 
 TEST(Engine, AStartReadsNothingOfOthersAndDamageIsMetBeforeTheStudyIsComplete) {
@@ -197,6 +198,8 @@ TEST(Engine, DamageInTheFileOfAnotherWorkerIsMendedByTheCallThatMeetsIt) {
   for (const bool with_rule : {false, true}) {
     const ScratchFolder straight, folder;
     SyntheticStudy study;
+    // Several threads would run ahead of the rule: how much is done would hang on the clock.
+    study.options.threads = 1;
     if (with_rule)
       study.rules = [](std::size_t) { return std::make_unique<test::MeanRule>(5, 0.07); };
     const auto whole = study.run(straight.path());
@@ -209,11 +212,7 @@ TEST(Engine, DamageInTheFileOfAnotherWorkerIsMendedByTheCallThatMeetsIt) {
     mc::Progress last;
     const auto mended = study.run(folder.path(), [&](const mc::Progress& p) { last = p; });
     EXPECT_TRUE(mended.complete);
-    // Under a rule the other worker may have run ahead and hold the block, too.
-    if (with_rule)
-      EXPECT_LE(mended.done, 64u);
-    else
-      EXPECT_EQ(mended.done, 64u);
+    EXPECT_EQ(mended.done, 64u) << with_rule;
     EXPECT_EQ(mended.digest, whole.digest);
     EXPECT_EQ(last.done, last.total);
     EXPECT_FALSE(mended.notes.empty());
