@@ -105,9 +105,8 @@ double other_equation_gain(const search::Search& found, const Judged& judged,
 }
 
 /// noise: what was found of it; samples that are none are noise not as declared, too.
-Probabilities probabilities(const search::Search& found,
+Probabilities probabilities(const search::Search& found, const search::Posterior& p,
                             const std::vector<inference::NoiseFinding>& noise) {
-  const search::Posterior p = search::posterior_of(found);
   Probabilities out{p.consistent, p.noise_only, p.outside, {}};
   if (std::ranges::any_of(noise, [](const inference::NoiseFinding& f) {
         return f.significant && f.component == "outliers";
@@ -161,11 +160,15 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
   const auto member_gains = best && found.significant
                                 ? judge_members(nominal, test, *best, found.thresholds)
                                 : std::vector<double>{};
-  const Judged judged = judge(nominal, found, d.fit.held_out, member_gains, options.named_by);
+  const search::Posterior posterior = search::posterior_of(found);
+  const Judged judged =
+      judge(nominal, found, posterior, d.fit.held_out, member_gains, options.named_by);
 
   stages.begin("locate", 0.06);
   // With the cause in the mean, what had been taken for noise because of it is none any more.
-  NoiseFound noise = noise_found(best && found.significant ? best->after : nominal, fitted.spikes);
+  const bool alarm = judged.verdict != Verdict::consistent;
+  NoiseFound noise = noise_found(best && alarm ? best->after : nominal, fitted.spikes);
+  if (!alarm && found.noise_alone) noise.findings = found.noise_alone->findings;
   CausesFound causes =
       judged.verdict == Verdict::consistent ? CausesFound{} : causes_of(nominal, found);
   for (std::size_t k = 0; k < member_gains.size() && k < causes.causes.size(); ++k)
@@ -199,14 +202,14 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
   d.noise = std::move(noise.findings);
   d.other_equation_gain = other_equation_gain(found, judged, test);
   d.not_examined = not_examined(nominal, d.causes);
-  d.probabilities = probabilities(found, d.noise);
+  d.probabilities = probabilities(found, posterior, d.noise);
   d.nominal = nominal_filter;
-  d.patched = best ? started_where_found(best->filter, d.causes) : nominal_filter;
-  d.has_patch = best != nullptr;
+  d.patched = best && alarm ? started_where_found(best->filter, d.causes) : nominal_filter;
+  d.has_patch = best != nullptr && alarm;
   append(d.remarks, std::move(noise.remarks));
   append(d.remarks, judged.remarks);
   append(d.remarks, judged.one_gyro);
-  if (best && found.significant) append(d.remarks, left_not_white(d.fit.whiteness));
+  if (best && alarm) append(d.remarks, left_not_white(d.fit.whiteness));
   append(d.remarks, std::move(causes.remarks));
   if (d.verdict == Verdict::unexplained) d.nearest_known = nearest_known(nominal, found);
   if (d.nearest_known) append(d.remarks, strongest_left(nominal, found));

@@ -23,7 +23,8 @@ std::vector<double> judge_members(const search::Fitted& nominal, const MeasuredT
   return gains;
 }
 
-Judged judge(const search::Fitted& nominal, const search::Search& found, const HeldOut& held_out,
+Judged judge(const search::Fitted& nominal, const search::Search& found,
+             const search::Posterior& posterior, const HeldOut& held_out,
              const std::vector<double>& member_gains, NamedBy by) {
   Judged out;
   if (!found.significant) {
@@ -32,20 +33,25 @@ Judged judge(const search::Fitted& nominal, const search::Search& found, const H
     return out;
   }
   const search::Refit* best = found.sets.empty() ? nullptr : &found.sets.front();
-  const bool one = found.sets.size() == 1;
+  const double noise = posterior.consistent + posterior.noise_only;
+  constexpr double credible = inference::SearchLimits::credible;
+  // Chance is what is more probable; noise that explains the same as an effect must be credible.
+  if (noise > (best && found.noise_alone ? credible : inference::SearchLimits::chance)) return out;
+  const bool one = found.sets.size() == 1, or_noise = noise > 1.0 - credible;
   const bool members = std::all_of(member_gains.begin(), member_gains.end(), [](double gain) {
     return gain >= inference::WeighLimits::held_out;
   });
   const bool judged =
       by == NamedBy::fit_alone || held_out.folds.empty() || (held_out.improves && members);
   const bool nameable = !best || (best->nameable && !found.just_not);
-  out.verdict = !best                       ? Verdict::unexplained
-                : one && judged && nameable ? Verdict::named
-                                            : Verdict::ambiguous;
+  out.verdict = !best                                    ? Verdict::unexplained
+                : one && judged && nameable && !or_noise ? Verdict::named
+                                                         : Verdict::ambiguous;
   if (found.just_not)
     out.remarks.emplace_back(remark::JustSignificantLeft{});
   else if (one && !nameable)
     out.remarks.emplace_back(remark::LambdaNotSettled{});
+  if (best && or_noise) out.remarks.emplace_back(remark::OrNoise{noise});
   if (one && !judged && !members)
     out.remarks.emplace_back(remark::MemberNotConfirmed{});
   else if (one && !judged)

@@ -6,7 +6,7 @@
 #include "analysis/diagnosis/findings/fit_comparison.hpp"
 #include "analysis/diagnosis/findings/remark.hpp"
 #include "analysis/diagnosis/findings/verdict.hpp"
-#include "analysis/search/search.hpp"
+#include "analysis/search/posterior.hpp"
 
 namespace drift::diagnosis {
 
@@ -27,8 +27,12 @@ struct Judged {
 /// Whether a cause must predict held-out positions better to be named.
 enum class NamedBy { held_out, fit_alone };
 
+/// What is significant is an alarm only if the probabilities agree: not where nothing missing is
+/// the more probable, or, where noise not as declared explains what a cause does, has
+/// SearchLimits::credible of them. A cause is named only where nothing missing is not credible.
 /// member_gains: of the best explanation, as judge_members() gives them.
-Judged judge(const search::Fitted& nominal, const search::Search& found, const HeldOut& held_out,
+Judged judge(const search::Fitted& nominal, const search::Search& found,
+             const search::Posterior& posterior, const HeldOut& held_out,
              const std::vector<double>& member_gains, NamedBy by);
 
 }  // namespace drift::diagnosis

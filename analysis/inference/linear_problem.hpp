@@ -21,9 +21,8 @@ struct RowTag {
 /// How noise drives the attitude within one interval, before its first row.
 ///
 /// Attitude errors are counted at the caging (in prior sigmas): noise that comes later is carried
-/// back, so that a row's derivative with respect to the attitude at caging is its H. The platform
-/// holds inertial space to first order, so the way back is the identity (error: A t, a few
-/// percent).
+/// back through the linearised dynamics, as the rows' derivatives with respect to the attitude at
+/// caging go forward.
 struct IntervalDrive {
   double length = 0.0;  ///< [s]
   double gap = 0.0;     ///< time since the end of the interval before [s]

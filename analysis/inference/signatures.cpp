@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/estimate/linearize.hpp"
+#include "core/estimate/linearizer.hpp"
+#include "core/sim/memory_path.hpp"
 #include "core/sim/path_in_lanes.hpp"
 
 namespace drift::inference {
@@ -44,7 +47,7 @@ std::vector<RowTag> row_tags(const MeasuredTest& test) {
   return tags;
 }
 
-std::vector<IntervalDrive> drives(const Timeline& timeline, double attitude_sigma) {
+std::vector<IntervalDrive> drives(const Timeline& timeline) {
   std::vector<IntervalDrive> all;
   const Interval* before = nullptr;
   for (const Interval& i : timeline.intervals) {
@@ -54,13 +57,47 @@ std::vector<IntervalDrive> drives(const Timeline& timeline, double attitude_sigm
     d.cage = i.cage;
     d.chain = i.chain;
     d.samples = i.samples;
-    const Node& node = timeline.nodes[i.middle_node()];
     d.rest = i.rest;
-    if (!i.rest) d.per_rate = -i.length() / attitude_sigma * node.R_il * node.R_lr;
     all.push_back(d);
     before = &i;
   }
   return all;
+}
+
+/// IntervalDrive::per_rate of every interval: what a drift of each gyro does to the attitude within
+/// it, carried back to the caging by the transition that the rows have. Over hours without caging
+/// an attitude error turns and grows by a tenth, many sigma of what noise has driven it to.
+void carry_back(std::vector<IntervalDrive>& drives, const FilterSpec& nominal,
+                const Timeline& timeline, const Theta& theta, const Trajectory& phi) {
+  ParamMask drift;
+  Layout layout;
+  layout.theta = theta;
+  layout.mean = VecX::Zero(3);
+  layout.sigma = VecX::Ones(3);
+  layout.num_rate = 3;
+  constexpr std::size_t fixed_drift = TermLibrary::index("D_F_x");
+  for (std::size_t gyro = 0; gyro < 3; ++gyro) {
+    layout.params.push_back(fixed_drift + gyro);
+    drift.set(fixed_drift + gyro);
+  }
+  const DriftModel model = extended(nominal, drift);
+  Linearizer linearizer(model, layout, {});
+  linearizer.set_theta(theta);
+  linearizer.leave_readout_out();
+  MemoryPath memory(timeline, model);
+  IntervalSensitivity inner;
+  Mat3 back = Mat3::Identity();  // from the start of the interval to the caging
+  for (std::size_t k = 0; k < drives.size(); ++k) {
+    const Interval& interval = timeline.intervals[k];
+    memory.advance(k, theta.data());
+    if (interval.cage) back.setIdentity();
+    if (interval.rest) continue;
+    linearize_interval(interval, timeline, misalignment_matrix(model.mounting, interval.loop),
+                       &phi[interval.first_node], memory.points(), linearizer, inner);
+    const std::size_t last = interval.node_count() - 1;
+    back = (back * inner.Phi[last].inverse()).eval();
+    drives[k].per_rate = back * inner.G[last].leftCols<3>() / nominal.initial_attitude;
+  }
 }
 
 }  // namespace
@@ -127,7 +164,7 @@ LinearProblem linear_problem(const FilterSpec& nominal, const MeasuredTest& test
                              const BatchResult& fit, const std::vector<SignatureSpec>& specs) {
   LinearProblem out;
   out.tags = row_tags(test);
-  out.drives = drives(test.timeline, nominal.initial_attitude);
+  out.drives = drives(test.timeline);
   out.acc_sigma = test.readout.accelerometer_noise;
   out.gimbal_sigma = test.readout.gimbal_noise;
   out.attitude_sigma = nominal.initial_attitude;
@@ -139,6 +176,8 @@ LinearProblem linear_problem(const FilterSpec& nominal, const MeasuredTest& test
   const auto n = static_cast<Eigen::Index>(layout.size());
   const Theta theta = theta_of(nominal, fit);
   const Trajectory phi = integrate(test.timeline, model, theta, fit.psi0_l);
+
+  carry_back(out.drives, nominal, test.timeline, theta, phi);
 
   out.psi.resize(rows, 3);
   out.theta.resize(rows, n);

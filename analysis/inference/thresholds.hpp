@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 
 /// Every number that decides what a user is told of a platform's recording, in one place; those by
@@ -65,12 +66,8 @@ struct SampleLimits {
   /// Chi-square per row, under the noise of neighbours' differences, that is asked for no noise:
   /// random walks of ten times the usual size give 3 to 10. Test: Thresholds.AMisfitOfThirty...
   static constexpr double gross = 30.0;
-  /// |residual| [sigma] of which a normal distribution has `outlier_share`; so many sigma of their
-  /// number and some more are outliers, unless they are so large a part that the model is wrong.
-  /// Test: Thresholds.OutliersAreMore...
-  static constexpr double outlier = 3.5, outlier_share = 4.65e-4;
-  static constexpr double outlier_sigmas = 4.0, outlier_room = 3.0, outlier_most = 0.02;
-  static constexpr double huber = 2.5;  ///< [sigma] corner of weights: 1.2 % of normal ones
+  /// Outliers are at most so large a part of the samples; more of them, and the model is wrong.
+  static constexpr double outlier_most = 0.02;
   /// Robust sigma, of declared, that is more than its scatter. Test: Thresholds.NoiseMoreThan...
   static constexpr double spread = 1.1;
 };
@@ -93,22 +90,27 @@ struct NoiseLimits {
   static constexpr double evident = 1.5, other_equation = 0.8;
 };
 
-/// Whether noise that drives the platform is noise (noise_doubt.hpp, settle_noise.hpp).
-struct NoiseDoubtLimits {
-  /// Chances below which it is not believed: against a candidate, and against an input in one
-  /// equation. Together 0.125, less their overlap: about one in ten. Tuned: of 51 blind nulls with
-  /// such noise one was doubted at half. Test: NoiseDoubt.NoiseOfAllThree...
-  static constexpr double candidate_p = 0.08, lone_p = 0.045;
-  static constexpr double per_amplitude = 3.0;   ///< [2 log L] each further one must bring: 8 %
-  static constexpr std::size_t most_params = 3;  ///< of candidates that may stand for noise. Tuned
-  static constexpr double worth = 2.0;  ///< [strength] worth having where noise is doubted: 14 %
-  /// [sigma] below the sizes that gyros have, at most: better instruments exist.
-  static constexpr double smallest = 2.0;
+/// The prior over noise, stated in diagnose.md; not tuned. Test: NoisePrior.SumsToOne.
+struct NoisePrior {
+  static constexpr double as_declared = 0.8;  ///< whatever drives the mean
+  /// Otherwise white noise is of unknown size and each set of what may drive the platform (two
+  /// random walks, two Markov processes) is as probable as any other.
+  static constexpr double sets = 16.0;
+  static double log_not_as_declared() { return std::log((1.0 - as_declared) / sets); }
+  /// Log density of a size, z sigmas from the middle of its usual range: Student's t of three
+  /// degrees, as better and worse instruments than the usual ones exist.
+  static double log_density(double z) {
+    constexpr double at_zero = 0.3675525969478614;  // 2 / (pi sqrt(3))
+    return std::log(at_zero) - 2.0 * std::log1p(z * z / 3.0);
+  }
 };
 
 /// How sure a diagnosis is.
 struct SearchLimits {
   static constexpr double alpha = 0.02;  ///< chance of a false alarm over all that is tried
+  /// Probability of nothing missing above which what is significant is taken for chance: more
+  /// probable than not.
+  static constexpr double chance = 0.5;
   /// That what is listed must hold together. Test: CredibleSet.ListsWhat...
   static constexpr double credible = 0.95;
   /// How the chance is shared between candidates, windows, pairs and inputs in one equation: they
@@ -147,9 +149,8 @@ struct EffortLimits {
   static constexpr std::size_t wide_in_pairs = 12, widest_in_pairs = 6;  ///< candidates, parameters
   static constexpr int pairs_of_a_name = 2;
   static constexpr std::size_t together = 4;  ///< causes found one after the other
-  /// Candidates tried in the place of noise and rounds of that; beside a cause.
+  /// Candidates tried at each step in the place of noise; beside a cause.
   static constexpr std::size_t noise_tries = 4, noise_tries_beside = 2;
-  static constexpr int noise_rounds = 3, noise_rounds_beside = 1;
 };
 
 /// Which explanation is kept, and named.
@@ -184,8 +185,7 @@ struct WeighLimits {
 struct PosteriorLimits {
   /// Nothing beside the nominal model, one term of the library or several, something outside it.
   static constexpr double nothing = 0.5, library = 0.45, outside = 0.05;
-  static constexpr double noise_as_declared = 0.8;  ///< whatever drives the mean
-  static constexpr double listed = 1e-3;            ///< probability below which none is listed
+  static constexpr double listed = 1e-3;  ///< probability below which none is listed
 };
 
 /// What is said beside the verdict.

@@ -33,8 +33,9 @@ double strongest_window(const Fitted& nominal) {
 Detection detect(Fitted nominal, const MeasuredTest& test, const SearchOptions& options) {
   Detection out;
   out.thresholds = chance_thresholds(nominal, options.alpha, options.draws);
-  if (const auto noise = settle_noise(nominal, out.thresholds.library_threshold)) {
-    nominal = with_noise(std::move(nominal), test.timeline, *noise);
+  if (const auto settled = settle_noise(nominal)) {
+    out.noise_alone = nominal.noise;
+    nominal = with_noise(std::move(nominal), test.timeline, settled->noise);
     out.thresholds = chance_thresholds(nominal, options.alpha, options.draws);
   }
   // The other equation is a jump, not a small amplitude: by the likelihood ratio of two points,

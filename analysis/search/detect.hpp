@@ -18,6 +18,8 @@ struct SearchOptions {
 /// Whether there is anything that the nominal model leaves out.
 struct Detection {
   Fitted nominal;  ///< its noise settled (settle_noise.hpp)
+  /// The noise that the nominal model needs without what took its place; where something did.
+  std::optional<inference::NoiseEstimate> noise_alone;
   ChanceThresholds thresholds;
   inference::MaxNull pairs;
   double p_library = 1.0, p_scan = 1.0, p_pairs = 1.0, p_lone = 1.0;

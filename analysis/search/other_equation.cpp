@@ -57,8 +57,8 @@ std::vector<BesideEquation> beside_other_equation(const Search& s, const Measure
   const auto other = fit_other_equation(s.nominal, test);
   if (!changed || !other) return pairs;
   Fitted there = examine(other->filter, test, other->fit);
-  if (const auto noise = settle_noise(there, s.thresholds.library_threshold))
-    there = with_noise(std::move(there), test.timeline, *noise);
+  if (const auto settled = settle_noise(there))
+    there = with_noise(std::move(there), test.timeline, settled->noise);
   const double equation = 0.5 * (there.log_likelihood2() - s.nominal.log_likelihood2());
   const auto order = there.by_evidence();
   for (std::size_t i = 0; i < std::min(EffortLimits::beside_asked, order.size()) &&

@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <string>
 
 #include "analysis/inference/thresholds.hpp"
+#include "analysis/search/library_prior.hpp"
 
 namespace drift::search {
 namespace {
@@ -21,48 +20,38 @@ double log_sum(double a, double b) {
   return top == never ? never : top + std::log(std::exp(a - top) + std::exp(b - top));
 }
 
-/// Log evidence of a fitted model with the noise that was declared, and with the one estimated.
+/// Log prior and evidence of a fitted model with the noise that was declared, and with the one
+/// estimated.
 struct ByNoise {
   double declared = 0.0, estimated = 0.0;
   double either() const { return log_sum(declared, estimated); }
 };
 
 ByNoise by_noise(const Fitted& f, const inference::NoiseModel& declared) {
-  const double rows = static_cast<double>(f.problem.rows());
   const double with_declared = 0.5 * inference::marginal_of(f.problem, declared).log_likelihood2();
-  const double price = 0.5 * std::log(rows) * static_cast<double>(f.noise.findings.size());
-  return {std::log(PosteriorLimits::noise_as_declared) + with_declared,
-          std::log(1.0 - PosteriorLimits::noise_as_declared) + 0.5 * f.log_likelihood2() - price};
+  return {std::log(inference::NoisePrior::as_declared) + with_declared,
+          0.5 * f.log_likelihood2() + f.noise.log_price};
 }
 
-/// Every term of which the test could see an effect alike, shared by the candidates it offers; each
-/// further cause one in twenty.
-class LibraryPrior {
- public:
-  explicit LibraryPrior(const Fitted& e) : e_(e) {
-    for (std::size_t k = 0; k < e.scores.size(); ++k)
-      if (e.scores[k].visible > 0.0) offers_[e.set.candidates[k].term] += 1.0;
-  }
-  double log_of(const Explanation& choices) const {
-    double sum = -std::log(std::max<double>(1.0, static_cast<double>(offers_.size()))) -
-                 std::log(WeighLimits::second_cause) * static_cast<double>(choices.size() - 1);
-    for (const Choice& c : choices)
-      if (const auto at = offers_.find(e_.set.candidates[c.candidate].term); at != offers_.end())
-        sum -= std::log(at->second);
-    return sum;
-  }
-  /// What an evidence over all sizes says of those that the test could see.
-  double log_of_visible(const Explanation& choices) const {
-    double sum = 0.0;
-    for (const Choice& c : choices)
-      if (const double share = e_.scores[c.candidate].visible; share > 0.0) sum -= std::log(share);
-    return sum;
-  }
+/// Of the nominal model. Where effects took the place of noise, that noise is one more way in which
+/// nothing but noise may be there.
+ByNoise by_noise(const Search& found, const inference::NoiseModel& declared) {
+  ByNoise out = by_noise(found.nominal, declared);
+  if (found.noise_alone) out.estimated = log_sum(out.estimated, found.noise_alone->log_evidence());
+  return out;
+}
 
- private:
-  const Fitted& e_;
-  std::map<std::string, double> offers_;
-};
+bool can_be_seen(const Fitted& e, std::size_t candidate) {
+  return e.scores[candidate].visible > 0.0;
+}
+
+/// What an evidence over all sizes says of those that the test could see.
+double log_of_visible(const Fitted& e, const Explanation& choices) {
+  double sum = 0.0;
+  for (const Choice& c : choices)
+    if (can_be_seen(e, c.candidate)) sum -= std::log(e.scores[c.candidate].visible);
+  return sum;
+}
 
 /// A model and the log of its prior and evidence together.
 struct Weighed {
@@ -97,8 +86,9 @@ std::vector<Weighed> explanations(const Search& found, const LibraryPrior& prior
   double evidence = never, share = 0.0;
   for (std::size_t k = 0; k < found.sets.size(); ++k) {
     const Refit& r = found.sets[k];
-    evidence = log_sum(evidence, log_evidence(found, r, declared) + prior.log_of(r.choices) +
-                                     prior.log_of_visible(r.choices) - std::max(0.0, r.excess));
+    evidence =
+        log_sum(evidence, log_evidence(found, r, declared) + prior.log_of(r.choices) +
+                              log_of_visible(found.nominal, r.choices) - std::max(0.0, r.excess));
     share += found.probability[k];
   }
   for (std::size_t k = 0; k < found.sets.size(); ++k)
@@ -106,11 +96,18 @@ std::vector<Weighed> explanations(const Search& found, const LibraryPrior& prior
   return all;
 }
 
-/// Something of free form in one equation beside a model, of which nothing is known but that it is
-/// there: where it sits and how fast it varies is one of `forms`, its size has Schwarz's price.
-double log_free_form(const inference::LoneEffect& lone, const Fitted& e) {
-  return 0.5 * lone.gain - std::log(WeighLimits::forms) -
-         0.5 * std::log(static_cast<double>(e.problem.rows()));
+/// Something in one window, one of all, each with Schwarz's price.
+double log_window(const Fitted& e) {
+  double sum = never, windows = 0.0;
+  for (const inference::PositionScan& scan : e.scans)
+    for (const double T : scan.T) {
+      if (T <= 0.0) continue;
+      sum = log_sum(sum, 0.5 * T);
+      windows += 1.0;
+    }
+  return windows > 0.0
+             ? sum - std::log(windows) - 0.5 * std::log(static_cast<double>(e.problem.rows()))
+             : never;
 }
 
 /// Something outside the library, beside nothing or beside the best that the library offers.
@@ -118,8 +115,8 @@ double log_outside(const Search& found, const LibraryPrior& prior,
                    const inference::NoiseModel& declared, const ByNoise& nothing) {
   const Fitted& e = found.nominal;
   // Its gain is against the estimated noise, which is not at its best where the misfit is gross.
-  const double alone =
-      std::min(nothing.either(), 0.5 * e.log_likelihood2()) + log_free_form(e.lone, e);
+  const double alone = std::min(nothing.either(), 0.5 * e.log_likelihood2()) +
+                       std::max(log_free_form(e.lone, e.problem), log_window(e));
   const std::vector<Refit>& fitted = found.sets.empty() ? found.rejected : found.sets;
   const Refit* best = nullptr;
   for (const Refit& r : fitted)
@@ -127,9 +124,9 @@ double log_outside(const Search& found, const LibraryPrior& prior,
   if (!best) return alone;
   const auto lone = inference::strongest_lone_input(best->after.problem, best->after.noise.model);
   return std::max(alone, log_evidence(found, *best, declared) + prior.log_of(best->choices) +
-                             prior.log_of_visible(best->choices) -
+                             log_of_visible(found.nominal, best->choices) -
                              std::log(WeighLimits::second_cause) +
-                             log_free_form(lone, best->after));
+                             log_free_form(lone, best->after.problem));
 }
 
 }  // namespace
@@ -137,8 +134,8 @@ double log_outside(const Search& found, const LibraryPrior& prior,
 Posterior posterior_of(const Search& found) {
   const Fitted& e = found.nominal;
   const inference::NoiseModel declared = declared_noise(e.filter);
-  const ByNoise nothing = by_noise(e, declared);
-  const LibraryPrior prior(e);
+  const ByNoise nothing = by_noise(found, declared);
+  const LibraryPrior prior(e.set, [&](std::size_t k) { return can_be_seen(e, k); });
   std::vector<Weighed> library = found.significant ? explanations(found, prior, declared)
                                                    : singles(e, prior, nothing.either());
   for (Weighed& w : library) w.log_weight += std::log(PosteriorLimits::library);

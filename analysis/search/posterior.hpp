@@ -10,8 +10,8 @@ namespace drift::search {
 /// beside the nominal model; causes of the library; something outside it) and the noise (as
 /// declared or not). Means and noise have the prior of PosteriorLimits, over effects that the test
 /// could see: their sizes are known to orders of magnitude (size_prior.hpp), of which those count
-/// that would be VisibleLimits::size strong; settings share a term's prior, the price of a noise
-/// that was estimated is Schwarz's, half the log of the number of rows for each of its numbers.
+/// that would be VisibleLimits::size strong; settings share a term's prior, a noise that was
+/// estimated has the prior of inference::NoisePrior.
 struct Posterior {
   /// Nothing missing that the test could see (VisibleLimits::size), noise as declared.
   double consistent = 1.0;

@@ -111,10 +111,8 @@ Refit refit(const Fitted& nominal, const MeasuredTest& test, const std::vector<C
   out.filter = filter;
   out.after = examine(filter, test, fit, kinds);
   // A second effect may hide in the noise.
-  if (const auto noise =
-          settle_noise(out.after, thresholds.library_threshold, EffortLimits::noise_tries_beside,
-                       EffortLimits::noise_rounds_beside))
-    out.after = with_noise(std::move(out.after), test.timeline, *noise);
+  if (const auto settled = settle_noise(out.after, EffortLimits::noise_tries_beside))
+    out.after = with_noise(std::move(out.after), test.timeline, settled->noise);
   out.sign_agrees = signs_agree(expected, fit);
   out.nameable = !expected.lambda_among_them || is_another_equation(nominal.filter.coupling, fit);
   out.remainder = left_by(out.after, nominal.set, choices);

@@ -2,132 +2,226 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <set>
 
-#include "analysis/inference/evidence.hpp"
-#include "analysis/inference/noise/noise_doubt.hpp"
-#include "analysis/inference/thresholds.hpp"
+#include "analysis/search/library_prior.hpp"
+#include "analysis/search/size_prior.hpp"
 
 namespace drift::search {
 namespace {
 
-using inference::NoiseDoubtLimits;
+using inference::EffortLimits;
+using inference::NoiseEstimate;
+using inference::PosteriorLimits;
 
-/// log det (1 + C) of some columns under a noise: what a unit prior on their amplitudes costs twice
-/// the log of the marginal likelihood against its maximum.
-double price(const inference::LinearProblem& problem, const inference::NoiseModel& noise,
-             const std::vector<int>& columns) {
-  const auto log_det = [&](const inference::LinearProblem& p) {
-    return inference::marginal_of(p, noise).log_det;
-  };
-  return log_det(problem.with_mean(columns)) - log_det(problem);
-}
+constexpr double least = -std::numeric_limits<double>::infinity();
 
-/// A noise with what drives the platform made smaller.
-inference::NoiseModel weaker(inference::NoiseModel m, double factor) {
-  for (double* s : {&m.angle_random_walk, &m.drift_random_walk, &m.markov_drift, &m.acc_markov})
-    *s *= factor;
-  return m;
-}
-
-struct Try {
-  std::size_t candidate = 0, variant = 0;
-  double ratio = 0.0, strength = 0.0;
+/// Candidates in the mean and a noise.
+struct Model {
+  Explanation in;
+  NoiseEstimate noise;
+  double log_weight = least;  ///< prior times evidence
 };
 
-/// Candidates by their likelihood ratio against `reference`, best over several noises.
-std::vector<Try> tries_under(const Fitted& e, const std::vector<inference::NoiseModel>& views,
-                             double reference, const std::vector<int>& in_mean) {
-  std::vector<Try> tries(e.set.candidates.size());
-  for (const inference::NoiseModel& view : views) {
-    const inference::Evidence seen = inference::evidence_under(e.problem, e.set, view, in_mean);
-    for (std::size_t k = 0; k < tries.size(); ++k) {
-      const double ratio = seen.log_likelihood2 + seen.gains[k].ratio - reference;
-      if (seen.gains[k].ratio > 0.0 && ratio > tries[k].ratio)
-        tries[k] = {k, seen.gains[k].variant, ratio, stats::strength(ratio, seen.gains[k].dof)};
+/// Change of the log evidence where amplitudes, in the mean with unit priors, are of unknown size.
+double gain_of_sizes_in(const Fitted& e, const Explanation& in, const NoiseEstimate& noise) {
+  if (in.empty()) return 0.0;
+  const inference::LinearProblem with = e.problem.with_mean(distinct_columns_of(e.set, in)).bare();
+  const inference::Projector::Fit fit = inference::Projector(with, noise.model).fit();
+  const Eigen::Index first = e.problem.theta.cols(), n = with.theta.cols() - first;
+  std::vector<int> cause;
+  for (const int column : distinct_columns_of(e.set, in)) {
+    const auto has = [&](const Choice& c) {
+      const auto& own = e.set.candidates[c.candidate].variants[c.variant].columns;
+      return std::ranges::find(own, column) != own.end();
+    };
+    cause.push_back(static_cast<int>(std::ranges::find_if(in, has) - in.begin()));
+  }
+  return log_gain_of_sizes(fit.x.tail(n), fit.covariance.bottomRightCorner(n, n), cause);
+}
+
+class NoiseOrEffects {
+ public:
+  NoiseOrEffects(const Fitted& e, std::size_t tries)
+      : e_(e), tries_(tries), declared_(declared_noise(e.filter)), prior_(e.set) {}
+
+  /// Of what is in the mean: prior, and settings that were tried.
+  double log_prior(const Explanation& in) const {
+    if (in.empty()) return std::log(PosteriorLimits::nothing);
+    double sum = std::log(PosteriorLimits::library) + prior_.log_of(in);
+    for (const Choice& c : in) sum += log_share(c);
+    return sum;
+  }
+
+  Model weighed(Explanation in, NoiseEstimate noise) {
+    Model m{std::move(in), std::move(noise), least};
+    m.log_weight = log_prior(m.in) + gain_of_sizes_in(e_, m.in, m.noise) + m.noise.log_evidence();
+    if (!m.in.empty()) remember(m);
+    return m;
+  }
+  std::vector<int> columns(const Explanation& in) const { return distinct_columns_of(e_.set, in); }
+  Model white(Explanation in) {
+    NoiseEstimate noise = inference::estimate_noise(e_.problem, declared_, columns(in), 0);
+    return weighed(std::move(in), std::move(noise));
+  }
+  /// With the noise that the nominal model needs, or what is left of it.
+  Model driven(Explanation in) {
+    NoiseEstimate noise =
+        inference::estimate_noise_from(e_.problem, declared_, e_.noise.model, columns(in));
+    return weighed(std::move(in), std::move(noise));
+  }
+
+  /// White noise with candidates added one after the other as long as that gains.
+  Model from_white() {
+    Model now = white({});
+    while (now.in.size() < EffortLimits::together) {
+      std::optional<Model> best = best_of(additions(now), &NoiseOrEffects::white);
+      if (!best || best->log_weight <= now.log_weight) break;
+      now = std::move(*best);
     }
+    return driven(now.in);
   }
-  std::erase_if(tries, [&](const Try& t) {
-    if (t.ratio <= 0.0) return true;
-    const auto& columns = e.set.candidates[t.candidate].variants[t.variant].columns;
-    return std::find(in_mean.begin(), in_mean.end(), columns.front()) != in_mean.end();
-  });
-  std::stable_sort(tries.begin(), tries.end(),
-                   [](const Try& a, const Try& b) { return a.strength > b.strength; });
-  // The same signature under several names is worth one try.
-  std::vector<Try> kept;
-  for (const Try& t : tries)
-    if (std::none_of(kept.begin(), kept.end(),
-                     [&](const Try& k) { return std::abs(k.ratio - t.ratio) < 1e-6 * t.ratio; }))
-      kept.push_back(t);
-  return kept;
-}
 
-/// The noise with the candidate in the mean that gains most over `now`.
-struct Settled {
-  inference::NoiseEstimate noise;
-  std::vector<int> in_mean;
-  double strength = 0.0;
+  /// One candidate added, dropped or swapped at a time as long as that gains.
+  Model climbed(Model now) {
+    for (std::size_t step = 0; step < EffortLimits::together; ++step) {
+      std::vector<Explanation> more;
+      if (now.in.size() < EffortLimits::together) more = additions(now);
+      for (std::size_t k = 0; k < now.in.size(); ++k) {
+        Explanation fewer = now.in;
+        fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(k));
+        if (!fewer.empty()) more.push_back(fewer);
+        // Driven noise would hide what it stands for.
+        for (Explanation& swapped : additions(white(fewer))) more.push_back(std::move(swapped));
+      }
+      std::erase_if(more, [&](const Explanation& x) { return same(x, now.in); });
+      std::optional<Model> best = best_of(more, &NoiseOrEffects::driven);
+      if (!best || best->log_weight <= now.log_weight) break;
+      now = std::move(*best);
+    }
+    return now;
+  }
+
+  /// Log of the sum of the weights of all models with candidates that were met.
+  double log_sum_of_effects() const {
+    if (met_.empty()) return least;
+    double top = least, sum = 0.0;
+    for (const auto& [in, log_weight] : met_) top = std::max(top, log_weight);
+    for (const auto& [in, log_weight] : met_) sum += std::exp(log_weight - top);
+    return top + std::log(sum);
+  }
+
+ private:
+  /// A model counts once, with the better of its noises.
+  void remember(const Model& m) {
+    const auto at =
+        std::ranges::find_if(met_, [&](const auto& other) { return same(other.first, m.in); });
+    if (at == met_.end())
+      met_.emplace_back(m.in, m.log_weight);
+    else
+      at->second = std::max(at->second, m.log_weight);
+  }
+
+  double log_share(const Choice& c) const {
+    const auto& variants = e_.set.candidates[c.candidate].variants;
+    double whole = 0.0;
+    for (const inference::Variant& v : variants) whole += v.share;
+    return std::log(variants[c.variant].share / whole);
+  }
+
+  static bool same(const Explanation& a, const Explanation& b) {
+    return a.size() == b.size() && std::ranges::all_of(a, [&](const Choice& x) {
+             return std::ranges::any_of(b, [&](const Choice& y) {
+               return x.candidate == y.candidate && x.variant == y.variant;
+             });
+           });
+  }
+
+  /// With the candidate, each at its best setting, that gains most by the linearised test under the
+  /// noise of a model, and the next best.
+  std::vector<Explanation> additions(const Model& m) const {
+    struct Try {
+      Choice choice;
+      double gain;
+    };
+    const inference::Projector projector(e_.problem.with_mean(distinct_columns_of(e_.set, m.in)),
+                                         m.noise.model);
+    std::vector<Try> all;
+    for (std::size_t k = 0; k < e_.set.candidates.size(); ++k) {
+      const inference::Candidate& c = e_.set.candidates[k];
+      if (of_a_chosen_family(e_.set, m.in, c) || c.term == closure_term) continue;
+      Try best{{k, 0}, least};
+      for (std::size_t v = 0; v < c.variants.size(); ++v) {
+        const inference::Projected p = projector.candidates(c.variants[v].columns);
+        const double gain =
+            log_evidence_of_sizes(p.C, p.g) + prior_.log_of({{k, v}}) + log_share({k, v});
+        if (gain > best.gain) best = {{k, v}, gain};
+      }
+      all.push_back(best);
+    }
+    std::ranges::stable_sort(all, std::greater{}, &Try::gain);
+    std::vector<Explanation> out;
+    std::set<std::pair<std::string, std::string>> seen;  // one of each name
+    for (const Try& t : all) {
+      const inference::Candidate& c = e_.set.candidates[t.choice.candidate];
+      if (out.size() == tries_ || !std::isfinite(t.gain)) break;
+      if (!seen.insert({c.term, c.axis}).second) continue;
+      out.push_back(m.in);
+      out.back().push_back(t.choice);
+    }
+    return out;
+  }
+
+  std::optional<Model> best_of(const std::vector<Explanation>& all,
+                               Model (NoiseOrEffects::*make)(Explanation)) {
+    std::optional<Model> best;
+    for (const Explanation& in : all)
+      if (Model m = (this->*make)(in); !best || m.log_weight > best->log_weight)
+        best = std::move(m);
+    return best;
+  }
+
+  const Fitted& e_;
+  std::size_t tries_;
+  inference::NoiseModel declared_;
+  LibraryPrior prior_;
+  std::vector<std::pair<Explanation, double>> met_;
 };
-
-Settled best_of(const Fitted& e, const std::vector<Try>& tries, const std::vector<int>& in_mean,
-                double now) {
-  Settled best;
-  const inference::NoiseModel declared = declared_noise(e.filter);
-  for (const Try& t : tries) {
-    const auto& columns = e.set.candidates[t.candidate].variants[t.variant].columns;
-    std::vector<int> mean = in_mean;
-    mean.insert(mean.end(), columns.begin(), columns.end());
-    inference::NoiseEstimate with = inference::estimate_noise(e.problem, declared, mean);
-    const double ratio = with.log_likelihood2 - now + price(e.problem, with.model, columns);
-    const double s = stats::strength(ratio, static_cast<int>(columns.size()));
-    if (s > best.strength) best = {std::move(with), std::move(mean), s};
-  }
-  return best;
-}
 
 /// The white noise that is left beside an input in one equation; the input itself is no noise and
 /// is left to be explained.
-inference::NoiseEstimate beside(const Fitted& e, const inference::NoiseModel& white,
-                                const inference::LoneInput& input,
-                                const std::vector<int>& in_mean) {
-  inference::NoiseModel with_lone = white;
-  with_lone.lone = input;
-  inference::NoiseEstimate left = inference::estimate_noise(e.problem, with_lone, in_mean, 0);
+NoiseEstimate beside(const Fitted& e, const inference::LoneInput& input) {
+  inference::NoiseModel with_input = declared_noise(e.filter);
+  with_input.lone = input;
+  NoiseEstimate left = inference::estimate_noise(e.problem, with_input, {}, 0);
   left.model.lone = {};
   return left;
 }
 
 }  // namespace
 
-std::optional<inference::NoiseEstimate> settle_noise(const Fitted& e, double threshold,
-                                                     std::size_t most_tries, int rounds) {
-  const inference::NoiseModel declared = declared_noise(e.filter);
-  std::optional<inference::NoiseEstimate> other;
-  std::vector<int> in_mean;
-  for (int round = 0; round < rounds; ++round) {
-    const inference::NoiseEstimate& now = other ? *other : e.noise;
-    if (!now.driven) break;
-    const inference::NoiseEstimate white =
-        inference::estimate_noise(e.problem, declared, in_mean, 0);
-    const inference::LoneEffect lone =
-        inference::strongest_lone_input(e.problem, white.model, in_mean);
-    const inference::NoiseDoubt d =
-        inference::doubt(e.problem, e.set, white.model, now.model, lone, in_mean);
-    if (d.p_lone <= NoiseDoubtLimits::lone_p &&
-        white.log_likelihood2 + lone.gain > now.log_likelihood2)
-      return beside(e, white.model, lone.input, in_mean);
-    const bool no_such_noise = d.p_candidate <= NoiseDoubtLimits::candidate_p;
-    std::vector<inference::NoiseModel> views{white.model};
-    if (!no_such_noise) views.insert(views.end(), {weaker(now.model, 0.3), now.model});
-    std::vector<Try> tries =
-        tries_under(e, views, no_such_noise ? white.log_likelihood2 : now.log_likelihood2, in_mean);
-    if (tries.size() > most_tries) tries.resize(most_tries);
-    Settled best = best_of(e, tries, in_mean, now.log_likelihood2);
-    if (best.strength < (no_such_noise ? NoiseDoubtLimits::worth : threshold)) break;
-    other = std::move(best.noise);
-    in_mean = std::move(best.in_mean);
-  }
-  return other;
+std::optional<NoiseSettled> settle_noise(const Fitted& e, std::size_t tries) {
+  if (!e.noise.driven) return std::nullopt;
+  NoiseOrEffects models(e, tries);
+  const Model alone{{}, e.noise, models.log_prior({}) + e.noise.log_evidence()};
+  Model best = models.from_white();
+  for (const Model& begin : {best, alone})
+    if (Model m = models.climbed(begin);
+        !m.in.empty() && (best.in.empty() || m.log_weight > best.log_weight))
+      best = std::move(m);
+  const Model white = models.white({});
+  const inference::LoneEffect lone = inference::strongest_lone_input(e.problem, white.noise.model);
+  const double of_input = white.log_weight + log_free_form(lone, e.problem) +
+                          std::log(PosteriorLimits::outside) - std::log(PosteriorLimits::nothing);
+  const double of_effects = models.log_sum_of_effects();
+  const double top = std::max({alone.log_weight, of_effects, of_input});
+  const double noise = std::exp(alone.log_weight - top), effects = std::exp(of_effects - top),
+               input = std::exp(of_input - top), p = noise / (noise + effects + input);
+  if (p > inference::SearchLimits::credible) return std::nullopt;
+  if (input > effects) return NoiseSettled{beside(e, lone.input), 1.0 - p};
+  if (best.in.empty()) return std::nullopt;
+  return NoiseSettled{std::move(best.noise), 1.0 - p};
 }
 
 }  // namespace drift::search

@@ -7,17 +7,23 @@
 
 namespace drift::search {
 
-/// Where noise that drives the platform seemed necessary, an effect may have been taken for it. Two
-/// things speak against noise, and then it is estimated again without what was no noise:
-/// - an input in one equation alone does better than such noise would let it (noise_doubt.hpp):
-///   what is noise, all three instruments have;
-/// - a candidate in the mean does, or it is significant by the likelihood ratio with the noise at
-///   its best in both. All candidates are asked under several noises, the best `tries` of them with
-///   the noise estimated anew.
-/// threshold: strength that makes a candidate significant. rounds: candidates that may be in the
-/// mean together. Returns the noise to put in the place of e.noise; nothing if that is believed.
-std::optional<inference::NoiseEstimate> settle_noise(
-    const Fitted& e, double threshold, std::size_t tries = inference::EffortLimits::noise_tries,
-    int rounds = inference::EffortLimits::noise_rounds);
+/// What takes the place of noise that drives the platform.
+struct NoiseSettled {
+  inference::NoiseEstimate noise;  ///< what is left of it
+  double probability = 0.0;        ///< that it is not such noise alone
+};
+
+/// Where noise that drives the platform seemed necessary, effects may have been taken for it. Both
+/// are models of one test and compete by their evidence: candidates in the mean (sizes and settings
+/// integrated over, as the library offers them), noise of any kind beside them (NoiseEstimate::
+/// log_evidence), an input of free form in one equation. Models are searched from two beginnings -
+/// nothing in the mean and all noise that is needed, and white noise with candidates added one
+/// after the other - by adding, dropping and swapping one candidate as long as that gains; the
+/// noise is estimated anew in each.
+/// Returns what to put in the place of e.noise, or nothing if what is in its place is not credible:
+/// the noise alone has SearchLimits::credible of the probability. tries: candidates fitted at each
+/// step.
+std::optional<NoiseSettled> settle_noise(const Fitted& e,
+                                         std::size_t tries = inference::EffortLimits::noise_tries);
 
 }  // namespace drift::search

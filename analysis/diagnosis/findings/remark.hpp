@@ -29,6 +29,10 @@ struct LambdaNotSettled {};
 struct MemberNotConfirmed {};
 /// The cause fits, and held-out positions are predicted no better with it.
 struct NotPredicted {};
+/// Noise that is not as declared would explain it too, with so much probability.
+struct OrNoise {
+  double probability;
+};
 /// With the cause in the model the innovations are not white; p by chance, without it and with it.
 struct LeftNotWhite {
   double before = 1.0, after = 1.0;
@@ -96,11 +100,11 @@ struct NotObservable {
 
 using Remark =
     std::variant<remark::Input, remark::JustSignificantLeft, remark::LambdaNotSettled,
-                 remark::MemberNotConfirmed, remark::NotPredicted, remark::SamplesLeftOut,
-                 remark::FreeInputExplains, remark::LeftNotWhite, remark::CrosstalkMovesLambda,
-                 remark::DrivesOneGyro, remark::StrongestLeft, remark::BeyondPrior,
-                 remark::OtherEquation, remark::FieldAssumed, remark::NoiseOrEffect,
-                 remark::NoAdvice, remark::NoDeclaredNoise, remark::CommonDriftUnseen,
-                 remark::NotObservable>;
+                 remark::MemberNotConfirmed, remark::NotPredicted, remark::OrNoise,
+                 remark::SamplesLeftOut, remark::FreeInputExplains, remark::LeftNotWhite,
+                 remark::CrosstalkMovesLambda, remark::DrivesOneGyro, remark::StrongestLeft,
+                 remark::BeyondPrior, remark::OtherEquation, remark::FieldAssumed,
+                 remark::NoiseOrEffect, remark::NoAdvice, remark::NoDeclaredNoise,
+                 remark::CommonDriftUnseen, remark::NotObservable>;
 
 }  // namespace drift::diagnosis

@@ -38,6 +38,10 @@ NoiseEstimate noise_of_differences(const MeasuredRows& rows, const VecX& residua
         white_finding(kind == 0 ? "accelerometer_white" : "gimbal_white", factor,
                       1.0 / std::sqrt(2.0 * 0.37 * 0.5 * static_cast<double>(s.size())), s.size()));
   }
+  // Not at a maximum of the likelihood: Schwarz's price.
+  out.log_price = NoisePrior::log_not_as_declared() -
+                  0.5 * std::log(std::max<double>(1.0, static_cast<double>(rows.rows()))) *
+                      static_cast<double>(out.findings.size());
   return out;
 }
 

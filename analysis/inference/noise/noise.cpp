@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 
 #include "analysis/inference/noise/noise_component.hpp"
@@ -10,6 +11,7 @@
 #include "analysis/inference/noise/sigma_ladder.hpp"
 #include "analysis/inference/projector.hpp"
 #include "analysis/inference/thresholds.hpp"
+#include "core/base/decompose.hpp"
 #include "core/stats/chi_square.hpp"
 #include "mc/task/campaign.hpp"
 
@@ -27,7 +29,15 @@ struct Mixture {
   NoiseModel model;
   std::vector<Active> active;
   double log_likelihood2 = 0.0;
-  MatX log_sigma_covariance;  ///< of the active components
+  MatX covariance;  ///< of the logs of the active components' sigmas, then of their time constants
+
+  /// Components with a time constant, in order.
+  std::vector<std::size_t> timed() const {
+    std::vector<std::size_t> all;
+    for (std::size_t k = 0; k < active.size(); ++k)
+      if (active[k].component->tau) all.push_back(k);
+    return all;
+  }
 };
 
 double log_likelihood2(const LinearProblem& bare, const NoiseModel& m) {
@@ -35,29 +45,69 @@ double log_likelihood2(const LinearProblem& bare, const NoiseModel& m) {
   return std::isfinite(v) ? v : -std::numeric_limits<double>::infinity();
 }
 
-NoiseModel at(const Mixture& m, const VecX& log_sigma) {
+NoiseModel at(const Mixture& m, const VecX& logs) {
   NoiseModel model = m.model;
-  for (std::size_t k = 0; k < m.active.size(); ++k)
-    model.*(m.active[k].component->sigma) = std::exp(log_sigma[static_cast<Eigen::Index>(k)]);
+  Eigen::Index next = 0;
+  for (const Active& a : m.active) model.*(a.component->sigma) = std::exp(logs[next++]);
+  for (const std::size_t k : m.timed())
+    model.*(m.active[k].component->tau) = std::exp(logs[next++]);
   return model;
 }
 
-/// The best sigmas of the active components, from where they are.
+/// Log prior of the time constants: log-normal, less its constant.
+double log_prior_of_times(const Mixture& m, const NoiseModel& model) {
+  double sum = 0.0;
+  for (const std::size_t k : m.timed()) {
+    const NoiseComponent& c = *m.active[k].component;
+    sum -= 0.5 * std::pow(c.time.z(model.*(c.tau)), 2);
+  }
+  return sum;
+}
+
+/// The best sigmas and time constants of the active components, from where they are. A time
+/// constant far outside the test is a random walk by another name: its prior holds it.
 Mixture fitted(const LinearProblem& bare, Mixture m) {
   const RowCounts rows(bare);
-  const auto n = static_cast<Eigen::Index>(m.active.size());
-  VecX log_sigma(n), curvature(n);
-  for (Eigen::Index k = 0; k < n; ++k) {
+  const std::vector<std::size_t> timed = m.timed();
+  const auto sigmas = static_cast<Eigen::Index>(m.active.size());
+  const Eigen::Index n = sigmas + static_cast<Eigen::Index>(timed.size());
+  VecX logs(n), curvature = VecX::Constant(n, 30.0);
+  for (Eigen::Index k = 0; k < sigmas; ++k) {
     const NoiseComponent& c = *m.active[static_cast<std::size_t>(k)].component;
-    log_sigma[k] = std::log(m.model.*(c.sigma));
-    curvature[k] = c.white() ? 2.0 * static_cast<double>(rows.of(c)) : 30.0;
+    logs[k] = std::log(m.model.*(c.sigma));
+    if (c.white()) curvature[k] = 2.0 * static_cast<double>(rows.of(c));
   }
-  const Maximum top = maximise([&](const VecX& x) { return 0.5 * log_likelihood2(bare, at(m, x)); },
-                               log_sigma, curvature);
+  for (std::size_t k = 0; k < timed.size(); ++k)
+    logs[sigmas + static_cast<Eigen::Index>(k)] =
+        std::log(m.model.*(m.active[timed[k]].component->tau));
+  const Maximum top = maximise(
+      [&](const VecX& x) {
+        const NoiseModel model = at(m, x);
+        return 0.5 * log_likelihood2(bare, model) + log_prior_of_times(m, model);
+      },
+      logs, curvature);
   m.model = at(m, top.x);
-  m.log_likelihood2 = 2.0 * top.value;
-  m.log_sigma_covariance = top.inverse_curvature;
+  m.log_likelihood2 = 2.0 * (top.value - log_prior_of_times(m, m.model));
+  m.covariance = top.inverse_curvature;
   return m;
+}
+
+/// NoiseEstimate::log_price of sigmas and time constants alone.
+double log_price(const Mixture& m, const NoiseModel& declared, double acc_sigma) {
+  constexpr double half_log_2pi = 0.9189385332046727;
+  const auto n = static_cast<double>(m.covariance.rows());
+  double sum = n * half_log_2pi + Cholesky(m.covariance).L().diagonal().array().log().sum() +
+               log_prior_of_times(m, m.model);
+  for (const Active& a : m.active) {
+    const NoiseComponent& c = *a.component;
+    const double unit = &c == &acc_markov ? acc_sigma : 1.0, was = declared.*(c.sigma);
+    // What is declared is so within a factor of two.
+    const Usual usual = was > 0.0 ? Usual{0.5 * was, 2.0 * was} : c.size;
+    sum += NoisePrior::log_density(usual.z(m.model.*(c.sigma) / (was > 0.0 ? 1.0 : unit))) -
+           std::log(usual.spread());
+    if (c.tau) sum -= half_log_2pi + std::log(c.time.spread());
+  }
+  return sum;
 }
 
 /// White noise and whatever is declared.
@@ -78,8 +128,17 @@ NoiseModel with(const NoiseModel& model, const Addition& a, double sigma) {
   return more;
 }
 
-/// With the component that gains most, all sigmas at their best; none if that is not enough.
-std::optional<Mixture> with_one_more(const LinearProblem& bare, const Mixture& m) {
+/// Log evidence of a mixture, its constants left out.
+double log_evidence(const Mixture& m, const NoiseModel& declared, double acc_sigma) {
+  return 0.5 * m.log_likelihood2 + log_price(m, declared, acc_sigma);
+}
+
+/// With the component that gains most, all sigmas at their best; none if that is not enough. The
+/// rungs of the ladder are far apart: each component is fitted from its best one, and the one of
+/// best evidence is taken. (A Markov process of a time constant as short as a sample is an angle
+/// random walk, and the prior of time constants says so.)
+std::optional<Mixture> with_one_more(const LinearProblem& bare, const Mixture& m,
+                                     const NoiseModel& declared) {
   constexpr int rungs = 8;
   constexpr double drop = 3.0;
   const std::vector<Addition> additions = possible_additions(m.model, RowCounts(bare));
@@ -88,17 +147,28 @@ std::optional<Mixture> with_one_more(const LinearProblem& bare, const Mixture& m
       return log_likelihood2(bare, with(m.model, additions[k], sigma)) - m.log_likelihood2;
     });
   });
-  const auto top = std::ranges::max_element(tried, {}, &Rung::gain);
-  // On the ladder's rungs: what is close to enough is worth the ascent.
-  if (top == tried.end() || top->gain < 0.5 * NoiseLimits::component) return std::nullopt;
-  const Addition& addition = additions[static_cast<std::size_t>(top - tried.begin())];
-  Mixture more = m;
-  more.model = with(m.model, addition, top->sigma);
-  more.active.push_back({addition.component});
-  more = fitted(bare, std::move(more));
-  more.active.back().gain = more.log_likelihood2 - m.log_likelihood2;
-  if (more.active.back().gain < NoiseLimits::component) return std::nullopt;
-  return more;
+  std::vector<std::size_t> order(tried.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, std::greater{}, [&](std::size_t k) { return tried[k].gain; });
+  std::optional<Mixture> best;
+  std::vector<const NoiseComponent*> fitted_already;
+  for (const std::size_t k : order) {
+    const NoiseComponent* c = additions[k].component;
+    // On the ladder's rungs: what is close to enough is worth the ascent.
+    if (tried[k].gain < 0.5 * NoiseLimits::component) break;
+    if (std::ranges::find(fitted_already, c) != fitted_already.end()) continue;
+    fitted_already.push_back(c);
+    Mixture more = m;
+    more.model = with(m.model, additions[k], tried[k].sigma);
+    more.active.push_back({c});
+    more = fitted(bare, std::move(more));
+    more.active.back().gain = more.log_likelihood2 - m.log_likelihood2;
+    if (more.active.back().gain < NoiseLimits::component) continue;
+    if (!best || log_evidence(more, declared, bare.acc_sigma) >
+                     log_evidence(*best, declared, bare.acc_sigma))
+      best = std::move(more);
+  }
+  return best;
 }
 
 /// A component that drives the platform: p by its gain, or against what was declared.
@@ -119,7 +189,7 @@ NoiseFinding driving_finding(const Mixture& m, std::size_t k, const NoiseModel& 
   }
   if (was > 0.0) {
     const auto i = static_cast<Eigen::Index>(k);
-    const double log_sigma = std::sqrt(m.log_sigma_covariance(i, i));
+    const double log_sigma = std::sqrt(m.covariance(i, i));
     f.factor = sigma / was;
     f.factor_sigma = f.factor * log_sigma;
     const double z = std::log(f.factor) / log_sigma;
@@ -142,20 +212,61 @@ std::vector<NoiseFinding> findings_of(const Mixture& m, const NoiseModel& declar
   return all;
 }
 
+NoiseEstimate as_estimate(const Mixture& m, const NoiseModel& declared, const LinearProblem& bare) {
+  bool driven = false;
+  for (const Active& a : m.active)
+    driven = driven || (!a.component->white() && !a.component->in(declared));
+  return {m.model, findings_of(m, declared, RowCounts(bare)), m.log_likelihood2, driven,
+          NoisePrior::log_not_as_declared() + log_price(m, declared, bare.acc_sigma)};
+}
+
+/// Without one of its components.
+Mixture without(const LinearProblem& bare, Mixture m, std::size_t k) {
+  m.model.*(m.active[k].component->sigma) = 0.0;
+  m.active.erase(m.active.begin() + static_cast<std::ptrdiff_t>(k));
+  return fitted(bare, std::move(m));
+}
+
 }  // namespace
 
 NoiseEstimate estimate_noise(const LinearProblem& problem, const NoiseModel& declared,
                              const std::vector<int>& in_mean, int most_added) {
   const LinearProblem bare = problem.with_mean(in_mean).bare();
   Mixture m = declared_mixture(bare, declared);
-  bool driven = false;
   for (int added = 0; added < most_added; ++added) {
-    std::optional<Mixture> more = with_one_more(bare, m);
+    std::optional<Mixture> more = with_one_more(bare, m, declared);
     if (!more) break;
     m = std::move(*more);
-    driven = true;
   }
-  return {m.model, findings_of(m, declared, RowCounts(bare)), m.log_likelihood2, driven};
+  return as_estimate(m, declared, bare);
+}
+
+NoiseEstimate estimate_noise_from(const LinearProblem& problem, const NoiseModel& declared,
+                                  const NoiseModel& start, const std::vector<int>& in_mean) {
+  const LinearProblem bare = problem.with_mean(in_mean).bare();
+  const RowCounts rows(bare);
+  Mixture m{start, {}, 0.0, {}};
+  for (const NoiseComponent* white : {&acc_white, &gimbal_white})
+    if (rows.of(*white) > 0) m.active.push_back({white});
+  for (const NoiseComponent* c : {&angle_walk, &drift_walk, &markov_drift, &acc_markov})
+    if (c->in(start)) m.active.push_back({c});
+  m = fitted(bare, std::move(m));
+  for (std::size_t k = 0; k < m.active.size();) {
+    const NoiseComponent& c = *m.active[k].component;
+    if (c.white() || c.in(declared)) {
+      ++k;
+      continue;
+    }
+    Mixture fewer = without(bare, m, k);
+    if (log_evidence(fewer, declared, bare.acc_sigma) >=
+        log_evidence(m, declared, bare.acc_sigma)) {
+      m = std::move(fewer);
+      k = 0;
+    } else {
+      m.active[k++].gain = m.log_likelihood2 - fewer.log_likelihood2;
+    }
+  }
+  return as_estimate(m, declared, bare);
 }
 
 }  // namespace drift::inference

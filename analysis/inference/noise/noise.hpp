@@ -15,18 +15,27 @@ struct NoiseEstimate {
   std::vector<NoiseFinding> findings;
   double log_likelihood2 = 0.0;  ///< twice the restricted log likelihood, without constants
   bool driven = false;           ///< a component besides white noise was needed
+  /// What must be added to half of that for the log evidence of this noise: its sigmas and time
+  /// constants are known to their usual sizes only (Laplace's method). With the prior of which
+  /// components there are (NoisePrior).
+  double log_price = 0.0;
+  double log_evidence() const { return 0.5 * log_likelihood2 + log_price; }
 };
 
 /// Variance components by restricted maximum likelihood (parameters and attitudes marginalised with
 /// their priors): white noise of accelerometers and gimbals always; angle random walk, drift random
-/// walk, Markov drift and correlated accelerometer noise (time constants on a grid) are added one
-/// by one while twice the log likelihood grows by more than 2.7 (the 5 % point of a variance on its
-/// boundary). Logs of the sigmas are found by a quasi-Newton ascent. `with`: candidate columns that
-/// are in the mean (unit priors), so that a real effect is not taken for noise.
-/// Source: Patterson and Thompson 1971; discovery.md 2.1, 4.6.
-/// most_added: components beside white noise and what is declared.
+/// walk, Markov drift and correlated accelerometer noise (time constants first on a grid) are added
+/// one by one while twice the log likelihood grows by more than 2.7 (the 5 % point of a variance on
+/// its boundary). Logs of the sigmas are found by a quasi-Newton ascent. `with`: candidate columns
+/// that are in the mean (unit priors), so that a real effect is not taken for noise. Source:
+/// Patterson and Thompson 1971; discovery.md 2.1, 4.6. most_added: components beside white noise
+/// and what is declared.
 NoiseEstimate estimate_noise(const LinearProblem& problem, const NoiseModel& declared,
                              const std::vector<int>& with = {},
                              int most_added = NoiseLimits::most_components);
+/// The same with the components of `start`, from their sizes there; those that the evidence is
+/// better without are dropped.
+NoiseEstimate estimate_noise_from(const LinearProblem& problem, const NoiseModel& declared,
+                                  const NoiseModel& start, const std::vector<int>& with);
 
 }  // namespace drift::inference

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "analysis/inference/linear_problem.hpp"
@@ -8,6 +9,15 @@
 
 namespace drift::inference {
 
+/// Where something usually is: a sigma to either side of the middle, in the logarithm.
+struct Usual {
+  double low, high;
+  double middle() const { return 0.5 * std::log(low * high); }
+  double spread() const { return 0.5 * std::log(high / low); }
+  /// Distance of a value from the middle, in spreads.
+  double z(double value) const { return (std::log(value) - middle()) / spread(); }
+};
+
 /// One standard deviation of the noise model.
 struct NoiseComponent {
   const char* name;  ///< of NoiseFinding
@@ -15,6 +25,10 @@ struct NoiseComponent {
   double NoiseModel::*tau;  ///< null if it has none
   double reference;         ///< a size at which it may begin to matter, SI
   Unit unit;
+  /// Sizes that instruments usually have (physics.md 4, effects 8, 9 and 11), SI; of correlated
+  /// accelerometer noise in declared sigmas of a sample.
+  Usual size;
+  Usual time = {1.0, 1.0};  ///< of the time constant [s]
 
   bool white() const {
     return sigma == &NoiseModel::acc_factor || sigma == &NoiseModel::gimbal_factor;
@@ -22,21 +36,36 @@ struct NoiseComponent {
   bool in(const NoiseModel& m) const { return m.*sigma > 0.0; }
 };
 
-inline constexpr NoiseComponent acc_white{"accelerometer_white", &NoiseModel::acc_factor, nullptr,
-                                          1.0, unit::one};
+inline constexpr NoiseComponent acc_white{
+    "accelerometer_white", &NoiseModel::acc_factor, nullptr, 1.0, unit::one, {0.5, 2.0}};
 inline constexpr NoiseComponent gimbal_white{"gimbal_white", &NoiseModel::gimbal_factor, nullptr,
                                              1.0, unit::one};
-inline constexpr NoiseComponent angle_walk{"angle_random_walk", &NoiseModel::angle_random_walk,
-                                           nullptr, 1e-3 * unit::deg_per_sqrt_h.to_si,
-                                           unit::deg_per_sqrt_h};
-inline constexpr NoiseComponent drift_walk{"drift_random_walk", &NoiseModel::drift_random_walk,
-                                           nullptr, 3e-3 * unit::deg_per_h_per_sqrt_h.to_si,
-                                           unit::deg_per_h_per_sqrt_h};
-inline constexpr NoiseComponent markov_drift{"markov_drift", &NoiseModel::markov_drift,
-                                             &NoiseModel::markov_tau, 3e-3 * unit::deg_per_h.to_si,
-                                             unit::deg_per_h};
-inline constexpr NoiseComponent acc_markov{"accelerometer_markov", &NoiseModel::acc_markov,
-                                           &NoiseModel::acc_tau, 2e-6, unit::ug};
+inline constexpr NoiseComponent angle_walk{
+    "angle_random_walk",
+    &NoiseModel::angle_random_walk,
+    nullptr,
+    1e-3 * unit::deg_per_sqrt_h.to_si,
+    unit::deg_per_sqrt_h,
+    {3e-4 * unit::deg_per_sqrt_h.to_si, 3e-3 * unit::deg_per_sqrt_h.to_si}};
+inline constexpr NoiseComponent drift_walk{
+    "drift_random_walk",
+    &NoiseModel::drift_random_walk,
+    nullptr,
+    3e-3 * unit::deg_per_h_per_sqrt_h.to_si,
+    unit::deg_per_h_per_sqrt_h,
+    {1e-3 * unit::deg_per_h_per_sqrt_h.to_si, 5e-3 * unit::deg_per_h_per_sqrt_h.to_si}};
+inline constexpr NoiseComponent markov_drift{
+    "markov_drift",          &NoiseModel::markov_drift,
+    &NoiseModel::markov_tau, 3e-3 * unit::deg_per_h.to_si,
+    unit::deg_per_h,         {2e-3 * unit::deg_per_h.to_si, 1e-2 * unit::deg_per_h.to_si},
+    {600.0, 3600.0}};
+inline constexpr NoiseComponent acc_markov{"accelerometer_markov",
+                                           &NoiseModel::acc_markov,
+                                           &NoiseModel::acc_tau,
+                                           2e-6,
+                                           unit::ug,
+                                           {0.2, 1.2},
+                                           {150.0, 900.0}};
 
 /// Rows of the instruments.
 struct RowCounts {

@@ -26,6 +26,12 @@ struct Words {
 
   std::string operator()(const Input& r) const { return r.text; }
 
+  std::string operator()(const OrNoise& r) const {
+    return fmt::format(
+        "Noise that is not as declared would explain this too (probability {:.2g}): a repeated "
+        "recording tells an effect, which comes again, from noise, which does not.",
+        r.probability);
+  }
   std::string operator()(const JustSignificantLeft&) const {
     return "With it in the model something is left that is just significant: chance, or not the "
            "whole story. It is listed, not named.";

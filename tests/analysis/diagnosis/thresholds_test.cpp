@@ -93,18 +93,41 @@ TEST(Thresholds, TheNearestKnownExplainsATwentiethOfTheMisfit) {
   EXPECT_TRUE(known(1.94));
 }
 
+/// Of something significant, with a cause that fits or without; noise: probability that nothing is
+/// missing.
+Verdict verdict_of(double noise, bool cause, bool noise_competes, double member_gain = 2.0) {
+  search::Search found;
+  found.significant = true;
+  if (cause) found.sets.emplace_back();
+  if (noise_competes) found.noise_alone.emplace();
+  search::Posterior posterior;
+  posterior.consistent = 0.0;
+  posterior.noise_only = noise;
+  posterior.outside = 1.0 - noise;
+  HeldOut held_out;
+  held_out.folds.resize(6);
+  held_out.improves = true;
+  return judge({}, found, posterior, held_out, {2.0, member_gain}, NamedBy::held_out).verdict;
+}
+
 TEST(Thresholds, EachOfSeveralCausesMustBringOneOfLogScore) {
-  const auto verdict = [](double gain) {
-    search::Search found;
-    found.significant = true;
-    found.sets.emplace_back();
-    HeldOut held_out;
-    held_out.folds.resize(6);
-    held_out.improves = true;
-    return judge({}, found, held_out, {2.0, gain}, NamedBy::held_out).verdict;
-  };
-  EXPECT_EQ(verdict(0.99), Verdict::ambiguous);
-  EXPECT_EQ(verdict(1.01), Verdict::named);
+  EXPECT_EQ(verdict_of(0.0, true, false, 0.99), Verdict::ambiguous);
+  EXPECT_EQ(verdict_of(0.0, true, false, 1.01), Verdict::named);
+}
+
+TEST(Thresholds, WhatIsMoreProbablyChanceIsNoAlarm) {
+  EXPECT_EQ(verdict_of(0.49, false, false), Verdict::unexplained);
+  EXPECT_EQ(verdict_of(0.51, false, false), Verdict::consistent);
+  EXPECT_EQ(verdict_of(0.04, true, false), Verdict::named);
+  EXPECT_EQ(verdict_of(0.06, true, false), Verdict::ambiguous);
+  EXPECT_EQ(verdict_of(0.51, true, false), Verdict::consistent);
+}
+
+TEST(Thresholds, ACauseOrNoiseIsAmbiguousUnlessOneOfThemIsCredible) {
+  EXPECT_EQ(verdict_of(0.04, true, true), Verdict::named);
+  EXPECT_EQ(verdict_of(0.06, true, true), Verdict::ambiguous);
+  EXPECT_EQ(verdict_of(0.94, true, true), Verdict::ambiguous);
+  EXPECT_EQ(verdict_of(0.96, true, true), Verdict::consistent);
 }
 
 TEST(Thresholds, ASizeBeyondThreeSigmaOfItsPriorWidensIt) {

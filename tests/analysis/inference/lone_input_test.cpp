@@ -1,12 +1,13 @@
-#include "analysis/inference/noise/noise_doubt.hpp"
+#include "analysis/inference/noise/lone_input.hpp"
 
 #include <gtest/gtest.h>
 
-#include "analysis/inference/thresholds.hpp"
+#include "analysis/inference/evidence.hpp"
+#include "analysis/inference/projector.hpp"
 #include "analysis/search/fitted.hpp"
 #include "tests/support/model_builders.hpp"
 
-namespace drift::inference::noise_doubt_test {
+namespace drift::inference::lone_input_test {
 namespace {
 
 using namespace drift::test;
@@ -40,43 +41,6 @@ struct Bench {
     }
   }
 };
-
-struct Outcome {
-  NoiseDoubt doubt;
-  LoneEffect lone;
-  bool driven = false;
-};
-
-Outcome judged(const Bench& b) {
-  const NoiseEstimate driven = estimate_noise(b.problem, {}),
-                      white = estimate_noise(b.problem, {}, {}, 0);
-  const LoneEffect lone = strongest_lone_input(b.problem, white.model);
-  return {doubt(b.problem, b.set, white.model, driven.model, lone, {}), lone, driven.driven};
-}
-
-TEST(NoiseDoubt, AnEffectOfOneAxisIsNotBelievedToBeNoise) {
-  Bench b(25.0);
-  b.problem.r0 += b.problem.extra.col(1);
-  const Outcome o = judged(b);
-  ASSERT_TRUE(o.driven);  // it would be taken for noise
-  EXPECT_LE(o.doubt.p_candidate, 0.04);
-}
-
-TEST(NoiseDoubt, NoiseOfAllThreeGyrosIsBelieved) {
-  // p is uniform or larger under such noise: below 0.004 (one draw in 250) in one of a hundred of
-  // these tests, the seed is fixed.
-  Bench b(8.0);
-  NoiseModel noise;
-  noise.drift_random_walk = 0.03 * deg_per_h / 60.0;
-  Stream random(9, 0, Purpose::test);
-  VecX z(b.problem.rows());
-  for (double& v : z) v = random.normal();
-  b.problem.r0 = Whitener(b.problem, noise).colour(z);
-  const Outcome o = judged(b);
-  ASSERT_TRUE(o.driven);
-  EXPECT_GT(o.doubt.p_candidate, NoiseDoubtLimits::candidate_p);
-  EXPECT_GT(o.doubt.p_lone, NoiseDoubtLimits::lone_p);
-}
 
 TEST(LoneInput, IsFoundInItsEquation) {
   const Bench b(8.0);
@@ -116,4 +80,4 @@ TEST(Evidence, IsThatOfTheProjectorWithTheColumnInTheMean) {
 }
 
 }  // namespace
-}  // namespace drift::inference::noise_doubt_test
+}  // namespace drift::inference::lone_input_test

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cmath>
+#include <map>
+#include <string>
+
+#include "analysis/inference/noise/lone_input.hpp"
+#include "analysis/inference/thresholds.hpp"
+#include "analysis/search/choice.hpp"
+
+namespace drift::search {
+
+/// Prior of simultaneous causes among all that the library offers: every term alike, shared by the
+/// candidates it offers; each further cause one in twenty (WeighLimits::second_cause). counts:
+/// whether a candidate is offered at all.
+class LibraryPrior {
+ public:
+  template <class Counts>
+  LibraryPrior(const inference::CandidateSet& set, Counts&& counts) : set_(set) {
+    for (std::size_t k = 0; k < set.candidates.size(); ++k)
+      if (counts(k)) offers_[set.candidates[k].term] += 1.0;
+  }
+  explicit LibraryPrior(const inference::CandidateSet& set)
+      : LibraryPrior(set, [](std::size_t) { return true; }) {}
+
+  double log_of(const Explanation& choices) const {
+    double sum =
+        -std::log(std::max<double>(1.0, static_cast<double>(offers_.size()))) -
+        std::log(inference::WeighLimits::second_cause) * static_cast<double>(choices.size() - 1);
+    for (const Choice& c : choices)
+      if (const auto at = offers_.find(set_.candidates[c.candidate].term); at != offers_.end())
+        sum -= std::log(at->second);
+    return sum;
+  }
+
+ private:
+  const inference::CandidateSet& set_;
+  std::map<std::string, double> offers_;
+};
+
+/// Log evidence of something of free form in one equation against nothing beside the model: where
+/// it sits and how fast it varies is one of WeighLimits::forms, its size has Schwarz's price.
+inline double log_free_form(const inference::LoneEffect& lone,
+                            const inference::MeasuredRows& rows) {
+  return 0.5 * lone.gain - std::log(inference::WeighLimits::forms) -
+         0.5 * std::log(static_cast<double>(rows.rows()));
+}
+
+}  // namespace drift::search

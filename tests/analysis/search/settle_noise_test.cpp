@@ -1,0 +1,76 @@
+// An effect and noise that explain the same compete by evidence.
+#include "analysis/search/settle_noise.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/model_builders.hpp"
+
+namespace drift::search::settle_noise_test {
+namespace {
+
+using namespace drift::test;
+
+/// A test in six positions with a candidate per axis: a drift that grows with the square of time,
+/// signs by position, of 25 projected sigmas at one prior sigma.
+Fitted bench() {
+  static const Timeline timeline = preset_timeline("six", CommandLaw::free, 1800.0, 60.0);
+  const Readout readout;
+  Fitted e;
+  e.filter = base_filter(Coupling::eq5);
+  const Measurements measured =
+      Simulator(base_truth(Coupling::eq5), readout).run(timeline, 8, 0).measured;
+  const MeasuredTest test{timeline, readout, measured};
+  e.problem = inference::linear_problem(e.filter, test,
+                                        fit_batch(e.filter, test, make_layout(e.filter).theta), {});
+  e.problem.extra = MatX::Zero(e.problem.rows(), 3);
+  for (Eigen::Index k = 0; k < e.problem.rows(); ++k) {
+    const double t = static_cast<double>(e.problem.tags[k].interval) / 180.0;
+    e.problem.extra.row(k) =
+        e.problem.psi.row(k) * t * t * (e.problem.tags[k].position % 2 ? 1.0 : -1.0);
+  }
+  for (int a = 0; a < 3; ++a) {
+    const VecX information = inference::Projector(e.problem, {}).candidates().C.diagonal();
+    e.problem.extra.col(a) *= 25.0 / std::sqrt(information[a]);
+    e.set.candidates.push_back(
+        {"term" + std::to_string(a), "", "", {static_cast<std::size_t>(a)}, {{{a}, {}}}});
+  }
+  return e;
+}
+
+std::optional<NoiseSettled> settled(Fitted& e) {
+  e.noise = inference::estimate_noise(e.problem, {});
+  EXPECT_TRUE(e.noise.driven);  // it would be taken for noise
+  return settle_noise(e);
+}
+
+TEST(SettleNoise, AnEffectOfOneAxisIsNoNoise) {
+  Fitted e = bench();
+  e.problem.r0 += e.problem.extra.col(1);
+  const auto s = settled(e);
+  ASSERT_TRUE(s);
+  EXPECT_GT(s->probability, 0.95);
+  EXPECT_FALSE(s->noise.driven);
+}
+
+TEST(SettleNoise, TwoEffectsTogetherAreNoNoise) {
+  Fitted e = bench();
+  e.problem.r0 += e.problem.extra.col(0) - e.problem.extra.col(2);
+  const auto s = settled(e);
+  ASSERT_TRUE(s);
+  EXPECT_GT(s->probability, 0.95);
+}
+
+TEST(SettleNoise, NoiseOfAllThreeGyrosIsMoreProbableThanEffects) {
+  Fitted e = bench();
+  inference::NoiseModel noise;
+  noise.drift_random_walk = 0.03 * unit::deg_per_h_per_sqrt_h.to_si;
+  Stream random(9, 0, Purpose::test);
+  VecX z(e.problem.rows());
+  for (double& v : z) v = random.normal();
+  e.problem.r0 = inference::Whitener(e.problem, noise).colour(z);
+  const auto s = settled(e);
+  EXPECT_TRUE(!s || s->probability < 0.5);
+}
+
+}  // namespace
+}  // namespace drift::search::settle_noise_test
