@@ -58,7 +58,7 @@ Contaminated mixture_of(const VecX& residual) {
       square += p * r * r;
     }
     const Contaminated next{std::clamp(number / n, 1e-3 / n, 0.5),
-                       std::sqrt(std::max(1.0, square / std::max(number, 1e-300)))};
+                            std::sqrt(std::max(1.0, square / std::max(number, 1e-300)))};
     const double moved = std::abs(next.part - m.part) * n + std::abs(next.times - m.times);
     m = next;
     if (moved < still || m.times <= 1.0) break;
