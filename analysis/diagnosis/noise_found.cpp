@@ -30,10 +30,8 @@ std::optional<remark::DrivesOneGyro> noise_of_one_axis(const search::Fitted& nom
   if (!nominal.noise.driven ||
       all.angle_random_walk + all.drift_random_walk + all.markov_drift == 0.0)
     return std::nullopt;
-  const inference::LinearProblem bare = nominal.problem.bare();
-  const auto value = [&](const inference::NoiseModel& m) {
-    return inference::marginal_of(bare, m).log_likelihood2();
-  };
+  const inference::MarginalLikelihood likelihood(nominal.problem);
+  const auto value = [&](const inference::NoiseModel& m) { return likelihood.log_likelihood2(m); };
   const double together = value(all);
   remark::DrivesOneGyro best{-1, 0.0};
   for (int a = 0; a < 3; ++a)

@@ -1,6 +1,6 @@
 #include "analysis/equation/held_parameter.hpp"
 
-#include "analysis/inference/projector.hpp"
+#include "analysis/inference/marginal.hpp"
 #include "analysis/inference/signatures.hpp"
 
 namespace drift::equation {

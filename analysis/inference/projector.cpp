@@ -22,19 +22,6 @@ MatX information(const Eigen::Ref<const MatX>& a, const Eigen::Ref<const MatX>& 
 
 }  // namespace
 
-Marginal marginal_of(const LinearProblem& problem, const NoiseModel& noise,
-                     const std::vector<int>& with) {
-  const Whitener whitener(problem, noise);
-  const Eigen::Index n = problem.theta.cols() + static_cast<Eigen::Index>(with.size());
-  MatX columns(problem.rows(), n + 1);
-  columns << problem.theta, problem.extra(Eigen::all, with), problem.r0;
-  const MatX products = whitener.products(columns);
-  const Cholesky root(MatX::Identity(n, n) + products.topLeftCorner(n, n));
-  const VecX half = root.halved(products.row(n).head(n).transpose());
-  return {products(n, n) - half.squaredNorm(),
-          whitener.log_det() + 2.0 * root.L().diagonal().array().log().sum(), problem.rows()};
-}
-
 Projector::Projector(const LinearProblem& problem, const NoiseModel& noise)
     : whitener_(problem, noise),
       n_(problem.theta.cols()),

@@ -1,22 +1,9 @@
 #pragma once
 
+#include "analysis/inference/marginal.hpp"
 #include "analysis/inference/whitener.hpp"
 
 namespace drift::inference {
-
-/// Marginal (restricted) likelihood of all rows: parameters and attitudes integrated over their
-/// priors, candidates absent.
-struct Marginal {
-  double chi2 = 0.0;     ///< r0' V^-1 r0, of `rows` degrees when the model is right
-  double log_det = 0.0;  ///< of V, the marginal covariance of the rows: noise, attitude, parameters
-  Eigen::Index rows = 0;
-  /// Twice the log, without the constant.
-  double log_likelihood2() const { return -chi2 - log_det; }
-};
-
-/// with: candidates whose columns are parameters too, a ~ N(0, I).
-Marginal marginal_of(const LinearProblem& problem, const NoiseModel& noise,
-                     const std::vector<int>& with = {});
 
 /// Everything the data say of candidates once the nominal parameters are fitted (discovery.md 2.2):
 /// g ~ N(C a, C) for candidate amplitudes a in prior sigmas, the parameters marginalised with their

@@ -62,14 +62,16 @@ class NoiseOrEffects {
   }
   std::vector<int> columns(const Explanation& in) const { return distinct_columns_of(e_.set, in); }
   Model white(Explanation in) {
+    if (const Model* m = met(white_, in)) return *m;
     NoiseEstimate noise = inference::estimate_noise(e_.problem, declared_, columns(in), 0);
-    return weighed(std::move(in), std::move(noise));
+    return white_.emplace_back(weighed(std::move(in), std::move(noise)));
   }
   /// With the noise that the nominal model needs, or what is left of it.
   Model driven(Explanation in) {
+    if (const Model* m = met(driven_, in)) return *m;
     NoiseEstimate noise =
-        inference::estimate_noise_from(e_.problem, declared_, e_.noise.model, columns(in));
-    return weighed(std::move(in), std::move(noise));
+        inference::estimate_noise_from(e_.problem, declared_, e_.noise, columns(in));
+    return driven_.emplace_back(weighed(std::move(in), std::move(noise)));
   }
 
   /// White noise with candidates added one after the other as long as that gains.
@@ -121,6 +123,11 @@ class NoiseOrEffects {
       met_.emplace_back(m.in, m.log_weight);
     else
       at->second = std::max(at->second, m.log_weight);
+  }
+
+  static const Model* met(const std::vector<Model>& all, const Explanation& in) {
+    const auto at = std::ranges::find_if(all, [&](const Model& m) { return same(m.in, in); });
+    return at == all.end() ? nullptr : &*at;
   }
 
   double log_share(const Choice& c) const {
@@ -186,6 +193,7 @@ class NoiseOrEffects {
   std::size_t tries_;
   inference::NoiseModel declared_;
   LibraryPrior prior_;
+  std::vector<Model> white_, driven_;  ///< estimated already
   std::vector<std::pair<Explanation, double>> met_;
 };
 

@@ -8,6 +8,7 @@
 #include "analysis/strapdown/consumer_grade.hpp"
 #include "analysis/strapdown/gyro_unit.hpp"
 #include "core/base/check.hpp"
+#include "core/estimate/layout.hpp"
 #include "core/estimate/strapdown/accelerometer_fit.hpp"
 
 namespace drift::strapdown {

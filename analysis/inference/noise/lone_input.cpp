@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/inference/marginal.hpp"
 #include "analysis/inference/noise/sigma_ladder.hpp"
-#include "analysis/inference/projector.hpp"
 #include "core/base/units.hpp"
 #include "core/stats/chi_square.hpp"
 
@@ -44,11 +44,11 @@ LoneEffect strongest_lone_input(const LinearProblem& problem, const NoiseModel& 
                                 const std::vector<int>& in_mean) {
   constexpr int rungs = 7;
   constexpr double drop = 0.5;
-  const LinearProblem bare = problem.with_mean(in_mean).bare();
+  const MarginalLikelihood likelihood(problem, in_mean);
   const auto value = [&](const LoneInput& input) {
     NoiseModel m = noise;
     m.lone = input;
-    return marginal_of(bare, m).log_likelihood2();
+    return likelihood.log_likelihood2(m);
   };
   const double base = value({});
   const std::vector<Kind> kinds = kinds_of(problem);

@@ -6,10 +6,10 @@
 #include <numeric>
 #include <optional>
 
+#include "analysis/inference/marginal.hpp"
 #include "analysis/inference/noise/noise_component.hpp"
 #include "analysis/inference/noise/quasi_newton.hpp"
 #include "analysis/inference/noise/sigma_ladder.hpp"
-#include "analysis/inference/projector.hpp"
 #include "analysis/inference/thresholds.hpp"
 #include "core/base/decompose.hpp"
 #include "core/stats/chi_square.hpp"
@@ -40,11 +40,6 @@ struct Mixture {
   }
 };
 
-double log_likelihood2(const LinearProblem& bare, const NoiseModel& m) {
-  const double v = marginal_of(bare, m).log_likelihood2();
-  return std::isfinite(v) ? v : -std::numeric_limits<double>::infinity();
-}
-
 NoiseModel at(const Mixture& m, const VecX& logs) {
   NoiseModel model = m.model;
   Eigen::Index next = 0;
@@ -64,18 +59,19 @@ double log_prior_of_times(const Mixture& m, const NoiseModel& model) {
   return sum;
 }
 
-/// The best sigmas and time constants of the active components, from where they are. A time
-/// constant far outside the test is a random walk by another name: its prior holds it.
-Mixture fitted(const LinearProblem& bare, Mixture m) {
-  const RowCounts rows(bare);
+/// The best sigmas and time constants of the active components, from where they are, with m's
+/// covariance to begin with if it has one. A time constant far outside the test is a random walk by
+/// another name: its prior holds it.
+Mixture fitted(const MarginalLikelihood& rows, Mixture m) {
+  const RowCounts count(rows.measured());
   const std::vector<std::size_t> timed = m.timed();
   const auto sigmas = static_cast<Eigen::Index>(m.active.size());
   const Eigen::Index n = sigmas + static_cast<Eigen::Index>(timed.size());
-  VecX logs(n), curvature = VecX::Constant(n, 30.0);
+  VecX logs(n), guess = VecX::Constant(n, 1.0 / 30.0);
   for (Eigen::Index k = 0; k < sigmas; ++k) {
     const NoiseComponent& c = *m.active[static_cast<std::size_t>(k)].component;
     logs[k] = std::log(m.model.*(c.sigma));
-    if (c.white()) curvature[k] = 2.0 * static_cast<double>(rows.of(c));
+    if (c.white()) guess[k] = 0.5 / static_cast<double>(count.of(c));
   }
   for (std::size_t k = 0; k < timed.size(); ++k)
     logs[sigmas + static_cast<Eigen::Index>(k)] =
@@ -83,9 +79,9 @@ Mixture fitted(const LinearProblem& bare, Mixture m) {
   const Maximum top = maximise(
       [&](const VecX& x) {
         const NoiseModel model = at(m, x);
-        return 0.5 * log_likelihood2(bare, model) + log_prior_of_times(m, model);
+        return 0.5 * rows.log_likelihood2(model) + log_prior_of_times(m, model);
       },
-      logs, curvature);
+      logs, m.covariance.rows() == n ? m.covariance : MatX(guess.asDiagonal()));
   m.model = at(m, top.x);
   m.log_likelihood2 = 2.0 * (top.value - log_prior_of_times(m, m.model));
   m.covariance = top.inverse_curvature;
@@ -111,14 +107,14 @@ double log_price(const Mixture& m, const NoiseModel& declared, double acc_sigma)
 }
 
 /// White noise and whatever is declared.
-Mixture declared_mixture(const LinearProblem& bare, const NoiseModel& declared) {
-  const RowCounts rows(bare);
+Mixture declared_mixture(const MarginalLikelihood& rows, const NoiseModel& declared) {
+  const RowCounts count(rows.measured());
   Mixture m{declared, {}, 0.0, {}};
   for (const NoiseComponent* white : {&acc_white, &gimbal_white})
-    if (rows.of(*white) > 0) m.active.push_back({white});
+    if (count.of(*white) > 0) m.active.push_back({white});
   for (const NoiseComponent* c : {&angle_walk, &drift_walk})
     if (c->in(declared)) m.active.push_back({c});
-  return fitted(bare, std::move(m));
+  return fitted(rows, std::move(m));
 }
 
 NoiseModel with(const NoiseModel& model, const Addition& a, double sigma) {
@@ -133,18 +129,18 @@ double log_evidence(const Mixture& m, const NoiseModel& declared, double acc_sig
   return 0.5 * m.log_likelihood2 + log_price(m, declared, acc_sigma);
 }
 
-/// With the component that gains most, all sigmas at their best; none if that is not enough. The
-/// rungs of the ladder are far apart: each component is fitted from its best one, and the one of
-/// best evidence is taken. (A Markov process of a time constant as short as a sample is an angle
-/// random walk, and the prior of time constants says so.)
-std::optional<Mixture> with_one_more(const LinearProblem& bare, const Mixture& m,
-                                     const NoiseModel& declared) {
+/// With the component among those offered that gains most, all sigmas at their best; none if that
+/// is not enough. The rungs of the ladder are far apart: each component is fitted from its best
+/// one, and the one of best evidence is taken. (A Markov process of a time constant as short as a
+/// sample is an angle random walk, and the prior of time constants says so.)
+std::optional<Mixture> with_one_more(const MarginalLikelihood& rows, const Mixture& m,
+                                     const NoiseModel& declared,
+                                     const std::vector<Addition>& additions) {
   constexpr int rungs = 8;
   constexpr double drop = 3.0;
-  const std::vector<Addition> additions = possible_additions(m.model, RowCounts(bare));
   const std::vector<Rung> tried = mc::run_campaign(additions.size(), [&](std::size_t k) {
     return climb(additions[k].component->reference / 9.0, rungs, drop, [&](double sigma) {
-      return log_likelihood2(bare, with(m.model, additions[k], sigma)) - m.log_likelihood2;
+      return rows.log_likelihood2(with(m.model, additions[k], sigma)) - m.log_likelihood2;
     });
   });
   std::vector<std::size_t> order(tried.size());
@@ -161,11 +157,11 @@ std::optional<Mixture> with_one_more(const LinearProblem& bare, const Mixture& m
     Mixture more = m;
     more.model = with(m.model, additions[k], tried[k].sigma);
     more.active.push_back({c});
-    more = fitted(bare, std::move(more));
+    more = fitted(rows, std::move(more));
     more.active.back().gain = more.log_likelihood2 - m.log_likelihood2;
     if (more.active.back().gain < NoiseLimits::component) continue;
-    if (!best || log_evidence(more, declared, bare.acc_sigma) >
-                     log_evidence(*best, declared, bare.acc_sigma))
+    if (!best || log_evidence(more, declared, rows.measured().acc_sigma) >
+                     log_evidence(*best, declared, rows.measured().acc_sigma))
       best = std::move(more);
   }
   return best;
@@ -200,73 +196,99 @@ NoiseFinding driving_finding(const Mixture& m, std::size_t k, const NoiseModel& 
 }
 
 std::vector<NoiseFinding> findings_of(const Mixture& m, const NoiseModel& declared,
-                                      const RowCounts& rows) {
+                                      const RowCounts& count) {
   std::vector<NoiseFinding> all;
   for (std::size_t k = 0; k < m.active.size(); ++k) {
     const NoiseComponent& c = *m.active[k].component;
     all.push_back(c.white() ? white_finding(c.name, m.model.*(c.sigma) / (declared.*(c.sigma)),
-                                            1.0 / std::sqrt(2.0 * static_cast<double>(rows.of(c))),
-                                            rows.of(c))
+                                            1.0 / std::sqrt(2.0 * static_cast<double>(count.of(c))),
+                                            count.of(c))
                             : driving_finding(m, k, declared));
   }
   return all;
 }
 
-NoiseEstimate as_estimate(const Mixture& m, const NoiseModel& declared, const LinearProblem& bare) {
+NoiseEstimate as_estimate(const Mixture& m, const NoiseModel& declared,
+                          const MarginalLikelihood& rows) {
   bool driven = false;
   for (const Active& a : m.active)
     driven = driven || (!a.component->white() && !a.component->in(declared));
-  return {m.model, findings_of(m, declared, RowCounts(bare)), m.log_likelihood2, driven,
-          NoisePrior::log_not_as_declared() + log_price(m, declared, bare.acc_sigma)};
+  NoiseEstimate out{
+      m.model, findings_of(m, declared, RowCounts(rows.measured())), m.log_likelihood2, driven,
+      NoisePrior::log_not_as_declared() + log_price(m, declared, rows.measured().acc_sigma)};
+  for (const Active& a : m.active) out.components.push_back(a.component);
+  out.covariance = m.covariance;
+  return out;
 }
 
 /// Without one of its components.
-Mixture without(const LinearProblem& bare, Mixture m, std::size_t k) {
+Mixture without(const MarginalLikelihood& rows, Mixture m, std::size_t k) {
   m.model.*(m.active[k].component->sigma) = 0.0;
   m.active.erase(m.active.begin() + static_cast<std::ptrdiff_t>(k));
-  return fitted(bare, std::move(m));
+  m.covariance.resize(0, 0);
+  return fitted(rows, std::move(m));
+}
+
+/// The noise of `start` where it holds for these rows as well: no component that drives the
+/// platform would be likelier at a third of its sigma, and the evidence is better with each of
+/// them.
+std::optional<Mixture> much_as(const MarginalLikelihood& rows, const NoiseModel& declared,
+                               const NoiseEstimate& start) {
+  if (start.components.empty()) return std::nullopt;
+  Mixture m{start.model, {}, 0.0, start.covariance};
+  const double there = rows.log_likelihood2(start.model);
+  for (const NoiseComponent* c : start.components) {
+    m.active.push_back({c});
+    NoiseModel less = start.model;
+    less.*(c->sigma) /= 3.0;
+    if (!c->white() && rows.log_likelihood2(less) >= there) return std::nullopt;
+  }
+  m = fitted(rows, std::move(m));
+  for (std::size_t k = 0; k < m.active.size(); ++k) {
+    const NoiseComponent& c = *m.active[k].component;
+    if (c.white() || c.in(declared)) continue;
+    const Mixture fewer = without(rows, m, k);
+    if (log_evidence(fewer, declared, rows.measured().acc_sigma) >=
+        log_evidence(m, declared, rows.measured().acc_sigma))
+      return std::nullopt;
+    m.active[k].gain = m.log_likelihood2 - fewer.log_likelihood2;
+  }
+  return m;
 }
 
 }  // namespace
 
 NoiseEstimate estimate_noise(const LinearProblem& problem, const NoiseModel& declared,
                              const std::vector<int>& in_mean, int most_added) {
-  const LinearProblem bare = problem.with_mean(in_mean).bare();
-  Mixture m = declared_mixture(bare, declared);
+  const MarginalLikelihood rows(problem, in_mean);
+  Mixture m = declared_mixture(rows, declared);
   for (int added = 0; added < most_added; ++added) {
-    std::optional<Mixture> more = with_one_more(bare, m, declared);
+    std::optional<Mixture> more =
+        with_one_more(rows, m, declared, possible_additions(m.model, RowCounts(rows.measured())));
     if (!more) break;
     m = std::move(*more);
   }
-  return as_estimate(m, declared, bare);
+  return as_estimate(m, declared, rows);
 }
 
 NoiseEstimate estimate_noise_from(const LinearProblem& problem, const NoiseModel& declared,
-                                  const NoiseModel& start, const std::vector<int>& in_mean) {
-  const LinearProblem bare = problem.with_mean(in_mean).bare();
-  const RowCounts rows(bare);
-  Mixture m{start, {}, 0.0, {}};
-  for (const NoiseComponent* white : {&acc_white, &gimbal_white})
-    if (rows.of(*white) > 0) m.active.push_back({white});
-  for (const NoiseComponent* c : {&angle_walk, &drift_walk, &markov_drift, &acc_markov})
-    if (c->in(start)) m.active.push_back({c});
-  m = fitted(bare, std::move(m));
-  for (std::size_t k = 0; k < m.active.size();) {
-    const NoiseComponent& c = *m.active[k].component;
-    if (c.white() || c.in(declared)) {
-      ++k;
-      continue;
-    }
-    Mixture fewer = without(bare, m, k);
-    if (log_evidence(fewer, declared, bare.acc_sigma) >=
-        log_evidence(m, declared, bare.acc_sigma)) {
-      m = std::move(fewer);
-      k = 0;
-    } else {
-      m.active[k++].gain = m.log_likelihood2 - fewer.log_likelihood2;
-    }
+                                  const NoiseEstimate& start, const std::vector<int>& in_mean) {
+  const MarginalLikelihood rows(problem, in_mean);
+  if (const std::optional<Mixture> m = much_as(rows, declared, start))
+    return as_estimate(*m, declared, rows);
+  Mixture m = declared_mixture(rows, declared);
+  while (true) {
+    std::vector<Addition> offered;
+    for (const NoiseComponent* c : {&angle_walk, &drift_walk, &markov_drift, &acc_markov})
+      if (c->in(start.model) && !c->in(m.model))
+        offered.push_back({c, c->tau ? start.model.*(c->tau) : 0.0});
+    std::optional<Mixture> more = with_one_more(rows, m, declared, offered);
+    if (!more || log_evidence(*more, declared, rows.measured().acc_sigma) <=
+                     log_evidence(m, declared, rows.measured().acc_sigma))
+      break;
+    m = std::move(*more);
   }
-  return as_estimate(m, declared, bare);
+  return as_estimate(m, declared, rows);
 }
 
 }  // namespace drift::inference

@@ -9,6 +9,8 @@
 
 namespace drift::inference {
 
+struct NoiseComponent;
+
 /// What the noise is, estimated with the model's parameters taken into account.
 struct NoiseEstimate {
   NoiseModel model;
@@ -20,6 +22,9 @@ struct NoiseEstimate {
   /// components there are (NoisePrior).
   double log_price = 0.0;
   double log_evidence() const { return 0.5 * log_likelihood2 + log_price; }
+  /// Whose sigmas were estimated; covariance of their logs, then of those of their time constants.
+  std::vector<const NoiseComponent*> components;
+  MatX covariance;
 };
 
 /// Variance components by restricted maximum likelihood (parameters and attitudes marginalised with
@@ -33,9 +38,10 @@ struct NoiseEstimate {
 NoiseEstimate estimate_noise(const LinearProblem& problem, const NoiseModel& declared,
                              const std::vector<int>& with = {},
                              int most_added = NoiseLimits::most_components);
-/// The same with the components of `start`, from their sizes there; those that the evidence is
-/// better without are dropped.
+/// The same where much the same is expected: from `start` if that holds for these rows as well;
+/// else of its components alone, with its time constants to begin with, as long as the evidence is
+/// better with them.
 NoiseEstimate estimate_noise_from(const LinearProblem& problem, const NoiseModel& declared,
-                                  const NoiseModel& start, const std::vector<int>& with);
+                                  const NoiseEstimate& start, const std::vector<int>& with);
 
 }  // namespace drift::inference

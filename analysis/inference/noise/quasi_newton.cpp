@@ -28,13 +28,15 @@ MatX updated(const MatX& H, const VecX& step, const VecX& y) {
 
 }  // namespace
 
-Maximum maximise(const Function& f, VecX x, const VecX& curvature) {
+Maximum maximise(const Function& f, VecX x, const MatX& inverse_curvature) {
   constexpr int most_steps = 25, most_cuts = 8;
   constexpr double cut = 0.3, enough = 1e-3;  // gain of a step below which it stands still
-  Maximum at{x, f(x), curvature.cwiseInverse().asDiagonal()};
+  Maximum at{x, f(x), inverse_curvature};
   VecX g = gradient(f, at.x, at.value);
   for (int k = 0; k < most_steps; ++k) {
     VecX step = at.inverse_curvature * g;
+    // The first step goes by a guess of the curvature.
+    if (k > 0 && 0.5 * g.dot(step) < enough) break;
     const double longest = step.cwiseAbs().maxCoeff();
     if (longest > 1.0) step /= longest;
     double next = f(at.x + step);

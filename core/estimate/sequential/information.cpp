@@ -133,6 +133,12 @@ double Information::cost(const VecX& x, const VecX& prior) const {
   return sum_[n_ * width_ + n_] + prior.squaredNorm() - right;
 }
 
+double Information::log_det() const {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < n_; ++k) sum -= std::log(inverse_diagonal_[k]);
+  return 2.0 * sum;
+}
+
 void Information::whiten(double* rows, std::size_t count) const {
   // A few rows side by side, by the columns of a lane: those first, then what they do to the rest.
   constexpr std::size_t beside = 4;

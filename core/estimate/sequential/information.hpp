@@ -24,6 +24,8 @@ class Information {
   const VecX& solve(const VecX& prior);
   /// Minimum of the cost, sum (t x - e)^2 + |x - prior|^2, at its solution x.
   double cost(const VecX& x, const VecX& prior) const;
+  /// Of 1 + information, after factorise().
+  double log_det() const;
   /// (1 + information)^-1, written into P, shape (n, n).
   void invert(MatX& P);
 

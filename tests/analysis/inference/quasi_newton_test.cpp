@@ -13,7 +13,7 @@ TEST(QuasiNewton, FindsTheTopOfAParabolaAndItsCurvature) {
   const VecX top = VecX::Constant(2, 0.7);
   const Maximum m =
       maximise([&](const VecX& x) { return 5.0 - 0.5 * (x - top).dot(A * (x - top)); },
-               VecX::Zero(2), A.diagonal());
+               VecX::Zero(2), MatX(A.diagonal().cwiseInverse().asDiagonal()));
   // It stands still when a step gains less than 1e-3, and differences forward by 1e-3 move the top
   // by half of that.
   EXPECT_NEAR(m.value, 5.0, 1e-3);
@@ -31,13 +31,13 @@ TEST(QuasiNewton, FindsTheLogOfASigma) {
   const auto log_likelihood = [](const VecX& x) {
     return -n * x[0] - 0.5 * q * std::exp(-2.0 * x[0]);
   };
-  const Maximum m = maximise(log_likelihood, VecX::Zero(1), VecX::Constant(1, 2.0 * n));
+  const Maximum m = maximise(log_likelihood, VecX::Zero(1), MatX::Constant(1, 1, 0.5 / n));
   EXPECT_NEAR(m.x[0], std::log(3.0), std::sqrt(1e-3 / n) + 0.5e-3);
 }
 
 TEST(QuasiNewton, StaysWhereNothingIsBetter) {
   const Maximum m = maximise([](const VecX& x) { return x.norm() > 0.0 ? -1.0 : 0.0; },
-                             VecX::Zero(2), VecX::Ones(2));
+                             VecX::Zero(2), MatX::Identity(2, 2));
   EXPECT_EQ(m.x, VecX::Zero(2));
   EXPECT_EQ(m.value, 0.0);
 }

@@ -1,0 +1,218 @@
+#include "analysis/inference/noise_filter.hpp"
+
+#include <cmath>
+
+#include "analysis/inference/noise/noise_states.hpp"
+#include "core/estimate/lanes.hpp"
+
+namespace drift::inference {
+namespace {
+
+/// Numbers of states that there is code for; states that are not there stay zero.
+constexpr int rounded_up(int states) {
+  for (const int n : {3, 6, 9, 12})
+    if (states <= n) return n;
+  return most_states;
+}
+
+/// Calls f.template operator()<states>().
+template <class F>
+void for_states(int states, F&& f) {
+  switch (states) {
+    case 3:
+      return f.template operator()<3>();
+    case 6:
+      return f.template operator()<6>();
+    case 9:
+      return f.template operator()<9>();
+    case 12:
+      return f.template operator()<12>();
+    default:
+      return f.template operator()<most_states>();
+  }
+}
+
+/// Lanes of columns at once whose states and innovations fit into the registers.
+template <int states>
+constexpr int lanes_of() {
+  constexpr int registers = lane_width == 8 ? 32 : 16, fit = (registers - 3) / (states + 1);
+  return fit > 4 ? 4 : fit < 1 ? 1 : fit;
+}
+
+/// Log of a product of positive numbers, taken now and then.
+class LogOfProduct {
+ public:
+  void times(double x) {
+    product_ *= x;
+    if (!(product_ > 1e-150 && product_ < 1e150)) turn_over();
+  }
+  double log() {
+    turn_over();
+    return sum_;
+  }
+
+ private:
+  void turn_over() {
+    sum_ += std::log(product_);
+    product_ = 1.0;
+  }
+  double product_ = 1.0, sum_ = 0.0;
+};
+
+}  // namespace
+
+NoiseFilter::NoiseFilter(const MeasuredRows& rows, const NoiseModel& noise) : rows_(rows.rows()) {
+  const int used = NoiseStates(noise).count;
+  states_ = rounded_up(used);
+  const auto all = static_cast<std::size_t>(rows_);
+  H_.resize(all * static_cast<std::size_t>(states_));
+  gain_.resize(H_.size());
+  reads_others_.resize(all);
+  root_.resize(all);
+  for_states(states_, [&]<int states>() { find_gains<states>(rows, noise, used); });
+}
+
+template <int states>
+void NoiseFilter::find_gains(const MeasuredRows& rows, const NoiseModel& noise, int used) {
+  using Pairs = Eigen::Matrix<double, states, states>;
+  using Over = Eigen::Matrix<double, states, 1>;
+  constexpr int others = states - 3;
+  const NoiseStates s(noise);
+  Pairs P = Pairs::Zero();
+  P.topLeftCorner(used, used) = initial_covariance(s, noise);
+  Eigen::Index next = 0;
+  LogOfProduct det;
+  walk(
+      rows, noise, s,
+      [&](std::size_t) {
+        P.template topRows<3>().setZero();
+        P.template leftCols<3>().setZero();
+        P.template topLeftCorner<3, 3>().setIdentity();
+        events_.push_back({next, true, 0});
+      },
+      [&](const NoiseStep& step) {
+        if constexpr (others > 0) {
+          Eigen::Matrix<double, 3, others> drive = Eigen::Matrix<double, 3, others>::Zero();
+          Eigen::Matrix<double, others, 1> decay = Eigen::Matrix<double, others, 1>::Ones();
+          drive.leftCols(used - 3) = step.F.topRightCorner(3, used - 3);
+          decay.head(used - 3) = step.F.diagonal().tail(used - 3);
+          // F P F' of F = [1, drive; 0, decay].
+          P.template topRows<3>() += drive * P.template bottomRows<others>();
+          P.template leftCols<3>() += P.template rightCols<others>() * drive.transpose();
+          P.template bottomRows<others>().array().colwise() *= decay.array();
+          P.template rightCols<others>().array().rowwise() *= decay.transpose().array();
+          events_.push_back({next, false, moves_.size()});
+          for (int m = 0; m < others; ++m)
+            moves_.insert(moves_.end(), {drive(0, m), drive(1, m), drive(2, m), decay[m]});
+        }
+        P.topLeftCorner(used, used) += step.Q;
+      },
+      [&](Eigen::Index k, const OverStates& given, double sigma) {
+        const auto at = static_cast<std::size_t>(k);
+        Eigen::Map<Over> h(H_.data() + at * states), gain(gain_.data() + at * states);
+        h.setZero();
+        h.head(used) = given;
+        const Over Ph = P * h;
+        const double S = h.dot(Ph) + sigma * sigma;
+        gain = Ph / S;
+        root_[at] = std::sqrt(S);
+        P.noalias() -= gain * Ph.transpose();
+        reads_others_[at] = !h.template tail<others>().isZero(0.0);
+        det.times(S);
+        next = k + 1;
+      });
+  log_det_ = det.log();
+}
+
+NoiseFilter::Columns NoiseFilter::begin(std::size_t width, Eigen::Index first) const {
+  Columns c{std::vector<double>(static_cast<std::size_t>(states_) * width, 0.0), width, 0, first};
+  while (c.event < events_.size() && events_[c.event].row < first) ++c.event;
+  return c;
+}
+
+template <int states, int lanes, NoiseFilter::Way way>
+void NoiseFilter::run_lanes(const Columns& columns, std::size_t column, double* rows,
+                            Eigen::Index count, double* state) const {
+  const std::size_t width = columns.width;
+  const Lanes zero = broadcast(0.0);
+  Lanes x[states][lanes];
+  const auto at = [&](double* of, std::size_t row, int l) {
+    return of + row * width + column + static_cast<std::size_t>(l) * lane_width;
+  };
+  for (int m = 0; m < states; ++m)
+    for (int l = 0; l < lanes; ++l) x[m][l] = load(at(state, static_cast<std::size_t>(m), l));
+  std::size_t event = columns.event;
+  for (Eigen::Index r = 0; r < count; ++r) {
+    const auto k = static_cast<std::size_t>(columns.row + r);
+    for (; event < events_.size() && events_[event].row == columns.row + r; ++event) {
+      if (events_[event].cage) {
+        for (int m = 0; m < 3; ++m)
+          for (int l = 0; l < lanes; ++l) x[m][l] = zero;
+        continue;
+      }
+      const double* move = moves_.data() + events_[event].move;
+#pragma GCC unroll 16
+      for (int m = 3; m < states; ++m, move += 4) {
+#pragma GCC unroll 4
+        for (int l = 0; l < lanes; ++l) {
+          x[0][l] = mul_add(x[m][l], broadcast(move[0]), x[0][l]);
+          x[1][l] = mul_add(x[m][l], broadcast(move[1]), x[1][l]);
+          x[2][l] = mul_add(x[m][l], broadcast(move[2]), x[2][l]);
+          x[m][l] = mul_add(x[m][l], broadcast(move[3]), zero);
+        }
+      }
+    }
+    const double *h = H_.data() + k * states, *gain = gain_.data() + k * states;
+    constexpr double sign = way == Way::whiten ? -1.0 : 1.0;
+    Lanes e[lanes], y[lanes];
+    for (int l = 0; l < lanes; ++l) {
+      e[l] = load(at(rows, static_cast<std::size_t>(r), l));
+      if constexpr (way == Way::colour) e[l] = mul_add(e[l], broadcast(root_[k]), zero);
+      y[l] = e[l];
+    }
+#pragma GCC unroll 3
+    for (int m = 0; m < 3; ++m)
+      for (int l = 0; l < lanes; ++l) y[l] = mul_add(x[m][l], broadcast(sign * h[m]), y[l]);
+    if (reads_others_[k]) {
+#pragma GCC unroll 16
+      for (int m = 3; m < states; ++m)
+        for (int l = 0; l < lanes; ++l) y[l] = mul_add(x[m][l], broadcast(sign * h[m]), y[l]);
+    }
+    // The innovation is what came out on one way, what went in on the other.
+    const Lanes* innovation = way == Way::whiten ? y : e;
+#pragma GCC unroll 16
+    for (int m = 0; m < states; ++m)
+      for (int l = 0; l < lanes; ++l) x[m][l] = mul_add(innovation[l], broadcast(gain[m]), x[m][l]);
+    for (int l = 0; l < lanes; ++l) {
+      if constexpr (way == Way::whiten) y[l] = mul_add(y[l], broadcast(1.0 / root_[k]), zero);
+      store(at(rows, static_cast<std::size_t>(r), l), y[l]);
+    }
+  }
+  for (int m = 0; m < states; ++m)
+    for (int l = 0; l < lanes; ++l) store(at(state, static_cast<std::size_t>(m), l), x[m][l]);
+}
+
+template <int states>
+void NoiseFilter::run(Way way, Columns& columns, double* rows, Eigen::Index count) const {
+  for_lanes<lanes_of<states>()>(columns.width, [&]<int lanes>(std::size_t column) {
+    double* state = columns.state.data();
+    way == Way::whiten ? run_lanes<states, lanes, Way::whiten>(columns, column, rows, count, state)
+                       : run_lanes<states, lanes, Way::colour>(columns, column, rows, count, state);
+  });
+  columns.row += count;
+  while (columns.event < events_.size() && events_[columns.event].row < columns.row)
+    ++columns.event;
+}
+
+void NoiseFilter::run(Way way, Columns& columns, double* rows, Eigen::Index count) const {
+  for_states(states_, [&]<int states>() { run<states>(way, columns, rows, count); });
+}
+
+void NoiseFilter::whiten(Columns& columns, double* rows, Eigen::Index count) const {
+  run(Way::whiten, columns, rows, count);
+}
+void NoiseFilter::colour(Columns& columns, double* rows, Eigen::Index count) const {
+  run(Way::colour, columns, rows, count);
+}
+
+}  // namespace drift::inference
