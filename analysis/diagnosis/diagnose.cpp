@@ -158,7 +158,7 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
   stages.begin("held out", 0.25);
   d.fit = compared(nominal, found, test, options, recording_ends, stages);
   const auto member_gains = best && found.significant
-                                ? judge_members(nominal, test, *best, found.thresholds)
+                                ? judge_members(nominal, test, *best, found)
                                 : std::vector<double>{};
   const search::Posterior posterior = search::posterior_of(found);
   const Judged judged =

@@ -9,16 +9,21 @@
 namespace drift::diagnosis {
 
 std::vector<double> judge_members(const search::Fitted& nominal, const MeasuredTest& test,
-                                  const search::Refit& best,
-                                  const search::ChanceThresholds& thresholds) {
+                                  const search::Refit& best, const search::Search& found) {
   std::vector<double> gains;
   if (best.choices.size() < 2) return gains;
   for (std::size_t k = 0; k < best.choices.size(); ++k) {
     std::vector<search::Choice> others = best.choices;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
-    gains.push_back(held_out_gain(
-        search::refit(nominal, test, others, thresholds, search::noise_beside(nominal)).after,
-        best.after));
+    const search::Refit* known = nullptr;
+    for (const auto* all : {&found.sets, &found.rejected, &found.beside})
+      for (const search::Refit& r : *all)
+        if (same(r.choices, others)) known = &r;
+    gains.push_back(held_out_gain(known ? known->after
+                                        : search::refit(nominal, test, others, found.thresholds,
+                                                        search::noise_beside(nominal))
+                                              .after,
+                                  best.after));
   }
   return gains;
 }

@@ -14,8 +14,7 @@ namespace drift::diagnosis {
 /// positions loses (log score) when the model is fitted again without it. In the order of
 /// `best.choices`; empty for one cause.
 std::vector<double> judge_members(const search::Fitted& nominal, const MeasuredTest& test,
-                                  const search::Refit& best,
-                                  const search::ChanceThresholds& thresholds);
+                                  const search::Refit& best, const search::Search& found);
 
 /// The verdict, and why it is no better.
 struct Judged {

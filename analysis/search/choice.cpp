@@ -4,6 +4,14 @@
 
 namespace drift::search {
 
+bool same(const Explanation& a, const Explanation& b) {
+  return a.size() == b.size() && std::ranges::all_of(a, [&](const Choice& x) {
+           return std::ranges::any_of(b, [&](const Choice& y) {
+             return x.candidate == y.candidate && x.variant == y.variant;
+           });
+         });
+}
+
 std::vector<int> columns_of(const inference::CandidateSet& set,
                             const std::vector<Choice>& choices) {
   std::vector<int> columns;

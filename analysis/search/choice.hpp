@@ -14,6 +14,8 @@ struct Choice {
 /// Simultaneous causes.
 using Explanation = std::vector<Choice>;
 
+bool same(const Explanation& a, const Explanation& b);
+
 /// The columns of causes, one after the other; a parameter of two of them twice.
 std::vector<int> columns_of(const inference::CandidateSet& set, const std::vector<Choice>& choices);
 /// The same, each once and in order.

@@ -118,6 +118,13 @@ bool can_be_weighed(const Fitted& e, const std::vector<Refit>& refits, Leftover 
                        top + WeighLimits::far_better + WeighLimits::not_linear * std::max(top, 0.0);
 }
 
+const Refit* heaviest(const Fitted& e, const std::vector<Refit>& refits) {
+  const Refit* best = nullptr;
+  for (const Refit& r : refits)
+    if (r.tolerable() && (!best || log_weight(e, r) > log_weight(e, *best))) best = &r;
+  return best;
+}
+
 CredibleSet weigh(const Fitted& e, std::vector<Refit> refits, double credible) {
   CredibleSet out;
   std::vector<Refit> good;
@@ -132,11 +139,14 @@ CredibleSet weigh(const Fitted& e, std::vector<Refit> refits, double credible) {
   for (std::size_t k = 0; k < good.size(); ++k) together[head[k]] += weight[k] / sum;
   double held = 0.0;
   for (const std::size_t k : by_weight(together)) {
-    if (together[k] <= 0.0) break;
+    if (together[k] <= 0.0) {  // another stands for it
+      out.beside.push_back(std::move(good[k]));
+      continue;
+    }
+    const bool listed = held < credible;
     held += together[k];
-    out.probability.push_back(together[k]);
-    out.sets.push_back(std::move(good[k]));
-    if (held >= credible) break;
+    if (listed) out.probability.push_back(together[k]);
+    (listed ? out.sets : out.beside).push_back(std::move(good[k]));
   }
   return out;
 }

@@ -11,11 +11,16 @@ enum class Leftover { nothing, chance };
 /// equation explains the test far better than the best of them.
 bool can_be_weighed(const Fitted& e, const std::vector<Refit>& refits, Leftover left);
 
+/// The explanation of most evidence and prior of those that leave no more than chance; null if none
+/// does.
+const Refit* heaviest(const Fitted& e, const std::vector<Refit>& refits);
+
 /// Explanations weighed against each other.
 struct CredibleSet {
   std::vector<Refit> sets;          ///< most probable first; each may hold several causes
   std::vector<double> probability;  ///< of each
   std::vector<Refit> rejected;      ///< those that leave what is no chance
+  std::vector<Refit> beside;        ///< all others
 };
 
 /// Weighs explanations by evidence and prior; those up to the probability `credible` are kept. Of

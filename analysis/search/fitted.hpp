@@ -15,11 +15,16 @@ struct Fitted : Field {
   inference::LinearProblem problem;
   inference::NoiseEstimate noise;
   std::optional<inference::Projector> projector;
-  bool gross = false;          ///< so far off that its noise was read off differences of samples
+  bool gross = false;  ///< so far off that its noise was read off differences of samples
+  /// Noise that drives the platform seemed necessary, and effects took its place
+  /// (settle_noise.hpp).
+  bool noise_gave_way = false;
   std::vector<Score> scores;   ///< of every candidate
   inference::LoneEffect lone;  ///< beside everything that is in the model; where it was asked for
 
   double log_likelihood2() const { return projector->marginal().log_likelihood2(); }
+  /// With the price of its noise.
+  double log_evidence() const { return 0.5 * log_likelihood2() + noise.log_price; }
   /// Candidates that can be observed, best evidence first.
   std::vector<std::size_t> by_evidence() const;
 };

@@ -59,7 +59,7 @@ std::vector<BesideEquation> beside_other_equation(const Search& s, const Measure
   Fitted there = examine(other->filter, test, other->fit);
   if (const auto settled = settle_noise(there))
     there = with_noise(std::move(there), test.timeline, settled->noise);
-  const double equation = 0.5 * (there.log_likelihood2() - s.nominal.log_likelihood2());
+  const double equation = there.log_evidence() - s.nominal.log_evidence();
   const auto order = there.by_evidence();
   for (std::size_t i = 0; i < std::min(EffortLimits::beside_asked, order.size()) &&
                           pairs.size() < EffortLimits::beside;

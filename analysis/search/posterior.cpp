@@ -29,8 +29,7 @@ struct ByNoise {
 
 ByNoise by_noise(const Fitted& f, const inference::NoiseModel& declared) {
   const double with_declared = 0.5 * inference::marginal_of(f.problem, declared).log_likelihood2();
-  return {std::log(inference::NoisePrior::as_declared) + with_declared,
-          0.5 * f.log_likelihood2() + f.noise.log_price};
+  return {std::log(inference::NoisePrior::as_declared) + with_declared, f.log_evidence()};
 }
 
 /// Of the nominal model. Where effects took the place of noise, that noise is one more way in which
@@ -74,8 +73,7 @@ std::vector<Weighed> singles(const Fitted& e, const LibraryPrior& prior, double 
 double log_evidence(const Search& found, const Refit& r, const inference::NoiseModel& declared) {
   const ByNoise noise = by_noise(r.after, declared);
   // log_bayes compares the two models under the noise estimated for each.
-  return r.log_bayes - 0.5 * (r.after.log_likelihood2() - found.nominal.log_likelihood2()) +
-         noise.either();
+  return r.log_bayes - (r.after.log_evidence() - found.nominal.log_evidence()) + noise.either();
 }
 
 /// Those of the credible set, which share their evidence as it weighs them: members of a family

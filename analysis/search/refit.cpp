@@ -100,7 +100,8 @@ double log_tries(const Fitted& nominal, const std::vector<Choice>& choices) {
 }  // namespace
 
 NoiseKinds noise_beside(const Fitted& nominal) {
-  return nominal.noise.driven ? NoiseKinds::driving_too : NoiseKinds::white;
+  return nominal.noise.driven || nominal.noise_gave_way ? NoiseKinds::driving_too
+                                                        : NoiseKinds::white;
 }
 
 Refit refit(const Fitted& nominal, const MeasuredTest& test, const std::vector<Choice>& choices,
@@ -110,8 +111,9 @@ Refit refit(const Fitted& nominal, const MeasuredTest& test, const std::vector<C
   out.choices = choices;
   out.filter = filter;
   out.after = examine(filter, test, fit, kinds);
-  // A second effect may hide in the noise.
-  if (const auto settled = settle_noise(out.after, EffortLimits::noise_tries_beside))
+  // A second effect may hide in the noise; beside a cause noise stays where it is credible.
+  if (const auto settled = settle_noise(out.after, EffortLimits::noise_tries_beside);
+      settled && settled->probability > inference::SearchLimits::credible)
     out.after = with_noise(std::move(out.after), test.timeline, settled->noise);
   out.sign_agrees = signs_agree(expected, fit);
   out.nameable = !expected.lambda_among_them || is_another_equation(nominal.filter.coupling, fit);
@@ -125,8 +127,8 @@ Refit refit(const Fitted& nominal, const MeasuredTest& test, const std::vector<C
     out.after.lone = inference::strongest_lone_input(out.after.problem, out.after.noise.model);
     out.excess = std::max(out.excess, std::log(WeighLimits::quiet_p / out.after.lone.p_value));
   }
-  out.log_bayes = 0.5 * (out.after.log_likelihood2() - nominal.log_likelihood2()) -
-                  log_tries(nominal, choices) - narrowed + gain_of_sizes(nominal.set, out);
+  out.log_bayes = out.after.log_evidence() - nominal.log_evidence() - log_tries(nominal, choices) -
+                  narrowed + gain_of_sizes(nominal.set, out);
   return out;
 }
 

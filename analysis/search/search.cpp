@@ -150,8 +150,7 @@ std::vector<Explanation> with_parts(const Search& s, const Explanation& in) {
 
 /// Terms that the nominal model leaves out unknowingly, one after the other, each fitted through
 /// the full dynamics: whoever leaves out one usually leaves out several, and beside them the
-/// linearised test says little. Nor is anything known of what drives the platform. The last fit,
-/// those without one of its members and, of sensors on a case, those with a part of one.
+/// linearised test says little. Nor is anything known of what drives the platform. The last fit.
 std::vector<Refit> refit_left_out_terms(const Search& s, const MeasuredTest& test) {
   Explanation in;
   std::vector<Refit> found;
@@ -163,22 +162,36 @@ std::vector<Refit> refit_left_out_terms(const Search& s, const MeasuredTest& tes
     if (found.front().adequate()) break;
   }
   if (in.size() < 2) return {};
-  if (!found.front().adequate()) return found;
-  std::vector<Explanation> fewer;
-  for (std::size_t k = 0; k < in.size(); ++k) {
-    fewer.push_back(in);
-    fewer.back().erase(fewer.back().begin() + static_cast<std::ptrdiff_t>(k));
-  }
-  if (test.timeline.of_case)
-    for (Explanation& smaller : with_parts(s, in)) fewer.push_back(std::move(smaller));
-  for (Refit& r : refit_all(s, test, fewer, NoiseKinds::driving_too)) found.push_back(std::move(r));
   return found;
+}
+
+/// What is weighed must stand against less: the heaviest explanation without one of its causes and,
+/// of sensors on a case, with a part of one, with the noise that is there then; as long as another
+/// one comes to be the heaviest.
+void add_fewer(const Search& s, const MeasuredTest& test, std::vector<Refit>& refits) {
+  while (true) {
+    const Refit* best = heaviest(s.nominal, refits);
+    std::vector<Explanation> fewer;
+    for (std::size_t k = 0; best && best->choices.size() > 1 && k < best->choices.size(); ++k) {
+      Explanation others = best->choices;
+      others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
+      fewer.push_back(std::move(others));
+    }
+    if (best && best->choices.size() > 1 && test.timeline.of_case)
+      for (Explanation& smaller : with_parts(s, best->choices)) fewer.push_back(std::move(smaller));
+    std::erase_if(fewer, [&](const Explanation& x) {
+      return std::ranges::any_of(refits, [&](const Refit& r) { return same(r.choices, x); });
+    });
+    if (fewer.empty()) return;
+    for (Refit& r : refit_all(s, test, fewer, NoiseKinds::driving_too))
+      refits.push_back(std::move(r));
+  }
 }
 
 }  // namespace
 
 Search search(Fitted nominal, const MeasuredTest& test, const SearchOptions& options) {
-  Search out{detect(std::move(nominal), test, options), {}, {}, false, {}, {}};
+  Search out{detect(std::move(nominal), test, options), {}, {}, false, {}, {}, {}};
   if (out.significant)
     out.nominal =
         refine_grids(std::move(out.nominal), test, inference::ReachLimits::worth_refining);
@@ -189,10 +202,12 @@ Search search(Fitted nominal, const MeasuredTest& test, const SearchOptions& opt
   std::vector<Refit> refits;
   const auto settled = [&](Leftover left) {
     if (!can_be_weighed(out.nominal, refits, left)) return false;
+    add_fewer(out, test, refits);
     CredibleSet weighed = weigh(out.nominal, std::move(refits), options.credible);
     out.sets = std::move(weighed.sets);
     out.probability = std::move(weighed.probability);
     out.rejected = std::move(weighed.rejected);
+    out.beside = std::move(weighed.beside);
     return true;
   };
   const auto try_more = [&](const std::vector<Explanation>& more) {

@@ -12,6 +12,7 @@ struct Search : Detection {
   std::vector<double> probability;  ///< of each
   bool just_not = false;            ///< none of the sets is adequate; what they leave may be chance
   std::vector<Refit> rejected;      ///< the most probable ones that leave something significant
+  std::vector<Refit> beside;        ///< those that leave nothing and are not in the credible set
   std::vector<Remainder> linear;    ///< of every single candidate, from the linearised test
 };
 

@@ -137,14 +137,6 @@ class NoiseOrEffects {
     return std::log(variants[c.variant].share / whole);
   }
 
-  static bool same(const Explanation& a, const Explanation& b) {
-    return a.size() == b.size() && std::ranges::all_of(a, [&](const Choice& x) {
-             return std::ranges::any_of(b, [&](const Choice& y) {
-               return x.candidate == y.candidate && x.variant == y.variant;
-             });
-           });
-  }
-
   /// With the candidate, each at its best setting, that gains most by the linearised test under the
   /// noise of a model, and the next best.
   std::vector<Explanation> additions(const Model& m) const {

@@ -88,6 +88,11 @@ Mixture fitted(const MarginalLikelihood& rows, Mixture m) {
   return m;
 }
 
+/// Of the numbers of usual_size().
+double unit_of(const NoiseComponent& c, double acc_sigma) {
+  return &c == &acc_markov ? acc_sigma : 1.0;
+}
+
 /// NoiseEstimate::log_price of sigmas and time constants alone.
 double log_price(const Mixture& m, const NoiseModel& declared, double acc_sigma) {
   constexpr double half_log_2pi = 0.9189385332046727;
@@ -96,10 +101,8 @@ double log_price(const Mixture& m, const NoiseModel& declared, double acc_sigma)
                log_prior_of_times(m, m.model);
   for (const Active& a : m.active) {
     const NoiseComponent& c = *a.component;
-    const double unit = &c == &acc_markov ? acc_sigma : 1.0, was = declared.*(c.sigma);
-    // What is declared is so within a factor of two.
-    const Usual usual = was > 0.0 ? Usual{0.5 * was, 2.0 * was} : c.size;
-    sum += NoisePrior::log_density(usual.z(m.model.*(c.sigma) / (was > 0.0 ? 1.0 : unit))) -
+    const Usual usual = usual_size(c, declared);
+    sum += NoisePrior::log_density(usual.z(m.model.*(c.sigma) / unit_of(c, acc_sigma))) -
            std::log(usual.spread());
     if (c.tau) sum -= half_log_2pi + std::log(c.time.spread());
   }
@@ -139,7 +142,9 @@ std::optional<Mixture> with_one_more(const MarginalLikelihood& rows, const Mixtu
   constexpr int rungs = 8;
   constexpr double drop = 3.0;
   const std::vector<Rung> tried = mc::run_campaign(additions.size(), [&](std::size_t k) {
-    return climb(additions[k].component->reference / 9.0, rungs, drop, [&](double sigma) {
+    const NoiseComponent& c = *additions[k].component;
+    const double lowest = usual_size(c, declared).low * unit_of(c, rows.measured().acc_sigma) / 3.0;
+    return climb(lowest, rungs, drop, [&](double sigma) {
       return rows.log_likelihood2(with(m.model, additions[k], sigma)) - m.log_likelihood2;
     });
   });

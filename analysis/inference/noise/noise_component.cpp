@@ -6,6 +6,17 @@ RowCounts::RowCounts(const MeasuredRows& rows) {
   for (const RowTag& t : rows.tags) ++(t.accelerometer() ? accelerometer : gimbal);
 }
 
+Usual usual_size(const NoiseComponent& c, const NoiseModel& declared) {
+  const double was = declared.*(c.sigma), N = declared.angle_random_walk;
+  if (was > 0.0) return {0.5 * was, 2.0 * was};
+  if (N > angle_walk.size.high) {
+    constexpr double least = 5.0 / 60.0, most = 60.0 / 60.0;  // B / N, from per sqrt(h) to sqrt(s)
+    if (&c == &markov_drift) return {least * N, most * N};
+    if (&c == &drift_walk) return {least * least * N, most * most * N};
+  }
+  return c.size;
+}
+
 std::vector<Addition> possible_additions(const NoiseModel& model, const RowCounts& rows) {
   std::vector<Addition> all;
   for (const NoiseComponent* c : {&angle_walk, &drift_walk})

