@@ -157,9 +157,8 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
 
   stages.begin("held out", 0.25);
   d.fit = compared(nominal, found, test, options, recording_ends, stages);
-  const auto member_gains = best && found.significant
-                                ? judge_members(nominal, test, *best, found)
-                                : std::vector<double>{};
+  const auto member_gains = best && found.significant ? judge_members(nominal, test, *best, found)
+                                                      : std::vector<double>{};
   const search::Posterior posterior = search::posterior_of(found);
   const Judged judged =
       judge(nominal, found, posterior, d.fit.held_out, member_gains, options.named_by);
