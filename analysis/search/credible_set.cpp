@@ -41,6 +41,8 @@ std::string name_of(const Fitted& e, const Refit& r) {
 /// Whether an explanation says all that another says and more: each of the other's causes is one of
 /// its own or part of one.
 bool covers(const Fitted& e, const Refit& wide, const Refit& narrow) {
+  // Noise that drives the platform in the place of a cause is no less.
+  if (narrow.after.noise.driven && !wide.after.noise.driven) return false;
   return wide.choices.size() >= narrow.choices.size() &&
          std::ranges::all_of(narrow.choices, [&](const Choice& n) {
            return of_a_chosen_family(e.set, wide.choices, e.set.candidates[n.candidate]);

@@ -36,7 +36,6 @@ Detection detect(Fitted nominal, const MeasuredTest& test, const SearchOptions& 
   if (const auto settled = settle_noise(nominal)) {
     out.noise_alone = nominal.noise;
     nominal = with_noise(std::move(nominal), test.timeline, settled->noise);
-    nominal.noise_gave_way = true;
     out.thresholds = chance_thresholds(nominal, options.alpha, options.draws);
   }
   // The other equation is a jump, not a small amplitude: by the likelihood ratio of two points,

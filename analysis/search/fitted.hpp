@@ -15,10 +15,7 @@ struct Fitted : Field {
   inference::LinearProblem problem;
   inference::NoiseEstimate noise;
   std::optional<inference::Projector> projector;
-  bool gross = false;  ///< so far off that its noise was read off differences of samples
-  /// Noise that drives the platform seemed necessary, and effects took its place
-  /// (settle_noise.hpp).
-  bool noise_gave_way = false;
+  bool gross = false;          ///< so far off that its noise was read off differences of samples
   std::vector<Score> scores;   ///< of every candidate
   inference::LoneEffect lone;  ///< beside everything that is in the model; where it was asked for
 

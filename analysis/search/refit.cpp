@@ -100,8 +100,7 @@ double log_tries(const Fitted& nominal, const std::vector<Choice>& choices) {
 }  // namespace
 
 NoiseKinds noise_beside(const Fitted& nominal) {
-  return nominal.noise.driven || nominal.noise_gave_way ? NoiseKinds::driving_too
-                                                        : NoiseKinds::white;
+  return nominal.noise.driven ? NoiseKinds::driving_too : NoiseKinds::white;
 }
 
 Refit refit(const Fitted& nominal, const MeasuredTest& test, const std::vector<Choice>& choices,

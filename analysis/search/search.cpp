@@ -1,11 +1,13 @@
 #include "analysis/search/search.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <optional>
 
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/search/other_equation.hpp"
+#include "analysis/search/posterior.hpp"
 #include "analysis/search/promising.hpp"
 #include "analysis/search/refine_grids.hpp"
 #include "mc/task/campaign.hpp"
@@ -188,9 +190,7 @@ void add_fewer(const Search& s, const MeasuredTest& test, std::vector<Refit>& re
   }
 }
 
-}  // namespace
-
-Search search(Fitted nominal, const MeasuredTest& test, const SearchOptions& options) {
+Search searched(Fitted nominal, const MeasuredTest& test, const SearchOptions& options) {
   Search out{detect(std::move(nominal), test, options), {}, {}, false, {}, {}, {}};
   if (out.significant)
     out.nominal =
@@ -231,6 +231,18 @@ Search search(Fitted nominal, const MeasuredTest& test, const SearchOptions& opt
   if (settled(Leftover::nothing)) return out;
   out.just_not = settled(Leftover::chance);
   if (!out.just_not) out.rejected = std::move(refits);
+  return out;
+}
+
+}  // namespace
+
+Search search(Fitted nominal, const MeasuredTest& test, const SearchOptions& options) {
+  Search out = searched(std::move(nominal), test, options);
+  if (out.sets.empty() || posterior_of(out).outside <= inference::SearchLimits::chance) return out;
+  std::ranges::move(out.sets, std::back_inserter(out.rejected));
+  out.sets.clear();
+  out.probability.clear();
+  out.just_not = false;
   return out;
 }
 

@@ -29,7 +29,7 @@ struct LambdaNotSettled {};
 struct MemberNotConfirmed {};
 /// The cause fits, and held-out positions are predicted no better with it.
 struct NotPredicted {};
-/// Noise that is not as declared would explain it too, with so much probability.
+/// Nothing is missing, noise as declared or not, with so much probability.
 struct OrNoise {
   double probability;
 };

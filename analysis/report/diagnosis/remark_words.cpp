@@ -28,8 +28,10 @@ struct Words {
 
   std::string operator()(const OrNoise& r) const {
     return fmt::format(
-        "Noise that is not as declared would explain this too (probability {:.2g}): a repeated "
-        "recording tells an effect, which comes again, from noise, which does not.",
+        "That nothing is missing, by chance or by noise that is not as declared, has a probability "
+        "of {:.2g}: a repeated recording tells an effect, which comes again, from noise, which "
+        "does "
+        "not.",
         r.probability);
   }
   std::string operator()(const JustSignificantLeft&) const {
