@@ -13,7 +13,7 @@
 #include "analysis/cli/stop_at_once.hpp"
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/report/blind/report.hpp"
-#include "core/base/results_folder.hpp"
+#include "core/base/results/folder.hpp"
 #include "mc/store/worker_lock.hpp"
 
 namespace drift::cli {

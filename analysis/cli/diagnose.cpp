@@ -15,7 +15,7 @@
 #include "analysis/report/noise/noise.hpp"
 #include "analysis/report/strapdown/case_report.hpp"
 #include "analysis/strapdown/case_diagnose.hpp"
-#include "core/base/results_folder.hpp"
+#include "core/base/results/folder.hpp"
 #include "mc/task/campaign.hpp"
 
 namespace drift::cli {

@@ -9,7 +9,7 @@
 #include "analysis/cli/read_recordings.hpp"
 #include "analysis/report/identify/report.hpp"
 #include "analysis/report/strapdown/case_report.hpp"
-#include "core/base/results_folder.hpp"
+#include "core/base/results/folder.hpp"
 
 namespace drift::cli {
 namespace {

@@ -12,7 +12,7 @@
 #include "analysis/cli/stop_at_once.hpp"
 #include "analysis/planning/shared_steps.hpp"
 #include "analysis/report/rank/report.hpp"
-#include "core/base/results_folder.hpp"
+#include "core/base/results/folder.hpp"
 
 namespace drift::cli {
 namespace {

@@ -1,6 +1,7 @@
 #include "analysis/inference/noise_filter.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "analysis/inference/noise/noise_states.hpp"
 #include "core/estimate/lanes.hpp"
@@ -39,26 +40,6 @@ constexpr int lanes_of() {
   return fit > 4 ? 4 : fit < 1 ? 1 : fit;
 }
 
-/// Log of a product of positive numbers, taken now and then.
-class LogOfProduct {
- public:
-  void times(double x) {
-    product_ *= x;
-    if (!(product_ > 1e-150 && product_ < 1e150)) turn_over();
-  }
-  double log() {
-    turn_over();
-    return sum_;
-  }
-
- private:
-  void turn_over() {
-    sum_ += std::log(product_);
-    product_ = 1.0;
-  }
-  double product_ = 1.0, sum_ = 0.0;
-};
-
 }  // namespace
 
 NoiseFilter::NoiseFilter(const MeasuredRows& rows, const NoiseModel& noise) : rows_(rows.rows()) {
@@ -81,7 +62,7 @@ void NoiseFilter::find_gains(const MeasuredRows& rows, const NoiseModel& noise, 
   Pairs P = Pairs::Zero();
   P.topLeftCorner(used, used) = initial_covariance(s, noise);
   Eigen::Index next = 0;
-  LogOfProduct det;
+  double product = 1.0;  // whose log is taken now and then
   walk(
       rows, noise, s,
       [&](std::size_t) {
@@ -118,10 +99,12 @@ void NoiseFilter::find_gains(const MeasuredRows& rows, const NoiseModel& noise, 
         root_[at] = std::sqrt(S);
         P.noalias() -= gain * Ph.transpose();
         reads_others_[at] = !h.template tail<others>().isZero(0.0);
-        det.times(S);
+        product *= S;
+        if (!(product > 1e-150 && product < 1e150))
+          log_det_ += std::log(std::exchange(product, 1.0));
         next = k + 1;
       });
-  log_det_ = det.log();
+  log_det_ += std::log(product);
 }
 
 NoiseFilter::Columns NoiseFilter::begin(std::size_t width, Eigen::Index first) const {

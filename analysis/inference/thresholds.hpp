@@ -97,6 +97,9 @@ struct NoisePrior {
   /// random walks, two Markov processes) is as probable as any other.
   static constexpr double sets = 16.0;
   static double log_not_as_declared() { return std::log((1.0 - as_declared) / sets); }
+  /// Bias instability of gyros over their angle random walk [1/sqrt(h)], as data sheets of 0.001 to
+  /// 0.5 deg/sqrt(h) have it, one sigma to either side. Test: UsualSize.IsThatOfTheGrade...
+  static constexpr double least_instability = 5.0, most_instability = 60.0;
   /// Log density of a size, z sigmas from the middle of its usual range: Student's t of three
   /// degrees, as better and worse instruments than the usual ones exist.
   static double log_density(double z) {

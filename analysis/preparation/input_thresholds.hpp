@@ -58,4 +58,15 @@ struct PlanLimits {
   static constexpr double longest_turn = 3600.0;
 };
 
+/// When the gyros of a unit on a case are read in another unit, or with the other sign. Chances are
+/// worked out in strapdown/gyro_unit.hpp. Test: CaseStudy.GyrosInAnotherUnit...
+struct GyroUnitLimits {
+  /// [rad] that gravity must turn from rest to rest: 10 deg, of which scale and axes that are wrong
+  /// by 5 % leave a tenth at most.
+  static constexpr double least_turn = 0.1745;
+  static constexpr std::size_t fewest_turns = 3;  ///< so that one bad turn has no median
+  /// Median error, in parts of the turn: of another unit, and of the right one.
+  static constexpr double nothing_like = 0.5, alike = 0.1;
+};
+
 }  // namespace drift::preparation

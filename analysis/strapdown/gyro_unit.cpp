@@ -4,15 +4,14 @@
 
 #include <cmath>
 
+#include "analysis/preparation/input_thresholds.hpp"
 #include "core/base/check.hpp"
 #include "core/stats/median.hpp"
 
 namespace drift::strapdown {
 namespace {
 
-constexpr double least_turn = 10.0 * detail::deg;  // [rad]
-constexpr std::size_t fewest_ways = 3;
-constexpr double nothing_like = 0.5, alike = 0.1;  // of the turn
+using Limits = preparation::GyroUnitLimits;
 
 double angle_between(const Vec3& a, const Vec3& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
@@ -24,7 +23,7 @@ std::vector<double> errors(const Signals& s, const std::vector<Dwell>& dwells, d
   for (std::size_t d = 1; d < dwells.size(); ++d) {
     const Dwell &from = dwells[d - 1], &to = dwells[d];
     const double turn = angle_between(from.acc, to.acc);
-    if (turn < least_turn) continue;
+    if (turn < Limits::least_turn) continue;
     Mat3 R = Mat3::Identity();
     for (std::size_t k = from.last + 1; k <= to.first; ++k) {
       const Vec3 rate = 0.5 * (s.gyro[k - 1] + s.gyro[k]) - from.gyro;
@@ -46,9 +45,9 @@ struct Mistake {
 void require_gyro_unit(const Signals& signals, const std::vector<Dwell>& dwells,
                        const std::string& source) {
   const std::vector<double> declared = errors(signals, dwells, 1.0);
-  if (declared.size() < fewest_ways) return;
+  if (declared.size() < Limits::fewest_turns) return;
   const double as_declared = stats::upper_median(declared);
-  if (as_declared < nothing_like) return;
+  if (as_declared < Limits::nothing_like) return;
   constexpr double deg = detail::deg;
   constexpr Mistake mistakes[] = {
       {"unit: the numbers look like [rad/s], not [deg/s]", 1.0 / deg},
@@ -60,7 +59,7 @@ void require_gyro_unit(const Signals& signals, const std::vector<Dwell>& dwells,
       {"sign: put a - before the columns in [recording]", -1.0}};
   for (const Mistake& m : mistakes) {
     const double otherwise = stats::upper_median(errors(signals, dwells, m.times));
-    if (otherwise > alike) continue;
+    if (otherwise > Limits::alike) continue;
     throw InputError(
         ExitCode::recording,
         fmt::format("{}:gyro_x: the gyros turn gravity from rest to rest by nothing like what the "

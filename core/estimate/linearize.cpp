@@ -32,6 +32,14 @@ void mean_output(const Interval& interval, const IntervalSensitivity& sensitivit
   sum_of_products<Sum::onto>({-mean.H}, {&sensitivity.G[middle]}, mean.H_rate);
 }
 
+void IntervalSensitivity::begin(const NodeJacobian* along, std::size_t nodes) {
+  jacobian = along;
+  while (Phi.size() < nodes) {
+    Phi.emplace_back();
+    G.push_back(along->B);
+  }
+}
+
 void linearize_interval(const Interval& interval, const Timeline& timeline, const Mat3& E_loop,
                         const Vec3* phi, const MemoryPoint* memory, Linearizer& linearizer,
                         IntervalSensitivity& out) {
@@ -53,11 +61,7 @@ void linearize_interval(const Interval& interval, const Timeline& timeline, cons
 void propagate_sensitivity(const Interval& interval, const Timeline& timeline,
                            const NodeJacobian* jacobian, IntervalSensitivity& out) {
   const std::size_t nodes = interval.node_count();
-  out.jacobian = jacobian;
-  while (out.Phi.size() < nodes) {
-    out.Phi.emplace_back();
-    out.G.push_back(jacobian->B);
-  }
+  out.begin(jacobian, nodes);
   if (interval.rest) {
     for (std::size_t k = 0; k < nodes; ++k) {
       out.Phi[k] = timeline.nodes[interval.first_node + k].R_il *
@@ -72,13 +76,10 @@ void propagate_sensitivity(const Interval& interval, const Timeline& timeline,
   out.G[0].setZero();
   for (std::size_t k = 0; k + 2 < nodes; k += 2) {
     const NodeJacobian &j0 = jacobian[k], &j1 = jacobian[k + 1], &j2 = jacobian[k + 2];
-    // Integrals of the parabola through the three nodes, to the middle and to the end.
-    const Mat3 to_middle = h / 12.0 * (5.0 * j0.A + 8.0 * j1.A - j2.A);
-    const Mat3 to_end = h / 3.0 * (j0.A + 4.0 * j1.A + j2.A);
-    const Mat3 rest = magnus(to_end - to_middle, j1.A, j2.A, h);
-    const Mat3 Phi1 = small_exponential(magnus(to_middle, j0.A, j1.A, h)),
-               Phi2 = small_exponential(magnus(to_end, j0.A, j2.A, 2.0 * h));
-    const Mat3 from_end = small_exponential(-rest), from_middle = small_exponential(rest);
+    const TwoSteps steps(j0.A, j1.A, j2.A, h);
+    const Mat3 &Phi1 = steps.to_middle, &Phi2 = steps.to_end;
+    const Mat3 from_end = small_exponential(-steps.log_of_second),
+               from_middle = small_exponential(steps.log_of_second);
     out.Phi[k + 1] = Phi1 * out.Phi[k];
     out.Phi[k + 2] = Phi2 * out.Phi[k];
     sum_of_products<Sum::afresh>({h * 5.0 / 12.0 * Phi1, h * 8.0 / 12.0 * I, -h / 12.0 * from_end},

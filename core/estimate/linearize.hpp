@@ -16,6 +16,9 @@ struct IntervalSensitivity {
   std::vector<Mat3> Phi;
   std::vector<Rows3> G;           ///< as wide as NodeJacobian::B
   std::vector<NodeJacobian> own;  ///< where linearize_interval keeps them
+
+  /// Room for as many nodes, which `along` holds; never less than there was.
+  void begin(const NodeJacobian* along, std::size_t nodes);
 };
 
 /// Mean of the accelerometer outputs over an interval, and its derivatives with respect to the

@@ -7,10 +7,9 @@
 
 namespace drift {
 
-void require_covariates(const DriftModel& model, const Timeline& timeline) {
-  const Needs needs = TermLibrary::needs(model.terms);
-  if (timeline.carries(needs)) return;
+std::vector<std::string> missing_covariates(const DriftModel& model, const Timeline& timeline) {
   std::vector<std::string> messages;
+  if (timeline.carries(TermLibrary::needs(model.terms))) return messages;
   for (std::size_t t = 0; t < TermLibrary::num_terms; ++t) {
     const TermInfo& term = TermLibrary::terms[t];
     if (!model.terms[t]) continue;
@@ -42,7 +41,12 @@ void require_covariates(const DriftModel& model, const Timeline& timeline) {
                       "or remove the term",
                       term.key));
   }
-  throw InputError(ExitCode::recording, messages);
+  return messages;
+}
+
+void require_covariates(const DriftModel& model, const Timeline& timeline) {
+  if (const auto messages = missing_covariates(model, timeline); !messages.empty())
+    throw InputError(ExitCode::recording, messages);
 }
 
 }  // namespace drift

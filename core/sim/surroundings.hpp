@@ -40,8 +40,10 @@ void fill_surroundings(const Needs& needs, const Moment& now, const Mat3T<S>& R_
   out.memory = memory;
 }
 
-/// InputError (recording) if a term of the model needs a covariate that the timeline does not
-/// carry.
+/// What each term of the model needs that the timeline does not carry, in words.
+std::vector<std::string> missing_covariates(const DriftModel& model, const Timeline& timeline);
+
+/// InputError (recording) if there is any.
 void require_covariates(const DriftModel& model, const Timeline& timeline);
 
 }  // namespace drift

@@ -47,7 +47,9 @@ echo "htcondor.sub: $count jobs, $checkpoints checkpoints, merged: the results o
 if ! command -v parallel >/dev/null; then
   (timeout 120 apt-get download parallel >apt.log 2>&1 && dpkg -x parallel_*.deb root) ||
     { echo "skipped: no GNU parallel, and its package cannot be fetched"; exit 77; }
-  export PATH=$scratch/root/usr/bin:$PATH  # unpacked for this script, not installed
+  # Unpacked for this script, not installed.
+  found=$(find "$scratch/root" -name parallel -type f -perm -u+x | head -n 1)
+  export PATH=${found%/*}:$PATH
 fi
 parallel --version 2>/dev/null | grep -q 'GNU parallel' || { echo "skipped: parallel is not GNU parallel, or lacks perl"; exit 77; }
 HOME=$scratch DRIFTSCOPE=$program bash "$jobs/gnu_parallel.sh" "$config" out 6 >said 2>&1 || { cat said >&2; fail "gnu_parallel.sh ends with $?"; }

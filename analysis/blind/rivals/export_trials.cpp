@@ -7,7 +7,7 @@
 #include "analysis/blind/key.hpp"
 #include "analysis/blind/session/seal.hpp"
 #include "core/base/file_text.hpp"
-#include "core/base/results_folder.hpp"
+#include "core/base/results/folder.hpp"
 
 namespace drift::blind {
 namespace {

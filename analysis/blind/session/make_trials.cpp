@@ -9,7 +9,7 @@
 #include "analysis/blind/session/seal.hpp"
 #include "core/base/check.hpp"
 #include "core/base/file_text.hpp"
-#include "core/base/results_register.hpp"
+#include "core/base/results/register.hpp"
 #include "core/base/sha256.hpp"
 #include "core/recording/recording_output.hpp"
 

@@ -6,7 +6,7 @@
 
 #include "core/base/check.hpp"
 #include "core/base/file_text.hpp"
-#include "core/base/results_folder.hpp"
+#include "core/base/results/folder.hpp"
 #include "core/base/sha256.hpp"
 
 namespace drift::blind {

@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "core/base/results_folder.hpp"
+#include "core/base/results/folder.hpp"
 #include "mc/study/study.hpp"
 
 namespace drift::blind {

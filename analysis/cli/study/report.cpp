@@ -4,7 +4,7 @@
 #include "analysis/cli/frozen_study.hpp"
 #include "analysis/cli/print.hpp"
 #include "analysis/cli/study_program.hpp"
-#include "core/base/results_folder.hpp"
+#include "core/base/results/folder.hpp"
 
 namespace drift::cli {
 namespace {

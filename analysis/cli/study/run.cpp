@@ -11,7 +11,7 @@
 #include "analysis/cli/sharing.hpp"
 #include "analysis/cli/study/run_progress.hpp"
 #include "analysis/cli/study_program.hpp"
-#include "core/base/results_folder.hpp"
+#include "core/base/results/folder.hpp"
 #include "mc/engine/engine.hpp"
 #include "mc/export/export_text.hpp"
 #include "mc/store/study_state.hpp"

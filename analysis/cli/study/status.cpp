@@ -8,7 +8,7 @@
 #include "analysis/cli/study/megabytes.hpp"
 #include "analysis/cli/study_program.hpp"
 #include "analysis/planning/shared_steps.hpp"
-#include "core/base/results_folder.hpp"
+#include "core/base/results/folder.hpp"
 #include "mc/store/study_state.hpp"
 
 namespace drift::cli {

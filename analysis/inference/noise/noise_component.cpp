@@ -1,5 +1,7 @@
 #include "analysis/inference/noise/noise_component.hpp"
 
+#include "analysis/inference/thresholds.hpp"
+
 namespace drift::inference {
 
 RowCounts::RowCounts(const MeasuredRows& rows) {
@@ -10,7 +12,8 @@ Usual usual_size(const NoiseComponent& c, const NoiseModel& declared) {
   const double was = declared.*(c.sigma), N = declared.angle_random_walk;
   if (was > 0.0) return {0.5 * was, 2.0 * was};
   if (N > angle_walk.size.high) {
-    constexpr double least = 5.0 / 60.0, most = 60.0 / 60.0;  // B / N, from per sqrt(h) to sqrt(s)
+    constexpr double per_sqrt_s = 1.0 / 60.0, least = NoisePrior::least_instability * per_sqrt_s,
+                     most = NoisePrior::most_instability * per_sqrt_s;
     if (&c == &markov_drift) return {least * N, most * N};
     if (&c == &drift_walk) return {least * least * N, most * most * N};
   }

@@ -10,7 +10,7 @@
 #include "analysis/report/diagnosis/form_words.hpp"
 #include "analysis/report/diagnosis/sections.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
-#include "core/base/results_folder.hpp"
+#include "core/base/results/folder.hpp"
 #include "core/physics/parameters_config.hpp"
 
 namespace drift::report {

@@ -7,7 +7,7 @@
 #include "analysis/report/identify/results_out.hpp"
 #include "analysis/report/identify/sections.hpp"
 #include "analysis/report/page/study_section.hpp"
-#include "core/base/results_folder.hpp"
+#include "core/base/results/folder.hpp"
 #include "core/recording/recording_output.hpp"
 
 namespace drift::report {

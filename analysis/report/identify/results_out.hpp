@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "analysis/identification/identify.hpp"
-#include "core/base/results_folder.hpp"
+#include "core/base/results/folder.hpp"
 
 namespace drift::report {
 

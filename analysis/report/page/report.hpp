@@ -9,7 +9,7 @@
 
 #include "analysis/report/page/provenance.hpp"
 #include "analysis/report/page/table.hpp"
-#include "core/base/results_folder.hpp"
+#include "core/base/results/folder.hpp"
 
 namespace drift::report {
 

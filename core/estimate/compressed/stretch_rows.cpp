@@ -15,19 +15,13 @@ StretchRows::StretchRows(const Layout& layout)
 void StretchRows::propagate(const StretchReadings& stretch, const Interval& interval,
                             const NodeJacobian* jacobian, IntervalSensitivity& out) {
   const std::size_t nodes = interval.node_count();
-  out.jacobian = jacobian;
-  while (out.Phi.size() < nodes) {
-    out.Phi.emplace_back();
-    out.G.push_back(jacobian->B);
-  }
+  out.begin(jacobian, nodes);
   const double h = interval.length() / (2.0 * interval.substeps);
   out.Phi[0].setIdentity();
   for (std::size_t k = 0; k + 2 < nodes; k += 2) {
-    const Mat3 &A0 = jacobian[k].A, &A1 = jacobian[k + 1].A, &A2 = jacobian[k + 2].A;
-    const Mat3 to_middle = h / 12.0 * (5.0 * A0 + 8.0 * A1 - A2),
-               to_end = h / 3.0 * (A0 + 4.0 * A1 + A2);
-    out.Phi[k + 1] = small_exponential(magnus(to_middle, A0, A1, h)) * out.Phi[k];
-    out.Phi[k + 2] = small_exponential(magnus(to_end, A0, A2, 2.0 * h)) * out.Phi[k];
+    const TwoSteps steps(jacobian[k].A, jacobian[k + 1].A, jacobian[k + 2].A, h);
+    out.Phi[k + 1] = steps.to_middle * out.Phi[k];
+    out.Phi[k + 2] = steps.to_end * out.Phi[k];
   }
   const Eigen::Index width = jacobian->B.cols();
   turned_back_.resize(static_cast<Eigen::Index>(nodes), 3 * width);
@@ -44,23 +38,31 @@ void StretchRows::propagate(const StretchReadings& stretch, const Interval& inte
   }
 }
 
+void StretchRows::put(Eigen::Index node, const IntervalSensitivity& sensitivity, const Mat3& H,
+                      const Rows3& H_par, const Vec3& predicted) {
+  const auto at = static_cast<std::size_t>(node);
+  const Mat3 by_attitude = H * sensitivity.Phi[at];
+  sum_of_products<Sum::afresh>({H}, {&sensitivity.G[at]}, by_rate_);
+  for (int a = 0; a < 3; ++a) {
+    auto row = at_nodes_[static_cast<std::size_t>(a)].row(node);
+    row.head<3>() = by_attitude.row(a);
+    row.segment(3, rate_) = by_rate_.row(a).head(rate_);
+    if (H_par.cols() > 0)
+      row.segment(3 + rate_, readout_) = H_par.row(a).head(readout_);
+    else
+      row.segment(3 + rate_, readout_).setZero();
+    row[3 + rate_ + readout_] = predicted[a];
+  }
+}
+
 const StretchRows::Rows& StretchRows::accelerometers(const StretchChannel& channel,
                                                      const Interval& interval,
                                                      const IntervalSensitivity& sensitivity) {
   const auto nodes = static_cast<Eigen::Index>(interval.node_count());
   for (Rows& rows : at_nodes_) rows.resize(nodes, 3 + rate_ + readout_ + 1);
   for (Eigen::Index k = 0; k < nodes; ++k) {
-    const auto at = static_cast<std::size_t>(k);
-    const NodeJacobian& j = sensitivity.jacobian[at];
-    const Mat3 by_attitude = j.H * sensitivity.Phi[at];
-    sum_of_products<Sum::afresh>({j.H}, {&sensitivity.G[at]}, by_rate_);
-    for (int a = 0; a < 3; ++a) {
-      auto row = at_nodes_[static_cast<std::size_t>(a)].row(k);
-      row.head<3>() = by_attitude.row(a);
-      row.segment(3, rate_) = by_rate_.row(a).head(rate_);
-      row.segment(3 + rate_, readout_) = j.H_par.row(a).head(readout_);
-      row[3 + rate_ + readout_] = j.acc[a] - channel.reference[a];
-    }
+    const NodeJacobian& j = sensitivity.jacobian[k];
+    put(k, sensitivity, j.H, j.H_par, j.acc - channel.reference);
   }
   return combined(channel, out_[0]);
 }
@@ -75,18 +77,9 @@ const StretchRows::Rows& StretchRows::gimbals(const StretchChannel& channel,
     const auto at = static_cast<std::size_t>(k);
     const GimbalPrediction p = linearizer.gimbals(
         timeline, {&timeline.nodes[interval.first_node + at], &interval, phi[at], nullptr});
-    const Mat3 by_attitude = p.H * sensitivity.Phi[at];
-    sum_of_products<Sum::afresh>({p.H}, {&sensitivity.G[at]}, by_rate_);
-    for (int a = 0; a < 3; ++a) {
-      auto row = at_nodes_[static_cast<std::size_t>(a)].row(k);
-      row.head<3>() = by_attitude.row(a);
-      row.segment(3, rate_) = by_rate_.row(a).head(rate_);
-      if (p.H_par.cols() > 0)
-        row.segment(3 + rate_, readout_) = p.H_par.row(a).head(readout_);
-      else
-        row.segment(3 + rate_, readout_).setZero();
-      row[3 + rate_ + readout_] = angle_difference(p.angles[a], channel.reference[a]);
-    }
+    Vec3 beyond;
+    for (int a = 0; a < 3; ++a) beyond[a] = angle_difference(p.angles[a], channel.reference[a]);
+    put(k, sensitivity, p.H, p.H_par, beyond);
   }
   return combined(channel, out_[1]);
 }

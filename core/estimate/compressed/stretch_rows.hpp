@@ -35,6 +35,9 @@ class StretchRows {
   const Rows& of_gimbals() const { return out_[1]; }
 
  private:
+  /// Derivatives of one node's output, and what is predicted beyond the channel's reference.
+  void put(Eigen::Index node, const IntervalSensitivity& sensitivity, const Mat3& H,
+           const Rows3& H_par, const Vec3& predicted);
   const Rows& combined(const StretchChannel& channel, Rows& out);
 
   Eigen::Index rate_, readout_;   ///< states

@@ -1,4 +1,4 @@
-#include "core/base/results_folder.hpp"
+#include "core/base/results/folder.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -6,7 +6,7 @@
 
 #include "core/base/atomic_file.hpp"
 #include "core/base/check.hpp"
-#include "core/base/results_register.hpp"
+#include "core/base/results/register.hpp"
 #include "core/base/sha256.hpp"
 #include "core/base/temporary_file.hpp"
 #include "tests/support/program.hpp"

@@ -139,6 +139,26 @@ TEST(StudyTask, RefusesWhatCannotBeStudied) {
                InputError);
 }
 
+TEST(StudyTask, RefusesTermsWhoseSurroundingsNoRunHas) {
+  for (const char* section : {"[truth]", "filter.a"})
+    for (const char* term : {"inner_lever_arm", "temperature_drift"}) {
+      const std::string truth = section == std::string_view("[truth]") ? term : "fixed_drift",
+                        filter = section == std::string_view("[truth]") ? "fixed_drift" : term;
+      const mc::Study study = read_text(fmt::format(
+          "schema = 1\n[plan]\npreset = \"six\"\n[truth]\ncoupling = \"eq5\"\nterms = [\"{}\"]\n"
+          "[[filter]]\nname = \"a\"\ncoupling = \"eq5\"\nterms = [\"{}\"]\n",
+          truth, filter));
+      try {
+        mc::StudyTask task(study);
+        ADD_FAILURE() << section << ' ' << term;
+      } catch (const InputError& e) {
+        EXPECT_NE(std::string(e.what()).find(fmt::format("{}: term '{}' needs", section, term)),
+                  std::string::npos)
+            << e.what();
+      }
+    }
+}
+
 /// Truth and filter alike: what the filter says of itself must hold.
 ///
 /// 300 runs. Mean NIS and NEES lie in their chi-square bands with 95 % probability each; a fixed

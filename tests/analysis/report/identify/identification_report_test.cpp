@@ -11,7 +11,7 @@
 #include "analysis/report/identify/sections.hpp"
 #include "analysis/report/page/escape.hpp"
 #include "core/base/check.hpp"
-#include "core/base/results_folder.hpp"
+#include "core/base/results/folder.hpp"
 #include "tests/analysis/report/figures_of.hpp"
 #include "tests/analysis/report/identify/identification_fixture.hpp"
 #include "tests/analysis/report/own_script.hpp"

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "core/base/results_register.hpp"
+#include "core/base/results/register.hpp"
 
 namespace drift {
 

@@ -1,4 +1,4 @@
-#include "core/base/results_marks.hpp"
+#include "core/base/results/marks.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "core/base/results_folder.hpp"
+#include "core/base/results/folder.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -11,8 +11,8 @@
 
 #include "core/base/atomic_file.hpp"
 #include "core/base/check.hpp"
-#include "core/base/results_marks.hpp"
-#include "core/base/results_register.hpp"
+#include "core/base/results/marks.hpp"
+#include "core/base/results/register.hpp"
 #include "core/base/sha256.hpp"
 #include "core/base/temporary_file.hpp"
 

@@ -1,4 +1,4 @@
-#include "core/base/results_register.hpp"
+#include "core/base/results/register.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
