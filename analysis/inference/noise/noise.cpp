@@ -88,11 +88,6 @@ Mixture fitted(const MarginalLikelihood& rows, Mixture m) {
   return m;
 }
 
-/// Of the numbers of usual_size().
-double unit_of(const NoiseComponent& c, double acc_sigma) {
-  return &c == &acc_markov ? acc_sigma : 1.0;
-}
-
 /// NoiseEstimate::log_price of sigmas and time constants alone.
 double log_price(const Mixture& m, const NoiseModel& declared, double acc_sigma) {
   constexpr double half_log_2pi = 0.9189385332046727;
@@ -215,14 +210,17 @@ std::vector<NoiseFinding> findings_of(const Mixture& m, const NoiseModel& declar
 
 NoiseEstimate as_estimate(const Mixture& m, const NoiseModel& declared,
                           const MarginalLikelihood& rows) {
-  bool driven = false;
-  for (const Active& a : m.active)
-    driven = driven || (!a.component->white() && !a.component->in(declared));
-  NoiseEstimate out{
-      m.model, findings_of(m, declared, RowCounts(rows.measured())), m.log_likelihood2, driven,
-      NoisePrior::log_not_as_declared() + log_price(m, declared, rows.measured().acc_sigma)};
-  for (const Active& a : m.active) out.components.push_back(a.component);
+  NoiseEstimate out;
+  out.model = m.model;
+  out.findings = findings_of(m, declared, RowCounts(rows.measured()));
+  out.log_likelihood2 = m.log_likelihood2;
+  out.log_price =
+      NoisePrior::log_not_as_declared() + log_price(m, declared, rows.measured().acc_sigma);
   out.covariance = m.covariance;
+  for (const Active& a : m.active) {
+    out.driven = out.driven || (!a.component->white() && !a.component->in(declared));
+    out.components.push_back(a.component);
+  }
   return out;
 }
 

@@ -68,6 +68,9 @@ inline constexpr NoiseComponent acc_markov{
 /// sqrt(h); the drift walks by B^2 / N per sqrt(h), as the Allan deviation has its floor where the
 /// two cross.
 Usual usual_size(const NoiseComponent& c, const NoiseModel& declared);
+inline double unit_of(const NoiseComponent& c, double acc_sigma) {
+  return &c == &acc_markov ? acc_sigma : 1.0;
+}
 
 /// Rows of the instruments.
 struct RowCounts {
