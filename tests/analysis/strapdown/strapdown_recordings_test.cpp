@@ -118,8 +118,9 @@ TEST(StrapdownRecordings, MpuHasMisalignmentAndNoGSensitivityToClaim) {
     EXPECT_GT(id.fits[2].up.held_out, 1.8 * id.fits[1].up.held_out) << name;
     const diagnosis::Diagnosis d = diagnose_case(study, id);
     // Of the first recording g-sensitivity is not excluded; of the second it makes turns worse.
-    if (name == std::string_view("mpu9150_1.csv"))
+    if (name == std::string_view("mpu9150_1.csv")) {
       EXPECT_EQ(d.verdict, diagnosis::Verdict::named) << name;
+    }
     const auto most_probable = [&](std::string_view term) {
       return std::ranges::any_of(
           d.causes, [&](const search::Cause& c) { return c.set == 0 && c.term == term; });
