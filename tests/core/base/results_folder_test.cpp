@@ -1,11 +1,10 @@
-#include "core/base/results/folder.hpp"
-
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "core/base/atomic_file.hpp"
 #include "core/base/check.hpp"
+#include "core/base/results/folder.hpp"
 #include "core/base/results/register.hpp"
 #include "core/base/sha256.hpp"
 #include "core/base/temporary_file.hpp"

@@ -144,10 +144,11 @@ TEST(StudyTask, RefusesTermsWhoseSurroundingsNoRunHas) {
     for (const char* term : {"inner_lever_arm", "temperature_drift"}) {
       const std::string truth = section == std::string_view("[truth]") ? term : "fixed_drift",
                         filter = section == std::string_view("[truth]") ? "fixed_drift" : term;
-      const mc::Study study = read_text(fmt::format(
-          "schema = 1\n[plan]\npreset = \"six\"\n[truth]\ncoupling = \"eq5\"\nterms = [\"{}\"]\n"
-          "[[filter]]\nname = \"a\"\ncoupling = \"eq5\"\nterms = [\"{}\"]\n",
-          truth, filter));
+      const mc::Study study =
+          read_text(fmt::format("schema = 1\n[site]\nlatitude = \"45.75 deg\"\n[plan]\npreset = "
+                                "\"six\"\n[truth]\ncoupling = \"eq5\"\nterms = [\"{}\"]\n"
+                                "[[filter]]\nname = \"a\"\ncoupling = \"eq5\"\nterms = [\"{}\"]\n",
+                                truth, filter));
       try {
         mc::StudyTask task(study);
         ADD_FAILURE() << section << ' ' << term;
