@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/search/library_prior.hpp"
+#include "core/stats/normal.hpp"
 
 namespace drift::search {
 namespace {
@@ -94,18 +96,27 @@ std::vector<Weighed> explanations(const Search& found, const LibraryPrior& prior
   return all;
 }
 
-/// Something in one window, one of all, each with Schwarz's price.
+/// Log evidence, against none, of an amplitude of unknown size that is found z = sqrt(T) sigmas
+/// strong: either sign, from what the test could see (VisibleLimits::size) two decades up, as the
+/// library's sizes, every order of magnitude alike. Of int exp(a z - a^2 / 2) da / (2 a log 100)
+/// over them, with 1 / a taken where the integrand is.
+double log_evidence_of_size(double T) {
+  constexpr double least = inference::VisibleLimits::size;
+  const double z = std::sqrt(T), visible = stats::normal_distribution(z - least);
+  return 0.5 * T + std::log(visible * std::sqrt(2.0 * std::numbers::pi) /
+                            (2.0 * std::max(z, least) * std::log(100.0)));
+}
+
+/// Something in one window, one of all.
 double log_window(const Fitted& e) {
   double sum = never, windows = 0.0;
   for (const inference::PositionScan& scan : e.scans)
     for (const double T : scan.T) {
       if (T <= 0.0) continue;
-      sum = log_sum(sum, 0.5 * T);
+      sum = log_sum(sum, log_evidence_of_size(T));
       windows += 1.0;
     }
-  return windows > 0.0
-             ? sum - std::log(windows) - 0.5 * std::log(static_cast<double>(e.problem.rows()))
-             : never;
+  return windows > 0.0 ? sum - std::log(windows) : never;
 }
 
 /// Something outside the library, beside nothing or beside the best that the library offers.

@@ -190,6 +190,14 @@ void add_fewer(const Search& s, const MeasuredTest& test, std::vector<Refit>& re
   }
 }
 
+/// Where effects took the place of noise that drives the platform, what a cause leaves that is just
+/// significant may be such noise.
+void with_driving_noise(const Search& s, const MeasuredTest& test, std::vector<Refit>& refits) {
+  for (Refit& r : refits)
+    if (r.tolerable() && !r.adequate() && !r.after.noise.driven)
+      r = refit(s.nominal, test, r.choices, s.thresholds, NoiseKinds::driving_too);
+}
+
 Search searched(Fitted nominal, const MeasuredTest& test, const SearchOptions& options) {
   Search out{detect(std::move(nominal), test, options), {}, {}, false, {}, {}, {}};
   if (out.significant)
@@ -229,6 +237,10 @@ Search searched(Fitted nominal, const MeasuredTest& test, const SearchOptions& o
   if (!far_off)
     for (Refit& r : refit_left_out_terms(out, test)) refits.push_back(std::move(r));
   if (settled(Leftover::nothing)) return out;
+  if (out.noise_alone) {
+    with_driving_noise(out, test, refits);
+    if (settled(Leftover::nothing)) return out;
+  }
   out.just_not = settled(Leftover::chance);
   if (!out.just_not) out.rejected = std::move(refits);
   return out;
@@ -238,7 +250,8 @@ Search searched(Fitted nominal, const MeasuredTest& test, const SearchOptions& o
 
 Search search(Fitted nominal, const MeasuredTest& test, const SearchOptions& options) {
   Search out = searched(std::move(nominal), test, options);
-  if (out.sets.empty() || posterior_of(out).outside <= inference::SearchLimits::chance) return out;
+  if (out.sets.empty() || posterior_of(out).outside <= inference::SearchLimits::credible)
+    return out;
   std::ranges::move(out.sets, std::back_inserter(out.rejected));
   out.sets.clear();
   out.probability.clear();

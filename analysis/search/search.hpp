@@ -19,7 +19,7 @@ struct Search : Detection {
 /// Names what is missing (discovery.md 2.3 to 2.7): detection by the largest projected score; the
 /// adequate set, first of single candidates, then of all pairs, then by greedy steps, each
 /// confirmed by a fit through the full dynamics; probabilities from their evidence. Where something
-/// outside the library is more probable than not (posterior.hpp) all sets are rejected.
+/// outside the library is credible by itself (0.95; posterior.hpp) all sets are rejected.
 Search search(Fitted nominal, const MeasuredTest& test, const SearchOptions& options);
 
 }  // namespace drift::search
