@@ -23,21 +23,6 @@ RunStatus status_of(const OdeResult& ode) {
   return ode.status == OdeStatus::wall_time ? RunStatus::timeout : RunStatus::integrator_failed;
 }
 
-/// v <- Q^T v for A = Q T Q^T: the Householder reflections one after the other. Allocates nothing.
-void turn_by_reflections(const Eigen::Tridiagonalization<MatX>& A, VecX& v) {
-  const MatX& packed = A.packedMatrix();
-  const Eigen::Index n = v.size();
-  for (Eigen::Index i = 0; i + 2 < n; ++i) {
-    // The reflecting vector is (1, column i below the subdiagonal); of length zero there, none.
-    const auto below = packed.col(i).tail(n - i - 2);
-    const double square = below.squaredNorm();
-    if (square == 0.0) continue;
-    const double d = 2.0 / (1.0 + square) * (v[i + 1] + below.dot(v.tail(n - i - 2)));
-    v[i + 1] -= d;
-    v.tail(n - i - 2) -= d * below;
-  }
-}
-
 /// The first thing that goes wrong names the run.
 void blame(RunOutcome& out, RunStatus status, std::string cause, double t) {
   if (out.status != RunStatus::ok) return;
@@ -59,18 +44,7 @@ StudyWorker::StudyWorker(const StudyTask& task)
     const FilterSpec& spec = study.filters[f];
     const StudyColumns::Filter& columns = task.layout().filters[f];
     const auto n = static_cast<Eigen::Index>(columns.layout.size());
-    Bench bench{spec,
-                columns,
-                {},
-                nullptr,
-                nullptr,
-                Eigen::Tridiagonalization<MatX>(n),
-                Eigen::SelfAdjointEigenSolver<MatX>(n),
-                VecX(n),
-                VecX(n - 1),
-                VecX(n),
-                VecX(n),
-                VecX(n)};
+    Bench bench{spec, columns, {}, nullptr, nullptr, PrincipalAxes(n), VecX(n)};
     const std::size_t fixed = spec.starts.empty() ? 1 : columns.starts;
     for (std::size_t s = 0; s < fixed; ++s)
       bench.fixed_starts.push_back(initial_estimate(spec, study.monte_carlo.seed, 0, s));
@@ -200,19 +174,14 @@ void StudyWorker::judge(Bench& bench, std::size_t start, const Vector& x, const 
     const auto i = static_cast<Eigen::Index>(k);
     bench.error[i] = x[i] - (row[at.truth[k]] - at.layout.mean[i]) / at.layout.sigma[i];
   }
-  bench.tridiagonal.compute(P);
-  bench.diagonal = bench.tridiagonal.diagonal();
-  bench.beside = bench.tridiagonal.subDiagonal();
-  bench.eigen.computeFromTridiagonal(bench.diagonal, bench.beside);
-  bench.turned = bench.error;
-  turn_by_reflections(bench.tridiagonal, bench.turned);
-  bench.along.noalias() = bench.eigen.eigenvectors().transpose() * bench.turned;
+  if (!bench.axes.compute(P, bench.error)) return;  // NaN is told as missing
+  const VecX &variances = bench.axes.variance(), &along = bench.axes.along();
   const double observed = std::pow(task_.study().monte_carlo.healthy_sigma, 2);
   double nees = 0.0, all = 0.0;
   int dof = 0;
-  for (Eigen::Index j = 0; j < bench.along.size(); ++j) {
-    const double variance = bench.eigen.eigenvalues()[j];
-    const double share = bench.along[j] * bench.along[j] / variance;
+  for (Eigen::Index j = 0; j < along.size(); ++j) {
+    const double variance = variances[j];
+    const double share = along[j] * along[j] / variance;
     all += share;
     if (variance >= observed) continue;
     nees += share;

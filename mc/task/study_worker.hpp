@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Eigenvalues>
 #include <memory>
 #include <vector>
 
@@ -9,6 +8,7 @@
 #include "core/estimate/sequential/iterated_ekf.hpp"
 #include "core/sim/simulate.hpp"
 #include "mc/study/design.hpp"
+#include "mc/task/principal_axes.hpp"
 #include "mc/task/study_task.hpp"
 
 namespace drift::mc {
@@ -29,12 +29,8 @@ class StudyWorker final : public RunWorker {
     std::vector<Theta> fixed_starts;  ///< starts that are the same in every run: the first ones
     std::unique_ptr<Ekf> ekf;         ///< of that estimator alone
     std::unique_ptr<IteratedEkf> iterated;
-    // Eigenvectors of a covariance are Q V, kept apart: Q as reflections, because Eigen allocates
-    // to form it.
-    Eigen::Tridiagonalization<MatX> tridiagonal;
-    Eigen::SelfAdjointEigenSolver<MatX> eigen;
-    VecX diagonal, beside;      ///< of the tridiagonal matrix
-    VecX error, turned, along;  ///< error in prior sigmas; Q^T error; along the eigenvectors
+    PrincipalAxes axes;
+    VecX error;  ///< in prior sigmas
   };
 
   void simulate(std::uint64_t run, std::span<double> row, RunOutcome& out);

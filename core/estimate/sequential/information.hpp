@@ -18,6 +18,9 @@ class Information {
   /// Adds `count` rows that lie one after the other.
   void add(const double* rows, std::size_t count);
 
+  /// Sum of t P w^T over `count` rows t, of `rows`, and w, of `others`; P symmetric, shape (n, n).
+  double product(const double* rows, const double* others, std::size_t count, const MatX& P);
+
   /// Factorises 1 + information = U^T U. False if it is not positive definite, or not finite.
   bool factorise();
   /// x for a prior mean, after factorise(); until the next time.
