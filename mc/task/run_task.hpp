@@ -50,8 +50,13 @@ class RunWorker {
   /// Executes run number `run` and fills `row` (shape: columns of the task), which comes full of
   /// NaN. A pure function of (task, run): what ran before leaves no trace. Failures are outcomes.
   virtual RunOutcome execute(std::uint64_t run, std::span<double> row) = 0;
-  /// The same, bit for bit, with the course of the run besides. A task without a trace leaves the
-  /// sink untouched.
+  /// Runs that will be asked for next. A worker may execute them together: what comes out of each
+  /// is the same, bit for bit.
+  virtual void expect(std::span<const std::uint64_t> /*runs*/) {}
+  /// How many runs it pays to expect at once.
+  virtual std::size_t together() const { return 1; }
+  /// The same as execute(), bit for bit, with the course of the run besides. A task without a trace
+  /// leaves the sink untouched.
   virtual RunOutcome trace(std::uint64_t run, std::span<double> row, TraceSink& /*sink*/) {
     return execute(run, row);
   }

@@ -23,21 +23,6 @@ RunStatus status_of(const OdeResult& ode) {
   return ode.status == OdeStatus::wall_time ? RunStatus::timeout : RunStatus::integrator_failed;
 }
 
-/// v <- Q^T v for A = Q T Q^T: the Householder reflections one after the other. Allocates nothing.
-void turn_by_reflections(const Eigen::Tridiagonalization<MatX>& A, VecX& v) {
-  const MatX& packed = A.packedMatrix();
-  const Eigen::Index n = v.size();
-  for (Eigen::Index i = 0; i + 2 < n; ++i) {
-    // The reflecting vector is (1, column i below the subdiagonal); of length zero there, none.
-    const auto below = packed.col(i).tail(n - i - 2);
-    const double square = below.squaredNorm();
-    if (square == 0.0) continue;
-    const double d = 2.0 / (1.0 + square) * (v[i + 1] + below.dot(v.tail(n - i - 2)));
-    v[i + 1] -= d;
-    v.tail(n - i - 2) -= d * below;
-  }
-}
-
 /// The first thing that goes wrong names the run.
 void blame(RunOutcome& out, RunStatus status, std::string cause, double t) {
   if (out.status != RunStatus::ok) return;
@@ -59,44 +44,84 @@ StudyWorker::StudyWorker(const StudyTask& task)
     const FilterSpec& spec = study.filters[f];
     const StudyColumns::Filter& columns = task.layout().filters[f];
     const auto n = static_cast<Eigen::Index>(columns.layout.size());
-    Bench bench{spec,
-                columns,
-                {},
-                nullptr,
-                nullptr,
-                Eigen::Tridiagonalization<MatX>(n),
-                Eigen::SelfAdjointEigenSolver<MatX>(n),
-                VecX(n),
-                VecX(n - 1),
-                VecX(n),
-                VecX(n),
-                VecX(n)};
+    Bench bench{spec, columns, {}, nullptr, nullptr, nullptr, {}, PrincipalAxes(n), VecX(n)};
     const std::size_t fixed = spec.starts.empty() ? 1 : columns.starts;
     for (std::size_t s = 0; s < fixed; ++s)
       bench.fixed_starts.push_back(initial_estimate(spec, study.monte_carlo.seed, 0, s));
     if (study.monte_carlo.estimator == EstimatorKind::ekf)
       bench.ekf = std::make_unique<Ekf>(spec, timeline_, study.readout, bench.fixed_starts[0],
                                         KeepHistory::no);
-    if (study.monte_carlo.estimator == EstimatorKind::iterated)
+    if (study.monte_carlo.estimator == EstimatorKind::iterated) {
       bench.iterated =
           std::make_unique<IteratedEkf>(spec, timeline_, study.readout, bench.fixed_starts[0]);
+      if (!bench.iterated->compressed() && IteratedLanes::can(spec, timeline_)) {
+        bench.iterated.reset();
+        bench.lanes = std::make_unique<IteratedLanes>(spec, timeline_, study.readout);
+      }
+    }
     benches_.push_back(std::move(bench));
   }
 }
 
+std::size_t StudyWorker::together() const {
+  const bool lanes =
+      std::ranges::any_of(benches_, [](const Bench& b) { return b.lanes != nullptr; });
+  return lanes ? static_cast<std::size_t>(Pack::width) : 1;
+}
+
+void StudyWorker::expect(std::span<const std::uint64_t> runs) {
+  members_ = std::min(runs.size(), together());
+  if (group_.size() < members_) group_.resize(members_);
+  for (std::size_t k = 0; k < members_; ++k) {
+    group_[k].run = runs[k];
+    group_[k].waiting = false;
+  }
+}
+
 RunOutcome StudyWorker::execute(std::uint64_t run, std::span<double> row) {
-  RunOutcome out;
+  const auto find = [&] {
+    return std::find_if(group_.begin(), group_.begin() + static_cast<std::ptrdiff_t>(members_),
+                        [&](const Member& m) { return m.run == run; });
+  };
+  auto member = find();
+  if (member == group_.begin() + static_cast<std::ptrdiff_t>(members_)) {
+    expect(std::span(&run, 1));
+    member = find();
+  }
+  if (!member->waiting) execute_group();
+  member->waiting = false;
+  std::ranges::copy(member->row, row.begin());
+  return member->out;
+}
+
+/// All members of the group: each by itself as far as it goes, then in lanes.
+void StudyWorker::execute_group() {
+  for (std::size_t k = 0; k < members_; ++k) execute_alone(group_[k]);
+  const double begin = cpu_seconds();
+  for (Bench& bench : benches_)
+    if (bench.lanes) execute_in_lanes(bench);
+  const double share = (cpu_seconds() - begin) / static_cast<double>(members_);
+  for (std::size_t k = 0; k < members_; ++k) {
+    group_[k].out.filter_s += share;
+    group_[k].out.total_s += share;
+    group_[k].waiting = true;
+  }
+}
+
+void StudyWorker::execute_alone(Member& member) {
+  RunOutcome& out = member.out = RunOutcome();
+  member.row.assign(task_.columns().size(), std::numeric_limits<double>::quiet_NaN());
   const double begin = cpu_seconds();
   double simulated = begin;
   try {
-    simulate(run, row, out);
+    simulate(member);
     simulated = cpu_seconds();
     const bool usable = out.status == RunStatus::ok;
     for (Bench& bench : benches_)
-      for (std::size_t s = 0; usable && s < bench.columns.starts; ++s)
-        estimate(bench, run, s, row, out);
+      for (std::size_t s = 0; usable && !bench.lanes && s < bench.columns.starts; ++s)
+        estimate(bench, s, member);
   } catch (const std::exception& e) {
-    std::ranges::fill(row, std::numeric_limits<double>::quiet_NaN());
+    std::ranges::fill(member.row, std::numeric_limits<double>::quiet_NaN());
     out.status = RunStatus::error;
     out.cause = e.what();
   }
@@ -104,46 +129,72 @@ RunOutcome StudyWorker::execute(std::uint64_t run, std::span<double> row) {
   out.integration_s = simulated - begin;
   out.filter_s = end - simulated;
   out.total_s = end - begin;
-  return out;
 }
 
-void StudyWorker::simulate(std::uint64_t run, std::span<double> row, RunOutcome& out) {
+/// Every start of every member whose data are of use.
+void StudyWorker::execute_in_lanes(Bench& bench) {
+  const std::size_t starts = bench.columns.starts;
+  if (bench.jobs.size() < members_ * starts) bench.jobs.resize(members_ * starts);
+  const auto usable = [](const Member& m) {
+    return m.out.status == RunStatus::ok || m.out.status == RunStatus::filter_diverged;
+  };
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < members_; ++k)
+    for (std::size_t s = 0; s < starts && usable(group_[k]); ++s) {
+      bench.jobs[count].measured = &group_[k].sim.measured;
+      bench.jobs[count++].start = start_of(bench, group_[k].run, s);
+    }
+  bench.lanes->run(std::span(bench.jobs).first(count));
+  count = 0;
+  for (std::size_t k = 0; k < members_; ++k) {
+    const bool has_jobs = usable(group_[k]);
+    for (std::size_t s = 0; s < starts && has_jobs; ++s)
+      write(bench, bench.jobs[count++], s, group_[k].row, group_[k].out);
+  }
+}
+
+void StudyWorker::simulate(Member& member) {
   const Study& study = task_.study();
+  Simulation& sim = member.sim;
+  const std::uint64_t run = member.run;
   if (study.environment.temperature_fluctuation > 0.0)
     set_environment(timeline_, study.environment, study.monte_carlo.seed, run);
   design_.draw(run, timeline_.chains, draw_);
-  simulator_.run(timeline_, draw_, study.monte_carlo.seed, run, sim_);
-  set_lambda(study.truth, sim_.theta_end);  // what an estimate at the end is to be compared with
+  simulator_.run(timeline_, draw_, study.monte_carlo.seed, run, sim);
+  set_lambda(study.truth, sim.theta_end);  // what an estimate at the end is to be compared with
   const auto& truth = task_.layout().truth;
   for (std::size_t c = 0; c < truth.size(); ++c)
-    row[c] = sim_.theta_end[static_cast<Eigen::Index>(truth[c])];
-  if (!sim_.ode.ok()) {
-    blame(out, status_of(sim_.ode), sim_.ode.cause, sim_.ode.t);
+    member.row[c] = sim.theta_end[static_cast<Eigen::Index>(truth[c])];
+  if (!sim.ode.ok()) {
+    blame(member.out, status_of(sim.ode), sim.ode.cause, sim.ode.t);
     return;
   }
   const auto infinite = [](const Mat3X& m) { return m.array().isInf().any(); };
-  if (infinite(sim_.measured.acc) || infinite(sim_.measured.gimbal))
-    blame(out, RunStatus::nonfinite, "a simulated measurement is infinite", 0.0);
+  if (infinite(sim.measured.acc) || infinite(sim.measured.gimbal))
+    blame(member.out, RunStatus::nonfinite, "a simulated measurement is infinite", 0.0);
 }
 
-void StudyWorker::estimate(Bench& bench, std::uint64_t run, std::size_t start,
-                           std::span<double> row, RunOutcome& out) {
-  const Theta from = start < bench.fixed_starts.size()
-                         ? bench.fixed_starts[start]
-                         : initial_estimate(bench.spec, task_.study().monte_carlo.seed, run, start);
+Theta StudyWorker::start_of(const Bench& bench, std::uint64_t run, std::size_t start) const {
+  return start < bench.fixed_starts.size()
+             ? bench.fixed_starts[start]
+             : initial_estimate(bench.spec, task_.study().monte_carlo.seed, run, start);
+}
+
+void StudyWorker::estimate(Bench& bench, std::size_t start, Member& member) {
+  const Theta from = start_of(bench, member.run, start);
+  const Measurements& measured = member.sim.measured;
   if (bench.ekf) {
     Ekf& ekf = *bench.ekf;
     ekf.reset(from);
     const auto intervals = static_cast<Eigen::Index>(timeline_.intervals.size());
     for (Eigen::Index i = 0; i < intervals && ekf.status() == EstimateStatus::ok; ++i)
-      ekf.process(static_cast<std::size_t>(i), sim_.measured.acc.col(i),
-                  sim_.measured.gimbal.col(i));
-    write(bench, ekf, start, row, out);
+      ekf.process(static_cast<std::size_t>(i), measured.acc.col(i), measured.gimbal.col(i));
+    write(bench, ekf, start, member.row, member.out);
   } else if (bench.iterated) {
-    bench.iterated->run(sim_.measured, from);
-    write(bench, *bench.iterated, start, row, out);
+    bench.iterated->run(measured, from);
+    write(bench, *bench.iterated, start, member.row, member.out);
   } else {
-    by_batch(bench, from, start, row, out);
+    by_batch(bench, from, start, member);
   }
 }
 
@@ -167,11 +218,12 @@ void StudyWorker::write(Bench& bench, Filter& filter, std::size_t start, std::sp
   judge(bench, start, filter.x(), filter.settled_covariance(), row);
 }
 
-void StudyWorker::by_batch(Bench& bench, const Theta& from, std::size_t start,
-                           std::span<double> row, RunOutcome& out) {
+void StudyWorker::by_batch(Bench& bench, const Theta& from, std::size_t start, Member& member) {
   using C = StudyColumns;
+  const std::span<double> row = member.row;
+  RunOutcome& out = member.out;
   const BatchResult fit =
-      fit_batch(bench.spec, {timeline_, task_.study().readout, sim_.measured}, from);
+      fit_batch(bench.spec, {timeline_, task_.study().readout, member.sim.measured}, from);
   const EstimateResult& e = fit.estimate;
   const C::Filter& at = bench.columns;
   row[at.at(start, C::status)] = static_cast<double>(e.status);
@@ -200,19 +252,14 @@ void StudyWorker::judge(Bench& bench, std::size_t start, const Vector& x, const 
     const auto i = static_cast<Eigen::Index>(k);
     bench.error[i] = x[i] - (row[at.truth[k]] - at.layout.mean[i]) / at.layout.sigma[i];
   }
-  bench.tridiagonal.compute(P);
-  bench.diagonal = bench.tridiagonal.diagonal();
-  bench.beside = bench.tridiagonal.subDiagonal();
-  bench.eigen.computeFromTridiagonal(bench.diagonal, bench.beside);
-  bench.turned = bench.error;
-  turn_by_reflections(bench.tridiagonal, bench.turned);
-  bench.along.noalias() = bench.eigen.eigenvectors().transpose() * bench.turned;
+  if (!bench.axes.compute(P, bench.error)) return;  // NaN is told as missing
+  const VecX &variances = bench.axes.variance(), &along = bench.axes.along();
   const double observed = std::pow(task_.study().monte_carlo.healthy_sigma, 2);
   double nees = 0.0, all = 0.0;
   int dof = 0;
-  for (Eigen::Index j = 0; j < bench.along.size(); ++j) {
-    const double variance = bench.eigen.eigenvalues()[j];
-    const double share = bench.along[j] * bench.along[j] / variance;
+  for (Eigen::Index j = 0; j < along.size(); ++j) {
+    const double variance = variances[j];
+    const double share = along[j] * along[j] / variance;
     all += share;
     if (variance >= observed) continue;
     nees += share;

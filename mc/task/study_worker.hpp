@@ -1,27 +1,39 @@
 #pragma once
 
-#include <Eigen/Eigenvalues>
 #include <memory>
 #include <vector>
 
 #include "core/estimate/batch.hpp"
 #include "core/estimate/sequential/ekf.hpp"
 #include "core/estimate/sequential/iterated_ekf.hpp"
+#include "core/estimate/sequential/iterated_lanes.hpp"
 #include "core/sim/simulate.hpp"
 #include "mc/study/design.hpp"
+#include "mc/task/principal_axes.hpp"
 #include "mc/task/study_task.hpp"
 
 namespace drift::mc {
 
 /// Executes runs of a study point on one thread. From the second run on, the filters allocate
-/// nothing.
+/// nothing. Filters that can (IteratedLanes) estimate several runs in lock step, those that were
+/// expected together.
 class StudyWorker final : public RunWorker {
  public:
   explicit StudyWorker(const StudyTask& task);
   RunOutcome execute(std::uint64_t run, std::span<double> row) override;
   RunOutcome trace(std::uint64_t run, std::span<double> row, TraceSink& sink) override;
+  void expect(std::span<const std::uint64_t> runs) override;
+  std::size_t together() const override;
 
  private:
+  /// A run of a group that is executed together.
+  struct Member {
+    std::uint64_t run = 0;
+    bool waiting = false;  ///< executed, and not asked for so far
+    RunOutcome out;
+    std::vector<double> row;
+    Simulation sim;
+  };
   /// One filter and its workspace.
   struct Bench {
     const FilterSpec& spec;
@@ -29,22 +41,22 @@ class StudyWorker final : public RunWorker {
     std::vector<Theta> fixed_starts;  ///< starts that are the same in every run: the first ones
     std::unique_ptr<Ekf> ekf;         ///< of that estimator alone
     std::unique_ptr<IteratedEkf> iterated;
-    // Eigenvectors of a covariance are Q V, kept apart: Q as reflections, because Eigen allocates
-    // to form it.
-    Eigen::Tridiagonalization<MatX> tridiagonal;
-    Eigen::SelfAdjointEigenSolver<MatX> eigen;
-    VecX diagonal, beside;      ///< of the tridiagonal matrix
-    VecX error, turned, along;  ///< error in prior sigmas; Q^T error; along the eigenvectors
+    std::unique_ptr<IteratedLanes> lanes;
+    std::vector<IteratedJob> jobs;  ///< of the members of a group, start after start
+    PrincipalAxes axes;
+    VecX error;  ///< in prior sigmas
   };
 
-  void simulate(std::uint64_t run, std::span<double> row, RunOutcome& out);
-  void estimate(Bench& bench, std::uint64_t run, std::size_t start, std::span<double> row,
-                RunOutcome& out);
+  void execute_group();
+  void execute_alone(Member& member);
+  void execute_in_lanes(Bench& bench);
+  Theta start_of(const Bench& bench, std::uint64_t run, std::size_t start) const;
+  void simulate(Member& member);
+  void estimate(Bench& bench, std::size_t start, Member& member);
   template <class Filter>
   void write(Bench& bench, Filter& filter, std::size_t start, std::span<double> row,
              RunOutcome& out);
-  void by_batch(Bench& bench, const Theta& from, std::size_t start, std::span<double> row,
-                RunOutcome& out);
+  void by_batch(Bench& bench, const Theta& from, std::size_t start, Member& member);
   /// Writes NEES of estimate x with covariance P, both in prior sigmas.
   template <class Vector, class Matrix>
   void judge(Bench& bench, std::size_t start, const Vector& x, const Matrix& P,
@@ -55,7 +67,8 @@ class StudyWorker final : public RunWorker {
   Design design_;
   Simulator simulator_;
   TruthDraw draw_;
-  Simulation sim_;
+  std::vector<Member> group_;
+  std::size_t members_ = 0;
   std::vector<Bench> benches_;
 };
 

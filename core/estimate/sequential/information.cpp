@@ -11,11 +11,12 @@ namespace {
 /// Rows of the sum that are worked out together, each beside a few lanes of columns.
 constexpr std::size_t block = 4;
 
-/// sum(4 rows from i on, `count` lanes of columns from c on) +- their products over the rows.
+/// sum(4 rows from i on, `count` lanes of columns from c on) +- products of entry i of `rows` with
+/// entry c of `beside`, over how many there are of each.
 enum class Sign { plus, minus };
 template <int count, Sign sign>
-void add_tile(const double* rows, std::size_t how_many, std::size_t width, std::size_t i,
-              std::size_t c, double* sum) {
+void add_tile(const double* rows, const double* beside, std::size_t how_many, std::size_t width,
+              std::size_t i, std::size_t c, double* sum) {
   Lanes tile[block][count];
 #pragma GCC unroll 4
   for (std::size_t a = 0; a < block; ++a)
@@ -23,11 +24,12 @@ void add_tile(const double* rows, std::size_t how_many, std::size_t width, std::
     for (int b = 0; b < count; ++b)
       tile[a][b] = load(sum + (i + a) * width + c + static_cast<std::size_t>(b) * lane_width);
   const double* t = rows;
-  for (std::size_t r = 0; r < how_many; ++r, t += width) {
+  const double* u = beside;
+  for (std::size_t r = 0; r < how_many; ++r, t += width, u += width) {
     Lanes column[count];
 #pragma GCC unroll 8
     for (int b = 0; b < count; ++b)
-      column[b] = load(t + c + static_cast<std::size_t>(b) * lane_width);
+      column[b] = load(u + c + static_cast<std::size_t>(b) * lane_width);
 #pragma GCC unroll 4
     for (std::size_t a = 0; a < block; ++a) {
       const Lanes ta = broadcast(sign == Sign::plus ? t[i + a] : -t[i + a]);
@@ -42,22 +44,77 @@ void add_tile(const double* rows, std::size_t how_many, std::size_t width, std::
       store(sum + (i + a) * width + c + static_cast<std::size_t>(b) * lane_width, tile[a][b]);
 }
 
+/// As many lanes of columns as are summed up side by side: of 32 registers 16 sums, 4 columns, a
+/// number; of 16 registers 12, 3 and one.
+constexpr std::size_t tile_lanes = lanes_at_once == 8 ? 4 : 3;
+
+/// Calls body.template operator()<count>(c) for the columns from c on, in tiles of nearly equal
+/// width: one of a single lane would wait for its own sums.
+template <class Body>
+void for_tiles(std::size_t c, std::size_t width, Body&& body) {
+  for (std::size_t left = (width - c) / lane_width; left > 0;) {
+    const std::size_t count = left >= 2 * tile_lanes ? tile_lanes
+                              : left > tile_lanes    ? (left + 1) / 2
+                                                     : left;
+    switch (count) {
+      case 1:
+        body.template operator()<1>(c);
+        break;
+      case 2:
+        body.template operator()<2>(c);
+        break;
+      case 3:
+        body.template operator()<3>(c);
+        break;
+      default:
+        body.template operator()<tile_lanes>(c);
+    }
+    c += count * lane_width;
+    left -= count;
+  }
+}
+
 /// The same for all columns from i on.
 template <Sign sign>
 void add_tiles(const double* rows, std::size_t how_many, std::size_t width, std::size_t i,
                double* sum) {
-  constexpr int at_once = 3;  // of 16 registers: 12 sums, 3 columns, a number
-  std::size_t c = i / lane_width * lane_width;
-  for (; c + at_once * lane_width <= width; c += at_once * lane_width)
-    add_tile<at_once, sign>(rows, how_many, width, i, c, sum);
-  for (; c < width; c += lane_width) add_tile<1, sign>(rows, how_many, width, i, c, sum);
+  for_tiles(i / lane_width * lane_width, width, [&]<int count>(std::size_t c) {
+    add_tile<count, sign>(rows, rows, how_many, width, i, c, sum);
+  });
 }
 
-/// row(columns from `from` on, whole lanes) -= factor * other.
-void subtract(double* row, const double* other, double factor, std::size_t from,
-              std::size_t width) {
-  for (std::size_t c = from / lane_width * lane_width; c < width; c += lane_width)
-    store(row + c, mul_add(load(other + c), broadcast(-factor), load(row + c)));
+/// Rows `first` to first + block - 1 of the factor, of which all that hangs on the rows before has
+/// been taken off. False if some pivot is not positive and finite.
+bool factorise_block(double* U, std::size_t first, std::size_t n, std::size_t width,
+                     double* inverse_diagonal) {
+  const std::size_t count = std::min(block, n - first);
+  double* rows = U + first * width;
+  double u[block][block] = {}, inverse[block] = {1.0, 1.0, 1.0, 1.0};
+  for (std::size_t a = 0; a < count; ++a)
+    for (std::size_t b = a; b < count; ++b) u[a][b] = rows[a * width + first + b];
+  for (std::size_t a = 0; a < count; ++a) {
+    if (!(u[a][a] > 0.0) || !std::isfinite(u[a][a])) return false;
+    inverse_diagonal[first + a] = inverse[a] = 1.0 / std::sqrt(u[a][a]);
+    for (std::size_t b = a; b < count; ++b) u[a][b] *= inverse[a];
+    for (std::size_t b = a + 1; b < count; ++b)
+      for (std::size_t c = b; c < count; ++c) u[b][c] -= u[a][b] * u[a][c];
+  }
+  for (std::size_t c = first / lane_width * lane_width; c < width; c += lane_width) {
+    Lanes r[block];
+#pragma GCC unroll 4
+    for (std::size_t a = 0; a < block; ++a) {
+      r[a] = load(rows + a * width + c);
+#pragma GCC unroll 4
+      for (std::size_t b = 0; b < a; ++b) r[a] = mul_add(r[b], broadcast(-u[b][a]), r[a]);
+      r[a] = mul_add(r[a], broadcast(inverse[a]), broadcast(0.0));
+      store(rows + a * width + c, r[a]);
+    }
+  }
+  // Whole lanes were written: what stands before the diagonal is no part of U.
+  for (std::size_t a = 0; a < count; ++a)
+    std::fill(rows + a * width + first / lane_width * lane_width, rows + a * width + first + a,
+              0.0);
+  return true;
 }
 
 }  // namespace
@@ -67,7 +124,7 @@ Information::Information(std::size_t parameters, std::size_t width)
       width_(width),
       sum_((width + block) * width, 0.0),
       factor_(sum_),
-      work_(parameters * width, 0.0),
+      work_(std::max(parameters, block) * width, 0.0),
       inverse_diagonal_(width, 1.0),
       solution_(VecX::Zero(static_cast<Eigen::Index>(n_))),
       turned_(solution_) {
@@ -83,6 +140,21 @@ void Information::add(const double* rows, std::size_t count) {
     add_tiles<Sign::plus>(rows, count, width_, i, sum_.data());
 }
 
+double Information::product(const double* rows, const double* others, std::size_t count,
+                            const MatX& P) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < n_; i += block) {
+    std::fill_n(work_.data(), block * width_, 0.0);
+    for_tiles(0, width_, [&]<int lanes>(std::size_t c) {
+      add_tile<lanes, Sign::plus>(rows + i, others, count, width_, 0, c, work_.data());
+    });
+    for (std::size_t a = 0; a < std::min(block, n_ - i); ++a)
+      sum += P.col(static_cast<Eigen::Index>(i + a))
+                 .dot(Eigen::Map<const VecX>(&work_[a * width_], P.rows()));
+  }
+  return sum;
+}
+
 bool Information::factorise() {
   double* U = factor_.data();
   for (std::size_t i = 0; i < n_; ++i) {
@@ -93,18 +165,7 @@ bool Information::factorise() {
   for (std::size_t i = n_; i < n_ + block; ++i) std::fill_n(U + i * width_, width_, 0.0);
   for (std::size_t first = 0; first < n_; first += block) {
     add_tiles<Sign::minus>(U, first, width_, first, U);
-    for (std::size_t i = first; i < std::min(first + block, n_); ++i) {
-      double* row = U + i * width_;
-      const double pivot = row[i];
-      if (!(pivot > 0.0) || !std::isfinite(pivot)) return false;
-      inverse_diagonal_[i] = 1.0 / std::sqrt(pivot);
-      for (std::size_t c = i / lane_width * lane_width; c < width_; c += lane_width)
-        store(row + c, mul_add(load(row + c), broadcast(inverse_diagonal_[i]), broadcast(0.0)));
-      for (std::size_t k = i + 1; k < std::min(first + block, n_); ++k)
-        subtract(U + k * width_, row, row[k], k, width_);
-      // Whole lanes were written: what stands before the diagonal is no part of U.
-      std::fill(row + i / lane_width * lane_width, row + i, 0.0);
-    }
+    if (!factorise_block(U, first, n_, width_, inverse_diagonal_.data())) return false;
   }
   return true;
 }

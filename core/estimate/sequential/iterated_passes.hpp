@@ -88,12 +88,18 @@ class IteratedPasses {
   ReferencePath reference_;
   bool gated_;
   std::vector<double> store_;  ///< all rows of a pass
-  /// Of three rows: their channel, and whether the interval before has some of it too.
+  /// Of three rows: their channel, and whether the interval before has some of it too; then (when
+  /// lags are measured) the three rows before and after them, and whether they stand for both
+  /// pairs.
   struct Neighbour {
     IntervalRows::Channel channel;
     bool follows;
+    bool in_the_middle = false;
+    std::size_t before = 0, after = 0;
   };
   std::vector<Neighbour> neighbours_;
+  static constexpr std::size_t held_at_most = 24;   ///< rows that fit the first cache twice
+  std::vector<double> residual_, middle_, beside_;  ///< work of measure_lag()
   /// Never the interval before another one: one more is no index.
   static constexpr std::size_t nothing_measured = std::numeric_limits<std::size_t>::max() - 1;
   std::size_t measured_last_[2] = {nothing_measured, nothing_measured};  ///< interval, by channel

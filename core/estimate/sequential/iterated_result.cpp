@@ -1,4 +1,4 @@
-#include <utility>
+#include <algorithm>
 
 #include "core/estimate/sequential/iterated_passes.hpp"
 
@@ -6,8 +6,8 @@ namespace drift {
 
 /// What is reported of the last pass.
 void IteratedPasses::finish() {
-  measure_lag();
   information_.invert(P_);
+  measure_lag();
   const AttitudeFilter& end = ends_.back();
   for (std::size_t k = 0; k < end.walking().size(); ++k) {
     // The value at the end: what it was at the beginning, and what the walk has added.
@@ -30,27 +30,52 @@ void IteratedPasses::finish() {
   theta_ = rows_.layout().theta_at(x_);
 }
 
-/// Whitened by the filter of the attitude, residuals at the estimate of neighbours u, t have the
-/// covariance -u (1 + information)^-1 t^T where innovations are white.
+/// Whitened by the filter of the attitude, residuals at the estimate of neighbours s, t have the
+/// covariance -s P t^T where innovations are white.
 void IteratedPasses::measure_lag() {
-  const std::size_t right = rows_.attitude().right();
-  information_.whiten(row(0), 3 * triples_);
-  const VecX& d = information_.whitened(moved_);
+  const std::size_t right = rows_.attitude().right(), width = rows_.width();
+  for (std::size_t k = 0; k < 3 * triples_; ++k) {
+    const double* t = row(k);
+    residual_[k] =
+        t[right] == 0.0 ? 0.0 : t[right] - moved_.dot(Eigen::Map<const VecX>(t, moved_.size()));
+  }
+  const std::size_t none = neighbours_.size();
+  std::size_t last[2] = {none, none};
   double lagged = 0.0;
   std::size_t pairs = 0;
-  const double* last[2] = {nullptr, nullptr};
   for (std::size_t k = 0; k < triples_; ++k) {
-    const double* now = row(3 * k);
-    const auto [channel, follows] = neighbours_[k];
-    const double* before = std::exchange(last[channel], now);
-    for (std::size_t a = 0; follows && a < 3; ++a) {
-      const double *s = before + a * rows_.width(), *t = now + a * rows_.width();
-      if (s[right] == 0.0 || t[right] == 0.0) continue;
-      const Eigen::Map<const VecX> u(s, d.size()), v(t, d.size());
-      lagged += (s[right] - u.dot(d)) * (t[right] - v.dot(d)) + u.dot(v);
+    Neighbour& now = neighbours_[k];
+    now.before = now.follows ? last[now.channel] : none;
+    now.after = none;
+    last[now.channel] = k;
+    // Of three in a row the one in the middle stands for two pairs, s P t^T + t P u^T.
+    now.in_the_middle = now.before != none && !neighbours_[now.before].in_the_middle;
+    if (now.before == none) continue;
+    neighbours_[now.before].after = k;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double s = residual_[3 * now.before + a], t = residual_[3 * k + a];
+      if (s == 0.0 || t == 0.0) continue;  // not measured: its row is zero, too
+      lagged += s * t;
       ++pairs;
     }
   }
+  std::size_t held = 0;
+  const auto add_held = [&] {
+    lagged += information_.product(middle_.data(), beside_.data(), held, P_);
+    held = 0;
+  };
+  for (std::size_t k = 0; k < triples_; ++k) {
+    const Neighbour& now = neighbours_[k];
+    if (!now.in_the_middle) continue;
+    const double *before = row(3 * now.before),
+                 *after = now.after == none ? nullptr : row(3 * now.after);
+    std::copy_n(row(3 * k), 3 * width, &middle_[held * width]);
+    double* sum = &beside_[held * width];
+    for (std::size_t c = 0; c < 3 * width; ++c) sum[c] = after ? before[c] + after[c] : before[c];
+    held += 3;
+    if (held == held_at_most) add_held();
+  }
+  add_held();
   if (stretch_lag_) stretch_lag_->add(ends_, moved_, information_, lagged, pairs);
   const double variance = nis_ / static_cast<double>(scalars_);
   lag1_ = pairs > 0 && nis_ > 0.0 ? lagged / static_cast<double>(pairs) / variance : 0.0;

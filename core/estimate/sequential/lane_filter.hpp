@@ -1,0 +1,48 @@
+#pragma once
+
+#include <vector>
+
+#include "core/estimate/sequential/lane_information.hpp"
+#include "core/estimate/sequential/lane_linearizer.hpp"
+
+namespace drift {
+
+/// AttitudeFilter of several runs, one in each lane: three attitudes, nothing that walks.
+class LaneFilter {
+ public:
+  /// readout: a slot of the accelerometers and the readout state it depends on.
+  LaneFilter(const Layout& layout, const std::vector<LaneLinearizer::Entry>& readout);
+
+  void reset();
+  /// A new attitude, expected at psi off the reference, unknown within sigma [rad].
+  void cage(const PackVec& psi, double sigma);
+  /// psi <- Phi psi + G x, plus white noise of variance q per axis. G: three numbers of each rate
+  /// state.
+  void propagate(const PackMat& Phi, const std::vector<Pack>& G, double q);
+
+  /// Three scalars (AttitudeFilter::Scalars). on: one where measured, else zero; nu is finite where
+  /// the run is.
+  struct Scalars {
+    PackVec nu, on;
+    PackMat H_psi;
+    const std::vector<Pack>* H_rate = nullptr;  ///< three numbers of each rate state; may be null
+    const std::vector<Pack>* H_par = nullptr;   ///< of each entry of `readout`; may be null
+    double sigma = 0.0;
+  };
+  /// Takes them in; their whitened rows go where `into` says.
+  void update(Scalars& scalars, LaneInformation& into);
+
+  /// Estimate of the attitude where the parameters are x off the reference [rad].
+  PackVec attitude(const std::vector<Pack>& x) const;
+  /// The reference moves to where the attitude is estimated.
+  void move_reference();
+
+ private:
+  std::size_t parameters_, rate_;
+  const std::vector<LaneLinearizer::Entry>* readout_;
+  std::vector<Pack> U_;    ///< three numbers of each parameter; minus the expectation behind them
+  std::vector<Pack> row_;  ///< work: of the readout states, three numbers of each
+  PackMat P_;
+};
+
+}  // namespace drift

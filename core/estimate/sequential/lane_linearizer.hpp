@@ -1,0 +1,74 @@
+#pragma once
+
+#include <vector>
+
+#include "core/estimate/layout.hpp"
+#include "core/estimate/sequential/lane_math.hpp"
+#include "core/physics/slot_derivatives.hpp"
+#include "core/plan/readout.hpp"
+#include "core/plan/timeline.hpp"
+
+namespace drift {
+
+/// NodeJacobian of several runs at the same node, one in each lane. Derivatives by a state stand
+/// together.
+struct LaneJacobian {
+  PackMat A;                ///< d psi_i' / d psi_i [1/s]
+  std::vector<Pack> B;      ///< d psi_i' / d rate states, three numbers of each [rad/s]
+  PackVec acc;              ///< accelerometer outputs [g]
+  PackMat H;                ///< d acc / d psi_i [g/rad]
+  std::vector<Pack> H_par;  ///< d acc / d readout states, of each of LaneLinearizer::readout() [g]
+};
+
+/// What Linearizer does for several instants of one run, for one instant of several runs: they
+/// follow one plan, each with parameters and a path of its own. What comes out of a lane does not
+/// depend on its neighbours.
+class LaneLinearizer {
+ public:
+  using Entry = SlotDerivatives<ReadoutHook, Pack>::Entry;
+
+  /// Whether a model is such that its terms ask for attitude and command alone, and none acts on
+  /// what the gimbals show.
+  static bool can(const DriftModel& model) {
+    return those_apart(model.terms).none() && !TermLibrary::act_on_gimbals(model.terms);
+  }
+  LaneLinearizer(const DriftModel& model, const Layout& layout, Readout readout);
+  LaneLinearizer(const LaneLinearizer&) = delete;
+  LaneLinearizer& operator=(const LaneLinearizer&) = delete;
+
+  /// Every parameter of TermLibrary; those of lanes that are not used must be such as may be.
+  std::vector<Pack>& theta() { return theta_; }
+  const DriftModel& model() const { return model_; }
+
+  void evaluate(const Node& node, const Interval& interval, const Mat3& E_loop, const PackVec& phi,
+                LaneJacobian& out);
+  LaneJacobian make() const;
+  /// A slot of the accelerometers and the readout state it depends on.
+  const std::vector<Entry>& readout() const { return accelerometers_.entries(); }
+
+  /// Rotation vectors at the nodes of an interval, from the first (or the last) on, by steps of
+  /// Runge and Kutta [rad].
+  void forward(const Timeline& timeline, const Interval& interval, PackVec* phi);
+  void backward(const Timeline& timeline, const Interval& interval, PackVec* phi);
+
+ private:
+  void look(const Node& node, const Interval& interval, const PackVec& phi);
+  PackVec rate(const Mat3& R_lr, const PackVec& phi);
+  PackVec step(double length, const Mat3& from, const Mat3& half, const Mat3& to,
+               const PackVec& phi);
+  void drive(const Timeline& timeline, const Interval& interval);
+
+  DriftModel model_;
+  Layout layout_;
+  Readout readout_;
+  std::vector<Pack> theta_;
+  SlotDerivatives<RatesHook, Pack> rates_;
+  SlotDerivatives<ReadoutHook, Pack> accelerometers_;
+  std::vector<Pack> derivative_;
+  SeenByTerms<Pack> seen_;
+  PackMat R_lp_;
+  Vec3 omega_ic_l_ = Vec3::Zero();
+  Mat3 E_loop_ = Mat3::Zero();
+};
+
+}  // namespace drift
