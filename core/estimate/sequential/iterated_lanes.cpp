@@ -209,7 +209,6 @@ void IteratedLanes::solve_block(const Interval& interval, PackVec& phi) {
   const PackVec psi = attitude_.attitude(step_);
   for (std::size_t l = 0; l < width; ++l) {
     const int lane = static_cast<int>(l);
-   { static int c=0; if(c++<9) fprintf(stderr,"lane %d finite %d psi %g %g %g phi %g %g %g x %g step %g\n",lane,finite[l],psi[0][lane],psi[1][lane],psi[2][lane],phi[0][lane],phi[1][lane],phi[2][lane],x_[5][lane],step_[5][lane]);}
     if (finite[l])
       set_lane(
           phi, lane,

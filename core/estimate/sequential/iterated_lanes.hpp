@@ -74,7 +74,7 @@ class IteratedLanes {
   void take_accelerometers(std::size_t i, Pass pass);
   void take_gimbals(std::size_t i, Pass pass);
   void take_scalars(std::size_t i, Channel channel, LaneFilter::Scalars& scalars, Pass pass);
-  bool read(const Mat3X Measurements::*what, std::size_t i, LaneFilter::Scalars& scalars) const;
+  void read(const Mat3X Measurements::*what, std::size_t i, LaneFilter::Scalars& scalars) const;
   void solve_block(const Interval& interval, PackVec& phi);
   void cage(const Interval& interval, const PackVec& phi);
   void diverged(std::size_t lane, bool finite, double t, Pass pass);
@@ -96,7 +96,6 @@ class IteratedLanes {
   std::vector<PackVec> path_;
   std::vector<LaneFilter> ends_;
   std::vector<Pack> x_, x_start_, moved_, step_, prior_;
-  std::array<std::size_t, 2> measured_last_{};
   std::vector<IteratedJob*> waiting_;
 };
 

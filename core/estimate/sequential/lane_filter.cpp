@@ -69,26 +69,22 @@ void LaneFilter::update(Scalars& scalars, LaneInformation& into) {
     }
   }
   const PackMat minus = -gain;
-  const auto take = [&](std::size_t k, Pack t0, Pack t1, Pack t2) {
+  const Pack* by_rate = scalars.H_rate ? scalars.H_rate->data() : nullptr;
+  const Pack none[3] = {Pack(0.0), Pack(0.0), Pack(0.0)};
+  for (std::size_t k = 0; k <= parameters_; ++k) {
+    const Pack* h = none;
+    if (k == parameters_) h = scalars.nu.data();
+    else if (k >= rate_ && by_par) h = &row_[3 * (k - rate_)];
+    else if (k < rate_ && by_rate) h = by_rate + 3 * k;
     Pack* u = &U_[3 * k];
-    t0 = row_times(H, 0, u, t0 * scalars.on[0]);
-    t1 = row_times(H, 1, u, t1 * scalars.on[1]);
-    t2 = row_times(H, 2, u, t2 * scalars.on[2]);
-    const Pack white[3] = {i0 * t0, mul_add(m10, t0, i1 * t1),
-                           mul_add(m20, t0, mul_add(m21, t1, i2 * t2))};
+    Pack t[3];
+    for (int i = 0; i < 3; ++i) t[i] = row_times(H, i, u, h[i] * scalars.on[i]);
+    const Pack white[3] = {i0 * t[0], mul_add(m10, t[0], i1 * t[1]),
+                           mul_add(m20, t[0], mul_add(m21, t[1], i2 * t[2]))};
     Pack* row = into.at(k);
     for (int i = 0; i < 3; ++i) row[4 * i] = white[i];
     for (int i = 0; i < 3; ++i) u[i] = row_times(minus, i, white, u[i]);
-  };
-  const Pack none(0.0);
-  const Pack* g = scalars.H_rate ? scalars.H_rate->data() : nullptr;
-  for (std::size_t k = 0; k < rate_; ++k)
-    g ? take(k, g[3 * k], g[3 * k + 1], g[3 * k + 2]) : take(k, none, none, none);
-  for (std::size_t k = rate_; k < parameters_; ++k) {
-    const Pack* h = &row_[3 * (k - rate_)];
-    by_par ? take(k, h[0], h[1], h[2]) : take(k, none, none, none);
   }
-  take(parameters_, scalars.nu[0], scalars.nu[1], scalars.nu[2]);
   const PackMat P = P_ - times(gain, PackMat(gain.transpose()));
   for (int j = 0; j < 3; ++j)
     for (int i = 0; i < 3; ++i) P_(i, j) = Pack(0.5) * (P(i, j) + P(j, i));

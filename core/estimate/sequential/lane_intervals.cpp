@@ -86,7 +86,6 @@ void IteratedLanes::linearize(std::size_t i, bool shared) {
 /// IntervalRows::take, in lanes.
 void IteratedLanes::take(std::size_t i, bool shared, Pass pass) {
   const Interval& interval = timeline_.intervals[i];
-  if (i == 0) measured_last_.fill(timeline_.intervals.size());
   linearize(i, shared);
   const std::size_t last = interval.node_count() - 1;
   const auto middle = static_cast<std::size_t>(interval.substeps);
@@ -108,7 +107,7 @@ void IteratedLanes::take(std::size_t i, bool shared, Pass pass) {
 /// mean_output (linearize.hpp), in lanes.
 void IteratedLanes::take_accelerometers(std::size_t i, Pass pass) {
   LaneFilter::Scalars scalars;
-  if (!read(&Measurements::acc, i, scalars)) return;
+  read(&Measurements::acc, i, scalars);
   const Interval& interval = timeline_.intervals[i];
   const auto middle = static_cast<std::size_t>(interval.substeps);
   const PackMat from_middle = lane_inverse(Phi_[middle]);
@@ -146,7 +145,7 @@ void IteratedLanes::take_accelerometers(std::size_t i, Pass pass) {
 
 void IteratedLanes::take_gimbals(std::size_t i, Pass pass) {
   LaneFilter::Scalars scalars;
-  if (!read(&Measurements::gimbal, i, scalars)) return;
+  read(&Measurements::gimbal, i, scalars);
   const Interval& interval = timeline_.intervals[i];
   for (int l = 0; l < Pack::width; ++l) {
     const GimbalPrediction one =
@@ -161,10 +160,10 @@ void IteratedLanes::take_gimbals(std::size_t i, Pass pass) {
   take_scalars(i, gimbals, scalars, pass);
 }
 
-/// What each lane has measured in interval i, zero where it has not. False if none has anything.
-bool IteratedLanes::read(const Mat3X Measurements::*what, std::size_t i,
+/// What each lane has measured in interval i, zero where it has not. What none has is taken in as
+/// well: how rows come together must not hang on which runs do.
+void IteratedLanes::read(const Mat3X Measurements::*what, std::size_t i,
                          LaneFilter::Scalars& scalars) const {
-  bool any = false;
   for (int a = 0; a < 3; ++a) {
     const auto of = [&](int l) {
       return (lanes_[static_cast<std::size_t>(l)]->measured->*what)(a,
@@ -172,17 +171,13 @@ bool IteratedLanes::read(const Mat3X Measurements::*what, std::size_t i,
     };
     scalars.nu[a] = Pack::of_each([&](int l) { return std::isfinite(of(l)) ? of(l) : 0.0; });
     scalars.on[a] = Pack::of_each([&](int l) { return std::isfinite(of(l)) ? 1.0 : 0.0; });
-    for (int l = 0; l < Pack::width; ++l) any = any || std::isfinite(of(l));
   }
-  return any;
 }
 
 void IteratedLanes::take_scalars(std::size_t i, Channel channel, LaneFilter::Scalars& scalars,
                                  Pass pass) {
   if (information_.full()) information_.flush(pass == Pass::linear);
-  std::size_t& last = measured_last_[channel];
-  information_.begin_rows(channel, !timeline_.intervals[i].cage && last + 1 == i);
-  last = i;
+  information_.begin_rows(channel, !timeline_.intervals[i].cage);
   attitude_.update(scalars, information_);
   if (pass == Pass::linear) return;
   for (int a = 0; a < 3; ++a) {  // right hand sides count from the start

@@ -65,10 +65,11 @@ TEST(IteratedLanes, AgreeWithTheEstimatorOfOneRun) {
       one.run(all[k], start);
       ASSERT_EQ(jobs[k].status(), one.status()) << jobs[k].cause();
       EXPECT_EQ(jobs[k].scalars(), one.scalars());
-      EXPECT_NEAR(jobs[k].nis() / one.nis(), 1.0, 1e-6);
-      EXPECT_NEAR(jobs[k].lag1(), one.lag1(), 1e-6);
+      // Paths of two rules of the fourth order: in slews they differ by 1e-4 of the noise.
+      EXPECT_NEAR(jobs[k].nis() / one.nis(), 1.0, 1e-5);
+      EXPECT_NEAR(jobs[k].lag1(), one.lag1(), 1e-5);
       const VecX sigma = one.settled_covariance().diagonal().cwiseSqrt();
-      EXPECT_LT((jobs[k].x() - one.x()).cwiseQuotient(sigma).cwiseAbs().maxCoeff(), 1e-4)
+      EXPECT_LT((jobs[k].x() - one.x()).cwiseQuotient(sigma).cwiseAbs().maxCoeff(), 1e-3)
           << c.preset << k;
       for (std::size_t s = 0; s < one.layout().size(); ++s)
         EXPECT_NEAR(jobs[k].sigma(s) / one.sigma(s), 1.0, 1e-6);
