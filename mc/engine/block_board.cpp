@@ -5,11 +5,12 @@
 
 namespace drift::mc {
 
-std::optional<BlockBoard::Ticket> BlockBoard::take() {
+std::vector<BlockBoard::Ticket> BlockBoard::take(
+    const std::function<std::size_t(std::size_t)>& most) {
   const std::scoped_lock lock(guard_);
   if (!current_) {
     const auto key = next_block_();
-    if (!key) return std::nullopt;
+    if (!key) return {};
     current_ = std::make_shared<InFlight>();
     current_->columns = columns_[key->point];
     current_->left = key->count;
@@ -17,9 +18,13 @@ std::optional<BlockBoard::Ticket> BlockBoard::take() {
                               std::vector<double>(key->count * current_->columns,
                                                   std::numeric_limits<double>::quiet_NaN())};
   }
-  Ticket ticket{current_, current_->taken++};
-  if (current_->taken == current_->stored.block.status.size()) current_.reset();
-  return ticket;
+  const std::size_t all = current_->stored.block.status.size();
+  std::vector<Ticket> tickets;
+  for (std::size_t left = most(current_->stored.block.point); left > 0 && current_->taken < all;
+       --left)
+    tickets.push_back({current_, current_->taken++});
+  if (current_->taken == all) current_.reset();
+  return tickets;
 }
 
 std::optional<StoredBlock> BlockBoard::finish(const Ticket& ticket, const RunOutcome& outcome) {

@@ -11,8 +11,8 @@
 
 namespace drift::mc {
 
-/// Hands out runs to threads, one at a time and across block boundaries, and gathers their rows
-/// into blocks. Thread-safe.
+/// Hands out runs to threads, a few of one block at a time, and gathers their rows into blocks.
+/// Thread-safe.
 class BlockBoard {
  public:
   struct InFlight {
@@ -37,8 +37,8 @@ class BlockBoard {
   BlockBoard(Source next_block, std::vector<std::size_t> columns_of_points)
       : next_block_(std::move(next_block)), columns_(std::move(columns_of_points)) {}
 
-  /// A run to be executed; nothing if there is no more.
-  std::optional<Ticket> take();
+  /// Runs of one block to be executed; nothing if there is no more. most: how many, of a point.
+  std::vector<Ticket> take(const std::function<std::size_t(std::size_t point)>& most);
   /// Takes back an executed run; the block if that was its last.
   std::optional<StoredBlock> finish(const Ticket& ticket, const RunOutcome& outcome);
 

@@ -80,25 +80,33 @@ class Engine {
     try {
       std::unique_ptr<RunWorker> worker;
       std::size_t point = 0;
+      const auto most = [&](std::size_t of) { return work_.points[of].task->together(); };
+      std::vector<RunWork> runs;
       while (!must_stop()) {
-        const auto ticket = board.take();
-        if (!ticket) break;
-        if (!worker || point != ticket->point())
-          worker = work_.points[point = ticket->point()].task->worker();
-        const RunOutcome outcome = guarded_run(*worker, ticket->run(), ticket->row());
-        if (outcome.status != RunStatus::ok) {
-          ++own_failed_;
-          int expected = none;
-          if (options_.fail_fast) stop_.compare_exchange_strong(expected, failed_run);
-        }
-        ++own_done_;
-        if (auto block = board.finish(*ticket, outcome)) queue_.store(std::move(*block));
+        const auto tickets = board.take(most);
+        if (tickets.empty()) break;
+        if (!worker || point != tickets[0].point())
+          worker = work_.points[point = tickets[0].point()].task->worker();
+        runs.clear();
+        for (const BlockBoard::Ticket& t : tickets) runs.push_back({t.run(), t.row(), {}});
+        guarded_runs(*worker, runs);
+        for (std::size_t k = 0; k < runs.size(); ++k) finish(board, tickets[k], runs[k].outcome);
         tell();
       }
     } catch (...) {
       queue_.give_up(std::current_exception());
       stop_ = broken;
     }
+  }
+
+  void finish(BlockBoard& board, const BlockBoard::Ticket& ticket, const RunOutcome& outcome) {
+    if (outcome.status != RunStatus::ok) {
+      ++own_failed_;
+      int expected = none;
+      if (options_.fail_fast) stop_.compare_exchange_strong(expected, failed_run);
+    }
+    ++own_done_;
+    if (auto block = board.finish(ticket, outcome)) queue_.store(std::move(*block));
   }
 
   void commit(const std::vector<StoredBlock>& batch) {

@@ -34,6 +34,19 @@ RunOutcome guarded_run(RunWorker& worker, std::uint64_t run, std::span<double> r
   return outcome;
 }
 
+void guarded_runs(RunWorker& worker, std::span<RunWork> runs) {
+  if (runs.size() > 1) {
+    try {
+      return worker.execute(runs);
+    } catch (...) {  // whose fault it is shows below
+    }
+  }
+  for (RunWork& w : runs) {
+    std::ranges::fill(w.row, std::numeric_limits<double>::quiet_NaN());
+    w.outcome = guarded_run(worker, w.run, w.row);
+  }
+}
+
 int gravity(ExitCode code) {
   return static_cast<int>(std::find(by_gravity.begin(), by_gravity.end(), code) -
                           by_gravity.begin());

@@ -13,6 +13,9 @@ namespace drift::mc {
 RunOutcome guarded_run(RunWorker& worker, std::uint64_t run, std::span<double> row,
                        TraceSink* trace = nullptr);
 
+/// Executes several together, and where anything is thrown each by itself.
+void guarded_runs(RunWorker& worker, std::span<RunWork> runs);
+
 /// Exit codes by how much they matter, so that several processes can agree on one.
 int gravity(ExitCode code);
 ExitCode of_gravity(int gravity);

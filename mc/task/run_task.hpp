@@ -35,6 +35,13 @@ struct RunOutcome {
   double integration_s = 0.0, filter_s = 0.0, total_s = 0.0;  ///< CPU seconds spent
 };
 
+/// A run to be executed, and what came out of it.
+struct RunWork {
+  std::uint64_t run = 0;
+  std::span<double> row;  ///< shape: columns of the task; comes full of NaN
+  RunOutcome outcome;
+};
+
 /// Takes the course of one run, sample by sample, for people to look at.
 class TraceSink {
  public:
@@ -50,11 +57,10 @@ class RunWorker {
   /// Executes run number `run` and fills `row` (shape: columns of the task), which comes full of
   /// NaN. A pure function of (task, run): what ran before leaves no trace. Failures are outcomes.
   virtual RunOutcome execute(std::uint64_t run, std::span<double> row) = 0;
-  /// Runs that will be asked for next. A worker may execute them together: what comes out of each
-  /// is the same, bit for bit.
-  virtual void expect(std::span<const std::uint64_t> /*runs*/) {}
-  /// How many runs it pays to expect at once.
-  virtual std::size_t together() const { return 1; }
+  /// Executes several: what comes out of each is the same, bit for bit.
+  virtual void execute(std::span<RunWork> runs) {
+    for (RunWork& w : runs) w.outcome = execute(w.run, w.row);
+  }
   /// The same as execute(), bit for bit, with the course of the run besides. A task without a trace
   /// leaves the sink untouched.
   virtual RunOutcome trace(std::uint64_t run, std::span<double> row, TraceSink& /*sink*/) {
@@ -68,6 +74,8 @@ class RunTask {
   virtual ~RunTask() = default;
   virtual const std::vector<Column>& columns() const = 0;
   virtual std::unique_ptr<RunWorker> worker() const = 0;
+  /// How many runs it pays to execute together.
+  virtual std::size_t together() const { return 1; }
 };
 
 /// One point of a study: a task and what tells it from the others.

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/base/check.hpp"
 #include "core/plan/environment.hpp"
 #include "core/sim/surroundings.hpp"
@@ -60,6 +62,14 @@ StudyTask::StudyTask(Study study)
   set_loop(timeline_, study_.truth);
   set_environment(timeline_, study_.environment, study_.monte_carlo.seed, 0);
   check_surroundings(study_, timeline_);
+}
+
+std::size_t StudyTask::together() const {
+  const bool in_lanes = study_.monte_carlo.estimator == EstimatorKind::iterated &&
+                        std::ranges::any_of(study_.filters, [&](const FilterSpec& f) {
+                          return IteratedLanes::can(f, timeline_);
+                        });
+  return in_lanes ? IteratedLanes::width : 1;
 }
 
 std::unique_ptr<RunWorker> StudyTask::worker() const {

@@ -17,6 +17,7 @@ class StudyTask final : public RunTask {
 
   const std::vector<Column>& columns() const override { return named_; }
   std::unique_ptr<RunWorker> worker() const override;
+  std::size_t together() const override;
 
   const Study& study() const { return study_; }
   const Timeline& timeline() const { return timeline_; }

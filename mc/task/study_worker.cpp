@@ -31,6 +31,12 @@ void blame(RunOutcome& out, RunStatus status, std::string cause, double t) {
   out.t_failed = t;
 }
 
+void fail(RunWork& work, const std::exception& e) {
+  std::ranges::fill(work.row, std::numeric_limits<double>::quiet_NaN());
+  work.outcome.status = RunStatus::error;
+  work.outcome.cause = e.what();
+}
+
 }  // namespace
 
 StudyWorker::StudyWorker(const StudyTask& task)
@@ -63,54 +69,33 @@ StudyWorker::StudyWorker(const StudyTask& task)
   }
 }
 
-std::size_t StudyWorker::together() const {
-  const bool lanes =
-      std::ranges::any_of(benches_, [](const Bench& b) { return b.lanes != nullptr; });
-  return lanes ? static_cast<std::size_t>(Pack::width) : 1;
-}
-
-void StudyWorker::expect(std::span<const std::uint64_t> runs) {
-  members_ = std::min(runs.size(), together());
-  if (group_.size() < members_) group_.resize(members_);
-  for (std::size_t k = 0; k < members_; ++k) {
-    group_[k].run = runs[k];
-    group_[k].waiting = false;
-  }
-}
-
 RunOutcome StudyWorker::execute(std::uint64_t run, std::span<double> row) {
-  const auto find = [&] {
-    return std::find_if(group_.begin(), group_.begin() + static_cast<std::ptrdiff_t>(members_),
-                        [&](const Member& m) { return m.run == run; });
-  };
-  auto member = find();
-  if (member == group_.begin() + static_cast<std::ptrdiff_t>(members_)) {
-    expect(std::span(&run, 1));
-    member = find();
-  }
-  if (!member->waiting) execute_group();
-  member->waiting = false;
-  std::ranges::copy(member->row, row.begin());
-  return member->out;
+  RunWork work{run, row, {}};
+  execute(std::span(&work, 1));
+  return work.outcome;
 }
 
-/// All members of the group: each by itself as far as it goes, then in lanes.
-void StudyWorker::execute_group() {
-  for (std::size_t k = 0; k < members_; ++k) execute_alone(group_[k]);
+/// Each by itself as far as it goes, then in lanes.
+void StudyWorker::execute(std::span<RunWork> runs) {
+  if (members_.size() < runs.size()) members_.resize(runs.size());
+  const auto members = std::span(members_).first(runs.size());
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    runs[k].outcome = RunOutcome();
+    members[k].work = &runs[k];
+    execute_alone(members[k]);
+  }
+  if (std::ranges::none_of(benches_, [](const Bench& b) { return b.lanes != nullptr; })) return;
   const double begin = cpu_seconds();
-  for (Bench& bench : benches_)
-    if (bench.lanes) execute_in_lanes(bench);
-  const double share = (cpu_seconds() - begin) / static_cast<double>(members_);
-  for (std::size_t k = 0; k < members_; ++k) {
-    group_[k].out.filter_s += share;
-    group_[k].out.total_s += share;
-    group_[k].waiting = true;
+  execute_in_lanes(members);
+  const double share = (cpu_seconds() - begin) / static_cast<double>(runs.size());
+  for (RunWork& w : runs) {
+    w.outcome.filter_s += share;
+    w.outcome.total_s += share;
   }
 }
 
 void StudyWorker::execute_alone(Member& member) {
-  RunOutcome& out = member.out = RunOutcome();
-  member.row.assign(task_.columns().size(), std::numeric_limits<double>::quiet_NaN());
+  RunOutcome& out = member.work->outcome;
   const double begin = cpu_seconds();
   double simulated = begin;
   try {
@@ -121,9 +106,7 @@ void StudyWorker::execute_alone(Member& member) {
       for (std::size_t s = 0; usable && !bench.lanes && s < bench.columns.starts; ++s)
         estimate(bench, s, member);
   } catch (const std::exception& e) {
-    std::ranges::fill(member.row, std::numeric_limits<double>::quiet_NaN());
-    out.status = RunStatus::error;
-    out.cause = e.what();
+    fail(*member.work, e);
   }
   const double end = cpu_seconds();
   out.integration_s = simulated - begin;
@@ -131,32 +114,42 @@ void StudyWorker::execute_alone(Member& member) {
   out.total_s = end - begin;
 }
 
+void StudyWorker::execute_in_lanes(std::span<Member> members) {
+  try {
+    for (Bench& bench : benches_)
+      if (bench.lanes) estimate_in_lanes(bench, members);
+  } catch (const std::exception& e) {
+    if (members.size() > 1) throw;  // whose fault it is shows when each is executed by itself
+    fail(*members[0].work, e);
+  }
+}
+
 /// Every start of every member whose data are of use.
-void StudyWorker::execute_in_lanes(Bench& bench) {
+void StudyWorker::estimate_in_lanes(Bench& bench, std::span<Member> members) {
   const std::size_t starts = bench.columns.starts;
-  if (bench.jobs.size() < members_ * starts) bench.jobs.resize(members_ * starts);
+  if (bench.jobs.size() < members.size() * starts) bench.jobs.resize(members.size() * starts);
   const auto usable = [](const Member& m) {
-    return m.out.status == RunStatus::ok || m.out.status == RunStatus::filter_diverged;
+    const RunStatus status = m.work->outcome.status;
+    return status == RunStatus::ok || status == RunStatus::filter_diverged;
   };
   std::size_t count = 0;
-  for (std::size_t k = 0; k < members_; ++k)
-    for (std::size_t s = 0; s < starts && usable(group_[k]); ++s) {
-      bench.jobs[count].measured = &group_[k].sim.measured;
-      bench.jobs[count++].start = start_of(bench, group_[k].run, s);
+  for (const Member& m : members)
+    for (std::size_t s = 0; s < starts && usable(m); ++s) {
+      bench.jobs[count].measured = &m.sim.measured;
+      bench.jobs[count++].start = start_of(bench, m.work->run, s);
     }
   bench.lanes->run(std::span(bench.jobs).first(count));
   count = 0;
-  for (std::size_t k = 0; k < members_; ++k) {
-    const bool has_jobs = usable(group_[k]);
-    for (std::size_t s = 0; s < starts && has_jobs; ++s)
-      write(bench, bench.jobs[count++], s, group_[k].row, group_[k].out);
+  for (Member& m : members) {
+    const bool has_jobs = usable(m);
+    for (std::size_t s = 0; s < starts && has_jobs; ++s) write(bench, bench.jobs[count++], s, m);
   }
 }
 
 void StudyWorker::simulate(Member& member) {
   const Study& study = task_.study();
   Simulation& sim = member.sim;
-  const std::uint64_t run = member.run;
+  const std::uint64_t run = member.work->run;
   if (study.environment.temperature_fluctuation > 0.0)
     set_environment(timeline_, study.environment, study.monte_carlo.seed, run);
   design_.draw(run, timeline_.chains, draw_);
@@ -164,14 +157,14 @@ void StudyWorker::simulate(Member& member) {
   set_lambda(study.truth, sim.theta_end);  // what an estimate at the end is to be compared with
   const auto& truth = task_.layout().truth;
   for (std::size_t c = 0; c < truth.size(); ++c)
-    member.row[c] = sim.theta_end[static_cast<Eigen::Index>(truth[c])];
+    member.work->row[c] = sim.theta_end[static_cast<Eigen::Index>(truth[c])];
   if (!sim.ode.ok()) {
-    blame(member.out, status_of(sim.ode), sim.ode.cause, sim.ode.t);
+    blame(member.work->outcome, status_of(sim.ode), sim.ode.cause, sim.ode.t);
     return;
   }
   const auto infinite = [](const Mat3X& m) { return m.array().isInf().any(); };
   if (infinite(sim.measured.acc) || infinite(sim.measured.gimbal))
-    blame(member.out, RunStatus::nonfinite, "a simulated measurement is infinite", 0.0);
+    blame(member.work->outcome, RunStatus::nonfinite, "a simulated measurement is infinite", 0.0);
 }
 
 Theta StudyWorker::start_of(const Bench& bench, std::uint64_t run, std::size_t start) const {
@@ -181,7 +174,7 @@ Theta StudyWorker::start_of(const Bench& bench, std::uint64_t run, std::size_t s
 }
 
 void StudyWorker::estimate(Bench& bench, std::size_t start, Member& member) {
-  const Theta from = start_of(bench, member.run, start);
+  const Theta from = start_of(bench, member.work->run, start);
   const Measurements& measured = member.sim.measured;
   if (bench.ekf) {
     Ekf& ekf = *bench.ekf;
@@ -189,23 +182,24 @@ void StudyWorker::estimate(Bench& bench, std::size_t start, Member& member) {
     const auto intervals = static_cast<Eigen::Index>(timeline_.intervals.size());
     for (Eigen::Index i = 0; i < intervals && ekf.status() == EstimateStatus::ok; ++i)
       ekf.process(static_cast<std::size_t>(i), measured.acc.col(i), measured.gimbal.col(i));
-    write(bench, ekf, start, member.row, member.out);
+    write(bench, ekf, start, member);
   } else if (bench.iterated) {
     bench.iterated->run(measured, from);
-    write(bench, *bench.iterated, start, member.row, member.out);
+    write(bench, *bench.iterated, start, member);
   } else {
     by_batch(bench, from, start, member);
   }
 }
 
 template <class Filter>
-void StudyWorker::write(Bench& bench, Filter& filter, std::size_t start, std::span<double> row,
-                        RunOutcome& out) {
+void StudyWorker::write(Bench& bench, Filter& filter, std::size_t start, Member& member) {
   using C = StudyColumns;
+  const std::span<double> row = member.work->row;
   const C::Filter& at = bench.columns;
   row[at.at(start, C::status)] = static_cast<double>(filter.status());
   if (filter.status() != EstimateStatus::ok) {
-    blame(out, RunStatus::filter_diverged, at.name + ": " + filter.cause(), filter.t_diverged());
+    blame(member.work->outcome, RunStatus::filter_diverged, at.name + ": " + filter.cause(),
+          filter.t_diverged());
     return;
   }
   row[at.at(start, C::nis)] = filter.nis();
@@ -220,8 +214,8 @@ void StudyWorker::write(Bench& bench, Filter& filter, std::size_t start, std::sp
 
 void StudyWorker::by_batch(Bench& bench, const Theta& from, std::size_t start, Member& member) {
   using C = StudyColumns;
-  const std::span<double> row = member.row;
-  RunOutcome& out = member.out;
+  const std::span<double> row = member.work->row;
+  RunOutcome& out = member.work->outcome;
   const BatchResult fit =
       fit_batch(bench.spec, {timeline_, task_.study().readout, member.sim.measured}, from);
   const EstimateResult& e = fit.estimate;

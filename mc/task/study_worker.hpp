@@ -15,23 +15,18 @@
 namespace drift::mc {
 
 /// Executes runs of a study point on one thread. From the second run on, the filters allocate
-/// nothing. Filters that can (IteratedLanes) estimate several runs in lock step, those that were
-/// expected together.
+/// nothing. Filters that can (IteratedLanes) estimate several runs in lock step.
 class StudyWorker final : public RunWorker {
  public:
   explicit StudyWorker(const StudyTask& task);
   RunOutcome execute(std::uint64_t run, std::span<double> row) override;
   RunOutcome trace(std::uint64_t run, std::span<double> row, TraceSink& sink) override;
-  void expect(std::span<const std::uint64_t> runs) override;
-  std::size_t together() const override;
+  void execute(std::span<RunWork> runs) override;
 
  private:
-  /// A run of a group that is executed together.
+  /// A run of those that are executed together.
   struct Member {
-    std::uint64_t run = 0;
-    bool waiting = false;  ///< executed, and not asked for so far
-    RunOutcome out;
-    std::vector<double> row;
+    RunWork* work = nullptr;
     Simulation sim;
   };
   /// One filter and its workspace.
@@ -47,15 +42,14 @@ class StudyWorker final : public RunWorker {
     VecX error;  ///< in prior sigmas
   };
 
-  void execute_group();
   void execute_alone(Member& member);
-  void execute_in_lanes(Bench& bench);
+  void execute_in_lanes(std::span<Member> members);
+  void estimate_in_lanes(Bench& bench, std::span<Member> members);
   Theta start_of(const Bench& bench, std::uint64_t run, std::size_t start) const;
   void simulate(Member& member);
   void estimate(Bench& bench, std::size_t start, Member& member);
   template <class Filter>
-  void write(Bench& bench, Filter& filter, std::size_t start, std::span<double> row,
-             RunOutcome& out);
+  void write(Bench& bench, Filter& filter, std::size_t start, Member& member);
   void by_batch(Bench& bench, const Theta& from, std::size_t start, Member& member);
   /// Writes NEES of estimate x with covariance P, both in prior sigmas.
   template <class Vector, class Matrix>
@@ -67,8 +61,7 @@ class StudyWorker final : public RunWorker {
   Design design_;
   Simulator simulator_;
   TruthDraw draw_;
-  std::vector<Member> group_;
-  std::size_t members_ = 0;
+  std::vector<Member> members_;
   std::vector<Bench> benches_;
 };
 

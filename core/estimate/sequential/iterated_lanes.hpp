@@ -47,6 +47,7 @@ class IteratedJob {
 /// IteratedPasses it is rounded otherwise.
 class IteratedLanes {
  public:
+  static constexpr std::size_t width = static_cast<std::size_t>(Pack::width);
   /// Whether a filter and a timeline are such: terms that ask for attitude and command alone and do
   /// not act on the gimbals, nothing that walks, no outliers, no rest.
   static bool can(const FilterSpec& filter, const Timeline& timeline);
@@ -60,7 +61,6 @@ class IteratedLanes {
  private:
   enum class Pass { first, linear };
   enum Channel { accelerometers = 0, gimbals = 1 };
-  static constexpr std::size_t width = static_cast<std::size_t>(Pack::width);
 
   void prepare(IteratedJob& job) const;
   void load(std::span<IteratedJob* const> jobs);

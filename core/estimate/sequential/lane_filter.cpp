@@ -73,9 +73,12 @@ void LaneFilter::update(Scalars& scalars, LaneInformation& into) {
   const Pack none[3] = {Pack(0.0), Pack(0.0), Pack(0.0)};
   for (std::size_t k = 0; k <= parameters_; ++k) {
     const Pack* h = none;
-    if (k == parameters_) h = scalars.nu.data();
-    else if (k >= rate_ && by_par) h = &row_[3 * (k - rate_)];
-    else if (k < rate_ && by_rate) h = by_rate + 3 * k;
+    if (k == parameters_)
+      h = scalars.nu.data();
+    else if (k >= rate_ && by_par)
+      h = &row_[3 * (k - rate_)];
+    else if (k < rate_ && by_rate)
+      h = by_rate + 3 * k;
     Pack* u = &U_[3 * k];
     Pack t[3];
     for (int i = 0; i < 3; ++i) t[i] = row_times(H, i, u, h[i] * scalars.on[i]);
