@@ -78,8 +78,8 @@ void propagate_sensitivity(const Interval& interval, const Timeline& timeline,
     const NodeJacobian &j0 = jacobian[k], &j1 = jacobian[k + 1], &j2 = jacobian[k + 2];
     const TwoSteps steps(j0.A, j1.A, j2.A, h);
     const Mat3 &Phi1 = steps.to_middle, &Phi2 = steps.to_end;
-    const Mat3 from_end = small_exponential(-steps.log_of_second),
-               from_middle = small_exponential(steps.log_of_second);
+    const Mat3 from_end = small_exponential<double>(-steps.log_of_second),
+               from_middle = small_exponential<double>(steps.log_of_second);
     out.Phi[k + 1] = Phi1 * out.Phi[k];
     out.Phi[k + 2] = Phi2 * out.Phi[k];
     sum_of_products<Sum::afresh>({h * 5.0 / 12.0 * Phi1, h * 8.0 / 12.0 * I, -h / 12.0 * from_end},

@@ -6,37 +6,6 @@
 #include "core/estimate/transition.hpp"
 
 namespace drift {
-namespace {
-
-/// The same as small_exponential and magnus (transition.hpp), in lanes.
-PackMat lane_exponential(const PackMat& a) {
-  const PackMat square = times(a, a);
-  const PackMat cube = times(square, a);
-  PackMat sum;
-  for (int e = 0; e < 9; ++e)
-    sum.data()[e] = Pack(e % 4 == 0 ? 1.0 : 0.0) + a.data()[e] + Pack(0.5) * square.data()[e] +
-                    Pack(1.0 / 6.0) * cube.data()[e];
-  return sum;
-}
-PackMat lane_magnus(const PackMat& integral, const PackMat& A0, const PackMat& A1, double step) {
-  const PackMat change = scaled(step / 12.0, PackMat(A1 - A0));
-  return integral + times(change, integral) - times(integral, change);
-}
-PackMat lane_inverse(const PackMat& M) {
-  const PackVec r0 = M.row(0), r1 = M.row(1), r2 = M.row(2);
-  const PackVec a = r1.cross(r2), b = r2.cross(r0), c = r0.cross(r1);
-  const Pack one_over = Pack(1.0) / r0.dot(a);
-  PackMat inverse;
-  for (int i = 0; i < 3; ++i) {
-    inverse(i, 0) = a[i] * one_over;
-    inverse(i, 1) = b[i] * one_over;
-    inverse(i, 2) = c[i] * one_over;
-  }
-  return inverse;
-}
-
-}  // namespace
-
 /// propagate_sensitivity (linearize.hpp), in lanes.
 void IteratedLanes::linearize(std::size_t i, bool shared) {
   const Interval& interval = timeline_.intervals[i];
@@ -51,16 +20,10 @@ void IteratedLanes::linearize(std::size_t i, bool shared) {
   std::ranges::fill(G_[0], Pack(0.0));
   for (std::size_t k = 0; k + 2 < nodes; k += 2) {
     const LaneJacobian &j0 = jacobian_[k], &j1 = jacobian_[k + 1], &j2 = jacobian_[k + 2];
-    PackMat to_middle, to_end;
-    for (int e = 0; e < 9; ++e) {
-      const Pack a0 = j0.A.data()[e], a1 = j1.A.data()[e], a2 = j2.A.data()[e];
-      to_middle.data()[e] = Pack(h / 12.0) * (Pack(5.0) * a0 + Pack(8.0) * a1 - a2);
-      to_end.data()[e] = Pack(h / 3.0) * (a0 + Pack(4.0) * a1 + a2);
-    }
-    const PackMat rest = lane_magnus(to_end - to_middle, j1.A, j2.A, h);
-    const PackMat Phi1 = lane_exponential(lane_magnus(to_middle, j0.A, j1.A, h)),
-                  Phi2 = lane_exponential(lane_magnus(to_end, j0.A, j2.A, 2.0 * h));
-    const PackMat from_end = lane_exponential(-rest), from_middle = lane_exponential(rest);
+    const TwoSteps<Pack> two(j0.A, j1.A, j2.A, h);
+    const PackMat &Phi1 = two.to_middle, &Phi2 = two.to_end;
+    const PackMat from_end = small_exponential<Pack>(-two.log_of_second),
+                  from_middle = small_exponential<Pack>(two.log_of_second);
     Phi_[k + 1] = times(Phi1, Phi_[k]);
     Phi_[k + 2] = times(Phi2, Phi_[k]);
     const PackMat of0 = scaled(h * 5.0 / 12.0, Phi1), of2 = scaled(-h / 12.0, from_end),
@@ -93,7 +56,7 @@ void IteratedLanes::take(std::size_t i, bool shared, Pass pass) {
   const double q_half = 0.5 * arw * arw * interval.length();
   attitude_.propagate(Phi_[middle], G_[middle], q_half);
   if (readout_.accelerometers) take_accelerometers(i, pass);
-  const PackMat Phi_rest = times(Phi_[last], lane_inverse(Phi_[middle]));
+  const PackMat Phi_rest = times(Phi_[last], Phi_[middle].inverse().eval());
   const PackMat minus = -Phi_rest;
   for (std::size_t c = 0; c < rest_G_.size(); c += 3)
     for (int a = 0; a < 3; ++a) {
@@ -110,7 +73,7 @@ void IteratedLanes::take_accelerometers(std::size_t i, Pass pass) {
   read(&Measurements::acc, i, scalars);
   const Interval& interval = timeline_.intervals[i];
   const auto middle = static_cast<std::size_t>(interval.substeps);
-  const PackMat from_middle = lane_inverse(Phi_[middle]);
+  const PackMat from_middle = Phi_[middle].inverse().eval();
   PackVec mean = PackVec::Zero();
   scalars.H_psi.setZero();
   std::ranges::fill(H_par_, Pack(0.0));

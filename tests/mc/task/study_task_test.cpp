@@ -43,6 +43,37 @@ TEST(StudyTask, RunsDoNotDependOnWhatRanBefore) {
   }
 }
 
+/// Runs together, as an engine hands them out.
+std::vector<mc::RunWork> together(mc::RunWorker& worker, const mc::StudyTask& task,
+                                  std::uint64_t first, std::vector<double>& rows) {
+  const std::size_t width = task.columns().size();
+  std::vector<mc::RunWork> runs;
+  for (std::size_t k = 0; k * width < rows.size(); ++k)
+    runs.push_back({first + k, std::span(rows).subspan(k * width, width), {}});
+  worker.execute(runs);
+  return runs;
+}
+
+TEST(StudyTask, ARunIsTheSameAmongOthersAndByItself) {
+  // One filter can be in lanes and one cannot: its drift walks.
+  for (const char* walk : {"\"0 deg/h/sqrt(h)\"", "\"0.001 deg/h/sqrt(h)\""}) {
+    const mc::StudyTask task = small_task({{"monte_carlo.estimator", "iterated"},
+                                           {"plan.sample", "10 min"},
+                                           {"filter.wrong.drift_random_walk", walk}});
+    ASSERT_GT(task.together(), 1u);
+    const std::size_t width = task.columns().size();
+    const auto one = task.worker(), other = task.worker();
+    std::vector<double> rows(5 * width, std::numeric_limits<double>::quiet_NaN());
+    const auto runs = together(*one, task, 3, rows);
+    for (const mc::RunWork& w : runs) {
+      EXPECT_EQ(w.outcome.status, mc::RunStatus::ok) << w.outcome.cause;
+      EXPECT_GT(w.outcome.filter_s, 0.0);
+      const mc::Block alone = run_block(task, *other, w.run, 1);
+      EXPECT_TRUE(same_bits(alone.rows, w.row)) << w.run;
+    }
+  }
+}
+
 TEST(StudyTask, NamesItsColumns) {
   const mc::StudyTask task = small_task();
   const auto& names = task.columns();

@@ -1,0 +1,63 @@
+#include <fmt/format.h>
+
+#include "core/estimate/sequential/iterated_lanes.hpp"
+
+namespace drift {
+namespace {
+
+constexpr int most_passes = 4;
+
+}  // namespace
+
+void IteratedLanes::diverged(std::size_t lane, bool finite, double t, Pass pass) {
+  IteratedJob& job = *lanes_[lane];
+  if (finite || job.done_ || lane >= used_) return;
+  job.done_ = true;
+  job.status_ = EstimateStatus::diverged;
+  job.t_diverged_ = t;
+  job.cause_ = fmt::format("{} diverged at t = {:.6g} s (estimate beyond 1e6 prior sigma)",
+                           pass == Pass::first ? "filter" : "second pass of the filter", t);
+}
+
+/// What the linear pass says of one lane.
+void IteratedLanes::settle(std::size_t l) {
+  IteratedJob& job = *lanes_[l];
+  const int lane = static_cast<int>(l);
+  const std::size_t n = x_.size();
+  double right = 0.0, square = 0.0;
+  for (std::size_t k = 0; k < n; ++k) {
+    const auto at = static_cast<Eigen::Index>(k);
+    const double d = moved_[k][lane], p = prior_[k][lane];
+    job.moved_[at] = d;
+    job.x_[at] = x_[k][lane] + d;
+    right += d * (information_.right(k)[lane] + p);
+    square += p * p;
+  }
+  job.nis_ = information_.right(n)[lane] + square - right;
+  diverged(l, std::isfinite(job.nis_) && job.x_.allFinite() && job.x_.cwiseAbs().maxCoeff() <= 1e6,
+           timeline_.intervals.back().t1, Pass::linear);
+  if (job.done_) return;
+  ++job.passes_;
+  // No component is longer, in its sigma, than the whole step is in the metric of the covariance,
+  // d (1 + information) d.
+  const bool small = right < 1.0, last = job.passes_ == most_passes;
+  information_.extract(lane, one_);
+  one_.factorise();
+  one_.invert(job.P_);
+  if (small || last ||
+      (job.moved_.array().abs() / job.P_.diagonal().array().sqrt()).maxCoeff() < 1.0)
+    finish(job, lane);
+}
+
+void IteratedLanes::finish(IteratedJob& job, int lane) {
+  job.done_ = true;
+  const double variance = job.nis_ / static_cast<double>(job.scalars_);
+  const double lagged = information_.lagged(lane, job.moved_, job.P_);
+  job.lag1_ =
+      job.pairs_ > 0 && job.nis_ > 0.0 ? lagged / static_cast<double>(job.pairs_) / variance : 0.0;
+  job.theta_ = layout_.theta_at(job.x_);
+  for (Eigen::Index k = 0; k < job.sigma_.size(); ++k)
+    job.sigma_[k] = layout_.sigma[k] * std::sqrt(job.P_(k, k));
+}
+
+}  // namespace drift
