@@ -5,7 +5,9 @@
 #include <limits>
 
 #include "core/estimate/sequential/iterated_passes.hpp"
+#include "core/sim/simulate.hpp"
 #include "tests/support/estimators.hpp"
+#include "tests/support/model_builders.hpp"
 
 namespace drift::iterated_lanes_test {
 namespace {
