@@ -99,7 +99,7 @@ void rank_model(const mc::Study& study, const RankOptions& options, ModelRanking
   m.pwcs = observability::pwcs_rank(study.plan, study.site, m.model.spec, study.readout);
   m.drivers = observability::drivers_of(plan, study.plan, m.model);
   m.elsewhere = ranges_elsewhere(study, m.model);
-  m.methods = observability::compare_methods(m.ranking, m.pwcs, plan, m.course, study.plan);
+  m.methods = observability::compare_methods({m.ranking, m.pwcs, plan, m.course, study.plan});
   duration = plan.duration;
   m.bins = std::move(plan.bins);
   for (observability::TimeBin& bin : m.bins) bin.rows.resize(0, 0);

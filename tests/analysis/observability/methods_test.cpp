@@ -60,7 +60,7 @@ observability::Ranking ranking_of(std::initializer_list<double> information) {
 
 TEST(Methods, HamBrownEigenvaluesSumToTheNumberOfStates) {
   const observability::Ranking r = ranking_of({99.0, 3.0, 0.0});
-  const VecX score = observability::ham_brown(r);  // P = 0.01, 0.25, 1: their sum is 1.26
+  const VecX score = observability::ham_brown_score(r);  // P = 0.01, 0.25, 1: their sum is 1.26
   EXPECT_NEAR(score.sum(), -3.0, 1e-12);
   EXPECT_NEAR(score[0], -0.01 * 3.0 / 1.26, 1e-12);
   EXPECT_NEAR(score[2], -3.0 / 1.26, 1e-12);
@@ -73,9 +73,9 @@ TEST(Methods, WhereRankingsDisagreeIsSaidWithTheReason) {
       observability::ranked_model(base_spec(Coupling::eq5), nullptr, harbin, Readout{});
   const observability::LinearisedPlan linear = observability::linearise(plan, model);
   const observability::Ranking r = observability::rank_parameters(linear);
-  const auto methods = observability::compare_methods(
-      r, observability::pwcs_rank(plan, harbin, model.spec, model.readout), linear,
-      observability::information_course(linear), plan);
+  const auto pwcs = observability::pwcs_rank(plan, harbin, model.spec, model.readout);
+  const auto course = observability::information_course(linear);
+  const auto methods = observability::compare_methods({r, pwcs, linear, course, plan});
   ASSERT_EQ(methods.size(), 3u);
   for (const observability::MethodRanking& m : methods) {
     EXPECT_EQ(m.score.size(), 60);
