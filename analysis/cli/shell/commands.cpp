@@ -9,15 +9,16 @@ namespace drift::cli {
 #define DRIFT_COMMANDS(list, ...)              \
   std::type_identity_t<Command()> __VA_ARGS__; \
   static constexpr Command (*list[])() = {__VA_ARGS__}
-DRIFT_COMMANDS(all, check_command, simulate_command, new_command, rank_command, terms_command,
-               look_command, convert_command, identify_command, diagnose_command, run_command,
-               status_command, verify_command, replay_command, report_command, export_command,
-               blind_command, help_command, schema_command, completion_command, version_command);
+DRIFT_COMMANDS(every_command, check_command, simulate_command, new_command, rank_command,
+               terms_command, look_command, convert_command, identify_command, diagnose_command,
+               run_command, status_command, verify_command, replay_command, report_command,
+               export_command, blind_command, help_command, schema_command, completion_command,
+               version_command);
 #undef DRIFT_COMMANDS
 
 std::vector<Command> commands() {
   std::vector<Command> list;
-  for (const auto command : all) list.push_back(command());
+  for (const auto command : every_command) list.push_back(command());
   return list;
 }
 

@@ -5,7 +5,7 @@
 namespace drift::observability {
 namespace {
 
-VecX score(const Ranked& r) {
+VecX conditional_of(const Ranked& r) {
   VecX conditional(static_cast<Eigen::Index>(r.ranking.layout.size()));
   for (Eigen::Index k = 0; k < conditional.size(); ++k) {
     const ParameterRank& p = r.parameter(static_cast<std::size_t>(k));
@@ -14,7 +14,7 @@ VecX score(const Ranked& r) {
   return conditional;
 }
 
-std::string reason(const Ranked& r, std::size_t state, bool higher_here) {
+std::string conditional_reason(const Ranked& r, std::size_t state, bool higher_here) {
   const ParameterRank& p = r.parameter(state);
   if (!higher_here)
     return fmt::format("little else is mistaken for it: collinearity {:.3g}, others lose more",
@@ -29,8 +29,8 @@ std::string reason(const Ranked& r, std::size_t state, bool higher_here) {
 }  // namespace
 
 Method conditional() {
-  return {"conditional", "conditional sigma: all other parameters known (column norm)", score,
-          reason};
+  return {"conditional", "conditional sigma: all other parameters known (column norm)",
+          conditional_of, conditional_reason};
 }
 
 }  // namespace drift::observability

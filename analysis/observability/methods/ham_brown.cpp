@@ -13,14 +13,14 @@ const EigenDirection& home_of(const Ranking& r, std::size_t state) {
                                    [&](const EigenDirection& d) { return d.participation(state); });
 }
 
-std::string reason(const Ranked& r, std::size_t state, bool higher_here) {
+std::string ham_brown_reason(const Ranked& r, std::size_t state, bool higher_here) {
   const EigenDirection& d = home_of(r.ranking, state);
   return fmt::format("judged by one direction that holds {:.1f} % of it: {}{}",
                      100.0 * d.participation(state), name_of(d, r.ranking.layout),
                      higher_here ? "; the rest lies in directions seen much worse" : "");
 }
 
-VecX score(const Ranked& r) {
+VecX ham_brown_of(const Ranked& r) {
   return ham_brown_score(r.ranking);
 }
 
@@ -37,7 +37,8 @@ VecX ham_brown_score(const Ranking& ranking) {
 }
 
 Method ham_brown() {
-  return {"ham_brown", "Ham-Brown: eigenvalue of the dominant direction", score, reason};
+  return {"ham_brown", "Ham-Brown: eigenvalue of the dominant direction", ham_brown_of,
+          ham_brown_reason};
 }
 
 }  // namespace drift::observability

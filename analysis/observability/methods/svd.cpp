@@ -25,7 +25,7 @@ LeftOut left_out(const Ranked& r) {
   return out;
 }
 
-std::string reason(const Ranked& r, std::size_t state, bool higher_here) {
+std::string svd_reason(const Ranked& r, std::size_t state, bool higher_here) {
   const LeftOut missing = left_out(r);
   constexpr double confused = 3.0;  // collinearity that explains a fall in rank by itself
   constexpr double much = 0.3;      // of the bits
@@ -59,7 +59,7 @@ std::string reason(const Ranked& r, std::size_t state, bool higher_here) {
                "sample";
 }
 
-VecX score(const Ranked& r) {
+VecX svd_of(const Ranked& r) {
   return svd_degrees(r.pwcs);
 }
 
@@ -79,7 +79,7 @@ VecX svd_degrees(const PwcsRank& pwcs) {
 
 Method svd() {
   return {"svd", "SVD degree of observability of the SOM, prior-scaled, positions held level",
-          score, reason};
+          svd_of, svd_reason};
 }
 
 }  // namespace drift::observability
