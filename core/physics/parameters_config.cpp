@@ -12,12 +12,12 @@ namespace drift {
 namespace {
 
 using config::Option;
-constexpr auto& specs = TermLibrary::specs;
+constexpr auto& known = TermLibrary::specs;
 
 /// Far outside the default prior a value is a slip of the unit; misalignments are small angles;
 /// time constants and sizes of random things are positive.
 Option plausible(std::size_t param) {
-  const ParamSpec& spec = specs[param];
+  const ParamSpec& spec = known[param];
   // Of a setting that a study brings itself nobody knows what is plausible.
   if (param >= TermLibrary::num_known_params && spec.setting())
     return {.key = spec.key.view(), .unit = spec.unit, .doc = spec.enters};
@@ -46,14 +46,14 @@ std::size_t first_of(const ParamMask& mask) {
 ParamMask term_mask(const TermInfo& term, std::string_view axis) {
   ParamMask mask;
   for (std::size_t i = term.first; i < term.first + term.count; ++i)
-    if (axis.empty() || specs[i].axis == axis) mask.set(i);
+    if (axis.empty() || known[i].axis == axis) mask.set(i);
   return TermLibrary::completed(mask);
 }
 
 ParamMask parameters_in(std::string_view key) {  // one, or a group
   ParamMask mask;
-  for (std::size_t i = 0; i < specs.size(); ++i)
-    if (specs[i].key.view() == key || specs[i].group.view() == key) mask.set(i);
+  for (std::size_t i = 0; i < known.size(); ++i)
+    if (known[i].key.view() == key || known[i].group.view() == key) mask.set(i);
   return mask;
 }
 
@@ -84,13 +84,13 @@ void read_entry(config::Section& section, const config::Node& entry, ParamMask& 
 
 void read_value(config::Section& table, std::string_view key, const config::Node& node,
                 const ParamMask& which, ModelSpec& spec, ParamMask& done) {
-  for (std::size_t i = 0; i < specs.size(); ++i) {
+  for (std::size_t i = 0; i < known.size(); ++i) {
     if (!which[i] || done[i]) continue;
     const auto prior = read_prior(table.report(), node, table.full(key), plausible(i));
     if (!prior) return;  // a group has one mistake, not three
-    spec.priors[i] = prior->scaled(specs[i].unit.to_si);
+    spec.priors[i] = prior->scaled(known[i].unit.to_si);
     done.set(i);
-    table.report().given(table.full(specs[i].key.view()), config::prior_text(*prior, specs[i].unit),
+    table.report().given(table.full(known[i].key.view()), config::prior_text(*prior, known[i].unit),
                          node.at);
   }
 }
@@ -123,8 +123,8 @@ std::string term_keys(const TermMask& terms) {
 
 std::vector<std::string_view> parameter_keys() {
   std::vector<std::string_view> keys;
-  for (const auto& spec : specs) keys.push_back(spec.key.view());
-  for (const auto& spec : specs)
+  for (const auto& spec : known) keys.push_back(spec.key.view());
+  for (const auto& spec : known)
     if (std::find(keys.begin(), keys.end(), spec.group.view()) == keys.end())
       keys.push_back(spec.group.view());
   return keys;
@@ -132,7 +132,7 @@ std::vector<std::string_view> parameter_keys() {
 
 ParamMask base_parameters() {
   ParamMask mask;
-  for (std::size_t i = 0; i < specs.size(); ++i) mask[i] = is_base(TermLibrary::owner(i));
+  for (std::size_t i = 0; i < known.size(); ++i) mask[i] = is_base(TermLibrary::owner(i));
   return mask;
 }
 
@@ -151,8 +151,8 @@ std::vector<std::string> terms_text(const ParamMask& mask) {
   for (const auto key : term_keys()) use(std::string(key));
   for (const auto key : term_keys())
     for (const char axis : {'x', 'y', 'z'}) use(fmt::format("{}.{}", key, axis));
-  for (const auto& spec : specs) use(std::string(spec.group.view()));
-  for (const auto& spec : specs) use(std::string(spec.key.view()));
+  for (const auto& spec : known) use(std::string(spec.group.view()));
+  for (const auto& spec : known) use(std::string(spec.key.view()));
   return entries;
 }
 
@@ -189,7 +189,7 @@ ParamMask read_terms(config::Section& section, Coupling coupling) {
 }
 
 void read_parameters(config::Section& section, ModelSpec& spec) {
-  for (std::size_t i = 0; i < specs.size(); ++i) spec.priors[i] = specs[i].prior_si();
+  for (std::size_t i = 0; i < known.size(); ++i) spec.priors[i] = known[i].prior_si();
   const config::Node* node = section.take("parameters");
   config::Section table(section.report(), node, node == nullptr ? section.at() : node->at,
                         section.full("parameters"));
@@ -228,10 +228,10 @@ void read_parameters(config::Section& section, ModelSpec& spec) {
                         [](const auto& n) { return TermLibrary::find(n.first).has_value(); });
   for (const auto& [key, which] : named)
     read_value(table, key, *node->find(key), which, spec, done);
-  for (std::size_t i = 0; i < specs.size(); ++i)
+  for (std::size_t i = 0; i < known.size(); ++i)
     if (spec.active[i] && !done[i])
-      section.report().assumed(table.full(specs[i].key.view()),
-                               config::prior_text(specs[i].prior, specs[i].unit), "default prior");
+      section.report().assumed(table.full(known[i].key.view()),
+                               config::prior_text(known[i].prior, known[i].unit), "default prior");
 }
 
 std::optional<double> read_parameter(config::Section& table, std::string_view key,
@@ -240,8 +240,8 @@ std::optional<double> read_parameter(config::Section& table, std::string_view ke
   if (node == nullptr) return std::nullopt;
   const auto q = read_quantity(table.report(), *node, table.full(key), plausible(index));
   if (!q) return std::nullopt;
-  table.report().given(table.full(specs[index].key.view()),
-                       config::quantity_text(q->in(specs[index].unit), specs[index].unit),
+  table.report().given(table.full(known[index].key.view()),
+                       config::quantity_text(q->in(known[index].unit), known[index].unit),
                        node->at);
   return q->si();
 }

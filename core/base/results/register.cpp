@@ -15,7 +15,7 @@
 namespace drift {
 namespace {
 
-constexpr std::string_view head = "# driftscope ";
+constexpr std::string_view first_words = "# driftscope ";
 constexpr std::size_t hash_digits = 64;
 
 /// A file descriptor that is closed; its lock, where the file system has locks, goes with it.
@@ -48,8 +48,9 @@ ResultsRegister::ResultsRegister(std::string folder)
   exists_ = true;
   std::ifstream file(path_, std::ios::binary);
   for (std::string line; std::getline(file, line);) {
-    if (line.starts_with(head)) {
-      if (command_.empty()) command_ = line.substr(head.size(), line.find(':') - head.size());
+    if (line.starts_with(first_words)) {
+      if (command_.empty())
+        command_ = line.substr(first_words.size(), line.find(':') - first_words.size());
     } else if (line.size() > hash_digits + 2 && line.substr(hash_digits, 2) == "  ") {
       hashes_.emplace(line.substr(hash_digits + 2), line.substr(0, hash_digits));
     }
@@ -66,8 +67,8 @@ std::vector<std::string> ResultsRegister::names() const {
 void ResultsRegister::add(const std::string& command, const HashedFiles& files) {
   std::string lines;
   if (!exists_)
-    lines = fmt::format("{}{}: the files that driftscope wrote here; it replaces no others\n", head,
-                        command);
+    lines = fmt::format("{}{}: the files that driftscope wrote here; it replaces no others\n",
+                        first_words, command);
   for (const auto& [name, hash] : files)
     if (hashes_.emplace(name, hash).second) lines += fmt::format("{}  {}\n", hash, name);
   if (lines.empty()) return;
