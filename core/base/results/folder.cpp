@@ -44,17 +44,27 @@ void refuse_inputs(const fs::path& folder, const std::vector<std::string>& input
                         folder.string(), entry.path().filename().string()));
 }
 
-void refuse_strangers(const ResultsFolder& folder) {
+/// Names of files that look like results.
+std::vector<std::string> results_within(const std::string& folder) {
   std::vector<std::string> names;
   std::error_code unreadable;
-  for (const auto& entry : fs::directory_iterator(folder.path, unreadable))
+  for (const auto& entry : fs::directory_iterator(folder, unreadable))
     if (looks_like_result(entry.path())) names.push_back(entry.path().filename().string());
-  if (!names.empty())
-    throw InputError(
-        ExitCode::store,
-        fmt::format("{}: holds {}, which driftscope did not write (expected an empty folder, or "
-                    "one with results of `{}`). Nothing was changed; give another folder with -o",
-                    folder.path, listed(std::move(names)), folder.command));
+  return names;
+}
+
+/// The command whose results the folder holds; empty if it holds none, nor files of others.
+std::string holder_of(const ResultsFolder& folder) {
+  if (const std::string holder = results_of(folder.path); !holder.empty()) return holder;
+  std::vector<std::string> names = results_within(folder.path);
+  if (names.empty()) return {};
+  // Another process may have begun the folder between the two looks.
+  if (const std::string holder = results_of(folder.path); !holder.empty()) return holder;
+  throw InputError(
+      ExitCode::store,
+      fmt::format("{}: holds {}, which driftscope did not write (expected an empty folder, or "
+                  "one with results of `{}`). Nothing was changed; give another folder with -o",
+                  folder.path, listed(std::move(names)), folder.command));
 }
 
 /// Links among the results would lead what is written to other places.
@@ -122,16 +132,14 @@ void require_results_folder(const ResultsFolder& folder, const std::vector<std::
     throw_cannot_write(folder.path, "it is a file, expected a folder");
   if (fs::exists(status)) {
     refuse_inputs(folder.path, inputs);
-    const std::string holder = results_of(folder.path);
+    const std::string holder = holder_of(folder);
     if (!holder.empty() && holder != folder.command)
       throw InputError(
           ExitCode::store,
           fmt::format("{}: holds the results of `{}` (expected an empty folder, or one of `{}`). "
                       "Give another folder with -o",
                       folder.path, holder, folder.command));
-    if (holder.empty()) {
-      refuse_strangers(folder);
-    } else {
+    if (!holder.empty()) {
       refuse_links(folder.path);
       refuse_changed(folder);
     }

@@ -92,6 +92,21 @@ TEST(ResultsFolderOf, AnEndAtAnyMomentLeavesAFolderThatCanBeUsedAgain) {
   EXPECT_NO_THROW(require_results_folder(folder)) << "what is noted later has a line of its own";
 }
 
+TEST(ResultsFolderOf, ManyMayBeginItAtTheSameTime) {
+  const ScratchFolder scratch;
+  for (int round = 0; round < 200; ++round) {
+    const ResultsFolder folder{scratch.file(std::to_string(round)), "run"};
+    fs::create_directory(folder.path);
+    const pid_t other = fork();
+    if (other == 0) {
+      ::usleep(static_cast<useconds_t>(round));
+      write_text_atomically(folder.path + "/manifest.json", R"({"study_hash": 1, "identity": 2})");
+      _exit(0);
+    }
+    while (waitpid(other, nullptr, WNOHANG) == 0) EXPECT_NO_THROW(require_results_folder(folder));
+  }
+}
+
 TEST(ResultsFolderOf, NothingIsWrittenThroughALinkedFolder) {
   const ScratchFolder scratch;
   const ResultsFolder folder{scratch.file("out"), "blind"};
