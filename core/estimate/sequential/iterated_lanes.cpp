@@ -3,21 +3,13 @@
 #include <algorithm>
 
 #include "core/estimate/sequential/drift_walk.hpp"
+#include "core/estimate/sequential/stretches_and_chains.hpp"
 #include "core/physics/stochastic.hpp"
 #include "core/sim/trajectory.hpp"
 
 namespace drift {
 namespace {
 
-/// Whether something else begins with interval i: a chain, a position, a slew.
-bool begins_anew(const Timeline& timeline, std::size_t i) {
-  if (i == 0) return true;
-  const Interval &before = timeline.intervals[i - 1], &now = timeline.intervals[i];
-  return now.cage || now.position != before.position || now.slew != before.slew;
-}
-bool is_end(const Timeline& timeline, std::size_t i) {
-  return i + 1 == timeline.intervals.size() || timeline.intervals[i + 1].cage;
-}
 /// Whether the last node of an interval and the first of the next are the same for the terms.
 bool go_on_alike(const Timeline& timeline, const Interval& a, const Interval& b) {
   return !b.cage && a.omega_cmd_p == b.omega_cmd_p && a.loop == b.loop &&
@@ -152,7 +144,7 @@ void IteratedLanes::begin() {
   for (std::size_t first = 0, end = 0; first < count; first = end) {
     if (begins_anew(timeline_, first)) block = 1;
     end = first + 1;
-    while (end < count && end - first < block && !begins_anew(timeline_, end)) ++end;
+    while (end - first < block && !begins_anew(timeline_, end)) ++end;
     block *= 2;
     const auto& all = timeline_.intervals;
     if (all[first].cage) {
@@ -166,7 +158,7 @@ void IteratedLanes::begin() {
       take(i, i > first && go_on_alike(timeline_, all[i - 1], all[i]), Pass::first);
     }
     solve_block(all[end - 1], phi);
-    if (is_end(timeline_, end - 1))
+    if (ends_chain(timeline_, end - 1))
       for (std::size_t l = 0; l < used_; ++l)
         lanes_[l]->ends_[static_cast<std::size_t>(all[end - 1].chain)] =
             lane_of(phi, static_cast<int>(l));
@@ -210,7 +202,7 @@ void IteratedLanes::linear_pass() {
   for (std::size_t i = all.size(); i-- > 0;) {
     PackVec* phi = &path_[all[i].first_node];
     PackVec& last = path_[all[i].last_node()];
-    if (is_end(timeline_, i))
+    if (ends_chain(timeline_, i))
       for (std::size_t l = 0; l < width; ++l)
         set_lane(last, static_cast<int>(l),
                  lanes_[l]->ends_[static_cast<std::size_t>(all[i].chain)]);
@@ -226,7 +218,7 @@ void IteratedLanes::linear_pass() {
                Pass::linear);
     if (all[i].cage) cage(all[i], path_[all[i].first_node]);
     take(i, i > 0 && go_on_alike(timeline_, all[i - 1], all[i]), Pass::linear);
-    if (is_end(timeline_, i)) ends_[static_cast<std::size_t>(all[i].chain)] = attitude_;
+    if (ends_chain(timeline_, i)) ends_[static_cast<std::size_t>(all[i].chain)] = attitude_;
   }
   information_.flush(true);
   information_.factorise();
@@ -236,7 +228,7 @@ void IteratedLanes::linear_pass() {
   }
   information_.solve(moved_.data());
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (!is_end(timeline_, i)) continue;
+    if (!ends_chain(timeline_, i)) continue;
     const auto chain = static_cast<std::size_t>(all[i].chain);
     const PackVec psi = ends_[chain].attitude(moved_);
     for (std::size_t l = 0; l < used_; ++l) {

@@ -4,23 +4,10 @@
 
 #include <algorithm>
 
+#include "core/estimate/sequential/stretches_and_chains.hpp"
 #include "core/physics/stochastic.hpp"
 
 namespace drift {
-namespace {
-
-/// Whether something else begins with interval i: a chain, a position, a slew.
-bool begins(const Timeline& timeline, std::size_t i) {
-  if (i == 0 || i == timeline.intervals.size()) return true;
-  const Interval &before = timeline.intervals[i - 1], &now = timeline.intervals[i];
-  return now.cage || now.position != before.position || now.slew != before.slew ||
-         now.rest != before.rest;
-}
-bool ends_chain(const Timeline& timeline, std::size_t i) {
-  return i + 1 == timeline.intervals.size() || timeline.intervals[i + 1].cage;
-}
-
-}  // namespace
 
 IteratedPasses::IteratedPasses(const FilterSpec& filter, const Timeline& timeline,
                                const Readout& readout, const Theta& start)
@@ -40,6 +27,7 @@ IteratedPasses::IteratedPasses(const FilterSpec& filter, const Timeline& timelin
       lanes_(timeline, rows_.model()),
       reference_(timeline, rows_.model()),
       gated_(has_outliers(rows_.model().terms)),
+      walks_(!rows_.attitude().walking().empty()),
       store_(3 * rows_.most_triples() * rows_.width()),
       neighbours_(rows_.most_triples()),
       residual_(3 * rows_.most_triples()),
@@ -55,6 +43,7 @@ IteratedPasses::IteratedPasses(const FilterSpec& filter, const Timeline& timelin
       nothing_(moved_),
       P_(MatX::Identity(x_.size(), x_.size())),
       path_(timeline.nodes.size()),
+      starts_(static_cast<std::size_t>(timeline.chains), Vec3::Zero()),
       theta_(start) {
   if (compressed_)
     stretch_lag_ = std::make_unique<StretchLag>(*compressed_, rows_.layout(), rows_.width());
@@ -124,34 +113,39 @@ bool IteratedPasses::begin(const Measurements& measured, const Theta& start) {
   information_.clear();
   information_.factorise();
   triples_ = summed_ = scalars_ = 0;
-  const std::size_t count = timeline_.intervals.size();
   Vec3 phi = Vec3::Zero();
-  std::size_t block = 1;
-  for (std::size_t i = 0; i < count;) {
-    if (begins(timeline_, i)) block = 1;
-    std::size_t end = i + 1;
-    for (std::size_t samples = samples_in(i); end < count && !begins(timeline_, end); ++end) {
-      samples += samples_in(end);
-      if (samples > block) break;
-    }
-    block *= 2;
-    if (timeline_.intervals[i].cage) {
-      phi.setZero();
-      rows_.cage(timeline_.intervals[i], phi);
-    }
-    if (!take_block(i, end, measured, phi)) return false;
-    i = end;
+  std::size_t samples = 1;
+  for (std::size_t i = 0, end = 0; i < timeline_.intervals.size(); i = end) {
+    end = end_of_block(i, samples);
     const Interval& last = timeline_.intervals[end - 1];
+    if (!take_block(i, end, measured, phi, Pass::first) || !solve_block(last, phi)) return false;
+    keep_start(i, end, phi);
     if (ends_chain(timeline_, end - 1)) reference_.end_chain(last, phi);
   }
   return true;
 }
 
-/// Intervals linearised about one estimate, whose path begins at phi; then phi is where the next
-/// estimate has its end.
+/// Of 1, 2, 4, ... samples from the beginning of every stretch on, of so many this time.
+std::size_t IteratedPasses::end_of_block(std::size_t first, std::size_t& samples) const {
+  if (begins_anew(timeline_, first)) samples = 1;
+  std::size_t end = first + 1, held = samples_in(first);
+  for (; !begins_anew(timeline_, end); ++end)
+    if ((held += samples_in(end)) > samples) break;
+  samples *= 2;
+  return end;
+}
+
+/// Intervals linearised about one estimate, whose path begins at phi, at a caging anew; then phi
+/// is its end.
 bool IteratedPasses::take_block(std::size_t first, std::size_t end, const Measurements& measured,
-                                Vec3& phi) {
+                                Vec3& phi, Pass pass) {
   const auto& all = timeline_.intervals;
+  if (all[first].cage) {
+    const auto chain = static_cast<std::size_t>(all[first].chain);
+    if (pass == Pass::first) starts_[chain].setZero();
+    phi = starts_[chain];
+    rows_.cage(all[first], phi);
+  }
   path_[all[first].first_node] = phi;
   const bool together = PathInLanes::can(rows_.model());
   if (together) {
@@ -165,16 +159,21 @@ bool IteratedPasses::take_block(std::size_t first, std::size_t end, const Measur
       step_through(all[i], timeline_, drive_of(all[i], timeline_, rows_.model(), theta_),
                    rows_.enter(i), &path_[all[i].first_node]);
     }
-    if (!take(i, measured, path_.data(), Pass::first)) return false;
+    if (!take(i, measured, path_.data(), pass)) return false;
   }
   phi = path_[all[end - 1].last_node()];
-  return solve_block(timeline_.intervals[end - 1], phi);
+  add_rows();
+  return true;
+}
+
+/// Those that are not summed up yet.
+void IteratedPasses::add_rows() {
+  information_.add(row(3 * summed_), 3 * (triples_ - summed_));
+  summed_ = triples_;
 }
 
 /// The estimate after a block of samples, about which the next one is linearised.
 bool IteratedPasses::solve_block(const Interval& interval, Vec3& phi) {
-  information_.add(row(3 * summed_), 3 * (triples_ - summed_));
-  summed_ = triples_;
   const bool finite = information_.factorise();
   const VecX& d = information_.solve(nothing_);
   step_ = d - moved_;
@@ -195,13 +194,38 @@ bool IteratedPasses::solve_block(const Interval& interval, Vec3& phi) {
 bool IteratedPasses::linear_pass(const Measurements& measured) {
   x_reference_ = x_;
   theta_ = rows_.layout().theta_at(x_reference_);
+  rows_.reset(theta_);
+  triples_ = summed_ = scalars_ = 0;
+  information_.clear();
+  if (!(walks_ ? along_filtered(measured) : along_reference(measured))) return false;
+  const bool finite = information_.factorise();
+  prior_ = x_start_ - x_reference_;
+  moved_ = information_.solve(prior_);
+  nis_ = information_.cost(moved_, prior_);
+  if (compressed_) {
+    nis_ += compressed_->left_over();
+    scalars_ = compressed_->scalars();
+  }
+  x_ = x_reference_ + moved_;
+  if (diverged(finite && std::isfinite(nis_) && x_.allFinite() && x_.cwiseAbs().maxCoeff() <= 1e6,
+               timeline_.intervals.back().t1, Pass::linear))
+    return false;
+  for (std::size_t i = 0; i < timeline_.intervals.size() && !walks_; ++i) {
+    if (!ends_chain(timeline_, i)) continue;
+    const Interval& interval = timeline_.intervals[i];
+    const Vec3 psi = ends_[static_cast<std::size_t>(interval.chain)].attitude(moved_);
+    reference_.end_chain(interval, turned(timeline_.nodes[interval.last_node()], psi,
+                                          reference_.nodes(interval)[interval.node_count() - 1]));
+  }
+  return true;
+}
+
+/// All rows, about the path of the reference parameters.
+bool IteratedPasses::along_reference(const Measurements& measured) {
   reference_.place(theta_);
   for (const Interval& interval : timeline_.intervals)
     if (diverged(reference_.nodes(interval)[0].allFinite(), interval.t0, Pass::linear))
       return false;
-  rows_.reset(theta_);
-  triples_ = summed_ = scalars_ = 0;
-  information_.clear();
   constexpr std::size_t at_once = 8;  // intervals whose rows are still in the first cache
   const std::size_t count = timeline_.intervals.size();
   for (std::size_t first = 0; first < count; first += at_once) {
@@ -216,29 +240,37 @@ bool IteratedPasses::linear_pass(const Measurements& measured) {
       if (ends_chain(timeline_, i))
         ends_[static_cast<std::size_t>(interval.chain)] = rows_.attitude();
     }
-    information_.add(row(3 * summed_), 3 * (triples_ - summed_));
-    summed_ = triples_;
-  }
-  const bool finite = information_.factorise();
-  prior_ = x_start_ - x_reference_;
-  moved_ = information_.solve(prior_);
-  nis_ = information_.cost(moved_, prior_);
-  if (compressed_) {
-    nis_ += compressed_->left_over();
-    scalars_ = compressed_->scalars();
-  }
-  x_ = x_reference_ + moved_;
-  if (diverged(finite && std::isfinite(nis_) && x_.allFinite() && x_.cwiseAbs().maxCoeff() <= 1e6,
-               timeline_.intervals.back().t1, Pass::linear))
-    return false;
-  for (std::size_t i = 0; i < timeline_.intervals.size(); ++i) {
-    if (!ends_chain(timeline_, i)) continue;
-    const Interval& interval = timeline_.intervals[i];
-    const Vec3 psi = ends_[static_cast<std::size_t>(interval.chain)].attitude(moved_);
-    reference_.end_chain(interval, turned(timeline_.nodes[interval.last_node()], psi,
-                                          reference_.nodes(interval)[interval.node_count() - 1]));
+    add_rows();
   }
   return true;
+}
+
+/// All rows, about the attitude that the filter finds with the reference parameters.
+bool IteratedPasses::along_filtered(const Measurements& measured) {
+  Vec3 phi = Vec3::Zero();
+  std::size_t samples = 1;
+  for (std::size_t i = 0, end = 0; i < timeline_.intervals.size(); i = end) {
+    end = end_of_block(i, samples);
+    const Interval& last = timeline_.intervals[end - 1];
+    if (!take_block(i, end, measured, phi, Pass::linear)) return false;
+    AttitudeFilter& attitude = rows_.attitude();
+    if (ends_chain(timeline_, end - 1)) ends_[static_cast<std::size_t>(last.chain)] = attitude;
+    phi = turned(timeline_.nodes[last.last_node()], attitude.attitude(nothing_), phi);
+    if (diverged(phi.allFinite(), last.t1, Pass::linear)) return false;
+    attitude.move_reference(nothing_);
+    keep_start(i, end, phi);
+  }
+  return true;
+}
+
+/// Where the block after a caging must have begun to end at phi.
+void IteratedPasses::keep_start(std::size_t first, std::size_t end, const Vec3& phi) {
+  const auto& all = timeline_.intervals;
+  if (!walks_ || !all[first].cage || !PathInLanes::can(rows_.model())) return;
+  path_[all[end - 1].last_node()] = phi;
+  lanes_.set_theta(theta_);
+  lanes_.backward(first, end, path_.data());
+  starts_[static_cast<std::size_t>(all[first].chain)] = path_[all[first].first_node];
 }
 
 bool IteratedPasses::diverged(bool finite, double t, Pass pass) {

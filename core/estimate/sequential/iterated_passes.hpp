@@ -25,6 +25,10 @@ namespace drift {
 /// Gauss-Newton step on all data at once, its cost at the minimum is chi-square. While a pass moves
 /// some parameter by more than a posterior sigma there is another, four at most; mostly there is
 /// one.
+///
+/// Where a drift walks, no path of the parameters alone stays near: then the reference of a linear
+/// pass is the filtered attitude itself, taken over at the end of every block. After a caging it
+/// begins where the first sample of the pass before has put it.
 class IteratedPasses {
  public:
   /// The timeline must outlive the filter. start: library values of the initial estimate.
@@ -70,8 +74,14 @@ class IteratedPasses {
                  const CompressedTest* compressed, const Readout& readout, const Theta& start);
   enum class Pass { first, linear };
   bool linear_pass(const Measurements& measured);
+  bool along_reference(const Measurements& measured);
+  bool along_filtered(const Measurements& measured);
+  std::size_t end_of_block(std::size_t first, std::size_t& samples) const;
   bool take(std::size_t i, const Measurements& measured, const Vec3* path, Pass pass);
-  bool take_block(std::size_t first, std::size_t end, const Measurements& measured, Vec3& phi);
+  bool take_block(std::size_t first, std::size_t end, const Measurements& measured, Vec3& phi,
+                  Pass pass);
+  void keep_start(std::size_t first, std::size_t end, const Vec3& phi);
+  void add_rows();
   bool solve_block(const Interval& interval, Vec3& phi);
   std::size_t samples_in(std::size_t i) const { return compressed_ ? compressed_->samples(i) : 1; }
   bool diverged(bool finite, double t, Pass pass);
@@ -86,7 +96,7 @@ class IteratedPasses {
   Information information_;
   PathInLanes lanes_;
   ReferencePath reference_;
-  bool gated_;
+  bool gated_, walks_;
   std::vector<double> store_;  ///< all rows of a pass
   /// Of three rows: their channel, and whether the interval before has some of it too; then (when
   /// lags are measured) the three rows before and after them, and whether they stand for both
@@ -110,7 +120,8 @@ class IteratedPasses {
   VecX moved_;  ///< of the reference from the start; of the estimate from the reference
   VecX prior_, step_, nothing_;  ///< work
   MatX P_;
-  std::vector<Vec3> path_;  ///< of the first pass, at every node
+  std::vector<Vec3> path_;    ///< of a pass that follows the estimate, at every node
+  std::vector<Vec3> starts_;  ///< where it begins after each caging
   Theta theta_ = Theta::Zero();
   double nis_ = 0.0, lag1_ = 0.0;
   std::size_t scalars_ = 0;
