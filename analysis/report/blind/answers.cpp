@@ -2,13 +2,14 @@
 
 #include "analysis/blind/key.hpp"
 #include "analysis/report/blind/sections.hpp"
+#include "analysis/report/svg/figure.hpp"
 #include "analysis/report/svg/heat_map.hpp"
 
 namespace drift::report {
 namespace {
 
 /// Shares of each row of the confusion table.
-std::string confusion_svg(const blind::Confusion& c) {
+HeatMap confusion_map(const blind::Confusion& c) {
   HeatMap map;
   map.title = "What was hidden (rows) and what it was called (columns)";
   map.value_label = "share of the row";
@@ -25,7 +26,7 @@ std::string confusion_svg(const blind::Confusion& c) {
       map.value(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(k)) =
           static_cast<double>(called[k]) / total;
   }
-  return svg_of(map);
+  return map;
 }
 
 bool missed(const blind::TrialScore& s) {
@@ -71,9 +72,9 @@ Section confusion(const BlindResults& results) {
     t.add({r.hidden, fmt::format("{}", fmt::join(parts, ", "))});
   }
   return {"Confusion",
-          {Figure{confusion_svg(c),
-                  "Of all trials with this thing hidden, the share that got this answer.",
-                  "confusion.svg"},
+          {figure_of(confusion_map(c),
+                     "Of all trials with this thing hidden, the share that got this answer.",
+                     "confusion.svg"),
            t}};
 }
 

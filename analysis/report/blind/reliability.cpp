@@ -1,10 +1,11 @@
 #include "analysis/report/blind/sections.hpp"
 #include "analysis/report/svg/curve.hpp"
+#include "analysis/report/svg/figure.hpp"
 
 namespace drift::report {
 namespace {
 
-std::string reliability_svg(const std::vector<blind::ReliabilityBin>& bins) {
+Chart reliability_chart(const std::vector<blind::ReliabilityBin>& bins) {
   Panel panel;
   panel.x_label = "probability stated";
   panel.y_label = "share of right ones";
@@ -21,8 +22,7 @@ std::string reliability_svg(const std::vector<blind::ReliabilityBin>& bins) {
   }
   panel.expected = {band};
   panel.series = {right, honest};
-  return svg_of(
-      Chart{"How often what was called most probable was right", {panel}, 1, 640.0, 320.0});
+  return {"How often what was called most probable was right", {panel}, 1, narrow_page, 320.0};
 }
 
 }  // namespace
@@ -42,10 +42,10 @@ Section reliability(const BlindResults& results) {
                                  "alone would make it {:.3f} with so many trials.",
                                  results.summary.reliability.error,
                                  results.summary.reliability.error_by_chance)},
-           Figure{reliability_svg(bins),
-                  "What a diagnosis takes for most probable, by the probability that it states, "
-                  "against how often that was hidden.",
-                  "reliability.svg"}}};
+           figure_of(reliability_chart(bins),
+                     "What a diagnosis takes for most probable, by the probability that it states, "
+                     "against how often that was hidden.",
+                     "reliability.svg")}};
 }
 
 }  // namespace drift::report

@@ -2,6 +2,7 @@
 
 #include "analysis/report/blind/sections.hpp"
 #include "analysis/report/svg/curve.hpp"
+#include "analysis/report/svg/figure.hpp"
 #include "core/stats/normal.hpp"
 
 namespace drift::report {
@@ -35,7 +36,7 @@ Tone tone_of(blind::Standing standing) {
   }
 }
 
-std::string power_svg(const blind::Summary& s) {
+Chart power_chart(const blind::Summary& s) {
   Panel panel;
   panel.x_label = "size, not absorbed by the nominal fit [sigma]";
   panel.y_label = "share of trials";
@@ -57,7 +58,7 @@ std::string power_svg(const blind::Summary& s) {
   if (s.power.empty()) panel.note = "no single effects";
   panel.expected = {band};
   panel.series = {detected, theory, exact, in_set};
-  return svg_of(Chart{"Detection and naming of single effects", {panel}, 1, 640.0, 320.0});
+  return {"Detection and naming of single effects", {panel}, 1, narrow_page, 320.0};
 }
 
 /// Sorted values against the share of them that is smaller.
@@ -72,7 +73,7 @@ Series distribution(std::string_view label, std::vector<double> values) {
   return s;
 }
 
-std::string pulls_svg(const blind::Summary& s) {
+Chart pulls_chart(const blind::Summary& s) {
   Panel panel;
   panel.x_label = "(estimate - truth) / sigma";
   panel.y_label = "share below";
@@ -83,7 +84,7 @@ std::string pulls_svg(const blind::Summary& s) {
   }
   panel.series = {distribution("recovered", s.pulls), normal};
   if (s.pulls.empty()) panel.note = "nothing was named exactly";
-  return svg_of(Chart{"Recovered parameters against the truth", {panel}, 1, 640.0, 300.0});
+  return {"Recovered parameters against the truth", {panel}, 1, narrow_page, 300.0};
 }
 
 }  // namespace
@@ -112,7 +113,8 @@ Section power(const BlindResults& results) {
            share_cell(p.subsystem), share_cell(p.wrong)});
   return {
       "Power and naming",
-      {Figure{power_svg(results.summary), "Shares of single effects by size.", "power.svg"}, t}};
+      {figure_of(power_chart(results.summary), "Shares of single effects by size.", "power.svg"),
+       t}};
 }
 
 Section groups(const BlindResults& results) {
@@ -144,9 +146,9 @@ Section further(const BlindResults& results) {
       number_text(s.pull_rms));
   return {"Further scores",
           {t, Paragraph{pulls},
-           Figure{pulls_svg(s),
-                  "Distribution of the recovered parameters where the cause was named exactly.",
-                  "pulls.svg"}}};
+           figure_of(pulls_chart(s),
+                     "Distribution of the recovered parameters where the cause was named exactly.",
+                     "pulls.svg")}};
 }
 
 }  // namespace drift::report

@@ -4,6 +4,7 @@
 #include "analysis/report/diagnosis/sections.hpp"
 #include "analysis/report/svg/curve.hpp"
 #include "analysis/report/svg/dumbbell_chart.hpp"
+#include "analysis/report/svg/figure.hpp"
 #include "analysis/report/svg/zoomable.hpp"
 
 namespace drift::report {
@@ -76,10 +77,11 @@ Blocks held_out_figure(const HeldOut& held, const std::vector<RecordingSpan>& re
                              .text = std::isfinite(gain) ? fmt::format("{:+.1f}", gain) : ""});
     }
   if (chart.lines.empty()) return {};
-  return {Figure{svg_of(chart),
-                 "Each line was predicted by a fit to all the others. At the right: what the cause "
-                 "gains in the log of the predicted density of these data; positive is better.",
-                 "held_out.svg"}};
+  return {
+      figure_of(std::move(chart),
+                "Each line was predicted by a fit to all the others. At the right: what the cause "
+                "gains in the log of the predicted density of these data; positive is better.",
+                "held_out.svg")};
 }
 
 Blocks moved_figure(const std::vector<ShiftedParameter>& shifted) {
@@ -101,10 +103,11 @@ Blocks moved_figure(const std::vector<ShiftedParameter>& shifted) {
                                                with_sigma(p.after, p.sigma_after), p.unit)});
   }
   if (chart.lines.empty()) return {};
-  return {Figure{svg_of(chart),
-                 "How far each estimate moves once the cause is in the model; the bar is 1 sigma "
-                 "of the new estimate.",
-                 "moved.svg"}};
+  return {
+      figure_of(std::move(chart),
+                "How far each estimate moves once the cause is in the model; the bar is 1 sigma "
+                "of the new estimate.",
+                "moved.svg")};
 }
 
 /// Residuals of a channel, by the nominal model or with the cause.

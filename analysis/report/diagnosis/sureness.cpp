@@ -4,6 +4,7 @@
 #include "analysis/report/diagnosis/sections.hpp"
 #include "analysis/report/svg/curve.hpp"
 #include "analysis/report/svg/dumbbell_chart.hpp"
+#include "analysis/report/svg/figure.hpp"
 #include "analysis/report/svg/zoomable.hpp"
 
 namespace drift::report {
@@ -85,10 +86,11 @@ Blocks cause_figure(const Diagnosis& d) {
                                                  p.unit == "1" ? "" : " " + p.unit)});
     }
   if (chart.lines.empty()) return {};
-  return {Figure{svg_of(chart),
-                 "What is found of each parameter of a cause, in its own sigmas. An interval that "
-                 "reaches the nominal model: this parameter alone is not needed.",
-                 "causes.svg"}};
+  return {
+      figure_of(std::move(chart),
+                "What is found of each parameter of a cause, in its own sigmas. An interval that "
+                "reaches the nominal model: this parameter alone is not needed.",
+                "causes.svg")};
 }
 
 Section whiteness(const Diagnosis& d) {

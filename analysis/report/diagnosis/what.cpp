@@ -4,6 +4,7 @@
 #include "analysis/report/diagnosis/sections.hpp"
 #include "analysis/report/diagnosis/too_large.hpp"
 #include "analysis/report/svg/bar_chart.hpp"
+#include "analysis/report/svg/figure.hpp"
 #include "analysis/report/svg/heat_map.hpp"
 
 namespace drift::report {
@@ -100,12 +101,12 @@ Blocks candidate_figure(const Diagnosis& d) {
          .text = fmt::format("{}, p {}{}", number_text(c->score), p_text(c->p_value), named)});
   }
   if (bars.bars.empty()) return {};
-  return {Figure{
-      svg_of(bars),
+  return {figure_of(
+      std::move(bars),
       fmt::format("Strength of the strongest candidates, each alone, after what the "
                   "fitted parameters absorb.{}",
                   d.causes.empty() ? "" : " Orange: the causes of the verdict, always shown."),
-      "candidates.svg"}};
+      "candidates.svg")};
 }
 
 /// Cosines between causes.
@@ -117,7 +118,8 @@ Blocks likeness_figure(const CosineMatrix& m) {
   map.rows = map.columns = m.labels;
   map.value = m.cosine;
   map.most = 1.0;
-  return {Figure{svg_of(map), "Cosines between what is left of the signatures.", "cosines.svg"}};
+  return {
+      figure_of(std::move(map), "Cosines between what is left of the signatures.", "cosines.svg")};
 }
 
 /// The terms of the causes with their equations, each once.

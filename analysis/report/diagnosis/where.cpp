@@ -4,6 +4,7 @@
 #include "analysis/report/diagnosis/sections.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
 #include "analysis/report/svg/curve.hpp"
+#include "analysis/report/svg/figure.hpp"
 #include "analysis/report/svg/heat_map.hpp"
 #include "analysis/report/svg/zoomable.hpp"
 
@@ -33,13 +34,13 @@ Blocks heat_figure(const Where& where, bool consistent) {
                                                  ? 0.01 * std::round(100.0 * (c.chi2_per_dof - 1.0))
                                                  : std::round(100.0 * c.share);
   if (consistent) map.most = 1.0;
-  return {Figure{svg_of(map),
-                 consistent
-                     ? "Residuals of each channel and position against their noise. Cells of few "
-                       "samples scatter; together they show nothing significant."
-                     : "Share of each channel and position in the misfit that the nominal model "
-                       "leaves. Negative shares speak against the located effect.",
-                 "where.svg"}};
+  return {figure_of(
+      std::move(map),
+      consistent ? "Residuals of each channel and position against their noise. Cells of few "
+                   "samples scatter; together they show nothing significant."
+                 : "Share of each channel and position in the misfit that the nominal model "
+                   "leaves. Negative shares speak against the located effect.",
+      "where.svg")};
 }
 
 /// Whether most positions hold several samples: then curves are not joined from one to the next.

@@ -4,6 +4,7 @@
 
 #include "analysis/report/identify/sections.hpp"
 #include "analysis/report/svg/dumbbell_chart.hpp"
+#include "analysis/report/svg/figure.hpp"
 
 namespace drift::report {
 namespace {
@@ -53,15 +54,15 @@ Section against_prior(const FilterView& v) {
   }
   if (chart.lines.empty()) return {};
   const std::size_t others = v.summary.layout.size() - states.size();
-  return {
-      "",
-      {Figure{svg_of(chart),
+  return {"",
+          {figure_of(
+              std::move(chart),
               fmt::format("Batch estimates from start 1; an axis from -2 to 2 holds 95 % of what "
                           "the prior expects.{}",
                           others > 0 ? fmt::format(" Of {} parameters less is learned: they are "
                                                    "in the table below.",
                                                    others)
-                                     : "")}}};
+                                     : ""))}};
 }
 
 }  // namespace drift::report

@@ -3,6 +3,7 @@
 
 #include "analysis/report/identify/correlation.hpp"
 #include "analysis/report/identify/sections.hpp"
+#include "analysis/report/svg/figure.hpp"
 #include "analysis/report/svg/heat_map.hpp"
 #include "core/base/nan.hpp"
 
@@ -93,13 +94,14 @@ Section correlations(const FilterView& v) {
           ? fmt::format(" The {} of {} parameters with the strongest; all are in covariance.csv.",
                         states.size(), v.summary.layout.size())
           : "";
-  return {"",
-          {Figure{svg_of(map),
-                  fmt::format("Posterior correlations, {} from start 1. ±1: only a combination is "
-                              "known.{}",
-                              batch ? "batch fit" : "EKF", chosen)},
-           Paragraph{said_of_pairs(pairs, v.summary.layout)}},
-          On::page};
+  return {
+      "",
+      {figure_of(std::move(map),
+                 fmt::format("Posterior correlations, {} from start 1. ±1: only a combination is "
+                             "known.{}",
+                             batch ? "batch fit" : "EKF", chosen)),
+       Paragraph{said_of_pairs(pairs, v.summary.layout)}},
+      On::page};
 }
 
 }  // namespace drift::report

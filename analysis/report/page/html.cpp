@@ -50,7 +50,12 @@ std::string folded(const std::string& summary, const std::string& body) {
 /// A picture as it stands on a page.
 std::string picture_of(const Figure& f) {
   const FlowingPanels& flowing = f.flowing;
-  if (flowing.panels.empty()) return "<div class=\"scroll\">" + inlined(f.svg) + "</div>";
+  if (flowing.panels.empty() && f.narrow.empty())
+    return "<div class=\"scroll\">" + inlined(f.svg) + "</div>";
+  if (flowing.panels.empty())
+    return fmt::format(
+        "<div class=\"scroll roomy\">{}</div>\n<div class=\"scroll narrow\">{}</div>",
+        inlined(f.svg), inlined(f.narrow));
   const std::size_t columns = std::min(flowing.columns, flowing.panels.size()),
                     rows = (flowing.panels.size() + columns - 1) / columns;
   std::string out = fmt::format(

@@ -44,6 +44,7 @@ struct Figure {
   std::string file = {};  ///< "estimates.svg"; empty: on the page alone
   std::string zoom = {};  ///< numbers to zoom it by (svg/zoomable.hpp); empty: it stays as it is
   FlowingPanels flowing = {};  ///< the picture on the page, instead of svg; without panels: svg
+  std::string narrow = {};     ///< instead of svg in a narrow window; empty: svg in any
 };
 
 /// Where a block stands. A figure with a file name is always a file too.

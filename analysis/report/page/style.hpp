@@ -5,8 +5,8 @@
 namespace drift::report {
 
 /// The look of every page: light or dark as the reader's system is, light on paper. Figures keep
-/// their size, so that their text stays readable, and scroll where the window is narrower; a dark
-/// page turns their lightness and keeps their hues.
+/// their size, so that their text stays readable; a window narrower than 860 px and its margins
+/// gets those that were drawn for it. A dark page turns their lightness and keeps their hues.
 inline constexpr std::string_view page_style = R"css(
 :root { color-scheme: light dark; --ink: #222; --dim: #555; --paper: #fff; --edge: #ccc;
         --soft: #f7f7f7; --head: #e9eef4; --box: #f3f6fa; --accent: #0072B2;
@@ -33,7 +33,8 @@ p, li { overflow-wrap: anywhere; }
 .answer p { margin: .3rem 0; } .answer ul { margin: .3rem 0; padding-left: 1.3rem; }
 .verdict { font-size: 1.1rem; } .next { font-weight: bold; }
 .small { color: var(--dim); font-size: .82rem; }
-.scroll { overflow-x: auto; }
+.scroll { overflow-x: auto; } .narrow { display: none; }
+@media screen and (max-width: 908px) { .roomy { display: none; } .narrow { display: block; } }
 table { border-collapse: collapse; font-size: .86rem; margin: .8rem 0 .3rem;
         font-variant-numeric: tabular-nums; }
 caption { text-align: left; font-weight: bold; padding-bottom: .3rem; }

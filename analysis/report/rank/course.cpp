@@ -2,6 +2,7 @@
 #include <numeric>
 
 #include "analysis/report/rank/sections.hpp"
+#include "analysis/report/svg/figure.hpp"
 #include "analysis/report/svg/heat_map.hpp"
 
 namespace drift::report {
@@ -25,20 +26,20 @@ HeatMap map_of(const planning::ModelRanking& m, std::string_view title, const Ma
 }
 
 /// Information by position and parameter.
-std::string position_figure(const mc::Study& study, const planning::ModelRanking& m) {
+HeatMap position_map(const mc::Study& study, const planning::ModelRanking& m) {
   HeatMap map = map_of(m, "Which position informs which parameter", m.course.position_gain);
   for (std::size_t p = 0; p < study.plan.positions.size(); ++p)
     map.columns.push_back(fmt::format("{} {}", p + 1, study.plan.positions[p].name));
-  return svg_of(map);
+  return map;
 }
 
 /// Information by time and parameter.
-std::string time_figure(const planning::ModelRanking& m) {
+HeatMap time_map(const planning::ModelRanking& m) {
   HeatMap map = map_of(m, "Which minutes inform which parameter", m.course.gain);
   for (const observability::TimeBin& bin : m.bins)
     map.columns.push_back(fmt::format("{}: {:.0f} min{}", bin.position + 1, bin.t1 / minute,
                                       bin.slew ? ", slew" : ""));
-  return svg_of(map);
+  return map;
 }
 
 /// "D_I_z 9.1, eta_x 3.2" of the three largest; those below a tenth of a bit are left out.
@@ -100,12 +101,13 @@ Section course(const RankedGroup& v) {
   for (std::size_t k = 0; k < v.group.models.size(); ++k) {
     const planning::ModelRanking& m = v.group.models[k];
     section.add(
-        {Figure{position_figure(v.study, m),
-                "Bits of each parameter that each position adds, positions taken in their order.",
-                k == 0 ? fmt::format("positions{}.svg", v.suffix) : ""},
+        {figure_of(
+             position_map(v.study, m),
+             "Bits of each parameter that each position adds, positions taken in their order.",
+             k == 0 ? fmt::format("positions{}.svg", v.suffix) : ""),
          {position_table(v.study, m), shown_of(k)},
-         Figure{time_figure(m),
-                "The same by time; columns are named by position and the minute they end at."},
+         figure_of(time_map(m),
+                   "The same by time; columns are named by position and the minute they end at."),
          {minutes_table(v.study, m), On::page}});
   }
   return section;

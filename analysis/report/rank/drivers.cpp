@@ -3,6 +3,7 @@
 
 #include "analysis/report/rank/sections.hpp"
 #include "analysis/report/svg/bar_chart.hpp"
+#include "analysis/report/svg/figure.hpp"
 
 namespace drift::report {
 namespace {
@@ -51,7 +52,7 @@ double reach(const std::vector<Gain>& gains) {
   return 0.0;
 }
 
-std::string tornado(const planning::ModelRanking& m) {
+BarChart tornado(const planning::ModelRanking& m) {
   constexpr std::size_t most_parameters = 8, most_drivers = 3;
   constexpr double least = 0.01;  // of a sigma
   const Layout& layout = m.ranking.layout;
@@ -78,7 +79,7 @@ std::string tornado(const planning::ModelRanking& m) {
       name.clear();
     }
   }
-  return chart.bars.empty() ? "" : svg_of(chart);
+  return chart;
 }
 
 /// "Driven most by gimbal noise: 12 parameters; ..."
@@ -133,11 +134,12 @@ Section drivers(const RankedGroup& v) {
   for (std::size_t k = 0; k < v.group.models.size(); ++k) {
     const planning::ModelRanking& m = v.group.models[k];
     if (m.drivers.priors.rows() != static_cast<Eigen::Index>(m.ranking.layout.size())) continue;
-    if (std::string svg = tornado(m); !svg.empty())
-      section.add({Figure{std::move(svg),
-                          "The parameters that something else than their own prior moves most, "
-                          "each with the three strongest things that could be known twice as well.",
-                          k == 0 ? fmt::format("drivers{}.svg", v.suffix) : ""}});
+    if (BarChart chart = tornado(m); !chart.bars.empty())
+      section.add(
+          {figure_of(std::move(chart),
+                     "The parameters that something else than their own prior moves most, "
+                     "each with the three strongest things that could be known twice as well.",
+                     k == 0 ? fmt::format("drivers{}.svg", v.suffix) : "")});
     section.add({Paragraph{count_of_drivers(m)}, driver_table(m)});
   }
   return section;

@@ -4,6 +4,7 @@
 #include "analysis/planning/position_toml.hpp"
 #include "analysis/report/rank/sections.hpp"
 #include "analysis/report/svg/bar_chart.hpp"
+#include "analysis/report/svg/figure.hpp"
 
 namespace drift::report {
 namespace {
@@ -55,13 +56,14 @@ Figure gain_figure(const Gains& g) {
                                               number_text(g.after.learning_ratio(k)))});
   }
   const std::size_t others = g.states.size() - chart.bars.size();
-  return {svg_of(chart),
-          fmt::format("Expected gain from all proposed positions.{}",
-                      others > 0 ? fmt::format(" {} parameters gain less, or nothing: they are in "
-                                               "the table.",
-                                               others)
-                                 : ""),
-          "improvement.svg"};
+  return figure_of(
+      std::move(chart),
+      fmt::format("Expected gain from all proposed positions.{}",
+                  others > 0 ? fmt::format(" {} parameters gain less, or nothing: they are in "
+                                           "the table.",
+                                           others)
+                             : ""),
+      "improvement.svg");
 }
 
 Table gain_table(const Gains& g) {

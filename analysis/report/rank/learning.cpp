@@ -3,6 +3,7 @@
 
 #include "analysis/report/rank/sections.hpp"
 #include "analysis/report/svg/bar_chart.hpp"
+#include "analysis/report/svg/figure.hpp"
 
 namespace drift::report {
 namespace {
@@ -26,7 +27,7 @@ bool same_for_all(const planning::RankingGroup& group, std::size_t k) {
 
 }  // namespace
 
-std::string learning_figure(const planning::RankingGroup& group) {
+BarChart learning_chart(const planning::RankingGroup& group) {
   BarChart chart{fmt::format("What the test teaches, {}", group.filters),
                  "log2(prior sigma / sigma after the test) [bit]; beside the bar: what is left of "
                  "the prior sigma",
@@ -47,7 +48,7 @@ std::string learning_figure(const planning::RankingGroup& group) {
            .text = number_text(p.learning_ratio())});
     }
   }
-  return svg_of(chart);
+  return chart;
 }
 
 Table ranking_table(const planning::ModelRanking& m, const planning::ModelRanking* other) {
@@ -92,12 +93,12 @@ Section learning(const RankedGroup& v) {
   const auto& models = v.group.models;
   Table table = ranking_table(models.front(), models.size() > 1 ? &models[1] : nullptr);
   table.title = fmt::format("Ranking for {}", v.group.filters);
-  return {
-      fmt::format("Filter {}", v.group.filters),
-      {Figure{learning_figure(v.group),
-              "Longer is better known. Each bar is one equation; grey: both know it equally well.",
-              fmt::format("learning{}.svg", v.suffix)},
-       table}};
+  return {fmt::format("Filter {}", v.group.filters),
+          {figure_of(
+               learning_chart(v.group),
+               "Longer is better known. Each bar is one equation; grey: both know it equally well.",
+               fmt::format("learning{}.svg", v.suffix)),
+           table}};
 }
 
 }  // namespace drift::report

@@ -4,6 +4,7 @@
 
 #include "analysis/planning/rank.hpp"
 #include "analysis/report/page/report.hpp"
+#include "analysis/report/svg/bar_chart.hpp"
 
 namespace drift::report {
 
@@ -12,9 +13,9 @@ namespace drift::report {
 Report rank_report(const mc::Study& study, const planning::PlanRanking& rank);
 
 /// Learning, as bits, of every parameter; eqs. (5) and (6) side by side.
-std::string learning_figure(const planning::RankingGroup& group);
+BarChart learning_chart(const planning::RankingGroup& group);
 
 /// Eigenvalues of the prior-scaled information on a log axis, one curve for each model.
-std::string spectrum_figure(const planning::RankingGroup& group);
+Chart spectrum_chart(const planning::RankingGroup& group);
 
 }  // namespace drift::report

@@ -3,6 +3,7 @@
 
 #include "analysis/report/rank/sections.hpp"
 #include "analysis/report/svg/curve.hpp"
+#include "analysis/report/svg/figure.hpp"
 
 namespace drift::report {
 namespace {
@@ -60,7 +61,7 @@ std::vector<NamedDirection> held_by_attitude(const planning::ModelRanking& m) {
   return found;
 }
 
-std::string spectrum_figure(const planning::RankingGroup& group) {
+Chart spectrum_chart(const planning::RankingGroup& group) {
   Panel panel;
   panel.x_label = "direction, best seen first; those not seen at all left out";
   panel.y_label = "log10(information / prior)";
@@ -77,21 +78,21 @@ std::string spectrum_figure(const planning::RankingGroup& group) {
     }
     panel.series.push_back(std::move(s));
   }
-  return svg_of(Chart{fmt::format("Eigenvalues of the information, {}", group.filters),
-                      {std::move(panel)},
-                      1,
-                      720.0,
-                      320.0});
+  return {fmt::format("Eigenvalues of the information, {}", group.filters),
+          {std::move(panel)},
+          1,
+          narrow_page,
+          320.0};
 }
 
 /// Eigenvalues, and the directions of which the data say nothing. Both equations often fail to see
 /// the same: said once then.
 Section unseen(const RankedGroup& v) {
   Section section;
-  section.add({Figure{spectrum_figure(v.group),
-                      "Prior-scaled eigenvalues of the information. Below 0 the prior says more "
-                      "than the data; -12 stands for anything less.",
-                      fmt::format("spectrum{}.svg", v.suffix)}});
+  section.add({figure_of(spectrum_chart(v.group),
+                         "Prior-scaled eigenvalues of the information. Below 0 the prior says more "
+                         "than the data; -12 stands for anything less.",
+                         fmt::format("spectrum{}.svg", v.suffix))});
   std::vector<Table> tables;
   for (const planning::ModelRanking& m : v.group.models) tables.push_back(null_table(m));
   if (tables.size() == 2 && same_rows(tables[0], tables[1])) {

@@ -2,6 +2,7 @@
 
 #include "analysis/report/study/sections.hpp"
 #include "analysis/report/svg/bar_chart.hpp"
+#include "analysis/report/svg/figure.hpp"
 
 namespace drift::report {
 namespace {
@@ -72,10 +73,11 @@ Figure silent_failure_figure(const StudyResults& results) {
                           100.0 * rate.high(),
                           matched(results, pair) ? std::size_t{2} : std::size_t{1}, ""});
   }
-  return {svg_of(chart),
-          "Silent failure rate with its 95 % interval, truth > filter: runs in which some "
-          "parameter that the filter claims to know is more than 5 sigma off while its own "
-          "statistics look healthy."};
+  return figure_of(
+      std::move(chart),
+      "Silent failure rate with its 95 % interval, truth > filter: runs in which some "
+      "parameter that the filter claims to know is more than 5 sigma off while its own "
+      "statistics look healthy.");
 }
 
 /// Starts of every pair beside each other.

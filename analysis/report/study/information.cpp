@@ -5,6 +5,7 @@
 #include "analysis/planning/rank.hpp"
 #include "analysis/report/rank/report.hpp"
 #include "analysis/report/study/sections.hpp"
+#include "analysis/report/svg/figure.hpp"
 
 namespace drift::report {
 namespace {
@@ -86,11 +87,11 @@ Section information_section(const StudyResults& results, int threads) {
                    reasons(comparison)});
     }
     for (const planning::RankingGroup& group : plan.groups) {
-      std::string learning = learning_figure(group);
-      if (!shown.insert(learning).second) continue;
-      section.add({Figure{std::move(learning),
-                          "Learning ratios of the plan " + condition_of(results.points[p])},
-                   Figure{spectrum_figure(group), "Eigenvalues of the prior-scaled information"}});
+      Figure learning = figure_of(learning_chart(group),
+                                  "Learning ratios of the plan " + condition_of(results.points[p]));
+      if (!shown.insert(learning.svg).second) continue;
+      section.add({std::move(learning), figure_of(spectrum_chart(group),
+                                                  "Eigenvalues of the prior-scaled information")});
     }
   }
   return section;

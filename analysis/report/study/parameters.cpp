@@ -5,6 +5,7 @@
 
 #include "analysis/report/study/sections.hpp"
 #include "analysis/report/svg/bar_chart.hpp"
+#include "analysis/report/svg/figure.hpp"
 
 namespace drift::report {
 namespace {
@@ -36,10 +37,11 @@ Figure ranking_figure(const StudyResults& results, const Pair& pair) {
         {key_at(filter, k), rmse.value / prior, rmse.low / prior, rmse.high / prior, 0,
          fmt::format("{} (sigma {})", number_text(rmse.value / prior), number_text(e.learning()))});
   }
-  return {svg_of(chart),
-          "Parameters by Monte Carlo RMSE over prior sigma with 95 % bootstrap intervals; in "
-          "brackets what the filter says, sigma over prior sigma. 1: nothing learned; an interval "
-          "wholly above 1: misled."};
+  return figure_of(
+      std::move(chart),
+      "Parameters by Monte Carlo RMSE over prior sigma with 95 % bootstrap intervals; in "
+      "brackets what the filter says, sigma over prior sigma. 1: nothing learned; an interval "
+      "wholly above 1: misled.");
 }
 
 /// Every parameter of a pair: bias, RMSE, sigma, deception, coverage, silent failures, starts.

@@ -9,7 +9,7 @@
 namespace drift::report {
 namespace {
 
-constexpr double row = 22.0, axis_height = 44.0;  // [px]
+constexpr double bar_row = 22.0, label_row = 16.0, axis_height = 44.0;  // [px]
 
 std::string text_of(const Bar& bar) {
   if (!bar.text.empty()) return bar.text;
@@ -28,17 +28,18 @@ std::string svg_of(const BarChart& chart) {
     for (const double v : {b.value, b.low, b.high}) range.include(spaced(v, chart.spacing));
   }
   if (chart.limit) range.include(spaced(chart.limit->y, chart.spacing));
-  label_width = std::min(label_width, 0.5 * chart.width);
-
-  const double x0 = canvas_edge + label_width + 8.0,
-               w = chart.width - x0 - value_width - canvas_edge - 8.0;
+  const double width = std::max(chart.width, text_pixels(chart.title, 15.0) + 2.0 * canvas_edge);
+  const double room = width - value_width - canvas_edge - 8.0;
+  const bool above = room - (canvas_edge + label_width + 8.0) < least_plot;  // labels above bars
+  const double x0 = canvas_edge + (above ? 0.0 : label_width) + 8.0, w = room - x0;
+  const double under = above ? label_row : 0.0, row = bar_row + under;
   const double y0 = (chart.title.empty() ? 8.0 : 40.0) + (chart.limit ? 16.0 : 0.0);
   const double h = row * static_cast<double>(chart.bars.size());
   const AxisScale scale = make_scale(range, static_cast<int>(w / 60.0), 0.02);
   const auto x_of = [&](double v) { return x0 + scale.at(spaced(v, chart.spacing), w); };
   const double zero = chart.spacing == Spacing::linear ? x_of(0.0) : x0;
 
-  SvgCanvas canvas(chart.width, y0 + h + axis_height, chart.title);
+  SvgCanvas canvas(width, y0 + h + axis_height, chart.title);
   canvas.text(canvas_edge, 24.0, chart.title, {.size = 15.0, .bold = true});
   for (const std::size_t i : shown_ticks(scale, chart.spacing)) {
     const double x = x0 + scale.at(scale.ticks[i], w);
@@ -53,11 +54,14 @@ std::string svg_of(const BarChart& chart) {
               {.anchor = "middle"});
   for (std::size_t k = 0; k < chart.bars.size(); ++k) {
     const Bar& b = chart.bars[k];
-    const double y = y0 + row * static_cast<double>(k), middle = y + 0.5 * row;
-    canvas.text(x0 - 8.0, middle + 4.0, b.label, {.anchor = "end"});
+    const double y = y0 + row * static_cast<double>(k) + under, middle = y + 0.5 * bar_row;
+    if (above)
+      canvas.text(x0, y, b.label, {.halo = true});
+    else
+      canvas.text(x0 - 8.0, middle + 4.0, b.label, {.anchor = "end"});
     double end = zero;  // text stands right of bar and interval
     if (const double at = x_of(b.value); std::isfinite(at)) {
-      canvas.rectangle(std::min(at, zero), y + 4.0, std::abs(at - zero), row - 8.0,
+      canvas.rectangle(std::min(at, zero), y + 4.0, std::abs(at - zero), bar_row - 8.0,
                        palette(b.colour), 0.85);
       end = std::max(end, at);
     }

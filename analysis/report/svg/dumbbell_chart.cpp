@@ -8,7 +8,7 @@
 namespace drift::report {
 namespace {
 
-constexpr double line_height = 19.0, room_of_axis = 44.0;  // [px]
+constexpr double line_height = 19.0, label_height = 16.0, room_of_axis = 44.0;  // [px]
 constexpr std::string_view before_colour = "#D55E00", after_colour = "#0072B2";
 
 void mark(SvgCanvas& canvas, double x, double y, std::string_view colour) {
@@ -27,15 +27,17 @@ std::string svg_of(const DumbbellChart& chart) {
       range.include(spaced(v, chart.spacing));
   }
   if (chart.limit) range.include(spaced(chart.limit->y, chart.spacing));
-  label_width = std::min(label_width, 0.4 * chart.width);
-  const double x0 = canvas_edge + label_width + 10.0;
-  const double w = chart.width - x0 - text_width - canvas_edge - 14.0;
+  const double width = std::max(chart.width, text_pixels(chart.title, 15.0) + 2.0 * canvas_edge);
+  const double room = width - text_width - canvas_edge - 14.0;
+  const bool above = room - (canvas_edge + label_width + 10.0) < least_plot;  // labels above lines
+  const double x0 = canvas_edge + (above ? 0.0 : label_width) + 10.0, w = room - x0;
+  const double under = above ? label_height : 0.0, row = line_height + under;
   const double y0 = (chart.title.empty() ? 30.0 : 58.0) + (chart.limit ? 14.0 : 0.0);
-  const double h = line_height * static_cast<double>(chart.lines.size());
+  const double h = row * static_cast<double>(chart.lines.size());
   const AxisScale scale = make_scale(range, static_cast<int>(w / 60.0), 0.03);
   const auto x_of = [&](double v) { return x0 + scale.at(spaced(v, chart.spacing), w); };
 
-  SvgCanvas canvas(chart.width, y0 + h + room_of_axis, chart.title);
+  SvgCanvas canvas(width, y0 + h + room_of_axis, chart.title);
   canvas.text(canvas_edge, 24.0, chart.title, {.size = 15.0, .bold = true});
   const double key = chart.title.empty() ? 16.0 : 44.0;
   mark(canvas, x0 + 4.0, key - 4.0, before_colour);
@@ -43,7 +45,7 @@ std::string svg_of(const DumbbellChart& chart) {
   const double second = x0 + 34.0 + text_pixels(chart.before_label, label_type);
   mark(canvas, second, key - 4.0, after_colour);
   canvas.text(second + 10.0, key, chart.after_label);
-  canvas.text(chart.width - canvas_edge, y0 - 8.0, chart.text_label,
+  canvas.text(width - canvas_edge, y0 - 8.0, chart.text_label,
               {.size = small_type, .anchor = "end"});
   for (const std::size_t i : shown_ticks(scale, chart.spacing)) {
     const double x = x0 + scale.at(scale.ticks[i], w);
@@ -56,15 +58,18 @@ std::string svg_of(const DumbbellChart& chart) {
               factor ? chart.x_label + "  " + scale.factor : chart.x_label, {.anchor = "middle"});
   for (std::size_t k = 0; k < chart.lines.size(); ++k) {
     const Dumbbell& d = chart.lines[k];
-    const double y = y0 + line_height * (static_cast<double>(k) + 0.5);
-    canvas.text(x0 - 10.0, y + 4.0, d.label, {.anchor = "end"});
+    const double y = y0 + row * static_cast<double>(k) + under + 0.5 * line_height;
+    if (above)
+      canvas.text(x0, y - 0.5 * line_height, d.label, {.halo = true});
+    else
+      canvas.text(x0 - 10.0, y + 4.0, d.label, {.anchor = "end"});
     const double from = x_of(d.before), to = x_of(d.after);
     if (std::isfinite(from) && std::isfinite(to)) canvas.line(from, y, to, y, "#999999", 1.6);
     if (std::isfinite(d.low) && std::isfinite(d.high))
       canvas.line(x_of(d.low), y, x_of(d.high), y, after_colour, 3.0);
     mark(canvas, from, y, before_colour);
     mark(canvas, to, y, after_colour);
-    canvas.text(chart.width - canvas_edge, y + 4.0, d.text, {.size = small_type, .anchor = "end"});
+    canvas.text(width - canvas_edge, y + 4.0, d.text, {.size = small_type, .anchor = "end"});
   }
   if (chart.limit)
     if (const double x = x_of(chart.limit->y); std::isfinite(x)) {

@@ -12,7 +12,7 @@
 namespace drift::report {
 namespace {
 
-constexpr double least_cell = 9.0, most_cell = 70.0;  // [px]
+constexpr double least_cell = 4.0, most_cell = 70.0;  // [px]
 constexpr double numbers_from = 34.0;                 // width of a cell that holds a number [px]
 
 /// From white to the blue or orange of the palette; x in -1..1.

@@ -6,7 +6,9 @@
 
 namespace drift::report {
 
-inline constexpr double canvas_edge = 14.0;  ///< [px] left empty on either side of a picture
+inline constexpr double canvas_edge = 14.0;   ///< [px] left empty on either side of a picture
+inline constexpr double narrow_page = 540.0;  ///< [px] what a window of 600 has for a picture
+inline constexpr double least_plot = 90.0;    ///< [px] of an axis beside labels; else they go above
 
 /// Sizes of type [px]: the smallest, on axes and beside bars, and that of labels. Pages do not
 /// scale pictures down, so that no text is smaller than this.

@@ -206,10 +206,9 @@ double paint_legend(SvgCanvas* canvas, const std::vector<LegendEntry>& entries, 
 }  // namespace
 
 ChartParts parts_of(const Chart& chart) {
-  constexpr double narrow = 540.0;  // [px] that the legend has on a narrow page
   const auto legend = legend_of(chart);
   const double title = chart.title.empty() ? 6.0 : 34.0,
-               width = std::max(narrow, text_pixels(chart.title, 15.0) + 2.0 * canvas_edge);
+               width = std::max(narrow_page, text_pixels(chart.title, 15.0) + 2.0 * canvas_edge);
   ChartParts parts;
   SvgCanvas head(width, title + paint_legend(nullptr, legend, 0.0, width), chart.title);
   head.text(canvas_edge, 24.0, chart.title, {.size = 15.0, .bold = true});

@@ -1,14 +1,10 @@
 #pragma once
 
-#include "analysis/report/page/report.hpp"
-#include "analysis/report/svg/svg_chart.hpp"
+#include "analysis/report/svg/figure.hpp"
 
 namespace drift::report {
 
-/// The chart as a picture whose panels flow on a page.
-Figure figure_of(const Chart& chart, std::string caption, std::string file = {});
-
-/// The same that a reader may zoom: at most 4000 points of every curve stand with it.
+/// A chart that a reader may zoom: at most 4000 points of every curve stand with it.
 Figure zoomable(const Chart& chart, std::string caption, std::string file = {});
 
 /// Those points as JSON, without a '<': panels with series (an x that is a number: that of the

@@ -4,10 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "analysis/report/svg/bar_chart.hpp"
 #include "analysis/report/svg/decimate.hpp"
+#include "analysis/report/svg/dumbbell_chart.hpp"
+#include "analysis/report/svg/figure.hpp"
+#include "analysis/report/svg/heat_map.hpp"
 #include "tests/analysis/report/xml_check.hpp"
 
 namespace drift::svg_chart_test {
@@ -159,6 +165,48 @@ TEST(BarChart, HasABarAndWhiskersForEachNumber) {
   EXPECT_EQ(count(svg, "<rect"), 3u);  // background and two bars
   EXPECT_NE(svg.find(">n/a<"), std::string::npos);
   EXPECT_NE(svg.find("K0 &amp; co"), std::string::npos);
+}
+
+/// All numbers that stand at `attribute="` in a document.
+std::vector<double> numbers_at(const std::string& svg, const std::string& attribute) {
+  std::vector<double> found;
+  const std::string opening = attribute + "=\"";
+  for (auto at = svg.find(opening); at != std::string::npos; at = svg.find(opening, at + 1))
+    found.push_back(std::strtod(svg.c_str() + at + opening.size(), nullptr));
+  return found;
+}
+
+/// A picture that was drawn anew for a narrow page: it fits, and shows the same texts.
+void expect_narrow(const report::Figure& figure, std::size_t texts) {
+  EXPECT_EQ(testing::xml_problem(figure.narrow).value_or(""), "");
+  EXPECT_EQ(numbers_at(figure.narrow, "width").at(0), report::narrow_page);
+  EXPECT_GT(numbers_at(figure.svg, "width").at(0), report::narrow_page);
+  EXPECT_GE(count(figure.narrow, "<text"), texts);
+  for (const char* attribute : {" x", "x1", "x2"})
+    for (const double x : numbers_at(figure.narrow, attribute)) {
+      EXPECT_GE(x, 0.0);
+      EXPECT_LE(x, report::narrow_page);
+    }
+}
+
+TEST(FigureOf, IsDrawnAnewForANarrowPageWithLongLabelsAboveTheirBars) {
+  const std::string label = "eta_y:  the noise of the accelerometers in the free drift of it";
+  report::BarChart bars{.title = "t", .x_label = "x", .bars = {}, .limit = {}, .width = 860.0};
+  report::DumbbellChart dumbbells;
+  for (int k = 1; k <= 4; ++k) {
+    bars.bars.push_back({.label = label, .value = 1.0 * k, .text = "0.0123 to 0.00123"});
+    dumbbells.lines.push_back(
+        {.label = label, .before = 1.0 * k, .after = 2.0 * k, .text = "1.23 +- 0.12 arcsec"});
+  }
+  expect_narrow(report::figure_of(bars, ""), 8);
+  expect_narrow(report::figure_of(dumbbells, ""), 8);
+  report::HeatMap map;
+  map.value = MatX::Ones(63, 63);
+  for (int k = 0; k < 63; ++k) map.rows.push_back("theta_x_y");
+  map.columns = map.rows;
+  expect_narrow(report::figure_of(map, ""), 63);
+  bars.width = 500.0;
+  EXPECT_EQ(report::figure_of(bars, "").narrow, "") << "narrow already";
 }
 
 }  // namespace
