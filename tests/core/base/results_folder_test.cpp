@@ -1,6 +1,11 @@
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+#include <atomic>
+#include <thread>
 
 #include "core/base/atomic_file.hpp"
 #include "core/base/check.hpp"
@@ -44,6 +49,28 @@ TEST(Temporaries, OfKilledProcessesVanishAndThoseOfLivingOnesStay) {
   EXPECT_TRUE(fs::exists(alive.temporary()));
   EXPECT_TRUE(fs::exists(scratch.file(".driftscope-notes")));
   EXPECT_EQ(temporaries_in(scratch.path()), 2u);
+}
+
+TEST(Temporaries, LoosenTheMaskOfNoOtherThread) {
+  const ScratchFolder scratch;
+  const mode_t before = ::umask(077);
+  std::atomic<bool> done = false;
+  std::thread maker([&] {
+    for (int i = 0; i < 2000; ++i) ::unlink(make_temporary(scratch.path()).c_str());
+    done = true;
+  });
+  const std::string path = scratch.file("of another thread");
+  for (bool last = false; !last;) {
+    last = done;
+    const int fd = ::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+    struct stat made {};
+    EXPECT_EQ(::fstat(fd, &made), 0);
+    EXPECT_EQ(made.st_mode & 0777, 0600u);
+    ::close(fd);
+    ::unlink(path.c_str());
+  }
+  maker.join();
+  ::umask(before);
 }
 
 TEST(Temporaries, OfAnotherMachineStayForADay) {
