@@ -6,7 +6,6 @@
 
 #include "analysis/inference/noise_filter.hpp"
 #include "analysis/inference/white_sums.hpp"
-#include "core/estimate/lanes.hpp"
 #include "core/estimate/sequential/information.hpp"
 
 namespace drift::inference {
@@ -19,7 +18,7 @@ double Marginal::log_likelihood2() const {
 MarginalLikelihood::MarginalLikelihood(const LinearProblem& problem, const std::vector<int>& with)
     : measured_(problem),
       parameters_(static_cast<std::size_t>(problem.theta.cols()) + with.size()),
-      width_(whole_lanes(parameters_ + 1)),
+      width_(Information::row_width(parameters_)),
       rows_(static_cast<std::size_t>(problem.rows()) * width_, 0.0) {
   Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> rows(
       rows_.data(), problem.rows(), static_cast<Eigen::Index>(width_));

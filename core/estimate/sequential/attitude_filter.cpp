@@ -10,7 +10,7 @@ namespace drift {
 
 AttitudeFilter::AttitudeFilter(std::size_t parameters, std::vector<std::size_t> walking)
     : parameters_(parameters),
-      width_(whole_lanes((parameters + 4) / 4 * 4)),  // whole blocks of Information too
+      width_(Information::row_width(parameters)),
       walking_(std::move(walking)),
       U_((3 + most_walking) * width_, 0.0) {
   DRIFT_DEMAND(walking_.size() <= most_walking);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/check.hpp"
 #include "core/estimate/lanes.hpp"
 
 namespace drift {
@@ -119,6 +120,10 @@ bool factorise_block(double* U, std::size_t first, std::size_t n, std::size_t wi
 
 }  // namespace
 
+std::size_t Information::row_width(std::size_t parameters) {
+  return whole_lanes((parameters + block) / block * block);
+}
+
 Information::Information(std::size_t parameters, std::size_t width)
     : n_(parameters),
       width_(width),
@@ -128,6 +133,7 @@ Information::Information(std::size_t parameters, std::size_t width)
       inverse_diagonal_(width, 1.0),
       solution_(VecX::Zero(static_cast<Eigen::Index>(n_))),
       turned_(solution_) {
+  DRIFT_DEMAND(width == row_width(parameters));
   factorise();
 }
 

@@ -11,7 +11,11 @@ namespace drift {
 /// solved by Cholesky. Rounding enters with the square of the condition, which the prior bounds.
 class Information {
  public:
-  /// width: of a row, whole lanes, more than n.
+  /// How wide a row of n parameters is: its right hand side, and zeros up to whole lanes and to
+  /// whole blocks of four, which are summed up together.
+  static std::size_t row_width(std::size_t parameters);
+
+  /// width: of a row, row_width() of as many parameters.
   Information(std::size_t parameters, std::size_t width);
 
   void clear();

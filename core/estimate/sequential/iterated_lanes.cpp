@@ -15,9 +15,6 @@ bool go_on_alike(const Timeline& timeline, const Interval& a, const Interval& b)
   return !b.cage && a.omega_cmd_p == b.omega_cmd_p && a.loop == b.loop &&
          timeline.nodes[a.last_node()].omega_ic_l == timeline.nodes[b.first_node].omega_ic_l;
 }
-std::size_t padded(std::size_t n) {
-  return whole_lanes((n + 4) / 4 * 4);
-}
 
 }  // namespace
 
@@ -37,7 +34,7 @@ IteratedLanes::IteratedLanes(const FilterSpec& filter, const Timeline& timeline,
       linearizer_(filter.model(), layout_, readout),
       attitude_(layout_, linearizer_.readout()),
       information_(layout_.size()),
-      one_(layout_.size(), padded(layout_.size())),
+      one_(layout_.size(), Information::row_width(layout_.size())),
       H_rate_(3 * layout_.num_rate),
       H_par_(linearizer_.readout().size()),
       rest_G_(H_rate_),
