@@ -71,7 +71,8 @@ int wait_for_lock(void* path, int times) {
     case SQLITE_CORRUPT:
     case SQLITE_NOTADB:
     case SQLITE_FORMAT:
-    case SQLITE_ERROR:  // a table that should be there is not
+    case SQLITE_ERROR:   // a table that should be there is not
+    case SQLITE_TOOBIG:  // a length that no row has
     case SQLITE_MISMATCH:
     case SQLITE_CONSTRAINT:
     case SQLITE_SCHEMA:

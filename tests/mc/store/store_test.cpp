@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "core/base/check.hpp"
+#include "mc/store/store_database.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/synthetic_study.hpp"
 
@@ -223,6 +224,18 @@ TEST(Store, OneProcessAtATimeIsAWorker) {
   const mc::WorkerStore first(folder.path(), 0, manifest);
   EXPECT_NO_THROW(mc::WorkerStore(folder.path(), 1, manifest));
   EXPECT_THROW(mc::WorkerStore(folder.path(), 0, manifest, 0.1), InputError);
+}
+
+TEST(Store, ALengthThatNoRowHasIsDamageAndNoFaultOfTheDisk) {
+  // Of a record whose header says gigabytes; found by FuzzNightly.Stores.
+  const ScratchFolder folder;
+  mc::Database db(folder.file("a.sqlite"), mc::Database::Use::write);
+  try {
+    db.prepare("SELECT zeroblob(2147483647) || 'x'").run();
+    FAIL() << "read";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.code(), ExitCode::store) << error.what();
+  }
 }
 
 }  // namespace
