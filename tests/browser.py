@@ -43,13 +43,13 @@ function measure() {
     ++out.figures;
     const place = svg.parentElement;
     if (place.scrollWidth > place.clientWidth + 1) out.scrolled.push(svg.textContent.trim().slice(0, 40));
-    const frame = svg.getBoundingClientRect(), boxes = [];
+    const frame = svg.getBoundingClientRect(), boxes = [], name = ' in ' + (svg.querySelector('title')?.textContent || '').slice(0, 40);
     for (const text of svg.querySelectorAll('text')) {
       if (!text.textContent.trim()) continue;
       ++out.texts;
       const m = text.getScreenCTM(), scale = Math.hypot(m.a, m.b);
       out.smallest = Math.min(out.smallest, parseFloat(getComputedStyle(text).fontSize) * scale);
-      const box = text.getBoundingClientRect(), said = text.textContent.slice(0, 40);
+      const box = text.getBoundingClientRect(), said = text.textContent.slice(0, 40) + name;
       if (box.left < frame.left - 1 || box.right > frame.right + 1 || box.top < frame.top - 1 ||
           box.bottom > frame.bottom + 1) out.outside.push(said);
       for (const [other, what] of boxes)
@@ -211,7 +211,8 @@ def check_the_check(browser, page, folder):
     """A page spoilt in every way is complained of in every way."""
     spoilt = page.replace("</svg>", '<text x="20" y="40" font-size="9">small</text><text x="20" y="42" '
                           'font-size="9">over it</text><text x="-90" y="40">outside</text></svg>', 1)
-    spoilt = spoilt.replace("<svg ", '<svg style="min-width: 2000px" ', 1)
+    spoilt = spoilt.replace("<h2>", '<figure><div class="scroll"><svg width="3000" height="20"><text x="5" '
+                            'y="15">too wide</text></svg></div></figure><h2>', 1)
     spoilt = spoilt.replace("<h2>", '<div style="width: 3000px">wide</div><h2>', 1).replace("var(--paper)", "#000")
     said = " ".join(complaints_of(measured(browser, spoilt, 1400, "light", folder), 1400, "light"))
     for what in ("the page is 3", "text of 9.0 px", "texts outside", "texts over another", "pictures wider", "paper of"):

@@ -47,24 +47,28 @@ std::string folded(const std::string& summary, const std::string& body) {
   return fmt::format("<details>\n<summary>{}</summary>\n{}</details>\n", summary, body);
 }
 
-/// A picture as it stands on a page.
-std::string picture_of(const Figure& f) {
+/// A picture as it stands on a page, `classes` besides.
+std::string picture_of(const Figure& f, std::string_view classes) {
   const FlowingPanels& flowing = f.flowing;
-  if (flowing.panels.empty() && f.narrow.empty())
-    return "<div class=\"scroll\">" + inlined(f.svg) + "</div>";
   if (flowing.panels.empty())
-    return fmt::format(
-        "<div class=\"scroll roomy\">{}</div>\n<div class=\"scroll narrow\">{}</div>",
-        inlined(f.svg), inlined(f.narrow));
+    return fmt::format("<div class=\"scroll{}\">{}</div>", classes, inlined(f.svg));
   const std::size_t columns = std::min(flowing.columns, flowing.panels.size()),
                     rows = (flowing.panels.size() + columns - 1) / columns;
+  const double width =
+      std::max(static_cast<double>(columns) * flowing.panel_width, flowing.head_width);
   std::string out = fmt::format(
-      "<div class=\"scroll panels\" style=\"--columns: {}; --rows: {}; max-width: {:.0f}px\">"
+      "<div class=\"scroll panels{}\" style=\"--columns: {}; --rows: {}; max-width: {:.0f}px\">"
       "<div class=\"head\">{}</div>",
-      columns, rows, static_cast<double>(columns) * flowing.panel_width + 1.0,
-      inlined(flowing.head));
+      classes, columns, rows, width + 1.0, inlined(flowing.head));
   for (const std::string& panel : flowing.panels) out += inlined(panel);
   return out + "</div>";
+}
+
+/// The same, and beside it what a narrow window shows in its place.
+std::string pictures_of(const Figure& f) {
+  if (f.narrow.empty()) return picture_of(f, "");
+  return fmt::format("{}\n<div class=\"scroll narrow\">{}</div>", picture_of(f, " roomy"),
+                     inlined(f.narrow));
 }
 
 struct BlockHtml {
@@ -92,7 +96,7 @@ struct BlockHtml {
   std::string operator()(const Figure& f) const {
     const bool zoomed = !f.zoom.empty() && !zoom_script().empty();
     return fmt::format("<figure{}>\n{}{}<figcaption>{}</figcaption>\n</figure>\n",
-                       zoomed ? " class=\"zoomable\"" : "", picture_of(f),
+                       zoomed ? " class=\"zoomable\"" : "", pictures_of(f),
                        zoomed ? "<script type=\"application/json\">" + f.zoom + "</script>" : "",
                        escaped(f.caption));
   }

@@ -34,7 +34,7 @@ struct FlowingPanels {
   std::string head;  ///< title and legend
   std::vector<std::string> panels;
   std::size_t columns = 1;
-  double panel_width = 0.0;  ///< [px]
+  double panel_width = 0.0, head_width = 0.0;  ///< [px]
 };
 
 /// An SVG document of this program, put into the page itself and into a file of its own.
@@ -44,7 +44,7 @@ struct Figure {
   std::string file = {};  ///< "estimates.svg"; empty: on the page alone
   std::string zoom = {};  ///< numbers to zoom it by (svg/zoomable.hpp); empty: it stays as it is
   FlowingPanels flowing = {};  ///< the picture on the page, instead of svg; without panels: svg
-  std::string narrow = {};     ///< instead of svg in a narrow window; empty: svg in any
+  std::string narrow = {};     ///< instead of both in a narrow window; empty: as in any
 };
 
 /// Where a block stands. A figure with a file name is always a file too.

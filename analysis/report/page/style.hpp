@@ -34,7 +34,7 @@ p, li { overflow-wrap: anywhere; }
 .verdict { font-size: 1.1rem; } .next { font-weight: bold; }
 .small { color: var(--dim); font-size: .82rem; }
 .scroll { overflow-x: auto; } .narrow { display: none; }
-@media screen and (max-width: 908px) { .roomy { display: none; } .narrow { display: block; } }
+@media screen and (max-width: 908px) { .scroll.roomy { display: none; } .narrow { display: block; } }
 table { border-collapse: collapse; font-size: .86rem; margin: .8rem 0 .3rem;
         font-variant-numeric: tabular-nums; }
 caption { text-align: left; font-weight: bold; padding-bottom: .3rem; }

@@ -82,7 +82,7 @@
       }
     }
     place.hidden = hint.hidden = !show;
-    figure.querySelector('.scroll').classList.toggle('replaced', show);
+    for (const picture of figure.querySelectorAll('.scroll')) picture.classList.toggle('replaced', show);
     button.textContent = show ? 'Whole picture' : 'Zoom';
   }
 

@@ -39,7 +39,14 @@ std::string svg_of(const BarChart& chart) {
   const auto x_of = [&](double v) { return x0 + scale.at(spaced(v, chart.spacing), w); };
   const double zero = chart.spacing == Spacing::linear ? x_of(0.0) : x0;
 
-  SvgCanvas canvas(width, y0 + h + axis_height, chart.title);
+  const std::vector<std::string> x_label =
+      wrapped(chart.spacing == Spacing::logarithmic || scale.factor.empty()
+                  ? chart.x_label
+                  : chart.x_label + "  " + scale.factor,
+              width - 2.0 * canvas_edge, label_type);
+  SvgCanvas canvas(width,
+                   y0 + h + axis_height + label_line * static_cast<double>(x_label.size() - 1),
+                   chart.title);
   canvas.text(canvas_edge, 24.0, chart.title, {.size = 15.0, .bold = true});
   for (const std::size_t i : shown_ticks(scale, chart.spacing)) {
     const double x = x0 + scale.at(scale.ticks[i], w);
@@ -47,11 +54,7 @@ std::string svg_of(const BarChart& chart) {
     canvas.text(x, y0 + h + 17.0, tick_label(scale, i, chart.spacing),
                 {.size = small_type, .anchor = "middle"});
   }
-  canvas.text(x0 + 0.5 * w, y0 + h + 36.0,
-              chart.spacing == Spacing::logarithmic || scale.factor.empty()
-                  ? chart.x_label
-                  : chart.x_label + "  " + scale.factor,
-              {.anchor = "middle"});
+  canvas.label(x0 + 0.5 * w, y0 + h + 36.0, x_label, width);
   for (std::size_t k = 0; k < chart.bars.size(); ++k) {
     const Bar& b = chart.bars[k];
     const double y = y0 + row * static_cast<double>(k) + under, middle = y + 0.5 * bar_row;

@@ -32,17 +32,28 @@ std::string svg_of(const DumbbellChart& chart) {
   const bool above = room - (canvas_edge + label_width + 10.0) < least_plot;  // labels above lines
   const double x0 = canvas_edge + (above ? 0.0 : label_width) + 10.0, w = room - x0;
   const double under = above ? label_height : 0.0, row = line_height + under;
-  const double y0 = (chart.title.empty() ? 30.0 : 58.0) + (chart.limit ? 14.0 : 0.0);
+  const double keys = 44.0 + text_pixels(chart.before_label, label_type) +
+                      text_pixels(chart.after_label, label_type),
+               key_x = std::max(std::min(x0, width - canvas_edge - keys), canvas_edge);
+  const bool crossed = key_x + keys > width - canvas_edge - text_width - 8.0;  // key and text_label
+  const double y0 = (chart.title.empty() ? 30.0 : 58.0) + (chart.limit ? 14.0 : 0.0) +
+                    (crossed && !chart.text_label.empty() ? label_line : 0.0);
   const double h = row * static_cast<double>(chart.lines.size());
   const AxisScale scale = make_scale(range, static_cast<int>(w / 60.0), 0.03);
   const auto x_of = [&](double v) { return x0 + scale.at(spaced(v, chart.spacing), w); };
 
-  SvgCanvas canvas(width, y0 + h + room_of_axis, chart.title);
+  const bool factor = chart.spacing == Spacing::linear && !scale.factor.empty();
+  const std::vector<std::string> x_label =
+      wrapped(factor ? chart.x_label + "  " + scale.factor : chart.x_label,
+              width - 2.0 * canvas_edge, label_type);
+  SvgCanvas canvas(width,
+                   y0 + h + room_of_axis + label_line * static_cast<double>(x_label.size() - 1),
+                   chart.title);
   canvas.text(canvas_edge, 24.0, chart.title, {.size = 15.0, .bold = true});
   const double key = chart.title.empty() ? 16.0 : 44.0;
-  mark(canvas, x0 + 4.0, key - 4.0, before_colour);
-  canvas.text(x0 + 14.0, key, chart.before_label);
-  const double second = x0 + 34.0 + text_pixels(chart.before_label, label_type);
+  mark(canvas, key_x + 4.0, key - 4.0, before_colour);
+  canvas.text(key_x + 14.0, key, chart.before_label);
+  const double second = key_x + 34.0 + text_pixels(chart.before_label, label_type);
   mark(canvas, second, key - 4.0, after_colour);
   canvas.text(second + 10.0, key, chart.after_label);
   canvas.text(width - canvas_edge, y0 - 8.0, chart.text_label,
@@ -53,9 +64,7 @@ std::string svg_of(const DumbbellChart& chart) {
     canvas.text(x, y0 + h + 17.0, tick_label(scale, i, chart.spacing),
                 {.size = small_type, .anchor = "middle"});
   }
-  const bool factor = chart.spacing == Spacing::linear && !scale.factor.empty();
-  canvas.text(x0 + 0.5 * w, y0 + h + 36.0,
-              factor ? chart.x_label + "  " + scale.factor : chart.x_label, {.anchor = "middle"});
+  canvas.label(x0 + 0.5 * w, y0 + h + 36.0, x_label, width);
   for (std::size_t k = 0; k < chart.lines.size(); ++k) {
     const Dumbbell& d = chart.lines[k];
     const double y = y0 + row * static_cast<double>(k) + under + 0.5 * line_height;

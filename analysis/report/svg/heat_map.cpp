@@ -13,7 +13,6 @@ namespace drift::report {
 namespace {
 
 constexpr double least_cell = 4.0, most_cell = 70.0;  // [px]
-constexpr double numbers_from = 34.0;                 // width of a cell that holds a number [px]
 
 /// From white to the blue or orange of the palette; x in -1..1.
 std::string colour_of(double x) {
@@ -57,6 +56,9 @@ std::string svg_of(const HeatMap& map) {
     negative = negative || v < 0.0;
   }
   if (!(most > 0.0)) most = 1.0;
+  double number = 0.0;  // the widest
+  for (const double v : map.value.reshaped())
+    if (std::isfinite(v)) number = std::max(number, text_pixels(number_text(v, 2), small_type));
   label = std::min(label, 0.45 * map.width) + (map.y_label.empty() ? 0.0 : 18.0);
   const double x0 = canvas_edge + label + 8.0;
   const double cell =
@@ -82,7 +84,7 @@ std::string svg_of(const HeatMap& map) {
     for (Eigen::Index j = 0; j < columns; ++j) {
       const double v = map.value(i, j), x = x0 + cell * static_cast<double>(j);
       canvas.rectangle(x + 0.5, y + 0.5, cell - 1.0, row_height - 1.0, colour_of(v / most));
-      if (cell >= numbers_from && std::isfinite(v))
+      if (cell >= number + 4.0 && std::isfinite(v))
         canvas.text(x + 0.5 * cell, y + 0.5 * row_height + 4.0, number_text(v, 2),
                     {.size = small_type,
                      .anchor = "middle",

@@ -136,6 +136,31 @@ std::string SvgCanvas::finish() && {
   return std::move(out_) + "</svg>\n";
 }
 
+std::vector<std::string> wrapped(std::string_view text, double width, double size) {
+  std::vector<std::string> lines(1);
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find(' ', at), text.size());
+    const std::string_view word = text.substr(at, end - at);
+    std::string& line = lines.back();
+    if (line.empty())
+      line = word;
+    else if (text_pixels(line + " " + std::string(word), size) <= width)
+      line.append(" ").append(word);
+    else
+      lines.emplace_back(word);
+    at = end + 1;
+  }
+  return lines;
+}
+
+void SvgCanvas::label(double x, double y, const std::vector<std::string>& lines, double width) {
+  for (const std::string& line : lines) {
+    const double half = 0.5 * text_pixels(line, label_type) + canvas_edge;
+    text(std::max(std::min(x, width - half), half), y, line, {.anchor = "middle"});
+    y += label_line;
+  }
+}
+
 double text_pixels(std::string_view text, double size) {
   return 0.56 * size * static_cast<double>(display_width(text));
 }

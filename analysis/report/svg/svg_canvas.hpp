@@ -3,6 +3,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace drift::report {
 
@@ -13,6 +14,7 @@ inline constexpr double least_plot = 90.0;    ///< [px] of an axis beside labels
 /// Sizes of type [px]: the smallest, on axes and beside bars, and that of labels. Pages do not
 /// scale pictures down, so that no text is smaller than this.
 inline constexpr double small_type = 12.0, label_type = 12.5;
+inline constexpr double label_line = 15.0;  ///< [px] from one line of a label to the next
 
 /// How a line is drawn, beside its colour: curves must be told apart in print too.
 enum class Stroke { solid, dashed, dotted };
@@ -45,6 +47,8 @@ class SvgCanvas {
   void area(std::span<const double> x, std::span<const double> low, std::span<const double> high,
             std::string_view colour, double opacity);
   void text(double x, double y, std::string_view text, const TextStyle& style = {});
+  /// Lines of labels under each other, centred at x or as near as they stay within `width`.
+  void label(double x, double y, const std::vector<std::string>& lines, double width);
 
   /// What is drawn until pop() counts from (x, y) and is cut off outside the rectangle.
   void push_window(double x, double y, double width, double height);
@@ -56,6 +60,9 @@ class SvgCanvas {
  private:
   std::string out_;
 };
+
+/// Text in lines that are no wider, but for single words [px].
+std::vector<std::string> wrapped(std::string_view text, double width, double size);
 
 /// Width of text, about right for sans-serif type [px].
 double text_pixels(std::string_view text, double size);

@@ -87,7 +87,9 @@ class PanelPainter {
       const double x = x0_ + x_scale_.at(x_scale_.ticks[i], w_);
       canvas_.line(x, y0_, x, y0_ + h_, "#f0f0f0", 1.0);
       canvas_.line(x, y0_ + h_, x, y0_ + h_ + 4.0, "#555555", 1.0);
-      canvas_.text(x, y0_ + h_ + 16.0, tick_label(x_scale_, i, panel_.x_spacing),
+      const std::string label = tick_label(x_scale_, i, panel_.x_spacing);
+      const double last = x0_ + w_ + right - 0.5 * text_pixels(label, small_type) - 3.0;
+      canvas_.text(std::min(x, last), y0_ + h_ + 16.0, label,
                    {.size = small_type, .anchor = "middle"});
     }
     canvas_.line(x0_, y0_ + h_, x0_ + w_, y0_ + h_, "#555555", 1.0);
@@ -209,7 +211,7 @@ ChartParts parts_of(const Chart& chart) {
   const auto legend = legend_of(chart);
   const double title = chart.title.empty() ? 6.0 : 34.0,
                width = std::max(narrow_page, text_pixels(chart.title, 15.0) + 2.0 * canvas_edge);
-  ChartParts parts;
+  ChartParts parts{.head = {}, .head_width = width, .panels = {}};
   SvgCanvas head(width, title + paint_legend(nullptr, legend, 0.0, width), chart.title);
   head.text(canvas_edge, 24.0, chart.title, {.size = 15.0, .bold = true});
   paint_legend(&head, legend, title + 14.0, width);

@@ -64,6 +64,7 @@ std::string svg_of(const Chart& chart);
 /// every panel.
 struct ChartParts {
   std::string head;
+  double head_width = 0.0;  ///< [px]
   std::vector<std::string> panels;
 };
 ChartParts parts_of(const Chart& chart);

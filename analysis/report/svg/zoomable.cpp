@@ -100,11 +100,17 @@ std::string zoom_numbers(const Chart& chart) {
 
 Figure figure_of(const Chart& chart, std::string caption, std::string file) {
   ChartParts parts = parts_of(chart);
-  return {.svg = svg_of(chart),
-          .caption = std::move(caption),
-          .file = std::move(file),
-          .flowing = {std::move(parts.head), std::move(parts.panels), chart.columns,
-                      chart.panel_width}};
+  Figure figure{.svg = svg_of(chart),
+                .caption = std::move(caption),
+                .file = std::move(file),
+                .flowing = {std::move(parts.head), std::move(parts.panels), chart.columns,
+                            chart.panel_width, parts.head_width}};
+  if (chart.panel_width <= narrow_page) return figure;
+  Chart narrow = chart;
+  narrow.panel_width = narrow_page - canvas_edge;
+  narrow.columns = 1;
+  figure.narrow = svg_of(narrow);
+  return figure;
 }
 
 Figure zoomable(const Chart& chart, std::string caption, std::string file) {
