@@ -7,8 +7,8 @@ A study is begun again and again in the same folder, by 1 to 4 threads or as one
 SIGNALS (20) of them have met one at work; a complete folder is compared with an undisturbed one and the
 next is begun. One signal in eight is followed by a second one at once. Each time:
 
-- the exit code is that of the signal: 130 for an interrupt, else 143; after a second signal also
-  128 + its number; what comes before the program listens ends it by the signal itself;
+- the exit code is 130 for an interrupt and else 143; what comes before the program listens ends it by
+  the signal itself;
 - one line on standard error says what is stored, and no fewer runs are than before;
 - nothing is in the folder but results: no temporary file, no half of one.
 """
@@ -21,7 +21,7 @@ import sys
 import tempfile
 import time
 
-SIGNALS = [signal.SIGINT, signal.SIGTERM, signal.SIGUSR1, signal.SIGUSR2]
+SIGNALS = [signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGUSR1, signal.SIGUSR2]
 RESULTS = re.compile(r"manifest\.json|study\.toml|\.driftscope|worker-\d+\.(sqlite|sqlite-journal|lock)"
                      r"|report\.html|summary\.json")
 
@@ -56,7 +56,7 @@ def own_code(number):
 def allowed(first, second):
     """Exit codes; of two signals at once either may come first."""
     both = {first, second} - {None}
-    return {own_code(n) for n in both} | {-n for n in both} | ({128 + n for n in both} if second else set())
+    return {own_code(n) for n in both} | {-n for n in both}
 
 
 class Trial:

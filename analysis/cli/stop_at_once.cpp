@@ -31,7 +31,7 @@ void write_words(const char* words) {
 extern "C" void on_stop(int number) {
   if (line_is_open() != 0) write_words("\n");
   write_words(texts[static_cast<std::size_t>(said.load())].data());
-  ::_exit(128 + number);
+  ::_exit(static_cast<int>(mc::code_of_stop(number)));
 }
 
 void install() {

@@ -6,8 +6,8 @@
 namespace drift::cli {
 
 /// While it lives, mc::stop_signals say `words` on stderr, on a line of their own, and end the
-/// program at once, with exit code 128 + the signal: for work whose every step is stored or not
-/// begun. Words end with the line. One may live within another.
+/// program at once, with the signal's exit code (mc::code_of_stop): for work whose every step is
+/// stored or not begun. Words end with the line. One may live within another.
 class StopAtOnce {
  public:
   explicit StopAtOnce(std::string_view words);

@@ -146,7 +146,7 @@ class Engine {
   ExitCode stop_code() const {
     switch (stop_) {
       case asked:
-        return signals_.caught() == SIGINT ? ExitCode::interrupted : ExitCode::terminated;
+        return code_of_stop(signals_.caught());
       case full_time:
         return ExitCode::wall_time;
       case failed_run:

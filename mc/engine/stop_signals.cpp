@@ -15,7 +15,8 @@ std::array<struct sigaction, std::size(stop_signals)> before{};
 
 extern "C" void on_signal(int number) {
   int none = 0;
-  if (!first_caught.compare_exchange_strong(none, number)) _exit(128 + number);
+  if (!first_caught.compare_exchange_strong(none, number))
+    _exit(static_cast<int>(code_of_stop(number)));
 }
 
 }  // namespace
