@@ -132,7 +132,7 @@ def study(run, config="study", *options):
 
 
 def sweeps(run):
-    for name in ("misalignment", "noise", "noise_by_plan", "dwell", "plan", "level", "command_law"):
+    for name in ("misalignment", "noise", "noise_by_plan", "noise_by_walk", "dwell", "plan", "level", "command_law"):
         for n in study(run, f"sweep_{name}"):
             n.key = f"{name}.{n.key}"
             yield n
