@@ -113,7 +113,7 @@ Evaluation BatchProblem::evaluate(VecX x, std::vector<Vec3> psi) {
   std::vector<ChainEquations> rows = rows_at(x, psi);
   Evaluation e{std::move(x), std::move(psi), std::move(rows), 0.0,
                compressed() ? compressed_->left_over() : 0.0};
-  if (walks()) whiten_random_walk(test_, angle_random_walk_ / sigma_psi_, white_at_, e.rows);
+  if (walks()) whiten_random_walk(test_, angle_random_walk_, sigma_psi_, white_at_, e.rows);
   e.cost = e.data_cost() + e.x.squaredNorm();
   for (const Vec3& p : e.psi) e.cost += p.squaredNorm();
   if (!std::isfinite(e.cost)) e.cost = std::numeric_limits<double>::infinity();

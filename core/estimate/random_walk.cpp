@@ -2,41 +2,59 @@
 
 #include <cmath>
 
+#include "core/sim/held_noise.hpp"
+
 namespace drift {
 namespace {
 
-/// One chain's filter.
+/// One chain's filter: three of the attitude, three of the noise.
 class Innovations {
  public:
   Innovations(MatX& rows, const MatX& attitude)
-      : rows_(rows), attitude_(attitude), walked_(Mat3X::Zero(3, rows.cols())) {}
+      : rows_(rows), attitude_(attitude), moved_(MatX6::Zero(6, rows.cols())) {}
 
-  void let_walk(double variance) { P_.diagonal().array() += variance; }
+  void hold(double variance) {
+    P_.bottomRows<3>().setZero();
+    P_.rightCols<3>().setZero();
+    P_.diagonal().tail<3>().setConstant(variance);
+    moved_.bottomRows<3>().setZero();
+  }
 
-  /// Takes in the next row: what is left of it beside the rows before, in its own sigmas.
-  void whiten_next() {
+  /// The attitude moves by N n.
+  void drive(const Mat3& N) {
+    moved_.topRows<3>() += N * moved_.bottomRows<3>();
+    P_.topRows<3>() += N * P_.bottomRows<3>();
+    P_.leftCols<3>() += P_.rightCols<3>() * N.transpose();
+  }
+
+  /// Takes in the next row: what is left of it beside the rows before, in its own sigmas. beside:
+  /// what it feels of the noise besides.
+  void whiten_next(const Vec3& beside) {
     auto row = rows_.row(next_);
-    const Vec3 h = attitude_.row(next_++);
-    const Vec3 Ph = P_ * h;
+    Vec6 h;
+    h << attitude_.row(next_++).transpose(), beside;
+    const Vec6 Ph = P_ * h;
     const double S = h.dot(Ph) + 1.0;
-    row -= h.transpose() * walked_;
-    walked_ += (Ph / S) * row;
+    row -= h.transpose() * moved_;
+    moved_ += (Ph / S) * row;
     P_ -= (Ph / S) * Ph.transpose();
     row /= std::sqrt(S);
   }
 
  private:
+  using Vec6 = Eigen::Matrix<double, 6, 1>;
+  using MatX6 = Eigen::Matrix<double, 6, Eigen::Dynamic>;
   MatX& rows_;
   const MatX& attitude_;
-  Mat3 P_ = Mat3::Zero();
-  Mat3X walked_;  ///< estimate of what the walk has made, for every column
+  Eigen::Matrix<double, 6, 6> P_ = Eigen::Matrix<double, 6, 6>::Zero();
+  MatX6 moved_;  ///< estimate of the states, for every column
   Eigen::Index next_ = 0;
 };
 
 }  // namespace
 
-void whiten_random_walk(const MeasuredTest& test, double walk, const std::vector<MatX>& attitudes,
-                        std::vector<ChainEquations>& chains) {
+void whiten_random_walk(const MeasuredTest& test, double walk, double sigma_psi,
+                        const std::vector<MatX>& attitudes, std::vector<ChainEquations>& chains) {
   const auto& [timeline, readout, measured] = test;
   std::vector<Innovations> filters;
   for (std::size_t c = 0; c < chains.size(); ++c)
@@ -44,15 +62,20 @@ void whiten_random_walk(const MeasuredTest& test, double walk, const std::vector
   for (std::size_t i = 0; i < timeline.intervals.size(); ++i) {
     const Interval& interval = timeline.intervals[i];
     Innovations& filter = filters[static_cast<std::size_t>(interval.chain)];
-    const double half = interval.rest ? 0.0 : 0.5 * walk * walk * interval.length();
+    const HeldNoise held = held_noise(interval, timeline);
+    // In units of the attitude's prior and of the rows' sigmas.
+    filter.hold(walk * walk / (interval.length() * sigma_psi * sigma_psi));
+    const Mat3 beside =
+        sigma_psi / interval.accelerometer_noise(readout.accelerometer_noise) * held.beside;
     const auto column = static_cast<Eigen::Index>(i);
-    const auto take = [&](bool read, const Mat3X& of) {
-      filter.let_walk(half);
+    const auto take = [&](bool read, const Mat3X& of, const Mat3& by_noise) {
       for (int a = 0; read && a < 3; ++a)
-        if (std::isfinite(of(a, column))) filter.whiten_next();
+        if (std::isfinite(of(a, column))) filter.whiten_next(by_noise.row(a));
     };
-    take(readout.accelerometers, measured.acc);
-    take(readout.gimbals, measured.gimbal);
+    filter.drive(held.to_middle);
+    take(readout.accelerometers, measured.acc, beside);
+    filter.drive(held.from_middle);
+    take(readout.gimbals, measured.gimbal, Mat3::Zero());
   }
 }
 

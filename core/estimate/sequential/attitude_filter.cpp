@@ -8,11 +8,12 @@
 
 namespace drift {
 
-AttitudeFilter::AttitudeFilter(std::size_t parameters, std::vector<std::size_t> walking)
+AttitudeFilter::AttitudeFilter(std::size_t parameters, std::vector<std::size_t> walking, bool holds)
     : parameters_(parameters),
       width_(Information::row_width(parameters)),
       walking_(std::move(walking)),
-      U_((3 + most_walking) * width_, 0.0) {
+      holds_(holds),
+      U_(most_moving * width_, 0.0) {
   DRIFT_DEMAND(walking_.size() <= most_walking);
 }
 
@@ -34,12 +35,12 @@ void AttitudeFilter::propagate_rows(const Moving& F, const Rows3& G) {
   const auto of_G = static_cast<std::size_t>(G.cols());
   for (std::size_t c = 0; c < width_; c += lane_width) {
     Lanes u[m];
-#pragma GCC unroll 6
+#pragma GCC unroll 9
     for (std::size_t j = 0; j < m; ++j) u[j] = load(row(j) + c);
 #pragma GCC unroll 3
     for (std::size_t i = 0; i < 3; ++i) {
       Lanes sum = c < of_G ? load(G.data() + i * of_G + c) : broadcast(0.0);
-#pragma GCC unroll 6
+#pragma GCC unroll 9
       for (std::size_t j = 0; j < m; ++j)
         sum = mul_add(
             u[j], broadcast(F(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j))), sum);
@@ -48,36 +49,46 @@ void AttitudeFilter::propagate_rows(const Moving& F, const Rows3& G) {
   }
 }
 
-void AttitudeFilter::propagate(const Mat3& Phi, const Rows3& G, const Mat3& Q) {
+template <class Body>
+decltype(auto) AttitudeFilter::with_states(Body&& body) const {
+  if (holds_) return body.template operator()<most_moving>();
+  if (!walking_.empty()) return body.template operator()<3 + most_walking>();
+  return body.template operator()<3>();
+}
+
+void AttitudeFilter::hold(double variance) {
+  P_.bottomRows<3>().setZero();
+  P_.rightCols<3>().setZero();
+  P_.diagonal().tail<3>().setConstant(variance);
+  std::fill(row(first_held), row(most_moving), 0.0);
+}
+
+void AttitudeFilter::propagate(const Mat3& Phi, const Rows3& G, const Mat3& N) {
   Moving F = Moving::Identity();
   F.topLeftCorner<3, 3>() = Phi;
   for (std::size_t k = 0; k < walking_.size(); ++k)
     F.block<3, 1>(0, static_cast<Eigen::Index>(3 + k)) =
         G.col(static_cast<Eigen::Index>(walking_[k]));
-  if (walking_.empty()) {
-    propagate_rows<3>(F, G);
-    const Mat3 P = Phi * P_.topLeftCorner<3, 3>() * Phi.transpose() + Q;
-    P_.topLeftCorner<3, 3>() = 0.5 * (P + P.transpose());
-    return;
-  }
-  propagate_rows<3 + most_walking>(F, G);
-  Moving P = F * P_ * F.transpose();
-  P.topLeftCorner<3, 3>() += Q;
-  P_ = 0.5 * (P + P.transpose());
+  if (holds_) F.topRightCorner<3, 3>() = N;
+  with_states([&]<int m>() {
+    propagate_rows<m>(F, G);
+    const auto f = F.topLeftCorner<m, m>();
+    const Eigen::Matrix<double, m, m> P = f * P_.topLeftCorner<m, m>() * f.transpose();
+    P_.topLeftCorner<m, m>() = 0.5 * (P + P.transpose());
+  });
 }
 
 /// rows += H U.
 template <int m>
-void AttitudeFilter::predict_rows(const Eigen::Matrix<double, 3, 3 + most_walking>& H,
-                                  double* rows) const {
+void AttitudeFilter::predict_rows(const Measuring& H, double* rows) const {
   for (std::size_t c = 0; c < width_; c += lane_width) {
     Lanes u[m];
-#pragma GCC unroll 6
+#pragma GCC unroll 9
     for (std::size_t j = 0; j < m; ++j) u[j] = load(row(j) + c);
 #pragma GCC unroll 3
     for (std::size_t i = 0; i < 3; ++i) {
       Lanes sum = load(rows + i * width_ + c);
-#pragma GCC unroll 6
+#pragma GCC unroll 9
       for (std::size_t j = 0; j < m; ++j)
         sum = mul_add(
             u[j], broadcast(H(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j))), sum);
@@ -88,13 +99,12 @@ void AttitudeFilter::predict_rows(const Eigen::Matrix<double, 3, 3 + most_walkin
 
 /// U -= gain rows.
 template <int m>
-void AttitudeFilter::correct_rows(const Eigen::Matrix<double, 3 + most_walking, 3>& gain,
-                                  const double* rows) {
+void AttitudeFilter::correct_rows(const Gain& gain, const double* rows) {
   for (std::size_t c = 0; c < width_; c += lane_width) {
     Lanes t[3];
 #pragma GCC unroll 3
     for (std::size_t i = 0; i < 3; ++i) t[i] = load(rows + i * width_ + c);
-#pragma GCC unroll 6
+#pragma GCC unroll 9
     for (std::size_t j = 0; j < m; ++j) {
       Lanes sum = load(row(j) + c);
 #pragma GCC unroll 3
@@ -110,8 +120,9 @@ void AttitudeFilter::correct_rows(const Eigen::Matrix<double, 3 + most_walking, 
 std::optional<std::size_t> AttitudeFilter::update(const Scalars& scalars, const Gate* gate,
                                                   double* rows) {
   std::fill(rows, rows + 3 * width_, 0.0);
-  Eigen::Matrix<double, 3, 3 + most_walking> H = Eigen::Matrix<double, 3, 3 + most_walking>::Zero();
+  Measuring H = Measuring::Zero();
   H.leftCols<3>() = scalars.H_psi;
+  if (holds_ && scalars.H_held != nullptr) H.rightCols<3>() = *scalars.H_held;
   const auto add = [&](const Rows3* from, std::size_t first) {
     if (from == nullptr || from->cols() == 0) return;
     const std::size_t count = std::min(static_cast<std::size_t>(from->cols()), parameters_ - first);
@@ -129,10 +140,11 @@ std::optional<std::size_t> AttitudeFilter::update(const Scalars& scalars, const 
   for (std::size_t i = 0; i < 3; ++i)
     rows[i * width_ + right()] =
         std::isfinite(nu[static_cast<Eigen::Index>(i)]) ? nu[static_cast<Eigen::Index>(i)] : 0.0;
-  const bool walks = !walking_.empty();
-  walks ? predict_rows<3 + most_walking>(H, rows) : predict_rows<3>(H, rows);
+  with_states([&]<int m>() { predict_rows<m>(H, rows); });
 
-  Mat3 S = H * P_ * H.transpose();
+  Mat3 S = with_states([&]<int m>() -> Mat3 {
+    return H.leftCols<m>() * P_.topLeftCorner<m, m>() * H.leftCols<m>().transpose();
+  });
   S.diagonal().array() += scalars.sigma * scalars.sigma;
   if (gate != nullptr)
     for (std::size_t i = 0; i < 3; ++i) {
@@ -166,10 +178,14 @@ std::optional<std::size_t> AttitudeFilter::update(const Scalars& scalars, const 
                   mul_add(b, broadcast(L_inv(2, 1)),
                           mul_add(a, broadcast(L_inv(2, 0)), broadcast(0.0)))));
   }
-  const Eigen::Matrix<double, 3 + most_walking, 3> gain = P_ * H.transpose() * L_inv.transpose();
-  walks ? correct_rows<3 + most_walking>(gain, rows) : correct_rows<3>(gain, rows);
-  const Moving P = P_ - gain * gain.transpose();
-  P_ = 0.5 * (P + P.transpose());
+  with_states([&]<int m>() {
+    Gain gain;
+    gain.topRows<m>() = P_.topLeftCorner<m, m>() * H.leftCols<m>().transpose() * L_inv.transpose();
+    correct_rows<m>(gain, rows);
+    const Eigen::Matrix<double, m, m> P =
+        P_.topLeftCorner<m, m>() - gain.topRows<m>() * gain.topRows<m>().transpose();
+    P_.topLeftCorner<m, m>() = 0.5 * (P + P.transpose());
+  });
   return used;
 }
 
@@ -184,7 +200,7 @@ Vec3 AttitudeFilter::attitude(const VecX& x) const {
 
 void AttitudeFilter::move_reference(const VecX& x) {
   for (std::size_t i = 0; i < 3; ++i) row(i)[right()] = 0.0;
-  for (std::size_t i = 3; i < moving(); ++i) row(i)[right()] = -estimate(i, x);
+  for (std::size_t i = 3; i < most_moving; ++i) row(i)[right()] = -estimate(i, x);
 }
 
 }  // namespace drift

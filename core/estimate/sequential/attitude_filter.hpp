@@ -11,18 +11,20 @@ namespace drift {
 /// A Kalman filter of what moves, whose innovations are linear in what stands still.
 ///
 /// States: 3 attitude errors and, where drift walks, as many further ones, what the walk has added
-/// to some parameters. Their estimate hangs on the static parameters x (deviations from a
+/// to some parameters; then 3 of the gyros' noise, where it is held through a sample (HeldNoise).
+/// Their estimate hangs on the static parameters x (deviations from a
 /// reference), z = a + U x, and gains depend on the noise alone; so every measurement gives
 /// whitened rows [t | e] of a static least squares problem, |t x - e|^2, process noise and new
 /// attitudes at cagings included (Friedland, IEEE TAC 14(4), 1969). Columns are the parameters,
 /// then the right hand side, then zeros up to whole lanes.
 class AttitudeFilter {
  public:
-  static constexpr int most_walking = 3;
-  using Moving = Eigen::Matrix<double, 3 + most_walking, 3 + most_walking>;
+  static constexpr int most_walking = 3, most_moving = 6 + most_walking;
+  using Moving = Eigen::Matrix<double, most_moving, most_moving>;
 
-  /// walking: parameters whose value walks, at most three, none of them twice.
-  AttitudeFilter(std::size_t parameters, std::vector<std::size_t> walking);
+  /// walking: parameters whose value walks, at most three, none of them twice. holds: whether there
+  /// is noise that is held.
+  AttitudeFilter(std::size_t parameters, std::vector<std::size_t> walking, bool holds);
 
   std::size_t width() const { return width_; }       ///< of a row, whole lanes
   std::size_t right() const { return parameters_; }  ///< column of the right hand side
@@ -31,8 +33,10 @@ class AttitudeFilter {
   void reset();
   /// A new attitude, expected at psi off the reference, unknown within sigma [rad].
   void cage(const Vec3& psi, double sigma);
-  /// psi <- Phi psi + G x, plus white noise Q. G: as wide as whole lanes, or less.
-  void propagate(const Mat3& Phi, const Rows3& G, const Mat3& Q);
+  /// The noise n of another sample, of that variance in each axis, independent of all before.
+  void hold(double variance);
+  /// psi <- Phi psi + G x + N n. G: as wide as whole lanes, or less.
+  void propagate(const Mat3& Phi, const Rows3& G, const Mat3& N);
   /// Adds variance to the walk of walking parameter number k.
   void walk(std::size_t k, double variance) {
     const auto i = static_cast<Eigen::Index>(3 + k);
@@ -47,7 +51,8 @@ class AttitudeFilter {
     const Rows3* H_rate = nullptr;  ///< from column 0 on; may be null
     const Rows3* H_par = nullptr;   ///< from column `first_par` on; may be null
     std::size_t first_par = 0;
-    double sigma = 0.0;  ///< of each scalar's noise
+    double sigma = 0.0;            ///< of each scalar's noise
+    const Mat3* H_held = nullptr;  ///< by the noise that is held, null where it does not act
   };
   /// Takes them in; their whitened rows are at rows(), zero where nothing was measured. Leaves out
   /// what lies more than `gate` standard deviations off, as far as `known` knows the parameters
@@ -82,16 +87,22 @@ class AttitudeFilter {
   double* row(std::size_t i) { return U_.data() + i * width_; }
   const double* row(std::size_t i) const { return U_.data() + i * width_; }
   double estimate(std::size_t i, const VecX& x) const;
-  std::size_t moving() const { return 3 + walking_.size(); }
+  using Measuring = Eigen::Matrix<double, 3, most_moving>;
+  using Gain = Eigen::Matrix<double, most_moving, 3>;
+  /// Calls body.operator()<m>() with the number of states, or more: unused ones are zero.
+  template <class Body>
+  decltype(auto) with_states(Body&& body) const;
   template <int m>
   void propagate_rows(const Moving& F, const Rows3& G);
   template <int m>
-  void predict_rows(const Eigen::Matrix<double, 3, 3 + most_walking>& H, double* rows) const;
+  void predict_rows(const Measuring& H, double* rows) const;
   template <int m>
-  void correct_rows(const Eigen::Matrix<double, 3 + most_walking, 3>& gain, const double* rows);
+  void correct_rows(const Gain& gain, const double* rows);
 
+  static constexpr std::size_t first_held = 3 + most_walking;
   std::size_t parameters_, width_;
   std::vector<std::size_t> walking_;
+  bool holds_;
   std::vector<double> U_;  ///< rows of U, of the walking ones too; minus a in column right()
   Moving P_ = Moving::Zero();
 };

@@ -120,6 +120,9 @@ Covariance::Covariance(std::size_t parameters, std::size_t num_rate, double sigm
       work_(MatX3::Zero(whole_lanes(parameters), 3)),
       gain_(MatX3::Zero(whole_lanes(parameters), 3)),
       later_gain_(gain_),
+      P_nn_(Mat3::Zero()),
+      P_na_(Mat3::Zero()),
+      P_pn_(work_),
       H_rate_(Rows3::Zero(3, static_cast<Eigen::Index>(num_rate))) {
   entries_.reserve(3 * parameters);
   recage(sigma_attitude);
@@ -134,6 +137,21 @@ void Covariance::reset(double sigma_attitude) {
 void Covariance::recage(double sigma_attitude) {
   P_aa_ = sigma_attitude * sigma_attitude * Mat3::Identity();
   P_pa_.setZero();
+  holds_ = false;
+}
+
+void Covariance::hold(double variance) {
+  holds_ = true;
+  P_nn_ = variance * Mat3::Identity();
+  P_na_.setZero();
+  P_pn_.setZero();
+}
+
+void Covariance::drive(const Mat3& N) {
+  const Mat3 NP = N * P_na_;
+  P_aa_ += NP + NP.transpose() + N * P_nn_ * N.transpose();
+  P_na_ += P_nn_ * N.transpose();
+  times_transposed(P_pn_, N, P_pa_, &P_pa_);
 }
 
 void Covariance::propagate(const Mat3& Phi, const Ref3X& G, const Mat3& Q) {
@@ -152,13 +170,15 @@ void Covariance::propagate(const Mat3& Phi, const Ref3X& G, const Mat3& Q) {
   }
   const Mat3 P = Phi * P_aa_ * Phi.transpose() + Z + Q;
   P_aa_ = 0.5 * (P + P.transpose());
+  if (holds_) P_na_ = P_na_ * Phi.transpose() + small_product(G, P_pn_).transpose();
 }
 
 Covariance::Update Covariance::update(const Vec3& nu, const Mat3& H_psi, const Ref3X& H_rate,
-                                      const Ref3X& H_par, double sigma, VecX& x) {
+                                      const Ref3X& H_par, double sigma, VecX& x,
+                                      const Mat3* H_held) {
   Update out;
   // A scalar that was not measured becomes one of zero sensitivity, zero innovation, unit noise.
-  Mat3 H = H_psi;
+  Mat3 H = H_psi, H_n = holds_ && H_held ? *H_held : Mat3::Zero();
   Vec3 innovation = nu;
   Vec3 variance = Vec3::Constant(sigma * sigma);
   bool used[3];
@@ -169,6 +189,7 @@ Covariance::Update Covariance::update(const Vec3& nu, const Mat3& H_psi, const R
       continue;
     }
     H.row(i).setZero();
+    H_n.row(i).setZero();
     innovation[i] = 0.0;
     variance[i] = 1.0;
   }
@@ -213,7 +234,15 @@ Covariance::Update Covariance::update(const Vec3& nu, const Mat3& H_psi, const R
     V_a.col(i) += row_product(i, P_pa_);
     add_sparse_product(P_pp_, &entries_[end[i]], end[i + 1] - end[i], work_.col(i).data());
   }
-  Mat3 S = H * V_a;
+  Mat3 V_n = Mat3::Zero();
+  if (holds_) {
+    V_n = P_na_ * H.transpose() + P_nn_ * H_n.transpose();
+    V_a += P_na_.transpose() * H_n.transpose();
+    if (by_rates) V_n += small_product(H_rate_, P_pn_).transpose();
+    for (int i = 0; i < 3; ++i) V_n.col(i) += row_product(i, P_pn_);
+    times_transposed(P_pn_, H_n, work_, &work_);
+  }
+  Mat3 S = H * V_a + H_n * V_n;
   if (by_rates) S += small_product(H_rate_, work_);
   for (int i = 0; i < 3; ++i)
     if (end[i] < end[i + 1]) S.row(i) += row_product(i, work_).transpose();
@@ -236,6 +265,13 @@ Covariance::Update Covariance::update(const Vec3& nu, const Mat3& H_psi, const R
   const Mat3 P = P_aa_ - U_a * U_a.transpose();
   P_aa_ = 0.5 * (P + P.transpose());
   times_transposed(U, -U_a, P_pa_, &P_pa_);
+  if (holds_) {
+    const Mat3 U_n = V_n * L_inv.transpose();
+    out.held = U_n * e;
+    P_nn_ -= U_n * U_n.transpose();
+    P_na_ -= U_n * U_a.transpose();
+    times_transposed(U, -U_n, P_pn_, &P_pn_);
+  }
   if (owed_) downdate(P_pp_, gain_, later_gain_);
   owed_ = !owed_;
   return out;

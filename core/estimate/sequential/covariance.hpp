@@ -30,6 +30,12 @@ class Covariance {
   /// G has shape (3, num_rate).
   void propagate(const Mat3& Phi, const Eigen::Ref<const Rows3>& G, const Mat3& Q);
 
+  /// The noise n of another sample (HeldNoise), of that variance in each axis, independent of all
+  /// before. Forgotten by recage() and reset().
+  void hold(double variance);
+  /// psi <- psi + N n, after propagate().
+  void drive(const Mat3& N);
+
   /// Adds variance to one parameter (drift random walk).
   void add_variance(std::size_t parameter, double variance) {
     P_pp_(parameter, parameter) += variance;
@@ -38,6 +44,7 @@ class Covariance {
   /// The outcome of an update with m <= 3 scalars.
   struct Update {
     Vec3 attitude = Vec3::Zero();  ///< correction psi_i [rad]
+    Vec3 held = Vec3::Zero();      ///< correction of the noise that is held
     double nis = 0.0;              ///< normalised innovation squared
     Vec3 white = Vec3::Zero();     ///< innovation whitened: L^-1 nu; zero where not measured
     int scalars = 0;
@@ -46,9 +53,11 @@ class Covariance {
 
   /// Measurement of m scalars: innovation nu, H = [H_psi, H_rate on the first num_rate parameters,
   /// H_par on those after them], independent noise of standard deviation sigma. NaN innovations are
-  /// left out. The parameter correction is added to x. H_rate and H_par may be empty.
+  /// left out. The parameter correction is added to x. H_rate and H_par may be empty. H_held: by
+  /// the noise that is held, null where it does not act.
   Update update(const Vec3& nu, const Mat3& H_psi, const Eigen::Ref<const Rows3>& H_rate,
-                const Eigen::Ref<const Rows3>& H_par, double sigma, VecX& x);
+                const Eigen::Ref<const Rows3>& H_par, double sigma, VecX& x,
+                const Mat3* H_held = nullptr);
 
   const Mat3& attitude() const { return P_aa_; }
   MatX parameters() const;
@@ -68,6 +77,9 @@ class Covariance {
   MatX3 P_pa_;
   MatX P_pp_;
   MatX3 work_, gain_, later_gain_;
+  bool holds_ = false;
+  Mat3 P_nn_, P_na_;  ///< of the noise that is held, and with the attitude
+  MatX3 P_pn_;
   Rows3 H_rate_;  ///< without the rows that were not measured
   /// An element of H_par that is not zero.
   struct Entry {

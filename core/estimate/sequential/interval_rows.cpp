@@ -6,6 +6,7 @@
 
 #include "core/estimate/rest_rate.hpp"
 #include "core/estimate/sequential/drift_walk.hpp"
+#include "core/sim/held_noise.hpp"
 #include "core/sim/measurements.hpp"
 
 namespace drift {
@@ -21,7 +22,8 @@ IntervalRows::IntervalRows(const FilterSpec& filter, const Timeline& timeline,
       together_(StretchJacobians::can(model_)),
       jacobians_(timeline),
       memory_(timeline, model_),
-      attitude_(layout_.size(), walking_states(filter, layout_)),
+      attitude_(layout_.size(), walking_states(filter, layout_),
+                filter.noise.angle_random_walk > 0.0),
       rest_G_(padded_rows(layout_.num_rate)),
       stretch_(layout_),
       by_rate_(rest_G_),
@@ -95,23 +97,25 @@ IntervalRows::Taken IntervalRows::take(std::size_t i, const Vec3& acc, const Vec
   const std::size_t last = interval.node_count() - 1;
   const auto middle = static_cast<std::size_t>(interval.substeps);
   const double arw = filter_.noise.angle_random_walk;
-  // At rest the noise of the gyros is in what is measured; the attitude stays as it is.
-  const double driven = interval.rest ? 0.0 : interval.length();
-  const Mat3 Q_half = 0.5 * arw * arw * driven * Mat3::Identity();
+  HeldNoise held;
+  if (arw > 0.0) {
+    held = held_noise(interval, timeline_);
+    attitude_.hold(arw * arw / interval.length());
+  }
   const Mat3& Phi_m = sensitivity_.Phi[middle];
-  attitude_.propagate(Phi_m, sensitivity_.G[middle], Q_half);
+  attitude_.propagate(Phi_m, sensitivity_.G[middle], held.to_middle);
   if (readout_.accelerometers && acc.array().isFinite().any()) {
     mean_output(interval, sensitivity_, mean_);
     taken.ok = mean_.acc.allFinite();  // what is not finite in nu is what was not measured
     take_triple(accelerometers,
                 {acc - mean_.acc, mean_.H, &mean_.H_rate, &mean_.H_par, layout_.num_rate,
-                 interval.accelerometer_noise(readout_.accelerometer_noise)},
+                 interval.accelerometer_noise(readout_.accelerometer_noise), &held.beside},
                 gate, rows, taken);
   }
   const Mat3 Phi_rest = sensitivity_.Phi[last] * Phi_m.inverse();
   rest_G_ = sensitivity_.G[last];
   sum_of_products<Sum::onto>({-Phi_rest}, {&sensitivity_.G[middle]}, rest_G_);
-  attitude_.propagate(Phi_rest, rest_G_, Q_half);
+  attitude_.propagate(Phi_rest, rest_G_, held.from_middle);
   if (readout_.gimbals && gimbal.array().isFinite().any()) {
     const GimbalPrediction predicted =
         interval.rest

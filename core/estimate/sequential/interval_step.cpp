@@ -52,18 +52,22 @@ IntervalStep::Taken IntervalStep::process(std::size_t i, const Vec3& acc, const 
   const std::size_t last = interval.node_count() - 1;
   const auto middle = static_cast<std::size_t>(interval.substeps);
   const double arw = filter_.noise.angle_random_walk;
-  // At rest the noise of the gyros is in what is measured; the attitude stays as it is.
-  const double driven = interval.rest ? 0.0 : interval.length();
-  const Mat3 Q_half = 0.5 * arw * arw * driven * Mat3::Identity();
+  const bool holds = arw > 0.0 && !interval.rest;
+  held_ = holds ? held_noise(interval, timeline_) : HeldNoise{};
+  noise_.setZero();
+  if (holds) P_.hold(arw * arw / interval.length());
   const Mat3& Phi_m = sensitivity_.Phi[middle];
-  predict(Phi_m, sensitivity_.G[middle], Q_half);
+  predict(Phi_m, sensitivity_.G[middle], held_.to_middle);
   if (readout_.accelerometers && acc.array().isFinite().any()) take_accelerometers(interval, acc);
   if (status_ != EstimateStatus::ok) return taken_;
 
   const Mat3 Phi_rest = sensitivity_.Phi[last] * Phi_m.inverse();
   rest_G_ = sensitivity_.G[last];
   rest_G_.noalias() -= Phi_rest * sensitivity_.G[middle];
-  predict(Phi_rest, rest_G_, Q_half);
+  predict(Phi_rest, rest_G_, held_.from_middle);
+  if (holds)
+    nodes_[last] =
+        turned(timeline_.nodes[interval.last_node()], held_.from_middle * noise_, nodes_[last]);
   if (readout_.gimbals && gimbal.array().isFinite().any()) take_gimbals(interval, gimbal);
   if (status_ != EstimateStatus::ok) return taken_;
 
@@ -84,8 +88,9 @@ void IntervalStep::linearise(std::size_t i) {
                      nodes_.data(), memory_.points(), linearizer_, sensitivity_);
 }
 
-void IntervalStep::predict(const Mat3& Phi, const Rows3& G, const Mat3& Q) {
-  P_.propagate(Phi, G.leftCols(static_cast<Eigen::Index>(layout_.num_rate)), Q);
+void IntervalStep::predict(const Mat3& Phi, const Rows3& G, const Mat3& N) {
+  P_.propagate(Phi, G.leftCols(static_cast<Eigen::Index>(layout_.num_rate)), Mat3::Zero());
+  if (filter_.noise.angle_random_walk > 0.0) P_.drive(N);
 }
 
 /// Without the columns that fill up lanes.
@@ -93,13 +98,16 @@ IntervalStep::Sensitivity IntervalStep::sensitivity_of(const Mat3& psi, const Ro
                                                        const Rows3& par) const {
   const auto nr = static_cast<Eigen::Index>(layout_.num_rate);
   const auto np = static_cast<Eigen::Index>(layout_.size()) - nr;
-  return {psi, rate.leftCols(std::min(rate.cols(), nr)), par.leftCols(std::min(par.cols(), np))};
+  return {psi, rate.leftCols(std::min(rate.cols(), nr)), par.leftCols(std::min(par.cols(), np)),
+          nullptr};
 }
 
 void IntervalStep::take_accelerometers(const Interval& interval, const Vec3& acc) {
   mean_output(interval, sensitivity_, mean_);
   const auto middle = static_cast<std::size_t>(interval.substeps);
-  update(interval, middle, acc - mean_.acc, sensitivity_of(mean_.H, mean_.H_rate, mean_.H_par),
+  Sensitivity H = sensitivity_of(mean_.H, mean_.H_rate, mean_.H_par);
+  H.held = &held_.beside;
+  update(interval, middle, acc - mean_.acc, H,
          interval.accelerometer_noise(readout_.accelerometer_noise),
          InnovationSums::accelerometers);
   if (status_ == EstimateStatus::ok)
@@ -124,7 +132,8 @@ void IntervalStep::take_gimbals(const Interval& interval, const Vec3& gimbal) {
 void IntervalStep::update(const Interval& interval, std::size_t node, const Vec3& residual,
                           const Sensitivity& H, double noise, InnovationSums::Channel channel) {
   const Vec3 nu = has_outliers(model_.terms) ? gated(residual, H, noise) : residual;
-  const Covariance::Update update = P_.update(nu, H.psi, H.rate, H.par, noise, x_);
+  const Covariance::Update update = P_.update(nu, H.psi, H.rate, H.par, noise, x_, H.held);
+  noise_ += update.held;
   taken_.nis += update.nis;
   taken_.scalars += update.scalars;
   sums_.add(update, channel);

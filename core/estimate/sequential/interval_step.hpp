@@ -7,6 +7,7 @@
 #include "core/estimate/linearize.hpp"
 #include "core/estimate/sequential/covariance.hpp"
 #include "core/estimate/sequential/innovation_sums.hpp"
+#include "core/sim/held_noise.hpp"
 
 namespace drift {
 
@@ -55,14 +56,16 @@ class IntervalStep {
 
  private:
   void linearise(std::size_t i);
-  void predict(const Mat3& Phi, const Rows3& G, const Mat3& Q);
+  void predict(const Mat3& Phi, const Rows3& G, const Mat3& N);
   void take_accelerometers(const Interval& interval, const Vec3& acc);
   void take_gimbals(const Interval& interval, const Vec3& gimbal);
-  /// How three scalars depend on the attitude and on the states; matrices may be empty.
+  /// How three scalars depend on the attitude, on the states and on the noise that is held (null:
+  /// not at all); matrices may be empty.
   struct Sensitivity {
     const Mat3& psi;
     Eigen::Ref<const Rows3> rate;
     Eigen::Ref<const Rows3> par;
+    const Mat3* held;
   };
   Sensitivity sensitivity_of(const Mat3& psi, const Rows3& rate, const Rows3& par) const;
   void update(const Interval& interval, std::size_t node, const Vec3& residual,
@@ -86,9 +89,11 @@ class IntervalStep {
   VecX x_;
   Theta theta_ = Theta::Zero();
   Vec3 phi_ = Vec3::Zero();
-  std::vector<Vec3> nodes_;  ///< rotation vector of the estimate at the interval's nodes [rad]
-  Rows3 rest_G_;             ///< work
-  MeanOutput mean_;          ///< work
+  std::vector<Vec3> nodes_;    ///< rotation vector of the estimate at the interval's nodes [rad]
+  HeldNoise held_;             ///< of the interval
+  Vec3 noise_ = Vec3::Zero();  ///< estimate of what is held
+  Rows3 rest_G_;               ///< work
+  MeanOutput mean_;            ///< work
   Taken taken_;
   InnovationSums sums_;
   EstimateStatus status_ = EstimateStatus::ok;

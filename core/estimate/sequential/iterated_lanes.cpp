@@ -21,6 +21,7 @@ bool go_on_alike(const Timeline& timeline, const Interval& a, const Interval& b)
 bool IteratedLanes::can(const FilterSpec& filter, const Timeline& timeline) {
   const DriftModel model = filter.model();
   return LaneLinearizer::can(model) && !has_outliers(model.terms) &&
+         filter.noise.angle_random_walk == 0.0 &&
          walking_states(filter, make_layout(filter)).empty() &&
          std::ranges::none_of(timeline.intervals, [](const Interval& i) { return i.rest; });
 }

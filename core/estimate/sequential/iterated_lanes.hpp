@@ -49,7 +49,8 @@ class IteratedLanes {
  public:
   static constexpr std::size_t width = static_cast<std::size_t>(Pack::width);
   /// Whether a filter and a timeline are such: terms that ask for attitude and command alone and do
-  /// not act on the gimbals, nothing that walks, no outliers, no rest.
+  /// not act on the gimbals, nothing that walks, attitude included, no outliers, no
+  /// rest.
   static bool can(const FilterSpec& filter, const Timeline& timeline);
 
   /// The timeline must outlive it.

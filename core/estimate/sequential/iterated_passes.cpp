@@ -27,7 +27,7 @@ IteratedPasses::IteratedPasses(const FilterSpec& filter, const Timeline& timelin
       lanes_(timeline, rows_.model()),
       reference_(timeline, rows_.model()),
       gated_(has_outliers(rows_.model().terms)),
-      walks_(!rows_.attitude().walking().empty()),
+      walks_(!rows_.attitude().walking().empty() || filter.noise.angle_random_walk > 0.0),
       store_(3 * rows_.most_triples() * rows_.width()),
       neighbours_(rows_.most_triples()),
       residual_(3 * rows_.most_triples()),

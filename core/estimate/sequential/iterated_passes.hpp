@@ -26,9 +26,9 @@ namespace drift {
 /// some parameter by more than a posterior sigma there is another, four at most; mostly there is
 /// one.
 ///
-/// Where a drift walks, no path of the parameters alone stays near: then the reference of a linear
-/// pass is the filtered attitude itself, taken over at the end of every block. After a caging it
-/// begins where the first sample of the pass before has put it.
+/// Where a drift or the attitude walks, no path of the parameters alone stays near: then the
+/// reference of a linear pass is the filtered attitude itself, taken over at the end of every
+/// block. After a caging it begins where the first sample of the pass before has put it.
 class IteratedPasses {
  public:
   /// The timeline must outlive the filter. start: library values of the initial estimate.

@@ -26,7 +26,7 @@ void LaneFilter::cage(const PackVec& psi, double sigma) {
   }
 }
 
-void LaneFilter::propagate(const PackMat& Phi, const std::vector<Pack>& G, double q) {
+void LaneFilter::propagate(const PackMat& Phi, const std::vector<Pack>& G) {
   for (std::size_t k = 0; k <= parameters_; ++k) {
     Pack* u = &U_[3 * k];
     Pack moved[3];
@@ -36,10 +36,7 @@ void LaneFilter::propagate(const PackMat& Phi, const std::vector<Pack>& G, doubl
   }
   const PackMat P = times(times(Phi, P_), PackMat(Phi.transpose()));
   for (int j = 0; j < 3; ++j)
-    for (int i = 0; i < 3; ++i) {
-      P_(i, j) = Pack(0.5) * (P(i, j) + P(j, i));
-      if (i == j) P_(i, j) += Pack(q);
-    }
+    for (int i = 0; i < 3; ++i) P_(i, j) = Pack(0.5) * (P(i, j) + P(j, i));
 }
 
 void LaneFilter::update(Scalars& scalars, LaneInformation& into) {

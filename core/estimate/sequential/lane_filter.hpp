@@ -7,7 +7,8 @@
 
 namespace drift {
 
-/// AttitudeFilter of several runs, one in each lane: three attitudes, nothing that walks.
+/// AttitudeFilter of several runs, one in each lane: three attitudes, nothing that walks and
+/// no noise that drives.
 class LaneFilter {
  public:
   /// readout: a slot of the accelerometers and the readout state it depends on.
@@ -16,9 +17,8 @@ class LaneFilter {
   void reset();
   /// A new attitude, expected at psi off the reference, unknown within sigma [rad].
   void cage(const PackVec& psi, double sigma);
-  /// psi <- Phi psi + G x, plus white noise of variance q per axis. G: three numbers of each rate
-  /// state.
-  void propagate(const PackMat& Phi, const std::vector<Pack>& G, double q);
+  /// psi <- Phi psi + G x. G: three numbers of each rate state.
+  void propagate(const PackMat& Phi, const std::vector<Pack>& G);
 
   /// Three scalars (AttitudeFilter::Scalars). on: one where measured, else zero; nu is finite where
   /// the run is.

@@ -52,9 +52,7 @@ void IteratedLanes::take(std::size_t i, bool shared, Pass pass) {
   linearize(i, shared);
   const std::size_t last = interval.node_count() - 1;
   const auto middle = static_cast<std::size_t>(interval.substeps);
-  const double arw = filter_.noise.angle_random_walk;
-  const double q_half = 0.5 * arw * arw * interval.length();
-  attitude_.propagate(Phi_[middle], G_[middle], q_half);
+  attitude_.propagate(Phi_[middle], G_[middle]);
   if (readout_.accelerometers) take_accelerometers(i, pass);
   const PackMat Phi_rest = times(Phi_[last], Phi_[middle].inverse().eval());
   const PackMat minus = -Phi_rest;
@@ -63,7 +61,7 @@ void IteratedLanes::take(std::size_t i, bool shared, Pass pass) {
       const auto at = c + static_cast<std::size_t>(a);
       rest_G_[at] = row_times(minus, a, &G_[middle][c], G_[last][at]);
     }
-  attitude_.propagate(Phi_rest, rest_G_, q_half);
+  attitude_.propagate(Phi_rest, rest_G_);
   if (readout_.gimbals) take_gimbals(i, pass);
 }
 

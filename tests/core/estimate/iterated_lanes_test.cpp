@@ -44,19 +44,15 @@ struct Case {
   const char* preset;
   CommandLaw mode;
   Coupling coupling;
-  double arw = 0.0;
 };
 
 TEST(IteratedLanes, AgreeWithTheEstimatorOfOneRun) {
-  for (const Case& c :
-       {Case{"six", CommandLaw::free, Coupling::eq5},
-        {"six", CommandLaw::free, Coupling::eq6},
-        {"six", CommandLaw::free, Coupling::eq5, 0.001 * unit::deg_per_sqrt_h.to_si},
-        {"slew12", CommandLaw::free, Coupling::eq6},
-        {"six", CommandLaw::level, Coupling::compensated}}) {
+  for (const Case& c : {Case{"six", CommandLaw::free, Coupling::eq5},
+                        {"six", CommandLaw::free, Coupling::eq6},
+                        {"slew12", CommandLaw::free, Coupling::eq6},
+                        {"six", CommandLaw::level, Coupling::compensated}}) {
     const Timeline timeline = preset_timeline(c.preset, c.mode, 3600.0, 300.0);
-    FilterSpec filter = base_filter(c.coupling);
-    filter.noise.angle_random_walk = c.arw;
+    const FilterSpec filter = base_filter(c.coupling);
     ASSERT_TRUE(IteratedLanes::can(filter, timeline));
     const Theta start = make_layout(filter).theta;
     const auto all = recordings(timeline, base_truth(c.coupling), 3);
