@@ -24,7 +24,8 @@ WhiteSums::WhiteSums(const MeasuredRows& rows, const std::vector<double>& column
     sums.attitude = MatX::Zero(3 * chains, 3 + n);
     Eigen::Index filled = 0;
     const auto add = [&] {
-      sums.products.selfadjointView<Eigen::Lower>().rankUpdate(part.topRows(filled).transpose());
+      if (filled > 0)  // Eigen divides by it
+        sums.products.selfadjointView<Eigen::Lower>().rankUpdate(part.topRows(filled).transpose());
       filled = 0;
     };
     for (Eigen::Index k = 0; k < rows.rows(); ++k) {

@@ -71,5 +71,33 @@ TEST(MarginalOf, IsThatOfAProjectorWithoutItsColumns) {
   }
 }
 
+/// Rows of a problem, in the order of time; some perhaps more than once.
+LinearProblem rows_of(const LinearProblem& p, const std::vector<Eigen::Index>& rows) {
+  LinearProblem some = p;
+  some.tags.clear();
+  for (const Eigen::Index k : rows) some.tags.push_back(p.tags[static_cast<std::size_t>(k)]);
+  some.psi = p.psi(rows, Eigen::all);
+  some.theta = p.theta(rows, Eigen::all);
+  some.extra = p.extra(rows, Eigen::all);
+  some.r0 = p.r0(rows);
+  some.weight = p.weight(rows);
+  return some;
+}
+
+/// None of an instrument, and as many as are summed up at once: 128, and twice as many.
+TEST(MarginalOf, AnyNumberOfRowsOfAnInstrument) {
+  const LinearProblem p = test::random_problem(6, 5);
+  for (const bool accelerometer : {true, false})
+    for (const std::size_t count : {60u, 128u, 256u}) {
+      std::vector<Eigen::Index> rows;
+      for (std::size_t k = 0; k < count; ++k)  // the k-th of the 60 that there are
+        rows.push_back(static_cast<Eigen::Index>(6 * (k * 60 / count / 3) + (k * 60 / count) % 3 +
+                                                 (accelerometer ? 0 : 3)));
+      const LinearProblem some = rows_of(p, rows);
+      for (const RowTag& t : some.tags) ASSERT_EQ(t.accelerometer(), accelerometer);
+      expect_same(marginal_of(some, white()), Projector(some, white()).marginal());
+    }
+}
+
 }  // namespace
 }  // namespace drift::inference::sums_by_cell_test
