@@ -79,7 +79,7 @@ std::vector<std::vector<std::size_t>> subsets_of(const std::vector<std::size_t>&
     for (const auto& [key, set] : units_of_axes) add(set);
   }
   add(missing);
-  if (whole && missing.size() > most) sets.push_back(missing);
+  if (missing.size() > most) sets.push_back(missing);
   return sets;
 }
 
