@@ -43,6 +43,11 @@ struct SiteDoubt {
   double chi2_per_dof_before = 0.0, chi2_per_dof_after = 0.0;  ///< of the nominal fit
 };
 
+/// Instruments that [readout] reads and no recording has.
+struct Absent {
+  bool accelerometers = false, gimbals = false;
+};
+
 /// All that a diagnosis found: plain data, for the report, the JSON and the scorer.
 struct Diagnosis {
   Verdict verdict = Verdict::consistent;
@@ -65,7 +70,8 @@ struct Diagnosis {
   std::optional<NearestKnown> nearest_known;
   std::optional<Proposal> proposal;  ///< where it is unexplained and a form was looked for
   std::optional<SiteDoubt> site_doubt;
-  bool of_case = false;             ///< of a recording on a case
+  bool of_case = false;  ///< of a recording on a case
+  Absent absent;
   std::vector<ErrorOfKind> errors;  ///< of a recording on a case: what held-out data are missed by
   std::vector<Advice> advice;       ///< most useful first
   std::vector<Remark> remarks;      ///< what a reader must know besides

@@ -208,6 +208,22 @@ Json cosines_json(const CosineMatrix& cosines) {
   return {{"labels", cosines.labels}, {"cosine", std::move(rows)}};
 }
 
+/// Null where the latitude of the study is not doubted.
+Json latitude_json(const std::optional<SiteDoubt>& doubt) {
+  if (!doubt) return nullptr;
+  return {{"declared_deg", doubt->declared / unit::deg.to_si},
+          {"of_recording_deg", doubt->latitude / unit::deg.to_si},
+          {"chi2_per_dof_before", doubt->chi2_per_dof_before},
+          {"chi2_per_dof_after", doubt->chi2_per_dof_after}};
+}
+
+Json absent_json(const Absent& absent) {
+  Json out = Json::array();
+  if (absent.accelerometers) out.push_back("accelerometers");
+  if (absent.gimbals) out.push_back("gimbals");
+  return out;
+}
+
 }  // namespace
 
 std::string to_json(const Diagnosis& d) {
@@ -220,6 +236,8 @@ Json diagnosis_document(const Diagnosis& d) {
   out["verdict"] = std::string(text(d.verdict));
   out["p_value"] = d.p_value;
   out["sentence"] = sentence(d);
+  out["latitude"] = latitude_json(d.site_doubt);
+  out["absent"] = absent_json(d.absent);
   out["other_equation_gain"] = d.other_equation_gain;
   out["where"] = where_json(d.where);
   out["causes"] = causes_json(d.causes);

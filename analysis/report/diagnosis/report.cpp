@@ -18,8 +18,9 @@ namespace {
 
 using namespace diagnosis;
 
-std::string verdict_word(Verdict v) {
-  switch (v) {
+std::string verdict_word(const Diagnosis& d) {
+  if (d.site_doubt) return "Wrong latitude: correct the study first.";
+  switch (d.verdict) {
     case Verdict::consistent:
       return "Consistent: nothing significant is missing.";
     case Verdict::named:
@@ -30,6 +31,13 @@ std::string verdict_word(Verdict v) {
       break;
   }
   return "Unexplained: something is missing that no candidate fits.";
+}
+
+/// A study that is not of the recording has a verdict of its own: what is said of causes does not
+/// hold. (The JSON has its four words and `site_doubt`.)
+std::string headline(const Diagnosis& d) {
+  return fmt::format("Verdict {}: {}", d.site_doubt ? "wrong latitude" : text(d.verdict),
+                     sentence(d));
 }
 
 std::string model_text(const FilterSpec& f) {
@@ -64,8 +72,8 @@ std::string patched_file(const mc::Study& study, const Diagnosis& d) {
 
 /// What the page says in its headlines.
 Section verdict(const Diagnosis& d) {
-  const bool found = d.verdict != Verdict::consistent;
-  Sentences said{{fmt::format("Verdict {}: {}", text(d.verdict), sentence(d))}, ""};
+  const bool found = d.verdict != Verdict::consistent && !d.site_doubt;
+  Sentences said{{headline(d)}, ""};
   if (const auto sentence = where_sentence(d.where); found && !sentence.empty())
     said.items.push_back("Where: " + sentence);
   if (const auto sentence = held_out_sentence(d.fit.held_out); found && !sentence.empty())
@@ -127,14 +135,15 @@ std::string to_text(const Diagnosis& d) {
 
 InBrief diagnosis_in_brief(const Diagnosis& d) {
   InBrief brief;
-  brief.verdict = fmt::format("Verdict {}: {}", text(d.verdict), sentence(d));
-  brief.tone = d.verdict == Verdict::consistent ? Tone::good
-               : d.verdict == Verdict::named    ? Tone::doubtful
-                                                : Tone::bad;
+  brief.verdict = headline(d);
+  brief.tone = d.site_doubt                       ? Tone::bad
+               : d.verdict == Verdict::consistent ? Tone::good
+               : d.verdict == Verdict::named      ? Tone::doubtful
+                                                  : Tone::bad;
   const auto add = [&](std::string_view head, const std::string& sentence) {
     if (!sentence.empty()) brief.more.push_back(fmt::format("{}: {}", head, sentence));
   };
-  if (d.verdict != Verdict::consistent) {
+  if (d.verdict != Verdict::consistent && !d.site_doubt) {
     add("Where", where_sentence(d.where));
     add("Held out", held_out_sentence(d.fit.held_out));
     if (d.proposal) add("Proposal", form_sentence(*d.proposal));
@@ -152,11 +161,10 @@ InBrief diagnosis_in_brief(const Diagnosis& d) {
 Report diagnosis_report(const mc::Study& study, const Diagnosis& d, const DiagnosisSource& source) {
   Report report{.command = "diagnose"};
   report.title = study.title.empty() ? "Diagnosis" : study.title;
-  report.subtitle =
-      fmt::format("{} {}", verdict_word(d.verdict), fmt::join(source.recordings, ", "));
+  report.subtitle = fmt::format("{} {}", verdict_word(d), fmt::join(source.recordings, ", "));
   report.brief = diagnosis_in_brief(d);
   report.headlines.push_back(sentence(d));
-  if (d.verdict != Verdict::consistent)
+  if (d.verdict != Verdict::consistent && !d.site_doubt)
     for (const auto& sentence : {where_sentence(d.where), held_out_sentence(d.fit.held_out)})
       if (!sentence.empty()) report.headlines.push_back(sentence);
   if (d.proposal) report.headlines.push_back(form_sentence(*d.proposal));

@@ -228,6 +228,14 @@ std::string site_text(const SiteDoubt& doubt) {
       doubt.chi2_per_dof_before, doubt.prior_sigmas);
 }
 
+/// What a recording does not hold though the study reads it.
+std::string absent_text(const Absent& absent) {
+  if (!absent.accelerometers && !absent.gimbals) return "";
+  return fmt::format("The recording has no {}: what follows is from the {} alone. ",
+                     absent.accelerometers ? "accelerometers" : "gimbal angles",
+                     absent.accelerometers ? "gimbal angles" : "accelerometers");
+}
+
 }  // namespace
 
 std::string patch_text(const Diagnosis& d) {
@@ -251,7 +259,7 @@ std::string patch_text(const Diagnosis& d) {
 }
 std::string sentence(const Diagnosis& d) {
   if (d.site_doubt) return site_text(*d.site_doubt);
-  std::string text = verdict_alone(d);
+  std::string text = absent_text(d.absent) + verdict_alone(d);
   if (d.nearest_known) text += nearest_text(*d.nearest_known, instrument_of(d));
   if (d.verdict == Verdict::consistent)
     for (const Remark& r : d.remarks)

@@ -122,6 +122,32 @@ TEST(Diagnose,
   EXPECT_NEAR(std::sqrt(explained / found), 1.0, 0.3);
 }
 
+TEST(Diagnose, ATermOfManyParametersIsNamedAsAWhole) {
+  // Twelve cross terms at once, each twice as large as drawn: no part of them is enough, and with no
+  // whole offered the verdict was "unexplained".
+  const Timeline timeline = preset_timeline("twentyfour", CommandLaw::free, 1800.0, 120.0);
+  TruthSpec truth = base_truth(Coupling::eq5);
+  for (const std::string_view kind : {"K_io", "K_po", "K_pp", "K_oo"}) truth.active |= only({kind});
+  TruthDraw draw = draw_truth(truth, timeline.chains, 11, 0);
+  for (std::size_t i = 0; i < TermLibrary::num_params; ++i)
+    if (truth.active[i] && !base_parameters()[i]) draw.theta[i] *= 2.0;
+  const Readout readout;
+  const Measurements measured = Simulator(truth, readout).run(timeline, draw, 11, 0).measured;
+  DiagnoseOptions options;
+  options.starts = 1;
+  options.whiteness_draws = 0;
+  const Diagnosis d =
+      diagnose(base_filter(Coupling::eq5), {timeline, readout, measured}, {}, {}, options);
+  ASSERT_EQ(d.verdict, Verdict::named) << report::sentence(d);
+  ASSERT_EQ(d.causes.size(), 1u) << report::sentence(d);
+  EXPECT_EQ(d.causes[0].term, "accelerometer_cross");
+  EXPECT_EQ(d.causes[0].parameters.size(), 12u);
+  for (const search::CauseParameter& p : d.causes[0].parameters) {
+    const double in_truth = draw.theta[param(p.key)] / TermLibrary::specs[param(p.key)].unit.to_si;
+    EXPECT_NEAR(p.value, in_truth, 4.0 * p.sigma) << p.key;
+  }
+}
+
 TEST(Diagnose, IsRepeatable) {
   const Case c = make_case("six", "D_IS_x", 0.2, Coupling::eq5, 1800.0);
   const Diagnosis a = run(c), b = run(c);

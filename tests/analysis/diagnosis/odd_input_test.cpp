@@ -90,6 +90,22 @@ Recording without_rows(Recording r, std::size_t first, std::size_t end) {
   return r;
 }
 
+TEST(OddInput, AnInstrumentThatWasNotRecordedIsSaidFirst) {
+  Recording r = made(hidden, 0);
+  std::erase_if(r.channels, [](const Channel& c) { return c.name.starts_with("acc_"); });
+  const Diagnosis d = diagnosed({r});
+  EXPECT_TRUE(d.absent.accelerometers);
+  EXPECT_FALSE(d.absent.gimbals);
+  EXPECT_EQ(
+      report::sentence(d).find("The recording has no accelerometers: what follows is from the "
+                               "gimbal angles alone."),
+      0u);
+  EXPECT_EQ(nlohmann::json::parse(report::to_json(d))["absent"],
+            nlohmann::json({"accelerometers"}));
+  EXPECT_TRUE(
+      nlohmann::json::parse(report::to_json(diagnosed({made(hidden, 0)})))["absent"].empty());
+}
+
 TEST(OddInput, ThreadsDoNotChangeWhatIsFound) {
   const Recording r = made(hidden, 0);
   const Diagnosis one = diagnosed({r}, 1), three = diagnosed({r}, 3);

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "analysis/diagnosis/diagnose.hpp"
 #include "analysis/report/diagnosis/remark_words.hpp"
+#include "analysis/report/diagnosis/report.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
 #include "core/sim/measurements.hpp"
 #include "core/sim/simulate.hpp"
@@ -60,6 +62,14 @@ TEST(SiteDoubt, FindsTheLatitudeBehindAMisfit) {
     told.site_doubt = doubt;
     EXPECT_EQ(report::sentence(told).find("The latitude of [site] is not that of the recording"),
               0u);
+    // Four words are fixed for the JSON; a reader is not told "unexplained" of what is explained.
+    told.verdict = Verdict::unexplained;
+    const report::InBrief brief = report::diagnosis_in_brief(told);
+    EXPECT_EQ(brief.verdict.find("Verdict wrong latitude: "), 0u);
+    EXPECT_TRUE(brief.more.empty());
+    EXPECT_EQ(nlohmann::json::parse(report::to_json(told))["verdict"], "unexplained");
+    EXPECT_NEAR(nlohmann::json::parse(report::to_json(told))["latitude"]["of_recording_deg"], truth,
+                0.05);
   }
 }
 
