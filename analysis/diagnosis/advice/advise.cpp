@@ -272,7 +272,12 @@ std::vector<Advice> advise(const mc::Study& study, const std::vector<Recording>&
     return {repeat(diagnosis, study.plan)};
   }
   for (Advice& a : adviser.answer(open, IfTold::say_nothing)) all.push_back(std::move(a));
+  // Who names several terms wants them told apart: that no plan can do it is the answer.
+  const bool several = options.asked->size() > 1;
   std::stable_partition(all.begin(), all.end(), [](const Advice& a) { return !a.plan.empty(); });
+  if (several)
+    std::stable_partition(all.begin(), all.end(),
+                          [](const Advice& a) { return a.kind == Advice::Kind::twins; });
   return all;
 }
 

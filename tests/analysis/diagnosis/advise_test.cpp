@@ -178,6 +178,16 @@ TEST(Advise, TwinsAreGivenNoFutilePosition) {
         << advice_text(a);
 }
 
+TEST(Advise, WhoAsksForTwinsIsToldFirstThatNoPositionSeparatesThem) {
+  const mc::Study s = level_study();
+  Diagnosis d;
+  d.nominal = s.filters.front();
+  const auto advice = advise(s, {simulated(s)}, d, asking({"sag", "accelerometer_cross"}));
+  ASSERT_GE(advice.size(), 2u);
+  EXPECT_EQ(advice.front().kind, Advice::Kind::twins) << advice_text(advice.front());
+  EXPECT_FALSE(advice[1].plan.empty()) << advice_text(advice[1]);
+}
+
 TEST(Advise, TwinsOfAnAmbiguousVerdictAreSaidToBeTwins) {
   const mc::Study s = level_study();
   Diagnosis d;
