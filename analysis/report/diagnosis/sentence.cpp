@@ -172,6 +172,23 @@ std::string shows_as_much(double p_value) {
              : fmt::format("shows as much with a chance of {}", p_text(p_value));
 }
 
+/// Why what noise alone seldom shows is taken for noise: nothing is more probable.
+std::string chance_text(const Diagnosis& d) {
+  const Probabilities& p = d.probabilities;
+  if (d.p_value > inference::SearchLimits::alpha || !p.known()) return "";
+  std::string text = fmt::format(
+      " Something stands out that noise alone seldom shows; still, that nothing is missing has the "
+      "probability {}",
+      decimal_text(p.consistent + p.noise_only, 2));
+  if (!p.named.empty()) {
+    std::vector<std::string> labels;
+    for (const NamedEffect& e : p.named.front().causes) labels.push_back(e.label);
+    text += fmt::format(", the likeliest effect ({}) {}", fmt::join(labels, " with "),
+                        decimal_text(p.named.front().probability, 2));
+  }
+  return text + ": watch for it in the next recording.";
+}
+
 std::string verdict_alone(const Diagnosis& d) {
   const std::string noise = noise_text(d),
                     false_alarm = fmt::format("chance of a false alarm: {}", p_text(d.p_value));
@@ -179,8 +196,8 @@ std::string verdict_alone(const Diagnosis& d) {
     case Verdict::consistent:
       return fmt::format(
           "The recording agrees with the nominal model; no missing physics is found (noise alone "
-          "{}).{}",
-          shows_as_much(d.p_value), noise);
+          "{}).{}{}",
+          shows_as_much(d.p_value), chance_text(d), noise);
     case Verdict::named:
       return fmt::format("{}; {} ({}).{}{}", lacking(d.causes, instrument_of(d)),
                          held_out_text(d, d.causes.size() > 1), false_alarm, outside_twins_text(d),

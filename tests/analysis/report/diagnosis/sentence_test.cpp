@@ -187,6 +187,20 @@ TEST(Sentence, OfTheUnexplainedHasTheShapeAndSaysTheEquationOnce) {
       << report::sentence(d);
 }
 
+TEST(Sentence, OfChanceThatIsSmallSaysWhyItIsTakenForChance) {
+  auto d = with(Verdict::consistent, {});
+  d.p_value = 5e-4;
+  d.probabilities.consistent = 0.6;
+  d.probabilities.noise_only = 0.06;
+  d.probabilities.named = {{{{"accelerometer_cross", "y", "accelerometer_cross.y K_pp_y"}}, 0.22}};
+  EXPECT_TRUE(says(report::sentence(d),
+                   "that nothing is missing has the probability 0.66, the likeliest effect "
+                   "(accelerometer_cross.y K_pp_y) 0.22"))
+      << report::sentence(d);
+  d.p_value = 0.3;  // as noise often shows
+  EXPECT_FALSE(says(report::sentence(d), "stands out")) << report::sentence(d);
+}
+
 TEST(Sentence, SaysTheNoiseInWords) {
   diagnosis::Diagnosis d;
   d.p_value = 0.34;
