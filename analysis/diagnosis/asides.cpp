@@ -104,9 +104,10 @@ std::optional<remark::LeftNotWhite> left_not_white(const Whiteness& w) {
   return remark::LeftNotWhite{w.ljung_box_p_before, w.ljung_box_p_after};
 }
 
-std::optional<remark::BeyondPrior> beyond_prior(const BatchResult& nominal) {
+std::optional<remark::BeyondPrior> beyond_prior(const FilterSpec& nominal, const BatchResult& fit) {
   remark::BeyondPrior out;
-  for (const ParameterEstimate& p : nominal.estimate.parameters) {
+  for (const ParameterEstimate& p : fit.estimate.parameters) {
+    if (!nominal.active[p.param]) continue;  // of a cause: its size is told elsewhere
     const double off = p.prior_sigma > 0.0 ? std::abs(p.value - p.prior_mean) / p.prior_sigma : 0.0;
     if (off <= RemarkLimits::unphysical) continue;
     out.params.push_back(p.param);

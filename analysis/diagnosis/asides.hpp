@@ -21,7 +21,7 @@ std::optional<remark::LeftNotWhite> left_not_white(const Whiteness& whiteness);
 
 /// Nominal parameters that the recording moves more than five sigmas of their prior: the fit is
 /// good, what it says is not to be believed (isotropic D_I, for one, is Earth rate about Up).
-std::optional<remark::BeyondPrior> beyond_prior(const BatchResult& nominal);
+std::optional<remark::BeyondPrior> beyond_prior(const FilterSpec& nominal, const BatchResult& fit);
 
 /// Whether the drift equation is (5) or (6) is part of the nominal model: where the test does not
 /// tell, its agreement says nothing of it (physics.md 1.7). Empty where a cause is the equation.

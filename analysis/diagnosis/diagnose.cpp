@@ -213,9 +213,8 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
   if (d.verdict == Verdict::unexplained) d.nearest_known = nearest_known(nominal, found);
   if (d.nearest_known) append(d.remarks, strongest_left(nominal, found));
   if (d.verdict == Verdict::consistent) append(d.remarks, noise_or_effect(nominal));
-  // Where a cause is named it is what has moved the parameters.
-  if (d.verdict == Verdict::consistent || d.verdict == Verdict::unexplained)
-    append(d.remarks, beyond_prior(nominal.fit));
+  // A cause moves parameters: they are looked at with it in the model.
+  append(d.remarks, beyond_prior(nominal_filter, best && alarm ? best->after.fit : nominal.fit));
   append(d.remarks, equation_against_other(d));
   return d;
 }

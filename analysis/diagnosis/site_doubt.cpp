@@ -17,7 +17,8 @@ namespace {
 using inference::SiteLimits;
 
 constexpr auto d_lat = TermLibrary::index("d_lat");
-/// The nominal fit with the study at one latitude.
+
+/// The fit with the study at one latitude.
 struct Point {
   double latitude = 0.0;
   double cost = std::numeric_limits<double>::infinity();
@@ -28,8 +29,8 @@ struct Point {
 class Latitudes {
  public:
   Latitudes(const mc::Study& study, const std::vector<Recording>& recordings,
-            const FilterSpec& nominal)
-      : study_(study), recordings_(recordings), nominal_(nominal) {}
+            const FilterSpec& filter)
+      : study_(study), recordings_(recordings), filter_(filter) {}
 
   std::vector<Point> at(const std::vector<double>& latitudes) const {
     return mc::run_campaign(latitudes.size(), [&](std::size_t k) { return point(latitudes[k]); });
@@ -43,8 +44,8 @@ class Latitudes {
     study.site.latitude = latitude;
     try {
       const preparation::RecordedTest test = preparation::recorded_test(study, recordings_);
-      const BatchResult fit = fit_batch(nominal_, {test.timeline, study.readout, test.measured},
-                                        make_layout(nominal_).theta);
+      const BatchResult fit = fit_batch(filter_, {test.timeline, study.readout, test.measured},
+                                        make_layout(filter_).theta);
       p.cost = fit.estimate.statistic;
       p.dof = static_cast<double>(std::max<std::size_t>(1, fit.estimate.measured));
     } catch (const InputError&) {
@@ -55,13 +56,17 @@ class Latitudes {
 
   const mc::Study& study_;
   const std::vector<Recording>& recordings_;
-  const FilterSpec& nominal_;
+  const FilterSpec& filter_;
 };
 
 bool worth_asking(const Diagnosis& d) {
   if (d.nominal.active[d_lat]) return false;
   if (d.verdict == Verdict::unexplained) return true;
   // Parameters far outside their priors may hide it: Earth rate about Up is isotropic D_I.
+  if (std::ranges::any_of(d.remarks, [](const Remark& r) {
+        return std::holds_alternative<remark::BeyondPrior>(r);
+      }))
+    return true;
   if (d.verdict == Verdict::consistent) return d.fit.chi2_per_dof_before > d.fit.band_high;
   double top = 0.0, own = 0.0, size = 0.0;
   for (const search::CandidateScore& c : d.candidates) {
@@ -78,7 +83,7 @@ bool worth_asking(const Diagnosis& d) {
 std::optional<SiteDoubt> site_doubt(const mc::Study& study,
                                     const std::vector<Recording>& recordings, const Diagnosis& d) {
   if (!worth_asking(d)) return std::nullopt;
-  const Latitudes latitudes(study, recordings, d.nominal);
+  const Latitudes latitudes(study, recordings, d.has_patch ? d.patched : d.nominal);
   const double declared = study.site.latitude;
   const std::vector<Point> ends = latitudes.at({declared, -declared});
   if (!std::isfinite(ends[0].cost)) return std::nullopt;

@@ -105,7 +105,7 @@ struct Words {
     for (const std::size_t param : r.params)
       keys.emplace_back(TermLibrary::specs[param].key.view());
     return fmt::format(
-        "The nominal fit takes {} up to {:.0f} sigmas from where their priors have them. If that "
+        "The fit takes {} up to {:.0f} sigmas from where their priors have them. If that "
         "is not this unit, the study is not of this recording: check [site] latitude, axes and "
         "commands of the plan, and the priors",
         listed_up_to(keys, most), r.farthest);

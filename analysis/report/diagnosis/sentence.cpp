@@ -238,7 +238,7 @@ std::string nearest_text(const NearestKnown& near, Instrument instrument) {
 std::string site_text(const SiteDoubt& doubt) {
   return fmt::format(
       "The latitude of [site] is not that of the recording: at {:.3f} deg instead of {:.3f} deg "
-      "the nominal model fits with chi-square per degree of freedom {:.3g} instead of {:.3g}. No "
+      "the model fits with chi-square per degree of freedom {:.3g} instead of {:.3g}. No "
       "survey is wrong by so much (latitude_error would need {:.3g} prior sigmas): correct the "
       "latitude and diagnose again before anything else is made of it.",
       doubt.latitude / unit::deg.to_si, doubt.declared / unit::deg.to_si, doubt.chi2_per_dof_after,

@@ -23,7 +23,8 @@ struct Scene {
   mc::Study study;
   Recording recording;
 
-  explicit Scene(double latitude_deg) {
+  /// hidden: D_SS_x, which the nominal filter does not know [deg/h/g^2].
+  explicit Scene(double latitude_deg, double hidden = 0.0) {
     study.path = "study.toml";
     study.site = test::harbin;
     PlanDefaults defaults;
@@ -34,10 +35,13 @@ struct Scene {
     study.filters = {test::base_filter(Coupling::eq5)};
     study.filters.front().active = study.truth.active;
     const Timeline timeline = lay_out(study.plan, study.site);
-    const TruthDraw draw = draw_truth(study.truth, timeline.chains, 1, 0);
-    recording = make_recording(
-        timeline, Simulator(study.truth, study.readout).run(timeline, draw, 1, 0).measured,
-        study.readout);
+    TruthSpec with_hidden = study.truth;
+    with_hidden.active |= test::only({"D_SS_x"});
+    TruthDraw draw = draw_truth(study.truth, timeline.chains, 1, 0);
+    draw.theta[test::param("D_SS_x")] = hidden * test::deg_per_h;
+    recording =
+        make_recording(timeline, Simulator(with_hidden, study.readout).run(timeline, draw, 1, 0).measured,
+                       study.readout);
     study.site.latitude = latitude_deg * unit::deg.to_si;
   }
   std::optional<SiteDoubt> doubt(Verdict verdict) const {
@@ -95,6 +99,28 @@ TEST(SiteDoubt, TheWrongHemisphereHidesInParametersFarFromTheirPriorsAndIsStillF
   const Diagnosis right = diagnose(Scene(truth).study, {s.recording}, options);
   EXPECT_TRUE(std::ranges::none_of(
       right.remarks, [](const auto& r) { return std::holds_alternative<remark::BeyondPrior>(r); }));
+}
+
+TEST(SiteDoubt, TheWrongHemisphereIsFoundBesideACause) {
+  // The misfit is the cause's; with it in the model three D_I stay far from their priors.
+  DiagnoseOptions options;
+  options.starts = 1;
+  options.whiteness_draws = 0;
+  const auto beyond = [](const Diagnosis& d) {
+    return std::ranges::any_of(
+        d.remarks, [](const auto& r) { return std::holds_alternative<remark::BeyondPrior>(r); });
+  };
+  const Scene wrong(-truth, 0.3), right(truth, 0.3);
+  const Diagnosis d = diagnose(wrong.study, {wrong.recording}, options);
+  ASSERT_NE(d.verdict, Verdict::consistent);
+  EXPECT_TRUE(beyond(d));
+  const auto doubt = site_doubt(wrong.study, {wrong.recording}, d);
+  ASSERT_TRUE(doubt) << report::sentence(d);
+  EXPECT_NEAR(doubt->latitude / unit::deg.to_si, truth, 0.05);
+  const Diagnosis of_right = diagnose(right.study, {right.recording}, options);
+  EXPECT_EQ(of_right.verdict, Verdict::named) << report::sentence(of_right);
+  EXPECT_FALSE(beyond(of_right));
+  EXPECT_FALSE(site_doubt(right.study, {right.recording}, of_right));
 }
 
 }  // namespace

@@ -53,13 +53,16 @@ TEST(Thresholds, ASpikeIsEightSigmaAndTwoRangesAway) {
 
 TEST(Thresholds, ParametersFiveSigmaFromTheirPriorsAreSaid) {
   const auto said = [](double sigmas) {
+    FilterSpec nominal;
+    nominal.active.set(0);
     BatchResult fit;
     ParameterEstimate p;
+    p.param = 0;
     p.prior_mean = 1.0;
     p.prior_sigma = 2.0;
     p.value = 1.0 - 2.0 * sigmas;
     fit.estimate.parameters = {p};
-    return beyond_prior(fit).has_value();
+    return beyond_prior(nominal, fit).has_value();
   };
   EXPECT_FALSE(said(4.9));
   EXPECT_TRUE(said(5.1));
