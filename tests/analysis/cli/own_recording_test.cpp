@@ -265,5 +265,25 @@ TEST(OwnRecording, LookCountsTheIntervalOfTheFirstRowAndSaysWhatItsColumnsMean) 
   EXPECT_NE(look.out.find("stuck: samples in the longest run of one value"), std::string::npos);
 }
 
+TEST(OwnRecording, IdentifySaysFirstThatThereAreNoAccelerometers) {
+  const Own own;
+  Recording r = own.truth;
+  std::erase_if(r.channels, [](const Channel& c) { return c.name.starts_with("acc_"); });
+  const std::string log = own.folder.file("angles.csv"), out = own.folder.file("out");
+  write_recording(r, log);
+  const auto answer =
+      driftscope("identify '" + own.study + "' '" + log + "' -o '" + out + "' --progress none");
+  EXPECT_EQ(answer.code, 0) << answer.err;
+  const std::string words =
+      "gimbal angles alone: the recording has no accelerometers (acc_x, acc_y, acc_z)";
+  std::string first = answer.out.substr(0, answer.out.find(';'));
+  for (std::size_t at = 0; (at = first.find("\n  ", at)) != std::string::npos;)
+    first.replace(at, 3, " ");
+  EXPECT_NE(first.find(words), std::string::npos) << answer.out;
+  EXPECT_NE(test::text_of(out + "/report.html").find(words), std::string::npos);
+  EXPECT_NE(test::text_of(out + "/identification.json").find("\"absent_channels\""),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace drift::own_recording_test
