@@ -18,6 +18,15 @@ void show_positions(const TestPlan& plan) {
   }
 }
 
+/// Gravity is nobody's to guess: it differs by 7000 ppm from place to place.
+void tell_assumed_gravity(const mc::Study& study) {
+  const auto gravity = std::ranges::find(study.resolved, "site.gravity", &mc::Resolved::key);
+  if (gravity == study.resolved.end() || !gravity->origin.starts_with("default")) return;
+  say("note: site.gravity is not given: {} is assumed. A recording in m/s^2 is divided by it, and "
+      "K1, in ppm, is off by as many ppm as gravity is there\n",
+      gravity->value);
+}
+
 ExitCode check(const StudyArguments& arguments) {
   const mc::Study study = arguments.read();
   if (study.kind == RecordingKind::platform) require_memory_for(study.plan);
@@ -30,6 +39,7 @@ ExitCode check(const StudyArguments& arguments) {
   for (const mc::Resolved& r : study.resolved)
     show("{:<{}}  {:<{}}  {}\n", r.key, key_width, r.value, value_width, r.origin);
   if (study.kind == RecordingKind::platform) show_positions(study.plan);
+  tell_assumed_gravity(study);
   return ExitCode::ok;
 }
 

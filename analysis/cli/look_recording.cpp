@@ -7,11 +7,13 @@
 #include "analysis/cli/command.hpp"
 #include "analysis/cli/print.hpp"
 #include "analysis/report/noise/noise.hpp"
+#include "analysis/report/page/table.hpp"
 #include "analysis/strapdown/case_study.hpp"
 #include "core/estimate/strapdown/dwells.hpp"
 #include "core/recording/own/csv_cells.hpp"
 #include "core/recording/own/guess.hpp"
 #include "core/recording/rows/quality_card.hpp"
+#include "core/recording/rows/row_spacing.hpp"
 #include "core/stats/median.hpp"
 
 namespace drift::cli {
@@ -37,7 +39,7 @@ void show_columns(const GuessedFile& file) {
     show("{:<22}{:>9}{:>7}{:>13}{:>13}  {}\n", c.header.name, c.numbers, c.texts,
          c.numbers > 0 ? fmt::format("{:.6g}", c.low) : "-",
          c.numbers > 0 ? fmt::format("{:.6g}", c.high) : "-",
-         c.channel.empty() ? "-" : c.channel + unit);
+         c.channel.empty() ? "-" : c.channel + unit + (c.by_values ? " (by its values)" : ""));
   }
 }
 
@@ -56,11 +58,17 @@ std::optional<double> usual_force(const Recording& r) {
 
 void show_positions(const Recording& r) {
   const Channel *position = r.find("position"), *time = r.find("time");
-  show("\n{:<10}{:>8}{:>14}{:>14}{:>13}\n", "position", "rows", "from [s]", "to [s]", "length [s]");
+  const RowSpacing spacing = row_spacing(r);
+  show("\n{:<10}{:>8}{:>14}{:>14}{:>13}\n", "position", "rows", "first [s]", "last [s]",
+       "length [s]");
   for (std::size_t first = 0, end = 0; first < r.rows(); first = end) {
     while (end < r.rows() && position->values[end] == position->values[first]) ++end;
+    // A row stands at the end of its interval: the first one began before its time.
+    const double before = spacing.usual[first];
+    const double length =
+        time->values[end - 1] - time->values[first] + (std::isfinite(before) ? before : 0.0);
     show("{:<10}{:>8}{:>14.10g}{:>14.10g}{:>13.6g}\n", position->values[first], end - first,
-         time->values[first], time->values[end - 1], time->values[end - 1] - time->values[first]);
+         time->values[first], time->values[end - 1], length);
   }
 }
 
@@ -151,6 +159,8 @@ ExitCode look_without_study(const std::string& path) {
   show_paste(!file.format.columns.empty() || !read ? recording_section(file) : "", card,
              file.complete ? " (guessed from names and values: check it)"
                            : " (guessed; write the units that show as [?])");
+  if (const std::string missing = what_is_missing(file); !missing.empty())
+    show("\n{}\n", report::wrapped(missing, 100));
   show_commands(path, file.kind);
   return ExitCode::ok;
 }

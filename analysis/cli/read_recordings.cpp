@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "analysis/cli/print.hpp"
+#include "analysis/report/page/wording.hpp"
 #include "core/base/check.hpp"
 #include "core/recording/rows/quality_card.hpp"
 
@@ -42,7 +43,8 @@ void tell_remarks(const QualityCard& card) {
   for (std::size_t k = 0; k < std::min(card.remarks.size(), most); ++k)
     say("note: {}: {}\n", card.file, card.remarks[k]);
   if (card.remarks.size() > most)
-    say("note: {}: {} more remarks; --full prints them\n", card.file, card.remarks.size() - most);
+    say("note: {}: {} more remark{}; --full prints them\n", card.file, card.remarks.size() - most,
+        report::plural(card.remarks.size() - most));
 }
 
 }  // namespace

@@ -1,15 +1,9 @@
 #include "analysis/diagnosis/site_doubt.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <initializer_list>
-#include <limits>
 
-#include "analysis/inference/signatures.hpp"
+#include "analysis/identification/latitude_doubt.hpp"
 #include "analysis/inference/thresholds.hpp"
-#include "analysis/preparation/recorded_test.hpp"
-#include "core/base/check.hpp"
-#include "mc/task/campaign.hpp"
 
 namespace drift::diagnosis {
 namespace {
@@ -17,47 +11,6 @@ namespace {
 using inference::SiteLimits;
 
 constexpr auto d_lat = TermLibrary::index("d_lat");
-
-/// The fit with the study at one latitude.
-struct Point {
-  double latitude = 0.0;
-  double cost = std::numeric_limits<double>::infinity();
-  double dof = 1.0;
-  double per_dof() const { return cost / dof; }
-};
-
-class Latitudes {
- public:
-  Latitudes(const mc::Study& study, const std::vector<Recording>& recordings,
-            const FilterSpec& filter)
-      : study_(study), recordings_(recordings), filter_(filter) {}
-
-  std::vector<Point> at(const std::vector<double>& latitudes) const {
-    return mc::run_campaign(latitudes.size(), [&](std::size_t k) { return point(latitudes[k]); });
-  }
-
- private:
-  Point point(double latitude) const {
-    Point p{latitude};
-    if (!(std::abs(latitude) <= 90.0 * detail::deg)) return p;
-    mc::Study study = study_;
-    study.site.latitude = latitude;
-    try {
-      const preparation::RecordedTest test = preparation::recorded_test(study, recordings_);
-      const BatchResult fit = fit_batch(filter_, {test.timeline, study.readout, test.measured},
-                                        make_layout(filter_).theta);
-      p.cost = fit.estimate.statistic;
-      p.dof = static_cast<double>(std::max<std::size_t>(1, fit.estimate.measured));
-    } catch (const InputError&) {
-      // No case heading holds this plan at that latitude.
-    }
-    return p;
-  }
-
-  const mc::Study& study_;
-  const std::vector<Recording>& recordings_;
-  const FilterSpec& filter_;
-};
 
 bool worth_asking(const Diagnosis& d) {
   if (d.nominal.active[d_lat]) return false;
@@ -83,57 +36,10 @@ bool worth_asking(const Diagnosis& d) {
 std::optional<SiteDoubt> site_doubt(const mc::Study& study,
                                     const std::vector<Recording>& recordings, const Diagnosis& d) {
   if (!worth_asking(d)) return std::nullopt;
-  const Latitudes latitudes(study, recordings, d.has_patch ? d.patched : d.nominal);
-  const double declared = study.site.latitude;
-  const std::vector<Point> ends = latitudes.at({declared, -declared});
-  if (!std::isfinite(ends[0].cost)) return std::nullopt;
-  Point best = ends[1].cost < ends[0].cost ? ends[1] : ends[0];
-  const auto take = [&](const std::vector<Point>& points) {
-    for (const Point& p : points)
-      if (p.cost < best.cost) best = p;
-  };
-  // Near the truth the cost grows with the square of the error: its parabola leads there, the
-  // better the smaller the step. Far from it the cost may be concave: then several distances are
-  // tried at once.
-  const double small = 0.2 * detail::deg;
-  const std::vector<Point> beside = latitudes.at({best.latitude - small, best.latitude + small});
-  const double bend = beside[0].cost + beside[1].cost - 2.0 * best.cost;
-  const double promise =
-      std::pow(beside[1].cost - beside[0].cost, 2) / (8.0 * bend);  // of the parabola's foot
-  if (bend > 0.0 && best.latitude == declared &&
-      promise < SiteLimits::promise * (best.cost - best.dof))
-    return std::nullopt;  // nothing to be had
-  const auto follow = [&](std::initializer_list<double> steps_deg) {
-    for (const double step_deg : steps_deg) {
-      const double step = step_deg * detail::deg;
-      const Point here = best;
-      const std::vector<Point> sides = latitudes.at({here.latitude - step, here.latitude + step});
-      const double curvature = sides[0].cost + sides[1].cost - 2.0 * here.cost;
-      if (!std::isfinite(curvature)) return;
-      if (curvature > 0.0) {
-        take(latitudes.at(
-            {here.latitude + 0.5 * step * (sides[0].cost - sides[1].cost) / curvature}));
-      } else {
-        std::vector<double> around;
-        for (const double far : {4.0, 8.0, 16.0, 32.0, 64.0})
-          for (const double sign : {-1.0, 1.0})
-            around.push_back(here.latitude + sign * far * detail::deg);
-        take(latitudes.at(around));
-      }
-      take(sides);
-    }
-  };
-  follow({2.0, 2.0, 2.0, 0.2});
-  take(latitudes.at({-best.latitude}));  // the mirrored valley is nearly as deep
-  follow({0.2, 0.02, 0.005});
-  const double prior = TermLibrary::specs[d_lat].prior_si().sigma();
-  const SiteDoubt doubt{best.latitude, declared, std::abs(best.latitude - declared) / prior,
-                        ends[0].per_dof(), best.per_dof()};
-  const double excess = doubt.chi2_per_dof_before - 1.0;
-  if (doubt.prior_sigmas <= SiteLimits::survey || excess <= 0.0) return std::nullopt;
-  if (doubt.chi2_per_dof_before - doubt.chi2_per_dof_after < SiteLimits::most * excess)
-    return std::nullopt;
-  return doubt;
+  const auto doubt = identification::latitude_doubt(study, recordings, d.has_patch ? d.patched : d.nominal);
+  if (!doubt) return std::nullopt;
+  return SiteDoubt{doubt->latitude, doubt->declared, doubt->prior_sigmas,
+                   doubt->chi2_per_dof_before, doubt->chi2_per_dof_after};
 }
 
 }  // namespace drift::diagnosis

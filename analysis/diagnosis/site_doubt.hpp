@@ -12,14 +12,13 @@ namespace drift::diagnosis {
 
 /// Asks whether a wrong [site] latitude is behind a misfit. As a cause, latitude_error is an error
 /// of the survey, of some arcsec; one of degrees loses against its prior, is not linear, and
-/// another cause may be named in its place. Here the model, with the cause that was found, is laid
-/// out and fitted again at other latitudes (the mirrored one too), along parabolas of its cost.
+/// another cause may be named in its place; identification::latitude_doubt() fits the model, with
+/// the cause that was found, at other latitudes, and says when it is given.
 ///
 /// Asked only where the verdict is `unexplained`, where latitude_error is among the strongest
 /// candidates, where parameters lie far outside their priors, or where chi-square of a `consistent`
-/// fit, priors included, is above its band; given where it is more than three prior sigmas off and
-/// takes away 90 % of what the model leaves above its degrees of freedom. recordings: as they were
-/// diagnosed. Empty otherwise.
+/// fit, priors included, is above its band.
+/// recordings: as they were diagnosed. Empty otherwise.
 std::optional<SiteDoubt> site_doubt(const mc::Study& study,
                                     const std::vector<Recording>& recordings,
                                     const Diagnosis& diagnosis);

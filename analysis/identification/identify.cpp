@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 
+#include "analysis/identification/fit_thresholds.hpp"
 #include "analysis/preparation/prepare.hpp"
 #include "analysis/preparation/recorded_test.hpp"
 #include "core/base/check.hpp"
@@ -13,6 +15,7 @@
 #include "core/estimate/starts.hpp"
 #include "core/plan/plan_memory.hpp"
 #include "core/plan/plan_rows.hpp"
+#include "core/recording/recording_channels.hpp"
 #include "mc/task/campaign.hpp"
 
 namespace drift::identification {
@@ -151,7 +154,44 @@ void run_jobs(const mc::Study& study, Identification& id, int threads, const Pro
   id.summaries = summarise(study, id);
 }
 
+/// Channels that the study asks for and that show nothing.
+std::vector<std::string> absent_channels(const Measurements& measured, const Readout& readout) {
+  std::vector<std::string> absent;
+  const auto look = [&](bool wanted, const Mat3X& values, const ChannelTriple& channels) {
+    for (Eigen::Index a = 0; wanted && a < 3; ++a)
+      if (!values.row(a).array().isFinite().any())
+        absent.emplace_back(channels.names[static_cast<std::size_t>(a)]);
+  };
+  look(readout.accelerometers, measured.acc, accelerometer_channels);
+  look(readout.gimbals, measured.gimbal, gimbal_channels);
+  return absent;
+}
+
+/// Where no filter fits, the latitude may be behind it.
+void doubt_latitude(const mc::Study& study, const std::vector<Recording>& recordings,
+                    Identification& id) {
+  const auto result = [&](const FilterSummary& s) -> const EstimateResult& {
+    return judged(study.filters[s.filter], *id.runs_of(s.filter).front());
+  };
+  constexpr auto d_lat = TermLibrary::index("d_lat");
+  const auto fits = [&](const FilterSummary& s) { return !misfit(result(s)); };
+  if (std::ranges::any_of(id.summaries, fits)) return;
+  for (FilterSummary& s : id.summaries)
+    if (const FilterSpec& filter = study.filters[s.filter]; !filter.active[d_lat])
+      s.latitude_doubt = latitude_doubt(study, recordings, filter);
+}
+
 }  // namespace
+
+const EstimateResult& judged(const FilterSpec& filter, const FilterRun& first) {
+  return filter.noise.any() ? first.ekf : first.batch.estimate;
+}
+
+bool misfit(const EstimateResult& result) {
+  const double m = static_cast<double>(result.measured);  // the variance of chi-square over m: 2/m
+  return result.measured > 0 &&
+         std::abs(result.statistic_per_dof() - 1.0) > FitLimits::misfit * std::sqrt(2.0 / m);
+}
 
 std::vector<const FilterRun*> Identification::runs_of(std::size_t filter) const {
   std::vector<const FilterRun*> found;
@@ -211,6 +251,8 @@ Identification identify_recordings(const mc::Study& study, const std::vector<Rec
   run_jobs(ready.study, id, threads, progress, [&](const Job& job) {
     return estimate(ready.study, job, test.timeline, test.measured);
   });
+  id.absent = absent_channels(test.measured, ready.study.readout);
+  doubt_latitude(ready.study, ready.recordings, id);
   return id;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/identification/latitude_doubt.hpp"
 #include "core/estimate/batch.hpp"
 #include "core/estimate/sequential/ekf.hpp"
 #include "core/sim/simulate.hpp"
@@ -36,6 +37,7 @@ struct FilterSummary {
   std::vector<StartSpread> spread;          ///< layout order; NaN ratios with one start
   std::vector<WeakDirection> degeneracies;  ///< exact: the data say nothing of these directions
   std::size_t weak = 0;  ///< directions of which the prior says more than the data
+  std::optional<LatitudeDoubt> latitude_doubt;  ///< behind its misfit
 };
 
 /// One sample interval of the test.
@@ -54,12 +56,20 @@ struct Identification {
   Recording recording;             ///< the (first) recording; empty with a loop fed back by filters
   std::vector<std::string> sources;
   std::vector<std::string> remarks;  ///< what was left out or changed (prepare())
+  std::vector<std::string> absent;   ///< channels of [readout] that no recording measured
   std::vector<SampleOfTest> samples;
   std::vector<FilterRun> runs;  ///< by filter, then start
   std::vector<FilterSummary> summaries;
 
   std::vector<const FilterRun*> runs_of(std::size_t filter) const;
 };
+
+/// What is believed of a filter from its first start: with process noise, which the batch fit does
+/// not model, the EKF.
+const EstimateResult& judged(const FilterSpec& filter, const FilterRun& first);
+
+/// Chi-square over its degrees of freedom is where no right model has it (FitLimits::misfit).
+bool misfit(const EstimateResult& result);
 
 /// Called as runs are completed, from any thread: done, total.
 using Progress = std::function<void(std::size_t, std::size_t)>;

@@ -202,6 +202,33 @@ void take_uneven_rows(const Work& work) {
         before, now, limits.length));
 }
 
+/// A message about channels in the words of the user's file: `"-acc_z"` as what [recording] columns
+/// would say, and behind it which columns the channels are.
+std::string in_own_names(std::string message, const RecordingFormat& format) {
+  std::vector<std::string> named;
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    bool found = false;
+    for (std::size_t at = 0; (at = message.find(from, at)) != std::string::npos; at += to.size()) {
+      message.replace(at, from.size(), to);
+      found = true;
+    }
+    return found;
+  };
+  for (const MappedColumn& m : format.columns) {
+    const bool a_word = m.channel.find('_') == std::string::npos;  // "position", "time"
+    if (a_word || m.own == m.channel || message.find(m.channel) == std::string::npos) continue;
+    const std::string unit = m.unit ? fmt::format(" [{}]", *m.unit) : "";
+    for (const double sign : {1.0, -1.0})
+      if (replace(fmt::format("\"{}{}\"", sign < 0.0 ? "-" : "", m.channel),
+                  fmt::format("\"{}{}{}\"", sign * m.sign < 0.0 ? "-" : "", m.own, unit)) &&
+          m.unit)
+        replace(", with its unit as in the header", "");
+    if (m.unit) replace(", each with its unit as in the header", "");
+    named.push_back(fmt::format("{} is {}'{}'", m.channel, m.sign < 0.0 ? "minus " : "", m.own));
+  }
+  return named.empty() ? message : fmt::format("{} ({})", message, fmt::join(named, ", "));
+}
+
 }  // namespace
 
 Prepared prepare(const mc::Study& study, const std::vector<Recording>& recordings,
@@ -226,7 +253,8 @@ Prepared prepare(const mc::Study& study, const std::vector<Recording>& recording
     try {
       check_plan(p.study, r, p.remarks, wrong);
     } catch (const InputError& error) {
-      wrong.insert(wrong.end(), error.messages().begin(), error.messages().end());
+      for (const std::string& message : error.messages())
+        wrong.push_back(in_own_names(message, study.recording));
     }
     const Measurements m = measurements_of(r, p.study.readout);
     if (!m.acc.array().isFinite().any() && !m.gimbal.array().isFinite().any())

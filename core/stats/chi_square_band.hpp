@@ -24,4 +24,11 @@ inline Band chi_square_band(double dof) {
   return {std::max(0.0, cube(1.0 - v - z * s)), cube(1.0 - v + z * s)};
 }
 
+/// The chance that chi-square over its degrees of freedom is as far from what is usual, on either
+/// side; by the same approximation, and so below 0.05 just outside chi_square_band().
+inline double chi_square_chance(double per_dof, double dof) {
+  const double v = 2.0 / (9.0 * dof);
+  return 2.0 * normal_distribution(-std::abs(std::cbrt(per_dof) - (1.0 - v)) / std::sqrt(v));
+}
+
 }  // namespace drift::stats

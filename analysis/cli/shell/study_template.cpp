@@ -89,7 +89,11 @@ std::string plan_text(const std::optional<RecordedPlan>& plan, Dwells dwells) {
   if (dwells == Dwells::alike)
     text += fmt::format("dwell  = \"{:.9g} s\"\n", plan->positions.front().length);
   text += plan->north
-              ? "# The axes are those that the gimbal angles show of a case that faces North.\n"
+              ? (plan->headings
+                     ? "# The axes are those that the gimbal angles show, with the recorded "
+                       "headings of the case.\n"
+                     : "# The axes are those that the gimbal angles show of a case that faces "
+                       "North.\n")
               : "# What is up is of the recording. Which axis points North no accelerometer "
                 "shows: correct N, S, E, W.\n";
   for (std::size_t i = 0; i < plan->positions.size(); ++i)
@@ -145,6 +149,7 @@ RecordedPlan recorded_plan(const Recording& r) {
   plan.north = true;
   const Channel *position = r.find("position"), *time = r.find("time"), *phase = r.find("phase"),
                 *heading = r.find("case_heading");
+  plan.headings = heading != nullptr;
   for (std::size_t first = 0, end = 0; first < r.rows(); first = end) {
     end = first + 1;
     while (end < r.rows() && (!position || position->values[end] == position->values[first])) ++end;

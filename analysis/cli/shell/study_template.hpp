@@ -19,10 +19,10 @@ struct RecordedPlan {
     bool torqued = false;           ///< slewed to, as the phases say
     std::optional<double> heading;  ///< of the case [rad], where it is recorded
   };
-  double sample = 0.0;  ///< [s]
-  bool level = false;   ///< Earth rate is commanded in the dwells
-  bool north =
-      false;  ///< the axes that lie level are from gimbal angles, of a case that faces North
+  double sample = 0.0;    ///< [s]
+  bool level = false;     ///< Earth rate is commanded in the dwells
+  bool north = false;     ///< the axes that lie level are from gimbal angles
+  bool headings = false;  ///< and the headings of the case are recorded; else it faces North
   std::vector<Position> positions;
 };
 

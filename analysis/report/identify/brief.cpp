@@ -1,8 +1,14 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <optional>
+#include <utility>
 
+#include "analysis/identification/fit_thresholds.hpp"
 #include "analysis/report/identify/sections.hpp"
 #include "core/estimate/start_consistency.hpp"
+#include "core/recording/recording_channels.hpp"
+#include "core/stats/chi_square_band.hpp"
 
 namespace drift::report {
 namespace {
@@ -10,12 +16,6 @@ namespace {
 constexpr double nothing_learned = 0.8;  // posterior over prior sigma
 constexpr double mostly = 0.5;           // of its variance
 constexpr double surely_wrong = 5.0;     // [sigma] off the truth: no right model is, in any of 100
-
-/// What is believed of a filter: with process noise, which the batch fit does not model, the EKF.
-const EstimateResult& judged(const FilterView& v) {
-  const identification::FilterRun& run = *v.id.runs_of(v.summary.filter).front();
-  return v.spec().noise.any() ? run.ekf : run.batch.estimate;
-}
 
 bool believed(const FilterView& v) {
   const EstimateResult& result = judged(v);
@@ -73,6 +73,52 @@ std::string count_text(const FilterView& v) {
                      fmt::join(parts, "; "));
 }
 
+/// A fit that is not a misfit may still be one that few right models have.
+std::string outside_text(const FilterView& v) {
+  const EstimateResult& result = judged(v);
+  if (!believed(v) || fit_cell(result).tone == Tone::plain) return "";
+  const auto dof = static_cast<double>(result.measured);
+  const stats::Band band = stats::chi_square_band(dof);
+  return fmt::format(
+      "Filter {}: chi-square per degree of freedom {:.3f} is outside the 95 % band of a right "
+      "model, {:.3f} to {:.3f} (so far by chance: {:.1g}): a small effect is missing, or noise and "
+      "priors are not what the study says.",
+      v.spec().name, result.statistic_per_dof(), band.low, band.high,
+      stats::chi_square_chance(result.statistic_per_dof(), dof));
+}
+
+/// Parameters that no prior of the study would have where the filter takes them.
+std::string beyond_text(const FilterView& v) {
+  constexpr std::size_t most = 6;
+  const std::vector<std::string> keys = beyond_prior(v);
+  if (keys.empty()) return "";
+  const bool one = keys.size() == 1;
+  return fmt::format(
+      "Filter {}: {} further than {:g} of {} prior sigmas from {} ({}): wrong priors, or a "
+      "study that is not of this recording (latitude, axes).",
+      v.spec().name, one ? "1 parameter lies" : fmt::format("{} parameters lie", keys.size()),
+      identification::FitLimits::beyond_prior, one ? "its" : "their",
+      one ? "its prior's mean" : "the means of their priors", listed_up_to(keys, most));
+}
+
+/// What the answer is of, where instruments that the study asks for show nothing:
+/// "gimbal angles alone: the recording has no accelerometers (acc_x, acc_y, acc_z)".
+std::string absent_text(const identification::Identification& id) {
+  if (id.absent.empty()) return "";
+  const std::string who = id.sources.size() > 1 ? "no recording has" : "the recording has no";
+  const auto absent = [&](const ChannelTriple& t) {
+    return std::ranges::all_of(t.names, [&](std::string_view name) {
+      return std::ranges::find(id.absent, name) != id.absent.end();
+    });
+  };
+  const std::string keys = fmt::format("{}", fmt::join(id.absent, ", "));
+  if (id.absent.size() == 3 && absent(accelerometer_channels))
+    return fmt::format("gimbal angles alone: {} accelerometers ({})", who, keys);
+  if (id.absent.size() == 3 && absent(gimbal_channels))
+    return fmt::format("accelerometers alone: {} gimbal angles ({})", who, keys);
+  return fmt::format("without {0}: {1} {0}", keys, who);
+}
+
 struct Judgement {
   std::vector<std::string> good, bad;  ///< names; what is wrong with them
   bool wrong = false;                  ///< a filter that fits has a parameter that is wrong
@@ -99,18 +145,50 @@ Judgement judgement_of(const mc::Study& study, const identification::Identificat
   return j;
 }
 
-std::string verdict_text(const Judgement& j) {
+/// The latitude that explains the misfit of a filter; empty if none does.
+std::optional<identification::LatitudeDoubt> other_latitude(
+    const identification::Identification& id) {
+  for (const identification::FilterSummary& s : id.summaries)
+    if (s.latitude_doubt) return s.latitude_doubt;
+  return std::nullopt;
+}
+
+std::string verdict_text(const Judgement& j, const identification::Identification& id) {
+  const std::string absent = absent_text(id);
+  const auto judged_as = [&](std::string_view word) {
+    return absent.empty() ? fmt::format("{}:", word) : fmt::format("{}, {};", word, absent);
+  };
+  if (const auto doubt = other_latitude(id); doubt && j.good.empty())
+    return fmt::format(
+        "{} the latitude of [site] is not that of the recording. At {:.3f} deg instead of {:.3f} "
+        "deg chi-square per degree of freedom is {} instead of {}: correct it first.",
+        judged_as("Misfit"), doubt->latitude / unit::deg.to_si, doubt->declared / unit::deg.to_si,
+        number_text(doubt->chi2_per_dof_after), number_text(doubt->chi2_per_dof_before));
   if (j.good.empty())
-    return fmt::format("Misfit: {}. Their estimates are not to be trusted.", listed(j.bad, "and"));
+    return fmt::format("{} {}. {} estimates are not to be trusted.", judged_as("Misfit"),
+                       listed(j.bad, "and"), j.bad.size() == 1 ? "Its" : "Their");
   if (!j.bad.empty())
-    return fmt::format("Believe {}: the residuals are what it expects; {}.", listed(j.good, "and"),
-                       listed(j.bad, "and"));
-  return fmt::format("Fits: the residuals are what {} {} expect{}.",
+    return fmt::format("{} the residuals are what it expects; {}.",
+                       judged_as("Believe " + listed(j.good, "and")), listed(j.bad, "and"));
+  return fmt::format("{} the residuals are what {} {} expect{}.", judged_as("Fits"),
                      j.good.size() == 1 ? "filter" : "filters", listed(j.good, "and"),
                      j.good.size() == 1 ? "s" : "");
 }
 
 }  // namespace
+
+std::vector<std::string> beyond_prior(const FilterView& v) {
+  std::vector<std::pair<double, std::string>> far;
+  for (const ParameterEstimate& p : judged(v).parameters) {
+    const double off = p.prior_sigma > 0.0 ? std::abs(p.value - p.prior_mean) / p.prior_sigma : 0.0;
+    if (off > identification::FitLimits::beyond_prior)
+      far.emplace_back(off, parameter_key(p.param));
+  }
+  std::ranges::stable_sort(far, std::greater{}, &std::pair<double, std::string>::first);
+  std::vector<std::string> keys;
+  for (auto& [off, key] : far) keys.push_back(std::move(key));
+  return keys;
+}
 
 ParameterVerdict verdict_of(const FilterView& v, std::size_t state) {
   const EstimateResult& result = judged(v);
@@ -157,12 +235,21 @@ Cell verdict_cell(const ParameterVerdict& verdict) {
 InBrief identification_in_brief(const mc::Study& study, const identification::Identification& id) {
   const Judgement j = judgement_of(study, id);
   InBrief brief;
-  brief.verdict = verdict_text(j);
-  brief.tone = j.good.empty() ? Tone::bad : j.wrong ? Tone::doubtful : Tone::good;
-  for (const identification::FilterSummary& s : id.summaries)
-    brief.more.push_back(count_text({study, id, s}));
+  brief.verdict = verdict_text(j, id);
+  bool doubtful = j.wrong || !id.absent.empty();
+  for (const identification::FilterSummary& s : id.summaries) {
+    const FilterView view{study, id, s};
+    brief.more.push_back(count_text(view));
+    for (const std::string& said : {outside_text(view), beyond_text(view)})
+      if (!said.empty()) brief.more.push_back(said);
+    doubtful = doubtful || (believed(view) && !beyond_prior(view).empty());
+  }
+  brief.tone = j.good.empty() ? Tone::bad : doubtful ? Tone::doubtful : Tone::good;
   const std::string file = study.path.empty() ? "STUDY" : study.path;
-  if (!j.first_fits)
+  if (const auto doubt = other_latitude(id); doubt && j.good.empty())
+    brief.next = fmt::format("Next: identify again with --set site.latitude=\"{:.3f} deg\".",
+                             doubt->latitude / unit::deg.to_si);
+  else if (!j.first_fits)
     brief.next = fmt::format(
         "Next: driftscope diagnose {} {} says what the first filter of the study lacks.", file,
         id.simulated ? "RECORDING" : fmt::format("{}", fmt::join(id.sources, " ")));

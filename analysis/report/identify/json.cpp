@@ -95,6 +95,15 @@ Json published_json(const mc::Published& published) {
   return out;
 }
 
+Json latitude_json(const std::optional<identification::LatitudeDoubt>& doubt) {
+  if (!doubt) return nullptr;
+  return {{"latitude_deg", doubt->latitude / unit::deg.to_si},
+          {"declared_deg", doubt->declared / unit::deg.to_si},
+          {"prior_sigmas", doubt->prior_sigmas},
+          {"chi2_per_dof_before", doubt->chi2_per_dof_before},
+          {"chi2_per_dof_after", doubt->chi2_per_dof_after}};
+}
+
 }  // namespace
 
 Json identification_document(const mc::Study& study, const identification::Identification& id) {
@@ -104,6 +113,7 @@ Json identification_document(const mc::Study& study, const identification::Ident
   out["simulated"] = id.simulated;
   out["truth_coupling"] = id.simulated ? Json(key_of(study.truth.coupling)) : Json(nullptr);
   out["sources"] = id.sources;
+  out["absent_channels"] = id.absent;  // of [readout]; the estimates are without them
   Json& filters = out["filters"] = Json::array();
   for (const identification::FilterSummary& summary : id.summaries) {
     const FilterSpec& spec = study.filters[summary.filter];
@@ -115,6 +125,8 @@ Json identification_document(const mc::Study& study, const identification::Ident
     Json& starts = f["starts"] = Json::array();
     for (const identification::FilterRun* run : id.runs_of(summary.filter))
       starts.push_back(run_json(*run));
+    f["beyond_prior"] = beyond_prior({study, id, summary});
+    f["latitude_doubt"] = latitude_json(summary.latitude_doubt);
     f["weak_directions"] = summary.weak;
     f["degeneracies"] =
         directions_json(name_degeneracies(summary.layout, spec.mounting, summary.degeneracies));

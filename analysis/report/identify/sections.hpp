@@ -8,6 +8,8 @@
 
 namespace drift::report {
 
+using identification::misfit;
+
 /// A filter and what it found.
 struct FilterView {
   const mc::Study& study;
@@ -74,8 +76,18 @@ InBrief identification_in_brief(const mc::Study& study, const identification::Id
 /// "-" where there is no ratio.
 Cell verdict_cell(double ratio);
 
-/// Five sigma of chi-square over its degrees of freedom: no right model does that.
-bool misfit(const EstimateResult& result);
+/// What is believed of a filter.
+inline const EstimateResult& judged(const FilterView& v) {
+  return identification::judged(v.spec(), *v.id.runs_of(v.summary.filter).front());
+}
+
+/// What a fit is worth by its chi-square alone: "ok" inside the 95 % band of a right model,
+/// "outside the band" beyond it, "misfit" where no right model is.
+Cell fit_cell(const EstimateResult& result);
+
+/// Keys of parameters that a filter takes further from their priors than these allow
+/// (FitLimits::beyond_prior), the farthest first.
+std::vector<std::string> beyond_prior(const FilterView& view);
 
 Json identification_document(const mc::Study& study, const identification::Identification& id);
 

@@ -53,6 +53,17 @@ std::vector<KnownDegeneracy> known_degeneracies(const Layout& layout, const Moun
            exact});
   }
   for (int i = 0; i < 3; ++i) {
+    Direction squares(layout);
+    squares.add("K0", i, 1.0);
+    for (const char* square : {"K2", "K_pp", "K_oo"}) squares.add(square, i, -1.0);  // per g^2
+    if (squares.complete())
+      all.push_back(
+          {squares.scaled(),
+           "accelerometer bias with its three square terms: a_I^2 + a_O^2 + a_P^2 = 1 g^2 in any "
+           "laboratory, so only their sum is seen",
+           exact});
+  }
+  for (int i = 0; i < 3; ++i) {
     Direction cubic(layout);
     cubic.add("K1", i, 1.0);
     cubic.add("K3", i, -1.0);  // per g^3

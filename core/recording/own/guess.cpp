@@ -7,10 +7,10 @@
 #include <cmath>
 
 #include "core/base/utf8.hpp"
-#include "core/config/node.hpp"
 #include "core/recording/line_reader.hpp"
 #include "core/recording/own/csv_cells.hpp"
 #include "core/recording/own/guess_names.hpp"
+#include "core/recording/own/guess_values.hpp"
 #include "core/recording/own/recording_unit.hpp"
 #include "core/recording/own/text_decoding.hpp"
 #include "core/recording/recording_channels.hpp"
@@ -39,7 +39,8 @@ void look_at(GuessedColumn& column, std::string_view cell) {
 }
 
 /// Goes through all rows; the lengths of the specific force in the units of the file come back.
-std::vector<double> look_at_rows(const std::string& path, GuessedFile& file) {
+std::vector<double> look_at_rows(const std::string& path, GuessedFile& file,
+                                 GuessByValues& by_values) {
   std::vector<double> lengths;
   std::array<std::size_t, 3> acc{};
   bool triple = true;
@@ -61,6 +62,7 @@ std::vector<double> look_at_rows(const std::string& path, GuessedFile& file) {
     if (cells.size() != file.columns.size()) continue;
     ++file.rows;
     for (std::size_t i = 0; i < cells.size(); ++i) look_at(file.columns[i], cells[i]);
+    by_values.look_at_row(cells);
     if (!triple) continue;
     const auto f = [&](int a) { return parse_cell(cells[acc[a]], DecimalMark::automatic).value; };
     if (const double length = std::hypot(f(0), f(1), f(2)); std::isfinite(length))
@@ -158,10 +160,6 @@ void fill_format(GuessedFile& file) {
   if (!file.format.header.empty() && file.format.columns.empty()) file.complete = false;
 }
 
-std::string quoted(const std::string& text) {
-  return config::to_toml(config::text_node(text));
-}
-
 }  // namespace
 
 /// Where the first row holds numbers there is no header: the columns are numbered.
@@ -197,41 +195,12 @@ GuessedFile guess_file(const std::string& path) {
     file.columns.push_back(std::move(column));
   }
   name_channels(file);
-  const std::string gravity = unit_of_gravity(look_at_rows(path, file));
+  GuessByValues by_values(file);
+  std::string gravity = unit_of_gravity(look_at_rows(path, file, by_values));
+  if (const std::string unit = by_values.name_channels(file); !unit.empty()) gravity = unit;
   for (GuessedColumn& c : file.columns) c.unit = unit_of(c, gravity);
   fill_format(file);
   return file;
-}
-
-std::string recording_section(const GuessedFile& file) {
-  std::string columns, positions;  // TOML keeps an inline table on one line
-  for (const GuessedColumn& c : file.columns)
-    if (!c.channel.empty())
-      columns += fmt::format(
-          "{}{} = {}", columns.empty() ? "" : ", ", c.channel,
-          quoted(c.unit.empty() ? c.header.name : fmt::format("{} [{}]", c.header.name, c.unit)));
-  const RecordingFormat& f = file.format;
-  std::string out = "[recording]\n", header;
-  for (const std::string& name : f.header)
-    header += fmt::format("{}{}", header.empty() ? "" : ", ", quoted(name));
-  if (!header.empty())
-    out += fmt::format("header  = [{}]  # name them and say below what they are\n", header);
-  if (f.delimiter == Delimiter::comma) out += "delimiter = \",\"\n";
-  out += columns.empty()
-             ? "# columns = { time = \"column_1 [s]\", gyro_x = \"column_2 [rad/s]\" }\n"
-             : fmt::format("columns = {{ {} }}\n", columns);
-  if (!f.counter.empty())
-    out += fmt::format("counter = {}\ntick    = \"{:g} us\"\nwrap    = {:.0f}\n", quoted(f.counter),
-                       1e6 * f.tick.value_or(0.0), f.wrap.value_or(0.0));
-  if (!file.counter.empty())
-    out += fmt::format(
-        "counter = {}\ntick    = \"[?]\"  # from one count to the next; wrap = where it begins "
-        "again\n",
-        quoted(file.counter));
-  for (const auto& [text, number] : file.format.positions)
-    positions += fmt::format("{}{} = {}", positions.empty() ? "" : ", ", quoted(text), number);
-  if (!positions.empty()) out += fmt::format("positions = {{ {} }}\n", positions);
-  return out;
 }
 
 }  // namespace drift

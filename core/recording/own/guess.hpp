@@ -14,7 +14,8 @@ struct GuessedColumn {
   double low = 0.0, high = 0.0;        ///< of the numbers
   std::vector<std::string> words;      ///< the first different texts, in order
   std::string channel;                 ///< the channel it may be; empty: none
-  std::string unit;  ///< of the channel; "?": not to be guessed; empty: none needed
+  std::string unit;        ///< of the channel; "?": not to be guessed; empty: none needed
+  bool by_values = false;  ///< the channel is guessed by what the column holds, not by its name
 };
 
 /// What a text file of columns may be as a recording.
@@ -33,5 +34,8 @@ GuessedFile guess_file(const std::string& path);
 
 /// The [recording] section of a study file that says so.
 std::string recording_section(const GuessedFile& file);
+
+/// What a recording needs that no column may be, and the keys that would say it; empty: nothing.
+std::string what_is_missing(const GuessedFile& file);
 
 }  // namespace drift

@@ -173,6 +173,10 @@ std::string to_text(const QualityCard& card) {
     out += fmt::format("{:<16}{:<10}{:>12}{:>12}{:>12}{:>12}{:>9}{:>8}{:>6}{}\n", q.name, q.unit,
                        digits(q.min), digits(q.max), digits(q.mean), digits(q.sd), q.missing,
                        q.stuck, q.saturated, q.covariate ? "  covariate" : "");
+  if (!card.channels.empty())
+    out +=
+        "stuck: samples in the longest run of one value; sat: runs of 3 or more at the minimum or "
+        "maximum\n";
   for (const auto& sentence : card.remarks) out += "! " + sentence + "\n";
   for (const auto& [key, value] : card.facts) {
     std::string shown = value.substr(0, 90);

@@ -2,11 +2,12 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/program.hpp"
+#include "tests/support/short_study.hpp"
 
 namespace drift::arguments_test {
 namespace {
 
-using test::Answer;
+using namespace drift::test;
 
 std::string refusal(const std::string& arguments) {
   const Answer answer = test::run_program(DRIFT_SYNTHETIC, arguments);
@@ -76,6 +77,39 @@ TEST(Arguments, EveryCommandOfTheHelpHasHelp) {
     EXPECT_EQ(own.code, 0) << command;
     expect_says(own.out, "Example: ");
   }
+}
+
+TEST(Program, CheckSaysWhichGravityIsAssumed) {
+  const ScratchFolder folder;
+  const std::string with = folder.write("with.toml", short_study);
+  const Answer assumed = driftscope("check " + with + " --set site.latitude='47 deg'");
+  ASSERT_EQ(assumed.code, 0) << assumed.err;
+  EXPECT_NE(assumed.err.find("site.gravity is not given: 9.80665 m/s^2 is assumed"),
+            std::string::npos)
+      << assumed.err;
+  const Answer given = driftscope("check " + with + " --set site.gravity='9.81 m/s^2'");
+  EXPECT_EQ(given.err.find("site.gravity"), std::string::npos) << given.err;
+}
+
+TEST(Program, AttitudesThatAreNotThePlansAreOneMessageInTheUsersNames) {
+  const ScratchFolder folder;
+  const std::string study = folder.write("s.toml", short_study), recording = folder.file("r.csv");
+  ASSERT_EQ(driftscope("simulate " + study + " -o " + recording).code, 0);
+  std::string text = text_of(recording);
+  for (const auto& [from, to] : {std::pair{"acc_z", "Beschl_3"}, std::pair{"[deg]", "[rad]"}})
+    for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += 5)
+      text.replace(at, 5, to);
+  const std::string own = folder.write("own.csv", text);
+  const std::string mapped = folder.write(
+      "m.toml", text_of(study) + "\n[recording]\ncolumns = { acc_z = \"-Beschl_3 [g]\" }\n");
+  const Answer a = driftscope("identify " + mapped + " " + own);
+  EXPECT_EQ(a.code, recording_error);
+  std::size_t errors = 0;
+  for (std::size_t at = 0; (at = a.err.find("error: ", at)) != std::string::npos; ++at) ++errors;
+  EXPECT_EQ(errors, 2u) << a.err;
+  EXPECT_NE(a.err.find("acc_z = \"Beschl_3 [g]\""), std::string::npos) << a.err;
+  EXPECT_NE(a.err.find("look like [deg], not [rad]"), std::string::npos) << a.err;
+  EXPECT_EQ(a.err.find("as in the header"), std::string::npos) << a.err;
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
+#include <initializer_list>
 
 #include "core/base/check.hpp"
 #include "core/sim/measurements.hpp"
@@ -78,9 +80,68 @@ TEST(AttitudeCheck, NamesThePositionsWhereNoMixupOfColumnsIsBehind) {
   Scene s;
   std::swap(s.plan.positions[0], s.plan.positions[2]);
   const auto wrong = s.mistakes();
-  ASSERT_GE(wrong.size(), 2u);
-  for (const RowMistake& m : wrong)
+  ASSERT_EQ(wrong.size(), 2u) << "one of each kind of instrument";
+  for (const RowMistake& m : wrong) {
     EXPECT_NE(m.text.find("the order of positions"), std::string::npos) << m.text;
+    EXPECT_NE(m.text.find("in 2 of 12 positions"), std::string::npos) << m.text;
+  }
+}
+
+/// What is said where something was done to the columns of gimbals or heading; the case turns.
+std::string said_of(const std::function<void(Scene&)>& spoil) {
+  Scene s;
+  Channel heading;
+  heading.name = "case_heading";
+  heading.unit = "rad"_unit;
+  const Timeline timeline = lay_out(s.plan, test::harbin);
+  for (std::size_t k = 0; k < timeline.intervals.size(); ++k) {
+    const auto& i = timeline.intervals[k];
+    const double turned = 0.3 + 0.2 * static_cast<double>(i.position);
+    const Vec3 phi = gimbal_angles<double>(case_attitude(turned).transpose() *
+                                           timeline.nodes[i.last_node()].R_lr);
+    heading.values.push_back(turned);
+    int a = 0;
+    for (const char* name : {"gimbal_outer", "gimbal_middle", "gimbal_inner"})
+      s.column(name)[k] = phi[a++];
+  }
+  std::erase_if(s.recording.channels, [](const Channel& c) { return c.name == "case_heading"; });
+  s.recording.channels.push_back(heading);
+  spoil(s);
+  const auto wrong = s.mistakes();
+  EXPECT_LE(wrong.size(), 1u);
+  return wrong.empty() ? "" : wrong.front().text;
+}
+
+TEST(AttitudeCheck, TriesUnitsAndHeadingsBeforeItGivesUp) {
+  const auto times = [](std::initializer_list<const char*> names, double factor) {
+    return [=](Scene& s) {
+      for (const char* name : names)
+        for (double& v : s.column(name)) v *= factor;
+    };
+  };
+  const auto expect = [](const std::string& text, const char* part) {
+    EXPECT_NE(text.find(part), std::string::npos) << text;
+  };
+  EXPECT_EQ(said_of([](Scene&) {}), "");
+  expect(said_of(times({"gimbal_outer", "gimbal_middle", "gimbal_inner"}, detail::deg)),
+         "look like [rad], not [deg]");
+  expect(said_of(times({"gimbal_outer", "gimbal_middle", "gimbal_inner"}, 1.0 / detail::deg)),
+         "look like [deg], not [rad]");
+  expect(said_of(times({"case_heading"}, -1.0)), "case_heading = \"-case_heading\"");
+  expect(said_of(times({"case_heading"}, detail::deg)),
+         "case_heading is in another unit: the numbers look like [rad], not [deg]");
+  // The gimbals are those of a case that faces North; the column is of something else.
+  expect(said_of([](Scene& s) {
+           const Timeline timeline = lay_out(s.plan, test::harbin);
+           for (std::size_t k = 0; k < timeline.intervals.size(); ++k) {
+             const Vec3 phi =
+                 gimbal_angles<double>(timeline.nodes[timeline.intervals[k].last_node()].R_lr);
+             int a = 0;
+             for (const char* name : {"gimbal_outer", "gimbal_middle", "gimbal_inner"})
+               s.column(name)[k] = phi[a++];
+           }
+         }),
+         "case_heading");
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // What a parameter of an identification is worth, told apart on identifications made by hand.
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include "analysis/report/identify/sections.hpp"
@@ -65,6 +66,63 @@ TEST(ParameterVerdict, DependsOnTheStartWhereTheStartsDisagree) {
   Fitted f;
   f.id.summaries[0].spread[5].ekf = 20.0;
   EXPECT_EQ(f.verdict(5).worth, Worth::start_dependent);
+}
+
+TEST(FitWords, TheWordOfAFitFollowsFromTheBandBesideIt) {
+  Fitted f;  // 95 % of right models with 1000 degrees of freedom are within 0.914 to 1.090
+  EstimateResult& r = f.id.runs[0].batch.estimate;
+  const auto word = [&](double statistic) {
+    r.statistic = statistic;
+    return report::fit_cell(r).text;
+  };
+  EXPECT_EQ(word(1089.0), "ok");
+  EXPECT_EQ(word(1095.0), "outside the band");
+  EXPECT_EQ(word(905.0), "outside the band");
+  // 5 sigma: sqrt(2 / 1000) times 5 is 0.2236.
+  EXPECT_EQ(word(1222.0), "outside the band");
+  EXPECT_EQ(word(1225.0), "misfit");
+  EXPECT_EQ(word(775.0), "misfit");
+  r.statistic = 1150.0;
+  const std::string said =
+      fmt::format("{}", fmt::join(report::identification_in_brief(f.study, f.id).more, "\n"));
+  EXPECT_NE(said.find("Filter corrected: chi-square per degree of freedom 1.150 is outside the 95 "
+                      "% band of a right model, 0.914 to 1.090 (so far by chance: 0.001)"),
+            std::string::npos)
+      << said;
+}
+
+TEST(FitWords, ParametersFarFromTheirPriorsAreSaid) {
+  Fitted f;
+  const auto said = [&] {
+    return fmt::format("{}", fmt::join(report::identification_in_brief(f.study, f.id).more, "\n"));
+  };
+  f.id.truth.reset();
+  f.parameter(3).value = f.parameter(3).prior_mean + 4.9 * f.parameter(3).prior_sigma;
+  EXPECT_EQ(said().find("of their prior sigmas"), std::string::npos) << said();
+  f.parameter(3).value = f.parameter(3).prior_mean - 5.1 * f.parameter(3).prior_sigma;
+  f.parameter(4).value = f.parameter(4).prior_mean + 9.0 * f.parameter(4).prior_sigma;
+  EXPECT_NE(said().find("2 parameters lie further than 5 of their prior sigmas"), std::string::npos)
+      << said();
+  EXPECT_EQ(report::beyond_prior({f.study, f.id, f.id.summaries[0]}).size(), 2u);
+  EXPECT_EQ(report::identification_in_brief(f.study, f.id).tone, report::Tone::doubtful);
+}
+
+TEST(FitWords, TheFirstSentenceSaysWhichInstrumentsWereMissing) {
+  Fitted f;
+  const auto verdict = [&] { return report::identification_in_brief(f.study, f.id).verdict; };
+  EXPECT_EQ(verdict().find("alone"), std::string::npos) << verdict();
+  f.id.absent = {"acc_x", "acc_y", "acc_z"};
+  EXPECT_NE(verdict().find("gimbal angles alone: the recording has no accelerometers (acc_x, "
+                           "acc_y, acc_z)"),
+            std::string::npos)
+      << verdict();
+  f.id.absent = {"gimbal_outer", "gimbal_middle", "gimbal_inner"};
+  EXPECT_NE(verdict().find("accelerometers alone: the recording has no gimbal angles"),
+            std::string::npos)
+      << verdict();
+  f.id.absent = {"acc_z"};
+  EXPECT_NE(verdict().find("without acc_z: the recording has no acc_z"), std::string::npos)
+      << verdict();
 }
 
 }  // namespace

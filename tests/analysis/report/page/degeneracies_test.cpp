@@ -71,6 +71,21 @@ TEST(NameDegeneracies, FindsReadableDirectionsInATurnedBasis) {
   EXPECT_EQ(reason["D_I_y + 100 K0_x"], "");
 }
 
+TEST(NameDegeneracies, KnowsTheBiasOfAnAccelerometerWithItsSquares) {
+  FilterSpec filter = testing::study().filters[0];
+  TermMask cross;
+  cross.set(TermLibrary::find_term("accelerometer_cross").value());
+  filter.active |= TermLibrary::params_of(cross);
+  const Layout l = make_layout(filter);
+  const auto named = report::name_degeneracies(
+      l, {},
+      turned_space(l, {{{"K0_x", 1.0}, {"K2_x", -1.0}, {"K_pp_x", -1.0}, {"K_oo_x", -1.0}}}));
+  ASSERT_EQ(named.size(), 1u);
+  EXPECT_EQ(named[0].combination, "K0_x - K2_x - K_pp_x - K_oo_x");
+  EXPECT_NE(named[0].reason.find("a_I^2 + a_O^2 + a_P^2 = 1 g^2"), std::string::npos)
+      << named[0].reason;
+}
+
 TEST(NameDegeneracies, KnowsTheGaugeOfTheTriads) {
   // Rotation about x of (x,y,z) triads: y tilts to z, z to -y. For gyro Y (I,O,S) = (y,z,x), z is
   // its output axis: xi_y = 1; for Z (z,x,y), y is its spin axis: eta_z = -1. Accelerometers

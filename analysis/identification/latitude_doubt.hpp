@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/recording/recording.hpp"
+#include "mc/study/study.hpp"
+
+namespace drift::identification {
+
+/// The latitude that a recording is of, if it is not that of [site].
+struct LatitudeDoubt {
+  double latitude = 0.0, declared = 0.0;  ///< [rad]
+  double prior_sigmas = 0.0;              ///< size that latitude_error would need
+  double chi2_per_dof_before = 0.0, chi2_per_dof_after = 0.0;  ///< of the filter's fit
+};
+
+/// Asks whether a wrong [site] latitude is behind a misfit: the filter is fitted again at other
+/// latitudes (the mirrored one too), along parabolas of its cost.
+///
+/// Given where it is more than three prior sigmas of latitude_error off and takes away 90 % of what
+/// the filter leaves above its degrees of freedom, or where it is on the other hemisphere and fits
+/// far better, whatever else misfits: there isotropic D_I hide most of the error. recordings: made
+/// ready (prepare()). Empty otherwise.
+std::optional<LatitudeDoubt> latitude_doubt(const mc::Study& study,
+                                            const std::vector<Recording>& recordings,
+                                            const FilterSpec& filter);
+
+}  // namespace drift::identification

@@ -1,0 +1,179 @@
+#include "core/recording/own/guess_values.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/recording/own/csv_cells.hpp"
+#include "core/recording/own/guess_names.hpp"
+#include "core/recording/own/recording_unit.hpp"
+
+namespace drift {
+namespace {
+
+/// A unit of accelerations, and the lengths of gravity in it.
+struct GravityUnit {
+  std::string_view symbol;
+  double low, high;
+};
+
+constexpr double standard_gravity = 9.80665;  // [m/s^2]
+/// In g, gravity may be that of the place or 9.80665 m/s^2, which is within the same band.
+constexpr GravityUnit gravity_in(std::string_view symbol, double per_si) {
+  return {symbol, GuessLimits::gravity_low * per_si * (1.0 - GuessLimits::scale_room),
+          GuessLimits::gravity_high * per_si * (1.0 + GuessLimits::scale_room)};
+}
+constexpr std::array gravity_units{
+    gravity_in("g", 1.0 / standard_gravity), gravity_in("m/s^2", 1.0),
+    gravity_in("mg", 1e3 / standard_gravity), gravity_in("ug", 1e6 / standard_gravity)};
+
+/// The unit that the file gives a column, if it is one.
+std::optional<Unit> stated_unit(const GuessedColumn& c) {
+  if (c.header.unit)
+    if (const auto unit = parse_recording_unit(*c.header.unit)) return unit;
+  return parse_recording_unit(guessed_unit(c.header.name));
+}
+
+bool may_be_acceleration(const GuessedColumn& c) {
+  if (!c.channel.empty()) return false;
+  const auto unit = stated_unit(c);
+  return !unit || unit->dim == "g"_unit.dim || unit->dim == "m/s^2"_unit.dim;
+}
+
+/// A name without what numbers the axis: "Beschl_1" and "Beschl_2" have one stem.
+std::string stem_of(const GuessedColumn& c) {
+  std::string name = lower_case(c.header.name);
+  if (!name.empty()) name.pop_back();
+  return name;
+}
+
+bool may_be_heading(std::string_view name) {
+  const std::string word = lower_case(name);
+  constexpr std::string_view parts[] = {"head", "azim", "sockel",   "kurs",  "fundament",
+                                        "base", "case", "pedestal", "table", "tisch"};
+  return std::ranges::any_of(parts, [&](auto p) { return word.find(p) != std::string::npos; });
+}
+
+double number_in(std::string_view cell) {
+  const ParsedCell parsed = parse_cell(cell, DecimalMark::automatic);
+  return parsed.kind == ParsedCell::Kind::number ? parsed.value : std::nan("");
+}
+
+}  // namespace
+
+GuessByValues::GuessByValues(const GuessedFile& file) {
+  const auto& all = file.columns;
+  const bool has_acc = std::ranges::any_of(
+      all, [](const GuessedColumn& c) { return c.channel.starts_with("acc_"); });
+  std::vector<std::size_t> free;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!has_acc && may_be_acceleration(all[i])) free.push_back(i);
+    const auto unit = stated_unit(all[i]);
+    const bool gimbal = all[i].channel.starts_with("gimbal_");
+    if (unit && unit->dim == "rad"_unit.dim && (gimbal || all[i].channel.empty()))
+      (gimbal ? gimbals_ : angles_).push_back({.column = i, .to_rad = unit->to_si});
+    if (all[i].channel != "position") continue;
+    position_ = i;
+    has_position_ = true;
+  }
+  const auto add = [&](std::array<std::size_t, 3> columns) {
+    if (std::ranges::find(triples_, columns, &Triple::columns) == triples_.end())
+      triples_.push_back({.columns = columns});
+  };
+  // Names first: of raw and corrected columns side by side, three that are adjacent may be a mix.
+  for (const std::size_t i : free) {
+    std::vector<std::size_t> same;
+    for (const std::size_t k : free)
+      if (stem_of(all[k]) == stem_of(all[i])) same.push_back(k);
+    if (same.size() == 3) add({same[0], same[1], same[2]});
+  }
+  for (std::size_t i = 0; i + 2 < free.size(); ++i)
+    if (free[i + 2] == free[i] + 2) add({free[i], free[i] + 1, free[i] + 2});
+}
+
+void GuessByValues::begin_position() {
+  ++positions_;
+  for (auto* list : {&angles_, &gimbals_})
+    for (Angle& a : *list) {
+      a.low = HUGE_VAL;
+      a.high = -HUGE_VAL;
+    }
+}
+
+void GuessByValues::look_at_row(const std::vector<std::string_view>& cells) {
+  for (Triple& t : triples_) {
+    std::array<double, 3> f{};
+    for (std::size_t a = 0; a < 3; ++a) f[a] = number_in(cells[t.columns[a]]);
+    const double length = std::hypot(f[0], f[1], f[2]);
+    if (!std::isfinite(length)) continue;
+    ++t.rows;
+    for (std::size_t a = 0; a < 3; ++a) t.whole[a] = t.whole[a] && f[a] == std::round(f[a]);
+    for (std::size_t u = 0; u < gravity_units.size(); ++u)
+      if (length >= gravity_units[u].low && length <= gravity_units[u].high) ++t.as_unit[u];
+  }
+  if (!has_position_) return;
+  if (positions_ == 0 || cells[position_] != here_) begin_position();
+  here_ = cells[position_];
+  for (auto* list : {&angles_, &gimbals_})
+    for (Angle& a : *list) {
+      const double x = number_in(cells[a.column]) * a.to_rad;
+      a.missing += std::isfinite(x) ? 0 : 1;
+      if (!std::isfinite(x)) continue;
+      ++a.rows;
+      a.low = std::min(a.low, x);
+      a.high = std::max(a.high, x);
+      a.farthest = std::max(a.farthest, a.high - a.low);
+    }
+}
+
+bool GuessByValues::likely(const GuessedFile& file, const Triple& t) const {
+  bool stated = true, moved = false;
+  for (const std::size_t i : t.columns) {
+    const GuessedColumn& c = file.columns[i];
+    stated = stated && stated_unit(c);
+    moved = moved || c.high - c.low > 2.0 * GuessLimits::scale_room * std::max(-c.low, c.high);
+  }
+  // Flags of which one is 1 have the length 1, too.
+  return 2 * t.rows > file.rows &&
+         (stated || (moved && std::ranges::none_of(t.whole, [](bool w) { return w; })));
+}
+
+std::string GuessByValues::name_channels(GuessedFile& file) {
+  std::string unit;
+  for (const Triple& t : triples_) {
+    const auto most = std::ranges::max_element(t.as_unit);
+    if (!unit.empty() || !likely(file, t) ||
+        static_cast<double>(*most) < GuessLimits::most_rows * static_cast<double>(t.rows))
+      continue;
+    unit = gravity_units[static_cast<std::size_t>(most - t.as_unit.begin())].symbol;
+    for (std::size_t a = 0; a < 3; ++a) {
+      GuessedColumn& c = file.columns[t.columns[a]];
+      c.channel = fmt::format("acc_{}", "xyz"[a]);
+      c.by_values = true;
+    }
+  }
+  const bool moving =
+      std::ranges::any_of(gimbals_, [](const Angle& a) { return a.farthest > GuessLimits::held; });
+  std::vector<std::size_t> held, called;
+  for (const Angle& a : angles_) {
+    const GuessedColumn& c = file.columns[a.column];
+    if (!moving || positions_ < 2 || a.missing > 0 || a.farthest > GuessLimits::held ||
+        !(c.high > c.low) || !c.channel.empty())
+      continue;
+    held.push_back(a.column);
+    if (may_be_heading(c.header.name)) called.push_back(a.column);
+  }
+  // Several are held where the nominal attitude is written down: then a name must tell.
+  const std::vector<std::size_t>& of = held.size() == 1 ? held : called;
+  const bool taken = std::ranges::find(file.columns, "case_heading", &GuessedColumn::channel) !=
+                     file.columns.end();
+  if (of.size() == 1 && !taken) {
+    file.columns[of.front()].channel = "case_heading";
+    file.columns[of.front()].by_values = true;
+  }
+  return unit;
+}
+
+}  // namespace drift
