@@ -49,11 +49,12 @@ Theta with_defaults(const TermInfo& term, const FilterSpec& nominal, Theta theta
 /// one: its linear, its quadratic and its cubic part.
 enum class Kinds { offered, left_out };
 
-/// Sets of parameters that may be missing together. whole: all of them, however many.
-/// kinds: of sensors whose data sheets allow much, a part must not bring in all of its term: sizes
-/// that the data do not show would be carried into predictions.
+/// Sets of parameters that may be missing together; all of them, however many: whoever leaves a
+/// term out does not know that it is needed. kinds: of sensors whose data sheets allow much, a part
+/// must not bring in all of its term: sizes that the data do not show would be carried into
+/// predictions.
 std::vector<std::vector<std::size_t>> subsets_of(const std::vector<std::size_t>& missing,
-                                                 bool whole, Kinds kinds) {
+                                                 Kinds kinds) {
   constexpr std::size_t most = 9;  // parameters of one candidate
   std::vector<std::vector<std::size_t>> sets;
   const auto add = [&](const std::vector<std::size_t>& set) {
@@ -167,10 +168,8 @@ CandidateSet library_candidates(const FilterSpec& nominal, const Theta& theta,
         for (const auto& [param, value] : s) spec.theta[param] = value;
         out.signatures.push_back(spec);
       }
-    // A base term is left out by whoever does not know that it is needed: then all of it is
-    // missing.
     for (const auto& set :
-         subsets_of(missing, is_base(term), timeline.of_case ? Kinds::offered : Kinds::left_out)) {
+         subsets_of(missing, timeline.of_case ? Kinds::offered : Kinds::left_out)) {
       Candidate c{std::string(term.key), common_axis(set), label_of(term, set, missing), set, {}};
       for (std::size_t v = 0; v < settings.size(); ++v) {
         Variant variant{{}, settings[v]};
