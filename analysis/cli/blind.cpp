@@ -101,9 +101,11 @@ ExitCode blind(const StudyArguments& arguments, const BlindArguments& given) {
   if (given.trials) all.sets.push_back("blind.trials=" + *given.trials);
   const std::string& folder = given.folder;
   const mc::WorkSession session = given.sharing.session(arguments.threads);
-  given.sharing.require_part("Add --worker auto");
+  given.sharing.require_part(
+      "Start it once, or add --worker auto (srun) or a --worker i/n of its own to each");
   const mc::Study study = all.read();
   require_results_folder({folder, "blind"});
+  require_results_folder({given.others.export_to, "blind"});  // before hours of work for it
   blind::open_trials(study, folder);
   const mc::WorkerLock lock(blind::worker_of_trials(folder, session.share.index),
                             mc::worker_patience);

@@ -13,8 +13,8 @@ namespace {
 ExitCode convert(const StudyArguments& arguments, const std::string& recording,
                  const std::string& output) {
   const mc::Study study = arguments.read();
-  require_output_file(output, {study.path, recording}, [](const std::string& path) -> std::string {
-    return is_made_here(path) ? "" : "no recording that driftscope made";
+  require_output_file(output, {study.path, recording}, [&](const std::string& path) {
+    return not_made_here(path, utf8_text(recording));
   });
   Recording r = in_canonical_units(
       read_recording(recording, study.recording, study.kind, study.site.gravity));

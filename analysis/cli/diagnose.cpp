@@ -10,6 +10,7 @@
 #include "analysis/cli/print.hpp"
 #include "analysis/cli/progress.hpp"
 #include "analysis/cli/read_recordings.hpp"
+#include "analysis/cli/sharing.hpp"
 #include "analysis/diagnosis/diagnose_recordings.hpp"
 #include "analysis/report/diagnosis/report.hpp"
 #include "analysis/report/noise/noise.hpp"
@@ -101,6 +102,7 @@ ExitCode diagnose(const StudyArguments& arguments, const std::vector<std::string
                      "--advise: a strapdown study has no positions to add (expected a platform "
                      "study). Leave it out; "
                      "more turns about more axes are what helps");
+  if (!folder.empty()) require_one_task("Start it once");
   require_results_folder({folder, "diagnose"}, with(paths, study.path));
   const mc::ThreadCount threads(arguments.threads);
   return study.kind == RecordingKind::strapdown

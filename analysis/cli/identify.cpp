@@ -7,6 +7,7 @@
 #include "analysis/cli/print.hpp"
 #include "analysis/cli/progress.hpp"
 #include "analysis/cli/read_recordings.hpp"
+#include "analysis/cli/sharing.hpp"
 #include "analysis/report/identify/report.hpp"
 #include "analysis/report/strapdown/case_report.hpp"
 #include "core/base/results/folder.hpp"
@@ -35,6 +36,7 @@ ExitCode identify_case(const mc::Study& study, const std::vector<std::string>& p
 ExitCode identify(const StudyArguments& arguments, const std::vector<std::string>& paths,
                   const std::string& folder, std::uint64_t run) {
   const mc::Study study = arguments.read();
+  if (!folder.empty()) require_one_task("Start it once");
   require_results_folder({folder, "identify"}, with(paths, study.path));
   if (study.kind == RecordingKind::strapdown) return identify_case(study, paths, folder);
   const auto progress = progress_reporter(arguments.progress, "estimates");

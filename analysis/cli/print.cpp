@@ -19,6 +19,28 @@ Terminal& the_terminal() {
   return terminal;
 }
 
+/// Arguments that hold line ends or other control characters: names of files, mostly.
+std::vector<std::string>& steering_arguments() {
+  static std::vector<std::string> names;
+  return names;
+}
+
+/// A text in which those names stand as on one line.
+std::string with_plain_names(std::string_view text) {
+  std::string out(text);
+  for (const std::string& name : steering_arguments()) {
+    const std::string plain = text_of_name(name);
+    for (std::size_t at = 0; (at = out.find(name, at)) != std::string::npos; at += plain.size())
+      out.replace(at, name.size(), plain);
+  }
+  return out;
+}
+
+/// What is printed of a text.
+std::string printed(std::string_view text) {
+  return terminal_text(steering_arguments().empty() ? std::string(text) : with_plain_names(text));
+}
+
 volatile std::sig_atomic_t open_line = 0;  // a signal handler reaches nothing but globals
 
 void end_open_line() {
@@ -39,6 +61,17 @@ void set_terminal(const Terminal& terminal) {
   the_terminal() = terminal;
 }
 
+void set_arguments(std::span<char* const> arguments) {
+  for (const std::string_view argument : arguments)
+    // One of nothing but a line end would take all lines apart.
+    if (text_of_name(argument) != argument &&
+        argument.find_first_not_of("\n\t ") != argument.npos) {
+      const std::size_t value = argument.starts_with("--") ? argument.find('=') : argument.npos;
+      steering_arguments().emplace_back(value == argument.npos ? argument
+                                                               : argument.substr(value + 1));
+    }
+}
+
 const Terminal& terminal() {
   return the_terminal();
 }
@@ -54,7 +87,7 @@ std::sig_atomic_t line_is_open() {
 }
 
 void show_text(std::string_view text) {
-  write_results(terminal_text(text));
+  write_results(printed(text));
 }
 
 void show_verdicts(std::string_view text) {
@@ -62,7 +95,7 @@ void show_verdicts(std::string_view text) {
 }
 
 void show_judgement(std::string_view text, report::Tone tone) {
-  const std::string shown = terminal_text(text);
+  const std::string shown = printed(text);
   write_results(the_terminal().colour == Terminal::Shown::yes ? with_coloured_judgement(shown, tone)
                                                               : shown);
 }
@@ -75,8 +108,7 @@ void complain_text(std::string_view text) {
   constexpr std::size_t longest = 3000;  // [bytes] of a line
   // A line that is redrawn begins with a return, which is the program's own.
   const bool redrawn = text.starts_with('\r');
-  const std::string shown =
-      shortened_lines(terminal_text(redrawn ? text.substr(1) : text), longest);
+  const std::string shown = shortened_lines(printed(redrawn ? text.substr(1) : text), longest);
   if (redrawn)
     std::fputc('\r', stderr);
   else

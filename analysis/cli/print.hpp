@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <csignal>
+#include <span>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -24,6 +25,9 @@ struct Terminal {
   Shown colour = Shown::no;    ///< of verdicts
   Shown details = Shown::no;   ///< what --full asks for, behind the answer
 };
+
+/// The command line, whose names of files are printed as on one line, whatever is in them.
+void set_arguments(std::span<char* const> arguments);
 
 /// Set once, before a command runs.
 void set_terminal(const Terminal& terminal);

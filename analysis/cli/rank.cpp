@@ -58,6 +58,11 @@ void say_stopped(const std::string& folder) {
 
 ExitCode rank(const StudyArguments& arguments, const RankArguments& options) {
   const mc::Study study = arguments.read();
+  if (options.improve > 0 || !options.folder.empty())
+    options.sharing.require_part(
+        options.improve > 0 ? "Start it once, or add -o DIR and --worker auto (srun) or a --worker "
+                              "i/n of its own to each"
+                            : "Start it once");
   require_results_folder({options.folder, "rank"}, {study.path});
   if (!study.sweep.empty())
     say("note: the values of {} in [sweep] are not ranked, those above it are. Rank them "
@@ -72,7 +77,6 @@ ExitCode rank(const StudyArguments& arguments, const RankArguments& options) {
   std::unique_ptr<planning::SharedSteps> shared;
   std::optional<StopAtOnce> stop;
   if (is_shared(options)) {
-    options.sharing.require_part("Add --worker auto");
     planning::criterion_of(study, options.criterion);  // before anything is written
     shared = shared_steps(study, options, arguments.threads);
     stop.emplace(fmt::format(

@@ -22,13 +22,18 @@ mc::WorkSession Sharing::session(int threads) const {
 }
 
 void Sharing::require_part(const std::string& advice) const {
-  const std::size_t tasks = mc::tasks_of_step(mc::process_variable);
-  if (tasks <= 1 || !worker.empty()) return;
+  if (worker.empty()) require_one_task(advice);
+}
+
+void require_one_task(const std::string& advice) {
+  const mc::Launch launch = mc::launch_of(mc::process_variable);
+  if (launch.tasks <= 1) return;
   throw InputError(
       ExitCode::usage,
-      fmt::format("srun has started {} tasks that know nothing of each other: each would do the "
-                  "whole study (expected one task, MPI, or a part for each). {}",
-                  tasks, advice));
+      fmt::format("{} has started {} tasks that know nothing of each other: each would do the "
+                  "whole study (expected one task, MPI, or a part for each). {}; where each task "
+                  "has work of its own, start it with `env -u {}`",
+                  launch.by, launch.tasks, advice, launch.variable));
 }
 
 void add_sharing(CLI::App& app, Sharing& sharing) {

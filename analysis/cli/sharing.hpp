@@ -19,10 +19,13 @@ struct Sharing {
   /// One that begins at this moment.
   mc::WorkSession session(int threads) const;
   bool is_asked_for() const { return !worker.empty() || !max_wall.empty(); }
-  /// InputError (usage) if `srun` has started several processes that would each do everything;
-  /// `advice` says what to do.
+  /// Where no part is asked for, as require_one_task().
   void require_part(const std::string& advice) const;
 };
+
+/// InputError (usage) if a launcher (srun, mpirun) has started several processes of this program
+/// that would each do everything; `advice` says what to do.
+void require_one_task(const std::string& advice);
 
 /// --worker and --max-wall.
 void add_sharing(CLI::App& app, Sharing& sharing);

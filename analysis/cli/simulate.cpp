@@ -36,9 +36,8 @@ ExitCode simulate(const StudyArguments& arguments, const std::string& output, st
         fmt::format("{}: the loop of [truth] is fed back from a filter, so there is no recording "
                     "without one. Use `driftscope identify`, or truth.loop.estimate = \"given\"",
                     study.path));
-  require_output_file(output, {study.path}, [](const std::string& path) -> std::string {
-    return is_made_here(path) ? "" : "no recording that driftscope made";
-  });
+  require_output_file(output, {study.path},
+                      [](const std::string& path) { return not_made_here(path); });
   Timeline timeline = lay_out(study.plan, study.site);
   set_loop(timeline, study.truth);
   set_environment(timeline, study.environment, study.monte_carlo.seed, run);

@@ -10,6 +10,7 @@
 #include <filesystem>
 
 #include "core/base/check.hpp"
+#include "core/base/results/regular_file.hpp"
 #include "core/base/temporary_file.hpp"
 
 namespace drift {
@@ -30,23 +31,9 @@ namespace fs = std::filesystem;
 /// Empty if it can.
 std::string in_the_way(const std::string& path) {
   std::error_code error;
-  switch (fs::symlink_status(path, error).type()) {
-    case fs::file_type::none:
-      return error.message();
-    case fs::file_type::directory:
-      return "it is a directory";
-    case fs::file_type::block:
-    case fs::file_type::character:
-      return "it is a device";
-    case fs::file_type::fifo:
-      return "it is a pipe";
-    case fs::file_type::socket:
-      return "it is a socket";
-    case fs::file_type::symlink:
-      return "it is a symbolic link";
-    default:
-      return {};
-  }
+  if (fs::symlink_status(path, error).type() == fs::file_type::none) return error.message();
+  const std::string what = other_than_file(path);
+  return what.empty() ? "" : "it is " + what;
 }
 
 std::string folder_of(const std::string& path) {

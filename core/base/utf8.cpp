@@ -84,6 +84,15 @@ std::string terminal_text(std::string_view bytes) {
   return shown(bytes, Steering::shown);
 }
 
+std::string text_of_name(std::string_view name) {
+  std::string out;
+  for (const char c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    out += byte < 0x20 || byte == 0x7F ? fmt::format("\\x{:02x}", byte) : std::string(1, c);
+  }
+  return out;
+}
+
 std::string shortened_lines(std::string_view text, std::size_t longest) {
   std::string out;
   while (!text.empty()) {

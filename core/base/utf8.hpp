@@ -21,6 +21,10 @@ std::string utf8_text(std::string_view bytes);
 /// but line ends and tabs, directions of writing) becomes \xNN or \uNNNN.
 std::string terminal_text(std::string_view bytes);
 
+/// The name of a file within a message of one line: all control characters as \xNN, line ends and
+/// tabs too.
+std::string text_of_name(std::string_view name);
+
 /// Every line of a text at most `longest` bytes long: the middle of a longer one is left out, and
 /// said how much.
 std::string shortened_lines(std::string_view text, std::size_t longest);

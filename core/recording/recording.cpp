@@ -9,6 +9,7 @@
 
 #include "core/base/atomic_file.hpp"
 #include "core/base/check.hpp"
+#include "core/base/seal.hpp"
 #include "core/base/sha256.hpp"
 #include "core/recording/line_reader.hpp"
 #include "core/recording/own/columns.hpp"
@@ -117,6 +118,31 @@ Facts plain_facts(const Recording& recording, const std::string& path) {
   return std::move(raw.facts);
 }
 
+/// The facts of a recording that is there; of a text file those above its rows.
+Facts facts_of(const std::string& path) {
+  Problems ignored(path);
+  RawRecording raw;
+  const std::string extension = extension_of(path);
+  if (extension == ".csv") {
+    LineReader lines(path);
+    for (std::string_view line; lines.next(line) && line.starts_with("# ");)
+      if (const std::size_t at = line.find(" = "); at != std::string_view::npos)
+        add_fact(raw, line.substr(2, at - 2), line.substr(at + 3));
+  }
+  if (extension == ".h5" || extension == ".hdf5") raw = read_isolated(path, ignored, read_hdf5);
+  if (extension == ".mat") raw = read_isolated(path, ignored, read_mat);
+  return std::move(raw.facts);
+}
+
+/// Completes a recording of ours by the digest that tells whether it was changed later.
+void seal(const std::string& file, const std::string& path, const std::string& extension) {
+  // What follows the end of an HDF5 file is left alone by all readers; the others have a place.
+  if (extension == ".h5" || extension == ".hdf5")
+    append_seal(file, path);
+  else
+    close_seal(file, path);
+}
+
 }  // namespace
 
 Recording read_recording(const std::string& path, const RecordingFormat& format, RecordingKind kind,
@@ -166,6 +192,7 @@ void write_recording_to(const Recording& recording, const std::string& path,
   // matio overlooks failures that its reader overlooks too, but not the same one twice.
   if (wrong.empty() && mat) wrong = other_when_written_again(recording, facts, temporary);
   if (!wrong.empty()) throw_cannot_write(path, wrong);
+  if (!facts.empty() && facts.front().first == made_here) seal(temporary, path, extension);
 }
 
 void write_recording(const Recording& recording, const std::string& path) {
@@ -174,17 +201,19 @@ void write_recording(const Recording& recording, const std::string& path) {
   file.commit();
 }
 
-bool is_made_here(const std::string& path) {
-  Problems ignored(path);
-  RawRecording raw;
-  const std::string extension = extension_of(path);
-  if (extension == ".csv") {
-    std::string_view line;
-    return LineReader(path).next(line) && line.starts_with(fmt::format("# {} = ", made_here));
-  }
-  if (extension == ".h5" || extension == ".hdf5") raw = read_isolated(path, ignored, read_hdf5);
-  if (extension == ".mat") raw = read_isolated(path, ignored, read_mat);
-  return !raw.facts.empty() && raw.facts.front().first == made_here;
+std::string not_made_here(const std::string& path, const std::string& converted_from) {
+  const Facts facts = facts_of(path);
+  const auto fact = [&](std::string_view key) {
+    const auto at = std::ranges::find(facts, key, &Facts::value_type::first);
+    return at == facts.end() ? std::string() : at->second;
+  };
+  if (facts.empty() || facts.front().first != made_here) return "no recording that driftscope made";
+  const std::string from = fact("converted_from");
+  if (from != single_line(converted_from))
+    return from.empty() ? "no recording that was converted"
+                        : "a recording that was converted from " + from;
+  if (from.empty() && fact("run").empty()) return "no recording that `simulate` made";
+  return seal_holds(path) ? "" : seal_broken;
 }
 
 }  // namespace drift

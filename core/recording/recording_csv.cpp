@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/base/seal.hpp"
 #include "core/recording/own/csv_rows.hpp"
 
 namespace drift {
@@ -11,6 +12,7 @@ namespace drift {
 bool add_fact(RawRecording& raw, std::string_view key, std::string_view value) {
   if (key.size() + value.size() > longest_fact) return false;
   const std::string clean = single_line(key), text = single_line(value);
+  if (clean == seal_key) return true;  // of the file that was read, not of its content
   for (auto& [known, joined] : raw.facts)
     if (known == clean) {
       if (joined.size() + text.size() + 2 > longest_fact) return false;

@@ -7,8 +7,10 @@
 #include <cstring>
 #include <memory>
 
+#include "core/base/seal.hpp"
 #include "core/recording/recording_channels.hpp"
 #include "core/recording/recording_csv.hpp"
+#include "core/recording/recording_output.hpp"
 
 namespace drift {
 namespace {
@@ -47,7 +49,11 @@ std::string write_csv(const Recording& recording, const Facts& facts, const std:
     out.clear();
     return done;
   };
-  for (const auto& [key, value] : facts) out += fmt::format("# {} = {}\n", key, value);
+  for (const auto& [key, value] : facts) {
+    out += fmt::format("# {} = {}\n", key, value);
+    if (&key == &facts.front().first && key == made_here)
+      out += fmt::format("# {} = {}\n", seal_key, open_seal());
+  }
   for (const auto& c : recording.channels) {
     if (&c != &recording.channels.front()) out += ',';
     out += c.name;

@@ -3,8 +3,10 @@
 #include <memory>
 #include <vector>
 
+#include "core/base/seal.hpp"
 #include "core/recording/recording_channels.hpp"
 #include "core/recording/recording_mat.hpp"
+#include "core/recording/recording_output.hpp"
 
 namespace drift {
 namespace {
@@ -44,8 +46,11 @@ std::string write_mat(const Recording& recording, const Facts& facts, const std:
   if (recording.rows() > (std::size_t{1} << 28) - 64)
     return "a variable of a MATLAB v5 file ends at 2 GB; write .h5 or .csv";
   // A header of our own: matio's holds the date, and the same recording should give the same bytes.
-  mat_t* const file =
-      Mat_CreateVer(path.c_str(), "MATLAB 5.0 MAT-file, driftscope recording", MAT_FT_MAT5);
+  const bool ours = !facts.empty() && facts.front().first == made_here;
+  const std::string header =
+      fmt::format("MATLAB 5.0 MAT-file, {}",
+                  ours ? fmt::format("{}={}", seal_key, open_seal()) : "driftscope recording");
+  mat_t* const file = Mat_CreateVer(path.c_str(), header.c_str(), MAT_FT_MAT5);
   if (file == nullptr) return "the file cannot be created";
   std::string wrong, lines;
   std::vector<double> values(recording.rows());

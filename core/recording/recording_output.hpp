@@ -15,7 +15,9 @@ void write_recording_to(const Recording& recording, const std::string& path,
 /// The first fact of every recording that driftscope makes.
 inline constexpr std::string_view made_here = "driftscope recording";
 
-/// Whether a file is a recording that driftscope made: it begins with that fact.
-bool is_made_here(const std::string& path);
+/// Why a file is not to be replaced by a recording converted from another, or by a simulated one
+/// (nothing given): it is no recording of that origin, or was changed since. In the words of a
+/// message; empty if it may be replaced.
+std::string not_made_here(const std::string& path, const std::string& converted_from = {});
 
 }  // namespace drift

@@ -41,6 +41,12 @@ constexpr ArrayVariables systems[] = {
     {"PBS_ARRAYID", nullptr, nullptr, nullptr},
 };
 
+/// How many tasks `srun` has started of this program; 1 where it has not.
+std::size_t tasks_of_step(const ProcessVariables& environment) {
+  const auto text = environment("SLURM_STEP_NUM_TASKS");
+  return text ? whole_number(*text).value_or(1) : 1;
+}
+
 }  // namespace
 
 std::optional<std::string> process_variable(const std::string& name) {
@@ -48,9 +54,18 @@ std::optional<std::string> process_variable(const std::string& name) {
   return value == nullptr ? std::nullopt : std::optional<std::string>(value);
 }
 
-std::size_t tasks_of_step(const ProcessVariables& environment) {
-  const auto text = environment("SLURM_STEP_NUM_TASKS");
-  return text ? whole_number(*text).value_or(1) : 1;
+Launch launch_of(const ProcessVariables& environment) {
+  // mpirun within a job of Slurm is started by srun on each machine: what it says itself comes
+  // first.
+  constexpr Launch launchers[] = {{1, "mpirun", "OMPI_COMM_WORLD_SIZE"},
+                                  {1, "srun", "SLURM_STEP_NUM_TASKS"},
+                                  {1, "mpiexec", "PMI_SIZE"}};
+  for (Launch launch : launchers)
+    if (const auto text = environment(launch.variable)) {
+      launch.tasks = whole_number(*text).value_or(1);
+      if (launch.tasks > 1) return launch;
+    }
+  return {};
 }
 
 WorkerShare share_of_batch_system(std::string_view text, const ProcessVariables& environment) {

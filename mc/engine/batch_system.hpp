@@ -18,7 +18,12 @@ std::optional<std::string> process_variable(const std::string& name);
 /// there are (PBS) or only some are started again. InputError (usage) where nothing says it.
 WorkerShare share_of_batch_system(std::string_view text, const ProcessVariables& environment);
 
-/// How many tasks `srun` has started of this program; 1 where it has not.
-std::size_t tasks_of_step(const ProcessVariables& environment);
+/// How many tasks of this program a launcher has started, by what the launcher tells them.
+struct Launch {
+  std::size_t tasks = 1;  ///< 1 without one
+  const char* by = "";    ///< "srun", "mpirun"
+  const char* variable = "";
+};
+Launch launch_of(const ProcessVariables& environment);
 
 }  // namespace drift::mc

@@ -8,6 +8,7 @@
 
 #include "core/base/atomic_file.hpp"
 #include "core/base/nan.hpp"
+#include "core/base/seal.hpp"
 #include "core/recording/hdf5_handle.hpp"
 #include "mc/export/export_table.hpp"
 #include "mc/export/export_text.hpp"
@@ -230,6 +231,7 @@ std::vector<std::string> export_hdf5(StudyReader& reader, const StopRules& rules
   } catch (const Hdf5Output::Refused&) {
     throw_cannot_write(path, "HDF5 cannot complete the file, or it does not read back as written");
   }
+  append_seal(target.temporary(), path);  // HDF5 leaves what follows its end alone
   target.commit();
   return groups;
 }

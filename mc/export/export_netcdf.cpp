@@ -4,6 +4,7 @@
 
 #include "core/base/atomic_file.hpp"
 #include "core/base/nan.hpp"
+#include "core/base/seal.hpp"
 #include "mc/export/export_table.hpp"
 #include "mc/export/export_text.hpp"
 #include "mc/export/named_axes.hpp"
@@ -214,6 +215,7 @@ void export_netcdf(StudyReader& reader, const StopRules& rules, const std::strin
   } catch (const Hdf5Output::Refused&) {
     throw_cannot_write(path, "HDF5 cannot complete the file, or it does not read back as written");
   }
+  append_seal(target.temporary(), path);  // HDF5 leaves what follows its end alone
   target.commit();
 }
 

@@ -11,6 +11,7 @@
 
 #include "core/base/atomic_file.hpp"
 #include "core/base/check.hpp"
+#include "core/base/seal.hpp"
 #include "core/base/sha256.hpp"
 
 namespace drift::mc {
@@ -36,6 +37,7 @@ class TextOut {
   void commit() {
     if (std::fclose(std::exchange(file_, nullptr)) != 0)
       throw_cannot_write(path_, std::strerror(errno));
+    close_seal(target_.temporary(), path_);
     target_.commit();
   }
 
@@ -44,6 +46,13 @@ class TextOut {
   AtomicFile target_;
   std::FILE* file_;
 };
+
+/// Facts of an export in text, with the place of its digest near the top.
+Facts sealed_provenance(StudyReader& reader) {
+  Facts facts = provenance_of(reader);
+  facts.insert(facts.begin() + 1, {std::string(seal_key), open_seal()});
+  return facts;
+}
 
 /// A field of CSV; what a spreadsheet would take for a formula is made plain text.
 std::string csv_field(std::string text) {
@@ -120,7 +129,7 @@ void export_csv(StudyReader& reader, const StopRules& rules, const std::string& 
       to[p].push_back(at->second);
     }
   TextOut out(path);
-  for (const auto& [key, value] : provenance_of(reader)) {
+  for (const auto& [key, value] : sealed_provenance(reader)) {
     std::string text =
         key == "study" ? value : one_line(value);  // the study stays readable, line by line
     for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos;)
@@ -161,7 +170,7 @@ void export_json(StudyReader& reader, const StopRules& rules, const std::string&
   const auto& points = reader.manifest().points;
   TextOut out(path);
   nlohmann::ordered_json facts;
-  for (const auto& [key, value] : provenance_of(reader)) facts[key] = value;
+  for (const auto& [key, value] : sealed_provenance(reader)) facts[key] = value;
   out.put("{\"provenance\": " + facts.dump(1) + ",\n\"points\": [");
   for (std::size_t p = 0; p < points.size(); ++p) {
     const auto& columns = points[p].columns;

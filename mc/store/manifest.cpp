@@ -16,6 +16,7 @@
 #include "core/base/check.hpp"
 #include "core/base/file_text.hpp"
 #include "core/base/json_number.hpp"
+#include "core/base/results/regular_file.hpp"
 #include "core/base/rng.hpp"
 #include "core/base/sha256.hpp"
 #include "mc/store/text_difference.hpp"
@@ -221,6 +222,7 @@ void note_finished(const std::string& folder, std::uint64_t runs) {
 
 Manifest read_manifest(const std::string& folder) {
   const std::string path = folder + "/manifest.json";
+  require_regular_file_of_ours(path);
   errno = 0;
   const auto text = file_text(path);
   if (!text && errno != ENOENT && errno != ENOTDIR)

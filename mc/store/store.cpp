@@ -196,6 +196,7 @@ WorkerStore::WorkerStore(const std::string& folder, std::size_t worker, const Ma
         fmt::format("{}: this file system has no locks; every worker's file is opened without "
                     "them, and kept for one process by worker-*.holder.lock",
                     folder));
+  require_worker_file(path_);  // what is no file is not set aside as a damaged one
   try {
     writer_ = std::make_unique<Writer>(path_, manifest_, lock_.locks());
     if (writer_->removed() > 0)

@@ -15,6 +15,8 @@ namespace drift::mc {
 
 /// "folder/worker-0003.sqlite"
 std::string worker_path(const std::string& folder, std::size_t worker);
+/// InputError if one of its files is no file (store) or cannot be read (io).
+void require_worker_file(const std::string& path);
 /// All worker files of a folder, in order of their numbers.
 std::vector<std::string> worker_files(const std::string& folder);
 

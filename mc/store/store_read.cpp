@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/check.hpp"
+#include "core/base/results/regular_file.hpp"
 #include "mc/store/settle.hpp"
 #include "mc/store/store.hpp"
 
@@ -21,6 +22,10 @@ const std::string& settled(const std::string& path, Database::Use use, Locks loc
 
 std::string worker_path(const std::string& folder, std::size_t worker) {
   return fmt::format("{}/worker-{:04}.sqlite", folder, worker);
+}
+
+void require_worker_file(const std::string& path) {
+  for (const char* beside : {"", "-journal", "-wal"}) require_regular_file_of_ours(path + beside);
 }
 
 std::vector<std::string> worker_files(const std::string& folder) {

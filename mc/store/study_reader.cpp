@@ -24,6 +24,7 @@ void StudyReader::note(std::string text) {
 void StudyReader::refresh() {
   paths_ = worker_files(folder_);
   for (const std::string& path : paths_) {
+    require_worker_file(path);
     try {
       Source& source = sources_[path];
       if (!source.file)

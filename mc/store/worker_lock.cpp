@@ -17,6 +17,7 @@
 #include "core/base/atomic_file.hpp"
 #include "core/base/check.hpp"
 #include "core/base/process_token.hpp"
+#include "core/base/results/regular_file.hpp"
 #include "core/base/temporary_file.hpp"
 #include "mc/store/provenance.hpp"
 
@@ -41,6 +42,7 @@ int tries_in(double patience) {
 /// What a holder's file says; empty if there is none.
 std::string text_in(const std::string& path) {
   std::ostringstream text;
+  if (!other_than_file(path).empty()) return {};
   text << std::ifstream(path, std::ios::binary).rdbuf();
   return text.str();
 }

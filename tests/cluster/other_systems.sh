@@ -52,7 +52,8 @@ if ! command -v parallel >/dev/null; then
   export PATH=${found%/*}:$PATH
 fi
 parallel --version 2>/dev/null | grep -q 'GNU parallel' || { echo "skipped: parallel is not GNU parallel, or lacks perl"; exit 77; }
-HOME=$scratch DRIFTSCOPE=$program bash "$jobs/gnu_parallel.sh" "$config" out 6 >said 2>&1 || { cat said >&2; fail "gnu_parallel.sh ends with $?"; }
-[ "$(ls out/worker-*.sqlite | wc -l)" -eq 6 ] || fail "not every part has its file"
-[ "$(digest out)" = "$reference" ] || fail "results of gnu_parallel.sh are not those of one process"
-echo "gnu_parallel.sh: 6 parts: the results of one process"
+cp "$config" "$scratch/my study.toml"
+HOME=$scratch DRIFTSCOPE=$program bash "$jobs/gnu_parallel.sh" "$scratch/my study.toml" "my results" 6 >said 2>&1 || { cat said >&2; fail "gnu_parallel.sh ends with $?"; }
+[ "$(ls "my results"/worker-*.sqlite | wc -l)" -eq 6 ] || fail "not every part has its file"
+[ "$(digest "my results")" = "$reference" ] || fail "results of gnu_parallel.sh are not those of one process"
+echo "gnu_parallel.sh: 6 parts, names with blanks: the results of one process"

@@ -38,6 +38,7 @@ class Program {
       const int code = app_.exit(e, out, err);
       cli::show_text(out.str());
       cli::complain_text(err.str());
+      cli::flush_output();
       return code == 0 ? 0 : static_cast<int>(ExitCode::usage);
     }
     const ExitCode code = chosen_();
@@ -74,6 +75,7 @@ int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an I/O error, not a crash
   try {
+    cli::set_arguments({argv, static_cast<std::size_t>(argc)});
     return Program().run(argc, argv);
   } catch (...) {
     return cli::tell_error(std::current_exception());

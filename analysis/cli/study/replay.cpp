@@ -13,6 +13,7 @@
 #include "analysis/cli/study_program.hpp"
 #include "core/base/atomic_file.hpp"
 #include "core/base/output_file.hpp"
+#include "core/base/seal.hpp"
 #include "mc/export/export_text.hpp"
 
 namespace drift::cli {
@@ -50,7 +51,8 @@ class CsvTrace : public mc::TraceSink {
     for (const mc::Column& c : columns)
       line += fmt::format("{}{} [{}]", line.empty() ? "" : ",", c.name, c.unit.symbol.view());
     require_output_file(path_, {}, [&](const std::string& path) -> std::string {
-      return first_line(path) == line ? "" : "no trace of such a run";
+      if (first_line(path) != line) return "no trace of such a run";
+      return seal_holds(path) ? "" : seal_broken;
     });
     put(line + "\n");
   }
@@ -66,6 +68,7 @@ class CsvTrace : public mc::TraceSink {
   void commit() {
     if (std::fclose(std::exchange(file_, nullptr)) != 0)
       throw_cannot_write(path_, std::strerror(errno));
+    append_seal(target_.temporary(), path_);
     target_.commit();
   }
 

@@ -150,7 +150,10 @@ ExitCode run(const StudyArguments& arguments, const RunArguments& given,
                      "--worker: mpirun shares out the work already (expected one or the other). "
                      "Leave out --worker");
   if (ranks.size() == 1)
-    given.sharing.require_part("Add --worker auto, or start it with srun --mpi=pmix");
+    given.sharing.require_part(
+        "Add --worker auto (srun) or a --worker i/n of its own to each, or start it with the "
+        "mpirun "
+        "of Open MPI or srun --mpi=pmix");
   require_results_folder({folder, "run"});
   mc::claim_folder(folder, manifest);
   begin_results({folder, "run"});

@@ -1,5 +1,6 @@
 #include <filesystem>
 
+#include "analysis/blind/session/seal.hpp"
 #include "analysis/blind/session/trial_folder.hpp"
 #include "analysis/cli/command.hpp"
 #include "analysis/cli/frozen_study.hpp"
@@ -63,6 +64,8 @@ ExitCode status_of_study(const std::string& folder, const StudyProgram& program)
 
 ExitCode status_of_trials(const std::string& folder) {
   const blind::TrialsState s = blind::trials_state(folder);
+  for (const char* sealed : {"key.json", "answers.json"})  // a changed one is no result
+    if (!blind::published_hash(folder, sealed).empty()) blind::open_sealed(folder, sealed);
   show("{}: {} of {} trials made, {}; {} answered, {} of them without a diagnosis; {}\n", folder,
        s.made, s.trials, s.key_sealed ? "the key is sealed" : "the key is not sealed yet",
        s.answered, s.failed, s.scored ? "scored" : "not scored yet");

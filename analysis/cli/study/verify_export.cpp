@@ -7,6 +7,7 @@
 #include "analysis/cli/study/megabytes.hpp"
 #include "analysis/cli/study_program.hpp"
 #include "core/base/output_file.hpp"
+#include "core/base/seal.hpp"
 #include "mc/engine/replay.hpp"
 #include "mc/export/export_hdf5.hpp"
 #include "mc/export/export_netcdf.hpp"
@@ -16,12 +17,12 @@
 namespace drift::cli {
 namespace {
 
-/// An export replaces an earlier one of the same study, nothing else.
+/// An export replaces an earlier one of the same study that nobody changed, nothing else.
 Stranger other_than(const std::string& hash) {
   return [hash](const std::string& path) -> std::string {
     std::string known = mc::study_hash_of_text(path);
     if (known.empty()) known = mc::study_hash_of_hdf5(path);
-    if (known == hash) return {};
+    if (known == hash) return seal_holds(path) ? "" : seal_broken;
     return known.empty() ? "no export" : "the export of another study";
   };
 }

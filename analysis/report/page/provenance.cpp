@@ -26,6 +26,8 @@ Json json_of(const Provenance& p) {
   for (const SourceFile& file : p.recordings) recordings.push_back(file_json(file));
   return {{"version", p.version},
           {"commit", p.commit},
+          {"compiler", p.compiler},
+          {"instruction_set", p.instruction_set},
           {"date", p.date},
           {"command_line", p.command_line},
           {"study", p.study.empty() ? Json(nullptr) : file_json(p.study.front())},
@@ -41,7 +43,9 @@ Provenance provenance_of(const std::string& study, const std::vector<std::string
                fact_of(facts, "started_utc"),
                fact_of(facts, "command_line"),
                {},
-               {}};
+               {},
+               build_info().compiler,
+               build_info().instruction_set};
   if (!study.empty()) p.study.push_back({study, sha256_hex_of_file(study)});
   for (const std::string& path : recordings)
     p.recordings.push_back({path, sha256_hex_of_file(path)});

@@ -17,6 +17,7 @@ struct SourceFile {
 struct Provenance {
   std::string version, commit, date, command_line;  ///< date: UTC
   std::vector<SourceFile> study, recordings;        ///< a study, where there is a file of it
+  std::string compiler = {}, instruction_set = {};
 };
 
 /// Of this process, made from these files as they are.

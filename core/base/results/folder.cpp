@@ -13,8 +13,10 @@
 #include "core/base/check.hpp"
 #include "core/base/results/marks.hpp"
 #include "core/base/results/register.hpp"
+#include "core/base/results/regular_file.hpp"
 #include "core/base/sha256.hpp"
 #include "core/base/temporary_file.hpp"
+#include "core/base/utf8.hpp"
 
 namespace drift {
 namespace {
@@ -27,6 +29,7 @@ std::string listed(std::vector<std::string> names) {
   std::ranges::sort(names);
   const std::size_t more = names.size() > most ? names.size() - most : 0;
   names.resize(names.size() - more);
+  for (std::string& name : names) name = text_of_name(name);
   return fmt::format("{}{}", fmt::join(names, ", "),
                      more > 0 ? fmt::format(" and {} more", more) : "");
 }
@@ -41,7 +44,7 @@ void refuse_inputs(const fs::path& folder, const std::vector<std::string>& input
             ExitCode::usage,
             fmt::format("-o {}: {} in it is an input of this command (expected a folder for "
                         "results alone: inputs are never written to). Name another folder",
-                        folder.string(), entry.path().filename().string()));
+                        folder.string(), text_of_name(entry.path().filename().string())));
 }
 
 /// Names of files that look like results.
@@ -67,17 +70,20 @@ std::string holder_of(const ResultsFolder& folder) {
                   folder.path, listed(std::move(names)), folder.command));
 }
 
-/// Links among the results would lead what is written to other places.
-void refuse_links(const std::string& folder) {
+/// What a study keeps beside its results, and would wait for or trip over if it were no file.
+bool belongs_to_a_study(const std::string& name) {
+  return name == "manifest.json" || name == "study.toml" || name.starts_with("worker-");
+}
+
+/// Links among the results would lead what is written to other places, pipes would never answer.
+void refuse_others_than_files(const std::string& folder) {
   std::error_code unreadable;
-  for (const auto& entry : fs::directory_iterator(folder, unreadable))
-    if (entry.is_symlink(unreadable) && looks_like_result(entry.path()))
-      throw InputError(
-          ExitCode::store,
-          fmt::format(
-              "{}: is a symbolic link, which is not followed (expected a file of its own). "
-              "Nothing was changed; put a copy in its place, or give another folder with -o",
-              entry.path().string()));
+  for (const auto& entry : fs::directory_iterator(folder, unreadable)) {
+    const bool folder_of_results = entry.is_directory(unreadable) && !entry.is_symlink(unreadable);
+    if (belongs_to_a_study(entry.path().filename().string()) ||
+        (looks_like_result(entry.path()) && !folder_of_results))
+      require_regular_file_of_ours(entry.path().string());
+  }
 }
 
 /// Of what driftscope wrote, what is not as it was.
@@ -132,6 +138,7 @@ void require_results_folder(const ResultsFolder& folder, const std::vector<std::
     throw_cannot_write(folder.path, "it is a file, expected a folder");
   if (fs::exists(status)) {
     refuse_inputs(folder.path, inputs);
+    require_regular_file_of_ours((fs::path(folder.path) / ResultsRegister::file_name).string());
     const std::string holder = holder_of(folder);
     if (!holder.empty() && holder != folder.command)
       throw InputError(
@@ -140,7 +147,7 @@ void require_results_folder(const ResultsFolder& folder, const std::vector<std::
                       "Give another folder with -o",
                       folder.path, holder, folder.command));
     if (!holder.empty()) {
-      refuse_links(folder.path);
+      refuse_others_than_files(folder.path);
       refuse_changed(folder);
     }
   }

@@ -117,6 +117,24 @@ TEST(SharedTrials, MaxWallEndsResumableAndTheSameCommandFinishes) {
   EXPECT_EQ(shared.status("out"), 0);
 }
 
+TEST(SharedTrials, AForeignFolderForTheExportIsSaidBeforeTrialsAreMade) {
+  const Shared shared;
+  std::filesystem::create_directory(shared.out("ex"));
+  std::ofstream(shared.out("ex") + "/study.toml") << "mine";
+  EXPECT_EQ(shared.blind("out", "--export '" + shared.out("ex") + "'").code, 7);
+  EXPECT_FALSE(std::filesystem::exists(shared.out("out")));
+}
+
+TEST(SharedTrials, AnswersThatWereChangedAreNoResult) {
+  const Shared shared;
+  ASSERT_EQ(shared.blind("out", "").code, 0);
+  const std::string path = shared.out("out") + "/answers.json";
+  std::string text = text_of(path);
+  text[text.size() / 2] ^= 1;
+  std::ofstream(path, std::ios::binary) << text;
+  EXPECT_EQ(shared.status("out"), 8);
+}
+
 TEST(SharedTrials, OneProcessAtATimeIsAWorker) {
   const Shared shared;
   const std::string command = "'" DRIFT_PROGRAM "' " + shared.line("out", "--worker 0/2");

@@ -38,6 +38,24 @@ TEST(Bytes, NamesThatAreNotUtf8AreNamesLikeOthers) {
   }
 }
 
+TEST(Bytes, ALineEndInANameEndsNoLine) {
+  const ScratchFolder scratch;
+  const std::string name = scratch.file("a\nerror: all is lost\tb");
+  fs::create_directory(name);
+  std::ofstream(name + "/s.toml") << cheap_study() << "bogus = 1\n";
+  std::ofstream(name + "/c\nd.csv") << "mine";
+  for (const std::string line :
+       {"check '" + name + "/s.toml'", "status '" + name + "'", "look '" + name + ".csv'",
+        "run " + config("cheap.toml") + " --runs 64 -o '" + name + "'", "check '" + name + "' --x",
+        "check x.toml --set='" + name + "'"}) {
+    const Answer a = driftscope(line);
+    EXPECT_NE(a.code, 0) << line;
+    EXPECT_NE(a.err.find("a\\x0aerror: all is lost\\x09b"), std::string::npos) << a.err;
+    EXPECT_EQ(a.err.find("\nerror: all is lost"), std::string::npos) << a.err;
+    EXPECT_EQ(a.err.find("c\nd.csv"), std::string::npos) << a.err;
+  }
+}
+
 TEST(Bytes, NoNameSteersTheTerminal) {
   const ScratchFolder scratch;
   std::string text = cheap_study();

@@ -210,6 +210,8 @@ TEST(Program, StandardOutputThatIsFullOrGoneIsNoBug) {
   EXPECT_EQ(code(program + "check " + study + " >/dev/full 2>'" + folder.file("err") + "'"),
             io_error);
   EXPECT_EQ(text_of(folder.file("err")).find("bug"), std::string::npos);
+  for (const char* words : {"--version", "--help", "run --help", "help", "version"})
+    EXPECT_EQ(code(program + words + " >/dev/full 2>/dev/null"), io_error) << words;
   EXPECT_EQ(code("(" + program + "identify " + study + " --progress none 2>'" + folder.file("err") +
                  "') | head -n 1 >/dev/null"),
             0);

@@ -205,6 +205,68 @@ TEST(NothingReplaced, ARecordingIsWrittenOverSimulatedOnesAlone) {
     EXPECT_EQ(driftscope(line).code, 0) << "an empty file holds nothing to lose";
     fs::create_symlink(name, scratch.file("link_" + name));
     expect_refused(scratch, "simulate s.toml -o link_" + name, io_error, "it is a symbolic link");
+    // A recording of the laboratory in the program's columns is not to be had again by simulating.
+    const std::string lab = scratch.file("lab_" + name);
+    EXPECT_EQ(driftscope("convert " + study + " " + scratch.file(name) + " -o " + lab).code, 0);
+    expect_refused(scratch, "simulate s.toml -o lab_" + name, store_error, "converted from ");
+    expect_refused(scratch, "convert s.toml " + name + " -o lab_" + name, store_error,
+                   "converted from ");  // another spelling may be another file
+    const Answer converted =
+        driftscope("convert " + study + " " + scratch.file(name) + " -o " + lab);
+    EXPECT_EQ(converted.code, 0) << converted.err;
+    expect_refused(scratch, "convert s.toml lab_" + name + " -o " + name, store_error,
+                   "no recording that was converted");
+  }
+}
+
+/// The text with a digit of its last number another one.
+std::string with_another_digit(std::string text) {
+  const std::size_t at = text.find_last_of("0123456789");
+  text[at] = text[at] == '1' ? '2' : '1';
+  return text;
+}
+
+TEST(NothingReplaced, ARecordingThatWasEditedStays) {
+  const ScratchFolder scratch;
+  const std::string study = scratch.write("s.toml", cheap_study());
+  for (const std::string name : {"r.csv", "r.h5", "r.mat"}) {
+    ASSERT_EQ(driftscope("simulate " + study + " -o " + scratch.file(name)).code, 0);
+    const std::string made = text_of(scratch.file(name));
+    const std::size_t place = name == "r.csv" ? made.rfind("9") : made.size() / 2;
+    std::string other = made;
+    other[place] = other[place] == '1' ? '2' : '1';
+    for (const std::string& text : {made + "# lab note\n", other}) {
+      scratch.write(name, text);
+      // A binary file may be damaged by it so that it is not known at all any more.
+      const bool known = name == "r.csv" || text.size() > made.size();
+      expect_refused(scratch, "simulate s.toml -o " + name, store_error,
+                     known ? "changed since driftscope made it" : "is there already, and is");
+    }
+    scratch.write(name, made);
+    EXPECT_EQ(driftscope("simulate " + study + " -o " + scratch.file(name)).code, 0);
+    EXPECT_EQ(text_of(scratch.file(name)), made) << "the same again, byte for byte";
+    EXPECT_EQ(driftscope("look " + scratch.file(name)).code, 0) << "and it is read";
+  }
+}
+
+TEST(NothingReplaced, AnExportThatWasEditedStays) {
+  const ScratchFolder scratch;
+  const std::string study = scratch.write("s.toml", cheap_study()), out = scratch.file("out");
+  ASSERT_EQ(driftscope("run " + study + " --runs 64 -o " + out).code, 0);
+  const std::pair<const char*, const char*> formats[] = {
+      {"csv", "csv"}, {"json", "json"}, {"hdf5", "h5"}, {"netcdf", "nc"}};
+  for (const auto& [format, ending] : formats) {
+    const std::string line = std::string("export out --format ") + format,
+                      full = "export " + out + " --format " + format,
+                      name = std::string("out/export.") + ending;
+    ASSERT_EQ(driftscope(full).code, 0);
+    const std::string made = text_of(scratch.file(name));
+    EXPECT_EQ(driftscope(full).code, 0) << format;
+    EXPECT_EQ(text_of(scratch.file(name)), made);
+    for (const std::string& text : {made + "\n", with_another_digit(made)}) {
+      scratch.write(name, text);
+      expect_refused(scratch, line, store_error, "changed since driftscope made it");
+    }
   }
 }
 
@@ -216,6 +278,12 @@ TEST(NothingReplaced, ATraceIsWrittenOverTracesAlone) {
   ASSERT_EQ(driftscope("run " + study + " --runs 64 -o " + out).code, 0);
   ASSERT_EQ(driftscope(line).code, 0);
   EXPECT_EQ(driftscope(line).code, 0);
+  const std::string made = text_of(trace);
+  for (const std::string& text : {made + "# note\n", with_another_digit(made)}) {
+    scratch.write("t.csv", text);
+    expect_refused(scratch, "replay out --run 1 --trace t.csv", store_error,
+                   "changed since driftscope made it");
+  }
   scratch.write("t.csv", "mine");
   const Answer a = driftscope(line);
   EXPECT_EQ(a.code, store_error) << a.err;

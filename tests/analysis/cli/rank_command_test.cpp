@@ -169,6 +169,8 @@ TEST(RankCommand, DoesNotDependOnThreads) {
   const std::string line =
       "rank '" + file + "' --json --progress none --improve 1 --set plan.entry=torqued --threads ";
   Json one = parsed(driftscope(line + "1")), three = parsed(driftscope(line + "3"));
+  for (const char* key : {"version", "commit", "compiler", "instruction_set"})
+    EXPECT_FALSE(one["provenance"][key].get<std::string>().empty()) << key;
   for (Json* json : {&one, &three}) json->erase("provenance");  // has the command line
   EXPECT_EQ(one.dump(), three.dump());
 }
@@ -188,6 +190,31 @@ TEST(RankCommand, SaysWhatIsWrongWithWhatItIsAsked) {
   EXPECT_EQ(driftscope("rank '" + folder.write("f.toml", unfiltered) + "'").code, config);
   EXPECT_EQ(driftscope("rank '" + file + "' -o /dev/null/out").code,
             static_cast<int>(ExitCode::io));
+}
+
+TEST(Tasks, ThatKnowNothingOfEachOtherAreRefusedByEveryCommandThatWrites) {
+  const ScratchFolder scratch;
+  const std::string recording = scratch.file("r.csv"), out = scratch.file("out"),
+                    study = config("cheap.toml");
+  ASSERT_EQ(driftscope("simulate " + study + " -o " + recording).code, 0);
+  for (const char* launch :
+       {"SLURM_STEP_NUM_TASKS=2 SLURM_PROCID=1", "OMPI_COMM_WORLD_SIZE=2", "PMI_SIZE=4 PMI_RANK=1"})
+    for (const std::string& line :
+         {"rank " + study + " --improve 1 -o " + out, "rank " + study + " --improve 1",
+          "rank " + study + " -o " + out, "identify " + study + " -o " + out,
+          "diagnose " + study + " " + recording + " -o " + out,
+          "blind " + config("blind_small.toml") + " --trials 1 -o " + out}) {
+      const Answer a = run_program("env", std::string(launch) + " '" DRIFT_PROGRAM "' " + line);
+      EXPECT_EQ(a.code, usage_error) << launch << " " << line;
+      EXPECT_NE(a.err.find("tasks that know nothing of each other"), std::string::npos) << a.err;
+      EXPECT_FALSE(std::filesystem::exists(out)) << line;
+    }
+  // Started by the launcher of another MPI, so that this one knows of one process alone.
+  const Answer other = run_program(
+      "env", "PMI_SIZE=4 PMI_RANK=1 '" DRIFT_PROGRAM "' run " + study + " --runs 64 -o " + out);
+  EXPECT_EQ(other.code, usage_error) << other.err;
+  EXPECT_NE(other.err.find("mpiexec has started 4 tasks"), std::string::npos) << other.err;
+  EXPECT_FALSE(std::filesystem::exists(out));
 }
 
 }  // namespace

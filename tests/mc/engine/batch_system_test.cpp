@@ -68,8 +68,12 @@ TEST(BatchSystem, TasksOfSrunAreCountedWithinThoseOfAnArray) {
   Variables both = slurm(5, 0, 7, 1);
   both.insert(step.begin(), step.end());
   EXPECT_EQ(share("auto", both), (Share{22, 32}));
-  EXPECT_EQ(tasks_of_step(of(step)), 4u);
-  EXPECT_EQ(tasks_of_step(of({})), 1u);
+  EXPECT_EQ(launch_of(of(step)).tasks, 4u);
+  EXPECT_STREQ(launch_of(of(step)).by, "srun");
+  EXPECT_EQ(launch_of(of({})).tasks, 1u);
+  EXPECT_EQ(launch_of(of({{"OMPI_COMM_WORLD_SIZE", "2"}})).tasks, 2u);
+  EXPECT_EQ(launch_of(of({{"PMI_SIZE", "4"}, {"PMI_RANK", "1"}})).tasks, 4u);
+  EXPECT_EQ(launch_of(of({{"PMI_SIZE", "1"}})).tasks, 1u);
   // A batch script beside its steps: many tasks were asked for, one was started.
   EXPECT_NE(refusal("auto", {{"SLURM_NTASKS", "4"}, {"SLURM_PROCID", "0"}}), "");
 }
