@@ -30,6 +30,8 @@ std::string bare(const diagnosis::Shape& s) {
     case Kind::specific_force:
       return fmt::format("goes with the specific force along {}", "xyz"[s.axis]);
     case Kind::specific_force_square:
+      if (s.axis == s.other_axis)
+        return fmt::format("goes with the square of the specific force along {}", "xyz"[s.axis]);
       return fmt::format("goes with the product of specific forces along {} and {}", "xyz"[s.axis],
                          "xyz"[s.other_axis]);
     case Kind::one_position:

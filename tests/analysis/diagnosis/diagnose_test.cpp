@@ -123,8 +123,8 @@ TEST(Diagnose,
 }
 
 TEST(Diagnose, ATermOfManyParametersIsNamedAsAWhole) {
-  // Twelve cross terms at once, each twice as large as drawn: no part of them is enough, and with no
-  // whole offered the verdict was "unexplained".
+  // Twelve cross terms at once, each twice as large as drawn: no part of them is enough, and with
+  // no whole offered the verdict was "unexplained".
   const Timeline timeline = preset_timeline("twentyfour", CommandLaw::free, 1800.0, 120.0);
   TruthSpec truth = base_truth(Coupling::eq5);
   for (const std::string_view kind : {"K_io", "K_po", "K_pp", "K_oo"}) truth.active |= only({kind});

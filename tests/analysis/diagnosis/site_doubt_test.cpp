@@ -124,38 +124,40 @@ TEST(SiteDoubt, TheWrongHemisphereIsFoundBesideACause) {
   EXPECT_EQ(of_right.verdict, Verdict::named) << report::sentence(of_right);
   EXPECT_FALSE(beyond(of_right));
   EXPECT_FALSE(site_doubt(right.study, {right.recording}, of_right));
-  TEST(LatitudeDoubt, IsRaisedByAnIdentificationThatMisfits) {
-    const auto doubt_at = [](double declared) {
-      const Scene s(declared);
-      return identification::identify_recordings(s.study, {s.recording}, 1)
-          .summaries.front()
-          .latitude_doubt;
-    };
-    for (const double declared : {truth + 10.0, truth - 0.4}) {
-      const auto doubt = doubt_at(declared);
-      ASSERT_TRUE(doubt) << declared;
-      EXPECT_NEAR(doubt->latitude / unit::deg.to_si, truth, 0.05) << declared;
-    }
-    EXPECT_FALSE(doubt_at(truth));
-  }
+}
 
-  TEST(LatitudeDoubt, TheWrongHemisphereIsFoundWhateverElseMisfits) {
-    Scene s(-truth);  // and an accelerometer that no parameter of the filter describes
-    const std::vector<double>& x = s.recording.find("acc_x")->values;
-    for (Channel& c : s.recording.channels)
-      for (std::size_t i = 0; c.name == "acc_y" && i < x.size(); ++i)
-        c.values[i] += 1e-4 * std::sin(40.0 * x[i]);
-    const FilterSpec& filter = s.study.filters.front();
-    const auto doubt = identification::latitude_doubt(s.study, {s.recording}, filter);
-    ASSERT_TRUE(doubt);
-    EXPECT_NEAR(doubt->latitude / unit::deg.to_si, truth, 0.2);
-    EXPECT_GT(doubt->chi2_per_dof_after, 1.3);
-    EXPECT_LT(doubt->chi2_per_dof_before - doubt->chi2_per_dof_after,
-              inference::SiteLimits::most * (doubt->chi2_per_dof_before - 1.0))
-        << "it does not explain the misfit";
-    s.study.site.latitude = truth * unit::deg.to_si;
-    EXPECT_FALSE(identification::latitude_doubt(s.study, {s.recording}, filter));
+TEST(LatitudeDoubt, IsRaisedByAnIdentificationThatMisfits) {
+  const auto doubt_at = [](double declared) {
+    const Scene s(declared);
+    return identification::identify_recordings(s.study, {s.recording}, 1)
+        .summaries.front()
+        .latitude_doubt;
+  };
+  for (const double declared : {truth + 10.0, truth - 0.4}) {
+    const auto doubt = doubt_at(declared);
+    ASSERT_TRUE(doubt) << declared;
+    EXPECT_NEAR(doubt->latitude / unit::deg.to_si, truth, 0.05) << declared;
   }
+  EXPECT_FALSE(doubt_at(truth));
+}
+
+TEST(LatitudeDoubt, TheWrongHemisphereIsFoundWhateverElseMisfits) {
+  Scene s(-truth);  // and an accelerometer that no parameter of the filter describes
+  const std::vector<double>& x = s.recording.find("acc_x")->values;
+  for (Channel& c : s.recording.channels)
+    for (std::size_t i = 0; c.name == "acc_y" && i < x.size(); ++i)
+      c.values[i] += 1e-4 * std::sin(40.0 * x[i]);
+  const FilterSpec& filter = s.study.filters.front();
+  const auto doubt = identification::latitude_doubt(s.study, {s.recording}, filter);
+  ASSERT_TRUE(doubt);
+  EXPECT_NEAR(doubt->latitude / unit::deg.to_si, truth, 0.2);
+  EXPECT_GT(doubt->chi2_per_dof_after, 1.3);
+  EXPECT_LT(doubt->chi2_per_dof_before - doubt->chi2_per_dof_after,
+            inference::SiteLimits::most * (doubt->chi2_per_dof_before - 1.0))
+      << "it does not explain the misfit";
+  s.study.site.latitude = truth * unit::deg.to_si;
+  EXPECT_FALSE(identification::latitude_doubt(s.study, {s.recording}, filter));
+}
 
 }  // namespace
 }  // namespace drift::diagnosis::site_doubt_test
