@@ -44,7 +44,7 @@ TEST(Bytes, ALineEndInANameEndsNoLine) {
   fs::create_directory(name);
   std::ofstream(name + "/s.toml") << cheap_study() << "bogus = 1\n";
   std::ofstream(name + "/c\nd.csv") << "mine";
-  for (const std::string line :
+  for (const std::string& line :
        {"check '" + name + "/s.toml'", "status '" + name + "'", "look '" + name + ".csv'",
         "run " + config("cheap.toml") + " --runs 64 -o '" + name + "'",
         "check x.toml --set='" + name + "'"}) {

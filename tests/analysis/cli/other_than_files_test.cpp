@@ -24,7 +24,9 @@ Answer within_a_minute(const std::string& line) {
 /// Puts something that is no file in place of `path`; `kind` is what a message calls it.
 void put(const std::string& kind, const std::string& path) {
   fs::remove_all(path);
-  if (kind == "a pipe") ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
+  if (kind == "a pipe") {
+    ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
+  }
   if (kind == "a directory") fs::create_directory(path);
   if (kind == "a symbolic link") fs::create_symlink("nowhere", path);
 }
