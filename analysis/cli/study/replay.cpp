@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <iterator>
 
 #include "analysis/cli/answer.hpp"
 #include "analysis/cli/argument_checks.hpp"
@@ -13,7 +14,6 @@
 #include "analysis/cli/study_program.hpp"
 #include "core/base/atomic_file.hpp"
 #include "core/base/output_file.hpp"
-#include "core/base/seal.hpp"
 #include "mc/export/export_text.hpp"
 
 namespace drift::cli {
@@ -30,6 +30,11 @@ std::string first_line(const std::string& path) {
   std::string line;
   std::getline(file, line);
   return line;
+}
+
+std::string bytes_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 /// The course of a run as CSV in the units of its columns.
@@ -51,8 +56,7 @@ class CsvTrace : public mc::TraceSink {
     for (const mc::Column& c : columns)
       line += fmt::format("{}{} [{}]", line.empty() ? "" : ",", c.name, c.unit.symbol.view());
     require_output_file(path_, {}, [&](const std::string& path) -> std::string {
-      if (first_line(path) != line) return "no trace of such a run";
-      return seal_holds(path) ? "" : seal_broken;
+      return first_line(path) != line ? "no trace of such a run" : "";
     });
     put(line + "\n");
   }
@@ -68,7 +72,13 @@ class CsvTrace : public mc::TraceSink {
   void commit() {
     if (std::fclose(std::exchange(file_, nullptr)) != 0)
       throw_cannot_write(path_, std::strerror(errno));
-    append_seal(target_.temporary(), path_);
+    // A replay repeats itself bit for bit: what differs is of another run, or was edited. No digest
+    // stands in the file, whose rows every reader takes as they are.
+    require_output_file(path_, {}, [&](const std::string& path) -> std::string {
+      return bytes_of(path) == bytes_of(target_.temporary())
+                 ? ""
+                 : "the trace of another run, or changed since driftscope made it";
+    });
     target_.commit();
   }
 
@@ -147,11 +157,11 @@ ExitCode replay(const std::string& folder, const RunChoice& choice, const std::s
   std::optional<CsvTrace> sink;
   if (!trace.empty()) sink.emplace(trace);
   const mc::Replay r = mc::replay(task, reader, choice.point, choice.run, sink ? &*sink : nullptr);
+  if (sink && sink->begun()) sink->commit();
   show_answer(in_brief(choice, r), {numbers_text(task.columns(), r, Terminal::Shown::yes), "", {}});
   if (terminal().details == Terminal::Shown::no)
     show("{}", numbers_text(task.columns(), r, Terminal::Shown::no));
   if (sink && sink->begun()) {
-    sink->commit();
     show("trace: {} samples in {}\n", sink->rows(), trace);
   } else if (sink) {
     say("note: runs of this study have no trace; {} is not written\n", trace);

@@ -270,7 +270,7 @@ TEST(NothingReplaced, AnExportThatWasEditedStays) {
   }
 }
 
-TEST(NothingReplaced, ATraceIsWrittenOverTracesAlone) {
+TEST(NothingReplaced, ATraceIsWrittenOverItselfAlone) {
   const ScratchFolder scratch;
   const std::string study = scratch.write("s.toml", cheap_study()), out = scratch.file("out"),
                     trace = scratch.file("t.csv"),
@@ -282,8 +282,12 @@ TEST(NothingReplaced, ATraceIsWrittenOverTracesAlone) {
   for (const std::string& text : {made + "# note\n", with_another_digit(made)}) {
     scratch.write("t.csv", text);
     expect_refused(scratch, "replay out --run 1 --trace t.csv", store_error,
-                   "changed since driftscope made it");
+                   "the trace of another run, or changed since driftscope made it");
   }
+  EXPECT_EQ(made.find('#'), std::string::npos) << "a table and nothing else";
+  scratch.write("t.csv", made);
+  expect_refused(scratch, "replay out --run 2 --trace t.csv", store_error,
+                 "the trace of another run");
   scratch.write("t.csv", "mine");
   const Answer a = driftscope(line);
   EXPECT_EQ(a.code, store_error) << a.err;
