@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/identification/beyond_prior.hpp"
 #include "analysis/inference/thresholds.hpp"
 
 namespace drift::diagnosis {
@@ -106,12 +107,10 @@ std::optional<remark::LeftNotWhite> left_not_white(const Whiteness& w) {
 
 std::optional<remark::BeyondPrior> beyond_prior(const FilterSpec& nominal, const BatchResult& fit) {
   remark::BeyondPrior out;
-  for (const ParameterEstimate& p : fit.estimate.parameters) {
-    if (!nominal.active[p.param]) continue;  // of a cause: its size is told elsewhere
-    const double off = p.prior_sigma > 0.0 ? std::abs(p.value - p.prior_mean) / p.prior_sigma : 0.0;
-    if (off <= RemarkLimits::unphysical) continue;
-    out.params.push_back(p.param);
-    out.farthest = std::max(out.farthest, off);
+  for (const auto& [param, sigmas] : identification::beyond_prior(fit.estimate)) {
+    if (!nominal.active[param]) continue;  // of a cause: its size is told elsewhere
+    out.params.push_back(param);
+    out.farthest = std::max(out.farthest, sigmas);
   }
   if (out.params.empty()) return std::nullopt;
   return out;

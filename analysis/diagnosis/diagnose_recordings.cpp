@@ -5,9 +5,9 @@
 #include "analysis/diagnosis/advice/advise.hpp"
 #include "analysis/diagnosis/recording_spans.hpp"
 #include "analysis/diagnosis/site_doubt.hpp"
+#include "analysis/identification/absent_channels.hpp"
 #include "analysis/preparation/prepare.hpp"
 #include "core/base/check.hpp"
-#include "core/sim/measurements.hpp"
 
 namespace drift::diagnosis {
 namespace {
@@ -29,16 +29,6 @@ Diagnosis advised(Diagnosis d, const preparation::Prepared& test,
   d.seconds.emplace_back(
       "advice", std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count());
   return d;
-}
-
-Absent absent_from(const Readout& readout, const std::vector<Recording>& recordings) {
-  Absent absent{readout.accelerometers, readout.gimbals};
-  for (const Recording& r : recordings) {
-    const Measurements measured = measurements_of(r, readout);
-    if (measured.acc.array().isFinite().any()) absent.accelerometers = false;
-    if (measured.gimbal.array().isFinite().any()) absent.gimbals = false;
-  }
-  return absent;
 }
 
 /// Nothing is said of causes and forms, and no probabilities, at a latitude that is not the
@@ -71,7 +61,7 @@ Diagnosis diagnose_recordings(const mc::Study& study, const std::vector<Recordin
   if (progress) progress("latitude and advice", of_diagnosis);
   d.site_doubt = site_doubt(test.study, test.recordings, d);
   if (d.site_doubt) d = of_another_place(std::move(d));
-  if (!d.of_case) d.absent = absent_from(test.study.readout, test.recordings);
+  if (!d.of_case) d.absent = identification::absent_channels(test.recordings, test.study.readout);
   d = advised(std::move(d), test, options);
   if (progress) progress("done", 1.0);
   std::vector<Remark> remarks;

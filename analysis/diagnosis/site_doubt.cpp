@@ -33,14 +33,11 @@ bool worth_asking(const Diagnosis& d) {
 
 }  // namespace
 
-std::optional<SiteDoubt> site_doubt(const mc::Study& study,
-                                    const std::vector<Recording>& recordings, const Diagnosis& d) {
+std::optional<identification::LatitudeDoubt> site_doubt(const mc::Study& study,
+                                                        const std::vector<Recording>& recordings,
+                                                        const Diagnosis& d) {
   if (!worth_asking(d)) return std::nullopt;
-  const auto doubt =
-      identification::latitude_doubt(study, recordings, d.has_patch ? d.patched : d.nominal);
-  if (!doubt) return std::nullopt;
-  return SiteDoubt{doubt->latitude, doubt->declared, doubt->prior_sigmas,
-                   doubt->chi2_per_dof_before, doubt->chi2_per_dof_after};
+  return identification::latitude_doubt(study, recordings, d.has_patch ? d.patched : d.nominal);
 }
 
 }  // namespace drift::diagnosis

@@ -19,8 +19,8 @@ namespace drift::diagnosis {
 /// candidates, where parameters lie far outside their priors, or where chi-square of a `consistent`
 /// fit, priors included, is above its band.
 /// recordings: as they were diagnosed. Empty otherwise.
-std::optional<SiteDoubt> site_doubt(const mc::Study& study,
-                                    const std::vector<Recording>& recordings,
-                                    const Diagnosis& diagnosis);
+std::optional<identification::LatitudeDoubt> site_doubt(const mc::Study& study,
+                                                        const std::vector<Recording>& recordings,
+                                                        const Diagnosis& diagnosis);
 
 }  // namespace drift::diagnosis

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "analysis/identification/absent_channels.hpp"
 #include "analysis/identification/fit_thresholds.hpp"
 #include "analysis/preparation/prepare.hpp"
 #include "analysis/preparation/recorded_test.hpp"
@@ -15,7 +16,6 @@
 #include "core/estimate/starts.hpp"
 #include "core/plan/plan_memory.hpp"
 #include "core/plan/plan_rows.hpp"
-#include "core/recording/recording_channels.hpp"
 #include "mc/task/campaign.hpp"
 
 namespace drift::identification {
@@ -154,19 +154,6 @@ void run_jobs(const mc::Study& study, Identification& id, int threads, const Pro
   id.summaries = summarise(study, id);
 }
 
-/// Channels that the study asks for and that show nothing.
-std::vector<std::string> absent_channels(const Measurements& measured, const Readout& readout) {
-  std::vector<std::string> absent;
-  const auto look = [&](bool wanted, const Mat3X& values, const ChannelTriple& channels) {
-    for (Eigen::Index a = 0; wanted && a < 3; ++a)
-      if (!values.row(a).array().isFinite().any())
-        absent.emplace_back(channels.names[static_cast<std::size_t>(a)]);
-  };
-  look(readout.accelerometers, measured.acc, accelerometer_channels);
-  look(readout.gimbals, measured.gimbal, gimbal_channels);
-  return absent;
-}
-
 /// Where no filter fits, the latitude may be behind it.
 void doubt_latitude(const mc::Study& study, const std::vector<Recording>& recordings,
                     Identification& id) {
@@ -251,7 +238,7 @@ Identification identify_recordings(const mc::Study& study, const std::vector<Rec
   run_jobs(ready.study, id, threads, progress, [&](const Job& job) {
     return estimate(ready.study, job, test.timeline, test.measured);
   });
-  id.absent = absent_channels(test.measured, ready.study.readout);
+  id.absent = absent_channels(ready.recordings, ready.study.readout);
   doubt_latitude(ready.study, ready.recordings, id);
   return id;
 }

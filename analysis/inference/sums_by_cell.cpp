@@ -8,6 +8,7 @@
 
 #include "core/base/check.hpp"
 #include "core/base/decompose.hpp"
+#include "core/sim/measurements.hpp"
 
 namespace drift::inference {
 namespace {

@@ -200,8 +200,6 @@ struct RemarkLimits {
   static constexpr double lone_p = 0.01;      ///< of an unknown input that would explain it
   /// Part of the misfit that a rejected cause explains. Test: Thresholds.TheNearestKnown...
   static constexpr double nearest = 0.05;
-  /// [prior sigma] from a prior's mean. Test: Thresholds.ParametersFiveSigma...
-  static constexpr double unphysical = 5.0;
   /// [2 log L] of an effect that noise may stand for, 5 sigma; per further amplitude.
   static constexpr double or_effect = 25.0, or_effect_per_amplitude = 3.0;
   static constexpr double shape = 0.3;  ///< |correlation| below which a shape says nothing. Tuned

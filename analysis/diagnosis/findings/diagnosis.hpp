@@ -17,6 +17,7 @@
 #include "analysis/diagnosis/findings/twins.hpp"
 #include "analysis/diagnosis/findings/verdict.hpp"
 #include "analysis/diagnosis/findings/where.hpp"
+#include "analysis/identification/latitude_doubt.hpp"
 #include "analysis/inference/noise/noise_finding.hpp"
 #include "analysis/search/cause.hpp"
 #include "core/base/linalg.hpp"
@@ -34,18 +35,6 @@ struct NearestKnown {
 struct ErrorOfKind {
   std::string what, unit;
   double before = 0.0, after = 0.0;
-};
-
-/// The latitude that a recording is of, if it is not that of [site].
-struct SiteDoubt {
-  double latitude = 0.0, declared = 0.0;  ///< [rad]
-  double prior_sigmas = 0.0;              ///< size that latitude_error would need
-  double chi2_per_dof_before = 0.0, chi2_per_dof_after = 0.0;  ///< of the nominal fit
-};
-
-/// Instruments that [readout] reads and no recording has.
-struct Absent {
-  bool accelerometers = false, gimbals = false;
 };
 
 /// All that a diagnosis found: plain data, for the report, the JSON and the scorer.
@@ -69,9 +58,9 @@ struct Diagnosis {
   std::vector<Twins> inseparable;  ///< what this plan can never tell apart
   std::optional<NearestKnown> nearest_known;
   std::optional<Proposal> proposal;  ///< where it is unexplained and a form was looked for
-  std::optional<SiteDoubt> site_doubt;
-  bool of_case = false;  ///< of a recording on a case
-  Absent absent;
+  std::optional<identification::LatitudeDoubt> site_doubt;
+  bool of_case = false;             ///< of a recording on a case
+  std::vector<std::string> absent;  ///< channels of [readout] that no recording has; not of a case
   std::vector<ErrorOfKind> errors;  ///< of a recording on a case: what held-out data are missed by
   std::vector<Advice> advice;       ///< most useful first
   std::vector<Remark> remarks;      ///< what a reader must know besides

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "analysis/identification/absent_channels.hpp"
 #include "analysis/planning/position_toml.hpp"
 #include "analysis/report/diagnosis/advice_words.hpp"
 #include "analysis/report/diagnosis/not_examined_words.hpp"
@@ -209,7 +210,7 @@ Json cosines_json(const CosineMatrix& cosines) {
 }
 
 /// Null where the latitude of the study is not doubted.
-Json latitude_json(const std::optional<SiteDoubt>& doubt) {
+Json latitude_json(const std::optional<identification::LatitudeDoubt>& doubt) {
   if (!doubt) return nullptr;
   return {{"declared_deg", doubt->declared / unit::deg.to_si},
           {"of_recording_deg", doubt->latitude / unit::deg.to_si},
@@ -217,10 +218,10 @@ Json latitude_json(const std::optional<SiteDoubt>& doubt) {
           {"chi2_per_dof_after", doubt->chi2_per_dof_after}};
 }
 
-Json absent_json(const Absent& absent) {
+Json absent_json(const std::vector<std::string>& absent) {
   Json out = Json::array();
-  if (absent.accelerometers) out.push_back("accelerometers");
-  if (absent.gimbals) out.push_back("gimbals");
+  if (identification::lacks(absent, accelerometer_channels)) out.push_back("accelerometers");
+  if (identification::lacks(absent, gimbal_channels)) out.push_back("gimbals");
   return out;
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/identification/absent_channels.hpp"
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/report/diagnosis/not_examined_words.hpp"
 #include "analysis/report/diagnosis/remark_words.hpp"
@@ -235,7 +236,7 @@ std::string nearest_text(const NearestKnown& near, Instrument instrument) {
 }
 
 /// A verdict of its own: nothing that is said of causes holds for another place on the Earth.
-std::string site_text(const SiteDoubt& doubt) {
+std::string site_text(const identification::LatitudeDoubt& doubt) {
   return fmt::format(
       "The latitude of [site] is not that of the recording: at {:.3f} deg instead of {:.3f} deg "
       "the model fits with chi-square per degree of freedom {:.3g} instead of {:.3g}. No "
@@ -246,11 +247,12 @@ std::string site_text(const SiteDoubt& doubt) {
 }
 
 /// What a recording does not hold though the study reads it.
-std::string absent_text(const Absent& absent) {
-  if (!absent.accelerometers && !absent.gimbals) return "";
+std::string absent_text(const std::vector<std::string>& absent) {
+  const bool accelerometers = identification::lacks(absent, accelerometer_channels);
+  if (!accelerometers && !identification::lacks(absent, gimbal_channels)) return "";
   return fmt::format("The recording has no {}: what follows is from the {} alone. ",
-                     absent.accelerometers ? "accelerometers" : "gimbal angles",
-                     absent.accelerometers ? "gimbal angles" : "accelerometers");
+                     accelerometers ? "accelerometers" : "gimbal angles",
+                     accelerometers ? "gimbal angles" : "accelerometers");
 }
 
 }  // namespace

@@ -4,10 +4,11 @@
 #include <optional>
 #include <utility>
 
+#include "analysis/identification/absent_channels.hpp"
+#include "analysis/identification/beyond_prior.hpp"
 #include "analysis/identification/fit_thresholds.hpp"
 #include "analysis/report/identify/sections.hpp"
 #include "core/estimate/start_consistency.hpp"
-#include "core/recording/recording_channels.hpp"
 #include "core/stats/chi_square_band.hpp"
 
 namespace drift::report {
@@ -106,15 +107,10 @@ std::string beyond_text(const FilterView& v) {
 std::string absent_text(const identification::Identification& id) {
   if (id.absent.empty()) return "";
   const std::string who = id.sources.size() > 1 ? "no recording has" : "the recording has no";
-  const auto absent = [&](const ChannelTriple& t) {
-    return std::ranges::all_of(t.names, [&](std::string_view name) {
-      return std::ranges::find(id.absent, name) != id.absent.end();
-    });
-  };
   const std::string keys = fmt::format("{}", fmt::join(id.absent, ", "));
-  if (id.absent.size() == 3 && absent(accelerometer_channels))
+  if (id.absent.size() == 3 && identification::lacks(id.absent, accelerometer_channels))
     return fmt::format("gimbal angles alone: {} accelerometers ({})", who, keys);
-  if (id.absent.size() == 3 && absent(gimbal_channels))
+  if (id.absent.size() == 3 && identification::lacks(id.absent, gimbal_channels))
     return fmt::format("accelerometers alone: {} gimbal angles ({})", who, keys);
   return fmt::format("without {0}: {1} {0}", keys, who);
 }
@@ -178,15 +174,10 @@ std::string verdict_text(const Judgement& j, const identification::Identificatio
 }  // namespace
 
 std::vector<std::string> beyond_prior(const FilterView& v) {
-  std::vector<std::pair<double, std::string>> far;
-  for (const ParameterEstimate& p : judged(v).parameters) {
-    const double off = p.prior_sigma > 0.0 ? std::abs(p.value - p.prior_mean) / p.prior_sigma : 0.0;
-    if (off > identification::FitLimits::beyond_prior)
-      far.emplace_back(off, parameter_key(p.param));
-  }
-  std::ranges::stable_sort(far, std::greater{}, &std::pair<double, std::string>::first);
+  auto far = identification::beyond_prior(judged(v));
+  std::ranges::stable_sort(far, std::greater{}, &identification::BeyondPrior::sigmas);
   std::vector<std::string> keys;
-  for (auto& [off, key] : far) keys.push_back(std::move(key));
+  for (const identification::BeyondPrior& p : far) keys.push_back(parameter_key(p.param));
   return keys;
 }
 

@@ -8,6 +8,7 @@
 
 #include "analysis/diagnosis/diagnose.hpp"
 #include "analysis/diagnosis/diagnose_recordings.hpp"
+#include "analysis/identification/absent_channels.hpp"
 #include "analysis/preparation/lost_rows.hpp"
 #include "analysis/preparation/prepare.hpp"
 #include "analysis/report/diagnosis/remark_words.hpp"
@@ -94,8 +95,8 @@ TEST(OddInput, AnInstrumentThatWasNotRecordedIsSaidFirst) {
   Recording r = made(hidden, 0);
   std::erase_if(r.channels, [](const Channel& c) { return c.name.starts_with("acc_"); });
   const Diagnosis d = diagnosed({r});
-  EXPECT_TRUE(d.absent.accelerometers);
-  EXPECT_FALSE(d.absent.gimbals);
+  EXPECT_TRUE(identification::lacks(d.absent, accelerometer_channels));
+  EXPECT_FALSE(identification::lacks(d.absent, gimbal_channels));
   EXPECT_EQ(
       report::sentence(d).find("The recording has no accelerometers: what follows is from the "
                                "gimbal angles alone."),

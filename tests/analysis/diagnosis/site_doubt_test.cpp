@@ -47,7 +47,7 @@ struct Scene {
         study.readout);
     study.site.latitude = latitude_deg * unit::deg.to_si;
   }
-  std::optional<SiteDoubt> doubt(Verdict verdict) const {
+  std::optional<identification::LatitudeDoubt> doubt(Verdict verdict) const {
     Diagnosis d;
     d.nominal = study.filters.front();
     d.verdict = verdict;
