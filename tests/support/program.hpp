@@ -90,4 +90,9 @@ inline std::string config(const std::string& name) {
   return std::string("'") + DRIFT_SOURCE_DIR + "/configs/" + name + "'";
 }
 
+/// configs/cheap.toml: two short positions, one filter of nine parameters, hundredths of a second.
+inline std::string cheap_study() {
+  return text_of(std::string(DRIFT_SOURCE_DIR) + "/configs/cheap.toml");
+}
+
 }  // namespace drift::test

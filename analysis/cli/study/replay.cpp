@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 
 #include "analysis/cli/answer.hpp"
 #include "analysis/cli/argument_checks.hpp"
@@ -13,6 +12,7 @@
 #include "analysis/cli/print.hpp"
 #include "analysis/cli/study_program.hpp"
 #include "core/base/atomic_file.hpp"
+#include "core/base/file_text.hpp"
 #include "core/base/output_file.hpp"
 #include "mc/export/export_text.hpp"
 
@@ -30,11 +30,6 @@ std::string first_line(const std::string& path) {
   std::string line;
   std::getline(file, line);
   return line;
-}
-
-std::string bytes_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 /// The course of a run as CSV in the units of its columns.
@@ -75,7 +70,7 @@ class CsvTrace : public mc::TraceSink {
     // A replay repeats itself bit for bit: what differs is of another run, or was edited. No digest
     // stands in the file, whose rows every reader takes as they are.
     require_output_file(path_, {}, [&](const std::string& path) -> std::string {
-      return bytes_of(path) == bytes_of(target_.temporary())
+      return file_text(path) == file_text(target_.temporary())
                  ? ""
                  : "the trace of another run, or changed since driftscope made it";
     });

@@ -11,10 +11,6 @@ namespace {
 using namespace drift::test;
 namespace fs = std::filesystem;
 
-std::string cheap_study() {
-  return text_of(std::string(DRIFT_SOURCE_DIR) + "/configs/cheap.toml");
-}
-
 TEST(Bytes, NamesThatAreNotUtf8AreNamesLikeOthers) {
   const ScratchFolder scratch;
   const std::string study = scratch.write("K\xf6ln.toml", cheap_study()),

@@ -37,11 +37,6 @@ void expect_refused(const ScratchFolder& scratch, const std::string& line, int c
   EXPECT_EQ(snapshot(scratch.path()), before) << line;
 }
 
-/// Two short positions, one filter of nine parameters: hundredths of a second.
-std::string cheap_study() {
-  return text_of(std::string(DRIFT_SOURCE_DIR) + "/configs/cheap.toml");
-}
-
 /// A folder with a study and its recording, made by the program and annotated by its owner.
 struct Desk : ScratchFolder {
   Desk() {

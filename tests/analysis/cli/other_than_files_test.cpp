@@ -12,10 +12,6 @@ namespace {
 using namespace drift::test;
 namespace fs = std::filesystem;
 
-std::string cheap_study() {
-  return text_of(std::string(DRIFT_SOURCE_DIR) + "/configs/cheap.toml");
-}
-
 /// One that may hang is ended.
 Answer within_a_minute(const std::string& line) {
   return run_program("timeout", "60 '" DRIFT_PROGRAM "' " + line);
