@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 namespace drift::report {
 namespace {
@@ -41,28 +42,23 @@ double along(const SignedAxis& axis, const Vec3& v) {
 std::vector<KnownDegeneracy> known_degeneracies(const Layout& layout, const Mounting& mounting) {
   std::vector<KnownDegeneracy> all;
   constexpr double exact = 1e-3;  // what rounding leaves of an eigenvector, with room
-  for (int i = 0; i < 3; ++i) {
-    Direction trace(layout);
-    trace.add("D_F", i, 1.0);
-    for (const char* g2 : {"D_II", "D_OO", "D_SS"}) trace.add(g2, i, -1.0);  // per g^2
-    if (trace.complete())
-      all.push_back(
-          {trace.scaled(),
-           "fixed drift with the trace of the g^2 terms: a_I^2 + a_O^2 + a_S^2 = 1 g^2 in any "
-           "laboratory, so only their sum is seen",
-           exact});
-  }
-  for (int i = 0; i < 3; ++i) {
-    Direction squares(layout);
-    squares.add("K0", i, 1.0);
-    for (const char* square : {"K2", "K_pp", "K_oo"}) squares.add(square, i, -1.0);  // per g^2
-    if (squares.complete())
-      all.push_back(
-          {squares.scaled(),
-           "accelerometer bias with its three square terms: a_I^2 + a_O^2 + a_P^2 = 1 g^2 in any "
-           "laboratory, so only their sum is seen",
-           exact});
-  }
+  // What is constant with all squares of an instrument.
+  const auto add_squares = [&](const char* constant, std::array<const char*, 3> squares,
+                               const char* words) {
+    for (int i = 0; i < 3; ++i) {
+      Direction sum(layout);
+      sum.add(constant, i, 1.0);
+      for (const char* square : squares) sum.add(square, i, -1.0);  // per g^2
+      if (sum.complete()) all.push_back({sum.scaled(), words, exact});
+    }
+  };
+  add_squares("D_F", {"D_II", "D_OO", "D_SS"},
+              "fixed drift with the trace of the g^2 terms: a_I^2 + a_O^2 + a_S^2 = 1 g^2 in any "
+              "laboratory, so only their sum is seen");
+  add_squares(
+      "K0", {"K2", "K_pp", "K_oo"},
+      "accelerometer bias with its three square terms: a_I^2 + a_O^2 + a_P^2 = 1 g^2 in any "
+      "laboratory, so only their sum is seen");
   for (int i = 0; i < 3; ++i) {
     Direction cubic(layout);
     cubic.add("K1", i, 1.0);
