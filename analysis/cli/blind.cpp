@@ -102,7 +102,7 @@ ExitCode blind(const StudyArguments& arguments, const BlindArguments& given) {
   const std::string& folder = given.folder;
   const mc::WorkSession session = given.sharing.session(arguments.threads);
   given.sharing.require_part(
-      "Start it once, or add --worker auto (srun) or a --worker i/n of its own to each");
+      "Start it once, or add --worker auto or a --worker i/n of its own to each");
   const mc::Study study = all.read();
   require_results_folder({folder, "blind"});
   require_results_folder({given.others.export_to, "blind"});  // before hours of work for it

@@ -60,7 +60,7 @@ ExitCode rank(const StudyArguments& arguments, const RankArguments& options) {
   const mc::Study study = arguments.read();
   if (options.improve > 0 || !options.folder.empty())
     options.sharing.require_part(
-        options.improve > 0 ? "Start it once, or add -o DIR and --worker auto (srun) or a --worker "
+        options.improve > 0 ? "Start it once, or add -o DIR and --worker auto or a --worker "
                               "i/n of its own to each"
                             : "Start it once");
   require_results_folder({options.folder, "rank"}, {study.path});

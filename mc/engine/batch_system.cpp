@@ -21,8 +21,8 @@ std::optional<std::size_t> whole_number(std::string_view text) {
 [[noreturn]] void refuse(std::string_view given, const std::string& why) {
   throw InputError(
       ExitCode::usage,
-      fmt::format("--worker {}: {} (expected the variables of an array of Slurm, SGE or PBS, or of "
-                  "srun). Give --worker i/n, or auto/n with the number of tasks",
+      fmt::format("--worker {}: {} (expected the variables of an array of Slurm, SGE or PBS, of "
+                  "srun or of mpiexec). Give --worker i/n, or auto/n with the number of tasks",
                   given, why));
 }
 
@@ -41,12 +41,6 @@ constexpr ArrayVariables systems[] = {
     {"PBS_ARRAYID", nullptr, nullptr, nullptr},
 };
 
-/// How many tasks `srun` has started of this program; 1 where it has not.
-std::size_t tasks_of_step(const ProcessVariables& environment) {
-  const auto text = environment("SLURM_STEP_NUM_TASKS");
-  return text ? whole_number(*text).value_or(1) : 1;
-}
-
 }  // namespace
 
 std::optional<std::string> process_variable(const std::string& name) {
@@ -57,9 +51,9 @@ std::optional<std::string> process_variable(const std::string& name) {
 Launch launch_of(const ProcessVariables& environment) {
   // mpirun within a job of Slurm is started by srun on each machine: what it says itself comes
   // first.
-  constexpr Launch launchers[] = {{1, "mpirun", "OMPI_COMM_WORLD_SIZE"},
-                                  {1, "srun", "SLURM_STEP_NUM_TASKS"},
-                                  {1, "mpiexec", "PMI_SIZE"}};
+  constexpr Launch launchers[] = {{1, "mpirun", "OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK"},
+                                  {1, "srun", "SLURM_STEP_NUM_TASKS", "SLURM_PROCID"},
+                                  {1, "mpiexec", "PMI_SIZE", "PMI_RANK"}};
   for (Launch launch : launchers)
     if (const auto text = environment(launch.variable)) {
       launch.tasks = whole_number(*text).value_or(1);
@@ -99,12 +93,12 @@ WorkerShare share_of_batch_system(std::string_view text, const ProcessVariables&
     }
     break;
   }
-  const std::size_t tasks = tasks_of_step(environment);
-  const auto rank = number("SLURM_PROCID");
-  if (tasks > 1 && rank && *rank < tasks) {
-    if (!told && given && *given != tasks)
-      refuse(text, fmt::format("srun has started {} tasks", tasks));
-    share = {share.index * tasks + *rank, share.count * tasks};
+  const Launch launch = launch_of(environment);
+  const auto rank = number(launch.rank);
+  if (rank && *rank < launch.tasks) {
+    if (!told && given && *given != launch.tasks)
+      refuse(text, fmt::format("{} has started {} tasks", launch.by, launch.tasks));
+    share = {share.index * launch.tasks + *rank, share.count * launch.tasks};
     told = true;
   }
   if (!told) refuse(text, "no batch system says which part this is");

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Builds the tree in other ways, all with Debian's clang, and runs what each is for:
 #   headers   every header compiles alone
-#   asan      the fast tests under the address and undefined behaviour sanitizers
+#   asan      the fast tests under the address and undefined behaviour sanitizers, and which lines of what
+#             stores and reads users' data they reach
 #   tsan      the tests of mc, which share work among threads, under the thread sanitizer
 #   fuzz      a million damaged study files, recordings, manifests and worker files under the sanitizers of
 #             asan, others every night; MUTANTS: how many, KEEP: where those that fail are kept
@@ -29,7 +30,11 @@ for way; do
     *) cmake --build --preset "$way" ;;
   esac
   case $way in
-    asan) ctest --preset asan -j "$(nproc)" ;;
+    asan)
+      rm -rf build/asan/reached
+      LLVM_PROFILE_FILE=$PWD/build/asan/reached/%4m.profraw ctest --preset asan -j "$(nproc)"
+      tests/checks/reached.sh build/asan
+      ;;
     fuzz)
       keep=${KEEP:-$PWD/build/asan/fuzz}
       series=$(date +%Y%m%d)

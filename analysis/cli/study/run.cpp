@@ -151,7 +151,7 @@ ExitCode run(const StudyArguments& arguments, const RunArguments& given,
                      "Leave out --worker");
   if (ranks.size() == 1)
     given.sharing.require_part(
-        "Add --worker auto (srun) or a --worker i/n of its own to each, or start it with the "
+        "Add --worker auto or a --worker i/n of its own to each, or start it with the "
         "mpirun "
         "of Open MPI or srun --mpi=pmix");
   require_results_folder({folder, "run"});

@@ -68,6 +68,8 @@ TEST(BatchSystem, TasksOfSrunAreCountedWithinThoseOfAnArray) {
   Variables both = slurm(5, 0, 7, 1);
   both.insert(step.begin(), step.end());
   EXPECT_EQ(share("auto", both), (Share{22, 32}));
+  both["SLURM_STEP_NUM_TASKS"] = "1";
+  EXPECT_EQ(share("auto", both), (Share{5, 8}));
   EXPECT_EQ(launch_of(of(step)).tasks, 4u);
   EXPECT_STREQ(launch_of(of(step)).by, "srun");
   EXPECT_EQ(launch_of(of({})).tasks, 1u);
@@ -76,6 +78,20 @@ TEST(BatchSystem, TasksOfSrunAreCountedWithinThoseOfAnArray) {
   EXPECT_EQ(launch_of(of({{"PMI_SIZE", "1"}})).tasks, 1u);
   // A batch script beside its steps: many tasks were asked for, one was started.
   EXPECT_NE(refusal("auto", {{"SLURM_NTASKS", "4"}, {"SLURM_PROCID", "0"}}), "");
+}
+
+TEST(BatchSystem, TasksOfAnMpiexecThatTheBuildDoesNotSpeakHaveTheirParts) {
+  EXPECT_EQ(share("auto", {{"PMI_SIZE", "4"}, {"PMI_RANK", "1"}}), (Share{1, 4}));
+  EXPECT_EQ(share("auto", {{"OMPI_COMM_WORLD_SIZE", "3"}, {"OMPI_COMM_WORLD_RANK", "2"}}),
+            (Share{2, 3}));
+  // mpirun within a job of Slurm: srun has started one helper of mpirun on each machine.
+  EXPECT_EQ(share("auto", {{"OMPI_COMM_WORLD_SIZE", "8"},
+                           {"OMPI_COMM_WORLD_RANK", "5"},
+                           {"SLURM_STEP_NUM_TASKS", "2"},
+                           {"SLURM_PROCID", "1"}}),
+            (Share{5, 8}));
+  EXPECT_NE(refusal("auto/3", {{"PMI_SIZE", "4"}, {"PMI_RANK", "1"}}), "");
+  EXPECT_NE(refusal("auto", {{"PMI_SIZE", "4"}}), "");
 }
 
 TEST(BatchSystem, WhereTheSystemDoesNotSayHowManyTheUserDoes) {
