@@ -37,8 +37,9 @@ void require_one_task(const std::string& advice) {
 }
 
 void add_sharing(CLI::App& app, Sharing& sharing) {
-  app.add_option("--worker", sharing.worker,
-                 "do part i of n of the study, i = 0 .. n - 1; auto: what Slurm, SGE, PBS or mpiexec says")
+  app.add_option(
+         "--worker", sharing.worker,
+         "do part i of n of the study, i = 0 .. n - 1; auto: what Slurm, SGE, PBS or mpiexec says")
       ->type_name("I/N|auto");
   app.add_option("--max-wall", sharing.max_wall, "stop after this time, resumable: 55m, 1h30m")
       ->type_name("TIME");
