@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -34,7 +36,7 @@ std::vector<std::string> worker_files(const std::string& folder) {
   for (const auto& entry : std::filesystem::directory_iterator(folder, failed)) {
     const std::string name = entry.path().filename().string();
     if (name.starts_with("worker-") && name.ends_with(".sqlite"))
-      files.push_back(folder + "/" + name);
+      files.push_back(fmt::format("{}/{}", folder, name));
   }
   // Numbers of more than four digits after those of four.
   std::sort(files.begin(), files.end(), [](const std::string& a, const std::string& b) {
