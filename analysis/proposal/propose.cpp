@@ -26,7 +26,7 @@ struct Offered {
 /// A name that no term of the study has.
 std::string free_key(std::size_t number) {
   for (std::size_t n = number;; ++n) {
-    const std::string key = fmt::format("form_{}", n);
+    std::string key = fmt::format("form_{}", n);
     const auto& terms = own_terms().terms;
     if (std::ranges::find(terms, key, &OwnTerm::key) == terms.end()) return key;
   }

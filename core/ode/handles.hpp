@@ -2,12 +2,15 @@
 
 #include <memory>
 
-// SUNDIALS' own headers stay in the .cpp files of this folder; pointers to its types suffice here.
+// SUNDIALS' own headers stay in the .cpp files of this folder; pointers to its types, which it has
+// named so, suffice here.
+// NOLINTBEGIN(bugprone-reserved-identifier)
 struct _SUNContext;
 struct _generic_N_Vector;
 struct _generic_SUNMatrix;
 struct _generic_SUNLinearSolver;
 struct _generic_SUNNonlinearSolver;
+// NOLINTEND(bugprone-reserved-identifier)
 
 namespace drift::detail {
 

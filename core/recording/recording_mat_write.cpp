@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <matio.h>
 
 #include <memory>
@@ -61,7 +62,7 @@ std::string write_mat(const Recording& recording, const Facts& facts, const std:
                                    values.data(), MAT_F_DONT_COPY_DATA)))
       wrong = "the channel " + c.name + " cannot be written";
   }
-  for (const auto& [key, value] : facts) lines += key + " = " + value + "\n";
+  for (const auto& [key, value] : facts) lines += fmt::format("{} = {}\n", key, value);
   if (!write_units(file, recording)) wrong = "the units cannot be written";
   if (!lines.empty() && !write(file, make_text("facts", lines)))
     wrong = "the facts cannot be written";

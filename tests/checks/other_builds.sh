@@ -6,12 +6,11 @@
 #   tsan      the tests of mc, which share work among threads, under the thread sanitizer
 #   fuzz      a million damaged study files, recordings, manifests and worker files under the sanitizers of
 #             asan, others every night; MUTANTS: how many, KEEP: where those that fail are kept
-#   tidy      clang-tidy, with the checks of .clang-tidy, on what nobody may lose results by: core/base, mc/store
-#             and mc/engine; OF: other folders
+#   tidy      clang-tidy, with the checks of .clang-tidy, on every source; OF: on those of some folders
 #
 #   tests/checks/other_builds.sh [headers] [asan] [tsan] [fuzz] [tidy]       all, unless some are named
 #
-# Each costs a build; together an hour on two cores. ./driftscope test nightly runs them.
+# Each costs a build; together two hours on two cores. ./driftscope test nightly runs them.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
@@ -42,7 +41,7 @@ for way; do
       DRIFT_FUZZ=${MUTANTS:-1000000} DRIFT_FUZZ_SERIES=$series DRIFT_FUZZ_KEEP=$keep \
         build/asan/bin/driftscope_mc_tests --gtest_filter='Fuzz*'
       ;;
-    tidy) run-clang-tidy -quiet -p build/tidy "/(${OF:-core/base|mc/store|mc/engine})/" ;;
+    tidy) run-clang-tidy -quiet -p build/tidy "/(${OF:-core|mc|analysis})/" ;;
     tsan)
       # Archer tells the sanitizer how OpenMP keeps threads apart; the libraries are not instrumented.
       OMP_TOOL_LIBRARIES=$(clang --print-resource-dir)/../../libarcher.so OMP_NUM_THREADS=4 \

@@ -160,8 +160,8 @@ Section case_test(const CaseIdentification& id) {
       azimuth_sentence(id),
       "in the first dwell up is " + up_of(s.search.dwells.front()),
       "the axes of the case are those of the accelerometers: dP_x, dO_x and dP_y are zero",
-      "not in the model: lever arms of the accelerometers and a delay between them and the gyros; "
-      "the accelerometers are read in dwells alone, where neither shows"};
+      ("not in the model: lever arms of the accelerometers and a delay between them and the gyros; "
+       "the accelerometers are read in dwells alone, where neither shows")};
   std::erase(found, "");
   return {"Dwells and turns", {Sentences{std::move(found), ""}}};
 }

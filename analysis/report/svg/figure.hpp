@@ -14,8 +14,8 @@ template <class Drawing>
 requires requires(Drawing d) {
   d.width = narrow_page;
 }
-Figure figure_of(Drawing drawing, std::string caption, std::string file = {}) {
-  Figure figure{.svg = svg_of(drawing), .caption = std::move(caption), .file = std::move(file)};
+Figure figure_of(Drawing drawing, const std::string& caption, const std::string& file = {}) {
+  Figure figure{.svg = svg_of(drawing), .caption = caption, .file = file};
   if (drawing.width <= narrow_page) return figure;
   drawing.width = narrow_page;
   figure.narrow = svg_of(drawing);

@@ -235,11 +235,13 @@ std::string svg_of(const Chart& chart) {
   SvgCanvas canvas(width, head + static_cast<double>(rows) * chart.panel_height + 6.0, chart.title);
   canvas.text(canvas_edge, 24.0, chart.title, {.size = 15.0, .bold = true});
   paint_legend(&canvas, legend, title + 14.0, width);
-  for (std::size_t k = 0; k < chart.panels.size(); ++k)
-    PanelPainter(canvas, chart.panels[k], static_cast<double>(k % columns) * chart.panel_width,
-                 head + static_cast<double>(k / columns) * chart.panel_height, chart.panel_width,
+  for (std::size_t k = 0; k < chart.panels.size(); ++k) {
+    const std::size_t row = k / columns, column = k % columns;
+    PanelPainter(canvas, chart.panels[k], static_cast<double>(column) * chart.panel_width,
+                 head + static_cast<double>(row) * chart.panel_height, chart.panel_width,
                  chart.panel_height)
         .paint();
+  }
   return std::move(canvas).finish();
 }
 

@@ -58,11 +58,11 @@ std::vector<std::string> results_within(const std::string& folder) {
 
 /// The command whose results the folder holds; empty if it holds none, nor files of others.
 std::string holder_of(const ResultsFolder& folder) {
-  if (const std::string holder = results_of(folder.path); !holder.empty()) return holder;
+  if (std::string holder = results_of(folder.path); !holder.empty()) return holder;
   std::vector<std::string> names = results_within(folder.path);
   if (names.empty()) return {};
   // Another process may have begun the folder between the two looks.
-  if (const std::string holder = results_of(folder.path); !holder.empty()) return holder;
+  if (std::string holder = results_of(folder.path); !holder.empty()) return holder;
   throw InputError(
       ExitCode::store,
       fmt::format("{}: holds {}, which driftscope did not write (expected an empty folder, or "
