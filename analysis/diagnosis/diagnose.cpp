@@ -181,6 +181,7 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
                                    options.search.alpha, {options.folds, recording_ends, {}});
   }
   d.profiles = profiled(found, test, causes.causes, options, stages);
+  set_intervals(causes.causes, d.profiles);
   stages.begin("starts", 0.07);
   d.fit.start_spread_before = d.fit.start_spread_after = fitted.start_spread;
   if (best && !starts.empty())

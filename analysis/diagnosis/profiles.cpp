@@ -117,4 +117,15 @@ std::vector<Profile> profiles_of(const search::Search& found, const MeasuredTest
   return profiles;
 }
 
+void set_intervals(std::vector<search::Cause>& causes, const std::vector<Profile>& profiles) {
+  for (search::Cause& cause : causes)
+    for (search::CauseParameter& p : cause.parameters)
+      for (const Profile& profile : profiles) {
+        if (profile.param != p.param || profile.label != search::keyed(cause.term, cause.axis))
+          continue;
+        p.low_95 = profile.low_95;
+        p.high_95 = profile.high_95;
+      }
+}
+
 }  // namespace drift::diagnosis

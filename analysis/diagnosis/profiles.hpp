@@ -27,4 +27,7 @@ std::vector<Profile> profiles_of(const search::Search& found, const MeasuredTest
 /// straight where the profile is a parabola. At least three points with different values.
 Profile with_interval(Profile profile);
 
+/// Gives the parameters of causes the intervals that were profiled.
+void set_intervals(std::vector<search::Cause>& causes, const std::vector<Profile>& profiles);
+
 }  // namespace drift::diagnosis

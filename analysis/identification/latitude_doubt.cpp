@@ -9,6 +9,7 @@
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/preparation/recorded_test.hpp"
 #include "core/base/check.hpp"
+#include "core/estimate/batch.hpp"
 #include "mc/task/campaign.hpp"
 
 namespace drift::identification {

@@ -24,6 +24,9 @@ struct CauseParameter {
   bool profiled = false;  ///< nonlinear: found on a grid and refined; sigma from the profile
   /// Distance from the mean of the library's prior, in its sigmas; NaN where that is one value.
   double prior_sigmas = std::numeric_limits<double>::quiet_NaN();
+  /// 95 % interval by refits at fixed values; NaN where there are none.
+  double low_95 = std::numeric_limits<double>::quiet_NaN();
+  double high_95 = std::numeric_limits<double>::quiet_NaN();
 };
 
 struct Confusable {

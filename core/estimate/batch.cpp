@@ -43,7 +43,7 @@ Minimum minimum_from(BatchProblem& problem, const VecX& x, const std::vector<Vec
 }
 
 /// A minimum of compressed dwells, seen sample by sample: there it is one, too, or the way goes on.
-Minimum followed(BatchProblem& problem, Minimum from, const BatchOptions& options) {
+Minimum followed(BatchProblem& problem, const Minimum& from, const BatchOptions& options) {
   Minimum to = descend_from(problem, from.at.x, from.at.psi, Known::attitudes_too, options);
   to.iterations += from.iterations;
   to.converged = to.converged && from.converged;

@@ -1,5 +1,7 @@
 #include "core/recording/recording_read_back.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "core/recording/recording_channels.hpp"

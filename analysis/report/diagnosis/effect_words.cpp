@@ -52,10 +52,11 @@ std::string numbers_of(const search::Cause& c) {
   for (const search::CauseParameter& p : c.parameters) numbers.push_back(number_of(p));
   text += fmt::format(": {}", fmt::join(numbers, ", "));
   const search::CauseParameter& p = c.parameters.front();
+  const double half = stats::half_width_95 * p.sigma;
   if (c.term == closure_term)  // between two equations the interval is the answer
     text += fmt::format(", 95 % interval {:.3g} to {:.3g}, where eq. (5) is 0 and eq. (6) is 1",
-                        p.value - stats::half_width_95 * p.sigma,
-                        p.value + stats::half_width_95 * p.sigma);
+                        std::isfinite(p.low_95) ? p.low_95 : p.value - half,
+                        std::isfinite(p.high_95) ? p.high_95 : p.value + half);
   return text;
 }
 

@@ -133,6 +133,15 @@ std::string to_text(const Diagnosis& d) {
   return text_of(sections_of(d, diagnosis_sections));
 }
 
+/// What is left beside the effects that come nearest, if anything is.
+std::optional<diagnosis::remark::StrongestLeft> strongest_left(const Diagnosis& d) {
+  for (const diagnosis::Remark& r : d.remarks)
+    if (const auto* left = std::get_if<diagnosis::remark::StrongestLeft>(&r);
+        left && !left->labels.empty())
+      return *left;
+  return std::nullopt;
+}
+
 InBrief diagnosis_in_brief(const Diagnosis& d) {
   InBrief brief;
   brief.verdict = headline(d);
@@ -155,6 +164,11 @@ InBrief diagnosis_in_brief(const Diagnosis& d) {
     brief.next = "Next: " + advice_text(d.advice.front());
   else if (d.verdict == Verdict::named && d.has_patch)
     brief.next = "Next: identify with patched.toml, the study with the cause in its model.";
+  else if (const auto left = strongest_left(d); d.verdict == Verdict::unexplained && left)
+    brief.next = fmt::format(
+        "Next: more than one effect seems to be missing. Diagnose again with the first in the "
+        "model: --set \"filter.NAME.terms+={}\" (NAME: that of the study's first filter).",
+        left->labels.front().substr(0, left->labels.front().find(' ')));
   return brief;
 }
 

@@ -53,7 +53,7 @@ std::string bare(const diagnosis::Shape& s) {
 std::string shape_text(const diagnosis::RecoveredSignal& signal) {
   using Kind = diagnosis::Shape::Kind;
   const Kind kind = signal.shape.kind;
-  const std::string words = bare(signal.shape);
+  std::string words = bare(signal.shape);
   if (kind == Kind::unknown || kind == Kind::nothing || kind == Kind::none_simple ||
       kind == Kind::follows_nothing)
     return words;

@@ -223,6 +223,17 @@ Cell verdict_cell(const ParameterVerdict& verdict) {
   return {"learned", Tone::good};
 }
 
+/// Whether a plan cannot be ranked for a filter that has its temperature from the recording.
+bool plans_without_temperature(const mc::Study& study) {
+  return !study.environment.temperature &&
+         std::ranges::any_of(TermLibrary::terms, [&](const TermInfo& term) {
+           if (!term.needs.temperature) return false;
+           for (std::size_t i = term.first; i < term.first + term.count; ++i)
+             if (study.filters.front().active[i]) return true;
+           return false;
+         });
+}
+
 InBrief identification_in_brief(const mc::Study& study, const identification::Identification& id) {
   const Judgement j = judgement_of(study, id);
   InBrief brief;
@@ -247,8 +258,13 @@ InBrief identification_in_brief(const mc::Study& study, const identification::Id
   else if (j.unlearned)
     brief.next = fmt::format(
         "Next: driftscope rank {} --improve 3 proposes positions that show what this test does "
-        "not.",
-        file);
+        "not.{}",
+        file,
+        plans_without_temperature(study)
+            ? " It needs the temperature that is to be expected: --set "
+              "environment.temperature=\"20 "
+              "degC\" --set environment.temperature_amplitude=\"2 degC\""
+            : "");
   return brief;
 }
 

@@ -49,9 +49,13 @@ std::string gain_text(const planning::PlanRanking& rank) {
                                 number_text(after.parameters[k].posterior_sigma / unit),
                                 parameter_unit(before.parameters[k].param)));
   }
-  return fmt::format("A better plan: {} further position{} ({} h) bring {}.", better.steps.size(),
-                     plural(better.steps.size()), number_text(better.added() / 3600.0),
-                     listed(parts, "and"));
+  using Kind = planning::Criterion::Kind;
+  const std::string judged = better.criterion.kind == Kind::A ? "over all parameters (criterion A)"
+                             : better.criterion.kind == Kind::D ? "in bits (criterion D)"
+                                                                : "for " + better.criterion.text;
+  return fmt::format("A better plan, {}: {} further position{} ({} h) bring {}.", judged,
+                     better.steps.size(), plural(better.steps.size()),
+                     number_text(better.added() / 3600.0), listed(parts, "and"));
 }
 
 }  // namespace
@@ -73,7 +77,9 @@ InBrief rank_in_brief(const mc::Study& study, const planning::PlanRanking& rank)
   }
   if (rank.better) {
     brief.more.insert(brief.more.begin(), gain_text(rank));
-    brief.next = "Next: put the proposed positions (proposed_positions.toml) into the plan.";
+    brief.next =
+        "Next: put the positions of proposed_positions.toml, which are all of the plan, in the "
+        "place of the study's plan.preset or plan.position.";
   } else if (brief.tone == Tone::doubtful) {
     brief.next = fmt::format("Next: driftscope rank {} --improve 3 proposes positions to add.",
                              study.path.empty() ? "STUDY" : study.path);

@@ -56,7 +56,8 @@ Sentences reasons(const observability::MonteCarloComparison& comparison) {
     else
       known->second += ", " + key;
   }
-  for (const auto& [reason, keys] : by_reason) sentences.items.push_back(keys + ": " + reason);
+  for (const auto& [reason, keys] : by_reason)
+    sentences.items.push_back(fmt::format("{}: {}", keys, reason));
   return sentences;
 }
 

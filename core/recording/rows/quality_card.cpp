@@ -88,7 +88,23 @@ bool is_sensor(const ChannelQuality& q) {
                           q.name.starts_with("gimbal_"));
 }
 
-void remark(const Recording& r, RecordingKind kind, QualityCard& card) {
+/// What looks broken.
+void remark_channels(QualityCard& card) {
+  for (const auto& q : card.channels) {
+    if (q.measured == 0)
+      card.remarks.push_back(q.name + ": nothing was measured");
+    else if (is_sensor(q) && q.stuck >= 20)
+      card.remarks.push_back(
+          fmt::format("{}: {} identical samples from line {} on: a stuck sensor?", q.name, q.stuck,
+                      q.stuck_line));
+    else if (is_sensor(q) && q.saturated > 0 && q.max > q.min)
+      card.remarks.push_back(
+          fmt::format("{}: {} runs at its extreme: saturated?", q.name, q.saturated));
+  }
+}
+
+/// What is not there, and what is made of that.
+void remark_absent(const Recording& r, RecordingKind kind, QualityCard& card) {
   if (kind == RecordingKind::platform) {
     if (!r.find("cmd_x"))
       card.remarks.push_back("no commands (cmd_*): those of the plan are taken");
@@ -107,17 +123,6 @@ void remark(const Recording& r, RecordingKind kind, QualityCard& card) {
   if (!card.between.empty())
     card.remarks.push_back(fmt::format(
         "{} gaps between positions: normal if the platform was caged there", card.between.size()));
-  for (const auto& q : card.channels) {
-    if (q.measured == 0)
-      card.remarks.push_back(q.name + ": nothing was measured");
-    else if (is_sensor(q) && q.stuck >= 20)
-      card.remarks.push_back(
-          fmt::format("{}: {} identical samples from line {} on: a stuck sensor?", q.name, q.stuck,
-                      q.stuck_line));
-    else if (is_sensor(q) && q.saturated > 0 && q.max > q.min)
-      card.remarks.push_back(
-          fmt::format("{}: {} runs at its extreme: saturated?", q.name, q.saturated));
-  }
 }
 
 /// At most five significant digits, "-" for none.
@@ -145,11 +150,13 @@ QualityCard quality_card(const Recording& recording, RecordingKind kind) {
                                                                                    : "CSV";
   card.rows = recording.rows();
   card.facts = recording.facts;
-  card.remarks = recording.remarks;
   look_at_time(recording, card);
   for (const auto& c : recording.channels)
     if (c.name != "time") card.channels.push_back(look_at_channel(c, recording, kind));
-  remark(recording, kind, card);
+  // What is broken first: most readers see no more than the first few.
+  remark_channels(card);
+  card.remarks.insert(card.remarks.end(), recording.remarks.begin(), recording.remarks.end());
+  remark_absent(recording, kind, card);
   return card;
 }
 
