@@ -65,7 +65,7 @@ Source source(std::string name, std::string words, Slot slot, int axis, Mat3X sh
   s.effect.words = std::move(words);
   s.first = 1.0;
   s.most = 1e6;
-  s.put = [slot, shape](World& w, double strength) {
+  s.put = [slot, shape = std::move(shape)](World& w, double strength) {
     Mat3X& to = slot == Slot::rate            ? w.disturbance
                 : slot == Slot::accelerometer ? w.acc_error
                                               : w.gimbal_error;

@@ -5,6 +5,7 @@
 #include "analysis/diagnosis/findings/where.hpp"
 #include "analysis/diagnosis/judge.hpp"
 #include "analysis/diagnosis/recovered.hpp"
+#include "analysis/search/cause.hpp"
 
 namespace drift::diagnosis {
 

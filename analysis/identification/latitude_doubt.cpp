@@ -10,6 +10,7 @@
 #include "analysis/preparation/recorded_test.hpp"
 #include "core/base/check.hpp"
 #include "core/estimate/batch.hpp"
+#include "core/estimate/layout.hpp"
 #include "mc/task/campaign.hpp"
 
 namespace drift::identification {

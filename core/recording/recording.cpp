@@ -76,7 +76,7 @@ RawRecording with_format(RawRecording raw, const RecordingFormat& format, Record
 void require_regular_file(const std::string& path) {
   struct stat info {};
   std::string wrong;
-  if (::stat(path.c_str(), &info) != 0)
+  if (::stat(path.c_str(), &info) != 0)  // NOLINT(bugprone-branch-clone): two calls that may fail
     wrong = std::strerror(errno);
   else if (S_ISDIR(info.st_mode))
     wrong = "it is a directory";

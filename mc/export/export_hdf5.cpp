@@ -1,5 +1,7 @@
 #include "mc/export/export_hdf5.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/physics/earth.hpp"
 #include "core/physics/gimbals.hpp"
 #include "core/recording/recording_channels.hpp"
 #include "core/recording/rows/quality_card.hpp"

@@ -28,7 +28,7 @@ MatX updated(const MatX& H, const VecX& step, const VecX& y) {
 
 }  // namespace
 
-Maximum maximise(const Function& f, VecX x, const MatX& inverse_curvature) {
+Maximum maximise(const Function& f, const VecX& x, const MatX& inverse_curvature) {
   constexpr int most_steps = 25, most_cuts = 8;
   constexpr double cut = 0.3, enough = 1e-3;  // gain of a step below which it stands still
   Maximum at{x, f(x), inverse_curvature};

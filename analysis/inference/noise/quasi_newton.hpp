@@ -18,7 +18,7 @@ struct Maximum {
 /// longer than 1 in any coordinate; for smooth functions of coordinates of order one, such as logs
 /// of sigmas. inverse_curvature: a guess of that of minus the function. Ends where a step gains, or
 /// is foreseen to gain, less than 1e-3. f may be called from several threads at once.
-Maximum maximise(const std::function<double(const VecX&)>& f, VecX x,
+Maximum maximise(const std::function<double(const VecX&)>& f, const VecX& x,
                  const MatX& inverse_curvature);
 
 }  // namespace drift::inference

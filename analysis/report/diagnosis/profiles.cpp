@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "analysis/report/diagnosis/sections.hpp"
 #include "analysis/report/svg/curve.hpp"

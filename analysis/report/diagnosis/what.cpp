@@ -66,7 +66,7 @@ Table cause_table(const Diagnosis& d) {
   for (const Cause& c : d.causes) {
     if (alternatives && c.set != set) table.add_heading(fmt::format("alternative {}", c.set + 1));
     set = c.set;
-    const auto add = [&](std::size_t k, Cell key, Cell value, Cell unit) {
+    const auto add = [&](std::size_t k, const Cell& key, const Cell& value, const Cell& unit) {
       std::vector<Cell> row{k == 0 ? shown_label(d, c) : "", key, value, unit, "", "", "", ""};
       if (k == 0) {
         row[4] = p_cell(c.p_value);

@@ -5,6 +5,7 @@
 namespace drift {
 
 /// What the innovations of a filter add up to.
+// NOLINTNEXTLINE(bugprone-reserved-identifier): __i0 is a name of clang's own
 class InnovationSums {
  public:
   enum Channel { accelerometers = 0, gimbals = 1 };

@@ -13,7 +13,7 @@ MatX Minimum::covariance(double freedom) const {
   return variance * solve_symmetric(normal, MatX(MatX::Identity(normal.rows(), normal.cols())));
 }
 
-Minimum minimise(const Residuals& residuals, VecX x) {
+Minimum minimise(const Residuals& residuals, const VecX& x) {
   constexpr int max_steps = 60;
   constexpr double enough = 1e-9;  // relative fall of the sum of squares
   Minimum at{x, {}, {}, false};

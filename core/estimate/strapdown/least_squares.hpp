@@ -22,6 +22,6 @@ struct Minimum {
 };
 
 /// Levenberg-Marquardt, damping scaled by the diagonal of the normal matrix (Marquardt 1963).
-Minimum minimise(const Residuals& residuals, VecX x);
+Minimum minimise(const Residuals& residuals, const VecX& x);
 
 }  // namespace drift::strapdown

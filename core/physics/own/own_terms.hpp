@@ -16,6 +16,7 @@ void set_own_terms(OwnTermSet set);
 class KeptOwnTerms {
  public:
   KeptOwnTerms() : before_(own_terms()) {}
+  // NOLINTNEXTLINE(bugprone-exception-escape): of terms that were checked when they were set
   ~KeptOwnTerms() { set_own_terms(std::move(before_)); }
   KeptOwnTerms(const KeptOwnTerms&) = delete;
   KeptOwnTerms& operator=(const KeptOwnTerms&) = delete;
