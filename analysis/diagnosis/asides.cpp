@@ -132,7 +132,7 @@ std::vector<NotExamined> not_examined(const search::Fitted& nominal,
                     : term.needs.field     ? Why::no_field
                     : term.needs.turning   ? Why::no_turns
                                            : Why::no_covariate;
-    out.push_back({std::string(term.key), why, twins_of(term, causes)});
+    out.push_back({std::string(term.key), why, twins_of(term, causes), {}});
   }
   for (const TermInfo& term : TermLibrary::terms) {
     if (term.key == closure_term) continue;  // judged by the jump to the other equation
@@ -142,7 +142,7 @@ std::vector<NotExamined> not_examined(const search::Fitted& nominal,
         tried = true;
         seen = seen || nominal.scores[k].dof > 0;
       }
-    if (tried && !seen) out.push_back({std::string(term.key), Why::beyond_reach, {}});
+    if (tried && !seen) out.push_back({std::string(term.key), Why::beyond_reach, {}, {}});
   }
   return out;
 }

@@ -8,6 +8,7 @@
 #include "analysis/identification/absent_channels.hpp"
 #include "analysis/preparation/prepare.hpp"
 #include "core/base/check.hpp"
+#include "core/recording/own/like_temperature.hpp"
 
 namespace drift::diagnosis {
 namespace {
@@ -44,6 +45,15 @@ Diagnosis of_another_place(Diagnosis d) {
   return d;
 }
 
+/// A temperature that was read and mapped as nothing is told with the terms that would follow it.
+void name_unmapped_temperature(const std::vector<Recording>& recordings,
+                               std::vector<NotExamined>& left_out) {
+  for (const Recording& r : recordings)
+    for (NotExamined& n : left_out)
+      if (n.why == NotExamined::Why::no_temperature && n.instead.empty())
+        n.instead = unmapped_temperature(r);
+}
+
 }  // namespace
 
 Diagnosis diagnose_recordings(const mc::Study& study, const std::vector<Recording>& recordings,
@@ -58,6 +68,7 @@ Diagnosis diagnose_recordings(const mc::Study& study, const std::vector<Recordin
       progress(stage, of_diagnosis * done);
     };
   Diagnosis d = diagnose(test.study, test.recordings, first);
+  name_unmapped_temperature(recordings, d.not_examined);
   if (progress) progress("latitude and advice", of_diagnosis);
   d.site_doubt = site_doubt(test.study, test.recordings, d);
   if (d.site_doubt) d = of_another_place(std::move(d));

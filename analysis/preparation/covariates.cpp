@@ -1,7 +1,12 @@
 #include "analysis/preparation/covariates.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+
+#include "core/physics/term_library.hpp"
+#include "core/recording/own/like_temperature.hpp"
 
 namespace drift::preparation {
 namespace {
@@ -31,6 +36,25 @@ std::vector<Covariate> covariates_of(const std::vector<Recording>& recordings) {
     all.push_back(std::move(v));
   }
   return all;
+}
+
+std::vector<std::string> unmapped_temperature_of_terms(const mc::Study& study,
+                                                       const Recording& recording) {
+  std::vector<std::string> wrong;
+  const std::string unmapped = unmapped_temperature(recording);
+  if (unmapped.empty()) return wrong;
+  for (std::size_t t = 0; t < TermLibrary::num_terms; ++t) {
+    const TermInfo& term = TermLibrary::terms[t];
+    if (!term.needs.temperature || std::ranges::none_of(study.filters, [&](const FilterSpec& f) {
+          return f.model().terms[t];
+        }))
+      continue;
+    wrong.push_back(
+        fmt::format("{}: term '{}' needs the temperature, which no column is mapped "
+                    "as (expected one). {}",
+                    recording.source, term.key, unmapped));
+  }
+  return wrong;
 }
 
 }  // namespace drift::preparation

@@ -39,6 +39,16 @@ struct RecordingLimits {
   static constexpr double begin_noise = 0.2;
 };
 
+/// When accelerometers of a platform are in another unit than they say.
+struct GravityLimits {
+  /// Part by which the specific force at rest may be longer or shorter than 1 g: 100 sigma of the
+  /// library's priors of bias and scale (500 ug, 500 ppm), and far more than gravity differs on
+  /// Earth (0.4 %). Units differ by a factor of 3 or more. Test: GravityCheck.*
+  static constexpr double room = 0.05;
+  static constexpr double sigmas = 5.0;     ///< of the study's own priors, beyond that
+  static constexpr std::size_t enough = 5;  ///< [rows] fewer say nothing
+};
+
 /// When a plan is not that of the recording.
 struct PlanLimits {
   /// [samples] by which a dwell may be longer or shorter. Test: Prepare.ADwellTwoSamplesShortIsSaid

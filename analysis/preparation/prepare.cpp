@@ -8,6 +8,8 @@
 #include <limits>
 #include <set>
 
+#include "analysis/preparation/covariates.hpp"
+#include "analysis/preparation/gravity_check.hpp"
 #include "analysis/preparation/input_thresholds.hpp"
 #include "analysis/preparation/lost_rows.hpp"
 #include "analysis/preparation/plan_check.hpp"
@@ -239,7 +241,11 @@ Prepared prepare(const mc::Study& study, const std::vector<Recording>& recording
   std::set<int> positions;
   for (Recording& r : p.recordings) {
     leave_out_stuck(r, p.remarks);
+    if (std::string text = other_than_one_g(study, r); !text.empty())
+      wrong.push_back(std::move(text));
     remark_missing(r, study.readout, p.remarks);
+    for (std::string& text : unmapped_temperature_of_terms(study, r))
+      wrong.push_back(std::move(text));
     positions.merge(positions_of(r));
   }
   const Work work{p, plan_sample(study), most_rows, wrong};

@@ -8,6 +8,7 @@
 
 #include "core/base/check.hpp"
 #include "core/recording/own/header.hpp"
+#include "core/recording/own/recording_unit.hpp"
 #include "core/recording/recording_channels.hpp"
 #include "core/recording/recording_units.hpp"
 
@@ -178,6 +179,14 @@ void check_values(const Recording& r, RecordingKind kind, Problems& problems) {
                  "numbers in at least one sensor column", "Check how the recording was exported");
 }
 
+/// Temperatures in degC, as terms take them; of covariates only the differences count.
+Unit made_celsius(std::vector<double>& values, const Unit& unit) {
+  const double offset = celsius_offset(unit);
+  if (offset == 0.0) return unit;
+  for (double& x : values) x += offset;
+  return "degC"_unit;
+}
+
 bool equal_lengths(const RawRecording& raw, Problems& problems) {
   const std::size_t rows = raw.columns.front().values.size();
   bool equal = true;
@@ -222,8 +231,9 @@ Recording checked_recording(RawRecording raw, RecordingKind kind, double gravity
   }
   if (raw.settled) check_units_given(raw.columns, {kind, raw.kind, gravity}, problems);
   for (auto& c : raw.columns) {
-    const Unit unit = checked_unit(c, {kind, raw.kind, gravity}, problems, r.remarks);
+    Unit unit = checked_unit(c, {kind, raw.kind, gravity}, problems, r.remarks);
     for (double& x : c.values) x *= c.sign * unit.to_si;
+    if (c.name == "temperature") unit = made_celsius(c.values, unit);
     add_offset(c, unit, problems);
     r.channels.push_back({std::move(c.name), unit, std::move(c.values)});
   }

@@ -10,11 +10,11 @@ namespace drift {
 
 /// Reads a CSV recording (interfaces.md, sections 3 and 8.1), streaming, whatever the locale.
 ///
-/// UTF-8, UTF-16 or Latin-1; lines end with LF or CRLF. Lines that start with '#' are comments, or
-/// facts if they hold a '='. One header row `name [unit]`, which lines may stand above and a row of
-/// units below, separated by commas, semicolons, tabs or blanks; decimal point or comma. An empty
-/// cell or nan is NaN. Rows with a problem are reported and left out; a last row that is cut off is
-/// left out with a remark. InputError (io) if the file cannot be read.
+/// UTF-8, UTF-16 or Windows-1252; lines end with LF or CRLF. Lines that start with '#' are
+/// comments, or facts if they hold a '='. One header row `name [unit]`, which lines may stand above
+/// and a row of units below, separated by commas, semicolons, tabs or blanks; decimal point or
+/// comma. An empty cell or nan is NaN. Rows with a problem are reported and left out; a last row
+/// that is cut off is left out with a remark. InputError (io) if the file cannot be read.
 RawRecording read_csv(const std::string& path, const RecordingFormat& format, RecordingKind kind,
                       Problems& problems);
 

@@ -35,7 +35,14 @@ void add_offset(RawColumn& column, const Unit& unit, Problems& problems);
 /// where rows are missing: there the median is taken.
 void make_rates(Recording& recording, double gravity);
 
-/// Says where the accelerometers read g times a power of ten or times 9.8: a wrong unit.
+/// The unit in which gravity has so many, within 1 %; empty if none that is known here.
+std::string_view unit_of_one_g(double number);
+
+/// How long the specific force is in every row of a dwell that has all three accelerometers [g].
+std::vector<double> specific_forces(const Recording& recording);
+
+/// Says where the accelerometers read what gravity is in another unit: a wrong unit. Of a platform
+/// more is known: check_one_g().
 void check_gravity(const Recording& recording, Problems& problems);
 
 }  // namespace drift

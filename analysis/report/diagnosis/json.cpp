@@ -100,7 +100,7 @@ Json not_examined_json(const std::vector<NotExamined>& left_out) {
   for (const NotExamined& n : left_out) {
     Json twins = Json::array();
     for (const NamedEffect& twin : n.twins) twins.push_back(twin.label);
-    all.push_back({{"term", n.term}, {"why", reason_in_words(n.why)}, {"twins", std::move(twins)}});
+    all.push_back({{"term", n.term}, {"why", reason_in_words(n)}, {"twins", std::move(twins)}});
   }
   return all;
 }

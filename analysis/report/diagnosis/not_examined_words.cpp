@@ -11,9 +11,10 @@ namespace drift::report {
 using diagnosis::NotExamined;
 using Why = NotExamined::Why;
 
-std::string reason_in_words(Why why) {
-  switch (why) {
+std::string reason_in_words(const NotExamined& left_out) {
+  switch (left_out.why) {
     case Why::no_temperature:
+      if (!left_out.instead.empty()) return "it follows the temperature: " + left_out.instead;
       return "it follows the temperature, which was not recorded";
     case Why::no_field:
       return "it follows the magnetic field, which is not known";
@@ -38,10 +39,15 @@ std::vector<std::string> not_examined_sentences(const std::vector<NotExamined>& 
                   "accelerometers_in_turns = true in [plan] and gyros that see the Earth"},
         std::pair{Why::beyond_reach, "this plan does not show them, however large they are"}}) {
     std::vector<std::string> terms;
-    for (const NotExamined& n : all)
-      if (n.why == why) terms.push_back(n.term);
+    std::string instead;
+    for (const NotExamined& n : all) {
+      if (n.why != why) continue;
+      terms.push_back(n.term);
+      if (instead.empty()) instead = n.instead;
+    }
     if (!terms.empty())
-      sentences.push_back(fmt::format("Not examined: {}: {}", listed(terms, "and"), said));
+      sentences.push_back(fmt::format("Not examined: {}: {}", listed(terms, "and"),
+                                      instead.empty() ? std::string(said) : instead));
   }
   return sentences;
 }

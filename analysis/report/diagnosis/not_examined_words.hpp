@@ -8,7 +8,7 @@
 namespace drift::report {
 
 /// "it follows a temperature that is not known".
-std::string reason_in_words(diagnosis::NotExamined::Why why);
+std::string reason_in_words(const diagnosis::NotExamined& left_out);
 
 /// What was left out of the comparison, a sentence for each reason.
 std::vector<std::string> not_examined_sentences(const std::vector<diagnosis::NotExamined>& all);

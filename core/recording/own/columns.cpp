@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "core/config/nearest.hpp"
+#include "core/recording/own/like_temperature.hpp"
 #include "core/recording/own/recording_unit.hpp"
 #include "core/recording/recording_channels.hpp"
 
@@ -38,11 +39,13 @@ class Assignment {
   std::vector<ColumnUse> assign() {
     require_own_names();
     for (const HeaderCell& cell : header_) uses_.push_back(use_of(cell));
+    report_contradictions();
     settle_others();
     return std::move(uses_);
   }
 
   std::vector<std::string> renamed;
+  std::vector<HeaderCell> temperatures;  ///< that look like one and are mapped as nothing
 
  private:
   const MappedColumn* mapping(const HeaderCell& cell) const {
@@ -102,15 +105,38 @@ class Assignment {
 
   ColumnUse mapped(const HeaderCell& cell, const MappedColumn& m) {
     ColumnUse use{role_of(m.channel, kind_), m.channel, m.unit ? m.unit : cell.unit, m.sign};
-    if (!m.unit || !cell.unit) return use;
+    if (!m.unit || !cell.unit || names_unit_too(cell, m.own)) return use;
     const auto given = parse_recording_unit(*m.unit), written = parse_recording_unit(*cell.unit);
-    if (given && written && (given->dim != written->dim || given->to_si != written->to_si))
-      problems_.add(in_quotes(cell.whole),
-                    fmt::format("the file says [{}], recording.columns.{} says [{}]", *cell.unit,
-                                m.channel, *m.unit),
-                    "one unit",
-                    "Correct the one that is wrong, or leave the unit out of [recording]");
+    // What stands in brackets in the file may be a word, and no unit.
+    if (given && written && !same_unit(*given, *written)) contradictions_.push_back({&cell, &m});
     return use;
+  }
+
+  /// Columns whose unit is one in the file and another in the study file: one mistake for all
+  /// that have the same two.
+  void report_contradictions() {
+    for (std::size_t i = 0; i < contradictions_.size(); ++i) {
+      const Contradiction& first = contradictions_[i];
+      std::vector<std::string> columns, keys;
+      bool said = false;
+      for (std::size_t k = 0; k < contradictions_.size(); ++k) {
+        const Contradiction& c = contradictions_[k];
+        if (c.cell->unit != first.cell->unit || c.mapped->unit != first.mapped->unit) continue;
+        said = said || k < i;
+        columns.push_back(in_quotes(c.cell->whole));
+        keys.push_back("recording.columns." + c.mapped->channel);
+      }
+      if (said) continue;
+      const std::string &in_file = *first.cell->unit, &in_study = *first.mapped->unit;
+      problems_.add(
+          fmt::format("{}", fmt::join(columns, ", ")),
+          fmt::format("the file says [{}], {} say{} [{}]", in_file, fmt::join(keys, ", "),
+                      keys.size() == 1 ? "s" : "", in_study),
+          "one unit",
+          fmt::format("Correct the one that is wrong, or leave the unit out of [recording]; if the "
+                      "file is wrong, overrule it: {} = \"{} [{}] [{}]\"",
+                      first.mapped->channel, first.cell->name, in_file, in_study));
+    }
   }
 
   bool is_channel(const std::string& name) const {
@@ -147,55 +173,24 @@ class Assignment {
           renamed.push_back(fmt::format("{} as {}", in_quotes(cell.name), name));
       }
       uses_[i].channel = name;
+      if (looks_like_temperature(cell)) temperatures.push_back(cell);
     }
+    if (is_used("temperature")) temperatures.clear();
   }
+
+  struct Contradiction {
+    const HeaderCell* cell;
+    const MappedColumn* mapped;
+  };
 
   const std::vector<HeaderCell>& header_;
   const RecordingFormat& format_;
   RecordingKind kind_;
   Problems& problems_;
   std::vector<ColumnUse> uses_;
+  std::vector<Contradiction> contradictions_;
   std::vector<std::pair<std::string, std::string>> missing_;  ///< header, key of the study file
 };
-
-/// Time from a counter or from the rate; and what stands in a column of time beside it is left out.
-std::vector<double> time_of(const RawRecording& raw, const RawColumn* counter,
-                            const RecordingFormat& format, Problems& problems) {
-  const std::size_t rows = raw.columns.empty() ? 0 : raw.columns.front().values.size();
-  std::vector<double> time(rows);
-  const double step = format.tick ? *format.tick : format.rate ? 1.0 / *format.rate : 1.0;
-  double turns = 0.0, last = 0.0;
-  for (std::size_t i = 0; i < rows; ++i) {
-    if (counter == nullptr) {
-      time[i] = static_cast<double>(i + 1) * step;
-      continue;
-    }
-    const double count = counter->values[i];
-    if (i > 0 && count < last) {
-      // A counter that begins again has gone on by less than half a turn.
-      if (format.wrap && count + *format.wrap - last < 0.5 * *format.wrap)
-        turns += *format.wrap;
-      else
-        problems.add(
-            fmt::format("{}:{}", i < raw.lines.size() ? raw.lines[i] : i + 1, counter->name),
-            fmt::format("the counter goes back from {:.12g} to {:.12g}", last, count),
-            format.wrap ? fmt::format("it to begin again at {:.12g}", *format.wrap)
-                        : std::string("it to increase"),
-            "Give recording.wrap, the count at which it begins again, or sort the rows");
-    }
-    last = count;
-    time[i] = (count + turns) * step;
-  }
-  return time;
-}
-
-RawColumn time_column(std::vector<double> values) {
-  RawColumn time;
-  time.name = "time";
-  time.unit = "s";
-  time.values = std::move(values);
-  return time;
-}
 
 }  // namespace
 
@@ -207,61 +202,9 @@ std::vector<ColumnUse> uses_of_columns(const std::vector<HeaderCell>& header,
   if (!assignment.renamed.empty())
     remarks.push_back(
         fmt::format("columns under another name: {}", fmt::join(assignment.renamed, ", ")));
+  if (!assignment.temperatures.empty())
+    remarks.insert(remarks.begin(), unmapped_temperature_remark(assignment.temperatures));
   return uses;
-}
-
-RawRecording with_channels(RawRecording raw, const std::vector<ColumnUse>& uses,
-                           const RecordingFormat& format, Problems& problems) {
-  RawRecording out;
-  out.facts = std::move(raw.facts);
-  out.remarks = std::move(raw.remarks);
-  out.kind = format.kind;
-  out.settled = raw.settled;
-  const RawColumn* counter = nullptr;
-  std::vector<std::string> texts;
-  const bool own_time = format.rate || !format.counter.empty();
-  for (std::size_t i = 0; i < uses.size(); ++i)
-    if (uses[i].role == Role::counter) counter = &raw.columns[i];
-  if (own_time && (counter != nullptr || format.counter.empty()))
-    out.columns.push_back(time_column(time_of(raw, counter, format, problems)));
-  for (std::size_t i = 0; i < uses.size(); ++i) {
-    const ColumnUse& use = uses[i];
-    RawColumn& column = raw.columns[i];
-    if (use.role == Role::ignored || use.role == Role::counter) continue;
-    if (own_time && use.channel == "time") {
-      out.remarks.push_back(fmt::format("{}: left out, time comes from {} of the study file",
-                                        in_quotes(column.name),
-                                        format.rate ? "recording.rate" : "recording.counter"));
-      continue;
-    }
-    if (use.role == Role::covariate && column.texts > 0) {
-      if (column.numbers == 0) {
-        texts.push_back(in_quotes(column.name));
-        continue;
-      }
-      out.remarks.push_back(fmt::format("{}: {} cells hold text and are taken as not measured",
-                                        use.channel, column.texts));
-    }
-    if (column.name.empty() && column.numbers == 0) continue;  // a superfluous delimiter
-    const auto offset = std::ranges::find(format.offsets, use.channel, &ChannelOffset::channel);
-    if (!column.clock) column.unit = use.unit;
-    column.name = use.channel;
-    column.sign = use.sign;
-    if (offset != format.offsets.end()) column.offset = *offset;
-    out.columns.push_back(std::move(column));
-  }
-  if (!texts.empty())
-    out.remarks.push_back(
-        fmt::format("columns of text are passed over: {}", fmt::join(texts, ", ")));
-  for (const ChannelOffset& o : format.offsets)
-    if (std::ranges::find(out.columns, o.channel, &RawColumn::name) == out.columns.end())
-      problems.add(o.channel,
-                   fmt::format("there is no such channel, but recording.offset.{} of the "
-                               "study file adds to it",
-                               o.channel),
-                   "a channel of the recording", "Remove the offset, or map the column");
-  out.lines = std::move(raw.lines);
-  return out;
 }
 
 }  // namespace drift

@@ -30,8 +30,8 @@ std::vector<Line> first_lines(const std::string& path, std::size_t skip) {
                            return static_cast<unsigned char>(c) < 0x20 && c != '\t';
                          });
     if (!damaged && (trimmed(text).empty() || text.front() == '#')) continue;
-    lines.push_back({reader.number(),
-                     valid_utf8(text) || damaged ? std::string(text) : utf8_from_latin1(text)});
+    lines.push_back({reader.number(), valid_utf8(text) || damaged ? std::string(text)
+                                                                  : utf8_from_windows_1252(text)});
     if (damaged) break;
   }
   return lines;

@@ -46,7 +46,7 @@ std::string CsvRows::here(std::string_view column) const {
                         : fmt::format("{}:{}", lines_.number(), column);
 }
 
-/// Whether a line is text, which may be Latin-1; says so if not.
+/// Whether a line is text, which may be Windows-1252; says so if not.
 bool CsvRows::is_text(std::string_view line) {
   if (lines_.cut()) {
     problems_.add(here(), fmt::format("the line is longer than {} bytes", LineReader::longest_line),
@@ -105,8 +105,8 @@ RawRecording CsvRows::read() {
       continue;
     }
     if (!valid_utf8(line)) {
-      if (latin1_line_ == 0) latin1_line_ = lines_.number();
-      line = decoded_ = utf8_from_latin1(line);
+      if (windows_line_ == 0) windows_line_ = lines_.number();
+      line = decoded_ = utf8_from_windows_1252(line);
     }
     if (header) {
       if (layout_.header.size() == 1 && uses_.empty() && problems_.count() == 0)
@@ -202,9 +202,9 @@ void CsvRows::finish() {
   if (!pending_.empty() || last_row_cut_)
     raw_.remarks.push_back(
         fmt::format("line {}, the last, is cut off: it is left out", lines_.number()));
-  if (latin1_line_ > 0)
+  if (windows_line_ > 0)
     raw_.remarks.push_back(
-        fmt::format("line {}: bytes that are not UTF-8 are read as Latin-1", latin1_line_));
+        fmt::format("line {}: bytes that are not UTF-8 are read as Windows-1252", windows_line_));
   if (time_zero_) {
     raw_.remarks.push_back(fmt::format("time is counted from {}", *time_zero_));
     add_fact(raw_, "time_zero", *time_zero_);

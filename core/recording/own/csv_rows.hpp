@@ -51,7 +51,7 @@ class CsvRows {
   std::vector<double> row_;
   std::vector<Complaint> pending_;
   std::string decoded_;
-  std::size_t latin1_line_ = 0, point_line_ = 0, comma_line_ = 0;
+  std::size_t windows_line_ = 0, point_line_ = 0, comma_line_ = 0;
   std::optional<double> last_clock_;
   std::optional<std::string> time_zero_;
   double clock_zero_ = 0.0, days_ = 0.0;

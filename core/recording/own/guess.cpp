@@ -57,7 +57,7 @@ std::vector<double> look_at_rows(const std::string& path, GuessedFile& file,
   while (lines.next(line)) {
     if (lines.number() <= std::max(file.layout.header_line, file.layout.unit_line)) continue;
     if (trimmed(line).empty() || line.front() == '#') continue;
-    if (!valid_utf8(line)) line = decoded = utf8_from_latin1(line);
+    if (!valid_utf8(line)) line = decoded = utf8_from_windows_1252(line);
     const auto& cells = splitter.split(without_checksum(line));
     if (cells.size() != file.columns.size()) continue;
     ++file.rows;

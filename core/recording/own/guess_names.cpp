@@ -21,9 +21,9 @@ constexpr std::pair<std::string_view, std::string_view> unit_endings[] = {
     {"degs", "deg/s"},    {"degps", "deg/s"}, {"rads", "rad/s"}, {"radps", "rad/s"},
     {"degh", "deg/h"},    {"dph", "deg/h"},   {"degc", "degC"},  {"c", "degC"}};
 
-constexpr std::string_view time_words[] = {"time",       "t",           "zeit",        "timestamp",
-                                           "elapsed",    "elapsedtime", "zeitstempel", "uhrzeit",
-                                           "sampletime", "seconds",     "timestartup", "timegps"};
+constexpr std::string_view time_words[] = {
+    "time",    "t",          "zeit",    "timestamp",   "elapsed", "elapsedtime", "zeitstempel",
+    "uhrzeit", "sampletime", "seconds", "timestartup", "timegps", "horodatage",  "temps"};
 constexpr std::string_view position_words[] = {"position", "pos",   "lage",      "stellung",
                                                "lagenr",   "posnr", "positionno"};
 constexpr std::string_view temperature_words[] = {"temperature", "temp", "temperatur", "tc"};
@@ -46,11 +46,14 @@ constexpr std::string_view gyro_words[] = {"g",           "gyr",
                                            "angvel",      "angularvelocity",
                                            "gyrorate",    "fieldangularvelocity"};
 constexpr std::string_view cmd_words[] = {"cmd", "command", "commanded", "soll", "befehl", "wcmd"};
-constexpr std::string_view gimbal_words[] = {"gimbal", "phi",    "resolver",
-                                             "winkel", "rahmen", "angle"};
-constexpr std::string_view outer_words[] = {"outer", "aussen", "a", "o", "1"};
-constexpr std::string_view middle_words[] = {"middle", "mitte", "mittel", "m", "2"};
-constexpr std::string_view inner_words[] = {"inner", "innen", "i", "3"};
+constexpr std::string_view gimbal_words[] = {"gimbal", "phi",   "resolver", "winkel",
+                                             "rahmen", "angle", "cardan",   "kardan"};
+constexpr std::string_view outer_words[] = {"outer",   "aussen", "ext", "exterieur",
+                                            "externe", "a",      "o",   "1"};
+constexpr std::string_view middle_words[] = {"middle", "mitte",  "mittel", "med",
+                                             "median", "milieu", "m",      "2"};
+constexpr std::string_view inner_words[] = {"inner",   "innen", "int", "interieur",
+                                            "interne", "i",     "3"};
 
 bool is_one(std::string_view word, Words words) {
   return std::ranges::find(words, word) != words.end();
@@ -93,7 +96,7 @@ std::string guessed_channel(std::string_view header) {
        {inner_words, "gimbal_inner"}}};
   for (const auto& [places, channel] : gimbals)
     for (const auto place : places) {
-      if (place.size() > 2 && word == place) return std::string(channel);
+      if (place.size() > 3 && word == place) return std::string(channel);
       if (word.size() > place.size() && word.ends_with(place) &&
           is_one(std::string_view(word).substr(0, word.size() - place.size()), gimbal_words))
         return std::string(channel);

@@ -51,8 +51,9 @@ std::string stem_of(const GuessedColumn& c) {
 
 bool may_be_heading(std::string_view name) {
   const std::string word = lower_case(name);
-  constexpr std::string_view parts[] = {"head", "azim", "sockel",   "kurs",  "fundament",
-                                        "base", "case", "pedestal", "table", "tisch"};
+  constexpr std::string_view parts[] = {"head",      "azim",     "sockel", "kurs",
+                                        "fundament", "carcasse", "base",   "case",
+                                        "pedestal",  "table",    "tisch"};
   return std::ranges::any_of(parts, [&](auto p) { return word.find(p) != std::string::npos; });
 }
 

@@ -24,7 +24,8 @@ HeaderCell header_cell(std::string_view text) {
   HeaderCell cell;
   text = trimmed(text);
   cell.whole = text;
-  const auto bracket = text.find('[');
+  // The last one: "T [K] [degC]" is the column "T [K]" with another unit.
+  const auto bracket = text.ends_with(']') ? text.rfind('[') : text.find('[');
   const bool round = bracket == std::string_view::npos && text.ends_with(')');
   const auto at = round ? text.rfind('(') : bracket;
   cell.name = trimmed(text.substr(0, at));
@@ -37,7 +38,13 @@ HeaderCell header_cell(std::string_view text) {
 }
 
 bool is_called(const HeaderCell& cell, std::string_view own) {
-  return !own.empty() && (cell.whole == own || cell.name == own);
+  return !own.empty() && (cell.whole == own || cell.name == own || names_unit_too(cell, own));
+}
+
+bool names_unit_too(const HeaderCell& cell, std::string_view own) {
+  if (!cell.unit || own == cell.name) return false;
+  const HeaderCell said = header_cell(own);
+  return said.name == cell.name && said.unit == cell.unit;
 }
 
 std::vector<std::string_view> canonical_channels(RecordingKind kind) {
@@ -88,8 +95,8 @@ std::vector<std::string_view> meant_channels(std::string_view name,
   return meant;
 }
 
-std::string plain_channel_name(std::string_view header) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 9> letters{
+std::string folded(std::string_view text) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 13> letters{
       {{"\u00E4", "ae"},
        {"\u00F6", "oe"},
        {"\u00FC", "ue"},
@@ -97,12 +104,30 @@ std::string plain_channel_name(std::string_view header) {
        {"\u00D6", "Oe"},
        {"\u00DC", "Ue"},
        {"\u00DF", "ss"},
+       {"\u00E6", "ae"},
+       {"\u0153", "oe"},
        {"\u00B5", "u"},
-       {"\u00B0", "deg"}}};
-  std::string text(header);
+       {"\u00B0", "deg"},
+       {"\u00BA", "deg"},
+       {"\u00D7", "x"}}};
+  std::string out(text);
   for (const auto& [from, to] : letters)
-    for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
-      text.replace(at, from.size(), to);
+    for (std::size_t at = 0; (at = out.find(from, at)) != std::string::npos; at += to.size())
+      out.replace(at, from.size(), to);
+  // U+00C0 to U+00FF are C3 80 to C3 BF.
+  constexpr std::string_view bases =
+      "AAAAAAACEEEEIIIIDNOOOOOxOUUUUYTsaaaaaaaceeeeiiiidnooooo_ouuuuyty";
+  for (std::size_t at = 0; (at = out.find('\xC3', at)) != std::string::npos; ++at)
+    if (at + 1 < out.size() && (out[at + 1] & '\xC0') == '\x80')
+      out.replace(at, 2, 1, bases[static_cast<unsigned char>(out[at + 1]) - 0x80u]);
+  // Accents that follow their letter, U+0300 to U+036F, as some systems write them.
+  for (std::size_t at = 0; (at = out.find_first_of("\xCC\xCD", at)) != std::string::npos;)
+    out.erase(at, 2);
+  return out;
+}
+
+std::string plain_channel_name(std::string_view header) {
+  const std::string text = folded(header);
   std::string out;
   for (const char c : text) {
     const bool fit = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');

@@ -20,9 +20,13 @@ struct HeaderCell {
 
 HeaderCell header_cell(std::string_view text);
 
-/// Whether a header in the file is the one that a text of the study file means: the whole cell, or
-/// its name.
+/// Whether a header in the file is the one that a text of the study file means: the whole cell, its
+/// name, or its name with the unit of the file behind it.
 bool is_called(const HeaderCell& cell, std::string_view own);
+
+/// Whether a text of the study file names the unit of the file beside the header: who writes
+/// "T (°F) [degC]" has seen the one and means the other.
+bool names_unit_too(const HeaderCell& cell, std::string_view own);
 
 /// Names of the channels that the program knows of a kind of recording, required ones first.
 std::vector<std::string_view> canonical_channels(RecordingKind kind);
@@ -34,6 +38,9 @@ bool is_known(const HeaderCell& cell, const RecordingFormat& format, RecordingKi
 /// a covariate of its own.
 std::vector<std::string_view> meant_channels(std::string_view name,
                                              const std::vector<std::string_view>& absent);
+
+/// A text with letters of ASCII for those with accents: "Kühlöl méd." -> "Kuehloel med.".
+std::string folded(std::string_view text);
 
 /// A header made fit for the name of a channel: "Öl temp" -> "Oel_temp".
 std::string plain_channel_name(std::string_view header);

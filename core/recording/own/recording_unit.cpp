@@ -46,11 +46,16 @@ constexpr Alias aliases[] = {{"sec", "s"},
                              {"C", "degC"},
                              {"Celsius", "degC"},
                              {"Kelvin", "K"},
+                             {"degF", "K", 1.0 / 1.8},
+                             {"F", "K", 1.0 / 1.8},
+                             {"Fahrenheit", "K", 1.0 / 1.8},
+                             {"gon", "deg", 0.9},
                              {"Gauss", "gauss"},
                              {"mgauss", "gauss", 1e-3},
                              {"nT", "T", 1e-9},
                              {"mm", "m", 1e-3},
                              {"cm", "m", 1e-2},
+                             {"ft", "m", 0.3048},
                              {"asec", "arcsec"},
                              {"mas", "arcsec", 1e-3},
                              {"rev", "turn"}};
@@ -125,6 +130,17 @@ std::optional<Unit> parse_recording_unit(std::string_view whole) {
   const auto unit = parse_spelling(rest);
   if (!unit || text.size() > Name::capacity) return std::nullopt;
   return Unit{Name(text), size * unit->to_si, unit->dim};
+}
+
+double celsius_offset(const Unit& unit) {
+  if (unit.dim != "K"_unit.dim) return 0.0;
+  const std::string_view symbol = unit.symbol.view();
+  if (symbol.ends_with('K') || symbol.ends_with("Kelvin")) return -273.15;
+  return symbol.ends_with('F') || symbol.ends_with("Fahrenheit") ? -32.0 / 1.8 : 0.0;
+}
+
+bool same_unit(const Unit& a, const Unit& b) {
+  return a.dim == b.dim && a.to_si == b.to_si && celsius_offset(a) == celsius_offset(b);
 }
 
 }  // namespace drift

@@ -7,8 +7,8 @@
 
 namespace drift {
 
-/// Bytes of ISO 8859-1 as UTF-8.
-std::string utf8_from_latin1(std::string_view bytes);
+/// Bytes of Windows-1252, which ISO 8859-1 is part of, as UTF-8.
+std::string utf8_from_windows_1252(std::string_view bytes);
 
 /// Turns UTF-16 into UTF-8, piece by piece; what is no character becomes U+FFFD.
 class Utf16Decoder {

@@ -3,6 +3,8 @@
 #include "core/config/load.hpp"
 #include "core/recording/own/csv_cells.hpp"
 #include "core/recording/own/format_config.hpp"
+#include "core/recording/own/guess_names.hpp"
+#include "core/recording/own/like_temperature.hpp"
 #include "core/recording/own/recording_unit.hpp"
 #include "core/recording/own/text_decoding.hpp"
 #include "recording_fixture.hpp"
@@ -58,6 +60,9 @@ TEST(RecordingUnit, IsReadInTheSpellingsOfPeople) {
                {"2^2", 0.0, ""},
                {"1/us", 1e6, "Hz"},
                {"\u00B0C", 1.0, "K"},
+               {"\u00B0F", 1.0 / 1.8, "K"},
+               {"gon", 0.9 * detail::deg, "rad"},
+               {"Grad", 0.0, ""},  // degrees in German, gon in French
                {"LSB", 0.0, ""},
                {"", 0.0, ""},
                {"-1 g", 0.0, ""},
@@ -72,6 +77,19 @@ TEST(RecordingUnit, IsReadInTheSpellingsOfPeople) {
     ASSERT_TRUE(again) << c.text;
     EXPECT_EQ(again->to_si, unit->to_si) << c.text << ": what is written reads back";
   }
+}
+
+TEST(OwnFile, NamesAreGuessedInSomeLanguages) {
+  const std::pair<const char*, const char*> names[] = {{"Horodatage", "time"},
+                                                       {"Zeit", "time"},
+                                                       {"Temp\u00E9rature", "temperature"},
+                                                       {"Cardan ext.", "gimbal_outer"},
+                                                       {"Cardan m\u00E9d.", "gimbal_middle"},
+                                                       {"Cardan int.", "gimbal_inner"},
+                                                       {"Rahmen innen", "gimbal_inner"},
+                                                       {"int", ""},
+                                                       {"Remarque", ""}};
+  for (const auto& [name, channel] : names) EXPECT_EQ(guessed_channel(name), channel) << name;
 }
 
 TEST(OwnFile, ClocksAreSecondsAndNothingElseIs) {
@@ -178,10 +196,59 @@ TEST(OwnFile, ACovariateNeverEndsACommand) {
   EXPECT_EQ(r.find("oil")->values[0], 3.0);
   EXPECT_TRUE(std::isnan(r.find("oil")->values[1]));
   EXPECT_NE(r.find("Oel_temp"), nullptr);
-  EXPECT_EQ(r.find("temperature"), nullptr) << "no term may take Fahrenheit for Celsius";
-  EXPECT_EQ(r.find("temperature_raw")->values[1], 71.0);
+  ASSERT_NE(r.find("temperature"), nullptr);
+  EXPECT_NEAR(r.find("temperature")->values[1], (71.0 - 32.0) / 1.8, 1e-12);
   EXPECT_EQ(r.find("note"), nullptr);
-  EXPECT_EQ(r.remarks.size(), 6u) << testing::PrintToString(r.remarks);
+  EXPECT_EQ(r.remarks.size(), 5u) << testing::PrintToString(r.remarks);
+}
+
+TEST(OwnFile, AUnitThatTheFileContradictsIsRefusedUnlessItIsWrittenOut) {
+  const Folder folder;
+  const struct {
+    const char *in_file, *in_study;
+    double first;  // [degC] of 70; NaN: refused
+  } cases[] = {{"K", "degC", NAN},        {"\u00B0F", "degC", NAN},       {"Grad", "degC", 70.0},
+               {"\u00B0C", "degC", 70.0}, {"\u00B0F", "", 38.0 / 1.8},    {"K", "", 70.0 - 273.15},
+               {"K", "K", 70.0 - 273.15}, {"K) [degC", "overruled", 70.0}};
+  for (const auto& c : cases) {
+    const bool overruled = std::string(c.in_study) == "overruled";
+    const std::string in_file = overruled ? "K" : c.in_file;
+    const std::string path =
+        folder.write("rec.csv", "time [s],position,acc_x [g],acc_y [g],acc_z [g],T (" + in_file +
+                                    ")\n1,1,0,0,1,70\n2,1,0,0,1,71\n");
+    const std::string own = overruled ? "T (K) [degC]"
+                            : std::string(c.in_study).empty()
+                                ? "T"
+                                : "T [" + std::string(c.in_study) + "]";
+    const auto format =
+        format_of("columns = { temperature = \"" + own + "\" }", RecordingKind::platform);
+    try {
+      const Recording r = read_recording(path, format, RecordingKind::platform, gravity);
+      ASSERT_FALSE(std::isnan(c.first)) << own << " of a file in " << in_file;
+      EXPECT_NEAR(r.find("temperature")->values[0], c.first, 1e-12) << own;
+    } catch (const InputError& e) {
+      EXPECT_TRUE(std::isnan(c.first)) << own << ": " << e.what();
+      ASSERT_EQ(e.messages().size(), 1u) << e.what();
+      for (const std::string& said : {in_file, std::string("[degC]"), std::string("overrule it")})
+        EXPECT_NE(std::string(e.what()).find(said), std::string::npos) << e.what();
+    }
+  }
+}
+
+TEST(OwnFile, ATemperatureThatNothingIsMappedToIsSaidWithTheLineToWrite) {
+  const Folder folder;
+  for (const char* header : {"Temp\xE9rature (\xB0"
+                             "C)",
+                             "T bo\xEEtier [degC]", "temp_2"}) {
+    const std::string path =
+        folder.write("rec.csv", "time [s],position,acc_x [g],acc_y [g],acc_z [g]," +
+                                    std::string(header) + "\n1,1,0,0,1,20\n2,1,0,0,1,21\n");
+    const auto format = format_of("columns = { acc_x = \"acc_x\" }", RecordingKind::platform);
+    const Recording r = read_recording(path, format, RecordingKind::platform, gravity);
+    EXPECT_EQ(r.find("temperature"), nullptr);
+    EXPECT_NE(unmapped_temperature(r).find("write temperature = \""), std::string::npos)
+        << header << testing::PrintToString(r.remarks);
+  }
 }
 
 TEST(OwnFile, MistakesInTheSectionAreNamed) {
