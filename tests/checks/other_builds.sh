@@ -25,7 +25,7 @@ for way; do
   cmake --preset "$preset" >/dev/null
   case $way in
     fuzz) cmake --build --preset asan --target driftscope_mc_tests ;;
-    tidy) cmake --build build/tidy --target drift_commit ;;
+    tidy) cmake --build build/tidy --target drift_commit generated/zoom_script.hpp ;;
     *) cmake --build --preset "$way" ;;
   esac
   case $way in
