@@ -223,15 +223,13 @@ Cell verdict_cell(const ParameterVerdict& verdict) {
   return {"learned", Tone::good};
 }
 
-/// Whether a plan cannot be ranked for a filter that has its temperature from the recording.
-bool plans_without_temperature(const mc::Study& study) {
-  return !study.environment.temperature &&
-         std::ranges::any_of(TermLibrary::terms, [&](const TermInfo& term) {
-           if (!term.needs.temperature) return false;
-           for (std::size_t i = term.first; i < term.first + term.count; ++i)
-             if (study.filters.front().active[i]) return true;
-           return false;
-         });
+/// What to add where a filter has its temperature from the recording, which a plan has not.
+std::string temperature_to_rank_with(const mc::Study& study) {
+  if (study.environment.temperature ||
+      !TermLibrary::needs(study.filters.front().model().terms).temperature)
+    return "";
+  return " It needs the temperature that is to be expected: --set environment.temperature=\"20 "
+         "degC\" --set environment.temperature_amplitude=\"2 degC\"";
 }
 
 InBrief identification_in_brief(const mc::Study& study, const identification::Identification& id) {
@@ -259,12 +257,7 @@ InBrief identification_in_brief(const mc::Study& study, const identification::Id
     brief.next = fmt::format(
         "Next: driftscope rank {} --improve 3 proposes positions that show what this test does "
         "not.{}",
-        file,
-        plans_without_temperature(study)
-            ? " It needs the temperature that is to be expected: --set "
-              "environment.temperature=\"20 "
-              "degC\" --set environment.temperature_amplitude=\"2 degC\""
-            : "");
+        file, temperature_to_rank_with(study));
   return brief;
 }
 

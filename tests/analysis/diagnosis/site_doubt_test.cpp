@@ -80,6 +80,16 @@ TEST(SiteDoubt, FindsTheLatitudeBehindAMisfit) {
   }
 }
 
+TEST(SiteDoubt, WithoutOneTheFirstOfSeveralMissingEffectsIsWhatToDoNext) {
+  Diagnosis told;
+  told.verdict = Verdict::unexplained;
+  EXPECT_EQ(report::diagnosis_in_brief(told).next, "");
+  told.remarks.push_back(
+      remark::StrongestLeft{{"accelerometer K0", "g2_drift"}, "temperature_drift"});
+  EXPECT_NE(report::diagnosis_in_brief(told).next.find("terms+=accelerometer\""), std::string::npos)
+      << report::diagnosis_in_brief(told).next;
+}
+
 TEST(SiteDoubt, IsNotRaisedWhereTheLatitudeIsRightOrTheVerdictGivesNoReason) {
   EXPECT_FALSE(Scene(truth).doubt(Verdict::unexplained));
   EXPECT_FALSE(Scene(47.0).doubt(

@@ -49,6 +49,19 @@ TEST(ParameterVerdict, IsInASumAloneWhereThePriorDecidesMostOfItsVariance) {
       << brief.more[0];
 }
 
+TEST(ParameterVerdict, WhatToDoNextRunsWhereAFilterNeedsTheTemperature) {
+  // A plan has no temperature unless [environment] says one: rank alone would end with exit 4.
+  Fitted f;
+  f.parameter(3).sigma = 0.99 * f.parameter(3).prior_sigma;
+  const auto next = [&] { return report::identification_in_brief(f.study, f.id).next; };
+  EXPECT_NE(next().find("driftscope rank"), std::string::npos) << next();
+  EXPECT_EQ(next().find("environment.temperature"), std::string::npos) << next();
+  f.study.filters.front().active[TermLibrary::index("kT_x")] = true;
+  EXPECT_NE(next().find("--set environment.temperature="), std::string::npos) << next();
+  f.study.environment.temperature = 20.0;
+  EXPECT_EQ(next().find("environment.temperature"), std::string::npos) << next();
+}
+
 TEST(ParameterVerdict, IsWrongBeyondFiveSigmaOfAKnownTruth) {
   Fitted f;
   f.parameter(4).value += 6.0 * f.parameter(4).sigma;
