@@ -2,19 +2,22 @@
 
 #include "analysis/cli/command.hpp"
 #include "analysis/cli/print.hpp"
+#include "core/plan/case_heading.hpp"
 #include "core/plan/plan_memory.hpp"
 
 namespace drift::cli {
 namespace {
 
-/// The positions in the order in which a recording has to have them.
-void show_positions(const TestPlan& plan) {
-  show("\n{:>8}  {:<36}  {:<18}  {:<5}  {:<7}  {}\n", "position", "name", "axes", "mode", "entry",
-       "dwell");
+/// The positions in the order in which a recording has to have them, with the headings of the case
+/// that the middle gimbal asks for.
+void show_positions(const TestPlan& plan, const Site& site) {
+  const std::vector<Passage> passages = plan_passages(plan, site);
+  show("\n{:>8}  {:<36}  {:<18}  {:>8}  {:<5}  {:<7}  {}\n", "position", "name", "axes", "case",
+       "mode", "entry", "dwell");
   for (std::size_t k = 0; k < plan.positions.size(); ++k) {
     const Position& p = plan.positions[k];
-    show("{:>8}  {:<36}  {:<18}  {:<5}  {:<7}  {:g} min\n", k + 1, p.name, p.axes, key_of(p.mode),
-         key_of(p.entry), p.dwell / 60.0);
+    show("{:>8}  {:<36}  {:<18}  {:>4.4g} deg  {:<5}  {:<7}  {:g} min\n", k + 1, p.name, p.axes,
+         passages[k].dwell.heading0 / detail::deg, key_of(p.mode), key_of(p.entry), p.dwell / 60.0);
   }
 }
 
@@ -38,7 +41,7 @@ ExitCode check(const StudyArguments& arguments) {
   value_width = std::min<std::size_t>(value_width, 60);
   for (const mc::Resolved& r : study.resolved)
     show("{:<{}}  {:<{}}  {}\n", r.key, key_width, r.value, value_width, r.origin);
-  if (study.kind == RecordingKind::platform) show_positions(study.plan);
+  if (study.kind == RecordingKind::platform) show_positions(study.plan, study.site);
   tell_assumed_gravity(study);
   return ExitCode::ok;
 }

@@ -8,7 +8,6 @@
 #include "analysis/identification/absent_channels.hpp"
 #include "analysis/preparation/prepare.hpp"
 #include "core/base/check.hpp"
-#include "core/recording/own/like_temperature.hpp"
 
 namespace drift::diagnosis {
 namespace {
@@ -51,7 +50,7 @@ void name_unmapped_temperature(const std::vector<Recording>& recordings,
   for (const Recording& r : recordings)
     for (NotExamined& n : left_out)
       if (n.why == NotExamined::Why::no_temperature && n.instead.empty())
-        n.instead = unmapped_temperature(r);
+        n.instead = r.unmapped_temperature;
 }
 
 }  // namespace

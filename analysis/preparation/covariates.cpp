@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "core/physics/term_library.hpp"
-#include "core/recording/own/like_temperature.hpp"
 
 namespace drift::preparation {
 namespace {
@@ -41,7 +40,7 @@ std::vector<Covariate> covariates_of(const std::vector<Recording>& recordings) {
 std::vector<std::string> unmapped_temperature_of_terms(const mc::Study& study,
                                                        const Recording& recording) {
   std::vector<std::string> wrong;
-  const std::string unmapped = unmapped_temperature(recording);
+  const std::string& unmapped = recording.unmapped_temperature;
   if (unmapped.empty()) return wrong;
   for (std::size_t t = 0; t < TermLibrary::num_terms; ++t) {
     const TermInfo& term = TermLibrary::terms[t];

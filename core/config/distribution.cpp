@@ -21,10 +21,31 @@ std::string expected_prior(const Unit& unit) {
                      value(1), value(-1), value(1));
 }
 
+/// "normal(0, 3) deg/h", as check prints it, as the table that a file has; empty if it is none.
+std::optional<Node> written_out(const Node& node) {
+  if (!node.is(Node::Kind::string)) return std::nullopt;
+  const std::string_view text = node.text;
+  const auto open = text.find('('), comma = text.find(','), close = text.rfind(')');
+  if (close == std::string_view::npos || !(open < comma && comma < close)) return std::nullopt;
+  const auto kind = std::find(kinds.begin(), kinds.end(), text.substr(0, open));
+  if (kind == kinds.end()) return std::nullopt;
+  const auto bound = [&](std::string_view number) {
+    Node value = text_node(fmt::format("{}{}", number, text.substr(close + 1)));
+    value.at = node.at;
+    return value;
+  };
+  Node table, bounds = list_node({bound(text.substr(open + 1, comma - open - 1)),
+                                  bound(text.substr(comma + 1, close - comma - 1))});
+  table.at = bounds.at = node.at;
+  table.members.push_back({std::string(*kind), node.at, std::move(bounds)});
+  return table;
+}
+
 }  // namespace
 
 std::optional<Prior> read_prior(Report& report, const Node& node, std::string_view key,
                                 const Option& option) {
+  if (const auto table = written_out(node)) return read_prior(report, *table, key, option);
   if (!node.is(Node::Kind::table)) {
     const auto value = read_quantity(report, node, key, option);
     if (!value) return std::nullopt;

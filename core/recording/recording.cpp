@@ -47,10 +47,9 @@ RawRecording with_format(RawRecording raw, const RecordingFormat& format, Record
     header.push_back({c.name, c.name, c.unit, false});
     c.numbers = c.values.size();
   }
-  std::vector<std::string> remarks;
   if (raw.columns.empty()) return raw;
   const std::size_t before = problems.count();
-  const auto uses = uses_of_columns(header, format, kind, problems, remarks);
+  const auto uses = uses_of_columns(header, format, kind, problems, raw);
   raw.settled = problems.count() == before;
   for (std::size_t i = 0; i < uses.size(); ++i)
     if (uses[i].role == ColumnUse::Role::position)
@@ -60,9 +59,7 @@ RawRecording with_format(RawRecording raw, const RecordingFormat& format, Record
             x = number;
             break;
           }
-  raw = with_channels(std::move(raw), uses, format, problems);
-  raw.remarks.insert(raw.remarks.end(), remarks.begin(), remarks.end());
-  return raw;
+  return with_channels(std::move(raw), uses, format, problems);
 }
 
 [[noreturn]] void throw_extension(const std::string& path, const std::string& extension) {

@@ -96,6 +96,13 @@ void check_columns(const Recording& r, RecordingKind kind, Problems& problems) {
                  "acc_x, acc_y, acc_z or gimbal_outer, gimbal_middle, gimbal_inner, or both", hint);
 }
 
+/// Whether a step back in time [s] may be that of a clock of 24 hours: over midnight within an
+/// hour.
+bool begins_again_at_midnight(double before, double after) {
+  constexpr double day = 86400.0, hour = 3600.0;
+  return before <= day && before > day - hour && after >= 0.0 && after < hour;
+}
+
 void check_time(const Recording& r, Problems& problems) {
   const Channel* time = r.find("time");
   if (!time) return;
@@ -107,11 +114,16 @@ void check_time(const Recording& r, Problems& problems) {
       problems.add(at(r, i, "time"), "the time is missing", "a number in every row",
                    "Give the time");
     } else if (!(t > last)) {
-      problems.add(at(r, i, "time"),
-                   fmt::format("{} s {} {} s at {}", t, t == last ? "repeats" : "comes after", last,
-                               r.lines[last_row]),
-                   "time to increase from row to row",
-                   "Sort the rows, or remove those that were written twice");
+      problems.add(
+          at(r, i, "time"),
+          fmt::format("{} s {} {} s at {}", t, t == last ? "repeats" : "comes after", last,
+                      r.lines[last_row]),
+          "time to increase from row to row",
+          begins_again_at_midnight(last, t)
+              ? "If this is a clock that begins again at midnight, read it as a counter in "
+                "[recording] of the study file: counter = \"its header\", tick = \"1 ms\" "
+                "and wrap = 86400000, or what a count is, and how many make a day"
+              : "Sort the rows, or remove those that were written twice");
     }
     if (t > last) {
       last = t;
@@ -215,6 +227,7 @@ Recording checked_recording(RawRecording raw, RecordingKind kind, double gravity
   }
   check_names(raw, problems);
   r.remarks = std::move(raw.remarks);
+  r.unmapped_temperature = std::move(raw.unmapped_temperature);
   if (!equal_lengths(raw, problems)) return r;
   const std::size_t rows = raw.columns.front().values.size();
   if (rows == 0 && !problems.any())
@@ -231,7 +244,9 @@ Recording checked_recording(RawRecording raw, RecordingKind kind, double gravity
   }
   if (raw.settled) check_units_given(raw.columns, {kind, raw.kind, gravity}, problems);
   for (auto& c : raw.columns) {
+    const bool temperature = c.name == "temperature";
     Unit unit = checked_unit(c, {kind, raw.kind, gravity}, problems, r.remarks);
+    if (temperature && c.name != "temperature") r.unmapped_temperature = r.remarks.back();
     for (double& x : c.values) x *= c.sign * unit.to_si;
     if (c.name == "temperature") unit = made_celsius(c.values, unit);
     add_offset(c, unit, problems);
@@ -247,6 +262,7 @@ Recording checked_recording(RawRecording raw, RecordingKind kind, double gravity
   check_position(r, in_order ? RowOrder::known : RowOrder::broken, problems);
   check_values(r, kind, problems);
   check_gravity(r, problems);
+  check_temperature(r, problems);
   return r;
 }
 

@@ -33,6 +33,7 @@ struct RawRecording {
   SampleKind kind = SampleKind::rates;
   bool settled = true;               ///< the columns were told apart without a problem
   std::vector<std::string> remarks;  ///< sentences about how the file was understood
+  std::string unmapped_temperature;  ///< as in Recording
 };
 
 /// Most facts a recording may carry; more is not a recording.

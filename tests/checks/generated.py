@@ -33,8 +33,8 @@ PLANS = """# Plans
 
 The positions of every preset of `plan.preset`, in order, as `driftscope check` prints them; written by
 `tests/checks/generated.py`. A recording numbers its positions like this (column `position`), or `[recording] positions` says
-which is which. axes: where the platform's axes point, of N(orth), E, S, W, U(p), D(own); two letters: half way between. Another
-order, or other attitudes, are written position by position ([the study file](study.md), `plan.position[]`).
+which is which. axes: where the platform's axes point, of N(orth), E, S, W, U(p), D(own); two letters: half way between. case: heading
+of the case, from North over West, that keeps the middle gimbal below 60 deg (`case_heading` of a recording). Another order, or other attitudes, are written position by position ([the study file](study.md), `plan.position[]`).
 """
 
 
@@ -46,10 +46,10 @@ def plans(program):
         command = [program, "check", config, "--set", f'plan.preset="{preset}"']
         lines = subprocess.run(command, check=True, capture_output=True, text=True).stdout.splitlines()
         first = next(k for k, line in enumerate(lines) if line.split()[:3] == ["position", "name", "axes"])
-        yield f"\n## {preset}\n\n| position | name | axes | entry |\n|---|---|---|---|\n"
+        yield f"\n## {preset}\n\n| position | name | axes | case | entry |\n|---|---|---|---|---|\n"
         for line in lines[first + 1:]:
-            number, name, axes, _, entry, *_ = (part.strip() for part in re.split(r"  +", line.strip()))
-            yield f"| {number} | {name} | {axes} | {entry} |\n"
+            number, name, axes, case, _, entry, *_ = (part.strip() for part in re.split(r"  +", line.strip()))
+            yield f"| {number} | {name} | {axes} | {case} | {entry} |\n"
 
 
 def effects(program):

@@ -38,6 +38,9 @@ class Program {
       const int code = app_.exit(e, out, err);
       cli::show_text(out.str());
       cli::complain_text(err.str());
+      if (code != 0)
+        for (const CLI::App* chosen : app_.get_subcommands())
+          cli::complain("{}\n", chosen->get_footer());
       cli::flush_output();
       return code == 0 ? 0 : static_cast<int>(ExitCode::usage);
     }

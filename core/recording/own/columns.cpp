@@ -196,14 +196,16 @@ class Assignment {
 
 std::vector<ColumnUse> uses_of_columns(const std::vector<HeaderCell>& header,
                                        const RecordingFormat& format, RecordingKind kind,
-                                       Problems& problems, std::vector<std::string>& remarks) {
+                                       Problems& problems, RawRecording& raw) {
   Assignment assignment(header, format, kind, problems);
   auto uses = assignment.assign();
   if (!assignment.renamed.empty())
-    remarks.push_back(
+    raw.remarks.push_back(
         fmt::format("columns under another name: {}", fmt::join(assignment.renamed, ", ")));
-  if (!assignment.temperatures.empty())
-    remarks.insert(remarks.begin(), unmapped_temperature_remark(assignment.temperatures));
+  if (!assignment.temperatures.empty()) {
+    raw.unmapped_temperature = unmapped_temperature_remark(assignment.temperatures);
+    raw.remarks.insert(raw.remarks.begin(), raw.unmapped_temperature);
+  }
   return uses;
 }
 

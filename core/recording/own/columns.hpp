@@ -29,10 +29,10 @@ struct ColumnUse {
 
 /// Tells the columns of a file apart. What the format names and the file lacks, headers that look
 /// like a slip of the pen, and units that contradict each other are problems; names that had to be
-/// changed are remarks.
+/// changed are remarks of `raw`.
 std::vector<ColumnUse> uses_of_columns(const std::vector<HeaderCell>& header,
                                        const RecordingFormat& format, RecordingKind kind,
-                                       Problems& problems, std::vector<std::string>& remarks);
+                                       Problems& problems, RawRecording& raw);
 
 /// The columns under the program's names, with the time that the format gives instead of a column.
 /// `uses` is parallel to the columns.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <chrono>
 #include <limits>
 
 #include "core/recording/recording_problems.hpp"
@@ -15,70 +14,6 @@ std::string_view unquoted(std::string_view cell) {
   if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"')
     cell = trimmed(cell.substr(1, cell.size() - 2));
   return cell;
-}
-
-/// A number from the front of a text, which then is what follows it; as from_chars reads.
-template <class T>
-bool take_number(std::string_view& text, T& value) {
-  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc()) return false;
-  text.remove_prefix(static_cast<std::size_t>(stop - text.data()));
-  return true;
-}
-
-bool take(std::string_view& text, char c) {
-  if (!text.starts_with(c)) return false;
-  text.remove_prefix(1);
-  return true;
-}
-
-/// "13:05:10.25" from the front of a text.
-std::optional<double> take_time_of_day(std::string_view& text) {
-  int hour = 0, minute = 0;
-  double second = 0.0;
-  if (text.empty() || text.front() < '0' || text.front() > '9') return std::nullopt;
-  if (!take_number(text, hour) || !take(text, ':') || !take_number(text, minute) ||
-      !take(text, ':'))
-    return std::nullopt;
-  if (!take_number(text, second)) return std::nullopt;
-  if (!(hour >= 0 && hour < 24 && minute >= 0 && minute < 60 && second >= 0.0 && second < 61.0))
-    return std::nullopt;
-  return 3600.0 * hour + 60.0 * minute + second;
-}
-
-/// "2026-03-01" or "01.03.2026" from the front of a text, as seconds since 1970.
-std::optional<double> take_date(std::string_view& text) {
-  int first = 0, month = 0, last = 0;
-  if (!take_number(text, first)) return std::nullopt;
-  const char mark = text.empty() ? '\0' : text.front();
-  if ((mark != '-' && mark != '.' && mark != '/') || !take(text, mark) ||
-      !take_number(text, month) || !take(text, mark) || !take_number(text, last))
-    return std::nullopt;
-  if (mark == '/' && first < 1000) return std::nullopt;  // day or month first? nobody knows
-  const bool year_first = first >= 1000;
-  using namespace std::chrono;
-  const year_month_day date{year(year_first ? first : last), std::chrono::month(month),
-                            day(year_first ? last : first)};
-  if (!date.ok()) return std::nullopt;
-  return 86400.0 * static_cast<double>(sys_days(date).time_since_epoch().count());
-}
-
-/// "Z", "+02:00" or nothing: what is to be taken off to come to UTC [s].
-std::optional<double> zone_of(std::string_view text) {
-  if (text.empty() || text == "Z" || text == "UTC") return 0.0;
-  const double sign = text.front() == '-' ? -1.0 : 1.0;
-  if (text.front() != '+' && text.front() != '-') return std::nullopt;
-  text.remove_prefix(1);
-  int hours = 0, minutes = 0;
-  if (!take_number(text, hours)) return std::nullopt;
-  if (hours > 99) {
-    minutes = hours % 100;
-    hours /= 100;
-  } else if (take(text, ':') && !take_number(text, minutes)) {
-    return std::nullopt;
-  }
-  if (!text.empty() || hours > 14 || minutes > 59) return std::nullopt;
-  return sign * (3600.0 * hours + 60.0 * minutes);
 }
 
 }  // namespace
@@ -153,22 +88,6 @@ ParsedCell parse_cell(std::string_view text, DecimalMark decimal) {
       cell.mark != wanted)
     cell.kind = Kind::wrong_mark;
   return cell;
-}
-
-std::optional<double> parse_clock(std::string_view whole) {
-  std::string text(trimmed(whole));
-  if (const auto comma = text.find(','); comma != std::string::npos) text[comma] = '.';
-  std::string_view rest = text;
-  if (const auto of_day = take_time_of_day(rest); of_day && rest.empty()) return of_day;
-  rest = text;
-  const auto date = take_date(rest);
-  if (!date || rest.empty()) return std::nullopt;
-  if (rest.front() != 'T' && rest.front() != ' ' && rest.front() != '_') return std::nullopt;
-  rest.remove_prefix(1);
-  const auto of_day = take_time_of_day(rest);
-  const auto zone = of_day ? zone_of(trimmed(rest)) : std::nullopt;
-  if (!zone) return std::nullopt;
-  return *date + *of_day - *zone;
 }
 
 std::string lower_case(std::string_view text) {

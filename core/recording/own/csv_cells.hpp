@@ -38,10 +38,6 @@ struct ParsedCell {
 /// Reads a cell, whatever the locale. `decimal` automatic: point or comma.
 ParsedCell parse_cell(std::string_view text, DecimalMark decimal);
 
-/// Seconds of a time of day "13:05:10.25", or of a date and time "2026-03-01T13:05:10.25Z",
-/// "01.03.2026 13:05:10,25" since 1970. Empty if the text is none.
-std::optional<double> parse_clock(std::string_view text);
-
 /// Text in lower case; letters of ASCII alone.
 std::string lower_case(std::string_view text);
 

@@ -4,6 +4,7 @@
 
 #include "core/base/utf8.hpp"
 #include "core/recording/line_reader.hpp"
+#include "core/recording/own/clock.hpp"
 #include "core/recording/own/csv_cells.hpp"
 #include "core/recording/own/recording_unit.hpp"
 #include "core/recording/own/text_decoding.hpp"
@@ -92,7 +93,7 @@ bool is_row_of_numbers(std::string_view line, char delimiter) {
     if (cell.empty()) continue;
     ++filled;
     if (parse_cell(cell, DecimalMark::automatic).kind == ParsedCell::Kind::number ||
-        parse_clock(cell))
+        parse_clock(cell) || parse_clock(cell, StrokeDates::month_first))
       ++numbers;
   }
   return numbers >= 2 && 2 * numbers >= filled;

@@ -30,8 +30,7 @@ CsvRows::CsvRows(const std::string& path, CsvLayout layout, const RecordingForma
   if (layout_.unit_line > 0)
     raw_.remarks.push_back(fmt::format("line {} is read as the units", layout_.unit_line));
   const std::size_t before = problems.count();
-  if (is_header_sound())
-    uses_ = uses_of_columns(layout_.header, format, kind, problems, raw_.remarks);
+  if (is_header_sound()) uses_ = uses_of_columns(layout_.header, format, kind, problems, raw_);
   raw_.settled = problems.count() == before;
   for (const HeaderCell& cell : layout_.header) {
     RawColumn column;
@@ -145,8 +144,10 @@ void CsvRows::read_row(std::string_view line) {
         here(), fmt::format("{} cells", cells.size()),
         fmt::format("{}, as in the header{}", n,
                     format_.header.empty() ? "" : " of the study file"),
-        comma ? "Write numbers with a decimal point, not a comma, and remove superfluous cells"
-              : "Complete the row, or leave cells empty that were not measured"};
+        comma
+            ? "Write numbers with a decimal point and without marks between thousands, and remove "
+              "superfluous cells"
+            : "Complete the row, or leave cells empty that were not measured"};
     if (cells.size() > n)
       problems_.add(complaint.where, complaint.wrong, complaint.expected, complaint.fix);
     else
@@ -205,10 +206,11 @@ void CsvRows::finish() {
   if (windows_line_ > 0)
     raw_.remarks.push_back(
         fmt::format("line {}: bytes that are not UTF-8 are read as Windows-1252", windows_line_));
-  if (time_zero_) {
-    raw_.remarks.push_back(fmt::format("time is counted from {}", *time_zero_));
-    add_fact(raw_, "time_zero", *time_zero_);
+  if (!clock_.zero().empty()) {
+    raw_.remarks.push_back(fmt::format("time is counted from {}", clock_.zero()));
+    add_fact(raw_, "time_zero", clock_.zero());
   }
+  if (const std::string how = clock_.remark(); !how.empty()) raw_.remarks.push_back(how);
   if (point_line_ > 0 && comma_line_ > 0 && format_.decimal == DecimalMark::automatic)
     problems_.add(std::to_string(std::max(point_line_, comma_line_)),
                   fmt::format("decimal {} here, decimal {} in line {}",

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/recording/line_reader.hpp"
+#include "core/recording/own/clock.hpp"
 #include "core/recording/own/columns.hpp"
 #include "core/recording/own/csv_cells.hpp"
 #include "core/recording/own/csv_layout.hpp"
@@ -52,9 +53,7 @@ class CsvRows {
   std::vector<Complaint> pending_;
   std::string decoded_;
   std::size_t windows_line_ = 0, point_line_ = 0, comma_line_ = 0;
-  std::optional<double> last_clock_;
-  std::optional<std::string> time_zero_;
-  double clock_zero_ = 0.0, days_ = 0.0;
+  Clock clock_;
   std::string last_end_;                 ///< the last cell of the row before
   std::optional<std::size_t> decimals_;  ///< of the last column, where all rows have the same
   bool rows_have_ends_ = false;          ///< a last cell was seen

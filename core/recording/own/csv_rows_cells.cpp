@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "core/recording/own/csv_rows.hpp"
@@ -11,6 +12,24 @@ namespace {
 
 using Role = ColumnUse::Role;
 using Kind = ParsedCell::Kind;
+
+/// Whether a text that is no number would be one without the marks between its thousands:
+/// "1,234.5", "1.234,5", "1'234.5", "1 234,5".
+bool has_thousands_marks(std::string_view text) {
+  constexpr std::array<std::string_view, 7> marks = {".",      ",",      "'",     " ",
+                                                     "\u00A0", "\u202F", "\u2019"};
+  if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
+  std::size_t found = 0, digits = 0;
+  while (!text.empty()) {
+    const auto mark =
+        std::ranges::find_if(marks, [&](std::string_view m) { return text.starts_with(m); });
+    const bool digit = text.front() >= '0' && text.front() <= '9';
+    if (mark == marks.end() && !digit) return false;
+    ++(digit ? digits : found);
+    text.remove_prefix(digit ? 1 : mark->size());
+  }
+  return found > 0 && digits > 3;
+}
 
 }  // namespace
 
@@ -53,29 +72,24 @@ std::optional<CsvRows::Complaint> CsvRows::read_cell(std::size_t i, std::string_
     return Complaint{here(use.channel), found, "a number between 1e-307 and 1e308",
                      "Correct the number, or choose another unit"};
   return Complaint{here(use.channel), found, "a number, nan or an empty cell",
-                   "Correct the cell, or leave it empty if it was not measured"};
+                   has_thousands_marks(cell)
+                       ? "Write numbers without marks between thousands"
+                       : "Correct the cell, or leave it empty if it was not measured"};
 }
 
 std::optional<CsvRows::Complaint> CsvRows::read_time(std::size_t i, std::string_view cell) {
   RawColumn& column = raw_.columns[i];
-  const auto seconds = parse_clock(cell);
-  if (!seconds || (column.numbers > 0 && !column.clock))
+  const bool numbers = column.numbers > 0 && !column.clock;
+  const auto seconds = clock_.read(cell);
+  if (!seconds || numbers)
     return Complaint{here("time"), "found " + in_quotes(cell),
                      seconds ? "a number as in the rows above"
                              : "a number, or a time such as 2026-03-01T13:05:10.250",
                      "Write all times alike"};
-  constexpr double day = 86400.0;
-  if (!column.clock) {
-    column.clock = true;
-    column.unit = "s";
-    clock_zero_ = *seconds;
-    time_zero_ = std::string(cell);
-  }
+  column.clock = true;
+  column.unit = "s";
   ++column.numbers;
-  // A time of day begins again at midnight.
-  if (last_clock_ && *seconds < 2.0 * day && *seconds + 0.5 * day < *last_clock_) days_ += day;
-  last_clock_ = *seconds;
-  row_[i] = *seconds + days_ - clock_zero_;
+  row_[i] = *seconds;
   return std::nullopt;
 }
 

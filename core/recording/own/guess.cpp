@@ -11,6 +11,7 @@
 #include "core/recording/own/csv_cells.hpp"
 #include "core/recording/own/guess_names.hpp"
 #include "core/recording/own/guess_values.hpp"
+#include "core/recording/own/like_temperature.hpp"
 #include "core/recording/own/recording_unit.hpp"
 #include "core/recording/own/text_decoding.hpp"
 #include "core/recording/recording_channels.hpp"
@@ -109,6 +110,27 @@ std::string unit_of(const GuessedColumn& c, const std::string& gravity) {
   return c.channel == "temperature" ? "" : "?";  // a covariate does without
 }
 
+/// The one column without a channel for which something holds, named; none or several: nothing is.
+template <class Holds>
+void name_the_only(GuessedFile& file, std::string_view channel, Holds&& holds) {
+  if (std::ranges::find(file.columns, channel, &GuessedColumn::channel) != file.columns.end())
+    return;
+  const auto free = [&](const GuessedColumn& c) { return c.channel.empty() && holds(c.header); };
+  const auto first = std::ranges::find_if(file.columns, free);
+  if (first != file.columns.end() &&
+      std::find_if(first + 1, file.columns.end(), free) == file.columns.end())
+    first->channel = channel;
+}
+
+/// Time and temperature tell themselves by their units, whatever they are called.
+void name_by_unit(GuessedFile& file) {
+  name_the_only(file, "time", [](const HeaderCell& cell) {
+    const auto unit = cell.unit ? parse_recording_unit(*cell.unit) : std::nullopt;
+    return unit && unit->dim == unit::s.dim;
+  });
+  name_the_only(file, "temperature", looks_like_temperature);
+}
+
 /// A counter that stands for time where nothing else does.
 void guess_counter(GuessedFile& file) {
   if (std::ranges::find(file.columns, "time", &GuessedColumn::channel) != file.columns.end())
@@ -134,6 +156,7 @@ void name_channels(GuessedFile& file) {
     if (std::ranges::find(file.columns, channel, &GuessedColumn::channel) == file.columns.end())
       c.channel = channel;
   }
+  name_by_unit(file);
   guess_counter(file);
   const auto has = [&](std::string_view start) {
     return std::ranges::any_of(

@@ -10,12 +10,6 @@
 #include "core/recording/recording_problems.hpp"
 
 namespace drift {
-namespace {
-
-/// How the remark goes on after the names: by this it is found again among others.
-constexpr std::string_view mark = "like a temperature, but no column is mapped as one";
-
-}  // namespace
 
 bool looks_like_temperature(const HeaderCell& cell) {
   if (cell.unit)
@@ -35,20 +29,11 @@ std::string unmapped_temperature_remark(const std::vector<HeaderCell>& cells) {
   for (const HeaderCell& c : cells) names.push_back(in_quotes(c.whole));
   const HeaderCell& first = cells.front();
   const bool known = first.unit && parse_recording_unit(*first.unit);
-  return fmt::format("{} look{} {}: write temperature = \"{}{}\" in columns of [recording]",
-                     fmt::join(names, ", "), names.size() == 1 ? "s" : "", mark, first.name,
-                     known ? fmt::format(" [{}]", *first.unit) : " [degC]");
-}
-
-std::string unmapped_temperature(const Recording& recording) {
-  if (recording.find("temperature")) return "";
-  // One without a known unit is carried under another name, with a remark that begins with its own.
-  const bool without_unit = recording.find("temperature_raw");
-  const auto found = std::ranges::find_if(recording.remarks, [&](const std::string& remark) {
-    return remark.find(mark) != std::string::npos ||
-           (without_unit && remark.starts_with("temperature: "));
-  });
-  return found == recording.remarks.end() ? "" : *found;
+  return fmt::format(
+      "{} look{} like a temperature, but no column is mapped as one: write "
+      "temperature = \"{}{}\" in columns of [recording]",
+      fmt::join(names, ", "), names.size() == 1 ? "s" : "", first.name,
+      known ? fmt::format(" [{}]", *first.unit) : " [degC]");
 }
 
 }  // namespace drift

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "core/recording/own/header.hpp"
-#include "core/recording/recording.hpp"
 
 namespace drift {
 
@@ -14,8 +13,5 @@ bool looks_like_temperature(const HeaderCell& cell);
 
 /// What a reader is told whose temperatures no channel is: which they are, and the line to write.
 std::string unmapped_temperature_remark(const std::vector<HeaderCell>& cells);
-
-/// That remark of a recording; empty if it has a temperature, or nothing that looks like one.
-std::string unmapped_temperature(const Recording& recording);
 
 }  // namespace drift

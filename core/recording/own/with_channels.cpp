@@ -56,6 +56,7 @@ RawRecording with_channels(RawRecording raw, const std::vector<ColumnUse>& uses,
   RawRecording out;
   out.facts = std::move(raw.facts);
   out.remarks = std::move(raw.remarks);
+  out.unmapped_temperature = std::move(raw.unmapped_temperature);
   out.kind = format.kind;
   out.settled = raw.settled;
   const RawColumn* counter = nullptr;

@@ -53,6 +53,20 @@ TEST(Arguments, HelpIsNoMistake) {
     EXPECT_EQ(test::run_program(DRIFT_SYNTHETIC, words).code, 0) << words;
 }
 
+TEST(Arguments, WhatIsLeftOutIsShownByAnExample) {
+  const std::string said = refusal("diagnose lab.toml");
+  expect_says(said, "recordings is required");
+  expect_says(said, "Example: driftscope diagnose ");
+}
+
+TEST(Program, CheckSaysHowTheCaseIsTurned) {
+  const ScratchFolder folder;  // position 7 of eighteen needs the case turned
+  const Answer a = driftscope("check " + folder.write("s.toml", short_study) +
+                              " --set plan.preset=eighteen --set plan.dwell='20 min'");
+  ASSERT_EQ(a.code, 0) << a.err;
+  expect_says(a.out, "  45 deg  ");
+}
+
 TEST(Arguments, TheCommandHelpIsTheOptionHelp) {
   const auto out = [](const char* words) {
     const Answer answer = test::run_program(DRIFT_SYNTHETIC, words);

@@ -64,6 +64,38 @@ TEST(NewStudy, AttitudesEntriesHeadingsAndLawAreThoseOfTheRecording) {
   EXPECT_EQ(driftscope("identify " + file + " " + recording + " --quiet").code, 0);
 }
 
+TEST(NewStudy, WhatNoColumnTellsIsLeftBlankAndSaid) {
+  const ScratchFolder folder;
+  const std::string made = folder.write("made.toml", short_study), own = folder.file("own.csv"),
+                    file = folder.file("lab.toml");
+  ASSERT_EQ(driftscope("simulate " + made + " -o " + own).code, 0);
+  std::string text = text_of(own);
+  const auto rename = [&](const std::string& from, const std::string& to) {
+    text.replace(text.find(from), from.size(), to);
+  };
+  rename("time [s]", "Stoppuhr");
+  rename("gimbal_outer [deg]", "gimbal_outer");
+  folder.write("own.csv", text);
+  const Answer a = driftscope("new diagnose " + own + " -o " + file);
+  ASSERT_EQ(a.code, 0) << a.err;
+  EXPECT_TRUE(has(a.out, "time = \"COLUMN [s]\"")) << a.out;
+  std::string study = text_of(file);
+  EXPECT_TRUE(has(study, "gimbal_outer = \"gimbal_outer [?]\"")) << study;
+  EXPECT_TRUE(has(study, "# ")) << study;
+  const Answer open = driftscope("check " + file);
+  EXPECT_NE(open.code, 0);
+  EXPECT_TRUE(has(open.err, "unknown unit '?'")) << open.err;
+  // Filled in, it is read, and what is said next gives the plan.
+  study.replace(study.find("[?]"), 3, "[deg]");
+  study.replace(study.find("columns = { "), 12, "columns = { time = \"Stoppuhr [s]\", ");
+  folder.write("lab.toml", study);
+  const std::string read = folder.file("read.csv"), next = folder.file("next.toml");
+  const Answer converted = driftscope("convert " + file + " " + own + " -o " + read);
+  ASSERT_EQ(converted.code, 0) << converted.err;
+  ASSERT_EQ(driftscope("new diagnose " + read + " -o " + next).code, 0);
+  EXPECT_EQ(driftscope("identify " + next + " " + read + " --quiet").code, 0);
+}
+
 TEST(NewStudy, NoFileOfTheUsersIsReplaced) {
   const ScratchFolder folder;
   const std::string mine = folder.write("mine.toml", "# mine\n");

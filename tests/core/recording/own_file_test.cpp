@@ -1,10 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "core/config/load.hpp"
-#include "core/recording/own/csv_cells.hpp"
 #include "core/recording/own/format_config.hpp"
 #include "core/recording/own/guess_names.hpp"
-#include "core/recording/own/like_temperature.hpp"
 #include "core/recording/own/recording_unit.hpp"
 #include "core/recording/own/text_decoding.hpp"
 #include "recording_fixture.hpp"
@@ -92,16 +90,6 @@ TEST(OwnFile, NamesAreGuessedInSomeLanguages) {
   for (const auto& [name, channel] : names) EXPECT_EQ(guessed_channel(name), channel) << name;
 }
 
-TEST(OwnFile, ClocksAreSecondsAndNothingElseIs) {
-  EXPECT_EQ(parse_clock("1970-01-02T00:00:01.5Z"), 86401.5);
-  EXPECT_EQ(parse_clock("1970-01-02 01:00:01,5+01:00"), 86401.5);
-  EXPECT_EQ(parse_clock("02.01.1970 00:00:01"), 86401.0);
-  EXPECT_EQ(parse_clock("13:05:10.25"), 47110.25);
-  for (const char* text : {"2026-02-30T00:00:00", "25:00:00", "13:05", "01/02/2026 00:00:00", "",
-                           "2026-03-01", "12:00:00x", "2026-03-01T12:00:00+99"})
-    EXPECT_FALSE(parse_clock(text)) << text;
-}
-
 TEST(OwnFile, Utf16IsDecodedWhereverItIsCut) {
   const std::string bytes("A\0\xE4\0\x3D\xD8\x00\xDE\xAC\x20", 10);
   for (std::size_t cut = 0; cut <= bytes.size(); ++cut) {
@@ -110,15 +98,6 @@ TEST(OwnFile, Utf16IsDecodedWhereverItIsCut) {
     text += decoder.decode(bytes.substr(cut));
     EXPECT_EQ(text, "A\u00E4\U0001F600\u20AC") << cut;
   }
-}
-
-TEST(OwnFile, TimesOfDayGoOnPastMidnight) {
-  const Folder folder;
-  const std::string path = folder.write("imu.csv", "time," + imu_header + "23:59:59.5" + still +
-                                                       "23:59:59.75" + still + "00:00:00" + still);
-  const Recording r = read_recording(path, RecordingKind::strapdown, gravity);
-  EXPECT_EQ(r.find("time")->values, (std::vector<double>{0.0, 0.25, 0.5}));
-  EXPECT_EQ(r.facts.back(), (std::pair<std::string, std::string>{"time_zero", "23:59:59.5"}));
 }
 
 TEST(OwnFile, ACounterThatWrapsIsTime) {
@@ -246,8 +225,30 @@ TEST(OwnFile, ATemperatureThatNothingIsMappedToIsSaidWithTheLineToWrite) {
     const auto format = format_of("columns = { acc_x = \"acc_x\" }", RecordingKind::platform);
     const Recording r = read_recording(path, format, RecordingKind::platform, gravity);
     EXPECT_EQ(r.find("temperature"), nullptr);
-    EXPECT_NE(unmapped_temperature(r).find("write temperature = \""), std::string::npos)
+    EXPECT_NE(r.unmapped_temperature.find("write temperature = \""), std::string::npos)
         << header << testing::PrintToString(r.remarks);
+  }
+}
+
+TEST(OwnFile, ATemperatureThatNothingSurvivesIsInAnotherUnit) {
+  const Folder folder;
+  const auto text = [&](const char* unit, double value) {
+    return fmt::format("time [s],{},temperature [{}]\n1{}{}\n2{}{}\n",
+                       imu_header.substr(0, imu_header.size() - 1), unit,
+                       still.substr(0, still.size() - 1) + ",", value,
+                       still.substr(0, still.size() - 1) + ",", value);
+  };
+  const auto read = [&](const char* unit, double value) {
+    return read_recording(folder.write("t.csv", text(unit, value)), RecordingKind::strapdown,
+                          gravity);
+  };
+  EXPECT_NEAR(read("K", 295.0).find("temperature")->values[0], 21.85, 1e-9);
+  EXPECT_EQ(read("degC", 71.0).find("temperature")->values[0], 71.0);
+  try {
+    read("degC", 295.0);
+    ADD_FAILURE() << "295 degC was read";
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("[K]"), std::string::npos) << e.what();
   }
 }
 

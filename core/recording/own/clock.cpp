@@ -1,0 +1,135 @@
+#include "core/recording/own/clock.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include "core/recording/recording_problems.hpp"
+
+namespace drift {
+namespace {
+
+constexpr double day_s = 86400.0;
+
+/// A number from the front of a text, which then is what follows it; as from_chars reads.
+template <class T>
+bool take_number(std::string_view& text, T& value) {
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc()) return false;
+  text.remove_prefix(static_cast<std::size_t>(stop - text.data()));
+  return true;
+}
+
+bool take(std::string_view& text, char c) {
+  if (!text.starts_with(c)) return false;
+  text.remove_prefix(1);
+  return true;
+}
+
+/// "13:05:10.25" from the front of a text.
+std::optional<double> take_time_of_day(std::string_view& text) {
+  int hour = 0, minute = 0;
+  double second = 0.0;
+  if (text.empty() || text.front() < '0' || text.front() > '9') return std::nullopt;
+  if (!take_number(text, hour) || !take(text, ':') || !take_number(text, minute) ||
+      !take(text, ':'))
+    return std::nullopt;
+  if (!take_number(text, second)) return std::nullopt;
+  if (!(hour >= 0 && hour < 24 && minute >= 0 && minute < 60 && second >= 0.0 && second < 61.0))
+    return std::nullopt;
+  return 3600.0 * hour + 60.0 * minute + second;
+}
+
+/// "2026-03-01", "01.03.2026", "01/03/2026" or "03/01/2026" from the front of a text, as seconds
+/// since 1970.
+std::optional<double> take_date(std::string_view& text, StrokeDates order) {
+  int first = 0, month = 0, last = 0;
+  if (!take_number(text, first)) return std::nullopt;
+  const char mark = text.empty() ? '\0' : text.front();
+  if ((mark != '-' && mark != '.' && mark != '/') || !take(text, mark) ||
+      !take_number(text, month) || !take(text, mark) || !take_number(text, last))
+    return std::nullopt;
+  if (mark == '/' && first < 1000 && order == StrokeDates::month_first) std::swap(first, month);
+  const bool year_first = first >= 1000;
+  using namespace std::chrono;
+  const year_month_day date{year(year_first ? first : last), std::chrono::month(month),
+                            day(year_first ? last : first)};
+  if (!date.ok()) return std::nullopt;
+  return 86400.0 * static_cast<double>(sys_days(date).time_since_epoch().count());
+}
+
+/// "Z", "+02:00" or nothing: what is to be taken off to come to UTC [s].
+std::optional<double> zone_of(std::string_view text) {
+  if (text.empty() || text == "Z" || text == "UTC") return 0.0;
+  const double sign = text.front() == '-' ? -1.0 : 1.0;
+  if (text.front() != '+' && text.front() != '-') return std::nullopt;
+  text.remove_prefix(1);
+  int hours = 0, minutes = 0;
+  if (!take_number(text, hours)) return std::nullopt;
+  if (hours > 99) {
+    minutes = hours % 100;
+    hours /= 100;
+  } else if (take(text, ':') && !take_number(text, minutes)) {
+    return std::nullopt;
+  }
+  if (!text.empty() || hours > 14 || minutes > 59) return std::nullopt;
+  return sign * (3600.0 * hours + 60.0 * minutes);
+}
+
+}  // namespace
+
+std::optional<double> parse_clock(std::string_view whole, StrokeDates order) {
+  std::string text(trimmed(whole));
+  if (const auto comma = text.find(','); comma != std::string::npos) text[comma] = '.';
+  std::string_view rest = text;
+  if (const auto of_day = take_time_of_day(rest); of_day && rest.empty()) return of_day;
+  rest = text;
+  const auto date = take_date(rest, order);
+  if (!date || rest.empty()) return std::nullopt;
+  if (rest.front() != 'T' && rest.front() != ' ' && rest.front() != '_') return std::nullopt;
+  rest.remove_prefix(1);
+  const auto of_day = take_time_of_day(rest);
+  const auto zone = of_day ? zone_of(trimmed(rest)) : std::nullopt;
+  if (!zone) return std::nullopt;
+  return *date + *of_day - *zone;
+}
+
+std::optional<double> Clock::Reading::advance(std::string_view cell) {
+  const auto now = parse_clock(cell, order);
+  if (!now) return std::nullopt;
+  if (!first) first = now;
+  // A time of day begins again at midnight.
+  if (last && *now < 2.0 * day_s && *now + 0.5 * day_s < *last) midnights += day_s;
+  last = now;
+  return *now + midnights - *first;
+}
+
+std::optional<double> Clock::read(std::string_view cell) {
+  if (cell.find('/') == std::string_view::npos) readings_.resize(1);  // both read it alike
+  std::vector<std::pair<Reading, double>> next;
+  for (Reading r : readings_)
+    if (const auto seconds = r.advance(cell)) next.emplace_back(r, *seconds);
+  if (next.empty()) return std::nullopt;
+  if (next.size() > 1 && next[0].second != next[1].second) {
+    const auto step = [&](std::size_t i) { return std::abs(next[i].second - seconds_); };
+    next.erase(next.begin() + (step(0) <= step(1) ? 1 : 0));
+    decided_ = cell;
+  }
+  readings_.clear();
+  for (const auto& [reading, seconds] : next) readings_.push_back(reading);
+  if (zero_.empty()) zero_ = cell;
+  return seconds_ = next.front().second;
+}
+
+std::string Clock::remark() const {
+  if (decided_.empty()) return "";
+  return fmt::format(
+      "dates are read with the {} first: the other way {} is weeks away from the row before it",
+      readings_.front().order == StrokeDates::day_first ? "day" : "month", in_quotes(decided_));
+}
+
+}  // namespace drift

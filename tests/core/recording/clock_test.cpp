@@ -1,0 +1,98 @@
+// Times of a clock, and numbers that a user's program wrote in its own way.
+#include "core/recording/own/clock.hpp"
+
+#include <gtest/gtest.h>
+
+#include "recording_fixture.hpp"
+
+namespace drift::clock_test {
+namespace {
+
+using namespace test;
+
+const std::string imu_header =
+    "gyro_x [deg/s],gyro_y [deg/s],gyro_z [deg/s],acc_x [g],acc_y [g],acc_z [g]\n";
+const std::string still = ",0.1,0.2,0.3,0,0,1\n";
+
+TEST(Clock, ClocksAreSecondsAndNothingElseIs) {
+  EXPECT_EQ(parse_clock("1970-01-02T00:00:01.5Z"), 86401.5);
+  EXPECT_EQ(parse_clock("1970-01-02 01:00:01,5+01:00"), 86401.5);
+  EXPECT_EQ(parse_clock("02.01.1970 00:00:01"), 86401.0);
+  EXPECT_EQ(parse_clock("02/01/1970 00:00:01"), 86401.0);
+  EXPECT_EQ(parse_clock("01/02/1970 00:00:01", StrokeDates::month_first), 86401.0);
+  EXPECT_EQ(parse_clock("1970/01/02 00:00:01", StrokeDates::month_first), 86401.0);
+  EXPECT_EQ(parse_clock("13:05:10.25"), 47110.25);
+  for (const char* text : {"2026-02-30T00:00:00", "25:00:00", "13:05", "31/31/2026 00:00:00", "",
+                           "2026-03-01", "12:00:00x", "2026-03-01T12:00:00+99"})
+    EXPECT_FALSE(parse_clock(text)) << text;
+}
+
+TEST(Clock, TimesOfDayGoOnPastMidnight) {
+  const Folder folder;
+  const std::string path = folder.write("imu.csv", "time," + imu_header + "23:59:59.5" + still +
+                                                       "23:59:59.75" + still + "00:00:00" + still);
+  const Recording r = read_recording(path, RecordingKind::strapdown, gravity);
+  EXPECT_EQ(r.find("time")->values, (std::vector<double>{0.0, 0.25, 0.5}));
+  EXPECT_EQ(r.facts.back(), (std::pair<std::string, std::string>{"time_zero", "23:59:59.5"}));
+}
+
+/// What Clock makes of a column of times.
+std::vector<double> seconds(Clock& clock, const std::vector<std::string>& cells) {
+  std::vector<double> all;
+  for (const std::string& cell : cells) all.push_back(clock.read(cell).value_or(-1.0));
+  return all;
+}
+
+TEST(Clock, TheChangeOfTheDateTellsWhetherDayOrMonthIsFirst) {
+  const std::vector<double> expected = {0.0, 2.0, 4.0};
+  Clock day, month, certain;
+  EXPECT_EQ(seconds(day, {"03/04/2026 23:59:57", "03/04/2026 23:59:59", "04/04/2026 00:00:01"}),
+            expected);
+  EXPECT_NE(day.remark().find("the day first"), std::string::npos) << day.remark();
+  EXPECT_EQ(day.zero(), "03/04/2026 23:59:57");
+  EXPECT_EQ(seconds(month, {"03/04/2026 23:59:57", "03/04/2026 23:59:59", "03/05/2026 00:00:01"}),
+            expected);
+  EXPECT_NE(month.remark().find("the month first"), std::string::npos) << month.remark();
+  EXPECT_EQ(seconds(certain, {"12/31/2026 23:59:57", "12/31/2026 23:59:59", "01/01/2027 00:00:01"}),
+            expected);
+  EXPECT_EQ(certain.remark(), "");  // there is no month 31
+  Clock same;
+  EXPECT_EQ(seconds(same, {"03/04/2026 10:00:00", "03/04/2026 10:00:02"}),
+            (std::vector<double>{0.0, 2.0}));
+  EXPECT_EQ(same.remark(), "");  // it makes no difference
+}
+
+/// What is said of a strapdown recording with these times and first accelerometer readings.
+std::string refused(const std::string& time_header, const std::vector<std::string>& times,
+                    const std::string& acc_x = "0") {
+  const Folder folder;
+  std::string text = time_header +
+                     ";gyro_x [deg/s];gyro_y [deg/s];gyro_z [deg/s];acc_x [g];acc_y "
+                     "[g];acc_z [g]\n";
+  for (const std::string& time : times) text += time + ";0.1;0.2;0.3;" + acc_x + ";0;1\n";
+  try {
+    read_recording(folder.write("own.csv", text), RecordingKind::strapdown, gravity);
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+TEST(Clock, ACountOfMillisecondsThatBeginsAgainAtMidnightIsACounterToSay) {
+  const std::string said = refused("time [ms]", {"86399990", "86399995", "0", "5"});
+  EXPECT_NE(said.find("wrap = 86400000"), std::string::npos) << said;
+  EXPECT_EQ(refused("time [ms]", {"100", "200", "0", "5"}).find("wrap"), std::string::npos);
+}
+
+TEST(Clock, MarksBetweenThousandsAreNamed) {
+  for (const std::string number : {"1,234.5", "1.234,5", "1'234.5", "1 234.5", "1\u00A0234.5"}) {
+    const std::string said = refused("time [s]", {"1", "2", "3"}, number);
+    EXPECT_NE(said.find("without marks between thousands"), std::string::npos) << said;
+  }
+  const std::string other = refused("time [s]", {"1", "2", "3"}, "12x");
+  EXPECT_EQ(other.find("thousands"), std::string::npos) << other;
+  EXPECT_NE(other.find("a number, nan or an empty cell"), std::string::npos) << other;
+}
+
+}  // namespace
+}  // namespace drift::clock_test
