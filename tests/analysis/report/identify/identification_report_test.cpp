@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -41,6 +42,15 @@ TEST(IdentificationText, FitsOnAPageAndSaysWhatMatters) {
         "Wilson-Hilferty", "diverged", "filter diverged at t = 60 s", "EKF 3", "depends on start",
         "Table 1 beside this run, filter legacy", "no signal",
         "Filter corrected (eq5): no parameter depends on the start."})
+    EXPECT_NE(text.find(part), std::string::npos) << part;
+}
+
+TEST(IdentificationText, SaysHowFarTheEstimatorsAreApart) {
+  const mc::Study study = testing::study();
+  std::string text = to_text(report::identification_report(study, testing::identification(study)));
+  std::ranges::replace(text, '\n', ' ');
+  for (const char* part :
+       {"by 0.2 sigma; the batch fit counts", "by 30 sigma; the batch fit counts"})
     EXPECT_NE(text.find(part), std::string::npos) << part;
 }
 
