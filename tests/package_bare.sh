@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs the Debian package of a build on a bare Debian of the release that this machine runs, from the
-# sources that this machine uses, and does the main jobs there as an ordinary user.
+# sources that this machine uses, and does the main jobs there as an ordinary user; then the same with what
+# that user unpacks into the own home, the package gone.
 #
 #   tests/package_bare.sh CPACK BUILD_FOLDER [ROOT]
 #
@@ -40,8 +41,10 @@ cp /etc/resolv.conf "$root/etc/resolv.conf"
 inside id lab >/dev/null 2>&1 || inside useradd -m lab
 
 cat >"$root/tmp/smoke.sh" <<'SMOKE'
+prefix=$1 PATH=$1/bin:$PATH
 cd "$(mktemp -d)" || exit 1
-configs=/usr/share/driftscope/configs
+[ "$(command -v driftscope)" = "$prefix/bin/driftscope" ] || { echo "found $(command -v driftscope)"; exit 1; }
+configs=$prefix/share/driftscope/configs
 expect() {  # EXIT CODE, COMMAND...
   wanted=$1; shift
   "$@" >said 2>&1; got=$?
@@ -64,5 +67,12 @@ expect 6 driftscope run $configs/cheap.toml --runs 128 -o /study  # nobody but r
 expect 7 driftscope status .
 rm -rf "$PWD"
 SMOKE
-inside su lab -c 'sh /tmp/smoke.sh' >"$scratch/log" 2>&1 || fail "an ordinary user's job"
+inside su lab -c 'sh /tmp/smoke.sh /usr' >"$scratch/log" 2>&1 || fail "an ordinary user's job"
 echo "bare Debian: $(inside driftscope --version | head -n 1), $(du -k "$package" | cut -f1) kB"
+
+inside dpkg --remove driftscope >"$scratch/log" 2>&1 || fail "the package is not removed"
+(cd "$build" && "$cpack" -G TGZ -B "$scratch/archive") >"$scratch/log" 2>&1 || fail "no archive was made"
+cp "$scratch"/archive/*.tar.gz "$root/tmp/driftscope.tar.gz"
+inside su lab -c 'mkdir -p ~/own && tar -xzf /tmp/driftscope.tar.gz -C ~/own --strip-components=1 && sh /tmp/smoke.sh ~/own' \
+  >"$scratch/log" 2>&1 || fail "an ordinary user's job with an own prefix"
+echo "the same without the package, from $(inside su lab -c 'echo ~/own')"

@@ -1,5 +1,8 @@
 // Every command of the README and the chapters works as written.
+#include <gtest/gtest.h>
+
 #include <algorithm>
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -83,6 +86,41 @@ TEST(Documents, EveryCommandWorks) {
     ++run;
   }
   EXPECT_GE(run, 30);
+}
+
+/// Every registered test as "Suite.Name", parametrised ones also without prefix and parameter.
+std::vector<std::string> registered_tests() {
+  std::vector<std::string> all;
+  const ::testing::UnitTest& unit = *::testing::UnitTest::GetInstance();
+  for (int s = 0; s < unit.total_test_suite_count(); ++s) {
+    const ::testing::TestSuite& suite = *unit.GetTestSuite(s);
+    const std::string name = suite.name();
+    for (int t = 0; t < suite.total_test_count(); ++t) {
+      const std::string test = suite.GetTestInfo(t)->name();
+      all.push_back(name + "." + test);
+      all.push_back(name.substr(name.find('/') + 1) + "." + test.substr(0, test.find('/')));
+    }
+  }
+  return all;
+}
+
+TEST(Documents, TestsThatTheChaptersNameExist) {
+  const std::vector<std::string> all = registered_tests();
+  const std::regex named("`([A-Z][A-Za-z0-9]+[.*][A-Za-z0-9.*]*)`");
+  int found = 0;
+  for (const auto& document : documents()) {
+    const std::string text = text_of(document.string());
+    for (std::sregex_iterator it(text.begin(), text.end(), named), end; it != end; ++it) {
+      const std::string name = (*it)[1];
+      const std::regex pattern(std::regex_replace(
+          std::regex_replace(name, std::regex("\\."), "\\."), std::regex("\\*"), ".*"));
+      EXPECT_TRUE(std::ranges::any_of(
+          all, [&](const std::string& test) { return std::regex_match(test, pattern); }))
+          << document.filename() << ": " << name;
+      ++found;
+    }
+  }
+  EXPECT_GE(found, 80);
 }
 
 TEST(DocumentsNightly, EveryCommandWorksUncut) {
