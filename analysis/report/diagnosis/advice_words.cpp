@@ -98,16 +98,17 @@ std::string positions_text(const Advice& a) {
 }
 
 /// What a plan does for one pair.
-std::string helped_pair(const Advice& a, const AdvisedPair& p, const std::string& verified) {
+std::string helped_pair(const Advice& a, const AdvisedPair& p, const std::string& positions,
+                        const std::string& verified) {
   const std::string size = before_it(", ", size_text(a.sizes));
   return fmt::format(
       "{} and {}{} are {:.1f} sigma apart on this plan. Add {}: then {:.1f} sigma{}{}.",
       label_of(truth_of(a, p)), label_of(rival_of(a, p)), size.empty() ? "" : size + ",",
-      a.now_sigma, positions_text(a), a.expected_sigma, verified,
+      a.now_sigma, positions, a.expected_sigma, verified,
       a.expected_sigma < a.wanted ? ", which is not enough" : "");
 }
 
-std::string helped_text(const Advice& a) {
+std::string helped_text(const Advice& a, const std::string& positions) {
   const std::string verified = std::isfinite(a.verified_sigma)
                                    ? fmt::format(" (in a simulation: {:.1f})", a.verified_sigma)
                                    : "";
@@ -117,7 +118,7 @@ std::string helped_text(const Advice& a) {
           return w.pair.truth == p.pair.rival && w.pair.rival == p.pair.truth;
         }))
       ways.push_back(p);
-  if (ways.size() == 1) return helped_pair(a, ways.front(), verified);
+  if (ways.size() == 1) return helped_pair(a, ways.front(), positions, verified);
   std::vector<AdvisedPair> hardest = ways;
   std::stable_sort(hardest.begin(), hardest.end(),
                    [](const AdvisedPair& x, const AdvisedPair& y) { return x.now < y.now; });
@@ -139,9 +140,9 @@ std::string helped_text(const Advice& a) {
       "{}. Add {}: then {} of them come above {:g} sigma and {} stay between {:g} and {:g}. "
       "Hardest "
       "now, in sigma before and after: {}. The last comes to {:.1f}: {}{}.",
-      state, positions_text(a), reached, a.wanted,
-      static_cast<std::ptrdiff_t>(ways.size()) - reached, AdviceLimits::told, a.wanted,
-      fmt::join(shown, ", "), a.expected_sigma, pair_text(a, a.pairs.front()), verified);
+      state, positions, reached, a.wanted, static_cast<std::ptrdiff_t>(ways.size()) - reached,
+      AdviceLimits::told, a.wanted, fmt::join(shown, ", "), a.expected_sigma,
+      pair_text(a, a.pairs.front()), verified);
 }
 
 std::string hidden_text(const Advice& a) {
@@ -180,7 +181,7 @@ std::string repeat_text(const Advice& a) {
 std::string advice_text(const Advice& a) {
   switch (a.kind) {
     case Advice::Kind::add:
-      return helped_text(a);
+      return helped_text(a, positions_text(a));
     case Advice::Kind::told:
       return fmt::format(
           "Nothing needs to be added: {} this plan tells {} by {:.1f} sigma, and that is the "
@@ -209,6 +210,12 @@ std::string advice_text(const Advice& a) {
       break;
   }
   return repeat_text(a);
+}
+
+std::string advice_in_brief(const Advice& a) {
+  constexpr std::size_t listed = 2;  // more have no room in four lines
+  if (a.kind != Advice::Kind::add || a.plan.size() <= listed) return advice_text(a);
+  return helped_text(a, fmt::format("{} positions, which --full lists", a.plan.size()));
 }
 
 std::vector<std::string> advised_labels(const Advice& a) {

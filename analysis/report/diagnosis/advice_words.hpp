@@ -10,6 +10,9 @@ namespace drift::report {
 /// An advice in words, for the person who plans the next test.
 std::string advice_text(const diagnosis::Advice& advice);
 
+/// The same where there is room for a few lines: more than two positions are counted, not listed.
+std::string advice_in_brief(const diagnosis::Advice& advice);
+
 /// What it is about: the alternatives in its pairs, in their order, each once.
 std::vector<std::string> advised_labels(const diagnosis::Advice& advice);
 

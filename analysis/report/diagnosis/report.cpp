@@ -161,7 +161,7 @@ InBrief diagnosis_in_brief(const Diagnosis& d) {
     brief.next = fmt::format("Next: diagnose again with --set site.latitude=\"{:.3f} deg\".",
                              d.site_doubt->latitude / unit::deg.to_si);
   else if (!d.advice.empty())
-    brief.next = "Next: " + advice_text(d.advice.front());
+    brief.next = "Next: " + advice_in_brief(d.advice.front());
   else if (d.verdict == Verdict::named && d.has_patch)
     brief.next = "Next: identify with patched.toml, the study with the cause in its model.";
   else if (const auto left = strongest_left(d); d.verdict == Verdict::unexplained && left)

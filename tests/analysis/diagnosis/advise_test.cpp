@@ -14,6 +14,7 @@
 namespace drift::diagnosis::advise_test {
 namespace {
 
+using report::advice_in_brief;
 using report::advice_text;
 using report::advised_labels;
 using test::param;
@@ -115,6 +116,12 @@ TEST(Advise, OnRequestAnEffectThatThePlanHidesGetsAPositionAndASimulationAgrees)
   EXPECT_NEAR(a.verified_sigma, a.expected_sigma, 4.0 + 0.1 * a.expected_sigma) << advice_text(a);
   EXPECT_NE(advice_text(a).find("torquer_heating.x"), std::string::npos) << advice_text(a);
   EXPECT_NE(advice_text(a).find("at one prior sigma"), std::string::npos) << advice_text(a);
+  EXPECT_EQ(advice_in_brief(a), advice_text(a));
+  Advice many = a;  // a list that is cut off would be another advice
+  many.plan.resize(5, a.plan.front());
+  EXPECT_NE(advice_in_brief(many).find("Add 5 positions, which --full lists: then"),
+            std::string::npos)
+      << advice_in_brief(many);
 }
 
 TEST(Advise, OnRequestAConsistentRecordingIsToldWhatItsPlanHides) {
