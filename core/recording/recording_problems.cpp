@@ -24,31 +24,38 @@ bool starts_with_line(std::string_view where) {
 
 void Problems::add(std::string_view where, std::string_view wrong, std::string_view expected,
                    std::string_view fix) {
-  const std::string kind =
-      starts_with_line(where) ? fmt::format("{}\n{}\n{}", column_of(where), expected, fix) : "";
+  const bool row = starts_with_line(where);
+  std::string kind;  // rows of a column that lack the same, columns with the same mistake
+  if (row) kind = fmt::format("{}\n{}\n{}", column_of(where), expected, fix);
+  if (!row && !where.empty()) kind = fmt::format("{}\n{}\n{}", wrong, expected, fix);
   const auto known =
       kind.empty() ? messages_.end() : std::ranges::find(messages_, kind, &Message::kind);
   if (known != messages_.end()) {
-    ++known->alike;
-    known->last_where = where.substr(0, where.find(':'));
+    if (row) {
+      ++known->alike;
+      known->last_where = where.substr(0, where.find(':'));
+    } else {
+      known->where += fmt::format(", {}", where);
+    }
     return;
   }
   if (full()) {
     ++more_;
     return;
   }
-  messages_.push_back({kind,
-                       fmt::format("{}:{}{} {} (expected {}). {}", file_, where,
-                                   where.empty() ? "" : ":", wrong, expected, fix),
-                       0,
-                       {}});
+  messages_.push_back(
+      {kind,
+       fmt::format("{}:{}", file_, where),
+       fmt::format("{} {} (expected {}). {}", where.empty() ? "" : ":", wrong, expected, fix),
+       0,
+       {}});
 }
 
 void Problems::add(std::string message) {
   if (full())
     ++more_;
   else
-    messages_.push_back({"", std::move(message), 0, {}});
+    messages_.push_back({"", "", std::move(message), 0, {}});
 }
 
 std::size_t Problems::count() const {
@@ -60,9 +67,10 @@ std::size_t Problems::count() const {
 std::vector<std::string> Problems::messages() const {
   std::vector<std::string> texts;
   for (const Message& m : messages_)
-    texts.push_back(m.alike == 0 ? m.text
-                                 : fmt::format("{} ({} more of the kind, the last in line {})",
-                                               m.text, m.alike, m.last_where));
+    texts.push_back(m.where + m.text +
+                    (m.alike == 0 ? ""
+                                  : fmt::format(" ({} more of the kind, the last in line {})",
+                                                m.alike, m.last_where)));
   return texts;
 }
 

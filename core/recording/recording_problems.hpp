@@ -41,9 +41,10 @@ class Problems {
  private:
   struct Message {
     std::string kind;  ///< what messages of the same kind have in common; empty: nothing
-    std::string text;
-    std::size_t alike = 0;   ///< further ones
-    std::string last_where;  ///< of these
+    std::string where, text;
+    std::size_t alike = 0;    ///< further rows
+    std::string last_where;   ///< of these
+    std::size_t columns = 0;  ///< further ones, named in `where`
   };
 
   std::string file_;

@@ -252,6 +252,23 @@ TEST(OwnFile, ATemperatureThatNothingSurvivesIsInAnotherUnit) {
   }
 }
 
+TEST(OwnFile, TheSameMistakeInSeveralColumnsIsOneMessage) {
+  const Folder folder;
+  std::string text = imu_header + "0.1,0.2,0.3,0,0,1\n";
+  for (std::size_t at = 0; (at = text.find("[g]", at)) != std::string::npos; ++at)
+    text.replace(at, 3, "[gee]");
+  try {
+    read_recording(folder.write("t.csv", text), format_of("rate = \"50 Hz\"\n"),
+                   RecordingKind::strapdown, gravity);
+    ADD_FAILURE() << "a unit that nobody knows was read";
+  } catch (const InputError& e) {
+    ASSERT_EQ(e.messages().size(), 1u) << e.what();
+    EXPECT_NE(e.messages()[0].find("t.csv:acc_x, acc_y, acc_z: unknown unit 'gee'"),
+              std::string::npos)
+        << e.what();
+  }
+}
+
 TEST(OwnFile, MistakesInTheSectionAreNamed) {
   const struct {
     const char *text, *says;
