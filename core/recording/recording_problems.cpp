@@ -36,6 +36,7 @@ void Problems::add(std::string_view where, std::string_view wrong, std::string_v
       known->last_where = where.substr(0, where.find(':'));
     } else {
       known->where += fmt::format(", {}", where);
+      ++known->columns;
     }
     return;
   }
@@ -48,19 +49,20 @@ void Problems::add(std::string_view where, std::string_view wrong, std::string_v
        fmt::format("{}:{}", file_, where),
        fmt::format("{} {} (expected {}). {}", where.empty() ? "" : ":", wrong, expected, fix),
        0,
-       {}});
+       {},
+       0});
 }
 
 void Problems::add(std::string message) {
   if (full())
     ++more_;
   else
-    messages_.push_back({"", "", std::move(message), 0, {}});
+    messages_.push_back({"", "", std::move(message), 0, {}, 0});
 }
 
 std::size_t Problems::count() const {
   std::size_t all = messages_.size() + more_;
-  for (const Message& m : messages_) all += m.alike;
+  for (const Message& m : messages_) all += m.alike + m.columns;
   return all;
 }
 
