@@ -179,7 +179,10 @@ void check_values(const Recording& r, RecordingKind kind, Problems& problems) {
         problems.add(
             at(r, i, c.name), fmt::format("the value {:g} is beyond reason", x / c.unit.to_si),
             fmt::format("at most {:g} {} in size", most / c.unit.to_si, c.unit.symbol.view()),
-            "Check the unit and the export; leave the cell empty if it was not measured");
+            c.name == "temperature"
+                ? "Check the unit: kelvins are temperature = \"its header [K]\" in columns of "
+                  "[recording], or [K] in the header"
+                : "Check the unit and the export; leave the cell empty if it was not measured");
       if (std::isnan(x) && command)
         problems.add(at(r, i, c.name), "the command is missing", "the commanded rate in every row",
                      "Give the command, 0 if there was none");
@@ -262,7 +265,6 @@ Recording checked_recording(RawRecording raw, RecordingKind kind, double gravity
   check_position(r, in_order ? RowOrder::known : RowOrder::broken, problems);
   check_values(r, kind, problems);
   check_gravity(r, problems);
-  check_temperature(r, problems);
   return r;
 }
 

@@ -168,22 +168,6 @@ void check_gravity(const Recording& recording, Problems& problems) {
                              unit.symbol.view()));
 }
 
-void check_temperature(const Recording& recording, Problems& problems) {
-  const Channel* channel = recording.find("temperature");
-  if (!channel || problems.any()) return;
-  std::vector<double> values;
-  std::ranges::copy_if(channel->values, std::back_inserter(values),
-                       [](double x) { return std::isfinite(x); });
-  constexpr double hottest = 200.0;  // [degC] solder melts before
-  if (values.empty()) return;
-  const double usual = stats::upper_median(std::move(values));
-  if (usual < hottest) return;
-  problems.add("temperature", fmt::format("it is {:.4g} degC or more in half of the rows", usual),
-               "less than 200 degC",
-               "Correct its unit: of kelvins, write temperature = \"its header [K]\" in columns of "
-               "[recording], or [K] into the header");
-}
-
 std::vector<double> specific_forces(const Recording& recording) {
   std::vector<double> lengths;
   const Channel* phase = recording.find("phase");

@@ -45,7 +45,4 @@ std::vector<double> specific_forces(const Recording& recording);
 /// more is known: check_one_g().
 void check_gravity(const Recording& recording, Problems& problems);
 
-/// Says where a temperature is one that nothing survives: kelvins called degC.
-void check_temperature(const Recording& recording, Problems& problems);
-
 }  // namespace drift

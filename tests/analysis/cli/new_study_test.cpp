@@ -74,19 +74,19 @@ TEST(NewStudy, WhatNoColumnTellsIsLeftBlankAndSaid) {
     text.replace(text.find(from), from.size(), to);
   };
   rename("time [s]", "Stoppuhr");
-  rename("gimbal_outer [deg]", "gimbal_outer");
+  rename("cmd_x [deg/h]", "cmd_x");
   folder.write("own.csv", text);
   const Answer a = driftscope("new diagnose " + own + " -o " + file);
   ASSERT_EQ(a.code, 0) << a.err;
   EXPECT_TRUE(has(a.out, "time = \"COLUMN [s]\"")) << a.out;
   std::string study = text_of(file);
-  EXPECT_TRUE(has(study, "gimbal_outer = \"gimbal_outer [?]\"")) << study;
+  EXPECT_TRUE(has(study, "cmd_x = \"cmd_x [?]\"")) << study;
   EXPECT_TRUE(has(study, "# ")) << study;
   const Answer open = driftscope("check " + file);
   EXPECT_NE(open.code, 0);
   EXPECT_TRUE(has(open.err, "unknown unit '?'")) << open.err;
   // Filled in, it is read, and what is said next gives the plan.
-  study.replace(study.find("[?]"), 3, "[deg]");
+  study.replace(study.find("[?]"), 3, "[deg/h]");
   study.replace(study.find("columns = { "), 12, "columns = { time = \"Stoppuhr [s]\", ");
   folder.write("lab.toml", study);
   const std::string read = folder.file("read.csv"), next = folder.file("next.toml");

@@ -77,7 +77,7 @@ TEST(Quantity, DistributionsComeInTheUnitOfTheOption) {
   EXPECT_EQ(prior("{ uniform = [\"-1 arcsec\", \"5 arcsec\"] }"), uniform(-1.0, 5.0));
   EXPECT_EQ(prior("\"7 arcsec\""), fixed(7.0));
   // As check prints them.
-  EXPECT_EQ(prior("normal(112, 20) arcsec"), normal(112.0, 20.0));
+  EXPECT_EQ(prior("\"normal(112, 20) arcsec\""), normal(112.0, 20.0));
   EXPECT_EQ(prior("\"uniform(-1.5, 2e1) arcsec\""), uniform(-1.5, 20.0));
   EXPECT_NEAR(prior("{ normal = [\"0 deg\", \"1 arcmin\"] }")->b, 60.0, 1e-12);
 }

@@ -254,7 +254,7 @@ TEST(OwnFile, ATemperatureThatNothingSurvivesIsInAnotherUnit) {
 
 TEST(OwnFile, TheSameMistakeInSeveralColumnsIsOneMessage) {
   const Folder folder;
-  std::string text = imu_header + "0.1,0.2,0.3,0,0,1\n";
+  std::string text = imu_header + "0.1,0.2,0.3,0,0,1\n0.1,0.2,0.3,0,0,1\n";
   for (std::size_t at = 0; (at = text.find("[g]", at)) != std::string::npos; ++at)
     text.replace(at, 3, "[gee]");
   try {
