@@ -23,7 +23,11 @@ int decimals_in(const std::string& text) {
 }  // namespace
 
 std::string number_text(double value, int digits) {
-  return std::isfinite(value) ? fmt::format("{:.{}g}", value == 0.0 ? 0.0 : value, digits) : "-";
+  if (!std::isfinite(value)) return "-";
+  constexpr double longest = 1e6;  // below, "1000" rather than "1e+03"
+  if (std::abs(value) >= std::pow(10.0, digits) - 0.5 && std::abs(value) < longest)
+    return fmt::format("{:.0f}", value);
+  return fmt::format("{:.{}g}", value == 0.0 ? 0.0 : value, digits);
 }
 
 std::string decimal_text(double value, int decimals) {

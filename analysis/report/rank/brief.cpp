@@ -53,9 +53,10 @@ std::string gain_text(const planning::PlanRanking& rank) {
   const std::string judged = better.criterion.kind == Kind::A ? "over all parameters (criterion A)"
                              : better.criterion.kind == Kind::D ? "in bits (criterion D)"
                                                                 : "for " + better.criterion.text;
-  return fmt::format("A better plan, {}: {} further position{} ({} h) bring {}.", judged,
+  return fmt::format("A better plan, {}: {} further position{} ({} h) bring{} {}.", judged,
                      better.steps.size(), plural(better.steps.size()),
-                     number_text(better.added() / 3600.0), listed(parts, "and"));
+                     number_text(better.added() / 3600.0), better.steps.size() == 1 ? "s" : "",
+                     listed(parts, "and"));
 }
 
 }  // namespace

@@ -29,6 +29,11 @@ TEST(NumberText, SigmaHasOneOrTwoDigitsAndTheValueAsManyDecimals) {
   EXPECT_EQ(with_sigma(1.0, std::nan("")), "1");
   EXPECT_EQ(with_sigma(std::nan(""), 1.0), "-");
   EXPECT_EQ(number_text(HUGE_VAL), "-");
+  EXPECT_EQ(number_text(1000.0), "1000");
+  EXPECT_EQ(number_text(999.6), "1000");
+  EXPECT_EQ(number_text(-12345.6, 2), "-12346");
+  EXPECT_EQ(number_text(2.5e6), "2.5e+06");
+  EXPECT_EQ(number_text(12.34), "12.3");
 }
 
 TEST(Escaped, KeepsTextAndNeutralisesTheRest) {
