@@ -44,7 +44,7 @@ std::optional<double> take_time_of_day(std::string_view& text) {
   return 3600.0 * hour + 60.0 * minute + second;
 }
 
-/// "2026-03-01", "01.03.2026", "01/03/2026" or "03/01/2026" from the front of a text, as seconds
+/// "2026-03-01", "01.03.2026", "01/03/2026" or "03-01-2026" from the front of a text, as seconds
 /// since 1970.
 std::optional<double> take_date(std::string_view& text, StrokeDates order) {
   int first = 0, month = 0, last = 0;
@@ -53,7 +53,7 @@ std::optional<double> take_date(std::string_view& text, StrokeDates order) {
   if ((mark != '-' && mark != '.' && mark != '/') || !take(text, mark) ||
       !take_number(text, month) || !take(text, mark) || !take_number(text, last))
     return std::nullopt;
-  if (mark == '/' && first < 1000 && order == StrokeDates::month_first) std::swap(first, month);
+  if (mark != '.' && first < 1000 && order == StrokeDates::month_first) std::swap(first, month);
   const bool year_first = first >= 1000;
   using namespace std::chrono;
   const year_month_day date{year(year_first ? first : last), std::chrono::month(month),
@@ -109,7 +109,6 @@ std::optional<double> Clock::Reading::advance(std::string_view cell) {
 }
 
 std::optional<double> Clock::read(std::string_view cell) {
-  if (cell.find('/') == std::string_view::npos) readings_.resize(1);  // both read it alike
   std::vector<std::pair<Reading, double>> next;
   for (Reading r : readings_)
     if (const auto seconds = r.advance(cell)) next.emplace_back(r, *seconds);

@@ -7,7 +7,7 @@
 
 namespace drift {
 
-/// What comes first in a date such as 03/04/2026.
+/// What comes first in a date such as 03/04/2026 or 03-04-2026.
 enum class StrokeDates { day_first, month_first };
 
 /// Seconds of a time of day "13:05:10.25", or of a date and time "2026-03-01T13:05:10.25Z",
@@ -15,8 +15,8 @@ enum class StrokeDates { day_first, month_first };
 std::optional<double> parse_clock(std::string_view text,
                                   StrokeDates order = StrokeDates::day_first);
 
-/// Reads a column of such times. Whether the day or the month of dates with strokes is first shows
-/// where the date changes: the other way the recording would be interrupted for weeks.
+/// Reads a column of such times. Whether the day or the month of dates such as 03/04/2026 is first
+/// shows where the date changes: the other way the recording would be interrupted for weeks.
 class Clock {
  public:
   /// Seconds since the first time; empty, and nothing changes, if the text is no time.

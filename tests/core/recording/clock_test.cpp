@@ -60,6 +60,9 @@ TEST(Clock, TheChangeOfTheDateTellsWhetherDayOrMonthIsFirst) {
   EXPECT_EQ(seconds(same, {"03/04/2026 10:00:00", "03/04/2026 10:00:02"}),
             (std::vector<double>{0.0, 2.0}));
   EXPECT_EQ(same.remark(), "");  // it makes no difference
+  Clock dashes;
+  EXPECT_EQ(seconds(dashes, {"03-04-2026 23:59:57", "03-04-2026 23:59:59", "03-05-2026 00:00:01"}),
+            expected);
 }
 
 /// What is said of a strapdown recording with these times and first accelerometer readings.
