@@ -8,6 +8,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/recording/own/csv_cells.hpp"
 #include "core/recording/recording_problems.hpp"
 
 namespace drift {
@@ -30,7 +31,7 @@ bool take(std::string_view& text, char c) {
   return true;
 }
 
-/// "13:05:10.25" from the front of a text.
+/// "13:05:10.25" or "01:05:10.25 PM" from the front of a text.
 std::optional<double> take_time_of_day(std::string_view& text) {
   int hour = 0, minute = 0;
   double second = 0.0;
@@ -39,6 +40,12 @@ std::optional<double> take_time_of_day(std::string_view& text) {
       !take(text, ':'))
     return std::nullopt;
   if (!take_number(text, second)) return std::nullopt;
+  const std::string half = lower_case(trimmed(text).substr(0, 2));
+  if (half == "am" || half == "pm") {
+    if (hour < 1 || hour > 12) return std::nullopt;
+    hour = hour % 12 + (half == "pm" ? 12 : 0);
+    text = trimmed(text).substr(2);
+  }
   if (!(hour >= 0 && hour < 24 && minute >= 0 && minute < 60 && second >= 0.0 && second < 61.0))
     return std::nullopt;
   return 3600.0 * hour + 60.0 * minute + second;
