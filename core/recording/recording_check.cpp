@@ -124,6 +124,7 @@ void check_time(const Recording& r, Problems& problems) {
                 "[recording] of the study file: counter = \"its header\", tick = \"1 ms\" "
                 "and wrap = 86400000, or what a count is, and how many make a day"
               : "Sort the rows, or remove those that were written twice");
+      if (begins_again_at_midnight(last, t)) last = -HUGE_VAL;  // said once
     }
     if (t > last) {
       last = t;

@@ -165,6 +165,20 @@ void name_channels(GuessedFile& file) {
   if (has("gyro_") && !has("gimbal_") && !has("position")) file.kind = RecordingKind::strapdown;
 }
 
+/// The one column of a few texts may name the positions.
+void name_position_by_values(GuessedFile& file) {
+  if (file.kind != RecordingKind::platform ||
+      std::ranges::find(file.columns, "position", &GuessedColumn::channel) != file.columns.end())
+    return;
+  const auto few_texts = [](const GuessedColumn& c) {
+    return c.channel.empty() && c.numbers == 0 && c.words.size() > 1 && c.words.size() < most_words;
+  };
+  if (std::ranges::count_if(file.columns, few_texts) != 1) return;
+  GuessedColumn& column = *std::ranges::find_if(file.columns, few_texts);
+  column.channel = "position";
+  column.by_values = true;
+}
+
 void fill_format(GuessedFile& file) {
   file.complete = file.counter.empty();
   for (const GuessedColumn& c : file.columns) {
@@ -221,6 +235,7 @@ GuessedFile guess_file(const std::string& path) {
   GuessByValues by_values(file);
   std::string gravity = unit_of_gravity(look_at_rows(path, file, by_values));
   if (const std::string unit = by_values.name_channels(file); !unit.empty()) gravity = unit;
+  name_position_by_values(file);
   for (GuessedColumn& c : file.columns) c.unit = unit_of(c, gravity);
   fill_format(file);
   return file;

@@ -24,8 +24,9 @@ constexpr std::pair<std::string_view, std::string_view> unit_endings[] = {
 constexpr std::string_view time_words[] = {
     "time",    "t",          "zeit",    "timestamp",   "elapsed", "elapsedtime", "zeitstempel",
     "uhrzeit", "sampletime", "seconds", "timestartup", "timegps", "horodatage",  "temps"};
-constexpr std::string_view position_words[] = {"position", "pos",   "lage",      "stellung",
-                                               "lagenr",   "posnr", "positionno"};
+constexpr std::string_view position_words[] = {"position",   "pos",      "lage",
+                                               "stellung",   "lagenr",   "posnr",
+                                               "positionno", "posicion", "posizione"};
 constexpr std::string_view temperature_words[] = {"temperature", "temp", "temperatur", "tc"};
 constexpr std::string_view acc_words[] = {"a",
                                           "acc",
@@ -46,14 +47,15 @@ constexpr std::string_view gyro_words[] = {"g",           "gyr",
                                            "angvel",      "angularvelocity",
                                            "gyrorate",    "fieldangularvelocity"};
 constexpr std::string_view cmd_words[] = {"cmd", "command", "commanded", "soll", "befehl", "wcmd"};
-constexpr std::string_view gimbal_words[] = {"gimbal", "phi",   "resolver", "winkel",
-                                             "rahmen", "angle", "cardan",   "kardan"};
-constexpr std::string_view outer_words[] = {"outer",   "aussen", "ext", "exterieur",
-                                            "externe", "a",      "o",   "1"};
-constexpr std::string_view middle_words[] = {"middle", "mitte",  "mittel", "med",
-                                             "median", "milieu", "m",      "2"};
-constexpr std::string_view inner_words[] = {"inner",   "innen", "int", "interieur",
-                                            "interne", "i",     "3"};
+constexpr std::string_view gimbal_words[] = {"gimbal", "phi",    "resolver", "winkel",
+                                             "rahmen", "angle",  "cardan",   "kardan",
+                                             "angulo", "angolo", "giunto",   "cardano"};
+constexpr std::string_view outer_words[] = {
+    "outer", "aussen", "ext", "exterieur", "externe", "exterior", "est", "esterno", "a", "o", "1"};
+constexpr std::string_view middle_words[] = {"middle", "mitte", "mittel", "med", "median",
+                                             "milieu", "medio", "mezzo",  "m",   "2"};
+constexpr std::string_view inner_words[] = {"inner",    "innen",   "int", "interieur", "interne",
+                                            "interior", "interno", "i",   "3"};
 
 bool is_one(std::string_view word, Words words) {
   return std::ranges::find(words, word) != words.end();

@@ -24,6 +24,8 @@ std::string guessed_by_values(const GuessedFile& file) {
   if (by_values("acc_x")) text = "acc_x, acc_y, acc_z are in the order of the columns: check";
   if (by_values("case_heading"))
     text += fmt::format("{}case_heading by its values: check", text.empty() ? "" : "; ");
+  if (by_values("position"))
+    text += fmt::format("{}position by its texts: check", text.empty() ? "" : "; ");
   return text.empty() ? "" : "  # " + text;
 }
 

@@ -1,4 +1,6 @@
 // `driftscope new`: what it writes is a study that the other commands take.
+#include <fmt/format.h>
+
 #include "core/base/check.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/short_study.hpp"
@@ -94,6 +96,20 @@ TEST(NewStudy, WhatNoColumnTellsIsLeftBlankAndSaid) {
   ASSERT_EQ(converted.code, 0) << converted.err;
   ASSERT_EQ(driftscope("new diagnose " + read + " -o " + next).code, 0);
   EXPECT_EQ(driftscope("identify " + next + " " + read + " --quiet").code, 0);
+}
+
+TEST(NewStudy, TimeAndTemperatureAreToldByTheirUnitsAndPositionsByTheirTexts) {
+  const ScratchFolder folder;
+  std::string rows = "Stoppuhr [ms],Stato,Kern [\u00B0C],U [V]\n";
+  for (int i = 0; i < 6; ++i)
+    rows += fmt::format("{},x {},21.{},5\n", 60000 * (i + 1), i < 3 ? "up" : "down", i);
+  const auto look = driftscope("look '" + folder.write("log.csv", rows) + "'");
+  EXPECT_NE(look.out.find("time = \"Stoppuhr [ms]\""), std::string::npos) << look.out;
+  EXPECT_NE(look.out.find("temperature = \"Kern [\u00B0C]\""), std::string::npos) << look.out;
+  EXPECT_NE(look.out.find("position = \"Stato\""), std::string::npos) << look.out;
+  EXPECT_NE(look.out.find("\"x down\" = 2"), std::string::npos) << look.out;
+  const auto two = driftscope("look '" + folder.write("two.csv", "A [ms],B [s]\n1,2\n2,3\n") + "'");
+  EXPECT_EQ(two.out.find("time = \"A"), std::string::npos) << two.out;
 }
 
 TEST(NewStudy, NoFileOfTheUsersIsReplaced) {

@@ -230,17 +230,6 @@ TEST(OwnRecording, NewReadsWhatLookTellsByValues) {
   EXPECT_EQ(driftscope("identify '" + study + "' '" + own.log + "' --quiet").code, 0);
 }
 
-TEST(OwnRecording, LookTellsTimeAndTemperatureByTheirUnits) {
-  const ScratchFolder folder;
-  std::string rows = "Stoppuhr [ms],position,Kern [\u00B0C],U [V]\n";
-  for (int i = 0; i < 6; ++i) rows += fmt::format("{},1,21.{},5\n", 60000 * (i + 1), i);
-  const auto look = driftscope("look '" + folder.write("log.csv", rows) + "'");
-  EXPECT_NE(look.out.find("time = \"Stoppuhr [ms]\""), std::string::npos) << look.out;
-  EXPECT_NE(look.out.find("temperature = \"Kern [\u00B0C]\""), std::string::npos) << look.out;
-  const auto two = driftscope("look '" + folder.write("two.csv", "A [ms],B [s]\n1,2\n2,3\n") + "'");
-  EXPECT_EQ(two.out.find("time = \"A"), std::string::npos) << two.out;
-}
-
 TEST(OwnRecording, LookNamesWhatNoColumnSeemsToBe) {
   const ScratchFolder folder;
   std::string rows = "time [s],position,rad_1 [rad],rad_2 [rad],rad_3 [rad]\n";

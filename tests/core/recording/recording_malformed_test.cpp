@@ -167,6 +167,19 @@ TEST(MalformedRecording, AllProblemsAreReportedAtOnce) {
     EXPECT_NE(a.text.find(part), std::string::npos) << part << " in\n" << a.text;
 }
 
+TEST(MalformedRecording, TheSameMistakeInSeveralColumnsIsOneMessage) {
+  const Folder folder;
+  const std::string path = folder.write(
+      "t.csv",
+      "time [s],gyro_x [deg/s],gyro_y [deg/s],gyro_z [deg/s],acc_x [gee],acc_y [gee],acc_z [gee]\n"
+      "1,0.1,0.2,0.3,0,0,1\n2,0.1,0.2,0.3,0,0,1\n");
+  const Answer a = answer(path, strapdown);
+  EXPECT_EQ(a.code, static_cast<int>(ExitCode::recording));
+  EXPECT_NE(a.text.find("t.csv:acc_x, acc_y, acc_z: unknown unit 'gee'"), std::string::npos)
+      << a.text;
+  EXPECT_EQ(a.text.find("gee", a.text.find("'gee'") + 5), std::string::npos) << a.text;
+}
+
 TEST(MalformedRecording, WhatCannotBeReadIsAnIoError) {
   const Folder folder;
   std::filesystem::create_directory(folder / "dir.csv");
