@@ -85,8 +85,13 @@ ExitCode diagnose_platform(const StudyArguments& arguments, const mc::Study& stu
     options.advising = diagnosis::Advising::on_request;
     options.asked = *advise;
   }
-  finish(study, diagnosis::diagnose_recordings(study, recordings, options),
-         {paths, "", report::provenance_of(study.path, paths), {}}, recordings, folder);
+  const diagnosis::Diagnosis found = diagnosis::diagnose_recordings(study, recordings, options);
+  if (terminal().details == Terminal::Shown::no)  // --full has them among its remarks
+    for (const diagnosis::Remark& remark : found.remarks)
+      if (const auto* input = std::get_if<diagnosis::remark::Input>(&remark))
+        say("note: {}\n", input->text);
+  finish(study, found, {paths, "", report::provenance_of(study.path, paths), {}}, recordings,
+         folder);
   return ExitCode::ok;
 }
 
@@ -122,7 +127,8 @@ Command diagnose_command() {
   };
   const auto add = [](CLI::App& app, Arguments& a) {
     add_study(app, a.study);
-    app.add_option("recordings", a.recordings, "recordings of the study's plan (.csv, .h5, .mat)")
+    app.add_option("recordings", a.recordings,
+                   "recordings of the study's plan (.csv, .txt, .h5, .mat)")
         ->required();
     add_output(app, a.output, "folder for diagnosis.json, report, pictures and patched.toml");
     a.advise_option =

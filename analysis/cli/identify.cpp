@@ -66,7 +66,7 @@ Command identify_command() {
   const auto add = [](CLI::App& app, Arguments& a) {
     add_study(app, a.study);
     app.add_option("recordings", a.recordings,
-                   "recordings (.csv, .h5, .mat); none: simulated from [truth]");
+                   "recordings (.csv, .txt, .h5, .mat); none: simulated from [truth]");
     add_output(app, a.output, "folder for tables, pictures and report");
     app.add_option("--run", a.run, "run number of the simulated recording")
         ->check(whole(0, last_run));

@@ -152,7 +152,7 @@ ExitCode look_without_study(const std::string& path) {
     read = true;
     card = show_recording(r, file.kind, static_min, gravity);
   } catch (const InputError& e) {
-    if (read || e.code() != ExitCode::recording) throw;
+    if (read || file.rows == 0 || e.code() != ExitCode::recording) throw;
     wrong = e.messages();
   }
   if (!read) show("\nIt is not a recording yet:\n- {}\n", fmt::join(wrong, "\n- "));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/search/fit_causes.hpp"
@@ -83,6 +84,23 @@ Remainder left_by(const Fitted& after, const inference::CandidateSet& set,
   return out;
 }
 
+/// The filter with a prior as wide as each amplitude that is larger than its own; nothing if none
+/// is. What a narrow prior holds back of a large effect its twins would take, and it is no second
+/// one: a prior cost of 36 at six sigma.
+std::optional<FilterSpec> with_room_for_sizes(const inference::CandidateSet& set, const Refit& r) {
+  std::optional<FilterSpec> roomy;
+  for (const Choice& choice : r.choices)
+    for (const std::size_t i : set.candidates[choice.candidate].params) {
+      const ParameterEstimate* p = r.after.fit.estimate.find(i);
+      const Prior prior = r.filter.believed(i);
+      if (i == closure_param || !p || !(std::abs(p->value - prior.mean()) > prior.sigma()))
+        continue;
+      if (!roomy) roomy = r.filter;
+      roomy->priors[i] = normal(prior.mean(), std::abs(p->value - prior.mean()));
+    }
+  return roomy;
+}
+
 /// Another equation must be another one: an interval that holds the nominal weight names nothing.
 bool is_another_equation(Coupling nominal, const BatchResult& fit) {
   const ParameterEstimate* p = fit.estimate.find(closure_param);
@@ -116,9 +134,15 @@ Refit refit(const Fitted& nominal, const MeasuredTest& test, const std::vector<C
     out.after = with_noise(std::move(out.after), test.timeline, settled->noise);
   out.sign_agrees = signs_agree(expected, fit);
   out.nameable = !expected.lambda_among_them || is_another_equation(nominal.filter.coupling, fit);
-  out.remainder = left_by(out.after, nominal.set, choices);
-  out.excess = std::max(out.remainder.library - thresholds.library_threshold,
-                        out.remainder.scan - thresholds.scan_threshold);
+  const auto look_at_rest = [&](const Fitted& after) {
+    out.remainder = left_by(after, nominal.set, choices);
+    out.excess = std::max(out.remainder.library - thresholds.library_threshold,
+                          out.remainder.scan - thresholds.scan_threshold);
+  };
+  look_at_rest(out.after);
+  if (out.excess > 0.0)
+    if (const auto roomy = with_room_for_sizes(nominal.set, out))
+      look_at_rest(examine(*roomy, test, fit, out.after.noise));
   if (choices.size() > 1 && !all_needed(nominal.set, out))
     out.excess = std::numeric_limits<double>::infinity();
   if (out.tolerable()) {

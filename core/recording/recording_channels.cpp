@@ -15,7 +15,8 @@ constexpr ChannelQuantity rate_q{
     "rad/s"_unit.dim, "an angular rate, for example [deg/h], [deg/s] or [rad/s]", true, 200.0};
 constexpr ChannelQuantity command_q{rate_q.dim, rate_q.words, true, 10.0};
 constexpr ChannelQuantity heat_q{"K"_unit.dim, "a temperature, [degC], [K] or [degF]", true, 250.0};
-constexpr ChannelQuantity field_q{"T"_unit.dim, "a magnetic field, for example [gauss] or [uT]"};
+constexpr ChannelQuantity field_q{"T"_unit.dim, "a magnetic field, for example [gauss] or [uT]",
+                                  true, 0.1};  // 1000 gauss, as in [environment]
 constexpr ChannelQuantity number_q{{}, "a plain number, without unit", false};
 
 bool is_letter(char c) {

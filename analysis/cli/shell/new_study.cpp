@@ -52,11 +52,11 @@ LookedAt look_at(const std::string& path, RecordingKind kind) {
   if (!std::filesystem::is_regular_file(path)) read_recording(path, kind, gravity);  // says why not
   const GuessedFile file = guess_file(path);
   const std::string blanks = blanks_of(file);
-  if (file.complete) try {
+  if (file.complete || file.rows == 0) try {
       return {read_recording(path, file.format, kind, gravity),
               file.format.columns.empty() ? "" : recording_section(file), ""};
     } catch (const InputError& e) {
-      if (blanks.empty() || e.code() != ExitCode::recording) throw;
+      if (blanks.empty() || file.rows == 0 || e.code() != ExitCode::recording) throw;
     }
   std::string mapping = recording_section(file);
   std::istringstream lines(report::wrapped(blanks, 98));

@@ -167,8 +167,8 @@ InBrief diagnosis_in_brief(const Diagnosis& d) {
   else if (const auto left = strongest_left(d); d.verdict == Verdict::unexplained && left)
     brief.next = fmt::format(
         "Next: more than one effect seems to be missing. Diagnose again with the first in the "
-        "model: --set \"filter.NAME.terms+={}\" (NAME: that of the study's first filter).",
-        left->labels.front().substr(0, left->labels.front().find(' ')));
+        "model: --set \"filter.{}.terms+={}\".",
+        d.nominal.name, left->labels.front().substr(0, left->labels.front().find(' ')));
   return brief;
 }
 

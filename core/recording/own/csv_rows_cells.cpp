@@ -113,10 +113,8 @@ std::optional<CsvRows::Complaint> CsvRows::read_position(std::size_t i, std::str
       here("position"), "found " + in_quotes(cell),
       known.empty() ? std::string("the number of a position")
                     : fmt::format("the number of a position, or '{}'", fmt::join(known, "', '")),
-      fmt::format(
-          "Say in [recording] of the study file which position it is: positions = {{ \"{}\" "
-          "= 1 }}",
-          cell)};
+      "Say in [recording] of the study file which position each text is: positions = { \"TEXT\" = "
+      "NUMBER, ... }; `driftscope look` prints that line to be checked"};
 }
 
 }  // namespace drift

@@ -245,5 +245,29 @@ TEST(DiagnoseCommand, RefusesWhatItCannotDiagnose) {
   EXPECT_NE(a.err.find("gyro_x"), std::string::npos) << a.err;
 }
 
+TEST(DiagnoseCommand, AnEffectFarBeyondItsPriorIsNamedThoughATwinCouldTakeASharePayingLess) {
+  const ScratchFolder
+      folder;  // six prior sigmas; base motion leaves the same trace in a steady field
+  const std::string terms =
+      "\"fixed_drift\", \"g_drift\", \"g2_drift\", \"gyro_misalignment\", \"torquer_scale\", "
+      "\"accelerometer\"";
+  const std::string study = folder.write(
+      "lab.toml",
+      "schema = 1\n[site]\nlatitude = \"48.1 deg\"\n[plan]\npreset = \"twelve\"\nmode = \"free\"\n"
+      "dwell = \"60 min\"\nsample = \"120 s\"\n[environment]\nfield_n = \"0.21 gauss\"\n"
+      "field_w = \"0.01 gauss\"\nfield_u = \"-0.43 gauss\"\n[truth]\ncoupling = \"eq5\"\nterms = "
+      "[" +
+          terms +
+          ", \"magnetic_drift\"]\n[truth.parameters]\nM_x = \"0 deg/h/gauss\"\nM_y = \"0.06 "
+          "deg/h/gauss\"\nM_z = \"0 deg/h/gauss\"\n[[filter]]\nname = \"nominal\"\ncoupling = "
+          "\"eq5\"\nterms = [" +
+          terms + "]\n[monte_carlo]\nseed = 31\n");
+  const std::string recording = folder.file("r.csv");
+  ASSERT_EQ(driftscope("simulate " + study + " -o " + recording).code, 0);
+  const Answer a = driftscope("diagnose " + study + " " + recording + " --progress none");
+  EXPECT_NE(a.out.find("Verdict named"), std::string::npos) << a.out;
+  EXPECT_NE(a.out.find("magnetic_drift.y: M_y = 0.0"), std::string::npos) << a.out;
+}
+
 }  // namespace
 }  // namespace drift::diagnose_test
