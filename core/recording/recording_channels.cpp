@@ -34,7 +34,7 @@ std::optional<ChannelQuantity> known_quantity(std::string_view name) {
   if (name == "case_heading" || name.starts_with("loop_eta_") || name.starts_with("loop_xi_"))
     return angle_q;
   if (name == "temperature") return heat_q;
-  if (name.starts_with("field_")) return field_q;
+  if (name == "field_n" || name == "field_w" || name == "field_u") return field_q;
   constexpr std::array quantities{force_q, angle_q, command_q,
                                   rate_q};  // in the order of the triples
   for (std::size_t t = 0; t < channel_triples.size(); ++t)
