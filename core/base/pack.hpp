@@ -18,7 +18,7 @@ namespace drift {
 struct Pack {
   using Lanes = std::experimental::native_simd<double>;
   static constexpr int width = static_cast<int>(Lanes::size());
-  Lanes v = 0.0;
+  Lanes v;
 
   Pack() = default;
   Pack(double all) : v(all) {}  // NOLINT(google-explicit-constructor): a number is a constant
@@ -113,7 +113,7 @@ struct Eigen::NumTraits<drift::Pack> : Eigen::NumTraits<double> {
     IsComplex = 0,
     IsInteger = 0,
     IsSigned = 1,
-    RequireInitialization = 1,
+    RequireInitialization = 0,
     ReadCost = 1,
     AddCost = 1,
     MulCost = 1

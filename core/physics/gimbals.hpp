@@ -18,19 +18,21 @@ Vec3T<S> gimbal_angles(const Mat3T<S>& R_cp) {
 
 /// Derivatives of gimbal_angles by a small rotation of the platform, case axes: R_cp -> exp([d x])
 /// R_cp, shape (3, 3).
-inline Mat3 gimbal_angles_by_rotation(const Mat3& R_cp) {
+template <class S>
+Mat3T<S> gimbal_angles_by_rotation(const Mat3T<S>& R_cp) {
+  using std::sqrt;
   // Of a row of R_cp, the rotation adds another: row 0 gains d_y row 2 - d_z row 1, and so on.
-  const Vec3 last = R_cp.col(2);
-  const double n = last[1] * last[1] + last[2] * last[2];
-  const double m = R_cp(0, 0) * R_cp(0, 0) + R_cp(0, 1) * R_cp(0, 1);
-  const double cos_middle = std::sqrt(1.0 - last[0] * last[0]);
+  const Vec3T<S> last = R_cp.col(2);
+  const S n = last[1] * last[1] + last[2] * last[2];
+  const S m = R_cp(0, 0) * R_cp(0, 0) + R_cp(0, 1) * R_cp(0, 1);
+  const S cos_middle = sqrt(S(1.0) - last[0] * last[0]);
   const auto across = [&](int row) {
-    return (R_cp(0, 1) * R_cp(row, 0) - R_cp(0, 0) * R_cp(row, 1)) / m;
+    return S((R_cp(0, 1) * R_cp(row, 0) - R_cp(0, 0) * R_cp(row, 1)) / m);
   };
-  Mat3 J;
-  J << 1.0, -last[0] * last[1] / n, -last[0] * last[2] / n,  //
-      0.0, last[2] / cos_middle, -last[1] / cos_middle,      //
-      0.0, across(2), -across(1);
+  Mat3T<S> J;
+  J << S(1.0), -last[0] * last[1] / n, -last[0] * last[2] / n,  //
+      S(0.0), last[2] / cos_middle, -last[1] / cos_middle,      //
+      S(0.0), across(2), -across(1);
   return J;
 }
 

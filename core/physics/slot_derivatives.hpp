@@ -118,8 +118,9 @@ class SlotDerivatives {
   template <class T>
   void add(const TermInfo& info, const std::vector<std::size_t>& states);
 
+  // Flattened: what a term is made of are many small products, which cost more to call than to do.
   template <class T>
-  static void value(const SeenByTerms<S>& seen, const OneTerm& t, Sum& sum) {
+  [[gnu::flatten]] static void value(const SeenByTerms<S>& seen, const OneTerm& t, Sum& sum) {
     std::array<D3, T::params.size()> p;
     for (std::size_t k = 0; k < p.size(); ++k) p[k] = D3(seen.theta[t.first + k]);
     std::array<D3, memory_of<T>() + 1> m;
@@ -128,14 +129,14 @@ class SlotDerivatives {
   }
 
   template <class T>
-  static void plain(const SeenByTerms<S>& seen, const OneTerm& t,
-                    typename Hook::template Assembly<S>& sum) {
+  [[gnu::flatten]] static void plain(const SeenByTerms<S>& seen, const OneTerm& t,
+                                     typename Hook::template Assembly<S>& sum) {
     const S* memory = memory_of<T>() > 0 ? seen.memory + t.first_memory : nullptr;
     Hook::template add<T, S>(seen.still, seen.theta + t.first, memory, sum);
   }
 
   template <class T>
-  static void derivative(const SeenByTerms<S>& seen, const OneTerm& t, S* out) {
+  [[gnu::flatten]] static void derivative(const SeenByTerms<S>& seen, const OneTerm& t, S* out) {
     const S* theta = seen.theta + t.first;
     const S* memory = memory_of<T>() > 0 ? seen.memory + t.first_memory : nullptr;
     std::array<S, T::params.size()> p;

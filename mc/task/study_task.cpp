@@ -65,11 +65,11 @@ StudyTask::StudyTask(Study study)
 }
 
 std::size_t StudyTask::together() const {
-  const bool in_lanes = study_.monte_carlo.estimator == EstimatorKind::iterated &&
+  const bool in_lanes = study_.monte_carlo.estimator != EstimatorKind::batch &&
                         std::ranges::any_of(study_.filters, [&](const FilterSpec& f) {
-                          return IteratedLanes::can(f, timeline_);
+                          return LaneIntervals::can(f, timeline_);
                         });
-  return in_lanes ? IteratedLanes::width : 1;
+  return in_lanes ? LaneIntervals::width : 1;
 }
 
 std::unique_ptr<RunWorker> StudyTask::worker() const {

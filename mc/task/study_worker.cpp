@@ -50,19 +50,24 @@ StudyWorker::StudyWorker(const StudyTask& task)
     const FilterSpec& spec = study.filters[f];
     const StudyColumns::Filter& columns = task.layout().filters[f];
     const auto n = static_cast<Eigen::Index>(columns.layout.size());
-    Bench bench{spec, columns, {}, nullptr, nullptr, nullptr, {}, PrincipalAxes(n), VecX(n)};
+    Bench bench{spec, columns, {}, nullptr, nullptr, {}, {}, PrincipalAxes(n), VecX(n)};
     const std::size_t fixed = spec.starts.empty() ? 1 : columns.starts;
     for (std::size_t s = 0; s < fixed; ++s)
       bench.fixed_starts.push_back(initial_estimate(spec, study.monte_carlo.seed, 0, s));
-    if (study.monte_carlo.estimator == EstimatorKind::ekf)
-      bench.ekf = std::make_unique<Ekf>(spec, timeline_, study.readout, bench.fixed_starts[0],
-                                        KeepHistory::no);
+    const Theta& start = bench.fixed_starts[0];
+    const bool lanes = LaneIntervals::can(spec, timeline_);
+    if (study.monte_carlo.estimator == EstimatorKind::ekf) {
+      if (lanes)
+        bench.ekf_lanes.estimator = std::make_unique<EkfLanes>(spec, timeline_, study.readout);
+      else
+        bench.ekf = std::make_unique<Ekf>(spec, timeline_, study.readout, start, KeepHistory::no);
+    }
     if (study.monte_carlo.estimator == EstimatorKind::iterated) {
-      bench.iterated =
-          std::make_unique<IteratedEkf>(spec, timeline_, study.readout, bench.fixed_starts[0]);
-      if (!bench.iterated->compressed() && IteratedLanes::can(spec, timeline_)) {
+      bench.iterated = std::make_unique<IteratedEkf>(spec, timeline_, study.readout, start);
+      if (lanes && !bench.iterated->compressed()) {
         bench.iterated.reset();
-        bench.lanes = std::make_unique<IteratedLanes>(spec, timeline_, study.readout);
+        bench.iterated_lanes.estimator =
+            std::make_unique<IteratedLanes>(spec, timeline_, study.readout);
       }
     }
     benches_.push_back(std::move(bench));
@@ -84,7 +89,7 @@ void StudyWorker::execute(std::span<RunWork> runs) {
     members[k].work = &runs[k];
     execute_alone(members[k]);
   }
-  if (std::ranges::none_of(benches_, [](const Bench& b) { return b.lanes != nullptr; })) return;
+  if (std::ranges::none_of(benches_, &Bench::in_lanes)) return;
   const double begin = cpu_seconds();
   execute_in_lanes(members);
   const double share = (cpu_seconds() - begin) / static_cast<double>(runs.size());
@@ -103,7 +108,7 @@ void StudyWorker::execute_alone(Member& member) {
     simulated = cpu_seconds();
     const bool usable = out.status == RunStatus::ok;
     for (Bench& bench : benches_)
-      for (std::size_t s = 0; usable && !bench.lanes && s < bench.columns.starts; ++s)
+      for (std::size_t s = 0; usable && !bench.in_lanes() && s < bench.columns.starts; ++s)
         estimate(bench, s, member);
   } catch (const std::exception& e) {
     fail(*member.work, e);
@@ -116,8 +121,10 @@ void StudyWorker::execute_alone(Member& member) {
 
 void StudyWorker::execute_in_lanes(std::span<Member> members) {
   try {
-    for (Bench& bench : benches_)
-      if (bench.lanes) estimate_in_lanes(bench, members);
+    for (Bench& bench : benches_) {
+      estimate_in_lanes(bench.ekf_lanes, bench, members);
+      estimate_in_lanes(bench.iterated_lanes, bench, members);
+    }
   } catch (const std::exception& e) {
     if (members.size() > 1) throw;  // whose fault it is shows when each is executed by itself
     fail(*members[0].work, e);
@@ -125,9 +132,13 @@ void StudyWorker::execute_in_lanes(std::span<Member> members) {
 }
 
 /// Every start of every member whose data are of use.
-void StudyWorker::estimate_in_lanes(Bench& bench, std::span<Member> members) {
+template <class Estimator, class Job>
+void StudyWorker::estimate_in_lanes(InLanes<Estimator, Job>& lanes, Bench& bench,
+                                    std::span<Member> members) {
+  if (!lanes.estimator) return;
+  std::vector<Job>& jobs = lanes.jobs;
   const std::size_t starts = bench.columns.starts;
-  if (bench.jobs.size() < members.size() * starts) bench.jobs.resize(members.size() * starts);
+  if (jobs.size() < members.size() * starts) jobs.resize(members.size() * starts);
   const auto usable = [](const Member& m) {
     const RunStatus status = m.work->outcome.status;
     return status == RunStatus::ok || status == RunStatus::filter_diverged;
@@ -135,14 +146,14 @@ void StudyWorker::estimate_in_lanes(Bench& bench, std::span<Member> members) {
   std::size_t count = 0;
   for (const Member& m : members)
     for (std::size_t s = 0; s < starts && usable(m); ++s) {
-      bench.jobs[count].measured = &m.sim.measured;
-      bench.jobs[count++].start = start_of(bench, m.work->run, s);
+      jobs[count].measured = &m.sim.measured;
+      jobs[count++].start = start_of(bench, m.work->run, s);
     }
-  bench.lanes->run(std::span(bench.jobs).first(count));
+  lanes.estimator->run(std::span(jobs).first(count));
   count = 0;
   for (Member& m : members) {
     const bool has_jobs = usable(m);
-    for (std::size_t s = 0; s < starts && has_jobs; ++s) write(bench, bench.jobs[count++], s, m);
+    for (std::size_t s = 0; s < starts && has_jobs; ++s) write(bench, jobs[count++], s, m);
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/estimate/batch.hpp"
 #include "core/estimate/sequential/ekf.hpp"
+#include "core/estimate/sequential/ekf_lanes.hpp"
 #include "core/estimate/sequential/iterated_ekf.hpp"
 #include "core/estimate/sequential/iterated_lanes.hpp"
 #include "core/sim/simulate.hpp"
@@ -15,7 +16,7 @@
 namespace drift::mc {
 
 /// Executes runs of a study point on one thread. From the second run on, the filters allocate
-/// nothing. Filters that can (IteratedLanes) estimate several runs in lock step.
+/// nothing. Filters that can (LaneIntervals) estimate several runs in lock step.
 class StudyWorker final : public RunWorker {
  public:
   explicit StudyWorker(const StudyTask& task);
@@ -29,6 +30,12 @@ class StudyWorker final : public RunWorker {
     RunWork* work = nullptr;
     Simulation sim;
   };
+  /// An estimator in lanes, and its jobs: of the members of a group, start after start.
+  template <class Estimator, class Job>
+  struct InLanes {
+    std::unique_ptr<Estimator> estimator;  ///< null where it is not the study's
+    std::vector<Job> jobs;
+  };
   /// One filter and its workspace.
   struct Bench {
     const FilterSpec& spec;
@@ -36,15 +43,18 @@ class StudyWorker final : public RunWorker {
     std::vector<Theta> fixed_starts;  ///< starts that are the same in every run: the first ones
     std::unique_ptr<Ekf> ekf;         ///< of that estimator alone
     std::unique_ptr<IteratedEkf> iterated;
-    std::unique_ptr<IteratedLanes> lanes;
-    std::vector<IteratedJob> jobs;  ///< of the members of a group, start after start
+    InLanes<EkfLanes, EkfJob> ekf_lanes;
+    InLanes<IteratedLanes, IteratedJob> iterated_lanes;
     PrincipalAxes axes;
     VecX error;  ///< in prior sigmas
+
+    bool in_lanes() const { return ekf_lanes.estimator || iterated_lanes.estimator; }
   };
 
   void execute_alone(Member& member);
   void execute_in_lanes(std::span<Member> members);
-  void estimate_in_lanes(Bench& bench, std::span<Member> members);
+  template <class Estimator, class Job>
+  void estimate_in_lanes(InLanes<Estimator, Job>& lanes, Bench& bench, std::span<Member> members);
   Theta start_of(const Bench& bench, std::uint64_t run, std::size_t start) const;
   void simulate(Member& member);
   void estimate(Bench& bench, std::size_t start, Member& member);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "core/estimate/sequential/ekf_lanes.hpp"
 #include "core/estimate/starts.hpp"
 #include "core/plan/environment.hpp"
 #include "mc/study/design.hpp"
@@ -30,8 +31,15 @@ RunTrace trace_run(const Study& point, std::uint64_t run) {
     for (std::size_t s = 0; s < start_count(point.filters[f]); ++s) {
       const FilterSpec& spec = point.filters[f];
       RunTrace::Filter filter{f, s, make_layout(spec), {}};
-      run_ekf(spec, {timeline, point.readout, sim.measured},
-              initial_estimate(spec, mc.seed, run, s), &filter.history);
+      const Theta start = initial_estimate(spec, mc.seed, run, s);
+      if (LaneIntervals::can(spec, timeline)) {  // as the study has it, to the last bit
+        EkfJob job;
+        job.measured = &sim.measured;
+        job.start = start;
+        EkfLanes(spec, timeline, point.readout).run(job, filter.history);
+      } else {
+        run_ekf(spec, {timeline, point.readout, sim.measured}, start, &filter.history);
+      }
       trace.filters.push_back(std::move(filter));
     }
   return trace;

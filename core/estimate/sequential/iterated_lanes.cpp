@@ -2,62 +2,28 @@
 
 #include <algorithm>
 
-#include "core/estimate/sequential/drift_walk.hpp"
 #include "core/estimate/sequential/stretches_and_chains.hpp"
-#include "core/physics/stochastic.hpp"
 #include "core/sim/trajectory.hpp"
 
 namespace drift {
-namespace {
-
-/// Whether the last node of an interval and the first of the next are the same for the terms.
-bool go_on_alike(const Timeline& timeline, const Interval& a, const Interval& b) {
-  return !b.cage && a.omega_cmd_p == b.omega_cmd_p && a.loop == b.loop &&
-         timeline.nodes[a.last_node()].omega_ic_l == timeline.nodes[b.first_node].omega_ic_l;
-}
-
-}  // namespace
-
-bool IteratedLanes::can(const FilterSpec& filter, const Timeline& timeline) {
-  const DriftModel model = filter.model();
-  return LaneLinearizer::can(model) && !has_outliers(model.terms) &&
-         filter.noise.angle_random_walk == 0.0 &&
-         walking_states(filter, make_layout(filter)).empty() &&
-         std::ranges::none_of(timeline.intervals, [](const Interval& i) { return i.rest; });
-}
-
 IteratedLanes::IteratedLanes(const FilterSpec& filter, const Timeline& timeline,
                              const Readout& readout)
-    : filter_(filter),
+    : along_(filter, timeline, readout),
       timeline_(timeline),
-      readout_(readout),
-      layout_(make_layout(filter)),
-      linearizer_(filter.model(), layout_, readout),
-      attitude_(layout_, linearizer_.readout()),
+      layout_(along_.layout()),
+      attitude_(along_.attitude()),
       information_(layout_.size()),
       one_(layout_.size(), Information::row_width(layout_.size())),
-      H_rate_(3 * layout_.num_rate),
-      H_par_(linearizer_.readout().size()),
-      rest_G_(H_rate_),
-      path_(timeline.nodes.size()),
       ends_(static_cast<std::size_t>(timeline.chains), attitude_),
       x_(layout_.size()),
       x_start_(x_),
       moved_(x_),
       step_(x_),
-      prior_(x_) {
-  std::size_t most = 0;
-  for (const Interval& i : timeline.intervals) most = std::max(most, i.node_count());
-  jacobian_.assign(most, linearizer_.make());
-  Phi_.resize(most);
-  G_.assign(most, std::vector<Pack>(3 * layout_.num_rate));
-}
+      prior_(x_) {}
 
 /// What is known of a job before its first pass.
 void IteratedLanes::prepare(IteratedJob& job) const {
-  job.status_ = EstimateStatus::ok;
-  job.cause_.clear();
-  job.t_diverged_ = job.nis_ = job.lag1_ = 0.0;
+  job.begin_anew();
   job.passes_ = 0;
   job.done_ = false;
   const auto n = static_cast<Eigen::Index>(layout_.size());
@@ -77,8 +43,8 @@ void IteratedLanes::prepare(IteratedJob& job) const {
         if (i > 0 && !timeline_.intervals[i].cage && std::isfinite(all(a, at - 1))) ++job.pairs_;
       }
   };
-  if (readout_.accelerometers) count(job.measured->acc);
-  if (readout_.gimbals) count(job.measured->gimbal);
+  if (along_.readout().accelerometers) count(job.measured->acc);
+  if (along_.readout().gimbals) count(job.measured->gimbal);
 }
 
 void IteratedLanes::run(std::span<IteratedJob> jobs) {
@@ -104,7 +70,10 @@ void IteratedLanes::run(std::span<IteratedJob> jobs) {
 
 void IteratedLanes::load(std::span<IteratedJob* const> jobs) {
   used_ = jobs.size();
-  for (std::size_t l = 0; l < width; ++l) lanes_[l] = jobs[std::min(l, used_ - 1)];
+  for (std::size_t l = 0; l < width; ++l) {
+    lanes_[l] = jobs[std::min(l, used_ - 1)];
+    recordings_[l] = lanes_[l]->measured;
+  }
   for (std::size_t k = 0; k < x_.size(); ++k) {
     const auto at = static_cast<Eigen::Index>(k);
     x_start_[k] =
@@ -113,27 +82,10 @@ void IteratedLanes::load(std::span<IteratedJob* const> jobs) {
   }
 }
 
-/// Linearises about x_ from here on.
-void IteratedLanes::set_theta() {
-  for (std::size_t k = 0; k < x_.size(); ++k) {
-    const auto at = static_cast<Eigen::Index>(k);
-    linearizer_.theta()[layout_.params[k]] =
-        Pack(layout_.mean[at]) + Pack(layout_.sigma[at]) * x_[k];
-  }
-}
-
-void IteratedLanes::cage(const Interval& interval, const PackVec& phi) {
-  const Node& node = timeline_.nodes[interval.first_node];
-  PackVec psi;
-  for (int l = 0; l < Pack::width; ++l)
-    set_lane(psi, l, node.R_il * (node.R_lr * -lane_of(phi, l)));
-  attitude_.cage(psi, filter_.initial_attitude);
-}
-
 /// Relinearises after 1, 2, 4, ... samples from the beginning of every stretch on.
 void IteratedLanes::begin() {
   std::ranges::fill(moved_, Pack(0.0));
-  set_theta();
+  along_.set_theta(x_);
   attitude_.reset();
   information_.clear();
   PackVec phi = PackVec::Zero();
@@ -146,14 +98,14 @@ void IteratedLanes::begin() {
     block *= 2;
     const auto& all = timeline_.intervals;
     if (all[first].cage) {
-      phi.setZero();
-      cage(all[first], phi);
+      along_.phi(all[first].first_node) = phi = PackVec::Zero();
+      along_.cage(all[first]);
     }
     for (std::size_t i = first; i < end; ++i) {
-      path_[all[i].first_node] = phi;
-      linearizer_.forward(timeline_, all[i], &path_[all[i].first_node]);
-      phi = path_[all[i].last_node()];
-      take(i, i > first && go_on_alike(timeline_, all[i - 1], all[i]), Pass::first);
+      along_.phi(all[i].first_node) = phi;
+      along_.forward(all[i]);
+      phi = along_.phi(all[i].last_node());
+      take(i, i > first, Pass::first);
     }
     solve_block(all[end - 1], phi);
     if (ends_chain(timeline_, end - 1))
@@ -191,31 +143,30 @@ void IteratedLanes::solve_block(const Interval& interval, PackVec& phi) {
     diverged(l, finite[l] && lane_of(phi, lane).allFinite(), interval.t1, Pass::first);
   }
   attitude_.move_reference();
-  set_theta();
+  along_.set_theta(x_);
 }
 
 void IteratedLanes::linear_pass() {
-  set_theta();
+  along_.set_theta(x_);
   const auto& all = timeline_.intervals;
   for (std::size_t i = all.size(); i-- > 0;) {
-    PackVec* phi = &path_[all[i].first_node];
-    PackVec& last = path_[all[i].last_node()];
+    PackVec& last = along_.phi(all[i].last_node());
     if (ends_chain(timeline_, i))
       for (std::size_t l = 0; l < width; ++l)
         set_lane(last, static_cast<int>(l),
                  lanes_[l]->ends_[static_cast<std::size_t>(all[i].chain)]);
     else
-      last = path_[all[i + 1].first_node];
-    linearizer_.backward(timeline_, all[i], phi);
+      last = along_.phi(all[i + 1].first_node);
+    along_.backward(all[i]);
   }
   attitude_.reset();
   information_.clear();
   for (std::size_t i = 0; i < all.size(); ++i) {
     for (std::size_t l = 0; l < used_; ++l)
-      diverged(l, lane_of(path_[all[i].first_node], static_cast<int>(l)).allFinite(), all[i].t0,
-               Pass::linear);
-    if (all[i].cage) cage(all[i], path_[all[i].first_node]);
-    take(i, i > 0 && go_on_alike(timeline_, all[i - 1], all[i]), Pass::linear);
+      diverged(l, lane_of(along_.phi(all[i].first_node), static_cast<int>(l)).allFinite(),
+               all[i].t0, Pass::linear);
+    if (all[i].cage) along_.cage(all[i]);
+    take(i, i > 0, Pass::linear);
     if (ends_chain(timeline_, i)) ends_[static_cast<std::size_t>(all[i].chain)] = attitude_;
   }
   information_.flush(true);
@@ -233,8 +184,33 @@ void IteratedLanes::linear_pass() {
       const int lane = static_cast<int>(l);
       if (!lanes_[l]->done_ && lane_of(psi, lane).allFinite())
         lanes_[l]->ends_[chain] = turned(timeline_.nodes[all[i].last_node()], lane_of(psi, lane),
-                                         lane_of(path_[all[i].last_node()], lane));
+                                         lane_of(along_.phi(all[i].last_node()), lane));
     }
+  }
+}
+
+void IteratedLanes::take(std::size_t i, bool follows, Pass pass) {
+  const Interval& interval = timeline_.intervals[i];
+  along_.linearize(i, follows);
+  along_.to_middle(interval);
+  if (along_.readout().accelerometers)
+    take_scalars(interval, LaneIntervals::accelerometers,
+                 along_.read_accelerometers(i, recordings_), pass);
+  along_.to_end(interval);
+  if (along_.readout().gimbals)
+    take_scalars(interval, LaneIntervals::gimbals, along_.read_gimbals(i, recordings_), pass);
+}
+
+void IteratedLanes::take_scalars(const Interval& interval, LaneIntervals::Channel channel,
+                                 LaneFilter::Scalars scalars, Pass pass) {
+  if (information_.full()) information_.flush(pass == Pass::linear);
+  information_.begin_rows(channel, !interval.cage);
+  attitude_.update(scalars, information_);
+  if (pass == Pass::linear) return;
+  for (int a = 0; a < 3; ++a) {  // right hand sides count from the start
+    Pack& right = information_.at(moved_.size())[4 * a];
+    for (std::size_t k = 0; k < moved_.size(); ++k)
+      right = mul_add(moved_[k], information_.at(k)[4 * a], right);
   }
 }
 

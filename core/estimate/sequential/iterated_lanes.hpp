@@ -1,44 +1,27 @@
 #pragma once
 
-#include <cmath>
 #include <span>
-#include <string>
 
-#include "core/estimate/estimate_result.hpp"
-#include "core/estimate/sequential/lane_filter.hpp"
-#include "core/sim/measurements.hpp"
+#include "core/estimate/sequential/iterated_estimate.hpp"
+#include "core/estimate/sequential/lane_information.hpp"
+#include "core/estimate/sequential/lane_intervals.hpp"
 
 namespace drift {
 
 /// A recording, where an estimate of it begins, and then the estimate (IteratedPasses).
-class IteratedJob {
+class IteratedJob : public IteratedEstimate {
  public:
   const Measurements* measured = nullptr;
   Theta start = Theta::Zero();
-
-  EstimateStatus status() const { return status_; }
-  const std::string& cause() const { return cause_; }
-  double t_diverged() const { return t_diverged_; }  ///< [s]
-  double nis() const { return nis_; }
-  std::size_t scalars() const { return scalars_; }
-  double lag1() const { return lag1_; }
-  const VecX& x() const { return x_; }
-  const Theta& theta() const { return theta_; }
-  double sigma(std::size_t k) const { return sigma_[static_cast<Eigen::Index>(k)]; }  ///< SI
-  const MatX& settled_covariance() const { return P_; }
+  int linear_passes() const { return passes_; }
 
  private:
   friend class IteratedLanes;
-  EstimateStatus status_ = EstimateStatus::ok;
-  std::string cause_;
-  double t_diverged_ = 0.0, nis_ = 0.0, lag1_ = 0.0;
-  std::size_t scalars_ = 0, pairs_ = 0;
+  std::size_t pairs_ = 0;
   int passes_ = 0;
   bool done_ = false;
-  VecX x_start_, x_, moved_, sigma_;
+  VecX x_start_, moved_;
   std::vector<Vec3> ends_;  ///< rotation vector at the end of each chain [rad]
-  MatX P_;
-  Theta theta_ = Theta::Zero();
 };
 
 /// The iterated estimator (IteratedPasses) of several recordings of one plan in lock step: as many
@@ -47,12 +30,7 @@ class IteratedJob {
 /// IteratedPasses it is rounded otherwise.
 class IteratedLanes {
  public:
-  static constexpr std::size_t width = static_cast<std::size_t>(Pack::width);
-  /// Whether a filter and a timeline are such: terms that ask for attitude and command alone and do
-  /// not act on the gimbals, nothing that walks, attitude included, no outliers, no
-  /// rest.
-  static bool can(const FilterSpec& filter, const Timeline& timeline);
-
+  static constexpr std::size_t width = LaneIntervals::width;
   /// The timeline must outlive it.
   IteratedLanes(const FilterSpec& filter, const Timeline& timeline, const Readout& readout);
 
@@ -61,40 +39,27 @@ class IteratedLanes {
 
  private:
   enum class Pass { first, linear };
-  enum Channel { accelerometers = 0, gimbals = 1 };
-
   void prepare(IteratedJob& job) const;
   void load(std::span<IteratedJob* const> jobs);
-  void set_theta();
   void begin();
   void linear_pass();
   void settle(std::size_t lane);
   void finish(IteratedJob& job, int lane);
-  void take(std::size_t i, bool shared, Pass pass);
-  void linearize(std::size_t i, bool shared);
-  void take_accelerometers(std::size_t i, Pass pass);
-  void take_gimbals(std::size_t i, Pass pass);
-  void take_scalars(std::size_t i, Channel channel, LaneFilter::Scalars& scalars, Pass pass);
-  void read(const Mat3X Measurements::*what, std::size_t i, LaneFilter::Scalars& scalars) const;
+  void take(std::size_t i, bool follows, Pass pass);
+  void take_scalars(const Interval& interval, LaneIntervals::Channel channel,
+                    LaneFilter::Scalars scalars, Pass pass);
   void solve_block(const Interval& interval, PackVec& phi);
-  void cage(const Interval& interval, const PackVec& phi);
   void diverged(std::size_t lane, bool finite, double t, Pass pass);
 
-  FilterSpec filter_;
+  LaneIntervals along_;
   const Timeline& timeline_;
-  Readout readout_;
-  Layout layout_;
-  LaneLinearizer linearizer_;
-  LaneFilter attitude_;
+  const Layout& layout_;
+  LaneFilter& attitude_;
   LaneInformation information_;
   Information one_;  ///< that of a lane
   std::array<IteratedJob*, width> lanes_{};
   std::size_t used_ = 0;  ///< lanes; in the others is the last job once more
-  std::vector<LaneJacobian> jacobian_;
-  std::vector<PackMat> Phi_;
-  std::vector<std::vector<Pack>> G_;
-  std::vector<Pack> H_rate_, H_par_, rest_G_;
-  std::vector<PackVec> path_;
+  LaneIntervals::Recordings recordings_{};
   std::vector<LaneFilter> ends_;
   std::vector<Pack> x_, x_start_, moved_, step_, prior_;
   std::vector<IteratedJob*> waiting_;

@@ -2,6 +2,10 @@
 
 #include <algorithm>
 
+#include "core/estimate/sequential/lane_covariance.hpp"
+#include "core/estimate/sequential/lane_information.hpp"
+#include "core/estimate/sequential/lane_tiles.hpp"
+
 namespace drift {
 
 LaneFilter::LaneFilter(const Layout& layout, const std::vector<LaneLinearizer::Entry>& readout)
@@ -29,34 +33,27 @@ void LaneFilter::cage(const PackVec& psi, double sigma) {
 void LaneFilter::propagate(const PackMat& Phi, const std::vector<Pack>& G) {
   for (std::size_t k = 0; k <= parameters_; ++k) {
     Pack* u = &U_[3 * k];
-    Pack moved[3];
+    const Pack from[3] = {u[0], u[1], u[2]};
     for (std::size_t i = 0; i < 3; ++i)
-      moved[i] = row_times(Phi, static_cast<int>(i), u, k < rate_ ? G[3 * k + i] : Pack(0.0));
-    std::copy_n(moved, 3, u);
+      u[i] = row_times(Phi, static_cast<int>(i), from, k < rate_ ? G[3 * k + i] : Pack(0.0));
   }
   const PackMat P = times(times(Phi, P_), PackMat(Phi.transpose()));
   for (int j = 0; j < 3; ++j)
     for (int i = 0; i < 3; ++i) P_(i, j) = Pack(0.5) * (P(i, j) + P(j, i));
 }
 
-void LaneFilter::update(Scalars& scalars, LaneInformation& into) {
+template <class Rows>
+void LaneFilter::update(Scalars& scalars, Rows& into) {
   PackMat& H = scalars.H_psi;
   for (int j = 0; j < 3; ++j)
     for (int i = 0; i < 3; ++i) H(i, j) *= scalars.on[i];
   const PackMat PHt = times(P_, PackMat(H.transpose()));
   PackMat S = times(H, PHt);
   for (int i = 0; i < 3; ++i) S(i, i) += Pack(scalars.sigma * scalars.sigma);
-  // L^-1 of S = L L^T (small_cholesky.hpp); not a number in a lane in which S is not positive.
-  const Pack one(1.0), i0 = one / sqrt(S(0, 0)), l10 = S(1, 0) * i0, l20 = S(2, 0) * i0;
-  const Pack i1 = one / sqrt(S(1, 1) - l10 * l10), l21 = (S(2, 1) - l20 * l10) * i1;
-  const Pack i2 = one / sqrt(S(2, 2) - l20 * l20 - l21 * l21);
-  const Pack m10 = -(i1 * l10 * i0), m21 = -(i2 * l21 * i1), m20 = -(i2 * (l20 * i0 + l21 * m10));
+  const InverseRoot L_inv(S);
   PackMat gain;  // P H^T L^-T
-  for (int i = 0; i < 3; ++i) {
-    gain(i, 0) = PHt(i, 0) * i0;
-    gain(i, 1) = mul_add(PHt(i, 0), m10, PHt(i, 1) * i1);
-    gain(i, 2) = mul_add(PHt(i, 0), m20, mul_add(PHt(i, 1), m21, PHt(i, 2) * i2));
-  }
+  for (int i = 0; i < 3; ++i)
+    gain.row(i) = L_inv.times({PHt(i, 0), PHt(i, 1), PHt(i, 2)}).transpose();
   const bool by_par = scalars.H_par != nullptr;
   if (by_par) {
     std::ranges::fill(row_, Pack(0.0));
@@ -79,16 +76,18 @@ void LaneFilter::update(Scalars& scalars, LaneInformation& into) {
     Pack* u = &U_[3 * k];
     Pack t[3];
     for (int i = 0; i < 3; ++i) t[i] = row_times(H, i, u, h[i] * scalars.on[i]);
-    const Pack white[3] = {i0 * t[0], mul_add(m10, t[0], i1 * t[1]),
-                           mul_add(m20, t[0], mul_add(m21, t[1], i2 * t[2]))};
+    const PackVec white = L_inv.times({t[0], t[1], t[2]});
     Pack* row = into.at(k);
     for (int i = 0; i < 3; ++i) row[4 * i] = white[i];
-    for (int i = 0; i < 3; ++i) u[i] = row_times(minus, i, white, u[i]);
+    for (int i = 0; i < 3; ++i) u[i] = row_times(minus, i, white.data(), u[i]);
   }
   const PackMat P = P_ - times(gain, PackMat(gain.transpose()));
   for (int j = 0; j < 3; ++j)
     for (int i = 0; i < 3; ++i) P_(i, j) = Pack(0.5) * (P(i, j) + P(j, i));
 }
+
+template void LaneFilter::update(Scalars&, LaneInformation&);
+template void LaneFilter::update(Scalars&, LaneCovariance&);
 
 PackVec LaneFilter::attitude(const std::vector<Pack>& x) const {
   PackVec psi;

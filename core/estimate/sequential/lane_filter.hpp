@@ -2,7 +2,6 @@
 
 #include <vector>
 
-#include "core/estimate/sequential/lane_information.hpp"
 #include "core/estimate/sequential/lane_linearizer.hpp"
 
 namespace drift {
@@ -29,8 +28,10 @@ class LaneFilter {
     const std::vector<Pack>* H_par = nullptr;   ///< of each entry of `readout`; may be null
     double sigma = 0.0;
   };
-  /// Takes them in; their whitened rows go where `into` says.
-  void update(Scalars& scalars, LaneInformation& into);
+  /// Takes them in; their whitened rows go where `into` says, row i of parameter k to
+  /// into.at(k)[4 i] (LaneInformation, LaneCovariance).
+  template <class Rows>
+  void update(Scalars& scalars, Rows& into);
 
   /// Estimate of the attitude where the parameters are x off the reference [rad].
   PackVec attitude(const std::vector<Pack>& x) const;

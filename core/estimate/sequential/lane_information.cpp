@@ -2,29 +2,45 @@
 
 #include <algorithm>
 
+#include "core/estimate/sequential/lane_tiles.hpp"
+
 namespace drift {
 namespace {
 
-/// tile +-= x y^T for `rows` times four numbers x and y.
-enum class Sign { plus, minus };
-template <Sign sign>
-inline void add_products(const Pack* x, const Pack* y, std::size_t rows, Pack* tile) {
-  Pack a[16];
-#pragma GCC unroll 16
-  for (int e = 0; e < 16; ++e) a[e] = tile[e];
-  for (std::size_t r = 0; r < rows; ++r, x += 4, y += 4) {
-    const Pack y0 = y[0], y1 = y[1], y2 = y[2], y3 = y[3];
+/// sum += x y^T over rows of four numbers.
+void add_rows(const Pack* x, const Pack* y, std::size_t rows, Pack* sum) {
+  Pack tile[16];
+  load_tile(sum, tile);
+  for (std::size_t r = 0; r < rows; ++r, x += 4, y += 4) add_product<Sign::plus>(x, y, tile);
+  store_tile(tile, sum);
+}
+
+/// A tile of the factor below the diagonal (or, where they are the same, on it), all that hangs on
+/// tiles before taken off: times the inverse of the triangle d.
+[[gnu::always_inline]] inline void divide(const Pack (&d)[16], const Pack* inverse,
+                                          Pack (&tile)[16]) {
+#pragma GCC unroll 4
+  for (int j = 0; j < 4; ++j)
 #pragma GCC unroll 4
     for (int i = 0; i < 4; ++i) {
-      const Pack xi = sign == Sign::plus ? x[i] : -x[i];
-      a[4 * i] = mul_add(xi, y0, a[4 * i]);
-      a[4 * i + 1] = mul_add(xi, y1, a[4 * i + 1]);
-      a[4 * i + 2] = mul_add(xi, y2, a[4 * i + 2]);
-      a[4 * i + 3] = mul_add(xi, y3, a[4 * i + 3]);
+#pragma GCC unroll 4
+      for (int q = 0; q < j; ++q)
+        tile[4 * i + j] = mul_add(-tile[4 * i + q], d[4 * j + q], tile[4 * i + j]);
+      tile[4 * i + j] *= inverse[j];
     }
-  }
-#pragma GCC unroll 16
-  for (int e = 0; e < 16; ++e) tile[e] = a[e];
+}
+/// A tile on the diagonal becomes its triangle.
+[[gnu::always_inline]] inline void take_root(Pack (&tile)[16], Pack* inverse) {
+#pragma GCC unroll 4
+  for (int j = 0; j < 4; ++j)
+#pragma GCC unroll 4
+    for (int i = j; i < 4; ++i) {
+#pragma GCC unroll 4
+      for (int q = 0; q < j; ++q)
+        tile[4 * i + j] = mul_add(-tile[4 * i + q], tile[4 * j + q], tile[4 * i + j]);
+      if (i == j) inverse[j] = Pack(1.0) / sqrt(tile[5 * j]);
+      tile[4 * i + j] *= inverse[j];
+    }
 }
 
 }  // namespace
@@ -62,8 +78,7 @@ void LaneInformation::begin_rows(int channel, bool follows) {
 void LaneInformation::flush(bool neighbours) {
   for (std::size_t I = 0; I < tiles_; ++I)
     for (std::size_t J = 0; J <= I; ++J)
-      add_products<Sign::plus>(panel(I, carried), panel(J, carried), rows_ - carried,
-                               sum_[index(I, J)].data());
+      add_rows(panel(I, carried), panel(J, carried), rows_ - carried, sum_[index(I, J)].data());
   if (neighbours) add_neighbours();
   for (auto& pairs : pairs_) pairs.clear();
   for (std::size_t c = 0; c < 2; ++c) {
@@ -95,58 +110,46 @@ void LaneInformation::add_neighbours() {
     }
   for (std::size_t I = 0; I < tiles_; ++I)
     for (std::size_t J = 0; J <= I; ++J) {
-      Pack* tile = neighbours_[index(I, J)].data();
-      for (std::size_t r = 0; r < count; r += 3) {
-        add_products<Sign::plus>(panel(I, middle[r]), &beside_[(J * most_rows + r) * 4], 3, tile);
-        add_products<Sign::plus>(&beside_[(I * most_rows + r) * 4], panel(J, middle[r]), 3, tile);
+      Pack* sum = neighbours_[index(I, J)].data();
+      Pack tile[16];
+      load_tile(sum, tile);
+      for (std::size_t r = 0; r < count; ++r) {
+        add_product<Sign::plus>(panel(I, middle[r]), &beside_[(J * most_rows + r) * 4], tile);
+        add_product<Sign::plus>(&beside_[(I * most_rows + r) * 4], panel(J, middle[r]), tile);
       }
+      store_tile(tile, sum);
     }
 }
 
 void LaneInformation::factorise() {
   const std::size_t side = (n_ + 3) / 4;
-  for (std::size_t J = 0; J < side; ++J)
+  for (std::size_t J = 0; J < side; ++J) {
+    Pack root[16], *inverse = &inverse_diagonal_[4 * J];
     for (std::size_t I = J; I < side; ++I) {
-      Pack* a = factor_[index(I, J)].data();
-      std::copy_n(sum_[index(I, J)].data(), 16, a);
-      for (std::size_t i = 0; i < 4; ++i)
-        for (std::size_t j = 0; j < 4; ++j) {
-          const std::size_t row = 4 * I + i, column = 4 * J + j;
-          if (row >= n_ || column >= n_) a[4 * i + j] = Pack(0.0);
-          if (row == column) a[4 * i + j] += Pack(1.0);
-        }
-      // A row of a tile of the factor is four numbers in a row: its transpose is taken here.
-      for (std::size_t K = 0; K < J; ++K) {
-        const Pack *x = factor_[index(I, K)].data(), *y = factor_[index(J, K)].data();
-        Pack s[16];
-        for (int e = 0; e < 16; ++e) s[e] = a[e];
-        for (int q = 0; q < 4; ++q) {
-          const Pack y0 = y[q], y1 = y[4 + q], y2 = y[8 + q], y3 = y[12 + q];
-#pragma GCC unroll 4
-          for (int i = 0; i < 4; ++i) {
-            const Pack xi = -x[4 * i + q];
-            s[4 * i] = mul_add(xi, y0, s[4 * i]);
-            s[4 * i + 1] = mul_add(xi, y1, s[4 * i + 1]);
-            s[4 * i + 2] = mul_add(xi, y2, s[4 * i + 2]);
-            s[4 * i + 3] = mul_add(xi, y3, s[4 * i + 3]);
-          }
-        }
-        for (int e = 0; e < 16; ++e) a[e] = s[e];
+      Pack tile[16];
+      load_tile(sum_[index(I, J)].data(), tile);
+      if (4 * I + 4 > n_) {  // what stands beyond the parameters is no part of it
+        for (std::size_t i = 0; i < 4; ++i)
+          for (std::size_t j = 0; j < 4; ++j)
+            if (std::max(4 * I + i, 4 * J + j) >= n_) tile[4 * i + j] = Pack(0.0);
       }
-      const Pack* d = factor_[index(J, J)].data();
-      for (std::size_t j = 0; j < 4; ++j) {
-        if (I == J) {
-          Pack s = a[5 * j];
-          for (std::size_t q = 0; q < j; ++q) s = mul_add(-a[4 * j + q], a[4 * j + q], s);
-          inverse_diagonal_[4 * J + j] = Pack(1.0) / sqrt(s);
-        }
-        for (std::size_t i = I == J ? j : 0; i < 4; ++i) {
-          Pack s = a[4 * i + j];
-          for (std::size_t q = 0; q < j; ++q) s = mul_add(-a[4 * i + q], d[4 * j + q], s);
-          a[4 * i + j] = s * inverse_diagonal_[4 * J + j];
-        }
+      if (I == J)
+        for (int i = 0; i < 4; ++i) tile[5 * i] += Pack(1.0);
+      const Pack *x = factor_[index(I, 0)].data(), *y = factor_[index(J, 0)].data();
+      for (std::size_t K = 0; K < J; ++K, x += 16, y += 16)
+        for (int q = 0; q < 4; ++q) add_product<Sign::minus>(x + 4 * q, y + 4 * q, tile);
+      if (I == J) {
+        take_root(tile, inverse);
+        load_tile(tile, root);
+      } else {
+        divide(root, inverse, tile);
       }
+      // A row of four in a tile of the factor is a column of it: what products take together.
+      Pack* to = factor_[index(I, J)].data();
+      for (int i = 0; i < 4; ++i)
+        for (int j = 0; j < 4; ++j) to[4 * j + i] = tile[4 * i + j];
     }
+  }
 }
 
 void LaneInformation::solve(Pack* x) const {
@@ -154,15 +157,15 @@ void LaneInformation::solve(Pack* x) const {
     Pack even = x[i], odd(0.0);
     std::size_t k = 0;
     for (; k + 1 < i; k += 2) {
-      even = mul_add(-element(factor_, i, k), x[k], even);
-      odd = mul_add(-element(factor_, i, k + 1), x[k + 1], odd);
+      even = mul_add(-factor(i, k), x[k], even);
+      odd = mul_add(-factor(i, k + 1), x[k + 1], odd);
     }
-    if (k < i) even = mul_add(-element(factor_, i, k), x[k], even);
+    if (k < i) even = mul_add(-factor(i, k), x[k], even);
     x[i] = (even + odd) * inverse_diagonal_[i];
   }
   for (std::size_t i = n_; i-- > 0;) {
     x[i] *= inverse_diagonal_[i];
-    for (std::size_t k = 0; k < i; ++k) x[k] = mul_add(-element(factor_, i, k), x[i], x[k]);
+    for (std::size_t k = 0; k < i; ++k) x[k] = mul_add(-factor(i, k), x[i], x[k]);
   }
 }
 

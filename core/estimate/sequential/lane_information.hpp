@@ -45,6 +45,9 @@ class LaneInformation {
   const Pack& element(const std::vector<Tile>& tiles, std::size_t i, std::size_t j) const {
     return tiles[index(i / 4, j / 4)][4 * (i % 4) + j % 4];  // i >= j, or in one tile
   }
+  const Pack& factor(std::size_t i, std::size_t j) const {  // i >= j; tiles are transposed
+    return factor_[index(i / 4, j / 4)][4 * (j % 4) + i % 4];
+  }
   const Pack* panel(std::size_t I, std::size_t row) const {
     return &panel_[(I * most_rows + row) * 4];
   }

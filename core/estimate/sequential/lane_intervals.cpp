@@ -1,23 +1,94 @@
-#include <algorithm>
+#include "core/estimate/sequential/lane_intervals.hpp"
 
-#include "core/base/pack.hpp"
-#include "core/estimate/gimbal_prediction.hpp"
-#include "core/estimate/sequential/iterated_lanes.hpp"
+#include <algorithm>
+#include <cmath>
+
+#include "core/estimate/sequential/drift_walk.hpp"
 #include "core/estimate/transition.hpp"
+#include "core/physics/earth.hpp"
+#include "core/physics/gimbals.hpp"
+#include "core/physics/stochastic.hpp"
 
 namespace drift {
+namespace {
+
+/// Whether the last node of an interval and the first of the next are the same for the terms.
+bool go_on_alike(const Timeline& timeline, const Interval& a, const Interval& b) {
+  return !b.cage && a.omega_cmd_p == b.omega_cmd_p && a.loop == b.loop &&
+         timeline.nodes[a.last_node()].omega_ic_l == timeline.nodes[b.first_node].omega_ic_l;
+}
+
+/// What each lane has measured in interval i, zero where it has not.
+void read(const Mat3X Measurements::*what, std::size_t i,
+          const LaneIntervals::Recordings& recordings, LaneFilter::Scalars& scalars) {
+  for (int a = 0; a < 3; ++a) {
+    const auto of = [&](int l) {
+      return (recordings[static_cast<std::size_t>(l)]->*what)(a, static_cast<Eigen::Index>(i));
+    };
+    scalars.nu[a] = Pack::of_each([&](int l) { return std::isfinite(of(l)) ? of(l) : 0.0; });
+    scalars.on[a] = Pack::of_each([&](int l) { return std::isfinite(of(l)) ? 1.0 : 0.0; });
+  }
+}
+
+}  // namespace
+
+bool LaneIntervals::can(const FilterSpec& filter, const Timeline& timeline) {
+  const DriftModel model = filter.model();
+  return LaneLinearizer::can(model) && !has_outliers(model.terms) &&
+         filter.noise.angle_random_walk == 0.0 &&
+         walking_states(filter, make_layout(filter)).empty() &&
+         std::ranges::none_of(timeline.intervals, [](const Interval& i) { return i.rest; });
+}
+
+LaneIntervals::LaneIntervals(const FilterSpec& filter, const Timeline& timeline,
+                             const Readout& readout)
+    : filter_(filter),
+      timeline_(timeline),
+      readout_(readout),
+      layout_(make_layout(filter)),
+      linearizer_(filter.model(), layout_, readout),
+      attitude_(layout_, linearizer_.readout()),
+      H_rate_(3 * layout_.num_rate),
+      H_par_(linearizer_.readout().size()),
+      rest_G_(H_rate_),
+      path_(timeline.nodes.size()) {
+  std::size_t most = 0;
+  for (const Interval& i : timeline.intervals) most = std::max(most, i.node_count());
+  jacobian_.assign(most, linearizer_.make());
+  Phi_.resize(most);
+  weighted_H_.resize(most);
+  weight_.resize(most);
+  G_.assign(most, std::vector<Pack>(3 * layout_.num_rate, Pack(0.0)));
+}
+
+void LaneIntervals::set_theta(const std::vector<Pack>& x) {
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    const auto at = static_cast<Eigen::Index>(k);
+    linearizer_.theta()[layout_.params[k]] =
+        Pack(layout_.mean[at]) + Pack(layout_.sigma[at]) * x[k];
+  }
+}
+
+void LaneIntervals::cage(const Interval& interval) {
+  const Node& node = timeline_.nodes[interval.first_node];
+  PackVec psi;
+  for (int l = 0; l < Pack::width; ++l)
+    set_lane(psi, l, node.R_il * (node.R_lr * -lane_of(path_[interval.first_node], l)));
+  attitude_.cage(psi, filter_.initial_attitude);
+}
+
 /// propagate_sensitivity (linearize.hpp), in lanes.
-void IteratedLanes::linearize(std::size_t i, bool shared) {
+void LaneIntervals::linearize(std::size_t i, bool follows) {
   const Interval& interval = timeline_.intervals[i];
   const std::size_t nodes = interval.node_count();
   const Mat3 E_loop = misalignment_matrix(linearizer_.model().mounting, interval.loop);
+  const bool shared = follows && go_on_alike(timeline_, timeline_.intervals[i - 1], interval);
   if (shared) std::swap(jacobian_[0], jacobian_[timeline_.intervals[i - 1].node_count() - 1]);
   for (std::size_t k = shared ? 1 : 0; k < nodes; ++k)
     linearizer_.evaluate(timeline_.nodes[interval.first_node + k], interval, E_loop,
                          path_[interval.first_node + k], jacobian_[k]);
   const double h = interval.length() / (2.0 * interval.substeps);
   Phi_[0] = in_all_lanes(Mat3::Identity());
-  std::ranges::fill(G_[0], Pack(0.0));
   for (std::size_t k = 0; k + 2 < nodes; k += 2) {
     const LaneJacobian &j0 = jacobian_[k], &j1 = jacobian_[k + 1], &j2 = jacobian_[k + 2];
     const TwoSteps<Pack> two(j0.A, j1.A, j2.A, h);
@@ -46,14 +117,14 @@ void IteratedLanes::linearize(std::size_t i, bool shared) {
   }
 }
 
-/// IntervalRows::take, in lanes.
-void IteratedLanes::take(std::size_t i, bool shared, Pass pass) {
-  const Interval& interval = timeline_.intervals[i];
-  linearize(i, shared);
-  const std::size_t last = interval.node_count() - 1;
+void LaneIntervals::to_middle(const Interval& interval) {
   const auto middle = static_cast<std::size_t>(interval.substeps);
   attitude_.propagate(Phi_[middle], G_[middle]);
-  if (readout_.accelerometers) take_accelerometers(i, pass);
+}
+
+void LaneIntervals::to_end(const Interval& interval) {
+  const std::size_t last = interval.node_count() - 1;
+  const auto middle = static_cast<std::size_t>(interval.substeps);
   const PackMat Phi_rest = times(Phi_[last], Phi_[middle].inverse().eval());
   const PackMat minus = -Phi_rest;
   for (std::size_t c = 0; c < rest_G_.size(); c += 3)
@@ -62,90 +133,62 @@ void IteratedLanes::take(std::size_t i, bool shared, Pass pass) {
       rest_G_[at] = row_times(minus, a, &G_[middle][c], G_[last][at]);
     }
   attitude_.propagate(Phi_rest, rest_G_);
-  if (readout_.gimbals) take_gimbals(i, pass);
 }
 
 /// mean_output (linearize.hpp), in lanes.
-void IteratedLanes::take_accelerometers(std::size_t i, Pass pass) {
+LaneFilter::Scalars LaneIntervals::read_accelerometers(std::size_t i,
+                                                       const Recordings& recordings) {
   LaneFilter::Scalars scalars;
-  read(&Measurements::acc, i, scalars);
+  read(&Measurements::acc, i, recordings, scalars);
   const Interval& interval = timeline_.intervals[i];
+  const std::size_t nodes = interval.node_count();
   const auto middle = static_cast<std::size_t>(interval.substeps);
   const PackMat from_middle = Phi_[middle].inverse().eval();
   PackVec mean = PackVec::Zero();
   scalars.H_psi.setZero();
-  std::ranges::fill(H_par_, Pack(0.0));
-  std::ranges::fill(H_rate_, Pack(0.0));
-  for (std::size_t k = 0; k < interval.node_count(); ++k) {
+  for (std::size_t k = 0; k < nodes; ++k) {
     const double w = Timeline::simpson_weight(interval.substeps, k);
     const LaneJacobian& j = jacobian_[k];
-    const PackMat weighted = scaled(w, j.H);
-    scalars.H_psi += times(weighted, times(Phi_[k], from_middle));
-    for (int a = 0; a < 3; ++a) mean[a] = mul_add(Pack(w), j.acc[a], mean[a]);
-    for (std::size_t e = 0; e < H_par_.size(); ++e)
-      H_par_[e] = mul_add(Pack(w), j.H_par[e], H_par_[e]);
-    if (k == 0) continue;  // G is zero there
-    for (std::size_t c = 0; c < H_rate_.size(); c += 3)
-      for (int a = 0; a < 3; ++a) {
-        Pack& h = H_rate_[c + static_cast<std::size_t>(a)];
-        h = row_times(weighted, a, &G_[k][c], h);
-      }
+    weight_[k] = Pack(w);
+    weighted_H_[k] = scaled(w, j.H);
+    scalars.H_psi += times(weighted_H_[k], times(Phi_[k], from_middle));
+    for (int a = 0; a < 3; ++a) mean[a] = mul_add(weight_[k], j.acc[a], mean[a]);
+  }
+  for (std::size_t e = 0; e < H_par_.size(); ++e) {
+    Pack sum(0.0);
+    for (std::size_t k = 0; k < nodes; ++k) sum = mul_add(weight_[k], jacobian_[k].H_par[e], sum);
+    H_par_[e] = sum;
   }
   const PackMat minus = -scalars.H_psi;
-  for (std::size_t c = 0; c < H_rate_.size(); c += 3)
-    for (int a = 0; a < 3; ++a) {
-      Pack& h = H_rate_[c + static_cast<std::size_t>(a)];
-      h = row_times(minus, a, &G_[middle][c], h);
-    }
+  for (std::size_t c = 0; c < H_rate_.size(); c += 3) {
+    Pack h[3] = {Pack(0.0), Pack(0.0), Pack(0.0)};
+    for (std::size_t k = 1; k < nodes; ++k)  // G is zero at the first
+      for (int a = 0; a < 3; ++a) h[a] = row_times(weighted_H_[k], a, &G_[k][c], h[a]);
+    for (int a = 0; a < 3; ++a)
+      H_rate_[c + static_cast<std::size_t>(a)] = row_times(minus, a, &G_[middle][c], h[a]);
+  }
   for (int a = 0; a < 3; ++a) scalars.nu[a] = scalars.on[a] * (scalars.nu[a] - mean[a]);
   scalars.H_rate = &H_rate_;
   scalars.H_par = &H_par_;
   scalars.sigma = interval.accelerometer_noise(readout_.accelerometer_noise);
-  take_scalars(i, accelerometers, scalars, pass);
+  return scalars;
 }
 
-void IteratedLanes::take_gimbals(std::size_t i, Pass pass) {
+/// predict_gimbals (gimbal_prediction.hpp), in lanes.
+LaneFilter::Scalars LaneIntervals::read_gimbals(std::size_t i, const Recordings& recordings) {
   LaneFilter::Scalars scalars;
-  read(&Measurements::gimbal, i, scalars);
+  read(&Measurements::gimbal, i, recordings, scalars);
   const Interval& interval = timeline_.intervals[i];
-  for (int l = 0; l < Pack::width; ++l) {
-    const GimbalPrediction one =
-        predict_gimbals(timeline_.nodes[interval.last_node()], interval.heading1,
-                        lane_of(path_[interval.last_node()], l));
-    for (int a = 0; a < 3; ++a) {
-      scalars.nu[a].set(l, scalars.on[a][l] * angle_difference(scalars.nu[a][l], one.angles[a]));
-      for (int c = 0; c < 3; ++c) scalars.H_psi(a, c).set(l, one.H(a, c));
-    }
-  }
+  const Node& node = timeline_.nodes[interval.last_node()];
+  const Mat3 R_cl = case_attitude(interval.heading1).transpose();
+  const PackMat R_cp = times(in_all_lanes(R_cl * node.R_lr), rotation(path_[interval.last_node()]));
+  const PackVec angles = gimbal_angles(R_cp);
+  for (int a = 0; a < 3; ++a)
+    scalars.nu[a] = scalars.on[a] * angle_difference(scalars.nu[a], angles[a]);
+  scalars.H_psi =
+      times(gimbal_angles_by_rotation(R_cp), in_all_lanes(R_cl * node.R_il.transpose()));
   scalars.sigma = readout_.gimbal_noise;
-  take_scalars(i, gimbals, scalars, pass);
-}
-
-/// What each lane has measured in interval i, zero where it has not. What none has is taken in as
-/// well: how rows come together must not hang on which runs do.
-void IteratedLanes::read(const Mat3X Measurements::*what, std::size_t i,
-                         LaneFilter::Scalars& scalars) const {
-  for (int a = 0; a < 3; ++a) {
-    const auto of = [&](int l) {
-      return (lanes_[static_cast<std::size_t>(l)]->measured->*what)(a,
-                                                                    static_cast<Eigen::Index>(i));
-    };
-    scalars.nu[a] = Pack::of_each([&](int l) { return std::isfinite(of(l)) ? of(l) : 0.0; });
-    scalars.on[a] = Pack::of_each([&](int l) { return std::isfinite(of(l)) ? 1.0 : 0.0; });
-  }
-}
-
-void IteratedLanes::take_scalars(std::size_t i, Channel channel, LaneFilter::Scalars& scalars,
-                                 Pass pass) {
-  if (information_.full()) information_.flush(pass == Pass::linear);
-  information_.begin_rows(channel, !timeline_.intervals[i].cage);
-  attitude_.update(scalars, information_);
-  if (pass == Pass::linear) return;
-  for (int a = 0; a < 3; ++a) {  // right hand sides count from the start
-    Pack& right = information_.at(moved_.size())[4 * a];
-    for (std::size_t k = 0; k < moved_.size(); ++k)
-      right = mul_add(moved_[k], information_.at(k)[4 * a], right);
-  }
+  return scalars;
 }
 
 }  // namespace drift

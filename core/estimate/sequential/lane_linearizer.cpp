@@ -62,8 +62,9 @@ void LaneLinearizer::look(const Node& node, const Interval& interval, const Pack
   }
 }
 
-void LaneLinearizer::evaluate(const Node& node, const Interval& interval, const Mat3& E_loop,
-                              const PackVec& phi, LaneJacobian& out) {
+[[gnu::flatten]] void LaneLinearizer::evaluate(const Node& node, const Interval& interval,
+                                               const Mat3& E_loop, const PackVec& phi,
+                                               LaneJacobian& out) {
   look(node, interval, phi);
   const auto slots = rates_.slots_of(seen_);
   rates_.differentiate(seen_, derivative_.data());
@@ -99,7 +100,7 @@ void LaneLinearizer::evaluate(const Node& node, const Interval& interval, const 
 }
 
 /// phi' (kinematics.hpp).
-PackVec LaneLinearizer::rate(const Mat3& R_lr, const PackVec& phi) {
+[[gnu::flatten]] PackVec LaneLinearizer::rate(const Mat3& R_lr, const PackVec& phi) {
   const PackMat R_rp = rotation(phi), R_lp = times(in_all_lanes(R_lr), R_rp);
   Inputs<Pack>& in = seen_.still;
   for (int i = 0; i < 3; ++i) {
@@ -128,11 +129,12 @@ void LaneLinearizer::drive(const Timeline& timeline, const Interval& interval) {
   E_loop_ = misalignment_matrix(model_.mounting, interval.loop);
 }
 
-void LaneLinearizer::forward(const Timeline& timeline, const Interval& interval, PackVec* phi) {
+void LaneLinearizer::forward(const Timeline& timeline, const Interval& interval, PackVec* phi,
+                             std::size_t from) {
   drive(timeline, interval);
   const double length = interval.length() / (2.0 * interval.substeps);
   const Node* node = &timeline.nodes[interval.first_node];
-  for (std::size_t k = 0; k + 1 < interval.node_count(); ++k)
+  for (std::size_t k = from; k + 1 < interval.node_count(); ++k)
     phi[k + 1] = step(length, node[k].R_lr, node[k].R_lr_half, node[k + 1].R_lr, phi[k]);
 }
 

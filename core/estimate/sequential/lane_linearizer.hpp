@@ -46,9 +46,9 @@ class LaneLinearizer {
   /// A slot of the accelerometers and the readout state it depends on.
   const std::vector<Entry>& readout() const { return accelerometers_.entries(); }
 
-  /// Rotation vectors at the nodes of an interval, from the first (or the last) on, by steps of
+  /// Rotation vectors at the nodes of an interval, from one of them (or the last) on, by steps of
   /// Runge and Kutta [rad].
-  void forward(const Timeline& timeline, const Interval& interval, PackVec* phi);
+  void forward(const Timeline& timeline, const Interval& interval, PackVec* phi, std::size_t from);
   void backward(const Timeline& timeline, const Interval& interval, PackVec* phi);
 
  private:

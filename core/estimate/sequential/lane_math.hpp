@@ -1,7 +1,10 @@
 #pragma once
 
+#include <numbers>
+
 #include "core/base/pack.hpp"
 #include "core/estimate/lanes.hpp"
+#include "core/sim/measurements.hpp"
 
 namespace drift {
 
@@ -41,6 +44,13 @@ inline PackMat in_all_lanes(const Mat3& M) {
   PackMat all;
   for (int e = 0; e < 9; ++e) all.data()[e] = Pack(M.data()[e]);
   return all;
+}
+
+/// a - b, between -pi and pi [rad].
+inline Pack angle_difference(const Pack& a, const Pack& b) {
+  const Pack d = a - b;  // what lies between is its own remainder
+  return lane_by_lane(d, d, std::experimental::abs(d.v) > std::numbers::pi,
+                      [](double one) { return angle_difference(one, 0.0); });
 }
 
 /// One lane, and back.

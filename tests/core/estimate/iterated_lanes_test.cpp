@@ -53,7 +53,7 @@ TEST(IteratedLanes, AgreeWithTheEstimatorOfOneRun) {
                         {"six", CommandLaw::level, Coupling::compensated}}) {
     const Timeline timeline = preset_timeline(c.preset, c.mode, 3600.0, 300.0);
     const FilterSpec filter = base_filter(c.coupling);
-    ASSERT_TRUE(IteratedLanes::can(filter, timeline));
+    ASSERT_TRUE(LaneIntervals::can(filter, timeline));
     const Theta start = make_layout(filter).theta;
     const auto all = recordings(timeline, base_truth(c.coupling), 3);
     auto jobs = jobs_of(all, start);
