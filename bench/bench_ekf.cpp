@@ -14,6 +14,7 @@
 #include "bench/repeated.hpp"
 #include "bench/rows.hpp"
 #include "core/estimate/sequential/ekf.hpp"
+#include "core/estimate/sequential/iterated_lanes.hpp"
 #include "core/physics/parameters_config.hpp"
 #include "core/sim/simulate.hpp"
 #include "tests/support/counted_allocations.hpp"
@@ -217,6 +218,52 @@ Measurements simulated(const Problem& p) {
   return Simulator(truth, p.readout).run(p.timeline, 1, 0).measured;
 }
 
+/// What a study does: the iterated estimator of as many runs as there are lanes, each with a
+/// recording of its own. Seconds are those of one run and one pass, the first or a linear one.
+Timed run_lanes(IteratedLanes& lanes, std::vector<IteratedJob>& jobs) {
+  lanes.run(jobs);  // fills the work space
+  const long before = allocations;
+  const double start = cpu_time();
+  lanes.run(jobs);
+  const double seconds = cpu_time() - start;
+  int passes = 0;
+  for (const IteratedJob& job : jobs) passes += 1 + job.linear_passes();
+  return {seconds / passes, allocations - before, jobs[0].settled_covariance()};
+}
+
+/// Row of a pass of runs in lock step; memory it allocated.
+long row_of_lanes() {
+  const Problem p = make_problem(180.0);
+  TruthSpec truth;
+  static_cast<ModelSpec&>(truth) = p.filter;
+  truth.noise.angle_random_walk = 0.0;
+  FilterSpec filter = p.filter;
+  filter.noise.angle_random_walk = 0.0;
+  Simulator simulator(truth, p.readout);
+  std::vector<Measurements> measured;
+  for (std::size_t k = 0; k < IteratedLanes::width; ++k)
+    measured.push_back(simulator.run(p.timeline, 1, k).measured);
+  std::vector<IteratedJob> jobs(measured.size());
+  for (std::size_t k = 0; k < jobs.size(); ++k) {
+    jobs[k].measured = &measured[k];
+    jobs[k].start = p.layout.theta;
+  }
+  IteratedLanes lanes(filter, p.timeline, p.readout);
+  Repeated pass, textbook;
+  for (int k = 0; k < 4 * repetitions; ++k) {
+    textbook.add(run_dense(p, DenseForm::textbook));
+    pass.add(run_lanes(lanes, jobs));
+  }
+  const auto n = static_cast<double>(p.steps.size());
+  print_row(
+      "ekf63_pass", pass.best.seconds / n, textbook.best.seconds / n, pass.spread(),
+      fmt::format("a sample of 180 s in a pass of the iterated filter in information form, {} "
+                  "runs in lock step, path, linearisation, solutions and covariance with it, "
+                  "against the textbook covariance step alone",
+                  IteratedLanes::width));
+  return pass.best.allocated;
+}
+
 /// Row of a whole pass; memory it allocated.
 long row_of_pass(const char* key, double sample, const char* note) {
   const Problem p = make_problem(sample);
@@ -259,9 +306,9 @@ int run() {
   print_row("ekf63_sequential", structured.seconds / steps, textbook.seconds / steps,
             all_structured.spread(), "covariance step of 6 scalars against the textbook's");
   const long in_passes =
-      row_of_pass("ekf63_pass", 180.0,
-                  "a sample of 180 s in a linear pass in information form, path and linearisation "
-                  "and solution with it, against the textbook covariance step alone") +
+      row_of_lanes() +
+      row_of_pass("ekf63_pass_alone", 180.0,
+                  "the same of one run by itself, linear, its nodes in lanes") +
       row_of_pass("ekf63_pass_10s", 10.0,
                   "the same at samples of 10 s, dwells through polynomials whose projections are "
                   "made once a run");

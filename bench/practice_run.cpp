@@ -90,16 +90,28 @@ Trajectory practice_trajectory(const Timeline& timeline, const TruthSpec& truth,
   return phi;
 }
 
-EstimateResult practice_ekf(const FilterSpec& filter, const Timeline& timeline,
-                            const Readout& readout, const Measurements& measured,
-                            const Theta& start) {
+namespace {
+
+/// What a pass is linearised about: scaled parameters, and where the platform begins after each
+/// caging [rad]. In between its attitude is the one that is filtered with them.
+struct About {
+  VecX x;
+  std::vector<Vec3> starts;
+};
+
+/// A pass over a recording. about: null for the running estimate, as an EKF does. starts: where the
+/// first sample after each caging says that the platform began.
+EstimateResult practice_pass(const FilterSpec& filter, const Timeline& timeline,
+                             const Readout& readout, const Measurements& measured,
+                             const Theta& start, const About* about, std::vector<Vec3>& starts) {
   const DriftModel model = filter.model();
   const Layout layout = make_layout(filter);
   const auto n = 3 + static_cast<Eigen::Index>(layout.size());
   const auto nr = static_cast<Eigen::Index>(layout.num_rate);
   DenseCovariance kalman(n, DenseForm::textbook);
-  VecX x = layout.scaled(start);
-  const VecX x0 = x;
+  const VecX x0 = layout.scaled(start);
+  VecX x = about ? about->x : x0;  // what is linearised about
+  kalman.x.tail(n - 3) = x0 - x;
   Theta theta = layout.theta_at(x);
   Linearizer linearizer(model, layout, readout);
   IntervalSensitivity s;
@@ -109,21 +121,34 @@ EstimateResult practice_ekf(const FilterSpec& filter, const Timeline& timeline,
   Vec3 now = Vec3::Zero();
   EstimateResult result;
   const double arw = filter.noise.angle_random_walk;
-  const auto take = [&](const Vec3& nu, double sigma, const Node& node, Vec3& attitude) {
+  const auto turn = [&](const Node& node, Vec3& attitude) {  // to where the filter has it
+    const Vec3 psi_r = node.R_lr.transpose() * (node.R_il.transpose() * kalman.x.head<3>());
+    attitude = rotation_vector(rotation(psi_r) * rotation(attitude));
+    kalman.x.head<3>().setZero();
+  };
+  const auto take = [&](const Vec3& off, double sigma, const Node& node, Vec3& attitude) {
+    const Vec3 nu = off - H * kalman.x;
     const Mat3 S = H * kalman.P * H.transpose() + sigma * sigma * Mat3::Identity();
     result.statistic += nu.dot(S.inverse() * nu);
     result.measured += 3;
-    kalman.x.setZero();
     kalman.update(nu, H, sigma * sigma);
+    if (about) return;
     x += kalman.x.tail(n - 3);
-    const Vec3 psi_r = node.R_lr.transpose() * (node.R_il.transpose() * kalman.x.head<3>());
-    attitude = rotation_vector(rotation(psi_r) * rotation(attitude));
+    turn(node, attitude);
+    kalman.x.setZero();
     theta = layout.theta_at(x);
+  };
+  const auto propagate = [&] {
+    kalman.propagate(F, Q);
+    if (about) kalman.x = F * kalman.x;
   };
   for (std::size_t i = 0; i < timeline.intervals.size(); ++i) {
     const Interval& interval = timeline.intervals[i];
+    const auto chain = static_cast<std::size_t>(interval.chain);
     if (interval.cage) {
-      now.setZero();
+      const Node& first = timeline.nodes[interval.first_node];
+      now = about ? about->starts[chain] : Vec3(Vec3::Zero());
+      kalman.x.head<3>() = first.R_il * (first.R_lr * -now);
       kalman.P.topRows<3>().setZero();
       kalman.P.leftCols<3>().setZero();
       kalman.P.diagonal().head<3>().setConstant(filter.initial_attitude * filter.initial_attitude);
@@ -139,7 +164,7 @@ EstimateResult practice_ekf(const FilterSpec& filter, const Timeline& timeline,
     Q.topLeftCorner<3, 3>() = 0.5 * arw * arw * interval.length() * Mat3::Identity();
     F.topLeftCorner<3, 3>() = s.Phi[m];
     F.block(0, 3, 3, nr) = s.G[m].leftCols(nr);
-    kalman.propagate(F, Q);
+    propagate();
     if (readout.accelerometers) {
       H.setZero();
       Vec3 mean = Vec3::Zero();
@@ -154,15 +179,16 @@ EstimateResult practice_ekf(const FilterSpec& filter, const Timeline& timeline,
       }
       take(measured.acc.col(i) - mean, readout.accelerometer_noise,
            timeline.nodes[interval.first_node + m], phi[m]);
-      step_through(interval, timeline, drive_of(interval, timeline, model, theta), nullptr,
-                   phi.data(), m);
+      if (!about)
+        step_through(interval, timeline, drive_of(interval, timeline, model, theta), nullptr,
+                     phi.data(), m);
     }
     F.topLeftCorner<3, 3>() = s.Phi[last] * s.Phi[m].inverse();
     F.block(0, 3, 3, nr) = (s.G[last] - F.topLeftCorner<3, 3>() * s.G[m]).leftCols(nr);
-    kalman.propagate(F, Q);
+    propagate();
     now = phi[last];
+    const Node& node = timeline.nodes[interval.last_node()];
     if (readout.gimbals) {
-      const Node& node = timeline.nodes[interval.last_node()];
       const GimbalPrediction p = predict_gimbals(node, interval.heading1, now);
       H.setZero();
       H.leftCols<3>() = p.H;
@@ -170,9 +196,52 @@ EstimateResult practice_ekf(const FilterSpec& filter, const Timeline& timeline,
       for (int a = 0; a < 3; ++a) nu[a] = angle_difference(measured.gimbal(a, i), p.angles[a]);
       take(nu, readout.gimbal_noise, node, now);
     }
+    if (about) turn(node, now);
+    if (interval.cage) {
+      phi[last] = now;
+      step_back_through(interval, timeline, drive_of(interval, timeline, model, theta), nullptr,
+                        phi.data());
+      starts[chain] = phi[0];
+    }
   }
+  x += kalman.x.tail(n - 3);
   result.covariance = kalman.P.bottomRightCorner(n - 3, n - 3);
   result.parameters = parameter_estimates(layout, x0, x, result.covariance);
+  return result;
+}
+
+/// Estimates in prior sigmas from the prior means.
+VecX scaled(const EstimateResult& result) {
+  VecX x(static_cast<Eigen::Index>(result.parameters.size()));
+  for (std::size_t k = 0; k < result.parameters.size(); ++k) {
+    const ParameterEstimate& p = result.parameters[k];
+    x[static_cast<Eigen::Index>(k)] = (p.value - p.prior_mean) / p.prior_sigma;
+  }
+  return x;
+}
+
+}  // namespace
+
+EstimateResult practice_ekf(const FilterSpec& filter, const Timeline& timeline,
+                            const Readout& readout, const Measurements& measured,
+                            const Theta& start) {
+  std::vector<Vec3> starts(timeline.chains);
+  return practice_pass(filter, timeline, readout, measured, start, nullptr, starts);
+}
+
+EstimateResult practice_iterated(const FilterSpec& filter, const Timeline& timeline,
+                                 const Readout& readout, const Measurements& measured,
+                                 const Theta& start) {
+  std::vector<Vec3> starts(timeline.chains);
+  EstimateResult result =
+      practice_pass(filter, timeline, readout, measured, start, nullptr, starts);
+  constexpr int most_passes = 4;
+  for (int pass = 0; pass < most_passes; ++pass) {
+    const About about{scaled(result), starts};
+    result = practice_pass(filter, timeline, readout, measured, start, &about, starts);
+    const VecX moved = scaled(result) - about.x;
+    if ((moved.array().abs() / result.covariance.diagonal().array().sqrt()).maxCoeff() < 1.0) break;
+  }
   return result;
 }
 
