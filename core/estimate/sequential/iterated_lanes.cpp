@@ -55,9 +55,7 @@ IteratedLanes::IteratedLanes(const FilterSpec& filter, const Timeline& timeline,
 
 /// What is known of a job before its first pass.
 void IteratedLanes::prepare(IteratedJob& job) const {
-  job.status_ = EstimateStatus::ok;
-  job.cause_.clear();
-  job.t_diverged_ = job.nis_ = job.lag1_ = 0.0;
+  job.begin_anew();
   job.passes_ = 0;
   job.done_ = false;
   const auto n = static_cast<Eigen::Index>(layout_.size());

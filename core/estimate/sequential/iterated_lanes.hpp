@@ -1,44 +1,26 @@
 #pragma once
 
-#include <cmath>
 #include <span>
-#include <string>
 
-#include "core/estimate/estimate_result.hpp"
+#include "core/estimate/sequential/iterated_estimate.hpp"
 #include "core/estimate/sequential/lane_filter.hpp"
 #include "core/sim/measurements.hpp"
 
 namespace drift {
 
 /// A recording, where an estimate of it begins, and then the estimate (IteratedPasses).
-class IteratedJob {
+class IteratedJob : public IteratedEstimate {
  public:
   const Measurements* measured = nullptr;
   Theta start = Theta::Zero();
 
-  EstimateStatus status() const { return status_; }
-  const std::string& cause() const { return cause_; }
-  double t_diverged() const { return t_diverged_; }  ///< [s]
-  double nis() const { return nis_; }
-  std::size_t scalars() const { return scalars_; }
-  double lag1() const { return lag1_; }
-  const VecX& x() const { return x_; }
-  const Theta& theta() const { return theta_; }
-  double sigma(std::size_t k) const { return sigma_[static_cast<Eigen::Index>(k)]; }  ///< SI
-  const MatX& settled_covariance() const { return P_; }
-
  private:
   friend class IteratedLanes;
-  EstimateStatus status_ = EstimateStatus::ok;
-  std::string cause_;
-  double t_diverged_ = 0.0, nis_ = 0.0, lag1_ = 0.0;
-  std::size_t scalars_ = 0, pairs_ = 0;
+  std::size_t pairs_ = 0;
   int passes_ = 0;
   bool done_ = false;
-  VecX x_start_, x_, moved_, sigma_;
+  VecX x_start_, moved_;
   std::vector<Vec3> ends_;  ///< rotation vector at the end of each chain [rad]
-  MatX P_;
-  Theta theta_ = Theta::Zero();
 };
 
 /// The iterated estimator (IteratedPasses) of several recordings of one plan in lock step: as many
