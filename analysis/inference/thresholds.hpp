@@ -57,6 +57,15 @@ struct VisibleLimits {
   static constexpr double size = 3.0;
 };
 
+/// What follows the temperature beyond the first order, or the scale factor that follows it.
+struct TemperatureLimits {
+  /// [degC] from the lowest to the highest temperature of a test, below which it is not looked for.
+  /// At their priors the second order is dT / (30 degC) of the first: over 3 degC a twentieth, so
+  /// that an effect of first order of 20 sigma would have one of 1 sigma beside it. A laboratory
+  /// with a thermostat stays below. Test: CaseTemperature.OneThatHardlyMoves...
+  static constexpr double swing = 3.0;
+};
+
 /// Samples that are none, and a misfit that no noise gives.
 struct SampleLimits {
   /// [declared sigma] from the median of four neighbours: 7 of its own sigma (1.14), one in 4e11
