@@ -108,6 +108,18 @@ TEST(CaseTemperature, WhatFollowsItIsNamedWithItsOrderAndItsSign) {
                "accelerometer_temperature_curve", "y", "K0_T2_y", 1.0);
 }
 
+TEST(CaseTemperature, HysteresisIsNamedThoughTheThermometerReadsInSteps) {
+  const mc::Study s = study();
+  for (const double step : {0.0, 0.0625}) {
+    const auto drift = [](double, double rate, double) { return si(0.1, "deg/h*min/degC") * rate; };
+    expect_named(diagnosed(s, recording_of(s, 16.0, "gyro_x", drift, step)),
+                 "temperature_rate_drift", "x", "kT_rate_x", 0.1);
+    const auto bias = [](double, double rate, double) { return si(60.0, "ug*min/degC") * rate; };
+    expect_named(diagnosed(s, recording_of(s, 16.0, "acc_z", bias, step)),
+                 "accelerometer_temperature_rate", "z", "K0_T_rate_z", 60.0);
+  }
+}
+
 TEST(CaseTemperature, AUnitThatDoesNotFollowItIsConsistent) {
   const mc::Study s = study();
   const diagnosis::Diagnosis d = diagnosed(s, recording_of(s, 16.0, "", {}));
