@@ -37,9 +37,9 @@ World make_world(const mc::Study& study, const mc::Study& nominal, const TrialPl
 
 /// The terms in the order in which trial `index` of a stratum tries them: each term is first for
 /// equally many trials.
-std::vector<std::size_t> term_order(const FilterSpec& nominal, std::uint64_t seed,
-                                    std::size_t index) {
-  std::vector<std::size_t> terms = hideable_terms(nominal);
+std::vector<std::size_t> term_order(const FilterSpec& nominal, const Timeline& timeline,
+                                    std::uint64_t seed, std::size_t index) {
+  std::vector<std::size_t> terms = hideable_terms(nominal, timeline);
   Stream mix(seed, 0, Purpose::design, choice_stream);
   for (std::size_t k = terms.size(); k > 1; --k)
     std::swap(terms[k - 1],
@@ -79,7 +79,7 @@ std::vector<Sized> library_effects(const SizingBench& bench, const FilterSpec& n
 /// each other as far as that allows.
 std::vector<Sized> pair_effects(const mc::Study& study, const SizingBench& bench,
                                 const FilterSpec& nominal, const TrialPlan& plan, Stream& stream) {
-  auto terms = term_order(nominal, study.monte_carlo.seed, plan.index);
+  auto terms = term_order(nominal, bench.world().timeline, study.monte_carlo.seed, plan.index);
   const double most = study.blind.most_prior_sigmas;
   auto first = library_effects(bench, nominal, terms, plan.size, most, 1, stream);
   if (first.empty()) nothing_to_hide(study, plan);
@@ -165,10 +165,10 @@ void hide(const mc::Study& study, const FilterSpec& nominal, const TrialPlan& pl
   switch (plan.stratum) {
     case Stratum::single:
     case Stratum::noisy_single:
-      sized = one_of(term_order(nominal, seed, plan.index));
+      sized = one_of(term_order(nominal, world.timeline, seed, plan.index));
       break;
     case Stratum::noisy_covariate:
-      sized = one_of(following(term_order(nominal, seed, plan.index)));
+      sized = one_of(following(term_order(nominal, world.timeline, seed, plan.index)));
       break;
     case Stratum::pair:
       sized = pair_effects(study, bench, nominal, plan, stream);

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <set>
 
+#include "analysis/inference/candidate.hpp"
+
 namespace drift::blind {
 namespace {
 
@@ -67,10 +69,13 @@ std::vector<std::size_t> missing_parameters(const TermInfo& term, const FilterSp
   return missing;
 }
 
-std::vector<std::size_t> hideable_terms(const FilterSpec& nominal) {
+std::vector<std::size_t> hideable_terms(const FilterSpec& nominal, const Timeline& timeline) {
   std::vector<std::size_t> terms;
-  for (std::size_t t = 0; t < TermLibrary::num_terms; ++t)
-    if (!missing_parameters(TermLibrary::terms[t], nominal).empty()) terms.push_back(t);
+  for (std::size_t t = 0; t < TermLibrary::terms.size(); ++t) {
+    const TermInfo& term = TermLibrary::terms[t];
+    if (!missing_parameters(term, nominal).empty() && inference::has_swing_for(term, timeline))
+      terms.push_back(t);
+  }
   return terms;
 }
 

@@ -7,9 +7,10 @@
 
 namespace drift::blind {
 
-/// Terms of the library that a nominal filter leaves out and that act in a definite way, by number.
-/// Terms that are random alone belong to the noise, not here.
-std::vector<std::size_t> hideable_terms(const FilterSpec& nominal);
+/// Terms of the library that a nominal filter leaves out and that act in a definite way, by number;
+/// of those that want a temperature which has moved those that have one. Terms that are random
+/// alone belong to the noise, not here.
+std::vector<std::size_t> hideable_terms(const FilterSpec& nominal, const Timeline& timeline);
 
 /// The amplitudes of a term that a nominal filter leaves out.
 std::vector<std::size_t> missing_parameters(const TermInfo& term, const FilterSpec& nominal);

@@ -49,9 +49,9 @@ Nearest nearest_in_library(const SizingBench& bench, const FilterSpec& nominal,
                            const VecX& signal) {
   constexpr double strength = 0.3;  // prior sigmas: nearly linear
   Nearest best;
-  for (const std::size_t t : hideable_terms(nominal)) {
+  const Timeline& timeline = bench.world().timeline;
+  for (const std::size_t t : hideable_terms(nominal, timeline)) {
     const TermInfo& term = TermLibrary::terms[t];
-    const Timeline& timeline = bench.world().timeline;
     if (term.key == closure_term || !timeline.carries(term.needs)) continue;
     std::map<std::string, std::vector<std::size_t>> axes;
     for (const std::size_t i : missing_parameters(term, nominal))

@@ -79,9 +79,9 @@ ExitCode terms(const TermsArguments& arguments) {
   if (!arguments.config.empty()) mc::read_study(arguments.config);  // its own terms come with it
   const std::string& key = arguments.key;
   if (key.empty()) {
-    show("{:<26} {:>3}  {}\n", "term", "par", "equation");
+    show("{:<32} {:>3}  {}\n", "term", "par", "equation");
     for (const TermInfo& term : TermLibrary::terms)
-      show("{:<26} {:>3}  {}\n", term.key, term.count, term.equation);
+      show("{:<32} {:>3}  {}\n", term.key, term.count, term.equation);
     show("{} terms, {} parameters. `driftscope terms KEY` explains a term or a parameter.\n",
          TermLibrary::terms.size(), TermLibrary::specs.size());
     return ExitCode::ok;

@@ -128,11 +128,15 @@ std::vector<NotExamined> not_examined(const search::Fitted& nominal,
   std::vector<NotExamined> out;
   for (const std::size_t t : nominal.set.without_covariate) {
     const TermInfo& term = TermLibrary::terms[t];
-    const Why why = term.needs.temperature ? Why::no_temperature
-                    : term.needs.field     ? Why::no_field
-                    : term.needs.turning   ? Why::no_turns
-                                           : Why::no_covariate;
-    out.push_back({std::string(term.key), why, twins_of(term, causes), {}});
+    const Why why = term.wants_swing         ? Why::no_swing
+                    : term.needs.temperature ? Why::no_temperature
+                    : term.needs.field       ? Why::no_field
+                    : term.needs.turning     ? Why::no_turns
+                                             : Why::no_covariate;
+    out.push_back({std::string(term.key),
+                   why,
+                   why == Why::no_swing ? std::vector<NamedEffect>{} : twins_of(term, causes),
+                   {}});
   }
   for (const TermInfo& term : TermLibrary::terms) {
     if (term.key == closure_term) continue;  // judged by the jump to the other equation

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "analysis/identification/fit_thresholds.hpp"
+#include "analysis/inference/thresholds.hpp"
 
 namespace drift::identification {
 
@@ -10,7 +10,7 @@ std::vector<BeyondPrior> beyond_prior(const EstimateResult& estimate) {
   std::vector<BeyondPrior> far;
   for (const ParameterEstimate& p : estimate.parameters) {
     const double off = p.prior_sigma > 0.0 ? std::abs(p.value - p.prior_mean) / p.prior_sigma : 0.0;
-    if (off > FitLimits::beyond_prior) far.push_back({p.param, off});
+    if (off > inference::FitLimits::beyond_prior) far.push_back({p.param, off});
   }
   return far;
 }

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "analysis/identification/absent_channels.hpp"
-#include "analysis/identification/fit_thresholds.hpp"
+#include "analysis/inference/thresholds.hpp"
 #include "analysis/preparation/prepare.hpp"
 #include "analysis/preparation/recorded_test.hpp"
 #include "core/base/check.hpp"
@@ -176,8 +176,8 @@ const EstimateResult& judged(const FilterSpec& filter, const FilterRun& first) {
 
 bool misfit(const EstimateResult& result) {
   const double m = static_cast<double>(result.measured);  // the variance of chi-square over m: 2/m
-  return result.measured > 0 &&
-         std::abs(result.statistic_per_dof() - 1.0) > FitLimits::misfit * std::sqrt(2.0 / m);
+  return result.measured > 0 && std::abs(result.statistic_per_dof() - 1.0) >
+                                    inference::FitLimits::misfit * std::sqrt(2.0 / m);
 }
 
 std::vector<const FilterRun*> Identification::runs_of(std::size_t filter) const {

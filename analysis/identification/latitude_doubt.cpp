@@ -5,7 +5,6 @@
 #include <initializer_list>
 #include <limits>
 
-#include "analysis/identification/fit_thresholds.hpp"
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/preparation/recorded_test.hpp"
 #include "core/base/check.hpp"
@@ -119,7 +118,7 @@ std::optional<LatitudeDoubt> latitude_doubt(const mc::Study& study,
   // Mirrored, not across a nearby equator.
   const bool mirrored =
       std::abs(best.latitude + declared) < 0.1 * std::abs(best.latitude - declared) &&
-      ends[0].cost - best.cost > FitLimits::mirrored * std::max(1.0, best.per_dof());
+      ends[0].cost - best.cost > inference::FitLimits::mirrored * std::max(1.0, best.per_dof());
   if (!explains && !mirrored) return std::nullopt;
   return doubt;
 }

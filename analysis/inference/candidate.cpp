@@ -7,6 +7,7 @@
 #include <map>
 #include <string_view>
 
+#include "analysis/inference/thresholds.hpp"
 #include "core/estimate/strapdown/case_test.hpp"
 
 namespace drift::inference {
@@ -21,11 +22,11 @@ ParamMask estimated(const FilterSpec& filter) {
 }
 
 /// Whether a strapdown unit can have an effect: one of its sensors. It has no servo, no gimbals and
-/// no pier to lean. Of what torquers do to a command its gyros do three things to a rate;
+/// no pier to lean. Of what torquers do to a command its gyros do four things to a rate;
 /// cross-talk of theirs is misalignment by another name.
 bool is_of_case(const TermInfo& term) {
   constexpr std::string_view of_rate[] = {"torquer_scale", "torquer_asymmetry",
-                                          "torquer_nonlinearity"};
+                                          "torquer_nonlinearity", "torquer_temperature"};
   if (term.key == closure_term || std::ranges::find(of_rate, term.key) != std::end(of_rate))
     return true;
   return (term.subsystem == Subsystem::gyro || term.subsystem == Subsystem::accelerometers) &&
@@ -135,6 +136,17 @@ std::vector<Settings> settings_of(const TermInfo& term, const ParamMask& known) 
   return all;
 }
 
+bool has_swing_for(const TermInfo& term, const Timeline& timeline) {
+  if (!term.wants_swing) return true;
+  if (!timeline.has_temperature) return false;
+  double low = 0.0, high = 0.0;  // deviations from their mean
+  for (const Interval& i : timeline.intervals) {
+    low = std::min(low, i.around1.temperature);
+    high = std::max(high, i.around1.temperature);
+  }
+  return high - low >= TemperatureLimits::swing;
+}
+
 bool Candidate::contains(const Candidate& other) const {
   return term == other.term && params.size() > other.params.size() &&
          std::all_of(other.params.begin(), other.params.end(), [&](std::size_t i) {
@@ -153,7 +165,9 @@ CandidateSet library_candidates(const FilterSpec& nominal, const Theta& theta,
       if (!known[i] && TermLibrary::specs[i].amplitude() && !(timeline.of_case && by_definition(i)))
         missing.push_back(i);
     if (missing.empty() || (term.needs.turning && !timeline.of_case)) continue;
-    if (!timeline.carries(term.needs)) {
+    // Where no temperature is known the terms of first order stand for all that follow it.
+    if (term.wants_swing && !timeline.has_temperature) continue;
+    if (!timeline.carries(term.needs) || !has_swing_for(term, timeline)) {
       out.without_covariate.push_back(t);
       continue;
     }

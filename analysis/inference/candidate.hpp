@@ -38,14 +38,19 @@ struct Candidate {
 struct CandidateSet {
   std::vector<Candidate> candidates;
   std::vector<SignatureSpec> signatures;
-  /// Terms (index in TermLibrary) that need a covariate which the test does not have.
+  /// Terms (index in TermLibrary) that need a covariate which the test does not have, or one that
+  /// has hardly moved.
   std::vector<std::size_t> without_covariate;
 };
+
+/// Whether a term that wants a temperature which has moved (TermInfo::wants_swing) has one in this
+/// test: TemperatureLimits::swing. True of every other term.
+bool has_swing_for(const TermInfo& term, const Timeline& timeline);
 
 /// Every parameter that the nominal filter does not estimate, singly, per axis, per group of axes
 /// and per term, on the grids of their nonlinear parameters, evaluated at theta. Prior sigmas are
 /// the library's defaults. Nonlinear and noise parameters are no candidates of their own; nor are
-/// terms that need a covariate which the recording does not have.
+/// terms that need a covariate which the recording does not have, or one that has hardly moved.
 CandidateSet library_candidates(const FilterSpec& nominal, const Theta& theta,
                                 const Timeline& timeline);
 

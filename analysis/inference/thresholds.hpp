@@ -3,8 +3,9 @@
 #include <cmath>
 #include <cstddef>
 
-/// Every number that decides what a user is told of a platform's recording, in one place; those by
-/// which recording and plan are looked over are in analysis/preparation/input_thresholds.hpp.
+/// Every number that decides what a user is told of a recording, by `diagnose` and by `identify`,
+/// in one place; those by which recording and plan are looked over are in
+/// analysis/preparation/input_thresholds.hpp.
 ///
 /// Each says what it means, in which unit, and the probability or derivation it stands for; where
 /// there is none it says "tuned". Grids, steps and counts of iterations stay beside the algorithms
@@ -54,6 +55,15 @@ struct VisibleLimits {
   /// [sigma] that an effect of a usual size must be strong for a test to count as one that could
   /// have seen it. Where probabilities say "nothing missing", it means nothing of such a size.
   static constexpr double size = 3.0;
+};
+
+/// What follows the temperature beyond the first order, or the scale factor that follows it.
+struct TemperatureLimits {
+  /// [degC] from the lowest to the highest temperature of a test, below which it is not looked for.
+  /// At their priors the second order is dT / (30 degC) of the first: over 3 degC a twentieth, so
+  /// that an effect of first order of 20 sigma would have one of 1 sigma beside it. A laboratory
+  /// with a thermostat stays below. Test: CaseTemperature.OneThatHardlyMoves...
+  static constexpr double swing = 3.0;
 };
 
 /// Samples that are none, and a misfit that no noise gives.
@@ -224,6 +234,21 @@ struct AdviceLimits {
   /// A margin is taken that sets the closest pair so many times farther apart in no more than so
   /// many times the hours. Tuned. Test: ChooseAdditions.AMarginIsTwiceAsFar...
   static constexpr double margin = 2.0, margin_hours = 2.0;
+};
+
+/// What is said of a fit as such.
+struct FitLimits {
+  /// [sigma] of chi-square over its degrees of freedom beyond which a fit is a misfit: 6e-7 of the
+  /// right models, both sides. Test: FitWords.TheWordOfAFit...
+  static constexpr double misfit = 5.0;
+  /// [prior sigma] from a prior's mean, two-sided: 6e-7 for each parameter that is of its prior,
+  /// 1e-4 for any of 200. Test: FitWords.ParametersFarFromTheirPriors...,
+  /// Thresholds.ParametersFiveSigma...
+  static constexpr double beyond_prior = 5.0;
+  /// [2 log L, scaled to a chi-square of 1 per degree of freedom] by which the mirrored latitude
+  /// must fit better to be the right one where something else misfits too: odds of e^20 against a
+  /// wrong hemisphere in one study of 1000 leave 2e-6. Test: LatitudeDoubt.TheWrongHemisphere...
+  static constexpr double mirrored = 40.0;
 };
 
 }  // namespace drift::inference

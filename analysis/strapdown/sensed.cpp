@@ -1,14 +1,11 @@
 #include "analysis/strapdown/sensed.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace drift::strapdown {
 namespace {
 
 constexpr auto first_scale = TermLibrary::index("s_x");
-constexpr std::array bent_scales{TermLibrary::index("s_a_x"), TermLibrary::index("s_2_x")};
 constexpr auto num_drifts = TermLibrary::index("eta_x");  // the drifts come first in the library
 static_assert(TermLibrary::index("D_F_x") == 0 && TermLibrary::index("D_OS_z") < num_drifts);
 
@@ -20,10 +17,9 @@ bool is_scale(std::size_t param) {
   return param >= first_scale && param < first_scale + 3;
 }
 
-/// Asymmetry or nonlinearity of a scale factor.
+/// What makes a scale factor another one: asymmetry, nonlinearity, the temperature.
 bool is_bent_scale(std::size_t param) {
-  return std::ranges::any_of(
-      bent_scales, [&](std::size_t first) { return param >= first && param < first + 3; });
+  return TermLibrary::owner(param).subsystem == Subsystem::torquer && !is_scale(param);
 }
 
 }  // namespace

@@ -4,7 +4,8 @@
 
 namespace drift {
 
-/// A number with so many significant digits, "-" if it is not finite.
+/// A number with so many significant digits, "-" if it is not finite. One below a million with more
+/// digits before the point than that is whole: 12346, not 1.2e+04.
 std::string number_text(double value, int digits = 3);
 
 /// A number with so many decimals, "-" if it is not finite; never "-0.00".

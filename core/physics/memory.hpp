@@ -42,16 +42,4 @@ S friction_turn(const S& x_d) {
   return at_least(x_d, least);
 }
 
-/// Memory of the friction of each gimbal, outer, middle, inner: none where a test begins.
-template <class S>
-void start_friction(S* torque) {
-  for (int k = 0; k < 3; ++k) torque[k] = S(0.0);
-}
-
-/// The same after the gimbals have turned on. x_d: the turn over which friction builds up [rad].
-template <class S>
-void advance_friction(const PathStep& along, const S& x_d, S* torque) {
-  for (int k = 0; k < 3; ++k) torque[k] = dahl(torque[k], along.turned[k], friction_turn(x_d));
-}
-
 }  // namespace drift

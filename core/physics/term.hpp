@@ -36,6 +36,9 @@ enum class Subsystem {
 /// that are handed to the hooks after the parameters. Memory depends on at most one parameter of
 /// the term, number `memory_parameter`.
 ///
+/// A term that follows the temperature in ways which a thermostat leaves nothing of may declare
+/// `wants_swing`: a diagnosis looks for it where the temperature has moved.
+///
 /// A hook only adds to its slots, and is affine in every parameter of ParamKind::linear: estimators
 /// take its derivatives by differences (slot_derivatives.hpp); a test holds every term to it.
 template <class T>
@@ -54,6 +57,12 @@ constexpr int memory_of() {
     return T::memory;
   else
     return 0;
+}
+template <class T>
+constexpr bool wants_swing() {
+  return requires {
+    requires T::wants_swing;
+  };
 }
 /// Whether a type is a place for a term that a study brings (own/own_place.hpp).
 template <class T>
@@ -107,6 +116,7 @@ struct TermInfo {
   Needs needs;
   int first_memory = 0;  ///< its states among those of the library
   int memory = 0;
+  bool wants_swing = false;  ///< is looked for where the temperature has moved
   /// Acts through random numbers alone.
   constexpr bool stochastic() const {
     return !in_rates && !in_readout && !in_gimbals && !in_offset;

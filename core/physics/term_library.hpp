@@ -9,6 +9,8 @@
 #include "core/physics/terms/accelerometer_delay.hpp"
 #include "core/physics/terms/accelerometer_ramp.hpp"
 #include "core/physics/terms/accelerometer_temperature.hpp"
+#include "core/physics/terms/accelerometer_temperature_curve.hpp"
+#include "core/physics/terms/accelerometer_temperature_rate.hpp"
 #include "core/physics/terms/azimuth_error.hpp"
 #include "core/physics/terms/base_motion_leak.hpp"
 #include "core/physics/terms/bistable_drift.hpp"
@@ -39,13 +41,16 @@
 #include "core/physics/terms/servo_lag.hpp"
 #include "core/physics/terms/stiction.hpp"
 #include "core/physics/terms/temperature_drift.hpp"
+#include "core/physics/terms/temperature_drift_curve.hpp"
 #include "core/physics/terms/temperature_g_drift.hpp"
+#include "core/physics/terms/temperature_rate_drift.hpp"
 #include "core/physics/terms/timing_skew.hpp"
 #include "core/physics/terms/torquer_asymmetry.hpp"
 #include "core/physics/terms/torquer_crosstalk.hpp"
 #include "core/physics/terms/torquer_heating.hpp"
 #include "core/physics/terms/torquer_nonlinearity.hpp"
 #include "core/physics/terms/torquer_scale.hpp"
+#include "core/physics/terms/torquer_temperature.hpp"
 #include "core/physics/terms/warmup_drift.hpp"
 
 namespace drift {
@@ -67,6 +72,8 @@ using TermLibrary = TermList<
     terms::AccelerometerTemperature, terms::AccelerometerAsymmetry, terms::AccelerometerCross,
     terms::AccelerometerDeadZone, terms::AccelerometerRamp, terms::Outliers,  //
     terms::InnerLeverArm, terms::AccelerometerDelay,                          //
+    terms::TemperatureDriftCurve, terms::TemperatureRateDrift, terms::TorquerTemperature,
+    terms::AccelerometerTemperatureCurve, terms::AccelerometerTemperatureRate,  //
     OwnPlace<0>, OwnPlace<1>, OwnPlace<2>, OwnPlace<3>, OwnPlace<4>, OwnPlace<5>>;
 static_assert(TermLibrary::num_known + most_own_terms == TermLibrary::num_terms);
 

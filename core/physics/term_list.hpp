@@ -35,7 +35,7 @@ struct TermList {
     ((infos[next++] = {Ts::key, Ts::title, Ts::equation, Ts::source, Ts::subsystem, first,
                        Ts::params.size(), ActsOnRates<Ts, double>, ActsOnReadout<Ts, double>,
                        ActsOnGimbals<Ts, double>, OffsetsAttitude<Ts, double>, needs_of<Ts>(),
-                       memory, memory_of<Ts>()},
+                       memory, memory_of<Ts>(), drift::wants_swing<Ts>()},
       first += Ts::params.size(), memory += memory_of<Ts>()),
      ...);
     return infos;

@@ -14,18 +14,9 @@ struct Instruments {
   /// of the terms at node k, null if the model has none.
   template <class Memory>
   Vec3 accelerometers(const Interval& interval, const Vec3* phi, const Memory& memory) const {
-    const Needs needs = TermLibrary::needs(model->terms);
-    Vec3 mean = Vec3::Zero();
-    for (std::size_t k = 0; k < interval.node_count(); ++k) {
-      const Node& node = timeline->nodes[interval.first_node + k];
-      const Mat3 R_lp = node.R_lr * rotation(phi[k]);
-      Scene<double> scene(node.omega_ic_l, interval.omega_cmd_p, model->mounting, R_lp);
-      if (needs.any())
-        scene.look_around(needs, moment_at(*timeline, interval, node.t), R_lp, memory(k));
-      mean += Timeline::simpson_weight(interval.substeps, k) *
-              accelerometer_output(*model, scene.in, theta);
-    }
-    return mean;
+    return mean(interval, phi, memory, [&](const Inputs<double>& in) -> Vec3 {
+      return accelerometer_output(*model, in, theta);
+    });
   }
 
   /// Gimbal angles at the end of an interval [rad].
@@ -45,19 +36,27 @@ struct Instruments {
   /// the Earth that the model reads out of the gyros [rad/s].
   template <class Memory>
   Vec3 rest_rate(const Interval& interval, const Vec3* phi, const Memory& memory) const {
-    const Needs needs = TermLibrary::needs(model->terms);
     const Mat3 E_loop = misalignment_matrix(model->mounting, interval.loop);
-    Vec3 mean = Vec3::Zero();
+    return mean(interval, phi, memory, [&](const Inputs<double>& in) -> Vec3 {
+      return platform_rate(*model, in, theta, E_loop) - in.omega_ic_p;
+    });
+  }
+
+ private:
+  /// Mean over an interval, by Simpson's rule, of what is read in its nodes.
+  template <class Memory, class Read>
+  Vec3 mean(const Interval& interval, const Vec3* phi, const Memory& memory, Read&& read) const {
+    const Needs needs = TermLibrary::needs(model->terms);
+    Vec3 sum = Vec3::Zero();
     for (std::size_t k = 0; k < interval.node_count(); ++k) {
       const Node& node = timeline->nodes[interval.first_node + k];
       const Mat3 R_lp = node.R_lr * rotation(phi[k]);
       Scene<double> scene(node.omega_ic_l, interval.omega_cmd_p, model->mounting, R_lp);
       if (needs.any())
         scene.look_around(needs, moment_at(*timeline, interval, node.t), R_lp, memory(k));
-      mean += Timeline::simpson_weight(interval.substeps, k) *
-              (platform_rate(*model, scene.in, theta, E_loop) - scene.in.omega_ic_p);
+      sum += Timeline::simpson_weight(interval.substeps, k) * read(scene.in);
     }
-    return mean;
+    return sum;
   }
 };
 

@@ -24,6 +24,7 @@ CREATE TABLE IF NOT EXISTS moments (block INTEGER, number INTEGER, n INTEGER, me
   PRIMARY KEY (block, number)) WITHOUT ROWID;
 CREATE TABLE IF NOT EXISTS blocks (id INTEGER PRIMARY KEY, point INTEGER, first_run INTEGER, runs INTEGER,
   failed INTEGER, integration_s REAL, filter_s REAL, total_s REAL, committed_utc TEXT, checksum BLOB, payload BLOB);
+CREATE INDEX IF NOT EXISTS listing ON blocks (id, point, first_run, runs, failed);
 )";
 
 }  // namespace

@@ -46,8 +46,10 @@ struct BlockEntry {
 ///   blocks    point, first_run, runs, failed, CPU seconds, checksum, payload (block_codec.hpp)
 ///   failures  block, point, run, status, cause, t_s, seconds
 ///   moments   block, number, n, mean, m2: of the runs that are ok, finite values only, SI
-/// All but `blocks` and `failures` repeat what stands elsewhere; misfits() compares them.
-/// Every read verifies the checksum; damage shows as a block that is not there.
+/// Index `listing` repeats of `blocks` all but times, checksum and payload: who lists a file reads
+/// it in place of 6 % of the file. A file without it is listed by the table, and gets it from its
+/// next writer. All but `blocks` and `failures` repeat what stands elsewhere; misfits() compares
+/// them. Every read verifies the checksum; damage shows as a block that is not there.
 class WorkerFile {
  public:
   /// For reading. InputError (store) if the file is damaged beyond opening.

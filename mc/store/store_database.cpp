@@ -232,7 +232,7 @@ void Database::execute(const char* sql) {
 
 bool Database::sound() {
   try {
-    Statement check = prepare("PRAGMA quick_check(1)");
+    Statement check = prepare("PRAGMA integrity_check(1)");
     return check.step() && check.bytes(0) == "ok";
   } catch (const InputError& error) {
     if (error.code() != ExitCode::store) throw;

@@ -65,7 +65,8 @@ class Database {
   void execute(const char* sql);
   Statement prepare(std::string_view sql) { return {db_.get(), path_, sql}; }
   const std::string& path() const { return path_; }
-  /// The structure of the file is sound.
+  Use use() const { return use_; }
+  /// The structure of the file is sound, and its indices are those of the tables.
   bool sound();
 
  private:

@@ -87,8 +87,11 @@ std::vector<BlockEntry> WorkerFile::list(std::int64_t after_id, bool& damaged) {
     Statement tables = db_.prepare("SELECT count(*) FROM sqlite_master");
     if (tables.step() && tables.integer(0) == 0)
       return list;  // another worker is about to begin it
+    // Who writes or salvages looks into the table itself: an index may be what is damaged.
     Statement query = db_.prepare(
-        "SELECT id, point, first_run, runs, failed FROM blocks WHERE id > ?1 ORDER BY id");
+        fmt::format("SELECT id, point, first_run, runs, failed FROM blocks{} WHERE id > ?1 "
+                    "ORDER BY id",
+                    db_.use() == Database::Use::read ? "" : " NOT INDEXED"));
     query.bind(1, after_id);
     while (query.step()) {
       const auto point = query.integer(1), first = query.integer(2), runs = query.integer(3);

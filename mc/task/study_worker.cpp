@@ -195,8 +195,7 @@ void StudyWorker::estimate(Bench& bench, std::size_t start, Member& member) {
       ekf.process(static_cast<std::size_t>(i), measured.acc.col(i), measured.gimbal.col(i));
     write(bench, ekf, start, member);
   } else if (bench.iterated) {
-    bench.iterated->run(measured, from);
-    write(bench, *bench.iterated, start, member);
+    write(bench, bench.iterated->run(measured, from), start, member);
   } else {
     by_batch(bench, from, start, member);
   }

@@ -24,14 +24,14 @@ inline EstimateResult by_iterated_ekf(const FilterSpec& filter, const Timeline& 
                                       const Theta& start) {
   const Layout layout = make_layout(filter);
   IteratedEkf ekf(filter, timeline, readout, start);
-  ekf.run(measured, start);
+  const IteratedEstimate& found = ekf.run(measured, start);
   EstimateResult r;
-  r.status = ekf.status();
-  r.cause = ekf.cause();
-  r.covariance = ekf.settled_covariance();
-  r.parameters = parameter_estimates(layout, layout.scaled(start), ekf.x(), r.covariance);
-  r.statistic = ekf.nis();
-  r.measured = ekf.scalars();
+  r.status = found.status();
+  r.cause = found.cause();
+  r.covariance = found.settled_covariance();
+  r.parameters = parameter_estimates(layout, layout.scaled(start), found.x(), r.covariance);
+  r.statistic = found.nis();
+  r.measured = found.scalars();
   return r;
 }
 

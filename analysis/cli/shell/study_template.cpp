@@ -179,7 +179,11 @@ std::string study_template(StudyKind kind, const std::optional<RecordedPlan>& pl
   if (kind == StudyKind::strapdown)
     text +=
         "gravity  = \"9.80665 m/s^2\" # there\n\n[plan]\nkind       = \"strapdown\"\nstatic_min "
-        "= \"2 s\"        # the shortest rest that counts\n";
+        "= \"2 s\"        # the shortest rest that counts\n"
+        "# On a table with fixed axes (not moved by hand), gyros that see the Earth: "
+        "accelerometers\n"
+        "# are read in turns, too, and show their lever arms and their delay.\n"
+        "# accelerometers_in_turns = true\n";
   else
     text +=
         "gravity  = \"9.80665 m/s^2\" # there: a recording in m/s^2 is divided by it, and K1 is "

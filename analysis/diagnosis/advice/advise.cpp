@@ -274,10 +274,10 @@ std::vector<Advice> advise(const mc::Study& study, const std::vector<Recording>&
   for (Advice& a : adviser.answer(open, IfTold::say_nothing)) all.push_back(std::move(a));
   // Who names several terms wants them told apart: that no plan can do it is the answer.
   const bool several = options.asked->size() > 1;
-  std::stable_partition(all.begin(), all.end(), [](const Advice& a) { return !a.plan.empty(); });
-  if (several)
-    std::stable_partition(all.begin(), all.end(),
-                          [](const Advice& a) { return a.kind == Advice::Kind::twins; });
+  std::ranges::stable_sort(all, {}, [&](const Advice& a) {
+    if (several && a.kind == Advice::Kind::twins) return 0;
+    return a.plan.empty() ? 2 : 1;
+  });
   return all;
 }
 

@@ -11,6 +11,7 @@ namespace drift::diagnosis {
 struct NotExamined {
   enum class Why {
     no_temperature,  ///< neither the recording nor the study has the covariate it follows
+    no_swing,        ///< the temperature is known, and has hardly moved
     no_field,
     no_covariate,  ///< of a term of the study's own
     no_turns,      ///< the accelerometers of a case are not read while it turns

@@ -15,7 +15,9 @@ constexpr OnCase on_case[] = {
     {"torquer_scale", "scale factor error of the gyros", "reading_i += s_i w_i"},
     {"torquer_asymmetry", "scale factor asymmetry of the gyros", "reading_i += s_a_i |w_i|"},
     {"torquer_nonlinearity", "scale factor nonlinearity of the gyros",
-     "reading_i += s_2_i w_i |w_i| / (0.5 deg/s)"}};
+     "reading_i += s_2_i w_i |w_i| / (0.5 deg/s)"},
+    {"torquer_temperature", "temperature coefficients of the scale factor of the gyros",
+     "reading_i += (s_T_i dT + s_T2_i dT^2 + s_T3_i dT^3) w_i"}};
 
 const OnCase* found(const TermInfo& term, Instrument instrument) {
   if (instrument == Instrument::platform) return nullptr;

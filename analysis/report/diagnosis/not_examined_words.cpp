@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "analysis/inference/thresholds.hpp"
 #include "core/base/words.hpp"
 
 namespace drift::report {
@@ -16,6 +17,8 @@ std::string reason_in_words(const NotExamined& left_out) {
     case Why::no_temperature:
       if (!left_out.instead.empty()) return "it follows the temperature: " + left_out.instead;
       return "it follows the temperature, which was not recorded";
+    case Why::no_swing:
+      return "it follows the temperature beyond the first order, and that hardly moved";
     case Why::no_field:
       return "it follows the magnetic field, which is not known";
     case Why::no_covariate:
@@ -30,14 +33,17 @@ std::string reason_in_words(const NotExamined& left_out) {
 
 std::vector<std::string> not_examined_sentences(const std::vector<NotExamined>& all) {
   std::vector<std::string> sentences;
-  for (const auto& [why, said] :
-       {std::pair{Why::no_temperature, "the temperature was not recorded"},
-        std::pair{Why::no_field, "the magnetic field is not known"},
-        std::pair{Why::no_covariate, "the recording lacks the covariate that they follow"},
-        std::pair{Why::no_turns,
-                  "they act while the case turns, where the accelerometers are read only with "
-                  "accelerometers_in_turns = true in [plan] and gyros that see the Earth"},
-        std::pair{Why::beyond_reach, "this plan does not show them, however large they are"}}) {
+  const std::pair<Why, std::string> reasons[] = {
+      {Why::no_temperature, "the temperature was not recorded"},
+      {Why::no_swing, fmt::format("they ask for a temperature that moves by {:g} degC or more",
+                                  inference::TemperatureLimits::swing)},
+      {Why::no_field, "the magnetic field is not known"},
+      {Why::no_covariate, "the recording lacks the covariate that they follow"},
+      {Why::no_turns,
+       "they act while the case turns, where the accelerometers are read only with "
+       "accelerometers_in_turns = true in [plan] and gyros that see the Earth"},
+      {Why::beyond_reach, "this plan does not show them, however large they are"}};
+  for (const auto& [why, said] : reasons) {
     std::vector<std::string> terms;
     std::string instead;
     for (const NotExamined& n : all) {
@@ -47,7 +53,7 @@ std::vector<std::string> not_examined_sentences(const std::vector<NotExamined>& 
     }
     if (!terms.empty())
       sentences.push_back(fmt::format("Not examined: {}: {}", listed(terms, "and"),
-                                      instead.empty() ? std::string(said) : instead));
+                                      instead.empty() ? said : instead));
   }
   return sentences;
 }

@@ -6,7 +6,7 @@
 
 #include "analysis/identification/absent_channels.hpp"
 #include "analysis/identification/beyond_prior.hpp"
-#include "analysis/identification/fit_thresholds.hpp"
+#include "analysis/inference/thresholds.hpp"
 #include "analysis/report/identify/sections.hpp"
 #include "core/estimate/start_consistency.hpp"
 #include "core/stats/chi_square_band.hpp"
@@ -98,7 +98,7 @@ std::string beyond_text(const FilterView& v) {
       "Filter {}: {} further than {:g} of {} prior sigmas from {} ({}): wrong priors, or a "
       "study that is not of this recording (latitude, axes).",
       v.spec().name, one ? "1 parameter lies" : fmt::format("{} parameters lie", keys.size()),
-      identification::FitLimits::beyond_prior, one ? "its" : "their",
+      inference::FitLimits::beyond_prior, one ? "its" : "their",
       one ? "its prior's mean" : "the means of their priors", listed_up_to(keys, most));
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/report/svg/svg_canvas.hpp"
+#include "analysis/report/svg/value_axis.hpp"
 #include "core/base/number_text.hpp"
 
 namespace drift::report {
@@ -36,25 +36,16 @@ std::string svg_of(const BarChart& chart) {
   const double y0 = (chart.title.empty() ? 8.0 : 40.0) + (chart.limit ? 16.0 : 0.0);
   const double h = row * static_cast<double>(chart.bars.size());
   const AxisScale scale = make_scale(range, static_cast<int>(w / 60.0), 0.02);
-  const auto x_of = [&](double v) { return x0 + scale.at(spaced(v, chart.spacing), w); };
+  const ValueAxis axis{scale, chart.spacing, x0, y0, w, h};
+  const auto x_of = [&](double v) { return axis.at(v); };
   const double zero = chart.spacing == Spacing::linear ? x_of(0.0) : x0;
 
-  const std::vector<std::string> x_label =
-      wrapped(chart.spacing == Spacing::logarithmic || scale.factor.empty()
-                  ? chart.x_label
-                  : chart.x_label + "  " + scale.factor,
-              width - 2.0 * canvas_edge, label_type);
+  const std::vector<std::string> x_label = axis.label(chart.x_label, width);
   SvgCanvas canvas(width,
                    y0 + h + axis_height + label_line * static_cast<double>(x_label.size() - 1),
                    chart.title);
   canvas.text(canvas_edge, 24.0, chart.title, {.size = 15.0, .bold = true});
-  for (const std::size_t i : shown_ticks(scale, chart.spacing)) {
-    const double x = x0 + scale.at(scale.ticks[i], w);
-    canvas.line(x, y0, x, y0 + h + 4.0, "#e4e4e4", 1.0);
-    canvas.text(x, y0 + h + 17.0, tick_label(scale, i, chart.spacing),
-                {.size = small_type, .anchor = "middle"});
-  }
-  canvas.label(x0 + 0.5 * w, y0 + h + 36.0, x_label, width);
+  axis.draw(canvas, x_label, width);
   for (std::size_t k = 0; k < chart.bars.size(); ++k) {
     const Bar& b = chart.bars[k];
     const double y = y0 + row * static_cast<double>(k) + under, middle = y + 0.5 * bar_row;
@@ -78,12 +69,7 @@ std::string svg_of(const BarChart& chart) {
     canvas.text(end + 6.0, middle + 4.0, text_of(b), {.size = small_type, .halo = true});
   }
   canvas.line(zero, y0, zero, y0 + h, "#555555", 1.0);
-  if (chart.limit) {
-    const double x = x_of(chart.limit->y);
-    canvas.line(x, y0 - 4.0, x, y0 + h, "#222222", 1.2, chart.limit->stroke);
-    canvas.text(x, y0 - 8.0, chart.limit->label,
-                {.size = small_type, .anchor = "middle", .colour = "#222222"});
-  }
+  if (chart.limit) axis.draw(canvas, *chart.limit);
   return std::move(canvas).finish();
 }
 

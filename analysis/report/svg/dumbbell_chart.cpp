@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/report/svg/svg_canvas.hpp"
+#include "analysis/report/svg/value_axis.hpp"
 
 namespace drift::report {
 namespace {
@@ -40,12 +40,10 @@ std::string svg_of(const DumbbellChart& chart) {
                     (crossed && !chart.text_label.empty() ? label_line : 0.0);
   const double h = row * static_cast<double>(chart.lines.size());
   const AxisScale scale = make_scale(range, static_cast<int>(w / 60.0), 0.03);
-  const auto x_of = [&](double v) { return x0 + scale.at(spaced(v, chart.spacing), w); };
+  const ValueAxis axis{scale, chart.spacing, x0, y0, w, h};
+  const auto x_of = [&](double v) { return axis.at(v); };
 
-  const bool factor = chart.spacing == Spacing::linear && !scale.factor.empty();
-  const std::vector<std::string> x_label =
-      wrapped(factor ? chart.x_label + "  " + scale.factor : chart.x_label,
-              width - 2.0 * canvas_edge, label_type);
+  const std::vector<std::string> x_label = axis.label(chart.x_label, width);
   SvgCanvas canvas(width,
                    y0 + h + room_of_axis + label_line * static_cast<double>(x_label.size() - 1),
                    chart.title);
@@ -58,13 +56,7 @@ std::string svg_of(const DumbbellChart& chart) {
   canvas.text(second + 10.0, key, chart.after_label);
   canvas.text(width - canvas_edge, y0 - 8.0, chart.text_label,
               {.size = small_type, .anchor = "end"});
-  for (const std::size_t i : shown_ticks(scale, chart.spacing)) {
-    const double x = x0 + scale.at(scale.ticks[i], w);
-    canvas.line(x, y0, x, y0 + h + 4.0, "#e4e4e4", 1.0);
-    canvas.text(x, y0 + h + 17.0, tick_label(scale, i, chart.spacing),
-                {.size = small_type, .anchor = "middle"});
-  }
-  canvas.label(x0 + 0.5 * w, y0 + h + 36.0, x_label, width);
+  axis.draw(canvas, x_label, width);
   for (std::size_t k = 0; k < chart.lines.size(); ++k) {
     const Dumbbell& d = chart.lines[k];
     const double y = y0 + row * static_cast<double>(k) + under + 0.5 * line_height;
@@ -80,12 +72,7 @@ std::string svg_of(const DumbbellChart& chart) {
     mark(canvas, to, y, after_colour);
     canvas.text(width - canvas_edge, y + 4.0, d.text, {.size = small_type, .anchor = "end"});
   }
-  if (chart.limit)
-    if (const double x = x_of(chart.limit->y); std::isfinite(x)) {
-      canvas.line(x, y0 - 4.0, x, y0 + h, "#222222", 1.2, chart.limit->stroke);
-      canvas.text(x, y0 - 8.0, chart.limit->label,
-                  {.size = small_type, .anchor = "middle", .colour = "#222222"});
-    }
+  if (chart.limit) axis.draw(canvas, *chart.limit);
   return std::move(canvas).finish();
 }
 

@@ -154,7 +154,7 @@ void Covariance::drive(const Mat3& N) {
   times_transposed(P_pn_, N, P_pa_, &P_pa_);
 }
 
-void Covariance::propagate(const Mat3& Phi, const Ref3X& G, const Mat3& Q) {
+void Covariance::propagate(const Mat3& Phi, const Ref3X& G) {
   DRIFT_DEMAND(static_cast<std::size_t>(G.cols()) == num_rate_);
   // With W = P_pa Phi^T and V = W + P_pp G^T, the new P_pa, the symmetric part of G (W + V) is
   // G W + (G W)^T + G P_pp G^T.
@@ -168,7 +168,7 @@ void Covariance::propagate(const Mat3& Phi, const Ref3X& G, const Mat3& Q) {
     Z -= GU * GU.transpose();
     times_transposed(gain_, -GU, P_pa_, &P_pa_);
   }
-  const Mat3 P = Phi * P_aa_ * Phi.transpose() + Z + Q;
+  const Mat3 P = Phi * P_aa_ * Phi.transpose() + Z;
   P_aa_ = 0.5 * (P + P.transpose());
   if (holds_) P_na_ = P_na_ * Phi.transpose() + small_product(G, P_pn_).transpose();
 }

@@ -26,9 +26,9 @@ class Covariance {
   /// A new attitude, unknown within sigma [rad]; the parameters keep what is known of them.
   void recage(double sigma_attitude);
 
-  /// psi <- Phi psi + G x(rate), plus white noise Q on the attitude and q on diagonal entries.
-  /// G has shape (3, num_rate).
-  void propagate(const Mat3& Phi, const Eigen::Ref<const Rows3>& G, const Mat3& Q);
+  /// psi <- Phi psi + G x(rate). G has shape (3, num_rate). What drives the attitude is held, and
+  /// comes by drive().
+  void propagate(const Mat3& Phi, const Eigen::Ref<const Rows3>& G);
 
   /// The noise n of another sample (HeldNoise), of that variance in each axis, independent of all
   /// before. Forgotten by recage() and reset().

@@ -89,7 +89,7 @@ void IntervalStep::linearise(std::size_t i) {
 }
 
 void IntervalStep::predict(const Mat3& Phi, const Rows3& G, const Mat3& N) {
-  P_.propagate(Phi, G.leftCols(static_cast<Eigen::Index>(layout_.num_rate)), Mat3::Zero());
+  P_.propagate(Phi, G.leftCols(static_cast<Eigen::Index>(layout_.num_rate)));
   if (filter_.noise.angle_random_walk > 0.0) P_.drive(N);
 }
 

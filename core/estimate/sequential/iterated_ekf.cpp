@@ -47,17 +47,18 @@ bool IteratedEkf::begin(const Measurements& measured, const Theta& start) {
   return begun;
 }
 
-void IteratedEkf::run(const Measurements& measured, const Theta& start) {
+const IteratedEstimate& IteratedEkf::run(const Measurements& measured, const Theta& start) {
   if (through_polynomials_) {
     last_ = through_polynomials_.get();
     test_->read(measured);
     if (begin(measured, start)) {
       last_->settle(test_->test().measured);
-      if (last_->status() == EstimateStatus::ok && last_->smooth()) return;
+      if (last_->status() == EstimateStatus::ok && last_->smooth()) return *last_;
     }
   }
   last_ = &sample_by_sample();
   last_->run(measured, start);
+  return *last_;
 }
 
 }  // namespace drift

@@ -14,29 +14,13 @@ class IteratedEkf {
               const Theta& start);
 
   /// As if built anew from this start, over a whole recording. Allocates nothing from the second
-  /// time on, where no sample is missing in a stretch.
-  void run(const Measurements& measured, const Theta& start);
+  /// time on, where no sample is missing in a stretch. The estimate stays until the next run.
+  const IteratedEstimate& run(const Measurements& measured, const Theta& start);
 
-  EstimateStatus status() const { return passes().status(); }
-  const std::string& cause() const { return passes().cause(); }
-  double t_diverged() const { return passes().t_diverged(); }  ///< [s]
-  double nis() const { return passes().nis(); }                ///< minimum of data and prior cost
-  std::size_t scalars() const { return passes().scalars(); }   ///< measured scalars it sums over
-  double lag1() const { return passes().lag1(); }              ///< see IteratedPasses
-  const VecX& x() const {
-    return passes().x();
-  }  ///< deviations from the prior means, in their sigmas
-  const Theta& theta() const { return passes().theta(); }
-  const Layout& layout() const { return passes().layout(); }
-  /// Of state k, SI.
-  double sigma(std::size_t k) const { return passes().sigma(k); }
-  /// Covariance of the states in prior sigmas, shape (size, size).
-  const MatX& settled_covariance() const { return passes().settled_covariance(); }
   /// Whether the last run has seen some stretch through polynomials.
   bool compressed() const { return last_ == through_polynomials_.get(); }
 
  private:
-  const IteratedPasses& passes() const { return *last_; }
   IteratedPasses& sample_by_sample();
   bool begin(const Measurements& measured, const Theta& start);
 

@@ -34,17 +34,18 @@ IteratedPasses::IteratedPasses(const FilterSpec& filter, const Timeline& timelin
       middle_(held_at_most * rows_.width()),
       beside_(middle_),
       ends_(static_cast<std::size_t>(timeline.chains), rows_.attitude()),
-      x_(rows_.layout().scaled(start)),
-      x_start_(x_),
-      x_reference_(x_),
-      moved_(VecX::Zero(x_.size())),
+      x_start_(rows_.layout().scaled(start)),
+      x_reference_(x_start_),
+      moved_(VecX::Zero(x_start_.size())),
       prior_(moved_),
       step_(moved_),
       nothing_(moved_),
-      P_(MatX::Identity(x_.size(), x_.size())),
       path_(timeline.nodes.size()),
-      starts_(static_cast<std::size_t>(timeline.chains), Vec3::Zero()),
-      theta_(start) {
+      starts_(static_cast<std::size_t>(timeline.chains), Vec3::Zero()) {
+  x_ = x_start_;
+  sigma_ = rows_.layout().sigma;
+  P_.setIdentity(x_.size(), x_.size());
+  theta_ = start;
   if (compressed_)
     stretch_lag_ = std::make_unique<StretchLag>(*compressed_, rows_.layout(), rows_.width());
 }
@@ -63,9 +64,7 @@ void IteratedPasses::settle(const Measurements& measured) {
 }
 
 void IteratedPasses::begin_as(const IteratedPasses& other) {
-  status_ = EstimateStatus::ok;
-  cause_.clear();
-  t_diverged_ = nis_ = lag1_ = 0.0;
+  begin_anew();
   x_start_ = other.x_start_;
   x_ = other.x_;
   reference_.end_as(other.reference_);
@@ -100,9 +99,7 @@ bool IteratedPasses::take(std::size_t i, const Measurements& measured, const Vec
 }
 
 bool IteratedPasses::begin(const Measurements& measured, const Theta& start) {
-  status_ = EstimateStatus::ok;
-  cause_.clear();
-  t_diverged_ = nis_ = lag1_ = 0.0;
+  begin_anew();
   const Layout& layout = rows_.layout();
   for (std::size_t k = 0; k < layout.size(); ++k)
     x_start_[static_cast<Eigen::Index>(k)] = layout.scaled(start, k);

@@ -2,10 +2,9 @@
 
 #include <limits>
 #include <memory>
-#include <string>
 
-#include "core/estimate/estimate_result.hpp"
 #include "core/estimate/sequential/interval_rows.hpp"
+#include "core/estimate/sequential/iterated_estimate.hpp"
 #include "core/estimate/sequential/reference_path.hpp"
 #include "core/estimate/sequential/stretch_lag.hpp"
 #include "core/sim/measurements.hpp"
@@ -29,7 +28,7 @@ namespace drift {
 /// Where a drift or the attitude walks, no path of the parameters alone stays near: then the
 /// reference of a linear pass is the filtered attitude itself, taken over at the end of every
 /// block. After a caging it begins where the first sample of the pass before has put it.
-class IteratedPasses {
+class IteratedPasses : public IteratedEstimate {
  public:
   /// The timeline must outlive the filter. start: library values of the initial estimate.
   IteratedPasses(const FilterSpec& filter, const Timeline& timeline, const Readout& readout,
@@ -49,25 +48,7 @@ class IteratedPasses {
   void begin_as(const IteratedPasses& other);
   /// Whether polynomials followed all stretches in the last pass.
   bool smooth() const { return rows_.tail() < StretchRows::negligible; }
-  EstimateStatus status() const { return status_; }
-  const std::string& cause() const { return cause_; }
-  double t_diverged() const { return t_diverged_; }  ///< [s]
-  double nis() const { return nis_; }                ///< minimum of data and prior cost
-  std::size_t scalars() const { return scalars_; }   ///< measured scalars it sums over
-  /// Correlation of whitened residuals of one channel, one sample apart, less what the fit makes
-  /// of white ones: 0 on average for a right model, with standard deviation 1 / sqrt(scalars) or a
-  /// little more (physics.md 5.6).
-  double lag1() const { return lag1_; }
-  const VecX& x() const { return x_; }  ///< deviations from the prior means, in prior sigmas
-  const Theta& theta() const { return theta_; }
   const Layout& layout() const { return rows_.layout(); }
-  /// Of state k, SI.
-  double sigma(std::size_t k) const {
-    const auto i = static_cast<Eigen::Index>(k);
-    return layout().sigma[i] * std::sqrt(P_(i, i));
-  }
-  /// Covariance of the states in prior sigmas, shape (size, size).
-  const MatX& settled_covariance() const { return P_; }
 
  private:
   IteratedPasses(const FilterSpec& filter, const Timeline& timeline,
@@ -116,18 +97,11 @@ class IteratedPasses {
   std::size_t triples_ = 0, summed_ = 0;  ///< rows by threes; summed up so far
   std::vector<AttitudeFilter> ends_;      ///< at the end of each chain
   std::unique_ptr<StretchLag> stretch_lag_;
-  VecX x_, x_start_, x_reference_;
+  VecX x_start_, x_reference_;
   VecX moved_;  ///< of the reference from the start; of the estimate from the reference
   VecX prior_, step_, nothing_;  ///< work
-  MatX P_;
-  std::vector<Vec3> path_;    ///< of a pass that follows the estimate, at every node
-  std::vector<Vec3> starts_;  ///< where it begins after each caging
-  Theta theta_ = Theta::Zero();
-  double nis_ = 0.0, lag1_ = 0.0;
-  std::size_t scalars_ = 0;
-  EstimateStatus status_ = EstimateStatus::ok;
-  std::string cause_;
-  double t_diverged_ = 0.0;
+  std::vector<Vec3> path_;       ///< of a pass that follows the estimate, at every node
+  std::vector<Vec3> starts_;     ///< where it begins after each caging
 };
 
 }  // namespace drift

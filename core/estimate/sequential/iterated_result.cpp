@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "core/estimate/sequential/iterated_passes.hpp"
 
@@ -27,7 +28,9 @@ void IteratedPasses::finish() {
            static_cast<Eigen::Index>(end.walking()[static_cast<std::size_t>(l)])) +=
             end.variance()(3 + k, 3 + l);
   }
-  theta_ = rows_.layout().theta_at(x_);
+  theta_ = layout().theta_at(x_);
+  for (Eigen::Index k = 0; k < sigma_.size(); ++k)
+    sigma_[k] = layout().sigma[k] * std::sqrt(P_(k, k));
 }
 
 /// Whitened by the filter of the attitude, residuals at the estimate of neighbours s, t have the

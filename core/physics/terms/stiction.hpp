@@ -1,15 +1,13 @@
 #pragma once
 
-#include "core/physics/gimbals.hpp"
-#include "core/physics/memory.hpp"
-#include "core/physics/term.hpp"
+#include "core/physics/gimbal_friction.hpp"
 
 namespace drift::terms {
 
 /// Friction of the gimbal bearings (Dahl, exponent 1) hangs the platform off against the motion of
 /// each gimbal; after a reversal it takes a turn of about F_turn to change sides. Its memory is the
 /// friction of each gimbal over its Coulomb friction, driven by the nominal gimbal motion.
-struct Stiction {
+struct Stiction : GimbalFriction {
   static constexpr std::string_view key = "stiction";
   static constexpr std::string_view title = "friction of the gimbals";
   static constexpr std::string_view equation =
@@ -21,22 +19,10 @@ struct Stiction {
       join(per_gimbal<"F">(unit::arcsec, normal(0.0, 5.0), "attitude offset, friction of a gimbal"),
            profiled<"F_turn">(ParamKind::nonlinear, unit::arcsec, 40.0, {10.0, 40.0, 150.0},
                               "turn over which friction builds up"));
-  static constexpr Needs needs{.gimbals = true};
-  static constexpr int memory = 3;
-  static constexpr std::size_t memory_parameter = 3;
 
   template <class S>
-  static void start(const PathStep&, const S*, S* T) {
-    start_friction(T);
-  }
-  template <class S>
-  static void advance(const PathStep& along, const S* p, S* T) {
-    advance_friction(along, p[3], T);
-  }
-  template <class S>
   static void attitude_offset(const Inputs<S>& in, const S* p, const S* T, Vec3T<S>& delta_p) {
-    const Mat3T<S> axes = gimbal_axes(in.around->gimbal);
-    for (int k = 0; k < 3; ++k) delta_p -= axes.col(k) * (p[k] * T[k]);
+    take_off(in, p, T, delta_p);
   }
 };
 

@@ -28,6 +28,24 @@ TEST(NewStudy, EveryKindIsValid) {
             static_cast<int>(ExitCode::usage));
 }
 
+TEST(NewStudy, OfAUnitOnACaseSaysWhereAccelerometersAreReadInTurns) {
+  const ScratchFolder folder;
+  const std::string file = folder.file("case.toml"), key = "accelerometers_in_turns = true";
+  ASSERT_EQ(driftscope("new strapdown -o " + file).code, 0);
+  std::string text = text_of(file);
+  const auto at = text.find("# " + key);
+  ASSERT_NE(at, std::string::npos) << text;
+  text.erase(at, 2);
+  for (const auto& [study, value] :
+       {std::pair{file, "false"}, {folder.write("read.toml", text), "true"}}) {
+    const Answer checked = driftscope("check " + study);
+    const std::string row = "plan.accelerometers_in_turns";
+    const auto line = checked.out.find(row);
+    ASSERT_NE(line, std::string::npos) << checked.out << checked.err;
+    EXPECT_TRUE(has(checked.out.substr(line, checked.out.find('\n', line) - line), value));
+  }
+}
+
 TEST(NewStudy, APlanIsFilledFromTheRecording) {
   const ScratchFolder folder;
   const std::string made = folder.write("made.toml", short_study);

@@ -47,7 +47,7 @@ TEST(Sums, MembersOfOtherUnitsCarryWhatTurnsThemIntoThatOfTheSum) {
 /// A platform makes w = reading + s_a |reading| of what it is told; the sensor, reading = w - s_a
 /// |w|.
 TEST(AsSensed, WhatBendsAScaleFactorChangesItsSign) {
-  for (const char* key : {"s_a_x", "s_a_z", "s_2_y"})
+  for (const char* key : {"s_a_x", "s_a_z", "s_2_y", "s_T_x", "s_T3_z"})
     EXPECT_EQ(as_sensed(*TermLibrary::find(key), 1e-4, Vec3::Zero()), -1e-4) << key;
   EXPECT_EQ(as_sensed(*TermLibrary::find("K0_x"), 1e-4, Vec3::Zero()), 1e-4);
   const EstimateResult e =

@@ -13,7 +13,7 @@ namespace {
 struct Dense {
   MatX P;
   VecX x;
-  void propagate(const MatX& F, const MatX& Q) { P = (F * P * F.transpose() + Q).eval(); }
+  void propagate(const MatX& F) { P = (F * P * F.transpose()).eval(); }
   void update(const VecX& nu, const MatX& H, double sigma) {
     const MatX S = H * P * H.transpose() + sigma * sigma * MatX::Identity(nu.size(), nu.size());
     const MatX K = P * H.transpose() * S.inverse();
@@ -34,12 +34,11 @@ TEST(Covariance, AgreesWithADenseFilter) {
     for (int step = 0; step < 12; ++step) {
       const Mat3 Phi = Mat3::Identity() + 0.1 * Mat3::Random();
       const Rows3 G = Rows3::Random(3, nr);
-      MatX F = MatX::Identity(3 + n, 3 + n), Q = MatX::Zero(3 + n, 3 + n);
+      MatX F = MatX::Identity(3 + n, 3 + n);
       F.topLeftCorner<3, 3>() = Phi;
       F.block(0, 3, 3, nr) = G;
-      Q.topLeftCorner<3, 3>() = 0.01 * Mat3::Identity();
-      P.propagate(Phi, G, 0.01 * Mat3::Identity());
-      dense.propagate(F, Q);
+      P.propagate(Phi, G);
+      dense.propagate(F);
 
       const bool readout = step % 3 != 1;  // then an update of the attitude alone
       Vec3 nu = Vec3::Random();
@@ -101,9 +100,9 @@ TEST(Covariance, NoiseThatIsHeldIsThreeMoreStates) {
         F.topLeftCorner<3, 3>() = Phi;
         F.block(0, 3, 3, nr) = G;
         F.topRightCorner<3, 3>() = N;
-        P.propagate(Phi, G, Mat3::Zero());
+        P.propagate(Phi, G);
         P.drive(N);
-        dense.propagate(F, MatX::Zero(all, all));
+        dense.propagate(F);
         Vec3 nu = Vec3::Random();
         const Mat3 H_psi = Mat3::Random(), H_held = Mat3::Random();
         const Rows3 H_rate = readout ? Rows3::Random(3, nr) : Rows3(3, 0);

@@ -14,15 +14,15 @@ struct Fits {
   Layout layout;
   EstimateResult ekf;
   BatchResult batch;
-  IteratedEkf iterated;
+  IteratedEstimate iterated;
   Fits(const char* preset, const Timeline& timeline, Coupling coupling)
-      : layout(make_layout(base_filter(coupling))),
-        iterated(base_filter(coupling), timeline, Readout{}, layout.theta) {
+      : layout(make_layout(base_filter(coupling))) {
     const Simulation sim = Simulator(base_truth(coupling), Readout{}).run(timeline, 4, 2);
     EXPECT_TRUE(sim.ode.ok()) << preset;
     ekf = run_ekf(base_filter(coupling), {timeline, Readout{}, sim.measured}, layout.theta);
     batch = fit_batch(base_filter(coupling), {timeline, Readout{}, sim.measured}, layout.theta);
-    iterated.run(sim.measured, layout.theta);
+    iterated = IteratedEkf(base_filter(coupling), timeline, Readout{}, layout.theta)
+                   .run(sim.measured, layout.theta);
   }
 };
 
@@ -139,9 +139,9 @@ TEST(IteratedEkf, ThroughPolynomialsIsSampleBySample) {
     const Layout layout = make_layout(filter);
     IteratedPasses all(filter, timeline, Readout{}, layout.theta);
     all.run(sim.measured, layout.theta);
-    IteratedEkf few(filter, timeline, Readout{}, layout.theta);
-    few.run(sim.measured, layout.theta);
-    ASSERT_TRUE(few.compressed());
+    IteratedEkf compressed(filter, timeline, Readout{}, layout.theta);
+    const IteratedEstimate& few = compressed.run(sim.measured, layout.theta);
+    ASSERT_TRUE(compressed.compressed());
     ASSERT_EQ(few.status(), EstimateStatus::ok);
     EXPECT_EQ(few.scalars(), all.scalars());
     EXPECT_NEAR(few.nis() / all.nis(), 1.0, 1e-6);
@@ -208,12 +208,12 @@ TEST(IteratedEkf, StartsAnewWithoutATrace) {
   const Simulation b = Simulator(base_truth(Coupling::eq5), Readout{}).run(timeline, 4, 3);
   const Theta start = make_layout(filter).theta;
   IteratedEkf one(filter, timeline, Readout{}, start), other(filter, timeline, Readout{}, start);
-  one.run(a.measured, start);
+  const IteratedEstimate& fresh = one.run(a.measured, start);
   other.run(b.measured, draw_parameters(filter, 1, 1, Purpose::test));
-  other.run(a.measured, start);
-  EXPECT_EQ(one.x(), other.x());
-  EXPECT_EQ(one.nis(), other.nis());
-  EXPECT_EQ(one.lag1(), other.lag1());
+  const IteratedEstimate& again = other.run(a.measured, start);
+  EXPECT_EQ(fresh.x(), again.x());
+  EXPECT_EQ(fresh.nis(), again.nis());
+  EXPECT_EQ(fresh.lag1(), again.lag1());
 }
 
 TEST(IteratedEkf, ReportsDivergenceAsAValueAndRecovers) {
@@ -224,11 +224,10 @@ TEST(IteratedEkf, ReportsDivergenceAsAValueAndRecovers) {
   Measurements absurd = sim.measured;
   absurd.acc.setConstant(1e9);
   IteratedEkf ekf(filter, timeline, Readout{}, start);
-  ekf.run(absurd, start);
-  EXPECT_EQ(ekf.status(), EstimateStatus::diverged);
-  EXPECT_FALSE(ekf.cause().empty());
-  ekf.run(sim.measured, start);
-  EXPECT_EQ(ekf.status(), EstimateStatus::ok);
+  const IteratedEstimate& found = ekf.run(absurd, start);
+  EXPECT_EQ(found.status(), EstimateStatus::diverged);
+  EXPECT_FALSE(found.cause().empty());
+  EXPECT_EQ(ekf.run(sim.measured, start).status(), EstimateStatus::ok);
 }
 
 TEST(Ekf, ResetIsAsBuiltAnew) {

@@ -195,7 +195,12 @@ TEST(TermLibrary, HoldsEveryCandidateOfTheInterface) {
                           "outliers",
                           "frame_closure",
                           "inner_lever_arm",
-                          "accelerometer_delay"})
+                          "accelerometer_delay",
+                          "temperature_drift_curve",
+                          "temperature_rate_drift",
+                          "torquer_temperature",
+                          "accelerometer_temperature_curve",
+                          "accelerometer_temperature_rate"})
     EXPECT_TRUE(TermLibrary::find_term(key).has_value()) << key;
 }
 

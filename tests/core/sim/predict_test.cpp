@@ -36,10 +36,18 @@ TEST(EveryTermInATest, ShowsNothingAtZeroAmplitude) {
   }
 }
 
+/// The temperature of a unit without a thermostat: ten times as far from its mean.
+Timeline with_swing(Timeline timeline) {
+  for (Interval& i : timeline.intervals)
+    for (Covariates* c : {&i.around0, &i.around1}) c->temperature *= 10.0;
+  return timeline;
+}
+
 TEST(EveryTermInATest, ShowsEachOfItsParameters) {
   // Slews and commands for some, 45-deg attitudes for others, free drift for the rest.
   const Timeline scenes[] = {scene("slew12", CommandLaw::level, 300.0),
                              scene("eighteen", CommandLaw::level, 120.0)};
+  const Timeline swinging[] = {with_swing(scenes[0]), with_swing(scenes[1])};
   const Theta base = random_theta(6);
   for (const std::size_t t : visible_terms()) {
     const TermInfo& info = TermLibrary::terms[t];
@@ -55,7 +63,7 @@ TEST(EveryTermInATest, ShowsEachOfItsParameters) {
             (spec.grid.values[0] == spec.prior.a ? spec.grid.values[1] : spec.grid.values[0]) *
             spec.unit.to_si;
       double most = 0.0;
-      for (const Timeline& timeline : scenes) {
+      for (const Timeline& timeline : info.wants_swing ? swinging : scenes) {
         const DriftModel model = model_of(coupling_for(t), base_parameters() | term_params(t));
         most = std::max(
             most, difference(predicted(timeline, model, theta), predicted(timeline, model, other)));

@@ -78,6 +78,49 @@ TEST(TemperatureDrift, FollowsTheRecordedTemperature) {
               turned_away * k * std::abs(sum));
 }
 
+/// Integrals over an interval of the first powers of a temperature that is linear in it.
+double integral(const Interval& i, int power) {
+  const double a = i.around0.temperature, b = i.around1.temperature;
+  double sum = 0.0;
+  for (int k = 0; k <= power; ++k) sum += std::pow(a, k) * std::pow(b, power - k);
+  return sum * i.length() / (power + 1);
+}
+
+TEST(TemperatureDrift, OfHigherOrderIsItsIntegralAndByItsRateItsChange) {
+  const Timeline timeline = first_position();
+  for (const auto& [key, power] : {std::pair{"kT2_x", 2}, {"kT3_x", 3}}) {
+    const double k = TermLibrary::specs[param(key)].prior_si().sigma();
+    double sum = 0.0;
+    for (int i = 0; i < 10; ++i) sum += integral(timeline.intervals[i], power);
+    EXPECT_NEAR(Effect(key, k).phi_after(timeline, 10).x(), -k * sum,
+                turned_away * k * std::abs(sum))
+        << key;
+  }
+  const double k = TermLibrary::specs[param("kT_rate_x")].prior_si().sigma();
+  const double change =
+      timeline.intervals[9].around1.temperature - timeline.intervals[0].around0.temperature;
+  EXPECT_GT(std::abs(change), 0.1);
+  EXPECT_NEAR(Effect("kT_rate_x", k).phi_after(timeline, 10).x(), -k * change,
+              turned_away * k * std::abs(change));
+}
+
+TEST(AccelerometerTemperature, OfHigherOrderAndByItsRateIsTheMeanOverARow) {
+  const Timeline timeline = first_position();  // x reads 1 g
+  const Interval& row = timeline.intervals[7];
+  const double rate = (row.around1.temperature - row.around0.temperature) / row.length();
+  const double without = Effect("K0_x", 0.0).predicted(timeline).acc(0, 7);
+  for (const auto& [key, mean] : {std::pair{"K0_T2_x", integral(row, 2) / row.length()},
+                                  {"K1_T2_x", integral(row, 2) / row.length()},
+                                  {"K0_T3_x", integral(row, 3) / row.length()},
+                                  {"K1_T3_x", integral(row, 3) / row.length()},
+                                  {"K0_T_rate_x", rate}}) {
+    const double k = TermLibrary::specs[param(key)].prior_si().sigma();
+    EXPECT_NEAR(Effect(key, k).predicted(timeline).acc(0, 7) - without, k * mean,
+                1e-15 + 1e-9 * k * std::abs(mean))
+        << key;
+  }
+}
+
 /// A slew by +90 deg about x and back.
 Timeline there_and_back() {
   Timeline timeline;
@@ -105,6 +148,23 @@ TEST(TorquerAsymmetry, DoesNotCancelInASlewThereAndBack) {
   // At 0.5 deg/s the quadratic term is a scale factor error: it cancels too.
   EXPECT_NEAR(Effect("s_2_x", s).phi_after(timeline, 18).x(), s * 90.0 * detail::deg, 1e-9);
   EXPECT_NEAR(Effect("s_2_x", s).phi_after(timeline, 36).x(), 0.0, 1e-12);
+}
+
+TEST(TorquerTemperature, IsAScaleFactorErrorThatGrowsWithTheTemperature) {
+  Timeline timeline = there_and_back();
+  timeline.has_temperature = true;
+  constexpr double warming = 0.02;  // [K/s]
+  for (Interval& i : timeline.intervals) {
+    i.around0.temperature = warming * i.t0;
+    i.around1.temperature = warming * i.t1;
+  }
+  const double rate = 0.5 * detail::deg;
+  for (const auto& [key, power] : {std::pair{"s_T_x", 1}, {"s_T2_x", 2}, {"s_T3_x", 3}}) {
+    const double s = TermLibrary::specs[param(key)].prior_si().sigma();
+    const double turned =
+        s * rate * std::pow(warming, power) * std::pow(180.0, power + 1) / (power + 1);
+    EXPECT_NEAR(Effect(key, s).phi_after(timeline, 18).x(), turned, 1e-9 + 1e-6 * turned) << key;
+  }
 }
 
 TEST(TorquerCrosstalk, TurnsTheSlewAxis) {

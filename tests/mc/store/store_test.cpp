@@ -186,6 +186,47 @@ TEST(Store, WhatRepeatsOtherTablesIsComparedWithThemAndMended) {
   }
 }
 
+/// How SQLite lists the blocks of a file.
+std::string plan_of_listing(const std::string& path) {
+  mc::Database db(path, mc::Database::Use::read);
+  mc::Statement plan = db.prepare(
+      "EXPLAIN QUERY PLAN SELECT id, point, first_run, runs, failed FROM blocks WHERE id > 0 "
+      "ORDER BY id");
+  return plan.step() ? plan.bytes(3) : "";
+}
+
+TEST(Store, BlocksAreListedByTheIndexAloneAndAFileOfBeforeGetsIt) {
+  const ScratchFolder folder;
+  const SyntheticStudy study = small_study();
+  const auto before = study.run(folder.path());
+  const std::string path = folder.file("worker-0000.sqlite");
+  EXPECT_NE(plan_of_listing(path).find("COVERING INDEX listing"), std::string::npos);
+  mc::Database(path, mc::Database::Use::write).execute("DROP INDEX listing");
+  EXPECT_EQ(plan_of_listing(path).find("INDEX listing"), std::string::npos);
+  EXPECT_EQ(intact_blocks(folder.path(), read_all(folder.path())), 5u);
+  const auto after = study.run(folder.path());
+  EXPECT_EQ(after.digest, before.digest);
+  EXPECT_EQ(after.done, 0u) << "nothing is computed anew";
+  EXPECT_NE(plan_of_listing(path).find("COVERING INDEX listing"), std::string::npos);
+}
+
+TEST(Store, AnIndexThatIsNotThatOfTheTableIsFoundAndCostsNoBlock) {
+  const ScratchFolder folder;
+  const SyntheticStudy study = small_study();
+  const auto before = study.run(folder.path());
+  const std::string path = folder.file("worker-0000.sqlite");
+  mc::Database(path, mc::Database::Use::write)
+      .execute(
+          "DROP INDEX listing; CREATE INDEX listing ON blocks (id, point, first_run, runs, failed) "
+          "WHERE id <> 2; PRAGMA writable_schema = 1; UPDATE sqlite_master SET sql = 'CREATE INDEX "
+          "listing ON blocks (id, point, first_run, runs, failed)' WHERE name = 'listing'");
+  EXPECT_EQ(mc::StudyReader(folder.path()).unsound(), std::vector{path});
+  const auto after = study.run(folder.path());
+  EXPECT_EQ(after.digest, before.digest);
+  EXPECT_EQ(after.done, 0u) << "all blocks are taken over from the table";
+  EXPECT_TRUE(mc::StudyReader(folder.path()).unsound().empty());
+}
+
 TEST(Store, EqualDuplicatesAreLegalAndOthersAreNot) {
   const ScratchFolder folder;
   const SyntheticStudy study = small_study();

@@ -118,7 +118,7 @@ Outcome outcome_of(const Scene& scene, const TermInfo& term, std::string_view es
 }
 
 /// Mean NIS and NEES of a right filter, per degree of freedom, are 1 with the standard deviation
-/// sqrt(2 / dof). Four of them: of 43 terms and two means one is outside with 0.5 %.
+/// sqrt(2 / dof). Four of them: of 50 terms and two means one is outside with 0.5 %.
 double band(const mc::ChiSquareSum& sum) {
   return 4.0 * std::sqrt(2.0 / sum.dof);
 }

@@ -35,7 +35,8 @@ Diagnosis of_case(const char* term, const char* axis, const char* key) {
 }
 
 TEST(CaseWords, AStrapdownUnitHasAScaleFactorAndNoTorquer) {
-  for (const char* key : {"torquer_scale", "torquer_asymmetry", "torquer_nonlinearity"}) {
+  for (const char* key :
+       {"torquer_scale", "torquer_asymmetry", "torquer_nonlinearity", "torquer_temperature"}) {
     EXPECT_FALSE(says(report::in_words(key, "x", Instrument::on_case), "torquer")) << key;
     EXPECT_TRUE(says(report::in_words(key, "x", Instrument::on_case), "of the gyros, gyro x"));
     EXPECT_TRUE(says(report::in_words(key, "x"), "torquer")) << key;
