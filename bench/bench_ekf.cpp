@@ -14,7 +14,7 @@
 #include "bench/repeated.hpp"
 #include "bench/rows.hpp"
 #include "core/estimate/sequential/ekf.hpp"
-#include "core/estimate/sequential/iterated_lanes.hpp"
+#include "core/estimate/sequential/in_lanes/iterated_lanes.hpp"
 #include "core/physics/parameters_config.hpp"
 #include "core/sim/simulate.hpp"
 #include "tests/support/counted_allocations.hpp"

@@ -5,9 +5,9 @@
 
 #include "core/estimate/batch.hpp"
 #include "core/estimate/sequential/ekf.hpp"
-#include "core/estimate/sequential/ekf_lanes.hpp"
+#include "core/estimate/sequential/in_lanes/ekf_lanes.hpp"
+#include "core/estimate/sequential/in_lanes/iterated_lanes.hpp"
 #include "core/estimate/sequential/iterated_ekf.hpp"
-#include "core/estimate/sequential/iterated_lanes.hpp"
 #include "core/sim/simulate.hpp"
 #include "mc/study/design.hpp"
 #include "mc/task/principal_axes.hpp"

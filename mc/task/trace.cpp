@@ -6,7 +6,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "core/estimate/sequential/ekf_lanes.hpp"
+#include "core/estimate/sequential/in_lanes/ekf_lanes.hpp"
 #include "core/estimate/starts.hpp"
 #include "core/plan/environment.hpp"
 #include "mc/study/design.hpp"

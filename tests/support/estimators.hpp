@@ -24,7 +24,7 @@ inline EstimateResult by_iterated_ekf(const FilterSpec& filter, const Timeline& 
                                       const Theta& start) {
   const Layout layout = make_layout(filter);
   IteratedEkf ekf(filter, timeline, readout, start);
-  const IteratedEstimate& found = ekf.run(measured, start);
+  const FilterEstimate& found = ekf.run(measured, start);
   EstimateResult r;
   r.status = found.status();
   r.cause = found.cause();

@@ -47,7 +47,7 @@ bool IteratedEkf::begin(const Measurements& measured, const Theta& start) {
   return begun;
 }
 
-const IteratedEstimate& IteratedEkf::run(const Measurements& measured, const Theta& start) {
+const FilterEstimate& IteratedEkf::run(const Measurements& measured, const Theta& start) {
   if (through_polynomials_) {
     last_ = through_polynomials_.get();
     test_->read(measured);

@@ -15,7 +15,7 @@ class IteratedEkf {
 
   /// As if built anew from this start, over a whole recording. Allocates nothing from the second
   /// time on, where no sample is missing in a stretch. The estimate stays until the next run.
-  const IteratedEstimate& run(const Measurements& measured, const Theta& start);
+  const FilterEstimate& run(const Measurements& measured, const Theta& start);
 
   /// Whether the last run has seen some stretch through polynomials.
   bool compressed() const { return last_ == through_polynomials_.get(); }

@@ -3,8 +3,8 @@
 #include <limits>
 #include <memory>
 
+#include "core/estimate/sequential/filter_estimate.hpp"
 #include "core/estimate/sequential/interval_rows.hpp"
-#include "core/estimate/sequential/iterated_estimate.hpp"
 #include "core/estimate/sequential/reference_path.hpp"
 #include "core/estimate/sequential/stretch_lag.hpp"
 #include "core/sim/measurements.hpp"
@@ -28,7 +28,7 @@ namespace drift {
 /// Where a drift or the attitude walks, no path of the parameters alone stays near: then the
 /// reference of a linear pass is the filtered attitude itself, taken over at the end of every
 /// block. After a caging it begins where the first sample of the pass before has put it.
-class IteratedPasses : public IteratedEstimate {
+class IteratedPasses : public FilterEstimate {
  public:
   /// The timeline must outlive the filter. start: library values of the initial estimate.
   IteratedPasses(const FilterSpec& filter, const Timeline& timeline, const Readout& readout,

@@ -87,7 +87,7 @@ TEST(CaseTest, IteratedFilterAndBatchAgreeWithRandomWalk) {
   const BatchResult batch = fit_batch(filter, measured, start);
   ASSERT_EQ(batch.estimate.status, EstimateStatus::ok);
   IteratedEkf ekf(filter, u.test.timeline, u.test.readout, start);
-  const IteratedEstimate& iterated = ekf.run(u.test.measured, start);
+  const FilterEstimate& iterated = ekf.run(u.test.measured, start);
   ASSERT_EQ(iterated.status(), EstimateStatus::ok);
   for (std::size_t k = 0; k < batch.estimate.parameters.size(); ++k) {
     const ParameterEstimate& b = batch.estimate.parameters[k];

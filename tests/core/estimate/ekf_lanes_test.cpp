@@ -1,4 +1,4 @@
-#include "core/estimate/sequential/ekf_lanes.hpp"
+#include "core/estimate/sequential/in_lanes/ekf_lanes.hpp"
 
 #include <gtest/gtest.h>
 

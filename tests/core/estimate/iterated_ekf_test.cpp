@@ -14,7 +14,7 @@ struct Fits {
   Layout layout;
   EstimateResult ekf;
   BatchResult batch;
-  IteratedEstimate iterated;
+  FilterEstimate iterated;
   Fits(const char* preset, const Timeline& timeline, Coupling coupling)
       : layout(make_layout(base_filter(coupling))) {
     const Simulation sim = Simulator(base_truth(coupling), Readout{}).run(timeline, 4, 2);
@@ -140,7 +140,7 @@ TEST(IteratedEkf, ThroughPolynomialsIsSampleBySample) {
     IteratedPasses all(filter, timeline, Readout{}, layout.theta);
     all.run(sim.measured, layout.theta);
     IteratedEkf compressed(filter, timeline, Readout{}, layout.theta);
-    const IteratedEstimate& few = compressed.run(sim.measured, layout.theta);
+    const FilterEstimate& few = compressed.run(sim.measured, layout.theta);
     ASSERT_TRUE(compressed.compressed());
     ASSERT_EQ(few.status(), EstimateStatus::ok);
     EXPECT_EQ(few.scalars(), all.scalars());
@@ -208,9 +208,9 @@ TEST(IteratedEkf, StartsAnewWithoutATrace) {
   const Simulation b = Simulator(base_truth(Coupling::eq5), Readout{}).run(timeline, 4, 3);
   const Theta start = make_layout(filter).theta;
   IteratedEkf one(filter, timeline, Readout{}, start), other(filter, timeline, Readout{}, start);
-  const IteratedEstimate& fresh = one.run(a.measured, start);
+  const FilterEstimate& fresh = one.run(a.measured, start);
   other.run(b.measured, draw_parameters(filter, 1, 1, Purpose::test));
-  const IteratedEstimate& again = other.run(a.measured, start);
+  const FilterEstimate& again = other.run(a.measured, start);
   EXPECT_EQ(fresh.x(), again.x());
   EXPECT_EQ(fresh.nis(), again.nis());
   EXPECT_EQ(fresh.lag1(), again.lag1());
@@ -224,7 +224,7 @@ TEST(IteratedEkf, ReportsDivergenceAsAValueAndRecovers) {
   Measurements absurd = sim.measured;
   absurd.acc.setConstant(1e9);
   IteratedEkf ekf(filter, timeline, Readout{}, start);
-  const IteratedEstimate& found = ekf.run(absurd, start);
+  const FilterEstimate& found = ekf.run(absurd, start);
   EXPECT_EQ(found.status(), EstimateStatus::diverged);
   EXPECT_FALSE(found.cause().empty());
   EXPECT_EQ(ekf.run(sim.measured, start).status(), EstimateStatus::ok);

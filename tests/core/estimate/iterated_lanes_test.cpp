@@ -1,4 +1,4 @@
-#include "core/estimate/sequential/iterated_lanes.hpp"
+#include "core/estimate/sequential/in_lanes/iterated_lanes.hpp"
 
 #include <gtest/gtest.h>
 

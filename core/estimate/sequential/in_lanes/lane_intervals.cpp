@@ -1,4 +1,4 @@
-#include "core/estimate/sequential/lane_intervals.hpp"
+#include "core/estimate/sequential/in_lanes/lane_intervals.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
-#include "core/estimate/sequential/lane_information.hpp"
+#include "core/estimate/sequential/in_lanes/lane_information.hpp"
 
 #include <algorithm>
 
-#include "core/estimate/sequential/lane_tiles.hpp"
+#include "core/estimate/sequential/in_lanes/lane_tiles.hpp"
 
 namespace drift {
 namespace {

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "core/estimate/sequential/iterated_lanes.hpp"
+#include "core/estimate/sequential/in_lanes/iterated_lanes.hpp"
 
 namespace drift {
 namespace {

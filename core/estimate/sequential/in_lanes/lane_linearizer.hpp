@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/estimate/layout.hpp"
-#include "core/estimate/sequential/lane_math.hpp"
+#include "core/estimate/sequential/in_lanes/lane_math.hpp"
 #include "core/physics/slot_derivatives.hpp"
 #include "core/plan/readout.hpp"
 #include "core/plan/timeline.hpp"

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "core/estimate/sequential/lane_filter.hpp"
+#include "core/estimate/sequential/in_lanes/lane_filter.hpp"
 #include "core/sim/measurements.hpp"
 
 namespace drift {

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "core/estimate/sequential/lane_math.hpp"
+#include "core/estimate/sequential/in_lanes/lane_math.hpp"
 
 namespace drift {
 

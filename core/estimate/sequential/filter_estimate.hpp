@@ -6,15 +6,15 @@
 
 namespace drift {
 
-/// What an iterated estimator has found in a recording. All but status, cause and time of the
-/// divergence counts where it has not diverged.
-class IteratedEstimate {
+/// What a filter has found in a recording. All but status, cause and time of the divergence counts
+/// where it has not diverged.
+class FilterEstimate {
  public:
   EstimateStatus status() const { return status_; }
   const std::string& cause() const { return cause_; }
   double t_diverged() const { return t_diverged_; }  ///< [s]
-  double nis() const { return nis_; }                ///< minimum of data and prior cost
-  std::size_t scalars() const { return scalars_; }   ///< measured scalars it sums over
+  double nis() const { return nis_; }  ///< sum of its innovations squared; iterated: least cost
+  std::size_t scalars() const { return scalars_; }  ///< measured scalars it sums over
   /// Correlation of whitened residuals of one channel, one sample apart, less what the fit makes
   /// of white ones: 0 on average for a right model, with standard deviation 1 / sqrt(scalars) or a
   /// little more (physics.md 5.6).

@@ -1,4 +1,4 @@
-#include "core/estimate/sequential/lane_linearizer.hpp"
+#include "core/estimate/sequential/in_lanes/lane_linearizer.hpp"
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/estimate/sequential/lane_linearizer.hpp"
+#include "core/estimate/sequential/in_lanes/lane_linearizer.hpp"
 
 namespace drift {
 

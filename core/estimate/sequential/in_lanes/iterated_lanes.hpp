@@ -2,14 +2,14 @@
 
 #include <span>
 
-#include "core/estimate/sequential/iterated_estimate.hpp"
-#include "core/estimate/sequential/lane_information.hpp"
-#include "core/estimate/sequential/lane_intervals.hpp"
+#include "core/estimate/sequential/filter_estimate.hpp"
+#include "core/estimate/sequential/in_lanes/lane_information.hpp"
+#include "core/estimate/sequential/in_lanes/lane_intervals.hpp"
 
 namespace drift {
 
 /// A recording, where an estimate of it begins, and then the estimate (IteratedPasses).
-class IteratedJob : public IteratedEstimate {
+class IteratedJob : public FilterEstimate {
  public:
   const Measurements* measured = nullptr;
   Theta start = Theta::Zero();

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/estimate/sequential/lane_math.hpp"
+#include "core/estimate/sequential/in_lanes/lane_math.hpp"
 
 namespace drift {
 

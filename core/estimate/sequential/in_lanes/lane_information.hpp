@@ -3,8 +3,8 @@
 #include <array>
 #include <vector>
 
+#include "core/estimate/sequential/in_lanes/lane_math.hpp"
 #include "core/estimate/sequential/information.hpp"
-#include "core/estimate/sequential/lane_math.hpp"
 
 namespace drift {
 

@@ -1,10 +1,10 @@
-#include "core/estimate/sequential/lane_filter.hpp"
+#include "core/estimate/sequential/in_lanes/lane_filter.hpp"
 
 #include <algorithm>
 
-#include "core/estimate/sequential/lane_covariance.hpp"
-#include "core/estimate/sequential/lane_information.hpp"
-#include "core/estimate/sequential/lane_tiles.hpp"
+#include "core/estimate/sequential/in_lanes/lane_covariance.hpp"
+#include "core/estimate/sequential/in_lanes/lane_information.hpp"
+#include "core/estimate/sequential/in_lanes/lane_tiles.hpp"
 
 namespace drift {
 
