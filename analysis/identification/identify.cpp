@@ -16,6 +16,7 @@
 #include "core/estimate/starts.hpp"
 #include "core/plan/plan_memory.hpp"
 #include "core/plan/plan_rows.hpp"
+#include "mc/study/simulated_surroundings.hpp"
 #include "mc/task/campaign.hpp"
 
 namespace drift::identification {
@@ -195,6 +196,7 @@ Identification identify_simulated(const mc::Study& study, std::uint64_t run, int
         fmt::format("{}: no [truth] to simulate from. Give a recording on the command line, "
                     "or add a section [truth]",
                     study.path));
+  mc::require_simulable_models(study);
   Identification id;
   id.simulated = true;
   Timeline timeline = lay_out(study.plan, study.site);
