@@ -204,7 +204,9 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
   d.not_examined = not_examined(nominal, d.causes);
   d.probabilities = probabilities(found, posterior, d.noise);
   d.nominal = nominal_filter;
-  d.patched = best && alarm ? started_where_found(best->filter, d.causes) : nominal_filter;
+  d.patched = best && alarm
+                  ? started_where_found(with_room_for_causes(best->filter, d.causes), d.causes)
+                  : nominal_filter;
   d.has_patch = best != nullptr && alarm;
   append(d.remarks, std::move(noise.remarks));
   append(d.remarks, judged.remarks);

@@ -58,11 +58,31 @@ Section origin(const mc::Study& study, const Diagnosis& d, const DiagnosisSource
   return section;
 }
 
-/// The patched study; where several causes remain possible, headed by what it holds.
+/// The sizes that lie beyond what was believed of them, whose priors are wider in the patched
+/// study.
+std::string widened_text(const Diagnosis& d) {
+  std::vector<std::string> priors;
+  for (const search::Cause& c : d.causes)
+    for (const search::CauseParameter& p : c.parameters) {
+      const double was = d.nominal.believed(p.param).sigma(),
+                   is = d.patched.priors[p.param].sigma();
+      if (c.set == 0 && d.patched.active[p.param] && was > 0.0 && is > was)
+        priors.push_back(fmt::format("{} ({} {}, {} times what was believed)", p.key,
+                                     number_text(is / unit_of(p.param)), p.unit,
+                                     number_text(is / was, 2)));
+    }
+  if (priors.empty()) return "";
+  return fmt::format(
+      "As wide as the size that was found {} the prior of {}: a narrower one would hold it back.",
+      priors.size() > 1 ? "are" : "is", listed(priors, "and"));
+}
+
+/// The patched study, headed by what it holds where several causes remain possible, and by the
+/// priors that are wider than those of the library.
 std::string patched_file(const mc::Study& study, const Diagnosis& d) {
   std::string out;
-  if (const std::string head = patch_text(d); !head.empty()) {
-    std::istringstream lines(wrapped(head, 98));
+  for (const std::string& head : {patch_text(d), widened_text(d)}) {
+    std::istringstream lines(head.empty() ? "" : wrapped(head, 98));
     for (std::string line; std::getline(lines, line);) out += "# " + line + "\n";
   }
   return out + patched_study(study, d.patched);
