@@ -240,6 +240,9 @@ Identification identify_recordings(const mc::Study& study, const std::vector<Rec
   run_jobs(ready.study, id, threads, progress, [&](const Job& job) {
     return estimate(ready.study, job, test.timeline, test.measured);
   });
+  id.spikes =
+      without_spikes(test.measured, test.timeline, ready.study.readout, id.runs.front().batch)
+          .spikes;
   id.absent = absent_channels(ready.recordings, ready.study.readout);
   doubt_latitude(ready.study, ready.recordings, id);
   return id;

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "core/physics/drift_model.hpp"
+#include "analysis/identification/spikes.hpp"
+#include "core/estimate/estimate_result.hpp"
 
 namespace drift::diagnosis {
 
@@ -39,7 +41,8 @@ struct LeftNotWhite {
 };
 /// Isolated samples left out, and samples given less weight.
 struct SamplesLeftOut {
-  std::size_t removed = 0, lowered = 0;
+  std::vector<identification::Spike> removed;
+  std::size_t lowered = 0;
 };
 /// No candidate fits; an unknown input of free form in one equation would.
 struct FreeInputExplains {

@@ -9,6 +9,7 @@
 #include "analysis/diagnosis/findings/fit_comparison.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
 #include "core/base/number_text.hpp"
+#include "analysis/report/page/wording.hpp"
 #include "core/base/words.hpp"
 
 namespace drift::report {
@@ -67,9 +68,10 @@ struct Words {
 
   std::string operator()(const SamplesLeftOut& r) const {
     return fmt::format(
-        "{} isolated samples were left out and {} given less weight: their residuals are larger "
+        "{} isolated sample{} {} left out{} and {} given less weight: their residuals are larger "
         "than Gaussian noise gives.",
-        r.removed, r.lowered);
+        r.removed.size(), plural(r.removed.size()), r.removed.size() == 1 ? "was" : "were",
+        spikes_text(r.removed), r.lowered);
   }
 
   std::string operator()(const FreeInputExplains& r) const {

@@ -244,6 +244,14 @@ InBrief identification_in_brief(const mc::Study& study, const identification::Id
       if (!said.empty()) brief.more.push_back(said);
     doubtful = doubtful || (believed(view) && !beyond_prior(view).empty());
   }
+  if (!id.spikes.empty()) {
+    doubtful = true;
+    brief.more.push_back(fmt::format(
+        "Outliers: {} isolated sample{} far from those around{}, and in the fit: leave {} out (an "
+        "empty cell).",
+        id.spikes.size(), id.spikes.size() == 1 ? " is" : "s are", spikes_text(id.spikes),
+        id.spikes.size() == 1 ? "it" : "them"));
+  }
   brief.tone = j.good.empty() ? Tone::bad : doubtful ? Tone::doubtful : Tone::good;
   const std::string file = study.path.empty() ? "STUDY" : study.path;
   if (const auto doubt = other_latitude(id); doubt && j.good.empty())
