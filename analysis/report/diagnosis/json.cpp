@@ -215,7 +215,9 @@ Json latitude_json(const std::optional<identification::LatitudeDoubt>& doubt) {
   return {{"declared_deg", doubt->declared / unit::deg.to_si},
           {"of_recording_deg", doubt->latitude / unit::deg.to_si},
           {"chi2_per_dof_before", doubt->chi2_per_dof_before},
-          {"chi2_per_dof_after", doubt->chi2_per_dof_after}};
+          {"chi2_per_dof_after", doubt->chi2_per_dof_after},
+          {"chance_after", doubt->chance_after},
+          {"alone", doubt->alone()}};
 }
 
 Json absent_json(const std::vector<std::string>& absent) {

@@ -19,7 +19,9 @@ namespace {
 using namespace diagnosis;
 
 std::string verdict_word(const Diagnosis& d) {
-  if (d.site_doubt) return "Wrong latitude: correct the study first.";
+  if (d.site_doubt)
+    return d.site_doubt->alone() ? "Wrong latitude: correct the study first."
+                                 : "Wrong latitude and more: correct the study first.";
   switch (d.verdict) {
     case Verdict::consistent:
       return "Consistent: nothing significant is missing.";
@@ -36,8 +38,10 @@ std::string verdict_word(const Diagnosis& d) {
 /// A study that is not of the recording has a verdict of its own: what is said of causes does not
 /// hold. (The JSON has its four words and `site_doubt`.)
 std::string headline(const Diagnosis& d) {
-  return fmt::format("Verdict {}: {}", d.site_doubt ? "wrong latitude" : text(d.verdict),
-                     sentence(d));
+  const std::string_view word = !d.site_doubt           ? text(d.verdict)
+                                : d.site_doubt->alone() ? "wrong latitude"
+                                                        : "wrong latitude and more";
+  return fmt::format("Verdict {}: {}", word, sentence(d));
 }
 
 std::string model_text(const FilterSpec& f) {
@@ -178,8 +182,12 @@ InBrief diagnosis_in_brief(const Diagnosis& d) {
     if (d.proposal) add("Proposal", form_sentence(*d.proposal));
   }
   if (d.site_doubt)
-    brief.next = fmt::format("Next: diagnose again with --set site.latitude=\"{:.3f} deg\".",
-                             d.site_doubt->latitude / unit::deg.to_si);
+    brief.next =
+        d.site_doubt->alone()
+            ? fmt::format("Next: diagnose again with --set site.latitude=\"{:.3f} deg\".",
+                          d.site_doubt->latitude / unit::deg.to_si)
+            : "Next: diagnose again with the latitude of the site as a map has it: what is "
+              "missing beside it shows then.";
   else if (!d.advice.empty())
     brief.next = "Next: " + advice_in_brief(d.advice.front());
   else if (d.verdict == Verdict::named && d.has_patch)
