@@ -4,6 +4,7 @@
 #include "analysis/identification/absent_channels.hpp"
 #include "analysis/planning/position_toml.hpp"
 #include "analysis/report/diagnosis/advice_words.hpp"
+#include "analysis/report/diagnosis/doubts.hpp"
 #include "analysis/report/diagnosis/not_examined_words.hpp"
 #include "analysis/report/diagnosis/sections.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
@@ -241,6 +242,7 @@ Json diagnosis_document(const Diagnosis& d) {
   out["sentence"] = sentence(d);
   out["latitude"] = latitude_json(d.site_doubt);
   out["absent"] = absent_json(d.absent);
+  out["beyond_prior"] = beyond_prior_json(d);
   out["other_equation_gain"] = d.other_equation_gain;
   out["where"] = where_json(d.where);
   out["causes"] = causes_json(d.causes);

@@ -7,9 +7,10 @@
 #include <cmath>
 
 #include "analysis/diagnosis/findings/fit_comparison.hpp"
+#include "analysis/report/diagnosis/doubts.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
-#include "core/base/number_text.hpp"
 #include "analysis/report/page/wording.hpp"
+#include "core/base/number_text.hpp"
 #include "core/base/words.hpp"
 
 namespace drift::report {
@@ -102,15 +103,9 @@ struct Words {
   }
 
   std::string operator()(const BeyondPrior& r) const {
-    constexpr std::size_t most = 6;
-    std::vector<std::string> keys;
-    for (const std::size_t param : r.params)
-      keys.emplace_back(TermLibrary::specs[param].key.view());
-    return fmt::format(
-        "The fit takes {} up to {:.0f} sigmas from where their priors have them. If that "
-        "is not this unit, the study is not of this recording: check [site] latitude, axes and "
-        "commands of the plan, and the priors",
-        listed_up_to(keys, most), r.farthest);
+    return beyond_prior_text(r) +
+           ". If that is not this unit, the study is not of this recording: check [site] latitude, "
+           "axes and commands of the plan, and the priors";
   }
 
   std::string operator()(const OtherEquation& r) const {

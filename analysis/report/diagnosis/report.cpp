@@ -7,6 +7,7 @@
 #include "analysis/diagnosis/advice/patched_study.hpp"
 #include "analysis/planning/position_toml.hpp"
 #include "analysis/report/diagnosis/advice_words.hpp"
+#include "analysis/report/diagnosis/doubts.hpp"
 #include "analysis/report/diagnosis/form_words.hpp"
 #include "analysis/report/diagnosis/sections.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
@@ -176,11 +177,18 @@ InBrief diagnosis_in_brief(const Diagnosis& d) {
   const auto add = [&](std::string_view head, const std::string& sentence) {
     if (!sentence.empty()) brief.more.push_back(fmt::format("{}: {}", head, sentence));
   };
+  const auto add_doubts = [&] {
+    for (const auto& [head, sentence] : doubts_of(d)) add(head, sentence);
+  };
+  // Of what is not explained it is no news that parameters take it up.
+  const bool unexplained = d.verdict == Verdict::unexplained;
+  if (!d.site_doubt && !unexplained) add_doubts();
   if (d.verdict != Verdict::consistent && !d.site_doubt) {
     add("Where", where_sentence(d.where));
     add("Held out", held_out_sentence(d.fit.held_out));
     if (d.proposal) add("Proposal", form_sentence(*d.proposal));
   }
+  if (!d.site_doubt && unexplained) add_doubts();
   if (d.site_doubt)
     brief.next =
         d.site_doubt->alone()
@@ -206,6 +214,8 @@ Report diagnosis_report(const mc::Study& study, const Diagnosis& d, const Diagno
   report.subtitle = fmt::format("{} {}", verdict_word(d), fmt::join(source.recordings, ", "));
   report.brief = diagnosis_in_brief(d);
   report.headlines.push_back(sentence(d));
+  if (!d.site_doubt)
+    for (const auto& [head, sentence] : doubts_of(d)) report.headlines.push_back(sentence);
   if (d.verdict != Verdict::consistent && !d.site_doubt)
     for (const auto& sentence : {where_sentence(d.where), held_out_sentence(d.fit.held_out)})
       if (!sentence.empty()) report.headlines.push_back(sentence);

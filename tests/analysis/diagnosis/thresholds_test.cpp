@@ -63,21 +63,30 @@ TEST(Thresholds, ASpikeIsEightSigmaAndTwoRangesAway) {
   EXPECT_FALSE(is_spike(100.0, 0.0, 1.0, false, 0, 60)) << "every dwell begins so";
 }
 
-TEST(Thresholds, ParametersFiveSigmaFromTheirPriorsAreSaid) {
-  const auto said = [](double sigmas) {
+TEST(Thresholds, ParametersFartherFromTheirPriorsThanAnyWouldBeAreSaid) {
+  // 0.02 / 40 is the chance of a normal number beyond 3.48 sigma, on either side.
+  const auto beyond = [](double sigmas) {
     FilterSpec nominal;
-    nominal.active.set(0);
     BatchResult fit;
-    ParameterEstimate p;
-    p.param = 0;
-    p.prior_mean = 1.0;
-    p.prior_sigma = 2.0;
-    p.value = 1.0 - 2.0 * sigmas;
-    fit.estimate.parameters = {p};
-    return beyond_prior(nominal, fit).has_value();
+    for (std::size_t k = 0; k < 40; ++k) {
+      nominal.active.set(k);
+      ParameterEstimate p;
+      p.param = k;
+      p.prior_mean = p.value = 1.0;
+      p.prior_sigma = 2.0;
+      fit.estimate.parameters.push_back(p);
+    }
+    fit.estimate.parameters[7].value = 1.0 - 2.0 * sigmas;
+    return beyond_prior(nominal, fit, inference::SearchLimits::alpha);
   };
-  EXPECT_FALSE(said(4.9));
-  EXPECT_TRUE(said(5.1));
+  EXPECT_FALSE(beyond(3.47));
+  const auto found = beyond(3.49);
+  ASSERT_TRUE(found);
+  ASSERT_EQ(found->parameters.size(), 1u);
+  EXPECT_EQ(found->parameters[0].estimate.param, 7u);
+  EXPECT_EQ(found->of, 40u);
+  EXPECT_NEAR(found->farthest().sigmas, 3.49, 1e-9);
+  EXPECT_NEAR(found->farthest().chance, 40.0 * std::erfc(3.49 / std::sqrt(2.0)), 1e-9);
 }
 
 TEST(Thresholds, AnEquationIsOpenUpToOddsOfNinetyToOne) {

@@ -35,6 +35,50 @@ TEST(DiagnosisWords, OfTheStrongestWindowSayTheEquationOnlyIfItIsAnother) {
       << report::where_sentence(d.where);
 }
 
+/// A consistent diagnosis whose fit takes one parameter 6.1 sigma from its prior, under a field
+/// that nobody measured.
+diagnosis::Diagnosis tense(std::size_t param) {
+  diagnosis::Diagnosis d;
+  d.p_value = 8e-6;
+  const double unit = report::unit_of(param);
+  ParameterEstimate e{param, 0.0, 0.061 * unit, 0.0004 * unit, 0.0, 0.01 * unit};
+  d.remarks = {remark::BeyondPrior{{{e, 6.1, 6e-8}}, 60}, remark::FieldAssumed{}};
+  return d;
+}
+
+TEST(DiagnosisWords, AParameterFarFromItsPriorIsInTheShortAnswerOfAnyVerdict) {
+  const auto M_y = TermLibrary::find("M_y").value();
+  const auto d = tense(M_y);
+  std::string said = report::brief_text(report::diagnosis_in_brief(d), 400);
+  EXPECT_NE(said.find("Prior: The fit takes M_y 6.1 prior sigmas from its prior, 0.0610±0.0004 "
+                      "deg/h/gauss against 0±0.01 (chance of that for any of 60 parameters: 6e-8): "
+                      "the prior is wrong, or M_y takes up something that the model lacks."),
+            std::string::npos)
+      << said;
+  EXPECT_NE(said.find("Field: M_y hangs on a magnetic field that is assumed"), std::string::npos)
+      << said;
+  EXPECT_EQ(report::brief_text(report::diagnosis_in_brief(d), 80).find(" ..."), std::string::npos);
+  const json out = json::parse(report::to_json(d));
+  ASSERT_EQ(out["beyond_prior"].size(), 1u);
+  EXPECT_EQ(out["beyond_prior"][0]["key"], "M_y");
+  EXPECT_NEAR(out["beyond_prior"][0]["value"].get<double>(), 0.061, 1e-12);
+  EXPECT_EQ(out["beyond_prior"][0]["prior_sigmas"], 6.1);
+  // A drift does not hang on the field; a named cause may.
+  diagnosis::Diagnosis other = tense(TermLibrary::find("D_F_y").value());
+  said = report::brief_text(report::diagnosis_in_brief(other), 400);
+  EXPECT_NE(said.find("D_F_y 6.1 prior sigmas"), std::string::npos) << said;
+  EXPECT_EQ(said.find("Field:"), std::string::npos) << said;
+  other = testing::diagnosis(nominal());
+  other.remarks = {remark::FieldAssumed{}};
+  EXPECT_EQ(report::brief_text(report::diagnosis_in_brief(other), 400).find("Field:"),
+            std::string::npos);
+  other.causes[0].term = "magnetic_drift";
+  said = report::brief_text(report::diagnosis_in_brief(other), 400);
+  EXPECT_NE(said.find("Field: magnetic_drift.y hangs on a magnetic field"), std::string::npos)
+      << said;
+  EXPECT_TRUE(json::parse(report::to_json(other))["beyond_prior"].empty());
+}
+
 TEST(DiagnosisTables, SayALikenessOnceByItsAxis) {
   diagnosis::Diagnosis d = testing::diagnosis(nominal());
   d.causes[0].confusable_with = {
