@@ -244,13 +244,6 @@ InBrief identification_in_brief(const mc::Study& study, const identification::Id
   InBrief brief;
   brief.verdict = verdict_text(j, id);
   bool doubtful = j.wrong || !id.absent.empty();
-  for (const identification::FilterSummary& s : id.summaries) {
-    const FilterView view{study, id, s};
-    brief.more.push_back(count_text(view));
-    for (const std::string& said : {outside_text(view), beyond_text(view)})
-      if (!said.empty()) brief.more.push_back(said);
-    doubtful = doubtful || (believed(view) && !beyond_prior(view).empty());
-  }
   if (!id.spikes.empty()) {
     doubtful = true;
     brief.more.push_back(fmt::format(
@@ -258,6 +251,13 @@ InBrief identification_in_brief(const mc::Study& study, const identification::Id
         "empty cell).",
         id.spikes.size(), id.spikes.size() == 1 ? " is" : "s are", spikes_text(id.spikes),
         id.spikes.size() == 1 ? "it" : "them"));
+  }
+  for (const identification::FilterSummary& s : id.summaries) {
+    const FilterView view{study, id, s};
+    brief.more.push_back(count_text(view));
+    for (const std::string& said : {which_counts(view), outside_text(view), beyond_text(view)})
+      if (!said.empty()) brief.more.push_back(said);
+    doubtful = doubtful || (believed(view) && !beyond_prior(view).empty());
   }
   brief.tone = j.good.empty() ? Tone::bad : doubtful ? Tone::doubtful : Tone::good;
   const std::string file = study.path.empty() ? "STUDY" : study.path;
