@@ -103,7 +103,7 @@ Command new_command() {
   const auto add = [](CLI::App& app, NewArguments& a) {
     app.add_option("kind", a.kind, "platform, strapdown, study, sweep or diagnose")
         ->required()
-        ->check(CLI::IsMember({"platform", "strapdown", "study", "sweep", "diagnose"}));
+        ->check(one_of({"platform", "strapdown", "study", "sweep", "diagnose"}));
     app.add_option("recording", a.recording, "recording to fill it from (.csv, .txt, .h5, .mat)");
     add_output(app, a.output, "study file to write")->required();
   };
