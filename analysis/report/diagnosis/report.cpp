@@ -184,9 +184,9 @@ InBrief diagnosis_in_brief(const Diagnosis& d) {
   const bool unexplained = d.verdict == Verdict::unexplained;
   if (!d.site_doubt && !unexplained) add_doubts();
   if (d.verdict != Verdict::consistent && !d.site_doubt) {
+    if (d.proposal) add("Proposal", form_sentence(*d.proposal));
     add("Where", where_sentence(d.where));
     add("Held out", held_out_sentence(d.fit.held_out));
-    if (d.proposal) add("Proposal", form_sentence(*d.proposal));
   }
   if (!d.site_doubt && unexplained) add_doubts();
   if (d.site_doubt)

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "analysis/report/diagnosis/form_words.hpp"
 #include "analysis/report/diagnosis/sections.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
 #include "tests/analysis/report/diagnosis/diagnosis_fixture.hpp"
@@ -77,6 +78,21 @@ TEST(DiagnosisWords, AParameterFarFromItsPriorIsInTheShortAnswerOfAnyVerdict) {
   EXPECT_NE(said.find("Field: magnetic_drift.y hangs on a magnetic field"), std::string::npos)
       << said;
   EXPECT_TRUE(json::parse(report::to_json(other))["beyond_prior"].empty());
+}
+
+TEST(DiagnosisWords, AFormThatIsATermOfTheLibraryIsCalledByItsName) {
+  Proposal p;
+  p.acts_on = "drift.y";
+  p.equation = "A*field_y";
+  EXPECT_EQ(report::form_sentence(p).find("on this plan"), std::string::npos);
+  p.known = "M_y";
+  EXPECT_NE(report::form_sentence(p).find("drift.y += A*field_y, which on this plan is magnetic "
+                                          "sensitivity, gyro y (magnetic_drift.y: M_y), with"),
+            std::string::npos)
+      << report::form_sentence(p);
+  p.in_nominal = true;
+  EXPECT_NE(report::form_sentence(p).find("The nominal model has that term"), std::string::npos);
+  EXPECT_EQ(report::form_json(p)["known"], "M_y");
 }
 
 TEST(DiagnosisTables, SayALikenessOnceByItsAxis) {
