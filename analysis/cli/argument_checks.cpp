@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <charconv>
 #include <limits>
 
@@ -32,6 +33,12 @@ std::string check_seed(const std::string& text) {
       "'{}' is no seed (expected a whole number from 0 to 2^63-1, or \"0x...\" up to 2^64-1). "
       "Choose another",
       text);
+}
+
+std::string check_one_of(const std::string& text, std::span<const std::string_view> names) {
+  if (std::ranges::find(names, text) != names.end()) return {};
+  return fmt::format("'{}' is not known (expected one of {}). {}", text, fmt::join(names, ", "),
+                     config::suggestion(text, names, "Use one of these"));
 }
 
 std::string check_path(const std::string& text) {

@@ -17,6 +17,9 @@ std::string check_whole(const std::string& text, std::uint64_t least, std::uint6
 /// Any seed, as a decimal number or "0x...".
 std::string check_seed(const std::string& text);
 
+/// One of some names; the nearest is asked about.
+std::string check_one_of(const std::string& text, std::span<const std::string_view> names);
+
 /// The name of a file or folder.
 std::string check_path(const std::string& text);
 

@@ -4,6 +4,7 @@
 #include "analysis/cli/print.hpp"
 #include "core/plan/case_heading.hpp"
 #include "core/plan/plan_memory.hpp"
+#include "mc/study/simulated_surroundings.hpp"
 
 namespace drift::cli {
 namespace {
@@ -33,6 +34,7 @@ void tell_assumed_gravity(const mc::Study& study) {
 ExitCode check(const StudyArguments& arguments) {
   const mc::Study study = arguments.read();
   if (study.kind == RecordingKind::platform) require_memory_for(study.plan);
+  mc::require_simulable_truth(study);
   std::size_t key_width = 0, value_width = 0;
   for (const mc::Resolved& r : study.resolved) {
     key_width = std::max(key_width, r.key.size());

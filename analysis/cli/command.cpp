@@ -1,5 +1,9 @@
 #include "analysis/cli/command.hpp"
 
+#include <fmt/ranges.h>
+
+#include <utility>
+
 #include "analysis/cli/argument_checks.hpp"
 
 namespace drift::cli {
@@ -22,7 +26,7 @@ void add_threads(CLI::App& app, int& threads) {
 
 void add_progress(CLI::App& app, std::string& style) {
   app.add_option("--progress", style, "auto, plain, json or none")
-      ->check(CLI::IsMember({"auto", "plain", "json", "none"}));
+      ->check(one_of({"auto", "plain", "json", "none"}));
 }
 
 void add_full(CLI::App& app) {
@@ -35,6 +39,12 @@ CLI::Option* add_output(CLI::App& app, std::string& path, const std::string& wha
 
 void add_folder(CLI::App& app, std::string& folder) {
   app.add_option("folder", folder, "results folder of `run`")->required();
+}
+
+CLI::Validator one_of(std::vector<std::string_view> names) {
+  std::string listed = fmt::format("{{{}}}", fmt::join(names, ","));
+  return {[names = std::move(names)](std::string& text) { return check_one_of(text, names); },
+          std::move(listed)};
 }
 
 std::function<std::string(std::string)> whole(std::uint64_t least, std::uint64_t most) {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "analysis/cli/study_arguments.hpp"
 #include "core/base/check.hpp"
@@ -62,6 +63,9 @@ void add_folder(CLI::App& app, std::string& folder);
 
 /// "driftscope 0.1.0 (commit)".
 std::string version_line();
+
+/// The check of an argument that is one of some names, which --help lists.
+CLI::Validator one_of(std::vector<std::string_view> names);
 
 inline constexpr std::uint64_t last_run = 999999999;  ///< monte_carlo.runs is at most 1e9
 /// The check of an option that is a whole number.

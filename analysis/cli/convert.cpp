@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "analysis/cli/command.hpp"
 #include "analysis/cli/print.hpp"
 #include "core/base/output_file.hpp"
@@ -8,6 +10,16 @@
 
 namespace drift::cli {
 namespace {
+
+/// Where the recording was made, for the study that is made for it next (`new`).
+void add_site(const mc::Study& study, Recording& recording) {
+  for (const std::string key : {"latitude", "gravity"}) {
+    std::erase_if(recording.facts, [&](const auto& fact) { return fact.first == key; });
+    const auto given = std::ranges::find(study.resolved, "site." + key, &mc::Resolved::key);
+    if (given != study.resolved.end() && !given->origin.starts_with("default"))
+      recording.facts.emplace_back(key, given->value);
+  }
+}
 
 /// Writes the recording with the program's own columns and units.
 ExitCode convert(const StudyArguments& arguments, const std::string& recording,
@@ -23,6 +35,7 @@ ExitCode convert(const StudyArguments& arguments, const std::string& recording,
   facts.insert(facts.begin(), {{std::string(made_here), "converted"},
                                {"converted_from", utf8_text(recording)},
                                {"converted_with", utf8_text(study.path)}});
+  add_site(study, r);
   write_recording(r, output);
   r.source = output;
   show("{}", to_text(quality_card(r, study.kind)));

@@ -6,6 +6,7 @@
 #include "core/base/utf8.hpp"
 #include "core/recording/recording_output.hpp"
 #include "core/recording/rows/quality_card.hpp"
+#include "mc/study/simulated_surroundings.hpp"
 
 namespace drift::cli {
 namespace {
@@ -36,6 +37,7 @@ ExitCode simulate(const StudyArguments& arguments, const std::string& output, st
         fmt::format("{}: the loop of [truth] is fed back from a filter, so there is no recording "
                     "without one. Use `driftscope identify`, or truth.loop.estimate = \"given\"",
                     study.path));
+  mc::require_simulable_truth(study);
   require_output_file(output, {study.path},
                       [](const std::string& path) { return not_made_here(path); });
   Timeline timeline = lay_out(study.plan, study.site);

@@ -5,6 +5,7 @@
 
 #include "analysis/identification/beyond_prior.hpp"
 #include "analysis/inference/thresholds.hpp"
+#include "core/stats/normal.hpp"
 
 namespace drift::diagnosis {
 namespace {
@@ -105,14 +106,21 @@ std::optional<remark::LeftNotWhite> left_not_white(const Whiteness& w) {
   return remark::LeftNotWhite{w.ljung_box_p_before, w.ljung_box_p_after};
 }
 
-std::optional<remark::BeyondPrior> beyond_prior(const FilterSpec& nominal, const BatchResult& fit) {
+std::optional<remark::BeyondPrior> beyond_prior(const FilterSpec& nominal, const BatchResult& fit,
+                                                double alpha) {
   remark::BeyondPrior out;
-  for (const auto& [param, sigmas] : identification::beyond_prior(fit.estimate)) {
-    if (!nominal.active[param]) continue;  // of a cause: its size is told elsewhere
-    out.params.push_back(param);
-    out.farthest = std::max(out.farthest, sigmas);
-  }
-  if (out.params.empty()) return std::nullopt;
+  // Of a cause: its size is told elsewhere.
+  out.of = static_cast<std::size_t>(std::ranges::count_if(
+      fit.estimate.parameters,
+      [&](const ParameterEstimate& p) { return nominal.active[p.param] && p.prior_sigma > 0.0; }));
+  if (out.of == 0) return std::nullopt;
+  const double tries = static_cast<double>(out.of);
+  for (const auto& [param, sigmas] :
+       identification::beyond_prior(fit.estimate, stats::normal_half_width(1.0 - alpha / tries)))
+    if (nominal.active[param])
+      out.parameters.push_back(
+          {*fit.estimate.find(param), sigmas, tries * 2.0 * stats::normal_distribution(-sigmas)});
+  if (out.parameters.empty()) return std::nullopt;
   return out;
 }
 

@@ -204,7 +204,9 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
   d.not_examined = not_examined(nominal, d.causes);
   d.probabilities = probabilities(found, posterior, d.noise);
   d.nominal = nominal_filter;
-  d.patched = best && alarm ? started_where_found(best->filter, d.causes) : nominal_filter;
+  d.patched = best && alarm
+                  ? started_where_found(with_room_for_causes(best->filter, d.causes), d.causes)
+                  : nominal_filter;
   d.has_patch = best != nullptr && alarm;
   append(d.remarks, std::move(noise.remarks));
   append(d.remarks, judged.remarks);
@@ -215,7 +217,8 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
   if (d.nearest_known) append(d.remarks, strongest_left(nominal, found));
   if (d.verdict == Verdict::consistent) append(d.remarks, noise_or_effect(nominal));
   // A cause moves parameters: they are looked at with it in the model.
-  append(d.remarks, beyond_prior(nominal_filter, best && alarm ? best->after.fit : nominal.fit));
+  append(d.remarks, beyond_prior(nominal_filter, best && alarm ? best->after.fit : nominal.fit,
+                                 options.search.alpha));
   append(d.remarks, equation_against_other(d));
   return d;
 }

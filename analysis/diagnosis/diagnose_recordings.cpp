@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "analysis/diagnosis/advice/advise.hpp"
+#include "analysis/diagnosis/advice/alternatives.hpp"
 #include "analysis/diagnosis/recording_spans.hpp"
 #include "analysis/diagnosis/site_doubt.hpp"
 #include "analysis/identification/absent_channels.hpp"
@@ -57,6 +58,8 @@ void name_unmapped_temperature(const std::vector<Recording>& recordings,
 
 Diagnosis diagnose_recordings(const mc::Study& study, const std::vector<Recording>& recordings,
                               const RecordingsOptions& options) {
+  if (options.advising == Advising::on_request && !study.filters.empty())
+    require_askable(study.filters.front(), options.asked);
   const preparation::Prepared test = preparation::prepare(study, recordings);
   const StageReport& progress = options.diagnose.progress;
   // Where nothing is advised the rest takes a moment.

@@ -7,17 +7,19 @@
 
 namespace drift::diagnosis {
 
-NoiseFound noise_found(const search::Fitted& fitted, std::size_t spikes) {
+NoiseFound noise_found(const search::Fitted& fitted,
+                       const std::vector<identification::Spike>& spikes) {
   NoiseFound out{fitted.noise.findings, {}};
   std::size_t lowered = 0;
   for (const double w : fitted.problem.weight) lowered += w < 1.0;
-  if (spikes + lowered == 0) return out;
+  const std::size_t removed = spikes.size();
+  if (removed + lowered == 0) return out;
   inference::NoiseFinding f;
   f.component = "outliers";
   f.factor = f.factor_sigma = std::nan("");
   f.unit = "samples";
-  f.value = static_cast<double>(spikes + lowered);
-  f.count = spikes;
+  f.value = static_cast<double>(removed + lowered);
+  f.count = removed;
   f.significant = true;
   f.p_value = inference::RemarkLimits::outliers_p;
   out.findings.push_back(f);

@@ -16,7 +16,8 @@ struct NoiseFound {
 };
 
 /// spikes: samples left out as outliers.
-NoiseFound noise_found(const search::Fitted& fitted, std::size_t spikes);
+NoiseFound noise_found(const search::Fitted& fitted,
+                       const std::vector<identification::Spike>& spikes);
 
 /// Noise that drives all gyros alike is noise. Where one gyro alone explains the test decisively
 /// better, it is something that happens to this axis.

@@ -1,7 +1,6 @@
 #include "analysis/diagnosis/nominal_fit.hpp"
 
 #include "analysis/diagnosis/compare.hpp"
-#include "analysis/diagnosis/spikes.hpp"
 #include "mc/task/campaign.hpp"
 
 namespace drift::diagnosis {
@@ -18,10 +17,11 @@ NominalFit fit_nominal(const FilterSpec& nominal, const MeasuredTest& given,
   };
   out.fit = fit_at(prior);
   for (int round = 0; round < most_rounds; ++round) {
-    Despiked clean = without_spikes(out.measured, test.timeline, test.readout, out.fit);
-    if (clean.removed == 0) break;
+    identification::Despiked clean =
+        identification::without_spikes(out.measured, test.timeline, test.readout, out.fit);
+    if (clean.spikes.empty()) break;
     out.measured = std::move(clean.measured);
-    out.spikes += clean.removed;
+    out.spikes.insert(out.spikes.end(), clean.spikes.begin(), clean.spikes.end());
     out.fit = fit_at(theta_of(nominal, out.fit));
   }
   std::vector<BatchResult> fits = fit_from_starts(nominal, nominal, test, starts, prior);

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "analysis/identification/spikes.hpp"
 #include "analysis/inference/signatures.hpp"
 #include "core/estimate/batch.hpp"
 
@@ -10,8 +11,8 @@ namespace drift::diagnosis {
 
 /// The nominal model fitted to a test, from every start; the best is kept.
 struct NominalFit {
-  Measurements measured;   ///< without isolated gross samples
-  std::size_t spikes = 0;  ///< of which there were so many
+  Measurements measured;                      ///< without isolated gross samples
+  std::vector<identification::Spike> spikes;  ///< those samples
   BatchResult fit;
   double start_spread = 0.0;  ///< largest start-consistency ratio; NaN with one start
 };

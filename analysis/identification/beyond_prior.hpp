@@ -2,17 +2,19 @@
 
 #include <vector>
 
+#include "analysis/inference/thresholds.hpp"
 #include "core/estimate/estimate_result.hpp"
 
 namespace drift::identification {
 
-/// A parameter that an estimate takes further from its prior's mean than FitLimits::beyond_prior.
+/// A parameter that an estimate takes far from its prior's mean.
 struct BeyondPrior {
   std::size_t param = 0;  ///< index in TermLibrary
   double sigmas = 0.0;    ///< of the prior
 };
 
-/// All of an estimate, in its order.
-std::vector<BeyondPrior> beyond_prior(const EstimateResult& estimate);
+/// Those further than so many prior sigmas, in the order of the estimate.
+std::vector<BeyondPrior> beyond_prior(const EstimateResult& estimate,
+                                      double sigmas = inference::FitLimits::beyond_prior);
 
 }  // namespace drift::identification

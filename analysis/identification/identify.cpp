@@ -16,6 +16,7 @@
 #include "core/estimate/starts.hpp"
 #include "core/plan/plan_memory.hpp"
 #include "core/plan/plan_rows.hpp"
+#include "mc/study/simulated_surroundings.hpp"
 #include "mc/task/campaign.hpp"
 
 namespace drift::identification {
@@ -195,6 +196,7 @@ Identification identify_simulated(const mc::Study& study, std::uint64_t run, int
         fmt::format("{}: no [truth] to simulate from. Give a recording on the command line, "
                     "or add a section [truth]",
                     study.path));
+  mc::require_simulable_models(study);
   Identification id;
   id.simulated = true;
   Timeline timeline = lay_out(study.plan, study.site);
@@ -238,6 +240,9 @@ Identification identify_recordings(const mc::Study& study, const std::vector<Rec
   run_jobs(ready.study, id, threads, progress, [&](const Job& job) {
     return estimate(ready.study, job, test.timeline, test.measured);
   });
+  id.spikes =
+      without_spikes(test.measured, test.timeline, ready.study.readout, id.runs.front().batch)
+          .spikes;
   id.absent = absent_channels(ready.recordings, ready.study.readout);
   doubt_latitude(ready.study, ready.recordings, id);
   return id;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/identification/latitude_doubt.hpp"
+#include "analysis/identification/spikes.hpp"
 #include "core/estimate/batch.hpp"
 #include "core/estimate/sequential/ekf.hpp"
 #include "core/sim/simulate.hpp"
@@ -58,6 +59,7 @@ struct Identification {
   std::vector<std::string> remarks;  ///< what was left out or changed (prepare())
   std::vector<std::string> absent;   ///< channels of [readout] that no recording measured
   std::vector<SampleOfTest> samples;
+  std::vector<Spike> spikes;    ///< of recordings: as the first filter's batch fit shows them
   std::vector<FilterRun> runs;  ///< by filter, then start
   std::vector<FilterSummary> summaries;
 

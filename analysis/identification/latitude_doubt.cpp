@@ -10,6 +10,7 @@
 #include "core/base/check.hpp"
 #include "core/estimate/batch.hpp"
 #include "core/estimate/layout.hpp"
+#include "core/stats/chi_square_band.hpp"
 #include "mc/task/campaign.hpp"
 
 namespace drift::identification {
@@ -62,6 +63,10 @@ class Latitudes {
 
 }  // namespace
 
+bool LatitudeDoubt::alone() const {
+  return chance_after >= inference::SearchLimits::alpha;
+}
+
 std::optional<LatitudeDoubt> latitude_doubt(const mc::Study& study,
                                             const std::vector<Recording>& recordings,
                                             const FilterSpec& filter) {
@@ -109,8 +114,13 @@ std::optional<LatitudeDoubt> latitude_doubt(const mc::Study& study,
   take(latitudes.at({-best.latitude}));  // the mirrored valley is nearly as deep
   follow({0.2, 0.02, 0.005});
   const double prior = TermLibrary::specs[d_lat].prior_si().sigma();
-  const LatitudeDoubt doubt{best.latitude, declared, std::abs(best.latitude - declared) / prior,
-                            ends[0].per_dof(), best.per_dof()};
+  const LatitudeDoubt doubt{
+      best.latitude,
+      declared,
+      std::abs(best.latitude - declared) / prior,
+      ends[0].per_dof(),
+      best.per_dof(),
+      best.per_dof() > 1.0 ? stats::chi_square_chance(best.per_dof(), best.dof) : 1.0};
   const double excess = doubt.chi2_per_dof_before - 1.0;
   if (doubt.prior_sigmas <= SiteLimits::survey || excess <= 0.0) return std::nullopt;
   const bool explains =

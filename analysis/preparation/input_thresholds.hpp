@@ -46,7 +46,7 @@ struct GravityLimits {
   /// Earth (0.4 %). Units differ by a factor of 3 or more. Test: GravityCheck.*
   static constexpr double room = 0.05;
   static constexpr double sigmas = 5.0;     ///< of the study's own priors, beyond that
-  static constexpr std::size_t enough = 5;  ///< [rows] fewer say nothing
+  static constexpr std::size_t enough = 5;  ///< [rows] fewer say nothing, of all or of a position
 };
 
 /// When a plan is not that of the recording.

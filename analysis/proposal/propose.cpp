@@ -119,6 +119,43 @@ std::vector<search::CauseParameter> parameters_of(const Judged& best, const std:
   return out;
 }
 
+/// A parameter of the library, and how much of its trace the form's amplitude cannot copy.
+struct Likeness {
+  std::optional<std::size_t> param;
+  double unlike = 1.0;
+  bool in_nominal = false;
+
+  void meet(std::size_t other, double cosine, bool nominal) {
+    if (const double u = 1.0 - cosine * cosine; u < unlike) *this = {other, u, nominal};
+  }
+};
+
+/// The parameter of a known term whose trace is the likest. What the nominal model estimates has
+/// no trace left beside it: there the whole one is compared.
+Likeness likest(const search::Fitted& base, const search::Choice& form) {
+  Likeness found;
+  const std::vector<int> own = search::columns_of(base.set, {form});
+  if (own.size() != 1) return found;  // a pair of amplitudes is no one parameter
+  const auto is_own = [](std::size_t param) {
+    return std::ranges::find(own_terms().terms, TermLibrary::owner(param).key, &OwnTerm::key) !=
+           own_terms().terms.end();
+  };
+  for (std::size_t k = 0; k < base.set.candidates.size(); ++k) {
+    const inference::Candidate& c = base.set.candidates[k];
+    if (c.params.size() != 1 || is_own(c.params.front()) || base.scores[k].dof == 0) continue;
+    for (const inference::Variant& v : c.variants)
+      found.meet(c.params.front(), search::cosine(base.projected, own, v.columns), false);
+  }
+  const VecX column = base.projector->extra().col(own.front());
+  const std::vector<std::size_t> params = make_layout(base.filter).params;
+  for (std::size_t k = 0; k < params.size(); ++k) {
+    const VecX other = base.projector->theta().col(static_cast<Eigen::Index>(k));
+    if (!is_own(params[k]) && other.norm() > 0.0)
+      found.meet(params[k], column.dot(other) / (column.norm() * other.norm()), true);
+  }
+  return found;
+}
+
 /// The form with the setting that the full dynamics found.
 Form settled(const Judged& best) {
   Form form = best.form->screened.form;
@@ -164,6 +201,11 @@ std::optional<diagnosis::Proposal> propose(const search::Search& found,
   out.acts_on = std::string(name_in(own_targets, form.place));
   out.equation = equation_of(form, at);
   out.text = term_text(form, at, key, best.form->largest());
+  if (const Likeness like = likest(base, best.refit.choices.front());
+      like.param && inference::same_trace_of_unlike(like.unlike)) {
+    out.known = std::string(TermLibrary::specs[*like.param].key.view());
+    out.in_nominal = like.in_nominal;
+  }
   out.parameters = parameters_of(best, key);
   out.forms = screening.forms;
   out.p_value = std::exp(best.form->screened.log_p);

@@ -9,24 +9,12 @@
 #include <optional>
 
 #include "core/physics/gimbals.hpp"
+#include "core/plan/attitude_slips.hpp"
 #include "core/plan/case_heading.hpp"
 #include "core/recording/recording_channels.hpp"
 
 namespace drift {
 namespace {
-
-constexpr double largest_mismatch = 10.0 * detail::deg;
-constexpr std::size_t fewest_sights = 3;  // fewer fit several guesses
-
-/// What three channels said in one row, and the attitude that it should be.
-struct Sight {
-  std::size_t row = 0;
-  int position = 0;
-  double heading = 0.0;  ///< of the case
-  double planned = 0.0;  ///< heading of the case in the plan
-  Mat3 R_lr;             ///< of the plan
-  Vec3 seen;
-};
 
 /// How far an attitude is from the plan's as a kind of instrument sees it [rad].
 using Mismatch = double (*)(const Sight&, const Vec3& seen);
@@ -37,8 +25,9 @@ double of_accelerometers(const Sight& s, const Vec3& seen) {
 }
 
 double of_gimbals(const Sight& s, const Vec3& seen) {
-  const Mat3 R_lp = case_attitude(s.heading) * gimbal_chain(seen);
-  return rotation_vector(s.R_lr.transpose() * R_lp).norm();
+  Sight other = s;
+  other.seen = seen;
+  return gimbal_mismatch(other);
 }
 
 /// Three columns as they may have been exchanged or reversed.
@@ -93,59 +82,6 @@ std::string mixup_text(const Mixup& m, const ChannelTriple& channels, std::size_
       fmt::join(map, ", "), fmt::join(map, ", "));
 }
 
-/// Something else than exchanged columns that may be wrong with gimbal angles, and what to do.
-struct Slip {
-  void (*undo)(Sight&);
-  std::string_view text;
-};
-
-constexpr double rad_per_deg = detail::deg;
-constexpr Slip slips[] = {
-    {[](Sight& s) { s.seen /= rad_per_deg; },
-     "gimbal_outer, gimbal_middle, gimbal_inner are in another unit: the numbers look like [rad], "
-     "not [deg]. Correct the unit"},
-    {[](Sight& s) { s.seen *= rad_per_deg; },
-     "gimbal_outer, gimbal_middle, gimbal_inner are in another unit: the numbers look like [deg], "
-     "not [rad]. Correct the unit"},
-    {[](Sight& s) { s.heading = -s.heading; },
-     "the sign of case_heading is wrong (it counts from North over West). Correct the recording, "
-     "or say so in the study: [recording] columns = { case_heading = \"-case_heading\" }, with its "
-     "unit as in the header"},
-    {[](Sight& s) { s.heading = s.planned; },
-     "case_heading is not that of the plan, the gimbals are. Leave the column out, or correct it"},
-    {[](Sight& s) { s.heading = 0.0; },
-     "the case faced North in all of them. Set case_heading = \"0 deg\" in the positions of the "
-     "plan, or record case_heading"},
-    {[](Sight& s) { s.heading /= rad_per_deg; },
-     "case_heading is in another unit: the numbers look like [rad], not [deg]. Correct the unit"},
-    {[](Sight& s) { s.heading *= rad_per_deg; },
-     "case_heading is in another unit: the numbers look like [deg], not [rad]. Correct the unit"},
-    {[](Sight& s) {
-       s.seen /= rad_per_deg;
-       s.heading /= rad_per_deg;
-     },
-     "gimbal_outer, gimbal_middle, gimbal_inner and case_heading are in another unit: the numbers "
-     "look like [rad], not [deg]. Correct the units"},
-    {[](Sight& s) {
-       s.seen *= rad_per_deg;
-       s.heading *= rad_per_deg;
-     },
-     "gimbal_outer, gimbal_middle, gimbal_inner and case_heading are in another unit: the numbers "
-     "look like [deg], not [rad]. Correct the units"},
-};
-
-/// The first slip whose undoing brings every sight into place; simpler ones stand first.
-const Slip* slip_behind(const std::vector<Sight>& sights) {
-  if (sights.size() < fewest_sights) return nullptr;
-  for (const Slip& slip : slips)
-    if (std::ranges::all_of(sights, [&](Sight s) {
-          slip.undo(s);
-          return of_gimbals(s, s.seen) < largest_mismatch;
-        }))
-      return &slip;
-  return nullptr;
-}
-
 /// All positions that are elsewhere, in one message.
 std::string elsewhere_text(const TestPlan& plan, const std::vector<Sight>& wrong, std::size_t all,
                            Mismatch mismatch, const char* what) {
@@ -163,23 +99,32 @@ std::string elsewhere_text(const TestPlan& plan, const std::vector<Sight>& wrong
       wrong.size() > most ? fmt::format(" and {} more", wrong.size() - most) : "");
 }
 
-/// One kind of instrument.
-std::vector<RowMistake> mistakes_of(const TestPlan& plan, const std::vector<Sight>& sights,
-                                    const ChannelTriple& channels, Mismatch mismatch,
-                                    const char* what) {
-  std::vector<Sight> wrong;
-  for (const Sight& s : sights)
-    if (!(mismatch(s, s.seen) < largest_mismatch)) wrong.push_back(s);
-  if (wrong.empty()) return {};
-  const std::size_t row = wrong.front().row;
-  if (const auto mixup = mixup_behind(sights, mismatch))
-    return {{row, mixup_text(*mixup, channels, sights.size())}};
-  if (const Slip* slip = mismatch == of_gimbals ? slip_behind(sights) : nullptr)
-    return {{row,
-             fmt::format("in {} of {} positions the gimbal angles do not show the attitude of "
-                         "the plan (expected within {:.0f} deg); all would if this were so: {}",
-                         wrong.size(), sights.size(), largest_mismatch / detail::deg, slip->text)}};
-  return {{row, elsewhere_text(plan, wrong, sights.size(), mismatch, what)}};
+/// What one kind of instrument shows: where it is elsewhere, and why, if something simple explains
+/// all of it.
+struct Shown {
+  std::vector<Sight> sights, wrong;
+  std::optional<std::string> reason;
+};
+
+Shown shown_by(std::vector<Sight> sights, const ChannelTriple& channels, Mismatch mismatch) {
+  Shown shown{std::move(sights), {}, {}};
+  for (const Sight& s : shown.sights)
+    if (!(mismatch(s, s.seen) < largest_mismatch)) shown.wrong.push_back(s);
+  if (shown.wrong.empty()) return shown;
+  if (const auto mixup = mixup_behind(shown.sights, mismatch))
+    shown.reason = mixup_text(*mixup, channels, shown.sights.size());
+  return shown;
+}
+
+/// Whether both kinds of instrument show the same Up in every position, whatever the plan says.
+bool agree(const std::vector<Sight>& accelerometers, const std::vector<Sight>& gimbals) {
+  return std::ranges::all_of(gimbals, [&](const Sight& g) {
+    const auto a = std::ranges::find(accelerometers, g.row, &Sight::row);
+    if (a == accelerometers.end()) return true;
+    Sight as_gimbals = *a;
+    as_gimbals.R_lr = case_attitude(g.heading) * gimbal_chain(g.seen);
+    return of_accelerometers(as_gimbals, a->seen) < largest_mismatch;
+  });
 }
 
 std::vector<Sight> sights_of(const Recording& recording, const TestPlan& plan,
@@ -197,17 +142,50 @@ std::vector<Sight> sights_of(const Recording& recording, const TestPlan& plan,
   return all;
 }
 
+AngleUnits units_of(const Recording& recording) {
+  AngleUnits units;
+  units.fill(unit::rad);
+  std::size_t i = 0;
+  for (const std::string_view name : {gimbal_channels.names[0], gimbal_channels.names[1],
+                                      gimbal_channels.names[2], std::string_view("case_heading")}) {
+    if (const Channel* c = recording.find(name)) units[i] = c->unit;
+    ++i;
+  }
+  return units;
+}
+
 }  // namespace
 
 std::vector<RowMistake> attitude_mistakes(const Recording& recording, const TestPlan& plan,
                                           const Timeline& timeline) {
-  std::vector<RowMistake> all =
-      mistakes_of(plan, sights_of(recording, plan, timeline, accelerometer_channels),
-                  accelerometer_channels, of_accelerometers, "accelerometers show Up");
-  std::vector<RowMistake> of_resolvers =
-      mistakes_of(plan, sights_of(recording, plan, timeline, gimbal_channels), gimbal_channels,
-                  of_gimbals, "gimbal angles are");
-  all.insert(all.end(), of_resolvers.begin(), of_resolvers.end());
+  const auto sights = [&](const ChannelTriple& channels) {
+    return sights_of(recording, plan, timeline, channels);
+  };
+  const Shown acc =
+      shown_by(sights(accelerometer_channels), accelerometer_channels, of_accelerometers);
+  Shown gimbals = shown_by(sights(gimbal_channels), gimbal_channels, of_gimbals);
+  if (!gimbals.wrong.empty() && !gimbals.reason)
+    if (const auto slip = slip_behind(gimbals.sights, units_of(recording)))
+      gimbals.reason = fmt::format(
+          "in {} of {} positions the gimbal angles do not show the attitude of the plan (expected "
+          "within {:.0f} deg); all would if this were so: {}",
+          gimbals.wrong.size(), gimbals.sights.size(), largest_mismatch / detail::deg, *slip);
+  const auto elsewhere = [&](const Shown& s, Mismatch mismatch, const char* what) {
+    return elsewhere_text(plan, s.wrong, s.sights.size(), mismatch, what);
+  };
+  std::vector<RowMistake> all;
+  // Two instruments that agree with each other are right: what is wrong is the plan.
+  if (!acc.wrong.empty() && !gimbals.wrong.empty() && !(acc.reason && gimbals.reason) &&
+      agree(acc.sights, gimbals.sights))
+    return {{gimbals.wrong.front().row,
+             elsewhere(gimbals, of_gimbals,
+                       "accelerometers and the gimbal angles agree with each other and are")}};
+  if (!acc.wrong.empty())
+    all.push_back({acc.wrong.front().row, acc.reason.value_or(elsewhere(
+                                              acc, of_accelerometers, "accelerometers show Up"))});
+  if (!gimbals.wrong.empty())
+    all.push_back({gimbals.wrong.front().row,
+                   gimbals.reason.value_or(elsewhere(gimbals, of_gimbals, "gimbal angles are"))});
   std::ranges::stable_sort(all, {}, &RowMistake::row);
   return all;
 }

@@ -17,8 +17,9 @@ struct RowMistake {
 
 /// Where the instruments of a recording do not show the attitude that the plan has, at the first
 /// row of each caged position: 10 deg off is another plan. One mistake for each kind of instrument;
-/// where exchanging or reversing its columns, another unit of angles, or another heading of the
-/// case brings all positions into place, that is said.
+/// where exchanging or reversing its columns, another unit of some angles, or another heading of
+/// the case brings all positions into place, that is said. Where both kinds agree with each other
+/// and not with the plan, it is one mistake.
 std::vector<RowMistake> attitude_mistakes(const Recording& recording, const TestPlan& plan,
                                           const Timeline& timeline);
 

@@ -96,13 +96,6 @@ void check_columns(const Recording& r, RecordingKind kind, Problems& problems) {
                  "acc_x, acc_y, acc_z or gimbal_outer, gimbal_middle, gimbal_inner, or both", hint);
 }
 
-/// Whether a step back in time [s] may be that of a clock of 24 hours: over midnight within an
-/// hour.
-bool begins_again_at_midnight(double before, double after) {
-  constexpr double day = 86400.0, hour = 3600.0;
-  return before <= day && before > day - hour && after >= 0.0 && after < hour;
-}
-
 void check_time(const Recording& r, Problems& problems) {
   const Channel* time = r.find("time");
   if (!time) return;
@@ -217,6 +210,11 @@ bool equal_lengths(const RawRecording& raw, Problems& problems) {
 }
 
 }  // namespace
+
+bool begins_again_at_midnight(double before, double after) {
+  constexpr double day = 86400.0, hour = 3600.0;
+  return before <= day && before > day - hour && after >= 0.0 && after < hour;
+}
 
 Recording checked_recording(RawRecording raw, RecordingKind kind, double gravity,
                             Problems& problems) {

@@ -230,6 +230,11 @@ Manifest read_manifest(const std::string& folder) {
                      fmt::format("{}: cannot be read: {} (expected the manifest of a study). Check "
                                  "the path and its permissions",
                                  path, std::strerror(errno)));
+  if (!text && !std::filesystem::exists(folder))
+    throw InputError(ExitCode::store,
+                     fmt::format("{}: there is no such folder (expected one that holds results of "
+                                 "`driftscope run`). Give the folder that was named with -o",
+                                 folder));
   if (!text)
     throw InputError(
         ExitCode::store,

@@ -6,7 +6,7 @@
 
 #include "core/base/check.hpp"
 #include "core/plan/environment.hpp"
-#include "core/sim/surroundings.hpp"
+#include "mc/study/simulated_surroundings.hpp"
 #include "mc/task/study_worker.hpp"
 #include "mc/task/unmodelled.hpp"
 
@@ -40,18 +40,6 @@ void check(const Study& study) {
   if (!messages.empty()) throw InputError(ExitCode::config, messages);
 }
 
-/// What truth and filters need of the surroundings is there, or no run can be made.
-void check_surroundings(const Study& study, const Timeline& timeline) {
-  std::vector<std::string> messages;
-  const auto add = [&](const std::string& where, const ModelSpec& model) {
-    for (const std::string& what : missing_covariates(model.model(), timeline))
-      messages.push_back(fmt::format("{}: {}: {}", study.path, where, what));
-  };
-  add("[truth]", study.truth);
-  for (const FilterSpec& filter : study.filters) add("filter." + filter.name, filter);
-  if (!messages.empty()) throw InputError(ExitCode::config, messages);
-}
-
 }  // namespace
 
 StudyTask::StudyTask(Study study)
@@ -61,7 +49,7 @@ StudyTask::StudyTask(Study study)
       named_(layout_.named()) {
   set_loop(timeline_, study_.truth);
   set_environment(timeline_, study_.environment, study_.monte_carlo.seed, 0);
-  check_surroundings(study_, timeline_);
+  require_simulable_models(study_);
 }
 
 std::size_t StudyTask::together() const {

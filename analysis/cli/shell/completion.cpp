@@ -81,7 +81,7 @@ Command completion_command() {
     a.program = app.get_parent();
     app.add_option("shell", a.shell, "bash, zsh or fish")
         ->required()
-        ->check(CLI::IsMember({"bash", "zsh", "fish"}));
+        ->check(one_of({"bash", "zsh", "fish"}));
   };
   return {"completion", group::program, "a script that lets the shell complete commands and keys",
           "source <(driftscope completion bash)",

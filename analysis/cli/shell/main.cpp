@@ -37,7 +37,7 @@ class Program {
       std::ostringstream out, err;
       const int code = app_.exit(e, out, err);
       cli::show_text(out.str());
-      cli::complain_text(err.str());
+      cli::complain_text((code != 0 ? "error: " : "") + err.str());
       if (code != 0)
         for (const CLI::App* chosen : app_.get_subcommands())
           cli::complain("{}\n", chosen->get_footer());

@@ -70,15 +70,17 @@ ExitCode make_study(const NewArguments& a) {
   require_output_file(a.output, {a.recording},
                       [](const std::string&) { return "a file that may hold work of yours"; });
   std::optional<RecordedPlan> plan;
+  RecordedSite site;
   std::string mapping, blanks;
   if (!a.recording.empty()) {
     const LookedAt seen =
         look_at(a.recording, on_case ? RecordingKind::strapdown : RecordingKind::platform);
     mapping = seen.mapping;
     blanks = seen.blanks;
+    if (seen.recording) site = recorded_site(*seen.recording);
     if (!on_case && seen.recording) plan = recorded_plan(*seen.recording);
   }
-  const std::string text = study_template(kind, plan, mapping);
+  const std::string text = study_template(kind, plan, mapping, site);
   if (blanks.empty()) mc::read_study_tree(config::parse_document(text, a.output), a.output);
   AtomicFile file(a.output);
   if (!(std::ofstream(file.temporary(), std::ios::binary) << text << std::flush))
@@ -101,7 +103,7 @@ Command new_command() {
   const auto add = [](CLI::App& app, NewArguments& a) {
     app.add_option("kind", a.kind, "platform, strapdown, study, sweep or diagnose")
         ->required()
-        ->check(CLI::IsMember({"platform", "strapdown", "study", "sweep", "diagnose"}));
+        ->check(one_of({"platform", "strapdown", "study", "sweep", "diagnose"}));
     app.add_option("recording", a.recording, "recording to fill it from (.csv, .txt, .h5, .mat)");
     add_output(app, a.output, "study file to write")->required();
   };

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/config/node.hpp"
 #include "core/physics/earth.hpp"
 #include "core/physics/gimbals.hpp"
 #include "core/recording/recording_channels.hpp"
@@ -169,29 +170,40 @@ RecordedPlan recorded_plan(const Recording& r) {
   return plan;
 }
 
+RecordedSite recorded_site(const Recording& recording) {
+  RecordedSite site;
+  for (const auto& [key, value] : recording.facts) {
+    if (key == "latitude") site.latitude = value;
+    if (key == "gravity") site.gravity = value;
+  }
+  return site;
+}
+
 std::string study_template(StudyKind kind, const std::optional<RecordedPlan>& plan,
-                           const std::string& mapping) {
+                           const std::string& mapping, const RecordedSite& site) {
+  const auto quoted = [](const std::string& value) {
+    return config::to_toml(config::text_node(value));
+  };
   std::string text = fmt::format(
       "# `driftscope check` says where a value is wrong, `driftscope schema` what may stand here.\n"
-      "schema = 1\ntitle  = \"{}\"\n\n[site]\nlatitude = \"45 deg\"        # of the laboratory: "
-      "correct it\n",
-      title_of(kind));
+      "schema = 1\ntitle  = \"{}\"\n\n[site]\nlatitude = {:<15} # of the laboratory{}\n"
+      "gravity  = {:<15} # there",
+      title_of(kind), quoted(site.latitude.value_or("45 deg")),
+      site.latitude ? ", as the recording has it" : ": correct it",
+      quoted(site.gravity.value_or("9.80665 m/s^2")));
   if (kind == StudyKind::strapdown)
     text +=
-        "gravity  = \"9.80665 m/s^2\" # there\n\n[plan]\nkind       = \"strapdown\"\nstatic_min "
-        "= \"2 s\"        # the shortest rest that counts\n"
+        "\n\n[plan]\nkind       = \"strapdown\"\nstatic_min = \"2 s\"        # the shortest rest "
+        "that counts\n"
         "# On a table with fixed axes (not moved by hand), gyros that see the Earth: "
         "accelerometers\n"
         "# are read in turns, too, and show their lever arms and their delay.\n"
         "# accelerometers_in_turns = true\n";
   else
-    text +=
-        "gravity  = \"9.80665 m/s^2\" # there: a recording in m/s^2 is divided by it, and K1 is "
-        "off "
-        "by as many ppm\n" +
-        plan_text(plan, kind == StudyKind::sweep ? Dwells::alike : Dwells::as_recorded) +
-        "\n[readout]\naccelerometer_noise = \"5 ug\"      # 1 sigma of a sample: of the data "
-        "sheet, or of a rest\ngimbal_noise        = \"5 arcsec\"\n";
+    text += ": a recording in m/s^2 is divided by it, and K1 is off by as many ppm\n" +
+            plan_text(plan, kind == StudyKind::sweep ? Dwells::alike : Dwells::as_recorded) +
+            "\n[readout]\naccelerometer_noise = \"5 ug\"      # 1 sigma of a sample: of the data "
+            "sheet, or of a rest\ngimbal_noise        = \"5 arcsec\"\n";
   if (!mapping.empty()) text += "\n" + mapping;
   if (kind == StudyKind::study || kind == StudyKind::sweep) text += simulated_text();
   text += filter_text(kind == StudyKind::diagnose ? "nominal" : "eq5", "eq5");

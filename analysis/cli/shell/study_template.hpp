@@ -31,9 +31,15 @@ struct RecordedPlan {
 /// accelerometers.
 RecordedPlan recorded_plan(const Recording& recording);
 
+/// Where a recording says that it was made ("45.75 deg", "9.8067 m/s^2"), as `convert` notes it.
+struct RecordedSite {
+  std::optional<std::string> latitude, gravity;
+};
+RecordedSite recorded_site(const Recording& recording);
+
 /// A study file with a comment at everything that is to be thought about. `mapping`: the
 /// [recording] section of a file with columns of its own, or empty.
 std::string study_template(StudyKind kind, const std::optional<RecordedPlan>& plan,
-                           const std::string& mapping);
+                           const std::string& mapping, const RecordedSite& site = {});
 
 }  // namespace drift::cli

@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "analysis/cli/command.hpp"
+
 namespace drift::cli {
 namespace {
 
@@ -36,7 +38,7 @@ void add_terminal_options(CLI::App& app, TerminalOptions& options) {
   app.add_flag("--quiet", options.quiet,
                "print errors only, and what was asked for where no file takes it");
   app.add_option("--color", options.color, "auto (on a terminal, unless NO_COLOR), always or never")
-      ->check(CLI::IsMember({"auto", "always", "never"}));
+      ->check(one_of({"auto", "always", "never"}));
 }
 
 Terminal terminal_of(const TerminalOptions& options, const CLI::App& given, Result result) {

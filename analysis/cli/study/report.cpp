@@ -10,6 +10,11 @@ namespace drift::cli {
 namespace {
 
 ExitCode report(const std::string& folder, const StudyProgram& program) {
+  if (!std::filesystem::exists(folder))
+    throw InputError(ExitCode::store,
+                     fmt::format("{}: there is no such folder (expected one that holds results). "
+                                 "Give the folder that was named with -o",
+                                 folder));
   const std::string command = results_of(folder);
   if (command.empty())
     throw InputError(

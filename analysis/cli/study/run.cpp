@@ -83,12 +83,11 @@ void tell(const mc::StudyOutcome& o, const mc::EngineOptions& asked, const std::
   }
   const double rate = o.seconds > 0.0 ? static_cast<double>(o.done) / o.seconds : 0.0;
   say("{}: {} runs stored before, {} executed in {} ({:.1f} runs/s), {} failed{}\n", folder,
-      o.done_before, o.done, duration_text(o.seconds), rate, o.failed,
+      o.done_before + o.cut_short, o.done, duration_text(o.seconds), rate, o.failed,
       o.dropped > 0 ? fmt::format("; {} more, of unfinished blocks, are lost", o.dropped) : "");
   if (o.cut_short > 0)
-    say("{}: {} runs more were stored in blocks that the shorter study before ended within; "
-        "they were executed again "
-        "with the rest of their blocks\n",
+    say("{}: {} of the runs stored before were in blocks that the shorter study ended within; they "
+        "were executed again with the rest of their blocks\n",
         folder, o.cut_short);
   if (o.stored_runs > asked.runs)
     say("{}: note: {} runs per point were asked for before, {} now; the results are those "

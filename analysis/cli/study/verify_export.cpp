@@ -131,7 +131,7 @@ Command export_command() {
     add_folder(app, a.folder);
     app.add_option("--format", a.format, "hdf5, netcdf, csv or json")
         ->required()
-        ->check(CLI::IsMember({"hdf5", "netcdf", "csv", "json"}));
+        ->check(one_of({"hdf5", "netcdf", "csv", "json"}));
     add_output(app, a.output, "file to write; FOLDER/export.h5, .nc, .csv or .json by default");
   };
   return {"export", group::studies, "convert the results",

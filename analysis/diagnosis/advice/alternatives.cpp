@@ -8,6 +8,7 @@
 #include "analysis/inference/thresholds.hpp"
 #include "core/base/check.hpp"
 #include "core/config/nearest.hpp"
+#include "core/estimate/layout.hpp"
 
 namespace drift::diagnosis {
 namespace {
@@ -112,6 +113,23 @@ std::string refusal(const std::string& text) {
       text, t.key);
 }
 
+/// The candidates that each term asked for is made of. InputError (usage) where there are none.
+std::vector<Wish> wishes_of(const inference::CandidateSet& set,
+                            const std::vector<std::string>& terms) {
+  std::vector<Wish> wishes;
+  std::vector<std::string> wrong;
+  for (const std::string& text : terms) {
+    Wish wish{text, {}};
+    for (const inference::Candidate& c : set.candidates)
+      if (c.params.size() == 1 && meant(c, text) && !follows_a_covariate(c.term))
+        wish.single.push_back(&c);
+    if (wish.single.empty()) wrong.push_back(refusal(text));
+    wishes.push_back(std::move(wish));
+  }
+  if (!wrong.empty()) throw InputError(ExitCode::usage, std::move(wrong));
+  return wishes;
+}
+
 Question all_against_all(std::vector<Alternative> all) {
   Question q;
   for (std::size_t c = 0; c < all.size(); ++c)
@@ -174,18 +192,7 @@ Question named_question(const Diagnosis& d, const inference::CandidateSet& set,
 
 Question asked_question(const Diagnosis& d, const inference::CandidateSet& set,
                         const std::vector<std::string>& terms) {
-  std::vector<Wish> wishes;
-  std::vector<std::string> wrong;
-  for (const std::string& text : terms) {
-    Wish wish{text, {}};
-    for (const inference::Candidate& c : set.candidates)
-      if (c.params.size() == 1 && meant(c, text) && !follows_a_covariate(c.term))
-        wish.single.push_back(&c);
-    if (wish.single.empty()) wrong.push_back(refusal(text));
-    wishes.push_back(std::move(wish));
-  }
-  if (!wrong.empty()) throw InputError(ExitCode::usage, std::move(wrong));
-
+  const std::vector<Wish> wishes = wishes_of(set, terms);
   Question q;
   std::size_t found = 0;
   q.alternatives.emplace_back();
@@ -224,6 +231,12 @@ Question asked_question(const Diagnosis& d, const inference::CandidateSet& set,
     }
   q.sizes = found == 0 ? Sizes::one_prior_sigma : Sizes::as_found_or_one_prior_sigma;
   return q;
+}
+
+void require_askable(const FilterSpec& nominal, const std::vector<std::string>& terms) {
+  Timeline any;  // a field is assumed where none is known
+  any.has_field = any.has_temperature = true;
+  wishes_of(inference::library_candidates(nominal, make_layout(nominal).theta, any), terms);
 }
 
 Columns columns_of(const std::vector<Alternative>& all, const FilterSpec& nominal,

@@ -31,6 +31,10 @@ Question named_question(const Diagnosis& d, const inference::CandidateSet& set,
 Question asked_question(const Diagnosis& d, const inference::CandidateSet& set,
                         const std::vector<std::string>& terms);
 
+/// InputError (usage), all mistakes at once, if a term that is asked for does not exist, is in the
+/// nominal model, or follows what no plan can foretell: what can be told before a diagnosis.
+void require_askable(const FilterSpec& nominal, const std::vector<std::string>& terms);
+
 /// The signatures that a question needs, and where each alternative's are among them.
 struct Columns {
   std::vector<inference::SignatureSpec> signatures;

@@ -41,6 +41,14 @@ Node prior_node(const Prior& prior, const Unit& unit) {
   return node;
 }
 
+/// A prior as wide as a value that is farther from its mean than it makes likely.
+Prior with_room_for(Prior prior, double value) {
+  const double off = std::abs(value - prior.a);
+  if (prior.kind == Prior::Kind::normal && off > inference::WeighLimits::prior * prior.b)
+    prior.b = off;
+  return prior;
+}
+
 Node parsed(const mc::Study& study) {
   return config::parse_document(study.text, study.path);
 }
@@ -54,11 +62,7 @@ FilterSpec patched_filter(const FilterSpec& nominal, const std::vector<search::C
       patched.active.set(p.param);
       const ParamSpec& spec = TermLibrary::specs[p.param];
       const double value = p.value * spec.unit.to_si;
-      Prior prior = spec.prior_si();
-      if (prior.kind == Prior::Kind::normal &&
-          std::abs(value - prior.a) > inference::WeighLimits::prior * prior.b)
-        prior.b = std::abs(value - prior.a);
-      patched.priors[p.param] = p.profiled ? fixed(value) : prior;
+      patched.priors[p.param] = p.profiled ? fixed(value) : with_room_for(spec.prior_si(), value);
       if (p.param == closure_param) patched.coupling = family_of(patched.coupling);
     }
   // A term comes with its time constant and the like, known until the study says otherwise.
@@ -66,6 +70,17 @@ FilterSpec patched_filter(const FilterSpec& nominal, const std::vector<search::C
   for (std::size_t i = 0; i < TermLibrary::num_params; ++i)
     if (whole[i] && !patched.active[i]) patched.priors[i] = TermLibrary::specs[i].prior_si();
   patched.active = whole;
+  return patched;
+}
+
+FilterSpec with_room_for_causes(FilterSpec patched, const std::vector<search::Cause>& causes) {
+  for (const search::Cause& cause : causes)
+    for (const search::CauseParameter& p : cause.parameters) {
+      if (cause.set != 0 || p.profiled || p.param == closure_param || !patched.active[p.param])
+        continue;
+      Prior& prior = patched.priors[p.param];
+      prior = with_room_for(prior, p.value * TermLibrary::specs[p.param].unit.to_si);
+    }
   return patched;
 }
 

@@ -14,6 +14,11 @@ namespace drift::diagnosis {
 /// with lambda makes the coupling "lambda".
 FilterSpec patched_filter(const FilterSpec& nominal, const std::vector<search::Cause>& causes);
 
+/// A filter that holds causes (those of set 0) with the prior of each size as wide as what was
+/// found where that is beyond three of its sigmas: the narrow one would hold the size back, and
+/// whoever reads the filter would take the parameter, or the study, for wrong.
+FilterSpec with_room_for_causes(FilterSpec patched, const std::vector<search::Cause>& causes);
+
 /// A filter that starts where causes were found, if one of their parameters is far from linear
 /// (lambda, an onset, a time constant): from elsewhere an EKF, which linearises once, settles on a
 /// wrong value with a small sigma, and a batch fit may find another minimum. Priors stay. The

@@ -14,6 +14,9 @@ struct Proposal {
   std::string text;                                ///< a [[term]], as a study file takes it
   std::string acts_on;                             ///< "drift.x"
   std::string equation;                            ///< "A*f_x*f_z"
+  std::string known;                               ///< the parameter of the library that leaves the
+                                                   ///< same trace on this plan; empty: none does
+  bool in_nominal = false;                         ///< which the nominal model estimates
   std::vector<search::CauseParameter> parameters;  ///< as fitted through the full dynamics
   std::size_t forms = 0;                           ///< that were tried
   double p_value = 1.0;                            ///< of its score by chance, over all of them

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "analysis/identification/spikes.hpp"
+#include "core/estimate/estimate_result.hpp"
 #include "core/physics/drift_model.hpp"
 
 namespace drift::diagnosis {
@@ -39,7 +42,8 @@ struct LeftNotWhite {
 };
 /// Isolated samples left out, and samples given less weight.
 struct SamplesLeftOut {
-  std::size_t removed = 0, lowered = 0;
+  std::vector<identification::Spike> removed;
+  std::size_t lowered = 0;
 };
 /// No candidate fits; an unknown input of free form in one equation would.
 struct FreeInputExplains {
@@ -58,10 +62,18 @@ struct StrongestLeft {
   std::vector<std::string> labels;
   std::string strongest;
 };
-/// Nominal parameters that the fit takes far from their priors.
+/// Nominal parameters that the fit takes so far from their priors that these are seldom right.
 struct BeyondPrior {
-  std::vector<std::size_t> params;  ///< indices in TermLibrary
-  double farthest = 0.0;            ///< prior sigmas
+  struct Parameter {
+    ParameterEstimate estimate;
+    double sigmas = 0.0;  ///< of the prior, from its mean
+    double chance = 1.0;  ///< that any of all lies so far where every prior is right, at most
+  };
+  std::vector<Parameter> parameters;  ///< in the order of the fit
+  std::size_t of = 0;                 ///< parameters with a prior
+  const Parameter& farthest() const {
+    return *std::ranges::max_element(parameters, {}, &Parameter::sigmas);
+  }
 };
 /// The other of eq. (5) and (6) in the place of the nominal one.
 struct OtherEquation {

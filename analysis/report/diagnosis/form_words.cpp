@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "analysis/report/diagnosis/effect_words.hpp"
 #include "analysis/report/diagnosis/sections.hpp"
 #include "core/base/number_text.hpp"
 #include "core/base/words.hpp"
@@ -11,6 +12,28 @@
 namespace drift::report {
 
 using namespace diagnosis;
+
+namespace {
+
+/// The term of the library that a form is, on this plan: ", which on this plan is magnetic
+/// sensitivity, gyro y (magnetic_drift.y: M_y)". Empty: none.
+std::string known_text(const Proposal& p) {
+  const auto param = TermLibrary::find(p.known);
+  if (!param) return "";
+  const TermInfo& term = TermLibrary::owner(*param);
+  const std::string_view axis = TermLibrary::specs[*param].axis;
+  return fmt::format(", which on this plan is {} ({}: {})", in_words(term.key, axis),
+                     search::keyed(term.key, axis), p.known);
+}
+
+std::string what_to_do_text(const Proposal& p) {
+  return p.known.empty() ? ""
+         : p.in_nominal
+             ? " The nominal model has that term, under a prior that keeps it from this size."
+             : " Use that term, under a prior as wide as this, in its place.";
+}
+
+}  // namespace
 
 std::string form_sentence(const Proposal& p) {
   std::vector<std::string> numbers;
@@ -21,13 +44,13 @@ std::string form_sentence(const Proposal& p) {
                                       : number_text(parameter.value),
                                   parameter.unit));
   return fmt::format(
-      "A form that fits, not a cause: {} += {}, with {}. Of {} positions, each held out of the "
+      "A form that fits, not a cause: {} += {}{}, with {}.{} Of {} positions, each held out of the "
       "fit, "
       "chi-square per degree of freedom goes from {:.3g} to {:.3g} (log score {:+.3g}); of {} "
       "forms "
       "tried, noise alone gives one as much with a chance of {}.",
-      p.acts_on, p.equation, listed(numbers, "and"), p.positions, p.chi2_per_dof_before,
-      p.chi2_per_dof_after, p.held_out_gain, p.forms, p_text(p.p_value));
+      p.acts_on, p.equation, known_text(p), listed(numbers, "and"), what_to_do_text(p), p.positions,
+      p.chi2_per_dof_before, p.chi2_per_dof_after, p.held_out_gain, p.forms, p_text(p.p_value));
 }
 
 Section form_that_fits(const Diagnosis& d) {
@@ -51,6 +74,7 @@ Json form_json(const std::optional<Proposal>& proposal) {
                           {"unit", parameter.unit}});
   return {{"acts_on", p.acts_on},
           {"equation", p.equation},
+          {"known", text_or_null(p.known)},
           {"parameters", std::move(parameters)},
           {"p_value", p.p_value},
           {"forms_tried", p.forms},

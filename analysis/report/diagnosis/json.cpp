@@ -4,6 +4,7 @@
 #include "analysis/identification/absent_channels.hpp"
 #include "analysis/planning/position_toml.hpp"
 #include "analysis/report/diagnosis/advice_words.hpp"
+#include "analysis/report/diagnosis/doubts.hpp"
 #include "analysis/report/diagnosis/not_examined_words.hpp"
 #include "analysis/report/diagnosis/sections.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
@@ -215,7 +216,9 @@ Json latitude_json(const std::optional<identification::LatitudeDoubt>& doubt) {
   return {{"declared_deg", doubt->declared / unit::deg.to_si},
           {"of_recording_deg", doubt->latitude / unit::deg.to_si},
           {"chi2_per_dof_before", doubt->chi2_per_dof_before},
-          {"chi2_per_dof_after", doubt->chi2_per_dof_after}};
+          {"chi2_per_dof_after", doubt->chi2_per_dof_after},
+          {"chance_after", doubt->chance_after},
+          {"alone", doubt->alone()}};
 }
 
 Json absent_json(const std::vector<std::string>& absent) {
@@ -239,6 +242,7 @@ Json diagnosis_document(const Diagnosis& d) {
   out["sentence"] = sentence(d);
   out["latitude"] = latitude_json(d.site_doubt);
   out["absent"] = absent_json(d.absent);
+  out["beyond_prior"] = beyond_prior_json(d);
   out["other_equation_gain"] = d.other_equation_gain;
   out["where"] = where_json(d.where);
   out["causes"] = causes_json(d.causes);

@@ -7,7 +7,9 @@
 #include <cmath>
 
 #include "analysis/diagnosis/findings/fit_comparison.hpp"
+#include "analysis/report/diagnosis/doubts.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
+#include "analysis/report/page/wording.hpp"
 #include "core/base/number_text.hpp"
 #include "core/base/words.hpp"
 
@@ -67,9 +69,10 @@ struct Words {
 
   std::string operator()(const SamplesLeftOut& r) const {
     return fmt::format(
-        "{} isolated samples were left out and {} given less weight: their residuals are larger "
+        "{} isolated sample{} {} left out{} and {} given less weight: their residuals are larger "
         "than Gaussian noise gives.",
-        r.removed, r.lowered);
+        r.removed.size(), plural(r.removed.size()), r.removed.size() == 1 ? "was" : "were",
+        spikes_text(r.removed), r.lowered);
   }
 
   std::string operator()(const FreeInputExplains& r) const {
@@ -100,15 +103,9 @@ struct Words {
   }
 
   std::string operator()(const BeyondPrior& r) const {
-    constexpr std::size_t most = 6;
-    std::vector<std::string> keys;
-    for (const std::size_t param : r.params)
-      keys.emplace_back(TermLibrary::specs[param].key.view());
-    return fmt::format(
-        "The fit takes {} up to {:.0f} sigmas from where their priors have them. If that "
-        "is not this unit, the study is not of this recording: check [site] latitude, axes and "
-        "commands of the plan, and the priors",
-        listed_up_to(keys, most), r.farthest);
+    return beyond_prior_text(r) +
+           ". If that is not this unit, the study is not of this recording: check [site] latitude, "
+           "axes and commands of the plan, and the priors";
   }
 
   std::string operator()(const OtherEquation& r) const {

@@ -7,6 +7,7 @@
 #include "analysis/diagnosis/advice/patched_study.hpp"
 #include "analysis/planning/position_toml.hpp"
 #include "analysis/report/diagnosis/advice_words.hpp"
+#include "analysis/report/diagnosis/doubts.hpp"
 #include "analysis/report/diagnosis/form_words.hpp"
 #include "analysis/report/diagnosis/sections.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
@@ -19,7 +20,9 @@ namespace {
 using namespace diagnosis;
 
 std::string verdict_word(const Diagnosis& d) {
-  if (d.site_doubt) return "Wrong latitude: correct the study first.";
+  if (d.site_doubt)
+    return d.site_doubt->alone() ? "Wrong latitude: correct the study first."
+                                 : "Wrong latitude and more: correct the study first.";
   switch (d.verdict) {
     case Verdict::consistent:
       return "Consistent: nothing significant is missing.";
@@ -36,8 +39,10 @@ std::string verdict_word(const Diagnosis& d) {
 /// A study that is not of the recording has a verdict of its own: what is said of causes does not
 /// hold. (The JSON has its four words and `site_doubt`.)
 std::string headline(const Diagnosis& d) {
-  return fmt::format("Verdict {}: {}", d.site_doubt ? "wrong latitude" : text(d.verdict),
-                     sentence(d));
+  const std::string_view word = !d.site_doubt           ? text(d.verdict)
+                                : d.site_doubt->alone() ? "wrong latitude"
+                                                        : "wrong latitude and more";
+  return fmt::format("Verdict {}: {}", word, sentence(d));
 }
 
 std::string model_text(const FilterSpec& f) {
@@ -58,11 +63,31 @@ Section origin(const mc::Study& study, const Diagnosis& d, const DiagnosisSource
   return section;
 }
 
-/// The patched study; where several causes remain possible, headed by what it holds.
+/// The sizes that lie beyond what was believed of them, whose priors are wider in the patched
+/// study.
+std::string widened_text(const Diagnosis& d) {
+  std::vector<std::string> priors;
+  for (const search::Cause& c : d.causes)
+    for (const search::CauseParameter& p : c.parameters) {
+      const double was = d.nominal.believed(p.param).sigma(),
+                   is = d.patched.priors[p.param].sigma();
+      if (c.set == 0 && d.patched.active[p.param] && was > 0.0 && is > was)
+        priors.push_back(fmt::format("{} ({} {}, {} times what was believed)", p.key,
+                                     number_text(is / unit_of(p.param)), p.unit,
+                                     number_text(is / was, 2)));
+    }
+  if (priors.empty()) return "";
+  return fmt::format(
+      "As wide as the size that was found {} the prior of {}: a narrower one would hold it back.",
+      priors.size() > 1 ? "are" : "is", listed(priors, "and"));
+}
+
+/// The patched study, headed by what it holds where several causes remain possible, and by the
+/// priors that are wider than those of the library.
 std::string patched_file(const mc::Study& study, const Diagnosis& d) {
   std::string out;
-  if (const std::string head = patch_text(d); !head.empty()) {
-    std::istringstream lines(wrapped(head, 98));
+  for (const std::string& head : {patch_text(d), widened_text(d)}) {
+    std::istringstream lines(head.empty() ? "" : wrapped(head, 98));
     for (std::string line; std::getline(lines, line);) out += "# " + line + "\n";
   }
   return out + patched_study(study, d.patched);
@@ -152,14 +177,25 @@ InBrief diagnosis_in_brief(const Diagnosis& d) {
   const auto add = [&](std::string_view head, const std::string& sentence) {
     if (!sentence.empty()) brief.more.push_back(fmt::format("{}: {}", head, sentence));
   };
+  const auto add_doubts = [&] {
+    for (const auto& [head, sentence] : doubts_of(d)) add(head, sentence);
+  };
+  // Of what is not explained it is no news that parameters take it up.
+  const bool unexplained = d.verdict == Verdict::unexplained;
+  if (!d.site_doubt && !unexplained) add_doubts();
   if (d.verdict != Verdict::consistent && !d.site_doubt) {
+    if (d.proposal) add("Proposal", form_sentence(*d.proposal));
     add("Where", where_sentence(d.where));
     add("Held out", held_out_sentence(d.fit.held_out));
-    if (d.proposal) add("Proposal", form_sentence(*d.proposal));
   }
+  if (!d.site_doubt && unexplained) add_doubts();
   if (d.site_doubt)
-    brief.next = fmt::format("Next: diagnose again with --set site.latitude=\"{:.3f} deg\".",
-                             d.site_doubt->latitude / unit::deg.to_si);
+    brief.next =
+        d.site_doubt->alone()
+            ? fmt::format("Next: diagnose again with --set site.latitude=\"{:.3f} deg\".",
+                          d.site_doubt->latitude / unit::deg.to_si)
+            : "Next: diagnose again with the latitude of the site as a map has it: what is "
+              "missing beside it shows then.";
   else if (!d.advice.empty())
     brief.next = "Next: " + advice_in_brief(d.advice.front());
   else if (d.verdict == Verdict::named && d.has_patch)
@@ -178,6 +214,8 @@ Report diagnosis_report(const mc::Study& study, const Diagnosis& d, const Diagno
   report.subtitle = fmt::format("{} {}", verdict_word(d), fmt::join(source.recordings, ", "));
   report.brief = diagnosis_in_brief(d);
   report.headlines.push_back(sentence(d));
+  if (!d.site_doubt)
+    for (const auto& [head, sentence] : doubts_of(d)) report.headlines.push_back(sentence);
   if (d.verdict != Verdict::consistent && !d.site_doubt)
     for (const auto& sentence : {where_sentence(d.where), held_out_sentence(d.fit.held_out)})
       if (!sentence.empty()) report.headlines.push_back(sentence);

@@ -8,11 +8,11 @@
 
 #include "analysis/identification/absent_channels.hpp"
 #include "analysis/inference/thresholds.hpp"
+#include "analysis/report/diagnosis/doubts.hpp"
 #include "analysis/report/diagnosis/not_examined_words.hpp"
 #include "analysis/report/diagnosis/remark_words.hpp"
 #include "analysis/report/diagnosis/too_large.hpp"
 #include "core/base/number_text.hpp"
-#include "core/base/units.hpp"
 #include "core/base/words.hpp"
 #include "core/stats/normal.hpp"
 
@@ -233,17 +233,6 @@ std::string nearest_text(const NearestKnown& near, Instrument instrument) {
       " The nearest known is {}: chi-square per degree of freedom goes from {:.3g} to {:.3g}, and "
       "something significant is left.",
       fmt::join(words, " together with "), near.chi2_per_dof_before, near.chi2_per_dof_after);
-}
-
-/// A verdict of its own: nothing that is said of causes holds for another place on the Earth.
-std::string site_text(const identification::LatitudeDoubt& doubt) {
-  return fmt::format(
-      "The latitude of [site] is not that of the recording: at {:.3f} deg instead of {:.3f} deg "
-      "the model fits with chi-square per degree of freedom {:.3g} instead of {:.3g}. No "
-      "survey is wrong by so much (latitude_error would need {:.3g} prior sigmas): correct the "
-      "latitude and diagnose again before anything else is made of it.",
-      doubt.latitude / unit::deg.to_si, doubt.declared / unit::deg.to_si, doubt.chi2_per_dof_after,
-      doubt.chi2_per_dof_before, doubt.prior_sigmas);
 }
 
 /// What a recording does not hold though the study reads it.

@@ -154,6 +154,13 @@ std::string verdict_text(const Judgement& j, const identification::Identificatio
   const auto judged_as = [&](std::string_view word) {
     return absent.empty() ? fmt::format("{}:", word) : fmt::format("{}, {};", word, absent);
   };
+  if (const auto doubt = other_latitude(id); doubt && j.good.empty() && !doubt->alone())
+    return fmt::format(
+        "{} the latitude of [site] is not that of the recording, and something else is missing: at "
+        "about {:.1f} deg instead of {:.3f} deg chi-square per degree of freedom is {} instead of "
+        "{}, where 1 is expected.",
+        judged_as("Misfit"), doubt->latitude / unit::deg.to_si, doubt->declared / unit::deg.to_si,
+        number_text(doubt->chi2_per_dof_after), number_text(doubt->chi2_per_dof_before));
   if (const auto doubt = other_latitude(id); doubt && j.good.empty())
     return fmt::format(
         "{} the latitude of [site] is not that of the recording. At {:.3f} deg instead of {:.3f} "
@@ -237,21 +244,30 @@ InBrief identification_in_brief(const mc::Study& study, const identification::Id
   InBrief brief;
   brief.verdict = verdict_text(j, id);
   bool doubtful = j.wrong || !id.absent.empty();
+  if (!id.spikes.empty()) {
+    doubtful = true;
+    brief.more.push_back(fmt::format(
+        "Outliers: {} isolated sample{} far from those around{}, and in the fit: leave {} out (an "
+        "empty cell).",
+        id.spikes.size(), id.spikes.size() == 1 ? " is" : "s are", spikes_text(id.spikes),
+        id.spikes.size() == 1 ? "it" : "them"));
+  }
   for (const identification::FilterSummary& s : id.summaries) {
     const FilterView view{study, id, s};
     brief.more.push_back(count_text(view));
-    for (const std::string& said : {outside_text(view), beyond_text(view)})
+    for (const std::string& said : {which_counts(view), outside_text(view), beyond_text(view)})
       if (!said.empty()) brief.more.push_back(said);
     doubtful = doubtful || (believed(view) && !beyond_prior(view).empty());
   }
   brief.tone = j.good.empty() ? Tone::bad : doubtful ? Tone::doubtful : Tone::good;
   const std::string file = study.path.empty() ? "STUDY" : study.path;
-  if (const auto doubt = other_latitude(id); doubt && j.good.empty())
+  if (const auto doubt = other_latitude(id); doubt && j.good.empty() && doubt->alone())
     brief.next = fmt::format("Next: identify again with --set site.latitude=\"{:.3f} deg\".",
                              doubt->latitude / unit::deg.to_si);
   else if (!j.first_fits)
     brief.next = fmt::format(
-        "Next: driftscope diagnose {} {} says what the first filter of the study lacks.", file,
+        "Next: {}driftscope diagnose {} {} says what the first filter of the study lacks.",
+        other_latitude(id) ? "correct the latitude by a map; then " : "", file,
         id.simulated ? "RECORDING" : fmt::format("{}", fmt::join(id.sources, " ")));
   else if (j.unlearned)
     brief.next = fmt::format(

@@ -44,6 +44,10 @@ std::vector<Table> published_comparison(const mc::Study& study,
 std::vector<std::string> headlines(const mc::Study& study,
                                    const identification::Identification& id);
 
+/// Where the batch fit is what a right model gives and the EKF is not, or far from it: that the
+/// batch fit counts. Empty elsewhere, and with process noise, which the EKF alone knows.
+std::string which_counts(const FilterView& view);
+
 /// Library indices of the parameters worth a picture: the published ones; else those the study
 /// gives a true value of its own (at most 6); else the 3 that depend most on the start.
 std::vector<std::size_t> highlighted_parameters(const mc::Study& study,

@@ -23,6 +23,17 @@ Cell parameter_cell(std::size_t param) {
           fmt::format("{} [{}]", parameter_key(param), parameter_unit(param))};
 }
 
+std::string spikes_text(const std::vector<identification::Spike>& spikes) {
+  constexpr std::string_view channels[] = {"acc_x",        "acc_y",         "acc_z",
+                                           "gimbal_outer", "gimbal_middle", "gimbal_inner"};
+  constexpr std::size_t most = 2;
+  std::vector<std::string> places;
+  for (const identification::Spike& s : spikes)
+    places.push_back(
+        fmt::format("{} in position {} at {:.6g} s", channels[s.channel], s.position, s.t));
+  return places.empty() ? "" : fmt::format(" ({})", listed_up_to(places, most));
+}
+
 std::string_view plural(std::size_t count) {
   return count == 1 ? "" : "s";
 }

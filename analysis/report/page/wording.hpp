@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "analysis/identification/spikes.hpp"
 #include "analysis/report/page/report.hpp"
 #include "core/base/number_text.hpp"
 #include "core/base/words.hpp"
@@ -22,6 +23,10 @@ double unit_of(std::size_t param);
 
 /// "D_I_z [deg/h/g]"; for machines the key.
 Cell parameter_cell(std::size_t param);
+
+/// Where isolated samples are: " (acc_y in position 3 at 5400 s, gimbal_outer ... and 2 more)".
+/// Empty of none.
+std::string spikes_text(const std::vector<identification::Spike>& spikes);
 
 /// "" of 1, else "s".
 std::string_view plural(std::size_t count);

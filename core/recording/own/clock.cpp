@@ -46,7 +46,9 @@ std::optional<double> take_time_of_day(std::string_view& text) {
     hour = hour % 12 + (half == "pm" ? 12 : 0);
     text = trimmed(text).substr(2);
   }
-  if (!(hour >= 0 && hour < 24 && minute >= 0 && minute < 60 && second >= 0.0 && second < 61.0))
+  const bool end_of_day = hour == 24 && minute == 0 && second == 0.0;  // ISO 8601
+  if (!end_of_day &&
+      !(hour >= 0 && hour < 24 && minute >= 0 && minute < 60 && second >= 0.0 && second < 61.0))
     return std::nullopt;
   return 3600.0 * hour + 60.0 * minute + second;
 }

@@ -15,6 +15,7 @@
 #include "core/recording/own/recording_unit.hpp"
 #include "core/recording/own/text_decoding.hpp"
 #include "core/recording/recording_channels.hpp"
+#include "core/recording/recording_check.hpp"
 #include "core/recording/recording_problems.hpp"
 #include "core/stats/median.hpp"
 
@@ -30,6 +31,9 @@ void look_at(GuessedColumn& column, std::string_view cell) {
   if (parsed.kind == ParsedCell::Kind::number && std::isfinite(parsed.value)) {
     column.low = column.numbers == 0 ? parsed.value : std::min(column.low, parsed.value);
     column.high = column.numbers == 0 ? parsed.value : std::max(column.high, parsed.value);
+    if (column.numbers > 0 && parsed.value < column.last && column.back.first == column.back.second)
+      column.back = {column.last, parsed.value};
+    column.last = parsed.value;
     ++column.numbers;
   } else if (parsed.kind != ParsedCell::Kind::number) {
     ++column.texts;
@@ -147,6 +151,22 @@ void guess_counter(GuessedFile& file) {
   }
 }
 
+/// A time in numbers that begins again at midnight is a counter of as many counts as make a day.
+void count_clock_of_numbers(GuessedFile& file) {
+  for (GuessedColumn& c : file.columns) {
+    const auto unit = c.channel == "time" ? parse_recording_unit(c.unit) : std::nullopt;
+    if (!unit || c.back.first == c.back.second ||
+        !begins_again_at_midnight(c.back.first * unit->to_si, c.back.second * unit->to_si))
+      continue;
+    constexpr double day = 86400.0;  // [s]
+    file.format.counter = c.header.name;
+    file.format.tick = unit->to_si;
+    file.format.wrap = std::round(day / unit->to_si);
+    c.channel.clear();
+    c.unit.clear();
+  }
+}
+
 /// Names the channels; of two columns that may be one channel, the first is.
 void name_channels(GuessedFile& file) {
   for (GuessedColumn& c : file.columns) {
@@ -237,6 +257,7 @@ GuessedFile guess_file(const std::string& path) {
   if (const std::string unit = by_values.name_channels(file); !unit.empty()) gravity = unit;
   name_position_by_values(file);
   for (GuessedColumn& c : file.columns) c.unit = unit_of(c, gravity);
+  count_clock_of_numbers(file);
   fill_format(file);
   return file;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/recording/own/csv_layout.hpp"
@@ -16,6 +17,9 @@ struct GuessedColumn {
   std::string channel;                 ///< the channel it may be; empty: none
   std::string unit;        ///< of the channel; "?": not to be guessed; empty: none needed
   bool by_values = false;  ///< the channel is guessed by what the column holds, not by its name
+  double last = 0.0;       ///< number
+  std::pair<double, double> back{0.0, 0.0};  ///< the first number that is smaller than the last one
+                                             ///< before it: that one and it; equal: none is
 };
 
 /// What a text file of columns may be as a recording.

@@ -14,6 +14,12 @@ std::string quoted(const std::string& text) {
   return config::to_toml(config::text_node(text));
 }
 
+std::string duration_text(double seconds) {
+  return seconds >= 1.0    ? fmt::format("{:g} s", seconds)
+         : seconds >= 1e-3 ? fmt::format("{:g} ms", 1e3 * seconds)
+                           : fmt::format("{:g} us", 1e6 * seconds);
+}
+
 /// What is to be checked of columns whose names said nothing, as a comment.
 std::string guessed_by_values(const GuessedFile& file) {
   const auto by_values = [&](std::string_view channel) {
@@ -49,8 +55,8 @@ std::string recording_section(const GuessedFile& file) {
              ? "# columns = { time = \"column_1 [s]\", gyro_x = \"column_2 [rad/s]\" }\n"
              : fmt::format("columns = {{ {} }}{}\n", columns, guessed_by_values(file));
   if (!f.counter.empty())
-    out += fmt::format("counter = {}\ntick    = \"{:g} us\"\nwrap    = {:.0f}\n", quoted(f.counter),
-                       1e6 * f.tick.value_or(0.0), f.wrap.value_or(0.0));
+    out += fmt::format("counter = {}\ntick    = \"{}\"\nwrap    = {:.0f}\n", quoted(f.counter),
+                       duration_text(f.tick.value_or(0.0)), f.wrap.value_or(0.0));
   if (!file.counter.empty())
     out += fmt::format(
         "counter = {}\ntick    = \"[?]\"  # from one count to the next; wrap = where it begins "

@@ -1,5 +1,9 @@
 // Mistakes of the command line: what is said of them.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
 
 #include "tests/support/program.hpp"
 #include "tests/support/short_study.hpp"
@@ -124,6 +128,108 @@ TEST(Program, AttitudesThatAreNotThePlansAreOneMessageInTheUsersNames) {
   EXPECT_NE(a.err.find("acc_z = \"Beschl_3 [g]\""), std::string::npos) << a.err;
   EXPECT_NE(a.err.find("look like [deg], not [rad]"), std::string::npos) << a.err;
   EXPECT_EQ(a.err.find("as in the header"), std::string::npos) << a.err;
+}
+
+TEST(Program, ATruthThatNothingCanBeSimulatedFromIsRefusedByEveryCommandThatReadsIt) {
+  const ScratchFolder folder;
+  std::string text = short_study;
+  const std::size_t truth = text.find("[truth]"),
+                    line = 2 + static_cast<std::size_t>(std::count(
+                                   text.begin(), text.begin() + static_cast<std::ptrdiff_t>(truth),
+                                   '\n'));
+  text.insert(truth + 7, "\nterms = [\"fixed_drift\", \"magnetic_drift\"]");
+  const std::string study = folder.write("s.toml", text);
+  const std::string with_field =
+      folder.write("f.toml", text +
+                                 "\n[environment]\nfield_n = \"0.2 gauss\"\nfield_w = \"0 gauss\"\n"
+                                 "field_u = \"-0.5 gauss\"\n");
+  for (const std::string command : {"check ", "identify ", "run ", "simulate -o x.csv "}) {
+    const Answer a = driftscope(command + study);
+    EXPECT_EQ(a.code, config_error) << command << a.err;
+    EXPECT_NE(a.err.find(fmt::format("s.toml:{}: [truth]: term 'magnetic_drift' needs the magnetic "
+                                     "field",
+                                     line)),
+              std::string::npos)
+        << command << a.err;
+  }
+  EXPECT_EQ(driftscope("check " + with_field).code, 0);
+  // A filter may be meant for recordings that have the field.
+  const std::string of_filter = folder.write("o.toml", short_study);
+  EXPECT_EQ(driftscope("check " + of_filter +
+                       " --set 'filter.corrected.terms=[\"fixed_drift\", \"magnetic_drift\"]'")
+                .code,
+            0);
+}
+
+TEST(Program, AWrongCommandLineIsAnErrorAndTheNearestNameIsAskedAbout) {
+  for (const char* line : {"", "check", "identify --threads 0 x.toml", "new diagnse -o x.toml",
+                           "export x --format foo", "identify x.toml --seed abc"})
+    EXPECT_EQ(driftscope(line).err.find("error: "), 0u) << line << "\n" << driftscope(line).err;
+  EXPECT_NE(driftscope("new diagnse -o x.toml").err.find("Did you mean 'diagnose'?"),
+            std::string::npos);
+  EXPECT_NE(driftscope("export x --format hdf6").err.find("Did you mean 'hdf5'?"),
+            std::string::npos);
+  EXPECT_NE(driftscope("help export").out.find("{hdf5,netcdf,csv,json}"), std::string::npos);
+}
+
+TEST(Program, AFolderThatIsNotThereIsNotOneWithoutResults) {
+  const ScratchFolder folder;
+  const std::string absent = folder.file("absent");
+  for (const std::string command :
+       {"verify ", "status ", "export --format csv ", "report ", "replay --run 1 "}) {
+    const Answer a = driftscope(command + absent);
+    EXPECT_EQ(a.code, store_error) << command;
+    EXPECT_NE(a.err.find("absent: there is no such folder"), std::string::npos) << command << a.err;
+    EXPECT_NE(driftscope(command + folder.path()).err.find("holds no results"), std::string::npos)
+        << command;
+  }
+}
+
+TEST(Program, WhatCannotBeAdvisedIsRefusedBeforeTheDiagnosis) {
+  const ScratchFolder folder;
+  const std::string study = folder.write("s.toml", short_study), recording = folder.file("r.csv");
+  ASSERT_EQ(driftscope("simulate " + study + " -o " + recording).code, 0);
+  const Answer a = driftscope("diagnose " + study + " " + recording +
+                              " --advise nosuch,fixed_drift,temperature_drift --progress json");
+  EXPECT_EQ(a.code, usage_error);
+  for (const char* part :
+       {"no term or parameter 'nosuch'", "nothing of fixed_drift can be asked for",
+        "temperature_drift follows the temperature"})
+    EXPECT_NE(a.err.find(part), std::string::npos) << a.err;
+  EXPECT_EQ(a.err.find("\"done\""), std::string::npos) << "nothing was begun: " << a.err;
+}
+
+/// A recording with one sample far from those around it.
+std::string with_spike(const std::string& recording) {
+  std::string text = text_of(recording);
+  std::vector<std::size_t> lines;
+  for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; ++at)
+    lines.push_back(at + 1);
+  const std::size_t header = text.rfind('\n', text.find("acc_y")) + 1;
+  const auto column =
+      std::count(text.begin() + static_cast<std::ptrdiff_t>(header),
+                 text.begin() + static_cast<std::ptrdiff_t>(text.find("acc_y")), ',');
+  std::size_t at = lines[lines.size() / 2];
+  for (std::ptrdiff_t i = 0; i < column; ++i) at = text.find(',', at) + 1;
+  const std::size_t end = text.find(',', at);
+  return text.replace(
+      at, end - at,
+      fmt::format("{:.9f}", std::stod(text.substr(at, end - at)) + 0.002));  // 2 mg of 5 ug
+}
+
+TEST(Program, ALoneSpikeIsInTheShortAnswers) {
+  const ScratchFolder folder;
+  const std::string study = folder.write("s.toml", short_study), recording = folder.file("r.csv");
+  ASSERT_EQ(driftscope("simulate " + study + " -o " + recording).code, 0);
+  const std::string spiked = folder.write("spiked.csv", with_spike(recording));
+  for (const std::string command : {"identify ", "diagnose "}) {
+    const Answer a = driftscope(command + study + " " + spiked + " --progress none");
+    ASSERT_EQ(a.code, 0) << a.err;
+    EXPECT_NE(a.out.find("Outliers: 1 isolated sample is"), std::string::npos) << a.out;
+    EXPECT_NE(a.out.find("(acc_y in position"), std::string::npos) << a.out;
+    EXPECT_EQ(driftscope(command + study + " " + recording).out.find("Outliers:"),
+              std::string::npos);
+  }
 }
 
 }  // namespace

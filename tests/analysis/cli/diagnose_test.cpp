@@ -264,9 +264,20 @@ TEST(DiagnoseCommand, AnEffectFarBeyondItsPriorIsNamedThoughATwinCouldTakeAShare
           terms + "]\n[monte_carlo]\nseed = 31\n");
   const std::string recording = folder.file("r.csv");
   ASSERT_EQ(driftscope("simulate " + study + " -o " + recording).code, 0);
-  const Answer a = driftscope("diagnose " + study + " " + recording + " --progress none");
+  const std::string out = folder.file("out");
+  const Answer a =
+      driftscope("diagnose " + study + " " + recording + " -o " + out + " --progress none");
   EXPECT_NE(a.out.find("Verdict named"), std::string::npos) << a.out;
   EXPECT_NE(a.out.find("magnetic_drift.y: M_y = 0.0"), std::string::npos) << a.out;
+  // What was found is not held back by the prior, nor called wrong for it.
+  EXPECT_EQ(text_of(out + "/patched.toml")
+                .find("# As wide as the size that was found is the prior "
+                      "of M_y (0.0"),
+            0u)
+      << text_of(out + "/patched.toml").substr(0, 200);
+  const Answer patched = driftscope("identify " + out + "/patched.toml " + recording);
+  EXPECT_EQ(patched.out.find("Fits: "), 0u) << patched.out;
+  EXPECT_EQ(patched.out.find("wrong priors"), std::string::npos) << patched.out;
 }
 
 }  // namespace

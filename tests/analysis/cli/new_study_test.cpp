@@ -1,6 +1,9 @@
 // `driftscope new`: what it writes is a study that the other commands take.
 #include <fmt/format.h>
 
+#include <cmath>
+#include <tuple>
+
 #include "core/base/check.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/short_study.hpp"
@@ -108,12 +111,17 @@ TEST(NewStudy, WhatNoColumnTellsIsLeftBlankAndSaid) {
   // Filled in, it is read, and what is said next gives the plan.
   study.replace(study.find("[?]"), 3, "[deg/h]");
   study.replace(study.find("columns = { "), 12, "columns = { time = \"Stoppuhr [s]\", ");
+  study.replace(study.find("\"45 deg\""), 8, "\"48.137 deg\"");
+  study.replace(study.find("9.80665 m/s^2"), 13, "9.80733 m/s^2");
   folder.write("lab.toml", study);
   const std::string read = folder.file("read.csv"), next = folder.file("next.toml");
   const Answer converted = driftscope("convert " + file + " " + own + " -o " + read);
   ASSERT_EQ(converted.code, 0) << converted.err;
   ASSERT_EQ(driftscope("new diagnose " + read + " -o " + next).code, 0);
   EXPECT_EQ(driftscope("identify " + next + " " + read + " --quiet").code, 0);
+  const std::string again = text_of(next);
+  EXPECT_TRUE(has(again, "latitude = \"48.137 deg\"")) << again;
+  EXPECT_TRUE(has(again, "gravity  = \"9.80733 m/s^2\"")) << again;
 }
 
 TEST(NewStudy, TimeAndTemperatureAreToldByTheirUnitsAndPositionsByTheirTexts) {
@@ -128,6 +136,24 @@ TEST(NewStudy, TimeAndTemperatureAreToldByTheirUnitsAndPositionsByTheirTexts) {
   EXPECT_NE(look.out.find("\"x down\" = 2"), std::string::npos) << look.out;
   const auto two = driftscope("look '" + folder.write("two.csv", "A [ms],B [s]\n1,2\n2,3\n") + "'");
   EXPECT_EQ(two.out.find("time = \"A"), std::string::npos) << two.out;
+}
+
+TEST(NewStudy, AClockOfNumbersThatBeginsAgainAtMidnightIsProposedAsTheCounterThatItIs) {
+  const ScratchFolder folder;
+  for (const auto& [unit, per_s, tick] :
+       {std::tuple{"ms", 1e3, "1 ms"}, std::tuple{"s", 1.0, "1 s"}}) {
+    std::string rows = fmt::format("Uhr [{}],Lage,ax [g],ay [g],az [g]\n", unit);
+    for (int i = 0; i < 20; ++i)
+      rows += fmt::format("{:.1f},{},0.0{},0,1\n", std::fmod(86100.0 + 60.0 * i, 86400.0) * per_s,
+                          i < 10 ? 1 : 2, i % 10);
+    const auto look = driftscope("look '" + folder.write("log.csv", rows) + "'");
+    ASSERT_EQ(look.code, 0) << look.err;
+    EXPECT_TRUE(has(look.out, "counter = \"Uhr\"")) << look.out;
+    EXPECT_TRUE(has(look.out, std::string("tick    = \"") + tick + "\"")) << look.out;
+    EXPECT_TRUE(has(look.out, fmt::format("wrap    = {:.0f}", 86400.0 * per_s))) << look.out;
+    EXPECT_FALSE(has(look.out, "time = ")) << look.out;
+    EXPECT_FALSE(has(look.out, "not a recording yet")) << look.out;
+  }
 }
 
 TEST(NewStudy, NoFileOfTheUsersIsReplaced) {

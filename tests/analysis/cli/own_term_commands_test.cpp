@@ -90,7 +90,7 @@ TEST(OwnTermCommands, AColumnThatNobodyHasIsAskedFor) {
   const ScratchFolder folder;
   const std::string config = folder.write("s.toml", study(all, "A*sin(2*pi*t/P)*pressure"));
   const Answer simulated = driftscope("simulate " + config + " -o " + folder.file("r.csv"));
-  EXPECT_EQ(simulated.code, recording_error) << simulated.err;
+  EXPECT_EQ(simulated.code, config_error) << simulated.err;
   EXPECT_NE(simulated.err.find("term 'rumble' needs 'pressure'"), std::string::npos)
       << simulated.err;
 }

@@ -94,6 +94,25 @@ TEST(PatchedStudy, WhatIsFarFromLinearStartsWhereItWasFound) {
       started_where_found(patched_filter(study.filters.front(), {drift}), {drift}).starts.empty());
 }
 
+TEST(PatchedStudy, ACauseBeyondItsPriorHasOneAsWideAsWhatWasFound) {
+  const test::ScratchFolder folder;
+  const mc::Study study = read_text(folder, "s.toml", nominal_study);
+  const auto M_y = TermLibrary::find("M_y").value(), M_z = TermLibrary::find("M_z").value();
+  search::Cause magnetic, other;
+  magnetic.term = other.term = "magnetic_drift";
+  magnetic.parameters = {parameter("M_y", 0.06), parameter("M_z", 0.02)};  // library: 0.01
+  other.set = 1;                                                           // not in the model
+  other.parameters = {parameter("M_z", 0.09)};
+  FilterSpec filter = study.filters.front();  // as a refit leaves it
+  for (const std::size_t i : {M_y, M_z}) {
+    filter.active.set(i);
+    filter.priors[i] = TermLibrary::specs[i].prior_si();
+  }
+  const FilterSpec patched = with_room_for_causes(filter, {magnetic, other});
+  EXPECT_DOUBLE_EQ(patched.priors[M_y].b, 0.06 * TermLibrary::specs[M_y].unit.to_si);
+  EXPECT_EQ(patched.priors[M_z], TermLibrary::specs[M_z].prior_si());
+}
+
 TEST(PatchedStudy, LambdaMakesTheCouplingLambda) {
   const test::ScratchFolder folder;
   const mc::Study study = read_text(folder, "s.toml", nominal_study);

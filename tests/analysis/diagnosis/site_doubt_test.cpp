@@ -63,6 +63,7 @@ TEST(SiteDoubt, FindsTheLatitudeBehindAMisfit) {
         << declared;  // six positions know it to 0.01 deg or so
     EXPECT_NEAR(doubt->chi2_per_dof_after, 1.0, 0.2) << declared;
     EXPECT_GT(doubt->chi2_per_dof_before, doubt->chi2_per_dof_after);
+    EXPECT_TRUE(doubt->alone()) << doubt->chance_after;
     EXPECT_NEAR(doubt->prior_sigmas, std::abs(declared - truth) * 3600.0 / 20.0, 9.0)
         << declared;  // 0.05 deg
     Diagnosis told;
@@ -78,6 +79,25 @@ TEST(SiteDoubt, FindsTheLatitudeBehindAMisfit) {
     EXPECT_NEAR(nlohmann::json::parse(report::to_json(told))["latitude"]["of_recording_deg"], truth,
                 0.05);
   }
+}
+
+TEST(SiteDoubt, ALatitudeThatDoesNotMendTheFitAloneIsNotAdvisedAsIfItDid) {
+  // 1.5 deg and, of a hundredth of that misfit, a drift that no parameter of the filter describes.
+  const Scene s(truth + 1.5, 0.3);
+  const auto doubt =
+      identification::latitude_doubt(s.study, {s.recording}, s.study.filters.front());
+  ASSERT_TRUE(doubt);
+  EXPECT_GT(doubt->chi2_per_dof_after, 1.5);
+  EXPECT_FALSE(doubt->alone()) << doubt->chance_after;
+  Diagnosis told;
+  told.verdict = Verdict::unexplained;
+  told.site_doubt = doubt;
+  const report::InBrief brief = report::diagnosis_in_brief(told);
+  EXPECT_EQ(brief.verdict.find("Verdict wrong latitude and more: "), 0u) << brief.verdict;
+  EXPECT_NE(brief.verdict.find("Something else is missing too"), std::string::npos);
+  EXPECT_EQ(brief.next.find("--set site.latitude"), std::string::npos) << brief.next;
+  const auto json = nlohmann::json::parse(report::to_json(told));
+  EXPECT_EQ(json["latitude"]["alone"], false);
 }
 
 TEST(SiteDoubt, WithoutOneTheFirstOfSeveralMissingEffectsIsWhatToDoNext) {
@@ -162,6 +182,7 @@ TEST(LatitudeDoubt, TheWrongHemisphereIsFoundWhateverElseMisfits) {
   ASSERT_TRUE(doubt);
   EXPECT_NEAR(doubt->latitude / unit::deg.to_si, truth, 0.2);
   EXPECT_GT(doubt->chi2_per_dof_after, 1.3);
+  EXPECT_FALSE(doubt->alone());
   EXPECT_LT(doubt->chi2_per_dof_before - doubt->chi2_per_dof_after,
             inference::SiteLimits::most * (doubt->chi2_per_dof_before - 1.0))
       << "it does not explain the misfit";

@@ -7,7 +7,7 @@
 #include "analysis/diagnosis/advice/patched_study.hpp"
 #include "analysis/diagnosis/asides.hpp"
 #include "analysis/diagnosis/judge.hpp"
-#include "analysis/diagnosis/spikes.hpp"
+#include "analysis/identification/spikes.hpp"
 #include "tests/support/model_builders.hpp"
 
 namespace drift::diagnosis::thresholds_test {
@@ -17,8 +17,9 @@ using test::param;
 
 /// Whether one sample `size` away from quiet neighbours, whose range is `range`, is taken out. The
 /// others scatter so that the instrument's noise is `noise` times as declared.
-bool is_spike(double size, double range = 0.0, double noise = 1.0, bool in_turn = false) {
-  constexpr int n = 100, at = 50;
+bool is_spike(double size, double range = 0.0, double noise = 1.0, bool in_turn = false,
+              int at = 50, int also_at = -1) {
+  constexpr int n = 100;
   Timeline timeline;
   timeline.intervals.resize(n);
   if (in_turn) timeline.intervals[at].turn = CaseTurn{};
@@ -30,11 +31,16 @@ bool is_spike(double size, double range = 0.0, double noise = 1.0, bool in_turn 
   for (int k = 0; k < n; ++k)
     if (std::abs(k - at) > 4) fit.acc_residual.col(k).setConstant(k % 4 < 2 ? a : -a);
   fit.acc_residual(0, at) = size;
-  fit.acc_residual(0, at - 2) = range;
+  if (range != 0.0) fit.acc_residual(0, at - 2) = range;
+  if (also_at >= 0) {  // a second dwell begins as the first one does
+    for (int k = also_at; k < n; ++k) timeline.intervals[k].position = 1;
+    fit.acc_residual.middleCols(also_at, 5).setZero();
+    fit.acc_residual(0, also_at) = size;
+  }
   Readout readout;
   readout.gimbals = false;
   Measurements measured{Mat3X::Zero(3, n), Mat3X::Zero(3, n)};
-  const Despiked clean = without_spikes(measured, timeline, readout, fit);
+  const auto clean = identification::without_spikes(measured, timeline, readout, fit);
   return std::isnan(clean.measured.acc(0, at));
 }
 
@@ -49,23 +55,38 @@ TEST(Thresholds, ASpikeIsEightSigmaAndTwoRangesAway) {
   EXPECT_TRUE(is_spike(12.5, 0.0, 1.55));
   // A row that was read in a turn stands beside others that were read at another rate.
   EXPECT_FALSE(is_spike(100.0, 0.0, 1.0, true));
+  // The ends of a dwell have their neighbours on one side.
+  for (const int at : {0, 1, 98, 99}) {
+    EXPECT_FALSE(is_spike(7.9, 0.0, 1.0, false, at)) << at;
+    EXPECT_TRUE(is_spike(8.1, 0.0, 1.0, false, at)) << at;
+  }
+  EXPECT_FALSE(is_spike(100.0, 0.0, 1.0, false, 0, 60)) << "every dwell begins so";
 }
 
-TEST(Thresholds, ParametersFiveSigmaFromTheirPriorsAreSaid) {
-  const auto said = [](double sigmas) {
+TEST(Thresholds, ParametersFartherFromTheirPriorsThanAnyWouldBeAreSaid) {
+  // 0.02 / 40 is the chance of a normal number beyond 3.48 sigma, on either side.
+  const auto beyond = [](double sigmas) {
     FilterSpec nominal;
-    nominal.active.set(0);
     BatchResult fit;
-    ParameterEstimate p;
-    p.param = 0;
-    p.prior_mean = 1.0;
-    p.prior_sigma = 2.0;
-    p.value = 1.0 - 2.0 * sigmas;
-    fit.estimate.parameters = {p};
-    return beyond_prior(nominal, fit).has_value();
+    for (std::size_t k = 0; k < 40; ++k) {
+      nominal.active.set(k);
+      ParameterEstimate p;
+      p.param = k;
+      p.prior_mean = p.value = 1.0;
+      p.prior_sigma = 2.0;
+      fit.estimate.parameters.push_back(p);
+    }
+    fit.estimate.parameters[7].value = 1.0 - 2.0 * sigmas;
+    return beyond_prior(nominal, fit, inference::SearchLimits::alpha);
   };
-  EXPECT_FALSE(said(4.9));
-  EXPECT_TRUE(said(5.1));
+  EXPECT_FALSE(beyond(3.47));
+  const auto found = beyond(3.49);
+  ASSERT_TRUE(found);
+  ASSERT_EQ(found->parameters.size(), 1u);
+  EXPECT_EQ(found->parameters[0].estimate.param, 7u);
+  EXPECT_EQ(found->of, 40u);
+  EXPECT_NEAR(found->farthest().sigmas, 3.49, 1e-9);
+  EXPECT_NEAR(found->farthest().chance, 40.0 * std::erfc(3.49 / std::sqrt(2.0)), 1e-9);
 }
 
 TEST(Thresholds, AnEquationIsOpenUpToOddsOfNinetyToOne) {

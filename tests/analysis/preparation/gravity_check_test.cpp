@@ -40,5 +40,53 @@ TEST(GravityCheck, AccelerometersThatDoNotReadGravityAreToldTheUnitThatTheyLookL
   EXPECT_EQ(said(2.5, 1.0), "") << "nothing is known of slews";
 }
 
+/// What is said of a platform with two slanted positions and three upright ones, of which some
+/// accelerometers read so many times too much.
+std::string said_of_axes(const Vec3& factors, const char* unit = "g") {
+  mc::Study study;
+  study.filters = {test::base_filter(Coupling::eq5)};
+  const Vec3 up[] = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ(), {0.6, 0.8, 0.0}, {0.0, 0.6, 0.8}};
+  Recording r;
+  r.source = "rec.csv";
+  Channel acc[3] = {{"acc_x", *parse_unit(unit), {}},
+                    {"acc_y", *parse_unit(unit), {}},
+                    {"acc_z", *parse_unit(unit), {}}};
+  Channel position{"position", "1"_unit, {}};
+  for (int p = 0; p < 5; ++p)
+    for (int row = 0; row < 7; ++row) {
+      // A knock in two rows of each is not the rest.
+      const double knock = row < 2 ? 3.0 : 1.0;
+      for (int i = 0; i < 3; ++i) acc[i].values.push_back(knock * factors[i] * up[p][i]);
+      position.values.push_back(p + 1);
+      r.lines.push_back(r.lines.size() + 2);
+    }
+  r.channels = {position, acc[0], acc[1], acc[2]};
+  return other_than_one_g(study, r);
+}
+
+TEST(GravityCheck, OneOrTwoAccelerometersInAnotherUnitAreNamed) {
+  EXPECT_EQ(said_of_axes({1.0, 1.0, 1.0}), "");
+  EXPECT_EQ(said_of_axes({1.0, 1.03, 0.98}), "") << "within the room of bias and scale";
+  struct Case {
+    Vec3 factors;
+    const char *columns, *words, *unit = "g";
+  };
+  constexpr double g = 9.80665;
+  const Case cases[] = {
+      {{1.0, g, 1.0},
+       "rec.csv:acc_y: ",
+       "Correct its unit: the numbers look like [m/s^2], not [g]"},
+      {{1.0, 1.0, 1e3}, "rec.csv:acc_z: ", "look like [mg], not [g]"},
+      {{1e-3, 1.0, 1.0}, "rec.csv:acc_x: ", "look like [g], not [mg]", "mg"},
+      {{g, 1.0, g}, "rec.csv:acc_x, acc_z: ", "Correct their unit: the numbers look like [m/s^2]"},
+      {{1.0, 1.0, 1.3}, "rec.csv:acc_z: ", "no unit known here explains it"},
+      {{g, g, g}, "rec.csv:acc_x: ", "the accelerometers together read 9.807 g, as half"}};
+  for (const Case& c : cases) {
+    const std::string text = said_of_axes(c.factors, c.unit);
+    EXPECT_EQ(text.find(c.columns), 0u) << text;
+    EXPECT_NE(text.find(c.words), std::string::npos) << text;
+  }
+}
+
 }  // namespace
 }  // namespace drift::preparation::gravity_check_test

@@ -80,11 +80,13 @@ TEST(AttitudeCheck, NamesThePositionsWhereNoMixupOfColumnsIsBehind) {
   Scene s;
   std::swap(s.plan.positions[0], s.plan.positions[2]);
   const auto wrong = s.mistakes();
-  ASSERT_EQ(wrong.size(), 2u) << "one of each kind of instrument";
-  for (const RowMistake& m : wrong) {
-    EXPECT_NE(m.text.find("the order of positions"), std::string::npos) << m.text;
-    EXPECT_NE(m.text.find("in 2 of 12 positions"), std::string::npos) << m.text;
-  }
+  ASSERT_EQ(wrong.size(), 1u) << "both kinds of instrument agree: it is the plan";
+  for (const char* part : {"the order of positions", "in 2 of 12 positions",
+                           "the accelerometers and the gimbal angles agree with each other"})
+    EXPECT_NE(wrong[0].text.find(part), std::string::npos) << wrong[0].text;
+  // Where they do not agree, something is wrong with both.
+  s.reverse("acc_y");
+  EXPECT_EQ(s.mistakes().size(), 2u);
 }
 
 /// What is said where something was done to the columns of gimbals or heading; the case turns.
@@ -92,7 +94,7 @@ std::string said_of(const std::function<void(Scene&)>& spoil) {
   Scene s;
   Channel heading;
   heading.name = "case_heading";
-  heading.unit = "rad"_unit;
+  heading.unit = "deg"_unit;
   const Timeline timeline = lay_out(s.plan, test::harbin);
   for (std::size_t k = 0; k < timeline.intervals.size(); ++k) {
     const auto& i = timeline.intervals[k];
@@ -113,10 +115,13 @@ std::string said_of(const std::function<void(Scene&)>& spoil) {
 }
 
 TEST(AttitudeCheck, TriesUnitsAndHeadingsBeforeItGivesUp) {
-  const auto times = [](std::initializer_list<const char*> names, double factor) {
+  const auto times = [](std::initializer_list<const char*> names, double factor,
+                        Unit unit = unit::deg) {
     return [=](Scene& s) {
-      for (const char* name : names)
+      for (const char* name : names) {
+        std::ranges::find(s.recording.channels, name, &Channel::name)->unit = unit;
         for (double& v : s.column(name)) v *= factor;
+      }
     };
   };
   const auto expect = [](const std::string& text, const char* part) {
@@ -125,8 +130,15 @@ TEST(AttitudeCheck, TriesUnitsAndHeadingsBeforeItGivesUp) {
   EXPECT_EQ(said_of([](Scene&) {}), "");
   expect(said_of(times({"gimbal_outer", "gimbal_middle", "gimbal_inner"}, detail::deg)),
          "look like [rad], not [deg]");
-  expect(said_of(times({"gimbal_outer", "gimbal_middle", "gimbal_inner"}, 1.0 / detail::deg)),
+  expect(said_of(times({"gimbal_outer", "gimbal_middle", "gimbal_inner"}, 1.0 / detail::deg,
+                       unit::rad)),
          "look like [deg], not [rad]");
+  for (const char* name : {"gimbal_outer", "gimbal_middle", "gimbal_inner"}) {
+    const std::string is = fmt::format("{} is in another unit: the numbers look like ", name);
+    expect(said_of(times({name}, detail::deg)), (is + "[rad], not [deg]").c_str());
+    expect(said_of(times({name}, 1.0 / detail::deg, unit::rad)), (is + "[deg], not [rad]").c_str());
+    expect(said_of(times({name}, 60.0)), (is + "[arcmin], not [deg]").c_str());
+  }
   expect(said_of(times({"case_heading"}, -1.0)), "case_heading = \"-case_heading\"");
   expect(said_of(times({"case_heading"}, detail::deg)),
          "case_heading is in another unit: the numbers look like [rad], not [deg]");

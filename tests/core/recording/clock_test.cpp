@@ -24,8 +24,11 @@ TEST(Clock, ClocksAreSecondsAndNothingElseIs) {
   EXPECT_EQ(parse_clock("13:05:10.25"), 47110.25);
   EXPECT_EQ(parse_clock("01:05:10.25 PM"), 47110.25);
   EXPECT_EQ(parse_clock("1970-01-02 12:00:01 am"), 86401.0);
-  for (const char* text : {"2026-02-30T00:00:00", "25:00:00", "13:05", "31/31/2026 00:00:00", "",
-                           "2026-03-01", "12:00:00x", "13:00:00 PM", "2026-03-01T12:00:00+99"})
+  EXPECT_EQ(parse_clock("24:00:00"), 86400.0);
+  EXPECT_EQ(parse_clock("1970-01-01T24:00:00Z"), parse_clock("1970-01-02T00:00:00Z"));
+  for (const char* text :
+       {"2026-02-30T00:00:00", "25:00:00", "24:00:01", "24:01:00", "13:05", "31/31/2026 00:00:00",
+        "", "2026-03-01", "12:00:00x", "13:00:00 PM", "2026-03-01T12:00:00+99"})
     EXPECT_FALSE(parse_clock(text)) << text;
 }
 
@@ -36,6 +39,10 @@ TEST(Clock, TimesOfDayGoOnPastMidnight) {
   const Recording r = read_recording(path, RecordingKind::strapdown, gravity);
   EXPECT_EQ(r.find("time")->values, (std::vector<double>{0.0, 0.25, 0.5}));
   EXPECT_EQ(r.facts.back(), (std::pair<std::string, std::string>{"time_zero", "23:59:59.5"}));
+  const std::string end = folder.write("end.csv", "time," + imu_header + "23:59:59.75" + still +
+                                                      "24:00:00" + still + "00:00:00.25" + still);
+  EXPECT_EQ(read_recording(end, RecordingKind::strapdown, gravity).find("time")->values,
+            (std::vector<double>{0.0, 0.25, 0.5}));
 }
 
 /// What Clock makes of a column of times.

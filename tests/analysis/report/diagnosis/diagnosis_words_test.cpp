@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "analysis/report/diagnosis/form_words.hpp"
 #include "analysis/report/diagnosis/sections.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
 #include "tests/analysis/report/diagnosis/diagnosis_fixture.hpp"
@@ -33,6 +34,65 @@ TEST(DiagnosisWords, OfTheStrongestWindowSayTheEquationOnlyIfItIsAnother) {
       report::where_sentence(d.where).find("1200 s to 1800 s, as the platform rate y (chance"),
       std::string::npos)
       << report::where_sentence(d.where);
+}
+
+/// A consistent diagnosis whose fit takes one parameter 6.1 sigma from its prior, under a field
+/// that nobody measured.
+diagnosis::Diagnosis tense(std::size_t param) {
+  diagnosis::Diagnosis d;
+  d.p_value = 8e-6;
+  const double unit = report::unit_of(param);
+  ParameterEstimate e{param, 0.0, 0.061 * unit, 0.0004 * unit, 0.0, 0.01 * unit};
+  d.remarks = {remark::BeyondPrior{{{e, 6.1, 6e-8}}, 60}, remark::FieldAssumed{}};
+  return d;
+}
+
+TEST(DiagnosisWords, AParameterFarFromItsPriorIsInTheShortAnswerOfAnyVerdict) {
+  const auto M_y = TermLibrary::find("M_y").value();
+  const auto d = tense(M_y);
+  std::string said = report::brief_text(report::diagnosis_in_brief(d), 400);
+  EXPECT_NE(said.find("Prior: The fit takes M_y 6.1 prior sigmas from its prior, 0.0610±0.0004 "
+                      "deg/h/gauss against 0±0.01 (chance of that for any of 60 parameters: 6e-8): "
+                      "the prior is wrong, or M_y takes up something that the model lacks."),
+            std::string::npos)
+      << said;
+  EXPECT_NE(said.find("Field: M_y hangs on a magnetic field that is assumed"), std::string::npos)
+      << said;
+  EXPECT_EQ(report::brief_text(report::diagnosis_in_brief(d), 80).find(" ..."), std::string::npos);
+  const json out = json::parse(report::to_json(d));
+  ASSERT_EQ(out["beyond_prior"].size(), 1u);
+  EXPECT_EQ(out["beyond_prior"][0]["key"], "M_y");
+  EXPECT_NEAR(out["beyond_prior"][0]["value"].get<double>(), 0.061, 1e-12);
+  EXPECT_EQ(out["beyond_prior"][0]["prior_sigmas"], 6.1);
+  // A drift does not hang on the field; a named cause may.
+  diagnosis::Diagnosis other = tense(TermLibrary::find("D_F_y").value());
+  said = report::brief_text(report::diagnosis_in_brief(other), 400);
+  EXPECT_NE(said.find("D_F_y 6.1 prior sigmas"), std::string::npos) << said;
+  EXPECT_EQ(said.find("Field:"), std::string::npos) << said;
+  other = testing::diagnosis(nominal());
+  other.remarks = {remark::FieldAssumed{}};
+  EXPECT_EQ(report::brief_text(report::diagnosis_in_brief(other), 400).find("Field:"),
+            std::string::npos);
+  other.causes[0].term = "magnetic_drift";
+  said = report::brief_text(report::diagnosis_in_brief(other), 400);
+  EXPECT_NE(said.find("Field: magnetic_drift.y hangs on a magnetic field"), std::string::npos)
+      << said;
+  EXPECT_TRUE(json::parse(report::to_json(other))["beyond_prior"].empty());
+}
+
+TEST(DiagnosisWords, AFormThatIsATermOfTheLibraryIsCalledByItsName) {
+  Proposal p;
+  p.acts_on = "drift.y";
+  p.equation = "A*field_y";
+  EXPECT_EQ(report::form_sentence(p).find("on this plan"), std::string::npos);
+  p.known = "M_y";
+  EXPECT_NE(report::form_sentence(p).find("drift.y += A*field_y, which on this plan is magnetic "
+                                          "sensitivity, gyro y (magnetic_drift.y: M_y), with"),
+            std::string::npos)
+      << report::form_sentence(p);
+  p.in_nominal = true;
+  EXPECT_NE(report::form_sentence(p).find("The nominal model has that term"), std::string::npos);
+  EXPECT_EQ(report::form_json(p)["known"], "M_y");
 }
 
 TEST(DiagnosisTables, SayALikenessOnceByItsAxis) {

@@ -67,13 +67,57 @@ TEST(IdentificationText, SaysWhereTheEstimatorsDisagree) {
   const std::string text = said();
   EXPECT_NE(
       text.find(
-          "Filter legacy (eq6): from start 1, EKF and batch fit are more than five sigma apart"),
+          "Filter legacy (eq6): from start 1, EKF and batch fit are outside each other's 95 %"),
       std::string::npos)
       << text;
   EXPECT_EQ(text.find("Filter corrected (eq5): from start 1, EKF"), std::string::npos) << text;
   for (identification::FilterRun& run : id.runs)
     run.ekf.status = EstimateStatus::diverged;  // said elsewhere
-  EXPECT_EQ(said().find("more than five sigma apart"), std::string::npos);
+  EXPECT_EQ(said().find("outside each other's"), std::string::npos);
+}
+
+TEST(IdentificationText, SaysThatTheBatchFitCountsWhereTheEkfAloneIsOff) {
+  const mc::Study study = testing::study();
+  identification::Identification id = testing::identification(study);
+  const auto short_answer = [&] {
+    return report::brief_text(report::identification_in_brief(study, id), 400);
+  };
+  // Filter 0: start 1 a fifth of a sigma from the batch fit; filter 1: 30 sigma.
+  EXPECT_EQ(short_answer().find("Filter corrected: the batch fit counts"), std::string::npos);
+  EXPECT_NE(short_answer().find("Filter legacy: the batch fit counts, and it is what a right model "
+                                "gives; the EKF, which linearises once, is off beyond"),
+            std::string::npos)
+      << short_answer();
+  for (double off : {0.19, 0.21}) {  // of 0.1 prior sigmas each: 1.9 and 2.1 sigma
+    EstimateResult& ekf = id.runs[0].ekf;
+    ekf.parameters[3].value =
+        id.runs[0].batch.estimate.parameters[3].value + off * ekf.parameters[3].prior_sigma;
+    for (std::size_t k = 0; k < ekf.parameters.size(); ++k)
+      if (k != 3) ekf.parameters[k].value = id.runs[0].batch.estimate.parameters[k].value;
+    EXPECT_EQ(short_answer().find("Filter corrected: the batch fit counts") != std::string::npos,
+              off > 0.196)
+        << off;
+  }
+  // What the EKF owes to its start is no error of its: of a parameter of which nothing is learned
+  // it keeps the start.
+  const auto n = static_cast<Eigen::Index>(id.runs[0].ekf.parameters.size());
+  id.runs[0].batch.estimate.covariance = MatX::Zero(n, n);
+  id.runs[0].batch.estimate.covariance(3, 3) = 0.1;
+  id.runs[0].ekf.parameters[3].start =
+      id.runs[0].ekf.parameters[3].prior_mean + 2.1 * id.runs[0].ekf.parameters[3].prior_sigma;
+  EXPECT_EQ(short_answer().find("Filter corrected: the batch fit counts"), std::string::npos);
+  // Innovations alone, and the sentence of the page.
+  id = testing::identification(study);
+  id.runs[0].ekf.statistic = 1150.0;  // 95 % of right models are within 0.914 to 1.090
+  EXPECT_NE(short_answer().find("Filter corrected: the batch fit counts"), std::string::npos);
+  EXPECT_EQ(short_answer().find("Misfit"), std::string::npos);
+  std::string page;
+  for (const std::string& line : report::headlines(study, id)) page += line + "\n";
+  EXPECT_NE(page.find("from 1 of 3 starts; the batch fit, which counts, is inside"),
+            std::string::npos)
+      << page;
+  id.runs[0].batch.estimate.statistic = 1150.0;  // then it is the model
+  EXPECT_EQ(short_answer().find("Filter corrected: the batch fit counts"), std::string::npos);
 }
 
 TEST(IdentificationJson, HoldsEveryResultInItsUnitAndNoNan) {

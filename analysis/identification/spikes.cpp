@@ -1,11 +1,12 @@
-#include "analysis/diagnosis/spikes.hpp"
+#include "analysis/identification/spikes.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "analysis/inference/thresholds.hpp"
 
-namespace drift::diagnosis {
+namespace drift::identification {
 namespace {
 
 using inference::SampleLimits;
@@ -16,7 +17,26 @@ constexpr double median_of_size = 0.6745 * 1.14;  // a normal against the median
 struct Difference {
   int axis, sample;
   double size, spread;  ///< from the median around it; of those around it
+  bool first;           ///< of its dwell or slew
 };
+
+/// The rows about one of the same position that both dwell or both slew, two to either side; at the
+/// ends of those rows as many, from the one side that there is.
+std::pair<int, int> rows_about(int i, const std::vector<Interval>& intervals) {
+  const auto same = [&](int k) {
+    return k >= 0 && k < static_cast<int>(intervals.size()) &&
+           intervals[static_cast<std::size_t>(k)].position ==
+               intervals[static_cast<std::size_t>(i)].position &&
+           intervals[static_cast<std::size_t>(k)].slew ==
+               intervals[static_cast<std::size_t>(i)].slew;
+  };
+  int first = i, last = i;
+  while (first > i - reach && same(first - 1)) --first;
+  while (last < i + reach && same(last + 1)) ++last;
+  while (last - first < 2 * reach && same(last + 1)) ++last;
+  while (last - first < 2 * reach && same(first - 1)) --first;
+  return {first, last};
+}
 
 std::vector<Difference> differences(const Mat3X& residual, const std::vector<Interval>& intervals) {
   const auto n = static_cast<int>(residual.cols());
@@ -26,15 +46,14 @@ std::vector<Difference> differences(const Mat3X& residual, const std::vector<Int
       // Rows beside one in a turn were read at another rate: what begins a turn is no spike.
       if (!std::isfinite(residual(a, i)) || intervals[static_cast<std::size_t>(i)].turn) continue;
       std::vector<double> around;
-      for (int k = std::max(0, i - reach); k <= std::min(n - 1, i + reach); ++k)
-        if (k != i && std::isfinite(residual(a, k)) &&
-            intervals[k].position == intervals[i].position &&
-            intervals[k].slew == intervals[i].slew)
-          around.push_back(residual(a, k));
+      const auto [first, last] = rows_about(i, intervals);
+      for (int k = first; k <= last; ++k)
+        if (k != i && std::isfinite(residual(a, k))) around.push_back(residual(a, k));
       if (around.size() < 3) continue;
       std::sort(around.begin(), around.end());
       const double median = 0.5 * (around[around.size() / 2] + around[(around.size() - 1) / 2]);
-      all.push_back({a, i, std::abs(residual(a, i) - median), around.back() - around.front()});
+      all.push_back(
+          {a, i, std::abs(residual(a, i) - median), around.back() - around.front(), first == i});
     }
   return all;
 }
@@ -51,6 +70,9 @@ std::vector<Difference> spikes_of(const Mat3X& residual, const std::vector<Inter
   std::erase_if(all, [&](const Difference& d) {
     return d.size <= limit + SampleLimits::spike_spread * d.spread;
   });
+  // What begins several dwells decays, and is no sample that went astray.
+  if (std::ranges::count_if(all, &Difference::first) > 1)
+    std::erase_if(all, [](const Difference& d) { return d.first; });
   return all;
 }
 
@@ -58,16 +80,17 @@ std::vector<Difference> spikes_of(const Mat3X& residual, const std::vector<Inter
 
 Despiked without_spikes(Measurements measured, const Timeline& timeline, const Readout& readout,
                         const BatchResult& fit) {
-  std::size_t removed = 0;
-  const auto clean = [&](Mat3X& values, const Mat3X& residual) {
+  std::vector<Spike> spikes;
+  const auto clean = [&](Mat3X& values, const Mat3X& residual, int first_channel) {
     for (const Difference& d : spikes_of(residual, timeline.intervals)) {
       values(d.axis, d.sample) = std::nan("");
-      ++removed;
+      const Interval& i = timeline.intervals[static_cast<std::size_t>(d.sample)];
+      spikes.push_back({first_channel + d.axis, i.t1, i.position + 1});
     }
   };
-  if (readout.accelerometers) clean(measured.acc, fit.acc_residual);
-  if (readout.gimbals) clean(measured.gimbal, fit.gimbal_residual);
-  return {std::move(measured), removed};
+  if (readout.accelerometers) clean(measured.acc, fit.acc_residual, 0);
+  if (readout.gimbals) clean(measured.gimbal, fit.gimbal_residual, 3);
+  return {std::move(measured), std::move(spikes)};
 }
 
-}  // namespace drift::diagnosis
+}  // namespace drift::identification

@@ -1,0 +1,130 @@
+#include "analysis/report/diagnosis/doubts.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "analysis/report/page/wording.hpp"
+#include "core/base/units.hpp"
+
+namespace drift::report {
+namespace {
+
+using namespace diagnosis;
+
+template <class R>
+const R* remark_in(const Diagnosis& d) {
+  for (const Remark& r : d.remarks)
+    if (const auto* found = std::get_if<R>(&r)) return found;
+  return nullptr;
+}
+
+bool follows_field(std::string_view term) {
+  const auto known = TermLibrary::find_term(term);
+  return known && TermLibrary::terms[*known].needs.field;
+}
+
+/// The causes and the parameters far from their priors that follow the magnetic field.
+std::vector<std::string> following_field(const Diagnosis& d) {
+  std::vector<std::string> labels;
+  const auto add = [&](std::string label) {
+    if (std::ranges::find(labels, label) == labels.end()) labels.push_back(std::move(label));
+  };
+  for (const search::Cause& c : d.causes)
+    if (follows_field(c.term)) add(search::keyed(c.term, c.axis));
+  if (const auto* beyond = remark_in<remark::BeyondPrior>(d))
+    for (const remark::BeyondPrior::Parameter& p : beyond->parameters)
+      for (const TermInfo& t : TermLibrary::terms)
+        if (t.needs.field && t.first <= p.estimate.param && p.estimate.param < t.first + t.count)
+          add(parameter_key(p.estimate.param));
+  return labels;
+}
+
+}  // namespace
+
+std::string beyond_prior_text(const remark::BeyondPrior& r) {
+  constexpr std::size_t most = 6;
+  std::vector<std::string> keys;
+  for (const remark::BeyondPrior::Parameter& p : r.parameters)
+    keys.push_back(parameter_key(p.estimate.param));
+  const remark::BeyondPrior::Parameter& far = r.farthest();
+  const ParameterEstimate& e = far.estimate;
+  const double unit = unit_of(e.param);
+  const std::string where = fmt::format(
+      "{:.1f} prior sigmas from {}", far.sigmas,
+      keys.size() > 1
+          ? "their priors"
+          : fmt::format("its prior, {} {} against {}±{}",
+                        with_sigma(e.value / unit, e.sigma / unit), parameter_unit(e.param),
+                        number_text(e.prior_mean / unit), number_text(e.prior_sigma / unit)));
+  const std::string chance =
+      fmt::format("chance of that for any of {} parameters: {}", r.of, p_text(far.chance));
+  return keys.size() > 1
+             ? fmt::format(
+                   "The fit takes {} up to {} ({}): the priors are wrong, or these parameters take "
+                   "up something that the model lacks",
+                   listed_up_to(keys, most), where, chance)
+             : fmt::format(
+                   "The fit takes {} {} ({}): the prior is wrong, or {} takes up something that "
+                   "the model lacks",
+                   keys.front(), where, chance, keys.front());
+}
+
+std::string site_text(const identification::LatitudeDoubt& doubt) {
+  if (!doubt.alone())
+    return fmt::format(
+        "The latitude of [site] is not that of the recording, and alone it mends nothing: at about "
+        "{:.1f} deg instead of {:.3f} deg the model fits with chi-square per degree of freedom "
+        "{:.3g} instead of {:.3g}, where 1 is expected (by chance: {}). Something else is missing "
+        "too, or the noise is not as declared, and it moves the latitude that fits.",
+        doubt.latitude / unit::deg.to_si, doubt.declared / unit::deg.to_si,
+        doubt.chi2_per_dof_after, doubt.chi2_per_dof_before, p_text(doubt.chance_after));
+  return fmt::format(
+      "The latitude of [site] is not that of the recording: at {:.3f} deg instead of {:.3f} deg "
+      "the model fits with chi-square per degree of freedom {:.3g} instead of {:.3g}. No "
+      "survey is wrong by so much (latitude_error would need {:.3g} prior sigmas): correct the "
+      "latitude and diagnose again before anything else is made of it.",
+      doubt.latitude / unit::deg.to_si, doubt.declared / unit::deg.to_si, doubt.chi2_per_dof_after,
+      doubt.chi2_per_dof_before, doubt.prior_sigmas);
+}
+
+std::vector<std::pair<std::string, std::string>> doubts_of(const Diagnosis& d) {
+  std::vector<std::pair<std::string, std::string>> all;
+  if (const auto* beyond = remark_in<remark::BeyondPrior>(d))
+    all.emplace_back("Prior", beyond_prior_text(*beyond) + ".");
+  if (const auto* samples = remark_in<remark::SamplesLeftOut>(d);
+      samples != nullptr && !samples->removed.empty())
+    all.emplace_back(
+        "Outliers",
+        fmt::format("{} isolated sample{} left out{}: far from those around.",
+                    samples->removed.size(), samples->removed.size() == 1 ? " is" : "s are",
+                    spikes_text(samples->removed)));
+  if (remark_in<remark::FieldAssumed>(d) != nullptr)
+    if (const auto labels = following_field(d); !labels.empty())
+      all.emplace_back("Field",
+                       fmt::format("{} {} on a magnetic field that is assumed, that of a dipole: "
+                                   "none was recorded or declared (field_n, field_w, field_u in "
+                                   "[environment]).",
+                                   listed(labels, "and"), labels.size() > 1 ? "hang" : "hangs"));
+  return all;
+}
+
+Json beyond_prior_json(const Diagnosis& d) {
+  Json all = Json::array();
+  const auto* beyond = remark_in<remark::BeyondPrior>(d);
+  if (beyond == nullptr) return all;
+  for (const remark::BeyondPrior::Parameter& p : beyond->parameters) {
+    const ParameterEstimate& e = p.estimate;
+    const double unit = unit_of(e.param);
+    all.push_back({{"key", parameter_key(e.param)},
+                   {"value", e.value / unit},
+                   {"sigma", e.sigma / unit},
+                   {"prior_mean", e.prior_mean / unit},
+                   {"prior_sigma", e.prior_sigma / unit},
+                   {"unit", parameter_unit(e.param)},
+                   {"prior_sigmas", p.sigmas},
+                   {"chance", p.chance}});
+  }
+  return all;
+}
+
+}  // namespace drift::report

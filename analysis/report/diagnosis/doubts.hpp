@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "analysis/diagnosis/findings/diagnosis.hpp"
+#include "analysis/report/page/json.hpp"
+
+namespace drift::report {
+
+/// "The fit takes M_y 6.1 prior sigmas from its prior, ...: the prior is wrong, or ...".
+std::string beyond_prior_text(const diagnosis::remark::BeyondPrior& beyond);
+
+/// A verdict of its own: nothing that is said of causes holds for another place on the Earth.
+std::string site_text(const identification::LatitudeDoubt& doubt);
+
+/// What a reader must hear with the verdict, whatever it is: parameters of the model far from their
+/// priors, isolated samples that were left out, and a magnetic field that was assumed where a cause
+/// or such a parameter hangs on it. Sentences with the word that heads each.
+std::vector<std::pair<std::string, std::string>> doubts_of(const diagnosis::Diagnosis& diagnosis);
+
+/// `beyond_prior` of diagnosis.json: one object for each such parameter.
+Json beyond_prior_json(const diagnosis::Diagnosis& diagnosis);
+
+}  // namespace drift::report

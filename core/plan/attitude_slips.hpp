@@ -1,0 +1,41 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/linalg.hpp"
+#include "core/base/units.hpp"
+
+namespace drift {
+
+/// An attitude that three channels show in one row, and the one that it should be.
+struct Sight {
+  std::size_t row = 0;
+  int position = 0;
+  double heading = 0.0;  ///< of the case [rad]
+  double planned = 0.0;  ///< heading of the case in the plan [rad]
+  Mat3 R_lr;             ///< of the plan
+  Vec3 seen;
+};
+
+/// By what an attitude may miss the plan's before it is another one [rad].
+inline constexpr double largest_mismatch = 10.0 * detail::deg;
+/// Fewer positions fit several guesses.
+inline constexpr std::size_t fewest_sights = 3;
+
+/// How far the attitude that gimbal angles show is from the plan's [rad].
+double gimbal_mismatch(const Sight& sight);
+
+/// The units that the gimbal angles (outer, middle, inner) and the heading of the case are in, as
+/// the recording says.
+using AngleUnits = std::array<Unit, 4>;
+
+/// Something else than exchanged columns that explains why gimbal angles do not show the attitude
+/// of the plan, and what to do, in words: angles in another unit (all, two or one of them), another
+/// heading of the case. Empty where nothing simple brings every position into place; simpler
+/// explanations come first.
+std::optional<std::string> slip_behind(const std::vector<Sight>& sights, const AngleUnits& units);
+
+}  // namespace drift

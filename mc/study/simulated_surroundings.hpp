@@ -1,0 +1,15 @@
+#pragma once
+
+#include "mc/study/study.hpp"
+
+namespace drift::mc {
+
+/// InputError (config), with the line of its terms, if [truth] has terms that follow what a
+/// simulated recording does not carry: a temperature or a magnetic field that [environment] does
+/// not declare, columns that a recording alone has. Nothing can be simulated from it.
+void require_simulable_truth(const Study& study);
+
+/// The same of [truth] and every filter: nothing that is simulated can be estimated with them.
+void require_simulable_models(const Study& study);
+
+}  // namespace drift::mc
