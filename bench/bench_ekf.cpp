@@ -10,10 +10,12 @@
 #include <vector>
 
 #include "bench/dense_ekf.hpp"
+#include "bench/ekf_problem.hpp"
 #include "bench/linear_pass.hpp"
 #include "bench/repeated.hpp"
 #include "bench/rows.hpp"
 #include "core/estimate/sequential/ekf.hpp"
+#include "core/estimate/sequential/in_lanes/ekf_lanes.hpp"
 #include "core/estimate/sequential/in_lanes/iterated_lanes.hpp"
 #include "core/physics/parameters_config.hpp"
 #include "core/sim/simulate.hpp"
@@ -24,86 +26,7 @@ namespace {
 
 constexpr int repetitions = 5;
 constexpr double aimed_ratio = 40.0;
-constexpr double allowed_difference = 1e-10;       // of the final covariances, norm over norm
-constexpr double arw = 1e-3 * detail::deg / 60.0;  // [rad/sqrt(s)]
-
-FilterSpec all_terms() {
-  FilterSpec filter;
-  filter.name = "bench";
-  filter.active = base_parameters();
-  for (std::size_t i = 0; i < TermLibrary::num_params; ++i)
-    filter.priors[i] = TermLibrary::specs[i].prior_si();
-  filter.noise.angle_random_walk = arw;
-  return filter;
-}
-
-Timeline six_free(double sample) {
-  PlanDefaults defaults;
-  defaults.mode = CommandLaw::free;
-  defaults.dwell = 3600.0;
-  defaults.sample = sample;
-  return lay_out(preset_plan("six", defaults).value(), Site{45.75 * detail::deg});
-}
-
-/// A few rows without a detour over the heap: a step is one piece of memory, read in one go.
-using InPlace = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor, 3, 40>;
-
-/// What one step of a filter needs: to the middle, accelerometers, to the end, gimbals.
-struct Step {
-  bool cage = false;
-  Mat3 Phi_half, Phi_rest;
-  InPlace G_half, G_rest, H_par;
-  Mat3 H_acc, H_gimbal;
-  Vec3 nu_acc, nu_gimbal;
-};
-
-struct Problem {
-  Readout readout;
-  FilterSpec filter = all_terms();
-  Timeline timeline;
-  Layout layout = make_layout(filter);
-  std::vector<Step> steps;
-
-  Eigen::Index states() const { return 3 + static_cast<Eigen::Index>(layout.size()); }
-  Eigen::Index rate_states() const { return static_cast<Eigen::Index>(layout.num_rate); }
-};
-
-/// The matrices of every step, along the platform's motion with parameters drawn from the prior.
-Problem make_problem(double sample) {
-  Problem p;
-  p.timeline = six_free(sample);
-  const DriftModel model = p.filter.model();
-  const Theta theta = draw_parameters(p.filter, 1, 0, Purpose::test);
-  const Trajectory phi =
-      integrate_fixed(p.timeline, model, theta, std::vector<Vec3>(p.timeline.chains, Vec3::Zero()));
-  Linearizer linearizer(model, p.layout, p.readout);
-  linearizer.set_theta(theta);
-  IntervalSensitivity s;
-  for (std::size_t i = 0; i < p.timeline.intervals.size(); ++i) {
-    const Interval& interval = p.timeline.intervals[i];
-    linearize_interval(interval, p.timeline, Mat3::Zero(), &phi[interval.first_node], nullptr,
-                       linearizer, s);
-    const auto m = static_cast<std::size_t>(interval.substeps);
-    const std::size_t last = interval.node_count() - 1;
-    Step step;
-    step.cage = interval.cage;
-    step.Phi_half = s.Phi[m];
-    const auto nr = static_cast<Eigen::Index>(p.layout.num_rate);
-    step.G_half = s.G[m].leftCols(nr);
-    step.Phi_rest = s.Phi[last] * s.Phi[m].inverse();
-    step.G_rest = s.G[last].leftCols(nr) - step.Phi_rest * step.G_half;
-    step.H_acc = s.jacobian[m].H;
-    step.H_par = s.jacobian[m].H_par.leftCols(static_cast<Eigen::Index>(p.layout.size()) - nr);
-    step.H_gimbal = predict_gimbals(p.timeline.nodes[interval.last_node()], interval.heading1,
-                                    phi[interval.last_node()])
-                        .H;
-    const double a = static_cast<double>(i);
-    step.nu_acc = p.readout.accelerometer_noise * Vec3(std::sin(a), std::cos(a), std::sin(2.0 * a));
-    step.nu_gimbal = p.readout.gimbal_noise * Vec3(std::cos(3.0 * a), std::sin(a), std::cos(a));
-    p.steps.push_back(std::move(step));
-  }
-  return p;
-}
+constexpr double allowed_difference = 1e-10;  // of the final covariances, norm over norm
 
 Timed run_structured(const Problem& p) {
   Covariance P(p.layout.size(), p.layout.num_rate, p.filter.initial_attitude);
@@ -217,37 +140,46 @@ Measurements simulated(const Problem& p) {
   return Simulator(truth, p.readout).run(p.timeline, 1, 0).measured;
 }
 
-/// What a study does: the iterated estimator of as many runs as there are lanes, each with a
-/// recording of its own. Seconds are those of one run and one pass, the first or a linear one.
-Timed run_lanes(IteratedLanes& lanes, std::vector<IteratedJob>& jobs) {
+/// Passes over the recording that an estimator in lanes has made, the first and linear ones.
+int passes_of(const IteratedJob& job) {
+  return 1 + job.linear_passes();
+}
+int passes_of(const EkfJob&) {
+  return 1;
+}
+
+/// What a study does: an estimator of as many runs as there are lanes, each with a recording of its
+/// own. Seconds are those of one run and one pass.
+template <class Lanes, class Job>
+Timed run_lanes(Lanes& lanes, std::vector<Job>& jobs) {
   lanes.run(jobs);  // fills the work space
   const long before = allocations;
   const double start = cpu_time();
   lanes.run(jobs);
   const double seconds = cpu_time() - start;
   int passes = 0;
-  for (const IteratedJob& job : jobs) passes += 1 + job.linear_passes();
+  for (const Job& job : jobs) passes += passes_of(job);
   return {seconds / passes, allocations - before, jobs[0].settled_covariance()};
 }
 
 /// Row of a pass of runs in lock step; memory it allocated.
-long row_of_lanes() {
+template <class Lanes, class Job>
+long row_of_lanes(const char* key, const char* note) {
   const Problem p = make_problem(180.0);
-  TruthSpec truth;
-  static_cast<ModelSpec&>(truth) = p.filter;
-  truth.noise.angle_random_walk = 0.0;
   FilterSpec filter = p.filter;
   filter.noise.angle_random_walk = 0.0;
+  TruthSpec truth;
+  static_cast<ModelSpec&>(truth) = filter;
   Simulator simulator(truth, p.readout);
   std::vector<Measurements> measured;
-  for (std::size_t k = 0; k < IteratedLanes::width; ++k)
+  for (std::size_t k = 0; k < LaneIntervals::width; ++k)
     measured.push_back(simulator.run(p.timeline, 1, k).measured);
-  std::vector<IteratedJob> jobs(measured.size());
+  std::vector<Job> jobs(measured.size());
   for (std::size_t k = 0; k < jobs.size(); ++k) {
     jobs[k].measured = &measured[k];
     jobs[k].start = p.layout.theta;
   }
-  IteratedLanes lanes(filter, p.timeline, p.readout);
+  Lanes lanes(filter, p.timeline, p.readout);
   Repeated pass, textbook;
   for (int k = 0; k < 4 * repetitions; ++k) {
     textbook.add(run_dense(p, DenseForm::textbook));
@@ -255,11 +187,10 @@ long row_of_lanes() {
   }
   const auto n = static_cast<double>(p.steps.size());
   print_row(
-      "ekf63_pass", pass.best.seconds / n, textbook.best.seconds / n, pass.spread(),
-      fmt::format("a sample of 180 s in a pass of the iterated filter in information form, {} "
-                  "runs in lock step, path, linearisation, solutions and covariance with it, "
-                  "against the textbook covariance step alone",
-                  IteratedLanes::width));
+      key, pass.best.seconds / n, textbook.best.seconds / n, pass.spread(),
+      fmt::format("a sample of 180 s in {}, {} runs in lock step, path and linearisation with "
+                  "it, against the textbook covariance step alone",
+                  note, LaneIntervals::width));
   return pass.best.allocated;
 }
 
@@ -305,7 +236,11 @@ int run() {
   print_row("ekf63_sequential", structured.seconds / steps, textbook.seconds / steps,
             all_structured.spread(), "covariance step of 6 scalars against the textbook's");
   const long in_passes =
-      row_of_lanes() +
+      row_of_lanes<EkfLanes, EkfJob>("ekf63_lanes",
+                                     "an EKF with its covariance after every update") +
+      row_of_lanes<IteratedLanes, IteratedJob>(
+          "ekf63_pass",
+          "a pass of the iterated filter in information form, solutions and covariance with it") +
       row_of_pass("ekf63_pass_alone", 180.0,
                   "the same of one run by itself, linear, its nodes in lanes") +
       row_of_pass("ekf63_pass_10s", 10.0,

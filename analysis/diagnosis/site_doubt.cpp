@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "analysis/identification/latitude_doubt.hpp"
 #include "analysis/inference/thresholds.hpp"
 
 namespace drift::diagnosis {
