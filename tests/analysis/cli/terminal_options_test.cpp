@@ -70,9 +70,9 @@ TEST(Color, ATerminalHasItUnlessNoColorSaysNo) {
 TEST(SetList, AddsToAListOfTheFile) {
   const ScratchFolder folder;
   const std::string study = test::config("table1.toml");
-  const Answer one = driftscope("check " + study + " --set truth.terms+=magnetic_drift.y");
+  const Answer one = driftscope("check " + study + " --set truth.terms+=drift_ramp.y");
   EXPECT_EQ(one.code, 0) << one.err;
-  EXPECT_TRUE(has(one.out, "fixed_drift, g_drift, gyro_misalignment, magnetic_drift.y")) << one.out;
+  EXPECT_TRUE(has(one.out, "fixed_drift, g_drift, gyro_misalignment, drift_ramp.y")) << one.out;
   const Answer two =
       driftscope("check " + study + " --set 'filter.eq5.terms+=[\"g2_drift\", \"torquer_scale\"]'");
   EXPECT_EQ(two.code, 0) << two.err;
