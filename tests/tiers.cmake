@@ -8,7 +8,7 @@ set(DRIFT_FULL_TESTS
   Equation.* Estimators/EveryTermUnder.* EveryTerm*.* FailedWrite.* LambdaFilter.* Matched*.*
   Nearest.* NothingReplaced.* OddInput.* OwnTermCommands.* RankCommand.* Rivals.* ScreenForms.* Documents.* Recording/BinaryFuzz.*
   RecordingFuzz.* Search.* Sensitivity.* SharedCandidates.* SharedTrials.* SiteDoubt.* Strapdown*.* StudyConfig.Misspelt*
-  StudyMutation.* StudyReport.*
+  StudyMutation.* StudyReport.* WrongHemisphere.*
   SweepPictures.* UnequalRowsDiagnosed.* WhereFollows.*)
 # Minutes each: not run unless asked for.
 set(DRIFT_NIGHTLY_TESTS *Nightly*.* Estimators/EveryTermUnder.IsConsistentOrRefusedInSlews/batch)

@@ -2,6 +2,7 @@
 
 #include "analysis/cli/command.hpp"
 #include "analysis/cli/print.hpp"
+#include "analysis/cli/read_recordings.hpp"
 #include "core/plan/case_heading.hpp"
 #include "core/plan/plan_memory.hpp"
 #include "mc/study/simulated_surroundings.hpp"
@@ -22,15 +23,6 @@ void show_positions(const TestPlan& plan, const Site& site) {
   }
 }
 
-/// Gravity is nobody's to guess: it differs by 7000 ppm from place to place.
-void tell_assumed_gravity(const mc::Study& study) {
-  const auto gravity = std::ranges::find(study.resolved, "site.gravity", &mc::Resolved::key);
-  if (gravity == study.resolved.end() || !gravity->origin.starts_with("default")) return;
-  say("note: site.gravity is not given: {} is assumed. A recording in m/s^2 is divided by it, and "
-      "K1, in ppm, is off by as many ppm as gravity is there\n",
-      gravity->value);
-}
-
 ExitCode check(const StudyArguments& arguments) {
   const mc::Study study = arguments.read();
   if (study.kind == RecordingKind::platform) require_memory_for(study.plan);
@@ -44,7 +36,11 @@ ExitCode check(const StudyArguments& arguments) {
   for (const mc::Resolved& r : study.resolved)
     show("{:<{}}  {:<{}}  {}\n", r.key, key_width, r.value, value_width, r.origin);
   if (study.kind == RecordingKind::platform) show_positions(study.plan, study.site);
-  tell_assumed_gravity(study);
+  if (const auto gravity = assumed_gravity(study))
+    say("note: site.gravity is not given: {} is assumed. A recording in m/s^2 is divided by it, "
+        "and "
+        "K1, in ppm, is off by as many ppm as gravity is there\n",
+        *gravity);
   return ExitCode::ok;
 }
 

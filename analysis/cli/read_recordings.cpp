@@ -9,13 +9,15 @@
 #include "analysis/cli/print.hpp"
 #include "analysis/report/page/wording.hpp"
 #include "core/base/check.hpp"
+#include "core/recording/recording_channels.hpp"
 #include "core/recording/rows/quality_card.hpp"
 
 namespace drift::cli {
 namespace {
 
-/// Says where dwells are a thousand or a million times as long as the plan's, or as short: a wrong
-/// unit of time. What differs less may be another test, and is looked at by those who use it.
+/// Says where dwells are a thousand or a million times as long as the plan's, or as short, or sixty
+/// times with as many rows: a wrong unit of time. What differs less may be another test, and is
+/// looked at by those who use it.
 void check_time_unit(const mc::Study& study, const Recording& recording) {
   const Channel *position = recording.find("position"), *time = recording.find("time");
   if (study.kind != RecordingKind::platform || !position || recording.rows() < 3) return;
@@ -27,14 +29,31 @@ void check_time_unit(const mc::Study& study, const Recording& recording) {
   const double usual = planned.dwell - planned.sample;
   const double length = time->values[end - 1] - time->values.front();
   if (end < 3 || !(usual > 0.0)) return;
-  for (const double factor : {1e3, 1e6, 1e-3, 1e-6})
+  const bool as_many_rows =
+      std::abs(static_cast<double>(end - 1) * planned.sample / usual - 1.0) < 0.05;
+  std::vector<double> factors{1e3, 1e6, 1e-3, 1e-6};
+  if (as_many_rows) factors.insert(factors.end(), {60.0, 3600.0, 1.0 / 60.0, 1.0 / 3600.0});
+  for (const double factor : factors)
     if (std::abs(length / (factor * usual) - 1.0) < 0.05)
       throw InputError(
           ExitCode::recording,
-          fmt::format("{}:time: the first position lasts {:.4g} s, {:g} times as long as in the "
+          fmt::format("{}:time: the first position lasts {:.4g} s, {:.4g} times as long as in the "
                       "plan (expected about {:.4g} s). Correct the unit of time, in the file or in "
                       "[recording] columns of the study file",
                       recording.source, length, factor, usual));
+}
+
+/// Where it was used without being given.
+void tell_assumed_gravity(const mc::Study& study, const Recording& recording) {
+  const auto gravity = assumed_gravity(study);
+  for (const std::string_view name : accelerometer_channels.names)
+    if (const Channel* c = recording.find(name);
+        gravity && c && c->unit.symbol.view().find("m/s") != std::string_view::npos) {
+      say("note: {}: accelerometers in {} are divided by site.gravity, which is not given: {} is "
+          "assumed, and K1, in ppm, is off by as many ppm as gravity is there\n",
+          recording.source, c->unit.symbol.view(), *gravity);
+      return;
+    }
 }
 
 /// What looks odd is told at once, the first of it.
@@ -48,6 +67,12 @@ void tell_remarks(const QualityCard& card) {
 }
 
 }  // namespace
+
+std::optional<std::string> assumed_gravity(const mc::Study& study) {
+  const auto gravity = std::ranges::find(study.resolved, "site.gravity", &mc::Resolved::key);
+  if (gravity == study.resolved.end() || !gravity->origin.starts_with("default")) return {};
+  return gravity->value;
+}
 
 std::vector<Recording> read_recordings(const mc::Study& study,
                                        const std::vector<std::string>& paths) {
@@ -63,6 +88,7 @@ std::vector<Recording> read_recordings(const mc::Study& study,
   for (const std::string& path : paths) {
     recordings.push_back(read_recording(path, study.recording, study.kind, study.site.gravity));
     check_time_unit(study, recordings.back());
+    tell_assumed_gravity(study, recordings.back());
     tell_remarks(quality_card(recordings.back(), study.kind));
   }
   return recordings;

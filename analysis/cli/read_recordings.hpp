@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -7,6 +8,10 @@
 #include "mc/study/study.hpp"
 
 namespace drift::cli {
+
+/// site.gravity with its unit, where a study does not give it. Gravity is nobody's to guess: it
+/// differs by 7000 ppm from place to place.
+std::optional<std::string> assumed_gravity(const mc::Study& study);
 
 /// Reads the recordings of a command line and tells what looks odd in them. InputError (recording).
 std::vector<Recording> read_recordings(const mc::Study& study,

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "analysis/identification/absent_channels.hpp"
+#include "analysis/identification/beyond_prior.hpp"
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/preparation/prepare.hpp"
 #include "analysis/preparation/recorded_test.hpp"
@@ -155,14 +156,17 @@ void run_jobs(const mc::Study& study, Identification& id, int threads, const Pro
   id.summaries = summarise(study, id);
 }
 
-/// Where no filter fits, the latitude may be behind it.
+/// Where no filter fits, or fits with parameters that no prior of its has, the latitude may be
+/// behind it: most of a wrong one is drift that follows the attitude.
 void doubt_latitude(const mc::Study& study, const std::vector<Recording>& recordings,
                     Identification& id) {
   const auto result = [&](const FilterSummary& s) -> const EstimateResult& {
     return judged(study.filters[s.filter], *id.runs_of(s.filter).front());
   };
   constexpr auto d_lat = TermLibrary::index("d_lat");
-  const auto fits = [&](const FilterSummary& s) { return !misfit(result(s)); };
+  const auto fits = [&](const FilterSummary& s) {
+    return !misfit(result(s)) && beyond_prior(result(s)).empty();
+  };
   if (std::ranges::any_of(id.summaries, fits)) return;
   for (FilterSummary& s : id.summaries)
     if (const FilterSpec& filter = study.filters[s.filter]; !filter.active[d_lat])

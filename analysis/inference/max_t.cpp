@@ -64,6 +64,7 @@ MaxNull::MaxNull(const MatX& C, const std::vector<Contrast>& contrasts, int draw
 }
 
 MatX MaxNull::draw(const MatX& C, int draws, std::uint64_t stream) {
+  if (C.rows() == 0) return MatX::Zero(draws, 0);  // nothing shows on this plan
   const Eigensystem eigen = eigensystem(C);
   const MatX root = eigen.vectors * eigen.values.cwiseMax(0.0).cwiseSqrt().asDiagonal();
   MatX z(draws, C.cols());

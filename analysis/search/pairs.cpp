@@ -111,6 +111,7 @@ std::vector<Pair> strongest_pairs(const Field& field, std::size_t most) {
 
 inference::MaxNull pair_null(const Field& field, int draws) {
   const auto units = single_columns(field);
+  if (units.size() < 2) return {};
   const MatX rho = scores_of(field, units).rho;
   const MatX g = inference::MaxNull::draw(rho, draws, 2);
   VecX largest = VecX::Zero(draws);

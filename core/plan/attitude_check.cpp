@@ -154,6 +154,14 @@ AngleUnits units_of(const Recording& recording) {
   return units;
 }
 
+/// A middle gimbal does not come past 90 deg: one that shows more than a turn is in another unit,
+/// though whole turns may hide that.
+std::optional<std::size_t> row_beyond_a_turn(const std::vector<Sight>& sights) {
+  for (const Sight& s : sights)
+    if (std::abs(s.seen[1]) > 361.0 * detail::deg) return s.row;
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::vector<RowMistake> attitude_mistakes(const Recording& recording, const TestPlan& plan,
@@ -164,6 +172,12 @@ std::vector<RowMistake> attitude_mistakes(const Recording& recording, const Test
   const Shown acc =
       shown_by(sights(accelerometer_channels), accelerometer_channels, of_accelerometers);
   Shown gimbals = shown_by(sights(gimbal_channels), gimbal_channels, of_gimbals);
+  if (const auto row = row_beyond_a_turn(gimbals.sights))
+    return {{*row,
+             "gimbal_middle shows more than a turn (expected at most 90 deg to either side, or "
+             "0 to 360 deg). " +
+                 slip_behind(gimbals.sights, units_of(recording))
+                     .value_or("Correct its unit, or which column it is")}};
   if (!gimbals.wrong.empty() && !gimbals.reason)
     if (const auto slip = slip_behind(gimbals.sights, units_of(recording)))
       gimbals.reason = fmt::format(

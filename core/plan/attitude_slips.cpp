@@ -14,12 +14,20 @@
 namespace drift {
 namespace {
 
+/// How far the worst of all is then from the attitude of the plan [rad].
+template <typename Undo>
+double worst_mismatch(const std::vector<Sight>& sights, const Undo& undo) {
+  double worst = 0.0;
+  for (Sight s : sights) {
+    undo(s);
+    const double mismatch = gimbal_mismatch(s);
+    if (!(mismatch <= worst)) worst = mismatch;
+  }
+  return worst;
+}
 template <typename Undo>
 bool brings_all_into_place(const std::vector<Sight>& sights, const Undo& undo) {
-  return std::ranges::all_of(sights, [&](Sight s) {
-    undo(s);
-    return gimbal_mismatch(s) < largest_mismatch;
-  });
+  return worst_mismatch(sights, undo) < largest_mismatch;
 }
 
 /// Something that may be wrong with the heading of the case, and what to do.
@@ -78,28 +86,41 @@ bool says(Columns columns, const AngleUnits& said, double to_si) {
   return false;
 }
 
-/// The one unit in which these columns would show the plan.
+/// Units that an angle may be in: those of study files, and grads.
+std::vector<std::pair<std::string_view, double>> angle_units() {
+  std::vector<std::pair<std::string_view, double>> all{{"gon", 0.9 * detail::deg}};
+  for (const detail::BaseUnit& unit : detail::base_units)
+    if (unit.dim == unit::rad.dim) all.emplace_back(unit.symbol, unit.to_si);
+  return all;
+}
+
+/// The one unit in which these columns would show the plan; of several the one that leaves less
+/// than half of what any other does.
 std::optional<std::string> in_another_unit(const std::vector<Sight>& sights, Columns columns,
                                            const AngleUnits& said) {
-  std::vector<std::string_view> wrong, fitting;
+  std::vector<std::string_view> wrong;
+  std::vector<std::pair<double, std::string_view>> fitting;  // what they leave [rad]
   std::string_view was;
   for (std::size_t i = 0; i < 4; ++i) {
     if ((columns >> i & 1U) == 0) continue;
     wrong.push_back(names[i]);
     if (was.empty()) was = said[i].symbol.view();
   }
-  for (const detail::BaseUnit& unit : detail::base_units)
-    if (unit.dim == unit::rad.dim && !says(columns, said, unit.to_si) &&
-        tells(sights, columns, said, unit.to_si) &&
-        brings_all_into_place(sights, [&](Sight& s) { take_as(s, columns, said, unit.to_si); }))
-      fitting.push_back(unit.symbol);
-  if (fitting.size() != 1) return std::nullopt;
+  for (const auto& [symbol, to_si] : angle_units()) {
+    if (says(columns, said, to_si) || !tells(sights, columns, said, to_si)) continue;
+    const double worst =
+        worst_mismatch(sights, [&](Sight& s) { take_as(s, columns, said, to_si); });
+    if (worst < largest_mismatch) fitting.emplace_back(worst, symbol);
+  }
+  std::ranges::sort(fitting);
+  if (fitting.empty() || (fitting.size() > 1 && fitting[0].first > 0.5 * fitting[1].first))
+    return std::nullopt;
   const std::string last = std::string(wrong.back());
   wrong.pop_back();
   return fmt::format(
       "{}{}{} {} in another unit: the numbers look like [{}], not [{}]. Correct the unit{}",
       fmt::join(wrong, ", "), wrong.empty() ? "" : " and ", last, wrong.empty() ? "is" : "are",
-      fitting.front(), was, wrong.empty() ? "" : "s");
+      fitting.front().second, was, wrong.empty() ? "" : "s");
 }
 
 }  // namespace

@@ -154,18 +154,19 @@ std::string verdict_text(const Judgement& j, const identification::Identificatio
   const auto judged_as = [&](std::string_view word) {
     return absent.empty() ? fmt::format("{}:", word) : fmt::format("{}, {};", word, absent);
   };
-  if (const auto doubt = other_latitude(id); doubt && j.good.empty() && !doubt->alone())
+  const std::string_view wrong = j.good.empty() ? "Misfit" : "Wrong latitude";
+  if (const auto doubt = other_latitude(id); doubt && !doubt->alone())
     return fmt::format(
         "{} the latitude of [site] is not that of the recording, and something else is missing: at "
         "about {:.1f} deg instead of {:.3f} deg chi-square per degree of freedom is {} instead of "
         "{}, where 1 is expected.",
-        judged_as("Misfit"), doubt->latitude / unit::deg.to_si, doubt->declared / unit::deg.to_si,
+        judged_as(wrong), doubt->latitude / unit::deg.to_si, doubt->declared / unit::deg.to_si,
         number_text(doubt->chi2_per_dof_after), number_text(doubt->chi2_per_dof_before));
-  if (const auto doubt = other_latitude(id); doubt && j.good.empty())
+  if (const auto doubt = other_latitude(id))
     return fmt::format(
         "{} the latitude of [site] is not that of the recording. At {:.3f} deg instead of {:.3f} "
         "deg chi-square per degree of freedom is {} instead of {}: correct it first.",
-        judged_as("Misfit"), doubt->latitude / unit::deg.to_si, doubt->declared / unit::deg.to_si,
+        judged_as(wrong), doubt->latitude / unit::deg.to_si, doubt->declared / unit::deg.to_si,
         number_text(doubt->chi2_per_dof_after), number_text(doubt->chi2_per_dof_before));
   if (j.good.empty())
     return fmt::format("{} {}. {} estimates are not to be trusted.", judged_as("Misfit"),
@@ -254,14 +255,16 @@ InBrief identification_in_brief(const mc::Study& study, const identification::Id
   }
   for (const identification::FilterSummary& s : id.summaries) {
     const FilterView view{study, id, s};
-    brief.more.push_back(count_text(view));
-    for (const std::string& said : {which_counts(view), outside_text(view), beyond_text(view)})
+    for (const std::string& said :
+         {which_counts(view), outside_text(view), beyond_text(view), count_text(view)})
       if (!said.empty()) brief.more.push_back(said);
     doubtful = doubtful || (believed(view) && !beyond_prior(view).empty());
   }
-  brief.tone = j.good.empty() ? Tone::bad : doubtful ? Tone::doubtful : Tone::good;
+  brief.tone = j.good.empty() || other_latitude(id) ? Tone::bad
+               : doubtful                           ? Tone::doubtful
+                                                    : Tone::good;
   const std::string file = study.path.empty() ? "STUDY" : study.path;
-  if (const auto doubt = other_latitude(id); doubt && j.good.empty() && doubt->alone())
+  if (const auto doubt = other_latitude(id); doubt && doubt->alone())
     brief.next = fmt::format("Next: identify again with --set site.latitude=\"{:.3f} deg\".",
                              doubt->latitude / unit::deg.to_si);
   else if (!j.first_fits)

@@ -98,16 +98,25 @@ TEST(OwnRecording, IdentifyReadsTheFileAsItIs) {
   const auto answer = driftscope("identify '" + study + "' '" + log + "' --full --progress none");
   EXPECT_EQ(answer.code, 0) << answer.err;
   EXPECT_NE(answer.out.find("columns of text are passed over"), std::string::npos) << answer.out;
+  EXPECT_EQ(answer.err.find("site.gravity"), std::string::npos) << answer.err;
+  std::string without = test::text_of(study);
+  without.erase(without.find("gravity ="), std::string("gravity = \"9.81 m/s^2\"\n").size());
+  const auto assumed =
+      driftscope("identify '" + own.folder.write("no.toml", without) + "' '" + log + "'");
+  EXPECT_NE(assumed.err.find("divided by site.gravity, which is not given"), std::string::npos)
+      << assumed.err;
 }
 
-TEST(OwnRecording, MillisecondsCalledSecondsAreAskedAbout) {
+TEST(OwnRecording, AnotherUnitOfTimeIsAskedAbout) {
   Own own;
-  std::string text = test::text_of(own.made);
-  text.replace(text.find("time [s]"), 8, "time [ms]");
-  const std::string log = own.folder.write("log.csv", text);
-  const auto answer = driftscope("identify '" + own.study + "' '" + log + "' --progress none");
-  EXPECT_EQ(answer.code, 4) << answer.out;
-  EXPECT_NE(answer.err.find("Correct the unit of time"), std::string::npos) << answer.err;
+  for (const char* unit : {"time [ms]", "time [min]"}) {
+    std::string text = test::text_of(own.made);
+    text.replace(text.find("time [s]"), 8, unit);
+    const std::string log = own.folder.write("log.csv", text);
+    const auto answer = driftscope("identify '" + own.study + "' '" + log + "' --progress none");
+    EXPECT_EQ(answer.code, 4) << answer.out;
+    EXPECT_NE(answer.err.find("Correct the unit of time"), std::string::npos) << answer.err;
+  }
 }
 
 TEST(OwnRecording, AFileOfUnknownNamesIsOneMessage) {

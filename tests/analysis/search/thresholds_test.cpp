@@ -32,6 +32,13 @@ MatX alike(double information, double unlike) {
   return C;
 }
 
+TEST(ChanceThresholds, OfAPlanThatShowsNothingAreThoseOfNothing) {
+  // A recording with a column in a wrong unit may leave no candidate that shows (was a crash).
+  const Field nothing = field_of(MatX(0, 0), VecX(0));
+  EXPECT_EQ(pair_null(nothing, 100).threshold(0.02), inference::MaxNull().threshold(0.02));
+  EXPECT_EQ(inference::MaxNull::draw(MatX(0, 0), 3, 1).rows(), 3);
+}
+
 TEST(ChanceThresholds, AreExceededWithTheirShareOfTheChance) {
   const ChanceThresholds t =
       chance_thresholds(field_of(MatX::Identity(6, 6), VecX::Zero(6)), 0.02, 4000);

@@ -138,7 +138,11 @@ TEST(AttitudeCheck, TriesUnitsAndHeadingsBeforeItGivesUp) {
     expect(said_of(times({name}, detail::deg)), (is + "[rad], not [deg]").c_str());
     expect(said_of(times({name}, 1.0 / detail::deg, unit::rad)), (is + "[deg], not [rad]").c_str());
     expect(said_of(times({name}, 60.0)), (is + "[arcmin], not [deg]").c_str());
+    expect(said_of(times({name}, 1.0 / (0.9 * detail::deg), unit::rad)),
+           (is + "[gon], not [rad]").c_str());
   }
+  // 45 rad are 58 deg, too near to 45 deg to be another attitude.
+  expect(said_of(times({"gimbal_middle"}, 1.0 / detail::deg, unit::rad)), "more than a turn");
   expect(said_of(times({"case_heading"}, -1.0)), "case_heading = \"-case_heading\"");
   expect(said_of(times({"case_heading"}, detail::deg)),
          "case_heading is in another unit: the numbers look like [rad], not [deg]");
