@@ -27,13 +27,11 @@ double grid_points(const Fitted& e, std::size_t candidate) {
 
 /// Change of the log evidence if the amplitudes of the causes are of unknown size (size_prior.hpp).
 /// lambda is no amplitude: it lies between 0 and 1.
-double gain_of_sizes(const inference::CandidateSet& set, const FilterSpec& nominal,
-                     const Refit& r) {
+double gain_of_sizes(const inference::CandidateSet& set, const Refit& r) {
   const inference::Projector::Fit fit = r.after.projector->fit();
   const Layout layout = make_layout(r.filter);
   std::vector<Eigen::Index> rows;
   std::vector<int> cause;
-  std::vector<double> wide;
   int causes = 0;
   for (const Choice& choice : r.choices) {
     const std::size_t before = rows.size();
@@ -42,12 +40,10 @@ double gain_of_sizes(const inference::CandidateSet& set, const FilterSpec& nomin
       if (i == closure_param || at == layout.params.end()) continue;
       rows.push_back(at - layout.params.begin());
       cause.push_back(causes);
-      wide.push_back(r.filter.believed(i).sigma() / nominal.believed(i).sigma());
     }
     causes += rows.size() > before;
   }
-  return log_gain_of_sizes(fit.x(rows), fit.covariance(rows, rows), cause,
-                           Eigen::Map<const VecX>(wide.data(), std::ssize(wide)));
+  return log_gain_of_sizes(fit.x(rows), fit.covariance(rows, rows), cause);
 }
 
 /// Whether each of simultaneous causes has an amplitude that is clearly not zero. A change of
@@ -88,27 +84,21 @@ Remainder left_by(const Fitted& after, const inference::CandidateSet& set,
   return out;
 }
 
-/// The filter with a prior as wide as each amplitude that is larger than its own.
-struct Room {
-  FilterSpec filter;
-  double farthest = 0.0;  ///< the largest of these amplitudes, in sigmas of its own prior
-};
-/// Nothing if none is. What a narrow prior holds back of a large effect its twins would take, and
-/// it is no second one: a prior cost of 36 at six sigma.
-std::optional<Room> with_room_for_sizes(const inference::CandidateSet& set, const Refit& r) {
-  std::optional<Room> room;
+/// The filter with a prior as wide as each amplitude that is larger than its own; nothing if none
+/// is. What a narrow prior holds back of a large effect its twins would take, and it is no second
+/// one: a prior cost of 36 at six sigma.
+std::optional<FilterSpec> with_room_for_sizes(const inference::CandidateSet& set, const Refit& r) {
+  std::optional<FilterSpec> roomy;
   for (const Choice& choice : r.choices)
     for (const std::size_t i : set.candidates[choice.candidate].params) {
       const ParameterEstimate* p = r.after.fit.estimate.find(i);
-      if (i == closure_param || !p) continue;
       const Prior prior = r.filter.believed(i);
-      const double off = std::abs(p->value - prior.mean());
-      if (!(off > prior.sigma())) continue;
-      if (!room) room = {r.filter};
-      room->filter.priors[i] = normal(prior.mean(), off);
-      room->farthest = std::max(room->farthest, off / prior.sigma());
+      if (i == closure_param || !p || !(std::abs(p->value - prior.mean()) > prior.sigma()))
+        continue;
+      if (!roomy) roomy = r.filter;
+      roomy->priors[i] = normal(prior.mean(), std::abs(p->value - prior.mean()));
     }
-  return room;
+  return roomy;
 }
 
 /// Another equation must be another one: an interval that holds the nominal weight names nothing.
@@ -136,32 +126,23 @@ Refit refit(const Fitted& nominal, const MeasuredTest& test, const std::vector<C
   const auto [filter, fit, expected, narrowed] = fit_causes(nominal, test, choices);
   Refit out;
   out.choices = choices;
+  out.filter = filter;
+  out.after = examine(filter, test, fit, kinds);
+  // A second effect may hide in the noise; beside a cause noise stays where it is credible.
+  if (const auto settled = settle_noise(out.after, EffortLimits::noise_tries_beside);
+      settled && settled->probability > inference::SearchLimits::credible)
+    out.after = with_noise(std::move(out.after), test.timeline, settled->noise);
+  out.sign_agrees = signs_agree(expected, fit);
+  out.nameable = !expected.lambda_among_them || is_another_equation(nominal.filter.coupling, fit);
   const auto look_at_rest = [&](const Fitted& after) {
     out.remainder = left_by(after, nominal.set, choices);
     out.excess = std::max(out.remainder.library - thresholds.library_threshold,
                           out.remainder.scan - thresholds.scan_threshold);
   };
-  const auto look_at = [&](const FilterSpec& with, const BatchResult& fitted) {
-    out.filter = with;
-    out.after = examine(with, test, fitted, kinds);
-    // A second effect may hide in the noise; beside a cause noise stays where it is credible.
-    if (const auto settled = settle_noise(out.after, EffortLimits::noise_tries_beside);
-        settled && settled->probability > inference::SearchLimits::credible)
-      out.after = with_noise(std::move(out.after), test.timeline, settled->noise);
-    look_at_rest(out.after);
-  };
-  look_at(filter, fit);
-  if (const auto room = with_room_for_sizes(nominal.set, out)) {
-    // Beyond what its prior makes credible at all the size is what the test says.
-    if (room->farthest > inference::FitLimits::beyond_prior)
-      look_at(room->filter,
-              fit_batch_from(room->filter, test, theta_of(room->filter, fit), fit.psi0_l));
-    else if (out.excess > 0.0)
-      look_at_rest(examine(room->filter, test, fit, out.after.noise));
-  }
-  out.sign_agrees = signs_agree(expected, out.after.fit);
-  out.nameable =
-      !expected.lambda_among_them || is_another_equation(nominal.filter.coupling, out.after.fit);
+  look_at_rest(out.after);
+  if (out.excess > 0.0)
+    if (const auto roomy = with_room_for_sizes(nominal.set, out))
+      look_at_rest(examine(*roomy, test, fit, out.after.noise));
   if (choices.size() > 1 && !all_needed(nominal.set, out))
     out.excess = std::numeric_limits<double>::infinity();
   if (out.tolerable()) {
@@ -170,7 +151,7 @@ Refit refit(const Fitted& nominal, const MeasuredTest& test, const std::vector<C
     out.excess = std::max(out.excess, std::log(WeighLimits::quiet_p / out.after.lone.p_value));
   }
   out.log_bayes = out.after.log_evidence() - nominal.log_evidence() - log_tries(nominal, choices) -
-                  narrowed + gain_of_sizes(nominal.set, nominal.filter, out);
+                  narrowed + gain_of_sizes(nominal.set, out);
   return out;
 }
 

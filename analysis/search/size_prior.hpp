@@ -12,15 +12,9 @@ namespace drift::search {
 /// 1, 0.3, 0.1, 0.03 or 0.01 of the library's sigma, all amplitudes of one cause alike (a scale
 /// mixture). With the library's sigma alone, of two effects that explain a test equally well the
 /// one that the test sees worse would always win, only because its estimate is less sharp.
-///
-/// A library may be wrong about a unit. That an amplitude lies FitLimits::beyond_prior sigmas off
-/// or more has the chance that a normal prior gives it, and as little is known there of its size:
-/// of w sigmas or more that chance times (beyond_prior / w)^2. This share has a prior of w sigmas.
-double share_of_sizes(double w);
 
 /// Log evidence of amplitudes with projected information C and gradient g (in prior sigmas) against
-/// none: log of the mean over scales s of exp(g' (1/s^2 + C)^-1 g / 2) / sqrt(det(1 + s^2 C)), with
-/// a scale of its own where an amplitude lies far beyond the prior.
+/// none: log of the mean over scales s of exp(g' (1/s^2 + C)^-1 g / 2) / sqrt(det(1 + s^2 C)).
 double log_evidence_of_sizes(const MatX& C, const VecX& g);
 
 /// The same of those scales alone at which an effect of one of their sigmas is
@@ -32,11 +26,8 @@ struct VisibleEvidence {
 VisibleEvidence evidence_of_visible_sizes(const MatX& C, const VecX& g);
 
 /// What the mixture changes in the log evidence of a fit that was made with unit priors: amplitudes
-/// x with posterior `covariance` (in sigmas of those priors). cause: which cause each amplitude
-/// belongs to, numbered from 0; causes have scales of their own. wide: by what factor the prior of
-/// each is wider than the library's, where sizes were found far beyond it (share_of_sizes is then
-/// that prior's); empty: none is.
-double log_gain_of_sizes(const VecX& x, const MatX& covariance, const std::vector<int>& cause,
-                         const VecX& wide = {});
+/// x with posterior `covariance` (in prior sigmas). cause: which cause each amplitude belongs to,
+/// numbered from 0; causes have scales of their own.
+double log_gain_of_sizes(const VecX& x, const MatX& covariance, const std::vector<int>& cause);
 
 }  // namespace drift::search
