@@ -172,12 +172,6 @@ std::vector<RowMistake> attitude_mistakes(const Recording& recording, const Test
   const Shown acc =
       shown_by(sights(accelerometer_channels), accelerometer_channels, of_accelerometers);
   Shown gimbals = shown_by(sights(gimbal_channels), gimbal_channels, of_gimbals);
-  if (const auto row = row_beyond_a_turn(gimbals.sights))
-    return {{*row,
-             "gimbal_middle shows more than a turn (expected at most 90 deg to either side, or "
-             "0 to 360 deg). " +
-                 slip_behind(gimbals.sights, units_of(recording))
-                     .value_or("Correct its unit, or which column it is")}};
   if (!gimbals.wrong.empty() && !gimbals.reason)
     if (const auto slip = slip_behind(gimbals.sights, units_of(recording)))
       gimbals.reason = fmt::format(
@@ -200,6 +194,12 @@ std::vector<RowMistake> attitude_mistakes(const Recording& recording, const Test
   if (!gimbals.wrong.empty())
     all.push_back({gimbals.wrong.front().row,
                    gimbals.reason.value_or(elsewhere(gimbals, of_gimbals, "gimbal angles are"))});
+  if (const auto row = row_beyond_a_turn(gimbals.sights); row && gimbals.wrong.empty())
+    all.push_back({*row,
+                   "gimbal_middle shows more than a turn (expected at most 90 deg to either "
+                   "side, or 0 to 360 deg). " +
+                       middle_slip(gimbals.sights, units_of(recording))
+                           .value_or("Correct its unit, or which column it is")});
   std::ranges::stable_sort(all, {}, &RowMistake::row);
   return all;
 }

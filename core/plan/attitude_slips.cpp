@@ -141,4 +141,8 @@ std::optional<std::string> slip_behind(const std::vector<Sight>& sights, const A
   return std::nullopt;
 }
 
+std::optional<std::string> middle_slip(const std::vector<Sight>& sights, const AngleUnits& units) {
+  return in_another_unit(sights, 2U, units);
+}
+
 }  // namespace drift

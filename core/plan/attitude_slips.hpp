@@ -38,4 +38,8 @@ using AngleUnits = std::array<Unit, 4>;
 /// explanations come first.
 std::optional<std::string> slip_behind(const std::vector<Sight>& sights, const AngleUnits& units);
 
+/// The unit in which the middle gimbal would show the plan, in words: of angles whose whole turns
+/// hide that it is in another one.
+std::optional<std::string> middle_slip(const std::vector<Sight>& sights, const AngleUnits& units);
+
 }  // namespace drift
