@@ -168,9 +168,14 @@ void doubt_latitude(const mc::Study& study, const std::vector<Recording>& record
     return !misfit(result(s)) && beyond_prior(result(s)).empty();
   };
   if (std::ranges::any_of(id.summaries, fits)) return;
-  for (FilterSummary& s : id.summaries)
-    if (const FilterSpec& filter = study.filters[s.filter]; !filter.active[d_lat])
-      s.latitude_doubt = latitude_doubt(study, recordings, filter);
+  for (FilterSummary& s : id.summaries) {
+    const FilterSpec& filter = study.filters[s.filter];
+    if (filter.active[d_lat]) continue;
+    s.latitude_doubt = latitude_doubt(study, recordings, filter);
+    // What a fit that is one gains elsewhere may be chance, but for the other hemisphere.
+    if (s.latitude_doubt && !s.latitude_doubt->mirrored && !misfit(result(s)))
+      s.latitude_doubt.reset();
+  }
 }
 
 }  // namespace

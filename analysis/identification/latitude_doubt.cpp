@@ -114,7 +114,7 @@ std::optional<LatitudeDoubt> latitude_doubt(const mc::Study& study,
   take(latitudes.at({-best.latitude}));  // the mirrored valley is nearly as deep
   follow({0.2, 0.02, 0.005});
   const double prior = TermLibrary::specs[d_lat].prior_si().sigma();
-  const LatitudeDoubt doubt{
+  LatitudeDoubt doubt{
       best.latitude,
       declared,
       std::abs(best.latitude - declared) / prior,
@@ -126,10 +126,10 @@ std::optional<LatitudeDoubt> latitude_doubt(const mc::Study& study,
   const bool explains =
       doubt.chi2_per_dof_before - doubt.chi2_per_dof_after >= SiteLimits::most * excess;
   // Mirrored, not across a nearby equator.
-  const bool mirrored =
+  doubt.mirrored =
       std::abs(best.latitude + declared) < 0.1 * std::abs(best.latitude - declared) &&
       ends[0].cost - best.cost > inference::FitLimits::mirrored * std::max(1.0, best.per_dof());
-  if (!explains && !mirrored) return std::nullopt;
+  if (!explains && !doubt.mirrored) return std::nullopt;
   return doubt;
 }
 

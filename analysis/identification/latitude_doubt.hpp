@@ -14,6 +14,8 @@ struct LatitudeDoubt {
   double prior_sigmas = 0.0;              ///< size that latitude_error would need
   double chi2_per_dof_before = 0.0, chi2_per_dof_after = 0.0;  ///< of the filter's fit
   double chance_after = 1.0;  ///< that a right model's chi-square is as far above 1 as that
+  /// It is that of the other hemisphere, by odds that no chance has (FitLimits::mirrored).
+  bool mirrored = false;
 
   /// The latitude mends the fit by itself: what is left is no rarer than a false alarm of a
   /// diagnosis (SearchLimits::alpha). Otherwise something else is missing, or the noise is not as
