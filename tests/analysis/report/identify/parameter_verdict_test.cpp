@@ -45,8 +45,8 @@ TEST(ParameterVerdict, IsInASumAloneWhereThePriorDecidesMostOfItsVariance) {
   EXPECT_EQ(f.verdict(2).worth, Worth::sum_only);
   EXPECT_EQ(f.verdict(0).worth, Worth::learned);
   const report::InBrief brief = report::identification_in_brief(f.study, f.id);
-  EXPECT_NE(brief.more.back().find("2 known in sums with others alone"), std::string::npos)
-      << brief.more.back();
+  const std::string said = fmt::format("{}", fmt::join(brief.more, "\n"));
+  EXPECT_NE(said.find("2 known in sums with others alone"), std::string::npos) << said;
 }
 
 TEST(ParameterVerdict, WhatToDoNextRunsWhereAFilterNeedsTheTemperature) {
