@@ -19,11 +19,12 @@ std::vector<double> judge_members(const search::Fitted& nominal, const MeasuredT
     for (const auto* all : {&found.sets, &found.rejected, &found.beside})
       for (const search::Refit& r : *all)
         if (same(r.choices, others)) known = &r;
-    gains.push_back(held_out_gain(known ? known->after
-                                        : search::refit(nominal, test, others, found.thresholds,
-                                                        search::noise_beside(nominal))
-                                              .after,
-                                  best.after));
+    gains.push_back(
+        held_out_gain(known ? known->after
+                            : search::refit(nominal, test, others, found.thresholds,
+                                            search::noise_beside(nominal), search::Sizes::as_found)
+                                  .after,
+                      best.after));
   }
   return gains;
 }

@@ -242,8 +242,9 @@ struct FitLimits {
   /// right models, both sides. Test: FitWords.TheWordOfAFit...
   static constexpr double misfit = 5.0;
   /// [prior sigma] from a prior's mean, two-sided: 6e-7 for each parameter that is of its prior,
-  /// 1e-4 for any of 200. Test: FitWords.ParametersFarFromTheirPriors...,
-  /// Thresholds.ParametersFiveSigma...
+  /// 1e-4 for any of 200. An effect beyond it is also fitted as it is found (size_prior.hpp).
+  /// Tests: FitWords.ParametersFarFromTheirPriors..., Thresholds.ParametersFiveSigma...,
+  /// SizePrior.FarBeyond...
   static constexpr double beyond_prior = 5.0;
   /// [2 log L, scaled to a chi-square of 1 per degree of freedom] by which the mirrored latitude
   /// must fit better to be the right one where something else misfits too: odds of e^20 against a

@@ -90,7 +90,9 @@ std::vector<Judged> refitted(const search::Fitted& base, const std::vector<Offer
     const auto choice = whole_of(base, forms[k].key);
     if (!choice) return std::nullopt;
     Judged j{&forms[k],
-             search::refit(base, test, {*choice}, thresholds, search::noise_beside(base)), 0.0};
+             search::refit(base, test, {*choice}, thresholds, search::noise_beside(base),
+                           search::Sizes::of_library),
+             0.0};
     j.weight = j.refit.log_bayes + forms[k].screened.form.log_prior;
     return j;
   });

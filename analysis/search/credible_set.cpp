@@ -109,11 +109,12 @@ std::vector<std::size_t> heads_of(const Fitted& e, const std::vector<Refit>& goo
 
 }  // namespace
 
-bool can_be_weighed(const Fitted& e, const std::vector<Refit>& refits, Leftover left) {
+bool can_be_weighed(const Fitted& e, const std::vector<Refit>& refits, Leftover left, Sizes sizes) {
   double top = -std::numeric_limits<double>::infinity();
   bool enough = false;
   for (const Refit& r : refits) {
-    enough = enough || (left == Leftover::chance ? r.tolerable() : r.adequate());
+    if (sizes == Sizes::as_found || !r.as_found)
+      enough = enough || (left == Leftover::chance ? r.tolerable() : r.adequate());
     if (r.tolerable()) top = std::max(top, log_weight(e, r));
   }
   return enough && log_unknown(e) <=

@@ -7,9 +7,9 @@ namespace drift::search {
 /// What the best explanations may leave.
 enum class Leftover { nothing, chance };
 
-/// Whether there is an explanation that leaves no more than that, and nothing unknown in one
-/// equation explains the test far better than the best of them.
-bool can_be_weighed(const Fitted& e, const std::vector<Refit>& refits, Leftover left);
+/// Whether there is an explanation with such sizes that leaves no more than that, and nothing
+/// unknown in one equation explains the test far better than the best of all.
+bool can_be_weighed(const Fitted& e, const std::vector<Refit>& refits, Leftover left, Sizes sizes);
 
 /// The explanation of most evidence and prior of those that leave no more than chance; null if none
 /// does.

@@ -123,6 +123,22 @@ std::vector<std::size_t> more_than(const Search& s, const Refit& part) {
   return more;
 }
 
+std::vector<std::size_t> as_good_with_credible_sizes(const Search& s) {
+  const Fitted& e = s.nominal;
+  const std::vector<std::size_t> order = e.by_evidence();
+  std::vector<std::size_t> credible;
+  for (const std::size_t k : order) {
+    const Score& score = e.scores[k];
+    if (score.log_bayes <
+        (1.0 - inference::WeighLimits::not_linear) * e.scores[order.front()].log_bayes)
+      break;
+    const VecX size =
+        expected_amplitudes(e.projected, e.set.candidates[k].variants[score.variant].columns);
+    if (size.cwiseAbs().maxCoeff() <= inference::FitLimits::beyond_prior) credible.push_back(k);
+  }
+  return credible;
+}
+
 std::vector<Explanation> promising_pairs(const Search& s, std::size_t most) {
   constexpr double allowed = ReachLimits::pair_slack;  // of the thresholds
   std::vector<Explanation> pairs;

@@ -18,6 +18,11 @@ std::vector<std::size_t> promising_singles(const Search& s, std::size_t most);
 /// and what the refit asks for.
 std::vector<std::size_t> more_than(const Search& s, const Refit& part);
 
+/// What is to be tried before a size that nobody expects is believed: candidates of sizes that
+/// their priors make credible which explain as much, give or take what linearisation may be wrong
+/// by. Best first.
+std::vector<std::size_t> as_good_with_credible_sizes(const Search& s);
+
 /// Two causes at once, by the linearised test.
 std::vector<Explanation> promising_pairs(const Search& s, std::size_t most);
 

@@ -26,12 +26,14 @@ double grid_points(const Fitted& e, std::size_t candidate) {
 }
 
 /// Change of the log evidence if the amplitudes of the causes are of unknown size (size_prior.hpp).
-/// lambda is no amplitude: it lies between 0 and 1.
-double gain_of_sizes(const inference::CandidateSet& set, const Refit& r) {
+/// lambda is no amplitude: it lies between 0 and 1. library: the filter with the library's priors.
+double gain_of_sizes(const inference::CandidateSet& set, const FilterSpec& library,
+                     const Refit& r) {
   const inference::Projector::Fit fit = r.after.projector->fit();
   const Layout layout = make_layout(r.filter);
   std::vector<Eigen::Index> rows;
   std::vector<int> cause;
+  std::vector<double> wide;
   int causes = 0;
   for (const Choice& choice : r.choices) {
     const std::size_t before = rows.size();
@@ -40,10 +42,11 @@ double gain_of_sizes(const inference::CandidateSet& set, const Refit& r) {
       if (i == closure_param || at == layout.params.end()) continue;
       rows.push_back(at - layout.params.begin());
       cause.push_back(causes);
+      wide.push_back(r.filter.believed(i).sigma() / library.believed(i).sigma());
     }
     causes += rows.size() > before;
   }
-  return log_gain_of_sizes(fit.x(rows), fit.covariance(rows, rows), cause);
+  return log_gain_of_sizes(fit.x(rows), fit.covariance(rows, rows), cause, wide);
 }
 
 /// Whether each of simultaneous causes has an amplitude that is clearly not zero. A change of
@@ -84,21 +87,27 @@ Remainder left_by(const Fitted& after, const inference::CandidateSet& set,
   return out;
 }
 
-/// The filter with a prior as wide as each amplitude that is larger than its own; nothing if none
-/// is. What a narrow prior holds back of a large effect its twins would take, and it is no second
-/// one: a prior cost of 36 at six sigma.
-std::optional<FilterSpec> with_room_for_sizes(const inference::CandidateSet& set, const Refit& r) {
-  std::optional<FilterSpec> roomy;
+/// The filter with a prior as wide as each amplitude that is larger than its own.
+struct Room {
+  FilterSpec filter;
+  double farthest = 0.0;  ///< the largest of these amplitudes, in sigmas of its own prior
+};
+/// Nothing if none is. What a narrow prior holds back of a large effect its twins would take, and
+/// it is no second one: a prior cost of 36 at six sigma.
+std::optional<Room> with_room_for_sizes(const inference::CandidateSet& set, const Refit& r) {
+  std::optional<Room> room;
   for (const Choice& choice : r.choices)
     for (const std::size_t i : set.candidates[choice.candidate].params) {
       const ParameterEstimate* p = r.after.fit.estimate.find(i);
+      if (i == closure_param || !p) continue;
       const Prior prior = r.filter.believed(i);
-      if (i == closure_param || !p || !(std::abs(p->value - prior.mean()) > prior.sigma()))
-        continue;
-      if (!roomy) roomy = r.filter;
-      roomy->priors[i] = normal(prior.mean(), std::abs(p->value - prior.mean()));
+      const double off = std::abs(p->value - prior.mean());
+      if (!(off > prior.sigma())) continue;
+      if (!room) room = {r.filter};
+      room->filter.priors[i] = normal(prior.mean(), off);
+      room->farthest = std::max(room->farthest, off / prior.sigma());
     }
-  return roomy;
+  return room;
 }
 
 /// Another equation must be another one: an interval that holds the nominal weight names nothing.
@@ -121,38 +130,82 @@ NoiseKinds noise_beside(const Fitted& nominal) {
   return nominal.noise.driven ? NoiseKinds::driving_too : NoiseKinds::white;
 }
 
-Refit refit(const Fitted& nominal, const MeasuredTest& test, const std::vector<Choice>& choices,
-            const ChanceThresholds& thresholds, NoiseKinds kinds) {
-  const auto [filter, fit, expected, narrowed] = fit_causes(nominal, test, choices);
+namespace {
+
+/// What a refit is made of and compared with.
+struct Beside {
+  const Fitted& nominal;
+  const MeasuredTest& test;
+  const ChanceThresholds& thresholds;
+  NoiseKinds kinds;
+};
+
+/// What is left of the test with the causes in.
+void look_at_rest(Refit& r, const Fitted& after, const Beside& b) {
+  r.remainder = left_by(after, b.nominal.set, r.choices);
+  r.excess = std::max(r.remainder.library - b.thresholds.library_threshold,
+                      r.remainder.scan - b.thresholds.scan_threshold);
+}
+
+/// A fit of causes, scored again with its noise. Its filter is the one that it was fitted with.
+Refit scored(const std::vector<Choice>& choices, const FilterSpec& filter, const BatchResult& fit,
+             const Beside& b) {
   Refit out;
   out.choices = choices;
   out.filter = filter;
-  out.after = examine(filter, test, fit, kinds);
+  out.after = examine(filter, b.test, fit, b.kinds);
   // A second effect may hide in the noise; beside a cause noise stays where it is credible.
   if (const auto settled = settle_noise(out.after, EffortLimits::noise_tries_beside);
       settled && settled->probability > inference::SearchLimits::credible)
-    out.after = with_noise(std::move(out.after), test.timeline, settled->noise);
-  out.sign_agrees = signs_agree(expected, fit);
-  out.nameable = !expected.lambda_among_them || is_another_equation(nominal.filter.coupling, fit);
-  const auto look_at_rest = [&](const Fitted& after) {
-    out.remainder = left_by(after, nominal.set, choices);
-    out.excess = std::max(out.remainder.library - thresholds.library_threshold,
-                          out.remainder.scan - thresholds.scan_threshold);
-  };
-  look_at_rest(out.after);
-  if (out.excess > 0.0)
-    if (const auto roomy = with_room_for_sizes(nominal.set, out))
-      look_at_rest(examine(*roomy, test, fit, out.after.noise));
-  if (choices.size() > 1 && !all_needed(nominal.set, out))
-    out.excess = std::numeric_limits<double>::infinity();
-  if (out.tolerable()) {
-    // Many small traces in one equation that no window and no candidate has alone.
-    out.after.lone = inference::strongest_lone_input(out.after.problem, out.after.noise.model);
-    out.excess = std::max(out.excess, std::log(WeighLimits::quiet_p / out.after.lone.p_value));
-  }
-  out.log_bayes = out.after.log_evidence() - nominal.log_evidence() - log_tries(nominal, choices) -
-                  narrowed + gain_of_sizes(nominal.set, out);
+    out.after = with_noise(std::move(out.after), b.test.timeline, settled->noise);
+  look_at_rest(out, out.after, b);
   return out;
+}
+
+/// Judges and weighs a refit whose rest has been looked at.
+void judge(Refit& r, const CauseFit& causes, const Beside& b) {
+  r.sign_agrees = signs_agree(causes.expected, r.after.fit);
+  r.nameable = !causes.expected.lambda_among_them ||
+               is_another_equation(b.nominal.filter.coupling, r.after.fit);
+  if (r.choices.size() > 1 && !all_needed(b.nominal.set, r))
+    r.excess = std::numeric_limits<double>::infinity();
+  if (r.tolerable()) {
+    // Many small traces in one equation that no window and no candidate has alone.
+    r.after.lone = inference::strongest_lone_input(r.after.problem, r.after.noise.model);
+    r.excess = std::max(r.excess, std::log(WeighLimits::quiet_p / r.after.lone.p_value));
+  }
+  r.log_bayes = r.after.log_evidence() - b.nominal.log_evidence() -
+                log_tries(b.nominal, r.choices) - causes.narrowed +
+                gain_of_sizes(b.nominal.set, causes.filter, r);
+}
+
+/// Whether a refit is to be preferred to another one of the same causes.
+bool better(const Refit& a, const Refit& b) {
+  if (a.tolerable() != b.tolerable()) return a.tolerable();
+  return a.log_bayes - std::max(0.0, a.excess) > b.log_bayes - std::max(0.0, b.excess);
+}
+
+}  // namespace
+
+Refit refit(const Fitted& nominal, const MeasuredTest& test, const std::vector<Choice>& choices,
+            const ChanceThresholds& thresholds, NoiseKinds kinds, Sizes sizes) {
+  const CauseFit causes = fit_causes(nominal, test, choices);
+  const Beside beside{nominal, test, thresholds, kinds};
+  Refit out = scored(choices, causes.filter, causes.fit, beside);
+  const auto room = with_room_for_sizes(nominal.set, out);
+  if (room && out.excess > 0.0)
+    look_at_rest(out, examine(room->filter, test, causes.fit, out.after.noise), beside);
+  judge(out, causes, beside);
+  if (sizes == Sizes::of_library || !room || room->farthest <= inference::FitLimits::beyond_prior)
+    return out;
+  // Beyond what its prior makes credible at all a size may be what the test says.
+  Refit as_found = scored(
+      choices, room->filter,
+      fit_batch_from(room->filter, test, theta_of(room->filter, causes.fit), causes.fit.psi0_l),
+      beside);
+  as_found.as_found = true;
+  judge(as_found, causes, beside);
+  return better(as_found, out) ? as_found : out;
 }
 
 }  // namespace drift::search

@@ -6,15 +6,19 @@
 
 namespace drift::search {
 
+/// How large an effect may be: as the library expects, or whatever the test says (size_prior.hpp).
+enum class Sizes { of_library, as_found };
+
 /// A model with causes put in, fitted again through the full dynamics.
 struct Refit {
   std::vector<Choice> choices;  ///< into the nominal fit's candidates
   FilterSpec filter;
-  Fitted after;          ///< scored again, noise estimated again
-  Remainder remainder;   ///< largest strengths that are left
-  double excess = 0.0;   ///< by how much (log of a chance) what is left exceeds what is allowed; <=
-                         ///< 0: nothing is left
-  bool nameable = true;  ///< false: lambda that is not clearly another equation's
+  Fitted after;         ///< scored again, noise estimated again
+  Remainder remainder;  ///< largest strengths that are left
+  double excess = 0.0;  ///< by how much (log of a chance) what is left exceeds what is allowed; <=
+                        ///< 0: nothing is left
+  bool as_found = false;  ///< an amplitude lies beyond what its prior makes credible at all
+  bool nameable = true;   ///< false: lambda that is not clearly another equation's
   bool adequate() const { return excess <= 0.0 && nameable; }
   /// What is left may be chance: one in twenty of those that the threshold lets through.
   bool tolerable() const { return excess <= inference::WeighLimits::tolerable; }
@@ -26,8 +30,9 @@ struct Refit {
 /// needed it. What one cause leaves is not noise because it is slow.
 NoiseKinds noise_beside(const Fitted& nominal);
 
-/// Fits causes (fit_causes.hpp) and scores everything again.
+/// Fits causes (fit_causes.hpp) and scores everything again. Of sizes as the library expects and,
+/// where one is far beyond it, as found, what has more evidence.
 Refit refit(const Fitted& nominal, const MeasuredTest& test, const std::vector<Choice>& choices,
-            const ChanceThresholds& thresholds, NoiseKinds kinds);
+            const ChanceThresholds& thresholds, NoiseKinds kinds, Sizes sizes);
 
 }  // namespace drift::search

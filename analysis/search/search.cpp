@@ -33,14 +33,15 @@ Remainder least_remainder(const Search& s, std::size_t candidate) {
 
 /// Each explanation fitted, spread over threads. kinds: of noise that are looked for.
 std::vector<Refit> refit_all(const Search& s, const MeasuredTest& test,
-                             const std::vector<Explanation>& all, NoiseKinds kinds) {
+                             const std::vector<Explanation>& all, NoiseKinds kinds,
+                             Sizes sizes = Sizes::as_found) {
   std::vector<Refit> refits;
   if (all.size() == 1) {  // its own fits are spread over the threads then
-    refits.push_back(refit(s.nominal, test, all.front(), s.thresholds, kinds));
+    refits.push_back(refit(s.nominal, test, all.front(), s.thresholds, kinds, sizes));
     return refits;
   }
   return mc::run_campaign(all.size(), [&](std::size_t k) {
-    return refit(s.nominal, test, all[k], s.thresholds, kinds);
+    return refit(s.nominal, test, all[k], s.thresholds, kinds, sizes);
   });
 }
 std::vector<Refit> refit_all(const Search& s, const MeasuredTest& test,
@@ -152,7 +153,8 @@ std::vector<Explanation> with_parts(const Search& s, const Explanation& in) {
 
 /// Terms that the nominal model leaves out unknowingly, one after the other, each fitted through
 /// the full dynamics: whoever leaves out one usually leaves out several, and beside them the
-/// linearised test says little. Nor is anything known of what drives the platform. The last fit.
+/// linearised test says little. Nor is anything known of what drives the platform. One of a size
+/// that nobody expects would stand for all of them. The last fit.
 std::vector<Refit> refit_left_out_terms(const Search& s, const MeasuredTest& test) {
   Explanation in;
   std::vector<Refit> found;
@@ -160,7 +162,7 @@ std::vector<Refit> refit_left_out_terms(const Search& s, const MeasuredTest& tes
        next && in.size() < EffortLimits::together;
        next = left_out_term_missed(s, found.front().after)) {
     in.push_back(*next);
-    found = refit_all(s, test, {in}, NoiseKinds::driving_too);
+    found = refit_all(s, test, {in}, NoiseKinds::driving_too, Sizes::of_library);
     if (found.front().adequate()) break;
   }
   if (in.size() < 2) return {};
@@ -195,7 +197,19 @@ void add_fewer(const Search& s, const MeasuredTest& test, std::vector<Refit>& re
 void with_driving_noise(const Search& s, const MeasuredTest& test, std::vector<Refit>& refits) {
   for (Refit& r : refits)
     if (r.tolerable() && !r.adequate() && !r.after.noise.driven)
-      r = refit(s.nominal, test, r.choices, s.thresholds, NoiseKinds::driving_too);
+      r = refit(s.nominal, test, r.choices, s.thresholds, NoiseKinds::driving_too, Sizes::as_found);
+}
+
+/// The best ways to put single candidates in that were not fitted yet.
+std::vector<Explanation> not_tried(const Search& s, const std::vector<Refit>& refits,
+                                   const std::vector<std::size_t>& singles) {
+  std::vector<Explanation> all;
+  for (const std::size_t k : singles) {
+    const Explanation one{{k, s.nominal.scores[k].variant}};
+    if (std::ranges::none_of(refits, [&](const Refit& r) { return same(r.choices, one); }))
+      all.push_back(one);
+  }
+  return all;
 }
 
 Search searched(Fitted nominal, const MeasuredTest& test, const SearchOptions& options) {
@@ -208,8 +222,9 @@ Search searched(Fitted nominal, const MeasuredTest& test, const SearchOptions& o
   if (!out.significant) return out;
 
   std::vector<Refit> refits;
-  const auto settled = [&](Leftover left) {
-    if (!can_be_weighed(out.nominal, refits, left)) return false;
+  // As long as anything is left to try, no size that nobody expects ends the search.
+  const auto settled = [&](Leftover left, Sizes sizes = Sizes::of_library) {
+    if (!can_be_weighed(out.nominal, refits, left, sizes)) return false;
     add_fewer(out, test, refits);
     CredibleSet weighed = weigh(out.nominal, std::move(refits), options.credible);
     out.sets = std::move(weighed.sets);
@@ -241,7 +256,11 @@ Search searched(Fitted nominal, const MeasuredTest& test, const SearchOptions& o
     with_driving_noise(out, test, refits);
     if (settled(Leftover::nothing)) return out;
   }
-  out.just_not = settled(Leftover::chance);
+  if (can_be_weighed(out.nominal, refits, Leftover::nothing, Sizes::as_found)) {
+    try_more(not_tried(out, refits, as_good_with_credible_sizes(out)));
+    if (settled(Leftover::nothing, Sizes::as_found)) return out;
+  }
+  out.just_not = settled(Leftover::chance, Sizes::as_found);
   if (!out.just_not) out.rejected = std::move(refits);
   return out;
 }

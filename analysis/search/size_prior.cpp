@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 #include "analysis/inference/thresholds.hpp"
 #include "core/base/decompose.hpp"
@@ -11,6 +13,7 @@ namespace drift::search {
 namespace {
 
 constexpr std::array scales{1.0, 0.3, 0.1, 0.03, 0.01};  // of the prior's sigma
+constexpr double beyond = inference::FitLimits::beyond_prior;
 
 /// log of the mean of exp.
 double log_mean_exp(const std::vector<double>& logs) {
@@ -37,25 +40,49 @@ class Rotated {
   /// Log evidence of amplitudes of s prior sigmas against none.
   double log_evidence(double s) const {
     double sum = 0.0;
-    for (Eigen::Index k = 0; k < y_.size(); ++k) {
-      const double grown = 1.0 + s * s * information_[k];
-      sum += 0.5 * (s * s * y_[k] * y_[k] / grown - std::log(grown));
-    }
+    for (Eigen::Index k = 0; k < y_.size(); ++k) sum += log_evidence(k, s);
     return sum;
+  }
+  /// The same where those that a normal prior does not explain are as far off as they are found;
+  /// -infinity if it explains all.
+  double log_evidence_as_found() const {
+    std::vector<double> logs(scales.size(), 0.0);
+    double far = 0.0;
+    bool any = false;
+    for (Eigen::Index k = 0; k < y_.size(); ++k) {
+      const double I = information_[k], sigmas = std::abs(y_[k]) / I;
+      const bool explained = y_[k] * y_[k] <= beyond * beyond * (I * I + I);
+      if (!explained) far += log_evidence(k, sigmas) + std::log(share_of_sizes(sigmas));
+      for (std::size_t s = 0; s < scales.size() && explained; ++s)
+        logs[s] += log_evidence(k, scales[s]);
+      any = any || !explained;
+    }
+    return any ? far + log_mean_exp(logs) : -std::numeric_limits<double>::infinity();
   }
 
  private:
+  double log_evidence(Eigen::Index k, double s) const {
+    const double grown = 1.0 + s * s * information_[k];
+    return 0.5 * (s * s * y_[k] * y_[k] / grown - std::log(grown));
+  }
+
   VecX information_, y_;
 };
 
 }  // namespace
+
+double share_of_sizes(double w) {
+  return std::erfc(beyond / std::numbers::sqrt2) * (beyond / w) * (beyond / w);
+}
 
 double log_evidence_of_sizes(const MatX& C, const VecX& g) {
   if (g.size() == 0) return 0.0;
   const Rotated r(C, g);
   std::vector<double> logs;
   for (const double s : scales) logs.push_back(r.log_evidence(s));
-  return log_mean_exp(logs);
+  const double usual = log_mean_exp(logs), as_found = r.log_evidence_as_found();
+  const double top = std::max(usual, as_found), other = std::min(usual, as_found);
+  return std::isinf(other) ? top : top + std::log1p(std::exp(other - top));
 }
 
 VisibleEvidence evidence_of_visible_sizes(const MatX& C, const VecX& g) {
@@ -71,19 +98,27 @@ VisibleEvidence evidence_of_visible_sizes(const MatX& C, const VecX& g) {
   return out;
 }
 
-double log_gain_of_sizes(const VecX& x, const MatX& covariance, const std::vector<int>& cause) {
+double log_gain_of_sizes(const VecX& x, const MatX& covariance, const std::vector<int>& cause,
+                         const std::vector<double>& wide) {
   if (x.size() == 0) return 0.0;
   const MatX information = covariance.inverse();
   const VecX pull = information * x;
   const double unit = log_det(information);
   const int causes = *std::max_element(cause.begin(), cause.end()) + 1;
+  const auto width = [&](std::size_t k) { return wide.empty() ? 1.0 : wide[k]; };
+  double far = 0.0;  // log of the shares of sizes as they are found
+  for (const double w : wide)
+    if (w > beyond) far += std::log(share_of_sizes(w));
   std::vector<std::size_t> chosen(static_cast<std::size_t>(causes), 0);
   std::vector<double> logs;
   for (;;) {
     MatX A = information;
     double shrunk = 0.0;  // log of the priors' densities at zero, over the unit prior's
     for (Eigen::Index k = 0; k < x.size(); ++k) {
-      const double s = scales[chosen[static_cast<std::size_t>(cause[static_cast<std::size_t>(k)])]];
+      const auto amplitude = static_cast<std::size_t>(k);
+      if (width(amplitude) > beyond) continue;
+      const double s =
+          scales[chosen[static_cast<std::size_t>(cause[amplitude])]] / width(amplitude);
       A(k, k) += 1.0 / (s * s) - 1.0;
       shrunk -= std::log(s);
     }
@@ -92,7 +127,7 @@ double log_gain_of_sizes(const VecX& x, const MatX& covariance, const std::vecto
                    0.5 * (pull.dot(Cholesky(A).solve(pull)) - x.dot(pull)));
     std::size_t next = 0;
     while (next < chosen.size() && ++chosen[next] == scales.size()) chosen[next++] = 0;
-    if (next == chosen.size()) return log_mean_exp(logs);
+    if (next == chosen.size()) return log_mean_exp(logs) + far;
   }
 }
 

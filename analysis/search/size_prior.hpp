@@ -12,9 +12,16 @@ namespace drift::search {
 /// 1, 0.3, 0.1, 0.03 or 0.01 of the library's sigma, all amplitudes of one cause alike (a scale
 /// mixture). With the library's sigma alone, of two effects that explain a test equally well the
 /// one that the test sees worse would always win, only because its estimate is less sharp.
+///
+/// A library may be wrong about a size. That an amplitude lies FitLimits::beyond_prior sigmas off
+/// or more has the chance that a normal prior gives it, and as little is known there of its size:
+/// of w sigmas or more that chance times (beyond_prior / w)^2. Each such amplitude pays this share
+/// and has a prior of w sigmas, so that nothing holds it back.
+double share_of_sizes(double w);
 
 /// Log evidence of amplitudes with projected information C and gradient g (in prior sigmas) against
-/// none: log of the mean over scales s of exp(g' (1/s^2 + C)^-1 g / 2) / sqrt(det(1 + s^2 C)).
+/// none: log of the mean over scales s of exp(g' (1/s^2 + C)^-1 g / 2) / sqrt(det(1 + s^2 C)), and
+/// of amplitudes as found where a prior of one sigma does not explain them.
 double log_evidence_of_sizes(const MatX& C, const VecX& g);
 
 /// The same of those scales alone at which an effect of one of their sigmas is
@@ -25,9 +32,12 @@ struct VisibleEvidence {
 };
 VisibleEvidence evidence_of_visible_sizes(const MatX& C, const VecX& g);
 
-/// What the mixture changes in the log evidence of a fit that was made with unit priors: amplitudes
-/// x with posterior `covariance` (in prior sigmas). cause: which cause each amplitude belongs to,
-/// numbered from 0; causes have scales of their own.
-double log_gain_of_sizes(const VecX& x, const MatX& covariance, const std::vector<int>& cause);
+/// What the mixture changes in the log evidence of a fit: amplitudes x with posterior `covariance`
+/// (in sigmas of the priors that it was made with). cause: which cause each amplitude belongs to,
+/// numbered from 0; causes have scales of their own. wide: by what factor the prior of each is
+/// wider than the library's; beyond FitLimits::beyond_prior its size is as found. Empty: none is
+/// wider.
+double log_gain_of_sizes(const VecX& x, const MatX& covariance, const std::vector<int>& cause,
+                         const std::vector<double>& wide = {});
 
 }  // namespace drift::search

@@ -30,8 +30,8 @@ struct Case {
     r.excess = excess;
     refits.push_back(std::move(r));
   }
-  bool can_be_weighed(Leftover left = Leftover::nothing) const {
-    return search::can_be_weighed(e, refits, left);
+  bool can_be_weighed(Leftover left = Leftover::nothing, Sizes sizes = Sizes::of_library) const {
+    return search::can_be_weighed(e, refits, left, sizes);
   }
   void weigh() { out = search::weigh(e, std::move(refits), SearchOptions{}.credible); }
 };
@@ -64,6 +64,16 @@ TEST(CredibleSet, WhatLeavesFarTooMuchIsNoExplanationHoweverGood) {
   Case less;
   less.explanation(less.candidate("magnetic_drift", "x", {param("M_x")}), 60.0, 2.9);
   EXPECT_TRUE(less.can_be_weighed(Leftover::chance));
+}
+
+TEST(CredibleSet, ASizeThatNobodyExpectsEndsNoSearchUntilAllIsTried) {
+  Case c;
+  c.explanation(c.candidate("magnetic_drift", "x", {param("M_x")}), 40.0, -1.0);
+  c.refits.front().as_found = true;
+  EXPECT_FALSE(c.can_be_weighed());
+  EXPECT_TRUE(c.can_be_weighed(Leftover::nothing, Sizes::as_found));
+  c.explanation(c.candidate("gimbal_angle_drift", "y", {param("G_c_y")}), 39.0, -1.0);
+  EXPECT_TRUE(c.can_be_weighed());
 }
 
 TEST(CredibleSet, WithoutAnAdequateOneThereIsNoneUnlessChanceIsAskedFor) {

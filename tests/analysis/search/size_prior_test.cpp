@@ -60,5 +60,31 @@ TEST(SizePrior, ChangingThePriorOfAFitGivesTheSameEvidence) {
   EXPECT_NEAR(unit + log_gain_of_sizes(x, covariance, {0, 1}), std::log(sum), 1e-9);
 }
 
+TEST(SizePrior, FarBeyondItIsAScaleOfItsOwnWithTheChanceThatAPriorLeaves) {
+  // 40 prior sigmas, seen at 80 sigma of the test. Of the wide prior alone, by hand.
+  const double C = 4.0, a = 40.0, s2 = a * a;
+  const double wide = 0.5 * (C * a) * (C * a) / (1.0 / s2 + C) - 0.5 * std::log1p(s2 * C);
+  const double share = std::erfc(5.0 / std::sqrt(2.0)) * (5.0 / a) * (5.0 / a);
+  EXPECT_NEAR(share_of_sizes(a), share, 1e-15);
+  EXPECT_NEAR(log_evidence_of_sizes(MatX::Constant(1, 1, C), VecX::Constant(1, C * a)),
+              wide + std::log(share), 1e-6);
+  // At five prior sigmas nothing has changed: one scale, the largest, has it all.
+  const double at_five = 0.5 * 400.0 / 5.0 - 0.5 * std::log(5.0) - std::log(5.0);
+  EXPECT_NEAR(log_evidence_of_sizes(MatX::Constant(1, 1, C), VecX::Constant(1, C * 4.999)), at_five,
+              0.1);
+}
+
+TEST(SizePrior, AFitUnderAWiderPriorHasTheSameEvidence) {
+  const double C = 4.0, a = 40.0;
+  // What a fit says in units of a prior of 40 sigmas: information and gradient of amplitude / 40.
+  const MatX wide_C = MatX::Constant(1, 1, C * a * a);
+  const VecX wide_g = VecX::Constant(1, C * a * a);
+  const MatX covariance = (wide_C + MatX::Identity(1, 1)).inverse();
+  const VecX x = covariance * wide_g;
+  const double unit = 0.5 * wide_g.dot(x) - 0.5 * std::log(wide_C(0, 0) + 1.0);
+  EXPECT_NEAR(unit + log_gain_of_sizes(x, covariance, {0}, {a}),
+              log_evidence_of_sizes(MatX::Constant(1, 1, C), VecX::Constant(1, C * a)), 1e-9);
+}
+
 }  // namespace
 }  // namespace drift::search::size_prior_test
