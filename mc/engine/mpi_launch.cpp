@@ -100,12 +100,6 @@ std::uint64_t Ranks::add(Counter counter, std::uint64_t n) {
   return before;
 }
 
-void Ranks::barrier() {
-#ifdef DRIFT_WITH_MPI
-  if (job_->started) MPI_Barrier(MPI_COMM_WORLD);
-#endif
-}
-
 void Ranks::broadcast([[maybe_unused]] std::vector<std::uint64_t>& values) {
 #ifdef DRIFT_WITH_MPI
   if (!job_->started) return;

@@ -29,7 +29,6 @@ class Ranks {
   std::uint64_t add(Counter counter, std::uint64_t n);
 
   // All ranks must make these calls, in the same order.
-  void barrier();
   void broadcast(std::vector<std::uint64_t>& values);  ///< those of the leader
   int largest(int value);
 

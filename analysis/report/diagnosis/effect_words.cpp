@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/report/diagnosis/too_large.hpp"
 #include "core/base/number_text.hpp"
 #include "core/base/words.hpp"
 #include "core/physics/closure.hpp"
@@ -36,8 +37,11 @@ double in_prior_sigmas(const search::CauseParameter& p) {
 }
 
 std::string number_of(const search::CauseParameter& p) {
-  return fmt::format("{} = {}{}{}", p.key, with_sigma(p.value, p.sigma), p.unit == "1" ? "" : " ",
-                     p.unit == "1" ? "" : p.unit);
+  std::string text = fmt::format("{} = {}{}{}", p.key, with_sigma(p.value, p.sigma),
+                                 p.unit == "1" ? "" : " ", p.unit == "1" ? "" : p.unit);
+  if (const double size = in_prior_sigmas(p); size > unusual_size)
+    text += fmt::format(", {} times its usual size", number_text(size, 2));
+  return text;
 }
 
 /// What stands in the brackets behind a cause.

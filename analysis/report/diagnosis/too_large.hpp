@@ -3,13 +3,14 @@
 #include <string>
 
 #include "analysis/diagnosis/findings/diagnosis.hpp"
+#include "analysis/inference/thresholds.hpp"
 
 namespace drift::report {
 
 /// Family-wise p above which a candidate is no stronger than chance.
 inline constexpr double no_stronger_than_chance = 0.05;
 /// Prior sigmas above which a size is unusual: 1 in a million units has it.
-inline constexpr double unusual_size = 5.0;
+inline constexpr double unusual_size = inference::FitLimits::beyond_prior;
 
 /// Candidates that would explain a recording as the causes do and lose by their size alone: " ...
 /// (base_motion_leak.y) would explain it as well, but would have to be 12 times its usual size."

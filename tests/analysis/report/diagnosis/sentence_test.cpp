@@ -47,6 +47,17 @@ TEST(Sentence, OfANamedCauseStartsWithWordsAndHasTheKeyInBrackets) {
       "1e-20).");
 }
 
+TEST(Sentence, SaysASizeThatNobodyExpects) {
+  // The library's sigma of M_y is 0.01 deg/h/gauss.
+  const auto text = [](double size) {
+    return report::sentence(with(diagnosis::Verdict::named, {cause("magnetic_drift", "y", "M_y",
+                                                                   size, 0.0004, "deg/h/gauss")}));
+  };
+  EXPECT_TRUE(says(text(-0.3), "0.3000±0.0004 deg/h/gauss, 30 times its usual size)"))
+      << text(-0.3);
+  EXPECT_FALSE(says(text(0.049), "usual size")) << text(0.049);
+}
+
 TEST(Sentence, SaysWhatAnAxisBelongsTo) {
   EXPECT_EQ(report::in_words("magnetic_drift", "z"), "magnetic sensitivity, gyro z");
   EXPECT_EQ(report::in_words("torquer_scale", "x"), "torquer scale factor error, gyro x");
