@@ -135,8 +135,7 @@ HiddenEffect other_equation(const FilterSpec& nominal, const World& world, std::
 /// Terms that follow a covariate.
 std::vector<std::size_t> following(std::vector<std::size_t> terms) {
   std::erase_if(terms, [](std::size_t t) {
-    const Needs& needs = TermLibrary::terms[t].needs;
-    return !needs.temperature && !needs.field;
+    return (TermLibrary::terms[t].needs.covariates & every_known_covariate) == 0;
   });
   return terms;
 }

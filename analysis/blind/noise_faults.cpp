@@ -1,5 +1,6 @@
 #include "analysis/blind/noise_faults.hpp"
 
+#include <array>
 #include <cmath>
 
 namespace drift::blind {
@@ -95,18 +96,24 @@ HiddenEffect spoil_noise(std::size_t kind, World& world, Stream& stream) {
 }
 
 Timeline with_noisy_covariates(Timeline timeline, Stream& stream) {
-  double square = 0.0, field = 0.0;
-  for (const Interval& i : timeline.intervals) {
-    square += i.around1.temperature * i.around1.temperature;
-    field = std::max(field, i.around1.field_l.norm());
+  std::array<double, known_covariates.size()> sigma{};
+  for (const CovariateSpec& c : known_covariates) {
+    double square = 0.0, largest = 0.0;
+    for (const Interval& i : timeline.intervals) {
+      const double size = c.is_vector() ? i.around1.vector(c).norm() : i.around1[c];
+      square += size * size;
+      largest = std::max(largest, size);
+    }
+    sigma[c.number] = c.is_vector()
+                          ? largest * between(0.01, 0.05, stream)
+                          : std::sqrt(square / static_cast<double>(timeline.intervals.size())) *
+                                between(0.1, 0.5, stream);
   }
-  const double rms = std::sqrt(square / static_cast<double>(timeline.intervals.size())),
-               kelvin = rms * between(0.1, 0.5, stream),
-               tesla = field * between(0.01, 0.05, stream);
   for (std::size_t k = 0; k < timeline.intervals.size(); ++k) {
     Covariates& here = timeline.intervals[k].around1;
-    here.temperature += kelvin * stream.normal();
-    for (double& component : here.field_l) component += tesla * stream.normal();
+    for (const CovariateSpec& c : known_covariates)
+      for (std::size_t i = 0; i < c.components(); ++i)
+        here.value[c.first + i] += sigma[c.number] * stream.normal();
     if (k + 1 < timeline.intervals.size()) timeline.intervals[k + 1].around0 = here;
   }
   return timeline;

@@ -4,6 +4,7 @@
 #include "core/physics/own/own_terms.hpp"
 #include "core/physics/parameters_config.hpp"
 #include "core/physics/term_library.hpp"
+#include "core/sim/surroundings.hpp"
 #include "mc/study/study.hpp"
 
 namespace drift::cli {
@@ -41,13 +42,14 @@ std::string asks_for(const TermInfo& term) {
   const auto add = [&](std::string_view more) {
     what += (what.empty() ? "" : "; ") + std::string(more);
   };
-  if (term.needs.temperature) add("temperature [degC] of the recording");
-  if (term.needs.field)
-    add("field_n, field_w, field_u [gauss] of the recording or of [environment]");
+  for (const CovariateSpec& c : known_covariates)
+    if ((term.needs.covariates & c.set()) != 0)
+      add(columns_in_words(c) + " of the recording" +
+          (c.is_vector() ? " or of [environment]" : ""));
   if (term.needs.turning)
     add("a strapdown unit whose accelerometers are read in turns (plan.accelerometers_in_turns)");
   for (std::size_t k = 0; k < own_terms().covariates.size(); ++k)
-    if (term.needs.covariates >> k & 1u)
+    if ((term.needs.covariates & further_column(k)) != 0)
       add(fmt::format("the column {} of the recording", own_terms().covariates[k]));
   return what.empty() ? "nothing beyond attitude, command and time" : what;
 }

@@ -37,7 +37,7 @@ bool feels_force(const TermInfo& term) {
   const std::vector<double> memory(TermLibrary::num_memory + 1, 0.5);
   const Mounting mounting;
   Surroundings<double> around{
-      {5000.0, 1000.0, false, 0.3, Vec3(5e-5, 0.0, 5e-5), 0.7, Vec3(2e-5, 0.0, -4e-5)},
+      {5000.0, 1000.0, false, 0.3, Vec3(5e-5, 0.0, 5e-5), covariates_of_a_scene(), {}},
       Mat3::Identity(),
       Vec3(0.5, -0.4, 1.1),
       memory.data()};
@@ -132,19 +132,20 @@ std::optional<remark::OtherEquation> equation_against_other(const Diagnosis& d) 
 }
 
 std::vector<NotExamined> not_examined(const search::Fitted& nominal,
-                                      const std::vector<search::Cause>& causes) {
+                                      const std::vector<search::Cause>& causes,
+                                      CovariateSet carried) {
   std::vector<NotExamined> out;
   for (const std::size_t t : nominal.set.without_covariate) {
     const TermInfo& term = TermLibrary::terms[t];
-    const Why why = term.wants_swing         ? Why::no_swing
-                    : term.needs.temperature ? Why::no_temperature
-                    : term.needs.field       ? Why::no_field
-                    : term.needs.turning     ? Why::no_turns
-                                             : Why::no_covariate;
+    const CovariateSet missing = term.needs.covariates & ~carried;
+    const Why why = term.wants_swing ? Why::no_swing
+                    : missing != 0   ? Why::no_covariate
+                                     : Why::no_turns;
     out.push_back({std::string(term.key),
                    why,
                    why == Why::no_swing ? std::vector<NamedEffect>{} : twins_of(term, causes),
-                   {}});
+                   {},
+                   missing});
   }
   for (const TermInfo& term : TermLibrary::terms) {
     if (term.key == closure_term) continue;  // judged by the jump to the other equation

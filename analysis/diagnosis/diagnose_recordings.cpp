@@ -50,7 +50,7 @@ void name_unmapped_temperature(const std::vector<Recording>& recordings,
                                std::vector<NotExamined>& left_out) {
   for (const Recording& r : recordings)
     for (NotExamined& n : left_out)
-      if (n.why == NotExamined::Why::no_temperature && n.instead.empty())
+      if ((n.missing & covariate("temperature").set()) != 0 && n.instead.empty())
         n.instead = r.unmapped_temperature;
 }
 

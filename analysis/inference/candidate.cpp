@@ -138,11 +138,11 @@ std::vector<Settings> settings_of(const TermInfo& term, const ParamMask& known) 
 
 bool has_swing_for(const TermInfo& term, const Timeline& timeline) {
   if (!term.wants_swing) return true;
-  if (!timeline.has_temperature) return false;
+  if (!timeline.carries(covariate("temperature"))) return false;
   double low = 0.0, high = 0.0;  // deviations from their mean
   for (const Interval& i : timeline.intervals) {
-    low = std::min(low, i.around1.temperature);
-    high = std::max(high, i.around1.temperature);
+    low = std::min(low, i.around1[covariate("temperature")]);
+    high = std::max(high, i.around1[covariate("temperature")]);
   }
   return high - low >= TemperatureLimits::swing;
 }
@@ -166,7 +166,7 @@ CandidateSet library_candidates(const FilterSpec& nominal, const Theta& theta,
         missing.push_back(i);
     if (missing.empty() || (term.needs.turning && !timeline.of_case)) continue;
     // Where no temperature is known the terms of first order stand for all that follow it.
-    if (term.wants_swing && !timeline.has_temperature) continue;
+    if (term.wants_swing && !timeline.carries(covariate("temperature"))) continue;
     if (!timeline.carries(term.needs) || !has_swing_for(term, timeline)) {
       out.without_covariate.push_back(t);
       continue;

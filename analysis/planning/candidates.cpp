@@ -28,8 +28,7 @@ AddedRows added_rows(TestPlan plan, const Addition& addition, const RankedModel&
 bool depends_on_the_past(const ModelSpec& spec) {
   for (std::size_t i = 0; i < TermLibrary::num_params; ++i) {
     const Needs& needs = TermLibrary::owner(i).needs;
-    if (spec.active[i] && (needs.clock || needs.memory || needs.temperature || needs.field ||
-                           needs.turning || needs.covariates != 0))
+    if (spec.active[i] && (needs.clock || needs.memory || needs.turning || needs.covariates != 0))
       return true;
   }
   return false;

@@ -10,10 +10,8 @@ Vec3 dipole_field_l(double latitude) {
 }
 
 FieldKnown assume_field(Timeline& timeline, double latitude) {
-  if (timeline.has_field) return FieldKnown::declared_or_recorded;
-  const Vec3 field_l = dipole_field_l(latitude);
-  for (Interval& i : timeline.intervals) i.around0.field_l = i.around1.field_l = field_l;
-  timeline.has_field = true;
+  if (timeline.carries(covariate("field"))) return FieldKnown::declared_or_recorded;
+  timeline.set_vector(covariate("field"), dipole_field_l(latitude));
   return FieldKnown::assumed;
 }
 

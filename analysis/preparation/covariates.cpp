@@ -44,9 +44,9 @@ std::vector<std::string> unmapped_temperature_of_terms(const mc::Study& study,
   if (unmapped.empty()) return wrong;
   for (std::size_t t = 0; t < TermLibrary::num_terms; ++t) {
     const TermInfo& term = TermLibrary::terms[t];
-    if (!term.needs.temperature || std::ranges::none_of(study.filters, [&](const FilterSpec& f) {
-          return f.model().terms[t];
-        }))
+    if ((term.needs.covariates & covariate("temperature").set()) == 0 ||
+        std::ranges::none_of(study.filters,
+                             [&](const FilterSpec& f) { return f.model().terms[t]; }))
       continue;
     wrong.push_back(
         fmt::format("{}: term '{}' needs the temperature, which no column is mapped "

@@ -13,10 +13,12 @@ Timeline joined(std::vector<Timeline> timelines) {
   for (std::size_t k = 1; k < timelines.size(); ++k) {
     Timeline& next = timelines[k];
     const double shift = all.intervals.back().t1 - next.intervals.front().t0;
-    const double warmer = next.mean_temperature - all.mean_temperature;  // one reference for all
     for (Interval& i : next.intervals) {
-      i.around0.temperature += warmer;
-      i.around1.temperature += warmer;
+      for (std::size_t c = 0; c < covariate_components; ++c) {  // one reference for all
+        const double higher = next.mean.value[c] - all.mean.value[c];
+        i.around0.value[c] += higher;
+        i.around1.value[c] += higher;
+      }
       i.t0 += shift;
       i.t1 += shift;
       i.t_begin += shift;
@@ -28,8 +30,7 @@ Timeline joined(std::vector<Timeline> timelines) {
     for (Node& n : next.nodes) n.t += shift;
     all.nodes.insert(all.nodes.end(), next.nodes.begin(), next.nodes.end());
     all.chains += next.chains;
-    all.has_temperature = all.has_temperature && next.has_temperature;
-    all.has_field = all.has_field && next.has_field;
+    all.carried &= next.carried;
   }
   return all;
 }
@@ -56,7 +57,7 @@ RecordedTest recorded_test(const mc::Study& study, const std::vector<Recording>&
   FieldKnown field = FieldKnown::declared_or_recorded;
   for (const Recording& r : recordings) {
     timelines.push_back(lay_out(r, study.plan, study.site));
-    set_known_field(timelines.back(), study.environment);
+    set_declared_vectors(timelines.back(), study.environment);
     if (assume_field(timelines.back(), study.site.latitude) == FieldKnown::assumed)
       field = FieldKnown::assumed;
     ends.push_back((ends.empty() ? 0 : ends.back()) + timelines.back().intervals.size());
@@ -73,10 +74,16 @@ RecordedTest recorded_test(const mc::Study& study, const std::vector<Recording>&
   return test;
 }
 
-Timeline planned_test(const mc::Study& study, const TestPlan& plan) {
+Timeline planned_test(const mc::Study& study, const TestPlan& plan, const Timeline& recorded) {
   Timeline timeline = lay_out(plan, study.site);
-  set_known_field(timeline, study.environment);
-  assume_field(timeline, study.site.latitude);
+  set_declared_vectors(timeline, study.environment);
+  for (const CovariateSpec& c : known_covariates) {
+    if (!c.is_vector() || !recorded.carries(c) || timeline.carries(c)) continue;
+    Vec3 mean_l = Vec3::Zero();
+    for (const Interval& i : recorded.intervals)
+      mean_l += i.around1.vector(c) / static_cast<double>(recorded.intervals.size());
+    timeline.set_vector(c, mean_l);
+  }
   return timeline;
 }
 

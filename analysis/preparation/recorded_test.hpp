@@ -22,7 +22,8 @@ struct RecordedTest {
 /// where one does not fit the plan, or where nothing is measured.
 RecordedTest recorded_test(const mc::Study& study, const std::vector<Recording>& recordings);
 
-/// A test that is planned, in the same surroundings.
-Timeline planned_test(const mc::Study& study, const TestPlan& plan);
+/// A test that is planned, at the site of one that was recorded: with the vectors that
+/// [environment] declares, else with the means of those of the recorded test.
+Timeline planned_test(const mc::Study& study, const TestPlan& plan, const Timeline& recorded);
 
 }  // namespace drift::preparation

@@ -36,28 +36,31 @@ class Path {
 /// Covariates by the names that equations have for them.
 std::vector<Quantity> covariates_of(const Timeline& timeline, const Path& path) {
   std::vector<Quantity> out;
-  if (timeline.has_temperature) {
-    out.push_back({"(temperature/1)", 0, path.of([](const Middle& m) {
-                     return m.between(m.interval->around0.temperature,
-                                      m.interval->around1.temperature);
+  for (const CovariateSpec& c : known_covariates) {
+    if (!timeline.carries(c)) continue;
+    const double unit = c.unit.to_si;
+    for (int a = 0; c.is_vector() && a < 3; ++a)
+      out.push_back(
+          {fmt::format("({}_{}/{:g})", c.name, "xyz"[a], unit), 0, path.of([&](const Middle& m) {
+             const Vec3 value_l =
+                 0.5 * (m.interval->around0.vector(c) + m.interval->around1.vector(c));
+             return value_l.dot(m.node->R_lr.col(a)) / unit;
+           })});
+    if (c.is_vector()) continue;
+    out.push_back({fmt::format("({}/{:g})", c.name, unit), 0, path.of([&](const Middle& m) {
+                     return m.between(m.interval->around0[c], m.interval->around1[c]) / unit;
                    })});
-    out.push_back({"(temperature_rate*3600)", 0, path.of([](const Middle& m) {
-                     return (m.interval->around1.temperature - m.interval->around0.temperature) /
-                            m.interval->length() * 3600.0;
-                   })});
+    out.push_back(
+        {fmt::format("({}_rate*{:g})", c.name, 3600.0 / unit), 0, path.of([&](const Middle& m) {
+           return (m.interval->around1[c] - m.interval->around0[c]) / m.interval->length() *
+                  (3600.0 / unit);
+         })});
   }
-  if (timeline.has_field)
-    for (int a = 0; a < 3; ++a)
-      out.push_back({fmt::format("(field_{}/1e-4)", "xyz"[a]), 0, path.of([&](const Middle& m) {
-                       const Vec3 field_l =
-                           0.5 * (m.interval->around0.field_l + m.interval->around1.field_l);
-                       return field_l.dot(m.node->R_lr.col(a)) / 1e-4;
-                     })});
   for (std::size_t k = 0; k < own_terms().covariates.size(); ++k)
-    if (timeline.has_further & (1u << k))
+    if ((timeline.carried & further_column(k)) != 0)
       out.push_back({own_terms().covariates[k], 0, path.of([&](const Middle& m) {
-                       return m.between(m.interval->around0.further[k],
-                                        m.interval->around1.further[k]);
+                       return m.between(m.interval->around0.further(k),
+                                        m.interval->around1.further(k));
                      })});
   return out;
 }

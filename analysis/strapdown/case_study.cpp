@@ -52,21 +52,21 @@ double read_smoothly(const std::vector<double>& times, const std::vector<double>
   return normal.ldlt().solve(right)[0];
 }
 
-/// The temperature, as its deviation from the mean of the recording, at both ends of each interval.
-void take_temperature(const Recording& recording, Timeline& timeline) {
-  const Channel* temperature = recording.find("temperature");
+/// A number, as its deviation from the mean of the recording, at both ends of each interval.
+void take_number(const CovariateSpec& c, const Recording& recording, Timeline& timeline) {
+  const Channel* column = recording.find(c.name);
   const Channel* time = recording.find("time");
-  if (temperature == nullptr || time == nullptr) return;
+  if (column == nullptr || time == nullptr) return;
   double mean = 0.0;
-  for (const double v : temperature->values) {
+  for (const double v : column->values) {
     if (!std::isfinite(v)) return;
-    mean += v / static_cast<double>(temperature->values.size());
+    mean += v / static_cast<double>(column->values.size());
   }
-  timeline.has_temperature = true;
-  timeline.mean_temperature = mean;
+  timeline.carried |= c.set();
+  timeline.mean[c] = mean;
   for (Interval& i : timeline.intervals) {
-    i.around0.temperature = read_smoothly(time->values, temperature->values, i.t0) - mean;
-    i.around1.temperature = read_smoothly(time->values, temperature->values, i.t1) - mean;
+    i.around0[c] = read_smoothly(time->values, column->values, i.t0) - mean;
+    i.around1[c] = read_smoothly(time->values, column->values, i.t1) - mean;
   }
 }
 
@@ -134,7 +134,8 @@ CaseStudy case_study(const mc::Study& study, const Recording& recording) {
     azimuth = out.compass.azimuth;
   }
   if (!out.compass.sees_earth) lay_out_one_way(study, signals, out);
-  take_temperature(recording, out.test.timeline);
+  for (const CovariateSpec& c : known_covariates)
+    if (!c.is_vector()) take_number(c, recording, out.test.timeline);
   return out;
 }
 

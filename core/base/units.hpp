@@ -15,13 +15,13 @@ namespace drift {
 /// Angle is a dimension of its own (a misalignment in metres is an error), and so is g: specific
 /// force is kept in units of local g throughout.
 struct Dimension {
-  enum Base { angle, time, g, length, temperature, field, mass, count };
+  enum Base { angle, time, g, length, temperature, field, mass, current, count };
   std::array<std::int8_t, count> twice{};
   constexpr bool operator==(const Dimension&) const = default;
 };
 
 /// A unit of measure: how it is written, its size in the internal unit, its dimension.
-/// Internal units: rad, s, g (local), m, K (temperature differences), T, kg.
+/// Internal units: rad, s, g (local), m, K (temperature differences), T, kg, A.
 struct Unit {
   Name symbol;
   double to_si = 1.0;
@@ -43,9 +43,11 @@ constexpr Dimension dim_of(Dimension::Base base, int exponent = 1) {
   return d;
 }
 
-inline constexpr double deg = std::numbers::pi / 180.0;     // [rad]
-inline constexpr double earth_rate = 7.292115e-5;           // [rad/s]
-inline constexpr Dimension newton{{0, -4, 0, 2, 0, 0, 2}};  // kg m/s^2
+inline constexpr double deg = std::numbers::pi / 180.0;       // [rad]
+inline constexpr double earth_rate = 7.292115e-5;             // [rad/s]
+inline constexpr Dimension newton{{0, -4, 0, 2, 0, 0, 2}};    // kg m/s^2
+inline constexpr Dimension pascal{{0, -4, 0, -2, 0, 0, 2}};   // N/m^2
+inline constexpr Dimension volt{{0, -6, 0, 4, 0, 0, 2, -2}};  // N m/s/A
 inline constexpr BaseUnit base_units[] = {
     {"1", 1.0, {}},
     {"ppm", 1e-6, {}},
@@ -78,6 +80,13 @@ inline constexpr BaseUnit base_units[] = {
     {"gauss", 1e-4, dim_of(Dimension::field)},
     {"kg", 1.0, dim_of(Dimension::mass)},
     {"N", 1.0, newton},
+    {"Pa", 1.0, pascal},
+    {"hPa", 1e2, pascal},
+    {"kPa", 1e3, pascal},
+    {"A", 1.0, dim_of(Dimension::current)},
+    {"mA", 1e-3, dim_of(Dimension::current)},
+    {"V", 1.0, volt},
+    {"mV", 1e-3, volt},
 };
 
 constexpr double int_power(double x, int n) {

@@ -1,8 +1,7 @@
 #pragma once
 
-#include <array>
-
 #include "core/base/linalg.hpp"
+#include "core/params/covariates.hpp"
 #include "core/physics/triads.hpp"
 
 namespace drift {
@@ -10,29 +9,21 @@ namespace drift {
 /// What a term wants to see beyond specific force, case rate and command. It is worked out only
 /// where an active term asks for it.
 struct Needs {
-  bool clock = false;        ///< time, slew flag, heading of the case, Earth rate
-  bool attitude = false;     ///< R_lp
-  bool gimbals = false;      ///< gimbal angles
-  bool temperature = false;  ///< the covariate
-  bool field = false;        ///< the covariate, and R_lp
-  bool memory = false;       ///< states that the past has left; set for terms that declare `memory`
-  bool turning = false;      ///< how a case turns while its accelerometers are read
-  unsigned covariates = 0;   ///< bit k: further column number k of the recording (OwnTermSet)
+  bool clock = false;     ///< time, slew flag, heading of the case, Earth rate
+  bool attitude = false;  ///< R_lp
+  bool gimbals = false;   ///< gimbal angles
+  bool memory = false;    ///< states that the past has left; set for terms that declare `memory`
+  bool turning = false;   ///< how a case turns while its accelerometers are read
+  CovariateSet covariates = 0;  ///< what it follows beside the motion; of a vector also R_lp
 
   constexpr bool any() const {
-    return clock || attitude || gimbals || temperature || field || memory || turning ||
-           covariates != 0;
+    return clock || attitude || gimbals || memory || turning || covariates != 0;
   }
   constexpr Needs operator|(const Needs& o) const {
-    return {clock || o.clock,     attitude || o.attitude,
-            gimbals || o.gimbals, temperature || o.temperature,
-            field || o.field,     memory || o.memory,
-            turning || o.turning, covariates | o.covariates};
+    return {clock || o.clock,   attitude || o.attitude, gimbals || o.gimbals,
+            memory || o.memory, turning || o.turning,   covariates | o.covariates};
   }
 };
-
-/// How many further columns of a recording the terms of a study may name.
-inline constexpr std::size_t most_covariates = 4;
 
 /// How a strapdown unit turns while its accelerometers are read: means over a row, case axes, as
 /// its own gyros have it.
@@ -45,15 +36,13 @@ struct CaseTurn {
 
 /// An instant of the test: all that does not depend on the platform's attitude.
 struct Moment {
-  double t;                       ///< since the start of the test [s]
-  double t_p;                     ///< since the start of the dwell; 0 on the way to it [s]
-  bool slew;                      ///< on the way to a position
-  double heading;                 ///< of the case [rad]
-  Vec3 omega_ie_l;                ///< rate of the Earth, as the site has it [rad/s]
-  double temperature;             ///< deviation from the mean of the recording [K]
-  Vec3 field_l;                   ///< local magnetic field [T]
-  double temperature_rate = 0.0;  ///< [K/s]
-  std::array<double, most_covariates> covariates{};  ///< further columns of the recording [SI]
+  double t;                        ///< since the start of the test [s]
+  double t_p;                      ///< since the start of the dwell; 0 on the way to it [s]
+  bool slew;                       ///< on the way to a position
+  double heading;                  ///< of the case [rad]
+  Vec3 omega_ie_l;                 ///< rate of the Earth, as the site has it [rad/s]
+  Covariates covariates;           ///< numbers as they deviate from the mean of the recording
+  Covariates rates;                ///< their change [1/s]
   const CaseTurn* turn = nullptr;  ///< null: the case rests, or its accelerometers are not read
 };
 
@@ -80,6 +69,13 @@ struct Inputs {
   }                                                                    ///< along gyro output axes
   Vec3T<S> f_spin() const { return mounting->gyro.along_third(f_p); }  ///< along gyro spin axes
   const Moment& now() const { return around->now; }
+  /// Of a covariate that is a number: its deviation from the mean of the recording, and its rate.
+  double value_of(const CovariateSpec& number) const { return now().covariates[number]; }
+  double rate_of(const CovariateSpec& number) const { return now().rates[number]; }
+  /// A covariate that is a vector, platform axes.
+  Vec3T<S> vector_of(const CovariateSpec& c) const {
+    return to_platform(now().covariates.vector(c).template cast<S>());
+  }
   /// Nominal rate of the platform against the case: it does what it is told [rad/s].
   Vec3T<S> omega_cp_p() const {
     Vec3T<S> w;

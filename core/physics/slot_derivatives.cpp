@@ -12,10 +12,8 @@ SeenByTerms<Dependence> scene_of_dependence() {
              true,
              0.3,
              Vec3(5e-5, 0.0, 5e-5),
-             0.7,
-             Vec3(2.6e-5, 1e-6, -4.8e-5),
-             1e-4,
-             {0.3, -0.4, 0.5, 0.6},
+             covariates_of_a_scene(),
+             covariates_of_a_scene(1e-4),
              &turn};
     s.R_lp = rotation<double>(Vec3(0.4, -0.3, 0.8)).cast<Dependence>();
     s.gimbal = Vec3(0.5, -0.4, 1.1).cast<Dependence>();

@@ -1,8 +1,8 @@
 #include "core/plan/environment.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <vector>
 
 #include "core/base/rng.hpp"
 #include "core/plan/timeline.hpp"
@@ -10,47 +10,66 @@
 namespace drift {
 namespace {
 
-void set_field(Timeline& timeline, const Environment& e) {
-  const Vec3 field_l(*e.field_n, *e.field_w, *e.field_u);
-  timeline.has_field = true;
-  for (Interval& i : timeline.intervals) i.around0.field_l = i.around1.field_l = field_l;
-}
-
-}  // namespace
-
-void set_environment(Timeline& timeline, const Environment& e, std::uint64_t seed,
-                     std::uint64_t run) {
-  if (timeline.intervals.empty()) return;
-  if (e.has_field()) set_field(timeline, e);
-  if (!e.temperature) return;
-  Stream stream(seed, run, Purpose::environment);
-  const double fluctuation = e.temperature_fluctuation;
-  const auto temperature = [&](double t) {
-    const double w = 2.0 * std::numbers::pi / e.temperature_period;
-    const double smooth =
-        e.temperature_amplitude * std::sin(w * t + e.temperature_phase) + e.temperature_ramp * t;
-    return smooth + (fluctuation > 0.0 ? fluctuation * stream.normal() : 0.0);
+/// A number along a timeline that has intervals.
+void set_number(Timeline& timeline, const CovariateSpec& c, const CovariateCourse& course,
+                Stream stream) {
+  const auto value = [&](double t) {
+    const double w = 2.0 * std::numbers::pi / course.period;
+    const double smooth = course.amplitude * std::sin(w * t + course.phase) + course.ramp * t;
+    return smooth + (course.fluctuation > 0.0 ? course.fluctuation * stream.normal() : 0.0);
   };
-  double last = temperature(0.0), sum = 0.0;
+  double last = value(0.0), sum = 0.0;
   for (Interval& i : timeline.intervals) {
-    i.around0.temperature = last;
-    i.around1.temperature = last = temperature(i.t1 - i.t_begin);
+    i.around0[c] = last;
+    i.around1[c] = last = value(i.t1 - i.t_begin);
     sum += last;
   }
   // A recording holds the values at the ends of its intervals, and deviations are from their mean.
   const double mean = sum / static_cast<double>(timeline.intervals.size());
   for (Interval& i : timeline.intervals) {
-    i.around0.temperature -= mean;
-    i.around1.temperature -= mean;
+    i.around0[c] -= mean;
+    i.around1[c] -= mean;
   }
   // The first value is not in the recording: nothing is known of it but that it was near the next.
-  timeline.intervals.front().around0.temperature = timeline.intervals.front().around1.temperature;
-  timeline.has_temperature = true;
-  timeline.mean_temperature = *e.temperature + mean;
+  timeline.intervals.front().around0[c] = timeline.intervals.front().around1[c];
+  timeline.mean[c] = *course.mean.front() + mean;
+  timeline.carried |= c.set();
 }
 
-void set_known_field(Timeline& timeline, const Environment& environment) {
-  if (!timeline.has_field && environment.has_field()) set_field(timeline, environment);
+void set_vector(Timeline& timeline, const CovariateSpec& c, const CovariateCourse& course) {
+  timeline.set_vector(c, Vec3(*course.mean[0], *course.mean[1], *course.mean[2]));
+}
+
+}  // namespace
+
+CovariateSet Environment::declared() const {
+  CovariateSet set = 0;
+  for (const CovariateSpec& c : known_covariates)
+    if ((*this)[c].declared()) set |= c.set();
+  return set;
+}
+
+bool Environment::fluctuates() const {
+  return std::ranges::any_of(
+      courses, [](const CovariateCourse& course) { return course.fluctuation > 0.0; });
+}
+
+void set_environment(Timeline& timeline, const Environment& e, std::uint64_t seed,
+                     std::uint64_t run) {
+  if (timeline.intervals.empty()) return;
+  for (const CovariateSpec& c : known_covariates) {
+    if (!e[c].declared()) continue;
+    if (c.is_vector())
+      set_vector(timeline, c, e[c]);
+    else
+      set_number(timeline, c, e[c],
+                 Stream(seed, run, Purpose::environment, static_cast<std::uint32_t>(c.number)));
+  }
+}
+
+void set_declared_vectors(Timeline& timeline, const Environment& e) {
+  for (const CovariateSpec& c : known_covariates)
+    if (c.is_vector() && e[c].declared() && !timeline.carries(c)) set_vector(timeline, c, e[c]);
 }
 
 }  // namespace drift

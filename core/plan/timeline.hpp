@@ -1,23 +1,16 @@
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <optional>
 #include <vector>
 
+#include "core/params/covariates.hpp"
 #include "core/physics/drift_model.hpp"
 #include "core/physics/earth.hpp"
 #include "core/plan/test_plan.hpp"
 #include "core/recording/recording.hpp"
 
 namespace drift {
-
-/// Surroundings at an instant that a recording may carry and terms may use.
-struct Covariates {
-  double temperature = 0.0;                       ///< deviation from the mean of the recording [K]
-  Vec3 field_l = Vec3::Zero();                    ///< magnetic field, local axes [T]
-  std::array<double, most_covariates> further{};  ///< columns that own terms name (OwnTermSet) [SI]
-};
 
 /// One sample interval: the command and the turntable rate are constant in it.
 struct Interval {
@@ -69,17 +62,20 @@ struct Timeline {
   std::vector<Node> nodes;
   int chains = 0;
   int positions = 0;
-  bool of_case = false;          ///< of a strapdown unit: its dwells are at rest (Interval::rest)
-  bool reads_turns = false;      ///< accelerometers are read in turns, too (Interval::turn)
-  bool has_temperature = false;  ///< the intervals carry it
-  bool has_field = false;
-  unsigned has_further = 0;       ///< bit k: the further covariate number k
-  double mean_temperature = 0.0;  ///< what `temperature` deviates from [degC]
+  bool of_case = false;      ///< of a strapdown unit: its dwells are at rest (Interval::rest)
+  bool reads_turns = false;  ///< accelerometers are read in turns, too (Interval::turn)
+  CovariateSet carried = 0;  ///< covariates that the intervals have
+  Covariates mean;           ///< what numbers deviate from; zero for all others
 
-  /// Whether it carries the covariates that a term, or a model, wants to see.
+  bool carries(const CovariateSpec& c) const { return (carried & c.set()) != 0; }
+  /// Whether it carries what a term, or a model, wants to see.
   bool carries(const Needs& needs) const {
-    return (has_temperature || !needs.temperature) && (has_field || !needs.field) &&
-           (reads_turns || !needs.turning) && (needs.covariates & ~has_further) == 0;
+    return (reads_turns || !needs.turning) && (needs.covariates & ~carried) == 0;
+  }
+  /// A vector that is the same all the time, local axes.
+  void set_vector(const CovariateSpec& c, const Vec3& value_l) {
+    for (Interval& i : intervals) i.around0.vector(c) = i.around1.vector(c) = value_l;
+    carried |= c.set();
   }
 
   /// Interval weights of composite Simpson, for the mean over interval i; they sum to 1.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/base/check.hpp"
@@ -160,7 +161,7 @@ class Reader {
   }
 
   /// A covariate at the end of every row, gaps closed by straight lines; empty if there is none.
-  std::vector<double> covariate(const char* name) const {
+  std::vector<double> column(std::string_view name) const {
     const Channel* c = rec_.find(name);
     if (!c) return {};
     std::vector<double> values = c->values;
@@ -181,38 +182,39 @@ class Reader {
   double time(std::size_t row) const { return rec_.find("time")->values[row]; }
 
   void take_covariates() {
-    const std::size_t n = timeline_.intervals.size();
-    const auto before = [&](std::size_t k) {  // the row whose end is the start of interval k
-      return k > 0 && timeline_.intervals[k].t0 == timeline_.intervals[k - 1].t1 ? k - 1 : k;
-    };
-    if (const auto T = covariate("temperature"); !T.empty()) {
-      timeline_.has_temperature = true;
-      double sum = 0.0;
-      for (const double v : T) sum += v;
-      timeline_.mean_temperature = sum / static_cast<double>(n);
-      for (std::size_t k = 0; k < n; ++k) {
-        timeline_.intervals[k].around0.temperature = T[before(k)] - timeline_.mean_temperature;
-        timeline_.intervals[k].around1.temperature = T[k] - timeline_.mean_temperature;
+    for (const CovariateSpec& c : known_covariates) {
+      std::array<std::vector<double>, 3> values;
+      bool known = true;
+      for (std::size_t k = 0; k < c.components(); ++k) {
+        values[k] = column(c.column(k));
+        known = known && !values[k].empty();
       }
+      if (!known) continue;
+      timeline_.carried |= c.set();
+      for (std::size_t k = 0; k < c.components(); ++k)
+        carry(values[k], c.first + k, c.is_vector() ? 0.0 : mean_of(values[k]));
     }
-    for (std::size_t c = 0; c < own_terms().covariates.size(); ++c) {
-      const auto further = covariate(own_terms().covariates[c].c_str());
-      if (further.empty()) continue;
-      timeline_.has_further |= 1u << c;
-      for (std::size_t k = 0; k < n; ++k) {
-        timeline_.intervals[k].around0.further[c] = further[before(k)];
-        timeline_.intervals[k].around1.further[c] = further[k];
-      }
+    for (std::size_t k = 0; k < own_terms().covariates.size(); ++k) {
+      const std::vector<double> values = column(own_terms().covariates[k]);
+      if (values.empty()) continue;
+      timeline_.carried |= further_column(k);
+      carry(values, covariate_components + k, 0.0);
     }
-    const std::array<std::vector<double>, 3> field{covariate("field_n"), covariate("field_w"),
-                                                   covariate("field_u")};
-    if (field[0].empty() || field[1].empty() || field[2].empty()) return;
-    timeline_.has_field = true;
-    for (std::size_t k = 0; k < n; ++k)
-      for (int a = 0; a < 3; ++a) {
-        timeline_.intervals[k].around0.field_l[a] = field[a][before(k)];
-        timeline_.intervals[k].around1.field_l[a] = field[a][k];
-      }
+  }
+  static double mean_of(const std::vector<double>& values) {
+    double sum = 0.0;
+    for (const double v : values) sum += v;
+    return sum / static_cast<double>(values.size());
+  }
+  /// Number `place` of every interval's covariates, from the values at the ends of the rows.
+  void carry(const std::vector<double>& values, std::size_t place, double mean) {
+    std::vector<Interval>& intervals = timeline_.intervals;
+    timeline_.mean.value[place] = mean;
+    for (std::size_t k = 0; k < intervals.size(); ++k) {
+      const bool joins = k > 0 && intervals[k].t0 == intervals[k - 1].t1;
+      intervals[k].around0.value[place] = values[joins ? k - 1 : k] - mean;
+      intervals[k].around1.value[place] = values[k] - mean;
+    }
   }
 
   const Recording& rec_;

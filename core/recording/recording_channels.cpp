@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/params/covariates.hpp"
+
 namespace drift {
 namespace {
 
@@ -14,10 +16,15 @@ constexpr ChannelQuantity angle_q{
 constexpr ChannelQuantity rate_q{
     "rad/s"_unit.dim, "an angular rate, for example [deg/h], [deg/s] or [rad/s]", true, 200.0};
 constexpr ChannelQuantity command_q{rate_q.dim, rate_q.words, true, 10.0};
-constexpr ChannelQuantity heat_q{"K"_unit.dim, "a temperature, [degC], [K] or [degF]", true, 250.0};
-constexpr ChannelQuantity field_q{"T"_unit.dim, "a magnetic field, for example [gauss] or [uT]",
-                                  true, 0.1};  // 1000 gauss, as in [environment]
 constexpr ChannelQuantity number_q{{}, "a plain number, without unit", false};
+
+/// The covariate that a column is, or a component of; null: none of the library's.
+const CovariateSpec* covariate_in(std::string_view column) {
+  for (const CovariateSpec& c : known_covariates)
+    for (std::size_t k = 0; k < c.components(); ++k)
+      if (c.column(k).view() == column) return &c;
+  return nullptr;
+}
 
 bool is_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
@@ -33,8 +40,8 @@ std::optional<ChannelQuantity> known_quantity(std::string_view name) {
   if (name == "position" || name == "phase") return number_q;
   if (name == "case_heading" || name.starts_with("loop_eta_") || name.starts_with("loop_xi_"))
     return angle_q;
-  if (name == "temperature") return heat_q;
-  if (name == "field_n" || name == "field_w" || name == "field_u") return field_q;
+  if (const CovariateSpec* c = covariate_in(name))
+    return ChannelQuantity{c->unit.dim, c->measures, true, c->reason * c->unit.to_si};
   constexpr std::array quantities{force_q, angle_q, command_q,
                                   rate_q};  // in the order of the triples
   for (std::size_t t = 0; t < channel_triples.size(); ++t)
@@ -52,7 +59,7 @@ bool valid_channel_name(std::string_view name) {
 bool is_covariate(std::string_view name, RecordingKind kind) {
   if (name == "time" || name.starts_with("acc_")) return !known_quantity(name);
   if (kind == RecordingKind::strapdown) return !(name.starts_with("gyro_") && known_quantity(name));
-  if (name.starts_with("gyro_") || name == "temperature" || name.starts_with("field_")) return true;
+  if (name.starts_with("gyro_") || covariate_in(name) != nullptr) return true;
   return !known_quantity(name);
 }
 

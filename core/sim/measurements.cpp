@@ -34,8 +34,8 @@ Recording make_recording(const Timeline& timeline, const Measurements& measured,
                          const Readout& readout) {
   Recording rec;
   const std::size_t n = timeline.intervals.size();
-  const auto add = [&](const char* name, const Unit& unit, auto&& value) {
-    Channel c{name, unit, std::vector<double>(n)};
+  const auto add = [&](std::string_view name, const Unit& unit, auto&& value) {
+    Channel c{std::string(name), unit, std::vector<double>(n)};
     for (std::size_t i = 0; i < n; ++i) c.values[i] = value(i);
     rec.channels.push_back(std::move(c));
   };
@@ -56,13 +56,11 @@ Recording make_recording(const Timeline& timeline, const Measurements& measured,
   for (const Interval& i : timeline.intervals) looped = looped || !i.loop.isZero(0.0);
   for (int a = 0; looped && a < 6; ++a)
     add(loop_names[a], unit::arcsec, [&](std::size_t i) { return interval(i).loop[a]; });
-  if (timeline.has_temperature)
-    add("temperature", "degC"_unit,
-        [&](std::size_t i) { return timeline.mean_temperature + interval(i).around1.temperature; });
-  constexpr std::array<const char*, 3> field_names{"field_n", "field_w", "field_u"};
-  for (int a = 0; timeline.has_field && a < 3; ++a)
-    add(field_names[a], "gauss"_unit,
-        [&](std::size_t i) { return interval(i).around1.field_l[a]; });
+  for (const CovariateSpec& c : known_covariates)
+    for (std::size_t k = 0; timeline.carries(c) && k < c.components(); ++k)
+      add(c.column(k), c.unit, [&, at = c.first + k](std::size_t i) {
+        return timeline.mean.value[at] + interval(i).around1.value[at];
+      });
   for (std::size_t i = 0; i < n; ++i) rec.lines.push_back(i + 1);
   return rec;
 }

@@ -6,6 +6,28 @@
 #include "core/physics/own/own_terms.hpp"
 
 namespace drift {
+namespace {
+
+/// Where a covariate may come from: "a column temperature [degC] with numbers in the recording;
+/// ...".
+std::string expected(const CovariateSpec& c) {
+  if (!c.is_vector())
+    return fmt::format(
+        "a column {} [{}] with numbers in the recording; for a simulated one, {} = {} in "
+        "[environment]",
+        c.name, c.unit.symbol.view(), c.name, c.example);
+  return fmt::format("columns {} in the recording, or the same keys in [environment] of the study",
+                     columns_in_words(c));
+}
+
+}  // namespace
+
+std::string columns_in_words(const CovariateSpec& c) {
+  std::string names;
+  for (std::size_t k = 0; k < c.components(); ++k)
+    names += (k == 0 ? "" : ", ") + std::string(c.column(k).view());
+  return fmt::format("{} [{}]", names, c.unit.symbol.view());
+}
 
 std::vector<std::string> missing_covariates(const DriftModel& model, const Timeline& timeline) {
   std::vector<std::string> messages;
@@ -13,13 +35,12 @@ std::vector<std::string> missing_covariates(const DriftModel& model, const Timel
   for (std::size_t t = 0; t < TermLibrary::num_terms; ++t) {
     const TermInfo& term = TermLibrary::terms[t];
     if (!model.terms[t]) continue;
-    if (term.needs.temperature && !timeline.has_temperature)
-      messages.push_back(fmt::format(
-          "term '{}' needs the temperature, which is not known (expected a column temperature "
-          "[degC] "
-          "with numbers in the recording; for a simulated one, temperature = \"20 degC\" in "
-          "[environment]). Add it, or remove the term",
-          term.key));
+    const CovariateSet missing = term.needs.covariates & ~timeline.carried;
+    for (const CovariateSpec& c : known_covariates)
+      if ((missing & c.set()) != 0)
+        messages.push_back(fmt::format(
+            "term '{}' needs the {}, which is not known (expected {}). Add it, or remove the term",
+            term.key, c.what, expected(c)));
     if (term.needs.turning && !timeline.reads_turns)
       messages.push_back(fmt::format(
           "term '{}' needs accelerometers that are read while the case turns (expected a strapdown "
@@ -27,19 +48,11 @@ std::vector<std::string> missing_covariates(const DriftModel& model, const Timel
           "it, or remove the term",
           term.key));
     for (std::size_t k = 0; k < own_terms().covariates.size(); ++k)
-      if ((term.needs.covariates & ~timeline.has_further) >> k & 1u)
+      if ((missing & further_column(k)) != 0)
         messages.push_back(fmt::format(
             "term '{}' needs '{}', which is not known (expected a column of that name with numbers "
             "in the recording; a simulated one has none). Add it, or remove the term",
             term.key, own_terms().covariates[k]));
-    if (term.needs.field && !timeline.has_field)
-      messages.push_back(
-          fmt::format("term '{}' needs the magnetic field, which is not known (expected columns "
-                      "field_n, field_w, "
-                      "field_u [gauss] in the recording, or the same keys in [environment] of the "
-                      "study). Add it, "
-                      "or remove the term",
-                      term.key));
   }
   return messages;
 }

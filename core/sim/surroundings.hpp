@@ -18,13 +18,13 @@ inline Moment moment_at(const Timeline& timeline, const Interval& interval, doub
   m.slew = interval.slew;
   m.heading = interval.heading0 + part * (interval.heading1 - interval.heading0);
   m.omega_ie_l = timeline.site.omega_ie_l();
-  m.temperature = a.temperature + part * (b.temperature - a.temperature);
-  m.field_l = a.field_l + part * (b.field_l - a.field_l);
-  m.temperature_rate = (b.temperature - a.temperature) / interval.length();
   if (interval.turn) m.turn = &*interval.turn;
-  if (timeline.has_further != 0)
-    for (std::size_t k = 0; k < most_covariates; ++k)
-      m.covariates[k] = a.further[k] + part * (b.further[k] - a.further[k]);
+  if (timeline.carried == 0) return m;
+  for (std::size_t k = 0; k < a.value.size(); ++k) {
+    const double change = b.value[k] - a.value[k];
+    m.covariates.value[k] = a.value[k] + part * change;
+    m.rates.value[k] = change / interval.length();
+  }
   return m;
 }
 
@@ -39,6 +39,9 @@ void fill_surroundings(const Needs& needs, const Moment& now, const Mat3T<S>& R_
     out.gimbal = gimbal_angles<S>(case_attitude(now.heading).transpose().template cast<S>() * R_lp);
   out.memory = memory;
 }
+
+/// The columns of a covariate: "temperature [degC]", "field_n, field_w, field_u [gauss]".
+std::string columns_in_words(const CovariateSpec& c);
 
 /// What each term of the model needs that the timeline does not carry, in words.
 std::vector<std::string> missing_covariates(const DriftModel& model, const Timeline& timeline);

@@ -24,8 +24,7 @@ std::string place_of(const Study& study, const std::string& key) {
 void add_missing(const Study& study, const std::string& section, const ModelSpec& model,
                  std::vector<std::string>& messages) {
   Timeline simulated;
-  simulated.has_temperature = study.environment.temperature.has_value();
-  simulated.has_field = study.environment.has_field();
+  simulated.carried = study.environment.declared();
   for (const std::string& what : missing_covariates(model.model(), simulated))
     messages.push_back(fmt::format("{}: {}: {}", place_of(study, section + ".terms"),
                                    section == "truth" ? "[truth]" : section, what));

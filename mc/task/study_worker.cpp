@@ -161,7 +161,7 @@ void StudyWorker::simulate(Member& member) {
   const Study& study = task_.study();
   Simulation& sim = member.sim;
   const std::uint64_t run = member.work->run;
-  if (study.environment.temperature_fluctuation > 0.0)
+  if (study.environment.fluctuates())
     set_environment(timeline_, study.environment, study.monte_carlo.seed, run);
   design_.draw(run, timeline_.chains, draw_);
   simulator_.run(timeline_, draw_, study.monte_carlo.seed, run, sim);

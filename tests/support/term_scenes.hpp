@@ -1,5 +1,9 @@
 #pragma once
 
+#include <fmt/format.h>
+
+#include <string>
+
 #include "core/plan/environment.hpp"
 #include "core/sim/predict.hpp"
 #include "tests/support/model_builders.hpp"
@@ -8,14 +12,36 @@ namespace drift::test {
 
 inline Environment harbin_day() {
   Environment e;
-  e.temperature = 20.0;
-  e.temperature_amplitude = 0.5;
-  e.temperature_period = 7200.0;
-  e.temperature_ramp = 0.2 / 3600.0;
-  e.field_n = 0.26e-4;
-  e.field_w = 0.02e-4;
-  e.field_u = -0.48e-4;
+  for (const CovariateSpec& c : known_covariates) {
+    const double usual = c.usual * c.unit.to_si;
+    CovariateCourse& course = e[c];
+    if (c.is_vector()) {
+      course.mean = {0.52 * usual, 0.04 * usual, -0.96 * usual};
+    } else {
+      course.mean[0] = 2.0 * usual;
+      course.amplitude = 0.05 * usual;
+      course.period = 7200.0;
+      course.ramp = 0.02 * usual / 3600.0;
+    }
+  }
   return e;
+}
+
+/// The same as a section of a study.
+inline std::string harbin_day_text() {
+  std::string text = "[environment]\n";
+  const Environment day = harbin_day();
+  for (const CovariateSpec& c : known_covariates) {
+    const auto add = [&](std::string_view key, double value, const Unit& unit) {
+      text += fmt::format("{} = \"{:.9g} {}\"\n", key, value / unit.to_si, unit.symbol.view());
+    };
+    for (std::size_t k = 0; k < c.components(); ++k) add(c.column(k), *day[c].mean[k], c.unit);
+    if (c.is_vector()) continue;
+    add(fmt::format("{}_amplitude", c.name), day[c].amplitude, c.unit);
+    add(fmt::format("{}_period", c.name), day[c].period, unit::hour);
+    add(fmt::format("{}_ramp", c.name), day[c].ramp, c.unit_per_hour());
+  }
+  return text;
 }
 
 /// Makes of a test one of a case that turns while its accelerometers are read: as it is told, and

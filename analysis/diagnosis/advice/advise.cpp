@@ -262,11 +262,10 @@ std::vector<Advice> advise(const mc::Study& study, const std::vector<Recording>&
   } else if (diagnosis.verdict == Verdict::consistent) {
     return adviser.answer(hidden_question(diagnosis, set), IfTold::say_so);
   } else if (diagnosis.verdict == Verdict::named) {
-    const bool temperature = follows_temperature(diagnosis.causes);
+    const bool varies = follows_what_varies(diagnosis.causes);
     const Question q =
-        named_question(diagnosis, set, temperature ? std::vector<Rival>{} : adviser.rivals(set));
-    if (q.empty())
-      return {advice_on(q, temperature ? Advice::Kind::temperature : Advice::Kind::unlike, {})};
+        named_question(diagnosis, set, varies ? std::vector<Rival>{} : adviser.rivals(set));
+    if (q.empty()) return {advice_on(q, varies ? Advice::Kind::varies : Advice::Kind::unlike, {})};
     return adviser.answer(q, IfTold::say_so);
   } else if (diagnosis.verdict == Verdict::unexplained) {
     return {repeat(diagnosis, study.plan)};

@@ -67,11 +67,13 @@ struct Wish {
   std::vector<const inference::Candidate*> single;  ///< its parameters, one by one
 };
 
-/// Whether a term follows what no plan of positions can set: the temperature, a column of the
+/// What a term follows that no plan of positions can set: the temperature, a column of the
 /// recording.
-bool follows_a_covariate(const std::string& term) {
-  const Needs& needs = TermLibrary::terms[*TermLibrary::find_term(term)].needs;
-  return needs.temperature || needs.covariates != 0;
+CovariateSet followed(const TermInfo& term) {
+  return term.needs.covariates & varying_covariates;
+}
+CovariateSet followed(const std::string& term) {
+  return followed(TermLibrary::terms[*TermLibrary::find_term(term)]);
 }
 
 bool meant(const inference::Candidate& c, const std::string& text) {
@@ -94,14 +96,13 @@ std::string refusal(const std::string& text) {
         "magnetic_drift.y, or a parameter such as M_y). {}",
         text, config::suggestion(term, known, "`driftscope terms` lists all"));
   const TermInfo& t = TermLibrary::terms[*number];
-  if (t.needs.temperature)
-    return fmt::format(
-        "advise: {} follows the temperature, and positions are planned at one temperature "
-        "(expected a term that "
-        "attitude, command or time shows). Let the temperature vary within the dwells and record "
-        "it",
-        text);
-  if (t.needs.covariates != 0)
+  for (const CovariateSpec& c : known_covariates)
+    if ((followed(t) & c.set()) != 0)
+      return fmt::format(
+          "advise: {} follows the {}, and positions are planned at one {} (expected a term that "
+          "attitude, command or time shows). Let the {} vary within the dwells and record it",
+          text, c.what, c.what, c.what);
+  if (followed(t) != 0)
     return fmt::format(
         "advise: {} follows a column of the recording that no plan can foretell (expected a term "
         "that attitude, command or time shows). Let that column vary within the dwells",
@@ -121,7 +122,7 @@ std::vector<Wish> wishes_of(const inference::CandidateSet& set,
   for (const std::string& text : terms) {
     Wish wish{text, {}};
     for (const inference::Candidate& c : set.candidates)
-      if (c.params.size() == 1 && meant(c, text) && !follows_a_covariate(c.term))
+      if (c.params.size() == 1 && meant(c, text) && followed(c.term) == 0)
         wish.single.push_back(&c);
     if (wish.single.empty()) wrong.push_back(refusal(text));
     wishes.push_back(std::move(wish));
@@ -155,7 +156,7 @@ Question open_question(const Diagnosis& d) {
   }
   std::vector<Alternative> all;
   for (auto& set : sets)
-    if (!set.empty() && !follows_temperature(set)) all.push_back(alternative(std::move(set)));
+    if (!set.empty() && !follows_what_varies(set)) all.push_back(alternative(std::move(set)));
   if (all.empty()) return q;
   if (all.size() == 1) all.emplace_back();
   return all_against_all(std::move(all));
@@ -166,7 +167,7 @@ Question hidden_question(const Diagnosis& d, const inference::CandidateSet& set)
   q.sizes = Sizes::one_prior_sigma;
   q.alternatives.emplace_back();
   for (const inference::Candidate& c : set.candidates) {
-    if (c.params.size() != 1 || c.params.front() == closure_param || follows_a_covariate(c.term))
+    if (c.params.size() != 1 || c.params.front() == closure_param || followed(c.term) != 0)
       continue;
     q.pairs.push_back({q.alternatives.size(), 0});
     q.alternatives.push_back(alternative({cause_of(c, usual(c), d.nominal)}));
@@ -182,7 +183,7 @@ Question named_question(const Diagnosis& d, const inference::CandidateSet& set,
   for (const Rival& r : rivals) {
     std::vector<search::Cause> causes = d.causes;
     const inference::Candidate& c = set.candidates[r.candidate];
-    if (follows_a_covariate(c.term)) continue;
+    if (followed(c.term) != 0) continue;
     causes[r.cause] = cause_of(c, c.variants[r.variant], d.nominal);
     q.pairs.push_back({0, q.alternatives.size()});
     q.alternatives.push_back(alternative(std::move(causes)));
@@ -235,7 +236,7 @@ Question asked_question(const Diagnosis& d, const inference::CandidateSet& set,
 
 void require_askable(const FilterSpec& nominal, const std::vector<std::string>& terms) {
   Timeline any;  // a field is assumed where none is known
-  any.has_field = any.has_temperature = true;
+  any.carried = every_known_covariate;
   wishes_of(inference::library_candidates(nominal, make_layout(nominal).theta, any), terms);
 }
 
@@ -292,9 +293,8 @@ bool holds_lambda(const Alternative& a) {
                              [](const search::Cause& c) { return c.term == closure_term; });
 }
 
-bool follows_temperature(const std::vector<search::Cause>& causes) {
-  return std::ranges::any_of(causes,
-                             [](const search::Cause& c) { return follows_a_covariate(c.term); });
+bool follows_what_varies(const std::vector<search::Cause>& causes) {
+  return std::ranges::any_of(causes, [](const search::Cause& c) { return followed(c.term) != 0; });
 }
 
 }  // namespace drift::diagnosis

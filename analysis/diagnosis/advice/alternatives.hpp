@@ -51,8 +51,8 @@ Question restricted(const Question& q, const std::vector<planning::Contest>& pai
 /// Whether lambda is part of it.
 bool holds_lambda(const Alternative& a);
 
-/// Whether a cause follows the temperature. Positions are planned at one temperature: it stays
-/// unseen in any of them.
-bool follows_temperature(const std::vector<search::Cause>& causes);
+/// Whether a cause follows what varies while a test runs, such as the temperature. Positions are
+/// planned at one temperature: it stays unseen in any of them.
+bool follows_what_varies(const std::vector<search::Cause>& causes);
 
 }  // namespace drift::diagnosis

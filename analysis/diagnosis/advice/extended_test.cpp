@@ -49,14 +49,7 @@ Timeline ExtendedTest::planned(const std::vector<Position>& positions) const {
   TestPlan plan = study_.plan;
   plan.preset.clear();
   plan.positions = positions;
-  Timeline timeline = preparation::planned_test(study_, plan);
-  if (!test_.timeline.has_field || timeline.has_field) return timeline;
-  Vec3 mean = Vec3::Zero();  // of what was recorded
-  for (const Interval& i : test_.timeline.intervals)
-    mean += i.around1.field_l / static_cast<double>(test_.timeline.intervals.size());
-  for (Interval& i : timeline.intervals) i.around0.field_l = i.around1.field_l = mean;
-  timeline.has_field = true;
-  return timeline;
+  return preparation::planned_test(study_, plan, test_.timeline);
 }
 
 planning::Information ExtendedTest::added(

@@ -18,13 +18,13 @@ struct AdvisedPair {
 /// What is advised about causes that a test has left equally likely, or hides.
 struct Advice {
   enum class Kind {
-    add,          ///< the positions of `plan`
-    told,         ///< nothing: this plan tells all that was asked
-    unlike,       ///< nothing: no candidate leaves a trace like that of the first alternative
-    twins,        ///< no position: the traces are the same in the whole pool
-    hidden,       ///< no position: all that may be added leaves the pairs below 2 sigma
-    temperature,  ///< no position: the first alternative follows the temperature
-    repeat,       ///< nothing explains the misfit: repeat the position where most of it is
+    add,     ///< the positions of `plan`
+    told,    ///< nothing: this plan tells all that was asked
+    unlike,  ///< nothing: no candidate leaves a trace like that of the first alternative
+    twins,   ///< no position: the traces are the same in the whole pool
+    hidden,  ///< no position: all that may be added leaves the pairs below 2 sigma
+    varies,  ///< no position: the first alternative follows what varies while a test runs
+    repeat,  ///< nothing explains the misfit: repeat the position where most of it is
   };
   Kind kind = Kind::add;
   std::vector<Alternative> alternatives;

@@ -10,19 +10,18 @@ namespace drift::diagnosis {
 /// A term of the library that was no candidate.
 struct NotExamined {
   enum class Why {
-    no_temperature,  ///< neither the recording nor the study has the covariate it follows
-    no_swing,        ///< the temperature is known, and has hardly moved
-    no_field,
-    no_covariate,  ///< of a term of the study's own
+    no_covariate,  ///< neither the recording nor the study has what it follows
+    no_swing,      ///< the temperature is known, and has hardly moved
     no_turns,      ///< the accelerometers of a case are not read while it turns
     beyond_reach,  ///< the plan does not show it, however large
   };
   std::string term;
-  Why why = Why::no_temperature;
+  Why why = Why::no_covariate;
   /// Named causes that it may stand behind: they act on the same instruments by the clock alone, as
   /// it would if what it follows had moved like that.
   std::vector<NamedEffect> twins;
-  std::string instead;  ///< what was read that may be what it follows, and how to say so
+  std::string instead = {};  ///< what was read that may be what it follows, and how to say so
+  CovariateSet missing = 0;  ///< of what it follows
 };
 
 }  // namespace drift::diagnosis

@@ -71,7 +71,7 @@ Report blind_report(const BlindResults& results) {
           results.key_hash, results.answers_hash)};
   report.order = Order::headlines_last;
   report.brief = in_brief(results);
-  report.add(sections_of(results, blind_sections, blind_parts));
+  report.add(sections_of(results, blind_sections));
   Json document = blind_document(results);
   if (!results.rivals.empty()) document["rivals"] = rows_json(rivals_table(results));
   add_tables(document, report.sections);

@@ -7,11 +7,9 @@
 namespace drift::report {
 
 /// What is said of a blind study, in this order.
-DRIFT_SECTIONS(BlindResults, blind_sections, targets, power, reliability, groups, further, others,
-               confusion, misses);
-inline constexpr Part blind_parts[] = {Part::evidence, Part::evidence, Part::how_sure,
-                                       Part::details,  Part::details,  Part::details,
-                                       Part::how_sure, Part::how_sure};
+DRIFT_SECTIONS(BlindResults, blind_sections, (targets, evidence), (power, evidence),
+               (reliability, how_sure), (groups, details), (further, details), (others, details),
+               (confusion, how_sure), (misses, how_sure));
 
 /// The other methods and ours; also `rivals` of blind.json.
 Table rivals_table(const BlindResults& results);

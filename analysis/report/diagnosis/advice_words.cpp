@@ -10,6 +10,7 @@
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/planning/position_pool.hpp"
 #include "core/base/words.hpp"
+#include "core/physics/own/own_terms.hpp"
 
 namespace drift::report {
 namespace {
@@ -41,6 +42,19 @@ std::string label_of(const Alternative& a) {
   std::string label;
   for (const search::Cause& c : a.causes) label += (label.empty() ? "" : " + ") + label_of(c);
   return label;
+}
+
+/// What a cause follows that varies while a test runs: "temperature", a column of the recording.
+std::string_view followed_by(const Alternative& a) {
+  CovariateSet set = 0;
+  for (const search::Cause& c : a.causes)
+    if (const auto term = TermLibrary::find_term(c.term))
+      set |= TermLibrary::terms[*term].needs.covariates & varying_covariates;
+  for (const CovariateSpec& c : known_covariates)
+    if ((set & c.set()) != 0) return c.what;
+  for (std::size_t k = 0; k < own_terms().covariates.size(); ++k)
+    if ((set & further_column(k)) != 0) return own_terms().covariates[k];
+  return "surroundings";
 }
 
 const Alternative& truth_of(const Advice& a, const AdvisedPair& p) {
@@ -201,11 +215,13 @@ std::string advice_text(const Advice& a) {
           pairs_in_words(a, a.pairs, " and "));
     case Advice::Kind::hidden:
       return hidden_text(a);
-    case Advice::Kind::temperature:
+    case Advice::Kind::varies: {
+      const std::string_view what = followed_by(a.alternatives.front());
       return fmt::format(
-          "Nothing can be added: {} follows the temperature, and positions are planned at one "
-          "temperature. Let it vary within the dwells and record it.",
-          label_of(a.alternatives.front()));
+          "Nothing can be added: {} follows the {}, and positions are planned at one {}. Let it "
+          "vary within the dwells and record it.",
+          label_of(a.alternatives.front()), what, what);
+    }
     case Advice::Kind::repeat:
       break;
   }

@@ -18,9 +18,8 @@ const R* remark_in(const Diagnosis& d) {
   return nullptr;
 }
 
-bool follows_field(std::string_view term) {
-  const auto known = TermLibrary::find_term(term);
-  return known && TermLibrary::terms[*known].needs.field;
+bool follows_field(const TermInfo& term) {
+  return (term.needs.covariates & covariate("field").set()) != 0;
 }
 
 /// The causes and the parameters far from their priors that follow the magnetic field.
@@ -30,11 +29,12 @@ std::vector<std::string> following_field(const Diagnosis& d) {
     if (std::ranges::find(labels, label) == labels.end()) labels.push_back(std::move(label));
   };
   for (const search::Cause& c : d.causes)
-    if (follows_field(c.term)) add(search::keyed(c.term, c.axis));
+    if (const auto term = TermLibrary::find_term(c.term))
+      if (follows_field(TermLibrary::terms[*term])) add(search::keyed(c.term, c.axis));
   if (const auto* beyond = remark_in<remark::BeyondPrior>(d))
     for (const remark::BeyondPrior::Parameter& p : beyond->parameters)
       for (const TermInfo& t : TermLibrary::terms)
-        if (t.needs.field && t.first <= p.estimate.param && p.estimate.param < t.first + t.count)
+        if (follows_field(t) && t.first <= p.estimate.param && p.estimate.param < t.first + t.count)
           add(parameter_key(p.estimate.param));
   return labels;
 }

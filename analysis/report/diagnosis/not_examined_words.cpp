@@ -12,17 +12,52 @@ namespace drift::report {
 using diagnosis::NotExamined;
 using Why = NotExamined::Why;
 
+namespace {
+
+/// The first covariate of the table that a term lacks; null: what it lacks is a column that a study
+/// names, or nothing.
+const CovariateSpec* lacked_by(const NotExamined& left_out) {
+  for (const CovariateSpec& c : known_covariates)
+    if (left_out.why == Why::no_covariate && (left_out.missing & c.set()) != 0) return &c;
+  return nullptr;
+}
+
+std::string_view absence(const CovariateSpec& c) {
+  return c.is_vector() ? "is not known" : "was not recorded";
+}
+
+/// Why several terms were not examined: the same text for the same reason.
+std::string reason_of_several(const NotExamined& left_out) {
+  switch (left_out.why) {
+    case Why::no_covariate:
+      if (!left_out.instead.empty()) return left_out.instead;
+      if (const CovariateSpec* c = lacked_by(left_out))
+        return fmt::format("the {} {}", c->what, absence(*c));
+      return "the recording lacks the covariate that they follow";
+    case Why::no_swing:
+      return fmt::format("they ask for a temperature that moves by {:g} degC or more",
+                         inference::TemperatureLimits::swing);
+    case Why::no_turns:
+      return "they act while the case turns, where the accelerometers are read only with "
+             "accelerometers_in_turns = true in [plan] and gyros that see the Earth";
+    case Why::beyond_reach:
+      break;
+  }
+  return "this plan does not show them, however large they are";
+}
+
+}  // namespace
+
 std::string reason_in_words(const NotExamined& left_out) {
   switch (left_out.why) {
-    case Why::no_temperature:
-      if (!left_out.instead.empty()) return "it follows the temperature: " + left_out.instead;
-      return "it follows the temperature, which was not recorded";
+    case Why::no_covariate:
+      if (const CovariateSpec* c = lacked_by(left_out))
+        return left_out.instead.empty()
+                   ? fmt::format("it follows the {}, which {}", c->what, absence(*c))
+                   : fmt::format("it follows the {}: {}", c->what, left_out.instead);
+      return "it follows a covariate that the recording does not have";
     case Why::no_swing:
       return "it follows the temperature beyond the first order, and that hardly moved";
-    case Why::no_field:
-      return "it follows the magnetic field, which is not known";
-    case Why::no_covariate:
-      return "it follows a covariate that the recording does not have";
     case Why::no_turns:
       return "it acts while the case turns, where the accelerometers are not read";
     case Why::beyond_reach:
@@ -32,29 +67,17 @@ std::string reason_in_words(const NotExamined& left_out) {
 }
 
 std::vector<std::string> not_examined_sentences(const std::vector<NotExamined>& all) {
-  std::vector<std::string> sentences;
-  const std::pair<Why, std::string> reasons[] = {
-      {Why::no_temperature, "the temperature was not recorded"},
-      {Why::no_swing, fmt::format("they ask for a temperature that moves by {:g} degC or more",
-                                  inference::TemperatureLimits::swing)},
-      {Why::no_field, "the magnetic field is not known"},
-      {Why::no_covariate, "the recording lacks the covariate that they follow"},
-      {Why::no_turns,
-       "they act while the case turns, where the accelerometers are read only with "
-       "accelerometers_in_turns = true in [plan] and gyros that see the Earth"},
-      {Why::beyond_reach, "this plan does not show them, however large they are"}};
-  for (const auto& [why, said] : reasons) {
-    std::vector<std::string> terms;
-    std::string instead;
-    for (const NotExamined& n : all) {
-      if (n.why != why) continue;
-      terms.push_back(n.term);
-      if (instead.empty()) instead = n.instead;
-    }
-    if (!terms.empty())
-      sentences.push_back(fmt::format("Not examined: {}: {}", listed(terms, "and"),
-                                      instead.empty() ? said : instead));
+  std::vector<std::pair<std::string, std::vector<std::string>>> terms_by_reason;
+  for (const NotExamined& n : all) {
+    const std::string reason = reason_of_several(n);
+    auto same = std::ranges::find(terms_by_reason, reason,
+                                  &std::pair<std::string, std::vector<std::string>>::first);
+    if (same == terms_by_reason.end()) same = terms_by_reason.insert(same, {reason, {}});
+    same->second.push_back(n.term);
   }
+  std::vector<std::string> sentences;
+  for (const auto& [reason, terms] : terms_by_reason)
+    sentences.push_back(fmt::format("Not examined: {}: {}", listed(terms, "and"), reason));
   return sentences;
 }
 

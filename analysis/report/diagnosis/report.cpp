@@ -221,7 +221,7 @@ Report diagnosis_report(const mc::Study& study, const Diagnosis& d, const Diagno
       if (!sentence.empty()) report.headlines.push_back(sentence);
   if (d.proposal) report.headlines.push_back(form_sentence(*d.proposal));
   if (!d.advice.empty()) report.headlines.push_back(advice_text(d.advice.front()));
-  report.add(sections_of(d, diagnosis_sections, diagnosis_parts));
+  report.add(sections_of(d, diagnosis_sections));
   report.add(source.more);
   report.add({origin(study, d, source)});
   Json document = diagnosis_document(d);

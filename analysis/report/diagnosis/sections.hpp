@@ -8,13 +8,11 @@
 namespace drift::report {
 
 /// What is said of a diagnosis, in this order.
-DRIFT_SECTIONS(diagnosis::Diagnosis, diagnosis_sections, verdict, kept_in_mind, odds, where,
-               windows, what, form_that_fits, profiles, likeness, rivals, fit, moved, whiteness,
-               normality, noise, advice);
-inline constexpr Part diagnosis_parts[] = {
-    Part::evidence, Part::how_sure, Part::how_sure, Part::evidence, Part::details,  Part::how_sure,
-    Part::evidence, Part::details,  Part::details,  Part::details,  Part::evidence, Part::details,
-    Part::details,  Part::details,  Part::details,  Part::how_sure};
+DRIFT_SECTIONS(diagnosis::Diagnosis, diagnosis_sections, (verdict, evidence),
+               (kept_in_mind, how_sure), (odds, how_sure), (where, evidence), (windows, details),
+               (what, how_sure), (form_that_fits, evidence), (profiles, details),
+               (likeness, details), (rivals, details), (fit, evidence), (moved, details),
+               (whiteness, details), (normality, details), (noise, details), (advice, how_sure));
 
 /// Causes are told from a model without, before and after; of a consistent verdict on the page
 /// alone.

@@ -231,13 +231,18 @@ Cell verdict_cell(const ParameterVerdict& verdict) {
   return {"learned", Tone::good};
 }
 
-/// What to add where a filter has its temperature from the recording, which a plan has not.
-std::string temperature_to_rank_with(const mc::Study& study) {
-  if (study.environment.temperature ||
-      !TermLibrary::needs(study.filters.front().model().terms).temperature)
-    return "";
-  return " It needs the temperature that is to be expected: --set environment.temperature=\"20 "
-         "degC\" --set environment.temperature_amplitude=\"2 degC\"";
+/// What to add where a filter has a covariate from the recording, which a plan has not.
+std::string covariates_to_rank_with(const mc::Study& study) {
+  const CovariateSet missing = TermLibrary::needs(study.filters.front().model().terms).covariates &
+                               ~study.environment.declared();
+  std::string all;
+  for (const CovariateSpec& c : known_covariates)
+    if (!c.is_vector() && (missing & c.set()) != 0)
+      all += fmt::format(
+          " It needs the {} that is to be expected: --set environment.{}={} --set "
+          "environment.{}_amplitude=\"{:g} {}\"",
+          c.what, c.name, c.example, c.name, 0.2 * c.usual, c.unit.symbol.view());
+  return all;
 }
 
 InBrief identification_in_brief(const mc::Study& study, const identification::Identification& id) {
@@ -276,7 +281,7 @@ InBrief identification_in_brief(const mc::Study& study, const identification::Id
     brief.next = fmt::format(
         "Next: driftscope rank {} --improve 3 proposes positions that show what this test does "
         "not.{}",
-        file, temperature_to_rank_with(study));
+        file, covariates_to_rank_with(study));
   return brief;
 }
 

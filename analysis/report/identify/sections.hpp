@@ -22,10 +22,9 @@ struct FilterView {
 };
 
 /// What is said of each filter, in this order.
-DRIFT_SECTIONS(FilterView, filter_sections, against_prior, filter_model, fits, estimates,
-               correlations, degeneracies);
-inline constexpr Part filter_parts[] = {Part::evidence, Part::details, Part::how_sure,
-                                        Part::details,  Part::details, Part::details};
+DRIFT_SECTIONS(FilterView, filter_sections, (against_prior, evidence), (filter_model, details),
+               (fits, how_sure), (estimates, details), (correlations, details),
+               (degeneracies, details));
 
 /// Estimates against time from every start, with their sigma bands and the truth or an independent
 /// test as a line: all filters together (estimates.svg) and each alone (figure_<filter>.svg, a file

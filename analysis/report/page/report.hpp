@@ -1,8 +1,10 @@
 #pragma once
 
+#include <boost/preprocessor/seq/for_each.hpp>
+#include <boost/preprocessor/tuple/elem.hpp>
+#include <boost/preprocessor/variadic/to_seq.hpp>
 #include <concepts>
 #include <string>
-#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -107,27 +109,34 @@ struct Report {
   void add(std::vector<Section> more);  ///< those that say something
 };
 
-/// What functions, one for each section, say of a view.
-template <class View, class List>
-std::vector<Section> sections_of(const View& view, const List& list) {
-  std::vector<Section> all;
-  for (Section (*const make)(const View&) : list) all.push_back(make(view));
-  return all;
-}
+/// A section as a list has it: the function that says it, and its part of the page.
+template <class View>
+struct ListedSection {
+  Section (*make)(const View&);
+  Part part;
+};
 
-/// The same, each in its part of the page.
+/// What the functions of a list say of a view.
 template <class View, std::size_t n>
-std::vector<Section> sections_of(const View& view, Section (*const (&list)[n])(const View&),
-                                 const Part (&parts)[n]) {
-  std::vector<Section> all = sections_of(view, list);
-  for (std::size_t k = 0; k < n; ++k) all[k].part = parts[k];
+std::vector<Section> sections_of(const View& view, const ListedSection<View> (&list)[n]) {
+  std::vector<Section> all;
+  for (const ListedSection<View>& s : list) {
+    all.push_back(s.make(view));
+    all.back().part = s.part;
+  }
   return all;
 }
 
-/// Declares the sections of a view and lists them in the order of the report.
-#define DRIFT_SECTIONS(View, list, ...)                   \
-  std::type_identity_t<Section(const View&)> __VA_ARGS__; \
-  inline constexpr Section (*list[])(const View&) = {__VA_ARGS__}
+/// Declares the sections of a view and lists them in the order of the report, each with its part of
+/// the page: DRIFT_SECTIONS(View, list, (verdict, evidence), (odds, how_sure)). A new one is its
+/// file and a pair.
+#define DRIFT_SECTIONS(View, list, ...)                                                      \
+  BOOST_PP_SEQ_FOR_EACH(DRIFT_DECLARED_SECTION, View, BOOST_PP_VARIADIC_TO_SEQ(__VA_ARGS__)) \
+  inline constexpr ListedSection<View> list[] = {                                            \
+      BOOST_PP_SEQ_FOR_EACH(DRIFT_LISTED_SECTION, View, BOOST_PP_VARIADIC_TO_SEQ(__VA_ARGS__))}
+#define DRIFT_DECLARED_SECTION(r, View, pair) Section BOOST_PP_TUPLE_ELEM(0, pair)(const View&);
+#define DRIFT_LISTED_SECTION(r, View, pair) \
+  {BOOST_PP_TUPLE_ELEM(0, pair), Part::BOOST_PP_TUPLE_ELEM(1, pair)},
 
 /// The lines that a terminal shows of an answer unless it is asked for more.
 inline constexpr std::size_t most_brief_lines = 10, least_brief_width = 80;

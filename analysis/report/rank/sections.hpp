@@ -15,11 +15,9 @@ struct RankedGroup {
 };
 
 /// What is said of each group, in this order.
-DRIFT_SECTIONS(RankedGroup, group_sections, learning, equations, elsewhere, unseen, drivers,
-               directions, course, methods);
-inline constexpr Part group_parts[] = {Part::evidence, Part::how_sure, Part::how_sure,
-                                       Part::how_sure, Part::details,  Part::details,
-                                       Part::details,  Part::details};
+DRIFT_SECTIONS(RankedGroup, group_sections, (learning, evidence), (equations, how_sure),
+               (elsewhere, how_sure), (unseen, how_sure), (drivers, details), (directions, details),
+               (course, details), (methods, details));
 
 /// The positions proposed and what they bring; nothing where none were asked for.
 Section improvement(const mc::Study& study, const planning::PlanRanking& rank);

@@ -15,10 +15,8 @@ namespace drift::report {
 using strapdown::CaseFit;
 using strapdown::CaseIdentification;
 
-DRIFT_SECTIONS(CaseIdentification, case_sections, case_test, case_parameters, case_unobservable,
-               case_held_out, case_noise);
-inline constexpr Part case_parts[] = {Part::details, Part::evidence, Part::how_sure, Part::how_sure,
-                                      Part::how_sure};
+DRIFT_SECTIONS(CaseIdentification, case_sections, (case_test, details), (case_parameters, evidence),
+               (case_unobservable, how_sure), (case_held_out, how_sure), (case_noise, how_sure));
 
 namespace {
 
@@ -218,7 +216,7 @@ Report case_report(const mc::Study& study, const CaseIdentification& id) {
   report.title = study.title.empty() ? "Strapdown recording" : study.title;
   report.subtitle = fmt::format("Strapdown recording {}", id.study.source);
   report.brief = in_brief(id);
-  report.add(sections_of(id, case_sections, case_parts));
+  report.add(sections_of(id, case_sections));
   report.document = {"identification.json", to_json(id, study.site.gravity).dump(2) + "\n"};
   report.files.emplace_back("study.toml", study.text);
   report.files.emplace_back("estimates.csv", estimates_csv(id));

@@ -26,7 +26,7 @@ Report study_report(const StudyResults& results) {
                                 plural(results.points.size()), results.study.monte_carlo.seed);
   report.headlines = headlines(results);
   report.brief = study_in_brief(results);
-  report.add(sections_of(results, study_sections, study_parts));
+  report.add(sections_of(results, study_sections));
   Json document = study_document(results);
   add_tables(document, report.sections);
   report.document = {"summary.json", dumped(document)};

@@ -7,11 +7,10 @@
 namespace drift::report {
 
 /// What is said of a study, in this order.
-DRIFT_SECTIONS(StudyResults, study_sections, sweep, crossed, ranking, promised, honesty, scatter,
-               convergence, parameters, rate_course, failures, provenance);
-inline constexpr Part study_parts[] = {
-    Part::evidence, Part::evidence, Part::details,  Part::details,  Part::details,   Part::details,
-    Part::details,  Part::details,  Part::how_sure, Part::how_sure, Part::provenance};
+DRIFT_SECTIONS(StudyResults, study_sections, (sweep, evidence), (crossed, evidence),
+               (ranking, details), (promised, details), (honesty, details), (scatter, details),
+               (convergence, details), (parameters, details), (rate_course, how_sure),
+               (failures, how_sure), (provenance, provenance));
 
 /// How the wrong and the right equation do, at their worst.
 InBrief study_in_brief(const StudyResults& results);

@@ -118,8 +118,8 @@ class UnitChecker {
 }  // namespace
 
 std::string dimension_in_words(const Dimension& dimension) {
-  constexpr std::string_view names[] = {"angle",       "time",  "g",   "length",
-                                        "temperature", "field", "mass"};
+  constexpr std::string_view names[] = {"angle",       "time",  "g",    "length",
+                                        "temperature", "field", "mass", "current"};
   std::vector<std::string> factors;
   for (std::size_t k = 0; k < Dimension::count; ++k)
     if (const double power = 0.5 * dimension.twice[k]; power == 1.0)

@@ -58,7 +58,7 @@ class EquationCompiler {
   EquationCompiler(const OwnEquation& equation, const std::vector<std::string>& covariates)
       : e_(equation) {
     out_.covariates = covariates;
-    for (const OwnInput& input : own_inputs) inputs_.emplace_back(input.name);
+    for (const OwnInput& input : own_inputs) inputs_.emplace_back(input.name.view());
   }
 
   CompiledEquation compile() {
@@ -85,12 +85,12 @@ class EquationCompiler {
         return std::ranges::find(list, word) != list.end();
       };
       if (among(known) || among(out_.covariates) || !config::nearest(word, known).empty()) continue;
-      if (out_.covariates.size() == most_covariates)
+      if (out_.covariates.size() == most_further_columns)
         throw EquationMistake{
             e_.text.find(word),
             fmt::format("names the column '{}' of the recording beside {}", word,
                         fmt::join(out_.covariates, ", ")),
-            fmt::format("at most {} further columns in all terms of a study", most_covariates),
+            fmt::format("at most {} further columns in all terms of a study", most_further_columns),
             "Name fewer columns, or correct the name"};
       out_.covariates.push_back(word);
     }
@@ -103,14 +103,14 @@ class EquationCompiler {
       if (node.op == Operation::parameter) used[index] = true;
       if (node.op != Operation::input) continue;
       if (index >= own_inputs.size()) {
-        out_.needs.covariates |= 1u << (index - own_inputs.size());
+        out_.needs.covariates |= further_column(index - own_inputs.size());
         continue;
       }
       const OwnInput& input = own_inputs[index];
       out_.needs = out_.needs | input.needs;
       if (input.of_gyro && e_.target.slot != OwnSlot::drift)
         throw EquationMistake{
-            node.at, fmt::format("names '{}', along an axis of a gyro", input.name),
+            node.at, fmt::format("names '{}', along an axis of a gyro", input.name.view()),
             "f_I, f_O, f_S with acts_on = \"drift.x\", \"drift.y\" or \"drift.z\" only",
             "Write f_x, f_y or f_z"};
     }

@@ -139,7 +139,7 @@ ParamSpec read_own_parameter(Section section, const std::string& key) {
 std::optional<std::pair<std::string, std::string>> wrong_name(const std::string& name) {
   if (!is_name(name)) return {{"is no name", "letters, figures and _, a letter first"}};
   const bool is_input =
-      std::ranges::find(own_inputs, std::string_view(name), &OwnInput::name) != own_inputs.end();
+      std::ranges::any_of(own_inputs, [&](const OwnInput& in) { return in.name.view() == name; });
   const auto reserved = reserved_equation_names();
   if (is_input || std::ranges::find(reserved, name) != reserved.end())
     return {{is_input ? "is what an equation sees of the platform" : "is a word of the equations",

@@ -28,9 +28,12 @@ std::vector<double> own_scene(std::uint64_t k, std::size_t inputs) {
   for (int i = 0; i < 3; ++i) values.push_back(spread(8e-5));  // [rad/s] of the case
   for (int i = 0; i < 3; ++i) values.push_back(spread(5e-3));  // [rad/s] commanded
   for (int i = 0; i < 3; ++i) values.push_back(spread(3.0));   // [rad] of the gimbals
-  values.push_back(spread(10.0));                              // [K]
-  values.push_back(spread(1e-3));                              // [K/s]
-  for (int i = 0; i < 3; ++i) values.push_back(spread(5e-5));  // [T]
+  for (const OwnInput& in : own_inputs)
+    if (const CovariateSpec* c = in.covariate) {
+      constexpr double rate = 1e-4;  // [1/s]: all of it in three hours
+      const double usual = c->usual * c->unit.to_si;
+      values.push_back(spread(c->is_vector() || in.part == 0 ? usual : rate * usual));
+    }
   while (values.size() < inputs) values.push_back(1.0 + stream.uniform());
   return values;
 }

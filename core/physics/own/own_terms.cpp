@@ -49,7 +49,7 @@ const OwnTermSet& own_terms() {
 }
 
 void set_own_terms(OwnTermSet set) {
-  DRIFT_DEMAND(set.terms.size() <= most_own_terms && set.covariates.size() <= most_covariates);
+  DRIFT_DEMAND(set.terms.size() <= most_own_terms && set.covariates.size() <= most_further_columns);
   for (const OwnTerm& term : set.terms) DRIFT_DEMAND(term.params.size() <= most_own_parameters);
   if (set == current_own_terms()) return;
   current_own_terms() = std::move(set);  // whose texts the library's tables point to

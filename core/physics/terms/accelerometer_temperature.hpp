@@ -15,11 +15,11 @@ struct AccelerometerTemperature {
   static constexpr auto params = join(
       per_axis<"K0_T">("ug/degC"_unit, normal(0.0, 20.0), "accelerometer output, times dT"),
       per_axis<"K1_T">("ppm/degC"_unit, normal(0.0, 50.0), "accelerometer output, times a_I dT"));
-  static constexpr Needs needs{.temperature = true};
+  static constexpr Needs needs{.covariates = covariate("temperature").set()};
 
   template <class S>
   static void readout(const Inputs<S>& in, const S* p, ReadoutAssembly<S>& out) {
-    out.acc += (vec3(p) + vec3(p + 3).cwiseProduct(in.f_p)) * in.now().temperature;
+    out.acc += (vec3(p) + vec3(p + 3).cwiseProduct(in.f_p)) * in.value_of(covariate("temperature"));
   }
 };
 

@@ -20,12 +20,12 @@ struct AccelerometerTemperatureCurve {
                         "accelerometer output, times a_I dT^2"),
       per_axis<"K1_T3">("ppm/degC^3"_unit, normal(0.0, 0.05),
                         "accelerometer output, times a_I dT^3"));
-  static constexpr Needs needs{.temperature = true};
+  static constexpr Needs needs{.covariates = covariate("temperature").set()};
   static constexpr bool wants_swing = true;
 
   template <class S>
   static void readout(const Inputs<S>& in, const S* p, ReadoutAssembly<S>& out) {
-    const double dT = in.now().temperature;
+    const double dT = in.value_of(covariate("temperature"));
     const Vec3T<S> bias = vec3(p) + vec3(p + 3) * dT, scale = vec3(p + 6) + vec3(p + 9) * dT;
     out.acc += (bias + scale.cwiseProduct(in.f_p)) * (dT * dT);
   }

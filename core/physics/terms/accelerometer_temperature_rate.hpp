@@ -16,12 +16,12 @@ struct AccelerometerTemperatureRate {
   static constexpr Subsystem subsystem = Subsystem::accelerometers;
   static constexpr auto params = per_axis<"K0_T_rate">("ug*min/degC"_unit, normal(0.0, 100.0),
                                                        "accelerometer output, times dT/dt");
-  static constexpr Needs needs{.temperature = true};
+  static constexpr Needs needs{.covariates = covariate("temperature").set()};
   static constexpr bool wants_swing = true;
 
   template <class S>
   static void readout(const Inputs<S>& in, const S* p, ReadoutAssembly<S>& out) {
-    out.acc += vec3(p) * in.now().temperature_rate;
+    out.acc += vec3(p) * in.rate_of(covariate("temperature"));
   }
 };
 

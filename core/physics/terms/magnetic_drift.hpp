@@ -14,12 +14,11 @@ struct MagneticDrift {
   static constexpr Subsystem subsystem = Subsystem::gyro;
   static constexpr auto params =
       per_axis<"M">("deg/h/gauss"_unit, normal(0.0, 0.01), "w_l, times the field along IA");
-  static constexpr Needs needs{.field = true};
+  static constexpr Needs needs{.covariates = covariate("field").set()};
 
   template <class S>
   static void rates(const Inputs<S>& in, const S* M, RateAssembly<S>& out) {
-    const Vec3T<S> field_l = in.now().field_l.template cast<S>();
-    out.omega_drift_g += vec3(M).cwiseProduct(in.to_platform(field_l));
+    out.omega_drift_g += vec3(M).cwiseProduct(in.vector_of(covariate("field")));
   }
 };
 

@@ -13,11 +13,11 @@ struct TemperatureDrift {
   static constexpr Subsystem subsystem = Subsystem::gyro;
   static constexpr auto params = per_axis<"kT">("deg/h/degC"_unit, normal(0.0, 0.03),
                                                 "w_l, times the deviation of temperature");
-  static constexpr Needs needs{.temperature = true};
+  static constexpr Needs needs{.covariates = covariate("temperature").set()};
 
   template <class S>
   static void rates(const Inputs<S>& in, const S* k, RateAssembly<S>& out) {
-    out.omega_drift_g += vec3(k) * in.now().temperature;
+    out.omega_drift_g += vec3(k) * in.value_of(covariate("temperature"));
   }
 };
 

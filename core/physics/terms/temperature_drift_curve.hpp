@@ -15,12 +15,12 @@ struct TemperatureDriftCurve {
   static constexpr auto params =
       join(per_axis<"kT2">("deg/h/degC^2"_unit, normal(0.0, 1e-3), "w_l, times dT^2"),
            per_axis<"kT3">("deg/h/degC^3"_unit, normal(0.0, 3e-5), "w_l, times dT^3"));
-  static constexpr Needs needs{.temperature = true};
+  static constexpr Needs needs{.covariates = covariate("temperature").set()};
   static constexpr bool wants_swing = true;
 
   template <class S>
   static void rates(const Inputs<S>& in, const S* k, RateAssembly<S>& out) {
-    const double dT = in.now().temperature;
+    const double dT = in.value_of(covariate("temperature"));
     out.omega_drift_g += vec3(k) * (dT * dT) + vec3(k + 3) * (dT * dT * dT);
   }
 };

@@ -15,13 +15,13 @@ struct TemperatureGDrift {
   static constexpr auto params =
       join(per_axis<"kT_I">("deg/h/g/degC"_unit, prior, "w_l, times a_I dT"),
            per_axis<"kT_S">("deg/h/g/degC"_unit, prior, "w_l, times a_S dT"));
-  static constexpr Needs needs{.temperature = true};
+  static constexpr Needs needs{.covariates = covariate("temperature").set()};
 
   template <class S>
   static void rates(const Inputs<S>& in, const S* k, RateAssembly<S>& out) {
     const Vec3T<S> per_degree =
         vec3(k).cwiseProduct(in.f_p) + vec3(k + 3).cwiseProduct(in.f_spin());
-    out.omega_drift_g += per_degree * in.now().temperature;
+    out.omega_drift_g += per_degree * in.value_of(covariate("temperature"));
   }
 };
 

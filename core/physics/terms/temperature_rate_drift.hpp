@@ -16,12 +16,12 @@ struct TemperatureRateDrift {
   static constexpr Subsystem subsystem = Subsystem::gyro;
   static constexpr auto params =
       per_axis<"kT_rate">("deg/h*min/degC"_unit, normal(0.0, 0.1), "w_l, times dT/dt");
-  static constexpr Needs needs{.temperature = true};
+  static constexpr Needs needs{.covariates = covariate("temperature").set()};
   static constexpr bool wants_swing = true;
 
   template <class S>
   static void rates(const Inputs<S>& in, const S* k, RateAssembly<S>& out) {
-    out.omega_drift_g += vec3(k) * in.now().temperature_rate;
+    out.omega_drift_g += vec3(k) * in.rate_of(covariate("temperature"));
   }
 };
 

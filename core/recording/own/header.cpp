@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/config/nearest.hpp"
+#include "core/params/covariates.hpp"
 #include "core/recording/own/csv_cells.hpp"
 #include "core/recording/recording_channels.hpp"
 #include "core/recording/recording_problems.hpp"
@@ -62,7 +63,7 @@ std::vector<std::string_view> canonical_channels(RecordingKind kind) {
     add(channel_triples[3]);
     add(channel_triples[0]);
   }
-  all.insert(all.end(), {"temperature", "field_n", "field_w", "field_u"});
+  all.insert(all.end(), covariate_columns.begin(), covariate_columns.end());
   return all;
 }
 

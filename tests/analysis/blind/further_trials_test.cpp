@@ -64,25 +64,26 @@ TEST(BlindStudy, OfAFurtherTrialTheKeySaysWhatIsHarder) {
   const auto term = TermLibrary::find_term(covariate.effects.front().term);
   ASSERT_TRUE(term);
   const Needs& needs = TermLibrary::terms[*term].needs;
-  EXPECT_TRUE(needs.temperature || needs.field);
+  EXPECT_TRUE(needs.covariates != 0);
 }
 
 TEST(BlindFurther, ACovariateIsRecordedWithNoiseThatMeetsAtTheEndsOfIntervals) {
   Timeline timeline;
   for (int k = 0; k < 400; ++k) {
     Interval i;
-    i.around1.temperature = k % 2 ? 1.0 : -1.0;
+    i.around1[covariate("temperature")] = k % 2 ? 1.0 : -1.0;
     timeline.intervals.push_back(i);
   }
   Stream stream(1, 1, Purpose::test);
   const Timeline noisy = with_noisy_covariates(timeline, stream);
   double square = 0.0;
   for (std::size_t k = 0; k < noisy.intervals.size(); ++k) {
-    const double off =
-        noisy.intervals[k].around1.temperature - timeline.intervals[k].around1.temperature;
+    const double off = noisy.intervals[k].around1[covariate("temperature")] -
+                       timeline.intervals[k].around1[covariate("temperature")];
     square += off * off / 400.0;
     if (k > 0) {
-      EXPECT_EQ(noisy.intervals[k].around0.temperature, noisy.intervals[k - 1].around1.temperature);
+      EXPECT_EQ(noisy.intervals[k].around0[covariate("temperature")],
+                noisy.intervals[k - 1].around1[covariate("temperature")]);
     }
   }
   // 0.1 to 0.5 of the rms of 1; the rms of 400 draws is known to 3.5 %, four of which are allowed.

@@ -161,13 +161,14 @@ TEST(OwnTerm, SeesAColumnOfTheRecordingAsTheLibrarySeesTheTemperature) {
   Channel column = *recording.find("temperature");
   column.name = "oven_sensor";
   recording.channels.push_back(column);
-  const double mean = simulated.mean_temperature;  // what the library takes off
+  const double mean = simulated.mean[covariate("temperature")];  // what the library takes off
   const OwnTermsHeld held(own_term("twin", "drift.y", "A*(oven_sensor - W)",
                                    "A = { unit = 'deg/h/K', prior = 0.03 }, W = { unit = 'degC', "
                                    "value = " +
                                        fmt::format("{}", mean) + " }"));
   const Timeline timeline = lay_out(recording, plan, harbin);
-  ASSERT_TRUE(timeline.has_temperature && timeline.has_further == 1u);
+  ASSERT_TRUE(timeline.carries(covariate("temperature")) &&
+              (timeline.carried & further_column(0)) != 0);
   FilterSpec both = base_filter(Coupling::eq6);
   both.active = only({"D_F", "kT_y"}) | params_named("twin");
   for (std::size_t i = 0; i < TermLibrary::specs.size(); ++i)

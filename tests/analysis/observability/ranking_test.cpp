@@ -273,9 +273,7 @@ TEST(Ranking, AModelThatSeesTheFieldIsRankedInTheFieldOfTheStudy) {
       observability::linearise(plan, observability::ranked_model(spec, nullptr, harbin, Readout{})),
       InputError);
   Environment field;
-  field.field_n = 0.25e-4;
-  field.field_w = 0.0;
-  field.field_u = -0.47e-4;
+  field[covariate("field")].mean = {0.25e-4, 0.0, -0.47e-4};
   const observability::Ranking r = observability::rank_parameters(observability::linearise(
       plan, observability::ranked_model(spec, nullptr, harbin, Readout{}, field)));
   EXPECT_FALSE(r.parameters.empty());

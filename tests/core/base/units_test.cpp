@@ -12,6 +12,9 @@ TEST(Units, CompoundUnitsAreProductsOfTheirFactors) {
   EXPECT_DOUBLE_EQ(parse_unit("ug/g^2")->to_si, 1e-6);
   EXPECT_DOUBLE_EQ(parse_unit("m/s^2")->to_si, 1.0);
   EXPECT_EQ(parse_unit("N*m*s")->dim, parse_unit("kg*m^2/s")->dim);
+  EXPECT_EQ(parse_unit("V*A")->dim, parse_unit("N*m/s")->dim);
+  EXPECT_EQ(parse_unit("Pa")->dim, parse_unit("N/m^2")->dim);
+  EXPECT_DOUBLE_EQ(parse_unit("hPa")->to_si, 100.0);
 }
 
 TEST(Units, OneDegreePerHourIsOneArcsecondPerSecond) {

@@ -26,10 +26,8 @@ struct Scene {
              false,
              0.3,
              harbin.omega_ie_l(),
-             0.7,
-             Vec3(2.6e-5, 1e-6, -4.8e-5),
-             1e-4,
-             {0.3, -0.4, 0.5, 0.6},
+             covariates_of_a_scene(),
+             covariates_of_a_scene(1e-4),
              &turn};
     s.R_lp = rotation<double>(Vec3(0.4, -0.3, 0.8)).cast<S>();
     s.gimbal = Vec3(0.5, -0.4, 1.1).cast<S>();

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/check.hpp"
+#include "core/sim/surroundings.hpp"
 #include "tests/support/term_scenes.hpp"
 
 namespace drift::predict_test {
@@ -39,7 +40,7 @@ TEST(EveryTermInATest, ShowsNothingAtZeroAmplitude) {
 /// The temperature of a unit without a thermostat: ten times as far from its mean.
 Timeline with_swing(Timeline timeline) {
   for (Interval& i : timeline.intervals)
-    for (Covariates* c : {&i.around0, &i.around1}) c->temperature *= 10.0;
+    for (Covariates* c : {&i.around0, &i.around1}) (*c)[covariate("temperature")] *= 10.0;
   return timeline;
 }
 
@@ -154,16 +155,24 @@ TEST(EveryTermInATest, ActsInsideTheServoLoop) {
 TEST(Predict, SaysWhichCovariateIsMissing) {
   const Timeline timeline = preset_timeline("six", CommandLaw::level, 600.0);
   const std::vector<Vec3> psi(timeline.chains, Vec3::Zero());
-  for (const auto& [key, column] :
-       {std::pair{"temperature_drift", "temperature [degC]"}, {"magnetic_drift", "field_n"}}) {
+  CovariateSet named = 0;
+  for (std::size_t t = 0; t < TermLibrary::num_known; ++t) {
+    const TermInfo& term = TermLibrary::terms[t];
+    if (term.needs.covariates == 0) continue;
     try {
-      predict(timeline, model_of(Coupling::eq5, params_named(key)), Theta::Zero(), psi, {});
-      FAIL() << key;
+      predict(timeline, model_of(Coupling::eq5, term_params(t)), Theta::Zero(), psi, {});
+      FAIL() << term.key;
     } catch (const InputError& error) {
       EXPECT_EQ(error.code(), ExitCode::recording);
-      EXPECT_NE(std::string(error.what()).find(column), std::string::npos) << error.what();
+      for (const CovariateSpec& c : known_covariates)
+        if ((term.needs.covariates & c.set()) != 0) {
+          EXPECT_NE(std::string(error.what()).find(columns_in_words(c)), std::string::npos)
+              << error.what();
+          named |= c.set();
+        }
     }
   }
+  EXPECT_EQ(named, every_known_covariate);  // there is none that no term follows
 }
 
 }  // namespace

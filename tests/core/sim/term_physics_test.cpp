@@ -71,7 +71,8 @@ TEST(TemperatureDrift, FollowsTheRecordedTemperature) {
   double sum = 0.0;
   for (int i = 0; i < 10; ++i) {
     const Interval& n = timeline.intervals[i];
-    sum += 0.5 * (n.around0.temperature + n.around1.temperature) * n.length();
+    sum += 0.5 * (n.around0[covariate("temperature")] + n.around1[covariate("temperature")]) *
+           n.length();
   }
   EXPECT_GT(std::abs(sum), 30.0);  // degC s
   EXPECT_NEAR(Effect("kT_x", k).phi_after(timeline, 10).x(), -k * sum,
@@ -80,7 +81,7 @@ TEST(TemperatureDrift, FollowsTheRecordedTemperature) {
 
 /// Integrals over an interval of the first powers of a temperature that is linear in it.
 double integral(const Interval& i, int power) {
-  const double a = i.around0.temperature, b = i.around1.temperature;
+  const double a = i.around0[covariate("temperature")], b = i.around1[covariate("temperature")];
   double sum = 0.0;
   for (int k = 0; k <= power; ++k) sum += std::pow(a, k) * std::pow(b, power - k);
   return sum * i.length() / (power + 1);
@@ -97,8 +98,8 @@ TEST(TemperatureDrift, OfHigherOrderIsItsIntegralAndByItsRateItsChange) {
         << key;
   }
   const double k = TermLibrary::specs[param("kT_rate_x")].prior_si().sigma();
-  const double change =
-      timeline.intervals[9].around1.temperature - timeline.intervals[0].around0.temperature;
+  const double change = timeline.intervals[9].around1[covariate("temperature")] -
+                        timeline.intervals[0].around0[covariate("temperature")];
   EXPECT_GT(std::abs(change), 0.1);
   EXPECT_NEAR(Effect("kT_rate_x", k).phi_after(timeline, 10).x(), -k * change,
               turned_away * k * std::abs(change));
@@ -107,7 +108,9 @@ TEST(TemperatureDrift, OfHigherOrderIsItsIntegralAndByItsRateItsChange) {
 TEST(AccelerometerTemperature, OfHigherOrderAndByItsRateIsTheMeanOverARow) {
   const Timeline timeline = first_position();  // x reads 1 g
   const Interval& row = timeline.intervals[7];
-  const double rate = (row.around1.temperature - row.around0.temperature) / row.length();
+  const double rate =
+      (row.around1[covariate("temperature")] - row.around0[covariate("temperature")]) /
+      row.length();
   const double without = Effect("K0_x", 0.0).predicted(timeline).acc(0, 7);
   for (const auto& [key, mean] : {std::pair{"K0_T2_x", integral(row, 2) / row.length()},
                                   {"K1_T2_x", integral(row, 2) / row.length()},
@@ -152,11 +155,11 @@ TEST(TorquerAsymmetry, DoesNotCancelInASlewThereAndBack) {
 
 TEST(TorquerTemperature, IsAScaleFactorErrorThatGrowsWithTheTemperature) {
   Timeline timeline = there_and_back();
-  timeline.has_temperature = true;
+  timeline.carried |= covariate("temperature").set();
   constexpr double warming = 0.02;  // [K/s]
   for (Interval& i : timeline.intervals) {
-    i.around0.temperature = warming * i.t0;
-    i.around1.temperature = warming * i.t1;
+    i.around0[covariate("temperature")] = warming * i.t0;
+    i.around1[covariate("temperature")] = warming * i.t1;
   }
   const double rate = 0.5 * detail::deg;
   for (const auto& [key, power] : {std::pair{"s_T_x", 1}, {"s_T2_x", 2}, {"s_T3_x", 3}}) {

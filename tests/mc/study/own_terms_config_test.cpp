@@ -64,7 +64,7 @@ TEST_F(OwnTermsConfig, TheTermOfTheInterfaceIsReadAsItIsWritten) {
   EXPECT_EQ(term.title, "bearing rumble of the inner gimbal");
   EXPECT_EQ(term.equation, "w_ip,y += A * sin(2*pi*t/P) * step(abs(f_z) - 0.8)");
   EXPECT_TRUE(term.in_rates && !term.in_readout && !term.in_gimbals && term.needs.clock);
-  EXPECT_FALSE(term.needs.gimbals || term.needs.field || term.needs.temperature);
+  EXPECT_FALSE(term.needs.gimbals || term.needs.covariates != 0);
   const ParamSpec &A = TermLibrary::specs[param("rumble_A")],
                   &P = TermLibrary::specs[param("rumble_P")];
   EXPECT_EQ(A.kind, ParamKind::linear);
@@ -130,8 +130,9 @@ TEST_F(OwnTermsConfig, ColumnsOfTheRecordingAreKnownByTheirNames) {
                      "A = { unit = 'deg/h', prior = 1 }, B = { unit = 'deg/h', prior = 1 }") +
             own_term("other", "drift.y", "A*humidity", "A = { unit = 'deg/h', prior = 1 }"));
   EXPECT_EQ(own_terms().covariates, (std::vector<std::string>{"pressure", "humidity"}));
-  EXPECT_EQ(TermLibrary::owner(param("rumble_A")).needs.covariates, 0b11u);
-  EXPECT_EQ(TermLibrary::owner(param("other_A")).needs.covariates, 0b10u);
+  EXPECT_EQ(TermLibrary::owner(param("rumble_A")).needs.covariates,
+            further_column(0) | further_column(1));
+  EXPECT_EQ(TermLibrary::owner(param("other_A")).needs.covariates, further_column(1));
 }
 
 TEST_F(OwnTermsConfig, AMistakeInAnEquationIsShownInItsPlace) {

@@ -6,6 +6,7 @@
 #include "mc/statistics/point_statistics.hpp"
 #include "mc/task/campaign.hpp"
 #include "tests/mc/small_study.hpp"
+#include "tests/support/term_scenes.hpp"
 
 namespace drift::terms_in_studies_test {
 namespace {
@@ -64,20 +65,13 @@ mc::Study matched_study(const Scene& scene, const TermInfo& term, std::string_vi
   if (closure) terms += ", \"gyro_misalignment\"";
   const std::string model =
       fmt::format("coupling = \"{}\"\nterms = [{}]", closure ? "lambda" : "eq6", terms);
-  mc::Study study = read_text(fmt::format(R"(schema = 1
+  mc::Study study =
+      read_text(fmt::format(R"(schema = 1
 [site]
 latitude = "45.75 deg"
 [plan]
 {}
-[environment]
-temperature = "20 degC"
-temperature_amplitude = "0.5 degC"
-temperature_period = "2 h"
-temperature_ramp = "0.2 degC/h"
-field_n = "0.26 gauss"
-field_w = "0.02 gauss"
-field_u = "-0.48 gauss"
-[truth]
+{}[truth]
 {}
 [[filter]]
 name = "matched"
@@ -87,7 +81,7 @@ runs = {}
 seed = 1
 estimator = "{}"
 )",
-                                          scene.plan, model, model, runs, estimator));
+                            scene.plan, harbin_day_text(), model, model, runs, estimator));
   tune(study.truth, scene);
   tune(study.filters[0], scene);
   return study;

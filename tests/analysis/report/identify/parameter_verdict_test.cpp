@@ -58,7 +58,7 @@ TEST(ParameterVerdict, WhatToDoNextRunsWhereAFilterNeedsTheTemperature) {
   EXPECT_EQ(next().find("environment.temperature"), std::string::npos) << next();
   f.study.filters.front().active[TermLibrary::index("kT_x")] = true;
   EXPECT_NE(next().find("--set environment.temperature="), std::string::npos) << next();
-  f.study.environment.temperature = 20.0;
+  f.study.environment[covariate("temperature")].mean[0] = 20.0;
   EXPECT_EQ(next().find("environment.temperature"), std::string::npos) << next();
 }
 

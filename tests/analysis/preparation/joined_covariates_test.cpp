@@ -1,0 +1,67 @@
+// What several recordings carry together.
+#include <gtest/gtest.h>
+
+#include "analysis/preparation/recorded_test.hpp"
+#include "core/plan/environment.hpp"
+#include "core/sim/simulate.hpp"
+#include "tests/support/own_terms.hpp"
+#include "tests/support/rows_at_any_distance.hpp"
+#include "tests/support/term_scenes.hpp"
+
+namespace drift::preparation::joined_covariates_test {
+namespace {
+
+mc::Study study() {
+  mc::Study s = test::slewing_study(600.0, Coupling::eq5, Coupling::eq5);
+  s.truth.active = test::only({"D_F"});
+  return s;
+}
+
+Recording recorded(double warmer = 0.0) {
+  const mc::Study s = study();
+  Timeline timeline = lay_out(s.plan, s.site);
+  Environment day = test::harbin_day();
+  *day[covariate("temperature")].mean.front() += warmer;
+  set_environment(timeline, day, 1, 0);
+  const Simulation sim = Simulator(s.truth, s.readout).run(timeline, 1, 0);
+  return make_recording(timeline, sim.measured, s.readout);
+}
+
+TEST(JoinedCovariates, AreThoseThatEveryRecordingHas) {
+  const test::OwnTermsHeld held(
+      test::own_term("twin", "drift.y", "A*oven_sensor", "A = { unit = 'deg/h/K', prior = 0.03 }"));
+  Recording with = recorded();
+  Channel column = *with.find("temperature");
+  column.name = "oven_sensor";
+  with.channels.push_back(column);
+  const CovariateSet both = recorded_test(study(), {with, with}).timeline.carried;
+  EXPECT_EQ(both, every_known_covariate | further_column(0));
+  EXPECT_EQ(recorded_test(study(), {with, recorded()}).timeline.carried, every_known_covariate);
+}
+
+TEST(JoinedCovariates, DeviateFromOneMean) {
+  constexpr CovariateSpec temperature = covariate("temperature");
+  constexpr double warmer = 4.0;  // [K] in the second recording
+  const RecordedTest made = recorded_test(study(), {recorded(), recorded(warmer)});
+  const std::size_t rows = made.ends.front();
+  ASSERT_EQ(made.timeline.intervals.size(), 2 * rows);
+  for (std::size_t k = 0; k < rows; ++k)
+    EXPECT_NEAR(made.timeline.intervals[rows + k].around1[temperature],
+                made.timeline.intervals[k].around1[temperature] + warmer, 1e-11);
+}
+
+TEST(PlannedTest, HasTheFieldThatWasRecordedWhereNoneIsDeclared) {
+  constexpr CovariateSpec field = covariate("field");
+  mc::Study s = study();
+  const Timeline made = recorded_test(s, {recorded()}).timeline;
+  const Vec3 there = made.intervals.front().around1.vector(field);
+  EXPECT_GT((there - dipole_field_l(s.site.latitude)).norm(), 1e-6);
+  const Timeline planned = planned_test(s, s.plan, made);
+  ASSERT_TRUE(planned.carries(field));
+  EXPECT_LT((planned.intervals.back().around0.vector(field) - there).norm(), 1e-16);
+  s.environment[field].mean = {3e-5, 0.0, 0.0};
+  EXPECT_EQ(planned_test(s, s.plan, made).intervals.back().around0.vector(field).x(), 3e-5);
+}
+
+}  // namespace
+}  // namespace drift::preparation::joined_covariates_test
