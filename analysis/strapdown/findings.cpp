@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "analysis/strapdown/sums.hpp"
@@ -34,6 +35,16 @@ bool is_input_axis_drift(std::size_t param) {
   return TermLibrary::specs[param].group.view() == "D_I";
 }
 
+/// Whether the model has something that follows the temperature.
+bool follows_temperature(const EstimateResult& e) {
+  return std::ranges::any_of(TermLibrary::terms, [&](const TermInfo& term) {
+    if (!(term.needs.covariates & covariate("temperature").set())) return false;
+    return std::ranges::any_of(e.parameters, [&](const ParameterEstimate& p) {
+      return p.param >= term.first && p.param < term.first + term.count;
+    });
+  });
+}
+
 /// What no recording shows whose gyros do not see the Earth.
 std::vector<Unobservable> hidden_with_the_earth() {
   return {{"isotropic g-sensitivity (common part of D_I_x, D_I_y, D_I_z)",
@@ -43,8 +54,6 @@ std::vector<Unobservable> hidden_with_the_earth() {
            "its horizontal part has an unknown azimuth in every dwell and its vertical part looks "
            "like isotropic g-sensitivity; the gyros do not resolve it against their drift"},
           {"azimuth", "gravity says nothing of a turn about the vertical"},
-          {"temperature sensitivity",
-           "temperature was not varied on its own: it goes with time and is part of D_F"},
           {"lambda (weight of eq. (6))",
            "case motion shows (1 - lambda) E, and E is not known from elsewhere"},
           {"dP_x, dO_x, dP_y",
@@ -86,6 +95,10 @@ Findings findings_of(const EstimateResult& sensed, EarthRate earth) {
                             e.find(TermLibrary::index("D_I_z")) != nullptr;
   Findings out;
   if (earth == EarthRate::hidden) out.unobservable = hidden_with_the_earth();
+  if (earth == EarthRate::hidden && !follows_temperature(e))
+    out.unobservable.push_back(
+        {"temperature sensitivity",
+         "nothing in the model follows the temperature: what goes with it is part of D_F"});
   for (std::size_t k = 0; k < e.parameters.size(); ++k) {
     const ParameterEstimate& p = e.parameters[k];
     const ParamSpec& spec = TermLibrary::specs[p.param];
