@@ -247,8 +247,10 @@ Recording checked_recording(RawRecording raw, RecordingKind kind, double gravity
   if (raw.settled) check_units_given(raw.columns, {kind, raw.kind, gravity}, problems);
   for (auto& c : raw.columns) {
     const bool temperature = c.name == "temperature";
-    Unit unit = checked_unit(c, {kind, raw.kind, gravity}, problems, r.remarks);
-    if (temperature && c.name != "temperature") r.unmapped_temperature = r.remarks.back();
+    WeighedTexts said;
+    Unit unit = checked_unit(c, {kind, raw.kind, gravity}, problems, said);
+    if (temperature && c.name != "temperature") r.unmapped_temperature = said.texts().front();
+    r.remarks.add(said);
     for (double& x : c.values) x *= c.sign * unit.to_si;
     if (c.name == "temperature") unit = made_celsius(c.values, unit);
     add_offset(c, unit, problems);

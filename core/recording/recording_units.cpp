@@ -28,13 +28,14 @@ std::optional<ChannelQuantity> quantity_of(const RawColumn& column, const UnitCo
 }
 
 /// A covariate whose unit is not known: a plain number that no term mistakes for its own.
-Unit carried_plain(RawColumn& column, std::string_view why, std::vector<std::string>& remarks) {
+Unit carried_plain(RawColumn& column, std::string_view why, WeighedTexts& remarks) {
   const std::string was = column.name;
-  if (known_quantity(was)) column.name += "_raw";
-  remarks.push_back(fmt::format("{}: {}, it is carried as a plain number{}", was, why,
-                                column.name == was
-                                    ? std::string()
-                                    : fmt::format(", as {}, which no term uses", column.name)));
+  const bool of_terms = known_quantity(was).has_value();
+  if (of_terms) column.name += "_raw";
+  remarks.add(of_terms ? Weight::doubtful : Weight::note,
+              fmt::format("{}: {}, it is carried as a plain number{}", was, why,
+                          of_terms ? fmt::format(", as {}, which no term uses", column.name)
+                                   : std::string()));
   return unit::one;
 }
 
@@ -63,7 +64,7 @@ void check_units_given(const std::vector<RawColumn>& columns, const UnitContext&
 }
 
 Unit checked_unit(RawColumn& column, const UnitContext& context, Problems& problems,
-                  std::vector<std::string>& remarks) {
+                  WeighedTexts& remarks) {
   const auto quantity = quantity_of(column, context);
   const bool plain = quantity && !quantity->needs_unit;
   const bool covariate = is_covariate(column.name, context.kind);

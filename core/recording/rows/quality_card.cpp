@@ -92,14 +92,14 @@ bool is_sensor(const ChannelQuality& q) {
 void remark_channels(QualityCard& card) {
   for (const auto& q : card.channels) {
     if (q.measured == 0)
-      card.remarks.push_back(q.name + ": nothing was measured");
+      card.remarks.add(Weight::wrong, q.name + ": nothing was measured");
     else if (is_sensor(q) && q.stuck >= 20)
-      card.remarks.push_back(
-          fmt::format("{}: {} identical samples from line {} on: a stuck sensor?", q.name, q.stuck,
-                      q.stuck_line));
+      card.remarks.add(Weight::wrong,
+                       fmt::format("{}: {} identical samples from line {} on: a stuck sensor?",
+                                   q.name, q.stuck, q.stuck_line));
     else if (is_sensor(q) && q.saturated > 0 && q.max > q.min)
-      card.remarks.push_back(
-          fmt::format("{}: {} runs at its extreme: saturated?", q.name, q.saturated));
+      card.remarks.add(Weight::doubtful,
+                       fmt::format("{}: {} runs at its extreme: saturated?", q.name, q.saturated));
   }
 }
 
@@ -107,22 +107,24 @@ void remark_channels(QualityCard& card) {
 void remark_absent(const Recording& r, RecordingKind kind, QualityCard& card) {
   if (kind == RecordingKind::platform) {
     if (!r.find("cmd_x"))
-      card.remarks.push_back("no commands (cmd_*): those of the plan are taken");
-    if (!r.find("phase")) card.remarks.push_back("no phase: every row is taken as dwell");
+      card.remarks.add(Weight::note, "no commands (cmd_*): those of the plan are taken");
+    if (!r.find("phase")) card.remarks.add(Weight::note, "no phase: every row is taken as dwell");
     for (const auto& triple : {channel_triples[0], channel_triples[1]}) {
       std::vector<std::string_view> absent;
       for (const auto name : triple.names)
         if (!r.find(name)) absent.push_back(name);
       if (absent.size() == triple.names.size())
-        card.remarks.push_back(fmt::format("no {}", triple.what));
+        card.remarks.add(Weight::doubtful, fmt::format("no {}", triple.what));
       else
         for (const auto name : absent)
-          card.remarks.push_back(fmt::format("no {}: taken as not measured", name));
+          card.remarks.add(Weight::doubtful, fmt::format("no {}: taken as not measured", name));
     }
   }
   if (!card.between.empty())
-    card.remarks.push_back(fmt::format(
-        "{} gaps between positions: normal if the platform was caged there", card.between.size()));
+    card.remarks.add(
+        Weight::note,
+        fmt::format("{} gaps between positions: normal if the platform was caged there",
+                    card.between.size()));
 }
 
 /// At most five significant digits, "-" for none.
@@ -153,9 +155,8 @@ QualityCard quality_card(const Recording& recording, RecordingKind kind) {
   look_at_time(recording, card);
   for (const auto& c : recording.channels)
     if (c.name != "time") card.channels.push_back(look_at_channel(c, recording, kind));
-  // What is broken first: most readers see no more than the first few.
   remark_channels(card);
-  card.remarks.insert(card.remarks.end(), recording.remarks.begin(), recording.remarks.end());
+  card.remarks.add(recording.remarks);
   remark_absent(recording, kind, card);
   return card;
 }
@@ -184,7 +185,7 @@ std::string to_text(const QualityCard& card) {
     out +=
         "stuck: samples in the longest run of one value; sat: runs of 3 or more at the minimum or "
         "maximum\n";
-  for (const auto& sentence : card.remarks) out += "! " + sentence + "\n";
+  for (const auto& sentence : card.remarks.texts()) out += "! " + sentence + "\n";
   for (const auto& [key, value] : card.facts) {
     std::string shown = value.substr(0, 90);
     while (shown.size() < value.size() && !shown.empty() && !valid_utf8(shown)) shown.pop_back();

@@ -104,6 +104,19 @@ TEST(QualityCard, SaysWhatIsTakenForGranted) {
     EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
 }
 
+TEST(QualityCard, SaysWhatIsWrongBeforeWhatIsNoted) {
+  const Folder folder;  // four remarks on how it was read come first in the file
+  const auto r =
+      read_recording(folder.write("r.csv",
+                                  "Run 7\nJ. Doe\ntime,position,acc_x,acc_y,acc_z,text\ns,,g,g,g,\n"
+                                  "1,1,0,,0,a\n2,1,0,,1,b\n3,1,"),
+                     RecordingKind::platform, gravity);
+  const auto said = quality_card(r, RecordingKind::platform).remarks.texts();
+  ASSERT_GE(said.size(), 6u);
+  EXPECT_EQ(said[0], "acc_y: nothing was measured");
+  EXPECT_EQ(said[1], "no gimbal angles");
+}
+
 TEST(QualityCard, SaysWhichSensorOfAPlatformIsNotThere) {
   const Folder folder;
   const auto r = read_recording(
