@@ -103,6 +103,23 @@ void remark_channels(QualityCard& card) {
   }
 }
 
+/// A temperature that is called degC and would be one of a room, or of a chamber, in degF. Beside a
+/// room an instrument sees 15 to 40 degC and some kelvins of its own heat; 15 degC, that of the
+/// coldest laboratory, are 59 degF. Heated gyros and chambers go there too, to 85 degC (185 degF):
+/// it is asked, and not refused.
+void ask_about_fahrenheit(QualityCard& card) {
+  constexpr double coldest_room = 59.0, hottest_chamber = 185.0;  // [degF]
+  for (const auto& q : card.channels)
+    if (q.name == "temperature" && q.unit == "degC" && q.mean >= coldest_room &&
+        q.mean <= hottest_chamber)
+      card.remarks.add(
+          Weight::doubtful,
+          fmt::format("temperature: {:.3g} degC in the mean, more than instruments see beside a "
+                      "room: is it degF ({:.3g} degC)? Then write temperature = \"its header as "
+                      "it stands, then [degF]\" in columns of [recording]",
+                      q.mean, (q.mean - 32.0) / 1.8));
+}
+
 /// What is not there, and what is made of that.
 void remark_absent(const Recording& r, RecordingKind kind, QualityCard& card) {
   if (kind == RecordingKind::platform) {
@@ -156,6 +173,7 @@ QualityCard quality_card(const Recording& recording, RecordingKind kind) {
   for (const auto& c : recording.channels)
     if (c.name != "time") card.channels.push_back(look_at_channel(c, recording, kind));
   remark_channels(card);
+  ask_about_fahrenheit(card);
   card.remarks.add(recording.remarks);
   remark_absent(recording, kind, card);
   return card;
