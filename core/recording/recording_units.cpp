@@ -158,6 +158,12 @@ void check_gravity(const Recording& recording, Problems& problems) {
   const double f = stats::upper_median(lengths);
   constexpr double far = 5.0;  // nearer to 1 g a case may have been moving
   if (f < far && f > 1.0 / far) return;
+  // A length that depends on the attitude is of one accelerometer in another unit: that is looked
+  // for where the rests are known.
+  constexpr double twice = 2.0, most = 0.9;
+  const auto alike = std::ranges::count_if(
+      lengths, [&](double other) { return other < twice * f && other > f / twice; });
+  if (static_cast<double>(alike) < most * static_cast<double>(lengths.size())) return;
   const Unit& unit = recording.find("acc_x")->unit;
   if (const auto other = unit_of_one_g(f / unit.to_si); !other.empty())
     problems.add("acc_x",
