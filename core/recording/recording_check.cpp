@@ -174,8 +174,8 @@ void check_values(const Recording& r, RecordingKind kind, Problems& problems) {
             at(r, i, c.name), fmt::format("the value {:g} is beyond reason", x / c.unit.to_si),
             fmt::format("at most {:g} {} in size", most / c.unit.to_si, c.unit.symbol.view()),
             c.name == "temperature"
-                ? "Check the unit: kelvins are temperature = \"its header [K]\" in columns of "
-                  "[recording], or [K] in the header"
+                ? "Check the unit: kelvins are temperature = \"its header as it stands, then "
+                  "[K]\" in columns of [recording], or [K] in the header"
                 : "Check the unit and the export; leave the cell empty if it was not measured");
       if (std::isnan(x) && command)
         problems.add(at(r, i, c.name), "the command is missing", "the commanded rate in every row",

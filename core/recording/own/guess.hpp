@@ -36,6 +36,10 @@ struct GuessedFile {
 /// Guesses by headers, units and values. InputError (io).
 GuessedFile guess_file(const std::string& path);
 
+/// What the study file calls a column: by its name, and by the unit in the file too where that is
+/// overruled.
+std::string own_name(const GuessedColumn& column);
+
 /// The [recording] section of a study file that says so.
 std::string recording_section(const GuessedFile& file);
 

@@ -36,6 +36,10 @@ std::string guessed_by_values(const GuessedFile& file) {
 }
 
 }  // namespace
+  for (const GuessedColumn& c : file.columns)
+    if (c.channel == "temperature" && own_name(c) != c.header.name)
+      text += fmt::format("{}temperature in [{}] by its values: check", text.empty() ? "" : "; ",
+                          c.unit);
 
 std::string recording_section(const GuessedFile& file) {
   std::string columns, positions;  // TOML keeps an inline table on one line
@@ -43,7 +47,7 @@ std::string recording_section(const GuessedFile& file) {
     if (!c.channel.empty())
       columns += fmt::format(
           "{}{} = {}", columns.empty() ? "" : ", ", c.channel,
-          quoted(c.unit.empty() ? c.header.name : fmt::format("{} [{}]", c.header.name, c.unit)));
+          quoted(c.unit.empty() ? own_name(c) : fmt::format("{} [{}]", own_name(c), c.unit)));
   const RecordingFormat& f = file.format;
   std::string out = "[recording]\n", header;
   for (const std::string& name : f.header)
