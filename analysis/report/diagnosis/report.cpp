@@ -182,6 +182,9 @@ InBrief diagnosis_in_brief(const Diagnosis& d) {
     add(Weight::note, "Where", where_sentence(d.where));
     add(Weight::note, "Held out", held_out_sentence(d.fit.held_out));
   }
+  for (const diagnosis::Remark& r : d.remarks)
+    if (const auto* gimbal = std::get_if<diagnosis::remark::GimbalOffZero>(&r))
+      add(Weight::wrong, "Gimbals", gimbal->text + ".");
   // Of what is not explained it is no news that parameters take it up.
   const Weight doubt = d.verdict == Verdict::unexplained ? Weight::note : Weight::doubtful;
   if (!d.site_doubt)

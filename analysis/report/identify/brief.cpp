@@ -251,7 +251,8 @@ InBrief identification_in_brief(const mc::Study& study, const identification::Id
   const Judgement j = judgement_of(study, id);
   InBrief brief;
   brief.verdict = verdict_text(j, id);
-  bool doubtful = j.wrong || !id.absent.empty();
+  bool doubtful = j.wrong || !id.absent.empty() || !id.off_zero.empty();
+  if (!id.off_zero.empty()) brief.more.add(Weight::wrong, "Gimbals: " + id.off_zero + ".");
   if (!id.spikes.empty()) {
     doubtful = true;
     brief.more.add(Weight::doubtful,
