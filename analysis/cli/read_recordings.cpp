@@ -56,14 +56,15 @@ void tell_assumed_gravity(const mc::Study& study, const Recording& recording) {
     }
 }
 
-/// What looks odd is told at once, the first of it.
+/// What looks odd is told at once, what weighs most of it.
 void tell_remarks(const QualityCard& card) {
   constexpr std::size_t most = 3;
-  for (std::size_t k = 0; k < std::min(card.remarks.size(), most); ++k)
-    say("note: {}: {}\n", card.file, card.remarks[k]);
-  if (card.remarks.size() > most)
-    say("note: {}: {} more remark{}; --full prints them\n", card.file, card.remarks.size() - most,
-        report::plural(card.remarks.size() - most));
+  const std::vector<std::string> remarks = card.remarks.texts();
+  for (std::size_t k = 0; k < std::min(remarks.size(), most); ++k)
+    say("note: {}: {}\n", card.file, remarks[k]);
+  if (remarks.size() > most)
+    say("note: {}: {} more remark{}; --full prints them\n", card.file, remarks.size() - most,
+        report::plural(remarks.size() - most));
 }
 
 }  // namespace

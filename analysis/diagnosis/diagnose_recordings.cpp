@@ -78,6 +78,7 @@ Diagnosis diagnose_recordings(const mc::Study& study, const std::vector<Recordin
   d = advised(std::move(d), test, options);
   if (progress) progress("done", 1.0);
   std::vector<Remark> remarks;
+  if (!test.off_zero.empty()) remarks.emplace_back(remark::GimbalOffZero{test.off_zero});
   for (const std::string& text : test.remarks) remarks.emplace_back(remark::Input{text});
   d.remarks.insert(d.remarks.begin(), remarks.begin(), remarks.end());
   d.where.recordings = recording_spans(test.study, test.recordings);

@@ -238,6 +238,7 @@ Identification identify_recordings(const mc::Study& study, const std::vector<Rec
   const preparation::Prepared ready = preparation::prepare(study, recordings);
   id.recording = ready.recordings.front();
   id.remarks = ready.remarks;
+  id.off_zero = ready.off_zero;
   for (const Recording& r : ready.recordings)
     if (r.samples.empty()) {  // left as they were
       const auto others = rows_other_than_planned(r, study.plan);

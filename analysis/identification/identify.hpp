@@ -57,6 +57,7 @@ struct Identification {
   Recording recording;             ///< the (first) recording; empty with a loop fed back by filters
   std::vector<std::string> sources;
   std::vector<std::string> remarks;  ///< what was left out or changed (prepare())
+  std::string off_zero;              ///< a gimbal that reads a constant too much (prepare()); or ""
   std::vector<std::string> absent;   ///< channels of [readout] that no recording measured
   std::vector<SampleOfTest> samples;
   std::vector<Spike> spikes;    ///< of recordings: as the first filter's batch fit shows them

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "analysis/inference/thresholds.hpp"
@@ -20,15 +21,30 @@ struct Difference {
   bool first;           ///< of its dwell or slew
 };
 
-/// The rows about one of the same position that both dwell or both slew, two to either side; at the
-/// ends of those rows as many, from the one side that there is.
-std::pair<int, int> rows_about(int i, const std::vector<Interval>& intervals) {
+/// The rows about one of a slew, two to either side, of whatever comes before and after it as long
+/// as the platform is not caged: it moves fast, and goes on from there. None at the ends of a
+/// chain, and of a slew of so few rows that one is a motion by itself.
+std::optional<std::pair<int, int>> rows_about_in_slew(int i,
+                                                      const std::vector<Interval>& intervals) {
+  const auto at = [&](int k) -> const Interval& { return intervals[static_cast<std::size_t>(k)]; };
+  const int first = i - reach, last = i + reach;
+  if (first < 0 || last >= static_cast<int>(intervals.size()) || at(first).chain != at(last).chain)
+    return std::nullopt;
+  int slewing = 0;
+  for (int k = first; k <= last; ++k)
+    slewing += at(k).slew && at(k).position == at(i).position ? 1 : 0;
+  if (slewing <= reach) return std::nullopt;
+  return std::pair{first, last};
+}
+
+/// The rows about one of a dwell, two to either side; at its ends as many, from the one side that
+/// there is.
+std::pair<int, int> rows_about_in_dwell(int i, const std::vector<Interval>& intervals) {
   const auto same = [&](int k) {
     return k >= 0 && k < static_cast<int>(intervals.size()) &&
            intervals[static_cast<std::size_t>(k)].position ==
                intervals[static_cast<std::size_t>(i)].position &&
-           intervals[static_cast<std::size_t>(k)].slew ==
-               intervals[static_cast<std::size_t>(i)].slew;
+           !intervals[static_cast<std::size_t>(k)].slew;
   };
   int first = i, last = i;
   while (first > i - reach && same(first - 1)) --first;
@@ -46,7 +62,11 @@ std::vector<Difference> differences(const Mat3X& residual, const std::vector<Int
       // Rows beside one in a turn were read at another rate: what begins a turn is no spike.
       if (!std::isfinite(residual(a, i)) || intervals[static_cast<std::size_t>(i)].turn) continue;
       std::vector<double> around;
-      const auto [first, last] = rows_about(i, intervals);
+      const bool slew = intervals[static_cast<std::size_t>(i)].slew;
+      const auto about = slew ? rows_about_in_slew(i, intervals)
+                              : std::optional(rows_about_in_dwell(i, intervals));
+      if (!about) continue;
+      const auto [first, last] = *about;
       for (int k = first; k <= last; ++k)
         if (k != i && std::isfinite(residual(a, k))) around.push_back(residual(a, k));
       if (around.size() < 3) continue;
@@ -66,7 +86,7 @@ std::vector<Difference> spikes_of(const Mat3X& residual, const std::vector<Inter
   std::nth_element(all.begin(), middle, all.end(),
                    [](const Difference& x, const Difference& y) { return x.size < y.size; });
   const double noise = middle->size / median_of_size;
-  const double limit = SampleLimits::spike * (noise > SampleLimits::spike_noise ? noise : 1.0);
+  const double limit = SampleLimits::spike * std::max(noise, 1.0);
   std::erase_if(all, [&](const Difference& d) {
     return d.size <= limit + SampleLimits::spike_spread * d.spread;
   });

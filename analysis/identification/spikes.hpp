@@ -14,10 +14,12 @@ struct Spike {
 };
 
 /// Isolated samples far from their neighbours, taken out of the measurements: a sample is compared
-/// with the median of the four around it in its channel and position (at its ends: of the four
-/// beside it; what stands out at the beginning of several dwells is no lone sample). Where the
-/// instrument is noisier than declared (by more than the gate allows for), its own noise is the
-/// measure.
+/// with the median of the four around it in its channel: of a dwell within the dwell (at its ends:
+/// with the four beside it; what stands out at the beginning of several dwells is no lone sample),
+/// of a slew with two rows before and two after, on whichever side of its ends: a motion that the
+/// model lacks goes on there, and five rows of it stay within what their range allows for. Where
+/// the instrument is noisier than declared, its own noise is the measure. Of noise and motion alone
+/// any sample is taken for isolated with a chance of 1e-4 at most (SampleLimits).
 struct Despiked {
   Measurements measured;      ///< with those samples not measured
   std::vector<Spike> spikes;  ///< those samples

@@ -68,11 +68,12 @@ struct TemperatureLimits {
 
 /// Samples that are none, and a misfit that no noise gives.
 struct SampleLimits {
-  /// [declared sigma] from the median of four neighbours: 7 of its own sigma (1.14), one in 4e11
-  /// samples; one in 3e5 of noise `spike_noise` times as declared. Beyond that factor the noise
-  /// found is the measure. On top of it so many ranges of the neighbours; tuned.
+  /// [sigma, the larger of declared and found] from the median of four neighbours: 7 of its own
+  /// sigma (1.14). Normal noise has one so far away in 4e11 samples, any in a test of 4e7 samples
+  /// with a chance of 1e-4. On top of it so many ranges of the neighbours: a motion that only rises
+  /// or falls over the five, or turns once, takes the middle one at most 1.5 ranges away.
   /// Test: Thresholds.ASpikeIs...
-  static constexpr double spike = 8.0, spike_noise = 1.5, spike_spread = 2.0;
+  static constexpr double spike = 8.0, spike_spread = 2.0;
   /// Chi-square per row, under the noise of neighbours' differences, that is asked for no noise:
   /// random walks of ten times the usual size give 3 to 10. Test: Thresholds.AMisfitOfThirty...
   static constexpr double gross = 30.0;

@@ -119,18 +119,18 @@ std::string unit_text(double number, const Unit& unit, std::string_view whose) {
 }
 
 std::string text_of(const Scaled& scaled, const std::vector<Rest>& rests, const Recording& r,
-                    double room) {
+                    double room, std::string_view where) {
   std::vector<std::string_view> names;
   for (std::size_t i = 0; i < 3; ++i)
     if (scaled.axes[static_cast<int>(i)] > 0.5) names.push_back(accelerometer_channels.names[i]);
   const auto [least, most] = Scaled{}.span(rests);
   return fmt::format(
-      "{}:{}: the accelerometers together read {:.4g} g in one position and {:.4g} g in another, "
+      "{}:{}: the accelerometers together read {:.4g} g in one {} and {:.4g} g in another, "
       "as "
       "half of the rows of their dwells show (expected 1 g within {:.2g}); with {} taken {:.4g} "
-      "times they read 1 g in all positions. {}",
-      r.source, fmt::join(names, ", "), least, most, room, fmt::join(names, " and "),
-      1.0 / scaled.factor,
+      "times they read 1 g in all {}s. {}",
+      r.source, fmt::join(names, ", "), least, where, most, room, fmt::join(names, " and "),
+      1.0 / scaled.factor, where,
       unit_text(scaled.factor, r.find(names.front())->unit, names.size() > 1 ? "their" : "its"));
 }
 
@@ -144,12 +144,36 @@ std::string other_than_one_g(const mc::Study& study, const Recording& recording)
   if (const auto rests = rests_of(recording);
       !rests.empty() && !is_one_g(Scaled{}.span(rests), room))
     if (const auto scaled = scaled_alone(rests, f, room))
-      return text_of(*scaled, rests, recording, room);
+      return text_of(*scaled, rests, recording, room, "position");
   if (std::abs(f - 1.0) <= room) return "";
   return fmt::format(
       "{}:acc_x: the accelerometers together read {:.4g} g, as half of the rows of dwells show "
       "(expected 1 g within {:.2g}). {}",
       recording.source, f, room, unit_text(f, recording.find("acc_x")->unit, "their"));
+}
+
+std::string accelerometers_in_another_unit(const Recording& recording,
+                                           const std::vector<RestingRows>& rows) {
+  std::vector<Rest> rests;
+  std::vector<double> lengths;
+  for (const RestingRows& rest : rows) {
+    rests.emplace_back();
+    for (std::size_t i = rest.first; i <= rest.last; ++i)
+      if (const auto f = measured(recording, accelerometer_channels, i)) {
+        rests.back().push_back(f->cwiseAbs2());
+        lengths.push_back(f->norm());
+      }
+  }
+  std::erase_if(rests, [](const Rest& rest) { return rest.size() < GravityLimits::enough; });
+  if (rests.empty()) return "";
+  const auto [least, most] = Scaled{}.span(rests);
+  if (most < GravityLimits::by_attitude * least) return "";
+  const auto scaled =
+      scaled_alone(rests, stats::upper_median(std::move(lengths)), GravityLimits::on_a_case);
+  if (!scaled || (scaled->factor < GravityLimits::units_differ &&
+                  scaled->factor > 1.0 / GravityLimits::units_differ))
+    return "";
+  return text_of(*scaled, rests, recording, GravityLimits::on_a_case, "dwell");
 }
 
 }  // namespace drift::preparation

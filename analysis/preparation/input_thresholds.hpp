@@ -39,7 +39,7 @@ struct RecordingLimits {
   static constexpr double begin_noise = 0.2;
 };
 
-/// When accelerometers of a platform are in another unit than they say.
+/// When accelerometers are in another unit than they say.
 struct GravityLimits {
   /// Part by which the specific force at rest may be longer or shorter than 1 g: 100 sigma of the
   /// library's priors of bias and scale (500 ug, 500 ppm), and far more than gravity differs on
@@ -47,6 +47,24 @@ struct GravityLimits {
   static constexpr double room = 0.05;
   static constexpr double sigmas = 5.0;     ///< of the study's own priors, beyond that
   static constexpr std::size_t enough = 5;  ///< [rows] fewer say nothing, of all or of a position
+  /// Part by which they may be off at rest on a case: 100 mg of bias and 5 % of scale, as bought.
+  static constexpr double on_a_case = 0.15;
+  /// Factor between units, at least: ft/s^2 and m/s^2 differ by 3.3. Test: CaseStudy.OneAccel...
+  static constexpr double units_differ = 3.0;
+  /// By how many times the specific force must be larger in one rest than in another to be of an
+  /// attitude: with biases and scales as above it is 1.4 at most.
+  static constexpr double by_attitude = 2.0;
+};
+
+/// When a gimbal reads a constant too much.
+struct GimbalZeroLimits {
+  /// [of what biases and misalignments make of Up, 1 sigma: 0.06 deg with the library's priors] so
+  /// large a zero is of no unit as its priors say (1e-23); so much may be left (3e-7), and where
+  /// less is there nothing is looked for. Test: GimbalZero.*
+  static constexpr double least = 10.0, left = 5.0;
+  static constexpr double clearly = 2.0;       ///< times as much is left by every other gimbal
+  static constexpr std::size_t positions = 3;  ///< fewer fit several guesses
+  static constexpr double shown = 0.05;        ///< part of a zero that Up must show, squared, mean
 };
 
 /// When a plan is not that of the recording.

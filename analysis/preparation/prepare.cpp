@@ -9,6 +9,7 @@
 #include <set>
 
 #include "analysis/preparation/covariates.hpp"
+#include "analysis/preparation/gimbal_zero.hpp"
 #include "analysis/preparation/gravity_check.hpp"
 #include "analysis/preparation/input_thresholds.hpp"
 #include "analysis/preparation/lost_rows.hpp"
@@ -236,7 +237,7 @@ std::string in_own_names(std::string message, const RecordingFormat& format) {
 Prepared prepare(const mc::Study& study, const std::vector<Recording>& recordings,
                  std::size_t most_rows) {
   DRIFT_DEMAND(!recordings.empty());
-  Prepared p{study, recordings, {}};
+  Prepared p{study, recordings, {}, {}};
   std::vector<std::string> wrong;
   std::set<int> positions;
   for (Recording& r : p.recordings) {
@@ -262,6 +263,7 @@ Prepared prepare(const mc::Study& study, const std::vector<Recording>& recording
       for (const std::string& message : error.messages())
         wrong.push_back(in_own_names(message, study.recording));
     }
+    if (p.off_zero.empty()) p.off_zero = in_own_names(gimbal_off_zero(study, r), study.recording);
     const Measurements m = measurements_of(r, p.study.readout);
     if (!m.acc.array().isFinite().any() && !m.gimbal.array().isFinite().any())
       wrong.push_back(fmt::format(

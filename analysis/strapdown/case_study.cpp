@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/preparation/gravity_check.hpp"
 #include "analysis/strapdown/consumer_grade.hpp"
 #include "analysis/strapdown/gyro_unit.hpp"
 #include "core/base/check.hpp"
@@ -97,6 +98,12 @@ void lay_out_one_way(const mc::Study& study, const Signals& signals, CaseStudy& 
     out.start[fixed_drift + static_cast<std::size_t>(a)] = drift[a] / still;
 }
 
+std::vector<preparation::RestingRows> resting_rows(const DwellSearch& search) {
+  std::vector<preparation::RestingRows> rests;
+  for (const Dwell& d : search.dwells) rests.push_back({d.first, d.last});
+  return rests;
+}
+
 bool levelled_by_calibrated(const CaseStudy& of) {
   return of.start[TermLibrary::index("K0_x")] != 0.0;
 }
@@ -104,9 +111,7 @@ bool levelled_by_calibrated(const CaseStudy& of) {
 }  // namespace
 
 preparation::NoiseCard noise_of(const Recording& recording, const DwellSearch& search) {
-  std::vector<preparation::RestingRows> rests;
-  for (const Dwell& d : search.dwells) rests.push_back({d.first, d.last});
-  return preparation::noise_card(recording, RecordingKind::strapdown, rests);
+  return preparation::noise_card(recording, RecordingKind::strapdown, resting_rows(search));
 }
 
 CaseStudy case_study(const mc::Study& study, const Recording& recording) {
@@ -121,6 +126,10 @@ CaseStudy case_study(const mc::Study& study, const Recording& recording) {
         fmt::format("{}: no dwell of {} s in which both sensors are quiet (one or more is "
                     "expected). Rest the case, or lower plan.static_min",
                     out.source, study.static_min));
+  if (const std::string wrong =
+          preparation::accelerometers_in_another_unit(recording, resting_rows(out.search));
+      !wrong.empty())
+    throw InputError(ExitCode::recording, wrong);
   require_gyro_unit(signals, out.search.dwells, out.source);
   out.noise = noise_of(recording, out.search);
   // Each round knows better how the Earth turned the unit during the test.

@@ -213,9 +213,11 @@ void read_parameters(config::Section& section, ModelSpec& spec) {
       section.report().error(
           member.at,
           fmt::format(
-              "'{}' belongs to term '{}', which is not part of this model (expected parameters "
-              "of {}). {}",
-              table.full(member.key), term.key, fmt::join(terms_text(spec.active), ", "),
+              "'{}' belongs to term '{}', which is not part of this model (expected {}). {}",
+              table.full(member.key), term.key,
+              spec.active.none()
+                  ? "none: terms is empty"
+                  : fmt::format("parameters of {}", fmt::join(terms_text(spec.active), ", ")),
               term.key == closure_term
                   ? std::string("Set coupling = \"lambda\", or remove the parameter")
                   : fmt::format("Add \"{}\" to terms, or remove the parameter", term.key)));

@@ -8,6 +8,7 @@
 
 #include "core/base/nan.hpp"
 #include "core/base/units.hpp"
+#include "core/base/weighed_texts.hpp"
 
 namespace drift {
 
@@ -28,7 +29,7 @@ struct Recording {
   /// each, since the row before.
   std::vector<double> begins;        ///< when the interval of each row begins [s]
   std::vector<double> samples;       ///< samples of the plan whose noise its accelerometers average
-  std::vector<std::string> remarks;  ///< sentences about how the file was understood
+  WeighedTexts remarks;              ///< sentences about how the file was understood
   std::string unmapped_temperature;  ///< the remark on what looks like one and is not mapped; or ""
 
   std::size_t rows() const { return channels.empty() ? 0 : channels.front().values.size(); }

@@ -174,8 +174,8 @@ void check_values(const Recording& r, RecordingKind kind, Problems& problems) {
             at(r, i, c.name), fmt::format("the value {:g} is beyond reason", x / c.unit.to_si),
             fmt::format("at most {:g} {} in size", most / c.unit.to_si, c.unit.symbol.view()),
             c.name == "temperature"
-                ? "Check the unit: kelvins are temperature = \"its header [K]\" in columns of "
-                  "[recording], or [K] in the header"
+                ? "Check the unit: kelvins are temperature = \"its header as it stands, then "
+                  "[K]\" in columns of [recording], or [K] in the header"
                 : "Check the unit and the export; leave the cell empty if it was not measured");
       if (std::isnan(x) && command)
         problems.add(at(r, i, c.name), "the command is missing", "the commanded rate in every row",
@@ -247,8 +247,10 @@ Recording checked_recording(RawRecording raw, RecordingKind kind, double gravity
   if (raw.settled) check_units_given(raw.columns, {kind, raw.kind, gravity}, problems);
   for (auto& c : raw.columns) {
     const bool temperature = c.name == "temperature";
-    Unit unit = checked_unit(c, {kind, raw.kind, gravity}, problems, r.remarks);
-    if (temperature && c.name != "temperature") r.unmapped_temperature = r.remarks.back();
+    WeighedTexts said;
+    Unit unit = checked_unit(c, {kind, raw.kind, gravity}, problems, said);
+    if (temperature && c.name != "temperature") r.unmapped_temperature = said.texts().front();
+    r.remarks.add(said);
     for (double& x : c.values) x *= c.sign * unit.to_si;
     if (c.name == "temperature") unit = made_celsius(c.values, unit);
     add_offset(c, unit, problems);

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/weighed_texts.hpp"
 #include "core/recording/recording_format.hpp"
 
 namespace drift {
@@ -32,7 +33,7 @@ struct RawRecording {
   std::vector<std::size_t> lines;  ///< line of each row; empty: rows are counted from 1
   SampleKind kind = SampleKind::rates;
   bool settled = true;               ///< the columns were told apart without a problem
-  std::vector<std::string> remarks;  ///< sentences about how the file was understood
+  WeighedTexts remarks;              ///< sentences about how the file was understood
   std::string unmapped_temperature;  ///< as in Recording
 };
 

@@ -28,13 +28,14 @@ std::optional<ChannelQuantity> quantity_of(const RawColumn& column, const UnitCo
 }
 
 /// A covariate whose unit is not known: a plain number that no term mistakes for its own.
-Unit carried_plain(RawColumn& column, std::string_view why, std::vector<std::string>& remarks) {
+Unit carried_plain(RawColumn& column, std::string_view why, WeighedTexts& remarks) {
   const std::string was = column.name;
-  if (known_quantity(was)) column.name += "_raw";
-  remarks.push_back(fmt::format("{}: {}, it is carried as a plain number{}", was, why,
-                                column.name == was
-                                    ? std::string()
-                                    : fmt::format(", as {}, which no term uses", column.name)));
+  const bool of_terms = known_quantity(was).has_value();
+  if (of_terms) column.name += "_raw";
+  remarks.add(of_terms ? Weight::doubtful : Weight::note,
+              fmt::format("{}: {}, it is carried as a plain number{}", was, why,
+                          of_terms ? fmt::format(", as {}, which no term uses", column.name)
+                                   : std::string()));
   return unit::one;
 }
 
@@ -63,7 +64,7 @@ void check_units_given(const std::vector<RawColumn>& columns, const UnitContext&
 }
 
 Unit checked_unit(RawColumn& column, const UnitContext& context, Problems& problems,
-                  std::vector<std::string>& remarks) {
+                  WeighedTexts& remarks) {
   const auto quantity = quantity_of(column, context);
   const bool plain = quantity && !quantity->needs_unit;
   const bool covariate = is_covariate(column.name, context.kind);
@@ -157,6 +158,12 @@ void check_gravity(const Recording& recording, Problems& problems) {
   const double f = stats::upper_median(lengths);
   constexpr double far = 5.0;  // nearer to 1 g a case may have been moving
   if (f < far && f > 1.0 / far) return;
+  // A length that depends on the attitude is of one accelerometer in another unit: that is looked
+  // for where the rests are known.
+  constexpr double twice = 2.0, most = 0.9;
+  const auto alike = std::ranges::count_if(
+      lengths, [&](double other) { return other < twice * f && other > f / twice; });
+  if (static_cast<double>(alike) < most * static_cast<double>(lengths.size())) return;
   const Unit& unit = recording.find("acc_x")->unit;
   if (const auto other = unit_of_one_g(f / unit.to_si); !other.empty())
     problems.add("acc_x",

@@ -25,7 +25,7 @@ void check_units_given(const std::vector<RawColumn>& columns, const UnitContext&
 /// remark, and under a name that no term takes for its own where its name is one.
 /// Accelerations in m/s^2 keep that symbol, the size of the unit being 1/gravity in g.
 Unit checked_unit(RawColumn& column, const UnitContext& context, Problems& problems,
-                  std::vector<std::string>& remarks);
+                  WeighedTexts& remarks);
 
 /// Adds the column's offset to its converted values.
 void add_offset(RawColumn& column, const Unit& unit, Problems& problems);

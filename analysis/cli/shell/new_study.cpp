@@ -29,9 +29,12 @@ struct NewArguments {
 
 /// The recording as it will be read, and the [recording] section that says how.
 struct LookedAt {
-  std::optional<Recording> recording;  ///< empty: not before the blanks are filled in
-  std::string mapping;
-  std::string blanks;  ///< what the user has to say, in words; empty: nothing
+  std::optional<Recording> recording{};  ///< empty: not before the blanks are filled in
+  std::string mapping{};
+  std::string blanks{};    ///< what the user has to say, in words; empty: nothing
+  std::string unplaced{};  ///< columns that the study leaves aside, in words; empty: none
+  std::string told{};      ///< the mapping without its blanks
+  std::size_t named = 0;   ///< positions that the mapping names
 };
 
 /// What names and values of the columns do not tell.
@@ -44,24 +47,60 @@ std::string blanks_of(const GuessedFile& file) {
   return text.empty() || missing.empty() ? text + missing : text + " " + missing;
 }
 
+/// A text as comments of a study file.
+std::string as_comment(const std::string& text) {
+  std::string comment;
+  std::istringstream lines(text.empty() ? "" : report::wrapped(text, 98));
+  for (std::string line; std::getline(lines, line);) comment += "# " + line + "\n";
+  return comment;
+}
+
+/// The section without what is to be filled in.
+std::string without_blanks(GuessedFile file) {
+  for (GuessedColumn& c : file.columns)
+    if (c.unit == "?") c.channel.clear();
+  file.counter.clear();
+  return recording_section(file);
+}
+
+/// A log of a platform is none of sensors on a case, nor the other way about.
+void require_kind(const GuessedFile& file, RecordingKind kind, const std::string& path) {
+  const std::string other = other_kind(file, kind);
+  if (other.empty()) return;
+  const bool on_case = kind == RecordingKind::strapdown;
+  throw InputError(
+      ExitCode::recording,
+      fmt::format("{}: it looks like a recording of {}: {} (expected one of {}). Make the study "
+                  "with `driftscope new {}`, or rename the columns if they are something else",
+                  path, on_case ? "a gimballed platform" : "sensors on a case", other,
+                  on_case ? "sensors on a case" : "a gimballed platform",
+                  on_case ? "platform` or `driftscope new diagnose" : "strapdown"));
+}
+
 LookedAt look_at(const std::string& path, RecordingKind kind) {
   constexpr double gravity = 9.80665;  // [m/s^2]
   const std::string end = lower_case(std::filesystem::path(path).extension().string());
   const bool names_its_channels = end == ".h5" || end == ".hdf5" || end == ".mat";
-  if (names_its_channels) return {read_recording(path, kind, gravity), "", ""};
+  if (names_its_channels) return {.recording = read_recording(path, kind, gravity)};
   if (!std::filesystem::is_regular_file(path)) read_recording(path, kind, gravity);  // says why not
-  const GuessedFile file = guess_file(path);
-  const std::string blanks = blanks_of(file);
+  GuessedFile file = guess_file(path);
+  require_kind(file, kind, path);
+  take_as(file, kind);
+  const std::string blanks = blanks_of(file), unplaced = what_has_no_place(file);
+  const std::string said = blanks + (blanks.empty() || unplaced.empty() ? "" : " ") + unplaced;
+  LookedAt seen{.told = without_blanks(file), .named = file.format.positions.size()};
   if (file.complete || file.rows == 0) try {
-      return {read_recording(path, file.format, kind, gravity),
-              file.format.columns.empty() ? "" : recording_section(file), ""};
+      seen.recording = read_recording(path, file.format, kind, gravity);
+      if (!file.format.columns.empty()) seen.mapping = recording_section(file);
+      seen.unplaced = said;
+      seen.mapping += as_comment(said);
+      return seen;
     } catch (const InputError& e) {
       if (blanks.empty() || file.rows == 0 || e.code() != ExitCode::recording) throw;
     }
-  std::string mapping = recording_section(file);
-  std::istringstream lines(report::wrapped(blanks, 98));
-  for (std::string line; std::getline(lines, line);) mapping += "# " + line + "\n";
-  return {std::nullopt, mapping, blanks};
+  seen.blanks = said;
+  seen.mapping = recording_section(file) + as_comment(said);
+  return seen;
 }
 
 ExitCode make_study(const NewArguments& a) {
@@ -71,17 +110,17 @@ ExitCode make_study(const NewArguments& a) {
                       [](const std::string&) { return "a file that may hold work of yours"; });
   std::optional<RecordedPlan> plan;
   RecordedSite site;
-  std::string mapping, blanks;
+  LookedAt seen;
   if (!a.recording.empty()) {
-    const LookedAt seen =
-        look_at(a.recording, on_case ? RecordingKind::strapdown : RecordingKind::platform);
-    mapping = seen.mapping;
-    blanks = seen.blanks;
+    seen = look_at(a.recording, on_case ? RecordingKind::strapdown : RecordingKind::platform);
     if (seen.recording) site = recorded_site(*seen.recording);
     if (!on_case && seen.recording) plan = recorded_plan(*seen.recording);
+    if (!on_case && !seen.recording && seen.named > 0) plan = plan_to_come(seen.named);
   }
-  const std::string text = study_template(kind, plan, mapping, site);
-  if (blanks.empty()) mc::read_study_tree(config::parse_document(text, a.output), a.output);
+  const std::string& blanks = seen.blanks;
+  const std::string text = study_template(kind, plan, seen.mapping, site),
+                    told = blanks.empty() ? text : study_template(kind, plan, seen.told, site);
+  mc::read_study_tree(config::parse_document(told, a.output), a.output);  // as check does
   AtomicFile file(a.output);
   if (!(std::ofstream(file.temporary(), std::ios::binary) << text << std::flush))
     throw_cannot_write(a.output, "the disk took no more");
@@ -91,9 +130,11 @@ ExitCode make_study(const NewArguments& a) {
   if (!blanks.empty())
     show(
         "\nNot yet: the recording cannot be read before [recording] is complete, and the positions "
-        "are those of a preset.\n{}\nThen this fills in the positions:\n"
+        "are {}.\n{}\nThen this fills in the positions:\n"
         "  driftscope convert {} '{}' -o read.csv && driftscope new {} read.csv -o NEW.toml\n",
-        report::wrapped(blanks, 98), a.output, a.recording, a.kind);
+        plan ? "all alike, as many as it names" : "those of a preset", report::wrapped(blanks, 98),
+        a.output, a.recording, a.kind);
+  if (!seen.unplaced.empty()) show("\n{}\n", report::wrapped(seen.unplaced, 98));
   return ExitCode::ok;
 }
 

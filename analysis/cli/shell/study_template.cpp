@@ -87,10 +87,13 @@ std::string plan_text(const std::optional<RecordedPlan>& plan, Dwells dwells) {
     return text +
            "preset = \"six\"         # or [[plan.position]] one by one, with name and axes\n"
            "dwell  = \"60 min\"\nsample = \"60 s\"\n";
-  text += fmt::format("sample = \"{:.9g} s\"      # of the recording\n", plan->sample);
+  text += fmt::format("sample = \"{:.9g} s\"{}\n", plan->sample,
+                      plan->to_come ? "" : "      # of the recording");
   if (dwells == Dwells::alike)
     text += fmt::format("dwell  = \"{:.9g} s\"\n", plan->positions.front().length);
-  text += plan->north
+  text += plan->to_come
+              ? "# As many positions as the recording names; it is to say what they are.\n"
+          : plan->north
               ? (plan->headings
                      ? "# The axes are those that the gimbal angles show, with the recorded "
                        "headings of the case.\n"
@@ -167,6 +170,13 @@ RecordedPlan recorded_plan(const Recording& r) {
     plan.level = plan.level || (command && command->norm() > 0.5 * detail::earth_rate);
     plan.positions.push_back(std::move(p));
   }
+  return plan;
+}
+
+RecordedPlan plan_to_come(std::size_t positions) {
+  constexpr double sample = 60.0, dwell = 3600.0;  // [s]
+  RecordedPlan plan{.sample = sample, .to_come = true};
+  plan.positions.assign(positions, {.length = dwell, .axes = "x=N y=W z=U"});
   return plan;
 }
 

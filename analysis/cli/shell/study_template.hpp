@@ -14,22 +14,26 @@ enum class StudyKind { platform, strapdown, study, sweep, diagnose };
 /// What a recording says of the plan it was made on.
 struct RecordedPlan {
   struct Position {
-    double length = 0.0;            ///< of the dwell [s], a whole number of samples
-    std::string axes;               ///< "x=N y=W z=U"
-    bool torqued = false;           ///< slewed to, as the phases say
-    std::optional<double> heading;  ///< of the case [rad], where it is recorded
+    double length = 0.0;              ///< of the dwell [s], a whole number of samples
+    std::string axes{};               ///< "x=N y=W z=U"
+    bool torqued = false;             ///< slewed to, as the phases say
+    std::optional<double> heading{};  ///< of the case [rad], where it is recorded
   };
   double sample = 0.0;    ///< [s]
   bool level = false;     ///< Earth rate is commanded in the dwells
   bool north = false;     ///< the axes that lie level are from gimbal angles
   bool headings = false;  ///< and the headings of the case are recorded; else it faces North
-  std::vector<Position> positions;
+  bool to_come = false;   ///< the recording could not be read yet: the positions hold a place
+  std::vector<Position> positions{};
 };
 
 /// Dwells, samples and attitudes (the nearest cardinal ones) of a platform's recording: from the
 /// gimbal angles at the beginning of each dwell, or, without them, what is up from the
 /// accelerometers.
 RecordedPlan recorded_plan(const Recording& recording);
+
+/// As many positions, all alike, as a recording names that cannot be read yet.
+RecordedPlan plan_to_come(std::size_t positions);
 
 /// Where a recording says that it was made ("45.75 deg", "9.8067 m/s^2"), as `convert` notes it.
 struct RecordedSite {

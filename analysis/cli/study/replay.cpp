@@ -128,8 +128,9 @@ report::InBrief in_brief(const RunChoice& choice, const mc::Replay& r) {
       fmt::format("Run {}: {}. It ended {}", choice.run, compared, mc::name(r.outcome.status));
   if (r.outcome.status != mc::RunStatus::ok)
     brief.verdict += fmt::format(" at t = {:.6g} s: {}", r.outcome.t_failed, r.outcome.cause);
-  brief.more = {fmt::format("CPU time {:.3g} s, of it integration {:.3g} s, filters {:.3g} s.",
-                            r.outcome.total_s, r.outcome.integration_s, r.outcome.filter_s)};
+  brief.more.add(Weight::note,
+                 fmt::format("CPU time {:.3g} s, of it integration {:.3g} s, filters {:.3g} s.",
+                             r.outcome.total_s, r.outcome.integration_s, r.outcome.filter_s));
   return brief;
 }
 

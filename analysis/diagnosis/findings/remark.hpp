@@ -24,6 +24,10 @@ namespace remark {
 struct Input {
   std::string text;
 };
+/// A gimbal that reads a constant too much, said where it was read.
+struct GimbalOffZero {
+  std::string text;
+};
 /// With the explanation in the model something is left that is just significant.
 struct JustSignificantLeft {};
 /// Another drift equation explains it, but lambda is within 3 sigma of the nominal one.
@@ -111,12 +115,12 @@ struct NotObservable {
 }  // namespace remark
 
 using Remark =
-    std::variant<remark::Input, remark::JustSignificantLeft, remark::LambdaNotSettled,
-                 remark::MemberNotConfirmed, remark::NotPredicted, remark::OrNoise,
-                 remark::SamplesLeftOut, remark::FreeInputExplains, remark::LeftNotWhite,
-                 remark::CrosstalkMovesLambda, remark::DrivesOneGyro, remark::StrongestLeft,
-                 remark::BeyondPrior, remark::OtherEquation, remark::FieldAssumed,
-                 remark::NoiseOrEffect, remark::NoAdvice, remark::NoDeclaredNoise,
-                 remark::CommonDriftUnseen, remark::NotObservable>;
+    std::variant<remark::Input, remark::GimbalOffZero, remark::JustSignificantLeft,
+                 remark::LambdaNotSettled, remark::MemberNotConfirmed, remark::NotPredicted,
+                 remark::OrNoise, remark::SamplesLeftOut, remark::FreeInputExplains,
+                 remark::LeftNotWhite, remark::CrosstalkMovesLambda, remark::DrivesOneGyro,
+                 remark::StrongestLeft, remark::BeyondPrior, remark::OtherEquation,
+                 remark::FieldAssumed, remark::NoiseOrEffect, remark::NoAdvice,
+                 remark::NoDeclaredNoise, remark::CommonDriftUnseen, remark::NotObservable>;
 
 }  // namespace drift::diagnosis

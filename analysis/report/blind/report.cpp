@@ -47,7 +47,8 @@ InBrief in_brief(const BlindResults& results) {
   brief.tone = missed > 0 ? Tone::bad : decided && s.failed == 0 ? Tone::good : Tone::doubtful;
   for (const blind::Target& t : s.targets)
     if (t.measured.n > 0)
-      brief.more.push_back(fmt::format("{}: {}", t.name, share_text(t.measured)));
+      brief.more.add(t.standing() == blind::Standing::missed ? Weight::wrong : Weight::note,
+                     fmt::format("{}: {}", t.name, share_text(t.measured)));
   if (!decided)
     brief.next = "Next: more trials (--trials, or configs/blind.toml) decide the targets.";
   return brief;

@@ -28,6 +28,8 @@ struct Words {
 
   std::string operator()(const Input& r) const { return r.text; }
 
+  std::string operator()(const GimbalOffZero& r) const { return r.text; }
+
   std::string operator()(const OrNoise& r) const {
     return fmt::format(
         "That nothing is missing, by chance or by noise that is not as declared, has a probability "

@@ -174,21 +174,21 @@ InBrief diagnosis_in_brief(const Diagnosis& d) {
                : d.verdict == Verdict::consistent ? Tone::good
                : d.verdict == Verdict::named      ? Tone::doubtful
                                                   : Tone::bad;
-  const auto add = [&](std::string_view head, const std::string& sentence) {
-    if (!sentence.empty()) brief.more.push_back(fmt::format("{}: {}", head, sentence));
+  const auto add = [&](Weight weight, std::string_view head, const std::string& sentence) {
+    if (!sentence.empty()) brief.more.add(weight, fmt::format("{}: {}", head, sentence));
   };
-  const auto add_doubts = [&] {
-    for (const auto& [head, sentence] : doubts_of(d)) add(head, sentence);
-  };
-  // Of what is not explained it is no news that parameters take it up.
-  const bool unexplained = d.verdict == Verdict::unexplained;
-  if (!d.site_doubt && !unexplained) add_doubts();
   if (d.verdict != Verdict::consistent && !d.site_doubt) {
-    if (d.proposal) add("Proposal", form_sentence(*d.proposal));
-    add("Where", where_sentence(d.where));
-    add("Held out", held_out_sentence(d.fit.held_out));
+    if (d.proposal) add(Weight::note, "Proposal", form_sentence(*d.proposal));
+    add(Weight::note, "Where", where_sentence(d.where));
+    add(Weight::note, "Held out", held_out_sentence(d.fit.held_out));
   }
-  if (!d.site_doubt && unexplained) add_doubts();
+  for (const diagnosis::Remark& r : d.remarks)
+    if (const auto* gimbal = std::get_if<diagnosis::remark::GimbalOffZero>(&r))
+      add(Weight::wrong, "Gimbals", gimbal->text + ".");
+  // Of what is not explained it is no news that parameters take it up.
+  const Weight doubt = d.verdict == Verdict::unexplained ? Weight::note : Weight::doubtful;
+  if (!d.site_doubt)
+    for (const auto& [head, sentence] : doubts_of(d)) add(doubt, head, sentence);
   if (d.site_doubt)
     brief.next =
         d.site_doubt->alone()

@@ -74,6 +74,13 @@ std::string count_text(const FilterView& v) {
                      fmt::join(parts, "; "));
 }
 
+/// Whether the truth is known and a parameter is not.
+bool any_wrong(const FilterView& v) {
+  for (std::size_t k = 0; k < v.summary.layout.size(); ++k)
+    if (verdict_of(v, k).worth == Worth::wrong) return true;
+  return false;
+}
+
 /// A fit that is not a misfit may still be one that few right models have.
 std::string outside_text(const FilterView& v) {
   const EstimateResult& result = judged(v);
@@ -249,20 +256,26 @@ InBrief identification_in_brief(const mc::Study& study, const identification::Id
   const Judgement j = judgement_of(study, id);
   InBrief brief;
   brief.verdict = verdict_text(j, id);
-  bool doubtful = j.wrong || !id.absent.empty();
+  bool doubtful = j.wrong || !id.absent.empty() || !id.off_zero.empty();
+  if (!id.off_zero.empty()) brief.more.add(Weight::wrong, "Gimbals: " + id.off_zero + ".");
   if (!id.spikes.empty()) {
     doubtful = true;
-    brief.more.push_back(fmt::format(
-        "Outliers: {} isolated sample{} far from those around{}, and in the fit: leave {} out (an "
-        "empty cell).",
-        id.spikes.size(), id.spikes.size() == 1 ? " is" : "s are", spikes_text(id.spikes),
-        id.spikes.size() == 1 ? "it" : "them"));
+    brief.more.add(Weight::doubtful,
+                   fmt::format("Outliers: {} isolated sample{} far from those around{}, and in the "
+                               "fit: leave {} out (an "
+                               "empty cell).",
+                               id.spikes.size(), id.spikes.size() == 1 ? " is" : "s are",
+                               spikes_text(id.spikes), id.spikes.size() == 1 ? "it" : "them"));
   }
   for (const identification::FilterSummary& s : id.summaries) {
     const FilterView view{study, id, s};
-    for (const std::string& said :
-         {which_counts(view), outside_text(view), beyond_text(view), count_text(view)})
-      if (!said.empty()) brief.more.push_back(said);
+    const auto add = [&](Weight weight, const std::string& said) {
+      if (!said.empty()) brief.more.add(weight, said);
+    };
+    add(Weight::doubtful, which_counts(view));
+    add(Weight::doubtful, outside_text(view));
+    add(Weight::wrong, beyond_text(view));
+    add(any_wrong(view) ? Weight::wrong : Weight::note, count_text(view));
     doubtful = doubtful || (believed(view) && !beyond_prior(view).empty());
   }
   brief.tone = j.good.empty() || other_latitude(id) ? Tone::bad

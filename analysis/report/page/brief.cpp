@@ -55,7 +55,8 @@ std::string brief_text(const InBrief& brief, std::size_t width) {
     shown.insert(shown.end(), lines.begin(), lines.end());
   };
   add(brief.verdict);
-  for (const std::string& sentence : brief.more)  // with nothing whole to be said: not at all
+  for (const std::string& sentence :
+       brief.more.texts())  // with nothing whole to be said: not at all
     if (const auto lines = shortened(sentence, room, width);
         !lines.empty() && !lines.back().ends_with(cut_off))
       add(sentence);

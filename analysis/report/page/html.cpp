@@ -116,7 +116,7 @@ std::string answer_of(const Report& report) {
   const InBrief& brief = report.brief;
   std::string out = fmt::format("<section class=\"answer{}\">\n", tone_class(brief.tone));
   if (!brief.verdict.empty()) out += "<p class=\"verdict\">" + escaped(brief.verdict) + "</p>\n";
-  out += list_of(brief.verdict.empty() ? report.headlines : brief.more, "headlines");
+  out += list_of(brief.verdict.empty() ? report.headlines : brief.more.texts(), "headlines");
   if (!brief.next.empty()) out += "<p class=\"next\">" + escaped(brief.next) + "</p>\n";
   if (const Provenance& p = report.provenance; !p.version.empty()) {
     out += fmt::format("<p class=\"small\">driftscope {} ({}), {}", escaped(p.version),
@@ -136,7 +136,7 @@ std::string headlines_of(const Report& report) {
     bool known = report.brief.verdict.empty() ||
                  report.brief.verdict.find(said) != std::string::npos ||
                  report.brief.next.find(said) != std::string::npos;
-    for (const std::string& more : report.brief.more)
+    for (const std::string& more : report.brief.more.texts())
       known = known || more.find(said) != std::string::npos;
     if (!known) others.push_back(said);
   }

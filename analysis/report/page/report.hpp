@@ -12,6 +12,7 @@
 #include "analysis/report/page/provenance.hpp"
 #include "analysis/report/page/table.hpp"
 #include "core/base/results/folder.hpp"
+#include "core/base/weighed_texts.hpp"
 
 namespace drift::report {
 
@@ -86,8 +87,8 @@ struct Section {
 struct InBrief {
   std::string verdict = {};  ///< one sentence, its judgement before a colon
   Tone tone = Tone::plain;   ///< good: model and data agree; bad: they do not, or nobody can tell
-  std::vector<std::string> more = {};  ///< what belongs to it, the most important first
-  std::string next = {};               ///< what to do
+  WeighedTexts more = {};    ///< what belongs to it
+  std::string next = {};     ///< what to do
 };
 
 /// On a terminal, whose last lines are read first, headlines may come last.

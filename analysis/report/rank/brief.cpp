@@ -64,6 +64,7 @@ std::string gain_text(const planning::PlanRanking& rank) {
 InBrief rank_in_brief(const mc::Study& study, const planning::PlanRanking& rank) {
   InBrief brief;
   brief.tone = Tone::good;
+  if (rank.better) brief.more.add(Weight::note, gain_text(rank));
   for (const planning::RankingGroup& g : rank.groups) {
     const planning::ModelRanking& m = g.models.front();
     const std::string said = fmt::format("{} (filter {}): {}", key_of(m.model.spec.coupling),
@@ -71,13 +72,12 @@ InBrief rank_in_brief(const mc::Study& study, const planning::PlanRanking& rank)
     if (brief.verdict.empty())
       brief.verdict = "Seen under " + said;
     else
-      brief.more.push_back("Under " + said);
+      brief.more.add(Weight::note, "Under " + said);
     if (std::ranges::any_of(m.ranking.parameters,
                             [](const auto& p) { return p.learning_ratio() > hardly_known; }))
       brief.tone = Tone::doubtful;
   }
   if (rank.better) {
-    brief.more.insert(brief.more.begin(), gain_text(rank));
     brief.next =
         "Next: put the positions of proposed_positions.toml, which are all of the plan, in the "
         "place of the study's plan.preset or plan.position.";

@@ -127,18 +127,20 @@ InBrief in_brief(const CaseIdentification& id) {
     brief.verdict = fmt::format("Found: {} and {}; {}, {}.", counted(dwells.size(), "dwell"),
                                 counted(id.study.test.ways.size(), "turn"), told, fits);
   brief.tone = misfits(estimate) ? Tone::bad : Tone::good;
-  brief.more.push_back(azimuth_sentence(id) + ".");
-  if (at_rest) brief.more.push_back("Up is " + up_of(dwells.front()) + ".");
-  if (std::isfinite(id.eq5_gain)) brief.more.push_back(contest_sentence(id) + ".");
+  brief.more.add(Weight::note, azimuth_sentence(id) + ".");
+  if (at_rest) brief.more.add(Weight::note, "Up is " + up_of(dwells.front()) + ".");
+  if (std::isfinite(id.eq5_gain)) brief.more.add(Weight::note, contest_sentence(id) + ".");
   if (first.up.count > 0)
-    brief.more.push_back(
+    brief.more.add(
+        Weight::note,
         fmt::format("Up after a turn that was held out: {} deg off; gyros in "
                     "dwells held out: {} deg/h.",
                     number_text(first.up.held_out, 3), number_text(first.gyro.held_out, 3)));
   std::vector<std::string> unseen;
   for (const auto& u : first.unobservable) unseen.push_back(u.what);
   if (!unseen.empty())
-    brief.more.push_back(fmt::format("Alone this recording shows little of {}.", some_of(unseen)));
+    brief.more.add(Weight::note,
+                   fmt::format("Alone this recording shows little of {}.", some_of(unseen)));
   brief.next = "Next: driftscope diagnose, on the same study and recording, says what is missing.";
   return brief;
 }

@@ -76,22 +76,25 @@ InBrief study_in_brief(const StudyResults& results) {
     if (brief.verdict.empty())
       brief.verdict = said;
     else
-      brief.more.push_back(said);
+      brief.more.add(Weight::note, said);
     if (right.silent.low() > 0.01) brief.tone = Tone::bad;
   }
   for (const Tally* t : {&wrong, &right})
     if (t->sigmas_off > much_too_small) {
-      brief.more.insert(brief.more.begin(), sigmas_text(results, *t));
+      brief.more.add(Weight::wrong, sigmas_text(results, *t));
       brief.tone = Tone::bad;
     }
   if (lost > 0) {
-    brief.more.push_back(fmt::format(
-        "Of {} pairs of point and filter nothing is said: too many of their runs were lost.",
-        lost));
+    brief.more.add(
+        Weight::wrong,
+        fmt::format(
+            "Of {} pairs of point and filter nothing is said: too many of their runs were lost.",
+            lost));
     if (brief.verdict.empty()) brief.verdict = "No result: too many runs were lost. See Failures.";
     brief.tone = Tone::bad;
   }
-  brief.more.push_back(
+  brief.more.add(
+      Weight::note,
       "A silent failure: some parameter is more than 5 sigma off, and nothing in the run shows "
       "it.");
   return brief;

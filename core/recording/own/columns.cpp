@@ -200,11 +200,11 @@ std::vector<ColumnUse> uses_of_columns(const std::vector<HeaderCell>& header,
   Assignment assignment(header, format, kind, problems);
   auto uses = assignment.assign();
   if (!assignment.renamed.empty())
-    raw.remarks.push_back(
-        fmt::format("columns under another name: {}", fmt::join(assignment.renamed, ", ")));
+    raw.remarks.add(Weight::note, fmt::format("columns under another name: {}",
+                                              fmt::join(assignment.renamed, ", ")));
   if (!assignment.temperatures.empty()) {
     raw.unmapped_temperature = unmapped_temperature_remark(assignment.temperatures);
-    raw.remarks.insert(raw.remarks.begin(), raw.unmapped_temperature);
+    raw.remarks.add(Weight::doubtful, raw.unmapped_temperature);
   }
   return uses;
 }

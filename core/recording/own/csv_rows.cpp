@@ -25,10 +25,9 @@ CsvRows::CsvRows(const std::string& path, CsvLayout layout, const RecordingForma
       problems_(problems),
       splitter_(layout_.delimiter) {
   if (layout_.above > 0 && format_.skip_rows == 0)
-    raw_.remarks.push_back(fmt::format("the header is line {}: {} lines above it are passed over",
-                                       layout_.header_line, layout_.above));
-  if (layout_.unit_line > 0)
-    raw_.remarks.push_back(fmt::format("line {} is read as the units", layout_.unit_line));
+    note(fmt::format("the header is line {}: {} lines above it are passed over",
+                     layout_.header_line, layout_.above));
+  if (layout_.unit_line > 0) note(fmt::format("line {} is read as the units", layout_.unit_line));
   const std::size_t before = problems.count();
   if (is_header_sound()) uses_ = uses_of_columns(layout_.header, format, kind, problems, raw_);
   raw_.settled = problems.count() == before;
@@ -193,6 +192,10 @@ void CsvRows::note_end(std::string_view cell) {
   last_end_ = cell;
 }
 
+void CsvRows::note(std::string remark) {
+  raw_.remarks.add(Weight::note, std::move(remark));
+}
+
 void CsvRows::report_pending() {
   for (const Complaint& c : pending_) problems_.add(c.where, c.wrong, c.expected, c.fix);
   pending_.clear();
@@ -201,16 +204,15 @@ void CsvRows::report_pending() {
 void CsvRows::finish() {
   if (!pending_.empty() && raw_.lines.empty()) report_pending();
   if (!pending_.empty() || last_row_cut_)
-    raw_.remarks.push_back(
-        fmt::format("line {}, the last, is cut off: it is left out", lines_.number()));
+    note(fmt::format("line {}, the last, is cut off: it is left out", lines_.number()));
   if (windows_line_ > 0)
-    raw_.remarks.push_back(
-        fmt::format("line {}: bytes that are not UTF-8 are read as Windows-1252", windows_line_));
+    note(fmt::format("line {}: bytes that are not UTF-8 are read as Windows-1252", windows_line_));
   if (!clock_.zero().empty()) {
-    raw_.remarks.push_back(fmt::format("time is counted from {}", clock_.zero()));
+    note(fmt::format("time is counted from {}", clock_.zero()));
     add_fact(raw_, "time_zero", clock_.zero());
   }
-  if (const std::string how = clock_.remark(); !how.empty()) raw_.remarks.push_back(how);
+  if (const std::string how = clock_.remark(); !how.empty())
+    raw_.remarks.add(Weight::doubtful, how);
   if (point_line_ > 0 && comma_line_ > 0 && format_.decimal == DecimalMark::automatic)
     problems_.add(std::to_string(std::max(point_line_, comma_line_)),
                   fmt::format("decimal {} here, decimal {} in line {}",

@@ -38,6 +38,7 @@ class CsvRows {
   std::optional<Complaint> read_position(std::size_t i, std::string_view cell);
   bool may_be_cut(std::string_view cell) const;
   void note_end(std::string_view cell);
+  void note(std::string remark);
   void report_pending();
   void finish();
   void reserve();

@@ -9,6 +9,7 @@
 #include "core/base/utf8.hpp"
 #include "core/recording/line_reader.hpp"
 #include "core/recording/own/csv_cells.hpp"
+#include "core/recording/own/guess_format.hpp"
 #include "core/recording/own/guess_names.hpp"
 #include "core/recording/own/guess_values.hpp"
 #include "core/recording/own/like_temperature.hpp"
@@ -97,15 +98,25 @@ std::string unit_of_epoch(const GuessedColumn& c) {
   return "?";
 }
 
+/// A temperature that nothing survives, and that is one in kelvins.
+bool is_in_kelvins(const GuessedColumn& c, const Unit& stated) {
+  if (c.channel != "temperature" || stated.dim != "K"_unit.dim || celsius_offset(stated) != 0.0)
+    return false;
+  const double most = known_quantity(c.channel)->most, zero = celsius_offset("K"_unit);
+  return c.low > 0.0 && c.high > most && c.high + zero <= most;
+}
+
 std::string unit_of(const GuessedColumn& c, const std::string& gravity) {
   const auto quantity = known_quantity(c.channel);
   if (!quantity || !quantity->needs_unit) return {};
   if (c.channel == "time" && c.numbers == 0 && c.texts > 0) return {};  // times of a clock
-  if (c.header.unit && parse_recording_unit(*c.header.unit)) return *c.header.unit;
+  if (c.header.unit)
+    if (const auto unit = parse_recording_unit(*c.header.unit))
+      return is_in_kelvins(c, *unit) ? "K" : *c.header.unit;
   if (const std::string ending = guessed_unit(c.header.name); !ending.empty())
     if (const auto unit = parse_recording_unit(ending);
         unit && (unit->dim == quantity->dim || c.channel.starts_with("acc_")))
-      return ending;
+      return is_in_kelvins(c, *unit) ? "K" : ending;
   if (c.channel.starts_with("acc_")) return gravity;
   if (c.channel.starts_with("gyro_") && c.header.name.starts_with("field.")) return "rad/s";  // ROS
   if (c.channel == "time") return unit_of_epoch(c);
@@ -197,24 +208,6 @@ void name_position_by_values(GuessedFile& file) {
   GuessedColumn& column = *std::ranges::find_if(file.columns, few_texts);
   column.channel = "position";
   column.by_values = true;
-}
-
-void fill_format(GuessedFile& file) {
-  file.complete = file.counter.empty();
-  for (const GuessedColumn& c : file.columns) {
-    if (c.channel.empty() || c.unit == "?") {
-      file.complete = file.complete && c.unit != "?";
-      continue;
-    }
-    MappedColumn m{c.channel, c.header.name, {}, 1.0};
-    if (!c.unit.empty()) m.unit = c.unit;
-    if (c.channel != c.header.name || (!c.unit.empty() && !c.header.unit))
-      file.format.columns.push_back(m);
-    if (c.channel == "position")
-      for (std::size_t i = 0; i < c.words.size(); ++i)
-        file.format.positions.emplace_back(c.words[i], static_cast<int>(i + 1));
-  }
-  if (!file.format.header.empty() && file.format.columns.empty()) file.complete = false;
 }
 
 }  // namespace

@@ -36,10 +36,25 @@ struct GuessedFile {
 /// Guesses by headers, units and values. InputError (io).
 GuessedFile guess_file(const std::string& path);
 
+/// Takes the file for a recording of a kind, whatever it looked like: channels that such a
+/// recording does not have are columns like any other.
+void take_as(GuessedFile& file, RecordingKind kind);
+
+/// Why the file cannot be a recording of a kind, naming the columns that say so; empty: it may be.
+std::string other_kind(const GuessedFile& file, RecordingKind kind);
+
+/// What the study file calls a column: by its name, and by the unit in the file too where that is
+/// overruled.
+std::string own_name(const GuessedColumn& column);
+
 /// The [recording] section of a study file that says so.
 std::string recording_section(const GuessedFile& file);
 
-/// What a recording needs that no column may be, and the keys that would say it; empty: nothing.
+/// What a recording needs that no column may be, and the keys that would say it, with the columns
+/// whose unit would do; empty: nothing.
 std::string what_is_missing(const GuessedFile& file);
+
+/// Columns of numbers that are no channel, and what becomes of them; empty: there are none.
+std::string what_has_no_place(const GuessedFile& file);
 
 }  // namespace drift

@@ -3,9 +3,13 @@
 
 #include <algorithm>
 
+#include "core/base/words.hpp"
 #include "core/config/node.hpp"
 #include "core/recording/own/guess.hpp"
+#include "core/recording/own/guess_names.hpp"
+#include "core/recording/own/recording_unit.hpp"
 #include "core/recording/recording_channels.hpp"
+#include "core/recording/recording_problems.hpp"
 
 namespace drift {
 namespace {
@@ -32,7 +36,46 @@ std::string guessed_by_values(const GuessedFile& file) {
     text += fmt::format("{}case_heading by its values: check", text.empty() ? "" : "; ");
   if (by_values("position"))
     text += fmt::format("{}position by its texts: check", text.empty() ? "" : "; ");
+  for (const GuessedColumn& c : file.columns)
+    if (c.channel == "temperature" && own_name(c) != c.header.name)
+      text += fmt::format("{}temperature in [{}] by its values: check", text.empty() ? "" : "; ",
+                          c.unit);
   return text.empty() ? "" : "  # " + text;
+}
+
+/// The unit that a column has, by its header or by the ending of its name; empty if that is none.
+std::string unit_in_file(const GuessedColumn& c) {
+  if (c.header.unit) return parse_recording_unit(*c.header.unit) ? *c.header.unit : "";
+  return guessed_unit(c.header.name);
+}
+
+/// A column as the study file may name it: "Winkel A [rad]".
+std::string with_unit(const GuessedColumn& c) {
+  const std::string unit = unit_in_file(c);
+  return unit.empty() ? c.header.name : fmt::format("{} [{}]", c.header.name, unit);
+}
+
+/// Columns of numbers that are no channel.
+std::vector<const GuessedColumn*> free_columns(const GuessedFile& file) {
+  std::vector<const GuessedColumn*> free;
+  for (const GuessedColumn& c : file.columns)
+    if (c.channel.empty() && c.numbers > 0 && !c.header.name.empty() &&
+        !known_quantity(c.header.name) && c.header.name != file.format.counter &&
+        c.header.name != file.counter)
+      free.push_back(&c);
+  return free;
+}
+
+/// Those of them that have a unit in which a channel is measured.
+std::vector<std::string> in_units_of(const GuessedFile& file, std::string_view channel) {
+  std::vector<std::string> names;
+  for (const GuessedColumn* c : free_columns(file)) {
+    const auto unit = parse_recording_unit(unit_in_file(*c));
+    if (unit && (unit->dim == known_quantity(channel)->dim ||
+                 (channel.starts_with("acc_") && unit->dim == "m/s^2"_unit.dim)))
+      names.push_back(with_unit(*c));
+  }
+  return names;
 }
 
 }  // namespace
@@ -43,7 +86,7 @@ std::string recording_section(const GuessedFile& file) {
     if (!c.channel.empty())
       columns += fmt::format(
           "{}{} = {}", columns.empty() ? "" : ", ", c.channel,
-          quoted(c.unit.empty() ? c.header.name : fmt::format("{} [{}]", c.header.name, c.unit)));
+          quoted(c.unit.empty() ? own_name(c) : fmt::format("{} [{}]", own_name(c), c.unit)));
   const RecordingFormat& f = file.format;
   std::string out = "[recording]\n", header;
   for (const std::string& name : f.header)
@@ -73,16 +116,22 @@ std::string what_is_missing(const GuessedFile& file) {
     return std::ranges::find(file.columns, channel, &GuessedColumn::channel) != file.columns.end();
   };
   const bool on_case = file.kind == RecordingKind::strapdown;
-  std::vector<std::string> what, keys;
-  const auto need = [&](std::string_view name, std::string_view key, std::string_view unit) {
+  std::vector<std::string> what, keys, fitting;
+  const auto need = [&](std::string_view name, std::string_view key, std::string_view unit,
+                        const std::string& column = "COLUMN") {
     if (has(key)) return;
     if (what.empty() || what.back() != name) what.emplace_back(name);
-    keys.push_back(fmt::format("{} = \"COLUMN{}\"", key, unit));
+    keys.push_back(fmt::format("{} = {}", key,
+                               quoted(column == "COLUMN" ? column + std::string(unit) : column)));
   };
   if (file.format.counter.empty() && file.counter.empty()) need("the time", "time", " [s]");
   if (!on_case) need("the number of the position", "position", "");
   const auto need_all = [&](const ChannelTriple& t, std::string_view unit) {
-    for (const auto name : t.names) need(t.what, name, unit);
+    const std::vector<std::string> such = in_units_of(file, t.names.front());
+    for (std::size_t a = 0; a < t.names.size(); ++a)
+      need(t.what, t.names[a], unit, such.size() == t.names.size() ? such[a] : "COLUMN");
+    if (!what.empty() && what.back() == t.what)
+      for (const std::string& name : such) fitting.push_back(quoted(name));
   };
   need_all(accelerometer_channels, " [g]");
   if (on_case)
@@ -90,10 +139,33 @@ std::string what_is_missing(const GuessedFile& file) {
   else
     need_all(gimbal_channels, " [deg]");
   if (what.empty()) return {};
-  return fmt::format(
+  std::string text = fmt::format(
       "No column seems to be {}: if the file has it, add {} to columns of [recording], with the "
       "name and the unit of the column.",
       fmt::join(what, " or "), fmt::join(keys, ", "));
+  if (!fitting.empty())
+    text += fmt::format(" In such a unit and without a place {} {}: check which is which.",
+                        fitting.size() == 1 ? "is" : "are", fmt::join(fitting, ", "));
+  return text;
+}
+
+std::string what_has_no_place(const GuessedFile& file) {
+  constexpr std::size_t most = 8;
+  std::vector<std::string> names, quotes;
+  for (const GuessedColumn* c : free_columns(file)) {
+    names.push_back(in_quotes(with_unit(*c)));
+    quotes.push_back(quoted(c->header.name));
+  }
+  if (names.empty()) return "";
+  const bool one = names.size() == 1;
+  return fmt::format(
+      "{} {} no channel that the program knows and {} carried under {} own name{}: name what {} in "
+      "columns of [recording], or leave {} out with ignore = [{}{}].",
+      listed_up_to(names, most), one ? "is" : "are", one ? "is" : "are", one ? "its" : "their",
+      one ? "" : "s", one ? "it is" : "they are", one ? "it" : "them",
+      fmt::join(quotes.begin(),
+                quotes.begin() + static_cast<std::ptrdiff_t>(std::min(most, quotes.size())), ", "),
+      quotes.size() > most ? ", ..." : "");
 }
 
 }  // namespace drift

@@ -71,9 +71,10 @@ RawRecording with_channels(RawRecording raw, const std::vector<ColumnUse>& uses,
     RawColumn& column = raw.columns[i];
     if (use.role == Role::ignored || use.role == Role::counter) continue;
     if (own_time && use.channel == "time") {
-      out.remarks.push_back(fmt::format("{}: left out, time comes from {} of the study file",
-                                        in_quotes(column.name),
-                                        format.rate ? "recording.rate" : "recording.counter"));
+      out.remarks.add(
+          Weight::note,
+          fmt::format("{}: left out, time comes from {} of the study file", in_quotes(column.name),
+                      format.rate ? "recording.rate" : "recording.counter"));
       continue;
     }
     if (use.role == Role::covariate && column.texts > 0) {
@@ -81,8 +82,9 @@ RawRecording with_channels(RawRecording raw, const std::vector<ColumnUse>& uses,
         texts.push_back(in_quotes(column.name));
         continue;
       }
-      out.remarks.push_back(fmt::format("{}: {} cells hold text and are taken as not measured",
-                                        use.channel, column.texts));
+      out.remarks.add(Weight::doubtful,
+                      fmt::format("{}: {} cells hold text and are taken as not measured",
+                                  use.channel, column.texts));
     }
     if (column.name.empty() && column.numbers == 0) continue;  // a superfluous delimiter
     const auto offset = std::ranges::find(format.offsets, use.channel, &ChannelOffset::channel);
@@ -93,8 +95,8 @@ RawRecording with_channels(RawRecording raw, const std::vector<ColumnUse>& uses,
     out.columns.push_back(std::move(column));
   }
   if (!texts.empty())
-    out.remarks.push_back(
-        fmt::format("columns of text are passed over: {}", fmt::join(texts, ", ")));
+    out.remarks.add(Weight::note,
+                    fmt::format("columns of text are passed over: {}", fmt::join(texts, ", ")));
   for (const ChannelOffset& o : format.offsets)
     if (std::ranges::find(out.columns, o.channel, &RawColumn::name) == out.columns.end())
       problems.add(o.channel,

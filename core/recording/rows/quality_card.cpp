@@ -92,37 +92,56 @@ bool is_sensor(const ChannelQuality& q) {
 void remark_channels(QualityCard& card) {
   for (const auto& q : card.channels) {
     if (q.measured == 0)
-      card.remarks.push_back(q.name + ": nothing was measured");
+      card.remarks.add(Weight::wrong, q.name + ": nothing was measured");
     else if (is_sensor(q) && q.stuck >= 20)
-      card.remarks.push_back(
-          fmt::format("{}: {} identical samples from line {} on: a stuck sensor?", q.name, q.stuck,
-                      q.stuck_line));
+      card.remarks.add(Weight::wrong,
+                       fmt::format("{}: {} identical samples from line {} on: a stuck sensor?",
+                                   q.name, q.stuck, q.stuck_line));
     else if (is_sensor(q) && q.saturated > 0 && q.max > q.min)
-      card.remarks.push_back(
-          fmt::format("{}: {} runs at its extreme: saturated?", q.name, q.saturated));
+      card.remarks.add(Weight::doubtful,
+                       fmt::format("{}: {} runs at its extreme: saturated?", q.name, q.saturated));
   }
+}
+
+/// A temperature that is called degC and would be one of a room, or of a chamber, in degF. Beside a
+/// room an instrument sees 15 to 40 degC and some kelvins of its own heat; 15 degC, that of the
+/// coldest laboratory, are 59 degF. Heated gyros and chambers go there too, to 85 degC (185 degF):
+/// it is asked, and not refused.
+void ask_about_fahrenheit(QualityCard& card) {
+  constexpr double coldest_room = 59.0, hottest_chamber = 185.0;  // [degF]
+  for (const auto& q : card.channels)
+    if (q.name == "temperature" && q.unit == "degC" && q.mean >= coldest_room &&
+        q.mean <= hottest_chamber)
+      card.remarks.add(
+          Weight::doubtful,
+          fmt::format("temperature: {:.3g} degC in the mean, more than instruments see beside a "
+                      "room: is it degF ({:.3g} degC)? Then write temperature = \"its header as "
+                      "it stands, then [degF]\" in columns of [recording]",
+                      q.mean, (q.mean - 32.0) / 1.8));
 }
 
 /// What is not there, and what is made of that.
 void remark_absent(const Recording& r, RecordingKind kind, QualityCard& card) {
   if (kind == RecordingKind::platform) {
     if (!r.find("cmd_x"))
-      card.remarks.push_back("no commands (cmd_*): those of the plan are taken");
-    if (!r.find("phase")) card.remarks.push_back("no phase: every row is taken as dwell");
+      card.remarks.add(Weight::note, "no commands (cmd_*): those of the plan are taken");
+    if (!r.find("phase")) card.remarks.add(Weight::note, "no phase: every row is taken as dwell");
     for (const auto& triple : {channel_triples[0], channel_triples[1]}) {
       std::vector<std::string_view> absent;
       for (const auto name : triple.names)
         if (!r.find(name)) absent.push_back(name);
       if (absent.size() == triple.names.size())
-        card.remarks.push_back(fmt::format("no {}", triple.what));
+        card.remarks.add(Weight::doubtful, fmt::format("no {}", triple.what));
       else
         for (const auto name : absent)
-          card.remarks.push_back(fmt::format("no {}: taken as not measured", name));
+          card.remarks.add(Weight::doubtful, fmt::format("no {}: taken as not measured", name));
     }
   }
   if (!card.between.empty())
-    card.remarks.push_back(fmt::format(
-        "{} gaps between positions: normal if the platform was caged there", card.between.size()));
+    card.remarks.add(
+        Weight::note,
+        fmt::format("{} gaps between positions: normal if the platform was caged there",
+                    card.between.size()));
 }
 
 /// At most five significant digits, "-" for none.
@@ -153,9 +172,9 @@ QualityCard quality_card(const Recording& recording, RecordingKind kind) {
   look_at_time(recording, card);
   for (const auto& c : recording.channels)
     if (c.name != "time") card.channels.push_back(look_at_channel(c, recording, kind));
-  // What is broken first: most readers see no more than the first few.
   remark_channels(card);
-  card.remarks.insert(card.remarks.end(), recording.remarks.begin(), recording.remarks.end());
+  ask_about_fahrenheit(card);
+  card.remarks.add(recording.remarks);
   remark_absent(recording, kind, card);
   return card;
 }
@@ -184,7 +203,7 @@ std::string to_text(const QualityCard& card) {
     out +=
         "stuck: samples in the longest run of one value; sat: runs of 3 or more at the minimum or "
         "maximum\n";
-  for (const auto& sentence : card.remarks) out += "! " + sentence + "\n";
+  for (const auto& sentence : card.remarks.texts()) out += "! " + sentence + "\n";
   for (const auto& [key, value] : card.facts) {
     std::string shown = value.substr(0, 90);
     while (shown.size() < value.size() && !shown.empty() && !valid_utf8(shown)) shown.pop_back();

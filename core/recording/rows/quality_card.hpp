@@ -40,7 +40,7 @@ struct QualityCard {
   std::vector<Gap> between;  ///< likewise from one position to the next
   double lost = 0.0;         ///< samples that would fill the gaps within positions
   std::vector<ChannelQuality> channels;
-  std::vector<std::string> remarks;  ///< sentences about what looks odd, or is assumed
+  WeighedTexts remarks;  ///< sentences about what looks odd, or is assumed
 };
 
 /// Looks a recording over; changes and judges nothing.

@@ -28,7 +28,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 TEST(Brief, KeepsVerdictAndNextStepAndCutsWhatIsBetween) {
   report::InBrief brief;
   for (int k = 0; k < 40; ++k) brief.verdict += "verdict ";
-  for (int k = 0; k < 90; ++k) brief.more.push_back("said " + std::string(40, 'x'));
+  for (int k = 0; k < 90; ++k) brief.more.add(Weight::note, "said " + std::string(40, 'x'));
   brief.next = "Next: do this.";
   for (const std::size_t width : {80u, 120u}) {
     const auto lines = lines_of(report::brief_text(brief, width));
@@ -37,7 +37,7 @@ TEST(Brief, KeepsVerdictAndNextStepAndCutsWhatIsBetween) {
     EXPECT_EQ(lines.back(), "Next: do this.");
     for (const std::string& line : lines) EXPECT_LE(report::display_width(line), width);
   }
-  brief.more.clear();
+  brief.more = {};
   for (int k = 0; k < 200; ++k) brief.verdict += "verdict ";
   const auto cut = lines_of(report::brief_text(brief));
   EXPECT_EQ(cut.size(), report::most_brief_lines);

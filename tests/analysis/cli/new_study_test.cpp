@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
 #include <tuple>
 
 #include "core/base/check.hpp"
@@ -122,6 +123,92 @@ TEST(NewStudy, WhatNoColumnTellsIsLeftBlankAndSaid) {
   const std::string again = text_of(next);
   EXPECT_TRUE(has(again, "latitude = \"48.137 deg\"")) << again;
   EXPECT_TRUE(has(again, "gravity  = \"9.80733 m/s^2\"")) << again;
+}
+
+/// What stands before the first of two texts and after it.
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+TEST(NewStudy, ColumnsThatHaveNoPlaceAreSaidWithTheLineToWrite) {
+  const ScratchFolder folder;
+  const std::string made = folder.write("made.toml", short_study), own = folder.file("own.csv");
+  ASSERT_EQ(driftscope("simulate " + made + " -o " + own).code, 0);
+  std::string text = text_of(own);
+  for (const auto& [from, to] : {std::pair{"gimbal_outer [deg]", "Kanal 7 [deg]"},
+                                 {"gimbal_middle [deg]", "Kanal 8 [deg]"},
+                                 {"gimbal_inner [deg]", "Kanal 9 [deg]"},
+                                 {"cmd_x [deg/h]", "U_bat [V]"}})
+    text = replaced(text, from, to);
+  for (const std::string axis : {"y", "z"})  // commands are three or none
+    text = replaced(text, "cmd_" + axis + " [deg/h]", "I_" + axis + " [A]");
+  folder.write("own.csv", text);
+  const std::string file = folder.file("lab.toml");
+  const Answer a = driftscope("new diagnose " + own + " -o " + file);
+  ASSERT_EQ(a.code, 0) << a.err;
+  std::string said = a.out;
+  for (std::size_t at = 0; (at = said.find('\n', at)) != std::string::npos;) said[at] = ' ';
+  for (const char* part :
+       {"No column seems to be gimbal angles", "gimbal_outer = \"Kanal 7 [deg]\"",
+        "gimbal_inner = \"Kanal 9 [deg]\"", "check which is which", "ignore = [", "\"U_bat\""})
+    EXPECT_TRUE(has(said, part)) << part << "\n" << a.out;
+  EXPECT_TRUE(has(text_of(file), "# No column seems to be gimbal angles")) << text_of(file);
+  EXPECT_EQ(driftscope("check " + file).code, 0);
+  // The line that was proposed is the one that reads them.
+  const std::string study =
+      text_of(file) +
+      "\n[recording]\ncolumns = { gimbal_outer = \"Kanal 7 [deg]\", gimbal_middle = \"Kanal 8 "
+      "[deg]\", gimbal_inner = \"Kanal 9 [deg]\" }\n";
+  const std::string out = folder.file("read.csv");
+  const Answer converted =
+      driftscope("convert " + folder.write("full.toml", study) + " " + own + " -o " + out);
+  EXPECT_EQ(converted.code, 0) << converted.err;
+  EXPECT_TRUE(has(text_of(out), "gimbal_inner [deg]"));
+}
+
+TEST(NewStudy, ALogOfTheOtherKindOfUnitIsRefusedWithTheCommandThatFits) {
+  const ScratchFolder folder;
+  std::string platform = "Zeit [s],Lage,ax [g],ay [g],az [g],phi_a [deg],phi_m [deg],phi_i [deg]\n",
+              on_case = "t [s],ax [g],ay [g],az [g],wx [deg/s],wy [deg/s],wz [deg/s]\n";
+  for (int i = 0; i < 20; ++i) {
+    platform += fmt::format("{},Lage {},0.0{},0,1,1,2,3\n", 60 * (i + 1), 1 + i / 10, i % 10);
+    on_case += fmt::format("{},0.0{},0,1,0.1,0.2,0.{}\n", 0.1 * (i + 1), i % 10, i % 7);
+  }
+  const std::string file = folder.file("lab.toml");
+  for (const auto& [kind, log, says] :
+       {std::tuple{"strapdown", platform, "driftscope new platform"},
+        {"diagnose", on_case, "driftscope new strapdown"}}) {
+    const Answer a =
+        driftscope(std::string("new ") + kind + " " + folder.write("log.csv", log) + " -o " + file);
+    EXPECT_EQ(a.code, recording_error) << a.out;
+    EXPECT_TRUE(has(a.err, says)) << a.err;
+    EXPECT_FALSE(std::filesystem::exists(file));
+  }
+  // With gyros beside the gimbals it may be either; names of positions have no place on a case.
+  std::string rows = "t [s],Lage,ax [g],ay [g],az [g],wx [deg/s],wy [deg/s],wz [deg/s]\n";
+  for (int i = 0; i < 20; ++i)
+    rows += fmt::format("{},L{},0.0{},0,1,0.1,0.2,0.{}\n", 0.1 * (i + 1), i / 10, i % 10, i % 7);
+  const Answer a = driftscope("new strapdown " + folder.write("log.csv", rows) + " -o " + file);
+  ASSERT_EQ(a.code, 0) << a.err;
+  const Answer checked = driftscope("check " + file);
+  EXPECT_EQ(checked.code, 0) << checked.err << text_of(file);
+}
+
+TEST(NewStudy, AsManyPositionsAsARecordingNamesThatCannotBeReadYet) {
+  const ScratchFolder folder;
+  std::string log = "Zeit [s],Lage,ax [g],ay [g],az [g],phi_a,phi_m,phi_i\n";
+  for (int i = 0; i < 24; ++i) log += fmt::format("{},L{},0,0,1,1,2,3\n", 60 * (i + 1), i / 2);
+  const std::string file = folder.file("lab.toml");
+  const Answer a = driftscope("new diagnose " + folder.write("log.csv", log) + " -o " + file);
+  ASSERT_EQ(a.code, 0) << a.err;
+  std::string study = text_of(file);
+  ASSERT_TRUE(has(study, "[?]")) << study;
+  for (std::size_t at = 0; (at = study.find("[?]", at)) != std::string::npos;)
+    study.replace(at, 3, "[deg]");
+  const Answer checked = driftscope("check " + folder.write("full.toml", study));
+  EXPECT_EQ(checked.code, 0) << checked.err << study;
 }
 
 TEST(NewStudy, TimeAndTemperatureAreToldByTheirUnitsAndPositionsByTheirTexts) {

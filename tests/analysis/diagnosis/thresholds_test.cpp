@@ -49,10 +49,12 @@ TEST(Thresholds, ASpikeIsEightSigmaAndTwoRangesAway) {
   EXPECT_TRUE(is_spike(8.1));
   EXPECT_FALSE(is_spike(9.9, 1.0));
   EXPECT_TRUE(is_spike(10.1, 1.0));
-  // Noise up to 1.5 times as declared is allowed for; beyond, it is the measure.
-  EXPECT_TRUE(is_spike(8.1, 0.0, 1.45));
+  // Noise that is more than declared is the measure; less is not.
+  EXPECT_FALSE(is_spike(9.5, 0.0, 1.2));
+  EXPECT_TRUE(is_spike(9.7, 0.0, 1.2));
   EXPECT_FALSE(is_spike(12.3, 0.0, 1.55));
   EXPECT_TRUE(is_spike(12.5, 0.0, 1.55));
+  EXPECT_FALSE(is_spike(7.9, 0.0, 0.5));
   // A row that was read in a turn stands beside others that were read at another rate.
   EXPECT_FALSE(is_spike(100.0, 0.0, 1.0, true));
   // The ends of a dwell have their neighbours on one side.

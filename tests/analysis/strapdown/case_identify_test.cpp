@@ -191,6 +191,34 @@ TEST(CaseStudy, GyrosInAnotherUnitOrOfTheOtherSignAreRefused) {
   }
 }
 
+TEST(CaseStudy, OneAccelerometerInAnotherUnitIsNamed) {
+  const mc::Study study = study_with(sensors_of_unit);
+  Theta theta = Theta::Zero();
+  for (const char axis : {'x', 'y', 'z'}) {  // as bought: 50 mg and 4 %, which are estimated
+    test::set(theta, std::string("K0_") + axis, 5e4);
+    test::set(theta, std::string("K1_") + axis, 4e4);
+  }
+  const Recording right = strapdown_recording(script(study, 8, 10.0), theta);
+  EXPECT_NO_THROW(case_study(study, right));
+  for (int axis = 0; axis < 3; ++axis)
+    for (const auto& [times, words] : std::initializer_list<std::pair<double, const char*>>{
+             {9.80665, "look like [m/s^2], not [g]"}, {1e3, "look like [mg], not [g]"}}) {
+      Recording wrong = right;
+      Channel& odd = wrong.channels[static_cast<std::size_t>(4 + axis)];
+      for (double& f : odd.values) f *= times;
+      try {
+        case_study(study, wrong);
+        ADD_FAILURE() << odd.name << words;
+      } catch (const InputError& e) {
+        const std::string said = e.what();
+        EXPECT_NE(said.find(words), std::string::npos) << said;
+        EXPECT_NE(said.find(":" + odd.name + ": the accelerometers together read"),
+                  std::string::npos)
+            << said;
+      }
+    }
+}
+
 TEST(CaseIdentify, ARestSaysSumsAndNoMore) {
   const mc::Study study = study_with(
       R"("fixed_drift", "g_drift", "gyro_misalignment", "torquer_scale", "accelerometer")");

@@ -87,6 +87,15 @@ TEST(ModelConfig, AFilterThatEstimatesNothingIsAMistake) {
       1u);
 }
 
+TEST(ModelConfig, AParameterOfAModelWithoutTermsIsSaidSo) {
+  const Read r = read(
+      "[truth]\ncoupling = \"eq5\"\nterms = []\nparameters.eta_x = \"5 arcsec\"\n"
+      "[[filter]]\ncoupling = \"eq5\"\n");
+  ASSERT_EQ(r.mistakes.size(), 1u);
+  EXPECT_NE(r.mistakes[0].find("(expected none: terms is empty)"), std::string::npos)
+      << r.mistakes[0];
+}
+
 TEST(ModelConfig, AGroupStandsForItsActiveAxes) {
   const Read r = read(
       "[[filter]]\ncoupling = \"eq5\"\nterms = [\"gyro_misalignment.x\", \"eta_y\"]\n"

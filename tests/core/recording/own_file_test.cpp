@@ -181,7 +181,7 @@ TEST(OwnFile, ACovariateNeverEndsACommand) {
   ASSERT_NE(r.find("temperature"), nullptr);
   EXPECT_NEAR(r.find("temperature")->values[1], (71.0 - 32.0) / 1.8, 1e-12);
   EXPECT_EQ(r.find("note"), nullptr);
-  EXPECT_EQ(r.remarks.size(), 5u) << testing::PrintToString(r.remarks);
+  EXPECT_EQ(r.remarks.texts().size(), 5u) << testing::PrintToString(r.remarks.texts());
 }
 
 TEST(OwnFile, AUnitThatTheFileContradictsIsRefusedUnlessItIsWrittenOut) {
@@ -229,7 +229,7 @@ TEST(OwnFile, ATemperatureThatNothingIsMappedToIsSaidWithTheLineToWrite) {
     const Recording r = read_recording(path, format, RecordingKind::platform, gravity);
     EXPECT_EQ(r.find("temperature"), nullptr);
     EXPECT_NE(r.unmapped_temperature.find("write temperature = \""), std::string::npos)
-        << header << testing::PrintToString(r.remarks);
+        << header << testing::PrintToString(r.remarks.texts());
   }
 }
 

@@ -1,7 +1,9 @@
 #include "core/recording/rows/quality_card.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <iostream>
 
 #include "recording_fixture.hpp"
@@ -102,6 +104,39 @@ TEST(QualityCard, SaysWhatIsTakenForGranted) {
   for (const char* part : {"(CSV): 1 rows", "no commands (cmd_*): those of the plan are taken",
                            "taken as dwell", "no gimbal angles", "acc_y: nothing was measured"})
     EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
+}
+
+TEST(QualityCard, SaysWhatIsWrongBeforeWhatIsNoted) {
+  const Folder folder;  // four remarks on how it was read come first in the file
+  const auto r =
+      read_recording(folder.write("r.csv",
+                                  "Run 7\nJ. Doe\ntime,position,acc_x,acc_y,acc_z,text\ns,,g,g,g,\n"
+                                  "1,1,0,,0,a\n2,1,0,,1,b\n3,1,"),
+                     RecordingKind::platform, gravity);
+  const auto said = quality_card(r, RecordingKind::platform).remarks.texts();
+  ASSERT_GE(said.size(), 6u);
+  EXPECT_EQ(said[0], "acc_y: nothing was measured");
+  EXPECT_EQ(said[1], "no gimbal angles");
+}
+
+TEST(QualityCard, ATemperatureOfARoomInDegreesFahrenheitIsAskedAbout) {
+  const auto asked = [](double mean, const char* unit = "degC") {
+    const Folder folder;
+    std::string text =
+        fmt::format("time [s],position,acc_x [g],acc_y [g],acc_z [g],temperature [{}]\n", unit);
+    for (int i = 0; i < 4; ++i) text += fmt::format("{},1,0,0,1,{}\n", i + 1, mean - 1.5 + i);
+    const auto r = read_recording(folder.write("r.csv", text), RecordingKind::platform, gravity);
+    const auto said = quality_card(r, RecordingKind::platform).remarks.texts();
+    return std::ranges::any_of(
+        said, [](const std::string& s) { return s.find("is it degF (") != std::string::npos; });
+  };
+  // 15 degC, the coldest laboratory, are 59 degF; 85 degC, the hottest chamber, are 185 degF.
+  EXPECT_FALSE(asked(58.9));
+  EXPECT_TRUE(asked(59.1));
+  EXPECT_TRUE(asked(184.9));
+  EXPECT_FALSE(asked(185.1));
+  EXPECT_FALSE(asked(72.0, "degF"));
+  EXPECT_FALSE(asked(335.0, "K"));
 }
 
 TEST(QualityCard, SaysWhichSensorOfAPlatformIsNotThere) {

@@ -95,9 +95,9 @@ TEST_P(LabRecording, IsReadRightlyOrRefusedWithOneMessage) {
           << c.channel << " in row " << i;
   }
   if (v.rows_lost > 0) {
-    EXPECT_TRUE(std::ranges::any_of(r.remarks, [](const std::string& remark) {
+    EXPECT_TRUE(std::ranges::any_of(r.remarks.texts(), [](const std::string& remark) {
       return remark.find("cut off") != std::string::npos;
-    })) << testing::PrintToString(r.remarks);
+    })) << testing::PrintToString(r.remarks.texts());
   }
 }
 

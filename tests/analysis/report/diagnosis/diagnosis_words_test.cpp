@@ -47,6 +47,16 @@ diagnosis::Diagnosis tense(std::size_t param) {
   return d;
 }
 
+TEST(DiagnosisWords, AGimbalThatReadsAConstantTooMuchIsTheFirstThingSaidBesideAnyVerdict) {
+  for (diagnosis::Diagnosis d :
+       {tense(TermLibrary::find("D_F_y").value()), testing::diagnosis(nominal())}) {
+    d.remarks.emplace_back(remark::GimbalOffZero{"rec.csv:gimbal_middle: it reads 1 deg too much"});
+    const auto said = report::diagnosis_in_brief(d).more.texts();
+    ASSERT_FALSE(said.empty());
+    EXPECT_EQ(said.front(), "Gimbals: rec.csv:gimbal_middle: it reads 1 deg too much.");
+  }
+}
+
 TEST(DiagnosisWords, AParameterFarFromItsPriorIsInTheShortAnswerOfAnyVerdict) {
   const auto M_y = TermLibrary::find("M_y").value();
   const auto d = tense(M_y);

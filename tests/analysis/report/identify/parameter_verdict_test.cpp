@@ -45,7 +45,7 @@ TEST(ParameterVerdict, IsInASumAloneWhereThePriorDecidesMostOfItsVariance) {
   EXPECT_EQ(f.verdict(2).worth, Worth::sum_only);
   EXPECT_EQ(f.verdict(0).worth, Worth::learned);
   const report::InBrief brief = report::identification_in_brief(f.study, f.id);
-  const std::string said = fmt::format("{}", fmt::join(brief.more, "\n"));
+  const std::string said = fmt::format("{}", fmt::join(brief.more.texts(), "\n"));
   EXPECT_NE(said.find("2 known in sums with others alone"), std::string::npos) << said;
 }
 
@@ -96,8 +96,8 @@ TEST(FitWords, TheWordOfAFitFollowsFromTheBandBesideIt) {
   EXPECT_EQ(word(1225.0), "misfit");
   EXPECT_EQ(word(775.0), "misfit");
   r.statistic = 1150.0;
-  const std::string said =
-      fmt::format("{}", fmt::join(report::identification_in_brief(f.study, f.id).more, "\n"));
+  const std::string said = fmt::format(
+      "{}", fmt::join(report::identification_in_brief(f.study, f.id).more.texts(), "\n"));
   EXPECT_NE(said.find("Filter corrected: chi-square per degree of freedom 1.150 is outside the 95 "
                       "% band of a right model, 0.914 to 1.090 (so far by chance: 0.001)"),
             std::string::npos)
@@ -107,7 +107,8 @@ TEST(FitWords, TheWordOfAFitFollowsFromTheBandBesideIt) {
 TEST(FitWords, ParametersFarFromTheirPriorsAreSaid) {
   Fitted f;
   const auto said = [&] {
-    return fmt::format("{}", fmt::join(report::identification_in_brief(f.study, f.id).more, "\n"));
+    return fmt::format(
+        "{}", fmt::join(report::identification_in_brief(f.study, f.id).more.texts(), "\n"));
   };
   f.id.truth.reset();
   f.parameter(3).value = f.parameter(3).prior_mean + 4.9 * f.parameter(3).prior_sigma;

@@ -109,7 +109,10 @@ TEST(OneReport, ShowsEachBlockWhereItBelongs) {
 
 TEST(OneReport, HasTheSamePartsWhateverTheCommand) {
   Report report = two_sections();
-  report.brief = {"Verdict: so <it> is.", Tone::bad, {"because"}, "Next: that."};
+  report.brief.verdict = "Verdict: so <it> is.";
+  report.brief.tone = Tone::bad;
+  report.brief.more.add(Weight::note, "because");
+  report.brief.next = "Next: that.";
   report.add({{"Late", {Paragraph{"known how well"}}, On::both, Part::how_sure},
               {"Long", {Paragraph{"all of it"}}, On::both, Part::details}});
   const Provenance made{"1.2",

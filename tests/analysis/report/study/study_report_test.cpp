@@ -78,10 +78,10 @@ TEST(StudyReport, TheShortAnswerSaysThatSigmasAreWrong) {
   ASSERT_GT(worst, report::much_too_small);
   const report::InBrief brief = report::study_in_brief(swept());
   ASSERT_FALSE(brief.more.empty());
-  EXPECT_NE(brief.more.front().find(
+  EXPECT_NE(brief.more.texts().front().find(
                 fmt::format("errors are up to {} times as large", number_text(worst, 2))),
             std::string::npos)
-      << brief.more.front();
+      << brief.more.texts().front();
   EXPECT_EQ(brief.tone, report::Tone::bad);
 }
 

@@ -1,0 +1,86 @@
+#include "analysis/preparation/gimbal_zero.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "core/sim/simulate.hpp"
+#include "tests/support/model_builders.hpp"
+#include "tests/support/program.hpp"
+
+namespace drift::preparation::gimbal_zero_test {
+namespace {
+
+mc::Study study_of(std::string_view preset) {
+  mc::Study s;
+  s.site = test::harbin;
+  PlanDefaults defaults;
+  defaults.mode = CommandLaw::free;
+  defaults.dwell = 600.0;
+  s.plan = preset_plan(preset, defaults).value();
+  s.filters = {test::base_filter(Coupling::eq5)};
+  return s;
+}
+
+/// What is said of a platform of which one gimbal reads so many degrees too much.
+std::string said(int gimbal, double deg, std::string_view preset = "twentyfour",
+                 std::uint64_t run = 0) {
+  const mc::Study s = study_of(preset);
+  const TruthSpec truth = test::base_truth(Coupling::eq5);
+  const Timeline timeline = lay_out(s.plan, s.site);
+  const TruthDraw draw = draw_truth(truth, timeline.chains, 7, run);
+  Recording r = make_recording(
+      timeline, Simulator(truth, s.readout).run(timeline, draw, 7, run).measured, s.readout);
+  r.source = "rec.csv";
+  constexpr const char* names[] = {"gimbal_outer", "gimbal_middle", "gimbal_inner"};
+  for (Channel& c : r.channels)
+    if (c.name == names[gimbal])
+      for (double& angle : c.values) angle += deg * detail::deg;
+  return gimbal_off_zero(s, r);
+}
+
+TEST(GimbalZero, AGimbalThatReadsADegreeTooMuchOrTooLittleIsNamedWithIt) {
+  constexpr const char* names[] = {"gimbal_outer", "gimbal_middle", "gimbal_inner"};
+  for (int gimbal = 0; gimbal < 3; ++gimbal)
+    for (const double deg : {1.0, -3.0}) {
+      const std::string text = said(gimbal, deg);
+      EXPECT_EQ(text.find(fmt::format("rec.csv:{}: it reads ", names[gimbal])), 0u) << text;
+      const std::string key = fmt::format("offset = {{ {} = \"", names[gimbal]);
+      const auto at = text.find(key);
+      ASSERT_NE(at, std::string::npos) << text;
+      // Biases and misalignments of the accelerometers make 0.06 deg of it, 1 sigma.
+      EXPECT_NEAR(std::stod(text.substr(at + key.size())), -deg, 3.0 * 0.06) << text;
+      EXPECT_NE(text.find(deg > 0.0 ? "deg too much" : "deg too little"), std::string::npos);
+    }
+}
+
+TEST(GimbalZero, NoneIsNamedOfSoundPlatformsNorWherePriorsMayMakeIt) {
+  for (const char* preset : {"six", "twentyfour", "slew12"})
+    for (std::uint64_t run = 0; run < 20; ++run) EXPECT_EQ(said(0, 0.0, preset, run), "") << preset;
+  for (int gimbal = 0; gimbal < 3; ++gimbal) EXPECT_EQ(said(gimbal, 0.3), "") << gimbal;
+}
+
+TEST(GimbalZero, IsSaidFirstInTheShortAnswerOfIdentify) {
+  const test::ScratchFolder folder;
+  std::string study =
+      test::text_of(std::string(DRIFT_SOURCE_DIR) + "/configs/diagnose_equation.toml");
+  const std::string args =
+      " --set plan.dwell=\"10 min\" --set filter.nominal.coupling=eq5 --progress none ";
+  const std::string config = "'" + folder.write("s.toml", study) + "'";
+  const std::string sound = folder.file("sound.csv"), log = folder.file("log.csv");
+  ASSERT_EQ(
+      test::driftscope("simulate " + config + " --set plan.dwell=\"10 min\" -o " + sound).code, 0);
+  Recording r = read_recording(sound, RecordingKind::platform, 9.80665);
+  for (Channel& c : r.channels)
+    if (c.name == "gimbal_middle")
+      for (double& angle : c.values) angle += detail::deg;
+  write_recording(r, log);
+  const test::Answer a = test::driftscope("identify " + config + " " + log + args);
+  ASSERT_EQ(a.code, 0) << a.err;
+  EXPECT_NE(a.out.find("\nGimbals: "), std::string::npos) << a.out;
+  EXPECT_LT(a.out.find("\nGimbals: "), a.out.find("\nFilter ")) << a.out;
+  EXPECT_EQ(test::driftscope("identify " + config + " " + sound + args).out.find("Gimbals:"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace drift::preparation::gimbal_zero_test
