@@ -194,9 +194,9 @@ TEST(CaseStudy, GyrosInAnotherUnitOrOfTheOtherSignAreRefused) {
 TEST(CaseStudy, OneAccelerometerInAnotherUnitIsNamed) {
   const mc::Study study = study_with(sensors_of_unit);
   Theta theta = Theta::Zero();
-  for (const char axis : {'x', 'y', 'z'}) {  // as bought: 50 mg and 4 %, which are estimated
-    test::set(theta, std::string("K0_") + axis, 5e4);
-    test::set(theta, std::string("K1_") + axis, 4e4);
+  for (const char axis : {'x', 'y', 'z'}) {  // 2 mg and 0.2 %, which are estimated
+    test::set(theta, std::string("K0_") + axis, 2e3);
+    test::set(theta, std::string("K1_") + axis, 2e3);
   }
   const Recording right = strapdown_recording(script(study, 8, 10.0), theta);
   EXPECT_NO_THROW(case_study(study, right));

@@ -136,7 +136,7 @@ TEST(QualityCard, ATemperatureOfARoomInDegreesFahrenheitIsAskedAbout) {
   EXPECT_TRUE(asked(184.9));
   EXPECT_FALSE(asked(185.1));
   EXPECT_FALSE(asked(72.0, "degF"));
-  EXPECT_FALSE(asked(335.0, "K"));
+  EXPECT_FALSE(asked(300.0, "K"));
 }
 
 TEST(QualityCard, SaysWhichSensorOfAPlatformIsNotThere) {
