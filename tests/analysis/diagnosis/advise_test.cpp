@@ -155,7 +155,7 @@ TEST(Advise, ANamedCauseThatFollowsTheTemperatureIsNotAskedOfPositions) {
   d.causes.front().confusable_with = {{"drift_ramp", "x", 0.99}};
   const auto advice = advise(s, {simulated(s)}, d, asking());
   ASSERT_EQ(advice.size(), 1u);
-  EXPECT_EQ(advice.front().kind, Advice::Kind::temperature);
+  EXPECT_EQ(advice.front().kind, Advice::Kind::varies);
   EXPECT_TRUE(advice.front().plan.empty());
 }
 

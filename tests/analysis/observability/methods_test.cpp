@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "analysis/observability/against_monte_carlo.hpp"
 #include "analysis/observability/other_methods.hpp"
@@ -76,9 +77,9 @@ TEST(Methods, WhereRankingsDisagreeIsSaidWithTheReason) {
   const auto pwcs = observability::pwcs_rank(plan, harbin, model.spec, model.readout);
   const auto course = observability::information_course(linear);
   const auto methods = observability::compare_methods({r, pwcs, linear, course, plan});
-  ASSERT_EQ(methods.size(), 3u);
-  for (const observability::MethodRanking& m : methods) {
-    EXPECT_EQ(m.score.size(), 60);
+  for (const observability::MethodRanking& m : methods) EXPECT_EQ(m.score.size(), 60) << m.key;
+  ASSERT_GE(methods.size(), 3u);
+  for (const observability::MethodRanking& m : std::span(methods).first(3)) {
     EXPECT_GT(m.spearman, 0.4) << m.key;
     EXPECT_LT(m.spearman, 1.0) << m.key;
     // What a conditional sigma cannot know: D_F is one sum with the trace of the g^2 terms.
