@@ -15,7 +15,7 @@ EstimateResult estimate_of(const std::vector<const char*>& keys) {
   const auto n = static_cast<Eigen::Index>(keys.size());
   for (const char* key : keys) {
     ParameterEstimate p;
-    p.param = TermLibrary::index(key);
+    p.param = TermLibrary::find(key).value();
     p.sigma = 1e-9;
     p.prior_sigma = 1.0;
     e.parameters.push_back(p);
