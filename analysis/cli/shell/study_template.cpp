@@ -164,6 +164,7 @@ RecordedPlan recorded_plan(const Recording& r) {
     RecordedPlan::Position p{std::round(span / plan.sample) * plan.sample, "", dwell > first, {}};
     if (heading) p.heading = heading->values[end - 1];
     const auto shown = cardinal_axes(r, dwell, p.heading.value_or(0.0));
+    if (!shown) p.heading.reset();  // axes that are guessed may not be reached from it
     plan.north = plan.north && shown;
     p.axes = shown ? *shown : axes_of(mean_force(r, dwell, end));
     const auto command = measured(r, command_channels, dwell);

@@ -8,20 +8,10 @@
 #include "analysis/identification/beyond_prior.hpp"
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/report/identify/sections.hpp"
-#include "core/estimate/start_consistency.hpp"
 #include "core/stats/chi_square_band.hpp"
 
 namespace drift::report {
 namespace {
-
-constexpr double nothing_learned = 0.8;  // posterior over prior sigma
-constexpr double mostly = 0.5;           // of its variance
-constexpr double surely_wrong = 5.0;     // [sigma] off the truth: no right model is, in any of 100
-
-bool believed(const FilterView& v) {
-  const EstimateResult& result = judged(v);
-  return result.status == EstimateStatus::ok && !misfit(result);
-}
 
 std::string misfit_text(const FilterView& v) {
   const EstimateResult& result = judged(v);
@@ -29,15 +19,6 @@ std::string misfit_text(const FilterView& v) {
              ? "did not converge"
              : fmt::format("misfits (chi-square per degree of freedom {}, 1 expected)",
                            number_text(result.statistic_per_dof()));
-}
-
-/// The part of a parameter's variance that is the prior's, along combinations of which the data say
-/// nothing: there the variance is one in units of the prior.
-double share_of_sums(const FilterView& v, std::size_t state, const ParameterEstimate& p) {
-  double variance = 0.0;
-  for (const WeakDirection& d : v.summary.degeneracies)
-    variance += std::pow(d.direction[static_cast<Eigen::Index>(state)], 2);
-  return variance / std::pow(p.learning_ratio(), 2);
 }
 
 /// How many parameters are worth what, and which: "14 learned, 4 prior only (eta_y, ...)".
@@ -196,48 +177,6 @@ std::vector<std::string> beyond_prior(const FilterView& v) {
   return keys;
 }
 
-ParameterVerdict verdict_of(const FilterView& v, std::size_t state) {
-  const EstimateResult& result = judged(v);
-  ParameterVerdict out;
-  out.param = v.summary.layout.params[state];
-  const ParameterEstimate* p = result.find(out.param);
-  if (p == nullptr) {
-    out.worth = Worth::untrusted;
-    return out;
-  }
-  if (v.id.truth) out.off = std::abs(p->value - v.id.truth->theta[out.param]) / p->sigma;
-  const double ratio = v.summary.spread[state].ekf;
-  if (out.off > surely_wrong)
-    out.worth = Worth::wrong;
-  else if (!believed(v))
-    out.worth = Worth::untrusted;
-  else if (p->learning_ratio() > nothing_learned)
-    out.worth = Worth::prior_only;
-  else if (std::isfinite(ratio) && start_verdict(ratio) == StartVerdict::depends_on_start)
-    out.worth = Worth::start_dependent;
-  else if (share_of_sums(v, state, *p) > mostly)
-    out.worth = Worth::sum_only;
-  return out;
-}
-
-Cell verdict_cell(const ParameterVerdict& verdict) {
-  switch (verdict.worth) {
-    case Worth::wrong:
-      return {fmt::format("wrong by {:.0f} sigma", verdict.off), Tone::bad};
-    case Worth::untrusted:
-      return {"not to be trusted (misfit)", Tone::bad};
-    case Worth::start_dependent:
-      return {"depends on start", Tone::bad};
-    case Worth::prior_only:
-      return {"prior only", Tone::doubtful};
-    case Worth::sum_only:
-      return {"in a sum alone", Tone::doubtful};
-    case Worth::learned:
-      break;
-  }
-  return {"learned", Tone::good};
-}
-
 /// What to add where a filter has a covariate from the recording, which a plan has not.
 std::string covariates_to_rank_with(const mc::Study& study) {
   const CovariateSet missing = TermLibrary::needs(study.filters.front().model().terms).covariates &
@@ -285,6 +224,8 @@ InBrief identification_in_brief(const mc::Study& study, const identification::Id
   if (const auto doubt = other_latitude(id); doubt && doubt->alone())
     brief.next = fmt::format("Next: identify again with --set site.latitude=\"{:.3f} deg\".",
                              doubt->latitude / unit::deg.to_si);
+  else if (!id.off_zero.empty())
+    brief.next = "Next: correct the zero of the gimbal, or its offset, and identify again.";
   else if (!j.first_fits)
     brief.next = fmt::format(
         "Next: {}driftscope diagnose {} {} says what the first filter of the study lacks.",

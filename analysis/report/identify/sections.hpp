@@ -67,6 +67,9 @@ struct ParameterVerdict {
   double off = std::numeric_limits<double>::quiet_NaN();  ///< from the truth [sigma]
 };
 
+/// Whether the filter's estimates explain the data: converged, and no misfit.
+bool believed(const FilterView& view);
+
 /// Of a state of the filter's layout: by the batch fit, or by the EKF where process noise is
 /// declared.
 ParameterVerdict verdict_of(const FilterView& view, std::size_t state);

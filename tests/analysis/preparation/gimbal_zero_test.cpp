@@ -76,8 +76,9 @@ TEST(GimbalZero, IsSaidFirstInTheShortAnswerOfIdentify) {
   write_recording(r, log);
   const test::Answer a = test::driftscope("identify " + config + " " + log + args);
   ASSERT_EQ(a.code, 0) << a.err;
-  EXPECT_NE(a.out.find("\nGimbals: "), std::string::npos) << a.out;
-  EXPECT_LT(a.out.find("\nGimbals: "), a.out.find("\nFilter ")) << a.out;
+  EXPECT_NE(a.out.find("\nGimbals:"), std::string::npos) << a.out;
+  EXPECT_LT(a.out.find("\nGimbals:"), a.out.find("\nNext:")) << a.out;
+  EXPECT_NE(a.out.find("Next: correct the zero of the gimbal"), std::string::npos) << a.out;
   EXPECT_EQ(test::driftscope("identify " + config + " " + sound + args).out.find("Gimbals:"),
             std::string::npos);
 }
