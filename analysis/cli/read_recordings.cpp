@@ -67,6 +67,22 @@ void tell_remarks(const QualityCard& card) {
         report::plural(remarks.size() - most));
 }
 
+/// Whether both hold the same readings, whatever their files look like.
+bool same_readings(const Recording& a, const Recording& b) {
+  bool any = false;
+  for (const auto* names : {&accelerometer_channels.names, &gyro_channels.names})
+    for (const auto name : *names) {
+      const Channel *p = a.find(name), *q = b.find(name);
+      if (p == nullptr || q == nullptr) continue;
+      const bool equal = std::ranges::equal(p->values, q->values, [](double x, double y) {
+        return x == y || (std::isnan(x) && std::isnan(y));
+      });
+      if (!equal) return false;
+      any = any || std::ranges::any_of(p->values, [](double x) { return std::isfinite(x); });
+    }
+  return any;
+}
+
 }  // namespace
 
 std::optional<std::string> assumed_gravity(const mc::Study& study) {
@@ -90,6 +106,13 @@ std::vector<Recording> read_recordings(const mc::Study& study,
     recordings.push_back(read_recording(path, study.recording, study.kind, study.site.gravity));
     check_time_unit(study, recordings.back());
     tell_assumed_gravity(study, recordings.back());
+    for (std::size_t before = 0; before + 1 < recordings.size(); ++before)
+      if (same_readings(recordings[before], recordings.back()))
+        throw InputError(
+            ExitCode::usage,
+            fmt::format("{}: has the same readings as {} (expected recordings of different tests: "
+                        "one and the same is no further evidence). Name one of them",
+                        path, paths[before]));
     tell_remarks(quality_card(recordings.back(), study.kind));
   }
   return recordings;

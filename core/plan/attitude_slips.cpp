@@ -109,7 +109,7 @@ std::optional<std::string> in_another_unit(const std::vector<Sight>& sights, Col
   for (const auto& [symbol, to_si] : angle_units()) {
     if (says(columns, said, to_si) || !tells(sights, columns, said, to_si)) continue;
     const double worst =
-        worst_mismatch(sights, [&](Sight& s) { take_as(s, columns, said, to_si); });
+        worst_mismatch(sights, [&, unit = to_si](Sight& s) { take_as(s, columns, said, unit); });
     if (worst < largest_mismatch) fitting.emplace_back(worst, symbol);
   }
   std::ranges::sort(fitting);

@@ -9,8 +9,9 @@ namespace drift {
 namespace {
 
 constexpr ChannelQuantity time_q{"s"_unit.dim, "a time, for example [s], [ms], [min] or [h]"};
-constexpr ChannelQuantity force_q{"g"_unit.dim, "a specific force, for example [g], [mg] or [ug]",
-                                  true, 1e3};
+constexpr ChannelQuantity force_q{
+    "g"_unit.dim, "a specific force, for example [g], [mg] or [ug]", true,
+    100.0};  // instruments on a platform or a case saturate before; -999 m/s^2 is no reading
 constexpr ChannelQuantity angle_q{
     "rad"_unit.dim, "an angle, for example [deg], [rad], [arcmin] or [arcsec]", true, 1e5};
 constexpr ChannelQuantity rate_q{

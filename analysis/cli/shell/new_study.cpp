@@ -10,6 +10,7 @@
 #include "core/base/atomic_file.hpp"
 #include "core/base/named.hpp"
 #include "core/base/output_file.hpp"
+#include "core/base/words.hpp"
 #include "core/config/load.hpp"
 #include "core/recording/own/csv_cells.hpp"
 #include "core/recording/own/guess.hpp"
@@ -103,6 +104,20 @@ LookedAt look_at(const std::string& path, RecordingKind kind) {
   return seen;
 }
 
+/// Of positions that are half way between two directions for a case that faces North.
+std::string turned_text(const RecordedPlan& plan) {
+  std::vector<std::string> numbers;
+  for (std::size_t i = 0; i < plan.positions.size(); ++i)
+    if (!plan.positions[i].turned.empty()) numbers.push_back(fmt::format("{}", i + 1));
+  if (numbers.empty()) return "";
+  return fmt::format(
+      "Position{} {} {} half way between two directions if the case faced North; if its heading "
+      "was "
+      "45 deg there, write what the comments of the file say. No instrument shows which: a fit "
+      "far from 1 tells.",
+      numbers.size() == 1 ? "" : "s", listed(numbers, "and"), numbers.size() == 1 ? "is" : "are");
+}
+
 ExitCode make_study(const NewArguments& a) {
   const StudyKind kind = *value_in(study_kinds, a.kind);
   const bool on_case = kind == StudyKind::strapdown;
@@ -134,6 +149,8 @@ ExitCode make_study(const NewArguments& a) {
         "  driftscope convert {} '{}' -o read.csv && driftscope new {} read.csv -o NEW.toml\n",
         plan ? "all alike, as many as it names" : "those of a preset", report::wrapped(blanks, 98),
         a.output, a.recording, a.kind);
+  if (const std::string said = plan ? turned_text(*plan) : ""; !said.empty())
+    show("\n{}\n", report::wrapped(said, 98));
   if (!seen.unplaced.empty()) show("\n{}\n", report::wrapped(seen.unplaced, 98));
   return ExitCode::ok;
 }

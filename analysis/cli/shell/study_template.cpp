@@ -73,6 +73,9 @@ std::string position_text(const RecordedPlan::Position& p, std::size_t number, D
   if (p.torqued) text += "entry = \"torqued\"\n";
   if (p.heading)
     text += fmt::format("case_heading = \"{:.0f} deg\"\n", std::round(*p.heading / detail::deg));
+  if (!p.turned.empty())
+    text += fmt::format("# or, of a case at 45 deg: axes = \"{}\" and case_heading = \"45 deg\"\n",
+                        p.turned);
   if (dwells == Dwells::as_recorded) text += fmt::format("dwell = \"{:.9g} s\"\n", p.length);
   return text;
 }
@@ -166,6 +169,8 @@ RecordedPlan recorded_plan(const Recording& r) {
     const auto shown = cardinal_axes(r, dwell, p.heading.value_or(0.0));
     if (!shown) p.heading.reset();  // axes that are guessed may not be reached from it
     plan.north = plan.north && shown;
+    const auto turned = cardinal_axes(r, dwell, p.heading.value_or(0.0) + 45.0 * detail::deg);
+    if (!heading && shown && turned && shown->size() > turned->size()) p.turned = *turned;
     p.axes = shown ? *shown : axes_of(mean_force(r, dwell, end));
     const auto command = measured(r, command_channels, dwell);
     plan.level = plan.level || (command && command->norm() > 0.5 * detail::earth_rate);

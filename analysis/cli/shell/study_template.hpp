@@ -18,6 +18,7 @@ struct RecordedPlan {
     std::string axes{};               ///< "x=N y=W z=U"
     bool torqued = false;             ///< slewed to, as the phases say
     std::optional<double> heading{};  ///< of the case [rad], where it is recorded
+    std::string turned{};             ///< the axes if the case was at 45 deg; empty: less likely
   };
   double sample = 0.0;    ///< [s]
   bool level = false;     ///< Earth rate is commanded in the dwells

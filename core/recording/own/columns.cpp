@@ -72,7 +72,8 @@ class Assignment {
   void report_missing() {
     if (missing_.empty()) return;
     std::vector<std::string_view> names;
-    for (const HeaderCell& c : header_) names.push_back(c.name);
+    for (const HeaderCell& c : header_)
+      if (mapping(c) == nullptr) names.push_back(c.name);
     std::vector<std::string> own, keys;
     for (const auto& [name, key] : missing_) {
       own.push_back(in_quotes(name));

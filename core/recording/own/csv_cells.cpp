@@ -59,6 +59,13 @@ std::string_view without_checksum(std::string_view line) {
 ParsedCell parse_cell(std::string_view text, DecimalMark decimal) {
   using Kind = ParsedCell::Kind;
   if (text.empty()) return {Kind::number, std::numeric_limits<double>::quiet_NaN(), 0};
+  constexpr std::string_view minus = "\u2212";  // what word processors write
+  if (text.find(minus) != std::string_view::npos && text.size() < 64) {
+    std::string plain(text);
+    for (std::size_t at; (at = plain.find(minus)) != std::string::npos;)
+      plain.replace(at, minus.size(), "-");
+    return parse_cell(plain, decimal);
+  }
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
   ParsedCell cell;
   const auto parse = [&](std::string_view digits) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "core/config/nearest.hpp"
+#include "core/recording/own/guess_names.hpp"
 #include "core/recording/own/header.hpp"
 #include "core/recording/own/recording_unit.hpp"
 #include "core/recording/recording_channels.hpp"
@@ -38,7 +39,10 @@ bool check_channel(Section& section, std::string_view table, const config::Membe
                    RecordingKind kind) {
   const auto all = canonical_channels(kind);
   if (std::ranges::find(all, member.key) != all.end()) return true;
-  const auto meant = meant_channels(member.key, all);
+  auto meant = meant_channels(member.key, all);
+  const std::string alias = guessed_channel(member.key);  // "accel_x", "inner", "temp"
+  if (const auto known = std::ranges::find(all, alias); meant.empty() && known != all.end())
+    meant.push_back(*known);
   if (meant.empty() && valid_channel_name(member.key)) return true;
   section.report().error(
       member.at,

@@ -23,7 +23,8 @@ constexpr std::pair<std::string_view, std::string_view> unit_endings[] = {
 
 constexpr std::string_view time_words[] = {
     "time",    "t",          "zeit",    "timestamp",   "elapsed", "elapsedtime", "zeitstempel",
-    "uhrzeit", "sampletime", "seconds", "timestartup", "timegps", "horodatage",  "temps"};
+    "uhrzeit", "sampletime", "seconds", "timestartup", "timegps", "horodatage",  "temps",
+    "hora",    "tiempo",     "heure",   "ora",         "tempo",   "tijd"};
 constexpr std::string_view position_words[] = {"position",   "pos",      "lage",
                                                "stellung",   "lagenr",   "posnr",
                                                "positionno", "posicion", "posizione"};
@@ -38,7 +39,14 @@ constexpr std::string_view acc_words[] = {"a",
                                           "beschleunigung",
                                           "specificforce",
                                           "sf",
-                                          "fieldlinearacceleration"};
+                                          "fieldlinearacceleration",
+                                          "ac",
+                                          "acel",
+                                          "aceleracion",
+                                          "accelerazione",
+                                          "accelerometro",
+                                          "acelerometro",
+                                          "versnelling"};
 constexpr std::string_view gyro_words[] = {"g",           "gyr",
                                            "gyro",        "gyroscope",
                                            "w",           "omega",
@@ -46,10 +54,12 @@ constexpr std::string_view gyro_words[] = {"g",           "gyr",
                                            "angularrate", "angrate",
                                            "angvel",      "angularvelocity",
                                            "gyrorate",    "fieldangularvelocity"};
-constexpr std::string_view cmd_words[] = {"cmd", "command", "commanded", "soll", "befehl", "wcmd"};
-constexpr std::string_view gimbal_words[] = {"gimbal", "phi",    "resolver", "winkel",
-                                             "rahmen", "angle",  "cardan",   "kardan",
-                                             "angulo", "angolo", "giunto",   "cardano"};
+constexpr std::string_view cmd_words[] = {
+    "cmd",   "command", "commanded", "soll",     "befehl",   "wcmd",    "kommando",
+    "orden", "comando", "consigna",  "consigne", "commande", "opdracht"};
+constexpr std::string_view gimbal_words[] = {
+    "gimbal", "phi",    "resolver", "winkel", "rahmen", "angle",  "cardan", "kardan", "angulo",
+    "angolo", "giunto", "cardano",  "marco",  "cuadro", "telaio", "cadre",  "raam"};
 constexpr std::string_view outer_words[] = {
     "outer", "aussen", "ext", "exterieur", "externe", "exterior", "est", "esterno", "a", "o", "1"};
 constexpr std::string_view middle_words[] = {"middle", "mitte", "mittel", "med", "median",
@@ -99,8 +109,11 @@ std::string guessed_channel(std::string_view header) {
   for (const auto& [places, channel] : gimbals)
     for (const auto place : places) {
       if (place.size() > 3 && word == place) return std::string(channel);
-      if (word.size() > place.size() && word.ends_with(place) &&
-          is_one(std::string_view(word).substr(0, word.size() - place.size()), gimbal_words))
+      const std::string_view whole = word;
+      const bool behind = whole.ends_with(place),
+                 before = place.size() > 1 && whole.starts_with(place);
+      if ((behind && is_one(whole.substr(0, whole.size() - place.size()), gimbal_words)) ||
+          (before && is_one(whole.substr(place.size()), gimbal_words)))
         return std::string(channel);
     }
   const char axis = word.back();

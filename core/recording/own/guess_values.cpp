@@ -141,6 +141,16 @@ bool GuessByValues::likely(const GuessedFile& file, const Triple& t) const {
          (stated || (moved && std::ranges::none_of(t.whole, [](bool w) { return w; })));
 }
 
+std::string GuessByValues::axes_of(const GuessedFile& file, const Triple& t) {
+  std::string axes, sorted;
+  for (const std::size_t i : t.columns)
+    if (const std::string name = lower_case(file.columns[i].header.name); !name.empty())
+      axes += name.back();
+  sorted = axes;
+  std::ranges::sort(sorted);
+  return sorted == "xyz" ? axes : "xyz";
+}
+
 std::string GuessByValues::name_channels(GuessedFile& file) {
   std::string unit;
   for (const Triple& t : triples_) {
@@ -149,9 +159,10 @@ std::string GuessByValues::name_channels(GuessedFile& file) {
         static_cast<double>(*most) < GuessLimits::most_rows * static_cast<double>(t.rows))
       continue;
     unit = gravity_units[static_cast<std::size_t>(most - t.as_unit.begin())].symbol;
+    const std::string axes = axes_of(file, t);
     for (std::size_t a = 0; a < 3; ++a) {
       GuessedColumn& c = file.columns[t.columns[a]];
-      c.channel = fmt::format("acc_{}", "xyz"[a]);
+      c.channel = fmt::format("acc_{}", axes[a]);
       c.by_values = true;
     }
   }

@@ -55,6 +55,8 @@ class GuessByValues {
 
   void begin_position();
   bool likely(const GuessedFile& file, const Triple& t) const;
+  /// The axes of a triple in the order of its columns: as their names end, else x, y, z.
+  static std::string axes_of(const GuessedFile& file, const Triple& t);
 
   std::vector<Triple> triples_;
   std::vector<Angle> angles_;  ///< that have no name yet

@@ -4,6 +4,11 @@
 #include "analysis/inference/noise/noise.hpp"
 #include "analysis/inference/noise/noise_component.hpp"
 #include "analysis/inference/projector.hpp"
+#include "analysis/inference/signatures.hpp"
+#include "core/estimate/batch.hpp"
+#include "core/estimate/layout.hpp"
+#include "core/estimate/measured_test.hpp"
+#include "core/sim/simulate.hpp"
 #include "tests/support/model_builders.hpp"
 
 namespace drift::inference::noise_from_test {

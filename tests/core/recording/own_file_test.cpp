@@ -88,6 +88,11 @@ TEST(OwnFile, NamesAreGuessedInSomeLanguages) {
                                                        {"\u00C1ngulo_ext", "gimbal_outer"},
                                                        {"Giunto_est", "gimbal_outer"},
                                                        {"Posici\u00F3n", "position"},
+                                                       {"Orden X", "cmd_x"},
+                                                       {"Acel. Z", "acc_z"},
+                                                       {"Hora", "time"},
+                                                       {"Outer gimbal", "gimbal_outer"},
+                                                       {"marco exterior", "gimbal_outer"},
                                                        {"int", ""},
                                                        {"Remarque", ""}};
   for (const auto& [name, channel] : names) EXPECT_EQ(guessed_channel(name), channel) << name;
@@ -261,6 +266,10 @@ TEST(OwnFile, MistakesInTheSectionAreNamed) {
   } cases[] = {
       {"columms = { acc_x = \"Ax [g]\" }", "Did you mean 'columns'?"},
       {"columns = { acc_X = \"Ax [g]\" }", "Did you mean 'acc_x'?"},
+      {"columns = { accel_x = \"Ax [g]\" }", "Did you mean 'acc_x'?"},
+      {"columns = { acx = \"Ax [g]\" }", "Did you mean 'acc_x'?"},
+      {"columns = { inner = \"A [deg]\" }", "Did you mean 'gimbal_inner'?"},
+      {"columns = { temp = \"T [degC]\" }", "Did you mean 'temperature'?"},
       {"columns = { acc_x = 3 }", "expected a header of the file with its unit"},
       {"columns = { acc_x = \"Ax [gg]\" }", "unknown unit 'gg'"},
       {"columns = { acc_x = \"Ax [g]\", acc_y = \"Ax [g]\" }", "name the same column 'Ax'"},

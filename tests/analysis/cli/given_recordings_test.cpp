@@ -1,0 +1,45 @@
+// What the commands make of recordings that are not what their names say.
+#include <sstream>
+
+#include "core/base/check.hpp"
+#include "tests/support/program.hpp"
+#include "tests/support/short_study.hpp"
+
+namespace drift::given_recordings_test {
+namespace {
+
+using namespace drift::test;
+
+TEST(GivenRecordings, TheSameReadingsInAnotherFileAreNoFurtherEvidence) {
+  const ScratchFolder folder;
+  const std::string study = folder.write("made.toml", short_study), one = folder.file("one.csv"),
+                    other = folder.file("other.csv");
+  ASSERT_EQ(driftscope("simulate " + study + " -o " + one).code, 0);
+  ASSERT_EQ(driftscope("simulate " + study + " --seed 77 -o " + other).code, 0);
+  const std::string again = folder.write("again.csv", "# copied\n" + text_of(one));
+  EXPECT_EQ(driftscope("identify " + study + " " + one + " " + other + " --quiet").code, 0);
+  const Answer a = driftscope("identify " + study + " " + one + " " + again + " --quiet");
+  EXPECT_EQ(a.code, static_cast<int>(ExitCode::usage));
+  EXPECT_NE(a.err.find("has the same readings as"), std::string::npos) << a.err;
+}
+
+TEST(GivenRecordings, OfACaseThatStoodAtFortyFiveDegreesNewSaysBoth) {
+  const ScratchFolder folder;
+  const std::string study = folder.write("made.toml", short_study), made = folder.file("made.csv"),
+                    file = folder.file("lab.toml");
+  ASSERT_EQ(driftscope("simulate " + study + " -o " + made).code, 0);
+  std::istringstream lines(text_of(made));
+  std::string log;
+  for (std::string line; std::getline(lines, line);)  // without its last column, the case's heading
+    log += (line.front() == '#' ? line : line.substr(0, line.rfind(','))) + "\n";
+  const Answer a = driftscope("new diagnose " + folder.write("log.csv", log) + " -o " + file);
+  ASSERT_EQ(a.code, 0) << a.err;
+  EXPECT_NE(a.out.find("half way between two directions"), std::string::npos) << a.out;
+  const std::string text = text_of(file);
+  EXPECT_NE(text.find("# or, of a case at 45 deg: axes = \"x="), std::string::npos) << text;
+  const Answer recorded = driftscope("new diagnose " + made + " -o " + folder.file("b.toml"));
+  EXPECT_EQ(recorded.out.find("half way"), std::string::npos) << recorded.out;
+}
+
+}  // namespace
+}  // namespace drift::given_recordings_test

@@ -1,0 +1,48 @@
+// How columns and cells of a user's own file are taken where names and values must tell.
+#include <gtest/gtest.h>
+
+#include "core/recording/own/csv_cells.hpp"
+#include "core/recording/own/guess.hpp"
+#include "recording_fixture.hpp"
+
+namespace drift::own_readings_test {
+namespace {
+
+using namespace test;
+
+TEST(OwnReadings, AxesOfColumnsToldByTheirValuesAreThoseOfTheirNames) {
+  const Folder folder;
+  const auto channels = [&](const char* header) {
+    const GuessedFile file = guess_file(folder.write(
+        "own.csv",
+        std::string("t [s];") + header + "\n1;0,98;0,1;0,17\n2;0,17;0,98;0,1\n3;0,1;0,17;0,98\n"));
+    std::string text;
+    for (const GuessedColumn& c : file.columns) text += c.channel + " ";
+    return text;
+  };
+  EXPECT_EQ(channels("Sensor Z [g];Sensor X [g];Sensor Y [g]"), "time acc_z acc_x acc_y ");
+  EXPECT_EQ(channels("Sensor 3 [g];Sensor 1 [g];Sensor 2 [g]"), "time acc_x acc_y acc_z ");
+}
+
+TEST(OwnReadings, AMinusOfAWordProcessorIsAMinus) {
+  EXPECT_EQ(parse_cell("\u22121,5", DecimalMark::automatic).value, -1.5);
+  EXPECT_EQ(parse_cell("2.5e\u22123", DecimalMark::automatic).value, 2.5e-3);
+  EXPECT_EQ(parse_cell("\u2212", DecimalMark::automatic).kind, ParsedCell::Kind::text);
+}
+
+TEST(OwnReadings, NoReadingIsAHundredTimesGravity) {
+  const Folder folder;
+  try {  // -999 m/s^2 stands for a missing one
+    read_recording(
+        folder.write("imu.csv",
+                     "time [s],gyro_x [deg/s],gyro_y [deg/s],gyro_z [deg/s],acc_x [g],acc_y "
+                     "[g],acc_z [g]\n1,0,0,0,0,0,1\n2,0,0,0,-101.9,0,0\n3,0,0,0,0,0,1\n"),
+        RecordingKind::strapdown, gravity);
+    FAIL() << "read";
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("-101.9"), std::string::npos) << e.what();
+  }
+}
+
+}  // namespace
+}  // namespace drift::own_readings_test
