@@ -116,11 +116,9 @@ void check_time(const Recording& r, Problems& problems) {
               ? "If this is a clock that begins again at midnight, read it as a counter in "
                 "[recording] of the study file: counter = \"its header\", tick = \"1 ms\" "
                 "and wrap = 86400000, or what a count is, and how many make a day"
-          : t == last
-              ? "Remove rows that were written twice"
-              : "If a clock begins again here (in each position, in autumn, where a counter is "
-                "full), write times that go on, or read it as a counter of [recording]; if "
-                "rows are out of order, sort them");
+              : "Remove rows that were written twice; if a clock begins again here (in each "
+                "position, in autumn, where a counter is full), write times that go on, or read it "
+                "as a counter of [recording]; sort only rows that are out of order");
       if (begins_again_at_midnight(last, t)) last = -HUGE_VAL;  // said once
     }
     if (t > last) {
