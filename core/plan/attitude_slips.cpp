@@ -51,9 +51,9 @@ constexpr HeadingSlip heading_slips[] = {
 /// Columns that may be in another unit, as bits: gimbal_outer, gimbal_middle, gimbal_inner,
 /// case_heading.
 using Columns = unsigned;
-constexpr std::string_view names[] = {"gimbal_outer", "gimbal_middle", "gimbal_inner",
-                                      "case_heading"};
-constexpr Columns gimbals = 7, heading = 8;
+constexpr std::string_view column_names[] = {"gimbal_outer", "gimbal_middle", "gimbal_inner",
+                                             "case_heading"};
+constexpr Columns all_gimbals = 7, of_case = 8;
 
 double& angle_of(Sight& s, int column) {
   return column < 3 ? s.seen[column] : s.heading;
@@ -103,7 +103,7 @@ std::optional<std::string> in_another_unit(const std::vector<Sight>& sights, Col
   std::string_view was;
   for (std::size_t i = 0; i < 4; ++i) {
     if ((columns >> i & 1U) == 0) continue;
-    wrong.push_back(names[i]);
+    wrong.push_back(column_names[i]);
     if (was.empty()) was = said[i].symbol.view();
   }
   for (const auto& [symbol, to_si] : angle_units()) {
@@ -132,11 +132,11 @@ double gimbal_mismatch(const Sight& s) {
 
 std::optional<std::string> slip_behind(const std::vector<Sight>& sights, const AngleUnits& units) {
   if (sights.size() < fewest_sights) return std::nullopt;
-  if (auto text = in_another_unit(sights, gimbals, units)) return text;
+  if (auto text = in_another_unit(sights, all_gimbals, units)) return text;
   for (const HeadingSlip& slip : heading_slips)
     if (brings_all_into_place(sights, slip.undo)) return std::string(slip.text);
   // Of gimbals alone, or of the heading too, the fewest first.
-  for (const Columns columns : {heading, gimbals | heading, 1U, 2U, 4U, 3U, 5U, 6U})
+  for (const Columns columns : {of_case, all_gimbals | of_case, 1U, 2U, 4U, 3U, 5U, 6U})
     if (auto text = in_another_unit(sights, columns, units)) return text;
   return std::nullopt;
 }
