@@ -20,7 +20,7 @@ REGRESSION = 0.8  # a ratio below this part of the stored one is told
 PROGRAMS = {
     "bench_ekf": ["ekf63_sequential", "ekf63_lanes", "ekf63_pass", "ekf63_pass_alone", "ekf63_pass_10s"],
     "bench_study": ["run_one_pass", "run_iterated", "threads2"],
-    "bench_sensitivities": ["sensitivities_cvodes"],
+    "bench_sensitivities": ["sensitivities_cvodes", "sensitivities_alone"],
     "bench_servo": ["servo_dwell", "servo_slew"],
 }
 COMMANDS = ["diagnose24", "rank_improve"]

@@ -112,11 +112,14 @@ Blocks signal_figure(const Diagnosis& d) {
   for (std::size_t k = 0; k < std::min(most, d.signals.size()); ++k)
     chart.panels.push_back(signal_panel(d.signals[k], d.where));
   if (chart.panels.empty()) return {};
-  return {
-      zoomable(chart,
-               "The input that would explain the misfit, as a time series; grey: the located "
-               "window. The signature of the cause is what the fitted parameters cannot absorb.",
-               "signal.svg")};
+  const bool shaded =
+      std::ranges::any_of(chart.panels, [](const Panel& panel) { return !panel.expected.empty(); });
+  return {zoomable(
+      chart,
+      fmt::format("The input that would explain the misfit, as a time series{}. The signature of "
+                  "the cause is what the fitted parameters cannot absorb.",
+                  shaded ? "; grey: the located window" : ""),
+      "signal.svg")};
 }
 
 }  // namespace

@@ -19,29 +19,27 @@ struct Range {
   void include(std::span<const double> values);
 };
 
-/// An axis: a range that starts and ends a little outside the data, and round numbers in it.
-struct AxisScale {
-  Range range;
-  std::vector<double> ticks;
-  std::vector<std::string> labels;  ///< of the ticks, without the common factor
-  std::string factor;               ///< "×10^6" that the labels are to be multiplied by, or empty
-
-  /// Position of a value along an axis of `pixels`, clamped far outside; NaN for what is not shown.
-  double at(double value, double pixels) const;
-};
-
-/// About `count` ticks of 1, 2 or 5 times a power of ten. A constant is shown in the middle of a
-/// range of its own; an empty range is 0 to 1.
-AxisScale make_scale(const Range& data, int count, double margin);
-
 enum class Spacing { linear, logarithmic };
 
 /// A value as it stands on an axis: itself, or its decimal logarithm; NaN of what has none.
 double spaced(double value, Spacing spacing);
 
-/// Which ticks are labelled: on a logarithmic axis the powers of ten alone, if there are two or
-/// more.
-std::vector<std::size_t> shown_ticks(const AxisScale& scale, Spacing spacing);
-std::string tick_label(const AxisScale& scale, std::size_t tick, Spacing spacing);
+/// An axis: a range that starts and ends a little outside the data, and round numbers in it.
+struct AxisScale {
+  Range range;  ///< as values stand on the axis (spaced), the ticks likewise
+  std::vector<double> ticks;
+  std::vector<std::string> labels;  ///< of the ticks, without the common factor
+  std::string factor;               ///< "×10^6" that the labels are to be multiplied by, or empty
+
+  /// Position of a value as it stands on the axis, along `pixels`, clamped far outside; NaN for
+  /// what is not shown.
+  double at(double value, double pixels) const;
+};
+
+/// About `count` ticks of 1, 2 or 5 times a power of ten; on a logarithmic axis powers of ten, with
+/// numbers between them where these are fewer than three. data: as values stand on the axis. A
+/// constant is shown in the middle of a range of its own; an empty range is 0 to 1.
+AxisScale make_scale(const Range& data, int count, double margin,
+                     Spacing spacing = Spacing::linear);
 
 }  // namespace drift::report

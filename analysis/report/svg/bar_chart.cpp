@@ -35,7 +35,7 @@ std::string svg_of(const BarChart& chart) {
   const double under = above ? label_row : 0.0, row = bar_row + under;
   const double y0 = (chart.title.empty() ? 8.0 : 40.0) + (chart.limit ? 16.0 : 0.0);
   const double h = row * static_cast<double>(chart.bars.size());
-  const AxisScale scale = make_scale(range, static_cast<int>(w / 60.0), 0.02);
+  const AxisScale scale = make_scale(range, static_cast<int>(w / 60.0), 0.02, chart.spacing);
   const ValueAxis axis{scale, chart.spacing, x0, y0, w, h};
   const auto x_of = [&](double v) { return axis.at(v); };
   const double zero = chart.spacing == Spacing::linear ? x_of(0.0) : x0;

@@ -39,7 +39,7 @@ std::string svg_of(const DumbbellChart& chart) {
   const double y0 = (chart.title.empty() ? 30.0 : 58.0) + (chart.limit ? 14.0 : 0.0) +
                     (crossed && !chart.text_label.empty() ? label_line : 0.0);
   const double h = row * static_cast<double>(chart.lines.size());
-  const AxisScale scale = make_scale(range, static_cast<int>(w / 60.0), 0.03);
+  const AxisScale scale = make_scale(range, static_cast<int>(w / 60.0), 0.03, chart.spacing);
   const ValueAxis axis{scale, chart.spacing, x0, y0, w, h};
   const auto x_of = [&](double v) { return axis.at(v); };
 

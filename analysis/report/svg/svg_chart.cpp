@@ -47,8 +47,9 @@ class PanelPainter {
     if (panel.y_range)
       ys = {spaced(panel.y_range->low, panel.y_spacing),
             spaced(panel.y_range->high, panel.y_spacing)};
-    x_scale_ = make_scale(xs, static_cast<int>(w_ / (linear ? 56.0 : 40.0)), linear ? 0.0 : 0.02);
-    y_scale_ = make_scale(ys, static_cast<int>(h_ / 32.0), 0.06);
+    x_scale_ = make_scale(xs, static_cast<int>(w_ / (linear ? 56.0 : 40.0)), linear ? 0.0 : 0.02,
+                          panel.x_spacing);
+    y_scale_ = make_scale(ys, static_cast<int>(h_ / 32.0), 0.06, panel.y_spacing);
   }
 
   void paint() {
@@ -77,31 +78,28 @@ class PanelPainter {
   void axes() {
     canvas_.text(x0_ + 0.5 * w_, y0_ - 12.0, panel_.title,
                  {.size = 13.0, .anchor = "middle", .bold = true});
-    for (const std::size_t i : shown_ticks(y_scale_, panel_.y_spacing)) {
+    for (std::size_t i = 0; i < y_scale_.ticks.size(); ++i) {
       const double y = y0_ + h_ - y_scale_.at(y_scale_.ticks[i], h_);
       canvas_.line(x0_, y, x0_ + w_, y, "#e4e4e4", 1.0);
-      canvas_.text(x0_ - 6.0, y + 3.5, tick_label(y_scale_, i, panel_.y_spacing),
-                   {.size = small_type, .anchor = "end"});
+      canvas_.text(x0_ - 6.0, y + 3.5, y_scale_.labels[i], {.size = small_type, .anchor = "end"});
     }
-    for (const std::size_t i : shown_ticks(x_scale_, panel_.x_spacing)) {
+    for (std::size_t i = 0; i < x_scale_.ticks.size(); ++i) {
       const double x = x0_ + x_scale_.at(x_scale_.ticks[i], w_);
       canvas_.line(x, y0_, x, y0_ + h_, "#f0f0f0", 1.0);
       canvas_.line(x, y0_ + h_, x, y0_ + h_ + 4.0, "#555555", 1.0);
-      const std::string label = tick_label(x_scale_, i, panel_.x_spacing);
+      const std::string& label = x_scale_.labels[i];
       const double last = x0_ + w_ + right - 0.5 * text_pixels(label, small_type) - 3.0;
       canvas_.text(std::min(x, last), y0_ + h_ + 16.0, label,
                    {.size = small_type, .anchor = "middle"});
     }
     canvas_.line(x0_, y0_ + h_, x0_ + w_, y0_ + h_, "#555555", 1.0);
     canvas_.line(x0_, y0_, x0_, y0_ + h_, "#555555", 1.0);
-    const auto labelled = [](const std::string& label, const AxisScale& scale, Spacing spacing) {
-      const bool plain = scale.factor.empty() || spacing == Spacing::logarithmic;
-      return plain ? label : label + "  " + scale.factor;
+    const auto labelled = [](const std::string& label, const AxisScale& scale) {
+      return scale.factor.empty() ? label : label + "  " + scale.factor;
     };
-    canvas_.text(x0_ + 0.5 * w_, y0_ + h_ + 34.0,
-                 labelled(panel_.x_label, x_scale_, panel_.x_spacing), {.anchor = "middle"});
-    canvas_.text(x0_ - left + 14.0, y0_ + 0.5 * h_,
-                 labelled(panel_.y_label, y_scale_, panel_.y_spacing),
+    canvas_.text(x0_ + 0.5 * w_, y0_ + h_ + 34.0, labelled(panel_.x_label, x_scale_),
+                 {.anchor = "middle"});
+    canvas_.text(x0_ - left + 14.0, y0_ + 0.5 * h_, labelled(panel_.y_label, y_scale_),
                  {.anchor = "middle", .turned = -90.0});
   }
 

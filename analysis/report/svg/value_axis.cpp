@@ -5,18 +5,16 @@
 namespace drift::report {
 
 std::vector<std::string> ValueAxis::label(const std::string& label, double picture_width) const {
-  const bool factor = spacing == Spacing::linear && !scale.factor.empty();
-  return wrapped(factor ? label + "  " + scale.factor : label, picture_width - 2.0 * canvas_edge,
-                 label_type);
+  return wrapped(scale.factor.empty() ? label : label + "  " + scale.factor,
+                 picture_width - 2.0 * canvas_edge, label_type);
 }
 
 void ValueAxis::draw(SvgCanvas& canvas, const std::vector<std::string>& label,
                      double picture_width) const {
-  for (const std::size_t i : shown_ticks(scale, spacing)) {
+  for (std::size_t i = 0; i < scale.ticks.size(); ++i) {
     const double tick = x + scale.at(scale.ticks[i], width);
     canvas.line(tick, y, tick, y + height + 4.0, "#e4e4e4", 1.0);
-    canvas.text(tick, y + height + 17.0, tick_label(scale, i, spacing),
-                {.size = small_type, .anchor = "middle"});
+    canvas.text(tick, y + height + 17.0, scale.labels[i], {.size = small_type, .anchor = "middle"});
   }
   canvas.label(x + 0.5 * width, y + height + 36.0, label, picture_width);
 }

@@ -22,13 +22,6 @@ class Information {
   /// Adds `count` rows that lie one after the other.
   void add(const double* rows, std::size_t count);
 
-  /// Takes the sum as it is elsewhere: of(i, j) for i <= j, the right hand side behind the
-  /// parameters.
-  template <class Of>
-  void fill(Of&& of) {
-    for (std::size_t i = 0; i <= n_; ++i)
-      for (std::size_t j = i; j <= n_; ++j) sum_[i * width_ + j] = of(i, j);
-  }
   /// Sum of t P w^T over `count` rows t, of `rows`, and w, of `others`; P symmetric, shape (n, n).
   double product(const double* rows, const double* others, std::size_t count, const MatX& P);
 

@@ -13,7 +13,6 @@ IteratedLanes::IteratedLanes(const FilterSpec& filter, const Timeline& timeline,
       layout_(along_.layout()),
       attitude_(along_.attitude()),
       information_(layout_.size()),
-      one_(layout_.size(), Information::row_width(layout_.size())),
       ends_(static_cast<std::size_t>(timeline.chains), attitude_),
       x_(layout_.size()),
       x_start_(x_),
@@ -64,7 +63,7 @@ void IteratedLanes::run(std::span<IteratedJob> jobs) {
   while (!waiting_.empty())
     in_packs([&] {
       linear_pass();
-      for (std::size_t lane = 0; lane < used_; ++lane) settle(lane);
+      settle();
     });
 }
 
@@ -73,6 +72,7 @@ void IteratedLanes::load(std::span<IteratedJob* const> jobs) {
   for (std::size_t l = 0; l < width; ++l) {
     lanes_[l] = jobs[std::min(l, used_ - 1)];
     recordings_[l] = lanes_[l]->measured;
+    covariances_[l] = &lanes_[l]->P_;
   }
   for (std::size_t k = 0; k < x_.size(); ++k) {
     const auto at = static_cast<Eigen::Index>(k);

@@ -43,8 +43,8 @@ class IteratedLanes {
   void load(std::span<IteratedJob* const> jobs);
   void begin();
   void linear_pass();
-  void settle(std::size_t lane);
-  void finish(IteratedJob& job, int lane);
+  void settle();
+  void settle(IteratedJob& job, std::size_t lane);
   void take(std::size_t i, bool follows, Pass pass);
   void take_scalars(const Interval& interval, LaneIntervals::Channel channel,
                     LaneFilter::Scalars scalars, Pass pass);
@@ -56,12 +56,13 @@ class IteratedLanes {
   const Layout& layout_;
   LaneFilter& attitude_;
   LaneInformation information_;
-  Information one_;  ///< that of a lane
   std::array<IteratedJob*, width> lanes_{};
   std::size_t used_ = 0;  ///< lanes; in the others is the last job once more
   LaneIntervals::Recordings recordings_{};
+  std::array<MatX*, width> covariances_{};
   std::vector<LaneFilter> ends_;
   std::vector<Pack> x_, x_start_, moved_, step_, prior_;
+  Pack lagged_;
   std::vector<IteratedJob*> waiting_;
 };
 

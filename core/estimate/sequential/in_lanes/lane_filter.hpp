@@ -35,6 +35,8 @@ class LaneFilter {
 
   /// Estimate of the attitude where the parameters are x off the reference [rad].
   PackVec attitude(const std::vector<Pack>& x) const;
+  /// d psi / d parameter k, of its prior's sigma: three numbers [rad].
+  const Pack* by_parameter(std::size_t k) const { return &U_[3 * k]; }
   /// The reference moves to where the attitude is estimated.
   void move_reference();
 

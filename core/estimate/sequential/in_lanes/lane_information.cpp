@@ -43,6 +43,20 @@ void add_rows(const Pack* x, const Pack* y, std::size_t rows, Pack* sum) {
     }
 }
 
+/// L^-1 times a tile whose rows of four stand one after the other. triangle: L, transposed.
+[[gnu::always_inline]] inline void solve_rows(const Pack* triangle, const Pack* inverse,
+                                              Pack (&tile)[16]) {
+#pragma GCC unroll 4
+  for (int q = 0; q < 4; ++q)
+#pragma GCC unroll 4
+    for (int j = 0; j < 4; ++j) {
+      tile[4 * q + j] *= inverse[q];
+#pragma GCC unroll 4
+      for (int i = q + 1; i < 4; ++i)
+        tile[4 * i + j] = mul_add(-triangle[4 * q + i], tile[4 * q + j], tile[4 * i + j]);
+    }
+}
+
 }  // namespace
 
 LaneInformation::LaneInformation(std::size_t parameters)
@@ -51,6 +65,8 @@ LaneInformation::LaneInformation(std::size_t parameters)
       sum_(index(tiles_, 0)),
       neighbours_(sum_.size()),
       factor_(sum_.size()),
+      inverse_(sum_.size()),
+      inverse_factor_(sum_.size()),
       inverse_diagonal_(4 * tiles_, Pack(1.0)),
       panel_(tiles_ * most_rows * 4, Pack(0.0)),
       beside_(panel_) {
@@ -169,18 +185,53 @@ void LaneInformation::solve(Pack* x) const {
   }
 }
 
-void LaneInformation::extract(int lane, Information& into) const {
-  into.fill([&](std::size_t i, std::size_t j) { return element(sum_, j, i)[lane]; });
+/// The factor's inverse W column after column of tiles, then P = W^T W.
+void LaneInformation::invert() {
+  const std::size_t side = (n_ + 3) / 4;
+  for (std::size_t J = 0; J < side; ++J)
+    for (std::size_t I = J; I < side; ++I) {
+      Pack tile[16];
+      for (Pack& e : tile) e = Pack(0.0);
+      if (I == J)
+        for (int i = 0; i < 4; ++i) tile[5 * i] = Pack(1.0);
+      for (std::size_t K = J; K < I; ++K) {
+        const Pack *l = factor_[index(I, K)].data(), *w = inverse_factor_[index(K, J)].data();
+        for (int q = 0; q < 4; ++q) add_product<Sign::minus>(l + 4 * q, w + 4 * q, tile);
+      }
+      solve_rows(factor_[index(I, I)].data(), &inverse_diagonal_[4 * I], tile);
+      store_tile(tile, inverse_factor_[index(I, J)].data());
+    }
+  for (std::size_t I = 0; I < side; ++I)
+    for (std::size_t J = 0; J <= I; ++J) {
+      Pack tile[16];
+      for (Pack& e : tile) e = Pack(0.0);
+      for (std::size_t K = I; K < side; ++K) {
+        const Pack *x = inverse_factor_[index(K, I)].data(),
+                   *y = inverse_factor_[index(K, J)].data();
+        for (int q = 0; q < 4; ++q) add_product<Sign::plus>(x + 4 * q, y + 4 * q, tile);
+      }
+      store_tile(tile, inverse_[index(I, J)].data());
+    }
 }
 
-double LaneInformation::lagged(int lane, const VecX& d, const MatX& P) const {
-  double sum = 0.0;
+void LaneInformation::extract(std::span<MatX* const> lanes) const {
+  for (std::size_t i = 0; i < n_; ++i)
+    for (std::size_t j = 0; j <= i; ++j) {
+      double of_lanes[Pack::width];
+      element(inverse_, i, j).store(of_lanes);
+      const auto at_i = static_cast<Eigen::Index>(i), at_j = static_cast<Eigen::Index>(j);
+      for (std::size_t l = 0; l < lanes.size(); ++l)
+        (*lanes[l])(at_i, at_j) = (*lanes[l])(at_j, at_i) = of_lanes[l];
+    }
+}
+
+Pack LaneInformation::lagged(const Pack* d) const {
+  Pack sum(0.0);
   for (std::size_t i = 0; i <= n_; ++i)
     for (std::size_t j = 0; j <= i; ++j) {
-      const auto at_i = static_cast<Eigen::Index>(i), at_j = static_cast<Eigen::Index>(j);
-      const double v = i < n_ ? -d[at_i] : 1.0, w = j < n_ ? -d[at_j] : 1.0;
-      const double weight = v * w + (i < n_ && j < n_ ? P(at_i, at_j) : 0.0);
-      sum += (i == j ? 0.5 : 1.0) * weight * element(neighbours_, i, j)[lane];
+      const Pack v = i < n_ ? -d[i] : Pack(1.0), w = j < n_ ? -d[j] : Pack(1.0);
+      const Pack weight = i < n_ ? mul_add(v, w, element(inverse_, i, j)) : v * w;
+      sum = mul_add(Pack(i == j ? 0.5 : 1.0) * weight, element(neighbours_, i, j), sum);
     }
   return sum;
 }

@@ -1,10 +1,11 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
+#include "core/base/linalg.hpp"
 #include "core/estimate/sequential/in_lanes/lane_math.hpp"
-#include "core/estimate/sequential/information.hpp"
 
 namespace drift {
 
@@ -33,10 +34,12 @@ class LaneInformation {
   void solve(Pack* x) const;
   /// Sum of t_k e, and of e^2 for k = parameters.
   const Pack& right(std::size_t k) const { return element(sum_, n_, k); }
-  /// The information of one lane.
-  void extract(int lane, Information& into) const;
-  /// Sum over neighbours s, w of (e_s - s d)(e_w - w d) + s P w^T, in one lane.
-  double lagged(int lane, const VecX& d, const MatX& P) const;
+  /// P = (1 + information)^-1, after factorise().
+  void invert();
+  /// P of the first lanes, one after the other, shape (parameters, parameters) each.
+  void extract(std::span<MatX* const> lanes) const;
+  /// Sum over neighbours s, w of (e_s - s d)(e_w - w d) + s P w^T.
+  Pack lagged(const Pack* d) const;
 
  private:
   using Tile = std::array<Pack, 16>;
@@ -54,7 +57,8 @@ class LaneInformation {
   void add_neighbours();
 
   std::size_t n_, tiles_;  ///< parameters; tiles along a side
-  std::vector<Tile> sum_, neighbours_, factor_;
+  std::vector<Tile> sum_, neighbours_, factor_, inverse_;
+  std::vector<Tile> inverse_factor_;  ///< work
   std::vector<Pack> inverse_diagonal_;
   std::vector<Pack> panel_;  ///< rows; the first six are the last ones before the flush, by channel
   std::vector<Pack> beside_;  ///< work: sums of the neighbours of a row, as panel_

@@ -135,6 +135,11 @@ void LaneIntervals::to_end(const Interval& interval) {
   attitude_.propagate(Phi_rest, rest_G_);
 }
 
+void LaneIntervals::through(const Interval& interval) {
+  const std::size_t last = interval.node_count() - 1;
+  attitude_.propagate(Phi_[last], G_[last]);
+}
+
 /// mean_output (linearize.hpp), in lanes.
 LaneFilter::Scalars LaneIntervals::read_accelerometers(std::size_t i,
                                                        const Recordings& recordings) {

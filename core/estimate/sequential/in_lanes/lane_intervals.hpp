@@ -49,6 +49,8 @@ class LaneIntervals {
   /// The filter of the attitude comes to the middle of the interval, then to its end.
   void to_middle(const Interval& interval);
   void to_end(const Interval& interval);
+  /// From its beginning to its end, where nothing is read on the way.
+  void through(const Interval& interval);
   /// What was read in interval i, to be taken in at its middle and at its end. What no lane has
   /// measured is taken in as well: how rows come together must not hang on which runs do.
   LaneFilter::Scalars read_accelerometers(std::size_t i, const Recordings& recordings);

@@ -19,9 +19,15 @@ void IteratedLanes::diverged(std::size_t lane, bool finite, double t, Pass pass)
                            pass == Pass::first ? "filter" : "second pass of the filter", t);
 }
 
-/// What the linear pass says of one lane.
-void IteratedLanes::settle(std::size_t l) {
-  IteratedJob& job = *lanes_[l];
+/// What the linear pass says of every lane.
+void IteratedLanes::settle() {
+  information_.invert();
+  information_.extract(std::span(covariances_).first(used_));
+  lagged_ = information_.lagged(moved_.data());
+  for (std::size_t lane = 0; lane < used_; ++lane) settle(*lanes_[lane], lane);
+}
+
+void IteratedLanes::settle(IteratedJob& job, std::size_t l) {
   const int lane = static_cast<int>(l);
   const std::size_t n = x_.size();
   double right = 0.0, square = 0.0;
@@ -41,20 +47,13 @@ void IteratedLanes::settle(std::size_t l) {
   // No component is longer, in its sigma, than the whole step is in the metric of the covariance,
   // d (1 + information) d.
   const bool small = right < 1.0, last = job.passes_ == most_passes;
-  information_.extract(lane, one_);
-  one_.factorise();
-  one_.invert(job.P_);
-  if (small || last ||
-      (job.moved_.array().abs() / job.P_.diagonal().array().sqrt()).maxCoeff() < 1.0)
-    finish(job, lane);
-}
-
-void IteratedLanes::finish(IteratedJob& job, int lane) {
-  job.done_ = true;
+  job.done_ = small || last ||
+              (job.moved_.array().abs() / job.P_.diagonal().array().sqrt()).maxCoeff() < 1.0;
+  if (!job.done_) return;
   const double variance = job.nis_ / static_cast<double>(job.scalars_);
-  const double lagged = information_.lagged(lane, job.moved_, job.P_);
-  job.lag1_ =
-      job.pairs_ > 0 && job.nis_ > 0.0 ? lagged / static_cast<double>(job.pairs_) / variance : 0.0;
+  job.lag1_ = job.pairs_ > 0 && job.nis_ > 0.0
+                  ? lagged_[lane] / static_cast<double>(job.pairs_) / variance
+                  : 0.0;
   job.theta_ = layout_.theta_at(job.x_);
   for (Eigen::Index k = 0; k < job.sigma_.size(); ++k)
     job.sigma_[k] = layout_.sigma[k] * std::sqrt(job.P_(k, k));

@@ -148,6 +148,22 @@ TEST(AxisScale, TicksAreRoundAndInRange) {
   EXPECT_EQ(large.labels.back(), "4");
 }
 
+TEST(AxisScale, LogarithmicTicksAreWhereTheirLabelsSay) {
+  const auto ticks = [](double low, double high) {
+    const report::AxisScale s = report::make_scale({std::log10(low), std::log10(high)}, 8, 0.0,
+                                                   report::Spacing::logarithmic);
+    EXPECT_EQ(s.ticks.size(), s.labels.size());
+    for (std::size_t i = 0; i < s.ticks.size(); ++i)
+      EXPECT_NEAR(std::stod(s.labels[i]), std::pow(10.0, s.ticks[i]), 1e-9 * high);
+    return s.labels;
+  };
+  using Labels = std::vector<std::string>;
+  EXPECT_EQ(ticks(0.85, 2.1), (Labels{"1", "1.2", "1.4", "1.6", "1.8", "2"}));
+  EXPECT_EQ(ticks(1.0, 20.0), (Labels{"1", "2", "5", "10", "20"}));
+  EXPECT_EQ(ticks(0.05, 200.0), (Labels{"0.1", "1", "10", "100"}));
+  EXPECT_EQ(ticks(1e-9, 1e9), (Labels{"1e-05", "1", "100000"}));
+}
+
 TEST(AxisScale, ConstantStandsInTheMiddle) {
   for (const double c : {0.0, 5.0, -3e8})
     EXPECT_NEAR(report::make_scale({c, c}, 5, 0.05).at(c, 100.0), 50.0, 1e-6);
