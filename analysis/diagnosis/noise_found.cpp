@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "analysis/inference/evidence.hpp"
+#include "analysis/inference/noise/noise_component.hpp"
 #include "analysis/inference/thresholds.hpp"
 
 namespace drift::diagnosis {
@@ -52,9 +53,8 @@ std::optional<remark::NoiseOrEffect> noise_or_effect(const search::Fitted& nomin
   if (!nominal.noise.driven) return std::nullopt;
   const inference::NoiseModel declared = search::declared_noise(nominal.filter);
   inference::NoiseModel plain = nominal.noise.model;
-  plain.angle_random_walk = declared.angle_random_walk;
-  plain.drift_random_walk = declared.drift_random_walk;
-  plain.markov_drift = plain.acc_markov = 0.0;
+  for (const inference::NoiseComponent* c : inference::beside_white)
+    plain.*(c->sigma) = declared.*(c->sigma);
   const inference::Evidence seen =
       inference::evidence_under(nominal.problem, nominal.set, plain, {});
   const auto worth = [&](std::size_t k) {

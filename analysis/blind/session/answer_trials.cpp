@@ -51,7 +51,6 @@ Answer solved(const Solver& solver, const fs::path& here) {
 }
 
 void answer_one(const Solver& solver, std::size_t number, const fs::path& folder) {
-  constexpr std::size_t most_crashes = 2;
   const fs::path here = trial_folder(folder, number);
   const auto started = std::chrono::steady_clock::now();
   const auto crashes = crashes_in((here / "crashes").string());

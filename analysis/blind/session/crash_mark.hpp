@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,10 @@ class CrashMark {
   std::string file_;
   std::vector<char> stack_;  ///< for the handler: that of the thread may be what ran out
 };
+
+/// Crashes after which a trial is given up: whatever the program died of once, a second time shows
+/// that it lies in the trial and not in the machine.
+inline constexpr std::size_t most_crashes = 2;
 
 /// The crashes that a file tells of, by the names of their signals.
 std::vector<std::string> crashes_in(const std::string& file);

@@ -282,7 +282,7 @@ NoiseEstimate estimate_noise_from(const LinearProblem& problem, const NoiseModel
   Mixture m = declared_mixture(rows, declared);
   while (true) {
     std::vector<Addition> offered;
-    for (const NoiseComponent* c : {&angle_walk, &drift_walk, &markov_drift, &acc_markov})
+    for (const NoiseComponent* c : beside_white)
       if (c->in(start.model) && !c->in(m.model))
         offered.push_back({c, c->tau ? start.model.*(c->tau) : 0.0});
     std::optional<Mixture> more = with_one_more(rows, m, declared, offered);

@@ -62,6 +62,10 @@ inline constexpr NoiseComponent acc_markov{
     "accelerometer_markov", &NoiseModel::acc_markov, &NoiseModel::acc_tau, unit::ug, {0.2, 1.2},
     {150.0, 900.0}};
 
+/// Every component beside white noise of the instruments.
+inline constexpr const NoiseComponent* beside_white[] = {&angle_walk, &drift_walk, &markov_drift,
+                                                         &acc_markov};
+
 /// Where the size of a component usually is, in units of `acc_sigma` for the accelerometers' [g].
 /// What is declared is so within a factor of two. Of gyros that are declared coarser than those of
 /// physics.md, data sheets state a bias instability B of 5 to 60 times the angle random walk N per

@@ -28,7 +28,8 @@ Report identification_report(const mc::Study& study, const identification::Ident
   report.add({estimate_figures(study, id),
               {"Published results beside ours", blocks, On::page, Part::details}});
   for (std::size_t f = 0; f < id.summaries.size(); ++f) {
-    const auto sections = sections_of(FilterView{study, id, id.summaries[f]}, filter_sections);
+    const FilterView view{study, id, id.summaries[f]};
+    const auto sections = sections_of(view, filter_sections, view.spec().name);
     add_tables(document["filters"][f], sections);
     report.add(sections);
   }

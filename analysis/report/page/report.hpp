@@ -79,6 +79,7 @@ struct Section {
   Blocks blocks = {};
   On on = On::both;  ///< of all its blocks
   Part part = Part::evidence;
+  std::string filter = {};  ///< the one of several that it is about: first column of its CSV files
 
   void add(Blocks more) { blocks.insert(blocks.end(), more.begin(), more.end()); }
 };
@@ -117,13 +118,15 @@ struct ListedSection {
   Part part;
 };
 
-/// What the functions of a list say of a view.
+/// What the functions of a list say of a view, of one of several filters by its name.
 template <class View, std::size_t n>
-std::vector<Section> sections_of(const View& view, const ListedSection<View> (&list)[n]) {
+std::vector<Section> sections_of(const View& view, const ListedSection<View> (&list)[n],
+                                 const std::string& filter = {}) {
   std::vector<Section> all;
   for (const ListedSection<View>& s : list) {
     all.push_back(s.make(view));
     all.back().part = s.part;
+    all.back().filter = filter;
   }
   return all;
 }
@@ -156,8 +159,12 @@ std::string text_of(const std::vector<Section>& sections, std::size_t width = 10
 /// zooms its time series, which is in it once. All text is escaped.
 std::string to_html(const Report& report);
 
-/// Writes document, files, figures and report.html into a folder, made if need be. Returns the
-/// names of the files. InputError (io) if one cannot be written.
+/// Every table that has an id as a file, "odds.csv"; those of several filters are one file, whose
+/// first column names the filter. Tables of one id have the same columns.
+std::vector<TextFile> csv_files(const std::vector<Section>& sections);
+
+/// Writes document, files, tables, figures and report.html into a folder, made if need be. Returns
+/// the names of the files. InputError (io) if one cannot be written.
 std::vector<std::string> write_report(const Report& report, const std::string& folder);
 
 }  // namespace drift::report

@@ -80,7 +80,8 @@ struct Table {
   std::vector<Column> columns;
   std::vector<TableRow> rows;
   std::string note = {};  ///< below the table; may be empty
-  std::string id = {};    ///< its name in the JSON document of the report; empty: not added to it
+  /// Its name in the JSON document of the report, and of a CSV file; empty: in neither.
+  std::string id = {};
   RowLimit limit = {};
 
   /// "key=heading | ...": without "key=" for people alone; '<' before a heading aligns left.

@@ -74,7 +74,8 @@ Report rank_report(const mc::Study& study, const planning::PlanRanking& rank) {
   report.add({{better.title, better.blocks, On::page}});
   for (std::size_t g = 0; g < rank.groups.size(); ++g) {
     const std::string suffix = rank.groups.size() > 1 ? fmt::format("_{}", g + 1) : "";
-    const auto sections = sections_of(RankedGroup{study, rank.groups[g], suffix}, group_sections);
+    const auto sections = sections_of(RankedGroup{study, rank.groups[g], suffix}, group_sections,
+                                      rank.groups[g].filters);
     add_tables(document["filters"][g], sections);
     report.add(sections);
   }

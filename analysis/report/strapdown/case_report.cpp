@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/report/noise/noise.hpp"
+#include "analysis/report/page/json.hpp"
 #include "analysis/report/page/wording.hpp"
 
 namespace drift::report {
@@ -219,7 +220,9 @@ Report case_report(const mc::Study& study, const CaseIdentification& id) {
   report.subtitle = fmt::format("Strapdown recording {}", id.study.source);
   report.brief = in_brief(id);
   report.add(sections_of(id, case_sections));
-  report.document = {"identification.json", to_json(id, study.site.gravity).dump(2) + "\n"};
+  Json document = to_json(id, study.site.gravity);
+  add_tables(document, report.sections);
+  report.document = {"identification.json", document.dump(2) + "\n"};
   report.files.emplace_back("study.toml", study.text);
   report.files.emplace_back("estimates.csv", estimates_csv(id));
   return report;

@@ -151,9 +151,28 @@ TEST(OneReport, LongTablesAreFoldedInPlace) {
 TEST(OneReport, WritesDocumentFilesFiguresAndPage) {
   const test::ScratchFolder folder;
   EXPECT_EQ(write_report(two_sections(), folder.file("out")),
-            (std::vector<std::string>{"doc.json", "more.toml", "a.svg", "b.svg", "report.html"}));
+            (std::vector<std::string>{"doc.json", "more.toml", "sizes.csv", "a.svg", "b.svg",
+                                      "report.html"}));
   EXPECT_EQ(test::text_of(folder.file("out/doc.json")), "{}\n");
   EXPECT_EQ(test::text_of(folder.file("out/report.html")), to_html(two_sections()));
+}
+
+TEST(OneReport, NamedTablesAreFilesWithTheFilterAsAColumn) {
+  Table table("Counts", "what=<what | n=n");
+  table.id = "counts";
+  table.add_heading("a heading is no row");
+  table.add({"seen", 3});
+  const Section of_none{"", {table}};
+  Section one{"", {{table, On::page}, {table, On::terminal}}}, other{"", {table}};
+  one.filter = "legacy, old";
+  other.filter = "corrected";
+  const auto alone = csv_files({of_none}), several = csv_files({one, other});
+  ASSERT_EQ(alone.size(), 1u);
+  EXPECT_EQ(alone[0], (TextFile{"counts.csv", "what,n\nseen,3\n"}));
+  ASSERT_EQ(several.size(), 1u);
+  EXPECT_EQ(several[0].second, "filter,what,n\nlegacy  old,seen,3\ncorrected,seen,3\n");
+  table.id.clear();
+  EXPECT_TRUE(csv_files({{"", {table}}}).empty());
 }
 
 TEST(OneReport, NamedTablesReachADocumentThatDoesNotHoldThem) {
