@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <limits>
 #include <optional>
 
 #include "core/base/atomic_file.hpp"
@@ -48,18 +49,28 @@ std::optional<Seal> seal_of(const std::string& path) {
   return seal_within(file, 0, std::min(size, head));
 }
 
+/// Feeds the next bytes of a file to a sum, a piece at a time: a file may be larger than memory.
+/// How many there were, at most `most`.
+std::streamoff feed(Sha256& sum, std::ifstream& file, std::streamoff most) {
+  std::string piece(std::size_t{1} << 18, '\0');
+  std::streamoff fed = 0;
+  while (fed < most) {
+    file.read(piece.data(), std::min(most - fed, static_cast<std::streamoff>(piece.size())));
+    if (file.gcount() == 0) break;
+    sum.update(std::string_view(piece).substr(0, static_cast<std::size_t>(file.gcount())));
+    fed += file.gcount();
+  }
+  return fed;
+}
+
 /// SHA-256 of a file with zeros in place of its digest; empty if it cannot be read.
 std::string digest_without(const std::string& path, const Seal& seal) {
   std::ifstream file(path, std::ios::binary);
-  std::string piece(static_cast<std::size_t>(seal.at), '\0');
   Sha256 sum;
-  if (!file.read(piece.data(), seal.at)) return {};
-  sum.update(piece);
+  if (feed(sum, file, seal.at) < seal.at) return {};
   sum.update(open_seal());
   file.seekg(seal.at + static_cast<std::streamoff>(digits));
-  piece.resize(std::size_t{1} << 18);
-  while (file.read(piece.data(), static_cast<std::streamsize>(piece.size())) || file.gcount() > 0)
-    sum.update(std::string_view(piece).substr(0, static_cast<std::size_t>(file.gcount())));
+  feed(sum, file, std::numeric_limits<std::streamoff>::max());
   return file.bad() ? std::string() : to_hex(sum.finish());
 }
 

@@ -10,7 +10,7 @@
 namespace drift::stats {
 namespace {
 
-constexpr double weights[3] = {1.0, -2.0, 1.0};  // of a second difference
+constexpr double second_difference[3] = {1.0, -2.0, 1.0};  // its weights
 
 /// A pair of averaging counts, and what follows from it alone.
 struct Pair {
@@ -32,7 +32,8 @@ Eigen::Vector4d covariance(const Pair& p, double lag) {
   const bool touch = lag >= p.first && lag <= p.last;  // beyond, only flicker remembers
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) {
-      const double t = std::abs(lag - p.kinks[3 * i + j]), w = weights[i] * weights[j];
+      const double t = std::abs(lag - p.kinks[3 * i + j]),
+                   w = second_difference[i] * second_difference[j];
       if (t > 0.0) c[2] += w * t * t * std::log(t) / (2.0 * std::numbers::pi);
       if (!touch) continue;
       if (t == 0.0) c[0] += w;

@@ -119,9 +119,14 @@ std::size_t Hdf5Output::make_dataset(const std::string& path, Type type,
 
 std::size_t Hdf5Output::make_scale(const std::string& path, hsize_t size, int first) {
   const std::size_t scale = make_dataset(path, Type::i64, {size});
-  std::vector<double> numbers(size);
-  std::iota(numbers.begin(), numbers.end(), static_cast<double>(first));
-  append(scale, numbers);
+  constexpr hsize_t most = 1 << 17;  // 1 MB at a time: a study may have more runs than memory holds
+  std::vector<double> numbers;
+  for (hsize_t from = 0; from < size; from += numbers.size()) {
+    numbers.resize(std::min(most, size - from));
+    std::iota(numbers.begin(), numbers.end(),
+              static_cast<double>(first) + static_cast<double>(from));
+    append(scale, numbers);
+  }
   name_dimension(scale);
   return scale;
 }
