@@ -221,7 +221,7 @@ InBrief identification_in_brief(const mc::Study& study, const identification::Id
   if (!id.off_zero.empty()) brief.more.add(Weight::wrong, "Gimbals: " + id.off_zero + ".");
   if (!id.spikes.empty()) {
     doubtful = true;
-    brief.more.add(Weight::doubtful,
+    brief.more.add(j.good.empty() ? Weight::wrong : Weight::doubtful,
                    fmt::format("Outliers: {} isolated sample{} far from those around{}, and in the "
                                "fit: leave {} out (an "
                                "empty cell).",
@@ -251,6 +251,11 @@ InBrief identification_in_brief(const mc::Study& study, const identification::Id
                              doubt->latitude / unit::deg.to_si);
   else if (!id.off_zero.empty())
     brief.next = "Next: correct the zero of the gimbal, or its offset, and identify again.";
+  else if (j.good.empty() && !id.spikes.empty() && !other_latitude(id))
+    brief.next = fmt::format(
+        "Next: leave the isolated sample{} out (empty cells) and identify again; `driftscope "
+        "diagnose` leaves {} out by itself.",
+        id.spikes.size() == 1 ? "" : "s", id.spikes.size() == 1 ? "it" : "them");
   else if (!j.first_fits)
     brief.next = fmt::format(
         "Next: {}driftscope diagnose {} {} says what the first filter of the study lacks.",
