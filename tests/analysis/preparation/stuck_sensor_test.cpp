@@ -74,7 +74,7 @@ TEST(Prepare, ACoarseReadoutThatFlickersHereAndStandsThereIsNoStuckSensor) {
   Recording r = simulated(s);
   auto& x = channel(r, "acc_x");
   for (std::size_t i = 0; i < x.size(); ++i)
-    x[i] = 1e-3 * std::round(x[i] / 1e-3) + (i < 120 && i % 2 == 0 ? 1e-3 : 0.0);
+    x[i] = 1e-3 * (std::round(x[i] / 1e-3) + (i < 120 && i % 2 == 0 ? 1.0 : 0.0));
   std::fill(x.begin() + 120, x.begin() + 150, x[120]);
   const Prepared p = prepare(s, {r});
   EXPECT_FALSE(says(p, "stands still"));
