@@ -161,6 +161,8 @@ ExitCode look_without_study(const std::string& path) {
                            : " (guessed; write the units that show as [?])");
   if (const std::string missing = what_is_missing(file); !missing.empty())
     show("\n{}\n", report::wrapped(missing, 100));
+  if (const std::string unplaced = what_has_no_place(file); !unplaced.empty())
+    show("\n{}\n", report::wrapped(unplaced, 100));
   show_commands(path, file.kind);
   return ExitCode::ok;
 }

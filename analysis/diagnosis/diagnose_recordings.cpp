@@ -32,9 +32,9 @@ Diagnosis advised(Diagnosis d, const preparation::Prepared& test,
   return d;
 }
 
-/// Nothing is said of causes and forms, and no probabilities, at a latitude that is not the
-/// recording's.
-Diagnosis of_another_place(Diagnosis d) {
+/// Nothing is said of causes and forms, and no probabilities, at a latitude, or with headings, that
+/// are not the recording's.
+Diagnosis of_another_study(Diagnosis d) {
   d.probabilities = {};
   d.proposal.reset();
   std::erase_if(d.remarks, [](const Remark& r) {
@@ -72,8 +72,10 @@ Diagnosis diagnose_recordings(const mc::Study& study, const std::vector<Recordin
   Diagnosis d = diagnose(test.study, test.recordings, first);
   name_unmapped_temperature(recordings, d.not_examined);
   if (progress) progress("latitude and advice", of_diagnosis);
-  d.site_doubt = site_doubt(test.study, test.recordings, d);
-  if (d.site_doubt) d = of_another_place(std::move(d));
+  if (!d.of_case)
+    d.heading_doubt = identification::heading_doubt(test.study, test.recordings, d.nominal);
+  if (!d.heading_doubt) d.site_doubt = site_doubt(test.study, test.recordings, d);
+  if (d.wrong_study()) d = of_another_study(std::move(d));
   if (!d.of_case) d.absent = identification::absent_channels(test.recordings, test.study.readout);
   d = advised(std::move(d), test, options);
   if (progress) progress("done", 1.0);

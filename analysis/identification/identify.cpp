@@ -156,10 +156,10 @@ void run_jobs(const mc::Study& study, Identification& id, int threads, const Pro
   id.summaries = summarise(study, id);
 }
 
-/// Where no filter fits, or fits with parameters that no prior of its has, the latitude may be
-/// behind it: most of a wrong one is drift that follows the attitude.
-void doubt_latitude(const mc::Study& study, const std::vector<Recording>& recordings,
-                    Identification& id) {
+/// Where no filter fits, or fits with parameters that no prior of its has, headings or the latitude
+/// may be behind it: most of a wrong one is drift that follows the attitude.
+void doubt_study(const mc::Study& study, const std::vector<Recording>& recordings,
+                 Identification& id) {
   const auto result = [&](const FilterSummary& s) -> const EstimateResult& {
     return judged(study.filters[s.filter], *id.runs_of(s.filter).front());
   };
@@ -170,7 +170,8 @@ void doubt_latitude(const mc::Study& study, const std::vector<Recording>& record
   if (std::ranges::any_of(id.summaries, fits)) return;
   for (FilterSummary& s : id.summaries) {
     const FilterSpec& filter = study.filters[s.filter];
-    if (filter.active[d_lat]) continue;
+    s.heading_doubt = heading_doubt(study, recordings, filter);
+    if (s.heading_doubt || filter.active[d_lat]) continue;
     s.latitude_doubt = latitude_doubt(study, recordings, filter);
     // What a fit that is one gains elsewhere may be chance, but for the other hemisphere.
     if (s.latitude_doubt && !s.latitude_doubt->mirrored && !misfit(result(s)))
@@ -254,7 +255,7 @@ Identification identify_recordings(const mc::Study& study, const std::vector<Rec
       without_spikes(test.measured, test.timeline, ready.study.readout, id.runs.front().batch)
           .spikes;
   id.absent = absent_channels(ready.recordings, ready.study.readout);
-  doubt_latitude(ready.study, ready.recordings, id);
+  doubt_study(ready.study, ready.recordings, id);
   return id;
 }
 

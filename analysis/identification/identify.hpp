@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/identification/heading_doubt.hpp"
 #include "analysis/identification/latitude_doubt.hpp"
 #include "analysis/identification/spikes.hpp"
 #include "core/estimate/batch.hpp"
@@ -38,7 +39,8 @@ struct FilterSummary {
   std::vector<StartSpread> spread;          ///< layout order; NaN ratios with one start
   std::vector<WeakDirection> degeneracies;  ///< exact: the data say nothing of these directions
   std::size_t weak = 0;  ///< directions of which the prior says more than the data
-  std::optional<LatitudeDoubt> latitude_doubt;  ///< behind its misfit
+  std::optional<HeadingDoubt> heading_doubt;    ///< behind its misfit
+  std::optional<LatitudeDoubt> latitude_doubt;  ///< behind it; not asked beside the other
 };
 
 /// One sample interval of the test.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "analysis/inference/thresholds.hpp"
@@ -91,8 +92,10 @@ std::vector<Difference> spikes_of(const Mat3X& residual, const std::vector<Inter
     return d.size <= limit + SampleLimits::spike_spread * d.spread;
   });
   // What begins several dwells decays, and is no sample that went astray.
-  if (std::ranges::count_if(all, &Difference::first) > 1)
-    std::erase_if(all, [](const Difference& d) { return d.first; });
+  std::set<int> begins;
+  for (const Difference& d : all)
+    if (d.first) begins.insert(d.sample);  // of several channels at once: one beginning
+  if (begins.size() > 1) std::erase_if(all, [](const Difference& d) { return d.first; });
   return all;
 }
 

@@ -18,15 +18,15 @@ std::string letters(const Vec3& direction_l) {
   return text;
 }
 
-/// The same attitude without what rounding adds: from its own text.
-Attitude attitude(const Mat3& R_lp) {
+}  // namespace
+
+std::optional<Attitude> attitude_of(const Mat3& R_lp) {
   std::string why, axes = fmt::format("x={} y={} z={}", letters(R_lp.col(0)), letters(R_lp.col(1)),
                                       letters(R_lp.col(2)));
-  const Mat3 exact = parse_axes(axes, why).value();
-  return {std::move(axes), exact};
+  const auto exact = parse_axes(axes, why);
+  if (!exact || (*exact - R_lp).cwiseAbs().maxCoeff() > 1e-6) return std::nullopt;
+  return Attitude{std::move(axes), *exact};
 }
-
-}  // namespace
 
 std::vector<Attitude> cardinal_attitudes() {
   std::vector<Attitude> all;
@@ -41,7 +41,8 @@ std::vector<Attitude> all_attitudes() {
   for (int axis = 0; axis < 3; ++axis)
     for (const Attitude& a : cardinal)
       all.push_back(
-          attitude(a.R_lp * rotation<double>(0.25 * std::numbers::pi * Vec3::Unit(axis))));
+          attitude_of(a.R_lp * rotation<double>(0.25 * std::numbers::pi * Vec3::Unit(axis)))
+              .value());
   return all;
 }
 

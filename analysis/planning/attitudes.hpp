@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,10 @@ struct Attitude {
   std::string axes;
   Mat3 R_lp = Mat3::Identity();
 };
+
+/// The same attitude as text, and without what rounding adds. Empty where an axis lies neither
+/// along a local one nor half way between two.
+std::optional<Attitude> attitude_of(const Mat3& R_lp);
 
 /// The 24 attitudes whose axes lie along the local ones or against them: all headings in steps of
 /// 90 deg.

@@ -7,8 +7,8 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <optional>
 
+#include "analysis/preparation/dwell_turn.hpp"
 #include "analysis/preparation/input_thresholds.hpp"
 #include "core/plan/timeline.hpp"
 #include "core/sim/measurements.hpp"
@@ -18,23 +18,6 @@ namespace {
 
 constexpr double deg_per_h = unit::deg_per_h.to_si;
 constexpr double same_command = PlanLimits::command_deg_per_h * deg_per_h;  // [rad/s]
-
-/// The rows of a position that dwell.
-struct Dwell {
-  int position = 0;  ///< from 0
-  std::vector<std::size_t> rows;
-};
-
-std::vector<Dwell> dwells_of(const Timeline& timeline) {
-  std::vector<Dwell> all;
-  for (std::size_t k = 0; k < timeline.intervals.size(); ++k) {
-    const Interval& i = timeline.intervals[k];
-    if (i.slew) continue;
-    if (all.empty() || all.back().position != i.position) all.push_back({i.position, {}});
-    all.back().rows.push_back(k);
-  }
-  return all;
-}
 
 CommandLaw other_than(CommandLaw law) {
   return law == CommandLaw::level ? CommandLaw::free : CommandLaw::level;
@@ -143,68 +126,20 @@ void check_commands(const mc::Study& study, const std::string& source, const Tim
                     source, positions_text(neither), farthest / deg_per_h));
 }
 
-/// How the platform turns against the local axes in a dwell, and which components of that are seen.
-struct Turn {
-  Vec3 rate_l = Vec3::Zero();  ///< [rad/s]
-  Vec3 seen = Vec3::Zero();    ///< 1 or 0 by local axis
-};
-
-std::optional<Turn> turn_of(const Dwell& d, const Timeline& timeline, const Measurements& m,
-                            const Position& p) {
-  const auto whole = [](const Mat3X& values) {
-    return [&values](std::size_t k) {
-      return values.col(static_cast<Eigen::Index>(k)).array().isFinite().all();
-    };
-  };
-  const auto span = [&](auto&& good) -> std::optional<std::pair<std::size_t, std::size_t>> {
-    const auto first = std::ranges::find_if(d.rows, good);
-    if (first == d.rows.end()) return std::nullopt;
-    std::size_t last = *first;
-    for (const std::size_t k : d.rows)
-      if (good(k) &&
-          timeline.intervals[k].t1 - timeline.intervals[*first].t1 <= PlanLimits::longest_turn)
-        last = k;
-    if (last == *first) return std::nullopt;
-    return std::pair(*first, last);
-  };
-  const auto column = [](const Mat3X& values, std::size_t k) {
-    return Vec3(values.col(static_cast<Eigen::Index>(k)));
-  };
-  const auto seconds = [&](const auto& s) {
-    return timeline.intervals[s->second].t1 - timeline.intervals[s->first].t1;
-  };
-  if (const auto s = span(whole(m.gimbal))) {
-    const auto attitude = [&](std::size_t k) -> Mat3 {
-      return case_attitude(timeline.intervals[k].heading1) * gimbal_chain(column(m.gimbal, k));
-    };
-    return Turn{rotation_vector(attitude(s->second) * attitude(s->first).transpose()) / seconds(s),
-                Vec3::Ones()};
-  }
-  if (const auto s = span(whole(m.acc))) {
-    // Up, as the nominal attitude would have it, turns the other way; its turn about itself is not
-    // seen.
-    const Vec3 a = (p.R_lp * column(m.acc, s->first)).normalized(),
-               b = (p.R_lp * column(m.acc, s->second)).normalized();
-    const Vec3 axis = a.cross(b);
-    const double angle = std::atan2(axis.norm(), a.dot(b));
-    const Vec3 turn = axis.norm() > 0.0 ? Vec3(axis.normalized() * angle) : Vec3(Vec3::Zero());
-    return Turn{-turn / seconds(s), Vec3(1.0, 1.0, 0.0)};
-  }
-  return std::nullopt;
-}
-
 /// Without recorded commands the plan's law is believed; the platform shows whether it was so.
 void check_law(const mc::Study& study, const std::string& source, const Timeline& timeline,
                const Measurements& m, const std::vector<Dwell>& dwells,
                std::vector<std::string>& wrong) {
   for (const CommandLaw law : {CommandLaw::free, CommandLaw::level}) {
     Vec3 mean = Vec3::Zero(), seen = Vec3::Ones();
+    double squares = 0.0;
     std::vector<int> positions;
     for (const Dwell& d : dwells) {
       const Position& p = study.plan.positions[static_cast<std::size_t>(d.position)];
       const auto turn = p.mode == law ? turn_of(d, timeline, m, p) : std::nullopt;
       if (!turn) continue;
       mean += turn->rate_l;
+      squares += turn->rate_l.cwiseProduct(turn->seen).squaredNorm();
       seen = seen.cwiseProduct(turn->seen);
       positions.push_back(d.position);
     }
@@ -214,6 +149,12 @@ void check_law(const mc::Study& study, const std::string& source, const Timeline
     const Vec3 other = law == CommandLaw::free ? Vec3(Vec3::Zero()) : free;
     if (free.norm() < PlanLimits::laws_differ_deg_per_h * deg_per_h ||
         (mean - other).norm() > PlanLimits::other_law * free.norm())
+      continue;
+    // Turns as long as the Earth's that are none in the mean: positions of other headings than
+    // planned (identification::heading_doubt), not a platform that stands.
+    const double length = std::sqrt(squares / static_cast<double>(positions.size()));
+    if (law == CommandLaw::free &&
+        std::abs(length - free.norm()) < PlanLimits::other_law * free.norm())
       continue;
     const std::string shows =
         law == CommandLaw::free

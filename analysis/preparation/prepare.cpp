@@ -17,6 +17,7 @@
 #include "core/base/check.hpp"
 #include "core/plan/timeline.hpp"
 #include "core/recording/rows/join_rows.hpp"
+#include "core/recording/rows/reading_step.hpp"
 #include "core/recording/rows/reduce.hpp"
 #include "core/sim/measurements.hpp"
 
@@ -44,6 +45,7 @@ void leave_out_stuck(Recording& r, std::vector<std::string>& remarks) {
       if (std::isfinite(c.values[i])) runs.push_back({i, end});
       i = end;
     }
+    if (reading_step(c, r.find("position"))) continue;  // coarse, as the quality card says
     std::vector<std::size_t> lengths;
     for (const Run& run : runs) lengths.push_back(run.end - run.first);
     if (lengths.empty()) continue;

@@ -40,11 +40,15 @@ void check_samples(Section& section, double dwell, double sample) {
                         section.full("dwell"), dwell, count, sample, most));
 }
 
-void read_dwell(Section& section, double& dwell, double& sample) {
+/// Whether something dwells so long: what [plan] has by default may be nobody's.
+enum class Dwell { held, default_of_positions };
+
+void read_dwell(Section& section, double& dwell, double& sample, Dwell use = Dwell::held) {
   const std::size_t errors = section.report().errors();
   section.read(dwell_option, dwell);
   section.read(sample_option, sample);
-  if (section.report().errors() == errors) check_samples(section, dwell, sample);
+  if (section.report().errors() == errors && use == Dwell::held)
+    check_samples(section, dwell, sample);
 }
 
 Position read_position(Section section, std::size_t number, const PlanDefaults& defaults) {
@@ -133,7 +137,9 @@ std::optional<E> read_optional(Section& section, std::string_view key,
 
 void read_platform(Section& section, TestPlan& plan) {
   PlanDefaults defaults;
-  read_dwell(section, defaults.dwell, defaults.sample);
+  const bool by_default = !section.has("dwell") && section.has("position");
+  read_dwell(section, defaults.dwell, defaults.sample,
+             by_default ? Dwell::default_of_positions : Dwell::held);
   defaults.mode = read_optional(section, "mode", command_laws);
   defaults.entry = read_optional(section, "entry", ways_of_entry);
   section.read(Option{"slew_rate", unit::deg_per_s, 1e-4, 360.0, "of a torqued entry"},

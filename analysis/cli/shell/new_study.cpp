@@ -113,8 +113,8 @@ std::string turned_text(const RecordedPlan& plan) {
   return fmt::format(
       "Position{} {} {} half way between two directions if the case faced North; if its heading "
       "was "
-      "45 deg there, write what the comments of the file say. No instrument shows which: a fit "
-      "far from 1 tells.",
+      "45 deg there, write what the comments of the file say. No accelerometer and no gimbal shows "
+      "which; `driftscope identify` says it if the Earth's rotation does not fit.",
       numbers.size() == 1 ? "" : "s", listed(numbers, "and"), numbers.size() == 1 ? "is" : "are");
 }
 

@@ -48,6 +48,14 @@ std::optional<std::string> cardinal_axes(const Recording& r, std::size_t row, do
   return text;
 }
 
+/// To six digits, so that whole numbers of samples are whole as they are written, too.
+double as_written(double sample) {
+  if (!(sample > 0.0) || !std::isfinite(sample)) return sample;
+  const double unit = std::pow(10.0, std::floor(std::log10(sample)) - 5.0);
+  return unit < 1.0 ? std::round(sample / unit) / std::round(1.0 / unit)
+                    : std::round(sample / unit) * unit;
+}
+
 std::string_view title_of(StudyKind kind) {
   switch (kind) {
     case StudyKind::platform:
@@ -76,7 +84,7 @@ std::string position_text(const RecordedPlan::Position& p, std::size_t number, D
   if (!p.turned.empty())
     text += fmt::format("# or, of a case at 45 deg: axes = \"{}\" and case_heading = \"45 deg\"\n",
                         p.turned);
-  if (dwells == Dwells::as_recorded) text += fmt::format("dwell = \"{:.9g} s\"\n", p.length);
+  if (dwells == Dwells::as_recorded) text += fmt::format("dwell = \"{:.12g} s\"\n", p.length);
   return text;
 }
 
@@ -93,7 +101,7 @@ std::string plan_text(const std::optional<RecordedPlan>& plan, Dwells dwells) {
   text += fmt::format("sample = \"{:.9g} s\"{}\n", plan->sample,
                       plan->to_come ? "" : "      # of the recording");
   if (dwells == Dwells::alike)
-    text += fmt::format("dwell  = \"{:.9g} s\"\n", plan->positions.front().length);
+    text += fmt::format("dwell  = \"{:.12g} s\"\n", plan->positions.front().length);
   text += plan->to_come
               ? "# As many positions as the recording names; it is to say what they are.\n"
           : plan->north
@@ -114,7 +122,7 @@ std::string sweep_text(const std::optional<RecordedPlan>& plan) {
   const double dwell = plan ? plan->positions.front().length : 1200.0;  // [s]
   return fmt::format(
       "\n# Every combination of these values is a study point.\n[sweep]\n\"plan.dwell\" = "
-      "[\"{:.9g} s\", \"{:.9g} s\", \"{:.9g} s\"]\n",
+      "[\"{:.12g} s\", \"{:.12g} s\", \"{:.12g} s\"]\n",
       dwell, 2.0 * dwell, 4.0 * dwell);
 }
 
@@ -153,7 +161,7 @@ std::string simulated_text() {
 
 RecordedPlan recorded_plan(const Recording& r) {
   RecordedPlan plan;
-  plan.sample = quality_card(r, RecordingKind::platform).interval;
+  plan.sample = as_written(quality_card(r, RecordingKind::platform).interval);
   plan.north = true;
   const Channel *position = r.find("position"), *time = r.find("time"), *phase = r.find("phase"),
                 *heading = r.find("case_heading");

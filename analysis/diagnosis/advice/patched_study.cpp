@@ -153,12 +153,7 @@ std::string patched_study(const mc::Study& study, const FilterSpec& patched) {
   return config::to_document(root);
 }
 
-std::string extended_study(const mc::Study& study, const std::vector<Position>& positions) {
-  if (study.kind != RecordingKind::platform)
-    throw InputError(ExitCode::config,
-                     fmt::format("{}: a strapdown plan has no positions to add to "
-                                 "(expected a platform plan). Record more turns",
-                                 study.path));
+std::string study_with_positions(const mc::Study& study, const std::vector<Position>& positions) {
   Node root = parsed(study);
   Node& plan = at(root, "plan");
   std::erase_if(plan.members, [](const config::Member& m) {
@@ -166,10 +161,20 @@ std::string extended_study(const mc::Study& study, const std::vector<Position>& 
            m.key == "mode" || m.key == "entry";
   });
   Node list = list_node({});
-  for (const Position& p : study.plan.positions) list.items.push_back(planning::position_node(p));
   for (const Position& p : positions) list.items.push_back(planning::position_node(p));
   plan.members.push_back({"position", {}, std::move(list)});
   return config::to_document(root);
+}
+
+std::string extended_study(const mc::Study& study, const std::vector<Position>& positions) {
+  if (study.kind != RecordingKind::platform)
+    throw InputError(ExitCode::config,
+                     fmt::format("{}: a strapdown plan has no positions to add to "
+                                 "(expected a platform plan). Record more turns",
+                                 study.path));
+  std::vector<Position> all = study.plan.positions;
+  all.insert(all.end(), positions.begin(), positions.end());
+  return study_with_positions(study, all);
 }
 
 }  // namespace drift::diagnosis

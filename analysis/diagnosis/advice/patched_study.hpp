@@ -30,6 +30,9 @@ FilterSpec started_where_found(FilterSpec patched, const std::vector<search::Cau
 /// readable by read_study(). Order and values are kept, comments are not.
 std::string patched_study(const mc::Study& study, const FilterSpec& patched);
 
+/// The study file with these positions for its plan, written out one by one.
+std::string study_with_positions(const mc::Study& study, const std::vector<Position>& positions);
+
 /// The study file with positions added behind its plan; a preset is written out position by
 /// position. InputError (config) if the plan has no positions (strapdown).
 std::string extended_study(const mc::Study& study, const std::vector<Position>& positions);

@@ -17,6 +17,7 @@
 #include "analysis/diagnosis/findings/twins.hpp"
 #include "analysis/diagnosis/findings/verdict.hpp"
 #include "analysis/diagnosis/findings/where.hpp"
+#include "analysis/identification/heading_doubt.hpp"
 #include "analysis/identification/latitude_doubt.hpp"
 #include "analysis/inference/noise/noise_finding.hpp"
 #include "analysis/search/cause.hpp"
@@ -59,6 +60,7 @@ struct Diagnosis {
   std::optional<NearestKnown> nearest_known;
   std::optional<Proposal> proposal;  ///< where it is unexplained and a form was looked for
   std::optional<identification::LatitudeDoubt> site_doubt;
+  std::optional<identification::HeadingDoubt> heading_doubt;
   bool of_case = false;             ///< of a recording on a case
   std::vector<std::string> absent;  ///< channels of [readout] that no recording has; not of a case
   std::vector<ErrorOfKind> errors;  ///< of a recording on a case: what held-out data are missed by
@@ -68,6 +70,9 @@ struct Diagnosis {
   FilterSpec patched;               ///< with the named (or most probable) cause; for patched.toml
   bool has_patch = false;
   std::vector<std::pair<std::string, double>> seconds;  ///< wall time of each stage
+
+  /// The study is of another place, or of another plan: nothing that is said of causes holds.
+  bool wrong_study() const { return site_doubt || heading_doubt; }
 };
 
 }  // namespace drift::diagnosis

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "analysis/report/identify/turned_words.hpp"
 #include "analysis/report/page/wording.hpp"
 #include "core/base/units.hpp"
 
@@ -85,6 +86,18 @@ std::string site_text(const identification::LatitudeDoubt& doubt) {
       "latitude and diagnose again before anything else is made of it.",
       doubt.latitude / unit::deg.to_si, doubt.declared / unit::deg.to_si, doubt.chi2_per_dof_after,
       doubt.chi2_per_dof_before, doubt.prior_sigmas);
+}
+
+std::string heading_text(const identification::HeadingDoubt& doubt) {
+  return fmt::format(
+      "{}: then the model fits with chi-square per degree of freedom {:.3g} instead of {:.3g}, "
+      "where "
+      "1 is expected (chance of the plan as it is: {}). No accelerometer and no gimbal shows where "
+      "North is, "
+      "the Earth's rotation does.{} Correct axes and case headings and diagnose again before "
+      "anything else is made of it.",
+      turned_text(doubt), doubt.chi2_per_dof_after, doubt.chi2_per_dof_before, p_text(doubt.chance),
+      doubt.alone() ? "" : " Something else is missing too, or the noise is not as declared.");
 }
 
 std::vector<std::pair<std::string, std::string>> doubts_of(const Diagnosis& d) {

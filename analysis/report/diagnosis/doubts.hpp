@@ -15,6 +15,9 @@ std::string beyond_prior_text(const diagnosis::remark::BeyondPrior& beyond);
 /// A verdict of its own: nothing that is said of causes holds for another place on the Earth.
 std::string site_text(const identification::LatitudeDoubt& doubt);
 
+/// The same of a plan whose positions headed otherwise.
+std::string heading_text(const identification::HeadingDoubt& doubt);
+
 /// What a reader must hear with the verdict, whatever it is: parameters of the model far from their
 /// priors, isolated samples that were left out, and a magnetic field that was assumed where a cause
 /// or such a parameter hangs on it. Sentences with the word that heads each.

@@ -8,6 +8,7 @@
 #include "analysis/report/diagnosis/not_examined_words.hpp"
 #include "analysis/report/diagnosis/sections.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
+#include "analysis/report/identify/turned_words.hpp"
 #include "core/stats/normal.hpp"
 
 namespace drift::report {
@@ -241,6 +242,7 @@ Json diagnosis_document(const Diagnosis& d) {
   out["p_value"] = d.p_value;
   out["sentence"] = sentence(d);
   out["latitude"] = latitude_json(d.site_doubt);
+  out["heading"] = d.heading_doubt ? heading_json(*d.heading_doubt) : Json(nullptr);
   out["absent"] = absent_json(d.absent);
   out["beyond_prior"] = beyond_prior_json(d);
   out["other_equation_gain"] = d.other_equation_gain;

@@ -20,6 +20,9 @@ namespace {
 using namespace diagnosis;
 
 std::string verdict_word(const Diagnosis& d) {
+  if (d.heading_doubt)
+    return d.heading_doubt->alone() ? "Wrong headings: correct the study first."
+                                    : "Wrong headings and more: correct the study first.";
   if (d.site_doubt)
     return d.site_doubt->alone() ? "Wrong latitude: correct the study first."
                                  : "Wrong latitude and more: correct the study first.";
@@ -37,11 +40,14 @@ std::string verdict_word(const Diagnosis& d) {
 }
 
 /// A study that is not of the recording has a verdict of its own: what is said of causes does not
-/// hold. (The JSON has its four words and `site_doubt`.)
+/// hold. (The JSON has its four words, `latitude` and `heading`.)
 std::string headline(const Diagnosis& d) {
-  const std::string_view word = !d.site_doubt           ? text(d.verdict)
-                                : d.site_doubt->alone() ? "wrong latitude"
-                                                        : "wrong latitude and more";
+  const auto wrong = [](std::string_view what, bool alone) {
+    return fmt::format("wrong {}{}", what, alone ? "" : " and more");
+  };
+  const std::string word = d.heading_doubt ? wrong("headings", d.heading_doubt->alone())
+                           : d.site_doubt  ? wrong("latitude", d.site_doubt->alone())
+                                           : std::string(text(d.verdict));
   return fmt::format("Verdict {}: {}", word, sentence(d));
 }
 
@@ -97,7 +103,7 @@ std::string patched_file(const mc::Study& study, const Diagnosis& d) {
 
 /// What the page says in its headlines.
 Section verdict(const Diagnosis& d) {
-  const bool found = d.verdict != Verdict::consistent && !d.site_doubt;
+  const bool found = d.verdict != Verdict::consistent && !d.wrong_study();
   Sentences said{{headline(d)}, ""};
   if (const auto sentence = where_sentence(d.where); found && !sentence.empty())
     said.items.push_back("Where: " + sentence);
@@ -170,14 +176,14 @@ std::optional<diagnosis::remark::StrongestLeft> strongest_left(const Diagnosis& 
 InBrief diagnosis_in_brief(const Diagnosis& d) {
   InBrief brief;
   brief.verdict = headline(d);
-  brief.tone = d.site_doubt                       ? Tone::bad
+  brief.tone = d.wrong_study()                    ? Tone::bad
                : d.verdict == Verdict::consistent ? Tone::good
                : d.verdict == Verdict::named      ? Tone::doubtful
                                                   : Tone::bad;
   const auto add = [&](Weight weight, std::string_view head, const std::string& sentence) {
     if (!sentence.empty()) brief.more.add(weight, fmt::format("{}: {}", head, sentence));
   };
-  if (d.verdict != Verdict::consistent && !d.site_doubt) {
+  if (d.verdict != Verdict::consistent && !d.wrong_study()) {
     if (d.proposal) add(Weight::note, "Proposal", form_sentence(*d.proposal));
     add(Weight::note, "Where", where_sentence(d.where));
     add(Weight::note, "Held out", held_out_sentence(d.fit.held_out));
@@ -187,9 +193,13 @@ InBrief diagnosis_in_brief(const Diagnosis& d) {
       add(Weight::wrong, "Gimbals", gimbal->text + ".");
   // Of what is not explained it is no news that parameters take it up.
   const Weight doubt = d.verdict == Verdict::unexplained ? Weight::note : Weight::doubtful;
-  if (!d.site_doubt)
+  if (!d.wrong_study())
     for (const auto& [head, sentence] : doubts_of(d)) add(doubt, head, sentence);
-  if (d.site_doubt)
+  if (d.heading_doubt)
+    brief.next =
+        "Next: diagnose again with corrected.toml of the results folder (-o), the study with the "
+        "headings of the recording.";
+  else if (d.site_doubt)
     brief.next =
         d.site_doubt->alone()
             ? fmt::format("Next: diagnose again with --set site.latitude=\"{:.3f} deg\".",
@@ -214,9 +224,9 @@ Report diagnosis_report(const mc::Study& study, const Diagnosis& d, const Diagno
   report.subtitle = fmt::format("{} {}", verdict_word(d), fmt::join(source.recordings, ", "));
   report.brief = diagnosis_in_brief(d);
   report.headlines.push_back(sentence(d));
-  if (!d.site_doubt)
+  if (!d.wrong_study())
     for (const auto& [head, sentence] : doubts_of(d)) report.headlines.push_back(sentence);
-  if (d.verdict != Verdict::consistent && !d.site_doubt)
+  if (d.verdict != Verdict::consistent && !d.wrong_study())
     for (const auto& sentence : {where_sentence(d.where), held_out_sentence(d.fit.held_out)})
       if (!sentence.empty()) report.headlines.push_back(sentence);
   if (d.proposal) report.headlines.push_back(form_sentence(*d.proposal));
@@ -232,6 +242,9 @@ Report diagnosis_report(const mc::Study& study, const Diagnosis& d, const Diagno
   if (d.has_patch) report.files.emplace_back("patched.toml", patched_file(study, d));
   if (!d.advice.empty() && !d.advice.front().plan.empty() && study.kind == RecordingKind::platform)
     report.files.emplace_back("advised.toml", extended_study(study, d.advice.front().plan));
+  if (d.heading_doubt)
+    report.files.emplace_back("corrected.toml",
+                              study_with_positions(study, d.heading_doubt->positions));
   report.footer = "Values stand with their units; ± is 1 sigma.";
   return source.provenance.version.empty() ? report
                                            : with_provenance(std::move(report), source.provenance);
@@ -240,7 +253,7 @@ Report diagnosis_report(const mc::Study& study, const Diagnosis& d, const Diagno
 std::vector<std::string> write_results(const mc::Study& study, const Diagnosis& d,
                                        const DiagnosisSource& source, const std::string& folder) {
   const Report report = diagnosis_report(study, d, source);
-  for (const char* name : {"patched.toml", "advised.toml"})
+  for (const char* name : {"patched.toml", "advised.toml", "corrected.toml"})
     if (std::ranges::find(report.files, name, &TextFile::first) == report.files.end())
       remove_result({folder, report.command}, name);
   return write_report(report, folder);

@@ -19,8 +19,9 @@ struct DiagnosisSource {
 
 /// All there is to say of a diagnosis, with its pictures; diagnosis.json, residual_signal.csv,
 /// study.toml, patched.toml (where a cause is in the model; of an ambiguous verdict the most
-/// probable one, said in a comment on top) and advised.toml (the study with the positions of the
-/// first advice).
+/// probable one, said in a comment on top), advised.toml (the study with the positions of the
+/// first advice) and corrected.toml (the study with the headings of the recording, where they are
+/// others).
 Report diagnosis_report(const mc::Study& study, const diagnosis::Diagnosis& diagnosis,
                         const DiagnosisSource& source);
 
@@ -38,9 +39,9 @@ std::string to_text(const diagnosis::Diagnosis& diagnosis);
 /// `seconds`.
 std::string to_json(const diagnosis::Diagnosis& diagnosis);
 
-/// Writes the report into a folder, made if need be. A patched.toml or advised.toml of an earlier
-/// diagnosis that this one does not have is removed. Returns the names of the files. InputError
-/// (io) if one cannot be written.
+/// Writes the report into a folder, made if need be. A patched.toml, advised.toml or corrected.toml
+/// of an earlier diagnosis that this one does not have is removed. Returns the names of the files.
+/// InputError (io) if one cannot be written.
 std::vector<std::string> write_results(const mc::Study& study,
                                        const diagnosis::Diagnosis& diagnosis,
                                        const DiagnosisSource& source, const std::string& folder);

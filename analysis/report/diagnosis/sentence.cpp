@@ -266,6 +266,7 @@ std::string patch_text(const Diagnosis& d) {
       all.size(), odds, words);
 }
 std::string sentence(const Diagnosis& d) {
+  if (d.heading_doubt) return heading_text(*d.heading_doubt);
   if (d.site_doubt) return site_text(*d.site_doubt);
   std::string text = absent_text(d.absent) + verdict_alone(d);
   if (d.nearest_known) text += nearest_text(*d.nearest_known, instrument_of(d));

@@ -8,6 +8,7 @@
 #include "analysis/identification/beyond_prior.hpp"
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/report/identify/sections.hpp"
+#include "analysis/report/identify/turned_words.hpp"
 #include "core/stats/chi_square_band.hpp"
 
 namespace drift::report {
@@ -137,11 +138,32 @@ std::optional<identification::LatitudeDoubt> other_latitude(
   return std::nullopt;
 }
 
+/// The headings that explain it.
+const identification::HeadingDoubt* other_headings(const identification::Identification& id) {
+  for (const identification::FilterSummary& s : id.summaries)
+    if (s.heading_doubt) return &*s.heading_doubt;
+  return nullptr;
+}
+
+std::string headings_text(const identification::HeadingDoubt& doubt) {
+  return fmt::format(
+      "{}. Then chi-square per degree of freedom is {} instead of {}{} (chance of the plan as it "
+      "is: "
+      "{}). Only the Earth's rotation shows where North is.",
+      turned_text(doubt), number_text(doubt.chi2_per_dof_after),
+      number_text(doubt.chi2_per_dof_before),
+      doubt.alone() ? "" : ", where 1 is expected: something else is missing, too",
+      p_text(doubt.chance));
+}
+
 std::string verdict_text(const Judgement& j, const identification::Identification& id) {
   const std::string absent = absent_text(id);
   const auto judged_as = [&](std::string_view word) {
     return absent.empty() ? fmt::format("{}:", word) : fmt::format("{}, {};", word, absent);
   };
+  if (const auto* doubt = other_headings(id))
+    return fmt::format("{} {}", judged_as(j.good.empty() ? "Misfit" : "Wrong headings"),
+                       headings_text(*doubt));
   const std::string_view wrong = j.good.empty() ? "Misfit" : "Wrong latitude";
   if (const auto doubt = other_latitude(id); doubt && !doubt->alone())
     return fmt::format(
@@ -199,7 +221,7 @@ InBrief identification_in_brief(const mc::Study& study, const identification::Id
   if (!id.off_zero.empty()) brief.more.add(Weight::wrong, "Gimbals: " + id.off_zero + ".");
   if (!id.spikes.empty()) {
     doubtful = true;
-    brief.more.add(Weight::doubtful,
+    brief.more.add(j.good.empty() ? Weight::wrong : Weight::doubtful,
                    fmt::format("Outliers: {} isolated sample{} far from those around{}, and in the "
                                "fit: leave {} out (an "
                                "empty cell).",
@@ -217,15 +239,23 @@ InBrief identification_in_brief(const mc::Study& study, const identification::Id
     add(any_wrong(view) ? Weight::wrong : Weight::note, count_text(view));
     doubtful = doubtful || (believed(view) && !beyond_prior(view).empty());
   }
-  brief.tone = j.good.empty() || other_latitude(id) ? Tone::bad
-               : doubtful                           ? Tone::doubtful
-                                                    : Tone::good;
+  const bool wrong_study = other_headings(id) != nullptr || other_latitude(id).has_value();
+  brief.tone = j.good.empty() || wrong_study ? Tone::bad : doubtful ? Tone::doubtful : Tone::good;
   const std::string file = study.path.empty() ? "STUDY" : study.path;
-  if (const auto doubt = other_latitude(id); doubt && doubt->alone())
+  if (other_headings(id) != nullptr)
+    brief.next =
+        "Next: identify again with corrected.toml of the results folder (-o), the study with the "
+        "headings of the recording.";
+  else if (const auto doubt = other_latitude(id); doubt && doubt->alone())
     brief.next = fmt::format("Next: identify again with --set site.latitude=\"{:.3f} deg\".",
                              doubt->latitude / unit::deg.to_si);
   else if (!id.off_zero.empty())
     brief.next = "Next: correct the zero of the gimbal, or its offset, and identify again.";
+  else if (j.good.empty() && !id.spikes.empty() && !other_latitude(id))
+    brief.next = fmt::format(
+        "Next: leave the isolated sample{} out (empty cells) and identify again; `driftscope "
+        "diagnose` leaves {} out by itself.",
+        id.spikes.size() == 1 ? "" : "s", id.spikes.size() == 1 ? "it" : "them");
   else if (!j.first_fits)
     brief.next = fmt::format(
         "Next: {}driftscope diagnose {} {} says what the first filter of the study lacks.",

@@ -3,6 +3,7 @@
 
 #include "analysis/report/identify/results_out.hpp"
 #include "analysis/report/identify/sections.hpp"
+#include "analysis/report/identify/turned_words.hpp"
 #include "core/estimate/start_consistency.hpp"
 #include "core/physics/parameters_config.hpp"
 #include "core/stats/chi_square_band.hpp"
@@ -128,6 +129,8 @@ Json identification_document(const mc::Study& study, const identification::Ident
     for (const identification::FilterRun* run : id.runs_of(summary.filter))
       starts.push_back(run_json(*run));
     f["beyond_prior"] = beyond_prior({study, id, summary});
+    f["heading_doubt"] =
+        summary.heading_doubt ? heading_json(*summary.heading_doubt) : Json(nullptr);
     f["latitude_doubt"] = latitude_json(summary.latitude_doubt);
     f["weak_directions"] = summary.weak;
     f["degeneracies"] =

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "analysis/diagnosis/advice/patched_study.hpp"
 #include "analysis/report/identify/results_out.hpp"
 #include "analysis/report/identify/sections.hpp"
 #include "analysis/report/page/study_section.hpp"
@@ -11,6 +12,11 @@
 #include "core/recording/recording_output.hpp"
 
 namespace drift::report {
+namespace {
+
+constexpr const char* corrected = "corrected.toml";  ///< where the plan was not the recording's
+
+}  // namespace
 
 Report identification_report(const mc::Study& study, const identification::Identification& id) {
   Report report{.command = "identify"};
@@ -37,6 +43,12 @@ Report identification_report(const mc::Study& study, const identification::Ident
   report.footer = "Values stand with their units; ± is 1 sigma.";
   report.document = {"identification.json", dumped(document)};
   if (!study.text.empty()) report.files.emplace_back("study.toml", study.text);
+  for (const identification::FilterSummary& s : id.summaries)
+    if (s.heading_doubt && !study.text.empty()) {
+      report.files.emplace_back(corrected,
+                                diagnosis::study_with_positions(study, s.heading_doubt->positions));
+      break;
+    }
   return report;
 }
 
@@ -44,6 +56,8 @@ std::vector<std::string> write_identification(const Report& report,
                                               const identification::Identification& id,
                                               const std::string& folder) {
   Report all = report;
+  if (std::ranges::find(all.files, corrected, &TextFile::first) == all.files.end())
+    remove_result({folder, report.command}, corrected);
   std::ranges::move(result_tables(id), std::back_inserter(all.files));
   std::vector<std::string> names = write_report(all, folder);
   const std::string arrays = "identification.nc";

@@ -56,7 +56,7 @@ char delimiter_of(std::string_view line, const RecordingFormat& format) {
   if (format.delimiter != Delimiter::automatic) return mark_of(format.delimiter);
   char best = ' ';
   std::ptrdiff_t most = 0;
-  for (const char c : {',', ';', '\t'})
+  for (const char c : {',', ';', '\t', '|'})
     if (const auto count = std::ranges::count(line, c); count > most) {
       best = c;
       most = count;
@@ -67,7 +67,7 @@ char delimiter_of(std::string_view line, const RecordingFormat& format) {
 /// What separates the cells of a row of numbers, where a comma may stand within a number.
 char row_delimiter(std::string_view line, const RecordingFormat& format) {
   if (format.delimiter != Delimiter::automatic) return mark_of(format.delimiter);
-  for (const char c : {';', '\t', ','})
+  for (const char c : {'|', ';', '\t', ','})
     if (line.find(c) != std::string_view::npos) return c;
   return ' ';
 }

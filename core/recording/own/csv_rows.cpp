@@ -13,6 +13,10 @@ namespace {
 
 using Role = ColumnUse::Role;
 
+bool begins_like_number(std::string_view cell) {
+  return !cell.empty() && std::string_view("0123456789+-.,").find(cell.front()) != cell.npos;
+}
+
 constexpr std::string_view header_example = "a header row such as 'time [s],acc_x [g],...'";
 
 }  // namespace
@@ -133,10 +137,32 @@ void CsvRows::read_comment(std::string_view text) {
                   "Shorten the comments");
 }
 
+/// Programs that write again after a pause write their header again, and its row of units.
+bool CsvRows::repeats_header(const std::vector<std::string_view>& cells) const {
+  const auto is = [](std::string_view cell, const HeaderCell& header) {
+    return cell == header.whole;
+  };
+  if (std::ranges::equal(cells, layout_.header, is)) return true;
+  return layout_.unit_line > 0 && repeated_headers_ > 0 && repeated_line_ + 1 == lines_.number() &&
+         cells.size() == layout_.header.size() && std::ranges::none_of(cells, begins_like_number);
+}
+
 void CsvRows::read_row(std::string_view line) {
-  report_pending();
   const std::size_t n = row_.size();
   const auto& cells = splitter_.split(without_checksum(line));
+  if (repeats_header(cells)) {
+    if (repeated_headers_ > 0 && repeated_line_ + 1 == lines_.number()) return;  // its units
+    ++repeated_headers_;
+    repeated_line_ = lines_.number();
+    return;
+  }
+  const bool text = cells.size() < n && std::ranges::none_of(cells, begins_like_number);
+  if (text && (footer_lines_ > 0 || pending_.empty())) {
+    if (footer_lines_++ == 0) footer_line_ = lines_.number();
+  } else {
+    footer_lines_ = 0;
+    report_pending();
+  }
   if (cells.size() != n) {
     const bool comma = layout_.delimiter == ',' && cells.size() > n;
     Complaint complaint{
@@ -203,8 +229,18 @@ void CsvRows::report_pending() {
 
 void CsvRows::finish() {
   if (!pending_.empty() && raw_.lines.empty()) report_pending();
-  if (!pending_.empty() || last_row_cut_)
+  if (footer_lines_ > 0)
+    note(footer_lines_ == 1
+             ? fmt::format("line {}, the last, is text: it is left out", footer_line_)
+             : fmt::format("lines {} to {}, the last, are text: they are left out", footer_line_,
+                           lines_.number()));
+  else if (!pending_.empty() || last_row_cut_)
     note(fmt::format("line {}, the last, is cut off: it is left out", lines_.number()));
+  if (repeated_headers_ > 0)
+    note(fmt::format("the header stands again in {}: passed over",
+                     repeated_headers_ == 1 ? fmt::format("line {}", repeated_line_)
+                                            : fmt::format("{} lines, the last of them {}",
+                                                          repeated_headers_, repeated_line_)));
   if (windows_line_ > 0)
     note(fmt::format("line {}: bytes that are not UTF-8 are read as Windows-1252", windows_line_));
   if (!clock_.zero().empty()) {

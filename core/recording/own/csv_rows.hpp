@@ -36,6 +36,7 @@ class CsvRows {
   std::optional<Complaint> read_cell(std::size_t i, std::string_view cell);
   std::optional<Complaint> read_time(std::size_t i, std::string_view cell);
   std::optional<Complaint> read_position(std::size_t i, std::string_view cell);
+  bool repeats_header(const std::vector<std::string_view>& cells) const;
   bool may_be_cut(std::string_view cell) const;
   void note_end(std::string_view cell);
   void note(std::string remark);
@@ -59,6 +60,8 @@ class CsvRows {
   std::optional<std::size_t> decimals_;  ///< of the last column, where all rows have the same
   bool rows_have_ends_ = false;          ///< a last cell was seen
   bool last_row_cut_ = false;
+  std::size_t footer_lines_ = 0, footer_line_ = 0;  ///< of text, up to here; the first of them
+  std::size_t repeated_headers_ = 0, repeated_line_ = 0;
 };
 
 }  // namespace drift

@@ -66,6 +66,9 @@ std::vector<double> look_at_rows(const std::string& path, GuessedFile& file,
     if (!valid_utf8(line)) line = decoded = utf8_from_windows_1252(line);
     const auto& cells = splitter.split(without_checksum(line));
     if (cells.size() != file.columns.size()) continue;
+    if (std::ranges::equal(cells, file.columns, {}, {},
+                           [](const GuessedColumn& c) { return std::string_view(c.header.whole); }))
+      continue;  // the header again
     ++file.rows;
     for (std::size_t i = 0; i < cells.size(); ++i) look_at(file.columns[i], cells[i]);
     by_values.look_at_row(cells);
@@ -249,7 +252,8 @@ GuessedFile guess_file(const std::string& path) {
   std::string gravity = unit_of_gravity(look_at_rows(path, file, by_values));
   if (const std::string unit = by_values.name_channels(file); !unit.empty()) gravity = unit;
   name_position_by_values(file);
-  for (GuessedColumn& c : file.columns) c.unit = unit_of(c, gravity);
+  for (GuessedColumn& c : file.columns)
+    if (c.unit.empty()) c.unit = unit_of(c, gravity);
   count_clock_of_numbers(file);
   fill_format(file);
   return file;

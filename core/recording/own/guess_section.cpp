@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <set>
 
 #include "core/base/words.hpp"
 #include "core/config/node.hpp"
@@ -32,6 +33,14 @@ std::string guessed_by_values(const GuessedFile& file) {
   };
   std::string text;
   if (by_values("acc_x")) text = "acc_x, acc_y, acc_z are in the order of the columns: check";
+  std::set<std::string> units;
+  for (const GuessedColumn& c : file.columns)
+    if (c.channel.starts_with("acc_")) units.insert(c.unit);
+  if (units.size() > 1 && !units.contains("?"))
+    for (const GuessedColumn& c : file.columns)
+      if (c.channel.starts_with("acc_") && !c.header.unit)
+        text += fmt::format("{}{} in [{}] by its size: check", text.empty() ? "" : "; ", c.channel,
+                            c.unit);
   if (by_values("case_heading"))
     text += fmt::format("{}case_heading by its values: check", text.empty() ? "" : "; ");
   if (by_values("position"))
@@ -152,20 +161,36 @@ std::string what_is_missing(const GuessedFile& file) {
 std::string what_has_no_place(const GuessedFile& file) {
   constexpr std::size_t most = 8;
   std::vector<std::string> names, quotes;
+  const bool commanded = std::ranges::any_of(
+      file.columns, [](const GuessedColumn& c) { return c.channel.starts_with("cmd_"); });
+  const auto rates = file.kind == RecordingKind::platform && !commanded
+                         ? in_units_of(file, "cmd_x")
+                         : std::vector<std::string>();
+  const std::string commands =
+      rates.empty() ? ""
+                    : fmt::format(
+                          "No column is called a command, and {} {} in a unit of rates: if "
+                          "the platform was told so, write cmd_x, cmd_y, cmd_z = \"the "
+                          "header as it stands\" in columns of [recording]; without "
+                          "commands those of the plan are taken. ",
+                          listed_up_to(rates, most), rates.size() == 1 ? "is" : "are");
   for (const GuessedColumn* c : free_columns(file)) {
     names.push_back(in_quotes(with_unit(*c)));
     quotes.push_back(quoted(c->header.name));
   }
   if (names.empty()) return "";
   const bool one = names.size() == 1;
-  return fmt::format(
-      "{} {} no channel that the program knows and {} carried under {} own name{}: name what {} in "
-      "columns of [recording], or leave {} out with ignore = [{}{}].",
-      listed_up_to(names, most), one ? "is" : "are", one ? "is" : "are", one ? "its" : "their",
-      one ? "" : "s", one ? "it is" : "they are", one ? "it" : "them",
-      fmt::join(quotes.begin(),
-                quotes.begin() + static_cast<std::ptrdiff_t>(std::min(most, quotes.size())), ", "),
-      quotes.size() > most ? ", ..." : "");
+  return commands +
+         fmt::format(
+             "{} {} no channel that the program knows and {} carried under {} own name{}: name "
+             "what {} in "
+             "columns of [recording], or leave {} out with ignore = [{}{}].",
+             listed_up_to(names, most), one ? "is" : "are", one ? "is" : "are",
+             one ? "its" : "their", one ? "" : "s", one ? "it is" : "they are", one ? "it" : "them",
+             fmt::join(quotes.begin(),
+                       quotes.begin() + static_cast<std::ptrdiff_t>(std::min(most, quotes.size())),
+                       ", "),
+             quotes.size() > most ? ", ..." : "");
 }
 
 }  // namespace drift

@@ -13,21 +13,28 @@
 namespace drift {
 namespace {
 
-/// A unit of accelerations, and the lengths of gravity in it.
+/// A unit of accelerations, and 9.80665 m/s^2 in it.
 struct GravityUnit {
   std::string_view symbol;
-  double low, high;
+  double one_g;
 };
 
 constexpr double standard_gravity = 9.80665;  // [m/s^2]
-/// In g, gravity may be that of the place or 9.80665 m/s^2, which is within the same band.
-constexpr GravityUnit gravity_in(std::string_view symbol, double per_si) {
-  return {symbol, GuessLimits::gravity_low * per_si * (1.0 - GuessLimits::scale_room),
-          GuessLimits::gravity_high * per_si * (1.0 + GuessLimits::scale_room)};
+constexpr std::array<GravityUnit, 4> gravity_units{
+    {{"g", 1.0}, {"m/s^2", standard_gravity}, {"mg", 1e3}, {"ug", 1e6}}};
+/// [9.80665 m/s^2] In g, gravity may be that of the place or this one, which is within the band.
+constexpr double lowest =
+    GuessLimits::gravity_low / standard_gravity * (1.0 - GuessLimits::scale_room);
+constexpr double highest =
+    GuessLimits::gravity_high / standard_gravity * (1.0 + GuessLimits::scale_room);
+
+/// The unit of one column in a choice of units for all three.
+constexpr std::size_t unit_in(std::size_t choice, std::size_t column) {
+  return choice >> (2 * column) & 3U;
 }
-constexpr std::array gravity_units{
-    gravity_in("g", 1.0 / standard_gravity), gravity_in("m/s^2", 1.0),
-    gravity_in("mg", 1e3 / standard_gravity), gravity_in("ug", 1e6 / standard_gravity)};
+constexpr bool all_alike(std::size_t choice) {
+  return unit_in(choice, 0) == unit_in(choice, 1) && unit_in(choice, 1) == unit_in(choice, 2);
+}
 
 /// The unit that the file gives a column, if it is one.
 std::optional<Unit> stated_unit(const GuessedColumn& c) {
@@ -79,6 +86,17 @@ GuessByValues::GuessByValues(const GuessedFile& file) {
     position_ = i;
     has_position_ = true;
   }
+  std::array<std::size_t, 3> acc{};
+  bool named = has_acc, stated = true;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const auto it =
+        std::ranges::find(all, fmt::format("acc_{}", "xyz"[a]), &GuessedColumn::channel);
+    named = named && it != all.end();
+    if (it == all.end()) continue;
+    acc[a] = static_cast<std::size_t>(it - all.begin());
+    stated = stated && stated_unit(*it);
+  }
+  if (named && !stated) named_.push_back({.columns = acc});
   const auto add = [&](std::array<std::size_t, 3> columns) {
     if (std::ranges::find(triples_, columns, &Triple::columns) == triples_.end())
       triples_.push_back({.columns = columns});
@@ -104,15 +122,20 @@ void GuessByValues::begin_position() {
 }
 
 void GuessByValues::look_at_row(const std::vector<std::string_view>& cells) {
-  for (Triple& t : triples_) {
-    std::array<double, 3> f{};
-    for (std::size_t a = 0; a < 3; ++a) f[a] = number_in(cells[t.columns[a]]);
-    const double length = std::hypot(f[0], f[1], f[2]);
-    if (!std::isfinite(length)) continue;
-    ++t.rows;
-    for (std::size_t a = 0; a < 3; ++a) t.whole[a] = t.whole[a] && f[a] == std::round(f[a]);
-    for (std::size_t u = 0; u < gravity_units.size(); ++u)
-      if (length >= gravity_units[u].low && length <= gravity_units[u].high) ++t.as_unit[u];
+  for (auto* list : {&triples_, &named_}) {
+    for (Triple& t : *list) {
+      std::array<double, 3> f{};
+      for (std::size_t a = 0; a < 3; ++a) f[a] = number_in(cells[t.columns[a]]);
+      if (!std::isfinite(f[0] + f[1] + f[2])) continue;
+      ++t.rows;
+      for (std::size_t a = 0; a < 3; ++a) t.whole[a] = t.whole[a] && f[a] == std::round(f[a]);
+      for (std::size_t choice = 0; choice < t.as_units.size(); ++choice) {
+        double squares = 0.0;
+        for (std::size_t a = 0; a < 3; ++a)
+          squares += std::pow(f[a] / gravity_units[unit_in(choice, a)].one_g, 2);
+        if (squares >= lowest * lowest && squares <= highest * highest) ++t.as_units[choice];
+      }
+    }
   }
   if (!has_position_) return;
   if (positions_ == 0 || cells[position_] != here_) begin_position();
@@ -151,21 +174,53 @@ std::string GuessByValues::axes_of(const GuessedFile& file, const Triple& t) {
   return sorted == "xyz" ? axes : "xyz";
 }
 
+std::vector<std::string> GuessByValues::units_of(const GuessedFile& file, const Triple& t) const {
+  const bool all_stated =  // a wrong one is said by whoever reads the file
+      std::ranges::all_of(t.columns,
+                          [&](std::size_t c) { return stated_unit(file.columns[c]).has_value(); });
+  const auto fits = [&](std::size_t choice) {
+    for (std::size_t a = 0; a < 3; ++a)
+      if (const auto stated = stated_unit(file.columns[t.columns[a]]);
+          stated &&
+          !same_unit(*stated, *parse_recording_unit(gravity_units[unit_in(choice, a)].symbol)))
+        return false;
+    return t.rows > 0 && static_cast<double>(t.as_units[choice]) >=
+                             GuessLimits::most_rows * static_cast<double>(t.rows);
+  };
+  std::vector<std::size_t> fitting;
+  for (std::size_t choice = 0; choice < t.as_units.size(); ++choice)
+    if (fits(choice)) fitting.push_back(choice);
+  // One unit for all goes before any mixture: a column that hardly moves fits every unit.
+  const auto alike = std::ranges::find_if(fitting, all_alike);
+  if (alike == fitting.end() && fitting.size() != 1) return {};
+  const std::size_t choice = alike == fitting.end() ? fitting.front() : *alike;
+  std::vector<std::string> units;
+  for (std::size_t a = 0; a < 3; ++a) units.emplace_back(gravity_units[unit_in(choice, a)].symbol);
+  return units;
+}
+
 std::string GuessByValues::name_channels(GuessedFile& file) {
   std::string unit;
+  bool found = false;
   for (const Triple& t : triples_) {
-    const auto most = std::ranges::max_element(t.as_unit);
-    if (!unit.empty() || !likely(file, t) ||
-        static_cast<double>(*most) < GuessLimits::most_rows * static_cast<double>(t.rows))
-      continue;
-    unit = gravity_units[static_cast<std::size_t>(most - t.as_unit.begin())].symbol;
+    const std::vector<std::string> units =
+        found || !likely(file, t) ? std::vector<std::string>() : units_of(file, t);
+    if (units.empty()) continue;
+    found = true;
+    const bool alike = units[0] == units[1] && units[1] == units[2];
+    if (alike) unit = units[0];
     const std::string axes = axes_of(file, t);
     for (std::size_t a = 0; a < 3; ++a) {
       GuessedColumn& c = file.columns[t.columns[a]];
       c.channel = fmt::format("acc_{}", axes[a]);
       c.by_values = true;
+      if (!alike && !stated_unit(c)) c.unit = units[a];
     }
   }
+  for (const Triple& t : named_)
+    if (const auto units = units_of(file, t); !units.empty())
+      for (std::size_t a = 0; a < 3; ++a)
+        if (GuessedColumn& c = file.columns[t.columns[a]]; !stated_unit(c)) c.unit = units[a];
   const bool moving =
       std::ranges::any_of(gimbals_, [](const Angle& a) { return a.farthest > GuessLimits::held; });
   std::vector<std::size_t> held, called;

@@ -34,14 +34,16 @@ class GuessByValues {
 
   void look_at_row(const std::vector<std::string_view>& cells);
   /// Names the channels; the unit of the accelerometers by their size comes back, "" if none are
-  /// found.
+  /// found, or if they are not in one unit: then each column has its own.
   std::string name_channels(GuessedFile& file);
 
  private:
   struct Triple {
     std::array<std::size_t, 3> columns{};
     std::size_t rows = 0;
-    std::array<std::size_t, 4> as_unit{};  ///< rows whose length is 1 g in that unit
+    /// Rows whose length is 1 g in each choice of a unit for every column: first + 4 second + 16
+    /// third.
+    std::array<std::size_t, 64> as_units{};
     std::array<bool, 3> whole{true, true, true};
   };
   /// An angle, and how far it moves within positions.
@@ -54,11 +56,14 @@ class GuessByValues {
   };
 
   void begin_position();
+  /// The units of its columns that make its length 1 g; empty if none do, or several.
+  std::vector<std::string> units_of(const GuessedFile& file, const Triple& t) const;
   bool likely(const GuessedFile& file, const Triple& t) const;
   /// The axes of a triple in the order of its columns: as their names end, else x, y, z.
   static std::string axes_of(const GuessedFile& file, const Triple& t);
 
   std::vector<Triple> triples_;
+  std::vector<Triple> named_;  ///< accelerometers by their names, without a unit for each; or none
   std::vector<Angle> angles_;  ///< that have no name yet
   std::vector<Angle> gimbals_;
   std::size_t position_ = 0;  ///< column

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/words.hpp"
 #include "core/recording/recording_channels.hpp"
 #include "core/recording/recording_problems.hpp"
+#include "core/recording/rows/reading_step.hpp"
 #include "core/recording/rows/row_spacing.hpp"
 #include "core/stats/median.hpp"
 
@@ -66,6 +68,7 @@ ChannelQuality look_at_channel(const Channel& c, const Recording& r, RecordingKi
   q.mean = mean / c.unit.to_si;
   q.sd = q.measured > 1 ? std::sqrt(squares / static_cast<double>(q.measured - 1)) / c.unit.to_si
                         : 0.0;
+  q.step = reading_step(c, r.find("position")).value_or(0.0) / c.unit.to_si;
   for (std::size_t i = 0; i < c.values.size();) {
     const double x = c.values[i];
     std::size_t end = i + 1;
@@ -93,6 +96,13 @@ void remark_channels(QualityCard& card) {
   for (const auto& q : card.channels) {
     if (q.measured == 0)
       card.remarks.add(Weight::wrong, q.name + ": nothing was measured");
+    else if (is_sensor(q) && q.stuck >= 3 && q.step > 0.0)
+      card.remarks.add(
+          Weight::doubtful,
+          fmt::format(
+              "{0}: its readings are steps of {1:.3g} {2} (identical for up to {3} samples): "
+              "a noise of less than {4:.2g} {2} is not in them",
+              q.name, q.step, q.unit, q.stuck, q.step / std::sqrt(12.0)));
     else if (is_sensor(q) && q.stuck >= 20)
       card.remarks.add(Weight::wrong,
                        fmt::format("{}: {} identical samples from line {} on: a stuck sensor?",
@@ -120,11 +130,29 @@ void ask_about_fahrenheit(QualityCard& card) {
                       q.mean, (q.mean - 32.0) / 1.8));
 }
 
+/// Without commands those of the plan are taken; columns that may be commands under another name
+/// are asked about first: what can be learned hangs on what the platform was told.
+void remark_no_commands(const Recording& r, QualityCard& card) {
+  std::vector<std::string> rates;
+  for (const Channel& c : r.channels)
+    if (c.unit.dim == unit::deg_per_h.dim && is_covariate(c.name, RecordingKind::platform))
+      rates.push_back(c.name);
+  const std::string none = "no commands (cmd_*): those of the plan are taken";
+  if (rates.empty()) {
+    card.remarks.add(Weight::note, none);
+    return;
+  }
+  card.remarks.add(
+      Weight::doubtful,
+      fmt::format("{}, though {} {} in a unit of rates: if the platform was told so, write cmd_x, "
+                  "cmd_y, cmd_z = \"the header as it stands\" in columns of [recording]",
+                  none, listed(rates, "and"), rates.size() == 1 ? "is" : "are"));
+}
+
 /// What is not there, and what is made of that.
 void remark_absent(const Recording& r, RecordingKind kind, QualityCard& card) {
   if (kind == RecordingKind::platform) {
-    if (!r.find("cmd_x"))
-      card.remarks.add(Weight::note, "no commands (cmd_*): those of the plan are taken");
+    if (!r.find("cmd_x")) remark_no_commands(r, card);
     if (!r.find("phase")) card.remarks.add(Weight::note, "no phase: every row is taken as dwell");
     for (const auto& triple : {channel_triples[0], channel_triples[1]}) {
       std::vector<std::string_view> absent;

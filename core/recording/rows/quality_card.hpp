@@ -16,6 +16,7 @@ struct ChannelQuality {
   double min = 0.0, max = 0.0, mean = 0.0, sd = 0.0;  ///< of the measured samples; NaN if none
   std::size_t stuck = 0;       ///< samples in the longest run of one and the same value
   std::size_t stuck_line = 0;  ///< line or row at which that run starts
+  double step = 0.0;           ///< of a readout coarser than its noise (reading_step()); or 0
   std::size_t saturated = 0;   ///< runs of three samples or more at the minimum or maximum
 };
 

@@ -51,6 +51,15 @@ TEST(IsolatedSamples, InASlewIsFoundAmongQuietRowsWhereverItIs) {
     }
 }
 
+TEST(IsolatedSamples, ARowOfZerosThatBeginsOneDwellIsNoDecayOfSeveral) {
+  const Timeline timeline = dwell_slew_dwell(9);
+  Mat3X residual = Mat3X::Zero(3, static_cast<int>(timeline.intervals.size()));
+  residual.col(29).setConstant(50.0);
+  EXPECT_EQ(spikes_in(timeline, residual), 3u) << "three channels of one row";
+  residual.col(0).setConstant(50.0);
+  EXPECT_EQ(spikes_in(timeline, residual), 0u) << "what begins two dwells";
+}
+
 TEST(IsolatedSamples, AMotionInASlewIsNone) {
   // What a wrong equation leaves of one slew, and what a slew of two rows or one may be.
   const std::vector<std::vector<double>> slews{

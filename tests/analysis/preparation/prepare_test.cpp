@@ -163,24 +163,6 @@ TEST(Prepare, ALargeDriftIsNoOtherLaw) {
   EXPECT_EQ(message(s, without(simulated(s), "cmd_")), "");
 }
 
-TEST(Prepare, AStuckChannelIsLeftOutAndACoarseOneIsNot) {
-  const mc::Study s = study(1800.0);
-  Recording r = simulated(s);
-  auto& stuck = channel(r, "acc_y");
-  std::fill(stuck.begin(), stuck.end(), 0.5);
-  auto& burst = channel(r, "gimbal_inner");
-  std::fill(burst.begin() + 40, burst.begin() + 70, burst[40]);
-  auto& coarse = channel(r, "acc_z");  // resolution 0.02 g: whole positions may read the same
-  for (double& x : coarse) x = 0.02 * std::round(x / 0.02);
-  const Prepared p = prepare(s, {r});
-  EXPECT_FALSE(says(p, "acc_z"));
-  EXPECT_TRUE(says(p, "acc_y stands still for 180 samples"));
-  EXPECT_TRUE(says(p, "gimbal_inner stands still for 30 samples, from line 41"));
-  EXPECT_TRUE(std::isnan(p.recordings[0].find("acc_y")->values[0]));
-  EXPECT_TRUE(std::isnan(p.recordings[0].find("gimbal_inner")->values[69]));
-  EXPECT_TRUE(std::isfinite(p.recordings[0].find("gimbal_inner")->values[70]));
-}
-
 TEST(Prepare, TwentyEqualSamplesAreAStuckSensor) {
   const mc::Study s = study(1800.0);
   const auto stuck = [&](std::ptrdiff_t samples) {

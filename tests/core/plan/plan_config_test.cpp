@@ -75,6 +75,16 @@ TEST(PlanConfig, ADwellIsAWholeNumberOfSamples) {
   EXPECT_TRUE(bad("1000 h", "0.001 s"));  // more than a recording can hold
 }
 
+TEST(PlanConfig, ADwellThatNoPositionHasNeedsNoWholeNumberOfSamples) {
+  const std::string plan = "sample = \"60.0012 s\"\n",
+                    position = "[[plan.position]]\naxes = \"x=N y=W z=U\"\n";
+  EXPECT_TRUE(read(plan + position + "dwell = \"3600.072 s\"\n").mistakes.empty());
+  EXPECT_FALSE(read(plan + position).mistakes.empty()) << "here the 60 min of [plan] are held";
+  EXPECT_FALSE(
+      read(plan + "dwell = \"60 min\"\n" + position + "dwell = \"3600.072 s\"\n").mistakes.empty())
+      << "a dwell that is written down is meant";
+}
+
 TEST(PlanConfig, KeysOfTheOtherKindOfTestAreRefused) {
   for (const char* text :
        {"kind = \"strapdown\"\npreset = \"six\"\n", "kind = \"strapdown\"\ndwell = \"1 min\"\n",

@@ -106,6 +106,34 @@ TEST(QualityCard, SaysWhatIsTakenForGranted) {
     EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
 }
 
+TEST(QualityCard, ACoarseReadoutIsSaidByItsStepAndIsNoStuckSensor) {
+  Recording r;
+  r.channels = {{"time", unit::s, {}}, {"acc_x", *parse_unit("mg"), {}}};
+  for (int i = 0; i < 200; ++i) {
+    r.channels[0].values.push_back(i);
+    r.channels[1].values.push_back(0.002 * std::round(0.05 * i / 2.0));  // a step in 40 rows
+    r.lines.push_back(static_cast<std::size_t>(i) + 2);
+  }
+  const std::string text = to_text(quality_card(r, RecordingKind::platform));
+  EXPECT_NE(text.find("acc_x: its readings are steps of 2 mg"), std::string::npos) << text;
+  EXPECT_EQ(text.find("stuck sensor?"), std::string::npos) << text;
+  EXPECT_EQ(text.find("saturated?"), std::string::npos) << text;
+}
+
+TEST(QualityCard, ColumnsThatMayBeCommandsAreDoubtedFirst) {
+  const Folder folder;
+  const auto r = read_recording(
+      folder.write("r.csv",
+                   "Run 7\ntime [s],position,acc_x [g],acc_y [g],acc_z [g],torq_1 [deg/h]\n"
+                   "1,1,0,0,1,7.5\n2,1,0,0,1,7.5\n"),
+      RecordingKind::platform, gravity);
+  const auto said = quality_card(r, RecordingKind::platform).remarks.texts();
+  ASSERT_FALSE(said.empty());
+  EXPECT_NE(said[0].find("those of the plan are taken, though torq_1 is in a unit of rates"),
+            std::string::npos)
+      << said[0];
+}
+
 TEST(QualityCard, SaysWhatIsWrongBeforeWhatIsNoted) {
   const Folder folder;  // four remarks on how it was read come first in the file
   const auto r =

@@ -1,0 +1,47 @@
+#include "core/recording/rows/reading_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace drift {
+namespace {
+
+constexpr double rounding = 1e-3;  ///< [steps] of a decimal text, and of its conversion
+constexpr std::size_t fewest_values = 4;
+
+bool is_whole(double steps) {
+  return std::abs(steps - std::round(steps)) < rounding;
+}
+
+}  // namespace
+
+std::optional<double> reading_step(const Channel& channel, const Channel* position) {
+  const std::vector<double>& x = channel.values;
+  std::vector<double> values;
+  for (const double value : x)
+    if (std::isfinite(value)) values.push_back(value);
+  std::ranges::sort(values);
+  double step = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < values.size(); ++i)
+    if (values[i] > values[i - 1]) step = std::min(step, values[i] - values[i - 1]);
+  if (!std::isfinite(step)) return std::nullopt;
+  std::size_t different = 1;
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    if (!is_whole((values[i] - values[i - 1]) / step)) return std::nullopt;
+    different += values[i] > values[i - 1] ? 1 : 0;
+  }
+  if (different < fewest_values) return std::nullopt;
+  std::size_t bends = 0, small = 0;
+  for (std::size_t i = 2; i < x.size(); ++i) {
+    if (position && position->values[i] != position->values[i - 2]) continue;
+    const double steps = std::abs(x[i] - 2.0 * x[i - 1] + x[i - 2]) / step;
+    if (!(steps > 0.5)) continue;  // or not measured
+    ++bends;
+    small += steps < 2.5 ? 1 : 0;
+  }
+  if (2 * small < bends) return std::nullopt;
+  return step;
+}
+
+}  // namespace drift

@@ -1,0 +1,86 @@
+// A sensor that stands still, and one that reads in coarse steps.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/preparation/prepare.hpp"
+#include "core/sim/measurements.hpp"
+#include "core/sim/simulate.hpp"
+#include "tests/support/model_builders.hpp"
+
+namespace drift::preparation::stuck_sensor_test {
+namespace {
+
+using test::base_filter;
+using test::base_truth;
+
+/// A six-position study with the truth at zero, and its recording.
+mc::Study study(double dwell = 1200.0, double sample = 60.0) {
+  mc::Study s;
+  s.path = "study.toml";
+  s.site = test::harbin;
+  PlanDefaults defaults;
+  defaults.dwell = dwell;
+  defaults.sample = sample;
+  s.plan = preset_plan("six", defaults).value();
+  s.truth = base_truth(Coupling::eq5);
+  s.filters = {base_filter(Coupling::eq5)};
+  return s;
+}
+
+Recording simulated(const mc::Study& s) {
+  const Timeline timeline = lay_out(s.plan, s.site);
+  const TruthDraw draw = draw_truth(s.truth, timeline.chains, 1, 0);
+  Simulator simulator(s.truth, s.readout);
+  return make_recording(timeline, simulator.run(timeline, draw, 1, 0).measured, s.readout);
+}
+
+bool says(const Prepared& p, std::string_view text) {
+  for (const auto& remark : p.remarks)
+    if (remark.find(text) != std::string::npos) return true;
+  return false;
+}
+
+std::vector<double>& channel(Recording& r, std::string_view name) {
+  for (Channel& c : r.channels)
+    if (c.name == name) return c.values;
+  throw std::runtime_error("no such channel");
+}
+
+TEST(Prepare, AStuckChannelIsLeftOutAndACoarseOneIsNot) {
+  const mc::Study s = study(1800.0);
+  Recording r = simulated(s);
+  auto& stuck = channel(r, "acc_y");
+  std::fill(stuck.begin(), stuck.end(), 0.5);
+  auto& burst = channel(r, "gimbal_inner");
+  std::fill(burst.begin() + 40, burst.begin() + 70, burst[40]);
+  auto& coarse = channel(r, "acc_z");  // resolution 0.02 g: whole positions may read the same
+  for (double& x : coarse) x = 0.02 * std::round(x / 0.02);
+  const Prepared p = prepare(s, {r});
+  EXPECT_FALSE(says(p, "acc_z"));
+  EXPECT_TRUE(std::ranges::all_of(p.recordings[0].find("acc_z")->values,
+                                  [](double x) { return std::isfinite(x); }));
+  EXPECT_TRUE(says(p, "acc_y stands still for 180 samples"));
+  EXPECT_TRUE(says(p, "gimbal_inner stands still for 30 samples, from line 41"));
+  EXPECT_TRUE(std::isnan(p.recordings[0].find("acc_y")->values[0]));
+  EXPECT_TRUE(std::isnan(p.recordings[0].find("gimbal_inner")->values[69]));
+  EXPECT_TRUE(std::isfinite(p.recordings[0].find("gimbal_inner")->values[70]));
+}
+
+TEST(Prepare, ACoarseReadoutThatFlickersHereAndStandsThereIsNoStuckSensor) {
+  // Between two steps it changes from row to row, on one of them it stays for a whole dwell.
+  const mc::Study s = study(1800.0);
+  Recording r = simulated(s);
+  auto& x = channel(r, "acc_x");
+  for (std::size_t i = 0; i < x.size(); ++i)
+    x[i] = 1e-3 * (std::round(x[i] / 1e-3) + (i < 120 && i % 2 == 0 ? 1.0 : 0.0));
+  std::fill(x.begin() + 120, x.begin() + 150, x[120]);
+  const Prepared p = prepare(s, {r});
+  EXPECT_FALSE(says(p, "stands still"));
+  EXPECT_TRUE(std::ranges::all_of(p.recordings[0].find("acc_x")->values,
+                                  [](double value) { return std::isfinite(value); }));
+}
+
+}  // namespace
+}  // namespace drift::preparation::stuck_sensor_test

@@ -1,0 +1,51 @@
+// Lines of a user's own file that are no samples.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "recording_fixture.hpp"
+
+namespace drift::own_rows_test {
+namespace {
+
+using namespace test;
+
+const std::string imu_header =
+    "gyro_x [deg/s],gyro_y [deg/s],gyro_z [deg/s],acc_x [g],acc_y [g],acc_z [g]\n";
+const std::string still = ",0.1,0.2,0.3,0,0,1\n";
+
+TEST(OwnRows, AHeaderThatStandsAgainAndTextAtTheEndAreNoRows) {
+  const Folder folder;
+  const std::string head =
+      "time,gyro_x,gyro_y,gyro_z,acc_x,acc_y,acc_z\n"
+      "s,deg/s,deg/s,deg/s,g,g,g\n";
+  const std::string path =
+      folder.write("r.csv", head + "1" + still + "2" + still + head + "3" + still + head + "4" +
+                                still + "End of the recording\nOperator: J. Doe\n");
+  const Recording r = read_recording(path, RecordingKind::strapdown, gravity);
+  EXPECT_EQ(r.find("time")->values, (std::vector<double>{1.0, 2.0, 3.0, 4.0}));
+  const std::vector<std::string> said = r.remarks.texts();
+  const auto says = [&](std::string_view part) {
+    return std::ranges::any_of(
+        said, [&](const std::string& s) { return s.find(part) != std::string::npos; });
+  };
+  EXPECT_TRUE(says("the header stands again in 2 lines, the last of them 8"));
+  EXPECT_TRUE(says("lines 11 to 12, the last, are text: they are left out"));
+  EXPECT_FALSE(says("cut off"));
+  const std::string between = folder.write("b.csv", head + "1" + still + "a pause\n" + "2" + still);
+  EXPECT_THROW(read_recording(between, RecordingKind::strapdown, gravity), InputError)
+      << "text between rows is not passed over";
+}
+
+TEST(OwnRows, BarsMayDivideTheCells) {
+  const Folder folder;
+  std::string text = "time [s]," + imu_header + "1" + still + "2" + still;
+  std::ranges::replace(text, ',', '|');
+  const Recording r =
+      read_recording(folder.write("r.csv", text), RecordingKind::strapdown, gravity);
+  EXPECT_EQ(r.find("time")->values, (std::vector<double>{1.0, 2.0}));
+  EXPECT_EQ(r.find("acc_z")->values, (std::vector<double>{1.0, 1.0}));
+}
+
+}  // namespace
+}  // namespace drift::own_rows_test
