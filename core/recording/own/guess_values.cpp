@@ -175,9 +175,6 @@ std::string GuessByValues::axes_of(const GuessedFile& file, const Triple& t) {
 }
 
 std::vector<std::string> GuessByValues::units_of(const GuessedFile& file, const Triple& t) const {
-  const bool all_stated =  // a wrong one is said by whoever reads the file
-      std::ranges::all_of(t.columns,
-                          [&](std::size_t c) { return stated_unit(file.columns[c]).has_value(); });
   const auto fits = [&](std::size_t choice) {
     for (std::size_t a = 0; a < 3; ++a)
       if (const auto stated = stated_unit(file.columns[t.columns[a]]);
