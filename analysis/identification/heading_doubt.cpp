@@ -142,8 +142,11 @@ std::optional<HeadingDoubt> heading_doubt(const mc::Study& study,
   const std::size_t count = plan.positions.size();
   const std::vector<Passage> passages = plan_passages(plan, study.site);
   const std::vector<Vec3> rates = earth_rates(study, recordings);
-  const bool gimbals = std::ranges::any_of(
-      recordings, [](const Recording& r) { return r.find("gimbal_inner") != nullptr; });
+  const auto recorded = [&](const char* channel) {
+    return std::ranges::any_of(recordings,
+                               [&](const Recording& r) { return r.find(channel) != nullptr; });
+  };
+  const bool gimbals = recorded("gimbal_inner");
 
   std::vector<Fit> tried(1);
   tried[0].turns.assign(count, 0.0);
@@ -177,10 +180,12 @@ std::optional<HeadingDoubt> heading_doubt(const mc::Study& study,
       [&](const Fit& a, const Fit& b) { return log_chance(before, a) < log_chance(before, b); });
   const double chance = log_chance(before, best);
   if (!(chance < std::log(rare_studies) - 0.5 * FitLimits::mirrored)) return std::nullopt;
-  HeadingDoubt doubt{.positions = best.positions,
+  HeadingDoubt doubt{.turned = {},
+                     .positions = best.positions,
                      .chi2_per_dof_before = before.per_dof(),
                      .chi2_per_dof_after = best.per_dof(),
                      .chance = std::exp(chance)};
+  doubt.recorded = recorded("case_heading");
   if (doubt.chi2_per_dof_before - doubt.chi2_per_dof_after <
       SiteLimits::most * (doubt.chi2_per_dof_before - 1.0))
     return std::nullopt;

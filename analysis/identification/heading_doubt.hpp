@@ -18,6 +18,7 @@ struct TurnedPosition {
 struct HeadingDoubt {
   std::vector<TurnedPosition> turned;  ///< at least one
   bool all_alike = false;              ///< every position of the plan, by one turn
+  bool recorded = false;  ///< a heading of the case was recorded, too, and is as wrong as the plan
   /// The positions of the plan as the recording has them: axes and, where gimbals were recorded,
   /// case_heading.
   std::vector<Position> positions;

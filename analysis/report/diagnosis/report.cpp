@@ -11,6 +11,7 @@
 #include "analysis/report/diagnosis/form_words.hpp"
 #include "analysis/report/diagnosis/sections.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
+#include "analysis/report/identify/turned_words.hpp"
 #include "core/base/results/folder.hpp"
 #include "core/physics/parameters_config.hpp"
 
@@ -196,9 +197,7 @@ InBrief diagnosis_in_brief(const Diagnosis& d) {
   if (!d.wrong_study())
     for (const auto& [head, sentence] : doubts_of(d)) add(doubt, head, sentence);
   if (d.heading_doubt)
-    brief.next =
-        "Next: diagnose again with corrected.toml of the results folder (-o), the study with the "
-        "headings of the recording.";
+    brief.next = corrected_text(*d.heading_doubt, "diagnose");
   else if (d.site_doubt)
     brief.next =
         d.site_doubt->alone()

@@ -242,10 +242,8 @@ InBrief identification_in_brief(const mc::Study& study, const identification::Id
   const bool wrong_study = other_headings(id) != nullptr || other_latitude(id).has_value();
   brief.tone = j.good.empty() || wrong_study ? Tone::bad : doubtful ? Tone::doubtful : Tone::good;
   const std::string file = study.path.empty() ? "STUDY" : study.path;
-  if (other_headings(id) != nullptr)
-    brief.next =
-        "Next: identify again with corrected.toml of the results folder (-o), the study with the "
-        "headings of the recording.";
+  if (const auto* headings = other_headings(id))
+    brief.next = corrected_text(*headings, "identify");
   else if (const auto doubt = other_latitude(id); doubt && doubt->alone())
     brief.next = fmt::format("Next: identify again with --set site.latitude=\"{:.3f} deg\".",
                              doubt->latitude / unit::deg.to_si);

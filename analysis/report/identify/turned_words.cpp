@@ -40,6 +40,16 @@ std::string turned_text(const identification::HeadingDoubt& doubt) {
   return "The platform did not head as the plan says, but turned about Up " + listed(parts, "and");
 }
 
+std::string corrected_text(const identification::HeadingDoubt& doubt, std::string_view command) {
+  return fmt::format(
+      "Next: {} again with corrected.toml of the results folder (-o), the study with the headings "
+      "of the recording{}.",
+      command,
+      doubt.recorded ? ", and without its case_heading, which is as wrong: --set "
+                       "'recording.ignore=[\"case_heading\"]', or what the column is called"
+                     : "");
+}
+
 Json heading_json(const identification::HeadingDoubt& doubt) {
   Json turned = Json::array();
   for (const identification::TurnedPosition& t : doubt.turned) {

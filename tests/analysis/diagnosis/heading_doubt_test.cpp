@@ -11,6 +11,7 @@
 #include "analysis/preparation/prepare.hpp"
 #include "analysis/report/diagnosis/report.hpp"
 #include "analysis/report/identify/report.hpp"
+#include "analysis/report/identify/turned_words.hpp"
 #include "core/sim/measurements.hpp"
 #include "core/sim/simulate.hpp"
 #include "tests/support/model_builders.hpp"
@@ -134,6 +135,10 @@ TEST(HeadingDoubt, ARecordedHeadingThatIsWrongInTheSameWayIsTurnedBack) {
   const auto doubt = s.doubt();
   ASSERT_TRUE(doubt);
   EXPECT_TRUE(doubt->alone());
+  EXPECT_TRUE(doubt->recorded);
+  // What corrected.toml says is refused beside it.
+  EXPECT_NE(report::corrected_text(*doubt, "diagnose").find("recording.ignore=[\"case_heading\"]"),
+            std::string::npos);
 }
 
 TEST(HeadingDoubt, IsNotRaisedOfARightPlanWhateverElseMisfits) {
@@ -163,6 +168,7 @@ TEST(HeadingDoubt, IsTheFirstThingThatBothCommandsSayAndLeavesThePlanToGoOnWith)
             0u)
       << brief.verdict;
   EXPECT_NE(brief.next.find("corrected.toml"), std::string::npos) << brief.next;
+  EXPECT_EQ(brief.next.find("case_heading"), std::string::npos) << brief.next;
   EXPECT_EQ(nlohmann::json::parse(report::to_json(d))["heading"]["turned"][0]["position"], 5);
 
   const auto id = identification::identify_recordings(s.study, {s.recording}, 1);
