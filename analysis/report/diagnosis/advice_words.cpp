@@ -163,18 +163,22 @@ std::string hidden_text(const Advice& a) {
   std::vector<AdvisedPair> unseen, near;
   for (const AdvisedPair& p : a.pairs) (against_nominal(a, p) ? unseen : near).push_back(p);
   const std::string size = before_it(" ", size_text(a.sizes));
+  // Where no position may be added there is none to count.
+  const std::string additions = a.pool > 0
+                                    ? fmt::format("No {} of {} possible additions", a.most, a.pool)
+                                    : "No additions to this plan";
   std::string text;
   if (!unseen.empty())
     text = fmt::format(
-        "No {} of {} possible additions show {}{} with {:g} sigma: what the nominal model fits "
+        "{} show {}{} with {:g} sigma: what the nominal model fits "
         "takes "
         "the trace, or it is too small for these instruments.",
-        a.most, a.pool, pairs_in_words(a, unseen, ""), size, AdviceLimits::told);
+        additions, pairs_in_words(a, unseen, ""), size, AdviceLimits::told);
   if (!near.empty())
     text += fmt::format(
-        "{}No {} of {} possible additions separate {}{} by {:g} sigma: another measurement is "
+        "{}{} separate {}{} by {:g} sigma: another measurement is "
         "needed.",
-        text.empty() ? "" : " ", a.most, a.pool, pairs_in_words(a, near, " from "), size,
+        text.empty() ? "" : " ", additions, pairs_in_words(a, near, " from "), size,
         AdviceLimits::told);
   return text;
 }

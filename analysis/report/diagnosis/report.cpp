@@ -189,9 +189,12 @@ InBrief diagnosis_in_brief(const Diagnosis& d) {
     add(Weight::note, "Where", where_sentence(d.where));
     add(Weight::note, "Held out", held_out_sentence(d.fit.held_out));
   }
+  bool off_zero = false;
   for (const diagnosis::Remark& r : d.remarks)
-    if (const auto* gimbal = std::get_if<diagnosis::remark::GimbalOffZero>(&r))
+    if (const auto* gimbal = std::get_if<diagnosis::remark::GimbalOffZero>(&r)) {
       add(Weight::wrong, "Gimbals", gimbal->text + ".");
+      off_zero = true;
+    }
   // Of what is not explained it is no news that parameters take it up.
   const Weight doubt = d.verdict == Verdict::unexplained ? Weight::note : Weight::doubtful;
   if (!d.wrong_study())
@@ -205,6 +208,8 @@ InBrief diagnosis_in_brief(const Diagnosis& d) {
                           d.site_doubt->latitude / unit::deg.to_si)
             : "Next: diagnose again with the latitude of the site as a map has it: what is "
               "missing beside it shows then.";
+  else if (off_zero && d.verdict != Verdict::consistent)
+    brief.next = "Next: correct the zero of the gimbal, or its offset, and diagnose again.";
   else if (!d.advice.empty())
     brief.next = "Next: " + advice_in_brief(d.advice.front());
   else if (d.verdict == Verdict::named && d.has_patch)

@@ -140,6 +140,10 @@ TEST(Advise, OnRequestAConsistentRecordingIsToldWhatItsPlanHides) {
   EXPECT_TRUE(advice.back().plan.empty());
   EXPECT_NE(advice_text(advice.back()).find("possible additions show"), std::string::npos)
       << advice_text(advice.back());
+  Advice nowhere = advice.back();
+  nowhere.pool = 0;
+  EXPECT_NE(advice_text(nowhere).find("No additions to this plan show"), std::string::npos)
+      << advice_text(nowhere);
   for (const std::string& label : advised_labels(advice.back()))
     if (label != "the nominal model") {
       EXPECT_EQ(std::find(seen.begin(), seen.end(), label), seen.end()) << label;

@@ -51,9 +51,13 @@ TEST(DiagnosisWords, AGimbalThatReadsAConstantTooMuchIsTheFirstThingSaidBesideAn
   for (diagnosis::Diagnosis d :
        {tense(TermLibrary::find("D_F_y").value()), testing::diagnosis(nominal())}) {
     d.remarks.emplace_back(remark::GimbalOffZero{"rec.csv:gimbal_middle: it reads 1 deg too much"});
-    const auto said = report::diagnosis_in_brief(d).more.texts();
+    const report::InBrief brief = report::diagnosis_in_brief(d);
+    const auto said = brief.more.texts();
     ASSERT_FALSE(said.empty());
     EXPECT_EQ(said.front(), "Gimbals: rec.csv:gimbal_middle: it reads 1 deg too much.");
+    // A cause that such readings were taken for is nothing to go on with.
+    const bool first = brief.next.find("correct the zero of the gimbal") != std::string::npos;
+    EXPECT_EQ(first, d.verdict != diagnosis::Verdict::consistent) << brief.next;
   }
 }
 
