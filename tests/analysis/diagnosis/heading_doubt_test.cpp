@@ -12,39 +12,15 @@
 #include "analysis/report/diagnosis/report.hpp"
 #include "analysis/report/identify/report.hpp"
 #include "analysis/report/identify/turned_words.hpp"
-#include "core/sim/measurements.hpp"
-#include "core/sim/simulate.hpp"
-#include "tests/support/model_builders.hpp"
+#include "tests/support/six_positions.hpp"
 
 namespace drift::heading_doubt_test {
 namespace {
 
 /// Six caged positions, and a study that may say other headings.
-struct Scene {
-  mc::Study study;
-  Recording recording;
-
-  /// hidden: D_SS_x, which the nominal filter does not know [deg/h/g^2].
-  explicit Scene(CommandLaw law = CommandLaw::free, double hidden = 0.0) {
-    study.path = "study.toml";
-    study.site = test::harbin;
-    PlanDefaults defaults;
-    defaults.dwell = 1200.0;
-    defaults.mode = law;
-    study.plan = preset_plan("six", defaults).value();
-    study.truth = test::base_truth(Coupling::eq5);
-    study.truth.active &= ~test::only({"D_II", "D_OO", "D_SS", "D_IO", "D_IS", "D_OS"});
-    study.filters = {test::base_filter(Coupling::eq5)};
-    study.filters.front().active = study.truth.active;
-    const Timeline timeline = lay_out(study.plan, study.site);
-    TruthSpec with_hidden = study.truth;
-    with_hidden.active |= test::only({"D_SS_x"});
-    TruthDraw draw = draw_truth(study.truth, timeline.chains, 1, 0);
-    draw.theta[test::param("D_SS_x")] = hidden * test::deg_per_h;
-    recording = make_recording(
-        timeline, Simulator(with_hidden, study.readout).run(timeline, draw, 1, 0).measured,
-        study.readout);
-  }
+struct Scene : test::SixWithHidden {
+  explicit Scene(CommandLaw law = CommandLaw::free, double hidden = 0.0)
+      : SixWithHidden(law, hidden) {}
 
   /// The log has no such columns.
   void leave_out(std::string_view begin) {

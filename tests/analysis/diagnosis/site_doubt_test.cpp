@@ -12,9 +12,7 @@
 #include "analysis/report/diagnosis/remark_words.hpp"
 #include "analysis/report/diagnosis/report.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
-#include "core/sim/measurements.hpp"
-#include "core/sim/simulate.hpp"
-#include "tests/support/model_builders.hpp"
+#include "tests/support/six_positions.hpp"
 
 namespace drift::diagnosis::site_doubt_test {
 namespace {
@@ -22,29 +20,8 @@ namespace {
 constexpr double truth = 45.75;  // deg, of test::harbin
 
 /// Six positions of free drift at Harbin, and a study that may say another latitude.
-struct Scene {
-  mc::Study study;
-  Recording recording;
-
-  /// hidden: D_SS_x, which the nominal filter does not know [deg/h/g^2].
-  explicit Scene(double latitude_deg, double hidden = 0.0) {
-    study.path = "study.toml";
-    study.site = test::harbin;
-    PlanDefaults defaults;
-    defaults.dwell = 1200.0;
-    study.plan = preset_plan("six", defaults).value();
-    study.truth = test::base_truth(Coupling::eq5);
-    study.truth.active &= ~test::only({"D_II", "D_OO", "D_SS", "D_IO", "D_IS", "D_OS"});
-    study.filters = {test::base_filter(Coupling::eq5)};
-    study.filters.front().active = study.truth.active;
-    const Timeline timeline = lay_out(study.plan, study.site);
-    TruthSpec with_hidden = study.truth;
-    with_hidden.active |= test::only({"D_SS_x"});
-    TruthDraw draw = draw_truth(study.truth, timeline.chains, 1, 0);
-    draw.theta[test::param("D_SS_x")] = hidden * test::deg_per_h;
-    recording = make_recording(
-        timeline, Simulator(with_hidden, study.readout).run(timeline, draw, 1, 0).measured,
-        study.readout);
+struct Scene : test::SixWithHidden {
+  explicit Scene(double latitude_deg, double hidden = 0.0) : SixWithHidden(std::nullopt, hidden) {
     study.site.latitude = latitude_deg * unit::deg.to_si;
   }
   std::optional<identification::LatitudeDoubt> doubt(Verdict verdict) const {

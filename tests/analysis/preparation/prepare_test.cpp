@@ -5,36 +5,14 @@
 #include <chrono>
 
 #include "core/base/check.hpp"
-#include "core/sim/measurements.hpp"
-#include "core/sim/simulate.hpp"
-#include "tests/support/model_builders.hpp"
+#include "tests/support/six_positions.hpp"
 
 namespace drift::preparation::prepare_test {
 namespace {
 
-using test::base_filter;
-using test::base_truth;
-
-/// A six-position study with the truth at zero, and its recording.
-mc::Study study(double dwell = 1200.0, double sample = 60.0) {
-  mc::Study s;
-  s.path = "study.toml";
-  s.site = test::harbin;
-  PlanDefaults defaults;
-  defaults.dwell = dwell;
-  defaults.sample = sample;
-  s.plan = preset_plan("six", defaults).value();
-  s.truth = base_truth(Coupling::eq5);
-  s.filters = {base_filter(Coupling::eq5)};
-  return s;
-}
-
-Recording simulated(const mc::Study& s) {
-  const Timeline timeline = lay_out(s.plan, s.site);
-  const TruthDraw draw = draw_truth(s.truth, timeline.chains, 1, 0);
-  Simulator simulator(s.truth, s.readout);
-  return make_recording(timeline, simulator.run(timeline, draw, 1, 0).measured, s.readout);
-}
+using test::channel;
+using test::says;
+using test::simulated;
 
 std::string message(const mc::Study& s, const Recording& r) {
   try {
@@ -46,20 +24,8 @@ std::string message(const mc::Study& s, const Recording& r) {
   return "";
 }
 
-bool says(const Prepared& p, std::string_view text) {
-  for (const auto& remark : p.remarks)
-    if (remark.find(text) != std::string::npos) return true;
-  return false;
-}
-
-std::vector<double>& channel(Recording& r, std::string_view name) {
-  for (Channel& c : r.channels)
-    if (c.name == name) return c.values;
-  throw std::runtime_error("no such channel");
-}
-
 TEST(Prepare, AGoodRecordingIsLeftAsItIs) {
-  const mc::Study s = study();
+  const mc::Study s = test::six_study();
   const Recording r = simulated(s);
   const Prepared p = prepare(s, {r});
   EXPECT_TRUE(p.remarks.empty()) << p.remarks.front();
@@ -68,16 +34,16 @@ TEST(Prepare, AGoodRecordingIsLeftAsItIs) {
 }
 
 TEST(Prepare, AnotherPlanIsSaid) {
-  const mc::Study s = study();
+  const mc::Study s = test::six_study();
   mc::Study other = s;
   std::swap(other.plan.positions[1], other.plan.positions[4]);
   EXPECT_NE(message(other, simulated(s)).find("Is this the plan"), std::string::npos);
   mc::Study few = s;
   few.plan.positions.resize(3);
   EXPECT_NE(message(few, simulated(s)).find("are not in the plan"), std::string::npos);
-  EXPECT_NE(message(study(1200.0, 40.0), simulated(s)).find("samples are 60 s apart"),
+  EXPECT_NE(message(test::six_study(1200.0, 40.0), simulated(s)).find("samples are 60 s apart"),
             std::string::npos);
-  EXPECT_NE(message(study(1200.0, 80.0), simulated(s)).find("samples are 60 s apart"),
+  EXPECT_NE(message(test::six_study(1200.0, 80.0), simulated(s)).find("samples are 60 s apart"),
             std::string::npos);
 }
 
@@ -93,7 +59,7 @@ mc::Study with_law(mc::Study s, CommandLaw law) {
 }
 
 TEST(Prepare, PositionsThatThePlanDoesNotHaveAreOneMessage) {
-  const mc::Study s = study();
+  const mc::Study s = test::six_study();
   mc::Study few = s;
   few.plan.positions.resize(3);
   const std::string said = message(few, simulated(s));
@@ -105,9 +71,9 @@ TEST(Prepare, PositionsThatThePlanDoesNotHaveAreOneMessage) {
 }
 
 TEST(Prepare, DwellsOfAnotherLengthAreRemarkedAndUsed) {
-  const mc::Study s = study();
+  const mc::Study s = test::six_study();
   Recording r = simulated(s);
-  const Prepared all = prepare(study(600.0), {r});
+  const Prepared all = prepare(test::six_study(600.0), {r});
   EXPECT_TRUE(says(all, "positions 1 to 6 for 20 min (in the plan 10 min)"));
   EXPECT_EQ(all.recordings[0].rows(), r.rows());
   // Position 2 cut short: the last 15 of its 20 rows are gone.
@@ -117,7 +83,7 @@ TEST(Prepare, DwellsOfAnotherLengthAreRemarkedAndUsed) {
 }
 
 TEST(Prepare, RecordedCommandsOfAnotherLawAreRemarked) {
-  const mc::Study free = study(), level = with_law(study(), CommandLaw::level);
+  const mc::Study free = test::six_study(), level = with_law(test::six_study(), CommandLaw::level);
   EXPECT_TRUE(says(prepare(level, {simulated(free)}),
                    "the commands in positions 1 to 6 are those of a free dwell, the plan says mode "
                    "= \"level\""));
@@ -137,7 +103,7 @@ TEST(Prepare, RecordedCommandsOfAnotherLawAreRemarked) {
 }
 
 TEST(Prepare, WithoutCommandsThePlatformShowsTheLawAndTheWrongOneIsRefused) {
-  const mc::Study free = study(), level = with_law(study(), CommandLaw::level);
+  const mc::Study free = test::six_study(), level = with_law(test::six_study(), CommandLaw::level);
   for (const char* instruments : {"none", "gimbal_", "acc_"}) {
     const Recording drifting = without(without(simulated(free), "cmd_"), instruments);
     const Recording kept = without(without(simulated(level), "cmd_"), instruments);
@@ -155,7 +121,7 @@ TEST(Prepare, WithoutCommandsThePlatformShowsTheLawAndTheWrongOneIsRefused) {
 
 TEST(Prepare, ALargeDriftIsNoOtherLaw) {
   // Three prior sigmas of everything that drifts: the mean over the positions still tells.
-  mc::Study s = study();
+  mc::Study s = test::six_study();
   for (const char* key : {"D_F_x", "D_F_y", "D_F_z"})
     s.truth.priors[test::param(key)] = fixed(3.0 * unit::deg_per_h.to_si);
   for (const char* key : {"D_I_x", "D_S_y", "D_I_z"})
@@ -164,7 +130,7 @@ TEST(Prepare, ALargeDriftIsNoOtherLaw) {
 }
 
 TEST(Prepare, TwentyEqualSamplesAreAStuckSensor) {
-  const mc::Study s = study(1800.0);
+  const mc::Study s = test::six_study(1800.0);
   const auto stuck = [&](std::ptrdiff_t samples) {
     Recording r = simulated(s);
     auto& x = channel(r, "gimbal_inner");
@@ -176,13 +142,14 @@ TEST(Prepare, TwentyEqualSamplesAreAStuckSensor) {
 }
 
 TEST(Prepare, SampleIntervalsMayDifferFromThePlansByATwentieth) {
-  const Recording r = simulated(study());
-  EXPECT_EQ(message(study(1200.0, 62.9), r), "");
-  EXPECT_NE(message(study(1200.0, 63.2), r).find("samples are 60 s apart"), std::string::npos);
+  const Recording r = simulated(test::six_study());
+  EXPECT_EQ(message(test::six_study(1200.0, 62.9), r), "");
+  EXPECT_NE(message(test::six_study(1200.0, 63.2), r).find("samples are 60 s apart"),
+            std::string::npos);
 }
 
 TEST(Prepare, ACommandOneDegPerHourFromThePlansIsSaid) {
-  const mc::Study s = study();
+  const mc::Study s = test::six_study();
   const auto said = [&](double deg_per_h) {
     Recording r = simulated(s);
     for (double& x : channel(r, "cmd_y")) x = deg_per_h * unit::deg_per_h.to_si;
@@ -193,7 +160,7 @@ TEST(Prepare, ACommandOneDegPerHourFromThePlansIsSaid) {
 }
 
 TEST(Prepare, ADwellTwoSamplesShortIsSaid) {
-  const mc::Study s = study();
+  const mc::Study s = test::six_study();
   const auto said = [&](std::ptrdiff_t rows) {
     Recording r = simulated(s);
     for (Channel& c : r.channels)
@@ -206,7 +173,7 @@ TEST(Prepare, ADwellTwoSamplesShortIsSaid) {
 }
 
 TEST(Prepare, MissingChannelsAndBurstsAreRemarkedAndNothingMeasuredIsRefused) {
-  const mc::Study s = study();
+  const mc::Study s = test::six_study();
   Recording r = simulated(s);
   std::erase_if(r.channels, [](const Channel& c) { return c.name.starts_with("gimbal_"); });
   auto& x = channel(r, "acc_x");
@@ -220,11 +187,11 @@ TEST(Prepare, MissingChannelsAndBurstsAreRemarkedAndNothingMeasuredIsRefused) {
 }
 
 TEST(Prepare, OnePositionIsSaid) {
-  mc::Study s = study();
+  mc::Study s = test::six_study();
   s.plan.positions.resize(1);
   const Prepared p = prepare(s, {simulated(s)});
   EXPECT_TRUE(says(p, "one position only"));
-  mc::Study six = study();
+  mc::Study six = test::six_study();
   Recording r = simulated(six);
   for (Channel& c : r.channels) c.values.resize(40);
   r.lines.resize(40);
@@ -232,10 +199,10 @@ TEST(Prepare, OnePositionIsSaid) {
 }
 
 TEST(Prepare, FineSamplesAreAveragedToThePlanAndKeepWhatTheySay) {
-  mc::Study fine = study(600.0, 1.0);
+  mc::Study fine = test::six_study(600.0, 1.0);
   fine.readout.accelerometer_noise = 1e-12;
   fine.readout.gimbal_noise = 1e-12;
-  mc::Study coarse = study(600.0, 60.0);
+  mc::Study coarse = test::six_study(600.0, 60.0);
   coarse.readout = fine.readout;
   const Prepared p = prepare(coarse, {simulated(fine)});
   const Recording direct = simulated(coarse);
@@ -250,7 +217,7 @@ TEST(Prepare, FineSamplesAreAveragedToThePlanAndKeepWhatTheySay) {
 }
 
 TEST(Prepare, AMillionRowsBecomeFewInBoundedTime) {
-  mc::Study s = study(600.0, 60.0);
+  mc::Study s = test::six_study(600.0, 60.0);
   Recording r = simulated(s), long_one;
   for (const Channel& c : r.channels) long_one.channels.push_back({c.name, c.unit, {}});
   constexpr std::size_t split = 16000;  // 60 rows become 960,000 of 3.75 ms

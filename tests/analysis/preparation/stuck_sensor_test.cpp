@@ -5,51 +5,17 @@
 #include <cmath>
 
 #include "analysis/preparation/prepare.hpp"
-#include "core/sim/measurements.hpp"
-#include "core/sim/simulate.hpp"
-#include "tests/support/model_builders.hpp"
+#include "tests/support/six_positions.hpp"
 
 namespace drift::preparation::stuck_sensor_test {
 namespace {
 
-using test::base_filter;
-using test::base_truth;
-
-/// A six-position study with the truth at zero, and its recording.
-mc::Study study(double dwell = 1200.0, double sample = 60.0) {
-  mc::Study s;
-  s.path = "study.toml";
-  s.site = test::harbin;
-  PlanDefaults defaults;
-  defaults.dwell = dwell;
-  defaults.sample = sample;
-  s.plan = preset_plan("six", defaults).value();
-  s.truth = base_truth(Coupling::eq5);
-  s.filters = {base_filter(Coupling::eq5)};
-  return s;
-}
-
-Recording simulated(const mc::Study& s) {
-  const Timeline timeline = lay_out(s.plan, s.site);
-  const TruthDraw draw = draw_truth(s.truth, timeline.chains, 1, 0);
-  Simulator simulator(s.truth, s.readout);
-  return make_recording(timeline, simulator.run(timeline, draw, 1, 0).measured, s.readout);
-}
-
-bool says(const Prepared& p, std::string_view text) {
-  for (const auto& remark : p.remarks)
-    if (remark.find(text) != std::string::npos) return true;
-  return false;
-}
-
-std::vector<double>& channel(Recording& r, std::string_view name) {
-  for (Channel& c : r.channels)
-    if (c.name == name) return c.values;
-  throw std::runtime_error("no such channel");
-}
+using test::channel;
+using test::says;
+using test::simulated;
 
 TEST(Prepare, AStuckChannelIsLeftOutAndACoarseOneIsNot) {
-  const mc::Study s = study(1800.0);
+  const mc::Study s = test::six_study(1800.0);
   Recording r = simulated(s);
   auto& stuck = channel(r, "acc_y");
   std::fill(stuck.begin(), stuck.end(), 0.5);
@@ -70,7 +36,7 @@ TEST(Prepare, AStuckChannelIsLeftOutAndACoarseOneIsNot) {
 
 TEST(Prepare, ACoarseReadoutThatFlickersHereAndStandsThereIsNoStuckSensor) {
   // Between two steps it changes from row to row, on one of them it stays for a whole dwell.
-  const mc::Study s = study(1800.0);
+  const mc::Study s = test::six_study(1800.0);
   Recording r = simulated(s);
   auto& x = channel(r, "acc_x");
   for (std::size_t i = 0; i < x.size(); ++i)

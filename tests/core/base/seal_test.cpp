@@ -1,23 +1,18 @@
 #include "core/base/seal.hpp"
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
 #include <cstdlib>
 #include <filesystem>
 
+#include "tests/support/process_memory.hpp"
 #include "tests/support/program.hpp"
 
 namespace drift::seal_test {
 namespace {
 
+using test::most_memory_kb;
 using test::ScratchFolder;
-
-long most_memory_kb() {
-  rusage used{};
-  getrusage(RUSAGE_SELF, &used);
-  return used.ru_maxrss;
-}
 
 TEST(Seal, HoldsUntilAByteChanges) {
   const ScratchFolder scratch;

@@ -1,22 +1,17 @@
 #include "mc/export/hdf5_output.hpp"
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
 #include <cstdlib>
 
+#include "tests/support/process_memory.hpp"
 #include "tests/support/program.hpp"
 
 namespace drift::mc::hdf5_output_test {
 namespace {
 
+using test::most_memory_kb;
 using test::ScratchFolder;
-
-long most_memory_kb() {
-  rusage used{};
-  getrusage(RUSAGE_SELF, &used);
-  return used.ru_maxrss;
-}
 
 std::vector<double> numbers_in(const std::string& file, const char* path, hsize_t count) {
   const Hdf5Handle opened(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
