@@ -71,10 +71,14 @@ std::string blocks_text(std::size_t n) {
   return n == 1 ? "1 block of runs" : fmt::format("{} blocks of runs", n);
 }
 
+bool stopped(const mc::StudyOutcome& o) {
+  return o.code == ExitCode::interrupted || o.code == ExitCode::terminated;
+}
+
 /// What happened, for people; on stderr, where results are not.
 void tell(const mc::StudyOutcome& o, const mc::EngineOptions& asked, const std::string& folder) {
   for (const std::string& note : o.notes) say("note: {}\n", note);
-  if (o.code == ExitCode::interrupted || o.code == ExitCode::terminated) {
+  if (stopped(o)) {
     say("stopped: {} runs are stored in {}, {} of unfinished blocks are lost; the same command "
         "goes "
         "on with the rest\n",
@@ -166,6 +170,7 @@ ExitCode run(const StudyArguments& arguments, const RunArguments& given,
       mc::run_study(work, options, folder, manifest, ranks, run_progress(arguments.progress));
   if (!outcome.leader) return outcome.code;
   tell(outcome, options, folder);
+  if (stopped(outcome)) return outcome.code;  // one line; failures are listed when the study ends
   mc::StudyReader reader(folder);
   if (outcome.failed > 0) list_failures(reader, work.stop_rules, folder);
   if (!outcome.complete) return outcome.code;
