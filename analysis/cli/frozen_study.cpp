@@ -29,10 +29,15 @@ struct Reading {
   std::string wrong;
 };
 
+/// A worker that is stopped as it begins leaves the manifest alone, which has the study's text too.
 Reading read_frozen(const std::string& folder, const mc::Manifest& manifest, std::uint64_t runs) {
+  const std::string path = folder + "/study.toml";
+  const mc::Overrides asked{{"monte_carlo.runs", std::to_string(runs)}};
+  std::error_code unknown;
   try {
-    mc::Study study =
-        mc::read_study(folder + "/study.toml", {{"monte_carlo.runs", std::to_string(runs)}});
+    mc::Study study = std::filesystem::exists(path, unknown) || unknown
+                          ? mc::read_study(path, asked)
+                          : mc::read_study_text(manifest.study, path, asked);
     mc::StudyIdentity identity = identity_of(study);
     identity.block_size = manifest.identity.block_size;
     if (identity.hash() == manifest.hash) return {std::move(study), {}};

@@ -10,6 +10,7 @@
 #include <iterator>
 
 #include "analysis/cli/print.hpp"
+#include "core/base/temporary_file.hpp"
 #include "mc/engine/stop_signals.hpp"
 
 namespace drift::cli {
@@ -31,6 +32,7 @@ void write_words(const char* words) {
 extern "C" void on_stop(int number) {
   if (line_is_open() != 0) write_words("\n");
   write_words(texts[static_cast<std::size_t>(said.load())].data());
+  remove_own_temporaries();
   ::_exit(static_cast<int>(mc::code_of_stop(number)));
 }
 

@@ -54,7 +54,7 @@ AtomicFile::AtomicFile(std::string path) : path_(std::move(path)) {
 }
 
 AtomicFile::~AtomicFile() {
-  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  remove_temporary(temporary_);
 }
 
 void AtomicFile::sync_temporary() {
@@ -72,7 +72,6 @@ void AtomicFile::commit() {
   require_file_name(path_);  // rename() would replace it
   if (::rename(temporary_.c_str(), path_.c_str()) != 0)
     throw_cannot_write(path_, std::strerror(errno));
-  temporary_.clear();
   sync_folder();
 }
 
@@ -88,7 +87,6 @@ bool AtomicFile::commit_new() {
       if (errno == EEXIST) return false;
       throw_cannot_write(path_, std::strerror(errno));
     }
-    temporary_.clear();
   }
   sync_folder();
   return true;

@@ -7,6 +7,8 @@
 #include <atomic>
 #include <iterator>
 
+#include "core/base/temporary_file.hpp"
+
 namespace drift::mc {
 namespace {
 
@@ -15,8 +17,9 @@ std::array<struct sigaction, std::size(stop_signals)> before{};
 
 extern "C" void on_signal(int number) {
   int none = 0;
-  if (!first_caught.compare_exchange_strong(none, number))
-    _exit(static_cast<int>(code_of_stop(number)));
+  if (first_caught.compare_exchange_strong(none, number)) return;
+  remove_own_temporaries();
+  _exit(static_cast<int>(code_of_stop(number)));
 }
 
 }  // namespace

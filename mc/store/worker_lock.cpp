@@ -84,7 +84,7 @@ void take_over(const std::string& holder, const std::string& stale) {
   if (std::rename(holder.c_str(), aside.c_str()) == 0 && text_in(aside) != stale)
     if (::link(aside.c_str(), holder.c_str()) != 0 && errno != EEXIST)
       throw_cannot_write(holder, std::strerror(errno));
-  ::unlink(aside.c_str());
+  remove_temporary(aside);
 }
 
 }  // namespace

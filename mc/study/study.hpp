@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -72,6 +73,9 @@ using Overrides = std::vector<std::pair<std::string, std::string>>;
 /// Reads a study file. InputError (config) lists every mistake in it, each with file:line:col, what
 /// is wrong, what was expected, and the nearest valid key where one was meant.
 Study read_study(const std::string& path, const Overrides& overrides = {});
+/// The same of a text that stands elsewhere; `path` is what errors name.
+Study read_study_text(std::string_view text, const std::string& path,
+                      const Overrides& overrides = {});
 
 /// Reads a study from a tree without trying its sweep; `text` is left empty. The same errors.
 Study read_study_tree(const config::Node& root, const std::string& path);

@@ -167,8 +167,8 @@ void try_sweep(const Node& root, const Study& study) {
   if (!messages.empty()) throw InputError(ExitCode::config, messages);
 }
 
-Node load_tree(const std::string& path, const Overrides& overrides) {
-  Node root = config::parse_document(config::load_text(path), path);
+Node tree_of(std::string_view text, const std::string& path, const Overrides& overrides) {
+  Node root = config::parse_document(text, path);
   std::vector<std::string> messages;
   for (const auto& [key, value] : overrides) {
     try {
@@ -272,7 +272,11 @@ void apply_sweep_value(Node& root, const std::string& key, const std::string& va
 }
 
 Study read_study(const std::string& path, const Overrides& overrides) {
-  const Node root = load_tree(path, overrides);
+  return read_study_text(config::load_text(path), path, overrides);
+}
+
+Study read_study_text(std::string_view text, const std::string& path, const Overrides& overrides) {
+  const Node root = tree_of(text, path, overrides);
   Study study = read_study_tree(root, path);
   try_sweep(root, study);
   study.text = config::to_document(root);

@@ -119,7 +119,7 @@ void require_writable(const std::string& folder) {
     at = at.parent_path();
   const std::string probe = make_temporary(at.string());
   if (probe.empty()) throw_cannot_write(folder, std::strerror(errno));
-  ::unlink(probe.c_str());
+  remove_temporary(probe);
 }
 
 }  // namespace

@@ -246,6 +246,21 @@ TEST(StoreCommands, ADamagedStudyFileIsMendedByTheSameCommandAndKept) {
   }
 }
 
+/// As a worker leaves it that is stopped between its manifest and its study file.
+TEST(StoreCommands, WithoutItsStudyFileTheManifestSaysWhatTheStudyIs) {
+  const ScratchFolder scratch;
+  const std::string config = study_file(scratch, ""), out = scratch.file("out");
+  const Answer run = program("run " + config + " -o " + out);
+  const std::string whole = test::text_of(out + "/study.toml");
+  fs::remove(out + "/study.toml");
+  for (const char* command : {"status ", "verify --sample 100% ", "replay --run 1 "}) {
+    const Answer answer = program(command + out);
+    EXPECT_EQ(answer.code, 0) << command << answer.err;
+  }
+  EXPECT_EQ(program("run " + config + " -o " + out).out, run.out);
+  EXPECT_EQ(test::text_of(out + "/study.toml"), whole);
+}
+
 TEST(StoreCommands, OnlyRunsOfTheStudyAreReplayed) {
   const ScratchFolder scratch;
   const std::string config = study_file(scratch, ""), out = scratch.file("out");

@@ -51,12 +51,40 @@ TEST(Temporaries, OfKilledProcessesVanishAndThoseOfLivingOnesStay) {
   EXPECT_EQ(temporaries_in(scratch.path()), 2u);
 }
 
+/// As a signal that ends the process would: while one file is written and after another was renamed.
+TEST(Temporaries, OfThisProcessAreRemovedAtOnceAndNoOthers) {
+  const ScratchFolder scratch;
+  const std::string done = scratch.file("done.txt");
+  AtomicFile renamed(done), begun(scratch.file("a.txt"));
+  renamed.commit();
+  const pid_t child = fork();
+  if (child == 0) {  // has the names of its parent, which are at work
+    remove_own_temporaries();
+    _exit(0);
+  }
+  waitpid(child, nullptr, 0);
+  EXPECT_TRUE(fs::exists(begun.temporary()));
+  remove_own_temporaries();
+  EXPECT_FALSE(fs::exists(begun.temporary()));
+  EXPECT_TRUE(fs::exists(done));
+  EXPECT_EQ(temporaries_in(scratch.path()), 0u);
+}
+
+TEST(Temporaries, AreAsManyAsAreAsked) {
+  const ScratchFolder scratch;
+  std::vector<std::string> made;
+  for (int i = 0; i < 100; ++i) made.push_back(make_temporary(scratch.path()));
+  EXPECT_EQ(temporaries_in(scratch.path()), 100u);
+  for (const std::string& path : made) remove_temporary(path);
+  EXPECT_EQ(temporaries_in(scratch.path()), 0u);
+}
+
 TEST(Temporaries, LoosenTheMaskOfNoOtherThread) {
   const ScratchFolder scratch;
   const mode_t before = ::umask(077);
   std::atomic<bool> done = false;
   std::thread maker([&] {
-    for (int i = 0; i < 2000; ++i) ::unlink(make_temporary(scratch.path()).c_str());
+    for (int i = 0; i < 2000; ++i) remove_temporary(make_temporary(scratch.path()));
     done = true;
   });
   const std::string path = scratch.file("of another thread");
