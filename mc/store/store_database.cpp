@@ -119,20 +119,31 @@ int wait_for_lock(void* path, int times) {
 
 }  // namespace
 
-void Statement::Finalize::operator()(sqlite3_stmt* s) const {
+void FinalizeStatement::operator()(sqlite3_stmt* s) const {
   sqlite3_finalize(s);
 }
 void Database::Close::operator()(sqlite3* db) const {
   sqlite3_close_v2(db);
 }
 
-Statement::Statement(sqlite3* db, std::string path, std::string_view sql)
-    : db_(db), path_(std::move(path)) {
+Statement::Statement(sqlite3* db, std::string path, std::string_view sql, IdleStatements& idle)
+    : db_(db), path_(std::move(path)), sql_(sql), idle_(idle) {
+  if (const auto kept = idle_.find(sql); kept != idle_.end()) {
+    statement_ = std::move(kept->second);
+    idle_.erase(kept);
+    return;
+  }
   sqlite3_stmt* made = nullptr;
   const int code =
       sqlite3_prepare_v2(db_, sql.data(), static_cast<int>(sql.size()), &made, nullptr);
   statement_.reset(made);
   if (code != SQLITE_OK) fail(db_, path_, code);
+}
+
+Statement::~Statement() {
+  sqlite3_reset(statement_.get());  // an error of it was told by step()
+  sqlite3_clear_bindings(statement_.get());
+  idle_.try_emplace(std::move(sql_), std::move(statement_));
 }
 
 Statement& Statement::bind(int position, std::int64_t value) {
@@ -199,6 +210,7 @@ bool Database::is_outdated() const {
 }
 
 void Database::reopen() {
+  idle_.clear();
   db_.reset();
   sqlite3* made = nullptr;
   const bool unlocked_reader = locks_ == Locks::none && use_ == Use::read;

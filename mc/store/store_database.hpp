@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,10 +16,22 @@ struct sqlite3_stmt;
 
 namespace drift::mc {
 
-/// One SQL statement, made once, executed many times.
+struct FinalizeStatement {
+  void operator()(sqlite3_stmt* s) const;
+};
+
+/// Statements of a database that nobody executes at the moment, by their text: preparing one costs
+/// more than reading a block by it.
+using IdleStatements =
+    std::map<std::string, std::unique_ptr<sqlite3_stmt, FinalizeStatement>, std::less<>>;
+
+/// One SQL statement, made once, executed many times; idle at the end of its life.
 class Statement {
  public:
-  Statement(sqlite3* db, std::string path, std::string_view sql);
+  Statement(sqlite3* db, std::string path, std::string_view sql, IdleStatements& idle);
+  ~Statement();
+  Statement(const Statement&) = delete;
+  Statement& operator=(const Statement&) = delete;
 
   Statement& bind(int position, std::int64_t value);
   Statement& bind(int position, double value);  ///< NaN becomes NULL
@@ -35,12 +49,10 @@ class Statement {
   std::string bytes(int column) const;  ///< of a text or a blob
 
  private:
-  struct Finalize {
-    void operator()(sqlite3_stmt* s) const;
-  };
   sqlite3* db_;
-  std::string path_;
-  std::unique_ptr<sqlite3_stmt, Finalize> statement_;
+  std::string path_, sql_;
+  IdleStatements& idle_;
+  std::unique_ptr<sqlite3_stmt, FinalizeStatement> statement_;
 };
 
 /// A SQLite file. Errors are InputError: io if the disk or the folder is to blame (resumable),
@@ -59,11 +71,11 @@ class Database {
 
   /// True where a file that is read without locks is no longer what was opened.
   bool is_outdated() const;
-  /// Opens the file anew. No statement may be left.
+  /// Opens the file anew. No statement may be at work.
   void reopen();
 
   void execute(const char* sql);
-  Statement prepare(std::string_view sql) { return {db_.get(), path_, sql}; }
+  Statement prepare(std::string_view sql) { return {db_.get(), path_, sql, idle_}; }
   const std::string& path() const { return path_; }
   Use use() const { return use_; }
   /// The structure of the file is sound, and its indices are those of the tables.
@@ -78,6 +90,7 @@ class Database {
   Locks locks_;
   std::optional<FileVersion> opened_;  ///< where a reader has no locks
   std::unique_ptr<sqlite3, Close> db_;
+  IdleStatements idle_;
 };
 
 /// A change of the file that happens as a whole or not at all; undone unless committed.
