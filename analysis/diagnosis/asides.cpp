@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "analysis/identification/beyond_prior.hpp"
+#include "analysis/identification/common_scale.hpp"
 #include "analysis/inference/thresholds.hpp"
 #include "core/stats/normal.hpp"
 
@@ -121,6 +122,7 @@ std::optional<remark::BeyondPrior> beyond_prior(const FilterSpec& nominal, const
       out.parameters.push_back(
           {*fit.estimate.find(param), sigmas, tries * 2.0 * stats::normal_distribution(-sigmas)});
   if (out.parameters.empty()) return std::nullopt;
+  out.scales = identification::common_scale(fit.estimate);
   return out;
 }
 

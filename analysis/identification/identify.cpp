@@ -255,7 +255,7 @@ Identification identify_recordings(const mc::Study& study, const std::vector<Rec
       without_spikes(test.measured, test.timeline, ready.study.readout, id.runs.front().batch)
           .spikes;
   id.absent = absent_channels(ready.recordings, ready.study.readout);
-  doubt_study(ready.study, ready.recordings, id);
+  if (late_labels(id.spikes) == 0) doubt_study(ready.study, ready.recordings, id);
   return id;
 }
 

@@ -107,13 +107,25 @@ Despiked without_spikes(Measurements measured, const Timeline& timeline, const R
   const auto clean = [&](Mat3X& values, const Mat3X& residual, int first_channel) {
     for (const Difference& d : spikes_of(residual, timeline.intervals)) {
       values(d.axis, d.sample) = std::nan("");
-      const Interval& i = timeline.intervals[static_cast<std::size_t>(d.sample)];
-      spikes.push_back({first_channel + d.axis, i.t1, i.position + 1});
+      const auto at = static_cast<std::size_t>(d.sample);
+      const Interval& i = timeline.intervals[at];
+      const bool ends =
+          at + 1 < timeline.intervals.size() && timeline.intervals[at + 1].position != i.position;
+      spikes.push_back({first_channel + d.axis, i.t1, i.position + 1, ends});
     }
   };
   if (readout.accelerometers) clean(measured.acc, fit.acc_residual, 0);
   if (readout.gimbals) clean(measured.gimbal, fit.gimbal_residual, 3);
   return {std::move(measured), std::move(spikes)};
+}
+
+std::size_t late_labels(const std::vector<Spike>& spikes) {
+  std::set<int> positions;
+  for (const Spike& s : spikes) {
+    if (!s.ends_position) return 0;
+    positions.insert(s.position);
+  }
+  return positions.size() < SampleLimits::late_positions ? 0 : positions.size();
 }
 
 }  // namespace drift::identification

@@ -8,9 +8,10 @@ namespace drift::identification {
 
 /// A sample far from its neighbours.
 struct Spike {
-  int channel = 0;   ///< 0..2 accelerometers x y z, 3..5 gimbals outer middle inner
-  double t = 0.0;    ///< of its row [s]
-  int position = 1;  ///< number of the plan's position, from 1
+  int channel = 0;             ///< 0..2 accelerometers x y z, 3..5 gimbals outer middle inner
+  double t = 0.0;              ///< of its row [s]
+  int position = 1;            ///< number of the plan's position, from 1
+  bool ends_position = false;  ///< its row is the last before the next position
 };
 
 /// Isolated samples far from their neighbours, taken out of the measurements: a sample is compared
@@ -26,5 +27,10 @@ struct Despiked {
 };
 Despiked without_spikes(Measurements measured, const Timeline& timeline, const Readout& readout,
                         const BatchResult& fit);
+
+/// The positions whose last row is such a sample, if no other rows are and there are so many that
+/// no chance has it (SampleLimits::late_positions): that row reads the next position already, its
+/// number is late. 0 otherwise.
+std::size_t late_labels(const std::vector<Spike>& spikes);
 
 }  // namespace drift::identification

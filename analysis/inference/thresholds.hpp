@@ -79,6 +79,10 @@ struct SampleLimits {
   static constexpr double gross = 30.0;
   /// Outliers are at most so large a part of the samples; more of them, and the model is wrong.
   static constexpr double outlier_most = 0.02;
+  /// Positions of which only the last row stands out, from which their numbers are late: of dwells
+  /// of n rows stray samples do so with a chance of 1/n^3, 5e-6 for an hour of minutes.
+  /// Test: LateLabels.*
+  static constexpr std::size_t late_positions = 3;
   /// Robust sigma, of declared, that is more than its scatter. Test: Thresholds.NoiseMoreThan...
   static constexpr double spread = 1.1;
 };
@@ -251,6 +255,9 @@ struct FitLimits {
   /// must fit better to be the right one where something else misfits too: odds of e^20 against a
   /// wrong hemisphere in one study of 1000 leave 2e-6. Test: LatitudeDoubt.TheWrongHemisphere...
   static constexpr double mirrored = 40.0;
+  /// Chance of scale factors that differ so much by their priors, below which what moved them is
+  /// not one cause. Test: CommonScale.*
+  static constexpr double unlike_scales = 1e-3;
 };
 
 }  // namespace drift::inference

@@ -104,7 +104,7 @@ std::string gimbal_off_zero(const mc::Study& study, const Recording& recording) 
   const std::vector<Seen> all = seen_in(recording, positions);
   if (positions < Limits::positions) return "";
   const double expected = expected_difference(study), before = rms(all, Vec3::Zero());
-  if (before < Limits::left * expected) return "";
+  if (before < expected) return "";
   std::array<double, 3> zeros{}, left{};
   int best = 0;
   for (int g = 0; g < 3; ++g) {

@@ -59,9 +59,9 @@ struct GravityLimits {
 /// When a gimbal reads a constant too much.
 struct GimbalZeroLimits {
   /// [of what biases and misalignments make of Up, 1 sigma: 0.06 deg with the library's priors] so
-  /// large a zero is of no unit as its priors say (1e-23); so much may be left (3e-7), and where
-  /// less is there nothing is looked for. Test: GimbalZero.*
-  static constexpr double least = 10.0, left = 5.0;
+  /// large a zero is of no unit as its priors say (6e-7), nor is what leaves so much (3e-7).
+  /// Test: GimbalZero.*
+  static constexpr double least = 5.0, left = 5.0;
   static constexpr double clearly = 2.0;       ///< times as much is left by every other gimbal
   static constexpr std::size_t positions = 3;  ///< fewer fit several guesses
   static constexpr double shown = 0.05;        ///< part of a zero that Up must show, squared, mean

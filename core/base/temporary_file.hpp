@@ -6,8 +6,8 @@
 namespace drift {
 
 /// Makes an empty file of an unused name in a folder, for AtomicFile to fill; its name says which
-/// process on which machine made it. Empty if that fails; errno says why. remove_temporary() ends its
-/// life, also after it was renamed.
+/// process on which machine made it. Empty if that fails; errno says why. remove_temporary() ends
+/// its life, also after it was renamed.
 std::string make_temporary(const std::string& folder);
 void remove_temporary(const std::string& path);
 

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "analysis/identification/common_scale.hpp"
 #include "analysis/identification/spikes.hpp"
 #include "core/estimate/estimate_result.hpp"
 #include "core/physics/drift_model.hpp"
@@ -75,6 +77,8 @@ struct BeyondPrior {
   };
   std::vector<Parameter> parameters;  ///< in the order of the fit
   std::size_t of = 0;                 ///< parameters with a prior
+  /// What the scale factors of the accelerometers among them have in common.
+  std::optional<identification::CommonScale> scales;
   const Parameter& farthest() const {
     return *std::ranges::max_element(parameters, {}, &Parameter::sigmas);
   }

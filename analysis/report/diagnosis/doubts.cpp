@@ -100,12 +100,21 @@ std::string heading_text(const identification::HeadingDoubt& doubt) {
       doubt.alone() ? "" : " Something else is missing too, or the noise is not as declared.");
 }
 
+bool labels_are_late(const Diagnosis& d) {
+  const auto* samples = remark_in<remark::SamplesLeftOut>(d);
+  return samples != nullptr && identification::late_labels(samples->removed) > 0;
+}
+
 std::vector<std::pair<std::string, std::string>> doubts_of(const Diagnosis& d) {
   std::vector<std::pair<std::string, std::string>> all;
   if (const auto* beyond = remark_in<remark::BeyondPrior>(d))
     all.emplace_back("Prior", beyond_prior_text(*beyond) + ".");
-  if (const auto* samples = remark_in<remark::SamplesLeftOut>(d);
-      samples != nullptr && !samples->removed.empty())
+  if (const auto* beyond = remark_in<remark::BeyondPrior>(d); beyond != nullptr && beyond->scales)
+    all.emplace_back("Gravity", common_scale_text(*beyond->scales));
+  const auto* samples = remark_in<remark::SamplesLeftOut>(d);
+  if (labels_are_late(d))
+    all.emplace_back("Labels", late_labels_text(samples->removed));
+  else if (samples != nullptr && !samples->removed.empty())
     all.emplace_back(
         "Outliers",
         fmt::format("{} isolated sample{} left out{}: far from those around.",

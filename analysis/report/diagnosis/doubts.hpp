@@ -18,6 +18,9 @@ std::string site_text(const identification::LatitudeDoubt& doubt);
 /// The same of a plan whose positions headed otherwise.
 std::string heading_text(const identification::HeadingDoubt& doubt);
 
+/// Whether samples were left out because the numbers of their positions are late.
+bool labels_are_late(const diagnosis::Diagnosis& diagnosis);
+
 /// What a reader must hear with the verdict, whatever it is: parameters of the model far from their
 /// priors, isolated samples that were left out, and a magnetic field that was assumed where a cause
 /// or such a parameter hangs on it. Sentences with the word that heads each.

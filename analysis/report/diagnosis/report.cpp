@@ -196,10 +196,14 @@ InBrief diagnosis_in_brief(const Diagnosis& d) {
       off_zero = true;
     }
   // Of what is not explained it is no news that parameters take it up.
-  const Weight doubt = d.verdict == Verdict::unexplained ? Weight::note : Weight::doubtful;
+  const Weight doubt = labels_are_late(d)                  ? Weight::wrong
+                       : d.verdict == Verdict::unexplained ? Weight::note
+                                                           : Weight::doubtful;
   if (!d.wrong_study())
     for (const auto& [head, sentence] : doubts_of(d)) add(doubt, head, sentence);
-  if (d.heading_doubt)
+  if (labels_are_late(d))
+    brief.next = "Next: correct the numbers of the positions in the recording and diagnose again.";
+  else if (d.heading_doubt)
     brief.next = corrected_text(*d.heading_doubt, "diagnose");
   else if (d.site_doubt)
     brief.next =

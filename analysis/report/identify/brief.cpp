@@ -219,7 +219,11 @@ InBrief identification_in_brief(const mc::Study& study, const identification::Id
   brief.verdict = verdict_text(j, id);
   bool doubtful = j.wrong || !id.absent.empty() || !id.off_zero.empty();
   if (!id.off_zero.empty()) brief.more.add(Weight::wrong, "Gimbals: " + id.off_zero + ".");
-  if (!id.spikes.empty()) {
+  const std::string labels = late_labels_text(id.spikes);
+  if (!labels.empty()) {
+    doubtful = true;
+    brief.more.add(Weight::wrong, "Labels: " + labels);
+  } else if (!id.spikes.empty()) {
     doubtful = true;
     brief.more.add(j.good.empty() ? Weight::wrong : Weight::doubtful,
                    fmt::format("Outliers: {} isolated sample{} far from those around{}, and in the "
@@ -236,13 +240,17 @@ InBrief identification_in_brief(const mc::Study& study, const identification::Id
     add(Weight::doubtful, which_counts(view));
     add(Weight::doubtful, outside_text(view));
     add(Weight::wrong, beyond_text(view));
+    if (const auto common = identification::common_scale(judged(view)); common && believed(view))
+      add(Weight::wrong, "Gravity: " + common_scale_text(*common));
     add(any_wrong(view) ? Weight::wrong : Weight::note, count_text(view));
     doubtful = doubtful || (believed(view) && !beyond_prior(view).empty());
   }
   const bool wrong_study = other_headings(id) != nullptr || other_latitude(id).has_value();
   brief.tone = j.good.empty() || wrong_study ? Tone::bad : doubtful ? Tone::doubtful : Tone::good;
   const std::string file = study.path.empty() ? "STUDY" : study.path;
-  if (const auto* headings = other_headings(id))
+  if (!labels.empty())
+    brief.next = "Next: correct the numbers of the positions in the recording and identify again.";
+  else if (const auto* headings = other_headings(id))
     brief.next = corrected_text(*headings, "identify");
   else if (const auto doubt = other_latitude(id); doubt && doubt->alone())
     brief.next = fmt::format("Next: identify again with --set site.latitude=\"{:.3f} deg\".",

@@ -34,6 +34,26 @@ std::string spikes_text(const std::vector<identification::Spike>& spikes) {
   return places.empty() ? "" : fmt::format(" ({})", listed_up_to(places, most));
 }
 
+std::string late_labels_text(const std::vector<identification::Spike>& spikes) {
+  const std::size_t positions = identification::late_labels(spikes);
+  return positions == 0
+             ? ""
+             : fmt::format(
+                   "In the last row of {} positions, and in no other, the platform stands "
+                   "as in the next one: the numbers of the positions change a row too "
+                   "late{}. Put them a row earlier.",
+                   positions, spikes_text(spikes));
+}
+
+std::string common_scale_text(const identification::CommonScale& common) {
+  const bool larger = common.value > 0.0;
+  return fmt::format(
+      "K1_x, K1_y and K1_z are {} alike: of readings in m/s^2 a site.gravity that is {} % too {} "
+      "does that.",
+      larger ? "larger" : "smaller", with_sigma(std::abs(common.value) * 1e2, common.sigma * 1e2),
+      larger ? "small" : "large");
+}
+
 std::string_view plural(std::size_t count) {
   return count == 1 ? "" : "s";
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "analysis/identification/common_scale.hpp"
 #include "analysis/identification/spikes.hpp"
 #include "analysis/report/page/report.hpp"
 #include "core/base/number_text.hpp"
@@ -27,6 +28,10 @@ Cell parameter_cell(std::size_t param);
 /// Where isolated samples are: " (acc_y in position 3 at 5400 s, gimbal_outer ... and 2 more)".
 /// Empty of none.
 std::string spikes_text(const std::vector<identification::Spike>& spikes);
+/// What they say of the numbers of the positions: "Labels", a sentence; empty where nothing.
+std::string late_labels_text(const std::vector<identification::Spike>& spikes);
+/// A sentence on what would move the three K1 alike.
+std::string common_scale_text(const identification::CommonScale& common);
 
 /// "" of 1, else "s".
 std::string_view plural(std::size_t count);

@@ -41,7 +41,7 @@ std::string said(int gimbal, double deg, std::string_view preset = "twentyfour",
 TEST(GimbalZero, AGimbalThatReadsADegreeTooMuchOrTooLittleIsNamedWithIt) {
   constexpr const char* names[] = {"gimbal_outer", "gimbal_middle", "gimbal_inner"};
   for (int gimbal = 0; gimbal < 3; ++gimbal)
-    for (const double deg : {1.0, -3.0}) {
+    for (const double deg : {0.4, 1.0, -3.0}) {
       const std::string text = said(gimbal, deg);
       EXPECT_EQ(text.find(fmt::format("rec.csv:{}: it reads ", names[gimbal])), 0u) << text;
       const std::string key = fmt::format("offset = {{ {} = \"", names[gimbal]);
@@ -56,7 +56,7 @@ TEST(GimbalZero, AGimbalThatReadsADegreeTooMuchOrTooLittleIsNamedWithIt) {
 TEST(GimbalZero, NoneIsNamedOfSoundPlatformsNorWherePriorsMayMakeIt) {
   for (const char* preset : {"six", "twentyfour", "slew12"})
     for (std::uint64_t run = 0; run < 20; ++run) EXPECT_EQ(said(0, 0.0, preset, run), "") << preset;
-  for (int gimbal = 0; gimbal < 3; ++gimbal) EXPECT_EQ(said(gimbal, 0.3), "") << gimbal;
+  for (int gimbal = 0; gimbal < 3; ++gimbal) EXPECT_EQ(said(gimbal, 0.2), "") << gimbal;
 }
 
 TEST(GimbalZero, IsSaidFirstInTheShortAnswerOfIdentify) {

@@ -51,7 +51,8 @@ TEST(Temporaries, OfKilledProcessesVanishAndThoseOfLivingOnesStay) {
   EXPECT_EQ(temporaries_in(scratch.path()), 2u);
 }
 
-/// As a signal that ends the process would: while one file is written and after another was renamed.
+/// As a signal that ends the process would: while one file is written and after another was
+/// renamed.
 TEST(Temporaries, OfThisProcessAreRemovedAtOnceAndNoOthers) {
   const ScratchFolder scratch;
   const std::string done = scratch.file("done.txt");

@@ -12,13 +12,16 @@ namespace {
 
 using namespace drift::test;
 
-const std::string swept = small_study + R"toml([sweep]
+/// A function: another file's text need not be there yet when this one's globals are made.
+std::string swept() {
+  return small_study + R"toml([sweep]
 "truth.coupling" = ["eq5", "eq6", "servo"]
 "truth.parameters.eta" = ["20 arcsec", { normal = ["0 arcsec", "100 arcsec"] }]
 )toml";
+}
 
 TEST(Sweep, IsEveryCombinationLastAxisFastest) {
-  const auto points = mc::study_points(read_text(swept));
+  const auto points = mc::study_points(read_text(swept()));
   ASSERT_EQ(points.size(), 6u);
   EXPECT_EQ(points[0].label, "truth.coupling = eq5, truth.parameters.eta = 20 arcsec");
   EXPECT_EQ(points[1].values[0].second, "eq5");
@@ -33,7 +36,8 @@ TEST(Sweep, IsEveryCombinationLastAxisFastest) {
 }
 
 TEST(Sweep, GivesIdsThatStayAndDiffer) {
-  const auto first = mc::study_points(read_text(swept)), again = mc::study_points(read_text(swept));
+  const auto first = mc::study_points(read_text(swept())),
+             again = mc::study_points(read_text(swept()));
   std::set<std::string> ids;
   for (std::size_t k = 0; k < first.size(); ++k) {
     EXPECT_EQ(first[k].id, again[k].id);
@@ -54,7 +58,7 @@ TEST(Sweep, WithoutSweepIsOnePointWithoutLabel) {
 
 TEST(Sweep, SharesRandomNumbersBetweenPoints) {
   // Truth parameters that are not swept are the same in run k of every point.
-  const auto points = mc::study_points(read_text(swept));
+  const auto points = mc::study_points(read_text(swept()));
   const Theta a = draw_truth(points[0].study.truth, 6, 5, 7).theta,
               b = draw_truth(points[5].study.truth, 6, 5, 7).theta;
   EXPECT_EQ(a[TermLibrary::index("D_I_z")], b[TermLibrary::index("D_I_z")]);

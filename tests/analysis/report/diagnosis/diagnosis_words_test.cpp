@@ -43,7 +43,7 @@ diagnosis::Diagnosis tense(std::size_t param) {
   d.p_value = 8e-6;
   const double unit = report::unit_of(param);
   ParameterEstimate e{param, 0.0, 0.061 * unit, 0.0004 * unit, 0.0, 0.01 * unit};
-  d.remarks = {remark::BeyondPrior{{{e, 6.1, 6e-8}}, 60}, remark::FieldAssumed{}};
+  d.remarks = {remark::BeyondPrior{{{e, 6.1, 6e-8}}, 60, {}}, remark::FieldAssumed{}};
   return d;
 }
 
