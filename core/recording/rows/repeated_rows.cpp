@@ -34,6 +34,25 @@ double decimal_step(const Channel& c) {
   return 0.0;
 }
 
+/// A reading to nine digits: the rate that a file of increments gives differs in the last ones.
+std::uint64_t reading(double x) {
+  if (std::isnan(x)) return ~std::uint64_t{0};
+  constexpr std::uint64_t half = std::uint64_t{1} << 21;
+  return (std::bit_cast<std::uint64_t>(x + 0.0) + half) & ~(2 * half - 1);  // -0 is 0
+}
+
+/// The least difference of readings in order of which most are equal to another; or 0.
+double step_between(const std::vector<double>& sorted) {
+  double least = HUGE_VAL;
+  std::size_t distinct = 1;
+  for (std::size_t i = 1; i < sorted.size(); ++i) {
+    if (sorted[i] == sorted[i - 1]) continue;
+    ++distinct;
+    least = std::min(least, sorted[i] - sorted[i - 1]);
+  }
+  return distinct > 1 && 2 * distinct <= sorted.size() ? least : 0.0;
+}
+
 class Repeats {
  public:
   explicit Repeats(const Recording& r) : n_(r.rows()) {
@@ -42,11 +61,8 @@ class Repeats {
     if (const Channel* position = r.find("position")) positions_ = &position->values;
     hashes_.assign(n_, 0);
     for (const Reading& c : channels_)
-      for (std::size_t row = 0; row < n_; ++row) {
-        const double x = (*c.values)[row];
-        const double plain = std::isnan(x) ? nan_value : x + 0.0;  // -0 is 0
-        hashes_[row] = mixed(hashes_[row], std::bit_cast<std::uint64_t>(plain));
-      }
+      for (std::size_t row = 0; row < n_; ++row)
+        hashes_[row] = mixed(hashes_[row], reading((*c.values)[row]));
   }
 
   std::vector<RepeatedRows> find() const {
@@ -95,8 +111,7 @@ class Repeats {
 
   bool alike(std::size_t a, std::size_t b) const {
     return hashes_[a] == hashes_[b] && std::ranges::all_of(channels_, [&](const Reading& c) {
-             const double x = (*c.values)[a], y = (*c.values)[b];
-             return x == y || (std::isnan(x) && std::isnan(y));
+             return reading((*c.values)[a]) == reading((*c.values)[b]);
            });
   }
 
@@ -124,9 +139,11 @@ class Repeats {
     std::erase_if(sorted, [](double v) { return std::isnan(v); });
     if (sorted.empty()) return 0.0;
     std::ranges::sort(sorted);
+    double step = channel.step;
+    if (const double own = step_between(sorted); own > step) step = own;
     constexpr double digits = 1e-12;  // of a number that was computed
     const double rounded =
-        4.0 * channel.step + digits * std::max(std::abs(sorted.front()), std::abs(sorted.back()));
+        4.0 * step + digits * std::max(std::abs(sorted.front()), std::abs(sorted.back()));
     double sum = 0.0;
     for (std::size_t i = 3; i + 1 < count; ++i) {
       if (positions_ && (*positions_)[found.again + i - 3] != (*positions_)[found.again + i + 1])

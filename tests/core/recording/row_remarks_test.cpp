@@ -77,6 +77,13 @@ TEST(RowRemarks, NoiseIsSeenInReadingsThatDrift) {
   EXPECT_EQ(repeated_rows(r)[0].count, 10u);
 }
 
+TEST(RowRemarks, RatesThatAFileOfIncrementsGivesAreTheSameToNineDigits) {
+  Recording r = positions_of(6, 20, noise(20, 0.0));
+  copy_rows(r, 20, 60, 20);
+  for (std::size_t row = 60; row < 80; ++row) r.channels[3].values[row] *= 1.0 + 1e-15;
+  EXPECT_EQ(repeated_rows(r).size(), 1u);
+}
+
 TEST(RowRemarks, StretchesThatRepeatEarlierOnesAreFoundWhereverTheyAre) {
   Recording r = positions_of(6, 500, noise(500, 2e-6));  // a readout in steps of a fifth of a sigma
   EXPECT_TRUE(repeated_rows(r).empty());
@@ -101,6 +108,9 @@ TEST(RowRemarks, WhatIsAlikeWithoutNoiseIsNoCopy) {
   EXPECT_TRUE(none([](int row, int axis) { return 1e-6 * (row % 60) + (axis == row / 60 % 2); }));
   EXPECT_TRUE(none([](int row, int axis) { return 1e-3 * (row % 60 / 20) + (axis == 0); }))
       << "a staircase";
+  EXPECT_TRUE(none([](int row, int axis) {
+    return 61.035156e-6 * std::floor(0.37 * (row % 60) + 0.3 * axis) + (axis == 0);
+  })) << "a staircase of counts, drifting";
   const auto smooth = [](int row, int axis) { return std::sin(1e-3 * (row % 120) + axis); };
   EXPECT_TRUE(none(smooth));
   EXPECT_TRUE(none([&](int row, int axis) { return 1e-7 * std::round(1e7 * smooth(row, axis)); }))
@@ -132,6 +142,16 @@ TEST(RowRemarks, ALongRecordingThatStandsStillIsLookedThroughInAMoment) {
   repeated_rows(r);
   // A tenth of a second; a search of every row against every one would take a quarter of an hour.
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
+}
+
+TEST(RowRemarks, InALongRecordingACopyIsFoundFromItsFirstRowOn) {
+  Recording r = positions_of(4, 75'000, noise(75'000, 0.0));
+  copy_rows(r, 12'345, 250'001, 1000);
+  const auto all = repeated_rows(r);
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_EQ(all[0].first, 12'345u);
+  EXPECT_EQ(all[0].again, 250'001u);
+  EXPECT_EQ(all[0].count, 1000u);
 }
 
 /// Later by `length` from a row on.
