@@ -94,7 +94,10 @@ std::string elsewhere_text(const TestPlan& plan, const std::vector<Sight>& wrong
                                    mismatch(s, s.seen) / detail::deg));
   return fmt::format(
       "in {} of {} positions the {} away from the attitude in the plan (expected at most {:.0f} "
-      "deg): {}{}. Is this the plan, and the order of positions, the recording was made with?",
+      "deg): {}{}. Is this the plan, and the order of positions, the recording was made with? "
+      "Where "
+      "it numbers them otherwise, say in [recording] of the study file which is which: positions = "
+      "{{ \"NUMBER IN THE FILE\" = NUMBER IN THE PLAN, ... }}",
       wrong.size(), all, what, largest_mismatch / detail::deg, fmt::join(places, ", "),
       wrong.size() > most ? fmt::format(" and {} more", wrong.size() - most) : "");
 }

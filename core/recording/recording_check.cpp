@@ -143,7 +143,9 @@ void check_position(const Recording& r, RowOrder order, Problems& problems) {
     } else if (p < last && order == RowOrder::known) {
       problems.add(at(r, i, "position"), fmt::format("position {} comes after {}", p, last),
                    "positions in the order of the plan",
-                   "Number the positions in the order they were held");
+                   "Number the positions in the order they were held, or say in [recording] of the "
+                   "study file which position of the plan each is: positions = { \"NUMBER IN THE "
+                   "FILE\" = NUMBER IN THE PLAN, ... }");
     } else {
       last = p;
     }

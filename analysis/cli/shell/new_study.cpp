@@ -14,6 +14,8 @@
 #include "core/config/load.hpp"
 #include "core/recording/own/csv_cells.hpp"
 #include "core/recording/own/guess.hpp"
+#include "core/recording/own/preamble.hpp"
+#include "core/recording/recording_problems.hpp"
 
 namespace drift::cli {
 namespace {
@@ -36,6 +38,7 @@ struct LookedAt {
   std::string unplaced{};  ///< columns that the study leaves aside, in words; empty: none
   std::string told{};      ///< the mapping without its blanks
   std::size_t named = 0;   ///< positions that the mapping names
+  PreambleSite above{};    ///< what stands above the header of a text file
 };
 
 /// What names and values of the columns do not tell.
@@ -89,7 +92,9 @@ LookedAt look_at(const std::string& path, RecordingKind kind) {
   take_as(file, kind);
   const std::string blanks = blanks_of(file), unplaced = what_has_no_place(file);
   const std::string said = blanks + (blanks.empty() || unplaced.empty() ? "" : " ") + unplaced;
-  LookedAt seen{.told = without_blanks(file), .named = file.format.positions.size()};
+  LookedAt seen{.told = without_blanks(file),
+                .named = file.format.positions.size(),
+                .above = preamble_site(path, file.layout)};
   if (file.complete || file.rows == 0) try {
       seen.recording = read_recording(path, file.format, kind, gravity);
       if (!file.format.columns.empty()) seen.mapping = recording_section(file);
@@ -102,6 +107,20 @@ LookedAt look_at(const std::string& path, RecordingKind kind) {
   seen.blanks = said;
   seen.mapping = recording_section(file) + as_comment(said);
   return seen;
+}
+
+/// Where it was made: what stands above the header goes before facts, which nobody looked at.
+RecordedSite site_of(const LookedAt& seen, const std::string& path) {
+  RecordedSite site = seen.recording ? recorded_site(*seen.recording) : RecordedSite();
+  const auto take = [&](const std::optional<PreambleValue>& above,
+                        std::optional<std::string>& value, std::string& place) {
+    if (!above) return;
+    value = above->value;
+    place = fmt::format("{}:{}", in_quotes(path), above->line);
+  };
+  take(seen.above.latitude, site.latitude, site.latitude_place);
+  take(seen.above.gravity, site.gravity, site.gravity_place);
+  return site;
 }
 
 /// Of positions that are half way between two directions for a case that faces North.
@@ -128,7 +147,7 @@ ExitCode make_study(const NewArguments& a) {
   LookedAt seen;
   if (!a.recording.empty()) {
     seen = look_at(a.recording, on_case ? RecordingKind::strapdown : RecordingKind::platform);
-    if (seen.recording) site = recorded_site(*seen.recording);
+    site = site_of(seen, a.recording);
     if (!on_case && seen.recording) plan = recorded_plan(*seen.recording);
     if (!on_case && !seen.recording && seen.named > 0) plan = plan_to_come(seen.named);
   }

@@ -36,9 +36,11 @@ RecordedPlan recorded_plan(const Recording& recording);
 /// As many positions, all alike, as a recording names that cannot be read yet.
 RecordedPlan plan_to_come(std::size_t positions);
 
-/// Where a recording says that it was made ("45.75 deg", "9.8067 m/s^2"), as `convert` notes it.
+/// Where a recording says that it was made ("45.75 deg", "9.8067 m/s^2"), as `convert` notes it or
+/// as it stands above the header.
 struct RecordedSite {
   std::optional<std::string> latitude, gravity;
+  std::string latitude_place{}, gravity_place{};  ///< "'log.txt':3"; empty: a fact
 };
 RecordedSite recorded_site(const Recording& recording);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <limits>
 
 #include "core/recording/recording_problems.hpp"
@@ -95,6 +96,11 @@ ParsedCell parse_cell(std::string_view text, DecimalMark decimal) {
       cell.mark != wanted)
     cell.kind = Kind::wrong_mark;
   return cell;
+}
+
+double cell_number(std::string_view cell) {
+  const ParsedCell parsed = parse_cell(cell, DecimalMark::automatic);
+  return parsed.kind == ParsedCell::Kind::number ? parsed.value : std::nan("");
 }
 
 std::string lower_case(std::string_view text) {

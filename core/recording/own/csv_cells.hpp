@@ -38,6 +38,9 @@ struct ParsedCell {
 /// Reads a cell, whatever the locale. `decimal` automatic: point or comma.
 ParsedCell parse_cell(std::string_view text, DecimalMark decimal);
 
+/// The number in a cell, with point or comma; NaN for none.
+double cell_number(std::string_view cell);
+
 /// Text in lower case; letters of ASCII alone.
 std::string lower_case(std::string_view text);
 

@@ -11,6 +11,7 @@
 #include "core/recording/own/csv_cells.hpp"
 #include "core/recording/own/guess_format.hpp"
 #include "core/recording/own/guess_names.hpp"
+#include "core/recording/own/guess_position.hpp"
 #include "core/recording/own/guess_values.hpp"
 #include "core/recording/own/like_temperature.hpp"
 #include "core/recording/own/recording_unit.hpp"
@@ -46,7 +47,7 @@ void look_at(GuessedColumn& column, std::string_view cell) {
 
 /// Goes through all rows; the lengths of the specific force in the units of the file come back.
 std::vector<double> look_at_rows(const std::string& path, GuessedFile& file,
-                                 GuessByValues& by_values) {
+                                 GuessByValues& by_values, GuessPosition& by_numbers) {
   std::vector<double> lengths;
   std::array<std::size_t, 3> acc{};
   bool triple = true;
@@ -72,6 +73,7 @@ std::vector<double> look_at_rows(const std::string& path, GuessedFile& file,
     ++file.rows;
     for (std::size_t i = 0; i < cells.size(); ++i) look_at(file.columns[i], cells[i]);
     by_values.look_at_row(cells);
+    by_numbers.look_at_row(cells);
     if (!triple) continue;
     const auto f = [&](int a) { return parse_cell(cells[acc[a]], DecimalMark::automatic).value; };
     if (const double length = std::hypot(f(0), f(1), f(2)); std::isfinite(length))
@@ -249,9 +251,11 @@ GuessedFile guess_file(const std::string& path) {
   }
   name_channels(file);
   GuessByValues by_values(file);
-  std::string gravity = unit_of_gravity(look_at_rows(path, file, by_values));
+  GuessPosition by_numbers(file);
+  std::string gravity = unit_of_gravity(look_at_rows(path, file, by_values, by_numbers));
   if (const std::string unit = by_values.name_channels(file); !unit.empty()) gravity = unit;
   name_position_by_values(file);
+  by_numbers.name_channel(file);
   for (GuessedColumn& c : file.columns)
     if (c.unit.empty()) c.unit = unit_of(c, gravity);
   count_clock_of_numbers(file);

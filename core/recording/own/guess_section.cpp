@@ -43,8 +43,10 @@ std::string guessed_by_values(const GuessedFile& file) {
                             c.unit);
   if (by_values("case_heading"))
     text += fmt::format("{}case_heading by its values: check", text.empty() ? "" : "; ");
-  if (by_values("position"))
-    text += fmt::format("{}position by its texts: check", text.empty() ? "" : "; ");
+  for (const GuessedColumn& c : file.columns)
+    if (c.by_values && c.channel == "position")
+      text += fmt::format("{}position by its {}: check", text.empty() ? "" : "; ",
+                          c.numbers > 0 ? "numbers, which change as the attitude does" : "texts");
   for (const GuessedColumn& c : file.columns)
     if (c.channel == "temperature" && own_name(c) != c.header.name)
       text += fmt::format("{}temperature in [{}] by its values: check", text.empty() ? "" : "; ",

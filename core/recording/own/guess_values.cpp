@@ -64,11 +64,6 @@ bool may_be_heading(std::string_view name) {
   return std::ranges::any_of(parts, [&](auto p) { return word.find(p) != std::string::npos; });
 }
 
-double number_in(std::string_view cell) {
-  const ParsedCell parsed = parse_cell(cell, DecimalMark::automatic);
-  return parsed.kind == ParsedCell::Kind::number ? parsed.value : std::nan("");
-}
-
 }  // namespace
 
 GuessByValues::GuessByValues(const GuessedFile& file) {
@@ -125,7 +120,7 @@ void GuessByValues::look_at_row(const std::vector<std::string_view>& cells) {
   for (auto* list : {&triples_, &named_}) {
     for (Triple& t : *list) {
       std::array<double, 3> f{};
-      for (std::size_t a = 0; a < 3; ++a) f[a] = number_in(cells[t.columns[a]]);
+      for (std::size_t a = 0; a < 3; ++a) f[a] = cell_number(cells[t.columns[a]]);
       if (!std::isfinite(f[0] + f[1] + f[2])) continue;
       ++t.rows;
       for (std::size_t a = 0; a < 3; ++a) t.whole[a] = t.whole[a] && f[a] == std::round(f[a]);
@@ -142,7 +137,7 @@ void GuessByValues::look_at_row(const std::vector<std::string_view>& cells) {
   here_ = cells[position_];
   for (auto* list : {&angles_, &gimbals_})
     for (Angle& a : *list) {
-      const double x = number_in(cells[a.column]) * a.to_rad;
+      const double x = cell_number(cells[a.column]) * a.to_rad;
       a.missing += std::isfinite(x) ? 0 : 1;
       if (!std::isfinite(x)) continue;
       ++a.rows;

@@ -10,6 +10,7 @@
 #include "core/recording/recording_channels.hpp"
 #include "core/recording/recording_problems.hpp"
 #include "core/recording/rows/reading_step.hpp"
+#include "core/recording/rows/row_remarks.hpp"
 #include "core/recording/rows/row_spacing.hpp"
 #include "core/stats/median.hpp"
 
@@ -28,14 +29,23 @@ void look_at_time(const Recording& r, QualityCard& card) {
   const RowSpacing spacing = row_spacing(r);
   std::vector<double> within;
   card.positions = position ? 1 : 0;
+  std::size_t begin = 0, told = 0;  // row and gap with which this position begins
+  const auto end_position = [&](std::size_t last) {
+    for (; told < card.gaps.size(); ++told) card.gaps[told].within = t[last] - t[begin];
+  };
   for (std::size_t row = 1; row < t.size(); ++row) {
     const bool other = position && position->values[row] != position->values[row - 1];
-    if (other) ++card.positions;
+    if (other) {
+      ++card.positions;
+      end_position(row - 1);
+      begin = row;
+    }
     if (!other) within.push_back(spacing.step[row]);
     if (!spacing.gap(row)) continue;
     (other ? card.between : card.gaps).push_back({r.lines[row], t[row - 1], spacing.step[row]});
     if (!other) card.lost += spacing.missing(row);
   }
+  end_position(t.size() - 1);
   card.interval = stats::median(within);
   card.shortest = spacing.shortest;
   card.longest = spacing.longest;
@@ -165,11 +175,6 @@ void remark_absent(const Recording& r, RecordingKind kind, QualityCard& card) {
           card.remarks.add(Weight::doubtful, fmt::format("no {}: taken as not measured", name));
     }
   }
-  if (!card.between.empty())
-    card.remarks.add(
-        Weight::note,
-        fmt::format("{} gaps between positions: normal if the platform was caged there",
-                    card.between.size()));
 }
 
 /// At most five significant digits, "-" for none.
@@ -200,6 +205,9 @@ QualityCard quality_card(const Recording& recording, RecordingKind kind) {
   look_at_time(recording, card);
   for (const auto& c : recording.channels)
     if (c.name != "time") card.channels.push_back(look_at_channel(c, recording, kind));
+  // In the order of harm, which those of one weight keep.
+  remark_repeats(recording, card);
+  remark_gaps(card);
   remark_channels(card);
   ask_about_fahrenheit(card);
   card.remarks.add(recording.remarks);

@@ -25,6 +25,7 @@ struct Gap {
   std::size_t line = 0;  ///< line or row after it
   double start = 0.0;    ///< time of the last sample before it [s]
   double length = 0.0;   ///< from there to the next sample [s]
+  double within = 0.0;   ///< from the first to the last row of its position [s]; between two: 0
 };
 
 /// What a person looks at before trusting a recording.

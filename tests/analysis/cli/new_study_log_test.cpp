@@ -84,5 +84,71 @@ TEST(NewStudy, ASampleThatDoesNotDivideAnHourIsNoMistake) {
   EXPECT_EQ(driftscope("identify " + file + " " + own + " --quiet").code, 0);
 }
 
+TEST(NewStudy, TakesLatitudeAndGravityFromAboveTheHeaderAndPositionsFromTheirNumbers) {
+  const ScratchFolder folder;
+  const std::string made = folder.write("made.toml", short_study), own = folder.file("own.csv"),
+                    file = folder.file("lab.toml");
+  ASSERT_EQ(driftscope("simulate " + made + " -o " + own).code, 0);
+  std::string text = with_column(text_of(own), "position", [](const std::string& cell) {
+    return std::to_string(70 - 10 * std::stoi(cell));
+  });
+  while (text.starts_with("#")) text.erase(0, text.find('\n') + 1);
+  text = replaced(text, "position", "Versuch");
+  folder.write("own.csv", "Labor 3\nBreite: 45,75\ng = 9.8065 m/s^2\n" + text);
+  const Answer a = driftscope("new diagnose " + own + " -o " + file);
+  ASSERT_EQ(a.code, 0) << a.err;
+  const std::string study = text_of(file);
+  EXPECT_TRUE(has(study, "latitude = \"45.75 deg\"")) << study;
+  EXPECT_TRUE(has(study, "own.csv':2)")) << study;
+  EXPECT_TRUE(has(study, "gravity  = \"9.8065 m/s^2\"")) << study;
+  EXPECT_TRUE(has(study, "own.csv':3)")) << study;
+  EXPECT_TRUE(has(study, "position = \"Versuch\"")) << study;
+  EXPECT_TRUE(has(study, "positions = { \"60\" = 1, \"50\" = 2")) << study;
+  EXPECT_EQ(driftscope("identify " + file + " " + own + " --quiet").code, 0);
+  folder.write("own.csv", "Labor 3\nBreite: 45 mm\n" + text);
+  ASSERT_EQ(driftscope("new diagnose " + own + " -o " + folder.file("b.toml")).code, 0);
+  EXPECT_TRUE(has(text_of(folder.file("b.toml")), "latitude = \"45 deg\""));
+  EXPECT_TRUE(has(text_of(folder.file("b.toml")), ": correct it"));
+}
+
+TEST(NewStudy, ACopiedPositionIsTheFirstThingThatIsSaidOfALog) {
+  const ScratchFolder folder;
+  const std::string made = folder.write("made.toml", short_study), own = folder.file("own.csv");
+  ASSERT_EQ(driftscope("simulate " + made + " -o " + own).code, 0);
+  std::vector<std::string> before;  // of the second position
+  std::istringstream lines(text_of(own));
+  std::string text, line;
+  std::ptrdiff_t position = -1, acc = -1;
+  std::size_t row = 0;
+  while (std::getline(lines, line)) {
+    std::vector<std::string> cells;
+    std::istringstream cut(line);
+    for (std::string cell; std::getline(cut, cell, ',');) cells.push_back(cell);
+    if (position < 0) {
+      const auto it = std::ranges::find(cells, "position");
+      if (it != cells.end()) position = it - cells.begin();
+      acc = std::ranges::find(cells, "acc_x [g]") - cells.begin();
+    } else if (cells[static_cast<std::size_t>(position)] == "2") {
+      for (std::ptrdiff_t a = acc; a < acc + 3; ++a)
+        before.push_back(cells[static_cast<std::size_t>(a)]);
+    } else if (cells[static_cast<std::size_t>(position)] == "4" && row + 3 <= before.size()) {
+      for (std::ptrdiff_t a = acc; a < acc + 3; ++a)
+        cells[static_cast<std::size_t>(a)] = before[row++];
+    }
+    for (std::size_t i = 0; i < cells.size(); ++i) text += (i > 0 ? "," : "") + cells[i];
+    text += "\n";
+  }
+  ASSERT_GE(row, 24u);
+  folder.write("own.csv", text);
+  const Answer looked = driftscope("look " + own);
+  EXPECT_TRUE(has(looked.out, "number for number: copied into the log by mistake?")) << looked.out;
+  const Answer read = driftscope("identify " + made + " " + own);
+  const auto first = read.err.find("note: ");
+  ASSERT_NE(first, std::string::npos) << read.err;
+  EXPECT_TRUE(has(read.err.substr(first, read.err.find('\n', first) - first),
+                  "number for number: copied into the log by mistake?"))
+      << read.err;
+}
+
 }  // namespace
 }  // namespace drift::new_study_log_test

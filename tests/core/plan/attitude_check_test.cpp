@@ -83,6 +83,7 @@ TEST(AttitudeCheck, NamesThePositionsWhereNoMixupOfColumnsIsBehind) {
   const auto wrong = s.mistakes();
   ASSERT_EQ(wrong.size(), 1u) << "both kinds of instrument agree: it is the plan";
   for (const char* part : {"the order of positions", "in 2 of 12 positions",
+                           "[recording] of the study file which is which: positions = { \"",
                            "the accelerometers and the gimbal angles agree with each other"})
     EXPECT_NE(wrong[0].text.find(part), std::string::npos) << wrong[0].text;
   // Where they do not agree, something is wrong with both.

@@ -1,0 +1,76 @@
+// The number of the position under a name that says nothing.
+#include "core/recording/own/guess_position.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <functional>
+
+#include "recording_fixture.hpp"
+
+namespace drift::guess_position_test {
+namespace {
+
+using namespace test;
+
+/// A file of positions of 20 rows that stand in turns on three axes, the column `header` beside.
+GuessedFile guess(const std::string& header, const std::function<std::string(int row)>& cell,
+                  int positions = 6) {
+  const Folder folder;
+  std::string text = "time [s],acc_x [g],acc_y [g],acc_z [g]," + header + "\n";
+  for (int row = 0; row < 20 * positions; ++row) {
+    const int up = row / 20 % 3;
+    const auto f = [&](int axis) { return (axis == up ? 1.0 : 0.0) + 1e-5 * std::sin(1.7 * row); };
+    text +=
+        fmt::format("{},{:.7f},{:.7f},{:.7f},{}\n", 10 * (row + 1), f(0), f(1), f(2), cell(row));
+  }
+  return guess_file(folder.write("own.csv", text));
+}
+
+std::string mapping(const GuessedFile& file) {
+  std::string text;
+  for (const GuessedColumn& c : file.columns)
+    if (c.channel == "position") text = c.header.name + (c.by_values ? "*" : "");
+  for (const auto& [label, number] : file.format.positions)
+    text += fmt::format(" {}={}", label, number);
+  return text;
+}
+
+TEST(GuessPosition, NumbersThatChangeWithTheAttitudeAreThoseOfPositions) {
+  const auto number = [](int row) { return std::to_string(row / 20 + 1); };
+  EXPECT_EQ(mapping(guess("Versuch", number)), "Versuch*");
+  EXPECT_EQ(mapping(guess("Versuch [1]", number)), "Versuch*");
+  const GuessedFile file = guess("Nr", [](int row) { return std::to_string(60 - row / 20 * 10); });
+  EXPECT_EQ(mapping(file), "Nr* 60=1 50=2 40=3 30=4 20=5 10=6");
+  const std::string section = recording_section(file);
+  EXPECT_NE(section.find("position = \"Nr\""), std::string::npos) << section;
+  EXPECT_NE(section.find("position by its numbers"), std::string::npos) << section;
+}
+
+TEST(GuessPosition, OtherWholeNumbersAreNot) {
+  const std::array<std::pair<const char*, std::function<std::string(int)>>, 10> others{
+      {{"Zaehler", [](int row) { return std::to_string(row); }},
+       {"Stufe",
+        [](int row) { return std::to_string(row / 40); }},  // two changes, every second turn
+       {"Stunde", [](int row) { return std::to_string(7 + (row + 9) / 15); }},
+       {"Temp 2", [](int row) { return std::to_string(row / 20); }},
+       {"Strom [A]", [](int row) { return std::to_string(row / 20); }},
+       {"Strom_deg", [](int row) { return std::to_string(row / 20); }},
+       {"Achse", [](int row) { return std::to_string(row / 20 % 3); }},
+       {"Wert", [](int row) { return fmt::format("{}.5", row / 20); }},
+       {"Gruppe", [](int row) { return std::to_string(row / 100); }},
+       {"Luecke", [](int row) { return row == 50 ? "" : std::to_string(row / 20); }}}};
+  for (const auto& [name, cell] : others) EXPECT_EQ(mapping(guess(name, cell)), "") << name;
+  EXPECT_EQ(mapping(guess("A,B", [](int row) { return fmt::format("{0},{0}", row / 20); })), "")
+      << "one of two";
+}
+
+TEST(GuessPosition, ANameThatSaysItGoesFirst) {
+  const GuessedFile file =
+      guess("Lage,Nr", [](int row) { return fmt::format("{},{}", row / 40 + 1, row / 20 + 1); });
+  EXPECT_EQ(mapping(file), "Lage");
+}
+
+}  // namespace
+}  // namespace drift::guess_position_test
