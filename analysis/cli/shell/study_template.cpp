@@ -126,15 +126,19 @@ std::string sweep_text(const std::optional<RecordedPlan>& plan) {
       dwell, 2.0 * dwell, 4.0 * dwell);
 }
 
-constexpr std::string_view terms =
-    "terms    = [\"fixed_drift\", \"g_drift\", \"gyro_misalignment\"]  # `driftscope terms` lists "
-    "all\n";
+/// `more`: further terms, ", \"accelerometer\"".
+std::string terms_text(std::string_view more = "") {
+  return fmt::format(
+      "terms    = [\"fixed_drift\", \"g_drift\", \"gyro_misalignment\"{}]  # `driftscope terms` "
+      "lists all\n",
+      more);
+}
 
-std::string filter_text(std::string_view name, std::string_view coupling) {
+std::string filter_text(std::string_view name, std::string_view coupling, std::string_view more) {
   return fmt::format(
       "\n[[filter]]\nname     = \"{}\"\ncoupling = \"{}\"            # the drift "
       "equation: \"eq5\", \"eq6\" or \"lambda\"\n{}",
-      name, coupling, terms);
+      name, coupling, terms_text(more));
 }
 
 /// How an effect that the library does not have may be tried.
@@ -154,7 +158,7 @@ std::string simulated_text() {
       "\n# What is simulated; parameters without a value are drawn from their "
       "priors.\n[truth]\ncoupling = \"eq5\"\n{}[truth.parameters]\neta_x = \"100 "
       "arcsec\"\n",
-      terms);
+      terms_text());
 }
 
 }  // namespace
@@ -236,8 +240,11 @@ std::string study_template(StudyKind kind, const std::optional<RecordedPlan>& pl
             "sheet, or of a rest\ngimbal_noise        = \"5 arcsec\"\n";
   if (!mapping.empty()) text += "\n" + mapping;
   if (kind == StudyKind::study || kind == StudyKind::sweep) text += simulated_text();
-  text += filter_text(kind == StudyKind::diagnose ? "nominal" : "eq5", "eq5");
-  if (kind != StudyKind::diagnose) text += filter_text("eq6", "eq6");
+  // Accelerometers of a real platform have errors of their own, beside which any other hides.
+  const bool real = kind == StudyKind::platform || kind == StudyKind::diagnose;
+  const std::string_view more = real ? ", \"accelerometer\"" : "";
+  text += filter_text(kind == StudyKind::diagnose ? "nominal" : "eq5", "eq5", more);
+  if (kind != StudyKind::diagnose) text += filter_text("eq6", "eq6", more);
   if (kind == StudyKind::diagnose) text += own_term_text;
   if (kind == StudyKind::study || kind == StudyKind::sweep)
     text +=

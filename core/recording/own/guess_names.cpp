@@ -22,9 +22,10 @@ constexpr std::pair<std::string_view, std::string_view> unit_endings[] = {
     {"degh", "deg/h"},    {"dph", "deg/h"},   {"degc", "degC"},  {"c", "degC"}};
 
 constexpr std::string_view time_words[] = {
-    "time",    "t",          "zeit",    "timestamp",   "elapsed", "elapsedtime", "zeitstempel",
-    "uhrzeit", "sampletime", "seconds", "timestartup", "timegps", "horodatage",  "temps",
-    "hora",    "tiempo",     "heure",   "ora",         "tempo",   "tijd"};
+    "time",        "t",       "zeit",       "timestamp", "elapsed",    "elapsedtime",
+    "zeitstempel", "sekunde", "sekunden",   "uhrzeit",   "sampletime", "seconds",
+    "timestartup", "timegps", "horodatage", "temps",     "hora",       "tiempo",
+    "heure",       "ora",     "tempo",      "tijd"};
 constexpr std::string_view position_words[] = {"position",   "pos",      "lage",
                                                "stellung",   "lagenr",   "posnr",
                                                "positionno", "posicion", "posizione"};

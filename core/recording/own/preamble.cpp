@@ -27,7 +27,8 @@ constexpr std::string_view gravity_words[] = {
     "gravity",   "g",         "local gravity",      "schwere", "erdbeschleunigung",
     "pesanteur", "gravedad",  "fallbeschleunigung", "gravite", "schwerebeschleunigung",
     "gravita",   "ortsfaktor"};
-constexpr std::string_view degrees[] = {"", "deg", "degree", "degrees", "\u00B0"};
+constexpr std::string_view degrees[] = {"",     "deg",    "degree", "degrees", "\u00B0",
+                                        "grad", "grados", "gradi",  "graden"};
 constexpr std::string_view accelerations[] = {"",      "m/s^2", "m/s2", "m/s\u00B2",
                                               "m/s/s", "ms^-2", "ms-2"};
 

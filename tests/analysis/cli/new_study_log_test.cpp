@@ -150,5 +150,32 @@ TEST(NewStudy, ACopiedPositionIsTheFirstThingThatIsSaidOfALog) {
       << read.err;
 }
 
+/// Six positions of a real platform, whose accelerometers are as their priors say, at 45 deg.
+std::string turned_study() {
+  std::string text =
+      "schema = 1\n[site]\nlatitude = \"45.75 deg\"\n[plan]\nmode = \"free\"\nsample = \"60 s\"\n";
+  for (const char* axes :
+       {"x=N y=W z=U", "x=N y=D z=W", "x=U y=N z=W", "x=D y=S z=W", "x=S y=U z=W", "x=N y=E z=D"})
+    text += fmt::format(
+        "[[plan.position]]\naxes = \"{}\"\ndwell = \"30 min\"\ncase_heading = \"45 deg\"\n", axes);
+  return text +
+         "[truth]\ncoupling = \"eq5\"\nterms = [\"fixed_drift\", \"g_drift\", "
+         "\"gyro_misalignment\", \"accelerometer\"]\n[[filter]]\nname = \"eq5\"\n"
+         "coupling = \"eq5\"\n";
+}
+
+TEST(NewStudy, OfARealPlatformItsGuessedHeadingsAreDoubtedAndNoEffectIsAdded) {
+  const ScratchFolder folder;
+  const std::string made = folder.write("made.toml", turned_study()), own = folder.file("own.csv"),
+                    file = folder.file("lab.toml");
+  ASSERT_EQ(driftscope("simulate " + made + " -o " + own).code, 0);
+  folder.write("own.csv",
+               "Latitude: 45.75\n" + replaced(text_of(own), "case_heading [deg]", "note"));
+  ASSERT_EQ(driftscope("new diagnose " + own + " -o " + file).code, 0);
+  EXPECT_TRUE(has(text_of(file), "\"accelerometer\"]")) << text_of(file);
+  const Answer told = driftscope("diagnose " + file + " " + own + " -o " + folder.file("out"));
+  EXPECT_TRUE(has(told.out, "Verdict wrong headings: ")) << told.out << told.err;
+}
+
 }  // namespace
 }  // namespace drift::new_study_log_test

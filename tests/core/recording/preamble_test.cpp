@@ -24,6 +24,7 @@ std::string said_by(const std::string& above) {
 TEST(Preamble, TakesLatitudeAndGravityInTheWordsOfLaboratories) {
   EXPECT_EQ(said_by("Lab 3\nlatitude: 45.75\ng = 9.8065\n"), "45.75 deg@2 9.8065 m/s^2@3");
   EXPECT_EQ(said_by("# lat = 45 deg\n# Gravity [m/s^2]: 9.81\n"), "45 deg@1 9.81 m/s^2@2");
+  EXPECT_EQ(said_by("Geographische Breite: 45,75 Grad\n"), "45.75 deg@1 -");
   EXPECT_EQ(said_by("Breite;48,14 \u00B0\nErdbeschleunigung;9,8072;m/s\u00B2\n"),
             "48.14 deg@1 9.8072 m/s^2@2");
   EXPECT_EQ(said_by("Geographische Breite: 48.14\xB0\n"), "48.14 deg@1 -") << "Windows-1252";
