@@ -58,9 +58,10 @@ TEST_P(FarBeyondPrior, IsNamedWithItsSize) {
   EXPECT_EQ(json["verdict"], "named") << a.out;
   ASSERT_EQ(json["causes"].size(), 1u) << a.out;
   EXPECT_EQ(json["causes"][0]["term"], term) << a.out;
-  for (const auto& p : json["causes"][0]["parameters"])
-    if (p["key"] == parameter)
-      EXPECT_LT(std::abs(p["value"].get<double>() - size), 3.0 * p["sigma"].get<double>()) << a.out;
+  for (const auto& p : json["causes"][0]["parameters"]) {
+    if (p["key"] != parameter) continue;
+    EXPECT_LT(std::abs(p["value"].get<double>() - size), 3.0 * p["sigma"].get<double>()) << a.out;
+  }
 }
 
 }  // namespace
