@@ -17,21 +17,20 @@ constexpr std::array<std::size_t, 3> scales{TermLibrary::index("K1_x"), TermLibr
 }  // namespace
 
 std::optional<CommonScale> common_scale(const EstimateResult& estimate) {
-  std::array<const ParameterEstimate*, 3> found{};
-  for (const ParameterEstimate& p : estimate.parameters)
-    for (std::size_t i = 0; i < 3; ++i)
-      if (p.param == scales[i] && p.prior_sigma > 0.0) found[i] = &p;
   CommonScale common;
   double of_priors = 0.0;
-  for (const ParameterEstimate* p : found) {
-    if (p == nullptr) return std::nullopt;
+  for (const std::size_t scale : scales) {
+    const ParameterEstimate* p = estimate.find(scale);
+    if (p == nullptr || !(p->prior_sigma > 0.0)) return std::nullopt;
     common.value += (p->value - p->prior_mean) / 3.0;
     common.sigma = std::hypot(common.sigma, p->sigma / 3.0, p->prior_sigma / 3.0);
     of_priors = std::hypot(of_priors, p->prior_sigma / 3.0);
   }
   double unlike = 0.0;  // chi-square of two degrees of freedom where the priors are right
-  for (const ParameterEstimate* p : found)
-    unlike += std::pow((p->value - p->prior_mean - common.value) / p->prior_sigma, 2);
+  for (const std::size_t scale : scales) {
+    const ParameterEstimate& p = *estimate.find(scale);
+    unlike += std::pow((p.value - p.prior_mean - common.value) / p.prior_sigma, 2);
+  }
   if (!(std::abs(common.value) > FitLimits::beyond_prior * of_priors) ||
       std::exp(-0.5 * unlike) < FitLimits::unlike_scales)
     return std::nullopt;

@@ -29,8 +29,8 @@ Despiked without_spikes(Measurements measured, const Timeline& timeline, const R
                         const BatchResult& fit);
 
 /// The positions whose last row is such a sample, if no other rows are and there are so many that
-/// no chance has it (SampleLimits::late_positions): that row reads the next position already, its
-/// number is late. 0 otherwise.
+/// no chance has it (SampleLimits::late_positions), as where the numbers of positions change a row
+/// too late. 0 otherwise.
 std::size_t late_labels(const std::vector<Spike>& spikes);
 
 }  // namespace drift::identification

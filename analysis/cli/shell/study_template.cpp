@@ -212,19 +212,16 @@ std::string study_template(StudyKind kind, const std::optional<RecordedPlan>& pl
   const auto quoted = [](const std::string& value) {
     return config::to_toml(config::text_node(value));
   };
-  const auto from = [](bool known, const std::string& place) {
-    return !known          ? std::string()
-           : place.empty() ? std::string(", as the recording has it")
-                           : fmt::format(", as the recording has it ({})", place);
+  const auto from = [](const std::string& place) {
+    return ", as the recording has it" + (place.empty() ? "" : fmt::format(" ({})", place));
   };
   std::string text = fmt::format(
       "# `driftscope check` says where a value is wrong, `driftscope schema` what may stand here.\n"
       "schema = 1\ntitle  = \"{}\"\n\n[site]\nlatitude = {:<15} # of the laboratory{}\n"
       "gravity  = {:<15} # there{}",
       title_of(kind), quoted(site.latitude.value_or("45 deg")),
-      site.latitude ? from(true, site.latitude_place) : ": correct it",
-      quoted(site.gravity.value_or("9.80665 m/s^2")),
-      from(site.gravity.has_value(), site.gravity_place));
+      site.latitude ? from(site.latitude_place) : ": correct it",
+      quoted(site.gravity.value_or("9.80665 m/s^2")), site.gravity ? from(site.gravity_place) : "");
   if (kind == StudyKind::strapdown)
     text +=
         "\n\n[plan]\nkind       = \"strapdown\"\nstatic_min = \"2 s\"        # the shortest rest "

@@ -217,21 +217,18 @@ InBrief identification_in_brief(const mc::Study& study, const identification::Id
   const Judgement j = judgement_of(study, id);
   InBrief brief;
   brief.verdict = verdict_text(j, id);
-  bool doubtful = j.wrong || !id.absent.empty() || !id.off_zero.empty();
+  bool doubtful = j.wrong || !id.absent.empty() || !id.off_zero.empty() || !id.spikes.empty();
   if (!id.off_zero.empty()) brief.more.add(Weight::wrong, "Gimbals: " + id.off_zero + ".");
   const std::string labels = late_labels_text(id.spikes);
-  if (!labels.empty()) {
-    doubtful = true;
+  if (!labels.empty())
     brief.more.add(Weight::wrong, "Labels: " + labels);
-  } else if (!id.spikes.empty()) {
-    doubtful = true;
+  else if (!id.spikes.empty())
     brief.more.add(j.good.empty() ? Weight::wrong : Weight::doubtful,
                    fmt::format("Outliers: {} isolated sample{} far from those around{}, and in the "
                                "fit: leave {} out (an "
                                "empty cell).",
                                id.spikes.size(), id.spikes.size() == 1 ? " is" : "s are",
                                spikes_text(id.spikes), id.spikes.size() == 1 ? "it" : "them"));
-  }
   for (const identification::FilterSummary& s : id.summaries) {
     const FilterView view{study, id, s};
     const auto add = [&](Weight weight, const std::string& said) {

@@ -39,9 +39,10 @@ std::string late_labels_text(const std::vector<identification::Spike>& spikes) {
   return positions == 0
              ? ""
              : fmt::format(
-                   "In the last row of {} positions, and in no other, the platform stands "
-                   "as in the next one: the numbers of the positions change a row too "
-                   "late{}. Put them a row earlier.",
+                   "In the last row of {} positions, and in no other, readings stand out{}, as "
+                   "they "
+                   "do where the numbers of the positions change a row too late. Put them a row "
+                   "earlier, or leave these rows out.",
                    positions, spikes_text(spikes));
 }
 

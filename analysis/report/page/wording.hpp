@@ -28,7 +28,7 @@ Cell parameter_cell(std::size_t param);
 /// Where isolated samples are: " (acc_y in position 3 at 5400 s, gimbal_outer ... and 2 more)".
 /// Empty of none.
 std::string spikes_text(const std::vector<identification::Spike>& spikes);
-/// What they say of the numbers of the positions: "Labels", a sentence; empty where nothing.
+/// That they are those of late numbers of positions, a sentence; empty where they are not.
 std::string late_labels_text(const std::vector<identification::Spike>& spikes);
 /// A sentence on what would move the three K1 alike.
 std::string common_scale_text(const identification::CommonScale& common);
