@@ -198,7 +198,8 @@ TEST(TermLibrary, HoldsEveryCandidateOfTheInterface) {
                           "temperature_rate_drift",
                           "torquer_temperature",
                           "accelerometer_temperature_curve",
-                          "accelerometer_temperature_rate"})
+                          "accelerometer_temperature_rate",
+                          "gimbal_zero"})
     EXPECT_TRUE(TermLibrary::find_term(key).has_value()) << key;
 }
 
