@@ -151,8 +151,8 @@ class Repeats {
       const double a = x[i] - 3.0 * x[i - 1] + 3.0 * x[i - 2] - x[i - 3],
                    b = x[i + 1] - 3.0 * x[i] + 3.0 * x[i - 1] - x[i - 2];
       if (!(a * b < 0.0 && std::min(std::abs(a), std::abs(b)) > rounded)) continue;
-      const auto equal = std::ranges::equal_range(sorted, x[i]);
-      sum += std::log(static_cast<double>(sorted.size()) / static_cast<double>(equal.size()));
+      const auto [first, last] = std::equal_range(sorted.begin(), sorted.end(), x[i]);
+      sum += std::log(static_cast<double>(sorted.size()) / static_cast<double>(last - first));
     }
     return sum;
   }
