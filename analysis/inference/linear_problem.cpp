@@ -8,6 +8,12 @@ LinearProblem LinearProblem::with_mean(const std::vector<int>& columns) const {
   return {*this, std::move(both), extra};
 }
 
+LinearProblem LinearProblem::with_mean_alone(const std::vector<int>& columns) const {
+  MatX both(rows(), theta.cols() + static_cast<Eigen::Index>(columns.size()));
+  both << theta, extra(Eigen::all, columns);
+  return {*this, std::move(both), MatX(rows(), 0)};
+}
+
 LinearProblem LinearProblem::bare() const {
   return {*this, theta, MatX(rows(), 0)};
 }

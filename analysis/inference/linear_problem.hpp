@@ -64,6 +64,8 @@ struct LinearProblem : MeasuredRows {
   /// With some candidates in the mean: their columns are parameters too, a ~ N(0, I). All of them
   /// are still listed as candidates, so that their numbers hold.
   LinearProblem with_mean(const std::vector<int>& columns) const;
+  /// The same without the others.
+  LinearProblem with_mean_alone(const std::vector<int>& columns) const;
   /// Without candidates.
   LinearProblem bare() const;
   /// Without the rows of the intervals that are marked.

@@ -169,6 +169,7 @@ struct EffortLimits {
   static constexpr std::size_t together = 4;  ///< causes found one after the other
   /// Candidates tried at each step in the place of noise; beside a cause.
   static constexpr std::size_t noise_tries = 4, noise_tries_beside = 2;
+  static constexpr std::size_t noises = 2;  ///< estimated of these at least
 };
 
 /// Which explanation is kept, and named.

@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <set>
 
+#include "analysis/inference/marginal.hpp"
+#include "analysis/inference/noise/noise_component.hpp"
 #include "analysis/search/library_prior.hpp"
 #include "analysis/search/size_prior.hpp"
+#include "mc/task/campaign.hpp"
 
 namespace drift::search {
 namespace {
@@ -27,7 +31,7 @@ struct Model {
 /// Change of the log evidence where amplitudes, in the mean with unit priors, are of unknown size.
 double gain_of_sizes_in(const Fitted& e, const Explanation& in, const NoiseEstimate& noise) {
   if (in.empty()) return 0.0;
-  const inference::LinearProblem with = e.problem.with_mean(distinct_columns_of(e.set, in)).bare();
+  const inference::LinearProblem with = e.problem.with_mean_alone(distinct_columns_of(e.set, in));
   const inference::Projector::Fit fit = inference::Projector(with, noise.model).fit();
   const Eigen::Index first = e.problem.theta.cols(), n = with.theta.cols() - first;
   std::vector<int> cause;
@@ -57,7 +61,7 @@ class NoiseOrEffects {
   Model weighed(Explanation in, NoiseEstimate noise) {
     Model m{std::move(in), std::move(noise), least};
     m.log_weight = log_prior(m.in) + gain_of_sizes_in(e_, m.in, m.noise) + m.noise.log_evidence();
-    if (!m.in.empty()) remember(m);
+    if (!m.in.empty()) remember(m.in, m.log_weight);
     return m;
   }
   std::vector<int> columns(const Explanation& in) const { return distinct_columns_of(e_.set, in); }
@@ -78,11 +82,57 @@ class NoiseOrEffects {
   Model from_white() {
     Model now = white({});
     while (now.in.size() < EffortLimits::together) {
-      std::optional<Model> best = best_of(additions(now), &NoiseOrEffects::white);
+      std::optional<Model> best = best_white(additions(now));
       if (!best || best->log_weight <= now.log_weight) break;
       now = std::move(*best);
     }
     return driven(now.in);
+  }
+
+  /// The weight of a model, or less, by a few evaluations: the best of white noise and of `noise`
+  /// with what drives the platform in it at some shares of its size. An estimate takes a hundred.
+  double glimpse(const Explanation& in, const NoiseEstimate& noise) const {
+    const Model* m = met(white_, in);
+    const double of_white = m != nullptr ? m->log_weight : least;
+    const inference::MarginalLikelihood rows(e_.problem, columns(in));
+    NoiseEstimate best = noise;
+    best.log_likelihood2 = least;
+    for (const double share : {1.0, 0.3, 0.1}) {
+      inference::NoiseModel model = noise.model;
+      for (const inference::NoiseComponent* c : noise.components)
+        if (!c->white()) model.*(c->sigma) *= share;
+      if (const double l = rows.log_likelihood2(model); l > best.log_likelihood2) {
+        best.model = model;
+        best.log_likelihood2 = l;
+      }
+    }
+    return std::max(of_white, log_prior(in) + gain_of_sizes_in(e_, in, best) + best.log_evidence());
+  }
+
+  /// The best of these with driven noise. Noises are estimated in the order of glimpses, a few at
+  /// least, until one falls short of the best by more than twice what any did of its estimate.
+  std::optional<Model> best_driven(const std::vector<Explanation>& all,
+                                   const NoiseEstimate& noise) {
+    for (const Explanation& in : all) white(in);
+    const std::vector<double> glimpses =
+        mc::run_campaign(all.size(), [&](std::size_t k) { return glimpse(all[k], noise); });
+    std::vector<std::size_t> order(all.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, std::greater{}, [&](std::size_t k) { return glimpses[k]; });
+    std::optional<Model> best;
+    double short_by = 0.0;
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      const Explanation& in = all[order[k]];
+      const double seen = glimpses[order[k]];
+      if (k >= EffortLimits::noises && seen + 2.0 * short_by < best->log_weight) {
+        remember(in, seen);
+        continue;
+      }
+      Model m = driven(in);
+      short_by = std::max(short_by, m.log_weight - seen);
+      if (!best || m.log_weight > best->log_weight) best = std::move(m);
+    }
+    return best;
   }
 
   /// One candidate added, dropped or swapped at a time as long as that gains.
@@ -98,7 +148,7 @@ class NoiseOrEffects {
         for (Explanation& swapped : additions(white(fewer))) more.push_back(std::move(swapped));
       }
       std::erase_if(more, [&](const Explanation& x) { return same(x, now.in); });
-      std::optional<Model> best = best_of(more, &NoiseOrEffects::driven);
+      std::optional<Model> best = best_driven(more, now.noise.driven ? now.noise : e_.noise);
       if (!best || best->log_weight <= now.log_weight) break;
       now = std::move(*best);
     }
@@ -116,13 +166,13 @@ class NoiseOrEffects {
 
  private:
   /// A model counts once, with the better of its noises.
-  void remember(const Model& m) {
+  void remember(const Explanation& in, double log_weight) {
     const auto at =
-        std::ranges::find_if(met_, [&](const auto& other) { return same(other.first, m.in); });
+        std::ranges::find_if(met_, [&](const auto& other) { return same(other.first, in); });
     if (at == met_.end())
-      met_.emplace_back(m.in, m.log_weight);
+      met_.emplace_back(in, log_weight);
     else
-      at->second = std::max(at->second, m.log_weight);
+      at->second = std::max(at->second, log_weight);
   }
 
   static const Model* met(const std::vector<Model>& all, const Explanation& in) {
@@ -172,12 +222,10 @@ class NoiseOrEffects {
     return out;
   }
 
-  std::optional<Model> best_of(const std::vector<Explanation>& all,
-                               Model (NoiseOrEffects::*make)(Explanation)) {
+  std::optional<Model> best_white(const std::vector<Explanation>& all) {
     std::optional<Model> best;
     for (const Explanation& in : all)
-      if (Model m = (this->*make)(in); !best || m.log_weight > best->log_weight)
-        best = std::move(m);
+      if (Model m = white(in); !best || m.log_weight > best->log_weight) best = std::move(m);
     return best;
   }
 

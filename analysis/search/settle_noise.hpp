@@ -19,7 +19,7 @@ struct NoiseSettled {
 /// log_evidence), an input of free form in one equation. Models are searched from two beginnings -
 /// nothing in the mean and all noise that is needed, and white noise with candidates added one
 /// after the other - by adding, dropping and swapping one candidate as long as that gains; the
-/// noise is estimated anew in each.
+/// noise is estimated anew in each that may be the best of its step.
 /// Returns what to put in the place of e.noise, or nothing if what is in its place is not credible:
 /// the noise alone has SearchLimits::credible of the probability. tries: candidates fitted at each
 /// step.

@@ -7,102 +7,15 @@
 #include <optional>
 
 #include "analysis/inference/marginal.hpp"
+#include "analysis/inference/noise/mixture.hpp"
 #include "analysis/inference/noise/noise_component.hpp"
-#include "analysis/inference/noise/quasi_newton.hpp"
 #include "analysis/inference/noise/sigma_ladder.hpp"
 #include "analysis/inference/thresholds.hpp"
-#include "core/base/decompose.hpp"
 #include "core/stats/chi_square.hpp"
 #include "mc/task/campaign.hpp"
 
 namespace drift::inference {
 namespace {
-
-/// A component whose sigma is estimated.
-struct Active {
-  const NoiseComponent* component = nullptr;
-  double gain = 0.0;  ///< of twice the log likelihood when it was added; 0: there from the start
-};
-
-/// A noise model at the best of its active components.
-struct Mixture {
-  NoiseModel model;
-  std::vector<Active> active;
-  double log_likelihood2 = 0.0;
-  MatX covariance;  ///< of the logs of the active components' sigmas, then of their time constants
-
-  /// Components with a time constant, in order.
-  std::vector<std::size_t> timed() const {
-    std::vector<std::size_t> all;
-    for (std::size_t k = 0; k < active.size(); ++k)
-      if (active[k].component->tau) all.push_back(k);
-    return all;
-  }
-};
-
-NoiseModel at(const Mixture& m, const VecX& logs) {
-  NoiseModel model = m.model;
-  Eigen::Index next = 0;
-  for (const Active& a : m.active) model.*(a.component->sigma) = std::exp(logs[next++]);
-  for (const std::size_t k : m.timed())
-    model.*(m.active[k].component->tau) = std::exp(logs[next++]);
-  return model;
-}
-
-/// Log prior of the time constants: log-normal, less its constant.
-double log_prior_of_times(const Mixture& m, const NoiseModel& model) {
-  double sum = 0.0;
-  for (const std::size_t k : m.timed()) {
-    const NoiseComponent& c = *m.active[k].component;
-    sum -= 0.5 * std::pow(c.time.z(model.*(c.tau)), 2);
-  }
-  return sum;
-}
-
-/// The best sigmas and time constants of the active components, from where they are, with m's
-/// covariance to begin with if it has one. A time constant far outside the test is a random walk by
-/// another name: its prior holds it.
-Mixture fitted(const MarginalLikelihood& rows, Mixture m) {
-  const RowCounts count(rows.measured());
-  const std::vector<std::size_t> timed = m.timed();
-  const auto sigmas = static_cast<Eigen::Index>(m.active.size());
-  const Eigen::Index n = sigmas + static_cast<Eigen::Index>(timed.size());
-  VecX logs(n), guess = VecX::Constant(n, 1.0 / 30.0);
-  for (Eigen::Index k = 0; k < sigmas; ++k) {
-    const NoiseComponent& c = *m.active[static_cast<std::size_t>(k)].component;
-    logs[k] = std::log(m.model.*(c.sigma));
-    if (c.white()) guess[k] = 0.5 / static_cast<double>(count.of(c));
-  }
-  for (std::size_t k = 0; k < timed.size(); ++k)
-    logs[sigmas + static_cast<Eigen::Index>(k)] =
-        std::log(m.model.*(m.active[timed[k]].component->tau));
-  const Maximum top = maximise(
-      [&](const VecX& x) {
-        const NoiseModel model = at(m, x);
-        return 0.5 * rows.log_likelihood2(model) + log_prior_of_times(m, model);
-      },
-      logs, m.covariance.rows() == n ? m.covariance : MatX(guess.asDiagonal()));
-  m.model = at(m, top.x);
-  m.log_likelihood2 = 2.0 * (top.value - log_prior_of_times(m, m.model));
-  m.covariance = top.inverse_curvature;
-  return m;
-}
-
-/// NoiseEstimate::log_price of sigmas and time constants alone.
-double log_price(const Mixture& m, const NoiseModel& declared, double acc_sigma) {
-  constexpr double half_log_2pi = 0.9189385332046727;
-  const auto n = static_cast<double>(m.covariance.rows());
-  double sum = n * half_log_2pi + Cholesky(m.covariance).L().diagonal().array().log().sum() +
-               log_prior_of_times(m, m.model);
-  for (const Active& a : m.active) {
-    const NoiseComponent& c = *a.component;
-    const Usual usual = usual_size(c, declared);
-    sum += NoisePrior::log_density(usual.z(m.model.*(c.sigma) / unit_of(c, acc_sigma))) -
-           std::log(usual.spread());
-    if (c.tau) sum -= half_log_2pi + std::log(c.time.spread());
-  }
-  return sum;
-}
 
 /// White noise and whatever is declared.
 Mixture declared_mixture(const MarginalLikelihood& rows, const NoiseModel& declared) {
@@ -120,11 +33,6 @@ NoiseModel with(const NoiseModel& model, const Addition& a, double sigma) {
   more.*(a.component->sigma) = sigma;
   if (a.component->tau) more.*(a.component->tau) = a.tau;
   return more;
-}
-
-/// Log evidence of a mixture, its constants left out.
-double log_evidence(const Mixture& m, const NoiseModel& declared, double acc_sigma) {
-  return 0.5 * m.log_likelihood2 + log_price(m, declared, acc_sigma);
 }
 
 /// With the component among those offered that gains most, all sigmas at their best; none if that
@@ -224,17 +132,9 @@ NoiseEstimate as_estimate(const Mixture& m, const NoiseModel& declared,
   return out;
 }
 
-/// Without one of its components.
-Mixture without(const MarginalLikelihood& rows, Mixture m, std::size_t k) {
-  m.model.*(m.active[k].component->sigma) = 0.0;
-  m.active.erase(m.active.begin() + static_cast<std::ptrdiff_t>(k));
-  m.covariance.resize(0, 0);
-  return fitted(rows, std::move(m));
-}
-
-/// The noise of `start` where it holds for these rows as well: no component that drives the
-/// platform would be likelier at a third of its sigma, and the evidence is better with each of
-/// them.
+/// The noise of `start` where it holds for these rows as well, less what the evidence is better
+/// without. None where a component that drives the platform would be likelier at a third of its
+/// sigma.
 std::optional<Mixture> much_as(const MarginalLikelihood& rows, const NoiseModel& declared,
                                const NoiseEstimate& start) {
   if (start.components.empty()) return std::nullopt;
@@ -247,14 +147,20 @@ std::optional<Mixture> much_as(const MarginalLikelihood& rows, const NoiseModel&
     if (!c->white() && rows.log_likelihood2(less) >= there) return std::nullopt;
   }
   m = fitted(rows, std::move(m));
-  for (std::size_t k = 0; k < m.active.size(); ++k) {
+  for (std::size_t k = 0; k < m.active.size();) {
     const NoiseComponent& c = *m.active[k].component;
-    if (c.white() || c.in(declared)) continue;
-    const Mixture fewer = without(rows, m, k);
+    if (c.white() || c.in(declared)) {
+      ++k;
+      continue;
+    }
+    Mixture fewer = without(rows, m, k);
     if (log_evidence(fewer, declared, rows.measured().acc_sigma) >=
-        log_evidence(m, declared, rows.measured().acc_sigma))
-      return std::nullopt;
-    m.active[k].gain = m.log_likelihood2 - fewer.log_likelihood2;
+        log_evidence(m, declared, rows.measured().acc_sigma)) {
+      m = std::move(fewer);
+      k = 0;  // what the others gain is another now
+    } else {
+      m.active[k++].gain = m.log_likelihood2 - fewer.log_likelihood2;
+    }
   }
   return m;
 }

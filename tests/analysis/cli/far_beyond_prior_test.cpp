@@ -21,7 +21,8 @@ INSTANTIATE_TEST_SUITE_P(Diagnose, FarBeyondPrior,
                          ::testing::Values(Case{"cubic_g_drift", "D_III_z"},
                                            Case{"accelerometer_cross", "K_io_x"},
                                            Case{"sag", "C_sag_x"},
-                                           Case{"encoder_harmonics", "enc_s1_middle"}),
+                                           Case{"encoder_harmonics", "enc_s1_middle"},
+                                           Case{"gimbal_zero", "enc_zero_middle"}),
                          [](const auto& one) { return std::string(one.param.term); });
 
 TEST_P(FarBeyondPrior, IsNamedWithItsSize) {
