@@ -148,6 +148,17 @@ TEST(Prepare, SampleIntervalsMayDifferFromThePlansByATwentieth) {
             std::string::npos);
 }
 
+TEST(Prepare, AClockThatIsOffByAPerMilleIsSaid) {
+  const Recording r = simulated(test::six_study());
+  const auto said = [&](double sample, const char* what) {
+    return says(prepare(test::six_study(1200.0, sample), {r}), what);
+  };
+  EXPECT_FALSE(said(60.0, "samples are"));
+  EXPECT_FALSE(said(60.02, "samples are"));
+  EXPECT_TRUE(said(60.06, "samples are 60 s apart, in the plan 60.06 s: 0.1 % shorter"));
+  EXPECT_TRUE(said(59.4, "samples are 60 s apart, in the plan 59.4 s: 1 % longer"));
+}
+
 TEST(Prepare, ACommandOneDegPerHourFromThePlansIsSaid) {
   const mc::Study s = test::six_study();
   const auto said = [&](double deg_per_h) {
