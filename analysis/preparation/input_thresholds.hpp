@@ -16,6 +16,9 @@ struct RecordingLimits {
   /// Part by which sample intervals may differ from the plan's, and from each other. Tuned.
   /// Test: Prepare.SampleIntervalsMayDiffer...
   static constexpr double interval_room = 0.05;
+  /// Part from which on that is said: a clock that is off by it makes every rate wrong by as much.
+  /// Test: Prepare.AClockThatIsOffByAPerMilleIsSaid
+  static constexpr double interval_said = 5e-4;
   /// Part by which the intervals of several evenly spaced recordings may differ to be one interval.
   static constexpr double same_interval = 1e-3;
   /// Rows beyond which samples are averaged, and the samples that the shortest dwell must keep. The
@@ -82,6 +85,11 @@ struct PlanLimits {
   /// by the other one, and [deg/h] below which drift could look like that difference (the prior of
   /// drift is 1 deg/h).
   static constexpr double other_law = 0.4, laws_differ_deg_per_h = 5.0;
+  /// [rad] by which the platform may turn from one row to the next within a position, and [rad/s]
+  /// more with the time between them: twice the Earth's rate. Rows on both sides that must be
+  /// there: fewer are numbers that change late. Test: Prepare.TwoPositionsUnderOneNumber...
+  static constexpr double turned = 0.3, drifted = 1.5e-4;
+  static constexpr std::size_t rows_beside_a_turn = 4;
   /// [s] over which a rotation is read off: 15 deg of the Earth's, where it still is a vector.
   static constexpr double longest_turn = 3600.0;
 };

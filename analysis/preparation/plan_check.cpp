@@ -10,6 +10,7 @@
 
 #include "analysis/preparation/dwell_turn.hpp"
 #include "analysis/preparation/input_thresholds.hpp"
+#include "core/physics/gimbals.hpp"
 #include "core/plan/timeline.hpp"
 #include "core/sim/measurements.hpp"
 
@@ -168,6 +169,54 @@ void check_law(const mc::Study& study, const std::string& source, const Timeline
   }
 }
 
+/// How far the platform turns from a row to a later one [rad]: gimbals and accelerometers must both
+/// show it where both measured, for one alone may be faulty. 0 where neither did.
+double turn_between(const Measurements& m, std::size_t from, std::size_t to) {
+  const auto a = static_cast<Eigen::Index>(from), b = static_cast<Eigen::Index>(to);
+  std::vector<double> shown;
+  if ((m.gimbal.col(a) + m.gimbal.col(b)).array().isFinite().all())
+    shown.push_back(rotation_vector(Mat3(gimbal_chain(m.gimbal.col(a)).transpose() *
+                                         gimbal_chain(m.gimbal.col(b))))
+                        .norm());
+  if ((m.acc.col(a) + m.acc.col(b)).array().isFinite().all())
+    shown.push_back(std::atan2(Vec3(m.acc.col(a)).cross(Vec3(m.acc.col(b))).norm(),
+                               m.acc.col(a).dot(m.acc.col(b))));
+  return shown.empty() ? 0.0 : *std::ranges::min_element(shown);
+}
+
+/// A position within which the platform is turned, and not by a row or two of its neighbours: two
+/// positions under one number. A spike turns back in the row after it.
+void check_turned_within(const std::string& source, const Recording& recording,
+                         const Timeline& timeline, const Measurements& m,
+                         const std::vector<Dwell>& dwells, std::vector<std::string>& wrong) {
+  for (const Dwell& d : dwells) {
+    constexpr std::size_t beside = PlanLimits::rows_beside_a_turn;
+    for (std::size_t k = beside; k + beside <= d.rows.size(); ++k) {
+      const std::size_t before = d.rows[k - 1], after = d.rows[k];
+      double allowed = PlanLimits::turned;  // and by drift, by commands, and with the case
+      for (std::size_t i = k - beside + 1; i < k + beside; ++i) {
+        const Interval& to = timeline.intervals[d.rows[i]];
+        const double lasts = to.t1 - timeline.intervals[d.rows[i - 1]].t1;
+        allowed += (PlanLimits::drifted + to.omega_cmd_p.norm()) * lasts +
+                   std::abs(to.heading1 - timeline.intervals[d.rows[i - 1]].heading1);
+      }
+      if (turn_between(m, before, after) < allowed ||
+          turn_between(m, d.rows[k - beside], d.rows[k + beside - 1]) < allowed)
+        continue;
+      wrong.push_back(
+          fmt::format("{}: within position {} the platform turns by {:.0f} deg at {} s{} (expected "
+                      "one attitude in a position). Give the rows from there on the number of "
+                      "their own position, or phase = 1 to those that are slewed",
+                      source, d.position + 1, turn_between(m, before, after) / detail::deg,
+                      timeline.intervals[after].t1,
+                      recording.lines.size() == recording.rows()
+                          ? fmt::format(", line {}", recording.lines[after])
+                          : ""));
+      break;
+    }
+  }
+}
+
 }  // namespace
 
 void check_plan(const mc::Study& study, const Recording& recording,
@@ -175,11 +224,13 @@ void check_plan(const mc::Study& study, const Recording& recording,
   const std::string source = recording.source.empty() ? "recording" : recording.source;
   const Timeline timeline = lay_out(recording, study.plan, study.site);
   const std::vector<Dwell> dwells = dwells_of(timeline);
+  const Measurements measured = measurements_of(recording, study.readout);
   check_dwells(study, source, timeline, dwells, remarks);
   if (recording.find("cmd_x") != nullptr)
     check_commands(study, source, timeline, dwells, remarks);
   else
-    check_law(study, source, timeline, measurements_of(recording, study.readout), dwells, wrong);
+    check_law(study, source, timeline, measured, dwells, wrong);
+  check_turned_within(source, recording, timeline, measured, dwells, wrong);
 }
 
 }  // namespace drift::preparation

@@ -154,6 +154,13 @@ std::size_t factor_for(const Work& work, double interval) {
         "{}: samples are {:.6g} s apart, in the plan {:.6g} s (expected the plan's interval or a "
         "whole part of it). Is this the plan the recording was made with? Set plan.sample",
         name_of(work.p.recordings.front()), interval, work.sample));
+  else if (const double off = interval * whole / work.sample - 1.0;
+           std::abs(off) > RecordingLimits::interval_said)
+    work.p.remarks.push_back(fmt::format(
+        "{}: samples are {:.6g} s apart, in the plan {:.6g} s: {:.2g} % {}. The recording's own "
+        "times are used; if its clock is off, every rate is by as much, else set plan.sample",
+        name_of(work.p.recordings.front()), interval * whole, work.sample, 100.0 * std::abs(off),
+        off > 0.0 ? "longer" : "shorter"));
   auto factor = static_cast<std::size_t>(whole);
   while (rows_of(work.p.recordings) / factor > work.most_rows &&
          RecordingLimits::kept_samples * static_cast<double>(factor + 1) * interval <= shortest)

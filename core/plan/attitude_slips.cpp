@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <string_view>
@@ -123,6 +124,67 @@ std::optional<std::string> in_another_unit(const std::vector<Sight>& sights, Col
       fitting.front().second, was, wrong.empty() ? "" : "s");
 }
 
+/// What is to be added to the gimbal angles [deg].
+using Zeros = std::array<double, 3>;
+
+double worst_with(const std::vector<Sight>& sights, const Zeros& zeros) {
+  return worst_mismatch(sights, [&](Sight& s) {
+    for (int i = 0; i < 3; ++i) s.seen[i] += zeros[static_cast<std::size_t>(i)] * detail::deg;
+  });
+}
+
+/// The zero of one gimbal that leaves least, to 0.1 deg.
+Zeros best_zero_of(const std::vector<Sight>& sights, std::size_t gimbal) {
+  Zeros best{}, tried{};
+  double least = worst_with(sights, best);
+  for (const double step : {5.0, 1.0, 0.1}) {
+    const double centre = best[gimbal], room = step == 5.0 ? 180.0 : 10.0 * step;
+    for (double zero = centre - room; zero < centre + room + 0.5 * step; zero += step) {
+      tried[gimbal] = zero;
+      if (const double left = worst_with(sights, tried); left < least) {
+        least = left;
+        best = tried;
+      }
+    }
+  }
+  return best;
+}
+
+/// Zeros of the gimbals that bring all into place: of one gimbal any, else of two a quarter of a
+/// turn or half of one. Several ways are none.
+std::optional<Zeros> zeros_behind(const std::vector<Sight>& sights) {
+  std::vector<Zeros> fitting;
+  const auto take = [&](const Zeros& zeros) {
+    if (worst_with(sights, zeros) < largest_mismatch) fitting.push_back(zeros);
+  };
+  for (std::size_t gimbal = 0; gimbal < 3; ++gimbal) take(best_zero_of(sights, gimbal));
+  if (fitting.empty())
+    for (std::size_t still = 0; still < 3; ++still)
+      for (const double a : {-90.0, 90.0, 180.0})
+        for (const double b : {-90.0, 90.0, 180.0}) {
+          Zeros zeros{a, a, a};
+          zeros[still] = 0.0;
+          zeros[still == 2 ? 1 : 2] = b;
+          take(zeros);
+        }
+  return fitting.size() == 1 ? std::optional(fitting.front()) : std::nullopt;
+}
+
+std::string zeros_text(const Zeros& zeros) {
+  std::vector<std::string> columns, keys;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (zeros[i] == 0.0) continue;
+    columns.push_back(fmt::format("{} reads {:.4g} deg too {}", column_names[i], std::abs(zeros[i]),
+                                  std::abs(zeros[i]) == 180.0 ? "much or too little"
+                                  : zeros[i] < 0.0            ? "much"
+                                                              : "little"));
+    keys.push_back(fmt::format("{} = \"{:.4g} deg\"", column_names[i], zeros[i]));
+  }
+  return fmt::format(
+      "{}, in all of them. Correct the zero, or say so in the study: [recording] offset = {{ {} }}",
+      fmt::join(columns, " and "), fmt::join(keys, ", "));
+}
+
 }  // namespace
 
 double gimbal_mismatch(const Sight& s) {
@@ -138,6 +200,7 @@ std::optional<std::string> slip_behind(const std::vector<Sight>& sights, const A
   // Of gimbals alone, or of the heading too, the fewest first.
   for (const Columns columns : {of_case, all_gimbals | of_case, 1U, 2U, 4U, 3U, 5U, 6U})
     if (auto text = in_another_unit(sights, columns, units)) return text;
+  if (const auto zeros = zeros_behind(sights)) return zeros_text(*zeros);
   return std::nullopt;
 }
 

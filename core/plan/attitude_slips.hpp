@@ -34,8 +34,8 @@ using AngleUnits = std::array<Unit, 4>;
 
 /// Something else than exchanged columns that explains why gimbal angles do not show the attitude
 /// of the plan, and what to do, in words: angles in another unit (all, two or one of them), another
-/// heading of the case. Empty where nothing simple brings every position into place; simpler
-/// explanations come first.
+/// heading of the case, other zeros of the gimbals. Empty where nothing simple brings every
+/// position into place; simpler explanations come first.
 std::optional<std::string> slip_behind(const std::vector<Sight>& sights, const AngleUnits& units);
 
 /// The unit in which the middle gimbal would show the plan, in words: of angles whose whole turns

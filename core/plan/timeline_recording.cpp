@@ -75,7 +75,9 @@ class Reader {
     others.resize(std::min(most, others.size()));
     complain(first, fmt::format("position{} {}{} {} not in the plan, in {} rows from here on "
                                 "(expected positions 1 to {}). Use the plan "
-                                "the recording was made with, or correct the column",
+                                "the recording was made with; where it numbers them otherwise, say "
+                                "in [recording] of the study file which is which: positions = {{ "
+                                "\"NUMBER IN THE FILE\" = NUMBER IN THE PLAN, ... }}",
                                 several ? "s" : "", fmt::join(others, ", "), more,
                                 several ? "are" : "is", rows, plan_.positions.size()));
   }

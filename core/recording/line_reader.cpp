@@ -77,7 +77,17 @@ bool LineReader::refill() {
     end_ += text.size();
   }
   at_end_ = got == 0;
+  if (number_ == 0) choose_line_end();
   return got > 0;
+}
+
+/// A file whose lines end with a carriage return alone (spreadsheets of old): no line feed in the
+/// first buffer, and a carriage return that none may follow.
+void LineReader::choose_line_end() {
+  const std::string_view held(buffer_.data() + begin_, end_ - begin_);
+  const auto at = held.find('\r');
+  const bool alone = at != std::string_view::npos && at + 1 < held.size();
+  line_end_ = alone && held.find('\n') == std::string_view::npos ? '\r' : '\n';
 }
 
 bool LineReader::next(std::string_view& line) {
@@ -86,7 +96,7 @@ bool LineReader::next(std::string_view& line) {
   while (true) {
     const char* start = buffer_.data() + begin_;
     const std::size_t held = end_ - begin_;
-    if (const void* hit = std::memchr(start + searched, '\n', held - searched)) {
+    if (const void* hit = std::memchr(start + searched, line_end_, held - searched)) {
       std::size_t size = static_cast<std::size_t>(static_cast<const char*>(hit) - start);
       begin_ += size + 1;
       consumed_ += size + 1;

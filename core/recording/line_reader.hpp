@@ -22,7 +22,8 @@ class LineReader {
   LineReader(const LineReader&) = delete;
   LineReader& operator=(const LineReader&) = delete;
 
-  /// The following line without its line end (LF or CRLF), valid until the call after it; false
+  /// The following line without its line end (LF, CRLF, or CR where a
+  /// file has no other), valid until the call after it; false
   /// at the end. Of a line longer than longest_line only the beginning is given.
   /// InputError (io) if reading fails.
   bool next(std::string_view& line);
@@ -35,6 +36,7 @@ class LineReader {
 
  private:
   bool refill();
+  void choose_line_end();
   std::size_t read_bytes(char* to, std::size_t most);
   void take_mark();
 
@@ -44,6 +46,7 @@ class LineReader {
   std::size_t begin_ = 0, end_ = 0;
   std::size_t number_ = 0, consumed_ = 0, file_size_ = 0;
   std::optional<Utf16Decoder> utf16_;
+  char line_end_ = '\n';
   bool cut_ = false, at_end_ = false, begun_ = false, ended_ = true;
 };
 

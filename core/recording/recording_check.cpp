@@ -139,7 +139,10 @@ void check_position(const Recording& r, RowOrder order, Problems& problems) {
     const double p = position->values[i];
     if (!(p >= 1.0 && p <= 1e9) || p != std::floor(p)) {
       problems.add(at(r, i, "position"), fmt::format("the position is {}", p),
-                   "a whole number from 1 on", "Give the number of the plan's position");
+                   "a whole number from 1 on",
+                   "Give the number of the plan's position, or say in [recording] of the study "
+                   "file which is which: positions = { \"NUMBER IN THE FILE\" = NUMBER IN THE "
+                   "PLAN, ... }");
     } else if (p < last && order == RowOrder::known) {
       problems.add(at(r, i, "position"), fmt::format("position {} comes after {}", p, last),
                    "positions in the order of the plan",

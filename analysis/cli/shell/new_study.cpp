@@ -6,6 +6,8 @@
 #include "analysis/cli/command.hpp"
 #include "analysis/cli/print.hpp"
 #include "analysis/cli/shell/study_template.hpp"
+#include "analysis/preparation/noise_card.hpp"
+#include "analysis/report/noise/noise.hpp"
 #include "analysis/report/page/table.hpp"
 #include "core/base/atomic_file.hpp"
 #include "core/base/named.hpp"
@@ -137,6 +139,15 @@ std::string turned_text(const RecordedPlan& plan) {
       numbers.size() == 1 ? "" : "s", listed(numbers, "and"), numbers.size() == 1 ? "is" : "are");
 }
 
+/// The line of [readout] that the rests of a recording give; empty where they show no noise.
+std::string noise_line(const Recording& r) {
+  const std::string keys = report::noise_keys(
+      preparation::noise_card(r, RecordingKind::platform, preparation::resting_rows(r)));
+  const auto begin = keys.find("accelerometer_noise"), end = keys.find('\n', begin);
+  if (begin == std::string::npos || end == std::string::npos) return "";
+  return keys.substr(begin, end - begin) + ", as the rests of the recording show\n";
+}
+
 ExitCode make_study(const NewArguments& a) {
   const StudyKind kind = *value_in(study_kinds, a.kind);
   const bool on_case = kind == StudyKind::strapdown;
@@ -148,7 +159,10 @@ ExitCode make_study(const NewArguments& a) {
   if (!a.recording.empty()) {
     seen = look_at(a.recording, on_case ? RecordingKind::strapdown : RecordingKind::platform);
     site = site_of(seen, a.recording);
-    if (!on_case && seen.recording) plan = recorded_plan(*seen.recording);
+    if (!on_case && seen.recording) {
+      plan = recorded_plan(*seen.recording);
+      plan->noise = noise_line(*seen.recording);
+    }
     if (!on_case && !seen.recording && seen.named > 0) plan = plan_to_come(seen.named);
   }
   const std::string& blanks = seen.blanks;
@@ -168,6 +182,11 @@ ExitCode make_study(const NewArguments& a) {
         "  driftscope convert {} '{}' -o read.csv && driftscope new {} read.csv -o NEW.toml\n",
         plan ? "all alike, as many as it names" : "those of a preset", report::wrapped(blanks, 98),
         a.output, a.recording, a.kind);
+  if (plan && !plan->contradiction.empty())
+    show(
+        "\n{}\n\nThen this fills in the positions:\n"
+        "  driftscope convert {} '{}' -o read.csv && driftscope new {} read.csv -o NEW.toml\n",
+        report::wrapped(plan->contradiction, 98), a.output, a.recording, a.kind);
   if (const std::string said = plan ? turned_text(*plan) : ""; !said.empty())
     show("\n{}\n", report::wrapped(said, 98));
   if (!seen.unplaced.empty()) show("\n{}\n", report::wrapped(seen.unplaced, 98));

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "analysis/cli/shell/two_ups.hpp"
 #include "core/config/node.hpp"
 #include "core/physics/earth.hpp"
 #include "core/physics/gimbals.hpp"
@@ -170,6 +172,8 @@ RecordedPlan recorded_plan(const Recording& r) {
   const Channel *position = r.find("position"), *time = r.find("time"), *phase = r.find("phase"),
                 *heading = r.find("case_heading");
   plan.headings = heading != nullptr;
+  std::vector<TwoUps> seen;
+  std::vector<std::string> ups;
   for (std::size_t first = 0, end = 0; first < r.rows(); first = end) {
     end = first + 1;
     while (end < r.rows() && (!position || position->values[end] == position->values[first])) ++end;
@@ -184,9 +188,27 @@ RecordedPlan recorded_plan(const Recording& r) {
     const auto turned = cardinal_axes(r, dwell, p.heading.value_or(0.0) + 45.0 * detail::deg);
     if (!heading && shown && turned && shown->size() > turned->size()) p.turned = *turned;
     p.axes = shown ? *shown : axes_of(mean_force(r, dwell, end));
+    const std::size_t row = std::min(dwell + 2, end - 1);  // the first may be of the turn
+    const auto force = measured(r, accelerometer_channels, row),
+               angles = measured(r, gimbal_channels, row);
+    if (force && angles) {
+      seen.push_back({plan.positions.size() + 1, *force, *angles});
+      ups.push_back(axes_of(*force));
+    }
     const auto command = measured(r, command_channels, dwell);
     plan.level = plan.level || (command && command->norm() > 0.5 * detail::earth_rate);
     plan.positions.push_back(std::move(p));
+  }
+  const Channel* const outer = r.find("gimbal_outer");
+  if (outer) plan.contradiction = two_ups_text(seen, outer->unit);
+  if (plan.contradiction.empty()) return plan;
+  // Axes of a misread gimbal would have the accelerometers seem wrong.
+  plan.north = false;
+  for (std::size_t k = 0; k < seen.size(); ++k) {
+    RecordedPlan::Position& p = plan.positions[seen[k].position - 1];
+    p.axes = ups[k];
+    p.heading.reset();
+    p.turned.clear();
   }
   return plan;
 }
@@ -233,8 +255,12 @@ std::string study_template(StudyKind kind, const std::optional<RecordedPlan>& pl
   else
     text += ": a recording in m/s^2 is divided by it, and K1 is off by as many ppm\n" +
             plan_text(plan, kind == StudyKind::sweep ? Dwells::alike : Dwells::as_recorded) +
-            "\n[readout]\naccelerometer_noise = \"5 ug\"      # 1 sigma of a sample: of the data "
-            "sheet, or of a rest\ngimbal_noise        = \"5 arcsec\"\n";
+            "\n[readout]\n" +
+            (plan && !plan->noise.empty()
+                 ? plan->noise
+                 : "accelerometer_noise = \"5 ug\"      # 1 sigma of a sample: of the data sheet, "
+                   "or of a rest\n") +
+            "gimbal_noise        = \"5 arcsec\"\n";
   if (!mapping.empty()) text += "\n" + mapping;
   if (kind == StudyKind::study || kind == StudyKind::sweep) text += simulated_text();
   // Accelerometers of a real platform have errors of their own, beside which any other hides.

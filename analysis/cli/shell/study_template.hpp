@@ -20,11 +20,13 @@ struct RecordedPlan {
     std::optional<double> heading{};  ///< of the case [rad], where it is recorded
     std::string turned{};             ///< the axes if the case was at 45 deg; empty: less likely
   };
-  double sample = 0.0;    ///< [s]
-  bool level = false;     ///< Earth rate is commanded in the dwells
-  bool north = false;     ///< the axes that lie level are from gimbal angles
-  bool headings = false;  ///< and the headings of the case are recorded; else it faces North
-  bool to_come = false;   ///< the recording could not be read yet: the positions hold a place
+  double sample = 0.0;          ///< [s]
+  bool level = false;           ///< Earth rate is commanded in the dwells
+  bool north = false;           ///< the axes that lie level are from gimbal angles
+  bool headings = false;        ///< and the headings of the case are recorded; else it faces North
+  bool to_come = false;         ///< the recording could not be read yet: the positions hold a place
+  std::string noise{};          ///< accelerometer_noise of [readout] as its rests show it; or empty
+  std::string contradiction{};  ///< of accelerometers and gimbals, in words; empty: none
   std::vector<Position> positions{};
 };
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "analysis/report/diagnosis/effect_words.hpp"
@@ -16,22 +17,35 @@ namespace {
 using diagnosis::Diagnosis;
 using search::CandidateScore;
 
-/// Significant, with nothing significant left beside it, and too large.
-bool loses_by_size(const CandidateScore& c) {
-  return c.observable && c.leaves_nothing && c.p_value <= no_stronger_than_chance &&
-         c.size_sigma > unusual_size;
-}
-
 bool is_named(const Diagnosis& d, const CandidateScore& c) {
   return std::ranges::any_of(d.causes,
                              [&](const search::Cause& cause) { return cause.term == c.term; });
 }
 
+/// Significant, with nothing significant left beside it, and too large: so far out in its prior
+/// that no cause is, or further out than is usual, and as likely as the causes were it not. best:
+/// the largest log evidence among those.
+bool loses_by_size(const CandidateScore& c, double best) {
+  if (!c.observable || !c.leaves_nothing || c.p_value > no_stronger_than_chance) return false;
+  const double cost = 0.5 * c.size_sigma * c.size_sigma;  // of the size, in log evidence
+  return c.size_sigma > unusual_size ||
+         (c.size_sigma > large_size && best > c.log_bayes && c.log_bayes + cost > best);
+}
+
+/// The largest log evidence among the candidates that are causes.
+double best_evidence(const Diagnosis& d) {
+  double best = -std::numeric_limits<double>::infinity();
+  for (const CandidateScore& c : d.candidates)
+    if (is_named(d, c)) best = std::max(best, c.log_bayes);
+  return best;
+}
+
 /// Of every term the candidate that needs the smallest size.
 std::vector<const CandidateScore*> smallest_of_each_term(const Diagnosis& d) {
   std::vector<const CandidateScore*> all;
+  const double best = best_evidence(d);
   for (const CandidateScore& c : d.candidates) {
-    if (!loses_by_size(c) || is_named(d, c)) continue;
+    if (!loses_by_size(c, best) || is_named(d, c)) continue;
     const auto same = std::ranges::find(all, c.term, &CandidateScore::term);
     if (same == all.end())
       all.push_back(&c);

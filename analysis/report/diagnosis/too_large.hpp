@@ -11,6 +11,9 @@ namespace drift::report {
 inline constexpr double no_stronger_than_chance = 0.05;
 /// Prior sigmas above which a size is unusual: 1 in a million units has it.
 inline constexpr double unusual_size = inference::FitLimits::beyond_prior;
+/// Prior sigmas above which a candidate that its size alone makes less likely is named all the
+/// same: 1 in 400 units has it.
+inline constexpr double large_size = 3.0;
 
 /// Candidates that would explain a recording as the causes do and lose by their size alone: " ...
 /// (base_motion_leak.y) would explain it as well, but would have to be 12 times its usual size."

@@ -85,7 +85,7 @@ std::string beyond_text(const FilterView& v) {
   const bool one = keys.size() == 1;
   return fmt::format(
       "Filter {}: {} further than {:g} of {} prior sigmas from {} ({}): wrong priors, or a "
-      "study that is not of this recording (latitude, axes).",
+      "study that is not of this recording (latitude, axes, unit of time).",
       v.spec().name, one ? "1 parameter lies" : fmt::format("{} parameters lie", keys.size()),
       inference::FitLimits::beyond_prior, one ? "its" : "their",
       one ? "its prior's mean" : "the means of their priors", listed_up_to(keys, most));

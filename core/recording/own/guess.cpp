@@ -8,6 +8,7 @@
 
 #include "core/base/utf8.hpp"
 #include "core/recording/line_reader.hpp"
+#include "core/recording/own/clock.hpp"
 #include "core/recording/own/csv_cells.hpp"
 #include "core/recording/own/guess_format.hpp"
 #include "core/recording/own/guess_names.hpp"
@@ -201,6 +202,21 @@ void name_channels(GuessedFile& file) {
   if (has("gyro_") && !has("gimbal_") && !has("position")) file.kind = RecordingKind::strapdown;
 }
 
+/// The one column of texts that are all times of a clock is the time, whatever it is called.
+void name_time_by_values(GuessedFile& file) {
+  const auto is_time = [](const GuessedColumn& c) { return c.channel == "time"; };
+  if (!file.counter.empty() || !file.format.counter.empty() ||
+      std::ranges::any_of(file.columns, is_time))
+    return;
+  const auto clock = [](const GuessedColumn& c) {
+    return c.channel.empty() && c.numbers == 0 && c.words.size() > 1 &&
+           std::ranges::all_of(c.words,
+                               [](const auto& text) { return parse_clock(text).has_value(); });
+  };
+  if (std::ranges::count_if(file.columns, clock) == 1)
+    std::ranges::find_if(file.columns, clock)->channel = "time";
+}
+
 /// The one column of a few texts may name the positions.
 void name_position_by_values(GuessedFile& file) {
   if (file.kind != RecordingKind::platform ||
@@ -254,6 +270,7 @@ GuessedFile guess_file(const std::string& path) {
   GuessPosition by_numbers(file);
   std::string gravity = unit_of_gravity(look_at_rows(path, file, by_values, by_numbers));
   if (const std::string unit = by_values.name_channels(file); !unit.empty()) gravity = unit;
+  name_time_by_values(file);
   name_position_by_values(file);
   by_numbers.name_channel(file);
   for (GuessedColumn& c : file.columns)

@@ -40,9 +40,15 @@ struct Instruments {
 }  // namespace
 
 GuessPosition::GuessPosition(const GuessedFile& file) {
-  if (file.kind != RecordingKind::platform ||
-      std::ranges::find(file.columns, "position", &GuessedColumn::channel) != file.columns.end())
+  if (file.kind != RecordingKind::platform) return;
+  const auto called = std::ranges::find(file.columns, "position", &GuessedColumn::channel);
+  named_ = called != file.columns.end();
+  if (named_) {
+    candidates_.push_back({.column = static_cast<std::size_t>(called - file.columns.begin()),
+                           .stretches = {},
+                           .labels = {}});
     return;
+  }
   for (std::size_t i = 0; i < file.columns.size(); ++i)
     if (const GuessedColumn& c = file.columns[i];
         c.channel.empty() && has_no_unit(c.header) && !looks_like_temperature(c.header) &&
@@ -95,25 +101,41 @@ bool GuessPosition::is_position(const Candidate& candidate, const GuessedFile& f
   return 2 * turns >= all.size() - 1;
 }
 
+std::vector<std::string> GuessPosition::own_labels(const Candidate& candidate) {
+  bool counted = true;
+  std::vector<std::string> labels;
+  for (std::size_t k = 0; k < candidate.stretches.size(); ++k) {
+    const std::string& label = candidate.stretches[k].label;
+    counted = counted && cell_number(label) == static_cast<double>(k + 1);
+    labels.push_back(label);
+  }
+  return counted ? std::vector<std::string>() : labels;
+}
+
 void GuessPosition::name_channel(GuessedFile& file) const {
-  if (std::ranges::find(file.columns, "position", &GuessedColumn::channel) != file.columns.end())
+  if (named_) {
+    // From 0 on, or with more left out than held (10, 20, 30): no plan is numbered so. Other
+    // numbers that increase may be a part of the plan's.
+    const Candidate& c = candidates_.front();
+    const auto rows = [](const Stretch& s) { return s.rows >= PositionLimits::fewest_rows; };
+    if (!c.may_be || c.stretches.size() < 2 || !std::ranges::all_of(c.stretches, rows)) return;
+    const double most = PositionLimits::most_left_out * static_cast<double>(c.labels.size());
+    std::vector<std::string> labels = own_labels(c);
+    if ((*c.labels.begin() < 1.0 || *c.labels.rbegin() > most) &&
+        labels.size() <= PositionLimits::most_labels)
+      file.columns[c.column].words = std::move(labels);
     return;
+  }
   std::vector<const Candidate*> found;
   for (const Candidate& c : candidates_)
     if (file.columns[c.column].channel.empty() && is_position(c, file)) found.push_back(&c);
   if (found.size() != 1) return;
-  const auto& all = found.front()->stretches;
-  bool counted = true;
-  std::vector<std::string> labels;
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    counted = counted && cell_number(all[k].label) == static_cast<double>(k + 1);
-    labels.push_back(all[k].label);
-  }
-  if (!counted && labels.size() > PositionLimits::most_labels) return;
+  std::vector<std::string> labels = own_labels(*found.front());
+  if (labels.size() > PositionLimits::most_labels) return;
   GuessedColumn& column = file.columns[found.front()->column];
   column.channel = "position";
   column.by_values = true;
-  if (!counted) column.words = std::move(labels);
+  if (!labels.empty()) column.words = std::move(labels);
 }
 
 }  // namespace drift

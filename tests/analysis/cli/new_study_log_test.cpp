@@ -103,6 +103,8 @@ TEST(NewStudy, TakesLatitudeAndGravityFromAboveTheHeaderAndPositionsFromTheirNum
   EXPECT_TRUE(has(study, "gravity  = \"9.8065 m/s^2\"")) << study;
   EXPECT_TRUE(has(study, "own.csv':3)")) << study;
   EXPECT_TRUE(has(study, "position = \"Versuch\"")) << study;
+  EXPECT_TRUE(has(study, ", as the rests of the recording show\n")) << study;
+  EXPECT_FALSE(has(study, "accelerometer_noise = \"5 ug\"")) << study;
   EXPECT_TRUE(has(study, "positions = { \"60\" = 1, \"50\" = 2")) << study;
   EXPECT_EQ(driftscope("identify " + file + " " + own + " --quiet").code, 0);
   folder.write("own.csv", "Labor 3\nBreite: 45 mm\n" + text);
@@ -162,6 +164,37 @@ std::string turned_study() {
          "[truth]\ncoupling = \"eq5\"\nterms = [\"fixed_drift\", \"g_drift\", "
          "\"gyro_misalignment\", \"accelerometer\"]\n[[filter]]\nname = \"eq5\"\n"
          "coupling = \"eq5\"\n";
+}
+
+/// A study with the axes of misread gimbals would have the accelerometers seem wrong.
+TEST(NewStudy, GimbalsAndAccelerometersThatShowTwoUpsAreAContradiction) {
+  const ScratchFolder folder;
+  const std::string made = folder.write("made.toml", short_study), own = folder.file("own.csv");
+  ASSERT_EQ(driftscope("simulate " + made + " -o " + own).code, 0);
+  std::string text = text_of(own);
+  while (text.starts_with("#")) text.erase(0, text.find('\n') + 1);
+  int made_studies = 0;
+  const auto told = [&](const std::string& log) {
+    const std::string file = folder.file(fmt::format("lab{}.toml", made_studies++));
+    folder.write("own.csv", log);
+    const Answer a = driftscope("new diagnose " + own + " -o " + file);
+    EXPECT_EQ(a.code, 0) << a.err;
+    const bool from_gimbals = has(text_of(file), "# The axes are those that the gimbal angles");
+    std::string out = (from_gimbals ? "gimbals: " : "accelerometers: ") + a.out;
+    std::ranges::replace(out, '\n', ' ');
+    return out;
+  };
+  EXPECT_TRUE(has(told(text), "gimbals: ")) << told(text);
+  EXPECT_FALSE(has(told(text), "two different Ups"));
+  const std::string turned = told(with_column(text, "gimbal_inner [deg]", [](const auto& cell) {
+    return fmt::format("{}", std::stod(cell) + 90.0);
+  }));
+  EXPECT_TRUE(has(turned, "accelerometers: ")) << turned;
+  EXPECT_TRUE(has(turned, "two different Ups in")) << turned;
+  EXPECT_TRUE(has(turned, "offset = { gimbal_inner = \"-90 deg\" }")) << turned;
+  for (const char* name : {"gimbal_outer", "gimbal_middle", "gimbal_inner"})
+    text = replaced(text, fmt::format("{} [deg]", name), fmt::format("{} [rad]", name));
+  EXPECT_TRUE(has(told(text), "the gimbal angles are [deg], not [rad]")) << told(text);
 }
 
 TEST(NewStudy, OfARealPlatformItsGuessedHeadingsAreDoubtedAndNoEffectIsAdded) {

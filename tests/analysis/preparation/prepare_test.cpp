@@ -148,6 +148,32 @@ TEST(Prepare, SampleIntervalsMayDifferFromThePlansByATwentieth) {
             std::string::npos);
 }
 
+TEST(Prepare, AClockThatIsOffByAPerMilleIsSaid) {
+  const Recording r = simulated(test::six_study());
+  const auto said = [&](double sample, const char* what) {
+    return says(prepare(test::six_study(1200.0, sample), {r}), what);
+  };
+  EXPECT_FALSE(said(60.0, "samples are"));
+  EXPECT_FALSE(said(60.02, "samples are"));
+  EXPECT_TRUE(said(60.06, "samples are 60 s apart, in the plan 60.06 s: 0.1 % shorter"));
+  EXPECT_TRUE(said(59.4, "samples are 60 s apart, in the plan 59.4 s: 1 % longer"));
+}
+
+TEST(Prepare, TwoPositionsUnderOneNumberAreRefusedWithTheirPlace) {
+  const mc::Study s = test::six_study();
+  const auto said = [&](std::size_t rows, double number) {
+    Recording r = simulated(s);
+    auto& position = channel(r, "position");
+    const auto last = static_cast<std::ptrdiff_t>(position.size());
+    std::fill(position.end() - static_cast<std::ptrdiff_t>(rows), position.begin() + last, number);
+    return message(s, without(std::move(r), "cmd_"));
+  };
+  EXPECT_EQ(said(20, 6.0), "");
+  EXPECT_NE(said(20, 5.0).find("within position 5 the platform turns by "), std::string::npos)
+      << said(20, 5.0);
+  EXPECT_NE(said(20, 5.0).find("at 6060 s"), std::string::npos) << said(20, 5.0);
+}
+
 TEST(Prepare, ACommandOneDegPerHourFromThePlansIsSaid) {
   const mc::Study s = test::six_study();
   const auto said = [&](double deg_per_h) {

@@ -165,5 +165,24 @@ TEST(AttitudeCheck, TriesUnitsAndHeadingsBeforeItGivesUp) {
          "case_heading");
 }
 
+TEST(AttitudeCheck, NamesTheZerosOfGimbalsThatBringAllIntoPlace) {
+  const auto turned = [](std::initializer_list<std::pair<const char*, double>> by) {
+    return said_of([=](Scene& s) {
+      for (const auto& [name, deg] : by)
+        for (double& v : s.column(name)) v += deg * detail::deg;
+    });
+  };
+  const auto expect = [](const std::string& text, const char* part) {
+    EXPECT_NE(text.find(part), std::string::npos) << text;
+  };
+  expect(turned({{"gimbal_inner", 90.0}}), "gimbal_inner reads 90 deg too much");
+  expect(turned({{"gimbal_inner", 90.0}}), "offset = { gimbal_inner = \"-90 deg\" }");
+  expect(turned({{"gimbal_inner", -37.4}}), "offset = { gimbal_inner = \"37.4 deg\" }");
+  expect(turned({{"gimbal_outer", 180.0}}), "offset = { gimbal_outer = \"");
+  expect(turned({{"gimbal_middle", 25.0}}), "offset = { gimbal_middle = \"-25 deg\" }");
+  expect(turned({{"gimbal_outer", 90.0}, {"gimbal_inner", -90.0}}),
+         "offset = { gimbal_outer = \"-90 deg\", gimbal_inner = \"90 deg\" }");
+}
+
 }  // namespace
 }  // namespace drift::attitude_check_test

@@ -72,5 +72,16 @@ TEST(GuessPosition, ANameThatSaysItGoesFirst) {
   EXPECT_EQ(mapping(file), "Lage");
 }
 
+TEST(GuessPosition, NumbersUnderItsNameThatNoPlanHasAreListed) {
+  const auto times = [](int factor, int first) {
+    return [=](int row) { return std::to_string(first + row / 20 * factor); };
+  };
+  EXPECT_EQ(mapping(guess("Lage", times(1, 1))), "Lage");
+  EXPECT_EQ(mapping(guess("Lage", times(2, 1))), "Lage") << "a part of a longer plan";
+  EXPECT_EQ(mapping(guess("Lage", times(1, 0))), "Lage 0=1 1=2 2=3 3=4 4=5 5=6");
+  EXPECT_EQ(mapping(guess("Lage", times(10, 10))), "Lage 10=1 20=2 30=3 40=4 50=5 60=6");
+  EXPECT_EQ(mapping(guess("Lage", [](int row) { return std::to_string(row / 20 % 3); })), "Lage");
+}
+
 }  // namespace
 }  // namespace drift::guess_position_test

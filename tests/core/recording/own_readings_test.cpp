@@ -1,8 +1,10 @@
 // How columns and cells of a user's own file are taken where names and values must tell.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "core/recording/own/csv_cells.hpp"
 #include "core/recording/own/guess.hpp"
+#include "core/recording/own/recording_unit.hpp"
 #include "recording_fixture.hpp"
 
 namespace drift::own_readings_test {
@@ -22,6 +24,39 @@ TEST(OwnReadings, AxesOfColumnsToldByTheirValuesAreThoseOfTheirNames) {
   };
   EXPECT_EQ(channels("Sensor Z [g];Sensor X [g];Sensor Y [g]"), "time acc_z acc_x acc_y ");
   EXPECT_EQ(channels("Sensor 3 [g];Sensor 1 [g];Sensor 2 [g]"), "time acc_x acc_y acc_z ");
+}
+
+/// "Data" is a date in Italian, and neither a name of the time nor one of a position.
+TEST(OwnReadings, TheOneColumnOfTimesOfAClockIsTheTime) {
+  const Folder folder;
+  const auto channels = [&](const char* header, std::string first, std::string second) {
+    const GuessedFile file =
+        guess_file(folder.write("own.csv", fmt::format("{};ax [g];ay [g];az [g]\n{};0,98;0,1;0,17\n"
+                                                       "{};0,17;0,98;0,1\n",
+                                                       header, first, second)));
+    std::string text;
+    for (const GuessedColumn& c : file.columns)
+      text += (c.channel.empty() ? "-" : c.channel + c.unit) + " ";
+    return text;
+  };
+  const std::string acc = "acc_xg acc_yg acc_zg ";
+  EXPECT_EQ(channels("Data", "2026-03-12T08:30:30.000", "2026-03-12T08:31:00.000"), "time " + acc);
+  EXPECT_EQ(channels("Data e ora", "12/03/2026 08:30:30,5", "12/03/2026 08:31:00,5"),
+            "time " + acc);
+  EXPECT_EQ(channels("Inizio;Fine", "08:30:30;08:31:00", "08:31:00;08:31:30"), "- - " + acc);
+  EXPECT_EQ(channels("Data", "primo", "secondo"), "position " + acc);
+}
+
+TEST(OwnReadings, UnitsOfOtherLanguagesAndGalileosAreKnown) {
+  const auto si = [](const char* text) { return parse_recording_unit(text).value().to_si; };
+  EXPECT_DOUBLE_EQ(si("Gal"), 0.01);
+  EXPECT_DOUBLE_EQ(si("mGal"), 1e-5);
+  EXPECT_DOUBLE_EQ(si("gradi"), detail::deg);
+  EXPECT_DOUBLE_EQ(si("Grad"), detail::deg);
+  EXPECT_DOUBLE_EQ(si("Grad/Std"), detail::deg / 3600.0);
+  EXPECT_DOUBLE_EQ(si("ore"), 3600.0);
+  EXPECT_DOUBLE_EQ(si("giorni"), 86400.0);
+  EXPECT_DOUBLE_EQ(si("giri"), 360.0 * detail::deg);
 }
 
 TEST(OwnReadings, AMinusOfAWordProcessorIsAMinus) {

@@ -96,7 +96,7 @@ std::vector<Case> cases() {
       {"Utf16WithoutMark", "t\0i\0m\0e\0"s, ":1:2:", "NUL", "UTF-8"},
       {"NulInRow", header + "1,1,0,0\0,0,0\n"s, ":2:8:", "NUL", "UTF-8"},
       {"ControlCharacter", header + "1,1,0,\x07,0,0\n", ":2:7:", "control character", "UTF-8"},
-      {"CarriageReturnOnly", "time [s],position\r1,1\r2,1\r", ":1:18:", "carriage return",
+      {"CarriageReturnInside", "time [s],position\r1,1\n2,1\n", ":1:18:", "carriage return",
        "LF or CRLF"},
       {"LongLine", std::string(1'000'000, '1'), ":1:", "longer than", "one sample per line"},
       {"LongLineInside", header + "1,1,0,0,0,0\n" + std::string(10'000'000, '7') + "\n2,1,0,0,0\n",

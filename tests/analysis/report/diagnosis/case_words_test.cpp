@@ -88,6 +88,30 @@ TEST(TooLarge, ACandidateThatLosesByItsSizeAloneIsNamedWithIt) {
   }
 }
 
+/// 4.9 of its usual sizes cost it e^12, and it is less likely than what is named by e^6.6 only.
+TEST(TooLarge, ACandidateThatItsSizeMakesLessLikelyIsNamedWithTheCause) {
+  Diagnosis d = of_case("gimbal_angle_drift", "y", "G_c_y");
+  d.of_case = false;
+  search::CandidateScore named, torquer;
+  named.term = "gimbal_angle_drift";
+  named.log_bayes = 120.0;
+  torquer.term = "torquer_asymmetry";
+  torquer.axis = "y";
+  torquer.label = "torquer_asymmetry.y";
+  torquer.p_value = 1e-57;
+  torquer.size_sigma = 4.86;
+  torquer.leaves_nothing = true;
+  torquer.log_bayes = 113.4;
+  d.candidates = {named, torquer};
+  EXPECT_TRUE(says(report::sentence(d), "would have to be 4.9 times its usual size."))
+      << report::sentence(d);
+  d.candidates[1].log_bayes = 105.0;  // less likely whatever its size
+  EXPECT_FALSE(says(report::sentence(d), "size alone")) << report::sentence(d);
+  d.candidates[1].log_bayes = 119.0;
+  d.candidates[1].size_sigma = 2.9;  // no size to speak of
+  EXPECT_FALSE(says(report::sentence(d), "size alone")) << report::sentence(d);
+}
+
 TEST(CaseWords, AChanceNearOneIsNoNumber) {
   Diagnosis d;
   d.p_value = 1.0;
