@@ -10,7 +10,7 @@ struct Accelerometer {
   static constexpr std::string_view title = "accelerometer errors";
   static constexpr std::string_view equation =
       "f_i = K0 + (1 + K1)(a_I + dP a_P + dO a_O) + K2 a_I^2 + K3 a_I^3 + K_ip a_I a_P";
-  static constexpr std::string_view source = "IEEE 1293 accelerometer model; interfaces.md 4";
+  static constexpr std::string_view source = "IEEE 1293 accelerometer model; physics.md 2.2";
   static constexpr Subsystem subsystem = Subsystem::accelerometers;
   static constexpr auto params = join(
       per_axis<"K0">(unit::ug, normal(0.0, 500.0), "accelerometer output, bias"),
