@@ -177,7 +177,7 @@ ExitCode run(const StudyArguments& arguments, const RunArguments& given,
   if (!outcome.complete) return outcome.code;
   if (outcome.code == ExitCode::ok || outcome.code == ExitCode::failed_runs)
     program.present(study, work, reader, folder);
-  require_read_again(folder, reader, "The report");
+  require_read_again(folder, reader, "The report", outcome.results);
   show("runs {}, failed {} (allowed {})\nresults {}\n", outcome.results, outcome.failed,
        options.allowed_failures, outcome.digest);
   if (work.stop_rules)

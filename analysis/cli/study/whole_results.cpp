@@ -21,8 +21,10 @@ mc::StudyState require_whole(const std::string& folder, mc::StudyReader& reader,
 }
 
 void require_read_again(const std::string& folder, const mc::StudyReader& reader,
-                        const std::string& made) {
-  if (reader.unreadable() == 0) return;
+                        const std::string& made, std::uint64_t results) {
+  std::uint64_t listed = 0;
+  for (const mc::BlockKey& key : reader.keys()) listed += key.count;
+  if (reader.unreadable() == 0 && listed >= results) return;
   for (const std::string& note : reader.notes()) complain("damage: {}\n", note);
   throw InputError(
       ExitCode::io,

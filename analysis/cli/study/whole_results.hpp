@@ -12,8 +12,9 @@ namespace drift::cli {
 mc::StudyState require_whole(const std::string& folder, mc::StudyReader& reader,
                              const mc::StopRules& rules, const std::string& not_done);
 
-/// InputError (io) if some results could not be read a second time, for what was `made` of them.
+/// InputError (io) if some of so many results could not be listed or read a second time, for what
+/// was `made` of them.
 void require_read_again(const std::string& folder, const mc::StudyReader& reader,
-                        const std::string& made);
+                        const std::string& made, std::uint64_t results);
 
 }  // namespace drift::cli
