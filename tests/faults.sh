@@ -110,6 +110,10 @@ EOF
 
 for format in csv h5 mat; do each_file "r.$format" "$program" simulate "$config"; done
 for format in csv json hdf5; do each_file "x.$format" "$synthetic" export "$scratch/study" --format "$format"; done
+"$program" run "$config" --runs 64 -o "$scratch/named" >/dev/null 2>&1 || fail "the study of arrays with names"
+each_file x.nc "$program" export "$scratch/named" --format netcdf
+for format in csv h5 mat; do each_file "c.$format" "$program" convert "$config" "$scratch/r.csv"; done
+each_file new.toml "$program" new study
 each_folder digest "$synthetic" run "$scratch/synthetic.toml" --threads 1
 each_folder numbers "$program" identify "$config" --threads 1
 each_folder ranks "$program" rank "$config"

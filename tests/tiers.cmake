@@ -4,8 +4,8 @@
 
 # Seconds each: what simulates, diagnoses or runs the program many times over.
 set(DRIFT_FULL_TESTS
-  Advise.* AllanFit.* AdviceFollowed.* BlindInterrupted.* BlindSmall.* BlindStudy.* Bytes.* CaseTemperature.* Crossed*.* Diagnose.* Diagnose/FarBeyondPrior.* DiagnoseCommand.*
-  Equation.* IsolatedSamplesOfSlews.* Estimators/EveryTermUnder.* EveryTerm*.* FailedWrite.* HeadingDoubt.* LambdaFilter.* Matched*.*
+  Advise.* AllanFit.* AdviceFollowed.* BlindInterrupted.* BlindSmall.* BlindStudy.* Bytes.* CaseTemperature.* Crossed*.* DamageTold.* Diagnose.* Diagnose/FarBeyondPrior.* DiagnoseCommand.*
+  Equation.* IsolatedSamplesOfSlews.* Estimators/EveryTermUnder.* EveryTerm*.* FailedWrite.* FoldersOfOthers.* HeadingDoubt.* LambdaFilter.* Matched*.*
   Nearest.* NothingReplaced.* OddInput.* OwnTermCommands.* RankCommand.* Rivals.* ScreenForms.* Documents.* Recording/BinaryFuzz.*
   RecordingFuzz.* Search.* Sensitivity.* SharedCandidates.* SharedTrials.* SiteDoubt.* Strapdown*.* StudyConfig.Misspelt*
   StudyMutation.* StudyReport.* WrongHemisphere.*

@@ -1,8 +1,14 @@
 #include "analysis/cli/frozen_study.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 
 #include "core/base/check.hpp"
+#include "core/base/file_text.hpp"
 #include "core/config/load.hpp"
 #include "core/config/node.hpp"
 #include "core/config/override.hpp"
@@ -34,6 +40,8 @@ Reading read_frozen(const std::string& folder, const mc::Manifest& manifest, std
   const std::string path = folder + "/study.toml";
   const mc::Overrides asked{{"monte_carlo.runs", std::to_string(runs)}};
   std::error_code unknown;
+  if (::faccessat(AT_FDCWD, path.c_str(), R_OK, AT_EACCESS) != 0 && errno != ENOENT)
+    throw_cannot_read(path, std::strerror(errno));  // which says nothing of what it holds
   try {
     mc::Study study = std::filesystem::exists(path, unknown) || unknown
                           ? mc::read_study(path, asked)

@@ -1,18 +1,16 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <string>
 
 namespace drift {
 
-/// The whole of a file, byte by byte; none if it cannot be read.
-inline std::optional<std::string> file_text(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return std::nullopt;
-  return std::string(std::istreambuf_iterator<char>(file), {});
-}
+/// The whole of a file, byte by byte; none if it cannot be opened. InputError (io) if it cannot be
+/// read to its end.
+std::optional<std::string> file_text(const std::filesystem::path& path);
+
+/// InputError (io) "path: cannot be read: reason. What to do".
+[[noreturn]] void throw_cannot_read(const std::string& path, const std::string& reason);
 
 }  // namespace drift

@@ -3,9 +3,12 @@
 #include <openssl/evp.h>
 
 #include <array>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 
 #include "core/base/check.hpp"
+#include "core/base/file_text.hpp"
 
 namespace drift {
 
@@ -65,15 +68,19 @@ std::string sha256_hex(std::string_view bytes) {
 }
 
 std::string sha256_hex_of_file(const std::string& path) {
+  errno = 0;
   std::ifstream file(path, std::ios::binary);
-  if (!file) return {};
+  if (!file && (errno == ENOENT || errno == ENOTDIR)) return {};
+  if (!file) throw_cannot_read(path, std::strerror(errno));
   Sha256 hash;
   std::string part(1 << 16, '\0');
   while (file) {
+    errno = 0;
     file.read(part.data(), static_cast<std::streamsize>(part.size()));
+    if (file.bad()) throw_cannot_read(path, std::strerror(errno != 0 ? errno : EIO));
     hash.update(std::string_view(part).substr(0, static_cast<std::size_t>(file.gcount())));
   }
-  return file.bad() ? std::string() : to_hex(hash.finish());
+  return to_hex(hash.finish());
 }
 
 }  // namespace drift

@@ -32,7 +32,7 @@ std::string sha256(std::string_view bytes);
 std::string to_hex(std::string_view bytes);
 /// SHA-256 of a text as 64 hexadecimal digits.
 std::string sha256_hex(std::string_view bytes);
-/// The same of a file; empty if it cannot be read.
+/// The same of a file; empty if there is none. InputError (io) if it cannot be read.
 std::string sha256_hex_of_file(const std::string& path);
 
 }  // namespace drift

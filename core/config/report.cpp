@@ -46,7 +46,8 @@ void Report::require(std::string_view section, std::string_view key) {
     if (known.section == section && known.key == key) known.required = true;
 }
 
-void Report::error(const Place& at, const std::string& text) {
+void Report::error(const Place& at, const std::string& what) {
+  const std::string text = text_of_name(what);  // the names that a file gives end no line
   errors_.push_back({at, at.set_key.empty()
                              ? fmt::format("{}:{}:{}: {}", path_, at.line, at.column, text)
                              : fmt::format("--set {}: {}", at.set_key, text)});

@@ -93,7 +93,13 @@ WorkerShare share_of_batch_system(std::string_view text, const ProcessVariables&
     }
     break;
   }
-  const Launch launch = launch_of(environment);
+  Launch launch = launch_of(environment);
+  // A script of sbatch is one task, whatever it asked for; of a job that is not seen srun is taken
+  // to have started all of its tasks.
+  const std::size_t asked = number("SLURM_NTASKS").value_or(1);
+  if (launch.tasks == 1 && asked > 1 && !environment("SLURM_STEP_NUM_TASKS") &&
+      !environment("SLURM_JOB_ID"))
+    launch = {asked, "srun", "SLURM_NTASKS", "SLURM_PROCID"};
   const auto rank = number(launch.rank);
   if (rank && *rank < launch.tasks) {
     if (!told && given && *given != launch.tasks)

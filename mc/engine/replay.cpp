@@ -94,6 +94,7 @@ Replay replay(const RunTask& task, StudyReader& reader, std::size_t point, std::
   r.row = nan_row(columns);
   r.outcome = guarded_run(*task.worker(), run, r.row, trace);
   const auto block = reader.read(point, first);
+  r.damaged = !block && reader.listed(point, first) != nullptr;
   if (!block || run - first >= block->block.status.size()) return r;
   r.stored = true;
   r.stored_status = block->block.status[run - first];

@@ -14,7 +14,8 @@ namespace drift::mc {
 struct Replay {
   RunOutcome outcome;
   std::vector<double> row;
-  bool stored = false;  ///< the folder has this run
+  bool stored = false;   ///< the folder has this run
+  bool damaged = false;  ///< it had: what is listed cannot be read
   RunStatus stored_status = RunStatus::ok;
   std::vector<double> stored_row;
   bool same = false;  ///< status and every bit of the row

@@ -103,6 +103,7 @@ std::optional<StoredBlock> StudyReader::read(std::size_t point, std::uint64_t fi
               path, point, first, from));
     if (!best) best = block, from = path;
   });
+  if (!best && listed(point, first) != nullptr) ++unreadable_;
   return best;
 }
 

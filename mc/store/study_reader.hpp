@@ -52,6 +52,8 @@ class StudyReader {
 
   /// Damage met so far, a line each.
   const std::vector<std::string>& notes() const { return notes_; }
+  /// How often read() found something listed at its place, and nothing whole.
+  std::size_t unreadable() const { return unreadable_; }
   const std::vector<std::string>& files() const { return paths_; }
   /// The structure of every file is sound; those that are not, by path.
   std::vector<std::string> unsound();
@@ -73,6 +75,7 @@ class StudyReader {
       index_;
   std::uint64_t asked_ = 0;
   std::vector<std::string> notes_;
+  std::size_t unreadable_ = 0;
   Locks locks_;
 };
 

@@ -1,7 +1,8 @@
 // A library to preload: lets a call that changes files fail as a disk does, the n-th one, once.
 //
 //   DRIFT_FAULT_AT=9        which call, counted from 0 in each line of processes
-//   DRIFT_FAULT_KIND=write  write, fsync, open, rename, close, or any (the default)
+//   DRIFT_FAULT_KIND=write  write, fsync, open, rename, close, or any of these (the default); read
+//   DRIFT_FAULT_UNDER=DIR   the folder whose files cannot be read
 //   DRIFT_FAULT_ERRNO=28    what it says; ENOSPC by default
 //   DRIFT_FAULT_STICKY=1    all calls after it fail too
 //   DRIFT_FAULT_HIT=FILE    made when a call was let fail; no other fails while it is there, unless
@@ -33,6 +34,7 @@ struct Plan {
   int error = ENOSPC;
   bool sticky = false;
   const char* kind = "any";
+  const char* under = nullptr;
   const char* hit = nullptr;
 };
 
@@ -42,6 +44,7 @@ const Plan& plan() {
     if (const char* at = std::getenv("DRIFT_FAULT_AT")) p.at = std::atol(at);
     if (const char* error = std::getenv("DRIFT_FAULT_ERRNO")) p.error = std::atoi(error);
     if (const char* kind = std::getenv("DRIFT_FAULT_KIND")) p.kind = kind;
+    p.under = std::getenv("DRIFT_FAULT_UNDER");
     p.sticky = std::getenv("DRIFT_FAULT_STICKY") != nullptr;
     p.hit = std::getenv("DRIFT_FAULT_HIT");
     return p;
@@ -70,6 +73,17 @@ bool fails(const char* kind) {
 bool is_file(int fd) {
   struct stat info {};
   return fd > 2 && ::fstat(fd, &info) == 0 && S_ISREG(info.st_mode);
+}
+
+/// One of those that are to be read with faults: not what the loader or /proc give.
+bool is_read(int fd) {
+  const char* under = plan().under;
+  if (under == nullptr || std::strcmp(plan().kind, "read") != 0 || !is_file(fd)) return false;
+  char link[32], path[4096];
+  std::snprintf(link, sizeof link, "/proc/self/fd/%d", fd);
+  const ssize_t size = ::readlink(link, path, sizeof path);
+  const std::size_t prefix = std::strlen(under);
+  return size > static_cast<ssize_t>(prefix) && std::strncmp(path, under, prefix) == 0;
 }
 
 bool was_written(int fd) {
@@ -145,6 +159,18 @@ ssize_t pwrite(int fd, const void* data, size_t n, off_t at) {
 ssize_t pwrite64(int fd, const void* data, size_t n, off64_t at) {
   static const auto next = real<ssize_t (*)(int, const void*, size_t, off64_t)>("pwrite64");
   return is_file(fd) && fails("write") ? -1 : next(fd, data, n, at);
+}
+ssize_t read(int fd, void* data, size_t n) {
+  static const auto next = real<ssize_t (*)(int, void*, size_t)>("read");
+  return is_read(fd) && fails("read") ? -1 : next(fd, data, n);
+}
+ssize_t pread(int fd, void* data, size_t n, off_t at) {
+  static const auto next = real<ssize_t (*)(int, void*, size_t, off_t)>("pread");
+  return is_read(fd) && fails("read") ? -1 : next(fd, data, n, at);
+}
+ssize_t pread64(int fd, void* data, size_t n, off64_t at) {
+  static const auto next = real<ssize_t (*)(int, void*, size_t, off64_t)>("pread64");
+  return is_read(fd) && fails("read") ? -1 : next(fd, data, n, at);
 }
 size_t fwrite(const void* data, size_t size, size_t n, FILE* file) {
   static const auto next = real<size_t (*)(const void*, size_t, size_t, FILE*)>("fwrite");

@@ -76,6 +76,18 @@ std::optional<Key> whole_key(const mc::Study& study, const std::string& folder,
   return key;
 }
 
+/// Takes away the parts that the key was made of, and their folder unless somebody else put
+/// something there.
+void remove_parts(const mc::Study& study, const std::string& folder) {
+  const ResultsRegister known(folder);
+  std::error_code none;
+  for (std::size_t number = 1; number <= study.blind.trials; ++number) {
+    const fs::path part = fs::path(folder) / part_name(number);
+    if (known.has(part_name(number), sha256_hex_of_file(part.string()))) fs::remove(part, none);
+  }
+  fs::remove(fs::path(folder) / "making", none);
+}
+
 }  // namespace
 
 std::optional<std::string> make_trials(const mc::Study& study, const std::string& folder,
@@ -90,8 +102,7 @@ std::optional<std::string> make_trials(const mc::Study& study, const std::string
       return std::nullopt;
   }
   open_sealed(folder, "key.json");
-  std::error_code none;
-  fs::remove_all(fs::path(folder) / "making", none);
+  remove_parts(study, folder);
   return published_hash(folder, "key.json");
 }
 

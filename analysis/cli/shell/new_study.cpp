@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 
 #include "analysis/cli/command.hpp"
@@ -9,9 +8,9 @@
 #include "analysis/preparation/noise_card.hpp"
 #include "analysis/report/noise/noise.hpp"
 #include "analysis/report/page/table.hpp"
-#include "core/base/atomic_file.hpp"
 #include "core/base/named.hpp"
 #include "core/base/output_file.hpp"
+#include "core/base/results/folder.hpp"
 #include "core/base/words.hpp"
 #include "core/config/load.hpp"
 #include "core/recording/own/csv_cells.hpp"
@@ -169,10 +168,7 @@ ExitCode make_study(const NewArguments& a) {
   const std::string text = study_template(kind, plan, seen.mapping, site),
                     told = blanks.empty() ? text : study_template(kind, plan, seen.told, site);
   mc::read_study_tree(config::parse_document(told, a.output), a.output);  // as check does
-  AtomicFile file(a.output);
-  if (!(std::ofstream(file.temporary(), std::ios::binary) << text << std::flush))
-    throw_cannot_write(a.output, "the disk took no more");
-  file.commit();
+  write_text_atomically(a.output, text);
   show("{} is written; what needs your numbers has a comment. Then:\n  driftscope check {}\n",
        a.output, a.output);
   if (!blanks.empty())

@@ -119,10 +119,13 @@ std::string numbers_text(const std::vector<mc::Column>& columns, const mc::Repla
 /// The result in one sentence, its judgement first.
 report::InBrief in_brief(const RunChoice& choice, const mc::Replay& r) {
   report::InBrief brief;
-  const std::string_view compared = !r.stored ? "the run is not stored yet; executed anew, nothing "
-                                                "to compare with"
-                                    : r.same  ? "equal to the stored result, bit for bit"
-                                              : "other than the stored result";
+  const std::string_view compared = r.damaged ? "what is stored of it is damaged; executed anew, "
+                                                "nothing to compare with"
+                                    : !r.stored
+                                        ? "the run is not stored yet; executed anew, nothing "
+                                          "to compare with"
+                                    : r.same ? "equal to the stored result, bit for bit"
+                                             : "other than the stored result";
   brief.tone = !r.stored ? report::Tone::doubtful : r.same ? report::Tone::good : report::Tone::bad;
   brief.verdict =
       fmt::format("Run {}: {}. It ended {}", choice.run, compared, mc::name(r.outcome.status));
@@ -162,6 +165,12 @@ ExitCode replay(const std::string& folder, const RunChoice& choice, const std::s
   } else if (sink) {
     say("note: runs of this study have no trace; {} is not written\n", trace);
   }
+  if (r.damaged)
+    throw InputError(
+        ExitCode::store,
+        fmt::format("{}: the stored block of run {} is damaged (expected a whole one). "
+                    "Run the study again with the same command: it is computed anew",
+                    folder, choice.run));
   if (r.stored && !r.same)
     throw InputError(
         ExitCode::self_check,

@@ -3,6 +3,7 @@
 #include "analysis/cli/command.hpp"
 #include "analysis/cli/frozen_study.hpp"
 #include "analysis/cli/print.hpp"
+#include "analysis/cli/study/whole_results.hpp"
 #include "analysis/cli/study_program.hpp"
 #include "core/base/results/folder.hpp"
 
@@ -26,7 +27,10 @@ ExitCode report(const std::string& folder, const StudyProgram& program) {
     require_results_folder({folder, "run"});
     mc::StudyReader reader(folder);
     const auto [study, work] = frozen_study(folder, reader, program);
+    const mc::StudyState state =
+        require_whole(folder, reader, work.stop_rules, "The report stays as it was");
     program.present(study, work, reader, folder);
+    require_read_again(folder, reader, "The report", state.runs);
     return ExitCode::ok;
   }
   const std::string file = (std::filesystem::path(folder) / "report.html").string();

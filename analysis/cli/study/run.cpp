@@ -10,6 +10,7 @@
 #include "analysis/cli/progress.hpp"
 #include "analysis/cli/sharing.hpp"
 #include "analysis/cli/study/run_progress.hpp"
+#include "analysis/cli/study/whole_results.hpp"
 #include "analysis/cli/study_program.hpp"
 #include "core/base/results/folder.hpp"
 #include "mc/engine/engine.hpp"
@@ -176,6 +177,7 @@ ExitCode run(const StudyArguments& arguments, const RunArguments& given,
   if (!outcome.complete) return outcome.code;
   if (outcome.code == ExitCode::ok || outcome.code == ExitCode::failed_runs)
     program.present(study, work, reader, folder);
+  require_read_again(folder, reader, "The report", outcome.results);
   show("runs {}, failed {} (allowed {})\nresults {}\n", outcome.results, outcome.failed,
        options.allowed_failures, outcome.digest);
   if (work.stop_rules)

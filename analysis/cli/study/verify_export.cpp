@@ -5,8 +5,10 @@
 #include "analysis/cli/print.hpp"
 #include "analysis/cli/run_options.hpp"
 #include "analysis/cli/study/megabytes.hpp"
+#include "analysis/cli/study/whole_results.hpp"
 #include "analysis/cli/study_program.hpp"
 #include "core/base/output_file.hpp"
+#include "core/base/results/register.hpp"
 #include "core/base/seal.hpp"
 #include "mc/engine/replay.hpp"
 #include "mc/export/export_hdf5.hpp"
@@ -32,7 +34,11 @@ ExitCode verify(const std::string& folder, const std::string& sample, int thread
   const double share = parse_fraction("--sample", sample);
   mc::StudyReader reader(folder);
   const auto [study, work] = frozen_study(folder, reader, program);
-  const mc::Verification v = mc::verify(work, reader, share, threads);
+  mc::Verification v = mc::verify(work, reader, share, threads);
+  for (const std::string& name : changed_results(folder))
+    v.damage.push_back(fmt::format(
+        "{}/{}: not as driftscope wrote it. Move it away, and the same command makes it anew",
+        folder, name));
   show("{}: {} blocks with {} runs, {} missing; {} checksums verified, {} runs executed again\n",
        folder, v.blocks, v.runs, v.missing, v.copies, v.recomputed);
   for (const std::string& line : v.notes) show("damage: {}\n", line);
@@ -75,15 +81,8 @@ ExitCode export_results(const std::string& folder, const std::string& format,
   mc::StudyReader reader(folder);
   const auto [study, work] = frozen_study(folder, reader, program);
   require_output_file(target, {}, other_than(reader.manifest().hash));
-  const mc::StudyState state = mc::state_of(reader, work.stop_rules);
-  for (const std::string& note : reader.notes()) complain("damage: {}\n", note);
-  if (state.lost > 0 || (!state.all() && !reader.notes().empty()))
-    throw InputError(
-        ExitCode::store,
-        fmt::format(
-            "{}: {} (expected whole results). Run the study again with the same command: what "
-            "is lost is computed anew. Nothing was exported",
-            folder, state.lost > 0 ? state.was_complete() : "parts of the results are damaged"));
+  const mc::StudyState state =
+      require_whole(folder, reader, work.stop_rules, "Nothing was exported");
   if (!state.all())
     say("note: the study is not finished: {} of {} runs, {} of {} points complete\n", state.runs,
         state.asked * state.points.size(), state.complete, state.points.size());
@@ -98,6 +97,7 @@ ExitCode export_results(const std::string& folder, const std::string& format,
   if (format == "netcdf") mc::export_netcdf(reader, work.stop_rules, target, points);
   if (format == "csv") mc::export_csv(reader, work.stop_rules, target);
   if (format == "json") mc::export_json(reader, work.stop_rules, target);
+  require_read_again(folder, reader, target, state.runs);
   show("{}: {} runs, {:.3g} MB\n", target, state.runs, megabytes_of({target}));
   if (!groups.empty()) show("groups: {}\n", fmt::join(groups, " "));
   return ExitCode::ok;

@@ -56,6 +56,18 @@ std::vector<std::string> results_within(const std::string& folder) {
   return names;
 }
 
+/// To add lines to a file of somebody else's would change it.
+void refuse_foreign_register(const std::string& folder) {
+  const std::string path = (fs::path(folder) / ResultsRegister::file_name).string();
+  require_regular_file_of_ours(path);
+  if (ResultsRegister(folder).is_foreign())
+    throw InputError(
+        ExitCode::store,
+        fmt::format("{}: is not the list of files that driftscope keeps under this name (expected "
+                    "none, or its own). Nothing was changed; give another folder with -o",
+                    path));
+}
+
 /// The command whose results the folder holds; empty if it holds none, nor files of others.
 std::string holder_of(const ResultsFolder& folder) {
   if (std::string holder = results_of(folder.path); !holder.empty()) return holder;
@@ -88,20 +100,7 @@ void refuse_others_than_files(const std::string& folder) {
 
 /// Of what driftscope wrote, what is not as it was.
 void refuse_changed(const ResultsFolder& folder) {
-  HashedFiles present;
-  for (const std::string& name : ResultsRegister(folder.path).names()) {
-    const fs::path path = fs::path(folder.path) / name;
-    std::error_code none;
-    const fs::file_status status = fs::symlink_status(path, none);
-    if (fs::exists(status))
-      present.emplace_back(
-          name, fs::is_regular_file(status) ? sha256_hex_of_file(path.string()) : "no file");
-  }
-  // Read anew: a hash is noted before its file is written, by other processes too.
-  const ResultsRegister known(folder.path);
-  std::vector<std::string> changed;
-  for (const auto& [name, hash] : present)
-    if (!known.has(name, hash)) changed.push_back(name);
+  const std::vector<std::string> changed = changed_results(folder.path);
   if (!changed.empty())
     throw InputError(
         ExitCode::store,
@@ -138,7 +137,7 @@ void require_results_folder(const ResultsFolder& folder, const std::vector<std::
     throw_cannot_write(folder.path, "it is a file, expected a folder");
   if (fs::exists(status)) {
     refuse_inputs(folder.path, inputs);
-    require_regular_file_of_ours((fs::path(folder.path) / ResultsRegister::file_name).string());
+    refuse_foreign_register(folder.path);
     const std::string holder = holder_of(folder);
     if (!holder.empty() && holder != folder.command)
       throw InputError(

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "core/base/file_text.hpp"
 #include "core/base/sha256.hpp"
 
 namespace drift {
@@ -21,8 +21,7 @@ bool is_file(const fs::path& path) {
 /// A JSON object with two of our fields.
 bool has_fields(const fs::path& path, const char* one, const char* other) {
   if (!is_file(path)) return false;
-  std::ifstream file(path, std::ios::binary);
-  const auto json = nlohmann::json::parse(file, nullptr, false);
+  const auto json = nlohmann::json::parse(file_text(path).value_or(""), nullptr, false);
   return json.is_object() && json.contains(one) && json.contains(other);
 }
 
@@ -55,9 +54,12 @@ HashedFiles files_within(const std::string& command, const fs::path& folder,
 }  // namespace
 
 bool looks_like_result(const fs::path& entry) {
-  constexpr std::array endings{".html", ".svg",    ".json", ".toml",  ".csv",
-                               ".nc",   ".sqlite", ".lock", ".sha256"};
-  return entry.filename() == "trials" ||
+  // SQLite takes a journal that lies beside a database for its own, and away.
+  constexpr std::array endings{".html",  ".svg",  ".json",   ".toml",           ".csv",
+                               ".nc",    ".lock", ".sqlite", ".sqlite-journal", ".sqlite-wal",
+                               ".sha256"};
+  constexpr std::array folders{"trials", "making", "candidates"};
+  return std::ranges::find(folders, entry.filename()) != folders.end() ||
          std::ranges::find(endings, entry.extension()) != endings.end();
 }
 
@@ -65,9 +67,7 @@ std::string command_by_files(const fs::path& folder) {
   // A strapdown diagnosis has an identification beside it, so the order matters.
   if (has_fields(folder / "manifest.json", "study_hash", "identity") || has_worker_file(folder))
     return "run";
-  if (has_fields(folder / "key.json", "salt", "trials") ||
-      is_file(folder / "trials/0001/study.toml"))
-    return "blind";
+  if (has_fields(folder / "key.json", "salt", "trials")) return "blind";
   if (has_fields(folder / "diagnosis.json", "schema", "verdict")) return "diagnose";
   if (has_fields(folder / "rank.json", "schema", "linearised_at")) return "rank";
   if (has_fields(folder / "identification.json", "schema", "simulated") ||

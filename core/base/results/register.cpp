@@ -8,15 +8,24 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
+#include <sstream>
 
 #include "core/base/atomic_file.hpp"
+#include "core/base/file_text.hpp"
+#include "core/base/sha256.hpp"
 
 namespace drift {
 namespace {
 
 constexpr std::string_view first_words = "# driftscope ";
 constexpr std::size_t hash_digits = 64;
+
+/// The first line of a register, whole or torn by a full disk, or what a power failure leaves of
+/// it.
+bool may_begin_one(const std::string& line) {
+  return line.starts_with(first_words) || first_words.starts_with(line) ||
+         line.find_first_not_of('\0') == std::string::npos;
+}
 
 /// A file descriptor that is closed; its lock, where the file system has locks, goes with it.
 struct Appending {
@@ -46,8 +55,10 @@ ResultsRegister::ResultsRegister(std::string folder)
   // One that is no regular file is not ours; writing to it is refused.
   if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(path_, none))) return;
   exists_ = true;
-  std::ifstream file(path_, std::ios::binary);
-  for (std::string line; std::getline(file, line);) {
+  std::istringstream file(file_text(path_).value_or(""));
+  bool first = true;
+  for (std::string line; std::getline(file, line); first = false) {
+    if (first && !may_begin_one(line)) foreign_ = true;
     if (line.starts_with(first_words)) {
       if (command_.empty())
         command_ = line.substr(first_words.size(), line.find(':') - first_words.size());
@@ -86,6 +97,25 @@ void ResultsRegister::add(const std::string& command, const HashedFiles& files) 
     left -= static_cast<std::size_t>(done);
   }
   if (::fsync(file.fd) != 0) throw_cannot_write(path_, std::strerror(errno));
+}
+
+std::vector<std::string> changed_results(const std::string& folder) {
+  HashedFiles present;
+  for (const std::string& name : ResultsRegister(folder).names()) {
+    const std::filesystem::path path = std::filesystem::path(folder) / name;
+    std::error_code none;
+    const std::filesystem::file_status status = std::filesystem::symlink_status(path, none);
+    if (std::filesystem::exists(status))
+      present.emplace_back(name, std::filesystem::is_regular_file(status)
+                                     ? sha256_hex_of_file(path.string())
+                                     : "no file");
+  }
+  // Read anew: a hash is noted before its file is written, by other processes too.
+  const ResultsRegister known(folder);
+  std::vector<std::string> changed;
+  for (const auto& [name, hash] : present)
+    if (!known.has(name, hash)) changed.push_back(name);
+  return changed;
 }
 
 }  // namespace drift

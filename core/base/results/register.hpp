@@ -22,6 +22,8 @@ class ResultsRegister {
   explicit ResultsRegister(std::string folder);
 
   bool exists() const { return exists_; }
+  /// There is a file of that name, which driftscope did not begin.
+  bool is_foreign() const { return foreign_; }
   /// The command that made the folder; empty if that is not known.
   const std::string& command() const { return command_; }
   /// The names, each once.
@@ -37,8 +39,12 @@ class ResultsRegister {
 
  private:
   std::string path_, command_;
-  bool exists_ = false;
+  bool exists_ = false, foreign_ = false;
   std::set<std::pair<std::string, std::string>> hashes_;  ///< (name, hash)
 };
+
+/// Names of the files in a folder that are not as driftscope wrote them; those that are gone are
+/// not among them. InputError (io) if one cannot be read.
+std::vector<std::string> changed_results(const std::string& folder);
 
 }  // namespace drift

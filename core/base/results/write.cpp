@@ -1,10 +1,10 @@
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <memory>
 
 #include "core/base/atomic_file.hpp"
 #include "core/base/check.hpp"
@@ -109,10 +109,20 @@ void remove_result(const ResultsFolder& folder, const std::string& name) {
 void write_text_atomically(const std::string& path, std::string_view text) {
   AtomicFile target(path);
   const auto failed = [&] { throw_cannot_write(path, std::strerror(errno)); };
-  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(target.temporary().c_str(), "we"),
-                                                       &std::fclose);
-  if (!file || std::fwrite(text.data(), 1, text.size(), file.get()) != text.size()) failed();
-  if (std::fclose(file.release()) != 0) failed();  // a full disk may show only here
+  const int fd = ::open(target.temporary().c_str(), O_WRONLY | O_CLOEXEC);
+  if (fd < 0) failed();
+  while (!text.empty()) {
+    const ssize_t done = ::write(fd, text.data(), text.size());
+    if (done < 0 && errno == EINTR) continue;
+    if (done < 0) {
+      const int reason = errno;
+      ::close(fd);
+      errno = reason;
+      failed();
+    }
+    text.remove_prefix(static_cast<std::size_t>(done));
+  }
+  if (::close(fd) != 0) failed();  // a full disk may show only here
   target.commit();
 }
 

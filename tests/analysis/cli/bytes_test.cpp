@@ -52,6 +52,16 @@ TEST(Bytes, ALineEndInANameEndsNoLine) {
   }
 }
 
+TEST(Bytes, ALineEndInANameOfAStudyEndsNoLine) {
+  const ScratchFolder scratch;
+  std::string text = cheap_study();
+  text.replace(text.find("z up"), 4, "z\\nerror: all is lost");
+  const Answer a = driftscope("check " + scratch.write("s.toml", text));
+  EXPECT_EQ(a.code, config_error);
+  EXPECT_NE(a.err.find("z\\x0aerror: all is lost"), std::string::npos) << a.err;
+  EXPECT_EQ(a.err.find("\nerror: all is lost"), std::string::npos) << a.err;
+}
+
 TEST(Bytes, NoNameSteersTheTerminal) {
   const ScratchFolder scratch;
   std::string text = cheap_study();

@@ -74,5 +74,35 @@ TEST(FailedWrite, OfARecordingIsExitCode6) {
                               kind == "write" ? stride : 1);
 }
 
+TEST(FailedWrite, OfNamedArraysIsExitCode6) {
+  const ScratchFolder scratch;
+  const std::string out = scratch.file("out");
+  ASSERT_EQ(driftscope("run " + config("cheap.toml") + " --runs 64 -o " + out).code, 0);
+  for (const std::string kind : {"write", "fsync", "close"})
+    expect_whole_or_nothing(scratch, DRIFT_PROGRAM, "export " + out + " --format netcdf", "x.nc",
+                            kind, kind == "write" ? 11 : 1);
+}
+
+TEST(FailedWrite, OfATextIsExitCode6) {
+  const ScratchFolder scratch;
+  const std::string target = scratch.file("new.toml");
+  ASSERT_EQ(driftscope("new study -o " + target).code, 0);
+  const std::string whole = text_of(target);
+  for (const std::string kind : {"write", "fsync", "open", "rename", "close"}) {
+    const std::size_t faults = with_faults(
+        DRIFT_PROGRAM, "new study -o " + target, kind, 1, [&](std::size_t) { fs::remove(target); },
+        [&](std::size_t at, const Answer& a) {
+          // Exit code 6 with the file where its name may not have reached the disk.
+          EXPECT_TRUE(a.code != 0 || fs::exists(target)) << kind << " " << at;
+          if (fs::exists(target)) {
+            EXPECT_EQ(text_of(target), whole) << kind << " " << at << ": " << a.err;
+          }
+          EXPECT_TRUE(a.code == 0 || a.code == io_error) << kind << " " << at << ": " << a.err;
+          EXPECT_TRUE(kind != "write" || a.code == io_error) << at;
+        });
+    EXPECT_GE(faults, 1u) << "no fault of " << kind << " reaches it";
+  }
+}
+
 }  // namespace
 }  // namespace drift::failed_write_test

@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
+#include "core/base/check.hpp"
+#include "core/base/file_text.hpp"
+
 namespace drift::sha256_test {
 namespace {
 
@@ -15,6 +20,15 @@ TEST(Sha256, DoesNotDependOnThePieces) {
   for (int i = 0; i < 1000; ++i) pieces.update(std::string(1000, 'a'));
   EXPECT_EQ(to_hex(pieces.finish()),
             "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
+}
+
+/// A folder is a file that opens and cannot be read, as one on a broken disk.
+TEST(Sha256, OfWhatCannotBeReadIsAnErrorAndOfNothingEmpty) {
+  const std::string folder = std::filesystem::temp_directory_path().string();
+  EXPECT_THROW(sha256_hex_of_file(folder), InputError);
+  EXPECT_THROW(file_text(folder), InputError);
+  EXPECT_EQ(sha256_hex_of_file(folder + "/not/there"), "");
+  EXPECT_EQ(file_text(folder + "/not/there"), std::nullopt);
 }
 
 }  // namespace

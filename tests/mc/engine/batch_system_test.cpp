@@ -77,7 +77,10 @@ TEST(BatchSystem, TasksOfSrunAreCountedWithinThoseOfAnArray) {
   EXPECT_EQ(launch_of(of({{"PMI_SIZE", "4"}, {"PMI_RANK", "1"}})).tasks, 4u);
   EXPECT_EQ(launch_of(of({{"PMI_SIZE", "1"}})).tasks, 1u);
   // A batch script beside its steps: many tasks were asked for, one was started.
-  EXPECT_NE(refusal("auto", {{"SLURM_NTASKS", "4"}, {"SLURM_PROCID", "0"}}), "");
+  EXPECT_NE(refusal("auto", {{"SLURM_JOB_ID", "7"}, {"SLURM_NTASKS", "4"}, {"SLURM_PROCID", "0"}}),
+            "");
+  EXPECT_EQ(share("auto", {{"SLURM_NTASKS", "4"}, {"SLURM_PROCID", "0"}}), (Share{0, 4}));
+  EXPECT_EQ(share("auto", {{"SLURM_NTASKS", "4"}, {"SLURM_PROCID", "3"}}), (Share{3, 4}));
 }
 
 TEST(BatchSystem, TasksOfAnMpiexecThatTheBuildDoesNotSpeakHaveTheirParts) {
