@@ -98,21 +98,22 @@ void expect_what_a_rest_shows(const Resting& unit, const CaseFit& fit) {
     SCOPED_TRACE(p.key);
     for (const char* none : {"s_", "eta_", "xi_", "D_I", "D_O", "D_S"})
       EXPECT_EQ(p.key.find(none), std::string::npos);
-    char one = 0, other = 0;
+    char one = 0, sign = 0, other = 0;
     double times = 0.0;
     double truth = 0.0;  // of accelerometers
     if (p.key == "D_F_z") {
       vertical = true;
       truth = drift('z');
-    } else if (std::sscanf(p.key.c_str(), "D_F_%c + %lf D_F_%c", &one, &times, &other) == 3) {
+    } else if (std::sscanf(p.key.c_str(), "D_F_%c %c %lf D_F_%c", &one, &sign, &times, &other) ==
+               4) {
       horizontal = true;
-      truth = drift(one) + times * drift(other);
+      truth = drift(one) + (sign == '-' ? -times : times) * drift(other);
     } else {
       EXPECT_TRUE(p.key.starts_with("K0_z + ") || p.key.starts_with("K1_z + "));
     }
     EXPECT_LT(std::abs(p.value - truth), 4.0 * p.sigma) << p.value << " +- " << p.sigma;
     if (p.key.starts_with("D_F")) {
-      EXPECT_LT(p.sigma, 0.05);
+      EXPECT_LT(p.sigma, 0.1);
     }
   }
   EXPECT_TRUE(vertical && horizontal);
