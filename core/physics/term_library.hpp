@@ -25,8 +25,8 @@
 #include "core/physics/terms/g_drift.hpp"
 #include "core/physics/terms/gimbal_angle_drift.hpp"
 #include "core/physics/terms/gimbal_nonorthogonality.hpp"
-#include "core/physics/terms/gyro_misalignment.hpp"
 #include "core/physics/terms/gimbal_zero.hpp"
+#include "core/physics/terms/gyro_misalignment.hpp"
 #include "core/physics/terms/hang_off.hpp"
 #include "core/physics/terms/inner_lever_arm.hpp"
 #include "core/physics/terms/latitude_error.hpp"
@@ -75,7 +75,7 @@ using TermLibrary = TermList<
     terms::InnerLeverArm, terms::AccelerometerDelay,                          //
     terms::TemperatureDriftCurve, terms::TemperatureRateDrift, terms::TorquerTemperature,
     terms::AccelerometerTemperatureCurve, terms::AccelerometerTemperatureRate,  //
-    terms::GimbalZero,                                                           //
+    terms::GimbalZero,                                                          //
     OwnPlace<0>, OwnPlace<1>, OwnPlace<2>, OwnPlace<3>, OwnPlace<4>, OwnPlace<5>>;
 static_assert(TermLibrary::num_known + most_own_terms == TermLibrary::num_terms);
 
