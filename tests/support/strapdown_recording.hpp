@@ -121,15 +121,14 @@ inline Recording strapdown_recording(const StrapdownScript& script, const Theta&
 /// The same as counts of angle and velocity, `angle` [rad] and `velocity` [g s] each: what has not
 /// become a whole count by the end of a row is counted in a later one.
 inline Recording in_counts(Recording r, double angle, double velocity) {
+  const double interval = r.channels[0].values[1] - r.channels[0].values[0];
   for (std::size_t c = 1; c < r.channels.size(); ++c) {
     const double count = r.channels[c].name.starts_with("gyro_") ? angle : velocity;
-    double before = 0.0, sum = 0.0, counted = 0.0;
-    for (std::size_t k = 0; k < r.rows(); ++k) {
-      const double interval =
-          r.channels[0].values[k] - std::exchange(before, r.channels[0].values[k]);
-      sum += r.channels[c].values[k] * interval;
+    double sum = 0.0, counted = 0.0;
+    for (double& value : r.channels[c].values) {
+      sum += value * interval;
       const double counts = std::round(sum / count);
-      r.channels[c].values[k] = (counts - std::exchange(counted, counts)) * count / interval;
+      value = (counts - std::exchange(counted, counts)) * count / interval;
     }
   }
   return r;

@@ -145,7 +145,7 @@ void expect_half_an_hour(const Resting& unit, const Recording& recording) {
       EXPECT_EQ(said.find(wrong), std::string::npos) << said;
     const bool identified = command == std::string("identify");
     for (const char* words :
-         {"one rest of 1799 s and no turn", "1 of 30 parameters is learned, and 2 sums of others",
+         {"one rest of 1799 s and no turn", "1 of 30 parameters is learned, and 2 sums",
           "The gyros see the Earth: North to", "Up is x 2.8"})
       EXPECT_EQ(said.find(words) != std::string::npos, identified) << words << "\n" << said;
   }
