@@ -163,4 +163,5 @@ def main():
     assert joint < HIGHEST_CHI2, "the estimates are further from the truth than noise takes them"
 
 
-main()
+if __name__ == "__main__":
+    main()

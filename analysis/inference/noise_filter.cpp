@@ -61,6 +61,8 @@ void NoiseFilter::find_gains(const MeasuredRows& rows, const NoiseModel& noise, 
   const NoiseStates s(noise);
   Pairs P = Pairs::Zero();
   P.topLeftCorner(used, used) = initial_covariance(s, noise);
+  events_.reserve(3 * rows.drives.size());
+  moves_.reserve(2 * rows.drives.size() * 4 * static_cast<std::size_t>(others));
   Eigen::Index next = 0;
   double product = 1.0;  // whose log is taken now and then
   walk(
@@ -73,20 +75,23 @@ void NoiseFilter::find_gains(const MeasuredRows& rows, const NoiseModel& noise, 
       },
       [&](const NoiseStep& step) {
         if constexpr (others > 0) {
-          Eigen::Matrix<double, 3, others> drive = Eigen::Matrix<double, 3, others>::Zero();
-          Eigen::Matrix<double, others, 1> decay = Eigen::Matrix<double, others, 1>::Ones();
-          drive.leftCols(used - 3) = step.F.topRightCorner(3, used - 3);
-          decay.head(used - 3) = step.F.diagonal().tail(used - 3);
+          const Eigen::Matrix<double, 3, others> drive = step.drive.template leftCols<others>();
+          const Eigen::Matrix<double, others, 1> decay = step.decay.template head<others>();
           // F P F' of F = [1, drive; 0, decay].
           P.template topRows<3>() += drive * P.template bottomRows<others>();
           P.template leftCols<3>() += P.template rightCols<others>() * drive.transpose();
           P.template bottomRows<others>().array().colwise() *= decay.array();
           P.template rightCols<others>().array().rowwise() *= decay.transpose().array();
+          P.diagonal().template tail<others>() += step.variance.template head<others>();
+          if (step.kicked) {  // of the first of the others
+            P.template topLeftCorner<3, 3>() += step.kick * step.kick.transpose();
+            P.template block<3, 3>(0, 3) += step.kick;
+            P.template block<3, 3>(3, 0) += step.kick.transpose();
+          }
           events_.push_back({next, false, moves_.size()});
           for (int m = 0; m < others; ++m)
             moves_.insert(moves_.end(), {drive(0, m), drive(1, m), drive(2, m), decay[m]});
         }
-        P.topLeftCorner(used, used) += step.Q;
       },
       [&](Eigen::Index k, const OverStates& given, double sigma) {
         const auto at = static_cast<std::size_t>(k);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 #include <string_view>
+#include <utility>
 
 #include "core/base/rng.hpp"
 #include "core/physics/term_library.hpp"
@@ -20,9 +21,10 @@ struct StrapdownScript {
   double interval = 0.01;          ///< [s]
   double gyro_noise = 0.01;        ///< of one sample, 1 sigma [rad/s]
   double acc_noise = 0.0015;       ///< of one sample, 1 sigma [g]
-  Vec3 omega_ie_l = Vec3::Zero();  ///< Earth rate; the case starts along the local axes [rad/s]
+  Vec3 omega_ie_l = Vec3::Zero();  ///< Earth rate, along the local axes [rad/s]
   double gravity = 9.8;            ///< [m/s^2]; lever arms are felt against it
   std::uint64_t seed = 1;
+  Mat3 attitude = Mat3::Identity();  ///< of the case against the local axes, at the start
 };
 
 inline double param(const Theta& theta, std::string_view group, int axis) {
@@ -78,7 +80,7 @@ inline Recording strapdown_recording(const StrapdownScript& script, const Theta&
   for (const char* name : {"acc_x", "acc_y", "acc_z"}) r.channels.push_back({name, unit::g, {}});
   Stream path(script.seed, 0, Purpose::test, 0), noise(script.seed, 0, Purpose::test, 1);
   double t = 0.0;
-  Mat3 R_lc = Mat3::Identity();  // at the start of the dwell or turn
+  Mat3 R_lc = script.attitude;  // at the start of the dwell or turn
   const double delay = theta[static_cast<Eigen::Index>(*TermLibrary::find("acc_delay"))];
   const auto sample = [&](const Mat3& attitude, const Vec3& w, const Vec3& acceleration) {
     t += script.interval;
@@ -113,6 +115,22 @@ inline Recording strapdown_recording(const StrapdownScript& script, const Theta&
     R_lc = R_lc * rotation(Vec3(angle * axis));
   }
   for (std::size_t k = 0; k < r.rows(); ++k) r.lines.push_back(k + 2);
+  return r;
+}
+
+/// The same as counts of angle and velocity, `angle` [rad] and `velocity` [g s] each: what has not
+/// become a whole count by the end of a row is counted in a later one.
+inline Recording in_counts(Recording r, double angle, double velocity) {
+  const double interval = r.channels[0].values[1] - r.channels[0].values[0];
+  for (std::size_t c = 1; c < r.channels.size(); ++c) {
+    const double count = r.channels[c].name.starts_with("gyro_") ? angle : velocity;
+    double sum = 0.0, counted = 0.0;
+    for (double& value : r.channels[c].values) {
+      sum += value * interval;
+      const double counts = std::round(sum / count);
+      value = (counts - std::exchange(counted, counts)) * count / interval;
+    }
+  }
   return r;
 }
 

@@ -26,10 +26,17 @@ using OverStates = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_states, 1>;
 using OverPairs =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_states, most_states>;
 
-/// Transition and noise over one half of an interval. F is the identity for the attitude, beside
-/// what drives it, and diagonal for everything else.
+/// What one half of an interval does to the states: the attitude += drive others, each of the
+/// others *= decay; then noise comes in.
 struct NoiseStep {
-  OverPairs F, Q;
+  static constexpr int most_others = most_states - 3;
+  using OverOthers = Eigen::Matrix<double, most_others, 1>;
+
+  Eigen::Matrix<double, 3, most_others> drive = Eigen::Matrix<double, 3, most_others>::Zero();
+  OverOthers decay = OverOthers::Ones();
+  OverOthers variance = OverOthers::Zero();  ///< that each of the others gains
+  bool kicked = false;  ///< a new value of the white rate noise, the first three of the others,
+  Mat3 kick = Mat3::Zero();  ///< which acts on the attitude at once, by this
 };
 
 /// States are in units of their own sigma. White rate noise is constant within an interval, as the

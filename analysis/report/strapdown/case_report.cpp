@@ -109,7 +109,7 @@ InBrief in_brief(const CaseIdentification& id) {
       first.parameters, [](const auto& p) { return TermLibrary::find(p.key).has_value(); }));
   const std::size_t sums = first.parameters.size() - alone;
   const std::string told =
-      fmt::format("{} of {} parameters are learned{}", alone, all,
+      fmt::format("{} of {} parameters {} learned{}", alone, all, alone == 1 ? "is" : "are",
                   sums > 0 ? fmt::format(", and {} of others", counted(sums, "sum")) : "");
   const auto& dwells = id.study.search.dwells;
   const bool at_rest = dwells.size() == 1;

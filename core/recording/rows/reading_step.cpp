@@ -8,7 +8,7 @@ namespace drift {
 namespace {
 
 constexpr double rounding = 1e-3;  ///< [steps] of a decimal text, and of its conversion
-constexpr std::size_t fewest_values = 4;
+constexpr std::size_t fewest_values = 4, fewest_bends = 100;
 
 bool is_whole(double steps) {
   return std::abs(steps - std::round(steps)) < rounding;
@@ -31,7 +31,6 @@ std::optional<double> reading_step(const Channel& channel, const Channel* positi
     if (!is_whole((values[i] - values[i - 1]) / step)) return std::nullopt;
     different += values[i] > values[i - 1] ? 1 : 0;
   }
-  if (different < fewest_values) return std::nullopt;
   std::size_t bends = 0, small = 0;
   for (std::size_t i = 2; i < x.size(); ++i) {
     if (position && position->values[i] != position->values[i - 2]) continue;
@@ -40,7 +39,7 @@ std::optional<double> reading_step(const Channel& channel, const Channel* positi
     ++bends;
     small += steps < 2.5 ? 1 : 0;
   }
-  if (2 * small < bends) return std::nullopt;
+  if (2 * small < bends || (different < fewest_values && bends < fewest_bends)) return std::nullopt;
   return step;
 }
 

@@ -120,6 +120,23 @@ TEST(QualityCard, ACoarseReadoutIsSaidByItsStepAndIsNoStuckSensor) {
   EXPECT_EQ(text.find("saturated?"), std::string::npos) << text;
 }
 
+TEST(QualityCard, OneCountOrNoneIsACoarseReadoutAndNotSaturated) {
+  Recording r;
+  r.channels = {{"time", unit::s, {}}, {"acc_x", *parse_unit("mg"), {}}};
+  for (int i = 0; i < 300; ++i) {
+    r.channels[0].values.push_back(i);
+    r.channels[1].values.push_back(i % 5 == 0 ? 0.002 : 0.0);
+    r.lines.push_back(static_cast<std::size_t>(i) + 2);
+  }
+  const auto said = [&] { return to_text(quality_card(r, RecordingKind::platform)); };
+  EXPECT_NE(said().find("acc_x: its readings are steps of 2 mg"), std::string::npos) << said();
+  EXPECT_EQ(said().find("saturated?"), std::string::npos) << said();
+  // Two values that follow each other once are no grid.
+  for (int i = 0; i < 300; ++i)
+    r.channels[1].values[static_cast<std::size_t>(i)] = i < 150 ? 0.0 : 0.002;
+  EXPECT_NE(said().find("a stuck sensor?"), std::string::npos) << said();
+}
+
 TEST(QualityCard, ColumnsThatMayBeCommandsAreDoubtedFirst) {
   const Folder folder;
   const auto r = read_recording(
