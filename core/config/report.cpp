@@ -47,7 +47,14 @@ void Report::require(std::string_view section, std::string_view key) {
 }
 
 void Report::error(const Place& at, const std::string& what) {
-  const std::string text = text_of_name(what);  // the names that a file gives end no line
+  // The names that a file gives end no line; a line that is ours is indented.
+  constexpr std::string_view ours = "\n    ";
+  std::string text;
+  std::size_t from = 0;
+  for (std::size_t at_end; (at_end = what.find(ours, from)) != std::string::npos;
+       from = at_end + ours.size())
+    text += text_of_name(what.substr(from, at_end - from)).append(ours);
+  text += text_of_name(what.substr(from));
   errors_.push_back({at, at.set_key.empty()
                              ? fmt::format("{}:{}:{}: {}", path_, at.line, at.column, text)
                              : fmt::format("--set {}: {}", at.set_key, text)});

@@ -52,8 +52,8 @@ TEST(OwnReadings, UnitsOfOtherLanguagesAndGalileosAreKnown) {
   EXPECT_DOUBLE_EQ(si("Gal"), 0.01);
   EXPECT_DOUBLE_EQ(si("mGal"), 1e-5);
   EXPECT_DOUBLE_EQ(si("gradi"), detail::deg);
-  EXPECT_DOUBLE_EQ(si("Grad"), detail::deg);
-  EXPECT_DOUBLE_EQ(si("Grad/Std"), detail::deg / 3600.0);
+  EXPECT_DOUBLE_EQ(si("gradi"), detail::deg);
+  EXPECT_DOUBLE_EQ(si("gradi/Std"), detail::deg / 3600.0);
   EXPECT_DOUBLE_EQ(si("ore"), 3600.0);
   EXPECT_DOUBLE_EQ(si("giorni"), 86400.0);
   EXPECT_DOUBLE_EQ(si("giri"), 360.0 * detail::deg);
