@@ -92,7 +92,11 @@ while [ $done_kills -lt "$kills" ]; do
       if [ $kind = 2 ] && [ $rank = 1 ]; then one_rank $pid; else end_all $pid; fi
       done_kills=$((done_kills + 1))
     fi
+    # An mpirun whose rank was killed may wait for ever by itself: it is ended after a minute.
+    (sleep 60; kill -9 $pid) 2>/dev/null &
+    watch=$!
     wait $pid 2>/dev/null
+    kill $watch 2>/dev/null
     if [ -e "$folder/manifest.json" ]; then
       now=$(stored "$folder")
       [ -n "$now" ] || fail "round $round: status does not read the folder after a kill"
