@@ -93,7 +93,7 @@ while [ $done_kills -lt "$kills" ]; do
       done_kills=$((done_kills + 1))
     fi
     # An mpirun whose rank was killed may wait for ever by itself: it is ended after a minute.
-    (sleep 60; kill -9 $pid) 2>/dev/null &
+    (sleep 60; kill -9 $pid) >/dev/null 2>&1 </dev/null &
     watch=$!
     wait $pid 2>/dev/null
     kill $watch 2>/dev/null
