@@ -78,11 +78,17 @@ TEST(DamageTold, AReadThatFailsOnceGivesNoOtherAnswer) {
   const Folder folder;
   ::setenv("DRIFT_FAULT_UNDER", folder.path().c_str(), 1);
   ::setenv("DRIFT_FAULT_ERRNO", "5", 1);
+  const std::string kept = folder.file("kept");
+  fs::copy(folder.out, kept, fs::copy_options::recursive);
+  // Each fault meets the same folder: what was set aside after one is read by the next.
+  const auto restored = [&](std::size_t) {
+    fs::remove_all(folder.out);
+    fs::copy(kept, folder.out, fs::copy_options::recursive);
+  };
   for (const std::string& line : {"report " + folder.out, folder.line}) {
     const std::string whole = driftscope(line).out;
-    const std::size_t faults = with_faults(
-        DRIFT_PROGRAM, line, "read", 1, [](std::size_t) {},
-        [&](std::size_t at, const Answer& a) {
+    const std::size_t faults =
+        with_faults(DRIFT_PROGRAM, line, "read", 1, restored, [&](std::size_t at, const Answer& a) {
           if (a.code == 0) {
             EXPECT_EQ(a.out, whole) << line << ", read " << at << "\n" << a.err;
           }
