@@ -96,7 +96,8 @@ while [ $done_kills -lt "$kills" ]; do
     (sleep 60; kill -9 $pid) >/dev/null 2>&1 </dev/null &
     watch=$!
     wait $pid 2>/dev/null
-    kill $watch 2>/dev/null
+    kill -9 $watch 2>/dev/null  # a mere TERM, right after the fork, would run the trap of this shell there
+    wait $watch 2>/dev/null
     if [ -e "$folder/manifest.json" ]; then
       now=$(stored "$folder")
       [ -n "$now" ] || fail "round $round: status does not read the folder after a kill"
