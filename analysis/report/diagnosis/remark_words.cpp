@@ -38,6 +38,12 @@ struct Words {
         "not.",
         r.probability);
   }
+  std::string operator()(const OrOutside& r) const {
+    return fmt::format(
+        "That it is something that no term of the library describes has a probability of {:.2g}: "
+        "what the library offers is listed, not named.",
+        r.probability);
+  }
   std::string operator()(const JustSignificantLeft&) const {
     return "With it in the model something is left that is just significant: chance, or not the "
            "whole story. It is listed, not named.";

@@ -134,9 +134,19 @@ std::string held_out_text(const Diagnosis& d, bool several) {
 }
 
 template <class R>
-bool remarked(const Diagnosis& d) {
-  return std::ranges::any_of(d.remarks,
-                             [](const Remark& r) { return std::holds_alternative<R>(r); });
+const R* remarked(const Diagnosis& d) {
+  const R* found = nullptr;
+  for (const Remark& r : d.remarks)
+    if (const auto* one = std::get_if<R>(&r)) found = one;
+  return found;
+}
+
+/// Where it is no negligible alternative.
+std::string outside_text(const Diagnosis& d) {
+  const auto* outside = remarked<remark::OrOutside>(d);
+  return outside ? fmt::format("something that no term of the library describes (probability {})",
+                               decimal_text(outside->probability, 2))
+                 : "";
 }
 
 /// Why the only cause that was found is not named.
@@ -144,6 +154,7 @@ std::string not_confirmed_text(const Diagnosis& d, bool several) {
   if (remarked<remark::JustSignificantLeft>(d))
     return fmt::format("with {} something is left that is just significant",
                        several ? "them" : "it");
+  if (const std::string outside = outside_text(d); !outside.empty()) return "also " + outside;
   if (several && remarked<remark::MemberNotConfirmed>(d))
     return "held-out data do not ask for each of them";
   return held_out_text(d, several);
@@ -161,6 +172,7 @@ std::string ambiguous_text(const Diagnosis& d) {
   std::vector<std::string> words;
   for (std::size_t k = 0; k < all.size(); ++k)
     words.push_back(fmt::format("({}) {}", k + 1, together(d, all[k])));
+  if (std::string outside = outside_text(d); !outside.empty()) words.push_back(std::move(outside));
   return fmt::format("{}, and this plan cannot tell which: either {}.{}", missing,
                      fmt::join(words, ", or "), twins_text(d, all));
 }

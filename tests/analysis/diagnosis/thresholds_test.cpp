@@ -120,8 +120,9 @@ TEST(Thresholds, TheNearestKnownExplainsATwentiethOfTheMisfit) {
 }
 
 /// Of something significant, with a cause that fits or without; noise: probability that nothing is
-/// missing.
-Verdict verdict_of(double noise, bool cause, bool noise_competes, double member_gain = 2.0) {
+/// missing; outside: beside a cause, that of what no term describes.
+Verdict verdict_of(double noise, bool cause, bool noise_competes, double member_gain = 2.0,
+                   double outside = 0.0) {
   search::Search found;
   found.significant = true;
   if (cause) found.sets.emplace_back();
@@ -129,7 +130,7 @@ Verdict verdict_of(double noise, bool cause, bool noise_competes, double member_
   search::Posterior posterior;
   posterior.consistent = 0.0;
   posterior.noise_only = noise;
-  posterior.outside = 1.0 - noise;
+  posterior.outside = cause ? outside : 1.0 - noise;
   HeldOut held_out;
   held_out.folds.resize(6);
   held_out.improves = true;
@@ -154,6 +155,11 @@ TEST(Thresholds, ACauseOrNoiseIsAmbiguousUnlessOneOfThemIsCredible) {
   EXPECT_EQ(verdict_of(0.06, true, true), Verdict::ambiguous);
   EXPECT_EQ(verdict_of(0.94, true, true), Verdict::ambiguous);
   EXPECT_EQ(verdict_of(0.96, true, true), Verdict::consistent);
+}
+
+TEST(Thresholds, ACauseBesideSomethingOutsideTheLibraryIsNotNamed) {
+  EXPECT_EQ(verdict_of(0.0, true, false, 2.0, 0.04), Verdict::named);
+  EXPECT_EQ(verdict_of(0.0, true, false, 2.0, 0.06), Verdict::ambiguous);
 }
 
 TEST(Thresholds, ASizeBeyondThreeSigmaOfItsPriorWidensIt) {
