@@ -8,6 +8,7 @@
 
 #include "core/base/atomic_file.hpp"
 #include "core/base/check.hpp"
+#include "core/base/results/marks.hpp"
 
 namespace drift::mc {
 namespace {
@@ -37,6 +38,7 @@ class WorkerStore::Writer : public WorkerFile {
     if (!sound() || is_foreign()) throw InputError(ExitCode::store, path + ": damaged");
     Transaction all(db_);
     db_.execute(schema);
+    mark();
     describe();
     remove_damaged();
     remove_damaged_sessions();
@@ -83,6 +85,13 @@ class WorkerStore::Writer : public WorkerFile {
     Statement query = db_.prepare("SELECT last_insert_rowid()");
     query.step();
     return query.integer(0);
+  }
+
+  /// By which the file is known for ours where all that stood beside it is lost.
+  void mark() {
+    Statement id = db_.prepare("PRAGMA application_id");
+    if (id.step() && id.integer(0) == results_database_id) return;
+    db_.execute(fmt::format("PRAGMA application_id={}", results_database_id).c_str());
   }
 
   void describe() {

@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "core/base/file_text.hpp"
 #include "core/base/sha256.hpp"
@@ -25,11 +29,28 @@ bool has_fields(const fs::path& path, const char* one, const char* other) {
   return json.is_object() && json.contains(one) && json.contains(other);
 }
 
+/// A database with our mark in its header, where SQLite says that it stands.
+bool is_database_of_ours(const fs::path& path) {
+  constexpr std::string_view magic{"SQLite format 3\0", 16};
+  constexpr std::size_t id_at = 68;
+  std::array<char, id_at + 4> header{};
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  if (!file.is_open() || file.read(header.data(), header.size()).bad())
+    throw_cannot_read(path.string(), std::strerror(errno != 0 ? errno : EIO));
+  if (!file) return false;
+  std::uint32_t id = 0;
+  for (std::size_t i = id_at; i < header.size(); ++i)
+    id = id << 8 | static_cast<unsigned char>(header[i]);
+  return std::string_view(header.data(), magic.size()) == magic && id == results_database_id;
+}
+
 bool has_worker_file(const fs::path& folder) {
   std::error_code none;
   return std::ranges::any_of(fs::directory_iterator(folder, none), [](const auto& entry) {
     const std::string name = entry.path().filename().string();
-    return name.starts_with("worker-") && name.ends_with(".sqlite") && is_file(entry.path());
+    return name.starts_with("worker-") && name.ends_with(".sqlite") && is_file(entry.path()) &&
+           is_database_of_ours(entry.path());
   });
 }
 

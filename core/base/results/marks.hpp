@@ -1,11 +1,15 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
 #include "core/base/results/register.hpp"
 
 namespace drift {
+
+/// The application_id of SQLite by which a file of results is driftscope's: "drft".
+constexpr std::uint32_t results_database_id = 0x64726674;
 
 /// Whether an entry of a folder could be a result of some command: an entry of this kind in a
 /// folder that is not driftscope's stands in the way. Logs and notes do not.

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "mc/store/store_database.hpp"
 #include "tests/support/program.hpp"
 
 namespace drift::folders_of_others_test {
@@ -89,6 +90,26 @@ TEST(FoldersOfOthers, NoJournalIsTakenForOneOfADatabaseToCome) {
     expect_refused(desk.run(), std::string("holds ") + name);
     EXPECT_EQ(text_of(desk.file(std::string("out/") + name)), "mine");
   }
+}
+
+TEST(FoldersOfOthers, ADatabaseUnderTheNameOfAWorkerFileIsNoResult) {
+  const Desk desk;
+  const std::string path = desk.file("out/worker-0000.sqlite");
+  mc::Database(path, mc::Database::Use::write)
+      .execute("CREATE TABLE blocks (x); INSERT INTO blocks VALUES (1)");
+  const std::string bytes = text_of(path);
+  expect_refused(desk.run(), "holds worker-0000.sqlite, which driftscope did not write");
+  EXPECT_EQ(text_of(path), bytes);
+}
+
+TEST(FoldersOfOthers, AWorkerFileOfOursIsKnownByItselfWhereAllElseIsLost) {
+  const Desk desk;
+  ASSERT_EQ(desk.run().code, 0);
+  for (const auto& entry : fs::directory_iterator(desk.file("out")))
+    if (entry.path().filename() != "worker-0000.sqlite") fs::remove_all(entry);
+  const Answer again = desk.run();
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_FALSE(fs::exists(desk.file("out/worker-0000.damaged-1"))) << again.err;
 }
 
 }  // namespace

@@ -81,7 +81,7 @@ TEST(NothingReplaced, InputsAreKnownThroughLinks) {
 
 TEST(NothingReplaced, AFolderOfSomebodyElseIsRefusedBeforeAnythingIsComputed) {
   for (const char* name : {"report.html", "summary.json", "study.toml", "manifest.json",
-                           "recording.csv", "worker-0000.lock"}) {
+                           "recording.csv", "worker-0000.lock", "worker-0000.sqlite"}) {
     const ScratchFolder scratch;
     scratch.write("s.toml", cheap_study());
     scratch.write("b.toml", text_of(std::string(DRIFT_SOURCE_DIR) + "/configs/blind_small.toml"));
