@@ -22,10 +22,9 @@ class LineReader {
   LineReader(const LineReader&) = delete;
   LineReader& operator=(const LineReader&) = delete;
 
-  /// The following line without its line end (LF, CRLF, or CR where a
-  /// file has no other), valid until the call after it; false
-  /// at the end. Of a line longer than longest_line only the beginning is given.
-  /// InputError (io) if reading fails.
+  /// The following line without its line end (LF, CRLF, or CR where a file has no other), valid
+  /// until the call after it; false at the end. Of a line longer than longest_line only the
+  /// beginning is given. InputError (io) if reading fails.
   bool next(std::string_view& line);
 
   std::size_t number() const { return number_; }        ///< of the last line, from 1

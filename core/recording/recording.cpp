@@ -152,6 +152,8 @@ Recording read_recording(const std::string& path, const RecordingFormat& format,
     raw = read_csv(path, format, kind, problems);
   } else if (extension == ".h5" || extension == ".hdf5" || extension == ".mat") {
     raw = read_isolated(path, problems, extension == ".mat" ? read_mat : read_hdf5);
+    // Their libraries call a disk that cannot be read a damaged file.
+    if (problems.count() > 0) sha256_hex_of_file(path);
     raw = with_format(std::move(raw), format, kind, problems);
   } else {
     throw_extension(path, extension);

@@ -102,5 +102,22 @@ TEST(DamageTold, AReadThatFailsOnceGivesNoOtherAnswer) {
   ::unsetenv("DRIFT_FAULT_ERRNO");
 }
 
+/// HDF5 calls what it cannot read damaged; from the second of all reads on the disk gives nothing.
+TEST(DamageTold, ARecordingThatTheDiskDoesNotGiveIsNotCalledDamaged) {
+  const ScratchFolder folder;
+  const std::string study = folder.write("s.toml", cheap_study()), made = folder.file("r.h5");
+  ASSERT_EQ(driftscope("simulate " + study + " -o " + made).code, 0);
+  fs::create_directory(folder.file("disk"));
+  fs::rename(made, folder.file("disk/r.h5"));
+  const Answer a =
+      run_program("/usr/bin/env", "LD_PRELOAD=" DRIFT_FAULTS
+                                  " DRIFT_FAULT_AT=1 DRIFT_FAULT_STICKY=1 "
+                                  "DRIFT_FAULT_KIND=read DRIFT_FAULT_ERRNO=5 DRIFT_FAULT_UNDER='" +
+                                      folder.file("disk") + "' " DRIFT_PROGRAM " check " + study +
+                                      " " + folder.file("disk/r.h5"));
+  EXPECT_EQ(a.code, io_error) << a.out << a.err;
+  expect_says(a.err, "cannot be read: Input/output error");
+}
+
 }  // namespace
 }  // namespace drift::damage_told_test
