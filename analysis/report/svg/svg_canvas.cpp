@@ -136,7 +136,7 @@ std::string SvgCanvas::finish() && {
   return std::move(out_) + "</svg>\n";
 }
 
-std::vector<std::string> wrapped(std::string_view text, double width, double size) {
+std::vector<std::string> lines_within(std::string_view text, double width, double size) {
   std::vector<std::string> lines(1);
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find(' ', at), text.size());

@@ -62,7 +62,7 @@ class SvgCanvas {
 };
 
 /// Text in lines that are no wider, but for single words [px].
-std::vector<std::string> wrapped(std::string_view text, double width, double size);
+std::vector<std::string> lines_within(std::string_view text, double width, double size);
 
 /// Width of text, about right for sans-serif type [px].
 double text_pixels(std::string_view text, double size);

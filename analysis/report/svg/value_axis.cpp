@@ -5,8 +5,8 @@
 namespace drift::report {
 
 std::vector<std::string> ValueAxis::label(const std::string& label, double picture_width) const {
-  return wrapped(scale.factor.empty() ? label : label + "  " + scale.factor,
-                 picture_width - 2.0 * canvas_edge, label_type);
+  return lines_within(scale.factor.empty() ? label : label + "  " + scale.factor,
+                      picture_width - 2.0 * canvas_edge, label_type);
 }
 
 void ValueAxis::draw(SvgCanvas& canvas, const std::vector<std::string>& label,

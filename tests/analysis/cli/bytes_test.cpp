@@ -42,7 +42,7 @@ TEST(Bytes, ALineEndInANameEndsNoLine) {
   std::ofstream(name + "/c\nd.csv") << "mine";
   for (const std::string& line :
        {"check '" + name + "/s.toml'", "status '" + name + "'", "look '" + name + ".csv'",
-        "run " + config("cheap.toml") + " --runs 64 -o '" + name + "'",
+        "run " + test::config("cheap.toml") + " --runs 64 -o '" + name + "'",
         "check x.toml --set='" + name + "'"}) {
     const Answer a = driftscope(line);
     EXPECT_NE(a.code, 0) << line;
