@@ -6,7 +6,7 @@ and printed:
   - nothing is wider than the window, but for tables, which scroll; no picture needs to
   - no text of a figure is smaller than 12 px, lies outside its picture, or over another text of it
   - a dark page is dark and its text light
-  - with its details folded it prints on at most four pages
+  - with its details folded it prints on at most four pages; how high it is, is told
   - a figure that can be zoomed is drawn by the script of the page itself, with no error in it, and
     without script the static picture is there
 KEEP: a new folder for the pages and their pictures, to be looked at. Skipped (77) without Chromium.
@@ -36,7 +36,8 @@ function light(colour) {
   return 0.2126 * r + 0.7152 * g + 0.0722 * b;
 }
 function measure() {
-  const out = {width: innerWidth, page: document.documentElement.scrollWidth, smallest: 1e9, texts: 0,
+  const out = {width: innerWidth, page: document.documentElement.scrollWidth,
+               height: document.documentElement.scrollHeight, smallest: 1e9, texts: 0,
                outside: [], crossed: [], scrolled: [], figures: 0, errors: window.failed};
   for (const svg of document.querySelectorAll('figure .scroll > svg, figure .head > svg')) {
     if (!svg.getClientRects().length) continue;  // drawn for another width
@@ -151,10 +152,10 @@ def with_script(page, opened):
     return page.replace("</body>", tail + "</body>")
 
 
-def measured(browser, page, width, mode, folder):
+def measured(browser, page, width, mode, folder, opened=True):
     """In a frame of the very width: a window may not be that narrow."""
     inner, outer = folder / "inner.html", folder / "outer.html"
-    inner.write_text(with_script(page, opened=True))
+    inner.write_text(with_script(page, opened))
     outer.write_text(
         f'<!DOCTYPE html><body style="margin:0"><iframe id="frame" src="inner.html" '
         f'style="width:{width}px;height:900px;border:0"></iframe><script>setInterval(() => {{'
@@ -238,7 +239,8 @@ def main():
         for name, path in pages_made.items():
             page = path.read_text()
             pages = printed_pages(browser, path, folder)
-            line = f"{name}: {len(page) // 1000} kB, {pages} printed pages"
+            high = measured(browser, page, WIDTHS[0], "light", folder, opened=False)["height"]
+            line = f"{name}: {len(page) // 1000} kB, {pages} printed pages, {high} px high at {WIDTHS[0]} px with its details folded"
             if not 1 <= pages <= MOST_PAGES:
                 wrong.append(f"{name}: {pages} printed pages (expected 1 to {MOST_PAGES})")
             wrong += [f"{name}: {what}" for what in complaints_of_policy(page)]
