@@ -43,23 +43,23 @@ Judged judge(const search::Fitted& nominal, const search::Search& found,
   constexpr double credible = inference::SearchLimits::credible;
   // Chance is what is more probable; noise that explains the same as an effect must be credible.
   if (noise > (best && found.noise_alone ? credible : inference::SearchLimits::chance)) return out;
-  const bool one = found.sets.size() == 1, or_noise = noise > 1.0 - credible,
-             or_outside = posterior.outside > 1.0 - credible;
+  const bool one = found.sets.size() == 1, or_noise = noise > 1.0 - credible;
   const bool members = std::all_of(member_gains.begin(), member_gains.end(), [](double gain) {
     return gain >= inference::WeighLimits::held_out;
   });
   const bool judged =
       by == NamedBy::fit_alone || held_out.folds.empty() || (held_out.improves && members);
   const bool nameable = !best || (best->nameable && !found.just_not);
-  out.verdict = !best                                                   ? Verdict::unexplained
-                : one && judged && nameable && !or_noise && !or_outside ? Verdict::named
-                                                                        : Verdict::ambiguous;
+  out.verdict = !best                                    ? Verdict::unexplained
+                : one && judged && nameable && !or_noise ? Verdict::named
+                                                         : Verdict::ambiguous;
   if (found.just_not)
     out.remarks.emplace_back(remark::JustSignificantLeft{});
   else if (one && !nameable)
     out.remarks.emplace_back(remark::LambdaNotSettled{});
   if (best && or_noise) out.remarks.emplace_back(remark::OrNoise{noise});
-  if (best && or_outside) out.remarks.emplace_back(remark::OrOutside{posterior.outside});
+  if (best && posterior.outside > inference::SearchLimits::chance)
+    out.remarks.emplace_back(remark::OrOutside{posterior.outside});
   if (one && !judged && !members)
     out.remarks.emplace_back(remark::MemberNotConfirmed{});
   else if (one && !judged)

@@ -41,7 +41,8 @@ struct Words {
   std::string operator()(const OrOutside& r) const {
     return fmt::format(
         "That it is something that no term of the library describes has a probability of {:.2g}: "
-        "what the library offers is listed, not named.",
+        "what acts in one stretch of the test alone would leave the same. Positions in which the "
+        "cause acts again tell.",
         r.probability);
   }
   std::string operator()(const JustSignificantLeft&) const {

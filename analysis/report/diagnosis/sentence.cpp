@@ -141,12 +141,15 @@ const R* remarked(const Diagnosis& d) {
   return found;
 }
 
-/// Where it is no negligible alternative.
+/// Where it is more probable than all that the library offers.
 std::string outside_text(const Diagnosis& d) {
   const auto* outside = remarked<remark::OrOutside>(d);
-  return outside ? fmt::format("something that no term of the library describes (probability {})",
-                               decimal_text(outside->probability, 2))
-                 : "";
+  return outside
+             ? fmt::format(
+                   " Something that no term describes, in one stretch of the test perhaps, would "
+                   "explain it as well (probability {}).",
+                   decimal_text(outside->probability, 2))
+             : "";
 }
 
 /// Why the only cause that was found is not named.
@@ -154,7 +157,6 @@ std::string not_confirmed_text(const Diagnosis& d, bool several) {
   if (remarked<remark::JustSignificantLeft>(d))
     return fmt::format("with {} something is left that is just significant",
                        several ? "them" : "it");
-  if (const std::string outside = outside_text(d); !outside.empty()) return "also " + outside;
   if (several && remarked<remark::MemberNotConfirmed>(d))
     return "held-out data do not ask for each of them";
   return held_out_text(d, several);
@@ -172,7 +174,6 @@ std::string ambiguous_text(const Diagnosis& d) {
   std::vector<std::string> words;
   for (std::size_t k = 0; k < all.size(); ++k)
     words.push_back(fmt::format("({}) {}", k + 1, together(d, all[k])));
-  if (std::string outside = outside_text(d); !outside.empty()) words.push_back(std::move(outside));
   return fmt::format("{}, and this plan cannot tell which: either {}.{}", missing,
                      fmt::join(words, ", or "), twins_text(d, all));
 }
@@ -286,6 +287,7 @@ std::string sentence(const Diagnosis& d) {
     for (const Remark& r : d.remarks)
       if (const auto* other = std::get_if<remark::OtherEquation>(&r); other && other->open())
         text += fmt::format(" {}.", cannot_tell_equations(*other));
+  text += outside_text(d);
   text += too_large_text(d);
   text += unexamined_twins_text(d.not_examined);
   text += errors_text(d);

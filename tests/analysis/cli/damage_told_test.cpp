@@ -113,8 +113,8 @@ TEST(DamageTold, ARecordingThatTheDiskDoesNotGiveIsNotCalledDamaged) {
       run_program("/usr/bin/env", "LD_PRELOAD=" DRIFT_FAULTS
                                   " DRIFT_FAULT_AT=1 DRIFT_FAULT_STICKY=1 "
                                   "DRIFT_FAULT_KIND=read DRIFT_FAULT_ERRNO=5 DRIFT_FAULT_UNDER='" +
-                                      folder.file("disk") + "' " DRIFT_PROGRAM " identify " + study +
-                                      " " + folder.file("disk/r.h5"));
+                                      folder.file("disk") + "' " DRIFT_PROGRAM " identify " +
+                                      study + " " + folder.file("disk/r.h5"));
   EXPECT_EQ(a.code, io_error) << a.out << a.err;
   expect_says(a.err, "cannot be read: Input/output error");
 }

@@ -121,8 +121,8 @@ TEST(Thresholds, TheNearestKnownExplainsATwentiethOfTheMisfit) {
 
 /// Of something significant, with a cause that fits or without; noise: probability that nothing is
 /// missing; outside: beside a cause, that of what no term describes.
-Verdict verdict_of(double noise, bool cause, bool noise_competes, double member_gain = 2.0,
-                   double outside = 0.0) {
+Judged judged(double noise, bool cause, bool noise_competes, double member_gain = 2.0,
+              double outside = 0.0) {
   search::Search found;
   found.significant = true;
   if (cause) found.sets.emplace_back();
@@ -134,7 +134,10 @@ Verdict verdict_of(double noise, bool cause, bool noise_competes, double member_
   HeldOut held_out;
   held_out.folds.resize(6);
   held_out.improves = true;
-  return judge({}, found, posterior, held_out, {2.0, member_gain}, NamedBy::held_out).verdict;
+  return judge({}, found, posterior, held_out, {2.0, member_gain}, NamedBy::held_out);
+}
+Verdict verdict_of(double noise, bool cause, bool noise_competes, double member_gain = 2.0) {
+  return judged(noise, cause, noise_competes, member_gain).verdict;
 }
 
 TEST(Thresholds, EachOfSeveralCausesMustBringOneOfLogScore) {
@@ -157,9 +160,15 @@ TEST(Thresholds, ACauseOrNoiseIsAmbiguousUnlessOneOfThemIsCredible) {
   EXPECT_EQ(verdict_of(0.96, true, true), Verdict::consistent);
 }
 
-TEST(Thresholds, ACauseBesideSomethingOutsideTheLibraryIsNotNamed) {
-  EXPECT_EQ(verdict_of(0.0, true, false, 2.0, 0.04), Verdict::named);
-  EXPECT_EQ(verdict_of(0.0, true, false, 2.0, 0.06), Verdict::ambiguous);
+TEST(Thresholds, WhatIsMoreProbableOutsideTheLibraryIsSaidBesideItsCause) {
+  const auto said = [](double outside) {
+    return std::ranges::any_of(judged(0.0, true, false, 2.0, outside).remarks, [](const Remark& r) {
+      return std::holds_alternative<remark::OrOutside>(r);
+    });
+  };
+  EXPECT_FALSE(said(0.49));
+  EXPECT_TRUE(said(0.51));
+  EXPECT_EQ(verdict_of(0.0, true, false, 2.0), Verdict::named);
 }
 
 TEST(Thresholds, ASizeBeyondThreeSigmaOfItsPriorWidensIt) {
