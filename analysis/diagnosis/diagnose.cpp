@@ -179,6 +179,7 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
     stages.begin("forms", 0.0);
     d.proposal = proposal::propose(found, noise_without_effect(nominal, found), test,
                                    options.search.alpha, {options.folds, recording_ends, {}});
+    if (d.proposal) move_to(place, *d.proposal);
   }
   d.profiles = profiled(found, test, causes.causes, options, stages);
   set_intervals(causes.causes, d.profiles);

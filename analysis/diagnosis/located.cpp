@@ -164,4 +164,13 @@ Located located(const search::Fitted& nominal, const search::Search& found, cons
   return out;
 }
 
+void move_to(Located& place, const Proposal& form) {
+  const auto dot = form.acts_on.find('.');
+  const std::string on = form.acts_on.substr(0, dot), axis = form.acts_on.substr(dot + 1);
+  const std::string equation = (on == "drift" || on == "rate" ? "platform rate" : on) + " " + axis;
+  place.where.equation = equation;
+  const auto its = std::ranges::find(place.signals, equation, &RecoveredSignal::equation);
+  if (its != place.signals.end()) std::rotate(place.signals.begin(), its, its + 1);
+}
+
 }  // namespace drift::diagnosis

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "analysis/diagnosis/findings/proposal.hpp"
 #include "analysis/diagnosis/findings/where.hpp"
 #include "analysis/diagnosis/judge.hpp"
 #include "analysis/diagnosis/recovered.hpp"
@@ -30,5 +31,8 @@ inference::NoiseModel noise_without_effect(const search::Fitted& nominal,
 Located located(const search::Fitted& nominal, const search::Search& found, const Judged& judged,
                 const std::vector<search::Cause>& causes, const Timeline& timeline,
                 const std::vector<preparation::Covariate>& covariates, Signals signals);
+
+/// Where no known effect explains it and a form does, the misfit is where the form acts.
+void move_to(Located& place, const Proposal& form);
 
 }  // namespace drift::diagnosis

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
 
 #include "analysis/inference/thresholds.hpp"
+#include "core/base/check.hpp"
 
 namespace drift::search {
 namespace {
@@ -95,24 +98,35 @@ void fill(inference::Candidate& c, std::size_t v, std::size_t place, Columns& co
                     more.end());
 }
 
-}  // namespace
+/// Gaps of a candidate's grid, from above, so that those below stay where they are.
+using Gaps = std::set<std::size_t, std::greater<>>;
 
-Fitted refine_grids(Fitted e, const MeasuredTest& test, double worth) {
-  double top = 0.0;
-  for (const Score& s : e.scores) top = std::max(top, s.log_bayes);
+Gaps beside_best_settings(const Fitted& e, std::size_t k) {
+  Gaps gaps;
+  for (const std::size_t v : best_settings(e, k, inference::ReachLimits::refine_setting,
+                                           inference::EffortLimits::settings)) {
+    if (v + 1 < e.set.candidates[k].variants.size()) gaps.insert(v);
+    if (v > 0) gaps.insert(v - 1);
+  }
+  return gaps;
+}
+
+Gaps between_points(const Fitted& e, std::size_t k) {
+  const auto& variants = e.set.candidates[k].variants;
+  Gaps gaps;
+  for (std::size_t v = 0; v + 1 < variants.size(); ++v)
+    if (!variants[v].between && !variants[v + 1].between) gaps.insert(v);
+  return gaps;
+}
+
+template <class GapsOf>
+Fitted refined(Fitted e, const MeasuredTest& test, double least_log_bayes, GapsOf&& gaps_of) {
   Columns columns(e);
   for (std::size_t k = 0; k < e.set.candidates.size(); ++k) {
     inference::Candidate& c = e.set.candidates[k];
     const auto place = continuous_setting(c);
-    if (!place || e.scores[k].dof == 0 || e.scores[k].log_bayes < top - worth) continue;
-    // Which gaps; from above, so that those below stay where they are.
-    std::set<std::size_t, std::greater<>> gaps;
-    for (const std::size_t v : best_settings(e, k, inference::ReachLimits::refine_setting,
-                                             inference::EffortLimits::settings)) {
-      if (v + 1 < c.variants.size()) gaps.insert(v);
-      if (v > 0) gaps.insert(v - 1);
-    }
-    for (const std::size_t v : gaps)
+    if (!place || e.scores[k].dof == 0 || e.scores[k].log_bayes < least_log_bayes) continue;
+    for (const std::size_t v : gaps_of(e, k))
       if (same_but(c.variants[v], c.variants[v + 1], *place)) fill(c, v, *place, columns);
   }
   const auto added = columns.added();
@@ -123,6 +137,24 @@ Fitted refine_grids(Fitted e, const MeasuredTest& test, double worth) {
   e.problem.extra.rightCols(more.cols()) = more;
   const inference::NoiseEstimate noise = e.noise;
   return with_noise(std::move(e), test.timeline, noise);
+}
+
+}  // namespace
+
+Fitted refine_grids(Fitted e, const MeasuredTest& test, double worth) {
+  double top = 0.0;
+  for (const Score& s : e.scores) top = std::max(top, s.log_bayes);
+  return refined(std::move(e), test, top - worth, beside_best_settings);
+}
+
+Fitted refine_whole_grids(Fitted e, const MeasuredTest& test) {
+  return refined(std::move(e), test, -std::numeric_limits<double>::infinity(), between_points);
+}
+
+std::size_t variant_at(const inference::Candidate& candidate, const inference::Settings& settings) {
+  const auto at = std::ranges::find(candidate.variants, settings, &inference::Variant::settings);
+  DRIFT_EXPECTS(at != candidate.variants.end());
+  return static_cast<std::size_t>(at - candidate.variants.begin());
 }
 
 }  // namespace drift::search

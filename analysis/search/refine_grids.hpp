@@ -11,4 +11,12 @@ namespace drift::search {
 /// called for beside it.
 Fitted refine_grids(Fitted e, const MeasuredTest& test, double worth);
 
+/// The same between all points, of all candidates: a step between two points that are further apart
+/// than the positions of a plan is at neither of them, and another setting scores best. Variants
+/// are numbered anew by that.
+Fitted refine_whole_grids(Fitted e, const MeasuredTest& test);
+
+/// The number of the variant with these settings, which there is.
+std::size_t variant_at(const inference::Candidate& candidate, const inference::Settings& settings);
+
 }  // namespace drift::search

@@ -212,6 +212,19 @@ std::vector<Explanation> not_tried(const Search& s, const std::vector<Refit>& re
   return all;
 }
 
+/// Looks between all points of the library's grids; what was fitted is numbered anew.
+void look_between_all_points(Search& s, const MeasuredTest& test, std::vector<Refit>& refits) {
+  const std::vector<inference::Candidate> before = s.nominal.set.candidates;
+  s.nominal = refine_whole_grids(std::move(s.nominal), test);
+  for (Refit& r : refits)
+    for (Choice& c : r.choices)
+      c.variant = variant_at(s.nominal.set.candidates[c.candidate],
+                             before[c.candidate].variants[c.variant].settings);
+  s.linear.clear();
+  for (std::size_t k = 0; k < s.nominal.scores.size(); ++k)
+    s.linear.push_back(least_remainder(s, k));
+}
+
 Search searched(Fitted nominal, const MeasuredTest& test, const SearchOptions& options) {
   Search out{detect(std::move(nominal), test, options), {}, {}, false, {}, {}, {}};
   if (out.significant)
@@ -244,6 +257,9 @@ Search searched(Fitted nominal, const MeasuredTest& test, const SearchOptions& o
   }
   for (Refit& r : refit_singles(out, test, options.most_refits)) refits.push_back(std::move(r));
   try_more(worth_beside_equation(out, test, refits));
+  if (settled(Leftover::nothing)) return out;
+  look_between_all_points(out, test, refits);
+  try_more(not_tried(out, refits, promising_singles(out, options.most_refits)));
   if (settled(Leftover::nothing)) return out;
   try_more(promising_pairs(out, options.most_refits));
   if (settled(Leftover::nothing)) return out;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "analysis/inference/thresholds.hpp"
 #include "core/base/words.hpp"
@@ -94,6 +95,15 @@ std::string unexamined_twins_text(const std::vector<NotExamined>& all) {
       " Not examined, for want of what they follow: {}; if that moved alike, it is what {} may "
       "be.",
       listed(unseen, "and"), listed(twins, "or"));
+}
+
+std::string lacking_covariate_text(const std::vector<NotExamined>& all) {
+  std::vector<NotExamined> lacking;
+  std::ranges::copy_if(all, std::back_inserter(lacking),
+                       [](const NotExamined& n) { return n.why == Why::no_covariate; });
+  std::string text;
+  for (const std::string& sentence : not_examined_sentences(lacking)) text += " " + sentence + ".";
+  return text;
 }
 
 }  // namespace drift::report

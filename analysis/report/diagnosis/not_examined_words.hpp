@@ -16,4 +16,8 @@ std::vector<std::string> not_examined_sentences(const std::vector<diagnosis::Not
 /// Of those that may stand behind a named cause, for the verdict; empty if none may.
 std::string unexamined_twins_text(const std::vector<diagnosis::NotExamined>& all);
 
+/// " Not examined: temperature_drift: the temperature was not recorded.": of what is unexplained,
+/// it may be that; empty if nothing was left out for want of a covariate.
+std::string lacking_covariate_text(const std::vector<diagnosis::NotExamined>& all);
+
 }  // namespace drift::report

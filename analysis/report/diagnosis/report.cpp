@@ -218,6 +218,11 @@ InBrief diagnosis_in_brief(const Diagnosis& d) {
     brief.next = "Next: " + advice_in_brief(d.advice.front());
   else if (d.verdict == Verdict::named && d.has_patch)
     brief.next = "Next: identify with patched.toml, the study with the cause in its model.";
+  else if (d.proposal)
+    brief.next =
+        "Next: look for what acts there and then. With the [[term]] of the proposal "
+        "(diagnosis.json) "
+        "in the study, another recording tells whether it comes again.";
   else if (const auto left = strongest_left(d); d.verdict == Verdict::unexplained && left)
     brief.next = fmt::format(
         "Next: more than one effect seems to be missing. Diagnose again with the first in the "

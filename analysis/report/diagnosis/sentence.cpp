@@ -21,9 +21,11 @@ namespace {
 
 using namespace diagnosis;
 
-/// The shape of the strongest recovered signal, its equation said where it is not the one located.
+/// The shape of the strongest recovered signal, its equation said where it is not the one located;
+/// a form that fits says more.
 std::string located_shape_text(const Diagnosis& d) {
-  if (d.signals.empty() || d.signals.front().shape.kind == Shape::Kind::unknown) return "";
+  if (d.proposal || d.signals.empty() || d.signals.front().shape.kind == Shape::Kind::unknown)
+    return "";
   const RecoveredSignal& s = d.signals.front();
   if (s.equation == d.where.equation) return ": " + shape_text(s);
   return fmt::format(". As an input to the {}: {}", equation_in_words(s.equation), shape_text(s));
@@ -135,10 +137,9 @@ std::string held_out_text(const Diagnosis& d, bool several) {
 
 template <class R>
 const R* remarked(const Diagnosis& d) {
-  const R* found = nullptr;
   for (const Remark& r : d.remarks)
-    if (const auto* one = std::get_if<R>(&r)) found = one;
-  return found;
+    if (const auto* found = std::get_if<R>(&r)) return found;
+  return nullptr;
 }
 
 /// Where it is more probable than all that the library offers.
@@ -290,6 +291,8 @@ std::string sentence(const Diagnosis& d) {
   text += outside_text(d);
   text += too_large_text(d);
   text += unexamined_twins_text(d.not_examined);
+  if (d.verdict == Verdict::unexplained && !d.proposal)
+    text += lacking_covariate_text(d.not_examined);
   text += errors_text(d);
   return text;
 }

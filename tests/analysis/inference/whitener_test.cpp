@@ -52,7 +52,7 @@ TEST(Whitener, EqualsDenseCholeskyForEveryKindOfNoiseAtOnce) {
   NoiseModel noise;
   noise.acc_factor = 1.3;
   noise.gimbal_factor = 0.8;
-  noise.angle_random_walk = 1e-3 * detail::deg / 60.0;
+  noise.angle_random_walk = 1e-3 * drift::detail::deg / 60.0;
   noise.drift_random_walk = 0.01 * deg_per_h / 60.0;
   noise.markov_drift = 0.02 * deg_per_h;
   noise.markov_tau = 1200.0;
@@ -76,7 +76,7 @@ TEST(Whitener, EqualsDenseCholeskyForAnInputInOneEquation) {
 
 TEST(Whitener, ColoursWhatItWhitens) {
   NoiseModel noise;
-  noise.angle_random_walk = 1e-3 * detail::deg / 60.0;
+  noise.angle_random_walk = 1e-3 * drift::detail::deg / 60.0;
   noise.markov_drift = 0.02 * deg_per_h;
   noise.lone = {Equation::accelerometer, 1, 3e-6, 300.0};
   const LinearProblem problem = short_problem();
