@@ -5,6 +5,7 @@
 
 #include "analysis/diagnosis/acting.hpp"
 #include "analysis/diagnosis/diagnose.hpp"
+#include "analysis/diagnosis/located.hpp"
 #include "analysis/report/diagnosis/effect_words.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
 #include "analysis/report/diagnosis/words.hpp"
@@ -105,6 +106,27 @@ TEST(WhereFollows, HeadlineBulletsAndRecoveredSignalAgreeForEveryCause) {
   }
   EXPECT_GE(named, 15u);
   EXPECT_EQ(stepped, 1u);
+}
+
+TEST(WhereFollows, AFormThatFitsSaysWhereAndTheOtherSignalsKeepTheirOrder) {
+  Located place;
+  for (const char* equation : {"platform rate y", "gimbal inner", "accelerometer z"})
+    place.signals.emplace_back().equation = equation;
+  place.where.equation = "platform rate y";
+  const auto order_after = [&](const char* acts_on) {
+    Proposal form;
+    form.acts_on = acts_on;
+    move_to(place, form);
+    std::string order = place.where.equation;
+    for (const RecoveredSignal& s : place.signals) order += ", " + s.equation;
+    return order;
+  };
+  EXPECT_EQ(order_after("accelerometer.z"),
+            "accelerometer z, accelerometer z, platform rate y, gimbal inner");
+  EXPECT_EQ(order_after("drift.y"),
+            "platform rate y, platform rate y, accelerometer z, gimbal inner");
+  EXPECT_EQ(order_after("gimbal.outer"),
+            "gimbal outer, platform rate y, accelerometer z, gimbal inner");
 }
 
 }  // namespace
