@@ -283,7 +283,8 @@ std::string sentence(const Diagnosis& d) {
   if (d.heading_doubt) return heading_text(*d.heading_doubt);
   if (d.site_doubt) return site_text(*d.site_doubt);
   std::string text = absent_text(d.absent) + verdict_alone(d);
-  if (d.nearest_known) text += nearest_text(*d.nearest_known, instrument_of(d));
+  if (d.nearest_known && !d.proposal)  // a form that fits is nearer
+    text += nearest_text(*d.nearest_known, instrument_of(d));
   if (d.verdict == Verdict::consistent)
     for (const Remark& r : d.remarks)
       if (const auto* other = std::get_if<remark::OtherEquation>(&r); other && other->open())
@@ -291,8 +292,7 @@ std::string sentence(const Diagnosis& d) {
   text += outside_text(d);
   text += too_large_text(d);
   text += unexamined_twins_text(d.not_examined);
-  if (d.verdict == Verdict::unexplained && !d.proposal)
-    text += lacking_covariate_text(d.not_examined);
+  if (d.verdict == Verdict::unexplained) text += lacking_covariate_text(d.not_examined);
   text += errors_text(d);
   return text;
 }
