@@ -58,8 +58,6 @@ Judged judge(const search::Fitted& nominal, const search::Search& found,
   else if (one && !nameable)
     out.remarks.emplace_back(remark::LambdaNotSettled{});
   if (best && or_noise) out.remarks.emplace_back(remark::OrNoise{noise});
-  if (best && posterior.outside > inference::SearchLimits::chance)
-    out.remarks.emplace_back(remark::OrOutside{posterior.outside});
   if (one && !judged && !members)
     out.remarks.emplace_back(remark::MemberNotConfirmed{});
   else if (one && !judged)

@@ -8,6 +8,8 @@
 #include "analysis/diagnosis/acting.hpp"
 #include "analysis/diagnosis/locate.hpp"
 #include "analysis/search/explained.hpp"
+#include "core/base/named.hpp"
+#include "core/physics/own/own_term.hpp"
 
 namespace drift::diagnosis {
 namespace {
@@ -41,6 +43,12 @@ struct Place {
   bool operator==(const Place&) const = default;
   std::string name() const { return inference::equation_name(equation, axis); }
 };
+
+/// Drift of a gyro moves the platform.
+inference::Equation equation_of(OwnSlot slot) {
+  if (slot == OwnSlot::accelerometer) return inference::Equation::accelerometer;
+  return slot == OwnSlot::gimbal ? inference::Equation::gimbal : inference::Equation::rate;
+}
 
 /// Where causes act, each place once. What has no axis of its own is where its kind is seen best;
 /// left out where it is not.
@@ -165,9 +173,8 @@ Located located(const search::Fitted& nominal, const search::Search& found, cons
 }
 
 void move_to(Located& place, const Proposal& form) {
-  const auto dot = form.acts_on.find('.');
-  const std::string on = form.acts_on.substr(0, dot), axis = form.acts_on.substr(dot + 1);
-  const std::string equation = (on == "drift" || on == "rate" ? "platform rate" : on) + " " + axis;
+  const OwnTarget on = *value_in(own_targets, form.acts_on);
+  const std::string equation = Place{equation_of(on.slot), on.axis}.name();
   place.where.equation = equation;
   const auto its = std::ranges::find(place.signals, equation, &RecoveredSignal::equation);
   if (its != place.signals.end()) std::rotate(place.signals.begin(), its, its + 1);

@@ -126,8 +126,8 @@ struct NoisePrior {
 /// How sure a diagnosis is.
 struct SearchLimits {
   static constexpr double alpha = 0.02;  ///< chance of a false alarm over all that is tried
-  /// Probability of nothing missing above which what is significant is taken for chance: more
-  /// probable than not.
+  /// Probability of nothing missing above which what is significant is taken for chance, and of
+  /// something outside the library above which it is said beside a cause: more probable than not.
   static constexpr double chance = 0.5;
   /// That what is listed must hold together. Test: CredibleSet.ListsWhat...
   static constexpr double credible = 0.95;

@@ -31,6 +31,12 @@ Remainder least_remainder(const Search& s, std::size_t candidate) {
   return least;
 }
 
+void look_at_remainders(Search& s) {
+  s.linear.clear();
+  for (std::size_t k = 0; k < s.nominal.scores.size(); ++k)
+    s.linear.push_back(least_remainder(s, k));
+}
+
 /// Each explanation fitted, spread over threads. kinds: of noise that are looked for.
 std::vector<Refit> refit_all(const Search& s, const MeasuredTest& test,
                              const std::vector<Explanation>& all, NoiseKinds kinds,
@@ -220,9 +226,7 @@ void look_between_all_points(Search& s, const MeasuredTest& test, std::vector<Re
     for (Choice& c : r.choices)
       c.variant = variant_at(s.nominal.set.candidates[c.candidate],
                              before[c.candidate].variants[c.variant].settings);
-  s.linear.clear();
-  for (std::size_t k = 0; k < s.nominal.scores.size(); ++k)
-    s.linear.push_back(least_remainder(s, k));
+  look_at_remainders(s);
 }
 
 Search searched(Fitted nominal, const MeasuredTest& test, const SearchOptions& options) {
@@ -230,8 +234,7 @@ Search searched(Fitted nominal, const MeasuredTest& test, const SearchOptions& o
   if (out.significant)
     out.nominal =
         refine_grids(std::move(out.nominal), test, inference::ReachLimits::worth_refining);
-  for (std::size_t k = 0; k < out.nominal.scores.size(); ++k)
-    out.linear.push_back(least_remainder(out, k));
+  look_at_remainders(out);
   if (!out.significant) return out;
 
   std::vector<Refit> refits;

@@ -42,10 +42,6 @@ struct NotPredicted {};
 struct OrNoise {
   double probability;
 };
-/// Something that no term of the library describes, with so much probability.
-struct OrOutside {
-  double probability;
-};
 /// With the cause in the model the innovations are not white; p by chance, without it and with it.
 struct LeftNotWhite {
   double before = 1.0, after = 1.0;
@@ -122,12 +118,13 @@ struct NotObservable {
 
 }  // namespace remark
 
-using Remark = std::variant<
-    remark::Input, remark::GimbalOffZero, remark::JustSignificantLeft, remark::LambdaNotSettled,
-    remark::MemberNotConfirmed, remark::NotPredicted, remark::OrNoise, remark::OrOutside,
-    remark::SamplesLeftOut, remark::FreeInputExplains, remark::LeftNotWhite,
-    remark::CrosstalkMovesLambda, remark::DrivesOneGyro, remark::StrongestLeft, remark::BeyondPrior,
-    remark::OtherEquation, remark::FieldAssumed, remark::NoiseOrEffect, remark::NoAdvice,
-    remark::NoDeclaredNoise, remark::CommonDriftUnseen, remark::NotObservable>;
+using Remark =
+    std::variant<remark::Input, remark::GimbalOffZero, remark::JustSignificantLeft,
+                 remark::LambdaNotSettled, remark::MemberNotConfirmed, remark::NotPredicted,
+                 remark::OrNoise, remark::SamplesLeftOut, remark::FreeInputExplains,
+                 remark::LeftNotWhite, remark::CrosstalkMovesLambda, remark::DrivesOneGyro,
+                 remark::StrongestLeft, remark::BeyondPrior, remark::OtherEquation,
+                 remark::FieldAssumed, remark::NoiseOrEffect, remark::NoAdvice,
+                 remark::NoDeclaredNoise, remark::CommonDriftUnseen, remark::NotObservable>;
 
 }  // namespace drift::diagnosis

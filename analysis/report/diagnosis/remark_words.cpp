@@ -38,13 +38,6 @@ struct Words {
         "not.",
         r.probability);
   }
-  std::string operator()(const OrOutside& r) const {
-    return fmt::format(
-        "That it is something that no term of the library describes has a probability of {:.2g}: "
-        "what acts in one stretch of the test alone would leave the same. Positions in which the "
-        "cause acts again tell.",
-        r.probability);
-  }
   std::string operator()(const JustSignificantLeft&) const {
     return "With it in the model something is left that is just significant: chance, or not the "
            "whole story. It is listed, not named.";

@@ -221,8 +221,7 @@ InBrief diagnosis_in_brief(const Diagnosis& d) {
   else if (d.proposal)
     brief.next =
         "Next: look for what acts there and then. With the [[term]] of the proposal "
-        "(diagnosis.json) "
-        "in the study, another recording tells whether it comes again.";
+        "(diagnosis.json) in the study, another recording tells whether it comes again.";
   else if (const auto left = strongest_left(d); d.verdict == Verdict::unexplained && left)
     brief.next = fmt::format(
         "Next: more than one effect seems to be missing. Diagnose again with the first in the "

@@ -136,21 +136,19 @@ std::string held_out_text(const Diagnosis& d, bool several) {
 }
 
 template <class R>
-const R* remarked(const Diagnosis& d) {
-  for (const Remark& r : d.remarks)
-    if (const auto* found = std::get_if<R>(&r)) return found;
-  return nullptr;
+bool remarked(const Diagnosis& d) {
+  return std::ranges::any_of(d.remarks,
+                             [](const Remark& r) { return std::holds_alternative<R>(r); });
 }
 
-/// Where it is more probable than all that the library offers.
+/// Beside a cause, where what the library does not know is more probable than not.
 std::string outside_text(const Diagnosis& d) {
-  const auto* outside = remarked<remark::OrOutside>(d);
-  return outside
-             ? fmt::format(
-                   " Something that no term describes, in one stretch of the test perhaps, would "
-                   "explain it as well (probability {}).",
-                   decimal_text(outside->probability, 2))
-             : "";
+  const double outside = d.probabilities.outside;
+  if (d.causes.empty() || outside <= inference::SearchLimits::chance) return "";
+  return fmt::format(
+      " Something that no term describes, in one stretch of the test perhaps, would explain it as "
+      "well (probability {}).",
+      decimal_text(outside, 2));
 }
 
 /// Why the only cause that was found is not named.

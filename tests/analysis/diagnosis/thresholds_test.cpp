@@ -8,6 +8,7 @@
 #include "analysis/diagnosis/asides.hpp"
 #include "analysis/diagnosis/judge.hpp"
 #include "analysis/identification/spikes.hpp"
+#include "analysis/report/diagnosis/sentence.hpp"
 #include "tests/support/model_builders.hpp"
 
 namespace drift::diagnosis::thresholds_test {
@@ -120,9 +121,8 @@ TEST(Thresholds, TheNearestKnownExplainsATwentiethOfTheMisfit) {
 }
 
 /// Of something significant, with a cause that fits or without; noise: probability that nothing is
-/// missing; outside: beside a cause, that of what no term describes.
-Judged judged(double noise, bool cause, bool noise_competes, double member_gain = 2.0,
-              double outside = 0.0) {
+/// missing.
+Verdict verdict_of(double noise, bool cause, bool noise_competes, double member_gain = 2.0) {
   search::Search found;
   found.significant = true;
   if (cause) found.sets.emplace_back();
@@ -130,14 +130,11 @@ Judged judged(double noise, bool cause, bool noise_competes, double member_gain 
   search::Posterior posterior;
   posterior.consistent = 0.0;
   posterior.noise_only = noise;
-  posterior.outside = cause ? outside : 1.0 - noise;
+  posterior.outside = 1.0 - noise;
   HeldOut held_out;
   held_out.folds.resize(6);
   held_out.improves = true;
-  return judge({}, found, posterior, held_out, {2.0, member_gain}, NamedBy::held_out);
-}
-Verdict verdict_of(double noise, bool cause, bool noise_competes, double member_gain = 2.0) {
-  return judged(noise, cause, noise_competes, member_gain).verdict;
+  return judge({}, found, posterior, held_out, {2.0, member_gain}, NamedBy::held_out).verdict;
 }
 
 TEST(Thresholds, EachOfSeveralCausesMustBringOneOfLogScore) {
@@ -161,14 +158,17 @@ TEST(Thresholds, ACauseOrNoiseIsAmbiguousUnlessOneOfThemIsCredible) {
 }
 
 TEST(Thresholds, WhatIsMoreProbableOutsideTheLibraryIsSaidBesideItsCause) {
-  const auto said = [](double outside) {
-    return std::ranges::any_of(judged(0.0, true, false, 2.0, outside).remarks, [](const Remark& r) {
-      return std::holds_alternative<remark::OrOutside>(r);
-    });
+  const auto said = [](double outside, std::size_t causes) {
+    Diagnosis d;
+    d.verdict = Verdict::ambiguous;
+    d.causes.resize(causes);
+    for (search::Cause& c : d.causes) c.term = "magnetic_drift";
+    d.probabilities.outside = outside;
+    return report::sentence(d).find("no term describes") != std::string::npos;
   };
-  EXPECT_FALSE(said(0.49));
-  EXPECT_TRUE(said(0.51));
-  EXPECT_EQ(verdict_of(0.0, true, false, 2.0), Verdict::named);
+  EXPECT_FALSE(said(0.49, 1));
+  EXPECT_TRUE(said(0.51, 1));
+  EXPECT_FALSE(said(0.51, 0));
 }
 
 TEST(Thresholds, ASizeBeyondThreeSigmaOfItsPriorWidensIt) {
