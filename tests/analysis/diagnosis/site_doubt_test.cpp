@@ -87,6 +87,30 @@ TEST(SiteDoubt, WithoutOneTheFirstOfSeveralMissingEffectsIsWhatToDoNext) {
       << report::diagnosis_in_brief(told).next;
 }
 
+TEST(SiteDoubt, IsFoundWhereAnEffectFarBeyondItsUsualSizeTakesItUp) {
+  // On free and on slewed plans latitude_error, or a twin under a prior as wide as what was found,
+  // fits the test and leaves nothing to ask for.
+  DiagnoseOptions options;
+  options.starts = 1;
+  options.whiteness_draws = 0;
+  for (const auto& [preset, declared] :
+       {std::pair{"twelve", 43.75}, std::pair{"twelve", 40.75}, std::pair{"slew12", 43.75}}) {
+    mc::Study study = test::six_study();
+    PlanDefaults defaults;
+    defaults.dwell = 1200.0;
+    defaults.sample = 60.0;
+    study.plan = preset_plan(preset, defaults).value();
+    const Recording recording = test::simulated(study);
+    study.site.latitude = declared * unit::deg.to_si;
+    const Diagnosis d = diagnose(study, {recording}, options);
+    ASSERT_NE(d.verdict, Verdict::consistent) << preset << declared;
+    const auto doubt = site_doubt(study, {recording}, d);
+    ASSERT_TRUE(doubt) << preset << declared << report::sentence(d);
+    EXPECT_TRUE(doubt->alone()) << doubt->chance_after;
+    EXPECT_NEAR(doubt->latitude / unit::deg.to_si, truth, 0.01) << preset << declared;
+  }
+}
+
 TEST(SiteDoubt, IsNotRaisedWhereTheLatitudeIsRightOrTheVerdictGivesNoReason) {
   EXPECT_FALSE(Scene(truth).doubt(Verdict::unexplained));
   EXPECT_FALSE(Scene(47.0).doubt(
