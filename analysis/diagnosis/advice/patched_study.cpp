@@ -49,6 +49,11 @@ Prior with_room_for(Prior prior, double value) {
   return prior;
 }
 
+/// The nearest value that a prior allows.
+double within(const Prior& prior, double value) {
+  return prior.kind == Prior::Kind::uniform ? std::clamp(value, prior.a, prior.b) : value;
+}
+
 Node parsed(const mc::Study& study) {
   return config::parse_document(study.text, study.path);
 }
@@ -100,7 +105,8 @@ FilterSpec started_where_found(FilterSpec patched, const std::vector<search::Cau
   for (Start& start : patched.starts)
     for (const search::CauseParameter* p : found) {
       std::erase_if(start, [&](const auto& given) { return given.first == p->param; });
-      start.emplace_back(p->param, p->value * TermLibrary::specs[p->param].unit.to_si);
+      start.emplace_back(p->param, within(patched.priors[p->param],
+                                          p->value * TermLibrary::specs[p->param].unit.to_si));
     }
   patched.drawn_starts = static_cast<int>(patched.starts.size());
   return patched;

@@ -94,6 +94,22 @@ TEST(PatchedStudy, WhatIsFarFromLinearStartsWhereItWasFound) {
       started_where_found(patched_filter(study.filters.front(), {drift}), {drift}).starts.empty());
 }
 
+TEST(PatchedStudy, AStartLiesWithinItsPrior) {
+  const test::ScratchFolder folder;
+  const mc::Study study = read_text(folder, "s.toml", nominal_study);
+  for (const auto& [found, start] : {std::pair{-0.169, 0.0}, {0.31, 0.31}, {1.08, 1.0}}) {
+    search::Cause closure;
+    closure.term = "frame_closure";
+    closure.parameters = {parameter("lambda", found)};
+    FilterSpec patched = patched_filter(study.filters.front(), {closure});
+    patched = started_where_found(patched, {closure});
+    ASSERT_EQ(patched.priors[closure.parameters[0].param].kind, Prior::Kind::uniform);
+    ASSERT_EQ(patched.starts.size(), 1u);
+    ASSERT_EQ(patched.starts[0].size(), 1u);
+    EXPECT_DOUBLE_EQ(patched.starts[0][0].second, start);
+  }
+}
+
 TEST(PatchedStudy, ACauseBeyondItsPriorHasOneAsWideAsWhatWasFound) {
   const test::ScratchFolder folder;
   const mc::Study study = read_text(folder, "s.toml", nominal_study);
