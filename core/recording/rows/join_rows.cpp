@@ -122,8 +122,7 @@ Recording joined_rows(const Recording& recording, const RowSpacing& spacing,
     const double begin = recording.begins[s.first], length = time[s.end - 1] - begin;
     out.lines.push_back(recording.lines[s.end - 1]);
     out.begins.push_back(begin);
-    const bool as_declared = s.end == s.first + 1 && length >= long_enough * limits.sample;
-    out.samples.push_back(as_declared ? 1.0 : length / limits.sample);
+    out.samples.push_back(length / limits.sample);
   }
   for (const Channel& c : recording.channels) {
     Channel joined{c.name, c.unit, {}};

@@ -16,8 +16,8 @@ struct JoinLimits {
 /// heading changes. Rows that are long already (0.7 of a joined row) are left as they are.
 /// `recording.begins` must say when each row begins; `spacing` is of its rows.
 ///
-/// Accelerometers: bridged_mean(), and `samples` says how many samples of the plan it is worth: one
-/// for a row left as it is, where it is not much shorter than a sample. Where the platform slews a
+/// Accelerometers: bridged_mean(), and `samples` says how many samples of the plan it is worth: as
+/// many as it lasts, for a row is the mean over its own interval. Where the platform slews a
 /// joined row turns by 0.6 rad at most, so that holes can be bridged. Gimbal angles, case heading
 /// and the loop's belief: as read at the end. Commands and covariates: mean weighted by time.
 Recording joined_rows(const Recording& recording, const RowSpacing& spacing,

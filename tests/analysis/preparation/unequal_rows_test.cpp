@@ -100,7 +100,27 @@ TEST(UnequalRows, RowsThatAreLongEnoughStayAsTheyAre) {
   const Prepared p = prepare(study(), {r});
   EXPECT_EQ(p.recordings[0].rows(), r.rows());
   EXPECT_EQ(p.recordings[0].find("acc_y")->values[5], r.find("acc_y")->values[5]);
-  EXPECT_DOUBLE_EQ(p.recordings[0].samples[5], 1.0);
+  const auto& time = r.find("time")->values;
+  EXPECT_DOUBLE_EQ(p.recordings[0].samples[5], (time[5] - time[4]) / 60.0);
+}
+
+TEST(UnequalRows, ARowLongerThanThePlansIsTheMeanOfSoMuchMore) {
+  Recording r = with_rows(fine(), Rows::each_minute);
+  std::size_t rows = 0;  // of the first dwell: from the third on two become one
+  while (r.find("position")->values[rows] == 1.0 && r.find("phase")->values[rows] == 0.0) ++rows;
+  ASSERT_GT(rows, 9u);
+  for (std::size_t k = rows / 2 * 2 - 2; k >= 2; k -= 2) {
+    for (Channel& c : r.channels) {
+      if (c.name.starts_with("acc_")) c.values[k + 1] = 0.5 * (c.values[k] + c.values[k + 1]);
+      c.values.erase(c.values.begin() + static_cast<std::ptrdiff_t>(k));
+    }
+    r.lines.erase(r.lines.begin() + static_cast<std::ptrdiff_t>(k));
+  }
+  const Prepared p = prepare(study(), {r});
+  ASSERT_EQ(p.recordings[0].rows(), r.rows());
+  EXPECT_DOUBLE_EQ(p.recordings[0].samples[1], 1.0);
+  EXPECT_DOUBLE_EQ(p.recordings[0].samples[4], 2.0);
+  EXPECT_LT(misfit(p).acc, 1e-6);
 }
 
 TEST(UnequalRows, WhenASlewBeganIsReadOffTheGimbalsWhereRowsAreMissingAndRefusedWithoutThem) {
