@@ -76,6 +76,7 @@ Diagnosis diagnose_recordings(const mc::Study& study, const std::vector<Recordin
     d.heading_doubt = identification::heading_doubt(test.study, test.recordings, d.nominal);
   if (!d.heading_doubt) d.site_doubt = site_doubt(test.study, test.recordings, d);
   if (d.wrong_study()) d = of_another_study(std::move(d));
+  d.absent_positions = test.absent_positions;
   if (!d.of_case) d.absent = identification::absent_channels(test.recordings, test.study.readout);
   d = advised(std::move(d), test, options);
   if (progress) progress("done", 1.0);

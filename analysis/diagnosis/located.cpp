@@ -177,7 +177,9 @@ void move_to(Located& place, const Proposal& form) {
   const std::string equation = Place{equation_of(on.slot), on.axis}.name();
   place.where.equation = equation;
   const auto its = std::ranges::find(place.signals, equation, &RecoveredSignal::equation);
-  if (its != place.signals.end()) std::rotate(place.signals.begin(), its, its + 1);
+  if (its == place.signals.end()) return;
+  if (its->shape.kind == Shape::Kind::none_simple) its->shape.kind = Shape::Kind::of_form;
+  std::rotate(place.signals.begin(), its, its + 1);
 }
 
 }  // namespace drift::diagnosis

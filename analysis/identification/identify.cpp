@@ -240,6 +240,7 @@ Identification identify_recordings(const mc::Study& study, const std::vector<Rec
   id.recording = ready.recordings.front();
   id.remarks = ready.remarks;
   id.off_zero = ready.off_zero;
+  id.absent_positions = ready.absent_positions;
   for (const Recording& r : ready.recordings)
     if (r.samples.empty()) {  // left as they were
       const auto others = rows_other_than_planned(r, study.plan);

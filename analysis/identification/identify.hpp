@@ -60,7 +60,8 @@ struct Identification {
   std::vector<std::string> sources;
   std::vector<std::string> remarks;  ///< what was left out or changed (prepare())
   std::string off_zero;              ///< a gimbal that reads a constant too much (prepare()); or ""
-  std::vector<std::string> absent;   ///< channels of [readout] that no recording measured
+  std::vector<int> absent_positions;  ///< of the plan, in no recording (prepare())
+  std::vector<std::string> absent;    ///< channels of [readout] that no recording measured
   std::vector<SampleOfTest> samples;
   std::vector<Spike> spikes;    ///< of recordings: as the first filter's batch fit shows them
   std::vector<FilterRun> runs;  ///< by filter, then start

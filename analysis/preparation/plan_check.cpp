@@ -10,6 +10,7 @@
 
 #include "analysis/preparation/dwell_turn.hpp"
 #include "analysis/preparation/input_thresholds.hpp"
+#include "core/base/words.hpp"
 #include "core/physics/gimbals.hpp"
 #include "core/plan/timeline.hpp"
 #include "core/sim/measurements.hpp"
@@ -29,14 +30,10 @@ std::string time_text(double seconds) {
                           : fmt::format("{:.4g} s", seconds);
 }
 
-/// "position 3", "positions 1 to 6", "positions 1, 4, 5".
-std::string positions_text(const std::vector<int>& positions) {
-  if (positions.size() == 1) return fmt::format("position {}", positions.front() + 1);
-  if (positions.back() - positions.front() + 1 == static_cast<int>(positions.size()))
-    return fmt::format("positions {} to {}", positions.front() + 1, positions.back() + 1);
-  std::vector<int> numbers;
-  for (const int p : positions) numbers.push_back(p + 1);
-  return fmt::format("positions {}", fmt::join(numbers, ", "));
+/// Of positions counted from 0.
+std::string numbered(std::vector<int> positions) {
+  for (int& p : positions) ++p;
+  return positions_text(positions);
 }
 
 void check_dwells(const mc::Study& study, const std::string& source, const Timeline& timeline,
@@ -54,7 +51,7 @@ void check_dwells(const mc::Study& study, const std::string& source, const Timel
   constexpr std::size_t most = 4;
   std::vector<std::string> texts;
   for (const auto& [times, positions] : others)
-    texts.push_back(fmt::format("{} for {} (in the plan {})", positions_text(positions),
+    texts.push_back(fmt::format("{} for {} (in the plan {})", numbered(positions),
                                 time_text(times.second), time_text(times.first)));
   const std::string more =
       texts.size() > most ? fmt::format(" and {} others", texts.size() - most) : "";
@@ -108,14 +105,14 @@ void check_commands(const mc::Study& study, const std::string& source, const Tim
         "{}: the commands in {} are those of a {} dwell, the plan says mode = \"{}\". The recorded "
         "commands are "
         "used; correct plan.mode if that is not what was meant",
-        source, positions_text(positions), key_of(other_than(law)), key_of(law)));
+        source, numbered(positions), key_of(other_than(law)), key_of(law)));
   }
   if (!elsewhere.empty())
     remarks.push_back(
         fmt::format("{}: the commands in {} are the Earth rate at latitude {:.3f} deg, [site] says "
                     "{:.3f} deg. Check [site] "
                     "latitude",
-                    source, positions_text(elsewhere),
+                    source, numbered(elsewhere),
                     std::asin(std::clamp(sine / static_cast<double>(elsewhere.size()), -1.0, 1.0)) /
                         detail::deg,
                     study.site.latitude / detail::deg));
@@ -124,7 +121,7 @@ void check_commands(const mc::Study& study, const std::string& source, const Tim
         fmt::format("{}: the commands in {} are up to {:.3g} deg/h from those of the plan, and of "
                     "neither law. The recorded "
                     "commands are used",
-                    source, positions_text(neither), farthest / deg_per_h));
+                    source, numbered(neither), farthest / deg_per_h));
 }
 
 /// Without recorded commands the plan's law is believed; the platform shows whether it was so.
@@ -161,11 +158,11 @@ void check_law(const mc::Study& study, const std::string& source, const Timeline
         law == CommandLaw::free
             ? "the platform keeps its attitude to the local axes, as in a level dwell"
             : "the platform turns at Earth rate against the local axes, as in free drift";
-    wrong.push_back(fmt::format(
-        "{}: in {} {}, but the plan says mode = \"{}\" and the recording has no "
-        "commands (expected the law "
-        "it was made with). Set plan.mode = \"{}\", or record cmd_x, cmd_y, cmd_z",
-        source, positions_text(positions), shows, key_of(law), key_of(other_than(law))));
+    wrong.push_back(
+        fmt::format("{}: in {} {}, but the plan says mode = \"{}\" and the recording has no "
+                    "commands (expected the law "
+                    "it was made with). Set plan.mode = \"{}\", or record cmd_x, cmd_y, cmd_z",
+                    source, numbered(positions), shows, key_of(law), key_of(other_than(law))));
   }
 }
 

@@ -246,7 +246,7 @@ std::string in_own_names(std::string message, const RecordingFormat& format) {
 Prepared prepare(const mc::Study& study, const std::vector<Recording>& recordings,
                  std::size_t most_rows) {
   DRIFT_DEMAND(!recordings.empty());
-  Prepared p{study, recordings, {}, {}};
+  Prepared p{study, recordings, {}};
   std::vector<std::string> wrong;
   std::set<int> positions;
   for (Recording& r : p.recordings) {
@@ -286,12 +286,8 @@ Prepared prepare(const mc::Study& study, const std::vector<Recording>& recording
         "one position only: nothing can be held out, so no cause can be confirmed, and most causes "
         "look "
         "alike. Record more positions");
-  std::vector<int> absent;
   for (int k = 1; k <= static_cast<int>(study.plan.positions.size()); ++k)
-    if (!positions.contains(k)) absent.push_back(k);
-  if (!absent.empty())
-    p.remarks.push_back(
-        fmt::format("positions {} of the plan are in no recording", fmt::join(absent, ", ")));
+    if (!positions.contains(k)) p.absent_positions.push_back(k);
   return p;
 }
 

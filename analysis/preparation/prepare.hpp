@@ -14,7 +14,8 @@ struct Prepared {
   mc::Study study;  ///< the plan's sample interval and the accelerometer noise fit the recordings
   std::vector<Recording> recordings;
   std::vector<std::string>
-      remarks;                ///< what was left out or changed, and what the plan cannot give
+      remarks;  ///< what was left out or changed, and what the plan cannot give
+  std::vector<int> absent_positions = {};  ///< numbers of the plan's that no recording holds
   std::string off_zero = {};  ///< of the first gimbal that reads a constant too much; or ""
 };
 

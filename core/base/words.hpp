@@ -25,4 +25,19 @@ inline std::string listed_up_to(const std::vector<std::string>& items, std::size
       items.size() - most);
 }
 
+/// "position 3", "positions 1 to 6", "positions 2, 5 to 7", of ascending numbers.
+inline std::string positions_text(const std::vector<int>& numbers) {
+  std::vector<std::string> parts;
+  for (std::size_t k = 0; k < numbers.size();) {
+    std::size_t end = k + 1;
+    while (end < numbers.size() && numbers[end] == numbers[end - 1] + 1) ++end;
+    if (end - k > 2)
+      parts.push_back(fmt::format("{} to {}", numbers[k], numbers[end - 1]));
+    else
+      for (std::size_t i = k; i < end; ++i) parts.push_back(std::to_string(numbers[i]));
+    k = end;
+  }
+  return fmt::format("position{} {}", numbers.size() > 1 ? "s" : "", fmt::join(parts, ", "));
+}
+
 }  // namespace drift

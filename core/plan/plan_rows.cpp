@@ -36,12 +36,10 @@ std::string listed(std::vector<std::size_t> numbers) {
 
 std::vector<std::string> rows_other_than_planned(const Recording& recording, const TestPlan& plan) {
   const auto rows = dwell_rows(recording, plan.positions.size());
-  std::vector<std::size_t> absent, others;
+  std::vector<std::size_t> others;
   for (std::size_t p = 0; p < rows.size(); ++p) {
     const double planned = plan.positions[p].dwell / plan.positions[p].sample;
-    if (rows[p] == 0)
-      absent.push_back(p + 1);
-    else if (std::abs(static_cast<double>(rows[p]) - planned) > 1.5)
+    if (rows[p] > 0 && std::abs(static_cast<double>(rows[p]) - planned) > 1.5)
       others.push_back(p + 1);
   }
   std::vector<std::string> remarks;
@@ -53,9 +51,6 @@ std::vector<std::string> rows_other_than_planned(const Recording& recording, con
         recording.source, others.size() > 1 ? "s" : "", listed(others), rows[others.front() - 1],
         first.dwell / first.sample));
   }
-  if (!absent.empty())
-    remarks.push_back(fmt::format("{}: position{} {} of the plan: no rows", recording.source,
-                                  absent.size() > 1 ? "s" : "", listed(absent)));
   return remarks;
 }
 

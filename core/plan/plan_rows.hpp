@@ -8,10 +8,9 @@
 
 namespace drift {
 
-/// Where the rows of a recording are others than the plan would give, in words, a remark each:
-/// positions with more or fewer rows in their dwell, and positions of the plan that are not there.
-/// Both are allowed; the recording's own rows are used, and each counts as one measurement with the
-/// noise of [readout].
+/// Where a position has more or fewer rows in its dwell than the plan would give, in words: one
+/// remark, or none. It is allowed; the recording's own rows are used, and each counts as one
+/// measurement with the noise of [readout].
 std::vector<std::string> rows_other_than_planned(const Recording& recording, const TestPlan& plan);
 
 }  // namespace drift

@@ -53,6 +53,7 @@ Advice advice_on(const Question& q, Advice::Kind kind, std::vector<AdvisedPair> 
   a.kind = kind;
   a.alternatives = q.alternatives;
   a.sizes = q.sizes;
+  a.names = q.names;
   for (const AdvisedPair& p : pairs) {
     a.now_sigma = std::fmin(a.now_sigma, p.now);  // of a number and NaN the number
     a.expected_sigma = std::fmin(a.expected_sigma, p.after);

@@ -194,7 +194,7 @@ Question named_question(const Diagnosis& d, const inference::CandidateSet& set,
 Question asked_question(const Diagnosis& d, const inference::CandidateSet& set,
                         const std::vector<std::string>& terms) {
   const std::vector<Wish> wishes = wishes_of(set, terms);
-  Question q;
+  Question q{{}, {}, Sizes::as_found, terms};
   std::size_t found = 0;
   q.alternatives.emplace_back();
   std::vector<std::size_t> whole;  // the alternative that is a wish as a whole
@@ -272,7 +272,7 @@ Columns columns_of(const std::vector<Alternative>& all, const FilterSpec& nomina
 }
 
 Question restricted(const Question& q, const std::vector<planning::Contest>& pairs) {
-  Question out{{}, pairs, q.sizes};
+  Question out{{}, pairs, q.sizes, q.names};
   std::vector<std::size_t> place(q.alternatives.size(), q.alternatives.size());
   const auto keep = [&](std::size_t& k) {
     if (place[k] == q.alternatives.size()) {

@@ -30,17 +30,18 @@ struct Advice {
   std::vector<Alternative> alternatives;
   std::vector<AdvisedPair> pairs;  ///< closest first
   Sizes sizes = Sizes::as_found;
-  std::vector<Position> plan;    ///< to be added behind the plan, in this order
-  double usual_dwell = 0.0;      ///< of the plan [s]
-  double wanted = 0.0;           ///< separation that is enough [1 sigma]
-  std::size_t asked = 0;         ///< pairs of the question, told apart already or not
-  std::size_t most = 0;          ///< additions that a plan may have
-  std::size_t pool = 0;          ///< additions that were possible
-  int position = 0;              ///< of Kind::repeat, 1-based; 0: not located
-  std::string position_name;     ///< of it
-  double expected_sigma = none;  ///< separation of the closest pair with the plan [1 sigma]
-  double now_sigma = none;       ///< without it
-  double verified_sigma = none;  ///< found by simulating the extended plan; NaN: not done
+  std::vector<Position> plan;      ///< to be added behind the plan, in this order
+  double usual_dwell = 0.0;        ///< of the plan [s]
+  double wanted = 0.0;             ///< separation that is enough [1 sigma]
+  std::vector<std::string> names;  ///< what was asked for, as a user wrote it
+  std::size_t asked = 0;           ///< pairs of the question, told apart already or not
+  std::size_t most = 0;            ///< additions that a plan may have
+  std::size_t pool = 0;            ///< additions that were possible
+  int position = 0;                ///< of Kind::repeat, 1-based; 0: not located
+  std::string position_name;       ///< of it
+  double expected_sigma = none;    ///< separation of the closest pair with the plan [1 sigma]
+  double now_sigma = none;         ///< without it
+  double verified_sigma = none;    ///< found by simulating the extended plan; NaN: not done
 
   static constexpr double none = std::numeric_limits<double>::quiet_NaN();
 };

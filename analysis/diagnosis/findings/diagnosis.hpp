@@ -61,7 +61,8 @@ struct Diagnosis {
   std::optional<Proposal> proposal;  ///< where it is unexplained and a form was looked for
   std::optional<identification::LatitudeDoubt> site_doubt;
   std::optional<identification::HeadingDoubt> heading_doubt;
-  bool of_case = false;             ///< of a recording on a case
+  bool of_case = false;               ///< of a recording on a case
+  std::vector<int> absent_positions;  ///< numbers of the plan's that no recording holds, ascending
   std::vector<std::string> absent;  ///< channels of [readout] that no recording has; not of a case
   std::vector<ErrorOfKind> errors;  ///< of a recording on a case: what held-out data are missed by
   std::vector<Advice> advice;       ///< most useful first

@@ -26,6 +26,7 @@ struct Question {
   std::vector<Alternative> alternatives;
   std::vector<planning::Contest> pairs;
   Sizes sizes = Sizes::as_found;
+  std::vector<std::string> names = {};  ///< what was asked for, as a user wrote it
 
   bool empty() const { return pairs.empty(); }
 };

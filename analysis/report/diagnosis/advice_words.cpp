@@ -142,10 +142,16 @@ std::string helped_text(const Advice& a, const std::string& positions) {
       shown.push_back(fmt::format("{} {:.1f} to {:.1f}", pair_text(a, p), p.now, p.after));
   const auto reached = std::count_if(ways.begin(), ways.end(),
                                      [&](const AdvisedPair& p) { return p.after >= a.wanted; });
+  const std::string names = listed_up_to(a.names, most_shown);
   const std::string state =
       a.sizes == Sizes::as_found
           ? fmt::format("Of {} pairs, {} are less than {:g} sigma apart on this plan", a.asked,
                         ways.size(), a.wanted)
+      : !names.empty()
+          ? fmt::format(
+                "{}, {}: of {} pairs with them, {} are less than {:g} sigma apart on this plan and "
+                "more on another",
+                names, size_text(a.sizes), a.asked, ways.size(), a.wanted)
           : fmt::format(
                 "Of {} effects {}, {} show with less than {:g} sigma on this plan and with more "
                 "on another",

@@ -123,9 +123,8 @@ std::vector<std::pair<std::string, std::string>> doubts_of(const Diagnosis& d) {
   if (remark_in<remark::FieldAssumed>(d) != nullptr)
     if (const auto labels = following_field(d); !labels.empty())
       all.emplace_back("Field",
-                       fmt::format("{} {} on a magnetic field that is assumed, that of a dipole: "
-                                   "none was recorded or declared (field_n, field_w, field_u in "
-                                   "[environment]).",
+                       fmt::format("{} {} on a magnetic field that is assumed, a dipole's: declare "
+                                   "field_n, field_w, field_u in [environment].",
                                    listed(labels, "and"), labels.size() > 1 ? "hang" : "hangs"));
   return all;
 }

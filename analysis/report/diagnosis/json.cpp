@@ -244,14 +244,16 @@ Json diagnosis_document(const Diagnosis& d) {
   out["latitude"] = latitude_json(d.site_doubt);
   out["heading"] = d.heading_doubt ? heading_json(*d.heading_doubt) : Json(nullptr);
   out["absent"] = absent_json(d.absent);
+  out["absent_positions"] = d.absent_positions;
   out["beyond_prior"] = beyond_prior_json(d);
   out["other_equation_gain"] = d.other_equation_gain;
   out["where"] = where_json(d.where);
   out["causes"] = causes_json(d.causes);
-  out["candidates"] = rows_json(
-      candidate_table(d),
-      "term score p_value absorbed axis label dof p_value_alone amplitude sigma "
-      "smallest_detectable unit size_sigma log_bayes probability adequate observable why_not");
+  out["candidates"] =
+      rows_json(candidate_table(d),
+                "term score p_value absorbed axis label dof p_value_alone amplitude sigma "
+                "smallest_detectable unit size_sigma log_bayes probability_alone adequate "
+                "observable why_not");
   out["not_examined"] = not_examined_json(d.not_examined);
   out["probabilities"] = probabilities_json(d.probabilities);
   out["proposal"] = d.proposal ? Json(d.proposal->text) : Json(nullptr);

@@ -27,6 +27,13 @@ std::string_view absence(const CovariateSpec& c) {
   return c.is_vector() ? "is not known" : "was not recorded";
 }
 
+std::vector<NotExamined> lacking_covariate(const std::vector<NotExamined>& all) {
+  std::vector<NotExamined> lacking;
+  std::ranges::copy_if(all, std::back_inserter(lacking),
+                       [](const NotExamined& n) { return n.why == Why::no_covariate; });
+  return lacking;
+}
+
 /// Why several terms were not examined: the same text for the same reason.
 std::string reason_of_several(const NotExamined& left_out) {
   switch (left_out.why) {
@@ -98,12 +105,23 @@ std::string unexamined_twins_text(const std::vector<NotExamined>& all) {
 }
 
 std::string lacking_covariate_text(const std::vector<NotExamined>& all) {
-  std::vector<NotExamined> lacking;
-  std::ranges::copy_if(all, std::back_inserter(lacking),
-                       [](const NotExamined& n) { return n.why == Why::no_covariate; });
   std::string text;
-  for (const std::string& sentence : not_examined_sentences(lacking)) text += " " + sentence + ".";
+  for (const std::string& sentence : not_examined_sentences(lacking_covariate(all)))
+    text += " " + sentence + ".";
   return text;
+}
+
+std::string followed_text(const std::vector<NotExamined>& all) {
+  std::vector<std::string> followed;
+  for (const NotExamined& n : lacking_covariate(all))
+    if (const CovariateSpec* c = lacked_by(n);
+        c != nullptr && !c->is_vector() && std::ranges::find(followed, c->what) == followed.end())
+      followed.emplace_back(c->what);
+  if (followed.empty()) return "";
+  return fmt::format(
+      " What wanders may follow the {}, which {} not recorded: record {} to tell it from noise.",
+      listed(followed, "and the"), followed.size() > 1 ? "were" : "was",
+      followed.size() > 1 ? "them" : "it");
 }
 
 }  // namespace drift::report

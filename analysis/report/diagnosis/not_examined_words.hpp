@@ -20,4 +20,8 @@ std::string unexamined_twins_text(const std::vector<diagnosis::NotExamined>& all
 /// it may be that; empty if nothing was left out for want of a covariate.
 std::string lacking_covariate_text(const std::vector<diagnosis::NotExamined>& all);
 
+/// " What wanders may follow the temperature, which was not recorded: record it to tell it from
+/// noise."; empty where nothing was left out for want of a covariate that varies.
+std::string followed_text(const std::vector<diagnosis::NotExamined>& all);
+
 }  // namespace drift::report

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "analysis/diagnosis/findings/fit_comparison.hpp"
@@ -20,6 +21,17 @@ using namespace diagnosis::remark;
 
 auto other_number(const OtherEquation& r) {
   return facts(*facts(r.nominal).other).number;
+}
+
+/// How an equation that is not ruled out compares: "the test is explained as well", or "the odds
+/// are 33 to 1 for the nominal one, less than 3 sigma" (RemarkLimits::equation).
+std::string as_well_text(double gain) {
+  constexpr double no_worse = 2.0;  // [twice the log of the odds]: e to 1, not worth a mention
+  const std::string number = fmt::format("twice the log of the odds: {:+.1f}", gain);
+  if (std::abs(gain) <= no_worse) return fmt::format("the test is explained as well ({})", number);
+  return fmt::format("the odds are {} to 1 for the {} one, less than 3 sigma ({})",
+                     number_text(std::exp(0.5 * std::abs(gain)), 2),
+                     gain < 0.0 ? "nominal" : "other", number);
 }
 
 /// One overload for each kind of remark.
@@ -123,10 +135,8 @@ struct Words {
             "What tells lambda from the misalignments: slews about each platform axis, free "
             "drift beside level positions, or turns of the case. In slews, cross-talk between the "
             "torquing channels (torquer_crosstalk) looks like lambda";
-    return fmt::format(
-        "{}: fitted with the other{}, the test is explained as well (twice the log of the odds: "
-        "{:+.1f}). {}",
-        cannot_tell_equations(r), with, r.gain, r.of_case ? on_a_case : on_a_platform);
+    return fmt::format("{}: fitted with the other{}, {}. {}", cannot_tell_equations(r, "this plan"),
+                       with, as_well_text(r.gain), r.of_case ? on_a_case : on_a_platform);
   }
 
   std::string operator()(const FieldAssumed& r) const {
@@ -169,8 +179,10 @@ std::string in_words(const diagnosis::Remark& remark, Instrument instrument) {
   return std::visit(Words{instrument}, remark);
 }
 
-std::string cannot_tell_equations(const OtherEquation& open) {
-  return fmt::format("This plan cannot tell the nominal eq. ({}) from eq. ({})",
+std::string cannot_tell_equations(const OtherEquation& open, std::string_view positions) {
+  std::string who(positions);
+  who.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(who.front())));
+  return fmt::format("{} cannot tell the nominal eq. ({}) from eq. ({})", who,
                      facts(open.nominal).number, other_number(open));
 }
 

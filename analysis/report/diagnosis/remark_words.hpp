@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "analysis/diagnosis/findings/remark.hpp"
 #include "analysis/report/diagnosis/instrument.hpp"
@@ -10,7 +11,8 @@ namespace drift::report {
 /// A remark in words, for a test engineer.
 std::string in_words(const diagnosis::Remark& remark, Instrument instrument = Instrument::platform);
 
-/// "This plan cannot tell the nominal eq. (6) from eq. (5)".
-std::string cannot_tell_equations(const diagnosis::remark::OtherEquation& open);
+/// "This plan cannot tell the nominal eq. (6) from eq. (5)"; positions: "this plan", as a subject.
+std::string cannot_tell_equations(const diagnosis::remark::OtherEquation& open,
+                                  std::string_view positions);
 
 }  // namespace drift::report

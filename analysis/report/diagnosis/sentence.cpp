@@ -7,7 +7,9 @@
 #include <cmath>
 
 #include "analysis/identification/absent_channels.hpp"
+#include "analysis/inference/noise/noise_component.hpp"
 #include "analysis/inference/thresholds.hpp"
+#include "analysis/report/diagnosis/alternative_words.hpp"
 #include "analysis/report/diagnosis/doubts.hpp"
 #include "analysis/report/diagnosis/not_examined_words.hpp"
 #include "analysis/report/diagnosis/remark_words.hpp"
@@ -31,90 +33,6 @@ std::string located_shape_text(const Diagnosis& d) {
   return fmt::format(". As an input to the {}: {}", equation_in_words(s.equation), shape_text(s));
 }
 
-/// Causes that act together are one alternative.
-using Alternative = std::vector<std::size_t>;  // indices into Diagnosis::causes
-
-std::vector<Alternative> alternatives_of(const Diagnosis& d) {
-  std::vector<Alternative> all;
-  for (std::size_t k = 0; k < d.causes.size(); ++k) {
-    if (k == 0 || d.causes[k].set != d.causes[k - 1].set) all.emplace_back();
-    all.back().push_back(k);
-  }
-  return all;
-}
-
-bool same_trace(const Diagnosis& d, std::size_t i, std::size_t k) {
-  if (d.causes[i].term == d.causes[k].term && d.causes[i].axis == d.causes[k].axis) return true;
-  const auto a = static_cast<Eigen::Index>(i), b = static_cast<Eigen::Index>(k);
-  const MatX& cosine = d.cosines.cosine;
-  return a < cosine.rows() && b < cosine.cols() && inference::same_trace(cosine(a, b));
-}
-
-bool same_trace(const Diagnosis& d, const Alternative& one, const Alternative& other) {
-  const auto met_in = [&](const Alternative& there) {
-    return [&](std::size_t i) {
-      return std::ranges::any_of(there, [&](std::size_t k) { return same_trace(d, i, k); });
-    };
-  };
-  return std::ranges::all_of(one, met_in(other)) && std::ranges::all_of(other, met_in(one));
-}
-
-/// The alternatives that no data of this plan tells apart: " (1) and (2) leave the same trace on
-/// this plan."
-std::string twins_text(const Diagnosis& d, const std::vector<Alternative>& all) {
-  std::vector<bool> said(all.size(), false);
-  std::string text;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    std::vector<std::string> group{fmt::format("({})", i + 1)};
-    for (std::size_t k = i + 1; k < all.size() && !said[i]; ++k)
-      if (!said[k] && same_trace(d, all[i], all[k])) {
-        group.push_back(fmt::format("({})", k + 1));
-        said[k] = true;
-      }
-    if (group.size() > 1)
-      text += fmt::format(" {} leave the same trace on this plan.", listed(group, "and"));
-  }
-  return text;
-}
-
-/// Whether a cause that was fitted with several sizes is one with another effect in all of them.
-bool one_in_all(const Diagnosis& d, const search::Cause& c, const search::Confusable& o) {
-  if (std::ranges::count(c.parameters, false, &search::CauseParameter::profiled) < 2) return true;
-  return std::ranges::any_of(d.inseparable, [&](const Twins& t) {
-    return t.one.term == c.term && t.one.axis == c.axis && t.other.term == o.term &&
-           t.other.axis == o.axis;
-  });
-}
-
-/// What leaves the same trace as a cause and is no part of the verdict. A candidate of all axes of
-/// a term is passed over for the one axis of it that does.
-std::string outside_twins_text(const Diagnosis& d) {
-  std::string text;
-  for (const search::Cause& c : d.causes)
-    for (const search::Confusable& o : c.confusable_with) {
-      const bool among =
-          std::ranges::any_of(d.causes, [&](const search::Cause& k) { return k.term == o.term; });
-      const bool narrower =
-          o.axis.empty() &&
-          std::ranges::any_of(c.confusable_with, [&](const search::Confusable& k) {
-            return k.term == o.term && !k.axis.empty() && inference::same_trace(k.cosine);
-          });
-      if (!inference::same_trace(o.cosine) || among || narrower || !one_in_all(d, c, o)) continue;
-      const auto line =
-          fmt::format(" On this plan {} ({}) and {} ({}) leave the same trace.",
-                      in_words(c.term, c.axis, instrument_of(d)), search::keyed(c.term, c.axis),
-                      in_words(o.term, o.axis, instrument_of(d)), search::keyed(o.term, o.axis));
-      if (text.find(line) == std::string::npos) text += line;
-    }
-  return text;
-}
-
-std::string together(const Diagnosis& d, const Alternative& causes) {
-  std::vector<std::string> words;
-  for (const std::size_t k : causes) words.push_back(in_words(d.causes[k], instrument_of(d)));
-  return fmt::format("{}", fmt::join(words, " together with "));
-}
-
 std::string noise_text(const Diagnosis& d) {
   std::vector<std::string> parts;
   for (const inference::NoiseFinding& f : d.noise)
@@ -125,6 +43,15 @@ std::string noise_text(const Diagnosis& d) {
                                       : fmt::format("{:.2g} {}", f.value, f.unit)));
   return parts.empty() ? ""
                        : fmt::format(" The noise is not as declared: {}.", listed(parts, "and"));
+}
+
+/// Whether the noise that was found wanders as something does that follows what is not recorded.
+bool wanders(const Diagnosis& d) {
+  return std::ranges::any_of(d.noise, [](const inference::NoiseFinding& f) {
+    return f.significant && std::ranges::any_of(inference::beside_white, [&](const auto* c) {
+             return c->name == f.component;
+           });
+  });
 }
 
 std::string held_out_text(const Diagnosis& d, bool several) {
@@ -166,14 +93,15 @@ std::string ambiguous_text(const Diagnosis& d) {
       fmt::format("Something is missing from the nominal model (chance of a false alarm: {})",
                   p_text(d.p_value));
   const auto all = alternatives_of(d);
-  if (all.empty()) return missing + ", and this plan cannot tell what.";
+  if (all.empty())
+    return fmt::format("{}, and {} cannot tell what.", missing, positions_at_hand(d));
   if (all.size() == 1)
     return fmt::format("{}; it may be {}, but {}.", missing, together(d, all.front()),
                        not_confirmed_text(d, all.front().size() > 1));
   std::vector<std::string> words;
   for (std::size_t k = 0; k < all.size(); ++k)
     words.push_back(fmt::format("({}) {}", k + 1, together(d, all[k])));
-  return fmt::format("{}, and this plan cannot tell which: either {}.{}", missing,
+  return fmt::format("{}, and {} cannot tell which: either {}.{}", missing, positions_at_hand(d),
                      fmt::join(words, ", or "), twins_text(d, all));
 }
 
@@ -247,6 +175,13 @@ std::string nearest_text(const NearestKnown& near, Instrument instrument) {
       fmt::join(words, " together with "), near.chi2_per_dof_before, near.chi2_per_dof_after);
 }
 
+/// What a plan has and no recording holds.
+std::string absent_text(const std::vector<int>& positions) {
+  if (positions.empty()) return "";
+  return fmt::format("Of the plan, {} {} not recorded: what follows is of the others alone. ",
+                     positions_text(positions), positions.size() > 1 ? "were" : "was");
+}
+
 /// What a recording does not hold though the study reads it.
 std::string absent_text(const std::vector<std::string>& absent) {
   const bool accelerometers = identification::lacks(absent, accelerometer_channels);
@@ -280,17 +215,20 @@ std::string patch_text(const Diagnosis& d) {
 std::string sentence(const Diagnosis& d) {
   if (d.heading_doubt) return heading_text(*d.heading_doubt);
   if (d.site_doubt) return site_text(*d.site_doubt);
-  std::string text = absent_text(d.absent) + verdict_alone(d);
+  std::string text = absent_text(d.absent_positions) + absent_text(d.absent) + verdict_alone(d);
   if (d.nearest_known && !d.proposal)  // a form that fits is nearer
     text += nearest_text(*d.nearest_known, instrument_of(d));
   if (d.verdict == Verdict::consistent)
     for (const Remark& r : d.remarks)
       if (const auto* other = std::get_if<remark::OtherEquation>(&r); other && other->open())
-        text += fmt::format(" {}.", cannot_tell_equations(*other));
+        text += fmt::format(" {}.", cannot_tell_equations(*other, positions_at_hand(d)));
   text += outside_text(d);
   text += too_large_text(d);
   text += unexamined_twins_text(d.not_examined);
-  if (d.verdict == Verdict::unexplained) text += lacking_covariate_text(d.not_examined);
+  if (d.verdict == Verdict::unexplained)
+    text += lacking_covariate_text(d.not_examined);
+  else if (d.verdict == Verdict::consistent && wanders(d))
+    text += followed_text(d.not_examined);
   text += errors_text(d);
   return text;
 }

@@ -40,6 +40,8 @@ std::string bare(const diagnosis::Shape& s) {
       return fmt::format("goes with the recorded {}", s.covariate);
     case Kind::of_cause:
       return "as the cause that is named makes it";
+    case Kind::of_form:
+      return "as the form that is proposed";
     case Kind::follows:
       return fmt::format("follows {}", s.covariate);
     case Kind::follows_nothing:
@@ -55,7 +57,7 @@ std::string shape_text(const diagnosis::RecoveredSignal& signal) {
   const Kind kind = signal.shape.kind;
   std::string words = bare(signal.shape);
   if (kind == Kind::unknown || kind == Kind::nothing || kind == Kind::none_simple ||
-      kind == Kind::follows_nothing)
+      kind == Kind::of_form || kind == Kind::follows_nothing)
     return words;
   return kind == Kind::follows ? fmt::format("{} (correlation {:+.2f})", words, signal.correlation)
                                : fmt::format("{} (correlation {:.2f})", words, signal.correlation);

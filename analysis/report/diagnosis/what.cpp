@@ -144,10 +144,10 @@ Table candidate_table(const Diagnosis& d) {
       "term= | axis= | label= | <candidate | score=score | dof=dof | p_value=p | "
       "p_value_alone= | absorbed=absorbed | amplitude=amplitude | sigma= | "
       "smallest_detectable=detectable | unit=<unit | size_sigma= | log_bayes= | "
-      "probability=prob. | adequate= | observable= | why_not=<verdict, or why not",
+      "probability_alone=prob. alone | adequate= | observable= | why_not=<verdict, or why not",
       "p: family-wise, over all that was tried. absorbed: part of the raw signature that "
-      "fitted parameters take up. detectable: size found with 80 % probability. prob.: of this "
-      "candidate alone, before a fit with it, against all others and nothing.");
+      "fitted parameters take up. detectable: size found with 80 % probability. prob. alone: of "
+      "this candidate by itself against all others and nothing; not that of what is named.");
   table.limit = {6, 40, "diagnosis.json"};
   const std::vector<ShownCandidate> all = shown_candidates(d, d.candidates.size());
   double best = -std::numeric_limits<double>::infinity();

@@ -104,6 +104,10 @@ std::string absent_text(const identification::Identification& id) {
   return fmt::format("without {0}: {1} {0}", keys, who);
 }
 
+std::string absent_positions_text(const std::vector<int>& positions) {
+  return positions.empty() ? "" : fmt::format("without {} of the plan", positions_text(positions));
+}
+
 struct Judgement {
   std::vector<std::string> good, bad;  ///< names; what is wrong with them
   bool wrong = false;                  ///< a filter that fits has a parameter that is wrong
@@ -157,7 +161,10 @@ std::string headings_text(const identification::HeadingDoubt& doubt) {
 }
 
 std::string verdict_text(const Judgement& j, const identification::Identification& id) {
-  const std::string absent = absent_text(id);
+  std::vector<std::string> limits;
+  for (const std::string& limit : {absent_text(id), absent_positions_text(id.absent_positions)})
+    if (!limit.empty()) limits.push_back(limit);
+  const std::string absent = listed(limits, "and");
   const auto judged_as = [&](std::string_view word) {
     return absent.empty() ? fmt::format("{}:", word) : fmt::format("{}, {};", word, absent);
   };
@@ -217,7 +224,8 @@ InBrief identification_in_brief(const mc::Study& study, const identification::Id
   const Judgement j = judgement_of(study, id);
   InBrief brief;
   brief.verdict = verdict_text(j, id);
-  bool doubtful = j.wrong || !id.absent.empty() || !id.off_zero.empty() || !id.spikes.empty();
+  bool doubtful = j.wrong || !id.absent.empty() || !id.absent_positions.empty() ||
+                  !id.off_zero.empty() || !id.spikes.empty();
   if (!id.off_zero.empty()) brief.more.add(Weight::wrong, "Gimbals: " + id.off_zero + ".");
   const std::string labels = late_labels_text(id.spikes);
   if (!labels.empty())

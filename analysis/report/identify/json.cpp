@@ -116,6 +116,7 @@ Json identification_document(const mc::Study& study, const identification::Ident
   out["simulated"] = id.simulated;
   out["truth_coupling"] = id.simulated ? Json(key_of(study.truth.coupling)) : Json(nullptr);
   out["sources"] = id.sources;
+  out["absent_positions"] = id.absent_positions;
   out["absent_channels"] = id.absent;  // of [readout]; the estimates are without them
   Json& filters = out["filters"] = Json::array();
   for (const identification::FilterSummary& summary : id.summaries) {

@@ -227,6 +227,22 @@ TEST(Advise, WhatGrowsWithTimeIsAskedAtTheTimeTheAdditionWouldHave) {
   EXPECT_NEAR(a.verified_sigma, a.expected_sigma, 2.0) << advice_text(a);  // two of its sigmas
 }
 
+TEST(Advise, OfSeveralThatWereAskedForEachIsSaid) {
+  const mc::Study s = level_study();
+  Diagnosis d;
+  d.nominal = s.filters.front();
+  std::vector<std::string> asked{"torquer_heating.x", "drift_ramp.y"};
+  Advice many = advise(s, {simulated(s)}, d, asking(asked)).at(0);  // as a summary of pairs
+  EXPECT_EQ(many.names, asked);
+  many.kind = Advice::Kind::add;
+  many.alternatives.resize(4), many.plan.resize(5, s.plan.positions.front());
+  many.pairs.assign({{{0, 1}, 1.0, 9.0}, {{2, 3}, 2.0, 9.0}});
+  many.sizes = Sizes::one_prior_sigma;
+  const std::string said = advice_in_brief(many);
+  EXPECT_NE(said.find("torquer_heating.x, drift_ramp.y, at one prior sigma: of "), said.npos)
+      << said;
+}
+
 TEST(Advise, TermsThatCannotBeAskedForAreSaidAllAtOnce) {
   const mc::Study s = level_study();
   Diagnosis d;

@@ -221,7 +221,7 @@ TEST(Prepare, OnePositionIsSaid) {
   Recording r = simulated(six);
   for (Channel& c : r.channels) c.values.resize(40);
   r.lines.resize(40);
-  EXPECT_TRUE(says(prepare(six, {r}), "positions 3, 4, 5, 6 of the plan are in no recording"));
+  EXPECT_EQ(prepare(six, {r}).absent_positions, (std::vector{3, 4, 5, 6}));
 }
 
 TEST(Prepare, FineSamplesAreAveragedToThePlanAndKeepWhatTheySay) {

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
+#include "analysis/inference/noise/noise_component.hpp"
+#include "analysis/report/diagnosis/remark_words.hpp"
 #include "core/base/number_text.hpp"
 
 namespace drift::sentence_test {
@@ -240,6 +244,56 @@ TEST(NumberText, OfAProbabilityIsScientificOnlyBelowAThousandth) {
   EXPECT_EQ(p_text(3e-299), "3e-299");
   EXPECT_EQ(p_text(0.0), "below 1e-300");
   EXPECT_EQ(p_text(std::nan("")), "-");
+}
+
+TEST(Sentence, OfPartOfAPlanBeginsWithThat) {
+  auto d = with(diagnosis::Verdict::consistent, {});
+  d.p_value = 0.3;
+  d.remarks.push_back(remark::OtherEquation{Coupling::eq6, -3.0});
+  EXPECT_TRUE(says(report::sentence(d), "This plan cannot tell the nominal eq. (6) from eq. (5)."));
+  d.absent_positions = {2, 7, 8, 9, 10};
+  const std::string text = report::sentence(d);
+  EXPECT_EQ(text.find("Of the plan, positions 2, 7 to 10 were not recorded: what follows is of the "
+                      "others alone. The recording agrees"),
+            0u)
+      << text;
+  EXPECT_TRUE(says(text, "These positions cannot tell the nominal eq. (6) from eq. (5).")) << text;
+  d.absent_positions = {12};
+  EXPECT_EQ(report::sentence(d).find("Of the plan, position 12 was not recorded"), 0u);
+  d.verdict = diagnosis::Verdict::ambiguous;
+  EXPECT_TRUE(says(report::sentence(d), "and these positions cannot tell what."));
+}
+
+TEST(Sentence, OfWhatWandersSaysWhatWasNotRecorded) {
+  auto d = with(diagnosis::Verdict::consistent, {});
+  d.not_examined.push_back({.term = "accelerometer_temperature",
+                            .why = diagnosis::NotExamined::Why::no_covariate,
+                            .missing = covariate("temperature").set()});
+  EXPECT_FALSE(says(report::sentence(d), "temperature"));
+  inference::NoiseFinding wandering;
+  wandering.component = inference::acc_markov.name;
+  wandering.value = 31.0;
+  wandering.unit = "ug";
+  wandering.factor = std::numeric_limits<double>::quiet_NaN();
+  d.noise.push_back(wandering);
+  EXPECT_FALSE(says(report::sentence(d), "temperature"));  // no more than chance
+  d.noise.back().significant = true;
+  EXPECT_TRUE(says(report::sentence(d),
+                   "What wanders may follow the temperature, which was not recorded: record it to "
+                   "tell it from noise."))
+      << report::sentence(d);
+  d.noise.back().component = inference::acc_white.name;
+  EXPECT_FALSE(says(report::sentence(d), "temperature"));
+}
+
+TEST(Sentence, AnEquationThatIsLessLikelyIsNotSaidToDoAsWell) {
+  const auto of = [](double gain) {
+    return report::in_words(remark::OtherEquation{Coupling::eq6, gain});
+  };
+  EXPECT_TRUE(says(of(-1.0), "the test is explained as well"));
+  // exp(7 / 2) = 33.1
+  EXPECT_TRUE(says(of(-7.0), "the odds are 33 to 1 for the nominal one, less than 3 sigma"));
+  EXPECT_TRUE(says(of(7.0), "33 to 1 for the other one"));
 }
 
 }  // namespace
