@@ -45,6 +45,27 @@ double size_of(const search::Fitted& nominal, const search::Refit& r,
   return size;
 }
 
+/// Whether a setting of a candidate does anything to its columns: the electrical cycles of a
+/// resolver are nothing to its eccentricity.
+bool matters(const inference::Projected& p, const inference::Candidate& c, std::size_t variant,
+             std::size_t setting) {
+  constexpr double rounding = 1e-9;  // of the information on a column
+  const inference::Variant& own = c.variants[variant];
+  const auto value_in = [&](const inference::Variant& v) {
+    return std::ranges::find(v.settings, setting, &std::pair<std::size_t, double>::first)->second;
+  };
+  bool varied = false;
+  for (const inference::Variant& v : c.variants) {
+    if (value_in(v) == value_in(own)) continue;
+    varied = true;
+    for (std::size_t k = 0; k < own.columns.size(); ++k) {
+      const int a = own.columns[k], b = v.columns[k];
+      if (p.C(a, a) + p.C(b, b) - 2.0 * p.C(a, b) > rounding * p.C(a, a)) return true;
+    }
+  }
+  return !varied;
+}
+
 search::Cause cause_of(const search::Fitted& nominal, const search::Search& found, std::size_t set,
                        std::size_t which) {
   const inference::Projected& p = nominal.projected;
@@ -78,7 +99,8 @@ search::Cause cause_of(const search::Fitted& nominal, const search::Search& foun
   for (const std::size_t i : c.params)
     cause.parameters.push_back(parameter_of(nominal, r, which, i, false));
   for (const auto& [i, value] : c.variants[choice.variant].settings)
-    cause.parameters.push_back(parameter_of(nominal, r, which, i, true));
+    if (matters(p, c, choice.variant, i))
+      cause.parameters.push_back(parameter_of(nominal, r, which, i, true));
   return cause;
 }
 
