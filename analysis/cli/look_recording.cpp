@@ -6,6 +6,7 @@
 
 #include "analysis/cli/command.hpp"
 #include "analysis/cli/print.hpp"
+#include "analysis/preparation/clock_unit.hpp"
 #include "analysis/report/noise/noise.hpp"
 #include "analysis/report/page/table.hpp"
 #include "analysis/strapdown/case_study.hpp"
@@ -101,6 +102,8 @@ preparation::NoiseCard show_recording(const Recording& r, RecordingKind kind, do
     card = strapdown::noise_of(r, search);
   } else {
     show_positions(r);
+    if (const std::string wrong = preparation::other_unit_of_time(r); !wrong.empty())
+      show("\n{}\n", report::wrapped(wrong, 98));
     card = preparation::noise_card(r, kind, preparation::resting_rows(r));
   }
   show("\n{}", report::text_of({report::noise_section(card, gravity)}));

@@ -94,6 +94,16 @@ struct PlanLimits {
   static constexpr double longest_turn = 3600.0;
 };
 
+/// When times are in another unit than they say.
+struct ClockLimits {
+  /// Times the Earth's rate, or one part of that, at which a free platform does not turn: its drift
+  /// would be 100 sigma of the library's priors (D_F 1, D_I 2 deg/h), or cancel the Earth's rate to
+  /// a twentieth. Test: ClockUnit.*
+  static constexpr double nothing_like = 20.0;
+  static constexpr double alike = 1.5;        ///< factor by which drift may move it from a unit's
+  static constexpr double no_command = 1e-9;  ///< [rad/s], rounding of a text file
+};
+
 /// When the gyros of a unit on a case are read in another unit, or with the other sign. Chances are
 /// worked out in strapdown/gyro_unit.hpp. Test: CaseStudy.GyrosInAnotherUnit...
 struct GyroUnitLimits {

@@ -8,6 +8,7 @@
 #include <limits>
 #include <set>
 
+#include "analysis/preparation/clock_unit.hpp"
 #include "analysis/preparation/covariates.hpp"
 #include "analysis/preparation/gimbal_zero.hpp"
 #include "analysis/preparation/gravity_check.hpp"
@@ -253,6 +254,7 @@ Prepared prepare(const mc::Study& study, const std::vector<Recording>& recording
     leave_out_stuck(r, p.remarks);
     if (std::string text = other_than_one_g(study, r); !text.empty())
       wrong.push_back(std::move(text));
+    if (std::string text = other_unit_of_time(r); !text.empty()) wrong.push_back(std::move(text));
     remark_missing(r, study.readout, p.remarks);
     for (std::string& text : unmapped_temperature_of_terms(study, r))
       wrong.push_back(std::move(text));

@@ -5,6 +5,7 @@
 #include "analysis/cli/command.hpp"
 #include "analysis/cli/print.hpp"
 #include "analysis/cli/shell/study_template.hpp"
+#include "analysis/preparation/clock_unit.hpp"
 #include "analysis/preparation/noise_card.hpp"
 #include "analysis/report/noise/noise.hpp"
 #include "analysis/report/page/table.hpp"
@@ -159,6 +160,8 @@ ExitCode make_study(const NewArguments& a) {
     seen = look_at(a.recording, on_case ? RecordingKind::strapdown : RecordingKind::platform);
     site = site_of(seen, a.recording);
     if (!on_case && seen.recording) {
+      if (std::string wrong = preparation::other_unit_of_time(*seen.recording); !wrong.empty())
+        throw InputError(ExitCode::recording, std::move(wrong));
       plan = recorded_plan(*seen.recording);
       plan->noise = noise_line(*seen.recording);
     }

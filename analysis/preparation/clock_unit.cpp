@@ -1,0 +1,86 @@
+#include "analysis/preparation/clock_unit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "analysis/preparation/input_thresholds.hpp"
+#include "analysis/preparation/noise_card.hpp"
+#include "core/physics/earth.hpp"
+#include "core/physics/gimbals.hpp"
+#include "core/recording/recording_channels.hpp"
+#include "core/stats/median.hpp"
+
+namespace drift::preparation {
+namespace {
+
+/// Whether the command is zero in these rows; true where there is none.
+bool uncommanded(const Recording& r, const RestingRows& rest) {
+  for (const char* name : {"cmd_x", "cmd_y", "cmd_z"})
+    if (const Channel* c = r.find(name))
+      for (std::size_t k = rest.first; k <= rest.last; ++k)
+        if (!(std::abs(c->values[k]) < ClockLimits::no_command)) return false;
+  return true;
+}
+
+/// How fast the platform turns in a rest by the recording's clock [rad/s]; empty where the gimbals
+/// do not show it.
+std::optional<double> rate_in(const Recording& r, const RestingRows& rest) {
+  const auto& time = r.find("time")->values;
+  const Channel* heading = r.find("case_heading");
+  const auto attitude = [&](std::size_t k) -> std::optional<Mat3> {
+    const auto angles = measured(r, gimbal_channels, k);
+    if (!angles) return std::nullopt;
+    return Mat3(case_attitude(heading ? heading->values[k] : 0.0) * gimbal_chain(*angles));
+  };
+  const auto first = attitude(rest.first);
+  std::size_t last = rest.last;
+  while (last > rest.first + 1 && time[last] - time[rest.first] > PlanLimits::longest_turn) --last;
+  const auto end = attitude(last);
+  if (!first || !end || !(time[last] > time[rest.first])) return std::nullopt;
+  return rotation_vector(Mat3(*end * first->transpose())).norm() / (time[last] - time[rest.first]);
+}
+
+/// The units that are a factor apart: what the times say, and what they are if they are so many
+/// times too short.
+struct Factor {
+  double times;
+  std::string_view said, meant;
+};
+constexpr Factor factors[] = {{60.0, "s", "min"}, {1000.0, "ms", "s"},
+                              {3600.0, "s", "h"}, {1.0 / 60.0, "min", "s"},
+                              {1e-3, "s", "ms"},  {1.0 / 3600.0, "h", "s"}};
+
+}  // namespace
+
+std::string other_unit_of_time(const Recording& r) {
+  if (r.find("time") == nullptr) return "";
+  std::vector<double> rates;
+  for (const RestingRows& rest : resting_rows(r))
+    if (const auto rate = uncommanded(r, rest) ? rate_in(r, rest) : std::nullopt)
+      rates.push_back(*rate);
+  if (rates.empty()) return "";
+  const double rate = stats::upper_median(std::move(rates)), ratio = rate / detail::earth_rate;
+  const bool slow = ratio < 1.0 / ClockLimits::nothing_like;
+  if (!(ratio > ClockLimits::nothing_like) && !(slow && r.find("cmd_x") != nullptr)) return "";
+  const auto* unit = std::ranges::find_if(factors, [&](const Factor& f) {
+    return std::abs(std::log(ratio / f.times)) < std::log(ClockLimits::alike);
+  });
+  if (slow && unit == std::end(factors)) return "";  // it may be held
+  return fmt::format(
+      "{}: by its times the platform, which nothing commands, turns at {:.3g} deg/h (expected "
+      "about "
+      "{:.0f} deg/h, as the Earth does).{} Give the column of times its unit, in the header or in "
+      "[recording] columns",
+      r.source.empty() ? "recording" : r.source, rate / unit::deg_per_h.to_si,
+      detail::earth_rate / unit::deg_per_h.to_si,
+      unit == std::end(factors)
+          ? ""
+          : fmt::format(" Are they in {} where {} is said?", unit->meant, unit->said));
+}
+
+}  // namespace drift::preparation
