@@ -27,9 +27,11 @@ bool uncommanded(const Recording& r, const RestingRows& rest) {
   return true;
 }
 
-/// How fast the platform turns in a rest by the recording's clock [rad/s]; empty where the gimbals
-/// do not show it.
-std::optional<double> rate_in(const Recording& r, const RestingRows& rest) {
+/// How fast the platform turns in a rest by the recording's clock [rad/s], the first and the last
+/// row left out, which may be of its neighbours; empty where the gimbals do not show it.
+std::optional<double> rate_in(const Recording& r, RestingRows rest) {
+  if (rest.last < rest.first + 3) return std::nullopt;
+  ++rest.first, --rest.last;
   const auto& time = r.find("time")->values;
   const Channel* heading = r.find("case_heading");
   const auto attitude = [&](std::size_t k) -> std::optional<Mat3> {

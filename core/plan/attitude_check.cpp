@@ -82,6 +82,65 @@ std::string mixup_text(const Mixup& m, const ChannelTriple& channels, std::size_
       fmt::join(map, ", "), fmt::join(map, ", "));
 }
 
+/// What the row behind that of a sight shows.
+std::optional<Vec3> next_of(const Recording& recording, const Sight& s,
+                            const ChannelTriple& channels) {
+  return s.row + 1 < recording.rows() ? measured(recording, channels, s.row + 1) : std::nullopt;
+}
+
+/// The fewest of three columns whose next row shows the attitude of the plan wherever the first row
+/// of a position does not; none if no such columns do.
+std::vector<std::size_t> late_columns(const Recording& recording, const std::vector<Sight>& wrong,
+                                      const ChannelTriple& channels, Mismatch mismatch) {
+  if (wrong.size() < fewest_sights) return {};
+  const auto explain = [&](unsigned columns) {
+    return std::ranges::all_of(wrong, [&](const Sight& s) {
+      const auto next = next_of(recording, s, channels);
+      if (!next) return false;
+      Vec3 seen = s.seen;
+      for (Eigen::Index i = 0; i < 3; ++i)
+        if ((columns >> i & 1U) != 0) seen[i] = (*next)[i];
+      return mismatch(s, seen) < largest_mismatch;
+    });
+  };
+  for (const unsigned columns : {1U, 2U, 4U, 3U, 5U, 6U, 7U}) {
+    if (!explain(columns)) continue;
+    std::vector<std::size_t> late;
+    for (std::size_t i = 0; i < 3; ++i)
+      if ((columns >> i & 1U) != 0) late.push_back(i);
+    return late;
+  }
+  return {};
+}
+
+/// Whether the row behind the first one of every position that is elsewhere shows the plan.
+bool next_rows_fit(const Recording& recording, const std::vector<Sight>& wrong,
+                   const ChannelTriple& channels, Mismatch mismatch) {
+  const Channel* heading = recording.find("case_heading");
+  return wrong.size() >= fewest_sights && std::ranges::all_of(wrong, [&](Sight s) {
+           const auto next = next_of(recording, s, channels);
+           if (next && heading != nullptr) s.heading = heading->values[s.row + 1];
+           return next && mismatch(s, *next) < largest_mismatch;
+         });
+}
+
+std::string first_rows_text(std::size_t positions, std::string_view reason) {
+  return fmt::format(
+      "the first row of {} positions still shows the attitude before, the second row that of the "
+      "plan: {} (expected readings and number of one instant in a row). Correct the export",
+      positions, reason);
+}
+
+std::optional<std::string> late_text(const std::vector<std::size_t>& late,
+                                     const ChannelTriple& channels, std::size_t positions) {
+  if (late.empty()) return std::nullopt;
+  std::vector<std::string_view> names;
+  for (const std::size_t i : late) names.push_back(channels.names[i]);
+  const bool one = names.size() == 1;
+  return first_rows_text(positions, fmt::format("column{} {} stand{} a row late", one ? "" : "s",
+                                                fmt::join(names, ", "), one ? "s" : ""));
+}
+
 /// All positions that are elsewhere, in one message.
 std::string elsewhere_text(const TestPlan& plan, const std::vector<Sight>& wrong, std::size_t all,
                            Mismatch mismatch, const char* what) {
@@ -109,13 +168,17 @@ struct Shown {
   std::optional<std::string> reason;
 };
 
-Shown shown_by(std::vector<Sight> sights, const ChannelTriple& channels, Mismatch mismatch) {
+Shown shown_by(const Recording& recording, std::vector<Sight> sights, const ChannelTriple& channels,
+               Mismatch mismatch) {
   Shown shown{std::move(sights), {}, {}};
   for (const Sight& s : shown.sights)
     if (!(mismatch(s, s.seen) < largest_mismatch)) shown.wrong.push_back(s);
   if (shown.wrong.empty()) return shown;
   if (const auto mixup = mixup_behind(shown.sights, mismatch))
     shown.reason = mixup_text(*mixup, channels, shown.sights.size());
+  else
+    shown.reason = late_text(late_columns(recording, shown.wrong, channels, mismatch), channels,
+                             shown.wrong.size());
   return shown;
 }
 
@@ -172,9 +235,9 @@ std::vector<RowMistake> attitude_mistakes(const Recording& recording, const Test
   const auto sights = [&](const ChannelTriple& channels) {
     return sights_of(recording, plan, timeline, channels);
   };
-  const Shown acc =
-      shown_by(sights(accelerometer_channels), accelerometer_channels, of_accelerometers);
-  Shown gimbals = shown_by(sights(gimbal_channels), gimbal_channels, of_gimbals);
+  const Shown acc = shown_by(recording, sights(accelerometer_channels), accelerometer_channels,
+                             of_accelerometers);
+  Shown gimbals = shown_by(recording, sights(gimbal_channels), gimbal_channels, of_gimbals);
   if (!gimbals.wrong.empty() && !gimbals.reason)
     if (const auto slip = slip_behind(gimbals.sights, units_of(recording)))
       gimbals.reason = fmt::format(
@@ -185,6 +248,12 @@ std::vector<RowMistake> attitude_mistakes(const Recording& recording, const Test
     return elsewhere_text(plan, s.wrong, s.sights.size(), mismatch, what);
   };
   std::vector<RowMistake> all;
+  if (next_rows_fit(recording, acc.wrong, accelerometer_channels, of_accelerometers) &&
+      next_rows_fit(recording, gimbals.wrong, gimbal_channels, of_gimbals) &&
+      agree(acc.sights, gimbals.sights))
+    return {
+        {gimbals.wrong.front().row,
+         first_rows_text(gimbals.wrong.size(), "the numbers of the positions change a row early")}};
   // Two instruments that agree with each other are right: what is wrong is the plan.
   if (!acc.wrong.empty() && !gimbals.wrong.empty() && !(acc.reason && gimbals.reason) &&
       agree(acc.sights, gimbals.sights))

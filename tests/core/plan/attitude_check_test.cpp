@@ -91,6 +91,32 @@ TEST(AttitudeCheck, NamesThePositionsWhereNoMixupOfColumnsIsBehind) {
   EXPECT_EQ(s.mistakes().size(), 2u);
 }
 
+TEST(AttitudeCheck, NamesColumnsThatStandARowLate) {
+  const auto late = [](Scene& s, std::initializer_list<const char*> names) {
+    for (const char* name : names) std::ranges::rotate(s.column(name), s.column(name).end() - 1);
+  };
+  const auto said = [](Scene& s) {
+    const auto wrong = s.mistakes();
+    EXPECT_EQ(wrong.size(), 1u);
+    return wrong.empty() ? "" : wrong.front().text;
+  };
+  Scene all, one, gimbals, both;
+  late(all, {"acc_x", "acc_y", "acc_z"});
+  EXPECT_NE(said(all).find("still shows the attitude before, the second row that of the plan: "
+                           "columns acc_x, acc_y, acc_z stand a row late"),
+            std::string::npos);
+  late(one, {"acc_y"});
+  EXPECT_NE(said(one).find("column acc_y stands a row late"), std::string::npos) << said(one);
+  late(gimbals, {"gimbal_outer", "gimbal_middle", "gimbal_inner"});
+  EXPECT_NE(said(gimbals).find("gimbal_outer, gimbal_middle, gimbal_inner stand a row late"),
+            std::string::npos)
+      << said(gimbals);
+  std::ranges::rotate(both.column("position"), both.column("position").begin() + 1);
+  both.column("position").back() = 12.0;
+  EXPECT_NE(said(both).find("the numbers of the positions change a row early"), std::string::npos)
+      << said(both);
+}
+
 /// What is said where something was done to the columns of gimbals or heading; the case turns.
 std::string said_of(const std::function<void(Scene&)>& spoil) {
   Scene s;
