@@ -77,6 +77,7 @@ search::Cause cause_of(const search::Fitted& nominal, const search::Search& foun
   cause.axis = c.axis;
   cause.set = static_cast<int>(set);
   cause.probability = found.probability[set];
+  cause.log_bayes = r.log_bayes;
   const auto own = search::columns_of(nominal.set, {choice});
   const inference::Contrast contrast = inference::make_contrast(p.C, p.raw, own);
   cause.dof = contrast.dof;

@@ -74,7 +74,10 @@ Diagnosis diagnose_recordings(const mc::Study& study, const std::vector<Recordin
   if (progress) progress("latitude and advice", of_diagnosis);
   if (!d.of_case)
     d.heading_doubt = identification::heading_doubt(test.study, test.recordings, d.nominal);
-  if (!d.heading_doubt) d.site_doubt = site_doubt(test.study, test.recordings, d);
+  if (!d.heading_doubt) {
+    auto doubt = site_doubt(test.study, test.recordings, d);
+    (doubt && doubt->less_likely ? d.other_latitude : d.site_doubt) = std::move(doubt);
+  }
   if (d.wrong_study()) d = of_another_study(std::move(d));
   d.absent_positions = test.absent_positions;
   if (!d.of_case) d.absent = identification::absent_channels(test.recordings, test.study.readout);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "analysis/inference/thresholds.hpp"
 
@@ -12,12 +13,27 @@ using inference::SiteLimits;
 
 constexpr auto d_lat = TermLibrary::index("d_lat");
 
-/// Whether an amplitude of a cause is of no size that its prior knows (6e-7): another latitude,
-/// which has none, may be what it takes up.
+/// Whether an amplitude of a cause is of no size that its prior knows (6e-7): its evidence is that
+/// of a size as found. latitude_error of so many sizes is another latitude.
 bool has_no_usual_size(const search::Cause& cause) {
   return std::ranges::any_of(cause.parameters, [](const search::CauseParameter& p) {
     return !p.profiled && std::abs(p.prior_sigmas) > inference::FitLimits::beyond_prior;
   });
+}
+
+/// Log odds of a latitude against the effects that were found: one study of 1000 says another
+/// latitude, and of the effects of the library one is as likely as another.
+double log_odds(const identification::LatitudeDoubt& doubt, const Diagnosis& d) {
+  std::size_t visible = 0;
+  for (const search::CandidateScore& c : d.candidates) visible += c.dof > 0 ? 1 : 0;
+  const double one_effect = std::log(inference::PosteriorLimits::library /
+                                     static_cast<double>(std::max<std::size_t>(1, visible)));
+  double best = -std::numeric_limits<double>::infinity();
+  for (const search::Cause& c : d.causes) {
+    const auto together = std::ranges::count(d.causes, c.set, &search::Cause::set);
+    best = std::max(best, c.log_bayes + static_cast<double>(together) * one_effect);
+  }
+  return doubt.log_evidence + std::log(SiteLimits::another) - best;
 }
 
 bool worth_asking(const Diagnosis& d) {
@@ -45,12 +61,15 @@ std::optional<identification::LatitudeDoubt> site_doubt(const mc::Study& study,
                                                         const std::vector<Recording>& recordings,
                                                         const Diagnosis& d) {
   if (d.nominal.active[d_lat]) return std::nullopt;
-  // Of such a cause, or of latitude_error, nothing would be left to ask with them in the model. The
-  // latitude is believed where it leaves nothing.
-  if (std::ranges::any_of(d.causes, has_no_usual_size))
+  // With the causes in the model, latitude_error among them, nothing would be left to ask for: the
+  // latitude competes with them where it leaves nothing either.
+  if (!d.causes.empty())
     if (auto alone = identification::latitude_doubt(study, recordings, d.nominal);
-        alone && alone->alone())
+        alone && alone->alone()) {
+      alone->odds = std::exp(log_odds(*alone, d));
+      alone->less_likely = alone->odds <= 1.0 && std::ranges::none_of(d.causes, has_no_usual_size);
       return alone;
+    }
   if (!worth_asking(d)) return std::nullopt;
   return identification::latitude_doubt(study, recordings, d.has_patch ? d.patched : d.nominal);
 }

@@ -10,10 +10,13 @@
 
 namespace drift::diagnosis {
 
-/// Asks whether a wrong [site] latitude is behind a misfit. As a cause, latitude_error is an error
-/// of the survey, of some arcsec; one of degrees loses against its prior, is not linear, and
-/// another cause may be named in its place; identification::latitude_doubt() fits the model, with
-/// the cause that was found, at other latitudes, and says when it is given.
+/// Asks whether a wrong [site] latitude is behind a misfit. Where causes were found, the latitude
+/// competes with them, fitted without them: given where it leaves nothing, with its odds, one study
+/// of 1000 saying another latitude; it is `less_likely` where these are worse. Beyond that: as a
+/// cause, latitude_error is an error of the survey, of some arcsec; one of degrees loses against
+/// its prior, is not linear, and another cause may be named in its place;
+/// identification::latitude_doubt() fits the model, with the cause that was found, at other
+/// latitudes, and says when it is given.
 ///
 /// Asked only where the verdict is `unexplained`, where latitude_error is among the strongest
 /// candidates, where parameters lie far outside their priors, or where chi-square of a `consistent`

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <initializer_list>
 #include <limits>
+#include <numbers>
 
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/preparation/recorded_test.hpp"
@@ -89,7 +90,8 @@ std::optional<LatitudeDoubt> latitude_doubt(const mc::Study& study,
       std::pow(beside[1].cost - beside[0].cost, 2) / (8.0 * bend);  // of the parabola's foot
   if (bend > 0.0 && best.latitude == declared &&
       promise < SiteLimits::promise * (best.cost - best.dof))
-    return std::nullopt;  // nothing to be had
+    return std::nullopt;     // nothing to be had
+  double information = 0.0;  // on the latitude [1/rad^2], by the bend of the cost
   const auto follow = [&](std::initializer_list<double> steps_deg) {
     for (const double step_deg : steps_deg) {
       const double step = step_deg * detail::deg;
@@ -97,6 +99,7 @@ std::optional<LatitudeDoubt> latitude_doubt(const mc::Study& study,
       const std::vector<Point> sides = latitudes.at({here.latitude - step, here.latitude + step});
       const double curvature = sides[0].cost + sides[1].cost - 2.0 * here.cost;
       if (!std::isfinite(curvature)) return;
+      information = curvature / (2.0 * step * step);
       if (curvature > 0.0) {
         take(latitudes.at(
             {here.latitude + 0.5 * step * (sides[0].cost - sides[1].cost) / curvature}));
@@ -121,6 +124,11 @@ std::optional<LatitudeDoubt> latitude_doubt(const mc::Study& study,
       ends[0].per_dof(),
       best.per_dof(),
       best.per_dof() > 1.0 ? stats::chi_square_chance(best.per_dof(), best.dof) : 1.0};
+  // Over 180 deg by Laplace's method.
+  if (information > 0.0)
+    doubt.log_evidence = 0.5 * (ends[0].cost - best.cost) +
+                         0.5 * std::log(2.0 * std::numbers::pi / information) -
+                         std::log(std::numbers::pi);
   const double excess = doubt.chi2_per_dof_before - 1.0;
   if (doubt.prior_sigmas <= SiteLimits::survey || excess <= 0.0) return std::nullopt;
   const bool explains =

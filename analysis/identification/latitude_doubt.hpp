@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -14,6 +15,11 @@ struct LatitudeDoubt {
   double prior_sigmas = 0.0;              ///< size that latitude_error would need
   double chi2_per_dof_before = 0.0, chi2_per_dof_after = 0.0;  ///< of the filter's fit
   double chance_after = 1.0;  ///< that a right model's chi-square is as far above 1 as that
+  /// Log evidence for it against the declared one, where every latitude is as likely as another.
+  double log_evidence = 0.0;
+  /// Of this latitude against the effects that would explain the test instead (site_doubt()).
+  double odds = std::numeric_limits<double>::infinity();
+  bool less_likely = false;  ///< than those effects, which are of sizes that their priors know
   /// It is that of the other hemisphere, by odds that no chance has (FitLimits::mirrored).
   bool mirrored = false;
 

@@ -223,6 +223,8 @@ struct RemarkLimits {
 
 /// When the latitude of the study is doubted.
 struct SiteLimits {
+  /// Studies that say another latitude than the recording's: one of 1000, as of headings.
+  static constexpr double another = 1e-3;
   static constexpr double survey = 3.0;  ///< [prior sigma of latitude_error] no survey is wrong by
   static constexpr double most = 0.9;    ///< part of the misfit that another latitude takes away
   /// Part of the strongest score that latitude_error has, and part of the misfit that the foot of

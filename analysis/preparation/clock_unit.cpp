@@ -27,24 +27,32 @@ bool uncommanded(const Recording& r, const RestingRows& rest) {
   return true;
 }
 
-/// How fast the platform turns in a rest by the recording's clock [rad/s], the first and the last
-/// row left out, which may be of its neighbours; empty where the gimbals do not show it.
-std::optional<double> rate_in(const Recording& r, RestingRows rest) {
+/// How fast the platform turns in a rest by the recording's clock, as the gimbals show it, and how
+/// fast Up turns against it, as the accelerometers do [rad/s].
+struct Rates {
+  double gimbals = 0.0, accelerometers = 0.0;
+};
+
+/// The first and the last row left out, which may be of the neighbours; empty where one of the two
+/// instruments does not show it.
+std::optional<Rates> rates_in(const Recording& r, RestingRows rest) {
   if (rest.last < rest.first + 3) return std::nullopt;
   ++rest.first, --rest.last;
   const auto& time = r.find("time")->values;
-  const Channel* heading = r.find("case_heading");
-  const auto attitude = [&](std::size_t k) -> std::optional<Mat3> {
-    const auto angles = measured(r, gimbal_channels, k);
-    if (!angles) return std::nullopt;
-    return Mat3(case_attitude(heading ? heading->values[k] : 0.0) * gimbal_chain(*angles));
-  };
-  const auto first = attitude(rest.first);
   std::size_t last = rest.last;
   while (last > rest.first + 1 && time[last] - time[rest.first] > PlanLimits::longest_turn) --last;
-  const auto end = attitude(last);
-  if (!first || !end || !(time[last] > time[rest.first])) return std::nullopt;
-  return rotation_vector(Mat3(*end * first->transpose())).norm() / (time[last] - time[rest.first]);
+  const double seconds = time[last] - time[rest.first];
+  const Channel* heading = r.find("case_heading");
+  const auto attitude = [&](std::size_t k, const Vec3& angles) {
+    return Mat3(case_attitude(heading ? heading->values[k] : 0.0) * gimbal_chain(angles));
+  };
+  const auto g0 = measured(r, gimbal_channels, rest.first), g1 = measured(r, gimbal_channels, last),
+             f0 = measured(r, accelerometer_channels, rest.first),
+             f1 = measured(r, accelerometer_channels, last);
+  if (!g0 || !g1 || !f0 || !f1 || !(seconds > 0.0)) return std::nullopt;
+  const Mat3 turn = attitude(last, *g1) * attitude(rest.first, *g0).transpose();
+  return Rates{rotation_vector(turn).norm() / seconds,
+               std::atan2(f0->cross(*f1).norm(), f0->dot(*f1)) / seconds};
 }
 
 /// The units that are a factor apart: what the times say, and what they are if they are so many
@@ -61,14 +69,20 @@ constexpr Factor factors[] = {{60.0, "s", "min"}, {1000.0, "ms", "s"},
 
 std::string other_unit_of_time(const Recording& r) {
   if (r.find("time") == nullptr) return "";
-  std::vector<double> rates;
+  std::vector<double> gimbals, accelerometers;
   for (const RestingRows& rest : resting_rows(r))
-    if (const auto rate = uncommanded(r, rest) ? rate_in(r, rest) : std::nullopt)
-      rates.push_back(*rate);
-  if (rates.empty()) return "";
-  const double rate = stats::upper_median(std::move(rates)), ratio = rate / detail::earth_rate;
-  const bool slow = ratio < 1.0 / ClockLimits::nothing_like;
-  if (!(ratio > ClockLimits::nothing_like) && !(slow && r.find("cmd_x") != nullptr)) return "";
+    if (const auto rates = uncommanded(r, rest) ? rates_in(r, rest) : std::nullopt) {
+      gimbals.push_back(rates->gimbals);
+      accelerometers.push_back(rates->accelerometers);
+    }
+  if (gimbals.empty()) return "";
+  const double rate = stats::upper_median(std::move(gimbals)), ratio = rate / detail::earth_rate;
+  // Angles in another unit turn as wrongly: Up, which turns at a part of the rate, is no angle.
+  const double of_up = stats::upper_median(std::move(accelerometers)) / detail::earth_rate;
+  const bool fast = ratio > ClockLimits::nothing_like && of_up > ClockLimits::up_turns;
+  const bool slow = ratio < 1.0 / ClockLimits::nothing_like &&
+                    of_up < 1.0 / ClockLimits::nothing_like && r.find("cmd_x") != nullptr;
+  if (!fast && !slow) return "";
   const auto* unit = std::ranges::find_if(factors, [&](const Factor& f) {
     return std::abs(std::log(ratio / f.times)) < std::log(ClockLimits::alike);
   });

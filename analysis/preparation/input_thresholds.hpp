@@ -100,6 +100,9 @@ struct ClockLimits {
   /// would be 100 sigma of the library's priors (D_F 1, D_I 2 deg/h), or cancel the Earth's rate to
   /// a twentieth. Test: ClockUnit.*
   static constexpr double nothing_like = 20.0;
+  /// Times the Earth's rate at which Up must turn then, too: a part cos(latitude) of the whole, a
+  /// twentieth at 87 deg.
+  static constexpr double up_turns = 3.0;
   static constexpr double alike = 1.5;        ///< factor by which drift may move it from a unit's
   static constexpr double no_command = 1e-9;  ///< [rad/s], rounding of a text file
 };

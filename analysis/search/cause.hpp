@@ -46,7 +46,8 @@ struct Cause {
   double held_out_gain =
       std::numeric_limits<double>::quiet_NaN();  ///< log score that its absence costs; of
                                                  ///< simultaneous causes
-  double probability = 0.0;
+  double probability = 0.0;                      ///< of its set among the sets that are listed
+  double log_bayes = 0.0;   ///< log evidence for its set against the nominal model
   double size_sigma = 0.0;  ///< size needed, in prior sigmas
   int set = 0;  ///< simultaneous causes share a number; alternatives have different ones
   std::vector<Confusable> confusable_with;

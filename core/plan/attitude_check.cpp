@@ -46,7 +46,8 @@ struct Mixup {
 };
 
 /// The one mixup with the fewest changes that brings every sight into place; none if several do.
-std::optional<Mixup> mixup_behind(const std::vector<Sight>& sights, Mismatch mismatch) {
+std::optional<Mixup> mixup_behind(const std::vector<Sight>& sights, Mismatch mismatch,
+                                  double most) {
   if (sights.size() < fewest_sights) return std::nullopt;
   std::optional<Mixup> found;
   bool several = false;
@@ -55,8 +56,8 @@ std::optional<Mixup> mixup_behind(const std::vector<Sight>& sights, Mismatch mis
     for (int signs = 0; signs < 8; ++signs) {
       for (int i = 0; i < 3; ++i) m.sign[i] = (signs >> i & 1) != 0 ? -1.0 : 1.0;
       if (m.changes() == 0 || (found && m.changes() > found->changes())) continue;
-      if (!std::ranges::all_of(
-              sights, [&](const Sight& s) { return mismatch(s, m.of(s.seen)) < largest_mismatch; }))
+      if (!std::ranges::all_of(sights,
+                               [&](const Sight& s) { return mismatch(s, m.of(s.seen)) < most; }))
         continue;
       several = found && m.changes() == found->changes();
       found = m;
@@ -169,12 +170,12 @@ struct Shown {
 };
 
 Shown shown_by(const Recording& recording, std::vector<Sight> sights, const ChannelTriple& channels,
-               Mismatch mismatch) {
+               Mismatch mismatch, double most) {
   Shown shown{std::move(sights), {}, {}};
   for (const Sight& s : shown.sights)
-    if (!(mismatch(s, s.seen) < largest_mismatch)) shown.wrong.push_back(s);
+    if (!(mismatch(s, s.seen) < most)) shown.wrong.push_back(s);
   if (shown.wrong.empty()) return shown;
-  if (const auto mixup = mixup_behind(shown.sights, mismatch))
+  if (const auto mixup = mixup_behind(shown.sights, mismatch, most))
     shown.reason = mixup_text(*mixup, channels, shown.sights.size());
   else
     shown.reason = late_text(late_columns(recording, shown.wrong, channels, mismatch), channels,
@@ -193,13 +194,18 @@ bool agree(const std::vector<Sight>& accelerometers, const std::vector<Sight>& g
   });
 }
 
+/// Rows at which an attitude is looked at: where the platform is caged, or where a dwell begins.
+enum class Rows { caged, dwelling };
+
 std::vector<Sight> sights_of(const Recording& recording, const TestPlan& plan,
-                             const Timeline& timeline, const ChannelTriple& channels) {
+                             const Timeline& timeline, const ChannelTriple& channels, Rows rows) {
   std::vector<Sight> all;
   const std::vector<Passage> passages = plan_passages(plan, timeline.site);
   for (std::size_t k = 0; k < timeline.intervals.size(); ++k) {
     const Interval& i = timeline.intervals[k];
-    if (!i.cage) continue;
+    const Interval* before = k > 0 ? &timeline.intervals[k - 1] : nullptr;
+    const bool dwells = !i.slew && (!before || before->slew || before->position != i.position);
+    if (rows == Rows::caged ? !i.cage : !dwells) continue;
     if (const auto seen = measured(recording, channels, k))
       all.push_back({k, i.position, i.heading1,
                      passages[static_cast<std::size_t>(i.position)].dwell.heading1,
@@ -232,12 +238,23 @@ std::optional<std::size_t> row_beyond_a_turn(const std::vector<Sight>& sights) {
 
 std::vector<RowMistake> attitude_mistakes(const Recording& recording, const TestPlan& plan,
                                           const Timeline& timeline) {
-  const auto sights = [&](const ChannelTriple& channels) {
-    return sights_of(recording, plan, timeline, channels);
+  const auto shown = [&](const ChannelTriple& channels, Mismatch mismatch) {
+    const auto at = [&](Rows rows, double most) {
+      return shown_by(recording, sights_of(recording, plan, timeline, channels, rows), channels,
+                      mismatch, most);
+    };
+    Shown caged = at(Rows::caged, largest_mismatch);
+    if (caged.sights.size() >= fewest_sights) return caged;
+    // Drift and another latitude bend the way, by half of what parts two axes at most: said is only
+    // what brings every dwell into place.
+    constexpr double on_the_way = 45.0 * detail::deg;
+    Shown dwelling = at(Rows::dwelling, on_the_way);
+    const bool mixed_up =
+        !dwelling.wrong.empty() && mixup_behind(dwelling.sights, mismatch, on_the_way);
+    return mixed_up ? dwelling : caged;
   };
-  const Shown acc = shown_by(recording, sights(accelerometer_channels), accelerometer_channels,
-                             of_accelerometers);
-  Shown gimbals = shown_by(recording, sights(gimbal_channels), gimbal_channels, of_gimbals);
+  const Shown acc = shown(accelerometer_channels, of_accelerometers);
+  Shown gimbals = shown(gimbal_channels, of_gimbals);
   if (!gimbals.wrong.empty() && !gimbals.reason)
     if (const auto slip = slip_behind(gimbals.sights, units_of(recording)))
       gimbals.reason = fmt::format(

@@ -60,6 +60,7 @@ struct Diagnosis {
   std::optional<NearestKnown> nearest_known;
   std::optional<Proposal> proposal;  ///< where it is unexplained and a form was looked for
   std::optional<identification::LatitudeDoubt> site_doubt;
+  std::optional<identification::LatitudeDoubt> other_latitude;  ///< would explain it, too
   std::optional<identification::HeadingDoubt> heading_doubt;
   bool of_case = false;               ///< of a recording on a case
   std::vector<int> absent_positions;  ///< numbers of the plan's that no recording holds, ascending

@@ -219,6 +219,7 @@ Json latitude_json(const std::optional<identification::LatitudeDoubt>& doubt) {
           {"chi2_per_dof_before", doubt->chi2_per_dof_before},
           {"chi2_per_dof_after", doubt->chi2_per_dof_after},
           {"chance_after", doubt->chance_after},
+          {"odds", doubt->odds},
           {"alone", doubt->alone()}};
 }
 
@@ -242,6 +243,7 @@ Json diagnosis_document(const Diagnosis& d) {
   out["p_value"] = d.p_value;
   out["sentence"] = sentence(d);
   out["latitude"] = latitude_json(d.site_doubt);
+  out["other_latitude"] = latitude_json(d.other_latitude);
   out["heading"] = d.heading_doubt ? heading_json(*d.heading_doubt) : Json(nullptr);
   out["absent"] = absent_json(d.absent);
   out["absent_positions"] = d.absent_positions;

@@ -191,6 +191,23 @@ std::string absent_text(const std::vector<std::string>& absent) {
                      accelerometers ? "gimbal angles" : "accelerometers");
 }
 
+/// What would explain the test at the declared latitude, unless the odds are against it.
+std::string rival_text(const Diagnosis& d) {
+  constexpr double decided = 19.0;  // to 1: a probability of 0.95
+  if (d.causes.empty() || d.site_doubt->odds > decided || d.causes.front().term == "latitude_error")
+    return "";
+  return fmt::format(" If a map confirms the latitude of [site], it is {}.",
+                     together(d, alternatives_of(d).front()));
+}
+
+/// A latitude that explains what was found, and is less likely.
+std::string other_latitude_text(const identification::LatitudeDoubt& other) {
+  return fmt::format(
+      " Another latitude would explain it, too ({:.3f} deg instead of {:.3f} deg): check that of "
+      "[site] on a map.",
+      other.latitude / unit::deg.to_si, other.declared / unit::deg.to_si);
+}
+
 }  // namespace
 
 std::string patch_text(const Diagnosis& d) {
@@ -214,7 +231,7 @@ std::string patch_text(const Diagnosis& d) {
 }
 std::string sentence(const Diagnosis& d) {
   if (d.heading_doubt) return heading_text(*d.heading_doubt);
-  if (d.site_doubt) return site_text(*d.site_doubt);
+  if (d.site_doubt) return site_text(*d.site_doubt) + rival_text(d);
   std::string text = absent_text(d.absent_positions) + absent_text(d.absent) + verdict_alone(d);
   if (d.nearest_known && !d.proposal)  // a form that fits is nearer
     text += nearest_text(*d.nearest_known, instrument_of(d));
@@ -222,6 +239,7 @@ std::string sentence(const Diagnosis& d) {
     for (const Remark& r : d.remarks)
       if (const auto* other = std::get_if<remark::OtherEquation>(&r); other && other->open())
         text += fmt::format(" {}.", cannot_tell_equations(*other, positions_at_hand(d)));
+  if (d.other_latitude) text += other_latitude_text(*d.other_latitude);
   text += outside_text(d);
   text += too_large_text(d);
   text += unexamined_twins_text(d.not_examined);

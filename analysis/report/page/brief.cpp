@@ -19,8 +19,10 @@ std::vector<std::string> lines_of(const std::string& sentence, std::size_t width
 /// a semicolon. Empty where there is none.
 std::string whole_part(const std::string& text, std::size_t most) {
   std::size_t end = 0;
-  for (std::size_t at = 0; at + 1 < text.size() && at < most; ++at)
-    if ((text[at] == '.' || text[at] == ';') && text[at + 1] == ' ') end = at;
+  for (std::size_t at = 0; at + 1 < text.size() && at < most; ++at) {
+    const bool abbreviates = at >= 2 && text.compare(at - 2, 4, "eq. ") == 0;
+    if ((text[at] == '.' || text[at] == ';') && text[at + 1] == ' ' && !abbreviates) end = at;
+  }
   return end == 0 ? "" : text.substr(0, end) + ".";
 }
 

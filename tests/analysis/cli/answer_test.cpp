@@ -44,6 +44,13 @@ TEST(Brief, KeepsVerdictAndNextStepAndCutsWhatIsBetween) {
   EXPECT_TRUE(cut[report::most_brief_lines - 2].ends_with(" ...")) << "what is cut is said";
 }
 
+TEST(Brief, AnAbbreviationIsNoEndOfASentence) {
+  report::InBrief brief;
+  brief.verdict = "The first sentence is whole. The second says that eq. (5) is 0 and eq. (6) is 1";
+  for (int k = 0; k < 200; ++k) brief.verdict += " and more";
+  EXPECT_EQ(report::brief_text(brief), "The first sentence is whole.\n");
+}
+
 /// The answer of a command: what it prints up to the first empty line.
 std::string answer_of(const std::string& out) {
   return out.substr(0, out.find("\n\n"));

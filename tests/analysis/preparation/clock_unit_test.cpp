@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "analysis/preparation/prepare.hpp"
 #include "core/base/check.hpp"
 #include "tests/support/six_positions.hpp"
@@ -66,10 +68,20 @@ TEST(ClockUnit, OfAPlatformThatIsKeptLevelNothingIsSaid) {
     EXPECT_EQ(other_unit_of_time(with_times(r, factor)), "") << factor;
 }
 
-TEST(ClockUnit, WithoutGimbalsNothingIsSaid) {
-  Recording r = with_times(test::simulated(study()), 1.0 / 60.0);
-  std::erase_if(r.channels, [](const Channel& c) { return c.name.starts_with("gimbal_"); });
-  EXPECT_EQ(other_unit_of_time(r), "");
+TEST(ClockUnit, OneInstrumentAloneMayBeInAnotherUnitItself) {
+  for (const double factor : {1.0, 1.0 / 60.0})
+    for (const char* instrument : {"gimbal_", "acc_"}) {
+      Recording r = with_times(test::simulated(study()), factor);
+      std::erase_if(r.channels, [&](const Channel& c) { return c.name.starts_with(instrument); });
+      EXPECT_EQ(other_unit_of_time(r), "");
+    }
+  for (const double angle : {180.0 / std::numbers::pi, std::numbers::pi / 180.0}) {
+    Recording r = test::simulated(study());
+    for (Channel& c : r.channels)
+      for (double& value : c.values)
+        if (c.name.starts_with("gimbal_")) value *= angle;
+    EXPECT_EQ(other_unit_of_time(r), "") << angle;
+  }
 }
 
 }  // namespace

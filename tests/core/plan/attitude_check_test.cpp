@@ -17,10 +17,11 @@ namespace {
 
 /// Twelve positions as an ideal platform shows them.
 struct Scene {
-  TestPlan plan = preset_plan("twelve", PlanDefaults{}).value();
+  TestPlan plan;
   Recording recording;
 
-  Scene() {
+  explicit Scene(const char* preset = "twelve")
+      : plan(preset_plan(preset, PlanDefaults{}).value()) {
     const Timeline timeline = lay_out(plan, test::harbin);
     Measurements m{Mat3X(3, timeline.intervals.size()), Mat3X(3, timeline.intervals.size())};
     for (std::size_t k = 0; k < timeline.intervals.size(); ++k) {
@@ -64,6 +65,19 @@ TEST(AttitudeCheck, NamesTheColumnWhoseSignIsWrong) {
               std::string::npos)
         << wrong[0].text;
     EXPECT_NE(wrong[0].text.find(fmt::format("{{ {} = \"-{}\" }}", name, name)), std::string::npos)
+        << wrong[0].text;
+  }
+}
+
+TEST(AttitudeCheck, NamesThemWhereThePlatformIsSlewedFromPositionToPosition) {
+  EXPECT_TRUE(Scene("slew12").mistakes().empty());
+  for (const char* name : {"acc_x", "acc_y", "acc_z", "gimbal_outer", "gimbal_inner"}) {
+    Scene s("slew12");
+    s.reverse(name);
+    const auto wrong = s.mistakes();
+    ASSERT_EQ(wrong.size(), 1u) << name;
+    EXPECT_NE(wrong[0].text.find(fmt::format("column {}: the sign is wrong", name)),
+              std::string::npos)
         << wrong[0].text;
   }
 }
