@@ -63,15 +63,31 @@ std::optional<identification::LatitudeDoubt> site_doubt(const mc::Study& study,
   if (d.nominal.active[d_lat]) return std::nullopt;
   // With the causes in the model, latitude_error among them, nothing would be left to ask for: the
   // latitude competes with them where it leaves nothing either.
+  const bool unusual = std::ranges::any_of(d.causes, has_no_usual_size);
+  if (!unusual && !worth_asking(d)) return std::nullopt;
   if (!d.causes.empty())
     if (auto alone = identification::latitude_doubt(study, recordings, d.nominal);
         alone && alone->alone()) {
       alone->odds = std::exp(log_odds(*alone, d));
-      alone->less_likely = alone->odds <= 1.0 && std::ranges::none_of(d.causes, has_no_usual_size);
+      alone->less_likely = alone->odds <= 1.0 && !unusual;
       return alone;
     }
   if (!worth_asking(d)) return std::nullopt;
-  return identification::latitude_doubt(study, recordings, d.has_patch ? d.patched : d.nominal);
+  if (!d.has_patch) return identification::latitude_doubt(study, recordings, d.nominal);
+  auto beside = identification::latitude_doubt(study, recordings, d.patched);
+  if (!beside) return std::nullopt;
+  // A cause that was taken for the latitude bends it: from there the model may do without it.
+  mc::Study there = study;
+  there.site.latitude = beside->latitude;
+  if (const auto alone = identification::latitude_doubt(there, recordings, d.nominal);
+      alone && alone->alone()) {
+    beside->prior_sigmas *= std::abs(alone->latitude - beside->declared) /
+                            std::abs(beside->latitude - beside->declared);
+    beside->latitude = alone->latitude;
+    beside->chi2_per_dof_after = alone->chi2_per_dof_after;
+    beside->chance_after = alone->chance_after;
+  }
+  return beside;
 }
 
 }  // namespace drift::diagnosis

@@ -94,8 +94,9 @@ TEST(SiteDoubt, IsFoundWhereAnEffectFarBeyondItsUsualSizeTakesItUp) {
   DiagnoseOptions options;
   options.starts = 1;
   options.whiteness_draws = 0;
-  for (const auto& [preset, declared] : {std::pair{"twelve", 43.75}, std::pair{"twelve", 40.75},
-                                         std::pair{"slew12", 43.75}, std::pair{"six", 44.75}}) {
+  for (const auto& [preset, declared] :
+       {std::pair{"twelve", 43.75}, std::pair{"twelve", 40.75}, std::pair{"slew12", 43.75},
+        std::pair{"twelve", -30.0}, std::pair{"six", 44.75}}) {
     mc::Study study = test::six_study();
     PlanDefaults defaults;
     defaults.dwell = std::string_view(preset) == "six" ? 2400.0 : 1200.0;
