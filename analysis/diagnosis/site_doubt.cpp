@@ -74,20 +74,16 @@ std::optional<identification::LatitudeDoubt> site_doubt(const mc::Study& study,
     }
   if (!worth_asking(d)) return std::nullopt;
   if (!d.has_patch) return identification::latitude_doubt(study, recordings, d.nominal);
-  auto beside = identification::latitude_doubt(study, recordings, d.patched);
+  const auto beside = identification::latitude_doubt(study, recordings, d.patched);
   if (!beside) return std::nullopt;
   // A cause that was taken for the latitude bends it: from there the model may do without it.
   mc::Study there = study;
   there.site.latitude = beside->latitude;
-  if (const auto alone = identification::latitude_doubt(there, recordings, d.nominal);
-      alone && alone->alone()) {
-    beside->prior_sigmas *= std::abs(alone->latitude - beside->declared) /
-                            std::abs(beside->latitude - beside->declared);
-    beside->latitude = alone->latitude;
-    beside->chi2_per_dof_after = alone->chi2_per_dof_after;
-    beside->chance_after = alone->chance_after;
-  }
-  return beside;
+  auto alone = identification::latitude_doubt(there, recordings, d.nominal);
+  if (!alone || !alone->alone()) return beside;
+  alone->declared = beside->declared;
+  alone->chi2_per_dof_before = beside->chi2_per_dof_before;
+  return alone;
 }
 
 }  // namespace drift::diagnosis

@@ -68,6 +68,10 @@ bool LatitudeDoubt::alone() const {
   return chance_after >= inference::SearchLimits::alpha;
 }
 
+double LatitudeDoubt::prior_sigmas() const {
+  return std::abs(latitude - declared) / TermLibrary::specs[d_lat].prior_si().sigma();
+}
+
 std::optional<LatitudeDoubt> latitude_doubt(const mc::Study& study,
                                             const std::vector<Recording>& recordings,
                                             const FilterSpec& filter) {
@@ -116,13 +120,8 @@ std::optional<LatitudeDoubt> latitude_doubt(const mc::Study& study,
   follow({2.0, 2.0, 2.0, 0.2});
   take(latitudes.at({-best.latitude}));  // the mirrored valley is nearly as deep
   follow({0.2, 0.02, 0.005});
-  const double prior = TermLibrary::specs[d_lat].prior_si().sigma();
   LatitudeDoubt doubt{
-      best.latitude,
-      declared,
-      std::abs(best.latitude - declared) / prior,
-      ends[0].per_dof(),
-      best.per_dof(),
+      best.latitude, declared, ends[0].per_dof(), best.per_dof(),
       best.per_dof() > 1.0 ? stats::chi_square_chance(best.per_dof(), best.dof) : 1.0};
   // Over 180 deg by Laplace's method.
   if (information > 0.0)
@@ -130,7 +129,7 @@ std::optional<LatitudeDoubt> latitude_doubt(const mc::Study& study,
                          0.5 * std::log(2.0 * std::numbers::pi / information) -
                          std::log(std::numbers::pi);
   const double excess = doubt.chi2_per_dof_before - 1.0;
-  if (doubt.prior_sigmas <= SiteLimits::survey || excess <= 0.0) return std::nullopt;
+  if (doubt.prior_sigmas() <= SiteLimits::survey || excess <= 0.0) return std::nullopt;
   const bool explains =
       doubt.chi2_per_dof_before - doubt.chi2_per_dof_after >= SiteLimits::most * excess;
   // Mirrored, not across a nearby equator.

@@ -11,8 +11,7 @@ namespace drift::identification {
 
 /// The latitude that a recording is of, if it is not that of [site].
 struct LatitudeDoubt {
-  double latitude = 0.0, declared = 0.0;  ///< [rad]
-  double prior_sigmas = 0.0;              ///< size that latitude_error would need
+  double latitude = 0.0, declared = 0.0;                       ///< [rad]
   double chi2_per_dof_before = 0.0, chi2_per_dof_after = 0.0;  ///< of the filter's fit
   double chance_after = 1.0;  ///< that a right model's chi-square is as far above 1 as that
   /// Log evidence for it against the declared one, where every latitude is as likely as another.
@@ -27,6 +26,9 @@ struct LatitudeDoubt {
   /// diagnosis (SearchLimits::alpha). Otherwise something else is missing, or the noise is not as
   /// declared; where much is left the latitude found is no better than the rest of the model.
   bool alone() const;
+
+  /// Size that latitude_error would need.
+  double prior_sigmas() const;
 };
 
 /// Asks whether a wrong [site] latitude is behind a misfit: the filter is fitted again at other

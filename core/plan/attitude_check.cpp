@@ -167,15 +167,18 @@ std::string elsewhere_text(const TestPlan& plan, const std::vector<Sight>& wrong
 struct Shown {
   std::vector<Sight> sights, wrong;
   std::optional<std::string> reason;
+  bool mixed_up = false;  ///< columns exchanged or reversed are the reason
 };
 
 Shown shown_by(const Recording& recording, std::vector<Sight> sights, const ChannelTriple& channels,
                Mismatch mismatch, double most) {
-  Shown shown{std::move(sights), {}, {}};
+  Shown shown{.sights = std::move(sights), .wrong = {}, .reason = {}};
   for (const Sight& s : shown.sights)
     if (!(mismatch(s, s.seen) < most)) shown.wrong.push_back(s);
   if (shown.wrong.empty()) return shown;
-  if (const auto mixup = mixup_behind(shown.sights, mismatch, most))
+  const auto mixup = mixup_behind(shown.sights, mismatch, most);
+  shown.mixed_up = mixup.has_value();
+  if (mixup)
     shown.reason = mixup_text(*mixup, channels, shown.sights.size());
   else
     shown.reason = late_text(late_columns(recording, shown.wrong, channels, mismatch), channels,
@@ -247,11 +250,8 @@ std::vector<RowMistake> attitude_mistakes(const Recording& recording, const Test
     if (caged.sights.size() >= fewest_sights) return caged;
     // Drift and another latitude bend the way, by half of what parts two axes at most: said is only
     // what brings every dwell into place.
-    constexpr double on_the_way = 45.0 * detail::deg;
-    Shown dwelling = at(Rows::dwelling, on_the_way);
-    const bool mixed_up =
-        !dwelling.wrong.empty() && mixup_behind(dwelling.sights, mismatch, on_the_way);
-    return mixed_up ? dwelling : caged;
+    Shown dwelling = at(Rows::dwelling, 45.0 * detail::deg);
+    return dwelling.mixed_up ? dwelling : caged;
   };
   const Shown acc = shown(accelerometer_channels, of_accelerometers);
   Shown gimbals = shown(gimbal_channels, of_gimbals);

@@ -85,7 +85,7 @@ std::string site_text(const identification::LatitudeDoubt& doubt) {
       "survey is wrong by so much (latitude_error would need {:.3g} prior sigmas): correct the "
       "latitude and diagnose again before anything else is made of it.",
       doubt.latitude / unit::deg.to_si, doubt.declared / unit::deg.to_si, doubt.chi2_per_dof_after,
-      doubt.chi2_per_dof_before, doubt.prior_sigmas);
+      doubt.chi2_per_dof_before, doubt.prior_sigmas());
 }
 
 std::string heading_text(const identification::HeadingDoubt& doubt) {

@@ -100,7 +100,7 @@ Json latitude_json(const std::optional<identification::LatitudeDoubt>& doubt) {
   if (!doubt) return nullptr;
   return {{"latitude_deg", doubt->latitude / unit::deg.to_si},
           {"declared_deg", doubt->declared / unit::deg.to_si},
-          {"prior_sigmas", doubt->prior_sigmas},
+          {"prior_sigmas", doubt->prior_sigmas()},
           {"chi2_per_dof_before", doubt->chi2_per_dof_before},
           {"chi2_per_dof_after", doubt->chi2_per_dof_after},
           {"chance_after", doubt->chance_after},

@@ -42,7 +42,7 @@ TEST(SiteDoubt, FindsTheLatitudeBehindAMisfit) {
     EXPECT_NEAR(doubt->chi2_per_dof_after, 1.0, 0.2) << declared;
     EXPECT_GT(doubt->chi2_per_dof_before, doubt->chi2_per_dof_after);
     EXPECT_TRUE(doubt->alone()) << doubt->chance_after;
-    EXPECT_NEAR(doubt->prior_sigmas, std::abs(declared - truth) * 3600.0 / 20.0, 9.0)
+    EXPECT_NEAR(doubt->prior_sigmas(), std::abs(declared - truth) * 3600.0 / 20.0, 9.0)
         << declared;  // 0.05 deg
     Diagnosis told;
     told.site_doubt = doubt;
