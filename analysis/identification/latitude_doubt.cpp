@@ -77,13 +77,17 @@ std::optional<LatitudeDoubt> latitude_doubt(const mc::Study& study,
                                             const FilterSpec& filter) {
   const Latitudes latitudes(study, recordings, filter);
   const double declared = study.site.latitude;
-  const std::vector<Point> ends = latitudes.at({declared, -declared});
-  if (!std::isfinite(ends[0].cost)) return std::nullopt;
-  Point best = ends[1].cost < ends[0].cost ? ends[1] : ends[0];
+  const Point before = latitudes.at({declared}).front();
+  if (!std::isfinite(before.cost)) return std::nullopt;
+  Point best = before;
   const auto take = [&](const std::vector<Point>& points) {
     for (const Point& p : points)
       if (p.cost < best.cost) best = p;
   };
+  // The Earth's rate goes with sine and cosine of the latitude: no valley lies between these.
+  std::vector<double> everywhere{-declared};
+  for (double deg = -75.0; deg < 80.0; deg += 15.0) everywhere.push_back(deg * detail::deg);
+  take(latitudes.at(everywhere));
   // Near the truth the cost grows with the square of the error: its parabola leads there, the
   // better the smaller the step. Far from it the cost may be concave: then several distances are
   // tried at once.
@@ -121,11 +125,11 @@ std::optional<LatitudeDoubt> latitude_doubt(const mc::Study& study,
   take(latitudes.at({-best.latitude}));  // the mirrored valley is nearly as deep
   follow({0.2, 0.02, 0.005});
   LatitudeDoubt doubt{
-      best.latitude, declared, ends[0].per_dof(), best.per_dof(),
+      best.latitude, declared, before.per_dof(), best.per_dof(),
       best.per_dof() > 1.0 ? stats::chi_square_chance(best.per_dof(), best.dof) : 1.0};
   // Over 180 deg by Laplace's method.
   if (information > 0.0)
-    doubt.log_evidence = 0.5 * (ends[0].cost - best.cost) +
+    doubt.log_evidence = 0.5 * (before.cost - best.cost) +
                          0.5 * std::log(2.0 * std::numbers::pi / information) -
                          std::log(std::numbers::pi);
   const double excess = doubt.chi2_per_dof_before - 1.0;
@@ -135,7 +139,7 @@ std::optional<LatitudeDoubt> latitude_doubt(const mc::Study& study,
   // Mirrored, not across a nearby equator.
   doubt.mirrored =
       std::abs(best.latitude + declared) < 0.1 * std::abs(best.latitude - declared) &&
-      ends[0].cost - best.cost > inference::FitLimits::mirrored * std::max(1.0, best.per_dof());
+      before.cost - best.cost > inference::FitLimits::mirrored * std::max(1.0, best.per_dof());
   if (!explains && !doubt.mirrored) return std::nullopt;
   return doubt;
 }

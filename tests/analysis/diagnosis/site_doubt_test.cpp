@@ -34,7 +34,7 @@ struct Scene : test::SixWithHidden {
 };
 
 TEST(SiteDoubt, FindsTheLatitudeBehindAMisfit) {
-  for (const double declared : {46.5, 30.0, 70.0}) {
+  for (const double declared : {46.5, 30.0, 70.0, 89.0, 0.1}) {
     const auto doubt = Scene(declared).doubt(Verdict::unexplained);
     ASSERT_TRUE(doubt) << declared;
     EXPECT_NEAR(doubt->latitude / unit::deg.to_si, truth, 0.05)
@@ -96,7 +96,8 @@ TEST(SiteDoubt, IsFoundWhereAnEffectFarBeyondItsUsualSizeTakesItUp) {
   options.whiteness_draws = 0;
   for (const auto& [preset, declared] :
        {std::pair{"twelve", 43.75}, std::pair{"twelve", 40.75}, std::pair{"slew12", 43.75},
-        std::pair{"twelve", -30.0}, std::pair{"six", 44.75}}) {
+        std::pair{"twelve", -30.0}, std::pair{"six", 44.75}, std::pair{"twelve", 89.0},
+        std::pair{"twelve", 0.1}}) {
     mc::Study study = test::six_study();
     PlanDefaults defaults;
     defaults.dwell = std::string_view(preset) == "six" ? 2400.0 : 1200.0;
