@@ -6,19 +6,16 @@
 #include <optional>
 
 #include "analysis/preparation/input_thresholds.hpp"
-#include "core/physics/gimbals.hpp"
+#include "core/plan/slew_check.hpp"
 #include "core/recording/recording_channels.hpp"
 
 namespace drift::preparation {
 namespace {
 
-/// Attitude of the platform against an inertial frame, as the gimbals show it.
 std::optional<Mat3> shown_attitude(const Recording& r, const Site& site, std::size_t row) {
   const auto angles = measured(r, gimbal_channels, row);
   if (!angles) return std::nullopt;
-  const Channel* heading = r.find("case_heading");
-  return Mat3(rotation<double>(site.omega_ie_l() * r.find("time")->values[row]) *
-              case_attitude(heading ? heading->values[row] : 0.0) * gimbal_chain(*angles));
+  return attitude_shown(r, site, row, *angles);
 }
 
 }  // namespace
@@ -39,7 +36,7 @@ CommandChange command_change(const Recording& recording, const Site& site, std::
         rotation<double>(*before * (t - t0)) * rotation<double>(*after * (t1 - t));
     return rotation_vector(Mat3(commanded.transpose() * turned)).norm();
   };
-  CommandChange best{t0, ""};
+  CommandChange best{t0, "", misfit(t0)};
   double least = std::numeric_limits<double>::infinity();
   const double finest = std::min(spacing.usual[row - 1], spacing.usual[row]);
   const auto consider = [&](double t) {
@@ -58,7 +55,8 @@ CommandChange command_change(const Recording& recording, const Site& site, std::
   for (std::size_t k = 1; k <= steps(spacing.usual[row]); ++k)
     consider(t1 - static_cast<double>(k) * spacing.usual[row]);
   if (!(least <= RecordingLimits::change_room * finest * (*after - *before).norm()))
-    return {0.0, "no time at which a row would have stood explains how far the platform turned"};
+    return {0.0, "no time at which a row would have stood explains how far the platform turned",
+            best.as_recorded};
   if (best.time - t0 < 1e-6 * finest) best.time = t0;
   return best;
 }

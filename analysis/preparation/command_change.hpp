@@ -12,6 +12,8 @@ namespace drift::preparation {
 struct CommandChange {
   double time = 0.0;  ///< [s]
   std::string why_not;
+  /// By what the platform turned otherwise than it does if no row is missing [rad]; NaN: unknown.
+  double as_recorded = nan_value;
 };
 
 /// Between a row and the one before it, rows are missing and the command changed from the one to

@@ -11,6 +11,8 @@
 #include "core/physics/gimbals.hpp"
 #include "core/plan/attitude_slips.hpp"
 #include "core/plan/case_heading.hpp"
+#include "core/plan/mixup.hpp"
+#include "core/plan/slew_check.hpp"
 #include "core/recording/recording_channels.hpp"
 
 namespace drift {
@@ -30,57 +32,14 @@ double of_gimbals(const Sight& s, const Vec3& seen) {
   return gimbal_mismatch(other);
 }
 
-/// Three columns as they may have been exchanged or reversed.
-struct Mixup {
-  std::array<int, 3> from{0, 1, 2};
-  std::array<double, 3> sign{1.0, 1.0, 1.0};
-
-  Vec3 of(const Vec3& v) const {
-    return {sign[0] * v[from[0]], sign[1] * v[from[1]], sign[2] * v[from[2]]};
-  }
-  int changes() const {
-    int n = 0;
-    for (int i = 0; i < 3; ++i) n += from[i] != i || sign[i] < 0.0;
-    return n;
-  }
-};
-
-/// The one mixup with the fewest changes that brings every sight into place; none if several do.
+/// The mixup that brings every sight into place.
 std::optional<Mixup> mixup_behind(const std::vector<Sight>& sights, Mismatch mismatch,
                                   double most) {
   if (sights.size() < fewest_sights) return std::nullopt;
-  std::optional<Mixup> found;
-  bool several = false;
-  Mixup m;
-  do {
-    for (int signs = 0; signs < 8; ++signs) {
-      for (int i = 0; i < 3; ++i) m.sign[i] = (signs >> i & 1) != 0 ? -1.0 : 1.0;
-      if (m.changes() == 0 || (found && m.changes() > found->changes())) continue;
-      if (!std::ranges::all_of(sights,
-                               [&](const Sight& s) { return mismatch(s, m.of(s.seen)) < most; }))
-        continue;
-      several = found && m.changes() == found->changes();
-      found = m;
-    }
-  } while (std::next_permutation(m.from.begin(), m.from.end()));
-  return several ? std::nullopt : found;
-}
-
-std::string mixup_text(const Mixup& m, const ChannelTriple& channels, std::size_t positions) {
-  std::vector<std::string> wrong, map;
-  for (int i = 0; i < 3; ++i)
-    if (m.from[i] != i || m.sign[i] < 0.0) {
-      wrong.emplace_back(channels.names[i]);
-      map.push_back(fmt::format("{} = \"{}{}\"", channels.names[i], m.sign[i] < 0.0 ? "-" : "",
-                                channels.names[m.from[i]]));
-    }
-  return fmt::format(
-      "column{} {}: {} (all {} positions have the attitude of the plan with {}). Correct the "
-      "recording, or say so in the study: [recording] columns = {{ {} }}, each with its unit as in "
-      "the header",
-      wrong.size() > 1 ? "s" : "", fmt::join(wrong, ", "),
-      wrong.size() == 1 ? "the sign is wrong" : "exchanged or of the wrong sign", positions,
-      fmt::join(map, ", "), fmt::join(map, ", "));
+  return the_one_mixup([&](const Mixup& m) {
+    return std::ranges::all_of(sights,
+                               [&](const Sight& s) { return mismatch(s, m.of(s.seen)) < most; });
+  });
 }
 
 /// What the row behind that of a sight shows.
@@ -179,23 +138,38 @@ Shown shown_by(const Recording& recording, std::vector<Sight> sights, const Chan
   const auto mixup = mixup_behind(shown.sights, mismatch, most);
   shown.mixed_up = mixup.has_value();
   if (mixup)
-    shown.reason = mixup_text(*mixup, channels, shown.sights.size());
+    shown.reason = mixup_text(
+        *mixup, channels,
+        fmt::format("all {} positions have the attitude of the plan", shown.sights.size()));
   else
     shown.reason = late_text(late_columns(recording, shown.wrong, channels, mismatch), channels,
                              shown.wrong.size());
   return shown;
 }
 
+/// What accelerometers show, expected at the attitudes that the gimbals show.
+std::vector<Sight> where_gimbals_are(const std::vector<Sight>& accelerometers,
+                                     const std::vector<Sight>& gimbals) {
+  std::vector<Sight> all;
+  for (const Sight& g : gimbals) {
+    const auto a = std::ranges::find(accelerometers, g.row, &Sight::row);
+    if (a == accelerometers.end()) continue;
+    all.push_back(*a);
+    all.back().R_lr = case_attitude(g.heading) * gimbal_chain(g.seen);
+  }
+  return all;
+}
+
 /// Whether both kinds of instrument show the same Up in every position, whatever the plan says.
 bool agree(const std::vector<Sight>& accelerometers, const std::vector<Sight>& gimbals) {
-  return std::ranges::all_of(gimbals, [&](const Sight& g) {
-    const auto a = std::ranges::find(accelerometers, g.row, &Sight::row);
-    if (a == accelerometers.end()) return true;
-    Sight as_gimbals = *a;
-    as_gimbals.R_lr = case_attitude(g.heading) * gimbal_chain(g.seen);
-    return of_accelerometers(as_gimbals, a->seen) < largest_mismatch;
+  return std::ranges::all_of(where_gimbals_are(accelerometers, gimbals), [](const Sight& s) {
+    return of_accelerometers(s, s.seen) < largest_mismatch;
   });
 }
+
+/// Drift and another latitude bend the way of a platform that is slewed, by half of what parts two
+/// axes at most [rad].
+constexpr double on_the_way = 45.0 * detail::deg;
 
 /// Rows at which an attitude is looked at: where the platform is caged, or where a dwell begins.
 enum class Rows { caged, dwelling };
@@ -215,6 +189,17 @@ std::vector<Sight> sights_of(const Recording& recording, const TestPlan& plan,
                      timeline.nodes[i.last_node()].R_lr, *seen});
   }
   return all;
+}
+
+/// Whether the gimbals show, at the begin of every dwell, an attitude like that of the plan.
+bool gimbals_as_planned(const Recording& recording, const TestPlan& plan,
+                        const Timeline& timeline) {
+  const std::vector<Sight> all =
+      sights_of(recording, plan, timeline, gimbal_channels, Rows::dwelling);
+  return !all.empty() && std::ranges::all_of(all, [&](Sight s) {
+    s.R_lr = plan.positions[static_cast<std::size_t>(s.position)].R_lp;
+    return gimbal_mismatch(s) < on_the_way;
+  });
 }
 
 AngleUnits units_of(const Recording& recording) {
@@ -241,18 +226,29 @@ std::optional<std::size_t> row_beyond_a_turn(const std::vector<Sight>& sights) {
 
 std::vector<RowMistake> attitude_mistakes(const Recording& recording, const TestPlan& plan,
                                           const Timeline& timeline) {
+  const auto sights = [&](const ChannelTriple& channels, Rows rows) {
+    return sights_of(recording, plan, timeline, channels, rows);
+  };
   const auto shown = [&](const ChannelTriple& channels, Mismatch mismatch) {
-    const auto at = [&](Rows rows, double most) {
-      return shown_by(recording, sights_of(recording, plan, timeline, channels, rows), channels,
-                      mismatch, most);
-    };
-    Shown caged = at(Rows::caged, largest_mismatch);
+    Shown caged =
+        shown_by(recording, sights(channels, Rows::caged), channels, mismatch, largest_mismatch);
     if (caged.sights.size() >= fewest_sights) return caged;
-    // Drift and another latitude bend the way, by half of what parts two axes at most: said is only
-    // what brings every dwell into place.
-    Shown dwelling = at(Rows::dwelling, 45.0 * detail::deg);
+    // Said is only what brings every dwell into place; for accelerometers the gimbals say where
+    // that is.
+    std::vector<Sight> dwells = sights(channels, Rows::dwelling);
+    double most = on_the_way;
+    if (mismatch == of_accelerometers)
+      if (auto seen = where_gimbals_are(dwells, sights(gimbal_channels, Rows::dwelling));
+          !seen.empty()) {
+        dwells = std::move(seen);
+        most = largest_mismatch;
+      }
+    Shown dwelling = shown_by(recording, std::move(dwells), channels, mismatch, most);
     return dwelling.mixed_up ? dwelling : caged;
   };
+  if (const auto slews =
+          slew_mistake(recording, timeline, gimbals_as_planned(recording, plan, timeline)))
+    return {*slews};
   const Shown acc = shown(accelerometer_channels, of_accelerometers);
   Shown gimbals = shown(gimbal_channels, of_gimbals);
   if (!gimbals.wrong.empty() && !gimbals.reason)

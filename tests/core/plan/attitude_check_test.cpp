@@ -82,6 +82,42 @@ TEST(AttitudeCheck, NamesThemWhereThePlatformIsSlewedFromPositionToPosition) {
   }
 }
 
+TEST(AttitudeCheck, ASlewThatTurnsOtherwiseThanCommandedIsOfCommandsOrGimbals) {
+  using Names = std::pair<const char*, const char*>;
+  const auto said = [](const auto& spoil) {
+    Scene s("slew12");
+    spoil(s);
+    const auto wrong = s.mistakes();
+    EXPECT_EQ(wrong.size(), 1u);
+    return wrong.empty() ? "" : wrong.front().text;
+  };
+  for (const auto& [a, b] :
+       {Names{"cmd_x", "cmd_y"}, Names{"cmd_z", "cmd_x"}, Names{"gimbal_outer", "gimbal_middle"},
+        Names{"gimbal_inner", "gimbal_outer"}, Names{"acc_x", "acc_z"}, Names{"acc_y", "acc_x"}}) {
+    const std::string text =
+        said([&, a = a, b = b](Scene& s) { std::swap(s.column(a), s.column(b)); });
+    EXPECT_NE(text.find(fmt::format("{} = \"{}\"", a, b)), std::string::npos) << text;
+    EXPECT_NE(text.find(fmt::format("{} = \"{}\"", b, a)), std::string::npos) << text;
+    EXPECT_EQ(text.find("Or "), std::string::npos) << text;
+  }
+  for (const char* name : {"cmd_x", "cmd_y", "cmd_z"}) {
+    const std::string text = said([&](Scene& s) { s.reverse(name); });
+    EXPECT_NE(text.find(fmt::format("column {}: the sign is wrong", name)), std::string::npos)
+        << text;
+  }
+  EXPECT_NE(said([](Scene& s) {
+              for (const char* name : {"cmd_x", "cmd_y", "cmd_z"})
+                for (double& v : s.column(name)) v /= 3600.0;
+            }).find("as if they were in [deg/s], not [deg/h]"),
+            std::string::npos);
+  EXPECT_NE(said([](Scene& s) {
+              std::ranges::reverse(s.column("cmd_x"));
+              std::ranges::reverse(s.column("cmd_y"));
+              std::ranges::reverse(s.column("cmd_z"));
+            }).find("turns of slews the gimbals do not turn as commanded"),
+            std::string::npos);
+}
+
 TEST(AttitudeCheck, NamesColumnsThatAreExchanged) {
   Scene s;
   std::swap(s.column("acc_x"), s.column("acc_z"));

@@ -1,0 +1,154 @@
+#include "core/plan/slew_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/physics/gimbals.hpp"
+#include "core/plan/mixup.hpp"
+#include "core/recording/recording_channels.hpp"
+#include "core/stats/median.hpp"
+
+namespace drift {
+namespace {
+
+constexpr std::size_t fewest_turns = 3;
+constexpr double fastest_drift = 20.0 * detail::earth_rate;  // a slower command is no slew
+/// Part of what was commanded by which a turn may be another one: no scale factor is off by so
+/// much, and of exchanged columns a whole turn remains.
+constexpr double same_turn = 0.1;
+/// [rad] that rows together turn, so that steps of coarse gimbals do not matter.
+constexpr double far_enough = 20.0 * detail::deg;
+
+/// Rows of a slew with one command, and the gimbal angles at both of their ends.
+struct Turn {
+  std::size_t before = 0, row = 0;  ///< the row at whose end it begins, and its last
+  Vec3 omega_cmd_p, from, to;
+  double length = 0.0;  ///< [s]
+};
+
+std::vector<Turn> turns_of(const Recording& recording, const Timeline& timeline) {
+  std::vector<Turn> all;
+  bool goes_on = false;
+  for (std::size_t row = 1; row < timeline.intervals.size(); ++row) {
+    const Interval& i = timeline.intervals[row];
+    const auto from = measured(recording, gimbal_channels, row - 1),
+               to = measured(recording, gimbal_channels, row);
+    const auto turns = [&] {  // as commanded, or as shown: commands may be wrong
+      const Mat3 R_ip = attitude_shown(recording, timeline.site, row - 1, *from);
+      const Mat3 turned = R_ip.transpose() * attitude_shown(recording, timeline.site, row, *to);
+      return std::max(i.omega_cmd_p.norm(), rotation_vector(turned).norm() / i.length()) >
+             fastest_drift;
+    };
+    const bool slews = i.slew && !i.cage && from && to && turns();
+    if (slews && goes_on && i.omega_cmd_p == all.back().omega_cmd_p) {
+      all.back().row = row;
+      all.back().to = *to;
+      all.back().length += i.length();
+    } else if (slews) {
+      all.push_back({row - 1, row, i.omega_cmd_p, *from, *to, i.length()});
+    }
+    goes_on = slews && all.back().length * i.omega_cmd_p.norm() < far_enough;
+  }
+  return all;
+}
+
+/// Rotations of the platform as shown and as commanded.
+class Slews {
+ public:
+  Slews(const Recording& recording, const Timeline& timeline)
+      : recording_(recording), site_(timeline.site), turns_(turns_of(recording, timeline)) {}
+
+  const std::vector<Turn>& turns() const { return turns_; }
+
+  /// Rotation vector [rad] of the platform, as the gimbals show if their columns were these.
+  Vec3 shown(const Turn& t, const Mixup& gimbals) const {
+    const Mat3 from = attitude_shown(recording_, site_, t.before, gimbals.of(t.from));
+    return rotation_vector(
+        Mat3(from.transpose() * attitude_shown(recording_, site_, t.row, gimbals.of(t.to))));
+  }
+  /// Part of the commanded turn by which the platform turned otherwise.
+  double mismatch(const Turn& t, const Mixup& commands, const Mixup& gimbals,
+                  double factor = 1.0) const {
+    const Vec3 commanded = factor * t.length * commands.of(t.omega_cmd_p);
+    const Mat3 left = rotation<double>(commanded).transpose() * rotation<double>(shown(t, gimbals));
+    return rotation_vector(left).norm() / std::min(commanded.norm(), 1.0);
+  }
+  /// That of the median turn: at its ends a slew may not fill a row.
+  double usual_mismatch(const Mixup& commands, const Mixup& gimbals, double factor = 1.0) const {
+    std::vector<double> all;
+    for (const Turn& t : turns_) all.push_back(mismatch(t, commands, gimbals, factor));
+    return stats::upper_median(std::move(all));
+  }
+
+ private:
+  const Recording& recording_;
+  const Site& site_;
+  std::vector<Turn> turns_;
+};
+
+/// The one unit of rates in which the commands would be those that the platform obeyed.
+std::optional<std::string_view> unit_of_commands(const Slews& slews, const Unit& said) {
+  constexpr std::pair<std::string_view, double> units[] = {{"rad/s", 1.0},
+                                                           {"deg/s", detail::deg},
+                                                           {"arcmin/s", detail::deg / 60.0},
+                                                           {"arcsec/s", detail::deg / 3600.0},
+                                                           {"deg/h", detail::deg / 3600.0},
+                                                           {"rad/h", 1.0 / 3600.0},
+                                                           {"mrad/s", 1e-3},
+                                                           {"rpm", 6.0 * detail::deg}};
+  for (const auto& [symbol, to_si] : units)
+    if (slews.usual_mismatch({}, {}, to_si / said.to_si) < same_turn) return symbol;
+  return std::nullopt;
+}
+
+}  // namespace
+
+Mat3 attitude_shown(const Recording& recording, const Site& site, std::size_t row,
+                    const Vec3& angles) {
+  const Channel* heading = recording.find("case_heading");
+  return rotation<double>(site.omega_ie_l() * recording.find("time")->values[row]) *
+         case_attitude(heading ? heading->values[row] : 0.0) * gimbal_chain(angles);
+}
+
+std::optional<RowMistake> slew_mistake(const Recording& recording, const Timeline& timeline,
+                                       bool gimbals_as_planned) {
+  const Slews slews(recording, timeline);
+  const std::vector<Turn>& turns = slews.turns();
+  if (turns.size() < fewest_turns || slews.usual_mismatch({}, {}) < same_turn) return std::nullopt;
+  const auto wrong = [&](const Turn& t) { return !(slews.mismatch(t, {}, {}) < same_turn); };
+  const std::size_t first = std::ranges::find_if(turns, wrong)->row;
+  const std::string all = "in slews the platform turned as commanded";
+  const auto of_commands =
+      the_one_mixup([&](const Mixup& m) { return slews.usual_mismatch(m, {}) < same_turn; });
+  const auto of_gimbals = the_one_mixup([&](const Mixup& m) {
+    return !gimbals_as_planned && slews.usual_mismatch({}, m) < same_turn;
+  });
+  if (of_commands && of_gimbals)
+    return RowMistake{first, fmt::format("in slews the platform does not turn as commanded. Either "
+                                         "{}. Or {}",
+                                         mixup_text(*of_commands, command_channels, all),
+                                         mixup_text(*of_gimbals, gimbal_channels, all))};
+  if (of_commands) return RowMistake{first, mixup_text(*of_commands, command_channels, all)};
+  if (of_gimbals) return RowMistake{first, mixup_text(*of_gimbals, gimbal_channels, all)};
+  const Unit& said = recording.find("cmd_x")->unit;
+  if (const auto unit = unit_of_commands(slews, said))
+    return RowMistake{first,
+                      fmt::format("cmd_x, cmd_y, cmd_z are in another unit: the platform turned as "
+                                  "if they were in [{}], not [{}]. Correct the unit",
+                                  *unit, said.symbol.view())};
+  return RowMistake{
+      first, fmt::format(
+                 "in {} of {} turns of slews the gimbals do not turn as commanded (expected within "
+                 "{:.0f} %). Are cmd_x, cmd_y, cmd_z the rates of the platform about its axes, "
+                 "and gimbal_outer, gimbal_middle, gimbal_inner its angles at the end of a row? "
+                 "Correct the export",
+                 std::ranges::count_if(turns, wrong), turns.size(), 100.0 * same_turn)};
+}
+
+}  // namespace drift
