@@ -42,6 +42,15 @@ std::size_t first_of(const ParamMask& mask) {
   return i;
 }
 
+/// The axes or gimbals that parameters of a term belong to: "x", "middle".
+std::vector<std::string_view> axes_of(const TermInfo& term) {
+  std::vector<std::string_view> axes;
+  for (std::size_t i = term.first; i < term.first + term.count; ++i)
+    if (!known[i].axis.empty() && std::ranges::find(axes, known[i].axis) == axes.end())
+      axes.push_back(known[i].axis);
+  return axes;
+}
+
 /// The parameters of a term, or of one axis of it if one is named.
 ParamMask term_mask(const TermInfo& term, std::string_view axis) {
   ParamMask mask;
@@ -103,8 +112,9 @@ ParamMask params_named(std::string_view key) {
   const auto term = TermLibrary::find_term(key.substr(0, dot));
   if (!term) return mask;
   if (dot == std::string_view::npos) return mask | term_mask(TermLibrary::terms[*term], {});
-  const auto axis = key.substr(dot + 1);
-  if (axis == "x" || axis == "y" || axis == "z") mask |= term_mask(TermLibrary::terms[*term], axis);
+  const auto axes = axes_of(TermLibrary::terms[*term]);
+  if (const auto axis = key.substr(dot + 1); std::ranges::find(axes, axis) != axes.end())
+    mask |= term_mask(TermLibrary::terms[*term], axis);
   return mask;
 }
 
@@ -150,7 +160,8 @@ std::vector<std::string> terms_text(const ParamMask& mask) {
   };
   for (const auto key : term_keys()) use(std::string(key));
   for (const auto key : term_keys())
-    for (const char axis : {'x', 'y', 'z'}) use(fmt::format("{}.{}", key, axis));
+    for (const std::string_view axis : axes_of(TermLibrary::terms[*TermLibrary::find_term(key)]))
+      use(fmt::format("{}.{}", key, axis));
   for (const auto& spec : known) use(std::string(spec.group.view()));
   for (const auto& spec : known) use(std::string(spec.key.view()));
   return entries;

@@ -47,13 +47,17 @@ TEST(ModelConfig, EntriesOfTermsMayBeTermsAxesGroupsAndParameters) {
   EXPECT_EQ(params_named("D_I_z").count(), 1u);
   EXPECT_TRUE(params_named("g_drift.x")[TermLibrary::index("D_S_x")]);
   EXPECT_TRUE(params_named("lambda")[TermLibrary::index("lambda")]);
+  const ParamMask middle = params_named("encoder_harmonics.middle");
+  EXPECT_TRUE(middle[TermLibrary::index("enc_s1_middle")]);
+  EXPECT_FALSE(middle[TermLibrary::index("enc_s1_outer")]);
   for (const char* none : {"", ".", "g_drift.", "g_drift.w", "g_drift.xx", "D_I.x", "D_I_", ".x"})
     EXPECT_TRUE(params_named(none).none()) << none;
 }
 
 TEST(ModelConfig, TheListOfTermsRebuildsEveryMask) {
-  for (const Keys& list : {Keys{"g_drift", "accelerometer"}, Keys{"fixed_drift.y", "D_I", "eta_x"},
-                           Keys{}, Keys{"gyro_misalignment.z", "K0_x", "K1_x", "s"}}) {
+  for (const Keys& list :
+       {Keys{"g_drift", "accelerometer"}, Keys{"fixed_drift.y", "D_I", "eta_x"}, Keys{},
+        Keys{"gyro_misalignment.z", "K0_x", "K1_x", "s"}, Keys{"encoder_harmonics.middle"}}) {
     ParamMask mask, again;
     for (const auto& key : list) mask |= params_named(key);
     for (const auto& key : terms_text(mask)) again |= params_named(key);
