@@ -11,6 +11,7 @@
 #include "analysis/preparation/command_change.hpp"
 #include "analysis/preparation/input_thresholds.hpp"
 #include "core/plan/case_heading.hpp"
+#include "core/recording/recording_channels.hpp"
 
 namespace drift::preparation {
 namespace {
@@ -51,15 +52,25 @@ class Gaps {
     if (p && !(phase_ && phase_->values[row] == 1.0)) {
       std::size_t last = row;
       while (last + 1 < time_.size() && position_[last + 1] == position_[row]) ++last;
+      const double by_plan = time_[last] - p->dwell, earlier = (begin - by_plan) / usual;
+      if (std::abs(by_plan - ended_before(row)) < RecordingLimits::grid_room * usual)
+        return std::max(by_plan, before);  // however long the first row is
       if (last + 1 < time_.size() ? spacing_.gap(last + 1) : row == 0)
         return std::max(begin, before);  // its end is missing, or may be
-      const double by_plan = time_[last] - p->dwell, earlier = (begin - by_plan) / usual;
       const bool whole = std::abs(earlier - std::round(earlier)) < RecordingLimits::grid_room;
       const bool few = earlier > 0.5 && earlier < RecordingLimits::first_rows + 0.5;
       if (whole && few && by_plan > before - RecordingLimits::grid_room * usual)
         return std::max(by_plan, before);
     }
     return std::max(begin, before);
+  }
+
+  /// Whether the first row of a caged position is longer than is usual, or the first ones are
+  /// missing: the dwell began where the one before ended.
+  bool began_earlier(std::size_t row) const {
+    const double begin = begin_of_caged(row), usual = spacing_.usual[row];
+    return time_[row] - begin > 1.5 * usual &&
+           std::abs(begin - ended_before(row)) < RecordingLimits::grid_room * usual;
   }
 
   /// Whether the jitter of the rows around is more than accelerometers can bear at a row that
@@ -75,9 +86,14 @@ class Gaps {
   /// A row or more is missing in front of this one, to which the attitude is carried along.
   bool lost_before(std::size_t row, const Site& site) const {
     if (spacing_.gap(row)) return true;
-    if (!spacing_.longer(row) || same_command(row)) return false;
+    if (same_command(row)) return false;
     const CommandChange found = command_change(r_, site, row, spacing_);
-    return found.why_not.empty() && found.time > time_[row - 1];
+    if (spacing_.longer(row)) return found.why_not.empty() && found.time > time_[row - 1];
+    // A short one among unequal rows is no gap by its length, but the platform turned in it: by
+    // more than part of a usual row, and than drift.
+    const double finest = std::min(spacing_.usual[row - 1], spacing_.usual[row]);
+    return found.as_recorded > RecordingLimits::change_room * finest * command_step(row) &&
+           found.as_recorded > PlanLimits::drifted * (time_[row] - time_[row - 1]);
   }
 
   /// Looks at the gap in front of a row. Empty and a message if it cannot be closed.
@@ -103,17 +119,22 @@ class Gaps {
   }
 
  private:
+  /// When the position before ended; a test begins at 0.
+  double ended_before(std::size_t row) const { return row > 0 ? time_[row - 1] : 0.0; }
   const Position* planned(std::size_t row) const {
     const auto number = static_cast<std::size_t>(std::max(0.0, position_[row]));
     return number >= 1 && number <= plan_.positions.size() ? &plan_.positions[number - 1] : nullptr;
   }
   bool same_command(std::size_t row) const {
-    for (const char* name : {"cmd_x", "cmd_y", "cmd_z"}) {
-      const Channel* c = r_.find(name);
-      if (c && !(std::abs(c->values[row] - c->values[row - 1]) < RecordingLimits::gap_command))
-        return false;
-    }
-    return true;
+    return command_step(row) < RecordingLimits::gap_command;
+  }
+  /// [rad/s] by which the command differs from that of the row before.
+  double command_step(std::size_t row) const {
+    double squares = 0.0;
+    for (const std::string_view name : command_channels.names)
+      if (const Channel* c = r_.find(name))
+        squares += std::pow(c->values[row] - c->values[row - 1], 2);
+    return std::sqrt(squares);
   }
 
   const Recording& r_;
@@ -166,7 +187,7 @@ Spaced with_begins(const Recording& recording, const mc::Study& study,
   std::vector<std::pair<std::size_t, double>> changes;
   std::vector<double> begins(n);
   double missing = 0.0;
-  std::size_t count = 0, first = 0;
+  std::size_t count = 0, first = 0, longer = 0;
   const auto not_measured = [&](std::size_t row) {
     for (Channel& c : out.recording.channels)
       if (is_accelerometer(c)) c.values[row] = nan_value;
@@ -175,8 +196,9 @@ Spaced with_begins(const Recording& recording, const mc::Study& study,
     if (gaps.caged(row)) {
       begins[row] = gaps.begin_of_caged(row);
       const double own = recording.find("time")->values[row] - begins[row];
-      if (gaps.begins_uncertain(row, study.readout) || own > 1.5 * spacing.usual[row])
-        not_measured(row);
+      const bool long_row = own > 1.5 * spacing.usual[row];
+      longer += long_row ? 1 : 0;
+      if (gaps.begins_uncertain(row, study.readout) || long_row) not_measured(row);
       continue;
     }
     begins[row] = recording.find("time")->values[row - 1];
@@ -195,12 +217,18 @@ Spaced with_begins(const Recording& recording, const mc::Study& study,
     out.recording.begins[row + 1] = t;
     insert_row(out, row, t);
   }
+  const std::string name = recording.source.empty() ? "recording" : recording.source;
+  if (longer > 0)
+    remarks.push_back(fmt::format(
+        "{}: the first row of {} caged position{} is longer than is usual, by the dwell of the "
+        "plan, or rows are missing before it: its accelerometers are taken as not measured",
+        name, longer, longer == 1 ? "" : "s"));
   if (count > 0)
     remarks.push_back(fmt::format(
-        "{}: {:.0f} rows are missing within positions, in {} gap{}, the first before line {}: the "
+        "{}: {:.0f} {} missing within positions, in {} gap{}, the first before line {}: the "
         "command is taken as held, the accelerometers right behind a gap as not measured{}",
-        recording.source.empty() ? "recording" : recording.source, missing, count,
-        count == 1 ? "" : "s", first < recording.lines.size() ? recording.lines[first] : first + 1,
+        name, missing, missing == 1.0 ? "row is" : "rows are", count, count == 1 ? "" : "s",
+        first < recording.lines.size() ? recording.lines[first] : first + 1,
         changes.empty() ? ""
                         : fmt::format("; in {} of them the command changed, when is read off the "
                                       "gimbal angles",
@@ -208,11 +236,11 @@ Spaced with_begins(const Recording& recording, const mc::Study& study,
   return out;
 }
 
-bool gap_on_the_way(const Recording& recording, const TestPlan& plan) {
+bool rows_missing(const Recording& recording, const TestPlan& plan) {
   const RowSpacing spacing = row_spacing(recording);
   const Gaps gaps(recording, plan, spacing);
-  for (std::size_t row = 1; row < recording.rows(); ++row)
-    if (spacing.gap(row) && !gaps.caged(row)) return true;
+  for (std::size_t row = 0; row < recording.rows(); ++row)
+    if (gaps.caged(row) ? gaps.began_earlier(row) : spacing.gap(row)) return true;
   return false;
 }
 

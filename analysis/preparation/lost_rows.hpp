@@ -18,7 +18,8 @@ struct Spaced {
 /// Says of every row when it begins, and sees to the rows that are missing.
 ///
 /// A row begins at the row before it. The first row of a caged position begins one usual step
-/// earlier; where that step is uncertain by so much that Earth rate would show in the
+/// earlier, or with the dwell of the plan where that begins when the position before ended, or a
+/// few rows are missing; where that step is uncertain by so much that Earth rate would show in the
 /// accelerometers (jitter), its accelerometers are not measured.
 ///
 /// Behind missing rows a row begins at the last one that is there, with the command held, and its
@@ -31,7 +32,8 @@ struct Spaced {
 Spaced with_begins(const Recording& recording, const mc::Study& study,
                    std::vector<std::string>& remarks, std::vector<std::string>& wrong);
 
-/// Rows are missing in front of a position to which the attitude is carried along.
-bool gap_on_the_way(const Recording& recording, const TestPlan& plan);
+/// Rows are missing in front of one to which the attitude is carried along, or at the begin of a
+/// caged position that follows the one before at once.
+bool rows_missing(const Recording& recording, const TestPlan& plan);
 
 }  // namespace drift::preparation

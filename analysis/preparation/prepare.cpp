@@ -127,7 +127,7 @@ double common_interval(const mc::Study& study, const std::vector<Recording>& rec
   double common = std::numeric_limits<double>::quiet_NaN();
   for (const Recording& r : recordings) {
     const double interval = sample_intervals(r).typical;
-    if (!row_spacing(r).regular || gap_on_the_way(r, study.plan)) return std::nan("");
+    if (!row_spacing(r).regular || rows_missing(r, study.plan)) return std::nan("");
     if (!std::isfinite(interval)) continue;
     if (std::isfinite(common) &&
         std::abs(interval - common) > RecordingLimits::same_interval * common)

@@ -11,6 +11,7 @@
 
 #include "core/base/check.hpp"
 #include "core/base/memory.hpp"
+#include "core/physics/gimbals.hpp"
 #include "core/physics/own/own_terms.hpp"
 #include "core/plan/attitude_check.hpp"
 #include "core/plan/case_heading.hpp"
@@ -102,7 +103,6 @@ class Reader {
     if (!rec_.samples.empty()) i.samples = rec_.samples[row];
     if (i.cage) {
       ++timeline_.chains;
-      // A recording may begin on the way to a torqued position: then its attitude is the plan's.
       chain_start_.push_back(position.R_lp);
       heading_now_ = passage.dwell.heading0;
     }
@@ -117,9 +117,21 @@ class Reader {
                "case_heading is missing (expected a number in every row). Give it, or leave the "
                "column out");
     heading_now_ = i.heading1;
+    if (!before && !passage.caged) chain_start_.back() = begun_on_the_way(row, i, position.R_lp);
     for (int a = 0; a < 6; ++a)
       if (loop_[a] && std::isfinite(loop_[a]->values[row])) i.loop[a] = loop_[a]->values[row];
     timeline_.intervals.push_back(i);
+  }
+
+  /// Where a platform was that had been slewed before the recording began: nobody knows what drift
+  /// had done to it but the gimbals, which show it at the end of the first row. Without them it was
+  /// where the plan has it.
+  Mat3 begun_on_the_way(std::size_t row, const Interval& i, const Mat3& planned) const {
+    const auto angles = measured(rec_, gimbal_channels, row);
+    if (!angles) return planned;
+    const Mat3 R_lp_end = case_attitude(i.heading1) * gimbal_chain(*angles);
+    return rotation<double>(site_.omega_ie_l() * i.length()) * R_lp_end *
+           rotation<double>(-i.omega_cmd_p * i.length());
   }
 
   /// The command of a row acts since the row before. Where it changed while rows were missing,

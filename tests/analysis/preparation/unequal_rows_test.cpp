@@ -51,7 +51,7 @@ struct Misfit {
 
 Misfit misfit(const Prepared& p) {
   const RecordedTest made = recorded_test(p.study, p.recordings);
-  const TruthDraw draw = draw_truth(study().truth, 1, 1, 0);
+  const TruthDraw draw = draw_truth(study().truth, made.timeline.chains, 1, 0);
   const Measurements truth = predict(made.timeline, study().truth.model(), draw.theta,
                                      {draw.psi0_l.begin(), draw.psi0_l.end()}, p.study.readout);
   Misfit m;
@@ -133,13 +133,94 @@ TEST(UnequalRows, WhenASlewBeganIsReadOffTheGimbalsWhereRowsAreMissingAndRefused
     for (Channel& c : r.channels) c.values.erase(c.values.begin() + static_cast<long>(lost));
     r.lines.erase(r.lines.begin() + static_cast<long>(lost));
     const Prepared p = prepare(study(), {r});
-    EXPECT_TRUE(says(p, "1 rows are missing within positions, in 1 gap")) << lost;
+    EXPECT_TRUE(says(p, "1 row is missing within positions, in 1 gap")) << lost;
     const Misfit m = misfit(p);
     EXPECT_LT(m.gimbal, 0.05 * test::arcsec) << lost;
     EXPECT_LT(m.acc, 1e-7) << lost;
     std::erase_if(r.channels, [](const Channel& c) { return c.name.starts_with("gimbal_"); });
     EXPECT_NE(refusal(r).find("no gimbal angles tell when the command changed"), std::string::npos)
         << lost;
+  }
+}
+
+/// Of rows of a second those that end at these, accelerometers averaged.
+Recording ending_at(const Recording& seconds, const std::vector<std::size_t>& ends) {
+  Recording out;
+  for (const Channel& c : seconds.channels) {
+    Channel thin{c.name, c.unit, {}};
+    std::size_t from = 0;
+    for (const std::size_t end : ends) {
+      double sum = 0.0;
+      for (std::size_t k = from; k < end; ++k) sum += c.values[k];
+      thin.values.push_back(c.name.starts_with("acc_") ? sum / static_cast<double>(end - from)
+                                                       : c.values[end - 1]);
+      from = end;
+    }
+    out.channels.push_back(std::move(thin));
+  }
+  for (std::size_t k = 0; k < ends.size(); ++k) out.lines.push_back(k + 2);
+  return out;
+}
+
+TEST(UnequalRows, ARecordingMayBeginOnTheWay) {
+  // What drift did before it began nobody knows: the gimbals say where the platform was.
+  Recording r = with_rows(fine(), Rows::each_minute);
+  const auto& position = r.find("position")->values;
+  const long first = std::ranges::find(position, 5.0) - position.begin();
+  ASSERT_EQ(r.find("phase")->values[static_cast<std::size_t>(first)], 1.0);
+  for (Channel& c : r.channels) c.values.erase(c.values.begin(), c.values.begin() + first);
+  r.lines.erase(r.lines.begin(), r.lines.begin() + first);
+  const Prepared p = prepare(study(), {r});
+  EXPECT_EQ(p.absent_positions, (std::vector<int>{1, 2, 3, 4}));
+  // At the truth nothing is left but what drift of a degree an hour does in one row, and the
+  // attitude error that the whole test began with.
+  EXPECT_LT(misfit(p).gimbal, 1000.0 * test::arcsec);
+}
+
+TEST(UnequalRows, AShortRowLostBesideASlewIsSeenByHowFarThePlatformTurned) {
+  // Rows of 60 s, the last of a dwell of 20: lost, it is no gap by its length.
+  const auto without_one = [&](std::size_t first_of_slew) {
+    const auto& phase = fine().find("phase")->values;
+    std::vector<std::size_t> ends;
+    for (std::size_t first = 0; first < fine().rows();) {
+      std::size_t end = first + 1;
+      while (end < fine().rows() && phase[end] == phase[first]) ++end;
+      const bool slew = phase[first] == 1.0;
+      for (std::size_t at = first + (slew ? first_of_slew : 60); at + 30 < end; at += 60)
+        ends.push_back(at);
+      if (!slew) ends.push_back(end - 20);
+      if (first > 0) ends.push_back(end);  // of the first dwell it is lost
+      first = end;
+    }
+    return ending_at(fine(), ends);
+  };
+  const Prepared p = prepare(study(), {without_one(60)});
+  EXPECT_TRUE(says(p, "1 row is missing within positions, in 1 gap"));
+  EXPECT_LT(misfit(p).gimbal, 0.05 * test::arcsec);
+  EXPECT_NE(refusal(without_one(25)).find("no time at which a row would have stood"),
+            std::string::npos);
+}
+
+TEST(UnequalRows, TheFirstRowOfACagedPositionIsAsLongAsItsDwellSays) {
+  mc::Study s = study();
+  for (Position& p : s.plan.positions) p.entry = Entry::caged;
+  mc::Study each_second = s;
+  for (Position& p : each_second.plan.positions) p.sample = 1.0;
+  const Timeline timeline = lay_out(each_second.plan, s.site);
+  const TruthDraw draw = draw_truth(s.truth, timeline.chains, 1, 0);
+  const Recording seconds = make_recording(
+      timeline, Simulator(s.truth, s.readout).run(timeline, draw, 1, 0).measured, s.readout);
+  for (const bool jittered : {false, true}) {
+    std::vector<std::size_t> ends;
+    for (std::size_t first = 0; first < seconds.rows(); first += 600)
+      for (std::size_t at = jittered ? 60 : 120; at <= 600; at += 60) {
+        const std::size_t jitter = (7 * first / 600 + 5 * at / 60) % 7;
+        ends.push_back(first + at + (jittered && at < 600 ? jitter : 3) - 3);
+      }
+    const Prepared p = prepare(s, {ending_at(seconds, ends)});
+    EXPECT_EQ(says(p, "the first row of 12 caged positions is longer"), !jittered);
+    EXPECT_LT(misfit(p).gimbal, 0.05 * test::arcsec) << jittered;
+    EXPECT_LT(misfit(p).acc, 1e-7) << jittered;
   }
 }
 
