@@ -32,11 +32,12 @@ Diagnosis advised(Diagnosis d, const preparation::Prepared& test,
   return d;
 }
 
-/// Nothing is said of causes and forms, and no probabilities, at a latitude, or with headings, that
-/// are not the recording's.
+/// Nothing is said of causes, forms and shapes, and no probabilities, at a latitude, or with
+/// headings, that are not the recording's.
 Diagnosis of_another_study(Diagnosis d) {
   d.probabilities = {};
   d.proposal.reset();
+  for (RecoveredSignal& s : d.signals) s.say_no_shape();
   std::erase_if(d.remarks, [](const Remark& r) {
     return std::holds_alternative<remark::StrongestLeft>(r) ||
            std::holds_alternative<remark::FreeInputExplains>(r) ||

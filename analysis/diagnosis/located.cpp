@@ -159,8 +159,12 @@ Located located(const search::Fitted& nominal, const search::Search& found, cons
   const std::vector<Place> places = places_of(acting, nominal, inputs);
   if (places.empty()) {
     out.where.equation = equation_of(judged, inputs, window);
+    const ShapeFrom shape =
+        judged.verdict == Verdict::ambiguous && best ? ShapeFrom::alternative : ShapeFrom::signal;
     for (std::size_t k = 0; k < std::min(most_signals, inputs.size()); ++k)
-      out.signals.push_back(recovered_signal(inputs[k], timeline, covariates, cause));
+      out.signals.push_back(recovered_signal(inputs[k], timeline, covariates, cause, shape));
+    // The second is the same misfit as another equation would take it: one shape is enough.
+    if (shape == ShapeFrom::signal && out.signals.size() > 1) out.signals.back().say_no_shape();
     return out;
   }
   out.where.equation = places.front().name();
@@ -178,8 +182,9 @@ void move_to(Located& place, const Proposal& form) {
   place.where.equation = equation;
   const auto its = std::ranges::find(place.signals, equation, &RecoveredSignal::equation);
   if (its == place.signals.end()) return;
-  if (its->shape.kind == Shape::Kind::none_simple) its->shape.kind = Shape::Kind::of_form;
   std::rotate(place.signals.begin(), its, its + 1);
+  for (RecoveredSignal& s : place.signals) s.say_no_shape();
+  place.signals.front().shape.kind = Shape::Kind::of_form;
 }
 
 }  // namespace drift::diagnosis

@@ -141,8 +141,9 @@ RecoveredSignal recovered_signal(const InputEstimate& input, const Timeline& tim
       if (explained.size() > 0) out.explained.push_back(explained[k] / to_si);
     }
 
-  if (shape == ShapeFrom::cause) {
-    out.shape.kind = Shape::Kind::of_cause;
+  if (shape != ShapeFrom::signal) {
+    out.shape.kind =
+        shape == ShapeFrom::cause ? Shape::Kind::of_cause : Shape::Kind::of_alternative;
     out.correlation = explained.size() > 0 ? correlation(explained, input.value) : 0.0;
     return out;
   }

@@ -26,8 +26,9 @@ std::vector<InputEstimate> estimate_inputs(const inference::MeasuredRows& rows,
                                            const Timeline& timeline,
                                            const inference::Projector& projector, int per_position);
 
-/// Whether the shape of a signal is to be found, or is that of a cause which is named.
-enum class ShapeFrom { signal, cause };
+/// Whether the shape of a signal is to be found, is that of a cause which is named, or of the most
+/// probable of several.
+enum class ShapeFrom { signal, cause, alternative };
 
 /// As a time series with a description of its shape. cause: candidate columns with amplitudes whose
 /// signature is drawn over it; may be empty.

@@ -17,6 +17,11 @@ struct RecoveredSignal {
   std::vector<double> explained;  ///< the winner's signature, projected alike; empty without winner
   Shape shape;
   double correlation = 0.0;  ///< of the signal with the shape
+
+  void say_no_shape() {
+    shape = {};
+    correlation = 0.0;
+  }
 };
 
 }  // namespace drift::diagnosis

@@ -20,6 +20,7 @@ struct Shape {
     one_position,           ///< is present in `position` alone
     covariate,              ///< goes with `covariate`
     of_cause,               ///< what a named cause makes of it
+    of_alternative,         ///< what the most probable of several causes makes of it
     of_form,                ///< what a proposed form makes of it
     follows,                ///< of a recording on a case: goes with `covariate`, signed
     follows_nothing,        ///< of a recording on a case: neither with specific force nor time

@@ -193,7 +193,8 @@ Json equations_json(const std::vector<RecoveredSignal>& signals) {
     all.push_back(
         {{"equation", s.equation},
          {"unit", s.unit},
-         {"shape", fmt::format("{}: {}", s.equation, shape_text(s))},
+         {"shape",
+          shape_text(s).empty() ? s.equation : fmt::format("{}: {}", s.equation, shape_text(s))},
          {"onset_s", s.shape.kind == Shape::Kind::onset ? s.shape.seconds : std::nan("")},
          {"period_s", s.shape.kind == Shape::Kind::period ? s.shape.seconds : std::nan("")},
          {"covariate", text_or_null(s.shape.covariate)},

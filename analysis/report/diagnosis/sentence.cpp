@@ -140,11 +140,10 @@ std::string verdict_alone(const Diagnosis& d) {
           "{}).{}{}",
           shows_as_much(d.p_value), chance_text(d), noise);
     case Verdict::named:
-      return fmt::format("{}; {} ({}).{}{}", lacking(d.causes, instrument_of(d)),
-                         held_out_text(d, d.causes.size() > 1), false_alarm, outside_twins_text(d),
-                         noise);
+      return fmt::format("{}; {} ({}).{}", lacking(d.causes, instrument_of(d)),
+                         held_out_text(d, d.causes.size() > 1), false_alarm, noise);
     case Verdict::ambiguous:
-      return ambiguous_text(d) + outside_twins_text(d) + noise;
+      return ambiguous_text(d) + noise;
     case Verdict::unexplained:
       break;
   }
@@ -247,6 +246,8 @@ std::string sentence(const Diagnosis& d) {
     text += lacking_covariate_text(d.not_examined);
   else if (d.verdict == Verdict::consistent && wanders(d))
     text += followed_text(d.not_examined);
+  // Last, for a short answer leaves off what comes last: pairs of one trace are the least of it.
+  if (d.verdict == Verdict::named || d.verdict == Verdict::ambiguous) text += outside_twins_text(d);
   text += errors_text(d);
   return text;
 }

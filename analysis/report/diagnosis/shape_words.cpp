@@ -40,6 +40,8 @@ std::string bare(const diagnosis::Shape& s) {
       return fmt::format("goes with the recorded {}", s.covariate);
     case Kind::of_cause:
       return "as the cause that is named makes it";
+    case Kind::of_alternative:
+      return "as the most probable cause makes it";
     case Kind::of_form:
       return "as the form that is proposed";
     case Kind::follows:

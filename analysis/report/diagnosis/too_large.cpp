@@ -17,9 +17,18 @@ namespace {
 using diagnosis::Diagnosis;
 using search::CandidateScore;
 
+/// Whether a candidate is one of the causes. Of one term another parameter is another effect: the
+/// first harmonic of an encoder is not the second.
 bool is_named(const Diagnosis& d, const CandidateScore& c) {
-  return std::ranges::any_of(d.causes,
-                             [&](const search::Cause& cause) { return cause.term == c.term; });
+  const std::size_t space = c.label.rfind(' ');
+  const std::string of_one =
+      space == std::string::npos || c.dof != 1 ? "" : c.label.substr(space + 1);
+  return std::ranges::any_of(d.causes, [&](const search::Cause& cause) {
+    return cause.term == c.term &&
+           (of_one.empty() || cause.axis != c.axis ||
+            std::ranges::find(cause.parameters, of_one, &search::CauseParameter::key) !=
+                cause.parameters.end());
+  });
 }
 
 /// Significant, with nothing significant left beside it, and too large: so far out in its prior

@@ -96,7 +96,14 @@ void expect_agreement(const std::vector<std::size_t>& terms, std::size_t at_leas
     EXPECT_EQ(d.signals.front().equation, d.where.equation);
     EXPECT_NE(report::where_sentence(d.where).find(report::equation_in_words(d.where.equation)),
               std::string::npos);
-    if (d.verdict != Verdict::named) continue;
+    if (d.verdict != Verdict::named) {  // no other shape than the headline's
+      for (std::size_t k = 0; k < d.signals.size(); ++k)
+        EXPECT_TRUE(d.verdict == Verdict::ambiguous
+                        ? d.signals[k].shape.kind == Shape::Kind::of_alternative
+                        : k == 0 || report::shape_text(d.signals[k]).empty())
+            << report::sentence(d);
+      continue;
+    }
     ++named;
     expect_from_the_cause(d);
     if (d.causes.front().term == "mass_unbalance_step") {
@@ -142,6 +149,8 @@ TEST(WhereFollows, AFormThatFitsSaysWhereAndTheOtherSignalsKeepTheirOrder) {
             "accelerometer z, accelerometer z, platform rate y, gimbal inner");
   EXPECT_EQ(order_after("drift.y"),
             "platform rate y, platform rate y, accelerometer z, gimbal inner");
+  EXPECT_EQ(place.signals.front().shape.kind, Shape::Kind::of_form);
+  EXPECT_EQ(report::shape_text(place.signals.back()), "");
   EXPECT_EQ(order_after("gimbal.outer"),
             "gimbal outer, platform rate y, accelerometer z, gimbal inner");
 }

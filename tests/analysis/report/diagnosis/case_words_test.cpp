@@ -88,6 +88,39 @@ TEST(TooLarge, ACandidateThatLosesByItsSizeAloneIsNamedWithIt) {
   }
 }
 
+TEST(TooLarge, AnotherParameterOfTheTermThatIsNamedIsAnotherEffect) {
+  Diagnosis d = of_case("encoder_harmonics", "middle", "enc_s2_middle");
+  d.of_case = false;
+  search::CandidateScore first;
+  first.term = "encoder_harmonics";
+  first.axis = "middle";
+  first.label = "encoder_harmonics.middle enc_s1_middle";
+  first.p_value = 1e-18;
+  first.size_sigma = 6.1;
+  first.leaves_nothing = true;
+  d.candidates.push_back(first);
+  EXPECT_TRUE(says(report::sentence(d),
+                   "(encoder_harmonics.middle enc_s1_middle) would have to be 6.1 times"))
+      << report::sentence(d);
+  d.candidates.back().label = "encoder_harmonics.middle enc_s2_middle";
+  EXPECT_FALSE(says(report::sentence(d), "size alone")) << report::sentence(d);
+}
+
+TEST(TooLarge, IsSaidBeforePairsThatLeaveTheSameTrace) {
+  Diagnosis d = of_case("magnetic_drift", "y", "M_y");
+  d.of_case = false;
+  d.causes[0].confusable_with = {{"base_motion_leak", "y", 1.0}};
+  search::CandidateScore leak;
+  leak.term = leak.label = "torquer_asymmetry";
+  leak.p_value = 1e-20;
+  leak.size_sigma = 11.5;
+  leak.leaves_nothing = true;
+  d.candidates.push_back(leak);
+  const std::string text = report::sentence(d);
+  ASSERT_TRUE(says(text, "same trace")) << text;
+  EXPECT_LT(text.find("loses by its size alone"), text.find("same trace")) << text;
+}
+
 /// 4.9 of its usual sizes cost it e^12, and it is less likely than what is named by e^6.6 only.
 TEST(TooLarge, ACandidateThatItsSizeMakesLessLikelyIsNamedWithTheCause) {
   Diagnosis d = of_case("gimbal_angle_drift", "y", "G_c_y");
