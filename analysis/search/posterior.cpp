@@ -84,15 +84,19 @@ std::vector<Weighed> explanations(const Search& found, const LibraryPrior& prior
                                   const inference::NoiseModel& declared) {
   std::vector<Weighed> all;
   double evidence = never, share = 0.0;
-  for (std::size_t k = 0; k < found.sets.size(); ++k) {
-    const Refit& r = found.sets[k];
+  const bool outweighed = found.sets.empty();
+  const std::vector<Refit>& sets = outweighed ? found.outweighed : found.sets;
+  const std::vector<double>& probability =
+      outweighed ? found.outweighed_probability : found.probability;
+  for (std::size_t k = 0; k < sets.size(); ++k) {
+    const Refit& r = sets[k];
     evidence =
         log_sum(evidence, log_evidence(found, r, declared) + prior.log_of(r.choices) +
                               log_of_visible(found.nominal, r.choices) - std::max(0.0, r.excess));
-    share += found.probability[k];
+    share += probability[k];
   }
-  for (std::size_t k = 0; k < found.sets.size(); ++k)
-    all.push_back({found.sets[k].choices, evidence + std::log(found.probability[k] / share)});
+  for (std::size_t k = 0; k < sets.size(); ++k)
+    all.push_back({sets[k].choices, evidence + std::log(probability[k] / share)});
   return all;
 }
 
@@ -126,7 +130,9 @@ double log_outside(const Search& found, const LibraryPrior& prior,
   // Its gain is against the estimated noise, which is not at its best where the misfit is gross.
   const double alone = std::min(nothing.either(), 0.5 * e.log_likelihood2()) +
                        std::max(log_free_form(e.lone, e.problem), log_window(e));
-  const std::vector<Refit>& fitted = found.sets.empty() ? found.rejected : found.sets;
+  const std::vector<Refit>& fitted = !found.sets.empty()         ? found.sets
+                                     : !found.outweighed.empty() ? found.outweighed
+                                                                 : found.rejected;
   const Refit* best = nullptr;
   for (const Refit& r : fitted)
     if (!best || r.log_bayes > best->log_bayes) best = &r;

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/search/other_equation.hpp"
@@ -230,7 +231,7 @@ void look_between_all_points(Search& s, const MeasuredTest& test, std::vector<Re
 }
 
 Search searched(Fitted nominal, const MeasuredTest& test, const SearchOptions& options) {
-  Search out{detect(std::move(nominal), test, options), {}, {}, false, {}, {}, {}};
+  Search out{detect(std::move(nominal), test, options), {}, {}, false, {}, {}, {}, {}, {}};
   if (out.significant)
     out.nominal =
         refine_grids(std::move(out.nominal), test, inference::ReachLimits::worth_refining);
@@ -290,9 +291,8 @@ Search search(Fitted nominal, const MeasuredTest& test, const SearchOptions& opt
   Search out = searched(std::move(nominal), test, options);
   if (out.sets.empty() || posterior_of(out).outside <= inference::SearchLimits::credible)
     return out;
-  std::ranges::move(out.sets, std::back_inserter(out.rejected));
-  out.sets.clear();
-  out.probability.clear();
+  out.outweighed = std::exchange(out.sets, {});
+  out.outweighed_probability = std::exchange(out.probability, {});
   out.just_not = false;
   return out;
 }

@@ -14,12 +14,16 @@ struct Search : Detection {
   std::vector<Refit> rejected;      ///< the most probable ones that leave something significant
   std::vector<Refit> beside;        ///< those that leave nothing and are not in the credible set
   std::vector<Remainder> linear;    ///< of every single candidate, from the linearised test
+  /// Sets and their probabilities where something outside the library is so much more probable that
+  /// none of them is given: then there are no sets.
+  std::vector<Refit> outweighed;
+  std::vector<double> outweighed_probability;
 };
 
 /// Names what is missing (discovery.md 2.3 to 2.7): detection by the largest projected score; the
 /// adequate set, first of single candidates, then of all pairs, then by greedy steps, each
 /// confirmed by a fit through the full dynamics; probabilities from their evidence. Where something
-/// outside the library is credible by itself (0.95; posterior.hpp) all sets are rejected.
+/// outside the library is credible by itself (0.95; posterior.hpp) all sets are outweighed.
 Search search(Fitted nominal, const MeasuredTest& test, const SearchOptions& options);
 
 }  // namespace drift::search

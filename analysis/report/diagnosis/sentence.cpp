@@ -130,6 +130,20 @@ std::string chance_text(const Diagnosis& d) {
   return text + ": watch for it in the next recording.";
 }
 
+/// That no effect of the library is behind it; where one could be, how probable either is.
+std::string unknown_text(const Probabilities& p, Instrument instrument) {
+  if (p.named.empty() || p.outside <= inference::SearchLimits::credible)
+    return "no known effect explains it";
+  std::vector<std::string> words;
+  for (const NamedEffect& e : p.named.front().causes)
+    words.push_back(fmt::format("{} ({})", in_words(e.term, e.axis, instrument), e.label));
+  return fmt::format(
+      "something that no term describes, in one stretch of the test perhaps, is more probable "
+      "({}) than the likeliest known effect ({}), {}",
+      decimal_text(p.outside, 3), decimal_text(p.named.front().probability, 3),
+      fmt::join(words, " together with "));
+}
+
 std::string verdict_alone(const Diagnosis& d) {
   const std::string noise = noise_text(d),
                     false_alarm = fmt::format("chance of a false alarm: {}", p_text(d.p_value));
@@ -148,9 +162,9 @@ std::string verdict_alone(const Diagnosis& d) {
       break;
   }
   return fmt::format(
-      "Something is missing from the nominal model ({}) and no known effect explains it; it sits "
+      "Something is missing from the nominal model ({}) and {}; it sits "
       "in the {}{}.{}",
-      false_alarm,
+      false_alarm, unknown_text(d.probabilities, instrument_of(d)),
       d.where.equation.empty() ? "test as a whole" : equation_in_words(d.where.equation),
       located_shape_text(d), noise);
 }

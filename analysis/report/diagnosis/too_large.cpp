@@ -6,7 +6,6 @@
 #include <limits>
 #include <vector>
 
-#include "analysis/report/diagnosis/effect_words.hpp"
 #include "analysis/report/diagnosis/words.hpp"
 #include "core/base/number_text.hpp"
 #include "core/base/words.hpp"
@@ -49,8 +48,12 @@ double best_evidence(const Diagnosis& d) {
   return best;
 }
 
-/// Of every term the candidate that needs the smallest size.
-std::vector<const CandidateScore*> smallest_of_each_term(const Diagnosis& d) {
+bool likelier(const CandidateScore* a, const CandidateScore* b) {
+  return a->log_bayes != b->log_bayes ? a->log_bayes > b->log_bayes : a->size_sigma < b->size_sigma;
+}
+
+/// Of every term the likeliest candidate, the likeliest first.
+std::vector<const CandidateScore*> likeliest_of_each_term(const Diagnosis& d) {
   std::vector<const CandidateScore*> all;
   const double best = best_evidence(d);
   for (const CandidateScore& c : d.candidates) {
@@ -58,27 +61,26 @@ std::vector<const CandidateScore*> smallest_of_each_term(const Diagnosis& d) {
     const auto same = std::ranges::find(all, c.term, &CandidateScore::term);
     if (same == all.end())
       all.push_back(&c);
-    else if (c.size_sigma < (*same)->size_sigma)
+    else if (likelier(&c, *same))
       *same = &c;
   }
-  std::ranges::stable_sort(all, {}, &CandidateScore::size_sigma);
+  std::ranges::stable_sort(all, likelier);
   return all;
 }
 
 }  // namespace
 
 std::string too_large_text(const Diagnosis& d) {
-  constexpr std::size_t most = 3;
-  if (d.causes.empty()) return "";
+  constexpr std::size_t most = 6;
+  if (d.causes.empty() && d.verdict != diagnosis::Verdict::unexplained) return "";
   std::vector<std::string> effects;
-  for (const CandidateScore* c : smallest_of_each_term(d))
+  for (const CandidateScore* c : likeliest_of_each_term(d))
     if (effects.size() < most)
-      effects.push_back(fmt::format("{} ({}) would have to be {} times its usual size",
-                                    in_words(c->term, c->axis, instrument_of(d)), label_of(*c),
-                                    number_text(c->size_sigma, 2)));
+      effects.push_back(fmt::format("{} ({}{})", label_of(*c), number_text(c->size_sigma, 2),
+                                    effects.empty() ? " times its usual size" : ""));
   if (effects.empty()) return "";
-  return fmt::format(" What would explain it as well loses by its size alone: {}.",
-                     listed(effects, "and"));
+  return fmt::format(" What would explain it{}, but loses by its size alone: {}.",
+                     d.causes.empty() ? "" : " as well", listed(effects, "and"));
 }
 
 }  // namespace drift::report

@@ -15,9 +15,9 @@ inline constexpr double unusual_size = inference::FitLimits::beyond_prior;
 /// same: 1 in 400 units has it.
 inline constexpr double large_size = 3.0;
 
-/// Candidates that would explain a recording as the causes do and lose by their size alone: " ...
-/// (base_motion_leak.y) would explain it as well, but would have to be 12 times its usual size."
-/// Of a term the smallest; empty without one, or without causes.
+/// Candidates that would explain a recording as the causes do: " What would explain it as well, but
+/// loses by its size alone: base_motion_leak.y (12 times its usual size)." Of a term the
+/// likeliest; empty without one, or where nothing is missing.
 std::string too_large_text(const diagnosis::Diagnosis& diagnosis);
 
 }  // namespace drift::report

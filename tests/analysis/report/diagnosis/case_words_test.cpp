@@ -75,8 +75,7 @@ TEST(TooLarge, ACandidateThatLosesByItsSizeAloneIsNamedWithIt) {
   leak.leaves_nothing = true;
   d.candidates.push_back(leak);
   EXPECT_TRUE(says(report::sentence(d), "loses by its size alone: ")) << report::sentence(d);
-  EXPECT_TRUE(
-      says(report::sentence(d), "(base_motion_leak.y) would have to be 12 times its usual size."))
+  EXPECT_TRUE(says(report::sentence(d), "base_motion_leak.y (12 times its usual size)."))
       << report::sentence(d);
   for (const auto change : {+[](search::CandidateScore& c) { c.leaves_nothing = false; },
                             +[](search::CandidateScore& c) { c.size_sigma = 4.0; },
@@ -86,6 +85,35 @@ TEST(TooLarge, ACandidateThatLosesByItsSizeAloneIsNamedWithIt) {
     change(other.candidates.back());
     EXPECT_FALSE(says(report::sentence(other), "size alone")) << report::sentence(other);
   }
+}
+
+TEST(TooLarge, WhatIsUnknownMayBeAnEffectOfASizeThatNobodyExpects) {
+  Diagnosis d = of_case("magnetic_drift", "y", "M_y");
+  d.of_case = false;
+  d.verdict = Verdict::unexplained;
+  d.causes.clear();
+  EXPECT_TRUE(says(report::sentence(d), "no known effect explains it")) << report::sentence(d);
+  d.probabilities.outside = 0.979;
+  d.probabilities.named = {
+      {{{"mass_unbalance_step", "y", "mass_unbalance_step.y"}}, 0.018},
+  };
+  search::CandidateScore magnetic;
+  magnetic.term = "magnetic_drift";
+  magnetic.axis = "y";
+  magnetic.label = "magnetic_drift.y";
+  magnetic.p_value = 1e-100;
+  magnetic.size_sigma = 30.0;
+  magnetic.leaves_nothing = true;
+  d.candidates.push_back(magnetic);
+  const std::string text = report::sentence(d);
+  EXPECT_TRUE(says(text,
+                   "is more probable (0.979) than the likeliest known effect (0.018), step of "
+                   "the mass unbalance, gyro y (mass_unbalance_step.y)"))
+      << text;
+  EXPECT_TRUE(says(text,
+                   "What would explain it, but loses by its size alone: magnetic_drift.y (30 times "
+                   "its usual size)."))
+      << text;
 }
 
 TEST(TooLarge, AnotherParameterOfTheTermThatIsNamedIsAnotherEffect) {
@@ -99,8 +127,7 @@ TEST(TooLarge, AnotherParameterOfTheTermThatIsNamedIsAnotherEffect) {
   first.size_sigma = 6.1;
   first.leaves_nothing = true;
   d.candidates.push_back(first);
-  EXPECT_TRUE(says(report::sentence(d),
-                   "(encoder_harmonics.middle enc_s1_middle) would have to be 6.1 times"))
+  EXPECT_TRUE(says(report::sentence(d), "encoder_harmonics.middle enc_s1_middle (6.1 times"))
       << report::sentence(d);
   d.candidates.back().label = "encoder_harmonics.middle enc_s2_middle";
   EXPECT_FALSE(says(report::sentence(d), "size alone")) << report::sentence(d);
@@ -136,7 +163,7 @@ TEST(TooLarge, ACandidateThatItsSizeMakesLessLikelyIsNamedWithTheCause) {
   torquer.leaves_nothing = true;
   torquer.log_bayes = 113.4;
   d.candidates = {named, torquer};
-  EXPECT_TRUE(says(report::sentence(d), "would have to be 4.9 times its usual size."))
+  EXPECT_TRUE(says(report::sentence(d), "torquer_asymmetry.y (4.9 times its usual size)."))
       << report::sentence(d);
   d.candidates[1].log_bayes = 105.0;  // less likely whatever its size
   EXPECT_FALSE(says(report::sentence(d), "size alone")) << report::sentence(d);
