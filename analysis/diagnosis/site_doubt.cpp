@@ -13,6 +13,14 @@ using inference::SiteLimits;
 
 constexpr auto d_lat = TermLibrary::index("d_lat");
 
+/// Whether the fit at another latitude leaves no more than that with the causes does, but for what
+/// so many parameters take by chance.
+bool leaves_as_little(const identification::LatitudeDoubt& doubt, const Diagnosis& d) {
+  const auto parameters = static_cast<double>((d.patched.active & ~d.nominal.active).count());
+  return (doubt.chi2_per_dof_after - d.fit.chi2_per_dof_after) * static_cast<double>(d.fit.dof) <
+         parameters + inference::FitLimits::misfit * std::sqrt(2.0 * parameters);
+}
+
 /// Whether an amplitude of a cause is of no size that its prior knows (6e-7): its evidence is that
 /// of a size as found. latitude_error of so many sizes is another latitude.
 bool has_no_usual_size(const search::Cause& cause) {
@@ -64,13 +72,14 @@ std::optional<identification::LatitudeDoubt> site_doubt(const mc::Study& study,
   // With the causes in the model, latitude_error among them, nothing would be left to ask for: the
   // latitude competes with them where it leaves nothing either.
   const bool unusual = std::ranges::any_of(d.causes, has_no_usual_size);
-  if (!unusual && !worth_asking(d)) return std::nullopt;
   if (!d.causes.empty())
-    if (auto alone = identification::latitude_doubt(study, recordings, d.nominal);
-        alone && alone->alone()) {
-      alone->odds = std::exp(log_odds(*alone, d));
-      alone->less_likely = alone->odds <= 1.0 && !unusual;
-      return alone;
+    if (auto alone = identification::latitude_doubt(study, recordings, d.nominal)) {
+      alone->as_little_left = leaves_as_little(*alone, d);
+      if (alone->alone()) {
+        alone->odds = std::exp(log_odds(*alone, d));
+        alone->less_likely = alone->odds <= 1.0 && !unusual;
+        return alone;
+      }
     }
   if (!worth_asking(d)) return std::nullopt;
   if (!d.has_patch) return identification::latitude_doubt(study, recordings, d.nominal);

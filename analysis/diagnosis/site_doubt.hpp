@@ -18,9 +18,9 @@ namespace drift::diagnosis {
 /// identification::latitude_doubt() fits the model, with the cause that was found, at other
 /// latitudes, and says when it is given.
 ///
-/// Asked only where the verdict is `unexplained`, where latitude_error is among the strongest
-/// candidates, where parameters lie far outside their priors, or where chi-square of a `consistent`
-/// fit, priors included, is above its band.
+/// Beside causes, and where there are none, asked only where the verdict is `unexplained`, where
+/// latitude_error is among the strongest candidates, where parameters lie far outside their priors,
+/// or where chi-square of a `consistent` fit, priors included, is above its band.
 /// recordings: as they were diagnosed. Empty otherwise.
 std::optional<identification::LatitudeDoubt> site_doubt(const mc::Study& study,
                                                         const std::vector<Recording>& recordings,

@@ -65,7 +65,11 @@ class Latitudes {
 }  // namespace
 
 bool LatitudeDoubt::alone() const {
-  return chance_after >= inference::SearchLimits::alpha;
+  return as_little_left || chance_after >= inference::SearchLimits::alpha;
+}
+
+bool LatitudeDoubt::as_surveyed() const {
+  return sigma < SiteLimits::survey * TermLibrary::specs[d_lat].prior_si().sigma();
 }
 
 double LatitudeDoubt::prior_sigmas() const {
@@ -125,11 +129,15 @@ std::optional<LatitudeDoubt> latitude_doubt(const mc::Study& study,
   take(latitudes.at({-best.latitude}));  // the mirrored valley is nearly as deep
   follow({0.2, 0.02, 0.005});
   LatitudeDoubt doubt{
-      best.latitude, declared, before.per_dof(), best.per_dof(),
+      best.latitude,
+      declared,
+      information > 0.0 ? 1.0 / std::sqrt(information) : 0.0,
+      before.per_dof(),
+      best.per_dof(),
       best.per_dof() > 1.0 ? stats::chi_square_chance(best.per_dof(), best.dof) : 1.0};
   // Over 180 deg by Laplace's method.
   if (information > 0.0)
-    doubt.log_evidence = 0.5 * (before.cost - best.cost) +
+    doubt.log_evidence = 0.5 * (before.cost - best.cost) / std::max(1.0, best.per_dof()) +
                          0.5 * std::log(2.0 * std::numbers::pi / information) -
                          std::log(std::numbers::pi);
   const double excess = doubt.chi2_per_dof_before - 1.0;

@@ -12,9 +12,11 @@ namespace drift::identification {
 /// The latitude that a recording is of, if it is not that of [site].
 struct LatitudeDoubt {
   double latitude = 0.0, declared = 0.0;                       ///< [rad]
+  double sigma = 0.0;                                          ///< of latitude [rad]
   double chi2_per_dof_before = 0.0, chi2_per_dof_after = 0.0;  ///< of the filter's fit
   double chance_after = 1.0;  ///< that a right model's chi-square is as far above 1 as that
-  /// Log evidence for it against the declared one, where every latitude is as likely as another.
+  /// Log evidence for it against the declared one, where every latitude is as likely as another and
+  /// noise is as the better fit has it.
   double log_evidence = 0.0;
   /// Of this latitude against the effects that would explain the test instead (site_doubt()).
   double odds = std::numeric_limits<double>::infinity();
@@ -22,10 +24,17 @@ struct LatitudeDoubt {
   /// It is that of the other hemisphere, by odds that no chance has (FitLimits::mirrored).
   bool mirrored = false;
 
+  /// It leaves no more than effects that leave nothing significant, noise as it was found.
+  bool as_little_left = false;
+
   /// The latitude mends the fit by itself: what is left is no rarer than a false alarm of a
-  /// diagnosis (SearchLimits::alpha). Otherwise something else is missing, or the noise is not as
-  /// declared; where much is left the latitude found is no better than the rest of the model.
+  /// diagnosis (SearchLimits::alpha), or as little as effects leave that explain all. Otherwise
+  /// something else is missing, or the noise is not as declared; where much is left the latitude
+  /// found is no better than the rest of the model.
   bool alone() const;
+
+  /// The recording knows it as well as a survey does: three prior sigmas of latitude_error.
+  bool as_surveyed() const;
 
   /// Size that latitude_error would need.
   double prior_sigmas() const;

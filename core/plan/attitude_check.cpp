@@ -182,7 +182,8 @@ std::vector<Sight> sights_of(const Recording& recording, const TestPlan& plan,
     const Interval& i = timeline.intervals[k];
     const Interval* before = k > 0 ? &timeline.intervals[k - 1] : nullptr;
     const bool dwells = !i.slew && (!before || before->slew || before->position != i.position);
-    if (rows == Rows::caged ? !i.cage : !dwells) continue;
+    // A recording may begin on the way: the mean of a slew is no attitude.
+    if (rows == Rows::caged ? !i.cage || i.slew : !dwells) continue;
     if (const auto seen = measured(recording, channels, k))
       all.push_back({k, i.position, i.heading1,
                      passages[static_cast<std::size_t>(i.position)].dwell.heading1,

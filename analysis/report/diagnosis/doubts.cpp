@@ -70,6 +70,11 @@ std::string beyond_prior_text(const remark::BeyondPrior& r) {
                    keys.front(), where, chance, keys.front());
 }
 
+std::string latitude_text(const identification::LatitudeDoubt& doubt) {
+  return fmt::format("{:.3f}±{:.2g} deg", doubt.latitude / unit::deg.to_si,
+                     doubt.sigma / unit::deg.to_si);
+}
+
 std::string site_text(const identification::LatitudeDoubt& doubt) {
   if (!doubt.alone())
     return fmt::format(
@@ -80,11 +85,11 @@ std::string site_text(const identification::LatitudeDoubt& doubt) {
         doubt.latitude / unit::deg.to_si, doubt.declared / unit::deg.to_si,
         doubt.chi2_per_dof_after, doubt.chi2_per_dof_before, p_text(doubt.chance_after));
   return fmt::format(
-      "The latitude of [site] is not that of the recording: at {:.3f} deg instead of {:.3f} deg "
+      "The latitude of [site] is not that of the recording: at {} instead of {:.3f} deg "
       "the model fits with chi-square per degree of freedom {:.3g} instead of {:.3g}. No "
       "survey is wrong by so much (latitude_error would need {:.3g} prior sigmas): correct the "
       "latitude and diagnose again before anything else is made of it.",
-      doubt.latitude / unit::deg.to_si, doubt.declared / unit::deg.to_si, doubt.chi2_per_dof_after,
+      latitude_text(doubt), doubt.declared / unit::deg.to_si, doubt.chi2_per_dof_after,
       doubt.chi2_per_dof_before, doubt.prior_sigmas());
 }
 

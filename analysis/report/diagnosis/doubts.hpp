@@ -13,6 +13,9 @@ namespace drift::report {
 std::string beyond_prior_text(const diagnosis::remark::BeyondPrior& beyond);
 
 /// A verdict of its own: nothing that is said of causes holds for another place on the Earth.
+/// "45.712±0.019 deg".
+std::string latitude_text(const identification::LatitudeDoubt& doubt);
+
 std::string site_text(const identification::LatitudeDoubt& doubt);
 
 /// The same of a plan whose positions headed otherwise.

@@ -217,6 +217,7 @@ Json latitude_json(const std::optional<identification::LatitudeDoubt>& doubt) {
   if (!doubt) return nullptr;
   return {{"declared_deg", doubt->declared / unit::deg.to_si},
           {"of_recording_deg", doubt->latitude / unit::deg.to_si},
+          {"sigma_deg", doubt->sigma / unit::deg.to_si},
           {"chi2_per_dof_before", doubt->chi2_per_dof_before},
           {"chi2_per_dof_after", doubt->chi2_per_dof_after},
           {"chance_after", doubt->chance_after},

@@ -207,9 +207,11 @@ InBrief diagnosis_in_brief(const Diagnosis& d) {
     brief.next = corrected_text(*d.heading_doubt, "diagnose");
   else if (d.site_doubt)
     brief.next =
-        d.site_doubt->alone()
+        d.site_doubt->alone() && d.site_doubt->as_surveyed()
             ? fmt::format("Next: diagnose again with --set site.latitude=\"{:.3f} deg\".",
                           d.site_doubt->latitude / unit::deg.to_si)
+        : d.site_doubt->alone()
+            ? "Next: diagnose again with the latitude of the site as a map has it."
             : "Next: diagnose again with the latitude of the site as a map has it: what is "
               "missing beside it shows then.";
   else if (off_zero && d.verdict != Verdict::consistent)

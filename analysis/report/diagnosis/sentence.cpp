@@ -216,9 +216,9 @@ std::string rival_text(const Diagnosis& d) {
 /// A latitude that explains what was found, and is less likely.
 std::string other_latitude_text(const identification::LatitudeDoubt& other) {
   return fmt::format(
-      " Another latitude would explain it, too ({:.3f} deg instead of {:.3f} deg): check that of "
+      " Another latitude would explain it, too ({} instead of {:.3f} deg): check that of "
       "[site] on a map.",
-      other.latitude / unit::deg.to_si, other.declared / unit::deg.to_si);
+      latitude_text(other), other.declared / unit::deg.to_si);
 }
 
 }  // namespace

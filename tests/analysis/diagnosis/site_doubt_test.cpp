@@ -125,12 +125,14 @@ TEST(SiteDoubt, TellsWhatElseItMayBe) {
   identification::LatitudeDoubt doubt;
   doubt.latitude = 45.75 * unit::deg.to_si;
   doubt.declared = 45.25 * unit::deg.to_si;
+  doubt.sigma = 0.01 * unit::deg.to_si;
   const auto says = [&](const char* part) {
     return report::sentence(d).find(part) != std::string::npos;
   };
   d.other_latitude = doubt;
   EXPECT_TRUE(says("The nominal model lacks step of the mass unbalance"));
-  EXPECT_TRUE(says("Another latitude would explain it, too (45.750 deg instead of 45.250 deg)"));
+  EXPECT_TRUE(
+      says("Another latitude would explain it, too (45.750±0.01 deg instead of 45.250 deg)"));
   d.other_latitude.reset();
   d.site_doubt = doubt;
   d.site_doubt->odds = 7.4;
