@@ -72,8 +72,11 @@ std::optional<identification::LatitudeDoubt> site_doubt(const mc::Study& study,
   // With the causes in the model, latitude_error among them, nothing would be left to ask for: the
   // latitude competes with them where it leaves nothing either.
   const bool unusual = std::ranges::any_of(d.causes, has_no_usual_size);
+  const bool worth = worth_asking(d);
+  const auto reach = unusual || worth ? identification::Reach::everywhere
+                                      : identification::Reach::where_it_promises;
   if (!d.causes.empty())
-    if (auto alone = identification::latitude_doubt(study, recordings, d.nominal)) {
+    if (auto alone = identification::latitude_doubt(study, recordings, d.nominal, reach)) {
       alone->as_little_left = leaves_as_little(*alone, d);
       if (alone->alone()) {
         alone->odds = std::exp(log_odds(*alone, d));
@@ -81,7 +84,7 @@ std::optional<identification::LatitudeDoubt> site_doubt(const mc::Study& study,
         return alone;
       }
     }
-  if (!worth_asking(d)) return std::nullopt;
+  if (!worth) return std::nullopt;
   if (!d.has_patch) return identification::latitude_doubt(study, recordings, d.nominal);
   const auto beside = identification::latitude_doubt(study, recordings, d.patched);
   if (!beside) return std::nullopt;

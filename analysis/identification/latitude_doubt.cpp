@@ -78,7 +78,7 @@ double LatitudeDoubt::prior_sigmas() const {
 
 std::optional<LatitudeDoubt> latitude_doubt(const mc::Study& study,
                                             const std::vector<Recording>& recordings,
-                                            const FilterSpec& filter) {
+                                            const FilterSpec& filter, Reach reach) {
   const Latitudes latitudes(study, recordings, filter);
   const double declared = study.site.latitude;
   const Point before = latitudes.at({declared}).front();
@@ -88,21 +88,20 @@ std::optional<LatitudeDoubt> latitude_doubt(const mc::Study& study,
     for (const Point& p : points)
       if (p.cost < best.cost) best = p;
   };
-  // The Earth's rate goes with sine and cosine of the latitude: no valley lies between these.
-  std::vector<double> everywhere{-declared};
-  for (double deg = -75.0; deg < 80.0; deg += 15.0) everywhere.push_back(deg * detail::deg);
-  take(latitudes.at(everywhere));
   // Near the truth the cost grows with the square of the error: its parabola leads there, the
   // better the smaller the step. Far from it the cost may be concave: then several distances are
   // tried at once.
   const double small = 0.2 * detail::deg;
-  const std::vector<Point> beside = latitudes.at({best.latitude - small, best.latitude + small});
-  const double bend = beside[0].cost + beside[1].cost - 2.0 * best.cost;
-  const double promise =
-      std::pow(beside[1].cost - beside[0].cost, 2) / (8.0 * bend);  // of the parabola's foot
-  if (bend > 0.0 && best.latitude == declared &&
-      promise < SiteLimits::promise * (best.cost - best.dof))
-    return std::nullopt;     // nothing to be had
+  const std::vector<Point> beside = latitudes.at({declared - small, declared + small});
+  const double bend = beside[0].cost + beside[1].cost - 2.0 * before.cost;
+  const double foot = std::pow(beside[1].cost - beside[0].cost, 2) / (8.0 * bend);
+  const bool promising = !(bend > 0.0 && foot < SiteLimits::promise * (before.cost - before.dof));
+  if (!promising && reach == Reach::where_it_promises) return std::nullopt;
+  // The Earth's rate goes with sine and cosine of the latitude: no valley lies between these.
+  std::vector<double> everywhere{-declared};
+  for (double deg = -75.0; deg < 80.0; deg += 15.0) everywhere.push_back(deg * detail::deg);
+  take(latitudes.at(everywhere));
+  if (!promising && best.latitude == declared) return std::nullopt;
   double information = 0.0;  // on the latitude [1/rad^2], by the bend of the cost
   const auto follow = [&](std::initializer_list<double> steps_deg) {
     for (const double step_deg : steps_deg) {

@@ -40,6 +40,10 @@ struct LatitudeDoubt {
   double prior_sigmas() const;
 };
 
+/// Where other latitudes are tried: everywhere, or only where the cost near the declared one
+/// promises something.
+enum class Reach { everywhere, where_it_promises };
+
 /// Asks whether a wrong [site] latitude is behind a misfit: the filter is fitted again at other
 /// latitudes (the mirrored one too), along parabolas of its cost.
 ///
@@ -49,6 +53,7 @@ struct LatitudeDoubt {
 /// ready (prepare()). Empty otherwise.
 std::optional<LatitudeDoubt> latitude_doubt(const mc::Study& study,
                                             const std::vector<Recording>& recordings,
-                                            const FilterSpec& filter);
+                                            const FilterSpec& filter,
+                                            Reach reach = Reach::everywhere);
 
 }  // namespace drift::identification
