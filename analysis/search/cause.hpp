@@ -1,10 +1,13 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "core/stats/normal.hpp"
 
 namespace drift::search {
 
@@ -27,6 +30,14 @@ struct CauseParameter {
   /// 95 % interval by refits at fixed values; NaN where there are none.
   double low_95 = std::numeric_limits<double>::quiet_NaN();
   double high_95 = std::numeric_limits<double>::quiet_NaN();
+
+  /// The 95 % interval: by refits where there are any, else by the sigma.
+  double low() const {
+    return std::isfinite(low_95) ? low_95 : value - stats::half_width_95 * sigma;
+  }
+  double high() const {
+    return std::isfinite(high_95) ? high_95 : value + stats::half_width_95 * sigma;
+  }
 };
 
 struct Confusable {

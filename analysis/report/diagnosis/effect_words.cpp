@@ -11,7 +11,6 @@
 #include "core/base/words.hpp"
 #include "core/physics/closure.hpp"
 #include "core/physics/term_library.hpp"
-#include "core/stats/normal.hpp"
 
 namespace drift::report {
 namespace {
@@ -56,11 +55,9 @@ std::string numbers_of(const search::Cause& c) {
   for (const search::CauseParameter& p : c.parameters) numbers.push_back(number_of(p));
   text += fmt::format(": {}", fmt::join(numbers, ", "));
   const search::CauseParameter& p = c.parameters.front();
-  const double half = stats::half_width_95 * p.sigma;
   if (c.term == closure_term)  // between two equations the interval is the answer
     text += fmt::format(", 95 % interval {:.3g} to {:.3g}, where eq. (5) is 0 and eq. (6) is 1",
-                        std::isfinite(p.low_95) ? p.low_95 : p.value - half,
-                        std::isfinite(p.high_95) ? p.high_95 : p.value + half);
+                        p.low(), p.high());
   return text;
 }
 

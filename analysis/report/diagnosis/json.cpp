@@ -9,7 +9,6 @@
 #include "analysis/report/diagnosis/sections.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
 #include "analysis/report/identify/turned_words.hpp"
-#include "core/stats/normal.hpp"
 
 namespace drift::report {
 namespace {
@@ -57,15 +56,13 @@ Json causes_json(const std::vector<Cause>& causes) {
   for (const Cause& c : causes) {
     Json parameters = Json::array(), confusable = Json::array();
     for (const CauseParameter& p : c.parameters)
-      parameters.push_back(
-          {{"key", p.key},
-           {"value", p.value},
-           {"sigma", p.sigma},
-           {"unit", p.unit},
-           {"interval_95",
-            {p.value - stats::half_width_95 * p.sigma, p.value + stats::half_width_95 * p.sigma}},
-           {"profiled", p.profiled},
-           {"prior_sigmas", p.prior_sigmas}});
+      parameters.push_back({{"key", p.key},
+                            {"value", p.value},
+                            {"sigma", p.sigma},
+                            {"unit", p.unit},
+                            {"interval_95", {p.low(), p.high()}},
+                            {"profiled", p.profiled},
+                            {"prior_sigmas", p.prior_sigmas}});
     for (const Confusable& other : c.confusable_with)
       confusable.push_back(
           {{"term", other.term}, {"axis", text_or_null(other.axis)}, {"cosine", other.cosine}});

@@ -3,7 +3,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "analysis/report/diagnosis/report.hpp"
 #include "analysis/report/diagnosis/sections.hpp"
+#include "analysis/report/diagnosis/sentence.hpp"
 #include "core/stats/normal.hpp"
 #include "tests/analysis/report/diagnosis/diagnosis_fixture.hpp"
 #include "tests/analysis/report/figures_of.hpp"
@@ -43,6 +45,25 @@ TEST(ProfileFigure, SaysBothIntervalsAndWhetherTheyAgree) {
   EXPECT_EQ(json[0]["refits"].size(), 5u);
   EXPECT_DOUBLE_EQ(json[0]["refits"][1]["loss"], 2.25);
   EXPECT_DOUBLE_EQ(json[0]["interval_95"][0], 0.25 - 0.01 * stats::half_width_95);
+}
+
+TEST(Intervals, OfTheSentenceAndOfTheJsonAreOne) {
+  diagnosis::Diagnosis d;
+  d.verdict = diagnosis::Verdict::named;
+  search::Cause cause;
+  cause.term = "frame_closure";
+  search::CauseParameter lambda;
+  lambda.key = "lambda";
+  lambda.unit = "1";
+  lambda.value = 0.2;
+  lambda.sigma = 0.05;
+  lambda.low_95 = 0.125;  // by refits, which did not go far enough above
+  cause.parameters.push_back(lambda);
+  d.causes.push_back(cause);
+  EXPECT_NE(sentence(d).find("95 % interval 0.125 to 0.298"), std::string::npos) << sentence(d);
+  const Json json = Json::parse(to_json(d))["causes"][0]["parameters"][0]["interval_95"];
+  EXPECT_DOUBLE_EQ(json[0], 0.125);
+  EXPECT_DOUBLE_EQ(json[1], 0.2 + 0.05 * stats::half_width_95);
 }
 
 TEST(NormalQuantiles, OfNumbersThatAreQuantilesLieOnTheLine) {
