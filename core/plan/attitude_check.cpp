@@ -192,15 +192,10 @@ std::vector<Sight> sights_of(const Recording& recording, const TestPlan& plan,
   return all;
 }
 
-/// Whether the gimbals show, at the begin of every dwell, an attitude like that of the plan.
-bool gimbals_as_planned(const Recording& recording, const TestPlan& plan,
-                        const Timeline& timeline) {
-  const std::vector<Sight> all =
-      sights_of(recording, plan, timeline, gimbal_channels, Rows::dwelling);
-  return !all.empty() && std::ranges::all_of(all, [&](Sight s) {
-    s.R_lr = plan.positions[static_cast<std::size_t>(s.position)].R_lp;
-    return gimbal_mismatch(s) < on_the_way;
-  });
+/// Sights at the attitudes of the plan itself, whatever the commands say.
+std::vector<Sight> as_planned(std::vector<Sight> sights, const TestPlan& plan) {
+  for (Sight& s : sights) s.R_lr = plan.positions[static_cast<std::size_t>(s.position)].R_lp;
+  return sights;
 }
 
 AngleUnits units_of(const Recording& recording) {
@@ -230,28 +225,30 @@ std::vector<RowMistake> attitude_mistakes(const Recording& recording, const Test
   const auto sights = [&](const ChannelTriple& channels, Rows rows) {
     return sights_of(recording, plan, timeline, channels, rows);
   };
-  const auto shown = [&](const ChannelTriple& channels, Mismatch mismatch) {
-    Shown caged =
-        shown_by(recording, sights(channels, Rows::caged), channels, mismatch, largest_mismatch);
-    if (caged.sights.size() >= fewest_sights) return caged;
-    // Said is only what brings every dwell into place; for accelerometers the gimbals say where
-    // that is.
-    std::vector<Sight> dwells = sights(channels, Rows::dwelling);
-    double most = on_the_way;
-    if (mismatch == of_accelerometers)
-      if (auto seen = where_gimbals_are(dwells, sights(gimbal_channels, Rows::dwelling));
-          !seen.empty()) {
-        dwells = std::move(seen);
-        most = largest_mismatch;
-      }
-    Shown dwelling = shown_by(recording, std::move(dwells), channels, mismatch, most);
-    return dwelling.mixed_up ? dwelling : caged;
+  const auto shown = [&](std::vector<Sight> seen, const ChannelTriple& channels, Mismatch mismatch,
+                         double most) {
+    return shown_by(recording, std::move(seen), channels, mismatch, most);
   };
-  if (const auto slews =
-          slew_mistake(recording, timeline, gimbals_as_planned(recording, plan, timeline)))
-    return {*slews};
-  const Shown acc = shown(accelerometer_channels, of_accelerometers);
-  Shown gimbals = shown(gimbal_channels, of_gimbals);
+  const auto caged = [&](const ChannelTriple& channels, Mismatch mismatch) {
+    return shown(sights(channels, Rows::caged), channels, mismatch, largest_mismatch);
+  };
+  Shown acc = caged(accelerometer_channels, of_accelerometers);
+  Shown gimbals = caged(gimbal_channels, of_gimbals);
+  if (std::max(acc.sights.size(), gimbals.sights.size()) < fewest_sights) {
+    // Slewed from position to position. Drift bends the way, not the slews; and accelerometers show
+    // Up where gimbals that are right have it.
+    const std::vector<Sight> by_gimbals = sights(gimbal_channels, Rows::dwelling),
+                             by_acc = sights(accelerometer_channels, Rows::dwelling);
+    Shown on_way = shown(as_planned(by_gimbals, plan), gimbal_channels, of_gimbals, on_the_way);
+    if (const auto slews = slew_mistake(recording, timeline, on_way.wrong.empty())) return {*slews};
+    const bool right = on_way.wrong.empty() && !by_gimbals.empty();
+    Shown up = right ? shown(where_gimbals_are(by_acc, by_gimbals), accelerometer_channels,
+                             of_accelerometers, largest_mismatch)
+                     : shown(as_planned(by_acc, plan), accelerometer_channels, of_accelerometers,
+                             on_the_way);
+    if (up.mixed_up || (!right && up.sights.size() > acc.sights.size())) acc = std::move(up);
+    if (!right && on_way.sights.size() > gimbals.sights.size()) gimbals = std::move(on_way);
+  }
   if (!gimbals.wrong.empty() && !gimbals.reason)
     if (const auto slip = slip_behind(gimbals.sights, units_of(recording)))
       gimbals.reason = fmt::format(

@@ -13,6 +13,7 @@ namespace {
 constexpr std::size_t reach = 8;      // rows to either side: three of four may follow a lost one
 constexpr std::size_t few_steps = 8;  // of a stretch, to be judged by itself
 constexpr double same_step = 1e-3;
+constexpr double alike = 0.1;  // part by which steps of one kind differ
 
 /// Rows of one position and phase.
 struct SpacedRows {
@@ -35,16 +36,26 @@ std::vector<SpacedRows> stretches_of(const Recording& r) {
   return all;
 }
 
+/// The usual one of the steps around a row. Where every other row is lost the median is that of
+/// gaps: a quarter of the steps that are as usual in the whole phase tell it from longer rows.
+double usual_of(std::vector<double> steps, double of_phase) {
+  std::ranges::sort(steps);
+  const double median = steps[steps.size() / 2], quartile = steps[(steps.size() - 1) / 4];
+  const bool gaps = median > 1.5 * of_phase && std::abs(quartile - of_phase) < alike * of_phase;
+  return gaps ? quartile : median;
+}
+
 /// The usual step around each row of a stretch. Its first row says how far it is from another
 /// stretch, which is no evidence of its own steps.
-void fill_usual(const SpacedRows& s, RowSpacing& out) {
+void fill_usual(const SpacedRows& s, double of_phase, RowSpacing& out) {
   const std::size_t own = s.first + 1;
   for (std::size_t row = s.first; row < s.end; ++row) {
     const std::size_t centre = std::max(row, own);
     const std::size_t from = centre - std::min(reach, centre - own);
     const std::size_t to = std::min(s.end, centre + reach + 1);
-    out.usual[row] = stats::upper_median({out.step.begin() + static_cast<std::ptrdiff_t>(from),
-                                          out.step.begin() + static_cast<std::ptrdiff_t>(to)});
+    out.usual[row] = usual_of({out.step.begin() + static_cast<std::ptrdiff_t>(from),
+                               out.step.begin() + static_cast<std::ptrdiff_t>(to)},
+                              of_phase);
   }
 }
 
@@ -86,7 +97,7 @@ RowSpacing row_spacing(const Recording& recording) {
   for (const SpacedRows& s : stretches) {
     const double usual = of_phase[s.phase == 1.0 ? 1 : 0];
     if (s.end - s.first > few_steps)
-      fill_usual(s, out);
+      fill_usual(s, usual, out);
     else
       std::fill(out.usual.begin() + static_cast<std::ptrdiff_t>(s.first),
                 out.usual.begin() + static_cast<std::ptrdiff_t>(s.end), usual);

@@ -118,6 +118,29 @@ TEST(AttitudeCheck, ASlewThatTurnsOtherwiseThanCommandedIsOfCommandsOrGimbals) {
             std::string::npos);
 }
 
+TEST(AttitudeCheck, SlewedAsCommandedToOtherAttitudesItIsAnotherPlanOrAZero) {
+  Scene half("slew12");  // positions 4 to 9, numbered from 1
+  const auto& number = half.column("position");
+  const long first = std::ranges::find(number, 4.0) - number.begin();
+  const long end = std::ranges::find(number, 10.0) - number.begin();
+  for (Channel& c : half.recording.channels) {
+    c.values = {c.values.begin() + first, c.values.begin() + end};
+    if (c.name == "position")
+      for (double& p : c.values) p -= 3.0;
+  }
+  half.recording.lines.resize(static_cast<std::size_t>(end - first));
+  auto wrong = half.mistakes();
+  ASSERT_EQ(wrong.size(), 1u);
+  EXPECT_NE(wrong[0].text.find("agree with each other and are away from the attitude in the plan"),
+            std::string::npos)
+      << wrong[0].text;
+  Scene zero("slew12");
+  for (double& v : zero.column("gimbal_outer")) v += std::numbers::pi;
+  wrong = zero.mistakes();
+  ASSERT_EQ(wrong.size(), 1u);
+  EXPECT_NE(wrong[0].text.find("gimbal_outer reads 180"), std::string::npos) << wrong[0].text;
+}
+
 TEST(AttitudeCheck, NamesColumnsThatAreExchanged) {
   Scene s;
   std::swap(s.column("acc_x"), s.column("acc_z"));

@@ -57,6 +57,23 @@ TEST(RowSpacing, KnowsALostRowInEither) {
   EXPECT_FALSE(row_spacing(mixed(3, 50)).longer(50));
 }
 
+TEST(RowSpacing, KnowsThemWhereEveryOtherRowIsLost) {
+  Recording r;
+  r.channels = {{"time", unit::s, {}}, {"position", unit::one, {}}, {"phase", unit::one, {}}};
+  std::vector<bool> behind_gap;
+  for (int k = 1; k <= 24; ++k) {
+    if (k >= 13 && k % 2 == 1) continue;  // 13, 15, ... 23 are lost
+    r.channels[0].values.push_back(60.0 * k);
+    r.channels[1].values.push_back(1.0);
+    r.channels[2].values.push_back(0.0);
+    r.lines.push_back(r.lines.size() + 1);
+    behind_gap.push_back(k > 13);
+  }
+  const RowSpacing s = row_spacing(r);
+  for (std::size_t row = 1; row < s.step.size(); ++row)
+    EXPECT_EQ(s.gap(row), behind_gap[row]) << row;
+}
+
 TEST(RowSpacing, EvenRowsAreRegularWhateverPassesBetweenPositions) {
   Recording r = mixed(3, 0);
   EXPECT_TRUE(row_spacing(r).regular);
