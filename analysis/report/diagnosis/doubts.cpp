@@ -23,7 +23,8 @@ bool follows_field(const TermInfo& term) {
   return (term.needs.covariates & covariate("field").set()) != 0;
 }
 
-/// The causes and the parameters far from their priors that follow the magnetic field.
+}  // namespace
+
 std::vector<std::string> following_field(const Diagnosis& d) {
   std::vector<std::string> labels;
   const auto add = [&](std::string label) {
@@ -39,8 +40,6 @@ std::vector<std::string> following_field(const Diagnosis& d) {
           add(parameter_key(p.estimate.param));
   return labels;
 }
-
-}  // namespace
 
 std::string beyond_prior_text(const remark::BeyondPrior& r) {
   constexpr std::size_t most = 6;

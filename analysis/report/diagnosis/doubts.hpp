@@ -13,6 +13,9 @@ namespace drift::report {
 std::string beyond_prior_text(const diagnosis::remark::BeyondPrior& beyond);
 
 /// A verdict of its own: nothing that is said of causes holds for another place on the Earth.
+/// The causes and the parameters far from their priors that follow the magnetic field.
+std::vector<std::string> following_field(const diagnosis::Diagnosis& d);
+
 /// "45.712±0.019 deg".
 std::string latitude_text(const identification::LatitudeDoubt& doubt);
 

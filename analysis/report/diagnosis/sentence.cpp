@@ -85,6 +85,12 @@ std::string not_confirmed_text(const Diagnosis& d, bool several) {
                        several ? "them" : "it");
   if (several && remarked<remark::MemberNotConfirmed>(d))
     return "held-out data do not ask for each of them";
+  for (const Remark& r : d.remarks)
+    if (const auto* noise = std::get_if<remark::OrNoise>(&r))
+      return fmt::format("that nothing is missing has a probability of {}",
+                         decimal_text(noise->probability, 2));
+  if (remarked<remark::LambdaNotSettled>(d))
+    return "its weight may still be the nominal one (3 sigma)";
   return held_out_text(d, several);
 }
 
@@ -188,10 +194,11 @@ std::string nearest_text(const NearestKnown& near, Instrument instrument) {
       fmt::join(words, " together with "), near.chi2_per_dof_before, near.chi2_per_dof_after);
 }
 
-/// What a plan has and no recording holds.
+/// What a plan has and no recording holds; in one sentence with the verdict, which a short answer
+/// must not leave off.
 std::string absent_text(const std::vector<int>& positions) {
   if (positions.empty()) return "";
-  return fmt::format("Of the plan, {} {} not recorded: what follows is of the others alone. ",
+  return fmt::format("Of the plan, {} {} not recorded, what follows is of the others alone: ",
                      positions_text(positions), positions.size() > 1 ? "were" : "was");
 }
 
@@ -246,6 +253,9 @@ std::string sentence(const Diagnosis& d) {
   if (d.heading_doubt) return heading_text(*d.heading_doubt);
   if (d.site_doubt) return site_text(*d.site_doubt) + rival_text(d);
   std::string text = absent_text(d.absent_positions) + absent_text(d.absent) + verdict_alone(d);
+  if (remarked<remark::FieldAssumed>(d) && !following_field(d).empty())
+    text +=
+        " The magnetic field is assumed, a dipole's: sizes that follow it are as wrong as that.";
   if (d.nearest_known && !d.proposal)  // a form that fits is nearer
     text += nearest_text(*d.nearest_known, instrument_of(d));
   if (d.verdict == Verdict::consistent)

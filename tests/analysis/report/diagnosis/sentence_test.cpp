@@ -253,8 +253,8 @@ TEST(Sentence, OfPartOfAPlanBeginsWithThat) {
   EXPECT_TRUE(says(report::sentence(d), "This plan cannot tell the nominal eq. (6) from eq. (5)."));
   d.absent_positions = {2, 7, 8, 9, 10};
   const std::string text = report::sentence(d);
-  EXPECT_EQ(text.find("Of the plan, positions 2, 7 to 10 were not recorded: what follows is of the "
-                      "others alone. The recording agrees"),
+  EXPECT_EQ(text.find("Of the plan, positions 2, 7 to 10 were not recorded, what follows is of the "
+                      "others alone: The recording agrees"),
             0u)
       << text;
   EXPECT_TRUE(says(text, "These positions cannot tell the nominal eq. (6) from eq. (5).")) << text;
