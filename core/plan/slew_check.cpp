@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -32,28 +31,36 @@ struct Turn {
   double length = 0.0;  ///< [s]
 };
 
+/// Rotation vector [rad] of the platform from the end of one row to that of another, as these
+/// gimbal angles show it.
+Vec3 turned(const Recording& recording, const Site& site, const Turn& t, const Vec3& from,
+            const Vec3& to) {
+  return rotation_vector(Mat3(attitude_shown(recording, site, t.before, from).transpose() *
+                              attitude_shown(recording, site, t.row, to)));
+}
+
 std::vector<Turn> turns_of(const Recording& recording, const Timeline& timeline) {
   std::vector<Turn> all;
   bool goes_on = false;
   for (std::size_t row = 1; row < timeline.intervals.size(); ++row) {
     const Interval& i = timeline.intervals[row];
+    const bool joins = std::exchange(goes_on, false);
+    if (!i.slew || i.cage) continue;
     const auto from = measured(recording, gimbal_channels, row - 1),
                to = measured(recording, gimbal_channels, row);
-    const auto turns = [&] {  // as commanded, or as shown: commands may be wrong
-      const Mat3 R_ip = attitude_shown(recording, timeline.site, row - 1, *from);
-      const Mat3 turned = R_ip.transpose() * attitude_shown(recording, timeline.site, row, *to);
-      return std::max(i.omega_cmd_p.norm(), rotation_vector(turned).norm() / i.length()) >
-             fastest_drift;
-    };
-    const bool slews = i.slew && !i.cage && from && to && turns();
-    if (slews && goes_on && i.omega_cmd_p == all.back().omega_cmd_p) {
+    if (!from || !to) continue;
+    const Turn own{row - 1, row, i.omega_cmd_p, *from, *to, i.length()};
+    // As commanded, or as shown: commands may be wrong.
+    const double shown = turned(recording, timeline.site, own, *from, *to).norm() / i.length();
+    if (!(std::max(i.omega_cmd_p.norm(), shown) > fastest_drift)) continue;
+    if (joins && i.omega_cmd_p == all.back().omega_cmd_p) {
       all.back().row = row;
       all.back().to = *to;
       all.back().length += i.length();
-    } else if (slews) {
-      all.push_back({row - 1, row, i.omega_cmd_p, *from, *to, i.length()});
+    } else {
+      all.push_back(own);
     }
-    goes_on = slews && all.back().length * i.omega_cmd_p.norm() < far_enough;
+    goes_on = all.back().length * i.omega_cmd_p.norm() < far_enough;
   }
   return all;
 }
@@ -66,17 +73,12 @@ class Slews {
 
   const std::vector<Turn>& turns() const { return turns_; }
 
-  /// Rotation vector [rad] of the platform, as the gimbals show if their columns were these.
-  Vec3 shown(const Turn& t, const Mixup& gimbals) const {
-    const Mat3 from = attitude_shown(recording_, site_, t.before, gimbals.of(t.from));
-    return rotation_vector(
-        Mat3(from.transpose() * attitude_shown(recording_, site_, t.row, gimbals.of(t.to))));
-  }
   /// Part of the commanded turn by which the platform turned otherwise.
   double mismatch(const Turn& t, const Mixup& commands, const Mixup& gimbals,
                   double factor = 1.0) const {
     const Vec3 commanded = factor * t.length * commands.of(t.omega_cmd_p);
-    const Mat3 left = rotation<double>(commanded).transpose() * rotation<double>(shown(t, gimbals));
+    const Vec3 shown = turned(recording_, site_, t, gimbals.of(t.from), gimbals.of(t.to));
+    const Mat3 left = rotation<double>(commanded).transpose() * rotation<double>(shown);
     return rotation_vector(left).norm() / std::min(commanded.norm(), 1.0);
   }
   /// That of the median turn: at its ends a slew may not fill a row.

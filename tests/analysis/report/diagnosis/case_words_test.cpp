@@ -63,17 +63,23 @@ TEST(CaseWords, ACauseOfManySizesIsATwinOnlyWhereAllOfItIs) {
   EXPECT_TRUE(says(report::sentence(d), "same trace")) << report::sentence(d);
 }
 
+/// A candidate that leaves nothing, were it so many times its usual size.
+search::CandidateScore explaining(const char* term, const char* axis, const char* label,
+                                  double size_sigma) {
+  search::CandidateScore c;
+  c.term = term;
+  c.axis = axis;
+  c.label = label;
+  c.p_value = 1e-20;
+  c.size_sigma = size_sigma;
+  c.leaves_nothing = true;
+  return c;
+}
+
 TEST(TooLarge, ACandidateThatLosesByItsSizeAloneIsNamedWithIt) {
   Diagnosis d = of_case("magnetic_drift", "y", "M_y");
   d.of_case = false;
-  search::CandidateScore leak;
-  leak.term = "base_motion_leak";
-  leak.axis = "y";
-  leak.label = "base_motion_leak.y";
-  leak.p_value = 1e-20;
-  leak.size_sigma = 11.5;
-  leak.leaves_nothing = true;
-  d.candidates.push_back(leak);
+  d.candidates.push_back(explaining("base_motion_leak", "y", "base_motion_leak.y", 11.5));
   EXPECT_TRUE(says(report::sentence(d), "loses by its size alone: ")) << report::sentence(d);
   EXPECT_TRUE(says(report::sentence(d), "base_motion_leak.y (12 times its usual size)."))
       << report::sentence(d);
@@ -97,14 +103,7 @@ TEST(TooLarge, WhatIsUnknownMayBeAnEffectOfASizeThatNobodyExpects) {
   d.probabilities.named = {
       {{{"mass_unbalance_step", "y", "mass_unbalance_step.y"}}, 0.018},
   };
-  search::CandidateScore magnetic;
-  magnetic.term = "magnetic_drift";
-  magnetic.axis = "y";
-  magnetic.label = "magnetic_drift.y";
-  magnetic.p_value = 1e-100;
-  magnetic.size_sigma = 30.0;
-  magnetic.leaves_nothing = true;
-  d.candidates.push_back(magnetic);
+  d.candidates.push_back(explaining("magnetic_drift", "y", "magnetic_drift.y", 30.0));
   const std::string text = report::sentence(d);
   EXPECT_TRUE(says(text,
                    "is more probable (0.979) than the likeliest known effect (0.018), step of "
@@ -119,14 +118,8 @@ TEST(TooLarge, WhatIsUnknownMayBeAnEffectOfASizeThatNobodyExpects) {
 TEST(TooLarge, AnotherParameterOfTheTermThatIsNamedIsAnotherEffect) {
   Diagnosis d = of_case("encoder_harmonics", "middle", "enc_s2_middle");
   d.of_case = false;
-  search::CandidateScore first;
-  first.term = "encoder_harmonics";
-  first.axis = "middle";
-  first.label = "encoder_harmonics.middle enc_s1_middle";
-  first.p_value = 1e-18;
-  first.size_sigma = 6.1;
-  first.leaves_nothing = true;
-  d.candidates.push_back(first);
+  d.candidates.push_back(
+      explaining("encoder_harmonics", "middle", "encoder_harmonics.middle enc_s1_middle", 6.1));
   EXPECT_TRUE(says(report::sentence(d), "encoder_harmonics.middle enc_s1_middle (6.1 times"))
       << report::sentence(d);
   d.candidates.back().label = "encoder_harmonics.middle enc_s2_middle";
@@ -137,12 +130,7 @@ TEST(TooLarge, IsSaidBeforePairsThatLeaveTheSameTrace) {
   Diagnosis d = of_case("magnetic_drift", "y", "M_y");
   d.of_case = false;
   d.causes[0].confusable_with = {{"base_motion_leak", "y", 1.0}};
-  search::CandidateScore leak;
-  leak.term = leak.label = "torquer_asymmetry";
-  leak.p_value = 1e-20;
-  leak.size_sigma = 11.5;
-  leak.leaves_nothing = true;
-  d.candidates.push_back(leak);
+  d.candidates.push_back(explaining("torquer_asymmetry", "", "torquer_asymmetry", 11.5));
   const std::string text = report::sentence(d);
   ASSERT_TRUE(says(text, "same trace")) << text;
   EXPECT_LT(text.find("loses by its size alone"), text.find("same trace")) << text;
@@ -152,15 +140,11 @@ TEST(TooLarge, IsSaidBeforePairsThatLeaveTheSameTrace) {
 TEST(TooLarge, ACandidateThatItsSizeMakesLessLikelyIsNamedWithTheCause) {
   Diagnosis d = of_case("gimbal_angle_drift", "y", "G_c_y");
   d.of_case = false;
-  search::CandidateScore named, torquer;
+  search::CandidateScore named;
   named.term = "gimbal_angle_drift";
   named.log_bayes = 120.0;
-  torquer.term = "torquer_asymmetry";
-  torquer.axis = "y";
-  torquer.label = "torquer_asymmetry.y";
-  torquer.p_value = 1e-57;
-  torquer.size_sigma = 4.86;
-  torquer.leaves_nothing = true;
+  search::CandidateScore torquer =
+      explaining("torquer_asymmetry", "y", "torquer_asymmetry.y", 4.86);
   torquer.log_bayes = 113.4;
   d.candidates = {named, torquer};
   EXPECT_TRUE(says(report::sentence(d), "torquer_asymmetry.y (4.9 times its usual size)."))
