@@ -5,13 +5,13 @@
 #include "analysis/report/page/escape.hpp"
 #include "analysis/report/svg/curve.hpp"
 #include "analysis/report/svg/zoomable.hpp"
+#include "core/base/units.hpp"
 #include "core/stats/chi_square_band.hpp"
 
 namespace drift::report {
 namespace {
 
 constexpr std::size_t most_highlighted = 6;
-constexpr double hour = 3600.0;  // [s]
 
 template <class T>
 void add_once(std::vector<T>& all, const T& value) {
@@ -35,7 +35,7 @@ Series estimate_series(const identification::FilterRun& run, std::size_t k, doub
   for (std::size_t i = 0; i < run.history.t.size(); ++i) {
     const double sigma = run.history.sigma(k, i);
     const bool there = sigma > 0.0;
-    s.x.push_back(run.history.t[i] / hour);
+    s.x.push_back(run.history.t[i] / unit::hour.to_si);
     s.y.push_back(there ? run.history.estimate(k, i) / unit : std::nan(""));
     s.sigma.push_back(there ? sigma / unit : std::nan(""));
   }
@@ -108,7 +108,7 @@ std::vector<double> position_begins(const identification::Identification& id) {
   if (position == nullptr || time == nullptr || id.sources.size() > 1) return begins;
   for (std::size_t i = 1; i < position->values.size(); ++i)
     if (position->values[i] != position->values[i - 1])
-      begins.push_back(time->values[i - 1] / hour);
+      begins.push_back(time->values[i - 1] / unit::hour.to_si);
   return begins;
 }
 
@@ -133,7 +133,7 @@ Panel nis_panel(const FilterView& v) {
       }
       const stats::Band expected =
           scalars > 0.0 ? stats::chi_square_band(scalars) : stats::Band{std::nan(""), std::nan("")};
-      s.x.push_back(0.5 * (h.t[begin] + h.t[end - 1]) / hour);
+      s.x.push_back(0.5 * (h.t[begin] + h.t[end - 1]) / unit::hour.to_si);
       s.y.push_back(scalars > 0.0 ? nis / scalars : std::nan(""));
       band.x.push_back(s.x.back());
       band.low.push_back(expected.low);

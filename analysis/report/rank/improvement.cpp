@@ -5,11 +5,10 @@
 #include "analysis/report/rank/sections.hpp"
 #include "analysis/report/svg/bar_chart.hpp"
 #include "analysis/report/svg/figure.hpp"
+#include "core/base/units.hpp"
 
 namespace drift::report {
 namespace {
-
-constexpr double hour = 3600.0;  // [s]
 
 std::string_view in_words(planning::Criterion::Kind kind) {
   switch (kind) {
@@ -93,7 +92,7 @@ Table improvement_table(const planning::PlanRanking& rank) {
           "criterion_before=before | criterion_after=after | candidates=candidates",
           fmt::format("Criterion: {}. Chosen one after the other for a filter on {}; {} h added.{}",
                       in_words(better.criterion.kind), equation_of_plan(rank),
-                      number_text(better.added() / hour, 4),
+                      number_text(better.added() / unit::hour.to_si, 4),
                       better.steps.empty() ? " The gimbals allow no candidate." : ""));
   for (std::size_t i = 0; i < better.steps.size(); ++i) {
     const planning::ImprovementStep& s = better.steps[i];
@@ -102,8 +101,8 @@ Table improvement_table(const planning::PlanRanking& rank) {
     const double degrees = heading ? *heading / detail::deg : 0.0;
     t.add({i + 1, s.position.name, s.position.axes, key_of(s.position.mode),
            Cell(entry, heading ? fmt::format("{}, case at {:.0f} deg", entry, degrees) : entry),
-           only_value(heading ? Value(degrees) : Value()), s.duration / hour, digits(s.before, 4),
-           digits(s.after, 4), s.feasible});
+           only_value(heading ? Value(degrees) : Value()), s.duration / unit::hour.to_si,
+           digits(s.before, 4), digits(s.after, 4), s.feasible});
   }
   return t;
 }

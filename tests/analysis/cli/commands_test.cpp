@@ -89,7 +89,7 @@ TEST(Program, IdentifyLeavesTablesPicturesAndAPage) {
     EXPECT_GT(std::filesystem::file_size(folder.file("out") + "/" + name), 100u) << name;
   const std::string page = text_of(folder.file("out") + "/report.html");
   EXPECT_EQ(page.find("http://"), page.find("http://www.w3.org"));  // nothing but the SVG namespace
-  EXPECT_EQ(testing::without_own_script(page).find("<script"), std::string::npos);
+  EXPECT_EQ(test::without_own_script(page).find("<script"), std::string::npos);
   const Answer again = driftscope("check " + folder.file("out") + "/study.toml");
   EXPECT_EQ(again.code, 0) << again.err;
 }

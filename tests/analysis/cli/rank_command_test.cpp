@@ -155,7 +155,7 @@ TEST(RankCommand, WritesAFolderThatStandsAlone) {
   EXPECT_EQ(page.find("rank <me>"), std::string::npos);
   EXPECT_EQ(page.find("<script"), std::string::npos);
   for (const char* name : {"learning.svg", "spectrum.svg", "positions.svg", "improvement.svg"})
-    EXPECT_EQ(drift::testing::xml_problem(text_of(folder.file(std::string("out/") + name))),
+    EXPECT_EQ(drift::test::xml_problem(text_of(folder.file(std::string("out/") + name))),
               std::nullopt)
         << name;
   EXPECT_EQ(Json::parse(text_of(folder.file("out/rank.json")))["improvement"]["criterion"], "A");

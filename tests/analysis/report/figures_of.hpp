@@ -4,7 +4,7 @@
 
 #include "analysis/report/page/report.hpp"
 
-namespace drift::testing {
+namespace drift::test {
 
 /// All figures of some sections, in their order.
 inline std::vector<report::Figure> figures_of(const std::vector<report::Section>& sections) {
@@ -16,4 +16,4 @@ inline std::vector<report::Figure> figures_of(const std::vector<report::Section>
   return figures;
 }
 
-}  // namespace drift::testing
+}  // namespace drift::test

@@ -4,7 +4,7 @@
 
 #include "analysis/report/page/zoom.hpp"
 
-namespace drift::testing {
+namespace drift::test {
 
 /// A page without the script that zooms its figures, its numbers and its style, where they are as
 /// this build has them and the page's policy names the script: of what is left nothing may run.
@@ -25,4 +25,4 @@ inline std::string without_own_script(std::string page) {
   return page;
 }
 
-}  // namespace drift::testing
+}  // namespace drift::test

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace drift::testing {
+namespace drift::test {
 
 /// What keeps a text from being well-formed XML: tags that do not balance, attributes without
 /// quotes or twice, '<' in a value, '&' that starts no entity. Empty if nothing. Comments and
@@ -83,4 +83,4 @@ inline std::optional<std::string> xml_problem(std::string_view text,
   return rooted ? std::nullopt : std::optional<std::string>("no root");
 }
 
-}  // namespace drift::testing
+}  // namespace drift::test

@@ -81,7 +81,7 @@ TEST(ConsumerDiagnose, RecoversTheMisalignmentThatTheRecordingWasMadeWithAndWrit
   const auto json = nlohmann::json::parse(report::to_json(d));
   EXPECT_EQ(json["causes"][0]["term"], "gyro_misalignment");
   EXPECT_TRUE(json["fit"]["in_sample"]["chi2_per_dof_before"].is_number());
-  EXPECT_EQ(testing::xml_problem(test::text_of(folder.file("out") + "/report.html"), {"meta"}),
+  EXPECT_EQ(test::xml_problem(test::text_of(folder.file("out") + "/report.html"), {"meta"}),
             std::nullopt);
   // A nominal model that holds this is consistent with the recording.
   EXPECT_EQ(diagnosed(again, made(3000.0, 5)).verdict, diagnosis::Verdict::consistent);

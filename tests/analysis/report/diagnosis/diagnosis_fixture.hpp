@@ -10,7 +10,7 @@
 #include "mc/study/study.hpp"
 #include "tests/support/program.hpp"
 
-namespace drift::testing {
+namespace drift::test {
 
 /// A study file whose nominal filter leaves torquer_scale and part of the rest out.
 inline constexpr const char* nominal_study = R"(schema = 1
@@ -140,7 +140,7 @@ inline diagnosis::Diagnosis diagnosis(const FilterSpec& nominal) {
   position.name = "x up";
   position.axes = "x=U y=N z=W";
   position.dwell = 600.0;
-  position.case_heading = 0.5 * detail::deg;
+  position.case_heading = 0.5 * unit::deg.to_si;
   std::string why;
   position.R_lp = parse_axes(position.axes, why).value();
   advice.plan = {position};
@@ -157,4 +157,4 @@ inline diagnosis::Diagnosis diagnosis(const FilterSpec& nominal) {
   return d;
 }
 
-}  // namespace drift::testing
+}  // namespace drift::test

@@ -16,21 +16,21 @@ using namespace diagnosis;
 using namespace inference;
 using namespace search;
 using nlohmann::json;
-using testing::nominal_study;
+using test::nominal_study;
 
 const std::set<std::string> void_tags{"meta", "br", "img", "link", "hr"};
 
 std::vector<report::Figure> all_figures(const diagnosis::Diagnosis& d) {
-  return testing::figures_of(report::sections_of(d, report::diagnosis_sections));
+  return test::figures_of(report::sections_of(d, report::diagnosis_sections));
 }
 
 FilterSpec nominal() {
   const test::ScratchFolder folder;
-  return testing::read_text(folder, "s.toml", nominal_study).filters.front();
+  return test::read_text(folder, "s.toml", nominal_study).filters.front();
 }
 
 TEST(DiagnosisJson, HasEveryKeyOfTheInterfaceWithTheTypeThatStandsThere) {
-  const json j = json::parse(report::to_json(testing::diagnosis(nominal())));
+  const json j = json::parse(report::to_json(test::diagnosis(nominal())));
   EXPECT_EQ(j["schema"], 1);
   EXPECT_EQ(j["verdict"], "named");
   EXPECT_EQ(j["p_value"], 1e-30);
@@ -72,7 +72,7 @@ TEST(DiagnosisJson, HasEveryKeyOfTheInterfaceWithTheTypeThatStandsThere) {
 }
 
 TEST(DiagnosisJson, WhatIsNoNumberIsNull) {
-  const json j = json::parse(report::to_json(testing::diagnosis(nominal())));
+  const json j = json::parse(report::to_json(test::diagnosis(nominal())));
   EXPECT_TRUE(j["candidates"][1]["score"].is_null());
   EXPECT_TRUE(j["causes"][0]["size_sigma"].is_null());
   EXPECT_TRUE(j["fit"]["start_spread_after"].is_null());
@@ -84,7 +84,7 @@ TEST(DiagnosisJson, WhatIsNoNumberIsNull) {
 }
 
 TEST(DiagnosisJson, WhatWasNotComputedIsNullAndNotZero) {
-  diagnosis::Diagnosis d = testing::diagnosis(nominal());
+  diagnosis::Diagnosis d = test::diagnosis(nominal());
   d.fit.band_low = 0.9;
   d.fit.band_high = 1.1;
   d.fit.log_likelihood_ratio = 140.0;
@@ -120,13 +120,13 @@ TEST(DiagnosisJson, WhatWasNotComputedIsNullAndNotZero) {
 
 TEST(DiagnosisPage, IsWellFormedOfflineAndEscaped) {
   const test::ScratchFolder folder;
-  const mc::Study study = testing::read_text(folder, "s.toml", nominal_study);
-  const diagnosis::Diagnosis d = testing::diagnosis(study.filters.front());
+  const mc::Study study = test::read_text(folder, "s.toml", nominal_study);
+  const diagnosis::Diagnosis d = test::diagnosis(study.filters.front());
   const std::string page =
       report::to_html(report::diagnosis_report(study, d, {{"rec <1>.csv"}, "details <&>", {}}));
-  EXPECT_EQ(testing::xml_problem(page, void_tags), std::nullopt);
-  EXPECT_EQ(testing::without_own_script(page).find("://"), std::string::npos);
-  EXPECT_EQ(testing::without_own_script(page).find("<script"), std::string::npos);
+  EXPECT_EQ(test::xml_problem(page, void_tags), std::nullopt);
+  EXPECT_EQ(test::without_own_script(page).find("://"), std::string::npos);
+  EXPECT_EQ(test::without_own_script(page).find("<script"), std::string::npos);
   for (const char* text :
        {"six &amp; &lt;positions&gt;", "rec &lt;1&gt;.csv", "a &lt;remark&gt; &amp; more",
         "g_drift D_S_y &lt;&amp;&gt;", "[[plan.position]]"})
@@ -134,26 +134,26 @@ TEST(DiagnosisPage, IsWellFormedOfflineAndEscaped) {
   const auto figures = all_figures(d);
   EXPECT_EQ(figures.size(), 10u);
   for (const report::Figure& f : figures)
-    EXPECT_EQ(testing::xml_problem(f.svg), std::nullopt) << f.file;
+    EXPECT_EQ(test::xml_problem(f.svg), std::nullopt) << f.file;
 }
 
 TEST(DiagnosisPage, HoldsOfAnyVerdictAndOfNothing) {
   const test::ScratchFolder folder;
-  const mc::Study study = testing::read_text(folder, "s.toml", nominal_study);
+  const mc::Study study = test::read_text(folder, "s.toml", nominal_study);
   for (const diagnosis::Verdict v :
        {diagnosis::Verdict::consistent, diagnosis::Verdict::named, diagnosis::Verdict::ambiguous,
         diagnosis::Verdict::unexplained})
     for (diagnosis::Diagnosis d :
-         {diagnosis::Diagnosis{}, testing::diagnosis(study.filters.front())}) {
+         {diagnosis::Diagnosis{}, test::diagnosis(study.filters.front())}) {
       d.verdict = v;
       const std::string page = report::to_html(report::diagnosis_report(study, d, {}));
-      EXPECT_EQ(testing::xml_problem(page, void_tags), std::nullopt) << diagnosis::text(v);
+      EXPECT_EQ(test::xml_problem(page, void_tags), std::nullopt) << diagnosis::text(v);
       EXPECT_FALSE(report::to_text(d).empty());
     }
 }
 
 TEST(DiagnosisFigures, TheLocatedWindowAndTheGapOfTheRecoveredSignalAreSeen) {
-  const auto figures = all_figures(testing::diagnosis(nominal()));
+  const auto figures = all_figures(test::diagnosis(nominal()));
   const auto signal = std::find_if(figures.begin(), figures.end(),
                                    [](const report::Figure& f) { return f.file == "signal.svg"; });
   ASSERT_NE(signal, figures.end());
@@ -164,7 +164,7 @@ TEST(DiagnosisFigures, TheLocatedWindowAndTheGapOfTheRecoveredSignalAreSeen) {
 /// Two that cancel were found as a pair, beside a single alternative: each of the pair looks weak
 /// alone.
 diagnosis::Diagnosis cancelling_pair() {
-  diagnosis::Diagnosis d = testing::diagnosis(nominal());
+  diagnosis::Diagnosis d = test::diagnosis(nominal());
   d.verdict = diagnosis::Verdict::ambiguous;
   const auto line = [](const char* term, const char* axis, double score) {
     search::CandidateScore s;
@@ -200,7 +200,7 @@ TEST(DiagnosisCandidates, TheCausesAreShownHoweverWeakEachIsAlone) {
   EXPECT_EQ(shown[20].score->term, "sag");
   EXPECT_EQ(shown[20].alternative, 1);
   EXPECT_EQ(shown[21].score->term, "magnetic_drift");
-  const auto figures = testing::figures_of({report::rivals(d)});
+  const auto figures = test::figures_of({report::rivals(d)});
   ASSERT_EQ(figures.front().file, "candidates.svg");
   for (const char* text : {"magnetic_drift.y", "alternative 1", "alternative 2"})
     EXPECT_NE(figures.front().svg.find(text), std::string::npos) << text;
@@ -212,8 +212,8 @@ TEST(DiagnosisCandidates, TheCausesAreShownHoweverWeakEachIsAlone) {
 
 TEST(DiagnosisPage, ComparesNothingWhereNoCauseIsInTheModel) {
   const test::ScratchFolder folder;
-  const mc::Study study = testing::read_text(folder, "s.toml", nominal_study);
-  diagnosis::Diagnosis d = testing::diagnosis(study.filters.front());
+  const mc::Study study = test::read_text(folder, "s.toml", nominal_study);
+  diagnosis::Diagnosis d = test::diagnosis(study.filters.front());
   d.fit.shifted.clear();
   d.fit.held_out = {};
   for (auto& s : d.signals) s.explained.clear();
@@ -230,8 +230,7 @@ TEST(DiagnosisPage, ComparesNothingWhereNoCauseIsInTheModel) {
 }
 
 TEST(DiagnosisFigures, TheNumbersAtTheRightHaveAHead) {
-  for (const report::Figure& f :
-       testing::figures_of({report::fit(testing::diagnosis(nominal()))})) {
+  for (const report::Figure& f : test::figures_of({report::fit(test::diagnosis(nominal()))})) {
     if (f.file == "held_out.svg") {
       EXPECT_NE(f.svg.find(">gain of log density<"), std::string::npos);
     }

@@ -16,15 +16,15 @@ using namespace diagnosis;
 using namespace inference;
 using namespace search;
 using nlohmann::json;
-using testing::nominal_study;
+using test::nominal_study;
 
 FilterSpec nominal() {
   const test::ScratchFolder folder;
-  return testing::read_text(folder, "s.toml", nominal_study).filters.front();
+  return test::read_text(folder, "s.toml", nominal_study).filters.front();
 }
 
 TEST(DiagnosisWords, OfTheStrongestWindowSayTheEquationOnlyIfItIsAnother) {
-  diagnosis::Diagnosis d = testing::diagnosis(nominal());
+  diagnosis::Diagnosis d = test::diagnosis(nominal());
   EXPECT_NE(
       report::where_sentence(d.where).find("1200 s to 1800 s (chance of a false alarm: 1e-9)"),
       std::string::npos)
@@ -49,7 +49,7 @@ diagnosis::Diagnosis tense(std::size_t param) {
 
 TEST(DiagnosisWords, AGimbalThatReadsAConstantTooMuchIsTheFirstThingSaidBesideAnyVerdict) {
   for (diagnosis::Diagnosis d :
-       {tense(TermLibrary::find("D_F_y").value()), testing::diagnosis(nominal())}) {
+       {tense(TermLibrary::find("D_F_y").value()), test::diagnosis(nominal())}) {
     d.remarks.emplace_back(remark::GimbalOffZero{"rec.csv:gimbal_middle: it reads 1 deg too much"});
     const report::InBrief brief = report::diagnosis_in_brief(d);
     const auto said = brief.more.texts();
@@ -83,7 +83,7 @@ TEST(DiagnosisWords, AParameterFarFromItsPriorIsInTheShortAnswerOfAnyVerdict) {
   said = report::brief_text(report::diagnosis_in_brief(other), 400);
   EXPECT_NE(said.find("D_F_y 6.1 prior sigmas"), std::string::npos) << said;
   EXPECT_EQ(said.find("Field:"), std::string::npos) << said;
-  other = testing::diagnosis(nominal());
+  other = test::diagnosis(nominal());
   other.remarks = {remark::FieldAssumed{}};
   EXPECT_EQ(report::brief_text(report::diagnosis_in_brief(other), 400).find("Field:"),
             std::string::npos);
@@ -110,7 +110,7 @@ TEST(DiagnosisWords, AFormThatIsATermOfTheLibraryIsCalledByItsName) {
 }
 
 TEST(DiagnosisTables, SayALikenessOnceByItsAxis) {
-  diagnosis::Diagnosis d = testing::diagnosis(nominal());
+  diagnosis::Diagnosis d = test::diagnosis(nominal());
   d.causes[0].confusable_with = {
       {"sag", "", 0.99992}, {"sag", "x", -0.99991}, {"pier_tilt", "", 0.7}};
   const std::string out = report::text_of({report::what(d)}, 200);
@@ -121,7 +121,7 @@ TEST(DiagnosisTables, SayALikenessOnceByItsAxis) {
 }
 
 TEST(DiagnosisTables, NearlyAllAbsorbedIsNotAll) {
-  diagnosis::Diagnosis d = testing::diagnosis(nominal());
+  diagnosis::Diagnosis d = test::diagnosis(nominal());
   for (const auto& [share, text] :
        {std::pair{0.93, "93 %"}, {0.9966, "99.7 %"}, {0.99962, "99.96 %"}, {0.004, "0.4 %"}}) {
     d.candidates[0].absorbed = share;
@@ -138,7 +138,7 @@ TEST(DiagnosisWords, NameChannelsAndEquations) {
 }
 
 TEST(DiagnosisText, HasNoWordsOfTheMethodInTheNoteOnTheGain) {
-  diagnosis::Diagnosis d = testing::diagnosis(nominal());
+  diagnosis::Diagnosis d = test::diagnosis(nominal());
   d.fit.log_likelihood_ratio = 140.0;
   d.fit.linear_T = 144.0;
   const std::string out = report::to_text(d);
@@ -150,7 +150,7 @@ TEST(DiagnosisText, HasNoWordsOfTheMethodInTheNoteOnTheGain) {
 }
 
 TEST(DiagnosisText, SaysTheVerdictFirstAndStaysWithinTheTerminal) {
-  const std::string out = report::to_text(testing::diagnosis(nominal()));
+  const std::string out = report::to_text(test::diagnosis(nominal()));
   EXPECT_TRUE(out.starts_with(
       "Verdict named: The nominal model lacks g-sensitive drift (mass unbalance), gyro y"))
       << out;
@@ -162,7 +162,7 @@ TEST(DiagnosisText, SaysTheVerdictFirstAndStaysWithinTheTerminal) {
 }
 
 TEST(ResidualSignal, IsATableWithEmptyCellsForWhatIsNotKnown) {
-  const diagnosis::Diagnosis d = testing::diagnosis(nominal());
+  const diagnosis::Diagnosis d = test::diagnosis(nominal());
   const std::string csv = report::residual_signal_csv(d.signals);
   EXPECT_NE(csv.find("equation,time [s],position,value,sigma,explained,unit\n"), std::string::npos);
   EXPECT_NE(csv.find("platform rate y,60,1,0,0.1,0,deg/h\n"), std::string::npos);
@@ -175,9 +175,9 @@ TEST(ResidualSignal, IsATableWithEmptyCellsForWhatIsNotKnown) {
 
 TEST(SeveralRecordings, AreNamedWhereverATimeStands) {
   const test::ScratchFolder folder;
-  const mc::Study study = testing::read_text(folder, "s.toml", nominal_study);
-  diagnosis::Diagnosis d = testing::diagnosis(
-      study.filters.front());  // a window at 1200 to 1800 s, a signal up to 3600 s
+  const mc::Study study = test::read_text(folder, "s.toml", nominal_study);
+  diagnosis::Diagnosis d =
+      test::diagnosis(study.filters.front());  // a window at 1200 to 1800 s, a signal up to 3600 s
   EXPECT_EQ(report::to_text(d).find("through all recordings"), std::string::npos);
   EXPECT_FALSE(json::parse(report::to_json(d))["where"].contains("recordings"));
   d.where.recordings = {{"a.csv", 0.0, 900.0, 0.0},
@@ -210,8 +210,8 @@ TEST(SeveralRecordings, AreNamedWhereverATimeStands) {
 
 TEST(DiagnosisFolder, ThePatchOfAnAmbiguousVerdictSaysWhichAlternativeItHolds) {
   const test::ScratchFolder folder;
-  const mc::Study study = testing::read_text(folder, "s.toml", nominal_study);
-  diagnosis::Diagnosis d = testing::diagnosis(study.filters.front());
+  const mc::Study study = test::read_text(folder, "s.toml", nominal_study);
+  diagnosis::Diagnosis d = test::diagnosis(study.filters.front());
   const std::string out = folder.file("out");
   report::write_results(study, d, {}, out);
   EXPECT_EQ(test::text_of(out + "/patched.toml").find('#'), std::string::npos)
@@ -238,9 +238,9 @@ TEST(DiagnosisFolder, ThePatchOfAnAmbiguousVerdictSaysWhichAlternativeItHolds) {
 
 TEST(DiagnosisFolder, HoldsEverythingAndLeavesNoPatchOfAnEarlierDiagnosis) {
   const test::ScratchFolder folder;
-  const mc::Study study = testing::read_text(folder, "s.toml", nominal_study);
+  const mc::Study study = test::read_text(folder, "s.toml", nominal_study);
   const std::string out = folder.file("out");
-  report::write_results(study, testing::diagnosis(study.filters.front()), {}, out);
+  report::write_results(study, test::diagnosis(study.filters.front()), {}, out);
   for (const char* name :
        {"diagnosis.json", "residual_signal.csv", "report.html", "study.toml", "patched.toml",
         "advised.toml", "where.svg", "signal.svg", "candidates.svg", "cosines.svg", "held_out.svg",

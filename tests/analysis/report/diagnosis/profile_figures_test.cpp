@@ -32,9 +32,9 @@ TEST(ProfileFigure, SaysBothIntervalsAndWhetherTheyAgree) {
   d.profiles = {profile(), profile()};
   d.profiles[1].high_95 = std::nan("");
   const Section section = profiles(d);
-  const auto figures = testing::figures_of({section});
+  const auto figures = test::figures_of({section});
   ASSERT_EQ(figures.size(), 1u);
-  EXPECT_FALSE(testing::xml_problem(figures[0].svg, {}));
+  EXPECT_FALSE(test::xml_problem(figures[0].svg, {}));
   const auto& said = std::get<Sentences>(section.blocks[1].content).items;
   EXPECT_EQ(said[0],
             "g_drift.y D_S_y: 0.230 to 0.270 deg/h/g by refits, 0.230 to 0.270 by its sigma: they "
@@ -81,8 +81,8 @@ TEST(NormalQuantiles, OfNumbersThatAreQuantilesLieOnTheLine) {
 
 TEST(Candidates, SayWhyTheyAreNoCauses) {
   const test::ScratchFolder folder;
-  const mc::Study study = testing::read_text(folder, "study.toml", testing::nominal_study);
-  diagnosis::Diagnosis d = testing::diagnosis(study.filters.front());
+  const mc::Study study = test::read_text(folder, "study.toml", test::nominal_study);
+  diagnosis::Diagnosis d = test::diagnosis(study.filters.front());
   search::CandidateScore c = d.candidates[0];
   d.candidates[0].log_bayes = 12.0;
   const auto why = [&](search::CandidateScore other) {

@@ -34,8 +34,8 @@ TEST(Correlation, OfASumThatAloneIsKnown) {
 }
 
 TEST(CorrelationMap, ShowsTheStrongestAndSaysThem) {
-  const mc::Study study = testing::study();
-  identification::Identification id = testing::identification(study);
+  const mc::Study study = test::study();
+  identification::Identification id = test::identification(study);
   const auto n = static_cast<Eigen::Index>(id.summaries[0].layout.size());
   MatX P = MatX::Identity(n, n);
   P(3, 7) = P(7, 3) = -0.97;
@@ -43,9 +43,9 @@ TEST(CorrelationMap, ShowsTheStrongestAndSaysThem) {
   for (auto& run : id.runs) run.batch.estimate.covariance = 0.01 * P;
   const FilterView view{study, id, id.summaries[0]};
   const Section section = correlations(view);
-  const auto figures = testing::figures_of({section});
+  const auto figures = test::figures_of({section});
   ASSERT_EQ(figures.size(), 1u);
-  EXPECT_FALSE(testing::xml_problem(figures[0].svg, {}));
+  EXPECT_FALSE(test::xml_problem(figures[0].svg, {}));
   EXPECT_NE(figures[0].svg.find("-0.97"), std::string::npos);
   const auto& said = std::get<Paragraph>(section.blocks[1].content).text;
   EXPECT_NE(said.find(fmt::format("1 pair is correlated by more than 0.9, of which a sum or "

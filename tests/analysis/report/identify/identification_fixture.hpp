@@ -6,7 +6,7 @@
 
 #include "analysis/identification/identify.hpp"
 
-namespace drift::testing {
+namespace drift::test {
 
 struct PaperValue {
   std::string_view key;
@@ -123,4 +123,4 @@ inline identification::Identification identification(const mc::Study& s) {
   return id;
 }
 
-}  // namespace drift::testing
+}  // namespace drift::test

@@ -24,9 +24,9 @@ namespace {
 const std::string hostile = "\"><script>alert('x')</script>\xff";
 
 TEST(IdentificationText, FitsOnAPageAndSaysWhatMatters) {
-  mc::Study study = testing::study();
-  study.published = testing::table_1();
-  identification::Identification id = testing::identification(study);
+  mc::Study study = test::study();
+  study.published = test::table_1();
+  identification::Identification id = test::identification(study);
   VecX no_signal = VecX::Zero(static_cast<Eigen::Index>(id.summaries[1].layout.size()));
   no_signal[4] = 1.0;
   id.summaries[1].degeneracies = {{0.0, no_signal}};
@@ -46,8 +46,8 @@ TEST(IdentificationText, FitsOnAPageAndSaysWhatMatters) {
 }
 
 TEST(IdentificationText, SaysHowFarTheEstimatorsAreApart) {
-  const mc::Study study = testing::study();
-  std::string text = to_text(report::identification_report(study, testing::identification(study)));
+  const mc::Study study = test::study();
+  std::string text = to_text(report::identification_report(study, test::identification(study)));
   std::ranges::replace(text, '\n', ' ');
   for (const char* part :
        {"by 0.2 sigma; the batch fit counts", "by 30 sigma; the batch fit counts"})
@@ -55,8 +55,8 @@ TEST(IdentificationText, SaysHowFarTheEstimatorsAreApart) {
 }
 
 TEST(IdentificationText, SaysWhereTheEstimatorsDisagree) {
-  const mc::Study study = testing::study();
-  identification::Identification id = testing::identification(study);
+  const mc::Study study = test::study();
+  identification::Identification id = test::identification(study);
   const auto said = [&] {
     std::string all;
     for (const std::string& line : report::headlines(study, id)) all += line + "\n";
@@ -77,8 +77,8 @@ TEST(IdentificationText, SaysWhereTheEstimatorsDisagree) {
 }
 
 TEST(IdentificationText, SaysThatTheBatchFitCountsWhereTheEkfAloneIsOff) {
-  const mc::Study study = testing::study();
-  identification::Identification id = testing::identification(study);
+  const mc::Study study = test::study();
+  identification::Identification id = test::identification(study);
   const auto short_answer = [&] {
     return report::brief_text(report::identification_in_brief(study, id), 400);
   };
@@ -107,7 +107,7 @@ TEST(IdentificationText, SaysThatTheBatchFitCountsWhereTheEkfAloneIsOff) {
       id.runs[0].ekf.parameters[3].prior_mean + 2.1 * id.runs[0].ekf.parameters[3].prior_sigma;
   EXPECT_EQ(short_answer().find("Filter corrected: the batch fit counts"), std::string::npos);
   // Innovations alone, and the sentence of the page.
-  id = testing::identification(study);
+  id = test::identification(study);
   id.runs[0].ekf.statistic = 1150.0;  // 95 % of right models are within 0.914 to 1.090
   EXPECT_NE(short_answer().find("Filter corrected: the batch fit counts"), std::string::npos);
   EXPECT_EQ(short_answer().find("Misfit"), std::string::npos);
@@ -121,10 +121,10 @@ TEST(IdentificationText, SaysThatTheBatchFitCountsWhereTheEkfAloneIsOff) {
 }
 
 TEST(IdentificationJson, HoldsEveryResultInItsUnitAndNoNan) {
-  mc::Study study = testing::study();
-  study.published = testing::table_1();
+  mc::Study study = test::study();
+  study.published = test::table_1();
   study.title = hostile;
-  identification::Identification id = testing::identification(study);
+  identification::Identification id = test::identification(study);
   id.runs[0].ekf.parameters[0].sigma = std::nan("");
   id.runs[0].ekf.parameters[1].value = HUGE_VAL;
   id.summaries[0].spread[0].ekf = std::nan("");
@@ -154,14 +154,14 @@ TEST(IdentificationJson, HoldsEveryResultInItsUnitAndNoNan) {
 }
 
 TEST(IdentificationFigures, ShowThePublishedParametersOfEveryFilter) {
-  mc::Study study = testing::study();
-  study.published = testing::table_1();
-  const identification::Identification id = testing::identification(study);
-  const auto figures = testing::figures_of({report::estimate_figures(study, id)});
+  mc::Study study = test::study();
+  study.published = test::table_1();
+  const identification::Identification id = test::identification(study);
+  const auto figures = test::figures_of({report::estimate_figures(study, id)});
   std::vector<std::string> files;
   for (const report::Figure& f : figures) {
     files.push_back(f.file);
-    EXPECT_EQ(testing::xml_problem(f.svg).value_or(""), "") << f.file;
+    EXPECT_EQ(test::xml_problem(f.svg).value_or(""), "") << f.file;
   }
   EXPECT_EQ(files, (std::vector<std::string>{"estimates.svg", "figure_corrected.svg",
                                              "figure_legacy.svg", "nis.svg"}));
@@ -171,8 +171,8 @@ TEST(IdentificationFigures, ShowThePublishedParametersOfEveryFilter) {
 }
 
 TEST(IdentificationFigures, HighlightWhatIsPublishedElseGivenElseDoubtful) {
-  mc::Study study = testing::study();
-  identification::Identification id = testing::identification(study);
+  mc::Study study = test::study();
+  identification::Identification id = test::identification(study);
   id.summaries[0].spread[5].ekf = 99.0;
   EXPECT_EQ(report::highlighted_parameters(study, id).front(), id.summaries[0].spread[5].param);
   EXPECT_EQ(report::highlighted_parameters(study, id).size(), 3u);
@@ -181,37 +181,37 @@ TEST(IdentificationFigures, HighlightWhatIsPublishedElseGivenElseDoubtful) {
                     {"truth.parameters.s_x", "1 ppm", "--set"}};  // no state of either filter
   EXPECT_EQ(report::highlighted_parameters(study, id),
             (std::vector<std::size_t>{TermLibrary::index("eta_x")}));
-  study.published = {testing::published("p", "", {{"D_I_z", {1.0}, {}}})};
+  study.published = {test::published("p", "", {{"D_I_z", {1.0}, {}}})};
   EXPECT_EQ(report::highlighted_parameters(study, id),
             (std::vector<std::size_t>{TermLibrary::index("D_I_z")}));
 }
 
 TEST(IdentificationFigures, StopWhereTheFilterStopped) {
-  mc::Study study = testing::study();
-  study.published = {testing::published("p", "", {{"D_I_z", {1.0}, {}}})};
-  identification::Identification id = testing::identification(study);
+  mc::Study study = test::study();
+  study.published = {test::published("p", "", {{"D_I_z", {1.0}, {}}})};
+  identification::Identification id = test::identification(study);
   for (identification::FilterRun& run : id.runs) {
     run.history.estimate.rightCols(200).setZero();
     run.history.sigma.rightCols(200).setZero();
     std::fill(run.history.scalars.begin() + 100, run.history.scalars.end(), 0);
   }
-  for (const report::Figure& f : testing::figures_of({report::estimate_figures(study, id)})) {
-    EXPECT_EQ(testing::xml_problem(f.svg).value_or(""), "");
+  for (const report::Figure& f : test::figures_of({report::estimate_figures(study, id)})) {
+    EXPECT_EQ(test::xml_problem(f.svg).value_or(""), "");
     EXPECT_EQ(f.svg.find("nan"), std::string::npos);
   }
 }
 
 TEST(IdentificationHtml, IsSafeWithHostileNames) {
-  mc::Study study = testing::study();
-  study.published = testing::table_1();
+  mc::Study study = test::study();
+  study.published = test::table_1();
   study.title = study.filters[0].name = study.published[0].name = hostile;
   study.resolved = {{"title", hostile, hostile}};
-  identification::Identification id = testing::identification(study);
+  identification::Identification id = test::identification(study);
   id.runs[0].ekf.cause = hostile;
   const std::string html = report::to_html(report::identification_report(study, id));
-  EXPECT_EQ(testing::xml_problem(html, {"meta"}).value_or(""), "");
-  EXPECT_EQ(testing::without_own_script(html).find("<script"), std::string::npos);
-  EXPECT_EQ(testing::without_own_script(html).find("://"), std::string::npos);
+  EXPECT_EQ(test::xml_problem(html, {"meta"}).value_or(""), "");
+  EXPECT_EQ(test::without_own_script(html).find("<script"), std::string::npos);
+  EXPECT_EQ(test::without_own_script(html).find("://"), std::string::npos);
   EXPECT_NE(html.find("depends on start"), std::string::npos);
   EXPECT_LT(html.size(), 1500000u);
 }
@@ -234,11 +234,11 @@ std::string read(const std::filesystem::path& path) {
 }
 
 TEST_F(ResultsFolder, HoldsEveryFileAndNothingElse) {
-  mc::Study study = testing::study();
+  mc::Study study = test::study();
   study.filters[0].name = "../up/and out";
   study.path = (folder_ / "in.toml").string();
   study.text = "schema = 1\n# text\n";
-  identification::Identification id = testing::identification(study);
+  identification::Identification id = test::identification(study);
   id.recording.channels = {{"time", unit::s, {60.0, 120.0}},
                            {"position", unit::one, {1.0, 1.0}},
                            {"acc_x", unit::g, {0.5, 0.25}}};
@@ -271,8 +271,8 @@ void expect_io_error(const std::function<void()>& action, const std::string& pat
 }
 
 TEST_F(ResultsFolder, SaysWhyItCannotBeWritten) {
-  const mc::Study study = testing::study();
-  const identification::Identification id = testing::identification(study);
+  const mc::Study study = test::study();
+  const identification::Identification id = test::identification(study);
   std::ofstream(folder_) << "a file where the folder should be";
   expect_io_error(
       [&] { report::write_report(report::identification_report(study, id), folder_.string()); },

@@ -12,8 +12,8 @@ using report::Worth;
 
 /// Filter 0 of the fixture: it fits, every sigma is a tenth of the prior's.
 struct Fitted {
-  mc::Study study = testing::study();
-  identification::Identification id = testing::identification(study);
+  mc::Study study = test::study();
+  identification::Identification id = test::identification(study);
 
   ParameterEstimate& parameter(std::size_t k) { return id.runs[0].batch.estimate.parameters[k]; }
   report::ParameterVerdict verdict(std::size_t k) const {

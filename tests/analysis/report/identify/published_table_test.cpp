@@ -16,9 +16,9 @@ std::vector<std::vector<report::Cell>> rows_of(const report::Table& table,
 }
 
 TEST(PublishedComparison, FlagsThePapersTable1AsTheFiguresOfEngineSection1Say) {
-  mc::Study study = testing::study();
-  study.published = testing::table_1();
-  const auto tables = report::published_comparison(study, testing::identification(study));
+  mc::Study study = test::study();
+  study.published = test::table_1();
+  const auto tables = report::published_comparison(study, test::identification(study));
   ASSERT_EQ(tables.size(), 2u);
   const std::vector<std::vector<double>> expected{{3.15, 0.68, 1.36}, {9.11, 10.7, 10.65}};
   for (std::size_t f = 0; f < 2; ++f) {
@@ -36,9 +36,9 @@ TEST(PublishedComparison, FlagsThePapersTable1AsTheFiguresOfEngineSection1Say) {
 }
 
 TEST(PublishedComparison, StandsBesideOurRunsTheTruthAndTheIndependentTest) {
-  mc::Study study = testing::study();
-  study.published = testing::table_1();
-  const auto tables = report::published_comparison(study, testing::identification(study));
+  mc::Study study = test::study();
+  study.published = test::table_1();
+  const auto tables = report::published_comparison(study, test::identification(study));
   for (const char* source :
        {"this run, EKF", "this run, batch", "truth of this run", "component test"})
     EXPECT_EQ(rows_of(tables[1], source).size(), 3u) << source;
@@ -49,18 +49,17 @@ TEST(PublishedComparison, StandsBesideOurRunsTheTruthAndTheIndependentTest) {
 }
 
 TEST(PublishedComparison, IndependentTestAloneStandsBesideEveryFilter) {
-  mc::Study study = testing::study();
-  study.published = {testing::table_1().back()};
-  EXPECT_EQ(report::published_comparison(study, testing::identification(study)).size(), 2u);
+  mc::Study study = test::study();
+  study.published = {test::table_1().back()};
+  EXPECT_EQ(report::published_comparison(study, test::identification(study)).size(), 2u);
   study.published.clear();
-  EXPECT_TRUE(report::published_comparison(study, testing::identification(study)).empty());
+  EXPECT_TRUE(report::published_comparison(study, test::identification(study)).empty());
 }
 
 TEST(PublishedComparison, MissingSigmasGiveNoVerdict) {
-  mc::Study study = testing::study();
-  study.published = {
-      testing::published("other paper", "corrected", {{"eta_x", {1.0, 2.0, 3.0}, {}}})};
-  const auto tables = report::published_comparison(study, testing::identification(study));
+  mc::Study study = test::study();
+  study.published = {test::published("other paper", "corrected", {{"eta_x", {1.0, 2.0, 3.0}, {}}})};
+  const auto tables = report::published_comparison(study, test::identification(study));
   const auto rows = rows_of(tables.at(0), "other paper");
   ASSERT_EQ(rows.size(), 1u);
   EXPECT_EQ(rows[0].back().text, "");

@@ -23,7 +23,7 @@ std::vector<std::vector<std::string>> rows_of(const std::string& csv) {
 /// The fixture with covariances, residuals and samples: 0.1 prior sigmas each, the first two
 /// parameters of start 1 of the first filter correlated by one half.
 identification::Identification identification_of(const mc::Study& study) {
-  identification::Identification id = testing::identification(study);
+  identification::Identification id = test::identification(study);
   for (identification::FilterRun& run : id.runs) {
     const auto n = static_cast<Eigen::Index>(run.ekf.parameters.size());
     run.ekf.covariance = run.batch.estimate.covariance = 0.01 * MatX::Identity(n, n);
@@ -38,7 +38,7 @@ identification::Identification identification_of(const mc::Study& study) {
 }
 
 TEST(ResultTables, HaveARowForEveryFilterStartEstimatorAndParameterInItsUnit) {
-  const mc::Study study = testing::study();
+  const mc::Study study = test::study();
   const auto tables = report::result_tables(identification_of(study));
   ASSERT_EQ(tables.size(), 3u);
   ASSERT_EQ(tables[0].first, "estimates.csv");
@@ -61,7 +61,7 @@ TEST(ResultTables, HaveARowForEveryFilterStartEstimatorAndParameterInItsUnit) {
 }
 
 TEST(ResultTables, CovarianceIsThatOfTheValuesInTheirUnits) {
-  const mc::Study study = testing::study();
+  const mc::Study study = test::study();
   const auto rows = rows_of(report::result_tables(identification_of(study))[1].second);
   const std::size_t n = make_layout(study.filters[0]).size();
   ASSERT_EQ(rows.size(), 1 + 2 * 3 * 2 * n * (n + 1) / 2) << "each pair once";
@@ -80,7 +80,7 @@ TEST(ResultTables, CovarianceIsThatOfTheValuesInTheirUnits) {
 }
 
 TEST(ResultTables, ResidualsHaveARowForEverySample) {
-  const mc::Study study = testing::study();
+  const mc::Study study = test::study();
   const auto rows = rows_of(report::result_tables(identification_of(study))[2].second);
   ASSERT_EQ(rows.size(), 1u + 2 * 3 * 300);
   EXPECT_EQ(rows[151][3], "150");
@@ -93,8 +93,8 @@ TEST(ResultTables, ResidualsHaveARowForEverySample) {
 }
 
 TEST(ResultTables, AnEstimateWithoutCovarianceLeavesItEmpty) {
-  const mc::Study study = testing::study();
-  const auto rows = rows_of(report::result_tables(testing::identification(study))[1].second);
+  const mc::Study study = test::study();
+  const auto rows = rows_of(report::result_tables(test::identification(study))[1].second);
   ASSERT_GT(rows.size(), 1u);
   EXPECT_EQ(rows[1].size(), 10u);
   EXPECT_EQ(rows[1][8], "");

@@ -87,7 +87,7 @@ TEST(NoiseSection, NoLimitIsAboveAllThatWasMeasured) {
 
 TEST(NoiseSection, ThePictureIsWellFormedWithPointsFitsAndSpectra) {
   const std::string svg = report::allan_picture(card_of());
-  EXPECT_EQ(testing::xml_problem(svg).value_or(""), "");
+  EXPECT_EQ(test::xml_problem(svg).value_or(""), "");
   for (const char* words : {"Gyros: Allan deviation", "Accelerometers: Allan deviation",
                             "Spectral density", "averaging time [s]", "[ug/sqrt(Hz)]"})
     EXPECT_NE(svg.find(words), std::string::npos) << words;

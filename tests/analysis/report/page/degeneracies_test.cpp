@@ -13,7 +13,7 @@ namespace {
 using Combination = std::map<std::string_view, double>;  // in each parameter's unit
 
 Layout layout() {
-  return make_layout(testing::study().filters[0]);
+  return make_layout(test::study().filters[0]);
 }
 
 VecX scaled(const Layout& l, const Combination& combination) {
@@ -72,7 +72,7 @@ TEST(NameDegeneracies, FindsReadableDirectionsInATurnedBasis) {
 }
 
 TEST(NameDegeneracies, KnowsTheBiasOfAnAccelerometerWithItsSquares) {
-  FilterSpec filter = testing::study().filters[0];
+  FilterSpec filter = test::study().filters[0];
   TermMask cross;
   cross.set(TermLibrary::find_term("accelerometer_cross").value());
   filter.active |= TermLibrary::params_of(cross);

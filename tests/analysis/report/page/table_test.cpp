@@ -85,7 +85,7 @@ TEST(Table, TextColumnsLineUp) {
 
 TEST(Table, HtmlIsWellFormedAndEscaped) {
   const std::string html = report::html_of(sample());
-  EXPECT_EQ(testing::xml_problem("<p>" + html + "</p>").value_or(""), "");
+  EXPECT_EQ(test::xml_problem("<p>" + html + "</p>").value_or(""), "");
   EXPECT_NE(html.find("A &lt;table&gt;"), std::string::npos);
   EXPECT_NE(html.find("class=\"right bad\">10<"), std::string::npos);
   EXPECT_NE(html.find("colspan=\"2\""), std::string::npos);
@@ -111,7 +111,7 @@ TEST(Report, IsOnePageWithoutScriptsAndAddresses) {
         report::Preformatted{"x < y"}, sample(),
         report::Figure{"<svg xmlns=\"http://www.w3.org/2000/svg\"></svg>", "cap <tion>"}}});
   const std::string html = report::to_html(report);
-  EXPECT_EQ(testing::xml_problem(html, void_tags).value_or(""), "");
+  EXPECT_EQ(test::xml_problem(html, void_tags).value_or(""), "");
   EXPECT_EQ(html.find("<script"), std::string::npos);
   EXPECT_EQ(html.find("<img"), std::string::npos);
   EXPECT_EQ(html.find("http://"), std::string::npos);
@@ -123,8 +123,8 @@ TEST(Report, IsOnePageWithoutScriptsAndAddresses) {
 TEST(XmlCheck, FindsWhatIsBroken) {
   for (const char* bad :
        {"<a><b></a></b>", "<a>", "<a b=\"1\" b=\"2\"></a>", "<a>&</a>", "<a b=c></a>", "x"})
-    EXPECT_TRUE(testing::xml_problem(bad).has_value()) << bad;
-  EXPECT_FALSE(testing::xml_problem("<a b=\"1\"><c/>t &amp; u</a>").has_value());
+    EXPECT_TRUE(test::xml_problem(bad).has_value()) << bad;
+  EXPECT_FALSE(test::xml_problem("<a b=\"1\"><c/>t &amp; u</a>").has_value());
 }
 
 }  // namespace

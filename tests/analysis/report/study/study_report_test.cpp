@@ -45,11 +45,11 @@ const report::StudyResults& swept() {
 
 TEST(StudyReport, IsOneValidPageThatNeedsNothingElse) {
   const std::string html = report::to_html(report::study_report(swept()));
-  const auto problem = testing::xml_problem(html, void_tags);
+  const auto problem = test::xml_problem(html, void_tags);
   EXPECT_FALSE(problem) << *problem;
   EXPECT_EQ(html.find("http://"), std::string::npos);
-  EXPECT_EQ(testing::without_own_script(html).find("https://"), std::string::npos);
-  EXPECT_EQ(testing::without_own_script(html).find("<script"), std::string::npos);
+  EXPECT_EQ(test::without_own_script(html).find("https://"), std::string::npos);
+  EXPECT_EQ(test::without_own_script(html).find("<script"), std::string::npos);
   EXPECT_NE(html.find("driftscope &lt;test&gt; &amp; more"), std::string::npos);
   for (const char* heading :
        {"Truth against filter", "Sweep", "Ranking by Monte Carlo", "Error against sigma",
@@ -171,7 +171,7 @@ TEST(SweptNumber, IsFoundInQuantitiesAndDistributions) {
 }
 
 TEST(SweepPictures, AreDrawnForAxesOfNumbersAlone) {
-  const auto pictures = testing::figures_of({report::sweep(swept())});
+  const auto pictures = test::figures_of({report::sweep(swept())});
   ASSERT_EQ(pictures.size(), 1u);
   EXPECT_NE(pictures[0].caption.find("truth.parameters.eta"), std::string::npos);
   EXPECT_NE(pictures[0].svg.find("truth.parameters.eta [arcsec]"), std::string::npos);

@@ -9,7 +9,7 @@
 namespace drift::heat_map_test {
 namespace {
 
-using drift::testing::xml_problem;
+using drift::test::xml_problem;
 
 report::HeatMap map_of(Eigen::Index rows, Eigen::Index columns) {
   report::HeatMap map;

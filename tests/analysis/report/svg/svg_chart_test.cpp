@@ -64,7 +64,7 @@ TEST(SvgChart, IsWellFormedWithEveryKindOfContent) {
                           .note = "not estimated"});
   chart.columns = 2;
   const std::string svg = report::svg_of(chart);
-  EXPECT_EQ(testing::xml_problem(svg).value_or(""), "");
+  EXPECT_EQ(test::xml_problem(svg).value_or(""), "");
   for (const char* text :
        {"truth", "component test", "not estimated", "95 % band", "start 1", "time [h]"})
     EXPECT_NE(svg.find(text), std::string::npos) << text;
@@ -77,7 +77,7 @@ TEST(SvgChart, EscapesHostileText) {
   chart.panels[0].series[0].label = chart.panels[0].note = hostile;
   chart.panels[0].references = {{1.5, hostile}};
   const std::string svg = report::svg_of(chart);
-  EXPECT_EQ(testing::xml_problem(svg).value_or(""), "");
+  EXPECT_EQ(test::xml_problem(svg).value_or(""), "");
   EXPECT_EQ(svg.find("<script"), std::string::npos);
   EXPECT_EQ(svg.find('\x01'), std::string::npos);
   EXPECT_EQ(svg.find('\xff'), std::string::npos);
@@ -85,7 +85,7 @@ TEST(SvgChart, EscapesHostileText) {
 
 TEST(SvgChart, LeavesGapsWhereThereIsNoNumber) {
   const std::string svg = report::svg_of(chart_of({1.0, 2.0, nan_value, 3.0, inf, 4.0, 5.0, -inf}));
-  EXPECT_EQ(testing::xml_problem(svg).value_or(""), "");
+  EXPECT_EQ(test::xml_problem(svg).value_or(""), "");
   EXPECT_EQ(svg.find("nan"), std::string::npos);
   EXPECT_EQ(svg.find("inf"), std::string::npos);
   const std::string path = first_path(svg);
@@ -103,12 +103,12 @@ TEST(SvgChart, DrawsConstantsEmptySeriesAndHugeNumbers) {
                                                         {1e-300, 2e-300},
                                                         {1e99, -1e99}}) {
     const std::string svg = report::svg_of(chart_of(y));
-    EXPECT_EQ(testing::xml_problem(svg).value_or(""), "");
+    EXPECT_EQ(test::xml_problem(svg).value_or(""), "");
     EXPECT_EQ(svg.find("nan"), std::string::npos);
     EXPECT_EQ(svg.find("inf"), std::string::npos);
     EXPECT_LT(svg.size(), 20000u);
   }
-  EXPECT_EQ(testing::xml_problem(report::svg_of(report::Chart{})).value_or(""), "");
+  EXPECT_EQ(test::xml_problem(report::svg_of(report::Chart{})).value_or(""), "");
 }
 
 TEST(SvgChart, ThinsLongCurves) {
@@ -177,7 +177,7 @@ TEST(BarChart, HasABarAndWhiskersForEachNumber) {
                 {.label = "K0 & co", .value = nan_value}};
   chart.limit = report::ReferenceLine{1.0, "prior"};
   const std::string svg = report::svg_of(chart);
-  EXPECT_EQ(testing::xml_problem(svg).value_or(""), "");
+  EXPECT_EQ(test::xml_problem(svg).value_or(""), "");
   EXPECT_EQ(count(svg, "<rect"), 3u);  // background and two bars
   EXPECT_NE(svg.find(">n/a<"), std::string::npos);
   EXPECT_NE(svg.find("K0 &amp; co"), std::string::npos);
@@ -194,7 +194,7 @@ std::vector<double> numbers_at(const std::string& svg, const std::string& attrib
 
 /// A picture that was drawn anew for a narrow page: it fits, and shows the same texts.
 void expect_narrow(const report::Figure& figure, std::size_t texts) {
-  EXPECT_EQ(testing::xml_problem(figure.narrow).value_or(""), "");
+  EXPECT_EQ(test::xml_problem(figure.narrow).value_or(""), "");
   EXPECT_EQ(numbers_at(figure.narrow, "width").at(0), report::narrow_page);
   EXPECT_GT(numbers_at(figure.svg, "width").at(0), report::narrow_page);
   EXPECT_GE(count(figure.narrow, "<text"), texts);

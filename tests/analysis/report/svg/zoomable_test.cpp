@@ -73,12 +73,12 @@ TEST(Zoomable, PagesHoldTheScriptOnceAndLetNoOtherRun) {
   const Figure figure = zoomable(chart(), "c");
   report.add({{"One", {figure}}, {"Two", {figure}}});
   const std::string page = to_html(report);
-  EXPECT_FALSE(testing::xml_problem(page, {"meta"}));
+  EXPECT_FALSE(test::xml_problem(page, {"meta"}));
   const auto script = page.find("<script>");
   ASSERT_NE(script, std::string::npos);
   EXPECT_EQ(page.find("<script>", script + 1), std::string::npos);
   EXPECT_GT(script, page.rfind("</svg>"));  // pictures come first, and stay without it
-  const std::string rest = testing::without_own_script(page);
+  const std::string rest = test::without_own_script(page);
   EXPECT_EQ(rest.find("<script"), std::string::npos);
   EXPECT_NE(rest.find("<svg"), std::string::npos);
 
