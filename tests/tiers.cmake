@@ -9,6 +9,6 @@ set(DRIFT_FULL_TESTS
   Nearest.* NothingReplaced.* OddInput.* OwnTermCommands.* RankCommand.* Rivals.* ScreenForms.* Documents.* Recording/BinaryFuzz.*
   RecordingFuzz.* Search.* Sensitivity.* SharedCandidates.* SharedTrials.* SiteDoubt.* Strapdown*.* StudyConfig.Misspelt*
   StudyMutation.* StudyReport.* WrongHemisphere.*
-  SweepPictures.* UnequalRowsDiagnosed.* WhereFollows.*)
+  SweepPictures.* UnequalRowsDiagnosed.* UnknownField.* WhereFollows.*)
 # Minutes each: not run unless asked for.
 set(DRIFT_NIGHTLY_TESTS *Nightly*.* Estimators/EveryTermUnder.IsConsistentOrRefusedInSlews/batch)

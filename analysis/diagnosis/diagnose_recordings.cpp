@@ -6,6 +6,7 @@
 #include "analysis/diagnosis/advice/alternatives.hpp"
 #include "analysis/diagnosis/recording_spans.hpp"
 #include "analysis/diagnosis/site_doubt.hpp"
+#include "analysis/diagnosis/unknown_field.hpp"
 #include "analysis/identification/absent_channels.hpp"
 #include "analysis/preparation/prepare.hpp"
 #include "core/base/check.hpp"
@@ -61,7 +62,7 @@ Diagnosis diagnose_recordings(const mc::Study& study, const std::vector<Recordin
                               const RecordingsOptions& options) {
   if (options.advising == Advising::on_request && !study.filters.empty())
     require_askable(study.filters.front(), options.asked);
-  const preparation::Prepared test = preparation::prepare(study, recordings);
+  preparation::Prepared test = preparation::prepare(study, recordings);
   const StageReport& progress = options.diagnose.progress;
   // Where nothing is advised the rest takes a moment.
   const double of_diagnosis = options.advising == Advising::left_out ? 0.99 : 0.8;
@@ -70,7 +71,13 @@ Diagnosis diagnose_recordings(const mc::Study& study, const std::vector<Recordin
     first.progress = [&](const std::string& stage, double done) {
       progress(stage, of_diagnosis * done);
     };
-  Diagnosis d = diagnose(test.study, test.recordings, first);
+  DiagnoseOptions second = options.diagnose;
+  if (progress)
+    second.progress = [&](const std::string& stage, double) { progress(stage, of_diagnosis); };
+  Diagnosis d = with_error_of_field(diagnose(test.study, test.recordings, first), test.study,
+                                    test.recordings, second);
+  if (d.field && d.field->another())
+    test.study = with_field(std::move(test.study), d.field->field_l);
   name_unmapped_temperature(recordings, d.not_examined);
   if (progress) progress("latitude and advice", of_diagnosis);
   if (!d.of_case)

@@ -47,10 +47,8 @@ double log_odds(const identification::LatitudeDoubt& doubt, const Diagnosis& d) 
 bool worth_asking(const Diagnosis& d) {
   if (d.verdict == Verdict::unexplained) return true;
   // Parameters far outside their priors may hide it: Earth rate about Up is isotropic D_I.
-  if (std::ranges::any_of(d.remarks, [](const Remark& r) {
-        const auto* beyond = std::get_if<remark::BeyondPrior>(&r);
-        return beyond && beyond->farthest().sigmas > inference::FitLimits::beyond_prior;
-      }))
+  if (const auto* beyond = remark_in<remark::BeyondPrior>(d);
+      beyond && beyond->farthest().sigmas > inference::FitLimits::beyond_prior)
     return true;
   if (d.verdict == Verdict::consistent) return d.fit.chi2_per_dof_before > d.fit.band_high;
   double top = 0.0, own = 0.0, size = 0.0;

@@ -31,6 +31,7 @@ struct Candidate {
   std::vector<std::size_t>
       params;                     ///< linear parameters, same order as the columns of each variant
   std::vector<Variant> variants;  ///< neighbours on the grid stand next to each other
+  double log_prior = 0.0;         ///< beside what every term has: of what it follows
   bool contains(const Candidate& other) const;  ///< same term, more parameters
 };
 

@@ -227,8 +227,9 @@ struct SiteLimits {
   static constexpr double another = 1e-3;
   static constexpr double survey = 3.0;  ///< [prior sigma of latitude_error] no survey is wrong by
   static constexpr double most = 0.9;    ///< part of the misfit that another latitude takes away
-  /// Part of the strongest score that latitude_error has, and part of the misfit that the foot of
-  /// the parabola promises, for latitudes to be tried. Tuned on time.
+  /// Part of the strongest score that latitude_error, or what follows an assumed field, has, and
+  /// part of the misfit that the foot of the parabola promises, for latitudes to be tried. Tuned on
+  /// time.
   static constexpr double worth_asking = 0.5, promise = 0.5;
 };
 

@@ -20,7 +20,10 @@ double log_prior(const Fitted& e, const Explanation& choices) {
   std::map<std::string, double> offers;
   for (const inference::Candidate& c : e.set.candidates) offers[c.term] += 1.0;
   double sum = 0.0;
-  for (const Choice& c : choices) sum -= std::log(offers[e.set.candidates[c.candidate].term]);
+  for (const Choice& choice : choices) {
+    const inference::Candidate& c = e.set.candidates[choice.candidate];
+    sum += c.log_prior - std::log(offers[c.term]);
+  }
   return sum - std::log(WeighLimits::second_cause) * static_cast<double>(choices.size() - 1);
 }
 

@@ -32,6 +32,10 @@ double strongest_window(const Fitted& nominal) {
 
 Detection detect(Fitted nominal, const MeasuredTest& test, const SearchOptions& options) {
   Detection out;
+  for (inference::Candidate& c : nominal.set.candidates)
+    if (TermLibrary::terms[*TermLibrary::find_term(c.term)].needs.covariates &
+        options.read_off.covariates)
+      c.log_prior = options.read_off.log_prior;
   out.thresholds = chance_thresholds(nominal, options.alpha, options.draws);
   if (const auto settled = settle_noise(nominal)) {
     out.noise_alone = nominal.noise;

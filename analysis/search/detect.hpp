@@ -13,6 +13,12 @@ struct SearchOptions {
       inference::SearchLimits::credible;  ///< probability that the listed causes must hold together
   int draws = 4000;                       ///< of the null distribution
   std::size_t most_refits = inference::EffortLimits::refits;
+  /// Covariates whose values were read off the recording itself, and the log of how probable they
+  /// were before: whatever follows them has that prior besides.
+  struct ReadOff {
+    CovariateSet covariates = 0;
+    double log_prior = 0.0;
+  } read_off;
 };
 
 /// Whether there is anything that the nominal model leaves out.

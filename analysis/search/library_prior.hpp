@@ -27,9 +27,11 @@ class LibraryPrior {
     double sum =
         -std::log(std::max<double>(1.0, static_cast<double>(offers_.size()))) -
         std::log(inference::WeighLimits::second_cause) * static_cast<double>(choices.size() - 1);
-    for (const Choice& c : choices)
-      if (const auto at = offers_.find(set_.candidates[c.candidate].term); at != offers_.end())
-        sum -= std::log(at->second);
+    for (const Choice& choice : choices) {
+      const inference::Candidate& c = set_.candidates[choice.candidate];
+      sum += c.log_prior;
+      if (const auto at = offers_.find(c.term); at != offers_.end()) sum -= std::log(at->second);
+    }
     return sum;
   }
 

@@ -159,6 +159,17 @@ std::string patched_study(const mc::Study& study, const FilterSpec& patched) {
   return config::to_document(root);
 }
 
+std::string study_with_field(const mc::Study& study, const Vec3& field_l) {
+  constexpr CovariateSpec field = covariate("field");
+  Node root = parsed(study);
+  Node& environment = at(root, "environment");
+  for (std::size_t k = 0; k < field.components(); ++k)
+    at(environment, std::string(field.column(k).view())) =
+        text_node(fmt::format("{:.4f} {}", field_l[static_cast<Eigen::Index>(k)] / field.unit.to_si,
+                              field.unit.symbol.view()));
+  return config::to_document(root);
+}
+
 std::string study_with_positions(const mc::Study& study, const std::vector<Position>& positions) {
   Node root = parsed(study);
   Node& plan = at(root, "plan");

@@ -30,6 +30,9 @@ FilterSpec started_where_found(FilterSpec patched, const std::vector<search::Cau
 /// readable by read_study(). Order and values are kept, comments are not.
 std::string patched_study(const mc::Study& study, const FilterSpec& patched);
 
+/// The study file with a magnetic field in [environment], North, West, Up [T].
+std::string study_with_field(const mc::Study& study, const Vec3& field_l);
+
 /// The study file with these positions for its plan, written out one by one.
 std::string study_with_positions(const mc::Study& study, const std::vector<Position>& positions);
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "analysis/diagnosis/findings/advice.hpp"
@@ -17,6 +18,7 @@
 #include "analysis/diagnosis/findings/twins.hpp"
 #include "analysis/diagnosis/findings/verdict.hpp"
 #include "analysis/diagnosis/findings/where.hpp"
+#include "analysis/identification/field_found.hpp"
 #include "analysis/identification/heading_doubt.hpp"
 #include "analysis/identification/latitude_doubt.hpp"
 #include "analysis/inference/noise/noise_finding.hpp"
@@ -62,6 +64,8 @@ struct Diagnosis {
   std::optional<identification::LatitudeDoubt> site_doubt;
   std::optional<identification::LatitudeDoubt> other_latitude;  ///< would explain it, too
   std::optional<identification::HeadingDoubt> heading_doubt;
+  /// Where causes follow a field that had to be assumed: their sigmas hold its error.
+  std::optional<identification::FieldFound> field;
   bool of_case = false;               ///< of a recording on a case
   std::vector<int> absent_positions;  ///< numbers of the plan's that no recording holds, ascending
   std::vector<std::string> absent;  ///< channels of [readout] that no recording has; not of a case
@@ -76,5 +80,13 @@ struct Diagnosis {
   /// The study is of another place, or of another plan: nothing that is said of causes holds.
   bool wrong_study() const { return site_doubt || heading_doubt; }
 };
+
+/// The first remark of a kind, or none.
+template <class R>
+const R* remark_in(const Diagnosis& d) {
+  for (const Remark& r : d.remarks)
+    if (const auto* found = std::get_if<R>(&r)) return found;
+  return nullptr;
+}
 
 }  // namespace drift::diagnosis

@@ -3,43 +3,13 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "analysis/report/diagnosis/field_words.hpp"
 #include "analysis/report/identify/turned_words.hpp"
 #include "analysis/report/page/wording.hpp"
 #include "core/base/units.hpp"
 
 namespace drift::report {
-namespace {
-
 using namespace diagnosis;
-
-template <class R>
-const R* remark_in(const Diagnosis& d) {
-  for (const Remark& r : d.remarks)
-    if (const auto* found = std::get_if<R>(&r)) return found;
-  return nullptr;
-}
-
-bool follows_field(const TermInfo& term) {
-  return (term.needs.covariates & covariate("field").set()) != 0;
-}
-
-}  // namespace
-
-std::vector<std::string> following_field(const Diagnosis& d) {
-  std::vector<std::string> labels;
-  const auto add = [&](std::string label) {
-    if (std::ranges::find(labels, label) == labels.end()) labels.push_back(std::move(label));
-  };
-  for (const search::Cause& c : d.causes)
-    if (const auto term = TermLibrary::find_term(c.term))
-      if (follows_field(TermLibrary::terms[*term])) add(search::keyed(c.term, c.axis));
-  if (const auto* beyond = remark_in<remark::BeyondPrior>(d))
-    for (const remark::BeyondPrior::Parameter& p : beyond->parameters)
-      for (const TermInfo& t : TermLibrary::terms)
-        if (follows_field(t) && t.first <= p.estimate.param && p.estimate.param < t.first + t.count)
-          add(parameter_key(p.estimate.param));
-  return labels;
-}
 
 std::string beyond_prior_text(const remark::BeyondPrior& r) {
   constexpr std::size_t most = 6;
@@ -124,12 +94,7 @@ std::vector<std::pair<std::string, std::string>> doubts_of(const Diagnosis& d) {
         fmt::format("{} isolated sample{} left out{}: far from those around.",
                     samples->removed.size(), samples->removed.size() == 1 ? " is" : "s are",
                     spikes_text(samples->removed)));
-  if (remark_in<remark::FieldAssumed>(d) != nullptr)
-    if (const auto labels = following_field(d); !labels.empty())
-      all.emplace_back("Field",
-                       fmt::format("{} {} on a magnetic field that is assumed, a dipole's: declare "
-                                   "field_n, field_w, field_u in [environment].",
-                                   listed(labels, "and"), labels.size() > 1 ? "hang" : "hangs"));
+  if (std::string text = field_doubt(d); !text.empty()) all.emplace_back("Field", std::move(text));
   return all;
 }
 

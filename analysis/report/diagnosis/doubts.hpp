@@ -12,13 +12,10 @@ namespace drift::report {
 /// "The fit takes M_y 6.1 prior sigmas from its prior, ...: the prior is wrong, or ...".
 std::string beyond_prior_text(const diagnosis::remark::BeyondPrior& beyond);
 
-/// A verdict of its own: nothing that is said of causes holds for another place on the Earth.
-/// The causes and the parameters far from their priors that follow the magnetic field.
-std::vector<std::string> following_field(const diagnosis::Diagnosis& d);
-
 /// "45.712±0.019 deg".
 std::string latitude_text(const identification::LatitudeDoubt& doubt);
 
+/// A verdict of its own: nothing that is said of causes holds for another place on the Earth.
 std::string site_text(const identification::LatitudeDoubt& doubt);
 
 /// The same of a plan whose positions headed otherwise.

@@ -5,6 +5,7 @@
 #include "analysis/planning/position_toml.hpp"
 #include "analysis/report/diagnosis/advice_words.hpp"
 #include "analysis/report/diagnosis/doubts.hpp"
+#include "analysis/report/diagnosis/field_words.hpp"
 #include "analysis/report/diagnosis/not_examined_words.hpp"
 #include "analysis/report/diagnosis/sections.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
@@ -244,6 +245,7 @@ Json diagnosis_document(const Diagnosis& d) {
   out["latitude"] = latitude_json(d.site_doubt);
   out["other_latitude"] = latitude_json(d.other_latitude);
   out["heading"] = d.heading_doubt ? heading_json(*d.heading_doubt) : Json(nullptr);
+  out["field"] = field_json(d);
   out["absent"] = absent_json(d.absent);
   out["absent_positions"] = d.absent_positions;
   out["beyond_prior"] = beyond_prior_json(d);

@@ -97,7 +97,10 @@ std::string patched_file(const mc::Study& study, const Diagnosis& d) {
     std::istringstream lines(head.empty() ? "" : wrapped(head, 98));
     for (std::string line; std::getline(lines, line);) out += "# " + line + "\n";
   }
-  return out + patched_study(study, d.patched);
+  if (!d.field || !d.field->another()) return out + patched_study(study, d.patched);
+  mc::Study there = study;
+  there.text = study_with_field(study, d.field->field_l);
+  return out + patched_study(there, d.patched);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/report/diagnosis/alternative_words.hpp"
 #include "analysis/report/diagnosis/doubts.hpp"
+#include "analysis/report/diagnosis/field_words.hpp"
 #include "analysis/report/diagnosis/not_examined_words.hpp"
 #include "analysis/report/diagnosis/remark_words.hpp"
 #include "analysis/report/diagnosis/too_large.hpp"
@@ -62,12 +63,6 @@ std::string held_out_text(const Diagnosis& d, bool several) {
                      d.of_case ? "dwells" : "positions", held.improves ? "better" : "no better");
 }
 
-template <class R>
-bool remarked(const Diagnosis& d) {
-  return std::ranges::any_of(d.remarks,
-                             [](const Remark& r) { return std::holds_alternative<R>(r); });
-}
-
 /// Beside a cause, where what the library does not know is more probable than not.
 std::string outside_text(const Diagnosis& d) {
   const double outside = d.probabilities.outside;
@@ -80,16 +75,15 @@ std::string outside_text(const Diagnosis& d) {
 
 /// Why the only cause that was found is not named.
 std::string not_confirmed_text(const Diagnosis& d, bool several) {
-  if (remarked<remark::JustSignificantLeft>(d))
+  if (remark_in<remark::JustSignificantLeft>(d))
     return fmt::format("with {} something is left that is just significant",
                        several ? "them" : "it");
-  if (several && remarked<remark::MemberNotConfirmed>(d))
+  if (several && remark_in<remark::MemberNotConfirmed>(d))
     return "held-out data do not ask for each of them";
-  for (const Remark& r : d.remarks)
-    if (const auto* noise = std::get_if<remark::OrNoise>(&r))
-      return fmt::format("that nothing is missing has a probability of {}",
-                         decimal_text(noise->probability, 2));
-  if (remarked<remark::LambdaNotSettled>(d))
+  if (const auto* noise = remark_in<remark::OrNoise>(d))
+    return fmt::format("that nothing is missing has a probability of {}",
+                       decimal_text(noise->probability, 2));
+  if (remark_in<remark::LambdaNotSettled>(d))
     return "its weight may still be the nominal one (3 sigma)";
   return held_out_text(d, several);
 }
@@ -253,15 +247,12 @@ std::string sentence(const Diagnosis& d) {
   if (d.heading_doubt) return heading_text(*d.heading_doubt);
   if (d.site_doubt) return site_text(*d.site_doubt) + rival_text(d);
   std::string text = absent_text(d.absent_positions) + absent_text(d.absent) + verdict_alone(d);
-  if (remarked<remark::FieldAssumed>(d) && !following_field(d).empty())
-    text +=
-        " The magnetic field is assumed, a dipole's: sizes that follow it are as wrong as that.";
+  text += field_text(d);
   if (d.nearest_known && !d.proposal)  // a form that fits is nearer
     text += nearest_text(*d.nearest_known, instrument_of(d));
   if (d.verdict == Verdict::consistent)
-    for (const Remark& r : d.remarks)
-      if (const auto* other = std::get_if<remark::OtherEquation>(&r); other && other->open())
-        text += fmt::format(" {}.", cannot_tell_equations(*other, positions_at_hand(d)));
+    if (const auto* other = remark_in<remark::OtherEquation>(d); other && other->open())
+      text += fmt::format(" {}.", cannot_tell_equations(*other, positions_at_hand(d)));
   if (d.other_latitude) text += other_latitude_text(*d.other_latitude);
   text += outside_text(d);
   text += too_large_text(d);

@@ -8,8 +8,8 @@
 namespace drift::diagnosis::patched_study_test {
 namespace {
 
-using testing::nominal_study;
-using testing::read_text;
+using test::nominal_study;
+using test::read_text;
 
 search::CauseParameter parameter(std::string_view key, double value, bool profiled = false) {
   const auto index = TermLibrary::find(key).value();
@@ -171,7 +171,7 @@ TEST(PatchedStudy, OfAStudyWithoutFilterIsRefused) {
 TEST(ExtendedStudy, WritesThePresetOutAndAddsThePositions) {
   const test::ScratchFolder folder;
   const mc::Study study = read_text(folder, "s.toml", nominal_study);
-  const auto advice = testing::diagnosis(study.filters.front()).advice.front();
+  const auto advice = test::diagnosis(study.filters.front()).advice.front();
   const mc::Study again = read_text(folder, "advised.toml", extended_study(study, advice.plan));
   ASSERT_EQ(again.plan.positions.size(), study.plan.positions.size() + 1);
   for (std::size_t k = 0; k < study.plan.positions.size(); ++k) {
@@ -205,6 +205,22 @@ TEST(ExtendedStudy, WorksForEveryPreset) {
       EXPECT_NEAR(is.case_heading.value_or(0.0), was.case_heading.value_or(0.0), 1e-9);
     }
   }
+}
+
+TEST(PatchedStudy, AFieldThatWasFoundIsDeclared) {
+  const test::ScratchFolder folder;
+  mc::Study study = read_text(folder, "s.toml", nominal_study);
+  const Vec3 field_l(2.5e-5, -3e-6, -4.7e-5);
+  study.text = study_with_field(study, field_l);
+  const mc::Study read =
+      read_text(folder, "there.toml", patched_study(study, study.filters.front()));
+  const CovariateCourse& declared = read.environment[covariate("field")];
+  for (int k = 0; k < 3; ++k) {
+    ASSERT_TRUE(declared.mean[static_cast<std::size_t>(k)]);
+    EXPECT_NEAR(*declared.mean[static_cast<std::size_t>(k)], field_l[k],
+                0.5e-8);  // four digits of gauss
+  }
+  expect_same_model(read.filters.front(), study.filters.front());
 }
 
 }  // namespace
