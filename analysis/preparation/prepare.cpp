@@ -12,6 +12,7 @@
 #include "analysis/preparation/covariates.hpp"
 #include "analysis/preparation/gimbal_zero.hpp"
 #include "analysis/preparation/gravity_check.hpp"
+#include "analysis/preparation/heading_zero.hpp"
 #include "analysis/preparation/input_thresholds.hpp"
 #include "analysis/preparation/lost_rows.hpp"
 #include "analysis/preparation/plan_check.hpp"
@@ -274,7 +275,6 @@ Prepared prepare(const mc::Study& study, const std::vector<Recording>& recording
       for (const std::string& message : error.messages())
         wrong.push_back(in_own_names(message, study.recording));
     }
-    if (p.off_zero.empty()) p.off_zero = in_own_names(gimbal_off_zero(study, r), study.recording);
     const Measurements m = measurements_of(r, p.study.readout);
     if (!m.acc.array().isFinite().any() && !m.gimbal.array().isFinite().any())
       wrong.push_back(fmt::format(
@@ -283,6 +283,11 @@ Prepared prepare(const mc::Study& study, const std::vector<Recording>& recording
           name_of(r)));
   }
   if (!wrong.empty()) throw InputError(ExitCode::recording, std::move(wrong));
+  for (const Recording& r : p.recordings) {
+    if (p.off_zero.empty()) p.off_zero = in_own_names(gimbal_off_zero(study, r), study.recording);
+    if (p.off_zero.empty())
+      p.off_zero = in_own_names(heading_off_zero(p.study, r), study.recording);
+  }
   if (positions.size() < 2)
     p.remarks.emplace_back(
         "one position only: nothing can be held out, so no cause can be confirmed, and most causes "

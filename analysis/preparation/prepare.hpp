@@ -16,7 +16,7 @@ struct Prepared {
   std::vector<std::string>
       remarks;  ///< what was left out or changed, and what the plan cannot give
   std::vector<int> absent_positions = {};  ///< numbers of the plan's that no recording holds
-  std::string off_zero = {};  ///< of the first gimbal that reads a constant too much; or ""
+  std::string off_zero = {};  ///< of the first gimbal, or of the heading, that is a constant off
 };
 
 /// Looks recordings over before parameters are estimated from them or they are diagnosed:

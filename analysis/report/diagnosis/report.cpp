@@ -218,7 +218,7 @@ InBrief diagnosis_in_brief(const Diagnosis& d) {
             : "Next: diagnose again with the latitude of the site as a map has it: what is "
               "missing beside it shows then.";
   else if (off_zero && d.verdict != Verdict::consistent)
-    brief.next = "Next: correct the zero of the gimbal, or its offset, and diagnose again.";
+    brief.next = "Next: correct the zero, or its offset, and diagnose again.";
   else if (!d.advice.empty())
     brief.next = "Next: " + advice_in_brief(d.advice.front());
   else if (d.verdict == Verdict::named && d.has_patch)

@@ -261,7 +261,7 @@ InBrief identification_in_brief(const mc::Study& study, const identification::Id
     brief.next = fmt::format("Next: identify again with --set site.latitude=\"{:.3f} deg\".",
                              doubt->latitude / unit::deg.to_si);
   else if (!id.off_zero.empty())
-    brief.next = "Next: correct the zero of the gimbal, or its offset, and identify again.";
+    brief.next = "Next: correct the zero, or its offset, and identify again.";
   else if (j.good.empty() && !id.spikes.empty() && !other_latitude(id))
     brief.next = fmt::format(
         "Next: leave the isolated sample{} out (empty cells) and identify again; `driftscope "

@@ -56,7 +56,7 @@ TEST(DiagnosisWords, AGimbalThatReadsAConstantTooMuchIsTheFirstThingSaidBesideAn
     ASSERT_FALSE(said.empty());
     EXPECT_EQ(said.front(), "Gimbals: rec.csv:gimbal_middle: it reads 1 deg too much.");
     // A cause that such readings were taken for is nothing to go on with.
-    const bool first = brief.next.find("correct the zero of the gimbal") != std::string::npos;
+    const bool first = brief.next.find("correct the zero, or its offset") != std::string::npos;
     EXPECT_EQ(first, d.verdict != diagnosis::Verdict::consistent) << brief.next;
   }
 }
