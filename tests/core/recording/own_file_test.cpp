@@ -149,7 +149,7 @@ TEST(OwnFile, IncrementsBecomeRatesOverTheUsualInterval) {
     EXPECT_NEAR(r.find("gyro_z")->values[i], -6.0 * detail::deg, 1e-15) << i;
     EXPECT_NEAR(r.find("acc_z")->values[i], 1.0, 1e-12) << i;
   }
-  const Answer a = answer(path, RecordingKind::strapdown);
+  const Reading a = answer(path, RecordingKind::strapdown);
   EXPECT_EQ(a.code, 4);
   EXPECT_NE(a.text.find("kind = \"increments\""), std::string::npos) << a.text;
 }

@@ -98,7 +98,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST_P(MalformedHdf5, IsRefusedWithPlaceExpectationAndRemedy) {
   const Folder folder;
   const std::string path = spoiled_h5(folder, GetParam().spoil);
-  const Answer a = answer(path, RecordingKind::platform);
+  const Reading a = answer(path, RecordingKind::platform);
   EXPECT_EQ(a.code, static_cast<int>(ExitCode::recording)) << a.text;
   EXPECT_EQ(a.text.rfind(path + ":", 0), 0u) << a.text;
   EXPECT_NE(a.text.find(GetParam().says), std::string::npos) << a.text;
@@ -209,7 +209,7 @@ TEST_P(MalformedMat, IsRefusedWithPlaceExpectationAndRemedy) {
   ASSERT_EQ(Mat_VarWrite(file, extra, MAT_COMPRESSION_NONE), 0);
   Mat_VarFree(extra);
   Mat_Close(file);
-  const Answer a = answer(path, RecordingKind::platform);
+  const Reading a = answer(path, RecordingKind::platform);
   EXPECT_EQ(a.code, static_cast<int>(ExitCode::recording)) << a.text;
   EXPECT_EQ(a.text.rfind(path + ":", 0), 0u) << a.text;
   EXPECT_NE(a.text.find(GetParam().says), std::string::npos) << a.text;
@@ -235,7 +235,7 @@ TEST(MalformedBinary, GarbageAndOtherFormatsAreRefused) {
       if ((i == 3 && name[4] == 'c') || (i == 4 && name[4] == 'h') || (i == 5 && name[4] == 'm'))
         continue;
       const std::string path = folder.write(name, texts[i]);
-      const Answer a = answer(path, RecordingKind::platform);
+      const Reading a = answer(path, RecordingKind::platform);
       EXPECT_EQ(a.code, static_cast<int>(ExitCode::recording))
           << name << " " << i << ": " << a.text;
       EXPECT_EQ(a.text.rfind(path + ":", 0), 0u) << a.text;

@@ -88,11 +88,11 @@ inline double ulps(double a, double b) {
 }
 
 /// What reading answers: "" if it reads, else all messages; the exit code beside it.
-struct Answer {
+struct Reading {
   int code = 0;
   std::string text;
 };
-inline Answer answer(const std::string& path, RecordingKind kind) {
+inline Reading answer(const std::string& path, RecordingKind kind) {
   try {
     read_recording(path, kind, gravity);
     return {};

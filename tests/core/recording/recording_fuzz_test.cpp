@@ -18,7 +18,7 @@ std::string small_csv() {
 
 /// 0, or 4 with a message that begins with the file's name; anything else fails the test.
 void expect_read_or_refused(const std::string& path, const std::string& what) {
-  const Answer a = answer(path, RecordingKind::platform);
+  const Reading a = answer(path, RecordingKind::platform);
   EXPECT_TRUE(a.code == 0 || a.code == 4) << what << ": " << a.code << " " << a.text;
   if (a.code != 0) {
     EXPECT_EQ(a.text.rfind(path + ":", 0), 0u) << what << ": " << a.text;

@@ -152,7 +152,7 @@ TEST_P(MalformedCsv, IsRefusedWithPlaceExpectationAndRemedy) {
   const Case& c = GetParam();
   const Folder folder;
   const std::string path = folder.write("bad.csv", written_out(c));
-  const Answer a = answer(path, c.kind);
+  const Reading a = answer(path, c.kind);
   EXPECT_EQ(a.code, static_cast<int>(ExitCode::recording)) << a.text;
   EXPECT_NE(a.text.find(path + c.where), std::string::npos) << a.text;
   EXPECT_NE(a.text.find(c.wrong), std::string::npos) << a.text;
@@ -170,7 +170,7 @@ TEST(MalformedRecording, AllProblemsAreReportedAtOnce) {
       folder.write("bad.csv",
                    "time [s],position,acc_x [G],acc_y [g],acc_z "
                    "[g]\n1,1,0,0,0\n2,0,0,0,0\n2,1,0,oops,0\n3,1,0,0\n1,1,0,0,0\n");
-  const Answer a = answer(path, RecordingKind::platform);
+  const Reading a = answer(path, RecordingKind::platform);
   for (const char* part :
        {"unknown unit 'G'", ":3:position:", ":4:acc_y:", ":5: 4 cells", ":6:time:"})
     EXPECT_NE(a.text.find(part), std::string::npos) << part << " in\n" << a.text;
@@ -182,7 +182,7 @@ TEST(MalformedRecording, TheSameMistakeInSeveralColumnsIsOneMessage) {
       "t.csv",
       "time [s],gyro_x [deg/s],gyro_y [deg/s],gyro_z [deg/s],acc_x [gee],acc_y [gee],acc_z [gee]\n"
       "1,0.1,0.2,0.3,0,0,1\n2,0.1,0.2,0.3,0,0,1\n");
-  const Answer a = answer(path, strapdown);
+  const Reading a = answer(path, strapdown);
   EXPECT_EQ(a.code, static_cast<int>(ExitCode::recording));
   EXPECT_NE(a.text.find("t.csv:acc_x, acc_y, acc_z: unknown unit 'gee'"), std::string::npos)
       << a.text;
@@ -194,7 +194,7 @@ TEST(MalformedRecording, WhatCannotBeReadIsAnIoError) {
   std::filesystem::create_directory(folder / "dir.csv");
   for (const std::string& path : {folder / "none.csv", folder / "none.h5", folder / "none.mat",
                                   folder / "dir.csv", std::string("/dev/null"), std::string()}) {
-    const Answer a = answer(path, RecordingKind::platform);
+    const Reading a = answer(path, RecordingKind::platform);
     EXPECT_EQ(a.code, static_cast<int>(ExitCode::io)) << path << ": " << a.text;
     EXPECT_NE(a.text.find("cannot be read"), std::string::npos) << a.text;
   }
@@ -203,7 +203,7 @@ TEST(MalformedRecording, WhatCannotBeReadIsAnIoError) {
 TEST(MalformedRecording, AnUnknownExtensionNamesTheKnownOnes) {
   const Folder folder;
   for (const char* name : {"rec.tdms", "rec", "rec.csv.gz"}) {
-    const Answer a = answer(folder.write(name, "x"), RecordingKind::platform);
+    const Reading a = answer(folder.write(name, "x"), RecordingKind::platform);
     EXPECT_EQ(a.code, static_cast<int>(ExitCode::recording));
     EXPECT_NE(a.text.find("expected .csv, .h5, .hdf5 or .mat"), std::string::npos) << a.text;
   }
