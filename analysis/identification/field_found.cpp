@@ -19,15 +19,21 @@ constexpr double sigma = preparation::beside_dipole;
 /// have a stronger field than a large effect.
 constexpr double whatever_size = 100.0;
 
+/// The parameters that follow the field.
+std::vector<std::size_t> followers() {
+  std::vector<std::size_t> all;
+  for (const TermInfo& term : TermLibrary::terms)
+    for (std::size_t i = term.first; follows_field(term) && i < term.first + term.count; ++i)
+      all.push_back(i);
+  return all;
+}
+
 FilterSpec with_followers(FilterSpec filter) {
-  for (const TermInfo& term : TermLibrary::terms) {
-    if (!follows_field(term)) continue;
-    for (std::size_t i = term.first; i < term.first + term.count; ++i) {
-      const Prior prior = filter.believed(i);
-      filter.active.set(i);
-      filter.priors[i] =
-          prior.sigma() > 0.0 ? normal(prior.mean(), whatever_size * prior.sigma()) : prior;
-    }
+  for (const std::size_t i : followers()) {
+    const Prior prior = filter.believed(i);
+    filter.active.set(i);
+    filter.priors[i] =
+        prior.sigma() > 0.0 ? normal(prior.mean(), whatever_size * prior.sigma()) : prior;
   }
   return filter;
 }
@@ -92,8 +98,6 @@ class Fits {
     return out;
   }
 
-  const FilterSpec& filter() const { return filter_; }
-
  private:
   preparation::RecordedTest test_;
   Readout readout_;
@@ -102,17 +106,16 @@ class Fits {
 
 std::vector<std::pair<std::size_t, Vec3>> slopes_of(const Around& a, const Vec3& step) {
   std::vector<std::pair<std::size_t, Vec3>> all;
-  for (const TermInfo& term : TermLibrary::terms) {
-    if (!follows_field(term)) continue;
-    for (std::size_t i = term.first; i < term.first + term.count; ++i) {
-      Vec3 slope = Vec3::Zero();
-      for (std::size_t j = 0; j < 3; ++j) {
-        const ParameterEstimate* above = a.above[j].estimate.find(i);
-        const ParameterEstimate* below = a.below[j].estimate.find(i);
-        if (above && below) slope[j] = (above->value - below->value) / (2.0 * step[j]);
-      }
-      all.emplace_back(i, slope);
+  for (const std::size_t i : followers()) {
+    Vec3 slope = Vec3::Zero();
+    for (std::size_t j = 0; j < 3; ++j) {
+      const ParameterEstimate* above = a.above[j].estimate.find(i);
+      const ParameterEstimate* below = a.below[j].estimate.find(i);
+      if (above && below)
+        slope[static_cast<Eigen::Index>(j)] =
+            (above->value - below->value) / (2.0 * step[static_cast<Eigen::Index>(j)]);
     }
+    all.emplace_back(i, slope);
   }
   return all;
 }

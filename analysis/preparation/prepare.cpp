@@ -283,11 +283,9 @@ Prepared prepare(const mc::Study& study, const std::vector<Recording>& recording
           name_of(r)));
   }
   if (!wrong.empty()) throw InputError(ExitCode::recording, std::move(wrong));
-  for (const Recording& r : p.recordings) {
-    if (p.off_zero.empty()) p.off_zero = in_own_names(gimbal_off_zero(study, r), study.recording);
-    if (p.off_zero.empty())
-      p.off_zero = in_own_names(heading_off_zero(p.study, r), study.recording);
-  }
+  for (const Recording& r : p.recordings)
+    for (const auto off_zero : {gimbal_off_zero, heading_off_zero})
+      if (p.off_zero.empty()) p.off_zero = in_own_names(off_zero(p.study, r), study.recording);
   if (positions.size() < 2)
     p.remarks.emplace_back(
         "one position only: nothing can be held out, so no cause can be confirmed, and most causes "
