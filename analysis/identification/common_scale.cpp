@@ -1,22 +1,17 @@
 #include "analysis/identification/common_scale.hpp"
 
-#include <array>
 #include <cmath>
 
 #include "analysis/inference/thresholds.hpp"
-#include "core/physics/term_library.hpp"
 
 namespace drift::identification {
 namespace {
 
 using inference::FitLimits;
-
-constexpr std::array<std::size_t, 3> scales{TermLibrary::index("K1_x"), TermLibrary::index("K1_y"),
-                                            TermLibrary::index("K1_z")};
-
 }  // namespace
 
-std::optional<CommonScale> common_scale(const EstimateResult& estimate) {
+std::optional<CommonScale> common_scale(const EstimateResult& estimate,
+                                        const ScaleFactors& scales) {
   CommonScale common;
   double of_priors = 0.0;
   for (const std::size_t scale : scales) {

@@ -148,6 +148,7 @@ std::optional<LatitudeDoubt> latitude_doubt(const mc::Study& study,
       std::abs(best.latitude + declared) < 0.1 * std::abs(best.latitude - declared) &&
       before.cost - best.cost > inference::FitLimits::mirrored * std::max(1.0, best.per_dof());
   if (!explains && !doubt.mirrored) return std::nullopt;
+  if (explains) doubt.clock = clock_doubt(study, recordings, filter, best.latitude);
   return doubt;
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "analysis/identification/clock_doubt.hpp"
 #include "core/recording/recording.hpp"
 #include "mc/study/study.hpp"
 
@@ -27,6 +28,10 @@ struct LatitudeDoubt {
   /// It leaves no more than effects that leave nothing significant, noise as it was found.
   bool as_little_left = false;
 
+  /// The times of the recording explain as much, and better why three torquers look off alike: then
+  /// the latitude of [site] stands.
+  std::optional<ClockDoubt> clock = {};
+
   /// The latitude mends the fit by itself: what is left is no rarer than a false alarm of a
   /// diagnosis (SearchLimits::alpha), or as little as effects leave that explain all. Otherwise
   /// something else is missing, or the noise is not as declared; where much is left the latitude
@@ -49,8 +54,9 @@ enum class Reach { everywhere, where_it_promises };
 ///
 /// Given where it is more than three prior sigmas of latitude_error off and takes away 90 % of what
 /// the filter leaves above its degrees of freedom, or where it is on the other hemisphere and fits
-/// far better, whatever else misfits: there isotropic D_I hide most of the error. recordings: made
-/// ready (prepare()). Empty otherwise.
+/// far better, whatever else misfits: there isotropic D_I hide most of the error. Where the clock
+/// of the recording is behind it (clock_doubt()) that is given beside it. recordings: made ready
+/// (prepare()). Empty otherwise.
 std::optional<LatitudeDoubt> latitude_doubt(const mc::Study& study,
                                             const std::vector<Recording>& recordings,
                                             const FilterSpec& filter,

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/report/diagnosis/field_words.hpp"
+#include "analysis/report/identify/clock_words.hpp"
 #include "analysis/report/identify/turned_words.hpp"
 #include "analysis/report/page/wording.hpp"
 #include "core/base/units.hpp"
@@ -45,6 +46,8 @@ std::string latitude_text(const identification::LatitudeDoubt& doubt) {
 }
 
 std::string site_text(const identification::LatitudeDoubt& doubt) {
+  if (doubt.clock)
+    return clock_text(doubt) + " Correct them before anything else is made of the recording.";
   if (!doubt.alone())
     return fmt::format(
         "The latitude of [site] is not that of the recording, and alone it mends nothing: at about "

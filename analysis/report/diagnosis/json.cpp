@@ -9,6 +9,7 @@
 #include "analysis/report/diagnosis/not_examined_words.hpp"
 #include "analysis/report/diagnosis/sections.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
+#include "analysis/report/identify/clock_words.hpp"
 #include "analysis/report/identify/turned_words.hpp"
 
 namespace drift::report {
@@ -212,7 +213,7 @@ Json cosines_json(const CosineMatrix& cosines) {
 
 /// Null where the latitude of the study is not doubted.
 Json latitude_json(const std::optional<identification::LatitudeDoubt>& doubt) {
-  if (!doubt) return nullptr;
+  if (!doubt || doubt->clock) return nullptr;
   return {{"declared_deg", doubt->declared / unit::deg.to_si},
           {"of_recording_deg", doubt->latitude / unit::deg.to_si},
           {"sigma_deg", doubt->sigma / unit::deg.to_si},
@@ -244,6 +245,7 @@ Json diagnosis_document(const Diagnosis& d) {
   out["sentence"] = sentence(d);
   out["latitude"] = latitude_json(d.site_doubt);
   out["other_latitude"] = latitude_json(d.other_latitude);
+  out["clock"] = clock_json(d.site_doubt ? d.site_doubt : d.other_latitude);
   out["heading"] = d.heading_doubt ? heading_json(*d.heading_doubt) : Json(nullptr);
   out["field"] = field_json(d);
   out["absent"] = absent_json(d.absent);

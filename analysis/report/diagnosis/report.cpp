@@ -11,6 +11,7 @@
 #include "analysis/report/diagnosis/form_words.hpp"
 #include "analysis/report/diagnosis/sections.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
+#include "analysis/report/identify/clock_words.hpp"
 #include "analysis/report/identify/turned_words.hpp"
 #include "core/base/results/folder.hpp"
 #include "core/physics/parameters_config.hpp"
@@ -24,6 +25,7 @@ std::string verdict_word(const Diagnosis& d) {
   if (d.heading_doubt)
     return d.heading_doubt->alone() ? "Wrong headings: correct the study first."
                                     : "Wrong headings and more: correct the study first.";
+  if (d.site_doubt && d.site_doubt->clock) return "Wrong times: correct the recording first.";
   if (d.site_doubt)
     return d.site_doubt->alone() ? "Wrong latitude: correct the study first."
                                  : "Wrong latitude and more: correct the study first.";
@@ -47,8 +49,9 @@ std::string headline(const Diagnosis& d) {
     return fmt::format("wrong {}{}", what, alone ? "" : " and more");
   };
   const std::string word = d.heading_doubt ? wrong("headings", d.heading_doubt->alone())
-                           : d.site_doubt  ? wrong("latitude", d.site_doubt->alone())
-                                           : std::string(text(d.verdict));
+                           : d.site_doubt && d.site_doubt->clock ? wrong("times", true)
+                           : d.site_doubt ? wrong("latitude", d.site_doubt->alone())
+                                          : std::string(text(d.verdict));
   return fmt::format("Verdict {}: {}", word, sentence(d));
 }
 
@@ -208,6 +211,8 @@ InBrief diagnosis_in_brief(const Diagnosis& d) {
     brief.next = "Next: correct the numbers of the positions in the recording and diagnose again.";
   else if (d.heading_doubt)
     brief.next = corrected_text(*d.heading_doubt, "diagnose");
+  else if (d.site_doubt && d.site_doubt->clock)
+    brief.next = clock_next(*d.site_doubt->clock, "diagnose");
   else if (d.site_doubt)
     brief.next =
         d.site_doubt->alone() && d.site_doubt->as_surveyed()

@@ -208,7 +208,8 @@ std::string absent_text(const std::vector<std::string>& absent) {
 /// What would explain the test at the declared latitude, unless the odds are against it.
 std::string rival_text(const Diagnosis& d) {
   constexpr double decided = 19.0;  // to 1: a probability of 0.95
-  if (d.causes.empty() || d.site_doubt->odds > decided || d.causes.front().term == "latitude_error")
+  if (d.causes.empty() || d.site_doubt->clock || d.site_doubt->odds > decided ||
+      d.causes.front().term == "latitude_error")
     return "";
   return fmt::format(" If a map confirms the latitude of [site], it is {}.",
                      together(d, alternatives_of(d).front()));
@@ -216,6 +217,10 @@ std::string rival_text(const Diagnosis& d) {
 
 /// A latitude that explains what was found, and is less likely.
 std::string other_latitude_text(const identification::LatitudeDoubt& other) {
+  if (other.clock)
+    return fmt::format(
+        " Times that are {:.6g} times as long would explain it, too: look at the clock of the log.",
+        other.clock->factor);
   return fmt::format(
       " Another latitude would explain it, too ({} instead of {:.3f} deg): check that of "
       "[site] on a map.",

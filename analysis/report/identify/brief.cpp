@@ -7,6 +7,7 @@
 #include "analysis/identification/absent_channels.hpp"
 #include "analysis/identification/beyond_prior.hpp"
 #include "analysis/inference/thresholds.hpp"
+#include "analysis/report/identify/clock_words.hpp"
 #include "analysis/report/identify/sections.hpp"
 #include "analysis/report/identify/turned_words.hpp"
 #include "core/stats/chi_square_band.hpp"
@@ -171,6 +172,9 @@ std::string verdict_text(const Judgement& j, const identification::Identificatio
   if (const auto* doubt = other_headings(id))
     return fmt::format("{} {}", judged_as(j.good.empty() ? "Misfit" : "Wrong headings"),
                        headings_text(*doubt));
+  if (const auto doubt = other_latitude(id); doubt && doubt->clock)
+    return fmt::format("{} {}", judged_as(j.good.empty() ? "Misfit" : "Wrong times"),
+                       clock_text(*doubt));
   const std::string_view wrong = j.good.empty() ? "Misfit" : "Wrong latitude";
   if (const auto doubt = other_latitude(id); doubt && !doubt->alone())
     return fmt::format(
@@ -257,9 +261,11 @@ InBrief identification_in_brief(const mc::Study& study, const identification::Id
     brief.next = "Next: correct the numbers of the positions in the recording and identify again.";
   else if (const auto* headings = other_headings(id))
     brief.next = corrected_text(*headings, "identify");
-  else if (const auto doubt = other_latitude(id); doubt && doubt->alone())
-    brief.next = fmt::format("Next: identify again with --set site.latitude=\"{:.3f} deg\".",
-                             doubt->latitude / unit::deg.to_si);
+  else if (const auto doubt = other_latitude(id); doubt && (doubt->clock || doubt->alone()))
+    brief.next = doubt->clock
+                     ? clock_next(*doubt->clock, "identify")
+                     : fmt::format("Next: identify again with --set site.latitude=\"{:.3f} deg\".",
+                                   doubt->latitude / unit::deg.to_si);
   else if (!id.off_zero.empty())
     brief.next = "Next: correct the zero, or its offset, and identify again.";
   else if (j.good.empty() && !id.spikes.empty() && !other_latitude(id))

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "analysis/report/identify/clock_words.hpp"
 #include "analysis/report/identify/results_out.hpp"
 #include "analysis/report/identify/sections.hpp"
 #include "analysis/report/identify/turned_words.hpp"
@@ -97,7 +98,7 @@ Json published_json(const mc::Published& published) {
 }
 
 Json latitude_json(const std::optional<identification::LatitudeDoubt>& doubt) {
-  if (!doubt) return nullptr;
+  if (!doubt || doubt->clock) return nullptr;
   return {{"latitude_deg", doubt->latitude / unit::deg.to_si},
           {"declared_deg", doubt->declared / unit::deg.to_si},
           {"prior_sigmas", doubt->prior_sigmas()},
@@ -133,6 +134,7 @@ Json identification_document(const mc::Study& study, const identification::Ident
     f["heading_doubt"] =
         summary.heading_doubt ? heading_json(*summary.heading_doubt) : Json(nullptr);
     f["latitude_doubt"] = latitude_json(summary.latitude_doubt);
+    f["clock_doubt"] = clock_json(summary.latitude_doubt);
     f["weak_directions"] = summary.weak;
     f["degeneracies"] =
         directions_json(name_degeneracies(summary.layout, spec.mounting, summary.degeneracies));

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/recording/recording.hpp"
+#include "mc/study/study.hpp"
+
+namespace drift::identification {
+
+/// The times of a recording that are all too long, or too short: a sample interval that is not what
+/// was written down, or another clock than that of the commands.
+struct ClockDoubt {
+  double factor = 1.0, sigma = 0.0;                            ///< true times over recorded ones
+  double chi2_per_dof_before = 0.0, chi2_per_dof_after = 0.0;  ///< of the fit at [site]
+};
+
+/// Asks whether the clock is behind what looks like another latitude. With times too long by a part
+/// in a hundred the three torquers look as much too weak, all alike, and the Earth turns as much
+/// too slowly: near the meridian that is another latitude. Given where the three scale factors
+/// fitted at that latitude are common beyond their priors (common_scale()), and the study's own
+/// latitude with other times fits as well or leaves what chance leaves (SearchLimits::alpha).
+/// recordings: made ready (prepare()). Empty otherwise.
+std::optional<ClockDoubt> clock_doubt(const mc::Study& study,
+                                      const std::vector<Recording>& recordings,
+                                      const FilterSpec& filter, double other_latitude);
+
+}  // namespace drift::identification

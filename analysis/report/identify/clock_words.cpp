@@ -1,0 +1,39 @@
+#include "analysis/report/identify/clock_words.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "analysis/report/page/wording.hpp"
+#include "core/base/units.hpp"
+
+namespace drift::report {
+
+std::string clock_text(const identification::LatitudeDoubt& doubt) {
+  const identification::ClockDoubt& clock = *doubt.clock;
+  return fmt::format(
+      "The times of the recording are not those of the platform: with all of them {} times as long "
+      "the model fits with chi-square per degree of freedom {} instead of {}. (At {:.3f} deg in "
+      "place of the latitude of [site] it would fit, too, with three torquers off by the same.)",
+      with_sigma(clock.factor, clock.sigma), number_text(clock.chi2_per_dof_after),
+      number_text(clock.chi2_per_dof_before), doubt.latitude / unit::deg.to_si);
+}
+
+std::string clock_next(const identification::ClockDoubt& clock, std::string_view command) {
+  return fmt::format(
+      "Next: find out what the clock of the log was (a sample interval that is not what was "
+      "written down?), multiply the times by {:.7g} and {} again.",
+      clock.factor, command);
+}
+
+Json clock_json(const std::optional<identification::LatitudeDoubt>& doubt) {
+  if (!doubt || !doubt->clock) return nullptr;
+  const identification::ClockDoubt& clock = *doubt->clock;
+  return {{"factor", clock.factor},
+          {"sigma", clock.sigma},
+          {"chi2_per_dof_before", clock.chi2_per_dof_before},
+          {"chi2_per_dof_after", clock.chi2_per_dof_after},
+          {"or_latitude_deg", doubt->latitude / unit::deg.to_si}};
+}
+
+}  // namespace drift::report

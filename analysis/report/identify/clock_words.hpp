@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "analysis/identification/latitude_doubt.hpp"
+#include "analysis/report/page/json.hpp"
+
+namespace drift::report {
+
+/// "The times of the recording are not those of the platform: ..."; of a doubt that has a clock.
+std::string clock_text(const identification::LatitudeDoubt& doubt);
+/// "Next: multiply the times ..."; command: that is to be given again.
+std::string clock_next(const identification::ClockDoubt& clock, std::string_view command);
+/// Of a doubt that has a clock; null of any other.
+Json clock_json(const std::optional<identification::LatitudeDoubt>& doubt);
+
+}  // namespace drift::report
