@@ -95,17 +95,11 @@ class Slews {
 };
 
 /// The one unit of rates in which the commands would be those that the platform obeyed.
-std::optional<std::string_view> unit_of_commands(const Slews& slews, const Unit& said) {
-  constexpr std::pair<std::string_view, double> units[] = {{"rad/s", 1.0},
-                                                           {"deg/s", detail::deg},
-                                                           {"arcmin/s", detail::deg / 60.0},
-                                                           {"arcsec/s", detail::deg / 3600.0},
-                                                           {"deg/h", detail::deg / 3600.0},
-                                                           {"rad/h", 1.0 / 3600.0},
-                                                           {"mrad/s", 1e-3},
-                                                           {"rpm", 6.0 * detail::deg}};
-  for (const auto& [symbol, to_si] : units)
-    if (slews.usual_mismatch({}, {}, to_si / said.to_si) < same_turn) return symbol;
+std::optional<Unit> unit_of_commands(const Slews& slews, const Unit& said) {
+  constexpr Unit units[] = {"rad/s"_unit, "deg/s"_unit, "arcmin/s"_unit, "arcsec/s"_unit,
+                            "deg/h"_unit, "rad/h"_unit, "mrad/s"_unit};
+  for (const Unit& unit : units)
+    if (slews.usual_mismatch({}, {}, unit.to_si / said.to_si) < same_turn) return unit;
   return std::nullopt;
 }
 
@@ -143,7 +137,7 @@ std::optional<RowMistake> slew_mistake(const Recording& recording, const Timelin
     return RowMistake{first,
                       fmt::format("cmd_x, cmd_y, cmd_z are in another unit: the platform turned as "
                                   "if they were in [{}], not [{}]. Correct the unit",
-                                  *unit, said.symbol.view())};
+                                  unit->symbol.view(), said.symbol.view())};
   return RowMistake{
       first, fmt::format(
                  "in {} of {} turns of slews the gimbals do not turn as commanded (expected within "
