@@ -65,12 +65,15 @@ class Gaps {
     return std::max(begin, before);
   }
 
-  /// Whether the first row of a caged position is longer than is usual, or the first ones are
-  /// missing: the dwell began where the one before ended.
+  /// Whether the first row of a caged position is longer than is usual.
+  bool begins_long(std::size_t row) const {
+    return time_[row] - begin_of_caged(row) > 1.5 * spacing_.usual[row];
+  }
+
+  /// The same, or the first ones are missing: the dwell began where the one before ended.
   bool began_earlier(std::size_t row) const {
-    const double begin = begin_of_caged(row), usual = spacing_.usual[row];
-    return time_[row] - begin > 1.5 * usual &&
-           std::abs(begin - ended_before(row)) < RecordingLimits::grid_room * usual;
+    return begins_long(row) && std::abs(begin_of_caged(row) - ended_before(row)) <
+                                   RecordingLimits::grid_room * spacing_.usual[row];
   }
 
   /// Whether the jitter of the rows around is more than accelerometers can bear at a row that
@@ -195,8 +198,7 @@ Spaced with_begins(const Recording& recording, const mc::Study& study,
   for (std::size_t row = 0; row < n; ++row) {
     if (gaps.caged(row)) {
       begins[row] = gaps.begin_of_caged(row);
-      const double own = recording.find("time")->values[row] - begins[row];
-      const bool long_row = own > 1.5 * spacing.usual[row];
+      const bool long_row = gaps.begins_long(row);
       longer += long_row ? 1 : 0;
       if (gaps.begins_uncertain(row, study.readout) || long_row) not_measured(row);
       continue;
