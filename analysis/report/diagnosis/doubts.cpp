@@ -50,7 +50,7 @@ std::string site_text(const identification::LatitudeDoubt& doubt) {
     return clock_text(doubt) + " Correct them before anything else is made of the recording.";
   if (!doubt.alone())
     return fmt::format(
-        "The latitude of [site] is not that of the recording, and alone it mends nothing: at about "
+        "The latitude of [site] is not that of the recording, and that is not all: at about "
         "{:.1f} deg instead of {:.3f} deg the model fits with chi-square per degree of freedom "
         "{:.3g} instead of {:.3g}, where 1 is expected (by chance: {}). Something else is missing "
         "too, or the noise is not as declared, and it moves the latitude that fits.",
