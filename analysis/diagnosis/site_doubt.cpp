@@ -93,6 +93,7 @@ std::optional<identification::LatitudeDoubt> site_doubt(const mc::Study& study,
   if (!alone || !alone->alone()) return beside;
   alone->declared = beside->declared;
   alone->chi2_per_dof_before = beside->chi2_per_dof_before;
+  alone->clock = beside->clock;  // asked at the latitude of the study, not at this one
   return alone;
 }
 

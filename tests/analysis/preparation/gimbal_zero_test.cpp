@@ -3,39 +3,21 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "core/sim/simulate.hpp"
-#include "tests/support/model_builders.hpp"
+#include "tests/support/off_zero.hpp"
 #include "tests/support/program.hpp"
 
 namespace drift::preparation::gimbal_zero_test {
 namespace {
 
-mc::Study study_of(std::string_view preset) {
-  mc::Study s;
-  s.site = test::harbin;
-  PlanDefaults defaults;
-  defaults.mode = CommandLaw::free;
-  defaults.dwell = 600.0;
-  s.plan = preset_plan(preset, defaults).value();
-  s.filters = {test::base_filter(Coupling::eq5)};
-  return s;
-}
-
 /// What is said of a platform of which one gimbal reads so many degrees too much.
 std::string said(int gimbal, double deg, std::string_view preset = "twentyfour",
                  std::uint64_t run = 0) {
-  const mc::Study s = study_of(preset);
-  const TruthSpec truth = test::base_truth(Coupling::eq5);
-  const Timeline timeline = lay_out(s.plan, s.site);
-  const TruthDraw draw = draw_truth(truth, timeline.chains, 7, run);
-  Recording r = make_recording(
-      timeline, Simulator(truth, s.readout).run(timeline, draw, 7, run).measured, s.readout);
-  r.source = "rec.csv";
   constexpr const char* names[] = {"gimbal_outer", "gimbal_middle", "gimbal_inner"};
-  for (Channel& c : r.channels)
-    if (c.name == names[gimbal])
-      for (double& angle : c.values) angle += deg * detail::deg;
-  return gimbal_off_zero(s, r);
+  PlanDefaults defaults;
+  defaults.mode = CommandLaw::free;
+  defaults.dwell = 600.0;
+  const mc::Study s = test::study_off_zero(preset, defaults);
+  return gimbal_off_zero(s, test::recording_off_zero(s, names[gimbal], deg, run));
 }
 
 TEST(GimbalZero, AGimbalThatReadsADegreeTooMuchOrTooLittleIsNamedWithIt) {

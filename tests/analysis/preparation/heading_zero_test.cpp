@@ -5,31 +5,18 @@
 
 #include <cmath>
 
-#include "core/sim/simulate.hpp"
-#include "tests/support/model_builders.hpp"
+#include "tests/support/off_zero.hpp"
 
 namespace drift::preparation::heading_zero_test {
 namespace {
 
 /// What is said of a platform whose heading reads so many degrees too much.
 std::string said(double deg, std::string_view preset, std::uint64_t run = 0, double sample = 60.0) {
-  mc::Study s;
-  s.site = test::harbin;
   PlanDefaults defaults;
   defaults.dwell = 600.0;
   defaults.sample = sample;
-  s.plan = preset_plan(preset, defaults).value();
-  s.filters = {test::base_filter(Coupling::eq5)};
-  const TruthSpec truth = test::base_truth(Coupling::eq5);
-  const Timeline timeline = lay_out(s.plan, s.site);
-  const TruthDraw draw = draw_truth(truth, timeline.chains, 7, run);
-  Recording r = make_recording(
-      timeline, Simulator(truth, s.readout).run(timeline, draw, 7, run).measured, s.readout);
-  r.source = "rec.csv";
-  for (Channel& c : r.channels)
-    if (c.name == "case_heading")
-      for (double& angle : c.values) angle += deg * detail::deg;
-  return heading_off_zero(s, r);
+  const mc::Study s = test::study_off_zero(preset, defaults);
+  return heading_off_zero(s, test::recording_off_zero(s, "case_heading", deg, run));
 }
 
 TEST(HeadingZero, IsFoundWhereThePlatformIsCagedWhateverItsDrift) {
