@@ -4,10 +4,10 @@
 // the estimates of the two differ by more than their tolerances allow.
 
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <optional>
 
@@ -30,7 +30,7 @@ constexpr double allowed_estimate = 0.02;   // of a parameter, in posterior sigm
 constexpr double allowed_iterated = 0.1;    // both end with a step below one, of second order in it
 
 double wall_time() {
-  return omp_get_wtime();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
 struct Point {
@@ -171,7 +171,7 @@ int run(const char* file) {
   const mc::Study study = mc::read_study(file);
   const Points iterated(study, mc::EstimatorKind::iterated),
       one_pass(study, mc::EstimatorKind::ekf);
-  const int threads = omp_get_num_procs();
+  const int threads = mc::usual_threads();
   Taken one, own, many;
   Practice other, other_iterated;
   other.seconds = other_iterated.seconds = 1e9;

@@ -64,9 +64,11 @@ inline Pack at_least(const Pack& a, double least) {
 }
 template <int N>
 Dual<N, Pack> at_least(const Dual<N, Pack>& a, double least) {
-  Dual<N, Pack> out(at_least(a.v, least), a.d);
+  Dual<N, Pack> out(at_least(a.v, least));
+  // Not by where(): what libstdc++ 12 makes of it for AVX-512 assigns nothing when clang compiles
+  // it.
   for (int k = 0; k < N; ++k)
-    std::experimental::where(!(a.v.v > Pack::Lanes(least)), out.d[k].v) = 0.0;
+    out.d[k] = Pack::of_each([&](int l) { return a.v[l] > least ? a.d[k][l] : 0.0; });
   return out;
 }
 #define DRIFT_LANE_BY_LANE(f)                                  \

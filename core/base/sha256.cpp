@@ -52,13 +52,13 @@ std::string sha256(std::string_view bytes) {
 }
 
 std::string to_hex(std::string_view bytes) {
-  constexpr char digits[] = "0123456789abcdef";
+  constexpr char hex[] = "0123456789abcdef";
   std::string out;
   out.reserve(2 * bytes.size());
   for (const char c : bytes) {
     const auto byte = static_cast<unsigned char>(c);
-    out += digits[byte >> 4];
-    out += digits[byte & 15];
+    out += hex[byte >> 4];
+    out += hex[byte & 15];
   }
   return out;
 }

@@ -26,6 +26,7 @@ file(RELATIVE_PATH DRIFT_PC_UP /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
 if(DRIFT_MPI AND MPI_C_FOUND)
   list(JOIN MPI_C_LIBRARIES " " DRIFT_PC_MPI)
 endif()
+list(JOIN OpenMP_CXX_LIBRARIES " " DRIFT_PC_OPENMP)
 configure_file(${CMAKE_CURRENT_LIST_DIR}/driftscope.pc.in ${CMAKE_BINARY_DIR}/generated/driftscope.pc @ONLY)
 install(FILES ${CMAKE_BINARY_DIR}/generated/driftscope.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT driftscope)
 

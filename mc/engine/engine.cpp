@@ -1,6 +1,5 @@
 #include "mc/engine/engine.hpp"
 
-#include <omp.h>
 #include <signal.h>
 
 #include <algorithm>
@@ -15,6 +14,7 @@
 #include "mc/engine/work_plan.hpp"
 #include "mc/store/store.hpp"
 #include "mc/store/study_reader.hpp"
+#include "mc/task/campaign.hpp"
 #include "mc/task/guarded_run.hpp"
 
 namespace drift::mc {
@@ -51,7 +51,7 @@ class Engine {
 
   void execute() {
     BlockBoard board([this] { return plan_.next(); }, columns());
-    const int threads = options_.threads > 0 ? options_.threads : omp_get_max_threads();
+    const int threads = options_.threads > 0 ? options_.threads : usual_threads();
 #pragma omp parallel num_threads(threads)
     work_through(board);
   }

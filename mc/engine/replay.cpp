@@ -106,7 +106,7 @@ Replay replay(const RunTask& task, StudyReader& reader, std::size_t point, std::
 }
 
 Verification verify(const StudyWork& work, StudyReader& reader, double sample, int threads) {
-  const int used = threads > 0 ? threads : omp_get_max_threads();
+  const int used = threads > 0 ? threads : usual_threads();
   const std::size_t most_lines = 50;
   Verification v;
   Workers workers(work, used);

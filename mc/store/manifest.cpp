@@ -130,6 +130,13 @@ std::vector<PointInfo> points_of(std::span<const TaskPoint> points) {
   return list;
 }
 
+/// The compiler of the session that made a folder.
+std::string compiler_of(const Manifest& m) {
+  for (const auto& [key, value] : m.provenance)
+    if (key == "compiler") return value;
+  return "unknown";
+}
+
 std::vector<std::string> differences(const Manifest& is, const Manifest& wanted) {
   std::vector<std::string> out = difference(is.identity.text, wanted.identity.text);
   const auto note = [&](const char* what, const auto& a, const auto& b) {
@@ -139,6 +146,8 @@ std::vector<std::string> differences(const Manifest& is, const Manifest& wanted)
   note("block size", is.identity.block_size, wanted.identity.block_size);
   note("program", is.program, wanted.program);
   note("instruction set", is.instruction_set, wanted.instruction_set);
+  // What another compiler makes of the same source differs in the last bits.
+  note("compiler", compiler_of(is), compiler_of(wanted));
   note("arithmetic of the C library on this processor", is.arithmetic, wanted.arithmetic);
   for (std::string& line : other_points(is.points, wanted.points)) out.push_back(std::move(line));
   return out;

@@ -1,23 +1,20 @@
 #pragma once
 
-#include <omp.h>
-
-#include <atomic>
 #include <cstddef>
-#include <exception>
-#include <mutex>
+#include <functional>
 #include <vector>
 
 namespace drift::mc {
 
-/// Threads that campaigns begun on this thread use while it lives, unless they are told; 0: as
-/// before.
+/// Threads that work begun on this thread uses where it is not told: all processors, until a
+/// ThreadCount says otherwise.
+int usual_threads();
+
+/// Makes another number of threads the usual one while it lives; 0: as before.
 class ThreadCount {
  public:
-  explicit ThreadCount(int threads) : before_(omp_get_max_threads()) {
-    if (threads > 0) omp_set_num_threads(threads);
-  }
-  ~ThreadCount() { omp_set_num_threads(before_); }
+  explicit ThreadCount(int threads);
+  ~ThreadCount();
   ThreadCount(const ThreadCount&) = delete;
   ThreadCount& operator=(const ThreadCount&) = delete;
 
@@ -25,31 +22,18 @@ class ThreadCount {
   int before_;
 };
 
-/// Calls task(i) for i = 0..n-1 on all OpenMP threads and returns the results in order. The result
-/// does not depend on the number of threads as long as task(i) depends on i alone. No exception
-/// leaves a thread: the one of the lowest index is rethrown when all are done.
+/// Calls task(i) for i = 0..n-1 on several threads (0: the usual number). No exception leaves a
+/// thread: the one of the lowest index is rethrown when all are done.
+void for_each_index(std::size_t n, const std::function<void(std::size_t)>& task, int threads = 0);
+
+/// The results of task(0), ..., task(n-1), in order, worked out on several threads. They do not
+/// depend on the number of threads as long as task(i) depends on i alone.
 template <class Task>
 auto run_campaign(std::size_t n, Task&& task, int threads = 0)
     -> std::vector<decltype(task(std::size_t{0}))> {
   std::vector<decltype(task(std::size_t{0}))> results(n);
-  std::exception_ptr first;
-  std::size_t first_index = n;
-  std::mutex guard;
-#pragma omp parallel for schedule(dynamic) \
-    num_threads(threads > 0 ? threads : omp_get_max_threads())
-  for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(n); ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    try {
-      results[k] = task(k);
-    } catch (...) {
-      const std::scoped_lock lock(guard);
-      if (k < first_index) {
-        first_index = k;
-        first = std::current_exception();
-      }
-    }
-  }
-  if (first) std::rethrow_exception(first);
+  for_each_index(
+      n, [&](std::size_t k) { results[k] = task(k); }, threads);
   return results;
 }
 

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Builds the tree in other ways, all with Debian's clang, and runs what each is for:
+# Builds the tree in other ways and runs what each is for:
+#   gcc       the fast tests of a build by the compiler that the launcher does not take
 #   headers   every header compiles alone
 #   asan      the fast tests under the address and undefined behaviour sanitizers, and which lines of what
 #             stores and reads users' data they reach
@@ -8,13 +9,13 @@
 #             asan, others every night; MUTANTS: how many, KEEP: where those that fail are kept
 #   tidy      clang-tidy, with the checks of .clang-tidy, on every source; OF: on those of some folders
 #
-#   tests/checks/other_builds.sh [headers] [asan] [tsan] [fuzz] [tidy]       all, unless some are named
+#   tests/checks/other_builds.sh [gcc] [headers] [asan] [tsan] [fuzz] [tidy]       all, unless some are named
 #
 # Each costs a build; together two hours on two cores. ./driftscope test nightly runs them.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
-[ $# -gt 0 ] || set -- headers asan tsan fuzz tidy
+[ $# -gt 0 ] || set -- gcc headers asan tsan fuzz tidy
 # What the OpenMP library keeps for its threads until the process ends is no leak of ours.
 suppressed=$(mktemp)
 trap 'rm -f "$suppressed"' EXIT
@@ -29,6 +30,7 @@ for way; do
     *) cmake --build --preset "$way" ;;
   esac
   case $way in
+    gcc) ctest --preset gcc -j "$(nproc)" ;;
     asan)
       rm -rf build/asan/reached
       LLVM_PROFILE_FILE=$PWD/build/asan/reached/%4m.profraw ctest --preset asan -j "$(nproc)"

@@ -100,9 +100,9 @@ inline Recording strapdown_recording(const StrapdownScript& script, const Theta&
     const auto resting = static_cast<int>(std::lround(script.rest / script.interval));
     for (int k = 0; k < resting; ++k) sample(R_lc, Vec3::Zero(), Vec3::Zero());
     if (d + 1 == script.dwells) break;
-    const Vec3 axis = Vec3(path.normal(), path.normal(), path.normal()).normalized();
-    const double angle =
-        (path.uniform() < 0.5 ? -1.0 : 1.0) * (0.7 + 1.8 * path.uniform());  // [rad]
+    const Vec3 axis = Vec3{path.normal(), path.normal(), path.normal()}.normalized();
+    const double sign = path.uniform() < 0.5 ? -1.0 : 1.0;
+    const double angle = sign * (0.7 + 1.8 * path.uniform());  // [rad]
     const auto steps = static_cast<int>(std::lround(script.turn / script.interval));
     for (int k = 1; k <= steps; ++k) {
       const double phase = 2.0 * std::numbers::pi * k / steps;

@@ -1,5 +1,3 @@
-#include <omp.h>
-
 #include <chrono>
 #include <filesystem>
 #include <limits>
@@ -16,6 +14,7 @@
 #include "mc/engine/engine.hpp"
 #include "mc/export/export_text.hpp"
 #include "mc/store/study_state.hpp"
+#include "mc/task/campaign.hpp"
 
 namespace drift::cli {
 namespace {
@@ -53,7 +52,7 @@ void dry_run(const mc::StudyWork& work, const mc::Manifest& manifest,
     work.points[p].task->worker()->execute(probes / work.points.size(), row);
     seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   }
-  const int threads = options.threads > 0 ? options.threads : omp_get_max_threads();
+  const int threads = options.threads > 0 ? options.threads : mc::usual_threads();
   const double runs = static_cast<double>(options.runs) * static_cast<double>(work.points.size());
   const double each = seconds / static_cast<double>(probes);
   show(

@@ -55,7 +55,6 @@ void IteratedPasses::run(const Measurements& measured, const Theta& start) {
 }
 
 void IteratedPasses::settle(const Measurements& measured) {
-  constexpr int most_passes = 4;
   for (int pass = 0; pass < most_passes; ++pass) {
     if (!linear_pass(measured)) return;
     if (largest_step() < 1.0) break;  // what is left is of second order in less than a sigma

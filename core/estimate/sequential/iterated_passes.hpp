@@ -30,6 +30,8 @@ namespace drift {
 /// block. After a caging it begins where the first sample of the pass before has put it.
 class IteratedPasses : public FilterEstimate {
  public:
+  static constexpr int most_passes = 4;  ///< linear ones
+
   /// The timeline must outlive the filter. start: library values of the initial estimate.
   IteratedPasses(const FilterSpec& filter, const Timeline& timeline, const Readout& readout,
                  const Theta& start);

@@ -21,7 +21,7 @@ std::vector<double> own_scene(std::uint64_t k, std::size_t inputs) {
     return k < 12 ? 0.0 : size * (2.0 * stream.uniform() - 1.0);
   };
   Vec3 f = k < 6 ? Vec3(k % 2 ? -Vec3::Unit(k / 2) : Vec3(Vec3::Unit(k / 2)))
-                 : Vec3(stream.normal(), stream.normal(), stream.normal()).normalized();
+                 : Vec3{stream.normal(), stream.normal(), stream.normal()}.normalized();
   constexpr double times[] = {0.0, 60.0, 3600.0, 86400.0};  // [s]
   const double t = times[k % 4], t_position = k % 3 ? std::min(t, 1800.0) : 0.0;
   std::vector<double> values{t, t_position, f[0], f[1], f[2], f[0], f[1], f[2]};

@@ -154,11 +154,11 @@ void expect_half_an_hour(const Resting& unit, const Recording& recording) {
 }  // namespace
 
 TEST(StrapdownUnits, ErrorsOfFiveUnitsAreAsLargeAsTheirSigmas) {
-  test::expect_as_large_as_sigmas(pulls_of_units(1, 5), 4.5);
+  test::expect_as_large_as_sigmas(pulls_of_units(1, 5));
 }
 
 TEST(StrapdownUnitsNightly, ErrorsOfFiftyUnitsAreAsLargeAsTheirSigmas) {
-  test::expect_as_large_as_sigmas(pulls_of_units(101, 150), 5.0);
+  test::expect_as_large_as_sigmas(pulls_of_units(101, 150));
 }
 
 TEST(StrapdownRest, OfHalfAnHourSaysDriftAsFarAsItShowsAndWhereUpAndNorthAre) {

@@ -27,7 +27,7 @@ Theta sensors() {
 
 std::vector<Vec3> outputs(const Theta& theta, int count, double noise, std::uint64_t seed) {
   Stream stream(seed, 0, Purpose::test);
-  const auto draw = [&] { return Vec3(stream.normal(), stream.normal(), stream.normal()); };
+  const auto draw = [&] { return Vec3{stream.normal(), stream.normal(), stream.normal()}; };
   std::vector<Vec3> all;
   for (int k = 0; k < count; ++k) {
     const Vec3 up = draw().normalized();

@@ -27,7 +27,7 @@ struct Scene {
   Theta theta;
   explicit Scene(std::uint64_t seed) : theta(random_theta(seed)) {
     Stream s(seed, 1, Purpose::test, 7);
-    const auto random3 = [&] { return Vec3(s.normal(), s.normal(), s.normal()); };
+    const auto random3 = [&] { return Vec3{s.normal(), s.normal(), s.normal()}; };
     in.mounting = &mounting;
     in.f_p = random3().normalized();
     in.omega_ic_p = 7.3e-5 * random3();

@@ -166,7 +166,10 @@ TEST(AttitudeCheck, NamesThePositionsWhereNoMixupOfColumnsIsBehind) {
 
 TEST(AttitudeCheck, NamesColumnsThatStandARowLate) {
   const auto late = [](Scene& s, std::initializer_list<const char*> names) {
-    for (const char* name : names) std::ranges::rotate(s.column(name), s.column(name).end() - 1);
+    for (const char* name : names) {
+      std::vector<double>& rows = s.column(name);
+      std::rotate(rows.begin(), rows.end() - 1, rows.end());
+    }
   };
   const auto said = [](Scene& s) {
     const auto wrong = s.mistakes();
@@ -184,7 +187,8 @@ TEST(AttitudeCheck, NamesColumnsThatStandARowLate) {
   EXPECT_NE(said(gimbals).find("gimbal_outer, gimbal_middle, gimbal_inner stand a row late"),
             std::string::npos)
       << said(gimbals);
-  std::ranges::rotate(both.column("position"), both.column("position").begin() + 1);
+  std::vector<double>& labels = both.column("position");
+  std::rotate(labels.begin(), labels.begin() + 1, labels.end());
   both.column("position").back() = 12.0;
   EXPECT_NE(said(both).find("the numbers of the positions change a row early"), std::string::npos)
       << said(both);

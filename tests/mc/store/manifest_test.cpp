@@ -101,6 +101,17 @@ TEST(Manifest, ResultsOfAnotherArithmeticAreNotMixedIn) {
   EXPECT_NE(refusal(folder.path(), study).find("arithmetic of the C library"), std::string::npos);
 }
 
+TEST(Manifest, ResultsOfAnotherCompilerAreNotMixedIn) {
+  const ScratchFolder folder;
+  const SyntheticStudy study;
+  mc::Manifest elsewhere = study.manifest();
+  for (auto& [key, value] : elsewhere.provenance)
+    if (key == "compiler") value = "another 1.0";
+  mc::claim_folder(folder.path(), elsewhere);
+  EXPECT_NE(refusal(folder.path(), study).find("compiler: another 1.0 in the folder"),
+            std::string::npos);
+}
+
 TEST(Manifest, OfManyThatClaimAFolderAtOnceOneMakesItAndTheOthersJoin) {
   const ScratchFolder folder;
   const SyntheticStudy study;

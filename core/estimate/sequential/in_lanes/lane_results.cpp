@@ -1,13 +1,9 @@
 #include <fmt/format.h>
 
 #include "core/estimate/sequential/in_lanes/iterated_lanes.hpp"
+#include "core/estimate/sequential/iterated_passes.hpp"
 
 namespace drift {
-namespace {
-
-constexpr int most_passes = 4;
-
-}  // namespace
 
 void IteratedLanes::diverged(std::size_t lane, bool finite, double t, Pass pass) {
   IteratedJob& job = *lanes_[lane];
@@ -46,7 +42,7 @@ void IteratedLanes::settle(IteratedJob& job, std::size_t l) {
   ++job.passes_;
   // No component is longer, in its sigma, than the whole step is in the metric of the covariance,
   // d (1 + information) d.
-  const bool small = right < 1.0, last = job.passes_ == most_passes;
+  const bool small = right < 1.0, last = job.passes_ == IteratedPasses::most_passes;
   job.done_ = small || last ||
               (job.moved_.array().abs() / job.P_.diagonal().array().sqrt()).maxCoeff() < 1.0;
   if (!job.done_) return;
