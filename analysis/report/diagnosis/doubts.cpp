@@ -5,6 +5,7 @@
 
 #include "analysis/report/diagnosis/field_words.hpp"
 #include "analysis/report/identify/clock_words.hpp"
+#include "analysis/report/identify/latitude_words.hpp"
 #include "analysis/report/identify/turned_words.hpp"
 #include "analysis/report/page/wording.hpp"
 #include "core/base/units.hpp"
@@ -38,11 +39,6 @@ std::string beyond_prior_text(const remark::BeyondPrior& r) {
                    "The fit takes {} {} ({}): the prior is wrong, or {} takes up something that "
                    "the model lacks",
                    keys.front(), where, chance, keys.front());
-}
-
-std::string latitude_text(const identification::LatitudeDoubt& doubt) {
-  return fmt::format("{:.3f}±{:.2g} deg", doubt.latitude / unit::deg.to_si,
-                     doubt.sigma / unit::deg.to_si);
 }
 
 std::string site_text(const identification::LatitudeDoubt& doubt) {

@@ -12,9 +12,6 @@ namespace drift::report {
 /// "The fit takes M_y 6.1 prior sigmas from its prior, ...: the prior is wrong, or ...".
 std::string beyond_prior_text(const diagnosis::remark::BeyondPrior& beyond);
 
-/// "45.712±0.019 deg".
-std::string latitude_text(const identification::LatitudeDoubt& doubt);
-
 /// A verdict of its own: nothing that is said of causes holds for another place on the Earth.
 std::string site_text(const identification::LatitudeDoubt& doubt);
 

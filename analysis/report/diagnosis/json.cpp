@@ -10,6 +10,7 @@
 #include "analysis/report/diagnosis/sections.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
 #include "analysis/report/identify/clock_words.hpp"
+#include "analysis/report/identify/latitude_words.hpp"
 #include "analysis/report/identify/turned_words.hpp"
 
 namespace drift::report {
@@ -209,19 +210,6 @@ Json cosines_json(const CosineMatrix& cosines) {
     rows.push_back(std::move(row));
   }
   return {{"labels", cosines.labels}, {"cosine", std::move(rows)}};
-}
-
-/// Null where the latitude of the study is not doubted.
-Json latitude_json(const std::optional<identification::LatitudeDoubt>& doubt) {
-  if (!doubt || doubt->clock) return nullptr;
-  return {{"declared_deg", doubt->declared / unit::deg.to_si},
-          {"of_recording_deg", doubt->latitude / unit::deg.to_si},
-          {"sigma_deg", doubt->sigma / unit::deg.to_si},
-          {"chi2_per_dof_before", doubt->chi2_per_dof_before},
-          {"chi2_per_dof_after", doubt->chi2_per_dof_after},
-          {"chance_after", doubt->chance_after},
-          {"odds", doubt->odds},
-          {"alone", doubt->alone()}};
 }
 
 Json absent_json(const std::vector<std::string>& absent) {

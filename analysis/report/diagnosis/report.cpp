@@ -12,6 +12,7 @@
 #include "analysis/report/diagnosis/sections.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
 #include "analysis/report/identify/clock_words.hpp"
+#include "analysis/report/identify/latitude_words.hpp"
 #include "analysis/report/identify/turned_words.hpp"
 #include "core/base/results/folder.hpp"
 #include "core/physics/parameters_config.hpp"
@@ -214,14 +215,7 @@ InBrief diagnosis_in_brief(const Diagnosis& d) {
   else if (d.site_doubt && d.site_doubt->clock)
     brief.next = clock_next(*d.site_doubt->clock, "diagnose");
   else if (d.site_doubt)
-    brief.next =
-        d.site_doubt->alone() && d.site_doubt->as_surveyed()
-            ? fmt::format("Next: diagnose again with --set site.latitude=\"{:.3f} deg\".",
-                          d.site_doubt->latitude / unit::deg.to_si)
-        : d.site_doubt->alone()
-            ? "Next: diagnose again with the latitude of the site as a map has it."
-            : "Next: diagnose again with the latitude of the site as a map has it: what is "
-              "missing beside it shows then.";
+    brief.next = latitude_next(*d.site_doubt, "diagnose");
   else if (off_zero && d.verdict != Verdict::consistent)
     brief.next = "Next: correct the zero, or its offset, and diagnose again.";
   else if (!d.advice.empty())

@@ -15,6 +15,7 @@
 #include "analysis/report/diagnosis/not_examined_words.hpp"
 #include "analysis/report/diagnosis/remark_words.hpp"
 #include "analysis/report/diagnosis/too_large.hpp"
+#include "analysis/report/identify/latitude_words.hpp"
 #include "core/base/number_text.hpp"
 #include "core/base/words.hpp"
 #include "core/stats/normal.hpp"

@@ -8,6 +8,7 @@
 #include "analysis/identification/beyond_prior.hpp"
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/report/identify/clock_words.hpp"
+#include "analysis/report/identify/latitude_words.hpp"
 #include "analysis/report/identify/sections.hpp"
 #include "analysis/report/identify/turned_words.hpp"
 #include "core/stats/chi_square_band.hpp"
@@ -185,9 +186,9 @@ std::string verdict_text(const Judgement& j, const identification::Identificatio
         number_text(doubt->chi2_per_dof_after), number_text(doubt->chi2_per_dof_before));
   if (const auto doubt = other_latitude(id))
     return fmt::format(
-        "{} the latitude of [site] is not that of the recording. At {:.3f} deg instead of {:.3f} "
+        "{} the latitude of [site] is not that of the recording. At {} instead of {:.3f} "
         "deg chi-square per degree of freedom is {} instead of {}: correct it first.",
-        judged_as(wrong), doubt->latitude / unit::deg.to_si, doubt->declared / unit::deg.to_si,
+        judged_as(wrong), latitude_text(*doubt), doubt->declared / unit::deg.to_si,
         number_text(doubt->chi2_per_dof_after), number_text(doubt->chi2_per_dof_before));
   if (j.good.empty())
     return fmt::format("{} {}. {} estimates are not to be trusted.", judged_as("Misfit"),
@@ -262,10 +263,8 @@ InBrief identification_in_brief(const mc::Study& study, const identification::Id
   else if (const auto* headings = other_headings(id))
     brief.next = corrected_text(*headings, "identify");
   else if (const auto doubt = other_latitude(id); doubt && (doubt->clock || doubt->alone()))
-    brief.next = doubt->clock
-                     ? clock_next(*doubt->clock, "identify")
-                     : fmt::format("Next: identify again with --set site.latitude=\"{:.3f} deg\".",
-                                   doubt->latitude / unit::deg.to_si);
+    brief.next =
+        doubt->clock ? clock_next(*doubt->clock, "identify") : latitude_next(*doubt, "identify");
   else if (!id.off_zero.empty())
     brief.next = "Next: correct the zero, or its offset, and identify again.";
   else if (j.good.empty() && !id.spikes.empty() && !other_latitude(id))

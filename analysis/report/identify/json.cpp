@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/report/identify/clock_words.hpp"
+#include "analysis/report/identify/latitude_words.hpp"
 #include "analysis/report/identify/results_out.hpp"
 #include "analysis/report/identify/sections.hpp"
 #include "analysis/report/identify/turned_words.hpp"
@@ -95,17 +96,6 @@ Json published_json(const mc::Published& published) {
                                    {"verdict", text_or_null(verdict_key(r))}};
   }
   return out;
-}
-
-Json latitude_json(const std::optional<identification::LatitudeDoubt>& doubt) {
-  if (!doubt || doubt->clock) return nullptr;
-  return {{"latitude_deg", doubt->latitude / unit::deg.to_si},
-          {"declared_deg", doubt->declared / unit::deg.to_si},
-          {"prior_sigmas", doubt->prior_sigmas()},
-          {"chi2_per_dof_before", doubt->chi2_per_dof_before},
-          {"chi2_per_dof_after", doubt->chi2_per_dof_after},
-          {"chance_after", doubt->chance_after},
-          {"alone", doubt->alone()}};
 }
 
 }  // namespace

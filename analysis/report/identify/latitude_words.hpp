@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "analysis/identification/latitude_doubt.hpp"
+#include "analysis/report/page/json.hpp"
+
+namespace drift::report {
+
+/// "45.712±0.019 deg".
+std::string latitude_text(const identification::LatitudeDoubt& doubt);
+/// "Next: diagnose again with ...": the number where the recording knows it as well as a survey, a
+/// map where it does not; command: that is to be given again.
+std::string latitude_next(const identification::LatitudeDoubt& doubt, std::string_view command);
+/// Of a doubt without a clock; null of any other.
+Json latitude_json(const std::optional<identification::LatitudeDoubt>& doubt);
+
+}  // namespace drift::report
