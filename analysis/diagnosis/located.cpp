@@ -159,12 +159,13 @@ Located located(const search::Fitted& nominal, const search::Search& found, cons
   const std::vector<Place> places = places_of(acting, nominal, inputs);
   if (places.empty()) {
     out.where.equation = equation_of(judged, inputs, window);
-    const ShapeFrom shape =
+    ShapeFrom shape =
         judged.verdict == Verdict::ambiguous && best ? ShapeFrom::alternative : ShapeFrom::signal;
-    for (std::size_t k = 0; k < std::min(most_signals, inputs.size()); ++k)
+    for (std::size_t k = 0; k < std::min(most_signals, inputs.size()); ++k) {
       out.signals.push_back(recovered_signal(inputs[k], timeline, covariates, cause, shape));
-    // The second is the same misfit as another equation would take it: one shape is enough.
-    if (shape == ShapeFrom::signal && out.signals.size() > 1) out.signals.back().say_no_shape();
+      // The second is the same misfit as another equation would take it: one shape is enough.
+      if (shape == ShapeFrom::signal) shape = ShapeFrom::nothing;
+    }
     return out;
   }
   out.where.equation = places.front().name();

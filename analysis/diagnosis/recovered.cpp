@@ -141,6 +141,7 @@ RecoveredSignal recovered_signal(const InputEstimate& input, const Timeline& tim
       if (explained.size() > 0) out.explained.push_back(explained[k] / to_si);
     }
 
+  if (shape == ShapeFrom::nothing) return out;
   if (shape != ShapeFrom::signal) {
     out.shape.kind =
         shape == ShapeFrom::cause ? Shape::Kind::of_cause : Shape::Kind::of_alternative;

@@ -27,8 +27,8 @@ std::vector<InputEstimate> estimate_inputs(const inference::MeasuredRows& rows,
                                            const inference::Projector& projector, int per_position);
 
 /// Whether the shape of a signal is to be found, is that of a cause which is named, or of the most
-/// probable of several.
-enum class ShapeFrom { signal, cause, alternative };
+/// probable of several, or is not asked for.
+enum class ShapeFrom { signal, cause, alternative, nothing };
 
 /// As a time series with a description of its shape. cause: candidate columns with amplitudes whose
 /// signature is drawn over it; may be empty.

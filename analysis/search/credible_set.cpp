@@ -3,29 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numeric>
 #include <string>
 
 #include "analysis/inference/thresholds.hpp"
+#include "analysis/search/library_prior.hpp"
 
 namespace drift::search {
 namespace {
 
 using inference::WeighLimits;
-
-/// Log prior of an explanation: every term alike, shared by the candidates it offers; a second
-/// cause is one in twenty.
-double log_prior(const Fitted& e, const Explanation& choices) {
-  std::map<std::string, double> offers;
-  for (const inference::Candidate& c : e.set.candidates) offers[c.term] += 1.0;
-  double sum = 0.0;
-  for (const Choice& choice : choices) {
-    const inference::Candidate& c = e.set.candidates[choice.candidate];
-    sum += c.log_prior - std::log(offers[c.term]);
-  }
-  return sum - std::log(WeighLimits::second_cause) * static_cast<double>(choices.size() - 1);
-}
 
 /// What an explanation is called: its terms and axes, in order; of a base term the parameters too.
 std::string name_of(const Fitted& e, const Refit& r) {
@@ -69,7 +56,7 @@ bool one_cause(const Fitted& e, const Refit& a, const Refit& b) {
 }
 
 double log_weight(const Fitted& e, const Refit& r) {
-  return r.log_bayes + log_prior(e, r.choices) - std::max(0.0, r.excess);
+  return r.log_bayes + LibraryPrior(e.set).log_within(r.choices) - std::max(0.0, r.excess);
 }
 
 /// Numbers of the heaviest first.

@@ -24,9 +24,13 @@ class LibraryPrior {
       : LibraryPrior(set, [](std::size_t) { return true; }) {}
 
   double log_of(const Explanation& choices) const {
+    return log_within(choices) -
+           std::log(std::max<double>(1.0, static_cast<double>(offers_.size())));
+  }
+  /// The same among explanations alone, which share that every term is as likely as another.
+  double log_within(const Explanation& choices) const {
     double sum =
-        -std::log(std::max<double>(1.0, static_cast<double>(offers_.size()))) -
-        std::log(inference::WeighLimits::second_cause) * static_cast<double>(choices.size() - 1);
+        -std::log(inference::WeighLimits::second_cause) * static_cast<double>(choices.size() - 1);
     for (const Choice& choice : choices) {
       const inference::Candidate& c = set_.candidates[choice.candidate];
       sum += c.log_prior;
