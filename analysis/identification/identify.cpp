@@ -8,6 +8,7 @@
 
 #include "analysis/identification/absent_channels.hpp"
 #include "analysis/identification/beyond_prior.hpp"
+#include "analysis/identification/considered_field.hpp"
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/preparation/prepare.hpp"
 #include "analysis/preparation/recorded_test.hpp"
@@ -252,6 +253,7 @@ Identification identify_recordings(const mc::Study& study, const std::vector<Rec
   run_jobs(ready.study, id, threads, progress, [&](const Job& job) {
     return estimate(ready.study, job, test.timeline, test.measured);
   });
+  consider_field(ready.study, test, id);
   id.spikes =
       without_spikes(test.measured, test.timeline, ready.study.readout, id.runs.front().batch)
           .spikes;

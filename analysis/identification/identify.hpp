@@ -38,7 +38,8 @@ struct FilterSummary {
   Layout layout;
   std::vector<StartSpread> spread;          ///< layout order; NaN ratios with one start
   std::vector<WeakDirection> degeneracies;  ///< exact: the data say nothing of these directions
-  std::size_t weak = 0;  ///< directions of which the prior says more than the data
+  std::size_t weak = 0;           ///< directions of which the prior says more than the data
+  bool field_considered = false;  ///< sigmas hold the error of an assumed field (consider_field())
   std::optional<HeadingDoubt> heading_doubt;    ///< behind its misfit
   std::optional<LatitudeDoubt> latitude_doubt;  ///< behind it; not asked beside the other
 };

@@ -248,6 +248,7 @@ InBrief identification_in_brief(const mc::Study& study, const identification::Id
       if (!said.empty()) brief.more.add(weight, said);
     };
     add(Weight::doubtful, which_counts(view));
+    add(Weight::doubtful, considered_text(view));
     add(Weight::doubtful, outside_text(view));
     add(Weight::wrong, beyond_text(view));
     if (const auto common = identification::common_scale(judged(view)); common && believed(view))

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/preparation/assumed_field.hpp"
 #include "analysis/report/identify/sections.hpp"
 #include "analysis/report/svg/axis_scale.hpp"
 #include "core/estimate/start_consistency.hpp"
@@ -117,6 +118,7 @@ std::vector<std::string> sentences_of(const FilterView& v) {
   if (runs.size() > 1) said.push_back(start_sentence(v));
   said.push_back(nis_sentence(v, runs));
   said.push_back(dispute_sentence(v, *runs.front()));
+  said.push_back(considered_text(v));
   if (!v.summary.degeneracies.empty())
     said.push_back(
         fmt::format("{} combinations of its {} parameters cannot be seen in this test at all.",
@@ -140,6 +142,16 @@ std::string which_counts(const FilterView& v) {
       : keys.empty()
           ? "has innovations that it does not expect"
           : fmt::format("is off beyond its own 95 % interval ({})", listed_up_to(keys, most)));
+}
+
+std::string considered_text(const FilterView& v) {
+  if (!v.summary.field_considered) return "";
+  constexpr CovariateSpec magnetic = covariate("field");
+  return fmt::format(
+      "Filter {}: the magnetic field is assumed, a dipole's within {:.2f} {} an axis; that error "
+      "is "
+      "in the sigmas. Declare field_n, field_w, field_u in [environment].",
+      v.spec().name, preparation::beside_dipole / magnetic.unit.to_si, magnetic.unit.symbol.view());
 }
 
 std::vector<std::string> headlines(const mc::Study& study,

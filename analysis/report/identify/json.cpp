@@ -125,6 +125,7 @@ Json identification_document(const mc::Study& study, const identification::Ident
         summary.heading_doubt ? heading_json(*summary.heading_doubt) : Json(nullptr);
     f["latitude_doubt"] = latitude_json(summary.latitude_doubt);
     f["clock_doubt"] = clock_json(summary.latitude_doubt);
+    f["field_considered"] = summary.field_considered;  // its error is in the sigmas
     f["weak_directions"] = summary.weak;
     f["degeneracies"] =
         directions_json(name_degeneracies(summary.layout, spec.mounting, summary.degeneracies));

@@ -47,6 +47,9 @@ std::vector<std::string> headlines(const mc::Study& study,
 /// batch fit counts. Empty elsewhere, and with process noise, which the EKF alone knows.
 std::string which_counts(const FilterView& view);
 
+/// That the magnetic field was assumed and its error is in the sigmas; empty elsewhere.
+std::string considered_text(const FilterView& view);
+
 /// Library indices of the parameters worth a picture: the published ones; else those the study
 /// gives a true value of its own (at most 6); else the 3 that depend most on the start.
 std::vector<std::size_t> highlighted_parameters(const mc::Study& study,

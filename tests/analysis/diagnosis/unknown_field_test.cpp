@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "analysis/identification/field_found.hpp"
+#include "analysis/identification/identify.hpp"
 #include "analysis/preparation/assumed_field.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
 #include "tests/support/six_positions.hpp"
@@ -82,6 +83,52 @@ TEST(FieldFound, WhereNothingFollowsItNothingIsLearned) {
   EXPECT_NEAR(found->log_evidence, 0.0, 0.1);
   const Vec3 sigmas = found->covariance.diagonal().cwiseSqrt();
   EXPECT_LT((found->field_l - found->assumed_l).cwiseQuotient(sigmas).norm(), 4.0);
+}
+
+/// The first filter of a study with M_x in its model, its estimates from one start.
+identification::Identification identified_with_M_x(mc::Study study, const Recording& recording) {
+  study.filters.resize(1);
+  study.filters.front().active |= test::only({"M_x"});
+  study.filters.front().starts.clear();
+  study.filters.front().drawn_starts = 1;
+  return identification::identify_recordings(study, {recording}, 1);
+}
+
+TEST(ConsideredField, IsInTheSigmaAsMuchAsAnotherFieldChangesTheEstimate) {
+  const double truth = 0.03 * M_unit;
+  const Scene s(0.03, Vec3(0.25, 0.06, -0.47));
+  const auto id = identified_with_M_x(s.study, s.recording);
+  ASSERT_TRUE(id.summaries.front().field_considered);
+  const std::size_t M_x = test::param("M_x");
+  const auto estimate = [&](const identification::Identification& of) {
+    return *of.runs.front().batch.estimate.find(M_x);
+  };
+  // The same by declared fields, a tenth of a sigma to both sides.
+  const Vec3 dipole_l = preparation::dipole_field_l(s.study.site.latitude);
+  const auto at = [&](const Vec3& field_l) {
+    const auto other = identified_with_M_x(with_field(s.study, field_l), s.recording);
+    EXPECT_FALSE(other.summaries.front().field_considered);
+    return estimate(other);
+  };
+  double squares = std::pow(at(dipole_l).sigma, 2);
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3 step = 0.1 * preparation::beside_dipole * Vec3::Unit(axis);
+    squares += std::pow((at(dipole_l + step).value - at(dipole_l - step).value) / 0.2, 2);
+  }
+  const ParameterEstimate found = estimate(id);
+  EXPECT_NEAR(found.sigma, std::sqrt(squares), 0.05 * found.sigma);
+  // With the dipole's field alone the estimate is wrong and sure of it.
+  EXPECT_GT(std::abs(found.value - truth), 5.0 * at(dipole_l).sigma);
+  EXPECT_LT(std::abs(found.value - truth), 3.0 * found.sigma);
+  // Both estimators, and sigma and covariance, agree.
+  const identification::FilterRun& run = id.runs.front();
+  EXPECT_NEAR(run.ekf.find(M_x)->sigma, found.sigma, 0.1 * found.sigma);
+  for (std::size_t k = 0; k < run.ekf.parameters.size(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    const ParameterEstimate& p = run.batch.estimate.parameters[k];
+    EXPECT_NEAR(p.sigma, p.prior_sigma * std::sqrt(run.batch.estimate.covariance(i, i)),
+                1e-9 * p.prior_sigma);
+  }
 }
 
 class UnknownField : public ::testing::Test {
