@@ -47,6 +47,12 @@ std::string check_path(const std::string& text) {
              : "";
 }
 
+std::string check_given(const std::string& text) {
+  return text.empty() ? "the value is empty (expected one; a variable that is not set?). Give one, "
+                        "or leave the option out"
+                      : "";
+}
+
 std::string check_no_file(const std::string& text) {
   for (const char* end : {".toml", ".csv", ".h5", ".hdf5", ".mat"})
     if (text.ends_with(end) || text.find('/') != text.npos)

@@ -23,6 +23,9 @@ std::string check_one_of(const std::string& text, std::span<const std::string_vi
 /// The name of a file or folder.
 std::string check_path(const std::string& text);
 
+/// Anything: a variable of a job script that is not set must not mean that the option was left out.
+std::string check_given(const std::string& text);
+
 /// Something that is no file: an option whose value may be left out must not swallow the file
 /// behind it.
 std::string check_no_file(const std::string& text);

@@ -12,6 +12,7 @@
 #include "core/config/load.hpp"
 #include "core/config/node.hpp"
 #include "core/config/override.hpp"
+#include "mc/store/same_study.hpp"
 
 namespace drift::cli {
 namespace {

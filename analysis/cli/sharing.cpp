@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/cli/argument_checks.hpp"
 #include "analysis/cli/run_options.hpp"
 #include "core/base/check.hpp"
 #include "mc/engine/batch_system.hpp"
@@ -40,8 +41,10 @@ void add_sharing(CLI::App& app, Sharing& sharing) {
   app.add_option(
          "--worker", sharing.worker,
          "do part i of n of the study, i = 0 .. n - 1; auto: what Slurm, SGE, PBS or mpiexec says")
+      ->check(check_given)
       ->type_name("I/N|auto");
   app.add_option("--max-wall", sharing.max_wall, "stop after this time, resumable: 55m, 1h30m")
+      ->check(check_given)
       ->type_name("TIME");
 }
 

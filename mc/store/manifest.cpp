@@ -19,7 +19,9 @@
 #include "core/base/results/regular_file.hpp"
 #include "core/base/rng.hpp"
 #include "core/base/sha256.hpp"
-#include "mc/store/text_difference.hpp"
+#include "mc/store/origin.hpp"
+#include "mc/store/same_study.hpp"
+#include "mc/store/store.hpp"
 
 namespace drift::mc {
 namespace {
@@ -111,58 +113,6 @@ Manifest from_text(const std::string& text) {
   return m;
 }
 
-std::vector<std::string> other_points(const std::vector<PointInfo>& is,
-                                      const std::vector<PointInfo>& wanted) {
-  std::vector<std::string> out;
-  if (is.size() != wanted.size())
-    out.push_back(fmt::format("number of study points: {} in the folder, {} asked for", is.size(),
-                              wanted.size()));
-  for (std::size_t p = 0; p < std::min(is.size(), wanted.size()); ++p)
-    if (is[p].label != wanted[p].label ||
-        columns_json(is[p].columns) != columns_json(wanted[p].columns))
-      out.push_back(fmt::format("study point {} has other columns or another label", p));
-  return out;
-}
-
-std::vector<PointInfo> points_of(std::span<const TaskPoint> points) {
-  std::vector<PointInfo> list;
-  for (const TaskPoint& point : points) list.push_back({point.label, point.task->columns()});
-  return list;
-}
-
-/// The compiler of the session that made a folder.
-std::string compiler_of(const Manifest& m) {
-  for (const auto& [key, value] : m.provenance)
-    if (key == "compiler") return value;
-  return "unknown";
-}
-
-std::vector<std::string> differences(const Manifest& is, const Manifest& wanted) {
-  std::vector<std::string> out = difference(is.identity.text, wanted.identity.text);
-  const auto note = [&](const char* what, const auto& a, const auto& b) {
-    if (a != b) out.push_back(fmt::format("{}: {} in the folder, {} asked for", what, a, b));
-  };
-  note("seed", is.identity.seed, wanted.identity.seed);
-  note("block size", is.identity.block_size, wanted.identity.block_size);
-  note("program", is.program, wanted.program);
-  note("instruction set", is.instruction_set, wanted.instruction_set);
-  // What another compiler makes of the same source differs in the last bits.
-  note("compiler", compiler_of(is), compiler_of(wanted));
-  note("arithmetic of the C library on this processor", is.arithmetic, wanted.arithmetic);
-  for (std::string& line : other_points(is.points, wanted.points)) out.push_back(std::move(line));
-  return out;
-}
-
-void check_same(const std::string& folder, const Manifest& wanted) {
-  const std::vector<std::string> differ = differences(read_manifest(folder), wanted);
-  if (differ.empty()) return;
-  throw InputError(
-      ExitCode::store,
-      fmt::format("{}: the folder holds another study (expected the one that is asked for). Choose "
-                  "another folder with -o; what differs, - in the folder, + asked for:\n  {}",
-                  folder, fmt::join(differ, "\n  ")));
-}
-
 void write_file(const std::string& path, std::string_view text) {
   std::FILE* file = std::fopen(path.c_str(), "wb");
   const bool written =
@@ -200,7 +150,7 @@ Manifest make_manifest(StudyIdentity identity, std::string study,
   m.program = "driftscope " + build_info().version;
   m.instruction_set = build_info().instruction_set;
   m.arithmetic = arithmetic_fingerprint();
-  m.points = points_of(points);
+  m.points = infos_of(points);
   m.provenance = provenance();
   return m;
 }
@@ -212,11 +162,12 @@ void claim_folder(const std::string& folder, const Manifest& manifest) {
   fs::create_directories(folder, failed);
   if (failed) throw_cannot_write(folder, failed.message());
   if (!fs::exists(path)) {
+    require_same_origin(folder, manifest);
     AtomicFile file(path);
     write_file(file.temporary(), to_text(manifest));
     if (!file.commit_new()) return claim_folder(folder, manifest);  // another worker was faster
   }
-  check_same(folder, manifest);
+  require_same_study(folder, manifest);
   raise(folder, manifest.runs, 0);
   if (!fs::exists(study)) {
     AtomicFile file(study);
@@ -244,6 +195,13 @@ Manifest read_manifest(const std::string& folder) {
                      fmt::format("{}: there is no such folder (expected one that holds results of "
                                  "`driftscope run`). Give the folder that was named with -o",
                                  folder));
+  if (!text && !worker_files(folder).empty())
+    throw InputError(
+        ExitCode::store,
+        fmt::format("{}: there are worker files and no manifest.json (expected one beside them). "
+                    "Run the study that they are of with -o {}: it is made anew, and what is "
+                    "stored is kept",
+                    folder, folder));
   if (!text)
     throw InputError(
         ExitCode::store,
@@ -262,19 +220,6 @@ Manifest read_manifest(const std::string& folder) {
                     "results in the worker files are kept",
                     path, error.what(), Manifest::file_format));
   }
-}
-
-void require_columns(const std::string& folder, const Manifest& manifest,
-                     std::span<const TaskPoint> points) {
-  const auto differ = other_points(manifest.points, points_of(points));
-  if (differ.empty()) return;
-  throw InputError(
-      ExitCode::store,
-      fmt::format(
-          "{}/manifest.json: damaged, or made by another program: {} (expected the columns "
-          "of the study). Move it away and run the same command again: it is made anew, and "
-          "the results in the worker files are kept",
-          folder, fmt::join(differ, "; ")));
 }
 
 std::string restore_study(const std::string& folder, const std::string& text) {

@@ -64,11 +64,6 @@ void note_finished(const std::string& folder, std::uint64_t runs);
 /// read.
 Manifest read_manifest(const std::string& folder);
 
-/// InputError (store) if the labels and columns of the manifest are not those of the study's
-/// points: what readers show would be named or scaled wrongly.
-void require_columns(const std::string& folder, const Manifest& manifest,
-                     std::span<const TaskPoint> points);
-
 /// Writes study.toml of a folder anew. What is in its place is kept, as study.toml.damaged-1 or the
 /// next free number: that name is returned. InputError (io).
 std::string restore_study(const std::string& folder, const std::string& text);

@@ -9,6 +9,7 @@
 #include "core/base/atomic_file.hpp"
 #include "core/base/check.hpp"
 #include "core/base/results/marks.hpp"
+#include "mc/store/origin.hpp"
 
 namespace drift::mc {
 namespace {
@@ -36,6 +37,7 @@ class WorkerStore::Writer : public WorkerFile {
   Writer(const std::string& path, std::shared_ptr<const Manifest> manifest, Locks locks)
       : WorkerFile(path, std::move(manifest), Database::Use::write, locks) {
     if (!sound() || is_foreign()) throw InputError(ExitCode::store, path + ": damaged");
+    WorkerFile::require_same_origin();
     Transaction all(db_);
     db_.execute(schema);
     mark();
@@ -98,7 +100,7 @@ class WorkerStore::Writer : public WorkerFile {
     if (is_described()) return;
     db_.execute("DELETE FROM study; DELETE FROM columns");
     Statement fact = db_.prepare("INSERT INTO study VALUES (?1, ?2)");
-    for (const auto& [key, value] : description(*manifest_))
+    for (const auto& [key, value] : origin_of(*manifest_))
       fact.bind_text(1, key).bind_text(2, value).run();
     Statement column = db_.prepare("INSERT INTO columns VALUES (?1, ?2, ?3, ?4)");
     for (std::size_t p = 0; p < manifest_->points.size(); ++p) {
@@ -212,6 +214,8 @@ WorkerStore::WorkerStore(const std::string& folder, std::size_t worker, const Ma
     if (writer_->removed() > 0)
       notes_.push_back(fmt::format("{}: {} damaged blocks removed; they are computed anew", path_,
                                    writer_->removed()));
+  } catch (const OtherOrigin&) {
+    throw;
   } catch (const InputError& error) {
     if (error.code() != ExitCode::store) throw;
     set_aside();

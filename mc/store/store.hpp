@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -19,9 +20,6 @@ std::string worker_path(const std::string& folder, std::size_t worker);
 void require_worker_file(const std::string& path);
 /// All worker files of a folder, in order of their numbers.
 std::vector<std::string> worker_files(const std::string& folder);
-
-/// What the table `study` of a worker file says.
-Facts description(const Manifest& manifest);
 
 /// One call of `run` by one worker.
 struct Session {
@@ -66,11 +64,16 @@ class WorkerFile {
   /// read in the file, nothing is believed unseen.
   std::vector<std::string> misfits();
   bool sound();
+  /// OtherOrigin if the results are not of the study; whether the file says of which they are: one
+  /// that another worker is about to begin does not yet.
+  bool require_same_origin();
   const std::string& path() const { return db_.path(); }
 
  protected:
   /// Whether the tables `study` and `columns` are those of the manifest.
   bool is_described();
+  /// The table `study`; empty where there is none that can be read.
+  std::map<std::string, std::string> origin();
   /// Whether the moments of a block are those of its rows.
   bool moments_fit(std::int64_t id, const Block& block);
   std::vector<BlockEntry> list(std::int64_t after_id, bool& damaged);

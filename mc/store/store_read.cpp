@@ -4,11 +4,11 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "core/base/check.hpp"
 #include "core/base/results/regular_file.hpp"
+#include "mc/store/origin.hpp"
 #include "mc/store/settle.hpp"
 #include "mc/store/store.hpp"
 
@@ -174,23 +174,29 @@ std::vector<Session> WorkerFile::all_sessions() {
   return list;
 }
 
-Facts description(const Manifest& manifest) {
-  return {{"format", std::to_string(Manifest::format)},
-          {"study_hash", manifest.hash},
-          {"study", manifest.study},
-          {"seed", std::to_string(manifest.identity.seed)},
-          {"block_size", std::to_string(manifest.identity.block_size)},
-          {"program", manifest.program},
-          {"arithmetic", manifest.arithmetic}};
+std::map<std::string, std::string> WorkerFile::origin() {
+  std::map<std::string, std::string> facts;
+  try {
+    Statement tables = db_.prepare("SELECT count(*) FROM sqlite_master WHERE name = 'study'");
+    if (!tables.step() || tables.integer(0) == 0) return facts;
+    Statement study = db_.prepare("SELECT key, value FROM study");
+    while (study.step()) facts[study.bytes(0)] = study.bytes(1);
+  } catch (const InputError& error) {
+    if (error.code() != ExitCode::store) throw;
+    facts.clear();
+  }
+  return facts;
+}
+
+bool WorkerFile::require_same_origin() {
+  const auto is = steadily([this] { return origin(); });
+  const std::vector<std::string> differ = other_origin(is, *manifest_);
+  if (!differ.empty()) throw OtherOrigin(path(), differ);
+  return !is.empty();
 }
 
 bool WorkerFile::is_described() {
-  std::map<std::string, std::string> facts;
-  Statement study = db_.prepare("SELECT key, value FROM study");
-  while (study.step()) facts[study.bytes(0)] = study.bytes(1);
-  for (const auto& [key, value] : description(*manifest_))
-    // The text is as the session had it that made the file: of another number of runs, perhaps.
-    if (key != "study" && facts[key] != value) return false;
+  if (!same_origin(origin(), *manifest_)) return false;
   Statement query = db_.prepare("SELECT point, number, name, unit FROM columns ORDER BY 1, 2");
   for (std::size_t p = 0; p < manifest_->points.size(); ++p)
     for (std::size_t c = 0; c < manifest_->points[p].columns.size(); ++c) {

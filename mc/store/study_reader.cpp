@@ -4,6 +4,7 @@
 
 #include "core/base/check.hpp"
 #include "mc/store/open_files.hpp"
+#include "mc/store/origin.hpp"
 
 namespace drift::mc {
 
@@ -29,6 +30,7 @@ void StudyReader::refresh() {
       Source& source = sources_[path];
       if (!source.file)
         source.file = std::make_unique<WorkerFile>(path, manifest_, Database::Use::read, locks_);
+      if (!source.known) source.known = source.file->require_same_origin();
       bool damaged = false;
       for (const BlockEntry& e : source.file->entries(source.last_id, &damaged)) {
         source.last_id = std::max(source.last_id, e.id);
@@ -41,6 +43,8 @@ void StudyReader::refresh() {
       for (const Session& session : source.file->sessions())
         if (session.sound) asked_ = std::max(asked_, session.runs);
       if (damaged) note(fmt::format("{}: damaged; what cannot be read of it is left out", path));
+    } catch (const OtherOrigin&) {
+      throw;
     } catch (const InputError& error) {
       if (error.code() != ExitCode::store) throw;
       note(fmt::format("{}: damaged, cannot be read", path));

@@ -64,6 +64,7 @@ class StudyReader {
   struct Source {
     std::unique_ptr<WorkerFile> file;
     std::int64_t last_id = 0;
+    bool known = false;  ///< of the study, by its own table
   };
   void note(std::string text);
 

@@ -15,6 +15,7 @@
 #include "core/base/file_text.hpp"
 #include "core/base/output_file.hpp"
 #include "mc/export/export_text.hpp"
+#include "mc/store/same_study.hpp"
 
 namespace drift::cli {
 namespace {
@@ -171,6 +172,7 @@ ExitCode replay(const std::string& folder, const RunChoice& choice, const std::s
         fmt::format("{}: the stored block of run {} is damaged (expected a whole one). "
                     "Run the study again with the same command: it is computed anew",
                     folder, choice.run));
+  if (r.stored && !r.same) mc::require_same_arithmetic(folder, reader.manifest());
   if (r.stored && !r.same)
     throw InputError(
         ExitCode::self_check,

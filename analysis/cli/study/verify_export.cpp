@@ -14,6 +14,7 @@
 #include "mc/export/export_hdf5.hpp"
 #include "mc/export/export_netcdf.hpp"
 #include "mc/export/export_text.hpp"
+#include "mc/store/same_study.hpp"
 #include "mc/store/study_state.hpp"
 
 namespace drift::cli {
@@ -34,6 +35,7 @@ ExitCode verify(const std::string& folder, const std::string& sample, int thread
   const double share = parse_fraction("--sample", sample);
   mc::StudyReader reader(folder);
   const auto [study, work] = frozen_study(folder, reader, program);
+  if (share > 0.0) mc::require_same_arithmetic(folder, reader.manifest());
   mc::Verification v = mc::verify(work, reader, share, threads);
   for (const std::string& name : changed_results(folder))
     v.damage.push_back(fmt::format(
@@ -54,8 +56,8 @@ ExitCode verify(const std::string& folder, const std::string& sample, int thread
   if (!v.damage.empty())
     throw InputError(
         ExitCode::store,
-        fmt::format("{}: {} damaged or lost (expected none). Run the study again with the same "
-                    "command: what is lost is computed anew",
+        fmt::format("{}: {} damaged or lost (expected none). Do what is said of each, then run the "
+                    "study again with the same command: what is lost is computed anew",
                     folder,
                     v.damage.size() == 1 ? std::string("1 part is")
                                          : fmt::format("{} parts are", v.damage.size())));

@@ -7,6 +7,8 @@
 #include <thread>
 
 #include "core/base/check.hpp"
+#include "mc/store/store.hpp"
+#include "mc/store/study_reader.hpp"
 #include "mc/store/text_difference.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/synthetic_study.hpp"
@@ -110,6 +112,89 @@ TEST(Manifest, ResultsOfAnotherCompilerAreNotMixedIn) {
   mc::claim_folder(folder.path(), elsewhere);
   EXPECT_NE(refusal(folder.path(), study).find("compiler: another 1.0 in the folder"),
             std::string::npos);
+}
+
+/// A folder of two workers, made by `study`.
+void fill(const std::string& folder, SyntheticStudy study) {
+  for (const std::size_t worker : {0u, 1u}) {
+    study.options.share = {worker, 2};
+    study.run(folder);
+  }
+}
+
+/// What a reader of a folder answers.
+std::string reading(const std::string& folder) {
+  try {
+    mc::StudyReader reader(folder);
+    return "read";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.code(), ExitCode::store);
+    return error.what();
+  }
+}
+
+/// Parts that were computed elsewhere and copied together.
+TEST(Origin, AFileOfAnotherArithmeticIsRefusedByAllAndNothingOfItIsChanged) {
+  const ScratchFolder folder;
+  const SyntheticStudy study;
+  fill(folder.file("ours"), study);
+  mc::Manifest elsewhere = study.manifest();
+  elsewhere.arithmetic = "bb3d00000000";
+  mc::claim_folder(folder.file("theirs"), elsewhere);
+  {
+    mc::WorkerStore store(folder.file("theirs"), 2, elsewhere);
+    store.begin_session(300);
+  }
+  const std::string foreign = folder.file("ours") + "/worker-0002.sqlite";
+  std::filesystem::copy_file(folder.file("theirs") + "/worker-0002.sqlite", foreign);
+  const std::string before = test::text_of(foreign);
+  const std::string said = reading(folder.file("ours"));
+  EXPECT_NE(said.find("worker-0002.sqlite: holds results of another study, program or arithmetic"),
+            std::string::npos)
+      << said;
+  EXPECT_NE(said.find("- arithmetic bb3d00000000"), std::string::npos) << said;
+  SyntheticStudy third = study;
+  for (const mc::WorkerShare share : {mc::WorkerShare{}, mc::WorkerShare{2, 3}}) {
+    third.options.share = share;
+    EXPECT_THROW(third.run(folder.file("ours")), InputError);
+  }
+  // Where no manifest says what the folder is of, none is made either.
+  std::filesystem::remove(folder.file("ours") + "/manifest.json");
+  EXPECT_NE(refusal(folder.file("ours"), study).find("worker-0002.sqlite"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(folder.file("ours") + "/manifest.json"));
+  EXPECT_EQ(test::text_of(foreign), before);
+  std::filesystem::remove(foreign);
+  fill(folder.file("ours"), study);
+  EXPECT_EQ(reading(folder.file("ours")), "read");
+}
+
+TEST(Origin, SoundBlocksOfAnotherStudyAreNotTakenForDamaged) {
+  const ScratchFolder folder;
+  const SyntheticStudy study;
+  fill(folder.path(), study);
+  const std::string file = folder.file("worker-0000.sqlite"), before = test::text_of(file);
+  std::filesystem::remove(folder.file("manifest.json"));
+  EXPECT_NE(reading(folder.path()).find("it is made anew, and what is stored is kept"),
+            std::string::npos);
+  SyntheticStudy other;
+  other.task.seed = study.task.seed + 1;
+  const std::string said = refusal(folder.path(), other);
+  EXPECT_NE(said.find("- seed"), std::string::npos) << said;
+  EXPECT_EQ(test::text_of(file), before);
+  mc::claim_folder(folder.path(), study.manifest());
+  EXPECT_EQ(study.run(folder.path()).done, 0u) << "nothing was lost";
+}
+
+TEST(Origin, ADamagedTableIsMendedAndNoOtherStudy) {
+  const ScratchFolder folder;
+  const SyntheticStudy study;
+  fill(folder.path(), study);
+  mc::Database(folder.file("worker-0000.sqlite"), mc::Database::Use::write)
+      .execute("UPDATE study SET value = 'another' WHERE key = 'arithmetic'");
+  EXPECT_EQ(reading(folder.path()), "read");
+  fill(folder.path(), study);
+  mc::StudyReader reader(folder.path());
+  EXPECT_TRUE(reader.misfits().empty());
 }
 
 TEST(Manifest, OfManyThatClaimAFolderAtOnceOneMakesItAndTheOthersJoin) {
