@@ -74,14 +74,26 @@ std::optional<double> seconds_of(const fs::path& folder, std::size_t number) {
   return json["seconds"].get<double>();
 }
 
-std::size_t count_trials(const fs::path& folder) {
-  std::size_t trials = 0;
-  while (fs::exists(trial_folder(folder, trials + 1) / "recording.csv")) ++trials;
-  return trials;
-}
-
 bool is_answered(const fs::path& folder, std::size_t number) {
   return fs::exists(trial_folder(folder, number) / "answer.json");
+}
+
+/// Of a folder whose key is sealed. InputError (store) if a trial is gone that has no answer yet:
+/// the score would be that of fewer trials than the key is of.
+std::size_t count_trials(const fs::path& folder) {
+  const std::size_t trials = trials_state(folder.string()).trials;
+  for (std::size_t number = 1; number <= trials; ++number) {
+    const fs::path recording = trial_folder(folder, number) / "recording.csv";
+    if (!is_answered(folder, number) && !fs::exists(recording))
+      throw InputError(
+          ExitCode::store,
+          fmt::format(
+              "{}: is gone (expected the recordings of all {} trials that the sealed key is "
+              "of). Put it back, or make the trials anew in another folder: they come out "
+              "the same",
+              recording.string(), trials));
+  }
+  return trials;
 }
 
 /// All answers in the order of the trials, or nothing while one is missing.

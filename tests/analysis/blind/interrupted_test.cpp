@@ -9,8 +9,10 @@
 
 #include "analysis/blind/session/answer_trials.hpp"
 #include "analysis/blind/session/seal.hpp"
+#include "analysis/blind/session/trial_folder.hpp"
 #include "core/base/check.hpp"
 #include "tests/support/program.hpp"
+#include "tests/support/tiny_blind_study.hpp"
 
 namespace drift::blind::interrupted_test {
 namespace {
@@ -25,6 +27,11 @@ std::string sealed_folder(const ScratchFolder& scratch) {
     fs::create_directories(scratch.file("out/trials/" + std::string(trial)));
     scratch.write("out/trials/" + std::string(trial) + "/recording.csv", "");
   }
+  begin_results(results_in(scratch.file("out")));
+  std::string study = test::tiny_blind_study;
+  const std::string six = "trials = 6";
+  study.replace(study.find(six), six.size(), "trials = 3");
+  scratch.write("out/study.toml", study);
   write_sealed(scratch.file("out"), "key.json", "{}");
   return scratch.file("out");
 }

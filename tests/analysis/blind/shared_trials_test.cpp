@@ -125,6 +125,21 @@ TEST(SharedTrials, AForeignFolderForTheExportIsSaidBeforeTrialsAreMade) {
   EXPECT_FALSE(std::filesystem::exists(shared.out("out")));
 }
 
+TEST(SharedTrials, ATrialThatIsGoneMakesNoScoreOfTheRest) {
+  const Shared shared;
+  ASSERT_EQ(shared.blind("out").code, 0);
+  const std::string score = text_of(shared.out("out") + "/blind.json");
+  const std::string trial = shared.out("out") + "/trials/0002";
+  fs::rename(trial, shared.out("kept"));
+  const test::Answer again = shared.blind("out");
+  EXPECT_EQ(again.code, 7) << again.err;
+  EXPECT_NE(again.err.find("trials/0002/recording.csv: is gone"), std::string::npos) << again.err;
+  EXPECT_EQ(text_of(shared.out("out") + "/blind.json"), score);
+  fs::rename(shared.out("kept"), trial);
+  EXPECT_EQ(shared.blind("out").code, 0);
+  EXPECT_EQ(shared.status("out"), 0);
+}
+
 TEST(SharedTrials, AnswersThatWereChangedAreNoResult) {
   const Shared shared;
   ASSERT_EQ(shared.blind("out", "").code, 0);

@@ -52,6 +52,12 @@ TEST(Arguments, AnEmptyNameIsNoPlaceForResults) {
     expect_says(refusal(command), "the name is empty (expected a file or folder)");
 }
 
+TEST(Arguments, AVariableThatIsNotSetIsNotTheWholeStudyWithoutLimit) {
+  for (const char* command : {"run x.toml --worker ''", "run x.toml --max-wall ''",
+                              "blind x.toml --worker ''", "rank x.toml --max-wall ''"})
+    expect_says(refusal(command), "the value is empty (expected one; a variable that is not set?)");
+}
+
 TEST(Arguments, HelpIsNoMistake) {
   for (const char* words : {"--help", "run --help"})
     EXPECT_EQ(test::run_program(DRIFT_SYNTHETIC, words).code, 0) << words;
