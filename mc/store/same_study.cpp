@@ -28,27 +28,27 @@ std::vector<std::string> other_points(const std::vector<PointInfo>& is,
   return out;
 }
 
+template <class T>
+void note(std::vector<std::string>& out, const char* what, const T& is, const T& wanted) {
+  if (is != wanted)
+    out.push_back(fmt::format("{}: {} in the folder, {} asked for", what, is, wanted));
+}
+
 /// By what results of the same study are not the same bits.
 std::vector<std::string> other_arithmetic(const Manifest& is, const Manifest& wanted) {
   std::vector<std::string> out;
-  const auto note = [&](const char* what, const auto& a, const auto& b) {
-    if (a != b) out.push_back(fmt::format("{}: {} in the folder, {} asked for", what, a, b));
-  };
-  note("program", is.program, wanted.program);
-  note("instruction set", is.instruction_set, wanted.instruction_set);
+  note(out, "program", is.program, wanted.program);
+  note(out, "instruction set", is.instruction_set, wanted.instruction_set);
   // What another compiler makes of the same source differs in the last bits.
-  note("compiler", compiler_of(is), compiler_of(wanted));
-  note("arithmetic of the C library on this processor", is.arithmetic, wanted.arithmetic);
+  note(out, "compiler", compiler_of(is), compiler_of(wanted));
+  note(out, "arithmetic of the C library on this processor", is.arithmetic, wanted.arithmetic);
   return out;
 }
 
 std::vector<std::string> differences(const Manifest& is, const Manifest& wanted) {
   std::vector<std::string> out = difference(is.identity.text, wanted.identity.text);
-  const auto note = [&](const char* what, const auto& a, const auto& b) {
-    if (a != b) out.push_back(fmt::format("{}: {} in the folder, {} asked for", what, a, b));
-  };
-  note("seed", is.identity.seed, wanted.identity.seed);
-  note("block size", is.identity.block_size, wanted.identity.block_size);
+  note(out, "seed", is.identity.seed, wanted.identity.seed);
+  note(out, "block size", is.identity.block_size, wanted.identity.block_size);
   for (std::string& line : other_arithmetic(is, wanted)) out.push_back(std::move(line));
   for (std::string& line : other_points(is.points, wanted.points)) out.push_back(std::move(line));
   return out;
