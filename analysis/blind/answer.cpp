@@ -117,13 +117,15 @@ Answer from(const Json& j) {
 }
 
 template <class Read>
-auto parsed(const std::string& json, Read&& read) {
+auto parsed(const std::string& json, const std::string& path, Read&& read) {
   try {
     return read(Json::parse(json));
   } catch (const std::exception& e) {
     throw InputError(
         ExitCode::self_check,
-        fmt::format("an answer cannot be read ({}). Remove it and run again", e.what()));
+        fmt::format("{}: no answer can be read in it: {} (expected one as driftscope wrote it). "
+                    "Move it away and run again: the trial is diagnosed anew",
+                    path, e.what()));
   }
 }
 
@@ -170,16 +172,16 @@ std::string to_json(const std::vector<Answer>& answers) {
   return Json{{"schema", 1}, {"answers", all}}.dump(1) + "\n";
 }
 
-std::vector<Answer> answers_of(const std::string& json) {
-  return parsed(json, [](const Json& j) {
+std::vector<Answer> answers_of(const std::string& json, const std::string& path) {
+  return parsed(json, path, [](const Json& j) {
     std::vector<Answer> all;
     for (const Json& a : j.at("answers")) all.push_back(from(a));
     return all;
   });
 }
 
-Answer answer_of_json(const std::string& json) {
-  return parsed(json, [](const Json& j) { return from(j); });
+Answer answer_of_json(const std::string& json, const std::string& path) {
+  return parsed(json, path, [](const Json& j) { return from(j); });
 }
 
 }  // namespace drift::blind

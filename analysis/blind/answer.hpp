@@ -44,8 +44,8 @@ Answer answer_of(const diagnosis::Diagnosis& diagnosis);
 std::string to_json(const Answer& answer);
 /// All answers, as answers.json.
 std::string to_json(const std::vector<Answer>& answers);
-/// InputError (self_check) if the text holds no answers.
-std::vector<Answer> answers_of(const std::string& json);
-Answer answer_of_json(const std::string& json);
+/// InputError (self_check), naming the file that the text is of, if it holds no answers.
+std::vector<Answer> answers_of(const std::string& json, const std::string& path = "answers.json");
+Answer answer_of_json(const std::string& json, const std::string& path = "answer.json");
 
 }  // namespace drift::blind

@@ -19,13 +19,15 @@
 namespace drift::cli {
 namespace {
 
-/// What `blind` takes beside a study.
 /// What others have to do with the trials.
 struct Others {
   std::string export_to;  ///< folder for whoever wants to answer them; empty: none
   bool rivals = false;    ///< simple methods answer them beside the diagnosis
+
+  bool need_recordings() const { return rivals || !export_to.empty(); }
 };
 
+/// What `blind` takes beside a study.
 struct BlindArguments {
   std::string folder;
   std::optional<std::string> trials;
@@ -116,6 +118,7 @@ ExitCode blind(const StudyArguments& arguments, const BlindArguments& given) {
   if (!key) return tell_unfinished(folder, session.share);
   results.key_hash = *key;
   say("Key sealed in {}: SHA-256 {}\n", folder, results.key_hash);
+  blind::restore_trials(study, folder, given.others.need_recordings());
   export_for(given.others, folder);
   StopAtOnce stop("");
   const auto progress = progress_reporter(arguments.progress, "diagnoses");

@@ -17,6 +17,7 @@
 #include "analysis/report/strapdown/case_report.hpp"
 #include "analysis/strapdown/case_diagnose.hpp"
 #include "core/base/results/folder.hpp"
+#include "core/base/results/turn.hpp"
 #include "mc/task/campaign.hpp"
 
 namespace drift::cli {
@@ -33,10 +34,14 @@ void require_nominal(const mc::Study& study) {
 
 void finish(const mc::Study& study, const diagnosis::Diagnosis& diagnosis,
             const report::DiagnosisSource& source, const std::vector<Recording>& recordings,
-            const std::string& folder, std::vector<std::string> more = {}) {
+            const std::string& folder, const std::vector<TextFile>& beside = {}) {
   Rest rest{cards_text(recordings, study.kind) + report::to_text(diagnosis), folder, {}};
-  if (!folder.empty()) rest.files = report::write_results(study, diagnosis, source, folder);
-  rest.files.insert(rest.files.end(), more.begin(), more.end());
+  if (!folder.empty()) {
+    const ResultsFolder results{folder, "diagnose"};
+    const ResultsTurn turn(results);
+    rest.files = report::write_results(study, diagnosis, source, folder);
+    for (std::string& name : write_files(results, beside)) rest.files.push_back(std::move(name));
+  }
   show_answer(report::diagnosis_in_brief(diagnosis), rest);
 }
 
@@ -57,18 +62,15 @@ ExitCode diagnose_case(const StudyArguments& arguments, const mc::Study& study,
       strapdown::identify_case(study, strapdown::case_study(study, recordings.front()));
   const diagnosis::Diagnosis found = strapdown::diagnose_case(study, id, options);
   const report::Provenance provenance = report::provenance_of(study.path, paths);
-  std::vector<std::string> more;
-  if (!folder.empty())
-    more = write_files(
-        {folder, "diagnose"},
-        {{"identification.json",
-          report::with_provenance(report::to_json(id, study.site.gravity).dump(2), provenance)}});
+  const TextFile identification{
+      "identification.json",
+      report::with_provenance(report::to_json(id, study.site.gravity).dump(2), provenance)};
   finish(study, found,
          {paths,
           report::to_text(report::case_report(study, id)),
           provenance,
           {report::noise_section(id.study.noise, study.site.gravity)}},
-         recordings, folder, more);
+         recordings, folder, {identification});
   return ExitCode::ok;
 }
 

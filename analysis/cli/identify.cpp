@@ -11,6 +11,7 @@
 #include "analysis/report/identify/report.hpp"
 #include "analysis/report/strapdown/case_report.hpp"
 #include "core/base/results/folder.hpp"
+#include "core/base/results/turn.hpp"
 
 namespace drift::cli {
 namespace {
@@ -28,7 +29,10 @@ ExitCode identify_case(const mc::Study& study, const std::vector<std::string>& p
           study, strapdown::identify_case(study, strapdown::case_study(study, recordings.front()))),
       report::provenance_of(study.path, paths));
   Rest rest{cards_text(recordings, study.kind) + report::to_text(said), folder, {}};
-  if (!folder.empty()) rest.files = report::write_report(said, folder);
+  if (!folder.empty()) {
+    const ResultsTurn turn({folder, "identify"});
+    rest.files = report::write_report(said, folder);
+  }
   show_answer(said.brief, rest);
   return ExitCode::ok;
 }
@@ -49,7 +53,10 @@ ExitCode identify(const StudyArguments& arguments, const std::vector<std::string
   const report::Report said = with_provenance(report::identification_report(study, id),
                                               report::provenance_of(study.path, paths));
   Rest rest{cards_text(recordings, study.kind) + report::to_text(said), folder, {}};
-  if (!folder.empty()) rest.files = report::write_identification(said, id, folder);
+  if (!folder.empty()) {
+    const ResultsTurn turn({folder, "identify"});
+    rest.files = report::write_identification(said, id, folder);
+  }
   show_answer(said.brief, rest);
   return ExitCode::ok;
 }

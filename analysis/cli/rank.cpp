@@ -13,6 +13,7 @@
 #include "analysis/planning/shared_steps.hpp"
 #include "analysis/report/rank/report.hpp"
 #include "core/base/results/folder.hpp"
+#include "core/base/results/turn.hpp"
 
 namespace drift::cli {
 namespace {
@@ -98,7 +99,10 @@ ExitCode rank(const StudyArguments& arguments, const RankArguments& options) {
   const report::Report said =
       with_provenance(report::rank_report(study, ranking), report::provenance_of(study.path, {}));
   Rest rest{options.json ? "" : report::to_text(said), options.folder, {}};
-  if (!options.folder.empty()) rest.files = report::write_report(said, options.folder);
+  if (!options.folder.empty()) {
+    const ResultsTurn turn({options.folder, "rank"});
+    rest.files = report::write_report(said, options.folder);
+  }
   if (shared) shared->end(ExitCode::ok);
   if (!options.json) {
     show_answer(said.brief, rest);

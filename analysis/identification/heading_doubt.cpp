@@ -20,7 +20,7 @@ namespace {
 using inference::FitLimits;
 using inference::SiteLimits;
 
-constexpr double right_angle = 90.0 * detail::deg, step = 45.0 * detail::deg;
+constexpr double right_angle = 90.0 * detail::deg, half_right_angle = 45.0 * detail::deg;
 constexpr double other_turns = 7.0;      // than none
 constexpr double rare_studies = 1000.0;  // one of which has wrong headings
 
@@ -65,7 +65,7 @@ double nearest_turn(const TestPlan& plan, const Caging& positions, const Vec3& e
   const double shown = std::atan2(-earth_l.y(), earth_l.x());
   double best = 0.0;
   for (int k = -3; k <= 4; ++k) {
-    const double turn = k * step;
+    const double turn = k * half_right_angle;
     const auto off = [&](double t) {
       return std::abs(std::remainder(shown - t, 4.0 * right_angle));
     };

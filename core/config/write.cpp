@@ -7,7 +7,7 @@
 namespace drift::config {
 namespace {
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   std::string out = "\"";
   for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
@@ -28,7 +28,7 @@ std::string key_text(std::string_view key) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
            c == '-';
   });
-  return bare ? std::string(key) : quoted(key);
+  return bare ? std::string(key) : in_quotes(key);
 }
 
 /// TOML wants a real number to look like one: 5 would read back as an integer.
@@ -84,7 +84,7 @@ std::string shortened(std::string text) {
 std::string to_toml(const Node& value) {
   switch (value.kind) {
     case Node::Kind::string:
-      return quoted(value.text);
+      return in_quotes(value.text);
     case Node::Kind::integer:
       return fmt::format("{}", value.integer);
     case Node::Kind::real:

@@ -52,6 +52,7 @@ class Engine {
   void execute() {
     BlockBoard board([this] { return plan_.next(); }, columns());
     const int threads = options_.threads > 0 ? options_.threads : usual_threads();
+    require_threads(threads);
 #pragma omp parallel num_threads(threads)
     work_through(board);
   }

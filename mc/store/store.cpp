@@ -14,7 +14,7 @@
 namespace drift::mc {
 namespace {
 
-constexpr const char* schema = R"(
+constexpr const char* tables_sql = R"(
 CREATE TABLE IF NOT EXISTS study (key TEXT PRIMARY KEY, value TEXT) WITHOUT ROWID;
 CREATE TABLE IF NOT EXISTS sessions (id INTEGER PRIMARY KEY, runs INTEGER, started_utc TEXT, ended_utc TEXT,
   exit_code INTEGER, facts TEXT);
@@ -39,7 +39,7 @@ class WorkerStore::Writer : public WorkerFile {
     if (!sound() || is_foreign()) throw InputError(ExitCode::store, path + ": damaged");
     WorkerFile::require_same_origin();
     Transaction all(db_);
-    db_.execute(schema);
+    db_.execute(tables_sql);
     mark();
     describe();
     remove_damaged();
@@ -119,10 +119,12 @@ class WorkerStore::Writer : public WorkerFile {
     std::vector<std::int64_t> bad;
     for (const BlockEntry& e : entries(0, &damaged)) {
       const auto stored = read(e);
-      if (!stored)
+      if (!stored) {
         bad.push_back(e.id);
-      else if (!moments_fit(e.id, stored->block))
-        renew_moments(e.id, stored->block);
+        continue;
+      }
+      if (!moments_fit(e.id, stored->block)) renew_moments(e.id, stored->block);
+      if (e.failed != stored->failures.size()) renew_failed(e.id, stored->failures.size());
     }
     if (damaged)
       throw InputError(ExitCode::store, path() + ": damaged");  // set aside by the caller
@@ -182,6 +184,11 @@ class WorkerStore::Writer : public WorkerFile {
   void renew_moments(std::int64_t id, const Block& block) {
     db_.prepare("DELETE FROM moments WHERE block = ?1").bind(1, id).run();
     insert_moments(id, block, manifest_->points.at(block.point).columns.size());
+  }
+
+  void renew_failed(std::int64_t id, std::size_t failed) {
+    Statement update = db_.prepare("UPDATE blocks SET failed = ?2 WHERE id = ?1");
+    update.bind(1, id).bind(2, static_cast<std::int64_t>(failed)).run();
   }
 
   void insert_moments(std::int64_t id, const Block& block, std::size_t columns) {

@@ -65,6 +65,30 @@ int wait_for_lock(void* path, int times) {
           busy_ms / 1000));
 }
 
+/// Says so, if the file was taken away under the hands of who works on it.
+void fail_gone(const std::string& path) {
+  std::error_code none;
+  if (std::filesystem::exists(path, none) || none) return;
+  throw InputError(
+      ExitCode::io,
+      fmt::format("{}: was removed or renamed while it was in use (expected to stay where it is "
+                  "until the command ends). What it held is not lost if it was renamed: put it "
+                  "back; then run the same command again",
+                  path));
+}
+
+/// Says so, if a change that was broken off has to be undone and the file may not be written to.
+void fail_half_changed(const std::string& path) {
+  std::error_code none;
+  if (!std::filesystem::exists(path + "-journal", none)) return;
+  throw InputError(
+      ExitCode::io,
+      fmt::format("{}: the process that wrote it was ended in the middle of a change, which must "
+                  "be undone first, and it cannot be written to from here (expected write "
+                  "permission, once). Let somebody who has it run `driftscope status {}`",
+                  path, std::filesystem::path(path).parent_path().string()));
+}
+
 [[noreturn]] void fail(sqlite3* db, const std::string& path, int code) {
   const std::string why = db != nullptr ? sqlite3_errmsg(db) : sqlite3_errstr(code);
   switch (code & 0xff) {
@@ -83,6 +107,7 @@ int wait_for_lock(void* path, int times) {
                       path, why));
     case SQLITE_FULL:
     case SQLITE_IOERR:
+      fail_gone(path);
       throw InputError(
           ExitCode::io,
           fmt::format(
@@ -92,7 +117,11 @@ int wait_for_lock(void* path, int times) {
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
       fail_locked(path, why);
+    case SQLITE_READONLY:
+      fail_gone(path);
+      [[fallthrough]];
     case SQLITE_CANTOPEN:
+      fail_half_changed(path);
       if (std::error_code none; std::filesystem::is_symlink(path, none))
         throw InputError(ExitCode::store,
                          fmt::format("{}: is a symbolic link, which is not followed (expected a "

@@ -233,9 +233,17 @@ std::vector<std::string> WorkerFile::all_misfits() {
     if (all.empty()) return lines;
     if (!is_described())
       lines.push_back(path() + ": the tables study and columns are not those of the manifest");
-    std::size_t others = 0;
+    std::size_t others = 0, miscounted = 0;
     for (const BlockEntry& e : all)
-      if (const auto stored = take(e)) others += !moments_fit(e.id, stored->block);
+      if (const auto stored = take(e)) {
+        others += !moments_fit(e.id, stored->block);
+        miscounted += e.failed != stored->failures.size();
+      }
+    if (miscounted > 0)
+      lines.push_back(
+          fmt::format("{}: the number of failed runs of {} blocks is not that of their "
+                      "list",
+                      path(), miscounted));
     if (others > 0)
       lines.push_back(
           fmt::format("{}: the moments of {} blocks are not those of their rows", path(), others));

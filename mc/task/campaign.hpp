@@ -22,6 +22,10 @@ class ThreadCount {
   int before_;
 };
 
+/// Looks whether the system gives the program so many threads at the same time: what runs them ends
+/// the whole program where it does not. InputError (usage) says how many it gives.
+void require_threads(int threads);
+
 /// Calls task(i) for i = 0..n-1 on several threads (0: the usual number). No exception leaves a
 /// thread: the one of the lowest index is rethrown when all are done.
 void for_each_index(std::size_t n, const std::function<void(std::size_t)>& task, int threads = 0);

@@ -74,24 +74,18 @@ std::optional<double> seconds_of(const fs::path& folder, std::size_t number) {
   return json["seconds"].get<double>();
 }
 
-bool is_answered(const fs::path& folder, std::size_t number) {
-  return fs::exists(trial_folder(folder, number) / "answer.json");
-}
-
 /// Of a folder whose key is sealed. InputError (store) if a trial is gone that has no answer yet:
 /// the score would be that of fewer trials than the key is of.
 std::size_t count_trials(const fs::path& folder) {
   const std::size_t trials = trials_state(folder.string()).trials;
   for (std::size_t number = 1; number <= trials; ++number) {
-    const fs::path recording = trial_folder(folder, number) / "recording.csv";
-    if (!is_answered(folder, number) && !fs::exists(recording))
+    if (!is_answered(folder, number) && !is_there(folder, number))
       throw InputError(
           ExitCode::store,
           fmt::format(
-              "{}: is gone (expected the recordings of all {} trials that the sealed key is "
-              "of). Put it back, or make the trials anew in another folder: they come out "
-              "the same",
-              recording.string(), trials));
+              "{}: recording or study is gone (expected those of all {} trials that the sealed key "
+              "is of). Put it back, or make it anew with `driftscope blind`: it comes out the same",
+              trial_folder(folder, number).string(), trials));
   }
   return trials;
 }
@@ -100,9 +94,9 @@ std::size_t count_trials(const fs::path& folder) {
 std::optional<std::vector<Answer>> all_answers(const fs::path& folder, std::size_t trials) {
   std::vector<Answer> all;
   for (std::size_t number = 1; number <= trials; ++number) {
-    const auto text = file_text(trial_folder(folder, number) / "answer.json");
-    if (!text) return std::nullopt;
-    all.push_back(answer_of_json(*text));
+    auto answer = kept_answer(folder, number);
+    if (!answer) return std::nullopt;
+    all.push_back(std::move(*answer));
   }
   return all;
 }

@@ -34,19 +34,25 @@ std::optional<KeyEntry> kept_entry(const std::string& folder, std::size_t number
   return read_key(*text).entries.at(0);
 }
 
-/// Two workers may make the same trial: they write the same bytes.
-void make_one(const mc::Study& study, const TrialPlan& plan, const std::string& folder) {
+/// What the solver gets. Two workers may write the same trial: they write the same bytes. Returns
+/// what the key says of it.
+std::string write_trial(const mc::Study& study, const TrialPlan& plan, const std::string& folder) {
   const std::string name = trial_name(plan.number);
   const fs::path here = fs::path(folder) / name;
   const ResultsFolder results = results_in(folder);
   write_files(results, {{name + "/study.toml", nominal_text(study, plan)}});
-  remove_result(results, name + "/answer.json");  // to a key that is there no more
-  fs::remove(here / "crashes");
   const MadeTrial made = make_trial(study, mc::read_study((here / "study.toml").string()), plan);
   write_result(results, name + "/recording.csv", [&](const std::string& temporary) {
     write_recording_to(made.recording, (here / "recording.csv").string(), temporary);
   });
-  write_files(results, {{part_name(plan.number), to_json(Key{"", {made.key}})}});
+  return to_json(Key{"", {made.key}});
+}
+
+void make_one(const mc::Study& study, const TrialPlan& plan, const std::string& folder) {
+  const std::string name = trial_name(plan.number);
+  remove_result(results_in(folder), name + "/answer.json");  // to a key that is there no more
+  fs::remove(fs::path(folder) / name / "crashes");
+  write_files(results_in(folder), {{part_name(plan.number), write_trial(study, plan, folder)}});
 }
 
 void make_missing(const mc::Study& study, const std::string& folder,
@@ -104,6 +110,25 @@ std::optional<std::string> make_trials(const mc::Study& study, const std::string
   open_sealed(folder, "key.json");
   remove_parts(study, folder);
   return published_hash(folder, "key.json");
+}
+
+void restore_trials(const mc::Study& study, const std::string& folder, bool answered_too) {
+  const fs::path here(folder);
+  std::vector<std::size_t> gone;
+  for (std::size_t number = 1; number <= study.blind.trials; ++number)
+    if (!is_there(here, number) && (answered_too || !is_answered(here, number)))
+      gone.push_back(number);
+  if (gone.empty()) return;
+  const std::vector<TrialPlan> plans = design_trials(study.blind, study.monte_carlo.seed);
+  const Key key = read_key(open_sealed(folder, "key.json"));
+  for (const std::size_t number : gone)
+    if (write_trial(study, plans.at(number - 1), folder) !=
+        to_json(Key{"", {key.entries.at(number - 1)}}))
+      throw InputError(ExitCode::self_check,
+                       fmt::format("{}: was gone, and what is made in its place is not what the "
+                                   "key says (expected the same). Put it back, or make the trials "
+                                   "anew in another folder",
+                                   (here / trial_name(number)).string()));
 }
 
 }  // namespace drift::blind

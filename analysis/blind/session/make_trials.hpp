@@ -18,4 +18,9 @@ std::optional<std::string> make_trials(const mc::Study& study, const std::string
                                        const mc::WorkSession& session = {},
                                        const Progress& progress = {});
 
+/// Makes anew what is gone of trials whose key is sealed: they come out the same. Those that are
+/// answered are needed no more, except by whoever answers them anew (answered_too). InputError
+/// (self_check) if one does not come out as the key says.
+void restore_trials(const mc::Study& study, const std::string& folder, bool answered_too);
+
 }  // namespace drift::blind

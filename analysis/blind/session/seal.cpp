@@ -25,6 +25,10 @@ std::string write_sealed(const std::string& folder, const std::string& name,
   const std::string hash = sha256_hex(text);
   if (!published_hash(folder, name).empty()) {
     // What is sealed stays as it is: other workers may be reading it.
+    // One that is gone is the same again if it has the same hash.
+    const bool gone = !std::filesystem::exists(fs::path(folder) / name);
+    if (gone && hash == published_hash(folder, name))
+      write_text_atomically((fs::path(folder) / name).string(), text);
     if (open_sealed(folder, name) == text) return hash;
     // Without a hash the text counts as not written yet, wherever the program ends.
     std::error_code none;
@@ -50,7 +54,17 @@ std::string open_sealed(const std::string& folder, const std::string& name) {
             "{}: no hash was published for it (expected {}). Run the study again in an empty "
             "folder",
             path, hash_path(folder, name).string()));
-  const std::string text = file_text(path).value_or(""), hash = sha256_hex(text);
+  const auto read = file_text(path);
+  if (!read)
+    throw InputError(
+        ExitCode::self_check,
+        fmt::format("{}: is gone, or cannot be read (expected what was sealed, SHA-256 {}). Put it "
+                    "back{}",
+                    path, published,
+                    name == "answers.json"
+                        ? ", or run the same command again: it is made anew of the answers"
+                        : ", or run the study again in an empty folder"));
+  const std::string text = *read, hash = sha256_hex(text);
   if (hash != published)
     throw InputError(
         ExitCode::self_check,

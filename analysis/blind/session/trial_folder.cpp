@@ -68,6 +68,15 @@ std::string trial_name(std::size_t number) {
   return fmt::format("trials/{:04}", number);
 }
 
+bool is_there(const fs::path& folder, std::size_t number) {
+  const fs::path trial = folder / trial_name(number);
+  return fs::exists(trial / "recording.csv") && fs::exists(trial / "study.toml");
+}
+
+bool is_answered(const fs::path& folder, std::size_t number) {
+  return fs::exists(folder / trial_name(number) / "answer.json");
+}
+
 std::string worker_of_trials(const std::string& folder, std::size_t worker) {
   return mc::worker_path((fs::path(folder) / "trials").string(), worker);
 }
@@ -81,6 +90,13 @@ void open_trials(const mc::Study& study, const std::string& folder) {
     write_files(results_in(folder), {{"study.toml", study.text}});
 }
 
+std::optional<Answer> kept_answer(const fs::path& folder, std::size_t number) {
+  const std::string path = (folder / trial_name(number) / "answer.json").string();
+  const auto text = file_text(path);
+  if (!text) return std::nullopt;
+  return answer_of_json(*text, path);
+}
+
 TrialsState trials_state(const std::string& folder) {
   const fs::path here(folder);
   if (results_of(folder) != "blind" || !fs::exists(here / "study.toml"))
@@ -91,12 +107,13 @@ TrialsState trials_state(const std::string& folder) {
   TrialsState s;
   s.trials = mc::read_study((here / "study.toml").string()).blind.trials;
   s.key_sealed = !published_hash(folder, "key.json").empty();
-  s.made = s.key_sealed ? s.trials : count(here / "making", ".json", s.trials);
-  for (std::size_t n = 1; n <= s.trials; ++n)
-    if (const auto answer = file_text(here / trial_name(n) / "answer.json")) {
-      ++s.answered;
-      s.failed += answer_of_json(*answer).failed;
-    }
+  if (!s.key_sealed) s.made = count(here / "making", ".json", s.trials);
+  for (std::size_t n = 1; n <= s.trials; ++n) {
+    const auto answer = kept_answer(here, n);
+    s.answered += answer.has_value();
+    s.failed += answer && answer->failed;
+    s.made += s.key_sealed && (answer || is_there(here, n));
+  }
   s.scored = !published_hash(folder, "answers.json").empty() && fs::exists(here / "blind.json");
   return s;
 }

@@ -2,8 +2,10 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 
+#include "analysis/blind/answer.hpp"
 #include "core/base/results/folder.hpp"
 #include "mc/study/study.hpp"
 
@@ -27,6 +29,12 @@ using Progress = std::function<void(std::size_t, std::size_t)>;
 ResultsFolder results_in(const std::filesystem::path& folder);
 /// Within the folder of the study, "trials/0003".
 std::string trial_name(std::size_t number);
+
+/// Whether the solver finds what it needs of a trial.
+bool is_there(const std::filesystem::path& folder, std::size_t number);
+bool is_answered(const std::filesystem::path& folder, std::size_t number);
+/// What was said to it; nothing if nothing was. InputError (self_check) if that cannot be read.
+std::optional<Answer> kept_answer(const std::filesystem::path& folder, std::size_t number);
 
 /// Looks whether the folder can hold this study, and makes it if need be. Any number of workers may
 /// do so at the same time. InputError (store) if it belongs to another study, or to a program whose

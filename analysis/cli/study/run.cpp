@@ -127,6 +127,17 @@ void list_failures(mc::StudyReader& reader, const mc::StopRules& rules, const st
         count - most, folder);
 }
 
+/// Per point, where the command does not say: what an extension asked for that was broken off.
+std::uint64_t runs_to_go_on_to(const std::string& folder, std::uint64_t of_study, bool tells) {
+  const std::uint64_t before = mc::read_manifest(folder).runs;
+  if (before <= of_study) return of_study;
+  if (tells)
+    say("{}: note: {} runs per point were asked for before, {} in the study file; it goes on with "
+        "the {}. For fewer give --runs\n",
+        folder, before, of_study, before);
+  return before;
+}
+
 ExitCode run(const StudyArguments& arguments, const RunArguments& given,
              const StudyProgram& program) {
   mc::Overrides overrides = arguments.overrides();
@@ -159,6 +170,7 @@ ExitCode run(const StudyArguments& arguments, const RunArguments& given,
         "of Open MPI or srun --mpi=pmix");
   require_results_folder({folder, "run"});
   mc::claim_folder(folder, manifest);
+  if (!given.runs) options.runs = runs_to_go_on_to(folder, options.runs, ranks.leader());
   begin_results({folder, "run"});
   const std::string aside = ranks.leader() ? mend_study(folder, manifest) : "";
   if (!aside.empty())

@@ -110,6 +110,28 @@ void refuse_changed(const ResultsFolder& folder) {
                     folder.path, listed(changed), changed.size() == 1 ? "it" : "them"));
 }
 
+/// What the command is going to write at the end, and somebody else put there.
+void refuse_in_the_way(const ResultsFolder& folder) {
+  const ResultsRegister known(folder.path);
+  if (!known.exists()) return;  // of a version that had none: they are noted as its own
+  const std::vector<std::string> ours = known.names();
+  std::vector<std::string> names;
+  for (const std::string& name : main_results(folder.command)) {
+    const fs::path path = fs::path(folder.path) / name;
+    std::error_code none;
+    const bool empty = fs::is_regular_file(path, none) && fs::file_size(path, none) == 0;
+    if (fs::exists(fs::symlink_status(path, none)) && !empty && !std::ranges::count(ours, name))
+      names.push_back(name);
+  }
+  if (names.empty()) return;
+  throw InputError(
+      ExitCode::store,
+      fmt::format("{}: {} {} there, which driftscope did not write (expected a free name for what "
+                  "`{}` writes). Nothing was changed; move {} away, or give another folder with -o",
+                  folder.path, listed(names), names.size() == 1 ? "is" : "are", folder.command,
+                  names.size() == 1 ? "it" : "them"));
+}
+
 /// Tries to write where the folder is, or where it would be made, and leaves no trace.
 void require_writable(const std::string& folder) {
   std::error_code unknown;
@@ -124,8 +146,9 @@ void require_writable(const std::string& folder) {
 }  // namespace
 
 std::string results_of(const std::string& folder) {
-  const std::string registered = ResultsRegister(folder).command();
-  return registered.empty() ? command_by_files(folder) : registered;
+  // The files know best: the word in the register is under no checksum.
+  const std::string by_files = command_by_files(folder);
+  return by_files.empty() ? ResultsRegister(folder).command() : by_files;
 }
 
 void require_results_folder(const ResultsFolder& folder, const std::vector<std::string>& inputs) {
@@ -148,6 +171,7 @@ void require_results_folder(const ResultsFolder& folder, const std::vector<std::
     if (!holder.empty()) {
       refuse_others_than_files(folder.path);
       refuse_changed(folder);
+      refuse_in_the_way(folder);
     }
   }
   require_writable(folder.path);

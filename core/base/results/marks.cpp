@@ -97,6 +97,13 @@ std::string command_by_files(const fs::path& folder) {
   return {};
 }
 
+std::vector<std::string> main_results(const std::string& command) {
+  if (command == "run") return {"report.html", "summary.json"};
+  if (command == "identify") return {"report.html", "identification.json"};
+  if (command == "diagnose") return {"report.html", "diagnosis.json"};
+  return {"report.html", command + ".json"};
+}
+
 HashedFiles files_of(const std::string& command, const fs::path& folder) {
   HashedFiles files = files_within(command, folder, "");
   std::error_code none;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "core/base/results/register.hpp"
 
@@ -18,6 +19,9 @@ bool looks_like_result(const std::filesystem::path& entry);
 /// The command that left its files in a folder, judged by them alone; or empty. For folders of
 /// versions without a register, or whose register was lost.
 std::string command_by_files(const std::filesystem::path& folder);
+
+/// Names of what a command writes when it ends, whatever the study.
+std::vector<std::string> main_results(const std::string& command);
 
 /// The files of such a folder that the command may write again, with their hashes.
 HashedFiles files_of(const std::string& command, const std::filesystem::path& folder);

@@ -26,6 +26,7 @@ std::string sealed_folder(const ScratchFolder& scratch) {
   for (const char* trial : {"0001", "0002", "0003"}) {
     fs::create_directories(scratch.file("out/trials/" + std::string(trial)));
     scratch.write("out/trials/" + std::string(trial) + "/recording.csv", "");
+    scratch.write("out/trials/" + std::string(trial) + "/study.toml", "");
   }
   begin_results(results_in(scratch.file("out")));
   std::string study = test::tiny_blind_study;

@@ -125,19 +125,77 @@ TEST(SharedTrials, AForeignFolderForTheExportIsSaidBeforeTrialsAreMade) {
   EXPECT_FALSE(std::filesystem::exists(shared.out("out")));
 }
 
-TEST(SharedTrials, ATrialThatIsGoneMakesNoScoreOfTheRest) {
+TEST(SharedTrials, WhatIsGoneOfATrialIsMadeAnewAndComesOutTheSame) {
   const Shared shared;
   ASSERT_EQ(shared.blind("out").code, 0);
-  const std::string score = text_of(shared.out("out") + "/blind.json");
-  const std::string trial = shared.out("out") + "/trials/0002";
-  fs::rename(trial, shared.out("kept"));
+  ASSERT_EQ(shared.blind("one").code, 0);
+  const std::string trials = shared.out("out") + "/trials", second = trials + "/0002/recording.csv";
+  const std::string recording = text_of(second);
+  fs::remove_all(trials + "/0002");
+  fs::remove(trials + "/0003/answer.json");
+  fs::remove(trials + "/0003/study.toml");
+  const test::Answer half = test::driftscope("status '" + shared.out("out") + "'");
+  EXPECT_EQ(half.code, 75);
+  EXPECT_NE(half.out.find("2 of 4 trials made"), std::string::npos) << half.out;
   const test::Answer again = shared.blind("out");
-  EXPECT_EQ(again.code, 7) << again.err;
-  EXPECT_NE(again.err.find("trials/0002/recording.csv: is gone"), std::string::npos) << again.err;
-  EXPECT_EQ(text_of(shared.out("out") + "/blind.json"), score);
-  fs::rename(shared.out("kept"), trial);
-  EXPECT_EQ(shared.blind("out").code, 0);
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_EQ(text_of(second), recording);
+  expect_same_results(shared.out("out"), shared.out("one"));
   EXPECT_EQ(shared.status("out"), 0);
+}
+
+TEST(SharedTrials, ARecordingThatIsNeededNoMoreIsMadeForWhoeverAnswersItAnew) {
+  const Shared shared;
+  ASSERT_EQ(shared.blind("out").code, 0);
+  const std::string path = shared.out("out") + "/trials/0002/recording.csv",
+                    recording = text_of(path);
+  fs::remove(path);
+  EXPECT_EQ(shared.blind("out").code, 0);
+  EXPECT_FALSE(fs::exists(path));
+  EXPECT_EQ(shared.blind("out", "--export '" + shared.out("ex") + "'").code, 0);
+  EXPECT_EQ(text_of(shared.out("ex") + "/trials/0002/recording.csv"), recording);
+}
+
+TEST(SharedTrials, ARecordingThatIsNotWhatTheKeySaysIsNotTaken) {
+  const Shared shared;
+  ASSERT_EQ(shared.blind("out").code, 0);
+  const std::string out = shared.out("out");
+  fs::remove_all(out + "/trials/0002");
+  std::string key = text_of(out + "/key.json");
+  const std::string there = "\"trial\": 2";
+  ASSERT_NE(key.find(there), std::string::npos) << key.substr(0, 400);
+  key.replace(key.find("\"total_size\": ", key.find(there)) + 14, 0, "1");
+  std::ofstream(out + "/key.json", std::ios::binary) << key;
+  std::ofstream(out + "/key.sha256", std::ios::binary) << sha256_hex(key) << "  key.json\n";
+  const test::Answer again = shared.blind("out");
+  EXPECT_EQ(again.code, 8) << again.err;
+  EXPECT_NE(again.err.find("is not what the key says"), std::string::npos) << again.err;
+}
+
+TEST(SharedTrials, SealedAnswersThatAreGoneAreMadeAnewAndAGoneKeyIsSaid) {
+  const Shared shared;
+  ASSERT_EQ(shared.blind("out").code, 0);
+  const std::string path = shared.out("out") + "/answers.json", text = text_of(path);
+  fs::remove(path);
+  const test::Answer told = test::driftscope("status '" + shared.out("out") + "'");
+  EXPECT_EQ(told.code, 8);
+  EXPECT_NE(told.err.find("answers.json: is gone"), std::string::npos) << told.err;
+  EXPECT_EQ(shared.blind("out").code, 0);
+  EXPECT_EQ(text_of(path), text);
+  fs::remove(shared.out("out") + "/key.json");
+  const test::Answer key = shared.blind("out");
+  EXPECT_EQ(key.code, 8);
+  EXPECT_NE(key.err.find("key.json: is gone"), std::string::npos) << key.err;
+}
+
+TEST(SharedTrials, AnAnswerThatCannotBeReadIsNamed) {
+  const Shared shared;
+  ASSERT_EQ(shared.blind("out").code, 0);
+  std::ofstream(shared.out("out") + "/trials/0003/answer.json") << "{\"trial\": 3,";
+  const test::Answer told = test::driftscope("status '" + shared.out("out") + "'");
+  EXPECT_EQ(told.code, 8);
+  EXPECT_NE(told.err.find("trials/0003/answer.json: no answer can be read"), std::string::npos)
+      << told.err;
 }
 
 TEST(SharedTrials, AnswersThatWereChangedAreNoResult) {

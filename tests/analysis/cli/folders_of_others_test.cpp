@@ -83,6 +83,19 @@ TEST(FoldersOfOthers, AListThatIsNotOursIsNotAddedTo) {
   EXPECT_EQ(desk.run().code, 0);
 }
 
+TEST(FoldersOfOthers, WhatStandsWhereTheResultsGoIsSaidBeforeTheyAreComputed) {
+  const Desk desk;
+  const std::string run = "run " + desk.file("s.toml") + " --runs 256 -o " + desk.file("out");
+  ASSERT_EQ(driftscope(run + " --worker 0/2").code, 0);
+  desk.write("out/summary.json", "mine");
+  const Answer a = driftscope(run);
+  expect_refused(a, "summary.json is there, which driftscope did not write");
+  EXPECT_EQ(a.err.find("executed"), std::string::npos) << a.err;
+  EXPECT_EQ(text_of(desk.file("out/summary.json")), "mine");
+  fs::remove(desk.file("out/summary.json"));
+  EXPECT_EQ(driftscope(run).code, 0);
+}
+
 TEST(FoldersOfOthers, NoJournalIsTakenForOneOfADatabaseToCome) {
   for (const char* name : {"worker-0000.sqlite-journal", "worker-0000.sqlite-wal"}) {
     const Desk desk;

@@ -40,6 +40,18 @@ TEST(Memory, APlanOfMillionsOfSamplesIsRefusedInWords) {
   }
 }
 
+TEST(Memory, MoreThreadsThanTheSystemGivesAreRefusedInWords) {
+  if (sanitized) GTEST_SKIP() << "the address sanitizer needs more address space than is allowed";
+  const ScratchFolder scratch;
+  const std::string run = "run " + cheap() + " --runs 512 -o ";
+  const Answer a = in_two_gigabytes(run + scratch.file("out") + " --threads 512");
+  EXPECT_EQ(a.code, static_cast<int>(ExitCode::usage)) << a.err;
+  EXPECT_NE(a.err.find("--threads 512: the system gives this program no more than "),
+            std::string::npos)
+      << a.err;
+  EXPECT_EQ(in_two_gigabytes(run + scratch.file("out") + " --threads 2").code, 0);
+}
+
 TEST(Memory, RowsOtherThanPlannedAreRemarked) {
   const ScratchFolder scratch;
   const std::string rec = scratch.file("r.csv");

@@ -1,5 +1,4 @@
-// What the commands that look into a results folder say of lost, damaged, unfinished and extended
-// results.
+// What the commands that look into a results folder say of lost, damaged and unfinished results.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -80,22 +79,6 @@ TEST(StoreCommands, MoreWorkerFilesThanTheUsualLimitOfOpenFilesAreRead) {
   expect_says(status.out, "in 60 worker files");
   EXPECT_EQ(status.out.find("damage"), std::string::npos) << status.out;
   expect_says(limited("verify " + out + " --sample 0%").out, "sound and complete");
-}
-
-TEST(StoreCommands, AStudyThatWasExtendedIsMissedToItsNewEnd) {
-  const ScratchFolder scratch;
-  const std::string config = study_file(scratch, ""), out = scratch.file("out");
-  ASSERT_EQ(program("run " + config + " -o " + out).code, 0);
-  const Answer longer = program("run " + config + " --runs 300 -o " + out);
-  expect_says(longer.err, "200 runs stored before, 108 executed");
-  expect_says(longer.err,
-              "8 of the runs stored before were in blocks that the shorter study ended within");
-  const Answer shorter = program("run " + config + " --runs 20 -o " + out);
-  EXPECT_EQ(shorter.out, longer.out);
-  expect_says(shorter.err, "300 runs per point were asked for before, 20 now");
-  fs::remove(out + "/worker-0000.sqlite");
-  expect_says(program("status " + out).out, "0 of 300 runs");
-  EXPECT_EQ(program("verify " + out).code, 7);
 }
 
 TEST(StoreCommands, AnUnfinishedStudyIsExportedWithAWord) {

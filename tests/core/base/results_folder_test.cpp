@@ -5,12 +5,15 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <chrono>
+#include <memory>
 #include <thread>
 
 #include "core/base/atomic_file.hpp"
 #include "core/base/check.hpp"
 #include "core/base/results/folder.hpp"
 #include "core/base/results/register.hpp"
+#include "core/base/results/turn.hpp"
 #include "core/base/sha256.hpp"
 #include "core/base/temporary_file.hpp"
 #include "tests/support/program.hpp"
@@ -120,6 +123,37 @@ TEST(Temporaries, VanishAtTheNextUseOfTheFolder) {
   ASSERT_EQ(temporaries_in(folder.path), 1u);
   require_results_folder(folder);
   EXPECT_EQ(temporaries_in(folder.path), 0u);
+}
+
+TEST(ResultsTurns, OneAfterTheOtherWritesAnAnswer) {
+  const ScratchFolder scratch;
+  const ResultsFolder folder{scratch.file("out"), "identify"};
+  auto first = std::make_unique<ResultsTurn>(folder);
+  std::atomic<bool> has_turn = false;
+  std::thread second([&] {
+    const ResultsTurn turn(folder);
+    has_turn = true;
+    write_files(folder, {{"report.html", "second"}, {"identification.json", "second"}});
+  });
+  write_files(folder, {{"report.html", "first"}});
+  std::this_thread::sleep_for(std::chrono::milliseconds(120));  // more than one look of the other
+  EXPECT_FALSE(has_turn);
+  write_files(folder, {{"identification.json", "first"}});
+  first.reset();
+  second.join();
+  EXPECT_EQ(text_of(scratch.file("out/report.html")), "second");
+  EXPECT_EQ(text_of(scratch.file("out/identification.json")), "second");
+  EXPECT_EQ(temporaries_in(folder.path), 0u);
+}
+
+TEST(ResultsFolderOf, TheFilesKnowTheCommandBetterThanTheRegister) {
+  const ScratchFolder scratch;
+  const ResultsFolder folder{scratch.file("out"), "rank"};
+  write_files(folder, {{"rank.json", R"({"schema": 1, "linearised_at": "start"})"}});
+  std::string list = text_of(scratch.file("out/.driftscope"));
+  scratch.write("out/.driftscope", list.replace(list.find("rank"), 4, "run"));
+  EXPECT_EQ(results_of(folder.path), "rank");
+  EXPECT_NO_THROW(require_results_folder(folder));
 }
 
 TEST(ResultsFolderOf, TheCommandIsTheOneThatBeganIt) {

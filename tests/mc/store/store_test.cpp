@@ -127,6 +127,21 @@ TEST(Store, ADamagedBlockIsReportedAndComputedAnew) {
   EXPECT_NE(after.notes[0].find("1 damaged blocks removed"), std::string::npos) << after.notes[0];
 }
 
+TEST(Store, AFileThatIsTakenAwayIsNoFullDisk) {
+  const ScratchFolder folder;
+  const std::string path = folder.file("worker-0000.sqlite");
+  mc::Database db(path, mc::Database::Use::write);
+  db.execute("CREATE TABLE a (x)");
+  std::filesystem::rename(path, folder.file("elsewhere"));
+  try {
+    db.execute("INSERT INTO a VALUES (1)");
+    FAIL() << "was written to a file that has no name";
+  } catch (const InputError& e) {
+    EXPECT_EQ(e.code(), ExitCode::io);
+    EXPECT_NE(std::string(e.what()).find("was removed or renamed"), std::string::npos) << e.what();
+  }
+}
+
 TEST(Store, AFileThatIsNoDatabaseIsSetAsideAndABrokenOneGivesBackItsWholeBlocks) {
   const ScratchFolder folder;
   SyntheticStudy study = small_study();
@@ -172,7 +187,8 @@ TEST(Store, WhatRepeatsOtherTablesIsComparedWithThemAndMended) {
   for (const char* damage :
        {"UPDATE columns SET unit = 'rad' WHERE number = 1",
         "UPDATE study SET value = '2' WHERE key = 'seed'", "UPDATE moments SET mean = mean + 1e-9",
-        "DELETE FROM moments WHERE number = 3", "UPDATE sessions SET runs = runs + 1024"}) {
+        "DELETE FROM moments WHERE number = 3", "UPDATE sessions SET runs = runs + 1024",
+        "UPDATE blocks SET failed = failed + 1 WHERE first_run = 16"}) {
     const ScratchFolder folder;
     const SyntheticStudy study = small_study();
     const auto before = study.run(folder.path());

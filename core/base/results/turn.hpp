@@ -1,0 +1,24 @@
+#pragma once
+
+#include "core/base/results/folder.hpp"
+
+namespace drift {
+
+/// While it lives, no other process writes an answer into the folder, which is made if need be: the
+/// files of two commands that end at the same time never stand mixed, those of the later one stay.
+/// On a file system that does not lock folders (some network ones) nobody waits.
+///
+/// InputError: io if the folder cannot be made; store if another process, one that is stopped
+/// perhaps, does not end writing within half a minute.
+class ResultsTurn {
+ public:
+  explicit ResultsTurn(const ResultsFolder& folder);
+  ~ResultsTurn();
+  ResultsTurn(const ResultsTurn&) = delete;
+  ResultsTurn& operator=(const ResultsTurn&) = delete;
+
+ private:
+  int fd_;  ///< of the folder itself: a lock that leaves no file behind
+};
+
+}  // namespace drift
