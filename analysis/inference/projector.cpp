@@ -1,5 +1,7 @@
 #include "analysis/inference/projector.hpp"
 
+#include <utility>
+
 #include "core/base/decompose.hpp"
 
 namespace drift::inference {
@@ -76,6 +78,13 @@ MatX Projector::clean(const Eigen::Ref<const MatX>& whitened) const {
   MatX x = h(whitened, 0);
   L_.transpose().triangularView<Eigen::Upper>().solveInPlace(x);
   return whitened - theta() * x;
+}
+
+void Projector::forget_candidates() {
+  MatX kept(white_.rows(), n_ + 1);
+  kept << theta(), r0();
+  white_ = std::move(kept);
+  half_ = MatX(half_.rightCols<1>());
 }
 
 Projector::Fit Projector::fit() const {

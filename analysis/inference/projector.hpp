@@ -60,6 +60,9 @@ class Projector {
     return clean(extra()(Eigen::all, columns));
   }
 
+  /// Frees what is known of candidates alone, nearly all of the memory: extra() is empty then.
+  void forget_candidates();
+
   /// Scaled parameters at their best, and their covariance.
   struct Fit {
     VecX x;

@@ -47,6 +47,14 @@ inference::NoiseModel declared_noise(const FilterSpec& filter) {
   return m;
 }
 
+void Fitted::forget_signatures() {
+  problem.extra.resize(problem.rows(), 0);
+  if (projector) projector->forget_candidates();
+  projected = {};
+  contrasts = {};
+  scans = {};
+}
+
 std::vector<std::size_t> Fitted::by_evidence() const {
   std::vector<std::size_t> order(scores.size());
   std::iota(order.begin(), order.end(), 0u);

@@ -162,7 +162,8 @@ Refit scored(const std::vector<Choice>& choices, const FilterSpec& filter, const
   return out;
 }
 
-/// Judges and weighs a refit whose rest has been looked at.
+/// Judges and weighs a refit whose rest has been looked at. Of the candidates beside it only the
+/// scores are asked for from here on.
 void judge(Refit& r, const CauseFit& causes, const Beside& b) {
   r.sign_agrees = signs_agree(causes.expected, r.after.fit);
   r.nameable = !causes.expected.lambda_among_them ||
@@ -177,6 +178,7 @@ void judge(Refit& r, const CauseFit& causes, const Beside& b) {
   r.log_bayes = r.after.log_evidence() - b.nominal.log_evidence() -
                 log_tries(b.nominal, r.choices) - causes.narrowed +
                 gain_of_sizes(b.nominal.set, causes.filter, r);
+  r.after.forget_signatures();
 }
 
 /// Whether a refit is to be preferred to another one of the same causes.
