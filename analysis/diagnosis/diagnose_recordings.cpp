@@ -83,8 +83,10 @@ Diagnosis diagnose_recordings(const mc::Study& study, const std::vector<Recordin
   if (!d.of_case)
     d.heading_doubt = identification::heading_doubt(test.study, test.recordings, d.nominal);
   if (!d.heading_doubt) {
-    auto doubt = site_doubt(test.study, test.recordings, d);
-    (doubt && doubt->less_likely ? d.other_latitude : d.site_doubt) = std::move(doubt);
+    SiteFinding site = site_doubt(test.study, test.recordings, d, second);
+    const bool less_likely = site.doubt && site.doubt->less_likely;
+    (less_likely ? d.other_latitude : d.site_doubt) = std::move(site.doubt);
+    d.there = std::move(site.there);
   }
   if (d.wrong_study()) d = of_another_study(std::move(d));
   d.absent_positions = test.absent_positions;

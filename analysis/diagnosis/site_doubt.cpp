@@ -4,7 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/diagnosis/unknown_field.hpp"
 #include "analysis/inference/thresholds.hpp"
+#include "analysis/preparation/recorded_test.hpp"
+#include "core/estimate/batch.hpp"
+#include "core/estimate/layout.hpp"
 
 namespace drift::diagnosis {
 namespace {
@@ -61,40 +65,92 @@ bool worth_asking(const Diagnosis& d) {
   return own > SiteLimits::worth_asking * top && size > SiteLimits::survey;
 }
 
+/// The patched model with the causes of usual sizes alone: what another latitude has beside it.
+FilterSpec without_unusual(const Diagnosis& d) {
+  FilterSpec filter = d.patched;
+  for (const search::Cause& cause : d.causes)
+    if (has_no_usual_size(cause))
+      for (const search::CauseParameter& p : cause.parameters)
+        if (!d.nominal.active[p.param]) filter.active.reset(p.param);
+  return filter;
+}
+
+/// Diagnosed at about the latitude that the recording is of, the rest of its error with the other
+/// parameters: what is there beside it bends what is found of it alone. Nothing unless that
+/// explains the test with effects of sizes that their priors know.
+std::optional<SiteFinding> with_effects(const mc::Study& study,
+                                        const std::vector<Recording>& recordings,
+                                        const Diagnosis& d, identification::LatitudeDoubt about,
+                                        const DiagnoseOptions& options) {
+  mc::Study there = study;
+  there.site.latitude = about.latitude;
+  FilterSpec& filter = there.filters.front() = d.nominal;
+  filter.active.set(d_lat);
+  filter.priors[d_lat] = normal(0.0, SiteLimits::bent_deg * unit::deg.to_si);
+  auto found = std::make_shared<Diagnosis>(
+      with_error_of_field(diagnose(there, recordings, options), there, recordings, options));
+  if (found->verdict == Verdict::unexplained ||
+      std::ranges::any_of(found->causes, has_no_usual_size))
+    return std::nullopt;
+  const FilterSpec& model = found->has_patch ? found->patched : found->nominal;
+  const preparation::RecordedTest test = preparation::recorded_test(there, recordings);
+  const EstimateResult fit =
+      fit_batch(model, {test.timeline, there.readout, test.measured}, make_layout(model).theta)
+          .estimate;
+  const ParameterEstimate* rest = fit.find(d_lat);
+  if (rest == nullptr) return std::nullopt;
+  about.latitude += rest->value;
+  about.sigma = rest->sigma;
+  about.chi2_per_dof_before = d.fit.chi2_per_dof_before;
+  about.chi2_per_dof_after = fit.statistic_per_dof();
+  about.chance_after = found->p_value;
+  if (about.prior_sigmas() <= SiteLimits::survey) return std::nullopt;
+  return SiteFinding{about, std::move(found)};
+}
+
 }  // namespace
 
-std::optional<identification::LatitudeDoubt> site_doubt(const mc::Study& study,
-                                                        const std::vector<Recording>& recordings,
-                                                        const Diagnosis& d) {
-  if (d.nominal.active[d_lat]) return std::nullopt;
+SiteFinding site_doubt(const mc::Study& study, const std::vector<Recording>& recordings,
+                       const Diagnosis& d, const DiagnoseOptions& options) {
+  if (d.nominal.active[d_lat]) return {};
   // With the causes in the model, latitude_error among them, nothing would be left to ask for: the
   // latitude competes with them where it leaves nothing either.
   const bool unusual = std::ranges::any_of(d.causes, has_no_usual_size);
   const bool worth = worth_asking(d);
   const auto reach = unusual || worth ? identification::Reach::everywhere
                                       : identification::Reach::where_it_promises;
-  if (!d.causes.empty())
-    if (auto alone = identification::latitude_doubt(study, recordings, d.nominal, reach)) {
-      alone->as_little_left = leaves_as_little(*alone, d);
-      if (alone->alone()) {
-        alone->odds = std::exp(log_odds(*alone, d));
-        alone->less_likely = alone->odds <= 1.0 && !unusual;
-        return alone;
-      }
+  auto alone = !d.causes.empty() || worth
+                   ? identification::latitude_doubt(study, recordings, d.nominal, reach)
+                   : std::nullopt;
+  if (alone) {
+    if (!d.causes.empty()) alone->as_little_left = leaves_as_little(*alone, d);
+    if (alone->alone()) {
+      if (!d.causes.empty()) alone->odds = std::exp(log_odds(*alone, d));
+      alone->less_likely = alone->odds <= 1.0 && !unusual;
+      return {alone, nullptr};
     }
-  if (!worth) return std::nullopt;
-  if (!d.has_patch) return identification::latitude_doubt(study, recordings, d.nominal);
+  }
+  if (unusual || d.verdict == Verdict::unexplained) {
+    auto about = alone;
+    if (!about && unusual)
+      about = identification::latitude_doubt(study, recordings, without_unusual(d));
+    if (about && !about->clock)
+      if (auto more = with_effects(study, recordings, d, *about, options)) return *more;
+  }
+  if (!worth) return {};
+  if (!d.has_patch) return {alone, nullptr};
   const auto beside = identification::latitude_doubt(study, recordings, d.patched);
-  if (!beside) return std::nullopt;
+  if (!beside) return {};
   // A cause that was taken for the latitude bends it: from there the model may do without it.
   mc::Study there = study;
   there.site.latitude = beside->latitude;
-  auto alone = identification::latitude_doubt(there, recordings, d.nominal);
-  if (!alone || !alone->alone()) return beside;
+  alone = identification::latitude_doubt(there, recordings, d.nominal);
+  if (!alone || !alone->alone()) return {beside, nullptr};
   alone->declared = beside->declared;
   alone->chi2_per_dof_before = beside->chi2_per_dof_before;
   alone->clock = beside->clock;  // asked at the latitude of the study, not at this one
-  return alone;
+  alone->or_clock = beside->or_clock;
+  return {alone, nullptr};
 }
 
 }  // namespace drift::diagnosis

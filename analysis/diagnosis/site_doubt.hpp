@@ -1,14 +1,22 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "analysis/diagnosis/diagnose.hpp"
 #include "analysis/diagnosis/findings/diagnosis.hpp"
 #include "core/recording/recording.hpp"
 #include "mc/study/study.hpp"
 
 namespace drift::diagnosis {
+
+/// What may be said of the latitude, and, where it is not all, the diagnosis at the one found.
+struct SiteFinding {
+  std::optional<identification::LatitudeDoubt> doubt;
+  std::shared_ptr<const Diagnosis> there;
+};
 
 /// Asks whether a wrong [site] latitude is behind a misfit. Where causes were found, the latitude
 /// competes with them, fitted without them: given where it leaves nothing, with its odds, one study
@@ -21,9 +29,14 @@ namespace drift::diagnosis {
 /// Beside causes, and where there are none, asked only where the verdict is `unexplained`, where
 /// latitude_error is among the strongest candidates, where parameters lie far outside their priors,
 /// or where chi-square of a `consistent` fit, priors included, is above its band.
+///
+/// Where the latitude takes nine tenths of a misfit away and leaves something, and what else was
+/// found is nothing or of no size that a prior knows, the test is diagnosed again at that latitude,
+/// whose error is one of the parameters then: with effects of usual sizes beside it, it stands.
+///
+/// options: of that diagnosis.
 /// recordings: as they were diagnosed. Empty otherwise.
-std::optional<identification::LatitudeDoubt> site_doubt(const mc::Study& study,
-                                                        const std::vector<Recording>& recordings,
-                                                        const Diagnosis& diagnosis);
+SiteFinding site_doubt(const mc::Study& study, const std::vector<Recording>& recordings,
+                       const Diagnosis& diagnosis, const DiagnoseOptions& options = {});
 
 }  // namespace drift::diagnosis

@@ -32,40 +32,76 @@ std::vector<Recording> with_times(std::vector<Recording> recordings, double fact
   return recordings;
 }
 
+/// The study's own latitude with other times.
+struct Retimed {
+  ClockDoubt doubt;
+  EstimateResult estimate;
+};
+
+/// The factor that fits best, by the parabola of the cost, the steps ever smaller; nothing where
+/// there is no valley.
+std::optional<Retimed> retimed(const mc::Study& study, const std::vector<Recording>& recordings,
+                               const FilterSpec& filter, double near, double step) {
+  const auto at = [&](double factor) {
+    return fitted(study, with_times(recordings, factor), filter).estimate;
+  };
+  Retimed out{{near, 0.0, at(1.0).statistic_per_dof(), 0.0}, {}};
+  for (const double finer : {1.0, 0.1, 0.01}) {
+    const double h = finer * step;
+    const auto costs = mc::run_campaign(3, [&](std::size_t k) {
+      return at(out.doubt.factor + (static_cast<double>(k) - 1.0) * h).statistic;
+    });
+    const double bend = costs[0] + costs[2] - 2.0 * costs[1];
+    if (!(bend > 0.0)) return std::nullopt;
+    out.doubt.factor += 0.5 * h * (costs[0] - costs[2]) / bend;
+    out.doubt.sigma = h * std::sqrt(2.0 / bend);
+    out.estimate = at(out.doubt.factor);
+  }
+  out.doubt.chi2_per_dof_after = out.estimate.statistic_per_dof();
+  return out;
+}
+
+EstimateResult fitted_at(double latitude, mc::Study study, const std::vector<Recording>& recordings,
+                         const FilterSpec& filter) {
+  study.site.latitude = latitude;
+  return fitted(study, recordings, filter).estimate;
+}
+
 }  // namespace
 
 std::optional<ClockDoubt> clock_doubt(const mc::Study& study,
                                       const std::vector<Recording>& recordings,
                                       const FilterSpec& filter, double other_latitude) {
-  mc::Study elsewhere = study;
-  elsewhere.site.latitude = other_latitude;
-  const EstimateResult there = fitted(elsewhere, recordings, filter).estimate;
+  const EstimateResult there = fitted_at(other_latitude, study, recordings, filter);
   const auto common = common_scale(there, torquer_scales);
   if (!common) return std::nullopt;
-  const auto at = [&](double factor) {
-    return fitted(study, with_times(recordings, factor), filter).estimate;
-  };
-  ClockDoubt doubt{1.0 + common->value, 0.0, at(1.0).statistic_per_dof(), 0.0};
-  EstimateResult best;
-  // Torquers are off by themselves: the Earth's rate tells. Its parabola, the step ever smaller.
-  for (const double step : {common->sigma, 0.1 * common->sigma, 0.01 * common->sigma}) {
-    const auto costs = mc::run_campaign(3, [&](std::size_t k) {
-      return at(doubt.factor + (static_cast<double>(k) - 1.0) * step).statistic;
-    });
-    const double bend = costs[0] + costs[2] - 2.0 * costs[1];
-    if (!(bend > 0.0)) return std::nullopt;
-    doubt.factor += 0.5 * step * (costs[0] - costs[2]) / bend;
-    doubt.sigma = step * std::sqrt(2.0 / bend);
-    best = at(doubt.factor);
-  }
-  doubt.chi2_per_dof_after = best.statistic_per_dof();
+  // Torquers are off by themselves: the Earth's rate tells.
+  const auto best = retimed(study, recordings, filter, 1.0 + common->value, common->sigma);
+  if (!best) return std::nullopt;
+  const double left = best->doubt.chi2_per_dof_after;
   const double chance =
-      doubt.chi2_per_dof_after > 1.0
-          ? stats::chi_square_chance(doubt.chi2_per_dof_after, static_cast<double>(best.measured))
-          : 1.0;
-  if (best.statistic > there.statistic && chance < inference::SearchLimits::alpha)
+      left > 1.0 ? stats::chi_square_chance(left, static_cast<double>(best->estimate.measured))
+                 : 1.0;
+  if (best->estimate.statistic > there.statistic && chance < inference::SearchLimits::alpha)
     return std::nullopt;
-  return doubt;
+  return best->doubt;
+}
+
+std::optional<ClockDoubt> clock_instead(const mc::Study& study,
+                                        const std::vector<Recording>& recordings,
+                                        const FilterSpec& filter, double other_latitude,
+                                        double sigma) {
+  const double slower = std::cos(other_latitude) / std::cos(study.site.latitude);
+  if (!(slower > 0.5 && slower < 2.0) || !(sigma > 0.0)) return std::nullopt;
+  const EstimateResult there = fitted_at(other_latitude, study, recordings, filter);
+  // What else is missing bends the latitude: the first step is as wide as a part of the way.
+  const double step = std::max(sigma, 0.02 * std::abs(slower - 1.0));
+  const auto best = retimed(study, recordings, filter, slower, step);
+  if (!best) return std::nullopt;
+  const double worse =
+      (best->estimate.statistic - there.statistic) / std::max(1.0, there.statistic_per_dof());
+  if (worse > -2.0 * std::log(inference::SearchLimits::alpha)) return std::nullopt;
+  return best->doubt;
 }
 
 }  // namespace drift::identification

@@ -25,4 +25,13 @@ std::optional<ClockDoubt> clock_doubt(const mc::Study& study,
                                       const std::vector<Recording>& recordings,
                                       const FilterSpec& filter, double other_latitude);
 
+/// Whether the clock may stand in place of another latitude (sigma: of that one [rad]). Without
+/// commanded turns the times scale the Earth's rate alone; what that does about Up isotropic D_I
+/// take up, and what it does about North is another latitude. Given where the evidence against it
+/// is no stronger than a false alarm of a diagnosis is rare (SearchLimits::alpha). Empty otherwise.
+std::optional<ClockDoubt> clock_instead(const mc::Study& study,
+                                        const std::vector<Recording>& recordings,
+                                        const FilterSpec& filter, double other_latitude,
+                                        double sigma);
+
 }  // namespace drift::identification

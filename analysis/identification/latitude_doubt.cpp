@@ -139,6 +139,8 @@ std::optional<LatitudeDoubt> latitude_doubt(const mc::Study& study,
     doubt.log_evidence = 0.5 * (before.cost - best.cost) / std::max(1.0, best.per_dof()) +
                          0.5 * std::log(2.0 * std::numbers::pi / information) -
                          std::log(std::numbers::pi);
+  // No latitude is doubted for what chance does.
+  if (doubt.log_evidence + std::log(SiteLimits::another) <= 0.0) return std::nullopt;
   const double excess = doubt.chi2_per_dof_before - 1.0;
   if (doubt.prior_sigmas() <= SiteLimits::survey || excess <= 0.0) return std::nullopt;
   const bool explains =
@@ -148,7 +150,10 @@ std::optional<LatitudeDoubt> latitude_doubt(const mc::Study& study,
       std::abs(best.latitude + declared) < 0.1 * std::abs(best.latitude - declared) &&
       before.cost - best.cost > inference::FitLimits::mirrored * std::max(1.0, best.per_dof());
   if (!explains && !doubt.mirrored) return std::nullopt;
-  if (explains) doubt.clock = clock_doubt(study, recordings, filter, best.latitude);
+  if (!explains) return doubt;
+  doubt.clock = clock_doubt(study, recordings, filter, best.latitude);
+  if (!doubt.clock)
+    doubt.or_clock = clock_instead(study, recordings, filter, best.latitude, doubt.sigma);
   return doubt;
 }
 

@@ -31,6 +31,8 @@ struct LatitudeDoubt {
   /// The times of the recording explain as much, and better why three torquers look off alike: then
   /// the latitude of [site] stands.
   std::optional<ClockDoubt> clock = {};
+  /// They explain as much, and nothing tells which of the two it is (clock_instead()).
+  std::optional<ClockDoubt> or_clock = {};
 
   /// The latitude mends the fit by itself: what is left is no rarer than a false alarm of a
   /// diagnosis (SearchLimits::alpha), or as little as effects leave that explain all. Otherwise
@@ -54,7 +56,8 @@ enum class Reach { everywhere, where_it_promises };
 ///
 /// Given where it is more than three prior sigmas of latitude_error off and takes away 90 % of what
 /// the filter leaves above its degrees of freedom, or where it is on the other hemisphere and fits
-/// far better, whatever else misfits: there isotropic D_I hide most of the error. Where the clock
+/// far better, whatever else misfits: there isotropic D_I hide most of the error. The evidence must
+/// be stronger than studies of another latitude are rare (SiteLimits::another). Where the clock
 /// of the recording is behind it (clock_doubt()) that is given beside it. recordings: made ready
 /// (prepare()). Empty otherwise.
 std::optional<LatitudeDoubt> latitude_doubt(const mc::Study& study,

@@ -225,6 +225,9 @@ struct RemarkLimits {
 struct SiteLimits {
   /// Studies that say another latitude than the recording's: one of 1000, as of headings.
   static constexpr double another = 1e-3;
+  /// [deg] prior of the rest that a latitude is still off when it was found without effects that
+  /// are there: wide against what they bend it by, within reach of a linear model.
+  static constexpr double bent_deg = 1.0;
   static constexpr double survey = 3.0;  ///< [prior sigma of latitude_error] no survey is wrong by
   static constexpr double most = 0.9;    ///< part of the misfit that another latitude takes away
   /// Part of the strongest score that latitude_error, or what follows an assumed field, has, and

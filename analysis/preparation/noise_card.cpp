@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "core/recording/recording_channels.hpp"
 #include "core/stats/median.hpp"
@@ -17,7 +18,8 @@ constexpr int trend_degree = 4;
 constexpr std::size_t trend_free = 20;     // a dwell is at least so many averaging times long
 constexpr std::size_t least_samples = 16;  // of a stretch
 constexpr std::size_t judged_samples = 30;
-constexpr double most_jitter = 0.2;  // rms, in intervals
+constexpr double most_jitter = 0.2;          // rms, in intervals
+constexpr double isolated_by_chance = 1e-3;  // that any sample of a channel is taken for none
 constexpr int lines_per_decade = 20;
 
 double usual_step(const std::vector<double>& time, const std::vector<RestingRows>& rests) {
@@ -57,15 +59,12 @@ Even evenly_spaced(const std::vector<double>& time, const std::vector<RestingRow
 
 /// The measured samples of a channel in even parts: a sample that is missing ends a stretch.
 std::vector<stats::Stretch> stretches_of(const Channel& channel,
-                                         const std::vector<RestingRows>& parts,
-                                         RecordingKind kind) {
+                                         const std::vector<RestingRows>& parts) {
   std::vector<stats::Stretch> all;
   for (const RestingRows& part : parts) {
     stats::Stretch one;
     const auto finish = [&] {
-      if (one.size() >= least_samples)
-        all.push_back(kind == RecordingKind::platform ? stats::without_trend(one, trend_degree)
-                                                      : one);
+      if (one.size() >= least_samples) all.push_back(one);
       one.clear();
     };
     for (std::size_t k = part.first; k <= part.last; ++k)
@@ -164,7 +163,11 @@ NoiseCard noise_card(const Recording& recording, RecordingKind kind,
     for (const std::string_view name : triple.names) {
       const Channel* channel = recording.find(name);
       if (channel == nullptr) continue;
-      const auto stretches = stretches_of(*channel, even.parts, kind);
+      stats::Detrended dwells{stretches_of(*channel, even.parts)};
+      if (kind == RecordingKind::platform)
+        dwells = stats::without_trend_and_isolated(std::move(dwells.stretches), trend_degree,
+                                                   isolated_by_chance);
+      const auto& stretches = dwells.stretches;
       const auto lengths = lengths_of(stretches);
       if (lengths.empty()) continue;
       const std::size_t longest = std::ranges::max(lengths);
@@ -176,6 +179,7 @@ NoiseCard noise_card(const Recording& recording, RecordingKind kind,
       if (!fitter->possible() || constant(stretches)) continue;
       ChannelNoise noise{std::string(name), fitter->fit(stretches, looked_for(kind, *fitter)),
                          stats::thinned(stats::welch(stretches, card.interval), lines_per_decade)};
+      noise.isolated = dwells.isolated;
       compare_rests(stretches, noise);
       card.channels.push_back(std::move(noise));
     }

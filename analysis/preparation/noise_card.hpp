@@ -23,6 +23,7 @@ struct ChannelNoise {
   /// Deviation of one sample (square root of its Allan variance) in the quietest dwell and the
   /// noisiest, of those with thirty samples or more; 0 without two of them.
   double quietest = 0.0, noisiest = 0.0;
+  std::size_t isolated = 0;  ///< samples on a platform that are none: not counted
 };
 
 /// Why a recording has no noise card.
@@ -47,7 +48,9 @@ struct NoiseCard {
 /// On a platform what the accelerometers read changes with the attitude in every dwell: the
 /// polynomial of fourth degree of each dwell is taken off, which leaves Earth rate and drift below
 /// 1 ug in an hour, and only averaging times up to a twentieth of the longest dwell are looked at,
-/// of which it takes less than 4 % of white noise, and only Q and N are fitted.
+/// of which it takes less than 4 % of white noise, and only Q and N are fitted. Isolated samples
+/// far from their dwell (a dropout, a cell in another unit) are no noise: one of them would be all
+/// of it.
 NoiseCard noise_card(const Recording& recording, RecordingKind kind,
                      const std::vector<RestingRows>& rests);
 

@@ -10,6 +10,7 @@
 
 #include "analysis/preparation/clock_unit.hpp"
 #include "analysis/preparation/covariates.hpp"
+#include "analysis/preparation/gimbal_branch.hpp"
 #include "analysis/preparation/gimbal_zero.hpp"
 #include "analysis/preparation/gravity_check.hpp"
 #include "analysis/preparation/heading_zero.hpp"
@@ -253,6 +254,7 @@ Prepared prepare(const mc::Study& study, const std::vector<Recording>& recording
   std::set<int> positions;
   for (Recording& r : p.recordings) {
     leave_out_stuck(r, p.remarks);
+    take_usual_branch(r, p.remarks);
     if (std::string text = other_than_one_g(study, r); !text.empty())
       wrong.push_back(std::move(text));
     if (std::string text = other_unit_of_time(r); !text.empty()) wrong.push_back(std::move(text));
@@ -289,8 +291,7 @@ Prepared prepare(const mc::Study& study, const std::vector<Recording>& recording
   if (positions.size() < 2)
     p.remarks.emplace_back(
         "one position only: nothing can be held out, so no cause can be confirmed, and most causes "
-        "look "
-        "alike. Record more positions");
+        "look alike. Record more positions");
   for (int k = 1; k <= static_cast<int>(study.plan.positions.size()); ++k)
     if (!positions.contains(k)) p.absent_positions.push_back(k);
   return p;

@@ -50,14 +50,19 @@ struct SixWithHidden {
     study = six_study(defaults);
     study.truth.active &= ~only({"D_II", "D_OO", "D_SS", "D_IO", "D_IS", "D_OS"});
     study.filters.front().active = study.truth.active;
+    recording = recorded(hidden);
+  }
+
+  /// By the plan and at the site of the study as they are now.
+  Recording recorded(double hidden) const {
     const Timeline timeline = lay_out(study.plan, study.site);
     TruthSpec with_hidden = study.truth;
     with_hidden.active |= only({"D_SS_x"});
     TruthDraw draw = draw_truth(study.truth, timeline.chains, 1, 0);
     draw.theta[param("D_SS_x")] = hidden * deg_per_h;
-    recording = make_recording(
-        timeline, Simulator(with_hidden, study.readout).run(timeline, draw, 1, 0).measured,
-        study.readout);
+    return make_recording(timeline,
+                          Simulator(with_hidden, study.readout).run(timeline, draw, 1, 0).measured,
+                          study.readout);
   }
 };
 

@@ -91,6 +91,9 @@ LookedAt look_at(const std::string& path, RecordingKind kind) {
   if (!std::filesystem::is_regular_file(path)) read_recording(path, kind, gravity);  // says why not
   GuessedFile file = guess_file(path);
   require_kind(file, kind, path);
+  if (kind == RecordingKind::platform)  // the plan is made of the recording
+    for (GuessedColumn& c : file.columns)
+      if (!c.numbered.empty()) c.words = c.numbered;
   take_as(file, kind);
   const std::string blanks = blanks_of(file), unplaced = what_has_no_place(file);
   const std::string said = blanks + (blanks.empty() || unplaced.empty() ? "" : " ") + unplaced;
@@ -99,7 +102,8 @@ LookedAt look_at(const std::string& path, RecordingKind kind) {
                 .above = preamble_site(path, file.layout)};
   if (file.complete || file.rows == 0) try {
       seen.recording = read_recording(path, file.format, kind, gravity);
-      if (!file.format.columns.empty()) seen.mapping = recording_section(file);
+      if (!file.format.columns.empty() || !file.format.positions.empty())
+        seen.mapping = recording_section(file);
       seen.unplaced = said;
       seen.mapping += as_comment(said);
       return seen;
@@ -141,11 +145,18 @@ std::string turned_text(const RecordedPlan& plan) {
 
 /// The line of [readout] that the rests of a recording give; empty where they show no noise.
 std::string noise_line(const Recording& r) {
-  const std::string keys = report::noise_keys(
-      preparation::noise_card(r, RecordingKind::platform, preparation::resting_rows(r)));
+  const preparation::NoiseCard card =
+      preparation::noise_card(r, RecordingKind::platform, preparation::resting_rows(r));
+  const std::string keys = report::noise_keys(card);
   const auto begin = keys.find("accelerometer_noise"), end = keys.find('\n', begin);
   if (begin == std::string::npos || end == std::string::npos) return "";
-  return keys.substr(begin, end - begin) + ", as the rests of the recording show\n";
+  std::size_t isolated = 0;
+  for (const preparation::ChannelNoise& c : card.channels) isolated += c.isolated;
+  const std::string without = isolated == 0
+                                  ? ""
+                                  : fmt::format(" without {} isolated sample{} far from the rest",
+                                                isolated, isolated == 1 ? "" : "s");
+  return keys.substr(begin, end - begin) + ", as the rests of the recording show" + without + "\n";
 }
 
 ExitCode make_study(const NewArguments& a) {

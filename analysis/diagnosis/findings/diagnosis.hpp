@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -62,6 +63,8 @@ struct Diagnosis {
   std::optional<NearestKnown> nearest_known;
   std::optional<Proposal> proposal;  ///< where it is unexplained and a form was looked for
   std::optional<identification::LatitudeDoubt> site_doubt;
+  /// At the latitude of site_doubt, where that is not all: what is missing beside it.
+  std::shared_ptr<const Diagnosis> there;
   std::optional<identification::LatitudeDoubt> other_latitude;  ///< would explain it, too
   std::optional<identification::HeadingDoubt> heading_doubt;
   /// Where causes follow a field that had to be assumed: their sigmas hold its error.

@@ -55,10 +55,21 @@ std::string site_text(const identification::LatitudeDoubt& doubt) {
   return fmt::format(
       "The latitude of [site] is not that of the recording: at {} instead of {:.3f} deg "
       "the model fits with chi-square per degree of freedom {:.3g} instead of {:.3g}. No "
-      "survey is wrong by so much (latitude_error would need {:.3g} prior sigmas): correct the "
-      "latitude and diagnose again before anything else is made of it.",
+      "survey is wrong by so much (latitude_error would need {:.3g} prior sigmas){}: correct the "
+      "{} and diagnose again before anything else is made of it.",
       latitude_text(doubt), doubt.declared / unit::deg.to_si, doubt.chi2_per_dof_after,
-      doubt.chi2_per_dof_before, doubt.prior_sigmas());
+      doubt.chi2_per_dof_before, doubt.prior_sigmas(), or_clock_text(doubt),
+      doubt.or_clock ? "one or the other" : "latitude");
+}
+
+std::string site_and_more_text(const identification::LatitudeDoubt& doubt) {
+  return fmt::format(
+      "The latitude of [site] is not that of the recording{}: at {} instead of {:.3f} deg, with "
+      "what is missing there in the model, chi-square per degree of freedom is {:.3g} instead of "
+      "{:.3g}{}.",
+      doubt.alone() ? "" : ", and that is not all", latitude_text(doubt),
+      doubt.declared / unit::deg.to_si, doubt.chi2_per_dof_after, doubt.chi2_per_dof_before,
+      or_clock_text(doubt));
 }
 
 std::string heading_text(const identification::HeadingDoubt& doubt) {

@@ -14,6 +14,8 @@ std::string beyond_prior_text(const diagnosis::remark::BeyondPrior& beyond);
 
 /// A verdict of its own: nothing that is said of causes holds for another place on the Earth.
 std::string site_text(const identification::LatitudeDoubt& doubt);
+/// The same where the test was diagnosed at that latitude (Diagnosis::there).
+std::string site_and_more_text(const identification::LatitudeDoubt& doubt);
 
 /// The same of a plan whose positions headed otherwise.
 std::string heading_text(const identification::HeadingDoubt& doubt);

@@ -232,6 +232,9 @@ Json diagnosis_document(const Diagnosis& d) {
   out["p_value"] = d.p_value;
   out["sentence"] = sentence(d);
   out["latitude"] = latitude_json(d.site_doubt);
+  out["at_that_latitude"] = d.there ? Json{{"verdict", std::string(text(d.there->verdict))},
+                                           {"causes", causes_json(d.there->causes)}}
+                                    : Json(nullptr);
   out["other_latitude"] = latitude_json(d.other_latitude);
   out["clock"] = clock_json(d.site_doubt ? d.site_doubt : d.other_latitude);
   out["heading"] = d.heading_doubt ? heading_json(*d.heading_doubt) : Json(nullptr);

@@ -28,8 +28,8 @@ std::string verdict_word(const Diagnosis& d) {
                                     : "Wrong headings and more: correct the study first.";
   if (d.site_doubt && d.site_doubt->clock) return "Wrong times: correct the recording first.";
   if (d.site_doubt)
-    return d.site_doubt->alone() ? "Wrong latitude: correct the study first."
-                                 : "Wrong latitude and more: correct the study first.";
+    return fmt::format("Wrong {}{}: correct the study first.", wrong_text(*d.site_doubt),
+                       d.site_doubt->alone() ? "" : " and more");
   switch (d.verdict) {
     case Verdict::consistent:
       return "Consistent: nothing significant is missing.";
@@ -51,7 +51,7 @@ std::string headline(const Diagnosis& d) {
   };
   const std::string word = d.heading_doubt ? wrong("headings", d.heading_doubt->alone())
                            : d.site_doubt && d.site_doubt->clock ? wrong("times", true)
-                           : d.site_doubt ? wrong("latitude", d.site_doubt->alone())
+                           : d.site_doubt ? wrong(wrong_text(*d.site_doubt), d.site_doubt->alone())
                                           : std::string(text(d.verdict));
   return fmt::format("Verdict {}: {}", word, sentence(d));
 }

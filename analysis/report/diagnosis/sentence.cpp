@@ -251,6 +251,8 @@ std::string patch_text(const Diagnosis& d) {
 }
 std::string sentence(const Diagnosis& d) {
   if (d.heading_doubt) return heading_text(*d.heading_doubt);
+  if (d.site_doubt && d.there)
+    return site_and_more_text(*d.site_doubt) + " There: " + verdict_alone(*d.there);
   if (d.site_doubt) return site_text(*d.site_doubt) + rival_text(d);
   std::string text = absent_text(d.absent_positions) + absent_text(d.absent) + verdict_alone(d);
   text += field_text(d);

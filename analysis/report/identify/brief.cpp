@@ -176,20 +176,24 @@ std::string verdict_text(const Judgement& j, const identification::Identificatio
   if (const auto doubt = other_latitude(id); doubt && doubt->clock)
     return fmt::format("{} {}", judged_as(j.good.empty() ? "Misfit" : "Wrong times"),
                        clock_text(*doubt));
-  const std::string_view wrong = j.good.empty() ? "Misfit" : "Wrong latitude";
+  const auto wrong = [&](const identification::LatitudeDoubt& doubt) {
+    return judged_as(j.good.empty() ? "Misfit" : fmt::format("Wrong {}", wrong_text(doubt)));
+  };
   if (const auto doubt = other_latitude(id); doubt && !doubt->alone())
     return fmt::format(
         "{} the latitude of [site] is not that of the recording, and something else is missing: at "
         "about {:.1f} deg instead of {:.3f} deg chi-square per degree of freedom is {} instead of "
-        "{}, where 1 is expected.",
-        judged_as(wrong), doubt->latitude / unit::deg.to_si, doubt->declared / unit::deg.to_si,
-        number_text(doubt->chi2_per_dof_after), number_text(doubt->chi2_per_dof_before));
+        "{}, where 1 is expected{}.",
+        wrong(*doubt), doubt->latitude / unit::deg.to_si, doubt->declared / unit::deg.to_si,
+        number_text(doubt->chi2_per_dof_after), number_text(doubt->chi2_per_dof_before),
+        or_clock_text(*doubt));
   if (const auto doubt = other_latitude(id))
     return fmt::format(
         "{} the latitude of [site] is not that of the recording. At {} instead of {:.3f} "
-        "deg chi-square per degree of freedom is {} instead of {}: correct it first.",
-        judged_as(wrong), latitude_text(*doubt), doubt->declared / unit::deg.to_si,
-        number_text(doubt->chi2_per_dof_after), number_text(doubt->chi2_per_dof_before));
+        "deg chi-square per degree of freedom is {} instead of {}{}: correct {} first.",
+        wrong(*doubt), latitude_text(*doubt), doubt->declared / unit::deg.to_si,
+        number_text(doubt->chi2_per_dof_after), number_text(doubt->chi2_per_dof_before),
+        or_clock_text(*doubt), doubt->or_clock ? "one or the other" : "it");
   if (j.good.empty())
     return fmt::format("{} {}. {} estimates are not to be trusted.", judged_as("Misfit"),
                        listed(j.bad, "and"), j.bad.size() == 1 ? "Its" : "Their");

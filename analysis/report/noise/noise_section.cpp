@@ -48,6 +48,9 @@ std::string remark(const ChannelNoise& c) {
   if (c.noisiest > 2.0 * c.quietest && c.quietest > 0.0)
     text += fmt::format("{}dwells differ {} times", text.empty() ? "" : ", ",
                         number_text(c.noisiest / c.quietest, 2));
+  if (c.isolated > 0)
+    text += fmt::format("{}without {} isolated sample{}", text.empty() ? "" : ", ", c.isolated,
+                        plural(c.isolated));
   return text;
 }
 

@@ -79,8 +79,11 @@ InBrief rank_in_brief(const mc::Study& study, const planning::PlanRanking& rank)
   }
   if (rank.better) {
     brief.next =
-        "Next: put the positions of proposed_positions.toml, which are all of the plan, in the "
-        "place of the study's plan.preset or plan.position.";
+        study.plan.preset.empty()
+            ? "Next: put the positions of proposed_positions.toml behind the last "
+              "[[plan.position]] of the study."
+            : "Next: put the positions of proposed_positions.toml, which are all of the plan, in "
+              "the place of the study's plan.preset.";
   } else if (brief.tone == Tone::doubtful) {
     brief.next = fmt::format("Next: driftscope rank {} --improve 3 proposes positions to add.",
                              study.path.empty() ? "STUDY" : study.path);

@@ -47,6 +47,13 @@ const std::vector<std::string_view>& CellSplitter::split(std::string_view line) 
   return cells_;
 }
 
+const std::vector<std::string_view>& CellSplitter::split_row(std::string_view line,
+                                                             std::size_t width) {
+  split(line);
+  if (cells_.size() == width + 1 && cells_.back().empty()) cells_.pop_back();
+  return cells_;
+}
+
 std::string_view without_checksum(std::string_view line) {
   const std::string_view text = trimmed(line);
   const auto star = text.rfind('*');

@@ -18,6 +18,9 @@ class CellSplitter {
   char delimiter() const { return delimiter_; }
   /// The cells of a line, valid until the call after it.
   const std::vector<std::string_view>& split(std::string_view line);
+  /// The same of a row below a header of `width` cells: many loggers end their rows, and not their
+  /// header, with one delimiter more. What stands behind it is no cell if it is empty.
+  const std::vector<std::string_view>& split_row(std::string_view line, std::size_t width);
 
  private:
   char delimiter_;

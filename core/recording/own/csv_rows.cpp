@@ -149,7 +149,7 @@ bool CsvRows::repeats_header(const std::vector<std::string_view>& cells) const {
 
 void CsvRows::read_row(std::string_view line) {
   const std::size_t n = row_.size();
-  const auto& cells = splitter_.split(without_checksum(line));
+  const auto& cells = splitter_.split_row(without_checksum(line), n);
   if (repeats_header(cells)) {
     if (repeated_headers_ > 0 && repeated_line_ + 1 == lines_.number()) return;  // its units
     ++repeated_headers_;

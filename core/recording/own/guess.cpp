@@ -66,7 +66,7 @@ std::vector<double> look_at_rows(const std::string& path, GuessedFile& file,
     if (lines.number() <= std::max(file.layout.header_line, file.layout.unit_line)) continue;
     if (trimmed(line).empty() || line.front() == '#') continue;
     if (!valid_utf8(line)) line = decoded = utf8_from_windows_1252(line);
-    const auto& cells = splitter.split(without_checksum(line));
+    const auto& cells = splitter.split_row(without_checksum(line), file.columns.size());
     if (cells.size() != file.columns.size()) continue;
     if (std::ranges::equal(cells, file.columns, {}, {},
                            [](const GuessedColumn& c) { return std::string_view(c.header.whole); }))

@@ -14,7 +14,10 @@ struct GuessedColumn {
   std::size_t numbers = 0, texts = 0;  ///< cells
   double low = 0.0, high = 0.0;        ///< of the numbers
   std::vector<std::string> words;      ///< the first different texts, in order
-  std::string channel;                 ///< the channel it may be; empty: none
+  /// Of positions: their numbers in order where one is left out; a plan that is made of the
+  /// recording has none of that number.
+  std::vector<std::string> numbered;
+  std::string channel;     ///< the channel it may be; empty: none
   std::string unit;        ///< of the channel; "?": not to be guessed; empty: none needed
   bool by_values = false;  ///< the channel is guessed by what the column holds, not by its name
   double last = 0.0;       ///< number

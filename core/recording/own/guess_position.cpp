@@ -121,9 +121,10 @@ void GuessPosition::name_channel(GuessedFile& file) const {
     if (!c.may_be || c.stretches.size() < 2 || !std::ranges::all_of(c.stretches, rows)) return;
     const double most = PositionLimits::most_left_out * static_cast<double>(c.labels.size());
     std::vector<std::string> labels = own_labels(c);
-    if ((*c.labels.begin() < 1.0 || *c.labels.rbegin() > most) &&
-        labels.size() <= PositionLimits::most_labels)
-      file.columns[c.column].words = std::move(labels);
+    if (labels.size() > PositionLimits::most_labels) return;
+    const bool of_no_plan = *c.labels.begin() < 1.0 || *c.labels.rbegin() > most;
+    GuessedColumn& column = file.columns[c.column];
+    (of_no_plan ? column.words : column.numbered) = std::move(labels);
     return;
   }
   std::vector<const Candidate*> found;

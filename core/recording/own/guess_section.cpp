@@ -105,7 +105,8 @@ std::string recording_section(const GuessedFile& file) {
   if (!header.empty())
     out += fmt::format("header  = [{}]  # name them and say below what they are\n", header);
   if (f.delimiter == Delimiter::comma) out += "delimiter = \",\"\n";
-  out += columns.empty()
+  out += !file.format.positions.empty() && columns.empty() ? ""
+         : columns.empty()
              ? "# columns = { time = \"column_1 [s]\", gyro_x = \"column_2 [rad/s]\" }\n"
              : fmt::format("columns = {{ {} }}{}\n", columns, guessed_by_values(file));
   if (!f.counter.empty())

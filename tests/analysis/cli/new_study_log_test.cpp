@@ -95,6 +95,37 @@ TEST(NewStudy, TakesTheNoiseThatTheRestsShow) {
   EXPECT_EQ(driftscope("check " + file).code, 0);
 }
 
+TEST(NewStudy, APositionThatIsNotInTheLogIsNotInItsPlan) {
+  const ScratchFolder folder;
+  const std::string made = folder.write("made.toml", short_study), own = folder.file("own.csv"),
+                    file = folder.file("lab.toml");
+  ASSERT_EQ(driftscope("simulate " + made + " -o " + own).code, 0);
+  folder.write("own.csv", with_column(text_of(own), "position", [](const std::string& cell) {
+                 return std::to_string(std::stoi(cell) + (cell > "3" ? 1 : 0));
+               }));
+  ASSERT_EQ(driftscope("new diagnose " + own + " -o " + file).code, 0);
+  const std::string study = text_of(file);
+  EXPECT_TRUE(has(study, R"("3" = 3, "5" = 4, "6" = 5)")) << study;
+  const Answer fit = driftscope("identify " + file + " " + own + " --quiet");
+  EXPECT_EQ(fit.code, 0) << fit.err;
+}
+
+TEST(NewStudy, ADropoutIsNotTheNoise) {
+  const ScratchFolder folder;
+  const std::string made = folder.write("made.toml", replaced(short_study, "10 min", "60 min")),
+                    own = folder.file("own.csv"), file = folder.file("lab.toml");
+  ASSERT_EQ(driftscope("simulate " + made + " -o " + own).code, 0);
+  int row = 0;
+  folder.write("own.csv", with_column(text_of(own), "acc_x [g]", [&](const std::string& cell) {
+                 return ++row == 100 ? "0" : cell;
+               }));
+  ASSERT_EQ(driftscope("new diagnose " + own + " -o " + file).code, 0);
+  const std::string study = text_of(file);
+  EXPECT_TRUE(has(study, "as the rests of the recording show without 1 isolated sample")) << study;
+  const auto at = study.find("accelerometer_noise = \"") + 23;
+  EXPECT_NEAR(std::stod(study.substr(at)), 5.0, 0.5) << study;  // 3 x 360 samples: 0.1
+}
+
 TEST(NewStudy, TakesLatitudeAndGravityFromAboveTheHeaderAndPositionsFromTheirNumbers) {
   const ScratchFolder folder;
   const std::string made = folder.write("made.toml", short_study), own = folder.file("own.csv"),

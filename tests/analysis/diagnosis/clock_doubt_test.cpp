@@ -67,6 +67,29 @@ TEST(ClockDoubt, AnotherLatitudeIsNoClock) {
   EXPECT_FALSE(doubt->clock);
 }
 
+TEST(ClockDoubt, WhereNothingIsCommandedItIsTheLatitudeOrTheClock) {
+  // Twelve free positions: the Earth's rate about Up is isotropic D_I, that about North is both.
+  Scene s(1.0);
+  PlanDefaults defaults;
+  defaults.dwell = 1200.0;
+  s.study.plan = preset_plan("twelve", defaults).value();
+  s.recording = test::simulated(s.study);
+  for (double& t : test::channel(s.recording, "time")) t *= 1.002;
+  const auto doubt = s.doubt();
+  ASSERT_TRUE(doubt);
+  EXPECT_FALSE(doubt->clock);
+  ASSERT_TRUE(doubt->or_clock);
+  EXPECT_NEAR(doubt->or_clock->factor, 1.0 / 1.002, 4.0 * doubt->or_clock->sigma);
+  EXPECT_LT(doubt->or_clock->sigma, 1e-4);
+  Diagnosis told;
+  told.verdict = Verdict::unexplained;
+  told.site_doubt = doubt;
+  const report::InBrief brief = report::diagnosis_in_brief(told);
+  EXPECT_EQ(brief.verdict.find("Verdict wrong latitude or times: "), 0u) << brief.verdict;
+  EXPECT_NE(brief.next.find("the sample interval of the log"), std::string::npos) << brief.next;
+  EXPECT_EQ(brief.next.find("--set site.latitude"), std::string::npos) << brief.next;
+}
+
 TEST(ClockDoubt, IdentifySaysItToo) {
   const Scene s(1.01);
   const auto id = identification::identify_recordings(s.study, {s.recording}, 1);

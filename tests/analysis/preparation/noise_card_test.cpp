@@ -6,6 +6,7 @@
 
 #include "core/base/rng.hpp"
 #include "core/estimate/strapdown/dwells.hpp"
+#include "core/stats/trend.hpp"
 #include "tests/support/strapdown_recording.hpp"
 
 namespace drift::noise_card_test {
@@ -83,6 +84,32 @@ TEST(NoiseCard, OfAPlatformIsWhatIsLeftWhenTheCourseOfEachDwellIsTakenOff) {
     expect_white(c, 5e-6, 30.0);
     EXPECT_LE(c.fit.points.back().tau, 150 * 30.0 / 20.0);
   }
+}
+
+TEST(NoiseCard, IsolatedSamplesAreNoNoise) {
+  Recording r = platform(5e-6);
+  const auto rests = preparation::resting_rows(r);
+  r.channels[3].values[50] = 9.9;                                     // a cell in another unit
+  for (const int k : {200, 201, 260}) r.channels[4].values[k] = 0.0;  // dropouts, two in a row
+  const NoiseCard card = noise_card(r, RecordingKind::platform, rests);
+  ASSERT_EQ(card.channels.size(), 3u);
+  for (const ChannelNoise& c : card.channels) expect_white(c, 5e-6, 30.0);
+  EXPECT_EQ(card.channels[0].isolated, 1u);
+  EXPECT_EQ(card.channels[1].isolated, 3u);
+  EXPECT_EQ(card.channels[2].isolated, 0u);
+}
+
+TEST(NoiseCard, OfGaussianNoiseNoSampleIsIsolatedMoreOftenThanStated) {
+  // One channel in a thousand loses a sample; more than five of 600 have a chance of 5e-5.
+  std::size_t touched = 0;
+  for (std::uint64_t seed = 1; seed <= 600; ++seed) {
+    Stream random(seed, 0, Purpose::test);
+    std::vector<stats::Stretch> dwells(12, stats::Stretch(40));
+    for (stats::Stretch& dwell : dwells)
+      for (double& x : dwell) x = random.normal();
+    touched += stats::without_trend_and_isolated(std::move(dwells), 4, 1e-3).isolated > 0;
+  }
+  EXPECT_LE(touched, 5u);
 }
 
 TEST(NoiseCard, AGapEndsAStretchAndUnequalRowsAreRefused) {

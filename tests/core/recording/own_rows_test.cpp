@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/recording/own/guess.hpp"
 #include "recording_fixture.hpp"
 
 namespace drift::own_rows_test {
@@ -35,6 +36,23 @@ TEST(OwnRows, AHeaderThatStandsAgainAndTextAtTheEndAreNoRows) {
   const std::string between = folder.write("b.csv", head + "1" + still + "a pause\n" + "2" + still);
   EXPECT_THROW(read_recording(between, RecordingKind::strapdown, gravity), InputError)
       << "text between rows is not passed over";
+}
+
+TEST(OwnRows, ADelimiterAtTheEndOfEveryRowBeginsNoCell) {
+  const Folder folder;
+  std::string text = "time [s]," + imu_header;
+  for (const char* t : {"1", "2", "3"}) text += t + still;
+  for (std::size_t at = text.find('\n') + 1; (at = text.find('\n', at)) != std::string::npos;
+       at += 2)
+    text.insert(at, ",");
+  const std::string path = folder.write("r.csv", text);
+  const Recording r = read_recording(path, RecordingKind::strapdown, gravity);
+  EXPECT_EQ(r.find("time")->values, (std::vector<double>{1.0, 2.0, 3.0}));
+  EXPECT_EQ(r.find("acc_z")->values, (std::vector<double>{1.0, 1.0, 1.0}));
+  EXPECT_EQ(guess_file(path).rows, 3u);
+  const std::string full = folder.write("f.csv", text + "4,0.1,0.2,0.3,0,0,1,7\n");
+  EXPECT_THROW(read_recording(full, RecordingKind::strapdown, gravity), InputError)
+      << "what stands behind the last delimiter is not left off";
 }
 
 TEST(OwnRows, BarsMayDivideTheCells) {

@@ -40,7 +40,6 @@ std::vector<Case> cases() {
       {"RowTooShort", header + "1,1,0,0,0,0\n2,1,0,0,0\n3,1,0,0,0,0\n", ":3:", "5 cells",
        "6, as in"},
       {"RowTooLong", header + "1,1,0,0,0,0,7\n", ":2:", "7 cells", "6, as in"},
-      {"TrailingDelimiter", header + "1,1,0,0,0,0,\n", ":2:", "7 cells", "6, as in"},
       {"InfiniteValue", header + "1,1,0,inf,0,0\n", ":2:acc_x:", "infinite", "finite"},
       {"NegativeInfinity", header + "1,1,0,0,-Infinity,0\n", ":2:acc_y:", "infinite", "finite"},
       {"NumberTooLarge", header + "1,1,0,1e999,0,0\n", ":2:acc_x:", "'1e999'", "a number between"},
