@@ -9,6 +9,9 @@
 #include "analysis/cli/print.hpp"
 #include "analysis/report/page/wording.hpp"
 #include "core/base/check.hpp"
+#include "core/base/units.hpp"
+#include "core/recording/own/csv_cells.hpp"
+#include "core/recording/own/preamble.hpp"
 #include "core/recording/recording_channels.hpp"
 #include "core/recording/rows/quality_card.hpp"
 
@@ -54,6 +57,35 @@ void tell_assumed_gravity(const mc::Study& study, const Recording& recording) {
           recording.source, c->unit.symbol.view(), *gravity);
       return;
     }
+}
+
+/// Where the file itself says that it is of another latitude than the study.
+void tell_other_latitude(const mc::Study& study, const Recording& recording,
+                         const std::string& path) {
+  if (study.kind != RecordingKind::platform) return;
+  std::string said, place = recording.source;
+  for (const auto& [key, value] : recording.facts)
+    if (key == "latitude") said = value;
+  const std::string end = std::filesystem::path(path).extension().string();
+  if (end != ".h5" && end != ".hdf5" && end != ".mat")
+    if (const auto above =
+            preamble_site(path, find_layout(path, study.recording, study.kind)).latitude) {
+      said = above->value;
+      place += fmt::format(":{}", above->line);
+    }
+  const auto blank = said.find(' ');
+  if (blank == std::string::npos || said.substr(blank) != " deg") return;
+  const std::string number = said.substr(0, blank);
+  const double degrees = parse_cell(number, DecimalMark::automatic).value;
+  const auto point = number.find('.');
+  const auto decimals =
+      point == std::string::npos ? 0.0 : static_cast<double>(number.size() - point - 1);
+  // What was rounded differs by half a unit of its last digit; a minute of arc is no survey's.
+  const double room = std::max(0.5 * std::pow(10.0, -decimals), 1.0 / 60.0);
+  const double of_study = study.site.latitude / unit::deg.to_si;
+  if (!(std::abs(degrees - of_study) > room)) return;
+  say("note: {}: says latitude {}, the study {:.6g} deg: which one is it?\n", place, said,
+      of_study);
 }
 
 /// What looks odd is told at once, what weighs most of it.
@@ -106,6 +138,7 @@ std::vector<Recording> read_recordings(const mc::Study& study,
     recordings.push_back(read_recording(path, study.recording, study.kind, study.site.gravity));
     check_time_unit(study, recordings.back());
     tell_assumed_gravity(study, recordings.back());
+    tell_other_latitude(study, recordings.back(), path);
     for (std::size_t before = 0; before + 1 < recordings.size(); ++before)
       if (same_readings(recordings[before], recordings.back()))
         throw InputError(

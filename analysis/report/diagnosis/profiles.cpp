@@ -124,6 +124,9 @@ Section profiles(const diagnosis::Diagnosis& d) {
     chart.panels.push_back(profile_panel(p));
     said.items.push_back(profile_in_words(p));
   }
+  if (d.field)
+    said.items.push_back(
+        "The magnetic field is held as it is assumed: its error is in the ± of the verdict alone.");
   return {"How well is the size known?",
           {figure_of(chart,
                      "What is lost where the parameter is held at a value and everything else is "

@@ -114,12 +114,14 @@ Blocks likeness_figure(const CosineMatrix& m) {
   if (m.cosine.rows() < 2 || m.cosine.rows() != std::ssize(m.labels)) return {};
   HeatMap map;
   map.title = "Likeness of the causes on this plan";
-  map.value_label = "cosine of the projected signatures: ±1 cannot be told apart";
+  map.value_label = "cosine: ±1 cannot be told apart";
   map.rows = map.columns = m.labels;
   map.value = m.cosine;
   map.most = 1.0;
-  return {
-      figure_of(std::move(map), "Cosines between what is left of the signatures.", "cosines.svg")};
+  return {figure_of(
+      std::move(map),
+      "Cosines between what is left of the signatures when the fitted parameters took their part.",
+      "cosines.svg")};
 }
 
 /// The terms of the causes with their equations, each once.

@@ -105,11 +105,13 @@ Table estimate_table(const FilterView& v, On where, std::size_t starts) {
       where == On::page ? "< | <unit | prior sigma" : "<",
       fmt::format(
           "Values ± 1 sigma{}; batch: from start 1. left: posterior / prior sigma of the batch "
-          "fit, 1 = nothing learned. ratio: standard deviation between the EKF's {} starts / RMS "
-          "of "
-          "their sigmas. wrong: by more than 5 sigma of the truth.{}",
+          "fit, 1 = nothing learned. {}wrong: by more than 5 sigma of the truth.{}",
           starts < runs.size() ? fmt::format(", {} of {} starts shown", starts, runs.size()) : "",
-          runs.size(), furthest_apart(v)));
+          runs.size() < 2 ? ""
+                          : fmt::format("ratio: standard deviation between the EKF's {} starts / "
+                                        "RMS of their sigmas. ",
+                                        runs.size()),
+          furthest_apart(v)));
   if (v.id.truth) table.add_columns("truth");
   for (std::size_t s = 0; s < starts; ++s) table.add_columns(fmt::format("EKF {}", s + 1));
   table.add_columns("batch | left | ratio | <verdict");

@@ -79,8 +79,8 @@ std::string nis_sentence(const FilterView& v,
   return fmt::format("EKF NIS/m {:.3f} to {:.3f}, {}.", nis.low, nis.high,
                      outside == 0 ? "inside the 95 % band of a right model"
                                   : fmt::format("outside the 95 % band of a right model from {} "
-                                                "of {} starts{}",
-                                                outside, runs.size(),
+                                                "of {} start{}{}",
+                                                outside, runs.size(), plural(runs.size()),
                                                 batch_alone_fits(v, *runs.front())
                                                     ? "; the batch fit, which counts, is inside"
                                                     : ""));
@@ -114,7 +114,8 @@ std::vector<std::string> sentences_of(const FilterView& v) {
         "declares process noise, which the batch fit does not model: its sigmas and `left` are too "
         "small; use the EKF's.");
   if (failed > 0)
-    said.push_back(fmt::format("{} of {} starts failed or did not converge.", failed, runs.size()));
+    said.push_back(fmt::format("{} of {} start{} failed or did not converge.", failed, runs.size(),
+                               plural(runs.size())));
   if (runs.size() > 1) said.push_back(start_sentence(v));
   said.push_back(nis_sentence(v, runs));
   said.push_back(dispute_sentence(v, *runs.front()));

@@ -12,6 +12,7 @@
 namespace drift::report {
 namespace {
 
+constexpr double key_width = 168.0, key_gap = 12.0;   // [px]
 constexpr double least_cell = 4.0, most_cell = 70.0;  // [px]
 
 /// From white to the blue or orange of the palette; x in -1..1.
@@ -26,7 +27,7 @@ std::string colour_of(double x) {
 
 void key(SvgCanvas& canvas, const HeatMap& map, double x, double y, double most, bool negative) {
   constexpr int steps = 21;
-  constexpr double step = 8.0;
+  constexpr double step = key_width / steps;
   const double low = negative ? -1.0 : 0.0;
   for (int k = 0; k < steps; ++k)
     canvas.rectangle(x + step * k, y, step + 0.2, 10.0,
@@ -34,7 +35,7 @@ void key(SvgCanvas& canvas, const HeatMap& map, double x, double y, double most,
   const double end = x + step * steps;
   canvas.text(x, y + 24.0, number_text(low * most, 2), {.size = small_type});
   canvas.text(end, y + 24.0, number_text(most, 2), {.size = small_type, .anchor = "end"});
-  canvas.text(end + 12.0, y + 9.0, map.value_label);
+  canvas.text(end + key_gap, y + 9.0, map.value_label);
 }
 
 }  // namespace
@@ -103,7 +104,10 @@ std::string svg_of(const HeatMap& map) {
   if (!map.x_label.empty())
     canvas.text(x0 + 0.5 * cell * static_cast<double>(columns), bottom + under - 4.0, map.x_label,
                 {.anchor = "middle"});
-  key(canvas, map, x0, bottom + under + 8.0, most, negative);
+  // Under the cells, and farther left where what the colours mean would not fit beside it.
+  const double room = width - canvas_edge - text_pixels(map.value_label, label_type);
+  const double key_x = std::clamp(room - key_width - key_gap, canvas_edge, x0);
+  key(canvas, map, key_x, bottom + under + 8.0, most, negative);
   return std::move(canvas).finish();
 }
 

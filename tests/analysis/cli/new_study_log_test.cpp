@@ -147,7 +147,13 @@ TEST(NewStudy, TakesLatitudeAndGravityFromAboveTheHeaderAndPositionsFromTheirNum
   EXPECT_TRUE(has(study, "position = \"Versuch\"")) << study;
   EXPECT_TRUE(has(study, "accelerometer_noise = \"5 ug\"")) << study;  // too short to show it
   EXPECT_TRUE(has(study, "positions = { \"60\" = 1, \"50\" = 2")) << study;
-  EXPECT_EQ(driftscope("identify " + file + " " + own + " --quiet").code, 0);
+  const Answer same = driftscope("identify " + file + " " + own),
+               other = driftscope("identify " + file + " " + own +
+                                  " --set site.latitude='\"45.95 deg\"'");
+  EXPECT_EQ(same.code, 0) << same.err;
+  EXPECT_FALSE(has(same.err, "says latitude")) << same.err;
+  EXPECT_TRUE(has(other.err, "own.csv:2: says latitude 45.75 deg, the study 45.95 deg"))
+      << other.err;
   folder.write("own.csv", "Labor 3\nBreite: 45 mm\n" + text);
   ASSERT_EQ(driftscope("new diagnose " + own + " -o " + folder.file("b.toml")).code, 0);
   EXPECT_TRUE(has(text_of(folder.file("b.toml")), "latitude = \"45 deg\""));

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
-
 #include "core/base/check.hpp"
 #include "tests/support/six_positions.hpp"
 
