@@ -134,6 +134,16 @@ std::vector<search::Confusable> confusable_with(const search::Fitted& nominal,
   return list;
 }
 
+/// Whether two effects are a pair already, in this order.
+bool are_paired(const std::vector<Twins>& pairs, const search::Confusable& one,
+                const search::Cause& other) {
+  const auto is = [](const NamedEffect& e, const auto& effect) {
+    return e.term == effect.term && e.axis == effect.axis;
+  };
+  return std::ranges::any_of(pairs,
+                             [&](const Twins& t) { return is(t.one, one) && is(t.other, other); });
+}
+
 /// Whether a candidate could leave the trace that a cause of several parameters was found with: of
 /// such a cause a candidate can be like one direction alone, which is no twin.
 bool explains_all_of(const search::Fitted& nominal, const std::vector<int>& cause,
@@ -176,9 +186,9 @@ CausesFound causes_of(const search::Fitted& nominal, const search::Search& found
   // A candidate that is wider than the cause holds it anyway and is no twin.
   for (std::size_t k = 0; k < out.causes.size(); ++k)
     for (const search::Confusable& c : out.causes[k].confusable_with)
-      if (const search::Cause& cause = out.causes[k]; inference::same_trace(c.cosine) &&
-                                                      (cause.axis.empty() || !c.axis.empty()) &&
-                                                      explains_all_of(nominal, columns[k], c))
+      if (const search::Cause& cause = out.causes[k];
+          inference::same_trace(c.cosine) && (cause.axis.empty() || !c.axis.empty()) &&
+          explains_all_of(nominal, columns[k], c) && !are_paired(out.inseparable, c, cause))
         out.inseparable.push_back({{cause.term, cause.axis, ""}, {c.term, c.axis, ""}});
   if (found.sets.empty() && nominal.lone.p_value < inference::RemarkLimits::lone_p)
     out.remarks.emplace_back(remark::FreeInputExplains{nominal.lone.equation, nominal.lone.gain});

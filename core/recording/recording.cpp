@@ -20,6 +20,7 @@
 #include "core/recording/recording_mat.hpp"
 #include "core/recording/recording_output.hpp"
 #include "core/recording/recording_read_back.hpp"
+#include "core/recording/rows/even_times.hpp"
 
 namespace drift {
 namespace {
@@ -160,6 +161,7 @@ Recording read_recording(const std::string& path, const RecordingFormat& format,
   }
   Recording recording = checked_recording(std::move(raw), kind, gravity, problems);
   problems.throw_if_any();
+  if (kind == RecordingKind::platform) take_even_times(recording);
   return recording;
 }
 

@@ -14,7 +14,7 @@ struct CosineMatrix {
   MatX cosine;
 };
 
-/// Two effects that are one direction on this plan, whatever the data.
+/// Two effects that leave the same trace on this plan (inference::same_trace()).
 struct Twins {
   NamedEffect one, other;
 };

@@ -178,8 +178,13 @@ Section what(const Diagnosis& d) {
   if (Sentences said = equations_of(d.causes, instrument_of(d)); !said.items.empty())
     section.add({{std::move(said), On::page}});
   if (!d.inseparable.empty())
-    section.add({{Paragraph{"This plan can never tell these apart:"}, On::page},
-                 {Sentences{twins_in_words(d.inseparable, instrument_of(d))}, On::page}});
+    section.add(
+        {{Paragraph{fmt::format(
+              "Unlike by less than a thousandth on this plan, so that it takes an effect of "
+              "{:.0f} sigma to tell them apart by 2:",
+              2.0 / std::sqrt(inference::TraceLimits::unlike))},
+          On::page},
+         {Sentences{twins_in_words(d.inseparable, instrument_of(d))}, On::page}});
   return section;
 }
 

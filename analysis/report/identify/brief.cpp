@@ -86,7 +86,8 @@ std::string beyond_text(const FilterView& v) {
   if (keys.empty()) return "";
   const bool one = keys.size() == 1;
   return fmt::format(
-      "Filter {}: {} further than {:g} of {} prior sigmas from {} ({}): wrong priors, or a "
+      "Filter {}: {} further than {:g} of {} prior sigmas from {} ({}): wrong priors, missing "
+      "physics, or a "
       "study that is not of this recording (latitude, axes, unit of time).",
       v.spec().name, one ? "1 parameter lies" : fmt::format("{} parameters lie", keys.size()),
       inference::FitLimits::beyond_prior, one ? "its" : "their",
