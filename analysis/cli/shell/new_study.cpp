@@ -143,6 +143,19 @@ std::string turned_text(const RecordedPlan& plan) {
       numbers.size() == 1 ? "" : "s", listed(numbers, "and"), numbers.size() == 1 ? "is" : "are");
 }
 
+/// Of positions that are longer than a day, by times that nobody gave a unit or a wrong one.
+std::string long_dwells_text(const RecordedPlan& plan) {
+  constexpr double day = 86400.0;  // [s]
+  const auto longest =
+      std::ranges::max_element(plan.positions, {}, &RecordedPlan::Position::length);
+  if (longest == plan.positions.end() || longest->length <= day) return "";
+  return fmt::format(
+      "By the times of the log a position lasts up to {:.3g} days: is their unit right? If not, "
+      "give "
+      "the column its unit in the header or in [recording] columns, and make the study again.",
+      longest->length / day);
+}
+
 /// The line of [readout] that the rests of a recording give; empty where they show no noise.
 std::string noise_line(const Recording& r) {
   const preparation::NoiseCard card =
@@ -197,8 +210,9 @@ ExitCode make_study(const NewArguments& a) {
         "\n{}\n\nThen this fills in the positions:\n"
         "  driftscope convert {} '{}' -o read.csv && driftscope new {} read.csv -o NEW.toml\n",
         report::wrapped(plan->contradiction, 98), a.output, a.recording, a.kind);
-  if (const std::string said = plan ? turned_text(*plan) : ""; !said.empty())
-    show("\n{}\n", report::wrapped(said, 98));
+  if (plan)
+    for (const std::string& said : {long_dwells_text(*plan), turned_text(*plan)})
+      if (!said.empty()) show("\n{}\n", report::wrapped(said, 98));
   if (!seen.unplaced.empty()) show("\n{}\n", report::wrapped(seen.unplaced, 98));
   return ExitCode::ok;
 }

@@ -110,6 +110,24 @@ TEST(NewStudy, APositionThatIsNotInTheLogIsNotInItsPlan) {
   EXPECT_EQ(fit.code, 0) << fit.err;
 }
 
+TEST(NewStudy, PositionsOfDaysAreAskedAbout) {
+  const ScratchFolder folder;
+  const std::string made = folder.write("made.toml", short_study), own = folder.file("own.csv");
+  ASSERT_EQ(driftscope("simulate " + made + " -o " + own).code, 0);
+  const auto says = [&](const std::string& file) {
+    const Answer a = driftscope("new diagnose " + own + " -o " + folder.file(file));
+    return has(a.out, "is their unit right?");
+  };
+  EXPECT_FALSE(says("a.toml"));
+  // Milliseconds under a name that says s; without commands the platform may be held.
+  std::string text = with_column(text_of(own), "time [s]", [](const std::string& cell) {
+    return fmt::format("{:.0f}", 1000.0 * std::stod(cell));
+  });
+  for (const std::string axis : {"x", "y", "z"}) text = replaced(text, "cmd_" + axis, "no_" + axis);
+  folder.write("own.csv", text);
+  EXPECT_TRUE(says("b.toml"));
+}
+
 TEST(NewStudy, ADropoutIsNotTheNoise) {
   const ScratchFolder folder;
   const std::string made = folder.write("made.toml", replaced(short_study, "10 min", "60 min")),
