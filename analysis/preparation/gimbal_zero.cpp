@@ -97,7 +97,41 @@ double expected_difference(const mc::Study& study) {
   return std::sqrt(2.0 * (bias * bias + turn * turn));  // two axes lie level
 }
 
+std::vector<Seen> reversed(std::vector<Seen> all, int gimbal) {
+  for (Seen& s : all) {
+    s.before[gimbal] = -s.before[gimbal];
+    s.after[gimbal] = -s.after[gimbal];
+  }
+  return all;
+}
+
 }  // namespace
+
+std::string gimbal_of_wrong_sign(const mc::Study& study, const Recording& recording) {
+  std::size_t positions = 0;
+  const std::vector<Seen> all = seen_in(recording, positions);
+  if (positions < Limits::positions) return "";
+  const double expected = expected_difference(study), before = rms(all, Vec3::Zero());
+  if (before < Limits::least * expected) return "";
+  std::array<double, 3> left{};
+  for (int g = 0; g < 3; ++g)
+    left[static_cast<std::size_t>(g)] = rms(reversed(all, g), Vec3::Zero());
+  const auto best = static_cast<std::size_t>(std::ranges::min_element(left) - left.begin());
+  const bool alone = std::ranges::count_if(left, [&](double other) {
+                       return other < Limits::clearly * left[best];
+                     }) == 1;
+  if (!alone || left[best] > Limits::left * expected || before < Limits::clearly * left[best])
+    return "";
+  const std::string_view name = gimbal_channels.names[best];
+  const std::string right = fmt::format("{} = \"-{}\"", name, name);
+  return fmt::format(
+      "{}: column {}: the sign is wrong (with {} accelerometers and gimbals show Up within {:.2g} "
+      "deg of each other, as it is within {:.2g} deg only). Correct the recording, or say so in "
+      "the "
+      "study: [recording] columns = {{ {} }}, with its unit as in the header",
+      recording.source.empty() ? "the recording" : recording.source, name, right,
+      left[best] / detail::deg, before / detail::deg, right);
+}
 
 std::string gimbal_off_zero(const mc::Study& study, const Recording& recording) {
   std::size_t positions = 0;

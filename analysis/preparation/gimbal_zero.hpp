@@ -17,4 +17,10 @@ namespace drift::preparation {
 /// GimbalZeroLimits::left times of that, and that of no other gimbal does half as well.
 std::string gimbal_off_zero(const mc::Study& study, const Recording& recording);
 
+/// Which gimbal turns the other way than its readings, told by the same comparison where its angles
+/// are too small for the attitudes of the plan to show it; with the line to write. Empty where none
+/// does, or where reversing one leaves more than GimbalZeroLimits::left of what the study's priors
+/// make, or another one does nearly as well.
+std::string gimbal_of_wrong_sign(const mc::Study& study, const Recording& recording);
+
 }  // namespace drift::preparation

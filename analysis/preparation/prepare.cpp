@@ -16,6 +16,7 @@
 #include "analysis/preparation/heading_zero.hpp"
 #include "analysis/preparation/input_thresholds.hpp"
 #include "analysis/preparation/lost_rows.hpp"
+#include "analysis/preparation/own_names.hpp"
 #include "analysis/preparation/plan_check.hpp"
 #include "core/base/check.hpp"
 #include "core/plan/timeline.hpp"
@@ -34,7 +35,7 @@ std::string name_of(const Recording& r) {
   return r.source.empty() ? "recording" : r.source;
 }
 
-/// Runs of equal values that are far longer than the channel's usual ones become NaN.
+/// Runs of equal values, far longer than the channel's usual ones, become NaN.
 void leave_out_stuck(Recording& r, std::vector<std::string>& remarks) {
   for (Channel& c : r.channels) {
     if (std::ranges::find(sensors, c.name) == std::end(sensors)) continue;
@@ -217,33 +218,6 @@ void take_uneven_rows(const Work& work) {
         before, now, limits.length));
 }
 
-/// A message about channels in the words of the user's file: `"-acc_z"` as what [recording] columns
-/// would say, and behind it which columns the channels are.
-std::string in_own_names(std::string message, const RecordingFormat& format) {
-  std::vector<std::string> named;
-  const auto replace = [&](const std::string& from, const std::string& to) {
-    bool found = false;
-    for (std::size_t at = 0; (at = message.find(from, at)) != std::string::npos; at += to.size()) {
-      message.replace(at, from.size(), to);
-      found = true;
-    }
-    return found;
-  };
-  for (const MappedColumn& m : format.columns) {
-    const bool a_word = m.channel.find('_') == std::string::npos;  // "position", "time"
-    if (a_word || m.own == m.channel || message.find(m.channel) == std::string::npos) continue;
-    const std::string unit = m.unit ? fmt::format(" [{}]", *m.unit) : "";
-    for (const double sign : {1.0, -1.0})
-      if (replace(fmt::format("\"{}{}\"", sign < 0.0 ? "-" : "", m.channel),
-                  fmt::format("\"{}{}{}\"", sign * m.sign < 0.0 ? "-" : "", m.own, unit)) &&
-          m.unit)
-        replace(", with its unit as in the header", "");
-    if (m.unit) replace(", each with its unit as in the header", "");
-    named.push_back(fmt::format("{} is {}'{}'", m.channel, m.sign < 0.0 ? "minus " : "", m.own));
-  }
-  return named.empty() ? message : fmt::format("{} ({})", message, fmt::join(named, ", "));
-}
-
 }  // namespace
 
 Prepared prepare(const mc::Study& study, const std::vector<Recording>& recordings,
@@ -284,6 +258,10 @@ Prepared prepare(const mc::Study& study, const std::vector<Recording>& recording
           "absent, empty or stuck (expected at least one). Check the export",
           name_of(r)));
   }
+  if (wrong.empty())
+    for (const Recording& r : p.recordings)
+      if (std::string text = gimbal_of_wrong_sign(p.study, r); !text.empty())
+        wrong.push_back(in_own_names(std::move(text), study.recording));
   if (!wrong.empty()) throw InputError(ExitCode::recording, std::move(wrong));
   for (const Recording& r : p.recordings)
     for (const auto off_zero : {gimbal_off_zero, heading_off_zero})

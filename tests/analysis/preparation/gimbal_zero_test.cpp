@@ -41,6 +41,31 @@ TEST(GimbalZero, NoneIsNamedOfSoundPlatformsNorWherePriorsMayMakeIt) {
   for (int gimbal = 0; gimbal < 3; ++gimbal) EXPECT_EQ(said(gimbal, 0.2), "") << gimbal;
 }
 
+TEST(GimbalZero, AGimbalThatTurnsTheOtherWayIsNamedWhereThePlanDoesNotShowIt) {
+  constexpr const char* names[] = {"gimbal_outer", "gimbal_middle", "gimbal_inner"};
+  PlanDefaults defaults;
+  defaults.mode = CommandLaw::free;
+  defaults.dwell = 2400.0;
+  for (const char* preset : {"six", "twelve"}) {
+    const mc::Study s = test::study_off_zero(preset, defaults);
+    for (std::uint64_t run = 0; run < 5; ++run) {
+      const Recording sound = test::recording_off_zero(s, "gimbal_middle", 0.0, run);
+      EXPECT_EQ(gimbal_of_wrong_sign(s, sound), "") << preset;
+      Recording r = sound;
+      for (Channel& c : r.channels)
+        if (c.name == "gimbal_middle")
+          for (double& angle : c.values) angle = -angle;
+      const std::string text = gimbal_of_wrong_sign(s, r);
+      EXPECT_NE(text.find("column gimbal_middle: the sign is wrong"), std::string::npos)
+          << preset << text;
+      EXPECT_NE(text.find("columns = { gimbal_middle = \"-gimbal_middle\" }"), std::string::npos)
+          << text;
+    }
+    for (const char* name : names)  // a zero is no sign
+      EXPECT_EQ(gimbal_of_wrong_sign(s, test::recording_off_zero(s, name, 3.0, 0)), "") << name;
+  }
+}
+
 TEST(GimbalZero, IsSaidFirstInTheShortAnswerOfIdentify) {
   const test::ScratchFolder folder;
   std::string study =
