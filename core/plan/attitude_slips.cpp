@@ -133,6 +133,16 @@ double worst_with(const std::vector<Sight>& sights, const Zeros& zeros) {
   });
 }
 
+/// What is left on average.
+double mean_with(const std::vector<Sight>& sights, const Zeros& zeros) {
+  double sum = 0.0;
+  for (Sight s : sights) {
+    for (int i = 0; i < 3; ++i) s.seen[i] += zeros[static_cast<std::size_t>(i)] * detail::deg;
+    sum += gimbal_mismatch(s);
+  }
+  return sum / static_cast<double>(sights.size());
+}
+
 /// The zero of one gimbal that leaves least, to 0.1 deg.
 Zeros best_zero_of(const std::vector<Sight>& sights, std::size_t gimbal) {
   Zeros best{}, tried{};
@@ -155,7 +165,10 @@ Zeros best_zero_of(const std::vector<Sight>& sights, std::size_t gimbal) {
 std::optional<Zeros> zeros_behind(const std::vector<Sight>& sights) {
   std::vector<Zeros> fitting;
   const auto take = [&](const Zeros& zeros) {
-    if (worst_with(sights, zeros) < largest_mismatch) fitting.push_back(zeros);
+    // One that is put on all because a few are off brings the others nearly out of place.
+    if (worst_with(sights, zeros) < largest_mismatch &&
+        mean_with(sights, zeros) < 0.5 * mean_with(sights, {}))
+      fitting.push_back(zeros);
   };
   for (std::size_t gimbal = 0; gimbal < 3; ++gimbal) take(best_zero_of(sights, gimbal));
   if (fitting.empty())

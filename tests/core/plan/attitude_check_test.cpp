@@ -7,6 +7,7 @@
 #include <functional>
 #include <initializer_list>
 #include <numbers>
+#include <span>
 
 #include "core/base/check.hpp"
 #include "core/sim/measurements.hpp"
@@ -50,6 +51,10 @@ struct Scene {
     return {};
   }
 };
+
+void expect(const std::string& text, const char* part) {
+  EXPECT_NE(text.find(part), std::string::npos) << text;
+}
 
 TEST(AttitudeCheck, SaysNothingOfARecordingOfThePlan) {
   EXPECT_TRUE(Scene().mistakes().empty());
@@ -233,9 +238,6 @@ TEST(AttitudeCheck, TriesUnitsAndHeadingsBeforeItGivesUp) {
       }
     };
   };
-  const auto expect = [](const std::string& text, const char* part) {
-    EXPECT_NE(text.find(part), std::string::npos) << text;
-  };
   EXPECT_EQ(said_of([](Scene&) {}), "");
   expect(said_of(times({"gimbal_outer", "gimbal_middle", "gimbal_inner"}, detail::deg)),
          "look like [rad], not [deg]");
@@ -279,16 +281,19 @@ TEST(AttitudeCheck, NamesTheZerosOfGimbalsThatBringAllIntoPlace) {
         for (double& v : s.column(name)) v += deg * detail::deg;
     });
   };
-  const auto expect = [](const std::string& text, const char* part) {
-    EXPECT_NE(text.find(part), std::string::npos) << text;
-  };
-  expect(turned({{"gimbal_inner", 90.0}}), "gimbal_inner reads 90 deg too much");
+  expect(turned({{"gimbal_inner", 90.0}}), "gimbal_inner reads 90 deg too much, in all of them.");
   expect(turned({{"gimbal_inner", 90.0}}), "offset = { gimbal_inner = \"-90 deg\" }");
   expect(turned({{"gimbal_inner", -37.4}}), "offset = { gimbal_inner = \"37.4 deg\" }");
   expect(turned({{"gimbal_outer", 180.0}}), "offset = { gimbal_outer = \"");
   expect(turned({{"gimbal_middle", 25.0}}), "offset = { gimbal_middle = \"-25 deg\" }");
   expect(turned({{"gimbal_outer", 90.0}, {"gimbal_inner", -90.0}}),
          "offset = { gimbal_outer = \"-90 deg\", gimbal_inner = \"90 deg\" }");
+  // Half of what one position is off would bring all within ten degrees, and is the zero of none.
+  const std::string one = said_of([](Scene& s) {
+    for (double& v : std::span(s.column("gimbal_inner")).last(s.recording.rows() / 12)) v += 0.3;
+  });
+  expect(one, "position 12");
+  EXPECT_EQ(one.find("offset"), std::string::npos) << one;
 }
 
 }  // namespace
