@@ -46,8 +46,7 @@ void take_usual_branch(Recording& r, std::vector<std::string>& remarks) {
   if (turned == 0) return;
   remarks.push_back(fmt::format(
       "{}: the middle gimbal reads more than 90 deg from its zero in {} rows from line {} on: "
-      "taken "
-      "as the same attitude by outer + 180 deg, 180 deg - middle, inner + 180 deg",
+      "taken as the same attitude by outer + 180 deg, 180 deg - middle, inner + 180 deg",
       r.source.empty() ? "recording" : r.source, turned, line));
 }
 

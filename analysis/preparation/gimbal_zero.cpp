@@ -127,8 +127,7 @@ std::string gimbal_of_wrong_sign(const mc::Study& study, const Recording& record
   return fmt::format(
       "{}: column {}: the sign is wrong (with {} accelerometers and gimbals show Up within {:.2g} "
       "deg of each other, as it is within {:.2g} deg only). Correct the recording, or say so in "
-      "the "
-      "study: [recording] columns = {{ {} }}, with its unit as in the header",
+      "the study: [recording] columns = {{ {} }}, with its unit as in the header",
       recording.source.empty() ? "the recording" : recording.source, name, right,
       left[best] / detail::deg, before / detail::deg, right);
 }

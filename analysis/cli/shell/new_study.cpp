@@ -151,8 +151,7 @@ std::string long_dwells_text(const RecordedPlan& plan) {
   if (longest == plan.positions.end() || longest->length <= day) return "";
   return fmt::format(
       "By the times of the log a position lasts up to {:.3g} days: is their unit right? If not, "
-      "give "
-      "the column its unit in the header or in [recording] columns, and make the study again.",
+      "give the column its unit in the header or in [recording] columns, and make the study again.",
       longest->length / day);
 }
 
