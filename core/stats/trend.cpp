@@ -1,6 +1,7 @@
 #include "core/stats/trend.hpp"
 
 #include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <utility>
@@ -26,6 +27,9 @@ Stretch without_trend(const Stretch& stretch, int degree) {
 
 namespace {
 
+/// Of the farthest sample of a stretch: what is nearer may be where it is by the bent polynomial.
+constexpr double as_far = 0.9;
+
 /// Half of Gaussian noise is nearer than this, in its sigma.
 const double median_distance = normal_quantile(0.75);
 
@@ -49,19 +53,25 @@ Detrended without_trend_and_isolated(std::vector<Stretch> stretches, int degree,
   if (samples == 0) return out;
   const double far = -normal_quantile(0.5 * by_chance / static_cast<double>(samples));
   std::set<std::pair<std::size_t, std::size_t>> isolated;
-  // A wild sample bends its polynomial: it is on it after a few turns.
-  for (std::size_t turn = 0; turn < samples && isolated.size() < samples / 10; ++turn) {
-    std::size_t in = 0, at = 0;
-    double farthest = 0.0;
-    for (std::size_t i = 0; i < stretches.size(); ++i)
-      for (std::size_t k = 0; k < stretches[i].size(); ++k)
-        if (const double distance = std::abs(out.stretches[i][k]); distance > farthest)
-          farthest = distance, in = i, at = k;
-    const double usual = usual_distance(out.stretches);
-    if (!(usual > 0.0) || farthest <= far * usual) break;
-    isolated.emplace(in, at);
-    stretches[in][at] -= out.stretches[in][at];
-    out.stretches[in] = without_trend(stretches[in], degree);
+  // A wild sample bends its polynomial: it is on it after a few turns, and others are looked at
+  // then.
+  for (bool any = true; any && isolated.size() < samples / 10;) {
+    any = false;
+    const double near = far * usual_distance(out.stretches);
+    if (!(near > 0.0)) break;
+    for (std::size_t i = 0; i < stretches.size(); ++i) {
+      Stretch &stretch = stretches[i], &rest = out.stretches[i];
+      double farthest = 0.0;
+      for (const double x : rest) farthest = std::max(farthest, std::abs(x));
+      if (farthest <= near) continue;
+      for (std::size_t k = 0; k < rest.size(); ++k)
+        if (std::abs(rest[k]) > std::max(near, as_far * farthest)) {
+          isolated.emplace(i, k);
+          stretch[k] -= rest[k];
+        }
+      rest = without_trend(stretch, degree);
+      any = true;
+    }
   }
   out.isolated = isolated.size();
   return out;

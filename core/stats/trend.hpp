@@ -11,10 +11,10 @@ namespace drift::stats {
 Stretch without_trend(const Stretch& stretch, int degree);
 
 /// Stretches of one sensor without their polynomials, and how many samples are none: the farthest
-/// of all from its polynomial is put on it, and the polynomial fitted again, as long as it is
-/// farther than Gaussian noise would have any sample of all with `by_chance`; that noise by the
-/// median of the distances, which a few wild ones do not move. No more than one sample in ten of
-/// all.
+/// of each from its polynomial, and what is nearly as far, is put on it, and the polynomial fitted
+/// again, as long as it is farther than Gaussian noise would have any sample of all with
+/// `by_chance`; that noise by the median of the distances, which a few wild ones do not move. No
+/// more than one sample in ten of all.
 struct Detrended {
   std::vector<Stretch> stretches;
   std::size_t isolated = 0;

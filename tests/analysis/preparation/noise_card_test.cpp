@@ -112,6 +112,22 @@ TEST(NoiseCard, OfGaussianNoiseNoSampleIsIsolatedMoreOftenThanStated) {
   EXPECT_LE(touched, 5u);
 }
 
+TEST(NoiseCard, OfNoiseWithLongTailsTheFarEndsGoInAFewTurns) {
+  // 200,000 samples of which every hundredth is drawn ten times as wide: a fit for every one of
+  // them would take hours.
+  std::vector<stats::Stretch> dwells(4, stats::Stretch(50'000));
+  Stream random(3, 0, Purpose::test);
+  std::size_t wide = 0;
+  for (stats::Stretch& dwell : dwells)
+    for (std::size_t k = 0; k < dwell.size(); ++k) {
+      dwell[k] = (k % 100 == 0 ? 10.0 : 1.0) * random.normal();
+      wide += std::abs(dwell[k]) > 7.0;
+    }
+  const auto rests = stats::without_trend_and_isolated(std::move(dwells), 4, 1e-3);
+  EXPECT_GE(rests.isolated, wide);  // all beyond seven sigma, and some nearer
+  EXPECT_LE(rests.isolated, 2000u);
+}
+
 TEST(NoiseCard, AGapEndsAStretchAndUnequalRowsAreRefused) {
   Recording r = platform(5e-6);
   const auto rests = preparation::resting_rows(r);
