@@ -66,7 +66,7 @@ void tell_other_latitude(const mc::Study& study, const Recording& recording,
   std::string said, place = recording.source;
   for (const auto& [key, value] : recording.facts)
     if (key == "latitude") said = value;
-  const std::string end = std::filesystem::path(path).extension().string();
+  const std::string end = lower_case(std::filesystem::path(path).extension().string());
   if (end != ".h5" && end != ".hdf5" && end != ".mat")
     if (const auto above =
             preamble_site(path, find_layout(path, study.recording, study.kind)).latitude) {

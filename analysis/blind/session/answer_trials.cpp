@@ -77,7 +77,7 @@ std::optional<double> seconds_of(const fs::path& folder, std::size_t number) {
 /// Of a folder whose key is sealed. InputError (store) if a trial is gone that has no answer yet:
 /// the score would be that of fewer trials than the key is of.
 std::size_t count_trials(const fs::path& folder) {
-  const std::size_t trials = trials_state(folder.string()).trials;
+  const std::size_t trials = trials_asked(folder.string());
   for (std::size_t number = 1; number <= trials; ++number) {
     if (!is_answered(folder, number) && !is_there(folder, number))
       throw InputError(

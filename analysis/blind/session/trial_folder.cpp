@@ -97,15 +97,20 @@ std::optional<Answer> kept_answer(const fs::path& folder, std::size_t number) {
   return answer_of_json(*text, path);
 }
 
-TrialsState trials_state(const std::string& folder) {
+std::size_t trials_asked(const std::string& folder) {
   const fs::path here(folder);
   if (results_of(folder) != "blind" || !fs::exists(here / "study.toml"))
     throw InputError(ExitCode::store,
                      fmt::format("{}: holds no trials (expected those of `driftscope blind`). Give "
                                  "the folder that was named with -o",
                                  folder));
+  return mc::read_study((here / "study.toml").string()).blind.trials;
+}
+
+TrialsState trials_state(const std::string& folder) {
+  const fs::path here(folder);
   TrialsState s;
-  s.trials = mc::read_study((here / "study.toml").string()).blind.trials;
+  s.trials = trials_asked(folder);
   s.key_sealed = !published_hash(folder, "key.json").empty();
   if (!s.key_sealed) s.made = count(here / "making", ".json", s.trials);
   for (std::size_t n = 1; n <= s.trials; ++n) {

@@ -44,6 +44,9 @@ void open_trials(const mc::Study& study, const std::string& folder);
 /// The path of a worker's lock (mc/store/worker_lock.hpp), by the name of a file beside it.
 std::string worker_of_trials(const std::string& folder, std::size_t worker);
 
+/// How many trials its study asks for. InputError (store) if the folder holds no blind study.
+std::size_t trials_asked(const std::string& folder);
+
 /// How far a blind study is.
 struct TrialsState {
   std::size_t trials = 0, made = 0, answered = 0, failed = 0;
