@@ -71,20 +71,20 @@ RawRecording with_format(RawRecording raw, const RecordingFormat& format, Record
                   path, in_quotes(extension)));
 }
 
-void require_regular_file(const std::string& path) {
+/// Empty if it is a file and can be opened.
+std::string why_unreadable(const std::string& path) {
   struct stat info {};
-  std::string wrong;
-  if (::stat(path.c_str(), &info) != 0)  // NOLINT(bugprone-branch-clone): two calls that may fail
-    wrong = std::strerror(errno);
-  else if (S_ISDIR(info.st_mode))
-    wrong = "it is a directory";
-  else if (!S_ISREG(info.st_mode))
-    wrong = "it is not an ordinary file";
-  else if (std::FILE* f = std::fopen(path.c_str(), "re"))
-    std::fclose(f);
-  else
-    wrong = std::strerror(errno);
-  if (!wrong.empty())
+  if (::stat(path.c_str(), &info) != 0) return std::strerror(errno);
+  if (S_ISDIR(info.st_mode)) return "it is a directory";
+  if (!S_ISREG(info.st_mode)) return "it is not an ordinary file";
+  std::FILE* const f = std::fopen(path.c_str(), "re");
+  if (f == nullptr) return std::strerror(errno);
+  std::fclose(f);
+  return "";
+}
+
+void require_regular_file(const std::string& path) {
+  if (const std::string wrong = why_unreadable(path); !wrong.empty())
     throw InputError(ExitCode::io,
                      fmt::format("{}: cannot be read: {} (expected a recording). Check the "
                                  "path and its permissions",

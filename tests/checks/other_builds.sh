@@ -26,7 +26,7 @@ for way; do
   cmake --preset "$preset" >/dev/null
   case $way in
     fuzz) cmake --build --preset asan --target driftscope_mc_tests ;;
-    tidy) cmake --build build/tidy --target drift_commit generated/zoom_script.hpp ;;
+    tidy) cmake --build build/tidy --target drift_commit drift_zoom ;;
     *) cmake --build --preset "$way" ;;
   esac
   case $way in

@@ -1,6 +1,8 @@
 #include "mc/engine/replay.hpp"
 
+#include <bit>
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
@@ -92,7 +94,8 @@ class CsvTrace : public mc::TraceSink {
 };
 
 bool as_stored(const mc::Replay& r, std::size_t i) {
-  return !r.stored || r.same || std::memcmp(&r.row[i], &r.stored_row[i], sizeof(double)) == 0;
+  return !r.stored || r.same ||
+         std::bit_cast<std::uint64_t>(r.row[i]) == std::bit_cast<std::uint64_t>(r.stored_row[i]);
 }
 
 /// The numbers of a run: all, or the first that are not as stored.

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <csignal>
 #include <cstring>
 #include <set>
+#include <thread>
 #include <utility>
 
 #include "tests/support/program.hpp"
@@ -151,7 +153,10 @@ TEST(Engine, WallTimeAndSignalsLeaveAResumableStudy) {
     const ScratchFolder stopped_by_signal;
     bool sent = false;
     const auto send = [&, signal = signal](const mc::Progress&) {
-      if (!std::exchange(sent, true)) std::raise(signal);
+      if (std::exchange(sent, true)) return;
+      std::raise(signal);
+      // The thread sanitizer hands a signal over in a call that may block, not before.
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
     };
     const auto outcome = study.run(stopped_by_signal.path(), send);
     EXPECT_EQ(outcome.code, code);
