@@ -41,8 +41,9 @@ struct MeasuredRows {
   MatX psi;     ///< shape (rows, 3): d row / d attitude at the caging of its chain
   VecX r0;      ///< shape rows: measured minus predicted at the prior mean, by the linearisation
   VecX weight;  ///< shape rows: 1, or less for a row that is not trusted (sigma / weight)
-  double acc_sigma = 1.0, gimbal_sigma = 1.0;  ///< declared of one sample [g], [rad]
-  double attitude_sigma = 1.0;                 ///< unit of psi [rad]
+  double acc_sigma = 1.0, gimbal_sigma = 1.0;         ///< declared of one sample [g], [rad]
+  bool acc_rounded = false, gimbals_rounded = false;  ///< that is known (Readout)
+  double attitude_sigma = 1.0;                        ///< unit of psi [rad]
 
   Eigen::Index rows() const { return r0.size(); }
   /// What a gyro's drift adds to a row at rest that reads it [1/(rad/s)]; 0 in other rows.

@@ -167,6 +167,8 @@ LinearProblem linear_problem(const FilterSpec& nominal, const MeasuredTest& test
   out.drives = drives(test.timeline);
   out.acc_sigma = test.readout.accelerometer_noise;
   out.gimbal_sigma = test.readout.gimbal_noise;
+  out.acc_rounded = test.readout.accelerometers_rounded;
+  out.gimbals_rounded = test.readout.gimbals_rounded;
   out.attitude_sigma = nominal.initial_attitude;
   const auto rows = static_cast<Eigen::Index>(out.tags.size());
   out.weight = VecX::Ones(rows);

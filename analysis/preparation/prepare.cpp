@@ -18,6 +18,7 @@
 #include "analysis/preparation/lost_rows.hpp"
 #include "analysis/preparation/own_names.hpp"
 #include "analysis/preparation/plan_check.hpp"
+#include "analysis/preparation/rounding_noise.hpp"
 #include "core/base/check.hpp"
 #include "core/plan/timeline.hpp"
 #include "core/recording/rows/join_rows.hpp"
@@ -243,6 +244,7 @@ Prepared prepare(const mc::Study& study, const std::vector<Recording>& recording
     take_even_rows(work, interval);
   else if (rows_of(p.recordings) > p.recordings.size())
     take_uneven_rows(work);
+  take_rounding(recordings, p.study.readout, p.remarks);
   if (!wrong.empty()) throw InputError(ExitCode::recording, std::move(wrong));
   for (const Recording& r : p.recordings) {
     try {

@@ -10,6 +10,9 @@ struct Readout {
   bool gimbals = true;
   double accelerometer_noise = 5e-6;                 ///< of the mean over the sample interval [g]
   double gimbal_noise = 5.0 * detail::deg / 3600.0;  ///< per resolver [rad]
+  /// The noise is that of rounding to the steps in which a recording is written: known, whatever
+  /// the readings look like from row to row.
+  bool accelerometers_rounded = false, gimbals_rounded = false;
 };
 
 }  // namespace drift

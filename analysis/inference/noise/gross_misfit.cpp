@@ -30,7 +30,7 @@ NoiseEstimate noise_of_differences(const MeasuredRows& rows, const VecX& residua
   NoiseEstimate out;
   for (const int kind : {0, 1}) {
     const auto& s = squares[kind];
-    if (s.size() < 10) continue;
+    if (s.size() < 10 || (kind == 0 ? rows.acc_rounded : rows.gimbals_rounded)) continue;
     const double factor = std::sqrt(std::max(stats::upper_median(s) / median_of_square, 1e-6));
     (kind == 0 ? out.model.acc_factor : out.model.gimbal_factor) = factor;
     // The median has 37 % efficiency, differences about half of the rows' information.

@@ -45,6 +45,11 @@ Mixture fitted(const MarginalLikelihood& rows, Mixture m) {
   const std::vector<std::size_t> timed = m.timed();
   const auto sigmas = static_cast<Eigen::Index>(m.active.size());
   const Eigen::Index n = sigmas + static_cast<Eigen::Index>(timed.size());
+  if (n == 0) {
+    m.log_likelihood2 = rows.log_likelihood2(m.model);
+    m.covariance = MatX(0, 0);
+    return m;
+  }
   VecX logs(n), guess = VecX::Constant(n, 1.0 / 30.0);
   for (Eigen::Index k = 0; k < sigmas; ++k) {
     const NoiseComponent& c = *m.active[static_cast<std::size_t>(k)].component;
@@ -68,6 +73,7 @@ Mixture fitted(const MarginalLikelihood& rows, Mixture m) {
 
 double log_price(const Mixture& m, const NoiseModel& declared, double acc_sigma) {
   constexpr double half_log_2pi = 0.9189385332046727;
+  if (m.active.empty()) return 0.0;
   const auto n = static_cast<double>(m.covariance.rows());
   double sum = n * half_log_2pi + Cholesky(m.covariance).L().diagonal().array().log().sum() +
                log_prior_of_times(m, m.model);

@@ -17,12 +17,13 @@
 namespace drift::inference {
 namespace {
 
-/// White noise and whatever is declared.
+/// White noise and whatever is declared. What rounding makes of a reading that hardly moves looks
+/// like less noise and like something that swings: it is held where it is known to be.
 Mixture declared_mixture(const MarginalLikelihood& rows, const NoiseModel& declared) {
   const RowCounts count(rows.measured());
   Mixture m{declared, {}, 0.0, {}};
-  for (const NoiseComponent* white : {&acc_white, &gimbal_white})
-    if (count.of(*white) > 0) m.active.push_back({white});
+  if (count.accelerometer > 0 && !rows.measured().acc_rounded) m.active.push_back({&acc_white});
+  if (count.gimbal > 0 && !rows.measured().gimbals_rounded) m.active.push_back({&gimbal_white});
   for (const NoiseComponent* c : {&angle_walk, &drift_walk})
     if (c->in(declared)) m.active.push_back({c});
   return fitted(rows, std::move(m));

@@ -14,6 +14,21 @@ bool is_whole(double steps) {
   return std::abs(steps - std::round(steps)) < rounding;
 }
 
+/// The least distance of sorted values, or of their distances: rows that move by 4 and by 5 steps
+/// are steps apart. Infinite if all are one.
+double finest(const std::vector<double>& values) {
+  std::vector<double> apart;
+  for (std::size_t i = 1; i < values.size(); ++i)
+    if (values[i] > values[i - 1]) apart.push_back(values[i] - values[i - 1]);
+  if (apart.empty()) return std::numeric_limits<double>::infinity();
+  std::ranges::sort(apart);
+  double least = apart.front();
+  for (std::size_t i = 1; i < apart.size(); ++i)
+    if (const double more = apart[i] - apart[i - 1]; more > 10.0 * rounding * apart.front())
+      least = std::min(least, more);
+  return least;
+}
+
 }  // namespace
 
 std::optional<double> reading_step(const Channel& channel, const Channel* position) {
@@ -22,10 +37,11 @@ std::optional<double> reading_step(const Channel& channel, const Channel* positi
   for (const double value : x)
     if (std::isfinite(value)) values.push_back(value);
   std::ranges::sort(values);
-  double step = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 1; i < values.size(); ++i)
-    if (values[i] > values[i - 1]) step = std::min(step, values[i] - values[i - 1]);
-  if (!std::isfinite(step)) return std::nullopt;
+  const double step0 = finest(values);
+  if (!std::isfinite(step0)) return std::nullopt;
+  // The least difference has the errors of two texts; the range has them shared out.
+  const double range = values.back() - values.front();
+  const double step = range / std::round(range / step0);
   std::size_t different = 1;
   for (std::size_t i = 1; i < values.size(); ++i) {
     if (!is_whole((values[i] - values[i - 1]) / step)) return std::nullopt;

@@ -24,7 +24,8 @@ TEST(Prepare, AStuckChannelIsLeftOutAndACoarseOneIsNot) {
   auto& coarse = channel(r, "acc_z");  // resolution 0.02 g: whole positions may read the same
   for (double& x : coarse) x = 0.02 * std::round(x / 0.02);
   const Prepared p = prepare(s, {r});
-  EXPECT_FALSE(says(p, "acc_z"));
+  EXPECT_FALSE(says(p, "acc_z stands still"));
+  EXPECT_TRUE(says(p, "acc_z is written in steps of 0.02 g"));
   EXPECT_TRUE(std::ranges::all_of(p.recordings[0].find("acc_z")->values,
                                   [](double x) { return std::isfinite(x); }));
   EXPECT_TRUE(says(p, "acc_y stands still for 180 samples"));
