@@ -3,6 +3,7 @@
 #include "analysis/cli/command.hpp"
 #include "analysis/cli/print.hpp"
 #include "analysis/cli/read_recordings.hpp"
+#include "analysis/cli/still_to_check.hpp"
 #include "core/plan/case_heading.hpp"
 #include "core/plan/plan_memory.hpp"
 #include "mc/study/simulated_surroundings.hpp"
@@ -41,6 +42,7 @@ ExitCode check(const StudyArguments& arguments) {
         "and "
         "K1, in ppm, is off by as many ppm as gravity is there\n",
         *gravity);
+  say("{}", still_to_check_text(study));
   return ExitCode::ok;
 }
 

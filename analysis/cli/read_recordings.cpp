@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "analysis/cli/print.hpp"
+#include "analysis/cli/still_to_check.hpp"
 #include "analysis/report/page/wording.hpp"
 #include "core/base/check.hpp"
 #include "core/base/units.hpp"
@@ -133,6 +134,7 @@ std::vector<Recording> read_recordings(const mc::Study& study,
             fmt::format("{}: given twice (expected recordings of different tests: one and the same "
                         "is no further evidence). Name it once",
                         paths[k]));
+  say("{}", still_to_check_text(study));
   std::vector<Recording> recordings;
   for (const std::string& path : paths) {
     recordings.push_back(read_recording(path, study.recording, study.kind, study.site.gravity));

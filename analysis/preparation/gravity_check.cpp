@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "analysis/preparation/input_thresholds.hpp"
+#include "core/base/words.hpp"
 #include "core/physics/term_library.hpp"
 #include "core/recording/recording_channels.hpp"
 #include "core/recording/recording_units.hpp"
@@ -36,7 +37,10 @@ double room_of_priors(const mc::Study& study) {
 }
 
 /// Squares of the specific force [g^2] in the rows of one position's dwell.
-using Rest = std::vector<Vec3>;
+struct Rest {
+  std::vector<Vec3> rows{};
+  int position = 0;  ///< as the plan numbers it; 0: of no position
+};
 
 /// One for each position that has rows enough.
 std::vector<Rest> rests_of(const Recording& r) {
@@ -44,11 +48,12 @@ std::vector<Rest> rests_of(const Recording& r) {
   const Channel *phase = r.find("phase"), *position = r.find("position");
   for (std::size_t i = 0; i < r.rows(); ++i) {
     if (i == 0 || (position != nullptr && position->values[i] != position->values[i - 1]))
-      all.emplace_back();
+      all.push_back({.position = position ? static_cast<int>(position->values[i]) : 0});
     if (phase != nullptr && phase->values[i] > 0.5) continue;
-    if (const auto f = measured(r, accelerometer_channels, i)) all.back().push_back(f->cwiseAbs2());
+    if (const auto f = measured(r, accelerometer_channels, i))
+      all.back().rows.push_back(f->cwiseAbs2());
   }
-  std::erase_if(all, [](const Rest& rest) { return rest.size() < GravityLimits::enough; });
+  std::erase_if(all, [](const Rest& rest) { return rest.rows.size() < GravityLimits::enough; });
   return all;
 }
 
@@ -61,7 +66,7 @@ struct Scaled {
   double force_in(const Rest& rest) const {
     const Vec3 weight = Vec3::Ones() + (1.0 / (factor * factor) - 1.0) * axes;
     std::vector<double> squares;
-    for (const Vec3& row : rest) squares.push_back(weight.dot(row));
+    for (const Vec3& row : rest.rows) squares.push_back(weight.dot(row));
     return std::sqrt(stats::upper_median(std::move(squares)));
   }
   /// The least and the largest of all rests.
@@ -84,7 +89,7 @@ double factor_on(const Vec3& axes, const std::vector<Rest>& rests) {
   double most = 0.0, factor = 1.0;
   for (const Rest& rest : rests) {
     std::vector<double> theirs, others;
-    for (const Vec3& row : rest) {
+    for (const Vec3& row : rest.rows) {
       theirs.push_back(axes.dot(row));
       others.push_back((Vec3::Ones() - axes).dot(row));
     }
@@ -134,6 +139,33 @@ std::string text_of(const Scaled& scaled, const std::vector<Rest>& rests, const 
       unit_text(scaled.factor, r.find(names.front())->unit, names.size() > 1 ? "their" : "its"));
 }
 
+/// Of positions that do not read 1 g where most do: a log whose unit changes on the way, a position
+/// of another log, or none at rest.
+std::string elsewhere_than_one_g(const std::vector<Rest>& rests, const Recording& r, double room) {
+  std::vector<std::string> places;
+  std::vector<double> forces;
+  for (const Rest& rest : rests) {
+    const double f = Scaled{}.force_in(rest);
+    if (std::abs(f - 1.0) <= room) continue;
+    places.push_back(fmt::format("{}", rest.position));
+    forces.push_back(f);
+  }
+  if (places.empty() || 2 * places.size() >= rests.size() || rests.front().position == 0) return "";
+  const Unit& unit = r.find("acc_x")->unit;
+  const auto [least, most] = std::ranges::minmax(forces);
+  const std::string_view other = unit_of_one_g(least / unit.to_si);
+  const bool one_unit = !other.empty() && unit_of_one_g(most / unit.to_si) == other;
+  return fmt::format(
+      "{}:acc_x: in position{} {} the accelerometers together read {:.4g} g, as half of the rows "
+      "of "
+      "the dwell show, in the other {} 1 g (expected 1 g within {:.2g}). {}",
+      r.source, places.size() == 1 ? "" : "s", listed(places, "and"), least,
+      rests.size() - places.size(), room,
+      one_unit ? fmt::format("There the numbers look like [{}], not [{}]: correct these rows",
+                             other, unit.symbol.view())
+               : "Correct these rows, or leave the position out of the file");
+}
+
 }  // namespace
 
 std::string other_than_one_g(const mc::Study& study, const Recording& recording) {
@@ -142,9 +174,11 @@ std::string other_than_one_g(const mc::Study& study, const Recording& recording)
   const double f = stats::upper_median(lengths);
   const double room = GravityLimits::room + room_of_priors(study);
   if (const auto rests = rests_of(recording);
-      !rests.empty() && !is_one_g(Scaled{}.span(rests), room))
+      !rests.empty() && !is_one_g(Scaled{}.span(rests), room)) {
     if (const auto scaled = scaled_alone(rests, f, room))
       return text_of(*scaled, rests, recording, room, "position");
+    if (std::string text = elsewhere_than_one_g(rests, recording, room); !text.empty()) return text;
+  }
   if (std::abs(f - 1.0) <= room) return "";
   return fmt::format(
       "{}:acc_x: the accelerometers together read {:.4g} g, as half of the rows of dwells show "
@@ -160,11 +194,11 @@ std::string accelerometers_in_another_unit(const Recording& recording,
     rests.emplace_back();
     for (std::size_t i = rest.first; i <= rest.last; ++i)
       if (const auto f = measured(recording, accelerometer_channels, i)) {
-        rests.back().push_back(f->cwiseAbs2());
+        rests.back().rows.push_back(f->cwiseAbs2());
         lengths.push_back(f->norm());
       }
   }
-  std::erase_if(rests, [](const Rest& rest) { return rest.size() < GravityLimits::enough; });
+  std::erase_if(rests, [](const Rest& rest) { return rest.rows.size() < GravityLimits::enough; });
   if (rests.empty()) return "";
   const auto [least, most] = Scaled{}.span(rests);
   if (most < GravityLimits::by_attitude * least) return "";

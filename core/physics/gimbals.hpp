@@ -4,6 +4,7 @@
 
 #include "core/base/dual.hpp"
 #include "core/base/linalg.hpp"
+#include "core/recording/gimbal_chain.hpp"
 
 namespace drift {
 
@@ -64,12 +65,6 @@ template <class S>
 int gimbal_number(const S& parameter) {
   const double number = value(parameter);
   return number < 1.5 ? 0 : number < 2.5 ? 1 : 2;
-}
-
-/// The chain's rotation for given angles; inverse of gimbal_angles.
-inline Mat3 gimbal_chain(const Vec3& angles) {
-  return rotation(Vec3(angles[0], 0, 0)) * rotation(Vec3(0, angles[1], 0)) *
-         rotation(Vec3(0, 0, angles[2]));
 }
 
 }  // namespace drift

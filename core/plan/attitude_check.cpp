@@ -258,6 +258,8 @@ std::vector<RowMistake> attitude_mistakes(const Recording& recording, const Test
   const auto elsewhere = [&](const Shown& s, Mismatch mismatch, const char* what) {
     return elsewhere_text(plan, s.wrong, s.sights.size(), mismatch, what);
   };
+  const bool few = 2 * gimbals.wrong.size() < gimbals.sights.size() && acc.wrong.empty();
+  const std::string another_unit = few ? unit_there(gimbals.wrong, units_of(recording)) : "";
   std::vector<RowMistake> all;
   if (next_rows_fit(recording, acc.wrong, accelerometer_channels, of_accelerometers) &&
       next_rows_fit(recording, gimbals.wrong, gimbal_channels, of_gimbals) &&
@@ -276,7 +278,8 @@ std::vector<RowMistake> attitude_mistakes(const Recording& recording, const Test
                                               acc, of_accelerometers, "accelerometers show Up"))});
   if (!gimbals.wrong.empty())
     all.push_back({gimbals.wrong.front().row,
-                   gimbals.reason.value_or(elsewhere(gimbals, of_gimbals, "gimbal angles are"))});
+                   gimbals.reason.value_or(elsewhere(gimbals, of_gimbals, "gimbal angles are") +
+                                           another_unit)});
   if (const auto row = row_beyond_a_turn(gimbals.sights); row && gimbals.wrong.empty())
     all.push_back({*row,
                    "gimbal_middle shows more than a turn (expected at most 90 deg to either "

@@ -87,14 +87,6 @@ bool says(Columns columns, const AngleUnits& said, double to_si) {
   return false;
 }
 
-/// Units that an angle may be in: those of study files, and grads.
-std::vector<std::pair<std::string_view, double>> angle_units() {
-  std::vector<std::pair<std::string_view, double>> all{{"gon", 0.9 * detail::deg}};
-  for (const detail::BaseUnit& unit : detail::base_units)
-    if (unit.dim == unit::rad.dim) all.emplace_back(unit.symbol, unit.to_si);
-  return all;
-}
-
 /// The one unit in which these columns would show the plan; of several the one that leaves less
 /// than half of what any other does.
 std::optional<std::string> in_another_unit(const std::vector<Sight>& sights, Columns columns,
@@ -203,6 +195,27 @@ std::string zeros_text(const Zeros& zeros) {
 double gimbal_mismatch(const Sight& s) {
   const Mat3 R_lp = case_attitude(s.heading) * gimbal_chain(s.seen);
   return rotation_vector(s.R_lr.transpose() * R_lp).norm();
+}
+
+std::vector<std::pair<std::string_view, double>> angle_units() {
+  std::vector<std::pair<std::string_view, double>> all{{"gon", 0.9 * detail::deg}};
+  for (const detail::BaseUnit& unit : detail::base_units)
+    if (unit.dim == unit::rad.dim) all.emplace_back(unit.symbol, unit.to_si);
+  return all;
+}
+
+std::string unit_there(const std::vector<Sight>& sights, const AngleUnits& units) {
+  for (const std::string_view symbol : {"deg", "rad", "gon", "mrad"})
+    for (const auto& [known, to_si] : angle_units())
+      if (known == symbol && !says(all_gimbals, units, to_si) &&
+          worst_mismatch(sights, [&, unit = to_si](Sight& s) {
+            take_as(s, all_gimbals, units, unit);
+          }) < largest_mismatch)
+        return fmt::format(
+            ". With angles in [{}], not [{}], they would be where the plan has them: is that part "
+            "of the log in another unit?",
+            known, units[0].symbol.view());
+  return "";
 }
 
 std::optional<std::string> slip_behind(const std::vector<Sight>& sights, const AngleUnits& units) {

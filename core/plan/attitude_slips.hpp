@@ -3,6 +3,8 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/base/linalg.hpp"
@@ -31,6 +33,14 @@ double gimbal_mismatch(const Sight& sight);
 /// The units that the gimbal angles (outer, middle, inner) and the heading of the case are in, as
 /// the recording says.
 using AngleUnits = std::array<Unit, 4>;
+
+/// Units that an angle may be in: those of study files, and grads, with their size [rad].
+std::vector<std::pair<std::string_view, double>> angle_units();
+
+/// The unit in which all three gimbals would show the plan at these sights, of those that logs are
+/// written in, as a sentence behind another one: a part of a log in another unit. Empty where none
+/// does.
+std::string unit_there(const std::vector<Sight>& sights, const AngleUnits& units);
 
 /// Something else than exchanged columns that explains why gimbal angles do not show the attitude
 /// of the plan, and what to do, in words: angles in another unit (all, two or one of them), another

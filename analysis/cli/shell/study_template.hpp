@@ -2,49 +2,13 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
-#include "core/recording/recording.hpp"
+#include "analysis/cli/shell/recorded_plan.hpp"
 
 namespace drift::cli {
 
 /// Study files that `driftscope new` writes.
 enum class StudyKind { platform, strapdown, study, sweep, diagnose };
-
-/// What a recording says of the plan it was made on.
-struct RecordedPlan {
-  struct Position {
-    double length = 0.0;              ///< of the dwell [s], a whole number of samples
-    std::string axes{};               ///< "x=N y=W z=U"
-    bool torqued = false;             ///< slewed to, as the phases say
-    std::optional<double> heading{};  ///< of the case [rad], where it is recorded
-    std::string turned{};             ///< the axes if the case was at 45 deg; empty: less likely
-  };
-  double sample = 0.0;          ///< [s]
-  bool level = false;           ///< Earth rate is commanded in the dwells
-  bool north = false;           ///< the axes that lie level are from gimbal angles
-  bool headings = false;        ///< and the headings of the case are recorded; else it faces North
-  bool to_come = false;         ///< the recording could not be read yet: the positions hold a place
-  std::string noise{};          ///< accelerometer_noise of [readout] as its rests show it; or empty
-  std::string contradiction{};  ///< of accelerometers and gimbals, in words; empty: none
-  std::vector<Position> positions{};
-};
-
-/// Dwells, samples and attitudes (the nearest cardinal ones) of a platform's recording: from the
-/// gimbal angles at the beginning of each dwell, or, without them, what is up from the
-/// accelerometers.
-RecordedPlan recorded_plan(const Recording& recording);
-
-/// As many positions, all alike, as a recording names that cannot be read yet.
-RecordedPlan plan_to_come(std::size_t positions);
-
-/// Where a recording says that it was made ("45.75 deg", "9.8067 m/s^2"), as `convert` notes it or
-/// as it stands above the header.
-struct RecordedSite {
-  std::optional<std::string> latitude, gravity;
-  std::string latitude_place{}, gravity_place{};  ///< "'log.txt':3"; empty: a fact
-};
-RecordedSite recorded_site(const Recording& recording);
 
 /// A study file with a comment at everything that is to be thought about. `mapping`: the
 /// [recording] section of a file with columns of its own, or empty.

@@ -60,13 +60,24 @@ std::string mixed_up(const std::vector<TwoUps>& seen, const ChannelTriple& chann
   return found;
 }
 
+/// The unit of the gimbal angles that makes the two one; of several the one that leaves less than
+/// half of what any other does.
 std::string in_another_unit(const std::vector<TwoUps>& seen, const Unit& unit) {
-  const bool degrees = unit.to_si == unit::deg.to_si;
-  if (!degrees && unit.to_si != unit::rad.to_si) return "";
-  const double factor = degrees ? 1.0 / detail::deg : detail::deg;
-  if (!makes_one(seen, [&](TwoUps& s) { s.gimbals *= factor; })) return "";
-  return fmt::format("the numbers of the gimbal angles are [{}], not [{}]", degrees ? "rad" : "deg",
-                     degrees ? "deg" : "rad");
+  std::vector<std::pair<double, std::string_view>> fitting;  // the worst left [rad]
+  for (const auto& [symbol, to_si] : angle_units()) {
+    if (to_si == unit.to_si) continue;
+    double worst = 0.0;
+    for (TwoUps s : seen) {
+      s.gimbals *= to_si / unit.to_si;
+      worst = std::max(worst, apart(s));
+    }
+    if (worst < largest_mismatch) fitting.emplace_back(worst, symbol);
+  }
+  std::ranges::sort(fitting);
+  if (fitting.empty() || (fitting.size() > 1 && fitting[0].first > 0.5 * fitting[1].first))
+    return "";
+  return fmt::format("the numbers of the gimbal angles are [{}], not [{}]", fitting[0].second,
+                     unit.symbol.view());
 }
 
 /// One gimbal whose zero is a quarter or half of a turn away; several are none.

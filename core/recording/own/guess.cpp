@@ -11,6 +11,7 @@
 #include "core/recording/own/clock.hpp"
 #include "core/recording/own/csv_cells.hpp"
 #include "core/recording/own/guess_format.hpp"
+#include "core/recording/own/guess_gimbal_unit.hpp"
 #include "core/recording/own/guess_names.hpp"
 #include "core/recording/own/guess_position.hpp"
 #include "core/recording/own/guess_values.hpp"
@@ -48,7 +49,8 @@ void look_at(GuessedColumn& column, std::string_view cell) {
 
 /// Goes through all rows; the lengths of the specific force in the units of the file come back.
 std::vector<double> look_at_rows(const std::string& path, GuessedFile& file,
-                                 GuessByValues& by_values, GuessPosition& by_numbers) {
+                                 GuessByValues& by_values, GuessPosition& by_numbers,
+                                 GuessGimbalUnit& by_up) {
   std::vector<double> lengths;
   std::array<std::size_t, 3> acc{};
   bool triple = true;
@@ -75,6 +77,7 @@ std::vector<double> look_at_rows(const std::string& path, GuessedFile& file,
     for (std::size_t i = 0; i < cells.size(); ++i) look_at(file.columns[i], cells[i]);
     by_values.look_at_row(cells);
     by_numbers.look_at_row(cells);
+    by_up.look_at_row(cells);
     if (!triple) continue;
     const auto f = [&](int a) { return parse_cell(cells[acc[a]], DecimalMark::automatic).value; };
     if (const double length = std::hypot(f(0), f(1), f(2)); std::isfinite(length))
@@ -268,13 +271,21 @@ GuessedFile guess_file(const std::string& path) {
   name_channels(file);
   GuessByValues by_values(file);
   GuessPosition by_numbers(file);
-  std::string gravity = unit_of_gravity(look_at_rows(path, file, by_values, by_numbers));
+  GuessGimbalUnit by_up(file);
+  std::string gravity = unit_of_gravity(look_at_rows(path, file, by_values, by_numbers, by_up));
   if (const std::string unit = by_values.name_channels(file); !unit.empty()) gravity = unit;
   name_time_by_values(file);
   name_position_by_values(file);
   by_numbers.name_channel(file);
-  for (GuessedColumn& c : file.columns)
-    if (c.unit.empty()) c.unit = unit_of(c, gravity);
+  const auto take_units_of = [&](std::string_view channels) {
+    for (GuessedColumn& c : file.columns)
+      if (c.unit.empty() && c.channel.starts_with(channels)) c.unit = unit_of(c, gravity);
+  };
+  take_units_of("acc_");
+  if (const std::string unit = by_up.unit(file); !unit.empty())
+    for (GuessedColumn& c : file.columns)
+      if (c.channel.starts_with("gimbal_")) c.unit = unit;
+  take_units_of("");
   count_clock_of_numbers(file);
   fill_format(file);
   return file;

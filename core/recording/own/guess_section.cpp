@@ -25,6 +25,12 @@ std::string duration_text(double seconds) {
                            : fmt::format("{:g} us", 1e6 * seconds);
 }
 
+/// The unit that a column has, by its header or by the ending of its name; empty if that is none.
+std::string unit_in_file(const GuessedColumn& c) {
+  if (c.header.unit) return parse_recording_unit(*c.header.unit) ? *c.header.unit : "";
+  return guessed_unit(c.header.name);
+}
+
 /// What is to be checked of columns whose names said nothing, as a comment.
 std::string guessed_by_values(const GuessedFile& file) {
   const auto by_values = [&](std::string_view channel) {
@@ -41,6 +47,13 @@ std::string guessed_by_values(const GuessedFile& file) {
       if (c.channel.starts_with("acc_") && !c.header.unit)
         text += fmt::format("{}{} in [{}] by its size: check", text.empty() ? "" : "; ", c.channel,
                             c.unit);
+  for (const GuessedColumn& c : file.columns)
+    if (c.channel == gimbal_channels.names[0] && c.unit != "?" && c.unit != "deg" &&
+        unit_in_file(c).empty())
+      text += fmt::format(
+          "{}the gimbal angles in [{}], where they have Up as the accelerometers "
+          "have it: check",
+          text.empty() ? "" : "; ", c.unit);
   if (by_values("case_heading"))
     text += fmt::format("{}case_heading by its values: check", text.empty() ? "" : "; ");
   for (const GuessedColumn& c : file.columns)
@@ -52,12 +65,6 @@ std::string guessed_by_values(const GuessedFile& file) {
       text += fmt::format("{}temperature in [{}] by its values: check", text.empty() ? "" : "; ",
                           c.unit);
   return text.empty() ? "" : "  # " + text;
-}
-
-/// The unit that a column has, by its header or by the ending of its name; empty if that is none.
-std::string unit_in_file(const GuessedColumn& c) {
-  if (c.header.unit) return parse_recording_unit(*c.header.unit) ? *c.header.unit : "";
-  return guessed_unit(c.header.name);
 }
 
 /// A column as the study file may name it: "Winkel A [rad]".

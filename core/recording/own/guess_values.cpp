@@ -36,13 +36,6 @@ constexpr bool all_alike(std::size_t choice) {
   return unit_in(choice, 0) == unit_in(choice, 1) && unit_in(choice, 1) == unit_in(choice, 2);
 }
 
-/// The unit that the file gives a column, if it is one.
-std::optional<Unit> stated_unit(const GuessedColumn& c) {
-  if (c.header.unit)
-    if (const auto unit = parse_recording_unit(*c.header.unit)) return unit;
-  return parse_recording_unit(guessed_unit(c.header.name));
-}
-
 bool may_be_acceleration(const GuessedColumn& c) {
   if (!c.channel.empty()) return false;
   const auto unit = stated_unit(c);
@@ -65,6 +58,12 @@ bool may_be_heading(std::string_view name) {
 }
 
 }  // namespace
+
+std::optional<Unit> stated_unit(const GuessedColumn& c) {
+  if (c.header.unit)
+    if (const auto unit = parse_recording_unit(*c.header.unit)) return unit;
+  return parse_recording_unit(guessed_unit(c.header.name));
+}
 
 GuessByValues::GuessByValues(const GuessedFile& file) {
   const auto& all = file.columns;

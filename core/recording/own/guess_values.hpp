@@ -1,10 +1,12 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/base/units.hpp"
 #include "core/recording/own/guess.hpp"
 
 namespace drift {
@@ -22,7 +24,13 @@ struct GuessLimits {
   /// in free drift has that after 4 s, one that is level is off by more than that from row to row
   /// only where its gimbals are noisy: then it is not told apart.
   static constexpr double held = 2.9e-4;
+  /// [rad] within which two instruments show one Up, as where a recording is compared with its
+  /// plan.
+  static constexpr double one_up = 0.175;
 };
+
+/// The unit that the file gives a column, in the header or by the ending of its name, if it is one.
+std::optional<Unit> stated_unit(const GuessedColumn& column);
 
 /// Finds accelerometers and the heading of the case among columns that no name tells: three whose
 /// length is 1 g while they change, and one angle that changes only from position to position

@@ -175,7 +175,15 @@ TEST(NewStudy, TakesLatitudeAndGravityFromAboveTheHeaderAndPositionsFromTheirNum
   folder.write("own.csv", "Labor 3\nBreite: 45 mm\n" + text);
   ASSERT_EQ(driftscope("new diagnose " + own + " -o " + folder.file("b.toml")).code, 0);
   EXPECT_TRUE(has(text_of(folder.file("b.toml")), "latitude = \"45 deg\""));
-  EXPECT_TRUE(has(text_of(folder.file("b.toml")), ": correct it"));
+  EXPECT_TRUE(has(text_of(folder.file("b.toml")), "of the laboratory: check"));
+  // Until somebody says that it is right, every look at the study and every answer by it says so.
+  const std::string b = folder.file("b.toml"),
+                    by = "line 6: latitude = \"45 deg\" (of the laboratory)";
+  EXPECT_TRUE(has(driftscope("check " + b).err, by));
+  EXPECT_TRUE(has(driftscope("identify " + b + " " + own).err, by));
+  EXPECT_FALSE(has(driftscope("check " + b + " --set site.latitude='\"46 deg\"'").err, by));
+  folder.write("b.toml", replaced(text_of(b), "of the laboratory: check", "of the laboratory"));
+  EXPECT_FALSE(has(driftscope("check " + b).err, by));
 }
 
 TEST(NewStudy, ACopiedPositionIsTheFirstThingThatIsSaidOfALog) {

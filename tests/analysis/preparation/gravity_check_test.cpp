@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <initializer_list>
+
 #include "core/base/units.hpp"
 #include "tests/support/model_builders.hpp"
 
@@ -86,6 +89,37 @@ TEST(GravityCheck, OneOrTwoAccelerometersInAnotherUnitAreNamed) {
     EXPECT_EQ(text.find(c.columns), 0u) << text;
     EXPECT_NE(text.find(c.words), std::string::npos) << text;
   }
+}
+
+TEST(GravityCheck, PositionsInAnotherUnitAreNamed) {
+  mc::Study study;
+  study.filters = {test::base_filter(Coupling::eq5)};
+  const auto said = [&](double f, std::initializer_list<int> where) {
+    Recording r;
+    r.source = "rec.csv";
+    Unit unit = "m/s^2"_unit;
+    unit.to_si = 1.0 / 9.80665;  // as it is read
+    Channel acc[3] = {{"acc_x", unit, {}}, {"acc_y", unit, {}}, {"acc_z", unit, {}}};
+    Channel position{"position", "1"_unit, {}};
+    for (int p = 1; p <= 6; ++p)
+      for (int row = 0; row < 7; ++row) {
+        const bool there = std::ranges::find(where, p) != where.end();
+        for (int i = 0; i < 3; ++i) acc[i].values.push_back(i == p % 3 ? (there ? f : 1.0) : 0.0);
+        position.values.push_back(p);
+        r.lines.push_back(r.lines.size() + 2);
+      }
+    r.channels = {position, acc[0], acc[1], acc[2]};
+    return other_than_one_g(study, r);
+  };
+  EXPECT_EQ(said(1.04, {5}), "") << "within the room of bias and scale";
+  const std::string g = said(1.0 / 9.80665, {5});
+  EXPECT_NE(g.find("in position 5 the accelerometers together read 0.102 g"), std::string::npos)
+      << g;
+  EXPECT_NE(g.find("in the other 5 1 g"), std::string::npos) << g;
+  EXPECT_NE(g.find("There the numbers look like [g], not [m/s^2]"), std::string::npos) << g;
+  const std::string none = said(0.4, {1, 5});
+  EXPECT_NE(none.find("in positions 1 and 5"), std::string::npos) << none;
+  EXPECT_NE(none.find("leave the position out of the file"), std::string::npos) << none;
 }
 
 }  // namespace

@@ -11,50 +11,14 @@
 
 #include "core/base/check.hpp"
 #include "core/sim/measurements.hpp"
+#include "tests/support/attitude_scene.hpp"
 #include "tests/support/model_builders.hpp"
 
 namespace drift::attitude_check_test {
 namespace {
 
-/// Twelve positions as an ideal platform shows them.
-struct Scene {
-  TestPlan plan;
-  Recording recording;
-
-  explicit Scene(const char* preset = "twelve")
-      : plan(preset_plan(preset, PlanDefaults{}).value()) {
-    const Timeline timeline = lay_out(plan, test::harbin);
-    Measurements m{Mat3X(3, timeline.intervals.size()), Mat3X(3, timeline.intervals.size())};
-    for (std::size_t k = 0; k < timeline.intervals.size(); ++k) {
-      const Interval& i = timeline.intervals[k];
-      const Mat3& R_lr = timeline.nodes[i.last_node()].R_lr;
-      m.acc.col(static_cast<Eigen::Index>(k)) = R_lr.row(2).transpose();
-      m.gimbal.col(static_cast<Eigen::Index>(k)) =
-          gimbal_angles<double>(case_attitude(i.heading1).transpose() * R_lr);
-    }
-    recording = make_recording(timeline, m, Readout{});
-  }
-  std::vector<double>& column(const char* name) {
-    return std::ranges::find(recording.channels, name, &Channel::name)->values;
-  }
-  void reverse(const char* name) {
-    for (double& v : column(name)) v = -v;
-  }
-  std::vector<RowMistake> mistakes() {
-    try {
-      lay_out(recording, plan, test::harbin);
-    } catch (const InputError& e) {
-      std::vector<RowMistake> all;
-      for (const std::string& m : e.messages()) all.push_back({0, m});
-      return all;
-    }
-    return {};
-  }
-};
-
-void expect(const std::string& text, const char* part) {
-  EXPECT_NE(text.find(part), std::string::npos) << text;
-}
+using test::expect_part;
+using Scene = test::AttitudeScene;
 
 TEST(AttitudeCheck, SaysNothingOfARecordingOfThePlan) {
   EXPECT_TRUE(Scene().mistakes().empty());
@@ -201,99 +165,6 @@ TEST(AttitudeCheck, NamesColumnsThatStandARowLate) {
   both.column("position").back() = 12.0;
   EXPECT_NE(said(both).find("the numbers of the positions change a row early"), std::string::npos)
       << said(both);
-}
-
-/// What is said where something was done to the columns of gimbals or heading; the case turns.
-std::string said_of(const std::function<void(Scene&)>& spoil) {
-  Scene s;
-  Channel heading;
-  heading.name = "case_heading";
-  heading.unit = "deg"_unit;
-  const Timeline timeline = lay_out(s.plan, test::harbin);
-  for (std::size_t k = 0; k < timeline.intervals.size(); ++k) {
-    const auto& i = timeline.intervals[k];
-    const double turned = 0.3 + 0.2 * static_cast<double>(i.position);
-    const Vec3 phi = gimbal_angles<double>(case_attitude(turned).transpose() *
-                                           timeline.nodes[i.last_node()].R_lr);
-    heading.values.push_back(turned);
-    int a = 0;
-    for (const char* name : {"gimbal_outer", "gimbal_middle", "gimbal_inner"})
-      s.column(name)[k] = phi[a++];
-  }
-  std::erase_if(s.recording.channels, [](const Channel& c) { return c.name == "case_heading"; });
-  s.recording.channels.push_back(heading);
-  spoil(s);
-  const auto wrong = s.mistakes();
-  EXPECT_LE(wrong.size(), 1u);
-  return wrong.empty() ? "" : wrong.front().text;
-}
-
-TEST(AttitudeCheck, TriesUnitsAndHeadingsBeforeItGivesUp) {
-  const auto times = [](std::initializer_list<const char*> names, double factor,
-                        Unit unit = unit::deg) {
-    return [=](Scene& s) {
-      for (const char* name : names) {
-        std::ranges::find(s.recording.channels, name, &Channel::name)->unit = unit;
-        for (double& v : s.column(name)) v *= factor;
-      }
-    };
-  };
-  EXPECT_EQ(said_of([](Scene&) {}), "");
-  expect(said_of(times({"gimbal_outer", "gimbal_middle", "gimbal_inner"}, detail::deg)),
-         "look like [rad], not [deg]");
-  expect(said_of(times({"gimbal_outer", "gimbal_middle", "gimbal_inner"}, 1.0 / detail::deg,
-                       unit::rad)),
-         "look like [deg], not [rad]");
-  for (const char* name : {"gimbal_outer", "gimbal_middle", "gimbal_inner"}) {
-    const std::string is = fmt::format("{} is in another unit: the numbers look like ", name);
-    expect(said_of(times({name}, detail::deg)), (is + "[rad], not [deg]").c_str());
-    expect(said_of(times({name}, 1.0 / detail::deg, unit::rad)), (is + "[deg], not [rad]").c_str());
-    expect(said_of(times({name}, 60.0)), (is + "[arcmin], not [deg]").c_str());
-    expect(said_of(times({name}, 1.0 / (0.9 * detail::deg), unit::rad)),
-           (is + "[gon], not [rad]").c_str());
-  }
-  // Whole turns hide what no middle gimbal can show.
-  expect(said_of([](Scene& s) {
-           for (double& v : s.column("gimbal_middle")) v += 14.0 * std::numbers::pi;
-         }),
-         "more than a turn");
-  expect(said_of(times({"case_heading"}, -1.0)), "case_heading = \"-case_heading\"");
-  expect(said_of(times({"case_heading"}, detail::deg)),
-         "case_heading is in another unit: the numbers look like [rad], not [deg]");
-  // The gimbals are those of a case that faces North; the column is of something else.
-  expect(said_of([](Scene& s) {
-           const Timeline timeline = lay_out(s.plan, test::harbin);
-           for (std::size_t k = 0; k < timeline.intervals.size(); ++k) {
-             const Vec3 phi =
-                 gimbal_angles<double>(timeline.nodes[timeline.intervals[k].last_node()].R_lr);
-             int a = 0;
-             for (const char* name : {"gimbal_outer", "gimbal_middle", "gimbal_inner"})
-               s.column(name)[k] = phi[a++];
-           }
-         }),
-         "case_heading");
-}
-
-TEST(AttitudeCheck, NamesTheZerosOfGimbalsThatBringAllIntoPlace) {
-  const auto turned = [](std::initializer_list<std::pair<const char*, double>> by) {
-    return said_of([=](Scene& s) {
-      for (const auto& [name, deg] : by)
-        for (double& v : s.column(name)) v += deg * detail::deg;
-    });
-  };
-  expect(turned({{"gimbal_inner", 90.0}}), "gimbal_inner reads 90 deg too much, in all of them.");
-  expect(turned({{"gimbal_inner", 90.0}}), "offset = { gimbal_inner = \"-90 deg\" }");
-  expect(turned({{"gimbal_inner", -37.4}}), "offset = { gimbal_inner = \"37.4 deg\" }");
-  expect(turned({{"gimbal_outer", 180.0}}), "offset = { gimbal_outer = \"");
-  expect(turned({{"gimbal_middle", 25.0}}), "offset = { gimbal_middle = \"-25 deg\" }");
-  expect(turned({{"gimbal_outer", 90.0}, {"gimbal_inner", -90.0}}),
-         "offset = { gimbal_outer = \"-90 deg\", gimbal_inner = \"90 deg\" }");
-  // Half of what one position is off would bring all within ten degrees, and is the zero of none.
-  const std::string one = said_of([](Scene& s) {
-    for (double& v : std::span(s.column("gimbal_inner")).last(s.recording.rows() / 12)) v += 0.3;
-  });
-  expect(one, "position 12");
-  EXPECT_EQ(one.find("offset"), std::string::npos) << one;
 }
 
 }  // namespace

@@ -1,0 +1,145 @@
+#include "analysis/cli/shell/recorded_plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "analysis/cli/shell/two_ups.hpp"
+#include "core/physics/earth.hpp"
+#include "core/physics/gimbals.hpp"
+#include "core/plan/attitude_slips.hpp"
+#include "core/recording/recording_channels.hpp"
+#include "core/recording/rows/quality_card.hpp"
+
+namespace drift::cli {
+namespace {
+
+/// A right-handed frame with the axis up (or down) that the accelerometers show. Headings leave no
+/// trace in them.
+std::string axes_of(const Vec3& force) {
+  constexpr std::string_view up[] = {"x=U y=N z=W", "x=W y=U z=N", "x=N y=W z=U"};
+  constexpr std::string_view down[] = {"x=D y=W z=N", "x=N y=D z=W", "x=W y=N z=D"};
+  int vertical = 0;
+  force.cwiseAbs().maxCoeff(&vertical);
+  return std::string(force[vertical] < 0.0 ? down[vertical] : up[vertical]);
+}
+
+Vec3 mean_force(const Recording& r, std::size_t first, std::size_t end) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t row = first; row < end; ++row)
+    if (const auto force = measured(r, accelerometer_channels, row)) sum += *force;
+  return sum;
+}
+
+/// The directions N, S, W, E, U, D, or half way between two of them, nearest to the axes that the
+/// gimbals show; empty without gimbal angles, and where an axis lies between three.
+std::optional<std::string> cardinal_axes(const Recording& r, std::size_t row, double heading) {
+  const double shares = std::sin(22.5 * detail::deg);  // nearer to half way than to the other one
+  const auto angles = measured(r, gimbal_channels, row);
+  if (!angles) return std::nullopt;
+  const Mat3 R_lp = case_attitude(heading) * gimbal_chain(*angles);
+  std::string text;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::string letters;
+    for (int l = 0; l < 3; ++l)
+      if (std::abs(R_lp(l, axis)) > shares) letters += (R_lp(l, axis) > 0.0 ? "NWU" : "SED")[l];
+    if (letters.size() > 2) return std::nullopt;
+    text += fmt::format("{}{}={}", axis == 0 ? "" : " ", "xyz"[axis], letters);
+  }
+  return text;
+}
+
+/// To six digits, so that whole numbers of samples are whole as they are written, too.
+double as_written(double sample) {
+  if (!(sample > 0.0) || !std::isfinite(sample)) return sample;
+  const double unit = std::pow(10.0, std::floor(std::log10(sample)) - 5.0);
+  return unit < 1.0 ? std::round(sample / unit) / std::round(1.0 / unit)
+                    : std::round(sample / unit) * unit;
+}
+
+/// The row of a dwell's first ones that shows its attitude: the second, where the first is of the
+/// turn or of the position before (a jump between them, none behind).
+std::size_t row_of_attitude(const Recording& r, std::size_t first, std::size_t end) {
+  if (first + 2 >= end) return first;
+  std::array<Mat3, 3> R_rp;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto angles = measured(r, gimbal_channels, first + k);
+    if (!angles) return first;
+    R_rp[k] = gimbal_chain(*angles);
+  }
+  const auto turned = [&](std::size_t k) {
+    return rotation_vector(R_rp[k].transpose() * R_rp[k + 1]).norm();
+  };
+  return turned(0) > largest_mismatch && turned(1) < 0.1 * turned(0) ? first + 1 : first;
+}
+
+}  // namespace
+
+RecordedPlan recorded_plan(const Recording& r) {
+  RecordedPlan plan;
+  plan.sample = as_written(quality_card(r, RecordingKind::platform).interval);
+  plan.north = true;
+  const Channel *position = r.find("position"), *time = r.find("time"), *phase = r.find("phase"),
+                *heading = r.find("case_heading");
+  plan.headings = heading != nullptr;
+  std::vector<TwoUps> seen;
+  std::vector<std::string> ups;
+  for (std::size_t first = 0, end = 0; first < r.rows(); first = end) {
+    end = first + 1;
+    while (end < r.rows() && (!position || position->values[end] == position->values[first])) ++end;
+    std::size_t dwell = first;
+    while (phase && dwell + 1 < end && phase->values[dwell] == 1.0) ++dwell;
+    const std::size_t shows = row_of_attitude(r, dwell, end);
+    const double span = time->values[end - 1] - time->values[dwell] + plan.sample;
+    RecordedPlan::Position p{std::round(span / plan.sample) * plan.sample, "", dwell > first, {}};
+    if (heading) p.heading = heading->values[end - 1];
+    const auto shown = cardinal_axes(r, shows, p.heading.value_or(0.0));
+    if (!shown) p.heading.reset();  // axes that are guessed may not be reached from it
+    plan.north = plan.north && shown;
+    const auto turned = cardinal_axes(r, shows, p.heading.value_or(0.0) + 45.0 * detail::deg);
+    if (!heading && shown && turned && shown->size() > turned->size()) p.turned = *turned;
+    p.axes = shown ? *shown : axes_of(mean_force(r, dwell, end));
+    const std::size_t row = std::min(dwell + 2, end - 1);  // the first may be of the turn
+    const auto force = measured(r, accelerometer_channels, row),
+               angles = measured(r, gimbal_channels, row);
+    if (force && angles) {
+      seen.push_back({plan.positions.size() + 1, *force, *angles});
+      ups.push_back(axes_of(*force));
+    }
+    const auto command = measured(r, command_channels, dwell);
+    plan.level = plan.level || (command && command->norm() > 0.5 * detail::earth_rate);
+    plan.positions.push_back(std::move(p));
+  }
+  const Channel* const outer = r.find("gimbal_outer");
+  if (outer) plan.contradiction = two_ups_text(seen, outer->unit);
+  if (plan.contradiction.empty()) return plan;
+  // Axes of a misread gimbal would have the accelerometers seem wrong.
+  plan.north = false;
+  for (std::size_t k = 0; k < seen.size(); ++k) {
+    RecordedPlan::Position& p = plan.positions[seen[k].position - 1];
+    p.axes = ups[k];
+    p.heading.reset();
+    p.turned.clear();
+  }
+  return plan;
+}
+
+RecordedPlan plan_to_come(std::size_t positions) {
+  constexpr double sample = 60.0, dwell = 3600.0;  // [s]
+  RecordedPlan plan{.sample = sample, .to_come = true};
+  plan.positions.assign(positions, {.length = dwell, .axes = "x=N y=W z=U"});
+  return plan;
+}
+
+RecordedSite recorded_site(const Recording& recording) {
+  RecordedSite site;
+  for (const auto& [key, value] : recording.facts) {
+    if (key == "latitude") site.latitude = value;
+    if (key == "gravity") site.gravity = value;
+  }
+  return site;
+}
+
+}  // namespace drift::cli
