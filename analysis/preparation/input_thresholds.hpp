@@ -59,6 +59,16 @@ struct GravityLimits {
   static constexpr double by_attitude = 2.0;
 };
 
+/// What a logger writes where it has read nothing. Of readings that move, one number to the last
+/// digit comes back in other positions by chance only where they are rounded, and then its
+/// neighbours are near. Test: Fillers.*
+struct FillerLimits {
+  static constexpr std::size_t rows = 3, positions = 2;  ///< in which the number stands
+  /// How far its neighbours are, at least: as an attitude from that of the plan [rad], and what
+  /// turns Up by as much [g]. A platform in free drift takes 40 minutes for that.
+  static constexpr double angle = 0.175, force = 0.17;
+};
+
 /// When a gimbal reads a constant too much.
 struct GimbalZeroLimits {
   /// [of what biases and misalignments make of Up, 1 sigma: 0.06 deg with the library's priors] so

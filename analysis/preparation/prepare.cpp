@@ -10,6 +10,7 @@
 
 #include "analysis/preparation/clock_unit.hpp"
 #include "analysis/preparation/covariates.hpp"
+#include "analysis/preparation/fillers.hpp"
 #include "analysis/preparation/gimbal_branch.hpp"
 #include "analysis/preparation/gimbal_zero.hpp"
 #include "analysis/preparation/gravity_check.hpp"
@@ -228,6 +229,7 @@ Prepared prepare(const mc::Study& study, const std::vector<Recording>& recording
   std::vector<std::string> wrong;
   std::set<int> positions;
   for (Recording& r : p.recordings) {
+    leave_out_fillers(r, p.remarks);
     leave_out_stuck(r, p.remarks);
     take_usual_branch(r, p.remarks);
     if (std::string text = other_than_one_g(study, r); !text.empty())

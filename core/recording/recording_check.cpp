@@ -183,7 +183,9 @@ void check_values(const Recording& r, RecordingKind kind, Problems& problems) {
             c.name == "temperature"
                 ? "Check the unit: kelvins are temperature = \"its header as it stands, then "
                   "[K]\" in columns of [recording], or [K] in the header"
-                : "Check the unit and the export; leave the cell empty if it was not measured");
+                : fmt::format("Check the unit and the export; if it stands for not measured, say "
+                              "in [recording] of the study file missing = [{:g}]",
+                              x / c.unit.to_si));
       if (std::isnan(x) && command)
         problems.add(at(r, i, c.name), "the command is missing", "the commanded rate in every row",
                      "Give the command, 0 if there was none");

@@ -52,8 +52,9 @@ struct RecordingFormat {
   std::vector<MappedColumn> columns;
   std::vector<std::pair<std::string, int>> positions;  ///< text -> number of the plan's position
   std::vector<ChannelOffset> offsets;
-  std::vector<std::string> ignore;  ///< headers in the file
-  std::vector<std::string> header;  ///< of a text file without a header row; empty: it has one
+  std::vector<std::string> ignore;   ///< headers in the file
+  std::vector<std::string> missing;  ///< cells that stand for what was not measured: "-9999"
+  std::vector<std::string> header;   ///< of a text file without a header row; empty: it has one
   Delimiter delimiter = Delimiter::automatic;
   DecimalMark decimal = DecimalMark::automatic;
   std::uint64_t skip_rows = 0;  ///< lines before the header; 0: recognised

@@ -137,20 +137,26 @@ void read_offsets(Section& section, RecordingKind kind, RecordingFormat& format)
   }
 }
 
-/// A list of names of columns.
+/// A list of texts; `numbers`: a number is one, too.
 std::vector<std::string> read_names(Section& section, std::string_view key,
-                                    const std::string& expected, std::string_view example) {
+                                    const std::string& expected, std::string_view example,
+                                    bool numbers = false) {
   std::vector<std::string> names;
   const Node* node = section.take(key, Section::Kind::list, expected);
   if (node == nullptr) return names;
-  const auto is_text = [](const Node& item) { return item.is(Node::Kind::string); };
+  const auto is_text = [&](const Node& item) {
+    return item.is(Node::Kind::string) ||
+           (numbers && (item.is(Node::Kind::integer) || item.is(Node::Kind::real)));
+  };
   if (!node->is(Node::Kind::array) || !std::ranges::all_of(node->items, is_text)) {
     section.report().error(
         node->at, fmt::format("'{}' is {} (expected {}). Write {} = [\"{}\"]", section.full(key),
                               describe(*node), expected, key, example));
     return names;
   }
-  for (const Node& item : node->items) names.emplace_back(trimmed(item.text));
+  for (const Node& item : node->items)
+    names.push_back(item.is(Node::Kind::string) ? std::string(trimmed(item.text))
+                                                : config::to_toml(item));
   section.report().given(section.full(key), config::to_toml(*node), node->at);
   return names;
 }
@@ -202,6 +208,8 @@ RecordingFormat read_recording_format(Section section, RecordingKind kind,
     read_columns(section, kind, format);
     read_offsets(section, kind, format);
     format.ignore = read_names(section, "ignore", "a list of headers of the file", "Datum");
+    format.missing =
+        read_names(section, "missing", "a list of what stands for not measured", "-9999", true);
     read_header(section, format);
     section.read(Option{.key = "delimiter", .doc = "between cells"}, format.delimiter, delimiters);
     section.read(Option{.key = "decimal", .doc = "mark within numbers"}, format.decimal,

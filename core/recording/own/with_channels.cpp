@@ -2,8 +2,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "core/recording/own/columns.hpp"
+#include "core/recording/own/csv_cells.hpp"
 
 namespace drift {
 namespace {
@@ -41,6 +44,13 @@ std::vector<double> time_of(const RawRecording& raw, const RawColumn* counter,
   return time;
 }
 
+/// Numbers that stand for what was not measured become that.
+void leave_out(RawColumn& column, const std::vector<double>& missing) {
+  for (double& x : column.values)
+    if (std::ranges::find(missing, x) != missing.end())
+      x = std::numeric_limits<double>::quiet_NaN();
+}
+
 RawColumn time_column(std::vector<double> values) {
   RawColumn time;
   time.name = "time";
@@ -61,6 +71,9 @@ RawRecording with_channels(RawRecording raw, const std::vector<ColumnUse>& uses,
   out.settled = raw.settled;
   const RawColumn* counter = nullptr;
   std::vector<std::string> texts;
+  std::vector<double> missing;
+  for (const std::string& text : format.missing)
+    if (const double number = cell_number(text); std::isfinite(number)) missing.push_back(number);
   const bool own_time = format.rate || !format.counter.empty();
   for (std::size_t i = 0; i < uses.size(); ++i)
     if (uses[i].role == Role::counter) counter = &raw.columns[i];
@@ -88,6 +101,7 @@ RawRecording with_channels(RawRecording raw, const std::vector<ColumnUse>& uses,
     }
     if (column.name.empty() && column.numbers == 0) continue;  // a superfluous delimiter
     const auto offset = std::ranges::find(format.offsets, use.channel, &ChannelOffset::channel);
+    if (use.role == Role::sensor || use.role == Role::covariate) leave_out(column, missing);
     if (!column.clock) column.unit = use.unit;
     column.name = use.channel;
     column.sign = use.sign;

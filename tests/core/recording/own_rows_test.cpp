@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/recording/own/guess.hpp"
 #include "recording_fixture.hpp"
@@ -53,6 +54,23 @@ TEST(OwnRows, ADelimiterAtTheEndOfEveryRowBeginsNoCell) {
   const std::string full = folder.write("f.csv", text + "4,0.1,0.2,0.3,0,0,1,7\n");
   EXPECT_THROW(read_recording(full, RecordingKind::strapdown, gravity), InputError)
       << "what stands behind the last delimiter is not left off";
+}
+
+TEST(OwnRows, WhatStandsForNotMeasuredIsNotMeasured) {
+  const Folder folder;
+  const std::string path = folder.write(
+      "r.csv",
+      "time [s]," + imu_header.substr(0, imu_header.size() - 1) + ",oil [1]\n" +
+          "1,0.1,0.2,0.3,0,0,1,7\n2,0.1,0.2,-9999.0,ERR,0,1,-9999\n3,0.1,0.2,0.3,0,0,1,8\n");
+  EXPECT_THROW(read_recording(path, RecordingKind::strapdown, gravity), InputError);
+  RecordingFormat format;
+  format.missing = {"-9999", "ERR"};
+  const Recording r = read_recording(path, format, RecordingKind::strapdown, gravity);
+  for (const char* name : {"gyro_z", "acc_x", "oil"}) {
+    const std::vector<double>& x = r.find(name)->values;
+    EXPECT_TRUE(std::isfinite(x[0]) && std::isnan(x[1]) && std::isfinite(x[2])) << name;
+  }
+  EXPECT_EQ(r.find("time")->values, (std::vector<double>{1.0, 2.0, 3.0}));
 }
 
 TEST(OwnRows, BarsMayDivideTheCells) {

@@ -1,0 +1,63 @@
+#include "analysis/preparation/fillers.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/model_builders.hpp"
+
+namespace drift::preparation::fillers_test {
+namespace {
+
+/// Three positions of ten rows: an accelerometer and a gimbal that drift a little.
+Recording resting() {
+  Recording r;
+  r.source = "log.csv";
+  Channel position{"position", unit::one, {}}, acc{"acc_x", unit::g, {}},
+      inner{"gimbal_inner", unit::deg, {}};
+  for (int row = 0; row < 30; ++row) {
+    position.values.push_back(1.0 + row / 10);
+    acc.values.push_back((row / 10 == 1 ? -1.0 : 0.02) + 1e-5 * row);
+    inner.values.push_back((90.0 * (row / 10) + 0.1 * (row % 10)) * detail::deg);
+    r.lines.push_back(static_cast<std::size_t>(row + 2));
+  }
+  r.channels = {position, acc, inner};
+  return r;
+}
+
+std::size_t missing(const Recording& r, const char* name) {
+  std::size_t count = 0;
+  for (const double x : r.find(name)->values) count += std::isnan(x) ? 1 : 0;
+  return count;
+}
+
+TEST(Fillers, ANumberThatComesBackFarFromItsNeighboursIsNotMeasured) {
+  Recording r = resting();
+  std::vector<std::string> remarks;
+  for (const std::size_t row : {8, 9, 15, 29}) r.channels[2].values[row] = 999.999 * detail::deg;
+  leave_out_fillers(r, remarks);
+  EXPECT_EQ(missing(r, "gimbal_inner"), 4u);
+  EXPECT_EQ(missing(r, "acc_x"), 0u);
+  ASSERT_EQ(remarks.size(), 1u);
+  EXPECT_EQ(
+      remarks[0],
+      "log.csv: gimbal_inner reads 999.999 deg in 4 rows, the first in line 10, far from what "
+      "is beside them: taken as not measured");
+}
+
+TEST(Fillers, WhatIsReadStays) {
+  Recording r = resting();
+  std::vector<std::string> remarks;
+  leave_out_fillers(r, remarks);
+  // A jump of a whole turn is none, a number of one position is an isolated one, and one that is
+  // read elsewhere with neighbours as near is a reading.
+  for (const std::size_t row : {3, 13, 23}) r.channels[2].values[row] += 360.0 * detail::deg;
+  for (const std::size_t row : {4, 6, 8}) r.channels[1].values[row] = 7.0;
+  for (const std::size_t row : {17, 27}) r.channels[2].values[row] = r.channels[2].values[5];
+  leave_out_fillers(r, remarks);
+  EXPECT_TRUE(remarks.empty()) << remarks.front();
+  EXPECT_EQ(missing(r, "gimbal_inner") + missing(r, "acc_x"), 0u);
+}
+
+}  // namespace
+}  // namespace drift::preparation::fillers_test
