@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <set>
 
 #include "analysis/preparation/input_thresholds.hpp"
+#include "core/base/words.hpp"
 #include "core/recording/recording_channels.hpp"
 
 namespace drift::preparation {
@@ -35,27 +37,86 @@ bool stands_apart(const std::vector<double>& x, const Channel& position, const R
   return alone && beside > 0;
 }
 
+/// Its rows from one that `goes_on` accepts together with the row before it.
+template <class GoesOn>
+std::vector<Run> runs_of(std::size_t rows, const Channel& position, GoesOn&& goes_on) {
+  std::vector<Run> all;
+  for (std::size_t i = 0; i < rows; ++i)
+    if (i > 0 && position.values[i] == position.values[i - 1] && goes_on(i))
+      all.back().last = i;
+    else
+      all.push_back({i, i});
+  return all;
+}
+
 /// The runs of every number that stands apart wherever it is.
-std::vector<std::vector<Run>> apart_everywhere(const Channel& c, const Channel& position,
-                                               double apart, bool angle) {
+std::map<double, std::vector<Run>> apart_everywhere(const Channel& c, const Channel& position,
+                                                    double apart, bool angle) {
   std::map<double, std::vector<Run>> runs;
   std::set<double> near;  // somewhere
-  for (std::size_t i = 0; i < c.values.size();) {
-    std::size_t end = i + 1;
-    while (end < c.values.size() && c.values[end] == c.values[i] &&
-           position.values[end] == position.values[i])
-      ++end;
-    if (std::isfinite(c.values[i])) {
-      const Run run{i, end - 1};
-      runs[c.values[i]].push_back(run);
-      if (!stands_apart(c.values, position, run, apart, angle)) near.insert(c.values[i]);
-    }
-    i = end;
+  for (const Run& run : runs_of(c.values.size(), position,
+                                [&](std::size_t i) { return c.values[i] == c.values[i - 1]; })) {
+    const double value = c.values[run.first];
+    if (!std::isfinite(value)) continue;
+    runs[value].push_back(run);
+    if (!stands_apart(c.values, position, run, apart, angle)) near.insert(value);
   }
-  std::vector<std::vector<Run>> all;
-  for (auto& [value, its] : runs)
-    if (!near.contains(value)) all.push_back(std::move(its));
+  for (const double value : near) runs.erase(value);
+  return runs;
+}
+
+bool enough(const std::vector<Run>& runs, const Channel& position) {
+  std::size_t rows = 0;
+  std::set<double> positions;
+  for (const Run& run : runs) {
+    rows += run.last - run.first + 1;
+    positions.insert(position.values[run.first]);
+  }
+  return rows >= FillerLimits::rows && positions.size() >= FillerLimits::positions;
+}
+
+/// The runs of every number that all three read at once and that stands apart in one of them, often
+/// enough to be none that is read; then it is that wherever all three read it.
+std::map<double, std::vector<Run>> alike_in_all(const std::array<Channel*, 3>& c,
+                                                const Channel& position, double apart, bool angle) {
+  const auto alike = [&](std::size_t i) {
+    return c[0]->values[i] == c[1]->values[i] && c[0]->values[i] == c[2]->values[i];
+  };
+  std::map<double, std::vector<Run>> all, far;
+  for (const Run& run : runs_of(c[0]->values.size(), position, [&](std::size_t i) {
+         return alike(i) && alike(i - 1) && c[0]->values[i] == c[0]->values[i - 1];
+       })) {
+    if (!alike(run.first)) continue;
+    const double number = c[0]->values[run.first];
+    all[number].push_back(run);
+    if (std::ranges::any_of(c, [&](const Channel* one) {
+          return stands_apart(one->values, position, run, apart, angle);
+        }))
+      far[number].push_back(run);
+  }
+  std::erase_if(all, [&](const auto& entry) { return !enough(far[entry.first], position); });
   return all;
+}
+
+/// Takes the runs out of the channels.
+void leave_out(const std::vector<Channel*>& channels, const std::vector<Run>& runs,
+               const Recording& r, std::vector<std::string>& remarks) {
+  const Channel& first = *channels.front();
+  std::vector<std::string> names;
+  for (const Channel* c : channels) names.push_back(c->name);
+  std::size_t rows = 0;
+  for (const Run& run : runs) rows += run.last - run.first + 1;
+  remarks.push_back(fmt::format(
+      "{}: {} {} {:.10g} {} in {} rows, the first in line {}, far from what is beside {}: taken as "
+      "not measured",
+      r.source.empty() ? "recording" : r.source, listed(names, "and"),
+      names.size() == 1 ? "reads" : "all read", first.values[runs.front().first] / first.unit.to_si,
+      first.unit.symbol.view(), rows, r.lines[runs.front().first], rows == 1 ? "it" : "them"));
+  for (Channel* c : channels)
+    for (const Run& run : runs)
+      std::fill(c->values.begin() + static_cast<std::ptrdiff_t>(run.first),
+                c->values.begin() + static_cast<std::ptrdiff_t>(run.last) + 1,
+                std::numeric_limits<double>::quiet_NaN());
 }
 
 }  // namespace
@@ -64,33 +125,21 @@ void leave_out_fillers(Recording& r, std::vector<std::string>& remarks) {
   const Channel* const found = r.find("position");
   if (found == nullptr) return;
   const Channel position = *found;
-  for (const ChannelTriple& triple : {accelerometer_channels, gimbal_channels})
-    for (const std::string_view name : triple.names) {
-      const auto c = std::ranges::find(r.channels, name, &Channel::name);
-      if (c == r.channels.end()) continue;
-      const bool angle = name.starts_with("gimbal_");
-      const double apart = angle ? FillerLimits::angle : FillerLimits::force;
-      for (const std::vector<Run>& runs : apart_everywhere(*c, position, apart, angle)) {
-        std::size_t rows = 0;
-        std::set<double> positions;
-        for (const Run& run : runs) {
-          rows += run.last - run.first + 1;
-          positions.insert(position.values[run.first]);
-        }
-        if (rows < FillerLimits::rows || positions.size() < FillerLimits::positions) continue;
-        remarks.push_back(
-            fmt::format("{}: {} reads {:.10g} {} in {} rows, the first in line {}, far from what "
-                        "is beside them: "
-                        "taken as not measured",
-                        r.source.empty() ? "recording" : r.source, name,
-                        c->values[runs.front().first] / c->unit.to_si, c->unit.symbol.view(), rows,
-                        r.lines[runs.front().first]));
-        for (const Run& run : runs)
-          std::fill(c->values.begin() + static_cast<std::ptrdiff_t>(run.first),
-                    c->values.begin() + static_cast<std::ptrdiff_t>(run.last) + 1,
-                    std::numeric_limits<double>::quiet_NaN());
-      }
-    }
+  for (const ChannelTriple& triple : {accelerometer_channels, gimbal_channels}) {
+    std::vector<Channel*> channels;
+    for (const std::string_view name : triple.names)
+      if (const auto c = std::ranges::find(r.channels, name, &Channel::name); c != r.channels.end())
+        channels.push_back(&*c);
+    const bool angle = triple.names == gimbal_channels.names;
+    const double apart = angle ? FillerLimits::angle : FillerLimits::force;
+    const auto take = [&](const std::vector<Channel*>& of, const auto& runs_by_number) {
+      for (const auto& [number, runs] : runs_by_number)
+        if (enough(runs, position)) leave_out(of, runs, r, remarks);
+    };
+    if (channels.size() == 3)
+      take(channels, alike_in_all({channels[0], channels[1], channels[2]}, position, apart, angle));
+    for (Channel* c : channels) take({c}, apart_everywhere(*c, position, apart, angle));
+  }
 }
 
 }  // namespace drift::preparation

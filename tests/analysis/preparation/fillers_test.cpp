@@ -45,6 +45,26 @@ TEST(Fillers, ANumberThatComesBackFarFromItsNeighboursIsNotMeasured) {
       "is beside them: taken as not measured");
 }
 
+TEST(Fillers, ANumberThatAllThreeReadMayBeNearWhatTheyReadElsewhere) {
+  Recording r = resting();
+  Channel y{"acc_y", unit::g, std::vector<double>(30, 0.0)}, z = y;
+  z.name = "acc_z";
+  for (std::size_t row = 0; row < 30; ++row) {
+    y.values[row] = 0.01 + 1e-5 * static_cast<double>(row);
+    z.values[row] = row / 10 == 1 ? 0.02 : 1.0 - 1e-5 * static_cast<double>(row);
+  }
+  r.channels.push_back(y);
+  r.channels.push_back(z);
+  for (const std::size_t row : {9, 19, 29})
+    for (const std::size_t c : {1, 3, 4}) r.channels[c].values[row] = 0.0;
+  std::vector<std::string> remarks;
+  leave_out_fillers(r, remarks);
+  for (const char* name : {"acc_x", "acc_y", "acc_z"}) EXPECT_EQ(missing(r, name), 3u) << name;
+  ASSERT_EQ(remarks.size(), 1u);
+  EXPECT_NE(remarks[0].find("acc_x, acc_y and acc_z all read 0 g in 3 rows"), std::string::npos)
+      << remarks[0];
+}
+
 TEST(Fillers, WhatIsReadStays) {
   Recording r = resting();
   std::vector<std::string> remarks;
