@@ -123,7 +123,8 @@ std::vector<SampleOfTest> samples_of(const Timeline& timeline, const Readout& re
   std::vector<SampleOfTest> samples;
   for (const Interval& i : timeline.intervals)
     samples.push_back({i.t1, i.position + 1, i.slew,
-                       i.accelerometer_noise(readout.accelerometer_noise), readout.gimbal_noise});
+                       i.accelerometer_noise(readout.accelerometer_noise),
+                       i.gimbal_noise(readout.gimbal_noise)});
   return samples;
 }
 

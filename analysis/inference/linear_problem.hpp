@@ -30,6 +30,7 @@ struct IntervalDrive {
   bool rest = false;  ///< nothing moves the attitude; the gyros are measured (Interval::rest)
   int chain = 0;
   double samples = 1.0;          ///< that the accelerometers average (Interval)
+  double readings = 1.0;         ///< of the gimbals, likewise
   Mat3 per_rate = Mat3::Zero();  ///< d attitude / d gyro drift over the interval [1/(rad/s)]
 };
 
@@ -53,6 +54,10 @@ struct MeasuredRows {
   /// 1 sigma declared of an accelerometer row [g].
   double acc_sigma_of(const RowTag& row) const {
     return acc_sigma / std::sqrt(drives[row.interval].samples);
+  }
+  /// 1 sigma declared of a gimbal row [rad].
+  double gimbal_sigma_of(const RowTag& row) const {
+    return gimbal_sigma / std::sqrt(drives[row.interval].readings);
   }
 };
 

@@ -35,7 +35,7 @@ VecX window_signature(const MeasuredRows& rows, const Timeline& timeline, const 
         if (inside && tag.channel == w.axis) s[r] = 1.0 / rows.acc_sigma_of(tag);
         break;
       case Equation::gimbal:
-        if (inside && tag.channel == 3 + w.axis) s[r] = 1.0 / rows.gimbal_sigma;
+        if (inside && tag.channel == 3 + w.axis) s[r] = 1.0 / rows.gimbal_sigma_of(tag);
         break;
       case Equation::attitude:
         if (inside) {

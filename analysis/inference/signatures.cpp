@@ -57,6 +57,7 @@ std::vector<IntervalDrive> drives(const Timeline& timeline) {
     d.cage = i.cage;
     d.chain = i.chain;
     d.samples = i.samples;
+    d.readings = i.readings;
     d.rest = i.rest;
     all.push_back(d);
     before = &i;

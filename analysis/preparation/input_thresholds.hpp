@@ -22,8 +22,9 @@ struct RecordingLimits {
   /// Part by which the intervals of several evenly spaced recordings may differ to be one interval.
   static constexpr double same_interval = 1e-3;
   /// Rows beyond which samples are averaged, and the samples that the shortest dwell must keep. The
-  /// time of a diagnosis grows with rows; eight samples still show a slope beside noise. Tuned.
-  static constexpr std::size_t most_rows = 20000;
+  /// time of a diagnosis grows with rows, what averages know does not: a platform in free drift
+  /// takes minutes to move by more than its noise. Eight samples still show a slope beside noise.
+  static constexpr std::size_t most_rows = 1500;
   static constexpr double kept_samples = 8.0;
   /// By which joined rows at several distances grow until they are few enough.
   static constexpr double coarser = 1.5;

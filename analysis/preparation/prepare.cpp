@@ -148,9 +148,14 @@ std::size_t rows_of(const std::vector<Recording>& recordings) {
   return rows;
 }
 
+/// Rows that become a sample of the plan, and rows that become one row: as many such samples.
+struct Factors {
+  std::size_t sample = 1, row = 1;
+};
+
 /// By how much evenly spaced samples are to be put together; a complaint if they do not fit the
 /// plan.
-std::size_t factor_for(const Work& work, double interval) {
+Factors factors_for(const Work& work, double interval) {
   double shortest = std::numeric_limits<double>::infinity();
   for (const Recording& r : work.p.recordings)
     shortest = std::min(shortest, sample_intervals(r).shortest_position);
@@ -167,29 +172,32 @@ std::size_t factor_for(const Work& work, double interval) {
         "times are used; if its clock is off, every rate is by as much, else set plan.sample",
         name_of(work.p.recordings.front()), interval * whole, work.sample, 100.0 * std::abs(off),
         off > 0.0 ? "longer" : "shorter"));
-  auto factor = static_cast<std::size_t>(whole);
+  const auto sample = static_cast<std::size_t>(whole);
+  std::size_t factor = sample;
   while (rows_of(work.p.recordings) / factor > work.most_rows &&
-         RecordingLimits::kept_samples * static_cast<double>(factor + 1) * interval <= shortest)
-    ++factor;
-  return factor;
+         RecordingLimits::kept_samples * static_cast<double>(factor + sample) * interval <=
+             shortest)
+    factor += sample;
+  return {sample, factor};
 }
 
 /// Evenly spaced rows: a whole number of them becomes one.
 void take_even_rows(const Work& work, double interval) {
-  const std::size_t factor = factor_for(work, interval);
+  const auto [sample, factor] = factors_for(work, interval);
   if (!work.wrong.empty() || factor == 1) return;
   Prepared& p = work.p;
   const std::size_t before = rows_of(p.recordings);
-  for (Recording& r : p.recordings) r = reduced(r, interval, factor);
+  // [readout] declares the noise of one sample of the plan, which has one reading of each angle.
+  for (Recording& r : p.recordings) r = reduced(r, interval, factor, factor > sample ? sample : 0);
   const double length = interval * static_cast<double>(factor);
   for (Position& position : p.study.plan.positions) position.sample = length;
   // Declared is the noise of the mean over the plan's interval; a longer mean has less.
   p.study.readout.accelerometer_noise *= std::sqrt(std::min(1.0, work.sample / length));
   p.remarks.push_back(
       fmt::format("{} rows {:.6g} s apart are taken as {} of {:.6g} s: means of accelerometers, "
-                  "angles at the "
-                  "end; effects faster than that are not looked for",
-                  before, interval, rows_of(p.recordings), length));
+                  "angles {} the end; effects faster than that are not looked for",
+                  before, interval, rows_of(p.recordings), length,
+                  p.recordings.front().readings.empty() ? "at" : "by the readings around"));
 }
 
 /// Rows at any distance: each has its own interval, fine ones are joined.

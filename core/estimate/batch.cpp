@@ -165,7 +165,10 @@ BatchResult fit_from(const FilterSpec& filter, const MeasuredTest& test, const S
     return test.timeline.intervals[static_cast<std::size_t>(i)].accelerometer_noise(
         test.readout.accelerometer_noise);
   };
-  const auto gimbal_noise = [&](Eigen::Index) { return test.readout.gimbal_noise; };
+  const auto gimbal_noise = [&](Eigen::Index i) {
+    return test.timeline.intervals[static_cast<std::size_t>(i)].gimbal_noise(
+        test.readout.gimbal_noise);
+  };
   Measurements kept = measured;
   double gate = std::max(outlier_gate(make_layout(filter).theta), 1.0);
   double wide =

@@ -205,7 +205,8 @@ void MeasurementEquations::take_gimbals(std::size_t i, const Trajectory& phi) {
   const Mat3 Y_psi = p.H * Phi_;
   for (int a = 0; a < 3; ++a)
     if (const double m = measured.gimbal(a, static_cast<Eigen::Index>(i)); std::isfinite(m))
-      add_row(angle_difference(m, p.angles[a]), Y_psi.row(a), a, readout.gimbal_noise);
+      add_row(angle_difference(m, p.angles[a]), Y_psi.row(a), a,
+              interval.gimbal_noise(readout.gimbal_noise));
 }
 
 void MeasurementEquations::add_row(double residual, const Eigen::RowVector3d& d_psi, int axis,

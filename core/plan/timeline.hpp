@@ -31,7 +31,8 @@ struct Interval {
   double t_begin = 0.0;            ///< when the test began (several may follow each other) [s]
   double t_dwell = 0.0;            ///< when the dwell of the position begins [s]
   Covariates around0, around1;     ///< at t0 and t1, linear in between; zero where not known
-  double samples = 1.0;  ///< of the plan, averaged by the accelerometers: less noise by its root
+  double samples = 1.0;   ///< of the plan, averaged by the accelerometers: less noise by its root
+  double readings = 1.0;  ///< of the gimbals that its angles are worth, likewise
   std::optional<CaseTurn> turn;  ///< of a case whose accelerometers are read while it turns
   std::size_t first_node = 0;    ///< nodes first_node .. first_node + 2 substeps
   int substeps = 1;              ///< steps of two nodes each, at most 0.05 rad of attitude long
@@ -39,6 +40,8 @@ struct Interval {
   double length() const { return t1 - t0; }
   /// 1 sigma of the accelerometers' means, `of_a_sample` declared for one sample of the plan.
   double accelerometer_noise(double of_a_sample) const { return of_a_sample / std::sqrt(samples); }
+  /// 1 sigma of its gimbal angles, `of_a_reading` declared for one.
+  double gimbal_noise(double of_a_reading) const { return of_a_reading / std::sqrt(readings); }
   double heading_rate() const { return (heading1 - heading0) / length(); }
   std::size_t node_count() const { return 2 * static_cast<std::size_t>(substeps) + 1; }
   std::size_t middle_node() const { return first_node + static_cast<std::size_t>(substeps); }

@@ -101,6 +101,7 @@ class Reader {
     if (i.cage && !rec_.begins.empty())
       i.t0 = before ? std::max(rec_.begins[row], before->t1) : rec_.begins[row];
     if (!rec_.samples.empty()) i.samples = rec_.samples[row];
+    if (!rec_.readings.empty()) i.readings = rec_.readings[row];
     if (i.cage) {
       ++timeline_.chains;
       chain_start_.push_back(position.R_lp);

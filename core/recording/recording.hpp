@@ -29,6 +29,7 @@ struct Recording {
   /// each, since the row before.
   std::vector<double> begins;        ///< when the interval of each row begins [s]
   std::vector<double> samples;       ///< samples of the plan whose noise its accelerometers average
+  std::vector<double> readings;      ///< readings whose noise its gimbal angles are a mean of
   WeighedTexts remarks;              ///< sentences about how the file was understood
   std::string unmapped_temperature;  ///< the remark on what looks like one and is not mapped; or ""
 

@@ -174,10 +174,10 @@ void Simulator::measure(const Timeline& timeline, std::size_t i, Simulation& out
   if (readout_.gimbals) {
     const Vec3 angles = instruments.gimbals(interval, phi, memory);
     for (int a = 0; a < 3; ++a)
-      out.measured.gimbal(a, i) =
-          angle_difference(angles[a] + readout_.gimbal_noise * (sensor_noise_[3 + a]->normal() +
-                                                                wrong_by(3 + a, out.draw.theta)),
-                           0.0);
+      out.measured.gimbal(a, i) = angle_difference(
+          angles[a] + interval.gimbal_noise(readout_.gimbal_noise) *
+                          (sensor_noise_[3 + a]->normal() + wrong_by(3 + a, out.draw.theta)),
+          0.0);
   }
 }
 

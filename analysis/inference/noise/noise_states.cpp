@@ -51,7 +51,7 @@ double lone_weight(const MeasuredRows& p, const LoneInput& lone, const RowTag& r
   if (lone.equation == Equation::accelerometer && row.channel == lone.axis)
     return lone.sigma / p.acc_sigma_of(row);
   if (lone.equation == Equation::gimbal && row.channel == 3 + lone.axis)
-    return lone.sigma / p.gimbal_sigma;
+    return lone.sigma / p.gimbal_sigma_of(row);
   if (lone.equation == Equation::rate) return lone.sigma * p.per_drift(row, lone.axis);
   return 0.0;
 }

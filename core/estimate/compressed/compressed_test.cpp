@@ -112,7 +112,7 @@ AxisReading CompressedTest::how_to_read(const Stretch& stretch, Reading what,
     const Interval& i = whole_.intervals[stretch.first + s];
     times.push_back({scaled(i.t0), scaled(i.t1),
                      what == Reading::mean ? i.accelerometer_noise(readout_.accelerometer_noise)
-                                           : readout_.gimbal_noise});
+                                           : i.gimbal_noise(readout_.gimbal_noise)});
   }
   how.sigma.resize(static_cast<Eigen::Index>(times.size()));
   for (std::size_t k = 0; k < times.size(); ++k)

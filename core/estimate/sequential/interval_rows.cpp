@@ -127,7 +127,7 @@ IntervalRows::Taken IntervalRows::take(std::size_t i, const Vec3& acc, const Vec
     for (int k = 0; k < 3; ++k) residual[k] = angle_difference(gimbal[k], predicted.angles[k]);
     take_triple(gimbals,
                 {residual, predicted.H, &predicted.H_rate, &predicted.H_par, layout_.num_rate,
-                 readout_.gimbal_noise},
+                 interval.gimbal_noise(readout_.gimbal_noise)},
                 gate, rows, taken);
   }
   for (std::size_t k = 0; k < attitude_.walking().size(); ++k)

@@ -125,7 +125,7 @@ void IntervalStep::take_gimbals(const Interval& interval, const Vec3& gimbal) {
   Vec3 residual;
   for (int k = 0; k < 3; ++k) residual[k] = angle_difference(gimbal[k], predicted.angles[k]);
   update(interval, last, residual, sensitivity_of(predicted.H, predicted.H_rate, predicted.H_par),
-         readout_.gimbal_noise, InnovationSums::gimbals);
+         interval.gimbal_noise(readout_.gimbal_noise), InnovationSums::gimbals);
 }
 
 /// Takes in three scalars at a node. residual: measured minus predicted along the path.

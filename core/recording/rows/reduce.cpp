@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "core/base/check.hpp"
 #include "core/recording/recording_channels.hpp"
+#include "core/recording/rows/angles_around.hpp"
 #include "core/recording/rows/row_spacing.hpp"
 #include "core/stats/median.hpp"
 
@@ -17,6 +19,7 @@ namespace {
 struct Joined {
   std::size_t first = 0, end = 0;
   bool position_begins = false;
+  bool cut = false;  ///< from the stretch before: position, phase, command or heading changed
 };
 
 class Cutter {
@@ -40,7 +43,7 @@ class Cutter {
           row == 0 || (position_ && position_->values[row] != position_->values[row - 1]);
       if (position_changed || cut_before(row, all.back())) {
         origin = position_changed ? time_[row] - interval_ : time_[row - 1];
-        all.push_back({row, row + 1, position_changed});
+        all.push_back({row, row + 1, position_changed, true});
       } else if (bin(row, origin) != bin(row - 1, origin)) {
         all.push_back({row, row + 1});
       } else {
@@ -100,6 +103,42 @@ double bridged_mean(const std::vector<double>& t, const std::vector<double>& x, 
   return tt > 0.0 ? mx - tx / tt * mt : mx;
 }
 
+/// Angle by which the platform may turn while `length` seconds pass at a row; more than any if it
+/// slews as nobody noted.
+double turn_at(const Recording& r, std::size_t row, double length) {
+  const Channel* phase = r.find("phase");
+  const auto command = measured(r, command_channels, row);
+  if (!command && phase != nullptr && phase->values[row] == 1.0) return HUGE_VAL;
+  return ((command ? command->norm() : 0.0) + detail::earth_rate) * length;
+}
+
+/// The gimbal angles of every stretch, where rows are fine enough for them to be from several
+/// readings: `out` has those at the end of each.
+void take_angles_around(const Recording& recording, const std::vector<Joined>& stretches,
+                        const AnglesAround& around, Recording& out) {
+  std::vector<std::pair<const Channel*, Channel*>> gimbals;
+  for (Channel& c : out.channels)
+    if (c.name.starts_with("gimbal_")) gimbals.emplace_back(recording.find(c.name), &c);
+  if (gimbals.empty() || !around.fits()) return;
+  const auto& t = recording.find("time")->values;
+  out.readings.assign(stretches.size(), 1.0);
+  for (std::size_t first = 0, end = 0; first < stretches.size(); first = end) {
+    end = first + 1;
+    while (end < stretches.size() && !stretches[end].cut) ++end;
+    for (std::size_t s = first; s < end; ++s) {
+      const std::size_t row = stretches[s].end - 1;
+      if (!around.around(row, stretches[first].first, stretches[end - 1].end - 1, t) ||
+          turn_at(recording, row, around.length()) > AnglesAround::largest_turn)
+        continue;
+      std::vector<double> angles;
+      for (const auto& [fine, coarse] : gimbals) angles.push_back(around.at(fine->values, row));
+      if (!std::ranges::all_of(angles, [](double x) { return std::isfinite(x); })) continue;
+      for (std::size_t k = 0; k < gimbals.size(); ++k) gimbals[k].second->values[s] = angles[k];
+      out.readings[s] = around.readings();
+    }
+  }
+}
+
 }  // namespace
 
 SampleIntervals sample_intervals(const Recording& recording) {
@@ -121,7 +160,8 @@ SampleIntervals sample_intervals(const Recording& recording) {
   return found;
 }
 
-Recording reduced(const Recording& recording, double interval, std::size_t factor) {
+Recording reduced(const Recording& recording, double interval, std::size_t factor,
+                  std::size_t reading) {
   DRIFT_DEMAND(interval > 0.0 && factor >= 1 && recording.rows() > 0);
   const std::vector<Joined> stretches = Cutter(recording, interval, factor).cut();
   const auto& t = recording.find("time")->values;
@@ -148,6 +188,8 @@ Recording reduced(const Recording& recording, double interval, std::size_t facto
     }
     out.channels.push_back(std::move(reduced_channel));
   }
+  if (reading > 0)
+    take_angles_around(recording, stretches, {factor / reading, reading, interval}, out);
   return out;
 }
 

@@ -192,7 +192,7 @@ LaneFilter::Scalars LaneIntervals::read_gimbals(std::size_t i, const Recordings&
     scalars.nu[a] = scalars.on[a] * angle_difference(scalars.nu[a], angles[a]);
   scalars.H_psi =
       times(gimbal_angles_by_rotation(R_cp), in_all_lanes(R_cl * node.R_il.transpose()));
-  scalars.sigma = readout_.gimbal_noise;
+  scalars.sigma = interval.gimbal_noise(readout_.gimbal_noise);
   return scalars;
 }
 
