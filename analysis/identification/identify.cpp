@@ -49,6 +49,8 @@ FilterRun estimate(const mc::Study& study, const Job& job, const Timeline& timel
   run.start = job.start;
   run.ekf = run_ekf(filter, {timeline, study.readout, measured}, start, &run.history);
   run.batch = fit_batch(filter, {timeline, study.readout, measured}, start);
+  for (EstimateResult* result : {&run.ekf, &run.batch.estimate})
+    result->noise_at_most = study.readout.accelerometers_rounded || study.readout.gimbals_rounded;
   return run;
 }
 
@@ -189,7 +191,8 @@ const EstimateResult& judged(const FilterSpec& filter, const FilterRun& first) {
 
 bool misfit(const EstimateResult& result) {
   const double m = static_cast<double>(result.measured);  // the variance of chi-square over m: 2/m
-  return result.measured > 0 && std::abs(result.statistic_per_dof() - 1.0) >
+  const double off = result.statistic_per_dof() - 1.0;
+  return result.measured > 0 && (result.noise_at_most ? off : std::abs(off)) >
                                     inference::FitLimits::misfit * std::sqrt(2.0 / m);
 }
 

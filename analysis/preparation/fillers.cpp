@@ -12,6 +12,7 @@
 #include "analysis/preparation/input_thresholds.hpp"
 #include "core/base/words.hpp"
 #include "core/recording/recording_channels.hpp"
+#include "core/recording/rows/reading_step.hpp"
 
 namespace drift::preparation {
 namespace {
@@ -29,8 +30,10 @@ bool stands_apart(const std::vector<double>& x, const Channel& position, const R
   const auto far = [&](std::size_t row) {
     if (position.values[row] != position.values[run.first] || !std::isfinite(x[row])) return true;
     ++beside;
-    const double by = x[row] - value;
-    return std::abs(angle ? std::remainder(by, 360.0 * detail::deg) : by) > apart;
+    const double by = x[row] - value, turn = 360.0 * detail::deg;
+    // Beyond a turn an angle is not that angle less whole turns.
+    const bool round = angle && std::max(std::abs(x[row]), std::abs(value)) <= 1.01 * turn;
+    return std::abs(round ? std::remainder(by, turn) : by) > apart;
   };
   const bool alone =
       (run.first == 0 || far(run.first - 1)) && (run.last + 1 == x.size() || far(run.last + 1));
@@ -49,20 +52,22 @@ std::vector<Run> runs_of(std::size_t rows, const Channel& position, GoesOn&& goe
   return all;
 }
 
-/// The runs of every number that stands apart wherever it is.
-std::map<double, std::vector<Run>> apart_everywhere(const Channel& c, const Channel& position,
-                                                    double apart, bool angle) {
+/// The runs of every number that stands apart; where it is near its neighbours it may be read.
+std::map<double, std::vector<Run>> standing_apart(const Channel& c, const Channel& position,
+                                                  double apart, bool angle) {
   std::map<double, std::vector<Run>> runs;
-  std::set<double> near;  // somewhere
   for (const Run& run : runs_of(c.values.size(), position,
-                                [&](std::size_t i) { return c.values[i] == c.values[i - 1]; })) {
-    const double value = c.values[run.first];
-    if (!std::isfinite(value)) continue;
-    runs[value].push_back(run);
-    if (!stands_apart(c.values, position, run, apart, angle)) near.insert(value);
-  }
-  for (const double value : near) runs.erase(value);
+                                [&](std::size_t i) { return c.values[i] == c.values[i - 1]; }))
+    if (std::isfinite(c.values[run.first]) && stands_apart(c.values, position, run, apart, angle))
+      runs[c.values[run.first]].push_back(run);
   return runs;
+}
+
+std::vector<Run> runs_of_number(const Channel& c, const Channel& position, double number) {
+  std::vector<Run> all = runs_of(c.values.size(), position,
+                                 [&](std::size_t i) { return c.values[i] == c.values[i - 1]; });
+  std::erase_if(all, [&](const Run& run) { return c.values[run.first] != number; });
+  return all;
 }
 
 bool enough(const std::vector<Run>& runs, const Channel& position) {
@@ -138,7 +143,14 @@ void leave_out_fillers(Recording& r, std::vector<std::string>& remarks) {
     };
     if (channels.size() == 3)
       take(channels, alike_in_all({channels[0], channels[1], channels[2]}, position, apart, angle));
-    for (Channel* c : channels) take({c}, apart_everywhere(*c, position, apart, angle));
+    for (Channel* c : channels) {
+      auto runs = standing_apart(*c, position, apart, angle);
+      std::erase_if(runs, [&](const auto& entry) { return !enough(entry.second, position); });
+      // To the last digit a fine readout does not come back to it.
+      if (!runs.empty() && !reading_step(*c, &position))
+        for (auto& [number, its] : runs) its = runs_of_number(*c, position, number);
+      take({c}, runs);
+    }
   }
 }
 

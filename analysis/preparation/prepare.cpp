@@ -248,13 +248,14 @@ Prepared prepare(const mc::Study& study, const std::vector<Recording>& recording
       wrong.push_back(std::move(text));
     positions.merge(positions_of(r));
   }
+  const Rounding rounding = rounding_of(p.recordings);  // as long as rows are those of the files
   const Work work{p, plan_sample(study), most_rows, wrong};
   const double interval = common_interval(study, p.recordings);
   if (std::isfinite(interval))
     take_even_rows(work, interval);
   else if (rows_of(p.recordings) > p.recordings.size())
     take_uneven_rows(work);
-  take_rounding(recordings, p.study.readout, p.remarks);
+  take_rounding(rounding, p.study.readout, p.remarks);
   if (!wrong.empty()) throw InputError(ExitCode::recording, std::move(wrong));
   for (const Recording& r : p.recordings) {
     try {

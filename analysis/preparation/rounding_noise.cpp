@@ -12,24 +12,30 @@
 namespace drift::preparation {
 namespace {
 
-/// Channels of one kind that are written in steps, and the one whose rounding is worst.
-struct Steps {
-  std::vector<std::string> names;
-  const Channel* worst = nullptr;
-  double step = 0.0, noise = 0.0;  ///< of that one, internal unit
-};
-
-/// Rows of a position on average that show one value one after the other.
-double usual_run(const Channel& c, const Channel* position) {
-  std::size_t rows = 0, runs = 0;
-  for (std::size_t i = 0; i < c.values.size(); ++i) {
-    if (!std::isfinite(c.values[i])) continue;
-    ++rows;
-    const bool goes_on = i > 0 && c.values[i] == c.values[i - 1] &&
-                         (position == nullptr || position->values[i] == position->values[i - 1]);
-    runs += goes_on ? 0 : 1;
+/// Rows on average, over the rows, that one rounding error lasts: as long as the rows of a position
+/// go on by as many steps as before.
+double usual_run(const Channel& c, const Channel* position, double step) {
+  const auto& x = c.values;
+  const auto steps = [&](std::size_t i) { return std::round((x[i] - x[i - 1]) / step); };
+  const auto here = [&](std::size_t i) {
+    return std::isfinite(x[i]) && std::isfinite(x[i - 1]) &&
+           (position == nullptr || position->values[i] == position->values[i - 1]);
+  };
+  double rows = 0.0, squares = 0.0, run = 0.0;
+  const auto end_run = [&] {
+    squares += run * run;
+    rows += run;
+    run = 0.0;
+  };
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (!std::isfinite(x[i])) continue;
+    const bool goes_on =
+        i > 0 && here(i) && (run < 2.0 || (i > 1 && here(i - 1) && steps(i) == steps(i - 1)));
+    if (!goes_on) end_run();
+    run += 1.0;
   }
-  return runs == 0 ? 1.0 : static_cast<double>(rows) / static_cast<double>(runs);
+  end_run();
+  return rows > 0.0 ? squares / rows : 1.0;
 }
 
 Steps steps_of(const std::vector<Recording>& recordings, const ChannelTriple& channels) {
@@ -40,36 +46,39 @@ Steps steps_of(const std::vector<Recording>& recordings, const ChannelTriple& ch
       const auto step = c != nullptr ? reading_step(*c, position) : std::nullopt;
       if (!step) continue;
       if (std::ranges::find(found.names, name) == found.names.end()) found.names.emplace_back(name);
-      const double noise = *step * std::sqrt(usual_run(*c, position) / 12.0);
-      if (noise > found.noise) found = {std::move(found.names), c, *step, noise};
+      const double noise = *step * std::sqrt(usual_run(*c, position, *step) / 12.0);
+      if (noise > found.noise)
+        found = {std::move(found.names), std::string(c->unit.symbol.view()), *step / c->unit.to_si,
+                 noise};
     }
   return found;
 }
 
-/// `noise` becomes that of rounding where it is less; `unit`: of the remark.
 void take(const Steps& steps, double& noise, bool& rounded, const Unit& unit,
           std::vector<std::string>& remarks) {
   if (!(steps.noise > noise)) return;
   rounded = true;
+  const double both = std::hypot(steps.noise, noise);
   remarks.push_back(fmt::format(
-      "{} {} written in steps of {:.3g} {}: rounding makes a noise of {:.3g} {}, which is taken in "
-      "place of the {:.3g} {} of [readout]",
-      listed(steps.names, "and"), steps.names.size() == 1 ? "is" : "are",
-      steps.step / steps.worst->unit.to_si, steps.worst->unit.symbol.view(),
-      steps.noise / unit.to_si, unit.symbol.view(), noise / unit.to_si, unit.symbol.view()));
-  noise = steps.noise;
+      "{} {} written in steps of {:.3g} {}: with the noise of rounding it is {:.3g} {} in place of "
+      "the {:.3g} {} of [readout]",
+      listed(steps.names, "and"), steps.names.size() == 1 ? "is" : "are", steps.step, steps.unit,
+      both / unit.to_si, unit.symbol.view(), noise / unit.to_si, unit.symbol.view()));
+  noise = both;
 }
 
 }  // namespace
 
-void take_rounding(const std::vector<Recording>& recordings, Readout& readout,
-                   std::vector<std::string>& remarks) {
+Rounding rounding_of(const std::vector<Recording>& recordings) {
+  return {steps_of(recordings, accelerometer_channels), steps_of(recordings, gimbal_channels)};
+}
+
+void take_rounding(const Rounding& rounding, Readout& readout, std::vector<std::string>& remarks) {
   if (readout.accelerometers)
-    take(steps_of(recordings, accelerometer_channels), readout.accelerometer_noise,
-         readout.accelerometers_rounded, unit::ug, remarks);
+    take(rounding.accelerometers, readout.accelerometer_noise, readout.accelerometers_rounded,
+         unit::ug, remarks);
   if (readout.gimbals)
-    take(steps_of(recordings, gimbal_channels), readout.gimbal_noise, readout.gimbals_rounded,
-         unit::arcsec, remarks);
+    take(rounding.gimbals, readout.gimbal_noise, readout.gimbals_rounded, unit::arcsec, remarks);
 }
 
 }  // namespace drift::preparation

@@ -32,6 +32,8 @@ struct EstimateResult {
   std::size_t measured = 0;  ///< scalars used; `statistic` is chi-square of as many degrees when
                              ///< model, noise and priors are right
   int iterations = 0;        ///< batch alone
+  /// The noise of some readings is an upper bound (Readout): `statistic` may be far less.
+  bool noise_at_most = false;
 
   double statistic_per_dof() const { return statistic / static_cast<double>(measured); }
   const ParameterEstimate* find(std::size_t param) const {

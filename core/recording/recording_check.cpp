@@ -180,12 +180,13 @@ void check_values(const Recording& r, RecordingKind kind, Problems& problems) {
         problems.add(
             at(r, i, c.name), fmt::format("the value {:g} is beyond reason", x / c.unit.to_si),
             fmt::format("at most {:g} {} in size", most / c.unit.to_si, c.unit.symbol.view()),
-            c.name == "temperature"
-                ? "Check the unit: kelvins are temperature = \"its header as it stands, then "
-                  "[K]\" in columns of [recording], or [K] in the header"
-                : fmt::format("Check the unit and the export; if it stands for not measured, say "
-                              "in [recording] of the study file missing = [{:g}]",
-                              x / c.unit.to_si));
+            fmt::format("Check the unit and the export{}; if it stands for not measured, say in "
+                        "[recording] of the study file missing = [{:g}]",
+                        c.name == "temperature"
+                            ? " (kelvins are temperature = \"its header as it stands, then [K]\" "
+                              "in columns of [recording], or [K] in the header)"
+                            : "",
+                        x / c.unit.to_si));
       if (std::isnan(x) && command)
         problems.add(at(r, i, c.name), "the command is missing", "the commanded rate in every row",
                      "Give the command, 0 if there was none");

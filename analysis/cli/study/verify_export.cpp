@@ -8,6 +8,7 @@
 #include "analysis/cli/study/whole_results.hpp"
 #include "analysis/cli/study_program.hpp"
 #include "core/base/output_file.hpp"
+#include "core/base/results/folder.hpp"
 #include "core/base/results/register.hpp"
 #include "core/base/seal.hpp"
 #include "mc/engine/replay.hpp"
@@ -40,6 +41,12 @@ ExitCode verify(const std::string& folder, const std::string& sample, int thread
   for (const std::string& name : changed_results(folder))
     v.damage.push_back(fmt::format(
         "{}/{}: not as driftscope wrote it. Move it away, and the same command makes it anew",
+        folder, name));
+  for (const std::string& name : unlisted_results({folder, "run"}))
+    v.damage.push_back(fmt::format(
+        "{}/{}: not in the list of what driftscope wrote (.driftscope), which may be lost or "
+        "damaged: "
+        "whether it is as it was nobody can say. Move it away, and the same command makes it anew",
         folder, name));
   show("{}: {} blocks with {} runs, {} missing; {} checksums verified, {} runs executed again\n",
        folder, v.blocks, v.runs, v.missing, v.copies, v.recomputed);

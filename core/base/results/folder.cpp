@@ -110,26 +110,18 @@ void refuse_changed(const ResultsFolder& folder) {
                     folder.path, listed(changed), changed.size() == 1 ? "it" : "them"));
 }
 
-/// What the command is going to write at the end, and somebody else put there.
+/// What the command is going to write, and its list of what it wrote does not have.
 void refuse_in_the_way(const ResultsFolder& folder) {
-  const ResultsRegister known(folder.path);
-  if (!known.exists()) return;  // of a version that had none: they are noted as its own
-  const std::vector<std::string> ours = known.names();
-  std::vector<std::string> names;
-  for (const std::string& name : main_results(folder.command)) {
-    const fs::path path = fs::path(folder.path) / name;
-    std::error_code none;
-    const bool empty = fs::is_regular_file(path, none) && fs::file_size(path, none) == 0;
-    if (fs::exists(fs::symlink_status(path, none)) && !empty && !std::ranges::count(ours, name))
-      names.push_back(name);
-  }
+  std::vector<std::string> names = unlisted_results(folder);
   if (names.empty()) return;
+  const bool one = names.size() == 1;
   throw InputError(
       ExitCode::store,
-      fmt::format("{}: {} {} there, which driftscope did not write (expected a free name for what "
-                  "`{}` writes). Nothing was changed; move {} away, or give another folder with -o",
-                  folder.path, listed(names), names.size() == 1 ? "is" : "are", folder.command,
-                  names.size() == 1 ? "it" : "them"));
+      fmt::format("{}: {} {} there, and not in the list of what driftscope wrote ({}; expected a "
+                  "free name for what `{}` writes, or a file that it wrote). Nothing was changed; "
+                  "move {} away, or give another folder with -o",
+                  folder.path, listed(std::move(names)), one ? "is" : "are",
+                  ResultsRegister::file_name, folder.command, one ? "it" : "them"));
 }
 
 /// Tries to write where the folder is, or where it would be made, and leaves no trace.
@@ -144,6 +136,24 @@ void require_writable(const std::string& folder) {
 }
 
 }  // namespace
+
+std::vector<std::string> unlisted_results(const ResultsFolder& folder) {
+  const ResultsRegister known(folder.path);
+  const std::vector<std::string> ours = known.names();
+  std::vector<std::string> may_be = main_results(folder.command), unlisted;
+  if (ours.empty())  // the list is lost, or nothing was noted yet
+    for (const auto& [name, hash] : files_of(folder.command, folder.path)) may_be.push_back(name);
+  std::ranges::sort(may_be);
+  may_be.erase(std::unique(may_be.begin(), may_be.end()), may_be.end());
+  for (const std::string& name : may_be) {
+    const fs::path path = fs::path(folder.path) / name;
+    std::error_code none;
+    const bool empty = fs::is_regular_file(path, none) && fs::file_size(path, none) == 0;
+    if (fs::exists(fs::symlink_status(path, none)) && !empty && !std::ranges::count(ours, name))
+      unlisted.push_back(name);
+  }
+  return unlisted;
+}
 
 std::string results_of(const std::string& folder) {
   // The files know best: the word in the register is under no checksum.

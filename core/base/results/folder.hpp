@@ -28,6 +28,10 @@ std::string results_of(const std::string& folder);
 void require_results_folder(const ResultsFolder& folder,
                             const std::vector<std::string>& inputs = {});
 
+/// Files that the command writes and that are there, but not in the list of what driftscope wrote
+/// into the folder: somebody else's, or its own of which the list was lost or damaged.
+std::vector<std::string> unlisted_results(const ResultsFolder& folder);
+
 /// Makes the folder and marks it as the command's. InputError (io).
 void begin_results(const ResultsFolder& folder);
 

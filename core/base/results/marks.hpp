@@ -16,8 +16,8 @@ constexpr std::uint32_t results_database_id = 0x64726674;
 /// folder that is not driftscope's stands in the way. Logs and notes do not.
 bool looks_like_result(const std::filesystem::path& entry);
 
-/// The command that left its files in a folder, judged by them alone; or empty. For folders of
-/// versions without a register, or whose register was lost.
+/// The command that left its files in a folder, judged by them alone; or empty. For folders whose
+/// register was lost.
 std::string command_by_files(const std::filesystem::path& folder);
 
 /// Names of what a command writes when it ends, whatever the study.

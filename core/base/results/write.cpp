@@ -55,10 +55,9 @@ void require_ours(const ResultsRegister& known, const fs::path& folder, const st
 ResultsRegister begun(const ResultsFolder& folder) {
   make_folder(folder.path);
   ResultsRegister known(folder.path);
-  if (known.exists()) return known;
-  // One of a version that had no register: what the command left there is its own.
-  const bool own = command_by_files(folder.path) == folder.command;
-  known.add(folder.command, own ? files_of(folder.command, folder.path) : HashedFiles{});
+  // Of a folder whose register is lost nothing is taken for the command's own that does not say so
+  // under a checksum of its own: a file called report.html may be anybody's.
+  if (!known.exists()) known.add(folder.command, {});
   return known;
 }
 

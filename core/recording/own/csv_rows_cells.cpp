@@ -59,8 +59,8 @@ std::optional<CsvRows::Complaint> CsvRows::read_cell(std::size_t i, std::string_
       return std::nullopt;
     }
   }
-  if (parsed.kind == Kind::text &&
-      std::ranges::find(format_.missing, cell) != format_.missing.end())
+  const bool may_lack = use.role == Role::sensor || use.role == Role::covariate;
+  if (may_lack && std::ranges::find(format_.missing, cell) != format_.missing.end())
     return std::nullopt;
   if (use.role == Role::covariate && parsed.kind == Kind::text) {
     ++column.texts;

@@ -44,10 +44,12 @@ std::vector<double> time_of(const RawRecording& raw, const RawColumn* counter,
   return time;
 }
 
-/// Numbers that stand for what was not measured become that.
+/// Numbers that stand for what was not measured become that, kept in single precision too.
 void leave_out(RawColumn& column, const std::vector<double>& missing) {
   for (double& x : column.values)
-    if (std::ranges::find(missing, x) != missing.end())
+    if (std::ranges::any_of(missing, [&](double number) {
+          return x == number || x == static_cast<double>(static_cast<float>(number));
+        }))
       x = std::numeric_limits<double>::quiet_NaN();
 }
 

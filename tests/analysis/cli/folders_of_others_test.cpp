@@ -89,7 +89,7 @@ TEST(FoldersOfOthers, WhatStandsWhereTheResultsGoIsSaidBeforeTheyAreComputed) {
   ASSERT_EQ(driftscope(run + " --worker 0/2").code, 0);
   desk.write("out/summary.json", "mine");
   const Answer a = driftscope(run);
-  expect_refused(a, "summary.json is there, which driftscope did not write");
+  expect_refused(a, "summary.json is there, and not in the list of what driftscope wrote");
   EXPECT_EQ(a.err.find("executed"), std::string::npos) << a.err;
   EXPECT_EQ(text_of(desk.file("out/summary.json")), "mine");
   fs::remove(desk.file("out/summary.json"));

@@ -65,6 +65,21 @@ TEST(Fillers, ANumberThatAllThreeReadMayBeNearWhatTheyReadElsewhere) {
       << remarks[0];
 }
 
+TEST(Fillers, ANumberIsOneWhereverAFineReadoutHasItToTheLastDigit) {
+  Recording r = resting();
+  for (const std::size_t row : {2, 12, 13, 14, 22}) r.channels[1].values[row] = 0.0;  // acc_x
+  for (const std::size_t row : {9, 19, 29}) r.channels[2].values[row] = -719.5 * detail::deg;
+  std::vector<std::string> remarks;
+  leave_out_fillers(r, remarks);
+  EXPECT_EQ(missing(r, "acc_x"), 0u) << "of one position alone it is far from its neighbours";
+  EXPECT_EQ(missing(r, "gimbal_inner"), 3u)
+      << "0.5 deg less two turns is no reading, though 0.5 is";
+  for (const std::size_t row : {24, 25, 26}) r.channels[1].values[row] = 0.5;
+  for (const std::size_t row : {4, 15}) r.channels[1].values[row] = 0.5;
+  leave_out_fillers(r, remarks);
+  EXPECT_EQ(missing(r, "acc_x"), 5u);
+}
+
 TEST(Fillers, WhatIsReadStays) {
   Recording r = resting();
   std::vector<std::string> remarks;
