@@ -4,7 +4,7 @@
 
 # Seconds each: what simulates, diagnoses or runs the program many times over.
 set(DRIFT_FULL_TESTS
-  Advise.* AllanFit.* AdviceFollowed.* BetweenPoints.* BlindInterrupted.* BlindSmall.* BlindStudy.* Bytes.* CaseTemperature.* ClockDoubt.* Crossed*.* DamageTold.* Diagnose.* Diagnose/FarBeyondPrior.* DiagnoseCommand.*
+  Advise.* AllanFit.* AdviceFollowed.* BetweenPoints.* BlindInterrupted.* BlindSmall.* BlindStudy.* Bytes.* CaseTemperature.* ClockDoubt.* CoarseReadout.* Crossed*.* DamageTold.* Diagnose.* Diagnose/FarBeyondPrior.* DiagnoseCommand.*
   Equation.* IsolatedSamplesOfSlews.* Estimators/EveryTermUnder.* EveryTerm*.* FailedWrite.* FoldersOfOthers.* HeadingDoubt.* LambdaFilter.* Matched*.*
   Nearest.* NothingReplaced.* OddInput.* OwnTermCommands.* RankCommand.* Rivals.* ScreenForms.* Documents.* Recording/BinaryFuzz.*
   RecordingFuzz.* Search.* Sensitivity.* SharedCandidates.* SharedTrials.* SiteDoubt.* Strapdown*.* StudyConfig.Misspelt*
