@@ -70,6 +70,15 @@ struct FillerLimits {
   static constexpr double angle = 0.175, force = 0.17;
 };
 
+/// Rows that all sensors repeat. Test: HeldRows.*
+struct HeldLimits {
+  /// Expected number of rows in which all do by chance, at most: in one recording of 1000 there is
+  /// one.
+  static constexpr double chance = 1e-3;
+  /// Part of the rows beyond which the log is faster than its sensors.
+  static constexpr double most = 0.1;
+};
+
 /// When a gimbal reads a constant too much.
 struct GimbalZeroLimits {
   /// [of what biases and misalignments make of Up, 1 sigma: 0.06 deg with the library's priors] so

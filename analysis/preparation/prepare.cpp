@@ -15,6 +15,7 @@
 #include "analysis/preparation/gimbal_zero.hpp"
 #include "analysis/preparation/gravity_check.hpp"
 #include "analysis/preparation/heading_zero.hpp"
+#include "analysis/preparation/held_rows.hpp"
 #include "analysis/preparation/input_thresholds.hpp"
 #include "analysis/preparation/lost_rows.hpp"
 #include "analysis/preparation/own_names.hpp"
@@ -238,6 +239,7 @@ Prepared prepare(const mc::Study& study, const std::vector<Recording>& recording
   std::set<int> positions;
   for (Recording& r : p.recordings) {
     leave_out_fillers(r, p.remarks);
+    leave_out_held_rows(r, p.remarks);
     leave_out_stuck(r, p.remarks);
     take_usual_branch(r, p.remarks);
     if (std::string text = other_than_one_g(study, r); !text.empty())

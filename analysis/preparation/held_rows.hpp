@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/recording/recording.hpp"
+
+namespace drift::preparation {
+
+/// Takes out the rows in which every accelerometer and gimbal repeats the row before to the last
+/// digit: a logger that holds what it read last. How often each channel repeats itself while others
+/// do not gives the chance of that (HeldLimits); where readouts are so coarse that it may be, or
+/// where a tenth of the rows and more are so (a log that is faster than its sensors), nothing is
+/// taken out. Such samples become NaN, with a remark.
+void leave_out_held_rows(Recording& recording, std::vector<std::string>& remarks);
+
+}  // namespace drift::preparation
