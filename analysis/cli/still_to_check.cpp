@@ -7,15 +7,10 @@
 #include <string_view>
 
 #include "core/base/file_text.hpp"
+#include "core/recording/recording_problems.hpp"
 
 namespace drift::cli {
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r"), last = text.find_last_not_of(" \t\r");
-  return first == std::string_view::npos ? std::string_view()
-                                         : text.substr(first, last - first + 1);
-}
 
 /// Whether the key that a line begins with has its value from the command line.
 bool given_otherwise(const mc::Study& study, std::string_view line) {

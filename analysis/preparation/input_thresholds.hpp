@@ -2,6 +2,8 @@
 
 #include <cstddef>
 
+#include "core/plan/attitude_slips.hpp"
+
 /// Every number by which recordings, plan and site are judged before a fit; those of the diagnosis
 /// are in analysis/inference/thresholds.hpp, which says how to read them. Tests are those of
 /// Prepare and OddInput.
@@ -67,7 +69,7 @@ struct FillerLimits {
   static constexpr std::size_t rows = 3, positions = 2;  ///< in which the number stands
   /// How far its neighbours are, at least: as an attitude from that of the plan [rad], and what
   /// turns Up by as much [g]. A platform in free drift takes 40 minutes for that.
-  static constexpr double angle = 0.175, force = 0.17;
+  static constexpr double angle = largest_mismatch, force = largest_mismatch;
 };
 
 /// Rows that all sensors repeat. Test: HeldRows.*

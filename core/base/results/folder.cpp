@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <iterator>
 
 #include "core/base/atomic_file.hpp"
 #include "core/base/check.hpp"
@@ -142,7 +143,7 @@ std::vector<std::string> unlisted_results(const ResultsFolder& folder) {
   const std::vector<std::string> ours = known.names();
   std::vector<std::string> may_be = main_results(folder.command), unlisted;
   if (ours.empty())  // the list is lost, or nothing was noted yet
-    for (const auto& [name, hash] : files_of(folder.command, folder.path)) may_be.push_back(name);
+    std::ranges::move(unguarded_results(folder.command, folder.path), std::back_inserter(may_be));
   std::ranges::sort(may_be);
   may_be.erase(std::unique(may_be.begin(), may_be.end()), may_be.end());
   for (const std::string& name : may_be) {

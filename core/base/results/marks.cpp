@@ -10,7 +10,6 @@
 #include <string_view>
 
 #include "core/base/file_text.hpp"
-#include "core/base/sha256.hpp"
 
 namespace drift {
 namespace {
@@ -60,16 +59,15 @@ bool is_guarded(const std::string& command, const fs::path& name) {
   return name == "key.json" || name == "answers.json" || name.extension() == ".sha256";
 }
 
-HashedFiles files_within(const std::string& command, const fs::path& folder,
-                         const fs::path& within) {
-  HashedFiles files;
+std::vector<std::string> names_within(const std::string& command, const fs::path& folder,
+                                      const fs::path& within) {
+  std::vector<std::string> names;
   std::error_code none;
   for (const auto& entry : fs::directory_iterator(folder / within, none))
     if (is_file(entry.path()) && looks_like_result(entry.path()) &&
         !is_guarded(command, entry.path().filename()))
-      files.emplace_back((within / entry.path().filename()).string(),
-                         sha256_hex_of_file(entry.path().string()));
-  return files;
+      names.push_back((within / entry.path().filename()).string());
+  return names;
 }
 
 }  // namespace
@@ -104,14 +102,14 @@ std::vector<std::string> main_results(const std::string& command) {
   return {"report.html", command + ".json"};
 }
 
-HashedFiles files_of(const std::string& command, const fs::path& folder) {
-  HashedFiles files = files_within(command, folder, "");
+std::vector<std::string> unguarded_results(const std::string& command, const fs::path& folder) {
+  std::vector<std::string> names = names_within(command, folder, "");
   std::error_code none;
   if (command == "blind")
     for (const auto& trial : fs::directory_iterator(folder / "trials", none))
-      std::ranges::move(files_within(command, folder, fs::path("trials") / trial.path().filename()),
-                        std::back_inserter(files));
-  return files;
+      std::ranges::move(names_within(command, folder, fs::path("trials") / trial.path().filename()),
+                        std::back_inserter(names));
+  return names;
 }
 
 }  // namespace drift

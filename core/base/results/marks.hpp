@@ -5,8 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "core/base/results/register.hpp"
-
 namespace drift {
 
 /// The application_id of SQLite by which a file of results is driftscope's: "drft".
@@ -23,7 +21,9 @@ std::string command_by_files(const std::filesystem::path& folder);
 /// Names of what a command writes when it ends, whatever the study.
 std::vector<std::string> main_results(const std::string& command);
 
-/// The files of such a folder that the command may write again, with their hashes.
-HashedFiles files_of(const std::string& command, const std::filesystem::path& folder);
+/// Files of a folder that look like results and that no checksum of their own tells to be the
+/// command's.
+std::vector<std::string> unguarded_results(const std::string& command,
+                                           const std::filesystem::path& folder);
 
 }  // namespace drift

@@ -9,7 +9,6 @@
 #include "core/base/atomic_file.hpp"
 #include "core/base/check.hpp"
 #include "core/base/results/folder.hpp"
-#include "core/base/results/marks.hpp"
 #include "core/base/results/register.hpp"
 #include "core/base/sha256.hpp"
 
