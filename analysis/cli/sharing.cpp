@@ -43,7 +43,8 @@ void add_sharing(CLI::App& app, Sharing& sharing) {
          "do part i of n of the study, i = 0 .. n - 1; auto: what Slurm, SGE, PBS or mpiexec says")
       ->check(check_given)
       ->type_name("I/N|auto");
-  app.add_option("--max-wall", sharing.max_wall, "stop after this time, resumable: 55m, 1h30m")
+  app.add_option("--max-wall", sharing.max_wall,
+                 "stop after this time, resumable: 55m, 1h30m; a number alone is seconds")
       ->check(check_given)
       ->type_name("TIME");
 }

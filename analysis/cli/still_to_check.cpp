@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <sstream>
 #include <string_view>
+#include <utility>
 
 #include "core/base/file_text.hpp"
+#include "core/recording/own/csv_cells.hpp"
 #include "core/recording/recording_problems.hpp"
 
 namespace drift::cli {
@@ -20,10 +23,19 @@ bool given_otherwise(const mc::Study& study, std::string_view line) {
   });
 }
 
+/// What stands before ": check" where a clause ends so, however it is spelt.
+std::optional<std::string> to_be_checked(std::string_view clause) {
+  constexpr std::string_view mark = "check";
+  if (clause.size() < mark.size() || lower_case(clause.substr(clause.size() - mark.size())) != mark)
+    return std::nullopt;
+  const std::string_view before = trimmed(clause.substr(0, clause.size() - mark.size()));
+  if (!before.ends_with(':')) return std::nullopt;
+  return std::string(trimmed(before.substr(0, before.size() - 1)));
+}
+
 }  // namespace
 
 std::vector<StillToCheck> still_to_check(const mc::Study& study) {
-  constexpr std::string_view mark = ": check";
   constexpr std::size_t longest = 40;  // of a value that is shown: one line
   std::vector<StillToCheck> out;
   std::istringstream lines(file_text(study.path).value_or(""));
@@ -35,10 +47,9 @@ std::vector<StillToCheck> still_to_check(const mc::Study& study) {
     std::string_view rest = std::string_view(line).substr(hash + 2);
     while (!rest.empty()) {
       const auto end = rest.find("; ");
-      const std::string_view clause = trimmed(rest.substr(0, end));
-      if (clause.ends_with(mark))
-        out.push_back({number, value.size() <= longest ? std::string(value) : "",
-                       std::string(clause.substr(0, clause.size() - mark.size()))});
+      if (auto what = to_be_checked(trimmed(rest.substr(0, end))))
+        out.push_back(
+            {number, value.size() <= longest ? std::string(value) : "", std::move(*what)});
       rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + 2);
     }
   }

@@ -70,20 +70,24 @@ std::vector<Run> runs_of_number(const Channel& c, const Channel& position, doubl
   return all;
 }
 
-bool enough(const std::vector<Run>& runs, const Channel& position) {
+bool enough(const std::vector<Run>& runs, const Channel& position,
+            std::size_t fewest = FillerLimits::positions) {
   std::size_t rows = 0;
   std::set<double> positions;
   for (const Run& run : runs) {
     rows += run.last - run.first + 1;
     positions.insert(position.values[run.first]);
   }
-  return rows >= FillerLimits::rows && positions.size() >= FillerLimits::positions;
+  return rows >= FillerLimits::rows && positions.size() >= fewest;
 }
 
 /// The runs of every number that all three read at once and that stands apart in one of them, often
-/// enough to be none that is read; then it is that wherever all three read it.
+/// enough to be none that is read; then it is that wherever all three read it. A platform may rest
+/// at one angle in all three gimbals, in one position; no specific force is alike to the last
+/// digit.
 std::map<double, std::vector<Run>> alike_in_all(const std::array<Channel*, 3>& c,
                                                 const Channel& position, double apart, bool angle) {
+  const std::size_t fewest = angle ? FillerLimits::positions : 1;
   const auto alike = [&](std::size_t i) {
     return c[0]->values[i] == c[1]->values[i] && c[0]->values[i] == c[2]->values[i];
   };
@@ -99,7 +103,8 @@ std::map<double, std::vector<Run>> alike_in_all(const std::array<Channel*, 3>& c
         }))
       far[number].push_back(run);
   }
-  std::erase_if(all, [&](const auto& entry) { return !enough(far[entry.first], position); });
+  std::erase_if(all,
+                [&](const auto& entry) { return !enough(far[entry.first], position, fewest); });
   return all;
 }
 
@@ -124,6 +129,16 @@ void leave_out(const std::vector<Channel*>& channels, const std::vector<Run>& ru
                 std::numeric_limits<double>::quiet_NaN());
 }
 
+void leave_out_of_one(Channel& c, const Channel& position, double apart, bool angle,
+                      const Recording& r, std::vector<std::string>& remarks) {
+  auto all = standing_apart(c, position, apart, angle);
+  std::erase_if(all, [&](const auto& entry) { return !enough(entry.second, position); });
+  // To the last digit a fine readout does not come back to it.
+  if (!all.empty() && !reading_step(c, &position))
+    for (auto& [number, runs] : all) runs = runs_of_number(c, position, number);
+  for (const auto& [number, runs] : all) leave_out({&c}, runs, r, remarks);
+}
+
 }  // namespace
 
 void leave_out_fillers(Recording& r, std::vector<std::string>& remarks) {
@@ -137,21 +152,15 @@ void leave_out_fillers(Recording& r, std::vector<std::string>& remarks) {
         channels.push_back(&*c);
     const bool angle = triple.names == gimbal_channels.names;
     const double apart = angle ? FillerLimits::angle : FillerLimits::force;
-    const auto take = [&](const std::vector<Channel*>& of, const auto& runs_by_number) {
-      for (const auto& [number, runs] : runs_by_number)
-        if (enough(runs, position)) leave_out(of, runs, r, remarks);
-    };
     if (channels.size() == 3)
-      take(channels, alike_in_all({channels[0], channels[1], channels[2]}, position, apart, angle));
-    for (Channel* c : channels) {
-      auto runs = standing_apart(*c, position, apart, angle);
-      std::erase_if(runs, [&](const auto& entry) { return !enough(entry.second, position); });
-      // To the last digit a fine readout does not come back to it.
-      if (!runs.empty() && !reading_step(*c, &position))
-        for (auto& [number, its] : runs) its = runs_of_number(*c, position, number);
-      take({c}, runs);
-    }
+      for (const auto& [number, runs] :
+           alike_in_all({channels[0], channels[1], channels[2]}, position, apart, angle))
+        leave_out(channels, runs, r, remarks);
+    for (Channel* c : channels) leave_out_of_one(*c, position, apart, angle, r, remarks);
   }
+  if (const auto c = std::ranges::find(r.channels, "temperature", &Channel::name);
+      c != r.channels.end())
+    leave_out_of_one(*c, position, FillerLimits::temperature, false, r, remarks);
 }
 
 }  // namespace drift::preparation

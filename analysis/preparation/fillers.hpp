@@ -7,12 +7,13 @@
 
 namespace drift::preparation {
 
-/// Takes out of accelerometers and gimbals what a logger writes where it has read nothing (999.999,
-/// 0): one and the same number, to the last digit, in three rows and more of two positions and
-/// more, from which every neighbour of the position is far (FillerLimits). Of a number that all
-/// three accelerometers, or gimbals, read at once it is enough that one of them is far from its
-/// neighbours: 0, 0, 0 is no specific force. Such samples become NaN, with a remark. A number that
-/// is alone is an isolated sample and left to the fit.
+/// Takes out of accelerometers, gimbals and the temperature what a logger writes where it has read
+/// nothing (999.999, 0, 85): one and the same number, to the last digit, in three rows and more of
+/// two positions and more, from which every neighbour of the position is far (FillerLimits). Of a
+/// number that all three accelerometers, or gimbals, read at once it is enough that one of them is
+/// far from its neighbours, and of accelerometers that it is so in one position: 0, 0, 0 is no
+/// specific force. Such samples become NaN, with a remark. A number that is alone is an isolated
+/// sample and left to the fit.
 void leave_out_fillers(Recording& recording, std::vector<std::string>& remarks);
 
 }  // namespace drift::preparation

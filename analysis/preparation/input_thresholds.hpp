@@ -70,6 +70,7 @@ struct FillerLimits {
   /// How far its neighbours are, at least: as an attitude from that of the plan [rad], and what
   /// turns Up by as much [g]. A platform in free drift takes 40 minutes for that.
   static constexpr double angle = largest_mismatch, force = largest_mismatch;
+  static constexpr double temperature = 10.0;  ///< [K]: a fast chamber's two minutes
 };
 
 /// Rows that all sensors repeat. Test: HeldRows.*

@@ -32,6 +32,12 @@ Vec3 vector_of(const std::vector<double>& row, const std::array<std::size_t, 3>&
   return {row[columns[0]], row[columns[1]], row[columns[2]]};
 }
 
+/// One number in all three is what a logger writes that has read nothing, or 0, the same in all
+/// units.
+bool tells_nothing(const Vec3& angles) {
+  return angles[0] == angles[1] && angles[0] == angles[2];
+}
+
 }  // namespace
 
 GuessGimbalUnit::GuessGimbalUnit(const GuessedFile& file) {
@@ -60,7 +66,8 @@ double GuessGimbalUnit::apart(const std::vector<double>& a, const std::vector<do
 void GuessGimbalUnit::look_at_row(const std::vector<std::string_view>& cells) {
   if (!gimbals_ || kept_.size() == most_kept) return;
   std::vector<double> row = numbers_of(cells);
-  if (!vector_of(row, *gimbals_).allFinite()) return;
+  const Vec3 angles = vector_of(row, *gimbals_);
+  if (!angles.allFinite() || tells_nothing(angles)) return;
   for (std::size_t k = 0; k < 3; ++k) {
     low_[k] = std::min(low_[k], row[(*gimbals_)[k]]);
     high_[k] = std::max(high_[k], row[(*gimbals_)[k]]);

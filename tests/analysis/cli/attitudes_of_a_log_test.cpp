@@ -76,15 +76,18 @@ TEST(AttitudesOfALog, TheUnitOfGimbalAnglesIsThatInWhichTheyHaveUpAsTheAccelerom
   const std::string study = folder.write("study.toml", short_study), made = folder.file("made.csv");
   ASSERT_EQ(driftscope("simulate '" + study + "' -o '" + made + "'").code, 0);
   const Recording r = read_recording(made, RecordingKind::platform, 9.81);
-  for (const auto& [unit, size] : units) {
+  for (const auto& [unit, per_degree] : units) {
+    const double size = per_degree;  // a lambda of C++20 by clang 14 has no structured binding
     std::string out = "Zeit_s;Lage;Bx [g];By [g];Bz [g];phi_aussen;phi_mitte;phi_innen\n";
     for (std::size_t i = 0; i < r.rows(); ++i) {
       const auto at = [&](const char* name) { return r.find(name)->values[i]; };
-      const double by = size / detail::deg;
-      out +=
-          fmt::format("{};{};{:.9f};{:.9f};{:.9f};{:.9f};{:.9f};{:.9f}\n", at("time"),
-                      at("position"), at("acc_x"), at("acc_y"), at("acc_z"),
-                      by * at("gimbal_outer"), by * at("gimbal_middle"), by * at("gimbal_inner"));
+      const bool read = size != 60.0 || i % 11 != 5;  // else what a logger writes that has not
+      const auto gimbal = [&](const char* name) {
+        return read ? size / detail::deg * at(name) : 9999.999;
+      };
+      out += fmt::format("{};{};{:.9f};{:.9f};{:.9f};{:.9f};{:.9f};{:.9f}\n", at("time"),
+                         at("position"), at("acc_x"), at("acc_y"), at("acc_z"),
+                         gimbal("gimbal_outer"), gimbal("gimbal_middle"), gimbal("gimbal_inner"));
     }
     const std::string log = folder.write(std::string(unit) + ".csv", out),
                       lab = folder.file(std::string(unit) + ".toml");

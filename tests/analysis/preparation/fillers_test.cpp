@@ -65,6 +65,28 @@ TEST(Fillers, ANumberThatAllThreeReadMayBeNearWhatTheyReadElsewhere) {
       << remarks[0];
 }
 
+TEST(Fillers, NoSpecificForceIsAlikeToTheLastDigitNorDoesATemperatureJump) {
+  Recording r = resting();
+  Channel y{"acc_y", unit::g, std::vector<double>(30, 0.3)},
+      z = y, temperature{"temperature", "degC"_unit, std::vector<double>(30, 0.0)};
+  z.name = "acc_z";
+  for (std::size_t row = 0; row < 30; ++row) {
+    r.channels[1].values[row] = 0.9 + 1e-5 * static_cast<double>(row);
+    y.values[row] += 1e-5 * static_cast<double>(row);
+    z.values[row] -= 1e-5 * static_cast<double>(row);
+    temperature.values[row] = 21.0 + 0.01 * static_cast<double>(row);
+  }
+  r.channels.insert(r.channels.end(), {y, z, temperature});
+  for (const std::size_t row : {12, 13, 17})
+    for (const std::size_t c : {1, 3, 4}) r.channels[c].values[row] = 0.0;
+  for (const std::size_t row : {0, 10, 11, 25}) r.channels[5].values[row] = 85.0;
+  for (const std::size_t row : {4, 14, 24}) r.channels[5].values[row] += 9.0;
+  std::vector<std::string> remarks;
+  leave_out_fillers(r, remarks);
+  for (const char* name : {"acc_x", "acc_y", "acc_z"}) EXPECT_EQ(missing(r, name), 3u) << name;
+  EXPECT_EQ(missing(r, "temperature"), 4u);
+}
+
 TEST(Fillers, ANumberIsOneWhereverAFineReadoutHasItToTheLastDigit) {
   Recording r = resting();
   for (const std::size_t row : {2, 12, 13, 14, 22}) r.channels[1].values[row] = 0.0;  // acc_x
