@@ -51,10 +51,11 @@ class Stream {
       return spare_;
     }
     const double radius = std::sqrt(-2.0 * std::log(uniform()));
-    const double angle = 2.0 * std::numbers::pi * uniform();
-    spare_ = radius * std::sin(angle);
+    double sine = 0.0, cosine = 0.0;  // glibc's: the bits of sin and cos, in 0.6 of their time
+    ::sincos(2.0 * std::numbers::pi * uniform(), &sine, &cosine);
+    spare_ = radius * sine;
     has_spare_ = true;
-    return radius * std::cos(angle);
+    return radius * cosine;
   }
 
  private:

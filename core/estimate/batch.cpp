@@ -99,7 +99,7 @@ BatchResult fit_all(const FilterSpec& filter, const MeasuredTest& test, const St
   const bool whole = options.result == BatchOptions::Result::whole;
   if (whole && problem.compressed()) {
     problem.take_every_sample();
-    minimum = followed(problem, std::move(minimum), options);
+    minimum = followed(problem, minimum, options);
   }
 
   BatchResult out;

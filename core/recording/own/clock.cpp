@@ -31,14 +31,17 @@ bool take(std::string_view& text, char c) {
   return true;
 }
 
-/// "13:05:10.25", "01:05:10.25 PM" or "13:05" from the front of a text.
+/// "13:05:10.25", "01:05:10.25 PM", "13:05" or "13.05.10" from the front of a text; "13.05" is a
+/// number.
 std::optional<double> take_time_of_day(std::string_view& text) {
   int hour = 0, minute = 0;
   double second = 0.0;
   if (text.empty() || text.front() < '0' || text.front() > '9') return std::nullopt;
-  if (!take_number(text, hour) || !take(text, ':') || !take_number(text, minute))
-    return std::nullopt;
-  if (take(text, ':') && !take_number(text, second)) return std::nullopt;
+  if (!take_number(text, hour)) return std::nullopt;
+  const char mark = text.starts_with('.') ? '.' : ':';
+  if (!take(text, mark) || !take_number(text, minute)) return std::nullopt;
+  const bool seconds = take(text, mark);
+  if (seconds ? !take_number(text, second) : mark == '.') return std::nullopt;
   const std::string half = lower_case(trimmed(text).substr(0, 2));
   if (half == "am" || half == "pm") {
     if (hour < 1 || hour > 12) return std::nullopt;

@@ -24,14 +24,18 @@ TEST(Clock, ClocksAreSecondsAndNothingElseIs) {
   EXPECT_EQ(parse_clock("13:05:10.25"), 47110.25);
   EXPECT_EQ(parse_clock("13:05"), 47100.0);
   EXPECT_EQ(parse_clock("01:05 PM"), 47100.0);
+  EXPECT_EQ(parse_clock("13.05.10"), 47110.0);
+  EXPECT_EQ(parse_clock("13.05.10,25"), 47110.25);
+  EXPECT_EQ(parse_clock("02.01.1970 00.00.01"), 86401.0);
   EXPECT_EQ(parse_clock("02.01.1970 00:01"), 86460.0);
   EXPECT_EQ(parse_clock("01:05:10.25 PM"), 47110.25);
   EXPECT_EQ(parse_clock("1970-01-02 12:00:01 am"), 86401.0);
   EXPECT_EQ(parse_clock("24:00:00"), 86400.0);
   EXPECT_EQ(parse_clock("1970-01-01T24:00:00Z"), parse_clock("1970-01-02T00:00:00Z"));
-  for (const char* text : {"2026-02-30T00:00:00", "25:00:00", "24:00:01", "24:01:00",
-                           "13:", "13:60", "31/31/2026 00:00:00", "", "2026-03-01", "12:00:00x",
-                           "13:00:00 PM", "2026-03-01T12:00:00+99"})
+  for (const char* text :
+       {"2026-02-30T00:00:00", "25:00:00", "24:00:01", "24:01:00", "13:", "13:60",
+        "31/31/2026 00:00:00", "", "2026-03-01", "12:00:00x", "13.05", "1.234.567", "13.05:10",
+        "13:05.10", "13:00:00 PM", "2026-03-01T12:00:00+99"})
     EXPECT_FALSE(parse_clock(text)) << text;
 }
 
