@@ -58,8 +58,7 @@ ExitCode diagnose_case(const StudyArguments& arguments, const mc::Study& study,
   diagnosis::DiagnoseOptions options;
   options.progress = stage_reporter(arguments.progress, "diagnose");
   options.profiles = diagnosis::Profiles::of_the_causes;
-  const strapdown::CaseIdentification id =
-      strapdown::identify_case(study, strapdown::case_study(study, recordings.front()));
+  const strapdown::CaseIdentification id = strapdown::identify_case(study, recordings.front());
   const diagnosis::Diagnosis found = strapdown::diagnose_case(study, id, options);
   const report::Provenance provenance = report::provenance_of(study.path, paths);
   const TextFile identification{

@@ -25,8 +25,7 @@ ExitCode identify_case(const mc::Study& study, const std::vector<std::string>& p
                                  paths.size()));
   const auto recordings = read_recordings(study, paths);
   const report::Report said = with_provenance(
-      report::case_report(
-          study, strapdown::identify_case(study, strapdown::case_study(study, recordings.front()))),
+      report::case_report(study, strapdown::identify_case(study, recordings.front())),
       report::provenance_of(study.path, paths));
   Rest rest{cards_text(recordings, study.kind) + report::to_text(said), folder, {}};
   if (!folder.empty()) {

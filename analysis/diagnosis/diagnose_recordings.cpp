@@ -33,8 +33,17 @@ Diagnosis advised(Diagnosis d, const preparation::Prepared& test,
   return d;
 }
 
-/// Nothing is said of causes, forms and shapes, and no probabilities, at a latitude, or with
-/// headings, that are not the recording's.
+/// A temperature that was read and mapped as nothing is told with the terms that would follow it.
+void name_unmapped_temperature(const std::vector<Recording>& recordings,
+                               std::vector<NotExamined>& left_out) {
+  for (const Recording& r : recordings)
+    for (NotExamined& n : left_out)
+      if ((n.missing & covariate("temperature").set()) != 0 && n.instead.empty())
+        n.instead = r.unmapped_temperature;
+}
+
+}  // namespace
+
 Diagnosis of_another_study(Diagnosis d) {
   d.probabilities = {};
   d.proposal.reset();
@@ -46,17 +55,6 @@ Diagnosis of_another_study(Diagnosis d) {
   });
   return d;
 }
-
-/// A temperature that was read and mapped as nothing is told with the terms that would follow it.
-void name_unmapped_temperature(const std::vector<Recording>& recordings,
-                               std::vector<NotExamined>& left_out) {
-  for (const Recording& r : recordings)
-    for (NotExamined& n : left_out)
-      if ((n.missing & covariate("temperature").set()) != 0 && n.instead.empty())
-        n.instead = r.unmapped_temperature;
-}
-
-}  // namespace
 
 Diagnosis diagnose_recordings(const mc::Study& study, const std::vector<Recording>& recordings,
                               const RecordingsOptions& options) {
@@ -84,6 +82,8 @@ Diagnosis diagnose_recordings(const mc::Study& study, const std::vector<Recordin
     d.heading_doubt = identification::heading_doubt(test.study, test.recordings, d.nominal);
   if (!d.heading_doubt) {
     SiteFinding site = site_doubt(test.study, test.recordings, d, second);
+    // What mends a part of a misfit that has another cause is no latitude.
+    if (site.doubt && !site.doubt->alone() && !test.off_zero.empty()) site = {};
     const bool less_likely = site.doubt && site.doubt->less_likely;
     (less_likely ? d.other_latitude : d.site_doubt) = std::move(site.doubt);
     d.there = std::move(site.there);

@@ -34,4 +34,8 @@ struct RecordingsOptions {
 Diagnosis diagnose_recordings(const mc::Study& study, const std::vector<Recording>& recordings,
                               const RecordingsOptions& options = {});
 
+/// Nothing is said of causes, forms and shapes, and no probabilities, at a latitude, or with
+/// headings, that are not the recording's.
+Diagnosis of_another_study(Diagnosis diagnosis);
+
 }  // namespace drift::diagnosis

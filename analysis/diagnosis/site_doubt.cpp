@@ -110,6 +110,16 @@ std::optional<SiteFinding> with_effects(const mc::Study& study,
 
 }  // namespace
 
+identification::LatitudeDoubt against_causes(identification::LatitudeDoubt doubt,
+                                             const Diagnosis& d) {
+  if (d.causes.empty()) return doubt;
+  doubt.as_little_left = leaves_as_little(doubt, d);
+  if (!doubt.alone()) return doubt;
+  doubt.odds = std::exp(log_odds(doubt, d));
+  doubt.less_likely = doubt.odds <= 1.0 && std::ranges::none_of(d.causes, has_no_usual_size);
+  return doubt;
+}
+
 SiteFinding site_doubt(const mc::Study& study, const std::vector<Recording>& recordings,
                        const Diagnosis& d, const DiagnoseOptions& options) {
   if (d.nominal.active[d_lat]) return {};
@@ -123,12 +133,8 @@ SiteFinding site_doubt(const mc::Study& study, const std::vector<Recording>& rec
                    ? identification::latitude_doubt(study, recordings, d.nominal, reach)
                    : std::nullopt;
   if (alone) {
-    if (!d.causes.empty()) alone->as_little_left = leaves_as_little(*alone, d);
-    if (alone->alone()) {
-      if (!d.causes.empty()) alone->odds = std::exp(log_odds(*alone, d));
-      alone->less_likely = alone->odds <= 1.0 && !unusual;
-      return {alone, nullptr};
-    }
+    alone = against_causes(*alone, d);
+    if (alone->alone()) return {alone, nullptr};
   }
   if (unusual || d.verdict == Verdict::unexplained) {
     auto about = alone;
@@ -139,8 +145,9 @@ SiteFinding site_doubt(const mc::Study& study, const std::vector<Recording>& rec
   }
   if (!worth) return {};
   if (!d.has_patch) return {alone, nullptr};
-  const auto beside = identification::latitude_doubt(study, recordings, d.patched);
+  auto beside = identification::latitude_doubt(study, recordings, d.patched);
   if (!beside) return {};
+  beside->beside_causes = true;
   // A cause that was taken for the latitude bends it: from there the model may do without it.
   mc::Study there = study;
   there.site.latitude = beside->latitude;

@@ -39,4 +39,9 @@ struct SiteFinding {
 SiteFinding site_doubt(const mc::Study& study, const std::vector<Recording>& recordings,
                        const Diagnosis& diagnosis, const DiagnoseOptions& options = {});
 
+/// A latitude at which the nominal model was fitted against the causes that were found: whether it
+/// leaves as little, and where it leaves nothing significant its odds.
+identification::LatitudeDoubt against_causes(identification::LatitudeDoubt doubt,
+                                             const Diagnosis& diagnosis);
+
 }  // namespace drift::diagnosis

@@ -27,6 +27,8 @@ struct LatitudeDoubt {
 
   /// It leaves no more than effects that leave nothing significant, noise as it was found.
   bool as_little_left = false;
+  /// It was fitted with the causes of a diagnosis in the model, without which it leaves something.
+  bool beside_causes = false;
 
   /// The times of the recording explain as much, and better why three torquers look off alike: then
   /// the latitude of [site] stands.

@@ -33,6 +33,23 @@ struct Rates {
   double gimbals = 0.0, accelerometers = 0.0;
 };
 
+/// Whether half of a turn is made from one row to the next: then rows are of another position
+/// (labels that come late), or one was read wrongly, whatever the clock says.
+template <class Attitude>
+bool jumps(const Recording& r, Attitude&& attitude, std::size_t first, std::size_t last,
+           double turn) {
+  constexpr std::size_t fewest = 4;  // steps: of fewer even ones each is as large
+  if (last < first + fewest) return false;
+  for (std::size_t k = first + 1; k <= last; ++k) {
+    const auto from = measured(r, gimbal_channels, k - 1), to = measured(r, gimbal_channels, k);
+    if (from && to &&
+        rotation_vector(Mat3(attitude(k, *to) * attitude(k - 1, *from).transpose())).norm() >
+            0.5 * turn)
+      return true;
+  }
+  return false;
+}
+
 /// The first and the last row left out, which may be of the neighbours; empty where one of the two
 /// instruments does not show it.
 std::optional<Rates> rates_in(const Recording& r, RestingRows rest) {
@@ -51,6 +68,7 @@ std::optional<Rates> rates_in(const Recording& r, RestingRows rest) {
              f1 = measured(r, accelerometer_channels, last);
   if (!g0 || !g1 || !f0 || !f1 || !(seconds > 0.0)) return std::nullopt;
   const Mat3 turn = attitude(last, *g1) * attitude(rest.first, *g0).transpose();
+  if (jumps(r, attitude, rest.first, last, rotation_vector(turn).norm())) return std::nullopt;
   return Rates{rotation_vector(turn).norm() / seconds,
                std::atan2(f0->cross(*f1).norm(), f0->dot(*f1)) / seconds};
 }

@@ -137,8 +137,10 @@ struct GyroUnitLimits {
   /// by 5 % leave a tenth at most.
   static constexpr double least_turn = 0.1745;
   static constexpr std::size_t fewest_turns = 3;  ///< so that one bad turn has no median
-  /// Median error, in parts of the turn: of another unit, and of the right one.
-  static constexpr double nothing_like = 0.5, alike = 0.1;
+  /// Median error, in parts of the turn, of the right unit. A wrong one may come near where a turn
+  /// is nearly whole (57 times 90 deg is 117 deg), so what is right must be far better.
+  static constexpr double alike = 0.1, far_better = 0.2;
+  static constexpr double nothing_like = 0.5;  ///< error of a turn about a column that is wrong
 };
 
 }  // namespace drift::preparation

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "analysis/diagnosis/advice/patched_study.hpp"
+#include "analysis/diagnosis/diagnose_recordings.hpp"
+#include "analysis/diagnosis/site_doubt.hpp"
 #include "analysis/strapdown/sensed.hpp"
 #include "core/base/check.hpp"
 
@@ -118,6 +120,19 @@ void remark(Diagnosis& d, const CaseIdentification& id) {
     d.remarks.emplace_back(diagnosis::remark::NotObservable{u.what, u.reason});
 }
 
+/// Another latitude against what was found; where causes leave nothing and it does not, it is none.
+void take_latitude(Diagnosis& d, const CaseIdentification& id) {
+  if (!id.latitude) return;
+  identification::LatitudeDoubt doubt = *id.latitude;
+  // Where the gyros do not see the Earth as the study has it, the model of the test is another.
+  if (id.study.compass.sees_earth) {
+    doubt = diagnosis::against_causes(doubt, d);
+    if (!doubt.alone() && d.verdict != diagnosis::Verdict::unexplained) return;
+  }
+  (doubt.less_likely ? d.other_latitude : d.site_doubt) = doubt;
+  if (d.wrong_study()) d = diagnosis::of_another_study(std::move(d));
+}
+
 }  // namespace
 
 Diagnosis diagnose_case(const mc::Study& study, const CaseIdentification& id,
@@ -150,6 +165,7 @@ Diagnosis diagnose_case(const mc::Study& study, const CaseIdentification& id,
   const bool other_equation = std::erase_if(effects, closure) > 0;
   d.patched = diagnosis::patched_filter(nominal, effects);
   if (other_equation) d.patched.coupling = facts(nominal.coupling).other.value_or(nominal.coupling);
+  take_latitude(d, id);
   return d;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "analysis/strapdown/case_latitude.hpp"
 #include "analysis/strapdown/sensed.hpp"
 #include "core/base/check.hpp"
 #include "core/base/nan.hpp"
@@ -51,6 +52,12 @@ CaseIdentification identify_case(const mc::Study& study, CaseStudy of) {
   const auto five = with(Coupling::eq5), six = with(Coupling::eq6);
   if (out.division.folds > 0 && five != out.fits.end() && six != out.fits.end())
     out.eq5_gain = paired_gain(six->up.errors, five->up.errors);
+  return out;
+}
+
+CaseIdentification identify_case(const mc::Study& study, const Recording& recording) {
+  CaseIdentification out = identify_case(study, case_study(study, recording));
+  out.latitude = latitude_doubt(study, recording, out);
   return out;
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "analysis/identification/latitude_doubt.hpp"
 #include "analysis/strapdown/case_held_out.hpp"
 #include "analysis/strapdown/findings.hpp"
 
@@ -22,6 +24,8 @@ struct CaseIdentification {
   std::vector<CaseFit> fits;  ///< of every filter
   /// Paired gain of eq. (5) over eq. (6) on held-out ways, in standard errors; NaN without both.
   double eq5_gain = 0.0;
+  /// The latitude that the recording is of, if it is not that of [site].
+  std::optional<identification::LatitudeDoubt> latitude = {};
 };
 
 /// Estimates every filter by fit_batch, says what of its parameters the recording knows
@@ -29,5 +33,7 @@ struct CaseIdentification {
 /// without a filter, or with one that is neither eq. (5) nor eq. (6): gyros on a case have no
 /// servo.
 CaseIdentification identify_case(const mc::Study& study, CaseStudy of);
+/// Of a recording, with what its gyros say of the latitude (latitude_doubt()).
+CaseIdentification identify_case(const mc::Study& study, const Recording& recording);
 
 }  // namespace drift::strapdown

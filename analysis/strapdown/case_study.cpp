@@ -18,16 +18,6 @@ namespace {
 
 constexpr auto fixed_drift = TermLibrary::index("D_F_x");
 
-double drift_prior(const mc::Study& study) {
-  double largest = 0.0;
-  for (std::size_t p = fixed_drift; p < fixed_drift + 3; ++p) {
-    const Prior library = TermLibrary::specs[p].prior_si();
-    const Prior prior = study.filters.empty() ? library : study.filters.front().believed(p);
-    largest = std::max(largest, prior.sigma());
-  }
-  return largest;
-}
-
 /// What a thermometer that reads in steps says at an instant: the value there of the parabola
 /// through half a minute on both sides, by least squares. Heat takes minutes to move: of a swing of
 /// ten minutes it leaves 0.9999. Where rows are few, the row itself.
@@ -109,6 +99,16 @@ bool levelled_by_calibrated(const CaseStudy& of) {
 }
 
 }  // namespace
+
+double drift_prior(const mc::Study& study) {
+  double largest = 0.0;
+  for (std::size_t p = fixed_drift; p < fixed_drift + 3; ++p) {
+    const Prior library = TermLibrary::specs[p].prior_si();
+    const Prior prior = study.filters.empty() ? library : study.filters.front().believed(p);
+    largest = std::max(largest, prior.sigma());
+  }
+  return largest;
+}
 
 preparation::NoiseCard noise_of(const Recording& recording, const DwellSearch& search) {
   return preparation::noise_card(recording, RecordingKind::strapdown, resting_rows(search));

@@ -24,6 +24,9 @@ struct CaseStudy {
   MeasuredTest measured() const { return {test.timeline, test.readout, test.measured}; }
 };
 
+/// Of the gyros' fixed drift, as the study's first filter has it: the widest axis [rad/s].
+double drift_prior(const mc::Study& study);
+
 /// The noise of the sensors in the dwells.
 preparation::NoiseCard noise_of(const Recording& recording, const DwellSearch& search);
 

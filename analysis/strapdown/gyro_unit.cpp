@@ -2,10 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "analysis/preparation/input_thresholds.hpp"
 #include "core/base/check.hpp"
+#include "core/plan/mixup.hpp"
 #include "core/stats/median.hpp"
 
 namespace drift::strapdown {
@@ -17,8 +21,14 @@ double angle_between(const Vec3& a, const Vec3& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-/// Errors of all ways whose turn is known, against the turn; rates `times` as they are declared.
-std::vector<double> errors(const Signals& s, const std::vector<Dwell>& dwells, double times) {
+/// How the columns are taken to be instead of as they are declared.
+struct Taken {
+  double times = 1.0;  ///< the rates
+  Mixup gyros = {}, accelerometers = {};
+};
+
+/// Errors of all ways whose turn is known, against the turn.
+std::vector<double> errors(const Signals& s, const std::vector<Dwell>& dwells, const Taken& as) {
   std::vector<double> all;
   for (std::size_t d = 1; d < dwells.size(); ++d) {
     const Dwell &from = dwells[d - 1], &to = dwells[d];
@@ -26,11 +36,12 @@ std::vector<double> errors(const Signals& s, const std::vector<Dwell>& dwells, d
     if (turn < Limits::least_turn) continue;
     Mat3 R = Mat3::Identity();
     for (std::size_t k = from.last + 1; k <= to.first; ++k) {
-      const Vec3 rate = 0.5 * (s.gyro[k - 1] + s.gyro[k]) - from.gyro;
-      R = R * rotation(Vec3((s.time[k] - s.time[k - 1]) * times * rate));
+      const Vec3 rate = as.gyros.of(0.5 * (s.gyro[k - 1] + s.gyro[k]) - from.gyro);
+      R = R * rotation(Vec3((s.time[k] - s.time[k - 1]) * as.times * rate));
     }
     if (!R.allFinite()) continue;  // a sample is missing
-    all.push_back(angle_between(R.transpose() * from.acc, to.acc) / turn);
+    const Vec3 before = as.accelerometers.of(from.acc), after = as.accelerometers.of(to.acc);
+    all.push_back(angle_between(R.transpose() * before, after) / turn);
   }
   return all;
 }
@@ -40,14 +51,54 @@ struct Mistake {
   double times;
 };
 
+/// Gyros or accelerometers exchanged or reversed: some turns are nothing like what they should be,
+/// and with the columns taken otherwise all are.
+void require_columns(const Signals& signals, const std::vector<Dwell>& dwells,
+                     const std::string& source, const std::vector<double>& declared) {
+  const auto nothing_like = [](double error) { return error > Limits::nothing_like; };
+  const auto wrong = static_cast<std::size_t>(std::ranges::count_if(declared, nothing_like));
+  if (wrong < Limits::fewest_turns) return;
+  const auto explains = [&](const Taken& as) {
+    const std::vector<double> otherwise = errors(signals, dwells, as);
+    std::vector<double> of_wrong;
+    for (std::size_t k = 0; k < otherwise.size(); ++k)
+      if (nothing_like(declared[k])) of_wrong.push_back(otherwise[k]);
+    return stats::upper_median(std::move(of_wrong)) < Limits::alike &&
+           stats::upper_median(otherwise) < Limits::alike &&
+           static_cast<std::size_t>(std::ranges::count_if(otherwise, nothing_like)) < wrong;
+  };
+  const auto gyros = the_one_mixup([&](const Mixup& m) { return explains({.gyros = m}); });
+  const auto forces =
+      the_one_mixup([&](const Mixup& m) { return explains({.accelerometers = m}); });
+  if (!gyros && !forces) return;
+  // Where both explain it the plainer is likelier.
+  const auto of = [](const std::optional<Mixup>& m) {
+    return m ? plainness(*m) : std::pair<int, long>(4, 0);
+  };
+  const auto by_gyros = of(gyros), by_forces = of(forces);
+  const std::string all = "from rest to rest gravity turns as the gyros do",
+                    of_gyros = gyros && by_gyros <= by_forces
+                                   ? mixup_text(*gyros, gyro_channels, all)
+                                   : "",
+                    of_forces = forces && by_forces <= by_gyros
+                                    ? mixup_text(*forces, accelerometer_channels, all)
+                                    : "";
+  throw InputError(
+      ExitCode::recording,
+      fmt::format("{}: in {} of {} turns the gyros turn gravity by nothing like what the "
+                  "accelerometers see from rest to rest. {}{}{}",
+                  source, wrong, declared.size(), of_gyros,
+                  of_gyros.empty() || of_forces.empty() ? "" : ". Or ", of_forces));
+}
+
 }  // namespace
 
 void require_gyro_unit(const Signals& signals, const std::vector<Dwell>& dwells,
                        const std::string& source) {
-  const std::vector<double> declared = errors(signals, dwells, 1.0);
+  const std::vector<double> declared = errors(signals, dwells, {});
   if (declared.size() < Limits::fewest_turns) return;
   const double as_declared = stats::upper_median(declared);
-  if (as_declared < Limits::nothing_like) return;
+  if (as_declared < Limits::alike) return require_columns(signals, dwells, source, declared);
   constexpr double deg = detail::deg;
   constexpr Mistake mistakes[] = {
       {"unit: the numbers look like [rad/s], not [deg/s]", 1.0 / deg},
@@ -58,8 +109,8 @@ void require_gyro_unit(const Signals& signals, const std::vector<Dwell>& dwells,
       {"unit: the numbers look like [deg/h], not [rad/s]", deg / 3600.0},
       {"sign: put a - before the columns in [recording]", -1.0}};
   for (const Mistake& m : mistakes) {
-    const double otherwise = stats::upper_median(errors(signals, dwells, m.times));
-    if (otherwise > Limits::alike) continue;
+    const double otherwise = stats::upper_median(errors(signals, dwells, {m.times}));
+    if (otherwise > std::min(Limits::alike, Limits::far_better * as_declared)) continue;
     throw InputError(
         ExitCode::recording,
         fmt::format("{}:gyro_x: the gyros turn gravity from rest to rest by nothing like what the "
@@ -67,6 +118,7 @@ void require_gyro_unit(const Signals& signals, const std::vector<Dwell>& dwells,
                     "(expected a few per cent, and it is {:.1f} % after this). Correct their {}",
                     source, 100.0 * as_declared, declared.size(), 100.0 * otherwise, m.words));
   }
+  require_columns(signals, dwells, source, declared);
 }
 
 }  // namespace drift::strapdown

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/base/decompose.hpp"
 
@@ -61,9 +62,17 @@ std::vector<StrapdownParameter> known_sums(const EstimateResult& estimate) {
   const Eigensystem eigen = eigensystem(P);
   const auto known = static_cast<Eigen::Index>(std::ranges::count_if(
       eigen.values, [](double v) { return std::sqrt(std::max(v, 0.0)) < learned_ratio; }));
-  const MatX sums = reduced(eigen.vectors.leftCols(known).transpose());  // smallest come first
+  // Below the rounding nothing is known: it is a convention, such as that drifts with the input
+  // axis have no common part where nothing shows it.
+  const double rounding = static_cast<double>(unknown.size()) *
+                          std::numeric_limits<double>::epsilon() * eigen.values.maxCoeff();
+  const auto agreed = static_cast<Eigen::Index>(
+      std::ranges::count_if(eigen.values, [&](double v) { return v < rounding; }));
+  if (known <= agreed) return {};
+  // Smallest come first.
+  const MatX sums = reduced(eigen.vectors.middleCols(agreed, known - agreed).transpose());
   std::vector<StrapdownParameter> all;
-  for (Eigen::Index d = 0; d < known; ++d) {
+  for (Eigen::Index d = 0; d < sums.rows(); ++d) {
     const VecX direction = sums.row(d);
     Eigen::Index largest = 0;
     direction.cwiseAbs().maxCoeff(&largest);

@@ -32,6 +32,10 @@ class WeighedTexts {
     for (const Text& t : all_) out.push_back(t.text);
     return out;
   }
+  /// The first of what is wrong; empty where nothing is.
+  std::string first_wrong() const {
+    return all_.empty() || all_.front().weight != Weight::wrong ? "" : all_.front().text;
+  }
   bool empty() const { return all_.empty(); }
 
  private:

@@ -11,10 +11,15 @@ namespace drift {
 struct Site {
   double latitude = 0.0;     ///< [rad]
   double gravity = 9.80665;  ///< local g [m/s^2], for recordings in m/s^2
+  /// Where North is. Nobody knows: the local axes are those that Up allows, and of the Earth's rate
+  /// only what is about Up is known.
+  bool north_known = true;
 
-  /// Rate of the Earth, local axes [rad/s].
+  /// Rate of the Earth about the horizontal, along North [rad/s].
+  double north_rate() const { return detail::earth_rate * std::cos(latitude); }
+  /// What is known of the rate of the Earth, local axes [rad/s].
   Vec3 omega_ie_l() const {
-    return detail::earth_rate * Vec3(std::cos(latitude), 0.0, std::sin(latitude));
+    return {north_known ? north_rate() : 0.0, 0.0, detail::earth_rate * std::sin(latitude)};
   }
 };
 

@@ -8,14 +8,9 @@
 #include <vector>
 
 namespace drift {
-namespace {
-
-/// By which one mixup is plainer than another.
 std::pair<int, long> plainness(const Mixup& m) {
   return {m.changes(), std::ranges::count_if(m.sign, [](double s) { return s < 0.0; })};
 }
-
-}  // namespace
 
 int Mixup::changes() const {
   int n = 0;

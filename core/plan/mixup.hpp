@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "core/base/linalg.hpp"
 #include "core/recording/recording_channels.hpp"
@@ -20,6 +21,9 @@ struct Mixup {
   }
   int changes() const;
 };
+
+/// By which one mixup is plainer than another: fewer changes, of these fewer reversed columns.
+std::pair<int, long> plainness(const Mixup& mixup);
 
 /// The one mixup with the fewest changes, of these the one with the fewest reversed columns, that
 /// explains what is seen; none if several do, or nothing needs to be changed.

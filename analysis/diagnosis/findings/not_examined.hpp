@@ -13,7 +13,7 @@ struct NotExamined {
     no_covariate,  ///< neither the recording nor the study has what it follows
     no_swing,      ///< the temperature is known, and has hardly moved
     no_turns,      ///< the accelerometers of a case are not read while it turns
-    beyond_reach,  ///< the plan does not show it, however large
+    beyond_reach,  ///< VisibleLimits::information: only if some forty times as large as usual
   };
   std::string term;
   Why why = Why::no_covariate;

@@ -51,7 +51,7 @@ std::string reason_of_several(const NotExamined& left_out) {
     case Why::beyond_reach:
       break;
   }
-  return "this plan does not show them, however large they are";
+  return "this plan does not show them, unless they are forty times as large as is usual";
 }
 
 }  // namespace
@@ -71,7 +71,7 @@ std::string reason_in_words(const NotExamined& left_out) {
     case Why::beyond_reach:
       break;
   }
-  return "this plan does not show it, however large it is";
+  return "this plan does not show it, unless it is forty times as large as is usual";
 }
 
 std::vector<std::string> not_examined_sentences(const std::vector<NotExamined>& all) {

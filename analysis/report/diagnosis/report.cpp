@@ -22,6 +22,11 @@ namespace {
 
 using namespace diagnosis;
 
+/// Whether the latitude is all that is wrong.
+bool nothing_else(const identification::LatitudeDoubt& doubt) {
+  return doubt.alone() && !doubt.beside_causes;
+}
+
 std::string verdict_word(const Diagnosis& d) {
   if (d.heading_doubt)
     return d.heading_doubt->alone() ? "Wrong headings: correct the study first."
@@ -29,7 +34,7 @@ std::string verdict_word(const Diagnosis& d) {
   if (d.site_doubt && d.site_doubt->clock) return "Wrong times: correct the recording first.";
   if (d.site_doubt)
     return fmt::format("Wrong {}{}: correct the study first.", wrong_text(*d.site_doubt),
-                       d.site_doubt->alone() ? "" : " and more");
+                       nothing_else(*d.site_doubt) ? "" : " and more");
   switch (d.verdict) {
     case Verdict::consistent:
       return "Consistent: nothing significant is missing.";
@@ -51,8 +56,9 @@ std::string headline(const Diagnosis& d) {
   };
   const std::string word = d.heading_doubt ? wrong("headings", d.heading_doubt->alone())
                            : d.site_doubt && d.site_doubt->clock ? wrong("times", true)
-                           : d.site_doubt ? wrong(wrong_text(*d.site_doubt), d.site_doubt->alone())
-                                          : std::string(text(d.verdict));
+                           : d.site_doubt
+                               ? wrong(wrong_text(*d.site_doubt), nothing_else(*d.site_doubt))
+                               : std::string(text(d.verdict));
   return fmt::format("Verdict {}: {}", word, sentence(d));
 }
 

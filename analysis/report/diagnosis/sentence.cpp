@@ -36,15 +36,17 @@ std::string located_shape_text(const Diagnosis& d) {
 }
 
 std::string noise_text(const Diagnosis& d) {
+  // Of sensors on a case nobody declares it.
+  const std::string_view expected = d.of_case ? "as the rows scatter" : "as declared";
   std::vector<std::string> parts;
   for (const inference::NoiseFinding& f : d.noise)
     if (f.significant && f.component != "outliers")
       parts.push_back(fmt::format("{} ({}: {})", noise_in_words(f.component), f.component,
                                   std::isfinite(f.factor)
-                                      ? fmt::format("{:.2f} times as declared", f.factor)
+                                      ? fmt::format("{:.2f} times {}", f.factor, expected)
                                       : fmt::format("{:.2g} {}", f.value, f.unit)));
   return parts.empty() ? ""
-                       : fmt::format(" The noise is not as declared: {}.", listed(parts, "and"));
+                       : fmt::format(" The noise is not {}: {}.", expected, listed(parts, "and"));
 }
 
 /// Whether the noise that was found wanders as something does that follows what is not recorded.
@@ -253,7 +255,13 @@ std::string sentence(const Diagnosis& d) {
   if (d.heading_doubt) return heading_text(*d.heading_doubt);
   if (d.site_doubt && d.there)
     return site_and_more_text(*d.site_doubt) + " There: " + verdict_alone(*d.there);
-  if (d.site_doubt) return site_text(*d.site_doubt) + rival_text(d);
+  if (d.site_doubt && d.site_doubt->beside_causes && !d.causes.empty())
+    return site_text(*d.site_doubt) +
+           fmt::format(" In the model is {}, without which that latitude leaves something, too.",
+                       together(d, alternatives_of(d).front()));
+  if (d.site_doubt)
+    return site_text(*d.site_doubt) + (d.of_case ? upside_down_text(*d.site_doubt) : "") +
+           rival_text(d);
   std::string text = absent_text(d.absent_positions) + absent_text(d.absent) + verdict_alone(d);
   text += field_text(d);
   if (d.nearest_known && !d.proposal)  // a form that fits is nearer

@@ -26,6 +26,11 @@ std::string or_clock_text(const identification::LatitudeDoubt& doubt) {
       with_sigma(doubt.or_clock->factor, doubt.or_clock->sigma));
 }
 
+std::string upside_down_text(const identification::LatitudeDoubt& doubt) {
+  if (!doubt.mirrored) return "";
+  return " Three accelerometers that read down as up look the same: check their sign, too.";
+}
+
 std::string latitude_next(const identification::LatitudeDoubt& doubt, std::string_view command) {
   if (doubt.or_clock)
     return fmt::format(

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <sstream>
 
 #include "analysis/report/page/report.hpp"
@@ -16,10 +17,13 @@ std::vector<std::string> lines_of(const std::string& sentence, std::size_t width
 }
 
 /// The longest beginning of a text that is whole: up to the end of a sentence or of a clause before
-/// a semicolon. Empty where there is none.
+/// a semicolon, not within brackets. Empty where there is none.
 std::string whole_part(const std::string& text, std::size_t most) {
   std::size_t end = 0;
+  int open = 0;
   for (std::size_t at = 0; at + 1 < text.size() && at < most; ++at) {
+    open += text[at] == '(' ? 1 : text[at] == ')' ? -1 : 0;
+    if (open > 0) continue;
     const bool abbreviates = at >= 2 && text.compare(at - 2, 4, "eq. ") == 0;
     if ((text[at] == '.' || text[at] == ';') && text[at + 1] == ' ' && !abbreviates) end = at;
   }
@@ -56,7 +60,12 @@ std::string brief_text(const InBrief& brief, std::size_t width) {
     room -= lines.size();
     shown.insert(shown.end(), lines.begin(), lines.end());
   };
+  // What is wrong with the input is said whatever the verdict takes.
+  const std::size_t of_wrong = lines_of(brief.more.first_wrong(), width).size();
+  const std::size_t kept = std::min(of_wrong, room / 2);
+  room -= kept;
   add(brief.verdict);
+  room += kept;
   for (const std::string& sentence :
        brief.more.texts())  // with nothing whole to be said: not at all
     if (const auto lines = shortened(sentence, room, width);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "analysis/report/identify/latitude_words.hpp"
 #include "analysis/report/noise/noise.hpp"
 #include "analysis/report/strapdown/case_report.hpp"
 
@@ -87,6 +88,7 @@ json to_json(const CaseIdentification& id, double gravity) {
        {{"count", id.study.test.ways.size()}, {"omitted", id.study.test.ways_with_gap}}},
       {"earth_seen", earth},
       {"azimuth_sigma_deg", earth ? json(id.study.compass.sigma / unit::deg.to_si) : json(nullptr)},
+      {"latitude_doubt", latitude_json(id.latitude)},
       {"folds", id.division.folds},
       {"repeats", id.division.repeats},
       {"seed", id.seed},

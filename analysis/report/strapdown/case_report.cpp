@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "analysis/report/identify/latitude_words.hpp"
 #include "analysis/report/noise/noise.hpp"
 #include "analysis/report/page/json.hpp"
 #include "analysis/report/page/wording.hpp"
@@ -116,7 +117,14 @@ InBrief in_brief(const CaseIdentification& id) {
   InBrief brief;
   const std::string fits = fmt::format("chi-square per degree of freedom {}",
                                        number_text(estimate.statistic_per_dof(), 3));
-  if (misfits(estimate))
+  if (id.latitude)
+    brief.verdict = fmt::format(
+        "Wrong latitude{}: the gyros at rest see the Earth as it turns at {}, not at {:.3f} deg; "
+        "there chi-square per degree of freedom is {} instead of {}. Correct it first.{}",
+        id.latitude->alone() ? "" : " and more", latitude_text(*id.latitude),
+        id.latitude->declared / unit::deg.to_si, number_text(id.latitude->chi2_per_dof_after, 3),
+        number_text(id.latitude->chi2_per_dof_before, 3), upside_down_text(*id.latitude));
+  else if (misfits(estimate))
     brief.verdict = fmt::format(
         "Misfit: {} where noise makes 1: something is missing or wrong, and no number below is to "
         "be trusted.",
@@ -127,7 +135,7 @@ InBrief in_brief(const CaseIdentification& id) {
   else
     brief.verdict = fmt::format("Found: {} and {}; {}, {}.", counted(dwells.size(), "dwell"),
                                 counted(id.study.test.ways.size(), "turn"), told, fits);
-  brief.tone = misfits(estimate) ? Tone::bad : Tone::good;
+  brief.tone = id.latitude || misfits(estimate) ? Tone::bad : Tone::good;
   brief.more.add(Weight::note, azimuth_sentence(id) + ".");
   if (at_rest) brief.more.add(Weight::note, "Up is " + up_of(dwells.front()) + ".");
   if (std::isfinite(id.eq5_gain)) brief.more.add(Weight::note, contest_sentence(id) + ".");
@@ -142,7 +150,10 @@ InBrief in_brief(const CaseIdentification& id) {
   if (!unseen.empty())
     brief.more.add(Weight::note,
                    fmt::format("Alone this recording shows little of {}.", some_of(unseen)));
-  brief.next = "Next: driftscope diagnose, on the same study and recording, says what is missing.";
+  brief.next =
+      id.latitude
+          ? latitude_next(*id.latitude, "identify")
+          : "Next: driftscope diagnose, on the same study and recording, says what is missing.";
   return brief;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "core/base/check.hpp"
@@ -37,15 +38,14 @@ Mat3 levelled(const Vec3& f_c, double azimuth) {
   return case_attitude(azimuth) * least;
 }
 
-/// Sum of squares of rows about the mean of their dwell.
+/// Scatter of rows from one to the next of their dwell: what drifts slowly is not noise.
 struct Scatter {
   double squares = 0.0, dof = 0.0;
   void add(const std::vector<Vec3>& rows) {
-    if (rows.size() < 2) return;
-    Vec3 mean = Vec3::Zero();
-    for (const Vec3& r : rows) mean += r / static_cast<double>(rows.size());
-    for (const Vec3& r : rows) squares += (r - mean).squaredNorm();
-    dof += 3.0 * static_cast<double>(rows.size() - 1);
+    for (std::size_t k = 1; k < rows.size(); ++k) {
+      squares += 0.5 * (rows[k] - rows[k - 1]).squaredNorm();
+      dof += 3.0;
+    }
   }
   double sigma() const { return dof > 0.0 ? std::sqrt(squares / dof) : 0.0; }
 };
@@ -58,6 +58,7 @@ class Layout {
     test_.timeline.reads_turns = in_turns == InTurns::read;
     DRIFT_EXPECTS(in_turns == InTurns::left_out || carry == Carry::through);
     test_.timeline.site = site;
+    test_.timeline.site.north_known = carry == Carry::through;
     test_.timeline.of_case = true;
     test_.timeline.positions = static_cast<int>(dwells.size());
     test_.row = row_length(signals, dwells);
@@ -214,12 +215,31 @@ class Layout {
     return rows;
   }
 
-  /// Of the gyros' mean over a dwell. The Earth's horizontal rate is laid along a North that nobody
-  /// knows: what it is and what it is taken for, a third of its square on each axis, are noise.
+  /// What the Earth's horizontal rate, along a North that nobody knows, is as noise on each axis: a
+  /// third of its square. A dwell and the way from it see one and the same North; as noise of their
+  /// own in each they must have twice that to know together no more than one of them [(rad/s)^2].
+  double variance_of_north() const {
+    const double north = test_.timeline.site.north_rate();
+    return 2.0 / 3.0 * north * north;
+  }
+
+  /// Of the gyros' mean over a dwell.
   double noise_of_dwells() const {
-    const Vec3 earth = test_.timeline.site.omega_ie_l();
-    const double of_north = 2.0 / 3.0 * earth.head<2>().squaredNorm();
-    return std::sqrt(0.5 * stillness_.gyro_noise * stillness_.gyro_noise + of_north);
+    return std::sqrt(0.5 * stillness_.gyro_noise * stillness_.gyro_noise + variance_of_north());
+  }
+
+  /// What the same does over a way: an angle that grows with its time, as a walk that makes as much
+  /// of all ways together [rad^2/s].
+  double walk_of_north() const {
+    std::map<int, double> length;  // of the way to each dwell
+    for (const Interval& i : test_.timeline.intervals)
+      if (i.slew) length[i.position] += i.length();
+    double squares = 0.0, sum = 0.0;
+    for (const auto& [dwell, t] : length) {
+      squares += t * t;
+      sum += t;
+    }
+    return sum > 0.0 ? variance_of_north() * squares / sum : 0.0;
   }
 
   void finish() {
@@ -237,7 +257,10 @@ class Layout {
     test_.readout.accelerometer_noise = halved ? stillness_.acc_noise : of_acc_.sigma();
     test_.readout.gimbal_noise = halved ? noise_of_dwells() : of_gyro_.sigma();
     test_.angle_random_walk = of_gyro_.sigma() * std::sqrt(test_.row);
-    if (halved) test_.row = stillness_.half;
+    if (halved) {
+      test_.angle_random_walk = std::hypot(test_.angle_random_walk, std::sqrt(walk_of_north()));
+      test_.row = stillness_.half;
+    }
     place_nodes(test_.timeline, test_.R_lp, longest_turn());
   }
 

@@ -22,10 +22,11 @@ namespace drift::strapdown {
 struct CaseTest {
   Timeline timeline;
   Measurements measured;
-  Readout readout;                 ///< noise of a row, from the scatter of the rows within dwells
-  double angle_random_walk = 0.0;  ///< that the scatter of the gyros stands for [rad/sqrt(s)]
-  double row = 0.0;                ///< length of the rows in dwells [s]
-  std::vector<std::size_t> ways;   ///< dwell (from 0) at the end of each way without a gap
+  Readout readout;  ///< noise of a row, from the scatter of the rows within dwells
+  /// That the scatter of the gyros stands for, and what an unknown North does [rad/sqrt(s)].
+  double angle_random_walk = 0.0;
+  double row = 0.0;               ///< length of the rows in dwells [s]
+  std::vector<std::size_t> ways;  ///< dwell (from 0) at the end of each way without a gap
   std::size_t ways_with_gap = 0;
   std::vector<bool> still;  ///< of each dwell: a rest to the gyros
   std::vector<Mat3> R_lp;   ///< attitude at the start of each chain as it was assumed
@@ -53,9 +54,10 @@ inline constexpr double longer_while_speeding_up = 3.0;
 enum class Carry {
   through,  ///< from way to way, until one has a gap: azimuth is worth carrying
   one_way,  ///< over one way; a dwell's first half ends a chain, its second half begins the next.
-            ///< For gyros that do not see the Earth: all that a way shows then is where up is
-            ///< before and after it. Half of a still dwell (stillness.hpp) is one row at rest; in
-            ///< any other the readings carry the attitude as on a way, while gravity is seen
+            ///< For gyros that do not see where North is: all that a way shows then is where up is
+            ///< before and after it, and of the Earth's rate only what is about up is known. Half
+            ///< of a still dwell (stillness.hpp) is one row at rest; in any other the readings
+            ///< carry the attitude as on a way, while gravity is seen
 };
 
 /// What is made of the accelerometers while the case turns. On a table with fixed axes they read

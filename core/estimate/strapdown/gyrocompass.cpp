@@ -7,46 +7,94 @@
 
 namespace drift::strapdown {
 
+namespace {
+
+/// Normal equations of what the gyros read at rest: the Earth's horizontal rate of each chain (two
+/// numbers), the drift of three gyros, the Earth's rate about Up.
+struct Rests {
+  MatX N;
+  VecX right;
+  Eigen::Index up() const { return N.rows() - 1; }
+};
+
+Rests rests_of(const CaseTest& test, double sigma_drift) {
+  const auto chains = static_cast<Eigen::Index>(test.timeline.chains);
+  const Eigen::Index n = 2 * chains + 4;
+  Rests sums{MatX::Zero(n, n), VecX::Zero(n)};
+  sums.N.diagonal().segment<3>(2 * chains).setConstant(1.0 / (sigma_drift * sigma_drift));
+  const double weight = 1.0 / (test.readout.gimbal_noise * test.readout.gimbal_noise);
+  for (const Interval& i : test.timeline.intervals) {
+    if (!i.rest) continue;
+    const Mat3 R_pl = test.timeline.nodes[i.middle_node()].R_lr.transpose();
+    MatX J = MatX::Zero(3, n);
+    J.middleCols<2>(2 * i.chain) = R_pl.leftCols<2>();
+    J.middleCols<3>(2 * chains).setIdentity();
+    J.col(sums.up()) = R_pl.col(2);
+    sums.N += weight * J.transpose() * J;
+    sums.right += weight * J.transpose() * i.omega_cmd_p;
+  }
+  return sums;
+}
+
+/// North as the gyros have it, against the North that was assumed [rad].
+double azimuth_of(const Eigen::Vector2d& north, const std::vector<double>& assumed,
+                  Eigen::Index chain) {
+  const auto c = static_cast<std::size_t>(chain);
+  return (c < assumed.size() ? assumed[c] : 0.0) - std::atan2(north[1], north[0]);
+}
+
+}  // namespace
+
 Gyrocompass gyrocompass(const CaseTest& test, const std::vector<double>& assumed_azimuth,
                         double sigma_drift) {
   const Timeline& timeline = test.timeline;
   const Vec3 omega_ie_l = timeline.site.omega_ie_l();
   const double horizontal = omega_ie_l.head<2>().norm();
-  const auto chains = static_cast<Eigen::Index>(timeline.chains);
-  const Eigen::Index n = 2 * chains + 3;
-  MatX N = MatX::Zero(n, n);
-  VecX right = VecX::Zero(n);
-  N.diagonal().tail<3>().setConstant(1.0 / (sigma_drift * sigma_drift));
-  const double weight = 1.0 / (test.readout.gimbal_noise * test.readout.gimbal_noise);
-  for (const Interval& i : timeline.intervals) {
-    if (!i.rest) continue;
-    const Mat3 R_pl = timeline.nodes[i.middle_node()].R_lr.transpose();
-    MatX J = MatX::Zero(3, n);
-    J.middleCols<2>(2 * i.chain) = R_pl.leftCols<2>();
-    J.rightCols<3>().setIdentity();
-    const Vec3 seen = i.omega_cmd_p - R_pl.col(2) * omega_ie_l[2];
-    N += weight * J.transpose() * J;
-    right += weight * J.transpose() * seen;
-  }
-  const Cholesky llt(N);
-  const VecX x = llt.solve(right);
+  const Rests sums = rests_of(test, sigma_drift);
+  const Eigen::Index n = sums.up();
+  const Cholesky llt(sums.N.topLeftCorner(n, n));
+  const VecX x = llt.solve(VecX(sums.right.head(n) - sums.N.col(n).head(n) * omega_ie_l[2]));
   const MatX P = llt.solve(MatX(MatX::Identity(n, n)));
   Gyrocompass out;
   out.sees_earth = horizontal > 0.0;
   out.sigma = 0.0;
-  for (Eigen::Index c = 0; c < chains; ++c) {
+  for (Eigen::Index c = 0; c < timeline.chains; ++c) {
     const Eigen::Vector2d north = x.segment<2>(2 * c);
     const double sigma = std::sqrt(P.block<2, 2>(2 * c, 2 * c).trace() / 2.0);
-    // North as the gyros have it, against the North that was assumed.
-    const double assumed =
-        static_cast<std::size_t>(c) < assumed_azimuth.size() ? assumed_azimuth[c] : 0.0;
-    out.azimuth.push_back(assumed - std::atan2(north[1], north[0]));
+    out.azimuth.push_back(azimuth_of(north, assumed_azimuth, c));
     out.sigma = std::max(out.sigma, sigma / horizontal);
     if (std::abs(north.norm() - horizontal) > 3.0 * sigma + 0.1 * horizontal)
       out.sees_earth = false;
   }
   if (out.sigma > 0.3) out.sees_earth = false;
   if (!out.sees_earth) out.sigma = 1.0;
+  return out;
+}
+
+EarthSeen earth_seen(const CaseTest& test, const std::vector<double>& assumed_azimuth,
+                     double sigma_drift) {
+  Rests sums = rests_of(test, sigma_drift);
+  constexpr double beyond_the_earth = 10.0 * detail::earth_rate;  // it is no faster than that
+  sums.N(sums.up(), sums.up()) += 1.0 / (beyond_the_earth * beyond_the_earth);
+  const Cholesky llt(sums.N);
+  const VecX x = llt.solve(sums.right);
+  const MatX P = llt.solve(MatX(MatX::Identity(sums.N.rows(), sums.N.rows())));
+  EarthSeen out;
+  double weights = 0.0, horizontal = 0.0;
+  for (Eigen::Index c = 0; c < test.timeline.chains; ++c) {
+    const Eigen::Vector2d north = x.segment<2>(2 * c);
+    const double weight = 2.0 / P.block<2, 2>(2 * c, 2 * c).trace();
+    out.azimuth.push_back(azimuth_of(north, assumed_azimuth, c));
+    horizontal += weight * north.norm();
+    weights += weight;
+  }
+  horizontal /= weights;
+  const double up = x[sums.up()], variance = 1.0 / weights, variance_up = P(sums.up(), sums.up());
+  const double square = up * up + horizontal * horizontal;
+  out.latitude = std::atan2(up, horizontal);
+  out.rate = std::sqrt(square);
+  out.sigma = std::sqrt(up * up * variance + horizontal * horizontal * variance_up) / square;
+  out.sigma_rate = std::sqrt((horizontal * horizontal * variance + up * up * variance_up) / square);
   return out;
 }
 

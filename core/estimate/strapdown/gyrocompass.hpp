@@ -20,4 +20,16 @@ struct Gyrocompass {
 Gyrocompass gyrocompass(const CaseTest& test, const std::vector<double>& assumed_azimuth,
                         double sigma_drift);
 
+/// The Earth as the gyros at rest see it, with nothing of it from the site but the attitudes.
+struct EarthSeen {
+  double latitude = 0.0, sigma = 0.0;   ///< [rad]
+  double rate = 0.0, sigma_rate = 0.0;  ///< of the whole [rad/s]
+  std::vector<double> azimuth;          ///< as Gyrocompass has it
+};
+
+/// The same sum with the rate about Up unknown, too: of a gyro drift alone where the attitudes are
+/// too few to tell the two apart, which sigma_rate shows.
+EarthSeen earth_seen(const CaseTest& test, const std::vector<double>& assumed_azimuth,
+                     double sigma_drift);
+
 }  // namespace drift::strapdown

@@ -25,6 +25,20 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
+TEST(Brief, WhatIsWrongWithTheInputHasRoomAndNoSentenceEndsInBrackets) {
+  std::string verdict =
+      "Verdict unexplained: something is missing. The nearest known (one; or "
+      "another. Of both much is written";
+  for (int k = 0; k < 200; ++k) verdict += " here";
+  report::InBrief brief{.verdict = verdict + ").", .next = "Next: correct it."};
+  brief.more.add(Weight::note, "A note.");
+  brief.more.add(Weight::wrong, "Gimbals: gimbal_inner reads 3.01 deg too much.");
+  const std::string said = report::brief_text(brief, 80);
+  EXPECT_NE(said.find("reads 3.01 deg too much"), std::string::npos) << said;
+  EXPECT_NE(said.find("something is missing.\n"), std::string::npos) << said;
+  EXPECT_EQ(said.find("nearest known"), std::string::npos) << said;
+}
+
 TEST(Brief, KeepsVerdictAndNextStepAndCutsWhatIsBetween) {
   report::InBrief brief;
   for (int k = 0; k < 40; ++k) brief.verdict += "verdict ";

@@ -58,6 +58,19 @@ TEST(ClockUnit, AClockThatIsOffByLessIsNoOtherUnit) {
   EXPECT_TRUE(says(other_unit_of_time(with_times(r, 1.0 / 200.0)), "expected about 15 deg/h"));
 }
 
+TEST(ClockUnit, LabelsThatComeLateAreNoOtherUnit) {
+  const Recording r = test::simulated(study());
+  for (const std::size_t late : {2, 3, 5}) {
+    Recording wrong = r;
+    for (Channel& c : wrong.channels)
+      if (c.name == "position") {
+        c.values.insert(c.values.begin(), late, c.values.front());
+        c.values.resize(r.rows());
+      }
+    EXPECT_EQ(other_unit_of_time(wrong), "") << late;
+  }
+}
+
 TEST(ClockUnit, OfAPlatformThatIsKeptLevelNothingIsSaid) {
   Recording r = test::simulated(study(CommandLaw::level));
   for (const double factor : {1.0 / 60.0, 1.0, 60.0})

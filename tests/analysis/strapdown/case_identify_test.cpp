@@ -191,6 +191,33 @@ TEST(CaseStudy, GyrosInAnotherUnitOrOfTheOtherSignAreRefused) {
   }
 }
 
+/// Exchanged or reversed columns, of gyros or of accelerometers, with the line that mends them.
+TEST(CaseStudy, ColumnsThatAreExchangedOrReversedAreNamed) {
+  const mc::Study study = study_with(sensors_of_unit);
+  const Recording right = strapdown_recording(script(study, 12, 10.0), Theta::Zero());
+  struct Wrong {
+    std::size_t a, b;  // columns; the same: reversed
+    const char* words;
+  };
+  for (const Wrong& w : {Wrong{1, 1, "gyro_x = \"-gyro_x\""}, Wrong{3, 3, "gyro_z = \"-gyro_z\""},
+                         Wrong{5, 5, "acc_y = \"-acc_y\""}, Wrong{1, 2, "gyro_x = \"gyro_y\""},
+                         Wrong{5, 6, "acc_y = \"acc_z\""}}) {
+    Recording wrong = right;
+    if (w.a == w.b)
+      for (double& value : wrong.channels[w.a].values) value = -value;
+    else
+      std::swap(wrong.channels[w.a].values, wrong.channels[w.b].values);
+    try {
+      case_study(study, wrong);
+      ADD_FAILURE() << w.words;
+    } catch (const InputError& e) {
+      const std::string said = e.what();
+      EXPECT_NE(said.find(w.words), std::string::npos) << said;
+      EXPECT_EQ(said.find(". Or "), std::string::npos) << said;
+    }
+  }
+}
+
 TEST(CaseStudy, OneAccelerometerInAnotherUnitIsNamed) {
   const mc::Study study = study_with(sensors_of_unit);
   Theta theta = Theta::Zero();

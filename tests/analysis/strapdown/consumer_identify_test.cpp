@@ -37,10 +37,15 @@ Theta drawn(const FilterSpec& filter, std::uint64_t seed) {
   return theta;
 }
 
+/// Of one sample [rad/s]: 0.3 deg/sqrt(h), which in a dwell knows as much as the Earth turns; and
+/// ten times that.
+constexpr double quiet = 9e-4, loud = 0.01;
+
 Recording recorded(const mc::Study& study, const Theta& theta, std::size_t dwells,
-                   std::uint64_t seed) {
+                   std::uint64_t seed, double gyro_noise = loud) {
   test::StrapdownScript script;
   script.dwells = dwells;
+  script.gyro_noise = gyro_noise;
   script.omega_ie_l = study.site.omega_ie_l();
   script.seed = seed;
   return strapdown_recording(script, theta);
@@ -60,12 +65,12 @@ Theta tilted() {
   return theta;
 }
 
-test::Pulls pulls_of_units(std::uint64_t first, std::uint64_t last) {
+test::Pulls pulls_of_units(std::uint64_t first, std::uint64_t last, double gyro_noise = loud) {
   const mc::Study study = study_with({"eq5"}, all_of_it);
   test::Pulls pulls;
   for (std::uint64_t seed = first; seed <= last; ++seed) {
     const Theta truth = drawn(study.filters.front(), seed);
-    const CaseStudy of = case_study(study, recorded(study, truth, 30, seed));
+    const CaseStudy of = case_study(study, recorded(study, truth, 30, seed, gyro_noise));
     EXPECT_FALSE(of.compass.sees_earth);
     const FilterSpec filter = case_filter(study.filters.front(), of);
     const BatchResult fit = fit_batch(filter, of.measured(), start_of(filter, of));
@@ -81,6 +86,15 @@ TEST(ConsumerIdentify, ErrorsOfTenUnitsAreAsLargeAsTheirSigmas) {
 
 TEST(ConsumerIdentifyNightly, ErrorsOfFiftyUnitsAreAsLargeAsTheirSigmas) {
   test::expect_as_large_as_sigmas(pulls_of_units(101, 150));
+}
+
+/// Where North is nobody knows, and these gyros feel the Earth turn about it.
+TEST(ConsumerIdentify, TheUnknownNorthIsInTheSigmasOfTenQuietUnits) {
+  test::expect_as_large_as_sigmas(pulls_of_units(201, 210, quiet));
+}
+
+TEST(ConsumerIdentifyNightly, TheUnknownNorthIsInTheSigmasOfFiftyQuietUnits) {
+  test::expect_as_large_as_sigmas(pulls_of_units(301, 350, quiet));
 }
 
 TEST(ConsumerIdentify, SaysWhatItCannotSeeWithoutANumberAndTheSameForTheSameSeed) {

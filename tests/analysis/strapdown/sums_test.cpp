@@ -44,6 +44,12 @@ TEST(Sums, MembersOfOtherUnitsCarryWhatTurnsThemIntoThatOfTheSum) {
   EXPECT_TRUE(alike[0].key == "eta_x + xi_x" || alike[0].key == "xi_x + eta_x") << alike[0].key;
 }
 
+TEST(Sums, AConventionIsNoKnowledge) {
+  // D_I less the mean of the three: their sum is zero whatever the recording.
+  const MatX less_mean = MatX::Identity(3, 3) - MatX::Constant(3, 3, 1.0 / 3.0);
+  EXPECT_TRUE(known_sums(estimate_of({"D_I_x", "D_I_y", "D_I_z"}, less_mean)).empty());
+}
+
 /// A platform makes w = reading + s_a |reading| of what it is told; the sensor, reading = w - s_a
 /// |w|.
 TEST(AsSensed, WhatBendsAScaleFactorChangesItsSign) {

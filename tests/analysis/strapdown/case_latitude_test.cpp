@@ -1,0 +1,81 @@
+// Gyros that see the Earth know the latitude: a wrong one of the study is said, and nothing else is
+// taken for it.
+#include "analysis/strapdown/case_latitude.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "analysis/strapdown/case_diagnose.hpp"
+#include "core/config/load.hpp"
+#include "tests/support/case_unit.hpp"
+#include "tests/support/recordings_by_others.hpp"
+
+namespace drift::strapdown::case_latitude_test {
+namespace {
+
+mc::Study study_at(double latitude_deg) {
+  return mc::read_study_tree(
+      config::parse_document(
+          fmt::format("schema = 1\n[site]\nlatitude = \"{} deg\"\ngravity = \"9.8 m/s^2\"\n[plan]\n"
+                      "kind = \"strapdown\"\n[[filter]]\nname = \"unit\"\ncoupling = \"eq5\"\n"
+                      "terms = [\"fixed_drift\", \"gyro_misalignment\", \"torquer_scale\", \"K0\", "
+                      "\"K1\", \"dP\", \"dO\"]\n",
+                      latitude_deg),
+          "study.toml"),
+      "study.toml");
+}
+
+const double truth_deg = case_unit::site.latitude / unit::deg.to_si;
+
+diagnosis::Diagnosis diagnosed(const mc::Study& study, const Recording& recording) {
+  return diagnose_case(study, identify_case(study, recording));
+}
+
+TEST(CaseLatitude, AWrongOneIsSaidAndNoDriftIsNamedForIt) {
+  const Recording recording = strapdown_recording(case_unit::script(41), case_unit::sensors());
+  EXPECT_FALSE(identify_case(study_at(truth_deg), recording).latitude);
+  // Near, on the other hemisphere, and so far off that the gyros do not seem to see the Earth.
+  for (const double latitude : {truth_deg - 1.0, -truth_deg, 70.0}) {
+    const mc::Study study = study_at(latitude);
+    const CaseIdentification id = identify_case(study, recording);
+    ASSERT_TRUE(id.latitude) << latitude;
+    EXPECT_LT(std::abs(id.latitude->latitude - case_unit::site.latitude), 4.0 * id.latitude->sigma)
+        << latitude;
+    EXPECT_LT(id.latitude->sigma, 0.3 * unit::deg.to_si);
+    EXPECT_EQ(id.latitude->mirrored, latitude < 0.0);
+    const diagnosis::Diagnosis d = diagnose_case(study, id);
+    EXPECT_TRUE(d.wrong_study()) << latitude;
+    EXPECT_TRUE(d.site_doubt && d.site_doubt->alone()) << latitude;
+  }
+}
+
+/// Drift with the input axis that all gyros have alike turns as the Earth does about Up; with it
+/// the whole is not the Earth's.
+TEST(CaseLatitude, DriftThatFollowsGravityIsNone) {
+  Theta theta = case_unit::sensors();
+  for (const char* key : {"D_I_x", "D_I_y", "D_I_z"}) test::set(theta, key, 3.0);
+  const diagnosis::Diagnosis d =
+      diagnosed(study_at(truth_deg), strapdown_recording(case_unit::script(42), theta));
+  EXPECT_FALSE(d.site_doubt || d.other_latitude);
+  EXPECT_EQ(d.verdict, diagnosis::Verdict::named);
+  ASSERT_FALSE(d.causes.empty());
+  EXPECT_EQ(d.causes.front().term, "g_drift");
+}
+
+TEST(CaseLatitude, OfPsinsIsThatOfItsMaker) {
+  NEEDS_RECORDING("psins19.csv");
+  mc::Study study = mc::read_study(DRIFT_SOURCE_DIR "/configs/strapdown_psins.toml");
+  const Recording recording =
+      read_recording(test::path_of("psins19.csv"), RecordingKind::strapdown, study.site.gravity);
+  for (const double latitude : {-34.0, 33.5}) {
+    study.site.latitude = latitude * unit::deg.to_si;
+    const auto found = identify_case(study, recording).latitude;
+    ASSERT_TRUE(found) << latitude;
+    EXPECT_LT(std::abs(found->latitude - 34.0 * unit::deg.to_si), 3.0 * found->sigma) << latitude;
+    EXPECT_LT(found->sigma, 0.02 * unit::deg.to_si);
+  }
+}
+
+}  // namespace
+}  // namespace drift::strapdown::case_latitude_test
