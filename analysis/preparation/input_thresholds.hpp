@@ -15,6 +15,8 @@ struct RecordingLimits {
   /// does, is stuck. Tuned on a coarse readout, which repeats a value often.
   /// Test: Prepare.TwentyEqualSamplesAreAStuckSensor
   static constexpr std::size_t stuck = 20;
+  /// Gaps that gimbal angles cannot close before the angles are doubted: two may be chance.
+  static constexpr std::size_t odd_gaps = 3;
   /// Part by which sample intervals may differ from the plan's, and from each other. Tuned.
   /// Test: Prepare.SampleIntervalsMayDiffer...
   static constexpr double interval_room = 0.05;

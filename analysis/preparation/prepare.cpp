@@ -13,6 +13,7 @@
 #include "analysis/preparation/fillers.hpp"
 #include "analysis/preparation/gimbal_branch.hpp"
 #include "analysis/preparation/gimbal_zero.hpp"
+#include "analysis/preparation/gimbals_behind_gaps.hpp"
 #include "analysis/preparation/gravity_check.hpp"
 #include "analysis/preparation/heading_zero.hpp"
 #include "analysis/preparation/held_rows.hpp"
@@ -205,8 +206,13 @@ void take_even_rows(const Work& work, double interval) {
 void take_uneven_rows(const Work& work) {
   Prepared& p = work.p;
   std::vector<Spaced> all;
-  for (const Recording& r : p.recordings)
-    all.push_back(with_begins(r, p.study, p.remarks, work.wrong));
+  for (const Recording& r : p.recordings) {
+    std::vector<std::string> gaps;
+    all.push_back(with_begins(r, p.study, p.remarks, gaps));
+    if (gaps.size() >= RecordingLimits::odd_gaps)
+      if (const std::string text = gimbals_behind_gaps(r, p.study); !text.empty()) gaps = {text};
+    work.wrong.insert(work.wrong.end(), gaps.begin(), gaps.end());
+  }
   if (!work.wrong.empty()) return;
   const std::size_t before = rows_of(p.recordings);
   JoinLimits limits{work.sample, work.sample};

@@ -89,6 +89,25 @@ TEST_P(AnyRows, SayWhatHappenedInTheirOwnIntervals) {
   EXPECT_LE(weight, 1.01 * static_cast<double>(minutes));
 }
 
+/// Gimbals that say nowhere when a command changed are no missing rows.
+TEST(UnequalRows, GimbalsOfTheWrongSignOrUnitAreNoMissingRows) {
+  const Recording right = with_rows(fine(), Rows::seconds_in_slews);
+  EXPECT_EQ(refusal(right), "");
+  for (const auto& [name, times, words] :
+       std::initializer_list<std::tuple<const char*, double, const char*>>{
+           {"gimbal_inner", -1.0, "gimbal_inner = \"-gimbal_inner\""},
+           {"gimbal_outer", -1.0, "gimbal_outer = \"-gimbal_outer\""},
+           {"gimbal_", detail::deg, "are in another unit"}}) {
+    Recording wrong = right;
+    for (Channel& c : wrong.channels)
+      if (c.name.starts_with(name))
+        for (double& angle : c.values) angle *= times;
+    const std::string said = refusal(wrong);
+    EXPECT_NE(said.find(words), std::string::npos) << name << said;
+    EXPECT_EQ(said.find("are missing before"), std::string::npos) << said;
+  }
+}
+
 TEST(UnequalRows, AreNotReadAsMissing) {
   const Prepared p = prepare(study(), {with_rows(fine(), Rows::seconds_in_slews)});
   EXPECT_FALSE(says(p, "missing"));
