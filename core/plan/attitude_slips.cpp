@@ -19,7 +19,8 @@ namespace {
 template <typename Undo>
 double worst_mismatch(const std::vector<Sight>& sights, const Undo& undo) {
   double worst = 0.0;
-  for (Sight s : sights) {
+  for (const Sight& sight : sights) {
+    Sight s = sight;
     undo(s);
     const double mismatch = gimbal_mismatch(s);
     if (!(mismatch <= worst)) worst = mismatch;
