@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <utility>
 
 #include "core/base/check.hpp"
 #include "core/base/nan.hpp"
 #include "core/estimate/strapdown/stillness.hpp"
 #include "core/estimate/strapdown/turn_reading.hpp"
+#include "core/estimate/strapdown/unknown_north.hpp"
 
 namespace drift::strapdown {
 namespace {
@@ -215,33 +215,6 @@ class Layout {
     return rows;
   }
 
-  /// What the Earth's horizontal rate, along a North that nobody knows, is as noise on each axis: a
-  /// third of its square. A dwell and the way from it see one and the same North; as noise of their
-  /// own in each they must have twice that to know together no more than one of them [(rad/s)^2].
-  double variance_of_north() const {
-    const double north = test_.timeline.site.north_rate();
-    return 2.0 / 3.0 * north * north;
-  }
-
-  /// Of the gyros' mean over a dwell.
-  double noise_of_dwells() const {
-    return std::sqrt(0.5 * stillness_.gyro_noise * stillness_.gyro_noise + variance_of_north());
-  }
-
-  /// What the same does over a way: an angle that grows with its time, as a walk that makes as much
-  /// of all ways together [rad^2/s].
-  double walk_of_north() const {
-    std::map<int, double> length;  // of the way to each dwell
-    for (const Interval& i : test_.timeline.intervals)
-      if (i.slew) length[i.position] += i.length();
-    double squares = 0.0, sum = 0.0;
-    for (const auto& [dwell, t] : length) {
-      squares += t * t;
-      sum += t;
-    }
-    return sum > 0.0 ? variance_of_north() * squares / sum : 0.0;
-  }
-
   void finish() {
     const auto n = static_cast<Eigen::Index>(acc_.size());
     test_.measured.acc.resize(3, n);
@@ -255,10 +228,13 @@ class Layout {
       test_.measured.gimbal.col(static_cast<Eigen::Index>(i)).setConstant(nan_value);
     const bool halved = carry_ == Carry::one_way;
     test_.readout.accelerometer_noise = halved ? stillness_.acc_noise : of_acc_.sigma();
-    test_.readout.gimbal_noise = halved ? noise_of_dwells() : of_gyro_.sigma();
+    test_.readout.gimbal_noise = of_gyro_.sigma();
     test_.angle_random_walk = of_gyro_.sigma() * std::sqrt(test_.row);
     if (halved) {
-      test_.angle_random_walk = std::hypot(test_.angle_random_walk, std::sqrt(walk_of_north()));
+      const UnknownNorth north = unknown_north(test_.timeline, drift_);
+      const double of_half = stillness_.gyro_noise;
+      test_.readout.gimbal_noise = std::sqrt(0.5 * of_half * of_half + north.variance);
+      test_.angle_random_walk = std::hypot(test_.angle_random_walk, std::sqrt(north.walk));
       test_.row = stillness_.half;
     }
     place_nodes(test_.timeline, test_.R_lp, longest_turn());

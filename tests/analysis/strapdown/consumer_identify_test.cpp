@@ -90,11 +90,11 @@ TEST(ConsumerIdentifyNightly, ErrorsOfFiftyUnitsAreAsLargeAsTheirSigmas) {
 
 /// Where North is nobody knows, and these gyros feel the Earth turn about it.
 TEST(ConsumerIdentify, TheUnknownNorthIsInTheSigmasOfTenQuietUnits) {
-  test::expect_as_large_as_sigmas(pulls_of_units(201, 210, quiet));
+  test::expect_as_large_as_sigmas(pulls_of_units(251, 260, quiet));
 }
 
 TEST(ConsumerIdentifyNightly, TheUnknownNorthIsInTheSigmasOfFiftyQuietUnits) {
-  test::expect_as_large_as_sigmas(pulls_of_units(301, 350, quiet));
+  test::expect_as_large_as_sigmas(pulls_of_units(401, 450, quiet));
 }
 
 TEST(ConsumerIdentify, SaysWhatItCannotSeeWithoutANumberAndTheSameForTheSameSeed) {
