@@ -22,6 +22,7 @@
 #include "analysis/preparation/own_names.hpp"
 #include "analysis/preparation/plan_check.hpp"
 #include "analysis/preparation/rounding_noise.hpp"
+#include "analysis/preparation/shifted_numbers.hpp"
 #include "core/base/check.hpp"
 #include "core/plan/timeline.hpp"
 #include "core/recording/rows/join_rows.hpp"
@@ -248,9 +249,9 @@ Prepared prepare(const mc::Study& study, const std::vector<Recording>& recording
     leave_out_held_rows(r, p.remarks);
     leave_out_stuck(r, p.remarks);
     take_usual_branch(r, p.remarks);
-    if (std::string text = other_than_one_g(study, r); !text.empty())
-      wrong.push_back(std::move(text));
-    if (std::string text = other_unit_of_time(r); !text.empty()) wrong.push_back(std::move(text));
+    for (const std::string& text :
+         {other_than_one_g(study, r), other_unit_of_time(r), shifted_numbers(r, study.plan)})
+      if (!text.empty()) wrong.push_back(text);
     remark_missing(r, study.readout, p.remarks);
     for (std::string& text : unmapped_temperature_of_terms(study, r))
       wrong.push_back(std::move(text));
