@@ -1,4 +1,4 @@
-#include "analysis/preparation/shifted_numbers.hpp"
+#include "core/plan/shifted_numbers.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include "core/base/check.hpp"
 #include "tests/support/six_positions.hpp"
 
-namespace drift::preparation::shifted_numbers_test {
+namespace drift::shifted_numbers_test {
 namespace {
 
 /// The numbers of the positions so many rows later, or earlier.
@@ -35,7 +35,7 @@ TEST(ShiftedNumbers, AreToldWithTheRowsByWhichTheyAreOff) {
     EXPECT_NE(early.find(fmt::format("the first {} rows of 5 positions", rows)), std::string::npos)
         << early;
     EXPECT_NE(early.find("Let them change so many rows later"), std::string::npos) << early;
-    EXPECT_THROW(prepare(study, {shifted(right, rows)}), InputError);
+    EXPECT_THROW(preparation::prepare(study, {shifted(right, rows)}), InputError);
   }
 }
 
@@ -52,4 +52,4 @@ TEST(ShiftedNumbers, OneRowOrTurnsInTheMiddleAreNone) {
 }
 
 }  // namespace
-}  // namespace drift::preparation::shifted_numbers_test
+}  // namespace drift::shifted_numbers_test

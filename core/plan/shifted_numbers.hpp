@@ -5,7 +5,7 @@
 #include "core/plan/test_plan.hpp"
 #include "core/recording/recording.hpp"
 
-namespace drift::preparation {
+namespace drift {
 
 /// Whether the numbers of the positions change rows too early or too late: in three positions or
 /// more the platform, caged at the begin of the next, jumps by more than a plan may be missed
@@ -14,4 +14,4 @@ namespace drift::preparation {
 /// what it does to the readings there. r: rows as the file has them.
 std::string shifted_numbers(const Recording& r, const TestPlan& plan);
 
-}  // namespace drift::preparation
+}  // namespace drift

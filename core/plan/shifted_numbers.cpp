@@ -1,4 +1,4 @@
-#include "analysis/preparation/shifted_numbers.hpp"
+#include "core/plan/shifted_numbers.hpp"
 
 #include <fmt/format.h>
 
@@ -6,14 +6,13 @@
 #include <cmath>
 #include <map>
 
-#include "analysis/preparation/noise_card.hpp"
 #include "core/base/nan.hpp"
 #include "core/physics/earth.hpp"
 #include "core/physics/gimbals.hpp"
 #include "core/plan/attitude_slips.hpp"
 #include "core/recording/recording_channels.hpp"
 
-namespace drift::preparation {
+namespace drift {
 namespace {
 
 constexpr std::size_t fewest_positions = 3, fewest_rows = 2;
@@ -25,23 +24,23 @@ struct Jumps {
   std::size_t before_last = 0, behind_first = 0;
 };
 
-Jumps jumps_in(const Recording& r, const RestingRows& rows) {
+Jumps jumps_in(const Recording& r, std::size_t first, std::size_t last) {
   const Channel* heading = r.find("case_heading");
-  const std::size_t count = rows.last - rows.first + 1;
+  const std::size_t count = last - first + 1;
   const auto attitude = [&](std::size_t k) {
     const auto angles = measured(r, gimbal_channels, k);
     return Mat3(case_attitude(heading ? heading->values[k] : 0.0) *
                 gimbal_chain(angles.value_or(Vec3::Constant(nan_value))));
   };
   Jumps out;
-  Mat3 before = attitude(rows.first);
-  for (std::size_t k = rows.first + 1; k <= rows.last; ++k) {
+  Mat3 before = attitude(first);
+  for (std::size_t k = first + 1; k <= last; ++k) {
     const Mat3 now = attitude(k);
     const double turned = rotation_vector(Mat3(now * before.transpose())).norm();
     before = now;
     if (!(turned > largest_mismatch)) continue;
-    if (rows.last - k + 1 <= count / part) out.before_last = rows.last - k + 1;
-    if (k - rows.first <= count / part) out.behind_first = k - rows.first;
+    if (last - k + 1 <= count / part) out.before_last = last - k + 1;
+    if (k - first <= count / part) out.behind_first = k - first;
   }
   return out;
 }
@@ -60,7 +59,7 @@ std::string shifted_numbers(const Recording& r, const TestPlan& plan) {
   std::map<std::size_t, std::size_t> late, early;  // rows, in how many positions
   for (std::size_t first = 0, row = 1; row <= r.rows(); ++row) {
     if (row < r.rows() && position->values[row] == position->values[first]) continue;
-    const Jumps jumps = jumps_in(r, {first, row - 1});
+    const Jumps jumps = jumps_in(r, first, row - 1);
     if (jumps.before_last > 0 && row < r.rows() && caged(position->values[row]))
       ++late[jumps.before_last];
     if (jumps.behind_first > 0 && first > 0 && caged(position->values[first]))
@@ -85,4 +84,4 @@ std::string shifted_numbers(const Recording& r, const TestPlan& plan) {
       is_late ? "earlier" : "later");
 }
 
-}  // namespace drift::preparation
+}  // namespace drift
