@@ -7,6 +7,7 @@
 #include "core/estimate/batch.hpp"
 #include "core/estimate/sequential/iterated_ekf.hpp"
 #include "core/estimate/strapdown/gyrocompass.hpp"
+#include "core/estimate/strapdown/unknown_north.hpp"
 #include "core/sim/predict.hpp"
 #include "tests/support/case_unit.hpp"
 
@@ -166,9 +167,33 @@ TEST(CaseTest, TheNoiseOfAStillDwellIsThatOfItsHalves) {
   }();
   const double half = t.row / 0.01;  // samples
   EXPECT_NEAR(t.readout.accelerometer_noise, 1e-4 / std::sqrt(half), 0.25e-4 / std::sqrt(half));
-  const double earth = std::sqrt(2.0 / 3.0) * site.omega_ie_l().head<2>().norm();
+  // Of these gyros it is the unknown North.
+  const double earth = std::sqrt(unknown_north(t.timeline, Vec3::Zero()).variance);
   EXPECT_NEAR(t.readout.gimbal_noise, earth, 0.01 * earth);
   EXPECT_EQ((t.measured.gimbal.array() == 0.0).count(), 3 * 16);
+}
+
+/// Quarter turns leave a third of a vector where it was: dwells that are alike by 1/3 know half as
+/// much, and a dwell and its way are one.
+TEST(UnknownNorth, IsTwoThirdsOfItsSquareTimesWhatNeighboursHaveInCommon) {
+  Timeline timeline;
+  timeline.site = site;
+  const double north = site.omega_ie_l().head<2>().norm();
+  EXPECT_NEAR(unknown_north(timeline, Vec3::Zero()).variance, 2.0 / 3.0 * north * north,
+              1e-12 * north * north);
+  const Vec3 drift(1e-3, -2e-3, 3e-3);
+  for (const auto& [position, seconds] : {std::pair{1, 2.0}, {2, 4.0}})
+    for (int part = 0; part < 2; ++part) {
+      Interval i;
+      i.t1 = 0.5 * seconds;
+      i.position = position;
+      i.slew = true;
+      i.omega_cmd_p = drift + Vec3(0.0, 90.0 * detail::deg / seconds, 0.0);
+      timeline.intervals.push_back(i);
+    }
+  const UnknownNorth found = unknown_north(timeline, drift);
+  EXPECT_NEAR(found.variance, 4.0 / 3.0 * north * north, 1e-12 * north * north);
+  EXPECT_NEAR(found.walk, found.variance * (4.0 + 16.0) / 6.0, 1e-12 * found.walk);
 }
 
 TEST(CaseTest, AGapOnTheWayBeginsANewChain) {
