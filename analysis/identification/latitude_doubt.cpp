@@ -64,6 +64,11 @@ class Latitudes {
 
 }  // namespace
 
+double log_evidence_of_latitude(double chi2_above, double sigma) {
+  return 0.5 * chi2_above + 0.5 * std::log(2.0 * std::numbers::pi) + std::log(sigma) -
+         std::log(std::numbers::pi);
+}
+
 bool LatitudeDoubt::alone() const {
   return as_little_left || chance_after >= inference::SearchLimits::alpha;
 }
@@ -134,11 +139,9 @@ std::optional<LatitudeDoubt> latitude_doubt(const mc::Study& study,
       before.per_dof(),
       best.per_dof(),
       best.per_dof() > 1.0 ? stats::chi_square_chance(best.per_dof(), best.dof) : 1.0};
-  // Over 180 deg by Laplace's method.
   if (information > 0.0)
-    doubt.log_evidence = 0.5 * (before.cost - best.cost) / std::max(1.0, best.per_dof()) +
-                         0.5 * std::log(2.0 * std::numbers::pi / information) -
-                         std::log(std::numbers::pi);
+    doubt.log_evidence = log_evidence_of_latitude(
+        (before.cost - best.cost) / std::max(1.0, best.per_dof()), doubt.sigma);
   // No latitude is doubted for what chance does.
   if (doubt.log_evidence + std::log(SiteLimits::another) <= 0.0) return std::nullopt;
   const double excess = doubt.chi2_per_dof_before - 1.0;

@@ -49,6 +49,11 @@ struct LatitudeDoubt {
   double prior_sigmas() const;
 };
 
+/// Log evidence for a latitude that is known to `sigma` [rad] against the declared one, whose
+/// chi-square is so much larger, where every latitude is as likely: by Laplace's method over 180
+/// deg.
+double log_evidence_of_latitude(double chi2_above, double sigma);
+
 /// Where other latitudes are tried: everywhere, or only where the cost near the declared one
 /// promises something.
 enum class Reach { everywhere, where_it_promises };

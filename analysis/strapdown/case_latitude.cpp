@@ -1,7 +1,7 @@
 #include "analysis/strapdown/case_latitude.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "analysis/inference/thresholds.hpp"
 #include "core/stats/chi_square_band.hpp"
@@ -39,12 +39,6 @@ std::optional<EarthSeen> earth_of(const mc::Study& study, const Recording& recor
   return seen;
 }
 
-/// Log evidence of a latitude against the declared one where all are as likely, by Laplace.
-double log_evidence(double cost_above, double sigma) {
-  return 0.5 * cost_above + 0.5 * std::log(2.0 * std::numbers::pi) + std::log(sigma) -
-         std::log(std::numbers::pi);
-}
-
 }  // namespace
 
 std::optional<LatitudeDoubt> latitude_doubt(const mc::Study& study, const Recording& recording,
@@ -77,7 +71,7 @@ std::optional<LatitudeDoubt> latitude_doubt(const mc::Study& study, const Record
           : 1.0;
   const bool comparable = id.study.compass.sees_earth;
   const double off = (doubt.latitude - doubt.declared) / seen->sigma;
-  doubt.log_evidence = log_evidence(
+  doubt.log_evidence = identification::log_evidence_of_latitude(
       comparable ? (before.statistic - after.statistic) / std::max(1.0, doubt.chi2_per_dof_after)
                  : off * off,
       doubt.sigma);
