@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t room = 512;
 std::array<std::array<char, room>, 2> texts{};
 std::atomic<int> said{0};
-std::array<struct sigaction, std::size(mc::stop_signals)> before{};
+std::array<struct sigaction, std::size(mc::stop_signals)> handlers_before{};
 int living = 0;
 
 void write_words(const char* words) {
@@ -41,9 +41,10 @@ void install() {
   action.sa_handler = on_stop;
   sigemptyset(&action.sa_mask);
   for (std::size_t i = 0; i < std::size(mc::stop_signals); ++i) {
-    ::sigaction(mc::stop_signals[i], nullptr, &before[i]);
+    ::sigaction(mc::stop_signals[i], nullptr, &handlers_before[i]);
     // What the parent chose to ignore (nohup) stays ignored.
-    if (before[i].sa_handler != SIG_IGN) ::sigaction(mc::stop_signals[i], &action, nullptr);
+    if (handlers_before[i].sa_handler != SIG_IGN)
+      ::sigaction(mc::stop_signals[i], &action, nullptr);
   }
 }
 
@@ -67,7 +68,7 @@ StopAtOnce::~StopAtOnce() {
   say(before_);
   if (--living > 0) return;
   for (std::size_t i = 0; i < std::size(mc::stop_signals); ++i)
-    ::sigaction(mc::stop_signals[i], &before[i], nullptr);
+    ::sigaction(mc::stop_signals[i], &handlers_before[i], nullptr);
 }
 
 }  // namespace drift::cli
