@@ -78,10 +78,8 @@ std::optional<ClockDoubt> clock_doubt(const mc::Study& study,
   // Torquers are off by themselves: the Earth's rate tells.
   const auto best = retimed(study, recordings, filter, 1.0 + common->value, common->sigma);
   if (!best) return std::nullopt;
-  const double left = best->doubt.chi2_per_dof_after;
-  const double chance =
-      left > 1.0 ? stats::chi_square_chance(left, static_cast<double>(best->estimate.measured))
-                 : 1.0;
+  const double chance = stats::misfit_chance(best->doubt.chi2_per_dof_after,
+                                             static_cast<double>(best->estimate.measured));
   if (best->estimate.statistic > there.statistic && chance < inference::SearchLimits::alpha)
     return std::nullopt;
   return best->doubt;

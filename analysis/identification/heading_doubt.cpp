@@ -189,8 +189,7 @@ std::optional<HeadingDoubt> heading_doubt(const mc::Study& study,
   if (doubt.chi2_per_dof_before - doubt.chi2_per_dof_after <
       SiteLimits::most * (doubt.chi2_per_dof_before - 1.0))
     return std::nullopt;
-  doubt.chance_after =
-      best.per_dof() > 1.0 ? stats::chi_square_chance(best.per_dof(), best.dof) : 1.0;
+  doubt.chance_after = stats::misfit_chance(best.per_dof(), best.dof);
   for (std::size_t p = 0; p < count; ++p)
     if (best.turns[p] != 0.0) doubt.turned.push_back({static_cast<int>(p), best.turns[p]});
   doubt.all_alike =

@@ -64,11 +64,6 @@ class Latitudes {
 
 }  // namespace
 
-double log_evidence_of_latitude(double chi2_above, double sigma) {
-  return 0.5 * chi2_above + 0.5 * std::log(2.0 * std::numbers::pi) + std::log(sigma) -
-         std::log(std::numbers::pi);
-}
-
 bool LatitudeDoubt::alone() const {
   return as_little_left || chance_after >= inference::SearchLimits::alpha;
 }
@@ -79,6 +74,25 @@ bool LatitudeDoubt::as_surveyed() const {
 
 double LatitudeDoubt::prior_sigmas() const {
   return std::abs(latitude - declared) / TermLibrary::specs[d_lat].prior_si().sigma();
+}
+
+void LatitudeDoubt::weigh(double chi2_above) {
+  if (sigma > 0.0)
+    log_evidence = 0.5 * chi2_above + 0.5 * std::log(2.0 * std::numbers::pi) + std::log(sigma) -
+                   std::log(std::numbers::pi);
+}
+
+bool LatitudeDoubt::evident() const {
+  return log_evidence + std::log(SiteLimits::another) > 0.0 && prior_sigmas() > SiteLimits::survey;
+}
+
+bool LatitudeDoubt::explains() const {
+  const double excess = chi2_per_dof_before - 1.0;
+  return excess > 0.0 && chi2_per_dof_before - chi2_per_dof_after >= SiteLimits::most * excess;
+}
+
+bool LatitudeDoubt::is_on_other_hemisphere() const {
+  return std::abs(latitude + declared) < 0.1 * std::abs(latitude - declared);
 }
 
 std::optional<LatitudeDoubt> latitude_doubt(const mc::Study& study,
@@ -133,27 +147,14 @@ std::optional<LatitudeDoubt> latitude_doubt(const mc::Study& study,
   take(latitudes.at({-best.latitude}));  // the mirrored valley is nearly as deep
   follow({0.2, 0.02, 0.005});
   LatitudeDoubt doubt{
-      best.latitude,
-      declared,
-      information > 0.0 ? 1.0 / std::sqrt(information) : 0.0,
-      before.per_dof(),
-      best.per_dof(),
-      best.per_dof() > 1.0 ? stats::chi_square_chance(best.per_dof(), best.dof) : 1.0};
-  if (information > 0.0)
-    doubt.log_evidence = log_evidence_of_latitude(
-        (before.cost - best.cost) / std::max(1.0, best.per_dof()), doubt.sigma);
-  // No latitude is doubted for what chance does.
-  if (doubt.log_evidence + std::log(SiteLimits::another) <= 0.0) return std::nullopt;
-  const double excess = doubt.chi2_per_dof_before - 1.0;
-  if (doubt.prior_sigmas() <= SiteLimits::survey || excess <= 0.0) return std::nullopt;
-  const bool explains =
-      doubt.chi2_per_dof_before - doubt.chi2_per_dof_after >= SiteLimits::most * excess;
-  // Mirrored, not across a nearby equator.
-  doubt.mirrored =
-      std::abs(best.latitude + declared) < 0.1 * std::abs(best.latitude - declared) &&
-      before.cost - best.cost > inference::FitLimits::mirrored * std::max(1.0, best.per_dof());
-  if (!explains && !doubt.mirrored) return std::nullopt;
-  if (!explains) return doubt;
+      best.latitude,    declared,       information > 0.0 ? 1.0 / std::sqrt(information) : 0.0,
+      before.per_dof(), best.per_dof(), stats::misfit_chance(best.per_dof(), best.dof)};
+  const double gain = (before.cost - best.cost) / std::max(1.0, best.per_dof());
+  doubt.weigh(gain);
+  if (!doubt.evident() || doubt.chi2_per_dof_before <= 1.0) return std::nullopt;
+  doubt.mirrored = doubt.is_on_other_hemisphere() && gain > inference::FitLimits::mirrored;
+  if (!doubt.explains() && !doubt.mirrored) return std::nullopt;
+  if (!doubt.explains()) return doubt;
   doubt.clock = clock_doubt(study, recordings, filter, best.latitude);
   if (!doubt.clock)
     doubt.or_clock = clock_instead(study, recordings, filter, best.latitude, doubt.sigma);

@@ -47,12 +47,18 @@ struct LatitudeDoubt {
 
   /// Size that latitude_error would need.
   double prior_sigmas() const;
-};
 
-/// Log evidence for a latitude that is known to `sigma` [rad] against the declared one, whose
-/// chi-square is so much larger, where every latitude is as likely: by Laplace's method over 180
-/// deg.
-double log_evidence_of_latitude(double chi2_above, double sigma);
+  /// Takes the evidence where the declared latitude's chi-square is so much larger: by Laplace's
+  /// method over 180 deg.
+  void weigh(double chi2_above);
+  /// The evidence is stronger than studies of another latitude are rare (SiteLimits::another): no
+  /// latitude is doubted for what chance does; and no survey is wrong by as much.
+  bool evident() const;
+  /// It takes away nine tenths of what the filter leaves above its degrees of freedom.
+  bool explains() const;
+  /// Its latitude is nearer to the mirrored one than a tenth of the way there.
+  bool is_on_other_hemisphere() const;
+};
 
 /// Where other latitudes are tried: everywhere, or only where the cost near the declared one
 /// promises something.

@@ -11,7 +11,7 @@
 #include "analysis/preparation/input_thresholds.hpp"
 #include "analysis/preparation/noise_card.hpp"
 #include "core/physics/earth.hpp"
-#include "core/physics/gimbals.hpp"
+#include "core/plan/slew_check.hpp"
 #include "core/recording/recording_channels.hpp"
 #include "core/stats/median.hpp"
 
@@ -35,16 +35,15 @@ struct Rates {
 
 /// Whether half of a turn is made from one row to the next: then rows are of another position
 /// (labels that come late), or one was read wrongly, whatever the clock says.
-template <class Attitude>
-bool jumps(const Recording& r, Attitude&& attitude, std::size_t first, std::size_t last,
-           double turn) {
+bool jumps(const Recording& r, std::size_t first, std::size_t last, double turn) {
   constexpr std::size_t fewest = 4;  // steps: of fewer even ones each is as large
   if (last < first + fewest) return false;
   for (std::size_t k = first + 1; k <= last; ++k) {
     const auto from = measured(r, gimbal_channels, k - 1), to = measured(r, gimbal_channels, k);
     if (from && to &&
-        rotation_vector(Mat3(attitude(k, *to) * attitude(k - 1, *from).transpose())).norm() >
-            0.5 * turn)
+        rotation_vector(Mat3(local_attitude_shown(r, k, *to) *
+                             local_attitude_shown(r, k - 1, *from).transpose()))
+                .norm() > 0.5 * turn)
       return true;
   }
   return false;
@@ -59,18 +58,15 @@ std::optional<Rates> rates_in(const Recording& r, RestingRows rest) {
   std::size_t last = rest.last;
   while (last > rest.first + 1 && time[last] - time[rest.first] > PlanLimits::longest_turn) --last;
   const double seconds = time[last] - time[rest.first];
-  const Channel* heading = r.find("case_heading");
-  const auto attitude = [&](std::size_t k, const Vec3& angles) {
-    return Mat3(case_attitude(heading ? heading->values[k] : 0.0) * gimbal_chain(angles));
-  };
   const auto g0 = measured(r, gimbal_channels, rest.first), g1 = measured(r, gimbal_channels, last),
              f0 = measured(r, accelerometer_channels, rest.first),
              f1 = measured(r, accelerometer_channels, last);
   if (!g0 || !g1 || !f0 || !f1 || !(seconds > 0.0)) return std::nullopt;
-  const Mat3 turn = attitude(last, *g1) * attitude(rest.first, *g0).transpose();
-  if (jumps(r, attitude, rest.first, last, rotation_vector(turn).norm())) return std::nullopt;
-  return Rates{rotation_vector(turn).norm() / seconds,
-               std::atan2(f0->cross(*f1).norm(), f0->dot(*f1)) / seconds};
+  const Mat3 turn =
+      local_attitude_shown(r, last, *g1) * local_attitude_shown(r, rest.first, *g0).transpose();
+  const double angle = rotation_vector(turn).norm();
+  if (jumps(r, rest.first, last, angle)) return std::nullopt;
+  return Rates{angle / seconds, std::atan2(f0->cross(*f1).norm(), f0->dot(*f1)) / seconds};
 }
 
 /// The units that are a factor apart: what the times say, and what they are if they are so many

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "analysis/preparation/lost_rows.hpp"
+#include "core/plan/attitude_slips.hpp"
 #include "core/plan/mixup.hpp"
-#include "core/recording/own/recording_unit.hpp"
 #include "core/recording/recording_channels.hpp"
 
 namespace drift::preparation {
@@ -44,10 +44,8 @@ std::string gimbals_behind_gaps(const Recording& r, const mc::Study& study) {
                                   "missing"));
   const Unit& said = r.find(gimbal_channels.names[0])->unit;
   std::vector<std::string_view> units;
-  for (const std::string_view unit : {"deg", "rad", "gon", "mrad", "arcmin", "arcsec"})
-    if (const double times = parse_recording_unit(unit)->to_si / said.to_si;
-        times != 1.0 && closes({}, times))
-      units.push_back(unit);
+  for (const auto& [symbol, to_si] : angle_units())
+    if (to_si != said.to_si && closes({}, to_si / said.to_si)) units.push_back(symbol);
   if (units.size() != 1) return "";
   return fmt::format(
       "{}: gimbal_outer, gimbal_middle, gimbal_inner are in another unit: the platform turned in "

@@ -13,7 +13,8 @@ namespace drift::strapdown {
 /// that is more than three prior sigmas of latitude_error off, where its evidence is stronger than
 /// studies of another latitude are rare (SiteLimits::another), and where it takes away 90 % of what
 /// the filter leaves above its degrees of freedom; where the gyros do not see the Earth at the
-/// declared latitude and see it there, for that alone. id: of the same recording, latitude aside.
+/// declared latitude and see it there, for that alone. Nothing of it is asked where the rest of the
+/// latitude's error says nothing at the declared one. id: of the same recording, latitude aside.
 std::optional<identification::LatitudeDoubt> latitude_doubt(const mc::Study& study,
                                                             const Recording& recording,
                                                             const CaseIdentification& id);

@@ -207,15 +207,15 @@ std::vector<std::pair<std::string_view, double>> angle_units() {
 
 std::string unit_there(const std::vector<Sight>& sights, const AngleUnits& units) {
   for (const std::string_view symbol : {"deg", "rad", "gon", "mrad"})
-    for (const auto& [known, to_si] : angle_units())
-      if (known == symbol && !says(all_gimbals, units, to_si) &&
+    for (const auto& [angle_unit, to_si] : angle_units())
+      if (angle_unit == symbol && !says(all_gimbals, units, to_si) &&
           worst_mismatch(sights, [&, unit = to_si](Sight& s) {
             take_as(s, all_gimbals, units, unit);
           }) < largest_mismatch)
         return fmt::format(
             ". With angles in [{}], not [{}], they would be where the plan has them: is that part "
             "of the log in another unit?",
-            known, units[0].symbol.view());
+            angle_unit, units[0].symbol.view());
   return "";
 }
 

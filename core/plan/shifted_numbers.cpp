@@ -7,9 +7,8 @@
 #include <map>
 
 #include "core/base/nan.hpp"
-#include "core/physics/earth.hpp"
-#include "core/physics/gimbals.hpp"
 #include "core/plan/attitude_slips.hpp"
+#include "core/plan/slew_check.hpp"
 #include "core/recording/recording_channels.hpp"
 
 namespace drift {
@@ -25,12 +24,10 @@ struct Jumps {
 };
 
 Jumps jumps_in(const Recording& r, std::size_t first, std::size_t last) {
-  const Channel* heading = r.find("case_heading");
   const std::size_t count = last - first + 1;
   const auto attitude = [&](std::size_t k) {
     const auto angles = measured(r, gimbal_channels, k);
-    return Mat3(case_attitude(heading ? heading->values[k] : 0.0) *
-                gimbal_chain(angles.value_or(Vec3::Constant(nan_value))));
+    return local_attitude_shown(r, k, angles.value_or(Vec3::Constant(nan_value)));
   };
   Jumps out;
   Mat3 before = attitude(first);

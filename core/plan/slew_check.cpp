@@ -105,11 +105,15 @@ std::optional<Unit> unit_of_commands(const Slews& slews, const Unit& said) {
 
 }  // namespace
 
+Mat3 local_attitude_shown(const Recording& recording, std::size_t row, const Vec3& angles) {
+  const Channel* heading = recording.find("case_heading");
+  return case_attitude(heading ? heading->values[row] : 0.0) * gimbal_chain(angles);
+}
+
 Mat3 attitude_shown(const Recording& recording, const Site& site, std::size_t row,
                     const Vec3& angles) {
-  const Channel* heading = recording.find("case_heading");
   return rotation<double>(site.omega_ie_l() * recording.find("time")->values[row]) *
-         case_attitude(heading ? heading->values[row] : 0.0) * gimbal_chain(angles);
+         local_attitude_shown(recording, row, angles);
 }
 
 std::optional<RowMistake> slew_mistake(const Recording& recording, const Timeline& timeline,

@@ -9,6 +9,10 @@
 
 namespace drift {
 
+/// Attitude of the platform against the local axes, as gimbal angles [rad] and the heading of the
+/// case in a row show it.
+Mat3 local_attitude_shown(const Recording& recording, std::size_t row, const Vec3& angles);
+
 /// Attitude of the platform against an inertial frame, as gimbal angles [rad] of a row show it.
 Mat3 attitude_shown(const Recording& recording, const Site& site, std::size_t row,
                     const Vec3& angles);

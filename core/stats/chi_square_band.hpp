@@ -31,4 +31,9 @@ inline double chi_square_chance(double per_dof, double dof) {
   return 2.0 * normal_distribution(-std::abs(std::cbrt(per_dof) - (1.0 - v)) / std::sqrt(v));
 }
 
+/// That of a fit: one that leaves less than is usual is no misfit.
+inline double misfit_chance(double per_dof, double dof) {
+  return per_dof > 1.0 ? chi_square_chance(per_dof, dof) : 1.0;
+}
+
 }  // namespace drift::stats

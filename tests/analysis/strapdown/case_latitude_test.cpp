@@ -4,15 +4,14 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "analysis/strapdown/case_diagnose.hpp"
 #include "analysis/strapdown/consumer_grade.hpp"
-#include "core/base/rng.hpp"
 #include "core/config/load.hpp"
 #include "tests/support/case_unit.hpp"
+#include "tests/support/drawn_unit.hpp"
 #include "tests/support/recordings_by_others.hpp"
 
 namespace drift::strapdown::case_latitude_test {
@@ -67,25 +66,13 @@ TEST(CaseLatitude, DriftThatFollowsGravityIsNone) {
   EXPECT_EQ(d.causes.front().term, "g_drift");
 }
 
-/// Sensors drawn from priors: of a laboratory's unit, or a consumer's.
-Theta drawn(const FilterSpec& filter, std::uint64_t seed, bool consumer) {
-  Stream stream(seed, 0, Purpose::test, 7);
-  Theta theta = Theta::Zero();
-  for (std::size_t p = 0; p < TermLibrary::num_params; ++p)
-    if (filter.active[p] && std::ranges::find(zero_by_definition, p) == zero_by_definition.end())
-      theta[static_cast<Eigen::Index>(p)] =
-          (consumer ? consumer_prior(p) : TermLibrary::specs[p].prior_si()).sigma() *
-          stream.normal();
-  return theta;
-}
-
 /// The latitudes that are doubted of units at the declared one. The rule allows one in a thousand.
 int doubted(std::uint64_t first, std::uint64_t last) {
   const mc::Study study = study_at(truth_deg);
   int count = 0;
   for (std::uint64_t seed = first; seed <= last; ++seed) {
     test::StrapdownScript unit = case_unit::script(seed);
-    Theta theta = drawn(study.filters.front(), seed, false);
+    Theta theta = test::drawn_unit(study.filters.front(), seed);
     if (seed % 3 == 0)  // drift that follows gravity and is in no model, of usual sizes
       for (const char* key : {"D_I_x", "D_I_y", "D_I_z", "D_O_x", "D_S_y"})
         test::set(theta, key, 0.2 * static_cast<double>(seed % 7));
@@ -94,7 +81,7 @@ int doubted(std::uint64_t first, std::uint64_t last) {
     unit.rest = 8.0;
     unit.turn = 2.5;
     unit.gyro_noise = std::array{3e-5, 1e-4, 3e-4, 9e-4}[seed % 4];
-    const Theta cheap = drawn(study.filters.front(), seed, true);
+    const Theta cheap = test::drawn_unit(study.filters.front(), seed, consumer_prior);
     count += identify_case(study, strapdown_recording(unit, cheap)).latitude ? 1 : 0;
   }
   return count;

@@ -8,6 +8,7 @@
 #include "analysis/strapdown/case_diagnose.hpp"
 #include "analysis/strapdown/case_identify.hpp"
 #include "analysis/strapdown/sensed.hpp"
+#include "tests/support/drawn_unit.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/pulls.hpp"
 #include "tests/support/strapdown_recording.hpp"
@@ -40,22 +41,11 @@ test::StrapdownScript script(const mc::Study& study, std::uint64_t seed) {
   return s;
 }
 
-/// Sensors drawn from the priors.
-Theta drawn(const FilterSpec& filter, std::uint64_t seed) {
-  Stream stream(seed, 0, Purpose::test, 7);
-  Theta theta = Theta::Zero();
-  for (std::size_t p = 0; p < TermLibrary::num_params; ++p)
-    if (filter.active[p] && std::ranges::find(zero_by_definition, p) == zero_by_definition.end())
-      theta[static_cast<Eigen::Index>(p)] =
-          TermLibrary::specs[p].prior_si().sigma() * stream.normal();
-  return theta;
-}
-
 test::Pulls pulls_of_units(std::uint64_t first, std::uint64_t last) {
   const mc::Study study = study_of_units();
   test::Pulls pulls;
   for (std::uint64_t seed = first; seed <= last; ++seed) {
-    const Theta truth = drawn(study.filters.front(), seed);
+    const Theta truth = test::drawn_unit(study.filters.front(), seed);
     const CaseStudy of = case_study(study, strapdown_recording(script(study, seed), truth));
     EXPECT_TRUE(of.compass.sees_earth) << seed;
     const FilterSpec filter = case_filter(study.filters.front(), of);

@@ -10,6 +10,7 @@
 #include "analysis/strapdown/sensed.hpp"
 #include "core/base/check.hpp"
 #include "core/config/load.hpp"
+#include "tests/support/drawn_unit.hpp"
 #include "tests/support/pulls.hpp"
 #include "tests/support/strapdown_recording.hpp"
 
@@ -25,16 +26,6 @@ mc::Study study_with(const std::vector<std::string>& couplings, std::string_view
     text +=
         fmt::format("[[filter]]\nname = \"{0}\"\ncoupling = \"{0}\"\nterms = [{1}]\n", c, terms);
   return mc::read_study_tree(config::parse_document(text, "study.toml"), "study.toml");
-}
-
-/// Sensors drawn from what is believed of such a unit: all that the study above estimates.
-Theta drawn(const FilterSpec& filter, std::uint64_t seed) {
-  Stream stream(seed, 0, Purpose::test, 7);
-  Theta theta = Theta::Zero();
-  for (std::size_t p = 0; p < TermLibrary::num_params; ++p)
-    if (filter.active[p] && std::ranges::find(zero_by_definition, p) == zero_by_definition.end())
-      theta[static_cast<Eigen::Index>(p)] = consumer_prior(p).sigma() * stream.normal();
-  return theta;
 }
 
 /// Of one sample [rad/s]: 0.3 deg/sqrt(h), which in a dwell knows as much as the Earth turns; and
@@ -69,7 +60,7 @@ test::Pulls pulls_of_units(std::uint64_t first, std::uint64_t last, double gyro_
   const mc::Study study = study_with({"eq5"}, all_of_it);
   test::Pulls pulls;
   for (std::uint64_t seed = first; seed <= last; ++seed) {
-    const Theta truth = drawn(study.filters.front(), seed);
+    const Theta truth = test::drawn_unit(study.filters.front(), seed, consumer_prior);
     const CaseStudy of = case_study(study, recorded(study, truth, 30, seed, gyro_noise));
     EXPECT_FALSE(of.compass.sees_earth);
     const FilterSpec filter = case_filter(study.filters.front(), of);
