@@ -190,7 +190,12 @@ CausesFound causes_of(const search::Fitted& nominal, const search::Search& found
           inference::same_trace(c.cosine) && (cause.axis.empty() || !c.axis.empty()) &&
           explains_all_of(nominal, columns[k], c) && !are_paired(out.inseparable, c, cause))
         out.inseparable.push_back({{cause.term, cause.axis, ""}, {c.term, c.axis, ""}});
-  if (found.sets.empty() && nominal.lone.p_value < inference::RemarkLimits::lone_p)
+  if (const auto* period = found.sets.empty() ? nominal.leading_period() : nullptr) {
+    const Unit& shown = inference::unit_of(period->equation);
+    out.remarks.emplace_back(remark::PeriodExplains{
+        inference::equation_name(period->equation, period->axis), period->period_s,
+        period->amplitude / shown.to_si, std::string(shown.symbol.view()), period->p_value()});
+  } else if (found.sets.empty() && nominal.lone.p_value < inference::RemarkLimits::lone_p)
     out.remarks.emplace_back(remark::FreeInputExplains{nominal.lone.equation, nominal.lone.gain});
   for (const search::Cause& c : out.causes)
     if (c.term == closure_term) out.remarks.emplace_back(remark::CrosstalkMovesLambda{});

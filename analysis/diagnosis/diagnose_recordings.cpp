@@ -51,6 +51,7 @@ Diagnosis of_another_study(Diagnosis d) {
   std::erase_if(d.remarks, [](const Remark& r) {
     return std::holds_alternative<remark::StrongestLeft>(r) ||
            std::holds_alternative<remark::FreeInputExplains>(r) ||
+           std::holds_alternative<remark::PeriodExplains>(r) ||
            std::holds_alternative<remark::BeyondPrior>(r);
   });
   return d;

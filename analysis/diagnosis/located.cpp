@@ -104,6 +104,14 @@ std::vector<ScanHit> windows_of(const std::vector<search::Cause>& causes,
   return all;
 }
 
+/// The input at a place before all others.
+void put_first(std::vector<InputEstimate>& inputs, const Place& place) {
+  const auto its = std::ranges::find_if(inputs, [&](const InputEstimate& i) {
+    return place == Place{i.equation, i.axis};
+  });
+  if (its != inputs.end()) std::rotate(inputs.begin(), its, its + 1);
+}
+
 /// The inputs at some places, in their order.
 std::vector<InputEstimate> inputs_at(const std::vector<Place>& places,
                                      const std::vector<InputEstimate>& inputs) {
@@ -158,13 +166,23 @@ Located located(const search::Fitted& nominal, const search::Search& found, cons
   const std::vector<Acting> acting = acting_of(std::span<const search::Cause>(named));
   const std::vector<Place> places = places_of(acting, nominal, inputs);
   if (places.empty()) {
-    out.where.equation = equation_of(judged, inputs, window);
+    const inference::PeriodicInput* period =
+        judged.verdict == Verdict::unexplained && !judged.one_gyro ? nominal.leading_period()
+                                                                   : nullptr;
+    if (period) put_first(inputs, {period->equation, period->axis});
+    out.where.equation = period ? inference::equation_name(period->equation, period->axis)
+                                : equation_of(judged, inputs, window);
     ShapeFrom shape =
         judged.verdict == Verdict::ambiguous && best ? ShapeFrom::alternative : ShapeFrom::signal;
     for (std::size_t k = 0; k < std::min(most_signals, inputs.size()); ++k) {
       out.signals.push_back(recovered_signal(inputs[k], timeline, covariates, cause, shape));
       // The second is the same misfit as another equation would take it: one shape is enough.
       if (shape == ShapeFrom::signal) shape = ShapeFrom::nothing;
+    }
+    if (period && !out.signals.empty()) {  // bins may be too long to show it
+      out.signals.front().say_no_shape();
+      out.signals.front().shape.kind = Shape::Kind::period;
+      out.signals.front().shape.seconds = period->period_s;
     }
     return out;
   }

@@ -121,9 +121,7 @@ RecoveredSignal recovered_signal(const InputEstimate& input, const Timeline& tim
                                  ShapeFrom shape) {
   RecoveredSignal out;
   out.equation = inference::equation_name(input.equation, input.axis);
-  const Unit& shown = input.equation == Equation::rate            ? unit::deg_per_h
-                      : input.equation == Equation::accelerometer ? unit::ug
-                                                                  : unit::arcsec;
+  const Unit& shown = inference::unit_of(input.equation);
   out.unit = shown.symbol.view();
   const double to_si = shown.to_si;
   VecX explained;

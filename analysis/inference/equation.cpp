@@ -12,6 +12,11 @@ std::span<const Equation> equations_of(const Timeline& timeline) {
                           : std::span<const Equation>(of_platform);
 }
 
+const Unit& unit_of(Equation equation) {
+  if (equation == Equation::rate) return unit::deg_per_h;
+  return equation == Equation::accelerometer ? unit::ug : unit::arcsec;
+}
+
 std::string equation_name(Equation equation, int axis) {
   static constexpr const char* gimbals[] = {"outer", "middle", "inner"};
   switch (equation) {

@@ -3,6 +3,7 @@
 #include <span>
 #include <string>
 
+#include "core/base/units.hpp"
 #include "core/plan/timeline.hpp"
 
 namespace drift::inference {
@@ -13,6 +14,9 @@ enum class Equation { rate, attitude, accelerometer, gimbal };
 /// Those in which something may be missing from a test: a strapdown unit has no gimbals, and stands
 /// on the Earth as it is.
 std::span<const Equation> equations_of(const Timeline& timeline);
+
+/// What an input to it is shown in.
+const Unit& unit_of(Equation equation);
 
 /// "platform rate y", "gimbal middle".
 std::string equation_name(Equation equation, int axis);

@@ -131,10 +131,11 @@ struct SearchLimits {
   static constexpr double chance = 0.5;
   /// That what is listed must hold together. Test: CredibleSet.ListsWhat...
   static constexpr double credible = 0.95;
-  /// How the chance is shared between candidates, windows, pairs and inputs in one equation: they
-  /// sum to 1. Tuned: half to what can be named. Test: ChanceThresholds.AreExceeded...
+  /// How the chance is shared between candidates, windows, pairs, inputs of free form and periodic
+  /// ones in one equation: they sum to 1. Tuned: half to what can be named.
+  /// Test: ChanceThresholds.AreExceeded...
   static constexpr double library_share = 0.5, scan_share = 0.15, pair_share = 0.15,
-                          lone_share = 0.2;
+                          lone_share = 0.1, periodic_share = 0.1;
   /// The windows' share is cut by this where they rule out a cause: thousands are looked at.
   static constexpr double scan_cut = 3.0;
 };

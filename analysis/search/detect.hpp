@@ -28,7 +28,7 @@ struct Detection {
   std::optional<inference::NoiseEstimate> noise_alone;
   ChanceThresholds thresholds;
   inference::MaxNull pairs;
-  double p_library = 1.0, p_scan = 1.0, p_pairs = 1.0, p_lone = 1.0;
+  double p_library = 1.0, p_scan = 1.0, p_pairs = 1.0, p_lone = 1.0, p_periodic = 1.0;
   double other_equation = 0.0;  ///< gain of fit_other_equation(); -infinity where there is none
   double p_value = 1.0;         ///< of the strongest family, for all families together
   bool significant = false;

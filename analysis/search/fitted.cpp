@@ -6,6 +6,7 @@
 
 #include "analysis/inference/noise/gross_misfit.hpp"
 #include "analysis/inference/noise/robust_weights.hpp"
+#include "analysis/inference/thresholds.hpp"
 
 namespace drift::search {
 namespace {
@@ -45,6 +46,18 @@ inference::NoiseModel declared_noise(const FilterSpec& filter) {
   m.angle_random_walk = filter.noise.angle_random_walk;
   m.drift_random_walk = filter.noise.drift_random_walk;
   return m;
+}
+
+void Fitted::look_for_unknown_inputs() {
+  lone = inference::strongest_lone_input(problem, noise.model);
+  periodic = inference::strongest_periodic_input(problem, *projector);
+}
+
+const inference::PeriodicInput* Fitted::leading_period() const {
+  const bool there = periodic.p_value() < inference::RemarkLimits::lone_p;
+  return there && periodic.log_gain() > 0.5 * lone.gain - std::log(inference::WeighLimits::forms)
+             ? &periodic
+             : nullptr;
 }
 
 void Fitted::forget_signatures() {

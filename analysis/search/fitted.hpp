@@ -4,6 +4,7 @@
 
 #include "analysis/inference/noise/lone_input.hpp"
 #include "analysis/inference/noise/noise.hpp"
+#include "analysis/inference/periodic_input.hpp"
 #include "analysis/search/field.hpp"
 
 namespace drift::search {
@@ -15,11 +16,18 @@ struct Fitted : Field {
   inference::LinearProblem problem;
   inference::NoiseEstimate noise;
   std::optional<inference::Projector> projector;
-  bool gross = false;          ///< so far off that its noise was read off differences of samples
-  std::vector<Score> scores;   ///< of every candidate
-  inference::LoneEffect lone;  ///< beside everything that is in the model; where it was asked for
+  bool gross = false;         ///< so far off that its noise was read off differences of samples
+  std::vector<Score> scores;  ///< of every candidate
+  /// Of something unknown in one equation, beside everything that is in the model; where it was
+  /// asked for.
+  inference::LoneEffect lone;
+  inference::PeriodicInput periodic;
 
   double log_likelihood2() const { return projector->marginal().log_likelihood2(); }
+  /// Asks for both.
+  void look_for_unknown_inputs();
+  /// The periodic one, if it is there and explains more than one of free form; else null.
+  const inference::PeriodicInput* leading_period() const;
   /// With the price of its noise.
   double log_evidence() const { return 0.5 * log_likelihood2() + noise.log_price; }
   /// Frees the signatures of the candidates and what is made of them, all but `scores` and `set`:

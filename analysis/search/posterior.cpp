@@ -128,8 +128,9 @@ double log_outside(const Search& found, const LibraryPrior& prior,
                    const inference::NoiseModel& declared, const ByNoise& nothing) {
   const Fitted& e = found.nominal;
   // Its gain is against the estimated noise, which is not at its best where the misfit is gross.
-  const double alone = std::min(nothing.either(), 0.5 * e.log_likelihood2()) +
-                       std::max(log_free_form(e.lone, e.problem), log_window(e));
+  const double alone =
+      std::min(nothing.either(), 0.5 * e.log_likelihood2()) +
+      std::max({log_free_form(e.lone, e.problem), e.periodic.log_evidence(), log_window(e)});
   const std::vector<Refit>& fitted = !found.sets.empty()         ? found.sets
                                      : !found.outweighed.empty() ? found.outweighed
                                                                  : found.rejected;
@@ -137,11 +138,13 @@ double log_outside(const Search& found, const LibraryPrior& prior,
   for (const Refit& r : fitted)
     if (!best || r.log_bayes > best->log_bayes) best = &r;
   if (!best) return alone;
-  const auto lone = inference::strongest_lone_input(best->after.problem, best->after.noise.model);
+  const Fitted& left = best->after;
+  const auto lone = inference::strongest_lone_input(left.problem, left.noise.model);
+  const auto periodic = inference::strongest_periodic_input(left.problem, *left.projector);
   return std::max(alone, log_evidence(found, *best, declared) + prior.log_of(best->choices) +
                              log_of_visible(found.nominal, best->choices) -
                              std::log(WeighLimits::second_cause) +
-                             log_free_form(lone, best->after.problem));
+                             std::max(log_free_form(lone, left.problem), periodic.log_evidence()));
 }
 
 }  // namespace

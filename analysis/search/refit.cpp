@@ -172,8 +172,9 @@ void judge(Refit& r, const CauseFit& causes, const Beside& b) {
     r.excess = std::numeric_limits<double>::infinity();
   if (r.tolerable()) {
     // Many small traces in one equation that no window and no candidate has alone.
-    r.after.lone = inference::strongest_lone_input(r.after.problem, r.after.noise.model);
-    r.excess = std::max(r.excess, std::log(WeighLimits::quiet_p / r.after.lone.p_value));
+    r.after.look_for_unknown_inputs();
+    for (const double p : {r.after.lone.p_value, r.after.periodic.p_value()})
+      r.excess = std::max(r.excess, std::log(WeighLimits::quiet_p / p));
   }
   r.log_bayes = r.after.log_evidence() - b.nominal.log_evidence() -
                 log_tries(b.nominal, r.choices) - causes.narrowed +

@@ -260,13 +260,17 @@ std::optional<NoiseSettled> settle_noise(const Fitted& e, std::size_t tries) {
       best = std::move(m);
   const Model white = models.white({});
   const inference::LoneEffect lone = inference::strongest_lone_input(e.problem, white.noise.model);
-  const double of_input = white.log_weight + log_free_form(lone, e.problem) +
+  const inference::PeriodicInput periodic = inference::strongest_periodic_input(
+      e.problem, inference::Projector(e.problem.bare(), white.noise.model));
+  const double log_lone = log_free_form(lone, e.problem), log_periodic = periodic.log_evidence();
+  const double of_input = white.log_weight + std::max(log_lone, log_periodic) +
                           std::log(PosteriorLimits::outside) - std::log(PosteriorLimits::nothing);
   const double of_effects = models.log_sum_of_effects();
   const double top = std::max({alone.log_weight, of_effects, of_input});
   const double noise = std::exp(alone.log_weight - top), effects = std::exp(of_effects - top),
                input = std::exp(of_input - top), p = noise / (noise + effects + input);
   if (p > inference::SearchLimits::credible) return std::nullopt;
+  if (input > effects && log_periodic > log_lone) return NoiseSettled{white.noise, 1.0 - p};
   if (input > effects) return NoiseSettled{beside(e, lone.input), 1.0 - p};
   if (best.in.empty()) return std::nullopt;
   return NoiseSettled{std::move(best.noise), 1.0 - p};

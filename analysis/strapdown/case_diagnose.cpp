@@ -38,9 +38,12 @@ void rename(Diagnosis& d) {
   for (auto& signal : d.signals) signal.equation = equation_of_case(signal.equation);
   for (auto& noise : d.noise)
     if (noise.component == "gimbal_white") noise.component = "gyro_white";
-  for (auto& remark : d.remarks)
+  for (auto& remark : d.remarks) {
     if (auto* free = std::get_if<diagnosis::remark::FreeInputExplains>(&remark))
       free->equation = equation_of_case(free->equation);
+    if (auto* period = std::get_if<diagnosis::remark::PeriodExplains>(&remark))
+      period->equation = equation_of_case(period->equation);
+  }
 }
 
 /// Values [library units] as the sensors have them; scales: the platform's (as_sensed).

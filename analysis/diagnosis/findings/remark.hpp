@@ -56,6 +56,14 @@ struct FreeInputExplains {
   std::string equation;
   double gain = 0.0;  ///< of twice the log likelihood
 };
+/// No candidate fits; a sinusoid in one equation would.
+struct PeriodExplains {
+  std::string equation;
+  double period_s = 0.0;
+  double amplitude = 0.0;
+  std::string unit;      ///< of the amplitude
+  double p_value = 1.0;  ///< over all periods and equations
+};
 /// Torquer cross-talk moves lambda as misalignment does.
 struct CrosstalkMovesLambda {};
 /// What looks like noise of all gyros acts on one.
@@ -118,13 +126,12 @@ struct NotObservable {
 
 }  // namespace remark
 
-using Remark =
-    std::variant<remark::Input, remark::GimbalOffZero, remark::JustSignificantLeft,
-                 remark::LambdaNotSettled, remark::MemberNotConfirmed, remark::NotPredicted,
-                 remark::OrNoise, remark::SamplesLeftOut, remark::FreeInputExplains,
-                 remark::LeftNotWhite, remark::CrosstalkMovesLambda, remark::DrivesOneGyro,
-                 remark::StrongestLeft, remark::BeyondPrior, remark::OtherEquation,
-                 remark::FieldAssumed, remark::NoiseOrEffect, remark::NoAdvice,
-                 remark::NoDeclaredNoise, remark::CommonDriftUnseen, remark::NotObservable>;
+using Remark = std::variant<
+    remark::Input, remark::GimbalOffZero, remark::JustSignificantLeft, remark::LambdaNotSettled,
+    remark::MemberNotConfirmed, remark::NotPredicted, remark::OrNoise, remark::SamplesLeftOut,
+    remark::FreeInputExplains, remark::PeriodExplains, remark::LeftNotWhite,
+    remark::CrosstalkMovesLambda, remark::DrivesOneGyro, remark::StrongestLeft, remark::BeyondPrior,
+    remark::OtherEquation, remark::FieldAssumed, remark::NoiseOrEffect, remark::NoAdvice,
+    remark::NoDeclaredNoise, remark::CommonDriftUnseen, remark::NotObservable>;
 
 }  // namespace drift::diagnosis

@@ -96,6 +96,14 @@ struct Words {
         r.equation, r.gain);
   }
 
+  std::string operator()(const PeriodExplains& r) const {
+    return fmt::format(
+        "A sinusoid in {} alone, with a period of {:.4g} min and an amplitude of {:.3g} {}, would "
+        "explain it or most of it (noise shows one as strong, whatever its period, with a chance "
+        "of {}).",
+        r.equation, r.period_s / 60.0, r.amplitude, r.unit, p_text(r.p_value));
+  }
+
   std::string operator()(const CrosstalkMovesLambda&) const {
     return "Cross-talk between the torquing channels (taken as zero) moves lambda (frame_closure) "
            "as much as misalignment does in slews; only Earth rate and turns of the case tell them "

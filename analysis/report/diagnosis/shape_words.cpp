@@ -26,7 +26,9 @@ std::string bare(const diagnosis::Shape& s) {
     case Kind::onset:
       return fmt::format("sets in at {:.0f} s and stays", s.seconds);
     case Kind::period:
-      return fmt::format("swings with a period of about {:.1f} h", s.seconds / 3600.0);
+      return s.seconds < 7200.0
+                 ? fmt::format("swings with a period of about {:.3g} min", s.seconds / 60.0)
+                 : fmt::format("swings with a period of about {:.1f} h", s.seconds / 3600.0);
     case Kind::specific_force:
       return fmt::format("goes with the specific force along {}", "xyz"[s.axis]);
     case Kind::specific_force_square:
@@ -57,9 +59,10 @@ std::string bare(const diagnosis::Shape& s) {
 std::string shape_text(const diagnosis::RecoveredSignal& signal) {
   using Kind = diagnosis::Shape::Kind;
   const Kind kind = signal.shape.kind;
+  const bool by_itself = kind == Kind::period && signal.correlation == 0.0;  // seen by its spectrum
   std::string words = bare(signal.shape);
   if (kind == Kind::unknown || kind == Kind::nothing || kind == Kind::none_simple ||
-      kind == Kind::of_form || kind == Kind::follows_nothing)
+      kind == Kind::of_form || kind == Kind::follows_nothing || by_itself)
     return words;
   return kind == Kind::follows ? fmt::format("{} (correlation {:+.2f})", words, signal.correlation)
                                : fmt::format("{} (correlation {:.2f})", words, signal.correlation);

@@ -27,7 +27,8 @@ TEST(Thresholds, TracesAreTheSameWhereSixtyThreeSigmaWouldNotTellThemByTwo) {
 
 TEST(Thresholds, TheChanceOfAFalseAlarmIsSharedWhole) {
   EXPECT_DOUBLE_EQ(SearchLimits::library_share + SearchLimits::scan_share +
-                       SearchLimits::pair_share + SearchLimits::lone_share,
+                       SearchLimits::pair_share + SearchLimits::lone_share +
+                       SearchLimits::periodic_share,
                    1.0);
 }
 

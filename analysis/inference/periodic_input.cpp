@@ -1,0 +1,258 @@
+#include "analysis/inference/periodic_input.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <unsupported/Eigen/FFT>
+
+#include "analysis/inference/thresholds.hpp"
+#include "core/stats/normal.hpp"
+
+namespace drift::inference {
+namespace {
+
+constexpr double two_pi = 2.0 * std::numbers::pi;
+
+struct Place {
+  Equation equation;
+  int axis;
+};
+
+std::vector<Place> places_of(const LinearProblem& rows) {
+  const auto read = [&](bool accelerometer) {
+    return std::ranges::any_of(rows.tags,
+                               [&](auto& t) { return t.accelerometer() == accelerometer; });
+  };
+  const bool of_case = std::ranges::any_of(rows.drives, &IntervalDrive::rest);
+  std::vector<Equation> equations;
+  if (!rows.acc_rounded && !rows.gimbals_rounded) equations.push_back(Equation::rate);
+  if (read(true) && !rows.acc_rounded) equations.push_back(Equation::accelerometer);
+  if (read(false) && !rows.gimbals_rounded && !of_case) equations.push_back(Equation::gimbal);
+  std::vector<Place> all;
+  for (const Equation e : equations)
+    for (int axis = 0; axis < 3; ++axis) all.push_back({e, axis});
+  return all;
+}
+
+/// When intervals begin, from the beginning of the first [s]; one more than there are: the end.
+std::vector<double> beginnings(const MeasuredRows& rows) {
+  std::vector<double> all{0.0};
+  for (std::size_t i = 0; i < rows.drives.size(); ++i) {
+    if (i > 0) all.back() += rows.drives[i].gap;
+    all.push_back(all.back() + rows.drives[i].length);
+  }
+  return all;
+}
+
+/// What each interval is told of a sinusoid in one equation: rows of a readout stand for their own
+/// instant, what turns the platform for all that come after it in its chain.
+class Instants {
+ public:
+  explicit Instants(const LinearProblem& rows) : rows_(rows), begin_(beginnings(rows)) {}
+
+  double span() const { return begin_.back(); }
+  /// Of the middles of the intervals [s^2].
+  double variance() const {
+    const std::size_t n = rows_.drives.size();
+    double sum = 0.0, squares = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+      sum += middle(i);
+      squares += middle(i) * middle(i);
+    }
+    const double mean = sum / static_cast<double>(n);
+    return squares / static_cast<double>(n) - mean * mean;
+  }
+  double usual_length() const {
+    std::vector<double> all;
+    for (const IntervalDrive& d : rows_.drives) all.push_back(d.length);
+    const auto half = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+    std::nth_element(all.begin(), half, all.end());
+    return *half;
+  }
+
+  /// Residuals u as they speak of an equation: take(time, value). What turns the platform back and
+  /// forth shows as attitude, but for a constant that the attitude at caging takes up.
+  template <class Take>
+  void each_instant(const Place& p, const VecX& u, Take&& take) const {
+    for (Eigen::Index r = 0; r < u.size(); ++r) {
+      const RowTag& tag = rows_.tags[at(r)];
+      const IntervalDrive& d = rows_.drives[tag.interval];
+      const double unit = p.equation == Equation::rate
+                              ? rows_.psi.row(r).dot(d.per_rate.col(p.axis)) / d.length +
+                                    rows_.per_drift(tag, p.axis)
+                              : unit_of(p, r);
+      if (unit != 0.0) take(time_of(r), unit * u[r]);
+    }
+  }
+
+  /// Cosine and sine of a frequency [1/s] in one equation, as the rows see them.
+  void signature(const Place& p, double frequency, Eigen::Ref<MatX> out) const {
+    out.setZero();
+    const auto wave = [&](double t) {
+      return Eigen::RowVector2d(std::cos(two_pi * frequency * t), std::sin(two_pi * frequency * t));
+    };
+    if (p.equation != Equation::rate) {
+      for (Eigen::Index r = 0; r < out.rows(); ++r)
+        if (const double unit = unit_of(p, r); unit != 0.0) out.row(r) = unit * wave(time_of(r));
+      return;
+    }
+    Eigen::Matrix<double, 3, 2> turned = Eigen::Matrix<double, 3, 2>::Zero();
+    Eigen::Index r = 0;
+    for (std::size_t i = 0; i < rows_.drives.size(); ++i) {
+      const IntervalDrive& d = rows_.drives[i];
+      if (i > 0 && rows_.drives[i - 1].chain != d.chain) turned.setZero();
+      const Eigen::RowVector2d now = wave(middle(i));
+      const Eigen::Matrix<double, 3, 2> more = d.per_rate.col(p.axis) * now;
+      for (; r < out.rows() && rows_.tags[at(r)].interval == i; ++r) {
+        const RowTag& tag = rows_.tags[at(r)];
+        out.row(r) = -rows_.psi.row(r) * (turned + (tag.accelerometer() ? 0.5 : 1.0) * more) -
+                     rows_.per_drift(tag, p.axis) * now;
+      }
+      turned += more;
+    }
+  }
+
+ private:
+  static std::size_t at(Eigen::Index r) { return static_cast<std::size_t>(r); }
+  double middle(std::size_t i) const { return begin_[i + 1] - 0.5 * rows_.drives[i].length; }
+  /// Accelerometers read a mean, resolvers the end of an interval.
+  double time_of(Eigen::Index r) const {
+    const RowTag& tag = rows_.tags[at(r)];
+    return tag.accelerometer() ? middle(tag.interval) : begin_[tag.interval + 1];
+  }
+  /// One of a readout in a row; 0 in rows of others.
+  double unit_of(const Place& p, Eigen::Index r) const {
+    const RowTag& tag = rows_.tags[at(r)];
+    if (p.equation == Equation::accelerometer && tag.channel == p.axis)
+      return 1.0 / rows_.acc_sigma_of(tag);
+    if (p.equation == Equation::gimbal && tag.channel == 3 + p.axis)
+      return 1.0 / rows_.gimbal_sigma_of(tag);
+    return 0.0;
+  }
+
+  const LinearProblem& rows_;
+  std::vector<double> begin_;
+};
+
+/// Frequencies, quarters of a cycle over the test apart.
+struct Band {
+  std::size_t first = 0, end = 0;
+  double step = 0.0;  ///< [1/s]
+
+  explicit Band(const Instants& at) : step(0.25 / at.span()) {
+    constexpr std::size_t least_cycles = 2;
+    first = 4 * least_cycles;
+    end = static_cast<std::size_t>(0.5 / at.usual_length() / step);
+  }
+  bool empty() const { return end < first + 8; }
+};
+
+/// Where the spectrum of an equation's innovations stands out most from what is beside it.
+std::size_t strongest_line(const Instants& at, const Place& place, const VecX& innovations,
+                           const Band& band) {
+  std::size_t bins = 1;
+  while (bins < 2 * band.end) bins *= 2;
+  std::vector<double> sum(bins, 0.0);
+  const double per_s = static_cast<double>(bins) * band.step;  // four times the test in all
+  at.each_instant(place, innovations, [&](double t, double value) {
+    sum[static_cast<std::size_t>(t * per_s + 0.5) % bins] += value;
+  });
+  std::vector<std::complex<double>> spectrum;
+  Eigen::FFT<double>().fwd(spectrum, sum);
+  std::vector<double> power(band.end);
+  for (std::size_t k = 0; k < band.end; ++k) power[k] = std::norm(spectrum[k]);
+
+  constexpr std::size_t block = 64;  // sixteen independent ones
+  std::size_t best = band.first;
+  double highest = -1.0;
+  for (std::size_t from = band.first; from < band.end; from += block) {
+    const std::size_t to = std::min(from + block, band.end),
+                      wide = from > band.first + block / 2 ? from - block / 2 : band.first,
+                      until = std::min(to + block / 2, band.end);
+    std::vector<double> beside(power.begin() + static_cast<std::ptrdiff_t>(wide),
+                               power.begin() + static_cast<std::ptrdiff_t>(until));
+    const auto half = beside.begin() + static_cast<std::ptrdiff_t>(beside.size() / 2);
+    std::nth_element(beside.begin(), half, beside.end());
+    for (std::size_t k = from; k < to; ++k)
+      if (const double out = power[k] / std::max(*half, 1e-300); out > highest) {
+        highest = out;
+        best = k;
+      }
+  }
+  return best;
+}
+
+struct Line {
+  Place place;
+  double frequency;
+};
+
+/// The strongest of some lines, by its projected score.
+PeriodicInput strongest_of(const Instants& at, const std::vector<Line>& lines,
+                           const Projector& projector) {
+  MatX columns(projector.r0().size(), static_cast<Eigen::Index>(2 * lines.size()));
+  for (std::size_t k = 0; k < lines.size(); ++k)
+    at.signature(lines[k].place, lines[k].frequency,
+                 columns.middleCols(static_cast<Eigen::Index>(2 * k), 2));
+  const MatX white = projector.whitener().apply(std::move(columns)), clean = projector.clean(white);
+  PeriodicInput best;
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    const auto c = static_cast<Eigen::Index>(2 * k);
+    const Eigen::Matrix2d C = white.middleCols(c, 2).transpose() * clean.middleCols(c, 2);
+    const Eigen::Vector2d g = clean.middleCols(c, 2).transpose() * projector.r0();
+    const double raw = white.middleCols(c, 2).squaredNorm();
+    if (!(C.determinant() > std::pow(VisibleLimits::left * raw, 2))) continue;
+    const Eigen::Vector2d amplitude = C.inverse() * g;
+    if (const double T = g.dot(amplitude); T > best.T)
+      best = {lines[k].place.equation,
+              lines[k].place.axis,
+              1.0 / lines[k].frequency,
+              amplitude.norm(),
+              T,
+              0.0};
+  }
+  return best;
+}
+
+}  // namespace
+
+double PeriodicInput::p_value() const {
+  return T > 0.0 ? std::min(1.0, std::exp(log_tries - 0.5 * T)) : 1.0;
+}
+
+double PeriodicInput::log_evidence() const {
+  constexpr double least = VisibleLimits::size;
+  if (!(T > 0.0)) return -std::numeric_limits<double>::infinity();
+  // Of int exp(-a^2/2) I0(a z) da / (a log 100), for large a z.
+  const double z = std::sqrt(T), far = std::max(z, least);
+  return log_gain() +
+         std::log(stats::normal_distribution(z - least) / (far * far * std::log(100.0)));
+}
+
+PeriodicInput strongest_periodic_input(const LinearProblem& problem, const Projector& projector) {
+  const Instants at(problem);
+  const Band band(at);
+  const std::vector<Place> places = places_of(problem);
+  if (band.empty() || places.empty()) return {};
+  const VecX innovations = projector.clean_residual();
+  std::vector<Line> lines;
+  for (const Place& p : places)
+    lines.push_back({p, static_cast<double>(strongest_line(at, p, innovations, band)) * band.step});
+  PeriodicInput best = strongest_of(at, lines, projector);
+  if (best.T <= 0.0) return best;
+  const Place place{best.equation, best.axis};
+  lines.clear();
+  for (const double off : {-0.5, -0.25, 0.25, 0.5})
+    lines.push_back({place, 1.0 / best.period_s + off * band.step});
+  if (const PeriodicInput beside = strongest_of(at, lines, projector); beside.T > best.T)
+    best = beside;
+  const double width = static_cast<double>(band.end - band.first) * band.step *
+                       std::sqrt(4.0 * std::numbers::pi * at.variance());
+  best.log_tries =
+      std::log(static_cast<double>(places.size()) * (1.0 + width * std::sqrt(0.5 * best.T)));
+  return best;
+}
+
+}  // namespace drift::inference
