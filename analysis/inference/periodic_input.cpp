@@ -64,12 +64,12 @@ class Instants {
     const double mean = sum / static_cast<double>(n);
     return squares / static_cast<double>(n) - mean * mean;
   }
-  double usual_length() const {
-    std::vector<double> all;
-    for (const IntervalDrive& d : rows_.drives) all.push_back(d.length);
-    const auto half = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
-    std::nth_element(all.begin(), half, all.end());
-    return *half;
+  /// How many intervals have a row.
+  std::size_t count() const {
+    std::size_t n = 0;
+    for (Eigen::Index r = 0; r < rows_.r0.size(); ++r)
+      n += r == 0 || rows_.tags[at(r)].interval != rows_.tags[at(r - 1)].interval;
+    return n;
   }
 
   /// Residuals u as they speak of an equation: take(time, value). What turns the platform back and
@@ -136,7 +136,8 @@ class Instants {
   std::vector<double> begin_;
 };
 
-/// Frequencies, quarters of a cycle over the test apart.
+/// Frequencies, quarters of a cycle over the test apart, up to half a cycle per interval on
+/// average.
 struct Band {
   std::size_t first = 0, end = 0;
   double step = 0.0;  ///< [1/s]
@@ -144,7 +145,7 @@ struct Band {
   explicit Band(const Instants& at) : step(0.25 / at.span()) {
     constexpr std::size_t least_cycles = 2;
     first = 4 * least_cycles;
-    end = static_cast<std::size_t>(0.5 / at.usual_length() / step);
+    end = 2 * at.count();
   }
   bool empty() const { return end < first + 8; }
 };

@@ -171,10 +171,10 @@ void judge(Refit& r, const CauseFit& causes, const Beside& b) {
   if (r.choices.size() > 1 && !all_needed(b.nominal.set, r))
     r.excess = std::numeric_limits<double>::infinity();
   if (r.tolerable()) {
-    // Many small traces in one equation that no window and no candidate has alone.
+    // Many small traces in one equation that no window and no candidate has alone, in two ways.
     r.after.look_for_unknown_inputs();
-    for (const double p : {r.after.lone.p_value, r.after.periodic.p_value()})
-      r.excess = std::max(r.excess, std::log(WeighLimits::quiet_p / p));
+    const double p = 2.0 * std::min(r.after.lone.p_value, r.after.periodic.p_value());
+    r.excess = std::max(r.excess, std::log(WeighLimits::quiet_p / p));
   }
   r.log_bayes = r.after.log_evidence() - b.nominal.log_evidence() -
                 log_tries(b.nominal, r.choices) - causes.narrowed +

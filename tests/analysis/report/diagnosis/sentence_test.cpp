@@ -192,13 +192,13 @@ TEST(Sentence, OfTheUnexplainedHasTheShapeAndSaysTheEquationOnce) {
   d.signals[0].shape = {diagnosis::Shape::Kind::period, 0.6 * 3600.0};
   d.signals[0].correlation = 0.8;
   EXPECT_TRUE(report::sentence(d).ends_with(
-      "it sits in the middle gimbal: swings with a period of about 0.6 h (correlation 0.80)."))
+      "it sits in the middle gimbal: swings with a period of about 36 min (correlation 0.80)."))
       << report::sentence(d);
   d.where.equation = "platform rate x";
   EXPECT_TRUE(report::sentence(d).ends_with(
       "it sits in the platform rate x. As an input to the middle gimbal: "
       "swings with a period of about "
-      "0.6 h (correlation 0.80)."))
+      "36 min (correlation 0.80)."))
       << report::sentence(d);
 }
 
