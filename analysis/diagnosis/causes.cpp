@@ -190,11 +190,13 @@ CausesFound causes_of(const search::Fitted& nominal, const search::Search& found
           inference::same_trace(c.cosine) && (cause.axis.empty() || !c.axis.empty()) &&
           explains_all_of(nominal, columns[k], c) && !are_paired(out.inseparable, c, cause))
         out.inseparable.push_back({{cause.term, cause.axis, ""}, {c.term, c.axis, ""}});
-  if (const auto* period = found.sets.empty() ? nominal.leading_period() : nullptr) {
+  const search::Fitted& left = found.sets.empty() ? nominal : found.sets.front().after;
+  if (const auto* period = left.leading_period()) {
     const Unit& shown = inference::unit_of(period->equation);
     out.remarks.emplace_back(remark::PeriodExplains{
         inference::equation_name(period->equation, period->axis), period->period_s,
-        period->amplitude / shown.to_si, std::string(shown.symbol.view()), period->p_value()});
+        period->amplitude() / shown.to_si, std::string(shown.symbol.view()), period->p_value(),
+        !found.sets.empty()});
   } else if (found.sets.empty() && nominal.lone.p_value < inference::RemarkLimits::lone_p)
     out.remarks.emplace_back(remark::FreeInputExplains{nominal.lone.equation, nominal.lone.gain});
   for (const search::Cause& c : out.causes)

@@ -153,8 +153,13 @@ Located located(const search::Fitted& nominal, const search::Search& found, cons
                              bins_per_position);
 
   const inference::Window* window = strongest_window(nominal);
+  const inference::PeriodicInput* period =
+      judged.verdict == Verdict::unexplained && !judged.one_gyro ? nominal.leading_period()
+                                                                 : nullptr;
   VecX signature = VecX::Zero(nominal.problem.rows());
-  if (best)
+  if (period)
+    signature = inference::trace_of(*period, nominal.problem, *nominal.projector);
+  else if (best)
     signature = signature_of(inference::Projector(shown, nominal.noise.model), cause);
   else if (window)
     signature = signature_of(nominal.problem, timeline, *nominal.projector, *window);
@@ -166,9 +171,6 @@ Located located(const search::Fitted& nominal, const search::Search& found, cons
   const std::vector<Acting> acting = acting_of(std::span<const search::Cause>(named));
   const std::vector<Place> places = places_of(acting, nominal, inputs);
   if (places.empty()) {
-    const inference::PeriodicInput* period =
-        judged.verdict == Verdict::unexplained && !judged.one_gyro ? nominal.leading_period()
-                                                                   : nullptr;
     if (period) put_first(inputs, {period->equation, period->axis});
     out.where.equation = period ? inference::equation_name(period->equation, period->axis)
                                 : equation_of(judged, inputs, window);

@@ -1,10 +1,11 @@
 #include "analysis/inference/periodic_input.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
-#include <optional>
 #include <unsupported/Eigen/FFT>
 
 #include "analysis/inference/thresholds.hpp"
@@ -53,24 +54,16 @@ class Instants {
   explicit Instants(const LinearProblem& rows) : rows_(rows), begin_(beginnings(rows)) {}
 
   double span() const { return begin_.back(); }
-  /// Of the middles of the intervals [s^2].
-  double variance() const {
-    const std::size_t n = rows_.drives.size();
-    double sum = 0.0, squares = 0.0;
-    for (std::size_t i = 0; i < n; ++i) {
-      sum += middle(i);
-      squares += middle(i) * middle(i);
+  /// Middles of the intervals that have a row [s].
+  std::vector<double> read() const {
+    std::vector<double> all;
+    for (Eigen::Index r = 0; r < rows_.r0.size(); ++r) {
+      const std::size_t i = rows_.tags[at(r)].interval;
+      if (r == 0 || i != rows_.tags[at(r - 1)].interval) all.push_back(middle(i));
     }
-    const double mean = sum / static_cast<double>(n);
-    return squares / static_cast<double>(n) - mean * mean;
+    return all;
   }
-  /// How many intervals have a row.
-  std::size_t count() const {
-    std::size_t n = 0;
-    for (Eigen::Index r = 0; r < rows_.r0.size(); ++r)
-      n += r == 0 || rows_.tags[at(r)].interval != rows_.tags[at(r - 1)].interval;
-    return n;
-  }
+  bool of_case() const { return std::ranges::any_of(rows_.drives, &IntervalDrive::rest); }
 
   /// Residuals u as they speak of an equation: take(time, value). What turns the platform back and
   /// forth shows as attitude, but for a constant that the attitude at caging takes up.
@@ -136,25 +129,50 @@ class Instants {
   std::vector<double> begin_;
 };
 
-/// Frequencies, quarters of a cycle over the test apart, up to half a cycle per interval on
-/// average.
+double variance_of(const std::vector<double>& t) {
+  double sum = 0.0, squares = 0.0;
+  for (const double x : t) {
+    sum += x;
+    squares += x * x;
+  }
+  const auto n = static_cast<double>(t.size());
+  return squares / n - sum / n * (sum / n);
+}
+
+double usual_distance(const std::vector<double>& t) {
+  std::vector<double> all;
+  for (std::size_t k = 1; k < t.size(); ++k) all.push_back(t[k] - t[k - 1]);
+  const auto half = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+  std::nth_element(all.begin(), half, all.end());
+  return *half;
+}
+
+/// Frequencies, quarters of a cycle over the test apart.
 struct Band {
   std::size_t first = 0, end = 0;
   double step = 0.0;  ///< [1/s]
 
   explicit Band(const Instants& at) : step(0.25 / at.span()) {
-    constexpr std::size_t least_cycles = 2;
+    constexpr std::size_t least_cycles = 2, least_rows = 8;
+    const std::vector<double> t = at.read();
+    if (t.size() < least_rows) return;
     first = 4 * least_cycles;
-    end = 2 * at.count();
+    const double distance =
+        at.of_case() ? at.span() / static_cast<double>(t.size()) : usual_distance(t);
+    end = static_cast<std::size_t>(0.5 / distance / step);
+    width = static_cast<double>(end - std::min(first, end)) * step *
+            std::sqrt(4.0 * std::numbers::pi * variance_of(t));
   }
+  double width = 0.0;  ///< PeriodicInput::log_tries
   bool empty() const { return end < first + 8; }
 };
 
-/// Where the spectrum of an equation's innovations stands out most from what is beside it.
-std::size_t strongest_line(const Instants& at, const Place& place, const VecX& innovations,
-                           const Band& band) {
+/// Where the spectrum of an equation's innovations is highest, and where it stands out most from
+/// what is beside it: a line among what parameters or noise make of slow frequencies.
+std::array<std::size_t, 2> strongest_lines(const Instants& at, const Place& place,
+                                           const VecX& innovations, const Band& band) {
   std::size_t bins = 1;
-  while (bins < 2 * band.end) bins *= 2;
+  while (bins < 8 * band.end) bins *= 2;  // eight or more to the fastest cycle
   std::vector<double> sum(bins, 0.0);
   const double per_s = static_cast<double>(bins) * band.step;  // four times the test in all
   at.each_instant(place, innovations, [&](double t, double value) {
@@ -166,20 +184,23 @@ std::size_t strongest_line(const Instants& at, const Place& place, const VecX& i
   for (std::size_t k = 0; k < band.end; ++k) power[k] = std::norm(spectrum[k]);
 
   constexpr std::size_t block = 64;  // sixteen independent ones
-  std::size_t best = band.first;
-  double highest = -1.0;
+  const auto from_first = [&](std::size_t k) {
+    return power.begin() + static_cast<std::ptrdiff_t>(k);
+  };
+  const auto highest = std::max_element(from_first(band.first), power.end());
+  std::array<std::size_t, 2> best{static_cast<std::size_t>(highest - power.begin()), band.first};
+  double farthest = -1.0;
   for (std::size_t from = band.first; from < band.end; from += block) {
     const std::size_t to = std::min(from + block, band.end),
                       wide = from > band.first + block / 2 ? from - block / 2 : band.first,
                       until = std::min(to + block / 2, band.end);
-    std::vector<double> beside(power.begin() + static_cast<std::ptrdiff_t>(wide),
-                               power.begin() + static_cast<std::ptrdiff_t>(until));
+    std::vector<double> beside(from_first(wide), from_first(until));
     const auto half = beside.begin() + static_cast<std::ptrdiff_t>(beside.size() / 2);
     std::nth_element(beside.begin(), half, beside.end());
     for (std::size_t k = from; k < to; ++k)
-      if (const double out = power[k] / std::max(*half, 1e-300); out > highest) {
-        highest = out;
-        best = k;
+      if (const double out = power[k] / std::max(*half, 1e-300); out > farthest) {
+        farthest = out;
+        best[1] = k;
       }
   }
   return best;
@@ -190,31 +211,33 @@ struct Line {
   double frequency;
 };
 
-/// The strongest of some lines, by its projected score.
-PeriodicInput strongest_of(const Instants& at, const std::vector<Line>& lines,
-                           const Projector& projector) {
+/// Some lines with their projected scores, strongest first.
+std::vector<PeriodicInput> scored(const Instants& at, const std::vector<Line>& lines,
+                                  const Projector& projector) {
   MatX columns(projector.r0().size(), static_cast<Eigen::Index>(2 * lines.size()));
   for (std::size_t k = 0; k < lines.size(); ++k)
     at.signature(lines[k].place, lines[k].frequency,
                  columns.middleCols(static_cast<Eigen::Index>(2 * k), 2));
   const MatX white = projector.whitener().apply(std::move(columns)), clean = projector.clean(white);
-  PeriodicInput best;
+  std::vector<PeriodicInput> all;
   for (std::size_t k = 0; k < lines.size(); ++k) {
     const auto c = static_cast<Eigen::Index>(2 * k);
     const Eigen::Matrix2d C = white.middleCols(c, 2).transpose() * clean.middleCols(c, 2);
     const Eigen::Vector2d g = clean.middleCols(c, 2).transpose() * projector.r0();
-    const double raw = white.middleCols(c, 2).squaredNorm();
-    if (!(C.determinant() > std::pow(VisibleLimits::left * raw, 2))) continue;
-    const Eigen::Vector2d amplitude = C.inverse() * g;
-    if (const double T = g.dot(amplitude); T > best.T)
-      best = {lines[k].place.equation,
-              lines[k].place.axis,
-              1.0 / lines[k].frequency,
-              amplitude.norm(),
-              T,
-              0.0};
+    const double raw = white.middleCols(c, 2).squaredNorm(), trace = C.trace(),
+                 least = 0.5 * trace - std::hypot(0.5 * (C(0, 0) - C(1, 1)), C(0, 1));
+    PeriodicInput line{
+        lines[k].place.equation, lines[k].place.axis, 1.0 / lines[k].frequency, 0.0, 0.0, 0.0, 0.0};
+    if (least > VisibleLimits::left * raw) {
+      const Eigen::Vector2d amplitude = C.inverse() * g;
+      line.cosine = amplitude[0];
+      line.sine = amplitude[1];
+      line.T = g.dot(amplitude);
+    }
+    all.push_back(line);
   }
-  return best;
+  std::ranges::stable_sort(all, std::greater{}, &PeriodicInput::T);
+  return all;
 }
 
 }  // namespace
@@ -240,20 +263,35 @@ PeriodicInput strongest_periodic_input(const LinearProblem& problem, const Proje
   const VecX innovations = projector.clean_residual();
   std::vector<Line> lines;
   for (const Place& p : places)
-    lines.push_back({p, static_cast<double>(strongest_line(at, p, innovations, band)) * band.step});
-  PeriodicInput best = strongest_of(at, lines, projector);
-  if (best.T <= 0.0) return best;
-  const Place place{best.equation, best.axis};
+    for (const std::size_t k : strongest_lines(at, p, innovations, band))
+      lines.push_back({p, static_cast<double>(k) * band.step});
+  std::vector<PeriodicInput> found = scored(at, lines, projector);
+  // The best of them lie between the frequencies that were looked at; parts of a quarter cycle.
+  constexpr std::size_t refined = 3;
   lines.clear();
-  for (const double off : {-0.5, -0.25, 0.25, 0.5})
-    lines.push_back({place, 1.0 / best.period_s + off * band.step});
-  if (const PeriodicInput beside = strongest_of(at, lines, projector); beside.T > best.T)
+  for (std::size_t k = 0; k < std::min(refined, found.size()); ++k)
+    for (const double off : {-0.5, -0.25, 0.0, 0.25, 0.5})
+      lines.push_back(
+          {{found[k].equation, found[k].axis}, 1.0 / found[k].period_s + off * band.step});
+  found = scored(at, lines, projector);
+  PeriodicInput best = found.front();
+  if (best.T <= 0.0) return {};
+  lines.clear();
+  for (const double off : {-0.125, -0.0625, 0.0625, 0.125})
+    lines.push_back({{best.equation, best.axis}, 1.0 / best.period_s + off * band.step});
+  if (const PeriodicInput beside = scored(at, lines, projector).front(); beside.T > best.T)
     best = beside;
-  const double width = static_cast<double>(band.end - band.first) * band.step *
-                       std::sqrt(4.0 * std::numbers::pi * at.variance());
   best.log_tries =
-      std::log(static_cast<double>(places.size()) * (1.0 + width * std::sqrt(0.5 * best.T)));
+      std::log(static_cast<double>(places.size()) * (1.0 + band.width * std::sqrt(0.5 * best.T)));
   return best;
+}
+
+VecX trace_of(const PeriodicInput& input, const LinearProblem& problem,
+              const Projector& projector) {
+  MatX columns(problem.rows(), 2);
+  Instants(problem).signature({input.equation, input.axis}, 1.0 / input.period_s, columns);
+  return projector.clean(projector.whitener().apply(std::move(columns))) *
+         Eigen::Vector2d(input.cosine, input.sine);
 }
 
 }  // namespace drift::inference

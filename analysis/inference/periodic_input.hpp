@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "analysis/inference/equation.hpp"
 #include "analysis/inference/projector.hpp"
 
@@ -11,7 +13,7 @@ struct PeriodicInput {
   Equation equation = Equation::rate;
   int axis = 0;
   double period_s = 0.0;
-  double amplitude = 0.0;  ///< SI: rad/s, g, rad
+  double cosine = 0.0, sine = 0.0;  ///< from the beginning of the first interval on; rad/s, g, rad
   /// Projected score of sine and cosine, chi-square of 2 degrees where there is nothing.
   double T = 0.0;
   /// Independent tries that periods and equations are worth at this score: by Davies (1987,
@@ -21,6 +23,7 @@ struct PeriodicInput {
   /// fills is the inverse of the same number.
   double log_tries = 0.0;
 
+  double amplitude() const { return std::hypot(cosine, sine); }
   double p_value() const;
   /// Log evidence, against none, of a line whose size is known to two decades from what the test
   /// could see up, every order of magnitude alike, and whose phase, period and equation are not.
@@ -29,10 +32,14 @@ struct PeriodicInput {
   double log_gain() const { return 0.5 * T - log_tries; }
 };
 
-/// Periods from half the test down to two samples, in every equation that is read: the platform's
+/// Periods from half the test down to two samples (of sensors on a case, whose rows come in bursts,
+/// two rows on average), in every equation that is read: the platform's
 /// rate about each axis, each accelerometer and each resolver (a rounded readout excepted, whose
 /// rounding comes back by itself). Where lines stand out is seen by the spectrum of the innovations
 /// of each equation; how much the best of each is worth, by its projected score.
 PeriodicInput strongest_periodic_input(const LinearProblem& problem, const Projector& projector);
+
+/// What it makes of the rows, whitened, parameters projected out.
+VecX trace_of(const PeriodicInput& input, const LinearProblem& problem, const Projector& projector);
 
 }  // namespace drift::inference

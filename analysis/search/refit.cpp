@@ -155,7 +155,8 @@ Refit scored(const std::vector<Choice>& choices, const FilterSpec& filter, const
   out.filter = filter;
   out.after = examine(filter, b.test, fit, b.kinds);
   // A second effect may hide in the noise; beside a cause noise stays where it is credible.
-  if (const auto settled = settle_noise(out.after, EffortLimits::noise_tries_beside);
+  if (const auto settled =
+          settle_noise(out.after, EffortLimits::noise_tries_beside, UnknownInputs::free_form);
       settled && settled->probability > inference::SearchLimits::credible)
     out.after = with_noise(std::move(out.after), b.test.timeline, settled->noise);
   look_at_rest(out, out.after, b);
@@ -171,10 +172,10 @@ void judge(Refit& r, const CauseFit& causes, const Beside& b) {
   if (r.choices.size() > 1 && !all_needed(b.nominal.set, r))
     r.excess = std::numeric_limits<double>::infinity();
   if (r.tolerable()) {
-    // Many small traces in one equation that no window and no candidate has alone, in two ways.
+    // Many small traces in one equation that no window and no candidate has alone. What is periodic
+    // does not speak against a cause: it is told beside it.
     r.after.look_for_unknown_inputs();
-    const double p = 2.0 * std::min(r.after.lone.p_value, r.after.periodic.p_value());
-    r.excess = std::max(r.excess, std::log(WeighLimits::quiet_p / p));
+    r.excess = std::max(r.excess, std::log(WeighLimits::quiet_p / r.after.lone.p_value));
   }
   r.log_bayes = r.after.log_evidence() - b.nominal.log_evidence() -
                 log_tries(b.nominal, r.choices) - causes.narrowed +

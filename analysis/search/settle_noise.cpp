@@ -247,9 +247,15 @@ NoiseEstimate beside(const Fitted& e, const inference::LoneInput& input) {
   return left;
 }
 
+double log_period(const Fitted& e, const inference::NoiseModel& white) {
+  return inference::strongest_periodic_input(e.problem,
+                                             inference::Projector(e.problem.bare(), white))
+      .log_evidence();
+}
+
 }  // namespace
 
-std::optional<NoiseSettled> settle_noise(const Fitted& e, std::size_t tries) {
+std::optional<NoiseSettled> settle_noise(const Fitted& e, std::size_t tries, UnknownInputs inputs) {
   if (!e.noise.driven) return std::nullopt;
   NoiseOrEffects models(e, tries);
   const Model alone{{}, e.noise, models.log_prior({}) + e.noise.log_evidence()};
@@ -260,9 +266,9 @@ std::optional<NoiseSettled> settle_noise(const Fitted& e, std::size_t tries) {
       best = std::move(m);
   const Model white = models.white({});
   const inference::LoneEffect lone = inference::strongest_lone_input(e.problem, white.noise.model);
-  const inference::PeriodicInput periodic = inference::strongest_periodic_input(
-      e.problem, inference::Projector(e.problem.bare(), white.noise.model));
-  const double log_lone = log_free_form(lone, e.problem), log_periodic = periodic.log_evidence();
+  const double log_lone = log_free_form(lone, e.problem),
+               log_periodic =
+                   inputs == UnknownInputs::periodic_too ? log_period(e, white.noise.model) : least;
   const double of_input = white.log_weight + std::max(log_lone, log_periodic) +
                           std::log(PosteriorLimits::outside) - std::log(PosteriorLimits::nothing);
   const double of_effects = models.log_sum_of_effects();

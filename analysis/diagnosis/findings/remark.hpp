@@ -56,13 +56,14 @@ struct FreeInputExplains {
   std::string equation;
   double gain = 0.0;  ///< of twice the log likelihood
 };
-/// No candidate fits; a sinusoid in one equation would.
+/// No candidate fits; a sinusoid in one equation would. Or beside a cause that fits there is one.
 struct PeriodExplains {
   std::string equation;
   double period_s = 0.0;
   double amplitude = 0.0;
   std::string unit;      ///< of the amplitude
   double p_value = 1.0;  ///< over all periods and equations
+  bool beside_cause = false;
 };
 /// Torquer cross-talk moves lambda as misalignment does.
 struct CrosstalkMovesLambda {};

@@ -97,6 +97,12 @@ struct Words {
   }
 
   std::string operator()(const PeriodExplains& r) const {
+    if (r.beside_cause)
+      return fmt::format(
+          "Beside it a sinusoid in {} is left, with a period of {:.4g} min and an amplitude of "
+          "{:.3g} "
+          "{} (noise shows one as strong, whatever its period, with a chance of {}).",
+          r.equation, r.period_s / 60.0, r.amplitude, r.unit, p_text(r.p_value));
     return fmt::format(
         "A sinusoid in {} alone, with a period of {:.4g} min and an amplitude of {:.3g} {}, would "
         "explain it or most of it (noise shows one as strong, whatever its period, with a chance "

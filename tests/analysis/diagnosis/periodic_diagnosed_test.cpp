@@ -48,5 +48,33 @@ TEST(Diagnose, AResolverErrorThatComesBackIsUnexplainedAndSaidToSwing) {
   EXPECT_NEAR(r.amplitude * arcsec, height / std::numbers::pi, 4.0 * height / std::numbers::pi / z);
 }
 
+TEST(Diagnose, ACauseKeepsItsNameBesideSomethingThatComesBack) {
+  const Timeline timeline = preset_timeline("twelve", CommandLaw::free, 1200.0);
+  TruthSpec truth = base_truth(Coupling::eq5);
+  truth.active |= params_named("warmup_drift");
+  TruthDraw draw = draw_truth(truth, timeline.chains, 3, 1);
+  for (const char* key : {"W_y", "W_z"}) draw.theta[param(key)] = 0.0;
+  draw.theta[param("W_x")] = 0.4 * deg_per_h;
+  draw.theta[param("W_tau")] = 3600.0;
+  const Readout readout;
+  Measurements measured = Simulator(truth, readout).run(timeline, draw, 3, 1).measured;
+  constexpr double period = 700.0, height = 3.0 * arcsec;
+  for (std::size_t i = 0; i < timeline.intervals.size(); ++i)
+    measured.gimbal(2, static_cast<Eigen::Index>(i)) +=
+        height * std::sin(2.0 * std::numbers::pi * timeline.intervals[i].t1 / period);
+  const Diagnosis d =
+      diagnose(base_filter(Coupling::eq5), {timeline, readout, measured}, {}, {}, {});
+  EXPECT_EQ(d.verdict, Verdict::named) << report::sentence(d);
+  ASSERT_EQ(d.causes.size(), 1u);
+  EXPECT_EQ(d.causes[0].term, "warmup_drift");
+  const auto told = std::ranges::find_if(
+      d.remarks, [](const Remark& r) { return std::holds_alternative<remark::PeriodExplains>(r); });
+  ASSERT_NE(told, d.remarks.end());
+  const auto& r = std::get<remark::PeriodExplains>(*told);
+  EXPECT_TRUE(r.beside_cause);
+  EXPECT_EQ(r.equation, "gimbal inner");
+  EXPECT_NEAR(r.period_s, period, 0.01 * period);
+}
+
 }  // namespace
 }  // namespace drift::diagnosis::periodic_diagnosed_test

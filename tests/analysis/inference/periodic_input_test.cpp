@@ -58,10 +58,31 @@ TEST(PeriodicInput, IsFoundInItsEquationWithPeriodAndSize) {
     const double z = std::sqrt(found.T), of_noise = std::sqrt(3.0) / (std::numbers::pi * z),
                  of_grid = 1.0 / 16.0;
     EXPECT_LT(std::abs(span / found.period_s - span / period), 4.0 * of_noise + of_grid);
-    EXPECT_NEAR(found.amplitude / unit_of(d.equation).to_si, d.amplitude, 4.0 * d.amplitude / z);
+    EXPECT_NEAR(found.amplitude() / unit_of(d.equation).to_si, d.amplitude, 4.0 * d.amplitude / z);
     // Of a size that two decades hold the evidence is what the gain leaves after ln 100 and z^2.
     EXPECT_NEAR(found.log_evidence(), found.log_gain() - std::log(found.T * std::log(100.0)), 1e-6);
   }
+}
+
+/// Rows missing from every dwell lengthen no period that can be seen.
+TEST(PeriodicInput, IsFoundBetweenGaps) {
+  const Timeline timeline = preset_timeline("twelve", CommandLaw::free, 1200.0);
+  Measurements measured = Simulator(base_truth(Coupling::eq5), {}).run(timeline, 6, 0).measured;
+  constexpr double fast = 200.0;
+  for (std::size_t i = 0; i < timeline.intervals.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    measured.gimbal(2, at) +=
+        8.0 * arcsec * std::sin(2.0 * std::numbers::pi * timeline.intervals[i].t1 / fast);
+    if (i % 20 >= 6 && i % 20 < 18) {
+      measured.gimbal.col(at).setConstant(std::nan(""));
+      measured.acc.col(at).setConstant(std::nan(""));
+    }
+  }
+  const search::Fitted e = examined(timeline, measured);
+  const PeriodicInput found = strongest_periodic_input(e.problem, *e.projector);
+  EXPECT_EQ(equation_name(found.equation, found.axis), "gimbal inner");
+  EXPECT_NEAR(found.period_s, fast, 0.01 * fast);
+  EXPECT_LT(found.p_value(), 1e-9);
 }
 
 /// By Davies' bound the chance is at most as stated; the spectrum misses little of what is there.
