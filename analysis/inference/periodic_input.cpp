@@ -37,13 +37,11 @@ std::vector<Place> places_of(const LinearProblem& rows) {
   return all;
 }
 
-/// When intervals begin, from the beginning of the first [s]; one more than there are: the end.
-std::vector<double> beginnings(const MeasuredRows& rows) {
-  std::vector<double> all{0.0};
-  for (std::size_t i = 0; i < rows.drives.size(); ++i) {
-    if (i > 0) all.back() += rows.drives[i].gap;
-    all.push_back(all.back() + rows.drives[i].length);
-  }
+/// When intervals end, from the beginning of the first [s].
+std::vector<double> ends_of(const MeasuredRows& rows) {
+  std::vector<double> all;
+  for (const IntervalDrive& d : rows.drives)
+    all.push_back(all.empty() ? d.length : all.back() + d.gap + d.length);
   return all;
 }
 
@@ -51,9 +49,9 @@ std::vector<double> beginnings(const MeasuredRows& rows) {
 /// instant, what turns the platform for all that come after it in its chain.
 class Instants {
  public:
-  explicit Instants(const LinearProblem& rows) : rows_(rows), begin_(beginnings(rows)) {}
+  explicit Instants(const LinearProblem& rows) : rows_(rows), end_(ends_of(rows)) {}
 
-  double span() const { return begin_.back(); }
+  double span() const { return end_.back(); }
   /// Middles of the intervals that have a row [s].
   std::vector<double> read() const {
     std::vector<double> all;
@@ -109,11 +107,11 @@ class Instants {
 
  private:
   static std::size_t at(Eigen::Index r) { return static_cast<std::size_t>(r); }
-  double middle(std::size_t i) const { return begin_[i + 1] - 0.5 * rows_.drives[i].length; }
+  double middle(std::size_t i) const { return end_[i] - 0.5 * rows_.drives[i].length; }
   /// Accelerometers read a mean, resolvers the end of an interval.
   double time_of(Eigen::Index r) const {
     const RowTag& tag = rows_.tags[at(r)];
-    return tag.accelerometer() ? middle(tag.interval) : begin_[tag.interval + 1];
+    return tag.accelerometer() ? middle(tag.interval) : end_[tag.interval];
   }
   /// One of a readout in a row; 0 in rows of others.
   double unit_of(const Place& p, Eigen::Index r) const {
@@ -126,7 +124,7 @@ class Instants {
   }
 
   const LinearProblem& rows_;
-  std::vector<double> begin_;
+  std::vector<double> end_;
 };
 
 double variance_of(const std::vector<double>& t) {
@@ -159,7 +157,9 @@ struct Band {
     first = 4 * least_cycles;
     const double distance =
         at.of_case() ? at.span() / static_cast<double>(t.size()) : usual_distance(t);
-    end = static_cast<std::size_t>(0.5 / distance / step);
+    // Some rows close together and days between them are no reason for a spectrum without end.
+    const double most = 64.0 * static_cast<double>(t.size());
+    end = static_cast<std::size_t>(std::min(0.5 / distance / step, most));
     width = static_cast<double>(end - std::min(first, end)) * step *
             std::sqrt(4.0 * std::numbers::pi * variance_of(t));
   }

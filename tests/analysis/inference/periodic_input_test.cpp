@@ -85,6 +85,36 @@ TEST(PeriodicInput, IsFoundBetweenGaps) {
   EXPECT_LT(found.p_value(), 1e-9);
 }
 
+/// Time goes on while nothing is recorded, between positions.
+TEST(PeriodicInput, IsDatedByTheClockOfTheTest) {
+  const Timeline timeline = preset_timeline("six", CommandLaw::free, 600.0);
+  Measurements measured = Simulator(base_truth(Coupling::eq5), {}).run(timeline, 9, 0).measured;
+  constexpr double fast = 190.0, height = 100.0 * arcsec;
+  for (std::size_t i = 0; i < timeline.intervals.size(); ++i)
+    measured.gimbal(1, static_cast<Eigen::Index>(i)) +=
+        height * std::sin(2.0 * std::numbers::pi * timeline.intervals[i].t1 / fast);
+  search::Fitted e = examined(timeline, measured);
+  const PeriodicInput together = strongest_periodic_input(e.problem, *e.projector);
+  ASSERT_EQ(equation_name(together.equation, together.axis), "gimbal middle");
+  // The same readings, a sinusoid that stands still for an hour between the positions.
+  for (std::size_t i = 0; i < timeline.intervals.size(); ++i) {
+    const double t = timeline.intervals[i].t1, later = t + 3600.0 * timeline.intervals[i].position;
+    measured.gimbal(1, static_cast<Eigen::Index>(i)) +=
+        height * (std::sin(2.0 * std::numbers::pi * later / fast) -
+                  std::sin(2.0 * std::numbers::pi * t / fast));
+    if (i > 0 && timeline.intervals[i].position != timeline.intervals[i - 1].position)
+      e.problem.drives[i].gap += 3600.0;
+  }
+  search::Fitted apart = examined(timeline, measured);
+  apart.problem.drives = e.problem.drives;
+  const PeriodicInput found =
+      strongest_periodic_input(apart.problem, Projector(apart.problem, NoiseModel{}));
+  EXPECT_EQ(equation_name(found.equation, found.axis), "gimbal middle");
+  EXPECT_NEAR(found.period_s, fast, 0.01 * fast);
+  // A tenth of the rows an hour late would cost a tenth of the height.
+  EXPECT_NEAR(found.amplitude(), height, 4.0 * height / std::sqrt(found.T));
+}
+
 /// By Davies' bound the chance is at most as stated; the spectrum misses little of what is there.
 TEST(PeriodicInput, IsThereByChanceAsOftenAsItSays) {
   const Timeline timeline = preset_timeline("six", CommandLaw::free, 1800.0);
