@@ -176,7 +176,7 @@ std::array<std::size_t, 2> strongest_lines(const Instants& at, const Place& plac
   std::vector<double> sum(bins, 0.0);
   const double per_s = static_cast<double>(bins) * band.step;  // four times the test in all
   at.each_instant(place, innovations, [&](double t, double value) {
-    sum[static_cast<std::size_t>(t * per_s + 0.5) % bins] += value;
+    sum[static_cast<std::size_t>(std::llround(t * per_s)) % bins] += value;
   });
   std::vector<std::complex<double>> spectrum;
   Eigen::FFT<double>().fwd(spectrum, sum);
