@@ -86,7 +86,7 @@ Diagnosis diagnose_recordings(const mc::Study& study, const std::vector<Recordin
     // What mends a part of a misfit that has another cause is no latitude.
     if (site.doubt && !site.doubt->alone() && !test.off_zero.empty()) site = {};
     const bool less_likely = site.doubt && site.doubt->less_likely;
-    (less_likely ? d.other_latitude : d.site_doubt) = std::move(site.doubt);
+    (less_likely ? d.other_latitude : d.site_doubt) = site.doubt;
     d.there = std::move(site.there);
   }
   if (d.wrong_study()) d = of_another_study(std::move(d));

@@ -16,7 +16,7 @@ using Table = std::map<std::string, std::string>;
 std::string seal_of(const Table& table) {
   std::string text;
   for (const auto& [key, value] : table)
-    if (key != "study" && key != "seal") text += key + "=" + value + "\n";
+    if (key != "study" && key != "seal") text.append(key).append("=").append(value).append("\n");
   return sha256_hex(text);
 }
 
