@@ -9,6 +9,7 @@
 #include <unsupported/Eigen/FFT>
 
 #include "analysis/inference/thresholds.hpp"
+#include "core/stats/median.hpp"
 #include "core/stats/normal.hpp"
 
 namespace drift::inference {
@@ -140,9 +141,7 @@ double variance_of(const std::vector<double>& t) {
 double usual_distance(const std::vector<double>& t) {
   std::vector<double> all;
   for (std::size_t k = 1; k < t.size(); ++k) all.push_back(t[k] - t[k - 1]);
-  const auto half = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
-  std::nth_element(all.begin(), half, all.end());
-  return *half;
+  return stats::upper_median(std::move(all));
 }
 
 /// Frequencies, quarters of a cycle over the test apart.
@@ -194,11 +193,10 @@ std::array<std::size_t, 2> strongest_lines(const Instants& at, const Place& plac
     const std::size_t to = std::min(from + block, band.end),
                       wide = from > band.first + block / 2 ? from - block / 2 : band.first,
                       until = std::min(to + block / 2, band.end);
-    std::vector<double> beside(from_first(wide), from_first(until));
-    const auto half = beside.begin() + static_cast<std::ptrdiff_t>(beside.size() / 2);
-    std::nth_element(beside.begin(), half, beside.end());
+    const double beside =
+        std::max(stats::upper_median({from_first(wide), from_first(until)}), 1e-300);
     for (std::size_t k = from; k < to; ++k)
-      if (const double out = power[k] / std::max(*half, 1e-300); out > farthest) {
+      if (const double out = power[k] / beside; out > farthest) {
         farthest = out;
         best[1] = k;
       }
