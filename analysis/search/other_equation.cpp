@@ -61,15 +61,14 @@ std::vector<BesideEquation> beside_other_equation(const Search& s, const Measure
     there = with_noise(std::move(there), test.timeline, settled->noise);
   const double equation = there.log_evidence() - s.nominal.log_evidence();
   const auto order = there.by_evidence();
+  QuietTest left(there, ReachLimits::slack * s.thresholds.library_threshold,
+                 ReachLimits::slack * s.thresholds.scan_threshold);
   for (std::size_t i = 0; i < std::min(EffortLimits::beside_asked, order.size()) &&
                           pairs.size() < EffortLimits::beside;
        ++i) {
     const std::size_t variant = there.scores[order[i]].variant;
-    const Remainder left = remainder(there, {{order[i], variant}},
-                                     ReachLimits::slack * s.thresholds.library_threshold);
     const auto cause = same_choice(s.nominal.set, there.set.candidates[order[i]], variant);
-    if (cause && left.library <= ReachLimits::slack * s.thresholds.library_threshold &&
-        left.scan <= ReachLimits::slack * s.thresholds.scan_threshold)
+    if (cause && left.quiet_beside({{order[i], variant}}))
       pairs.push_back({{*changed, *cause}, equation + there.scores[order[i]].log_bayes});
   }
   return pairs;

@@ -172,10 +172,10 @@ std::vector<Pair> adequate_pairs(const Field& field, const std::vector<Score>& s
     }
   std::erase_if(tries, [&](const Try& t) { return t.log_bayes < top - ReachLimits::pair; });
   std::vector<Pair> found;
+  QuietTest test(field, library_threshold, scan_threshold);
   for (const Try& t : tries) {
     const std::vector<Choice> pair{t.a, t.b};
-    const Remainder r = remainder(field, pair, library_threshold);
-    if (r.library > library_threshold || r.scan > scan_threshold) continue;
+    if (!test.quiet_beside(pair)) continue;
     const auto columns = distinct_columns_of(field.set, pair);
     const inference::Contrast both =
         inference::make_contrast(field.projected.C, field.projected.raw, columns);

@@ -41,9 +41,9 @@ class Conditioned {
     const inference::Projected& p = field.projected;
     W_ = inference::make_contrast(p.C, p.raw, columns_).W;
     y_ = W_.transpose() * p.g(columns_);
-    cross_ = W_.transpose() * p.C(columns_, Eigen::all);
-    g_ = p.g - cross_.transpose() * y_;
-    left_ = p.C.diagonal() - cross_.colwise().squaredNorm().transpose();
+    cross_ = onto_taken(p.C);
+    g_ = p.g - cross_ * y_;
+    left_ = p.C.diagonal() - cross_.rowwise().squaredNorm();
   }
 
   /// T of one column; 0 where nothing of it is left.
@@ -59,13 +59,21 @@ class Conditioned {
     int dof = 0;
   };
   /// T of several columns, on the directions of which something is left. whole: their contrast
-  /// before.
-  Several T_of(const inference::Contrast& whole) const {
+  /// before. harmless: by degrees of freedom, what T need not be told apart below: where a bound is
+  /// smaller that is returned, and no eigenvalues are worked out.
+  Several T_of(const inference::Contrast& whole, const std::vector<double>& harmless) const {
     // In coordinates where the candidate had unit information.
-    const MatX lost = cross_(Eigen::all, whole.columns) * whole.W;
+    const MatX cross = cross_(whole.columns, Eigen::all);
+    const MatX lost = cross.transpose() * whole.W;
+    const VecX score = whole.W.transpose() * g_(whole.columns);
+    const double least = 1.0 - lost.squaredNorm();  // no eigenvalue of what is left is smaller
+    if (least > VisibleLimits::left_of_several) {
+      const double bound = score.squaredNorm() / least;
+      if (bound <= harmless[static_cast<std::size_t>(whole.dof)]) return {bound, whole.dof};
+    }
     const MatX rest = MatX::Identity(whole.dof, whole.dof) - lost.transpose() * lost;
     const Eigensystem eigen = eigensystem(rest);
-    const VecX y = eigen.vectors.transpose() * (whole.W.transpose() * g_(whole.columns));
+    const VecX y = eigen.vectors.transpose() * score;
     Several out;
     for (Eigen::Index j = 0; j < y.size(); ++j)
       if (eigen.values[j] > VisibleLimits::left_of_several) {
@@ -77,12 +85,12 @@ class Conditioned {
 
   /// The largest T of the windows of a position.
   double largest_T(const inference::PositionScan& scan) const {
-    const MatX cross = W_.transpose() * scan.scan.cross(Eigen::all, columns_).transpose();
-    const VecX g = scan.scan.g - cross.transpose() * y_;
+    const MatX cross = onto_taken(scan.scan.cross);
+    const VecX g = scan.scan.g - cross * y_;
     double largest = 0.0;
     for (Eigen::Index k = 0; k < g.size(); ++k) {
       if (scan.T[k] == 0.0) continue;
-      const double c = scan.scan.C(k, k) - cross.col(k).squaredNorm();
+      const double c = scan.scan.C(k, k) - cross.row(k).squaredNorm();
       if (c > VisibleLimits::left_of_several * scan.scan.C(k, k))
         largest = std::max(largest, g[k] * g[k] / c);
     }
@@ -90,70 +98,98 @@ class Conditioned {
   }
 
  private:
+  /// Of some columns' information with all others, that with those that are taken, made white.
+  MatX onto_taken(const MatX& with_all) const {
+    const MatX with_taken = with_all(Eigen::all, columns_);  // Eigen multiplies no view at speed
+    return with_taken * W_;
+  }
+
   const Field& field_;
   std::vector<int> columns_;
   MatX W_;      ///< shape (columns, dof), C_DD^-1/2 on its observable part
   VecX y_;      ///< W' g_D
-  MatX cross_;  ///< W' C_D,all: shape (dof, K)
+  MatX cross_;  ///< C_all,D W: shape (K, dof)
   VecX g_, left_;
 };
 
-/// The strongest candidate. Tails are dear: the largest T of each number of degrees is kept, and
-/// its tail taken when it grows.
-class Strongest {
+/// The largest T of each number of degrees: tails are dear, and taken only when it grows.
+class Largest {
  public:
-  explicit Strongest(const inference::CandidateSet& set) {
+  explicit Largest(const inference::CandidateSet& set) {
     std::size_t most = 1;
     for (const inference::Candidate& c : set.candidates) most = std::max(most, c.params.size());
-    largest_.assign(most + 1, 0.0);
+    by_dof_.assign(most + 1, 0.0);
   }
-  void take(std::size_t candidate, double T, int dof) {
-    if (dof <= 0 || !(T > largest_[static_cast<std::size_t>(dof)])) return;
-    largest_[static_cast<std::size_t>(dof)] = T;
-    if (const double s = stats::strength(T, dof); s > strength_) {
-      strength_ = s;
-      candidate_ = candidate;
-    }
+  /// The strength of T where it is the largest of its degrees so far, else 0.
+  double strength_if_larger(double T, int dof) {
+    if (dof <= 0 || !(T > by_dof_[static_cast<std::size_t>(dof)])) return 0.0;
+    by_dof_[static_cast<std::size_t>(dof)] = T;
+    return stats::strength(T, dof);
   }
-  double strength() const { return strength_; }
-  std::size_t candidate() const { return candidate_; }
+  const std::vector<double>& by_dof() const { return by_dof_; }
 
  private:
-  std::vector<double> largest_;
-  double strength_ = 0.0;
-  std::size_t candidate_ = 0;
+  std::vector<double> by_dof_;
 };
 
-/// Single columns first: they are quick, and most wrong causes fail on one of them.
-Strongest strongest_other(const Field& field, const std::vector<Choice>& choices,
-                          const Conditioned& given, double stop) {
-  Strongest found(field.set);
-  for (const bool single : {true, false})
-    for (std::size_t k = 0; k < field.set.candidates.size(); ++k) {
-      const inference::Candidate& c = field.set.candidates[k];
-      if ((c.params.size() == 1) != single || of_a_chosen_family(field.set, choices, c)) continue;
-      for (const inference::Contrast& whole : field.contrasts[k]) {
-        if (whole.dof == 0) continue;
-        const auto [T, dof] =
-            single ? Conditioned::Several{given.T_of(whole.columns[0]), 1} : given.T_of(whole);
-        found.take(k, T - field.discount_of(k), dof);
-        if (found.strength() > stop) return found;
-      }
-    }
-  return found;
+/// What the strength of a candidate is beside the causes, at those of its settings that exceed what
+/// `known` has seen.
+double strength_beside(const Field& field, const Conditioned& given, std::size_t candidate,
+                       Largest& known) {
+  const bool single = field.set.candidates[candidate].params.size() == 1;
+  const double discount = field.discount_of(candidate);
+  double strength = 0.0;
+  for (const inference::Contrast& whole : field.contrasts[candidate]) {
+    if (whole.dof == 0) continue;
+    const auto [T, dof] = single ? Conditioned::Several{given.T_of(whole.columns[0]), 1}
+                                 : given.T_of(whole, known.by_dof());
+    strength = std::max(strength, known.strength_if_larger(T - discount, dof));
+  }
+  return strength;
 }
 
 }  // namespace
 
-Remainder remainder(const Field& field, const std::vector<Choice>& choices, double stop) {
+Remainder remainder(const Field& field, const std::vector<Choice>& choices) {
   const Conditioned given(field, columns_with_neighbours(field, choices));
-  const Strongest other = strongest_other(field, choices, given, stop);
-  Remainder out{other.strength(), 0.0, other.candidate()};
-  if (out.library > stop) return out;
+  Remainder out;
+  Largest known(field.set);
+  for (std::size_t k = 0; k < field.set.candidates.size(); ++k) {
+    if (of_a_chosen_family(field.set, choices, field.set.candidates[k])) continue;
+    const double strength = strength_beside(field, given, k, known);
+    if (strength <= out.library) continue;
+    out.library = strength;
+    out.strongest = k;
+  }
   double T = 0.0;
   for (const inference::PositionScan& scan : field.scans) T = std::max(T, given.largest_T(scan));
   out.scan = stats::strength(T, 1);
   return out;
+}
+
+QuietTest::QuietTest(const Field& field, double library_threshold, double scan_threshold)
+    : field_(field), library_threshold_(library_threshold), scan_threshold_(scan_threshold) {
+  const auto single = [&](std::size_t k) { return field.set.candidates[k].params.size() == 1; };
+  for (std::size_t k = 0; k < field.set.candidates.size(); ++k)
+    if (single(k)) asked_.push_back({Asked::What::candidate, k});
+  for (std::size_t k = 0; k < field.scans.size(); ++k) asked_.push_back({Asked::What::windows, k});
+  for (std::size_t k = 0; k < field.set.candidates.size(); ++k)
+    if (!single(k)) asked_.push_back({Asked::What::candidate, k});
+}
+
+bool QuietTest::quiet_beside(const std::vector<Choice>& choices) {
+  const Conditioned given(field_, columns_with_neighbours(field_, choices));
+  Largest known(field_.set);
+  const auto objects = [&](const Asked& who) {
+    if (who.what == Asked::What::windows)
+      return stats::strength(given.largest_T(field_.scans[who.number]), 1) > scan_threshold_;
+    return !of_a_chosen_family(field_.set, choices, field_.set.candidates[who.number]) &&
+           strength_beside(field_, given, who.number, known) > library_threshold_;
+  };
+  const auto objector = std::ranges::find_if(asked_, objects);
+  if (objector == asked_.end()) return true;
+  std::rotate(asked_.begin(), objector, objector + 1);
+  return false;
 }
 
 }  // namespace drift::search

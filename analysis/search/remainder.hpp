@@ -1,6 +1,6 @@
 #pragma once
 
-#include <limits>
+#include <vector>
 
 #include "analysis/search/field.hpp"
 
@@ -15,9 +15,26 @@ struct Remainder {
 
 /// Conditional scores T_(c|d) (discovery.md 2.5). The neighbouring variant on the grid goes in with
 /// a cause, so that a time constant between two of them is allowed for. Members of a chosen
-/// candidate's own family do not count as others. stop: give up (and return what was
-/// found) as soon as a candidate's strength exceeds it.
-Remainder remainder(const Field& field, const std::vector<Choice>& choices,
-                    double stop = std::numeric_limits<double>::infinity());
+/// candidate's own family do not count as others.
+Remainder remainder(const Field& field, const std::vector<Choice>& choices);
+
+/// Whether many sets of causes leave anything beyond thresholds of strength. Whoever spoke against
+/// a set is asked first about the next: one objection is enough, and what one cause cannot explain
+/// few can.
+class QuietTest {
+ public:
+  /// The field must outlive it.
+  QuietTest(const Field& field, double library_threshold, double scan_threshold);
+  bool quiet_beside(const std::vector<Choice>& choices);
+
+ private:
+  struct Asked {
+    enum class What { candidate, windows } what;
+    std::size_t number;  ///< of the candidate, or of the position
+  };
+  const Field& field_;
+  double library_threshold_, scan_threshold_;
+  std::vector<Asked> asked_;  ///< in this order; those that are dear last, at first
+};
 
 }  // namespace drift::search

@@ -127,7 +127,7 @@ TEST(Naming, TheTruthIsInTheAdequateSetAsOftenAsPromised) {
     const Field field(synthetic().set, p.candidates(), no_scans);
     std::vector<std::size_t> adequate;
     for (std::size_t d = 0; d < synthetic().set.candidates.size(); ++d)
-      if (remainder(field, {{d, 0}}, 1e300).library <= k) adequate.push_back(d);
+      if (remainder(field, {{d, 0}}).library <= k) adequate.push_back(d);
     covered += !adequate.empty() && adequate.front() == 0;
     single_and_wrong += adequate.size() == 1 && adequate.front() != 0;
   }
