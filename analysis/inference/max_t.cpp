@@ -1,11 +1,15 @@
 #include "analysis/inference/max_t.hpp"
 
+#include <Random123/philox.h>
+
+#include <Random123/conventional/Engine.hpp>
 #include <algorithm>
+#include <boost/random/normal_distribution.hpp>
+#include <limits>
 #include <map>
 
 #include "analysis/inference/thresholds.hpp"
 #include "core/base/decompose.hpp"
-#include "core/base/rng.hpp"
 
 namespace drift::inference {
 namespace {
@@ -66,10 +70,16 @@ MaxNull::MaxNull(const MatX& C, const std::vector<Contrast>& contrasts, int draw
 MatX MaxNull::draw(const MatX& C, int draws, std::uint64_t stream) {
   if (C.rows() == 0) return MatX::Zero(draws, 0);  // nothing shows on this plan
   const Eigensystem eigen = eigensystem(C);
-  const MatX root = eigen.vectors * eigen.values.cwiseMax(0.0).cwiseSqrt().asDiagonal();
-  MatX z(draws, C.cols());
-  Stream random(null_seed, stream, Purpose::design);
-  for (Eigen::Index k = 0; k < z.size(); ++k) z.data()[k] = random.normal();
+  // Of many effects at many settings half the directions carry nothing but rounding.
+  const double rounding = static_cast<double>(C.rows()) * std::numeric_limits<double>::epsilon() *
+                          eigen.values.tail<1>()[0];
+  const Eigen::Index seen = (eigen.values.array() > rounding).count();
+  const MatX root =
+      eigen.vectors.rightCols(seen) * eigen.values.tail(seen).cwiseSqrt().asDiagonal();
+  MatX z(draws, seen);
+  r123::Engine<r123::Philox4x64> random({{null_seed, stream}});
+  boost::random::normal_distribution<double> normal;  // by Marsaglia's ziggurat
+  for (Eigen::Index k = 0; k < z.size(); ++k) z.data()[k] = normal(random);
   return z * root.transpose();
 }
 
