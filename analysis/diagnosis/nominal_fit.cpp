@@ -43,10 +43,10 @@ std::vector<BatchResult> fit_from_starts(const FilterSpec& nominal, const Filter
         start[i] = found[i];
         if (filter.active[i]) held.priors[i] = fixed(found[i]);
       }
-    const BatchResult first = fit_batch(held, test, start);
-    return filter.active == nominal.active
-               ? first
-               : fit_batch_from(filter, test, theta_of(held, first), first.psi0_l);
+    if (filter.active == nominal.active) return fit_batch(held, test, start);
+    const BatchResult first =
+        fit_batch(held, test, start, {.result = BatchOptions::Result::estimates});
+    return fit_batch_from(filter, test, theta_of(held, first), first.psi0_l);
   });
 }
 

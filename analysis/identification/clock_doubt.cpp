@@ -15,11 +15,13 @@
 namespace drift::identification {
 namespace {
 
+using Result = BatchOptions::Result;
+
 BatchResult fitted(const mc::Study& study, const std::vector<Recording>& recordings,
-                   const FilterSpec& filter) {
+                   const FilterSpec& filter, Result result) {
   const preparation::RecordedTest test = preparation::recorded_test(study, recordings);
-  return fit_batch(filter, {test.timeline, study.readout, test.measured},
-                   make_layout(filter).theta);
+  return fit_batch(filter, {test.timeline, study.readout, test.measured}, make_layout(filter).theta,
+                   {.result = result});
 }
 
 std::vector<Recording> with_times(std::vector<Recording> recordings, double factor) {
@@ -43,7 +45,7 @@ struct Retimed {
 std::optional<Retimed> retimed(const mc::Study& study, const std::vector<Recording>& recordings,
                                const FilterSpec& filter, double near, double step) {
   const auto at = [&](double factor) {
-    return fitted(study, with_times(recordings, factor), filter).estimate;
+    return fitted(study, with_times(recordings, factor), filter, Result::estimates).estimate;
   };
   Retimed out{{near, 0.0, at(1.0).statistic_per_dof(), 0.0}, {}};
   for (const double finer : {1.0, 0.1, 0.01}) {
@@ -62,9 +64,9 @@ std::optional<Retimed> retimed(const mc::Study& study, const std::vector<Recordi
 }
 
 EstimateResult fitted_at(double latitude, mc::Study study, const std::vector<Recording>& recordings,
-                         const FilterSpec& filter) {
+                         const FilterSpec& filter, Result result) {
   study.site.latitude = latitude;
-  return fitted(study, recordings, filter).estimate;
+  return fitted(study, recordings, filter, result).estimate;
 }
 
 }  // namespace
@@ -72,7 +74,7 @@ EstimateResult fitted_at(double latitude, mc::Study study, const std::vector<Rec
 std::optional<ClockDoubt> clock_doubt(const mc::Study& study,
                                       const std::vector<Recording>& recordings,
                                       const FilterSpec& filter, double other_latitude) {
-  const EstimateResult there = fitted_at(other_latitude, study, recordings, filter);
+  const EstimateResult there = fitted_at(other_latitude, study, recordings, filter, Result::whole);
   const auto common = common_scale(there, torquer_scales);
   if (!common) return std::nullopt;
   // Torquers are off by themselves: the Earth's rate tells.
@@ -91,7 +93,8 @@ std::optional<ClockDoubt> clock_instead(const mc::Study& study,
                                         double sigma) {
   const double slower = std::cos(other_latitude) / std::cos(study.site.latitude);
   if (!(slower > 0.5 && slower < 2.0) || !(sigma > 0.0)) return std::nullopt;
-  const EstimateResult there = fitted_at(other_latitude, study, recordings, filter);
+  const EstimateResult there =
+      fitted_at(other_latitude, study, recordings, filter, Result::estimates);
   // What else is missing bends the latitude: the first step is as wide as a part of the way.
   const double step = std::max(sigma, 0.02 * std::abs(slower - 1.0));
   const auto best = retimed(study, recordings, filter, slower, step);

@@ -115,7 +115,8 @@ void fit(Fit& f, mc::Study study, std::vector<Recording> recordings, const Filte
   try {
     const preparation::RecordedTest test = preparation::recorded_test(study, recordings);
     const BatchResult result =
-        fit_batch(filter, {test.timeline, study.readout, test.measured}, make_layout(filter).theta);
+        fit_batch(filter, {test.timeline, study.readout, test.measured}, make_layout(filter).theta,
+                  {.result = BatchOptions::Result::estimates});
     f.cost = result.estimate.statistic;
     f.dof = static_cast<double>(std::max<std::size_t>(1, result.estimate.measured));
   } catch (const InputError&) {

@@ -47,8 +47,9 @@ class Latitudes {
     study.site.latitude = latitude;
     try {
       const preparation::RecordedTest test = preparation::recorded_test(study, recordings_);
-      const BatchResult fit = fit_batch(filter_, {test.timeline, study.readout, test.measured},
-                                        make_layout(filter_).theta);
+      const BatchResult fit =
+          fit_batch(filter_, {test.timeline, study.readout, test.measured},
+                    make_layout(filter_).theta, {.result = BatchOptions::Result::estimates});
       p.cost = fit.estimate.statistic;
       p.dof = static_cast<double>(std::max<std::size_t>(1, fit.estimate.measured));
     } catch (const InputError&) {

@@ -53,7 +53,8 @@ CaseErrors held_out(const FilterSpec& filter, const CaseStudy& of, const Divisio
   const auto all = mc::run_campaign(folds * repeats, [&](std::size_t task) {
     const Measurements left =
         without_part(of.test, parts[task / folds], static_cast<int>(task % folds));
-    const BatchResult fit = fit_batch(filter, {of.test.timeline, of.test.readout, left}, found);
+    const BatchResult fit = fit_batch(filter, {of.test.timeline, of.test.readout, left}, found,
+                                      {.result = BatchOptions::Result::estimates});
     return case_errors(of.test, filter.model(), theta_of(filter, fit), fit.psi0_l);
   });
   CaseErrors out;

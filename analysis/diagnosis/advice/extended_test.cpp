@@ -91,7 +91,8 @@ double ExtendedTest::verified(const std::vector<Position>& added, const Alternat
   const Simulation sim = Simulator(simulated, study_.readout).run(timeline, draw, seed, 0);
   if (!sim.ode.ok()) return std::nan("");
   const auto cost = [&](const FilterSpec& f) {
-    return fit_batch(f, {timeline, study_.readout, sim.measured}, make_layout(f).theta)
+    return fit_batch(f, {timeline, study_.readout, sim.measured}, make_layout(f).theta,
+                     {.result = BatchOptions::Result::estimates})
         .estimate.statistic;
   };
   const double gain = cost(wrong) - cost(right);
