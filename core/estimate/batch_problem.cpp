@@ -28,7 +28,7 @@ RowsAlongPath::RowsAlongPath(const Test& test, const Timeline& timeline, const F
       model_(filter.model()),
       equations_(test, model_, make_layout(filter), filter.initial_attitude),
       lanes_(timeline, model_),
-      in_lanes_(PathInLanes::can(model_)),
+      in_lanes_(all_in_lanes(model_.terms)),
       phi_(timeline.nodes.size(), Vec3::Zero()) {}
 
 std::vector<ChainEquations> RowsAlongPath::at(const Theta& theta, const std::vector<Vec3>& psi0_l) {
@@ -47,7 +47,7 @@ BatchProblem::BatchProblem(const FilterSpec& filter, const MeasuredTest& test)
       samples_(test_, test_.timeline, filter_),
       sigma_psi_(filter.initial_attitude),
       angle_random_walk_(filter.noise.angle_random_walk) {
-  if (!walks() && StretchJacobians::can(filter.model())) compress();
+  if (!walks() && CompressedTest::can(filter.model())) compress();
 }
 
 void BatchProblem::compress() {

@@ -46,8 +46,8 @@ MeasurementEquations::MeasurementEquations(const MeasuredTest& test,
       sigma_attitude_(sigma_attitude),
       linearizer_(model, layout, test.readout),
       memory_(test.timeline, model),
-      jacobians_(test.timeline),
-      together_(StretchJacobians::can(model) && (compressed || mostly_read(test))),
+      jacobians_(test.timeline, model),
+      together_(compressed || mostly_read(test)),
       G_(padded_rows(layout.num_rate)),
       G_next_(G_),
       Y_rate_(G_),
@@ -71,14 +71,14 @@ std::vector<ChainEquations> MeasurementEquations::at(const Theta& theta, const T
   std::vector<ChainEquations> chains;
   for (const Eigen::Index rows : count_) chains.push_back({MatX(rows, some_.cols())});
   std::vector<Eigen::Index> handed_over(count_.size(), 0);
-  memory_.reset();
+  memory_.trace(theta.data());
   in_some_ = 0;
   too_rough_.clear();
   linearizer_.set_theta(theta);
   const auto& intervals = test_.timeline.intervals;
   for (std::size_t i = 0; i < intervals.size(); ++i) {
     enter(intervals[i]);
-    linearize(i, theta, phi);
+    linearize(i, phi);
     const auto chain = static_cast<std::size_t>(intervals[i].chain);
     take_stretch(i, phi, chains[chain].rows, handed_over[chain]);
     take_accelerometers(i);
@@ -97,14 +97,13 @@ void MeasurementEquations::enter(const Interval& interval) {
   G_.setZero();
 }
 
-void MeasurementEquations::linearize(std::size_t i, const Theta& theta, const Trajectory& phi) {
+void MeasurementEquations::linearize(std::size_t i, const Trajectory& phi) {
   const auto& [timeline, readout, measured] = test_;
   const Interval& interval = timeline.intervals[i];
-  memory_.advance(i, theta.data());
   if (together_) {
     if (i % at_once == 0)
       jacobians_.evaluate(i, std::min(i + at_once, timeline.intervals.size()), phi.data(),
-                          model_.mounting, linearizer_);
+                          linearizer_, &memory_);
     const StretchReadings* stretch = compressed_ ? compressed_->readings(i) : nullptr;
     if (stretch)
       stretch_.propagate(*stretch, interval, jacobians_.of(i), inner_);
@@ -115,7 +114,7 @@ void MeasurementEquations::linearize(std::size_t i, const Theta& theta, const Tr
   readout.accelerometers&& read_in(measured.acc, i) ? linearizer_.work_readout_out()
                                                     : linearizer_.leave_readout_out();
   linearize_interval(interval, timeline, misalignment_matrix(model_.mounting, interval.loop),
-                     &phi[interval.first_node], memory_.points(), linearizer_, inner_);
+                     &phi[interval.first_node], memory_.points(interval), linearizer_, inner_);
 }
 
 void MeasurementEquations::take_accelerometers(std::size_t i) {
@@ -156,7 +155,7 @@ void MeasurementEquations::take_stretch(std::size_t i, const Trajectory& phi, Ma
   }
   if (readings->gimbals.rows() > 0) {
     add_rows(stretch_.gimbals(readings->gimbals, test_.timeline, interval, inner_,
-                              &phi[interval.first_node], linearizer_),
+                              &phi[interval.first_node], memory_.points(interval), linearizer_),
              rows, done);
     tail += stretch_.tail();
   }
@@ -187,12 +186,12 @@ void MeasurementEquations::take_gimbals(std::size_t i, const Trajectory& phi) {
   if (!readout.gimbals || !read_in(measured.gimbal, i)) return;
   const Interval& interval = timeline.intervals[i];
   const std::size_t last = interval.node_count() - 1;
+  const MemoryPoint* memory = memory_.points(interval);
   const GimbalPrediction p =
       interval.rest ? predict_rest_rate(interval, timeline, &phi[interval.first_node], inner_)
-                    : linearizer_.gimbals(
-                          timeline, {&timeline.nodes[interval.last_node()], &interval,
-                                     phi[interval.last_node()],
-                                     memory_.active() ? &memory_.points()[2 * last] : nullptr});
+                    : linearizer_.gimbals(timeline, {&timeline.nodes[interval.last_node()],
+                                                     &interval, phi[interval.last_node()],
+                                                     memory ? memory + 2 * last : nullptr});
   if (p.H_rate.cols() > 0)
     Y_rate_ = p.H_rate;
   else

@@ -34,7 +34,7 @@ class MeasurementEquations {
   MeasurementEquations(const MeasuredTest& test, const CompressedTest* compressed,
                        const DriftModel& model, const Layout& layout, double sigma_attitude);
   void enter(const Interval& interval);
-  void linearize(std::size_t i, const Theta& theta, const Trajectory& phi);
+  void linearize(std::size_t i, const Trajectory& phi);
   void take_accelerometers(std::size_t i);
   void take_gimbals(std::size_t i, const Trajectory& phi);
   void take_stretch(std::size_t i, const Trajectory& phi, MatX& rows, Eigen::Index& done);
@@ -49,7 +49,7 @@ class MeasurementEquations {
   Layout layout_;
   double sigma_attitude_;
   Linearizer linearizer_;
-  MemoryPath memory_;
+  MemoryRecord memory_;
   StretchJacobians jacobians_;
   bool together_;  ///< several intervals are linearised at once
   IntervalSensitivity inner_;

@@ -1,16 +1,23 @@
 #include "core/estimate/stretch_jacobians.hpp"
 
-namespace drift {
-namespace {
+#include "core/sim/surroundings.hpp"
 
-bool alike(const Interval& a, const Interval& b) {
+namespace drift {
+
+/// Whether two intervals may be worked out at once.
+bool StretchJacobians::alike(const Interval& a, const Interval& b) const {
   return a.omega_cmd_p == b.omega_cmd_p && a.loop == b.loop;
 }
 
-}  // namespace
+/// Whether a's last node is b's first: all that the terms see there is the same.
+bool StretchJacobians::shared(const Interval& a, const Interval& b) const {
+  return !b.cage && alike(a, b) &&
+         timeline_.nodes[a.last_node()].omega_ic_l == timeline_.nodes[b.first_node].omega_ic_l &&
+         (attitude_alone_ || moment_at(timeline_, a, a.t1) == moment_at(timeline_, b, b.t0));
+}
 
 void StretchJacobians::evaluate(std::size_t first, std::size_t end, const Vec3* path,
-                                const Mounting& mounting, Linearizer& linearizer) {
+                                Linearizer& linearizer, const MemoryRecord* memory) {
   first_ = first;
   offset_.clear();
   std::array<NodePoint, Linearizer::at_once> points;
@@ -19,7 +26,7 @@ void StretchJacobians::evaluate(std::size_t first, std::size_t end, const Vec3* 
     if (waiting == 0) return;
     while (all_.size() < done + waiting) all_.push_back(linearizer.make());
     linearizer.evaluate({points.data(), waiting},
-                        misalignment_matrix(mounting, points[0].interval->loop), &timeline_,
+                        misalignment_matrix(mounting_, points[0].interval->loop), &timeline_,
                         &all_[done]);
     done += waiting;
     waiting = 0;
@@ -29,11 +36,12 @@ void StretchJacobians::evaluate(std::size_t first, std::size_t end, const Vec3* 
     const Interval* before = i > first ? &timeline_.intervals[i - 1] : nullptr;
     if (before && !alike(*before, interval)) work_out();
     const Node* nodes = &timeline_.nodes[interval.first_node];
-    const bool shared = before && !interval.cage && alike(*before, interval) &&
-                        timeline_.nodes[before->last_node()].omega_ic_l == nodes->omega_ic_l;
-    offset_.push_back(done + waiting - (shared ? 1 : 0));
-    for (std::size_t k = shared ? 1 : 0; k < interval.node_count(); ++k) {
-      points[waiting++] = {nodes + k, &interval, path[interval.first_node + k]};
+    const std::size_t begin = before && shared(*before, interval) ? 1 : 0;
+    const MemoryPoint* left = memory ? memory->points(interval) : nullptr;
+    offset_.push_back(done + waiting - begin);
+    for (std::size_t k = begin; k < interval.node_count(); ++k) {
+      points[waiting++] = {nodes + k, &interval, path[interval.first_node + k],
+                           left ? left + 2 * k : nullptr};
       if (waiting == points.size()) work_out();
     }
   }

@@ -134,6 +134,8 @@ struct Covariates {
   }
   double& further(std::size_t k) { return value[covariate_components + k]; }
   double further(std::size_t k) const { return value[covariate_components + k]; }
+
+  bool operator==(const Covariates&) const = default;
 };
 
 /// Of everything something, for scenes in which it is looked what a term depends on: so many times

@@ -44,6 +44,8 @@ struct Moment {
   Covariates covariates;           ///< numbers as they deviate from the mean of the recording
   Covariates rates;                ///< their change [1/s]
   const CaseTurn* turn = nullptr;  ///< null: the case rests, or its accelerometers are not read
+
+  bool operator==(const Moment&) const = default;
 };
 
 /// What `Needs` names, for one attitude. Only what is asked for is filled.

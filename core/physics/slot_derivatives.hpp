@@ -38,6 +38,9 @@ inline TermMask those_in_lanes(const TermMask& terms) {
 inline TermMask those_apart(const TermMask& terms) {
   return terms & ~those_in_lanes(terms);
 }
+inline bool all_in_lanes(const TermMask& terms) {
+  return those_apart(terms).none();
+}
 
 /// An instant at which every term has something to do, to find out what depends on what.
 SeenByTerms<Dependence> scene_of_dependence();

@@ -254,7 +254,7 @@ void PathInLanes::step_by_step(std::size_t first, std::size_t end, Given given, 
 
 Trajectory integrate(const Timeline& timeline, const DriftModel& model, const Theta& theta,
                      const std::vector<Vec3>& psi0_l) {
-  if (!PathInLanes::can(model)) return integrate_fixed(timeline, model, theta, psi0_l);
+  if (!all_in_lanes(model.terms)) return integrate_fixed(timeline, model, theta, psi0_l);
   Trajectory phi(timeline.nodes.size());
   PathInLanes lanes(timeline, model);
   lanes.set_theta(theta);

@@ -10,12 +10,9 @@ namespace drift {
 /// through five of them. In inertial axes the rate hardly depends on the attitude (of an error,
 /// less than a thirtieth is left after a round), so a few rounds do where Runge and Kutta go from
 /// node to node. Agrees with them to their own accuracy. For models whose terms ask for attitude
-/// and command alone.
+/// and command alone (all_in_lanes).
 class PathInLanes {
  public:
-  /// Whether a model is such a one.
-  static bool can(const DriftModel& model) { return those_apart(model.terms).none(); }
-
   /// The timeline must outlive it.
   PathInLanes(const Timeline& timeline, const DriftModel& model);
 

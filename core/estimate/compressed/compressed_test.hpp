@@ -44,9 +44,17 @@ struct StretchReadings {
 /// known, and what is predicted is made of products of up to three directions (g^2 terms, turned):
 /// coefficients of degree k fall like (3 a / 4)^k / k!, and as many are kept as exceed 1e-10, and
 /// two. What is left of the readings does not depend on the model: a constant of the
-/// cost. Exact where noise is white and the model's terms ask for attitude and command alone.
+/// cost. Exact where noise is white and the model's terms ask for attitude and command alone; what
+/// follows the clock, gimbal angles or the past, as far as so many polynomials follow it, which
+/// StretchRows::tail tells.
 class CompressedTest {
  public:
+  /// Whether a model sees no more of a stretch than its beginning and end say: covariates go from
+  /// sample to sample as they like, and so does the turn of a case.
+  static bool can(const DriftModel& model) {
+    const Needs needs = TermLibrary::needs(model.terms);
+    return needs.covariates == 0 && !needs.turning;
+  }
   /// Stretches as long as they are; or cut after 1, 3, 7, 15, ... samples, for who looks anew from
   /// piece to piece.
   enum class Cut { nowhere, doubling };

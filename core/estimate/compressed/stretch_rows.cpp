@@ -70,13 +70,15 @@ const StretchRows::Rows& StretchRows::accelerometers(const StretchChannel& chann
 const StretchRows::Rows& StretchRows::gimbals(const StretchChannel& channel,
                                               const Timeline& timeline, const Interval& interval,
                                               const IntervalSensitivity& sensitivity,
-                                              const Vec3* phi, Linearizer& linearizer) {
+                                              const Vec3* phi, const MemoryPoint* memory,
+                                              Linearizer& linearizer) {
   const auto nodes = static_cast<Eigen::Index>(interval.node_count());
   for (Rows& rows : at_nodes_) rows.resize(nodes, 3 + rate_ + readout_ + 1);
   for (Eigen::Index k = 0; k < nodes; ++k) {
     const auto at = static_cast<std::size_t>(k);
-    const GimbalPrediction p = linearizer.gimbals(
-        timeline, {&timeline.nodes[interval.first_node + at], &interval, phi[at], nullptr});
+    const GimbalPrediction p =
+        linearizer.gimbals(timeline, {&timeline.nodes[interval.first_node + at], &interval, phi[at],
+                                      memory ? memory + 2 * at : nullptr});
     Vec3 beyond;
     for (int a = 0; a < 3; ++a) beyond[a] = angle_difference(p.angles[a], channel.reference[a]);
     put(k, sensitivity, p.H, p.H_par, beyond);

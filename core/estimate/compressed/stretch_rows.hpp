@@ -19,12 +19,13 @@ class StretchRows {
                  const NodeJacobian* jacobian, IntervalSensitivity& out);
   /// Rows of the three axes of a channel, one after the other, over [attitude at the beginning
   /// | rate states | readout states | residual]. Derivatives of what is predicted; the residual is
-  /// measured minus predicted. sensitivity: along the nodes of the stretch.
+  /// measured minus predicted. sensitivity: along the nodes of the stretch; memory: of the
+  /// interval, null where no term of the model has any.
   const Rows& accelerometers(const StretchChannel& channel, const Interval& interval,
                              const IntervalSensitivity& sensitivity);
   const Rows& gimbals(const StretchChannel& channel, const Timeline& timeline,
                       const Interval& interval, const IntervalSensitivity& sensitivity,
-                      const Vec3* phi, Linearizer& linearizer);
+                      const Vec3* phi, const MemoryPoint* memory, Linearizer& linearizer);
   /// Information on a state, at most, in the last two polynomials of what was worked out last: what
   /// was cut off holds less. Information of the prior is one.
   double tail() const { return tail_; }

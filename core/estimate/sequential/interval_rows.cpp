@@ -19,8 +19,8 @@ IntervalRows::IntervalRows(const FilterSpec& filter, const Timeline& timeline,
       model_(filter.model()),
       layout_(make_layout(filter)),
       linearizer_(model_, layout_, readout),
-      together_(StretchJacobians::can(model_)),
-      jacobians_(timeline),
+      together_(all_in_lanes(model_.terms)),
+      jacobians_(timeline, model_),
       memory_(timeline, model_),
       attitude_(layout_.size(), walking_states(filter, layout_),
                 filter.noise.angle_random_walk > 0.0),
@@ -61,7 +61,7 @@ const MemoryPoint* IntervalRows::enter(std::size_t i) {
 }
 
 void IntervalRows::look_ahead(std::size_t first, std::size_t end, const Vec3* path) {
-  if (together_) jacobians_.evaluate(first, end, path, model_.mounting, linearizer_);
+  if (together_) jacobians_.evaluate(first, end, path, linearizer_);
 }
 
 void IntervalRows::cage(const Interval& interval, const Vec3& phi) {
@@ -147,10 +147,10 @@ IntervalRows::Taken IntervalRows::take_stretch(std::size_t i, const StretchReadi
                  stretch_.accelerometers(readings.accelerometers, interval, sensitivity_), rows,
                  taken);
   if (readings.gimbals.rows() > 0)
-    take_channel(
-        readings.gimbals,
-        stretch_.gimbals(readings.gimbals, timeline_, interval, sensitivity_, phi, linearizer_),
-        rows, taken);
+    take_channel(readings.gimbals,
+                 stretch_.gimbals(readings.gimbals, timeline_, interval, sensitivity_, phi, nullptr,
+                                  linearizer_),
+                 rows, taken);
   const std::size_t last = interval.node_count() - 1;
   attitude_.propagate(sensitivity_.Phi[last], sensitivity_.G[last], Mat3::Zero());
   return taken;

@@ -18,7 +18,7 @@ IteratedEkf::IteratedEkf(const FilterSpec& filter, const Timeline& timeline, con
     : filter_(filter), timeline_(timeline), readout_(readout), start_(start) {
   // With half of the nodes a run takes as long as before.
   CompressedTest::Options pays{.fewer = 4};
-  if (white(filter) && StretchJacobians::can(filter.model()))
+  if (white(filter) && all_in_lanes(filter.model().terms))
     test_ = std::make_unique<CompressedTest>(timeline, readout_, pays);
   if (!test_ || !test_->any()) {
     last_ = &sample_by_sample();

@@ -143,7 +143,7 @@ bool IteratedPasses::take_block(std::size_t first, std::size_t end, const Measur
     rows_.cage(all[first], phi);
   }
   path_[all[first].first_node] = phi;
-  const bool together = PathInLanes::can(rows_.model());
+  const bool together = all_in_lanes(rows_.model().terms);
   if (together) {
     lanes_.set_theta(theta_);
     lanes_.forward(first, end, path_.data());
@@ -262,7 +262,7 @@ bool IteratedPasses::along_filtered(const Measurements& measured) {
 /// Where the block after a caging must have begun to end at phi.
 void IteratedPasses::keep_start(std::size_t first, std::size_t end, const Vec3& phi) {
   const auto& all = timeline_.intervals;
-  if (!walks_ || !all[first].cage || !PathInLanes::can(rows_.model())) return;
+  if (!walks_ || !all[first].cage || !all_in_lanes(rows_.model().terms)) return;
   path_[all[end - 1].last_node()] = phi;
   lanes_.set_theta(theta_);
   lanes_.backward(first, end, path_.data());

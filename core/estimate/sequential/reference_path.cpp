@@ -6,7 +6,7 @@ ReferencePath::ReferencePath(const Timeline& timeline, const DriftModel& model)
     : timeline_(timeline),
       model_(model),
       memory_(timeline, model),
-      in_lanes_(PathInLanes::can(model)),
+      in_lanes_(all_in_lanes(model.terms)),
       lanes_(timeline, model),
       ends_(static_cast<std::size_t>(timeline.chains), Vec3::Zero()),
       phi_(timeline.nodes.size(), Vec3::Zero()) {}
