@@ -35,21 +35,23 @@ class Latitudes {
             const FilterSpec& filter)
       : study_(study), recordings_(recordings), filter_(filter) {}
 
-  std::vector<Point> at(const std::vector<double>& latitudes) const {
-    return mc::run_campaign(latitudes.size(), [&](std::size_t k) { return point(latitudes[k]); });
+  std::vector<Point> at(const std::vector<double>& latitudes,
+                        int iterations = BatchOptions{}.max_iterations) const {
+    return mc::run_campaign(latitudes.size(),
+                            [&](std::size_t k) { return point(latitudes[k], iterations); });
   }
 
  private:
-  Point point(double latitude) const {
+  Point point(double latitude, int iterations) const {
     Point p{latitude};
     if (!(std::abs(latitude) <= 90.0 * detail::deg)) return p;
     mc::Study study = study_;
     study.site.latitude = latitude;
     try {
       const preparation::RecordedTest test = preparation::recorded_test(study, recordings_);
-      const BatchResult fit =
-          fit_batch(filter_, {test.timeline, study.readout, test.measured},
-                    make_layout(filter_).theta, {.result = BatchOptions::Result::estimates});
+      const BatchResult fit = fit_batch(
+          filter_, {test.timeline, study.readout, test.measured}, make_layout(filter_).theta,
+          {.max_iterations = iterations, .result = BatchOptions::Result::estimates});
       p.cost = fit.estimate.statistic;
       p.dof = static_cast<double>(std::max<std::size_t>(1, fit.estimate.measured));
     } catch (const InputError&) {
@@ -120,13 +122,17 @@ std::optional<LatitudeDoubt> latitude_doubt(const mc::Study& study,
   // The Earth's rate goes with sine and cosine of the latitude: no valley lies between these.
   std::vector<double> everywhere{-declared};
   for (double deg = -75.0; deg < 80.0; deg += 15.0) everywhere.push_back(deg * detail::deg);
-  take(latitudes.at(everywhere));
+  take(latitudes.at(everywhere, inference::EffortLimits::blindly));
   if (!promising && best.latitude == declared) return std::nullopt;
   double information = 0.0;  // on the latitude [1/rad^2], by the bend of the cost
   const auto follow = [&](std::initializer_list<double> steps_deg) {
+    double last_step = 0.0, last_latitude = 0.0;
     for (const double step_deg : steps_deg) {
       const double step = step_deg * detail::deg;
+      if (step == last_step && best.latitude == last_latitude) continue;  // it led nowhere
       const Point here = best;
+      last_step = step;
+      last_latitude = here.latitude;
       const std::vector<Point> sides = latitudes.at({here.latitude - step, here.latitude + step});
       const double curvature = sides[0].cost + sides[1].cost - 2.0 * here.cost;
       if (!std::isfinite(curvature)) return;

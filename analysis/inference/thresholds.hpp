@@ -171,6 +171,9 @@ struct EffortLimits {
   /// Candidates tried at each step in the place of noise; beside a cause.
   static constexpr std::size_t noise_tries = 4, noise_tries_beside = 2;
   static constexpr std::size_t noises = 2;  ///< estimated of these at least
+  /// Iterations of a fit at a latitude that is tried blindly: at the recording's own it ends after
+  /// 5 to 10, elsewhere it often never does.
+  static constexpr int blindly = 15;
 };
 
 /// Which explanation is kept, and named.

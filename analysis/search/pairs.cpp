@@ -51,28 +51,13 @@ double joint(double za, double zb, double rho) {
 }
 
 /// What a pair would be called: terms and axes.
-std::string name_of(const Field& field, const Pair& p) {
+std::string name_of(const Field& field, const Choice& one, const Choice& other) {
   const auto name = [&](const Choice& c) {
     const inference::Candidate& candidate = field.set.candidates[c.candidate];
     return candidate.term + "." + candidate.axis;
   };
-  const std::string a = name(p.a), b = name(p.b);
+  const std::string a = name(one), b = name(other);
   return a < b ? a + " " + b : b + " " + a;
-}
-
-/// The best of each two candidates, and of those with one name the best two: room for different
-/// ones.
-std::vector<Pair> diverse(const Field& field, const std::vector<Pair>& sorted, std::size_t most) {
-  std::vector<Pair> kept;
-  std::map<std::string, int> named;
-  for (const Pair& p : sorted) {
-    if (kept.size() == most) break;
-    const bool seen = std::any_of(kept.begin(), kept.end(), [&](const Pair& k) {
-      return k.a.candidate == p.a.candidate && k.b.candidate == p.b.candidate;
-    });
-    if (!seen && ++named[name_of(field, p)] <= EffortLimits::pairs_of_a_name) kept.push_back(p);
-  }
-  return kept;
 }
 
 /// Log evidence of a few columns with unit priors: what the choice among thousands of pairs needs.
@@ -171,21 +156,29 @@ std::vector<Pair> adequate_pairs(const Field& field, const std::vector<Score>& s
       tries.push_back({choices[k], choices[i], evidence});
     }
   std::erase_if(tries, [&](const Try& t) { return t.log_bayes < top - ReachLimits::pair; });
-  std::vector<Pair> found;
+  for (Try& t : tries)
+    t.log_bayes = log_bayes(field.projected, distinct_columns_of(field.set, {t.a, t.b}));
+  std::ranges::stable_sort(tries, std::ranges::greater{}, &Try::log_bayes);
+  // Of each two candidates the best, and of those with one name the best two: room for different
+  // ones.
+  std::vector<Pair> kept;
+  std::map<std::string, int> named;
   QuietTest test(field, library_threshold, scan_threshold);
   for (const Try& t : tries) {
-    const std::vector<Choice> pair{t.a, t.b};
-    if (!test.quiet_beside(pair)) continue;
-    const auto columns = distinct_columns_of(field.set, pair);
-    const inference::Contrast both =
-        inference::make_contrast(field.projected.C, field.projected.raw, columns);
+    if (kept.size() == most) break;
+    const bool seen = std::ranges::any_of(kept, [&](const Pair& k) {
+      return k.a.candidate == t.a.candidate && k.b.candidate == t.b.candidate;
+    });
+    int& of_this_name = named[name_of(field, t.a, t.b)];
+    if (seen || of_this_name == EffortLimits::pairs_of_a_name) continue;
+    if (!test.quiet_beside({t.a, t.b})) continue;
+    ++of_this_name;
+    const inference::Contrast both = inference::make_contrast(
+        field.projected.C, field.projected.raw, distinct_columns_of(field.set, {t.a, t.b}));
     const double T = both.T(field.projected.g);
-    found.push_back(
-        {t.a, t.b, T, both.dof, stats::strength(T, both.dof), log_bayes(field.projected, columns)});
+    kept.push_back({t.a, t.b, T, both.dof, stats::strength(T, both.dof), t.log_bayes});
   }
-  std::stable_sort(found.begin(), found.end(),
-                   [](const Pair& a, const Pair& b) { return a.log_bayes > b.log_bayes; });
-  return diverse(field, found, most);
+  return kept;
 }
 
 }  // namespace drift::search
