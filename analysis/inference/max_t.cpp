@@ -1,15 +1,12 @@
 #include "analysis/inference/max_t.hpp"
 
-#include <Random123/philox.h>
-
-#include <Random123/conventional/Engine.hpp>
 #include <algorithm>
-#include <boost/random/normal_distribution.hpp>
 #include <limits>
 #include <map>
 
 #include "analysis/inference/thresholds.hpp"
 #include "core/base/decompose.hpp"
+#include "core/base/normal_draws.hpp"
 
 namespace drift::inference {
 namespace {
@@ -77,9 +74,8 @@ MatX MaxNull::draw(const MatX& C, int draws, std::uint64_t stream) {
   const MatX root =
       eigen.vectors.rightCols(seen) * eigen.values.tail(seen).cwiseSqrt().asDiagonal();
   MatX z(draws, seen);
-  r123::Engine<r123::Philox4x64> random({{null_seed, stream}});
-  boost::random::normal_distribution<double> normal;  // by Marsaglia's ziggurat
-  for (Eigen::Index k = 0; k < z.size(); ++k) z.data()[k] = normal(random);
+  NormalDraws normal(null_seed, stream);
+  for (Eigen::Index k = 0; k < z.size(); ++k) z.data()[k] = normal();
   return z * root.transpose();
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "core/base/rng.hpp"
+#include "core/base/normal_draws.hpp"
 
 namespace drift::inference {
 namespace {
@@ -70,9 +70,9 @@ double whiteness_p(const MeasuredRows& problem, const Projector& projector, int 
     const int count = std::min(at_once, draws - first);
     MatX z(problem.rows(), count), x(projector.theta().cols(), count);
     for (int j = 0; j < count; ++j) {
-      Stream stream(seed, static_cast<std::uint64_t>(first + j), Purpose::bootstrap, 1);
-      for (Eigen::Index k = 0; k < z.rows(); ++k) z(k, j) = stream.normal();
-      for (Eigen::Index k = 0; k < x.rows(); ++k) x(k, j) = stream.normal();
+      NormalDraws normal(seed, static_cast<std::uint64_t>(first + j));
+      for (Eigen::Index k = 0; k < z.rows(); ++k) z(k, j) = normal();
+      for (Eigen::Index k = 0; k < x.rows(); ++k) x(k, j) = normal();
     }
     z.noalias() += projector.theta() * x;
     const VecX drawn = largest_Q(channels, projector.clean(z), lags);

@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 
+#include "core/base/normal_draws.hpp"
 #include "core/estimate/batch.hpp"
 #include "core/estimate/batch_problem.hpp"
+#include "core/sim/predict.hpp"
 #include "core/sim/simulate.hpp"
-#include "tests/support/model_builders.hpp"
+#include "tests/support/term_scenes.hpp"
 
 namespace drift::compressed_test_test {
 namespace {
@@ -84,6 +86,38 @@ INSTANTIATE_TEST_SUITE_P(, Compressed,
                                          Case{"twentyfour", Coupling::eq5, Coupling::eq6, 60.0},
                                          Case{"slew12", Coupling::eq6, Coupling::eq6, 60.0},
                                          Case{"casespin", Coupling::eq5, Coupling::lambda, 60.0}));
+
+/// Of every term that sees no covariates: those that follow the clock, gimbal angles or the past as
+/// well as those that see attitude and command alone. Where no polynomials follow (a step within a
+/// dwell) every sample is taken. Both end within the tolerance of a fit, 1e-4 of a sigma each.
+TEST(CompressedTest, AFitOfEveryTermEndsWhereThatOfAllSamplesEnds) {
+  const Readout readout;
+  int taken_together = 0;
+  for (const std::size_t t : test::visible_terms()) {
+    const Timeline timeline = test::scene("six", CommandLaw::free, 3600.0);
+    FilterSpec filter = test::base_filter(test::coupling_for(t));
+    filter.active = test::only({"D_F", "eta"}) | test::term_params(t);
+    if (!CompressedTest::can(filter.model())) continue;
+    Theta theta = make_layout(filter).theta;
+    test::set_term(theta, t);
+    const std::vector<Vec3> level(static_cast<std::size_t>(timeline.chains), Vec3::Zero());
+    Measurements measured = predict(timeline, filter.model(), theta, level, readout);
+    NormalDraws normal(1, t);
+    for (double& v : measured.acc.reshaped()) v += readout.accelerometer_noise * normal();
+    for (double& v : measured.gimbal.reshaped()) v += readout.gimbal_noise * normal();
+    const MeasuredTest test{timeline, readout, measured};
+    const BatchResult fit = fit_batch(filter, test, make_layout(filter).theta);
+    ASSERT_EQ(fit.estimate.status, EstimateStatus::ok) << TermLibrary::terms[t].key;
+    taken_together += BatchProblem(filter, test).compressed() ? 1 : 0;
+    const BatchResult few = fit_batch_from(filter, test, theta_of(filter, fit), fit.psi0_l,
+                                           {.result = BatchOptions::Result::estimates});
+    for (std::size_t k = 0; k < fit.estimate.parameters.size(); ++k)
+      EXPECT_NEAR(few.estimate.parameters[k].value, fit.estimate.parameters[k].value,
+                  1e-3 * fit.estimate.parameters[k].sigma)
+          << TermLibrary::terms[t].key;
+  }
+  EXPECT_GT(taken_together, 30);
+}
 
 /// A dead zone of the accelerometers ends within 500 ug: along a dwell a knee that no few
 /// polynomials follow.
