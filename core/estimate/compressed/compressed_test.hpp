@@ -49,11 +49,12 @@ struct StretchReadings {
 /// StretchRows::tail tells.
 class CompressedTest {
  public:
-  /// Whether a model sees no more of a stretch than its beginning and end say: covariates go from
-  /// sample to sample as they like, and so does the turn of a case.
+  /// Whether a model sees no more of a stretch than its beginning and end say. Covariates go from
+  /// sample to sample as they like, and so does the turn of a case; friction remembers which way
+  /// the gimbals turned, which may change between nodes that lie far apart.
   static bool can(const DriftModel& model) {
     const Needs needs = TermLibrary::needs(model.terms);
-    return needs.covariates == 0 && !needs.turning;
+    return needs.covariates == 0 && !needs.turning && !(needs.memory && needs.gimbals);
   }
   /// Stretches as long as they are; or cut after 1, 3, 7, 15, ... samples, for who looks anew from
   /// piece to piece.

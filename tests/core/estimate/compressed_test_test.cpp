@@ -150,6 +150,16 @@ TEST(CompressedTest, WherePolynomialsAreTooFewEverySampleIsTaken) {
   EXPECT_GT(2 * rows(few), rows(many));
 }
 
+/// Where the gimbals turn back between two nodes that lie far apart, friction would not know.
+TEST(CompressedTest, FrictionKeepsEverySample) {
+  FilterSpec filter = test::base_filter(Coupling::eq5);
+  EXPECT_TRUE(CompressedTest::can(filter.model()));
+  filter.active |= test::only({"heat"});  // remembers the command
+  EXPECT_TRUE(CompressedTest::can(filter.model()));
+  filter.active |= test::only({"F"});
+  EXPECT_FALSE(CompressedTest::can(filter.model()));
+}
+
 TEST(CompressedTest, RandomWalkIsNotWhiteAndKeepsEverySample) {
   FilterSpec filter = test::base_filter(Coupling::eq5);
   filter.noise.angle_random_walk = 1e-7;
