@@ -3,11 +3,14 @@
 #include "core/sim/surroundings.hpp"
 
 namespace drift {
+namespace {
 
 /// Whether two intervals may be worked out at once.
-bool StretchJacobians::alike(const Interval& a, const Interval& b) const {
+bool alike(const Interval& a, const Interval& b) {
   return a.omega_cmd_p == b.omega_cmd_p && a.loop == b.loop;
 }
+
+}  // namespace
 
 /// Whether a's last node is b's first: all that the terms see there is the same.
 bool StretchJacobians::shared(const Interval& a, const Interval& b) const {

@@ -23,7 +23,6 @@ class StretchJacobians {
   const NodeJacobian* of(std::size_t i) const { return &all_[offset_[i - first_]]; }
 
  private:
-  bool alike(const Interval& a, const Interval& b) const;
   bool shared(const Interval& a, const Interval& b) const;
 
   const Timeline& timeline_;

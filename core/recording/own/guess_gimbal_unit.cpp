@@ -13,7 +13,8 @@
 namespace drift {
 namespace {
 
-constexpr double stands = 0.01, turns = 0.1;  // of the range of a gimbal, between two rows
+/// Parts of the range of a gimbal, between two rows.
+constexpr double stands_below = 0.01, turned_beyond = 0.1;
 constexpr std::size_t most_kept = 64;
 constexpr std::size_t fewest = 4;  // sights: fewer fit several units
 
@@ -72,8 +73,8 @@ void GuessGimbalUnit::look_at_row(const std::vector<std::string_view>& cells) {
     low_[k] = std::min(low_[k], row[(*gimbals_)[k]]);
     high_[k] = std::max(high_[k], row[(*gimbals_)[k]]);
   }
-  const bool stood = !before_.empty() && apart(before_, row) < stands;
-  if (stood && (kept_.empty() || apart(kept_.back(), row) > turns)) kept_.push_back(row);
+  const bool stood = !before_.empty() && apart(before_, row) < stands_below;
+  if (stood && (kept_.empty() || apart(kept_.back(), row) > turned_beyond)) kept_.push_back(row);
   before_ = std::move(row);
 }
 
