@@ -124,7 +124,8 @@ std::optional<LatitudeDoubt> latitude_doubt(const mc::Study& study,
   for (double deg = -75.0; deg < 80.0; deg += 15.0) everywhere.push_back(deg * detail::deg);
   take(latitudes.at(everywhere, inference::EffortLimits::blindly));
   if (!promising && best.latitude == declared) return std::nullopt;
-  double information = 0.0;  // on the latitude [1/rad^2], by the bend of the cost
+  take(latitudes.at({best.latitude}));  // to its end
+  double information = 0.0;             // on the latitude [1/rad^2], by the bend of the cost
   const auto follow = [&](std::initializer_list<double> steps_deg) {
     double last_step = 0.0, last_latitude = 0.0;
     for (const double step_deg : steps_deg) {

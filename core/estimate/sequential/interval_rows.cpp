@@ -148,8 +148,8 @@ IntervalRows::Taken IntervalRows::take_stretch(std::size_t i, const StretchReadi
                  taken);
   if (readings.gimbals.rows() > 0)
     take_channel(readings.gimbals,
-                 stretch_.gimbals(readings.gimbals, timeline_, interval, sensitivity_, phi, nullptr,
-                                  linearizer_),
+                 stretch_.gimbals(readings.gimbals, timeline_, interval, sensitivity_, phi,
+                                  memory_.points(), linearizer_),
                  rows, taken);
   const std::size_t last = interval.node_count() - 1;
   attitude_.propagate(sensitivity_.Phi[last], sensitivity_.G[last], Mat3::Zero());
