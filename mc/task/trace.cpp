@@ -27,21 +27,23 @@ RunTrace trace_run(const Study& point, std::uint64_t run) {
   trace.truth = sim.theta_end;
   set_lambda(point.truth, trace.truth);
   if (!sim.ode.ok()) return trace;
-  for (std::size_t f = 0; f < point.filters.size(); ++f)
-    for (std::size_t s = 0; s < start_count(point.filters[f]); ++s) {
-      const FilterSpec& spec = point.filters[f];
-      RunTrace::Filter filter{f, s, make_layout(spec), {}};
-      const Theta start = initial_estimate(spec, mc.seed, run, s);
-      if (LaneIntervals::can(spec, timeline)) {  // as the study has it, to the last bit
-        EkfJob job;
-        job.measured = &sim.measured;
-        job.start = start;
-        EkfLanes(spec, timeline, point.readout).run(job, filter.history);
-      } else {
-        run_ekf(spec, {timeline, point.readout, sim.measured}, start, &filter.history);
-      }
-      trace.filters.push_back(std::move(filter));
+  for (std::size_t f = 0; f < point.filters.size(); ++f) {
+    const FilterSpec& spec = point.filters[f];
+    const std::size_t starts = start_count(spec);
+    std::vector<EkfJob> jobs(starts);
+    std::vector<EkfHistory> histories(starts);
+    for (std::size_t s = 0; s < starts; ++s) {
+      jobs[s].measured = &sim.measured;
+      jobs[s].start = initial_estimate(spec, mc.seed, run, s);
     }
+    if (LaneIntervals::can(spec, timeline))  // as the study has it, to the last bit
+      EkfLanes(spec, timeline, point.readout).run(jobs, histories);
+    else
+      for (std::size_t s = 0; s < starts; ++s)
+        run_ekf(spec, {timeline, point.readout, sim.measured}, jobs[s].start, &histories[s]);
+    for (std::size_t s = 0; s < starts; ++s)
+      trace.filters.push_back({f, s, make_layout(spec), std::move(histories[s])});
+  }
   return trace;
 }
 

@@ -84,12 +84,13 @@ TEST(EkfLanes, AJobDoesNotDependOnTheOthers) {
   const auto all = recordings(timeline, base_truth(Coupling::eq6), 11);
   auto together = jobs_of(all, start);
   EkfLanes lanes(filter, timeline, Readout{});
-  lanes.run(together);
+  std::vector<EkfHistory> histories(together.size());
+  lanes.run(together, histories);
   for (const std::size_t k : {std::size_t{10}, std::size_t{2}, std::size_t{1}}) {
     auto alone = jobs_of({all[k]}, start);
     alone[0].measured = &all[k];
-    EkfHistory history;
-    lanes.run(alone[0], history);
+    lanes.run(alone);
+    const EkfHistory& history = histories[k];
     EXPECT_EQ(alone[0].x(), together[k].x()) << k;
     EXPECT_EQ(alone[0].settled_covariance(), together[k].settled_covariance());
     EXPECT_EQ(alone[0].nis(), together[k].nis());

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/check.hpp"
 #include "core/sim/trajectory.hpp"
 
 namespace drift {
@@ -18,10 +19,19 @@ EkfLanes::EkfLanes(const FilterSpec& filter, const Timeline& timeline, const Rea
 
 void EkfLanes::run(std::span<EkfJob> jobs) {
   for (std::size_t first = 0; first < jobs.size(); first += width)
-    run_pack(jobs.subspan(first, std::min(width, jobs.size() - first)), nullptr);
+    run_pack(jobs.subspan(first, std::min(width, jobs.size() - first)), {});
 }
 
-void EkfLanes::run(EkfJob& job, EkfHistory& history) {
+void EkfLanes::run(std::span<EkfJob> jobs, std::span<EkfHistory> histories) {
+  DRIFT_DEMAND(jobs.size() == histories.size());
+  for (std::size_t first = 0; first < jobs.size(); first += width) {
+    const std::size_t count = std::min(width, jobs.size() - first);
+    for (EkfHistory& history : histories.subspan(first, count)) begin(history);
+    run_pack(jobs.subspan(first, count), histories.subspan(first, count));
+  }
+}
+
+void EkfLanes::begin(EkfHistory& history) const {
   const auto n = static_cast<Eigen::Index>(along_.layout().size()),
              intervals = static_cast<Eigen::Index>(timeline_.intervals.size());
   history = {};
@@ -30,7 +40,6 @@ void EkfLanes::run(EkfJob& job, EkfHistory& history) {
   history.nis.assign(timeline_.intervals.size(), 0.0);
   history.scalars.assign(timeline_.intervals.size(), 0);
   history.t.assign(timeline_.intervals.size(), 0.0);
-  run_pack(std::span(&job, 1), &history);
 }
 
 void EkfLanes::begin(std::span<EkfJob> jobs) {
@@ -50,7 +59,7 @@ void EkfLanes::begin(std::span<EkfJob> jobs) {
   before_ = {};
 }
 
-void EkfLanes::run_pack(std::span<EkfJob> jobs, EkfHistory* history) {
+void EkfLanes::run_pack(std::span<EkfJob> jobs, std::span<EkfHistory> histories) {
   begin(jobs);
   const auto& all = timeline_.intervals;
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -71,7 +80,7 @@ void EkfLanes::run_pack(std::span<EkfJob> jobs, EkfHistory* history) {
     if (along_.readout().gimbals)
       take(interval, interval.last_node(), LaneIntervals::gimbals,
            along_.read_gimbals(i, recordings_));
-    if (history) keep(i, *history);
+    for (std::size_t l = 0; l < histories.size(); ++l) keep(i, l, histories[l]);
   }
   finish();
 }
@@ -147,21 +156,26 @@ void EkfLanes::finish() {
   }
 }
 
-/// How the first of them stands after interval i.
-void EkfLanes::keep(std::size_t i, EkfHistory& history) {
-  EkfJob& job = lanes_.front();
-  const double nis = job.nis_;
-  const std::size_t scalars = job.scalars_;
-  finish();
+/// How one of them stands after interval i.
+void EkfLanes::keep(std::size_t i, std::size_t lane, EkfHistory& history) {
+  const int l = static_cast<int>(lane);
+  EkfJob& job = lanes_[lane];
   history.t[i] = timeline_.intervals[i].t1;
   if (job.status_ != EstimateStatus::ok) return;
+  const auto scalars = static_cast<std::size_t>(scalars_[l]);
+  history.nis[i] = nis_[l] - job.nis_;
+  history.scalars[i] = static_cast<int>(scalars - job.scalars_);
+  job.nis_ = nis_[l];
+  job.scalars_ = scalars;
+  const Layout& layout = along_.layout();
   const auto column = static_cast<Eigen::Index>(i);
-  history.nis[i] = job.nis_ - nis;
-  history.scalars[i] = static_cast<int>(job.scalars_ - scalars);
-  for (Eigen::Index k = 0; k < job.x_.size(); ++k) {
-    history.estimate(k, column) =
-        job.theta_[static_cast<Eigen::Index>(along_.layout().params[static_cast<std::size_t>(k)])];
-    history.sigma(k, column) = job.sigma_[k];
+  job.x_.resize(static_cast<Eigen::Index>(x_.size()));
+  for (std::size_t k = 0; k < x_.size(); ++k) job.x_[static_cast<Eigen::Index>(k)] = x_[k][l];
+  job.theta_ = layout.theta_at(job.x_);
+  for (std::size_t k = 0; k < x_.size(); ++k) {
+    const auto row = static_cast<Eigen::Index>(k);
+    history.estimate(row, column) = job.theta_[static_cast<Eigen::Index>(layout.params[k])];
+    history.sigma(row, column) = layout.sigma[row] * std::sqrt(P_.variance(k, l));
   }
 }
 

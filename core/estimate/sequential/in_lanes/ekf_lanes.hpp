@@ -32,18 +32,19 @@ class EkfLanes {
 
   /// Allocates nothing once every job has been run.
   void run(std::span<EkfJob> jobs);
-  /// One alone, and how it went.
-  void run(EkfJob& job, EkfHistory& history);
+  /// The same, and how each of them went.
+  void run(std::span<EkfJob> jobs, std::span<EkfHistory> histories);
 
  private:
   using Channel = LaneIntervals::Channel;
-  void run_pack(std::span<EkfJob> jobs, EkfHistory* history);
+  void run_pack(std::span<EkfJob> jobs, std::span<EkfHistory> histories);
   void begin(std::span<EkfJob> jobs);
   void take(const Interval& interval, std::size_t node, Channel channel,
             LaneFilter::Scalars scalars);
   void notice_divergence(double t);
   void finish();
-  void keep(std::size_t i, EkfHistory& history);
+  void begin(EkfHistory& history) const;
+  void keep(std::size_t i, std::size_t lane, EkfHistory& history);
 
   LaneIntervals along_;
   const Timeline& timeline_;

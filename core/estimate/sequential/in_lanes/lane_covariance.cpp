@@ -95,17 +95,19 @@ PackVec LaneCovariance::take(std::vector<Pack>& step) {
   return white;
 }
 
-void LaneCovariance::extract(int lane, MatX& P) {
+double LaneCovariance::element(std::size_t i, std::size_t j, int lane) const {
+  double p = P_[index(i / 4, j / 4)][4 * (i % 4) + j % 4][lane];
+  for (std::size_t r = 0; owed_ && r < 3; ++r)
+    p -= gain_[i / 4 * row_tile + 4 * r + i % 4][lane] *
+         gain_[j / 4 * row_tile + 4 * r + j % 4][lane];
+  return p;
+}
+
+void LaneCovariance::extract(int lane, MatX& P) const {
   P.resize(static_cast<Eigen::Index>(n_), static_cast<Eigen::Index>(n_));
   const auto at = [](std::size_t k) { return static_cast<Eigen::Index>(k); };
   for (std::size_t i = 0; i < n_; ++i)
-    for (std::size_t j = 0; j <= i; ++j) {
-      double p = P_[index(i / 4, j / 4)][4 * (i % 4) + j % 4][lane];
-      for (std::size_t r = 0; owed_ && r < 3; ++r)
-        p -= gain_[i / 4 * row_tile + 4 * r + i % 4][lane] *
-             gain_[j / 4 * row_tile + 4 * r + j % 4][lane];
-      P(at(i), at(j)) = P(at(j), at(i)) = p;
-    }
+    for (std::size_t j = 0; j <= i; ++j) P(at(i), at(j)) = P(at(j), at(i)) = element(i, j, lane);
 }
 
 }  // namespace drift

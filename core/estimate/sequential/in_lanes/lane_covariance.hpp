@@ -20,13 +20,15 @@ class LaneCovariance {
   /// Takes them in. step: what the estimate moves by; the innovations that are left, whitened.
   PackVec take(std::vector<Pack>& step);
   /// Of one lane, shape (parameters, parameters).
-  void extract(int lane, MatX& P);
+  void extract(int lane, MatX& P) const;
+  double variance(std::size_t k, int lane) const { return element(k, k, lane); }
 
  private:
   static constexpr std::size_t row_tile = 12;  ///< three rows of four numbers
   static std::size_t index(std::size_t I, std::size_t J) { return I * (I + 1) / 2 + J; }
   template <bool owed>
   void multiply();
+  double element(std::size_t i, std::size_t j, int lane) const;  ///< i >= j
 
   std::size_t n_, side_;  ///< parameters; tiles along a side
   std::vector<std::array<Pack, 16>> P_;
