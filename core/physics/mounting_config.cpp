@@ -9,7 +9,7 @@
 namespace drift {
 namespace {
 
-constexpr std::string_view axes = "xyz";
+constexpr std::string_view axis_letters = "xyz";
 
 std::optional<std::array<SignedAxis, 3>> parse_triad(std::string_view text) {
   std::array<SignedAxis, 3> triad{};
@@ -17,7 +17,7 @@ std::optional<std::array<SignedAxis, 3>> parse_triad(std::string_view text) {
   double sign = 1.0;
   bool signed_letter = false;
   for (const char c : text) {
-    if (const auto index = axes.find(c); index != std::string_view::npos) {
+    if (const auto index = axis_letters.find(c); index != std::string_view::npos) {
       if (count == 3) return std::nullopt;
       triad[count++] = {static_cast<int>(index), sign};
       sign = 1.0;
@@ -35,9 +35,9 @@ std::optional<std::array<SignedAxis, 3>> parse_triad(std::string_view text) {
 
 std::string triad_text(int axis, const Triads& triads) {
   const auto letter = [](const SignedAxis& a) {
-    return fmt::format("{}{}", a.sign < 0.0 ? "-" : "", axes[a.index]);
+    return fmt::format("{}{}", a.sign < 0.0 ? "-" : "", axis_letters[a.index]);
   };
-  return fmt::format("{} {} {}", axes[axis], letter(triads.second[axis]),
+  return fmt::format("{} {} {}", axis_letters[axis], letter(triads.second[axis]),
                      letter(triads.third[axis]));
 }
 
@@ -50,7 +50,8 @@ std::string objection(const std::optional<std::array<SignedAxis, 3>>& triad, int
   if (!triad) return "is not three signed axes";
   const auto& [input, second, third] = *triad;
   if (input.index != axis || input.sign < 0.0)
-    return fmt::format("does not begin with the instrument's own input axis {}", axes[axis]);
+    return fmt::format("does not begin with the instrument's own input axis {}",
+                       axis_letters[axis]);
   if ((direction(input).cross(direction(second)) - direction(third)).norm() > 0.5)
     return "is not right-handed";
   return {};
@@ -58,7 +59,7 @@ std::string objection(const std::optional<std::array<SignedAxis, 3>>& triad, int
 
 void read_triads(config::Section& section, std::string_view instrument, Triads& triads) {
   for (int axis = 0; axis < 3; ++axis) {
-    const std::string key = fmt::format("{}_{}", instrument, axes[axis]);
+    const std::string key = fmt::format("{}_{}", instrument, axis_letters[axis]);
     std::string text = triad_text(axis, triads);
     const std::string usual = text;
     const config::Node* node = nullptr;

@@ -185,8 +185,8 @@ class Reader {
       if (!std::isfinite(values[k])) continue;
       const std::size_t from = known ? *known + 1 : 0;
       for (std::size_t m = from; m < k; ++m) {
-        const double part = known ? (time(m) - time(*known)) / (time(k) - time(*known)) : 1.0;
-        values[m] = known ? values[*known] + part * (values[k] - values[*known]) : values[k];
+        const double share = known ? (time(m) - time(*known)) / (time(k) - time(*known)) : 1.0;
+        values[m] = known ? values[*known] + share * (values[k] - values[*known]) : values[k];
       }
       known = k;
     }

@@ -63,12 +63,11 @@ StudyWorker::StudyWorker(const StudyTask& task)
         bench.ekf = std::make_unique<Ekf>(spec, timeline_, study.readout, start, KeepHistory::no);
     }
     if (study.monte_carlo.estimator == EstimatorKind::iterated) {
-      bench.iterated = std::make_unique<IteratedEkf>(spec, timeline_, study.readout, start);
-      if (lanes && !bench.iterated->compressed()) {
-        bench.iterated.reset();
+      if (lanes)
         bench.iterated_lanes.estimator =
             std::make_unique<IteratedLanes>(spec, timeline_, study.readout);
-      }
+      else
+        bench.iterated = std::make_unique<IteratedEkf>(spec, timeline_, study.readout, start);
     }
     benches_.push_back(std::move(bench));
   }

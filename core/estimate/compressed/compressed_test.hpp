@@ -73,6 +73,7 @@ class CompressedTest {
   bool any() const { return !stretches_.empty(); }
   /// The stretches are intervals of it.
   const Timeline& timeline() const { return timeline_; }
+  const Readout& readout() const { return readout_; }
   /// Takes in what was measured along the whole timeline. Allocates nothing from the second time on
   /// where nothing is missing.
   void read(const Measurements& measured);
@@ -83,6 +84,11 @@ class CompressedTest {
   const StretchReadings* readings(std::size_t i) const {
     return of_interval_[i] < 0 ? nullptr
                                : &stretches_[static_cast<std::size_t>(of_interval_[i])].readings;
+  }
+  /// How an axis of interval i, which is a stretch, is read where nothing is missing.
+  const AxisReading& complete(std::size_t i, Reading what) const {
+    const Stretch& stretch = stretches_[static_cast<std::size_t>(of_interval_[i])];
+    return what == Reading::mean ? stretch.means : stretch.ends;
   }
   /// The first of the intervals of the whole timeline that interval i stands for.
   std::size_t first(std::size_t i) const { return first_[i]; }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <tuple>
 
 #include "core/estimate/sequential/iterated_passes.hpp"
 #include "core/sim/simulate.hpp"
@@ -75,8 +76,111 @@ TEST(IteratedLanes, AgreeWithTheEstimatorOfOneRun) {
   }
 }
 
+/// Stretches through polynomials against every sample: a tail that StretchRows::negligible lets
+/// through changes a sigma by less than a ten thousandth.
+TEST(IteratedLanes, ThroughPolynomialsIsSampleBySample) {
+  for (const auto& [preset, truth, coupling] : {std::tuple("six", Coupling::eq5, Coupling::eq5),
+                                                {"six", Coupling::eq5, Coupling::eq6},
+                                                {"slew12", Coupling::eq6, Coupling::eq6},
+                                                {"slew12", Coupling::eq5, Coupling::eq6},
+                                                {"casespin", Coupling::eq5, Coupling::lambda}}) {
+    SCOPED_TRACE(preset);
+    const Timeline timeline = preset_timeline(preset, CommandLaw::free, 3600.0, 60.0);
+    FilterSpec filter = base_filter(coupling);
+    if (coupling == Coupling::lambda) filter.active.set(closure_param);
+    const Layout layout = make_layout(filter);
+    const auto all = recordings(timeline, base_truth(truth), 3);
+    auto jobs = jobs_of(all, layout.theta);
+    IteratedLanes lanes(filter, timeline, Readout{});
+    ASSERT_TRUE(lanes.compressed());
+    lanes.run(jobs);
+    IteratedPasses one(filter, timeline, Readout{}, layout.theta);
+    for (std::size_t k = 0; k < jobs.size(); ++k) {
+      one.run(all[k], layout.theta);
+      ASSERT_EQ(jobs[k].status(), one.status()) << jobs[k].cause();
+      EXPECT_EQ(jobs[k].scalars(), one.scalars());
+      EXPECT_NEAR(jobs[k].nis() / one.nis(), 1.0, 1e-5);
+      // Both stop less than a sigma before the minimum.
+      for (std::size_t s = 0; s < layout.size(); ++s) {
+        const auto at = static_cast<Eigen::Index>(s);
+        EXPECT_LT(std::abs(jobs[k].x()[at] - one.x()[at]) * layout.sigma[at], 1e-3 * one.sigma(s));
+        EXPECT_NEAR(jobs[k].sigma(s) / one.sigma(s), 1.0, 2e-4);
+      }
+      // Of samples, and of innovations: the same expectation, not the same number.
+      EXPECT_NEAR(jobs[k].lag1(), one.lag1(),
+                  0.1 * std::abs(one.lag1()) + 0.5 / std::sqrt(static_cast<double>(one.scalars())));
+    }
+  }
+}
+
+/// Second implementation: all samples, attitudes and parameters in one matrix. Neighbours' products
+/// of residuals r_k r_l, less -J_k P J_l^T.
+TEST(IteratedLanes, LagOfStretchesIsThatOfAllTheirSamples) {
+  const Timeline timeline = preset_timeline("six", CommandLaw::free, 1800.0, 30.0);
+  const FilterSpec filter = base_filter(Coupling::eq6);
+  const Layout layout = make_layout(filter);
+  const Readout readout;
+  const Measurements measured = recordings(timeline, base_truth(Coupling::eq5), 1)[0];
+  std::vector<IteratedJob> job(1);
+  job[0].measured = &measured;
+  job[0].start = layout.theta;
+  IteratedLanes lanes(filter, timeline, readout);
+  ASSERT_TRUE(lanes.compressed());
+  lanes.run(job);
+  const MeasuredTest test{timeline, readout, measured};
+  const BatchResult fit = fit_batch(filter, test, layout.theta);
+  const Theta theta = theta_of(filter, fit);
+  Trajectory phi;
+  predict(timeline, filter.model(), theta, fit.psi0_l, readout, &phi);
+  const auto chains =
+      measurement_equations(test, filter.model(), layout, theta, phi, filter.initial_attitude);
+  const auto n = static_cast<Eigen::Index>(layout.size()),
+             attitudes = 3 * static_cast<Eigen::Index>(chains.size());
+  const auto full = [&](std::size_t c) {
+    const MatX& rows = chains[c].rows;
+    MatX J = MatX::Zero(rows.rows(), attitudes + n);
+    J.middleCols(3 * static_cast<Eigen::Index>(c), 3) = rows.leftCols(3);
+    J.rightCols(n) = rows.middleCols(3, n);
+    return J;
+  };
+  MatX information = MatX::Identity(attitudes + n, attitudes + n);
+  for (std::size_t c = 0; c < chains.size(); ++c) information += full(c).transpose() * full(c);
+  const MatX P = information.inverse();
+  double lagged = 0.0, cost = 0.0;
+  int pairs = 0;
+  for (std::size_t c = 0; c < chains.size(); ++c) {
+    const MatX J = full(c), PJt = P * J.transpose();
+    const VecX r = chains[c].rows.rightCols(1);
+    cost += r.squaredNorm();
+    for (Eigen::Index k = 0; k + 6 < r.size(); ++k, ++pairs)  // of a sample six
+      lagged += r[k] * r[k + 6] + J.row(k).dot(PJt.col(k + 6));
+  }
+  const double variance = fit.estimate.statistic / static_cast<double>(job[0].scalars());
+  EXPECT_LT(cost, fit.estimate.statistic);
+  EXPECT_NEAR(job[0].lag1(), lagged / pairs / variance, 1e-5);
+}
+
+/// What is missing in a stretch is seen sample by sample, to the last bit.
+TEST(IteratedLanes, AGapInAStretchIsSeenSampleBySample) {
+  const Timeline timeline = preset_timeline("six", CommandLaw::free, 1800.0, 30.0);
+  const FilterSpec filter = base_filter(Coupling::eq5);
+  const Theta start = make_layout(filter).theta;
+  const auto all = recordings(timeline, base_truth(Coupling::eq5), 3);  // the last two have gaps
+  auto jobs = jobs_of(all, start), alone = jobs_of({all[2]}, start);
+  alone[0].measured = &all[2];
+  IteratedLanes lanes(filter, timeline, Readout{});
+  lanes.run(jobs);
+  lanes.run(alone);
+  IteratedPasses one(filter, timeline, Readout{}, start);
+  one.run(all[2], start);
+  EXPECT_EQ(jobs[2].x(), alone[0].x());
+  EXPECT_EQ(jobs[2].lag1(), alone[0].lag1());
+  EXPECT_EQ(jobs[2].scalars(), one.scalars());
+  EXPECT_NEAR(jobs[2].lag1(), one.lag1(), 1e-5);
+}
+
 TEST(IteratedLanes, AJobDoesNotDependOnTheOthers) {
-  const Timeline timeline = preset_timeline("slew12", CommandLaw::free, 3600.0, 600.0);
+  const Timeline timeline = preset_timeline("slew12", CommandLaw::free, 3600.0, 60.0);
   const FilterSpec filter = base_filter(Coupling::eq5);
   const Theta start = make_layout(filter).theta;
   const auto all = recordings(timeline, base_truth(Coupling::eq6), 11);

@@ -2,23 +2,53 @@
 
 #include <algorithm>
 
+#include "core/estimate/compressed/stretch_rows.hpp"
 #include "core/estimate/sequential/stretches_and_chains.hpp"
 #include "core/sim/trajectory.hpp"
 
 namespace drift {
+namespace {
+
+/// Of 1, 2, 4, ... samples from the beginning of every stretch on, of so many this time.
+std::size_t end_of_block(const LaneIntervals& along, std::size_t first, std::size_t& samples) {
+  const Timeline& timeline = along.timeline();
+  if (begins_anew(timeline, first)) samples = 1;
+  std::size_t end = first + 1, held = along.samples(first);
+  for (; !begins_anew(timeline, end); ++end)
+    if ((held += along.samples(end)) > samples) break;
+  samples *= 2;
+  return end;
+}
+
+}  // namespace
+
 IteratedLanes::IteratedLanes(const FilterSpec& filter, const Timeline& timeline,
                              const Readout& readout)
-    : along_(filter, timeline, readout),
+    : IteratedLanes(filter, timeline, readout, IteratedStretches::of(filter, timeline, readout)) {}
+
+IteratedLanes::IteratedLanes(const FilterSpec& filter, const Timeline& timeline,
+                             const Readout& readout, std::unique_ptr<IteratedStretches> stretches)
+    : filter_(filter),
       timeline_(timeline),
+      goes_on_(timeline.intervals.size()),
+      stretches_(std::move(stretches)),
+      along_(stretches_ ? LaneIntervals(filter, stretches_->whole(), readout)
+                        : LaneIntervals(filter, timeline, readout)),
       layout_(along_.layout()),
-      attitude_(along_.attitude()),
       information_(layout_.size()),
-      ends_(static_cast<std::size_t>(timeline.chains), attitude_),
+      ends_(static_cast<std::size_t>(timeline.chains), along_.attitude()),
       x_(layout_.size()),
       x_start_(x_),
       moved_(x_),
       step_(x_),
-      prior_(x_) {}
+      prior_(x_) {
+  const auto& all = along_.timeline().intervals;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const std::size_t first = along_.first_sample(i);
+    goes_on_[first] = i > 0 && !all[i].cage && !along_.is_stretch(i) && !along_.is_stretch(i - 1);
+    for (std::size_t k = 1; k < along_.samples(i); ++k) goes_on_[first + k] = true;
+  }
+}
 
 /// What is known of a job before its first pass.
 void IteratedLanes::prepare(IteratedJob& job) const {
@@ -39,7 +69,7 @@ void IteratedLanes::prepare(IteratedJob& job) const {
         const auto at = static_cast<Eigen::Index>(i);
         if (!std::isfinite(all(a, at))) continue;
         ++job.scalars_;
-        if (i > 0 && !timeline_.intervals[i].cage && std::isfinite(all(a, at - 1))) ++job.pairs_;
+        if (goes_on_[i] && std::isfinite(all(a, at - 1))) ++job.pairs_;
       }
   };
   if (along_.readout().accelerometers) count(job.measured->acc);
@@ -47,17 +77,38 @@ void IteratedLanes::prepare(IteratedJob& job) const {
 }
 
 void IteratedLanes::run(std::span<IteratedJob> jobs) {
+  jobs_.clear();
+  for (IteratedJob& job : jobs) jobs_.push_back(&job);
+  run(jobs_);
+}
+
+void IteratedLanes::run(const Jobs& jobs) {
   waiting_.clear();
-  for (IteratedJob& job : jobs) {
-    prepare(job);
-    waiting_.push_back(&job);
+  rough_.clear();
+  if (stretches_) stretches_->forget_recordings();
+  const Measurements* before = nullptr;
+  std::ptrdiff_t recording = 0;
+  for (IteratedJob* job : jobs) {
+    if (stretches_ && job->measured != before) recording = stretches_->take(*job->measured);
+    before = job->measured;
+    job->recording_ = static_cast<std::size_t>(recording);
+    if (recording < 0) {
+      rough_.push_back(job);
+      continue;
+    }
+    prepare(*job);
+    waiting_.push_back(job);
   }
   const auto in_packs = [&](auto&& pass) {
     for (std::size_t first = 0; first < waiting_.size(); first += width) {
       load(std::span(waiting_).subspan(first, std::min(width, waiting_.size() - first)));
       pass();
     }
-    std::erase_if(waiting_, [](const IteratedJob* job) { return job->done_; });
+    std::erase_if(waiting_, [&](IteratedJob* job) {
+      const bool seen = job->status_ == EstimateStatus::ok && job->tail_ < StretchRows::negligible;
+      if (job->done_ && stretches_ && !seen) rough_.push_back(job);
+      return job->done_;
+    });
   };
   in_packs([&] { begin(); });
   while (!waiting_.empty())
@@ -65,6 +116,10 @@ void IteratedLanes::run(std::span<IteratedJob> jobs) {
       linear_pass();
       settle();
     });
+  if (rough_.empty()) return;
+  if (!sample_by_sample_)
+    sample_by_sample_.reset(new IteratedLanes(filter_, timeline_, along_.readout(), nullptr));
+  sample_by_sample_->run(rough_);
 }
 
 void IteratedLanes::load(std::span<IteratedJob* const> jobs) {
@@ -73,6 +128,7 @@ void IteratedLanes::load(std::span<IteratedJob* const> jobs) {
     lanes_[l] = jobs[std::min(l, used_ - 1)];
     recordings_[l] = lanes_[l]->measured;
     covariances_[l] = &lanes_[l]->P_;
+    if (stretches_) stretches_->load(l, lanes_[l]->recording_);
   }
   for (std::size_t k = 0; k < x_.size(); ++k) {
     const auto at = static_cast<Eigen::Index>(k);
@@ -84,31 +140,29 @@ void IteratedLanes::load(std::span<IteratedJob* const> jobs) {
 
 /// Relinearises after 1, 2, 4, ... samples from the beginning of every stretch on.
 void IteratedLanes::begin() {
+  LaneIntervals& along = stretches_ ? stretches_->first_pass() : along_;
+  const Timeline& timeline = along.timeline();
   std::ranges::fill(moved_, Pack(0.0));
-  along_.set_theta(x_);
-  attitude_.reset();
+  along.set_theta(x_);
+  along.attitude().reset();
   information_.clear();
   PackVec phi = PackVec::Zero();
-  const std::size_t count = timeline_.intervals.size();
-  std::size_t block = 1;
-  for (std::size_t first = 0, end = 0; first < count; first = end) {
-    if (begins_anew(timeline_, first)) block = 1;
-    end = first + 1;
-    while (end - first < block && !begins_anew(timeline_, end)) ++end;
-    block *= 2;
-    const auto& all = timeline_.intervals;
+  const auto& all = timeline.intervals;
+  std::size_t samples = 1;
+  for (std::size_t first = 0, end = 0; first < all.size(); first = end) {
+    end = end_of_block(along, first, samples);
     if (all[first].cage) {
-      along_.phi(all[first].first_node) = phi = PackVec::Zero();
-      along_.cage(all[first]);
+      along.phi(all[first].first_node) = phi = PackVec::Zero();
+      along.cage(all[first]);
     }
     for (std::size_t i = first; i < end; ++i) {
-      along_.phi(all[i].first_node) = phi;
-      along_.forward(all[i]);
-      phi = along_.phi(all[i].last_node());
-      take(i, i > first, Pass::first);
+      along.phi(all[i].first_node) = phi;
+      along.forward(all[i]);
+      phi = along.phi(all[i].last_node());
+      take(along, i, i > first, Pass::first);
     }
-    solve_block(all[end - 1], phi);
-    if (ends_chain(timeline_, end - 1))
+    solve_block(along, all[end - 1], phi);
+    if (ends_chain(timeline, end - 1))
       for (std::size_t l = 0; l < used_; ++l)
         lanes_[l]->ends_[static_cast<std::size_t>(all[end - 1].chain)] =
             lane_of(phi, static_cast<int>(l));
@@ -119,7 +173,7 @@ void IteratedLanes::begin() {
 }
 
 /// The estimate after a block of samples, about which the next one is linearised.
-void IteratedLanes::solve_block(const Interval& interval, PackVec& phi) {
+void IteratedLanes::solve_block(LaneIntervals& along, const Interval& interval, PackVec& phi) {
   information_.flush(false);
   information_.factorise();
   for (std::size_t k = 0; k < x_.size(); ++k) prior_[k] = information_.right(k);
@@ -133,25 +187,26 @@ void IteratedLanes::solve_block(const Interval& interval, PackVec& phi) {
     for (std::size_t l = 0; l < width; ++l)
       finite[l] = finite[l] && std::abs(x_[k][static_cast<int>(l)]) <= 1e6;
   }
-  const PackVec psi = attitude_.attitude(step_);
+  const PackVec psi = along.attitude().attitude(step_);
   for (std::size_t l = 0; l < width; ++l) {
     const int lane = static_cast<int>(l);
     if (finite[l])
-      set_lane(
-          phi, lane,
-          turned(timeline_.nodes[interval.last_node()], lane_of(psi, lane), lane_of(phi, lane)));
+      set_lane(phi, lane,
+               turned(along.timeline().nodes[interval.last_node()], lane_of(psi, lane),
+                      lane_of(phi, lane)));
     diverged(l, finite[l] && lane_of(phi, lane).allFinite(), interval.t1, Pass::first);
   }
-  attitude_.move_reference();
-  along_.set_theta(x_);
+  along.attitude().move_reference();
+  along.set_theta(x_);
 }
 
 void IteratedLanes::linear_pass() {
   along_.set_theta(x_);
-  const auto& all = timeline_.intervals;
+  const Timeline& timeline = along_.timeline();
+  const auto& all = timeline.intervals;
   for (std::size_t i = all.size(); i-- > 0;) {
     PackVec& last = along_.phi(all[i].last_node());
-    if (ends_chain(timeline_, i))
+    if (ends_chain(timeline, i))
       for (std::size_t l = 0; l < width; ++l)
         set_lane(last, static_cast<int>(l),
                  lanes_[l]->ends_[static_cast<std::size_t>(all[i].chain)]);
@@ -159,15 +214,16 @@ void IteratedLanes::linear_pass() {
       last = along_.phi(all[i + 1].first_node);
     along_.backward(all[i]);
   }
-  attitude_.reset();
+  along_.attitude().reset();
   information_.clear();
+  tail_ = Pack(0.0);
   for (std::size_t i = 0; i < all.size(); ++i) {
     for (std::size_t l = 0; l < used_; ++l)
       diverged(l, lane_of(along_.phi(all[i].first_node), static_cast<int>(l)).allFinite(),
                all[i].t0, Pass::linear);
     if (all[i].cage) along_.cage(all[i]);
-    take(i, i > 0, Pass::linear);
-    if (ends_chain(timeline_, i)) ends_[static_cast<std::size_t>(all[i].chain)] = attitude_;
+    take(along_, i, i > 0, Pass::linear);
+    if (ends_chain(timeline, i)) ends_[static_cast<std::size_t>(all[i].chain)] = along_.attitude();
   }
   information_.flush(true);
   information_.factorise();
@@ -177,35 +233,53 @@ void IteratedLanes::linear_pass() {
   }
   information_.solve(moved_.data());
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (!ends_chain(timeline_, i)) continue;
+    if (!ends_chain(timeline, i)) continue;
     const auto chain = static_cast<std::size_t>(all[i].chain);
     const PackVec psi = ends_[chain].attitude(moved_);
     for (std::size_t l = 0; l < used_; ++l) {
       const int lane = static_cast<int>(l);
       if (!lanes_[l]->done_ && lane_of(psi, lane).allFinite())
-        lanes_[l]->ends_[chain] = turned(timeline_.nodes[all[i].last_node()], lane_of(psi, lane),
+        lanes_[l]->ends_[chain] = turned(timeline.nodes[all[i].last_node()], lane_of(psi, lane),
                                          lane_of(along_.phi(all[i].last_node()), lane));
     }
   }
 }
 
-void IteratedLanes::take(std::size_t i, bool follows, Pass pass) {
-  const Interval& interval = timeline_.intervals[i];
-  along_.linearize(i, follows);
-  along_.to_middle(interval);
-  if (along_.readout().accelerometers)
-    take_scalars(interval, LaneIntervals::accelerometers,
-                 along_.read_accelerometers(i, recordings_), pass);
-  along_.to_end(interval);
-  if (along_.readout().gimbals)
-    take_scalars(interval, LaneIntervals::gimbals, along_.read_gimbals(i, recordings_), pass);
+void IteratedLanes::take(LaneIntervals& along, std::size_t i, bool follows, Pass pass) {
+  if (along.is_stretch(i)) return take_stretch(along, i, follows, pass);
+  const Interval& interval = along.timeline().intervals[i];
+  const bool next = i > 0 && !interval.cage && !along.is_stretch(i - 1);
+  along.linearize(i, follows);
+  along.to_middle(interval);
+  if (along.readout().accelerometers)
+    take_scalars(along, LaneIntervals::accelerometers, next,
+                 along.read_accelerometers(i, recordings_), pass);
+  along.to_end(interval);
+  if (along.readout().gimbals)
+    take_scalars(along, LaneIntervals::gimbals, next, along.read_gimbals(i, recordings_), pass);
+  if (stretches_ && pass == Pass::linear) stretches_->lag().pass(i, along.Phi(i), along.G(i));
 }
 
-void IteratedLanes::take_scalars(const Interval& interval, LaneIntervals::Channel channel,
+/// What was read along a stretch hangs on the attitude at its beginning.
+void IteratedLanes::take_stretch(LaneIntervals& along, std::size_t i, bool follows, Pass pass) {
+  const bool linear = pass == Pass::linear;
+  LaneStretch& stretch = linear ? stretches_->lag().stretch(i) : stretches_->piece();
+  along.linearize(i, follows, linear ? stretches_->of_whole() : stretches_->of_pieces(), stretch);
+  tail_ = Pack(std::experimental::max(tail_.v, stretch.tail().v));
+  for (const Reading what : {Reading::mean, Reading::at_end}) {
+    const LaneStretch::Channel& channel = stretch.channel(what);
+    for (std::size_t p = 0; p < channel.rows(); ++p)
+      take_scalars(along, LaneIntervals::accelerometers, false, channel.scalars(p), pass);
+  }
+  along.attitude().propagate(stretch.Phi(), stretch.G());
+}
+
+/// next: whether the three of this channel before them are their neighbours in time.
+void IteratedLanes::take_scalars(LaneIntervals& along, LaneIntervals::Channel channel, bool next,
                                  LaneFilter::Scalars scalars, Pass pass) {
   if (information_.full()) information_.flush(pass == Pass::linear);
-  information_.begin_rows(channel, !interval.cage);
-  attitude_.update(scalars, information_);
+  information_.begin_rows(channel, next);
+  along.attitude().update(scalars, information_);
   if (pass == Pass::linear) return;
   for (int a = 0; a < 3; ++a) {  // right hand sides count from the start
     Pack& right = information_.at(moved_.size())[4 * a];

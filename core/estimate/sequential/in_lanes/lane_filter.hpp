@@ -37,6 +37,13 @@ class LaneFilter {
   PackVec attitude(const std::vector<Pack>& x) const;
   /// d psi / d parameter k, of its prior's sigma: three numbers [rad].
   const Pack* by_parameter(std::size_t k) const { return &U_[3 * k]; }
+  /// Where the attitude is expected with the parameters of the reference, and its variance with
+  /// known ones.
+  PackVec beside_parameters() const {
+    const Pack* u = by_parameter(parameters_);
+    return {-u[0], -u[1], -u[2]};
+  }
+  const PackMat& variance() const { return P_; }
   /// The reference moves to where the attitude is estimated.
   void move_reference();
 

@@ -185,6 +185,19 @@ void LaneInformation::solve(Pack* x) const {
   }
 }
 
+void LaneInformation::whiten(Pack* rows) const {
+  for (std::size_t I = 0; 4 * I < n_; ++I) {
+    Pack tile[16];
+    load_tile(rows + 16 * I, tile);
+    for (std::size_t K = 0; K < I; ++K) {
+      const Pack *l = factor_[index(I, K)].data(), *y = rows + 16 * K;
+      for (int q = 0; q < 4; ++q) add_product<Sign::minus>(l + 4 * q, y + 4 * q, tile);
+    }
+    solve_rows(factor_[index(I, I)].data(), &inverse_diagonal_[4 * I], tile);
+    store_tile(tile, rows + 16 * I);
+  }
+}
+
 /// The factor's inverse W column after column of tiles, then P = W^T W.
 void LaneInformation::invert() {
   const std::size_t side = (n_ + 3) / 4;

@@ -32,6 +32,10 @@ class LaneInformation {
   void factorise();
   /// x <- (1 + information)^-1 x, shape: parameters.
   void solve(Pack* x) const;
+  /// Four rows t become L^-1 t, L L^T = 1 + information: column k of row r at 4 k + r, padded() of
+  /// them; those beyond the parameters are zero.
+  void whiten(Pack* rows) const;
+  std::size_t padded() const { return (n_ + 3) / 4 * 4; }
   /// Sum of t_k e, and of e^2 for k = parameters.
   const Pack& right(std::size_t k) const { return element(sum_, n_, k); }
   /// P = (1 + information)^-1, after factorise().

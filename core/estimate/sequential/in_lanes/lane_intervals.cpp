@@ -5,8 +5,6 @@
 
 #include "core/estimate/sequential/drift_walk.hpp"
 #include "core/estimate/transition.hpp"
-#include "core/physics/earth.hpp"
-#include "core/physics/gimbals.hpp"
 #include "core/physics/stochastic.hpp"
 
 namespace drift {
@@ -18,12 +16,12 @@ bool go_on_alike(const Timeline& timeline, const Interval& a, const Interval& b)
          timeline.nodes[a.last_node()].omega_ic_l == timeline.nodes[b.first_node].omega_ic_l;
 }
 
-/// What each lane has measured in interval i, zero where it has not.
-void read(const Mat3X Measurements::*what, std::size_t i,
+/// What each lane has measured in a sample, zero where it has not.
+void read(const Mat3X Measurements::*what, std::size_t sample,
           const LaneIntervals::Recordings& recordings, LaneFilter::Scalars& scalars) {
   for (int a = 0; a < 3; ++a) {
     const auto of = [&](int l) {
-      return (recordings[static_cast<std::size_t>(l)]->*what)(a, static_cast<Eigen::Index>(i));
+      return (recordings[static_cast<std::size_t>(l)]->*what)(a, static_cast<Eigen::Index>(sample));
     };
     scalars.nu[a] = Pack::of_each([&](int l) { return std::isfinite(of(l)) ? of(l) : 0.0; });
     scalars.on[a] = Pack::of_each([&](int l) { return std::isfinite(of(l)) ? 1.0 : 0.0; });
@@ -42,8 +40,17 @@ bool LaneIntervals::can(const FilterSpec& filter, const Timeline& timeline) {
 
 LaneIntervals::LaneIntervals(const FilterSpec& filter, const Timeline& timeline,
                              const Readout& readout)
+    : LaneIntervals(filter, timeline, nullptr, readout) {}
+
+LaneIntervals::LaneIntervals(const FilterSpec& filter, const CompressedTest& test,
+                             const Readout& readout)
+    : LaneIntervals(filter, test.timeline(), &test, readout) {}
+
+LaneIntervals::LaneIntervals(const FilterSpec& filter, const Timeline& timeline,
+                             const CompressedTest* compressed, const Readout& readout)
     : filter_(filter),
       timeline_(timeline),
+      compressed_(compressed),
       readout_(readout),
       layout_(make_layout(filter)),
       linearizer_(filter.model(), layout_, readout),
@@ -77,8 +84,7 @@ void LaneIntervals::cage(const Interval& interval) {
   attitude_.cage(psi, filter_.initial_attitude);
 }
 
-/// propagate_sensitivity (linearize.hpp), in lanes.
-void LaneIntervals::linearize(std::size_t i, bool follows) {
+void LaneIntervals::evaluate(std::size_t i, bool follows) {
   const Interval& interval = timeline_.intervals[i];
   const std::size_t nodes = interval.node_count();
   const Mat3 E_loop = misalignment_matrix(linearizer_.model().mounting, interval.loop);
@@ -87,6 +93,20 @@ void LaneIntervals::linearize(std::size_t i, bool follows) {
   for (std::size_t k = shared ? 1 : 0; k < nodes; ++k)
     linearizer_.evaluate(timeline_.nodes[interval.first_node + k], interval, E_loop,
                          path_[interval.first_node + k], jacobian_[k]);
+}
+
+void LaneIntervals::linearize(std::size_t i, bool follows, const LaneStretch::Sums& readings,
+                              LaneStretch& stretch) {
+  evaluate(i, follows);
+  stretch.work_out(*compressed_, i, jacobian_, &path_[timeline_.intervals[i].first_node],
+                   linearizer_, readings);
+}
+
+/// propagate_sensitivity (linearize.hpp), in lanes.
+void LaneIntervals::linearize(std::size_t i, bool follows) {
+  evaluate(i, follows);
+  const Interval& interval = timeline_.intervals[i];
+  const std::size_t nodes = interval.node_count();
   const double h = interval.length() / (2.0 * interval.substeps);
   Phi_[0] = in_all_lanes(Mat3::Identity());
   for (std::size_t k = 0; k + 2 < nodes; k += 2) {
@@ -144,7 +164,7 @@ void LaneIntervals::through(const Interval& interval) {
 LaneFilter::Scalars LaneIntervals::read_accelerometers(std::size_t i,
                                                        const Recordings& recordings) {
   LaneFilter::Scalars scalars;
-  read(&Measurements::acc, i, recordings, scalars);
+  read(&Measurements::acc, first_sample(i), recordings, scalars);
   const Interval& interval = timeline_.intervals[i];
   const std::size_t nodes = interval.node_count();
   const auto middle = static_cast<std::size_t>(interval.substeps);
@@ -182,16 +202,14 @@ LaneFilter::Scalars LaneIntervals::read_accelerometers(std::size_t i,
 /// predict_gimbals (gimbal_prediction.hpp), in lanes.
 LaneFilter::Scalars LaneIntervals::read_gimbals(std::size_t i, const Recordings& recordings) {
   LaneFilter::Scalars scalars;
-  read(&Measurements::gimbal, i, recordings, scalars);
+  read(&Measurements::gimbal, first_sample(i), recordings, scalars);
   const Interval& interval = timeline_.intervals[i];
-  const Node& node = timeline_.nodes[interval.last_node()];
-  const Mat3 R_cl = case_attitude(interval.heading1).transpose();
-  const PackMat R_cp = times(in_all_lanes(R_cl * node.R_lr), rotation(path_[interval.last_node()]));
-  const PackVec angles = gimbal_angles(R_cp);
+  const std::size_t last = interval.last_node();
+  const LaneLinearizer::Gimbals predicted =
+      linearizer_.gimbals(timeline_.nodes[last], interval.heading1, path_[last]);
   for (int a = 0; a < 3; ++a)
-    scalars.nu[a] = scalars.on[a] * angle_difference(scalars.nu[a], angles[a]);
-  scalars.H_psi =
-      times(gimbal_angles_by_rotation(R_cp), in_all_lanes(R_cl * node.R_il.transpose()));
+    scalars.nu[a] = scalars.on[a] * angle_difference(scalars.nu[a], predicted.angles[a]);
+  scalars.H_psi = predicted.H;
   scalars.sigma = interval.gimbal_noise(readout_.gimbal_noise);
   return scalars;
 }

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "core/estimate/sequential/in_lanes/lane_filter.hpp"
+#include "core/estimate/sequential/in_lanes/lane_stretch.hpp"
 #include "core/sim/measurements.hpp"
 
 namespace drift {
@@ -22,13 +22,22 @@ class LaneIntervals {
   static bool can(const FilterSpec& filter, const Timeline& timeline);
   /// The timeline must outlive it.
   LaneIntervals(const FilterSpec& filter, const Timeline& timeline, const Readout& readout);
+  /// Of a timeline with stretches, which must outlive it too.
+  LaneIntervals(const FilterSpec& filter, const CompressedTest& test, const Readout& readout);
   LaneIntervals(const LaneIntervals&) = delete;
   LaneIntervals& operator=(const LaneIntervals&) = delete;
 
   const Layout& layout() const { return layout_; }
   const Timeline& timeline() const { return timeline_; }
   const Readout& readout() const { return readout_; }
+  /// A slot of the accelerometers and the readout state it depends on.
+  const std::vector<LaneLinearizer::Entry>& readout_states() const { return linearizer_.readout(); }
   LaneFilter& attitude() { return attitude_; }
+  const LaneFilter& attitude() const { return attitude_; }
+  /// Whether interval i is a stretch; the first sample of it, and how many it stands for.
+  bool is_stretch(std::size_t i) const { return compressed_ && compressed_->readings(i); }
+  std::size_t first_sample(std::size_t i) const { return compressed_ ? compressed_->first(i) : i; }
+  std::size_t samples(std::size_t i) const { return compressed_ ? compressed_->samples(i) : 1; }
   /// Rotation vectors at every node of the timeline [rad].
   PackVec& phi(std::size_t node) { return path_[node]; }
 
@@ -46,6 +55,14 @@ class LaneIntervals {
   /// Jacobians along the path of interval i. follows: it goes on where the one before has ended,
   /// which was linearised about the same.
   void linearize(std::size_t i, bool follows);
+  /// The same of a stretch, and its rows.
+  void linearize(std::size_t i, bool follows, const LaneStretch::Sums& readings,
+                 LaneStretch& stretch);
+  /// From the beginning of interval i, which was linearised last, to its end.
+  const PackMat& Phi(std::size_t i) const { return Phi_[timeline_.intervals[i].node_count() - 1]; }
+  const std::vector<Pack>& G(std::size_t i) const {
+    return G_[timeline_.intervals[i].node_count() - 1];
+  }
   /// The filter of the attitude comes to the middle of the interval, then to its end.
   void to_middle(const Interval& interval);
   void to_end(const Interval& interval);
@@ -57,8 +74,13 @@ class LaneIntervals {
   LaneFilter::Scalars read_gimbals(std::size_t i, const Recordings& recordings);
 
  private:
+  LaneIntervals(const FilterSpec& filter, const Timeline& timeline,
+                const CompressedTest* compressed, const Readout& readout);
+  void evaluate(std::size_t i, bool follows);
+
   FilterSpec filter_;
   const Timeline& timeline_;
+  const CompressedTest* compressed_;  ///< null: every interval is a sample
   Readout readout_;
   Layout layout_;
   LaneLinearizer linearizer_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "core/estimate/rate_chain.hpp"
+#include "core/physics/earth.hpp"
+#include "core/physics/gimbals.hpp"
 #include "core/sim/kinematics.hpp"
 
 namespace drift {
@@ -97,6 +99,14 @@ void LaneLinearizer::look(const Node& node, const Interval& interval, const Pack
     out.H_par[e] =
         derivative_[e] *
         Pack(layout_.sigma[static_cast<Eigen::Index>(layout_.num_rate + readout()[e].state)]);
+}
+
+LaneLinearizer::Gimbals LaneLinearizer::gimbals(const Node& node, double heading,
+                                                const PackVec& phi) const {
+  const Mat3 R_cl = case_attitude(heading).transpose();
+  const PackMat R_cp = times(in_all_lanes(R_cl * node.R_lr), rotation(phi));
+  return {gimbal_angles(R_cp),
+          times(gimbal_angles_by_rotation(R_cp), in_all_lanes(R_cl * node.R_il.transpose()))};
 }
 
 /// phi' (kinematics.hpp).

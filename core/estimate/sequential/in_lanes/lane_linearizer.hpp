@@ -42,6 +42,12 @@ class LaneLinearizer {
 
   void evaluate(const Node& node, const Interval& interval, const Mat3& E_loop, const PackVec& phi,
                 LaneJacobian& out);
+  /// Gimbal angles at a node, and their derivatives by psi_i; the case heads as given [rad].
+  struct Gimbals {
+    PackVec angles;
+    PackMat H;
+  };
+  Gimbals gimbals(const Node& node, double heading, const PackVec& phi) const;
   LaneJacobian make() const;
   /// A slot of the accelerometers and the readout state it depends on.
   const std::vector<Entry>& readout() const { return accelerometers_.entries(); }

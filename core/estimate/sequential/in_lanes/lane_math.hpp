@@ -35,6 +35,11 @@ inline PackMat times(const PackMat& A, const PackMat& B) {
       C(i, j) = mul_add(A(i, 0), B(0, j), mul_add(A(i, 1), B(1, j), A(i, 2) * B(2, j)));
   return C;
 }
+inline PackVec times_vector(const PackMat& A, const PackVec& v) {
+  PackVec out;
+  for (int i = 0; i < 3; ++i) out[i] = row_times(A, i, v.data(), Pack(0.0));
+  return out;
+}
 inline PackMat scaled(double factor, const PackMat& A) {
   PackMat B;
   for (int e = 0; e < 9; ++e) B.data()[e] = Pack(factor) * A.data()[e];

@@ -19,10 +19,21 @@ void IteratedLanes::diverged(std::size_t lane, bool finite, double t, Pass pass)
 void IteratedLanes::settle() {
   information_.invert();
   information_.extract(std::span(covariances_).first(used_));
+  bool any = false;
+  for (std::size_t lane = 0; lane < used_; ++lane) {
+    settle(*lanes_[lane], lane);
+    any = any || (lanes_[lane]->done_ && lanes_[lane]->status_ == EstimateStatus::ok);
+  }
+  if (!any) return;
   lagged_ = information_.lagged(moved_.data());
-  for (std::size_t lane = 0; lane < used_; ++lane) settle(*lanes_[lane], lane);
+  if (stretches_)
+    lagged_ += stretches_->lag().sum(ends_, moved_, information_, stretches_->of_whole());
+  for (std::size_t lane = 0; lane < used_; ++lane)
+    if (lanes_[lane]->done_ && lanes_[lane]->status_ == EstimateStatus::ok)
+      report(*lanes_[lane], lane);
 }
 
+/// Moves a job to where the pass has ended, and says whether it was the last one.
 void IteratedLanes::settle(IteratedJob& job, std::size_t l) {
   const int lane = static_cast<int>(l);
   const std::size_t n = x_.size();
@@ -36,6 +47,8 @@ void IteratedLanes::settle(IteratedJob& job, std::size_t l) {
     square += p * p;
   }
   job.nis_ = information_.right(n)[lane] + square - right;
+  if (stretches_) job.nis_ += stretches_->of_whole()[l]->left_over();
+  job.tail_ = tail_[lane];
   diverged(l, std::isfinite(job.nis_) && job.x_.allFinite() && job.x_.cwiseAbs().maxCoeff() <= 1e6,
            timeline_.intervals.back().t1, Pass::linear);
   if (job.done_) return;
@@ -45,7 +58,11 @@ void IteratedLanes::settle(IteratedJob& job, std::size_t l) {
   const bool small = right < 1.0, last = job.passes_ == IteratedPasses::most_passes;
   job.done_ = small || last ||
               (job.moved_.array().abs() / job.P_.diagonal().array().sqrt()).maxCoeff() < 1.0;
-  if (!job.done_) return;
+}
+
+/// What is told of a job after its last pass.
+void IteratedLanes::report(IteratedJob& job, std::size_t l) {
+  const int lane = static_cast<int>(l);
   const double variance = job.nis_ / static_cast<double>(job.scalars_);
   job.lag1_ = job.pairs_ > 0 && job.nis_ > 0.0
                   ? lagged_[lane] / static_cast<double>(job.pairs_) / variance
