@@ -95,10 +95,7 @@ Timed run_filter(const Problem& p, const Measurements& measured) {
 
 /// A linear pass in information form, on the same measurements.
 Timed run_linear_pass(const Problem& p, const Measurements& measured) {
-  CompressedTest test(p.timeline, p.readout, {.fewer = 4});
-  LinearPass pass = test.any() ? LinearPass(p.filter, test, p.readout)
-                               : LinearPass(p.filter, p.timeline, p.readout);
-  pass.read(measured);
+  LinearPass pass(p.filter, p.timeline, p.readout);
   pass.run(measured, p.layout.theta);  // fills the work space
   const long before = allocations;
   const double start = cpu_time();
@@ -142,6 +139,11 @@ Measurements simulated(const Problem& p) {
   return Simulator(truth, p.readout).run(p.timeline, 1, 0).measured;
 }
 
+/// The textbook takes long where there are many samples.
+int rounds_at(double sample) {
+  return (sample < 60.0 ? 1 : 4) * repetitions;
+}
+
 /// Passes over the recording that an estimator in lanes has made, the first and linear ones.
 int passes_of(const IteratedJob& job) {
   return 1 + job.linear_passes();
@@ -166,8 +168,8 @@ Timed run_lanes(Lanes& lanes, std::vector<Job>& jobs) {
 
 /// Row of a pass of runs in lock step; memory it allocated.
 template <class Lanes, class Job>
-long row_of_lanes(const char* key, const char* note) {
-  const Problem p = make_problem(180.0);
+long row_of_lanes(const char* key, double sample, const char* note) {
+  const Problem p = make_problem(sample);
   FilterSpec filter = p.filter;
   filter.noise.angle_random_walk = 0.0;
   TruthSpec truth;
@@ -183,16 +185,15 @@ long row_of_lanes(const char* key, const char* note) {
   }
   Lanes lanes(filter, p.timeline, p.readout);
   Repeated pass, textbook;
-  for (int k = 0; k < 4 * repetitions; ++k) {
+  for (int k = 0; k < rounds_at(sample); ++k) {
     textbook.add(run_dense(p, DenseForm::textbook));
     pass.add(run_lanes(lanes, jobs));
   }
   const auto n = static_cast<double>(p.steps.size());
-  print_row(
-      key, pass.best.seconds / n, textbook.best.seconds / n, pass.spread(),
-      fmt::format("a sample of 180 s in {}, {} runs in lock step, path and linearisation with "
-                  "it, against the textbook covariance step alone",
-                  note, LaneIntervals::width));
+  print_row(key, pass.best.seconds / n, textbook.best.seconds / n, pass.spread(),
+            fmt::format("a sample of {} s in {}, {} runs in lock step, path and linearisation with "
+                        "it, against the textbook covariance step alone",
+                        sample, note, LaneIntervals::width));
   return pass.best.allocated;
 }
 
@@ -201,7 +202,7 @@ long row_of_pass(const char* key, double sample, const char* note) {
   const Problem p = make_problem(sample);
   const Measurements measured = simulated(p);
   Repeated pass, textbook;
-  for (int k = 0; k < (sample < 60.0 ? 1 : 4) * repetitions; ++k) {
+  for (int k = 0; k < rounds_at(sample); ++k) {
     textbook.add(run_dense(p, DenseForm::textbook));
     pass.add(run_linear_pass(p, measured));
   }
@@ -238,16 +239,16 @@ int run() {
   print_row("ekf63_sequential", structured.seconds / steps, textbook.seconds / steps,
             all_structured.spread(), "covariance step of 6 scalars against the textbook's");
   const long in_passes =
-      row_of_lanes<EkfLanes, EkfJob>("ekf63_lanes",
+      row_of_lanes<EkfLanes, EkfJob>("ekf63_lanes", 180.0,
                                      "an EKF with its covariance after every update") +
       row_of_lanes<IteratedLanes, IteratedJob>(
-          "ekf63_pass",
+          "ekf63_pass", 180.0,
           "a pass of the iterated filter in information form, solutions and covariance with it") +
       row_of_pass("ekf63_pass_alone", 180.0,
                   "the same of one run by itself, linear, its nodes in lanes") +
-      row_of_pass("ekf63_pass_10s", 10.0,
-                  "the same at samples of 10 s, dwells through polynomials whose projections are "
-                  "made once a run");
+      row_of_lanes<IteratedLanes, IteratedJob>(
+          "ekf63_pass_10s", 10.0,
+          "a pass of the iterated filter, dwells through polynomials, projections with it,");
   for (Timed* t : {&structured, &textbook, &joseph}) scale_attitude(p, *t);
   const auto compare = [](const char* names, const Timed& a, const Timed& b) {
     fmt::print("  {:<24}{:>12.1e}{:>12.1e}{:>12.1e}\n", names, difference(a.P, b.P),

@@ -11,17 +11,16 @@ namespace drift::bench {
 class LinearPass {
  public:
   LinearPass(const FilterSpec& filter, const Timeline& timeline, const Readout& readout)
-      : LinearPass(filter, timeline, readout, nullptr) {}
-  /// Of stretches, whose projections are made once (read) for all passes of a run.
-  LinearPass(const FilterSpec& filter, CompressedTest& test, const Readout& readout)
-      : LinearPass(filter, test.timeline(), readout, &test) {}
+      : timeline_(timeline),
+        rows_(filter, timeline, readout),
+        path_(timeline, rows_.model()),
+        information_(rows_.layout().size(), rows_.width()),
+        store_(3 * rows_.most_triples() * rows_.width()),
+        zero_(VecX::Zero(static_cast<Eigen::Index>(rows_.layout().size()))),
+        covariance_(zero_.size(), zero_.size()) {}
 
-  void read(const Measurements& all) {
-    if (compressed_) compressed_->read(all);
-  }
   /// About theta, chains that end at the nominal attitude.
-  const MatX& run(const Measurements& all, const Theta& theta) {
-    const Measurements& measured = compressed_ ? compressed_->test().measured : all;
+  const MatX& run(const Measurements& measured, const Theta& theta) {
     path_.place(theta);
     rows_.reset(theta);
     information_.clear();
@@ -49,20 +48,8 @@ class LinearPass {
   }
 
  private:
-  LinearPass(const FilterSpec& filter, const Timeline& timeline, const Readout& readout,
-             CompressedTest* compressed)
-      : timeline_(timeline),
-        compressed_(compressed),
-        rows_(filter, timeline, readout, compressed),
-        path_(timeline, rows_.model()),
-        information_(rows_.layout().size(), rows_.width()),
-        store_(3 * rows_.most_triples() * rows_.width()),
-        zero_(VecX::Zero(static_cast<Eigen::Index>(rows_.layout().size()))),
-        covariance_(zero_.size(), zero_.size()) {}
-
   static constexpr std::size_t at_once = 8;  // intervals
   const Timeline& timeline_;
-  CompressedTest* compressed_;
   IntervalRows rows_;
   ReferencePath path_;
   Information information_;

@@ -170,7 +170,7 @@ EstimateResult practice_pass(const FilterSpec& filter, const Timeline& timeline,
       Vec3 mean = Vec3::Zero();
       const Mat3 back = s.Phi[m].inverse();
       for (std::size_t k = 0; k <= last; ++k) {
-        const double w = Timeline::simpson_weight(interval.substeps, k);
+        const double w = Timeline::mean_weight(interval.substeps, k);
         mean += w * s.jacobian[k].acc;
         H.leftCols<3>() += w * s.jacobian[k].H * s.Phi[k] * back;
         H.middleCols(3, nr) +=

@@ -21,7 +21,7 @@ void mean_output(const Interval& interval, const IntervalSensitivity& sensitivit
   mean.H_rate.setZero(3, sensitivity.G[0].cols());
   mean.H_par.setZero(3, sensitivity.jacobian->H_par.cols());
   for (std::size_t k = 0; k < interval.node_count(); ++k) {
-    const double w = Timeline::simpson_weight(interval.substeps, k);
+    const double w = Timeline::mean_weight(interval.substeps, k);
     const NodeJacobian& j = sensitivity.jacobian[k];
     mean.acc += w * j.acc;
     mean.H += w * j.H * sensitivity.Phi[k] * Phi_m_inv;

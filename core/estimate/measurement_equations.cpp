@@ -126,7 +126,7 @@ void MeasurementEquations::take_accelerometers(std::size_t i) {
   Y_rate_.setZero();
   Y_par_.setZero();
   for (std::size_t k = 0; k < interval.node_count(); ++k) {
-    const double w = Timeline::simpson_weight(interval.substeps, k);
+    const double w = Timeline::mean_weight(interval.substeps, k);
     const NodeJacobian& j = inner_.jacobian[k];
     mean += w * j.acc;
     Y_psi += w * j.H * inner_.Phi[k];

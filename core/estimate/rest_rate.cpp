@@ -12,7 +12,7 @@ GimbalPrediction predict_rest_rate(const Interval& interval, const Timeline& tim
     const Node& node = timeline.nodes[interval.first_node + k];
     const NodeJacobian& j = sensitivity.jacobian[k];
     const Mat3 R_pi = (node.R_il * node.R_lr * rotation(phi[k])).transpose();
-    const double w = Timeline::simpson_weight(interval.substeps, k);
+    const double w = Timeline::mean_weight(interval.substeps, k);
     const Vec3 omega_ie_i = node.R_il * omega_ie_l;
     out.angles += w * R_pi * (j.omega_ip_i - omega_ie_i);
     // An attitude error turns what the platform sees of the Earth's rate: R_pi -> R_pi (I - [psi

@@ -51,10 +51,11 @@ void set_clocks(std::vector<Interval>& intervals) {
 
 }  // namespace
 
-double Timeline::simpson_weight(int substeps, std::size_t k) {
+double Timeline::mean_weight(int substeps, std::size_t k) {
   const std::size_t last = 2 * static_cast<std::size_t>(substeps);
-  const double w = (k == 0 || k == last) ? 1.0 : (k % 2 == 1 ? 4.0 : 2.0);
-  return w / (6.0 * substeps);
+  const bool at_end = k == 0 || k == last;
+  if (substeps % 2 == 1) return (at_end ? 1.0 : k % 2 == 1 ? 4.0 : 2.0) / (6.0 * substeps);
+  return (at_end ? 7.0 : k % 2 == 1 ? 32.0 : k % 4 == 2 ? 12.0 : 14.0) / (45.0 * substeps);
 }
 
 Timeline lay_out(const TestPlan& plan, const Site& site) {
@@ -93,7 +94,10 @@ void place_nodes(Timeline& timeline, const std::vector<Mat3>& R_lp, double longe
     }
     const double turned =
         i.rest ? 0.0 : (i.omega_cmd_p - R_lr.transpose() * omega_ie_l).norm() * i.length();
-    i.substeps = std::max(i.substeps, static_cast<int>(std::ceil(turned / longest_step)));
+    // By twos, for the rule of the higher order, which may take longer ones.
+    if (turned > i.substeps * longest_step)
+      i.substeps =
+          std::max(i.substeps, 2 * static_cast<int>(std::ceil(0.25 * turned / longest_step)));
     i.first_node = timeline.nodes.size();
     const Vec3 omega_ic_l = omega_ie_l + i.heading_rate() * up_l;
     for (std::size_t k = 0; k < i.node_count(); ++k) {

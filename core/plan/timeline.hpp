@@ -81,8 +81,9 @@ struct Timeline {
     carried |= c.set();
   }
 
-  /// Interval weights of composite Simpson, for the mean over interval i; they sum to 1.
-  static double simpson_weight(int substeps, std::size_t k);
+  /// Weight of node k in the mean over an interval: composite Simpson's rule, or where substeps are
+  /// even, two by two, Boole's, which is of the sixth order; they sum to 1.
+  static double mean_weight(int substeps, std::size_t k);
 };
 
 /// Lays a plan out: caging or slews and turns of the case on the way to each position, then the
@@ -95,8 +96,8 @@ Timeline lay_out(const TestPlan& plan, const Site& site);
 Timeline lay_out(const Recording& recording, const TestPlan& plan, const Site& site);
 
 /// Computes the nodes from the intervals. R_lp is the nominal attitude at the start of each chain;
-/// longest_step: attitude change between the end points of Simpson's rule [rad]. An interval that
-/// has more substeps keeps them.
+/// longest_step: attitude change between the end points of Simpson's rule [rad]; Boole's goes over
+/// twice as much. An interval that has more substeps keeps them.
 void place_nodes(Timeline& timeline, const std::vector<Mat3>& R_lp, double longest_step = 0.05);
 
 }  // namespace drift

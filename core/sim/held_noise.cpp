@@ -36,7 +36,7 @@ HeldNoise held_noise(const Interval& interval, const Timeline& timeline) {
   Mat3 to_end = Mat3::Zero(), mean_force = Mat3::Zero();
   const auto middle = static_cast<std::size_t>(interval.substeps);
   integrate(interval, timeline, [&](std::size_t k, const Mat3& turned) {
-    const Mat3 weighted = Timeline::simpson_weight(interval.substeps, k) *
+    const Mat3 weighted = Timeline::mean_weight(interval.substeps, k) *
                           force_by_attitude(timeline.nodes[interval.first_node + k]);
     if (k == middle) out.to_middle = turned;
     mean_force += weighted;

@@ -43,7 +43,7 @@ struct Instruments {
   }
 
  private:
-  /// Mean over an interval, by Simpson's rule, of what is read in its nodes.
+  /// Mean over an interval, by Simpson's or Boole's rule, of what is read in its nodes.
   template <class Memory, class Read>
   Vec3 mean(const Interval& interval, const Vec3* phi, const Memory& memory, Read&& read) const {
     const Needs needs = TermLibrary::needs(model->terms);
@@ -54,7 +54,7 @@ struct Instruments {
       Scene<double> scene(node.omega_ic_l, interval.omega_cmd_p, model->mounting, R_lp);
       if (needs.any())
         scene.look_around(needs, moment_at(*timeline, interval, node.t), R_lp, memory(k));
-      sum += Timeline::simpson_weight(interval.substeps, k) * read(scene.in);
+      sum += Timeline::mean_weight(interval.substeps, k) * read(scene.in);
     }
     return sum;
   }

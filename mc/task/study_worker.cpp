@@ -67,7 +67,7 @@ StudyWorker::StudyWorker(const StudyTask& task)
         bench.iterated_lanes.estimator =
             std::make_unique<IteratedLanes>(spec, timeline_, study.readout);
       else
-        bench.iterated = std::make_unique<IteratedEkf>(spec, timeline_, study.readout, start);
+        bench.iterated = std::make_unique<IteratedPasses>(spec, timeline_, study.readout, start);
     }
     benches_.push_back(std::move(bench));
   }

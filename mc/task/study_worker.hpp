@@ -7,7 +7,7 @@
 #include "core/estimate/sequential/ekf.hpp"
 #include "core/estimate/sequential/in_lanes/ekf_lanes.hpp"
 #include "core/estimate/sequential/in_lanes/iterated_lanes.hpp"
-#include "core/estimate/sequential/iterated_ekf.hpp"
+#include "core/estimate/sequential/iterated_passes.hpp"
 #include "core/sim/simulate.hpp"
 #include "mc/study/design.hpp"
 #include "mc/task/principal_axes.hpp"
@@ -42,7 +42,7 @@ class StudyWorker final : public RunWorker {
     const StudyColumns::Filter& columns;
     std::vector<Theta> fixed_starts;  ///< starts that are the same in every run: the first ones
     std::unique_ptr<Ekf> ekf;         ///< of that estimator alone
-    std::unique_ptr<IteratedEkf> iterated;
+    std::unique_ptr<IteratedPasses> iterated;
     InLanes<EkfLanes, EkfJob> ekf_lanes;
     InLanes<IteratedLanes, IteratedJob> iterated_lanes;
     PrincipalAxes axes;

@@ -2,7 +2,7 @@
 
 #include "core/estimate/batch.hpp"
 #include "core/estimate/sequential/ekf.hpp"
-#include "core/estimate/sequential/iterated_ekf.hpp"
+#include "core/estimate/sequential/iterated_passes.hpp"
 
 namespace drift::test {
 
@@ -23,8 +23,8 @@ inline EstimateResult by_iterated_ekf(const FilterSpec& filter, const Timeline& 
                                       const Readout& readout, const Measurements& measured,
                                       const Theta& start) {
   const Layout layout = make_layout(filter);
-  IteratedEkf ekf(filter, timeline, readout, start);
-  const FilterEstimate& found = ekf.run(measured, start);
+  IteratedPasses passes(filter, timeline, readout, start);
+  const FilterEstimate& found = passes.run(measured, start);
   EstimateResult r;
   r.status = found.status();
   r.cause = found.cause();

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numeric>
 
+#include "core/estimate/stretches_and_chains.hpp"
+
 namespace drift {
 namespace {
 
@@ -38,7 +40,7 @@ std::size_t polynomials_for(double angle) {
 /// Steps of two nodes: short enough for the quadrature, and nodes for half as many polynomials
 /// again.
 int substeps_for(double angle, std::size_t polynomials) {
-  constexpr double longest_step = 0.05;
+  constexpr double longest_step = 0.1;  // as place_nodes has it where there are several
   return static_cast<int>(std::max(std::ceil(angle / longest_step),
                                    std::ceil(0.75 * static_cast<double>(polynomials))));
 }
@@ -54,9 +56,14 @@ CompressedTest::CompressedTest(const Timeline& timeline, const Readout& readout,
   timeline_.positions = timeline.positions;
   std::vector<Mat3> R_lp(static_cast<std::size_t>(timeline.chains));
   std::size_t most = 1;  // samples
+  const auto begins = [&](std::size_t i) { return i == 0 || !go_on(timeline, all[i - 1], all[i]); };
   for (std::size_t first = 0, end = 0; first < all.size(); first = end) {
-    const bool begins = first == 0 || !go_on(timeline, all[first - 1], all[first]);
-    most = options.cut == Cut::nowhere ? all.size() : begins ? 1 : 2 * most;
+    most = options.cut == Cut::nowhere ? all.size() : 2 * most;
+    if (options.cut == Cut::doubling && begins(first)) {
+      end = first + 1;
+      while (end < all.size() && !begins(end)) ++end;
+      most = first_block(end - first);
+    }
     if (all[first].cage)
       R_lp[static_cast<std::size_t>(all[first].chain)] = timeline.nodes[all[first].first_node].R_lr;
     int steps = all[first].substeps;

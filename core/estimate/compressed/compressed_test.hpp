@@ -56,8 +56,8 @@ class CompressedTest {
     const Needs needs = TermLibrary::needs(model.terms);
     return needs.covariates == 0 && !needs.turning && !(needs.memory && needs.gimbals);
   }
-  /// Stretches as long as they are; or cut after 1, 3, 7, 15, ... samples, for who looks anew from
-  /// piece to piece.
+  /// Stretches as long as they are; or cut into pieces of which each is twice as long as the one
+  /// before (first_block), for who looks anew from piece to piece.
   enum class Cut { nowhere, doubling };
   struct Options {
     std::vector<std::size_t> leave = {};  ///< first intervals of stretches that stay as they are

@@ -1,8 +1,6 @@
 #include "core/estimate/sequential/interval_rows.hpp"
 
 #include <Eigen/LU>
-#include <algorithm>
-#include <limits>
 
 #include "core/estimate/rest_rate.hpp"
 #include "core/estimate/sequential/drift_walk.hpp"
@@ -11,10 +9,9 @@
 
 namespace drift {
 IntervalRows::IntervalRows(const FilterSpec& filter, const Timeline& timeline,
-                           const Readout& readout, const CompressedTest* compressed)
+                           const Readout& readout)
     : filter_(filter),
       timeline_(timeline),
-      compressed_(compressed),
       readout_(readout),
       model_(filter.model()),
       layout_(make_layout(filter)),
@@ -24,21 +21,8 @@ IntervalRows::IntervalRows(const FilterSpec& filter, const Timeline& timeline,
       memory_(timeline, model_),
       attitude_(layout_.size(), walking_states(filter, layout_),
                 filter.noise.angle_random_walk > 0.0),
-      rest_G_(padded_rows(layout_.num_rate)),
-      stretch_(layout_),
-      by_rate_(rest_G_),
-      by_readout_(padded_rows(layout_.size() - layout_.num_rate)) {
+      rest_G_(padded_rows(layout_.num_rate)) {
   require_covariates(model_, timeline);
-}
-
-std::size_t IntervalRows::most_triples() const {
-  std::size_t sum = 0;
-  for (std::size_t i = 0; i < timeline_.intervals.size(); ++i) {
-    const StretchReadings* stretch = compressed_ ? compressed_->readings(i) : nullptr;
-    // Of each axis as many as there are polynomials, at most as many as nodes.
-    sum += stretch ? 2 * timeline_.intervals[i].node_count() : 2;
-  }
-  return sum;
 }
 
 void IntervalRows::reset(const Theta& theta) {
@@ -46,7 +30,6 @@ void IntervalRows::reset(const Theta& theta) {
   linearizer_.set_theta(theta_);
   memory_.reset();
   attitude_.reset();
-  tail_ = 0.0;
 }
 
 void IntervalRows::set_theta(const Theta& theta) {
@@ -76,16 +59,13 @@ void IntervalRows::take_triple(Channel channel, const AttitudeFilter::Scalars& s
   const auto used = attitude_.update(scalars, gate, into);
   taken.ok = used.has_value();
   taken.scalars += used.value_or(0);
-  if (taken.triples < 2) taken.channel[taken.triples] = channel;
-  ++taken.triples;
+  taken.channel[taken.triples++] = channel;
 }
 
 IntervalRows::Taken IntervalRows::take(std::size_t i, const Vec3& acc, const Vec3& gimbal,
                                        const Vec3* path, const AttitudeFilter::Gate* gate,
                                        double* rows) {
   const Interval& interval = timeline_.intervals[i];
-  if (const StretchReadings* stretch = compressed_ ? compressed_->readings(i) : nullptr)
-    return take_stretch(i, *stretch, path + interval.first_node, rows);
   Taken taken;
   const MemoryPoint* memory = memory_.points();
   const Vec3* phi = path + interval.first_node;
@@ -134,53 +114,6 @@ IntervalRows::Taken IntervalRows::take(std::size_t i, const Vec3& acc, const Vec
     attitude_.walk(
         k, walk_variance(filter_, layout_, attitude_.walking()[k], theta_, interval.length()));
   return taken;
-}
-
-/// What was read along a stretch hangs on the attitude at its beginning.
-IntervalRows::Taken IntervalRows::take_stretch(std::size_t i, const StretchReadings& readings,
-                                               const Vec3* phi, double* rows) {
-  const Interval& interval = timeline_.intervals[i];
-  stretch_.propagate(readings, interval, jacobians_.of(i), sensitivity_);
-  Taken taken;
-  if (readings.accelerometers.rows() > 0)
-    take_channel(readings.accelerometers,
-                 stretch_.accelerometers(readings.accelerometers, interval, sensitivity_), rows,
-                 taken);
-  if (readings.gimbals.rows() > 0)
-    take_channel(readings.gimbals,
-                 stretch_.gimbals(readings.gimbals, timeline_, interval, sensitivity_, phi,
-                                  memory_.points(), linearizer_),
-                 rows, taken);
-  const std::size_t last = interval.node_count() - 1;
-  attitude_.propagate(sensitivity_.Phi[last], sensitivity_.G[last], Mat3::Zero());
-  return taken;
-}
-
-void IntervalRows::take_channel(const StretchChannel& channel, const StretchRows::Rows& from,
-                                double* rows, Taken& taken) {
-  tail_ = std::max(tail_, stretch_.tail());
-  const auto rate = static_cast<Eigen::Index>(layout_.num_rate),
-             readout = static_cast<Eigen::Index>(layout_.size()) - rate;
-  const std::array<Eigen::Index, 3> count{channel.axes[0].rows(), channel.axes[1].rows(),
-                                          channel.axes[2].rows()};
-  const std::array<Eigen::Index, 3> first{0, count[0], count[0] + count[1]};
-  for (Eigen::Index k = 0; k < *std::ranges::max_element(count); ++k) {
-    Vec3 residual = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
-    Mat3 by_attitude = Mat3::Zero();
-    for (std::size_t a = 0; a < 3; ++a) {
-      const auto axis = static_cast<Eigen::Index>(a);
-      if (k >= count[a]) continue;
-      const auto row = from.row(first[a] + k);
-      taken.ok = taken.ok && row.allFinite();  // what is not finite below was not measured
-      residual[axis] = row[row.size() - 1];
-      by_attitude.row(axis) = row.head<3>();
-      by_rate_.row(axis).head(rate) = row.segment(3, rate);
-      by_readout_.row(axis).head(readout) = row.segment(3 + rate, readout);
-    }
-    take_triple(accelerometers,
-                {residual, by_attitude, &by_rate_, &by_readout_, layout_.num_rate, 1.0}, nullptr,
-                rows, taken);
-  }
 }
 
 }  // namespace drift

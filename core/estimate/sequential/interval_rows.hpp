@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/estimate/compressed/stretch_rows.hpp"
+#include "core/estimate/linearize.hpp"
 #include "core/estimate/sequential/attitude_filter.hpp"
 #include "core/estimate/stretch_jacobians.hpp"
 
@@ -13,13 +13,11 @@ namespace drift {
 /// or what stands for them at rest (predict_rest_rate), at its end.
 class IntervalRows {
  public:
-  /// The timeline must outlive it. compressed: where some intervals are stretches that are read by
-  /// projections, else null; the noise of such a model is white.
-  IntervalRows(const FilterSpec& filter, const Timeline& timeline, const Readout& readout,
-               const CompressedTest* compressed = nullptr);
+  /// The timeline must outlive it.
+  IntervalRows(const FilterSpec& filter, const Timeline& timeline, const Readout& readout);
 
   /// Of all intervals: triples of rows, at most.
-  std::size_t most_triples() const;
+  std::size_t most_triples() const { return 2 * timeline_.intervals.size(); }
 
   const Layout& layout() const { return layout_; }
   const DriftModel& model() const { return model_; }
@@ -44,8 +42,8 @@ class IntervalRows {
   /// Three rows of a channel.
   enum Channel : unsigned char { accelerometers = 0, gimbals = 1 };
   struct Taken {
-    std::size_t triples = 0;  ///< of rows: none, one or two; of a stretch many
-    Channel channel[2] = {};  ///< of each, but in a stretch
+    std::size_t triples = 0;  ///< of rows: none, one or two
+    Channel channel[2] = {};  ///< of each
     std::size_t scalars = 0;  ///< measured and not gated
     bool ok = true;           ///< false: an innovation covariance is not positive definite
   };
@@ -54,22 +52,12 @@ class IntervalRows {
   Taken take(std::size_t i, const Vec3& acc, const Vec3& gimbal, const Vec3* path,
              const AttitudeFilter::Gate* gate, double* rows);
 
-  /// Of the interval that was taken last.
-  const IntervalSensitivity& sensitivity() const { return sensitivity_; }
-  const StretchRows& stretch() const { return stretch_; }
-  /// The largest tail of a stretch (StretchRows) since reset().
-  double tail() const { return tail_; }
-
  private:
-  Taken take_stretch(std::size_t i, const StretchReadings& readings, const Vec3* phi, double* rows);
-  void take_channel(const StretchChannel& channel, const StretchRows::Rows& from, double* rows,
-                    Taken& taken);
   void take_triple(Channel channel, const AttitudeFilter::Scalars& scalars,
                    const AttitudeFilter::Gate* gate, double* rows, Taken& taken);
 
   FilterSpec filter_;
   const Timeline& timeline_;
-  const CompressedTest* compressed_;
   Readout readout_;
   DriftModel model_;
   Layout layout_;
@@ -82,9 +70,6 @@ class IntervalRows {
   Theta theta_;
   MeanOutput mean_;
   Rows3 rest_G_;
-  StretchRows stretch_;
-  Rows3 by_rate_, by_readout_;  ///< of three rows of a stretch
-  double tail_ = 0.0;
 };
 
 }  // namespace drift

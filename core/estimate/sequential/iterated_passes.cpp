@@ -4,25 +4,15 @@
 
 #include <algorithm>
 
-#include "core/estimate/sequential/stretches_and_chains.hpp"
+#include "core/estimate/stretches_and_chains.hpp"
 #include "core/physics/stochastic.hpp"
 
 namespace drift {
 
 IteratedPasses::IteratedPasses(const FilterSpec& filter, const Timeline& timeline,
                                const Readout& readout, const Theta& start)
-    : IteratedPasses(filter, timeline, nullptr, readout, start) {}
-
-IteratedPasses::IteratedPasses(const FilterSpec& filter, const CompressedTest& test,
-                               const Readout& readout, const Theta& start)
-    : IteratedPasses(filter, test.timeline(), &test, readout, start) {}
-
-IteratedPasses::IteratedPasses(const FilterSpec& filter, const Timeline& timeline,
-                               const CompressedTest* compressed, const Readout& readout,
-                               const Theta& start)
     : timeline_(timeline),
-      compressed_(compressed),
-      rows_(filter, timeline, readout, compressed),
+      rows_(filter, timeline, readout),
       information_(rows_.layout().size(), rows_.width()),
       lanes_(timeline, rows_.model()),
       reference_(timeline, rows_.model()),
@@ -46,27 +36,16 @@ IteratedPasses::IteratedPasses(const FilterSpec& filter, const Timeline& timelin
   sigma_ = rows_.layout().sigma;
   P_.setIdentity(x_.size(), x_.size());
   theta_ = start;
-  if (compressed_)
-    stretch_lag_ = std::make_unique<StretchLag>(*compressed_, rows_.layout(), rows_.width());
 }
 
-void IteratedPasses::run(const Measurements& measured, const Theta& start) {
-  if (begin(measured, start)) settle(measured);
-}
-
-void IteratedPasses::settle(const Measurements& measured) {
+const FilterEstimate& IteratedPasses::run(const Measurements& measured, const Theta& start) {
+  if (!first_pass(measured, start)) return *this;
   for (int pass = 0; pass < most_passes; ++pass) {
-    if (!linear_pass(measured)) return;
+    if (!linear_pass(measured)) return *this;
     if (largest_step() < 1.0) break;  // what is left is of second order in less than a sigma
   }
   finish();
-}
-
-void IteratedPasses::begin_as(const IteratedPasses& other) {
-  begin_anew();
-  x_start_ = other.x_start_;
-  x_ = other.x_;
-  reference_.end_as(other.reference_);
+  return *this;
 }
 
 /// Rows of one interval behind those of the others.
@@ -79,11 +58,7 @@ bool IteratedPasses::take(std::size_t i, const Measurements& measured, const Vec
       rows_.take(i, measured.acc.col(column), measured.gimbal.col(column), path,
                  gated_ ? &gate : nullptr, into);
   if (timeline_.intervals[i].cage) measured_last_[0] = measured_last_[1] = nothing_measured;
-  const bool stretch = compressed_ && compressed_->readings(i);
-  if (stretch) measured_last_[0] = measured_last_[1] = nothing_measured;
-  for (std::size_t k = 0; stretch && k < taken.triples; ++k)
-    neighbours_[triples_ + k] = {IntervalRows::accelerometers, false};
-  for (std::size_t k = 0; !stretch && k < taken.triples; ++k) {
+  for (std::size_t k = 0; k < taken.triples; ++k) {
     const IntervalRows::Channel channel = taken.channel[k];
     neighbours_[triples_ + k] = {channel, measured_last_[channel] + 1 == i};
     measured_last_[channel] = i;
@@ -97,7 +72,7 @@ bool IteratedPasses::take(std::size_t i, const Measurements& measured, const Vec
   return true;
 }
 
-bool IteratedPasses::begin(const Measurements& measured, const Theta& start) {
+bool IteratedPasses::first_pass(const Measurements& measured, const Theta& start) {
   begin_anew();
   const Layout& layout = rows_.layout();
   for (std::size_t k = 0; k < layout.size(); ++k)
@@ -121,12 +96,16 @@ bool IteratedPasses::begin(const Measurements& measured, const Theta& start) {
   return true;
 }
 
-/// Of 1, 2, 4, ... samples from the beginning of every stretch on, of so many this time.
+/// From the beginning of every stretch on each is of twice as many samples as the one before.
+/// samples: of so many this time.
 std::size_t IteratedPasses::end_of_block(std::size_t first, std::size_t& samples) const {
-  if (begins_anew(timeline_, first)) samples = 1;
-  std::size_t end = first + 1, held = samples_in(first);
-  for (; !begins_anew(timeline_, end); ++end)
-    if ((held += samples_in(end)) > samples) break;
+  std::size_t end = first + 1;
+  if (begins_anew(timeline_, first)) {
+    while (!begins_anew(timeline_, end)) ++end;
+    samples = first_block(end - first);
+    end = first + 1;
+  }
+  while (end - first < samples && !begins_anew(timeline_, end)) ++end;
   samples *= 2;
   return end;
 }
@@ -198,10 +177,6 @@ bool IteratedPasses::linear_pass(const Measurements& measured) {
   prior_ = x_start_ - x_reference_;
   moved_ = information_.solve(prior_);
   nis_ = information_.cost(moved_, prior_);
-  if (compressed_) {
-    nis_ += compressed_->left_over();
-    scalars_ = compressed_->scalars();
-  }
   x_ = x_reference_ + moved_;
   if (diverged(finite && std::isfinite(nis_) && x_.allFinite() && x_.cwiseAbs().maxCoeff() <= 1e6,
                timeline_.intervals.back().t1, Pass::linear))
@@ -232,7 +207,6 @@ bool IteratedPasses::along_reference(const Measurements& measured) {
       if (interval.cage) rows_.cage(interval, reference_.nodes(interval)[0]);
       rows_.enter(i);
       if (!take(i, measured, reference_.nodes(), Pass::linear)) return false;
-      if (stretch_lag_) stretch_lag_->keep(i, rows_.stretch(), rows_.sensitivity());
       if (ends_chain(timeline_, i))
         ends_[static_cast<std::size_t>(interval.chain)] = rows_.attitude();
     }

@@ -1,29 +1,27 @@
 #pragma once
 
 #include <limits>
-#include <memory>
 
 #include "core/estimate/sequential/filter_estimate.hpp"
 #include "core/estimate/sequential/interval_rows.hpp"
 #include "core/estimate/sequential/reference_path.hpp"
-#include "core/estimate/sequential/stretch_lag.hpp"
 #include "core/sim/measurements.hpp"
 
 namespace drift {
 
 /// An EKF that relinearises in blocks, then the same measurements once more, linearised about what
-/// was found. Of a stretch (CompressedTest) one block sees all samples.
+/// was found.
 ///
 /// Both passes make whitened rows of a static least squares problem (AttitudeFilter) and solve it
-/// in information form. The first relinearises about the running estimate after 1, 2, 4, ...
-/// samples from the beginning of every stretch on; in between its solution is exact. An EKF takes
-/// Jacobians at estimates that are still poor, and where parameters enter as products (misalignment
-/// times drift or command) it ends surer than it should be (physics.md 5.9). The second pass is
-/// linear in the deviations from a reference: the first one's final parameters, and the attitude
-/// integrated back with them from its estimate at the end of each chain. Its result is that of a
-/// Gauss-Newton step on all data at once, its cost at the minimum is chi-square. While a pass moves
-/// some parameter by more than a posterior sigma there is another, four at most; mostly there is
-/// one.
+/// in information form. The first relinearises about the running estimate after
+/// blocks of twice as many samples each from the beginning of every stretch on; in between its
+/// solution is exact. An EKF takes Jacobians at estimates that are still poor, and where parameters
+/// enter as products (misalignment times drift or command) it ends surer than it should be
+/// (physics.md 5.9). The second pass is linear in the deviations from a reference: the first one's
+/// final parameters, and the attitude integrated back with them from its estimate at the end of
+/// each chain. Its result is that of a Gauss-Newton step on all data at once, its cost at the
+/// minimum is chi-square. While a pass moves some parameter by more than a posterior sigma there is
+/// another, four at most; mostly there is one.
 ///
 /// Where a drift or the attitude walks, no path of the parameters alone stays near: then the
 /// reference of a linear pass is the filtered attitude itself, taken over at the end of every
@@ -35,27 +33,15 @@ class IteratedPasses : public FilterEstimate {
   /// The timeline must outlive the filter. start: library values of the initial estimate.
   IteratedPasses(const FilterSpec& filter, const Timeline& timeline, const Readout& readout,
                  const Theta& start);
-  /// Of a timeline with stretches, which must outlive it too; what is measured there is read by it.
-  IteratedPasses(const FilterSpec& filter, const CompressedTest& test, const Readout& readout,
-                 const Theta& start);
 
-  /// As if built anew from this start, over a whole recording. Allocates nothing from the second
-  /// time on.
-  void run(const Measurements& measured, const Theta& start);
-
-  /// The two parts of run(): the first pass, and those that follow it. False if it diverged.
-  bool begin(const Measurements& measured, const Theta& start);
-  void settle(const Measurements& measured);
-  /// In place of the first pass: takes over where another one's has ended. Of the same filter.
-  void begin_as(const IteratedPasses& other);
-  /// Whether polynomials followed all stretches in the last pass.
-  bool smooth() const { return rows_.tail() < StretchRows::negligible; }
+  /// As if built anew from this start, over a whole recording. The estimate stays until the next
+  /// run. Allocates nothing from the second time on.
+  const FilterEstimate& run(const Measurements& measured, const Theta& start);
   const Layout& layout() const { return rows_.layout(); }
 
  private:
-  IteratedPasses(const FilterSpec& filter, const Timeline& timeline,
-                 const CompressedTest* compressed, const Readout& readout, const Theta& start);
   enum class Pass { first, linear };
+  bool first_pass(const Measurements& measured, const Theta& start);
   bool linear_pass(const Measurements& measured);
   bool along_reference(const Measurements& measured);
   bool along_filtered(const Measurements& measured);
@@ -66,7 +52,6 @@ class IteratedPasses : public FilterEstimate {
   void keep_start(std::size_t first, std::size_t end, const Vec3& phi);
   void add_rows();
   bool solve_block(const Interval& interval, Vec3& phi);
-  std::size_t samples_in(std::size_t i) const { return compressed_ ? compressed_->samples(i) : 1; }
   bool diverged(bool finite, double t, Pass pass);
   double largest_step();  ///< of the last pass, in posterior sigmas
   void finish();
@@ -74,7 +59,6 @@ class IteratedPasses : public FilterEstimate {
   double* row(std::size_t k) { return store_.data() + k * rows_.width(); }
 
   const Timeline& timeline_;
-  const CompressedTest* compressed_;  ///< null: every interval is a sample
   IntervalRows rows_;
   Information information_;
   PathInLanes lanes_;
@@ -98,7 +82,6 @@ class IteratedPasses : public FilterEstimate {
   std::size_t measured_last_[2] = {nothing_measured, nothing_measured};  ///< interval, by channel
   std::size_t triples_ = 0, summed_ = 0;  ///< rows by threes; summed up so far
   std::vector<AttitudeFilter> ends_;      ///< at the end of each chain
-  std::unique_ptr<StretchLag> stretch_lag_;
   VecX x_start_, x_reference_;
   VecX moved_;  ///< of the reference from the start; of the estimate from the reference
   VecX prior_, step_, nothing_;  ///< work

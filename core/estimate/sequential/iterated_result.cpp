@@ -79,7 +79,6 @@ void IteratedPasses::measure_lag() {
     if (held == held_at_most) add_held();
   }
   add_held();
-  if (stretch_lag_) stretch_lag_->add(ends_, moved_, information_, lagged, pairs);
   const double variance = nis_ / static_cast<double>(scalars_);
   lag1_ = pairs > 0 && nis_ > 0.0 ? lagged / static_cast<double>(pairs) / variance : 0.0;
 }

@@ -16,8 +16,6 @@ class ReferencePath {
   void end_chain(const Interval& interval, const Vec3& phi) {
     ends_[static_cast<std::size_t>(interval.chain)] = phi;
   }
-  /// All of them as another path has them.
-  void end_as(const ReferencePath& other) { ends_ = other.ends_; }
   /// Integrates back from the ends, with these parameters. Allocates nothing from the second time
   /// on.
   void place(const Theta& theta);

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/estimate/batch.hpp"
-#include "core/estimate/sequential/iterated_ekf.hpp"
+#include "core/estimate/sequential/iterated_passes.hpp"
 #include "core/estimate/strapdown/gyrocompass.hpp"
 #include "core/estimate/strapdown/unknown_north.hpp"
 #include "core/sim/predict.hpp"
@@ -87,7 +87,7 @@ TEST(CaseTest, IteratedFilterAndBatchAgreeWithRandomWalk) {
   const Theta start = make_layout(filter).theta;
   const BatchResult batch = fit_batch(filter, measured, start);
   ASSERT_EQ(batch.estimate.status, EstimateStatus::ok);
-  IteratedEkf ekf(filter, u.test.timeline, u.test.readout, start);
+  IteratedPasses ekf(filter, u.test.timeline, u.test.readout, start);
   const FilterEstimate& iterated = ekf.run(u.test.measured, start);
   ASSERT_EQ(iterated.status(), EstimateStatus::ok);
   for (std::size_t k = 0; k < batch.estimate.parameters.size(); ++k) {

@@ -129,17 +129,21 @@ TEST(Layout, ALevelDwellStandsStillAndAFreeOneTurnsWithTheSky) {
   EXPECT_NEAR(turned(free), 15.041 * detail::deg, 1e-5);
 }
 
-TEST(Layout, SimpsonWeightsSumToOneAndIntegrateCubics) {
-  for (const int substeps : {1, 2, 5}) {
-    double sum = 0.0, cubic = 0.0;
+TEST(Layout, WeightsOfTheMeanSumToOneAndIntegrateCubicsAndWhereTheyAreEvenQuintics) {
+  for (const int substeps : {1, 2, 5, 6}) {
+    double sum = 0.0, cubic = 0.0, quintic = 0.0;
     for (std::size_t k = 0; k <= 2 * static_cast<std::size_t>(substeps); ++k) {
       const double x = static_cast<double>(k) / (2.0 * substeps),
-                   w = Timeline::simpson_weight(substeps, k);
+                   w = Timeline::mean_weight(substeps, k);
       sum += w;
       cubic += w * x * x * x;
+      quintic += w * x * x * x * x * x;
     }
     EXPECT_NEAR(sum, 1.0, 1e-14);
     EXPECT_NEAR(cubic, 0.25, 1e-14);
+    if (substeps % 2 == 0) {
+      EXPECT_NEAR(quintic, 1.0 / 6.0, 1e-14);
+    }
   }
 }
 

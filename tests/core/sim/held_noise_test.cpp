@@ -52,7 +52,7 @@ TEST(HeldNoise, IsTheDerivativeOfTheEquationsOfMotion) {
     Mat3 force = Mat3::Zero();  // mean output by an attitude error that stays
     for (std::size_t k = 0; k < interval.node_count(); ++k) {
       const Node& node = timeline.nodes[interval.first_node + k];
-      force += Timeline::simpson_weight(interval.substeps, k) * node.R_lr.transpose() *
+      force += Timeline::mean_weight(interval.substeps, k) * node.R_lr.transpose() *
                skew<double>(Vec3::UnitZ()) * node.R_il.transpose();
     }
     for (int a = 0; a < 3; ++a) {

@@ -8,7 +8,7 @@
 #if !defined(DRIFT_SANITIZED) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #include <gtest/gtest.h>
 
-#include "core/estimate/sequential/iterated_ekf.hpp"
+#include "core/estimate/sequential/iterated_passes.hpp"
 #include "tests/mc/small_study.hpp"
 #include "tests/support/counted_allocations.hpp"
 

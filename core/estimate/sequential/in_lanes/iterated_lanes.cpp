@@ -3,16 +3,21 @@
 #include <algorithm>
 
 #include "core/estimate/compressed/stretch_rows.hpp"
-#include "core/estimate/sequential/stretches_and_chains.hpp"
+#include "core/estimate/stretches_and_chains.hpp"
 #include "core/sim/trajectory.hpp"
 
 namespace drift {
 namespace {
 
-/// Of 1, 2, 4, ... samples from the beginning of every stretch on, of so many this time.
+/// From the beginning of every stretch on each is of twice as many samples as the one before.
+/// samples: of so many this time.
 std::size_t end_of_block(const LaneIntervals& along, std::size_t first, std::size_t& samples) {
   const Timeline& timeline = along.timeline();
-  if (begins_anew(timeline, first)) samples = 1;
+  if (begins_anew(timeline, first)) {
+    std::size_t all = along.samples(first);
+    for (std::size_t i = first + 1; !begins_anew(timeline, i); ++i) all += along.samples(i);
+    samples = first_block(all);
+  }
   std::size_t end = first + 1, held = along.samples(first);
   for (; !begins_anew(timeline, end); ++end)
     if ((held += along.samples(end)) > samples) break;
@@ -138,7 +143,7 @@ void IteratedLanes::load(std::span<IteratedJob* const> jobs) {
   }
 }
 
-/// Relinearises after 1, 2, 4, ... samples from the beginning of every stretch on.
+/// Relinearises block by block.
 void IteratedLanes::begin() {
   LaneIntervals& along = stretches_ ? stretches_->first_pass() : along_;
   const Timeline& timeline = along.timeline();

@@ -4,7 +4,7 @@ namespace drift {
 namespace {
 
 /// With half of the nodes a run takes as long as before.
-constexpr int fewer_nodes = 4;
+constexpr int fewer_nodes = 2;
 
 }  // namespace
 

@@ -11,7 +11,7 @@ namespace drift {
 
 /// What IteratedLanes sees through polynomials (CompressedTest), and what the recordings in hand
 /// say of it. Its linear passes see stretches as long as they are; the first one, which looks anew
-/// after 1, 2, 4, ... samples, sees them in pieces.
+/// block by block, sees them in pieces.
 class IteratedStretches {
  public:
   /// Null where no stretch is worth it. The timeline must outlive it.

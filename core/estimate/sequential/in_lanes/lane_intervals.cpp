@@ -172,7 +172,7 @@ LaneFilter::Scalars LaneIntervals::read_accelerometers(std::size_t i,
   PackVec mean = PackVec::Zero();
   scalars.H_psi.setZero();
   for (std::size_t k = 0; k < nodes; ++k) {
-    const double w = Timeline::simpson_weight(interval.substeps, k);
+    const double w = Timeline::mean_weight(interval.substeps, k);
     const LaneJacobian& j = jacobian_[k];
     weight_[k] = Pack(w);
     weighted_H_[k] = scaled(w, j.H);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "core/plan/timeline.hpp"
 
 namespace drift {
@@ -11,6 +13,12 @@ inline bool begins_anew(const Timeline& timeline, std::size_t i) {
   const Interval &before = timeline.intervals[i - 1], &now = timeline.intervals[i];
   return now.cage || now.position != before.position || now.slew != before.slew ||
          now.rest != before.rest;
+}
+
+/// Of how many samples the first block of a stretch is, after which an estimator linearises anew;
+/// each further one is of twice as many: six blocks or so, however densely a stretch is sampled.
+inline std::size_t first_block(std::size_t samples) {
+  return std::max<std::size_t>(1, samples / 32);
 }
 
 /// Whether a chain ends with interval i.

@@ -1,11 +1,11 @@
-#include "core/estimate/sequential/iterated_ekf.hpp"
+#include "core/estimate/sequential/iterated_passes.hpp"
 
 #include <gtest/gtest.h>
 
 #include "tests/support/estimators.hpp"
 #include "tests/support/term_scenes.hpp"
 
-namespace drift::iterated_ekf_test {
+namespace drift::iterated_passes_test {
 namespace {
 
 using namespace drift::test;
@@ -21,12 +21,12 @@ struct Fits {
     EXPECT_TRUE(sim.ode.ok()) << preset;
     ekf = run_ekf(base_filter(coupling), {timeline, Readout{}, sim.measured}, layout.theta);
     batch = fit_batch(base_filter(coupling), {timeline, Readout{}, sim.measured}, layout.theta);
-    iterated = IteratedEkf(base_filter(coupling), timeline, Readout{}, layout.theta)
+    iterated = IteratedPasses(base_filter(coupling), timeline, Readout{}, layout.theta)
                    .run(sim.measured, layout.theta);
   }
 };
 
-TEST(IteratedEkf, IsTheBatchFitWhereAnEkfIsNot) {
+TEST(IteratedPasses, IsTheBatchFitWhereAnEkfIsNot) {
   // Torqued slews under eq. (6): misalignment times command and torquer scale times command. One
   // Gauss-Newton step from the EKF leaves an error of second order in the EKF's own: several times
   // less.
@@ -103,7 +103,7 @@ AtTheMinimum at_the_minimum(const char* preset, CommandLaw mode, Coupling truth_
   return out;
 }
 
-TEST(IteratedEkf, ALinearPassStandsStillAtTheMinimumOfTheBatchFit) {
+TEST(IteratedPasses, ALinearPassStandsStillAtTheMinimumOfTheBatchFit) {
   // Two implementations of one Gauss-Newton step: rows and their triangle, and rows whitened by a
   // filter of the attitude. The second takes the mean over an interval as seen from its middle: all
   // of it, in slews too.
@@ -125,39 +125,7 @@ TEST(IteratedEkf, ALinearPassStandsStillAtTheMinimumOfTheBatchFit) {
   }
 }
 
-TEST(IteratedEkf, ThroughPolynomialsIsSampleBySample) {
-  for (const auto& [preset, truth, coupling] : {std::tuple("six", Coupling::eq5, Coupling::eq5),
-                                                {"six", Coupling::eq5, Coupling::eq6},
-                                                {"slew12", Coupling::eq6, Coupling::eq6},
-                                                {"slew12", Coupling::eq5, Coupling::eq6},
-                                                {"casespin", Coupling::eq5, Coupling::lambda}}) {
-    SCOPED_TRACE(preset);
-    const Timeline timeline = preset_timeline(preset, CommandLaw::free, 3600.0, 60.0);
-    const Simulation sim = Simulator(base_truth(truth), Readout{}).run(timeline, 4, 2);
-    FilterSpec filter = base_filter(coupling);
-    if (coupling == Coupling::lambda) filter.active.set(closure_param);
-    const Layout layout = make_layout(filter);
-    IteratedPasses all(filter, timeline, Readout{}, layout.theta);
-    all.run(sim.measured, layout.theta);
-    IteratedEkf compressed(filter, timeline, Readout{}, layout.theta);
-    const FilterEstimate& few = compressed.run(sim.measured, layout.theta);
-    ASSERT_TRUE(compressed.compressed());
-    ASSERT_EQ(few.status(), EstimateStatus::ok);
-    EXPECT_EQ(few.scalars(), all.scalars());
-    EXPECT_NEAR(few.nis() / all.nis(), 1.0, 1e-6);
-    // Both stop less than a sigma before the minimum.
-    for (std::size_t k = 0; k < layout.size(); ++k) {
-      const auto i = static_cast<Eigen::Index>(k);
-      EXPECT_LT(std::abs(few.x()[i] - all.x()[i]) * layout.sigma[i], 1e-3 * all.sigma(k));
-      EXPECT_NEAR(few.sigma(k) / all.sigma(k), 1.0, 2e-4);
-    }
-    // Of samples, and of innovations: the same expectation, not the same number.
-    EXPECT_NEAR(few.lag1(), all.lag1(),
-                0.1 * std::abs(all.lag1()) + 0.5 / std::sqrt(static_cast<double>(all.scalars())));
-  }
-}
-
-TEST(IteratedEkf, IsTheBatchFitOverCagings) {
+TEST(IteratedPasses, IsTheBatchFitOverCagings) {
   const Timeline timeline = preset_timeline("six", CommandLaw::free, 3600.0, 300.0);
   Fits fits("six", timeline, Coupling::eq5);
   for (std::size_t k = 0; k < fits.layout.size(); ++k) {
@@ -171,7 +139,7 @@ TEST(IteratedEkf, IsTheBatchFitOverCagings) {
   EXPECT_NEAR(fits.iterated.nis(), fits.batch.estimate.statistic, 0.5);
 }
 
-TEST(IteratedEkf, IsTheBatchFitWithEveryTerm) {
+TEST(IteratedPasses, IsTheBatchFitWithEveryTerm) {
   // Two implementations of one minimum. The iterated EKF stops less than a Gauss-Newton step of a
   // sigma from it, and takes the mean output of an accelerometer as seen from the middle of its
   // interval: a tenth of a sigma in slews.
@@ -201,13 +169,13 @@ TEST(IteratedEkf, IsTheBatchFitWithEveryTerm) {
   }
 }
 
-TEST(IteratedEkf, StartsAnewWithoutATrace) {
+TEST(IteratedPasses, StartsAnewWithoutATrace) {
   const Timeline timeline = preset_timeline("six", CommandLaw::free, 1200.0, 120.0);
   const FilterSpec filter = base_filter(Coupling::eq5);
   const Simulation a = Simulator(base_truth(Coupling::eq5), Readout{}).run(timeline, 4, 2);
   const Simulation b = Simulator(base_truth(Coupling::eq5), Readout{}).run(timeline, 4, 3);
   const Theta start = make_layout(filter).theta;
-  IteratedEkf one(filter, timeline, Readout{}, start), other(filter, timeline, Readout{}, start);
+  IteratedPasses one(filter, timeline, Readout{}, start), other(filter, timeline, Readout{}, start);
   const FilterEstimate& fresh = one.run(a.measured, start);
   other.run(b.measured, draw_parameters(filter, 1, 1, Purpose::test));
   const FilterEstimate& again = other.run(a.measured, start);
@@ -216,14 +184,14 @@ TEST(IteratedEkf, StartsAnewWithoutATrace) {
   EXPECT_EQ(fresh.lag1(), again.lag1());
 }
 
-TEST(IteratedEkf, ReportsDivergenceAsAValueAndRecovers) {
+TEST(IteratedPasses, ReportsDivergenceAsAValueAndRecovers) {
   const Timeline timeline = preset_timeline("six", CommandLaw::free, 1200.0, 120.0);
   const FilterSpec filter = base_filter(Coupling::eq5);
   const Simulation sim = Simulator(base_truth(Coupling::eq5), Readout{}).run(timeline, 4, 2);
   const Theta start = make_layout(filter).theta;
   Measurements absurd = sim.measured;
   absurd.acc.setConstant(1e9);
-  IteratedEkf ekf(filter, timeline, Readout{}, start);
+  IteratedPasses ekf(filter, timeline, Readout{}, start);
   const FilterEstimate& found = ekf.run(absurd, start);
   EXPECT_EQ(found.status(), EstimateStatus::diverged);
   EXPECT_FALSE(found.cause().empty());
@@ -253,4 +221,4 @@ TEST(Ekf, ResetIsAsBuiltAnew) {
 }
 
 }  // namespace
-}  // namespace drift::iterated_ekf_test
+}  // namespace drift::iterated_passes_test
