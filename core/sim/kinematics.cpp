@@ -14,4 +14,11 @@ Vec3 attitude_rate(const Drive& drive, const Mat3& R_lr, const Vec3& phi, double
   return rotation_vector_rate(phi, R_rp, omega_ip_p, drive.omega_cmd_p);
 }
 
+Vec3 attitude_rate_l(const Drive& drive, const Mat3& R_lr, const Vec3& chi, double t,
+                     const double* memory) {
+  const Vec3 phi = R_lr.transpose() * chi;
+  const Vec3 phi_rate = attitude_rate(drive, R_lr, phi, t, memory);
+  return R_lr * (phi_rate + drive.omega_cmd_p.cross(phi)) - drive.omega_ie_l.cross(chi);
+}
+
 }  // namespace drift

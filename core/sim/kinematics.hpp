@@ -91,6 +91,7 @@ struct Drive {
   const DriftModel* model = nullptr;
   const double* theta = nullptr;      ///< every parameter of TermLibrary, SI
   Vec3 omega_ic_l = Vec3::Zero();     ///< [rad/s]
+  Vec3 omega_ie_l = Vec3::Zero();     ///< of the Earth [rad/s]
   Vec3 omega_cmd_p = Vec3::Zero();    ///< [rad/s]
   Mat3 E_loop = Mat3::Zero();         ///< coupling "compensated" alone [rad]
   Vec3 omega_noise_p = Vec3::Zero();  ///< process noise of the platform rate [rad/s]
@@ -104,5 +105,10 @@ struct Drive {
 /// (null where the model has none) are looked at if drive.needs says so.
 Vec3 attitude_rate(const Drive& drive, const Mat3& R_lr, const Vec3& phi, double t,
                    const double* memory);
+
+/// chi' of the same vector in local axes, chi = R_lr phi, which does not turn with the command:
+/// chi' = R_lr (phi' + w_cmd x phi) - w_ie x chi [rad/s].
+Vec3 attitude_rate_l(const Drive& drive, const Mat3& R_lr, const Vec3& chi, double t,
+                     const double* memory);
 
 }  // namespace drift

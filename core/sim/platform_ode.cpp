@@ -92,14 +92,14 @@ struct PlatformOde::Problem::SceneAt : Scene<S> {
 
 bool PlatformOde::Problem::reduced(double t, const double* y, double* y_dot) const {
   if (!drive.needs.any()) {
-    Eigen::Map<Vec3>(y_dot, 3) = attitude_rate(drive, reference(t), vec3(y), t, nullptr);
+    Eigen::Map<Vec3>(y_dot, 3) = attitude_rate_l(drive, reference(t), vec3(y), t, nullptr);
     return true;
   }
   std::array<double, num_memory> memory_now;
   Drive here = drive;
   here.interval = &interval_at(t);
   if (drive.needs.memory) memory_now = memory->at_time(*drive.timeline, *here.interval, t).value;
-  Eigen::Map<Vec3>(y_dot, 3) = attitude_rate(here, reference(t), vec3(y), t, memory_now.data());
+  Eigen::Map<Vec3>(y_dot, 3) = attitude_rate_l(here, reference(t), vec3(y), t, memory_now.data());
   return true;
 }
 
@@ -162,7 +162,7 @@ OdeResult PlatformOde::segment(const Timeline& timeline, std::size_t first, std:
   const int at_phi = servo ? ServoState::size : 0;
   if (psi0_l) {
     const Vec3 phi0 = caged_phi(node.R_lr, *psi0_l);
-    Eigen::Map<Vec3>(y_.data() + at_phi, 3) = phi0;
+    Eigen::Map<Vec3>(y_.data() + at_phi, 3) = servo ? phi0 : Vec3(node.R_lr * phi0);
     if (servo) {
       const Problem::SceneAt<double> scene(p, start.t0, node.R_lr * rotation(phi0));
       Eigen::Map<Eigen::Matrix<double, ServoState::size, 1>>(y_.data()) =
@@ -182,7 +182,9 @@ OdeResult PlatformOde::segment(const Timeline& timeline, std::size_t first, std:
             ode_.advance(k == interval.last_node() ? interval.t1 : timeline.nodes[k].t);
         if (!r.ok()) return r;
       }
-      phi[k] = vec3(k == start.first_node ? y_.data() + at_phi : ode_.state().data() + at_phi);
+      const Vec3 y =
+          vec3(k == start.first_node ? y_.data() + at_phi : ode_.state().data() + at_phi);
+      phi[k] = servo ? y : Vec3(timeline.nodes[k].R_lr.transpose() * y);
     }
   }
   const auto state = ode_.state();

@@ -11,8 +11,9 @@
 namespace drift {
 
 /// The platform's equations of motion in CVODE, one segment after the other. The attitude is the
-/// rotation vector against the closed-form reference (physics.md 6.1); coupling "servo" adds the 12
-/// states of the loop. One per thread; not copied or moved while in use.
+/// rotation vector against the closed-form reference (physics.md 6.1), in local axes, in which it
+/// does not turn with the command; coupling "servo" adds the 12 states of the loop, and has it in
+/// axes of the reference. One per thread; not copied or moved while in use.
 class PlatformOde {
  public:
   PlatformOde(const DriftModel& model, const ServoOptions& servo, const OdeOptions& options);

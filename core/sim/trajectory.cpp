@@ -10,6 +10,7 @@ Drive drive_of(const Interval& interval, const Timeline& timeline, const DriftMo
   d.model = &model;
   d.theta = theta.data();
   d.omega_ic_l = timeline.nodes[interval.first_node].omega_ic_l;
+  d.omega_ie_l = timeline.site.omega_ie_l();
   d.omega_cmd_p = interval.omega_cmd_p;
   d.E_loop = misalignment_matrix(model.mounting, interval.loop);
   d.needs = TermLibrary::needs(model.terms);
@@ -20,15 +21,16 @@ Drive drive_of(const Interval& interval, const Timeline& timeline, const DriftMo
 
 Vec3 step_attitude(const Drive& drive, double t, double step, const Vec3& phi,
                    const StepPoint& from, const StepPoint& half, const StepPoint& to) {
-  const auto rate = [&](const StepPoint& at, double time, const Vec3& there) {
-    return attitude_rate(drive, at.R_lr, there, time,
-                         at.memory ? at.memory->value.data() : nullptr);
+  const auto rate = [&](const StepPoint& at, double time, const Vec3& chi) {
+    return attitude_rate_l(drive, at.R_lr, chi, time,
+                           at.memory ? at.memory->value.data() : nullptr);
   };
-  const Vec3 k1 = rate(from, t, phi);
-  const Vec3 k2 = rate(half, t + 0.5 * step, phi + 0.5 * step * k1);
-  const Vec3 k3 = rate(half, t + 0.5 * step, phi + 0.5 * step * k2);
-  const Vec3 k4 = rate(to, t + step, phi + step * k3);
-  return phi + step / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
+  const Vec3 chi = from.R_lr * phi;
+  const Vec3 k1 = rate(from, t, chi);
+  const Vec3 k2 = rate(half, t + 0.5 * step, chi + 0.5 * step * k1);
+  const Vec3 k3 = rate(half, t + 0.5 * step, chi + 0.5 * step * k2);
+  const Vec3 k4 = rate(to, t + step, chi + step * k3);
+  return to.R_lr.transpose() * (chi + step / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4));
 }
 
 void step_through(const Interval& interval, const Timeline& timeline, const Drive& drive,

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numeric>
 
-#include "core/estimate/stretches_and_chains.hpp"
+#include "core/plan/stretches_and_chains.hpp"
 
 namespace drift {
 namespace {

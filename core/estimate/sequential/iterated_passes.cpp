@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "core/estimate/stretches_and_chains.hpp"
 #include "core/physics/stochastic.hpp"
+#include "core/plan/stretches_and_chains.hpp"
 
 namespace drift {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/estimate/compressed/stretch_rows.hpp"
-#include "core/estimate/stretches_and_chains.hpp"
+#include "core/plan/stretches_and_chains.hpp"
 #include "core/sim/trajectory.hpp"
 
 namespace drift {

@@ -15,6 +15,11 @@ std::vector<std::size_t> part_of(const Layout& layout, std::size_t first, std::s
           layout.params.begin() + static_cast<std::ptrdiff_t>(end)};
 }
 
+PackVec cross(const Vec3& a, const PackVec& b) {
+  return {Pack(a[1]) * b[2] - Pack(a[2]) * b[1], Pack(a[2]) * b[0] - Pack(a[0]) * b[2],
+          Pack(a[0]) * b[1] - Pack(a[1]) * b[0]};
+}
+
 PackVec plus(const PackVec& a, double factor, const PackVec& b) {
   PackVec sum;
   for (int i = 0; i < 3; ++i) sum[i] = mul_add(Pack(factor), b[i], a[i]);
@@ -109,8 +114,9 @@ LaneLinearizer::Gimbals LaneLinearizer::gimbals(const Node& node, double heading
           times(gimbal_angles_by_rotation(R_cp), in_all_lanes(R_cl * node.R_il.transpose()))};
 }
 
-/// phi' (kinematics.hpp).
-[[gnu::flatten]] PackVec LaneLinearizer::rate(const Mat3& R_lr, const PackVec& phi) {
+/// chi' (attitude_rate_l, kinematics.hpp).
+[[gnu::flatten]] PackVec LaneLinearizer::rate(const Mat3& R_lr, const PackVec& chi) {
+  const PackVec phi = times_vector(in_all_lanes(R_lr.transpose()), chi);
   const PackMat R_rp = rotation(phi), R_lp = times(in_all_lanes(R_lr), R_rp);
   Inputs<Pack>& in = seen_.still;
   for (int i = 0; i < 3; ++i) {
@@ -123,19 +129,24 @@ LaneLinearizer::Gimbals LaneLinearizer::gimbals(const Node& node, double heading
   for (int i = 0; i < 3; ++i) sum.omega_torque_g[i] = Pack(-in.omega_cmd_p[i]);
   rates_.add_plain_to(seen_, sum);
   const PackVec omega_ip_p = rate_of_slots(model_.coupling, sum, in.omega_ic_p, E_loop_);
-  return rotation_vector_rate(phi, R_rp, omega_ip_p, in.omega_cmd_p);
+  const PackVec phi_rate = rotation_vector_rate(phi, R_rp, omega_ip_p, in.omega_cmd_p);
+  return times_vector(in_all_lanes(R_lr), phi_rate + cross(in.omega_cmd_p, phi)) -
+         cross(omega_ie_l_, chi);
 }
 
 PackVec LaneLinearizer::step(double length, const Mat3& from, const Mat3& half, const Mat3& to,
                              const PackVec& phi) {
-  const PackVec k1 = rate(from, phi), k2 = rate(half, plus(phi, 0.5 * length, k1)),
-                k3 = rate(half, plus(phi, 0.5 * length, k2)), k4 = rate(to, plus(phi, length, k3));
-  return plus(phi, length / 6.0, plus(PackVec(k1 + k4), 2.0, k2 + k3));
+  const PackVec chi = times_vector(in_all_lanes(from), phi);
+  const PackVec k1 = rate(from, chi), k2 = rate(half, plus(chi, 0.5 * length, k1)),
+                k3 = rate(half, plus(chi, 0.5 * length, k2)), k4 = rate(to, plus(chi, length, k3));
+  return times_vector(in_all_lanes(to.transpose()),
+                      plus(chi, length / 6.0, plus(PackVec(k1 + k4), 2.0, k2 + k3)));
 }
 
 void LaneLinearizer::drive(const Timeline& timeline, const Interval& interval) {
   seen_.still.omega_cmd_p = interval.omega_cmd_p;
   omega_ic_l_ = timeline.nodes[interval.first_node].omega_ic_l;
+  omega_ie_l_ = timeline.site.omega_ie_l();
   E_loop_ = misalignment_matrix(model_.mounting, interval.loop);
 }
 

@@ -59,7 +59,7 @@ class LaneLinearizer {
 
  private:
   void look(const Node& node, const Interval& interval, const PackVec& phi);
-  PackVec rate(const Mat3& R_lr, const PackVec& phi);
+  PackVec rate(const Mat3& R_lr, const PackVec& chi);
   PackVec step(double length, const Mat3& from, const Mat3& half, const Mat3& to,
                const PackVec& phi);
   void drive(const Timeline& timeline, const Interval& interval);
@@ -73,7 +73,7 @@ class LaneLinearizer {
   std::vector<Pack> derivative_;
   SeenByTerms<Pack> seen_;
   PackMat R_lp_;
-  Vec3 omega_ic_l_ = Vec3::Zero();
+  Vec3 omega_ic_l_ = Vec3::Zero(), omega_ie_l_ = Vec3::Zero();
   Mat3 E_loop_ = Mat3::Zero();
 };
 
