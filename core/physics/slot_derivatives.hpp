@@ -42,6 +42,22 @@ inline bool all_in_lanes(const TermMask& terms) {
   return those_apart(terms).none();
 }
 
+/// Whether a term can be worked out for several runs at one instant: what belongs to the instant is
+/// the same in all lanes; what the past has left is not, nor which gimbal a term that asks for
+/// their angles looks at.
+template <class T>
+constexpr bool at_one_instant() {
+  return !is_place<T>() && !needs_of<T>().memory && !needs_of<T>().gimbals;
+}
+inline bool all_at_one_instant(const TermMask& terms) {
+  constexpr TermMask which =
+      TermLibrary::selected([](const TermInfo& t) { return !t.needs.memory && !t.needs.gimbals; });
+  return (terms & ~which).none() && (terms >> TermLibrary::num_known).none();
+}
+
+/// What lanes stand for: instants of one run, or runs at one instant.
+enum class LanesAre { instants, runs };
+
 /// An instant at which every term has something to do, to find out what depends on what.
 SeenByTerms<Dependence> scene_of_dependence();
 
@@ -52,8 +68,13 @@ SeenByTerms<Dependence> scene_of_dependence();
 /// nonlinear parameter, or one that memory depends on, takes a dual number of its own.
 ///
 /// Hooks may only add to their slots (term.hpp). Allocates nothing once it is built.
-template <class Hook, class S>
+template <class Hook, class S, LanesAre lanes = LanesAre::instants>
 class SlotDerivatives {
+  /// Whether a term is worked out with such numbers.
+  template <class T>
+  static constexpr bool knows = std::same_as<S, double> ||
+                                (lanes == LanesAre::runs ? at_one_instant<T>() : in_lanes<T>());
+
  public:
   static constexpr int slots = Hook::slots;
   using D3 = Dual<3, S>;
@@ -66,11 +87,11 @@ class SlotDerivatives {
     int slot = 0;
   };
 
-  /// states: library index of each, in the order of a layout. Of several instants at once: no term
-  /// may be among `terms` that is not in_lanes.
+  /// states: library index of each, in the order of a layout. Of several instants at once no term
+  /// may be among `terms` that is not in_lanes, of several runs none that is not at_one_instant.
   SlotDerivatives(const TermMask& terms, const std::vector<std::size_t>& states) {
     TermLibrary::for_each_of(terms, [&]<class T>(const TermInfo& info) {
-      if constexpr (Hook::template has<T> && (in_lanes<T>() || std::same_as<S, double>))
+      if constexpr (Hook::template has<T> && knows<T>)
         if (Hook::acts(info)) add<T>(info, states);
     });
   }
@@ -218,9 +239,10 @@ std::array<std::uint32_t, T::params.size()> slots_met(const ParamSpec* specs = T
   return met;
 }
 
-template <class Hook, class S>
+template <class Hook, class S, LanesAre lanes>
 template <class T>
-void SlotDerivatives<Hook, S>::add(const TermInfo& info, const std::vector<std::size_t>& states) {
+void SlotDerivatives<Hook, S, lanes>::add(const TermInfo& info,
+                                          const std::vector<std::size_t>& states) {
   OneTerm t{info.first, static_cast<std::size_t>(info.first_memory), {}, &value<T>, &derivative<T>,
             &plain<T>};
   const ParamSpec* specs = &TermLibrary::specs[info.first];

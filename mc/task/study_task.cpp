@@ -53,11 +53,16 @@ StudyTask::StudyTask(Study study)
 }
 
 std::size_t StudyTask::together() const {
-  const bool in_lanes = study_.monte_carlo.estimator != EstimatorKind::batch &&
-                        std::ranges::any_of(study_.filters, [&](const FilterSpec& f) {
-                          return LaneIntervals::can(f, timeline_);
-                        });
+  const bool in_lanes =
+      study_.monte_carlo.estimator != EstimatorKind::batch &&
+      std::ranges::any_of(study_.filters, [&](const FilterSpec& f) { return goes_in_lanes(f); });
   return in_lanes ? LaneIntervals::width : 1;
+}
+
+bool StudyTask::goes_in_lanes(const FilterSpec& filter) const {
+  const bool each_its_own =
+      study_.environment.fluctuates() && TermLibrary::needs(filter.model().terms).covariates != 0;
+  return LaneIntervals::can(filter, timeline_) && !each_its_own;
 }
 
 std::unique_ptr<RunWorker> StudyTask::worker() const {

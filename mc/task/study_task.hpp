@@ -19,6 +19,10 @@ class StudyTask final : public RunTask {
   std::unique_ptr<RunWorker> worker() const override;
   std::size_t together() const override;
 
+  /// Whether runs are estimated by a filter of the study in lock step: such as LaneIntervals can,
+  /// whose surroundings are those of every run.
+  bool goes_in_lanes(const FilterSpec& filter) const;
+
   const Study& study() const { return study_; }
   const Timeline& timeline() const { return timeline_; }
   const StudyColumns& layout() const { return layout_; }

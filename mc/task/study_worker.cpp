@@ -55,7 +55,7 @@ StudyWorker::StudyWorker(const StudyTask& task)
     for (std::size_t s = 0; s < fixed; ++s)
       bench.fixed_starts.push_back(initial_estimate(spec, study.monte_carlo.seed, 0, s));
     const Theta& start = bench.fixed_starts[0];
-    const bool lanes = LaneIntervals::can(spec, timeline_);
+    const bool lanes = task.goes_in_lanes(spec);
     if (study.monte_carlo.estimator == EstimatorKind::ekf) {
       if (lanes)
         bench.ekf_lanes.estimator = std::make_unique<EkfLanes>(spec, timeline_, study.readout);

@@ -36,7 +36,7 @@ RunTrace trace_run(const Study& point, std::uint64_t run) {
       jobs[s].measured = &sim.measured;
       jobs[s].start = initial_estimate(spec, mc.seed, run, s);
     }
-    if (LaneIntervals::can(spec, timeline))  // as the study has it, to the last bit
+    if (task.goes_in_lanes(spec))  // as the study has it, to the last bit
       EkfLanes(spec, timeline, point.readout).run(jobs, histories);
     else
       for (std::size_t s = 0; s < starts; ++s)

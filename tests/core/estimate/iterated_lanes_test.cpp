@@ -9,6 +9,7 @@
 #include "core/sim/simulate.hpp"
 #include "tests/support/estimators.hpp"
 #include "tests/support/model_builders.hpp"
+#include "tests/support/term_scenes.hpp"
 
 namespace drift::iterated_lanes_test {
 namespace {
@@ -74,6 +75,40 @@ TEST(IteratedLanes, AgreeWithTheEstimatorOfOneRun) {
         EXPECT_NEAR(jobs[k].sigma(s) / one.sigma(s), 1.0, 1e-6);
     }
   }
+}
+
+/// Terms that see the clock, the attitude, gimbals or covariates, too: all lanes see the same.
+TEST(IteratedLanes, WithEveryTermTheyCanAgreeWithTheEstimatorOfOneRun) {
+  int terms = 0;
+  for (std::size_t t = 0; t < TermLibrary::num_known; ++t) {
+    const std::string name(TermLibrary::terms[t].key);
+    SCOPED_TRACE(name);
+    FilterSpec filter = base_filter(Coupling::eq5);
+    filter.active |= term_params(t);
+    const Timeline timeline = scene("slew12", CommandLaw::free, 600.0, 60.0);
+    if (!LaneIntervals::can(filter, timeline) || all_in_lanes(filter.model().terms)) continue;
+    ++terms;
+    TruthSpec truth;
+    static_cast<ModelSpec&>(truth) = filter;
+    const Theta start = make_layout(filter).theta;
+    Simulator simulator(truth, Readout{});
+    std::vector<Measurements> all;
+    for (std::uint64_t run = 0; run < 2; ++run)
+      all.push_back(simulator.run(timeline, 4, run).measured);
+    auto jobs = jobs_of(all, start);
+    IteratedLanes(filter, timeline, Readout{}).run(jobs);
+    IteratedPasses one(filter, timeline, Readout{}, start);
+    for (std::size_t k = 0; k < jobs.size(); ++k) {
+      one.run(all[k], start);
+      ASSERT_EQ(jobs[k].status(), one.status()) << jobs[k].cause();
+      EXPECT_NEAR(jobs[k].nis() / one.nis(), 1.0, 1e-5);
+      const VecX sigma = one.settled_covariance().diagonal().cwiseSqrt();
+      EXPECT_LT((jobs[k].x() - one.x()).cwiseQuotient(sigma).cwiseAbs().maxCoeff(), 2e-3);
+      for (std::size_t s = 0; s < one.layout().size(); ++s)
+        EXPECT_NEAR(jobs[k].sigma(s) / one.sigma(s), 1.0, 1e-5);
+    }
+  }
+  EXPECT_GE(terms, 15);
 }
 
 /// Stretches through polynomials against every sample: a tail that StretchRows::negligible lets

@@ -11,6 +11,7 @@ constexpr int fewer_nodes = 2;
 std::unique_ptr<IteratedStretches> IteratedStretches::of(const FilterSpec& filter,
                                                          const Timeline& timeline,
                                                          const Readout& readout) {
+  if (!CompressedTest::can(filter.model())) return nullptr;
   if (!CompressedTest(timeline, readout, {.fewer = fewer_nodes}).any()) return nullptr;
   return std::make_unique<IteratedStretches>(filter, timeline, readout);
 }

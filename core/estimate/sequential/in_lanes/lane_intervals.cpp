@@ -6,14 +6,16 @@
 #include "core/estimate/sequential/drift_walk.hpp"
 #include "core/estimate/transition.hpp"
 #include "core/physics/stochastic.hpp"
+#include "core/sim/surroundings.hpp"
 
 namespace drift {
 namespace {
 
 /// Whether the last node of an interval and the first of the next are the same for the terms.
-bool go_on_alike(const Timeline& timeline, const Interval& a, const Interval& b) {
+bool go_on_alike(const Timeline& timeline, const Interval& a, const Interval& b, bool see_more) {
   return !b.cage && a.omega_cmd_p == b.omega_cmd_p && a.loop == b.loop &&
-         timeline.nodes[a.last_node()].omega_ic_l == timeline.nodes[b.first_node].omega_ic_l;
+         timeline.nodes[a.last_node()].omega_ic_l == timeline.nodes[b.first_node].omega_ic_l &&
+         (!see_more || moment_at(timeline, a, a.t1) == moment_at(timeline, b, b.t0));
 }
 
 /// What each lane has measured in a sample, zero where it has not.
@@ -54,11 +56,13 @@ LaneIntervals::LaneIntervals(const FilterSpec& filter, const Timeline& timeline,
       readout_(readout),
       layout_(make_layout(filter)),
       linearizer_(filter.model(), layout_, readout),
+      see_more_(!all_in_lanes(filter.model().terms)),
       attitude_(layout_, linearizer_.readout()),
       H_rate_(3 * layout_.num_rate),
       H_par_(linearizer_.readout().size()),
       rest_G_(H_rate_),
       path_(timeline.nodes.size()) {
+  require_covariates(linearizer_.model(), timeline);
   std::size_t most = 0;
   for (const Interval& i : timeline.intervals) most = std::max(most, i.node_count());
   jacobian_.assign(most, linearizer_.make());
@@ -88,10 +92,11 @@ void LaneIntervals::evaluate(std::size_t i, bool follows) {
   const Interval& interval = timeline_.intervals[i];
   const std::size_t nodes = interval.node_count();
   const Mat3 E_loop = misalignment_matrix(linearizer_.model().mounting, interval.loop);
-  const bool shared = follows && go_on_alike(timeline_, timeline_.intervals[i - 1], interval);
+  const bool shared =
+      follows && go_on_alike(timeline_, timeline_.intervals[i - 1], interval, see_more_);
   if (shared) std::swap(jacobian_[0], jacobian_[timeline_.intervals[i - 1].node_count() - 1]);
   for (std::size_t k = shared ? 1 : 0; k < nodes; ++k)
-    linearizer_.evaluate(timeline_.nodes[interval.first_node + k], interval, E_loop,
+    linearizer_.evaluate(timeline_, timeline_.nodes[interval.first_node + k], interval, E_loop,
                          path_[interval.first_node + k], jacobian_[k]);
 }
 

@@ -17,8 +17,8 @@ class LaneIntervals {
   enum Channel { accelerometers = 0, gimbals = 1 };
   using Recordings = std::array<const Measurements*, width>;
 
-  /// Whether a filter and a timeline are such: terms that ask for attitude and command alone and do
-  /// not act on the gimbals, nothing that walks, attitude included, no outliers, no rest.
+  /// Whether a filter and a timeline are such: terms that LaneLinearizer can, nothing that walks,
+  /// attitude included, no outliers, no rest.
   static bool can(const FilterSpec& filter, const Timeline& timeline);
   /// The timeline must outlive it.
   LaneIntervals(const FilterSpec& filter, const Timeline& timeline, const Readout& readout);
@@ -84,6 +84,7 @@ class LaneIntervals {
   Readout readout_;
   Layout layout_;
   LaneLinearizer linearizer_;
+  bool see_more_;  ///< the terms, than attitude and command
   LaneFilter attitude_;
   std::vector<LaneJacobian> jacobian_;
   std::vector<PackMat> Phi_, weighted_H_;

@@ -6,6 +6,7 @@
 #include "core/physics/earth.hpp"
 #include "core/physics/gimbals.hpp"
 #include "core/sim/kinematics.hpp"
+#include "core/sim/surroundings.hpp"
 
 namespace drift {
 namespace {
@@ -30,6 +31,7 @@ PackVec plus(const PackVec& a, double factor, const PackVec& b) {
 
 LaneLinearizer::LaneLinearizer(const DriftModel& model, const Layout& layout, Readout readout)
     : model_(model),
+      needs_(TermLibrary::needs(model.terms)),
       layout_(layout),
       readout_(readout),
       theta_(TermLibrary::num_params),
@@ -51,7 +53,8 @@ LaneJacobian LaneLinearizer::make() const {
 
 /// What the base terms see is linear in R_lp, so its derivative is what they would see of
 /// dR_lp = [psi x] R_lp.
-void LaneLinearizer::look(const Node& node, const Interval& interval, const PackVec& phi) {
+void LaneLinearizer::look(const Timeline& timeline, const Node& node, const Interval& interval,
+                          const PackVec& phi) {
   R_lp_ = times(in_all_lanes(node.R_lr), rotation(phi));
   const Vec3& w_l = node.omega_ic_l;
   Inputs<Pack>& still = seen_.still;
@@ -67,12 +70,29 @@ void LaneLinearizer::look(const Node& node, const Interval& interval, const Pack
       at_psi.f_p[i].d[k] = k == 0 ? R_lp_(1, i) : k == 1 ? -R_lp_(0, i) : Pack(0.0);
     }
   }
+  still.around = nullptr;
+  at_psi.around = nullptr;
+  if (!needs_.any()) return;
+  const Moment now = moment_at(timeline, interval, node.t);
+  Mat3T<Dual<3, Pack>> R_at_psi;
+  for (int i = 0; i < 3; ++i)
+    for (int row = 0; row < 3; ++row) {
+      R_at_psi(row, i).v = R_lp_(row, i);
+      for (int k = 0; k < 3; ++k) {
+        const int a = (k + 1) % 3, b = (k + 2) % 3;
+        R_at_psi(row, i).d[k] = row == a ? -R_lp_(b, i) : row == b ? R_lp_(a, i) : Pack(0.0);
+      }
+    }
+  fill_surroundings<Pack>(needs_, now, R_lp_, nullptr, around_still_);
+  fill_surroundings<Dual<3, Pack>>(needs_, now, R_at_psi, nullptr, around_at_psi_);
+  still.around = &around_still_;
+  at_psi.around = &around_at_psi_;
 }
 
-[[gnu::flatten]] void LaneLinearizer::evaluate(const Node& node, const Interval& interval,
-                                               const Mat3& E_loop, const PackVec& phi,
-                                               LaneJacobian& out) {
-  look(node, interval, phi);
+[[gnu::flatten]] void LaneLinearizer::evaluate(const Timeline& timeline, const Node& node,
+                                               const Interval& interval, const Mat3& E_loop,
+                                               const PackVec& phi, LaneJacobian& out) {
+  look(timeline, node, interval, phi);
   const auto slots = rates_.slots_of(seen_);
   rates_.differentiate(seen_, derivative_.data());
   const PackMat R_ip = times(in_all_lanes(node.R_il), R_lp_),
@@ -115,7 +135,7 @@ LaneLinearizer::Gimbals LaneLinearizer::gimbals(const Node& node, double heading
 }
 
 /// chi' (attitude_rate_l, kinematics.hpp).
-[[gnu::flatten]] PackVec LaneLinearizer::rate(const Mat3& R_lr, const PackVec& chi) {
+[[gnu::flatten]] PackVec LaneLinearizer::rate(double t, const Mat3& R_lr, const PackVec& chi) {
   const PackVec phi = times_vector(in_all_lanes(R_lr.transpose()), chi);
   const PackMat R_rp = rotation(phi), R_lp = times(in_all_lanes(R_lr), R_rp);
   Inputs<Pack>& in = seen_.still;
@@ -124,6 +144,12 @@ LaneLinearizer::Gimbals LaneLinearizer::gimbals(const Node& node, double heading
     in.omega_ic_p[i] =
         mul_add(R_lp(0, i), omega_ic_l_[0],
                 mul_add(R_lp(1, i), omega_ic_l_[1], R_lp(2, i) * Pack(omega_ic_l_[2])));
+  }
+  in.around = nullptr;
+  if (needs_.any()) {
+    fill_surroundings<Pack>(needs_, moment_at(*timeline_, *interval_, t), R_lp, nullptr,
+                            around_still_);
+    in.around = &around_still_;
   }
   RateAssembly<Pack> sum;
   for (int i = 0; i < 3; ++i) sum.omega_torque_g[i] = Pack(-in.omega_cmd_p[i]);
@@ -134,16 +160,20 @@ LaneLinearizer::Gimbals LaneLinearizer::gimbals(const Node& node, double heading
          cross(omega_ie_l_, chi);
 }
 
-PackVec LaneLinearizer::step(double length, const Mat3& from, const Mat3& half, const Mat3& to,
-                             const PackVec& phi) {
+PackVec LaneLinearizer::step(double t, double length, const Mat3& from, const Mat3& half,
+                             const Mat3& to, const PackVec& phi) {
   const PackVec chi = times_vector(in_all_lanes(from), phi);
-  const PackVec k1 = rate(from, chi), k2 = rate(half, plus(chi, 0.5 * length, k1)),
-                k3 = rate(half, plus(chi, 0.5 * length, k2)), k4 = rate(to, plus(chi, length, k3));
+  const double middle = t + 0.5 * length;
+  const PackVec k1 = rate(t, from, chi), k2 = rate(middle, half, plus(chi, 0.5 * length, k1)),
+                k3 = rate(middle, half, plus(chi, 0.5 * length, k2)),
+                k4 = rate(t + length, to, plus(chi, length, k3));
   return times_vector(in_all_lanes(to.transpose()),
                       plus(chi, length / 6.0, plus(PackVec(k1 + k4), 2.0, k2 + k3)));
 }
 
 void LaneLinearizer::drive(const Timeline& timeline, const Interval& interval) {
+  timeline_ = &timeline;
+  interval_ = &interval;
   seen_.still.omega_cmd_p = interval.omega_cmd_p;
   omega_ic_l_ = timeline.nodes[interval.first_node].omega_ic_l;
   omega_ie_l_ = timeline.site.omega_ie_l();
@@ -156,7 +186,7 @@ void LaneLinearizer::forward(const Timeline& timeline, const Interval& interval,
   const double length = interval.length() / (2.0 * interval.substeps);
   const Node* node = &timeline.nodes[interval.first_node];
   for (std::size_t k = from; k + 1 < interval.node_count(); ++k)
-    phi[k + 1] = step(length, node[k].R_lr, node[k].R_lr_half, node[k + 1].R_lr, phi[k]);
+    phi[k + 1] = step(node[k].t, length, node[k].R_lr, node[k].R_lr_half, node[k + 1].R_lr, phi[k]);
 }
 
 void LaneLinearizer::backward(const Timeline& timeline, const Interval& interval, PackVec* phi) {
@@ -164,7 +194,8 @@ void LaneLinearizer::backward(const Timeline& timeline, const Interval& interval
   const double length = interval.length() / (2.0 * interval.substeps);
   const Node* node = &timeline.nodes[interval.first_node];
   for (std::size_t k = interval.node_count() - 1; k-- > 0;)
-    phi[k] = step(-length, node[k + 1].R_lr, node[k].R_lr_half, node[k].R_lr, phi[k + 1]);
+    phi[k] =
+        step(node[k + 1].t, -length, node[k + 1].R_lr, node[k].R_lr_half, node[k].R_lr, phi[k + 1]);
 }
 
 }  // namespace drift

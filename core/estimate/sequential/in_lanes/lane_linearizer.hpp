@@ -25,12 +25,12 @@ struct LaneJacobian {
 /// depend on its neighbours.
 class LaneLinearizer {
  public:
-  using Entry = SlotDerivatives<ReadoutHook, Pack>::Entry;
+  using Entry = SlotDerivatives<ReadoutHook, Pack, LanesAre::runs>::Entry;
 
-  /// Whether a model is such that its terms ask for attitude and command alone, and none acts on
-  /// what the gimbals show.
+  /// Whether a model is such that its terms ask for nothing that differs between the lanes but the
+  /// attitude (at_one_instant), and none acts on what the gimbals show.
   static bool can(const DriftModel& model) {
-    return those_apart(model.terms).none() && !TermLibrary::act_on_gimbals(model.terms);
+    return all_at_one_instant(model.terms) && !TermLibrary::act_on_gimbals(model.terms);
   }
   LaneLinearizer(const DriftModel& model, const Layout& layout, Readout readout);
   LaneLinearizer(const LaneLinearizer&) = delete;
@@ -40,8 +40,8 @@ class LaneLinearizer {
   std::vector<Pack>& theta() { return theta_; }
   const DriftModel& model() const { return model_; }
 
-  void evaluate(const Node& node, const Interval& interval, const Mat3& E_loop, const PackVec& phi,
-                LaneJacobian& out);
+  void evaluate(const Timeline& timeline, const Node& node, const Interval& interval,
+                const Mat3& E_loop, const PackVec& phi, LaneJacobian& out);
   /// Gimbal angles at a node, and their derivatives by psi_i; the case heads as given [rad].
   struct Gimbals {
     PackVec angles;
@@ -58,21 +58,27 @@ class LaneLinearizer {
   void backward(const Timeline& timeline, const Interval& interval, PackVec* phi);
 
  private:
-  void look(const Node& node, const Interval& interval, const PackVec& phi);
-  PackVec rate(const Mat3& R_lr, const PackVec& chi);
-  PackVec step(double length, const Mat3& from, const Mat3& half, const Mat3& to,
+  void look(const Timeline& timeline, const Node& node, const Interval& interval,
+            const PackVec& phi);
+  PackVec rate(double t, const Mat3& R_lr, const PackVec& chi);
+  PackVec step(double t, double length, const Mat3& from, const Mat3& half, const Mat3& to,
                const PackVec& phi);
   void drive(const Timeline& timeline, const Interval& interval);
 
   DriftModel model_;
+  Needs needs_;
   Layout layout_;
   Readout readout_;
   std::vector<Pack> theta_;
-  SlotDerivatives<RatesHook, Pack> rates_;
-  SlotDerivatives<ReadoutHook, Pack> accelerometers_;
+  SlotDerivatives<RatesHook, Pack, LanesAre::runs> rates_;
+  SlotDerivatives<ReadoutHook, Pack, LanesAre::runs> accelerometers_;
   std::vector<Pack> derivative_;
   SeenByTerms<Pack> seen_;
+  Surroundings<Pack> around_still_;  ///< filled if needed
+  Surroundings<Dual<3, Pack>> around_at_psi_;
   PackMat R_lp_;
+  const Timeline* timeline_ = nullptr;  ///< of the interval that is stepped through
+  const Interval* interval_ = nullptr;
   Vec3 omega_ic_l_ = Vec3::Zero(), omega_ie_l_ = Vec3::Zero();
   Mat3 E_loop_ = Mat3::Zero();
 };
