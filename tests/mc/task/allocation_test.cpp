@@ -43,17 +43,19 @@ TEST(Allocations, ARunOfAStudyMakesNoneInItsFilters) {
       "\"accelerometer\"]";
   const std::string memory = "[\"fixed_drift\", \"warmup_drift\", \"torquer_heating\"]";
   for (const std::string& terms : {std::string("[\"fixed_drift\"]"), all, memory})
-    for (const char* estimator : {"ekf", "iterated"}) {
-      const auto count = [&](const char* starts) {
-        return allocations_of({{"monte_carlo.estimator", estimator},
-                               {"filter.right.terms", terms},
-                               {"filter.right.starts", starts}},
-                              5);
-      };
-      const long few = count("1"), many = count("6");
-      EXPECT_EQ(many, few) << estimator << terms;
-      std::printf("%s: %ld allocations in a run, all of the simulation\n", estimator, few / 5);
-    }
+    for (const char* estimator : {"ekf", "iterated"})
+      for (const char* sample : {"2 min", "20 s"}) {  // and with dwells through polynomials
+        const auto count = [&](const char* starts) {
+          return allocations_of({{"monte_carlo.estimator", estimator},
+                                 {"plan.sample", sample},
+                                 {"filter.right.terms", terms},
+                                 {"filter.right.starts", starts}},
+                                5);
+        };
+        const long few = count("1"), many = count("6");
+        EXPECT_EQ(many, few) << estimator << terms << sample;
+        std::printf("%s: %ld allocations in a run, all of the simulation\n", estimator, few / 5);
+      }
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "core/base/check.hpp"
-#include "core/sim/trajectory.hpp"
 
 namespace drift {
 
@@ -107,10 +106,10 @@ void EkfLanes::take(const Interval& interval, std::size_t node, Channel channel,
   }
   const PackVec psi = along_.attitude().attitude(step_);
   PackVec& phi = along_.phi(node);
+  const PackVec turned = along_.turned(node, psi, phi);
   for (std::size_t l = 0; l < lanes_.size(); ++l) {
     const int lane = static_cast<int>(l);
-    if (lane_of(psi, lane).allFinite())
-      set_lane(phi, lane, turned(timeline_.nodes[node], lane_of(psi, lane), lane_of(phi, lane)));
+    if (lane_of(psi, lane).allFinite()) set_lane(phi, lane, lane_of(turned, lane));
   }
   along_.attitude().move_reference();
   along_.set_theta(x_);

@@ -4,7 +4,6 @@
 
 #include "core/estimate/compressed/stretch_rows.hpp"
 #include "core/plan/stretches_and_chains.hpp"
-#include "core/sim/trajectory.hpp"
 
 namespace drift {
 namespace {
@@ -192,13 +191,10 @@ void IteratedLanes::solve_block(LaneIntervals& along, const Interval& interval, 
     for (std::size_t l = 0; l < width; ++l)
       finite[l] = finite[l] && std::abs(x_[k][static_cast<int>(l)]) <= 1e6;
   }
-  const PackVec psi = along.attitude().attitude(step_);
+  const PackVec turned = along.turned(interval.last_node(), along.attitude().attitude(step_), phi);
   for (std::size_t l = 0; l < width; ++l) {
     const int lane = static_cast<int>(l);
-    if (finite[l])
-      set_lane(phi, lane,
-               turned(along.timeline().nodes[interval.last_node()], lane_of(psi, lane),
-                      lane_of(phi, lane)));
+    if (finite[l]) set_lane(phi, lane, lane_of(turned, lane));
     diverged(l, finite[l] && lane_of(phi, lane).allFinite(), interval.t1, Pass::first);
   }
   along.attitude().move_reference();
@@ -240,12 +236,11 @@ void IteratedLanes::linear_pass() {
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (!ends_chain(timeline, i)) continue;
     const auto chain = static_cast<std::size_t>(all[i].chain);
-    const PackVec psi = ends_[chain].attitude(moved_);
+    const std::size_t last = all[i].last_node();
+    const PackVec turned = along_.turned(last, ends_[chain].attitude(moved_), along_.phi(last));
     for (std::size_t l = 0; l < used_; ++l) {
-      const int lane = static_cast<int>(l);
-      if (!lanes_[l]->done_ && lane_of(psi, lane).allFinite())
-        lanes_[l]->ends_[chain] = turned(timeline.nodes[all[i].last_node()], lane_of(psi, lane),
-                                         lane_of(along_.phi(all[i].last_node()), lane));
+      const Vec3 end = lane_of(turned, static_cast<int>(l));
+      if (!lanes_[l]->done_ && end.allFinite()) lanes_[l]->ends_[chain] = end;
     }
   }
 }

@@ -11,6 +11,31 @@
 namespace drift {
 namespace {
 
+/// Rotation vector of a rotation by less than 120 deg; another lane is worked out by itself.
+PackVec rotation_vector(const PackMat& R) {
+  const Pack trace = R(0, 0) + R(1, 1) + R(2, 2);
+  const Pack w = Pack(0.5) * sqrt(Pack(1.0) + trace);  // of the quaternion
+  const Pack factor = Pack(0.25) / w;
+  PackVec v{factor * (R(2, 1) - R(1, 2)), factor * (R(0, 2) - R(2, 0)),
+            factor * (R(1, 0) - R(0, 1))};
+  // 2 atan(x) / x, x the tangent of half of the angle; by series below 0.05: it is off by 2e-17.
+  const Pack x2 = mul_add(v[0], v[0], mul_add(v[1], v[1], v[2] * v[2])) / (w * w);
+  Pack series(2.0 / 11.0);
+  for (const double c : {9.0, 7.0, 5.0, 3.0, 1.0}) series = Pack(2.0 / c) - x2 * series;
+  const Pack stretch = lane_by_lane(x2, series, x2.v >= 0.0025, [](double square) {
+    const double x = std::sqrt(square);
+    return 2.0 * std::atan(x) / x;
+  });
+  for (int i = 0; i < 3; ++i) v[i] = stretch * (v[i] / w);
+  for (int l = 0; l < Pack::width; ++l) {
+    if (!(trace[l] <= 0.0)) continue;
+    Mat3 one;
+    for (int e = 0; e < 9; ++e) one.data()[e] = R.data()[e][l];
+    set_lane(v, l, drift::rotation_vector(one));
+  }
+  return v;
+}
+
 /// Whether the last node of an interval and the first of the next are the same for the terms.
 bool go_on_alike(const Timeline& timeline, const Interval& a, const Interval& b, bool see_more) {
   return !b.cage && a.omega_cmd_p == b.omega_cmd_p && a.loop == b.loop &&
@@ -70,6 +95,12 @@ LaneIntervals::LaneIntervals(const FilterSpec& filter, const Timeline& timeline,
   weighted_H_.resize(most);
   weight_.resize(most);
   G_.assign(most, std::vector<Pack>(3 * layout_.num_rate, Pack(0.0)));
+}
+
+PackVec LaneIntervals::turned(std::size_t node, const PackVec& psi, const PackVec& phi) const {
+  const Mat3 R_ri = (timeline_.nodes[node].R_il * timeline_.nodes[node].R_lr).transpose();
+  const PackMat R = times(rotation(times_vector(in_all_lanes(R_ri), psi)), rotation(phi));
+  return rotation_vector(R);
 }
 
 void LaneIntervals::set_theta(const std::vector<Pack>& x) {

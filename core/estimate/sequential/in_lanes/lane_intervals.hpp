@@ -41,6 +41,9 @@ class LaneIntervals {
   /// Rotation vectors at every node of the timeline [rad].
   PackVec& phi(std::size_t node) { return path_[node]; }
 
+  /// The rotation vector at a node, turned on by psi (trajectory.hpp) [rad].
+  PackVec turned(std::size_t node, const PackVec& psi, const PackVec& phi) const;
+
   /// All that follows is about parameters x off the prior means, in prior sigmas.
   void set_theta(const std::vector<Pack>& x);
   /// The attitude is new, and expected where the interval is to begin at its nominal one.

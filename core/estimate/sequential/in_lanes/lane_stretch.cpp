@@ -65,10 +65,13 @@ void LaneStretch::resize(std::size_t nodes, std::size_t rate, std::size_t entrie
     const auto rows =
         static_cast<std::size_t>(read ? test.complete(i, what).projection.of_nodes.rows() : 0);
     Channel& channel = channels_[c];
-    channel.by_attitude.resize(rows);
-    channel.residual.resize(rows);
-    channel.by_rate.resize(rows, std::vector<Pack>(3 * rate));
-    if (c == 0) channel.by_readout.resize(rows, std::vector<Pack>(entries));
+    channel.rows_ = rows;
+    if (rows > channel.residual.size()) {
+      channel.by_attitude.resize(rows);
+      channel.residual.resize(rows);
+      channel.by_rate.resize(rows, std::vector<Pack>(3 * rate));
+      if (c == 0) channel.by_readout.resize(rows, std::vector<Pack>(entries));
+    }
     H_[c].resize(nodes);
     most = std::max(most, rows);
   }

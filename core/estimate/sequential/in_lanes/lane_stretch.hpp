@@ -21,8 +21,12 @@ class LaneStretch {
     std::vector<std::vector<Pack>> by_rate;     ///< three axes of each rate state
     std::vector<std::vector<Pack>> by_readout;  ///< of each entry; empty where it does not act
     std::vector<PackVec> residual;              ///< measured minus predicted
-    std::size_t rows() const { return residual.size(); }
+    std::size_t rows() const { return rows_; }
     LaneFilter::Scalars scalars(std::size_t row) const;
+
+   private:
+    friend class LaneStretch;
+    std::size_t rows_ = 0;  ///< of the vectors, which never become shorter
   };
 
   /// Works out interval i of the test, a stretch. jacobian, phi: at its nodes; readings: of each

@@ -92,7 +92,7 @@ Pack LaneStretchLag::of_channel(std::size_t i, Reading what, const LaneFilter& e
   };
   const PackVec offset = times_vector(M_, end.beside_parameters());
   const PackMat V = times(times(M_, end.variance()), PackMat(M_.transpose()));
-  white_.resize(fours);
+  if (white_.size() < fours) white_.resize(fours);
   residual_.resize(4 * fours);
   by_rest_.resize(rows);
   Pack sum(0.0);
