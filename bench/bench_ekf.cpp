@@ -248,7 +248,7 @@ int run() {
                   "the same of one run by itself, linear, its nodes in lanes") +
       row_of_lanes<IteratedLanes, IteratedJob>(
           "ekf63_pass_10s", 10.0,
-          "a pass of the iterated filter, dwells through polynomials, projections with it,");
+          "a pass of the iterated filter, dwells through polynomials, projections with it");
   for (Timed* t : {&structured, &textbook, &joseph}) scale_attitude(p, *t);
   const auto compare = [](const char* names, const Timed& a, const Timed& b) {
     fmt::print("  {:<24}{:>12.1e}{:>12.1e}{:>12.1e}\n", names, difference(a.P, b.P),
