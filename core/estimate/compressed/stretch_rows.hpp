@@ -31,9 +31,6 @@ class StretchRows {
   double tail() const { return tail_; }
   /// A tail that changes no sigma by more than a ten thousandth.
   static constexpr double negligible = 1e-4;
-  /// What was worked out last of each channel.
-  const Rows& of_accelerometers() const { return out_[0]; }
-  const Rows& of_gimbals() const { return out_[1]; }
 
  private:
   /// Derivatives of one node's output, and what is predicted beyond the channel's reference.

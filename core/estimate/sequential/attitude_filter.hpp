@@ -69,10 +69,7 @@ class AttitudeFilter {
   Vec3 attitude(const VecX& x) const;
   /// What the walk has added to walking parameter number k, with x; and its variance, x known.
   double walked(std::size_t k, const VecX& x) const { return estimate(3 + k, x); }
-  /// Derivatives by x of component i of the attitude, and of that.
-  Eigen::Map<const VecX> attitude_by(std::size_t i) const {
-    return {row(i), static_cast<Eigen::Index>(parameters_)};
-  }
+  /// Derivatives of that by x.
   Eigen::Map<const VecX> walked_by(std::size_t k) const {
     return {row(3 + k), static_cast<Eigen::Index>(parameters_)};
   }
