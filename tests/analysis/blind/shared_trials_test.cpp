@@ -1,4 +1,5 @@
 // Trials that several processes share, that are stopped and resumed: the results of one process.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -106,8 +107,10 @@ TEST(SharedTrials, AnyNumberOfWorkersKilledAndResumedGivesTheResultsOfOneProcess
 TEST(SharedTrials, MaxWallEndsResumableAndTheSameCommandFinishes) {
   const Shared shared;
   int stopped = 0, code = 75;
-  for (int call = 0; call < 20 && code == 75; ++call) {
-    code = shared.blind("out", "--max-wall 0.2s").code;
+  // Too short at first on any machine, in the end long enough on any.
+  double wall = 0.001;
+  for (int call = 0; call < 40 && code == 75; ++call, wall *= 2.0) {
+    code = shared.blind("out", fmt::format("--max-wall {:.3f}s", wall)).code;
     if (code != 75) break;
     ++stopped;
     EXPECT_EQ(shared.status("out"), 75);

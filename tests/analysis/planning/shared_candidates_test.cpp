@@ -101,9 +101,9 @@ TEST(SharedCandidates, MaxWallEndsResumableAndTheSameCommandFinishes) {
   const Shared shared;
   int stopped = 0, code = 75;
   // Too short at first on any machine, in the end long enough on any.
-  double wall = 0.2;
-  for (int call = 0; call < 40 && code == 75; ++call, wall *= 1.5) {
-    const test::Answer answer = shared.rank("out", fmt::format("--max-wall {:.1f}s", wall));
+  double wall = 0.001;
+  for (int call = 0; call < 40 && code == 75; ++call, wall *= 2.0) {
+    const test::Answer answer = shared.rank("out", fmt::format("--max-wall {:.3f}s", wall));
     code = answer.code;
     if (code != 75) break;
     EXPECT_NE(answer.err.find("candidates are judged and kept"), std::string::npos) << answer.err;
