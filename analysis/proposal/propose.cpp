@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/forms/screen.hpp"
+#include "analysis/forms/term_text.hpp"
 #include "analysis/inference/thresholds.hpp"
-#include "analysis/proposal/screen.hpp"
-#include "analysis/proposal/term_text.hpp"
 #include "core/config/load.hpp"
 #include "core/physics/own/own_terms.hpp"
 #include "core/physics/own/own_terms_config.hpp"
@@ -15,6 +15,11 @@
 
 namespace drift::proposal {
 namespace {
+
+using forms::Form;
+using forms::Instants;
+using forms::ScreenedForm;
+using forms::Screening;
 
 /// A form as a term of the library.
 struct Offered {
@@ -181,11 +186,12 @@ std::optional<diagnosis::Proposal> propose(const search::Search& found,
                                            const diagnosis::FoldOptions& folds) {
   const std::size_t places = most_own_terms - own_terms().terms.size();
   const inference::Projector projector(found.nominal.problem.bare(), noise);
-  const Screening screening = screen_forms(found.nominal.problem, test.timeline, projector, places);
+  const Screening screening =
+      forms::screen_forms(found.nominal.problem, test.timeline, projector, places);
   const std::vector<Offered> forms = offered(screening, alpha);
   if (forms.empty()) return std::nullopt;
 
-  const Instants at = instants_of(test.timeline);
+  const Instants at = forms::instants_of(test.timeline);
   const std::string key = forms.front().key;  // free, whichever is proposed
   const KeptOwnTerms kept;
   put_into_library(forms, at);

@@ -2,25 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/search/library_prior.hpp"
-#include "core/stats/normal.hpp"
+#include "analysis/search/log_sum.hpp"
+#include "analysis/search/size_prior.hpp"
 
 namespace drift::search {
 namespace {
 
 using inference::PosteriorLimits;
 using inference::WeighLimits;
-
-constexpr double never = -std::numeric_limits<double>::infinity();
-
-double log_sum(double a, double b) {
-  const double top = std::max(a, b);
-  return top == never ? never : top + std::log(std::exp(a - top) + std::exp(b - top));
-}
 
 /// Log prior and evidence of a fitted model with the noise that was declared, and with the one
 /// estimated.
@@ -100,24 +92,13 @@ std::vector<Weighed> explanations(const Search& found, const LibraryPrior& prior
   return all;
 }
 
-/// Log evidence, against none, of an amplitude of unknown size that is found z = sqrt(T) sigmas
-/// strong: either sign, from what the test could see (VisibleLimits::size) two decades up, as the
-/// library's sizes, every order of magnitude alike. Of int exp(a z - a^2 / 2) da / (2 a log 100)
-/// over them, with 1 / a taken where the integrand is.
-double log_evidence_of_size(double T) {
-  constexpr double least = inference::VisibleLimits::size;
-  const double z = std::sqrt(T), visible = stats::normal_distribution(z - least);
-  return 0.5 * T + std::log(visible * std::sqrt(2.0 * std::numbers::pi) /
-                            (2.0 * std::max(z, least) * std::log(100.0)));
-}
-
 /// Something in one window, one of all.
 double log_window(const Fitted& e) {
   double sum = never, windows = 0.0;
   for (const inference::PositionScan& scan : e.scans)
     for (const double T : scan.T) {
       if (T <= 0.0) continue;
-      sum = log_sum(sum, log_evidence_of_size(T));
+      sum = log_sum(sum, log_evidence_of_unknown_size(T));
       windows += 1.0;
     }
   return windows > 0.0 ? sum - std::log(windows) : never;
@@ -137,14 +118,15 @@ double log_outside(const Search& found, const LibraryPrior& prior,
   const Refit* best = nullptr;
   for (const Refit& r : fitted)
     if (!best || r.log_bayes > best->log_bayes) best = &r;
-  if (!best) return alone;
+  if (!best) return std::max(alone, found.log_form);
   const Fitted& left = best->after;
   const auto lone = inference::strongest_lone_input(left.problem, left.noise.model);
   const auto periodic = inference::strongest_periodic_input(left.problem, *left.projector);
-  return std::max(alone, log_evidence(found, *best, declared) + prior.log_of(best->choices) +
-                             log_of_visible(found.nominal, best->choices) -
-                             std::log(WeighLimits::second_cause) +
-                             std::max(log_free_form(lone, left.problem), periodic.log_evidence()));
+  const double beside_a_cause =
+      log_evidence(found, *best, declared) + prior.log_of(best->choices) +
+      log_of_visible(found.nominal, best->choices) - std::log(WeighLimits::second_cause) +
+      std::max(log_free_form(lone, left.problem), periodic.log_evidence());
+  return std::max({alone, found.log_form, beside_a_cause});
 }
 
 }  // namespace

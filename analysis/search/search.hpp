@@ -18,6 +18,9 @@ struct Search : Detection {
   /// none of them is given: then there are no sets.
   std::vector<Refit> outweighed;
   std::vector<double> outweighed_probability;
+  /// Log evidence, noise included, of a form outside the library (outside_form.hpp); where there is
+  /// an explanation that it is to be compared with.
+  double log_form = -std::numeric_limits<double>::infinity();
 };
 
 /// Names what is missing (discovery.md 2.3 to 2.7): detection by the largest projected score; the

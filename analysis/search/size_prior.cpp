@@ -8,6 +8,7 @@
 
 #include "analysis/inference/thresholds.hpp"
 #include "core/base/decompose.hpp"
+#include "core/stats/normal.hpp"
 
 namespace drift::search {
 namespace {
@@ -129,6 +130,15 @@ double log_gain_of_sizes(const VecX& x, const MatX& covariance, const std::vecto
     while (next < chosen.size() && ++chosen[next] == scales.size()) chosen[next++] = 0;
     if (next == chosen.size()) return log_mean_exp(logs) + far;
   }
+}
+
+double log_evidence_of_unknown_size(double T, int amplitudes) {
+  constexpr double smallest = inference::VisibleLimits::size;
+  const double z = std::sqrt(T), peak = std::max(z, smallest);
+  const double one =
+      0.5 * T + std::log(stats::normal_distribution(z - smallest) *
+                         std::sqrt(2.0 * std::numbers::pi) / (2.0 * peak * std::log(100.0)));
+  return amplitudes == 1 ? one : one + std::log(std::sqrt(2.0 / std::numbers::pi) / peak);
 }
 
 }  // namespace drift::search

@@ -32,6 +32,13 @@ struct VisibleEvidence {
 };
 VisibleEvidence evidence_of_visible_sizes(const MatX& C, const VecX& g);
 
+/// Log evidence, against none, of something that no library has and that is found sqrt(T) sigmas
+/// strong: from what the test could see (VisibleLimits::size) two decades up, as the library's
+/// sizes, every order of magnitude alike, either sign of one amplitude, any phase of two. Of
+/// int exp(a z - a^2 / 2) da / (2 a log 100), of two int I_0(a z) exp(-a^2 / 2) da / (a log 100),
+/// with the factors in a that vary slowly taken where the integrand is.
+double log_evidence_of_unknown_size(double T, int amplitudes = 1);
+
 /// What the mixture changes in the log evidence of a fit: amplitudes x with posterior `covariance`
 /// (in sigmas of the priors that it was made with). cause: which cause each amplitude belongs to,
 /// numbered from 0; causes have scales of their own. wide: by what factor the prior of each is

@@ -31,6 +31,7 @@ requeues=0
 for ((round = 0; round < 40; ++round)); do
   waiting=("$scratch"/queue.*)
   [ -e "${waiting[0]}" ] || break
+  export MAX_WALL=$((1 + round / 5))s  # however slow the machine, once it is enough
   for file in "${waiting[@]}"; do
     rm "$file"
     task "${file##*.}" &

@@ -33,6 +33,21 @@ TEST(VisibleEvidence, IsTheEvidenceOfTheScalesThatATestCanSee) {
   EXPECT_NEAR(evidence_of_visible_sizes(MatX::Constant(1, 1, 9.1), g).share, 0.2, 1e-12);
 }
 
+TEST(EvidenceOfUnknownSize, IsTheIntegralOverSizesForOneAmplitudeAndForTwo) {
+  for (const double z : {6.0, 15.0}) {
+    double one = 0.0, two = 0.0;
+    const double least = inference::VisibleLimits::size, step = 1e-3;
+    for (double a = least + 0.5 * step; a < std::min(100.0 * least, z + 12.0); a += step) {
+      const double weight = step / (a * std::log(100.0)) * std::exp(-0.5 * (a * a + z * z));
+      one += weight * std::cosh(a * z);
+      two += weight * std::cyl_bessel_i(0.0, a * z);
+    }
+    // The slow factors vary by 1 / z^2 over the integrand: 1 and 2 powers of a.
+    EXPECT_NEAR(log_evidence_of_unknown_size(z * z) - 0.5 * z * z, std::log(one), 1.5 / (z * z));
+    EXPECT_NEAR(log_evidence_of_unknown_size(z * z, 2) - 0.5 * z * z, std::log(two), 4.0 / (z * z));
+  }
+}
+
 diagnosis::Probabilities of(const mc::Study& study, std::uint64_t run) {
   const Timeline timeline = lay_out(study.plan, study.site);
   const TruthDraw draw = draw_truth(study.truth, timeline.chains, study.monte_carlo.seed, run);

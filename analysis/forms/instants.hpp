@@ -6,7 +6,7 @@
 
 #include "core/plan/timeline.hpp"
 
-namespace drift::proposal {
+namespace drift::forms {
 
 /// Something that forms multiply, as an equation writes it, in the middle of every interval.
 struct Quantity {
@@ -30,4 +30,4 @@ struct Instants {
 /// are f_x, f_y and f_z in another order.
 Instants instants_of(const Timeline& timeline);
 
-}  // namespace drift::proposal
+}  // namespace drift::forms

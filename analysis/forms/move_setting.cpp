@@ -1,8 +1,8 @@
-#include "analysis/proposal/move_setting.hpp"
+#include "analysis/forms/move_setting.hpp"
 
 #include <cmath>
 
-namespace drift::proposal {
+namespace drift::forms {
 namespace {
 
 /// How far the next points of the grid are from a setting, as a factor: harmonics lie half a cycle
@@ -40,4 +40,4 @@ Form with_setting_moved(Form form, const Instants& at, const Bins& bins,
   return form;
 }
 
-}  // namespace drift::proposal
+}  // namespace drift::forms

@@ -2,10 +2,10 @@
 
 #include <optional>
 
-#include "analysis/proposal/bins.hpp"
-#include "analysis/proposal/grammar.hpp"
+#include "analysis/forms/bins.hpp"
+#include "analysis/forms/grammar.hpp"
 
-namespace drift::proposal {
+namespace drift::forms {
 
 /// A form and what the linearised test says of it.
 struct ScreenedForm {
@@ -24,11 +24,17 @@ struct Screening {
   std::size_t forms = 0;           ///< that were tried
 };
 
+/// Which forms are scored: all; of the attitude alone, which the time of a test does not multiply,
+/// so that coarser bins do, its settings left at the points of their grids (a hundredth of the
+/// time).
+enum class Reach { whole, attitude };
+
 /// Scores every form of the grammar by what the parameters cannot absorb, as candidates of the
 /// library are: each is a linear map from an input in bins of time, so a form costs an inner
 /// product. Within the dwell of a position an attitude part counts as constant, unless it stands
 /// alone. The settings of the best are moved between the points of their grids. `keep`: how many.
 Screening screen_forms(const inference::LinearProblem& problem, const Timeline& timeline,
-                       const inference::Projector& projector, std::size_t keep);
+                       const inference::Projector& projector, std::size_t keep,
+                       Reach reach = Reach::whole);
 
-}  // namespace drift::proposal
+}  // namespace drift::forms

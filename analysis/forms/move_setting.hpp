@@ -1,8 +1,8 @@
 #pragma once
 
-#include "analysis/proposal/bins.hpp"
+#include "analysis/forms/bins.hpp"
 
-namespace drift::proposal {
+namespace drift::forms {
 
 /// A form with its period, time constant or width moved off the grid, to where its score is
 /// largest; its sigma is half a step of the grid, so that a fit may move it on. Other forms as they
@@ -10,4 +10,4 @@ namespace drift::proposal {
 Form with_setting_moved(Form form, const Instants& at, const Bins& bins,
                         const PlaceInformation& info);
 
-}  // namespace drift::proposal
+}  // namespace drift::forms

@@ -1,15 +1,15 @@
-#include "analysis/proposal/grammar.hpp"
+#include "analysis/forms/grammar.hpp"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "analysis/proposal/bins.hpp"
-#include "analysis/proposal/term_text.hpp"
+#include "analysis/forms/bins.hpp"
+#include "analysis/forms/term_text.hpp"
 #include "tests/support/model_builders.hpp"
 #include "tests/support/own_terms.hpp"
 
-namespace drift::proposal::grammar_test {
+namespace drift::forms::grammar_test {
 namespace {
 
 using namespace drift::test;
@@ -80,4 +80,4 @@ TEST(Grammar, ThresholdsPartThePositionsAndPeriodsStayInPhaseOverTheTest) {
 }
 
 }  // namespace
-}  // namespace drift::proposal::grammar_test
+}  // namespace drift::forms::grammar_test

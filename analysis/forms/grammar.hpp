@@ -1,8 +1,8 @@
 #pragma once
 
-#include "analysis/proposal/form.hpp"
+#include "analysis/forms/form.hpp"
 
-namespace drift::proposal {
+namespace drift::forms {
 
 /// The parts that forms are made of, with the prior of each: every kind is as likely as another,
 /// and shares that among its members. A form is one place, one attitude part and one time part,
@@ -23,4 +23,4 @@ struct Grammar {
 Grammar grammar_of(const Instants& at, const std::vector<double>& bin_starts, double bin_length,
                    bool accelerometers, bool gimbals);
 
-}  // namespace drift::proposal
+}  // namespace drift::forms

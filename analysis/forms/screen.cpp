@@ -1,14 +1,14 @@
-#include "analysis/proposal/screen.hpp"
+#include "analysis/forms/screen.hpp"
 
 #include <algorithm>
 #include <array>
 #include <map>
 
-#include "analysis/proposal/move_setting.hpp"
+#include "analysis/forms/move_setting.hpp"
 #include "core/stats/chi_square.hpp"
 #include "mc/task/campaign.hpp"
 
-namespace drift::proposal {
+namespace drift::forms {
 namespace {
 
 using Where = AttitudePart::Kind;
@@ -90,8 +90,9 @@ class PlaceScreen {
     }
   }
 
-  BestOfKinds run() {
+  BestOfKinds run(Reach reach) {
     for (std::size_t w = 1; w < g_.where.size(); ++w) attitude_alone(w);
+    if (reach == Reach::attitude) return std::move(best_);
     for (std::size_t t = 1; t < g_.when.size(); ++t) with_time(t);
     windows();
     return std::move(best_);
@@ -159,7 +160,7 @@ class PlaceScreen {
 /// A form of the best, its setting moved to where the score is largest, its chance paid for.
 std::optional<ScreenedForm> screened(const Grammar& grammar, const OwnTarget& place,
                                      const BestOfKinds::Entry& e, When when, const Instants& at,
-                                     const Bins& bins, const PlaceInformation& info) {
+                                     const Bins& bins, const PlaceInformation& info, Reach reach) {
   ScreenedForm out;
   out.form.place = place;
   out.form.where = grammar.where[e.where];
@@ -171,7 +172,7 @@ std::optional<ScreenedForm> screened(const Grammar& grammar, const OwnTarget& pl
   const auto on_grid = info.score(bins.mean(columns_of(out.form, at)));
   if (on_grid.dof == 0) return std::nullopt;
   out.log_p = std::min(0.0, stats::log_tail(on_grid.T, on_grid.dof) - out.form.log_prior);
-  out.form = with_setting_moved(out.form, at, bins, info);
+  if (reach == Reach::whole) out.form = with_setting_moved(out.form, at, bins, info);
   const auto s = info.score(bins.mean(columns_of(out.form, at)));
   out.T = s.T;
   out.dof = s.dof;
@@ -182,9 +183,11 @@ std::optional<ScreenedForm> screened(const Grammar& grammar, const OwnTarget& pl
 }  // namespace
 
 Screening screen_forms(const inference::LinearProblem& problem, const Timeline& timeline,
-                       const inference::Projector& projector, std::size_t keep) {
+                       const inference::Projector& projector, std::size_t keep, Reach reach) {
+  // The time of a screening goes with their square.
+  constexpr std::size_t most_bins = 400, most_of_attitude = 200;
   const Instants at = instants_of(timeline);
-  const Bins bins = bins_of(timeline);
+  const Bins bins = bins_of(timeline, reach == Reach::whole ? most_bins : most_of_attitude);
   const auto read = [&](bool accelerometer) {
     return std::ranges::any_of(problem.tags, [&](const inference::RowTag& t) {
       return t.accelerometer() == accelerometer;
@@ -194,11 +197,11 @@ Screening screen_forms(const inference::LinearProblem& problem, const Timeline& 
   const auto of_places = mc::run_campaign(grammar.places.size(), [&](std::size_t k) {
     const OwnTarget& place = grammar.places[k];
     const PlaceInformation info = information_on(place, bins, problem, timeline, projector);
-    const BestOfKinds best = PlaceScreen(grammar, at, bins, info).run();
+    const BestOfKinds best = PlaceScreen(grammar, at, bins, info).run(reach);
     Screening out;
     out.forms = best.tried();
     for (const auto& [kinds, entry] : best.entries())
-      if (auto form = screened(grammar, place, entry, std::get<When>(kinds), at, bins, info))
+      if (auto form = screened(grammar, place, entry, std::get<When>(kinds), at, bins, info, reach))
         out.best.push_back(std::move(*form));
     return out;
   });
@@ -212,4 +215,4 @@ Screening screen_forms(const inference::LinearProblem& problem, const Timeline& 
   return all;
 }
 
-}  // namespace drift::proposal
+}  // namespace drift::forms

@@ -1,4 +1,4 @@
-#include "analysis/proposal/instants.hpp"
+#include "analysis/forms/instants.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 
 #include "core/physics/own/own_terms.hpp"
 
-namespace drift::proposal {
+namespace drift::forms {
 namespace {
 
 /// The middle of an interval.
@@ -98,4 +98,4 @@ Instants instants_of(const Timeline& timeline) {
   return out;
 }
 
-}  // namespace drift::proposal
+}  // namespace drift::forms

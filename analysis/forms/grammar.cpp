@@ -1,11 +1,11 @@
-#include "analysis/proposal/grammar.hpp"
+#include "analysis/forms/grammar.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <set>
 #include <utility>
 
-namespace drift::proposal {
+namespace drift::forms {
 namespace {
 
 using Where = AttitudePart::Kind;
@@ -120,4 +120,4 @@ Grammar grammar_of(const Instants& at, const std::vector<double>& bin_starts, do
   return g;
 }
 
-}  // namespace drift::proposal
+}  // namespace drift::forms

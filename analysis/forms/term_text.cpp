@@ -1,4 +1,4 @@
-#include "analysis/proposal/term_text.hpp"
+#include "analysis/forms/term_text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,7 +7,7 @@
 
 #include "core/base/number_text.hpp"
 
-namespace drift::proposal {
+namespace drift::forms {
 namespace {
 
 using Where = AttitudePart::Kind;
@@ -154,4 +154,4 @@ std::string term_text(const Form& form, const Instants& at, const std::string& k
       fmt::join(parameters, ", "));
 }
 
-}  // namespace drift::proposal
+}  // namespace drift::forms

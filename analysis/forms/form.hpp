@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "analysis/proposal/instants.hpp"
+#include "analysis/forms/instants.hpp"
 #include "core/physics/own/own_term.hpp"
 
-namespace drift::proposal {
+namespace drift::forms {
 
 /// The factor of a form that hangs on where the platform is and what acts on it.
 struct AttitudePart {
@@ -68,4 +68,4 @@ inline bool is_pair(const TimePart& part) {
 double* moved_setting(Form& form);
 double* sigma_of_moved(Form& form);
 
-}  // namespace drift::proposal
+}  // namespace drift::forms

@@ -1,16 +1,16 @@
-#include "analysis/proposal/screen.hpp"
+#include "analysis/forms/screen.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "analysis/forms/term_text.hpp"
 #include "analysis/inference/thresholds.hpp"
-#include "analysis/proposal/term_text.hpp"
 #include "analysis/search/fitted.hpp"
 #include "tests/support/model_builders.hpp"
 #include "tests/support/own_terms.hpp"
 
-namespace drift::proposal::screen_test {
+namespace drift::forms::screen_test {
 namespace {
 
 using namespace drift::test;
@@ -97,4 +97,4 @@ TEST(ScreenForms, WhatWasHiddenIsAmongTheBest) {
 }
 
 }  // namespace
-}  // namespace drift::proposal::screen_test
+}  // namespace drift::forms::screen_test

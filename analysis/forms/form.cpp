@@ -1,9 +1,9 @@
-#include "analysis/proposal/form.hpp"
+#include "analysis/forms/form.hpp"
 
 #include <cmath>
 #include <numbers>
 
-namespace drift::proposal {
+namespace drift::forms {
 namespace {
 
 /// cos and sin of an angle.
@@ -89,4 +89,4 @@ double* sigma_of_moved(Form& form) {
                                          : &form.where.sigma;
 }
 
-}  // namespace drift::proposal
+}  // namespace drift::forms

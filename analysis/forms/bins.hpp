@@ -1,9 +1,9 @@
 #pragma once
 
+#include "analysis/forms/form.hpp"
 #include "analysis/inference/projector.hpp"
-#include "analysis/proposal/form.hpp"
 
-namespace drift::proposal {
+namespace drift::forms {
 
 /// Bins of time that lie within positions: the grain at which forms are screened.
 struct Bins {
@@ -16,7 +16,8 @@ struct Bins {
   /// Means over the bins of columns over the intervals.
   MatX mean(const MatX& of_intervals) const;
 };
-Bins bins_of(const Timeline& timeline);
+/// most: of all together; no position has fewer than four.
+Bins bins_of(const Timeline& timeline, std::size_t most = 400);
 
 /// What the data say of an input at one place that is constant in every bin, the nominal
 /// parameters and attitudes projected out.
@@ -40,4 +41,4 @@ PlaceInformation information_on(const OwnTarget& place, const Bins& bins,
                                 const inference::MeasuredRows& rows, const Timeline& timeline,
                                 const inference::Projector& projector);
 
-}  // namespace drift::proposal
+}  // namespace drift::forms

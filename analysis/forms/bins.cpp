@@ -1,4 +1,4 @@
-#include "analysis/proposal/bins.hpp"
+#include "analysis/forms/bins.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,10 +6,8 @@
 #include "analysis/inference/scan.hpp"
 #include "core/base/decompose.hpp"
 
-namespace drift::proposal {
+namespace drift::forms {
 namespace {
-
-constexpr std::size_t most_bins = 400;  // the time of a screening goes with its square
 
 /// Stretches of intervals of one position and chain.
 std::vector<std::pair<std::size_t, std::size_t>> stretches(const std::vector<Interval>& all) {
@@ -73,11 +71,10 @@ MatX Bins::mean(const MatX& of_intervals) const {
   return out;
 }
 
-Bins bins_of(const Timeline& timeline) {
+Bins bins_of(const Timeline& timeline, std::size_t most) {
   Bins out;
   const auto parts = stretches(timeline.intervals);
-  const std::size_t each =
-      std::max<std::size_t>(4, most_bins / std::max<std::size_t>(1, parts.size()));
+  const std::size_t each = std::max<std::size_t>(4, most / std::max<std::size_t>(1, parts.size()));
   std::vector<double> lengths;
   for (const auto& [first, end] : parts) {
     const std::size_t n = std::min(each, end - first);
@@ -129,4 +126,4 @@ PlaceInformation information_on(const OwnTarget& place, const Bins& bins,
   return {std::move(scan.C), std::move(scan.g), std::move(scan.raw), 1.0 / norm};
 }
 
-}  // namespace drift::proposal
+}  // namespace drift::forms

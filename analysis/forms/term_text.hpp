@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "analysis/proposal/form.hpp"
+#include "analysis/forms/form.hpp"
 
-namespace drift::proposal {
+namespace drift::forms {
 
 /// The equation of a form: "(A*cos(2*pi*t/P) + B*sin(2*pi*t/P))*step(abs(f_z) - C)".
 std::string equation_of(const Form& form, const Instants& at);
@@ -18,4 +18,4 @@ std::string term_text(const Form& form, const Instants& at, const std::string& k
 /// The unit of the amplitudes of a form.
 Unit amplitude_unit(const Form& form, const Instants& at);
 
-}  // namespace drift::proposal
+}  // namespace drift::forms
