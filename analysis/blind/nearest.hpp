@@ -15,8 +15,8 @@ struct Nearest {
 
 /// Looks through every axis of every term that the nominal filter leaves out, at every point of the
 /// grids of its nonlinear parameters. Above a cosine of 0.9, what is outside the library cannot be
-/// told from what is in it: A^2 (1 - cosine^2) is what a perfect answer would have to go by
-/// (discovery.md 2.8). A change of equation (frame_closure) is not looked at.
+/// told from what is in it: A^2 (1 - cosine^2) is what a perfect answer would have to go by.
+/// A change of equation (frame_closure) is not looked at.
 Nearest nearest_in_library(const SizingBench& bench, const FilterSpec& nominal, const VecX& signal);
 
 }  // namespace drift::blind

@@ -62,8 +62,8 @@ bool unexplained(const TrialScore& s) {
   return s.unexplained;
 }
 
-/// Chance that one score of mean A beats the 5 % threshold of the largest of about 100 (11.6,
-/// discovery.md 2.3); either sign.
+/// Chance that one score of mean A beats the 5 % threshold of the largest of about 100 (11.6);
+/// either sign.
 double theory(double A) {
   const double k = std::sqrt(11.6);
   return stats::normal_distribution(A - k) + stats::normal_distribution(-A - k);
@@ -201,8 +201,7 @@ void add_further(const Scores& scores, Summary& s) {
           in_set));
   add("outside the library: detected", share(scores, in(Stratum::outside), detected));
   add("outside the library: named as something else", share(scores, in(Stratum::outside), wrong));
-  // What a library effect looks like to within a cosine of 0.9 may be taken for it (discovery.md
-  // 3).
+  // What a library effect looks like to within a cosine of 0.9 may be taken for it.
   const auto unlike = [](const TrialScore& t) {
     return t.key.plan.stratum == Stratum::outside && t.key.effects.front().nearest_cosine < 0.9;
   };

@@ -11,7 +11,7 @@
 
 namespace drift::blind {
 
-/// What kind of thing a trial hides (discovery.md 3). The last three are asked for by number
+/// What kind of thing a trial hides. The last three are asked for by number
 /// (mc::BlindFurther), the others by their shares.
 enum class Stratum {
   null,

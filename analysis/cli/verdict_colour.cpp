@@ -4,6 +4,8 @@
 #include <cctype>
 #include <utility>
 
+#include "analysis/report/diagnosis/verdict_openings.hpp"
+
 namespace drift::cli {
 namespace {
 
@@ -11,14 +13,10 @@ constexpr std::string_view green = "\x1b[32m", red = "\x1b[1;31m", yellow = "\x1
                            plain = "\x1b[0m";
 
 constexpr std::pair<std::string_view, std::string_view> verdicts[] = {
-    {"ok", green},
-    {"misfit", red},
-    {"Consistent:", green},
-    {"Named:", yellow},
-    {"Ambiguous:", red},
-    {"Unexplained:", red},
-    {"The recording agrees with the nominal model", green},
-    {"Something is missing from the nominal model", red}};
+    {"ok", green},           {"misfit", red},
+    {"Consistent:", green},  {"Named:", yellow},
+    {"Ambiguous:", red},     {"Unexplained:", red},
+    {report::agrees, green}, {report::something_missing, red}};
 
 bool part_of_word(std::string_view text, std::size_t at) {
   if (at >= text.size()) return false;

@@ -7,7 +7,7 @@
 
 #include "analysis/diagnosis/acting.hpp"
 #include "analysis/diagnosis/locate.hpp"
-#include "analysis/search/explained.hpp"
+#include "analysis/search/scores/explained.hpp"
 #include "core/base/named.hpp"
 #include "core/physics/own/own_term.hpp"
 

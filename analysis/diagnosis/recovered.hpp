@@ -8,7 +8,7 @@ namespace drift::diagnosis {
 
 /// A missing input as a time series: one unknown constant per bin of time in one equation, smooth
 /// (Ornstein-Uhlenbeck prior whose size and time constant maximise the likelihood), parameters and
-/// attitudes marginalised. What fitted parameters can absorb is not recovered (discovery.md 2.4 b).
+/// attitudes marginalised. What fitted parameters can absorb is not recovered.
 struct InputEstimate {
   inference::Equation equation = inference::Equation::rate;
   int axis = 0;

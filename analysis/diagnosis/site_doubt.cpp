@@ -38,7 +38,7 @@ bool has_no_usual_size(const search::Cause& cause) {
 double log_odds(const identification::LatitudeDoubt& doubt, const Diagnosis& d) {
   std::size_t visible = 0;
   for (const search::CandidateScore& c : d.candidates) visible += c.dof > 0 ? 1 : 0;
-  const double one_effect = std::log(inference::PosteriorLimits::library /
+  const double one_effect = std::log(inference::PosteriorPrior::library /
                                      static_cast<double>(std::max<std::size_t>(1, visible)));
   double best = -std::numeric_limits<double>::infinity();
   for (const search::Cause& c : d.causes) {

@@ -9,7 +9,7 @@ namespace drift::inference {
 
 /// One Kalman filter whose gains depend on the noise alone; every column (residual, parameters,
 /// candidates) runs through them and comes out as innovations, white and of unit variance when the
-/// noise model is right (Willsky and Jones 1976; discovery.md 2.1). States: attitude error (new at
+/// noise model is right (Willsky and Jones 1976). States: attitude error (new at
 /// each caging, unit prior), and as the noise asks for them drift random walk, Markov drift,
 /// correlated accelerometer noise, an input in one equation.
 ///

@@ -5,7 +5,7 @@
 
 namespace drift::inference {
 
-/// Everything the data say of candidates once the nominal parameters are fitted (discovery.md 2.2):
+/// Everything the data say of candidates once the nominal parameters are fitted:
 /// g ~ N(C a, C) for candidate amplitudes a in prior sigmas, the parameters marginalised with their
 /// prior.
 struct Projected {

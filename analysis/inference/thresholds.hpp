@@ -204,10 +204,11 @@ struct WeighLimits {
 };
 
 /// The prior over what a recording may be, as stated in diagnose.md; not tuned. Test:
-/// Posterior.SumsToOneAnd..., and the reliability table of blind studies.
-struct PosteriorLimits {
+/// Posterior.IsThePriorWhereAllExplainTheDataAlike, and the reliability table of blind studies.
+struct PosteriorPrior {
   /// Nothing beside the nominal model, one term of the library or several, something outside it.
   static constexpr double nothing = 0.5, library = 0.45, outside = 0.05;
+  static_assert(nothing + library + outside == 1.0);
   static constexpr double listed = 1e-3;  ///< probability below which none is listed
 };
 

@@ -12,7 +12,7 @@ namespace drift::inference {
 /// cagings of the channel (short dwells count), the largest of the channels:
 ///   Q = sum_k n_k r_k^2, r_k = sum z_t z_{t+k} / sum z_t^2, n_k pairs k apart.
 /// The chi-square that Q is compared with elsewhere does not hold where many parameters were fitted
-/// to short records (discovery.md 4.6, 4.7). Here its distribution is drawn: unit normals, a draw
+/// to short records. Here its distribution is drawn: unit normals, a draw
 /// of the parameters added, go through the same projection as the data (parametric bootstrap), so
 /// that p = (1 + draws at or above the data) / (1 + draws) is uniform when the model is right. A
 /// pure function of (problem, projector, draws, seed).

@@ -38,7 +38,7 @@ struct Separation {
       0.0;  ///< part of the truth's trace that the rival cannot copy however large it is, 0..1
 };
 
-/// Separation of each pair (discovery.md 2.9). If c is true and d its rival,
+/// Separation of each pair. If c is true and d its rival,
 ///   sigma^2 = a_c' (C_cc - C_cd (C_dd + 1)^-1 C_dc) a_c,   unlike = the same without the 1, over
 ///   a_c' C_cc a_c,
 /// C the information on the signatures that is left by the nominal parameters, in prior sigmas.

@@ -47,7 +47,7 @@ struct Confusable {
 
 /// One cause in the answer.
 struct Cause {
-  std::string term;  ///< key of interfaces.md 5, "magnetic_drift"
+  std::string term;  ///< key of the library, "magnetic_drift"
   std::string axis;  ///< "y", empty if it has none or is not split
   std::vector<CauseParameter> parameters;
   double T = 0.0;  ///< projected score of `dof` degrees

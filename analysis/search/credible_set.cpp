@@ -7,7 +7,7 @@
 #include <string>
 
 #include "analysis/inference/thresholds.hpp"
-#include "analysis/search/library_prior.hpp"
+#include "analysis/search/scores/library_prior.hpp"
 
 namespace drift::search {
 namespace {

@@ -5,7 +5,7 @@
 #include "analysis/inference/noise/lone_input.hpp"
 #include "analysis/inference/noise/noise.hpp"
 #include "analysis/inference/periodic_input.hpp"
-#include "analysis/search/field.hpp"
+#include "analysis/search/scores/field.hpp"
 
 namespace drift::search {
 

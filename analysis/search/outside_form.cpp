@@ -2,8 +2,8 @@
 
 #include "analysis/forms/screen.hpp"
 #include "analysis/inference/thresholds.hpp"
-#include "analysis/search/log_sum.hpp"
-#include "analysis/search/size_prior.hpp"
+#include "analysis/search/scores/log_sum.hpp"
+#include "analysis/search/scores/size_prior.hpp"
 
 namespace drift::search {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/search/remainder.hpp"
+#include "analysis/search/scores/remainder.hpp"
 
 namespace drift::search {
 

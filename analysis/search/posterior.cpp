@@ -4,14 +4,14 @@
 #include <cmath>
 
 #include "analysis/inference/thresholds.hpp"
-#include "analysis/search/library_prior.hpp"
-#include "analysis/search/log_sum.hpp"
-#include "analysis/search/size_prior.hpp"
+#include "analysis/search/scores/library_prior.hpp"
+#include "analysis/search/scores/log_sum.hpp"
+#include "analysis/search/scores/size_prior.hpp"
 
 namespace drift::search {
 namespace {
 
-using inference::PosteriorLimits;
+using inference::PosteriorPrior;
 using inference::WeighLimits;
 
 /// Log prior and evidence of a fitted model with the noise that was declared, and with the one
@@ -46,15 +46,9 @@ double log_of_visible(const Fitted& e, const Explanation& choices) {
   return sum;
 }
 
-/// A model and the log of its prior and evidence together.
-struct Weighed {
-  Explanation choices;
-  double log_weight = never;
-};
-
 /// Single candidates, linearised.
-std::vector<Weighed> singles(const Fitted& e, const LibraryPrior& prior, double base) {
-  std::vector<Weighed> all;
+std::vector<Evidence::Weighed> singles(const Fitted& e, const LibraryPrior& prior, double base) {
+  std::vector<Evidence::Weighed> all;
   for (std::size_t k = 0; k < e.scores.size(); ++k)
     if (e.scores[k].visible > 0.0) {
       const Explanation one{{k, e.scores[k].variant}};
@@ -72,9 +66,9 @@ double log_evidence(const Search& found, const Refit& r, const inference::NoiseM
 
 /// Those of the credible set, which share their evidence as it weighs them: members of a family
 /// count together there.
-std::vector<Weighed> explanations(const Search& found, const LibraryPrior& prior,
-                                  const inference::NoiseModel& declared) {
-  std::vector<Weighed> all;
+std::vector<Evidence::Weighed> explanations(const Search& found, const LibraryPrior& prior,
+                                            const inference::NoiseModel& declared) {
+  std::vector<Evidence::Weighed> all;
   double evidence = never, share = 0.0;
   const bool outweighed = found.sets.empty();
   const std::vector<Refit>& sets = outweighed ? found.outweighed : found.sets;
@@ -131,26 +125,19 @@ double log_outside(const Search& found, const LibraryPrior& prior,
 
 }  // namespace
 
-Posterior posterior_of(const Search& found) {
-  const Fitted& e = found.nominal;
-  const inference::NoiseModel declared = declared_noise(e.filter);
-  const ByNoise nothing = by_noise(found, declared);
-  const LibraryPrior prior(e.set, [&](std::size_t k) { return can_be_seen(e, k); });
-  std::vector<Weighed> library = found.significant ? explanations(found, prior, declared)
-                                                   : singles(e, prior, nothing.either());
-  for (Weighed& w : library) w.log_weight += std::log(PosteriorLimits::library);
-  const double none = std::log(PosteriorLimits::nothing);
-  const double outside =
-      std::log(PosteriorLimits::outside) + log_outside(found, prior, declared, nothing);
-
-  double total = log_sum(none + nothing.either(), outside);
-  for (const Weighed& w : library) total = log_sum(total, w.log_weight);
+Posterior posterior_of(const Evidence& e) {
+  const double declared = std::log(PosteriorPrior::nothing) + e.declared,
+               estimated = std::log(PosteriorPrior::nothing) + e.estimated,
+               outside = std::log(PosteriorPrior::outside) + e.outside,
+               library = std::log(PosteriorPrior::library);
+  double total = log_sum(log_sum(declared, estimated), outside);
+  for (const Evidence::Weighed& w : e.library) total = log_sum(total, library + w.log_weight);
   Posterior out;
-  out.consistent = std::exp(none + nothing.declared - total);
-  out.noise_only = std::exp(none + nothing.estimated - total);
+  out.consistent = std::exp(declared - total);
+  out.noise_only = std::exp(estimated - total);
   out.outside = std::exp(outside - total);
-  for (const Weighed& w : library)
-    if (const double p = std::exp(w.log_weight - total); p >= PosteriorLimits::listed)
+  for (const Evidence::Weighed& w : e.library)
+    if (const double p = std::exp(library + w.log_weight - total); p >= PosteriorPrior::listed)
       out.named.push_back({w.choices, p});
   std::ranges::stable_sort(out.named, std::greater{}, &Posterior::Explained::probability);
   double sum = out.consistent + out.noise_only + out.outside;
@@ -160,6 +147,17 @@ Posterior posterior_of(const Search& found) {
   out.outside /= sum;
   for (auto& n : out.named) n.probability /= sum;
   return out;
+}
+
+Posterior posterior_of(const Search& found) {
+  const Fitted& e = found.nominal;
+  const inference::NoiseModel declared = declared_noise(e.filter);
+  const ByNoise nothing = by_noise(found, declared);
+  const LibraryPrior prior(e.set, [&](std::size_t k) { return can_be_seen(e, k); });
+  return posterior_of(Evidence{nothing.declared, nothing.estimated,
+                               log_outside(found, prior, declared, nothing),
+                               found.significant ? explanations(found, prior, declared)
+                                                 : singles(e, prior, nothing.either())});
 }
 
 }  // namespace drift::search

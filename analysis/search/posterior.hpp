@@ -8,7 +8,7 @@ namespace drift::search {
 
 /// Probabilities of what a recording may be, summing to 1. A model is what drives the mean (nothing
 /// beside the nominal model; causes of the library; something outside it) and the noise (as
-/// declared or not). Means and noise have the prior of PosteriorLimits, over effects that the test
+/// declared or not). Means and noise have the prior of PosteriorPrior, over effects that the test
 /// could see: their sizes are known to orders of magnitude (size_prior.hpp), of which those count
 /// that would be VisibleLimits::size strong; settings share a term's prior, a noise that was
 /// estimated has the prior of inference::NoisePrior.
@@ -25,6 +25,20 @@ struct Posterior {
   };
   std::vector<Explained> named;
 };
+
+/// Logs of what each says of the data, before the prior over the three.
+struct Evidence {
+  /// Nothing missing, by noise; the noise's prior is in them.
+  double declared = 0.0, estimated = 0.0;
+  double outside = 0.0;
+  /// Explanations by the library, their prior among themselves included.
+  struct Weighed {
+    Explanation choices;
+    double log_weight = 0.0;
+  };
+  std::vector<Weighed> library;
+};
+Posterior posterior_of(const Evidence& evidence);
 
 /// Of a search that found nothing significant: by the linearised scores of single candidates;
 /// otherwise of the explanations that were fitted.

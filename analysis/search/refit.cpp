@@ -7,8 +7,8 @@
 
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/search/fit_causes.hpp"
+#include "analysis/search/scores/size_prior.hpp"
 #include "analysis/search/settle_noise.hpp"
-#include "analysis/search/size_prior.hpp"
 
 namespace drift::search {
 namespace {

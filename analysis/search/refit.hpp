@@ -2,7 +2,7 @@
 
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/search/chance_thresholds.hpp"
-#include "analysis/search/remainder.hpp"
+#include "analysis/search/scores/remainder.hpp"
 
 namespace drift::search {
 

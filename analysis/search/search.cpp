@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <iterator>
-#include <limits>
 #include <optional>
 #include <utility>
 
 #include "analysis/inference/thresholds.hpp"
-#include "analysis/search/log_sum.hpp"
 #include "analysis/search/other_equation.hpp"
 #include "analysis/search/outside_form.hpp"
 #include "analysis/search/posterior.hpp"
@@ -235,8 +233,7 @@ void look_between_all_points(Search& s, const MeasuredTest& test, std::vector<Re
 Search searched(Fitted nominal, const MeasuredTest& test, const SearchOptions& options) {
   Search out{detect(std::move(nominal), test, options), {}, {}, false, {}, {}, {}, {}, {}, never};
   if (out.significant)
-    out.nominal =
-        refine_grids(std::move(out.nominal), test, inference::ReachLimits::worth_refining);
+    out.nominal = refine_grids(std::move(out.nominal), test, ReachLimits::worth_refining);
   look_at_remainders(out);
   if (!out.significant) return out;
 
@@ -291,9 +288,9 @@ Search searched(Fitted nominal, const MeasuredTest& test, const SearchOptions& o
 
 Search search(Fitted nominal, const MeasuredTest& test, const SearchOptions& options) {
   Search out = searched(std::move(nominal), test, options);
-  if (!out.sets.empty()) out.log_form = log_evidence_of_a_form(out, test);
-  if (out.sets.empty() || posterior_of(out).outside <= inference::SearchLimits::credible)
-    return out;
+  if (out.sets.empty()) return out;
+  out.log_form = log_evidence_of_a_form(out, test);
+  if (posterior_of(out).outside <= inference::SearchLimits::credible) return out;
   out.outweighed = std::exchange(out.sets, {});
   out.outweighed_probability = std::exchange(out.probability, {});
   out.just_not = false;

@@ -2,6 +2,7 @@
 
 #include "analysis/search/credible_set.hpp"
 #include "analysis/search/detect.hpp"
+#include "analysis/search/scores/log_sum.hpp"
 
 namespace drift::search {
 
@@ -20,10 +21,10 @@ struct Search : Detection {
   std::vector<double> outweighed_probability;
   /// Log evidence, noise included, of a form outside the library (outside_form.hpp); where there is
   /// an explanation that it is to be compared with.
-  double log_form = -std::numeric_limits<double>::infinity();
+  double log_form = never;
 };
 
-/// Names what is missing (discovery.md 2.3 to 2.7): detection by the largest projected score; the
+/// Names what is missing: detection by the largest projected score; the
 /// adequate set, first of single candidates, then of all pairs, then by greedy steps, each
 /// confirmed by a fit through the full dynamics; probabilities from their evidence. Where something
 /// outside the library is credible by itself (0.95; posterior.hpp) all sets are outweighed.

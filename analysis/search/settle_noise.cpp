@@ -8,8 +8,8 @@
 
 #include "analysis/inference/marginal.hpp"
 #include "analysis/inference/noise/noise_component.hpp"
-#include "analysis/search/library_prior.hpp"
-#include "analysis/search/size_prior.hpp"
+#include "analysis/search/scores/library_prior.hpp"
+#include "analysis/search/scores/size_prior.hpp"
 #include "mc/task/campaign.hpp"
 
 namespace drift::search {
@@ -17,7 +17,7 @@ namespace {
 
 using inference::EffortLimits;
 using inference::NoiseEstimate;
-using inference::PosteriorLimits;
+using inference::PosteriorPrior;
 
 constexpr double least = -std::numeric_limits<double>::infinity();
 
@@ -52,8 +52,8 @@ class NoiseOrEffects {
 
   /// Of what is in the mean: prior, and settings that were tried.
   double log_prior(const Explanation& in) const {
-    if (in.empty()) return std::log(PosteriorLimits::nothing);
-    double sum = std::log(PosteriorLimits::library) + prior_.log_of(in);
+    if (in.empty()) return std::log(PosteriorPrior::nothing);
+    double sum = std::log(PosteriorPrior::library) + prior_.log_of(in);
     for (const Choice& c : in) sum += log_share(c);
     return sum;
   }
@@ -270,7 +270,7 @@ std::optional<NoiseSettled> settle_noise(const Fitted& e, std::size_t tries, Unk
                log_periodic =
                    inputs == UnknownInputs::periodic_too ? log_period(e, white.noise.model) : least;
   const double of_input = white.log_weight + std::max(log_lone, log_periodic) +
-                          std::log(PosteriorLimits::outside) - std::log(PosteriorLimits::nothing);
+                          std::log(PosteriorPrior::outside) - std::log(PosteriorPrior::nothing);
   const double of_effects = models.log_sum_of_effects();
   const double top = std::max({alone.log_weight, of_effects, of_input});
   const double noise = std::exp(alone.log_weight - top), effects = std::exp(of_effects - top),

@@ -9,7 +9,7 @@ namespace drift::strapdown {
 
 /// A parameter, or a sum of some, that a recording says.
 struct StrapdownParameter {
-  std::string key;     ///< as in interfaces.md 4
+  std::string key;     ///< as in the study file
   double value = 0.0;  ///< in `unit`
   double sigma = 0.0;  ///< 1 standard deviation, in `unit`
   std::string unit;

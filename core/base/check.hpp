@@ -9,7 +9,7 @@
 
 namespace drift {
 
-/// What the program answers to the shell (interfaces.md, section 1).
+/// What the program answers to the shell (core/docs/commands.md).
 enum class ExitCode : int {
   ok = 0,
   internal = 1,

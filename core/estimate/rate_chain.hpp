@@ -29,7 +29,7 @@ class RateChain {
     Mat3T<S> E;
     for (int i = 0; i < 9; ++i) E.data()[i] = slots[static_cast<std::size_t>(i)].v;
     const D3& lambda = slots[H::lambda];
-    const auto [share, K] = closure(model.coupling, E, lambda.v, E_loop);
+    const auto [share, K] = closed_over(model.coupling, E, lambda.v, E_loop);
     const Mat3T<S> open = E - K;
     const Mat3T<S> minus_closed = -Mat3T<S>(Mat3T<S>::Identity() + K).inverse();
     Vec3T<S> w, torqued, omega_o_p;
@@ -71,27 +71,6 @@ class RateChain {
   }
 
  private:
-  /// The misalignment that the loop closes over, K = share E + fixed (drift_model.hpp).
-  struct Closure {
-    S share;
-    Mat3T<S> K;
-  };
-  static Closure closure(Coupling coupling, const Mat3T<S>& E, const S& lambda,
-                         const Mat3& E_loop) {
-    switch (coupling) {
-      case Coupling::eq6:
-        return {S(1.0), E};
-      case Coupling::lambda:
-        return {lambda, E * lambda};
-      case Coupling::compensated:
-        return {S(0.0), E_loop.template cast<S>()};
-      case Coupling::eq5:
-      case Coupling::servo:
-        break;
-    }
-    return {S(0.0), Mat3T<S>::Zero()};
-  }
-
   Mat3T<S> R_ip_, by_gyro_, by_attitude_;
   Vec3T<S> omega_ip_p_, lever_, share_i_;
 };

@@ -30,22 +30,28 @@ RateAssembly<S> assemble(const DriftModel& model, const Inputs<S>& in, const S* 
   return out;
 }
 
-/// The part K of the misalignment that the servo loop closes over, w_cp = -(I + K)^-1 (C w_ic + u):
-/// nothing for eq. (5), E for eq. (6), lambda E between, the loop's own estimate when compensated.
+/// The part K of the misalignment that the servo loop closes over, w_cp = -(I + K)^-1 (C w_ic + u).
 template <class S>
-Mat3T<S> closed_over(Coupling coupling, const RateAssembly<S>& a, const Mat3& E_loop) {
+struct ClosedOver {
+  S share;  ///< of E that is in K
+  Mat3T<S> K;
+};
+/// Nothing for eq. (5), E for eq. (6), lambda E between, the loop's own estimate when compensated.
+template <class S>
+ClosedOver<S> closed_over(Coupling coupling, const Mat3T<S>& E_gp, const S& lambda,
+                          const Mat3& E_loop) {
   switch (coupling) {
     case Coupling::eq6:
-      return a.E_gp;
+      return {S(1.0), E_gp};
     case Coupling::lambda:
-      return a.E_gp * a.lambda;
+      return {lambda, E_gp * lambda};
     case Coupling::compensated:
-      return E_loop.template cast<S>();
+      return {S(0.0), E_loop.template cast<S>()};
     case Coupling::eq5:
     case Coupling::servo:
       break;
   }
-  return Mat3T<S>::Zero();
+  return {S(0.0), Mat3T<S>::Zero()};
 }
 
 /// Inertial rate of the platform, platform axes [rad/s], shape 3, of the algebraic couplings:
@@ -60,7 +66,7 @@ Mat3T<S> closed_over(Coupling coupling, const RateAssembly<S>& a, const Mat3& E_
 template <class S>
 Vec3T<S> rate_of_slots(Coupling coupling, const RateAssembly<S>& a, const Vec3T<S>& omega_ic_p,
                        const Mat3& E_loop) {
-  const Mat3T<S> K = closed_over(coupling, a, E_loop);
+  const Mat3T<S> K = closed_over(coupling, a.E_gp, a.lambda, E_loop).K;
   const Vec3T<S> u = a.omega_drift_g + a.omega_torque_g;
   const Vec3T<S> s = (a.E_gp - K) * omega_ic_p + u;
   if (coupling == Coupling::eq5) return a.omega_ip_p - s;

@@ -4,7 +4,7 @@
 
 namespace drift {
 
-/// The recording in the units of interfaces.md 3 and 7: s, g, deg, deg/h for commands, deg/s for
+/// The recording in the units of core/docs/recording.md: s, g, deg, deg/h for commands, deg/s for
 /// gyros. The numbers it holds stay as they are; covariates keep their units.
 Recording in_canonical_units(Recording recording);
 

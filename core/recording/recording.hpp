@@ -41,7 +41,7 @@ struct Recording {
   }
 };
 
-/// A recording of a gimballed platform (interfaces.md 3) or of sensors fixed to a case (7).
+/// A recording of a gimballed platform or of sensors fixed to a case (core/docs/recording.md).
 enum class RecordingKind { platform, strapdown };
 
 /// Reads .csv, .h5/.hdf5 or .mat by extension, converts to internal units, checks everything that

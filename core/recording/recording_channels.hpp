@@ -10,7 +10,7 @@
 
 namespace drift {
 
-/// What a known channel measures (interfaces.md, sections 3 and 7).
+/// What a known channel measures (core/docs/recording.md).
 struct ChannelQuantity {
   Dimension dim;
   std::string_view words;  ///< "a specific force, for example [g], [mg] or [ug]"

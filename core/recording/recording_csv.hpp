@@ -8,7 +8,7 @@
 
 namespace drift {
 
-/// Reads a CSV recording (interfaces.md, sections 3 and 8.1), streaming, whatever the locale.
+/// Reads a CSV recording (core/docs/recording.md), streaming, whatever the locale.
 ///
 /// UTF-8, UTF-16 or Windows-1252; lines end with LF or CRLF. Lines that start with '#' are
 /// comments, or facts if they hold a '='. One header row `name [unit]`, which lines may stand above

@@ -47,7 +47,8 @@ struct ChannelOffset {
   Dimension dim;
 };
 
-/// How a user's file is read as a recording: [recording] of the study file (interfaces.md 8.1).
+/// How a user's file is read as a recording: [recording] of the study file
+/// (core/docs/recording.md).
 struct RecordingFormat {
   std::vector<MappedColumn> columns;
   std::vector<std::pair<std::string, int>> positions;  ///< text -> number of the plan's position

@@ -20,7 +20,7 @@ struct Measurements {
 /// The channels acc_* and gimbal_* of a recording; absent or unread channels are all NaN.
 Measurements measurements_of(const Recording& recording, const Readout& readout);
 
-/// A recording of what was measured along a timeline, in the units of interfaces.md 3.
+/// A recording of what was measured along a timeline, in the units of core/docs/recording.md.
 Recording make_recording(const Timeline& timeline, const Measurements& measured,
                          const Readout& readout);
 

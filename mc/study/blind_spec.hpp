@@ -31,7 +31,8 @@ struct BlindFurther {
   std::uint64_t sum() const { return other_equation + noisy_single + noisy_covariate; }
 };
 
-/// [blind] of a study file: which recordings with concealed effects are made (discovery.md 3).
+/// [blind] of a study file: which recordings with concealed effects are made
+/// (analysis/docs/blind.md).
 struct BlindSpec {
   std::uint64_t trials = 300;
   std::vector<std::string> plans{"twelve", "twentyfour", "slew12"};

@@ -13,7 +13,7 @@ namespace drift::test {
 
 /// A strapdown test whose motion is known in closed form: the case rests, turns about an axis fixed
 /// in it at a rate that rises and falls as 1 - cos, rests again. Written apart from the estimator:
-/// the sensor equations of interfaces.md 4 and 7 are spelt out here.
+/// the sensor equations are spelt out here.
 struct StrapdownScript {
   std::size_t dwells = 30;
   double rest = 5.0;               ///< length of a dwell [s]

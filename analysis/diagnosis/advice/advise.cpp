@@ -9,7 +9,7 @@
 #include "analysis/diagnosis/advice/extended_test.hpp"
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/planning/choose_additions.hpp"
-#include "analysis/search/field.hpp"
+#include "analysis/search/scores/field.hpp"
 
 namespace drift::diagnosis {
 namespace {

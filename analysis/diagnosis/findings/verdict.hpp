@@ -4,7 +4,7 @@
 
 namespace drift::diagnosis {
 
-/// What a diagnosis ends with (interfaces.md 6).
+/// What a diagnosis ends with (analysis/docs/diagnose.md).
 enum class Verdict { consistent, named, ambiguous, unexplained };
 inline constexpr Named<Verdict> verdicts[] = {{"consistent", Verdict::consistent},
                                               {"named", Verdict::named},

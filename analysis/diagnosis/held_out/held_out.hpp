@@ -24,8 +24,8 @@ struct FoldOptions {
 
 /// Predicts every position from all the others, with the nominal and with the patched model; where
 /// there are several recordings, every recording from the others too, its initial attitudes alone
-/// unknown beyond their posterior (discovery.md 2.6; predictor.hpp). Nested: the cause is chosen
-/// anew from the rest alone (discovery.md 0.9), the nominal model where nothing there is
+/// unknown beyond their posterior (predictor.hpp). Nested: the cause is chosen
+/// anew from the rest alone, the nominal model where nothing there is
 /// significant.
 HeldOut held_out(const search::Fitted& nominal, const search::Fitted& patched,
                  const MeasuredTest& test, const std::vector<std::size_t>& named,

@@ -33,7 +33,7 @@ struct NoiseEstimate {
 /// one by one while twice the log likelihood grows by more than 2.7 (the 5 % point of a variance on
 /// its boundary). Logs of the sigmas are found by a quasi-Newton ascent. `with`: candidate columns
 /// that are in the mean (unit priors), so that a real effect is not taken for noise. Source:
-/// Patterson and Thompson 1971; discovery.md 2.1, 4.6. most_added: components beside white noise
+/// Patterson and Thompson 1971. most_added: components beside white noise
 /// and what is declared.
 NoiseEstimate estimate_noise(const LinearProblem& problem, const NoiseModel& declared,
                              const std::vector<int>& with = {},

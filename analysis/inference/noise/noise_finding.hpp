@@ -5,7 +5,7 @@
 
 namespace drift::inference {
 
-/// Noise that is not as declared (interfaces.md 5).
+/// Noise that is not as declared.
 struct NoiseFinding {
   std::string component;  ///< gimbal_white, accelerometer_white, angle_random_walk,
                           ///< drift_random_walk, markov_drift, accelerometer_markov, outliers

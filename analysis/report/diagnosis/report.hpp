@@ -32,8 +32,8 @@ InBrief diagnosis_in_brief(const diagnosis::Diagnosis& diagnosis);
 /// candidates, before and after, what moved, noise that is not as declared, advice.
 std::string to_text(const diagnosis::Diagnosis& diagnosis);
 
-/// diagnosis.json of interfaces.md 6, schema 1. Values stand in the unit named beside them; what is
-/// not a finite number is null. Beyond the keys listed there: of causes `set` (causes with the same
+/// diagnosis.json, schema 1. Values stand in the unit named beside them; what is
+/// not a finite number is null. Of causes `set` (causes with the same
 /// number act together), of candidates the numbers of the table, and of several recordings the
 /// window's `recording` with its own times, and `noise`, `equations`, `inseparable`, `remarks`,
 /// `seconds`.

@@ -15,6 +15,7 @@
 #include "analysis/report/diagnosis/not_examined_words.hpp"
 #include "analysis/report/diagnosis/remark_words.hpp"
 #include "analysis/report/diagnosis/too_large.hpp"
+#include "analysis/report/diagnosis/verdict_openings.hpp"
 #include "analysis/report/identify/latitude_words.hpp"
 #include "core/base/number_text.hpp"
 #include "core/base/words.hpp"
@@ -93,8 +94,7 @@ std::string not_confirmed_text(const Diagnosis& d, bool several) {
 
 std::string ambiguous_text(const Diagnosis& d) {
   const std::string missing =
-      fmt::format("Something is missing from the nominal model (chance of a false alarm: {})",
-                  p_text(d.p_value));
+      fmt::format("{} (chance of a false alarm: {})", something_missing, p_text(d.p_value));
   const auto all = alternatives_of(d);
   if (all.empty())
     return fmt::format("{}, and {} cannot tell what.", missing, positions_at_hand(d));
@@ -152,10 +152,8 @@ std::string verdict_alone(const Diagnosis& d) {
                     false_alarm = fmt::format("chance of a false alarm: {}", p_text(d.p_value));
   switch (d.verdict) {
     case Verdict::consistent:
-      return fmt::format(
-          "The recording agrees with the nominal model; no missing physics is found (noise alone "
-          "{}).{}{}",
-          shows_as_much(d.p_value), chance_text(d), noise);
+      return fmt::format("{}; no missing physics is found (noise alone {}).{}{}", agrees,
+                         shows_as_much(d.p_value), chance_text(d), noise);
     case Verdict::named:
       return fmt::format("{}; {} ({}).{}", lacking(d.causes, instrument_of(d)),
                          held_out_text(d, d.causes.size() > 1), false_alarm, noise);
@@ -165,9 +163,8 @@ std::string verdict_alone(const Diagnosis& d) {
       break;
   }
   return fmt::format(
-      "Something is missing from the nominal model ({}) and {}; it sits "
-      "in the {}{}.{}",
-      false_alarm, unknown_text(d.probabilities, instrument_of(d)),
+      "{} ({}) and {}; it sits in the {}{}.{}", something_missing, false_alarm,
+      unknown_text(d.probabilities, instrument_of(d)),
       d.where.equation.empty() ? "test as a whole" : equation_in_words(d.where.equation),
       located_shape_text(d), noise);
 }

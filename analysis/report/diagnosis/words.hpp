@@ -8,7 +8,7 @@
 
 namespace drift::report {
 
-/// "magnetic_drift.y", as interfaces.md 5 splits keys.
+/// "magnetic_drift.y": the term and its axis.
 std::string label_of(const search::Cause& cause);
 std::string label_of(const search::CandidateScore& candidate);
 

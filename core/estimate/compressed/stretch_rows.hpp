@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/estimate/compressed/compressed_test.hpp"
+#include "core/estimate/compressed/compressed_dwells.hpp"
 #include "core/estimate/linearize.hpp"
 
 namespace drift {

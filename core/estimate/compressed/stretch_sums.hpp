@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "core/estimate/compressed/compressed_test.hpp"
+#include "core/estimate/compressed/compressed_dwells.hpp"
 
 namespace drift {
 

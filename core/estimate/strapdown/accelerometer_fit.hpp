@@ -21,7 +21,7 @@ enum class AccelerometerModel {
 /// dO_z.
 std::vector<std::size_t> parameters_of(AccelerometerModel model);
 
-/// Specific force from accelerometer outputs: the accelerometer equation (interfaces.md 4) solved
+/// Specific force from accelerometer outputs: the accelerometer equation solved
 /// for a.
 class SpecificForce {
  public:

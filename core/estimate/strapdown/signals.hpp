@@ -18,7 +18,7 @@ struct Signals {
   bool measured(std::size_t k) const { return gyro[k].allFinite() && acc[k].allFinite(); }
 };
 
-/// Takes the channels time, gyro_x..z and acc_x..z of a recording (interfaces.md 7).
+/// Takes the channels time, gyro_x..z and acc_x..z of a recording (core/docs/recording.md).
 /// InputError (recording) lists every channel that is missing or has another dimension, and time
 /// that does not increase.
 Signals signals_of(const Recording& recording);

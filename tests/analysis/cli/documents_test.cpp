@@ -123,6 +123,25 @@ TEST(Documents, TestsThatTheChaptersNameExist) {
   EXPECT_GE(found, 80);
 }
 
+TEST(Documents, FilesThatTheChaptersNameExist) {
+  const std::filesystem::path source(DRIFT_SOURCE_DIR);
+  const std::regex named("`([a-z_]+(/[a-z_0-9.]+)+\\.(hpp|cpp|py|sh|js|toml|md))`");
+  int found = 0;
+  for (const auto& document : documents()) {
+    const std::string text = text_of(document.string());
+    const auto part = source / *document.lexically_relative(source).begin();
+    for (std::sregex_iterator it(text.begin(), text.end(), named), end; it != end; ++it) {
+      const std::string name = (*it)[1];
+      const std::string folder = name.substr(0, name.find('/'));
+      if (folder == "out" || folder == "trials" || folder == "share") continue;  // what is made
+      EXPECT_TRUE(std::filesystem::exists(source / name) || std::filesystem::exists(part / name))
+          << document.filename() << ": " << name;
+      ++found;
+    }
+  }
+  EXPECT_GE(found, 50);
+}
+
 TEST(DocumentsNightly, EveryCommandWorksUncut) {
   Commands here;
   for (const std::string& command : commands()) here.run(command);

@@ -7,7 +7,7 @@
 
 #include "analysis/diagnosis/diagnose.hpp"
 #include "analysis/inference/thresholds.hpp"
-#include "analysis/search/size_prior.hpp"
+#include "analysis/search/scores/size_prior.hpp"
 #include "core/sim/simulate.hpp"
 #include "tests/support/model_builders.hpp"
 #include "tests/support/short_study.hpp"
@@ -75,6 +75,24 @@ mc::Study small(mc::Overrides more) {
                      {"filter.nominal.terms", terms}, {"filter.nominal.coupling", "eq5"}};
   sets.insert(sets.end(), more.begin(), more.end());
   return mc::read_study(DRIFT_SOURCE_DIR "/configs/diagnose_equation.toml", sets);
+}
+
+TEST(Posterior, IsThePriorWhereAllExplainTheDataAlike) {
+  // As stated in diagnose.md: nothing 0.5, of which the noise is as declared in 0.8; the library
+  // 0.45, of which the second cause is three times as probable as the first; outside 0.05.
+  const Evidence alike{
+      .declared = std::log(0.8) - 700.0,
+      .estimated = std::log(0.2) - 700.0,
+      .outside = -700.0,
+      .library = {{{{1, 0}}, std::log(0.25) - 700.0}, {{{2, 0}}, std::log(0.75) - 700.0}}};
+  const Posterior p = posterior_of(alike);
+  EXPECT_NEAR(p.consistent, 0.4, 1e-12);
+  EXPECT_NEAR(p.noise_only, 0.1, 1e-12);
+  EXPECT_NEAR(p.outside, 0.05, 1e-12);
+  ASSERT_EQ(p.named.size(), 2u);
+  EXPECT_EQ(p.named[0].choices.front().candidate, 2u);
+  EXPECT_NEAR(p.named[0].probability, 0.45 * 0.75, 1e-12);
+  EXPECT_NEAR(p.named[1].probability, 0.45 * 0.25, 1e-12);
 }
 
 TEST(Posterior, SumsToOneAndSaysNothingIsMissingWhereNothingIs) {

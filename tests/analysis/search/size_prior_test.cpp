@@ -1,4 +1,4 @@
-#include "analysis/search/size_prior.hpp"
+#include "analysis/search/scores/size_prior.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 
 #include "analysis/search/chance_thresholds.hpp"
 #include "analysis/search/pairs.hpp"
-#include "analysis/search/remainder.hpp"
+#include "analysis/search/scores/remainder.hpp"
 
 namespace drift::search::thresholds_test {
 namespace {

@@ -154,7 +154,7 @@ TEST(TermLibrary, Holds60BaseParameters13PerGyro7PerAccelerometer) {
 }
 
 TEST(TermLibrary, HoldsEveryCandidateOfTheInterface) {
-  // interfaces.md 5, in its order.
+  // The keys that studies and other programs rely on: none is ever renamed.
   for (const char* key : {"drift_ramp",
                           "warmup_drift",
                           "reposition_transient",

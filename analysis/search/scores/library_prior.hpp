@@ -6,7 +6,7 @@
 
 #include "analysis/inference/noise/lone_input.hpp"
 #include "analysis/inference/thresholds.hpp"
-#include "analysis/search/choice.hpp"
+#include "analysis/search/scores/choice.hpp"
 
 namespace drift::search {
 

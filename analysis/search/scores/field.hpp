@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "analysis/inference/scan.hpp"
-#include "analysis/search/choice.hpp"
+#include "analysis/search/scores/choice.hpp"
 
 namespace drift::search {
 

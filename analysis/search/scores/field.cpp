@@ -1,10 +1,10 @@
-#include "analysis/search/field.hpp"
+#include "analysis/search/scores/field.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "analysis/search/size_prior.hpp"
+#include "analysis/search/scores/size_prior.hpp"
 #include "core/base/decompose.hpp"
 
 namespace drift::search {

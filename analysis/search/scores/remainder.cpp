@@ -1,4 +1,4 @@
-#include "analysis/search/remainder.hpp"
+#include "analysis/search/scores/remainder.hpp"
 
 #include <algorithm>
 #include <cmath>

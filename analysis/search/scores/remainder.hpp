@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "analysis/search/field.hpp"
+#include "analysis/search/scores/field.hpp"
 
 namespace drift::search {
 
@@ -13,7 +13,7 @@ struct Remainder {
   std::size_t strongest = 0;  ///< the candidate that has `library`
 };
 
-/// Conditional scores T_(c|d) (discovery.md 2.5). The neighbouring variant on the grid goes in with
+/// Conditional scores T_(c|d). The neighbouring variant on the grid goes in with
 /// a cause, so that a time constant between two of them is allowed for. Members of a chosen
 /// candidate's own family do not count as others.
 Remainder remainder(const Field& field, const std::vector<Choice>& choices);

@@ -1,4 +1,4 @@
-#include "analysis/search/choice.hpp"
+#include "analysis/search/scores/choice.hpp"
 
 #include <algorithm>
 

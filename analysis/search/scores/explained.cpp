@@ -1,4 +1,4 @@
-#include "analysis/search/explained.hpp"
+#include "analysis/search/scores/explained.hpp"
 
 #include "core/estimate/layout.hpp"
 

@@ -1,4 +1,4 @@
-#include "core/estimate/compressed/compressed_test.hpp"
+#include "core/estimate/compressed/compressed_dwells.hpp"
 
 #include <algorithm>
 #include <cmath>
