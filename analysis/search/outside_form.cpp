@@ -24,11 +24,15 @@ double log_evidence(const Fitted& nominal, const MeasuredTest& test,
 }  // namespace
 
 double log_evidence_of_a_form(const Search& found, const MeasuredTest& test) {
-  const double declared = std::log(inference::NoisePrior::as_declared) +
-                          log_evidence(found.nominal, test, declared_noise(found.nominal.filter));
-  const inference::NoiseEstimate& estimated = found.sets.front().after.noise;
-  return log_sum(declared,
-                 estimated.log_price + log_evidence(found.nominal, test, estimated.model));
+  const inference::NoiseModel declared = declared_noise(found.nominal.filter);
+  const double as_declared = std::log(inference::NoisePrior::as_declared),
+               sum = as_declared + log_evidence(found.nominal, test, declared);
+  const Fitted& best = found.sets.front().after;
+  const double prefers_declared =
+      as_declared + 0.5 * inference::marginal_of(best.problem, declared).log_likelihood2() -
+      best.log_evidence();
+  if (prefers_declared > 0.0) return sum;
+  return log_sum(sum, best.noise.log_price + log_evidence(found.nominal, test, best.noise.model));
 }
 
 }  // namespace drift::search

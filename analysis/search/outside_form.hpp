@@ -11,8 +11,8 @@ namespace drift::search {
 /// free form (posterior.cpp). An explanation by the library may fit such a thing nearly as well,
 /// with more parameters: without this alternative it would be sure of itself.
 ///
-/// Under the declared noise and that of the best explanation: the noise estimated beside the
-/// nominal model holds part of the effect.
+/// Under the declared noise and, where the best explanation prefers the one estimated beside it,
+/// under that too; the noise estimated beside the nominal model holds part of the effect.
 double log_evidence_of_a_form(const Search& found, const MeasuredTest& test);
 
 }  // namespace drift::search

@@ -134,17 +134,18 @@ std::string chance_text(const Diagnosis& d) {
 }
 
 /// That no effect of the library is behind it; where one could be, how probable either is.
-std::string unknown_text(const Probabilities& p, Instrument instrument) {
+std::string unknown_text(const Diagnosis& d) {
+  const Probabilities& p = d.probabilities;
   if (p.named.empty() || p.outside <= inference::SearchLimits::credible)
     return "no known effect explains it";
   std::vector<std::string> words;
   for (const NamedEffect& e : p.named.front().causes)
-    words.push_back(fmt::format("{} ({})", in_words(e.term, e.axis, instrument), e.label));
+    words.push_back(fmt::format("{} ({})", in_words(e.term, e.axis, instrument_of(d)), e.label));
   return fmt::format(
-      "something that no term describes, in one stretch of the test perhaps, is more probable "
-      "({}) than the likeliest known effect ({}), {}",
-      decimal_text(p.outside, 3), decimal_text(p.named.front().probability, 3),
-      fmt::join(words, " together with "));
+      "something that no term describes{} is more probable ({}) than the likeliest known effect "
+      "({}), {}",
+      d.proposal ? "" : ", in one stretch of the test perhaps,", decimal_text(p.outside, 3),
+      decimal_text(p.named.front().probability, 3), fmt::join(words, " together with "));
 }
 
 std::string verdict_alone(const Diagnosis& d) {
@@ -163,8 +164,7 @@ std::string verdict_alone(const Diagnosis& d) {
       break;
   }
   return fmt::format(
-      "{} ({}) and {}; it sits in the {}{}.{}", something_missing, false_alarm,
-      unknown_text(d.probabilities, instrument_of(d)),
+      "{} ({}) and {}; it sits in the {}{}.{}", something_missing, false_alarm, unknown_text(d),
       d.where.equation.empty() ? "test as a whole" : equation_in_words(d.where.equation),
       located_shape_text(d), noise);
 }
