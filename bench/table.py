@@ -1,7 +1,8 @@
 """The table of bench/table.sh: runs the benchmarks, one core each where they allow, and collects their rows.
 
 A row is {key, ours_s, peer_s, ratio, note}: CPU seconds of one unit of work with driftscope and with its peer
-(null where there is none), ratio = peer_s / ours_s. `spread` tells how far our own repetitions were apart.
+(null where there is none), ratio = peer_s / ours_s; of the rows peak_... the peer is the core itself, whose fused
+multiply-adds alone would take peer_s. `spread` tells how far our own repetitions were apart.
 """
 import argparse
 import json
@@ -22,9 +23,11 @@ PROGRAMS = {
     "bench_study": ["run_one_pass", "run_iterated", "threads2"],
     "bench_sensitivities": ["sensitivities_cvodes", "sensitivities_alone"],
     "bench_servo": ["servo_dwell", "servo_slew"],
+    "bench_kernels": ["peak_covariance", "peak_information", "peak_factorise"],
 }
 COMMANDS = ["diagnose24", "rank_improve"]
-KEYS = [k for keys in PROGRAMS.values() for k in keys] + COMMANDS
+PYTHON = "ekf63_numpy"
+KEYS = [k for keys in PROGRAMS.values() for k in keys] + [PYTHON] + COMMANDS
 
 
 def row(key, ours, peer, spread, note):
@@ -43,6 +46,20 @@ def of_program(folder, program):
         if line.startswith("row\t"):
             _, key, ours, peer, spread, note = line.split("\t")
             yield row(key, float(ours), float(peer), float(spread), note)
+
+
+def of_numpy(ours):
+    """The step of `ekf63_sequential` as it is written in Python: predict, and update in Joseph's form, three scalars
+    twice, over dense arrays of numpy. Its numbers are not ours, its shapes are; so it is about time alone."""
+    sys.path.insert(0, str(ROOT / "bench"))
+    try:
+        import numpy_ekf
+    except ImportError as error:
+        sys.stderr.write(f"{PYTHON}: left out, {error} (Debian: python3-numpy)\n")
+        return []
+    seconds = [numpy_ekf.seconds_of_a_step() for _ in range(5)]
+    return [row(PYTHON, ours["ours_s"], min(seconds), ours["spread"],
+                "covariance step of 63 states, 6 scalars, against dense arrays of numpy, Joseph's form")]
 
 
 def cpu_of(command, folder):
@@ -110,6 +127,9 @@ def main():
     for program, keys in PROGRAMS.items():
         if set(keys) & set(wanted):
             rows += [r for r in of_program(options.bin, program) if r["key"] in wanted]
+    if PYTHON in wanted:
+        ours = next(r for r in rows + list(of_program(options.bin, "bench_ekf")) if r["key"] == "ekf63_sequential")
+        rows += of_numpy(ours)
     rows += [of_command(options.bin, key) for key in COMMANDS if key in wanted]
     where = machine()
     for r in rows:

@@ -6,5 +6,5 @@ set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cmake -S "$here" -B "$here/build/perf" --preset perf > "$here/build/perf.log" 2>&1 ||
     { cat "$here/build/perf.log" >&2; exit 1; }
-cmake --build "$here/build/perf" --target bench_ekf bench_study bench_sensitivities bench_servo driftscope >&2
+cmake --build "$here/build/perf" --target bench_ekf bench_study bench_sensitivities bench_servo bench_kernels driftscope >&2
 exec python3 "$here/bench/table.py" --bin "$here/build/perf/bin" "$@"

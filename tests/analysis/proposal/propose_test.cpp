@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "analysis/diagnosis/diagnose.hpp"
 #include "analysis/report/diagnosis/form_words.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
@@ -14,20 +16,19 @@ namespace {
 
 using namespace drift::test;
 
-/// A test of a truth whose gyro y oscillates in some attitudes.
-struct Oscillating {
-  Timeline timeline = preset_timeline("twelve", CommandLaw::free, 1800.0, 90.0);
+/// A test of a truth that holds an effect which the library does not have.
+struct Hiding {
+  Timeline timeline;
   Readout readout;
   Measurements measured;
-  Oscillating() {
-    const OwnTermsHeld hidden(
-        own_term("hidden", "drift.y", "A*sin(2*pi*t/P)*step(abs(f_z) - 0.6)",
-                 "A = { unit = 'deg/h', prior = 0.1 }, P = { unit = 'min', value = 41 }"));
+  /// own: its text as a term "hidden", with the values of its parameters [SI].
+  Hiding(Timeline plan, const std::string& own, const std::map<std::string, double>& values)
+      : timeline(std::move(plan)) {
+    const OwnTermsHeld hidden(own);
     TruthSpec truth = base_truth(Coupling::eq5);
     truth.active |= params_named("hidden");
     TruthDraw draw = draw_truth(truth, timeline.chains, 11, 1);
-    draw.theta[param("hidden_A")] = 0.06 * deg_per_h;
-    draw.theta[param("hidden_P")] = 41.0 * 60.0;
+    for (const auto& [key, value] : values) draw.theta[param(key)] = value;
     measured = Simulator(truth, readout).run(timeline, draw, 11, 1).measured;
   }
   diagnosis::Diagnosis diagnose(diagnosis::Proposing proposing) const {
@@ -41,7 +42,12 @@ struct Oscillating {
 };
 
 TEST(Diagnose, AFormIsProposedThatNamesTheEffectOnceItIsInTheStudy) {
-  const Oscillating test;
+  // Gyro y oscillates in some attitudes.
+  const Hiding test(
+      preset_timeline("twelve", CommandLaw::free, 1800.0, 90.0),
+      own_term("hidden", "drift.y", "A*sin(2*pi*t/P)*step(abs(f_z) - 0.6)",
+               "A = { unit = 'deg/h', prior = 0.1 }, P = { unit = 'min', value = 41 }"),
+      {{"hidden_A", 0.06 * deg_per_h}, {"hidden_P", 41.0 * 60.0}});
   const OwnTermSet before = own_terms();
   const auto first = test.diagnose(diagnosis::Proposing::where_unexplained);
   EXPECT_TRUE(own_terms() == before);  // the library is as it was
@@ -62,6 +68,19 @@ TEST(Diagnose, AFormIsProposedThatNamesTheEffectOnceItIsInTheStudy) {
   const auto second = test.diagnose(diagnosis::Proposing::left_out);
   ASSERT_EQ(second.verdict, diagnosis::Verdict::named) << report::sentence(second) << p.text;
   EXPECT_EQ(second.causes.front().term, "form_1");
+}
+
+TEST(Diagnose, WhatATermImitatesWithMoreParametersIsNotNamedForIt) {
+  const Hiding test(
+      preset_timeline("twentyfour", CommandLaw::free, 1800.0, 90.0),
+      own_term("hidden", "drift.z", "A*f_y*f_z*f_z", "A = { unit = 'deg/h/g^3', prior = 0.1 }"),
+      {{"hidden_A", 0.25 * deg_per_h}});
+  const auto found = test.diagnose(diagnosis::Proposing::where_unexplained);
+  ASSERT_EQ(found.verdict, diagnosis::Verdict::unexplained) << report::sentence(found);
+  EXPECT_GT(found.probabilities.outside, inference::SearchLimits::credible);
+  ASSERT_TRUE(found.proposal);
+  EXPECT_EQ(found.proposal->acts_on, "drift.z");
+  EXPECT_EQ(found.proposal->equation, "A*f_y*f_z*f_z");
 }
 
 }  // namespace
