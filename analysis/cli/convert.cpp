@@ -2,6 +2,7 @@
 
 #include "analysis/cli/command.hpp"
 #include "analysis/cli/print.hpp"
+#include "analysis/cli/still_to_check.hpp"
 #include "core/base/output_file.hpp"
 #include "core/base/utf8.hpp"
 #include "core/recording/canonical_units.hpp"
@@ -11,12 +12,18 @@
 namespace drift::cli {
 namespace {
 
-/// Where the recording was made, for the study that is made for it next (`new`).
+/// Where the recording was made, for the study that is made for it next (`new`). A latitude that
+/// nobody has checked is none; the gravity that it was divided by is.
 void add_site(const mc::Study& study, Recording& recording) {
+  constexpr std::string_view guess = "45 deg";  // of `new`
+  const bool open = std::ranges::any_of(still_to_check(study), [](const StillToCheck& one) {
+    return one.value.starts_with("latitude");
+  });
   for (const std::string key : {"latitude", "gravity"}) {
     std::erase_if(recording.facts, [&](const auto& fact) { return fact.first == key; });
     const auto given = std::ranges::find(study.resolved, "site." + key, &mc::Resolved::key);
-    if (given != study.resolved.end() && !given->origin.starts_with("default"))
+    if (given != study.resolved.end() && !given->origin.starts_with("default") &&
+        !(open && key == "latitude" && given->value == guess))
       recording.facts.emplace_back(key, given->value);
   }
 }
@@ -25,6 +32,7 @@ void add_site(const mc::Study& study, Recording& recording) {
 ExitCode convert(const StudyArguments& arguments, const std::string& recording,
                  const std::string& output) {
   const mc::Study study = arguments.read();
+  say("{}", still_to_check_text(study));
   require_output_file(output, {study.path, recording}, [&](const std::string& path) {
     return not_made_here(path, utf8_text(recording));
   });

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
@@ -87,6 +88,19 @@ void show_dwells(const strapdown::DwellSearch& search, double static_min) {
   if (search.dwells.size() > most) show("and {} more\n", search.dwells.size() - most);
 }
 
+/// What a sample scatters by, which short rests show, too.
+void show_scatter(const Recording& r, const std::vector<preparation::RestingRows>& rests) {
+  std::vector<std::string> said;
+  for (const auto& [channels, unit] :
+       {std::pair{&accelerometer_channels, &unit::ug}, std::pair{&gimbal_channels, &unit::arcsec}})
+    if (const double sigma = preparation::scatter_at_rest(r, rests, *channels); sigma > 0.0)
+      said.push_back(
+          fmt::format("{} by {:.2g} {}", channels->what, sigma / unit->to_si, unit->symbol.view()));
+  if (!said.empty())
+    show("within the positions samples scatter about their slow course (1 sigma): {}\n",
+         fmt::join(said, ", "));
+}
+
 /// The recording as a whole; the noise that its rests show comes back.
 preparation::NoiseCard show_recording(const Recording& r, RecordingKind kind, double static_min,
                                       double gravity) {
@@ -104,7 +118,9 @@ preparation::NoiseCard show_recording(const Recording& r, RecordingKind kind, do
     show_positions(r);
     if (const std::string wrong = preparation::other_unit_of_time(r); !wrong.empty())
       show("\n{}\n", report::wrapped(wrong, 98));
-    card = preparation::noise_card(r, kind, preparation::resting_rows(r));
+    const auto rests = preparation::resting_rows(r);
+    card = preparation::noise_card(r, kind, rests);
+    show_scatter(r, rests);
   }
   show("\n{}", report::text_of({report::noise_section(card, gravity)}));
   return card;

@@ -89,6 +89,22 @@ void tell_other_latitude(const mc::Study& study, const Recording& recording,
       of_study);
 }
 
+/// Where what was converted was divided by another gravity than the study's.
+void tell_other_gravity(const mc::Study& study, const Recording& recording) {
+  constexpr double ppm = 1e-6;
+  std::string said;
+  for (const auto& [key, value] : recording.facts)
+    if (key == "gravity") said = value;
+  const auto blank = said.find(' ');
+  if (blank == std::string::npos || said.substr(blank) != " m/s^2") return;
+  const double of_file = parse_cell(said.substr(0, blank), DecimalMark::automatic).value,
+               off = study.site.gravity / of_file - 1.0;
+  if (!(std::abs(off) > ppm)) return;
+  say("note: {}: its accelerometers were divided by a gravity of {}, the study says {:.6g} m/s^2: "
+      "K1 is off by {:.0f} ppm. Convert the log again with the right one\n",
+      recording.source, said, study.site.gravity, off / ppm);
+}
+
 /// What looks odd is told at once, what weighs most of it.
 void tell_remarks(const QualityCard& card) {
   constexpr std::size_t most = 3;
@@ -141,6 +157,7 @@ std::vector<Recording> read_recordings(const mc::Study& study,
     check_time_unit(study, recordings.back());
     tell_assumed_gravity(study, recordings.back());
     tell_other_latitude(study, recordings.back(), path);
+    tell_other_gravity(study, recordings.back());
     for (std::size_t before = 0; before + 1 < recordings.size(); ++before)
       if (same_readings(recordings[before], recordings.back()))
         throw InputError(

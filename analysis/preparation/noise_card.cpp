@@ -5,7 +5,6 @@
 #include <optional>
 #include <utility>
 
-#include "core/recording/recording_channels.hpp"
 #include "core/stats/median.hpp"
 #include "core/stats/trend.hpp"
 
@@ -185,6 +184,33 @@ NoiseCard noise_card(const Recording& recording, RecordingKind kind,
     }
   if (!card.channels.empty()) card.missing = NoNoise::there_is_one;
   return card;
+}
+
+double scatter_at_rest(const Recording& recording, const std::vector<RestingRows>& rests,
+                       const ChannelTriple& channels) {
+  constexpr std::size_t taken = trend_degree + 1, least_free = 3;
+  std::vector<double> variances;
+  for (const std::string_view name : channels.names) {
+    const Channel* channel = recording.find(name);
+    if (channel == nullptr) continue;
+    std::vector<stats::Stretch> all;
+    for (const RestingRows& rest : rests) {
+      stats::Stretch values;
+      for (std::size_t k = rest.first; k <= rest.last; ++k)
+        if (std::isfinite(channel->values[k])) values.push_back(channel->values[k]);
+      if (values.size() >= taken + least_free) all.push_back(std::move(values));
+    }
+    for (const stats::Stretch& left :
+         stats::without_trend_and_isolated(std::move(all), trend_degree, isolated_by_chance)
+             .stretches) {
+      const auto free = static_cast<double>(left.size() - taken);
+      double squares = 0.0;
+      for (const double x : left) squares += x * x;
+      // The median of chi-square (Wilson and Hilferty).
+      variances.push_back(squares / (free * std::pow(1.0 - 2.0 / (9.0 * free), 3)));
+    }
+  }
+  return variances.empty() ? 0.0 : std::sqrt(stats::median(std::move(variances)));
 }
 
 }  // namespace drift::preparation

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/recording/recording.hpp"
+#include "core/recording/recording_channels.hpp"
 #include "core/stats/allan_fit.hpp"
 #include "core/stats/welch.hpp"
 
@@ -53,6 +54,12 @@ struct NoiseCard {
 /// of it.
 NoiseCard noise_card(const Recording& recording, RecordingKind kind,
                      const std::vector<RestingRows>& rests);
+
+/// One sigma of a sample, as it scatters about the polynomial of fourth degree of its rest: of
+/// three channels alike, median over them and the rests, isolated samples taken off.
+/// For rests that are too short for a card (eight rows do); 0 where there is none, or no scatter.
+double scatter_at_rest(const Recording& recording, const std::vector<RestingRows>& rests,
+                       const ChannelTriple& channels);
 
 /// The rests of a platform recording: its positions, slews left out.
 std::vector<RestingRows> resting_rows(const Recording& recording);

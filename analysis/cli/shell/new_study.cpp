@@ -100,6 +100,7 @@ LookedAt look_at(const std::string& path, RecordingKind kind) {
   LookedAt seen{.told = without_blanks(file),
                 .named = file.format.positions.size(),
                 .above = preamble_site(path, file.layout)};
+  std::string refused;
   if (file.complete || file.rows == 0) try {
       seen.recording = read_recording(path, file.format, kind, gravity);
       if (!file.format.columns.empty() || !file.format.positions.empty())
@@ -109,8 +110,9 @@ LookedAt look_at(const std::string& path, RecordingKind kind) {
       return seen;
     } catch (const InputError& e) {
       if (blanks.empty() || file.rows == 0 || e.code() != ExitCode::recording) throw;
+      refused = fmt::format(" As it stands, reading it ends with: {}", e.what());
     }
-  seen.blanks = said;
+  seen.blanks = said + refused;
   seen.mapping = recording_section(file) + as_comment(said);
   return seen;
 }
@@ -171,6 +173,17 @@ std::string noise_line(const Recording& r) {
   return keys.substr(begin, end - begin) + ", as the rests of the recording show" + without + "\n";
 }
 
+/// A line of [readout] by the scatter of the rests, of two digits; empty where they show none.
+std::string scatter_line(const Recording& r, std::string_view key, const ChannelTriple& channels,
+                         const Unit& unit) {
+  const double sigma =
+      preparation::scatter_at_rest(r, preparation::resting_rows(r), channels) / unit.to_si;
+  if (!(sigma > 0.0)) return "";
+  const std::string value = fmt::format("\"{:.2g} {}\"", sigma, unit.symbol.view());
+  return fmt::format("{:<19} = {:<12} # 1 sigma of a sample, as it scatters in the rests\n", key,
+                     value);
+}
+
 ExitCode make_study(const NewArguments& a) {
   const StudyKind kind = *value_in(study_kinds, a.kind);
   const bool on_case = kind == StudyKind::strapdown;
@@ -187,6 +200,11 @@ ExitCode make_study(const NewArguments& a) {
         throw InputError(ExitCode::recording, std::move(wrong));
       plan = recorded_plan(*seen.recording);
       plan->noise = noise_line(*seen.recording);
+      if (plan->noise.empty())
+        plan->noise =
+            scatter_line(*seen.recording, "accelerometer_noise", accelerometer_channels, unit::ug);
+      plan->gimbal_noise =
+          scatter_line(*seen.recording, "gimbal_noise", gimbal_channels, unit::arcsec);
     }
     if (!on_case && !seen.recording && seen.named > 0) plan = plan_to_come(seen.named);
   }

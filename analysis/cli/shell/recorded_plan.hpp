@@ -23,6 +23,7 @@ struct RecordedPlan {
   bool headings = false;        ///< and the headings of the case are recorded; else it faces North
   bool to_come = false;         ///< the recording could not be read yet: the positions hold a place
   std::string noise{};          ///< accelerometer_noise of [readout] as its rests show it; or empty
+  std::string gimbal_noise{};   ///< the same of the gimbals
   std::string contradiction{};  ///< of accelerometers and gimbals, in words; empty: none
   std::vector<Position> positions{};
 };

@@ -63,8 +63,8 @@ std::string plan_text(const std::optional<RecordedPlan>& plan, Dwells dwells) {
                        "headings of the case.\n"
                      : "# The axes are those that the gimbal angles show of a case that faces "
                        "North.\n")
-              : "# What is up is of the recording. Which axis points North no accelerometer "
-                "shows: correct N, S, E, W.\n";
+              : "# What is up is of the recording.\n# N, S, E, W of the axes below, which no "
+                "accelerometer shows: check\n";
   for (std::size_t i = 0; i < plan->positions.size(); ++i)
     text += position_text(plan->positions[i], i + 1, dwells);
   return text;
@@ -140,14 +140,19 @@ std::string study_template(StudyKind kind, const std::optional<RecordedPlan>& pl
         "# are read in turns, too, and show their lever arms and their delay.\n"
         "# accelerometers_in_turns = true\n";
   else
-    text += ": a recording in m/s^2 is divided by it, and K1 is off by as many ppm\n" +
-            plan_text(plan, kind == StudyKind::sweep ? Dwells::alike : Dwells::as_recorded) +
-            "\n[readout]\n" +
-            (plan && !plan->noise.empty()
-                 ? plan->noise
-                 : "accelerometer_noise = \"5 ug\"      # 1 sigma of a sample: of the data sheet, "
-                   "or of a rest\n") +
-            "gimbal_noise        = \"5 arcsec\"\n";
+    text +=
+        (site.gravity || mapping.find("m/s^2") == std::string::npos ? ": " : ": check; ") +
+        std::string("a recording in m/s^2 is divided by it, and K1 is off by as many ppm\n") +
+        plan_text(plan, kind == StudyKind::sweep ? Dwells::alike : Dwells::as_recorded) +
+        "\n[readout]\n" +
+        (plan && !plan->noise.empty()
+             ? plan->noise
+             : fmt::format("accelerometer_noise = \"5 ug\"      # 1 sigma of a sample: of the "
+                           "data sheet, or of a rest{}\n",
+                           plan ? ": check" : "")) +
+        (plan && !plan->gimbal_noise.empty() ? plan->gimbal_noise
+                                             : fmt::format("gimbal_noise        = \"5 arcsec\"{}\n",
+                                                           plan ? "  # likewise: check" : ""));
   if (!mapping.empty()) text += "\n" + mapping;
   if (kind == StudyKind::study || kind == StudyKind::sweep) text += simulated_text();
   // Accelerometers of a real platform have errors of their own, beside which any other hides.

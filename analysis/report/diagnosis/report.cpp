@@ -198,7 +198,11 @@ InBrief diagnosis_in_brief(const Diagnosis& d) {
     if (!sentence.empty()) brief.more.add(weight, fmt::format("{}: {}", head, sentence));
   };
   if (d.verdict != Verdict::consistent && !d.wrong_study()) {
-    if (d.proposal) add(Weight::note, "Proposal", form_sentence(*d.proposal));
+    if (d.proposal)
+      add(Weight::note, "Proposal", form_sentence(*d.proposal));
+    else if (const auto* period = diagnosis::remark_in<diagnosis::remark::PeriodExplains>(d);
+             period && !period->beside_cause)
+      add(Weight::note, "Period", in_words(diagnosis::Remark(*period), instrument_of(d)));
     add(Weight::note, "Where", where_sentence(d.where));
     add(Weight::note, "Held out", held_out_sentence(d.fit.held_out));
   }
@@ -230,8 +234,8 @@ InBrief diagnosis_in_brief(const Diagnosis& d) {
     brief.next = "Next: identify with patched.toml, the study with the cause in its model.";
   else if (d.proposal)
     brief.next =
-        "Next: look for what acts there and then. With the [[term]] of the proposal "
-        "(diagnosis.json) in the study, another recording tells whether it comes again.";
+        "Next: look for what acts there and then. With the [[term]] of proposal.toml in the study, "
+        "another recording tells whether it comes again.";
   else if (const auto left = strongest_left(d); d.verdict == Verdict::unexplained && left)
     brief.next = fmt::format(
         "Next: more than one effect seems to be missing. Diagnose again with the first in the "
@@ -262,6 +266,7 @@ Report diagnosis_report(const mc::Study& study, const Diagnosis& d, const Diagno
   report.files = {{"residual_signal.csv", residual_signal_csv(d.signals, d.where.recordings)},
                   {"study.toml", study.text}};
   if (d.has_patch) report.files.emplace_back("patched.toml", patched_file(study, d));
+  if (d.proposal) report.files.emplace_back("proposal.toml", d.proposal->text);
   if (!d.advice.empty() && !d.advice.front().plan.empty() && study.kind == RecordingKind::platform)
     report.files.emplace_back("advised.toml", extended_study(study, d.advice.front().plan));
   if (d.heading_doubt)

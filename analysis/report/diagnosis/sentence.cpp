@@ -163,10 +163,11 @@ std::string verdict_alone(const Diagnosis& d) {
     case Verdict::unexplained:
       break;
   }
+  // Noise was estimated beside what is missing; with a form in its place there may be none of it.
   return fmt::format(
       "{} ({}) and {}; it sits in the {}{}.{}", something_missing, false_alarm, unknown_text(d),
       d.where.equation.empty() ? "test as a whole" : equation_in_words(d.where.equation),
-      located_shape_text(d), noise);
+      located_shape_text(d), d.proposal ? "" : noise);
 }
 
 /// How a recording on a case is predicted, without the cause and with it.

@@ -113,6 +113,7 @@ std::string absent_positions_text(const std::vector<int>& positions) {
 
 struct Judgement {
   std::vector<std::string> good, bad;  ///< names; what is wrong with them
+  std::vector<std::string> nearly;     ///< names of good ones that few right models fit as badly as
   bool wrong = false;                  ///< a filter that fits has a parameter that is wrong
   bool unlearned = false;              ///< a filter that fits learned nothing of one
   bool first_fits = false;             ///< the first filter, which `diagnose` would examine
@@ -127,6 +128,7 @@ Judgement judgement_of(const mc::Study& study, const identification::Identificat
       continue;
     }
     j.good.push_back(v.spec().name);
+    if (!outside_text(v).empty()) j.nearly.push_back(v.spec().name);
     j.first_fits = j.first_fits || s.filter == 0;
     for (std::size_t k = 0; k < s.layout.size(); ++k) {
       const Worth worth = verdict_of(v, k).worth;
@@ -201,6 +203,10 @@ std::string verdict_text(const Judgement& j, const identification::Identificatio
   if (!j.bad.empty())
     return fmt::format("{} the residuals are what it expects; {}.",
                        judged_as("Believe " + listed(j.good, "and")), listed(j.bad, "and"));
+  if (!j.nearly.empty())
+    return fmt::format("{} the residuals of {} {} are not within the 95 % band of a right model.",
+                       judged_as("Fits nearly"), j.nearly.size() == 1 ? "filter" : "filters",
+                       listed(j.nearly, "and"));
   return fmt::format("{} the residuals are what {} {} expect{}.", judged_as("Fits"),
                      j.good.size() == 1 ? "filter" : "filters", listed(j.good, "and"),
                      j.good.size() == 1 ? "s" : "");

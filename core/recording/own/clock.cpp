@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <chrono>
 #include <cmath>
@@ -55,12 +56,61 @@ std::optional<double> take_time_of_day(std::string_view& text) {
   return 3600.0 * hour + 60.0 * minute + second;
 }
 
-/// "2026-03-01", "01.03.2026", "01/03/2026" or "03-01-2026" from the front of a text, as seconds
-/// since 1970.
+/// "Mar", "MAR." or "March" from the front of a text, in English or German; 0 if it is none.
+int take_month_name(std::string_view& text) {
+  constexpr std::array<std::array<std::string_view, 2>, 12> names{{{"jan", "jan"},
+                                                                   {"feb", "feb"},
+                                                                   {"mar", "m\u00e4r"},
+                                                                   {"apr", "apr"},
+                                                                   {"may", "mai"},
+                                                                   {"jun", "jun"},
+                                                                   {"jul", "jul"},
+                                                                   {"aug", "aug"},
+                                                                   {"sep", "sep"},
+                                                                   {"oct", "okt"},
+                                                                   {"nov", "nov"},
+                                                                   {"dec", "dez"}}};
+  const std::size_t end = std::min(text.find_first_of("-./ 0123456789"), text.size());
+  const std::string word = lower_case(text.substr(0, end));
+  for (std::size_t k = 0; k < names.size(); ++k)
+    if (word.starts_with(names[k][0]) || word.starts_with(names[k][1])) {
+      text.remove_prefix(end);
+      if (text.starts_with(". ")) text.remove_prefix(1);
+      return static_cast<int>(k + 1);
+    }
+  return 0;
+}
+
+double seconds_of(std::chrono::year_month_day date) {
+  return day_s * static_cast<double>(std::chrono::sys_days(date).time_since_epoch().count());
+}
+
+/// "14-Mar-2026" or "14 March 2026": what follows the day.
+std::optional<double> take_rest_of_named_date(std::string_view& text, int first) {
+  const char mark = text.front();
+  std::string_view rest = text.substr(1);
+  if (mark == '.' && rest.starts_with(' ')) rest.remove_prefix(1);
+  const int month = take_month_name(rest);
+  int last = 0;
+  if (month == 0 || rest.empty() || std::string_view("-./ ").find(rest.front()) == rest.npos)
+    return std::nullopt;
+  rest.remove_prefix(1);
+  if (!take_number(rest, last)) return std::nullopt;
+  const std::chrono::year_month_day date{std::chrono::year(last), std::chrono::month(month),
+                                         std::chrono::day(first)};
+  if (first < 1 || last < 1000 || !date.ok()) return std::nullopt;
+  text = rest;
+  return seconds_of(date);
+}
+
+/// "2026-03-01", "01.03.2026", "01/03/2026", "03-01-2026" or "01-Mar-2026" from the front of a
+/// text, as seconds since 1970.
 std::optional<double> take_date(std::string_view& text, StrokeDates order) {
   int first = 0, month = 0, last = 0;
   if (!take_number(text, first)) return std::nullopt;
   const char mark = text.empty() ? '\0' : text.front();
+  if (mark != '\0' && std::string_view("-./ ").find(mark) != std::string_view::npos)
+    if (const auto named = take_rest_of_named_date(text, first)) return named;
   if ((mark != '-' && mark != '.' && mark != '/') || !take(text, mark) ||
       !take_number(text, month) || !take(text, mark) || !take_number(text, last))
     return std::nullopt;
@@ -70,7 +120,7 @@ std::optional<double> take_date(std::string_view& text, StrokeDates order) {
   const year_month_day date{year(year_first ? first : last), std::chrono::month(month),
                             day(year_first ? last : first)};
   if (!date.ok()) return std::nullopt;
-  return 86400.0 * static_cast<double>(sys_days(date).time_since_epoch().count());
+  return seconds_of(date);
 }
 
 /// "Z", "+02:00" or nothing: what is to be taken off to come to UTC [s].

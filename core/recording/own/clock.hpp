@@ -11,8 +11,8 @@ namespace drift {
 enum class StrokeDates { day_first, month_first };
 
 /// Seconds of a time of day "13:05:10.25", "01:05:10.25 PM", "13:05" or "13.05.10", or of a date
-/// and time "2026-03-01T13:05:10.25Z", "01.03.2026 13:05:10,25" or "01/03/2026 13:05:10" since
-/// 1970. Empty if the text is none.
+/// and time "2026-03-01T13:05:10.25Z", "01.03.2026 13:05:10,25", "01/03/2026 13:05:10" or
+/// "01-Mar-2026 13:05:10" since 1970. Empty if the text is none.
 std::optional<double> parse_clock(std::string_view text,
                                   StrokeDates order = StrokeDates::day_first);
 

@@ -196,6 +196,7 @@ void name_channels(GuessedFile& file) {
     if (std::ranges::find(file.columns, channel, &GuessedColumn::channel) == file.columns.end())
       c.channel = channel;
   }
+  name_third_gimbal(file);
   name_by_unit(file);
   guess_counter(file);
   const auto has = [&](std::string_view start) {
@@ -212,9 +213,12 @@ void name_time_by_values(GuessedFile& file) {
       std::ranges::any_of(file.columns, is_time))
     return;
   const auto clock = [](const GuessedColumn& c) {
+    const auto all = [&](StrokeDates order) {
+      return std::ranges::all_of(
+          c.words, [&](const auto& text) { return parse_clock(text, order).has_value(); });
+    };
     return c.channel.empty() && c.numbers == 0 && c.words.size() > 1 &&
-           std::ranges::all_of(c.words,
-                               [](const auto& text) { return parse_clock(text).has_value(); });
+           (all(StrokeDates::day_first) || all(StrokeDates::month_first));
   };
   if (std::ranges::count_if(file.columns, clock) == 1)
     std::ranges::find_if(file.columns, clock)->channel = "time";

@@ -6,6 +6,7 @@
 
 #include "core/recording/gimbal_chain.hpp"
 #include "core/recording/own/csv_cells.hpp"
+#include "core/recording/own/guess_names.hpp"
 #include "core/recording/own/guess_values.hpp"
 #include "core/recording/own/recording_unit.hpp"
 #include "core/recording/recording_channels.hpp"
@@ -101,6 +102,22 @@ std::string GuessGimbalUnit::unit(const GuessedFile& file) const {
   std::ranges::sort(worst);
   const bool one = worst[0].first < GuessLimits::one_up && worst[0].first < 0.5 * worst[1].first;
   return one ? worst[0].second : "";
+}
+
+void name_third_gimbal(GuessedFile& file) {
+  std::string_view missing;
+  std::size_t named = 0;
+  for (const std::string_view channel : gimbal_channels.names)
+    if (std::ranges::find(file.columns, channel, &GuessedColumn::channel) != file.columns.end())
+      ++named;
+    else
+      missing = channel;
+  if (named != 2) return;
+  for (GuessedColumn& c : file.columns)
+    if (c.channel.empty() && may_be_gimbal(c.header.name, missing)) {
+      c.channel = missing;
+      return;
+    }
 }
 
 }  // namespace drift

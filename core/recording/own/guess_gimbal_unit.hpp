@@ -33,4 +33,7 @@ class GuessGimbalUnit {
   std::vector<std::vector<double>> kept_;  ///< all cells of rows at which the platform stood
 };
 
+/// Where two gimbals are named, the third may be called by a short word ("Mid").
+void name_third_gimbal(GuessedFile& file);
+
 }  // namespace drift

@@ -68,6 +68,11 @@ constexpr std::string_view middle_words[] = {"middle", "mitte", "mittel", "med",
 constexpr std::string_view inner_words[] = {"inner",    "innen",   "int", "interieur", "interne",
                                             "interior", "interno", "i",   "3"};
 
+constexpr std::array<std::pair<Words, std::string_view>, 3> gimbal_places{
+    {{outer_words, "gimbal_outer"},
+     {middle_words, "gimbal_middle"},
+     {inner_words, "gimbal_inner"}}};
+
 bool is_one(std::string_view word, Words words) {
   return std::ranges::find(words, word) != words.end();
 }
@@ -103,11 +108,7 @@ std::string guessed_channel(std::string_view header) {
   if (is_one(word, position_words)) return "position";
   if (is_one(word, temperature_words)) return "temperature";
   if (word == "phase") return "phase";
-  constexpr std::array<std::pair<Words, std::string_view>, 3> gimbals{
-      {{outer_words, "gimbal_outer"},
-       {middle_words, "gimbal_middle"},
-       {inner_words, "gimbal_inner"}}};
-  for (const auto& [places, channel] : gimbals)
+  for (const auto& [places, channel] : gimbal_places)
     for (const auto place : places) {
       if (place.size() > 3 && word == place) return std::string(channel);
       const std::string_view whole = word;
@@ -125,6 +126,17 @@ std::string guessed_channel(std::string_view header) {
   for (const auto& [words, start] : triples)
     if (is_one(stem, words)) return std::string(start) + axis;
   return {};
+}
+
+bool may_be_gimbal(std::string_view header, std::string_view channel) {
+  constexpr std::size_t shortest = 2;
+  const auto unit = guessed_unit(header).empty() ? 0 : last_part(header).size();
+  const std::string word = letters(header.substr(0, header.size() - unit));
+  if (word.size() < shortest) return false;
+  return std::ranges::any_of(gimbal_places, [&](const auto& gimbal) {
+    return gimbal.second == channel &&
+           std::ranges::any_of(gimbal.first, [&](auto place) { return place.starts_with(word); });
+  });
 }
 
 }  // namespace drift

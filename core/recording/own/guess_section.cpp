@@ -158,6 +158,13 @@ std::string what_is_missing(const GuessedFile& file) {
   else
     need_all(gimbal_channels, " [deg]");
   if (what.empty()) return {};
+  // Where the others of its kind are named, one is missed by its own name.
+  if (what.size() == 1 && keys.size() < 3 &&
+      (what.front() == accelerometer_channels.what || what.front() == gimbal_channels.what ||
+       what.front() == gyro_channels.what)) {
+    what.clear();
+    for (const std::string& key : keys) what.push_back(key.substr(0, key.find(' ')));
+  }
   std::string text = fmt::format(
       "No column seems to be {}: if the file has it, add {} to columns of [recording], with the "
       "name and the unit of the column.",

@@ -163,7 +163,7 @@ TEST(NewStudy, TakesLatitudeAndGravityFromAboveTheHeaderAndPositionsFromTheirNum
   EXPECT_TRUE(has(study, "gravity  = \"9.8065 m/s^2\"")) << study;
   EXPECT_TRUE(has(study, "own.csv':3)")) << study;
   EXPECT_TRUE(has(study, "position = \"Versuch\"")) << study;
-  EXPECT_TRUE(has(study, "accelerometer_noise = \"5 ug\"")) << study;  // too short to show it
+  EXPECT_TRUE(has(study, "as it scatters in the rests")) << study;  // too short for a card
   EXPECT_TRUE(has(study, "positions = { \"60\" = 1, \"50\" = 2")) << study;
   const Answer same = driftscope("identify " + file + " " + own),
                other = driftscope("identify " + file + " " + own +

@@ -19,6 +19,13 @@ TEST(Clock, ClocksAreSecondsAndNothingElseIs) {
   EXPECT_EQ(parse_clock("1970-01-02 01:00:01,5+01:00"), 86401.5);
   EXPECT_EQ(parse_clock("02.01.1970 00:00:01"), 86401.0);
   EXPECT_EQ(parse_clock("02/01/1970 00:00:01"), 86401.0);
+  for (const char* named : {"02-Jan-1970 00:00:01", "2 JAN 1970 00:00:01",
+                            "02. January 1970 00:00:01", "02/jan/1970 00:00:01"})
+    EXPECT_EQ(parse_clock(named), 86401.0) << named;
+  EXPECT_EQ(parse_clock("02-Mai-1970 00:00:00"), parse_clock("1970-05-02 00:00:00"));
+  for (const char* none :
+       {"02-Jab-1970 00:00:01", "32-Jan-1970 00:00:01", "02 Jan 70 00:00:01", "2 Jan"})
+    EXPECT_FALSE(parse_clock(none)) << none;
   EXPECT_EQ(parse_clock("01/02/1970 00:00:01", StrokeDates::month_first), 86401.0);
   EXPECT_EQ(parse_clock("1970/01/02 00:00:01", StrokeDates::month_first), 86401.0);
   EXPECT_EQ(parse_clock("13:05:10.25"), 47110.25);
