@@ -51,13 +51,15 @@ std::optional<OtherEquation> fit_other_equation(const Fitted& nominal, const Mea
   return out;
 }
 
-std::vector<BesideEquation> beside_other_equation(const Search& s, const MeasuredTest& test) {
+std::vector<BesideEquation> beside_other_equation(const Search& s, const MeasuredTest& test,
+                                                  const inference::NoiseEstimate* noise) {
   std::vector<BesideEquation> pairs;
   const auto changed = change_of_equation(s.nominal.set);
   const auto other = fit_other_equation(s.nominal, test);
   if (!changed || !other) return pairs;
-  Fitted there = examine(other->filter, test, other->fit);
-  if (const auto settled = settle_noise(there))
+  Fitted there = noise != nullptr ? examine(other->filter, test, other->fit, *noise)
+                                  : examine(other->filter, test, other->fit);
+  if (const auto settled = noise != nullptr ? std::nullopt : settle_noise(there))
     there = with_noise(std::move(there), test.timeline, settled->noise);
   const double equation = there.log_evidence() - s.nominal.log_evidence();
   const auto order = there.by_evidence();

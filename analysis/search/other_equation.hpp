@@ -24,7 +24,10 @@ struct BesideEquation {
 
 /// What leaves nothing where the other equation is the nominal one, best first. Neither shows
 /// alone: the misalignments take up the effect under the wrong equation, and without the effect the
-/// right one may fit worse than the wrong.
-std::vector<BesideEquation> beside_other_equation(const Search& s, const MeasuredTest& test);
+/// right one may fit worse than the wrong. noise: what an adequate explanation left, which any
+/// other of the same recording will leave, too; null: not known, so that noise and effects are to
+/// be told apart under that equation first (settle_noise, half of a whole diagnosis).
+std::vector<BesideEquation> beside_other_equation(const Search& s, const MeasuredTest& test,
+                                                  const inference::NoiseEstimate* noise);
 
 }  // namespace drift::search

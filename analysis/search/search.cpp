@@ -74,19 +74,19 @@ std::vector<Refit> refit_singles(const Search& s, const MeasuredTest& test, std:
   return refits;
 }
 
-/// Effects together with another equation that may do as well as the best single cause; none where
-/// the equation alone will do.
+/// Effects with another equation that may do as well as the best; none where that alone will do.
 std::vector<Explanation> worth_beside_equation(const Search& s, const MeasuredTest& test,
                                                const std::vector<Refit>& singles) {
-  double best = -std::numeric_limits<double>::infinity();
+  const Refit* best = nullptr;
   for (const Refit& r : singles) {
     if (!r.adequate()) continue;
     if (s.nominal.set.candidates[r.choices.front().candidate].term == closure_term) return {};
-    best = std::max(best, r.log_bayes);
+    if (!best || r.log_bayes > best->log_bayes) best = &r;
   }
   std::vector<Explanation> worth;
-  for (BesideEquation& b : beside_other_equation(s, test))
-    if (b.log_bayes > best - ReachLimits::negligible) worth.push_back(std::move(b.choices));
+  for (BesideEquation& b : beside_other_equation(s, test, best ? &best->after.noise : nullptr))
+    if (!best || b.log_bayes > best->log_bayes - ReachLimits::negligible)
+      worth.push_back(std::move(b.choices));
   return worth;
 }
 
