@@ -36,7 +36,8 @@ inference::Equation equation_of(OwnSlot slot) {
   return inference::Equation::rate;
 }
 
-/// What a unit input in each bin does to the rows.
+}  // namespace
+
 MatX signatures_of(const OwnTarget& place, const Bins& bins, const inference::MeasuredRows& rows,
                    const Timeline& timeline) {
   const auto& intervals = timeline.intervals;
@@ -56,8 +57,6 @@ MatX signatures_of(const OwnTarget& place, const Bins& bins, const inference::Me
   }
   return place.slot == OwnSlot::drift ? MatX(-columns) : columns;  // which the platform follows
 }
-
-}  // namespace
 
 MatX Bins::mean(const MatX& of_intervals) const {
   MatX out(size(), of_intervals.cols());

@@ -37,6 +37,11 @@ struct PlaceInformation {
   /// Whether information C on an input of `size` (raw information at most) is more than rounding.
   static bool seen(double C, double most_raw);
 };
+
+/// What a unit input in each bin does to the rows, shape (rows, bins).
+MatX signatures_of(const OwnTarget& place, const Bins& bins, const inference::MeasuredRows& rows,
+                   const Timeline& timeline);
+
 PlaceInformation information_on(const OwnTarget& place, const Bins& bins,
                                 const inference::MeasuredRows& rows, const Timeline& timeline,
                                 const inference::Projector& projector);

@@ -14,6 +14,12 @@ namespace {
 using Where = AttitudePart::Kind;
 using When = TimePart::Kind;
 
+Bins bins_for(const Timeline& timeline, Reach reach) {
+  // The time of a screening goes with their square.
+  constexpr std::size_t most_bins = 400, most_of_attitude = 200;
+  return bins_of(timeline, reach == Reach::whole ? most_bins : most_of_attitude);
+}
+
 /// The best form of every pair of kinds. Tails are dear: within a pair and number of amplitudes the
 /// largest T has the least.
 class BestOfKinds {
@@ -184,10 +190,8 @@ std::optional<ScreenedForm> screened(const Grammar& grammar, const OwnTarget& pl
 
 Screening screen_forms(const inference::LinearProblem& problem, const Timeline& timeline,
                        const inference::Projector& projector, std::size_t keep, Reach reach) {
-  // The time of a screening goes with their square.
-  constexpr std::size_t most_bins = 400, most_of_attitude = 200;
   const Instants at = instants_of(timeline);
-  const Bins bins = bins_of(timeline, reach == Reach::whole ? most_bins : most_of_attitude);
+  const Bins bins = bins_for(timeline, reach);
   const auto read = [&](bool accelerometer) {
     return std::ranges::any_of(problem.tags, [&](const inference::RowTag& t) {
       return t.accelerometer() == accelerometer;
@@ -213,6 +217,13 @@ Screening screen_forms(const inference::LinearProblem& problem, const Timeline& 
   std::ranges::stable_sort(all.best, {}, &ScreenedForm::log_p);
   if (all.best.size() > keep) all.best.resize(keep);
   return all;
+}
+
+VecX trace_of(const ScreenedForm& screened, const inference::MeasuredRows& rows,
+              const Timeline& timeline, Reach reach) {
+  const Bins bins = bins_for(timeline, reach);
+  const MatX input = bins.mean(columns_of(screened.form, instants_of(timeline)));
+  return signatures_of(screened.form.place, bins, rows, timeline) * (input * screened.amplitude);
 }
 
 }  // namespace drift::forms

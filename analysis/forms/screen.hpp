@@ -37,4 +37,8 @@ Screening screen_forms(const inference::LinearProblem& problem, const Timeline& 
                        const inference::Projector& projector, std::size_t keep,
                        Reach reach = Reach::whole);
 
+/// What a form that was screened does to the rows at the amplitudes that were found.
+VecX trace_of(const ScreenedForm& screened, const inference::MeasuredRows& rows,
+              const Timeline& timeline, Reach reach);
+
 }  // namespace drift::forms

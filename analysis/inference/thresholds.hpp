@@ -25,6 +25,10 @@ struct TraceLimits {
   static constexpr double unlike = 1e-3;
   /// Below, over a whole pool of possible positions: the same however strong (2000 sigma for 2).
   static constexpr double unlike_anywhere = 1e-6;
+  /// [sigma] by which a form must be told from a parameter of the library, or it is that parameter:
+  /// the best of some 400 on one axis by chance, once in 50 (SearchLimits::alpha).
+  /// Test: FarBeyondPrior.IsNamedWithItsSize.
+  static constexpr double form_told_by = 4.0;
   /// |cosine| above which a cause is listed as confusable, and how many are. Tuned: a short list.
   static constexpr double confusable = 0.5;
   static constexpr std::size_t most_confusable = 5;
