@@ -9,6 +9,7 @@
 #include "analysis/report/diagnosis/advice_words.hpp"
 #include "analysis/report/diagnosis/doubts.hpp"
 #include "analysis/report/diagnosis/form_words.hpp"
+#include "analysis/report/diagnosis/remark_words.hpp"
 #include "analysis/report/diagnosis/sections.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
 #include "analysis/report/identify/clock_words.hpp"
