@@ -11,6 +11,7 @@
 #include "analysis/report/noise/noise.hpp"
 #include "analysis/report/page/table.hpp"
 #include "analysis/strapdown/case_study.hpp"
+#include "core/base/number_text.hpp"
 #include "core/estimate/strapdown/dwells.hpp"
 #include "core/recording/own/csv_cells.hpp"
 #include "core/recording/own/guess.hpp"
@@ -94,8 +95,8 @@ void show_scatter(const Recording& r, const std::vector<preparation::RestingRows
   for (const auto& [channels, unit] :
        {std::pair{&accelerometer_channels, &unit::ug}, std::pair{&gimbal_channels, &unit::arcsec}})
     if (const double sigma = preparation::scatter_at_rest(r, rests, *channels); sigma > 0.0)
-      said.push_back(
-          fmt::format("{} by {:.2g} {}", channels->what, sigma / unit->to_si, unit->symbol.view()));
+      said.push_back(fmt::format("{} by {} {}", channels->what, number_text(sigma / unit->to_si, 2),
+                                 unit->symbol.view()));
   if (!said.empty())
     show("within the positions samples scatter about their slow course (1 sigma): {}\n",
          fmt::join(said, ", "));

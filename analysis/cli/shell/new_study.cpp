@@ -10,6 +10,7 @@
 #include "analysis/report/noise/noise.hpp"
 #include "analysis/report/page/table.hpp"
 #include "core/base/named.hpp"
+#include "core/base/number_text.hpp"
 #include "core/base/output_file.hpp"
 #include "core/base/results/folder.hpp"
 #include "core/base/words.hpp"
@@ -179,7 +180,7 @@ std::string scatter_line(const Recording& r, std::string_view key, const Channel
   const double sigma =
       preparation::scatter_at_rest(r, preparation::resting_rows(r), channels) / unit.to_si;
   if (!(sigma > 0.0)) return "";
-  const std::string value = fmt::format("\"{:.2g} {}\"", sigma, unit.symbol.view());
+  const std::string value = fmt::format("\"{} {}\"", number_text(sigma, 2), unit.symbol.view());
   return fmt::format("{:<19} = {:<12} # 1 sigma of a sample, as it scatters in the rests\n", key,
                      value);
 }
