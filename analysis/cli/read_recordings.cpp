@@ -14,6 +14,7 @@
 #include "core/recording/own/csv_cells.hpp"
 #include "core/recording/own/preamble.hpp"
 #include "core/recording/recording_channels.hpp"
+#include "core/recording/recording_output.hpp"
 #include "core/recording/rows/quality_card.hpp"
 
 namespace drift::cli {
@@ -60,13 +61,17 @@ void tell_assumed_gravity(const mc::Study& study, const Recording& recording) {
     }
 }
 
+/// What a recording says of itself under a key; empty if nothing.
+std::string fact_of(const Recording& recording, std::string_view key) {
+  const auto at = std::ranges::find(recording.facts, key, [](const auto& f) { return f.first; });
+  return at == recording.facts.end() ? "" : at->second;
+}
+
 /// Where the file itself says that it is of another latitude than the study.
 void tell_other_latitude(const mc::Study& study, const Recording& recording,
                          const std::string& path) {
   if (study.kind != RecordingKind::platform) return;
-  std::string said, place = recording.source;
-  for (const auto& [key, value] : recording.facts)
-    if (key == "latitude") said = value;
+  std::string said = fact_of(recording, "latitude"), place = recording.source;
   const std::string end = lower_case(std::filesystem::path(path).extension().string());
   if (end != ".h5" && end != ".hdf5" && end != ".mat")
     if (const auto above =
@@ -89,12 +94,12 @@ void tell_other_latitude(const mc::Study& study, const Recording& recording,
       of_study);
 }
 
-/// Where what was converted was divided by another gravity than the study's.
+/// Where what was converted was divided by another gravity than the study's. Of any other file the
+/// gravity that it names is a remark: it is divided by the study's as it is read.
 void tell_other_gravity(const mc::Study& study, const Recording& recording) {
   constexpr double ppm = 1e-6;
-  std::string said;
-  for (const auto& [key, value] : recording.facts)
-    if (key == "gravity") said = value;
+  if (fact_of(recording, made_here) != "converted") return;
+  const std::string said = fact_of(recording, "gravity");
   const auto blank = said.find(' ');
   if (blank == std::string::npos || said.substr(blank) != " m/s^2") return;
   const double of_file = parse_cell(said.substr(0, blank), DecimalMark::automatic).value,

@@ -92,6 +92,12 @@ TEST(NewStudy, WhatNobodyHasCheckedIsNoFactOfWhatIsConverted) {
   const Answer other =
       driftscope("identify " + again + " " + read + " --set 'site.gravity=\"9.8 m/s^2\"'");
   EXPECT_TRUE(has(other.err, "K1 is off by -678 ppm")) << other.err;
+  // A log that was not converted is divided by the study's, whatever it says.
+  folder.write("own.csv", "# gravity = 9.80665 m/s^2\n" + text_of(own));
+  const Answer direct =
+      driftscope("identify " + file + " " + own + " --set 'site.gravity=\"9.8 m/s^2\"'");
+  EXPECT_EQ(direct.code, 0) << direct.err;
+  EXPECT_FALSE(has(direct.err, "K1 is off by")) << direct.err;
 }
 
 }  // namespace
