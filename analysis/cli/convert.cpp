@@ -15,7 +15,6 @@ namespace {
 /// Where the recording was made, for the study that is made for it next (`new`). A latitude that
 /// nobody has checked is none; the gravity that it was divided by is.
 void add_site(const mc::Study& study, Recording& recording) {
-  constexpr std::string_view guess = "45 deg";  // of `new`
   const bool open = std::ranges::any_of(still_to_check(study), [](const StillToCheck& one) {
     return one.value.starts_with("latitude");
   });
@@ -23,7 +22,7 @@ void add_site(const mc::Study& study, Recording& recording) {
     std::erase_if(recording.facts, [&](const auto& fact) { return fact.first == key; });
     const auto given = std::ranges::find(study.resolved, "site." + key, &mc::Resolved::key);
     if (given != study.resolved.end() && !given->origin.starts_with("default") &&
-        !(open && key == "latitude" && given->value == guess))
+        !(open && key == "latitude" && given->value == guessed_latitude))
       recording.facts.emplace_back(key, given->value);
   }
 }

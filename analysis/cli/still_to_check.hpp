@@ -1,11 +1,15 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "mc/study/study.hpp"
 
 namespace drift::cli {
+
+/// The latitude that `new` writes where a recording says none.
+inline constexpr std::string_view guessed_latitude = "45 deg";
 
 /// Something that `new` guessed and nobody has said to be right: a clause "...: check" of a
 /// comment.

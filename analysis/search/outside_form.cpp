@@ -1,9 +1,13 @@
 #include "analysis/search/outside_form.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
 
 #include "analysis/forms/screen.hpp"
 #include "analysis/inference/thresholds.hpp"
+#include "analysis/search/by_noise.hpp"
 #include "analysis/search/scores/log_sum.hpp"
 #include "analysis/search/scores/size_prior.hpp"
 #include "core/base/decompose.hpp"
@@ -62,13 +66,10 @@ double log_evidence_of_forms(const Fitted& nominal, const MeasuredTest& test,
 
 double log_evidence_of_a_form(const Search& found, const MeasuredTest& test) {
   const inference::NoiseModel declared = declared_noise(found.nominal.filter);
-  const double as_declared = std::log(inference::NoisePrior::as_declared),
-               sum = as_declared + log_evidence_of_forms(found.nominal, test, declared);
+  const double sum = std::log(inference::NoisePrior::as_declared) +
+                     log_evidence_of_forms(found.nominal, test, declared);
   const Fitted& best = found.sets.front().after;
-  const double prefers_declared =
-      as_declared + 0.5 * inference::marginal_of(best.problem, declared).log_likelihood2() -
-      best.log_evidence();
-  if (prefers_declared > 0.0) return sum;
+  if (const ByNoise noise = by_noise(best, declared); noise.declared > noise.estimated) return sum;
   return log_sum(
       sum, best.noise.log_price + log_evidence_of_forms(found.nominal, test, best.noise.model));
 }

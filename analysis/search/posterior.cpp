@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "analysis/inference/thresholds.hpp"
+#include "analysis/search/by_noise.hpp"
 #include "analysis/search/scores/library_prior.hpp"
 #include "analysis/search/scores/log_sum.hpp"
 #include "analysis/search/scores/size_prior.hpp"
@@ -13,18 +14,6 @@ namespace {
 
 using inference::PosteriorPrior;
 using inference::WeighLimits;
-
-/// Log prior and evidence of a fitted model with the noise that was declared, and with the one
-/// estimated.
-struct ByNoise {
-  double declared = 0.0, estimated = 0.0;
-  double either() const { return log_sum(declared, estimated); }
-};
-
-ByNoise by_noise(const Fitted& f, const inference::NoiseModel& declared) {
-  const double with_declared = 0.5 * inference::marginal_of(f.problem, declared).log_likelihood2();
-  return {std::log(inference::NoisePrior::as_declared) + with_declared, f.log_evidence()};
-}
 
 /// Of the nominal model. Where effects took the place of noise, that noise is one more way in which
 /// nothing but noise may be there.

@@ -9,6 +9,7 @@
 #include "analysis/inference/marginal.hpp"
 #include "analysis/inference/noise/noise_component.hpp"
 #include "analysis/search/scores/library_prior.hpp"
+#include "analysis/search/scores/log_sum.hpp"
 #include "analysis/search/scores/size_prior.hpp"
 #include "mc/task/campaign.hpp"
 
@@ -19,13 +20,11 @@ using inference::EffortLimits;
 using inference::NoiseEstimate;
 using inference::PosteriorPrior;
 
-constexpr double least = -std::numeric_limits<double>::infinity();
-
 /// Candidates in the mean and a noise.
 struct Model {
   Explanation in;
   NoiseEstimate noise;
-  double log_weight = least;  ///< prior times evidence
+  double log_weight = never;  ///< prior times evidence
 };
 
 /// Change of the log evidence where amplitudes, in the mean with unit priors, are of unknown size.
@@ -59,7 +58,7 @@ class NoiseOrEffects {
   }
 
   Model weighed(Explanation in, NoiseEstimate noise) {
-    Model m{std::move(in), std::move(noise), least};
+    Model m{std::move(in), std::move(noise), never};
     m.log_weight = log_prior(m.in) + gain_of_sizes_in(e_, m.in, m.noise) + m.noise.log_evidence();
     if (!m.in.empty()) remember(m.in, m.log_weight);
     return m;
@@ -93,10 +92,10 @@ class NoiseOrEffects {
   /// with what drives the platform in it at some shares of its size. An estimate takes a hundred.
   double glimpse(const Explanation& in, const NoiseEstimate& noise) const {
     const Model* m = met(white_, in);
-    const double of_white = m != nullptr ? m->log_weight : least;
+    const double of_white = m != nullptr ? m->log_weight : never;
     const inference::MarginalLikelihood rows(e_.problem, columns(in));
     NoiseEstimate best = noise;
-    best.log_likelihood2 = least;
+    best.log_likelihood2 = never;
     for (const double share : {1.0, 0.3, 0.1}) {
       inference::NoiseModel model = noise.model;
       for (const inference::NoiseComponent* c : noise.components)
@@ -157,8 +156,8 @@ class NoiseOrEffects {
 
   /// Log of the sum of the weights of all models with candidates that were met.
   double log_sum_of_effects() const {
-    if (met_.empty()) return least;
-    double top = least, sum = 0.0;
+    if (met_.empty()) return never;
+    double top = never, sum = 0.0;
     for (const auto& [in, log_weight] : met_) top = std::max(top, log_weight);
     for (const auto& [in, log_weight] : met_) sum += std::exp(log_weight - top);
     return top + std::log(sum);
@@ -200,7 +199,7 @@ class NoiseOrEffects {
     for (std::size_t k = 0; k < e_.set.candidates.size(); ++k) {
       const inference::Candidate& c = e_.set.candidates[k];
       if (of_a_chosen_family(e_.set, m.in, c) || c.term == closure_term) continue;
-      Try best{{k, 0}, least};
+      Try best{{k, 0}, never};
       for (std::size_t v = 0; v < c.variants.size(); ++v) {
         const inference::Projected p = projector.candidates(c.variants[v].columns);
         const double gain =
@@ -268,7 +267,7 @@ std::optional<NoiseSettled> settle_noise(const Fitted& e, std::size_t tries, Unk
   const inference::LoneEffect lone = inference::strongest_lone_input(e.problem, white.noise.model);
   const double log_lone = log_free_form(lone, e.problem),
                log_periodic =
-                   inputs == UnknownInputs::periodic_too ? log_period(e, white.noise.model) : least;
+                   inputs == UnknownInputs::periodic_too ? log_period(e, white.noise.model) : never;
   const double of_input = white.log_weight + std::max(log_lone, log_periodic) +
                           std::log(PosteriorPrior::outside) - std::log(PosteriorPrior::nothing);
   const double of_effects = models.log_sum_of_effects();

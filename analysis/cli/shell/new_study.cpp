@@ -159,9 +159,8 @@ std::string long_dwells_text(const RecordedPlan& plan) {
 }
 
 /// The line of [readout] that the rests of a recording give; empty where they show no noise.
-std::string noise_line(const Recording& r) {
-  const preparation::NoiseCard card =
-      preparation::noise_card(r, RecordingKind::platform, preparation::resting_rows(r));
+std::string noise_line(const Recording& r, const std::vector<preparation::RestingRows>& rests) {
+  const preparation::NoiseCard card = preparation::noise_card(r, RecordingKind::platform, rests);
   const std::string keys = report::noise_keys(card);
   const auto begin = keys.find("accelerometer_noise"), end = keys.find('\n', begin);
   if (begin == std::string::npos || end == std::string::npos) return "";
@@ -175,10 +174,9 @@ std::string noise_line(const Recording& r) {
 }
 
 /// A line of [readout] by the scatter of the rests, of two digits; empty where they show none.
-std::string scatter_line(const Recording& r, std::string_view key, const ChannelTriple& channels,
-                         const Unit& unit) {
-  const double sigma =
-      preparation::scatter_at_rest(r, preparation::resting_rows(r), channels) / unit.to_si;
+std::string scatter_line(const Recording& r, const std::vector<preparation::RestingRows>& rests,
+                         std::string_view key, const ChannelTriple& channels, const Unit& unit) {
+  const double sigma = preparation::scatter_at_rest(r, rests, channels) / unit.to_si;
   if (!(sigma > 0.0)) return "";
   const std::string value = fmt::format("\"{} {}\"", number_text(sigma, 2), unit.symbol.view());
   return fmt::format("{:<19} = {:<12} # 1 sigma of a sample, as it scatters in the rests\n", key,
@@ -200,12 +198,13 @@ ExitCode make_study(const NewArguments& a) {
       if (std::string wrong = preparation::other_unit_of_time(*seen.recording); !wrong.empty())
         throw InputError(ExitCode::recording, std::move(wrong));
       plan = recorded_plan(*seen.recording);
-      plan->noise = noise_line(*seen.recording);
+      const auto rests = preparation::resting_rows(*seen.recording);
+      plan->noise = noise_line(*seen.recording, rests);
       if (plan->noise.empty())
-        plan->noise =
-            scatter_line(*seen.recording, "accelerometer_noise", accelerometer_channels, unit::ug);
+        plan->noise = scatter_line(*seen.recording, rests, "accelerometer_noise",
+                                   accelerometer_channels, unit::ug);
       plan->gimbal_noise =
-          scatter_line(*seen.recording, "gimbal_noise", gimbal_channels, unit::arcsec);
+          scatter_line(*seen.recording, rests, "gimbal_noise", gimbal_channels, unit::arcsec);
     }
     if (!on_case && !seen.recording && seen.named > 0) plan = plan_to_come(seen.named);
   }

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "analysis/cli/still_to_check.hpp"
 #include "core/config/node.hpp"
 
 namespace drift::cli {
@@ -128,7 +129,7 @@ std::string study_template(StudyKind kind, const std::optional<RecordedPlan>& pl
       "# `driftscope check` says where a value is wrong, `driftscope schema` what may stand here.\n"
       "schema = 1\ntitle  = \"{}\"\n\n[site]\nlatitude = {:<15} # of the laboratory{}\n"
       "gravity  = {:<15} # there{}",
-      title_of(kind), quoted(site.latitude.value_or("45 deg")),
+      title_of(kind), quoted(site.latitude.value_or(std::string(guessed_latitude))),
       site.latitude ? from(site.latitude_place) : ": check",
       quoted(site.gravity.value_or("9.80665 m/s^2")), site.gravity ? from(site.gravity_place) : "");
   if (kind == StudyKind::strapdown)

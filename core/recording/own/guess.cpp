@@ -11,7 +11,7 @@
 #include "core/recording/own/clock.hpp"
 #include "core/recording/own/csv_cells.hpp"
 #include "core/recording/own/guess_format.hpp"
-#include "core/recording/own/guess_gimbal_unit.hpp"
+#include "core/recording/own/guess_gimbals.hpp"
 #include "core/recording/own/guess_names.hpp"
 #include "core/recording/own/guess_position.hpp"
 #include "core/recording/own/guess_values.hpp"

@@ -1,4 +1,4 @@
-#include "core/recording/own/guess_gimbal_unit.hpp"
+#include "core/recording/own/guess_gimbals.hpp"
 
 #include <algorithm>
 #include <cmath>
