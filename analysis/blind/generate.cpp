@@ -12,8 +12,6 @@
 #include "analysis/blind/outside_effects.hpp"
 #include "analysis/blind/sizing.hpp"
 #include "core/base/check.hpp"
-#include "core/config/load.hpp"
-#include "core/config/override.hpp"
 #include "core/recording/recording_output.hpp"
 #include "core/stats/chi_square_band.hpp"
 
@@ -21,8 +19,6 @@ namespace drift::blind {
 namespace {
 
 using Sized = SizingBench::Sized;
-
-constexpr std::uint32_t choice_stream = 64;  // the design uses the first few
 
 World make_world(const mc::Study& study, const mc::Study& nominal, const TrialPlan& plan) {
   World w;
@@ -33,21 +29,6 @@ World make_world(const mc::Study& study, const mc::Study& nominal, const TrialPl
   w.readout = nominal.readout;
   w.draw = draw_truth(w.truth, w.timeline.chains, study.monte_carlo.seed, plan.number);
   return w;
-}
-
-/// The terms in the order in which trial `index` of a stratum tries them: each term is first for
-/// equally many trials.
-std::vector<std::size_t> term_order(const FilterSpec& nominal, const Timeline& timeline,
-                                    std::uint64_t seed, std::size_t index) {
-  std::vector<std::size_t> terms = hideable_terms(nominal, timeline);
-  Stream mix(seed, 0, Purpose::design, choice_stream);
-  for (std::size_t k = terms.size(); k > 1; --k)
-    std::swap(terms[k - 1],
-              terms[static_cast<std::size_t>(mix.uniform() * static_cast<double>(k))]);
-  if (!terms.empty())
-    std::rotate(terms.begin(), terms.begin() + static_cast<long>(index % terms.size()),
-                terms.end());
-  return terms;
 }
 
 /// The first effects of the library, at most `count`, that can have this size here.
@@ -79,7 +60,8 @@ std::vector<Sized> library_effects(const SizingBench& bench, const FilterSpec& n
 /// each other as far as that allows.
 std::vector<Sized> pair_effects(const mc::Study& study, const SizingBench& bench,
                                 const FilterSpec& nominal, const TrialPlan& plan, Stream& stream) {
-  auto terms = term_order(nominal, bench.world().timeline, study.monte_carlo.seed, plan.index);
+  auto terms =
+      in_turn(hideable_terms(nominal, bench.world().timeline), study.monte_carlo.seed, plan.index);
   const double most = study.blind.most_prior_sigmas;
   auto first = library_effects(bench, nominal, terms, plan.size, most, 1, stream);
   if (first.empty()) nothing_to_hide(study, plan);
@@ -164,10 +146,10 @@ void hide(const mc::Study& study, const FilterSpec& nominal, const TrialPlan& pl
   switch (plan.stratum) {
     case Stratum::single:
     case Stratum::noisy_single:
-      sized = one_of(term_order(nominal, world.timeline, seed, plan.index));
+      sized = one_of(in_turn(hideable_terms(nominal, world.timeline), seed, plan.index));
       break;
     case Stratum::noisy_covariate:
-      sized = one_of(following(term_order(nominal, world.timeline, seed, plan.index)));
+      sized = one_of(following(in_turn(hideable_terms(nominal, world.timeline), seed, plan.index)));
       break;
     case Stratum::pair:
       sized = pair_effects(study, bench, nominal, plan, stream);
@@ -221,29 +203,6 @@ Certificate certify(const FilterSpec& nominal, const World& world, const Measure
 }
 
 }  // namespace
-
-std::string nominal_text(const mc::Study& study, const TrialPlan& plan) {
-  config::Node root = config::parse_document(study.text, study.path);
-  std::erase_if(root.members, [](const config::Member& m) {
-    return m.key == "truth" || m.key == "blind" || m.key == "monte_carlo" || m.key == "sweep" ||
-           m.key == "published";
-  });
-  apply_override(root, "title", fmt::format("Blind trial {}", plan.number));
-  apply_override(root, "plan.preset", plan.plan);
-  apply_override(root, "plan.mode", key_of(plan.mode));
-  config::Node* filters = root.find("filter");
-  if (filters == nullptr || filters->items.empty())
-    throw InputError(ExitCode::config,
-                     fmt::format("{}: no [[filter]]: a blind study needs a nominal one. Add a "
-                                 "section [[filter]] with name and coupling",
-                                 study.path));
-  filters->items.resize(1);
-  const Coupling settled = facts(plan.coupling).settles_to;
-  apply_override(
-      root, "filter.0.coupling",
-      key_of(plan.stratum == Stratum::other_equation ? facts(settled).other.value() : settled));
-  return config::to_document(root);
-}
 
 MadeTrial make_trial(const mc::Study& study, const mc::Study& nominal, const TrialPlan& plan) {
   const auto started = std::chrono::steady_clock::now();

@@ -6,9 +6,8 @@
 
 namespace drift::blind {
 
-/// What the solver gets of a study: no truth, no [blind], no seed; the preset, mode and coupling of
-/// the trial. TOML text that read_study() takes.
-std::string nominal_text(const mc::Study& study, const TrialPlan& plan);
+/// Stream of the draws of a trial; the design uses the first few.
+inline constexpr std::uint32_t choice_stream = 64;
 
 /// A recording and what it hides.
 struct MadeTrial {

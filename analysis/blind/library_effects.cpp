@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "analysis/blind/generate.hpp"
 #include "analysis/inference/candidate.hpp"
 
 namespace drift::blind {
@@ -79,6 +80,18 @@ std::vector<std::size_t> hideable_terms(const FilterSpec& nominal, const Timelin
   return terms;
 }
 
+std::vector<std::size_t> in_turn(std::vector<std::size_t> terms, std::uint64_t seed,
+                                 std::size_t index) {
+  Stream mix(seed, 0, Purpose::design, choice_stream);
+  for (std::size_t k = terms.size(); k > 1; --k)
+    std::swap(terms[k - 1],
+              terms[static_cast<std::size_t>(mix.uniform() * static_cast<double>(k))]);
+  if (!terms.empty())
+    std::rotate(terms.begin(), terms.begin() + static_cast<long>(index % terms.size()),
+                terms.end());
+  return terms;
+}
+
 std::optional<Source> library_source(std::size_t t, const World& world, const FilterSpec& nominal,
                                      double most, Stream& stream) {
   const TermInfo& term = TermLibrary::terms[t];
@@ -101,7 +114,7 @@ std::optional<Source> library_source(std::size_t t, const World& world, const Fi
   double norm = 0.0;
   for (const std::size_t i : params) {
     const double share = stream.normal();
-    direction[i] = share * TermLibrary::specs[i].prior_si().sigma();
+    direction[i] = share * nominal.believed(i).sigma();
     norm += share * share;
     active.set(i);
   }

@@ -12,6 +12,11 @@ namespace drift::blind {
 /// alone belong to the noise, not here.
 std::vector<std::size_t> hideable_terms(const FilterSpec& nominal, const Timeline& timeline);
 
+/// Terms in the order in which trial `index` of a stratum tries them: each is first for equally
+/// many trials.
+std::vector<std::size_t> in_turn(std::vector<std::size_t> terms, std::uint64_t seed,
+                                 std::size_t index);
+
 /// The amplitudes of a term that a nominal filter leaves out.
 std::vector<std::size_t> missing_parameters(const TermInfo& term, const FilterSpec& nominal);
 

@@ -9,6 +9,7 @@
 #include "analysis/cli/command.hpp"
 #include "analysis/cli/print.hpp"
 #include "analysis/cli/progress.hpp"
+#include "analysis/cli/read_recordings.hpp"
 #include "analysis/cli/sharing.hpp"
 #include "analysis/cli/stop_at_once.hpp"
 #include "analysis/inference/thresholds.hpp"
@@ -31,6 +32,7 @@ struct Others {
 struct BlindArguments {
   std::string folder;
   std::optional<std::string> trials;
+  std::optional<std::string> recording;  ///< that effects are hidden in; else trials are simulated
   Sharing sharing;
   Others others;
 };
@@ -107,18 +109,25 @@ ExitCode blind(const StudyArguments& arguments, const BlindArguments& given) {
       "Start it once, or add --worker auto or a --worker i/n of its own to each");
   const mc::Study study = all.read();
   require_results_folder({folder, "blind"});
+  std::vector<Recording> recordings;
+  if (given.recording) recordings = read_recordings(study, {*given.recording});
+  const blind::TrialSource source(study, given.recording ? &recordings.front() : nullptr);
+  if (given.recording && given.others.rivals)
+    throw InputError(ExitCode::usage,
+                     "--rivals: they answer trials of a platform alone (expected no recording). "
+                     "Leave it out");
   require_results_folder({given.others.export_to, "blind"});  // before hours of work for it
-  blind::open_trials(study, folder);
+  blind::open_trials(source, folder);
   const mc::WorkerLock lock(blind::worker_of_trials(folder, session.share.index),
                             mc::worker_patience);
   report::BlindResults results;
   results.title = study.title;
-  const auto key = blind::make_trials(study, folder, session,
+  const auto key = blind::make_trials(source, folder, session,
                                       progress_reporter(arguments.progress, "recordings"));
   if (!key) return tell_unfinished(folder, session.share);
   results.key_hash = *key;
   say("Key sealed in {}: SHA-256 {}\n", folder, results.key_hash);
-  blind::restore_trials(study, folder, given.others.need_recordings());
+  blind::restore_trials(source, folder, given.others.need_recordings());
   export_for(given.others, folder);
   StopAtOnce stop("");
   const auto progress = progress_reporter(arguments.progress, "diagnoses");
@@ -144,6 +153,9 @@ Command blind_command() {
   };
   const auto add = [](CLI::App& app, Arguments& a) {
     add_study(app, a.study);
+    app.add_option("recording", a.blind.recording,
+                   "recording of a strapdown unit that effects are hidden in; without one, trials "
+                   "of a platform are simulated");
     add_output(app, a.blind.folder,
                "folder for trials, key, answers and report; the same one resumes")
         ->required();

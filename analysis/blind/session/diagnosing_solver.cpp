@@ -1,6 +1,7 @@
 #include "analysis/blind/session/diagnosing_solver.hpp"
 
 #include "analysis/diagnosis/diagnose_recordings.hpp"
+#include "analysis/strapdown/case_diagnose.hpp"
 
 namespace drift::blind {
 
@@ -13,6 +14,9 @@ Solver diagnosing_solver() {
     options.advising =
         diagnosis::Advising::left_out;     // comes after the verdict and has no part in it
     options.diagnose.whiteness_draws = 0;  // neither has this
+    if (study.kind == RecordingKind::strapdown)
+      return answer_of(strapdown::diagnose_case(study, strapdown::identify_case(study, recording),
+                                                options.diagnose));
     return answer_of(diagnosis::diagnose_recordings(study, {recording}, options));
   };
 }

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "analysis/blind/design.hpp"
-#include "analysis/blind/generate.hpp"
 #include "analysis/blind/key.hpp"
 #include "analysis/blind/session/counter.hpp"
 #include "analysis/blind/session/seal.hpp"
@@ -36,26 +34,27 @@ std::optional<KeyEntry> kept_entry(const std::string& folder, std::size_t number
 
 /// What the solver gets. Two workers may write the same trial: they write the same bytes. Returns
 /// what the key says of it.
-std::string write_trial(const mc::Study& study, const TrialPlan& plan, const std::string& folder) {
+std::string write_trial(const TrialSource& source, const TrialPlan& plan,
+                        const std::string& folder) {
   const std::string name = trial_name(plan.number);
   const fs::path here = fs::path(folder) / name;
   const ResultsFolder results = results_in(folder);
-  write_files(results, {{name + "/study.toml", nominal_text(study, plan)}});
-  const MadeTrial made = make_trial(study, mc::read_study((here / "study.toml").string()), plan);
+  write_files(results, {{name + "/study.toml", source.nominal_text(plan)}});
+  const MadeTrial made = source.make(mc::read_study((here / "study.toml").string()), plan);
   write_result(results, name + "/recording.csv", [&](const std::string& temporary) {
     write_recording_to(made.recording, (here / "recording.csv").string(), temporary);
   });
   return to_json(Key{"", {made.key}});
 }
 
-void make_one(const mc::Study& study, const TrialPlan& plan, const std::string& folder) {
+void make_one(const TrialSource& source, const TrialPlan& plan, const std::string& folder) {
   const std::string name = trial_name(plan.number);
   remove_result(results_in(folder), name + "/answer.json");  // to a key that is there no more
   fs::remove(fs::path(folder) / name / "crashes");
-  write_files(results_in(folder), {{part_name(plan.number), write_trial(study, plan, folder)}});
+  write_files(results_in(folder), {{part_name(plan.number), write_trial(source, plan, folder)}});
 }
 
-void make_missing(const mc::Study& study, const std::string& folder,
+void make_missing(const TrialSource& source, const std::string& folder,
                   const std::vector<TrialPlan>& plans, const mc::WorkSession& session,
                   const Progress& progress) {
   std::vector<std::size_t> missing;
@@ -65,7 +64,7 @@ void make_missing(const mc::Study& study, const std::string& folder,
   mc::work_through(missing, session, [&](std::size_t k) {
     // Another worker may have come here first.
     if (!is_sealed(folder) && !kept_entry(folder, plans[k].number))
-      make_one(study, plans[k], folder);
+      make_one(source, plans[k], folder);
     counter.step();
   });
 }
@@ -96,12 +95,13 @@ void remove_parts(const mc::Study& study, const std::string& folder) {
 
 }  // namespace
 
-std::optional<std::string> make_trials(const mc::Study& study, const std::string& folder,
+std::optional<std::string> make_trials(const TrialSource& source, const std::string& folder,
                                        const mc::WorkSession& session, const Progress& progress) {
-  open_trials(study, folder);
+  const mc::Study& study = source.study();
+  open_trials(source, folder);
   while (!is_sealed(folder)) {
-    const std::vector<TrialPlan> plans = design_trials(study.blind, study.monte_carlo.seed);
-    make_missing(study, folder, plans, session, progress);
+    const std::vector<TrialPlan> plans = source.plans();
+    make_missing(source, folder, plans, session, progress);
     if (const auto key = whole_key(study, folder, plans))
       write_sealed(folder, "key.json", to_json(*key));
     else if (session.time.is_over())
@@ -112,17 +112,17 @@ std::optional<std::string> make_trials(const mc::Study& study, const std::string
   return published_hash(folder, "key.json");
 }
 
-void restore_trials(const mc::Study& study, const std::string& folder, bool answered_too) {
+void restore_trials(const TrialSource& source, const std::string& folder, bool answered_too) {
   const fs::path here(folder);
   std::vector<std::size_t> gone;
-  for (std::size_t number = 1; number <= study.blind.trials; ++number)
+  for (std::size_t number = 1; number <= source.study().blind.trials; ++number)
     if (!is_there(here, number) && (answered_too || !is_answered(here, number)))
       gone.push_back(number);
   if (gone.empty()) return;
-  const std::vector<TrialPlan> plans = design_trials(study.blind, study.monte_carlo.seed);
+  const std::vector<TrialPlan> plans = source.plans();
   const Key key = read_key(open_sealed(folder, "key.json"));
   for (const std::size_t number : gone)
-    if (write_trial(study, plans.at(number - 1), folder) !=
+    if (write_trial(source, plans.at(number - 1), folder) !=
         to_json(Key{"", {key.entries.at(number - 1)}}))
       throw InputError(ExitCode::self_check,
                        fmt::format("{}: was gone, and what is made in its place is not what the "

@@ -14,20 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void require_blind(const mc::Study& study) {
-  const auto refuse = [&](const std::string& text) {
-    throw InputError(ExitCode::config, fmt::format("{}: {}", study.path, text));
-  };
-  if (!study.has_blind) refuse("no [blind] (expected which trials to make). Add a section [blind]");
-  if (!study.has_truth) refuse("no [truth] to make recordings from. Add a section [truth]");
-  if (study.filters.empty())
-    refuse("no [[filter]]: a blind study needs a nominal one. Add a section [[filter]]");
-  if (study.kind != RecordingKind::platform || study.plan.preset.empty())
-    refuse(
-        "[plan] has no preset (expected one, to be replaced by those of blind.plans). Write preset "
-        "= \"twelve\"");
-}
-
 void require_same(const mc::Study& study, const fs::path& folder) {
   const auto held = file_text(folder / "study.toml");
   if (!held && fs::exists(folder / "key.json"))
@@ -42,10 +28,11 @@ void require_same(const mc::Study& study, const fs::path& folder) {
                     folder.string(), study.path));
 }
 
-/// What trials and answers depend on besides the program: every byte of the study.
-mc::Manifest manifest_of(const mc::Study& study) {
+/// What trials and answers depend on besides the program: every byte of study and recording.
+mc::Manifest manifest_of(const TrialSource& source) {
+  const mc::Study& study = source.study();
   mc::Manifest manifest =
-      mc::make_manifest({study.text, study.monte_carlo.seed, 1}, study.text, {});
+      mc::make_manifest({source.identity(), study.monte_carlo.seed, 1}, study.text, {});
   manifest.runs = study.blind.trials;
   return manifest;
 }
@@ -81,11 +68,12 @@ std::string worker_of_trials(const std::string& folder, std::size_t worker) {
   return mc::worker_path((fs::path(folder) / "trials").string(), worker);
 }
 
-void open_trials(const mc::Study& study, const std::string& folder) {
-  require_blind(study);
+void open_trials(const TrialSource& source, const std::string& folder) {
+  source.require_usable();
+  const mc::Study& study = source.study();
   require_same(study, folder);
   begin_results(results_in(folder));
-  mc::claim_folder((fs::path(folder) / "trials").string(), manifest_of(study));
+  mc::claim_folder((fs::path(folder) / "trials").string(), manifest_of(source));
   if (!fs::exists(fs::path(folder) / "study.toml"))
     write_files(results_in(folder), {{"study.toml", study.text}});
 }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "analysis/blind/answer.hpp"
+#include "analysis/blind/source.hpp"
 #include "core/base/results/folder.hpp"
 #include "mc/study/study.hpp"
 
@@ -38,8 +39,8 @@ std::optional<Answer> kept_answer(const std::filesystem::path& folder, std::size
 
 /// Looks whether the folder can hold this study, and makes it if need be. Any number of workers may
 /// do so at the same time. InputError (store) if it belongs to another study, or to a program whose
-/// results may differ; (config) if the study has no [blind], [truth], [[filter]] or preset.
-void open_trials(const mc::Study& study, const std::string& folder);
+/// results may differ; (config) if the study cannot be made trials of.
+void open_trials(const TrialSource& source, const std::string& folder);
 
 /// The path of a worker's lock (mc/store/worker_lock.hpp), by the name of a file beside it.
 std::string worker_of_trials(const std::string& folder, std::size_t worker);

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "analysis/blind/design.hpp"
-#include "analysis/blind/generate.hpp"
 #include "analysis/blind/noise_faults.hpp"
+#include "analysis/blind/source.hpp"
 #include "tests/support/program.hpp"
 
 namespace drift::blind::further_trials_test {
@@ -26,8 +26,8 @@ struct Made {
   std::vector<TrialPlan> plans = design_trials(study.blind, 5);
   MadeTrial trial(std::size_t k) const {
     const mc::Study nominal =
-        mc::read_study(scratch.write("nominal.toml", nominal_text(study, plans[k])));
-    return make_trial(study, nominal, plans[k]);
+        mc::read_study(scratch.write("nominal.toml", TrialSource(study).nominal_text(plans[k])));
+    return TrialSource(study).make(nominal, plans[k]);
   }
 };
 
