@@ -153,8 +153,6 @@ struct ReachLimits {
   /// Another setting of a candidate, far from its best: for the refit (one in 55), and for a finer
   /// grid, where it may come to be the best (one in 400).
   static constexpr double refit_setting = 4.0, refine_setting = 6.0;
-  /// Pairs beside a single cause that will do: one in 20, what is listed at all.
-  static constexpr double beside = 3.0;
   static constexpr double part = 3.0;  ///< a part of a wider candidate replaces it: one in 20
   /// Effects beyond linearisation are tried unless the other equation leaves them so many times
   /// `negligible` behind. Tuned.

@@ -55,6 +55,10 @@ bool one_cause(const Fitted& e, const Refit& a, const Refit& b) {
   return !base && p.term == q.term && (p.axis.empty() || q.axis.empty());
 }
 
+double log_weight(const Fitted& e, const Refit& r) {
+  return r.log_bayes + LibraryPrior(e.set).log_within(r.choices) - std::max(0.0, r.excess);
+}
+
 /// Numbers of the heaviest first.
 std::vector<std::size_t> by_weight(const std::vector<double>& weight) {
   std::vector<std::size_t> order(weight.size());
@@ -94,10 +98,6 @@ std::vector<std::size_t> heads_of(const Fitted& e, const std::vector<Refit>& goo
 }
 
 }  // namespace
-
-double log_weight(const Fitted& e, const Refit& r) {
-  return r.log_bayes + LibraryPrior(e.set).log_within(r.choices) - std::max(0.0, r.excess);
-}
 
 bool can_be_weighed(const Fitted& e, const std::vector<Refit>& refits, Leftover left, Sizes sizes) {
   double top = -std::numeric_limits<double>::infinity();

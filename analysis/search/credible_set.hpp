@@ -11,9 +11,6 @@ enum class Leftover { nothing, chance };
 /// unknown in one equation explains the test far better than the best of all.
 bool can_be_weighed(const Fitted& e, const std::vector<Refit>& refits, Leftover left, Sizes sizes);
 
-/// Log of evidence and prior of an explanation, what it leaves paid for.
-double log_weight(const Fitted& e, const Refit& r);
-
 /// The explanation of most evidence and prior of those that leave no more than chance; null if none
 /// does.
 const Refit* heaviest(const Fitted& e, const std::vector<Refit>& refits);

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "analysis/inference/thresholds.hpp"
-#include "analysis/search/scores/library_prior.hpp"
 #include "core/base/decompose.hpp"
 #include "core/base/rng.hpp"
 
@@ -115,8 +114,8 @@ inference::MaxNull pair_null(const Field& field, int draws) {
 }
 
 std::vector<Pair> adequate_pairs(const Field& field, const std::vector<Score>& scores,
-                                 double library_threshold, double scan_threshold, std::size_t most,
-                                 double at_least) {
+                                 double library_threshold, double scan_threshold,
+                                 std::size_t most) {
   // Which candidates at which variants: all single parameters, and the strongest of the others.
   // Alone a candidate may look best at another time constant than with a partner.
   std::vector<Choice> choices;
@@ -144,7 +143,7 @@ std::vector<Pair> adequate_pairs(const Field& field, const std::vector<Score>& s
     double log_bayes;
   };
   std::vector<Try> tries;
-  double top = std::max(0.0, at_least);
+  double top = 0.0;
   for (std::size_t i = 0; i < choices.size(); ++i)
     for (std::size_t k = 0; k < i; ++k) {
       const inference::Candidate& a = field.set.candidates[choices[i].candidate];
@@ -157,12 +156,8 @@ std::vector<Pair> adequate_pairs(const Field& field, const std::vector<Score>& s
       tries.push_back({choices[k], choices[i], evidence});
     }
   std::erase_if(tries, [&](const Try& t) { return t.log_bayes < top - ReachLimits::pair; });
-  const LibraryPrior prior(field.set);
   for (Try& t : tries)
     t.log_bayes = log_bayes(field.projected, distinct_columns_of(field.set, {t.a, t.b}));
-  std::erase_if(tries, [&](const Try& t) {
-    return t.log_bayes + prior.log_within({t.a, t.b}) < at_least;
-  });
   std::ranges::stable_sort(tries, std::ranges::greater{}, &Try::log_bayes);
   // Of each two candidates the best, and of those with one name the best two: room for different
   // ones.

@@ -23,9 +23,8 @@ inference::MaxNull pair_null(const Field& field, int draws);
 
 /// Pairs that leave nothing significant, by evidence, best first (at most `most`, of the same terms
 /// and axes at most two). Candidates of several parameters take part where their own score is among
-/// the strongest. at_least: what evidence and prior together must come to.
+/// the strongest.
 std::vector<Pair> adequate_pairs(const Field& field, const std::vector<Score>& scores,
-                                 double library_threshold, double scan_threshold, std::size_t most,
-                                 double at_least);
+                                 double library_threshold, double scan_threshold, std::size_t most);
 
 }  // namespace drift::search

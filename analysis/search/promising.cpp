@@ -4,7 +4,6 @@
 
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/search/pairs.hpp"
-#include "analysis/search/scores/log_sum.hpp"
 
 namespace drift::search {
 namespace {
@@ -40,24 +39,6 @@ std::vector<std::size_t> adequate_singles(const Search& s) {
       kept.push_back(k);
   }
   return kept;
-}
-
-/// Whether the parameters of a candidate are all of one unit that another one holds, and not all
-/// that that one holds: the linear, the quadratic or the cubic part of a term.
-bool is_part(const inference::CandidateSet& set, const inference::Candidate& whole,
-             const inference::Candidate& c) {
-  const auto unit_of = [](std::size_t param) {
-    return TermLibrary::specs[param].unit.symbol.view();
-  };
-  const auto of_unit = [&](const inference::Candidate& o) {
-    return whole.contains(o) && std::ranges::all_of(o.params, [&](std::size_t i) {
-             return unit_of(i) == unit_of(c.params.front());
-           });
-  };
-  return c.params.size() > 1 && of_unit(c) &&
-         std::ranges::none_of(set.candidates, [&](const inference::Candidate& o) {
-           return of_unit(o) && o.contains(c);
-         });
 }
 
 /// Further causes one by one, the strongest conditional score each time, until nothing is
@@ -158,43 +139,14 @@ std::vector<std::size_t> as_good_with_credible_sizes(const Search& s) {
   return credible;
 }
 
-std::vector<Explanation> with_parts(const Search& s, const Explanation& in) {
-  std::vector<Explanation> all;
-  for (std::size_t k = 0; k < in.size(); ++k) {
-    const inference::CandidateSet& set = s.nominal.set;
-    for (std::size_t n = 0; n < set.candidates.size(); ++n) {
-      if (!is_part(set, set.candidates[in[k].candidate], set.candidates[n])) continue;
-      all.push_back(in);
-      all.back()[k] = Choice{n, s.nominal.scores[n].variant};
-    }
-  }
-  return all;
-}
-
-namespace {
-
-std::vector<Explanation> pairs_of(const Search& s, std::size_t most, double at_least) {
+std::vector<Explanation> promising_pairs(const Search& s, std::size_t most) {
   constexpr double allowed = ReachLimits::pair_slack;  // of the thresholds
   std::vector<Explanation> pairs;
   for (const Pair& p :
        adequate_pairs(s.nominal, s.nominal.scores, allowed * s.thresholds.library_threshold,
-                      allowed * s.thresholds.scan_threshold, most, at_least))
+                      allowed * s.thresholds.scan_threshold, most))
     pairs.push_back({p.a, p.b});
   return pairs;
-}
-
-}  // namespace
-
-std::vector<Explanation> promising_pairs(const Search& s, std::size_t most) {
-  return pairs_of(s, most, never);
-}
-
-std::vector<Explanation> pairs_beside(const Search& s, const Refit& best, std::size_t most) {
-  if (best.choices.size() > 1) return {};
-  const double weight = log_weight(s.nominal, best);
-  return pairs_of(
-      s, most,
-      weight - ReachLimits::beside - inference::WeighLimits::not_linear * std::max(0.0, weight));
 }
 
 std::vector<Explanation> promising_several(const Search& s) {

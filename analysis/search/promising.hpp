@@ -26,15 +26,6 @@ std::vector<std::size_t> as_good_with_credible_sizes(const Search& s);
 /// Two causes at once, by the linearised test.
 std::vector<Explanation> promising_pairs(const Search& s, std::size_t most);
 
-/// Two causes that may be as probable as the best single one, `best`: their linearised evidence
-/// with its prior comes near that.
-std::vector<Explanation> pairs_beside(const Search& s, const Refit& best, std::size_t most);
-
-/// Explanations in which a part of one member's term stands for all of it. Where everything is far
-/// off a whole term scores best whatever part of it is missing; which of it the recording shows is
-/// told by evidence only once the others are in the model.
-std::vector<Explanation> with_parts(const Search& s, const Explanation& in);
-
 /// More than two, one by one.
 std::vector<Explanation> promising_several(const Search& s);
 

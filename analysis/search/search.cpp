@@ -124,6 +124,40 @@ std::optional<Choice> left_out_term_missed(const Search& s, const Fitted& now) {
   return missed;
 }
 
+/// Whether the parameters of a candidate are all of one unit that another one holds, and not all
+/// that that one holds: the linear, the quadratic or the cubic part of a term.
+bool is_part(const inference::CandidateSet& set, const inference::Candidate& whole,
+             const inference::Candidate& c) {
+  const auto unit_of = [](std::size_t param) {
+    return TermLibrary::specs[param].unit.symbol.view();
+  };
+  const auto of_unit = [&](const inference::Candidate& o) {
+    return whole.contains(o) && std::ranges::all_of(o.params, [&](std::size_t i) {
+             return unit_of(i) == unit_of(c.params.front());
+           });
+  };
+  return c.params.size() > 1 && of_unit(c) &&
+         std::ranges::none_of(set.candidates, [&](const inference::Candidate& o) {
+           return of_unit(o) && o.contains(c);
+         });
+}
+
+/// Explanations in which a part of one member's term stands for all of it. Where everything is far
+/// off a whole term scores best whatever part of it is missing; which of it the recording shows is
+/// told by evidence only once the others are in the model.
+std::vector<Explanation> with_parts(const Search& s, const Explanation& in) {
+  std::vector<Explanation> all;
+  for (std::size_t k = 0; k < in.size(); ++k) {
+    const inference::CandidateSet& set = s.nominal.set;
+    for (std::size_t n = 0; n < set.candidates.size(); ++n) {
+      if (!is_part(set, set.candidates[in[k].candidate], set.candidates[n])) continue;
+      all.push_back(in);
+      all.back()[k] = Choice{n, s.nominal.scores[n].variant};
+    }
+  }
+  return all;
+}
+
 /// Terms that the nominal model leaves out unknowingly, one after the other, each fitted through
 /// the full dynamics: whoever leaves out one usually leaves out several, and beside them the
 /// linearised test says little. Nor is anything known of what drives the platform. One of a size
@@ -204,15 +238,9 @@ Search searched(Fitted nominal, const MeasuredTest& test, const SearchOptions& o
   if (!out.significant) return out;
 
   std::vector<Refit> refits;
-  bool pairs_tried = false;
-  const auto try_more = [&](const std::vector<Explanation>& more) {
-    for (Refit& r : refit_all(out, test, more)) refits.push_back(std::move(r));
-  };
   // As long as anything is left to try, no size that nobody expects ends the search.
   const auto settled = [&](Leftover left, Sizes sizes = Sizes::of_library) {
     if (!can_be_weighed(out.nominal, refits, left, sizes)) return false;
-    if (!std::exchange(pairs_tried, true))
-      try_more(pairs_beside(out, *heaviest(out.nominal, refits), options.most_refits));
     add_fewer(out, test, refits);
     CredibleSet weighed = weigh(out.nominal, std::move(refits), options.credible);
     out.sets = std::move(weighed.sets);
@@ -220,6 +248,9 @@ Search searched(Fitted nominal, const MeasuredTest& test, const SearchOptions& o
     out.rejected = std::move(weighed.rejected);
     out.beside = std::move(weighed.beside);
     return true;
+  };
+  const auto try_more = [&](const std::vector<Explanation>& more) {
+    for (Refit& r : refit_all(out, test, more)) refits.push_back(std::move(r));
   };
   // Where such terms are left out and everything is far off, one effect will not mend it.
   const bool far_off = out.nominal.gross;
@@ -233,7 +264,6 @@ Search searched(Fitted nominal, const MeasuredTest& test, const SearchOptions& o
   look_between_all_points(out, test, refits);
   try_more(not_tried(out, refits, promising_singles(out, options.most_refits)));
   if (settled(Leftover::nothing)) return out;
-  pairs_tried = true;
   try_more(promising_pairs(out, options.most_refits));
   if (settled(Leftover::nothing)) return out;
   try_more(promising_several(out));

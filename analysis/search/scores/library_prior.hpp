@@ -11,27 +11,26 @@
 namespace drift::search {
 
 /// Prior of simultaneous causes among all that the library offers: every term alike, shared by the
-/// candidates it offers. That there is a further cause is one in twenty
-/// (WeighLimits::second_cause), and its term again any. counts: whether a candidate is offered at
-/// all.
+/// candidates it offers; each further cause one in twenty (WeighLimits::second_cause). counts:
+/// whether a candidate is offered at all.
 class LibraryPrior {
  public:
   template <class Counts>
   LibraryPrior(const inference::CandidateSet& set, Counts&& counts) : set_(set) {
     for (std::size_t k = 0; k < set.candidates.size(); ++k)
       if (counts(k)) offers_[set.candidates[k].term] += 1.0;
-    log_terms_ = std::log(std::max<double>(1.0, static_cast<double>(offers_.size())));
   }
   explicit LibraryPrior(const inference::CandidateSet& set)
       : LibraryPrior(set, [](std::size_t) { return true; }) {}
 
-  double log_of(const Explanation& choices) const { return log_within(choices) - log_terms_; }
-  /// The same among explanations alone, which share that the term of the first is any.
+  double log_of(const Explanation& choices) const {
+    return log_within(choices) -
+           std::log(std::max<double>(1.0, static_cast<double>(offers_.size())));
+  }
+  /// The same among explanations alone, which share that every term is as likely as another.
   double log_within(const Explanation& choices) const {
-    // Which of them is the first is no matter: all orders of n causes are one explanation.
-    const auto n = static_cast<double>(choices.size());
-    double sum = std::lgamma(n + 1.0) -
-                 (std::log(inference::WeighLimits::second_cause) + log_terms_) * (n - 1.0);
+    double sum =
+        -std::log(inference::WeighLimits::second_cause) * static_cast<double>(choices.size() - 1);
     for (const Choice& choice : choices) {
       const inference::Candidate& c = set_.candidates[choice.candidate];
       sum += c.log_prior;
@@ -43,7 +42,6 @@ class LibraryPrior {
  private:
   const inference::CandidateSet& set_;
   std::map<std::string, double> offers_;
-  double log_terms_ = 0.0;
 };
 
 /// Log evidence of something of free form in one equation against nothing beside the model: where
