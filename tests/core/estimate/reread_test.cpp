@@ -98,7 +98,7 @@ TEST(Reread, WhatWasNotMeasuredStaysSo) {
   gappy.gyro[100][1] = std::nan("");
   const CaseSensors own = platform_of(case_unit::sensors());
   const Signals read =
-      reread(gappy, dwells, test, own, platform_of(with(case_unit::sensors(), {{"K2_x", 300.0}})));
+      reread(gappy, dwells, test, own, platform_of(with(case_unit::sensors(), {{"K0_x", 300.0}})));
   EXPECT_TRUE(std::isnan(read.gyro[100][1]));
   EXPECT_EQ(read.acc[100], seen.acc[100]);
   EXPECT_NE(read.acc[101], seen.acc[101]);
