@@ -137,7 +137,8 @@ ExitCode blind(const StudyArguments& arguments, const BlindArguments& given) {
     const std::scoped_lock words(guard);
     stop.say(stopped_text(folder, done, total));
   };
-  answered(study.blind.trials - blind::unanswered(folder, {}).size(), study.blind.trials);
+  const std::size_t trials = study.blind.all_trials();
+  answered(trials - blind::unanswered(folder, {}).size(), trials);
   const auto answers = blind::answer_trials(folder, blind::diagnosing_solver(), session, answered);
   if (!answers) return tell_unfinished(folder, session.share);
   results.answers_hash = *answers;

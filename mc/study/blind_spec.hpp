@@ -34,7 +34,7 @@ struct BlindFurther {
 /// [blind] of a study file: which recordings with concealed effects are made
 /// (analysis/docs/blind.md).
 struct BlindSpec {
-  std::uint64_t trials = 300;
+  std::uint64_t trials = 300;  ///< that the shares deal out
   std::vector<std::string> plans{"twelve", "twentyfour", "slew12"};
   std::vector<CommandLaw> modes{CommandLaw::free};
   std::vector<Coupling> couplings{Coupling::eq5, Coupling::eq6};  ///< of the truth
@@ -46,6 +46,8 @@ struct BlindSpec {
   double most_prior_sigmas = 3.0;  ///< an effect that would need more is not hidden on this plan
   BlindShares shares;
   BlindFurther further;
+
+  std::uint64_t all_trials() const { return trials + further.sum(); }
 };
 
 }  // namespace drift::mc

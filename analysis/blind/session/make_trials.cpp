@@ -86,7 +86,7 @@ std::optional<Key> whole_key(const mc::Study& study, const std::string& folder,
 void remove_parts(const mc::Study& study, const std::string& folder) {
   const ResultsRegister known(folder);
   std::error_code none;
-  for (std::size_t number = 1; number <= study.blind.trials; ++number) {
+  for (std::size_t number = 1; number <= study.blind.all_trials(); ++number) {
     const fs::path part = fs::path(folder) / part_name(number);
     if (known.has(part_name(number), sha256_hex_of_file(part.string()))) fs::remove(part, none);
   }
@@ -115,7 +115,7 @@ std::optional<std::string> make_trials(const TrialSource& source, const std::str
 void restore_trials(const TrialSource& source, const std::string& folder, bool answered_too) {
   const fs::path here(folder);
   std::vector<std::size_t> gone;
-  for (std::size_t number = 1; number <= source.study().blind.trials; ++number)
+  for (std::size_t number = 1; number <= source.study().blind.all_trials(); ++number)
     if (!is_there(here, number) && (answered_too || !is_answered(here, number)))
       gone.push_back(number);
   if (gone.empty()) return;

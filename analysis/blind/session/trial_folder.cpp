@@ -33,7 +33,7 @@ mc::Manifest manifest_of(const TrialSource& source) {
   const mc::Study& study = source.study();
   mc::Manifest manifest =
       mc::make_manifest({source.identity(), study.monte_carlo.seed, 1}, study.text, {});
-  manifest.runs = study.blind.trials;
+  manifest.runs = study.blind.all_trials();
   return manifest;
 }
 
@@ -92,7 +92,7 @@ std::size_t trials_asked(const std::string& folder) {
                      fmt::format("{}: holds no trials (expected those of `driftscope blind`). Give "
                                  "the folder that was named with -o",
                                  folder));
-  return mc::read_study((here / "study.toml").string()).blind.trials;
+  return mc::read_study((here / "study.toml").string()).blind.all_trials();
 }
 
 TrialsState trials_state(const std::string& folder) {

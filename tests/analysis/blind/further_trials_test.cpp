@@ -1,8 +1,12 @@
 // Harder trials, asked for by number: strata of their own that change no other trial.
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "analysis/blind/design.hpp"
 #include "analysis/blind/noise_faults.hpp"
+#include "analysis/blind/session/answer_trials.hpp"
+#include "analysis/blind/session/make_trials.hpp"
 #include "analysis/blind/source.hpp"
 #include "tests/support/program.hpp"
 
@@ -65,6 +69,24 @@ TEST(BlindStudy, OfAFurtherTrialTheKeySaysWhatIsHarder) {
   ASSERT_TRUE(term);
   const Needs& needs = TermLibrary::terms[*term].needs;
   EXPECT_TRUE(needs.covariates != 0);
+}
+
+TEST(BlindFurther, TrialsAreAnsweredAndScoredWithTheOthers) {
+  // They were made and sealed, and never diagnosed: what counts trials knew of the shares' alone.
+  test::ScratchFolder scratch;
+  const mc::Study study = mc::read_study(scratch.write("blind.toml", short_study));
+  const std::string folder = scratch.file("out");
+  make_trials(study, folder, {2});
+  EXPECT_EQ(trials_state(folder).trials, 7u);
+  EXPECT_FALSE(std::filesystem::exists(folder + "/making"));
+  ASSERT_TRUE(
+      answer_trials(folder, [](const std::string&, const std::string&) { return Answer{}; }, {2}));
+  const auto scores = score_folder(folder);
+  ASSERT_EQ(scores.size(), 7u);
+  for (const TrialScore& s : scores) EXPECT_FALSE(s.answer.failed) << s.answer.failure;
+  std::filesystem::remove(folder + "/trials/0007/recording.csv");
+  restore_trials(study, folder, true);
+  EXPECT_TRUE(is_there(folder, 7));
 }
 
 TEST(BlindFurther, ACovariateIsRecordedWithNoiseThatMeetsAtTheEndsOfIntervals) {
