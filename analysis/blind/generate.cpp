@@ -193,12 +193,9 @@ Certificate certify(const FilterSpec& nominal, const World& world, const Measure
   c.band_low = band.low;
   c.band_high = band.high;
   c.concealed = band.holds(c.chi2_per_dof);
-  for (const ParameterEstimate& p : fit.estimate.parameters) {
-    const double bias = std::abs(p.value - world.draw.theta[p.param]) / p.sigma;
-    if (bias <= c.largest_bias) continue;
-    c.largest_bias = bias;
-    c.biased = std::string(TermLibrary::specs[p.param].key.view());
-  }
+  for (const ParameterEstimate& p : fit.estimate.parameters)
+    c.take_bias(std::abs(p.value - world.draw.theta[p.param]) / p.sigma,
+                TermLibrary::specs[p.param].key.view());
   return c;
 }
 

@@ -187,10 +187,8 @@ Certificate certify(const Fit& was, const Fit& now) {
   for (const ParameterEstimate& p : now.fit.estimate.parameters) {
     const ParameterEstimate* before = was.fit.estimate.find(p.param);
     if (before == nullptr || p.sigma <= 0.0) continue;
-    const double bias = std::abs(p.value - before->value) / p.sigma;
-    if (bias <= c.largest_bias) continue;
-    c.largest_bias = bias;
-    c.biased = std::string(TermLibrary::specs[p.param].key.view());
+    c.take_bias(std::abs(p.value - before->value) / p.sigma,
+                TermLibrary::specs[p.param].key.view());
   }
   return c;
 }

@@ -4,12 +4,13 @@
 
 namespace drift::blind {
 
-/// Of every trial in a recording at least this part of its rests, one after the other: no two
-/// trials have quite the same noise, and what a plan as long can tell is not changed much.
+/// Of every trial in a recording at least this part of its rests, one after the other: few trials
+/// have the same noise throughout, and what a recording as long can tell is not changed much.
 inline constexpr double least_part = 2.0 / 3.0;
 
-/// The same for trials in a recording of sensors on a case: the plan is its name, the equation that
-/// of the study's first filter. InputError (config) for strata that cannot be hidden in one.
+/// What each trial in a recording of sensors on a case is to hide (design.hpp): the plan is its
+/// name, the equation that of the study's first filter. InputError (config) for strata that cannot
+/// be hidden in one.
 std::vector<TrialPlan> recorded_trials(const mc::Study& study, const Recording& recording);
 
 /// A trial in a part of a recording: its gyros and accelerometers as they were read, or as they

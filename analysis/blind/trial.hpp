@@ -82,6 +82,13 @@ struct Certificate {
   bool concealed = true;                   ///< inside the band
   double largest_bias = 0.0;  ///< |estimate - truth| in reported sigmas, over all parameters
   std::string biased;         ///< the parameter it belongs to
+
+  /// Keeps the largest.
+  void take_bias(double bias, std::string_view param) {
+    if (bias <= largest_bias) return;
+    largest_bias = bias;
+    biased = std::string(param);
+  }
 };
 
 /// What the key says of one trial.
