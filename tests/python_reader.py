@@ -4,6 +4,7 @@
     tests/python_reader.py DRIFTSCOPE
 """
 
+import json
 import os
 import re
 import subprocess
@@ -92,6 +93,12 @@ def exports_agree():
     assert ds.attrs["seed"] == "5" and all("units" in ds[v].attrs for v in ds.data_vars), "units everywhere"
     # The flat layout is another program path: every number of it is at its place.
     flat, csv = h5py.File("out/export.h5"), pd.read_csv("out/export.csv", comment="#", float_precision="round_trip")
+    assert list(csv.columns[:5]) == ["point", "run", "status", "truth.parameters.eta_x [arcsec]", "truth.coupling"]
+    swept = csv.groupby(["truth.parameters.eta_x [arcsec]", "truth.coupling"]).point.unique()
+    assert list(swept.index) == [(20, "eq5"), (20, "eq6"), (300, "eq5"), (300, "eq6")] and [list(p) for p in swept] == [[0], [1], [2], [3]]
+    run("export", "out", "--format", "json")
+    made = json.loads(Path("out/export.json").read_text(encoding="utf-8"))["points"]
+    assert made[2]["swept"] == {"truth.parameters.eta_x [arcsec]": 300, "truth.coupling": "eq5"}, made[2]["swept"]
     point = flat["runs/point"][:]
     compared = 0
     for name in csv.columns:

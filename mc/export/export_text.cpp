@@ -13,6 +13,7 @@
 #include "core/base/check.hpp"
 #include "core/base/seal.hpp"
 #include "core/base/sha256.hpp"
+#include "mc/export/swept_coordinates.hpp"
 
 namespace drift::mc {
 namespace {
@@ -116,7 +117,8 @@ Facts provenance_of(StudyReader& reader) {
   return facts;
 }
 
-void export_csv(StudyReader& reader, const StopRules& rules, const std::string& path) {
+void export_csv(StudyReader& reader, const StopRules& rules, const std::string& path,
+                const std::vector<StudyPoint>& study_points) {
   const auto& points = reader.manifest().points;
   std::vector<Column> all;  // the columns of all points, each once
   std::map<std::string, std::size_t> place;
@@ -138,7 +140,15 @@ void export_csv(StudyReader& reader, const StopRules& rules, const std::string& 
   }
   for (std::size_t p = 0; p < points.size(); ++p)
     out.put(fmt::format("# point {}: {}\n", p, one_line(points[p].label)));
+  const std::vector<SweptCoordinate> swept = swept_coordinates(study_points);
+  std::vector<std::string> swept_at(points.size());  // the cells of each point
   std::string line = "point,run,status";
+  for (const SweptCoordinate& s : swept) {
+    line += "," + csv_field(s.title());
+    for (std::size_t p = 0; p < points.size(); ++p)
+      swept_at[p] += "," + (s.numbers.empty() ? csv_field(one_line(s.words[p]))
+                                              : fmt::format("{}", s.numbers[p]));
+  }
   for (const Column& c : all)
     line += "," + csv_field(fmt::format("{} [{}]", c.name, c.unit.symbol.view()));
   out.put(line + ",t_failed [s],cause\n");
@@ -152,7 +162,8 @@ void export_csv(StudyReader& reader, const StopRules& rules, const std::string& 
         const double value = in_column_unit(b.block.rows[r * columns.size() + c], columns[c]);
         cells[to[b.block.point][c]] = std::isnan(value) ? "nan" : fmt::format("{}", value);
       }
-      line = fmt::format("{},{},{}", b.block.point, b.block.first + r, name(b.block.status[r]));
+      line = fmt::format("{},{},{}", b.block.point, b.block.first + r, name(b.block.status[r])) +
+             swept_at[b.block.point];
       for (const std::string& cell : cells) line += "," + cell;
       if (failure != b.failures.end() && failure->run == b.block.first + r) {
         line += fmt::format(",{},{}", failure->t, csv_field(one_line(failure->cause)));
@@ -166,8 +177,10 @@ void export_csv(StudyReader& reader, const StopRules& rules, const std::string& 
   out.commit();
 }
 
-void export_json(StudyReader& reader, const StopRules& rules, const std::string& path) {
+void export_json(StudyReader& reader, const StopRules& rules, const std::string& path,
+                 const std::vector<StudyPoint>& study_points) {
   const auto& points = reader.manifest().points;
+  const std::vector<SweptCoordinate> swept = swept_coordinates(study_points);
   TextOut out(path);
   nlohmann::ordered_json facts;
   for (const auto& [key, value] : sealed_provenance(reader)) facts[key] = value;
@@ -177,8 +190,16 @@ void export_json(StudyReader& reader, const StopRules& rules, const std::string&
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (const Column& c : columns)
       list.push_back({{"name", c.name}, {"unit", std::string(c.unit.symbol.view())}});
-    out.put(fmt::format("{}\n{{\"label\": {}, \"columns\": {},\n\"runs\": [", p == 0 ? "" : ",",
-                        nlohmann::json(points[p].label).dump(), list.dump()));
+    nlohmann::ordered_json swept_here = nlohmann::ordered_json::object();
+    for (const SweptCoordinate& s : swept) {
+      if (s.numbers.empty())
+        swept_here[s.title()] = s.words[p];
+      else
+        swept_here[s.title()] = s.numbers[p];
+    }
+    out.put(fmt::format("{}\n{{\"label\": {}, \"swept\": {}, \"columns\": {},\n\"runs\": [",
+                        p == 0 ? "" : ",", nlohmann::json(points[p].label).dump(),
+                        swept_here.dump(), list.dump()));
     bool first = true;
     nlohmann::ordered_json failures = nlohmann::ordered_json::array();
     reader.each_result(rules, p, [&](const StoredBlock& b) {

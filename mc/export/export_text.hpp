@@ -1,8 +1,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "mc/store/study_reader.hpp"
+#include "mc/study/sweep.hpp"
 
 namespace drift::mc {
 
@@ -16,15 +18,18 @@ inline double in_column_unit(double value, const Column& column) {
 }
 
 /// Writes all results as CSV: `# key: value` lines of provenance, one header row "name [unit]", one
-/// row per run with point, run and status first, and last when and why it failed. Missing is "nan".
-/// Points with different columns leave those of others empty. Shortest digits that read back as the
-/// same number. Bounded memory; the file is complete or not there. InputError (io).
-void export_csv(StudyReader& reader, const StopRules& rules, const std::string& path);
+/// row per run with point, run and status first, then what was swept (study_points; may be empty),
+/// and last when and why it failed. Missing is "nan". Points with different columns leave those of
+/// others empty. Shortest digits that read back as the same number. Bounded memory; the file is
+/// complete or not there. InputError (io).
+void export_csv(StudyReader& reader, const StopRules& rules, const std::string& path,
+                const std::vector<StudyPoint>& study_points);
 
-/// The same as JSON: {"provenance": {...}, "points": [{"label", "columns": [{"name", "unit"}],
-/// "runs": [[run, "status", values...], ...], "failures": [{"run", "status", "t_s", "cause"},
-/// ...]}]}; missing is null.
-void export_json(StudyReader& reader, const StopRules& rules, const std::string& path);
+/// The same as JSON: {"provenance": {...}, "points": [{"label", "swept": {key: value},
+/// "columns": [{"name", "unit"}], "runs": [[run, "status", values...], ...],
+/// "failures": [{"run", "status", "t_s", "cause"}, ...]}]}; missing is null.
+void export_json(StudyReader& reader, const StopRules& rules, const std::string& path,
+                 const std::vector<StudyPoint>& study_points);
 
 /// The study_hash that a CSV or JSON export at this path carries; empty if it is none.
 std::string study_hash_of_text(const std::string& path);

@@ -1,9 +1,6 @@
 #include "mc/export/named_axes.hpp"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <optional>
 #include <set>
 
 #include "core/physics/term_library.hpp"
@@ -11,40 +8,6 @@
 
 namespace drift::mc {
 namespace {
-
-struct NumberWithUnit {
-  double value = 0.0;
-  Unit unit;
-};
-
-/// "20 arcsec" and 0.5; nothing of a distribution, a table or a word.
-std::optional<NumberWithUnit> number_with_unit(const std::string& text) {
-  double value = 0.0;
-  const char* const end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc() || !std::isfinite(value)) return std::nullopt;
-  const char* from = stop;
-  while (from < end && *from == ' ') ++from;
-  const auto unit = parse_unit(std::string_view(from, static_cast<std::size_t>(end - from)));
-  if (from == end) return NumberWithUnit{value, unit::one};
-  if (!unit) return std::nullopt;
-  return NumberWithUnit{value, *unit};
-}
-
-SweptCoordinate coordinate(const std::vector<StudyPoint>& points, std::size_t axis) {
-  SweptCoordinate c{points.front().values[axis].first, {}, {}};
-  for (const StudyPoint& p : points) {
-    c.words.push_back(p.values[axis].second);
-    const auto number = number_with_unit(c.words.back());
-    if (c.words.size() == 1 && number) c.unit = number->unit;
-    if (number && number->unit.same_dimension(c.unit))
-      c.numbers.push_back(number->unit.to_si == c.unit.to_si
-                              ? number->value
-                              : number->value * (number->unit.to_si / c.unit.to_si));
-  }
-  if (c.numbers.size() != c.words.size()) c.numbers.clear();
-  return c;
-}
 
 void put_swept(NamedGroup& group, const std::vector<SweptCoordinate>& swept) {
   std::vector<std::string> names;
@@ -75,8 +38,7 @@ NamedAxes::NamedAxes(const std::vector<StudyPoint>& study_points) {
     }
   }
   params.assign(named.begin(), named.end());
-  for (std::size_t a = 0; a < study_points.front().values.size(); ++a)
-    swept.push_back(coordinate(study_points, a));
+  swept = swept_coordinates(study_points);
 }
 
 std::size_t NamedAxes::filter(const std::string& name) const {

@@ -3,21 +3,12 @@
 #include <string>
 #include <vector>
 
-#include "core/base/units.hpp"
 #include "mc/export/named_group.hpp"
+#include "mc/export/swept_coordinates.hpp"
 #include "mc/study/sweep.hpp"
 #include "mc/task/study_columns.hpp"
 
 namespace drift::mc {
-
-/// What the values of one swept key are at the points: numbers with a unit where all are, else
-/// words.
-struct SweptCoordinate {
-  std::string key;
-  std::vector<std::string> words;  ///< of each point
-  std::vector<double> numbers;     ///< in `unit`; empty where a value is no number
-  Unit unit = unit::one;
-};
 
 /// The names along the dimensions of a study's results.
 struct NamedAxes {

@@ -104,8 +104,8 @@ ExitCode export_results(const std::string& folder, const std::string& format,
                                  "those of `driftscope run`). Export them as hdf5, csv or json",
                                  folder));
   if (format == "netcdf") mc::export_netcdf(reader, work.stop_rules, target, points);
-  if (format == "csv") mc::export_csv(reader, work.stop_rules, target);
-  if (format == "json") mc::export_json(reader, work.stop_rules, target);
+  if (format == "csv") mc::export_csv(reader, work.stop_rules, target, points);
+  if (format == "json") mc::export_json(reader, work.stop_rules, target, points);
   require_read_again(folder, reader, target, state.runs);
   show("{}: {} runs, {:.3g} MB\n", target, state.runs, megabytes_of({target}));
   if (!groups.empty()) show("groups: {}\n", fmt::join(groups, " "));

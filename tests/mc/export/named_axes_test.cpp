@@ -38,6 +38,17 @@ TEST(NamedAxes, SweptQuantitiesAreNumbersInTheUnitOfTheFirst) {
   EXPECT_EQ(axes.swept[1].words, (std::vector<std::string>{"eq5", "eq6", "eq5", "eq6"}));
 }
 
+TEST(NamedAxes, WhatIsSweptTogetherIsNamedApart) {
+  const mc::NamedAxes axes = axes_of(
+      "[sweep]\n\"readout\" = [{ accelerometer_noise = \"1 ug\", gimbal_noise = \"2 arcsec\" }, "
+      "{ accelerometer_noise = \"20 ug\", gimbal_noise = \"3 arcsec\" }]\n");
+  ASSERT_EQ(axes.swept.size(), 2u);
+  EXPECT_EQ(axes.swept[0].title(), "readout.accelerometer_noise [ug]");
+  EXPECT_EQ(axes.swept[0].numbers, (std::vector<double>{1.0, 20.0}));
+  EXPECT_EQ(axes.swept[1].title(), "readout.gimbal_noise [arcsec]");
+  EXPECT_EQ(axes.swept[1].numbers, (std::vector<double>{2.0, 3.0}));
+}
+
 TEST(NamedAxes, ADistributionIsNoNumber) {
   const mc::NamedAxes axes = axes_of(
       "[sweep]\n\"truth.parameters.eta_x\" = [\"20 arcsec\", { normal = [\"1 arcsec\", \"2 "
@@ -45,6 +56,7 @@ TEST(NamedAxes, ADistributionIsNoNumber) {
       "}]\n");
   ASSERT_EQ(axes.swept.size(), 1u);
   EXPECT_TRUE(axes.swept[0].numbers.empty());
+  EXPECT_EQ(axes.swept[0].title(), "truth.parameters.eta_x");
 }
 
 }  // namespace
