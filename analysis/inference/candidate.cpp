@@ -154,6 +154,12 @@ bool Candidate::contains(const Candidate& other) const {
          });
 }
 
+bool Candidate::overlaps(const Candidate& other) const {
+  return std::ranges::any_of(params, [&](std::size_t i) {
+    return std::ranges::find(other.params, i) != other.params.end();
+  });
+}
+
 CandidateSet library_candidates(const FilterSpec& nominal, const Theta& theta,
                                 const Timeline& timeline) {
   CandidateSet out;

@@ -33,6 +33,8 @@ struct Candidate {
   std::vector<Variant> variants;  ///< neighbours on the grid stand next to each other
   double log_prior = 0.0;         ///< beside what every term has: of what it follows
   bool contains(const Candidate& other) const;  ///< same term, more parameters
+  /// A parameter of both: together they are no two causes.
+  bool overlaps(const Candidate& other) const;
 };
 
 /// All that the nominal model leaves out, and the columns they need.

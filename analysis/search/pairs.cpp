@@ -148,7 +148,7 @@ std::vector<Pair> adequate_pairs(const Field& field, const std::vector<Score>& s
     for (std::size_t k = 0; k < i; ++k) {
       const inference::Candidate& a = field.set.candidates[choices[i].candidate];
       const inference::Candidate& b = field.set.candidates[choices[k].candidate];
-      if (choices[i].candidate == choices[k].candidate || a.contains(b) || b.contains(a)) continue;
+      if (a.overlaps(b)) continue;
       const double evidence = quick_log_bayes(
           field.projected, distinct_columns_of(field.set, {choices[k], choices[i]}));
       if (evidence < top - ReachLimits::pair) continue;

@@ -43,7 +43,7 @@ std::vector<std::size_t> adequate_singles(const Search& s) {
 
 /// Further causes one by one, the strongest conditional score each time, until nothing is
 /// significant or `most` are in; then those that are not needed are taken out again. Empty if it
-/// never gets quiet.
+/// never gets quiet, or with two that share a parameter.
 std::vector<Choice> greedy(const Field& field, const std::vector<Score>& scores,
                            double library_threshold, double scan_threshold, std::size_t most) {
   std::vector<Choice> in;
@@ -70,6 +70,10 @@ std::vector<Choice> greedy(const Field& field, const std::vector<Score>& scores,
       ++k;
     }
   }
+  for (std::size_t k = 0; k < in.size(); ++k)
+    for (std::size_t n = 0; n < k; ++n)
+      if (field.set.candidates[in[k].candidate].overlaps(field.set.candidates[in[n].candidate]))
+        return {};
   return in;
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "analysis/diagnosis/causes.hpp"
+#include "analysis/search/pairs.hpp"
 #include "tests/support/model_builders.hpp"
 
 namespace drift::search::search_test {
@@ -99,6 +100,24 @@ TEST(Search, AStepBetweenTheHoursOfTheGridIsNamedAloneWithItsTime) {
     points += v.between ? 0.0 : 1.0;
   }
   EXPECT_NEAR(share, points, 1e-12);
+}
+
+TEST(Search, TwoPartsOfATermThatShareAParameterAreNoPair) {
+  // The quadratic parts of all axes and all parts of one axis share one parameter: no fit tells
+  // them apart, and their evidence was no number.
+  Bench b("twentyfour", 1800.0);
+  TruthSpec truth = base_truth(Coupling::eq5);
+  for (const std::string_view kind : {"K_io", "K_po", "K_pp", "K_oo"}) truth.active |= only({kind});
+  b.measured = Simulator(truth, b.readout).run(b.timeline, 11, 0).measured;
+  const Fitted nominal = b.nominal();
+  const std::vector<Pair> pairs = adequate_pairs(nominal, nominal.scores, HUGE_VAL, HUGE_VAL, 1000);
+  ASSERT_GT(pairs.size(), 10u);
+  for (const Pair& p : pairs) {
+    const inference::Candidate &one = nominal.set.candidates[p.a.candidate],
+                               &other = nominal.set.candidates[p.b.candidate];
+    EXPECT_FALSE(one.overlaps(other)) << one.label << " and " << other.label;
+    EXPECT_TRUE(std::isfinite(p.log_bayes)) << one.label << " and " << other.label;
+  }
 }
 
 }  // namespace
