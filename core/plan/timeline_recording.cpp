@@ -68,6 +68,14 @@ class Reader {
       if (rows++ == 0) first = row;
       if (std::ranges::find(others, numbers[row]) == others.end()) others.push_back(numbers[row]);
     }
+    if (rec_.counted_positions > 0 && rec_.counted_positions != plan_.positions.size()) {
+      complain(0,
+               fmt::format("no column tells the positions, and {} are counted where the platform "
+                           "stands between turns (expected the {} of the plan). Add a column "
+                           "position, or take the plan that the recording was made with",
+                           rec_.counted_positions, plan_.positions.size()));
+      return;
+    }
     if (rows == 0) return;
     constexpr std::size_t most = 8;
     const std::string more =

@@ -11,6 +11,7 @@
 #include "core/recording/own/recording_unit.hpp"
 #include "core/recording/recording_channels.hpp"
 #include "core/recording/recording_units.hpp"
+#include "core/recording/rows/count_positions.hpp"
 
 namespace drift {
 namespace {
@@ -39,7 +40,9 @@ void check_names(const RawRecording& raw, Problems& problems) {
                    "Save the file as UTF-8");
 }
 
-void check_columns(const Recording& r, RecordingKind kind, Problems& problems) {
+/// not_counted: why positions could not be counted where no column has them.
+void check_columns(const Recording& r, RecordingKind kind, const std::string& not_counted,
+                   Problems& problems) {
   std::string present;
   for (const auto& c : r.channels) present += (present.empty() ? "" : ", ") + c.name;
   const bool strapdown = kind == RecordingKind::strapdown;
@@ -67,7 +70,12 @@ void check_columns(const Recording& r, RecordingKind kind, Problems& problems) {
     return;
   }
   need("time");
-  if (!strapdown) need("position");
+  if (!strapdown && r.find("position") == nullptr)
+    problems.add(
+        "position",
+        fmt::format("the column is missing{}",
+                    not_counted.empty() ? "" : ", and positions cannot be counted: " + not_counted),
+        fmt::format("it beside the columns found: {}", present), hint);
   for (const auto& triple : channel_triples) {
     const auto has = [&](std::string_view name) { return r.find(name) != nullptr; };
     const auto count = std::ranges::count_if(triple.names, has);
@@ -268,7 +276,10 @@ Recording checked_recording(RawRecording raw, RecordingKind kind, double gravity
   }
   if (raw.kind == SampleKind::increments && kind == RecordingKind::strapdown)
     make_rates(r, gravity);
-  if (raw.settled) check_columns(r, kind, problems);
+  if (raw.settled) {
+    const std::string why = kind == RecordingKind::platform ? count_positions(r) : "";
+    check_columns(r, kind, why, problems);
+  }
   const std::size_t before = problems.count();
   check_time(r, problems);
   const bool in_order = problems.count() == before;

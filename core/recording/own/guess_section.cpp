@@ -144,7 +144,6 @@ std::string what_is_missing(const GuessedFile& file) {
                                quoted(column == "COLUMN" ? column + std::string(unit) : column)));
   };
   if (file.format.counter.empty() && file.counter.empty()) need("the time", "time", " [s]");
-  if (!on_case) need("the number of the position", "position", "");
   const auto need_all = [&](const ChannelTriple& t, std::string_view unit) {
     const std::vector<std::string> such = in_units_of(file, t.names.front());
     for (std::size_t a = 0; a < t.names.size(); ++a)
@@ -157,7 +156,13 @@ std::string what_is_missing(const GuessedFile& file) {
     need_all(gyro_channels, " [deg/s]");
   else
     need_all(gimbal_channels, " [deg]");
-  if (what.empty()) return {};
+  const std::string counted =
+      on_case || has("position")
+          ? ""
+          : "No column seems to be the number of the position: they are counted, from turn to "
+            "turn; "
+            "if the file has it, add position = \"COLUMN\" to columns of [recording].";
+  if (what.empty()) return counted;
   // Where the others of its kind are named, one is missed by its own name.
   if (what.size() == 1 && keys.size() < 3 &&
       (what.front() == accelerometer_channels.what || what.front() == gimbal_channels.what ||
@@ -172,7 +177,7 @@ std::string what_is_missing(const GuessedFile& file) {
   if (!fitting.empty())
     text += fmt::format(" In such a unit and without a place {} {}: check which is which.",
                         fitting.size() == 1 ? "is" : "are", fmt::join(fitting, ", "));
-  return text;
+  return counted.empty() ? text : text + " " + counted;
 }
 
 std::string what_has_no_place(const GuessedFile& file) {

@@ -1,0 +1,132 @@
+// A recording without a column of positions: what was taken away must come back.
+#include "core/recording/rows/count_positions.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/base/check.hpp"
+#include "core/sim/simulate.hpp"
+#include "tests/support/model_builders.hpp"
+
+namespace drift::count_positions_test {
+namespace {
+
+using namespace drift::test;
+
+TestPlan plan_of(std::string_view preset, CommandLaw law = CommandLaw::free,
+                 double dwell = 1200.0) {
+  PlanDefaults defaults;
+  defaults.mode = law;
+  defaults.dwell = dwell;
+  defaults.sample = 60.0;
+  return preset_plan(preset, defaults).value();
+}
+
+Recording recorded(const TestPlan& plan) {
+  const TruthSpec truth = base_truth(Coupling::eq5);
+  const Timeline timeline = lay_out(plan, harbin);
+  const TruthDraw draw = draw_truth(truth, timeline.chains, 7, 3);
+  const Readout readout;
+  Recording r = make_recording(
+      timeline, Simulator(truth, readout).run(timeline, draw, 7, 3).measured, readout);
+  r.lines.resize(r.rows());
+  for (std::size_t k = 0; k < r.rows(); ++k) r.lines[k] = k + 2;
+  return r;
+}
+
+Recording without(Recording r, std::initializer_list<std::string_view> starts) {
+  std::erase_if(r.channels, [&](const Channel& c) {
+    return std::ranges::any_of(starts, [&](std::string_view s) { return c.name.starts_with(s); });
+  });
+  return r;
+}
+
+std::vector<double> values(const Recording& r, std::string_view name) {
+  const Channel* c = r.find(name);
+  return c == nullptr ? std::vector<double>(r.rows(), 0.0) : c->values;
+}
+
+TEST(CountPositions, WhatWasTakenAwayComesBack) {
+  for (const std::string_view preset : {"six", "twelve", "twentyfour", "apollo10", "slew12"})
+    for (const CommandLaw law : {CommandLaw::free, CommandLaw::level}) {
+      const Recording whole = recorded(plan_of(preset, law));
+      for (const auto lost :
+           {std::initializer_list<std::string_view>{"position", "phase"},
+            std::initializer_list<std::string_view>{"position", "phase", "acc_"}}) {
+        Recording r = without(whole, lost);
+        ASSERT_EQ(count_positions(r), "") << preset;
+        EXPECT_EQ(values(r, "position"), values(whole, "position")) << preset;
+        EXPECT_EQ(values(r, "phase"), values(whole, "phase")) << preset;
+        EXPECT_EQ(r.counted_positions, values(whole, "position").back()) << preset;
+        ASSERT_EQ(r.remarks.texts().size(), 1u);
+        EXPECT_NE(r.remarks.texts()[0].find("no column tells the positions"), std::string::npos);
+      }
+    }
+}
+
+TEST(CountPositions, AReadingThatIsNoneIsNoTurn) {
+  const Recording whole = recorded(plan_of("six"));
+  Recording r = without(whole, {"position", "phase"});
+  for (Channel& c : r.channels)
+    if (c.name == "gimbal_outer") c.values[30] += 0.5;
+  EXPECT_EQ(count_positions(r), "");
+  EXPECT_EQ(values(r, "position"), values(whole, "position"));
+}
+
+TEST(CountPositions, RowsInWhichItIsTurnedByHandAreLeftOut) {
+  const Recording whole = recorded(plan_of("six"));
+  Recording r = without(whole, {"position", "phase"});
+  // Between the first two positions three rows on the way, as a logger that runs on has them.
+  const std::size_t at = 20;
+  const auto gimbals = [](const Channel& c) { return c.name.starts_with("gimbal_"); };
+  for (Channel& c : r.channels) {
+    const double from = c.values[at - 1], to = c.values[at];
+    for (int k = 1; k <= 3; ++k) {
+      const double part = gimbals(c) ? k / 4.0 : 0.0;
+      c.values.insert(c.values.begin() + static_cast<std::ptrdiff_t>(at) + k - 1,
+                      c.name == "time" ? from + k * (to - from) / 4.0 : from + part * (to - from));
+    }
+  }
+  r.lines.resize(r.rows());
+  for (std::size_t k = 0; k < r.rows(); ++k) r.lines[k] = k + 2;
+  EXPECT_EQ(count_positions(r), "");
+  EXPECT_EQ(r.counted_positions, 6u);
+  // The row at which it has arrived holds a part of the turn.
+  EXPECT_EQ(r.rows(), whole.rows() - 1);
+  EXPECT_EQ(r.lines[at], at + 4 + 2) << "lines are those of the file";
+}
+
+TEST(CountPositions, WhatCannotBeCountedIsLeftAlone) {
+  Recording r = without(recorded(plan_of("six", CommandLaw::free, 180.0)), {"position", "phase"});
+  const std::size_t columns = r.channels.size();
+  EXPECT_NE(count_positions(r).find("it stands for 3 rows alone"), std::string::npos);
+  EXPECT_EQ(r.channels.size(), columns);
+  r = without(recorded(plan_of("six")), {"position", "phase", "acc_", "gimbal_"});
+  EXPECT_NE(count_positions(r).find("neither all gimbals"), std::string::npos);
+  // The case turns throughout a position, 10 deg a row.
+  r = without(recorded(plan_of("six")), {"position", "phase"});
+  for (Channel& c : r.channels)
+    for (std::size_t k = 20; c.name == "case_heading" && k < 45; ++k)
+      c.values[k] += 10.0 * drift::detail::deg * static_cast<double>(k - 19);
+  EXPECT_NE(count_positions(r).find("from line 22 on the case turns in 26 rows"), std::string::npos)
+      << count_positions(r);
+}
+
+TEST(CountPositions, OtherThanThoseOfThePlanAreRefused) {
+  const TestPlan six = plan_of("six");
+  Recording r = without(recorded(six), {"position", "phase"});
+  ASSERT_EQ(count_positions(r), "");
+  EXPECT_NO_THROW(lay_out(r, six, harbin));
+  TestPlan five = six;
+  five.positions.pop_back();
+  try {
+    lay_out(r, five, harbin);
+    FAIL() << "not refused";
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("6 are counted"), std::string::npos) << e.what();
+  }
+}
+
+}  // namespace
+}  // namespace drift::count_positions_test
