@@ -4,17 +4,10 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/base/rng.hpp"
+#include "core/base/shuffle.hpp"
 
 namespace drift::blind {
 namespace {
-
-template <class T>
-void shuffle(std::vector<T>& list, Stream& stream) {
-  for (std::size_t k = list.size(); k > 1; --k)
-    std::swap(list[k - 1],
-              list[static_cast<std::size_t>(stream.uniform() * static_cast<double>(k))]);
-}
 
 /// Numbers 0..levels-1, each equally often (but for one), n of them in random order.
 std::vector<std::size_t> balanced(std::size_t n, std::size_t levels, Stream& stream) {

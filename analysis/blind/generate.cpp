@@ -12,6 +12,7 @@
 #include "analysis/blind/outside_effects.hpp"
 #include "analysis/blind/sizing.hpp"
 #include "core/base/check.hpp"
+#include "core/base/shuffle.hpp"
 #include "core/recording/recording_output.hpp"
 #include "core/stats/chi_square_band.hpp"
 
@@ -68,9 +69,7 @@ std::vector<Sized> pair_effects(const mc::Study& study, const SizingBench& bench
   std::erase_if(terms, [&](std::size_t t) {
     return TermLibrary::terms[t].key == first[0].source.effect.term;
   });
-  for (std::size_t k = terms.size(); k > 1; --k)
-    std::swap(terms[k - 1],
-              terms[static_cast<std::size_t>(stream.uniform() * static_cast<double>(k))]);
+  shuffle(terms, stream);
   const std::size_t tries = plan.index % 3 == 0 ? 6 : 1;
   std::optional<Sized> best;
   double best_cosine = 0.0;

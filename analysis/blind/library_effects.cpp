@@ -8,6 +8,7 @@
 
 #include "analysis/blind/generate.hpp"
 #include "analysis/inference/candidate.hpp"
+#include "core/base/shuffle.hpp"
 
 namespace drift::blind {
 namespace {
@@ -83,9 +84,7 @@ std::vector<std::size_t> hideable_terms(const FilterSpec& nominal, const Timelin
 std::vector<std::size_t> in_turn(std::vector<std::size_t> terms, std::uint64_t seed,
                                  std::size_t index) {
   Stream mix(seed, 0, Purpose::design, choice_stream);
-  for (std::size_t k = terms.size(); k > 1; --k)
-    std::swap(terms[k - 1],
-              terms[static_cast<std::size_t>(mix.uniform() * static_cast<double>(k))]);
+  shuffle(terms, mix);
   if (!terms.empty())
     std::rotate(terms.begin(), terms.begin() + static_cast<long>(index % terms.size()),
                 terms.end());

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/base/nan.hpp"
-#include "core/base/rng.hpp"
+#include "core/base/shuffle.hpp"
 #include "mc/task/campaign.hpp"
 
 namespace drift::strapdown {
@@ -18,9 +18,7 @@ std::vector<int> parts_of_dwells(std::size_t dwells, int folds, int repeat, std:
   for (std::size_t d = 0; d < dwells; ++d) part[d] = static_cast<int>(d) % folds;
   if (repeat == 0) return part;
   Stream stream(seed, static_cast<std::uint64_t>(repeat), Purpose::design);
-  for (std::size_t d = dwells; d > 1; --d)
-    std::swap(part[d - 1],
-              part[static_cast<std::size_t>(stream.uniform() * static_cast<double>(d))]);
+  shuffle(part, stream);
   return part;
 }
 

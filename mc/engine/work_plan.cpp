@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "mc/engine/shuffled.hpp"
+#include "core/base/shuffle.hpp"
 
 namespace drift::mc {
 
@@ -42,8 +42,9 @@ void WorkPlan::make() {
     missing = own(found.missing);
   }
   ranks_.broadcast(missing);
-  todo_ =
-      options_.shuffle == 0 ? std::move(missing) : shuffled(std::move(missing), options_.shuffle);
+  if (Stream stream(options_.shuffle, 0, Purpose::test); options_.shuffle != 0)
+    shuffle(missing, stream);
+  todo_ = std::move(missing);
 }
 
 bool WorkPlan::mend() {

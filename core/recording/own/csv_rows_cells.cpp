@@ -13,6 +13,15 @@ namespace {
 using Role = ColumnUse::Role;
 using Kind = ParsedCell::Kind;
 
+/// A word such as a logger writes in the place of a number.
+bool is_word(std::string_view text) {
+  constexpr std::size_t longest = 16;
+  return text.size() <= longest && std::ranges::all_of(text, [](char c) {
+           return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-' || c == '_' ||
+                  c == '/' || c == '.';
+         });
+}
+
 /// Whether a text that is no number would be one without the marks between its thousands:
 /// "1,234.5", "1.234,5", "1'234.5", "1 234,5".
 bool has_thousands_marks(std::string_view text) {
@@ -74,10 +83,15 @@ std::optional<CsvRows::Complaint> CsvRows::read_cell(std::size_t i, std::string_
   if (parsed.kind == Kind::out_of_range)
     return Complaint{here(use.channel), found, "a number between 1e-307 and 1e308",
                      "Correct the number, or choose another unit"};
-  return Complaint{here(use.channel), found, "a number, nan or an empty cell",
-                   has_thousands_marks(cell)
-                       ? "Write numbers without marks between thousands"
-                       : "Correct the cell, or leave it empty if it was not measured"};
+  std::string fix = "Correct the cell, or leave it empty if it was not measured";
+  if (has_thousands_marks(cell))
+    fix = "Write numbers without marks between thousands";
+  else if (may_lack && is_word(cell))
+    fix += fmt::format(
+        "; where the file writes that for it, say missing = [\"{}\"] in [recording] of the study "
+        "file",
+        cell);
+  return Complaint{here(use.channel), found, "a number, nan or an empty cell", fix};
 }
 
 std::optional<CsvRows::Complaint> CsvRows::read_time(std::size_t i, std::string_view cell) {

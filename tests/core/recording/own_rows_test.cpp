@@ -62,7 +62,12 @@ TEST(OwnRows, WhatStandsForNotMeasuredIsNotMeasured) {
       "r.csv",
       "time [s]," + imu_header.substr(0, imu_header.size() - 1) + ",oil [1]\n" +
           "1,0.1,0.2,0.3,0,0,1,7\n2,0.1,0.2,-9999.0,ERR,0,1,-9999\n3,0.1,0.2,0.3,0,0,1,8\n");
-  EXPECT_THROW(read_recording(path, RecordingKind::strapdown, gravity), InputError);
+  try {
+    read_recording(path, RecordingKind::strapdown, gravity);
+    FAIL() << "a text was taken for a number";
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("missing = [\"ERR\"]"), std::string::npos) << e.what();
+  }
   RecordingFormat format;
   format.missing = {"-9999", "ERR"};
   const Recording r = read_recording(path, format, RecordingKind::strapdown, gravity);
